@@ -1,0 +1,36 @@
+// Contracts for programmer errors: EXPECT for preconditions, ENSURE for postconditions.
+//
+// Active where ROCKYARD_CONTRACTS is defined (debug, sanitizer and test builds). A violation throws
+// ContractViolation, so that a batch records it as a simulator fault with seed and index instead of
+// losing the other trials. User errors never go through here: see core/error.h.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace rockyard::core {
+
+class ContractViolation : public std::logic_error {
+ public:
+  using std::logic_error::logic_error;
+};
+
+[[noreturn]] inline void FailContract(const char* kind, const char* condition, const char* file,
+                                      int line) {
+  throw ContractViolation(std::string(file) + ":" + std::to_string(line) + ": " + kind +
+                          " violated: " + condition);
+}
+
+}  // namespace rockyard::core
+
+#ifdef ROCKYARD_CONTRACTS
+#define EXPECT(condition) \
+  ((condition) ? void(0)  \
+               : ::rockyard::core::FailContract("precondition", #condition, __FILE__, __LINE__))
+#define ENSURE(condition) \
+  ((condition) ? void(0)  \
+               : ::rockyard::core::FailContract("postcondition", #condition, __FILE__, __LINE__))
+#else
+#define EXPECT(condition) void(0)
+#define ENSURE(condition) void(0)
+#endif

@@ -1,0 +1,62 @@
+#include "core/distributions.h"
+
+#include <boost/math/special_functions/erf.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "core/check.h"
+
+namespace rockyard::core {
+namespace {
+
+// exp(-200) is far above the smallest double, so sequential inversion stays exact below this mean.
+constexpr double kLargestInvertedMean = 200.0;
+
+std::int64_t InvertPoisson(RandomStream& stream, double mean) {
+  const double u = stream.Uniform();
+  double probability = std::exp(-mean);
+  double cumulative = probability;
+  std::int64_t count = 0;
+  // The bound ends the loop where rounding keeps the sum below u: 1000 is 50 sigma above 200.
+  while (u > cumulative && count < 1000) {
+    ++count;
+    probability *= mean / static_cast<double>(count);
+    cumulative += probability;
+  }
+  return count;
+}
+
+}  // namespace
+
+double SampleUniform(RandomStream& stream, double low, double high) {
+  EXPECT(low <= high);
+  return low + (high - low) * stream.Uniform();
+}
+
+double SampleNormal(RandomStream& stream, double mean, double standard_deviation) {
+  EXPECT(standard_deviation >= 0.0);
+  const double z = std::numbers::sqrt2 * boost::math::erf_inv(2.0 * stream.Uniform() - 1.0);
+  return mean + standard_deviation * z;
+}
+
+double SampleExponential(RandomStream& stream, double mean) {
+  EXPECT(mean > 0.0);
+  return -mean * std::log(stream.Uniform());
+}
+
+bool SampleBernoulli(RandomStream& stream, double probability) {
+  EXPECT(probability >= 0.0 && probability <= 1.0);
+  return stream.Uniform() < probability;
+}
+
+std::int64_t SamplePoisson(RandomStream& stream, double mean) {
+  EXPECT(mean >= 0.0 && std::isfinite(mean));
+  std::int64_t count = 0;
+  double rest = mean;
+  for (; rest > kLargestInvertedMean; rest -= kLargestInvertedMean) {
+    count += InvertPoisson(stream, kLargestInvertedMean);
+  }
+  return count + (rest > 0.0 ? InvertPoisson(stream, rest) : 0);
+}
+
+}  // namespace rockyard::core

@@ -1,0 +1,26 @@
+// Samplers built on RandomStream by inverse CDF: one uniform each (Poisson may take more), portable
+// across standard libraries, unlike std::*_distribution.
+#pragma once
+
+#include <cstdint>
+
+#include "core/random.h"
+
+namespace rockyard::core {
+
+// Uniform on (low, high).
+double SampleUniform(RandomStream& stream, double low, double high);
+
+// Normal by inverse CDF (Boost.Math erf_inv), one uniform.
+double SampleNormal(RandomStream& stream, double mean, double standard_deviation);
+
+// Exponential with the given mean.
+double SampleExponential(RandomStream& stream, double mean);
+
+// True with the given probability.
+bool SampleBernoulli(RandomStream& stream, double probability);
+
+// Poisson count by sequential inversion; means over 200 are split into a sum of smaller ones.
+std::int64_t SamplePoisson(RandomStream& stream, double mean);
+
+}  // namespace rockyard::core

@@ -1,0 +1,97 @@
+// One visitor for every parameter struct: reading, writing, checking, defaults, schema and tables.
+//
+// A parameter struct lists its members once:
+//
+//   struct GyroParams {
+//     double scale = 0.94;
+//     double noise_rad = 0.0;
+//     void Visit(core::FieldVisitor& v) {
+//       v.Real("scale", scale, {.doc = "estimated over true turn angle", .min = 0.5, .max = 1.5,
+//                               .origin = core::Origin::kPublished, .source = "Matthies 1995 sec. 8"});
+//       v.Angle("noise_deg", noise_rad, {...});           // degrees in JSON, radians in the struct
+//       v.Require("scale", scale > 0, "must be positive", "use 0.94");   // checks across fields
+//     }
+//   };
+//
+// Modules know neither JSON nor their siblings; core/archive.h holds the JSON side.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rockyard::core {
+
+// Where a default value comes from.
+enum class Origin {
+  kPublished,   // stated in the cited source
+  kCalibrated,  // fitted to the cited experiment
+  kAssumed,     // chosen here, with a range
+  kSetting,     // a choice of the user, no claim about the world
+};
+
+// What is known of one field. Bounds are inclusive and in the unit that the JSON key names.
+struct FieldInfo {
+  std::string_view doc;
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  Origin origin = Origin::kAssumed;
+  std::string_view source = {};
+  // Range over which an assumed value is varied in sensitivity studies; empty when equal.
+  double study_low = 0.0;
+  double study_high = 0.0;
+};
+
+// Names of an enumeration's values, in value order starting at 0. Specialize per enum:
+//   template <> struct core::EnumNames<Arena> { static constexpr std::array<std::string_view, 2>
+//   kNames{"open", "walled"}; };
+template <typename Enum>
+struct EnumNames;
+
+class FieldVisitor {
+ public:
+  virtual ~FieldVisitor() = default;
+
+  virtual void Real(std::string_view name, double& value, const FieldInfo& info) = 0;
+  virtual void Angle(std::string_view name, double& value_rad, const FieldInfo& info) = 0;
+  virtual void Integer(std::string_view name, std::int64_t& value, const FieldInfo& info) = 0;
+  virtual void Boolean(std::string_view name, bool& value, const FieldInfo& info) = 0;
+  virtual void Text(std::string_view name, std::string& value, const FieldInfo& info) = 0;
+  // A list whose length may vary, and one of fixed length.
+  virtual void Reals(std::string_view name, std::vector<double>& values, const FieldInfo& info) = 0;
+  virtual void FixedReals(std::string_view name, std::span<double> values,
+                          const FieldInfo& info) = 0;
+  // Integers of any length, e.g. stripe indices.
+  virtual void Integers(std::string_view name, std::vector<std::int64_t>& values,
+                        const FieldInfo& info) = 0;
+
+  // A condition across fields of the group being visited; `name` is the field to blame.
+  virtual void Require(std::string_view name, bool holds, std::string_view reason,
+                       std::string_view suggestion) = 0;
+
+  template <typename Enum>
+  void Choice(std::string_view name, Enum& value, const FieldInfo& info) {
+    int index = static_cast<int>(value);
+    ChoiceIndex(name, index, EnumNames<Enum>::kNames, info);
+    value = static_cast<Enum>(index);
+  }
+
+  // A nested parameter struct with its own Visit.
+  template <typename Params>
+  void Group(std::string_view name, Params& params, std::string_view doc) {
+    BeginGroup(name, doc);
+    params.Visit(*this);
+    EndGroup();
+  }
+
+ protected:
+  virtual void ChoiceIndex(std::string_view name, int& index,
+                           std::span<const std::string_view> names, const FieldInfo& info) = 0;
+  virtual void BeginGroup(std::string_view name, std::string_view doc) = 0;
+  virtual void EndGroup() = 0;
+};
+
+}  // namespace rockyard::core

@@ -1,0 +1,63 @@
+// Counter-based random numbers: Philox 4x32-10 (Salmon et al. 2011; Random123).
+//
+// A stream is named by what it is for, never by when it is used, so that adding a sensor or a scan
+// shifts nobody's noise. The key is the campaign seed; the counter holds the trial, the purpose, the
+// substream (scan number, step number, rock number, ...) and the block within the substream.
+// The navigator is no part of it: different navigators meet the same rocks and the same noise.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace rockyard::core {
+
+// Never renumber: the values are part of every stored result. Append only.
+enum class Purpose : std::uint32_t {
+  kRockCount = 1,
+  kRockSize = 2,
+  kRockPlacement = 3,
+  kRockShape = 4,
+  kRockMark = 5,
+  kGroundRoughness = 6,
+  kStartPose = 7,
+  kGyro = 8,
+  kEncoder = 9,
+  kSlip = 10,
+  kScrapeJump = 11,
+  kStripeWrongPlace = 12,
+  kStripeMissed = 13,
+  kTracker = 14,
+  kRansac = 15,
+  kBootstrap = 16,
+  kDesign = 17,
+  kTest = 18,
+};
+
+// Raw Philox 4x32-10 bijection of one counter under one key.
+std::array<std::uint32_t, 4> Philox4x32(std::array<std::uint32_t, 4> counter,
+                                        std::array<std::uint32_t, 2> key);
+
+struct TrialKey {
+  std::uint64_t seed = 1;
+  std::uint32_t trial = 0;
+};
+
+// A sequence of independent uniform numbers. Cheap to make (no state beyond the counter): make one
+// per (purpose, substream) where it is needed and drop it.
+class RandomStream {
+ public:
+  RandomStream(TrialKey key, Purpose purpose, std::uint32_t substream = 0);
+
+  std::uint32_t NextU32();
+  std::uint64_t NextU64();
+  // Uniform on (0, 1): 52 random bits, centred in their cell, so 0 and 1 cannot occur.
+  double Uniform();
+
+ private:
+  std::array<std::uint32_t, 2> key_;
+  std::array<std::uint32_t, 4> counter_;
+  std::array<std::uint32_t, 4> block_{};
+  int next_ = 4;
+};
+
+}  // namespace rockyard::core

@@ -1,0 +1,15 @@
+// Angles in radians; degrees appear only in JSON and in reports.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+namespace rockyard::math {
+
+constexpr double DegToRad(double degrees) { return degrees * std::numbers::pi / 180.0; }
+constexpr double RadToDeg(double radians) { return radians * 180.0 / std::numbers::pi; }
+
+// The equivalent angle in [-pi, pi].
+inline double WrapAngle(double radians) { return std::remainder(radians, 2.0 * std::numbers::pi); }
+
+}  // namespace rockyard::math

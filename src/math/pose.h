@@ -1,0 +1,37 @@
+// Rigid transforms in monogram notation: X_AB is the pose of frame B in frame A, so that
+// p_A = X_AB * p_B. World W: x along the course, y left, z up. Rover R: x forward, y left, z up,
+// origin on the ground under the chassis centre.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "math/angles.h"
+
+namespace rockyard::math {
+
+using Vector3 = Eigen::Vector3d;
+using Transform = Eigen::Isometry3d;
+
+// A pose in the ground plane.
+struct Pose2 {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double heading_rad = 0.0;  // from +x towards +y
+};
+
+// Heading of X_WR: direction of the rover's x axis projected on the ground.
+inline double Heading(const Transform& X_WR) {
+  const Vector3 forward = X_WR.linear().col(0);
+  return std::atan2(forward.y(), forward.x());
+}
+
+// Angle between the rover's z axis and the world's.
+inline double Tilt(const Transform& X_WR) {
+  return std::acos(std::fmin(1.0, std::fmax(-1.0, X_WR.linear()(2, 2))));
+}
+
+inline Pose2 ToPose2(const Transform& X_WR) {
+  return {X_WR.translation().x(), X_WR.translation().y(), Heading(X_WR)};
+}
+
+}  // namespace rockyard::math

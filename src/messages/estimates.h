@@ -1,0 +1,56 @@
+// What on-board code believes, and what operators tell it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "messages/measurements.h"
+
+namespace rockyard::messages {
+
+// Pose in the world frame as estimated on board, and the distance integrated on the way.
+struct PoseEstimate {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double heading_rad = 0.0;
+  double distance_m = 0.0;  // odometer: integral of |forward increments|
+};
+
+// An absolute correction from outside: lander update, arena reflection.
+struct PoseUpdate {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double heading_rad = 0.0;
+};
+
+// Where the rover is to go, in the world frame.
+struct Goal {
+  double x_m = 0.0;
+  double y_m = 0.0;
+};
+
+// Elevation of one light-stripe point above the sensor's datum plane.
+struct ElevationPoint {
+  bool detected = false;
+  double elevation_m = 0.0;
+};
+
+struct ElevationScan {
+  std::int64_t number = 0;
+  StripeArray<ElevationPoint> points{};
+};
+
+// Which stripes see a hazard; left to right as in StripeScan.
+struct HazardReport {
+  std::int64_t scan_number = 0;
+  std::array<bool, kStripes> stripe_hazard{};
+
+  bool any() const {
+    for (const bool hazard : stripe_hazard) {
+      if (hazard) return true;
+    }
+    return false;
+  }
+};
+
+}  // namespace rockyard::messages

@@ -1,0 +1,33 @@
+// A simulated rover on a terrain: truth moves in answer to wheel commands.
+#pragma once
+
+#include <memory>
+
+#include "math/pose.h"
+#include "messages/commands.h"
+#include "rover/rover_params.h"
+#include "terrain/terrain.h"
+#include "truth/rover_state.h"
+
+namespace rockyard::rover {
+
+class Rover {
+ public:
+  virtual ~Rover() = default;
+
+  // Puts the rover at rest at X_WR, above everything beneath it, and lets it settle on the terrain
+  // with wheels braked and straight. Also used when operators turn the rover by hand.
+  virtual void Place(const math::Pose2& X_WR) = 0;
+
+  // Advances by one physics step of step_s() under the held set points.
+  virtual void Step(const messages::WheelCommand& command) = 0;
+
+  virtual double step_s() const = 0;
+  virtual const truth::RoverState& state() const = 0;
+};
+
+// Makes the rover of `params` on `terrain`, which must outlive it. One fresh world per call: equal
+// arguments give bit-for-bit equal motion.
+std::unique_ptr<Rover> MakeRover(const RoverParams& params, const terrain::Terrain& terrain);
+
+}  // namespace rockyard::rover

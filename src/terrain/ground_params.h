@@ -1,0 +1,34 @@
+// Parameters of the ground.
+#pragma once
+
+#include "core/fields.h"
+
+namespace rockyard::terrain {
+
+struct GroundParams {
+  double slope_rad = 0.0;
+  double slope_direction_rad = 0.0;
+  double roughness_rms_m = 0.0;
+  double hurst_exponent = 0.8;
+  double roughness_wavelength_m = 2.0;
+
+  void Visit(core::FieldVisitor& v) {
+    v.Angle("slope_deg", slope_rad,
+            {.doc = "inclination of the ground plane", .min = 0.0, .max = 45.0,
+             .origin = core::Origin::kSetting});
+    v.Angle("slope_direction_deg", slope_direction_rad,
+            {.doc = "uphill direction, from +x towards +y", .min = -360.0, .max = 360.0,
+             .origin = core::Origin::kSetting});
+    v.Real("roughness_rms_m", roughness_rms_m,
+           {.doc = "root mean square height of the fractal roughness; 0 leaves a plane", .min = 0.0,
+            .max = 0.5, .origin = core::Origin::kSetting});
+    v.Real("hurst_exponent", hurst_exponent,
+           {.doc = "Hurst exponent of the roughness", .min = 0.05, .max = 1.0,
+            .origin = core::Origin::kAssumed});
+    v.Real("roughness_wavelength_m", roughness_wavelength_m,
+           {.doc = "longest wavelength of the roughness", .min = 0.2, .max = 100.0,
+            .origin = core::Origin::kAssumed});
+  }
+};
+
+}  // namespace rockyard::terrain

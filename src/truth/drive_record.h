@@ -1,0 +1,100 @@
+// What one drive trial leaves behind: every number that reports and comparisons use.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "truth/record.h"
+
+namespace rockyard::truth {
+
+struct DriveRecord {
+  double true_distance_m = 0.0;
+  double dead_reckoned_distance_m = 0.0;
+  double straight_distance_m = 0.0;  // start to goal
+  double final_x_m = 0.0;            // true, unfolded where the arena folds
+  double final_y_m = 0.0;
+  double final_heading_rad = 0.0;
+  double believed_x_m = 0.0;
+  double believed_y_m = 0.0;
+  double believed_heading_rad = 0.0;
+  double distance_error_percent = 0.0;  // 100 (dead-reckoned - true) / true
+  double heading_error_deg = 0.0;       // |believed - true|
+  double position_error_m = 0.0;        // |believed - true| position
+  double true_goal_distance_m = 0.0;    // true final position to goal
+  double sim_time_s = 0.0;
+  double drive_time_s = 0.0;
+  double turn_time_s = 0.0;
+  double scan_time_s = 0.0;
+  double energy_wh = 0.0;
+  double scans = 0.0;
+  double rescans = 0.0;
+  double hazards_believed = 0.0;
+  double turns_in_place = 0.0;
+  double turned_in_place_rad = 0.0;
+  double scrapes = 0.0;  // scrape episodes: hub, belly, rocker or panel against a rock
+  double reflections = 0.0;
+  double max_tilt_deg = 0.0;
+  double max_bogie_deg = 0.0;
+  double min_clearance_m = 0.0;
+  double rocks = 0.0;        // in the field
+  double rock_cover = 0.0;   // covered fraction of the field's area
+  double scrape_heading_rad = 0.0;  // sum of the injected scrape jumps
+};
+
+struct DriveColumn {
+  std::string_view name;
+  std::string_view unit;
+  std::string_view meaning;
+  double DriveRecord::*member;
+};
+
+inline constexpr std::array kDriveColumns = {
+    DriveColumn{"true_distance_m", "m", "true path length", &DriveRecord::true_distance_m},
+    DriveColumn{"dead_reckoned_distance_m", "m", "odometer of the rover",
+                &DriveRecord::dead_reckoned_distance_m},
+    DriveColumn{"straight_distance_m", "m", "start to goal",
+                &DriveRecord::straight_distance_m},
+    DriveColumn{"final_x_m", "m", "true final x", &DriveRecord::final_x_m},
+    DriveColumn{"final_y_m", "m", "true final y", &DriveRecord::final_y_m},
+    DriveColumn{"final_heading_rad", "rad", "true final heading",
+                &DriveRecord::final_heading_rad},
+    DriveColumn{"believed_x_m", "m", "dead-reckoned final x", &DriveRecord::believed_x_m},
+    DriveColumn{"believed_y_m", "m", "dead-reckoned final y", &DriveRecord::believed_y_m},
+    DriveColumn{"believed_heading_rad", "rad", "dead-reckoned final heading",
+                &DriveRecord::believed_heading_rad},
+    DriveColumn{"distance_error_percent", "%", "100 (dead-reckoned - true) / true distance",
+                &DriveRecord::distance_error_percent},
+    DriveColumn{"heading_error_deg", "deg", "absolute final heading error",
+                &DriveRecord::heading_error_deg},
+    DriveColumn{"position_error_m", "m", "distance from believed to true final position",
+                &DriveRecord::position_error_m},
+    DriveColumn{"true_goal_distance_m", "m", "true final position to goal",
+                &DriveRecord::true_goal_distance_m},
+    DriveColumn{"sim_time_s", "s", "simulated time", &DriveRecord::sim_time_s},
+    DriveColumn{"drive_time_s", "s", "simulated time driving", &DriveRecord::drive_time_s},
+    DriveColumn{"turn_time_s", "s", "simulated time turning in place",
+                &DriveRecord::turn_time_s},
+    DriveColumn{"scan_time_s", "s", "simulated time scanning", &DriveRecord::scan_time_s},
+    DriveColumn{"energy_wh", "Wh", "energy drawn", &DriveRecord::energy_wh},
+    DriveColumn{"scans", "1", "hazard scans", &DriveRecord::scans},
+    DriveColumn{"rescans", "1", "second and later scans at one pose", &DriveRecord::rescans},
+    DriveColumn{"hazards_believed", "1", "scans whose hazard was believed",
+                &DriveRecord::hazards_believed},
+    DriveColumn{"turns_in_place", "1", "turns in place", &DriveRecord::turns_in_place},
+    DriveColumn{"turned_in_place_rad", "rad", "total true rotation of turns in place",
+                &DriveRecord::turned_in_place_rad},
+    DriveColumn{"scrapes", "1", "episodes of body contact with a rock", &DriveRecord::scrapes},
+    DriveColumn{"reflections", "1", "reflections at the mirror lines of the virtual arena",
+                &DriveRecord::reflections},
+    DriveColumn{"max_tilt_deg", "deg", "largest chassis tilt", &DriveRecord::max_tilt_deg},
+    DriveColumn{"max_bogie_deg", "deg", "largest bogie angle", &DriveRecord::max_bogie_deg},
+    DriveColumn{"min_clearance_m", "m", "smallest belly clearance over rock",
+                &DriveRecord::min_clearance_m},
+    DriveColumn{"rocks", "1", "rocks in the field", &DriveRecord::rocks},
+    DriveColumn{"rock_cover", "1", "covered fraction of the field", &DriveRecord::rock_cover},
+    DriveColumn{"scrape_heading_rad", "rad", "sum of heading jumps from scrapes",
+                &DriveRecord::scrape_heading_rad},
+};
+
+}  // namespace rockyard::truth

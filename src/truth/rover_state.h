@@ -1,0 +1,36 @@
+// The true state of the rover. On-board code never includes this.
+#pragma once
+
+#include <vector>
+
+#include "math/pose.h"
+#include "messages/wheels.h"
+
+namespace rockyard::truth {
+
+enum class BodyPart { kBelly, kRocker, kHub, kPanelEdge, kWheel };
+
+// Touch of a part of the rover with a rock. Wheel contacts are not listed here.
+struct BodyContact {
+  BodyPart part = BodyPart::kBelly;
+  int rock = -1;              // index in Terrain::rocks(); -1: ground or wall
+  double normal_force_N = 0.0;
+  double sliding_speed_m_s = 0.0;
+};
+
+struct RoverState {
+  math::Transform X_WR = math::Transform::Identity();
+  math::Vector3 v_WR_m_s = math::Vector3::Zero();
+  math::Vector3 w_WR_rad_s = math::Vector3::Zero();
+  messages::PerWheel<double> wheel_angle_rad{};  // accumulated, positive forward
+  messages::PerWheel<double> wheel_load_N{};     // normal force on each wheel
+  messages::PerWheel<double> motor_torque_Nm{};
+  messages::PerWheel<double> steer_rad{};
+  double left_rocker_rad = 0.0;
+  double right_rocker_rad = 0.0;
+  double left_bogie_rad = 0.0;
+  double right_bogie_rad = 0.0;
+  std::vector<BodyContact> contacts;  // of the last step
+};
+
+}  // namespace rockyard::truth
