@@ -1,0 +1,28 @@
+// What one run of an experiment is: a pure function from (seed, index) to a record.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "scenario/scenario.h"
+#include "truth/record.h"
+
+namespace rockyard::experiments {
+
+// Thread-safe: Run may be called at the same time from several threads with different indices.
+class Experiment {
+ public:
+  virtual ~Experiment() = default;
+
+  virtual const truth::RecordSchema& schema() const = 0;
+
+  // The record of trial `index` of the campaign `seed`: the same bits whatever ran before, on
+  // whatever thread. Simulator faults (contract violations, NaN, exceptions of the simulation) come
+  // back as an outcome with a detail that names the seed and the index; nothing is thrown for them.
+  virtual truth::Record Run(std::uint64_t seed, std::uint64_t index) const = 0;
+};
+
+// Makes the experiment that the scenario names.
+std::unique_ptr<Experiment> MakeExperiment(const scenario::Scenario& scenario);
+
+}  // namespace rockyard::experiments
