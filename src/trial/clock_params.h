@@ -1,0 +1,38 @@
+// The simulated clock: physics and control rates, and what on-board computing takes.
+#pragma once
+
+#include "core/fields.h"
+
+namespace rockyard::trial {
+
+struct ClockParams {
+  double scan_time_s = 20.0;
+  double control_rate_hz = 20.0;
+  double stop_time_s = 0.1;
+
+  void Visit(core::FieldVisitor& v) {
+    using core::Origin;
+    v.Real("scan_time_s", scan_time_s,
+           {.doc = "time of one hazard scan",
+            .min = 0.0,
+            .max = 3600.0,
+            .origin = Origin::kPublished,
+            .source = "Matthies 1995 sec. 6 (MFEX; Rocky 3.2 has the same computer)"});
+    v.Real("control_rate_hz", control_rate_hz,
+           {.doc = "rate of odometry and manoeuvre control",
+            .min = 1.0,
+            .max = 1000.0,
+            .origin = Origin::kAssumed,
+            .study_low = 10.0,
+            .study_high = 60.0});
+    v.Real("stop_time_s", stop_time_s,
+           {.doc = "time with braked wheels before a scan",
+            .min = 0.0,
+            .max = 10.0,
+            .origin = Origin::kAssumed,
+            .study_low = 0.05,
+            .study_high = 0.5});
+  }
+};
+
+}  // namespace rockyard::trial

@@ -1,0 +1,74 @@
+#include "trial/referee_params.h"
+
+namespace rockyard::trial {
+
+void RefereeParams::Visit(core::FieldVisitor& v) {
+  using core::Origin;
+  v.Angle("tip_over_deg", tip_over_rad,
+          {.doc = "tilt of the chassis at which the rover has tipped over",
+           .min = 20.0,
+           .max = 120.0,
+           .origin = Origin::kAssumed,
+           .study_low = 50.0,
+           .study_high = 80.0});
+  v.Real("stall_window_s", stall_window_s,
+         {.doc = "time of commanded motion without any after which the rover is stuck",
+          .min = 1.0,
+          .max = 3600.0,
+          .origin = Origin::kAssumed,
+          .study_low = 10.0,
+          .study_high = 60.0});
+  v.Real("stall_distance_m", stall_distance_m,
+         {.doc = "displacement, true and believed, below which there is no motion in the window",
+          .min = 1e-4,
+          .max = 1.0,
+          .origin = Origin::kAssumed,
+          .study_low = 0.01,
+          .study_high = 0.05});
+  v.Angle("stall_turn_deg", stall_turn_rad,
+          {.doc = "rotation, true and believed, below which there is no motion in the window",
+           .min = 0.1,
+           .max = 90.0,
+           .origin = Origin::kAssumed,
+           .study_low = 3.0,
+           .study_high = 10.0});
+  v.Real("high_centre_load", high_centre_load,
+         {.doc = "share of the window in which the belly rests on a rock that makes a stuck rover "
+                 "high-centred rather than jammed",
+          .min = 0.0,
+          .max = 1.0,
+          .origin = Origin::kAssumed,
+          .study_low = 0.1,
+          .study_high = 0.5});
+  v.Real("no_path_progress_m", no_path_progress_m,
+         {.doc = "gain towards the goal that counts as progress for the operator",
+          .min = 0.01,
+          .max = 100.0,
+          .origin = Origin::kAssumed,
+          .study_low = 0.1,
+          .study_high = 0.5});
+  v.Real("no_path_distance_m", no_path_distance_m,
+         {.doc = "true distance driven without progress after which the operator ends the run",
+          .min = 0.1,
+          .max = 1e5,
+          .origin = Origin::kAssumed,
+          .study_low = 2.0,
+          .study_high = 10.0});
+  v.Angle("no_path_turn_deg", no_path_turn_rad,
+          {.doc = "turning in place without progress after which the operator ends the run",
+           .min = 90.0,
+           .max = 1e5,
+           .origin = Origin::kAssumed,
+           .study_low = 720.0,
+           .study_high = 2160.0});
+  v.Real("time_limit_s", time_limit_s,
+         {.doc = "simulated time after which the run is stopped; the four hours of a rover day",
+          .min = 1.0,
+          .max = 1e7,
+          .origin = Origin::kAssumed,
+          .source = "Matthies 1995 sec. 2.1.2",
+          .study_low = 7200.0,
+          .study_high = 28800.0});
+}
+
+}  // namespace rockyard::trial
