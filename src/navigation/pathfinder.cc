@@ -1,0 +1,229 @@
+#include "navigation/pathfinder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/check.h"
+#include "math/angles.h"
+
+namespace rockyard::navigation {
+namespace {
+
+using messages::HazardReport;
+using messages::MotionCommand;
+using messages::MotionKind;
+using messages::PoseEstimate;
+
+constexpr int kLeft = +1;
+constexpr int kRight = -1;
+
+int CountHazards(const HazardReport& report, const std::vector<std::int64_t>& stripes) {
+  return static_cast<int>(std::count_if(stripes.begin(), stripes.end(), [&](std::int64_t stripe) {
+    return report.stripe_hazard[static_cast<std::size_t>(stripe)];
+  }));
+}
+
+bool RightIsClearFor(const HazardReport& report, const PathfinderParams& params) {
+  if (params.right_is_clear == RightIsClear::kNoRightHazard) {
+    return CountHazards(report, params.right_stripes) == 0;
+  }
+  return !report.stripe_hazard[messages::kStripes - 1];
+}
+
+int TurnFromBothSides(const HazardReport& report, double goal_bearing_rad,
+                      const PathfinderParams& params) {
+  switch (params.both_sides) {
+    case BothSidesReaction::kRuleOrder:
+      return kRight;
+    case BothSidesReaction::kTowardGoal:
+      return goal_bearing_rad > 0.0 ? kLeft : kRight;
+    case BothSidesReaction::kFewerHazards:
+      return CountHazards(report, params.left_stripes) < CountHazards(report, params.right_stripes)
+                 ? kLeft
+                 : kRight;
+  }
+  return kRight;
+}
+
+bool OnlyOutermostStripes(const HazardReport& report) {
+  for (std::size_t i = 1; i + 1 < messages::kStripes; ++i) {
+    if (report.stripe_hazard[i]) return false;
+  }
+  return report.stripe_hazard.front() && report.stripe_hazard.back();
+}
+
+NavigatorDecision Move(const MotionCommand& motion) {
+  return {NavigatorStatus::kDriving, false, motion};
+}
+
+NavigatorDecision Finish(NavigatorStatus status) { return {status, false, {}}; }
+
+}  // namespace
+
+HazardSides ClassifySides(const HazardReport& report, const PathfinderParams& params) {
+  return {CountHazards(report, params.left_stripes) > 0,
+          CountHazards(report, params.centre_stripes) > 0,
+          CountHazards(report, params.right_stripes) > 0};
+}
+
+int ChooseTurn(const HazardReport& report, double goal_bearing_rad,
+               const PathfinderParams& params) {
+  const HazardSides sides = ClassifySides(report, params);
+  EXPECT(sides.any());
+  if (sides.left && sides.right) return TurnFromBothSides(report, goal_bearing_rad, params);
+  if (sides.left) return kRight;
+  if (sides.centre) return RightIsClearFor(report, params) ? kRight : kLeft;
+  return kLeft;
+}
+
+double CurvatureToGoal(double goal_bearing_rad, const PathfinderParams& params) {
+  const double size = std::abs(goal_bearing_rad);
+  if (size <= params.heading_deadband_rad) return 0.0;
+  const double radius =
+      size > params.tight_arc_bearing_rad ? params.tight_arc_radius_m : params.wide_arc_radius_m;
+  return std::copysign(1.0 / radius, goal_bearing_rad);
+}
+
+PathfinderNavigator::PathfinderNavigator(const PathfinderParams& params, const messages::Goal& goal,
+                                         bool uses_hazard_sensor)
+    : params_(params), goal_(goal), uses_hazard_sensor_(uses_hazard_sensor) {}
+
+NavigatorDecision PathfinderNavigator::Decide(const NavigatorInput& input) {
+  if (AtGoal(input.estimate)) return Finish(NavigatorStatus::kArrived);
+  if (params_.time_out_s > 0.0 && input.time_s >= params_.time_out_s) {
+    return Finish(NavigatorStatus::kGaveUp);
+  }
+  if (!started_) {
+    started_ = true;
+    odometer_at_scan_m_ = input.estimate.distance_m;
+    return uses_hazard_sensor_ ? BeginScan() : BeginForward(input);
+  }
+  if (input.report != nullptr) return OnReport(input);
+  return Continue(input);
+}
+
+void PathfinderNavigator::OnPoseUpdate(const PoseEstimate& before, const PoseEstimate& after) {
+  // Turned angles are differences of heading: keep what was already turned.
+  anchor_.heading_rad += after.heading_rad - before.heading_rad;
+}
+
+NavigatorDecision PathfinderNavigator::OnReport(const NavigatorInput& input) {
+  odometer_at_scan_m_ = input.estimate.distance_m;
+  return ClassifySides(*input.report, params_).any() ? OnHazard(input) : OnClear(input);
+}
+
+NavigatorDecision PathfinderNavigator::OnHazard(const NavigatorInput& input) {
+  if (params_.threading_m > 0.0 && OnlyOutermostStripes(*input.report)) {
+    return BeginStraight(Mode::kThreading, params_.threading_m, input);
+  }
+  const bool newly_seen = !avoid_direction_.has_value();
+  if (newly_seen || params_.turn_direction == TurnDirection::kEachScan) {
+    avoid_direction_ = ChooseTurn(*input.report, GoalBearing(input.estimate), params_);
+  }
+  if (newly_seen) avoided_turn_rad_ = 0.0;
+  clearing_left_m_ = 0.0;
+  if (avoided_turn_rad_ >= params_.turn_give_up_rad) return Finish(NavigatorStatus::kGaveUp);
+  const HazardSides sides = ClassifySides(*input.report, params_);
+  if (newly_seen && params_.back_off_m > 0.0 && sides.left && sides.right) {
+    return BeginStraight(Mode::kBackingOff, params_.back_off_m, input);
+  }
+  return BeginTurn(Mode::kAvoiding, *avoid_direction_, input);
+}
+
+NavigatorDecision PathfinderNavigator::OnClear(const NavigatorInput& input) {
+  if (avoid_direction_.has_value()) {
+    avoid_direction_.reset();
+    clearing_left_m_ = params_.clear_distance_m;
+  }
+  if (clearing_left_m_ > 0.0) return BeginStraight(Mode::kClearing, clearing_left_m_, input);
+  return BeginForward(input);
+}
+
+NavigatorDecision PathfinderNavigator::Continue(const NavigatorInput& input) {
+  switch (mode_) {
+    case Mode::kScanning:
+      return BeginScan();
+    case Mode::kAvoiding:
+    case Mode::kFacingGoal:
+      return ContinueTurn(input);
+    case Mode::kForward:
+    case Mode::kClearing:
+    case Mode::kThreading:
+    case Mode::kBackingOff:
+      return ContinueDrive(input);
+  }
+  return BeginScan();
+}
+
+NavigatorDecision PathfinderNavigator::ContinueTurn(const NavigatorInput& input) {
+  const double turned =
+      motion_.direction * math::WrapAngle(input.estimate.heading_rad - anchor_.heading_rad);
+  if (mode_ == Mode::kFacingGoal) {
+    const double bearing = GoalBearing(input.estimate);
+    if (std::abs(bearing) <= std::max(params_.heading_deadband_rad, math::DegToRad(2.0))) {
+      return uses_hazard_sensor_ ? BeginScan() : BeginForward(input);
+    }
+  }
+  if (turned < params_.turn_increment_rad) return Move(motion_);
+  if (mode_ == Mode::kAvoiding) avoided_turn_rad_ += turned;
+  if (mode_ == Mode::kFacingGoal) return BeginTurn(mode_, motion_.direction, input);
+  return BeginScan();
+}
+
+NavigatorDecision PathfinderNavigator::ContinueDrive(const NavigatorInput& input) {
+  const double driven = input.estimate.distance_m - anchor_.distance_m;
+  if (mode_ == Mode::kBackingOff) {
+    return driven < leg_m_ ? Move(motion_) : BeginTurn(Mode::kAvoiding, *avoid_direction_, input);
+  }
+  if (mode_ == Mode::kThreading && driven < leg_m_) return Move(motion_);
+  if (mode_ == Mode::kClearing) clearing_left_m_ = std::max(0.0, leg_m_ - driven);
+  const double since_scan = input.estimate.distance_m - odometer_at_scan_m_;
+  if (uses_hazard_sensor_ && since_scan >= params_.scan_interval_m) return BeginScan();
+  if (driven >= leg_m_) return BeginForward(input);
+  return Move(motion_);
+}
+
+NavigatorDecision PathfinderNavigator::BeginScan() {
+  mode_ = Mode::kScanning;
+  return {NavigatorStatus::kDriving, true, {}};
+}
+
+NavigatorDecision PathfinderNavigator::BeginForward(const NavigatorInput& input) {
+  const double bearing = GoalBearing(input.estimate);
+  if (std::abs(bearing) > params_.point_turn_bearing_rad) {
+    return BeginTurn(Mode::kFacingGoal, bearing > 0.0 ? kLeft : kRight, input);
+  }
+  mode_ = Mode::kForward;
+  anchor_ = input.estimate;
+  leg_m_ = params_.scan_interval_m;  // the bearing is looked at anew as often as the terrain
+  motion_ = {MotionKind::kArc, CurvatureToGoal(bearing, params_), +1};
+  return Move(motion_);
+}
+
+NavigatorDecision PathfinderNavigator::BeginStraight(Mode mode, double distance_m,
+                                                     const NavigatorInput& input) {
+  mode_ = mode;
+  anchor_ = input.estimate;
+  leg_m_ = distance_m;
+  motion_ = {MotionKind::kArc, 0.0, mode == Mode::kBackingOff ? -1 : +1};
+  return Move(motion_);
+}
+
+NavigatorDecision PathfinderNavigator::BeginTurn(Mode mode, int direction,
+                                                 const NavigatorInput& input) {
+  mode_ = mode;
+  anchor_ = input.estimate;
+  motion_ = {MotionKind::kTurnInPlace, 0.0, direction};
+  return Move(motion_);
+}
+
+double PathfinderNavigator::GoalBearing(const PoseEstimate& estimate) const {
+  const double direction = std::atan2(goal_.y_m - estimate.y_m, goal_.x_m - estimate.x_m);
+  return math::WrapAngle(direction - estimate.heading_rad);
+}
+
+bool PathfinderNavigator::AtGoal(const PoseEstimate& estimate) const {
+  return std::hypot(goal_.x_m - estimate.x_m, goal_.y_m - estimate.y_m) <= params_.goal_tolerance_m;
+}
+
+}  // namespace rockyard::navigation

@@ -1,0 +1,91 @@
+// The Pathfinder behaviour controller (Matthies 1995, section 7): no map, no memory beyond the
+// manoeuvre under way.
+//
+//   IF no hazard: move forward and turn toward the goal;
+//   ELSE IF hazard on the left: turn in place to the right until no hazard is detected;
+//   ELSE IF hazard on the right: turn in place to the left until no hazard is detected.
+//   A centre hazard is passed on the right if that is clear, otherwise on the left.
+//
+// Scans are taken at rest: before the first move, after every scan_interval_m of measured driving,
+// and after every turn_increment of measured turning. What the paper leaves open is in
+// PathfinderParams.
+#pragma once
+
+#include <optional>
+
+#include "navigation/navigator.h"
+#include "navigation/pathfinder_params.h"
+
+namespace rockyard::navigation {
+
+// Sides on which a report shows hazards.
+struct HazardSides {
+  bool left = false;
+  bool centre = false;
+  bool right = false;
+
+  bool any() const { return left || centre || right; }
+};
+
+HazardSides ClassifySides(const messages::HazardReport& report, const PathfinderParams& params);
+
+// Turn direction (+1 left, -1 right) that the rules choose. `goal_bearing_rad` is positive when the
+// goal lies to the left. Requires a report with a hazard.
+int ChooseTurn(const messages::HazardReport& report, double goal_bearing_rad,
+               const PathfinderParams& params);
+
+// Curvature (1/m, positive left) that leads towards a goal at the given bearing.
+double CurvatureToGoal(double goal_bearing_rad, const PathfinderParams& params);
+
+class PathfinderNavigator final : public Navigator {
+ public:
+  // With `uses_hazard_sensor` false the rover drives blind: it never asks for a scan.
+  PathfinderNavigator(const PathfinderParams& params, const messages::Goal& goal,
+                      bool uses_hazard_sensor);
+
+  NavigatorDecision Decide(const NavigatorInput& input) override;
+  void OnPoseUpdate(const messages::PoseEstimate& before,
+                    const messages::PoseEstimate& after) override;
+
+ private:
+  enum class Mode {
+    kScanning,    // at rest, waiting for a report
+    kForward,     // arc towards the goal
+    kClearing,    // straight on after a turn
+    kAvoiding,    // turning in place away from a hazard
+    kFacingGoal,  // turning in place towards the goal
+    kThreading,   // straight on between two hazards
+    kBackingOff,
+  };
+
+  NavigatorDecision OnReport(const NavigatorInput& input);
+  NavigatorDecision OnHazard(const NavigatorInput& input);
+  NavigatorDecision OnClear(const NavigatorInput& input);
+  NavigatorDecision Continue(const NavigatorInput& input);
+  NavigatorDecision ContinueTurn(const NavigatorInput& input);
+  NavigatorDecision ContinueDrive(const NavigatorInput& input);
+
+  NavigatorDecision BeginScan();
+  NavigatorDecision BeginForward(const NavigatorInput& input);
+  NavigatorDecision BeginStraight(Mode mode, double distance_m, const NavigatorInput& input);
+  NavigatorDecision BeginTurn(Mode mode, int direction, const NavigatorInput& input);
+
+  double GoalBearing(const messages::PoseEstimate& estimate) const;
+  bool AtGoal(const messages::PoseEstimate& estimate) const;
+
+  PathfinderParams params_;
+  messages::Goal goal_;
+  bool uses_hazard_sensor_;
+
+  Mode mode_ = Mode::kScanning;
+  bool started_ = false;
+  messages::MotionCommand motion_;
+  messages::PoseEstimate anchor_;  // estimate when the running manoeuvre began
+  double leg_m_ = 0.0;             // length of the running leg
+  double clearing_left_m_ = 0.0;   // of the straight drive after a turn
+  double odometer_at_scan_m_ = 0.0;
+  std::optional<int> avoid_direction_;  // latched while avoiding
+  double avoided_turn_rad_ = 0.0;       // measured since the hazard appeared
+};
+
+}  // namespace rockyard::navigation

@@ -1,0 +1,85 @@
+#include "navigation/wheel_driver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/check.h"
+
+namespace rockyard::navigation {
+namespace {
+
+using messages::DriveCalibration;
+using messages::kWheelCount;
+using messages::MotionCommand;
+using messages::MotionKind;
+using messages::WheelCommand;
+
+// Velocity of a point of the rover, up to a common scale.
+struct PlanarVelocity {
+  double x;
+  double y;
+};
+
+PlanarVelocity WheelVelocity(const MotionCommand& motion, double wheel_x_m, double wheel_y_m) {
+  if (motion.kind == MotionKind::kTurnInPlace) {
+    return {-wheel_y_m * motion.direction, wheel_x_m * motion.direction};
+  }
+  const double c = motion.curvature_per_m;
+  return {(1.0 - c * wheel_y_m) * motion.direction, c * wheel_x_m * motion.direction};
+}
+
+double Clamp(double value, double limit) { return std::clamp(value, -limit, limit); }
+
+// The steering angle in [-pi/2, pi/2] along which the wheel can roll, forward or backward.
+double SteeringAngle(const PlanarVelocity& velocity) {
+  const double angle = std::atan2(velocity.y, velocity.x);
+  if (angle > std::numbers::pi / 2) return angle - std::numbers::pi;
+  if (angle < -std::numbers::pi / 2) return angle + std::numbers::pi;
+  return angle;
+}
+
+}  // namespace
+
+WheelCommand SteadyWheelCommand(const MotionCommand& motion, const DriveCalibration& calibration) {
+  WheelCommand command;
+  if (motion.kind == MotionKind::kStop) return command;
+  messages::PerWheel<double> rim{};
+  double fastest = 0.0;
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    const PlanarVelocity v =
+        WheelVelocity(motion, calibration.wheel_x_m[i], calibration.wheel_y_m[i]);
+    double steer = 0.0;
+    if (calibration.steered[i]) steer = Clamp(SteeringAngle(v), calibration.max_steer_rad);
+    command.steer_rad[i] = steer;
+    rim[i] = v.x * std::cos(steer) + v.y * std::sin(steer);
+    fastest = std::max(fastest, std::abs(rim[i]));
+  }
+  EXPECT(fastest > 0.0);
+  const double scale = calibration.max_wheel_speed_m_s / (fastest * calibration.wheel_radius_m);
+  for (std::size_t i = 0; i < kWheelCount; ++i) command.rate_rad_s[i] = rim[i] * scale;
+  return command;
+}
+
+WheelDriver::WheelDriver(const DriveCalibration& calibration, const WheelDriverParams& params)
+    : calibration_(calibration), params_(params) {}
+
+WheelCommand WheelDriver::Tick(const MotionCommand& motion, double duration_s) {
+  EXPECT(duration_s > 0.0);
+  WheelCommand command = SteadyWheelCommand(motion, calibration_);
+  // A rover at rest keeps its steering angles where they are.
+  if (motion.kind == MotionKind::kStop) command.steer_rad = believed_steer_rad_;
+  double largest_change = 0.0;
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    const double change = command.steer_rad[i] - believed_steer_rad_[i];
+    largest_change = std::max(largest_change, std::abs(change));
+    believed_steer_rad_[i] += Clamp(change, params_.steer_rate_rad_s * duration_s);
+  }
+  // Once standing to steer, stand until the angles have arrived.
+  const double allowed = steering_ ? 0.0 : params_.steer_while_driving_rad;
+  steering_ = motion.kind != MotionKind::kStop && largest_change > allowed;
+  if (steering_) command.rate_rad_s.fill(0.0);
+  return command;
+}
+
+}  // namespace rockyard::navigation

@@ -1,0 +1,38 @@
+// From motion commands to wheels: Ackermann steering of a six-wheel rover with four steered
+// corners.
+#pragma once
+
+#include "messages/calibration.h"
+#include "messages/commands.h"
+#include "navigation/wheel_driver_params.h"
+
+namespace rockyard::navigation {
+
+// Steady wheel set points of a motion. Every wheel rolls about the common centre of rotation: for
+// an arc of curvature c that is (0, 1/c) in R, for a turn in place the origin. Unsteered wheels
+// take the forward component of their velocity. The fastest rim moves at max_wheel_speed_m_s.
+// Steering angles beyond max_steer_rad are clamped.
+messages::WheelCommand SteadyWheelCommand(const messages::MotionCommand& motion,
+                                          const messages::DriveCalibration& calibration);
+
+// Drives the wheels towards a motion: when the steering angles have far to go, the rover stands
+// until they are believed to be there (the power budget allows one major function at a time,
+// Matthies 1995 sec. 2.1.2).
+class WheelDriver {
+ public:
+  WheelDriver(const messages::DriveCalibration& calibration, const WheelDriverParams& params);
+
+  // Set points for the next tick of duration_s.
+  messages::WheelCommand Tick(const messages::MotionCommand& motion, double duration_s);
+
+  // True while the rover stands to steer.
+  bool steering() const { return steering_; }
+
+ private:
+  messages::DriveCalibration calibration_;
+  WheelDriverParams params_;
+  messages::PerWheel<double> believed_steer_rad_{};
+  bool steering_ = false;
+};
+
+}  // namespace rockyard::navigation
