@@ -8,7 +8,7 @@ namespace rockyard::trial {
 struct ClockParams {
   double scan_time_s = 20.0;
   double control_rate_hz = 20.0;
-  double stop_time_s = 0.1;
+  double stop_time_s = 0.05;
 
   void Visit(core::FieldVisitor& v) {
     using core::Origin;

@@ -11,22 +11,26 @@ void RefereeParams::Visit(core::FieldVisitor& v) {
            .origin = Origin::kAssumed,
            .study_low = 50.0,
            .study_high = 80.0});
+  v.Choice("spinning_wheels", spinning_wheels,
+           {.doc = "whether wheels that spin without moving the rover count as motion",
+            .origin = Origin::kAssumed});
   v.Real("stall_window_s", stall_window_s,
-         {.doc = "time of commanded motion without any after which the rover is stuck",
+         {.doc = "time of commanded motion without any after which the rover is stuck; scans do "
+                 "not count",
           .min = 1.0,
           .max = 3600.0,
           .origin = Origin::kAssumed,
-          .study_low = 10.0,
+          .study_low = 5.0,
           .study_high = 60.0});
   v.Real("stall_distance_m", stall_distance_m,
-         {.doc = "displacement, true and believed, below which there is no motion in the window",
+         {.doc = "true displacement below which there is no motion in the window",
           .min = 1e-4,
           .max = 1.0,
           .origin = Origin::kAssumed,
           .study_low = 0.01,
           .study_high = 0.05});
   v.Angle("stall_turn_deg", stall_turn_rad,
-          {.doc = "rotation, true and believed, below which there is no motion in the window",
+          {.doc = "true rotation below which there is no motion in the window",
            .min = 0.1,
            .max = 90.0,
            .origin = Origin::kAssumed,
@@ -40,13 +44,14 @@ void RefereeParams::Visit(core::FieldVisitor& v) {
           .origin = Origin::kAssumed,
           .study_low = 0.1,
           .study_high = 0.5});
-  v.Real("no_path_progress_m", no_path_progress_m,
-         {.doc = "gain towards the goal that counts as progress for the operator",
-          .min = 0.01,
-          .max = 100.0,
-          .origin = Origin::kAssumed,
-          .study_low = 0.1,
-          .study_high = 0.5});
+  v.Real(
+      "no_path_progress_m", no_path_progress_m,
+      {.doc = "gain in the believed distance to the goal that counts as progress for the operator",
+       .min = 0.01,
+       .max = 100.0,
+       .origin = Origin::kAssumed,
+       .study_low = 0.1,
+       .study_high = 0.5});
   v.Real("no_path_distance_m", no_path_distance_m,
          {.doc = "true distance driven without progress after which the operator ends the run",
           .min = 0.1,

@@ -1,14 +1,24 @@
 // When a trial is over, other than by arriving.
 #pragma once
 
+#include <array>
+#include <string_view>
+
 #include "core/fields.h"
 #include "math/angles.h"
 
 namespace rockyard::trial {
 
+// What becomes of a rover whose wheels spin without moving it.
+enum class SpinningWheels {
+  kStuck,    // it is stuck after stall_window_s, whatever its odometer says
+  kDriveOn,  // it carries on until it believes to have arrived or an other rule ends the run
+};
+
 struct RefereeParams {
   double tip_over_rad = math::DegToRad(60.0);
-  double stall_window_s = 20.0;
+  SpinningWheels spinning_wheels = SpinningWheels::kStuck;
+  double stall_window_s = 10.0;
   double stall_distance_m = 0.02;
   double stall_turn_rad = math::DegToRad(5.0);
   double high_centre_load = 0.2;
@@ -21,3 +31,8 @@ struct RefereeParams {
 };
 
 }  // namespace rockyard::trial
+
+template <>
+struct rockyard::core::EnumNames<rockyard::trial::SpinningWheels> {
+  static constexpr std::array<std::string_view, 2> kNames{"stuck", "drive_on"};
+};

@@ -1,0 +1,31 @@
+// The "virtual" arena as operators ran it (Matthies 1995 sec. 7): whenever the rover's position
+// reaches a mirror line, it is turned in place to the mirror-image heading, and its own estimate is
+// reflected about the line.
+#pragma once
+
+#include <optional>
+
+#include "math/pose.h"
+#include "messages/estimates.h"
+
+namespace rockyard::trial {
+
+struct Reflection {
+  math::Pose2 pose;             // true pose after the operators turned the rover
+  messages::PoseUpdate update;  // estimate after its reflection
+};
+
+class MirrorArena {
+ public:
+  // Mirror lines at y = +-half_width_m.
+  explicit MirrorArena(double half_width_m) : half_width_m_(half_width_m) {}
+
+  // The reflection that is due at this pose: on or beyond a line and heading outward.
+  std::optional<Reflection> Reflect(const math::Pose2& pose,
+                                    const messages::PoseEstimate& estimate) const;
+
+ private:
+  double half_width_m_;
+};
+
+}  // namespace rockyard::trial
