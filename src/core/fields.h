@@ -7,7 +7,8 @@
 //     double noise_rad = 0.0;
 //     void Visit(core::FieldVisitor& v) {
 //       v.Real("scale", scale, {.doc = "estimated over true turn angle", .min = 0.5, .max = 1.5,
-//                               .origin = core::Origin::kPublished, .source = "Matthies 1995 sec. 8"});
+//                               .origin = core::Origin::kPublished, .source = "Matthies 1995 sec.
+//                               8"});
 //       v.Angle("noise_deg", noise_rad, {...});           // degrees in JSON, radians in the struct
 //       v.Require("scale", scale > 0, "must be positive", "use 0.94");   // checks across fields
 //     }

@@ -7,8 +7,7 @@ namespace rockyard::core {
 std::array<std::uint32_t, 4> Philox4x32(std::array<std::uint32_t, 4> counter,
                                         std::array<std::uint32_t, 2> key) {
   r123::Philox4x32 generator;
-  const r123::Philox4x32::ctr_type in{
-      {counter[0], counter[1], counter[2], counter[3]}};
+  const r123::Philox4x32::ctr_type in{{counter[0], counter[1], counter[2], counter[3]}};
   const r123::Philox4x32::key_type k{{key[0], key[1]}};
   const auto out = generator(in, k);
   return {out[0], out[1], out[2], out[3]};

@@ -1,8 +1,8 @@
 // Counter-based random numbers: Philox 4x32-10 (Salmon et al. 2011; Random123).
 //
 // A stream is named by what it is for, never by when it is used, so that adding a sensor or a scan
-// shifts nobody's noise. The key is the campaign seed; the counter holds the trial, the purpose, the
-// substream (scan number, step number, rock number, ...) and the block within the substream.
+// shifts nobody's noise. The key is the campaign seed; the counter holds the trial, the purpose,
+// the substream (scan number, step number, rock number, ...) and the block within the substream.
 // The navigator is no part of it: different navigators meet the same rocks and the same noise.
 #pragma once
 

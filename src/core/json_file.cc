@@ -1,0 +1,150 @@
+#include "core/json_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <optional>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "core/json_text.h"
+
+namespace rockyard::core {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLongestChain = 16;
+constexpr std::string_view kExtends = "extends";
+
+std::string ReadText(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) {
+    throw UserError(path.string(), "the file does not exist", "check the name and the folder");
+  }
+  if (!fs::is_regular_file(status)) {
+    throw UserError(path.string(), "is not a regular file", "name a JSON file");
+  }
+  const std::uintmax_t size = fs::file_size(path, error);
+  const std::size_t largest = JsonLimits().max_bytes;
+  if (!error && size > largest) {
+    throw UserError(path.string(),
+                    fmt::format("has {} bytes, more than the {} allowed", size, largest),
+                    "check that this is the right file");
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::string text(error ? 0 : size, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!file) throw UserError(path.string(), "cannot be read", "check its permissions");
+  return text;
+}
+
+class ExtendsLoader {
+ public:
+  JsonValue Load(const fs::path& path) {
+    std::error_code error;
+    fs::path identity = fs::weakly_canonical(path, error);
+    if (error) identity = path;
+    if (std::find(chain_.begin(), chain_.end(), identity) != chain_.end()) {
+      throw UserError(std::string(kExtends),
+                      "the files extend each other in a cycle: " + Chain(path),
+                      "remove one of the \"extends\"");
+    }
+    if (chain_.size() >= kLongestChain) {
+      throw UserError(
+          std::string(kExtends),
+          fmt::format("more than {} files extend each other: {}", kLongestChain, Chain(path)),
+          "merge some of them");
+    }
+    JsonValue value = ParseJson(ReadText(path), path.string());
+    chain_.push_back(std::move(identity));
+    value = Resolve(std::move(value), path.parent_path());
+    chain_.pop_back();
+    return value;
+  }
+
+  JsonValue Resolve(JsonValue value, const fs::path& folder) {
+    const JsonValue* base = value.Find(kExtends);
+    if (base == nullptr) return value;
+    if (!base->Is(JsonValue::Type::kText) || base->text().empty()) {
+      throw UserError(std::string(kExtends),
+                      fmt::format("is {}, not a file name", Abbreviate(*base)),
+                      "write a path relative to this file");
+    }
+    JsonValue merged = Load(folder / base->text());
+    value.Erase(kExtends);
+    merged.Merge(value);
+    return merged;
+  }
+
+ private:
+  std::string Chain(const fs::path& last) const {
+    std::string text;
+    for (const fs::path& path : chain_) text += path.filename().string() + " -> ";
+    return text + last.filename().string();
+  }
+
+  std::vector<fs::path> chain_;
+};
+
+// The text as JSON, or nothing where it is none.
+std::optional<JsonValue> TryParse(std::string_view text) {
+  try {
+    return ParseJson(text, "value");
+  } catch (const UserError&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+JsonValue LoadJsonFile(const fs::path& path) { return ExtendsLoader().Load(path); }
+
+JsonValue ResolveExtends(JsonValue value, const fs::path& folder) {
+  return ExtendsLoader().Resolve(std::move(value), folder);
+}
+
+void SetPath(JsonValue& document, std::string_view path, JsonValue value) {
+  JsonValue* at = &document;
+  std::string_view rest = path;
+  if (std::count(path.begin(), path.end(), '.') >= JsonLimits().max_depth) {
+    throw UserError(std::string(path.substr(0, 60)), "has too many parts", "check the path");
+  }
+  while (true) {
+    const std::size_t dot = rest.find('.');
+    const std::string_view key = rest.substr(0, dot);
+    if (key.empty()) {
+      throw UserError(std::string(path), "is not a path",
+                      "write keys joined by dots, such as a.b.c");
+    }
+    if (dot == std::string_view::npos) {
+      at->Set(key, std::move(value));
+      return;
+    }
+    JsonValue* next = at->Find(key);
+    at = next != nullptr ? next : &at->Set(key, JsonValue::Object());
+    rest.remove_prefix(dot + 1);
+  }
+}
+
+void ApplyOverride(JsonValue& document, std::string_view assignment) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string_view::npos) {
+    throw UserError(std::string(assignment), "has no '='", "write PATH=VALUE");
+  }
+  const std::string_view path = assignment.substr(0, equals);
+  const std::string_view text = assignment.substr(equals + 1);
+  std::optional<JsonValue> value = TryParse(text);
+  if (!value) {
+    const bool structured =
+        !text.empty() && std::string_view("[{\"").find(text[0]) != std::string_view::npos;
+    value = structured ? ParseJson(text, path) : JsonValue(text);
+  }
+  SetPath(document, path, *std::move(value));
+}
+
+}  // namespace rockyard::core

@@ -1,0 +1,29 @@
+// JSON files that build on each other, and overrides from the command line.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "core/json_value.h"
+
+namespace rockyard::core {
+
+// The value in a file. Where it is an object with a text "extends", that other file (path relative
+// to the folder of the one that names it) is loaded first and this one is merged over it; objects
+// merge, everything else replaces. Throws UserError: file missing, unreadable, no regular file or
+// too large, JSON errors, cycles, more than 16 files in a chain.
+JsonValue LoadJsonFile(const std::filesystem::path& path);
+
+// Resolves "extends" of a value that came from no file, relative to `folder`.
+JsonValue ResolveExtends(JsonValue value, const std::filesystem::path& folder);
+
+// Sets the member at a dotted path, e.g. "terrain.rocks.k", making the objects on the way. Whether
+// the path means anything is found by the reader. Throws UserError where the path has empty parts.
+void SetPath(JsonValue& document, std::string_view path, JsonValue value);
+
+// Applies "PATH=VALUE". VALUE is read as JSON; what is no JSON is taken as a text, unless it starts
+// like a list, an object or a quoted text. Throws UserError.
+void ApplyOverride(JsonValue& document, std::string_view assignment);
+
+}  // namespace rockyard::core

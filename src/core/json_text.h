@@ -1,0 +1,31 @@
+// JSON text to values and back.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "core/json_value.h"
+
+namespace rockyard::core {
+
+// Bounds that keep hostile or mistaken inputs from exhausting memory or the stack.
+struct JsonLimits {
+  std::size_t max_bytes = std::size_t{4} << 20;
+  int max_depth = 32;
+};
+
+// Parses strict JSON (RFC 8259: UTF-8, no comments, no NaN or infinity). Duplicate keys and numbers
+// beyond the range of a double are errors. Throws UserError whose path is `source_name` (for
+// duplicate keys `source_name` and the key's path) and whose reason names line and column.
+JsonValue ParseJson(std::string_view text, std::string_view source_name,
+                    const JsonLimits& limits = {});
+
+// Pretty text, members in their order, lists of plain values on one line, doubles as the shortest
+// decimal that reads back to the same bits. Numbers must be finite. Ends with a newline.
+std::string DumpJson(const JsonValue& value);
+
+// One line for messages, cut to about 60 characters.
+std::string Abbreviate(const JsonValue& value);
+
+}  // namespace rockyard::core

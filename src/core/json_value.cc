@@ -1,0 +1,73 @@
+#include "core/json_value.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace rockyard::core {
+
+JsonValue JsonValue::Object() {
+  JsonValue value;
+  value.data_ = Members();
+  return value;
+}
+
+double JsonValue::number() const {
+  if (Is(Type::kInteger)) return static_cast<double>(integer());
+  return std::get<double>(data_);
+}
+
+const JsonValue* JsonValue::Find(std::string_view key) const {
+  const auto* members = std::get_if<Members>(&data_);
+  if (members == nullptr) return nullptr;
+  const auto found = std::find_if(members->begin(), members->end(),
+                                  [key](const JsonMember& member) { return member.key == key; });
+  return found == members->end() ? nullptr : &found->value;
+}
+
+JsonValue* JsonValue::Find(std::string_view key) {
+  return const_cast<JsonValue*>(std::as_const(*this).Find(key));
+}
+
+JsonValue& JsonValue::Set(std::string_view key, JsonValue value) {
+  if (JsonValue* member = Find(key)) {
+    *member = std::move(value);
+    return *member;
+  }
+  if (!Is(Type::kObject)) data_ = Members();
+  auto& members = std::get<Members>(data_);
+  members.push_back({std::string(key), std::move(value)});
+  return members.back().value;
+}
+
+void JsonValue::Append(std::string key, JsonValue value) {
+  std::get<Members>(data_).push_back({std::move(key), std::move(value)});
+}
+
+void JsonValue::Erase(std::string_view key) {
+  if (auto* members = std::get_if<Members>(&data_)) {
+    std::erase_if(*members, [key](const JsonMember& member) { return member.key == key; });
+  }
+}
+
+void JsonValue::Merge(const JsonValue& over) {
+  if (!Is(Type::kObject) || !over.Is(Type::kObject)) {
+    *this = over;
+    return;
+  }
+  for (const JsonMember& member : over.members()) {
+    if (JsonValue* mine = Find(member.key)) {
+      mine->Merge(member.value);
+    } else {
+      Set(member.key, member.value);
+    }
+  }
+}
+
+std::string_view Describe(JsonValue::Type type) {
+  constexpr std::array<std::string_view, 7> kNames = {
+      "null", "true or false", "an integer", "a number", "a text", "a list", "an object"};
+  return kNames[static_cast<std::size_t>(type)];
+}
+
+}  // namespace rockyard::core

@@ -1,0 +1,86 @@
+// A JSON value in memory: what the archive reads from and writes to.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace rockyard::core {
+
+struct JsonMember;
+
+// Objects keep the order of their members, and their keys are unique.
+class JsonValue {
+ public:
+  using List = std::vector<JsonValue>;
+  using Members = std::vector<JsonMember>;
+  // In the order of Type.
+  using Data = std::variant<std::monostate, bool, std::int64_t, double, std::string, List, Members>;
+  enum class Type { kNull, kBoolean, kInteger, kReal, kText, kList, kObject };
+
+  JsonValue() = default;
+  explicit JsonValue(bool value) : data_(value) {}
+  explicit JsonValue(std::int64_t value) : data_(value) {}
+  explicit JsonValue(double value) : data_(value) {}
+  explicit JsonValue(std::string value) : data_(std::move(value)) {}
+  explicit JsonValue(std::string_view value) : data_(std::string(value)) {}
+  explicit JsonValue(const char* value) : data_(std::string(value)) {}
+  explicit JsonValue(List values) : data_(std::move(values)) {}
+
+  static JsonValue Object();
+
+  Type type() const { return static_cast<Type>(data_.index()); }
+  bool Is(Type wanted) const { return type() == wanted; }
+  bool IsNumber() const { return Is(Type::kInteger) || Is(Type::kReal); }
+
+  // The content; each throws std::bad_variant_access where the type differs.
+  bool boolean() const { return std::get<bool>(data_); }
+  std::int64_t integer() const { return std::get<std::int64_t>(data_); }
+  const std::string& text() const { return std::get<std::string>(data_); }
+  const List& list() const { return std::get<List>(data_); }
+  List& list() { return std::get<List>(data_); }
+  const Members& members() const { return std::get<Members>(data_); }
+  // An integer or a real.
+  double number() const;
+
+  // Member of an object; nullptr where there is none or where this is no object.
+  const JsonValue* Find(std::string_view key) const;
+  JsonValue* Find(std::string_view key);
+
+  // Replaces or appends a member; a value that is no object becomes one. Returns the member.
+  JsonValue& Set(std::string_view key, JsonValue value);
+
+  // Appends a member whose key is known to be new.
+  void Append(std::string key, JsonValue value);
+
+  // Removes a member if it is there.
+  void Erase(std::string_view key);
+
+  // Lays `over` upon this value: objects merge member by member, anything else replaces.
+  void Merge(const JsonValue& over);
+
+ private:
+  Data data_;
+};
+
+struct JsonMember {
+  std::string key;
+  JsonValue value;
+};
+
+// A list of plain values.
+template <typename Values>
+JsonValue ListOf(const Values& values) {
+  JsonValue::List list;
+  list.reserve(values.size());
+  for (const auto& value : values) list.push_back(JsonValue(value));
+  return JsonValue(std::move(list));
+}
+
+// "a list", "a number", ... for messages.
+std::string_view Describe(JsonValue::Type type);
+
+}  // namespace rockyard::core

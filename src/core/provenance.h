@@ -1,0 +1,27 @@
+// What made a result: source, compiler and machine.
+#pragma once
+
+#include <string>
+
+namespace rockyard::core {
+
+struct Provenance {
+  std::string version;     // of rockyard, "0.1.0"
+  std::string commit;      // of the sources when the build was configured, "-dirty" where they had
+                           // changes; "unknown" outside git
+  std::string compiler;    // "GNU 12.2.0"
+  std::string flags;       // of the build type, with the floating-point options
+  std::string build_type;  // "Release"
+  std::string host;        // name of this machine
+  std::string cpu_model;
+  std::string cpu_level;  // feature level that libm and others choose code by: "x86-64-v3"
+  int cpu_threads = 1;    // that this machine runs at once
+};
+
+// Of this program on this machine. Nothing in a trial record depends on it.
+Provenance CurrentProvenance();
+
+// "rockyard 0.1.0 (commit 0123456789ab, GNU 12.2.0, Release)"
+std::string VersionLine();
+
+}  // namespace rockyard::core

@@ -1,0 +1,58 @@
+#include "core/spelling.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace rockyard::core {
+namespace {
+
+// Longer words are no misspelling of a key; skipping them bounds the cost.
+constexpr std::size_t kLongestWord = 80;
+
+}  // namespace
+
+std::size_t EditDistance(std::string_view a, std::string_view b) {
+  const std::size_t columns = b.size() + 1;
+  std::vector<std::size_t> before_last(columns);
+  std::vector<std::size_t> last(columns);
+  std::vector<std::size_t> row(columns);
+  for (std::size_t j = 0; j < columns; ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    before_last.swap(last);
+    last.swap(row);
+    row[0] = i;
+    for (std::size_t j = 1; j < columns; ++j) {
+      const std::size_t replaced = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, replaced});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) row[j] = std::min(row[j], before_last[j - 2] + 1);
+    }
+  }
+  return row[b.size()];
+}
+
+std::string_view Nearest(std::string_view word, std::span<const std::string_view> candidates) {
+  std::string_view nearest;
+  if (word.size() > kLongestWord) return nearest;
+  std::size_t smallest = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (const std::string_view candidate : candidates) {
+    const std::size_t distance = EditDistance(word, candidate);
+    if (distance < smallest && distance < candidate.size()) {
+      smallest = distance;
+      nearest = candidate;
+    }
+  }
+  return nearest;
+}
+
+std::string Suggest(std::string_view word, std::span<const std::string_view> candidates) {
+  if (candidates.empty()) return {};
+  const std::string_view nearest = Nearest(word, candidates);
+  const std::string all = fmt::format("one of: {}", fmt::join(candidates, ", "));
+  return nearest.empty() ? all : fmt::format("did you mean \"{}\"? {}", nearest, all);
+}
+
+}  // namespace rockyard::core

@@ -1,0 +1,21 @@
+// Did you mean ...?
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace rockyard::core {
+
+// Damerau-Levenshtein distance with adjacent transpositions (optimal string alignment): insertions,
+// deletions, replacements and swaps of neighbours that turn one text into the other. Cost a b.
+std::size_t EditDistance(std::string_view a, std::string_view b);
+
+// The candidate nearest to `word`; empty where none is within a third of its length (at least 2).
+std::string_view Nearest(std::string_view word, std::span<const std::string_view> candidates);
+
+// `did you mean "x"? ` where there is a near candidate, then `one of: a, b, c`.
+std::string Suggest(std::string_view word, std::span<const std::string_view> candidates);
+
+}  // namespace rockyard::core
