@@ -1,14 +1,28 @@
 # One folder of src/ is one namespace and one static library.
 #
-# rockyard_module(NAME [SOURCES ...] [DEPENDS module ...] [PRIVATE_LIBRARIES target ...])
+# rockyard_module(NAME [SOURCES ...] [DEPENDS module ...] [PARAMS_OF module ...]
+#                 [PRIVATE_LIBRARIES target ...])
 #   NAME              folder below src/, also the namespace: rockyard::NAME
 #   SOURCES           .cc files; a module without any is header-only
 #   DEPENDS           modules whose headers this one may include (the table in src/README.md)
+#   PARAMS_OF         modules of which this one may include the *_params.h headers, nothing else
 #   PRIVATE_LIBRARIES third-party targets used in .cc files only
 #
 # rockyard_test(NAME LABELS label ... SOURCES ... [DEPENDS module ...] [LIBRARIES target ...])
 #   one GoogleTest executable; every test of it carries the labels.
+#
+# rockyard_benchmark(NAME SOURCES ... [DEPENDS module ...] [LIBRARIES target ...])
+#   one Google Benchmark executable; nothing is built when ROCKYARD_BUILD_BENCHMARKS is off.
+#
+# How a folder is kept from seeing another one: src/ itself is on no include path. Each module has
+# its own include root in the build tree that holds one link,
+#   <build>/include/NAME/NAME -> src/NAME
+# and a target sees the roots of the modules that it links and no others, so that a header of any
+# other module is "No such file". Modules with *_params.h have a second target, NAME_params, that
+# holds the *_params.cc files and a root with links to those headers alone: scenario links these,
+# which also keeps the link graph free of cycles.
 
+include(GNUInstallDirs)
 include(GoogleTest)
 
 set(ROCKYARD_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
@@ -16,26 +30,96 @@ set(ROCKYARD_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-c
 # Bit-for-bit reproducibility across optimization levels: no fused multiply-add, no fast math.
 set(ROCKYARD_FLOATING_POINT -ffp-contract=off -fno-fast-math)
 
-function(rockyard_module NAME)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PRIVATE_LIBRARIES" ${ARGN})
-  set(target rockyard_${NAME})
-  list(TRANSFORM ARG_DEPENDS PREPEND rockyard_ OUTPUT_VARIABLE dependencies)
+# What every target of ours, header-only or not, has in common.
+function(rockyard_configure_target target export_name include_root)
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL "INTERFACE_LIBRARY")
+    set(scope INTERFACE)
+  else()
+    set(scope PUBLIC)
+    target_compile_options(${target} PRIVATE ${ROCKYARD_WARNINGS}
+      -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=)
+  endif()
+  target_compile_options(${target} ${scope} ${ROCKYARD_FLOATING_POINT}
+    $<BUILD_INTERFACE:-fmacro-prefix-map=${include_root}/=src/>)
+  target_compile_features(${target} ${scope} cxx_std_20)
+  target_include_directories(${target} ${scope}
+    $<BUILD_INTERFACE:${include_root}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/rockyard>)
+  if(ROCKYARD_CONTRACTS)
+    target_compile_definitions(${target} ${scope} ROCKYARD_CONTRACTS)
+  endif()
+  target_link_libraries(${target} ${scope} Eigen3::Eigen)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name})
+  add_library(rockyard::${export_name} ALIAS ${target})
+  set_property(GLOBAL APPEND PROPERTY ROCKYARD_TARGETS ${target})
+endfunction()
+
+# The include root of NAME: one link to the whole folder.
+function(rockyard_link_folder NAME root)
+  file(MAKE_DIRECTORY ${root})
+  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/${NAME} SYMBOLIC)
+endfunction()
+
+# The include root of NAME_params: one link per header, renewed so that none outlives its header.
+function(rockyard_link_headers NAME root)
+  file(REMOVE_RECURSE ${root})
+  file(MAKE_DIRECTORY ${root}/${NAME})
+  foreach(header ${ARGN})
+    get_filename_component(file ${header} NAME)
+    file(CREATE_LINK ${header} ${root}/${NAME}/${file} SYMBOLIC)
+  endforeach()
+endfunction()
+
+function(rockyard_params_module NAME)
+  cmake_parse_arguments(ARG "" "" "HEADERS;SOURCES;DEPENDS" ${ARGN})
+  set(target rockyard_${NAME}_params)
+  set(root ${PROJECT_BINARY_DIR}/include/${NAME}_params)
+  rockyard_link_headers(${NAME} ${root} ${ARG_HEADERS})
   if(ARG_SOURCES)
     add_library(${target} STATIC ${ARG_SOURCES})
     set(scope PUBLIC)
-    target_compile_options(${target} PRIVATE ${ROCKYARD_WARNINGS})
-    target_compile_options(${target} PUBLIC ${ROCKYARD_FLOATING_POINT})
+  else()
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  rockyard_configure_target(${target} ${NAME}_params ${root})
+  target_link_libraries(${target} ${scope} ${ARG_DEPENDS})
+endfunction()
+
+function(rockyard_module NAME)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PARAMS_OF;PRIVATE_LIBRARIES" ${ARGN})
+  if(ARG_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "rockyard_module(${NAME}): unknown arguments ${ARG_UNPARSED_ARGUMENTS}")
+  endif()
+  set(target rockyard_${NAME})
+  list(TRANSFORM ARG_DEPENDS PREPEND rockyard_ OUTPUT_VARIABLE dependencies)
+  foreach(module ${ARG_PARAMS_OF})
+    list(APPEND dependencies rockyard_${module}_params)
+  endforeach()
+
+  file(GLOB params_headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_params.h)
+  if(params_headers)
+    set(params_sources ${ARG_SOURCES})
+    list(FILTER params_sources INCLUDE REGEX "_params\\.cc$")
+    list(FILTER ARG_SOURCES EXCLUDE REGEX "_params\\.cc$")
+    rockyard_params_module(${NAME} HEADERS ${params_headers} SOURCES ${params_sources}
+      DEPENDS rockyard_core rockyard_math rockyard_messages)
+    list(APPEND dependencies rockyard_${NAME}_params)
+  endif()
+
+  set(root ${PROJECT_BINARY_DIR}/include/${NAME})
+  rockyard_link_folder(${NAME} ${root})
+  if(ARG_SOURCES)
+    add_library(${target} STATIC ${ARG_SOURCES})
+    set(scope PUBLIC)
     target_link_libraries(${target} PRIVATE ${ARG_PRIVATE_LIBRARIES})
   else()
     add_library(${target} INTERFACE)
     set(scope INTERFACE)
   endif()
-  target_compile_features(${target} ${scope} cxx_std_20)
-  target_include_directories(${target} ${scope}
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include/rockyard>)
-  target_link_libraries(${target} ${scope} ${dependencies} Eigen3::Eigen)
-  add_library(rockyard::${NAME} ALIAS ${target})
-  set_property(GLOBAL APPEND PROPERTY ROCKYARD_MODULES ${target})
+  rockyard_configure_target(${target} ${NAME} ${root})
+  target_link_libraries(${target} ${scope} ${dependencies})
+  set_property(GLOBAL APPEND PROPERTY ROCKYARD_MODULES ${NAME})
 endfunction()
 
 function(rockyard_test NAME)
@@ -47,4 +131,17 @@ function(rockyard_test NAME)
   target_compile_definitions(${NAME} PRIVATE ROCKYARD_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${NAME} PRIVATE ${dependencies} ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
   gtest_discover_tests(${NAME} PROPERTIES LABELS "${ARG_LABELS}" DISCOVERY_TIMEOUT 60)
+endfunction()
+
+function(rockyard_benchmark NAME)
+  if(NOT ROCKYARD_BUILD_BENCHMARKS)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LIBRARIES" ${ARGN})
+  list(TRANSFORM ARG_DEPENDS PREPEND rockyard_ OUTPUT_VARIABLE dependencies)
+  add_executable(${NAME} ${ARG_SOURCES})
+  target_compile_options(${NAME} PRIVATE ${ROCKYARD_WARNINGS})
+  target_compile_definitions(${NAME} PRIVATE ROCKYARD_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_link_libraries(${NAME} PRIVATE ${dependencies} ${ARG_LIBRARIES}
+    benchmark::benchmark benchmark::benchmark_main)
 endfunction()

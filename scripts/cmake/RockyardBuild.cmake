@@ -1,0 +1,29 @@
+# Build-wide choices: build type, compiler cache, sanitizers.
+
+get_property(multi_config GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)
+if(NOT multi_config AND NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release, RelWithDebInfo or MinSizeRel" FORCE)
+endif()
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+find_program(ROCKYARD_CCACHE ccache)
+mark_as_advanced(ROCKYARD_CCACHE)
+if(ROCKYARD_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${ROCKYARD_CCACHE})
+endif()
+
+if(ROCKYARD_SANITIZE)
+  if(ROCKYARD_SANITIZE MATCHES "thread" AND NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    # gcc's OpenMP runtime is not instrumented, so every parallel loop looks like a race. Clang's
+    # runtime tells the sanitizer about its threads (libarcher). The preset tsan selects clang.
+    message(FATAL_ERROR "ROCKYARD_SANITIZE=thread needs clang with libomp (preset tsan)")
+  endif()
+  set(sanitizer_flags -fsanitize=${ROCKYARD_SANITIZE} -fno-sanitize-recover=all
+      -fno-omit-frame-pointer)
+  add_compile_options(${sanitizer_flags})
+  add_link_options(${sanitizer_flags})
+endif()
