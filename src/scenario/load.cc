@@ -1,0 +1,64 @@
+#include "scenario/load.h"
+
+#include <utility>
+
+#include "core/archive.h"
+#include "core/hash.h"
+#include "core/json_file.h"
+#include "core/json_text.h"
+
+namespace rockyard::scenario {
+namespace {
+
+Scenario Finish(core::JsonValue document, std::span<const std::string> overrides) {
+  for (const std::string& assignment : overrides) core::ApplyOverride(document, assignment);
+  return ReadScenario(document);
+}
+
+}  // namespace
+
+Scenario LoadScenario(const std::filesystem::path& path, std::span<const std::string> overrides) {
+  return Finish(core::LoadJsonFile(path), overrides);
+}
+
+Scenario ParseScenario(std::string_view text, std::span<const std::string> overrides,
+                       const std::filesystem::path& folder) {
+  return Finish(core::ResolveExtends(core::ParseJson(text, "scenario"), folder), overrides);
+}
+
+Scenario ReadScenario(const core::JsonValue& document) {
+  Scenario scenario;
+  core::ReadParams(document, scenario);
+  return scenario;
+}
+
+core::JsonValue WriteScenario(const Scenario& scenario) { return core::WriteParams(scenario); }
+
+std::string ResolvedJson(const Scenario& scenario) {
+  return core::DumpJson(WriteScenario(scenario));
+}
+
+std::uint64_t Fingerprint(const Scenario& scenario) {
+  core::JsonValue document = WriteScenario(scenario);
+  for (const char* key : {"name", "description", "trials"}) document.Erase(key);
+  return core::Hasher().Text(core::DumpJson(document)).value();
+}
+
+std::string SchemaJson() {
+  core::JsonValue schema = core::SchemaOf<Scenario>("rockyard scenario");
+  core::JsonValue extends = core::JsonValue::Object();
+  extends.Set(
+      "description",
+      core::JsonValue("another scenario file, relative to this one, that this one changes"));
+  extends.Set("type", core::JsonValue("string"));
+  schema.Find("properties")->Set("extends", std::move(extends));
+  return core::DumpJson(schema);
+}
+
+std::string DefaultsJson() { return ResolvedJson({}); }
+
+std::vector<core::ParameterInfo> ListParameters(const Scenario& scenario) {
+  return core::ListParams(scenario).parameters();
+}
+
+}  // namespace rockyard::scenario

@@ -1,0 +1,47 @@
+// Scenario files: loading, overriding, writing, describing.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/field_table.h"
+#include "core/json_value.h"
+#include "scenario/scenario.h"
+
+namespace rockyard::scenario {
+
+// The scenario in a JSON file (which may extend another: see core::LoadJsonFile) with "PATH=VALUE"
+// overrides applied in order. Keys that are absent keep their defaults. Throws core::UserError with
+// everything that is wrong.
+Scenario LoadScenario(const std::filesystem::path& path,
+                      std::span<const std::string> overrides = {});
+
+// The same from text; "extends" is relative to `folder`.
+Scenario ParseScenario(std::string_view text, std::span<const std::string> overrides = {},
+                       const std::filesystem::path& folder = ".");
+
+// The same from a value, for designs and sweeps that change members by core::SetPath.
+Scenario ReadScenario(const core::JsonValue& document);
+
+// Every effective value, as a scenario file that reads back to the same scenario, bit for bit.
+core::JsonValue WriteScenario(const Scenario& scenario);
+std::string ResolvedJson(const Scenario& scenario);
+
+// Hash of all that decides the record of a trial of given index: every value but the name, the
+// description and the number of trials.
+std::uint64_t Fingerprint(const Scenario& scenario);
+
+// JSON Schema (draft 2020-12) of scenario files; "extends" included.
+std::string SchemaJson();
+
+// ResolvedJson of a default scenario.
+std::string DefaultsJson();
+
+// Every parameter of the scenario with its value, bounds, origin, source and study range.
+std::vector<core::ParameterInfo> ListParameters(const Scenario& scenario = {});
+
+}  // namespace rockyard::scenario

@@ -1,0 +1,36 @@
+#include "scenario/scenario.h"
+
+namespace rockyard::scenario {
+
+void Scenario::Visit(core::FieldVisitor& v) {
+  using core::Origin;
+  v.Integer("schema_version", schema_version,
+            {.doc = "version of this format", .min = 1, .max = 1, .origin = Origin::kSetting});
+  v.Text("name", name, {.doc = "short name, used in reports", .origin = Origin::kSetting});
+  v.Text("description", description, {.doc = "what it stands for", .origin = Origin::kSetting});
+  v.Choice("experiment", experiment, {.doc = "what one run is", .origin = Origin::kSetting});
+  v.Integer("trials", trials,
+            {.doc = "number of runs", .min = 1, .max = 1e9, .origin = Origin::kSetting});
+  v.Integer(
+      "seed", seed,
+      {.doc = "seed of every random stream", .min = 0, .max = 9e18, .origin = Origin::kSetting});
+#if __has_include("terrain/terrain_params.h")
+  v.Group("terrain", terrain, "ground, rocks and arena");
+#endif
+#if __has_include("rover/rover_params.h")
+  v.Group("rover", rover, "the vehicle");
+#endif
+  v.Group("sensors", sensors, "what the rover measures");
+  v.Group("perception", perception, "what the rover makes of its measurements");
+  v.Group("navigation", navigation, "what the rover decides");
+  v.Group("course", course, "start and goal");
+  v.Group("referee", referee, "when a trial is over");
+  v.Group("clock", clock, "simulated time");
+  v.Group("energy", energy, "electrical power and batteries");
+  v.Require("course.goal_radius_m", course.goal_radius_m >= navigation.pathfinder.goal_tolerance_m,
+            "is below navigation.pathfinder.goal_tolerance_m, so that a rover without any error "
+            "could arrive falsely",
+            "use a goal radius of at least the navigator's tolerance");
+}
+
+}  // namespace rockyard::scenario

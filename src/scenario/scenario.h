@@ -1,0 +1,59 @@
+// Everything that an experiment needs to know, composed of every module's parameters.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/fields.h"
+#if __has_include("rover/rover_params.h")
+#include "rover/rover_params.h"
+#endif
+#include "scenario/suite.h"
+#if __has_include("terrain/terrain_params.h")
+#include "terrain/terrain_params.h"
+#endif
+#include "trial/clock_params.h"
+#include "trial/course_params.h"
+#include "trial/energy_params.h"
+#include "trial/referee_params.h"
+
+namespace rockyard::scenario {
+
+// What one run of the experiment is.
+enum class ExperimentKind {
+  kDrive,  // the closed-loop drive to a goal
+};
+
+struct Scenario {
+  std::int64_t schema_version = 1;
+  std::string name = "unnamed";
+  std::string description;
+  ExperimentKind experiment = ExperimentKind::kDrive;
+  std::int64_t trials = 300;
+  std::int64_t seed = 1;
+#if __has_include("terrain/terrain_params.h")
+  terrain::TerrainParams terrain;
+#endif
+#if __has_include("rover/rover_params.h")
+  rover::RoverParams rover;
+#endif
+  SensorParams sensors;
+  PerceptionParams perception;
+  NavigationParams navigation;
+  trial::CourseParams course;
+  trial::RefereeParams referee;
+  trial::ClockParams clock;
+  trial::EnergyParams energy;
+
+  // Lists every field and the conditions across modules.
+  void Visit(core::FieldVisitor& v);
+};
+
+}  // namespace rockyard::scenario
+
+template <>
+struct rockyard::core::EnumNames<rockyard::scenario::ExperimentKind> {
+  static constexpr std::array<std::string_view, 1> kNames{"drive"};
+};
