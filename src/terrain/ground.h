@@ -1,8 +1,8 @@
 // The ground between the rocks: a plane with a slope, and optional fractal roughness.
 #pragma once
 
-#include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "core/random.h"
 #include "math/pose.h"
@@ -10,11 +10,14 @@
 
 namespace rockyard::terrain {
 
-class RoughnessField;  // smooth height field, private to ground.cc
+class RoughnessField;  // smooth height field, see roughness_field.h
 
+// Immutable; queries are const and thread-safe; copies share the roughness.
 class Ground {
  public:
   Ground();  // flat, z = 0
+  // The plane through the origin that rises by tan(slope) along the slope direction, plus roughness
+  // where its RMS is positive. Draws from Purpose::kGroundRoughness only then.
   Ground(const GroundParams& params, core::TrialKey key);
 
   // Height above the world's z = 0 plane, m.
@@ -24,7 +27,19 @@ class Ground {
   // True when the ground is one plane, so that contacts and rays have closed forms.
   bool IsPlane() const { return roughness_ == nullptr; }
 
+  // Distance along the unit ray to the ground, at most max_distance_m; 0 where the origin lies on
+  // or below it. Closed form on a plane. On rough ground the ray advances by steps that a bound on
+  // the slope shows to be safe, but never by less than 1 mm, so that a crest cut over less than 1
+  // mm of ray can be missed; the crossing itself is bisected to rounding.
+  std::optional<double> CastRay(const math::Vector3& origin_W, const math::Vector3& direction_W,
+                                double max_distance_m) const;
+
  private:
+  std::optional<double> MarchRay(const math::Vector3& origin_W, const math::Vector3& direction_W,
+                                 double max_distance_m) const;
+  // Height of a point above the ground, m.
+  double Gap(const math::Vector3& p_W) const { return p_W.z() - Height(p_W.x(), p_W.y()); }
+
   double slope_x_ = 0.0;  // dz/dx
   double slope_y_ = 0.0;  // dz/dy
   std::shared_ptr<const RoughnessField> roughness_;

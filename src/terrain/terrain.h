@@ -1,9 +1,7 @@
-// A queryable piece of Mars (or of a test arena): ground, rocks, walls. Immutable once built, one per
-// trial; every query is const and thread-safe.
+// A queryable piece of Mars (or of a test arena): ground, rocks, walls. Immutable once built, one
+// per trial; every query is const and thread-safe.
 #pragma once
 
-#include <limits>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -11,6 +9,7 @@
 #include "math/pose.h"
 #include "terrain/ground.h"
 #include "terrain/rock.h"
+#include "terrain/rock_shape.h"
 
 namespace rockyard::terrain {
 
@@ -24,7 +23,8 @@ struct RayHit {
   int rock = -1;  // index in rocks() where surface == kRock
 };
 
-// A vertical plane that bounds the arena: points with normal . p < offset are inside.
+// A vertical plane that bounds the arena: points with normal . p < offset are inside. It is met
+// from inside only and has no upper edge.
 struct Wall {
   math::Vector3 normal_W = math::Vector3::UnitY();  // horizontal, pointing out of the arena
   double offset_m = 0.0;
@@ -46,16 +46,50 @@ class Terrain {
   void RocksNear(double x_m, double y_m, double radius_m, std::vector<int>& out) const;
 
   // First surface that the ray from origin_W along the unit vector direction_W meets within
-  // max_distance_m.
+  // max_distance_m. What lies below the ground is never met. A ray that starts inside a rock or
+  // below the ground meets it at distance 0, with the normal against the ray.
   std::optional<RayHit> CastRay(const math::Vector3& origin_W, const math::Vector3& direction_W,
                                 double max_distance_m) const;
 
+  // The same against the given rocks only: gather them once with RocksNear for many short rays.
+  std::optional<RayHit> CastRay(const math::Vector3& origin_W, const math::Vector3& direction_W,
+                                double max_distance_m, std::span<const int> rocks) const;
+
   // True if anything lies strictly between the two points (both ends shortened by margin_m).
   bool Occluded(const math::Vector3& from_W, const math::Vector3& to_W, double margin_m) const;
+  // The same against the given rocks only.
+  bool Occluded(const math::Vector3& from_W, const math::Vector3& to_W, double margin_m,
+                std::span<const int> rocks) const;
 
  private:
+  // The surface that a ray meets first, as far as it is known.
+  struct Nearest {
+    double distance_m;
+    std::optional<Surface> surface;
+    int index = -1;  // of the rock or wall
+  };
+  struct CellRange {  // inclusive; empty where first > last
+    int first_x, last_x, first_y, last_y;
+  };
+
+  void BuildGrid();
+  CellRange CellsOf(double x_m, double y_m, double radius_m) const;
+  std::span<const int> RocksOfCell(int ix, int iy) const;
+
+  // Nearest wall or ground within max_distance_m.
+  Nearest MeetBackground(const math::Vector3& origin_W, const math::Vector3& direction_W,
+                         double max_distance_m) const;
+  // Each improves `nearest`: with the given rocks, or with those of the cells along the ray.
+  void MeetRocks(std::span<const int> rocks, const math::Vector3& origin_W,
+                 const math::Vector3& direction_W, Nearest& nearest) const;
+  void MeetRocksOnGrid(const math::Vector3& origin_W, const math::Vector3& direction_W,
+                       Nearest& nearest) const;
+  std::optional<RayHit> MakeHit(const math::Vector3& origin_W, const math::Vector3& direction_W,
+                                const Nearest& nearest) const;
+
   Ground ground_;
   std::vector<Rock> rocks_;
+  std::vector<RockShape> shapes_;
   std::vector<Wall> walls_;
   // Uniform grid over the rocks' bounding box: rocks of cell c are
   // cell_rocks_[cell_start_[c] .. cell_start_[c + 1]).

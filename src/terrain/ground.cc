@@ -1,0 +1,85 @@
+#include "terrain/ground.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "terrain/roughness_field.h"
+
+namespace rockyard::terrain {
+namespace {
+
+// Smallest step of a ray over rough ground, m: far below the finest wavelength of the roughness.
+constexpr double kSmallestStep_m = 1e-3;
+// Halvings of a 1 mm step down to rounding.
+constexpr int kBisections = 40;
+
+}  // namespace
+
+Ground::Ground() = default;
+
+Ground::Ground(const GroundParams& params, core::TrialKey key)
+    : slope_x_(std::tan(params.slope_rad) * std::cos(params.slope_direction_rad)),
+      slope_y_(std::tan(params.slope_rad) * std::sin(params.slope_direction_rad)) {
+  if (params.roughness_rms_m > 0.0) {
+    roughness_ = std::make_shared<const RoughnessField>(
+        params.roughness_rms_m, params.hurst_exponent, params.roughness_wavelength_m, key);
+  }
+}
+
+double Ground::Height(double x_m, double y_m) const {
+  const double plane = slope_x_ * x_m + slope_y_ * y_m;
+  return roughness_ ? plane + roughness_->Sample(x_m, y_m).height_m : plane;
+}
+
+math::Vector3 Ground::Normal(double x_m, double y_m) const {
+  math::Vector3 normal(-slope_x_, -slope_y_, 1.0);
+  if (roughness_) {
+    const RoughnessSample sample = roughness_->Sample(x_m, y_m);
+    normal.x() -= sample.slope_x;
+    normal.y() -= sample.slope_y;
+  }
+  return normal.normalized();
+}
+
+std::optional<double> Ground::CastRay(const math::Vector3& origin_W,
+                                      const math::Vector3& direction_W,
+                                      double max_distance_m) const {
+  if (roughness_) return MarchRay(origin_W, direction_W, max_distance_m);
+  const double gap = Gap(origin_W);
+  if (gap <= 0.0) return 0.0;
+  const double descent = slope_x_ * direction_W.x() + slope_y_ * direction_W.y() - direction_W.z();
+  // Written so that a ray along the plane divides nothing by zero.
+  if (gap > descent * max_distance_m) return std::nullopt;
+  return gap / descent;
+}
+
+std::optional<double> Ground::MarchRay(const math::Vector3& origin_W,
+                                       const math::Vector3& direction_W,
+                                       double max_distance_m) const {
+  double gap = Gap(origin_W);
+  if (gap <= 0.0) return 0.0;
+  // Largest rate at which the gap can close per metre of ray.
+  const double horizontal = std::hypot(direction_W.x(), direction_W.y());
+  const double plane_descent =
+      slope_x_ * direction_W.x() + slope_y_ * direction_W.y() - direction_W.z();
+  const double closing = plane_descent + roughness_->MaxSlope() * horizontal;
+  if (gap > closing * max_distance_m) return std::nullopt;
+
+  double above = 0.0;  // a distance at which the ray is above the ground
+  while (above < max_distance_m) {
+    double below = std::min(above + std::max(gap / closing, kSmallestStep_m), max_distance_m);
+    gap = Gap(origin_W + below * direction_W);
+    if (gap > 0.0) {
+      above = below;
+      continue;
+    }
+    for (int i = 0; i < kBisections; ++i) {
+      const double middle = 0.5 * (above + below);
+      (Gap(origin_W + middle * direction_W) > 0.0 ? above : below) = middle;
+    }
+    return above;
+  }
+  return std::nullopt;
+}
+
+}  // namespace rockyard::terrain

@@ -1,0 +1,66 @@
+// A rock prepared for queries: the linear map that turns its ellipsoid into the unit sphere.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "math/pose.h"
+#include "terrain/rock.h"
+
+namespace rockyard::terrain {
+
+class RockShape {
+ public:
+  static constexpr double kNoHit = std::numeric_limits<double>::infinity();
+
+  explicit RockShape(const Rock& rock)
+      : center_W_(rock.center_W),
+        xx_(std::cos(rock.yaw_rad) / rock.semi_axes_m.x()),
+        xy_(std::sin(rock.yaw_rad) / rock.semi_axes_m.x()),
+        yx_(-std::sin(rock.yaw_rad) / rock.semi_axes_m.y()),
+        yy_(std::cos(rock.yaw_rad) / rock.semi_axes_m.y()),
+        zz_(1.0 / rock.semi_axes_m.z()) {}
+
+  // Distance along the ray to the surface, which it meets from outside: the smaller root of
+  // |q + t e| = 1 for the origin q and the direction e in unit-sphere coordinates. 0 where the
+  // origin lies inside; kNoHit where the ray misses.
+  double Distance(const math::Vector3& origin_W, const math::Vector3& direction_W) const {
+    const math::Vector3 q = Map(origin_W - center_W_);
+    const math::Vector3 e = Map(direction_W);
+    const double outside = q.squaredNorm() - 1.0;
+    if (outside <= 0.0) return 0.0;
+    const double approach = -q.dot(e);
+    if (approach <= 0.0) return kNoHit;
+    const double speed = e.squaredNorm();
+    const double discriminant = approach * approach - speed * outside;
+    if (discriminant < 0.0) return kNoHit;
+    return (approach - std::sqrt(discriminant)) / speed;
+  }
+
+  // Outward unit normal at a point of the surface.
+  math::Vector3 Normal(const math::Vector3& p_W) const {
+    const math::Vector3 q = Map(p_W - center_W_);
+    return math::Vector3(xx_ * q.x() + yx_ * q.y(), xy_ * q.x() + yy_ * q.y(), zz_ * q.z())
+        .normalized();
+  }
+
+  // Height of the upper surface over (x, y), m; minus infinity beside the rock.
+  double Top(double x_m, double y_m) const {
+    const double dx = x_m - center_W_.x();
+    const double dy = y_m - center_W_.y();
+    const double u = xx_ * dx + xy_ * dy;
+    const double v = yx_ * dx + yy_ * dy;
+    const double rest = 1.0 - u * u - v * v;
+    return rest < 0.0 ? -kNoHit : center_W_.z() + std::sqrt(rest) / zz_;
+  }
+
+ private:
+  math::Vector3 Map(const math::Vector3& v) const {
+    return {xx_ * v.x() + xy_ * v.y(), yx_ * v.x() + yy_ * v.y(), zz_ * v.z()};
+  }
+
+  math::Vector3 center_W_;
+  double xx_, xy_, yx_, yy_, zz_;
+};
+
+}  // namespace rockyard::terrain

@@ -1,0 +1,111 @@
+#include "terrain/roughness_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "core/check.h"
+#include "core/distributions.h"
+
+namespace rockyard::terrain {
+namespace {
+
+// Finest wavelength, m: roughness shorter than the contact patch of a 13 cm wheel is averaged by
+// it.
+constexpr double kFinestWavelength_m = 0.1;
+constexpr int kMostOctaves = 12;
+// Integral of the squared cubic B-spline over its support.
+constexpr double kSplineMeanSquare = 151.0 / 315.0;
+
+// Weights and their derivatives of the four cubic B-splines over a cell, t in [0, 1).
+struct SplineWeights {
+  std::array<double, 4> value;
+  std::array<double, 4> slope;
+};
+
+SplineWeights WeightsAt(double t) {
+  const double s = 1.0 - t;
+  return {{s * s * s / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0,
+           (4.0 - 6.0 * s * s + 3.0 * s * s * s) / 6.0, t * t * t / 6.0},
+          {-0.5 * s * s, (1.5 * t - 2.0) * t, -(1.5 * s - 2.0) * s, 0.5 * t * t}};
+}
+
+int OctaveCount(double longest_wavelength_m) {
+  const double octaves = std::floor(std::log2(longest_wavelength_m / kFinestWavelength_m)) + 1.0;
+  return static_cast<int>(std::clamp(octaves, 1.0, double{kMostOctaves}));
+}
+
+}  // namespace
+
+RoughnessField::RoughnessField(double rms_m, double hurst, double longest_wavelength_m,
+                               core::TrialKey key) {
+  EXPECT(rms_m > 0.0 && hurst > 0.0 && hurst <= 1.0 && longest_wavelength_m > 0.0);
+  octaves_.resize(static_cast<std::size_t>(OctaveCount(longest_wavelength_m)));
+  double sum_of_squares = 0.0;
+  for (std::size_t j = 0; j < octaves_.size(); ++j) {
+    sum_of_squares += std::exp2(-2.0 * hurst * static_cast<double>(j));
+  }
+  for (std::size_t j = 0; j < octaves_.size(); ++j) {
+    Octave& octave = octaves_[j];
+    const double level = static_cast<double>(j);
+    octave.spacing_m = 0.5 * longest_wavelength_m * std::exp2(-level);
+    const double octave_rms_m = rms_m * std::exp2(-hurst * level) / std::sqrt(sum_of_squares);
+    core::RandomStream stream(key, core::Purpose::kGroundRoughness, static_cast<std::uint32_t>(j));
+    octave.coefficients_m.resize(std::size_t{kNodes} * kNodes);
+    for (double& coefficient : octave.coefficients_m) {
+      coefficient = core::SampleNormal(stream, 0.0, octave_rms_m / kSplineMeanSquare);
+    }
+    max_slope_ += SlopeBound(octave);
+  }
+}
+
+// The derivative of a B-spline is a B-spline of the coefficients' differences over the spacing, and
+// a B-spline lies within the hull of its coefficients.
+double RoughnessField::SlopeBound(const Octave& octave) {
+  double along_x = 0.0;
+  double along_y = 0.0;
+  const auto at = [&octave](int column, int row) {
+    return octave.coefficients_m[static_cast<std::size_t>(row % kNodes * kNodes + column % kNodes)];
+  };
+  for (int row = 0; row < kNodes; ++row) {
+    for (int column = 0; column < kNodes; ++column) {
+      along_x = std::max(along_x, std::abs(at(column + 1, row) - at(column, row)));
+      along_y = std::max(along_y, std::abs(at(column, row + 1) - at(column, row)));
+    }
+  }
+  return std::hypot(along_x, along_y) / octave.spacing_m;
+}
+
+void RoughnessField::AddOctave(const Octave& octave, double x_m, double y_m, RoughnessSample& sum) {
+  const double u = x_m / octave.spacing_m;
+  const double v = y_m / octave.spacing_m;
+  const double column = std::floor(u);
+  const double row = std::floor(v);
+  const SplineWeights wx = WeightsAt(u - column);
+  const SplineWeights wy = WeightsAt(v - row);
+  const auto first_column = static_cast<std::int64_t>(column);
+  const auto first_row = static_cast<std::int64_t>(row);
+  for (int i = 0; i < 4; ++i) {
+    const auto wrapped_row = static_cast<std::size_t>((first_row + i) & (kNodes - 1));
+    const double* line = octave.coefficients_m.data() + wrapped_row * kNodes;
+    double value = 0.0;
+    double slope = 0.0;
+    for (int j = 0; j < 4; ++j) {
+      const double coefficient = line[(first_column + j) & (kNodes - 1)];
+      value += wx.value[static_cast<std::size_t>(j)] * coefficient;
+      slope += wx.slope[static_cast<std::size_t>(j)] * coefficient;
+    }
+    const auto k = static_cast<std::size_t>(i);
+    sum.height_m += wy.value[k] * value;
+    sum.slope_x += wy.value[k] * slope / octave.spacing_m;
+    sum.slope_y += wy.slope[k] * value / octave.spacing_m;
+  }
+}
+
+RoughnessSample RoughnessField::Sample(double x_m, double y_m) const {
+  RoughnessSample sum;
+  for (const Octave& octave : octaves_) AddOctave(octave, x_m, y_m, sum);
+  return sum;
+}
+
+}  // namespace rockyard::terrain
