@@ -2,12 +2,19 @@
 #pragma once
 
 #include "math/pose.h"
-#include "rover/rover_params.h"
 #include "terrain/terrain.h"
 #include "truth/drive_record.h"
 #include "truth/rover_state.h"
 
 namespace rockyard::trial {
+
+// The belly as nine points of a rectangle in R, for the clearance over rocks.
+struct Underside {
+  double centre_x_m = 0.0;
+  double half_length_m = 0.0;
+  double half_width_m = 0.0;
+  double height_m = 0.0;
+};
 
 // Path length counts chords of kChord_m between horizontal positions, so that the jitter of a rover
 // at work (turning, rocking over a stone) does not add up to travel. The overhead tracker of
@@ -16,7 +23,7 @@ class DriveMonitor {
  public:
   static constexpr double kChord_m = 0.01;
 
-  DriveMonitor(const rover::RoverParams& rover, const terrain::Terrain& terrain);
+  DriveMonitor(const Underside& underside, const terrain::Terrain& terrain);
 
   // Starts, or starts again after the rover was moved by hand: what lies between does not count.
   void Restart(const truth::RoverState& state);
@@ -33,8 +40,8 @@ class DriveMonitor {
  private:
   void ObserveClearance(const truth::RoverState& state);
 
+  Underside underside_;
   const terrain::Terrain& terrain_;
-  rover::RoverParams rover_;
   math::Pose2 last_;
   double chord_x_m_ = 0.0;
   double chord_y_m_ = 0.0;

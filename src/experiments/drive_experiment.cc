@@ -1,0 +1,72 @@
+#include "experiments/drive_experiment.h"
+
+#include <cmath>
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "trial/run_trial.h"
+
+namespace rockyard::experiments {
+namespace {
+
+truth::Record Fault(std::uint64_t seed, std::uint64_t index, const std::string& reason) {
+  truth::Record record;
+  record.trial = index;
+  record.outcome = truth::TrialOutcome::kSimulatorFault;
+  record.detail =
+      reason + " (seed " + std::to_string(seed) + ", trial " + std::to_string(index) + ")";
+  return record;
+}
+
+std::vector<double> Values(const truth::DriveRecord& drive) {
+  std::vector<double> values;
+  values.reserve(truth::kDriveColumns.size());
+  for (const truth::DriveColumn& column : truth::kDriveColumns) {
+    const double value = drive.*column.member;
+    if (!std::isfinite(value)) {
+      throw std::runtime_error("the record holds a non-finite " + std::string(column.name));
+    }
+    values.push_back(value);
+  }
+  return values;
+}
+
+}  // namespace
+
+const truth::RecordSchema& DriveSchema() {
+  static const truth::RecordSchema kSchema = [] {
+    truth::RecordSchema schema;
+    for (const truth::DriveColumn& column : truth::kDriveColumns) {
+      schema.push_back(
+          {std::string(column.name), std::string(column.unit), std::string(column.meaning)});
+    }
+    return schema;
+  }();
+  return kSchema;
+}
+
+DriveExperiment::DriveExperiment(scenario::Scenario scenario) : scenario_(std::move(scenario)) {}
+
+const truth::RecordSchema& DriveExperiment::schema() const { return DriveSchema(); }
+
+truth::Record DriveExperiment::Run(std::uint64_t seed, std::uint64_t index) const {
+  try {
+    const trial::DriveResult drive =
+        trial::RunTrial(scenario_, {seed, static_cast<std::uint32_t>(index)});
+    return {index, drive.outcome, drive.detail, Values(drive.record)};
+  } catch (const std::exception& error) {
+    return Fault(seed, index, error.what());
+  }
+}
+
+std::unique_ptr<Experiment> MakeExperiment(const scenario::Scenario& scenario) {
+  switch (scenario.experiment) {
+    case scenario::ExperimentKind::kDrive:
+      return std::make_unique<DriveExperiment>(scenario);
+  }
+  throw std::logic_error("unknown experiment");
+}
+
+}  // namespace rockyard::experiments

@@ -1,0 +1,26 @@
+// One closed-loop drive: terrain, rover, sensors, estimator, navigator, referee.
+#pragma once
+
+#include <string>
+
+#include "core/random.h"
+#include "scenario/scenario.h"
+#include "truth/drive_record.h"
+#include "truth/record.h"
+#include "truth/trace.h"
+
+namespace rockyard::trial {
+
+struct DriveResult {
+  truth::TrialOutcome outcome = truth::TrialOutcome::kSimulatorFault;
+  std::string detail;
+  truth::DriveRecord record;
+};
+
+// Drives the trial that `key` names: a pure function of (scenario, key). With `trace` the course of
+// the drive is recorded too, without any influence on it. Throws what the simulation throws: a
+// contract violation, a blow-up of the physics; the experiment turns that into a simulator fault.
+DriveResult RunTrial(const scenario::Scenario& scenario, core::TrialKey key,
+                     truth::Trace* trace = nullptr);
+
+}  // namespace rockyard::trial

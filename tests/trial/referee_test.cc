@@ -1,0 +1,168 @@
+#include "trial/referee.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace rockyard::trial {
+namespace {
+
+using navigation::NavigatorStatus;
+using truth::TrialOutcome;
+
+// Feeds a referee with ticks of 0.05 s.
+class RefereeTest : public testing::Test {
+ protected:
+  static constexpr double kTick_s = 0.05;
+
+  std::optional<Verdict> Tick(Activity activity = Activity::kDriving) {
+    ledger_.Spend(activity, kTick_s);
+    return referee_.Observe({activity, kTick_s, state_, estimate_, distance_m_, turned_rad_},
+                            ledger_);
+  }
+
+  // Repeats `step` and a tick until a verdict or `seconds` are over.
+  template <typename Step>
+  std::optional<Verdict> Run(double seconds, Step step, Activity activity = Activity::kDriving) {
+    for (double t = 0.0; t < seconds; t += kTick_s) {
+      step();
+      if (auto verdict = Tick(activity)) return verdict;
+    }
+    return std::nullopt;
+  }
+
+  void MoveTo(double x_m, double y_m) { state_.X_WR.translation() = {x_m, y_m, 0.0}; }
+
+  RefereeParams params_;
+  CourseParams course_;
+  EnergyParams energy_;
+  truth::RoverState state_;
+  messages::PoseEstimate estimate_;
+  double distance_m_ = 0.0;
+  double turned_rad_ = 0.0;
+  Ledger ledger_{energy_};
+  Referee referee_{params_, course_, ArenaBounds{-2.0, 10.0}};
+};
+
+TEST_F(RefereeTest, SteadyDriveHasNoVerdict) {
+  double x = 0.0;
+  EXPECT_FALSE(Run(60.0, [&] {
+    x += 0.15 * kTick_s;
+    MoveTo(x, 0.0);
+    estimate_.x_m = x;
+    distance_m_ = x;
+  }));
+}
+
+TEST_F(RefereeTest, TipOver) {
+  state_.X_WR.linear() = Eigen::AngleAxisd(math::DegToRad(61.0), math::Vector3::UnitX()).matrix();
+  const auto verdict = Tick();
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->outcome, TrialOutcome::kTipOver);
+}
+
+TEST_F(RefereeTest, LeavingTheArena) {
+  MoveTo(-2.01, 0.0);
+  const auto verdict = Tick();
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->outcome, TrialOutcome::kLeftArena);
+}
+
+TEST_F(RefereeTest, StandingWheelsAreAJamAfterTheWindow) {
+  EXPECT_FALSE(Run(params_.stall_window_s - 0.2, [] {}));
+  const auto verdict = Run(1.0, [] {});
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->outcome, TrialOutcome::kJammed);
+}
+
+TEST_F(RefereeTest, ScanningIsNotStandingStill) {
+  EXPECT_FALSE(Run(
+      600.0, [] {}, Activity::kScanning));
+}
+
+TEST_F(RefereeTest, BellyOnARockMakesItHighCentred) {
+  state_.contacts = {{truth::BodyPart::kBelly, 3, 40.0, 0.0}};
+  const auto verdict = Run(20.0, [] {});
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->outcome, TrialOutcome::kHighCentred);
+}
+
+TEST_F(RefereeTest, SpinningWheelsAreStuckByDefaultAndDriveOnByChoice) {
+  const auto spin = [&] { estimate_.x_m += 0.15 * kTick_s; };
+  const auto verdict = Run(20.0, spin);
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->outcome, TrialOutcome::kJammed);
+
+  params_.spinning_wheels = SpinningWheels::kDriveOn;
+  referee_ = Referee(params_, course_, ArenaBounds{-2.0, 10.0});
+  estimate_ = {};
+  EXPECT_FALSE(Run(40.0, spin));
+}
+
+TEST_F(RefereeTest, TurningWithoutComingNearerIsNoPath) {
+  double heading = 0.0;
+  const auto verdict = Run(
+      200.0,
+      [&] {
+        heading += 0.4 * kTick_s;
+        turned_rad_ += 0.4 * kTick_s;
+        state_.X_WR.linear() = Eigen::AngleAxisd(heading, math::Vector3::UnitZ()).matrix();
+      },
+      Activity::kTurning);
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->outcome, TrialOutcome::kNoPath);
+  EXPECT_NEAR(turned_rad_, params_.no_path_turn_rad, 0.03);
+}
+
+TEST_F(RefereeTest, DrivingInCirclesIsNoPath) {
+  double t = 0.0;
+  const auto verdict = Run(200.0, [&] {
+    t += kTick_s;
+    distance_m_ += 0.15 * kTick_s;
+    MoveTo(0.5 * std::sin(0.3 * t), 0.5 * std::cos(0.3 * t));
+  });
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->outcome, TrialOutcome::kNoPath);
+  EXPECT_NEAR(distance_m_, params_.no_path_distance_m, 0.02);
+}
+
+TEST_F(RefereeTest, ProgressResetsThePatience) {
+  double x = 0.0;
+  double wander = 0.0;
+  // Each metre gained costs three of wandering: slow, but never four without progress.
+  EXPECT_FALSE(Run(60.0, [&] {
+    x += 0.05 * kTick_s;
+    wander += 0.15 * kTick_s;
+    MoveTo(x, 0.0);
+    estimate_.x_m = x;
+    distance_m_ = wander;
+  }));
+}
+
+TEST_F(RefereeTest, ArrivalIsTrueOnlyNearTheTrueGoal) {
+  MoveTo(7.6 - 0.6, 0.0);
+  EXPECT_EQ(referee_.OnNavigatorStop(NavigatorStatus::kArrived, state_).outcome,
+            TrialOutcome::kGoalReached);
+  MoveTo(7.6 - 0.7, 0.0);
+  EXPECT_EQ(referee_.OnNavigatorStop(NavigatorStatus::kArrived, state_).outcome,
+            TrialOutcome::kFalseGoal);
+  EXPECT_EQ(referee_.OnNavigatorStop(NavigatorStatus::kGaveUp, state_).outcome,
+            TrialOutcome::kNoPath);
+}
+
+TEST_F(RefereeTest, EmptyBatteriesAndTimeLimit) {
+  ledger_.Spend(Activity::kDriving, 1e6);
+  auto verdict = Tick();
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->outcome, TrialOutcome::kEnergyDepleted);
+
+  energy_.battery_wh = 1e5;
+  ledger_ = Ledger(energy_);
+  ledger_.Spend(Activity::kScanning, params_.time_limit_s);
+  verdict = Tick();
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->outcome, TrialOutcome::kTimeLimit);
+}
+
+}  // namespace
+}  // namespace rockyard::trial
