@@ -1,0 +1,36 @@
+// One row of the comparison, before Holm's procedure. For published_comparison.cc only.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "statistics/published_comparison.h"
+
+namespace rockyard::statistics {
+
+struct Row {
+  ComparedValue value;
+  // Power at a level; empty for a row that is decided (or left open) without a p-value.
+  std::function<double(double)> power;
+};
+
+// Counts of outcomes, of negative values, and kinds of failure. compare_counts.cc
+Row CompareOutcomeCount(const PublishedValue& published, const ScenarioRun& run,
+                        const ComparisonOptions& options);
+Row CompareNegativeCount(const PublishedValue& published, const ScenarioRun& run);
+Row CompareFailureKinds(const PublishedValue& published, const ScenarioRun& run);
+
+// Statistics of one column. compare_samples.cc
+Row CompareSampleStatistic(const PublishedValue& published, const ScenarioRun& run,
+                           const ComparisonOptions& options);
+Row CompareExponentialTail(const PublishedValue& published, const ScenarioRun& run,
+                           const ComparisonOptions& options);
+Row CompareLowerBound(const PublishedValue& published, const ScenarioRun& run,
+                      const ComparisonOptions& options);
+Row CompareMedianOffset(const PublishedValue& published, const ScenarioRun& run,
+                        const ScenarioRun& other, const ComparisonOptions& options);
+
+// A row that says why there is nothing to judge.
+Row NotJudged(const PublishedValue& published, std::string remark);
+
+}  // namespace rockyard::statistics

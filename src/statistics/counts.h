@@ -1,0 +1,44 @@
+// What a simulated pool predicts for a count in a small set of real runs.
+//
+// If simulation and reality follow one law, then n new runs beside a pool with K of N show k with
+// probability BetaBinomial(k; n, K + 1/2, N - K + 1/2): the posterior predictive under Jeffreys'
+// prior, the exact limit of drawing many samples of n from many resampled pools. It carries the
+// simulation's own uncertainty and tends to Binomial(n, K/N) as the pool grows.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "statistics/proportions.h"
+
+namespace rockyard::statistics {
+
+// Probabilities of 0..n. They sum to 1.
+using CountLaw = std::vector<double>;
+
+CountLaw BinomialLaw(std::int64_t trials, double rate);
+
+// a, b > 0: parameters of the beta law of the rate.
+CountLaw BetaBinomialLaw(std::int64_t trials, double a, double b);
+
+// The predictive law described above: `count` of `pool` simulated runs, `trials` new ones.
+CountLaw PredictiveCountLaw(std::int64_t trials, std::int64_t count, std::int64_t pool);
+
+// Smallest count whose cumulative probability reaches `probability`.
+std::int64_t CountQuantile(const CountLaw& law, double probability);
+
+// P(count <= observed) and P(count >= observed).
+struct Tails {
+  double lower = 1.0;
+  double upper = 1.0;
+};
+Tails CountTails(const CountLaw& law, std::int64_t observed);
+
+// Twice the smaller tail, at most 1: the two-sided p-value that matches equal-tailed intervals.
+double TwoSided(const Tails& tails);
+
+// Probability that a count drawn from `truth` is rejected at `level` by the two-sided test of
+// `null`. Both laws over the same number of trials.
+double CountPower(const CountLaw& null, const CountLaw& truth, double level);
+
+}  // namespace rockyard::statistics

@@ -1,0 +1,123 @@
+#include "statistics/cumulative_incidence.h"
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+
+#include "core/check.h"
+
+namespace rockyard::statistics {
+namespace {
+
+// Interval of a probability on the log(-log) scale, which keeps it inside [0, 1].
+Interval LogLogBand(double probability, double standard_error, double z) {
+  if (probability <= 0.0 || probability >= 1.0 || standard_error <= 0.0) {
+    return {probability, probability};
+  }
+  const double log_p = std::log(probability);
+  const double spread = z * standard_error / (probability * std::abs(log_p));
+  return {std::exp(log_p * std::exp(spread)), std::exp(log_p * std::exp(-spread))};
+}
+
+// Sums over past steps that give the variance of the incidence F at any later step without going
+// back: with a_i = d_i / (n_i (n_i - d_i)) and c_i = S_i (d1_i / n_i^2), Var F = sum (F - F_i)^2
+// a_i + sum S_i^2 (n_i - d1_i) d1_i / n_i^3 - 2 sum (F - F_i) c_i.
+class IncidenceVariance {
+ public:
+  void Add(double incidence, double survival_before, double at_risk, double events, double ends) {
+    if (at_risk > ends) {
+      const double a = ends / (at_risk * (at_risk - ends));
+      a_ += a;
+      aF_ += a * incidence;
+      aFF_ += a * incidence * incidence;
+    }
+    own_ += survival_before * survival_before * (at_risk - events) * events /
+            (at_risk * at_risk * at_risk);
+    const double c = survival_before * events / (at_risk * at_risk);
+    c_ += c;
+    cF_ += c * incidence;
+  }
+
+  double At(double incidence) const {
+    const double variance = incidence * incidence * a_ - 2.0 * incidence * aF_ + aFF_ + own_ -
+                            2.0 * (incidence * c_ - cF_);
+    return std::max(0.0, variance);
+  }
+
+ private:
+  double a_ = 0.0;
+  double aF_ = 0.0;
+  double aFF_ = 0.0;
+  double own_ = 0.0;
+  double c_ = 0.0;
+  double cF_ = 0.0;
+};
+
+struct Ends {
+  double events = 0.0;
+  double competing = 0.0;
+  std::size_t all = 0;  // censored ones included
+};
+
+Ends EndsAt(std::span<const Duration> sorted, std::size_t first) {
+  Ends ends;
+  for (std::size_t i = first; i < sorted.size() && sorted[i].at == sorted[first].at; ++i) {
+    ++ends.all;
+    if (sorted[i].kind == EndKind::kEvent) ends.events += 1.0;
+    if (sorted[i].kind == EndKind::kCompeting) ends.competing += 1.0;
+  }
+  return ends;
+}
+
+}  // namespace
+
+std::vector<IncidenceStep> CumulativeIncidence(std::span<const Duration> durations,
+                                               double confidence) {
+  EXPECT(confidence > 0.0 && confidence < 1.0);
+  std::vector<Duration> sorted;
+  std::copy_if(durations.begin(), durations.end(), std::back_inserter(sorted),
+               [](const Duration& d) { return std::isfinite(d.at); });
+  std::sort(sorted.begin(), sorted.end(),
+            [](const Duration& a, const Duration& b) { return a.at < b.at; });
+  const double z = boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * confidence);
+  std::vector<IncidenceStep> steps;
+  IncidenceVariance variance;
+  double survival = 1.0;
+  double event = 0.0;
+  double competing = 0.0;
+  for (std::size_t i = 0; i < sorted.size();) {
+    const Ends ends = EndsAt(sorted, i);
+    const std::size_t at_risk = sorted.size() - i;
+    const double n = static_cast<double>(at_risk);
+    const double both = ends.events + ends.competing;
+    if (both > 0.0) {
+      event += survival * ends.events / n;
+      competing += survival * ends.competing / n;
+      variance.Add(event, survival, n, ends.events, both);
+      survival *= 1.0 - both / n;
+      const double error = std::sqrt(variance.At(event));
+      steps.push_back({sorted[i].at, event, competing, error, LogLogBand(event, error, z),
+                       static_cast<std::int64_t>(at_risk)});
+    }
+    i += ends.all;
+  }
+  return steps;
+}
+
+std::vector<Duration> GoalDurations(std::span<const truth::Record> records, std::size_t column,
+                                    Success success) {
+  using truth::TrialOutcome;
+  std::vector<Duration> durations;
+  for (const truth::Record& record : records) {
+    if (record.outcome == TrialOutcome::kSimulatorFault || column >= record.values.size()) continue;
+    const bool reached = success == Success::kTrue ? record.outcome == TrialOutcome::kGoalReached
+                                                   : truth::DeclaredSuccess(record.outcome);
+    const EndKind kind = reached                                      ? EndKind::kEvent
+                         : record.outcome == TrialOutcome::kTimeLimit ? EndKind::kCensored
+                                                                      : EndKind::kCompeting;
+    durations.push_back({record.values[column], kind});
+  }
+  return durations;
+}
+
+}  // namespace rockyard::statistics

@@ -1,0 +1,46 @@
+// Cumulative incidence with competing risks (Aalen and Johansen 1978).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "statistics/proportions.h"
+#include "truth/record.h"
+
+namespace rockyard::statistics {
+
+enum class EndKind {
+  kEvent,      // reached the goal
+  kCompeting,  // failed: will never reach it
+  kCensored,   // stopped for an administrative reason; what would have followed is unknown
+};
+
+struct Duration {
+  double at = 0.0;  // distance driven (or time) at the end, >= 0
+  EndKind kind = EndKind::kCensored;
+};
+
+// At and beyond `at` the incidences hold until the next step.
+struct IncidenceStep {
+  double at = 0.0;
+  double event = 0.0;           // probability to have had the event
+  double competing = 0.0;       // probability to have had the competing one
+  double standard_error = 0.0;  // of `event`
+  Interval band;                // pointwise, on the log(-log) scale
+  std::int64_t at_risk = 0;     // just before `at`
+};
+
+// Aalen-Johansen estimate; one step per distinct distance with an event or a competing event.
+// Variance by the delta method (Marubini and Valsecchi 1995, eq. 10.12); without censoring it is
+// the binomial one. Entries whose distance is not finite are left out. Cost: n log n.
+std::vector<IncidenceStep> CumulativeIncidence(std::span<const Duration> durations,
+                                               double confidence = 0.95);
+
+// How a trial's end counts when the event is reaching the goal: believed arrival is the event (or
+// true arrival only), a time limit censors, a simulator fault is no observation, all else competes.
+enum class Success { kDeclared, kTrue };
+std::vector<Duration> GoalDurations(std::span<const truth::Record> records, std::size_t column,
+                                    Success success = Success::kDeclared);
+
+}  // namespace rockyard::statistics

@@ -1,0 +1,94 @@
+#include "statistics/drive_summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "statistics/modes.h"
+#include "statistics/moments.h"
+#include "statistics/quantiles.h"
+
+namespace rockyard::statistics {
+namespace {
+
+bool IsFault(const truth::Record& record) {
+  return record.outcome == truth::TrialOutcome::kSimulatorFault;
+}
+
+std::vector<double> PathRatios(const truth::RecordSchema& schema,
+                               std::span<const truth::Record> records) {
+  const auto driven = ColumnIndex(schema, "true_distance_m");
+  const auto straight = ColumnIndex(schema, "straight_distance_m");
+  std::vector<double> ratios;
+  if (!driven || !straight) return ratios;
+  for (const truth::Record& record : records) {
+    if (!truth::DeclaredSuccess(record.outcome)) continue;
+    if (std::max(*driven, *straight) >= record.values.size()) continue;
+    ratios.push_back(record.values[*driven] / record.values[*straight]);
+  }
+  return ratios;
+}
+
+}  // namespace
+
+ColumnSummary SummarizeColumn(std::string name, std::string unit, std::span<const double> values) {
+  const std::vector<double> sorted = SortedFinite(values);
+  const Moments moments = MomentsOf(sorted);
+  return {.name = std::move(name),
+          .unit = std::move(unit),
+          .count = moments.count(),
+          .min = moments.min(),
+          .p05 = Quantile(sorted, 0.05),
+          .median = Quantile(sorted, 0.5),
+          .mean = moments.mean(),
+          .mode = HalfSampleMode(sorted),
+          .p95 = Quantile(sorted, 0.95),
+          .max = moments.max(),
+          .std = moments.standard_deviation()};
+}
+
+const ColumnSummary* DriveSummary::Find(std::string_view name) const {
+  const auto found = std::find_if(columns.begin(), columns.end(),
+                                  [&](const ColumnSummary& c) { return c.name == name; });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+std::optional<std::size_t> ColumnIndex(const truth::RecordSchema& schema, std::string_view name) {
+  for (std::size_t i = 0; i < schema.size(); ++i) {
+    if (schema[i].name == name) return i;
+  }
+  return std::nullopt;
+}
+
+std::vector<double> ColumnValues(std::span<const truth::Record> records, std::size_t column) {
+  std::vector<double> values;
+  for (const truth::Record& record : records) {
+    if (IsFault(record) || column >= record.values.size()) continue;
+    if (std::isfinite(record.values[column])) values.push_back(record.values[column]);
+  }
+  return values;
+}
+
+DriveSummary Summarize(const truth::RecordSchema& schema, std::span<const truth::Record> records,
+                       std::int64_t planned, IntervalMethod method) {
+  DriveSummary summary;
+  summary.completed = static_cast<std::int64_t>(records.size());
+  summary.planned = planned > 0 ? planned : summary.completed;
+  for (const truth::Record& record : records) {
+    ++summary.outcomes[static_cast<std::size_t>(record.outcome)];
+  }
+  summary.faults = summary.outcome(truth::TrialOutcome::kSimulatorFault);
+  const std::int64_t counted = summary.completed - summary.faults;
+  const std::int64_t reached = summary.outcome(truth::TrialOutcome::kGoalReached);
+  const std::int64_t believed = summary.outcome(truth::TrialOutcome::kFalseGoal);
+  summary.declared_success = MakeProportion(reached + believed, counted, 0.95, method);
+  summary.true_success = MakeProportion(reached, counted, 0.95, method);
+  for (std::size_t i = 0; i < schema.size(); ++i) {
+    summary.columns.push_back(
+        SummarizeColumn(schema[i].name, schema[i].unit, ColumnValues(records, i)));
+  }
+  summary.columns.push_back(SummarizeColumn("path_ratio", "1", PathRatios(schema, records)));
+  return summary;
+}
+
+}  // namespace rockyard::statistics

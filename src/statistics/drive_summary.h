@@ -1,0 +1,62 @@
+// What a set of drive trials says, in numbers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "statistics/proportions.h"
+#include "truth/record.h"
+
+namespace rockyard::statistics {
+
+// One column over the trials that it covers. All NaN where no finite value exists.
+struct ColumnSummary {
+  std::string name;
+  std::string unit;
+  std::int64_t count = 0;  // finite values
+  double min = 0.0;
+  double p05 = 0.0;
+  double median = 0.0;
+  double mean = 0.0;
+  double mode = 0.0;  // half-sample mode
+  double p95 = 0.0;
+  double max = 0.0;
+  double std = 0.0;  // unbiased
+};
+
+ColumnSummary SummarizeColumn(std::string name, std::string unit, std::span<const double> values);
+
+struct DriveSummary {
+  std::int64_t planned = 0;
+  std::int64_t completed = 0;   // records given, faults included
+  std::int64_t faults = 0;      // simulator faults: in no rate and in no column
+  Proportion declared_success;  // goal_reached and false_goal
+  Proportion true_success;      // goal_reached
+  std::array<std::int64_t, truth::kTrialOutcomeNames.size()> outcomes{};
+  // Every column of the schema over all trials without a fault, in the schema's order, then
+  // "path_ratio": true distance over straight distance, declared successes only.
+  std::vector<ColumnSummary> columns;
+
+  std::int64_t outcome(truth::TrialOutcome kind) const {
+    return outcomes[static_cast<std::size_t>(kind)];
+  }
+  const ColumnSummary* Find(std::string_view name) const;  // nullptr where there is none
+};
+
+// Position of a column in the schema.
+std::optional<std::size_t> ColumnIndex(const truth::RecordSchema& schema, std::string_view name);
+
+// The finite values of one column over the trials without a fault, in trial order.
+std::vector<double> ColumnValues(std::span<const truth::Record> records, std::size_t column);
+
+// `records` must be the contiguous prefix of finished trials, never the order of completion:
+// failures run longer, so that completion order favours successes. `planned` 0: as many as given.
+DriveSummary Summarize(const truth::RecordSchema& schema, std::span<const truth::Record> records,
+                       std::int64_t planned = 0, IntervalMethod method = IntervalMethod::kWilson);
+
+}  // namespace rockyard::statistics

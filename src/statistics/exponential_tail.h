@@ -1,0 +1,34 @@
+// Is a distribution exponential beyond an offset that the data themselves supply?
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "statistics/kolmogorov.h"
+
+namespace rockyard::statistics {
+
+// Lilliefors' statistic for the exponential law (1969): largest distance between the empirical
+// distribution of the excesses over the k-th smallest value (k = skip + 1) and an exponential with
+// their mean. Offset and mean are both fitted. If values beyond the offset are exponential, the
+// excesses over an order statistic are again independent and exponential with the same mean, so the
+// null law depends on the number of excesses alone. `sorted` ascending. 0 with fewer than 3
+// excesses.
+double ExponentialStatistic(std::span<const double> sorted, std::size_t skip = 0);
+
+// Null law of the statistic by parametric bootstrap: `replicates` samples of `excesses` exponential
+// values, ascending. Philox, Purpose::kBootstrap, one substream per replicate.
+std::vector<double> ExponentialNullLaw(std::size_t excesses, std::size_t replicates,
+                                       std::uint64_t seed);
+
+// Share of the null law that reaches `statistic`, counting the statistic itself:
+// (1 + #) / (1 + replicates). Never 0; a valid p-value whatever the number of replicates.
+double BootstrapPValue(std::span<const double> ascending_null, double statistic);
+
+// Test that the values beyond the (skip + 1)-th smallest are exponential.
+TestResult ExponentialTailTest(std::span<const double> sample, std::uint64_t seed,
+                               std::size_t skip = 0, std::size_t replicates = 9999);
+
+}  // namespace rockyard::statistics

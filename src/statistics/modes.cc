@@ -1,0 +1,102 @@
+#include "statistics/modes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/check.h"
+#include "statistics/moments.h"
+#include "statistics/quantiles.h"
+
+namespace rockyard::statistics {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::span<const double> ShortestHalf(std::span<const double> sorted) {
+  const std::size_t half = (sorted.size() + 1) / 2;
+  std::size_t best = 0;
+  double best_width = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + half <= sorted.size(); ++i) {
+    const double width = sorted[i + half - 1] - sorted[i];
+    if (width < best_width) {
+      best_width = width;
+      best = i;
+    }
+  }
+  return sorted.subspan(best, half);
+}
+
+double InterquartileRange(std::span<const double> sorted) {
+  return Quantile(sorted, 0.75) - Quantile(sorted, 0.25);
+}
+
+// Position of the top of the parabola through three points one step apart, in steps from the
+// middle.
+double ParabolaTop(double left, double middle, double right) {
+  const double curvature = left - 2.0 * middle + right;
+  return curvature < 0.0 ? 0.5 * (left - right) / curvature : 0.0;
+}
+
+}  // namespace
+
+double HalfSampleMode(std::span<const double> sorted) {
+  if (sorted.empty()) return kNaN;
+  while (sorted.size() > 3) sorted = ShortestHalf(sorted);
+  if (sorted.size() == 1) return sorted[0];
+  if (sorted.size() == 2) return 0.5 * (sorted[0] + sorted[1]);
+  const double low = sorted[1] - sorted[0];
+  const double high = sorted[2] - sorted[1];
+  if (low == high) return sorted[1];
+  return low < high ? 0.5 * (sorted[0] + sorted[1]) : 0.5 * (sorted[1] + sorted[2]);
+}
+
+double HistogramMode(std::span<const double> sorted) {
+  if (sorted.empty()) return kNaN;
+  const double low = sorted.front();
+  const double range = sorted.back() - low;
+  if (!(range > 0.0)) return low;
+  const double n = static_cast<double>(sorted.size());
+  const double freedman_diaconis = 2.0 * InterquartileRange(sorted) / std::cbrt(n);
+  constexpr double kMaxBins = 1e5;  // keeps a sample with one far outlier affordable
+  const double bins = freedman_diaconis > 0.0
+                          ? std::clamp(std::ceil(range / freedman_diaconis), 1.0, kMaxBins)
+                          : std::ceil(std::log2(n)) + 1.0;
+  std::vector<std::size_t> counts(static_cast<std::size_t>(bins), 0);
+  for (const double x : sorted) {
+    const auto bin = static_cast<std::size_t>((x - low) / range * bins);
+    ++counts[std::min(bin, counts.size() - 1)];
+  }
+  const auto fullest = std::max_element(counts.begin(), counts.end()) - counts.begin();
+  return low + (static_cast<double>(fullest) + 0.5) * range / bins;
+}
+
+double KernelMode(std::span<const double> sorted) {
+  if (sorted.empty()) return kNaN;
+  const double low = sorted.front();
+  const double range = sorted.back() - low;
+  if (!(range > 0.0)) return low;
+  const double deviation = MomentsOf(sorted).standard_deviation();
+  const double robust = InterquartileRange(sorted) / 1.34;
+  const double spread = robust > 0.0 ? std::min(deviation, robust) : deviation;
+  const double bandwidth = 0.9 * spread * std::pow(static_cast<double>(sorted.size()), -0.2);
+  constexpr std::size_t kGrid = 256;
+  const double step = range / static_cast<double>(kGrid - 1);
+  std::vector<double> density(kGrid, 0.0);
+  for (std::size_t i = 0; i < kGrid; ++i) {
+    const double at = low + step * static_cast<double>(i);
+    for (const double x : sorted) {
+      const double z = (at - x) / bandwidth;
+      density[i] += std::exp(-0.5 * z * z);
+    }
+  }
+  const auto top =
+      static_cast<std::size_t>(std::max_element(density.begin(), density.end()) - density.begin());
+  const double shift = top == 0 || top + 1 == kGrid
+                           ? 0.0
+                           : ParabolaTop(density[top - 1], density[top], density[top + 1]);
+  return low + step * (static_cast<double>(top) + shift);
+}
+
+}  // namespace rockyard::statistics

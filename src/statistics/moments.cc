@@ -1,0 +1,74 @@
+#include "statistics/moments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/check.h"
+
+namespace rockyard::statistics {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+void Moments::Add(double value) {
+  if (!std::isfinite(value)) {
+    ++not_finite_;
+    return;
+  }
+  min_ = count_ == 0 ? value : std::min(min_, value);
+  max_ = count_ == 0 ? value : std::max(max_, value);
+  ++count_;
+  const double before = value - mean_;
+  mean_ += before / static_cast<double>(count_);
+  sum_of_squares_ += before * (value - mean_);
+}
+
+void Moments::Merge(const Moments& other) {
+  not_finite_ += other.not_finite_;
+  if (other.count_ == 0) return;
+  if (count_ == 0) {
+    const std::int64_t not_finite = not_finite_;
+    *this = other;
+    not_finite_ = not_finite;
+    return;
+  }
+  const double here = static_cast<double>(count_);
+  const double there = static_cast<double>(other.count_);
+  const double difference = other.mean_ - mean_;
+  mean_ += difference * there / (here + there);
+  sum_of_squares_ +=
+      other.sum_of_squares_ + difference * difference * here * there / (here + there);
+  count_ += other.count_;
+  min_ = std::min(min_, other.min_);
+  max_ = std::max(max_, other.max_);
+}
+
+double Moments::mean() const { return count_ == 0 ? kNaN : mean_; }
+double Moments::variance() const {
+  return count_ < 2 ? kNaN : sum_of_squares_ / static_cast<double>(count_ - 1);
+}
+double Moments::standard_deviation() const { return std::sqrt(variance()); }
+double Moments::min() const { return count_ == 0 ? kNaN : min_; }
+double Moments::max() const { return count_ == 0 ? kNaN : max_; }
+
+Moments MomentsOf(std::span<const double> values) {
+  Moments moments;
+  for (const double value : values) moments.Add(value);
+  return moments;
+}
+
+double VarianceGrowthSlope(std::span<const double> distance, std::span<const double> variance) {
+  EXPECT(distance.size() == variance.size());
+  double product = 0.0;
+  double square = 0.0;
+  for (std::size_t i = 0; i < distance.size(); ++i) {
+    product += distance[i] * variance[i];
+    square += distance[i] * distance[i];
+  }
+  return square > 0.0 ? product / square : kNaN;
+}
+
+}  // namespace rockyard::statistics

@@ -1,0 +1,42 @@
+// Moments that can be accumulated in parts and merged, and the growth of a variance.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace rockyard::statistics {
+
+// Count, mean, variance, extremes of a stream of values in one pass (Welford 1962), mergeable
+// (Chan, Golub and LeVeque 1983). Values that are not finite are counted apart and otherwise left
+// out. Merging in a fixed order gives the same bits whatever the threads did.
+class Moments {
+ public:
+  void Add(double value);
+  void Merge(const Moments& other);
+
+  std::int64_t count() const { return count_; }
+  std::int64_t not_finite() const { return not_finite_; }
+  double mean() const;                // NaN when empty
+  double variance() const;            // unbiased; NaN below two values
+  double standard_deviation() const;  // root of the unbiased variance
+  double min() const;                 // NaN when empty
+  double max() const;                 // NaN when empty
+
+ private:
+  std::int64_t count_ = 0;
+  std::int64_t not_finite_ = 0;
+  double mean_ = 0.0;
+  double sum_of_squares_ = 0.0;  // of the deviations from the mean
+  double min_ = 0.0;
+  double max_ = 0.0;
+};
+
+Moments MomentsOf(std::span<const double> values);
+
+// Least-squares slope through the origin of a variance against distance (Matthies 1995, sec. 5,
+// fig. 5): sum(L v) / sum(L^2), in the variance's unit per unit of distance. The points of one set
+// of runs are correlated, so the plain standard error of a regression does not hold: bootstrap over
+// runs. NaN when no distance differs from zero.
+double VarianceGrowthSlope(std::span<const double> distance, std::span<const double> variance);
+
+}  // namespace rockyard::statistics

@@ -1,0 +1,18 @@
+// Holm's step-down procedure (Holm 1979): keeps the chance of any false rejection in a family of
+// tests at or below alpha, whatever the dependence between them.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace rockyard::statistics {
+
+// Adjusted p-values, in the order given: reject where adjusted <= alpha.
+std::vector<double> HolmAdjust(std::span<const double> p_values);
+
+// The level at which test `index` is rejected by the procedure given the other p-values:
+// alpha / (m - r), r of the others being rejected before it. Power is computed at this level.
+double HolmLevel(std::span<const double> p_values, std::size_t index, double alpha);
+
+}  // namespace rockyard::statistics

@@ -1,0 +1,99 @@
+#include "statistics/predictive.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/check.h"
+#include "core/distributions.h"
+#include "statistics/quantiles.h"
+
+namespace rockyard::statistics {
+namespace {
+
+// Mean distance of the outer values beyond the threshold that sets them apart; sign +1: upper end.
+double MeanExcess(std::span<const double> ascending, double sign) {
+  constexpr std::size_t kFewest = 10;
+  const std::size_t n = ascending.size();
+  const std::size_t outer = std::min(n - 1, std::max(kFewest, n / 10));
+  const double threshold = sign > 0.0 ? ascending[n - 1 - outer] : ascending[outer];
+  double sum = 0.0;
+  for (std::size_t i = 0; i < outer; ++i) {
+    const double value = sign > 0.0 ? ascending[n - 1 - i] : ascending[i];
+    sum += sign * (value - threshold);
+  }
+  return sum / static_cast<double>(outer);
+}
+
+std::size_t UniformIndex(core::RandomStream& stream, std::size_t size) {
+  return static_cast<std::size_t>(stream.Uniform() * static_cast<double>(size));
+}
+
+double ShareAtMost(std::span<const double> ascending, double value) {
+  const auto end = std::upper_bound(ascending.begin(), ascending.end(), value);
+  return (1.0 + static_cast<double>(end - ascending.begin())) /
+         (1.0 + static_cast<double>(ascending.size()));
+}
+
+double ShareAtLeast(std::span<const double> ascending, double value) {
+  const auto begin = std::lower_bound(ascending.begin(), ascending.end(), value);
+  return (1.0 + static_cast<double>(ascending.end() - begin)) /
+         (1.0 + static_cast<double>(ascending.size()));
+}
+
+}  // namespace
+
+PredictiveSampler::PredictiveSampler(std::span<const double> pool) : pool_(SortedFinite(pool)) {
+  EXPECT(pool_.size() >= 2);
+  lower_scale_ = MeanExcess(pool_, -1.0);
+  upper_scale_ = MeanExcess(pool_, 1.0);
+}
+
+double PredictiveSampler::InGap(core::RandomStream& stream, std::size_t gap) const {
+  const double u = stream.Uniform();
+  if (gap == 0) return pool_.front() + lower_scale_ * std::log(u);
+  if (gap == pool_.size()) return pool_.back() - upper_scale_ * std::log(u);
+  return pool_[gap - 1] + u * (pool_[gap] - pool_[gap - 1]);
+}
+
+void PredictiveSampler::Draw(core::RandomStream& stream, std::span<double> sample) const {
+  const std::size_t gaps = pool_.size() + 1;
+  std::vector<std::size_t> chosen(sample.size());
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    const std::size_t ball = UniformIndex(stream, gaps + i);
+    chosen[i] = ball < gaps ? ball : chosen[ball - gaps];
+    sample[i] = InGap(stream, chosen[i]);
+  }
+  std::sort(sample.begin(), sample.end());
+}
+
+std::vector<double> PredictiveStatistics(const PredictiveSampler& sampler, std::size_t n,
+                                         const SampleStatistic& statistic, std::size_t replicates,
+                                         core::TrialKey key) {
+  std::vector<double> statistics(replicates);
+  std::vector<double> sample(n);
+  for (std::size_t b = 0; b < replicates; ++b) {
+    core::RandomStream stream(key, core::Purpose::kBootstrap, static_cast<std::uint32_t>(b));
+    sampler.Draw(stream, sample);
+    statistics[b] = statistic(sample);
+  }
+  return statistics;
+}
+
+double PredictivePValue(std::span<const double> ascending, double value, double rounding) {
+  const double lower = ShareAtMost(ascending, value + 0.5 * rounding);
+  const double upper = ShareAtLeast(ascending, value - 0.5 * rounding);
+  return std::min(1.0, 2.0 * std::min(lower, upper));
+}
+
+double ShiftPower(std::span<const double> ascending, double shift, double level) {
+  double up = 0.0;
+  double down = 0.0;
+  const double n = static_cast<double>(ascending.size());
+  for (const double s : ascending) {
+    up += PredictivePValue(ascending, s + shift, 0.0) <= level ? 1.0 / n : 0.0;
+    down += PredictivePValue(ascending, s - shift, 0.0) <= level ? 1.0 / n : 0.0;
+  }
+  return std::min(up, down);
+}
+
+}  // namespace rockyard::statistics

@@ -1,0 +1,62 @@
+// New samples of a published size, as a simulated pool predicts them, the pool's own uncertainty
+// included, without assuming a distribution family.
+//
+// The N + 1 gaps between the ordered values of a pool of N have probabilities that are
+// Dirichlet(1, ..., 1) whatever the continuous law (spacings of uniform order statistics), so the
+// gaps that n further values of the same law fall into follow a Polya urn exactly (Hill 1968, A(n);
+// for gaps replaced by the values themselves this is Rubin's 1981 Bayesian bootstrap). Unlike plain
+// resampling it knows that a real run can fall beyond every simulated one: the smallest of n lies
+// below the pool with probability n / (N + n). Where a value lies inside its gap is the one
+// assumption: uniform between neighbours, exponential beyond the extremes with the mean excess of
+// the outer tenth of the pool (at least 10 values).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/random.h"
+#include "statistics/proportions.h"
+
+namespace rockyard::statistics {
+
+class PredictiveSampler {
+ public:
+  // Needs two finite values or more; others are left out.
+  explicit PredictiveSampler(std::span<const double> pool);
+
+  // n new values in ascending order, into `sample`. Cost: n log n.
+  void Draw(core::RandomStream& stream, std::span<double> sample) const;
+
+  std::span<const double> pool() const { return pool_; }
+
+ private:
+  double InGap(core::RandomStream& stream, std::size_t gap) const;
+
+  std::vector<double> pool_;  // ascending
+  double lower_scale_ = 0.0;  // mean excess beyond the lower end
+  double upper_scale_ = 0.0;
+};
+
+// A statistic of an ascending sample.
+using SampleStatistic = std::function<double(std::span<const double>)>;
+
+// Draws `replicates` samples of size n and returns the statistic of each, in order of replicates.
+// Randomness: Philox keyed by (seed, key, Purpose::kBootstrap, replicate).
+std::vector<double> PredictiveStatistics(const PredictiveSampler& sampler, std::size_t n,
+                                         const SampleStatistic& statistic, std::size_t replicates,
+                                         core::TrialKey key);
+
+// Two-sided p-value of a published value v that was rounded to a multiple of `rounding`: twice the
+// smaller share of replicates at or beyond it, the published set counted as one more replicate.
+// Values that would round to v count on both sides. `ascending` replicates.
+double PredictivePValue(std::span<const double> ascending, double value, double rounding);
+
+// Chance that a published sample from the pool's law shifted by +shift or by -shift, whichever is
+// harder to see, is rejected at `level` by the test above, for a statistic that moves with its
+// sample.
+double ShiftPower(std::span<const double> ascending, double shift, double level);
+
+}  // namespace rockyard::statistics

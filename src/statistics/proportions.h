@@ -1,0 +1,56 @@
+// Intervals for one proportion and exact tests for two.
+#pragma once
+
+#include <cstdint>
+
+namespace rockyard::statistics {
+
+struct Interval {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+enum class IntervalMethod {
+  kWilson,          // score interval (Wilson 1927): coverage near nominal on average
+  kClopperPearson,  // exact (Clopper and Pearson 1934): coverage at least nominal, always
+};
+
+// A rate with its interval. With no trials the rate is NaN and the interval [0, 1].
+struct Proportion {
+  std::int64_t count = 0;
+  std::int64_t trials = 0;
+  double rate = 0.0;
+  Interval interval;
+};
+
+// Two-sided interval of a binomial proportion. 0 <= count <= trials, 0 < confidence < 1.
+// For no success (or no failure) Clopper-Pearson's upper (lower) end is the exact form of the
+// "rule of three". Cost: constant.
+Interval ProportionInterval(std::int64_t count, std::int64_t trials, double confidence = 0.95,
+                            IntervalMethod method = IntervalMethod::kWilson);
+
+Proportion MakeProportion(std::int64_t count, std::int64_t trials, double confidence = 0.95,
+                          IntervalMethod method = IntervalMethod::kWilson);
+
+enum class Alternative { kTwoSided, kLess, kGreater };
+
+// A 2 x 2 table: rows are two groups, columns are success and failure.
+struct ContingencyTable {
+  std::int64_t success_1 = 0;
+  std::int64_t failure_1 = 0;
+  std::int64_t success_2 = 0;
+  std::int64_t failure_2 = 0;
+};
+
+// Fisher's exact test given all margins. kGreater: group 1 succeeds more often than group 2.
+// Two-sided: total probability of the tables that are no more probable than the one observed
+// (relative tolerance 1e-7). Cost: linear in the smallest margin.
+double FisherExactPValue(const ContingencyTable& table,
+                         Alternative alternative = Alternative::kTwoSided);
+
+// McNemar's exact test of paired runs (same seeds under two settings): the pairs in which only the
+// first, or only the second, succeeded; under the null each is a fair coin. Two-sided: twice the
+// smaller tail, at most 1.
+double McNemarExactPValue(std::int64_t only_first, std::int64_t only_second);
+
+}  // namespace rockyard::statistics

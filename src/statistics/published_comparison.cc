@@ -1,0 +1,119 @@
+#include "statistics/published_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/check.h"
+#include "statistics/compare_rows.h"
+#include "statistics/multiple_testing.h"
+
+namespace rockyard::statistics {
+namespace {
+
+const ScenarioRun* FindRun(std::span<const ScenarioRun> runs, const std::string& scenario) {
+  const auto found = std::find_if(runs.begin(), runs.end(),
+                                  [&](const ScenarioRun& run) { return run.scenario == scenario; });
+  return found == runs.end() ? nullptr : &*found;
+}
+
+Row CompareOne(const PublishedValue& published, std::span<const ScenarioRun> runs,
+               const ComparisonOptions& options) {
+  const ScenarioRun* run = FindRun(runs, published.scenario);
+  if (run == nullptr) return NotJudged(published, "no run of " + published.scenario);
+  switch (published.statistic) {
+    case StatisticKind::kOutcomeCount:
+      return CompareOutcomeCount(published, *run, options);
+    case StatisticKind::kFailureKinds:
+      return CompareFailureKinds(published, *run);
+    case StatisticKind::kNegativeCount:
+      return CompareNegativeCount(published, *run);
+    case StatisticKind::kMinimum:
+    case StatisticKind::kMaximum:
+    case StatisticKind::kMode:
+      return CompareSampleStatistic(published, *run, options);
+    case StatisticKind::kExponentialTail:
+      return CompareExponentialTail(published, *run, options);
+    case StatisticKind::kLowerBound:
+      return CompareLowerBound(published, *run, options);
+    case StatisticKind::kMedianOffset: {
+      const ScenarioRun* other = FindRun(runs, published.other_scenario);
+      if (other == nullptr) return NotJudged(published, "no run of " + published.other_scenario);
+      return CompareMedianOffset(published, *run, *other, options);
+    }
+  }
+  return NotJudged(published, "unknown statistic");
+}
+
+// Fills in what depends on the whole family.
+void Judge(std::vector<Row>& rows, double alpha) {
+  std::vector<Row*> family;
+  std::vector<double> p_values;
+  for (Row& row : rows) {
+    if (!row.power) continue;
+    family.push_back(&row);
+    p_values.push_back(row.value.p_value);
+  }
+  const std::vector<double> adjusted = HolmAdjust(p_values);
+  for (std::size_t i = 0; i < family.size(); ++i) {
+    ComparedValue& value = family[i]->value;
+    value.holm_p_value = adjusted[i];
+    value.level = HolmLevel(p_values, i, alpha);
+    value.power = family[i]->power(value.level);
+    value.verdict = adjusted[i] <= alpha            ? Verdict::kDiffers
+                    : value.power >= kRequiredPower ? Verdict::kAgrees
+                                                    : Verdict::kUnderpowered;
+  }
+}
+
+}  // namespace
+
+Row NotJudged(const PublishedValue& published, std::string remark) {
+  Row row;
+  row.value.published = published;
+  row.value.remark = std::move(remark);
+  return row;
+}
+
+const char* Name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kAgrees:
+      return "agrees";
+    case Verdict::kDiffers:
+      return "differs";
+    case Verdict::kUnderpowered:
+      return "underpowered";
+    case Verdict::kNotJudged:
+      break;
+  }
+  return "not judged";
+}
+
+ComparisonResult Compare(const PublishedReference& reference, std::span<const ScenarioRun> runs,
+                         const ComparisonOptions& options) {
+  EXPECT(options.replicates >= 100 && options.alpha > 0.0 && options.alpha < 1.0);
+  std::vector<Row> rows;
+  for (const PublishedValue& published : reference.values) {
+    rows.push_back(CompareOne(published, runs, options));
+  }
+  Judge(rows, options.alpha);
+  ComparisonResult result{.options = options, .family = 0, .values = {}};
+  for (Row& row : rows) {
+    if (row.power) ++result.family;
+    result.values.push_back(std::move(row.value));
+  }
+  return result;
+}
+
+int ExitCode(const ComparisonResult& result) {
+  constexpr int kAllAgree = 0;
+  constexpr int kSomethingDiffers = 1;
+  constexpr int kInconclusive = 4;
+  const auto has = [&](Verdict verdict) {
+    return std::any_of(result.values.begin(), result.values.end(),
+                       [&](const ComparedValue& value) { return value.verdict == verdict; });
+  };
+  if (has(Verdict::kDiffers)) return kSomethingDiffers;
+  return has(Verdict::kUnderpowered) || !has(Verdict::kAgrees) ? kInconclusive : kAllAgree;
+}
+
+}  // namespace rockyard::statistics

@@ -1,0 +1,115 @@
+// Simulated trials against published numbers: predictive intervals, p-values, verdicts.
+//
+// Null hypothesis of each row: the published runs and the simulated trials follow one law. Its
+// p-value is two-sided and contains the simulation's own uncertainty (counts.h, predictive.h).
+// Holm's procedure over all judged rows keeps the chance of any false `differs` at or below alpha.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "statistics/proportions.h"
+#include "statistics/published_values.h"
+#include "truth/record.h"
+
+namespace rockyard::statistics {
+
+// The alternatives that power is computed against, fixed before any run.
+// Counts: a rate 0.20 lower for success; 0.20 nearer to one half for any other count; for kinds of
+// failure, a share of the commonest simulated kind 0.20 lower, spread evenly over the other kinds.
+inline constexpr double kAlternativeRateShift = 0.20;
+// Minimum, maximum, mode: the published runs shifted by half a standard deviation of the simulated
+// trials, in the direction that is harder to see.
+inline constexpr double kAlternativeShiftDeviations = 0.5;
+// Below this power a value that is not rejected counts as untested.
+inline constexpr double kRequiredPower = 0.8;
+// Level at which a set of runs is called consistent with an exponential law.
+inline constexpr double kExponentialLevel = 0.05;
+
+// The contiguous prefix of finished trials of one scenario.
+struct ScenarioRun {
+  std::string scenario;
+  truth::RecordSchema schema;
+  std::span<const truth::Record> records;
+  // Distance to the goal at which the rover declares arrival; NaN: taken from the trials as the
+  // largest true final distance of a declared success.
+  double goal_tolerance_m = std::numeric_limits<double>::quiet_NaN();
+};
+
+struct ComparisonOptions {
+  std::uint64_t seed = 1;  // of the resampling alone
+  std::size_t replicates = 10000;
+  double alpha = 0.05;
+};
+
+enum class Verdict {
+  kAgrees,        // not rejected, and the alternative would have been with power 0.8 or more
+  kDiffers,       // rejected after Holm
+  kUnderpowered,  // not rejected, but the published runs are too few to tell
+  kNotJudged,     // no number to judge by, or no simulated trials
+};
+const char* Name(Verdict verdict);
+
+// The prediction for another statistic of the same published set, shown beside and not judged.
+struct SideStatistic {
+  std::string name;
+  double median = 0.0;
+  Interval interval;     // 95 %
+  double p_value = 0.0;  // of the published value read as this statistic, not adjusted; NaN: none
+};
+
+// Success counts if all runs of a set met one rock layout.
+struct OneLayout {
+  Interval p_value;  // equal ends when `measured`
+  bool measured =
+      false;  // from repeated trials on layouts; otherwise bounds over all possibilities
+};
+
+// One kind of failure among the published number of failures.
+struct KindPrediction {
+  std::string name;
+  std::int64_t published = 0;
+  std::int64_t simulated = 0;  // in the whole pool
+};
+
+struct ComparedValue {
+  PublishedValue published;
+  Verdict verdict = Verdict::kNotJudged;
+  std::int64_t pool = 0;  // simulated trials behind the prediction
+  double pool_value =
+      std::numeric_limits<double>::quiet_NaN();              // over the whole pool; rate for counts
+  double median = std::numeric_limits<double>::quiet_NaN();  // predictive, for the published size
+  Interval interval{std::numeric_limits<double>::quiet_NaN(),
+                    std::numeric_limits<double>::quiet_NaN()};  // predictive, 95 %
+  double p_value = std::numeric_limits<double>::quiet_NaN();
+  double holm_p_value = std::numeric_limits<double>::quiet_NaN();
+  double level = std::numeric_limits<double>::quiet_NaN();  // that Holm grants this row
+  double power = std::numeric_limits<double>::quiet_NaN();  // at that level
+  std::optional<OneLayout> one_layout;
+  std::vector<SideStatistic> beside;
+  std::vector<KindPrediction> kinds;
+  std::string remark;
+};
+
+struct ComparisonResult {
+  ComparisonOptions options;
+  std::size_t family = 0;             // rows in Holm's procedure
+  std::vector<ComparedValue> values;  // in the order of the reference
+};
+
+// Compares every value of the reference with the run of its scenario; values without a run are
+// kNotJudged. A pure function of its arguments. Cost: about replicates times published runs per
+// row, some seconds in all. A column named "layout" marks trials that share a rock layout.
+ComparisonResult Compare(const PublishedReference& reference, std::span<const ScenarioRun> runs,
+                         const ComparisonOptions& options = {});
+
+// 0: all judged rows agree; 1: something differs; 4: nothing differs, but something is
+// underpowered or nothing could be judged.
+int ExitCode(const ComparisonResult& result);
+
+}  // namespace rockyard::statistics

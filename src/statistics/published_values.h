@@ -1,0 +1,73 @@
+// Numbers that a publication gives, in the form in which simulated trials can be held against them.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "truth/record.h"
+
+namespace rockyard::statistics {
+
+// What a published number says about its set of runs.
+enum class StatisticKind {
+  kOutcomeCount,     // runs with one of `outcomes`
+  kFailureKinds,     // how the failures divide into `kinds` and all others, given their number
+  kNegativeCount,    // runs whose `column` is below zero
+  kMinimum,          // of `column`
+  kMaximum,          // of `column`
+  kMode,             // of `column`; the definition used is the half-sample mode
+  kExponentialTail,  // statement, no number: `column` looks exponential above its minimum
+  kLowerBound,       // of `column` over runs that arrive: `value` less the goal tolerance
+  kMedianOffset,     // statement, no number: `column` differs from `other_scenario`
+};
+
+// How independent a comparison is of the published data.
+enum class ValueRole {
+  kPrediction,   // nothing in the simulation was taken from the runs behind the number
+  kConditional,  // conditional on error magnitudes that the publication states as inputs
+  kCalibration,  // the simulation was calibrated with these runs or their siblings
+};
+
+// Failures of one kind and how many of the published ones were of it.
+struct FailureKind {
+  std::string name;
+  std::vector<truth::TrialOutcome> outcomes;
+  std::int64_t count = 0;
+};
+
+struct PublishedValue {
+  std::string id;        // unique, e.g. "nominal.distance.mode"
+  std::string what;      // for people
+  std::string place;     // in the publication
+  std::string scenario;  // whose trials it is compared with
+  StatisticKind statistic = StatisticKind::kOutcomeCount;
+  ValueRole role = ValueRole::kPrediction;
+  std::int64_t sample_size = 0;                             // published runs behind it
+  double value = std::numeric_limits<double>::quiet_NaN();  // NaN for statements
+  double rounding = 0.0;                                    // step of the last printed digit
+  std::string unit = "1";
+  std::string column;                         // of the trial records
+  std::vector<truth::TrialOutcome> outcomes;  // kOutcomeCount
+  std::vector<FailureKind> kinds;             // kFailureKinds
+  std::string other_scenario;                 // kMedianOffset
+  std::int64_t other_sample_size = 0;
+  std::string note;
+};
+
+// Something printed wrongly or two ways in the publication, and what is taken instead.
+struct Misprint {
+  std::string place;
+  std::string printed;
+  std::string used;
+};
+
+struct PublishedReference {
+  std::string title;
+  std::string citation;
+  std::vector<PublishedValue> values;
+  std::vector<Misprint> misprints;
+};
+
+}  // namespace rockyard::statistics

@@ -1,0 +1,50 @@
+#include "statistics/quantiles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/check.h"
+
+namespace rockyard::statistics {
+
+std::vector<double> SortedFinite(std::span<const double> values) {
+  std::vector<double> sorted;
+  sorted.reserve(values.size());
+  std::copy_if(values.begin(), values.end(), std::back_inserter(sorted),
+               [](double x) { return std::isfinite(x); });
+  std::sort(sorted.begin(), sorted.end());
+  return sorted;
+}
+
+double Quantile(std::span<const double> sorted, double probability) {
+  EXPECT(probability >= 0.0 && probability <= 1.0);
+  if (sorted.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const double position = probability * static_cast<double>(sorted.size() - 1);
+  const std::size_t below = static_cast<std::size_t>(position);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  const double weight = position - static_cast<double>(below);
+  return sorted[below] + weight * (sorted[above] - sorted[below]);
+}
+
+std::vector<EcdfPoint> Ecdf(std::span<const double> values, double confidence, BandMethod method) {
+  EXPECT(confidence > 0.0 && confidence < 1.0);
+  const std::vector<double> sorted = SortedFinite(values);
+  const double n = static_cast<double>(sorted.size());
+  const double half = std::sqrt(std::log(2.0 / (1.0 - confidence)) / (2.0 * n));
+  std::vector<EcdfPoint> points;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    if (i + 1 < sorted.size() && sorted[i + 1] == sorted[i]) continue;
+    const double fraction = static_cast<double>(i + 1) / n;
+    const Interval band =
+        method == BandMethod::kSimultaneous
+            ? Interval{std::max(0.0, fraction - half), std::min(1.0, fraction + half)}
+            : ProportionInterval(static_cast<std::int64_t>(i + 1),
+                                 static_cast<std::int64_t>(sorted.size()), confidence,
+                                 IntervalMethod::kClopperPearson);
+    points.push_back({sorted[i], fraction, band});
+  }
+  return points;
+}
+
+}  // namespace rockyard::statistics

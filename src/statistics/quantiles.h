@@ -1,0 +1,35 @@
+// Quantiles and empirical distribution functions.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "statistics/proportions.h"
+
+namespace rockyard::statistics {
+
+// The finite values in ascending order (NaN and infinities are left out).
+std::vector<double> SortedFinite(std::span<const double> values);
+
+// Quantile of type 7 (Hyndman and Fan 1996): linear between order statistics, the default of R and
+// NumPy. `sorted` ascending; 0 <= probability <= 1. NaN when empty.
+double Quantile(std::span<const double> sorted, double probability);
+
+enum class BandMethod {
+  kSimultaneous,  // Dvoretzky-Kiefer-Wolfowitz with Massart's constant (1990): the whole curve
+  kPointwise,     // Clopper-Pearson at each point on its own
+};
+
+// One step of an empirical distribution function: at and right of `value` the function is
+// `fraction`.
+struct EcdfPoint {
+  double value = 0.0;
+  double fraction = 0.0;
+  Interval band;
+};
+
+// Empirical distribution function of the finite values, one point per distinct value.
+std::vector<EcdfPoint> Ecdf(std::span<const double> values, double confidence = 0.95,
+                            BandMethod method = BandMethod::kSimultaneous);
+
+}  // namespace rockyard::statistics
