@@ -1,0 +1,163 @@
+// Every sampler against its distribution, and the same test against a slightly wrong distribution,
+// which it must reject.
+#include "core/distributions.h"
+
+#include <gtest/gtest.h>
+
+#include <boost/math/distributions/exponential.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/poisson.hpp>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include "core/statistical_checks.h"
+
+namespace rockyard::core {
+namespace {
+
+// Chance of a false alarm of each test if its seed were drawn anew. Seeds are fixed.
+constexpr double kAlpha = 1e-4;
+constexpr int kDraws = 100000;
+
+std::vector<double> Draw(const std::function<double(RandomStream&)>& sampler,
+                         std::uint32_t substream) {
+  RandomStream stream({20260101, 0}, Purpose::kTest, substream);
+  std::vector<double> sample(kDraws);
+  for (double& value : sample) value = sampler(stream);
+  return sample;
+}
+
+TEST(DistributionsTest, Uniform) {
+  const auto sample = Draw([](RandomStream& s) { return SampleUniform(s, -2.0, 3.0); }, 1);
+  EXPECT_GT(KolmogorovP(sample, [](double x) { return (x + 2.0) / 5.0; }), kAlpha);
+  // Negative control: a range 2 % wider.
+  EXPECT_LT(KolmogorovP(sample, [](double x) { return (x + 2.0) / 5.1; }), kAlpha);
+}
+
+TEST(DistributionsTest, Normal) {
+  const auto sample = Draw([](RandomStream& s) { return SampleNormal(s, 1.0, 2.0); }, 2);
+  const auto cdf_of = [](double mean, double deviation) {
+    return [distribution = boost::math::normal(mean, deviation)](double x) {
+      return boost::math::cdf(distribution, x);
+    };
+  };
+  EXPECT_GT(KolmogorovP(sample, cdf_of(1.0, 2.0)), kAlpha);
+  // Negative controls: 5 % wider, and shifted by 2 % of a standard deviation.
+  EXPECT_LT(KolmogorovP(sample, cdf_of(1.0, 2.1)), kAlpha);
+  EXPECT_LT(KolmogorovP(sample, cdf_of(1.04, 2.0)), kAlpha);
+}
+
+TEST(DistributionsTest, NormalTails) {
+  const auto sample = Draw([](RandomStream& s) { return SampleNormal(s, 0.0, 1.0); }, 3);
+  const boost::math::normal distribution;
+  std::vector<double> observed(8, 0.0);
+  std::vector<double> expected;
+  const std::vector<double> edges = {-3.0, -2.5, -2.0, 0.0, 2.0, 2.5, 3.0};
+  double below = 0.0;
+  for (const double edge : edges) {
+    expected.push_back(kDraws * (cdf(distribution, edge) - below));
+    below = cdf(distribution, edge);
+  }
+  expected.push_back(kDraws * (1.0 - below));
+  // Negative control: a scaled sum of six uniforms has thin tails.
+  std::vector<double> thin(8, 0.0);
+  const auto sum = Draw(
+      [](RandomStream& s) {
+        double total = -3.0;
+        for (int i = 0; i < 6; ++i) total += s.Uniform();
+        return std::numbers::sqrt2 * total;
+      },
+      4);
+  const auto bin = [&edges](double x) {
+    return static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), x) -
+                                    edges.begin());
+  };
+  for (const double x : sample) observed[bin(x)] += 1.0;
+  for (const double x : sum) thin[bin(x)] += 1.0;
+  EXPECT_GT(ChiSquareP(observed, expected), kAlpha);
+  EXPECT_LT(ChiSquareP(thin, expected), kAlpha);
+}
+
+TEST(DistributionsTest, Exponential) {
+  const auto sample = Draw([](RandomStream& s) { return SampleExponential(s, 0.4); }, 5);
+  const auto cdf_of = [](double mean) {
+    return [distribution = boost::math::exponential(1.0 / mean)](double x) {
+      return boost::math::cdf(distribution, x);
+    };
+  };
+  EXPECT_GT(KolmogorovP(sample, cdf_of(0.4)), kAlpha);
+  EXPECT_LT(KolmogorovP(sample, cdf_of(0.41)), kAlpha);
+}
+
+TEST(DistributionsTest, Bernoulli) {
+  for (const double probability : {0.01, 0.3, 0.94}) {
+    const auto sample = Draw(
+        [probability](RandomStream& s) { return SampleBernoulli(s, probability) ? 1.0 : 0.0; }, 6);
+    double successes = 0.0;
+    for (const double value : sample) successes += value;
+    const std::vector<double> observed = {successes, kDraws - successes};
+    const auto p_against = [&observed](double p) {
+      return ChiSquareP(observed, {kDraws * p, kDraws * (1.0 - p)});
+    };
+    EXPECT_GT(p_against(probability), kAlpha) << probability;
+    EXPECT_LT(p_against(probability + 0.01), kAlpha) << probability;
+  }
+  RandomStream stream({1, 1}, Purpose::kTest);
+  EXPECT_FALSE(SampleBernoulli(stream, 0.0));
+  EXPECT_TRUE(SampleBernoulli(stream, 1.0));
+}
+
+// p-value of counts against a Poisson law, in bins of at least 20 expected draws.
+double PoissonP(const std::vector<double>& counts, double mean) {
+  const boost::math::poisson distribution(mean);
+  const auto draws = static_cast<double>(counts.size());
+  std::vector<double> upper;  // last count of each bin but the last
+  std::vector<double> expected;
+  double below = 0.0;
+  for (double k = 0.0; draws * (1.0 - cdf(distribution, k)) >= 20.0; k += 1.0) {
+    const double up_to = cdf(distribution, k);
+    if (draws * (up_to - below) < 20.0) continue;
+    upper.push_back(k);
+    expected.push_back(draws * (up_to - below));
+    below = up_to;
+  }
+  expected.push_back(draws * (1.0 - below));
+  std::vector<double> observed(expected.size(), 0.0);
+  for (const double count : counts) {
+    const auto bin = std::lower_bound(upper.begin(), upper.end(), count) - upper.begin();
+    observed[static_cast<std::size_t>(bin)] += 1.0;
+  }
+  return ChiSquareP(observed, expected);
+}
+
+class PoissonTest : public testing::TestWithParam<double> {};
+
+TEST_P(PoissonTest, CountsFollowTheLaw) {
+  const double mean = GetParam();
+  auto counts =
+      Draw([mean](RandomStream& s) { return static_cast<double>(SamplePoisson(s, mean)); }, 7);
+  EXPECT_GT(PoissonP(counts, mean), kAlpha);
+  // Negative controls: a mean that is off by 3 % of a standard deviation and 1 %, and the rounded
+  // normal law of the same mean and variance.
+  EXPECT_LT(PoissonP(counts, mean * 1.01 + 0.03 * std::sqrt(mean)), kAlpha);
+  if (mean < 100.0) {
+    const auto rounded = Draw(
+        [mean](RandomStream& s) {
+          return std::max(0.0, std::round(SampleNormal(s, mean, std::sqrt(mean))));
+        },
+        8);
+    EXPECT_LT(PoissonP(rounded, mean), kAlpha);
+  }
+}
+
+// 200 is the largest mean inverted at once; above it, counts are sums.
+INSTANTIATE_TEST_SUITE_P(Means, PoissonTest, testing::Values(0.3, 5.0, 60.0, 200.0, 200.5, 1000.0));
+
+TEST(DistributionsTest, PoissonOfNothingIsNothing) {
+  RandomStream stream({1, 1}, Purpose::kTest);
+  EXPECT_EQ(SamplePoisson(stream, 0.0), 0);
+}
+
+}  // namespace
+}  // namespace rockyard::core

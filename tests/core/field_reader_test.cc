@@ -1,0 +1,186 @@
+#include "core/field_reader.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "core/archive.h"
+#include "core/json_text.h"
+#include "core/test_params.h"
+
+namespace rockyard::core {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+TestParams Read(std::string_view json) {
+  TestParams params;
+  ReadParams(ParseJson(json, "test"), params);
+  return params;
+}
+
+std::vector<Problem> ProblemsOf(std::string_view json) {
+  try {
+    Read(json);
+  } catch (const UserError& error) {
+    return error.problems();
+  }
+  return {};
+}
+
+TEST(FieldReaderTest, MissingKeysKeepDefaults) {
+  const TestParams params = Read("{}");
+  EXPECT_EQ(params.radius_m, 0.5);
+  EXPECT_EQ(params.inner.colour, Colour::kGreen);
+}
+
+TEST(FieldReaderTest, ReadsEveryKindOfField) {
+  const TestParams params = Read(R"({
+    "radius_m": 1, "heading_deg": 90, "count": 7.0, "enabled": false, "label": "x",
+    "weights": [], "axes_m": [1, 0.5, 0], "stripes": [4], "inner": {"colour": "blue"}})");
+  EXPECT_EQ(params.radius_m, 1.0);
+  EXPECT_EQ(params.heading_rad, math::DegToRad(90.0));
+  EXPECT_EQ(params.count, 7);
+  EXPECT_FALSE(params.enabled);
+  EXPECT_EQ(params.label, "x");
+  EXPECT_THAT(params.weights, IsEmpty());
+  EXPECT_THAT(params.axes_m, testing::ElementsAre(1.0, 0.5, 0.0));
+  EXPECT_THAT(params.stripes, testing::ElementsAre(4));
+  EXPECT_EQ(params.inner.colour, Colour::kBlue);
+}
+
+TEST(FieldReaderTest, BoundsAreInclusive) {
+  EXPECT_EQ(Read(R"({"radius_m": 0.01})").radius_m, 0.01);
+  EXPECT_EQ(Read(R"({"radius_m": 2})").radius_m, 2.0);
+}
+
+struct BadInput {
+  std::string_view label;
+  std::string_view json;
+  std::string_view path;
+  std::string_view reason;
+  std::string_view suggestion;
+};
+
+std::ostream& operator<<(std::ostream& out, const BadInput& input) { return out << input.label; }
+
+class BadInputTest : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadInputTest, NamesPathReasonAndSuggestion) {
+  const BadInput& bad = GetParam();
+  const std::vector<Problem> problems = ProblemsOf(bad.json);
+  ASSERT_THAT(problems, SizeIs(1));
+  EXPECT_EQ(problems[0].path, bad.path);
+  EXPECT_THAT(problems[0].reason, HasSubstr(bad.reason));
+  EXPECT_THAT(problems[0].suggestion, HasSubstr(bad.suggestion));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Inputs, BadInputTest,
+    testing::Values(
+        BadInput{"text_for_number", R"({"radius_m": "1"})", "radius_m",
+                 "is \"1\" (a text), not a number", "write a number"},
+        BadInput{"null", R"({"radius_m": null})", "radius_m", "is null, not a number", "number"},
+        BadInput{"list_for_number", R"({"radius_m": [1]})", "radius_m", "is a list, not a number",
+                 "number"},
+        BadInput{"below", R"({"radius_m": -1})", "radius_m",
+                 "is -1, below the smallest allowed value 0.01", "use a value from 0.01 to 2 m"},
+        BadInput{"above", R"({"inner": {"low_m": 10.5}})", "inner.low_m",
+                 "is 10.5, above the largest allowed value 10", "from 0 to 10 m"},
+        BadInput{"huge", R"({"radius_m": 1e308})", "radius_m", "is 1e+308, above",
+                 "from 0.01 to 2 m"},
+        BadInput{"degrees", R"({"heading_deg": 181})", "heading_deg",
+                 "above the largest allowed value 180", "from -180 to 180 deg"},
+        BadInput{"fraction", R"({"count": 1.5})", "count", "is 1.5 (a number), not an integer",
+                 "integer"},
+        BadInput{"huge_integer", R"({"count": 1e300})", "count", "is 1e+300, above",
+                 "from 0 to 1000"},
+        BadInput{"number_for_boolean", R"({"enabled": 1})", "enabled",
+                 "is 1 (an integer), not true or false", "true or false"},
+        BadInput{"number_for_text", R"({"label": 1})", "label", "is 1 (an integer), not a text",
+                 "a text"},
+        BadInput{"enum", R"({"inner": {"colour": "blu"}})", "inner.colour",
+                 "is \"blu\", which is not a known name",
+                 "did you mean \"blue\"? one of: red, green, blue"},
+        BadInput{"enum_type", R"({"inner": {"colour": 2}})", "inner.colour", "not a name",
+                 "a name"},
+        BadInput{"unknown_key", R"({"raduis_m": 1})", "raduis_m", "is not a known key",
+                 "did you mean \"radius_m\"? one of: radius_m, heading_deg"},
+        BadInput{"unknown_key_below", R"({"inner": {"color": "red"}})", "inner.color",
+                 "is not a known key", "did you mean \"colour\"? one of: low_m, high_m, colour"},
+        BadInput{"key_of_other_group", R"({"low_m": 1})", "low_m", "is not a known key",
+                 "one of: radius_m"},
+        BadInput{"list_element", R"({"weights": [1, "a"]})", "weights[1]",
+                 "is \"a\" (a text), not a number", "a number"},
+        BadInput{"list_element_bounds", R"({"stripes": [0, 5]})", "stripes[1]",
+                 "above the largest allowed value 4", "from 0 to 4"},
+        BadInput{"number_for_list", R"({"weights": 1})", "weights",
+                 "is 1 (an integer), not a list of numbers", "a list of numbers"},
+        BadInput{"list_length", R"({"axes_m": [1, 1]})", "axes_m", "has 2 elements, not 3",
+                 "write 3 numbers"},
+        BadInput{"group_type", R"({"inner": 3})", "inner", "is 3 (an integer), not an object",
+                 "an object"},
+        BadInput{"contradiction", R"({"inner": {"low_m": 3, "high_m": 2}})", "inner.high_m",
+                 "is below low_m", "use a larger high_m"},
+        BadInput{"contradicts_default", R"({"inner": {"low_m": 3}})", "inner.high_m",
+                 "is below low_m", "use a larger high_m"},
+        BadInput{"root", R"([1])", "(root)", "is a list, not an object", "an object"}),
+    [](const auto& tested) { return std::string(tested.param.label); });
+
+TEST(FieldReaderTest, ReportsEverythingAtOnce) {
+  const auto problems = ProblemsOf(
+      R"({"radius_m": -1, "count": "x", "typo": 1, "inner": {"colour": "pink", "more": 2}})");
+  std::vector<std::string> paths;
+  for (const Problem& problem : problems) paths.push_back(problem.path);
+  EXPECT_THAT(paths, testing::UnorderedElementsAre("radius_m", "count", "typo", "inner.colour",
+                                                   "inner.more"));
+}
+
+TEST(FieldReaderTest, ConditionsAreNotJudgedWhereAFieldCouldNotBeRead) {
+  // With the default high_m of 1 the condition would fail, but it is high_m that is wrong.
+  const auto problems = ProblemsOf(R"({"inner": {"low_m": 3, "high_m": "x"}})");
+  ASSERT_THAT(problems, SizeIs(1));
+  EXPECT_EQ(problems[0].path, "inner.high_m");
+  EXPECT_THAT(problems[0].reason, HasSubstr("not a number"));
+}
+
+TEST(FieldReaderTest, AFieldWithAProblemKeepsItsValue) {
+  TestParams params;
+  const JsonValue json = ParseJson(R"({"radius_m": 99, "weights": [1, -1], "count": 9})", "test");
+  EXPECT_THROW(ReadParams(json, params), UserError);
+  EXPECT_EQ(params.radius_m, 0.5);
+  EXPECT_THAT(params.weights, testing::ElementsAre(1.0, 2.5));
+  EXPECT_EQ(params.count, 9);
+}
+
+TEST(FieldReaderTest, LongListsAndTextsAreRefused) {
+  std::string list = "[0";
+  for (int i = 0; i < 1000; ++i) list += ",0";
+  const auto problems =
+      ProblemsOf("{\"weights\": " + list + "], \"label\": \"" + std::string(10001, 'a') + "\"}");
+  ASSERT_THAT(problems, SizeIs(2));
+  EXPECT_EQ(problems[0].path, "label");
+  EXPECT_EQ(problems[1].path, "weights");
+  EXPECT_THAT(problems[1].reason, HasSubstr("has 1001 elements"));
+}
+
+TEST(FieldReaderTest, TheListOfProblemsIsCut) {
+  std::string json = "{";
+  for (int i = 0; i < 5000; ++i) json += "\"unknown" + std::to_string(i) + "\": 0,";
+  json += "\"count\": 1}";
+  const auto problems = ProblemsOf(json);
+  ASSERT_THAT(problems, SizeIs(101));
+  EXPECT_EQ(problems.back().reason, "4900 more problems");
+}
+
+TEST(FieldReaderTest, LongKeysAreCutInMessages) {
+  const auto problems = ProblemsOf("{\"" + std::string(100000, 'k') + "\": 1}");
+  ASSERT_THAT(problems, SizeIs(1));
+  EXPECT_LT(problems[0].path.size(), 100u);
+}
+
+}  // namespace
+}  // namespace rockyard::core

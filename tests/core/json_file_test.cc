@@ -1,0 +1,121 @@
+#include "core/json_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#include "core/error.h"
+#include "core/json_text.h"
+
+namespace rockyard::core {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class JsonFileTest : public testing::Test {
+ protected:
+  JsonFileTest()
+      : folder_(fs::path(testing::TempDir()) /
+                ("json_file_" +
+                 std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
+    fs::create_directories(folder_ / "sub");
+  }
+  ~JsonFileTest() override { fs::remove_all(folder_); }
+
+  fs::path Write(const std::string& name, std::string_view text) const {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+
+  static Problem ProblemOf(const fs::path& path) {
+    try {
+      LoadJsonFile(path);
+    } catch (const UserError& error) {
+      return error.problems().front();
+    }
+    return {};
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(JsonFileTest, ExtendsIsRelativeToTheFileThatSaysIt) {
+  Write("base.json", R"({"a": {"x": 1, "y": 2}, "b": 1})");
+  Write("sub/middle.json", R"({"extends": "../base.json", "a": {"y": 3}})");
+  const fs::path top = Write("top.json", R"({"extends": "sub/middle.json", "b": 4})");
+  EXPECT_EQ(DumpJson(LoadJsonFile(top)),
+            DumpJson(ParseJson(R"({"a": {"x": 1, "y": 3}, "b": 4})", "test")));
+}
+
+TEST_F(JsonFileTest, CyclesAreErrorsThatNameTheFiles) {
+  Write("a.json", R"({"extends": "b.json"})");
+  const fs::path b = Write("b.json", R"({"extends": "sub/../a.json"})");
+  const Problem problem = ProblemOf(b);
+  EXPECT_EQ(problem.path, "extends");
+  EXPECT_THAT(problem.reason, HasSubstr("cycle: b.json -> a.json -> b.json"));
+  EXPECT_THAT(problem.suggestion, HasSubstr("remove"));
+  EXPECT_THAT(ProblemOf(Write("self.json", R"({"extends": "self.json"})")).reason,
+              HasSubstr("cycle: self.json -> self.json"));
+}
+
+TEST_F(JsonFileTest, LongChainsAreErrors) {
+  for (int i = 0; i < 20; ++i) {
+    Write(std::to_string(i) + ".json", "{\"extends\": \"" + std::to_string(i + 1) + ".json\"}");
+  }
+  EXPECT_THAT(ProblemOf(folder_ / "0.json").reason, HasSubstr("more than 16 files"));
+}
+
+TEST_F(JsonFileTest, MissingAndWrongFilesAreErrors) {
+  EXPECT_THAT(ProblemOf(folder_ / "none.json").reason, HasSubstr("does not exist"));
+  EXPECT_THAT(ProblemOf(folder_).reason, HasSubstr("not a regular file"));
+  const fs::path dangling = Write("a.json", R"({"extends": "none.json"})");
+  EXPECT_THAT(ProblemOf(dangling).path, HasSubstr("none.json"));
+  EXPECT_THAT(ProblemOf(Write("b.json", R"({"extends": 3})")).reason, HasSubstr("not a file name"));
+  EXPECT_THAT(ProblemOf(Write("empty.json", "")).reason, HasSubstr("line 1"));
+  EXPECT_THAT(ProblemOf(Write("large.json", std::string((4 << 20) + 1, ' '))).reason,
+              HasSubstr("more than the 4194304 allowed"));
+}
+
+TEST_F(JsonFileTest, ErrorsNameTheFileThatIsWrong) {
+  Write("broken.json", "{\"a\": }");
+  const fs::path top = Write("top.json", R"({"extends": "broken.json"})");
+  EXPECT_THAT(ProblemOf(top).path, HasSubstr("broken.json"));
+}
+
+JsonValue Overridden(std::string_view assignment) {
+  JsonValue document = ParseJson(R"({"a": {"b": 1}, "s": "t"})", "test");
+  ApplyOverride(document, assignment);
+  return document;
+}
+
+TEST(OverrideTest, ValuesAreJsonOrElseText) {
+  EXPECT_EQ(Overridden("a.b=2.5").Find("a")->Find("b")->number(), 2.5);
+  EXPECT_TRUE(Overridden("a.b=true").Find("a")->Find("b")->boolean());
+  EXPECT_EQ(Overridden("s=plain words").Find("s")->text(), "plain words");
+  EXPECT_EQ(Overridden("s=\"5\"").Find("s")->text(), "5");
+  EXPECT_EQ(Overridden("s=").Find("s")->text(), "");
+  EXPECT_EQ(Overridden("s=x=y").Find("s")->text(), "x=y");
+  EXPECT_EQ(Overridden("a.c=[1, 2]").Find("a")->Find("c")->list().size(), 2u);
+  EXPECT_EQ(Overridden("a.b=NaN").Find("a")->Find("b")->text(), "NaN");
+}
+
+TEST(OverrideTest, PathsMakeTheGroupsOnTheWay) {
+  EXPECT_EQ(Overridden("n.e.w=1").Find("n")->Find("e")->Find("w")->integer(), 1);
+}
+
+TEST(OverrideTest, BadAssignmentsAreErrors) {
+  for (const std::string_view assignment :
+       {"no_equals", "=1", "a..b=1", ".a=1", "a.=1", "a.b=[1", "a.b={\"x\"}", "s=\"open"}) {
+    EXPECT_THROW(Overridden(assignment), UserError) << assignment;
+  }
+  EXPECT_THROW(Overridden(std::string(100000, '.') + "=1"), UserError);
+  std::string deep = "a";
+  for (int i = 0; i < 1000; ++i) deep += ".a";
+  EXPECT_THROW(Overridden(deep + "=1"), UserError);
+}
+
+}  // namespace
+}  // namespace rockyard::core

@@ -1,0 +1,35 @@
+#include "core/units.h"
+
+#include <gtest/gtest.h>
+
+#include "math/angles.h"
+
+namespace rockyard::core {
+namespace {
+
+TEST(UnitsTest, SuffixesNameUnits) {
+  EXPECT_EQ(UnitOf("wheel_radius_m"), "m");
+  EXPECT_EQ(UnitOf("slope_deg"), "deg");
+  EXPECT_EQ(UnitOf("speed_m_s"), "m/s");
+  EXPECT_EQ(UnitOf("variance_deg2_per_m"), "deg2/m");
+  EXPECT_EQ(UnitOf("rocks_per_m2"), "1/m2");
+  EXPECT_EQ(UnitOf("stall_torque_Nm"), "Nm");
+  EXPECT_EQ(UnitOf("control_rate_hz"), "Hz");
+  EXPECT_EQ(UnitOf("error_percent"), "%");
+}
+
+TEST(UnitsTest, NamesWithoutUnitsHaveUnitOne) {
+  EXPECT_EQ(UnitOf("hurst_exponent"), "1");
+  EXPECT_EQ(UnitOf("m"), "1");  // a name is no suffix of itself
+  EXPECT_EQ(UnitOf(""), "1");
+  EXPECT_EQ(UnitOf("_"), "1");
+}
+
+TEST(UnitsTest, DegreesComeBackShortAndExact) {
+  for (const double degrees : {0.0, 0.1, 0.7, 5.0, -33.3, 60.0, 123.456, 359.99}) {
+    EXPECT_EQ(ExactDegrees(math::DegToRad(degrees)), degrees);
+  }
+}
+
+}  // namespace
+}  // namespace rockyard::core
