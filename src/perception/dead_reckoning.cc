@@ -1,0 +1,55 @@
+#include "perception/dead_reckoning.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rockyard::perception {
+
+DeadReckoning::DeadReckoning(const messages::DriveCalibration& calibration,
+                             const DeadReckoningParams& params, const math::Pose2& initial)
+    : calibration_(calibration), params_(params) {
+  Apply({initial.x_m, initial.y_m, initial.heading_rad});
+}
+
+double DeadReckoning::MeanWheelTurn(const messages::PerWheel<double>& turn_rad) const {
+  const bool all_steered = std::all_of(calibration_.steered.begin(), calibration_.steered.end(),
+                                       [](bool steered) { return steered; });
+  const bool every_wheel = params_.wheels == OdometryWheels::kAll || all_steered;
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t wheel = 0; wheel < messages::kWheelCount; ++wheel) {
+    if (!every_wheel && calibration_.steered[wheel]) continue;
+    sum += turn_rad[wheel];
+    ++count;
+  }
+  return sum / count;
+}
+
+void DeadReckoning::Integrate(const messages::MotionMeasurement& motion) {
+  const double forward_m =
+      MeanWheelTurn(motion.wheel_turn_rad) * calibration_.wheel_radius_m * params_.distance_scale;
+  const double along_rad =
+      estimate_.heading_rad +
+      (params_.step_heading == StepHeading::kMidpoint ? 0.5 * motion.turn_rad : 0.0);
+  estimate_.x_m += forward_m * std::cos(along_rad);
+  estimate_.y_m += forward_m * std::sin(along_rad);
+  estimate_.heading_rad = math::WrapAngle(estimate_.heading_rad + motion.turn_rad);
+  estimate_.distance_m += std::abs(forward_m);
+}
+
+void DeadReckoning::Apply(const messages::PoseUpdate& update) {
+  estimate_.x_m = update.x_m;
+  estimate_.y_m = update.y_m;
+  estimate_.heading_rad = math::WrapAngle(update.heading_rad);
+}
+
+void DeadReckoning::Follow(const messages::PoseUpdate& update) {
+  const double turn_rad = math::WrapAngle(update.heading_rad - estimate_.heading_rad);
+  const double along_rad = estimate_.heading_rad + 0.5 * turn_rad;
+  const double forward_m = (update.x_m - estimate_.x_m) * std::cos(along_rad) +
+                           (update.y_m - estimate_.y_m) * std::sin(along_rad);
+  Apply(update);
+  estimate_.distance_m += std::abs(forward_m);
+}
+
+}  // namespace rockyard::perception

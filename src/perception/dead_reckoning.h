@@ -1,0 +1,41 @@
+// Dead reckoning from wheel encoders and gyro (Matthies 1995, section 5):
+//   x += dr cos(h), y += dr sin(h), heading += dtheta
+// with dr the mean wheel increment times the believed wheel radius and the distance scale, dtheta
+// the integrated gyro rate, and h the heading at the middle or at the start of the step. When the
+// rover turns in place the increments of left and right wheels cancel in the mean.
+#pragma once
+
+#include "math/pose.h"
+#include "messages/calibration.h"
+#include "messages/estimates.h"
+#include "messages/measurements.h"
+#include "perception/dead_reckoning_params.h"
+
+namespace rockyard::perception {
+
+class DeadReckoning {
+ public:
+  DeadReckoning(const messages::DriveCalibration& calibration, const DeadReckoningParams& params,
+                const math::Pose2& initial);
+
+  // Adds one on-board tick. Headings stay within [-pi, pi].
+  void Integrate(const messages::MotionMeasurement& motion);
+
+  // An absolute correction from outside (lander update, arena reflection). The odometer keeps.
+  void Apply(const messages::PoseUpdate& update);
+
+  // Replaces one tick's Integrate by an outside measurement of the pose: the odometer grows by the
+  // displacement along the mean heading. For localization by an oracle.
+  void Follow(const messages::PoseUpdate& update);
+
+  const messages::PoseEstimate& estimate() const { return estimate_; }
+
+ private:
+  double MeanWheelTurn(const messages::PerWheel<double>& turn_rad) const;
+
+  messages::DriveCalibration calibration_;
+  DeadReckoningParams params_;
+  messages::PoseEstimate estimate_;
+};
+
+}  // namespace rockyard::perception

@@ -1,0 +1,56 @@
+// Parameters of dead reckoning.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "core/fields.h"
+
+namespace rockyard::perception {
+
+// Whose encoders give the distance.
+enum class OdometryWheels {
+  kAll,       // mean of all six; 1 to 4 % too long on arcs, where corner wheels run wider circles
+  kUnsteered  // mean of the wheels that are not steered: exact on arcs
+};
+
+// The heading along which a step's distance is laid off.
+enum class StepHeading {
+  kMidpoint,  // half of the step's turn is added first
+  kStart,     // the heading at the start of the step, as in the equations of section 5
+};
+
+struct DeadReckoningParams {
+  double distance_scale = 1.0;
+  OdometryWheels wheels = OdometryWheels::kAll;
+  StepHeading step_heading = StepHeading::kMidpoint;
+
+  void Visit(core::FieldVisitor& v) {
+    using core::Origin;
+    v.Real("distance_scale", distance_scale,
+           {.doc = "distance driven over distance rolled by the wheels, calibrated for slip on "
+                   "level sand",
+            .min = 0.1,
+            .max = 2.0,
+            .origin = Origin::kCalibrated,
+            .source = "Matthies 1995 sec. 5, note 4; straight 7 m runs of the simulated rover on "
+                      "level sand"});
+    v.Choice("wheels", wheels,
+             {.doc = "wheels whose encoders give the distance", .origin = Origin::kAssumed});
+    v.Choice(
+        "step_heading", step_heading,
+        {.doc = "heading along which a step's distance is laid off", .origin = Origin::kAssumed});
+  }
+};
+
+}  // namespace rockyard::perception
+
+template <>
+struct rockyard::core::EnumNames<rockyard::perception::OdometryWheels> {
+  static constexpr std::array<std::string_view, 2> kNames{"all", "unsteered"};
+};
+
+template <>
+struct rockyard::core::EnumNames<rockyard::perception::StepHeading> {
+  static constexpr std::array<std::string_view, 2> kNames{"midpoint", "start"};
+};

@@ -1,0 +1,138 @@
+#include "perception/hazard_criteria.h"
+
+#include <cmath>
+
+namespace rockyard::perception {
+namespace {
+
+using messages::ElevationPoint;
+using messages::ElevationScan;
+using messages::kStripeRows;
+using messages::kStripes;
+
+struct Located {
+  double elevation_m = 0.0;
+  std::size_t stripe = 0;
+};
+
+using StripeFlags = std::array<bool, kStripes>;
+
+void ChargeFarther(const Located& a, const Located& b, StripeFlags& flags) {
+  const double distance_a = std::abs(a.elevation_m);
+  const double distance_b = std::abs(b.elevation_m);
+  if (distance_a >= distance_b) flags[a.stripe] = true;
+  if (distance_b >= distance_a) flags[b.stripe] = true;
+}
+
+void ChargeNeighbours(const Located& a, const Located& b, NeighbourBlame blame,
+                      StripeFlags& flags) {
+  switch (blame) {
+    case NeighbourBlame::kFartherFromDatum:
+      ChargeFarther(a, b, flags);
+      return;
+    case NeighbourBlame::kHigher:
+      flags[a.elevation_m > b.elevation_m ? a.stripe : b.stripe] = true;
+      return;
+    case NeighbourBlame::kBoth:
+      flags[a.stripe] = true;
+      flags[b.stripe] = true;
+      return;
+  }
+}
+
+void ChargeRange(const Located& low, const Located& high, RangeBlame blame, StripeFlags& flags) {
+  switch (blame) {
+    case RangeBlame::kFartherFromDatum:
+      ChargeFarther(low, high, flags);
+      return;
+    case RangeBlame::kExtremes:
+      flags[low.stripe] = true;
+      flags[high.stripe] = true;
+      return;
+    case RangeBlame::kAllStripes:
+      flags.fill(true);
+      return;
+  }
+}
+
+void FindMissing(const ElevationScan& scan, StripeFlags& flags) {
+  for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
+    flags[stripe] = !scan.points[0][stripe].detected || !scan.points[1][stripe].detected;
+  }
+}
+
+void FindNeighbours(const ElevationScan& scan, const HazardParams& params, StripeFlags& flags) {
+  // Half of the eight neighbours, so that each pair is met once.
+  struct Step {
+    std::size_t rows;
+    int stripes;
+  };
+  constexpr std::array<Step, 4> kSteps{{{0, 1}, {1, -1}, {1, 0}, {1, 1}}};
+  for (std::size_t row = 0; row < kStripeRows; ++row) {
+    for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
+      const ElevationPoint& a = scan.points[row][stripe];
+      if (!a.detected) continue;
+      for (const Step step : kSteps) {
+        // Wraps to a huge value left of stripe 0, which the bound excludes.
+        const std::size_t other = stripe + static_cast<std::size_t>(step.stripes);
+        if (row + step.rows >= kStripeRows || other >= kStripes) continue;
+        const ElevationPoint& b = scan.points[row + step.rows][other];
+        if (!b.detected) continue;
+        if (std::abs(a.elevation_m - b.elevation_m) <= params.neighbour_threshold_m) continue;
+        ChargeNeighbours({a.elevation_m, stripe}, {b.elevation_m, other}, params.neighbour_blame,
+                         flags);
+      }
+    }
+  }
+}
+
+void FindRange(const ElevationScan& scan, const HazardParams& params, StripeFlags& flags) {
+  bool any = false;
+  Located low;
+  Located high;
+  for (const auto& row : scan.points) {
+    for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
+      if (!row[stripe].detected) continue;
+      const Located point{row[stripe].elevation_m, stripe};
+      if (!any || point.elevation_m < low.elevation_m) low = point;
+      if (!any || point.elevation_m > high.elevation_m) high = point;
+      any = true;
+    }
+  }
+  if (!any || high.elevation_m - low.elevation_m <= params.range_threshold_m) return;
+  ChargeRange(low, high, params.range_blame, flags);
+}
+
+}  // namespace
+
+HazardFindings AssessHazards(const ElevationScan& scan, const HazardParams& params) {
+  HazardFindings findings;
+  FindMissing(scan, findings.missing);
+  FindNeighbours(scan, params, findings.neighbour);
+  FindRange(scan, params, findings.range);
+  return findings;
+}
+
+messages::HazardReport ReportHazards(const ElevationScan& scan, const HazardParams& params) {
+  const HazardFindings findings = AssessHazards(scan, params);
+  messages::HazardReport report;
+  report.scan_number = scan.number;
+  for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
+    report.stripe_hazard[stripe] = findings.Charges(stripe);
+  }
+  return report;
+}
+
+bool ScansAgree(const ElevationScan& a, const ElevationScan& b, double agree_m) {
+  for (std::size_t row = 0; row < kStripeRows; ++row) {
+    for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
+      const ElevationPoint& p = a.points[row][stripe];
+      const ElevationPoint& q = b.points[row][stripe];
+      if (p.detected != q.detected) return false;
+      if (p.detected && std::abs(p.elevation_m - q.elevation_m) > agree_m) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace rockyard::perception

@@ -1,0 +1,63 @@
+#include "perception/hazard_params.h"
+
+namespace rockyard::perception {
+
+using core::Origin;
+
+void HazardParams::Visit(core::FieldVisitor& v) {
+  constexpr std::string_view kSection6 = "Matthies 1995 sec. 6";
+  v.Boolean(
+      "enabled", enabled,
+      {.doc = "hazards are detected at all; false is a blind rover", .origin = Origin::kSetting});
+  v.Real("neighbour_threshold_m", neighbour_threshold_m,
+         {.doc = "elevation difference between 8-connected neighbours above which there is a "
+                 "hazard",
+          .min = 0.001,
+          .max = 10.0,
+          .origin = Origin::kPublished,
+          .source = kSection6});
+  v.Real("range_threshold_m", range_threshold_m,
+         {.doc = "difference between highest and lowest elevation of the whole array above which "
+                 "there is a hazard",
+          .min = 0.001,
+          .max = 10.0,
+          .origin = Origin::kAssumed,
+          .source = "Matthies 1995 sec. 6: another threshold, without a value",
+          .study_low = 0.06,
+          .study_high = 0.20});
+  v.Choice("neighbour_blame", neighbour_blame,
+           {.doc = "stripes charged with a neighbour difference", .origin = Origin::kAssumed});
+  v.Choice("range_blame", range_blame,
+           {.doc = "stripes charged with the range of the array", .origin = Origin::kAssumed});
+  v.Choice("agreement", agreement,
+           {.doc = "scans that have to agree before a hazard is believed",
+            .origin = Origin::kPublished,
+            .source = kSection6});
+  v.Real("agree_m", agree_m,
+         {.doc = "largest difference of an elevation between two scans that agree",
+          .min = 0.0,
+          .max = 10.0,
+          .origin = Origin::kAssumed,
+          .source = "Matthies 1995 sec. 6: a threshold, without a value",
+          .study_low = 0.01,
+          .study_high = 0.05});
+  v.Choice("on_disagreement", on_disagreement,
+           {.doc = "what follows when two scans disagree; in consecutive_moving, scan_again waits "
+                   "for the next scan on the way",
+            .origin = Origin::kAssumed});
+  v.Integer("max_scans", max_scans,
+            {.doc = "most scans at one pose",
+             .min = 2,
+             .max = 100,
+             .origin = Origin::kAssumed,
+             .study_low = 2,
+             .study_high = 10});
+  v.Choice(
+      "on_exhausted", on_exhausted,
+      {.doc = "what follows when max_scans scans have not agreed", .origin = Origin::kAssumed});
+  v.Require("on_exhausted", on_exhausted != Disagreement::kScanAgain,
+            "is scan_again, but the scans are used up",
+            "use trust_last, treat_as_hazard or treat_as_clear");
+}
+
+}  // namespace rockyard::perception

@@ -1,0 +1,38 @@
+// Parameters of the wheel encoders.
+#pragma once
+
+#include "core/fields.h"
+
+namespace rockyard::sensing {
+
+struct EncoderParams {
+  double distance_variance_m2_per_m = 0.0039;
+  double physics_variance_m2_per_m = 0.0;
+
+  // What the encoders add to the distance error that wheel slip already causes, m2/m.
+  double noise_variance_m2_per_m() const {
+    return distance_variance_m2_per_m - physics_variance_m2_per_m;
+  }
+
+  void Visit(core::FieldVisitor& v) {
+    using core::Origin;
+    v.Real("distance_variance_m2_per_m", distance_variance_m2_per_m,
+           {.doc = "growth of the dead-reckoned distance's variance on level, rock-free sand",
+            .min = 0.0,
+            .max = 1.0,
+            .origin = Origin::kPublished,
+            .source = "Matthies 1995 sec. 5"});
+    v.Real("physics_variance_m2_per_m", physics_variance_m2_per_m,
+           {.doc = "share of it that the simulated wheels already yield on level sand",
+            .min = 0.0,
+            .max = 1.0,
+            .origin = Origin::kCalibrated,
+            .source = "straight 7 m runs of the simulated rover on level sand"});
+    v.Require("physics_variance_m2_per_m", physics_variance_m2_per_m <= distance_variance_m2_per_m,
+              "is larger than distance_variance_m2_per_m, so that no encoder noise could bring the "
+              "sum to the published value",
+              "use a value up to distance_variance_m2_per_m");
+  }
+};
+
+}  // namespace rockyard::sensing

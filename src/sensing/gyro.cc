@@ -1,0 +1,26 @@
+#include "sensing/gyro.h"
+
+#include <cmath>
+
+#include "core/check.h"
+#include "core/distributions.h"
+
+namespace rockyard::sensing {
+
+double Gyro::Measure(double true_turn_rad, double duration_s, bool moving,
+                     std::int64_t step) const {
+  EXPECT(duration_s >= 0.0 && step >= 0);
+  const double turn_rad = params_.scale * true_turn_rad;
+  if (!moving && !params_.accumulates_at_rest) return turn_rad;
+  core::RandomStream stream(key_, core::Purpose::kGyro, static_cast<std::uint32_t>(step));
+  const double deviation = std::sqrt(params_.heading_variance_rad2_per_s() * duration_s);
+  return turn_rad + core::SampleNormal(stream, 0.0, deviation);
+}
+
+double TurnAboutOwnAxis(const math::Transform& X_WR_before, const math::Transform& X_WR_after) {
+  const Eigen::AngleAxisd turn(
+      Eigen::Matrix3d(X_WR_before.linear().transpose() * X_WR_after.linear()));
+  return turn.angle() * turn.axis().z();
+}
+
+}  // namespace rockyard::sensing

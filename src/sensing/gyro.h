@@ -1,0 +1,35 @@
+// The turn-rate gyro: integrated rate about the rover's own z axis over one on-board tick.
+//
+// measured = scale * true turn + noise + scrape jumps, with noise ~ N(0, q duration) while the
+// rover moves (and at rest if so chosen): a random walk of the heading in time. q follows from the
+// growth per metre on level sand at a known speed (Matthies 1995, section 5), so that a slower
+// rover drifts more per metre. The paper's straight runs measure q; the scale comes from its turns
+// (section 8).
+#pragma once
+
+#include <cstdint>
+
+#include "core/random.h"
+#include "math/pose.h"
+#include "sensing/gyro_params.h"
+
+namespace rockyard::sensing {
+
+class Gyro {
+ public:
+  Gyro(const GyroParams& params, core::TrialKey key) : params_(params), key_(key) {}
+
+  // Noisy turn of tick `step`, radians, positive left. The noise depends on the key, the step and
+  // the duration alone (stream kGyro, substream step).
+  double Measure(double true_turn_rad, double duration_s, bool moving, std::int64_t step) const;
+
+ private:
+  GyroParams params_;
+  core::TrialKey key_;
+};
+
+// Rotation about the rover's z axis between two poses a short tick apart: the z component of the
+// rotation vector. On level ground it is the change of heading.
+double TurnAboutOwnAxis(const math::Transform& X_WR_before, const math::Transform& X_WR_after);
+
+}  // namespace rockyard::sensing

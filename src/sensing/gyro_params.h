@@ -1,0 +1,128 @@
+// Parameters of the turn-rate gyro (Systron Donner QRS-11 on Rocky 3.2) and of what scraping
+// against rocks does to it.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "core/fields.h"
+#include "math/angles.h"
+
+namespace rockyard::sensing {
+
+// Which way the measured heading jumps when the rover scrapes a rock.
+enum class ScrapeSign {
+  kRandom,  // either way with equal chance, drawn per episode
+  kLeft,
+  kRight,
+};
+
+struct ScrapeParams {
+  bool enabled = true;
+  double jump_rad = math::DegToRad(5.0);
+  double jump_spread_rad = 0.0;
+  ScrapeSign sign = ScrapeSign::kRandom;
+  double min_force_N = 1.0;
+  double min_sliding_speed_m_s = 0.01;
+  double episode_gap_s = 1.0;
+  double episode_gap_m = 0.05;
+
+  void Visit(core::FieldVisitor& v) {
+    using core::Origin;
+    v.Boolean("enabled", enabled,
+              {.doc = "scraping a rock makes the measured heading jump",
+               .origin = Origin::kPublished,
+               .source = "Matthies 1995 sec. 5, 8"});
+    v.Angle("jump_deg", jump_rad,
+            {.doc = "size of the jump",
+             .min = 0.0,
+             .max = 90.0,
+             .origin = Origin::kPublished,
+             .source = "Matthies 1995 sec. 8: about 5 deg"});
+    v.Angle("jump_spread_deg", jump_spread_rad,
+            {.doc = "standard deviation of the jump's size",
+             .min = 0.0,
+             .max = 30.0,
+             .origin = Origin::kAssumed,
+             .study_low = 0.0,
+             .study_high = 2.5});
+    v.Choice("sign", sign,
+             {.doc = "which way the measured heading jumps", .origin = Origin::kAssumed});
+    v.Real("min_force_N", min_force_N,
+           {.doc = "normal force of body on rock from which a sliding contact counts as a scrape",
+            .min = 0.0,
+            .max = 1e3,
+            .origin = Origin::kAssumed,
+            .study_low = 0.1,
+            .study_high = 10.0});
+    v.Real("min_sliding_speed_m_s", min_sliding_speed_m_s,
+           {.doc = "sliding speed from which a contact counts as a scrape",
+            .min = 0.0,
+            .max = 1.0,
+            .origin = Origin::kAssumed,
+            .study_low = 0.002,
+            .study_high = 0.05});
+    v.Real("episode_gap_s", episode_gap_s,
+           {.doc = "time without scraping a rock before scraping it is a new episode",
+            .min = 0.0,
+            .max = 1e3,
+            .origin = Origin::kAssumed,
+            .study_low = 0.3,
+            .study_high = 5.0});
+    v.Real("episode_gap_m", episode_gap_m,
+           {.doc = "travel since the last scrape of a rock before scraping it is a new episode",
+            .min = 0.0,
+            .max = 10.0,
+            .origin = Origin::kAssumed,
+            .study_low = 0.02,
+            .study_high = 0.3});
+  }
+};
+
+struct GyroParams {
+  double scale = 0.94;
+  double heading_variance_deg2_per_m = 0.70;
+  double reference_speed_m_s = 0.15;
+  bool accumulates_at_rest = false;
+  ScrapeParams scrape;
+
+  // Growth of the heading's variance in time, rad2/s.
+  double heading_variance_rad2_per_s() const {
+    const double rad_per_deg = math::DegToRad(1.0);
+    return heading_variance_deg2_per_m * rad_per_deg * rad_per_deg * reference_speed_m_s;
+  }
+
+  void Visit(core::FieldVisitor& v) {
+    using core::Origin;
+    v.Real("scale", scale,
+           {.doc = "measured over true turn",
+            .min = 0.5,
+            .max = 1.5,
+            .origin = Origin::kPublished,
+            .source = "Matthies 1995 sec. 8: turns underestimated by about 6 %"});
+    v.Real("heading_variance_deg2_per_m", heading_variance_deg2_per_m,
+           {.doc = "growth of the measured heading's variance per metre at reference_speed_m_s, "
+                   "acting as a rate noise in time",
+            .min = 0.0,
+            .max = 1e4,
+            .origin = Origin::kPublished,
+            .source = "Matthies 1995 sec. 5"});
+    v.Real("reference_speed_m_s", reference_speed_m_s,
+           {.doc = "speed at which that growth was measured",
+            .min = 1e-4,
+            .max = 10.0,
+            .origin = Origin::kPublished,
+            .source = "Matthies 1995 sec. 5"});
+    v.Boolean(
+        "accumulates_at_rest", accumulates_at_rest,
+        {.doc = "the rate noise goes on while the rover stands still", .origin = Origin::kAssumed});
+    v.Group("scrape", scrape, "heading jumps when the rover's body scrapes a rock");
+  }
+};
+
+}  // namespace rockyard::sensing
+
+template <>
+struct rockyard::core::EnumNames<rockyard::sensing::ScrapeSign> {
+  static constexpr std::array<std::string_view, 3> kNames{"random", "left", "right"};
+};

@@ -1,0 +1,162 @@
+#include "sensing/light_stripe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/check.h"
+#include "core/distributions.h"
+
+namespace rockyard::sensing {
+namespace {
+
+using math::Vector3;
+using messages::kStripeRows;
+using messages::kStripes;
+
+// Surfaces this close to a point do not hide it: half the width of the beam (3 mrad at 0.3 m).
+constexpr double kOcclusionMargin_m = 0.0005;
+
+// Normal, in R, of the plane that a scanline sees.
+Vector3 ScanlineNormal(const messages::StripeCamera& camera, double row_angle_rad) {
+  return camera.X_RC.linear() * Vector3(std::sin(row_angle_rad), 0.0, std::cos(row_angle_rad));
+}
+
+}  // namespace
+
+LightStripe::LightStripe(const LightStripeParams& params)
+    : params_(params),
+      calibration_(TrueCalibration(params)),
+      last_column_(static_cast<int>(params.columns / 2)) {
+  Vector3 low = calibration_.cameras[0].X_RC.translation();
+  Vector3 high = low;
+  const auto include = [&](const Vector3& point) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  };
+  include(calibration_.cameras[1].X_RC.translation());
+  for (std::size_t row = 0; row < kStripeRows; ++row) {
+    for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
+      const Line line = MakeLine(row, stripe);
+      lines_[row][stripe] = line;
+      include(calibration_.lasers[stripe].p_RoE_R);
+      include(line.start_R);
+      include(line.start_R + line.length_m * line.direction_R);
+    }
+  }
+  reach_center_R_ = 0.5 * (low + high);
+  reach_radius_m_ = 0.5 * (high - low).norm();
+}
+
+LightStripe::Line LightStripe::MakeLine(std::size_t row, std::size_t stripe) const {
+  const messages::StripeLaser& laser = calibration_.lasers[stripe];
+  const messages::StripeCamera& camera = calibration_.cameras[laser.camera];
+  const Vector3 scanline = ScanlineNormal(camera, calibration_.row_angle_rad[row]);
+  Line line;
+  line.direction_R = scanline.cross(laser.normal_R).normalized();
+  if (line.direction_R.z() > 0.0) line.direction_R = -line.direction_R;
+  EXPECT(line.direction_R.z() < 0.0);
+
+  // From the emitter within the light plane, square to the line, to the scanline plane.
+  const Vector3 aside = laser.normal_R.cross(line.direction_R);
+  const double gap = scanline.dot(camera.X_RC.translation() - laser.p_RoE_R) / scanline.dot(aside);
+  line.start_R = laser.p_RoE_R + gap * aside;
+  constexpr double kOnAxis_m = 1e-9;
+  line.is_light_ray = std::abs(gap) < kOnAxis_m;
+
+  const auto at_elevation = [&](double elevation_m) {
+    const double drop = line.start_R.z() - params_.datum_z_m - elevation_m;
+    return std::max(0.0, drop / -line.direction_R.z());
+  };
+  line.length_m = at_elevation(params_.search_low_m);
+  const double nearest = at_elevation(params_.search_high_m);
+  const int a = ColumnOf(line.start_R + nearest * line.direction_R, camera);
+  const int b = ColumnOf(line.start_R + line.length_m * line.direction_R, camera);
+  line.searched.first = std::max(std::min(a, b), -last_column_);
+  line.searched.last = std::min(std::max(a, b), last_column_);
+  return line;
+}
+
+int LightStripe::ColumnOf(const Vector3& p_R, const messages::StripeCamera& camera) const {
+  const Vector3 p_C = camera.X_RC.linear().transpose() * (p_R - camera.X_RC.translation());
+  const double angle = std::atan2(-p_C.y(), std::hypot(p_C.x(), p_C.z()));
+  return static_cast<int>(std::lround(angle / camera.column_pitch_rad));
+}
+
+bool LightStripe::InFan(const Vector3& p_R, const messages::StripeLaser& laser) const {
+  const Vector3 ray = p_R - laser.p_RoE_R;
+  return laser.axis_R.dot(ray) >= std::cos(laser.half_fan_rad) * ray.norm();
+}
+
+messages::StripePixel LightStripe::Find(const terrain::Terrain& terrain,
+                                        const math::Transform& X_WR, const Line& line,
+                                        const messages::StripeLaser& laser,
+                                        std::span<const int> rocks) const {
+  const Vector3 start_W = X_WR * line.start_R;
+  const Vector3 direction_W = X_WR.linear() * line.direction_R;
+  const auto hit = terrain.CastRay(start_W, direction_W, line.length_m, rocks);
+  if (!hit) return {};
+
+  const messages::StripeCamera& camera = calibration_.cameras[laser.camera];
+  const Vector3 p_R = line.start_R + hit->distance_m * line.direction_R;
+  if ((p_R - camera.X_RC.translation()).norm() > params_.max_range_m) return {};
+  if (!InFan(p_R, laser)) return {};
+  const int column = ColumnOf(p_R, camera);
+  if (column < line.searched.first || column > line.searched.last) return {};
+
+  const auto hidden_from = [&](const Vector3& eye_R) {
+    return terrain.Occluded(X_WR * eye_R, hit->point_W, kOcclusionMargin_m, rocks);
+  };
+  if (!line.is_light_ray && hidden_from(laser.p_RoE_R)) return {};
+  if (hidden_from(camera.X_RC.translation())) return {};
+  return {.detected = true, .column_px = static_cast<double>(column)};
+}
+
+void LightStripe::Disturb(core::TrialKey key, messages::StripeScan& scan) const {
+  const auto substream = static_cast<std::uint32_t>(scan.number);
+  if (params_.missed_probability > 0.0) {
+    core::RandomStream missed(key, core::Purpose::kStripeMissed, substream);
+    for (auto& row : scan.pixels) {
+      for (messages::StripePixel& pixel : row) {
+        if (core::SampleBernoulli(missed, params_.missed_probability)) pixel = {};
+      }
+    }
+  }
+  if (params_.wrong_place_probability <= 0.0) return;
+  core::RandomStream wrong(key, core::Purpose::kStripeWrongPlace, substream);
+  messages::StripeArray<bool> misplaced;
+  for (auto& row : misplaced) {
+    for (bool& point : row) point = core::SampleBernoulli(wrong, params_.wrong_place_probability);
+  }
+  for (std::size_t row = 0; row < kStripeRows; ++row) {
+    for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
+      if (!misplaced[row][stripe]) continue;
+      const Columns range = params_.wrong_place == WrongPlace::kSearchedPart
+                                ? lines_[row][stripe].searched
+                                : Columns{-last_column_, last_column_};
+      const double column = std::floor(core::SampleUniform(wrong, range.first, range.last + 1.0));
+      scan.pixels[row][stripe] = {.detected = true, .column_px = column};
+    }
+  }
+}
+
+messages::StripeScan LightStripe::Scan(const terrain::Terrain& terrain, const math::Transform& X_WR,
+                                       core::TrialKey key, std::int64_t scan_number) const {
+  EXPECT(scan_number >= 0);
+  const Vector3 reach_W = X_WR * reach_center_R_;
+  std::vector<int> rocks;
+  terrain.RocksNear(reach_W.x(), reach_W.y(), reach_radius_m_, rocks);
+
+  messages::StripeScan scan;
+  scan.number = scan_number;
+  for (std::size_t row = 0; row < kStripeRows; ++row) {
+    for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
+      scan.pixels[row][stripe] =
+          Find(terrain, X_WR, lines_[row][stripe], calibration_.lasers[stripe], rocks);
+    }
+  }
+  Disturb(key, scan);
+  return scan;
+}
+
+}  // namespace rockyard::sensing

@@ -1,0 +1,83 @@
+// Light stripe sensor: which of its 20 points are found, and in which image column.
+//
+// Model (Matthies 1995, section 6, table 3). Row r of a camera sees the scanline plane that holds
+// the camera's lateral axis and lies row_angle[r] below its optical axis; angles grow in proportion
+// to pixels along both image axes. A stripe's point is the first surface along the line in which
+// scanline plane and light plane meet, starting at the emitter. It is found if
+//   - light reaches it: within the fan and unobstructed from the emitter (with emitters on the
+//     cameras' lateral axis, the layout of the defaults, the line itself is the light ray),
+//   - the camera sees it: unobstructed, within max_range and the field of view,
+//   - its column belongs to the searched part of the scanline: those of elevations between
+//     search_low and search_high.
+// The column is rounded to a whole pixel. Then each point is, independently, missed with
+// missed_probability, and replaced by a random column with wrong_place_probability (also where
+// nothing was visible).
+//
+// Deviations. A radially symmetric f-theta lens images these planes as slightly curved lines; the
+// README of this folder gives the size. A lens with distortion that is calibrated away behaves as
+// modelled. Beam width, partly lit pixels, stray light, and the rover's own wheels are left out; of
+// several lit points on one scanline only the one nearest to the emitter counts.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/random.h"
+#include "math/pose.h"
+#include "messages/calibration.h"
+#include "messages/measurements.h"
+#include "sensing/light_stripe_params.h"
+#include "terrain/terrain.h"
+
+namespace rockyard::sensing {
+
+class LightStripe {
+ public:
+  explicit LightStripe(const LightStripeParams& params);
+
+  // One scan with the rover at X_WR. Pure function of its arguments. Draws from the streams
+  // (kStripeMissed, scan_number) and (kStripeWrongPlace, scan_number), whatever the terrain holds:
+  // the same points are misplaced on every terrain. Cost: some microseconds; one surface query and
+  // one occlusion query per point against the rocks near the footprint.
+  messages::StripeScan Scan(const terrain::Terrain& terrain, const math::Transform& X_WR,
+                            core::TrialKey key, std::int64_t scan_number) const;
+
+  // Geometry of the true sensor.
+  const messages::StripeCalibration& calibration() const { return calibration_; }
+
+  // First and last column of the searched part of a point's scanline.
+  struct Columns {
+    int first = 0;
+    int last = -1;
+  };
+  Columns searched(std::size_t row, std::size_t stripe) const {
+    return lines_[row][stripe].searched;
+  }
+
+ private:
+  // Line in which a scanline plane meets a light plane, in R.
+  struct Line {
+    math::Vector3 start_R;
+    math::Vector3 direction_R;  // unit, away from the sensor
+    double length_m = 0.0;      // to the lowest searched elevation
+    bool is_light_ray = false;  // starts at the emitter
+    Columns searched;
+  };
+
+  Line MakeLine(std::size_t row, std::size_t stripe) const;
+  int ColumnOf(const math::Vector3& p_R, const messages::StripeCamera& camera) const;
+  bool InFan(const math::Vector3& p_R, const messages::StripeLaser& laser) const;
+  messages::StripePixel Find(const terrain::Terrain& terrain, const math::Transform& X_WR,
+                             const Line& line, const messages::StripeLaser& laser,
+                             std::span<const int> rocks) const;
+  void Disturb(core::TrialKey key, messages::StripeScan& scan) const;
+
+  LightStripeParams params_;
+  messages::StripeCalibration calibration_;
+  int last_column_ = 0;  // columns run from -last_column_ to last_column_
+  messages::StripeArray<Line> lines_;
+  math::Vector3 reach_center_R_ = math::Vector3::Zero();  // of a sphere around all lines and eyes
+  double reach_radius_m_ = 0.0;
+};
+
+}  // namespace rockyard::sensing

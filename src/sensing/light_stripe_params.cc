@@ -1,0 +1,357 @@
+#include "sensing/light_stripe_params.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rockyard::sensing {
+namespace {
+
+using core::Origin;
+using math::Vector3;
+using messages::kStripeRows;
+using messages::kStripes;
+
+constexpr std::string_view kTable3 = "Matthies 1995 table 3";
+constexpr std::string_view kSection6 = "Matthies 1995 sec. 6";
+constexpr std::string_view kFigure13 = "Matthies 1995 fig. 13 is lost; text of sec. 6";
+
+// Emitter to the point where its stripe meets the farthest row on the datum plane.
+struct StripeAim {
+  Vector3 emitter_R;
+  Vector3 far_point_R;
+};
+
+StripeAim AimOf(const LightStripeParams& p, std::size_t stripe) {
+  const std::array<double, kStripes> emitter_y{p.outer_emitter_y_m, p.inner_emitter_y_m, 0.0,
+                                               -p.inner_emitter_y_m, -p.outer_emitter_y_m};
+  const std::array<double, kStripes> stripe_y{p.outer_stripe_y_m, p.inner_stripe_y_m, 0.0,
+                                              -p.inner_stripe_y_m, -p.outer_stripe_y_m};
+  return {{p.emitter_x_m, emitter_y[stripe], p.emitter_height_m},
+          {p.front_x_m + p.row_ahead_m.back(), stripe_y[stripe], p.datum_z_m}};
+}
+
+// Point of a stripe on the datum plane at a distance ahead of the rover's front.
+Vector3 DatumPoint(const LightStripeParams& p, std::size_t stripe, double ahead_m) {
+  const StripeAim aim = AimOf(p, stripe);
+  const double x = p.front_x_m + ahead_m;
+  const double share = (x - aim.emitter_R.x()) / (aim.far_point_R.x() - aim.emitter_R.x());
+  const double y = aim.emitter_R.y() + share * (aim.far_point_R.y() - aim.emitter_R.y());
+  return {x, y, p.datum_z_m};
+}
+
+Vector3 CameraPosition(const LightStripeParams& p, int camera) {
+  const double side = camera == 0 ? 0.5 : -0.5;
+  return {p.camera_x_m, side * p.camera_separation_m, p.camera_height_m};
+}
+
+// The camera on the stripe's own side, which sees it from the smaller baseline; the left one for
+// the centre.
+int CameraOf(std::size_t stripe) { return stripe <= kStripes / 2 ? 0 : 1; }
+
+// Depression of the row's scanline plane below the optical axis, before rounding to an image row.
+double RowAngle(const LightStripeParams& p, std::size_t row) {
+  const double ahead = p.front_x_m + p.row_ahead_m[row] - p.camera_x_m;
+  return std::atan2(p.camera_height_m - p.datum_z_m, ahead) - p.camera_pitch_rad;
+}
+
+messages::StripeLaser LaserOf(const LightStripeParams& p, std::size_t stripe) {
+  const StripeAim aim = AimOf(p, stripe);
+  const Vector3 along = aim.far_point_R - aim.emitter_R;
+  const Vector3 near = DatumPoint(p, stripe, p.row_ahead_m.front()) - aim.emitter_R;
+  messages::StripeLaser laser;
+  laser.p_RoE_R = aim.emitter_R;
+  laser.normal_R = Vector3(-along.y(), along.x(), 0.0).normalized();
+  laser.axis_R = (near.normalized() + along.normalized()).normalized();
+  laser.half_fan_rad = 0.5 * p.fan_rad;
+  laser.camera = CameraOf(stripe);
+  return laser;
+}
+
+// Layouts for which "ahead" and "below" make sense; the other checks rely on it.
+bool IsLaidOut(const LightStripeParams& p) {
+  const double nearest = p.front_x_m + p.row_ahead_m.front();
+  return std::is_sorted(p.row_ahead_m.begin(), p.row_ahead_m.end()) &&
+         p.row_ahead_m.front() < p.row_ahead_m.back() && nearest > p.camera_x_m &&
+         nearest > p.emitter_x_m && p.camera_height_m > p.datum_z_m &&
+         p.emitter_height_m > p.datum_z_m;
+}
+
+template <typename Condition>
+bool HoldsForEveryPoint(const LightStripeParams& p, Condition condition) {
+  for (std::size_t row = 0; row < kStripeRows; ++row) {
+    for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
+      if (!condition(stripe, DatumPoint(p, stripe, p.row_ahead_m[row]))) return false;
+    }
+  }
+  return true;
+}
+
+bool RowsFitTheImage(const LightStripeParams& p) {
+  const double half = 0.5 * static_cast<double>(p.rows) * p.row_pitch_rad();
+  for (std::size_t row = 0; row < kStripeRows; ++row) {
+    if (std::abs(RowAngle(p, row)) > half) return false;
+  }
+  return true;
+}
+
+bool ColumnsFitTheImage(const LightStripeParams& p) {
+  const double half = 0.5 * static_cast<double>(p.columns) * p.column_pitch_rad();
+  return HoldsForEveryPoint(p, [&](std::size_t stripe, const Vector3& point) {
+    const Vector3 ray = point - CameraPosition(p, CameraOf(stripe));
+    return std::abs(std::atan2(ray.y(), std::hypot(ray.x(), ray.z()))) <= half;
+  });
+}
+
+bool PointsFitTheFans(const LightStripeParams& p) {
+  return HoldsForEveryPoint(p, [&](std::size_t stripe, const Vector3& point) {
+    const messages::StripeLaser laser = LaserOf(p, stripe);
+    const double cosine = laser.axis_R.dot((point - laser.p_RoE_R).normalized());
+    return cosine >= std::cos(laser.half_fan_rad);
+  });
+}
+
+bool PointsAreInRange(const LightStripeParams& p) {
+  return HoldsForEveryPoint(p, [&](std::size_t stripe, const Vector3& point) {
+    return (point - CameraPosition(p, CameraOf(stripe))).norm() <= p.max_range_m;
+  });
+}
+
+void VisitOptics(LightStripeParams& p, core::FieldVisitor& v) {
+  v.Integer("columns", p.columns,
+            {.doc = "image columns",
+             .min = 16,
+             .max = 16384,
+             .origin = Origin::kPublished,
+             .source = kTable3});
+  v.Integer("rows", p.rows,
+            {.doc = "image rows",
+             .min = 16,
+             .max = 16384,
+             .origin = Origin::kPublished,
+             .source = kTable3});
+  v.Real("active_width_m", p.active_width_m,
+         {.doc = "width of the imager's active area",
+          .min = 1e-4,
+          .max = 0.1,
+          .origin = Origin::kPublished,
+          .source = kTable3});
+  v.Real("active_height_m", p.active_height_m,
+         {.doc = "height of the imager's active area",
+          .min = 1e-4,
+          .max = 0.1,
+          .origin = Origin::kPublished,
+          .source = kTable3});
+  v.Real("focal_length_m", p.focal_length_m,
+         {.doc = "focal length of the f-theta lens: 4.8 mm on Rocky 3.2, 4 mm on MFEX",
+          .min = 5e-4,
+          .max = 0.1,
+          .origin = Origin::kPublished,
+          .source = kTable3});
+  v.Real("fan_rad", p.fan_rad,
+         {.doc = "full opening of each light fan",
+          .min = 0.05,
+          .max = 3.0,
+          .origin = Origin::kPublished,
+          .source = kTable3});
+}
+
+void VisitMounting(LightStripeParams& p, core::FieldVisitor& v) {
+  v.Real("camera_separation_m", p.camera_separation_m,
+         {.doc = "distance between the two cameras",
+          .min = 0.01,
+          .max = 1.0,
+          .origin = Origin::kPublished,
+          .source = kTable3});
+  v.Real("camera_x_m", p.camera_x_m,
+         {.doc = "cameras ahead of the chassis centre",
+          .min = -1.0,
+          .max = 2.0,
+          .origin = Origin::kAssumed,
+          .source = kFigure13,
+          .study_low = 0.22,
+          .study_high = 0.32});
+  v.Real("camera_height_m", p.camera_height_m,
+         {.doc = "cameras above the ground",
+          .min = 0.02,
+          .max = 2.0,
+          .origin = Origin::kAssumed,
+          .source = kFigure13,
+          .study_low = 0.20,
+          .study_high = 0.29});
+  v.Angle("camera_pitch_deg", p.camera_pitch_rad,
+          {.doc = "optical axes below the rover's horizontal",
+           .min = 0.0,
+           .max = 90.0,
+           .origin = Origin::kAssumed,
+           .source = kFigure13,
+           .study_low = 20.0,
+           .study_high = 60.0});
+  v.Real("emitter_x_m", p.emitter_x_m,
+         {.doc = "light emitters ahead of the chassis centre",
+          .min = -1.0,
+          .max = 2.0,
+          .origin = Origin::kAssumed,
+          .source = kFigure13,
+          .study_low = 0.22,
+          .study_high = 0.32});
+  v.Real("emitter_height_m", p.emitter_height_m,
+         {.doc = "light emitters above the ground",
+          .min = 0.02,
+          .max = 2.0,
+          .origin = Origin::kAssumed,
+          .source = kFigure13,
+          .study_low = 0.20,
+          .study_high = 0.29});
+  v.Real("inner_emitter_y_m", p.inner_emitter_y_m,
+         {.doc = "second and fourth emitter beside the centre line; baseline 5 cm to the camera "
+                 "of their side",
+          .min = 0.0,
+          .max = 1.0,
+          .origin = Origin::kAssumed,
+          .source = "Matthies 1995 table 3: camera-to-emitter baselines 5 to 10 cm",
+          .study_low = 0.11,
+          .study_high = 0.13});
+  v.Real("outer_emitter_y_m", p.outer_emitter_y_m,
+         {.doc = "first and fifth emitter beside the centre line; baseline 8 cm to the camera of "
+                 "their side",
+          .min = 0.0,
+          .max = 1.0,
+          .origin = Origin::kAssumed,
+          .source = "Matthies 1995 table 3: camera-to-emitter baselines 5 to 10 cm",
+          .study_low = 0.12,
+          .study_high = 0.16});
+}
+
+void VisitArray(LightStripeParams& p, core::FieldVisitor& v) {
+  v.Real("front_x_m", p.front_x_m,
+         {.doc = "front of the rover, from which row_ahead_m counts",
+          .min = 0.0,
+          .max = 2.0,
+          .origin = Origin::kPublished,
+          .source = "Matthies 1995 sec. 2.1.2: 65 cm long"});
+  v.Real("datum_z_m", p.datum_z_m,
+         {.doc = "height in the rover frame of the plane from which elevations count",
+          .min = -1.0,
+          .max = 1.0,
+          .origin = Origin::kAssumed,
+          .study_low = -0.02,
+          .study_high = 0.02});
+  v.FixedReals("row_ahead_m", p.row_ahead_m,
+               {.doc = "where the four scanlines meet flat ground, ahead of the rover's front; "
+                       "nearest first. The farthest is published, the others are assumed",
+                .min = -0.5,
+                .max = 5.0,
+                .origin = Origin::kAssumed,
+                .source = kFigure13});
+  v.Require("row_ahead_m", IsLaidOut(p),
+            "the rows do not rise from near to far, or cameras or emitters are not above the datum "
+            "plane and behind the nearest row",
+            "use rows 0.1, 0.1667, 0.2333, 0.3 and mount the sensor above and behind them");
+  v.Real("inner_stripe_y_m", p.inner_stripe_y_m,
+         {.doc = "second and fourth stripe beside the centre line at the farthest row",
+          .min = 0.0,
+          .max = 5.0,
+          .origin = Origin::kAssumed,
+          .source = kFigure13,
+          .study_low = 0.15,
+          .study_high = 0.22});
+  v.Real("outer_stripe_y_m", p.outer_stripe_y_m,
+         {.doc = "first and fifth stripe beside the centre line at the farthest row: 13 cm beyond "
+                 "the side of a rover 48 cm wide",
+          .min = 0.0,
+          .max = 5.0,
+          .origin = Origin::kPublished,
+          .source = kSection6});
+}
+
+void VisitDetection(LightStripeParams& p, core::FieldVisitor& v) {
+  v.Real("search_low_m", p.search_low_m,
+         {.doc = "lowest elevation whose column is searched for a stripe",
+          .min = -5.0,
+          .max = -0.01,
+          .origin = Origin::kAssumed,
+          .study_low = -0.5,
+          .study_high = -0.15});
+  v.Real("search_high_m", p.search_high_m,
+         {.doc = "highest elevation whose column is searched for a stripe",
+          .min = 0.01,
+          .max = 5.0,
+          .origin = Origin::kAssumed,
+          .study_low = 0.13,
+          .study_high = 0.22});
+  v.Require("search_high_m",
+            p.datum_z_m + p.search_high_m < std::min(p.emitter_height_m, p.camera_height_m),
+            "reaches the height of the cameras or emitters, where a scanline holds no point",
+            "use a value below camera_height_m and emitter_height_m, counted from datum_z_m");
+  v.Real("max_range_m", p.max_range_m,
+         {.doc = "largest distance from the camera at which a stripe is bright enough",
+          .min = 0.05,
+          .max = 10.0,
+          .origin = Origin::kAssumed,
+          .study_low = 0.7,
+          .study_high = 2.0});
+  v.Real("wrong_place_probability", p.wrong_place_probability,
+         {.doc = "chance that a point is detected in the wrong place of its scanline",
+          .min = 0.0,
+          .max = 1.0,
+          .origin = Origin::kPublished,
+          .source = kSection6});
+  v.Choice("wrong_place", p.wrong_place,
+           {.doc = "where such a point appears", .origin = Origin::kAssumed});
+  v.Real("missed_probability", p.missed_probability,
+         {.doc = "chance that a visible point is not detected",
+          .min = 0.0,
+          .max = 1.0,
+          .origin = Origin::kAssumed,
+          .source = kSection6,
+          .study_low = 0.0,
+          .study_high = 0.01});
+}
+
+void RequireVisibility(LightStripeParams& p, core::FieldVisitor& v) {
+  const bool laid_out = IsLaidOut(p);
+  v.Require("camera_pitch_deg", !laid_out || RowsFitTheImage(p),
+            "puts a scanline outside the image: the row lies too far from the optical axis",
+            "tilt the cameras towards the rows or use a shorter focal_length_m");
+  v.Require("outer_stripe_y_m", !laid_out || ColumnsFitTheImage(p),
+            "puts a point on flat ground beside the camera's field of view",
+            "move the stripes inwards or use a shorter focal_length_m");
+  v.Require("fan_rad", !laid_out || PointsFitTheFans(p),
+            "is too narrow to light the nearest and the farthest row",
+            "use a wider fan or bring the rows closer together");
+  v.Require("max_range_m", !laid_out || PointsAreInRange(p),
+            "is shorter than the distance to a point on flat ground", "use a larger max_range_m");
+}
+
+}  // namespace
+
+void LightStripeParams::Visit(core::FieldVisitor& v) {
+  VisitOptics(*this, v);
+  VisitMounting(*this, v);
+  VisitArray(*this, v);
+  VisitDetection(*this, v);
+  RequireVisibility(*this, v);
+}
+
+messages::StripeCalibration TrueCalibration(const LightStripeParams& params) {
+  messages::StripeCalibration calibration;
+  for (int i = 0; i < 2; ++i) {
+    messages::StripeCamera& camera = calibration.cameras[static_cast<std::size_t>(i)];
+    camera.X_RC.translation() = CameraPosition(params, i);
+    camera.X_RC.linear() =
+        Eigen::AngleAxisd(params.camera_pitch_rad, Vector3::UnitY()).toRotationMatrix();
+    camera.column_pitch_rad = params.column_pitch_rad();
+    camera.row_pitch_rad = params.row_pitch_rad();
+  }
+  for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
+    calibration.lasers[stripe] = LaserOf(params, stripe);
+  }
+  for (std::size_t row = 0; row < kStripeRows; ++row) {
+    const double pitch = params.row_pitch_rad();
+    calibration.row_angle_rad[row] = pitch * std::round(RowAngle(params, row) / pitch);
+  }
+  calibration.datum_z_m = params.datum_z_m;
+  return calibration;
+}
+
+}  // namespace rockyard::sensing

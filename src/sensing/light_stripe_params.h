@@ -1,0 +1,79 @@
+// Parameters of the light stripe hazard sensor of Matthies 1995, section 6, table 3 and figure 13.
+//
+// Figure 13 is lost; the text fixes the farthest central point, the outermost points, the optics,
+// the camera separation and the range of the baselines. The rest of the layout is assumed: cameras
+// and emitters share one lateral axis below the front edge of the solar panel, the fans are
+// vertical planes in R, and the four scanlines are placed by where they meet flat ground.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "core/fields.h"
+#include "math/angles.h"
+#include "messages/calibration.h"
+
+namespace rockyard::sensing {
+
+// Where a point that is detected in the wrong place appears.
+enum class WrongPlace {
+  kSearchedPart,   // any column that the search for this stripe covers, all equally likely
+  kWholeScanline,  // any column of the camera
+};
+
+struct LightStripeParams {
+  // Optics, table 3; Rocky 3.2 has the 4.8 mm lens.
+  std::int64_t columns = 768;
+  std::int64_t rows = 484;
+  double active_width_m = 0.0089;
+  double active_height_m = 0.0066;
+  double focal_length_m = 0.0048;
+  double fan_rad = 1.0;
+
+  // Where cameras and emitters sit, in R.
+  double camera_separation_m = 0.12;
+  double camera_x_m = 0.27;
+  double camera_height_m = 0.25;
+  double camera_pitch_rad = math::DegToRad(45.0);
+  double emitter_x_m = 0.27;
+  double emitter_height_m = 0.25;
+  double inner_emitter_y_m = 0.11;
+  double outer_emitter_y_m = 0.14;
+
+  // Where the array lands on flat ground.
+  double front_x_m = 0.325;
+  double datum_z_m = 0.0;
+  std::array<double, messages::kStripeRows> row_ahead_m{0.10, 0.1667, 0.2333, 0.30};
+  double inner_stripe_y_m = 0.185;
+  double outer_stripe_y_m = 0.37;
+
+  // Detection.
+  double search_low_m = -0.30;
+  double search_high_m = 0.20;
+  double max_range_m = 1.0;
+  double wrong_place_probability = 0.01;
+  WrongPlace wrong_place = WrongPlace::kSearchedPart;
+  double missed_probability = 0.0;
+
+  double column_pitch_rad() const {
+    return active_width_m / static_cast<double>(columns) / focal_length_m;
+  }
+  double row_pitch_rad() const {
+    return active_height_m / static_cast<double>(rows) / focal_length_m;
+  }
+
+  void Visit(core::FieldVisitor& v);
+};
+
+// What a perfectly calibrated rover knows of this sensor. The depression of each scanline is
+// rounded to a whole image row, so that the points of a row land within a few millimetres of
+// row_ahead_m.
+messages::StripeCalibration TrueCalibration(const LightStripeParams& params);
+
+}  // namespace rockyard::sensing
+
+template <>
+struct rockyard::core::EnumNames<rockyard::sensing::WrongPlace> {
+  static constexpr std::array<std::string_view, 2> kNames{"searched_part", "whole_scanline"};
+};
