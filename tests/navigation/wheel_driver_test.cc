@@ -1,0 +1,131 @@
+// The rover stands to steer far and steers a little while it drives.
+#include "navigation/wheel_driver.h"
+
+#include <gtest/gtest.h>
+
+#include "drive_geometry.h"
+
+namespace rockyard::navigation {
+namespace {
+
+constexpr double kTick_s = 0.02;
+
+// Largest steering angle of a motion: how far the wheels have to steer from straight.
+double SteerFromStraight(const messages::MotionCommand& motion) {
+  double largest_rad = 0.0;
+  for (const double steer_rad : SteadyWheelCommand(motion, SixWheels()).steer_rad) {
+    largest_rad = std::max(largest_rad, std::abs(steer_rad));
+  }
+  return largest_rad;
+}
+
+bool Stands(const messages::WheelCommand& command) {
+  return FastestRim(command, SixWheels()) == 0.0;
+}
+
+void ExpectEqual(const messages::WheelCommand& a, const messages::WheelCommand& b) {
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    EXPECT_EQ(a.rate_rad_s[i], b.rate_rad_s[i]);
+    EXPECT_EQ(a.steer_rad[i], b.steer_rad[i]);
+  }
+}
+
+// Ticks during which the driver stands before it drives the motion.
+int StandingTicks(WheelDriver& driver, const messages::MotionCommand& motion) {
+  for (int ticks = 0; ticks < 10000; ++ticks) {
+    if (!Stands(driver.Tick(motion, kTick_s))) return ticks;
+  }
+  ADD_FAILURE() << "never drives";
+  return 0;
+}
+
+TEST(WheelDriver, StandsForABigChangeUntilTheWheelsAreThere) {
+  const WheelDriverParams params;
+  for (const messages::MotionCommand& motion :
+       {TurnInPlace(1), TurnInPlace(-1), Arc(1.5), Arc(-1.5)}) {
+    const double change_rad = SteerFromStraight(motion);
+    ASSERT_GT(change_rad, params.steer_while_driving_rad);
+    WheelDriver driver(SixWheels(), params);
+    const int ticks = StandingTicks(driver, motion);
+    EXPECT_FALSE(driver.steering());
+    const double needed_ticks = change_rad / params.steer_rate_rad_s / kTick_s;
+    EXPECT_GE(ticks, needed_ticks - 1.0);
+    EXPECT_LE(ticks, needed_ticks + 2.0);
+    ExpectEqual(driver.Tick(motion, kTick_s), SteadyWheelCommand(motion, SixWheels()));
+  }
+}
+
+TEST(WheelDriver, SteersWhileItStands) {
+  WheelDriver driver(SixWheels(), {});
+  const messages::WheelCommand command = driver.Tick(TurnInPlace(1), kTick_s);
+  EXPECT_TRUE(driver.steering());
+  EXPECT_TRUE(Stands(command));
+  const messages::WheelCommand steady = SteadyWheelCommand(TurnInPlace(1), SixWheels());
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    EXPECT_EQ(command.steer_rad[i], steady.steer_rad[i]);
+  }
+}
+
+TEST(WheelDriver, NeverStandsForASmallChange) {
+  const WheelDriverParams params;
+  for (const double curvature_per_m : {0.0, 0.1, -0.1, 0.6, -0.6}) {
+    const messages::MotionCommand motion = Arc(curvature_per_m);
+    ASSERT_LT(SteerFromStraight(motion), params.steer_while_driving_rad);
+    WheelDriver driver(SixWheels(), params);
+    for (int i = 0; i < 50; ++i) {
+      ExpectEqual(driver.Tick(motion, kTick_s), SteadyWheelCommand(motion, SixWheels()));
+      EXPECT_FALSE(driver.steering());
+    }
+  }
+}
+
+TEST(WheelDriver, SmallChangesAddUpToABigOneWithoutStanding) {
+  WheelDriver driver(SixWheels(), {});
+  for (double curvature_per_m = 0.0; curvature_per_m < 2.0; curvature_per_m += 0.02) {
+    for (int i = 0; i < 10; ++i) {
+      EXPECT_FALSE(Stands(driver.Tick(Arc(curvature_per_m), kTick_s))) << curvature_per_m;
+    }
+  }
+  ASSERT_GT(SteerFromStraight(Arc(2.0)), 2.0 * WheelDriverParams{}.steer_while_driving_rad);
+}
+
+TEST(WheelDriver, StandsOnTheWayBackToo) {
+  WheelDriver driver(SixWheels(), {});
+  const int there = StandingTicks(driver, TurnInPlace(1));
+  const int back = StandingTicks(driver, Arc(0.0));
+  EXPECT_NEAR(there, back, 1);
+  EXPECT_GT(back, 0);
+}
+
+TEST(WheelDriver, ReversingATurnInPlaceNeedsNoSteering) {
+  WheelDriver driver(SixWheels(), {});
+  StandingTicks(driver, TurnInPlace(1));
+  EXPECT_EQ(StandingTicks(driver, TurnInPlace(-1)), 0);
+}
+
+TEST(WheelDriver, NewMotionWhileStandingCountsFromWhereTheWheelsAre) {
+  const WheelDriverParams params;
+  WheelDriver driver(SixWheels(), params);
+  // 0.1 s at 60 deg/s: 6 deg from straight, less than is steered while driving.
+  for (int i = 0; i < 5; ++i) EXPECT_TRUE(Stands(driver.Tick(TurnInPlace(1), kTick_s)));
+  const double back_ticks = 0.1 / kTick_s;
+  EXPECT_LE(StandingTicks(driver, Arc(0.0)), back_ticks + 1.0);
+}
+
+TEST(WheelDriver, StopRollsNoWheel) {
+  WheelDriver driver(SixWheels(), {});
+  StandingTicks(driver, TurnInPlace(1));
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(Stands(driver.Tick({}, kTick_s)));
+}
+
+TEST(WheelDriver, FasterSteeringMotorsStandShorter) {
+  WheelDriverParams fast;
+  fast.steer_rate_rad_s = 4.0 * WheelDriverParams{}.steer_rate_rad_s;
+  WheelDriver slow_driver(SixWheels(), {});
+  WheelDriver fast_driver(SixWheels(), fast);
+  EXPECT_GT(StandingTicks(slow_driver, TurnInPlace(1)),
+            2 * StandingTicks(fast_driver, TurnInPlace(1)));
+}
+
+}  // namespace
+}  // namespace rockyard::navigation
