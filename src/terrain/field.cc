@@ -1,0 +1,93 @@
+#include "terrain/field.h"
+
+#include <memory>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "terrain/arena.h"
+#include "terrain/rock_layout.h"
+#include "terrain/rock_size_law.h"
+
+namespace rockyard::terrain {
+namespace {
+
+void RequireCourseInArena(const ArenaParams& arena, const Course& course) {
+  if (arena.HoldsCoursePoint(course.start_x_m, course.start_y_m) &&
+      arena.HoldsCoursePoint(course.goal_x_m, course.goal_y_m)) {
+    return;
+  }
+  throw core::UserError("terrain.arena", "does not hold the start and the goal of the course",
+                        "use a larger arena, or a start and a goal inside it (between the mirror "
+                        "lines where it is virtual)");
+}
+
+// Mean share of a law's rocks that clear zones of radius r around start and goal remove from an
+// area A: a rock of diameter D is removed from within r + D/2, so the weight of D^power averages to
+// E[D^power] - 2 pi (r^2 E[D^power] + r E[D^(power+1)] + E[D^(power+2)] / 4) / A.
+double MeanPowerOutsideClearZones(const RockSizeLaw& law, double power, double radius_m,
+                                  double area_m2) {
+  const double removed = radius_m * radius_m * law.MeanPower(power) +
+                         radius_m * law.MeanPower(power + 1.0) + 0.25 * law.MeanPower(power + 2.0);
+  return law.MeanPower(power) - 2.0 * std::numbers::pi * removed / area_m2;
+}
+
+void AddExpectations(const TerrainParams& params, FieldAudit& audit) {
+  const std::unique_ptr<RockSizeLaw> law = MakeSizeLaw(params.rocks);
+  if (!law) return;
+  audit.expected_drawn = params.rocks.RocksPerM2() * audit.layout_area_m2;
+  double placed_share = 1.0;
+  double mean_square_m2 = law->MeanPower(2.0);
+  if (params.rocks.kind == RockFieldKind::kMoore) {
+    const double r = params.rocks.clear_radius_m;
+    placed_share = MeanPowerOutsideClearZones(*law, 0.0, r, audit.layout_area_m2);
+    mean_square_m2 = MeanPowerOutsideClearZones(*law, 2.0, r, audit.layout_area_m2);
+  }
+  audit.expected_placed = audit.expected_drawn * placed_share;
+  audit.expected_cover =
+      0.25 * std::numbers::pi * audit.expected_drawn * mean_square_m2 / audit.layout_area_m2;
+}
+
+FieldAudit AuditLayout(const TerrainParams& params, const RockLayout& layout) {
+  FieldAudit audit;
+  audit.layout_area_m2 = params.LayoutArea();
+  AddExpectations(params, audit);
+  audit.drawn = layout.drawn;
+  audit.dropped_in_clear_zones = layout.dropped_in_clear_zones;
+  audit.dropped_for_overlap = layout.dropped_for_overlap;
+  audit.relocated = layout.relocated;
+  audit.placed = static_cast<int>(layout.rocks.size());
+  for (const Rock& rock : layout.rocks) {
+    const double a_m = rock.semi_axes_m.x();
+    audit.disc_cover += std::numbers::pi * a_m * a_m / audit.layout_area_m2;
+    audit.outline_cover += std::numbers::pi * a_m * rock.semi_axes_m.y() / audit.layout_area_m2;
+    if (rock.height_m >= kDetectableHeight_m) audit.detectable_per_m2 += 1.0;
+    if (rock.height_m >= kBellyHeight_m) audit.belly_high_per_m2 += 1.0;
+  }
+  audit.detectable_per_m2 /= audit.layout_area_m2;
+  audit.belly_high_per_m2 /= audit.layout_area_m2;
+  return audit;
+}
+
+}  // namespace
+
+Field BuildField(const TerrainParams& params, core::TrialKey key, const Course& course) {
+  RequireCourseInArena(params.arena, course);
+  RockLayout layout = LayOutRocks(params, key, course);
+  FieldAudit audit = AuditLayout(params, layout);
+
+  std::vector<Rock> rocks = layout.rocks;
+  for (const Rock& rock : layout.rocks) {
+    for (const Rock& image : MirrorImages(params.arena, rock)) rocks.push_back(image);
+  }
+  audit.mirror_images = static_cast<int>(rocks.size() - layout.rocks.size());
+
+  Ground ground(params.ground, key);
+  for (Rock& rock : rocks) {
+    rock.center_W.z() += ground.Height(rock.center_W.x(), rock.center_W.y());
+  }
+  return {Terrain(std::move(ground), std::move(rocks), ArenaWalls(params.arena)), audit};
+}
+
+}  // namespace rockyard::terrain

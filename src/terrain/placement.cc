@@ -1,0 +1,68 @@
+#include "terrain/placement.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rockyard::terrain {
+namespace {
+
+constexpr double kCell_m = 0.5;
+
+bool Overlap(const Disc& a, const Disc& b) {
+  const double dx = a.x_m - b.x_m;
+  const double dy = a.y_m - b.y_m;
+  const double reach = a.radius_m + b.radius_m;
+  return dx * dx + dy * dy < reach * reach;
+}
+
+}  // namespace
+
+Placement::Placement(const Rectangle& layout, const Course& course, double clear_radius_m,
+                     std::optional<double> mirror_line_m)
+    : layout_(layout),
+      course_(course),
+      clear_radius_m_(clear_radius_m),
+      mirror_line_m_(mirror_line_m),
+      nx_(static_cast<int>((layout.x_max_m - layout.x_min_m) / kCell_m) + 1),
+      ny_(static_cast<int>((layout.y_max_m - layout.y_min_m) / kCell_m) + 1),
+      cells_(static_cast<std::size_t>(nx_) * ny_) {}
+
+bool Placement::ClearOfCourse(const Disc& disc) const {
+  return !Overlap(disc, {course_.start_x_m, course_.start_y_m, clear_radius_m_}) &&
+         !Overlap(disc, {course_.goal_x_m, course_.goal_y_m, clear_radius_m_});
+}
+
+// Discs beyond the layout go to its border cells, both when added and when asked for.
+Placement::Cells Placement::CellsOf(const Disc& disc) const {
+  const auto index = [](double offset_m, int cells) {
+    return std::clamp(static_cast<int>(std::floor(offset_m / kCell_m)), 0, cells - 1);
+  };
+  const double dx = disc.x_m - layout_.x_min_m;
+  const double dy = disc.y_m - layout_.y_min_m;
+  return {index(dx - disc.radius_m, nx_), index(dx + disc.radius_m, nx_),
+          index(dy - disc.radius_m, ny_), index(dy + disc.radius_m, ny_)};
+}
+
+bool Placement::Free(const Disc& disc) const {
+  if (mirror_line_m_ && std::abs(disc.y_m) + disc.radius_m > *mirror_line_m_) return false;
+  const Cells cells = CellsOf(disc);
+  for (int iy = cells.first_y; iy <= cells.last_y; ++iy) {
+    for (int ix = cells.first_x; ix <= cells.last_x; ++ix) {
+      for (const Disc& other : cells_[static_cast<std::size_t>(iy) * nx_ + ix]) {
+        if (Overlap(disc, other)) return false;
+      }
+    }
+  }
+  return true;
+}
+
+void Placement::Add(const Disc& disc) {
+  const Cells cells = CellsOf(disc);
+  for (int iy = cells.first_y; iy <= cells.last_y; ++iy) {
+    for (int ix = cells.first_x; ix <= cells.last_x; ++ix) {
+      cells_[static_cast<std::size_t>(iy) * nx_ + ix].push_back(disc);
+    }
+  }
+}
+
+}  // namespace rockyard::terrain

@@ -1,0 +1,48 @@
+// Where rocks may still go: clear zones, and what is already placed.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "terrain/arena.h"
+#include "terrain/course.h"
+
+namespace rockyard::terrain {
+
+// A rock's outline for the purpose of placement: the circle around its longest horizontal axis, so
+// that rocks which do not overlap here do not overlap at any yaw.
+struct Disc {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double radius_m = 0.0;
+};
+
+class Placement {
+ public:
+  // With a mirror line h, discs must keep to |y| <= h. Then none overlaps its own mirror image
+  // about y = +-h, and so no image of another one either.
+  Placement(const Rectangle& layout, const Course& course, double clear_radius_m,
+            std::optional<double> mirror_line_m);
+
+  // True where the disc reaches into no clear zone around start or goal.
+  bool ClearOfCourse(const Disc& disc) const;
+  // True where the disc overlaps neither a placed one nor any mirror image.
+  bool Free(const Disc& disc) const;
+  void Add(const Disc& disc);
+
+ private:
+  struct Cells {
+    int first_x, last_x, first_y, last_y;
+  };
+  Cells CellsOf(const Disc& disc) const;
+
+  Rectangle layout_;
+  Course course_;
+  double clear_radius_m_;
+  std::optional<double> mirror_line_m_;
+  int nx_;
+  int ny_;
+  std::vector<std::vector<Disc>> cells_;  // each disc in every cell that its bounding box meets
+};
+
+}  // namespace rockyard::terrain

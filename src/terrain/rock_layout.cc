@@ -1,0 +1,176 @@
+#include "terrain/rock_layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+
+#include "core/distributions.h"
+#include "terrain/arena.h"
+#include "terrain/placement.h"
+#include "terrain/rock_size_law.h"
+
+namespace rockyard::terrain {
+namespace {
+
+using core::Purpose;
+using core::RandomStream;
+
+// Attempts to place one rock before it is given up.
+constexpr int kMostAttempts = 1000;
+// Substream of the first rock outside the count area, so that the rocks inside keep their streams
+// when the count changes.
+constexpr std::uint32_t kFirstOutsideCount = 1u << 20;
+
+// A rock of the marked reference field; it belongs to every field with k > mark * k_reference.
+struct MarkedRock {
+  double mark;
+  std::uint32_t substream;
+};
+
+std::vector<MarkedRock> DrawMarkedField(const TerrainParams& params, core::TrialKey key) {
+  RandomStream counts(key, Purpose::kRockCount);
+  const auto reference_count = static_cast<std::uint32_t>(
+      core::SamplePoisson(counts, params.rocks.ReferenceRocksPerM2() * params.LayoutArea()));
+  const double kept_share = params.rocks.k_per_m2 / params.rocks.k_reference_per_m2;
+  std::vector<MarkedRock> kept;
+  for (std::uint32_t i = 0; i < reference_count; ++i) {
+    const double mark = RandomStream(key, Purpose::kRockMark, i).Uniform();
+    if (mark < kept_share) kept.push_back({mark, i});
+  }
+  std::sort(kept.begin(), kept.end(),
+            [](const MarkedRock& a, const MarkedRock& b) { return a.mark < b.mark; });
+  return kept;
+}
+
+// A rock at the origin with random size, shape and yaw.
+Rock DrawRock(const RockFieldParams& params, const RockSizeLaw& law, core::TrialKey key,
+              std::uint32_t substream) {
+  RandomStream size(key, Purpose::kRockSize, substream);
+  RandomStream shape(key, Purpose::kRockShape, substream);
+  Rock rock;
+  rock.diameter_m = law.Diameter(size.Uniform());
+  const double width_ratio =
+      core::SampleUniform(shape, params.min_width_ratio, params.max_width_ratio);
+  const double height_ratio =
+      core::SampleUniform(shape, params.min_height_ratio, params.max_height_ratio);
+  const double buried = core::SampleUniform(shape, params.burial_mean - params.burial_spread,
+                                            params.burial_mean + params.burial_spread);
+  // An ellipse looks the same after half a turn.
+  rock.yaw_rad = core::SampleUniform(shape, -0.5 * std::numbers::pi, 0.5 * std::numbers::pi);
+  const double a_m = 0.5 * rock.diameter_m;
+  rock.semi_axes_m = {a_m, a_m * width_ratio, a_m * height_ratio};
+  rock.height_m = 2.0 * rock.semi_axes_m.z() * (1.0 - buried);
+  rock.center_W.z() = rock.height_m - rock.semi_axes_m.z();
+  return rock;
+}
+
+class LayoutBuilder {
+ public:
+  LayoutBuilder(const TerrainParams& params, core::TrialKey key, const Course& course)
+      : params_(params.rocks),
+        key_(key),
+        law_(MakeSizeLaw(params.rocks)),
+        placement_(
+            LayoutBounds(params), course, params.rocks.clear_radius_m,
+            params.arena.IsVirtual() ? std::optional(params.arena.MirrorLine()) : std::nullopt) {}
+
+  // Places rock `substream` at random in `area`, outside `hole` if there is one. Where
+  // `drop_in_clear_zones`, a rock that is first drawn into a clear zone is dropped, which leaves
+  // the density elsewhere at the law's; otherwise it is placed elsewhere. False where it was
+  // dropped.
+  bool Place(std::uint32_t substream, const Rectangle& area, const Rectangle* hole,
+             bool drop_in_clear_zones) {
+    ++layout_.drawn;
+    Rock rock = DrawRock(params_, *law_, key_, substream);
+    RandomStream stream(key_, Purpose::kRockPlacement, substream);
+    for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+      const Disc disc = DrawPosition(stream, area, hole, 0.5 * rock.diameter_m);
+      if (!placement_.ClearOfCourse(disc)) {
+        if (!drop_in_clear_zones || attempt > 0) continue;
+        ++layout_.dropped_in_clear_zones;
+        return false;
+      }
+      if (params_.overlap != OverlapRule::kAllow && !placement_.Free(disc)) {
+        if (params_.overlap == OverlapRule::kReject) break;
+        continue;
+      }
+      if (attempt > 0) ++layout_.relocated;
+      placement_.Add(disc);
+      rock.center_W.head<2>() << disc.x_m, disc.y_m;
+      layout_.rocks.push_back(rock);
+      return true;
+    }
+    ++layout_.dropped_for_overlap;
+    return false;
+  }
+
+  RockLayout Take() { return std::move(layout_); }
+
+ private:
+  static Disc DrawPosition(RandomStream& stream, const Rectangle& area, const Rectangle* hole,
+                           double radius_m) {
+    Disc disc{0.0, 0.0, radius_m};
+    do {
+      disc.x_m = core::SampleUniform(stream, area.x_min_m, area.x_max_m);
+      disc.y_m = core::SampleUniform(stream, area.y_min_m, area.y_max_m);
+    } while (hole != nullptr && hole->Contains(disc.x_m, disc.y_m));
+    return disc;
+  }
+
+  RockFieldParams params_;
+  core::TrialKey key_;
+  std::unique_ptr<RockSizeLaw> law_;
+  Placement placement_;
+  RockLayout layout_;
+};
+
+RockLayout LayOutMoore(const TerrainParams& params, core::TrialKey key, const Course& course) {
+  LayoutBuilder builder(params, key, course);
+  const Rectangle area = LayoutBounds(params);
+  for (const MarkedRock& marked : DrawMarkedField(params, key)) {
+    builder.Place(marked.substream, area, nullptr, true);
+  }
+  return builder.Take();
+}
+
+// Exactly `count` rocks in the count area; the rest of the layout area, if any, is filled at the
+// same density, to the nearest whole rock.
+RockLayout LayOutExactCount(const TerrainParams& params, core::TrialKey key, const Course& course) {
+  LayoutBuilder builder(params, key, course);
+  const Rectangle inside = CountArea(params.rocks);
+  const Rectangle all = LayoutBounds(params);
+  const double outside_m2 = std::max(all.Area() - inside.Area(), 0.0);
+  const auto inside_count = static_cast<std::uint32_t>(params.rocks.count);
+  const auto outside_count =
+      static_cast<std::uint32_t>(std::lround(params.rocks.RocksPerM2() * outside_m2));
+  bool complete = true;
+  for (std::uint32_t i = 0; i < inside_count; ++i) {
+    complete = builder.Place(i, inside, nullptr, false) && complete;
+  }
+  for (std::uint32_t i = 0; i < outside_count; ++i) {
+    complete = builder.Place(kFirstOutsideCount + i, all, &inside, false) && complete;
+  }
+  if (!complete) {
+    throw std::runtime_error("no place without overlap for every rock of an exact count");
+  }
+  return builder.Take();
+}
+
+}  // namespace
+
+RockLayout LayOutRocks(const TerrainParams& params, core::TrialKey key, const Course& course) {
+  switch (params.rocks.kind) {
+    case RockFieldKind::kNone:
+      break;
+    case RockFieldKind::kMoore:
+      return LayOutMoore(params, key, course);
+    case RockFieldKind::kUniformCount:
+      return LayOutExactCount(params, key, course);
+  }
+  return {};
+}
+
+}  // namespace rockyard::terrain

@@ -1,0 +1,27 @@
+// The random layout of rocks on the layout area, before mirroring.
+#pragma once
+
+#include <vector>
+
+#include "core/random.h"
+#include "terrain/course.h"
+#include "terrain/rock.h"
+#include "terrain/terrain_params.h"
+
+namespace rockyard::terrain {
+
+struct RockLayout {
+  // Their centres' z is measured from the ground: the ground's own height is not added yet.
+  std::vector<Rock> rocks;
+  int drawn = 0;
+  int dropped_in_clear_zones = 0;
+  int dropped_for_overlap = 0;
+  int relocated = 0;
+};
+
+// Rocks in the order in which they were placed: by mark for moore, by number for uniform_count. A
+// rock's fate depends on earlier ones only, so that a field of smaller k is a prefix of one of
+// larger k under every overlap rule.
+RockLayout LayOutRocks(const TerrainParams& params, core::TrialKey key, const Course& course);
+
+}  // namespace rockyard::terrain

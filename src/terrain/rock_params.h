@@ -1,0 +1,80 @@
+// Parameters of a rock field: how many rocks, how large, where, of which shape.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/fields.h"
+
+namespace rockyard::terrain {
+
+// Exponent of Moore's law N(>=D) = k D^-2.66 per m2 (Matthies 1995 eq. 4, after Moore and Jakosky
+// 1989).
+inline constexpr double kMooreExponent = 2.66;
+
+// Number per m2 of rocks with diameters of at least diameter_m: Matthies 1995 eq. (4). k is the
+// number per m2 at 1 m (its unit is m^0.66). Zero for an infinite diameter.
+double MooreNumberPerM2(double k_per_m2, double diameter_m);
+
+enum class RockFieldKind {
+  kNone,
+  kMoore,         // Poisson counts, diameters from Moore's law between two explicit bounds
+  kUniformCount,  // an exact count, diameters uniform between two bounds
+};
+
+enum class OverlapRule {
+  kAllow,     // rocks may interpenetrate: the counts follow the law, the union covers less
+  kReject,    // a rock that overlaps an earlier one is left out: counts fall below the law
+  kRelocate,  // it is placed again: the counts follow the law, the positions repel each other
+};
+
+enum class RockMobility { kFixed, kMovable };
+
+struct RockFieldParams {
+  RockFieldKind kind = RockFieldKind::kMoore;
+
+  double k_per_m2 = 0.00415;
+  double k_reference_per_m2 = 0.02;
+  double min_diameter_m = 0.1;
+  double max_diameter_m = 1.0;
+
+  std::int64_t count = 5;
+  double uniform_min_diameter_m = 0.25;
+  double uniform_max_diameter_m = 0.35;
+  double count_area_x_m = -0.2;
+  double count_area_length_m = 8.0;
+  double count_area_width_m = 2.2;
+
+  double min_width_ratio = 0.7;
+  double max_width_ratio = 1.0;
+  double min_height_ratio = 0.8;
+  double max_height_ratio = 1.2;
+  double burial_mean = 1.0 / 3.0;
+  double burial_spread = 0.1;
+
+  OverlapRule overlap = OverlapRule::kRelocate;
+  double clear_radius_m = 0.5;
+  RockMobility mobility = RockMobility::kFixed;
+
+  // Expected number of rocks per m2 of the layout area, before clear zones and overlap.
+  double RocksPerM2() const;
+  // The same for the reference field that is thinned down to k; equal for exact counts.
+  double ReferenceRocksPerM2() const;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+}  // namespace rockyard::terrain
+
+template <>
+struct rockyard::core::EnumNames<rockyard::terrain::RockFieldKind> {
+  static constexpr std::array<std::string_view, 3> kNames{"none", "moore", "uniform_count"};
+};
+template <>
+struct rockyard::core::EnumNames<rockyard::terrain::OverlapRule> {
+  static constexpr std::array<std::string_view, 3> kNames{"allow", "reject", "relocate"};
+};
+template <>
+struct rockyard::core::EnumNames<rockyard::terrain::RockMobility> {
+  static constexpr std::array<std::string_view, 2> kNames{"fixed", "movable"};
+};

@@ -1,0 +1,58 @@
+// Distributions of rock diameters, with the closed forms that tests and audits compare with.
+#pragma once
+
+#include <memory>
+
+#include "terrain/rock_params.h"
+
+namespace rockyard::terrain {
+
+// Share of the ground that round rocks of Moore's law with diameters from low_m to high_m cover,
+// overlap not counted: the integral of (pi D^2 / 4) (-dN/dD), Matthies 1995 eq. (4). high_m may be
+// infinite; then k = 0.013 and 0.00415 from 0.1 m give the published 19 % and 6 %.
+double MooreCoveredFraction(double k_per_m2, double low_m, double high_m);
+
+// The distribution of one rock's diameter.
+class RockSizeLaw {
+ public:
+  virtual ~RockSizeLaw() = default;
+
+  // Inverse distribution function, m; 0 < probability < 1.
+  virtual double Diameter(double probability) const = 0;
+  // Share of rocks with diameters up to diameter_m.
+  virtual double Cdf(double diameter_m) const = 0;
+  // Mean of D^power over rocks, m^power.
+  virtual double MeanPower(double power) const = 0;
+};
+
+// Moore's law truncated to [min_m, max_m].
+class MooreSizeLaw : public RockSizeLaw {
+ public:
+  MooreSizeLaw(double min_m, double max_m);
+  double Diameter(double probability) const override;
+  double Cdf(double diameter_m) const override;
+  double MeanPower(double power) const override;
+
+ private:
+  double min_m_;
+  double max_m_;
+  double number_at_min_;  // of the law with k = 1, per m2
+  double number_at_max_;
+};
+
+class UniformSizeLaw : public RockSizeLaw {
+ public:
+  UniformSizeLaw(double min_m, double max_m);
+  double Diameter(double probability) const override;
+  double Cdf(double diameter_m) const override;
+  double MeanPower(double power) const override;
+
+ private:
+  double min_m_;
+  double max_m_;
+};
+
+// The law that the parameters name; kNone has none (nullptr).
+std::unique_ptr<RockSizeLaw> MakeSizeLaw(const RockFieldParams& params);
+
+}  // namespace rockyard::terrain

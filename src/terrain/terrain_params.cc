@@ -1,0 +1,67 @@
+#include "terrain/terrain_params.h"
+
+namespace rockyard::terrain {
+namespace {
+
+// Bounds on the work of one field: rocks kept, and rocks drawn before thinning.
+constexpr double kMostRocks = 50000.0;
+constexpr double kMostReferenceRocks = 1e6;
+
+bool CountAreaFits(const RockFieldParams& rocks, const ArenaParams& arena) {
+  const double width_m = arena.IsVirtual() ? 2.0 * arena.MirrorLine() : arena.width_m;
+  // A micrometre of tolerance, so that 4 - 2 x 0.9 holds 2.2 whatever the rounding.
+  constexpr double kTolerance_m = 1e-6;
+  return rocks.count_area_x_m >= arena.x_min_m - kTolerance_m &&
+         rocks.count_area_x_m + rocks.count_area_length_m <=
+             arena.x_min_m + arena.length_m + kTolerance_m &&
+         rocks.count_area_width_m <= width_m + kTolerance_m;
+}
+
+}  // namespace
+
+double TerrainParams::LayoutArea() const {
+  switch (arena.kind) {
+    case ArenaKind::kOpen:
+      return (arena.length_m + 2.0 * arena.open_margin_m) *
+             (arena.width_m + 2.0 * arena.open_margin_m);
+    case ArenaKind::kWalled:
+      return arena.length_m * arena.width_m;
+    case ArenaKind::kVirtualUnfolded:
+    case ArenaKind::kVirtualReflected:
+      break;
+  }
+  if (rocks.kind == RockFieldKind::kUniformCount) {
+    return rocks.count_area_length_m * rocks.count_area_width_m;
+  }
+  return arena.length_m * 2.0 * arena.MirrorLine();
+}
+
+double TerrainParams::ExpectedRocks() const {
+  double strips = 1.0;
+  if (arena.kind == ArenaKind::kVirtualUnfolded) {
+    strips += 2.0 * static_cast<double>(arena.unfolded_strips);
+  } else if (arena.kind == ArenaKind::kVirtualReflected) {
+    strips = arena.width_m / (2.0 * arena.MirrorLine());
+  }
+  return rocks.RocksPerM2() * LayoutArea() * strips;
+}
+
+void TerrainParams::Visit(core::FieldVisitor& v) {
+  v.Group("ground", ground, "the surface between the rocks");
+  v.Group("rocks", rocks, "sizes, counts, shapes and placement");
+  v.Group("arena", arena, "extent and edges");
+  v.Require("rocks.count_area_length_m",
+            rocks.kind != RockFieldKind::kUniformCount || CountAreaFits(rocks, arena),
+            "puts the count area outside the arena, or outside the strip between the mirror lines",
+            "keep count_area_x_m, count_area_length_m and count_area_width_m within the arena");
+  // Written so that what is no number fails too.
+  v.Require("rocks.min_diameter_m", ExpectedRocks() <= kMostRocks,
+            "asks for more than 50000 rocks with the present arena",
+            "use a larger min_diameter_m, a smaller k_per_m2 or a smaller arena");
+  v.Require(
+      "rocks.k_reference_per_m2", rocks.ReferenceRocksPerM2() * LayoutArea() <= kMostReferenceRocks,
+      "asks for more than a million rocks before thinning",
+      "use a k_reference_per_m2 nearer to k_per_m2, a larger min_diameter_m or a smaller arena");
+}
+
+}  // namespace rockyard::terrain
