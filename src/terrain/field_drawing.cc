@@ -1,0 +1,181 @@
+// The drawings of field_export.h: OBJ and SVG.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+#include "terrain/arena.h"
+#include "terrain/field_export.h"
+
+namespace rockyard::terrain {
+namespace {
+
+constexpr double kGroundGrid_m = 0.1;
+constexpr int kMeridians = 16;
+constexpr int kParallels = 8;  // intervals from pole to pole
+constexpr int kOctagon = 8;
+
+// A point of the ellipsoid from its unit sphere.
+math::Vector3 OnRock(const Rock& rock, const math::Vector3& unit) {
+  const math::Vector3 p = unit.cwiseProduct(rock.semi_axes_m);
+  const double c = std::cos(rock.yaw_rad);
+  const double s = std::sin(rock.yaw_rad);
+  return rock.center_W + math::Vector3(c * p.x() - s * p.y(), s * p.x() + c * p.y(), p.z());
+}
+
+// Writes vertices and faces and counts the vertices, which OBJ numbers from 1 over the whole file.
+class ObjWriter {
+ public:
+  void Group(std::string_view name) { Write("g {}\n", name); }
+  int Vertex(const math::Vector3& p) {
+    Write("v {:.6f} {:.6f} {:.6f}\n", p.x(), p.y(), p.z());
+    return ++vertices_;
+  }
+  void Quad(int a, int b, int c, int d) { Write("f {} {} {} {}\n", a, b, c, d); }
+  void Triangle(int a, int b, int c) { Write("f {} {} {}\n", a, b, c); }
+  std::string Take() { return std::move(text_); }
+
+ private:
+  template <typename... Args>
+  void Write(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
+  }
+
+  std::string text_ = "# rockyard terrain: x along the course, y left, z up, m\n";
+  int vertices_ = 0;
+};
+
+void WriteGround(const Ground& ground, const Rectangle& area, ObjWriter& obj) {
+  const auto cells = [&ground](double extent_m) {
+    return ground.IsPlane() ? 1 : std::max(1, static_cast<int>(extent_m / kGroundGrid_m));
+  };
+  const double width_m = area.x_max_m - area.x_min_m;
+  const double depth_m = area.y_max_m - area.y_min_m;
+  const int nx = cells(width_m);
+  const int ny = cells(depth_m);
+  obj.Group("ground");
+  int last = 0;
+  for (int iy = 0; iy <= ny; ++iy) {
+    for (int ix = 0; ix <= nx; ++ix) {
+      const double x_m = area.x_min_m + width_m * ix / nx;
+      const double y_m = area.y_min_m + depth_m * iy / ny;
+      last = obj.Vertex({x_m, y_m, ground.Height(x_m, y_m)});
+    }
+  }
+  const int first = last - (nx + 1) * (ny + 1) + 1;
+  for (int iy = 0; iy < ny; ++iy) {
+    for (int ix = 0; ix < nx; ++ix) {
+      const int corner = first + iy * (nx + 1) + ix;
+      obj.Quad(corner, corner + 1, corner + nx + 2, corner + nx + 1);
+    }
+  }
+}
+
+void WriteRock(const Rock& rock, int index, ObjWriter& obj) {
+  obj.Group(fmt::format("rock_{}", index));
+  const int bottom = obj.Vertex(OnRock(rock, -math::Vector3::UnitZ()));
+  for (int i = 1; i < kParallels; ++i) {
+    const double latitude = std::numbers::pi * (static_cast<double>(i) / kParallels - 0.5);
+    for (int j = 0; j < kMeridians; ++j) {
+      const double longitude = 2.0 * std::numbers::pi * j / kMeridians;
+      obj.Vertex(OnRock(rock, {std::cos(latitude) * std::cos(longitude),
+                               std::cos(latitude) * std::sin(longitude), std::sin(latitude)}));
+    }
+  }
+  const int top = obj.Vertex(OnRock(rock, math::Vector3::UnitZ()));
+  const auto ring = [bottom](int i, int j) { return bottom + 1 + i * kMeridians + j % kMeridians; };
+  for (int j = 0; j < kMeridians; ++j) {
+    obj.Triangle(bottom, ring(0, j + 1), ring(0, j));
+    for (int i = 0; i + 2 < kParallels; ++i) {
+      obj.Quad(ring(i, j), ring(i, j + 1), ring(i + 1, j + 1), ring(i + 1, j));
+    }
+    obj.Triangle(top, ring(kParallels - 2, j), ring(kParallels - 2, j + 1));
+  }
+}
+
+void DrawRectangle(const Rectangle& r, std::string_view style, std::string& svg) {
+  fmt::format_to(std::back_inserter(svg),
+                 "<rect x=\"{:.3f}\" y=\"{:.3f}\" width=\"{:.3f}\" height=\"{:.3f}\" {}/>\n",
+                 r.x_min_m, -r.y_max_m, r.x_max_m - r.x_min_m, r.y_max_m - r.y_min_m, style);
+}
+
+void DrawLine(double x1_m, double y1_m, double x2_m, double y2_m, std::string_view style,
+              std::string& svg) {
+  fmt::format_to(std::back_inserter(svg),
+                 "<line x1=\"{:.3f}\" y1=\"{:.3f}\" x2=\"{:.3f}\" y2=\"{:.3f}\" {}/>\n", x1_m,
+                 -y1_m, x2_m, -y2_m, style);
+}
+
+void DrawCross(double x_m, double y_m, std::string_view name, std::string& svg) {
+  constexpr double kArm_m = 0.12;
+  constexpr std::string_view kStyle = "stroke=\"#c22\" stroke-width=\"0.04\"";
+  fmt::format_to(std::back_inserter(svg), "<g><title>{}</title>\n", name);
+  DrawLine(x_m - kArm_m, y_m - kArm_m, x_m + kArm_m, y_m + kArm_m, kStyle, svg);
+  DrawLine(x_m - kArm_m, y_m + kArm_m, x_m + kArm_m, y_m - kArm_m, kStyle, svg);
+  svg += "</g>\n";
+}
+
+// Light for low rocks, dark from the height that reaches the undercarriage.
+int Grey(const Rock& rock) {
+  constexpr double kLight = 205.0;
+  constexpr double kDark = 70.0;
+  const double share = std::clamp(rock.height_m / kBellyHeight_m, 0.0, 1.0);
+  return static_cast<int>(std::lround(kLight + share * (kDark - kLight)));
+}
+
+void DrawRock(const Rock& rock, int index, std::string& svg) {
+  svg += "<polygon points=\"";
+  for (int i = 0; i < kOctagon; ++i) {
+    const double angle = 2.0 * std::numbers::pi * (i + 0.5) / kOctagon;
+    const math::Vector3 p = OnRock(rock, {std::cos(angle), std::sin(angle), 0.0});
+    fmt::format_to(std::back_inserter(svg), "{:.3f},{:.3f} ", p.x(), -p.y());
+  }
+  const int grey = Grey(rock);
+  fmt::format_to(
+      std::back_inserter(svg),
+      "\" fill=\"rgb({0},{0},{0})\"><title>rock {1}: diameter {2:.3f} m, height {3:.3f} m</title>"
+      "</polygon>\n",
+      grey, index, rock.diameter_m, rock.height_m);
+}
+
+}  // namespace
+
+std::string ToObj(const Field& field, const TerrainParams& params) {
+  ObjWriter obj;
+  WriteGround(field.terrain.ground(), DrivableBounds(params.arena), obj);
+  int index = 0;
+  for (const Rock& rock : field.terrain.rocks()) WriteRock(rock, index++, obj);
+  return obj.Take();
+}
+
+std::string ToSvg(const Field& field, const TerrainParams& params, const Course& course) {
+  constexpr double kBorder_m = 0.2;
+  constexpr double kPixelsPerMetre = 80.0;
+  const Rectangle all = DrivableBounds(params.arena);
+  const double width_m = all.x_max_m - all.x_min_m + 2.0 * kBorder_m;
+  const double height_m = all.y_max_m - all.y_min_m + 2.0 * kBorder_m;
+  std::string svg = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.3f} {:.3f} {:.3f} {:.3f}\" "
+      "width=\"{:.0f}\" height=\"{:.0f}\">\n",
+      all.x_min_m - kBorder_m, -all.y_max_m - kBorder_m, width_m, height_m,
+      width_m * kPixelsPerMetre, height_m * kPixelsPerMetre);
+  DrawRectangle(all, "fill=\"#f4e6d8\"", svg);
+  int index = 0;
+  for (const Rock& rock : field.terrain.rocks()) DrawRock(rock, index++, svg);
+  DrawRectangle(ArenaBounds(params.arena), "fill=\"none\" stroke=\"#444\" stroke-width=\"0.03\"",
+                svg);
+  if (params.arena.IsVirtual()) {
+    for (const double y_m : {params.arena.MirrorLine(), -params.arena.MirrorLine()}) {
+      DrawLine(all.x_min_m, y_m, all.x_max_m, y_m,
+               "stroke=\"#36c\" stroke-width=\"0.02\" stroke-dasharray=\"0.15 0.1\"", svg);
+    }
+  }
+  DrawCross(course.start_x_m, course.start_y_m, "start", svg);
+  DrawCross(course.goal_x_m, course.goal_y_m, "goal", svg);
+  svg += "</svg>\n";
+  return svg;
+}
+
+}  // namespace rockyard::terrain

@@ -1,0 +1,26 @@
+// A field as text for other tools and for people. Lengths in m, angles in degrees, world frame.
+#pragma once
+
+#include <string>
+
+#include "terrain/course.h"
+#include "terrain/field.h"
+#include "terrain/terrain_params.h"
+
+namespace rockyard::terrain {
+
+// One line per rock: index, mirror image or not, centre, semi-axes, yaw, diameter, height.
+std::string ToCsv(const Field& field);
+
+// Ground, rocks, arena, course and audit as one JSON object.
+std::string ToJson(const Field& field, const TerrainParams& params, const Course& course);
+
+// Wavefront OBJ: one group for the ground (a 0.1 m grid where rough, else one quadrilateral) over
+// the drivable bounds, and one group per rock, tessellated whole, buried part included.
+std::string ToObj(const Field& field, const TerrainParams& params);
+
+// Plan view, x to the right and y up, 1 unit = 1 m: rocks as octagons of their outlines (like
+// Matthies 1995 fig. 16), darker the higher; start and goal as crosses; arena and mirror lines.
+std::string ToSvg(const Field& field, const TerrainParams& params, const Course& course);
+
+}  // namespace rockyard::terrain
