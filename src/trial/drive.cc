@@ -1,0 +1,264 @@
+#include "trial/drive.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "navigation/pathfinder.h"
+#include "rover/rover_geometry.h"
+#include "sensing/oracle.h"
+#include "sensing/tracker.h"
+#include "terrain/arena.h"
+
+namespace rockyard::trial {
+namespace {
+
+using messages::MotionKind;
+using scenario::Scenario;
+
+terrain::Course TerrainCourse(const CourseParams& course) {
+  return {course.start_x_m, course.start_y_m, course.goal_x_m, course.goal_y_m};
+}
+
+math::Pose2 StartPose(const CourseParams& course) {
+  return {course.start_x_m, course.start_y_m, course.start_heading_rad};
+}
+
+// Open fields go on; every other arena ends where its layout ends.
+std::optional<ArenaBounds> Bounds(const terrain::ArenaParams& arena) {
+  if (arena.kind == terrain::ArenaKind::kOpen) return std::nullopt;
+  const terrain::Rectangle bounds = terrain::DrivableBounds(arena);
+  return ArenaBounds{bounds.x_min_m, bounds.x_max_m};
+}
+
+std::unique_ptr<navigation::Navigator> MakeNavigator(const Scenario& scenario) {
+  const messages::Goal goal{scenario.course.goal_x_m, scenario.course.goal_y_m};
+  return std::make_unique<navigation::PathfinderNavigator>(scenario.navigation.pathfinder, goal,
+                                                           scenario.perception.hazard.enabled);
+}
+
+Activity ActivityOf(const messages::MotionCommand& motion, bool steering) {
+  if (steering) return Activity::kSteering;
+  return motion.kind == MotionKind::kTurnInPlace ? Activity::kTurning : Activity::kDriving;
+}
+
+std::string Name(Activity activity) {
+  switch (activity) {
+    case Activity::kDriving:
+      return "drive";
+    case Activity::kTurning:
+      return "turn";
+    case Activity::kSteering:
+      return "steer";
+    case Activity::kScanning:
+      return "scan";
+    case Activity::kStalled:
+      return "stall";
+  }
+  return "";
+}
+
+// One character a stripe, left to right.
+std::string Pattern(const messages::HazardReport& report) {
+  std::string text;
+  for (const bool hazard : report.stripe_hazard) text += hazard ? '#' : '.';
+  return text;
+}
+
+}  // namespace
+
+Drive::Drive(const Scenario& scenario, core::TrialKey key, truth::Trace* trace)
+    : scenario_(scenario),
+      key_(key),
+      trace_(trace),
+      field_(terrain::BuildField(scenario.terrain, key, TerrainCourse(scenario.course))),
+      rover_(rover::MakeRover(scenario.rover, field_.terrain)),
+      light_stripe_(scenario.sensors.light_stripe),
+      triangulator_(sensing::TrueCalibration(scenario.sensors.light_stripe)),
+      hazard_detector_(scenario.perception.hazard),
+      dead_reckoning_(rover::TrueDriveCalibration(scenario.rover),
+                      scenario.perception.dead_reckoning, StartPose(scenario.course)),
+      navigator_(MakeNavigator(scenario)),
+      wheel_driver_(rover::TrueDriveCalibration(scenario.rover), scenario.navigation.wheel_driver),
+      ledger_(scenario.energy),
+      monitor_(rover::BellyOf(scenario.rover), field_.terrain),
+      referee_(scenario.referee, scenario.course, Bounds(scenario.terrain.arena)) {
+  if (scenario.terrain.arena.kind == terrain::ArenaKind::kVirtualReflected) {
+    mirror_.emplace(scenario.terrain.arena.MirrorLine());
+  }
+  rover_->Place(StartPose(scenario.course));
+  motion_sensors_.emplace(scenario.sensors.gyro, scenario.sensors.encoders,
+                          rover::TrueDriveCalibration(scenario.rover).wheel_radius_m, key,
+                          rover_->state());
+  monitor_.Restart(rover_->state());
+}
+
+DriveResult Drive::Run() {
+  std::optional<Verdict> verdict;
+  while (!verdict) verdict = Tick();
+  return Finish(*verdict);
+}
+
+std::optional<Verdict> Drive::Tick() {
+  const navigation::NavigatorDecision decision = navigator_->Decide(
+      {ledger_.time_s(), dead_reckoning_.estimate(), report_ ? &*report_ : nullptr});
+  report_.reset();
+  if (decision.status != navigation::NavigatorStatus::kDriving) {
+    return referee_.OnNavigatorStop(decision.status, rover_->state());
+  }
+  if (decision.scan) return Scan();
+  const bool turning = decision.motion.kind == MotionKind::kTurnInPlace;
+  if (turning && !was_turning_) ++turns_;
+  was_turning_ = turning;
+  return Move(decision.motion, 1.0 / scenario_.clock.control_rate_hz);
+}
+
+std::optional<Verdict> Drive::Scan() {
+  if (auto verdict = Move({}, scenario_.clock.stop_time_s)) return verdict;
+  hazard_detector_.Reset();
+  perception::HazardDetector::Verdict seen{true, {}};
+  for (bool first = true; seen.scan_again; first = false) {
+    const messages::StripeScan scan =
+        light_stripe_.Scan(field_.terrain, rover_->state().X_WR, key_, scans_);
+    ++scans_;
+    if (!first) ++rescans_;
+    ledger_.Spend(Activity::kScanning, scenario_.clock.scan_time_s);
+    seen = hazard_detector_.Process(triangulator_.Elevations(scan));
+  }
+  report_ = seen.report;
+  if (seen.report.any()) {
+    ++hazards_;
+    Record("hazard", Pattern(seen.report));
+  }
+  return AskReferee(Activity::kScanning, scenario_.clock.scan_time_s);
+}
+
+std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, double duration_s) {
+  const messages::WheelCommand command = wheel_driver_.Tick(motion, duration_s);
+  const Activity activity = ActivityOf(motion, wheel_driver_.steering());
+  const double spent_s = ApplyCommand(command, duration_s);
+  UpdateEstimate(spent_s, motion.kind != MotionKind::kStop);
+  ledger_.Spend(activity, spent_s);
+  monitor_.Observe(rover_->state(), activity == Activity::kTurning);
+  Sample(activity);
+  ReflectAtMirrorLine();
+  if (motion.kind == MotionKind::kStop) return std::nullopt;
+  return AskReferee(activity, spent_s);
+}
+
+double Drive::ApplyCommand(const messages::WheelCommand& command, double duration_s) {
+  const double step_s = rover_->step_s();
+  const auto steps = std::max<std::int64_t>(1, std::llround(duration_s / step_s));
+  for (std::int64_t i = 0; i < steps; ++i) {
+    rover_->Step(command);
+    const std::int64_t before = motion_sensors_->scrapes().episodes();
+    motion_sensors_->Observe(rover_->state(),
+                             ledger_.time_s() + static_cast<double>(i + 1) * step_s);
+    if (motion_sensors_->scrapes().episodes() > before) Record("scrape", "");
+  }
+  return static_cast<double>(steps) * step_s;
+}
+
+void Drive::UpdateEstimate(double duration_s, bool moving) {
+  const messages::MotionMeasurement motion =
+      motion_sensors_->Measure(rover_->state(), duration_s, moving);
+  if (scenario_.sensors.localization == scenario::Localization::kOracle) {
+    dead_reckoning_.Follow(sensing::TruePose(rover_->state()));
+  } else {
+    dead_reckoning_.Integrate(motion);
+  }
+}
+
+void Drive::ReflectAtMirrorLine() {
+  if (!mirror_) return;
+  const messages::PoseEstimate before = dead_reckoning_.estimate();
+  const auto reflection = mirror_->Reflect(math::ToPose2(rover_->state().X_WR), before);
+  if (!reflection) return;
+  ++reflections_;
+  Record("reflection", "");
+  rover_->Place(reflection->pose);
+  dead_reckoning_.Apply(reflection->update);
+  motion_sensors_->Resume(rover_->state());
+  monitor_.Restart(rover_->state());
+  navigator_->OnPoseUpdate(before, dead_reckoning_.estimate());
+}
+
+std::optional<Verdict> Drive::AskReferee(Activity activity, double duration_s) {
+  return referee_.Observe({activity, duration_s, rover_->state(), dead_reckoning_.estimate(),
+                           monitor_.distance_m(), monitor_.turned_in_place_rad()},
+                          ledger_);
+}
+
+DriveResult Drive::Finish(const Verdict& verdict) {
+  if (verdict.outcome == truth::TrialOutcome::kJammed ||
+      verdict.outcome == truth::TrialOutcome::kHighCentred) {
+    ledger_.SpendRestStalled();
+  }
+  Record("end", verdict.detail);
+
+  DriveResult result{verdict.outcome, verdict.detail, {}};
+  truth::DriveRecord& record = result.record;
+  monitor_.Report(record);
+
+  const math::Pose2 truth = math::ToPose2(rover_->state().X_WR);
+  const math::Pose2 reference =
+      scenario_.sensors.tracker.enabled
+          ? sensing::Tracker(scenario_.sensors.tracker, key_).Observe(truth, 0)
+          : truth;
+  const messages::PoseEstimate& estimate = dead_reckoning_.estimate();
+  const CourseParams& course = scenario_.course;
+  record.dead_reckoned_distance_m = estimate.distance_m;
+  record.straight_distance_m =
+      std::hypot(course.goal_x_m - course.start_x_m, course.goal_y_m - course.start_y_m);
+  record.final_x_m = truth.x_m;
+  record.final_y_m = truth.y_m;
+  record.final_heading_rad = truth.heading_rad;
+  record.believed_x_m = estimate.x_m;
+  record.believed_y_m = estimate.y_m;
+  record.believed_heading_rad = estimate.heading_rad;
+  if (record.true_distance_m > 0.0) {
+    record.distance_error_percent =
+        100.0 * (estimate.distance_m - record.true_distance_m) / record.true_distance_m;
+  }
+  record.heading_error_deg =
+      math::RadToDeg(std::abs(math::WrapAngle(estimate.heading_rad - reference.heading_rad)));
+  record.position_error_m = std::hypot(estimate.x_m - reference.x_m, estimate.y_m - reference.y_m);
+  record.true_goal_distance_m =
+      std::hypot(course.goal_x_m - truth.x_m, course.goal_y_m - truth.y_m);
+
+  record.sim_time_s = ledger_.time_s();
+  record.drive_time_s = ledger_.time_s(Activity::kDriving);
+  record.turn_time_s = ledger_.time_s(Activity::kTurning);
+  record.scan_time_s = ledger_.time_s(Activity::kScanning);
+  record.energy_wh = ledger_.energy_wh();
+  record.scans = static_cast<double>(scans_);
+  record.rescans = static_cast<double>(rescans_);
+  record.hazards_believed = static_cast<double>(hazards_);
+  record.turns_in_place = static_cast<double>(turns_);
+  record.scrapes = static_cast<double>(motion_sensors_->scrapes().episodes());
+  record.scrape_heading_rad = motion_sensors_->scrapes().total_jump_rad();
+  record.reflections = static_cast<double>(reflections_);
+  record.rocks = static_cast<double>(field_.terrain.rocks().size());
+  record.rock_cover = field_.audit.outline_cover;
+  return result;
+}
+
+void Drive::Record(std::string kind, std::string detail) {
+  if (trace_ == nullptr) return;
+  trace_->events.push_back(
+      {ledger_.time_s(), math::ToPose2(rover_->state().X_WR), std::move(kind), std::move(detail)});
+}
+
+void Drive::Sample(Activity activity) {
+  if (trace_ == nullptr) return;
+  trace_->samples.push_back({ledger_.time_s(), math::ToPose2(rover_->state().X_WR),
+                             math::Tilt(rover_->state().X_WR), dead_reckoning_.estimate(),
+                             Name(activity)});
+}
+
+DriveResult RunTrial(const Scenario& scenario, core::TrialKey key, truth::Trace* trace) {
+  return Drive(scenario, key, trace).Run();
+}
+
+}  // namespace rockyard::trial

@@ -1,0 +1,82 @@
+// The closed loop of one trial. See run_trial.h for the entry point.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "core/random.h"
+#include "navigation/navigator.h"
+#include "navigation/wheel_driver.h"
+#include "perception/dead_reckoning.h"
+#include "perception/hazard_detector.h"
+#include "perception/triangulation.h"
+#include "rover/rover.h"
+#include "scenario/scenario.h"
+#include "sensing/light_stripe.h"
+#include "sensing/motion_sensors.h"
+#include "terrain/field.h"
+#include "trial/drive_monitor.h"
+#include "trial/ledger.h"
+#include "trial/mirror_arena.h"
+#include "trial/referee.h"
+#include "trial/run_trial.h"
+
+namespace rockyard::trial {
+
+// One drive from the start to its end. Every control tick the navigator decides from what is
+// measured; the drive applies wheel commands for a few physics steps, hands the measurements to the
+// estimator, and shows the truth to the monitor and the referee.
+class Drive {
+ public:
+  Drive(const scenario::Scenario& scenario, core::TrialKey key, truth::Trace* trace);
+
+  DriveResult Run();
+
+ private:
+  std::optional<Verdict> Tick();
+  std::optional<Verdict> Scan();
+  std::optional<Verdict> Move(const messages::MotionCommand& motion, double duration_s);
+
+  // Holds the command for whole physics steps that cover at least duration_s; returns their time.
+  double ApplyCommand(const messages::WheelCommand& command, double duration_s);
+  void UpdateEstimate(double duration_s, bool moving);
+  void ReflectAtMirrorLine();
+  std::optional<Verdict> AskReferee(Activity activity, double duration_s);
+  DriveResult Finish(const Verdict& verdict);
+
+  void Record(std::string kind, std::string detail);
+  void Sample(Activity activity);
+
+  const scenario::Scenario& scenario_;
+  core::TrialKey key_;
+  truth::Trace* trace_;
+
+  terrain::Field field_;
+  std::unique_ptr<rover::Rover> rover_;
+  std::optional<MirrorArena> mirror_;
+
+  sensing::LightStripe light_stripe_;
+  std::optional<sensing::MotionSensors> motion_sensors_;
+
+  perception::Triangulator triangulator_;
+  perception::HazardDetector hazard_detector_;
+  perception::DeadReckoning dead_reckoning_;
+
+  std::unique_ptr<navigation::Navigator> navigator_;
+  navigation::WheelDriver wheel_driver_;
+
+  Ledger ledger_;
+  DriveMonitor monitor_;
+  Referee referee_;
+
+  std::optional<messages::HazardReport> report_;
+  std::int64_t scans_ = 0;
+  std::int64_t rescans_ = 0;
+  std::int64_t hazards_ = 0;
+  std::int64_t turns_ = 0;
+  std::int64_t reflections_ = 0;
+  bool was_turning_ = false;
+};
+
+}  // namespace rockyard::trial
