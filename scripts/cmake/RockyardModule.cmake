@@ -20,7 +20,7 @@
 # and a target sees the roots of the modules that it links and no others, so that a header of any
 # other module is "No such file". Modules with *_params.h have a second target, NAME_params, that
 # holds the *_params.cc files and a root with links to those headers alone: scenario links these,
-# which also keeps the link graph free of cycles.
+# which also keeps the link graph free of cycles. Parameters may use core, math and messages.
 
 include(GNUInstallDirs)
 include(GoogleTest)
@@ -119,8 +119,11 @@ function(rockyard_module NAME)
     set(params_sources ${ARG_SOURCES})
     list(FILTER params_sources INCLUDE REGEX "_params\\.cc$")
     list(FILTER ARG_SOURCES EXCLUDE REGEX "_params\\.cc$")
+    set(params_depends ${ARG_DEPENDS})
+    list(FILTER params_depends INCLUDE REGEX "^(core|math|messages)$")
+    list(TRANSFORM params_depends PREPEND rockyard_)
     rockyard_params_module(${NAME} HEADERS ${params_headers} SOURCES ${params_sources}
-      DEPENDS rockyard_core rockyard_math rockyard_messages)
+      DEPENDS ${params_depends})
     list(APPEND dependencies rockyard_${NAME}_params)
   endif()
 
