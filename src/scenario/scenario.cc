@@ -1,6 +1,26 @@
 #include "scenario/scenario.h"
 
 namespace rockyard::scenario {
+namespace {
+
+// What no module can check alone.
+void RequireConsistency(const Scenario& scenario, core::FieldVisitor& v) {
+  const terrain::ArenaParams& arena = scenario.terrain.arena;
+  const trial::CourseParams& course = scenario.course;
+  v.Require("course.start_x_m", arena.HoldsCoursePoint(course.start_x_m, course.start_y_m),
+            "puts the start outside of terrain.arena (or of the mirror lines of a virtual arena)",
+            "move the start or enlarge the arena");
+  v.Require("course.goal_x_m", arena.HoldsCoursePoint(course.goal_x_m, course.goal_y_m),
+            "puts the goal outside of terrain.arena (or of the mirror lines of a virtual arena)",
+            "move the goal or enlarge the arena");
+  v.Require("course.goal_radius_m",
+            course.goal_radius_m >= scenario.navigation.pathfinder.goal_tolerance_m,
+            "is below navigation.pathfinder.goal_tolerance_m, so that a rover without any error "
+            "could arrive falsely",
+            "use a goal radius of at least the navigator's tolerance");
+}
+
+}  // namespace
 
 void Scenario::Visit(core::FieldVisitor& v) {
   using core::Origin;
@@ -14,9 +34,7 @@ void Scenario::Visit(core::FieldVisitor& v) {
   v.Integer(
       "seed", seed,
       {.doc = "seed of every random stream", .min = 0, .max = 9e18, .origin = Origin::kSetting});
-#if __has_include("terrain/terrain_params.h")
   v.Group("terrain", terrain, "ground, rocks and arena");
-#endif
 #if __has_include("rover/rover_params.h")
   v.Group("rover", rover, "the vehicle");
 #endif
@@ -27,10 +45,7 @@ void Scenario::Visit(core::FieldVisitor& v) {
   v.Group("referee", referee, "when a trial is over");
   v.Group("clock", clock, "simulated time");
   v.Group("energy", energy, "electrical power and batteries");
-  v.Require("course.goal_radius_m", course.goal_radius_m >= navigation.pathfinder.goal_tolerance_m,
-            "is below navigation.pathfinder.goal_tolerance_m, so that a rover without any error "
-            "could arrive falsely",
-            "use a goal radius of at least the navigator's tolerance");
+  RequireConsistency(*this, v);
 }
 
 }  // namespace rockyard::scenario

@@ -11,9 +11,7 @@
 #include "rover/rover_params.h"
 #endif
 #include "scenario/suite.h"
-#if __has_include("terrain/terrain_params.h")
 #include "terrain/terrain_params.h"
-#endif
 #include "trial/clock_params.h"
 #include "trial/course_params.h"
 #include "trial/energy_params.h"
@@ -33,9 +31,7 @@ struct Scenario {
   ExperimentKind experiment = ExperimentKind::kDrive;
   std::int64_t trials = 300;
   std::int64_t seed = 1;
-#if __has_include("terrain/terrain_params.h")
   terrain::TerrainParams terrain;
-#endif
 #if __has_include("rover/rover_params.h")
   rover::RoverParams rover;
 #endif

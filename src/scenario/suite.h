@@ -7,24 +7,12 @@
 #include "core/fields.h"
 #include "navigation/pathfinder_params.h"
 #include "navigation/wheel_driver_params.h"
-#if __has_include("perception/dead_reckoning_params.h")
 #include "perception/dead_reckoning_params.h"
-#endif
-#if __has_include("perception/hazard_params.h")
 #include "perception/hazard_params.h"
-#endif
-#if __has_include("sensing/encoder_params.h")
 #include "sensing/encoder_params.h"
-#endif
-#if __has_include("sensing/gyro_params.h")
 #include "sensing/gyro_params.h"
-#endif
-#if __has_include("sensing/light_stripe_params.h")
 #include "sensing/light_stripe_params.h"
-#endif
-#if __has_include("sensing/tracker_params.h")
 #include "sensing/tracker_params.h"
-#endif
 
 namespace rockyard::scenario {
 
@@ -40,29 +28,17 @@ enum class NavigatorKind {
 
 struct SensorParams {
   Localization localization = Localization::kDeadReckoning;
-#if __has_include("sensing/light_stripe_params.h")
   sensing::LightStripeParams light_stripe;
-#endif
-#if __has_include("sensing/gyro_params.h")
   sensing::GyroParams gyro;
-#endif
-#if __has_include("sensing/encoder_params.h")
   sensing::EncoderParams encoders;
-#endif
-#if __has_include("sensing/tracker_params.h")
   sensing::TrackerParams tracker;
-#endif
 
   void Visit(core::FieldVisitor& v);
 };
 
 struct PerceptionParams {
-#if __has_include("perception/hazard_params.h")
   perception::HazardParams hazard;
-#endif
-#if __has_include("perception/dead_reckoning_params.h")
   perception::DeadReckoningParams dead_reckoning;
-#endif
 
   void Visit(core::FieldVisitor& v);
 };
