@@ -1,0 +1,177 @@
+#include "scenario/load.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/json_text.h"
+
+namespace rockyard::scenario {
+namespace {
+
+namespace fs = std::filesystem;
+using core::Problem;
+using testing::HasSubstr;
+
+Scenario Parse(std::string_view text, std::vector<std::string> overrides = {}) {
+  return ParseScenario(text, overrides);
+}
+
+std::vector<Problem> ProblemsOf(std::string_view text, std::vector<std::string> overrides = {}) {
+  try {
+    Parse(text, std::move(overrides));
+  } catch (const core::UserError& error) {
+    return error.problems();
+  }
+  return {};
+}
+
+TEST(LoadTest, DefaultsAreAValidScenario) {
+  EXPECT_EQ(DefaultsJson(), ResolvedJson(Parse("{}")));
+  EXPECT_EQ(ResolvedJson(Parse(DefaultsJson())), DefaultsJson());
+}
+
+TEST(LoadTest, ReadsEveryPart) {
+  const Scenario scenario = Parse(R"({
+    "name": "n", "trials": 12, "seed": 99,
+    "terrain": {"rocks": {"kind": "uniform_count", "count": 10}},
+    "sensors": {"localization": "oracle", "gyro": {"scale": 1.0}},
+    "perception": {"dead_reckoning": {}},
+    "navigation": {"pathfinder": {"turn_direction": "each_scan", "turn_increment_deg": 20}},
+    "course": {"goal_x_m": 5}})");
+  EXPECT_EQ(scenario.name, "n");
+  EXPECT_EQ(scenario.trials, 12);
+  EXPECT_EQ(scenario.seed, 99);
+  EXPECT_EQ(scenario.terrain.rocks.kind, terrain::RockFieldKind::kUniformCount);
+  EXPECT_EQ(scenario.terrain.rocks.count, 10);
+  EXPECT_EQ(scenario.sensors.localization, Localization::kOracle);
+  EXPECT_EQ(scenario.sensors.gyro.scale, 1.0);
+  EXPECT_EQ(scenario.navigation.pathfinder.turn_direction, navigation::TurnDirection::kEachScan);
+  EXPECT_EQ(scenario.navigation.pathfinder.turn_increment_rad, math::DegToRad(20.0));
+  EXPECT_EQ(scenario.course.goal_x_m, 5.0);
+}
+
+TEST(LoadTest, OverridesComeLastAndInOrder) {
+  const Scenario scenario = Parse(R"({"seed": 1, "name": "x"})",
+                                  {"seed=2", "seed=3", "terrain.rocks.kind=none", "name=a name"});
+  EXPECT_EQ(scenario.seed, 3);
+  EXPECT_EQ(scenario.terrain.rocks.kind, terrain::RockFieldKind::kNone);
+  EXPECT_EQ(scenario.name, "a name");
+}
+
+struct BadScenario {
+  std::string_view label;
+  std::string_view json;
+  std::string_view path;
+  std::string_view reason;
+  std::string_view suggestion;
+};
+
+std::ostream& operator<<(std::ostream& out, const BadScenario& bad) { return out << bad.label; }
+
+class BadScenarioTest : public testing::TestWithParam<BadScenario> {};
+
+TEST_P(BadScenarioTest, NamesPathReasonAndSuggestion) {
+  const BadScenario& bad = GetParam();
+  const std::vector<Problem> problems = ProblemsOf(bad.json);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].path, bad.path);
+  EXPECT_THAT(problems[0].reason, HasSubstr(bad.reason));
+  EXPECT_THAT(problems[0].suggestion, HasSubstr(bad.suggestion));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenarios, BadScenarioTest,
+    testing::Values(
+        BadScenario{"truncated", R"({"course": {)", "scenario", "line 1, column 13", "strict JSON"},
+        BadScenario{"nan", R"({"course": {"goal_x_m": NaN}})", "scenario", "line 1", "finite"},
+        BadScenario{"overflow", R"({"course": {"goal_x_m": 1e999}})", "scenario", "overflow",
+                    "finite"},
+        BadScenario{"duplicate", R"({"seed": 1, "seed": 2})", "scenario: seed", "twice",
+                    "keep one"},
+        BadScenario{"version", R"({"schema_version": 2})", "schema_version",
+                    "above the largest allowed value 1", "from 1 to 1"},
+        BadScenario{"unknown", R"({"terain": {}})", "terain", "not a known key",
+                    "did you mean \"terrain\"?"},
+        BadScenario{"unknown_deep", R"({"terrain": {"rocks": {"knd": "none"}}})",
+                    "terrain.rocks.knd", "not a known key", "did you mean \"kind\"?"},
+        BadScenario{"name_of_choice", R"({"terrain": {"rocks": {"kind": "more"}}})",
+                    "terrain.rocks.kind", "not a known name", "did you mean \"moore\"?"},
+        BadScenario{"trials", R"({"trials": 0})", "trials", "is 0, below", "from 1 to"},
+        BadScenario{"huge_trials", R"({"trials": 1e18})", "trials", "is 1e+18, above",
+                    "from 1 to 1"},
+        BadScenario{"negative_seed", R"({"seed": -1})", "seed", "is -1, below", "from 0"},
+        BadScenario{"goal_outside", R"({"course": {"goal_x_m": 50}})", "course.goal_x_m",
+                    "outside of terrain.arena", "move the goal or enlarge the arena"},
+        BadScenario{"goal_beyond_mirror", R"({"course": {"goal_y_m": 1.5}})", "course.goal_x_m",
+                    "mirror lines", "move the goal"},
+        BadScenario{"start_outside", R"({"course": {"start_x_m": -3}})", "course.start_x_m",
+                    "outside of terrain.arena", "move the start"},
+        BadScenario{"goal_at_start", R"({"course": {"goal_x_m": 0}})", "course.goal_x_m",
+                    "within 0.1 m of the start", "7.6"},
+        BadScenario{"tolerance", R"({"course": {"goal_radius_m": 0.05}})", "course.goal_radius_m",
+                    "below navigation.pathfinder.goal_tolerance_m", "at least"},
+        BadScenario{"diameters",
+                    R"({"terrain": {"rocks": {"min_diameter_m": 0.5, "max_diameter_m": 0.4}}})",
+                    "terrain.rocks.max_diameter_m", "", ""},
+        BadScenario{"noise", R"({"sensors": {"encoders": {"physics_variance_m2_per_m": 0.01}}})",
+                    "sensors.encoders.physics_variance_m2_per_m",
+                    "larger than distance_variance_m2_per_m", "up to"},
+        BadScenario{"stripes", R"({"navigation": {"pathfinder": {"left_stripes": [0, 2]}}})",
+                    "navigation.pathfinder.left_stripes", "", ""}),
+    [](const auto& tested) { return std::string(tested.param.label); });
+
+TEST(LoadTest, UnknownOverridePathsAreErrors) {
+  const auto problems = ProblemsOf("{}", {"terrain.rock.kind=none"});
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].path, "terrain.rock");
+  EXPECT_THAT(problems[0].suggestion, HasSubstr("did you mean \"rocks\"?"));
+  EXPECT_EQ(ProblemsOf("{}", {"seed.x=1"})[0].path, "seed");
+}
+
+TEST(LoadTest, FingerprintSeesWhatDecidesATrialAndNothingElse) {
+  const std::uint64_t plain = Fingerprint(Parse("{}"));
+  EXPECT_EQ(Fingerprint(Parse(R"({"name": "x", "description": "y", "trials": 7})")), plain);
+  EXPECT_NE(Fingerprint(Parse(R"({"seed": 2})")), plain);
+  EXPECT_NE(Fingerprint(Parse(R"({"terrain": {"rocks": {"kind": "none"}}})")), plain);
+  EXPECT_NE(Fingerprint(Parse(R"({"energy": {"battery_wh": 51}})")), plain);
+}
+
+class LoadFileTest : public testing::Test {
+ protected:
+  LoadFileTest() : folder_(fs::path(testing::TempDir()) / "scenario_load_test") {
+    fs::create_directories(folder_);
+  }
+  ~LoadFileTest() override { fs::remove_all(folder_); }
+
+  fs::path folder_;
+};
+
+TEST_F(LoadFileTest, FilesExtendFiles) {
+  std::ofstream(folder_ / "base.json") << R"({"seed": 5, "course": {"goal_x_m": 6}})";
+  std::ofstream(folder_ / "top.json") << R"({"extends": "base.json", "course": {"goal_y_m": 1}})";
+  const Scenario scenario = LoadScenario(folder_ / "top.json");
+  EXPECT_EQ(scenario.seed, 5);
+  EXPECT_EQ(scenario.course.goal_x_m, 6.0);
+  EXPECT_EQ(scenario.course.goal_y_m, 1.0);
+  // Text extends relative to a folder.
+  EXPECT_EQ(ParseScenario(R"({"extends": "base.json"})", {}, folder_).seed, 5);
+}
+
+TEST_F(LoadFileTest, ResolvedScenariosStandAlone) {
+  std::ofstream(folder_ / "a.json") << R"({"seed": 5, "sensors": {"gyro": {"scale": 0.97}}})";
+  const Scenario scenario = LoadScenario(folder_ / "a.json");
+  std::ofstream(folder_ / "resolved.json") << ResolvedJson(scenario);
+  const Scenario again = LoadScenario(folder_ / "resolved.json");
+  EXPECT_EQ(ResolvedJson(again), ResolvedJson(scenario));
+  EXPECT_EQ(Fingerprint(again), Fingerprint(scenario));
+}
+
+}  // namespace
+}  // namespace rockyard::scenario
