@@ -118,6 +118,23 @@ TEST(Drive, TurnsInPlaceWhenTheGoalIsBehind) {
   }
 }
 
+TEST(Drive, BearingToTheGoalIsTheShortWayRound) {
+  // Nearly ahead across the cut of the angles: drive on an arc, do not turn round.
+  for (const double goal_y_m : {-0.3, 0.3}) {
+    for (const double heading_deg : {170.0, -170.0, 530.0, -530.0}) {
+      SCOPED_TRACE(heading_deg);
+      DriveSetup setup;
+      setup.goal = {-3.0, goal_y_m};
+      setup.start = {0.0, 0.0, math::DegToRad(heading_deg)};
+      setup.rover.heading_range = HeadingRange::kUnbounded;
+      Drive drive(setup);
+      ASSERT_TRUE(drive.StepUntil([](const Tick& t) { return t.moves(); }));
+      EXPECT_TRUE(drive.log().back().drives());
+      EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+    }
+  }
+}
+
 TEST(Drive, ScansAfterEveryTurnIncrementOnTheWayToFaceTheGoal) {
   DriveSetup setup;
   setup.start = {0.0, 0.0, math::DegToRad(170.0)};

@@ -118,6 +118,16 @@ TEST(WheelDriver, StopRollsNoWheel) {
   for (int i = 0; i < 100; ++i) EXPECT_TRUE(Stands(driver.Tick({}, kTick_s)));
 }
 
+// Every scan interrupts the motion: it must not cost steering to the middle and back.
+TEST(WheelDriver, MotionResumedAfterAStopNeedsNoSteering) {
+  for (const messages::MotionCommand& motion : {TurnInPlace(1), Arc(1.5)}) {
+    WheelDriver driver(SixWheels(), {});
+    StandingTicks(driver, motion);
+    for (int i = 0; i < 100; ++i) driver.Tick({}, kTick_s);
+    EXPECT_EQ(StandingTicks(driver, motion), 0);
+  }
+}
+
 TEST(WheelDriver, FasterSteeringMotorsStandShorter) {
   WheelDriverParams fast;
   fast.steer_rate_rad_s = 4.0 * WheelDriverParams{}.steer_rate_rad_s;
