@@ -96,11 +96,14 @@ JsonValue MakeSchema(const FieldTable& table, std::string_view title) {
   const JsonValue body = EmptyObjectSchema("");
   for (const JsonMember& member : body.members()) root.Set(member.key, member.value);
   std::string_view key;
-  for (const GroupInfo& group : table.groups()) {
-    JsonValue& properties = PropertiesFor(root, group.path, key);
-    properties.Set(key, EmptyObjectSchema(group.doc));
-  }
-  for (const ParameterInfo& parameter : table.parameters()) {
+  auto group = table.groups().begin();
+  for (std::size_t i = 0; i <= table.parameters().size(); ++i) {
+    for (; group != table.groups().end() && group->first_parameter == i; ++group) {
+      JsonValue& properties = PropertiesFor(root, group->path, key);
+      properties.Set(key, EmptyObjectSchema(group->doc));
+    }
+    if (i == table.parameters().size()) break;
+    const ParameterInfo& parameter = table.parameters()[i];
     JsonValue& properties = PropertiesFor(root, parameter.path, key);
     properties.Set(key, FieldSchema(parameter));
   }

@@ -77,7 +77,7 @@ void FieldTable::ChoiceIndex(std::string_view name, int& index,
 
 void FieldTable::BeginGroup(std::string_view name, std::string_view doc) {
   prefix_ += name;
-  groups_.push_back({prefix_, std::string(doc)});
+  groups_.push_back({prefix_, std::string(doc), parameters_.size()});
   prefix_ += '.';
 }
 

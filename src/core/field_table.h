@@ -36,6 +36,7 @@ struct ParameterInfo {
 struct GroupInfo {
   std::string path;
   std::string doc;
+  std::size_t first_parameter = 0;  // index of the parameter that it precedes
 };
 
 std::string_view Name(Origin origin);  // "published", "calibrated", "assumed", "setting"

@@ -52,6 +52,8 @@ std::string Suggest(std::string_view word, std::span<const std::string_view> can
   if (candidates.empty()) return {};
   const std::string_view nearest = Nearest(word, candidates);
   const std::string all = fmt::format("one of: {}", fmt::join(candidates, ", "));
+  if (!nearest.empty() && candidates.size() == 1)
+    return fmt::format("did you mean \"{}\"?", nearest);
   return nearest.empty() ? all : fmt::format("did you mean \"{}\"? {}", nearest, all);
 }
 

@@ -15,7 +15,7 @@ std::size_t EditDistance(std::string_view a, std::string_view b);
 // The candidate nearest to `word`; empty where none is within a third of its length (at least 2).
 std::string_view Nearest(std::string_view word, std::span<const std::string_view> candidates);
 
-// `did you mean "x"? ` where there is a near candidate, then `one of: a, b, c`.
+// `did you mean "x"?` where there is a near candidate, then `one of: a, b, c` where there are more.
 std::string Suggest(std::string_view word, std::span<const std::string_view> candidates);
 
 }  // namespace rockyard::core

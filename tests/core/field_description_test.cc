@@ -42,6 +42,8 @@ TEST(FieldSchemaTest, DescribesFieldsAndGroups) {
   EXPECT_EQ(schema.Find("$schema")->text(), "https://json-schema.org/draft/2020-12/schema");
   EXPECT_FALSE(schema.Find("additionalProperties")->boolean());
   const JsonValue& properties = *schema.Find("properties");
+  EXPECT_EQ(properties.members().front().key, "radius_m");  // in visiting order
+  EXPECT_EQ(properties.members().back().key, "inner");
   const JsonValue& radius = *properties.Find("radius_m");
   EXPECT_EQ(radius.Find("type")->text(), "number");
   EXPECT_EQ(radius.Find("minimum")->number(), 0.01);

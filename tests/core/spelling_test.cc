@@ -27,6 +27,7 @@ TEST(SpellingTest, SuggestionListsEverything) {
   constexpr std::array<std::string_view, 2> kNames = {"open", "walled"};
   EXPECT_EQ(Suggest("waled", kNames), "did you mean \"walled\"? one of: open, walled");
   EXPECT_EQ(Suggest("zzzzzzzz", kNames), "one of: open, walled");
+  EXPECT_EQ(Suggest("opn", std::span(kNames).first(1)), "did you mean \"open\"?");
   EXPECT_EQ(Suggest("x", {}), "");
 }
 
