@@ -14,6 +14,9 @@ using messages::MotionCommand;
 using messages::MotionKind;
 using messages::PoseEstimate;
 
+// A turn in place cannot end more exactly than one control tick, 1.3 deg at 26 deg/s and 20 Hz.
+constexpr double kFinestAim_rad = math::DegToRad(2.0);
+
 constexpr int kLeft = +1;
 constexpr int kRight = -1;
 
@@ -96,7 +99,7 @@ NavigatorDecision PathfinderNavigator::Decide(const NavigatorInput& input) {
   if (!started_) {
     started_ = true;
     odometer_at_scan_m_ = input.estimate.distance_m;
-    return uses_hazard_sensor_ ? BeginScan() : BeginForward(input);
+    return ScanOrGoOn(input);
   }
   if (input.report != nullptr) return OnReport(input);
   return Continue(input);
@@ -122,6 +125,7 @@ NavigatorDecision PathfinderNavigator::OnHazard(const NavigatorInput& input) {
   }
   if (newly_seen) avoided_turn_rad_ = 0.0;
   clearing_left_m_ = 0.0;
+  facing_goal_ = false;
   if (avoided_turn_rad_ >= params_.turn_give_up_rad) return Finish(NavigatorStatus::kGaveUp);
   const HazardSides sides = ClassifySides(*input.report, params_);
   if (newly_seen && params_.back_off_m > 0.0 && sides.left && sides.right) {
@@ -158,16 +162,10 @@ NavigatorDecision PathfinderNavigator::Continue(const NavigatorInput& input) {
 NavigatorDecision PathfinderNavigator::ContinueTurn(const NavigatorInput& input) {
   const double turned =
       motion_.direction * math::WrapAngle(input.estimate.heading_rad - anchor_.heading_rad);
-  if (mode_ == Mode::kFacingGoal) {
-    const double bearing = GoalBearing(input.estimate);
-    if (std::abs(bearing) <= std::max(params_.heading_deadband_rad, math::DegToRad(2.0))) {
-      return uses_hazard_sensor_ ? BeginScan() : BeginForward(input);
-    }
-  }
-  if (turned < params_.turn_increment_rad) return Move(motion_);
+  const bool faces_goal = mode_ == Mode::kFacingGoal && !NeedsPointTurn(input.estimate);
+  if (turned < params_.turn_increment_rad && !faces_goal) return Move(motion_);
   if (mode_ == Mode::kAvoiding) avoided_turn_rad_ += turned;
-  if (mode_ == Mode::kFacingGoal) return BeginTurn(mode_, motion_.direction, input);
-  return BeginScan();
+  return ScanOrGoOn(input);
 }
 
 NavigatorDecision PathfinderNavigator::ContinueDrive(const NavigatorInput& input) {
@@ -179,8 +177,8 @@ NavigatorDecision PathfinderNavigator::ContinueDrive(const NavigatorInput& input
   if (mode_ == Mode::kClearing) clearing_left_m_ = std::max(0.0, leg_m_ - driven);
   const double since_scan = input.estimate.distance_m - odometer_at_scan_m_;
   if (uses_hazard_sensor_ && since_scan >= params_.scan_interval_m) return BeginScan();
-  if (driven >= leg_m_) return BeginForward(input);
-  return Move(motion_);
+  if (driven < leg_m_) return Move(motion_);
+  return mode_ == Mode::kThreading ? ScanOrGoOn(input) : BeginForward(input);
 }
 
 NavigatorDecision PathfinderNavigator::BeginScan() {
@@ -188,11 +186,14 @@ NavigatorDecision PathfinderNavigator::BeginScan() {
   return {NavigatorStatus::kDriving, true, {}};
 }
 
+NavigatorDecision PathfinderNavigator::ScanOrGoOn(const NavigatorInput& input) {
+  return uses_hazard_sensor_ ? BeginScan() : BeginForward(input);
+}
+
 NavigatorDecision PathfinderNavigator::BeginForward(const NavigatorInput& input) {
   const double bearing = GoalBearing(input.estimate);
-  if (std::abs(bearing) > params_.point_turn_bearing_rad) {
-    return BeginTurn(Mode::kFacingGoal, bearing > 0.0 ? kLeft : kRight, input);
-  }
+  facing_goal_ = NeedsPointTurn(input.estimate);
+  if (facing_goal_) return BeginTurn(Mode::kFacingGoal, bearing > 0.0 ? kLeft : kRight, input);
   mode_ = Mode::kForward;
   anchor_ = input.estimate;
   leg_m_ = params_.scan_interval_m;  // the bearing is looked at anew as often as the terrain
@@ -220,6 +221,14 @@ NavigatorDecision PathfinderNavigator::BeginTurn(Mode mode, int direction,
 double PathfinderNavigator::GoalBearing(const PoseEstimate& estimate) const {
   const double direction = std::atan2(goal_.y_m - estimate.y_m, goal_.x_m - estimate.x_m);
   return math::WrapAngle(direction - estimate.heading_rad);
+}
+
+// A turn towards the goal, once begun, goes on until the rover faces it: a rover that stopped
+// turning just below the limit could circle a goal within its tightest arc for ever.
+bool PathfinderNavigator::NeedsPointTurn(const PoseEstimate& estimate) const {
+  const double limit_rad = facing_goal_ ? std::max(params_.heading_deadband_rad, kFinestAim_rad)
+                                        : params_.point_turn_bearing_rad;
+  return std::abs(GoalBearing(estimate)) > limit_rad;
 }
 
 bool PathfinderNavigator::AtGoal(const PoseEstimate& estimate) const {

@@ -66,11 +66,13 @@ class PathfinderNavigator final : public Navigator {
   NavigatorDecision ContinueDrive(const NavigatorInput& input);
 
   NavigatorDecision BeginScan();
+  NavigatorDecision ScanOrGoOn(const NavigatorInput& input);
   NavigatorDecision BeginForward(const NavigatorInput& input);
   NavigatorDecision BeginStraight(Mode mode, double distance_m, const NavigatorInput& input);
   NavigatorDecision BeginTurn(Mode mode, int direction, const NavigatorInput& input);
 
   double GoalBearing(const messages::PoseEstimate& estimate) const;
+  bool NeedsPointTurn(const messages::PoseEstimate& estimate) const;
   bool AtGoal(const messages::PoseEstimate& estimate) const;
 
   PathfinderParams params_;
@@ -79,6 +81,7 @@ class PathfinderNavigator final : public Navigator {
 
   Mode mode_ = Mode::kScanning;
   bool started_ = false;
+  bool facing_goal_ = false;  // a turn in place towards the goal is under way
   messages::MotionCommand motion_;
   messages::PoseEstimate anchor_;  // estimate when the running manoeuvre began
   double leg_m_ = 0.0;             // length of the running leg

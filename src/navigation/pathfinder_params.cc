@@ -101,7 +101,7 @@ void VisitMotion(PathfinderParams& p, core::FieldVisitor& v) {
           .min = 0.3,
           .max = 100.0,
           .origin = Origin::kAssumed,
-          .study_low = 0.8,
+          .study_low = 1.0,
           .study_high = 3.0});
   v.Real("tight_arc_radius_m", p.tight_arc_radius_m,
          {.doc = "turning radius for large bearings",

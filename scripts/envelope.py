@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+"""Envelope of the predictions over the ranges of the assumed parameters.
+
+Draws a Latin hypercube over every assumed parameter that has a study range, and a balanced random
+choice for every assumed option, runs each scenario at each point, and prints the spread of each
+prediction over the points. Runs that are there already are resumed, so that it can be stopped and
+started again.
+
+    scripts/envelope.py --points 50 --trials 40 scenarios/pathfinder/nominal.json ...
+"""
+
+import argparse
+import csv
+import io
+import json
+import os
+import random
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+
+# Where each prediction stands in summary.json.
+METRICS = {
+    "declared success rate": ("declared_success", "rate"),
+    "true success rate": ("true_success", "rate"),
+    "distance min (m)": ("distance_m", "min"),
+    "distance mode (m)": ("distance_m", "mode"),
+    "distance error mode (%)": ("dead_reckoning", "distance_error_percent", "mode"),
+    "heading error mode (deg)": ("dead_reckoning", "heading_error_deg", "mode"),
+    "position error mode (m)": ("dead_reckoning", "position_error_m", "mode"),
+    "position error max (m)": ("dead_reckoning", "position_error_m", "max"),
+}
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scenarios", nargs="+", type=Path)
+    parser.add_argument("--points", type=int, default=50, help="points of the design (default 50)")
+    parser.add_argument("--trials", type=int, default=40, help="trials a point (default 40)")
+    parser.add_argument("--seed", type=int, default=1, help="seed of the design and of the trials")
+    parser.add_argument("--out", type=Path, default=ROOT / "results/runs/envelope")
+    parser.add_argument("--rockyard", type=Path, default=ROOT / "build/release/src/app/rockyard")
+    return parser.parse_args()
+
+
+def run(command):
+    """Runs a command; ends with its message if it fails."""
+    result = subprocess.run([str(part) for part in command], capture_output=True, text=True,
+                            check=False)
+    if result.returncode != 0:
+        sys.exit(f"{' '.join(map(str, command))}\nexit code {result.returncode}\n"
+                 f"{result.stderr}{result.stdout}")
+    return result.stdout
+
+
+def assumed_parameters(rockyard, scenario):
+    """Rows of the parameter table that the design varies."""
+    table = csv.DictReader(io.StringIO(run([rockyard, "parameters", scenario, "--csv"])))
+    rows = [row for row in table if row["origin"] == "assumed"]
+    return [row for row in rows if row["choices"] or row["study_low"]]
+
+
+def column(row, points, rng):
+    """One value a point: stratified where continuous, balanced where a choice."""
+    if row["choices"]:
+        choices = row["choices"].split("|")
+        values = [choices[i % len(choices)] for i in range(points)]
+    else:
+        low, high = float(row["study_low"]), float(row["study_high"])
+        values = [low + (high - low) * (i + rng.random()) / points for i in range(points)]
+        if row["kind"] == "integer":
+            values = [round(value) for value in values]
+    rng.shuffle(values)
+    return values
+
+
+def design(rows, points, seed):
+    rng = random.Random(seed)
+    columns = {row["path"]: column(row, points, rng) for row in rows}
+    return [{path: values[i] for path, values in columns.items()} for i in range(points)]
+
+
+def pick(summary, path):
+    for key in path:
+        summary = summary[key]
+    return summary
+
+
+def spread(values):
+    ordered = sorted(value for value in values if value is not None)
+    if not ordered:
+        return "no value"
+
+    def at(share):
+        return ordered[min(len(ordered) - 1, int(share * len(ordered)))]
+
+    return (f"{ordered[0]:9.3f} {at(0.05):9.3f} {at(0.5):9.3f} {at(0.95):9.3f} "
+            f"{ordered[-1]:9.3f}")
+
+
+def main():
+    args = parse_arguments()
+    rows = assumed_parameters(args.rockyard, args.scenarios[0])
+    points = design(rows, args.points, args.seed)
+    args.out.mkdir(parents=True, exist_ok=True)
+    (args.out / "design.json").write_text(json.dumps(points, indent=1) + "\n", encoding="utf-8")
+    print(f"{len(points)} points over {len(rows)} assumed parameters, {args.trials} trials each")
+    for scenario in args.scenarios:
+        summaries = []
+        for index, point in enumerate(points):
+            folder = args.out / scenario.stem / f"{index:03d}"
+            command = [args.rockyard, "run", scenario, "--trials", args.trials, "--seed", args.seed,
+                       "--out", folder, "--quiet"]
+            if folder.exists():
+                command.append("--resume")
+            for path, value in point.items():
+                command += ["--set", f"{path}={value}"]
+            run(command)
+            summaries.append(json.loads((folder / "summary.json").read_text(encoding="utf-8")))
+            print(f"\r{scenario.stem}: {index + 1}/{len(points)}", end="", file=sys.stderr)
+        print(file=sys.stderr)
+        print(f"\n{scenario.stem:<28} {'min':>9} {'p05':>9} {'median':>9} {'p95':>9} {'max':>9}")
+        for name, path in METRICS.items():
+            print(f"  {name:<26} {spread([pick(summary, path) for summary in summaries])}")
+        sys.stdout.flush()
+    return os.EX_OK
+
+
+if __name__ == "__main__":
+    sys.exit(main())
