@@ -18,13 +18,12 @@ struct Unit {
   std::string_view text;   // for people
 };
 
-constexpr std::array<Unit, 28> kUnits = {
-    {{"m", "m"},     {"m2", "m2"},     {"m3", "m3"}, {"mm", "mm"},   {"cm", "cm"},
-     {"s", "s"},     {"s2", "s2"},     {"h", "h"},   {"rad", "rad"}, {"rad2", "rad2"},
-     {"deg", "deg"}, {"deg2", "deg2"}, {"kg", "kg"}, {"g", "g"},     {"N", "N"},
-     {"Nm", "Nm"},   {"W", "W"},       {"Wh", "Wh"}, {"wh", "Wh"},   {"J", "J"},
-     {"V", "V"},     {"A", "A"},       {"Hz", "Hz"}, {"hz", "Hz"},   {"Pa", "Pa"},
-     {"px", "px"},   {"percent", "%"}, {"K", "K"}}};
+constexpr std::array<Unit, 29> kUnits = {
+    {{"m", "m"},   {"m2", "m2"}, {"m3", "m3"},   {"mm", "mm"},     {"cm", "cm"},   {"s", "s"},
+     {"s2", "s2"}, {"h", "h"},   {"rad", "rad"}, {"rad2", "rad2"}, {"deg", "deg"}, {"deg2", "deg2"},
+     {"kg", "kg"}, {"g", "g"},   {"N", "N"},     {"Nm", "Nm"},     {"Ns", "Ns"},   {"W", "W"},
+     {"Wh", "Wh"}, {"wh", "Wh"}, {"J", "J"},     {"V", "V"},       {"A", "A"},     {"Hz", "Hz"},
+     {"hz", "Hz"}, {"Pa", "Pa"}, {"px", "px"},   {"percent", "%"}, {"K", "K"}}};
 
 // Empty where the token names no unit.
 std::string_view UnitText(std::string_view token) {

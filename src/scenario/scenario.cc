@@ -18,6 +18,10 @@ void RequireConsistency(const Scenario& scenario, core::FieldVisitor& v) {
             "is below navigation.pathfinder.goal_tolerance_m, so that a rover without any error "
             "could arrive falsely",
             "use a goal radius of at least the navigator's tolerance");
+  v.Require("clock.control_rate_hz",
+            scenario.clock.control_rate_hz * scenario.rover.physics.step_s <= 1.0,
+            "asks for more than one control step per rover.physics.step_s",
+            "use a lower rate or a shorter physics step");
 }
 
 }  // namespace
@@ -35,9 +39,7 @@ void Scenario::Visit(core::FieldVisitor& v) {
       "seed", seed,
       {.doc = "seed of every random stream", .min = 0, .max = 9e18, .origin = Origin::kSetting});
   v.Group("terrain", terrain, "ground, rocks and arena");
-#if __has_include("rover/rover_params.h")
   v.Group("rover", rover, "the vehicle");
-#endif
   v.Group("sensors", sensors, "what the rover measures");
   v.Group("perception", perception, "what the rover makes of its measurements");
   v.Group("navigation", navigation, "what the rover decides");

@@ -7,9 +7,7 @@
 #include <string_view>
 
 #include "core/fields.h"
-#if __has_include("rover/rover_params.h")
 #include "rover/rover_params.h"
-#endif
 #include "scenario/suite.h"
 #include "terrain/terrain_params.h"
 #include "trial/clock_params.h"
@@ -32,9 +30,7 @@ struct Scenario {
   std::int64_t trials = 300;
   std::int64_t seed = 1;
   terrain::TerrainParams terrain;
-#if __has_include("rover/rover_params.h")
   rover::RoverParams rover;
-#endif
   SensorParams sensors;
   PerceptionParams perception;
   NavigationParams navigation;

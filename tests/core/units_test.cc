@@ -14,6 +14,8 @@ TEST(UnitsTest, SuffixesNameUnits) {
   EXPECT_EQ(UnitOf("variance_deg2_per_m"), "deg2/m");
   EXPECT_EQ(UnitOf("rocks_per_m2"), "1/m2");
   EXPECT_EQ(UnitOf("stall_torque_Nm"), "Nm");
+  EXPECT_EQ(UnitOf("damping_Ns_m"), "Ns/m");
+  EXPECT_EQ(UnitOf("gravity_m_s2"), "m/s2");
   EXPECT_EQ(UnitOf("control_rate_hz"), "Hz");
   EXPECT_EQ(UnitOf("error_percent"), "%");
 }

@@ -117,6 +117,8 @@ INSTANTIATE_TEST_SUITE_P(
                     "within 0.1 m of the start", "7.6"},
         BadScenario{"tolerance", R"({"course": {"goal_radius_m": 0.05}})", "course.goal_radius_m",
                     "below navigation.pathfinder.goal_tolerance_m", "at least"},
+        BadScenario{"control_rate", R"({"clock": {"control_rate_hz": 500}})",
+                    "clock.control_rate_hz", "more than one control step", "shorter physics step"},
         BadScenario{"diameters",
                     R"({"terrain": {"rocks": {"min_diameter_m": 0.5, "max_diameter_m": 0.4}}})",
                     "terrain.rocks.max_diameter_m", "", ""},
