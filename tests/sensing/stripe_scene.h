@@ -1,0 +1,49 @@
+// Scenes for the light stripe sensor and scans without noise.
+#pragma once
+
+#include <vector>
+
+#include "perception/triangulation.h"
+#include "sensing/light_stripe.h"
+#include "terrain/terrain.h"
+
+namespace rockyard::sensing {
+
+inline LightStripeParams NoiselessParams() {
+  LightStripeParams params;
+  params.wrong_place_probability = 0.0;
+  return params;
+}
+
+inline terrain::Rock EllipsoidRock(double x_m, double y_m, double z_m, double a_m, double b_m,
+                                   double c_m, double yaw_rad = 0.0) {
+  terrain::Rock rock;
+  rock.center_W = {x_m, y_m, z_m};
+  rock.semi_axes_m = {a_m, b_m, c_m};
+  rock.yaw_rad = yaw_rad;
+  rock.diameter_m = 2.0 * a_m;
+  rock.height_m = z_m + c_m;
+  return rock;
+}
+
+inline terrain::Terrain FlatWith(std::vector<terrain::Rock> rocks,
+                                 std::vector<terrain::Wall> walls = {}) {
+  return {terrain::Ground(), std::move(rocks), std::move(walls)};
+}
+
+inline math::Transform PoseAt(double x_m, double y_m, double z_m, double heading_rad = 0.0) {
+  math::Transform X_WR = math::Transform::Identity();
+  X_WR.translation() = math::Vector3(x_m, y_m, z_m);
+  X_WR.linear() = Eigen::AngleAxisd(heading_rad, math::Vector3::UnitZ()).toRotationMatrix();
+  return X_WR;
+}
+
+inline messages::ElevationScan Elevations(const LightStripeParams& params,
+                                          const terrain::Terrain& terrain,
+                                          const math::Transform& X_WR) {
+  const LightStripe sensor(params);
+  const perception::Triangulator triangulator(sensor.calibration());
+  return triangulator.Elevations(sensor.Scan(terrain, X_WR, {1, 0}, 0));
+}
+
+}  // namespace rockyard::sensing
