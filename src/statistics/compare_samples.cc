@@ -120,7 +120,7 @@ Row CompareSampleStatistic(const PublishedValue& published, const ScenarioRun& r
                            const ComparisonOptions& options) {
   const std::vector<double> pool = PoolOf(published, run);
   if (pool.size() < 2) return NotJudged(published, TooFew(published, run));
-  const PredictiveSampler sampler(pool);
+  const PredictiveSampler sampler(pool, published.lower_limit);
   const SampleStatistic statistic = StatisticOf(published.statistic);
   const core::TrialKey key = KeyOf(published.id, options.seed);
   const auto n = static_cast<std::size_t>(published.sample_size);

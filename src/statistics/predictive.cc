@@ -2,19 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/check.h"
-#include "core/distributions.h"
 #include "statistics/quantiles.h"
 
 namespace rockyard::statistics {
 namespace {
 
-// Mean distance of the outer values beyond the threshold that sets them apart; sign +1: upper end.
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+
+// Mean distance of the outermost values beyond the next one inwards; sign +1: upper end.
 double MeanExcess(std::span<const double> ascending, double sign) {
-  constexpr std::size_t kFewest = 10;
+  constexpr std::size_t kOutermost = 5;
   const std::size_t n = ascending.size();
-  const std::size_t outer = std::min(n - 1, std::max(kFewest, n / 10));
+  const std::size_t outer = std::min(n - 1, kOutermost);
   const double threshold = sign > 0.0 ? ascending[n - 1 - outer] : ascending[outer];
   double sum = 0.0;
   for (std::size_t i = 0; i < outer; ++i) {
@@ -22,6 +24,13 @@ double MeanExcess(std::span<const double> ascending, double sign) {
     sum += sign * (value - threshold);
   }
   return sum / static_cast<double>(outer);
+}
+
+// Exponential with the given mean, cut off at `room`, by inverse CDF.
+double Excess(double u, double mean, double room) {
+  if (!(mean > 0.0)) return 0.0;
+  const double inside = -std::expm1(-room / mean);
+  return -mean * std::log1p(-u * inside);
 }
 
 std::size_t UniformIndex(core::RandomStream& stream, std::size_t size) {
@@ -42,16 +51,18 @@ double ShareAtLeast(std::span<const double> ascending, double value) {
 
 }  // namespace
 
-PredictiveSampler::PredictiveSampler(std::span<const double> pool) : pool_(SortedFinite(pool)) {
+PredictiveSampler::PredictiveSampler(std::span<const double> pool, double lower_limit)
+    : pool_(SortedFinite(pool)) {
   EXPECT(pool_.size() >= 2);
+  lower_room_ = std::max(0.0, pool_.front() - lower_limit);
   lower_scale_ = MeanExcess(pool_, -1.0);
   upper_scale_ = MeanExcess(pool_, 1.0);
 }
 
 double PredictiveSampler::InGap(core::RandomStream& stream, std::size_t gap) const {
   const double u = stream.Uniform();
-  if (gap == 0) return pool_.front() + lower_scale_ * std::log(u);
-  if (gap == pool_.size()) return pool_.back() - upper_scale_ * std::log(u);
+  if (gap == 0) return pool_.front() - Excess(u, lower_scale_, lower_room_);
+  if (gap == pool_.size()) return pool_.back() + Excess(u, upper_scale_, kUnlimited);
   return pool_[gap - 1] + u * (pool_[gap] - pool_[gap - 1]);
 }
 

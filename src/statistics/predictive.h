@@ -6,14 +6,17 @@
 // gaps that n further values of the same law fall into follow a Polya urn exactly (Hill 1968, A(n);
 // for gaps replaced by the values themselves this is Rubin's 1981 Bayesian bootstrap). Unlike plain
 // resampling it knows that a real run can fall beyond every simulated one: the smallest of n lies
-// below the pool with probability n / (N + n). Where a value lies inside its gap is the one
-// assumption: uniform between neighbours, exponential beyond the extremes with the mean excess of
-// the outer tenth of the pool (at least 10 values).
+// below the pool with probability n / (N + n).
+// Where a value lies inside its gap is the one assumption: uniform between neighbours, exponential
+// beyond the extremes with the mean excess of the five outermost values over the sixth (few enough
+// to follow a sharp edge, where an exponential from further inside would reach too far), cut off at
+// a limit of the support where there is one.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -24,8 +27,10 @@ namespace rockyard::statistics {
 
 class PredictiveSampler {
  public:
-  // Needs two finite values or more; others are left out.
-  explicit PredictiveSampler(std::span<const double> pool);
+  // Needs two finite values or more; others are left out. No draw lies below `lower_limit` unless
+  // the pool itself does.
+  explicit PredictiveSampler(std::span<const double> pool,
+                             double lower_limit = -std::numeric_limits<double>::infinity());
 
   // n new values in ascending order, into `sample`. Cost: n log n.
   void Draw(core::RandomStream& stream, std::span<double> sample) const;
@@ -36,6 +41,7 @@ class PredictiveSampler {
   double InGap(core::RandomStream& stream, std::size_t gap) const;
 
   std::vector<double> pool_;  // ascending
+  double lower_room_ = 0.0;   // from the pool's lower end to the limit
   double lower_scale_ = 0.0;  // mean excess beyond the lower end
   double upper_scale_ = 0.0;
 };

@@ -48,6 +48,8 @@ struct PublishedValue {
   double value = std::numeric_limits<double>::quiet_NaN();  // NaN for statements
   double rounding = 0.0;                                    // step of the last printed digit
   std::string unit = "1";
+  // No value of the column can be smaller, e.g. 0 for an absolute error.
+  double lower_limit = -std::numeric_limits<double>::infinity();
   std::string column;                         // of the trial records
   std::vector<truth::TrialOutcome> outcomes;  // kOutcomeCount
   std::vector<FailureKind> kinds;             // kFailureKinds

@@ -1,0 +1,159 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "report/comparison_format.h"
+#include "report/comparison_table.h"
+
+namespace rockyard::report {
+namespace {
+
+using statistics::ComparedValue;
+using statistics::ComparisonResult;
+using statistics::PublishedReference;
+using statistics::PublishedValue;
+using statistics::Verdict;
+
+std::string Quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted(1, '"');
+  for (const char c : text) {
+    if (c == '"') quoted.push_back(c);
+    quoted.push_back(c);
+  }
+  quoted.push_back('"');
+  return quoted;
+}
+
+std::string CsvNumber(double value) {
+  return std::isfinite(value) ? fmt::format("{}", value) : std::string();
+}
+
+std::string CsvLine(const std::vector<std::string>& fields) {
+  std::string line;
+  for (const std::string& field : fields) {
+    if (!line.empty()) line.push_back(',');
+    line += Quoted(field);
+  }
+  return line + "\n";
+}
+
+std::string Escaped(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+  }
+  return escaped;
+}
+
+}  // namespace
+
+std::string ComparisonCsv(const ComparisonResult& result) {
+  std::string csv =
+      "id,scenario,what,place,role,unit,published,published_runs,simulated_runs,simulated,"
+      "predicted_median,predicted_low,predicted_high,p_value,p_holm,level,power,verdict,"
+      "one_layout_p_low,one_layout_p_high,one_layout_measured,remark\n";
+  for (const ComparedValue& v : result.values) {
+    const PublishedValue& p = v.published;
+    const bool layout = v.one_layout.has_value();
+    csv += CsvLine({p.id,
+                    p.scenario,
+                    p.what,
+                    p.place,
+                    std::string(RoleName(p.role)),
+                    p.unit,
+                    CsvNumber(p.value),
+                    fmt::format("{}", p.sample_size),
+                    fmt::format("{}", v.pool),
+                    CsvNumber(v.pool_value),
+                    CsvNumber(v.median),
+                    CsvNumber(v.interval.low),
+                    CsvNumber(v.interval.high),
+                    CsvNumber(v.p_value),
+                    CsvNumber(v.holm_p_value),
+                    CsvNumber(v.level),
+                    CsvNumber(v.power),
+                    statistics::Name(v.verdict),
+                    layout ? CsvNumber(v.one_layout->p_value.low) : "",
+                    layout ? CsvNumber(v.one_layout->p_value.high) : "",
+                    !layout                  ? ""
+                    : v.one_layout->measured ? "1"
+                                             : "0",
+                    v.remark});
+    for (const auto& side : v.beside) {
+      csv += CsvLine({p.id + "/" + side.name,
+                      p.scenario,
+                      side.name,
+                      p.place,
+                      std::string(RoleName(p.role)),
+                      p.unit,
+                      CsvNumber(p.value),
+                      fmt::format("{}", p.sample_size),
+                      fmt::format("{}", v.pool),
+                      "",
+                      CsvNumber(side.median),
+                      CsvNumber(side.interval.low),
+                      CsvNumber(side.interval.high),
+                      CsvNumber(side.p_value),
+                      "",
+                      "",
+                      "",
+                      "",
+                      "",
+                      "",
+                      "",
+                      ""});
+    }
+  }
+  return csv;
+}
+
+std::string ComparisonJUnit(const PublishedReference& reference, const ComparisonResult& result) {
+  const std::size_t differs = CountOf(result, Verdict::kDiffers);
+  const std::size_t skipped =
+      CountOf(result, Verdict::kUnderpowered) + CountOf(result, Verdict::kNotJudged);
+  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+  xml += fmt::format("<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n",
+                     Escaped(reference.title), result.values.size(), differs, skipped);
+  for (const ComparedValue& value : result.values) {
+    const std::string message = Escaped(fmt::format(
+        "{}: published {}, predicted {}, p {}, Holm {}, power {}. {}",
+        statistics::Name(value.verdict), Published(value.published),
+        Prediction(value.median, value.interval, IsCount(value.published)), PValue(value.p_value),
+        PValue(value.holm_p_value), Power(value.power), value.remark));
+    xml += fmt::format("  <testcase classname=\"{}\" name=\"{}\"",
+                       Escaped(value.published.scenario), Escaped(value.published.id));
+    switch (value.verdict) {
+      case Verdict::kAgrees:
+        xml += "/>\n";
+        break;
+      case Verdict::kDiffers:
+        xml += fmt::format(">\n    <failure message=\"{}\"/>\n  </testcase>\n", message);
+        break;
+      case Verdict::kUnderpowered:
+      case Verdict::kNotJudged:
+        xml += fmt::format(">\n    <skipped message=\"{}\"/>\n  </testcase>\n", message);
+        break;
+    }
+  }
+  return xml + "</testsuite>\n";
+}
+
+}  // namespace rockyard::report

@@ -1,0 +1,78 @@
+#include "report/comparison_format.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rockyard::report {
+
+using statistics::ComparedValue;
+using statistics::ComparisonResult;
+using statistics::Interval;
+using statistics::PublishedValue;
+using statistics::StatisticKind;
+using statistics::ValueRole;
+using statistics::Verdict;
+
+std::string Number(double value) {
+  if (!std::isfinite(value)) return "-";
+  if (value == 0.0) return "0";
+  const double magnitude = std::abs(value);
+  if (magnitude >= 100.0) return fmt::format("{:.0f}", value);
+  if (magnitude >= 10.0) return fmt::format("{:.1f}", value);
+  return fmt::format("{:.2f}", value);
+}
+
+std::string PValue(double p) {
+  if (!std::isfinite(p)) return "-";
+  if (p >= 0.9995) return "1";
+  return p >= 0.001 ? fmt::format("{:.3f}", p) : fmt::format("{:.0e}", p);
+}
+
+std::string Power(double power) {
+  return std::isfinite(power) ? fmt::format("{:.2f}", power) : "-";
+}
+
+bool IsCount(const PublishedValue& value) {
+  return value.statistic == StatisticKind::kOutcomeCount ||
+         value.statistic == StatisticKind::kNegativeCount;
+}
+
+std::string Published(const PublishedValue& value) {
+  if (IsCount(value)) return fmt::format("{:.0f}/{}", value.value, value.sample_size);
+  if (value.statistic == StatisticKind::kFailureKinds)
+    return fmt::format("of {}", value.sample_size);
+  if (value.statistic == StatisticKind::kExponentialTail) return "yes";
+  if (!std::isfinite(value.value)) return "stated";
+  const double step = value.rounding > 0.0 ? value.rounding : 0.01;
+  const int digits = std::clamp(static_cast<int>(std::lround(-std::log10(step))), 0, 6);
+  const std::string number = fmt::format("{:.{}f}", value.value, digits);
+  return value.statistic == StatisticKind::kLowerBound ? ">= " + number : number;
+}
+
+std::string Prediction(double median, const Interval& interval, bool count) {
+  if (!std::isfinite(median)) return "-";
+  if (count) return fmt::format("{:.0f} ({:.0f} .. {:.0f})", median, interval.low, interval.high);
+  return fmt::format("{} ({} .. {})", Number(median), Number(interval.low), Number(interval.high));
+}
+
+std::string_view RoleName(ValueRole role) {
+  switch (role) {
+    case ValueRole::kConditional:
+      return "conditional";
+    case ValueRole::kCalibration:
+      return "calibration";
+    case ValueRole::kPrediction:
+      break;
+  }
+  return "prediction";
+}
+
+std::size_t CountOf(const ComparisonResult& result, Verdict verdict) {
+  return static_cast<std::size_t>(
+      std::count_if(result.values.begin(), result.values.end(),
+                    [&](const ComparedValue& value) { return value.verdict == verdict; }));
+}
+
+}  // namespace rockyard::report

@@ -1,0 +1,32 @@
+// How numbers of the comparison are written. For comparison_table.cc and comparison_files.cc only.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "statistics/published_comparison.h"
+
+namespace rockyard::report {
+
+bool IsCount(const statistics::PublishedValue& value);
+
+// Three significant digits, "-" where it is not finite.
+std::string Number(double value);
+
+// Three decimals, fewer where that says nothing.
+std::string PValue(double p);
+
+std::string Power(double power);
+
+// The published number with as many digits as were printed.
+std::string Published(const statistics::PublishedValue& value);
+
+// "median (low .. high)".
+std::string Prediction(double median, const statistics::Interval& interval, bool count);
+
+std::string_view RoleName(statistics::ValueRole role);
+
+std::size_t CountOf(const statistics::ComparisonResult& result, statistics::Verdict verdict);
+
+}  // namespace rockyard::report

@@ -1,0 +1,280 @@
+#include "report/comparison_reference.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/archive.h"
+#include "core/error.h"
+#include "core/json_file.h"
+#include "core/spelling.h"
+#include "truth/record.h"
+
+template <>
+struct rockyard::core::EnumNames<rockyard::statistics::StatisticKind> {
+  static constexpr std::array<std::string_view, 9> kNames{
+      "outcome_count", "failure_kinds",    "negative_count", "minimum",      "maximum",
+      "mode",          "exponential_tail", "lower_bound",    "median_offset"};
+};
+
+template <>
+struct rockyard::core::EnumNames<rockyard::statistics::ValueRole> {
+  static constexpr std::array<std::string_view, 3> kNames{"prediction", "conditional",
+                                                          "calibration"};
+};
+
+namespace rockyard::report {
+namespace {
+
+using core::FieldInfo;
+using core::JsonValue;
+using core::Problem;
+using statistics::FailureKind;
+using statistics::PublishedValue;
+using statistics::StatisticKind;
+using Type = core::JsonValue::Type;
+
+constexpr FieldInfo kText{.doc = "text", .origin = core::Origin::kPublished};
+constexpr FieldInfo kCount{
+    .doc = "published runs", .min = 0.0, .max = 1e5, .origin = core::Origin::kPublished};
+// Counts of runs so small that every division into kinds can be listed.
+constexpr std::int64_t kMostFailures = 50;
+
+struct ValueFields {
+  PublishedValue& value;
+
+  void Visit(core::FieldVisitor& v) {
+    v.Text("id", value.id, kText);
+    v.Text("what", value.what, kText);
+    v.Text("place", value.place, kText);
+    v.Text("scenario", value.scenario, kText);
+    v.Choice("statistic", value.statistic, kText);
+    v.Choice("role", value.role, kText);
+    v.Integer("sample_size", value.sample_size, kCount);
+    v.Real("value", value.value, kText);
+    v.Real("rounding", value.rounding,
+           {.doc = "step of the last printed digit", .min = 0.0, .max = 1e9});
+    v.Text("unit", value.unit, kText);
+    v.Real("lower_limit", value.lower_limit, kText);
+    v.Text("column", value.column, kText);
+    v.Text("other_scenario", value.other_scenario, kText);
+    v.Integer("other_sample_size", value.other_sample_size, kCount);
+    v.Text("note", value.note, kText);
+  }
+};
+
+struct KindFields {
+  FailureKind& kind;
+
+  void Visit(core::FieldVisitor& v) {
+    v.Text("name", kind.name, kText);
+    v.Integer("count", kind.count, kCount);
+  }
+};
+
+struct MisprintFields {
+  statistics::Misprint& misprint;
+
+  void Visit(core::FieldVisitor& v) {
+    v.Text("place", misprint.place, kText);
+    v.Text("printed", misprint.printed, kText);
+    v.Text("used", misprint.used, kText);
+  }
+};
+
+struct HeadFields {
+  statistics::PublishedReference& reference;
+  std::int64_t schema_version = 0;
+
+  void Visit(core::FieldVisitor& v) {
+    v.Integer("schema_version", schema_version,
+              {.doc = "version of this schema", .min = 1.0, .max = 1.0});
+    v.Text("title", reference.title, kText);
+    v.Text("citation", reference.citation, kText);
+  }
+};
+
+class Parser {
+ public:
+  statistics::PublishedReference Parse(const JsonValue& json) {
+    statistics::PublishedReference reference;
+    HeadFields head{reference};
+    Read(Without(json, {"values", "misprints"}), head, "");
+    if (json.Is(Type::kObject) && json.Find("schema_version") == nullptr) {
+      Add("schema_version", "is missing", "write 1");
+    }
+    for (const auto& [path, item] : Items(json, "values", "")) {
+      reference.values.push_back(ParseValue(*item, path));
+    }
+    for (const auto& [path, item] : Items(json, "misprints", "")) {
+      MisprintFields fields{reference.misprints.emplace_back()};
+      Read(*item, fields, path);
+    }
+    if (reference.values.empty() && problems_.empty()) {
+      Add("values", "lists no published value", "list at least one");
+    }
+    if (!problems_.empty()) throw core::UserError(problems_);
+    return reference;
+  }
+
+ private:
+  struct Item {
+    std::string path;  // with a trailing dot
+    const JsonValue* value;
+  };
+
+  void Add(std::string path, std::string reason, std::string suggestion) {
+    problems_.push_back({std::move(path), std::move(reason), std::move(suggestion)});
+  }
+
+  template <typename Fields>
+  void Read(const JsonValue& json, Fields& fields, const std::string& path) {
+    try {
+      core::ReadParams(json, fields);
+    } catch (const core::UserError& error) {
+      for (const Problem& problem : error.problems()) {
+        Add(path + problem.path, problem.reason, problem.suggestion);
+      }
+    }
+  }
+
+  static JsonValue Without(JsonValue json, std::initializer_list<std::string_view> keys) {
+    if (!json.Is(Type::kObject)) return json;
+    for (const std::string_view key : keys) json.Erase(key);
+    return json;
+  }
+
+  // Elements of a list member; none where it is missing.
+  std::vector<Item> Items(const JsonValue& json, std::string_view key, const std::string& path) {
+    const JsonValue* list = json.Find(key);
+    if (list == nullptr) return {};
+    const std::string list_path = path + std::string(key);
+    if (!list->Is(Type::kList)) {
+      Add(list_path, "is " + std::string(core::Describe(list->type())) + ", not a list",
+          "write a list");
+      return {};
+    }
+    std::vector<Item> items;
+    for (std::size_t i = 0; i < list->list().size(); ++i) {
+      items.push_back({list_path + "[" + std::to_string(i) + "].", &list->list()[i]});
+    }
+    return items;
+  }
+
+  std::vector<truth::TrialOutcome> ParseOutcomes(const JsonValue& json, const std::string& path) {
+    std::vector<truth::TrialOutcome> outcomes;
+    const auto& names = truth::kTrialOutcomeNames;
+    for (const auto& [item_path, item] : Items(json, "outcomes", path)) {
+      const std::string where = item_path.substr(0, item_path.size() - 1);
+      if (!item->Is(Type::kText)) {
+        Add(where, "is no text", "write the name of a trial outcome");
+        continue;
+      }
+      const auto found = std::find(names.begin(), names.end(), item->text());
+      if (found == names.end()) {
+        Add(where, "is \"" + item->text().substr(0, 60) + "\", which is no trial outcome",
+            core::Suggest(item->text(), names));
+        continue;
+      }
+      outcomes.push_back(static_cast<truth::TrialOutcome>(found - names.begin()));
+    }
+    return outcomes;
+  }
+
+  PublishedValue ParseValue(const JsonValue& json, const std::string& path) {
+    PublishedValue value;
+    ValueFields fields{value};
+    const std::size_t problems_before = problems_.size();
+    Read(Without(json, {"outcomes", "kinds"}), fields, path);
+    value.outcomes = ParseOutcomes(json, path);
+    for (const auto& [kind_path, item] : Items(json, "kinds", path)) {
+      KindFields kind{value.kinds.emplace_back()};
+      Read(Without(*item, {"outcomes"}), kind, kind_path);
+      kind.kind.outcomes = ParseOutcomes(*item, kind_path);
+      Require(!kind.kind.name.empty(), kind_path + "name", "is missing", "name the kind");
+      Require(!kind.kind.outcomes.empty(), kind_path + "outcomes", "lists no outcome",
+              "list the outcomes of this kind");
+    }
+    if (problems_.size() == problems_before) Check(json, value, path);
+    return value;
+  }
+
+  void Require(bool holds, const std::string& path, const char* reason, const char* suggestion) {
+    if (!holds) Add(path, reason, suggestion);
+  }
+
+  // What the members say together.
+  void Check(const JsonValue& json, const PublishedValue& value, const std::string& path) {
+    Require(json.Find("statistic") != nullptr, path + "statistic", "is missing",
+            "name what is compared, e.g. \"outcome_count\"");
+    Require(!value.id.empty(), path + "id", "is missing", "give every value a name of its own");
+    Require(ids_.insert(value.id).second, path + "id", "is used twice",
+            "give every value a name of its own");
+    Require(!value.scenario.empty(), path + "scenario", "is missing", "name the scenario");
+    Require(value.sample_size >= 1, path + "sample_size", "is missing or 0",
+            "give the number of published runs");
+    CheckNumber(value, path);
+    CheckKinds(value, path);
+    const bool counts_outcomes = value.statistic == StatisticKind::kOutcomeCount;
+    Require(counts_outcomes != value.outcomes.empty(), path + "outcomes",
+            counts_outcomes ? "is missing" : "is given, but the statistic counts no outcomes",
+            counts_outcomes ? "list the outcomes that count" : "leave it out");
+    const bool needs_column = !counts_outcomes && value.statistic != StatisticKind::kFailureKinds;
+    Require(needs_column != value.column.empty(), path + "column",
+            needs_column ? "is missing" : "is given, but the statistic uses no column",
+            needs_column ? "name a column of the trial records" : "leave it out");
+    const bool needs_other = value.statistic == StatisticKind::kMedianOffset;
+    Require(needs_other == (!value.other_scenario.empty() && value.other_sample_size >= 1),
+            path + "other_scenario",
+            "and other_sample_size belong to median_offset, and only there",
+            "give both or neither");
+  }
+
+  void CheckNumber(const PublishedValue& value, const std::string& path) {
+    const bool statement = value.statistic == StatisticKind::kExponentialTail ||
+                           value.statistic == StatisticKind::kMedianOffset ||
+                           value.statistic == StatisticKind::kFailureKinds;
+    Require(statement == std::isnan(value.value), path + "value",
+            statement ? "is given, but this statistic has none" : "is missing",
+            statement ? "leave it out" : "give the published number");
+    const bool count = value.statistic == StatisticKind::kOutcomeCount ||
+                       value.statistic == StatisticKind::kNegativeCount;
+    if (!count || std::isnan(value.value)) return;
+    const bool whole = std::floor(value.value) == value.value && value.value >= 0.0 &&
+                       value.value <= static_cast<double>(value.sample_size);
+    Require(whole, path + "value", "is no count of runs",
+            "use a whole number from 0 to sample_size");
+  }
+
+  void CheckKinds(const PublishedValue& value, const std::string& path) {
+    const bool has_kinds = value.statistic == StatisticKind::kFailureKinds;
+    Require(has_kinds != value.kinds.empty(), path + "kinds",
+            has_kinds ? "is missing" : "is given, but the statistic is not failure_kinds",
+            has_kinds ? "list the kinds of failure" : "leave it out");
+    if (!has_kinds) return;
+    std::int64_t failures = 0;
+    for (const FailureKind& kind : value.kinds) failures += kind.count;
+    Require(failures == value.sample_size && failures <= kMostFailures, path + "kinds",
+            "has counts that do not add up to sample_size, or more than 50 failures",
+            "make the counts add up to the number of published failures");
+  }
+
+  std::vector<Problem> problems_;
+  std::set<std::string> ids_;
+};
+
+}  // namespace
+
+statistics::PublishedReference ParseReference(const core::JsonValue& json) {
+  return Parser().Parse(json);
+}
+
+statistics::PublishedReference LoadReference(const std::filesystem::path& path) {
+  return ParseReference(core::LoadJsonFile(path));
+}
+
+}  // namespace rockyard::report

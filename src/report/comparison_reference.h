@@ -1,0 +1,20 @@
+// Published values from a JSON file.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "core/json_value.h"
+#include "statistics/published_values.h"
+
+namespace rockyard::report {
+
+// Reads a reference in the schema of results/reference/README.md. Throws core::UserError with all
+// problems and their JSON paths: unknown keys and names, missing or contradictory members, repeated
+// ids, numbers out of range.
+statistics::PublishedReference ParseReference(const core::JsonValue& json);
+
+// Same from a file; what is wrong with the file itself is a core::UserError as well.
+statistics::PublishedReference LoadReference(const std::filesystem::path& path);
+
+}  // namespace rockyard::report

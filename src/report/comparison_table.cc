@@ -1,0 +1,157 @@
+#include "report/comparison_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include "report/comparison_format.h"
+
+namespace rockyard::report {
+namespace {
+
+using statistics::ComparedValue;
+using statistics::ComparisonResult;
+using statistics::Interval;
+using statistics::PublishedReference;
+using statistics::PublishedValue;
+using statistics::ValueRole;
+using statistics::Verdict;
+
+constexpr std::size_t kWidth = 100;
+constexpr std::size_t kRemarkIndent = 6;
+
+char RoleMark(ValueRole role) {
+  switch (role) {
+    case ValueRole::kConditional:
+      return 'c';
+    case ValueRole::kCalibration:
+      return 'k';
+    case ValueRole::kPrediction:
+      break;
+  }
+  return ' ';
+}
+
+std::string What(const PublishedValue& value) {
+  const bool has_unit = !IsCount(value) && std::isfinite(value.value);
+  return has_unit ? fmt::format("{} [{}]", value.what, value.unit) : value.what;
+}
+
+// Words in lines of at most kWidth, each line indented.
+std::string Wrap(const std::string& text, std::size_t indent) {
+  std::istringstream words(text);
+  std::string result;
+  std::string line(indent, ' ');
+  std::string word;
+  while (words >> word) {
+    const bool first = line.size() == indent;
+    if (!first && line.size() + 1 + word.size() > kWidth) {
+      result += line + "\n";
+      line = std::string(indent, ' ') + word;
+    } else {
+      line += (first ? "" : " ") + word;
+    }
+  }
+  return result + line + "\n";
+}
+
+std::string Line(char mark, const std::string& what, const std::string& published,
+                 const std::string& predicted, const std::string& p, const std::string& holm,
+                 const std::string& power, const std::string& verdict) {
+  std::string line = fmt::format("{} {:<31.31} {:>9} {:>23} {:>6} {:>6} {:>5} {}", mark, what,
+                                 published, predicted, p, holm, power, verdict);
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line + "\n";
+}
+
+std::string OneLayoutRemark(const statistics::OneLayout& layout) {
+  const std::string low = PValue(layout.p_value.low);
+  const std::string high = PValue(layout.p_value.high);
+  const std::string_view basis = layout.measured ? "from repeated layouts" : "bounds";
+  return low == high ? fmt::format("one rock layout for all runs of the set: p {} ({})", low, basis)
+                     : fmt::format("one rock layout for all runs of the set: p from {} to {} ({})",
+                                   low, high, basis);
+}
+
+std::string Details(const ComparedValue& value) {
+  std::string text;
+  for (const auto& side : value.beside) {
+    text += Line(' ', "    " + side.name, "", Prediction(side.median, side.interval, false),
+                 PValue(side.p_value), "", "", "");
+  }
+  for (const auto& kind : value.kinds) {
+    text += Wrap(fmt::format("{}: {} published, {} of {} simulated failures", kind.name,
+                             kind.published, kind.simulated, value.pool),
+                 kRemarkIndent);
+  }
+  if (value.one_layout) text += Wrap(OneLayoutRemark(*value.one_layout), kRemarkIndent);
+  if (!value.remark.empty()) text += Wrap(value.remark, kRemarkIndent);
+  return text;
+}
+
+std::string Row(const ComparedValue& value) {
+  const PublishedValue& published = value.published;
+  return Line(RoleMark(published.role), What(published), Published(published),
+              Prediction(value.median, value.interval, IsCount(published)), PValue(value.p_value),
+              PValue(value.holm_p_value), Power(value.power), statistics::Name(value.verdict)) +
+         Details(value);
+}
+
+std::string Footnotes(const ComparisonResult& result) {
+  const statistics::ComparisonOptions& options = result.options;
+  const std::string_view notes[] = {
+      "published: successes of runs, or the printed number. predicted: median and 95 % interval "
+      "for a "
+      "new set of the published size, the simulation's own uncertainty included.",
+      "p: two-sided, that the published and the simulated runs follow one law. Holm: adjusted for "
+      "the "
+      "family. power: chance to see a success rate 0.20 lower (other counts: 0.20 nearer to one "
+      "half; "
+      "other numbers: a shift by half a standard deviation) at the level that Holm grants.",
+      "agrees: not rejected, and power 0.8 or more. differs: Holm at or below alpha. underpowered: "
+      "not "
+      "rejected, but too few published runs to tell. not judged: no number, or no simulated "
+      "trials.",
+      "c: conditional on error sizes that the publication states as inputs. k: the simulation was "
+      "calibrated with these runs or their like. Indented: other readings, shown and not judged."};
+  std::string text;
+  for (const std::string_view note : notes) text += Wrap(std::string(note), 0);
+  text += Wrap(fmt::format("{} numbers judged, alpha {}, {} samples for each number, seed {}.",
+                           result.family, options.alpha, options.replicates, options.seed),
+               0);
+  return text;
+}
+
+std::vector<std::string> Scenarios(const ComparisonResult& result) {
+  std::vector<std::string> names;
+  std::set<std::string> seen;
+  for (const ComparedValue& value : result.values) {
+    if (seen.insert(value.published.scenario).second) names.push_back(value.published.scenario);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::string ComparisonText(const PublishedReference& reference, const ComparisonResult& result) {
+  std::string text = reference.title + " against simulated trials\n\n";
+  text += Line(' ', "number", "published", "predicted (95 %)", "p", "Holm", "power", "verdict");
+  for (const std::string& scenario : Scenarios(result)) {
+    text += scenario + "\n";
+    for (const ComparedValue& value : result.values) {
+      if (value.published.scenario == scenario) text += Row(value);
+    }
+  }
+  text +=
+      fmt::format("\n{} agree, {} differ, {} underpowered, {} not judged\n\n",
+                  CountOf(result, Verdict::kAgrees), CountOf(result, Verdict::kDiffers),
+                  CountOf(result, Verdict::kUnderpowered), CountOf(result, Verdict::kNotJudged));
+  return text + Footnotes(result);
+}
+
+}  // namespace rockyard::report

@@ -1,0 +1,194 @@
+#include <gtest/gtest.h>
+
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <limits>
+
+#include "oracles.h"
+#include "statistics/goodness_of_fit.h"
+#include "statistics/kolmogorov.h"
+#include "statistics/modes.h"
+#include "statistics/moments.h"
+#include "statistics/multiple_testing.h"
+#include "statistics/quantiles.h"
+
+namespace rockyard::statistics {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+TEST(Moments, EqualOraclesWholeAndMerged) {
+  for (const core::JsonMember& oracle : At(Oracles(), "moments").members()) {
+    const std::vector<double> sample = OracleSample(oracle.key);
+    Moments parts[3];
+    for (std::size_t i = 0; i < sample.size(); ++i) parts[i % 3].Add(sample[i]);
+    Moments merged;
+    for (const Moments& part : parts) merged.Merge(part);
+    for (const Moments& m : {MomentsOf(sample), merged}) {
+      EXPECT_EQ(m.count(), At(oracle.value, "n").integer());
+      EXPECT_NEAR(m.mean(), At(oracle.value, "mean").number(), 1e-12);
+      EXPECT_NEAR(m.standard_deviation(), At(oracle.value, "sd_ddof1").number(), 1e-12);
+    }
+    const std::vector<double> sorted = SortedFinite(sample);
+    EXPECT_NEAR(Quantile(sorted, 0.5), At(oracle.value, "median").number(), 1e-12);
+    EXPECT_NEAR(Quantile(sorted, 0.25), At(oracle.value, "q25_linear").number(), 1e-12);
+    EXPECT_NEAR(Quantile(sorted, 0.95), At(oracle.value, "q95_linear").number(), 1e-12);
+  }
+}
+
+TEST(Moments, LeaveOutWhatIsNotFiniteAndSurviveNothing) {
+  const Moments m = MomentsOf(std::vector{1.0, kNaN, 3.0, std::numeric_limits<double>::infinity()});
+  EXPECT_EQ(m.count(), 2);
+  EXPECT_EQ(m.not_finite(), 2);
+  EXPECT_EQ(m.mean(), 2.0);
+  EXPECT_EQ(m.min(), 1.0);
+  EXPECT_EQ(m.max(), 3.0);
+  EXPECT_TRUE(std::isnan(Moments().mean()));
+  EXPECT_TRUE(std::isnan(MomentsOf(std::vector{4.0}).variance()));
+  Moments with_fault = MomentsOf(std::vector{kNaN});
+  with_fault.Merge(m);
+  EXPECT_EQ(with_fault.not_finite(), 3);
+  EXPECT_EQ(with_fault.mean(), 2.0);
+}
+
+TEST(VarianceGrowth, SlopeThroughTheOrigin) {
+  const std::vector<double> distance = {1.0, 2.0, 4.0};
+  EXPECT_NEAR(VarianceGrowthSlope(distance, std::vector{0.7, 1.4, 2.8}), 0.7, 1e-15);
+  EXPECT_NEAR(VarianceGrowthSlope(distance, std::vector{1.0, 1.0, 1.0}), 7.0 / 21.0, 1e-15);
+  EXPECT_TRUE(std::isnan(VarianceGrowthSlope({}, {})));
+}
+
+TEST(Quantile, EndsTiesAndNothing) {
+  const std::vector<double> sorted = {1.0, 2.0, 2.0, 5.0};
+  EXPECT_EQ(Quantile(sorted, 0.0), 1.0);
+  EXPECT_EQ(Quantile(sorted, 1.0), 5.0);
+  EXPECT_EQ(Quantile(sorted, 0.5), 2.0);
+  EXPECT_TRUE(std::isnan(Quantile({}, 0.5)));
+}
+
+TEST(Ecdf, StepsAndBands) {
+  const auto points = Ecdf(std::vector{2.0, 1.0, 2.0, kNaN, 4.0});
+  ASSERT_EQ(points.size(), 3u);
+  EXPECT_EQ(points[1].value, 2.0);
+  EXPECT_EQ(points[1].fraction, 0.75);
+  // Half width sqrt(ln(2/0.05) / (2 n)).
+  const auto large = Ecdf(OracleSample("b"));
+  const double half = std::sqrt(std::log(40.0) / 600.0);
+  EXPECT_NEAR(large[150].band.high - large[150].fraction, half, 1e-12);
+  const auto pointwise = Ecdf(OracleSample("b"), 0.95, BandMethod::kPointwise);
+  EXPECT_LT(pointwise[150].band.high - pointwise[150].fraction, half);
+  EXPECT_TRUE(Ecdf({}).empty());
+}
+
+TEST(KolmogorovSmirnov, TwoSampleEqualsOracles) {
+  const auto a = OracleSample("a");
+  const std::span<const double> span(a);
+  const auto b = OracleSample("b");
+  const auto c = OracleSample("c");
+  const TestResult results[] = {KolmogorovSmirnov(a, b), KolmogorovSmirnov(a, c),
+                                KolmogorovSmirnov(span.first(12), span.subspan(12))};
+  const auto& oracles = At(At(Oracles(), "ks"), "two_sample").list();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const core::JsonValue& exact = oracles[2 * i];
+    ASSERT_EQ(At(exact, "method").text(), "exact");
+    EXPECT_NEAR(results[i].statistic, At(exact, "D").number(), 1e-12);
+    EXPECT_NEAR(results[i].p_value, At(exact, "p").number(), 1e-9);
+  }
+}
+
+TEST(KolmogorovSmirnov, OneSampleEqualsOracles) {
+  const auto& oracles = At(At(Oracles(), "ks"), "one_sample").list();
+  const auto expect = [&](const char* name, const TestResult& result) {
+    for (const core::JsonValue& oracle : oracles) {
+      if (At(oracle, "name").text() != name || At(oracle, "method").text() != "exact") continue;
+      EXPECT_NEAR(result.statistic, At(oracle, "D").number(), 1e-12) << name;
+      EXPECT_NEAR(result.p_value, At(oracle, "p").number(), 1e-9) << name;
+      return;
+    }
+    FAIL() << name;
+  };
+  expect("a vs shifted exponential(7.6,.79)", KolmogorovSmirnov(OracleSample("a"), [](double x) {
+           return x < 7.6 ? 0.0 : 1.0 - std::exp(-(x - 7.6) / 0.79);
+         }));
+  const auto normal = [](double mean) {
+    return [mean](double x) { return boost::math::cdf(boost::math::normal(mean, 1.0), x); };
+  };
+  expect("d vs N(0,1)", KolmogorovSmirnov(OracleSample("d"), normal(0.0)));
+  expect("d vs N(.3,1)", KolmogorovSmirnov(OracleSample("d"), normal(0.3)));
+}
+
+TEST(KolmogorovSmirnov, CriticalValuesAndLimitLaw) {
+  for (const auto& c : At(At(Oracles(), "ks"), "critical_D_one_sample_exact_alpha05").members()) {
+    const int n = std::stoi(c.key);
+    // Beyond n = 140 SciPy itself falls back on Pelz and Good's series.
+    EXPECT_NEAR(KolmogorovExactPValue(c.value.number(), n), 0.05, n > 140 ? 1e-6 : 1e-9);
+  }
+  for (const auto& c : At(At(Oracles(), "ks"), "kolmogorov_limit_sf").members()) {
+    EXPECT_NEAR(KolmogorovLimitPValue(std::stod(c.key)), c.value.number(), 1e-12) << c.key;
+  }
+  EXPECT_EQ(KolmogorovExactPValue(0.001, 40), 1.0);
+  EXPECT_EQ(KolmogorovExactPValue(1.0, 40), 0.0);
+  EXPECT_EQ(KolmogorovSmirnov(std::span<const double>(), std::span<const double>()).p_value, 1.0);
+}
+
+TEST(ChiSquare, TailEqualsOracles) {
+  for (const core::JsonValue& c : At(Oracles(), "chi2").list()) {
+    const int dof = static_cast<int>(At(c, "df").integer());
+    for (const auto& sf : At(c, "sf").members()) {
+      EXPECT_NEAR(ChiSquareTail(std::stod(sf.key), dof), sf.value.number(),
+                  1e-9 * sf.value.number());
+    }
+    EXPECT_NEAR(ChiSquareTail(At(c, "ppf95").number(), dof), 0.05, 1e-12);
+  }
+}
+
+TEST(ChiSquare, PoolsThinBinsAndCountsFittedParameters) {
+  const std::vector<double> observed = {10.0, 20.0, 30.0, 1.0, 2.0};
+  const std::vector<double> expected = {15.0, 15.0, 29.0, 2.0, 2.0};
+  const ChiSquareResult result = ChiSquareGoodnessOfFit(observed, expected, 1);
+  EXPECT_EQ(result.degrees_of_freedom, 1);
+  EXPECT_NEAR(result.statistic, 25.0 / 15.0 + 25.0 / 15.0 + 0.0, 1e-12);
+  EXPECT_EQ(ChiSquareGoodnessOfFit(std::vector{3.0}, std::vector{3.0}).p_value, 1.0);
+}
+
+TEST(Modes, FindThePeakAndSurviveSmallSamples) {
+  const std::vector<double> sorted = {0.0, 1.0, 4.0, 4.1, 4.2, 4.3, 9.0, 12.0};
+  EXPECT_NEAR(HalfSampleMode(sorted), 4.15, 0.11);
+  EXPECT_NEAR(KernelMode(sorted), 4.1, 0.5);
+  EXPECT_NEAR(HistogramMode(sorted), 4.1, 1.5);
+  for (const auto mode : {HalfSampleMode, HistogramMode, KernelMode}) {
+    EXPECT_TRUE(std::isnan(mode({})));
+    EXPECT_EQ(mode(std::vector{3.0}), 3.0);
+    EXPECT_EQ(mode(std::vector{3.0, 3.0, 3.0, 3.0, 3.0}), 3.0);
+    const double two = mode(std::vector{1.0, 2.0});
+    EXPECT_GE(two, 1.0);
+    EXPECT_LE(two, 2.0);
+  }
+  // Hand-worked: of three left, the mean of the nearer pair.
+  EXPECT_DOUBLE_EQ(HalfSampleMode(std::vector{1.0, 2.0, 4.0}), 1.5);
+  EXPECT_DOUBLE_EQ(HalfSampleMode(std::vector{1.0, 3.0, 4.0}), 3.5);
+  EXPECT_DOUBLE_EQ(HalfSampleMode(std::vector{1.0, 2.0, 3.0}), 2.0);
+}
+
+TEST(Holm, HandWorked) {
+  const std::vector<double> p = {0.01, 0.04, 0.03, 0.005};
+  const std::vector<double> expected = {0.03, 0.06, 0.06, 0.02};
+  const std::vector<double> adjusted = HolmAdjust(p);
+  for (std::size_t i = 0; i < p.size(); ++i) EXPECT_DOUBLE_EQ(adjusted[i], expected[i]);
+  EXPECT_TRUE(HolmAdjust({}).empty());
+}
+
+TEST(Holm, LevelIsWhereTheVerdictTurns) {
+  std::vector<double> p = {0.001, 0.5, 0.02, 0.9};
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    std::vector<double> changed = p;
+    const double level = HolmLevel(p, i, 0.05);
+    changed[i] = level * (1.0 - 1e-9);
+    EXPECT_LE(HolmAdjust(changed)[i], 0.05);
+    changed[i] = level * (1.0 + 1e-9);
+    EXPECT_GT(HolmAdjust(changed)[i], 0.05);
+  }
+}
+
+}  // namespace
+}  // namespace rockyard::statistics

@@ -1,0 +1,101 @@
+#include "statistics/proportions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "oracles.h"
+#include "statistics/counts.h"
+
+namespace rockyard::statistics {
+namespace {
+
+TEST(ProportionInterval, ClopperPearsonEqualsOracles) {
+  for (const core::JsonValue& c : At(Oracles(), "clopper_pearson").list()) {
+    const Interval interval =
+        ProportionInterval(At(c, "k").integer(), At(c, "n").integer(),
+                           1.0 - At(c, "alpha").number(), IntervalMethod::kClopperPearson);
+    const auto expected = Numbers(At(c, "ci"));
+    EXPECT_NEAR(interval.low, expected[0], 1e-10);
+    EXPECT_NEAR(interval.high, expected[1], 1e-10);
+  }
+}
+
+TEST(ProportionInterval, WilsonEqualsOracles) {
+  for (const core::JsonValue& c : At(Oracles(), "wilson_95").list()) {
+    const Interval interval = ProportionInterval(At(c, "k").integer(), At(c, "n").integer());
+    const auto expected = Numbers(At(c, "ci"));
+    EXPECT_NEAR(interval.low, expected[0], 1e-12);
+    EXPECT_NEAR(interval.high, expected[1], 1e-12);
+  }
+}
+
+TEST(ProportionInterval, UpperEndWithoutSuccessIsTheExactRuleOfThree) {
+  for (const std::int64_t n : {1, 10, 100, 10000}) {
+    const Interval interval = ProportionInterval(0, n, 0.90, IntervalMethod::kClopperPearson);
+    EXPECT_NEAR(interval.high, 1.0 - std::pow(0.05, 1.0 / static_cast<double>(n)), 1e-12);
+    EXPECT_EQ(interval.low, 0.0);
+  }
+}
+
+TEST(ProportionInterval, NoTrialsLeaveEverythingOpen) {
+  const Proportion none = MakeProportion(0, 0);
+  EXPECT_TRUE(std::isnan(none.rate));
+  EXPECT_EQ(none.interval.low, 0.0);
+  EXPECT_EQ(none.interval.high, 1.0);
+}
+
+// Probability that the interval covers the true rate, by summing over all counts.
+double Coverage(std::int64_t n, double rate, IntervalMethod method) {
+  const CountLaw law = BinomialLaw(n, rate);
+  double coverage = 0.0;
+  for (std::int64_t k = 0; k <= n; ++k) {
+    const Interval interval = ProportionInterval(k, n, 0.95, method);
+    if (interval.low <= rate && rate <= interval.high) coverage += law[static_cast<std::size_t>(k)];
+  }
+  return coverage;
+}
+
+TEST(ProportionInterval, ExactCoverage) {
+  double sum = 0.0;
+  double lowest = 1.0;
+  int rates = 0;
+  for (double rate = 0.01; rate < 0.995; rate += 0.01) {
+    EXPECT_GE(Coverage(40, rate, IntervalMethod::kClopperPearson), 0.95);
+    const double wilson = Coverage(40, rate, IntervalMethod::kWilson);
+    sum += wilson;
+    lowest = std::min(lowest, wilson);
+    ++rates;
+  }
+  EXPECT_NEAR(sum / rates, 0.95, 0.01);
+  EXPECT_GT(lowest, 0.83);
+  // Wilson is no exact interval: somewhere it covers less than it says.
+  EXPECT_LT(lowest, 0.95);
+}
+
+TEST(FisherExact, EqualsOracles) {
+  for (const core::JsonValue& c : At(Oracles(), "fisher_exact").list()) {
+    const auto first = Numbers(At(c, "table").list()[0]);
+    const auto second = Numbers(At(c, "table").list()[1]);
+    const std::string& name = At(c, "alternative").text();
+    const Alternative alternative = name == "two-sided" ? Alternative::kTwoSided
+                                    : name == "less"    ? Alternative::kLess
+                                                        : Alternative::kGreater;
+    const ContingencyTable table{std::llround(first[0]), std::llround(first[1]),
+                                 std::llround(second[0]), std::llround(second[1])};
+    EXPECT_NEAR(FisherExactPValue(table, alternative), At(c, "p").number(), 1e-10);
+  }
+}
+
+TEST(FisherExact, EmptyTableSaysNothing) { EXPECT_EQ(FisherExactPValue({}), 1.0); }
+
+TEST(McNemarExact, ClosedForm) {
+  EXPECT_EQ(McNemarExactPValue(0, 0), 1.0);
+  EXPECT_DOUBLE_EQ(McNemarExactPValue(5, 0), 2.0 / 32.0);
+  EXPECT_DOUBLE_EQ(McNemarExactPValue(0, 5), 2.0 / 32.0);
+  EXPECT_DOUBLE_EQ(McNemarExactPValue(1, 9), 2.0 * 11.0 / 1024.0);
+  EXPECT_EQ(McNemarExactPValue(5, 5), 1.0);
+}
+
+}  // namespace
+}  // namespace rockyard::statistics

@@ -1,0 +1,131 @@
+// The committed reference, its parser, and the tables made from a comparison.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "core/error.h"
+#include "core/json_text.h"
+#include "report/comparison_reference.h"
+#include "report/comparison_table.h"
+#include "synthetic_trials.h"
+
+namespace rockyard::report {
+namespace {
+
+using statistics::ComparisonResult;
+using statistics::PublishedReference;
+using statistics::RunOf;
+using statistics::Verdict;
+using testing::HasSubstr;
+
+PublishedReference Matthies() {
+  return LoadReference(ROCKYARD_SOURCE_DIR "/results/reference/matthies1995.json");
+}
+
+// All scenarios with trials of the synthetic law; the verdicts mean nothing here.
+ComparisonResult CompareSynthetic(std::size_t replicates = 500) {
+  const auto records = statistics::SyntheticTrials({}, 3, 300);
+  const auto perfect = statistics::SyntheticTrials({.shortest_m = 7.55}, 4, 300);
+  const std::vector<statistics::ScenarioRun> runs = {
+      RunOf("obstacles_0.28", records), RunOf("obstacles_0.57", records),
+      RunOf("obstacles_0.85", records), RunOf("nominal", records),
+      RunOf("nominal_perfect_localization", perfect)};
+  return statistics::Compare(Matthies(), runs, {.seed = 1, .replicates = replicates});
+}
+
+TEST(Reference, TheCommittedFileParses) {
+  const PublishedReference reference = Matthies();
+  EXPECT_EQ(reference.values.size(), 24u);
+  EXPECT_FALSE(reference.misprints.empty());
+  const auto& success = reference.values[4];
+  EXPECT_EQ(success.id, "nominal.success");
+  EXPECT_EQ(success.value, 39.0);
+  EXPECT_EQ(success.sample_size, 40);
+  EXPECT_EQ(success.outcomes.size(), 2u);
+}
+
+std::string ProblemsOf(const char* text) {
+  try {
+    ParseReference(core::ParseJson(text, "test"));
+  } catch (const core::UserError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Reference, EveryMistakeIsNamedWithItsPath) {
+  EXPECT_THAT(ProblemsOf("[1]"), HasSubstr("object"));
+  EXPECT_THAT(ProblemsOf("{}"), HasSubstr("schema_version"));
+  EXPECT_THAT(ProblemsOf(R"({"schema_version": 2})"), HasSubstr("schema_version"));
+  EXPECT_THAT(ProblemsOf(R"({"schema_version": 1})"), HasSubstr("values"));
+  EXPECT_THAT(ProblemsOf(R"({"schema_version": 1, "values": 3})"), HasSubstr("not a list"));
+  const std::string text = ProblemsOf(R"({"schema_version": 1, "extra": 0, "values": [
+    {"id": "a", "scenario": "s", "statistic": "outcome_count", "sample_size": 6,
+     "outcomes": ["goal_reachd"], "value": 4},
+    {"id": "b", "scenario": "s", "statistic": "minimun", "sample_size": 6},
+    {"id": "c", "scenario": "s", "statistic": "outcome_count", "sample_size": 6,
+     "outcomes": ["no_path"], "value": 7},
+    {"id": "c", "scenario": "s", "statistic": "minimum", "sample_size": 6}]})");
+  EXPECT_THAT(text, HasSubstr("extra"));
+  EXPECT_THAT(text, HasSubstr("values[0].outcomes[0]"));
+  EXPECT_THAT(text, HasSubstr("goal_reached"));
+  EXPECT_THAT(text, HasSubstr("values[1].statistic"));
+  EXPECT_THAT(text, HasSubstr("values[2].value"));
+  EXPECT_THAT(text, HasSubstr("values[3].id"));
+  EXPECT_THAT(text, HasSubstr("values[3].column"));
+  EXPECT_THAT(text, HasSubstr("values[3].value"));
+}
+
+TEST(Reference, FailureKindsMustAddUp) {
+  const char* text = R"({"schema_version": 1, "values": [
+    {"id": "a", "scenario": "s", "statistic": "failure_kinds", "sample_size": 2,
+     "kinds": [{"name": "jam", "outcomes": ["jammed"], "count": 1}]}]})";
+  EXPECT_THAT(ProblemsOf(text), HasSubstr("values[0].kinds"));
+}
+
+TEST(ComparisonText, FitsAHundredColumnsAndNamesEveryValue) {
+  const PublishedReference reference = Matthies();
+  const std::string text = ComparisonText(reference, CompareSynthetic());
+  std::istringstream lines(text);
+  std::string line;
+  while (std::getline(lines, line)) EXPECT_LE(line.size(), 100u) << line;
+  for (const auto& value : reference.values) EXPECT_THAT(text, HasSubstr(value.what));
+  EXPECT_THAT(text, HasSubstr("39/40"));
+  EXPECT_THAT(text, HasSubstr("no run of level_sand"));
+}
+
+TEST(ComparisonCsv, HasTheSameNumberOfFieldsInEveryLine) {
+  std::istringstream lines(ComparisonCsv(CompareSynthetic()));
+  std::string line;
+  while (std::getline(lines, line)) {
+    bool quoted = false;
+    std::size_t fields = 1;
+    for (const char c : line) {
+      if (c == '"') quoted = !quoted;
+      if (c == ',' && !quoted) ++fields;
+    }
+    EXPECT_EQ(fields, 22u) << line;
+  }
+}
+
+TEST(ComparisonJUnit, CountsVerdictsAndEscapes) {
+  ComparisonResult result = CompareSynthetic();
+  result.values[0].verdict = Verdict::kDiffers;
+  result.values[0].remark = "a < b & \"c\"";
+  for (std::size_t i = 1; i < result.values.size(); ++i) {
+    result.values[i].verdict = Verdict::kAgrees;
+  }
+  const std::string xml = ComparisonJUnit(Matthies(), result);
+  EXPECT_THAT(xml, HasSubstr("tests=\"24\" failures=\"1\" skipped=\"0\""));
+  EXPECT_THAT(xml, HasSubstr("a &lt; b &amp; &quot;c&quot;"));
+  EXPECT_THAT(xml, HasSubstr("<testcase classname=\"nominal\" name=\"nominal.success\"/>"));
+}
+
+TEST(Comparison, IsAPureFunctionOfItsArguments) {
+  EXPECT_EQ(ComparisonCsv(CompareSynthetic()), ComparisonCsv(CompareSynthetic()));
+}
+
+}  // namespace
+}  // namespace rockyard::report

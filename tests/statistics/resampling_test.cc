@@ -1,0 +1,186 @@
+// Calibration of everything that resamples. Fixed seeds; each test states what it would reject.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/distributions.h"
+#include "core/random.h"
+#include "statistics/bootstrap.h"
+#include "statistics/exponential_tail.h"
+#include "statistics/kolmogorov.h"
+#include "statistics/modes.h"
+#include "statistics/moments.h"
+#include "statistics/predictive.h"
+#include "statistics/quantiles.h"
+
+namespace rockyard::statistics {
+namespace {
+
+std::vector<double> Exponentials(std::uint32_t set, std::size_t n, double mean = 1.0) {
+  core::RandomStream stream({.seed = 31, .trial = set}, core::Purpose::kTest);
+  std::vector<double> sample(n);
+  for (double& x : sample) x = core::SampleExponential(stream, mean);
+  return sample;
+}
+
+std::vector<double> Normals(std::uint32_t set, std::size_t n, double mean = 0.0) {
+  core::RandomStream stream({.seed = 32, .trial = set}, core::Purpose::kTest);
+  std::vector<double> sample(n);
+  for (double& x : sample) x = core::SampleNormal(stream, mean, 1.0);
+  return sample;
+}
+
+double MeanOf(std::span<const double> x) { return MomentsOf(x).mean(); }
+
+TEST(Bootstrap, IntervalOfTheMeanIsCalibrated) {
+  constexpr int kSets = 500;
+  int covered = 0;
+  int wrong_covered = 0;
+  for (std::uint32_t set = 0; set < kSets; ++set) {
+    const Interval i = BootstrapInterval(Normals(set, 50), MeanOf, set, 0.95, 400);
+    covered += i.low <= 0.0 && 0.0 <= i.high ? 1 : 0;
+    wrong_covered += i.low <= 0.5 && 0.5 <= i.high ? 1 : 0;
+  }
+  // 95 % less the known shortfall of percentile intervals at n = 50, give or take 4 sigma.
+  EXPECT_GT(covered, 0.90 * kSets);
+  EXPECT_LT(covered, 0.98 * kSets);
+  EXPECT_LT(wrong_covered, 0.2 * kSets);
+}
+
+TEST(Bootstrap, IsReproducibleAndEmptySafe) {
+  const auto sample = Normals(0, 30);
+  const Interval a = BootstrapInterval(sample, MeanOf, 5);
+  const Interval b = BootstrapInterval(sample, MeanOf, 5);
+  EXPECT_EQ(a.low, b.low);
+  EXPECT_NE(a.low, BootstrapInterval(sample, MeanOf, 6).low);
+  EXPECT_TRUE(std::isnan(BootstrapInterval({}, MeanOf, 5).low));
+}
+
+// Uniform p-values under the null: Kolmogorov test at alpha = 0.01 over the p-values.
+TEST(ExponentialTail, PValuesAreUniformForShiftedExponentialsOfAnyScale) {
+  const std::vector<double> null = ExponentialNullLaw(39, 4000, 1);
+  std::vector<double> p_values;
+  for (std::uint32_t set = 0; set < 500; ++set) {
+    std::vector<double> sample = Exponentials(set, 40, 0.1 + set);
+    for (double& x : sample) x += 7.6;
+    std::sort(sample.begin(), sample.end());
+    p_values.push_back(BootstrapPValue(null, ExponentialStatistic(sample)));
+  }
+  const auto uniform = [](double x) { return std::clamp(x, 0.0, 1.0); };
+  EXPECT_GT(KolmogorovSmirnov(p_values, uniform).p_value, 0.01);
+}
+
+// Negative control: a plain Kolmogorov-Smirnov p-value with fitted parameters is far from uniform.
+TEST(ExponentialTail, PlainKolmogorovWithFittedParametersIsNotUniform) {
+  std::vector<double> p_values;
+  for (std::uint32_t set = 0; set < 500; ++set) {
+    std::vector<double> sample = Exponentials(set, 40);
+    std::sort(sample.begin(), sample.end());
+    p_values.push_back(KolmogorovExactPValue(ExponentialStatistic(sample), 39));
+  }
+  const auto uniform = [](double x) { return std::clamp(x, 0.0, 1.0); };
+  EXPECT_LT(KolmogorovSmirnov(p_values, uniform).p_value, 1e-6);
+}
+
+TEST(ExponentialTail, RejectsWhatIsNotExponential) {
+  EXPECT_LT(ExponentialTailTest(Normals(1, 200), 1, 0, 999).p_value, 0.01);
+  EXPECT_GT(ExponentialTailTest(Exponentials(1, 200), 1, 0, 999).p_value, 0.01);
+  // Exponential only beyond its lower half: rejected as a whole, not beyond the median.
+  std::vector<double> bent = Exponentials(2, 200);
+  for (std::size_t i = 0; i < 100; ++i) bent.push_back(-2.0 - 0.01 * static_cast<double>(i));
+  EXPECT_LT(ExponentialTailTest(bent, 1, 0, 999).p_value, 0.01);
+  EXPECT_GT(ExponentialTailTest(bent, 1, 110, 999).p_value, 0.01);
+  EXPECT_EQ(ExponentialTailTest({}, 1).p_value, 1.0);
+}
+
+TEST(Predictive, SmallestOfTheNewSampleLiesBelowThePoolAsOftenAsItMust) {
+  // n / (N + n), whatever the law: 40 beside 60 fall below the pool's minimum in 40 % of cases.
+  const PredictiveSampler sampler(Exponentials(3, 60));
+  const auto smallest =
+      PredictiveStatistics(sampler, 40, [](std::span<const double> x) { return x.front(); }, 4000,
+                           {.seed = 1, .trial = 0});
+  const auto below = std::count_if(smallest.begin(), smallest.end(),
+                                   [&](double x) { return x < sampler.pool().front(); });
+  EXPECT_NEAR(static_cast<double>(below) / 4000.0, 0.4, 4.0 * std::sqrt(0.24 / 4000.0));
+}
+
+TEST(Predictive, RespectsALowerLimit) {
+  const PredictiveSampler sampler(Exponentials(4, 20), 0.0);
+  const auto smallest =
+      PredictiveStatistics(sampler, 40, [](std::span<const double> x) { return x.front(); }, 2000,
+                           {.seed = 1, .trial = 0});
+  EXPECT_GE(*std::min_element(smallest.begin(), smallest.end()), 0.0);
+}
+
+// Share of rejections at 0.05 over many (pool, published set) pairs.
+double RejectionRate(const SampleStatistic& statistic, double shift, std::size_t pool_size) {
+  constexpr std::uint32_t kPairs = 400;
+  int rejected = 0;
+  for (std::uint32_t pair = 0; pair < kPairs; ++pair) {
+    std::vector<double> published = Normals(2 * pair + 1, 40, shift);
+    std::sort(published.begin(), published.end());
+    auto drawn = PredictiveStatistics(PredictiveSampler(Normals(2 * pair, pool_size)), 40,
+                                      statistic, 400, {.seed = 9, .trial = pair});
+    std::sort(drawn.begin(), drawn.end());
+    rejected += PredictivePValue(drawn, statistic(published), 0.0) <= 0.05 ? 1 : 0;
+  }
+  return rejected / static_cast<double>(kPairs);
+}
+
+TEST(Predictive, FalseAlarmRateIsNominalForEveryStatistic) {
+  // 0.05 give or take 3.5 sigma of 400 pairs.
+  const SampleStatistic statistics[] = {[](std::span<const double> x) { return x.front(); },
+                                        [](std::span<const double> x) { return x.back(); },
+                                        HalfSampleMode, MeanOf};
+  for (const SampleStatistic& statistic : statistics) {
+    for (const std::size_t pool : {std::size_t{60}, std::size_t{300}}) {
+      const double rate = RejectionRate(statistic, 0.0, pool);
+      EXPECT_LT(rate, 0.09);
+      EXPECT_GT(rate, 0.012);
+    }
+  }
+}
+
+TEST(Predictive, WrongPoolIsFound) {
+  EXPECT_GT(RejectionRate(MeanOf, 0.7, 300), 0.9);
+  EXPECT_GT(RejectionRate([](std::span<const double> x) { return x.front(); }, 2.0, 300), 0.8);
+}
+
+// Negative control: without the pool's own uncertainty a small pool gives false alarms.
+TEST(Predictive, IgnoringThePoolsUncertaintyWouldGiveFalseAlarms) {
+  constexpr std::uint32_t kPairs = 300;
+  int rejected = 0;
+  for (std::uint32_t pair = 0; pair < kPairs; ++pair) {
+    const std::vector<double> pool = Normals(2 * pair, 20);
+    std::vector<double> drawn(400);
+    for (std::uint32_t b = 0; b < drawn.size(); ++b) {
+      core::RandomStream stream({.seed = 9, .trial = pair}, core::Purpose::kTest, b);
+      double sum = 0.0;
+      for (int i = 0; i < 40; ++i) sum += pool[static_cast<std::size_t>(stream.Uniform() * 20.0)];
+      drawn[b] = sum / 40.0;
+    }
+    std::sort(drawn.begin(), drawn.end());
+    const double published = MeanOf(Normals(2 * pair + 1, 40));
+    rejected += PredictivePValue(drawn, published, 0.0) <= 0.05 ? 1 : 0;
+  }
+  EXPECT_GT(rejected, 0.15 * kPairs);
+}
+
+TEST(Predictive, RoundedValuesCountOnBothSides) {
+  const std::vector<double> drawn = {1.0, 2.0, 3.0, 4.0};
+  EXPECT_DOUBLE_EQ(PredictivePValue(drawn, 1.6, 0.0), 2.0 * 2.0 / 5.0);
+  EXPECT_DOUBLE_EQ(PredictivePValue(drawn, 1.6, 1.0), 1.0);
+}
+
+TEST(Predictive, ShiftPowerRisesWithTheShift) {
+  const PredictiveSampler sampler(Normals(5, 300));
+  auto means = PredictiveStatistics(sampler, 40, MeanOf, 2000, {.seed = 1, .trial = 0});
+  std::sort(means.begin(), means.end());
+  EXPECT_LT(ShiftPower(means, 0.0, 0.05), 0.07);
+  EXPECT_GT(ShiftPower(means, 0.8, 0.05), 0.95);
+}
+
+}  // namespace
+}  // namespace rockyard::statistics
