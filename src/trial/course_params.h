@@ -1,6 +1,8 @@
 // Where a trial starts, where it leads, and how near counts as there.
 #pragma once
 
+#include <cstdint>
+
 #include "core/fields.h"
 
 namespace rockyard::trial {
@@ -12,6 +14,7 @@ struct CourseParams {
   double goal_x_m = 7.6;
   double goal_y_m = 0.0;
   double goal_radius_m = 0.65;
+  std::int64_t trials_per_layout = 1;
 
   void Visit(core::FieldVisitor& v) {
     using core::Origin;
@@ -41,6 +44,12 @@ struct CourseParams {
             .source = "Matthies 1995 sec. 8",
             .study_low = 0.3,
             .study_high = 1.5});
+    v.Integer("trials_per_layout", trials_per_layout,
+              {.doc = "consecutive trials that meet the same rock field; the paper does not say "
+                      "whether the runs of a set did",
+               .min = 1,
+               .max = 1e6,
+               .origin = Origin::kSetting});
     const double dx = goal_x_m - start_x_m;
     const double dy = goal_y_m - start_y_m;
     v.Require("goal_x_m", dx * dx + dy * dy > 0.01, "puts the goal within 0.1 m of the start",

@@ -17,8 +17,18 @@ namespace {
 using messages::MotionKind;
 using scenario::Scenario;
 
+// The key of the rock field: trials that share a layout share it.
+core::TrialKey LayoutKey(const Scenario& scenario, core::TrialKey key) {
+  const auto group = static_cast<std::uint32_t>(scenario.course.trials_per_layout);
+  return {key.seed, key.trial / group};
+}
+
 terrain::Course TerrainCourse(const CourseParams& course) {
   return {course.start_x_m, course.start_y_m, course.goal_x_m, course.goal_y_m};
+}
+
+Underside UndersideOf(const rover::RoverGeometryParams& rover) {
+  return {0.0, 0.5 * rover.belly_length_m, 0.5 * rover.belly_width_m, rover.belly_clearance_m};
 }
 
 math::Pose2 StartPose(const CourseParams& course) {
@@ -72,24 +82,25 @@ Drive::Drive(const Scenario& scenario, core::TrialKey key, truth::Trace* trace)
     : scenario_(scenario),
       key_(key),
       trace_(trace),
-      field_(terrain::BuildField(scenario.terrain, key, TerrainCourse(scenario.course))),
+      field_(terrain::BuildField(scenario.terrain, LayoutKey(scenario, key),
+                                 TerrainCourse(scenario.course))),
       rover_(rover::MakeRover(scenario.rover, field_.terrain)),
       light_stripe_(scenario.sensors.light_stripe),
       triangulator_(sensing::TrueCalibration(scenario.sensors.light_stripe)),
       hazard_detector_(scenario.perception.hazard),
-      dead_reckoning_(rover::TrueDriveCalibration(scenario.rover),
+      dead_reckoning_(rover::MakeDriveCalibration(scenario.rover),
                       scenario.perception.dead_reckoning, StartPose(scenario.course)),
       navigator_(MakeNavigator(scenario)),
-      wheel_driver_(rover::TrueDriveCalibration(scenario.rover), scenario.navigation.wheel_driver),
+      wheel_driver_(rover::MakeDriveCalibration(scenario.rover), scenario.navigation.wheel_driver),
       ledger_(scenario.energy),
-      monitor_(rover::BellyOf(scenario.rover), field_.terrain),
+      monitor_(UndersideOf(scenario.rover.geometry), field_.terrain),
       referee_(scenario.referee, scenario.course, Bounds(scenario.terrain.arena)) {
   if (scenario.terrain.arena.kind == terrain::ArenaKind::kVirtualReflected) {
     mirror_.emplace(scenario.terrain.arena.MirrorLine());
   }
   rover_->Place(StartPose(scenario.course));
   motion_sensors_.emplace(scenario.sensors.gyro, scenario.sensors.encoders,
-                          rover::TrueDriveCalibration(scenario.rover).wheel_radius_m, key,
+                          rover::MakeDriveCalibration(scenario.rover).wheel_radius_m, key,
                           rover_->state());
   monitor_.Restart(rover_->state());
 }
@@ -198,25 +209,37 @@ DriveResult Drive::Finish(const Verdict& verdict) {
   Record("end", verdict.detail);
 
   DriveResult result{verdict.outcome, verdict.detail, {}};
-  truth::DriveRecord& record = result.record;
-  monitor_.Report(record);
+  monitor_.Report(result.record);
+  ReportPoses(result.record);
+  ReportErrors(result.record);
+  ReportLedger(result.record);
+  ReportCounts(result.record);
+  return result;
+}
 
+void Drive::ReportPoses(truth::DriveRecord& record) const {
   const math::Pose2 truth = math::ToPose2(rover_->state().X_WR);
-  const math::Pose2 reference =
-      scenario_.sensors.tracker.enabled
-          ? sensing::Tracker(scenario_.sensors.tracker, key_).Observe(truth, 0)
-          : truth;
   const messages::PoseEstimate& estimate = dead_reckoning_.estimate();
   const CourseParams& course = scenario_.course;
-  record.dead_reckoned_distance_m = estimate.distance_m;
   record.straight_distance_m =
       std::hypot(course.goal_x_m - course.start_x_m, course.goal_y_m - course.start_y_m);
+  record.true_goal_distance_m =
+      std::hypot(course.goal_x_m - truth.x_m, course.goal_y_m - truth.y_m);
   record.final_x_m = truth.x_m;
   record.final_y_m = truth.y_m;
   record.final_heading_rad = truth.heading_rad;
   record.believed_x_m = estimate.x_m;
   record.believed_y_m = estimate.y_m;
   record.believed_heading_rad = estimate.heading_rad;
+}
+
+void Drive::ReportErrors(truth::DriveRecord& record) const {
+  const math::Pose2 truth = math::ToPose2(rover_->state().X_WR);
+  const sensing::TrackerParams& tracker = scenario_.sensors.tracker;
+  const math::Pose2 reference =
+      tracker.enabled ? sensing::Tracker(tracker, key_).Observe(truth, 0) : truth;
+  const messages::PoseEstimate& estimate = dead_reckoning_.estimate();
+  record.dead_reckoned_distance_m = estimate.distance_m;
   if (record.true_distance_m > 0.0) {
     record.distance_error_percent =
         100.0 * (estimate.distance_m - record.true_distance_m) / record.true_distance_m;
@@ -224,14 +247,17 @@ DriveResult Drive::Finish(const Verdict& verdict) {
   record.heading_error_deg =
       math::RadToDeg(std::abs(math::WrapAngle(estimate.heading_rad - reference.heading_rad)));
   record.position_error_m = std::hypot(estimate.x_m - reference.x_m, estimate.y_m - reference.y_m);
-  record.true_goal_distance_m =
-      std::hypot(course.goal_x_m - truth.x_m, course.goal_y_m - truth.y_m);
+}
 
+void Drive::ReportLedger(truth::DriveRecord& record) const {
   record.sim_time_s = ledger_.time_s();
   record.drive_time_s = ledger_.time_s(Activity::kDriving);
   record.turn_time_s = ledger_.time_s(Activity::kTurning);
   record.scan_time_s = ledger_.time_s(Activity::kScanning);
   record.energy_wh = ledger_.energy_wh();
+}
+
+void Drive::ReportCounts(truth::DriveRecord& record) const {
   record.scans = static_cast<double>(scans_);
   record.rescans = static_cast<double>(rescans_);
   record.hazards_believed = static_cast<double>(hazards_);
@@ -239,9 +265,9 @@ DriveResult Drive::Finish(const Verdict& verdict) {
   record.scrapes = static_cast<double>(motion_sensors_->scrapes().episodes());
   record.scrape_heading_rad = motion_sensors_->scrapes().total_jump_rad();
   record.reflections = static_cast<double>(reflections_);
+  record.layout = static_cast<double>(LayoutKey(scenario_, key_).trial);
   record.rocks = static_cast<double>(field_.terrain.rocks().size());
   record.rock_cover = field_.audit.outline_cover;
-  return result;
 }
 
 void Drive::Record(std::string kind, std::string detail) {

@@ -44,6 +44,10 @@ class Drive {
   void ReflectAtMirrorLine();
   std::optional<Verdict> AskReferee(Activity activity, double duration_s);
   DriveResult Finish(const Verdict& verdict);
+  void ReportPoses(truth::DriveRecord& record) const;
+  void ReportErrors(truth::DriveRecord& record) const;
+  void ReportLedger(truth::DriveRecord& record) const;
+  void ReportCounts(truth::DriveRecord& record) const;
 
   void Record(std::string kind, std::string detail);
   void Sample(Activity activity);

@@ -37,8 +37,9 @@ struct DriveRecord {
   double max_tilt_deg = 0.0;
   double max_bogie_deg = 0.0;
   double min_clearance_m = 0.0;
-  double rocks = 0.0;        // in the field
-  double rock_cover = 0.0;   // covered fraction of the field's area
+  double layout = 0.0;              // index of the rock field; trials may share one
+  double rocks = 0.0;               // in the field
+  double rock_cover = 0.0;          // covered fraction of the field's area
   double scrape_heading_rad = 0.0;  // sum of the injected scrape jumps
 };
 
@@ -53,12 +54,10 @@ inline constexpr std::array kDriveColumns = {
     DriveColumn{"true_distance_m", "m", "true path length", &DriveRecord::true_distance_m},
     DriveColumn{"dead_reckoned_distance_m", "m", "odometer of the rover",
                 &DriveRecord::dead_reckoned_distance_m},
-    DriveColumn{"straight_distance_m", "m", "start to goal",
-                &DriveRecord::straight_distance_m},
+    DriveColumn{"straight_distance_m", "m", "start to goal", &DriveRecord::straight_distance_m},
     DriveColumn{"final_x_m", "m", "true final x", &DriveRecord::final_x_m},
     DriveColumn{"final_y_m", "m", "true final y", &DriveRecord::final_y_m},
-    DriveColumn{"final_heading_rad", "rad", "true final heading",
-                &DriveRecord::final_heading_rad},
+    DriveColumn{"final_heading_rad", "rad", "true final heading", &DriveRecord::final_heading_rad},
     DriveColumn{"believed_x_m", "m", "dead-reckoned final x", &DriveRecord::believed_x_m},
     DriveColumn{"believed_y_m", "m", "dead-reckoned final y", &DriveRecord::believed_y_m},
     DriveColumn{"believed_heading_rad", "rad", "dead-reckoned final heading",
@@ -73,8 +72,7 @@ inline constexpr std::array kDriveColumns = {
                 &DriveRecord::true_goal_distance_m},
     DriveColumn{"sim_time_s", "s", "simulated time", &DriveRecord::sim_time_s},
     DriveColumn{"drive_time_s", "s", "simulated time driving", &DriveRecord::drive_time_s},
-    DriveColumn{"turn_time_s", "s", "simulated time turning in place",
-                &DriveRecord::turn_time_s},
+    DriveColumn{"turn_time_s", "s", "simulated time turning in place", &DriveRecord::turn_time_s},
     DriveColumn{"scan_time_s", "s", "simulated time scanning", &DriveRecord::scan_time_s},
     DriveColumn{"energy_wh", "Wh", "energy drawn", &DriveRecord::energy_wh},
     DriveColumn{"scans", "1", "hazard scans", &DriveRecord::scans},
@@ -91,6 +89,7 @@ inline constexpr std::array kDriveColumns = {
     DriveColumn{"max_bogie_deg", "deg", "largest bogie angle", &DriveRecord::max_bogie_deg},
     DriveColumn{"min_clearance_m", "m", "smallest belly clearance over rock",
                 &DriveRecord::min_clearance_m},
+    DriveColumn{"layout", "1", "index of the rock field", &DriveRecord::layout},
     DriveColumn{"rocks", "1", "rocks in the field", &DriveRecord::rocks},
     DriveColumn{"rock_cover", "1", "covered fraction of the field", &DriveRecord::rock_cover},
     DriveColumn{"scrape_heading_rad", "rad", "sum of heading jumps from scrapes",

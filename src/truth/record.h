@@ -11,8 +11,8 @@ namespace rockyard::truth {
 
 // How a trial ended. Stored by name; append only.
 enum class TrialOutcome {
-  kGoalReached,     // believed and truly within tolerance
-  kFalseGoal,       // believed only
+  kGoalReached,  // believed and truly within tolerance
+  kFalseGoal,    // believed only
   kTipOver,
   kHighCentred,
   kJammed,
@@ -38,8 +38,8 @@ constexpr bool DeclaredSuccess(TrialOutcome outcome) {
 
 // One column of a record.
 struct ValueInfo {
-  std::string name;     // with unit suffix, e.g. "true_distance_m"
-  std::string unit;     // "m", "s", "1", ...
+  std::string name;  // with unit suffix, e.g. "true_distance_m"
+  std::string unit;  // "m", "s", "1", ...
   std::string meaning;
 };
 

@@ -13,7 +13,7 @@ enum class BodyPart { kBelly, kRocker, kHub, kPanelEdge, kWheel };
 // Touch of a part of the rover with a rock. Wheel contacts are not listed here.
 struct BodyContact {
   BodyPart part = BodyPart::kBelly;
-  int rock = -1;              // index in Terrain::rocks(); -1: ground or wall
+  int rock = -1;  // index in Terrain::rocks(); -1: ground or wall
   double normal_force_N = 0.0;
   double sliding_speed_m_s = 0.0;
 };

@@ -11,16 +11,16 @@ namespace rockyard::truth {
 
 struct TraceSample {
   double time_s = 0.0;
-  math::Pose2 pose;               // true
+  math::Pose2 pose;  // true
   double tilt_rad = 0.0;
   messages::PoseEstimate estimate;
-  std::string activity;           // "drive", "turn", "steer"
+  std::string activity;  // "drive", "turn", "steer"
 };
 
 struct TraceEvent {
   double time_s = 0.0;
-  math::Pose2 pose;      // true, when it happened
-  std::string kind;      // "scan", "hazard", "scrape", "reflection", "end"
+  math::Pose2 pose;  // true, when it happened
+  std::string kind;  // "scan", "hazard", "scrape", "reflection", "end"
   std::string detail;
 };
 

@@ -31,7 +31,7 @@ class RefereeTest : public testing::Test {
     return std::nullopt;
   }
 
-  void MoveTo(double x_m, double y_m) { state_.X_WR.translation() = {x_m, y_m, 0.0}; }
+  void MoveTo(double x_m, double y_m) { state_.X_WR.translation() = math::Vector3(x_m, y_m, 0.0); }
 
   RefereeParams params_;
   CourseParams course_;
