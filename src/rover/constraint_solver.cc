@@ -1,0 +1,218 @@
+#include "rover/constraint_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rockyard::rover {
+namespace {
+
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+// Share of a position error of differential or joint stop that one step takes back.
+constexpr double kJointRecovery = 0.2;
+// Joint stops are watched from this angle before them, rad.
+constexpr double kStopWatch_rad = 0.05;
+
+}  // namespace
+
+ConstraintSolver::ConstraintSolver(const RoverParams& params)
+    : contact_params_(params.contact),
+      wheel_radius_m_(params.geometry.wheel_radius_m),
+      step_s_(params.physics.step_s),
+      iterations_(params.physics.solver_iterations) {
+  differential_.J[6 + kLeftRocker] = 1.0;
+  differential_.J[6 + kRightRocker] = 1.0;
+  differential_.low = -kUnbounded;
+  differential_.high = kUnbounded;
+  for (std::size_t i = 0; i < kStops; ++i) {
+    const bool rocker = i <= static_cast<std::size_t>(kRightRocker);
+    stop_angle_rad_[i] =
+        rocker ? params.geometry.rocker_limit_rad : params.geometry.bogie_limit_rad;
+  }
+  const double stall_Ns_m = params.drive.stall_torque_Nm * step_s_;
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    motors_[i].J[6 + kFirstWheel + static_cast<int>(i)] = 1.0;
+    motors_[i].low = -stall_Ns_m;
+    motors_[i].high = stall_Ns_m;
+  }
+}
+
+void ConstraintSolver::Clear() {
+  differential_.impulse = 0.0;
+  for (Row& row : stops_) row.impulse = 0.0;
+  for (Row& row : motors_) row.impulse = 0.0;
+}
+
+void ConstraintSolver::Solve(const DofMatrix& mass_inverse,
+                             const messages::PerWheel<double>& wheel_rate_rad_s,
+                             ContactFinder& finder, Multibody& body) {
+  const DofVector free_velocity = body.Velocity();
+  velocity_ = free_velocity;
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    spin_rad_s_[i] = free_velocity[6 + kFirstWheel + static_cast<int>(i)];
+  }
+  StartDifferential(mass_inverse, body);
+  StartStops(mass_inverse, body);
+  StartMotors(mass_inverse, wheel_rate_rad_s);
+  contact_count_ = 0;
+  for (Contact& contact : finder.contacts()) {
+    if (contact.gap_m < ContactFinder::kActiveGap_m) {
+      StartContact(mass_inverse, finder.part(contact.part), body, contact);
+    } else {
+      contact.impulse_Ns = {};
+      contact.drag_Ns = 0.0;
+    }
+  }
+  for (std::int64_t i = 0; i < iterations_; ++i) Sweep();
+  for (std::size_t i = 0; i < contact_count_; ++i) {
+    const ContactRows& rows = contacts_[i];
+    rows.contact->impulse_Ns = {rows.normal.impulse, rows.along.impulse, rows.across.impulse};
+    rows.contact->drag_Ns = rows.drag.impulse;
+  }
+  body.AddVelocity(velocity_ - free_velocity);
+}
+
+void ConstraintSolver::Start(const DofMatrix& mass_inverse, Row& row) {
+  row.response.noalias() = mass_inverse * row.J;
+  row.inverse_diagonal = 1.0 / (row.J.dot(row.response) + row.softness);
+  row.impulse = std::clamp(row.impulse, row.low, row.high);
+  velocity_ += row.impulse * row.response;
+}
+
+void ConstraintSolver::StartDifferential(const DofMatrix& mass_inverse, const Multibody& body) {
+  const double error_rad = body.JointAngle(kLeftRocker) + body.JointAngle(kRightRocker);
+  differential_.target = -kJointRecovery * error_rad / step_s_;
+  Start(mass_inverse, differential_);
+}
+
+void ConstraintSolver::StartStops(const DofMatrix& mass_inverse, const Multibody& body) {
+  for (std::size_t i = 0; i < kStops; ++i) {
+    Row& row = stops_[i];
+    const int joint = static_cast<int>(i);
+    const double angle_rad = body.JointAngle(joint);
+    const double room_rad = stop_angle_rad_[i] - std::abs(angle_rad);
+    if (room_rad > kStopWatch_rad) {
+      row.high = row.impulse = 0.0;
+      continue;
+    }
+    row.J[6 + joint] = angle_rad > 0.0 ? -1.0 : 1.0;
+    row.target = -(room_rad > 0.0 ? 1.0 : kJointRecovery) * room_rad / step_s_;
+    row.high = kUnbounded;
+    Start(mass_inverse, row);
+  }
+}
+
+void ConstraintSolver::StartMotors(const DofMatrix& mass_inverse,
+                                   const messages::PerWheel<double>& rate_rad_s) {
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    motors_[i].target = rate_rad_s[i];
+    Start(mass_inverse, motors_[i]);
+  }
+}
+
+void ConstraintSolver::StartContact(const DofMatrix& mass_inverse, const Part& part,
+                                    const Multibody& body, Contact& contact) {
+  if (contact_count_ == contacts_.size()) contacts_.emplace_back();
+  ContactRows& rows = contacts_[contact_count_++];
+  rows.contact = &contact;
+  const bool wheel = part.kind == truth::BodyPart::kWheel;
+  const bool wheel_on_soil = wheel && contact.IsSoil();
+
+  // A spring and damper side by side, solved implicitly: force k d - c v at the end of the step. A
+  // gap only bounds the approach.
+  const double k = contact_params_.stiffness_N_m;
+  const double c = contact_params_.damping_Ns_m;
+  const double recovery = contact.gap_m > 0.0 ? 1.0 : step_s_ * k / (step_s_ * k + c);
+  body.FillJacobian(part.body, contact.p_W, contact.n_W, rows.normal.J);
+  rows.normal.target = -recovery * contact.gap_m / step_s_;
+  rows.normal.softness = 1.0 / (step_s_ * (step_s_ * k + c));
+  rows.normal.impulse = contact.impulse_Ns[0];
+  rows.normal.high = kUnbounded;
+  Start(mass_inverse, rows.normal);
+
+  rows.friction = !wheel             ? contact_params_.body_rock_friction
+                  : contact.IsSoil() ? contact_params_.wheel_soil_friction
+                                     : contact_params_.wheel_rock_friction;
+  const double spin_rad_s = wheel ? spin_rad_s_[static_cast<std::size_t>(contact.part)] : 0.0;
+  const double softness = wheel_on_soil ? SlipSoftness(contact, spin_rad_s) : 0.0;
+  body.FillJacobian(part.body, contact.p_W, contact.along_W, rows.along.J);
+  body.FillJacobian(part.body, contact.p_W, contact.across_W, rows.across.J);
+  rows.along.impulse = contact.impulse_Ns[1];
+  rows.across.impulse = contact.impulse_Ns[2];
+  for (Row* row : {&rows.along, &rows.across}) {
+    row->softness = softness;
+    row->low = -kUnbounded;
+    row->high = kUnbounded;
+    Start(mass_inverse, *row);
+  }
+  rows.drag_ratio = wheel_on_soil ? contact_params_.soil_drag : 0.0;
+  StartDrag(mass_inverse, part, body, rows);
+}
+
+void ConstraintSolver::StartDrag(const DofMatrix& mass_inverse, const Part& part,
+                                 const Multibody& body, ContactRows& rows) {
+  rows.drag.impulse = rows.contact->drag_Ns;
+  if (rows.drag_ratio == 0.0) return;
+  // Acts on the axle, so that the wheel has to pull it by traction.
+  body.FillJacobian(body.Parent(part.body), body.X_WB(part.body).translation(),
+                    rows.contact->along_W, rows.drag.J);
+  rows.drag.low = -kUnbounded;
+  rows.drag.high = kUnbounded;
+  Start(mass_inverse, rows.drag);
+}
+
+// Implicit viscous slip: slip velocity |omega r| s(tau) at traction tau, with s(tau) = -K ln(1-tau)
+// and tau from the last step's impulses, written as softness of the friction rows.
+double ConstraintSolver::SlipSoftness(const Contact& contact, double spin_rad_s) const {
+  const double K = contact_params_.soil_slip;
+  const double most_Ns = contact_params_.wheel_soil_friction * contact.impulse_Ns[0];
+  if (K == 0.0 || most_Ns <= 0.0) return 0.0;
+  const double largest_tau = 1.0 - std::exp(-1.0 / K);  // where the slip reaches 1
+  const double tau =
+      std::min(std::hypot(contact.impulse_Ns[1], contact.impulse_Ns[2]) / most_Ns, largest_tau);
+  const double slip_per_tau = tau > 1e-6 ? -K * std::log1p(-tau) / tau : K;
+  return std::abs(spin_rad_s) * wheel_radius_m_ * slip_per_tau / most_Ns;
+}
+
+void ConstraintSolver::Sweep() {
+  Relax(differential_);
+  for (Row& row : stops_) {
+    if (row.high > 0.0) Relax(row);
+  }
+  for (Row& row : motors_) Relax(row);
+  for (std::size_t i = 0; i < contact_count_; ++i) {
+    ContactRows& rows = contacts_[i];
+    Relax(rows.normal);
+    RelaxFriction(rows);
+    if (rows.drag_ratio > 0.0) {
+      rows.drag.high = rows.drag_ratio * rows.normal.impulse;
+      rows.drag.low = -rows.drag.high;
+      Relax(rows.drag);
+    }
+  }
+}
+
+void ConstraintSolver::Relax(Row& row) {
+  const double wanted =
+      row.impulse +
+      (row.target - row.J.dot(velocity_) - row.softness * row.impulse) * row.inverse_diagonal;
+  const double impulse = std::clamp(wanted, row.low, row.high);
+  velocity_ += (impulse - row.impulse) * row.response;
+  row.impulse = impulse;
+}
+
+// Both friction rows, then back onto the cone.
+void ConstraintSolver::RelaxFriction(ContactRows& rows) {
+  Relax(rows.along);
+  Relax(rows.across);
+  const double most_Ns = rows.friction * rows.normal.impulse;
+  const double size_Ns = std::hypot(rows.along.impulse, rows.across.impulse);
+  if (size_Ns <= most_Ns) return;
+  const double change = most_Ns / size_Ns - 1.0;
+  velocity_ += change * (rows.along.impulse * rows.along.response +
+                         rows.across.impulse * rows.across.response);
+  rows.along.impulse *= 1.0 + change;
+  rows.across.impulse *= 1.0 + change;
+}
+
+}  // namespace rockyard::rover

@@ -1,0 +1,79 @@
+// Velocity constraints of one step: differential, joint stops, motors, contacts with friction, slip
+// and motion resistance. Projected Gauss-Seidel, started from the impulses of the last step.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "messages/wheels.h"
+#include "rover/contact_finder.h"
+#include "rover/multibody.h"
+#include "rover/rover_params.h"
+
+namespace rockyard::rover {
+
+class ConstraintSolver {
+ public:
+  explicit ConstraintSolver(const RoverParams& params);
+
+  // Forgets the impulses of the last step.
+  void Clear();
+
+  // Changes the velocities of `body`, already accelerated by gravity, so that they keep all
+  // constraints; wheels are driven towards wheel_rate_rad_s. Leaves the impulses in the contacts.
+  void Solve(const DofMatrix& mass_inverse, const messages::PerWheel<double>& wheel_rate_rad_s,
+             ContactFinder& finder, Multibody& body);
+
+  double MotorTorque_Nm(std::size_t wheel) const { return motors_[wheel].impulse / step_s_; }
+
+ private:
+  // One scalar constraint: J v + softness * impulse = target, impulse within [low, high].
+  struct Row {
+    DofVector J = DofVector::Zero();
+    DofVector response = DofVector::Zero();  // velocity change per unit impulse
+    double target = 0.0;
+    double softness = 0.0;
+    double inverse_diagonal = 0.0;
+    double impulse = 0.0;
+    double low = 0.0;
+    double high = 0.0;
+  };
+  struct ContactRows {
+    Contact* contact = nullptr;
+    double friction = 0.0;
+    double drag_ratio = 0.0;  // motion resistance over load
+    Row normal, along, across, drag;
+  };
+  static constexpr std::size_t kStops = 4;  // rockers and bogies
+
+  // Completes a row of given J, target, softness and impulse, and applies the impulse.
+  void Start(const DofMatrix& mass_inverse, Row& row);
+  void StartDifferential(const DofMatrix& mass_inverse, const Multibody& body);
+  void StartStops(const DofMatrix& mass_inverse, const Multibody& body);
+  void StartMotors(const DofMatrix& mass_inverse, const messages::PerWheel<double>& rate_rad_s);
+  void StartContact(const DofMatrix& mass_inverse, const Part& part, const Multibody& body,
+                    Contact& contact);
+  void StartDrag(const DofMatrix& mass_inverse, const Part& part, const Multibody& body,
+                 ContactRows& rows);
+  double SlipSoftness(const Contact& contact, double spin_rad_s) const;
+
+  void Sweep();
+  void Relax(Row& row);
+  void RelaxFriction(ContactRows& rows);
+
+  const RoverContactParams contact_params_;
+  const double wheel_radius_m_;
+  const double step_s_;
+  const std::int64_t iterations_;
+
+  std::array<double, kStops> stop_angle_rad_{};
+  DofVector velocity_ = DofVector::Zero();
+  messages::PerWheel<double> spin_rad_s_{};  // before the solution
+  Row differential_;
+  std::array<Row, kStops> stops_;
+  messages::PerWheel<Row> motors_;
+  std::vector<ContactRows> contacts_;  // capacity; the first contact_count_ are in use
+  std::size_t contact_count_ = 0;
+};
+
+}  // namespace rockyard::rover

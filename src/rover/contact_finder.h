@@ -1,0 +1,75 @@
+// Finds where the rover touches, or is about to touch, the terrain.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "math/pose.h"
+#include "rover/ellipsoid.h"
+#include "rover/multibody.h"
+#include "rover/part_shapes.h"
+#include "terrain/terrain.h"
+
+namespace rockyard::rover {
+
+// What a part touches: a rock by its index >= 0, the ground, or wall i as kFirstWall - i.
+inline constexpr int kGround = -1;
+inline constexpr int kFirstWall = -2;
+
+// Contact of a part with one thing. Kept from step to step while the two stay near, so that the
+// last impulses start the next solution.
+struct Contact {
+  int part = 0;
+  int other = kGround;
+  double gap_m = 0.0;                              // negative: penetration
+  math::Vector3 p_W = math::Vector3::Zero();       // on the rover
+  math::Vector3 n_W = math::Vector3::UnitZ();      // from the terrain to the rover
+  math::Vector3 along_W = math::Vector3::UnitX();  // rolling direction of a wheel, tangential
+  math::Vector3 across_W = math::Vector3::UnitY();
+  math::Vector3 near_W = math::Vector3::Zero();  // nearest point of the rock
+  // Impulses of the last step, N s: along n_W, along_W, across_W, and the motion resistance.
+  std::array<double, 3> impulse_Ns{};
+  double drag_Ns = 0.0;
+
+  bool IsSoil() const { return other == kGround; }
+};
+
+class ContactFinder {
+ public:
+  // Contacts matter to the solver below this gap: the travel of one step with room to spare.
+  static constexpr double kActiveGap_m = 0.005;
+
+  ContactFinder(const RoverGeometryParams& params, const terrain::Terrain& terrain);
+
+  // Updates contacts() for the present poses. Ordered by part, then by other.
+  void Update(const Multibody& body);
+  // Forgets everything, for a rover that was lifted.
+  void Clear();
+
+  std::vector<Contact>& contacts() { return contacts_; }
+  const std::vector<Contact>& contacts() const { return contacts_; }
+  const Part& part(int index) const { return parts_[static_cast<std::size_t>(index)]; }
+  const std::vector<Part>& parts() const { return parts_; }
+
+ private:
+  void GatherRocks(const math::Vector3& p_WRo);
+  void MeetGround(int index, const math::Transform& X_WB);
+  void MeetWalls(int index, const math::Transform& X_WB);
+  void MeetRock(int index, const math::Transform& X_WB, const math::Vector3& center_W, int rock);
+  // Starts a contact from the one of the last step, if there was one.
+  Contact& Add(int part, int other, bool& found);
+  void SetTangents(const math::Transform& X_WB, Contact& contact) const;
+
+  const terrain::Terrain& terrain_;
+  std::vector<Part> parts_;
+  std::vector<Ellipsoid> rocks_;
+  double reach_m_;  // of the rover about R's origin
+  std::vector<int> near_rocks_;
+  math::Vector3 gathered_at_W_ = math::Vector3::Zero();
+  bool gathered_ = false;
+  std::vector<Contact> contacts_;
+  std::vector<Contact> last_;
+  std::size_t next_last_ = 0;
+};
+
+}  // namespace rockyard::rover

@@ -1,0 +1,79 @@
+// The rover's articulated body: chassis, two rockers, two bogies, six wheels. Dynamics by Bullet's
+// btMultiBody (Featherstone's articulated-body algorithm), double precision.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+
+#include "math/pose.h"
+#include "rover/rover_params.h"
+
+namespace rockyard::rover {
+
+// Joints, all revolute about the lateral axis, in this order. A body has the number of the joint
+// that carries it; the chassis is kChassis.
+inline constexpr int kChassis = -1;
+inline constexpr int kLeftRocker = 0;
+inline constexpr int kRightRocker = 1;
+inline constexpr int kLeftBogie = 2;
+inline constexpr int kRightBogie = 3;
+inline constexpr int kFirstWheel = 4;  // wheels in the order of messages::Wheel
+inline constexpr int kJoints = 10;
+inline constexpr int kDof = 6 + kJoints;
+
+// Generalized velocities: angular then linear velocity of the chassis' centre of mass in W, then
+// joint rates, positive about +y (a wheel rolls forward).
+using DofVector = Eigen::Matrix<double, kDof, 1>;
+using DofMatrix = Eigen::Matrix<double, kDof, kDof>;
+
+class Multibody {
+ public:
+  explicit Multibody(const RoverParams& params);
+  ~Multibody();
+  Multibody(const Multibody&) = delete;
+  Multibody& operator=(const Multibody&) = delete;
+
+  // Sets the pose, all joints to zero and all velocities to zero.
+  void Reset(const math::Transform& X_WR);
+  void StopMotion();
+  // Turns the axle of a wheel about the vertical through its centre; takes no time and no torque.
+  void SetSteer(std::size_t wheel, double angle_rad);
+
+  // Refreshes what the queries below return from the joint angles and the chassis pose.
+  void UpdatePoses();
+  const math::Transform& X_WR() const { return X_WR_; }
+  // Frame of a body: origin at its joint (chassis: X_WR), axes parallel to R when its joint is at
+  // zero. Indices from kChassis.
+  const math::Transform& X_WB(int body) const {
+    return body == kChassis ? X_WR_ : X_WB_[static_cast<std::size_t>(body)];
+  }
+  int Parent(int body) const { return parent_[static_cast<std::size_t>(body)]; }
+  double JointAngle(int joint) const;
+  DofVector Velocity() const;
+  math::Vector3 p_WComChassis() const { return p_WCom_; }
+
+  // Adds to the velocities what gravity and inertial forces do in one step without contacts, and
+  // returns the inverse of the joint-space mass matrix at the present configuration.
+  void Accelerate(double gravity_m_s2, double step_s, DofMatrix& mass_inverse);
+  void AddVelocity(const DofVector& change);
+  // Moves the positions by one step.
+  void Move(double step_s);
+
+  // Row of the Jacobian for the velocity, along unit vector n, of the point p fixed to a body.
+  void FillJacobian(int body, const math::Vector3& p_W, const math::Vector3& n_W,
+                    DofVector& row) const;
+
+ private:
+  struct Bullet;
+  void BuildLinks(const RoverParams& params);
+
+  std::unique_ptr<Bullet> bullet_;
+  math::Vector3 p_RCom_;  // of the chassis
+  math::Vector3 p_WCom_ = math::Vector3::Zero();
+  math::Transform X_WR_ = math::Transform::Identity();
+  std::array<math::Transform, kJoints> X_WB_{};
+  std::array<int, kJoints> parent_{};
+};
+
+}  // namespace rockyard::rover

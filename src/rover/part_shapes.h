@@ -1,0 +1,44 @@
+// The parts of the rover that can touch something: each a convex core grown by a margin.
+#pragma once
+
+#include <vector>
+
+#include "math/pose.h"
+#include "rover/multibody.h"
+#include "rover/rover_params.h"
+#include "truth/rover_state.h"
+
+namespace rockyard::rover {
+
+enum class Core {
+  kPoint,
+  kSegment,   // between a and b
+  kCylinder,  // about the y axis through a: radius b.x, half width b.y
+  kBox,       // centre a, half extents b; axes of the body
+};
+
+// What a part is tested against.
+enum class Meets { kRocks, kGroundAndRocks, kGroundAndWalls };
+
+struct Part {
+  truth::BodyPart kind;
+  int body;  // see multibody.h
+  Core core;
+  Meets meets;
+  math::Vector3 a_B;
+  math::Vector3 b_B;
+  double margin_m;
+  math::Vector3 center_B;  // of a ball that holds core and margin
+  double bounding_radius_m;
+};
+
+// Wheels first, in the order of messages::Wheel. Wheels are cylinders with rounded edges. Arms are
+// capsules along the lines pivot to pivot and pivot to hub, hubs are balls at the inner face of
+// each wheel, the panel is a slab of the overall length and width on top. Corners of chassis and
+// panel stand for those two against ground and walls.
+std::vector<Part> MakeParts(const RoverGeometryParams& params);
+
+// The point of the core nearest to p, both in the frame of the body.
+math::Vector3 NearestOnCore(const Part& part, const math::Vector3& p_B);
+
+}  // namespace rockyard::rover

@@ -1,0 +1,75 @@
+#include "rover/rover_geometry.h"
+
+#include <algorithm>
+
+namespace rockyard::rover {
+namespace {
+
+using math::Vector3;
+
+Outline Rectangle(double x_m, double y_m, double length_m, double width_m) {
+  const double dx = 0.5 * length_m;
+  const double dy = 0.5 * width_m;
+  return {{x_m - dx, y_m - dy}, {x_m + dx, y_m - dy}, {x_m + dx, y_m + dy}, {x_m - dx, y_m + dy}};
+}
+
+}  // namespace
+
+RoverGeometry MakeRoverGeometry(const RoverGeometryParams& params) {
+  RoverGeometry geometry;
+  const double outer_x = 0.5 * params.length_m - params.wheel_radius_m;
+  const double wheel_y = 0.5 * (params.width_m - params.wheel_width_m);
+  const bool bogie_in_front = params.bogie_end == BogieEnd::kFront;
+  const double mirror = bogie_in_front ? -1.0 : 1.0;
+  const std::array<double, 3> x{outer_x, mirror * params.middle_wheel_x_m, -outer_x};
+  const std::array<bool, 3> on_bogie{bogie_in_front, true, !bogie_in_front};
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    const std::size_t axle = i % 3;
+    const double y = i < 3 ? wheel_y : -wheel_y;
+    geometry.wheel_R[i] = Vector3(x[axle], y, params.wheel_radius_m);
+    geometry.steered[i] = axle != 1;
+    geometry.on_bogie[i] = on_bogie[axle];
+  }
+  const double bogie_x = 0.5 * (params.middle_wheel_x_m - outer_x);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const double y = side == 0 ? params.arm_y_m : -params.arm_y_m;
+    geometry.rocker_pivot_R[side] =
+        Vector3(mirror * params.rocker_pivot_x_m, y, params.rocker_pivot_z_m);
+    geometry.bogie_pivot_R[side] = Vector3(mirror * bogie_x, y, params.bogie_pivot_z_m);
+  }
+  return geometry;
+}
+
+messages::DriveCalibration MakeDriveCalibration(const RoverParams& params) {
+  const RoverGeometry geometry = MakeRoverGeometry(params.geometry);
+  messages::DriveCalibration calibration;
+  calibration.wheel_radius_m = params.geometry.wheel_radius_m;
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    calibration.wheel_x_m[i] = geometry.wheel_R[i].x();
+    calibration.wheel_y_m[i] = geometry.wheel_R[i].y();
+  }
+  calibration.steered = geometry.steered;
+  calibration.max_steer_rad = params.drive.max_steer_rad;
+  calibration.max_wheel_speed_m_s = params.drive.speed_m_s;
+  return calibration;
+}
+
+Outline BodyOutline(const RoverGeometryParams& params) {
+  return Rectangle(0.0, 0.0, params.length_m, params.width_m);
+}
+
+Outline BellyOutline(const RoverGeometryParams& params) {
+  return Rectangle(0.0, 0.0, params.belly_length_m, params.belly_width_m);
+}
+
+std::array<Outline, messages::kWheelCount> WheelOutlines(const RoverGeometryParams& params) {
+  const RoverGeometry geometry = MakeRoverGeometry(params);
+  std::array<Outline, messages::kWheelCount> outlines;
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    outlines[i] = Rectangle(geometry.wheel_R[i].x(), geometry.wheel_R[i].y(),
+                            2.0 * params.wheel_radius_m, params.wheel_width_m);
+  }
+  return outlines;
+}
+
+}  // namespace rockyard::rover

@@ -1,0 +1,326 @@
+#include "rover/rover_params.h"
+
+namespace rockyard::rover {
+
+using core::Origin;
+
+void RoverGeometryParams::Visit(core::FieldVisitor& v) {
+  constexpr std::string_view kRocky32 = "Matthies 1995 sec. 2 (MFEX; Rocky 3.2 has the same size)";
+  constexpr std::string_view kRocky7 =
+      "Rocky 7, Tarokh and McDermott 2005: the same wheels on a rover of the same size";
+  v.Real("length_m", length_m,
+         {.doc = "overall length; the outer wheels end there",
+          .min = 0.2,
+          .max = 5.0,
+          .origin = Origin::kPublished,
+          .source = kRocky32});
+  v.Real("width_m", width_m,
+         {.doc = "overall width; the outer faces of the wheels",
+          .min = 0.2,
+          .max = 5.0,
+          .origin = Origin::kPublished,
+          .source = kRocky32});
+  v.Real("height_m", height_m,
+         {.doc = "height of the top of the solar panel",
+          .min = 0.1,
+          .max = 3.0,
+          .origin = Origin::kPublished,
+          .source = kRocky32});
+  v.Real("belly_clearance_m", belly_clearance_m,
+         {.doc = "height of the underside of the chassis",
+          .min = 0.02,
+          .max = 2.0,
+          .origin = Origin::kPublished,
+          .source = "Matthies 1995 sec. 6"});
+  v.Real("wheel_radius_m", wheel_radius_m,
+         {.doc = "wheel radius, cleats included",
+          .min = 0.02,
+          .max = 0.5,
+          .origin = Origin::kPublished,
+          .source = kRocky32});
+  v.Real("wheel_width_m", wheel_width_m,
+         {.doc = "wheel width",
+          .min = 0.01,
+          .max = 0.5,
+          .origin = Origin::kAssumed,
+          .source = kRocky7,
+          .study_low = 0.06,
+          .study_high = 0.08});
+  v.Real("middle_wheel_x_m", middle_wheel_x_m,
+         {.doc = "position of the middle wheels, which do not steer: at 0 they do not scrub while "
+                 "the rover turns in place",
+          .min = -1.0,
+          .max = 1.0,
+          .origin = Origin::kAssumed,
+          .source = "four wheels are steered for turns about the chassis centre",
+          .study_low = -0.02,
+          .study_high = 0.02});
+  v.Choice("bogie_end", bogie_end,
+           {.doc = "end of the rover that stands on the bogies (two wheels a side); the pivots are "
+                   "given for rear and mirrored for front",
+            .origin = Origin::kAssumed,
+            .source = kRocky7});
+  v.Real("rocker_pivot_x_m", rocker_pivot_x_m,
+         {.doc = "position of the rocker pivots",
+          .min = -1.0,
+          .max = 1.0,
+          .origin = Origin::kAssumed,
+          .source = "divides the distance from front axle to bogie pivot as on Rocky 7 (70:30)",
+          .study_low = -0.03,
+          .study_high = 0.05});
+  v.Real("rocker_pivot_z_m", rocker_pivot_z_m,
+         {.doc = "height of the rocker pivots",
+          .min = 0.02,
+          .max = 2.0,
+          .origin = Origin::kAssumed,
+          .source = kRocky7,
+          .study_low = 0.17,
+          .study_high = 0.22});
+  v.Real("bogie_pivot_z_m", bogie_pivot_z_m,
+         {.doc = "height of the bogie pivots, halfway between their wheels",
+          .min = 0.02,
+          .max = 2.0,
+          .origin = Origin::kAssumed,
+          .source = kRocky7,
+          .study_low = 0.085,
+          .study_high = 0.16});
+  v.Real("belly_length_m", belly_length_m,
+         {.doc = "length of the chassis box, centred",
+          .min = 0.05,
+          .max = 5.0,
+          .origin = Origin::kAssumed,
+          .source = kRocky7,
+          .study_low = 0.30,
+          .study_high = 0.45});
+  v.Real("belly_width_m", belly_width_m,
+         {.doc = "width of the chassis box, centred",
+          .min = 0.05,
+          .max = 5.0,
+          .origin = Origin::kAssumed,
+          .source = kRocky7,
+          .study_low = 0.22,
+          .study_high = 0.27});
+  v.Real("arm_y_m", arm_y_m,
+         {.doc = "distance of the rocker and bogie arms from the middle plane: between the chassis "
+                 "box and the wheels",
+          .min = 0.02,
+          .max = 2.0,
+          .origin = Origin::kAssumed,
+          .source = "the room between box and wheels",
+          .study_low = 0.142,
+          .study_high = 0.152});
+  v.Real("arm_radius_m", arm_radius_m,
+         {.doc = "radius of the arms",
+          .min = 0.003,
+          .max = 0.2,
+          .origin = Origin::kAssumed,
+          .source = "the room between box and wheels",
+          .study_low = 0.008,
+          .study_high = 0.015});
+  v.Real("hub_radius_m", hub_radius_m,
+         {.doc = "radius of the ball that stands for motor and hub beside each wheel",
+          .min = 0.003,
+          .max = 0.3,
+          .origin = Origin::kAssumed,
+          .source = "smaller than the wheel",
+          .study_low = 0.015,
+          .study_high = 0.035});
+  v.Angle("rocker_limit_deg", rocker_limit_rad,
+          {.doc = "stop of the rockers on either side",
+           .min = 1.0,
+           .max = 80.0,
+           .origin = Origin::kAssumed,
+           .source = "a wheel of one side on 1.5 wheel diameters needs about 20",
+           .study_low = 20.0,
+           .study_high = 35.0});
+  v.Angle("bogie_limit_deg", bogie_limit_rad,
+          {.doc = "stop of the bogies on either side",
+           .min = 1.0,
+           .max = 80.0,
+           .origin = Origin::kAssumed,
+           .source = "a bogie wheel on 1.5 wheel diameters needs about 49 less the rocker's share",
+           .study_low = 30.0,
+           .study_high = 60.0});
+  const double bogie_pivot_x_m = 0.5 * (middle_wheel_x_m - 0.5 * length_m + wheel_radius_m);
+  v.Require("length_m", 0.5 * length_m - wheel_radius_m > middle_wheel_x_m + 2.0 * wheel_radius_m,
+            "leaves no room for three wheels a side",
+            "use more than six wheel radii plus twice the offset of the middle wheel");
+  v.Require("rocker_pivot_x_m", rocker_pivot_x_m > bogie_pivot_x_m,
+            "lies on the far side of the bogie pivot",
+            "put it between bogie pivot and outer wheel");
+  v.Require("width_m", 0.5 * width_m - wheel_width_m >= arm_y_m,
+            "is too small for the wheels beside the arms", "reduce wheel_width_m or arm_y_m");
+  v.Require("height_m", height_m > belly_clearance_m + 0.04,
+            "leaves no chassis between underside and panel", "reduce belly_clearance_m");
+}
+
+void RoverMassParams::Visit(core::FieldVisitor& v) {
+  v.Real("total_kg", total_kg,
+         {.doc = "mass of the rover",
+          .min = 0.5,
+          .max = 2000.0,
+          .origin = Origin::kAssumed,
+          .source = "MFEX weighs 11.5 kg; the testbed of Rocky 3's make about 20",
+          .study_low = 15.0,
+          .study_high = 25.0});
+  v.Real("wheel_kg", wheel_kg,
+         {.doc = "mass of a wheel with its motor",
+          .min = 0.05,
+          .max = 100.0,
+          .origin = Origin::kAssumed,
+          .source = "Rocky 7",
+          .study_low = 0.3,
+          .study_high = 0.8});
+  v.Real("rocker_kg", rocker_kg,
+         {.doc = "mass of a rocker, concentrated about its pivot",
+          .min = 0.05,
+          .max = 100.0,
+          .origin = Origin::kAssumed,
+          .source = "structure of about a tenth of the rover",
+          .study_low = 0.4,
+          .study_high = 1.2});
+  v.Real("bogie_kg", bogie_kg,
+         {.doc = "mass of a bogie, concentrated about its pivot",
+          .min = 0.05,
+          .max = 100.0,
+          .origin = Origin::kAssumed,
+          .source = "structure of about a tenth of the rover",
+          .study_low = 0.25,
+          .study_high = 0.8});
+  v.Real("chassis_com_x_m", chassis_com_x_m,
+         {.doc = "centre of mass of the chassis with what it carries",
+          .min = -1.0,
+          .max = 1.0,
+          .origin = Origin::kAssumed,
+          .source = "equal load on all wheels within a tenth",
+          .study_low = -0.03,
+          .study_high = 0.03});
+  v.Real("chassis_com_z_m", chassis_com_z_m,
+         {.doc = "height of the centre of mass of the chassis with what it carries",
+          .min = 0.02,
+          .max = 2.0,
+          .origin = Origin::kAssumed,
+          .source = "batteries low in the box, panel and sensors on top (Rocky 7: 0.155)",
+          .study_low = 0.155,
+          .study_high = 0.22});
+  v.Require("total_kg", total_kg > 6.0 * wheel_kg + 2.0 * (rocker_kg + bogie_kg),
+            "is less than wheels, rockers and bogies together", "raise it or reduce the parts");
+}
+
+void RoverDriveParams::Visit(core::FieldVisitor& v) {
+  v.Real("speed_m_s", speed_m_s,
+         {.doc = "rim speed of the fastest wheel",
+          .min = 0.001,
+          .max = 1.0,
+          .origin = Origin::kPublished,
+          .source = "Matthies 1995 sec. 5"});
+  v.Real("stall_torque_Nm", stall_torque_Nm,
+         {.doc = "largest torque of a drive motor at the wheel",
+          .min = 0.01,
+          .max = 1000.0,
+          .origin = Origin::kAssumed,
+          .source = "enough to climb the published 1.5 wheel diameters by friction",
+          .study_low = 2.0,
+          .study_high = 8.0});
+  v.Angle("steer_rate_deg_s", steer_rate_rad_s,
+          {.doc = "rate of the steering motors",
+           .min = 1.0,
+           .max = 1000.0,
+           .origin = Origin::kAssumed,
+           .source = "a turn in place begins within a second",
+           .study_low = 20.0,
+           .study_high = 90.0});
+  v.Angle("max_steer_deg", max_steer_rad,
+          {.doc = "stop of the steering on either side",
+           .min = 0.0,
+           .max = 90.0,
+           .origin = Origin::kAssumed,
+           .source = "a turn about the chassis centre needs 52",
+           .study_low = 55.0,
+           .study_high = 70.0});
+}
+
+void RoverContactParams::Visit(core::FieldVisitor& v) {
+  v.Real("wheel_soil_friction", wheel_soil_friction,
+         {.doc = "largest traction over load on soil",
+          .min = 0.0,
+          .max = 3.0,
+          .origin = Origin::kAssumed,
+          .source = "tan(33 deg) of dry sand (Wong 2008, ch. 2)",
+          .study_low = 0.5,
+          .study_high = 0.8});
+  v.Real("wheel_rock_friction", wheel_rock_friction,
+         {.doc = "friction of cleated wheels on rock",
+          .min = 0.0,
+          .max = 3.0,
+          .origin = Origin::kAssumed,
+          .source = "rocker-bogie climbing analyses use 0.5 to 1",
+          .study_low = 0.5,
+          .study_high = 1.0});
+  v.Real("body_rock_friction", body_rock_friction,
+         {.doc = "friction of chassis, arms, hubs and panel on rock, ground and walls",
+          .min = 0.0,
+          .max = 3.0,
+          .origin = Origin::kAssumed,
+          .source = "metal on stone",
+          .study_low = 0.2,
+          .study_high = 0.6});
+  v.Real("soil_slip", soil_slip,
+         {.doc = "ratio K of shear modulus to contact length in the slip s = -K ln(1 - tau) at "
+                 "traction tau of the largest",
+          .min = 0.0,
+          .max = 2.0,
+          .origin = Origin::kAssumed,
+          .source = "Janosi and Hanamoto 1961; 1 to 2 cm shear modulus over 5 to 10 cm of contact",
+          .study_low = 0.1,
+          .study_high = 0.4});
+  v.Real("soil_drag", soil_drag,
+         {.doc = "motion resistance over load of a wheel on soil",
+          .min = 0.0,
+          .max = 1.0,
+          .origin = Origin::kAssumed,
+          .source = "compaction of dry sand at a few millimetres of sinkage (Wong 2008, ch. 2)",
+          .study_low = 0.02,
+          .study_high = 0.12});
+  v.Real("stiffness_N_m", stiffness_N_m,
+         {.doc = "stiffness of each contact",
+          .min = 1e3,
+          .max = 1e8,
+          .origin = Origin::kAssumed,
+          .source = "a wheel at rest sinks in by 0.7 mm",
+          .study_low = 2e4,
+          .study_high = 2e5});
+  v.Real("damping_Ns_m", damping_Ns_m,
+         {.doc = "damping of each contact",
+          .min = 1.0,
+          .max = 1e7,
+          .origin = Origin::kAssumed,
+          .source = "about critical for a sixth of the rover",
+          .study_low = 400.0,
+          .study_high = 1600.0});
+}
+
+void RoverPhysicsParams::Visit(core::FieldVisitor& v) {
+  v.Real("step_s", step_s,
+         {.doc = "physics step", .min = 1e-4, .max = 0.02, .origin = Origin::kSetting});
+  v.Integer("solver_iterations", solver_iterations,
+            {.doc = "sweeps over the constraint rows in each step",
+             .min = 1,
+             .max = 1000,
+             .origin = Origin::kSetting});
+  v.Real("gravity_m_s2", gravity_m_s2,
+         {.doc = "gravity; 9.81 on Earth, 3.72 on Mars",
+          .min = 0.1,
+          .max = 30.0,
+          .origin = Origin::kSetting});
+}
+
+void RoverParams::Visit(core::FieldVisitor& v) {
+  v.Group("geometry", geometry, "dimensions");
+  v.Group("mass", mass, "masses");
+  v.Group("drive", drive, "drive and steering motors");
+  v.Group("contact", contact, "wheels and body against soil and rock");
+  v.Group("physics", physics, "numerical solution");
+}
+
+}  // namespace rockyard::rover
