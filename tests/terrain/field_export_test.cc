@@ -1,0 +1,130 @@
+#include "terrain/field_export.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/json_text.h"
+#include "terrain/arena.h"
+
+namespace rockyard::terrain {
+namespace {
+
+class FieldExportTest : public testing::Test {
+ protected:
+  const TerrainParams params_;
+  const Course course_;
+  const Field field_ = BuildField(params_, {21, 0}, course_);
+};
+
+std::vector<std::string> Lines(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+int CountOf(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST_F(FieldExportTest, CsvReadsBackToTheSameBits) {
+  const std::vector<std::string> lines = Lines(ToCsv(field_));
+  ASSERT_EQ(lines.size(), field_.terrain.rocks().size() + 1);
+  for (std::size_t i = 0; i < field_.terrain.rocks().size(); ++i) {
+    const Rock& rock = field_.terrain.rocks()[i];
+    std::vector<double> numbers;
+    std::istringstream line(lines[i + 1]);
+    for (std::string cell; std::getline(line, cell, ',');) numbers.push_back(std::stod(cell));
+    ASSERT_EQ(numbers.size(), 11u);
+    EXPECT_EQ(numbers[0], static_cast<double>(i));
+    EXPECT_EQ(numbers[1], static_cast<int>(i) < field_.audit.placed ? 0.0 : 1.0);
+    EXPECT_EQ(numbers[2], rock.center_W.x());
+    EXPECT_EQ(numbers[7], rock.semi_axes_m.z());
+    EXPECT_EQ(numbers[8], math::RadToDeg(rock.yaw_rad));
+    EXPECT_EQ(numbers[10], rock.height_m);
+  }
+}
+
+TEST_F(FieldExportTest, JsonHoldsRocksAndAudit) {
+  const core::JsonValue json = core::ParseJson(ToJson(field_, params_, course_), "field");
+  ASSERT_EQ(json.Find("rocks")->list().size(), field_.terrain.rocks().size());
+  EXPECT_EQ(json.Find("rocks")->list()[3].Find("diameter_m")->number(),
+            field_.terrain.rocks()[3].diameter_m);
+  EXPECT_EQ(json.Find("audit")->Find("placed")->integer(), field_.audit.placed);
+  EXPECT_EQ(json.Find("goal_m")->list()[0].number(), 7.6);
+  EXPECT_NEAR(json.Find("mirror_lines_y_m")->list()[1].number(), 1.1, 1e-12);
+}
+
+// Every tessellated rock is a closed surface, oriented outwards: its volume by the divergence
+// theorem is positive and near, but below, that of the ellipsoid.
+TEST_F(FieldExportTest, ObjRocksAreClosedAndOrientedOutwards) {
+  std::vector<math::Vector3> vertices;
+  std::vector<double> volumes;
+  for (const std::string& line : Lines(ToObj(field_, params_))) {
+    std::istringstream words(line);
+    std::string kind;
+    words >> kind;
+    if (kind == "g") volumes.push_back(0.0);
+    if (kind == "v") {
+      math::Vector3 p;
+      words >> p.x() >> p.y() >> p.z();
+      vertices.push_back(p);
+    }
+    if (kind == "f") {
+      std::vector<std::size_t> corners;
+      for (std::size_t i = 0; words >> i;) corners.push_back(i - 1);
+      for (std::size_t i = 2; i < corners.size(); ++i) {
+        volumes.back() += vertices.at(corners[0])
+                              .dot(vertices.at(corners[i - 1]).cross(vertices.at(corners[i]))) /
+                          6.0;
+      }
+    }
+  }
+  ASSERT_EQ(volumes.size(), field_.terrain.rocks().size() + 1);
+  for (std::size_t i = 0; i < field_.terrain.rocks().size(); ++i) {
+    const double ellipsoid = 4.0 / 3.0 * M_PI * field_.terrain.rocks()[i].semi_axes_m.prod();
+    EXPECT_LT(volumes[i + 1], ellipsoid);
+    EXPECT_GT(volumes[i + 1], 0.9 * ellipsoid);
+  }
+}
+
+TEST_F(FieldExportTest, ObjGroundFollowsRoughness) {
+  TerrainParams rough = params_;
+  rough.rocks.kind = RockFieldKind::kNone;
+  rough.ground.roughness_rms_m = 0.05;
+  const Field field = BuildField(rough, {21, 1}, course_);
+  int vertices = 0;
+  for (const std::string& line : Lines(ToObj(field, rough))) {
+    std::istringstream words(line);
+    std::string kind;
+    double x = 0.0, y = 0.0, z = 0.0;
+    words >> kind >> x >> y >> z;
+    if (kind != "v") continue;
+    ++vertices;
+    EXPECT_NEAR(z, field.terrain.ground().Height(x, y), 1e-5);
+  }
+  EXPECT_GT(vertices, 4000);
+}
+
+TEST_F(FieldExportTest, SvgDrawsEveryRockAsAnOctagonWithinTheView) {
+  const std::string svg = ToSvg(field_, params_, course_);
+  EXPECT_EQ(CountOf(svg, "<polygon"), static_cast<int>(field_.terrain.rocks().size()));
+  EXPECT_EQ(CountOf(svg, "stroke-dasharray"), 2);  // mirror lines
+  EXPECT_THAT(svg, testing::HasSubstr("<title>start</title>"));
+  EXPECT_THAT(svg, testing::HasSubstr("<title>goal</title>"));
+  EXPECT_THAT(svg, testing::StartsWith("<svg"));
+  EXPECT_THAT(svg, testing::EndsWith("</svg>\n"));
+  const auto polygon = svg.find("points=\"");
+  const auto end = svg.find('"', polygon + 8);
+  EXPECT_EQ(CountOf(svg.substr(polygon, end - polygon), ","), 8);
+}
+
+}  // namespace
+}  // namespace rockyard::terrain

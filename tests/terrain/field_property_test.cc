@@ -1,0 +1,130 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "terrain/arena.h"
+#include "terrain/field.h"
+#include "terrain/test_fields.h"
+
+namespace rockyard::terrain {
+namespace {
+
+bool SameRock(const Rock& a, const Rock& b) {
+  return a.center_W == b.center_W && a.semi_axes_m == b.semi_axes_m && a.yaw_rad == b.yaw_rad &&
+         a.diameter_m == b.diameter_m && a.height_m == b.height_m;
+}
+
+// The layout's own rocks, without images.
+std::vector<Rock> LayoutRocks(const Field& field) {
+  const auto rocks = field.terrain.rocks();
+  return {rocks.begin(), rocks.begin() + field.audit.placed};
+}
+
+class NestingTest : public testing::TestWithParam<std::tuple<ArenaKind, OverlapRule>> {};
+
+INSTANTIATE_TEST_SUITE_P(ArenasAndRules, NestingTest,
+                         testing::Combine(testing::Values(ArenaKind::kOpen,
+                                                          ArenaKind::kVirtualUnfolded,
+                                                          ArenaKind::kVirtualReflected),
+                                          testing::Values(OverlapRule::kAllow, OverlapRule::kReject,
+                                                          OverlapRule::kRelocate)));
+
+TEST_P(NestingTest, FieldsOfGrowingAbundanceContainEachOther) {
+  TerrainParams params;
+  std::tie(params.arena.kind, params.rocks.overlap) = GetParam();
+  for (std::uint32_t trial = 0; trial < 5; ++trial) {
+    std::vector<Rock> smaller;
+    for (const double k : {0.0, 0.001, kNominalK, 0.008, kVikingLander2K, 0.02}) {
+      params.rocks.k_per_m2 = k;
+      const std::vector<Rock> larger = LayoutRocks(BuildField(params, {31, trial}, {}));
+      ASSERT_GE(larger.size(), smaller.size());
+      EXPECT_TRUE(std::equal(smaller.begin(), smaller.end(), larger.begin(), SameRock)) << k;
+      smaller = larger;
+    }
+    EXPECT_GT(smaller.size(), 100u);
+  }
+}
+
+// Negative control: without the common reference field, fields do not nest.
+TEST(NestingTest, AnotherReferenceIsAnotherField) {
+  TerrainParams params;
+  const std::vector<Rock> with = LayoutRocks(BuildField(params, {31, 0}, {}));
+  params.rocks.k_reference_per_m2 = 0.03;
+  const std::vector<Rock> without = LayoutRocks(BuildField(params, {31, 0}, {}));
+  EXPECT_FALSE(std::equal(with.begin(), with.end(), without.begin(), without.end(), SameRock));
+}
+
+// Choices about shape leave sizes, and choices about burial leave positions, as they were.
+TEST(StreamTest, OneParameterShiftsNoOther) {
+  TerrainParams params = PlainMoore(kNominalK);
+  const std::vector<Rock> before = LayoutRocks(BuildField(params, {32, 0}, {}));
+  params.rocks.burial_mean = 0.2;
+  params.rocks.min_width_ratio = 0.5;
+  const std::vector<Rock> after = LayoutRocks(BuildField(params, {32, 0}, {}));
+  ASSERT_EQ(before.size(), after.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_EQ(before[i].diameter_m, after[i].diameter_m);
+    EXPECT_EQ(before[i].center_W.x(), after[i].center_W.x());
+    EXPECT_EQ(before[i].yaw_rad, after[i].yaw_rad);
+    EXPECT_NE(before[i].height_m, after[i].height_m);
+  }
+}
+
+class MirrorTest : public testing::TestWithParam<OverlapRule> {};
+
+INSTANTIATE_TEST_SUITE_P(Rules, MirrorTest,
+                         testing::Values(OverlapRule::kAllow, OverlapRule::kRelocate));
+
+// Heights are equal at points mirrored about either line, as far as the layout reaches.
+TEST_P(MirrorTest, SurfaceIsSymmetricAboutBothLines) {
+  TerrainParams params;
+  params.rocks.k_per_m2 = kVikingLander2K;
+  params.rocks.overlap = GetParam();
+  params.arena.kind = ArenaKind::kVirtualUnfolded;
+  const Terrain terrain = BuildField(params, {33, 0}, {}).terrain;
+  int on_rock = 0;
+  for (double x = -1.97; x < 10.0; x += 0.0731) {
+    for (double d = 0.013; d < 2.0; d += 0.0917) {
+      for (const double line : {1.1, -1.1}) {
+        EXPECT_NEAR(terrain.Height(x, line + d), terrain.Height(x, line - d), 1e-9);
+        on_rock += terrain.Height(x, line + d) > 0.0 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(on_rock, 500);
+}
+
+TEST(MirrorTest, UnfoldedAndReflectedShareTheStrip) {
+  TerrainParams params;
+  params.arena.kind = ArenaKind::kVirtualUnfolded;
+  const Field unfolded = BuildField(params, {34, 0}, {});
+  params.arena.kind = ArenaKind::kVirtualReflected;
+  const Field reflected = BuildField(params, {34, 0}, {});
+  const std::vector<Rock> a = LayoutRocks(unfolded);
+  const std::vector<Rock> b = LayoutRocks(reflected);
+  EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end(), SameRock));
+  // Every reflected rock is one of the unfolded plane; those beyond the arena are missing.
+  for (const Rock& rock : reflected.terrain.rocks()) {
+    EXPECT_LE(std::abs(rock.center_W.y()), 2.0);
+    const auto all = unfolded.terrain.rocks();
+    EXPECT_TRUE(std::any_of(all.begin(), all.end(),
+                            [&rock](const Rock& other) { return SameRock(rock, other); }));
+  }
+}
+
+TEST(LayoutTest, CentresLieInTheLayoutArea) {
+  for (const ArenaKind kind : {ArenaKind::kOpen, ArenaKind::kWalled, ArenaKind::kVirtualUnfolded,
+                               ArenaKind::kVirtualReflected}) {
+    TerrainParams params;
+    params.arena.kind = kind;
+    const Rectangle area = LayoutBounds(params);
+    for (const Rock& rock : LayoutRocks(BuildField(params, {35, 0}, {}))) {
+      EXPECT_TRUE(area.Contains(rock.center_W.x(), rock.center_W.y()));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rockyard::terrain

@@ -1,0 +1,115 @@
+#include "terrain/ground.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "math/angles.h"
+
+namespace rockyard::terrain {
+namespace {
+
+using math::Vector3;
+
+constexpr core::TrialKey kKey{7, 3};
+
+TEST(GroundTest, FlatByDefault) {
+  const Ground ground;
+  EXPECT_TRUE(ground.IsPlane());
+  EXPECT_EQ(ground.Height(3.0, -2.0), 0.0);
+  EXPECT_EQ(ground.Normal(3.0, -2.0), Vector3::UnitZ());
+}
+
+TEST(GroundTest, SlopeRisesAlongItsDirection) {
+  GroundParams params;
+  params.slope_rad = math::DegToRad(20.0);
+  params.slope_direction_rad = math::DegToRad(90.0);
+  const Ground ground(params, kKey);
+  EXPECT_TRUE(ground.IsPlane());
+  EXPECT_NEAR(ground.Height(5.0, 2.0), 2.0 * std::tan(params.slope_rad), 1e-12);
+  const Vector3 expected(0.0, -std::sin(params.slope_rad), std::cos(params.slope_rad));
+  EXPECT_NEAR((ground.Normal(1.0, 1.0) - expected).norm(), 0.0, 1e-12);
+}
+
+TEST(GroundTest, RayMeetsPlaneWhereComputedByHand) {
+  GroundParams params;
+  params.slope_rad = math::DegToRad(45.0);  // z = x
+  const Ground ground(params, kKey);
+  // From 1 m above the origin along +x: the plane is met at x = 1.
+  EXPECT_NEAR(*ground.CastRay({0, 0, 1}, Vector3::UnitX(), 2.0), 1.0, 1e-12);
+  EXPECT_FALSE(ground.CastRay({0, 0, 1}, Vector3::UnitX(), 0.999));
+  EXPECT_FALSE(ground.CastRay({0, 0, 1}, -Vector3::UnitX(), 100.0));
+}
+
+TEST(GroundTest, RayAlongAPlaneMisses) {
+  EXPECT_FALSE(Ground().CastRay({0, 0, 0.1}, Vector3::UnitX(), 1e6));
+}
+
+TEST(GroundTest, RayFromBelowHitsAtOnce) {
+  EXPECT_EQ(*Ground().CastRay({0, 0, -0.1}, Vector3::UnitZ(), 1.0), 0.0);
+}
+
+class RoughGroundTest : public testing::Test {
+ protected:
+  static GroundParams Params() {
+    GroundParams params;
+    params.slope_rad = math::DegToRad(5.0);
+    params.roughness_rms_m = 0.05;
+    return params;
+  }
+  const Ground ground_{Params(), kKey};
+};
+
+TEST_F(RoughGroundTest, IsNoPlane) {
+  EXPECT_FALSE(ground_.IsPlane());
+  EXPECT_NE(ground_.Height(1.0, 0.0), ground_.Height(0.0, 1.0));
+}
+
+TEST_F(RoughGroundTest, NormalIsTheGradientOfTheHeight) {
+  constexpr double kStep_m = 1e-5;
+  for (int i = 0; i < 200; ++i) {
+    const double x = -3.0 + 0.071 * i;
+    const double y = 2.0 - 0.043 * i;
+    const Vector3 normal = ground_.Normal(x, y);
+    const double dx = (ground_.Height(x + kStep_m, y) - ground_.Height(x - kStep_m, y)) / kStep_m;
+    const double dy = (ground_.Height(x, y + kStep_m) - ground_.Height(x, y - kStep_m)) / kStep_m;
+    EXPECT_NEAR(-normal.x() / normal.z(), 0.5 * dx, 1e-6);
+    EXPECT_NEAR(-normal.y() / normal.z(), 0.5 * dy, 1e-6);
+    EXPECT_NEAR(normal.norm(), 1.0, 1e-12);
+  }
+}
+
+// Neither height nor slope jumps where the lattice cells of any octave meet.
+TEST_F(RoughGroundTest, IsSmoothAcrossCells) {
+  constexpr double kStep_m = 1e-7;
+  for (int i = -40; i <= 40; ++i) {
+    const double x = 0.03125 * i;  // every node line of the finest octave, 2 m / 2^5 / 2
+    EXPECT_NEAR(ground_.Height(x - kStep_m, 0.3), ground_.Height(x + kStep_m, 0.3), 1e-6);
+    const Vector3 before = ground_.Normal(x - kStep_m, 0.3);
+    EXPECT_NEAR((before - ground_.Normal(x + kStep_m, 0.3)).norm(), 0.0, 1e-5);
+  }
+}
+
+TEST_F(RoughGroundTest, EveryRayHitLiesOnTheGround) {
+  int hits = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Vector3 origin(0.1 * i, 0.05 * i, ground_.Height(0.1 * i, 0.05 * i) + 0.3);
+    const Vector3 direction = Vector3(std::cos(i), std::sin(i), -0.4).normalized();
+    const auto distance = ground_.CastRay(origin, direction, 5.0);
+    if (!distance) continue;
+    ++hits;
+    const Vector3 point = origin + *distance * direction;
+    EXPECT_NEAR(point.z(), ground_.Height(point.x(), point.y()), 1e-9);
+  }
+  EXPECT_GT(hits, 90);
+}
+
+TEST_F(RoughGroundTest, AnotherTrialHasAnotherGround) {
+  const Ground other(Params(), {7, 4});
+  EXPECT_NE(ground_.Height(1.0, 1.0), other.Height(1.0, 1.0));
+  const Ground same(Params(), kKey);
+  EXPECT_EQ(ground_.Height(1.0, 1.0), same.Height(1.0, 1.0));
+}
+
+}  // namespace
+}  // namespace rockyard::terrain

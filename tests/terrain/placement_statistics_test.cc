@@ -1,0 +1,110 @@
+// Where rocks lie, and what the overlap rules and clear zones do to the counts. Fixed seeds; alpha
+// 1e-3, negative controls below 1e-6.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/statistical_checks.h"
+#include "terrain/arena.h"
+#include "terrain/field.h"
+#include "terrain/test_fields.h"
+
+namespace rockyard::terrain {
+namespace {
+
+constexpr double kAlpha = 1e-3;
+constexpr double kRejects = 1e-6;
+
+struct Totals {
+  double drawn = 0.0;
+  double expected_drawn = 0.0;
+  double expected_placed = 0.0;
+  double placed = 0.0;
+  double dropped_for_overlap = 0.0;
+  double disc_cover = 0.0;
+  double expected_cover = 0.0;
+};
+
+Totals Sum(const TerrainParams& params, std::uint64_t seed, int fields) {
+  Totals totals;
+  for (int i = 0; i < fields; ++i) {
+    const FieldAudit audit = BuildField(params, {seed, static_cast<std::uint32_t>(i)}, {}).audit;
+    totals.drawn += audit.drawn;
+    totals.expected_drawn += audit.expected_drawn;
+    totals.expected_placed += audit.expected_placed;
+    totals.placed += audit.placed;
+    totals.dropped_for_overlap += audit.dropped_for_overlap;
+    totals.disc_cover += audit.disc_cover / fields;
+    totals.expected_cover += audit.expected_cover / fields;
+  }
+  return totals;
+}
+
+TEST(PlacementTest, PositionsAreUniformOverTheLayoutArea) {
+  const TerrainParams params = PlainMoore(kVikingLander2K);
+  const Rectangle area = LayoutBounds(params);
+  constexpr int kColumns = 12;
+  constexpr int kRows = 4;
+  std::vector<double> observed(kColumns * kRows, 0.0);
+  double total = 0.0;
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    for (const Rock& rock : BuildField(params, {71, i}, {}).terrain.rocks()) {
+      const int column = static_cast<int>(rock.center_W.x() - area.x_min_m);
+      const int row = static_cast<int>(rock.center_W.y() - area.y_min_m);
+      observed[static_cast<std::size_t>(row * kColumns + column)] += 1.0;
+      total += 1.0;
+    }
+  }
+  const std::vector<double> expected(observed.size(), total / kColumns / kRows);
+  EXPECT_GT(core::ChiSquareP(observed, expected), kAlpha);
+  // Negative control: 10 % more towards one end.
+  std::vector<double> tilted = expected;
+  for (std::size_t i = 0; i < tilted.size(); ++i) {
+    tilted[i] *= 0.9 + 0.2 * (static_cast<double>(i % kColumns) + 0.5) / kColumns;
+  }
+  EXPECT_LT(core::ChiSquareP(observed, tilted), kRejects);
+}
+
+// Without an overlap rule, clear zones thin the field by exactly what their area says.
+TEST(PlacementTest, ClearZonesRemoveTheirShare) {
+  for (const ArenaKind kind : {ArenaKind::kVirtualReflected, ArenaKind::kOpen}) {
+    TerrainParams params;
+    params.rocks.k_per_m2 = kVikingLander2K;
+    params.rocks.overlap = OverlapRule::kAllow;
+    params.arena.kind = kind;
+    const Totals totals = Sum(params, 72, 150);
+    const double sigma = std::sqrt(totals.expected_placed);
+    EXPECT_NEAR(totals.placed, totals.expected_placed, 3.3 * sigma);
+    EXPECT_GT(std::abs(totals.placed - totals.expected_drawn), 5.0 * sigma);  // negative control
+    EXPECT_NEAR(totals.disc_cover / totals.expected_cover, 1.0, 0.05);
+  }
+}
+
+TEST(PlacementTest, RelocationKeepsTheCounts) {
+  TerrainParams params = PlainMoore(kVikingLander2K);
+  params.rocks.overlap = OverlapRule::kRelocate;
+  const Totals totals = Sum(params, 73, 100);
+  EXPECT_EQ(totals.dropped_for_overlap, 0.0);
+  EXPECT_NEAR(totals.placed, totals.expected_drawn, 3.3 * std::sqrt(totals.expected_drawn));
+}
+
+// Rejection keeps fewer rocks the denser the field; the loss is documented in
+// src/terrain/README.md.
+TEST(PlacementTest, RejectionLosesRocksInDenseFields) {
+  double last_loss = 0.0;
+  for (const double k : {0.001, kNominalK, kVikingLander2K}) {
+    TerrainParams params = PlainMoore(k);
+    params.rocks.overlap = OverlapRule::kReject;
+    const Totals totals = Sum(params, 74, 100);
+    const double loss = totals.dropped_for_overlap / totals.drawn;
+    EXPECT_GT(loss, last_loss);
+    last_loss = loss;
+    RecordProperty("loss_at_k_" + std::to_string(k), std::to_string(loss));
+  }
+  EXPECT_GT(last_loss, 0.1);
+  EXPECT_LT(last_loss, 0.4);
+}
+
+}  // namespace
+}  // namespace rockyard::terrain

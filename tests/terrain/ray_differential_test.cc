@@ -1,0 +1,203 @@
+// The grid and the candidate list against a plain reference that tests every rock by marching, and
+// against one that solves every rock.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "core/distributions.h"
+#include "terrain/field.h"
+#include "terrain/test_fields.h"
+
+namespace rockyard::terrain {
+namespace {
+
+using core::SampleUniform;
+using math::Vector3;
+
+struct Ray {
+  Vector3 origin_W;
+  Vector3 direction_W;
+  double max_distance_m;
+};
+
+// Implicit function of a rock: negative inside.
+double InsideOut(const Rock& rock, const Vector3& p_W) {
+  const Eigen::AngleAxisd turn(-rock.yaw_rad, Vector3::UnitZ());
+  const Vector3 p = turn * (p_W - rock.center_W);
+  return p.cwiseQuotient(rock.semi_axes_m).squaredNorm() - 1.0;
+}
+
+// Rocks within a ray's reach.
+std::vector<Rock> RocksInReach(const Terrain& terrain, const Ray& ray) {
+  std::vector<Rock> rocks;
+  for (const Rock& rock : terrain.rocks()) {
+    const double reach = ray.max_distance_m + rock.semi_axes_m.maxCoeff();
+    if ((rock.center_W - ray.origin_W).norm() <= reach) rocks.push_back(rock);
+  }
+  return rocks;
+}
+
+// True where a point is in a rock, under the ground or behind a wall.
+bool Solid(const Terrain& terrain, const std::vector<Rock>& rocks, const Vector3& p_W) {
+  if (p_W.z() <= terrain.ground().Height(p_W.x(), p_W.y())) return true;
+  for (const Wall& wall : terrain.walls()) {
+    if (wall.normal_W.dot(p_W) >= wall.offset_m) return true;
+  }
+  for (const Rock& rock : rocks) {
+    if (InsideOut(rock, p_W) <= 0.0) return true;
+  }
+  return false;
+}
+
+// Distance to the first solid point in steps of `step_m`; infinity where there is none.
+double MarchedDistance(const Terrain& terrain, const Ray& ray, double step_m) {
+  const std::vector<Rock> rocks = RocksInReach(terrain, ray);
+  for (double t = 0.0; t <= ray.max_distance_m; t += step_m) {
+    if (Solid(terrain, rocks, ray.origin_W + t * ray.direction_W)) return t;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+Ray RandomRay(core::RandomStream& stream) {
+  const double azimuth = SampleUniform(stream, 0.0, 2.0 * std::numbers::pi);
+  const double down = SampleUniform(stream, -1.0, 0.3);
+  const Vector3 direction = Vector3(std::cos(azimuth), std::sin(azimuth), down).normalized();
+  return {{SampleUniform(stream, -3.0, 11.0), SampleUniform(stream, -3.0, 3.0),
+           SampleUniform(stream, 0.02, 0.6)},
+          direction,
+          SampleUniform(stream, 0.2, 4.0)};
+}
+
+Terrain DenseTerrain(std::uint32_t trial) {
+  TerrainParams params;
+  params.rocks.k_per_m2 = kVikingLander2K;
+  params.rocks.overlap = trial % 2 == 0 ? OverlapRule::kAllow : OverlapRule::kRelocate;
+  params.arena.kind = trial % 2 == 0 ? ArenaKind::kWalled : ArenaKind::kVirtualUnfolded;
+  params.ground.slope_rad = 0.1 * trial;
+  params.ground.slope_direction_rad = 1.0;
+  return BuildField(params, {11, trial}, {}).terrain;
+}
+
+// The hit that testing every rock gives.
+double PlainDistance(const Terrain& terrain, const Ray& ray) {
+  std::vector<int> all(terrain.rocks().size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
+  const auto hit = terrain.CastRay(ray.origin_W, ray.direction_W, ray.max_distance_m, all);
+  return hit ? hit->distance_m : std::numeric_limits<double>::infinity();
+}
+
+TEST(RayDifferentialTest, GridAgreesWithTestingEveryRock) {
+  int hits = 0;
+  for (std::uint32_t trial = 0; trial < 4; ++trial) {
+    const Terrain terrain = DenseTerrain(trial);
+    core::RandomStream stream({12, trial}, core::Purpose::kTest);
+    for (int i = 0; i < 20000; ++i) {
+      const Ray ray = RandomRay(stream);
+      const auto hit = terrain.CastRay(ray.origin_W, ray.direction_W, ray.max_distance_m);
+      const double plain = PlainDistance(terrain, ray);
+      ASSERT_EQ(hit ? hit->distance_m : std::numeric_limits<double>::infinity(), plain) << i;
+      const Vector3 end = ray.origin_W + ray.max_distance_m * ray.direction_W;
+      const double shortened = ray.max_distance_m - 1e-9;
+      if (std::abs(plain - shortened) > 1e-6) {
+        ASSERT_EQ(terrain.Occluded(ray.origin_W, end, 1e-9), plain < shortened) << i;
+      }
+      hits += hit && hit->surface == Surface::kRock;
+    }
+  }
+  EXPECT_GT(hits, 4000);
+}
+
+TEST(RayDifferentialTest, CandidatesAroundTheRayAreEnough) {
+  const Terrain terrain = DenseTerrain(1);
+  core::RandomStream stream({13, 0}, core::Purpose::kTest);
+  std::vector<int> near;
+  for (int i = 0; i < 20000; ++i) {
+    const Ray ray = RandomRay(stream);
+    terrain.RocksNear(ray.origin_W.x(), ray.origin_W.y(), ray.max_distance_m, near);
+    const auto full = terrain.CastRay(ray.origin_W, ray.direction_W, ray.max_distance_m);
+    const auto local = terrain.CastRay(ray.origin_W, ray.direction_W, ray.max_distance_m, near);
+    ASSERT_EQ(full.has_value(), local.has_value());
+    if (full) {
+      ASSERT_EQ(full->distance_m, local->distance_m);
+    }
+    const Vector3 end = ray.origin_W + ray.max_distance_m * ray.direction_W;
+    ASSERT_EQ(terrain.Occluded(ray.origin_W, end, 1e-6),
+              terrain.Occluded(ray.origin_W, end, 1e-6, near));
+  }
+}
+
+TEST(RayDifferentialTest, AgreesWithMarchingThroughTheImplicitSurfaces) {
+  constexpr double kStep_m = 2e-4;
+  for (std::uint32_t trial = 0; trial < 2; ++trial) {
+    const Terrain terrain = DenseTerrain(trial);
+    core::RandomStream stream({14, trial}, core::Purpose::kTest);
+    int missed_by_march = 0;
+    for (int i = 0; i < 150; ++i) {
+      Ray ray = RandomRay(stream);
+      ray.max_distance_m = 1.0;
+      // One-sided walls are defined for rays from inside only.
+      ray.origin_W.x() = SampleUniform(stream, -1.9, 9.9);
+      ray.origin_W.y() = SampleUniform(stream, -1.9, 1.9);
+      const auto hit = terrain.CastRay(ray.origin_W, ray.direction_W, ray.max_distance_m);
+      const double marched = MarchedDistance(terrain, ray, kStep_m);
+      if (hit && std::isinf(marched)) {
+        ++missed_by_march;  // a chord shorter than the step, or a hit in the last step
+      } else if (hit) {
+        // Marching can step over a grazing chord, never stop early.
+        EXPECT_GE(marched, hit->distance_m - 1e-9) << i;
+        if (marched > hit->distance_m + kStep_m + 1e-9) ++missed_by_march;
+      } else {
+        EXPECT_TRUE(std::isinf(marched)) << i;
+      }
+    }
+    EXPECT_LE(missed_by_march, 2);
+  }
+}
+
+TEST(RayDifferentialTest, RoughGroundAgreesWithMarching) {
+  GroundParams params;
+  params.roughness_rms_m = 0.04;
+  const Terrain terrain(Ground(params, {15, 0}), {}, {});
+  core::RandomStream stream({16, 0}, core::Purpose::kTest);
+  constexpr double kStep_m = 5e-4;
+  int grazing = 0;
+  int hits = 0;
+  for (int i = 0; i < 300; ++i) {
+    Ray ray = RandomRay(stream);
+    ray.max_distance_m = 1.0;
+    ray.origin_W.z() += terrain.ground().Height(ray.origin_W.x(), ray.origin_W.y());
+    const auto hit = terrain.CastRay(ray.origin_W, ray.direction_W, ray.max_distance_m);
+    const double marched = MarchedDistance(terrain, ray, kStep_m);
+    const double distance = hit ? hit->distance_m : std::numeric_limits<double>::infinity();
+    hits += hit.has_value();
+    if (std::isinf(distance) && std::isinf(marched)) continue;
+    grazing += std::abs(marched - distance) > kStep_m + 1e-9 ? 1 : 0;
+  }
+  EXPECT_GT(hits, 100);
+  EXPECT_LE(grazing, 2);
+}
+
+TEST(RocksNearDifferentialTest, EqualsTestingEveryRock) {
+  const Terrain terrain = DenseTerrain(3);
+  core::RandomStream stream({17, 0}, core::Purpose::kTest);
+  std::vector<int> near;
+  for (int i = 0; i < 2000; ++i) {
+    const double x = SampleUniform(stream, -4.0, 12.0);
+    const double y = SampleUniform(stream, -7.0, 7.0);
+    const double radius = SampleUniform(stream, 0.0, 2.0);
+    terrain.RocksNear(x, y, radius, near);
+    std::vector<int> plain;
+    for (std::size_t j = 0; j < terrain.rocks().size(); ++j) {
+      const Rock& rock = terrain.rocks()[j];
+      const double distance = std::hypot(rock.center_W.x() - x, rock.center_W.y() - y);
+      if (distance <= radius + rock.semi_axes_m.x()) plain.push_back(static_cast<int>(j));
+    }
+    ASSERT_EQ(near, plain);
+  }
+}
+
+}  // namespace
+}  // namespace rockyard::terrain

@@ -1,0 +1,194 @@
+// Sizes, counts and shapes of rocks against their laws. Fixed seeds; every test rejects a wrong
+// law. Alpha: a p-value below 1e-3 fails a true law; the wrong laws must fall below 1e-6.
+#include <gtest/gtest.h>
+
+#include <boost/math/special_functions/gamma.hpp>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include "core/statistical_checks.h"
+#include "terrain/field.h"
+#include "terrain/rock_size_law.h"
+#include "terrain/test_fields.h"
+
+namespace rockyard::terrain {
+namespace {
+
+constexpr double kAlpha = 1e-3;
+constexpr double kRejects = 1e-6;
+
+std::vector<Rock> RocksOfManyFields(const TerrainParams& params, std::uint64_t seed, int fields) {
+  std::vector<Rock> rocks;
+  for (int i = 0; i < fields; ++i) {
+    const Field field = BuildField(params, {seed, static_cast<std::uint32_t>(i)}, {});
+    rocks.insert(rocks.end(), field.terrain.rocks().begin(),
+                 field.terrain.rocks().begin() + field.audit.placed);
+  }
+  return rocks;
+}
+
+std::vector<double> Collect(const std::vector<Rock>& rocks,
+                            const std::function<double(const Rock&)>& value) {
+  std::vector<double> values;
+  for (const Rock& rock : rocks) values.push_back(value(rock));
+  return values;
+}
+
+std::function<double(double)> UniformCdf(double low, double high) {
+  return [low, high](double x) { return std::clamp((x - low) / (high - low), 0.0, 1.0); };
+}
+
+// Truncated power law N ~ D^-exponent on [0.1, 1] m, for the negative controls.
+std::function<double(double)> PowerLawCdf(double exponent) {
+  return [exponent](double d) {
+    const double low = std::pow(0.1, -exponent);
+    return (low - std::pow(d, -exponent)) / (low - 1.0);
+  };
+}
+
+class MooreFieldTest : public testing::TestWithParam<double> {};
+
+INSTANTIATE_TEST_SUITE_P(BothAbundances, MooreFieldTest,
+                         testing::Values(kNominalK, kVikingLander2K));
+
+TEST_P(MooreFieldTest, DiametersFollowTheLaw) {
+  const auto diameters = Collect(RocksOfManyFields(PlainMoore(GetParam()), 61, 100),
+                                 [](const Rock& rock) { return rock.diameter_m; });
+  ASSERT_GT(diameters.size(), 8000u);
+  const MooreSizeLaw law(0.1, 1.0);
+  EXPECT_GT(core::KolmogorovP(diameters, [&law](double d) { return law.Cdf(d); }), kAlpha);
+  EXPECT_LT(core::KolmogorovP(diameters, PowerLawCdf(2.5)), kRejects);
+}
+
+TEST_P(MooreFieldTest, DiametersFollowTheLawInEveryClass) {
+  const std::vector<double> edges = {0.1, 0.12, 0.14, 0.17, 0.2, 0.25, 0.3, 0.4, 0.5, 1.0};
+  const auto rocks = RocksOfManyFields(PlainMoore(GetParam()), 62, 100);
+  const auto expected = [&](const std::function<double(double)>& cdf) {
+    std::vector<double> counts;
+    for (std::size_t i = 1; i < edges.size(); ++i) {
+      counts.push_back(static_cast<double>(rocks.size()) * (cdf(edges[i]) - cdf(edges[i - 1])));
+    }
+    return counts;
+  };
+  std::vector<double> observed(edges.size() - 1, 0.0);
+  for (const Rock& rock : rocks) {
+    std::size_t i = 0;
+    while (i + 2 < edges.size() && rock.diameter_m > edges[i + 1]) ++i;
+    observed[i] += 1.0;
+  }
+  EXPECT_GT(core::ChiSquareP(observed, expected(PowerLawCdf(2.66))), kAlpha);
+  EXPECT_LT(core::ChiSquareP(observed, expected(PowerLawCdf(2.5))), kRejects);
+}
+
+// Two-sided p-values of Poisson counts: of the total, and of the index of dispersion.
+struct PoissonP {
+  double mean;
+  double dispersion;
+};
+
+PoissonP TestPoisson(const std::vector<double>& counts, double mean) {
+  const auto n = static_cast<double>(counts.size());
+  double total = 0.0;
+  for (const double count : counts) total += count;
+  const double z = (total - n * mean) / std::sqrt(n * mean);
+  double squares = 0.0;
+  for (const double count : counts) squares += (count - total / n) * (count - total / n);
+  const double tail = boost::math::gamma_q(0.5 * (n - 1.0), 0.5 * squares / (total / n));
+  return {std::erfc(std::abs(z) / std::numbers::sqrt2), 2.0 * std::min(tail, 1.0 - tail)};
+}
+
+std::vector<double> DrawnCounts(const TerrainParams& params, std::uint64_t seed, int fields) {
+  std::vector<double> counts;
+  for (int i = 0; i < fields; ++i) {
+    counts.push_back(BuildField(params, {seed, static_cast<std::uint32_t>(i)}, {}).audit.drawn);
+  }
+  return counts;
+}
+
+TEST_P(MooreFieldTest, CountsArePoisson) {
+  const TerrainParams params = PlainMoore(GetParam());
+  const double mean = (MooreNumberPerM2(GetParam(), 0.1) - MooreNumberPerM2(GetParam(), 1.0)) * 48;
+  const PoissonP p = TestPoisson(DrawnCounts(params, 63, 600), mean);
+  EXPECT_GT(p.mean, kAlpha);
+  EXPECT_GT(p.dispersion, kAlpha);
+}
+
+TEST(CountControlTest, ExactCountsAndAForgottenUpperBoundAreRejected) {
+  TerrainParams exact = ExactCount(15, ArenaKind::kVirtualReflected);
+  EXPECT_LT(TestPoisson(DrawnCounts(exact, 63, 600), 15.0).dispersion, kRejects);
+  // With the cut at 1 m forgotten only 0.2 % more rocks are expected: a count cannot tell. With the
+  // law cut at 0.3 m, 5 % fewer are.
+  const double wrong_mean =
+      (MooreNumberPerM2(kNominalK, 0.1) - MooreNumberPerM2(kNominalK, 0.3)) * 48;
+  EXPECT_LT(TestPoisson(DrawnCounts(PlainMoore(kNominalK), 63, 600), wrong_mean).mean, kRejects);
+}
+
+// The mean cover over fields, in standard errors from the law.
+TEST_P(MooreFieldTest, CoverAgreesWithTheLaw) {
+  double sum = 0.0;
+  double squares = 0.0;
+  constexpr int kFields = 400;
+  FieldAudit audit;
+  for (int i = 0; i < kFields; ++i) {
+    audit = BuildField(PlainMoore(GetParam()), {64, static_cast<std::uint32_t>(i)}, {}).audit;
+    sum += audit.disc_cover;
+    squares += audit.disc_cover * audit.disc_cover;
+  }
+  const double mean = sum / kFields;
+  const double standard_error = std::sqrt((squares / kFields - mean * mean) / kFields);
+  // Rocks over the very points of start and goal are left out: less than half a percent of the
+  // cover.
+  const double law = MooreCoveredFraction(GetParam(), 0.1, 1.0);
+  EXPECT_LT(audit.expected_cover, law);
+  EXPECT_GT(audit.expected_cover, 0.995 * law);
+  EXPECT_NEAR(mean, audit.expected_cover, 3.3 * standard_error);
+  // Negative control: the published coverage, which integrates to infinite diameter.
+  const double published = GetParam() == kNominalK ? 0.06 : 0.19;
+  EXPECT_GT(std::abs(mean - published), 5.0 * standard_error);
+}
+
+TEST(UniformFieldTest, DiametersAreUniform) {
+  const auto rocks = RocksOfManyFields(ExactCount(15, ArenaKind::kVirtualReflected), 65, 300);
+  const auto diameters = Collect(rocks, [](const Rock& rock) { return rock.diameter_m; });
+  EXPECT_GT(core::KolmogorovP(diameters, UniformCdf(0.25, 0.35)), kAlpha);
+  EXPECT_LT(core::KolmogorovP(diameters, UniformCdf(0.25, 0.36)), kRejects);
+}
+
+class RockShapeTest : public testing::Test {
+ protected:
+  const std::vector<Rock> rocks_ = RocksOfManyFields(PlainMoore(kVikingLander2K), 66, 30);
+};
+
+TEST_F(RockShapeTest, AxesAndYawAreUniform) {
+  const auto width =
+      Collect(rocks_, [](const Rock& rock) { return rock.semi_axes_m.y() / rock.semi_axes_m.x(); });
+  const auto height =
+      Collect(rocks_, [](const Rock& rock) { return rock.semi_axes_m.z() / rock.semi_axes_m.x(); });
+  const auto yaw = Collect(rocks_, [](const Rock& rock) { return rock.yaw_rad; });
+  EXPECT_GT(core::KolmogorovP(width, UniformCdf(0.7, 1.0)), kAlpha);
+  EXPECT_GT(core::KolmogorovP(height, UniformCdf(0.8, 1.2)), kAlpha);
+  EXPECT_GT(core::KolmogorovP(yaw, UniformCdf(-0.5 * std::numbers::pi, 0.5 * std::numbers::pi)),
+            kAlpha);
+  EXPECT_LT(core::KolmogorovP(width, UniformCdf(0.65, 1.0)), kRejects);
+  EXPECT_LT(core::KolmogorovP(height, UniformCdf(0.8, 1.25)), kRejects);
+}
+
+TEST_F(RockShapeTest, OneThirdIsBuriedOnAverage) {
+  const auto buried = Collect(
+      rocks_, [](const Rock& rock) { return 1.0 - rock.height_m / (2.0 * rock.semi_axes_m.z()); });
+  EXPECT_GT(core::KolmogorovP(buried, UniformCdf(1.0 / 3.0 - 0.1, 1.0 / 3.0 + 0.1)), kAlpha);
+  EXPECT_LT(core::KolmogorovP(buried, UniformCdf(0.25, 0.45)), kRejects);
+}
+
+// Matthies 1995 sec. 7: 23 cm of diameter stand for 15 cm of height.
+TEST_F(RockShapeTest, MeanHeightIsTwoThirdsOfTheDiameter) {
+  double sum = 0.0;
+  for (const Rock& rock : rocks_) sum += rock.height_m / rock.diameter_m;
+  // The ratio's standard deviation is about 0.1; the mean of 8000 scatters by 0.0011.
+  EXPECT_NEAR(sum / static_cast<double>(rocks_.size()), 2.0 / 3.0, 0.004);
+}
+
+}  // namespace
+}  // namespace rockyard::terrain

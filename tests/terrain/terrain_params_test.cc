@@ -1,0 +1,115 @@
+#include "terrain/terrain_params.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "core/archive.h"
+#include "core/error.h"
+#include "core/json_text.h"
+#include "terrain/arena.h"
+#include "terrain/test_fields.h"
+
+namespace rockyard::terrain {
+namespace {
+
+using testing::HasSubstr;
+
+TerrainParams Read(const std::string& json) {
+  TerrainParams params;
+  core::ReadParams(core::ParseJson(json, "test"), params);
+  return params;
+}
+
+// The problems of an input as one text; empty where it is accepted.
+std::string Problems(const std::string& json) {
+  try {
+    Read(json);
+  } catch (const core::UserError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(TerrainParamsTest, DefaultsAreValidAndSurviveARoundTrip) {
+  const TerrainParams defaults;
+  const std::string json = core::DumpJson(core::WriteParams(defaults));
+  EXPECT_EQ(core::DumpJson(core::WriteParams(Read(json))), json);
+}
+
+TEST(TerrainParamsTest, EveryArenaAndFieldKindIsValidWithDefaults) {
+  for (const char* arena : {"open", "walled", "virtual_unfolded", "virtual_reflected"}) {
+    for (const char* rocks : {"none", "moore", "uniform_count"}) {
+      const std::string json = std::string(R"({"arena": {"kind": ")") + arena +
+                               R"("}, "rocks": {"kind": ")" + rocks + R"("}})";
+      EXPECT_EQ(Problems(json), "") << json;
+    }
+  }
+}
+
+TEST(TerrainParamsTest, LayoutAreaMatchesTheRectangle) {
+  for (const ArenaKind arena : {ArenaKind::kOpen, ArenaKind::kWalled, ArenaKind::kVirtualUnfolded,
+                                ArenaKind::kVirtualReflected}) {
+    for (const RockFieldKind rocks : {RockFieldKind::kMoore, RockFieldKind::kUniformCount}) {
+      TerrainParams params;
+      params.arena.kind = arena;
+      params.rocks.kind = rocks;
+      EXPECT_NEAR(params.LayoutArea(), LayoutBounds(params).Area(), 1e-12);
+    }
+  }
+}
+
+TEST(TerrainParamsTest, PublishedCountsGiveThePublishedDensities) {
+  EXPECT_NEAR(ExactCount(5, ArenaKind::kOpen).rocks.RocksPerM2(), 0.28, 0.005);
+  EXPECT_NEAR(ExactCount(10, ArenaKind::kOpen).rocks.RocksPerM2(), 0.57, 0.005);
+  EXPECT_NEAR(ExactCount(15, ArenaKind::kOpen).rocks.RocksPerM2(), 0.85, 0.005);
+}
+
+struct BadInput {
+  const char* json;
+  const char* path;    // named in the message
+  const char* reason;  // part of the message
+};
+
+class BadTerrainTest : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadTerrainTest, IsRejectedWithPathAndReason) {
+  const std::string problems = Problems(GetParam().json);
+  EXPECT_THAT(problems, HasSubstr(GetParam().path));
+  EXPECT_THAT(problems, HasSubstr(GetParam().reason));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Inputs, BadTerrainTest,
+    testing::Values(
+        BadInput{R"({"rocks": {"k_per_m2": 0.03}})", "rocks.k_per_m2", "k_reference_per_m2"},
+        BadInput{R"({"rocks": {"min_diameter_m": 0.5, "max_diameter_m": 0.4}})",
+                 "rocks.max_diameter_m", "not larger"},
+        BadInput{R"({"rocks": {"min_diameter_m": 0.02}, "arena": {"kind": "open",
+                     "length_m": 200, "width_m": 200}})",
+                 "rocks.min_diameter_m", "more than 50000 rocks"},
+        BadInput{R"({"rocks": {"min_diameter_m": 0.02, "k_per_m2": 1e-6, "k_reference_per_m2": 0.1},
+                     "arena": {"kind": "walled", "length_m": 100, "width_m": 100}})",
+                 "rocks.k_reference_per_m2", "million"},
+        BadInput{R"({"rocks": {"kind": "uniform_count", "count": 100}})", "rocks.count", "quarter"},
+        BadInput{R"({"rocks": {"kind": "uniform_count", "count": 1000000000}})", "rocks.count",
+                 "10000"},
+        BadInput{R"({"rocks": {"kind": "uniform_count", "count_area_width_m": 2.3}})",
+                 "rocks.count_area_length_m", "outside the arena"},
+        BadInput{R"({"rocks": {"kind": "uniform_count", "overlap": "reject"}})", "rocks.overlap",
+                 "exact count"},
+        BadInput{R"({"rocks": {"burial_mean": 0.05}})", "rocks.burial_spread", "buried fraction"},
+        BadInput{R"({"rocks": {"min_width_ratio": 0.9, "max_width_ratio": 0.8}})",
+                 "rocks.max_width_ratio", "smaller"},
+        BadInput{R"({"rocks": {"min_height_ratio": 1.3}})", "rocks.max_height_ratio", "smaller"},
+        BadInput{R"({"arena": {"mirror_margin_m": 1.9}})", "arena.mirror_margin_m", "0.5 m"},
+        BadInput{R"({"arena": {"mirror_margin_m": 1.5}})", "arena.mirror_margin_m", "wider"},
+        BadInput{R"({"ground": {"slope_deg": 46}})", "ground.slope_deg", "45"}));
+
+TEST(TerrainParamsTest, UnusedCountAreaDoesNotHinderMooreFields) {
+  EXPECT_EQ(Problems(R"({"arena": {"length_m": 9.7, "x_min_m": -1}})"), "");
+}
+
+}  // namespace
+}  // namespace rockyard::terrain
