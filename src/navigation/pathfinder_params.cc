@@ -28,30 +28,35 @@ void VisitHazardRules(PathfinderParams& p, core::FieldVisitor& v) {
              {.doc = "stripes whose hazard counts as on the left; 0 is the leftmost",
               .min = 0,
               .max = 4,
-              .origin = Origin::kAssumed});
+              .origin = Origin::kAssumed,
+              .source = "two of five stripes on either side of the central one"});
   v.Integers("centre_stripes", p.centre_stripes,
              {.doc = "stripes whose hazard counts as in the centre",
               .min = 0,
               .max = 4,
-              .origin = Origin::kAssumed});
+              .origin = Origin::kAssumed,
+              .source = "the stripe straight ahead"});
   v.Integers("right_stripes", p.right_stripes,
              {.doc = "stripes whose hazard counts as on the right",
               .min = 0,
               .max = 4,
-              .origin = Origin::kAssumed});
+              .origin = Origin::kAssumed,
+              .source = "two of five stripes on either side of the central one"});
   v.Require("left_stripes", PartitionsStripes(p),
             "left, centre and right stripes together do not name each of the stripes 0 to 4 once",
             "use left [0, 1], centre [2], right [3, 4]");
   v.Choice("turn_direction", p.turn_direction,
            {.doc = "whether the side of a turn in place is kept until no hazard is detected",
             .origin = Origin::kAssumed,
-            .source = "Matthies 1995 sec. 7 reads as latched"});
+            .source = "Matthies 1995 sec. 7 reads as latched: turn until no hazard is detected"});
   v.Choice("both_sides", p.both_sides,
            {.doc = "reaction to hazards on the left and on the right in one scan",
             .origin = Origin::kAssumed,
-            .source = "Matthies 1995 sec. 7 reads as rule_order"});
+            .source = "Matthies 1995 sec. 7 reads as rule_order: the left rule comes first"});
   v.Choice("right_is_clear", p.right_is_clear,
-           {.doc = "what lets a centre hazard be passed on the right", .origin = Origin::kAssumed});
+           {.doc = "what lets a centre hazard be passed on the right",
+            .origin = Origin::kAssumed,
+            .source = "the plain reading of the rule"});
 }
 
 void VisitMotion(PathfinderParams& p, core::FieldVisitor& v) {
@@ -66,6 +71,7 @@ void VisitMotion(PathfinderParams& p, core::FieldVisitor& v) {
            .min = 1.0,
            .max = 90.0,
            .origin = Origin::kAssumed,
+           .source = "about the angle between neighbouring stripes; the paper names none",
            .study_low = 5.0,
            .study_high = 30.0});
   v.Angle("turn_give_up_deg", p.turn_give_up_rad,
@@ -73,6 +79,7 @@ void VisitMotion(PathfinderParams& p, core::FieldVisitor& v) {
            .min = 90.0,
            .max = 3600.0,
            .origin = Origin::kAssumed,
+           .source = "a controller without memory sees nothing new after a full turn",
            .study_low = 270.0,
            .study_high = 720.0});
   v.Real("clear_distance_m", p.clear_distance_m,
@@ -80,6 +87,7 @@ void VisitMotion(PathfinderParams& p, core::FieldVisitor& v) {
           .min = 0.0,
           .max = 5.0,
           .origin = Origin::kAssumed,
+          .source = "Matthies 1995 sec. 7 names none",
           .study_low = 0.0,
           .study_high = 0.3});
   v.Real("goal_tolerance_m", p.goal_tolerance_m,
@@ -87,20 +95,24 @@ void VisitMotion(PathfinderParams& p, core::FieldVisitor& v) {
           .min = 0.01,
           .max = 5.0,
           .origin = Origin::kAssumed,
+          .source = "a fraction of the vehicle; the paper names none",
           .study_low = 0.05,
           .study_high = 0.3});
-  v.Angle("heading_deadband_deg", p.heading_deadband_rad,
-          {.doc = "bearing to the goal below which the rover drives straight",
-           .min = 0.0,
-           .max = 45.0,
-           .origin = Origin::kAssumed,
-           .study_low = 2.0,
-           .study_high = 15.0});
+  v.Angle(
+      "heading_deadband_deg", p.heading_deadband_rad,
+      {.doc = "bearing to the goal below which the rover drives straight",
+       .min = 0.0,
+       .max = 45.0,
+       .origin = Origin::kAssumed,
+       .source = "finer than the lateral spread at the goal that it causes; the paper names none",
+       .study_low = 2.0,
+       .study_high = 15.0});
   v.Real("wide_arc_radius_m", p.wide_arc_radius_m,
          {.doc = "turning radius for moderate bearings",
           .min = 0.3,
           .max = 100.0,
           .origin = Origin::kAssumed,
+          .source = "about two vehicle lengths; the paper names no radii",
           .study_low = 1.0,
           .study_high = 3.0});
   v.Real("tight_arc_radius_m", p.tight_arc_radius_m,
@@ -108,6 +120,7 @@ void VisitMotion(PathfinderParams& p, core::FieldVisitor& v) {
           .min = 0.3,
           .max = 100.0,
           .origin = Origin::kAssumed,
+          .source = "about one vehicle length; the paper names no radii",
           .study_low = 0.5,
           .study_high = 1.0});
   v.Require("tight_arc_radius_m", p.tight_arc_radius_m <= p.wide_arc_radius_m,
@@ -117,6 +130,7 @@ void VisitMotion(PathfinderParams& p, core::FieldVisitor& v) {
            .min = 0.0,
            .max = 180.0,
            .origin = Origin::kAssumed,
+           .source = "beyond the width of a rock at a vehicle length; the paper names none",
            .study_low = 15.0,
            .study_high = 60.0});
   v.Require("tight_arc_bearing_deg", p.tight_arc_bearing_rad >= p.heading_deadband_rad,
@@ -126,6 +140,7 @@ void VisitMotion(PathfinderParams& p, core::FieldVisitor& v) {
            .min = 10.0,
            .max = 180.0,
            .origin = Origin::kAssumed,
+           .source = "a goal behind the rover; the paper names none",
            .study_low = 60.0,
            .study_high = 150.0});
   v.Require("point_turn_bearing_deg", p.point_turn_bearing_rad >= p.tight_arc_bearing_rad,

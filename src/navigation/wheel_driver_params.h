@@ -17,6 +17,7 @@ struct WheelDriverParams {
              .min = 1.0,
              .max = 1000.0,
              .origin = Origin::kAssumed,
+             .source = "as the rate of the steering motors",
              .study_low = 20.0,
              .study_high = 90.0});
     v.Angle("steer_while_driving_deg", steer_while_driving_rad,
@@ -24,6 +25,8 @@ struct WheelDriverParams {
              .min = 0.0,
              .max = 180.0,
              .origin = Origin::kAssumed,
+             .source = "changes between neighbouring arcs; the power budget allows one major "
+                       "function at a time",
              .study_low = 5.0,
              .study_high = 20.0});
   }

@@ -23,6 +23,7 @@ struct ClockParams {
             .min = 1.0,
             .max = 1000.0,
             .origin = Origin::kAssumed,
+            .source = "0.75 cm of driving and 1.3 deg of turning in place a tick",
             .study_low = 10.0,
             .study_high = 60.0});
     v.Real("stop_time_s", stop_time_s,
@@ -30,6 +31,7 @@ struct ClockParams {
             .min = 0.0,
             .max = 10.0,
             .origin = Origin::kAssumed,
+            .source = "one control tick; motors hold at once",
             .study_low = 0.05,
             .study_high = 0.5});
   }

@@ -41,7 +41,8 @@ struct CourseParams {
             .min = 0.01,
             .max = 100.0,
             .origin = Origin::kAssumed,
-            .source = "Matthies 1995 sec. 8",
+            .source = "about one vehicle length, from where the rover recognises prominent rocks "
+                      "(Matthies 1995 sec. 8)",
             .study_low = 0.3,
             .study_high = 1.5});
     v.Integer("trials_per_layout", trials_per_layout,

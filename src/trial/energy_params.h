@@ -50,6 +50,7 @@ struct EnergyParams {
             .min = 0.01,
             .max = 1e5,
             .origin = Origin::kAssumed,
+            .source = "ten times what a nominal run draws; capacity of Rocky 3.2 is not published",
             .study_low = 25.0,
             .study_high = 150.0});
   }

@@ -4,22 +4,27 @@ namespace rockyard::trial {
 
 void RefereeParams::Visit(core::FieldVisitor& v) {
   using core::Origin;
-  v.Angle("tip_over_deg", tip_over_rad,
-          {.doc = "tilt of the chassis at which the rover has tipped over",
-           .min = 20.0,
-           .max = 120.0,
-           .origin = Origin::kAssumed,
-           .study_low = 50.0,
-           .study_high = 80.0});
+  v.Angle(
+      "tip_over_deg", tip_over_rad,
+      {.doc = "tilt of the chassis at which the rover has tipped over",
+       .min = 20.0,
+       .max = 120.0,
+       .origin = Origin::kAssumed,
+       .source = "beyond any stable pose of a rover with its centre of mass below the track width",
+       .study_low = 50.0,
+       .study_high = 80.0});
   v.Choice("spinning_wheels", spinning_wheels,
            {.doc = "whether wheels that spin without moving the rover count as motion",
-            .origin = Origin::kAssumed});
+            .origin = Origin::kAssumed,
+            .source = "operators see a rover that stands still; the paper does not say when they "
+                      "stopped one"});
   v.Real("stall_window_s", stall_window_s,
          {.doc = "time of commanded motion without any after which the rover is stuck; scans do "
                  "not count",
           .min = 1.0,
           .max = 3600.0,
           .origin = Origin::kAssumed,
+          .source = "1.5 m of commanded driving at 15 cm/s, spread over ten minutes of scans",
           .study_low = 5.0,
           .study_high = 60.0});
   v.Real("stall_distance_m", stall_distance_m,
@@ -27,6 +32,7 @@ void RefereeParams::Visit(core::FieldVisitor& v) {
           .min = 1e-4,
           .max = 1.0,
           .origin = Origin::kAssumed,
+          .source = "a third of a wheel radius, above the jitter of spinning wheels",
           .study_low = 0.01,
           .study_high = 0.05});
   v.Angle("stall_turn_deg", stall_turn_rad,
@@ -34,6 +40,7 @@ void RefereeParams::Visit(core::FieldVisitor& v) {
            .min = 0.1,
            .max = 90.0,
            .origin = Origin::kAssumed,
+           .source = "half of the default turn increment",
            .study_low = 3.0,
            .study_high = 10.0});
   v.Real("high_centre_load", high_centre_load,
@@ -42,6 +49,7 @@ void RefereeParams::Visit(core::FieldVisitor& v) {
           .min = 0.0,
           .max = 1.0,
           .origin = Origin::kAssumed,
+          .source = "the belly may lift off for moments while the wheels dig",
           .study_low = 0.1,
           .study_high = 0.5});
   v.Real(
@@ -50,6 +58,7 @@ void RefereeParams::Visit(core::FieldVisitor& v) {
        .min = 0.01,
        .max = 100.0,
        .origin = Origin::kAssumed,
+       .source = "half a vehicle width",
        .study_low = 0.1,
        .study_high = 0.5});
   v.Real("no_path_distance_m", no_path_distance_m,
@@ -57,6 +66,7 @@ void RefereeParams::Visit(core::FieldVisitor& v) {
           .min = 0.1,
           .max = 1e5,
           .origin = Origin::kAssumed,
+          .source = "half of the course once more without coming nearer",
           .study_low = 2.0,
           .study_high = 10.0});
   v.Angle("no_path_turn_deg", no_path_turn_rad,
@@ -64,6 +74,7 @@ void RefereeParams::Visit(core::FieldVisitor& v) {
            .min = 90.0,
            .max = 1e5,
            .origin = Origin::kAssumed,
+           .source = "three full turns",
            .study_low = 720.0,
            .study_high = 2160.0});
   v.Real("time_limit_s", time_limit_s,
@@ -71,7 +82,7 @@ void RefereeParams::Visit(core::FieldVisitor& v) {
           .min = 1.0,
           .max = 1e7,
           .origin = Origin::kAssumed,
-          .source = "Matthies 1995 sec. 2.1.2",
+          .source = "the four hours of a rover day, Matthies 1995 sec. 2.1.2",
           .study_low = 7200.0,
           .study_high = 28800.0});
 }

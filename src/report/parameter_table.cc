@@ -1,0 +1,120 @@
+#include "report/parameter_table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace rockyard::report {
+namespace {
+
+using core::FieldKind;
+using core::ParameterInfo;
+
+std::string_view KindName(FieldKind kind) {
+  switch (kind) {
+    case FieldKind::kReal:
+      return "real";
+    case FieldKind::kAngle:
+      return "angle";
+    case FieldKind::kInteger:
+      return "integer";
+    case FieldKind::kBoolean:
+      return "boolean";
+    case FieldKind::kText:
+      return "text";
+    case FieldKind::kReals:
+      return "reals";
+    case FieldKind::kIntegers:
+      return "integers";
+    case FieldKind::kChoice:
+      return "choice";
+  }
+  return "";
+}
+
+// Six digits tell what a person chose; conversions between units leave more behind.
+std::string Number(double value) { return fmt::format("{:.6g}", value); }
+
+std::string ValueText(const core::JsonValue& value) {
+  switch (value.type()) {
+    case core::JsonValue::Type::kNull:
+      return "";
+    case core::JsonValue::Type::kBoolean:
+      return value.boolean() ? "true" : "false";
+    case core::JsonValue::Type::kInteger:
+      return std::to_string(value.integer());
+    case core::JsonValue::Type::kReal:
+      return Number(value.number());
+    case core::JsonValue::Type::kText:
+      return value.text();
+    case core::JsonValue::Type::kList: {
+      std::vector<std::string> parts;
+      for (const core::JsonValue& part : value.list()) parts.push_back(ValueText(part));
+      return fmt::format("[{}]", fmt::join(parts, ", "));
+    }
+    case core::JsonValue::Type::kObject:
+      return "";
+  }
+  return "";
+}
+
+std::string Range(const ParameterInfo& parameter) {
+  if (parameter.kind == FieldKind::kChoice) {
+    return fmt::format("{}", fmt::join(parameter.choices, ", "));
+  }
+  if (parameter.HasStudyRange()) {
+    return fmt::format("{} to {}", Number(parameter.study_low), Number(parameter.study_high));
+  }
+  return "held";
+}
+
+std::string CsvText(std::string_view text) {
+  if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+std::string Bound(double value) { return std::isfinite(value) ? Number(value) : ""; }
+
+}  // namespace
+
+std::vector<ParameterInfo> SelectParameters(std::span<const ParameterInfo> parameters,
+                                            std::optional<core::Origin> origin) {
+  std::vector<ParameterInfo> selected;
+  std::copy_if(parameters.begin(), parameters.end(), std::back_inserter(selected),
+               [&](const ParameterInfo& p) { return !origin || p.origin == *origin; });
+  return selected;
+}
+
+std::string ParametersMarkdown(std::span<const ParameterInfo> parameters) {
+  std::string table =
+      "| parameter | value | unit | range | reason or source | meaning "
+      "|\n|---|---|---|---|---|---|\n";
+  for (const ParameterInfo& p : parameters) {
+    table += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", p.path, ValueText(p.value), p.unit,
+                         Range(p), p.source, p.doc);
+  }
+  return table;
+}
+
+std::string ParametersCsv(std::span<const ParameterInfo> parameters) {
+  std::string csv = "path,kind,value,unit,origin,study_low,study_high,min,max,choices,source,doc\n";
+  for (const ParameterInfo& p : parameters) {
+    const bool studied = p.HasStudyRange();
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", p.path, KindName(p.kind),
+                       CsvText(ValueText(p.value)), p.unit, core::Name(p.origin),
+                       studied ? Number(p.study_low) : "", studied ? Number(p.study_high) : "",
+                       Bound(p.min), Bound(p.max), fmt::join(p.choices, "|"), CsvText(p.source),
+                       CsvText(p.doc));
+  }
+  return csv;
+}
+
+}  // namespace rockyard::report

@@ -1,0 +1,26 @@
+// Tables of a scenario's parameters: what each value is, where it comes from, how far it may be
+// off.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/field_table.h"
+
+namespace rockyard::report {
+
+// The parameters of one origin, or all.
+std::vector<core::ParameterInfo> SelectParameters(std::span<const core::ParameterInfo> parameters,
+                                                  std::optional<core::Origin> origin);
+
+// One row a parameter: path, value, unit, range ("lo to hi", or the choices), reason or source,
+// meaning. Markdown with a header row.
+std::string ParametersMarkdown(std::span<const core::ParameterInfo> parameters);
+
+// Columns path, kind, value, unit, origin, study_low, study_high, min, max, choices (separated by
+// |), source, doc; RFC 4180.
+std::string ParametersCsv(std::span<const core::ParameterInfo> parameters);
+
+}  // namespace rockyard::report
