@@ -22,13 +22,13 @@ class JsonValue {
   enum class Type { kNull, kBoolean, kInteger, kReal, kText, kList, kObject };
 
   JsonValue() = default;
-  explicit JsonValue(bool value) : data_(value) {}
-  explicit JsonValue(std::int64_t value) : data_(value) {}
-  explicit JsonValue(double value) : data_(value) {}
-  explicit JsonValue(std::string value) : data_(std::move(value)) {}
-  explicit JsonValue(std::string_view value) : data_(std::string(value)) {}
-  explicit JsonValue(const char* value) : data_(std::string(value)) {}
-  explicit JsonValue(List values) : data_(std::move(values)) {}
+  explicit JsonValue(bool value);
+  explicit JsonValue(std::int64_t value);
+  explicit JsonValue(double value);
+  explicit JsonValue(std::string value);
+  explicit JsonValue(std::string_view value);
+  explicit JsonValue(const char* value);
+  explicit JsonValue(List values);
 
   static JsonValue Object();
 

@@ -23,7 +23,7 @@ class JsonFileTest : public testing::Test {
                  std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
     fs::create_directories(folder_ / "sub");
   }
-  ~JsonFileTest() override { fs::remove_all(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
 
   fs::path Write(const std::string& name, std::string_view text) const {
     std::ofstream(folder_ / name) << text;

@@ -150,7 +150,7 @@ class LoadFileTest : public testing::Test {
   LoadFileTest() : folder_(fs::path(testing::TempDir()) / "scenario_load_test") {
     fs::create_directories(folder_);
   }
-  ~LoadFileTest() override { fs::remove_all(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
 
   fs::path folder_;
 };
