@@ -10,8 +10,35 @@ namespace {
 
 // Smallest step of a ray over rough ground, m: far below the finest wavelength of the roughness.
 constexpr double kSmallestStep_m = 1e-3;
-// Halvings of a 1 mm step down to rounding.
-constexpr int kBisections = 40;
+// Width at which a bracketed crossing is as exact as contacts and pixels will ever need, m.
+constexpr double kCrossingWidth_m = 1e-12;
+constexpr int kMostCrossingSteps = 100;
+
+// A zero of `gap` between `above`, where it is positive, and `below`, where it is not: false
+// position with the Illinois rule (Dowell and Jarratt 1971), which halves the value at an end that
+// stays.
+template <typename Gap>
+double FindCrossing(const Gap& gap, double above, double gap_above, double below,
+                    double gap_below) {
+  int kept_end = 0;  // -1 below, +1 above: the end that the last step left where it was
+  for (int i = 0; i < kMostCrossingSteps && below - above > kCrossingWidth_m; ++i) {
+    const double t = below - gap_below * (below - above) / (gap_below - gap_above);
+    const double gap_t = gap(t);
+    if (std::abs(gap_t) < kCrossingWidth_m) return t;
+    if (gap_t > 0.0) {
+      above = t;
+      gap_above = gap_t;
+      if (kept_end == -1) gap_below *= 0.5;
+      kept_end = -1;
+    } else {
+      below = t;
+      gap_below = gap_t;
+      if (kept_end == 1) gap_above *= 0.5;
+      kept_end = 1;
+    }
+  }
+  return above;
+}
 
 }  // namespace
 
@@ -65,19 +92,14 @@ std::optional<double> Ground::MarchRay(const math::Vector3& origin_W,
   const double closing = plane_descent + roughness_->MaxSlope() * horizontal;
   if (gap > closing * max_distance_m) return std::nullopt;
 
-  double above = 0.0;  // a distance at which the ray is above the ground
+  const auto gap_at = [&](double t) { return Gap(origin_W + t * direction_W); };
+  double above = 0.0;  // a distance at which the ray is above the ground by `gap`
   while (above < max_distance_m) {
-    double below = std::min(above + std::max(gap / closing, kSmallestStep_m), max_distance_m);
-    gap = Gap(origin_W + below * direction_W);
-    if (gap > 0.0) {
-      above = below;
-      continue;
-    }
-    for (int i = 0; i < kBisections; ++i) {
-      const double middle = 0.5 * (above + below);
-      (Gap(origin_W + middle * direction_W) > 0.0 ? above : below) = middle;
-    }
-    return above;
+    const double next = std::min(above + std::max(gap / closing, kSmallestStep_m), max_distance_m);
+    const double next_gap = gap_at(next);
+    if (next_gap <= 0.0) return FindCrossing(gap_at, above, gap, next, next_gap);
+    above = next;
+    gap = next_gap;
   }
   return std::nullopt;
 }
