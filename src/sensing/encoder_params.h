@@ -8,6 +8,7 @@ namespace rockyard::sensing {
 struct EncoderParams {
   double distance_variance_m2_per_m = 0.0039;
   double physics_variance_m2_per_m = 0.0;
+  double noise_stretch_m = 0.067;
 
   // What the encoders add to the distance error that wheel slip already causes, m2/m.
   double noise_variance_m2_per_m() const {
@@ -32,6 +33,12 @@ struct EncoderParams {
               "is larger than distance_variance_m2_per_m, so that no encoder noise could bring the "
               "sum to the published value",
               "use a value up to distance_variance_m2_per_m");
+    v.Real("noise_stretch_m", noise_stretch_m,
+           {.doc = "travel over which the distance error keeps its rate",
+            .min = 0.001,
+            .max = 100.0,
+            .origin = Origin::kPublished,
+            .source = "Matthies 1995 sec. 5: steps of 6.7 cm"});
   }
 };
 

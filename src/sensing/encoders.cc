@@ -1,5 +1,6 @@
 #include "sensing/encoders.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -9,22 +10,34 @@
 namespace rockyard::sensing {
 
 Encoders::Encoders(const EncoderParams& params, double wheel_radius_m, core::TrialKey key)
-    : noise_variance_m2_per_m_(params.noise_variance_m2_per_m()),
-      wheel_radius_m_(wheel_radius_m),
-      key_(key) {
-  EXPECT(noise_variance_m2_per_m_ >= 0.0 && wheel_radius_m > 0.0);
+    : params_(params), wheel_radius_m_(wheel_radius_m), key_(key) {
+  EXPECT(params.noise_variance_m2_per_m() >= 0.0 && params.noise_stretch_m > 0.0);
+  EXPECT(wheel_radius_m > 0.0);
 }
 
-messages::PerWheel<double> Encoders::Measure(const messages::PerWheel<double>& true_turn_rad,
-                                             std::int64_t step) const {
-  EXPECT(step >= 0);
+double Encoders::RollOn(double distance_m) {
+  double noise_m = 0.0;
+  while (distance_m > 0.0) {
+    if (left_in_stretch_m_ <= 0.0) {
+      core::RandomStream stream(key_, core::Purpose::kEncoder, stretch_++);
+      scale_error_ = core::SampleNormal(
+          stream, 0.0, std::sqrt(params_.noise_variance_m2_per_m() / params_.noise_stretch_m));
+      left_in_stretch_m_ = params_.noise_stretch_m;
+    }
+    const double part_m = std::min(distance_m, left_in_stretch_m_);
+    noise_m += part_m * scale_error_;
+    left_in_stretch_m_ -= part_m;
+    distance_m -= part_m;
+  }
+  return noise_m;
+}
+
+messages::PerWheel<double> Encoders::Measure(const messages::PerWheel<double>& true_turn_rad) {
   const double mean_rad =
       std::accumulate(true_turn_rad.begin(), true_turn_rad.end(), 0.0) / messages::kWheelCount;
-  const double forward_m = std::abs(mean_rad) * wheel_radius_m_;
-  core::RandomStream stream(key_, core::Purpose::kEncoder, static_cast<std::uint32_t>(step));
-  const double noise_rad =
-      core::SampleNormal(stream, 0.0, std::sqrt(noise_variance_m2_per_m_ * forward_m)) /
-      wheel_radius_m_;
+  EXPECT(std::isfinite(mean_rad));
+  const double noise_m = RollOn(std::abs(mean_rad) * wheel_radius_m_);
+  const double noise_rad = (mean_rad < 0.0 ? -noise_m : noise_m) / wheel_radius_m_;
   messages::PerWheel<double> measured = true_turn_rad;
   for (double& turn_rad : measured) turn_rad += noise_rad;
   return measured;

@@ -21,7 +21,7 @@ class MotionSensors {
   void Observe(const truth::RoverState& state, double time_s);
 
   // Once an on-board tick: what was measured since the last tick. `moving`: the rover was told to
-  // move. Ticks are numbered from 0, which indexes the noise.
+  // move. Ticks are numbered from 0, which indexes the noise of the gyro.
   messages::MotionMeasurement Measure(const truth::RoverState& state, double duration_s,
                                       bool moving);
 

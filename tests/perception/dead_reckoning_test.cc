@@ -1,0 +1,139 @@
+#include "perception/dead_reckoning.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace rockyard::perception {
+namespace {
+
+using messages::MotionMeasurement;
+using messages::PerWheel;
+
+constexpr double kRadius_m = 0.065;
+
+messages::DriveCalibration Calibration() {
+  messages::DriveCalibration calibration;
+  calibration.wheel_radius_m = kRadius_m;
+  calibration.steered = {true, false, true, true, false, true};
+  return calibration;
+}
+
+MotionMeasurement Straight(double distance_m, double turn_rad = 0.0) {
+  MotionMeasurement motion;
+  motion.duration_s = 0.1;
+  motion.wheel_turn_rad.fill(distance_m / kRadius_m);
+  motion.turn_rad = turn_rad;
+  return motion;
+}
+
+DeadReckoning Make(const DeadReckoningParams& params = {}, const math::Pose2& initial = {}) {
+  return {Calibration(), params, initial};
+}
+
+TEST(DeadReckoningTest, StraightAlongTheHeading) {
+  auto dead_reckoning = Make({}, {1.0, 2.0, 0.5});
+  dead_reckoning.Integrate(Straight(2.0));
+  EXPECT_NEAR(dead_reckoning.estimate().x_m, 1.0 + 2.0 * std::cos(0.5), 1e-12);
+  EXPECT_NEAR(dead_reckoning.estimate().y_m, 2.0 + 2.0 * std::sin(0.5), 1e-12);
+  EXPECT_NEAR(dead_reckoning.estimate().heading_rad, 0.5, 1e-15);
+  EXPECT_NEAR(dead_reckoning.estimate().distance_m, 2.0, 1e-12);
+}
+
+TEST(DeadReckoningTest, BackwardMotionAddsToTheOdometer) {
+  auto dead_reckoning = Make();
+  dead_reckoning.Integrate(Straight(1.0));
+  dead_reckoning.Integrate(Straight(-1.0));
+  EXPECT_NEAR(dead_reckoning.estimate().x_m, 0.0, 1e-12);
+  EXPECT_NEAR(dead_reckoning.estimate().distance_m, 2.0, 1e-12);
+}
+
+TEST(DeadReckoningTest, TurnInPlaceMovesNothing) {
+  auto dead_reckoning = Make();
+  MotionMeasurement motion;
+  motion.wheel_turn_rad = {-2.0, -1.5, -2.0, 2.0, 1.5, 2.0};
+  motion.turn_rad = 0.3;
+  dead_reckoning.Integrate(motion);
+  EXPECT_EQ(dead_reckoning.estimate().x_m, 0.0);
+  EXPECT_EQ(dead_reckoning.estimate().distance_m, 0.0);
+  EXPECT_DOUBLE_EQ(dead_reckoning.estimate().heading_rad, 0.3);
+}
+
+TEST(DeadReckoningTest, CalibratedScaleAndRadius) {
+  DeadReckoningParams params;
+  params.distance_scale = 0.95;
+  auto dead_reckoning = Make(params);
+  dead_reckoning.Integrate(Straight(1.0));
+  EXPECT_NEAR(dead_reckoning.estimate().x_m, 0.95, 1e-12);
+}
+
+// A circle in n steps closes exactly with the midpoint rule, and misses by a step's second order
+// with the equations of section 5 as printed.
+double ClosingError(StepHeading rule, int steps) {
+  DeadReckoningParams params;
+  params.step_heading = rule;
+  auto dead_reckoning = Make(params);
+  // A quarter of a circle of radius 1 m ends at (1, 1).
+  for (int i = 0; i < steps; ++i) {
+    const double turn = 0.5 * std::numbers::pi / steps;
+    dead_reckoning.Integrate(Straight(turn, turn));
+  }
+  return std::hypot(dead_reckoning.estimate().x_m - 1.0, dead_reckoning.estimate().y_m - 1.0);
+}
+
+TEST(DeadReckoningTest, OrderOfTheIntegrationRules) {
+  EXPECT_NEAR(ClosingError(StepHeading::kMidpoint, 50) / ClosingError(StepHeading::kMidpoint, 100),
+              4.0, 0.05);
+  EXPECT_NEAR(ClosingError(StepHeading::kStart, 50) / ClosingError(StepHeading::kStart, 100), 2.0,
+              0.05);
+}
+
+TEST(DeadReckoningTest, CornerWheelsLengthenArcs) {
+  // Arc of radius 0.75 m to the left; wheels at x = +-0.25 and 0, y = +-0.2.
+  const double turn = 0.1;
+  const auto path = [&](double x, double y) { return std::hypot(0.75 - y, x) * turn; };
+  MotionMeasurement motion;
+  motion.turn_rad = turn;
+  motion.wheel_turn_rad = {path(0.25, 0.2),  path(0.0, 0.2),  path(-0.25, 0.2),
+                           path(0.25, -0.2), path(0.0, -0.2), path(-0.25, -0.2)};
+  for (double& rad : motion.wheel_turn_rad) rad /= kRadius_m;
+  auto all = Make();
+  all.Integrate(motion);
+  EXPECT_NEAR(all.estimate().distance_m / (0.75 * turn), 1.038, 0.001);
+  DeadReckoningParams params;
+  params.wheels = OdometryWheels::kUnsteered;
+  auto middle = Make(params);
+  middle.Integrate(motion);
+  EXPECT_NEAR(middle.estimate().distance_m, 0.75 * turn, 1e-12);
+}
+
+TEST(DeadReckoningTest, HeadingsStayWrapped) {
+  auto dead_reckoning = Make({}, {0.0, 0.0, 3.0});
+  dead_reckoning.Integrate(Straight(0.0, 0.3));
+  EXPECT_NEAR(dead_reckoning.estimate().heading_rad, 3.3 - 2.0 * std::numbers::pi, 1e-12);
+}
+
+TEST(DeadReckoningTest, UpdatesMoveThePoseAndKeepTheOdometer) {
+  auto dead_reckoning = Make();
+  dead_reckoning.Integrate(Straight(3.0));
+  dead_reckoning.Apply({7.0, 8.0, -0.4});
+  EXPECT_EQ(dead_reckoning.estimate().x_m, 7.0);
+  EXPECT_EQ(dead_reckoning.estimate().y_m, 8.0);
+  EXPECT_EQ(dead_reckoning.estimate().heading_rad, -0.4);
+  EXPECT_NEAR(dead_reckoning.estimate().distance_m, 3.0, 1e-12);
+}
+
+TEST(DeadReckoningTest, FollowingAnOracleCountsForwardMotion) {
+  auto dead_reckoning = Make();
+  dead_reckoning.Follow({0.5, 0.0, 0.0});
+  EXPECT_NEAR(dead_reckoning.estimate().distance_m, 0.5, 1e-12);
+  dead_reckoning.Follow({0.5, 0.0, 1.0});  // turns in place
+  EXPECT_NEAR(dead_reckoning.estimate().distance_m, 0.5, 1e-12);
+  dead_reckoning.Follow({0.5 - std::cos(1.0), -std::sin(1.0), 1.0});  // backs up
+  EXPECT_NEAR(dead_reckoning.estimate().distance_m, 1.5, 1e-12);
+  EXPECT_NEAR(dead_reckoning.estimate().y_m, -std::sin(1.0), 1e-12);
+}
+
+}  // namespace
+}  // namespace rockyard::perception

@@ -1,0 +1,28 @@
+// Elevation scans made by hand.
+#pragma once
+
+#include <array>
+
+#include "messages/estimates.h"
+
+namespace rockyard::perception {
+
+// Every point found; each row at one elevation, nearest row first.
+inline messages::ElevationScan ScanOfRows(const std::array<double, messages::kStripeRows>& rows) {
+  messages::ElevationScan scan;
+  for (std::size_t row = 0; row < messages::kStripeRows; ++row) {
+    scan.points[row].fill({.detected = true, .elevation_m = rows[row]});
+  }
+  return scan;
+}
+
+inline messages::ElevationScan FlatScan() { return ScanOfRows({0.0, 0.0, 0.0, 0.0}); }
+
+// Flat but for one point of row 2.
+inline messages::ElevationScan RockScan(std::size_t stripe, double elevation_m) {
+  messages::ElevationScan scan = FlatScan();
+  scan.points[2][stripe].elevation_m = elevation_m;
+  return scan;
+}
+
+}  // namespace rockyard::perception
