@@ -1,0 +1,70 @@
+#include "batch/record_writer.h"
+
+#include <utility>
+
+#include "batch/store_error.h"
+
+namespace rockyard::batch {
+
+RecordWriter::RecordWriter(ResultStore& store, std::chrono::milliseconds interval,
+                           std::function<void()> after_tick)
+    : store_(store),
+      interval_(interval),
+      after_tick_(std::move(after_tick)),
+      thread_([this] { Loop(); }) {}
+
+RecordWriter::~RecordWriter() {
+  Stop();
+  WriteQueue();
+}
+
+void RecordWriter::Push(truth::Record record) {
+  const std::lock_guard lock(mutex_);
+  queue_.push_back(std::move(record));
+}
+
+void RecordWriter::Close() {
+  Stop();
+  WriteQueue();
+  if (error_) std::rethrow_exception(error_);
+}
+
+void RecordWriter::Stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  wake_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void RecordWriter::Loop() {
+  std::unique_lock lock(mutex_);
+  while (!wake_.wait_for(lock, interval_, [this] { return stopping_; })) {
+    lock.unlock();
+    // After a failure the rest is tried once more, when the trials in flight have ended.
+    if (!failed_) WriteQueue();
+    if (after_tick_) after_tick_();
+    lock.lock();
+  }
+}
+
+void RecordWriter::WriteQueue() {
+  std::vector<truth::Record> batch;
+  {
+    const std::lock_guard lock(mutex_);
+    batch.swap(queue_);
+  }
+  try {
+    store_.Append(batch);
+  } catch (const std::exception&) {
+    failed_ = true;
+    if (!error_) error_ = std::current_exception();
+    const std::lock_guard lock(mutex_);
+    batch.insert(batch.end(), std::make_move_iterator(queue_.begin()),
+                 std::make_move_iterator(queue_.end()));
+    queue_ = std::move(batch);
+  }
+}
+
+}  // namespace rockyard::batch

@@ -1,0 +1,96 @@
+#include "batch/scenario_difference.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string>
+
+#include "core/json_text.h"
+
+namespace rockyard::batch {
+namespace {
+
+using core::JsonValue;
+
+constexpr std::array<std::string_view, 3> kNoInfluence = {"name", "description", "trials"};
+
+std::string Show(const JsonValue* value) {
+  if (value == nullptr) return "absent";
+  if (value->Is(JsonValue::Type::kList)) {
+    std::string text = core::DumpJson(*value);
+    text.erase(text.find_last_not_of('\n') + 1);
+    return text.size() > 60 ? text.substr(0, 60) + "..." : text;
+  }
+  return core::Abbreviate(*value);
+}
+
+class Walk {
+ public:
+  void Compare(const std::string& path, const JsonValue* stored, const JsonValue* wanted) {
+    const bool objects = stored != nullptr && wanted != nullptr &&
+                         stored->Is(JsonValue::Type::kObject) &&
+                         wanted->Is(JsonValue::Type::kObject);
+    if (objects) {
+      CompareMembers(path, *stored, *wanted);
+    } else if (stored == nullptr || wanted == nullptr ||
+               core::DumpJson(*stored) != core::DumpJson(*wanted)) {
+      found_.push_back(
+          {path, fmt::format("is {} in the stored run and {} now", Show(stored), Show(wanted)),
+           ""});
+    }
+  }
+
+  std::vector<core::Problem> Take(std::size_t limit) {
+    if (found_.size() > limit) {
+      const std::size_t more = found_.size() - limit;
+      found_.resize(limit);
+      found_.push_back({"scenario", fmt::format("differs in {} more places", more), ""});
+    }
+    return std::move(found_);
+  }
+
+ private:
+  void CompareMembers(const std::string& path, const JsonValue& stored, const JsonValue& wanted) {
+    for (const core::JsonMember& member : stored.members()) {
+      if (!Skip(path, member.key)) {
+        Compare(Join(path, member.key), &member.value, wanted.Find(member.key));
+      }
+    }
+    for (const core::JsonMember& member : wanted.members()) {
+      if (!Skip(path, member.key) && stored.Find(member.key) == nullptr) {
+        Compare(Join(path, member.key), nullptr, &member.value);
+      }
+    }
+  }
+
+  static bool Skip(const std::string& path, std::string_view key) {
+    if (!path.empty()) return false;
+    for (const std::string_view name : kNoInfluence) {
+      if (key == name) return true;
+    }
+    return false;
+  }
+
+  static std::string Join(const std::string& path, const std::string& key) {
+    return path.empty() ? key : path + "." + key;
+  }
+
+  std::vector<core::Problem> found_;
+};
+
+}  // namespace
+
+std::vector<core::Problem> ScenarioDifferences(std::string_view stored, std::string_view wanted,
+                                               std::size_t limit) {
+  try {
+    const JsonValue before = core::ParseJson(stored, "stored scenario");
+    const JsonValue now = core::ParseJson(wanted, "scenario");
+    Walk walk;
+    walk.Compare("", &before, &now);
+    return walk.Take(limit);
+  } catch (const core::UserError& error) {
+    return error.problems();
+  }
+}
+
+}  // namespace rockyard::batch

@@ -1,0 +1,89 @@
+// A thin, throwing layer over SQLite: connections, statements, transactions.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace rockyard::batch {
+
+enum class Access {
+  kCreate,  // the file must not exist yet
+  kChange,  // an existing file
+  kRead,    // an existing file, also on read-only media
+};
+
+// One prepared statement. Columns and parameters count from 0.
+class SqliteStatement {
+ public:
+  SqliteStatement(sqlite3* database, const std::filesystem::path& path, std::string_view sql);
+
+  SqliteStatement& Bind(int parameter, std::int64_t value);
+  SqliteStatement& Bind(int parameter, double value);  // NaN becomes NULL
+  SqliteStatement& Bind(int parameter, std::string_view value);
+  SqliteStatement& BindNull(int parameter);
+
+  // True while there is a row to read.
+  bool Step();
+  void Reset();
+
+  bool IsNull(int column) const;
+  bool IsReal(int column) const;
+  std::int64_t Integer(int column) const;
+  double Real(int column) const;
+  std::string Text(int column) const;
+
+ private:
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const;
+  };
+
+  sqlite3* database_;
+  std::filesystem::path path_;
+  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+};
+
+// One connection. Every failure is a StoreError that names the file. Not for two threads at once.
+class SqliteDatabase {
+ public:
+  SqliteDatabase(const std::filesystem::path& path, Access access);
+
+  void Execute(const std::string& sql);
+  SqliteStatement Prepare(std::string_view sql) const;
+
+  // The first complaint of SQLite's own check of the file, or nothing.
+  std::optional<std::string> Damage() const;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  struct Close {
+    void operator()(sqlite3* database) const;
+  };
+
+  std::filesystem::path path_;
+  std::unique_ptr<sqlite3, Close> database_;
+};
+
+// Rolls back unless committed.
+class SqliteTransaction {
+ public:
+  explicit SqliteTransaction(SqliteDatabase& database);
+  ~SqliteTransaction();
+  SqliteTransaction(const SqliteTransaction&) = delete;
+  SqliteTransaction& operator=(const SqliteTransaction&) = delete;
+
+  void Commit();
+
+ private:
+  SqliteDatabase& database_;
+  bool open_ = true;
+};
+
+}  // namespace rockyard::batch

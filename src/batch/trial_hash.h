@@ -1,0 +1,17 @@
+// One number for all records of a run.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "truth/record.h"
+
+namespace rockyard::batch {
+
+// FNV-1a 64 (core/hash.h), 16 hexadecimal digits, over trial index, outcome name and the bits of
+// every value of each record, in the order given: pass records in trial order. The sentence for
+// people (`detail`) is left out. Equal hashes mean equal records, whatever threads, order or
+// interruptions made them.
+std::string TrialHash(std::span<const truth::Record> records);
+
+}  // namespace rockyard::batch
