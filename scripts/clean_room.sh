@@ -1,20 +1,19 @@
 #!/bin/sh
 # Tries commands on a bare Debian 12: makes a root folder with the base system and git only, copies
 # the committed state of this project into it and runs the commands there (root needed).
-# Usage: scripts/clean_room.sh [--root DIR] [--keep] [COMMAND]...
+# Usage: scripts/clean_room.sh [--root DIR] [COMMAND]...
 #   COMMAND     run inside the project's copy (default: scripts/quickstart.sh, then scripts/test.sh)
-#   --root DIR  where the root folder goes (default: a temporary folder)
-#   --keep      leave it there at the end; a root that exists is used again
+#   --root DIR  make the root folder here and leave it, or use the one that is here again
+#               (default: a temporary folder that is removed at the end)
 # The package archive is the one that this machine's own apt is configured for.
 set -eu
 export LC_ALL=C
 project=$(cd "$(dirname "$0")/.." && pwd)
 root=""
-keep=no
+keep=yes
 while [ $# -gt 0 ]; do
   case "$1" in
     --root) root=$2; shift 2 ;;
-    --keep) keep=yes; shift ;;
     -h | --help) sed -n '2,8s/^# //p' "$0"; exit 0 ;;
     -*) echo "clean_room: unknown option $1 (try --help)" >&2; exit 2 ;;
     *) break ;;
@@ -28,7 +27,10 @@ fail() {
 }
 [ "$(id -u)" -eq 0 ] || fail "making a root folder needs root"
 command -v debootstrap > /dev/null || fail "install the package debootstrap first"
-[ -n "$root" ] || root=$(mktemp -d)
+if [ -z "$root" ]; then
+  root=$(mktemp -d)
+  keep=no
+fi
 
 leave() {
   for point in proc sys dev; do
@@ -58,7 +60,9 @@ mount -t proc proc "$root/proc"
 mount --bind /dev "$root/dev"
 mount -t sysfs sys "$root/sys" 2> /dev/null || true
 
-if [ ! -d "$root/root/rockyard" ]; then
+if [ -d "$root/root/rockyard" ]; then
+  git -C "$root/root/rockyard" pull --quiet --ff-only
+else
   git clone --quiet "$project" "$root/root/rockyard"
 fi
 for command in "$@"; do

@@ -15,7 +15,8 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/rockyard)
 install(TARGETS ${targets} rockyard_all EXPORT rockyardTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT rockyardTargets NAMESPACE rockyard:: DESTINATION ${package_dir})
-if(TARGET rockyard)
+if(TARGET rockyard)  # the command
+  set_target_properties(rockyard PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
   install(TARGETS rockyard RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 foreach(module ${modules})

@@ -6,7 +6,8 @@
 #include "truth/rover_state.h"
 
 int main() {
-  // Known answer of Philox 4x32-10 for the zero counter under the zero key (Random123, kat_vectors).
+  // Known answer of Philox 4x32-10 for the zero counter under the zero key (Random123,
+  // kat_vectors).
   const auto block = rockyard::core::Philox4x32({}, {});
   const rockyard::navigation::NavigatorDecision decision;
   const rockyard::truth::RoverState state;

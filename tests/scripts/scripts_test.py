@@ -1,0 +1,221 @@
+"""The command lines of the scripts: what they accept, refuse and pass on."""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+
+# Stands for every program that the scripts call: writes down how it was called.
+FAKE = """#!/bin/sh
+echo "$(basename "$0") $*" >> "$CALLS"
+case "$(basename "$0") $1" in
+  "rockyard check") exit "${CHECK_CODE:-0}" ;;
+  "rockyard run") exit "${RUN_CODE:-0}" ;;
+esac
+"""
+
+
+class ScriptTest(unittest.TestCase):
+    """A copy of the scripts in a folder where nothing real can be called."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name)
+        self.calls = self.root / "calls"
+        self.calls.touch()
+        shutil.copytree(ROOT / "scripts", self.root / "scripts")
+        for name in ("cmake", "ctest"):
+            self.fake(f"bin/{name}")
+        self.fake("build/release/bin/rockyard")
+        self.fake("scripts/install_dependencies.sh")
+        for name in ("obstacles_0.28", "nominal"):
+            path = self.root / f"scenarios/pathfinder/{name}.json"
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.touch()
+
+    def fake(self, name):
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(FAKE, encoding="utf-8")
+        path.chmod(0o755)
+
+    def run_script(self, name, *arguments, **environment):
+        variables = {**os.environ, "CALLS": str(self.calls), **environment,
+                     "PATH": f"{self.root / 'bin'}:{os.environ['PATH']}"}
+        return subprocess.run([self.root / "scripts" / name, *arguments], env=variables, text=True,
+                              capture_output=True, check=False)
+
+    def called(self, program):
+        lines = self.calls.read_text(encoding="utf-8").splitlines()
+        return [line.removeprefix(f"{program} ") for line in lines if line.startswith(program)]
+
+
+class Quickstart(ScriptTest):
+    def test_runs_every_scenario_that_exists_with_300_trials(self):
+        result = self.run_script("quickstart.sh")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        out = "results/runs/quickstart"
+        self.assertEqual(self.called("rockyard"), [
+            f"run scenarios/pathfinder/obstacles_0.28.json --out {out}/obstacles_0.28 --trials 300",
+            f"run scenarios/pathfinder/nominal.json --out {out}/nominal --trials 300",
+            f"check {out}/obstacles_0.28 {out}/nominal"
+            " --against results/reference/matthies1995.json"])
+        self.assertIn(out, result.stdout)
+
+    def test_options_pass_through(self):
+        self.run_script("quickstart.sh", "--trials", "50", "--seed", "2")
+        runs = [line for line in self.called("rockyard") if line.startswith("run")]
+        for line in runs:
+            self.assertTrue(line.endswith("--trials 50 --seed 2"), line)
+            self.assertNotIn("--trials 300", line)
+
+    def test_an_option_with_a_space_stays_one_word(self):
+        script = self.root / "build/release/bin/rockyard"
+        script.write_text('#!/bin/sh\nfor word in "$@"; do echo "[$word]" >> "$CALLS"; done\n',
+                          encoding="utf-8")
+        self.run_script("quickstart.sh", "--set", "name=two words")
+        self.assertIn("[name=two words]", self.calls.read_text(encoding="utf-8"))
+
+    def test_options_that_change_results_get_a_folder_of_their_own(self):
+        self.run_script("quickstart.sh", "--threads", "1")
+        self.run_script("quickstart.sh", "--seed", "2")
+        self.run_script("quickstart.sh", "--seed", "3")
+        folders = {line.split("--out ")[1].split("/nominal")[0]
+                   for line in self.called("rockyard") if "run scenarios/pathfinder/nominal" in line}
+        self.assertEqual(len(folders), 3)
+        self.assertIn("results/runs/quickstart", folders)
+
+    def test_output_folder_can_be_chosen(self):
+        self.run_script("quickstart.sh", "--out", "elsewhere")
+        self.assertTrue(any("--out elsewhere/nominal" in line for line in self.called("rockyard")))
+
+    def test_goes_on_where_a_store_is(self):
+        store = self.root / "results/runs/quickstart/nominal/results.sqlite"
+        store.parent.mkdir(parents=True)
+        store.touch()
+        self.run_script("quickstart.sh")
+        resumed = [line for line in self.called("rockyard") if "--resume" in line]
+        self.assertEqual(len(resumed), 1)
+        self.assertIn("nominal.json", resumed[0])
+
+    def test_a_verdict_is_no_failure(self):
+        for code, expected in ((0, 0), (1, 0), (4, 0), (2, 2)):
+            with self.subTest(code=code):
+                result = self.run_script("quickstart.sh", CHECK_CODE=str(code))
+                self.assertEqual(result.returncode, expected)
+
+    def test_a_failed_run_stops_with_its_code(self):
+        self.assertEqual(self.run_script("quickstart.sh", RUN_CODE="3").returncode, 3)
+        self.assertEqual(len(self.called("rockyard")), 1)
+
+    def test_help_runs_nothing(self):
+        result = self.run_script("quickstart.sh", "--help")
+        self.assertIn("Usage", result.stdout)
+        self.assertEqual(self.calls.read_text(encoding="utf-8"), "")
+
+
+class TestScript(ScriptTest):
+    def test_everything_by_default(self):
+        self.assertEqual(self.run_script("test.sh", "--jobs", "2").returncode, 0)
+        self.assertEqual(self.called("install_dependencies.sh"), ["build test"])
+        self.assertEqual(self.called("ctest"),
+                         ["--preset test -j 2 --no-tests=error --output-on-failure"])
+
+    def test_label_and_lint(self):
+        self.run_script("test.sh", "--label", "statistical", "--no-lint")
+        self.assertIn("-L ^statistical$ -LE ^lint$", self.called("ctest")[0])
+
+    def test_tsan_needs_its_own_packages(self):
+        self.run_script("test.sh", "--preset", "tsan")
+        self.assertEqual(self.called("install_dependencies.sh"), ["build test tsan"])
+
+    def test_unknown_option_runs_nothing(self):
+        for arguments in (["--fast"], ["--label"]):
+            result = self.run_script("test.sh", *arguments)
+            self.assertEqual(result.returncode, 2)
+            self.assertEqual(self.calls.read_text(encoding="utf-8"), "")
+
+    def test_continuous_integration_runs_the_same(self):
+        shutil.copytree(ROOT / ".ci", self.root / ".ci")
+        variables = {**os.environ, "CALLS": str(self.calls),
+                     "PATH": f"{self.root / 'bin'}:{os.environ['PATH']}"}
+        subprocess.run([self.root / ".ci/run"], env=variables, check=True, capture_output=True)
+        self.assertEqual(len(self.called("ctest")), 1)
+
+
+class InstallDependencies(unittest.TestCase):
+    """The real script with a package system that knows some packages and installs nothing."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name)
+        shutil.copytree(ROOT / "scripts", self.root / "scripts")
+        (self.root / "scripts/debian_packages.txt").write_text(
+            "# list\nhere  build  reason\naway  build  reason\nmore  test  reason\n", encoding="utf-8")
+        self.tool("dpkg-query", 'case "$*" in *here*) echo installed;; *) exit 1;; esac')
+        self.tool("apt-get", 'echo "$*" >> "$CALLS"')
+        self.tool("apt-cache", 'exit "${KNOWN:-0}"')
+        self.tool("id", 'echo "${USER_ID:-0}"')
+
+    def tool(self, name, body):
+        path = self.root / "bin" / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(f"#!/bin/sh\n{body}\n", encoding="utf-8")
+        path.chmod(0o755)
+
+    def install(self, *groups, path=None, **environment):
+        calls = self.root / "calls"
+        calls.write_text("", encoding="utf-8")
+        variables = {"CALLS": str(calls), **environment,
+                     "PATH": f"{self.root / 'bin'}:{path or os.environ['PATH']}"}
+        result = subprocess.run([self.root / "scripts/install_dependencies.sh", *groups], text=True,
+                                env=variables, capture_output=True, check=False)
+        return result, calls.read_text(encoding="utf-8").splitlines()
+
+    def test_installs_only_what_is_missing(self):
+        result, calls = self.install("build", "test")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(calls, ["install -y --no-install-recommends away more"])
+
+    def test_fetches_the_index_only_when_a_package_is_unknown(self):
+        _, calls = self.install("build", KNOWN="100")
+        self.assertEqual(calls, ["update", "install -y --no-install-recommends away"])
+
+    def test_nothing_to_do(self):
+        (self.root / "scripts/debian_packages.txt").write_text("here build reason\n", encoding="utf-8")
+        result, calls = self.install()
+        self.assertEqual((result.returncode, calls), (0, []))
+
+    def test_without_root_and_sudo_it_says_what_is_missing(self):
+        for name in ("env", "dirname", "awk", "sh"):
+            (self.root / "bin" / name).symlink_to(shutil.which(name))
+        result, calls = self.install("build", path="/nowhere", USER_ID="1000")
+        self.assertEqual((result.returncode, calls), (1, []))
+        self.assertIn("needs root or sudo: away", result.stderr)
+
+    def test_unknown_group(self):
+        result, calls = self.install("nonsense")
+        self.assertEqual((result.returncode, calls), (1, []))
+        self.assertIn("nonsense", result.stderr)
+
+
+class PackageList(unittest.TestCase):
+    def test_every_line_has_a_name_a_known_group_and_a_reason(self):
+        lines = (ROOT / "scripts/debian_packages.txt").read_text(encoding="utf-8").splitlines()
+        packages = [line.split(None, 2) for line in lines if line and not line.startswith("#")]
+        for fields in packages:
+            self.assertEqual(len(fields), 3, fields)
+            self.assertIn(fields[1], ("build", "test", "tsan"))
+        names = [fields[0] for fields in packages]
+        self.assertEqual(len(names), len(set(names)))
+
+
+if __name__ == "__main__":
+    sys.exit(unittest.main())
