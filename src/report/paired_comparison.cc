@@ -1,0 +1,179 @@
+#include "report/paired_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "statistics/bootstrap.h"
+#include "statistics/drive_summary.h"
+#include "statistics/moments.h"
+
+namespace rockyard::report {
+namespace {
+
+using statistics::Interval;
+using statistics::Proportion;
+using truth::Record;
+using truth::TrialOutcome;
+
+constexpr double kNormal975 = 1.959963984540054;  // 97.5 % quantile of the standard normal law
+constexpr std::uint64_t kBootstrapSeed = 1;
+
+using Pair = std::pair<const Record*, const Record*>;
+using Succeeded = std::function<bool(TrialOutcome)>;
+
+bool IsFault(const Record& record) { return record.outcome == TrialOutcome::kSimulatorFault; }
+
+std::vector<Pair> Pairs(const ComparedRun& first, const ComparedRun& second) {
+  std::vector<Pair> pairs;
+  const std::size_t common = std::min(first.records.size(), second.records.size());
+  for (std::size_t i = 0; i < common; ++i) {
+    const Record& a = first.records[i];
+    const Record& b = second.records[i];
+    if (!IsFault(a) && !IsFault(b)) pairs.emplace_back(&a, &b);
+  }
+  return pairs;
+}
+
+// Agresti and Min (2005), section 3: half a pair more in each cell, then the Wald interval.
+Interval PairedInterval(const PairedCounts& counts) {
+  const auto n =
+      static_cast<double>(counts.both + counts.only_first + counts.only_second + counts.neither) +
+      2.0;
+  const double b = static_cast<double>(counts.only_first) + 0.5;
+  const double c = static_cast<double>(counts.only_second) + 0.5;
+  const double difference = (c - b) / n;
+  const double error = std::sqrt((b + c) - (c - b) * (c - b) / n) / n;
+  return {std::max(-1.0, difference - kNormal975 * error),
+          std::min(1.0, difference + kNormal975 * error)};
+}
+
+SuccessComparison ComparePaired(const std::vector<Pair>& pairs, std::string what,
+                                const Succeeded& succeeded) {
+  SuccessComparison result;
+  result.what = std::move(what);
+  for (const auto& [a, b] : pairs) {
+    const bool first = succeeded(a->outcome);
+    const bool second = succeeded(b->outcome);
+    result.counts.both += first && second ? 1 : 0;
+    result.counts.only_first += first && !second ? 1 : 0;
+    result.counts.only_second += !first && second ? 1 : 0;
+    result.counts.neither += !first && !second ? 1 : 0;
+  }
+  const auto n = static_cast<std::int64_t>(pairs.size());
+  result.first = statistics::MakeProportion(result.counts.both + result.counts.only_first, n);
+  result.second = statistics::MakeProportion(result.counts.both + result.counts.only_second, n);
+  result.difference = result.second.rate - result.first.rate;
+  result.interval = PairedInterval(result.counts);
+  result.p_value =
+      statistics::McNemarExactPValue(result.counts.only_first, result.counts.only_second);
+  return result;
+}
+
+Proportion RateOf(std::span<const Record> records, const Succeeded& succeeded) {
+  std::int64_t count = 0;
+  std::int64_t trials = 0;
+  for (const Record& record : records) {
+    if (IsFault(record)) continue;
+    ++trials;
+    if (succeeded(record.outcome)) ++count;
+  }
+  return statistics::MakeProportion(count, trials);
+}
+
+// Newcombe (1998), method 10: the distances of the Wilson ends from the rates, added in squares.
+Interval UnpairedInterval(const Proportion& first, const Proportion& second) {
+  const double difference = second.rate - first.rate;
+  const double below =
+      std::hypot(second.rate - second.interval.low, first.interval.high - first.rate);
+  const double above =
+      std::hypot(second.interval.high - second.rate, first.rate - first.interval.low);
+  return {difference - below, difference + above};
+}
+
+SuccessComparison CompareUnpaired(const ComparedRun& first, const ComparedRun& second,
+                                  std::string what, const Succeeded& succeeded) {
+  SuccessComparison result;
+  result.what = std::move(what);
+  result.first = RateOf(first.records, succeeded);
+  result.second = RateOf(second.records, succeeded);
+  result.difference = result.second.rate - result.first.rate;
+  result.interval = UnpairedInterval(result.first, result.second);
+  result.p_value = statistics::FisherExactPValue(
+      {result.first.count, result.first.trials - result.first.count, result.second.count,
+       result.second.trials - result.second.count});
+  return result;
+}
+
+double Mean(std::span<const double> values) { return statistics::MomentsOf(values).mean(); }
+
+void ComparePairedColumn(const std::vector<Pair>& pairs, std::size_t in_first,
+                         std::size_t in_second, ColumnComparison& result) {
+  std::vector<double> first;
+  std::vector<double> second;
+  std::vector<double> differences;
+  for (const auto& [a, b] : pairs) {
+    const double before = a->values[in_first];
+    const double after = b->values[in_second];
+    if (!std::isfinite(before) || !std::isfinite(after)) continue;
+    first.push_back(before);
+    second.push_back(after);
+    differences.push_back(after - before);
+  }
+  result.count = static_cast<std::int64_t>(differences.size());
+  result.first_mean = Mean(first);
+  result.second_mean = Mean(second);
+  result.difference = Mean(differences);
+  result.interval = statistics::BootstrapInterval(differences, Mean, kBootstrapSeed);
+}
+
+void CompareUnpairedColumn(const std::vector<double>& first, const std::vector<double>& second,
+                           ColumnComparison& result) {
+  const statistics::Moments a = statistics::MomentsOf(first);
+  const statistics::Moments b = statistics::MomentsOf(second);
+  const double error = std::sqrt(a.variance() / static_cast<double>(a.count()) +
+                                 b.variance() / static_cast<double>(b.count()));
+  result.count = std::min(a.count(), b.count());
+  result.first_mean = a.mean();
+  result.second_mean = b.mean();
+  result.difference = b.mean() - a.mean();
+  result.interval = {result.difference - kNormal975 * error,
+                     result.difference + kNormal975 * error};
+}
+
+}  // namespace
+
+RunComparison CompareRuns(const ComparedRun& first, const ComparedRun& second) {
+  const Succeeded declared = truth::DeclaredSuccess;
+  const Succeeded truly = [](TrialOutcome outcome) {
+    return outcome == TrialOutcome::kGoalReached;
+  };
+  RunComparison result;
+  result.paired = first.seed == second.seed;
+  std::vector<Pair> pairs;
+  if (result.paired) {
+    pairs = Pairs(first, second);
+    result.successes = {ComparePaired(pairs, "declared success", declared),
+                        ComparePaired(pairs, "true success", truly)};
+  } else {
+    result.successes = {CompareUnpaired(first, second, "declared success", declared),
+                        CompareUnpaired(first, second, "true success", truly)};
+  }
+  result.pairs = static_cast<std::int64_t>(pairs.size());
+  for (std::size_t i = 0; i < first.schema.size(); ++i) {
+    const auto other = statistics::ColumnIndex(second.schema, first.schema[i].name);
+    if (!other) continue;
+    ColumnComparison column{.name = first.schema[i].name, .unit = first.schema[i].unit};
+    if (result.paired) {
+      ComparePairedColumn(pairs, i, *other, column);
+    } else {
+      CompareUnpairedColumn(statistics::ColumnValues(first.records, i),
+                            statistics::ColumnValues(second.records, *other), column);
+    }
+    result.columns.push_back(std::move(column));
+  }
+  return result;
+}
+
+}  // namespace rockyard::report

@@ -1,0 +1,68 @@
+// Two runs against each other: trial by trial where they share the seed, as two samples otherwise.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "statistics/proportions.h"
+#include "truth/record.h"
+
+namespace rockyard::report {
+
+struct ComparedRun {
+  std::string name;
+  std::uint64_t seed = 1;
+  truth::RecordSchema schema;
+  std::span<const truth::Record> records;  // contiguous prefix
+};
+
+// Success by trial in both runs.
+struct PairedCounts {
+  std::int64_t both = 0;
+  std::int64_t only_first = 0;
+  std::int64_t only_second = 0;
+  std::int64_t neither = 0;
+};
+
+struct SuccessComparison {
+  std::string what;  // "declared success" or "true success"
+  statistics::Proportion first;
+  statistics::Proportion second;
+  double difference = 0.0;        // rate of the second less rate of the first
+  statistics::Interval interval{};  // 95 %, of the difference
+  double p_value = 1.0;           // McNemar where paired, else Fisher; both exact
+  PairedCounts counts;            // zero where not paired
+};
+
+struct ColumnComparison {
+  std::string name;
+  std::string unit;
+  std::int64_t count = 0;  // pairs with two finite values (not paired: the smaller sample)
+  double first_mean = 0.0;
+  double second_mean = 0.0;
+  double difference = 0.0;        // of the means, second less first
+  statistics::Interval interval{};  // 95 %, of the difference
+};
+
+struct RunComparison {
+  bool paired = false;
+  std::int64_t pairs = 0;  // trials that both runs finished without a simulator fault
+  std::vector<SuccessComparison> successes;
+  std::vector<ColumnComparison> columns;  // of both schemas
+};
+
+// Equal seed and index mean equal rocks and equal noise, so that differences have far less variance
+// than two samples. Paired intervals: success by Agresti and Min (2005), half a pair added to each
+// of the four cells; columns by the percentile bootstrap of the mean difference (seed 1). Not
+// paired: success by Newcombe (1998), method 10, from the Wilson intervals; columns by the
+// difference of the means with the normal approximation. No correction for the number of columns:
+// they describe.
+RunComparison CompareRuns(const ComparedRun& first, const ComparedRun& second);
+
+// At most 100 columns wide.
+std::string RunComparisonText(const ComparedRun& first, const ComparedRun& second,
+                              const RunComparison& comparison);
+
+}  // namespace rockyard::report

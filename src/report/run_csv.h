@@ -1,0 +1,27 @@
+// The records of a run as tables.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "truth/record.h"
+
+namespace rockyard::report {
+
+// trials.csv: one line per record, trial, outcome, every value (the names carry the units; empty
+// where undefined), and the sentence that says why it ended.
+std::string TrialsCsv(const truth::RecordSchema& schema, std::span<const truth::Record> records);
+
+// distance_cdf.csv: one line per distinct true distance, over all trials without a simulator fault.
+//   distance_m
+//   ecdf, ecdf_low, ecdf_high    plain empirical distribution function of the distance of all runs,
+//                                however they ended, with a simultaneous 95 % band
+//   goal, goal_low, goal_high    cumulative incidence of declared arrival, failures competing, with
+//                                a pointwise 95 % band (only the time limit censors)
+//   failure                      cumulative incidence of failure
+//   at_risk                      runs still under way just before this distance
+// `records` must be a contiguous prefix. Only the header where there is no column true_distance_m.
+std::string DistanceCdfCsv(const truth::RecordSchema& schema,
+                           std::span<const truth::Record> records);
+
+}  // namespace rockyard::report

@@ -1,0 +1,22 @@
+#include "report/run_files.h"
+
+#include "report/atomic_file.h"
+#include "report/run_csv.h"
+#include "report/summary_json.h"
+
+namespace rockyard::report {
+
+statistics::DriveSummary WriteRunFiles(const std::filesystem::path& folder,
+                                       const RunDescription& run, const truth::RecordSchema& schema,
+                                       std::span<const truth::Record> records,
+                                       std::span<const truth::Record> prefix,
+                                       statistics::IntervalMethod method) {
+  statistics::DriveSummary summary = statistics::Summarize(schema, prefix, run.planned, method);
+  WriteFileAtomically(folder / "scenario.resolved.json", ResolvedScenarioJson(run));
+  WriteFileAtomically(folder / "trials.csv", TrialsCsv(schema, records));
+  WriteFileAtomically(folder / "distance_cdf.csv", DistanceCdfCsv(schema, prefix));
+  WriteFileAtomically(folder / "summary.json", SummaryJson(run, summary, method));
+  return summary;
+}
+
+}  // namespace rockyard::report

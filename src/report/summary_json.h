@@ -1,0 +1,24 @@
+// A run in numbers, for programs.
+#pragma once
+
+#include <string>
+
+#include "report/run_description.h"
+#include "statistics/drive_summary.h"
+
+namespace rockyard::report {
+
+// summary.json. Members: schema_version, scenario, seed, fingerprint, localization, trials
+// (planned, stored, completed: the contiguous prefix that all else is about, faults),
+// declared_success and true_success (count, trials, rate, ci95, ci_method), outcomes (every kind),
+// distance_m, path_ratio, dead_reckoning, sim_time_s, energy_wh, columns (all others), trial_hash,
+// provenance. A column is {count, min, p05, median, mean, mode, p95, max, std}; what is undefined
+// is null.
+std::string SummaryJson(const RunDescription& run, const statistics::DriveSummary& summary,
+                        statistics::IntervalMethod method);
+
+// scenario.resolved.json: {"scenario": every effective value, "fingerprint", "provenance"}. The
+// command line reads it wherever it reads a scenario.
+std::string ResolvedScenarioJson(const RunDescription& run);
+
+}  // namespace rockyard::report

@@ -1,0 +1,120 @@
+#include "report/summary_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace rockyard::report {
+namespace {
+
+using statistics::ColumnSummary;
+using statistics::DriveSummary;
+using truth::TrialOutcome;
+
+constexpr std::string_view kBold = "1";
+constexpr std::string_view kGreen = "32";
+constexpr std::string_view kYellow = "33";
+constexpr std::string_view kRed = "31";
+constexpr int kBarWidth = 30;
+
+std::string Coloured(TextStyle style, std::string_view colour, const std::string& text) {
+  return style == TextStyle::kPlain ? text : fmt::format("\x1b[{}m{}\x1b[0m", colour, text);
+}
+
+std::string Cut(const std::string& text, std::size_t width) {
+  return text.size() <= width ? text : text.substr(0, width - 3) + "...";
+}
+
+std::string Head(const RunDescription& run, const DriveSummary& summary, TextStyle style) {
+  std::string text =
+      Coloured(style, kBold, Cut(run.scenario, 40)) +
+      fmt::format(", seed {}: {} of {} trials", run.seed, summary.completed, run.planned);
+  if (run.localization == "oracle") text += ", perfect localization";
+  text += '\n';
+  if (run.stored > summary.completed) {
+    text += fmt::format("  {} more finished trials count once those before them are finished\n",
+                        run.stored - summary.completed);
+  }
+  if (summary.faults > 0) {
+    text +=
+        "  " +
+        Coloured(style, kRed,
+                 fmt::format("{} simulator faults, in none of the numbers below", summary.faults)) +
+        "\n";
+  }
+  return text;
+}
+
+std::string RateLine(std::string_view name, const statistics::Proportion& rate) {
+  if (rate.trials == 0) return fmt::format("  {:<18} no trials\n", name);
+  return fmt::format("  {:<18} {:>6} of {:<6} {:6.1f} %   95 % interval {:.1f} .. {:.1f} %\n", name,
+                     rate.count, rate.trials, 100.0 * rate.rate, 100.0 * rate.interval.low,
+                     100.0 * rate.interval.high);
+}
+
+std::string_view ColourOf(TrialOutcome outcome) {
+  if (outcome == TrialOutcome::kGoalReached) return kGreen;
+  return outcome == TrialOutcome::kFalseGoal ? kYellow : kRed;
+}
+
+std::string OutcomeLines(const DriveSummary& summary, TextStyle style) {
+  std::string text;
+  const double total = static_cast<double>(std::max<std::int64_t>(summary.completed, 1));
+  for (std::size_t i = 0; i < summary.outcomes.size(); ++i) {
+    const std::int64_t count = summary.outcomes[i];
+    if (count == 0) continue;
+    const double share = static_cast<double>(count) / total;
+    const int length = std::max(1, static_cast<int>(std::lround(kBarWidth * share)));
+    text += fmt::format("  {:<18} {:>6}           {:6.1f} %   {}\n", truth::kTrialOutcomeNames[i],
+                        count, 100.0 * share,
+                        Coloured(style, ColourOf(static_cast<TrialOutcome>(i)),
+                                 std::string(static_cast<std::size_t>(length), '#')));
+  }
+  return text;
+}
+
+std::string Value(double value) {
+  if (!std::isfinite(value)) return "-";
+  return fmt::format("{:.{}f}", value, std::abs(value) >= 100.0 ? 1 : 2);
+}
+
+std::string ColumnLine(std::string_view label, const ColumnSummary& c) {
+  return fmt::format("  {:<24} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", label, Value(c.min),
+                     Value(c.p05), Value(c.median), Value(c.mean), Value(c.mode), Value(c.p95),
+                     Value(c.max));
+}
+
+std::string ColumnTable(const DriveSummary& summary, TextStyle style) {
+  const std::pair<std::string_view, std::string_view> rows[] = {
+      {"true_distance_m", "distance [m]"},
+      {"path_ratio", "path ratio (arrived)"},
+      {"distance_error_percent", "distance error [%]"},
+      {"heading_error_deg", "heading error [deg]"},
+      {"position_error_m", "position error [m]"},
+      {"sim_time_s", "simulated time [s]"},
+      {"energy_wh", "energy [Wh]"}};
+  std::string text;
+  for (const auto& [name, label] : rows) {
+    const ColumnSummary* column = summary.Find(name);
+    if (column != nullptr && column->count > 0) text += ColumnLine(label, *column);
+  }
+  if (text.empty()) return text;
+  return Coloured(style, kBold,
+                  fmt::format("  {:<24} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}", "", "min",
+                              "5 %", "median", "mean", "mode", "95 %", "max")) +
+         "\n" + text;
+}
+
+}  // namespace
+
+std::string SummaryText(const RunDescription& run, const DriveSummary& summary, TextStyle style) {
+  return Head(run, summary, style) + RateLine("declared success", summary.declared_success) +
+         RateLine("true success", summary.true_success) + OutcomeLines(summary, style) +
+         ColumnTable(summary, style) + fmt::format("  trial hash {}\n", run.trial_hash);
+}
+
+}  // namespace rockyard::report
