@@ -10,22 +10,13 @@
 #include "sensing/oracle.h"
 #include "sensing/tracker.h"
 #include "terrain/arena.h"
+#include "trial/layout.h"
 
 namespace rockyard::trial {
 namespace {
 
 using messages::MotionKind;
 using scenario::Scenario;
-
-// The key of the rock field: trials that share a layout share it.
-core::TrialKey LayoutKey(const Scenario& scenario, core::TrialKey key) {
-  const auto group = static_cast<std::uint32_t>(scenario.course.trials_per_layout);
-  return {key.seed, key.trial / group};
-}
-
-terrain::Course TerrainCourse(const CourseParams& course) {
-  return {course.start_x_m, course.start_y_m, course.goal_x_m, course.goal_y_m};
-}
 
 Underside UndersideOf(const rover::RoverGeometryParams& rover) {
   return {0.0, 0.5 * rover.belly_length_m, 0.5 * rover.belly_width_m, rover.belly_clearance_m};
