@@ -19,6 +19,8 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // Statistics that are only shown beside the judged one take fewer replicates.
 constexpr std::size_t kSideReduction = 5;
+// Pools smaller than this many published sets give up to twice the nominal false alarms for modes.
+constexpr std::size_t kSetsInAGoodPool = 5;
 
 double Smallest(std::span<const double> sorted) { return sorted.front(); }
 double Largest(std::span<const double> sorted) { return sorted.back(); }
@@ -133,6 +135,10 @@ Row CompareSampleStatistic(const PublishedValue& published, const ScenarioRun& r
   value.pool_value = statistic(sampler.pool());
   SetPrediction(value, drawn);
   value.p_value = PredictivePValue(drawn, published.value, published.rounding);
+  if (pool.size() < kSetsInAGoodPool * n) {
+    value.remark =
+        fmt::format("only {} simulated trials: use {} or more", pool.size(), kSetsInAGoodPool * n);
+  }
   if (published.statistic == StatisticKind::kMode) {
     value.beside = OtherModes(published, sampler, options.replicates / kSideReduction, key);
   }

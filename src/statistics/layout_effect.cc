@@ -59,7 +59,7 @@ struct TailCurves {
 };
 
 TailCurves Curves(std::int64_t trials, std::int64_t observed) {
-  constexpr int kSteps = 1000;
+  constexpr int kSteps = 400;
   TailCurves curves;
   for (int i = 0; i <= kSteps; ++i) {
     const double q = static_cast<double>(i) / kSteps;

@@ -12,9 +12,10 @@ namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-// Mean distance of the outermost values beyond the next one inwards; sign +1: upper end.
-double MeanExcess(std::span<const double> ascending, double sign) {
-  constexpr std::size_t kOutermost = 5;
+constexpr std::size_t kOutermost = 10;
+
+// Sum of the distances of the outermost values from the next one inwards; sign +1: upper end.
+double OuterExcess(std::span<const double> ascending, double sign) {
   const std::size_t n = ascending.size();
   const std::size_t outer = std::min(n - 1, kOutermost);
   const double threshold = sign > 0.0 ? ascending[n - 1 - outer] : ascending[outer];
@@ -23,14 +24,16 @@ double MeanExcess(std::span<const double> ascending, double sign) {
     const double value = sign > 0.0 ? ascending[n - 1 - i] : ascending[i];
     sum += sign * (value - threshold);
   }
-  return sum / static_cast<double>(outer);
+  return sum;
 }
 
-// Exponential with the given mean, cut off at `room`, by inverse CDF.
-double Excess(double u, double mean, double room) {
-  if (!(mean > 0.0)) return 0.0;
-  const double inside = -std::expm1(-room / mean);
-  return -mean * std::log1p(-u * inside);
+// Next excess of an exponential law of which `sum` over k excesses is known (prior 1/mean), cut off
+// at `room`, by inverse CDF.
+double NextExcess(double u, double sum, double k, double room) {
+  if (!(sum > 0.0)) return 0.0;
+  const double beyond_room = std::pow(1.0 + room / sum, -k);
+  const double tail = 1.0 - u * (1.0 - beyond_room);
+  return sum * (std::pow(tail, -1.0 / k) - 1.0);
 }
 
 std::size_t UniformIndex(core::RandomStream& stream, std::size_t size) {
@@ -55,14 +58,15 @@ PredictiveSampler::PredictiveSampler(std::span<const double> pool, double lower_
     : pool_(SortedFinite(pool)) {
   EXPECT(pool_.size() >= 2);
   lower_room_ = std::max(0.0, pool_.front() - lower_limit);
-  lower_scale_ = MeanExcess(pool_, -1.0);
-  upper_scale_ = MeanExcess(pool_, 1.0);
+  lower_excess_ = OuterExcess(pool_, -1.0);
+  upper_excess_ = OuterExcess(pool_, 1.0);
 }
 
 double PredictiveSampler::InGap(core::RandomStream& stream, std::size_t gap) const {
   const double u = stream.Uniform();
-  if (gap == 0) return pool_.front() - Excess(u, lower_scale_, lower_room_);
-  if (gap == pool_.size()) return pool_.back() + Excess(u, upper_scale_, kUnlimited);
+  const double k = static_cast<double>(std::min(pool_.size() - 1, kOutermost));
+  if (gap == 0) return pool_.front() - NextExcess(u, lower_excess_, k, lower_room_);
+  if (gap == pool_.size()) return pool_.back() + NextExcess(u, upper_excess_, k, kUnlimited);
   return pool_[gap - 1] + u * (pool_[gap] - pool_[gap - 1]);
 }
 

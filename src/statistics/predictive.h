@@ -7,10 +7,11 @@
 // for gaps replaced by the values themselves this is Rubin's 1981 Bayesian bootstrap). Unlike plain
 // resampling it knows that a real run can fall beyond every simulated one: the smallest of n lies
 // below the pool with probability n / (N + n).
-// Where a value lies inside its gap is the one assumption: uniform between neighbours, exponential
-// beyond the extremes with the mean excess of the five outermost values over the sixth (few enough
-// to follow a sharp edge, where an exponential from further inside would reach too far), cut off at
-// a limit of the support where there is one.
+// Where a value lies inside its gap is the one assumption: uniform between neighbours; beyond an
+// extreme an exponential tail whose mean is known only from the ten outermost values' excesses over
+// the eleventh, S in sum: P(excess > e) = (1 + e / S)^-10, cut off at a limit of the support where
+// there is one. Conservative at sharp edges, a little optimistic for tails heavier than
+// exponential.
 #pragma once
 
 #include <cstddef>
@@ -40,10 +41,10 @@ class PredictiveSampler {
  private:
   double InGap(core::RandomStream& stream, std::size_t gap) const;
 
-  std::vector<double> pool_;  // ascending
-  double lower_room_ = 0.0;   // from the pool's lower end to the limit
-  double lower_scale_ = 0.0;  // mean excess beyond the lower end
-  double upper_scale_ = 0.0;
+  std::vector<double> pool_;   // ascending
+  double lower_room_ = 0.0;    // from the pool's lower end to the limit
+  double lower_excess_ = 0.0;  // sum of the outermost excesses at the lower end
+  double upper_excess_ = 0.0;
 };
 
 // A statistic of an ascending sample.

@@ -64,21 +64,21 @@ ComparisonResult CompareSets(const SyntheticLaw& simulated, const SyntheticLaw& 
   const auto trials = SyntheticTrials(simulated, seed, pool);
   const std::vector<ScenarioRun> runs = {RunOf("nominal", trials)};
   return Compare(Publish(SyntheticTrials(real, seed + 100000, 40)), runs,
-                 {.seed = seed, .replicates = 1000});
+                 {.seed = seed, .replicates = 500});
 }
 
 TEST(Verdicts, FamilyWiseFalseAlarmsStayBelowAlpha) {
-  constexpr int kFamilies = 150;
+  constexpr int kFamilies = 100;
   int alarms = 0;
   for (std::uint64_t seed = 0; seed < kFamilies; ++seed) {
     alarms += ExitCode(CompareSets({}, {}, seed)) == 1 ? 1 : 0;
   }
-  // 0.05 plus 3 sigma of 150 families.
+  // 0.05 plus 3 sigma of 100 families.
   EXPECT_LE(alarms, 0.05 * kFamilies + 3.0 * std::sqrt(0.05 * 0.95 * kFamilies));
 }
 
 TEST(Verdicts, AWrongSimulationIsFound) {
-  constexpr int kFamilies = 30;
+  constexpr int kFamilies = 15;
   int success_found = 0;
   int minimum_found = 0;
   for (std::uint64_t seed = 0; seed < kFamilies; ++seed) {
