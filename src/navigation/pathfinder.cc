@@ -164,7 +164,10 @@ NavigatorDecision PathfinderNavigator::ContinueTurn(const NavigatorInput& input)
       motion_.direction * math::WrapAngle(input.estimate.heading_rad - anchor_.heading_rad);
   const bool faces_goal = mode_ == Mode::kFacingGoal && !NeedsPointTurn(input.estimate);
   if (turned < params_.turn_increment_rad && !faces_goal) return Move(motion_);
-  if (mode_ == Mode::kAvoiding) avoided_turn_rad_ += turned;
+  if (mode_ == Mode::kAvoiding) {
+    avoided_turn_rad_ += turned;
+    odometer_at_avoiding_m_ = input.estimate.distance_m;
+  }
   return ScanOrGoOn(input);
 }
 
@@ -223,16 +226,25 @@ double PathfinderNavigator::GoalBearing(const PoseEstimate& estimate) const {
   return math::WrapAngle(direction - estimate.heading_rad);
 }
 
-// A turn towards the goal, once begun, goes on until the rover faces it: a rover that stopped
-// turning just below the limit could circle a goal within its tightest arc for ever.
+// A turn towards the goal, once begun, goes on until the rover faces it. It begins where the goal
+// lies far behind, or inside the tightest turning circle, which the rover would drive round for
+// ever: the arc that leads to a goal at distance d and bearing b has the radius d / (2 sin b).
 bool PathfinderNavigator::NeedsPointTurn(const PoseEstimate& estimate) const {
-  const double limit_rad = facing_goal_ ? std::max(params_.heading_deadband_rad, kFinestAim_rad)
-                                        : params_.point_turn_bearing_rad;
-  return std::abs(GoalBearing(estimate)) > limit_rad;
+  const double bearing_rad = std::abs(GoalBearing(estimate));
+  if (facing_goal_) return bearing_rad > std::max(params_.heading_deadband_rad, kFinestAim_rad);
+  // Otherwise a hazard beside the goal would turn the rover away and back for ever.
+  if (estimate.distance_m - odometer_at_avoiding_m_ < params_.point_turn_after_m) return false;
+  if (bearing_rad > params_.point_turn_bearing_rad) return true;
+  return bearing_rad > params_.tight_arc_bearing_rad &&
+         GoalDistance(estimate) < 2.0 * params_.tight_arc_radius_m * std::sin(bearing_rad);
+}
+
+double PathfinderNavigator::GoalDistance(const PoseEstimate& estimate) const {
+  return std::hypot(goal_.x_m - estimate.x_m, goal_.y_m - estimate.y_m);
 }
 
 bool PathfinderNavigator::AtGoal(const PoseEstimate& estimate) const {
-  return std::hypot(goal_.x_m - estimate.x_m, goal_.y_m - estimate.y_m) <= params_.goal_tolerance_m;
+  return GoalDistance(estimate) <= params_.goal_tolerance_m;
 }
 
 }  // namespace rockyard::navigation

@@ -11,6 +11,7 @@
 // PathfinderParams.
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "navigation/navigator.h"
@@ -72,6 +73,7 @@ class PathfinderNavigator final : public Navigator {
   NavigatorDecision BeginTurn(Mode mode, int direction, const NavigatorInput& input);
 
   double GoalBearing(const messages::PoseEstimate& estimate) const;
+  double GoalDistance(const messages::PoseEstimate& estimate) const;
   bool NeedsPointTurn(const messages::PoseEstimate& estimate) const;
   bool AtGoal(const messages::PoseEstimate& estimate) const;
 
@@ -87,6 +89,7 @@ class PathfinderNavigator final : public Navigator {
   double leg_m_ = 0.0;             // length of the running leg
   double clearing_left_m_ = 0.0;   // of the straight drive after a turn
   double odometer_at_scan_m_ = 0.0;
+  double odometer_at_avoiding_m_ = -std::numeric_limits<double>::infinity();
   std::optional<int> avoid_direction_;  // latched while avoiding
   double avoided_turn_rad_ = 0.0;       // measured since the hazard appeared
 };

@@ -136,13 +136,25 @@ void VisitMotion(PathfinderParams& p, core::FieldVisitor& v) {
   v.Require("tight_arc_bearing_deg", p.tight_arc_bearing_rad >= p.heading_deadband_rad,
             "is smaller than heading_deadband_deg", "use a value from heading_deadband_deg up");
   v.Angle("point_turn_bearing_deg", p.point_turn_bearing_rad,
-          {.doc = "bearing to the goal above which the rover turns in place towards it",
+          {.doc = "bearing to the goal above which the rover turns in place towards it; so it does "
+                  "where the goal lies inside the tightest turning circle",
            .min = 10.0,
            .max = 180.0,
            .origin = Origin::kAssumed,
-           .source = "a goal behind the rover; the paper names none",
-           .study_low = 60.0,
-           .study_high = 150.0});
+           .source = "Matthies 1995 sec. 7: the rover moves forward while it turns toward the "
+                     "goal; only a goal behind it is left",
+           .study_low = 90.0,
+           .study_high = 180.0});
+  v.Real(
+      "point_turn_after_m", p.point_turn_after_m,
+      {.doc = "drive after an avoided hazard before the rover may turn in place towards the goal",
+       .min = 0.0,
+       .max = 10.0,
+       .origin = Origin::kAssumed,
+       .source = "about half a vehicle length; without it a rock beside the goal turns the rover "
+                 "away and back for ever",
+       .study_low = 0.065,
+       .study_high = 0.65});
   v.Require("point_turn_bearing_deg", p.point_turn_bearing_rad >= p.tight_arc_bearing_rad,
             "is smaller than tight_arc_bearing_deg", "use a value from tight_arc_bearing_deg up");
 }

@@ -46,7 +46,8 @@ struct PathfinderParams {
   double wide_arc_radius_m = 1.5;
   double tight_arc_radius_m = 0.75;
   double tight_arc_bearing_rad = math::DegToRad(30.0);
-  double point_turn_bearing_rad = math::DegToRad(90.0);
+  double point_turn_bearing_rad = math::DegToRad(150.0);
+  double point_turn_after_m = 0.30;
   double time_out_s = 0.0;
   double back_off_m = 0.0;
   double threading_m = 0.0;

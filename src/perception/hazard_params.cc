@@ -22,9 +22,11 @@ void HazardParams::Visit(core::FieldVisitor& v) {
           .min = 0.001,
           .max = 10.0,
           .origin = Origin::kAssumed,
-          .source = "Matthies 1995 sec. 6: another threshold, without a value",
-          .study_low = 0.06,
-          .study_high = 0.20});
+          .source = "Matthies 1995 sec. 6: another threshold, without a value; taken as the "
+                    "clearance of the "
+                    "undercarriage",
+          .study_low = 0.08,
+          .study_high = 0.25});
   v.Choice("neighbour_blame", neighbour_blame,
            {.doc = "stripes charged with a neighbour difference", .origin = Origin::kAssumed});
   v.Choice("range_blame", range_blame,

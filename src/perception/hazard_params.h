@@ -41,7 +41,7 @@ enum class Disagreement {
 struct HazardParams {
   bool enabled = true;
   double neighbour_threshold_m = 0.05;
-  double range_threshold_m = 0.10;
+  double range_threshold_m = 0.13;
   NeighbourBlame neighbour_blame = NeighbourBlame::kFartherFromDatum;
   RangeBlame range_blame = RangeBlame::kFartherFromDatum;
   ScanAgreement agreement = ScanAgreement::kRescanSamePose;
