@@ -74,7 +74,9 @@ void AddArms(const RoverGeometryParams& params, std::vector<Part>& parts) {
       const Vector3 pivot_R = geometry.on_bogie[i] ? bogie_R : rocker_R;
       const Vector3 hub_R(geometry.wheel_R[i].x(), pivot_R.y(), geometry.wheel_R[i].z());
       const Vector3 hub_B = hub_R - pivot_R;
-      parts.push_back(Segment(BodyPart::kRocker, body, Vector3::Zero(), hub_B, radius_m));
+      const Vector3 knee_B(hub_B.x(), 0.0, params.knee_z_m - pivot_R.z());
+      parts.push_back(Segment(BodyPart::kRocker, body, Vector3::Zero(), knee_B, radius_m));
+      parts.push_back(Segment(BodyPart::kRocker, body, knee_B, hub_B, radius_m));
       parts.push_back(Segment(BodyPart::kHub, body, hub_B, hub_B, params.hub_radius_m));
     }
   }

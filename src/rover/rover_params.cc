@@ -59,7 +59,8 @@ void RoverGeometryParams::Visit(core::FieldVisitor& v) {
            {.doc = "end of the rover that stands on the bogies (two wheels a side); the pivots are "
                    "given for rear and mirrored for front",
             .origin = Origin::kAssumed,
-            .source = kRocky7});
+            .source = "driven bogies first, the model climbs the published 1.5 wheel diameters; "
+                      "rockers first, no more than 0.5 at the same friction"});
   v.Real("rocker_pivot_x_m", rocker_pivot_x_m,
          {.doc = "position of the rocker pivots",
           .min = -1.0,
@@ -76,14 +77,24 @@ void RoverGeometryParams::Visit(core::FieldVisitor& v) {
           .source = kRocky7,
           .study_low = 0.17,
           .study_high = 0.22});
-  v.Real("bogie_pivot_z_m", bogie_pivot_z_m,
-         {.doc = "height of the bogie pivots, halfway between their wheels",
+  v.Real(
+      "bogie_pivot_z_m", bogie_pivot_z_m,
+      {.doc = "height of the bogie pivots, halfway between their wheels",
+       .min = 0.02,
+       .max = 2.0,
+       .origin = Origin::kAssumed,
+       .source = "between Rocky 7's 0.085 and the 0.164 of Perseverance at the same wheel radius: "
+                 "arched bogies as on every rover with steered corner wheels",
+       .study_low = 0.085,
+       .study_high = 0.165});
+  v.Real("knee_z_m", knee_z_m,
+         {.doc = "height at which the struts of the wheels meet the arms",
           .min = 0.02,
           .max = 2.0,
           .origin = Origin::kAssumed,
-          .source = kRocky7,
-          .study_low = 0.085,
-          .study_high = 0.16});
+          .source = "above the wheels, which steer about the struts",
+          .study_low = 0.13,
+          .study_high = 0.17});
   v.Real("belly_length_m", belly_length_m,
          {.doc = "length of the chassis box, centred",
           .min = 0.05,
@@ -138,8 +149,8 @@ void RoverGeometryParams::Visit(core::FieldVisitor& v) {
            .min = 1.0,
            .max = 80.0,
            .origin = Origin::kAssumed,
-           .source = "a bogie wheel on 1.5 wheel diameters needs about 49 less the rocker's share",
-           .study_low = 30.0,
+           .source = "a bogie wheel on 1.5 wheel diameters needs 49",
+           .study_low = 40.0,
            .study_high = 60.0});
   const double bogie_pivot_x_m = 0.5 * (middle_wheel_x_m - 0.5 * length_m + wheel_radius_m);
   v.Require("length_m", 0.5 * length_m - wheel_radius_m > middle_wheel_x_m + 2.0 * wheel_radius_m,

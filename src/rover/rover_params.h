@@ -26,17 +26,18 @@ struct RoverGeometryParams {
   double wheel_radius_m = 0.065;
   double wheel_width_m = 0.08;
   double middle_wheel_x_m = 0.0;
-  BogieEnd bogie_end = BogieEnd::kRear;
+  BogieEnd bogie_end = BogieEnd::kFront;
   double rocker_pivot_x_m = -0.015;
   double rocker_pivot_z_m = 0.19;
-  double bogie_pivot_z_m = 0.085;
+  double bogie_pivot_z_m = 0.13;
+  double knee_z_m = 0.145;
   double belly_length_m = 0.40;
   double belly_width_m = 0.26;
   double arm_y_m = 0.147;
   double arm_radius_m = 0.012;
   double hub_radius_m = 0.025;
   double rocker_limit_rad = math::DegToRad(25.0);
-  double bogie_limit_rad = math::DegToRad(40.0);
+  double bogie_limit_rad = math::DegToRad(50.0);
 
   void Visit(core::FieldVisitor& v);
 };
