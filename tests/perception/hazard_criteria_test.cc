@@ -79,9 +79,10 @@ TEST(HazardCriteriaTest, NeighboursAreEightConnected) {
 
 TEST(HazardCriteriaTest, RangeOfTheWholeArray) {
   // A slope too gentle for neighbours: 3.5 cm per row, 10.5 cm in all.
-  const auto scan = ScanOfRows({0.0, 0.035, 0.07, 0.105});
-  EXPECT_EQ(AssessHazards(scan, {}).neighbour, kNone);
   HazardParams params;
+  params.range_threshold_m = 0.10;
+  const auto scan = ScanOfRows({0.0, 0.035, 0.07, 0.105});
+  EXPECT_EQ(AssessHazards(scan, params).neighbour, kNone);
   EXPECT_TRUE(ReportHazards(scan, params).any());
   params.range_threshold_m = 0.105;
   EXPECT_FALSE(ReportHazards(scan, params).any()) << "equal to the threshold";
@@ -122,6 +123,7 @@ TEST(HazardCriteriaTest, BlameOfTheRange) {
   const auto charged = [&](RangeBlame blame) {
     HazardParams params;
     params.neighbour_threshold_m = 1.0;
+    params.range_threshold_m = 0.10;
     params.range_blame = blame;
     return AssessHazards(scan, params).range;
   };
