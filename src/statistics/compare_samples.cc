@@ -202,7 +202,8 @@ Row CompareLowerBound(const PublishedValue& published, const ScenarioRun& run,
   const bool given = std::isfinite(run.goal_tolerance_m);
   const double tolerance = given ? run.goal_tolerance_m : EffectiveTolerance(run);
   if (!std::isfinite(tolerance)) return NotJudged(published, "the goal tolerance is not known");
-  const PredictiveSampler sampler(pool);
+  const double bound = published.value - tolerance;
+  const PredictiveSampler sampler(pool, bound);
   std::vector<double> drawn =
       PredictiveStatistics(sampler, static_cast<std::size_t>(published.sample_size), Smallest,
                            options.replicates / kSideReduction, KeyOf(published.id, options.seed));
@@ -214,7 +215,6 @@ Row CompareLowerBound(const PublishedValue& published, const ScenarioRun& run,
   value.pool_value = sampler.pool().front();
   SetPrediction(value, drawn);
   constexpr double kRounding = 1e-6;
-  const double bound = published.value - tolerance;
   value.verdict = value.pool_value >= bound - kRounding ? Verdict::kAgrees : Verdict::kDiffers;
   value.remark = fmt::format("bound {:.3g} less tolerance {:.3g}{}: {:.3f}; smallest of {}: {:.3f}",
                              published.value, tolerance, given ? "" : " (from the trials)", bound,
