@@ -248,6 +248,11 @@ std::vector<std::string> ResultStore::Builds() const {
   return builds;
 }
 
+std::int64_t ResultStore::EndOfTrials() const {
+  SqliteStatement select = database_->Prepare("SELECT max(trial) FROM trials");
+  return select.Step() && !select.IsNull(0) ? select.Integer(0) + 1 : 0;
+}
+
 void ResultStore::SetPlanned(std::int64_t planned) {
   PutMeta(*database_, "planned", std::to_string(planned));
   planned_ = planned;

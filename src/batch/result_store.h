@@ -61,6 +61,8 @@ class ResultStore {
   const std::filesystem::path& path() const { return path_; }
   std::int64_t planned() const { return planned_; }
   std::vector<std::string> Builds() const;
+  // One more than the largest stored trial index; 0 where there is none.
+  std::int64_t EndOfTrials() const;
 
   void SetPlanned(std::int64_t planned);
 

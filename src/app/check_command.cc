@@ -1,0 +1,112 @@
+// rockyard check
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/console.h"
+#include "app/run_source.h"
+#include "batch/run_folder.h"
+#include "core/error.h"
+#include "core/json_text.h"
+#include "report/atomic_file.h"
+#include "report/comparison_reference.h"
+#include "report/comparison_table.h"
+#include "statistics/published_comparison.h"
+
+namespace rockyard::app {
+namespace {
+
+struct CheckOptions {
+  std::vector<std::string> runs;
+  std::string reference;
+  std::string junit;
+  std::string csv;
+  statistics::ComparisonOptions comparison;
+};
+
+// Of the scenario as it was run; NaN where that program had no such parameter.
+double GoalTolerance_m(const std::string& resolved) {
+  const core::JsonValue document = core::ParseJson(resolved, "resolved scenario");
+  const core::JsonValue* at = &document;
+  for (const char* key : {"navigation", "pathfinder", "goal_tolerance_m"}) {
+    at = at->Find(key);
+    if (at == nullptr) return std::numeric_limits<double>::quiet_NaN();
+  }
+  return at->IsNumber() ? at->number() : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<StoredRun> ReadRuns(const std::vector<std::string>& paths) {
+  std::vector<StoredRun> runs;
+  std::map<std::string, std::string> folders;  // by scenario
+  std::vector<core::Problem> problems;
+  for (const std::string& path : paths) {
+    for (const auto& folder : batch::FindRuns(path)) {
+      runs.push_back(ReadRun(folder));
+      const std::string& scenario = runs.back().identity.scenario;
+      const auto [at, is_new] = folders.emplace(scenario, folder.string());
+      if (!is_new) {
+        problems.push_back({folder.string(),
+                            fmt::format("is a run of {}, and so is {}", scenario, at->second),
+                            "name one run of each scenario"});
+      }
+    }
+  }
+  if (!problems.empty()) throw core::UserError(std::move(problems));
+  return runs;
+}
+
+void NoteUnfinished(const StoredRun& run) {
+  const auto usable = static_cast<std::int64_t>(run.prefix().size());
+  if (usable < run.planned) {
+    PrintNote(fmt::format("{}: unfinished, {} of {} trials are used", run.folder.string(), usable,
+                          run.planned));
+  }
+}
+
+ExitCode Check(const CheckOptions& options) {
+  const statistics::PublishedReference reference = report::LoadReference(options.reference);
+  const std::vector<StoredRun> stored = ReadRuns(options.runs);
+  std::vector<statistics::ScenarioRun> runs;
+  for (const StoredRun& run : stored) {
+    NoteUnfinished(run);
+    runs.push_back({run.identity.scenario, run.identity.schema, run.prefix(),
+                    GoalTolerance_m(run.identity.resolved)});
+  }
+  const statistics::ComparisonResult result =
+      statistics::Compare(reference, runs, options.comparison);
+  if (!options.junit.empty()) {
+    report::WriteFileAtomically(options.junit, report::ComparisonJUnit(reference, result));
+  }
+  if (!options.csv.empty()) {
+    report::WriteFileAtomically(options.csv, report::ComparisonCsv(result));
+  }
+  Print(report::ComparisonText(reference, result));
+  return static_cast<ExitCode>(statistics::ExitCode(result));
+}
+
+}  // namespace
+
+void AddCheckCommand(CLI::App& app, ExitCode& exit_code) {
+  auto options = std::make_shared<CheckOptions>();
+  CLI::App* command =
+      app.add_subcommand("check", "Compares runs with published values; exit code 0, 1 or 4");
+  command->add_option("RUN", options->runs, "folders of runs, or a folder of such folders")
+      ->required();
+  command->add_option("--against", options->reference, "reference file")->required();
+  command->add_option("--junit", options->junit, "write a JUnit report to this file");
+  command->add_option("--csv", options->csv, "write the table as CSV to this file");
+  command->add_option("--seed", options->comparison.seed, "seed of the resampling")
+      ->capture_default_str();
+  command->add_option("--replicates", options->comparison.replicates, "samples for each number")
+      ->check(CLI::Range(100, 1000000))
+      ->capture_default_str();
+  command->callback([options, &exit_code] { exit_code = Check(*options); });
+}
+
+}  // namespace rockyard::app

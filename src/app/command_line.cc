@@ -1,0 +1,82 @@
+#include "app/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "app/commands.h"
+#include "app/console.h"
+#include "app/terrain_command.h"
+#include "core/error.h"
+#include "core/provenance.h"
+
+namespace rockyard::app {
+namespace {
+
+constexpr const char* kFooter =
+    "Exit codes: 0 done, 1 a comparison differs, 2 bad input (nothing written), 3 too many\n"
+    "simulator faults, 4 inconclusive, 5 failed while running, 130 interrupted.";
+
+std::string VersionText() {
+  const core::Provenance p = core::CurrentProvenance();
+  return fmt::format("{}\nflags {}\non {} ({}, {}, {} threads)", core::VersionLine(), p.flags,
+                     p.host, p.cpu_model, p.cpu_level, p.cpu_threads);
+}
+
+void AddCommands(CLI::App& app, ExitCode& exit_code) {
+  app.require_subcommand(1);
+  app.footer(kFooter);
+  app.set_version_flag("--version", VersionText);
+  AddRunCommand(app, exit_code);
+  AddCheckCommand(app, exit_code);
+  AddCompareCommand(app);
+  AddTerrainCommand(app);
+  AddValidateCommand(app);
+  AddDefaultsCommand(app);
+  AddSchemaCommand(app);
+  AddListCommand(app);
+  AddParametersCommand(app);
+}
+
+// "rockyard run --help" where a subcommand was named, else "rockyard --help".
+std::string HelpCommand(const CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  return chosen.empty() ? "rockyard --help" : "rockyard " + chosen.front()->get_name() + " --help";
+}
+
+ExitCode Parse(CLI::App& app, int argc, const char* const* argv, const ExitCode& exit_code) {
+  try {
+    app.parse(argc, argv);
+    return exit_code;
+  } catch (const CLI::Success& request) {  // --help, --version
+    app.exit(request);
+    return ExitCode::kDone;
+  } catch (const CLI::ParseError& error) {
+    PrintProblems({{"command line", error.what(), HelpCommand(app)}});
+    return ExitCode::kBadInput;
+  } catch (const core::UserError& error) {
+    PrintProblems(error.problems());
+    return ExitCode::kBadInput;
+  } catch (const std::bad_alloc&) {
+    PrintProblems({{"memory", "is exhausted", "ask for fewer trials, threads or rocks"}});
+  } catch (const std::exception& error) {
+    PrintProblems({{"rockyard", error.what(), ""}});
+  } catch (...) {
+    PrintProblems({{"rockyard", "failed for an unknown reason", ""}});
+  }
+  return ExitCode::kFailed;
+}
+
+}  // namespace
+
+int RunCommandLine(int argc, const char* const* argv) {
+  CLI::App app("Monte Carlo performance evaluation of planetary rovers", "rockyard");
+  ExitCode exit_code = ExitCode::kDone;
+  AddCommands(app, exit_code);
+  return static_cast<int>(Parse(app, argc, argv, exit_code));
+}
+
+}  // namespace rockyard::app

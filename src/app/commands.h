@@ -1,0 +1,22 @@
+// The subcommands, one file each. Add...() describes one to the parser; when the user names it, its
+// callback runs, and throws core::UserError for what is wrong with the input.
+#pragma once
+
+#include "app/exit_code.h"
+
+namespace CLI {
+class App;
+}
+
+namespace rockyard::app {
+
+void AddRunCommand(CLI::App& app, ExitCode& exit_code);
+void AddCheckCommand(CLI::App& app, ExitCode& exit_code);
+void AddCompareCommand(CLI::App& app);
+void AddValidateCommand(CLI::App& app);
+void AddDefaultsCommand(CLI::App& app);
+void AddSchemaCommand(CLI::App& app);
+void AddListCommand(CLI::App& app);
+void AddParametersCommand(CLI::App& app);
+
+}  // namespace rockyard::app

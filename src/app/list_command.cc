@@ -1,0 +1,72 @@
+// rockyard list
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/console.h"
+#include "core/error.h"
+#include "scenario/load.h"
+
+namespace rockyard::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kWidth = 100;
+
+std::vector<fs::path> JsonFiles(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
+       at.increment(error)) {
+    if (at->is_regular_file(error) && at->path().extension() == ".json") {
+      files.push_back(at->path());
+    }
+  }
+  if (error || files.empty()) {
+    throw core::UserError(folder.string(),
+                          error ? "cannot be read: " + error.message() : "holds no scenario files",
+                          "name a folder with scenarios");
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string About(const fs::path& file) {
+  try {
+    const scenario::Scenario scenario = scenario::LoadScenario(file);
+    return scenario.description.empty() ? scenario.name : scenario.description;
+  } catch (const core::UserError& error) {
+    const core::Problem& problem = error.problems().front();
+    return fmt::format("not valid: {}: {}", problem.path, problem.reason);
+  }
+}
+
+void List(const std::string& folder) {
+  const std::vector<fs::path> files = JsonFiles(folder);
+  std::size_t widest = 0;
+  for (const fs::path& file : files) widest = std::max(widest, file.string().size());
+  for (const fs::path& file : files) {
+    std::string line = fmt::format("{:<{}}  {}", file.string(), widest, About(file));
+    if (line.size() > kWidth) line = line.substr(0, kWidth - 3) + "...";
+    Print(line + "\n");
+  }
+}
+
+}  // namespace
+
+void AddListCommand(CLI::App& app) {
+  auto folder = std::make_shared<std::string>("scenarios");
+  CLI::App* command = app.add_subcommand("list", "Lists scenarios with a line each");
+  command->add_option("FOLDER", *folder, "where to look")->capture_default_str();
+  command->callback([folder] { List(*folder); });
+}
+
+}  // namespace rockyard::app

@@ -1,0 +1,68 @@
+#include "app/progress_line.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/console.h"
+#include "statistics/proportions.h"
+
+namespace rockyard::app {
+namespace {
+
+constexpr double kPlainInterval_s = 5.0;
+
+std::string Duration(double seconds) {
+  const auto total = static_cast<std::int64_t>(std::llround(std::min(seconds, 1e9)));
+  if (total >= 3600) {
+    return fmt::format("{}:{:02}:{:02}", total / 3600, total / 60 % 60, total % 60);
+  }
+  return fmt::format("{}:{:02}", total / 60, total % 60);
+}
+
+std::string Pace(const batch::Progress& progress) {
+  const auto done = static_cast<double>(progress.finished - progress.finished_before);
+  if (done < 1.0 || progress.elapsed_s <= 0.0) return "";
+  const double rate = done / progress.elapsed_s;
+  const std::int64_t left = std::max<std::int64_t>(progress.planned - progress.finished, 0);
+  return fmt::format(", {:.3g}/s, ETA {}", rate, Duration(static_cast<double>(left) / rate));
+}
+
+}  // namespace
+
+std::string ProgressText(const batch::Progress& progress) {
+  const batch::PrefixCounts& prefix = progress.prefix;
+  const std::int64_t trials = prefix.trials - prefix.faults;
+  std::string text =
+      fmt::format("  {}/{} done{}", progress.finished, progress.planned, Pace(progress));
+  if (trials > 0) {
+    const auto rate = statistics::MakeProportion(prefix.declared_successes, trials);
+    text += fmt::format(", success {:.1f} % (95 %: {:.1f} .. {:.1f} of {})", 100.0 * rate.rate,
+                        100.0 * rate.interval.low, 100.0 * rate.interval.high, trials);
+  }
+  return text + fmt::format(", faults {}", progress.faults);
+}
+
+ProgressLine::ProgressLine(std::FILE* stream) : stream_(stream), terminal_(IsTerminal(stream)) {}
+
+void ProgressLine::Show(const batch::Progress& progress) {
+  std::string text = ProgressText(progress);
+  if (terminal_) {
+    const auto width = static_cast<std::size_t>(std::max(TerminalWidth(stream_) - 1, 20));
+    text.resize(std::min(text.size(), width));
+    fmt::print(stream_, "\r{}\x1b[K", text);
+    std::fflush(stream_);
+  } else if (progress.elapsed_s >= next_at_s_) {
+    fmt::print(stream_, "{}\n", text);
+    next_at_s_ = progress.elapsed_s + kPlainInterval_s;
+  }
+}
+
+void ProgressLine::Finish(const batch::Progress& progress) {
+  next_at_s_ = 0.0;
+  Show(progress);
+  if (terminal_) fmt::print(stream_, "\n");
+}
+
+}  // namespace rockyard::app

@@ -1,0 +1,30 @@
+// The progress of a run while it runs.
+#pragma once
+
+#include <cstdio>
+#include <string>
+
+#include "batch/executor.h"
+
+namespace rockyard::app {
+
+// "  120/300 done, 4.1/s, ETA 0:44, success 91.7 % (95 %: 84.9 .. 95.6 of 118), faults 0". Success
+// is declared success over the contiguous prefix of finished trials, without simulator faults.
+std::string ProgressText(const batch::Progress& progress);
+
+// One line that is rewritten on a terminal, and plain lines every few seconds elsewhere.
+class ProgressLine {
+ public:
+  explicit ProgressLine(std::FILE* stream);
+
+  void Show(const batch::Progress& progress);
+  // Shows the end, whatever the time, and ends the line.
+  void Finish(const batch::Progress& progress);
+
+ private:
+  std::FILE* stream_;
+  bool terminal_;
+  double next_at_s_ = 0.0;  // when the next plain line is due
+};
+
+}  // namespace rockyard::app
