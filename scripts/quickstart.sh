@@ -7,7 +7,8 @@
 #   --out DIR   where the run folders go (default: results/runs/quickstart; with options that
 #               change the results, a folder of its own beside it)
 #
-# Safe to repeat: only what changed is built, runs that were interrupted go on, finished runs stay.
+# Safe to repeat: only what changed is built, runs that were interrupted go on, finished runs stay;
+# runs of another scenario or another build of the program are set aside, never deleted.
 # Exit code: that of the first step that fails; a comparison that differs is no failure.
 set -eu
 cd "$(dirname "$0")/.."
@@ -28,7 +29,7 @@ for word in "$@"; do
     other) take="" ;;
     *)
       case "$word" in
-        -h | --help) sed -n '2,12s/^# \{0,1\}//p' "$0"; exit 0 ;;
+        -h | --help) sed -n '2,13s/^# \{0,1\}//p' "$0"; exit 0 ;;
         --out) take=out; continue ;;
         --out=*) out=${word#--out=}; continue ;;
         --trials) trials=""; take=other ;;
@@ -68,10 +69,9 @@ for scenario in $scenarios; do
   file=scenarios/pathfinder/$scenario.json
   [ -f "$file" ] || continue
   say "Trials of $scenario"
-  resume=""
-  if [ -f "$out/$scenario/results.sqlite" ]; then resume=--resume; fi
-  # shellcheck disable=SC2086  # lists of words, empty or not
-  "$rockyard" run "$file" --out "$out/$scenario" $trials $resume "$@"
+  # Goes on with the run that lies there; sets it aside where the scenario or the program changed.
+  # shellcheck disable=SC2086  # a list of words
+  "$rockyard" run "$file" --out "$out/$scenario" --resume --force $trials "$@"
   runs="$runs $out/$scenario"
 done
 
