@@ -192,27 +192,29 @@ void ConstraintSolver::Sweep() {
   }
 }
 
-void ConstraintSolver::Relax(Row& row) {
-  const double wanted =
-      row.impulse +
-      (row.target - row.J.dot(velocity_) - row.softness * row.impulse) * row.inverse_diagonal;
-  const double impulse = std::clamp(wanted, row.low, row.high);
+double ConstraintSolver::Wanted(const Row& row) const {
+  const double error = row.target - row.J.dot(velocity_) - row.softness * row.impulse;
+  return row.impulse + error * row.inverse_diagonal;
+}
+
+void ConstraintSolver::Apply(double impulse, Row& row) {
   velocity_ += (impulse - row.impulse) * row.response;
   row.impulse = impulse;
 }
 
-// Both friction rows, then back onto the cone.
+void ConstraintSolver::Relax(Row& row) { Apply(std::clamp(Wanted(row), row.low, row.high), row); }
+
+// Both friction rows from the same velocities, then back onto the cone. (One after the other, the
+// second row would take back the yaw that the first one causes, and a sliding wheel would keep
+// part of its cone for a sideways force that nothing asks for.)
 void ConstraintSolver::RelaxFriction(ContactRows& rows) {
-  Relax(rows.along);
-  Relax(rows.across);
+  const double along = Wanted(rows.along);
+  const double across = Wanted(rows.across);
   const double most_Ns = rows.friction * rows.normal.impulse;
-  const double size_Ns = std::hypot(rows.along.impulse, rows.across.impulse);
-  if (size_Ns <= most_Ns) return;
-  const double change = most_Ns / size_Ns - 1.0;
-  velocity_ += change * (rows.along.impulse * rows.along.response +
-                         rows.across.impulse * rows.across.response);
-  rows.along.impulse *= 1.0 + change;
-  rows.across.impulse *= 1.0 + change;
+  const double size_Ns = std::hypot(along, across);
+  const double scale = size_Ns > most_Ns ? most_Ns / size_Ns : 1.0;
+  Apply(scale * along, rows.along);
+  Apply(scale * across, rows.across);
 }
 
 }  // namespace rockyard::rover

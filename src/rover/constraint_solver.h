@@ -58,6 +58,9 @@ class ConstraintSolver {
   double SlipSoftness(const Contact& contact, double spin_rad_s) const;
 
   void Sweep();
+  // Impulse that would keep the row's constraint, without its bounds.
+  double Wanted(const Row& row) const;
+  void Apply(double impulse, Row& row);
   void Relax(Row& row);
   void RelaxFriction(ContactRows& rows);
 

@@ -8,19 +8,142 @@
 namespace rockyard::rover {
 namespace {
 
-TEST(LevelGround, DrivesStraight) {
-  const RoverParams params;
-  const terrain::Terrain terrain = FlatTerrain();
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
-  RunFor(*rover, Drive(params, 0.15, 0.0), 10.0);
-  const truth::RoverState& state = rover->state();
-  std::printf("pose %.5f %.6f %.5f v %.5f\n", state.X_WR.translation().x(),
-              state.X_WR.translation().y(), state.X_WR.translation().z(), state.v_WR_m_s.x());
-  for (int i = 0; i < 6; ++i)
-    std::printf("wheel %d angle %.4f load %.3f torque %.4f\n", i, state.wheel_angle_rad[i],
-                state.wheel_load_N[i], state.motor_torque_Nm[i]);
-  EXPECT_NEAR(state.X_WR.translation().x(), 1.5, 0.1);
+using messages::kWheelCount;
+
+class LevelGround : public ::testing::Test {
+ protected:
+  void Start() {
+    rover_ = MakeRover(params_, terrain_);
+    rover_->Place({});
+  }
+  const truth::RoverState& state() const { return rover_->state(); }
+  double x() const { return state().X_WR.translation().x(); }
+
+  RoverParams params_;
+  terrain::Terrain terrain_ = FlatTerrain();
+  std::unique_ptr<Rover> rover_;
+};
+
+// Moments about the bogie pivots and about R's origin: what the chassis side carries is shared by
+// the rocker wheel and the bogie pivot, and the bogie halves its share.
+TEST_F(LevelGround, StaticWheelLoadsFollowFromMoments) {
+  params_.contact.wheel_soil_friction = 0.0;  // friction would make the loads indeterminate
+  params_.contact.soil_drag = 0.0;
+  params_.mass.chassis_com_x_m = 0.02;
+  Start();
+  RunFor(*rover_, kBraked, 3.0);
+  const Weights w(params_);
+  const RoverGeometry g = MakeRoverGeometry(params_.geometry);
+  const double rocker_wheel_x = g.wheel_R[2].x();
+  const double bogie_x = g.bogie_pivot_R[0].x();
+  const double carried_N = 0.5 * w.chassis_N + w.rocker_N + w.wheel_N;
+  const double moment_Nm = 0.5 * w.chassis_N * params_.mass.chassis_com_x_m +
+                           w.rocker_N * g.rocker_pivot_R[0].x() + w.wheel_N * rocker_wheel_x;
+  const double rocker_wheel_N = (moment_Nm - carried_N * bogie_x) / (rocker_wheel_x - bogie_x);
+  const double bogie_wheel_N = 0.5 * (carried_N - rocker_wheel_N + w.bogie_N) + w.wheel_N;
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    EXPECT_NEAR(state().wheel_load_N[i], g.on_bogie[i] ? bogie_wheel_N : rocker_wheel_N, 0.05) << i;
+  }
+  const double sum_N =
+      std::accumulate(state().wheel_load_N.begin(), state().wheel_load_N.end(), 0.0);
+  EXPECT_NEAR(sum_N, w.total_N, 0.05);
+}
+
+TEST_F(LevelGround, StandsOnItsOrigin) {
+  Start();
+  EXPECT_NEAR(state().X_WR.translation().z(), 0.0, 0.001);
+  EXPECT_LT(math::Tilt(state().X_WR), math::DegToRad(0.1));
+  EXPECT_TRUE(state().contacts.empty());
+}
+
+// Slip on level ground comes from the motion resistance alone: tau = drag / friction.
+TEST_F(LevelGround, DrivesStraightWithTheSlipOfItsDrag) {
+  Start();
+  const messages::WheelCommand command = Drive(params_, 0.15, 0.0);
+  RunFor(*rover_, command, 2.0);
+  const double x0 = x();
+  const double angle0 = state().wheel_angle_rad[0];
+  RunFor(*rover_, command, 10.0);
+  const double rolled_m = (state().wheel_angle_rad[0] - angle0) * params_.geometry.wheel_radius_m;
+  EXPECT_NEAR(rolled_m, 1.5, 1e-3);
+  const double tau = params_.contact.soil_drag / params_.contact.wheel_soil_friction;
+  const double slip = -params_.contact.soil_slip * std::log(1.0 - tau);
+  EXPECT_NEAR(1.0 - (x() - x0) / rolled_m, slip, 0.002);
+  RecordProperty("slip", std::to_string(1.0 - (x() - x0) / rolled_m));
+  EXPECT_NEAR(state().X_WR.translation().y(), 0.0, 2e-3);
+  EXPECT_NEAR(math::Heading(state().X_WR), 0.0, 2e-3);
+}
+
+TEST_F(LevelGround, TurnsInPlaceAboutItsCentre) {
+  Start();
+  const double rate_rad_s = 0.3;
+  const messages::WheelCommand command = Drive(params_, 0.0, rate_rad_s);
+  RunFor(*rover_, SteerOnly(command), 1.5);
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    EXPECT_NEAR(state().steer_rad[i], command.steer_rad[i], 1e-9);
+  }
+  RunFor(*rover_, command, 5.0);
+  const double slip_free_rad = 5.0 * rate_rad_s;
+  EXPECT_LT(math::Heading(state().X_WR), slip_free_rad);
+  EXPECT_GT(math::Heading(state().X_WR), 0.95 * slip_free_rad);
+  EXPECT_LT(state().X_WR.translation().head<2>().norm(), 0.01);
+}
+
+TEST_F(LevelGround, FollowsAnArcOfTheCommandedRadius) {
+  Start();
+  const double radius_m = 1.0;
+  const messages::WheelCommand command = Drive(params_, 0.12, 0.12 / radius_m);
+  RunFor(*rover_, SteerOnly(command), 1.0);
+  const math::Pose2 from = math::ToPose2(state().X_WR);
+  RunFor(*rover_, command, 8.0);
+  const math::Pose2 to = math::ToPose2(state().X_WR);
+  const double turned_rad = math::WrapAngle(to.heading_rad - from.heading_rad);
+  const double chord_m = std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
+  EXPECT_NEAR(0.5 * chord_m / std::sin(0.5 * turned_rad), radius_m, 0.02 * radius_m);
+}
+
+TEST_F(LevelGround, SteeringIsLimitedInRateAndAngle) {
+  Start();
+  messages::WheelCommand command;
+  command.steer_rad.fill(2.0);
+  rover_->Step(command);
+  EXPECT_NEAR(state().steer_rad[0], params_.drive.steer_rate_rad_s * rover_->step_s(), 1e-12);
+  RunFor(*rover_, command, 2.0);
+  EXPECT_NEAR(state().steer_rad[0], params_.drive.max_steer_rad, 1e-12);
+  EXPECT_EQ(state().steer_rad[1], 0.0);  // middle wheels do not steer
+}
+
+TEST_F(LevelGround, MotorsStayWithinStallTorque) {
+  params_.drive.stall_torque_Nm = 0.05;  // less than the drag needs
+  Start();
+  RunFor(*rover_, Drive(params_, 0.15, 0.0), 3.0);
+  for (const double torque_Nm : state().motor_torque_Nm) EXPECT_LE(std::abs(torque_Nm), 0.05);
+  EXPECT_LT(x(), 0.05);
+}
+
+TEST_F(LevelGround, PlaceKeepsTheWheelAnglesAndStopsTheRover) {
+  Start();
+  RunFor(*rover_, Drive(params_, 0.15, 0.0), 2.0);
+  const messages::PerWheel<double> angle = state().wheel_angle_rad;
+  EXPECT_GT(angle[0], 4.0);
+  rover_->Place({1.0, 2.0, 0.5});
+  EXPECT_EQ(state().v_WR_m_s.norm(), 0.0);
+  EXPECT_NEAR(x(), 1.0, 1e-3);
+  EXPECT_NEAR(math::Heading(state().X_WR), 0.5, 1e-3);
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    EXPECT_NEAR(state().wheel_angle_rad[i], angle[i], 1e-12);
+  }
+}
+
+TEST_F(LevelGround, PlaceOnARockSettlesOnIt) {
+  terrain_ = FlatTerrain({MakeRock(0.26, 0.2, 0.0, 0.15, 0.15, 0.1)});
+  Start();
+  EXPECT_GT(Pitch(state().X_WR), -math::DegToRad(15.0));
+  EXPECT_LT(Pitch(state().X_WR), -math::DegToRad(1.0));  // nose up
+  EXPECT_GT(state().wheel_load_N[0], 1.0);
+  const math::Vector3 before = state().X_WR.translation();
+  RunFor(*rover_, kBraked, 2.0);
+  EXPECT_LT((state().X_WR.translation() - before).norm(), 0.005);
 }
 
 }  // namespace

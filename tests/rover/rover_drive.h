@@ -34,6 +34,12 @@ inline messages::WheelCommand Drive(const RoverParams& params, double v_m_s, dou
   return command;
 }
 
+// The same with all wheels stopped: lets the steering arrive.
+inline messages::WheelCommand SteerOnly(messages::WheelCommand command) {
+  command.rate_rad_s.fill(0.0);
+  return command;
+}
+
 inline terrain::Terrain FlatTerrain(std::vector<terrain::Rock> rocks = {},
                                     std::vector<terrain::Wall> walls = {}) {
   return {terrain::Ground(), std::move(rocks), std::move(walls)};
@@ -57,9 +63,39 @@ inline terrain::Rock MakeRock(double x_m, double y_m, double center_z_m, double 
   return rock;
 }
 
+// A vertical step across the way, 1.2 m deep: flat ellipsoids stacked so densely that a wheel meets
+// a wall with ripples of 0.1 mm and a sharp upper edge 1 cm below the flat top.
+inline terrain::Terrain StepTerrain(double height_m) {
+  std::vector<terrain::Rock> rocks;
+  for (double z = height_m - 0.01; z > 0.0; z -= 0.006) {
+    rocks.push_back(MakeRock(1.2, 0.0, z, 0.6, 2.0, 0.01));
+  }
+  return FlatTerrain(std::move(rocks));
+}
+
 inline void RunFor(Rover& rover, const messages::WheelCommand& command, double time_s) {
   const int steps = static_cast<int>(std::lround(time_s / rover.step_s()));
   for (int i = 0; i < steps; ++i) rover.Step(command);
 }
+
+inline double Pitch(const math::Transform& X_WR) { return -std::asin(X_WR.linear()(2, 0)); }
+
+// Weights of all parts and the height of their common centre of mass.
+struct Weights {
+  double chassis_N, rocker_N, bogie_N, wheel_N, total_N, com_z_m;
+
+  explicit Weights(const RoverParams& p) {
+    const double g = p.physics.gravity_m_s2;
+    rocker_N = p.mass.rocker_kg * g;
+    bogie_N = p.mass.bogie_kg * g;
+    wheel_N = p.mass.wheel_kg * g;
+    total_N = p.mass.total_kg * g;
+    chassis_N = total_N - 2.0 * (rocker_N + bogie_N) - 6.0 * wheel_N;
+    com_z_m =
+        (chassis_N * p.mass.chassis_com_z_m + 2.0 * rocker_N * p.geometry.rocker_pivot_z_m +
+         2.0 * bogie_N * p.geometry.bogie_pivot_z_m + 6.0 * wheel_N * p.geometry.wheel_radius_m) /
+        total_N;
+  }
+};
 
 }  // namespace rockyard::rover
