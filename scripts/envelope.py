@@ -4,7 +4,7 @@
 Draws a Latin hypercube over every assumed parameter that has a study range, and a balanced random
 choice for every assumed option, runs each scenario at each point, and prints the spread of each
 prediction over the points. Runs that are there already are resumed, so that it can be stopped and
-started again.
+started again. At each point the odometer is calibrated anew on level sand, as the rover's own was.
 
     scripts/envelope.py --points 50 --trials 40 scenarios/pathfinder/nominal.json ...
 """
@@ -56,18 +56,26 @@ def run(command):
     return result.stdout
 
 
+def is_valid(rockyard, scenario, setting):
+    command = [str(rockyard), "validate", str(scenario), "--set", setting]
+    return subprocess.run(command, capture_output=True, check=False).returncode == 0
+
+
 def assumed_parameters(rockyard, scenario):
-    """Rows of the parameter table that the design varies."""
+    """Rows of the parameter table that the design varies; options that are invalid are left out."""
     table = csv.DictReader(io.StringIO(run([rockyard, "parameters", scenario, "--csv"])))
     rows = [row for row in table if row["origin"] == "assumed"]
-    return [row for row in rows if row["choices"] or row["study_low"]]
+    for row in rows:
+        options = row["choices"].split("|") if row["choices"] else []
+        row["options"] = [option for option in options
+                          if is_valid(rockyard, scenario, f"{row['path']}={option}")]
+    return [row for row in rows if row["options"] or row["study_low"]]
 
 
 def column(row, points, rng):
     """One value a point: stratified where continuous, balanced where a choice."""
-    if row["choices"]:
-        choices = row["choices"].split("|")
-        values = [choices[i % len(choices)] for i in range(points)]
+    if row["options"]:
+        values = [row["options"][i % len(row["options"])] for i in range(points)]
     else:
         low, high = float(row["study_low"]), float(row["study_high"])
         values = [low + (high - low) * (i + rng.random()) / points for i in range(points)]
@@ -81,6 +89,21 @@ def design(rows, points, seed):
     rng = random.Random(seed)
     columns = {row["path"]: column(row, points, rng) for row in rows}
     return [{path: values[i] for path, values in columns.items()} for i in range(points)]
+
+
+def calibrated_scale(args, point_settings, folder):
+    """Distance scale for the soil and wheels of this point: as calibrated on level sand."""
+    command = [args.rockyard, "run", ROOT / "scenarios/pathfinder/level_sand.json", "--trials", 20,
+               "--seed", args.seed, "--out", folder, "--quiet", *point_settings,
+               "--set", "sensors.encoders.distance_variance_m2_per_m=0",
+               "--set", "sensors.encoders.physics_variance_m2_per_m=0",
+               "--set", "perception.dead_reckoning.distance_scale=1"]
+    if folder.exists():
+        command.append("--resume")
+    run(command)
+    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    error_percent = pick(summary, ("dead_reckoning", "distance_error_percent", "mean"))
+    return 1.0 / (1.0 + error_percent / 100.0)
 
 
 def pick(summary, path):
@@ -107,17 +130,20 @@ def main():
     points = design(rows, args.points, args.seed)
     args.out.mkdir(parents=True, exist_ok=True)
     (args.out / "design.json").write_text(json.dumps(points, indent=1) + "\n", encoding="utf-8")
+    settings = []
+    for index, point in enumerate(points):
+        options = [part for path, value in point.items() for part in ("--set", f"{path}={value}")]
+        scale = calibrated_scale(args, options, args.out / "level_sand" / f"{index:03d}")
+        settings.append(options + ["--set", f"perception.dead_reckoning.distance_scale={scale}"])
     print(f"{len(points)} points over {len(rows)} assumed parameters, {args.trials} trials each")
     for scenario in args.scenarios:
         summaries = []
-        for index, point in enumerate(points):
+        for index, options in enumerate(settings):
             folder = args.out / scenario.stem / f"{index:03d}"
             command = [args.rockyard, "run", scenario, "--trials", args.trials, "--seed", args.seed,
-                       "--out", folder, "--quiet"]
+                       "--out", folder, "--quiet", *options]
             if folder.exists():
                 command.append("--resume")
-            for path, value in point.items():
-                command += ["--set", f"{path}={value}"]
             run(command)
             summaries.append(json.loads((folder / "summary.json").read_text(encoding="utf-8")))
             print(f"\r{scenario.stem}: {index + 1}/{len(points)}", end="", file=sys.stderr)

@@ -36,10 +36,13 @@ struct DeadReckoningParams {
             .source = "Matthies 1995 sec. 5, note 4; straight 7 m runs of the simulated rover on "
                       "level sand"});
     v.Choice("wheels", wheels,
-             {.doc = "wheels whose encoders give the distance", .origin = Origin::kAssumed});
-    v.Choice(
-        "step_heading", step_heading,
-        {.doc = "heading along which a step's distance is laid off", .origin = Origin::kAssumed});
+             {.doc = "wheels whose encoders give the distance",
+              .origin = Origin::kAssumed,
+              .source = "the paper names wheel encoders without singling any out"});
+    v.Choice("step_heading", step_heading,
+             {.doc = "heading along which a step's distance is laid off",
+              .origin = Origin::kAssumed,
+              .source = "the better of the two approximations at equal cost"});
   }
 };
 

@@ -28,9 +28,13 @@ void HazardParams::Visit(core::FieldVisitor& v) {
           .study_low = 0.08,
           .study_high = 0.25});
   v.Choice("neighbour_blame", neighbour_blame,
-           {.doc = "stripes charged with a neighbour difference", .origin = Origin::kAssumed});
+           {.doc = "stripes charged with a neighbour difference",
+            .origin = Origin::kAssumed,
+            .source = "charges the rock or the pit rather than its neighbour"});
   v.Choice("range_blame", range_blame,
-           {.doc = "stripes charged with the range of the array", .origin = Origin::kAssumed});
+           {.doc = "stripes charged with the range of the array",
+            .origin = Origin::kAssumed,
+            .source = "charges the rock or the pit rather than the rest"});
   v.Choice("agreement", agreement,
            {.doc = "scans that have to agree before a hazard is believed",
             .origin = Origin::kPublished,
@@ -46,17 +50,21 @@ void HazardParams::Visit(core::FieldVisitor& v) {
   v.Choice("on_disagreement", on_disagreement,
            {.doc = "what follows when two scans disagree; in consecutive_moving, scan_again waits "
                    "for the next scan on the way",
-            .origin = Origin::kAssumed});
-  v.Integer("max_scans", max_scans,
-            {.doc = "most scans at one pose",
-             .min = 2,
-             .max = 100,
-             .origin = Origin::kAssumed,
-             .study_low = 2,
-             .study_high = 10});
-  v.Choice(
-      "on_exhausted", on_exhausted,
-      {.doc = "what follows when max_scans scans have not agreed", .origin = Origin::kAssumed});
+            .origin = Origin::kAssumed,
+            .source = "the scans have to agree, so the rover looks until two do"});
+  v.Integer(
+      "max_scans", max_scans,
+      {.doc = "most scans at one pose",
+       .min = 2,
+       .max = 100,
+       .origin = Origin::kAssumed,
+       .source = "two of five scans with a wrong point in a fifth of them agree nearly always",
+       .study_low = 2,
+       .study_high = 10});
+  v.Choice("on_exhausted", on_exhausted,
+           {.doc = "what follows when max_scans scans have not agreed",
+            .origin = Origin::kAssumed,
+            .source = "a hazard that is still seen is believed"});
   v.Require("on_exhausted", on_exhausted != Disagreement::kScanAgain,
             "is scan_again, but the scans are used up",
             "use trust_last, treat_as_hazard or treat_as_clear");

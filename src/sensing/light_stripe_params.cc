@@ -234,6 +234,7 @@ void VisitArray(LightStripeParams& p, core::FieldVisitor& v) {
           .min = -1.0,
           .max = 1.0,
           .origin = Origin::kAssumed,
+          .source = "the plane under the wheels",
           .study_low = -0.02,
           .study_high = 0.02});
   v.FixedReals("row_ahead_m", p.row_ahead_m,
@@ -270,6 +271,7 @@ void VisitDetection(LightStripeParams& p, core::FieldVisitor& v) {
           .min = -5.0,
           .max = -0.01,
           .origin = Origin::kAssumed,
+          .source = "deeper than any drop that the rover could enter",
           .study_low = -0.5,
           .study_high = -0.15});
   v.Real("search_high_m", p.search_high_m,
@@ -277,6 +279,7 @@ void VisitDetection(LightStripeParams& p, core::FieldVisitor& v) {
           .min = 0.01,
           .max = 5.0,
           .origin = Origin::kAssumed,
+          .source = "just below cameras and emitters",
           .study_low = 0.13,
           .study_high = 0.22});
   v.Require("search_high_m",
@@ -288,6 +291,7 @@ void VisitDetection(LightStripeParams& p, core::FieldVisitor& v) {
           .min = 0.05,
           .max = 10.0,
           .origin = Origin::kAssumed,
+          .source = "twice what flat ground needs",
           .study_low = 0.7,
           .study_high = 2.0});
   v.Real("wrong_place_probability", p.wrong_place_probability,
@@ -297,7 +301,9 @@ void VisitDetection(LightStripeParams& p, core::FieldVisitor& v) {
           .origin = Origin::kPublished,
           .source = kSection6});
   v.Choice("wrong_place", p.wrong_place,
-           {.doc = "where such a point appears", .origin = Origin::kAssumed});
+           {.doc = "where such a point appears",
+            .origin = Origin::kAssumed,
+            .source = "a wrong peak is found where a peak is looked for"});
   v.Real("missed_probability", p.missed_probability,
          {.doc = "chance that a visible point is not detected",
           .min = 0.0,

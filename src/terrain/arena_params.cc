@@ -49,6 +49,7 @@ void ArenaParams::Visit(core::FieldVisitor& v) {
           .min = 0.0,
           .max = 50.0,
           .origin = Origin::kAssumed,
+          .source = "more than any detour on a 7.6 m course",
           .study_low = 2.0,
           .study_high = 8.0});
   v.Integer("unfolded_strips", unfolded_strips,
@@ -56,6 +57,7 @@ void ArenaParams::Visit(core::FieldVisitor& v) {
              .min = 1,
              .max = 20,
              .origin = Origin::kAssumed,
+             .source = "wide enough for any detour on a 7.6 m course",
              .study_low = 1,
              .study_high = 4});
 }

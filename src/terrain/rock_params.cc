@@ -105,6 +105,7 @@ void VisitShape(RockFieldParams& p, core::FieldVisitor& v) {
           .min = 0.2,
           .max = 1.0,
           .origin = Origin::kAssumed,
+          .source = "rocks from nearly round to clearly oblong",
           .study_low = 0.5,
           .study_high = 1.0});
   v.Real("max_width_ratio", p.max_width_ratio,
@@ -112,6 +113,7 @@ void VisitShape(RockFieldParams& p, core::FieldVisitor& v) {
           .min = 0.2,
           .max = 1.0,
           .origin = Origin::kAssumed,
+          .source = "the diameter is the longest axis by definition",
           .study_low = 1.0,
           .study_high = 1.0});
   v.Require("max_width_ratio", p.max_width_ratio >= p.min_width_ratio,
@@ -146,6 +148,7 @@ void VisitShape(RockFieldParams& p, core::FieldVisitor& v) {
           .min = 0.0,
           .max = 0.4,
           .origin = Origin::kAssumed,
+          .source = "the published third is an average; its spread is not given",
           .study_low = 0.0,
           .study_high = 0.3});
   v.Require("burial_spread",
@@ -188,7 +191,8 @@ void RockFieldParams::Visit(core::FieldVisitor& v) {
   VisitShape(*this, v);
   v.Choice("overlap", overlap,
            {.doc = "what happens to a rock that overlaps one placed before it",
-            .origin = Origin::kAssumed});
+            .origin = Origin::kAssumed,
+            .source = "rocks do not interpenetrate; relocate keeps the counts of the law"});
   v.Require("overlap", kind != RockFieldKind::kUniformCount || overlap != OverlapRule::kReject,
             "leaves rocks out, which contradicts the exact count of uniform_count",
             "use relocate or allow");
@@ -201,7 +205,10 @@ void RockFieldParams::Visit(core::FieldVisitor& v) {
           .study_low = 0.42,
           .study_high = 0.8});
   v.Choice("mobility", mobility,
-           {.doc = "whether the rover can push rocks away", .origin = Origin::kAssumed});
+           {.doc = "whether the rover can push rocks away",
+            .origin = Origin::kAssumed,
+            .source = "rocks large enough to matter, a third buried, hold; the paper mentions none "
+                      "that moved"});
 }
 
 }  // namespace rockyard::terrain
