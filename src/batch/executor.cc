@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <exception>
 #include <mutex>
 #include <string>
@@ -57,8 +58,7 @@ void Shuffle(std::vector<std::int64_t>& trials, std::uint64_t seed) {
 // Counts shared by the threads.
 class Tally {
  public:
-  Tally(std::int64_t planned, Clock::time_point start)
-      : planned_(planned), start_(start), counter_(planned) {}
+  Tally(std::int64_t planned, Clock::time_point start) : planned_(planned), start_(start) {}
 
   void AddStored(const std::vector<truth::Record>& records) {
     for (const truth::Record& record : records) {
@@ -90,22 +90,36 @@ class Tally {
   std::int64_t finished_before_ = 0;
 };
 
-std::vector<std::int64_t> Pending(const std::vector<truth::Record>& stored,
-                                  const BatchOptions& options) {
-  std::vector<std::int64_t> pending;
-  std::size_t next = 0;
-  for (std::int64_t trial = 0; trial < options.trials; ++trial) {
-    const bool done =
-        next < stored.size() && stored[next].trial == static_cast<std::uint64_t>(trial);
-    if (done) {
-      ++next;
-    } else {
-      pending.push_back(trial);
+// The trials that the store lacks: those missing among its own, then everything after them.
+class PendingTrials {
+ public:
+  PendingTrials(const std::vector<truth::Record>& stored, const BatchOptions& options) {
+    std::int64_t next = 0;
+    for (const truth::Record& record : stored) {
+      const auto trial = std::min(static_cast<std::int64_t>(record.trial), options.trials);
+      for (; next < trial; ++next) listed_.push_back(next);
+      next = static_cast<std::int64_t>(record.trial) + 1;
+    }
+    rest_ = next;
+    count_ = Listed() + std::max<std::int64_t>(options.trials - rest_, 0);
+    if (options.order == Order::kShuffled) {
+      for (; next < options.trials; ++next) listed_.push_back(next);
+      Shuffle(listed_, options.seed);
     }
   }
-  if (options.order == Order::kShuffled) Shuffle(pending, options.seed);
-  return pending;
-}
+
+  std::int64_t count() const { return count_; }
+  std::int64_t operator[](std::int64_t i) const {
+    return i < Listed() ? listed_[static_cast<std::size_t>(i)] : rest_ + (i - Listed());
+  }
+
+ private:
+  std::int64_t Listed() const { return static_cast<std::int64_t>(listed_.size()); }
+
+  std::vector<std::int64_t> listed_;
+  std::int64_t rest_ = 0;
+  std::int64_t count_ = 0;
+};
 
 // The first error of the writer with what it means for the finished trials.
 [[noreturn]] void ReportLoss(const StoreError& error, std::size_t unwritten) {
@@ -134,7 +148,7 @@ BatchResult RunBatch(const experiments::Experiment& experiment, ResultStore& sto
                      const ProgressReport& report) {
   EXPECT(options.trials >= 0);
   const std::vector<truth::Record> stored = store.Load();
-  const std::vector<std::int64_t> pending = Pending(stored, options);
+  const PendingTrials pending(stored, options);
   Tally tally(options.trials, Clock::now());
   tally.AddStored(stored);
   const auto tell = [&] {
@@ -142,13 +156,12 @@ BatchResult RunBatch(const experiments::Experiment& experiment, ResultStore& sto
   };
 
   RecordWriter writer(store, options.interval, tell);
-  const auto count = static_cast<std::int64_t>(pending.size());
+  const std::int64_t count = pending.count();
   std::atomic<std::int64_t> done = 0;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(ThreadCount(options))
   for (std::int64_t i = 0; i < count; ++i) {
     if (stop || writer.failed()) continue;
-    truth::Record record = RunOne(experiment, options.seed,
-                                  static_cast<std::uint64_t>(pending[static_cast<std::size_t>(i)]));
+    truth::Record record = RunOne(experiment, options.seed, static_cast<std::uint64_t>(pending[i]));
     tally.Add(record);
     writer.Push(std::move(record));
     ++done;

@@ -4,9 +4,6 @@
 
 namespace rockyard::batch {
 
-PrefixCounter::PrefixCounter(std::int64_t planned)
-    : outcomes_(static_cast<std::size_t>(planned), kPending) {}
-
 void PrefixCounter::Add(std::int64_t trial, truth::TrialOutcome outcome) {
   EXPECT(trial >= 0);
   const auto index = static_cast<std::size_t>(trial);

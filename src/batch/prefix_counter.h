@@ -20,8 +20,6 @@ struct PrefixCounts {
 // the prefix waits for every trial before it.
 class PrefixCounter {
  public:
-  explicit PrefixCounter(std::int64_t planned);
-
   // Each trial at most once; 0 <= trial.
   void Add(std::int64_t trial, truth::TrialOutcome outcome);
 

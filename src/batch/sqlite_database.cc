@@ -11,7 +11,7 @@ namespace rockyard::batch {
 namespace {
 
 // How long a commit waits for somebody who reads or writes the file with another tool.
-constexpr int kBusyTimeoutMs = 5000;
+constexpr int kBusyTimeoutMs = 2000;
 
 StoreProblem Kind(int code) {
   switch (code & 0xff) {

@@ -1,0 +1,193 @@
+#include "batch/executor.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <mutex>
+#include <set>
+
+#include "batch/run_folder.h"
+#include "batch/sqlite_database.h"
+#include "batch/store_error.h"
+#include "batch/trial_hash.h"
+#include "fake_experiment.h"
+
+namespace rockyard::batch {
+namespace {
+
+using testing::HasSubstr;
+using truth::TrialOutcome;
+
+constexpr std::int64_t kTrials = 200;
+const std::atomic<bool> kNeverStop = false;
+
+BatchOptions Options(int threads, Order order = Order::kNatural) {
+  return {.trials = kTrials,
+          .threads = threads,
+          .order = order,
+          .interval = std::chrono::milliseconds(5)};
+}
+
+std::string PlainHash() {
+  std::vector<truth::Record> records;
+  for (std::uint64_t i = 0; i < kTrials; ++i) records.push_back(FakeRecord(1, i));
+  return TrialHash(records);
+}
+
+std::string HashAfter(const BatchOptions& options) {
+  const TemporaryFolder folder;
+  ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), kTrials);
+  const BatchResult result = RunBatch(FakeExperiment(), store, options, kNeverStop);
+  EXPECT_EQ(result.end, BatchEnd::kFinished);
+  EXPECT_EQ(result.progress.finished, kTrials);
+  return TrialHash(ResultStore::Read(folder.path()).Load());
+}
+
+TEST(Executor, SameRecordsWhateverThreadsAndOrder) {
+  const std::string expected = PlainHash();
+  EXPECT_EQ(HashAfter(Options(1)), expected);
+  EXPECT_EQ(HashAfter(Options(2)), expected);
+  EXPECT_EQ(HashAfter(Options(5)), expected);
+  EXPECT_EQ(HashAfter(Options(1, Order::kShuffled)), expected);
+  EXPECT_EQ(HashAfter(Options(2, Order::kShuffled)), expected);
+  BatchOptions other_seed = Options(2);
+  other_seed.seed = 2;
+  EXPECT_NE(HashAfter(other_seed), expected);
+}
+
+TEST(Executor, ShuffledOrderIsAnotherOrder) {
+  std::vector<std::uint64_t> order;
+  const FakeExperiment experiment([&](std::uint64_t index) { order.push_back(index); });
+  const TemporaryFolder folder;
+  ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), kTrials);
+  RunBatch(experiment, store, Options(1, Order::kShuffled), kNeverStop);
+  EXPECT_EQ(std::set(order.begin(), order.end()).size(), static_cast<std::size_t>(kTrials));
+  EXPECT_FALSE(std::is_sorted(order.begin(), order.end()));
+}
+
+TEST(Executor, StopsOnRequestAndGoesOnToTheSameHash) {
+  const TemporaryFolder folder;
+  std::atomic<bool> stop = false;
+  std::atomic<int> started = 0;
+  const FakeExperiment experiment([&](std::uint64_t) {
+    if (++started == 40) stop = true;
+  });
+  {
+    ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), kTrials);
+    const BatchResult result = RunBatch(experiment, store, Options(2, Order::kShuffled), stop);
+    EXPECT_EQ(result.end, BatchEnd::kStopped);
+    // What was in flight is finished and stored.
+    EXPECT_EQ(result.progress.finished, started.load());
+    EXPECT_EQ(store.Load().size(), static_cast<std::size_t>(started.load()));
+    EXPECT_LT(started.load(), kTrials);
+  }
+  started = 0;
+  ResultStore store = ResultStore::Resume(folder.path(), FakeIdentity());
+  const auto before = static_cast<std::int64_t>(store.Load().size());
+  const BatchResult result = RunBatch(experiment, store, Options(2), kNeverStop);
+  EXPECT_EQ(result.end, BatchEnd::kFinished);
+  EXPECT_EQ(result.progress.finished_before, before);
+  EXPECT_EQ(started.load(), kTrials - before) << "no stored trial is run again";
+  EXPECT_EQ(TrialHash(store.Load()), PlainHash());
+}
+
+TEST(Executor, ExtendsARun) {
+  const TemporaryFolder folder;
+  ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 50);
+  BatchOptions fewer = Options(2);
+  fewer.trials = 50;
+  RunBatch(FakeExperiment(), store, fewer, kNeverStop);
+  EXPECT_EQ(store.Load().size(), 50U);
+  RunBatch(FakeExperiment(), store, Options(2), kNeverStop);
+  EXPECT_EQ(TrialHash(store.Load()), PlainHash());
+}
+
+// 40 of 200: some throw, one returns a record of the wrong length.
+TEST(Executor, CountsFaultsApartAndFailsAboveTheFraction) {
+  const TemporaryFolder folder;
+  const FakeExperiment experiment([](std::uint64_t index) {
+    if (index % 5 == 0) throw std::runtime_error("the solver blew up");
+  });
+  ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), kTrials);
+  const BatchResult result = RunBatch(experiment, store, Options(2), kNeverStop);
+  EXPECT_EQ(result.end, BatchEnd::kFinished);
+  EXPECT_EQ(result.progress.faults, 40);
+  EXPECT_EQ(result.progress.prefix.faults, 40);
+  EXPECT_TRUE(result.too_many_faults);
+  const truth::Record fault = store.Load()[5];
+  EXPECT_EQ(fault.outcome, TrialOutcome::kSimulatorFault);
+  EXPECT_EQ(fault.detail, "the solver blew up (seed 1, trial 5)");
+
+  BatchOptions patient = Options(2);
+  patient.max_fault_fraction = 0.2;
+  EXPECT_FALSE(RunBatch(experiment, store, patient, kNeverStop).too_many_faults)
+      << "exactly the fraction is not above it";
+}
+
+class ShortRecords final : public experiments::Experiment {
+ public:
+  const truth::RecordSchema& schema() const override { return schema_; }
+  truth::Record Run(std::uint64_t, std::uint64_t index) const override {
+    return {index, TrialOutcome::kGoalReached, "", {1.0}};
+  }
+
+ private:
+  truth::RecordSchema schema_ = FakeSchema();
+};
+
+TEST(Executor, ARecordThatDoesNotFitIsAFault) {
+  const TemporaryFolder folder;
+  ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), kTrials);
+  EXPECT_EQ(RunBatch(ShortRecords(), store, Options(2), kNeverStop).progress.faults, kTrials);
+  EXPECT_THAT(store.Load()[0].detail, HasSubstr("1 values for 3 columns"));
+}
+
+TEST(Executor, ReportsByOneThreadAtATimeAndAtTheEnd) {
+  const TemporaryFolder folder;
+  ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), kTrials);
+  const FakeExperiment slow(
+      [](std::uint64_t) { std::this_thread::sleep_for(std::chrono::microseconds(300)); });
+  std::mutex mutex;
+  std::vector<Progress> seen;
+  RunBatch(slow, store, Options(2), kNeverStop, [&](const Progress& progress) {
+    const std::unique_lock lock(mutex, std::try_to_lock);
+    ASSERT_TRUE(lock.owns_lock());
+    seen.push_back(progress);
+  });
+  ASSERT_FALSE(seen.empty());
+  EXPECT_EQ(seen.back().finished, kTrials);
+  EXPECT_EQ(seen.back().prefix.trials, kTrials);
+  for (const Progress& progress : seen) EXPECT_LE(progress.prefix.trials, progress.finished);
+}
+
+TEST(Executor, AStoreThatFailsStopsTheRunAndLosesNothingStored) {
+  const TemporaryFolder folder;
+  ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 100000);
+  // From trial 30 on the store refuses records.
+  SqliteDatabase(StorePath(folder.path()), Access::kChange)
+      .Execute(
+          "CREATE TRIGGER refuse BEFORE INSERT ON trials WHEN NEW.trial >= 30 "
+          "BEGIN SELECT RAISE(ABORT, 'refused'); END");
+  std::atomic<int> started = 0;
+  const FakeExperiment experiment([&](std::uint64_t) {
+    ++started;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  });
+  BatchOptions options = Options(2);
+  options.trials = 100000;
+  try {
+    RunBatch(experiment, store, options, kNeverStop);
+    FAIL() << "nothing was thrown";
+  } catch (const StoreError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("finished trials could not be stored"));
+    EXPECT_THAT(error.what(), HasSubstr("results.sqlite"));
+  }
+  EXPECT_LT(started.load(), 10000) << "no new trials after the failure";
+  SqliteDatabase(StorePath(folder.path()), Access::kChange).Execute("DROP TRIGGER refuse");
+  options.trials = kTrials;
+  RunBatch(FakeExperiment(), store, options, kNeverStop);
+  EXPECT_EQ(TrialHash(store.Load()), PlainHash());
+}
+
+}  // namespace
+}  // namespace rockyard::batch

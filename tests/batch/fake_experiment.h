@@ -1,0 +1,88 @@
+// An experiment without a rover: records that follow from (seed, index) alone.
+#pragma once
+
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "batch/result_store.h"
+#include "core/random.h"
+#include "experiments/experiment.h"
+#include "truth/record.h"
+
+namespace rockyard::batch {
+
+inline truth::RecordSchema FakeSchema() {
+  return {{"true_distance_m", "m", "path"}, {"sim_time_s", "s", "time"}, {"odd \"name\"", "1", ""}};
+}
+
+inline truth::Record FakeRecord(std::uint64_t seed, std::uint64_t index) {
+  core::RandomStream stream({seed, static_cast<std::uint32_t>(index)}, core::Purpose::kTest);
+  const double distance = 7.0 + stream.Uniform();
+  const bool reached = stream.Uniform() < 0.8;
+  const double undefined = std::numeric_limits<double>::quiet_NaN();
+  return {index,
+          reached ? truth::TrialOutcome::kGoalReached : truth::TrialOutcome::kNoPath,
+          reached ? "arrived" : "gave up",
+          {distance, reached ? 100.0 * stream.Uniform() : undefined, -0.0}};
+}
+
+class FakeExperiment final : public experiments::Experiment {
+ public:
+  using Hook = std::function<void(std::uint64_t index)>;
+
+  // `hook` runs before each trial, on its thread: to wait, to throw, to count.
+  explicit FakeExperiment(Hook hook = {}) : schema_(FakeSchema()), hook_(std::move(hook)) {}
+
+  const truth::RecordSchema& schema() const override { return schema_; }
+
+  truth::Record Run(std::uint64_t seed, std::uint64_t index) const override {
+    if (hook_) hook_(index);
+    return FakeRecord(seed, index);
+  }
+
+ private:
+  truth::RecordSchema schema_;
+  Hook hook_;
+};
+
+inline RunIdentity FakeIdentity(std::uint64_t seed = 1) {
+  return {.scenario = "fake",
+          .fingerprint = "00ff",
+          .resolved = "{\"name\": \"fake\", \"trials\": 10, \"terrain\": {\"k\": 0.00415}}",
+          .seed = seed,
+          .build = "0.1.0 abc",
+          .schema = FakeSchema()};
+}
+
+// A folder of its own, removed in the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    static std::atomic<int> count = 0;
+    path_ = std::filesystem::temp_directory_path() /
+            ("rockyard-test-" + std::to_string(getpid()) + "-" + std::to_string(count++));
+    std::filesystem::create_directories(path_);
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace rockyard::batch

@@ -1,0 +1,135 @@
+#include "batch/result_store.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "batch/store_error.h"
+#include "batch/trial_hash.h"
+#include "fake_experiment.h"
+
+namespace rockyard::batch {
+namespace {
+
+using truth::Record;
+using truth::TrialOutcome;
+
+std::uint64_t Bits(double value) { return std::bit_cast<std::uint64_t>(value); }
+
+TEST(ResultStore, KeepsEveryBitOfDoubles) {
+  const TemporaryFolder folder;
+  const double values[] = {0.1,
+                           -0.0,
+                           0.0,
+                           3.0,
+                           -7.0,
+                           1e300,
+                           std::numeric_limits<double>::denorm_min(),
+                           std::numeric_limits<double>::max(),
+                           std::numeric_limits<double>::infinity(),
+                           -std::numeric_limits<double>::infinity(),
+                           9007199254740993.0,
+                           std::nextafter(1.0, 2.0)};
+  ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 12);
+  std::vector<Record> records;
+  for (const double value : values) {
+    records.push_back({records.size(), TrialOutcome::kJammed, "", {value, value, value}});
+  }
+  store.Append(records);
+  const std::vector<Record> loaded = ResultStore::Read(folder.path()).Load();
+  ASSERT_EQ(loaded.size(), records.size());
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    for (const double value : loaded[i].values) EXPECT_EQ(Bits(value), Bits(values[i])) << i;
+  }
+  EXPECT_EQ(TrialHash(loaded), TrialHash(records));
+}
+
+TEST(ResultStore, KeepsNanTextsFaultsAndOrder) {
+  const TemporaryFolder folder;
+  ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 5);
+  const std::string detail = "quote ' and \" and\nline, \xc3\xa4, DROP TABLE trials;--";
+  store.Append(std::vector<Record>{
+      {4, TrialOutcome::kTipOver, detail, {1.0, std::nan(""), 2.0}},
+      {0, TrialOutcome::kSimulatorFault, "blew up", {}},
+  });
+  const std::vector<Record> loaded = store.Load();
+  ASSERT_EQ(loaded.size(), 2U);
+  EXPECT_EQ(loaded[0].trial, 0U);
+  EXPECT_EQ(loaded[0].outcome, TrialOutcome::kSimulatorFault);
+  EXPECT_TRUE(loaded[0].values.empty());
+  EXPECT_EQ(loaded[1].trial, 4U);
+  EXPECT_EQ(loaded[1].detail, detail);
+  EXPECT_TRUE(std::isnan(loaded[1].values[1]));
+  EXPECT_EQ(loaded[1].values[2], 2.0);
+}
+
+TEST(ResultStore, KeepsIdentityAndPlan) {
+  const TemporaryFolder folder;
+  const RunIdentity identity = FakeIdentity(18446744073709551615ULL);
+  ResultStore store = ResultStore::Create(folder.path(), identity, 7);
+  store.SetPlanned(9);
+  const ResultStore read = ResultStore::Read(folder.path());
+  EXPECT_EQ(read.planned(), 9);
+  EXPECT_EQ(read.identity().scenario, identity.scenario);
+  EXPECT_EQ(read.identity().fingerprint, identity.fingerprint);
+  EXPECT_EQ(read.identity().resolved, identity.resolved);
+  EXPECT_EQ(read.identity().seed, identity.seed);
+  EXPECT_EQ(read.identity().build, identity.build);
+  ASSERT_EQ(read.identity().schema.size(), identity.schema.size());
+  EXPECT_EQ(read.identity().schema[2].name, "odd \"name\"");
+  EXPECT_EQ(read.EndOfTrials(), 0);
+}
+
+TEST(ResultStore, KeepsTheFirstRecordOfATrial) {
+  const TemporaryFolder folder;
+  ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 3);
+  store.Append(std::vector<Record>{{1, TrialOutcome::kJammed, "first", {1.0, 1.0, 1.0}}});
+  store.Append(std::vector<Record>{{1, TrialOutcome::kNoPath, "second", {2.0, 2.0, 2.0}}});
+  ASSERT_EQ(store.Load().size(), 1U);
+  EXPECT_EQ(store.Load()[0].detail, "first");
+  EXPECT_EQ(store.EndOfTrials(), 2);
+}
+
+TEST(ResultStore, CanBeReadWhileItIsWritten) {
+  const TemporaryFolder folder;
+  ResultStore writer = ResultStore::Create(folder.path(), FakeIdentity(), 3);
+  const ResultStore reader = ResultStore::Read(folder.path());
+  EXPECT_TRUE(reader.Load().empty());
+  writer.Append(std::vector<Record>{FakeRecord(1, 0)});
+  EXPECT_EQ(reader.Load().size(), 1U);
+}
+
+TEST(ResultStore, TakesOddFolderNames) {
+  const TemporaryFolder folder;
+  const auto odd = folder.path() / "a b?c#d%20'e";
+  std::filesystem::create_directories(odd);
+  ResultStore::Create(odd, FakeIdentity(), 1).Append(std::vector<Record>{FakeRecord(1, 0)});
+  EXPECT_TRUE(std::filesystem::exists(odd / "results.sqlite"));
+  EXPECT_EQ(ResultStore::Read(odd).Load().size(), 1U);
+}
+
+TEST(ContiguousPrefix, EndsAtTheFirstMissingTrial) {
+  const std::vector<Record> records = {FakeRecord(1, 0), FakeRecord(1, 1), FakeRecord(1, 3)};
+  EXPECT_EQ(ContiguousPrefix(records).size(), 2U);
+  EXPECT_TRUE(ContiguousPrefix(std::span(records).subspan(2)).empty());
+}
+
+TEST(TrialHash, SeesEveryNumberAndNoSentence) {
+  std::vector<Record> records = {FakeRecord(1, 0), FakeRecord(1, 1)};
+  const std::string hash = TrialHash(records);
+  records[0].detail = "told otherwise";
+  EXPECT_EQ(TrialHash(records), hash);
+  records[1].values[2] = 0.0;  // was -0.0
+  EXPECT_NE(TrialHash(records), hash);
+  records[1].values[2] = -0.0;
+  EXPECT_EQ(TrialHash(records), hash);
+  records[0].outcome = TrialOutcome::kJammed;
+  EXPECT_NE(TrialHash(records), hash);
+  EXPECT_NE(TrialHash(std::span(records).first(1)), hash);
+}
+
+}  // namespace
+}  // namespace rockyard::batch

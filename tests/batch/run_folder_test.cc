@@ -1,0 +1,86 @@
+#include "batch/run_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "batch/result_store.h"
+#include "batch/store_error.h"
+#include "fake_experiment.h"
+
+namespace rockyard::batch {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(FolderClaim, IsExclusiveAndEnds) {
+  const TemporaryFolder folder;
+  {
+    const FolderClaim claim(folder.path());
+    try {
+      const FolderClaim second(folder.path());
+      FAIL() << "two claims on one folder";
+    } catch (const StoreError& error) {
+      EXPECT_EQ(error.problem(), StoreProblem::kInUse);
+      EXPECT_EQ(error.problems().front().path, folder.path().string());
+    }
+  }
+  EXPECT_NO_THROW(FolderClaim(folder.path()));
+  EXPECT_TRUE(fs::is_empty(folder.path())) << "a claim leaves nothing behind";
+}
+
+TEST(FolderClaim, MakesFoldersAndSaysWhyNot) {
+  const TemporaryFolder folder;
+  { const FolderClaim claim(folder.path() / "a" / "b"); }
+  EXPECT_TRUE(fs::is_directory(folder.path() / "a" / "b"));
+  std::ofstream(folder.path() / "file") << "x";
+  for (const fs::path& path : {folder.path() / "file", folder.path() / "file" / "below",
+                               fs::path("/proc/rockyard"), fs::path("/proc")}) {
+    try {
+      const FolderClaim claim(path);
+      FAIL() << path;
+    } catch (const StoreError& error) {
+      EXPECT_EQ(error.problem(), StoreProblem::kUnwritable) << path;
+    }
+  }
+}
+
+TEST(SetStoreAside, KeepsEveryTrial) {
+  const TemporaryFolder folder;
+  std::vector<fs::path> kept;
+  for (int generation = 0; generation < 3; ++generation) {
+    ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 5);
+    for (int i = 0; i <= generation; ++i) {
+      store.Append(std::vector<truth::Record>{FakeRecord(1, static_cast<std::uint64_t>(i))});
+    }
+    // The store is still open, so that its last trials are in the log alone.
+    kept.push_back(SetStoreAside(folder.path()));
+    EXPECT_FALSE(HoldsStore(folder.path()));
+  }
+  for (std::size_t generation = 0; generation < kept.size(); ++generation) {
+    const TemporaryFolder restored;
+    for (const char* suffix : {"", "-wal"}) {
+      if (!fs::exists(kept[generation].string() + suffix)) continue;
+      fs::copy(kept[generation].string() + suffix, StorePath(restored.path()).string() + suffix);
+    }
+    EXPECT_EQ(ResultStore::Read(restored.path()).Load().size(), generation + 1);
+  }
+}
+
+TEST(FindRuns, TakesARunOrAFolderOfRuns) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(FindRuns(folder.path()), StoreError);
+  EXPECT_THROW(FindRuns(folder.path() / "nowhere"), StoreError);
+  for (const char* name : {"b", "a"}) {
+    fs::create_directories(folder.path() / name);
+    ResultStore::Create(folder.path() / name, FakeIdentity(), 1);
+  }
+  fs::create_directories(folder.path() / "empty");
+  EXPECT_THAT(FindRuns(folder.path()),
+              testing::ElementsAre(folder.path() / "a", folder.path() / "b"));
+  EXPECT_THAT(FindRuns(folder.path() / "a"), testing::ElementsAre(folder.path() / "a"));
+}
+
+}  // namespace
+}  // namespace rockyard::batch

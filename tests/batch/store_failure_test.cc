@@ -1,0 +1,194 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <string>
+
+#include "batch/result_store.h"
+#include "batch/run_folder.h"
+#include "batch/sqlite_database.h"
+#include "batch/store_error.h"
+#include "fake_experiment.h"
+
+namespace rockyard::batch {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using truth::Record;
+
+template <typename Action>
+std::optional<StoreError> ErrorOf(Action action) {
+  try {
+    action();
+  } catch (const StoreError& error) {
+    return error;
+  }
+  return std::nullopt;
+}
+
+// Every message names the file or folder, and says what to do.
+void ExpectError(const std::optional<StoreError>& error, StoreProblem problem,
+                 const fs::path& path) {
+  ASSERT_TRUE(error.has_value());
+  EXPECT_EQ(error->problem(), problem) << error->what();
+  EXPECT_THAT(error->problems().front().path, HasSubstr(path.string()));
+  EXPECT_FALSE(error->problems().front().reason.empty());
+  EXPECT_FALSE(error->problems().front().suggestion.empty());
+}
+
+std::string ReadFile(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void WriteFile(const fs::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+class DamagedStore : public testing::Test {
+ protected:
+  DamagedStore() {
+    ResultStore store = ResultStore::Create(folder_.path(), FakeIdentity(), 400);
+    std::vector<Record> records;
+    for (std::uint64_t i = 0; i < 400; ++i) records.push_back(FakeRecord(1, i));
+    store.Append(records);
+  }
+
+  void ExpectRefused() {
+    const auto read = ErrorOf([&] { ResultStore::Read(folder_.path()).Load(); });
+    ExpectError(read, StoreProblem::kDamaged, StorePath(folder_.path()));
+    const auto resume =
+        ErrorOf([&] { ResultStore::Resume(folder_.path(), FakeIdentity()).Load(); });
+    ExpectError(resume, StoreProblem::kDamaged, StorePath(folder_.path()));
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(DamagedStore, IsFineBefore) {
+  EXPECT_EQ(ResultStore::Resume(folder_.path(), FakeIdentity()).Load().size(), 400U);
+}
+
+TEST_F(DamagedStore, NoDatabase) {
+  WriteFile(StorePath(folder_.path()), std::string(5000, 'x'));
+  ExpectRefused();
+}
+
+TEST_F(DamagedStore, Empty) {
+  WriteFile(StorePath(folder_.path()), "");
+  ExpectRefused();
+}
+
+TEST_F(DamagedStore, CutOffAnywhere) {
+  const fs::path path = StorePath(folder_.path());
+  const std::string whole = ReadFile(path);
+  ASSERT_GT(whole.size(), 20000U);
+  for (const std::size_t size : {whole.size() / 2, whole.size() - 1000, std::size_t{4096},
+                                 std::size_t{100}, std::size_t{10}}) {
+    WriteFile(path, whole.substr(0, size));
+    SCOPED_TRACE(size);
+    ExpectRefused();
+  }
+}
+
+TEST_F(DamagedStore, OverwrittenPage) {
+  const fs::path path = StorePath(folder_.path());
+  std::string text = ReadFile(path);
+  text.replace(text.size() / 2 / 4096 * 4096, 4096, std::string(4096, '\x7f'));
+  WriteFile(path, text);
+  ExpectRefused();
+}
+
+TEST_F(DamagedStore, AnotherDatabase) {
+  const fs::path path = StorePath(folder_.path());
+  fs::remove(path);
+  SqliteDatabase(path, Access::kCreate).Execute("CREATE TABLE recipes(name)");
+  ExpectRefused();
+}
+
+TEST_F(DamagedStore, ImpossibleContents) {
+  const fs::path path = StorePath(folder_.path());
+  const std::string whole = ReadFile(path);
+  for (const char* sql : {"UPDATE trials SET outcome = 'flew away' WHERE trial = 17",
+                          "UPDATE trials SET true_distance_m = 'far' WHERE trial = 17",
+                          "UPDATE trials SET trial = -3 WHERE trial = 17",
+                          "UPDATE meta SET value = 'many' WHERE key = 'planned'",
+                          "DELETE FROM meta WHERE key = 'seed'", "DROP TABLE columns"}) {
+    WriteFile(path, whole);
+    SqliteDatabase(path, Access::kChange).Execute(sql);
+    SCOPED_TRACE(sql);
+    ExpectRefused();
+  }
+}
+
+TEST_F(DamagedStore, NewerVersion) {
+  SqliteDatabase(StorePath(folder_.path()), Access::kChange)
+      .Execute("UPDATE meta SET value = '99' WHERE key = 'schema_version'");
+  ExpectError(ErrorOf([&] { ResultStore::Read(folder_.path()); }), StoreProblem::kMismatch,
+              StorePath(folder_.path()));
+}
+
+TEST(StoreFailure, NothingToReadAndNothingToOverwrite) {
+  const TemporaryFolder folder;
+  ExpectError(ErrorOf([&] { ResultStore::Read(folder.path()); }), StoreProblem::kMissing,
+              StorePath(folder.path()));
+  ResultStore::Create(folder.path(), FakeIdentity(), 1)
+      .Append(std::vector<Record>{FakeRecord(1, 0)});
+  ExpectError(ErrorOf([&] { ResultStore::Create(folder.path(), FakeIdentity(), 1); }),
+              StoreProblem::kExists, StorePath(folder.path()));
+  EXPECT_EQ(ResultStore::Read(folder.path()).Load().size(), 1U);
+}
+
+TEST(StoreFailure, FolderThatTakesNoFiles) {
+  // As root permissions do not bind; /proc refuses everybody.
+  const auto error = ErrorOf([] { ResultStore::Create("/proc", FakeIdentity(), 1); });
+  ExpectError(error, StoreProblem::kUnwritable, "/proc");
+}
+
+TEST(StoreFailure, LockedByAnotherProgram) {
+  const TemporaryFolder folder;
+  ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 2);
+  SqliteDatabase other(StorePath(folder.path()), Access::kChange);
+  SqliteTransaction transaction(other);
+  const auto error = ErrorOf([&] { store.Append(std::vector<Record>{FakeRecord(1, 0)}); });
+  ExpectError(error, StoreProblem::kInUse, StorePath(folder.path()));
+  transaction.Commit();
+  store.Append(std::vector<Record>{FakeRecord(1, 0)});
+  EXPECT_EQ(store.Load().size(), 1U);
+}
+
+TEST(ResumeMismatch, NamesEveryDifference) {
+  const TemporaryFolder folder;
+  ResultStore::Create(folder.path(), FakeIdentity(), 2);
+  RunIdentity wanted = FakeIdentity(5);
+  wanted.fingerprint = "1234";
+  wanted.resolved = "{\"name\": \"other\", \"trials\": 99, \"terrain\": {\"k\": 0.013}}";
+  wanted.build = "0.2.0 def";
+  const auto error = ErrorOf([&] { ResultStore::Resume(folder.path(), wanted); });
+  ExpectError(error, StoreProblem::kMismatch, StorePath(folder.path()));
+  const std::string text = error->what();
+  EXPECT_THAT(text, HasSubstr("terrain.k: is 0.00415 in the stored run and 0.013 now"));
+  EXPECT_THAT(text, HasSubstr("seed: is 1 in the stored run and 5 now"));
+  EXPECT_THAT(text, HasSubstr("build: was \"0.1.0 abc\", is \"0.2.0 def\" now"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("trials: ")));
+}
+
+TEST(ResumeMismatch, AnotherBuildOnRequestOnly) {
+  const TemporaryFolder folder;
+  ResultStore::Create(folder.path(), FakeIdentity(), 2);
+  RunIdentity wanted = FakeIdentity();
+  wanted.build = "0.2.0 def";
+  ExpectError(ErrorOf([&] { ResultStore::Resume(folder.path(), wanted); }), StoreProblem::kMismatch,
+              StorePath(folder.path()));
+  const ResultStore store = ResultStore::Resume(folder.path(), wanted, BuildPolicy::kAny);
+  EXPECT_THAT(store.Builds(), testing::ElementsAre("0.1.0 abc", "0.2.0 def"));
+  // Mixed from now on: the first build alone would not be the whole truth either.
+  ExpectError(ErrorOf([&] { ResultStore::Resume(folder.path(), FakeIdentity()); }),
+              StoreProblem::kMismatch, StorePath(folder.path()));
+}
+
+}  // namespace
+}  // namespace rockyard::batch
