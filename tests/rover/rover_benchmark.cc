@@ -3,13 +3,12 @@
 // rover drives, backs off and turns in a fixed pattern, so that it goes on whatever it meets.
 #include <benchmark/benchmark.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
 
-#include "core/distributions.h"
 #include "core/hash.h"
-#include "core/random.h"
 #include "rover_drive.h"
 
 namespace rockyard::rover {
