@@ -20,8 +20,8 @@ struct MotionCommand {
 
 // Set points of the drive and steering motors, held until the next command.
 struct WheelCommand {
-  PerWheel<double> rate_rad_s{};   // positive rolls forward
-  PerWheel<double> steer_rad{};    // positive steers left (about +z)
+  PerWheel<double> rate_rad_s{};  // positive rolls forward
+  PerWheel<double> steer_rad{};   // positive steers left (about +z)
 };
 
 }  // namespace rockyard::messages

@@ -30,10 +30,10 @@ struct SuccessComparison {
   std::string what;  // "declared success" or "true success"
   statistics::Proportion first;
   statistics::Proportion second;
-  double difference = 0.0;        // rate of the second less rate of the first
+  double difference = 0.0;          // rate of the second less rate of the first
   statistics::Interval interval{};  // 95 %, of the difference
-  double p_value = 1.0;           // McNemar where paired, else Fisher; both exact
-  PairedCounts counts;            // zero where not paired
+  double p_value = 1.0;             // McNemar where paired, else Fisher; both exact
+  PairedCounts counts;              // zero where not paired
 };
 
 struct ColumnComparison {
@@ -42,7 +42,7 @@ struct ColumnComparison {
   std::int64_t count = 0;  // pairs with two finite values (not paired: the smaller sample)
   double first_mean = 0.0;
   double second_mean = 0.0;
-  double difference = 0.0;        // of the means, second less first
+  double difference = 0.0;          // of the means, second less first
   statistics::Interval interval{};  // 95 %, of the difference
 };
 

@@ -16,8 +16,8 @@ enum class Side : std::size_t { kLeft, kRight };
 
 struct RoverGeometry {
   messages::PerWheel<math::Vector3> wheel_R;  // wheel centres, m
-  messages::PerWheel<bool> steered;
-  messages::PerWheel<bool> on_bogie;            // otherwise on the rocker
+  messages::PerWheel<bool> steered{};
+  messages::PerWheel<bool> on_bogie{};          // otherwise on the rocker
   std::array<math::Vector3, 2> rocker_pivot_R;  // by Side
   std::array<math::Vector3, 2> bogie_pivot_R;
 };

@@ -59,6 +59,7 @@ std::vector<LayoutCount> Layouts(const PublishedValue& published, const Scenario
     if (Contains(published.outcomes, record.outcome)) ++layout.successes;
   }
   std::vector<LayoutCount> counts;
+  counts.reserve(layouts.size());
   for (const auto& [layout, count] : layouts) counts.push_back(count);
   return counts;
 }
@@ -156,6 +157,7 @@ std::vector<double> AlternativeShares(const std::vector<std::int64_t>& simulated
   double total = 0.0;
   for (const std::int64_t count : simulated) total += static_cast<double>(count) + 0.5;
   std::vector<double> shares;
+  shares.reserve(simulated.size());
   for (const std::int64_t count : simulated) {
     shares.push_back((static_cast<double>(count) + 0.5) / total);
   }

@@ -65,7 +65,8 @@ double RoughnessField::SlopeBound(const Octave& octave) {
   double along_x = 0.0;
   double along_y = 0.0;
   const auto at = [&octave](int column, int row) {
-    return octave.coefficients_m[static_cast<std::size_t>(row % kNodes * kNodes + column % kNodes)];
+    const int index = row % kNodes * kNodes + column % kNodes;
+    return octave.coefficients_m[static_cast<std::size_t>(index)];
   };
   for (int row = 0; row < kNodes; ++row) {
     for (int column = 0; column < kNodes; ++column) {

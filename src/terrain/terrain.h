@@ -64,7 +64,7 @@ class Terrain {
  private:
   // The surface that a ray meets first, as far as it is known.
   struct Nearest {
-    double distance_m;
+    double distance_m = 0.0;
     std::optional<Surface> surface;
     int index = -1;  // of the rock or wall
   };
