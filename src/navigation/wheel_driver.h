@@ -25,6 +25,9 @@ class WheelDriver {
   // Set points for the next tick of duration_s.
   messages::WheelCommand Tick(const messages::MotionCommand& motion, double duration_s);
 
+  // Operators put the rover down with straight wheels.
+  void Straighten() { believed_steer_rad_.fill(0.0); }
+
   // True while the rover stands to steer.
   bool steering() const { return steering_; }
 

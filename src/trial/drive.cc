@@ -180,6 +180,7 @@ void Drive::ReflectAtMirrorLine() {
   ++reflections_;
   Record("reflection", "");
   rover_->Place(reflection->pose);
+  wheel_driver_.Straighten();
   dead_reckoning_.Apply(reflection->update);
   motion_sensors_->Resume(rover_->state());
   monitor_.Restart(rover_->state());
