@@ -1,19 +1,17 @@
-// Uses headers and code of several modules of an installed rockyard.
+// Drives one trial of the default scenario through an installed rockyard, twice: the same record.
 #include <cstdio>
 
-#include "core/random.h"
-#include "navigation/navigator.h"
-#include "truth/rover_state.h"
+#include "experiments/experiment.h"
+#include "scenario/scenario.h"
+#include "truth/record.h"
 
 int main() {
-  // Known answer of Philox 4x32-10 for the zero counter under the zero key (Random123,
-  // kat_vectors).
-  const auto block = rockyard::core::Philox4x32({}, {});
-  const rockyard::navigation::NavigatorDecision decision;
-  const rockyard::truth::RoverState state;
-  const bool right = block[0] == 0x6627e8d5U &&
-                     decision.status == rockyard::navigation::NavigatorStatus::kDriving &&
-                     state.contacts.empty();
-  std::puts(right ? "consumer: ok" : "consumer: wrong values");
-  return right ? 0 : 1;
+  const rockyard::scenario::Scenario scenario;
+  const auto experiment = rockyard::experiments::MakeExperiment(scenario);
+  const auto first = experiment->Run(1, 0);
+  const auto again = experiment->Run(1, 0);
+  const bool same = first.outcome == again.outcome && first.values.size() == again.values.size();
+  const bool ran = first.outcome != rockyard::truth::TrialOutcome::kSimulatorFault;
+  std::puts(same && ran ? "consumer: ok" : "consumer: the trial failed");
+  return same && ran ? 0 : 1;
 }
