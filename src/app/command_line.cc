@@ -6,12 +6,15 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/terrain_command.h"
 #include "core/error.h"
 #include "core/provenance.h"
+#include "core/spelling.h"
 
 namespace rockyard::app {
 namespace {
@@ -47,6 +50,18 @@ std::string HelpCommand(const CLI::App& app) {
   return chosen.empty() ? "rockyard --help" : "rockyard " + chosen.front()->get_name() + " --help";
 }
 
+// The parser alone would say that a subcommand is missing, not that the one given is unknown.
+core::Problem Explain(const CLI::App& app, const CLI::ParseError& error, std::string_view first) {
+  if (!app.get_subcommands().empty() || first.empty() || first.front() == '-') {
+    return {"command line", error.what(), HelpCommand(app)};
+  }
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  const std::vector<std::string_view> candidates(names.begin(), names.end());
+  return {"command line", fmt::format("\"{}\" is no subcommand", first),
+          core::Suggest(first, candidates)};
+}
+
 ExitCode Parse(CLI::App& app, int argc, const char* const* argv, const ExitCode& exit_code) {
   try {
     app.parse(argc, argv);
@@ -55,7 +70,7 @@ ExitCode Parse(CLI::App& app, int argc, const char* const* argv, const ExitCode&
     app.exit(request);
     return ExitCode::kDone;
   } catch (const CLI::ParseError& error) {
-    PrintProblems({{"command line", error.what(), HelpCommand(app)}});
+    PrintProblems({Explain(app, error, argc > 1 ? argv[1] : "")});
     return ExitCode::kBadInput;
   } catch (const core::UserError& error) {
     PrintProblems(error.problems());

@@ -49,12 +49,17 @@ std::string About(const fs::path& file) {
   }
 }
 
+// Names are relative to the folder, so that there is room for what they are.
 void List(const std::string& folder) {
   const std::vector<fs::path> files = JsonFiles(folder);
   std::size_t widest = 0;
-  for (const fs::path& file : files) widest = std::max(widest, file.string().size());
   for (const fs::path& file : files) {
-    std::string line = fmt::format("{:<{}}  {}", file.string(), widest, About(file));
+    widest = std::max(widest, file.lexically_relative(folder).string().size());
+  }
+  Print(fmt::format("in {}:\n", folder));
+  for (const fs::path& file : files) {
+    std::string line =
+        fmt::format("{:<{}}  {}", file.lexically_relative(folder).string(), widest, About(file));
     if (line.size() > kWidth) line = line.substr(0, kWidth - 3) + "...";
     Print(line + "\n");
   }

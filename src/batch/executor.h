@@ -31,7 +31,7 @@ struct Progress {
   std::int64_t finished = 0;         // all that are finished, in any order
   std::int64_t finished_before = 0;  // of these, in earlier sessions
   std::int64_t faults = 0;           // of all finished
-  PrefixCounts prefix;               // what rates may be shown of
+  PrefixCounts prefix{};             // what rates may be shown of
   double elapsed_s = 0.0;            // of this session, wall clock
 };
 using ProgressReport = std::function<void(const Progress&)>;

@@ -17,8 +17,8 @@ std::string Percent(const statistics::Proportion& rate) {
 
 std::string SuccessLines(const SuccessComparison& success, bool paired) {
   std::string text = fmt::format(
-      "  {:<17} A {:<22} B {:<22} B - A {:+.1f} ({:+.1f} .. {:+.1f}) points\n", success.what,
-      Percent(success.first), Percent(success.second), 100.0 * success.difference,
+      "  {:<17} A {:<26} B {}\n  {:<17} B - A {:+.1f} points (95 % interval {:+.1f} .. {:+.1f})\n",
+      success.what, Percent(success.first), Percent(success.second), "", 100.0 * success.difference,
       100.0 * success.interval.low, 100.0 * success.interval.high);
   const PairedCounts& counts = success.counts;
   if (paired) {

@@ -1,0 +1,110 @@
+// What is typed or written wrong: exit code 2, a reason with its place, nothing written.
+#include <gmock/gmock.h>
+
+#include "app/command.h"
+
+namespace rockyard::app {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class CliErrors : public CommandTest {
+ protected:
+  void ExpectRefused(const std::vector<std::string>& words, const std::string& where) {
+    const CommandResult result = Run(words);
+    SCOPED_TRACE(testing::PrintToString(words));
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, AllOf(HasSubstr("error: "), HasSubstr(where), HasSubstr("  try: ")));
+    EXPECT_EQ(result.out, "");
+    EXPECT_TRUE(NothingWritten());
+  }
+};
+
+TEST_F(CliErrors, Arguments) {
+  ExpectRefused({}, "subcommand");
+  ExpectRefused({"fly"}, "\"fly\" is no subcommand");
+  ExpectRefused({"chekc", "a"}, "did you mean \"check\"");
+  ExpectRefused({"run"}, "SCENARIO");
+  ExpectRefused({"run", Scenario("nominal"), "--trails", "3"}, "--trails");
+  ExpectRefused({"run", Scenario("nominal"), "--trials", "many"}, "--trials");
+  ExpectRefused({"run", Scenario("nominal"), "--trials", "99999999999999999999999"}, "trials");
+  ExpectRefused({"run", Scenario("nominal"), "--trials"}, "--trials");
+  ExpectRefused({"run", Scenario("nominal"), "--threads", "0"}, "--threads");
+  ExpectRefused({"run", Scenario("nominal"), "--threads", "1000000"}, "--threads");
+  ExpectRefused({"run", Scenario("nominal"), "--interval", "wald"}, "--interval");
+  ExpectRefused({"run", Scenario("nominal"), "--max-faults", "2"}, "--max-faults");
+  ExpectRefused({"run", Scenario("nominal"), "--json", "--quiet"}, "--quiet");
+  ExpectRefused({"check", "somewhere"}, "--against");
+  ExpectRefused({"compare", "one"}, "RUN_B");
+}
+
+TEST_F(CliErrors, ScenarioValues) {
+  ExpectRefused({"run", "missing.json"}, "missing.json");
+  ExpectRefused({"run", "/dev/null"}, "/dev/null");
+  ExpectRefused({"run", work().string()}, "results.sqlite");
+  ExpectRefused({"run", Scenario("nominal"), "--trials", "0"}, "trials");
+  ExpectRefused({"run", Scenario("nominal"), "--trials", "-5"}, "trials");
+  ExpectRefused({"run", Scenario("nominal"), "--trials", "2000000000"}, "trials");
+  ExpectRefused({"run", Scenario("nominal"), "--seed", "-1"}, "seed");
+  ExpectRefused({"run", Scenario("nominal"), "--set", "terrain"}, "terrain");
+  ExpectRefused({"run", Scenario("nominal"), "--set", "terrain.rocks.k=1"}, "terrain.rocks.k");
+  ExpectRefused({"run", Scenario("nominal"), "--set", "course.goal_x_m=\"far\""},
+                "course.goal_x_m");
+  ExpectRefused({"run", Scenario("nominal"), "--set", "course.goal_x_m=1e308"}, "course.goal_x_m");
+  ExpectRefused({"run", Scenario("nominal"), "--set", "=3"}, "path");
+  ExpectRefused({"validate", "missing.json", Scenario("nominal") + "x"}, "missing.json");
+  ExpectRefused({"list", "nowhere"}, "nowhere");
+  ExpectRefused({"parameters", "missing.json"}, "missing.json");
+}
+
+TEST_F(CliErrors, AllProblemsAtOnce) {
+  const CommandResult result =
+      Run({"run", Scenario("nominal"), "--trials", "0", "--set", "referee.time_limit_s=-1", "--set",
+           "terrain.ground.sloap_deg=3"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err,
+              AllOf(HasSubstr("error: trials:"), HasSubstr("error: referee.time_limit_s:"),
+                    HasSubstr("error: terrain.ground.sloap_deg:"), HasSubstr("slope_deg")));
+}
+
+TEST_F(CliErrors, MalformedFiles) {
+  const std::string texts[] = {"",
+                               "{",
+                               "[]",
+                               "null",
+                               "{\"name\": 1}",
+                               "{\"name\": \"a\", \"name\": \"b\"}",
+                               "{\"extends\": \"../scenario.json\"}",
+                               std::string(100000, '['),
+                               std::string("\x00\xff\xfe", 3),
+                               "{\"trials\": 1e999}"};
+  const auto file = work().parent_path() / "scenario.json";
+  for (const std::string& text : texts) {
+    WriteFile(file, text);
+    ExpectRefused({"run", file.string()}, "error: ");
+  }
+}
+
+TEST_F(CliErrors, ControlCharactersDoNotReachTheTerminal) {
+  const CommandResult result = Run({"run", "evil\x1b[31m\nname.json"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.err.find('\x1b'), std::string::npos);
+}
+
+TEST_F(CliErrors, FoldersThatCannotBeWritten) {
+  for (const char* folder : {"/proc/run", "/proc", "/dev/null", "/dev/null/run"}) {
+    ExpectRefused(QuickRun(folder, 2), folder);
+  }
+}
+
+TEST_F(CliErrors, CheckAndCompareWithoutRuns) {
+  const std::string reference =
+      std::string(ROCKYARD_SOURCE_DIR) + "/results/reference/matthies1995.json";
+  ExpectRefused({"check", "nowhere", "--against", reference}, "nowhere");
+  ExpectRefused({"check", "nowhere", "--against", Scenario("nominal")}, "error: ");
+  ExpectRefused({"compare", "nowhere", "elsewhere"}, "nowhere");
+}
+
+}  // namespace
+}  // namespace rockyard::app

@@ -1,0 +1,93 @@
+// The subcommands beside run.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "app/command.h"
+
+namespace rockyard::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+using CliTools = CommandTest;
+
+TEST_F(CliTools, VersionAndHelp) {
+  const CommandResult version = Run({"--version"});
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_THAT(version.out, StartsWith("rockyard "));
+  EXPECT_THAT(version.out, HasSubstr("commit"));
+  EXPECT_THAT(version.out, HasSubstr("flags"));
+  const CommandResult help = Run({"--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  for (const char* name : {"run", "check", "compare", "terrain", "validate", "defaults", "schema",
+                           "list", "parameters"}) {
+    EXPECT_THAT(help.out, HasSubstr(name));
+    EXPECT_EQ(Run({name, "--help"}).exit_code, 0) << name;
+  }
+}
+
+TEST_F(CliTools, DefaultsAreAValidScenario) {
+  WriteFile(work() / "defaults.json", Run({"defaults"}).out);
+  const CommandResult result = Run({"validate", "defaults.json", Scenario("nominal")});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("defaults.json: valid"));
+  EXPECT_EQ(json::parse(Run({"schema"}).out)["type"], "object");
+}
+
+TEST_F(CliTools, ListFitsTheTerminal) {
+  const CommandResult result = Run({"list", std::string(ROCKYARD_SOURCE_DIR) + "/scenarios"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, HasSubstr("pathfinder/nominal.json"));
+  EXPECT_THAT(result.out, HasSubstr("pathfinder/obstacles_0.28.json"));
+  std::istringstream lines(result.out);
+  std::string line;
+  std::getline(lines, line);  // the folder
+  while (std::getline(lines, line)) EXPECT_LE(line.size(), 100U) << line;
+}
+
+TEST_F(CliTools, ParametersAsTableAndCsv) {
+  const CommandResult csv =
+      Run({"parameters", Scenario("nominal"), "--csv", "--origin", "assumed"});
+  EXPECT_EQ(csv.exit_code, 0) << csv.err;
+  EXPECT_THAT(csv.out, StartsWith("path,kind,value"));
+  EXPECT_THAT(csv.out, HasSubstr("referee.time_limit_s"));
+  EXPECT_EQ(Run({"parameters", "--origin", "guessed"}).exit_code, 2);
+  EXPECT_THAT(Run({"parameters"}).out, HasSubstr("| "));
+}
+
+TEST_F(CliTools, CompareAndCheck) {
+  ASSERT_EQ(Run(QuickRun("runs/a", 3)).exit_code, 0);
+  ASSERT_EQ(Run(With(QuickRun("other/b", 3), {"--set", "name=b"})).exit_code, 0);
+  const CommandResult compare = Run({"compare", "runs/a", "other/b"});
+  EXPECT_EQ(compare.exit_code, 0) << compare.err;
+  EXPECT_THAT(compare.out, HasSubstr("3 pairs"));
+
+  const std::string reference =
+      std::string(ROCKYARD_SOURCE_DIR) + "/results/reference/matthies1995.json";
+  const CommandResult check = Run({"check", "runs", "other/b", "--against", reference, "--junit",
+                                   "junit.xml", "--csv", "table.csv", "--replicates", "200"});
+  // Three trials that all end after one second: whether that differs is not the question here.
+  EXPECT_THAT((std::vector<int>{0, 1, 4}), testing::Contains(check.exit_code)) << check.err;
+  EXPECT_THAT(check.out, HasSubstr("nominal"));
+  EXPECT_THAT(ReadFile(work() / "junit.xml"), HasSubstr("<testsuite"));
+  EXPECT_THAT(ReadFile(work() / "table.csv"), StartsWith("id,scenario"));
+
+  ASSERT_EQ(Run(QuickRun("runs/again", 1)).exit_code, 0);
+  const CommandResult twice = Run({"check", "runs", "--against", reference});
+  EXPECT_EQ(twice.exit_code, 2);
+  EXPECT_THAT(twice.err, HasSubstr("is a run of nominal, and so is"));
+}
+
+TEST_F(CliTools, Terrain) {
+  const CommandResult result = Run({"terrain", Scenario("nominal"), "--out", "field.svg"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(ReadFile(work() / "field.svg"), HasSubstr("<svg"));
+}
+
+}  // namespace
+}  // namespace rockyard::app

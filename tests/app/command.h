@@ -1,0 +1,96 @@
+// Runs the real command and keeps what it says.
+#pragma once
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace rockyard::app {
+
+struct CommandResult {
+  int exit_code = -1;  // negative: the signal that ended it
+  std::string out;
+  std::string err;
+};
+
+inline std::string ReadFile(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+inline void WriteFile(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+// A test with a folder of its own, in which the command runs.
+class CommandTest : public testing::Test {
+ protected:
+  CommandTest()
+      : folder_(std::filesystem::temp_directory_path() /
+                ("rockyard-cli-" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(folder_ / "work");
+  }
+  ~CommandTest() override {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+
+  pid_t Start(std::vector<std::string> words) const {
+    words.insert(words.begin(), ROCKYARD_COMMAND);
+    const pid_t process = fork();
+    if (process != 0) return process;
+    Redirect(folder_ / "out", STDOUT_FILENO);
+    Redirect(folder_ / "err", STDERR_FILENO);
+    if (chdir(work().c_str()) != 0) _exit(126);
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    execv(arguments[0], arguments.data());
+    _exit(127);
+  }
+
+  CommandResult Wait(pid_t process) const {
+    int status = 0;
+    waitpid(process, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), ReadFile(folder_ / "out"),
+            ReadFile(folder_ / "err")};
+  }
+
+  CommandResult Run(const std::vector<std::string>& words) const { return Wait(Start(words)); }
+
+  std::filesystem::path work() const { return folder_ / "work"; }
+  bool NothingWritten() const { return std::filesystem::is_empty(work()); }
+
+  static std::string Scenario(const std::string& name) {
+    return std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/" + name + ".json";
+  }
+
+  // Trials that end after a second of simulated time: the command is under test, not the rover.
+  static std::vector<std::string> QuickRun(const std::string& out, int trials) {
+    return {"run",   Scenario("nominal"),      "--out",    out,
+            "--set", "referee.time_limit_s=1", "--trials", std::to_string(trials)};
+  }
+
+  static std::vector<std::string> With(std::vector<std::string> words,
+                                       const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+
+ private:
+  static void Redirect(const std::filesystem::path& path, int descriptor) {
+    const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    dup2(file, descriptor);
+  }
+
+  std::filesystem::path folder_;
+};
+
+}  // namespace rockyard::app

@@ -1,0 +1,54 @@
+#include "app/progress_line.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace rockyard::app {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(ProgressText, RatesOfThePrefixAlone) {
+  batch::Progress progress{.planned = 300,
+                           .finished = 120,
+                           .finished_before = 20,
+                           .faults = 3,
+                           .prefix = {.trials = 101, .faults = 1, .declared_successes = 90},
+                           .elapsed_s = 25.0};
+  EXPECT_EQ(ProgressText(progress),
+            "  120/300 done, 4/s, ETA 0:45, success 90.0 % (95 %: 82.6 .. 94.5 of 100), faults 3");
+}
+
+TEST(ProgressText, SaysNothingThatItDoesNotKnow) {
+  const std::string text = ProgressText({.planned = 10});
+  EXPECT_THAT(text, HasSubstr("0/10 done"));
+  EXPECT_THAT(text, Not(HasSubstr("ETA")));
+  EXPECT_THAT(text, Not(HasSubstr("success")));
+  EXPECT_THAT(text, Not(HasSubstr("nan")));
+}
+
+TEST(ProgressText, LongRuns) {
+  const batch::Progress progress{.planned = 1000000, .finished = 100, .elapsed_s = 100.0};
+  EXPECT_THAT(ProgressText(progress), HasSubstr("ETA 277:45:00"));
+}
+
+TEST(ProgressLine, PlainLinesOnAFile) {
+  std::FILE* file = std::tmpfile();
+  ASSERT_NE(file, nullptr);
+  ProgressLine line(file);
+  for (int i = 0; i <= 100; ++i) {
+    line.Show({.planned = 100, .finished = i, .elapsed_s = 0.1 * i});
+  }
+  line.Finish({.planned = 100, .finished = 100, .elapsed_s = 10.1});
+  std::rewind(file);
+  std::string text;
+  for (int c = std::fgetc(file); c != EOF; c = std::fgetc(file)) text += static_cast<char>(c);
+  std::fclose(file);
+  EXPECT_EQ(text.find('\r'), std::string::npos);
+  EXPECT_EQ(text.find('\x1b'), std::string::npos);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4);  // at 0, 5 and 10 s, and the end
+}
+
+}  // namespace
+}  // namespace rockyard::app

@@ -1,0 +1,100 @@
+#include "report/paired_comparison.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace rockyard::report {
+namespace {
+
+using testing::HasSubstr;
+using truth::Record;
+using truth::TrialOutcome;
+
+// `both` pairs that succeed in both runs, and so on; the second run drives 0.5 m farther.
+struct TwoRuns {
+  TwoRuns(int both, int only_first, int only_second, int neither) {
+    Add(both, TrialOutcome::kGoalReached, TrialOutcome::kGoalReached);
+    Add(only_first, TrialOutcome::kGoalReached, TrialOutcome::kNoPath);
+    Add(only_second, TrialOutcome::kJammed, TrialOutcome::kGoalReached);
+    Add(neither, TrialOutcome::kNoPath, TrialOutcome::kNoPath);
+  }
+  void Add(int count, TrialOutcome first, TrialOutcome second) {
+    for (int i = 0; i < count; ++i) {
+      const std::uint64_t trial = a.size();
+      const double distance = 7.0 + 0.01 * static_cast<double>(trial);
+      a.push_back({trial, first, "", {distance, 1.0}});
+      b.push_back({trial, second, "", {2.0, distance + 0.5}});
+    }
+  }
+  RunComparison Compare(std::uint64_t seed_b = 1) const {
+    return CompareRuns(First(), Second(seed_b));
+  }
+  ComparedRun First() const {
+    return {"a", 1, {{"true_distance_m", "m", ""}, {"only_a", "1", ""}}, a};
+  }
+  ComparedRun Second(std::uint64_t seed = 1) const {
+    return {"b", seed, {{"only_b", "1", ""}, {"true_distance_m", "m", ""}}, b};
+  }
+
+  std::vector<Record> a;
+  std::vector<Record> b;
+};
+
+TEST(CompareRuns, PairsByIndexWhereSeedsAreTheSame) {
+  const TwoRuns runs(30, 8, 1, 11);
+  const RunComparison result = runs.Compare();
+  EXPECT_TRUE(result.paired);
+  EXPECT_EQ(result.pairs, 50);
+  const SuccessComparison& success = result.successes[0];
+  EXPECT_EQ(success.counts.only_first, 8);
+  EXPECT_EQ(success.counts.only_second, 1);
+  EXPECT_DOUBLE_EQ(success.difference, -0.14);
+  EXPECT_DOUBLE_EQ(success.p_value, 2.0 * 10.0 / 512.0);  // 2 P(at most 1 of 9 heads)
+  // Agresti and Min: (-7 -+ 1.96 sqrt(10 - 49/52)) / 52.
+  EXPECT_NEAR(success.interval.low, -7.0 / 52.0 - 1.959964 * std::sqrt(10.0 - 49.0 / 52.0) / 52.0,
+              1e-6);
+  EXPECT_LT(success.interval.high, 0.0);
+}
+
+TEST(CompareRuns, ColumnsByNameWithPairedIntervals) {
+  const RunComparison result = TwoRuns(40, 0, 0, 0).Compare();
+  ASSERT_EQ(result.columns.size(), 1U) << "columns of both runs only";
+  EXPECT_EQ(result.columns[0].name, "true_distance_m");
+  EXPECT_NEAR(result.columns[0].difference, 0.5, 1e-12);
+  // Every pair differs by 0.5 m: no spread is left, though each run spreads over 0.4 m.
+  EXPECT_NEAR(result.columns[0].interval.low, 0.5, 1e-9);
+  EXPECT_NEAR(result.columns[0].interval.high, 0.5, 1e-9);
+}
+
+TEST(CompareRuns, OtherSeedsAreTwoSamples) {
+  const TwoRuns runs(30, 8, 1, 11);
+  const RunComparison result = runs.Compare(2);
+  EXPECT_FALSE(result.paired);
+  EXPECT_GT(result.successes[0].p_value, runs.Compare(1).successes[0].p_value);
+  EXPECT_LT(result.columns[0].interval.low, result.columns[0].interval.high);
+  EXPECT_NEAR(result.columns[0].difference, 0.5, 1e-12);
+}
+
+TEST(CompareRuns, LeavesOutFaultsAndWhatOnlyOneRunHas) {
+  TwoRuns runs(10, 0, 0, 0);
+  runs.a[3] = {3, TrialOutcome::kSimulatorFault, "", {}};
+  runs.b.resize(8);
+  EXPECT_EQ(runs.Compare().pairs, 7);
+}
+
+TEST(RunComparisonText, SaysWhetherItPairedAndFits) {
+  const TwoRuns runs(300, 80, 10, 110);
+  const std::string paired = RunComparisonText(runs.First(), runs.Second(), runs.Compare());
+  EXPECT_THAT(paired, HasSubstr("500 pairs"));
+  EXPECT_THAT(paired, HasSubstr("McNemar"));
+  std::istringstream lines(paired);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
+  const std::string two = RunComparisonText(runs.First(), runs.Second(2), runs.Compare(2));
+  EXPECT_THAT(two, HasSubstr("two samples"));
+  EXPECT_THAT(two, HasSubstr("Fisher"));
+}
+
+}  // namespace
+}  // namespace rockyard::report

@@ -1,0 +1,101 @@
+#include "report/run_csv.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdlib>
+#include <sstream>
+
+#include "report/csv.h"
+#include "sample_run.h"
+
+namespace rockyard::report {
+namespace {
+
+using Row = std::vector<std::string>;
+
+// A reader of its own for RFC 4180.
+std::vector<Row> Parse(const std::string& csv) {
+  std::vector<Row> rows;
+  Row row;
+  std::string field;
+  bool quoted = false;
+  for (std::size_t i = 0; i < csv.size(); ++i) {
+    const char c = csv[i];
+    if (quoted) {
+      if (c == '"' && i + 1 < csv.size() && csv[i + 1] == '"') {
+        field += csv[++i];
+      } else if (c == '"') {
+        quoted = false;
+      } else {
+        field += c;
+      }
+    } else if (c == '"') {
+      quoted = true;
+    } else if (c == ',' || c == '\n') {
+      row.push_back(std::exchange(field, ""));
+      if (c == '\n') rows.push_back(std::exchange(row, {}));
+    } else {
+      field += c;
+    }
+  }
+  EXPECT_TRUE(field.empty() && row.empty()) << "the last line has no end";
+  return rows;
+}
+
+double Number(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
+
+TEST(TrialsCsv, ReadsBackToTheSameRecords) {
+  std::vector<truth::Record> records = SampleRecords();
+  records[0].values[0] = 0.1 + 0.2;
+  records[0].detail = "a, \"b\"\nc";
+  const auto rows = Parse(TrialsCsv(SampleSchema(), records));
+  ASSERT_EQ(rows.size(), records.size() + 1);
+  EXPECT_EQ(rows[0].front(), "trial");
+  EXPECT_EQ(rows[0].back(), "detail");
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const Row& row = rows[i + 1];
+    ASSERT_EQ(row.size(), SampleSchema().size() + 3);
+    EXPECT_EQ(row[0], std::to_string(records[i].trial));
+    EXPECT_EQ(row[1], truth::Name(records[i].outcome));
+    EXPECT_EQ(row.back(), records[i].detail);
+    for (std::size_t j = 0; j < SampleSchema().size(); ++j) {
+      const bool defined = j < records[i].values.size() && std::isfinite(records[i].values[j]);
+      EXPECT_EQ(row[j + 2].empty(), !defined);
+      if (!defined) continue;
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(Number(row[j + 2])),
+                std::bit_cast<std::uint64_t>(records[i].values[j]));
+    }
+  }
+}
+
+// Ends at 4 (no path), 6 (time limit), 8 and 8 (goal), 9 (believed goal); the fault is left out.
+TEST(DistanceCdfCsv, ByHand) {
+  const auto rows = Parse(DistanceCdfCsv(SampleSchema(), SampleRecords()));
+  ASSERT_EQ(rows.size(), 5U);
+  const double distance[] = {4.0, 6.0, 8.0, 9.0};
+  const double ecdf[] = {0.2, 0.4, 0.8, 1.0};
+  // One competing event of five; one of four censored; then two of three, and the last.
+  const double goal[] = {0.0, 0.0, 0.8 * 2.0 / 3.0, 0.8};
+  const double failure[] = {0.2, 0.2, 0.2, 0.2};
+  const char* at_risk[] = {"5", "4", "3", "1"};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Row& row = rows[i + 1];
+    EXPECT_EQ(Number(row[0]), distance[i]);
+    EXPECT_DOUBLE_EQ(Number(row[1]), ecdf[i]);
+    EXPECT_LE(Number(row[2]), ecdf[i]);
+    EXPECT_GE(Number(row[3]), ecdf[i]);
+    EXPECT_NEAR(Number(row[4]), goal[i], 1e-12);
+    EXPECT_NEAR(Number(row[7]), failure[i], 1e-12);
+    EXPECT_EQ(row[8], at_risk[i]);
+  }
+}
+
+TEST(DistanceCdfCsv, WithoutDistancesOnlyTheHeader) {
+  EXPECT_EQ(Parse(DistanceCdfCsv({{"speed", "m/s", ""}}, {})).size(), 1U);
+  EXPECT_EQ(Parse(DistanceCdfCsv(SampleSchema(), {})).size(), 1U);
+}
+
+}  // namespace
+}  // namespace rockyard::report

@@ -1,0 +1,116 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "report/summary_json.h"
+#include "report/summary_text.h"
+#include "sample_run.h"
+#include "statistics/drive_summary.h"
+
+namespace rockyard::report {
+namespace {
+
+using nlohmann::json;
+using statistics::IntervalMethod;
+using testing::HasSubstr;
+
+statistics::DriveSummary Summary(IntervalMethod method = IntervalMethod::kWilson) {
+  return statistics::Summarize(SampleSchema(), SampleRecords(), 8, method);
+}
+
+TEST(SummaryJson, HasEveryMemberOfTheLayout) {
+  const json summary =
+      json::parse(SummaryJson(SampleDescription(), Summary(), IntervalMethod::kWilson));
+  EXPECT_EQ(summary["schema_version"], 1);
+  EXPECT_EQ(summary["scenario"], "sample");
+  EXPECT_EQ(summary["seed"], 9000000000000000001ULL);
+  EXPECT_EQ(summary["trials"],
+            json({{"planned", 8}, {"stored", 7}, {"completed", 6}, {"faults", 1}}));
+  EXPECT_EQ(summary["trial_hash"], "0123456789abcdef");
+  for (const char* key : {"version", "commit", "compiler", "flags", "host", "threads", "ranks"}) {
+    EXPECT_TRUE(summary["provenance"].contains(key)) << key;
+  }
+  EXPECT_EQ(summary["outcomes"].size(), truth::kTrialOutcomeNames.size());
+  EXPECT_EQ(summary["outcomes"]["goal_reached"], 2);
+  EXPECT_EQ(summary["outcomes"]["simulator_fault"], 1);
+  EXPECT_EQ(summary["outcomes"]["tip_over"], 0);
+}
+
+TEST(SummaryJson, RatesLeaveFaultsOut) {
+  const json summary =
+      json::parse(SummaryJson(SampleDescription(), Summary(), IntervalMethod::kWilson));
+  EXPECT_EQ(summary["declared_success"]["count"], 3);
+  EXPECT_EQ(summary["declared_success"]["trials"], 5);
+  EXPECT_DOUBLE_EQ(summary["declared_success"]["rate"], 0.6);
+  // Wilson, 3 of 5, z = 1.95996: (0.6 + z2/10 -+ z sqrt(0.24/5 + z2/100)) / (1 + z2/5).
+  EXPECT_NEAR(summary["declared_success"]["ci95"][0].get<double>(), 0.23072, 1e-5);
+  EXPECT_NEAR(summary["declared_success"]["ci95"][1].get<double>(), 0.88238, 1e-5);
+  EXPECT_EQ(summary["true_success"]["count"], 2);
+}
+
+TEST(SummaryJson, ClopperPearsonOnRequest) {
+  const auto method = IntervalMethod::kClopperPearson;
+  const json summary = json::parse(SummaryJson(SampleDescription(), Summary(method), method));
+  EXPECT_EQ(summary["declared_success"]["ci_method"], "clopper_pearson");
+  EXPECT_NEAR(summary["declared_success"]["ci95"][0].get<double>(), 0.14663, 1e-5);
+  EXPECT_NEAR(summary["declared_success"]["ci95"][1].get<double>(), 0.94726, 1e-5);
+}
+
+TEST(SummaryJson, ColumnsByHand) {
+  const json summary =
+      json::parse(SummaryJson(SampleDescription(), Summary(), IntervalMethod::kWilson));
+  EXPECT_EQ(summary["distance_m"]["count"], 5);
+  EXPECT_EQ(summary["distance_m"]["min"], 4.0);
+  EXPECT_EQ(summary["distance_m"]["median"], 8.0);
+  EXPECT_EQ(summary["distance_m"]["mean"], 7.0);
+  EXPECT_EQ(summary["distance_m"]["max"], 9.0);
+  EXPECT_EQ(summary["path_ratio"]["count"], 3);
+  EXPECT_DOUBLE_EQ(summary["path_ratio"]["max"], 9.0 / 7.6);
+  EXPECT_EQ(summary["dead_reckoning"]["heading_error_deg"]["count"], 4) << "one is undefined";
+  EXPECT_EQ(summary["sim_time_s"]["max"], 500.0);
+  EXPECT_EQ(summary["energy_wh"]["min"], 1.0);
+  EXPECT_EQ(summary["columns"]["rocks"]["max"], 8.0);
+  EXPECT_FALSE(summary["columns"].contains("true_distance_m"));
+}
+
+TEST(SummaryJson, NoTrialsAreNullNotZero) {
+  const auto none = statistics::Summarize(SampleSchema(), {}, 8);
+  const json summary = json::parse(SummaryJson(SampleDescription(), none, IntervalMethod::kWilson));
+  EXPECT_TRUE(summary["declared_success"]["rate"].is_null());
+  EXPECT_TRUE(summary["distance_m"]["mean"].is_null());
+  EXPECT_EQ(summary["distance_m"]["count"], 0);
+}
+
+TEST(ResolvedScenarioJson, HoldsScenarioAndProvenance) {
+  const json resolved = json::parse(ResolvedScenarioJson(SampleDescription()));
+  EXPECT_EQ(resolved["scenario"], json::parse(SampleDescription().resolved));
+  EXPECT_EQ(resolved["fingerprint"], "00ff");
+  EXPECT_EQ(resolved["provenance"]["builds"][0], "0.1.0 abc");
+}
+
+TEST(SummaryText, FitsAndColoursOnRequestOnly) {
+  RunDescription run = SampleDescription();
+  run.scenario = std::string(300, 'n');
+  const std::string text = SummaryText(run, Summary());
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
+  EXPECT_THAT(text, HasSubstr("3 of 5"));
+  EXPECT_THAT(text, HasSubstr("23.1 .. 88.2 %"));
+  EXPECT_THAT(text, HasSubstr("1 simulator faults"));
+  EXPECT_THAT(text, HasSubstr("1 more finished trials"));
+  EXPECT_THAT(text, HasSubstr("0123456789abcdef"));
+  EXPECT_EQ(text.find('\x1b'), std::string::npos);
+  EXPECT_NE(SummaryText(run, Summary(), TextStyle::kColour).find('\x1b'), std::string::npos);
+}
+
+TEST(SummaryText, FlagsPerfectLocalization) {
+  RunDescription run = SampleDescription();
+  EXPECT_EQ(SummaryText(run, Summary()).find("perfect"), std::string::npos);
+  run.localization = "oracle";
+  EXPECT_THAT(SummaryText(run, Summary()), HasSubstr("perfect localization"));
+}
+
+}  // namespace
+}  // namespace rockyard::report
