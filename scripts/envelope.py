@@ -42,7 +42,7 @@ def parse_arguments():
     parser.add_argument("--trials", type=int, default=40, help="trials a point (default 40)")
     parser.add_argument("--seed", type=int, default=1, help="seed of the design and of the trials")
     parser.add_argument("--out", type=Path, default=ROOT / "results/runs/envelope")
-    parser.add_argument("--rockyard", type=Path, default=ROOT / "build/release/src/app/rockyard")
+    parser.add_argument("--rockyard", type=Path, default=ROOT / "build/release/bin/rockyard")
     return parser.parse_args()
 
 
@@ -99,7 +99,7 @@ def calibrated_scale(args, point_settings, folder):
                "--set", "sensors.encoders.physics_variance_m2_per_m=0",
                "--set", "perception.dead_reckoning.distance_scale=1"]
     if folder.exists():
-        command.append("--resume")
+        command += ["--resume", "--force"]
     run(command)
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     error_percent = pick(summary, ("dead_reckoning", "distance_error_percent", "mean"))
@@ -143,7 +143,7 @@ def main():
             command = [args.rockyard, "run", scenario, "--trials", args.trials, "--seed", args.seed,
                        "--out", folder, "--quiet", *options]
             if folder.exists():
-                command.append("--resume")
+                command += ["--resume", "--force"]
             run(command)
             summaries.append(json.loads((folder / "summary.json").read_text(encoding="utf-8")))
             print(f"\r{scenario.stem}: {index + 1}/{len(points)}", end="", file=sys.stderr)
