@@ -37,6 +37,7 @@ void AddCommands(CLI::App& app, ExitCode& exit_code) {
   AddCheckCommand(app, exit_code);
   AddCompareCommand(app);
   AddTerrainCommand(app);
+  AddTraceCommand(app, exit_code);
   AddValidateCommand(app);
   AddDefaultsCommand(app);
   AddSchemaCommand(app);

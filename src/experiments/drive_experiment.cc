@@ -52,9 +52,19 @@ DriveExperiment::DriveExperiment(scenario::Scenario scenario) : scenario_(std::m
 const truth::RecordSchema& DriveExperiment::schema() const { return DriveSchema(); }
 
 truth::Record DriveExperiment::Run(std::uint64_t seed, std::uint64_t index) const {
+  return RunTrial(seed, index, nullptr);
+}
+
+truth::Record DriveExperiment::RunTraced(std::uint64_t seed, std::uint64_t index,
+                                         truth::Trace& trace) const {
+  return RunTrial(seed, index, &trace);
+}
+
+truth::Record DriveExperiment::RunTrial(std::uint64_t seed, std::uint64_t index,
+                                        truth::Trace* trace) const {
   try {
     const trial::DriveResult drive =
-        trial::RunTrial(scenario_, {seed, static_cast<std::uint32_t>(index)});
+        trial::RunTrial(scenario_, {seed, static_cast<std::uint32_t>(index)}, trace);
     return {index, drive.outcome, drive.detail, Values(drive.record)};
   } catch (const std::exception& error) {
     return Fault(seed, index, error.what());

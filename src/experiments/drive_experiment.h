@@ -4,6 +4,7 @@
 #include "experiments/experiment.h"
 #include "scenario/scenario.h"
 #include "truth/drive_record.h"
+#include "truth/trace.h"
 
 namespace rockyard::experiments {
 
@@ -17,7 +18,12 @@ class DriveExperiment final : public Experiment {
   const truth::RecordSchema& schema() const override;
   truth::Record Run(std::uint64_t seed, std::uint64_t index) const override;
 
+  // The same record; the course of the drive goes to `trace`, up to the fault where there is one.
+  truth::Record RunTraced(std::uint64_t seed, std::uint64_t index, truth::Trace& trace) const;
+
  private:
+  truth::Record RunTrial(std::uint64_t seed, std::uint64_t index, truth::Trace* trace) const;
+
   scenario::Scenario scenario_;
 };
 

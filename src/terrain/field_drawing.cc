@@ -140,6 +140,23 @@ void DrawRock(const Rock& rock, int index, std::string& svg) {
       grey, index, rock.diameter_m, rock.height_m);
 }
 
+Rectangle Union(const Rectangle& a, const Rectangle& b) {
+  return {std::min(a.x_min_m, b.x_min_m), std::max(a.x_max_m, b.x_max_m),
+          std::min(a.y_min_m, b.y_min_m), std::max(a.y_max_m, b.y_max_m)};
+}
+
+std::string SvgHead(const Rectangle& view) {
+  constexpr double kBorder_m = 0.2;
+  constexpr double kPixelsPerMetre = 80.0;
+  const double width_m = view.x_max_m - view.x_min_m + 2.0 * kBorder_m;
+  const double height_m = view.y_max_m - view.y_min_m + 2.0 * kBorder_m;
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.3f} {:.3f} {:.3f} {:.3f}\" "
+      "width=\"{:.0f}\" height=\"{:.0f}\">\n",
+      view.x_min_m - kBorder_m, -view.y_max_m - kBorder_m, width_m, height_m,
+      width_m * kPixelsPerMetre, height_m * kPixelsPerMetre);
+}
+
 }  // namespace
 
 std::string ToObj(const Field& field, const TerrainParams& params) {
@@ -150,17 +167,10 @@ std::string ToObj(const Field& field, const TerrainParams& params) {
   return obj.Take();
 }
 
-std::string ToSvg(const Field& field, const TerrainParams& params, const Course& course) {
-  constexpr double kBorder_m = 0.2;
-  constexpr double kPixelsPerMetre = 80.0;
+std::string ToSvg(const Field& field, const TerrainParams& params, const Course& course,
+                  const SvgOverlay& overlay) {
   const Rectangle all = DrivableBounds(params.arena);
-  const double width_m = all.x_max_m - all.x_min_m + 2.0 * kBorder_m;
-  const double height_m = all.y_max_m - all.y_min_m + 2.0 * kBorder_m;
-  std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.3f} {:.3f} {:.3f} {:.3f}\" "
-      "width=\"{:.0f}\" height=\"{:.0f}\">\n",
-      all.x_min_m - kBorder_m, -all.y_max_m - kBorder_m, width_m, height_m,
-      width_m * kPixelsPerMetre, height_m * kPixelsPerMetre);
+  std::string svg = SvgHead(overlay.elements.empty() ? all : Union(all, overlay.area));
   DrawRectangle(all, "fill=\"#f4e6d8\"", svg);
   int index = 0;
   for (const Rock& rock : field.terrain.rocks()) DrawRock(rock, index++, svg);
@@ -174,6 +184,7 @@ std::string ToSvg(const Field& field, const TerrainParams& params, const Course&
   }
   DrawCross(course.start_x_m, course.start_y_m, "start", svg);
   DrawCross(course.goal_x_m, course.goal_y_m, "goal", svg);
+  svg += overlay.elements;
   svg += "</svg>\n";
   return svg;
 }

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "terrain/arena.h"
 #include "terrain/course.h"
 #include "terrain/field.h"
 #include "terrain/terrain_params.h"
@@ -19,8 +20,17 @@ std::string ToJson(const Field& field, const TerrainParams& params, const Course
 // the drivable bounds, and one group per rock, tessellated whole, buried part included.
 std::string ToObj(const Field& field, const TerrainParams& params);
 
+// SVG elements to draw on top of a plan view, in its coordinates (x, minus y), and the area in
+// world coordinates that the view then has to show.
+struct SvgOverlay {
+  std::string elements;
+  Rectangle area;
+};
+
 // Plan view, x to the right and y up, 1 unit = 1 m: rocks as octagons of their outlines (like
-// Matthies 1995 fig. 16), darker the higher; start and goal as crosses; arena and mirror lines.
-std::string ToSvg(const Field& field, const TerrainParams& params, const Course& course);
+// Matthies 1995 fig. 16), darker the higher; start and goal as crosses; arena and mirror lines. The
+// view shows the drivable bounds and what the overlay asks for.
+std::string ToSvg(const Field& field, const TerrainParams& params, const Course& course,
+                  const SvgOverlay& overlay = {});
 
 }  // namespace rockyard::terrain

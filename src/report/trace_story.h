@@ -1,0 +1,24 @@
+// What happened in one trial, to read.
+#pragma once
+
+#include <string>
+
+#include "report/trace_view.h"
+
+namespace rockyard::report {
+
+enum class StoryLength {
+  kFolded,  // at most kMostStoryLines lines
+  kAll,     // every event on a line of its own
+};
+
+inline constexpr int kMostStoryLines = 60;
+
+// Outcome and detail, key figures of the record, then the events in the order of time: time, true
+// pose, believed pose, believed distance to the goal, kind and detail, and how the rover turned and
+// drove until the next line. Lengths in m, angles in degrees. Folded, events that follow each other
+// within a short drive share a line, e.g. "12 hazard scans ..#.. to .#..., turned right 141 deg";
+// the drive is the shortest one that keeps the limit. Lines have at most some 130 columns.
+std::string TraceStory(const TracedTrial& trial, StoryLength length);
+
+}  // namespace rockyard::report

@@ -1,0 +1,33 @@
+// One traced trial, as story, CSV and drawing see it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "messages/estimates.h"
+#include "truth/record.h"
+#include "truth/trace.h"
+
+namespace rockyard::report {
+
+struct TracedTrial {
+  std::string scenario;
+  std::uint64_t seed = 1;
+  messages::Goal goal;
+  truth::RecordSchema schema;
+  truth::Record record;
+  truth::Trace trace;
+};
+
+// The last sample at or before `time_s`: what the rover believed when an event happened. Null where
+// there is none. Samples are in the order of time.
+const truth::TraceSample* SampleAt(std::span<const truth::TraceSample> samples, double time_s);
+
+// The columns that differ, as "name: stored 1.5, now 1.25"; empty where outcome, detail and the
+// bits of every value are equal (undefined values count as equal).
+std::vector<std::string> RecordDifferences(const truth::RecordSchema& schema,
+                                           const truth::Record& stored, const truth::Record& now);
+
+}  // namespace rockyard::report
