@@ -15,6 +15,7 @@ import io
 import json
 import os
 import random
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -91,6 +92,28 @@ def design(rows, points, seed):
     return [{path: values[i] for path, values in columns.items()} for i in range(points)]
 
 
+def repaired(point, rows, rockyard, scenario, rng):
+    """Draws anew what contradicts other values of the point (its ranges taken one by one overlap).
+
+    Returns the names of the parameters that were drawn again.
+    """
+    by_path = {row["path"]: row for row in rows}
+    redrawn = []
+    for _ in range(100):
+        options = [part for path, value in point.items() for part in ("--set", f"{path}={value}")]
+        result = subprocess.run([str(rockyard), "validate", str(scenario), *options],
+                                capture_output=True, text=True, check=False)
+        if result.returncode == 0:
+            return redrawn
+        blamed = re.findall(r"^error: ([a-z_A-Z0-9.]+):", result.stderr, flags=re.MULTILINE)
+        if not blamed or any(path not in by_path for path in blamed):
+            sys.exit(result.stderr)
+        for path in blamed:
+            point[path] = column(by_path[path], 1, rng)[0]
+            redrawn.append(path)
+    sys.exit(f"found no valid values for {', '.join(sorted(set(redrawn)))}")
+
+
 def calibrated_scale(args, point_settings, folder):
     """Distance scale for the soil and wheels of this point: as calibrated on level sand."""
     command = [args.rockyard, "run", ROOT / "scenarios/pathfinder/level_sand.json", "--trials", 20,
@@ -128,6 +151,9 @@ def main():
     args = parse_arguments()
     rows = assumed_parameters(args.rockyard, args.scenarios[0])
     points = design(rows, args.points, args.seed)
+    rng = random.Random(args.seed + 1)
+    redrawn = [path for point in points
+               for path in repaired(point, rows, args.rockyard, args.scenarios[0], rng)]
     args.out.mkdir(parents=True, exist_ok=True)
     (args.out / "design.json").write_text(json.dumps(points, indent=1) + "\n", encoding="utf-8")
     settings = []
@@ -135,7 +161,8 @@ def main():
         options = [part for path, value in point.items() for part in ("--set", f"{path}={value}")]
         scale = calibrated_scale(args, options, args.out / "level_sand" / f"{index:03d}")
         settings.append(options + ["--set", f"perception.dead_reckoning.distance_scale={scale}"])
-    print(f"{len(points)} points over {len(rows)} assumed parameters, {args.trials} trials each")
+    print(f"{len(points)} points over {len(rows)} assumed parameters, {args.trials} trials each; "
+          f"{len(redrawn)} values drawn again because they contradicted others")
     for scenario in args.scenarios:
         summaries = []
         for index, options in enumerate(settings):
