@@ -1,0 +1,99 @@
+#include "experiments/drive_experiment.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "scenario/load.h"
+#include "trial/run_trial.h"
+
+namespace rockyard::experiments {
+namespace {
+
+scenario::Scenario Pathfinder(const std::string& name, std::vector<std::string> overrides = {}) {
+  return scenario::LoadScenario(
+      std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/" + name + ".json", overrides);
+}
+
+// Clear zones about start and goal that leave room for all fifteen rocks in some layouts only.
+scenario::Scenario CrowdedScenario() {
+  return Pathfinder("obstacles_0.85",
+                    {"terrain.rocks.clear_radius_m=3.3", "referee.time_limit_s=100"});
+}
+
+TEST(DriveExperimentTest, SchemaListsTheColumnsInOrder) {
+  const auto experiment = MakeExperiment(Pathfinder("level_sand"));
+  const truth::RecordSchema& schema = experiment->schema();
+  ASSERT_EQ(schema.size(), truth::kDriveColumns.size());
+  for (std::size_t i = 0; i < schema.size(); ++i) {
+    EXPECT_EQ(schema[i].name, truth::kDriveColumns[i].name);
+    EXPECT_EQ(schema[i].unit, truth::kDriveColumns[i].unit);
+    EXPECT_EQ(schema[i].meaning, truth::kDriveColumns[i].meaning);
+  }
+}
+
+TEST(DriveExperimentTest, RecordHoldsTheDriveBitForBit) {
+  const scenario::Scenario scenario = Pathfinder("level_sand");
+  const truth::Record record = MakeExperiment(scenario)->Run(5, 3);
+  const trial::DriveResult drive = trial::RunTrial(scenario, {5, 3});
+  EXPECT_EQ(record.trial, 3u);
+  EXPECT_EQ(record.outcome, drive.outcome);
+  EXPECT_EQ(record.detail, drive.detail);
+  ASSERT_EQ(record.values.size(), truth::kDriveColumns.size());
+  for (std::size_t i = 0; i < record.values.size(); ++i) {
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(record.values[i]),
+              std::bit_cast<std::uint64_t>(drive.record.*truth::kDriveColumns[i].member))
+        << truth::kDriveColumns[i].name;
+  }
+}
+
+TEST(DriveExperimentTest, FaultsAreRecordsThatNameSeedAndIndex) {
+  const auto experiment = MakeExperiment(CrowdedScenario());
+  int faults = 0;
+  int drives = 0;
+  for (std::uint64_t index = 0; index < 8; ++index) {
+    const truth::Record record = experiment->Run(1, index);
+    EXPECT_EQ(record.trial, index);
+    if (record.outcome != truth::TrialOutcome::kSimulatorFault) {
+      EXPECT_EQ(record.values.size(), truth::kDriveColumns.size());
+      ++drives;
+      continue;
+    }
+    EXPECT_TRUE(record.values.empty());
+    EXPECT_EQ(record.detail,
+              "no place without overlap for every rock of an exact count (seed 1, trial " +
+                  std::to_string(index) + ")");
+    ++faults;
+  }
+  EXPECT_GE(faults, 1);
+  EXPECT_GE(drives, 1);
+}
+
+TEST(DriveExperimentTest, BlowUpsOfThePhysicsAreFaults) {
+  // Beyond the angle of friction the rover slides until its speed leaves the model's range.
+  const auto experiment = MakeExperiment(Pathfinder(
+      "level_sand", {"terrain.ground.slope_deg=40", "terrain.ground.slope_direction_deg=90"}));
+  const truth::Record record = experiment->Run(1, 0);
+  EXPECT_EQ(record.outcome, truth::TrialOutcome::kSimulatorFault);
+  EXPECT_NE(record.detail.find("(seed 1, trial 0)"), std::string::npos) << record.detail;
+}
+
+TEST(DriveExperimentTest, EveryValueIsFinite) {
+  for (const char* name : {"level_sand", "nominal", "obstacles_0.85", "vl2"}) {
+    const auto experiment = MakeExperiment(Pathfinder(name, {"referee.time_limit_s=2000"}));
+    for (std::uint64_t index = 0; index < 2; ++index) {
+      const truth::Record record = experiment->Run(7, index);
+      ASSERT_NE(record.outcome, truth::TrialOutcome::kSimulatorFault) << record.detail;
+      EXPECT_TRUE(std::all_of(record.values.begin(), record.values.end(),
+                              [](double value) { return std::isfinite(value); }))
+          << name << " " << index;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rockyard::experiments

@@ -1,0 +1,147 @@
+// The committed scenarios hold what Matthies 1995 states, and differ in nothing else.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+
+#include "core/json_file.h"
+#include "core/json_text.h"
+#include "scenario/load.h"
+
+namespace rockyard::scenario {
+namespace {
+
+const std::filesystem::path kRoot = ROCKYARD_SOURCE_DIR;
+
+Scenario Load(const std::string& name) {
+  return LoadScenario(kRoot / "scenarios" / "pathfinder" / (name + ".json"));
+}
+
+std::map<std::string, Scenario> LoadAll() {
+  std::map<std::string, Scenario> scenarios;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(kRoot / "scenarios")) {
+    if (entry.path().extension() != ".json") continue;
+    scenarios.emplace(entry.path().stem().string(), LoadScenario(entry.path()));
+  }
+  return scenarios;
+}
+
+// Paths of the parameters that two scenarios do not share.
+std::set<std::string> Differences(const Scenario& a, const Scenario& b) {
+  const auto values = [](const Scenario& scenario) {
+    std::map<std::string, core::ParameterInfo> by_path;
+    for (const core::ParameterInfo& parameter : ListParameters(scenario)) {
+      by_path.emplace(parameter.path, parameter);
+    }
+    return by_path;
+  };
+  const auto of_b = values(b);
+  std::set<std::string> paths;
+  for (const auto& [path, parameter] : values(a)) {
+    if (core::DumpJson(parameter.value) != core::DumpJson(of_b.at(path).value)) paths.insert(path);
+  }
+  paths.erase("name");
+  paths.erase("description");
+  return paths;
+}
+
+double ObstaclesPerM2(const Scenario& scenario) {
+  const terrain::RockFieldParams& rocks = scenario.terrain.rocks;
+  return static_cast<double>(rocks.count) / (rocks.count_area_length_m * rocks.count_area_width_m);
+}
+
+TEST(PathfinderFilesTest, NamesAreFileNames) {
+  const std::map<std::string, Scenario> scenarios = LoadAll();
+  ASSERT_GE(scenarios.size(), 9u);
+  for (const auto& [stem, scenario] : scenarios) {
+    EXPECT_EQ(scenario.name, stem);
+    EXPECT_FALSE(scenario.description.empty()) << stem;
+  }
+}
+
+TEST(PathfinderFilesTest, EveryPublishedValueHasItsScenario) {
+  const std::map<std::string, Scenario> scenarios = LoadAll();
+  const core::JsonValue reference =
+      core::LoadJsonFile(kRoot / "results" / "reference" / "matthies1995.json");
+  for (const core::JsonValue& value : reference.Find("values")->list()) {
+    for (const char* key : {"scenario", "other_scenario"}) {
+      const core::JsonValue* name = value.Find(key);
+      if (name == nullptr) continue;
+      EXPECT_TRUE(scenarios.contains(name->text())) << value.Find("id")->text();
+    }
+  }
+}
+
+TEST(PathfinderFilesTest, CourseIsThePublishedOneAndTheBoundThatChecksUse) {
+  const core::JsonValue reference =
+      core::LoadJsonFile(kRoot / "results" / "reference" / "matthies1995.json");
+  for (const core::JsonValue& value : reference.Find("values")->list()) {
+    if (value.Find("statistic")->text() != "lower_bound") continue;
+    const Scenario scenario = Load(value.Find("scenario")->text());
+    EXPECT_EQ(scenario.course.goal_x_m - scenario.course.start_x_m, value.Find("value")->number());
+  }
+  EXPECT_EQ(Load("nominal").course.goal_x_m, 7.6);     // Matthies 1995 sec. 7
+  EXPECT_EQ(Load("level_sand").course.goal_x_m, 7.0);  // sec. 5
+  EXPECT_EQ(Load("level_sand").terrain.rocks.RocksPerM2(), 0.0);
+}
+
+TEST(PathfinderFilesTest, MooreConstantsArePublished) {
+  EXPECT_EQ(Load("nominal").terrain.rocks.k_per_m2, 0.00415);  // Matthies 1995 sec. 7
+  EXPECT_EQ(Load("vl2").terrain.rocks.k_per_m2, 0.013);
+}
+
+TEST(PathfinderFilesTest, ObstacleCountsArePublished) {
+  const std::map<std::string, std::int64_t> counts = {
+      {"obstacles_0.28", 5}, {"obstacles_0.57", 10}, {"obstacles_0.85", 15}};
+  for (const auto& [name, count] : counts) {
+    const terrain::RockFieldParams rocks = Load(name).terrain.rocks;
+    EXPECT_EQ(rocks.count, count);
+    EXPECT_NEAR(rocks.count_area_length_m * rocks.count_area_width_m, 17.6, 1e-9);
+    EXPECT_EQ(rocks.uniform_min_diameter_m, 0.25);
+    EXPECT_EQ(rocks.uniform_max_diameter_m, 0.35);
+  }
+}
+
+// Densities as the paper prints them (0.57 is 10 / 17.6, which rounds so).
+TEST(PathfinderFilesTest, DensitiesAreThoseOfTheNames) {
+  for (const auto& [stem, scenario] : LoadAll()) {
+    const std::string prefix = "obstacles_";
+    if (stem.rfind(prefix, 0) != 0) continue;
+    const double printed = std::stod(stem.substr(prefix.size()));
+    EXPECT_NEAR(ObstaclesPerM2(scenario), printed, 0.005) << stem;
+  }
+}
+
+TEST(PathfinderFilesTest, TestArenaIsPublished) {
+  const Scenario nominal = Load("nominal");
+  EXPECT_EQ(nominal.terrain.arena.kind, terrain::ArenaKind::kVirtualReflected);
+  EXPECT_EQ(nominal.terrain.arena.length_m, 12.0);  // Matthies 1995 sec. 3
+  EXPECT_EQ(nominal.terrain.arena.width_m, 4.0);
+  EXPECT_EQ(nominal.terrain.arena.mirror_margin_m, 0.9);              // sec. 7
+  EXPECT_NEAR(2.0 * nominal.terrain.arena.MirrorLine(), 2.2, 1e-12);  // central 2.2 m
+  EXPECT_EQ(nominal.rover.drive.speed_m_s, 0.15);                     // sec. 5
+  EXPECT_EQ(nominal.navigation.pathfinder.scan_interval_m, 0.065);    // one wheel radius
+  EXPECT_EQ(nominal.sensors.gyro.heading_variance_deg2_per_m, 0.70);  // sec. 5
+  EXPECT_EQ(nominal.sensors.encoders.distance_variance_m2_per_m, 0.0039);
+  EXPECT_EQ(nominal.sensors.gyro.scale, 0.94);  // sec. 8
+}
+
+TEST(PathfinderFilesTest, ScenariosDifferInWhatTheyAreNamedAfterAlone) {
+  const Scenario nominal = Load("nominal");
+  using Paths = std::set<std::string>;
+  EXPECT_EQ(Differences(nominal, Load("nominal_perfect_localization")),
+            Paths{"sensors.localization"});
+  EXPECT_EQ(Differences(nominal, Load("vl2")), Paths{"terrain.rocks.k_per_m2"});
+  EXPECT_EQ(Differences(nominal, Load("obstacles_0.28")), Paths{"terrain.rocks.kind"});
+  for (const char* name : {"obstacles_0.57", "obstacles_0.85"}) {
+    EXPECT_EQ(Differences(Load("obstacles_0.28"), Load(name)), Paths{"terrain.rocks.count"});
+  }
+  EXPECT_EQ(Differences(nominal, Load("level_sand")),
+            (Paths{"course.goal_x_m", "perception.hazard.enabled", "terrain.arena.kind",
+                   "terrain.rocks.kind"}));
+}
+
+}  // namespace
+}  // namespace rockyard::scenario

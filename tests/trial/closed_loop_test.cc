@@ -1,0 +1,229 @@
+// What holds for whole drives, whatever the rocks.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "trial/drive_monitor.h"
+#include "trial/pathfinder_trials.h"
+
+namespace rockyard::trial {
+namespace {
+
+TEST(ClosedLoopTest, PerfectLocalizationNeverArrivesBeforeTheGoal) {
+  const scenario::Scenario scenario = Pathfinder("nominal_perfect_localization");
+  const double tick_m = scenario.rover.drive.speed_m_s / scenario.clock.control_rate_hz;
+  const double shortest_m = scenario.course.goal_x_m - scenario.course.start_x_m -
+                            scenario.navigation.pathfinder.goal_tolerance_m - tick_m;
+  int arrived = 0;
+  for (const DriveResult& result : RunTrials(scenario, 40)) {
+    const truth::DriveRecord& record = result.record;
+    EXPECT_EQ(record.position_error_m, 0.0);
+    EXPECT_EQ(record.heading_error_deg, 0.0);
+    EXPECT_NE(result.outcome, truth::TrialOutcome::kFalseGoal);
+    if (result.outcome != truth::TrialOutcome::kGoalReached) continue;
+    ++arrived;
+    // A chord that a reflection cuts off is not counted.
+    EXPECT_GE(record.true_distance_m, shortest_m - record.reflections * DriveMonitor::kChord_m);
+    EXPECT_LE(record.true_goal_distance_m, scenario.navigation.pathfinder.goal_tolerance_m);
+  }
+  EXPECT_GT(arrived, 20);
+}
+
+TEST(ClosedLoopTest, OtherNavigatorsMeetTheSameRocks) {
+  const scenario::Scenario first = Pathfinder("nominal");
+  const scenario::Scenario second =
+      Pathfinder("nominal", {"navigation.pathfinder.turn_increment_deg=30",
+                             "navigation.pathfinder.both_sides=toward_goal"});
+  bool drove_otherwise = false;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const truth::DriveRecord a = RunTrial(first, {1, i}).record;
+    const truth::DriveRecord b = RunTrial(second, {1, i}).record;
+    EXPECT_EQ(a.rocks, b.rocks);
+    EXPECT_EQ(a.rock_cover, b.rock_cover);
+    EXPECT_EQ(a.layout, b.layout);
+    drove_otherwise = drove_otherwise || a.true_distance_m != b.true_distance_m;
+  }
+  EXPECT_TRUE(drove_otherwise);
+}
+
+TEST(ClosedLoopTest, TrialsShareLayoutsAndNothingElse) {
+  const scenario::Scenario scenario =
+      Pathfinder("nominal", {"course.trials_per_layout=3", "referee.time_limit_s=500"});
+  const std::vector<DriveResult> results = RunTrials(scenario, 6);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const truth::DriveRecord& record = results[i].record;
+    const truth::DriveRecord& first = results[i - i % 3].record;
+    EXPECT_EQ(record.layout, static_cast<double>(i / 3));
+    EXPECT_EQ(record.rocks, first.rocks);
+    EXPECT_EQ(record.rock_cover, first.rock_cover);
+    if (i % 3 == 0) continue;
+    EXPECT_NE(record.dead_reckoned_distance_m, first.dead_reckoned_distance_m);
+  }
+  EXPECT_NE(results[0].record.rock_cover, results[3].record.rock_cover);
+}
+
+TEST(ClosedLoopTest, WithoutHazardSensingThereAreNoScans) {
+  const DriveResult result =
+      RunTrial(Pathfinder("nominal", {"perception.hazard.enabled=false"}), {1, 0});
+  EXPECT_EQ(result.record.scans, 0.0);
+  EXPECT_EQ(result.record.scan_time_s, 0.0);
+  EXPECT_EQ(result.record.hazards_believed, 0.0);
+  EXPECT_GT(RunTrial(Pathfinder("nominal"), {1, 0}).record.scans, 50.0);
+}
+
+TEST(ClosedLoopTest, TrackerChangesReportedErrorsAndNothingElse) {
+  const DriveResult plain = RunTrial(Pathfinder("nominal"), {1, 2});
+  const DriveResult tracked =
+      RunTrial(Pathfinder("nominal", {"sensors.tracker.enabled=true"}), {1, 2});
+  EXPECT_THAT(Differences(plain, tracked),
+              testing::ElementsAre("heading_error_deg", "position_error_m"));
+  EXPECT_NEAR(plain.record.position_error_m, tracked.record.position_error_m, 0.025);
+  EXPECT_NEAR(plain.record.heading_error_deg, tracked.record.heading_error_deg, 1.4);
+}
+
+// Time and energy of a drive, summed over its trace tick by tick.
+struct Books {
+  double drive_s = 0.0;
+  double turn_s = 0.0;
+  double steer_s = 0.0;
+};
+
+Books BooksOf(const truth::Trace& trace, double tick_s) {
+  std::map<std::string, int> ticks;
+  for (const truth::TraceSample& sample : trace.samples) ++ticks[sample.activity];
+  return {ticks["drive"] * tick_s, ticks["turn"] * tick_s, ticks["steer"] * tick_s};
+}
+
+double EnergyWh(const Books& books, double scan_s, double stall_s, const EnergyParams& energy) {
+  const double base_W = energy.cpu_W + energy.gyro_W;
+  return ((books.drive_s + books.turn_s + stall_s) * (base_W + energy.driving_W) +
+          books.steer_s * (base_W + energy.steering_W) + scan_s * energy.hazard_detection_W) /
+         3600.0;
+}
+
+void ExpectBooksBalance(const scenario::Scenario& scenario, const TracedTrial& trial) {
+  const truth::DriveRecord& record = trial.result.record;
+  const bool stuck = trial.result.outcome == truth::TrialOutcome::kJammed ||
+                     trial.result.outcome == truth::TrialOutcome::kHighCentred;
+  const double stall_s = stuck ? record.sim_time_s - trial.trace.samples.back().time_s : 0.0;
+  const Books books = BooksOf(trial.trace, 1.0 / scenario.clock.control_rate_hz);
+  EXPECT_NEAR(record.drive_time_s, books.drive_s, 1e-6);
+  EXPECT_NEAR(record.turn_time_s, books.turn_s, 1e-6);
+  EXPECT_NEAR(record.scan_time_s, record.scans * scenario.clock.scan_time_s, 1e-6);
+  EXPECT_NEAR(record.sim_time_s,
+              books.drive_s + books.turn_s + books.steer_s + record.scan_time_s + stall_s, 1e-6);
+  EXPECT_NEAR(record.energy_wh, EnergyWh(books, record.scan_time_s, stall_s, scenario.energy),
+              1e-6);
+}
+
+TEST(ClosedLoopTest, TimeAndEnergyAddUp) {
+  const scenario::Scenario scenario = Pathfinder("obstacles_0.57");
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const TracedTrial trial = RunTraced(scenario, i);
+    EXPECT_GT(trial.result.record.turn_time_s, 0.0);
+    EXPECT_GT(trial.result.record.scans, 0.0);
+    ExpectBooksBalance(scenario, trial);
+  }
+}
+
+TEST(ClosedLoopTest, JamSpendsTheBatteryExactly) {
+  const scenario::Scenario scenario = Pathfinder(
+      "level_sand",
+      {"terrain.arena.kind=walled", "course.start_y_m=1.2", "course.start_heading_deg=90"});
+  const TracedTrial trial = RunTraced(scenario, 0);
+  ASSERT_EQ(trial.result.outcome, truth::TrialOutcome::kJammed);
+  EXPECT_NEAR(trial.result.record.energy_wh, scenario.energy.battery_wh, 1e-9);
+  EXPECT_GT(trial.result.record.sim_time_s, 3600.0);
+  ExpectBooksBalance(scenario, trial);
+}
+
+TEST(ClosedLoopTest, RecordAgreesWithTheTrace) {
+  const TracedTrial trial = RunTraced(Pathfinder("obstacles_0.57"), 1);
+  const truth::DriveRecord& record = trial.result.record;
+  const truth::TraceSample& last = trial.trace.samples.back();
+  EXPECT_EQ(record.final_x_m, last.pose.x_m);
+  EXPECT_EQ(record.final_y_m, last.pose.y_m);
+  EXPECT_EQ(record.believed_x_m, last.estimate.x_m);
+  EXPECT_EQ(record.dead_reckoned_distance_m, last.estimate.distance_m);
+  const auto events = [&](const std::string& kind) {
+    return static_cast<double>(
+        std::count_if(trial.trace.events.begin(), trial.trace.events.end(),
+                      [&](const truth::TraceEvent& event) { return event.kind == kind; }));
+  };
+  EXPECT_EQ(record.hazards_believed, events("hazard"));
+  EXPECT_EQ(record.scrapes, events("scrape"));
+  EXPECT_EQ(record.reflections, events("reflection"));
+  EXPECT_EQ(trial.trace.events.back().kind, "end");
+}
+
+// A course aimed at the mirror line over level sand, by a rover whose odometer is far off.
+TracedTrial DriveAtTheMirrorLine() {
+  return RunTraced(Pathfinder("level_sand", {"terrain.arena.kind=virtual_reflected",
+                                             "course.start_y_m=0.6", "course.start_heading_deg=90",
+                                             "perception.dead_reckoning.distance_scale=0.6"}),
+                   0);
+}
+
+TEST(ReflectionTest, TurnsTheRoverAndItsEstimateAtTheLine) {
+  const TracedTrial trial = DriveAtTheMirrorLine();
+  ASSERT_GE(trial.result.record.reflections, 1.0);
+  const std::vector<truth::TraceSample>& samples = trial.trace.samples;
+  const auto event =
+      std::find_if(trial.trace.events.begin(), trial.trace.events.end(),
+                   [](const truth::TraceEvent& e) { return e.kind == "reflection"; });
+  const auto before = std::find_if(samples.begin(), samples.end(), [&](const auto& sample) {
+    return sample.time_s >= event->time_s;
+  });
+  ASSERT_LT(before + 1, samples.end());
+  const auto after = before + 1;  // one tick after the rover was turned
+  const double tick_m = 0.15 / 20.0;
+  const double tick_rad = 0.03;
+
+  EXPECT_GE(before->pose.y_m, 1.1);
+  EXPECT_LT(before->pose.y_m, 1.1 + tick_m);
+  EXPECT_NEAR(after->pose.x_m, before->pose.x_m, tick_m);
+  EXPECT_NEAR(after->pose.y_m, before->pose.y_m, tick_m);
+  EXPECT_NEAR(after->pose.heading_rad, -before->pose.heading_rad, tick_rad);
+
+  // The error goes on in the mirror image. It turns over within twice the overshoot, and the tick
+  // adds what its motion adds.
+  const double error_y_m = before->estimate.y_m - before->pose.y_m;
+  ASSERT_LT(error_y_m, -0.1);
+  EXPECT_NEAR(after->estimate.x_m - after->pose.x_m, before->estimate.x_m - before->pose.x_m,
+              tick_m);
+  EXPECT_NEAR(after->estimate.y_m - after->pose.y_m, -error_y_m, 3.0 * tick_m);
+  EXPECT_NEAR(after->estimate.heading_rad - after->pose.heading_rad,
+              -(before->estimate.heading_rad - before->pose.heading_rad), tick_rad);
+}
+
+TEST(ReflectionTest, KeepsTheRoverBetweenTheLines) {
+  const TracedTrial trial = DriveAtTheMirrorLine();
+  for (const truth::TraceSample& sample : trial.trace.samples) {
+    EXPECT_LT(std::abs(sample.pose.y_m), 1.1 + 0.15 / 20.0);
+  }
+}
+
+// How far the rover's centre got to the left of the course when it drove off to the left.
+double FarthestLeft(const std::string& arena) {
+  const TracedTrial trial =
+      RunTraced(Pathfinder("level_sand", {"terrain.arena.kind=" + arena, "course.start_y_m=1.4",
+                                          "course.start_heading_deg=70"}),
+                0);
+  const auto farthest =
+      std::max_element(trial.trace.samples.begin(), trial.trace.samples.end(),
+                       [](const auto& a, const auto& b) { return a.pose.y_m < b.pose.y_m; });
+  return farthest->pose.y_m;
+}
+
+TEST(WallsTest, KeepTheRoverInside) {
+  // Half the width of the rover is the least that its centre keeps off a wall.
+  const double inside_m = 2.0 - 0.24;
+  EXPECT_LT(FarthestLeft("walled"), inside_m + 0.01);
+  EXPECT_GT(FarthestLeft("open"), inside_m + 0.01);  // the same drive without a wall goes farther
+}
+
+}  // namespace
+}  // namespace rockyard::trial

@@ -1,0 +1,105 @@
+// Every way in which a drive can end, provoked by a small scenario.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "trial/pathfinder_trials.h"
+
+namespace rockyard::trial {
+namespace {
+
+using truth::TrialOutcome;
+
+// Drives over level, rock-free sand without scans cost a few hundredths of a second.
+TrialOutcome LevelSand(const Overrides& overrides) {
+  return RunTrial(Pathfinder("level_sand", overrides), {1, 0}).outcome;
+}
+
+std::map<TrialOutcome, int> Count(const std::vector<DriveResult>& results) {
+  std::map<TrialOutcome, int> counts;
+  for (const DriveResult& result : results) ++counts[result.outcome];
+  return counts;
+}
+
+TEST(OutcomesTest, GoalReached) { EXPECT_EQ(LevelSand({}), TrialOutcome::kGoalReached); }
+
+TEST(OutcomesTest, FalseGoalWhereTheGyroIsWrong) {
+  const Overrides turn_at_the_start = {"course.start_heading_deg=90"};
+  Overrides wrong_gyro = turn_at_the_start;
+  wrong_gyro.push_back("sensors.gyro.scale=0.5");
+  Overrides right_gyro = turn_at_the_start;
+  right_gyro.push_back("sensors.gyro.scale=1");
+  EXPECT_EQ(LevelSand(wrong_gyro), TrialOutcome::kFalseGoal);
+  EXPECT_EQ(LevelSand(right_gyro), TrialOutcome::kGoalReached);
+}
+
+TEST(OutcomesTest, TipOverOnSlopes) {
+  EXPECT_EQ(LevelSand({"terrain.ground.slope_deg=25", "referee.tip_over_deg=20"}),
+            TrialOutcome::kTipOver);
+  EXPECT_NE(LevelSand({"terrain.ground.slope_deg=15", "referee.tip_over_deg=20"}),
+            TrialOutcome::kTipOver);
+}
+
+TEST(OutcomesTest, TipOverOnVeryRoughGround) {
+  const scenario::Scenario scenario =
+      Pathfinder("level_sand",
+                 {"terrain.ground.roughness_rms_m=0.3", "terrain.ground.roughness_wavelength_m=1.5",
+                  "rover.contact.wheel_soil_friction=1.5"});
+  const std::vector<DriveResult> results = RunTrials(scenario, 6);
+  EXPECT_GE(Count(results)[TrialOutcome::kTipOver], 2);
+  for (const DriveResult& result : results) {
+    EXPECT_EQ(result.outcome == TrialOutcome::kTipOver, result.record.max_tilt_deg > 60.0);
+  }
+}
+
+TEST(OutcomesTest, JammedOrHighCentredWhereTheRoverDrivesBlindlyIntoRocks) {
+  const scenario::Scenario scenario =
+      Pathfinder("obstacles_2.0", {"perception.hazard.enabled=false"});
+  std::map<TrialOutcome, int> counts = Count(RunTrials(scenario, 8));
+  EXPECT_GE(counts[TrialOutcome::kJammed], 1);
+  EXPECT_GE(counts[TrialOutcome::kHighCentred], 1);
+}
+
+TEST(OutcomesTest, JammedAtAWall) {
+  EXPECT_EQ(LevelSand({"terrain.arena.kind=walled", "course.start_y_m=1.2",
+                       "course.start_heading_deg=90"}),
+            TrialOutcome::kJammed);
+}
+
+TEST(OutcomesTest, NoPath) {
+  const auto detail = [](const Overrides& overrides) {
+    const DriveResult result = RunTrial(Pathfinder("level_sand", overrides), {1, 0});
+    EXPECT_EQ(result.outcome, TrialOutcome::kNoPath);
+    return result.detail;
+  };
+  EXPECT_EQ(detail({"navigation.pathfinder.time_out_s=10"}), "the navigator gave up");
+  EXPECT_EQ(detail({"course.start_heading_deg=120", "referee.no_path_distance_m=0.5"}),
+            "drove no_path_distance_m without coming nearer");
+  EXPECT_EQ(detail({"course.start_heading_deg=180", "referee.no_path_turn_deg=90"}),
+            "turned no_path_turn_deg without coming nearer");
+}
+
+TEST(OutcomesTest, EnergyDepleted) {
+  const DriveResult result = RunTrial(Pathfinder("level_sand", {"energy.battery_wh=0.05"}), {1, 0});
+  EXPECT_EQ(result.outcome, TrialOutcome::kEnergyDepleted);
+  const double last_tick_wh = 12.85 * 0.05 / 3600.0;
+  EXPECT_NEAR(result.record.energy_wh, 0.05, last_tick_wh);
+}
+
+TEST(OutcomesTest, TimeLimit) {
+  const DriveResult result =
+      RunTrial(Pathfinder("level_sand", {"referee.time_limit_s=20"}), {1, 0});
+  EXPECT_EQ(result.outcome, TrialOutcome::kTimeLimit);
+  EXPECT_NEAR(result.record.sim_time_s, 20.0, 0.05 + 1e-9);
+}
+
+TEST(OutcomesTest, LeftArenaWhereTheOdometerIsBehind) {
+  const Overrides overshoot = {"perception.dead_reckoning.distance_scale=0.6"};
+  Overrides with_ends = overshoot;
+  with_ends.emplace_back("terrain.arena.kind=virtual_reflected");
+  EXPECT_EQ(LevelSand(with_ends), TrialOutcome::kLeftArena);
+  EXPECT_EQ(LevelSand(overshoot), TrialOutcome::kFalseGoal);  // open arenas have no ends
+}
+
+}  // namespace
+}  // namespace rockyard::trial

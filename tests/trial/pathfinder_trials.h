@@ -1,0 +1,56 @@
+// Trials of the committed Pathfinder scenarios for the tests of the closed loop.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scenario/load.h"
+#include "trial/run_trial.h"
+
+namespace rockyard::trial {
+
+using Overrides = std::vector<std::string>;  // "PATH=VALUE"
+
+inline scenario::Scenario Pathfinder(const std::string& name, const Overrides& overrides = {}) {
+  return scenario::LoadScenario(
+      std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/" + name + ".json", overrides);
+}
+
+// A trial with its course over time.
+struct TracedTrial {
+  DriveResult result;
+  truth::Trace trace;
+};
+
+inline TracedTrial RunTraced(const scenario::Scenario& scenario, std::uint32_t index,
+                             std::uint64_t seed = 1) {
+  TracedTrial trial;
+  trial.result = RunTrial(scenario, {seed, index}, &trial.trace);
+  return trial;
+}
+
+// The trials 0 to count - 1 of seed 1.
+inline std::vector<DriveResult> RunTrials(const scenario::Scenario& scenario, std::uint32_t count) {
+  std::vector<DriveResult> results;
+  for (std::uint32_t i = 0; i < count; ++i) results.push_back(RunTrial(scenario, {1, i}));
+  return results;
+}
+
+// Names of the columns whose bits differ, and "outcome" and "detail" where these do.
+inline std::vector<std::string> Differences(const DriveResult& a, const DriveResult& b) {
+  std::vector<std::string> names;
+  if (a.outcome != b.outcome) names.emplace_back("outcome");
+  if (a.detail != b.detail) names.emplace_back("detail");
+  for (const truth::DriveColumn& column : truth::kDriveColumns) {
+    if (std::bit_cast<std::uint64_t>(a.record.*column.member) !=
+        std::bit_cast<std::uint64_t>(b.record.*column.member)) {
+      names.emplace_back(column.name);
+    }
+  }
+  return names;
+}
+
+}  // namespace rockyard::trial
