@@ -145,8 +145,12 @@ std::string What(Fold fold) {
   return text;
 }
 
+// Rounded to a multiple of `unit`, without a negative zero.
+double Rounded(double value, double unit) { return std::round(value / unit) * unit + 0.0; }
+
 std::string PoseText(double x_m, double y_m, double heading_rad) {
-  return fmt::format("{:6.2f} {:6.2f} {:5.0f}", x_m, y_m, RadToDeg(heading_rad));
+  return fmt::format("{:6.2f} {:6.2f} {:5.0f}", Rounded(x_m, 0.01), Rounded(y_m, 0.01),
+                     Rounded(RadToDeg(heading_rad), 1.0));
 }
 
 std::string Line(const TracedTrial& trial, double time_s, const math::Pose2& pose,

@@ -18,7 +18,7 @@ inline constexpr int kMostStoryLines = 60;
 // pose, believed pose, believed distance to the goal, kind and detail, and how the rover turned and
 // drove until the next line. Lengths in m, angles in degrees. Folded, events that follow each other
 // within a short drive share a line, e.g. "12 hazard scans ..#.. to .#..., turned right 141 deg";
-// the drive is the shortest one that keeps the limit. Lines have at most some 130 columns.
+// the drive is the shortest one that keeps the limit. Lines have up to some 170 columns.
 std::string TraceStory(const TracedTrial& trial, StoryLength length);
 
 }  // namespace rockyard::report

@@ -1,0 +1,88 @@
+// rockyard trace
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "app/command.h"
+
+namespace rockyard::app {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class CliTrace : public CommandTest {
+ protected:
+  // A minute of simulated time: some scans and some driving.
+  void MakeRun() const {
+    ASSERT_EQ(
+        Run(With(QuickRun("run", 3), {"--set", "referee.time_limit_s=60", "--quiet"})).exit_code,
+        0);
+  }
+};
+
+TEST_F(CliTrace, AStoredTrialComesOutTheSame) {
+  MakeRun();
+  const CommandResult result =
+      Run({"trace", "run", "--trial", "2", "--csv", "trace.csv", "--svg", "trace.svg"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("seed 1, trial 2: time_limit"));
+  EXPECT_THAT(result.out, HasSubstr("same as the stored record, bit for bit"));
+  EXPECT_LE(std::count(result.out.begin(), result.out.end(), '\n'), 63);
+  EXPECT_THAT(ReadFile(work() / "trace.csv"), StartsWith("row,time_s,kind,true_x_m"));
+  const std::string svg = ReadFile(work() / "trace.svg");
+  EXPECT_THAT(svg, StartsWith("<svg"));
+  for (const char* part :
+       {"<polygon", "true path", "dead-reckoned path", "<title>goal</title>", "1 m", "</svg>\n"}) {
+    EXPECT_THAT(svg, HasSubstr(part));
+  }
+}
+
+TEST_F(CliTrace, ADamagedRecordIsFound) {
+  MakeRun();
+  // The store says 60 s; the scenario within it now says 20 s.
+  const std::string store = (work() / "run" / "results.sqlite").string();
+  std::string bytes = ReadFile(store);
+  const std::string before = "\"time_limit_s\": 60";
+  const auto at = bytes.find(before);
+  ASSERT_NE(at, std::string::npos);
+  bytes.replace(at, before.size(), "\"time_limit_s\": 20");
+  WriteFile(store, bytes);
+  const CommandResult result = Run({"trace", "run", "--trial", "0"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("sim_time_s: stored"));
+  EXPECT_THAT(result.err, HasSubstr("this drive is not the stored one"));
+}
+
+TEST_F(CliTrace, OfAScenarioWithOverrides) {
+  const std::vector<std::string> words = {"trace", Scenario("nominal"),       "--trial", "4",
+                                          "--set", "referee.time_limit_s=60", "--seed",  "9"};
+  const CommandResult result = Run(words);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("seed 9, trial 4: time_limit"));
+  EXPECT_EQ(Run(With(words, {"--all"})).exit_code, 0);
+  EXPECT_TRUE(NothingWritten());
+}
+
+TEST_F(CliTrace, BadInputSaysWhatWouldBeRight) {
+  MakeRun();
+  const CommandResult missing = Run({"trace", "run", "--trial", "3"});
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_THAT(missing.err, HasSubstr("trial 3 is not stored in run"));
+  const CommandResult seed = Run({"trace", "run", "--trial", "0", "--seed", "2"});
+  EXPECT_EQ(seed.exit_code, 2);
+  EXPECT_THAT(seed.err, HasSubstr("scenario.resolved.json"));
+  EXPECT_EQ(Run({"trace", "run", "--trial", "-1"}).exit_code, 2);
+  EXPECT_EQ(Run({"trace", "run"}).exit_code, 2);
+  const CommandResult folder = Run({"trace", "run", "--trial", "0", "--svg", "no/such.svg"});
+  EXPECT_EQ(folder.exit_code, 2);
+  EXPECT_THAT(folder.err, HasSubstr("folder that does not exist"));
+  EXPECT_EQ(Run({"trace", "run", "--trial", "0", "--csv", "a", "--svg", "a"}).exit_code, 2);
+  EXPECT_FALSE(fs::exists(work() / "a"));
+}
+
+}  // namespace
+}  // namespace rockyard::app

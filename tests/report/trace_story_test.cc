@@ -1,0 +1,83 @@
+#include "report/trace_story.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sample_trace.h"
+
+namespace rockyard::report {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::ptrdiff_t LinesOf(const std::string& text) {
+  return std::count(text.begin(), text.end(), '\n');
+}
+
+TEST(TraceStory, TellsTurnsAndDrivesBetweenFoldedEvents) {
+  const std::string story = TraceStory(SampleTrial(), StoryLength::kFolded);
+  EXPECT_THAT(story, HasSubstr("seed 7, trial 12: no_path (nowhere to go)"));
+  EXPECT_THAT(story, HasSubstr("drove 2.00 m"));
+  EXPECT_THAT(story, HasSubstr("start, drove 1.00 m\n"));
+  EXPECT_THAT(story, HasSubstr("3 hazard scans ..#.. to #...., turned right 30 deg\n"));
+  EXPECT_THAT(story, HasSubstr("reflection"));
+  EXPECT_THAT(story, HasSubstr("end nowhere to go\n"));
+  // Pose, belief and believed distance to the goal of the first scan.
+  EXPECT_THAT(story, HasSubstr("  1.00   0.00     0    1.50   0.00     0    2.00  3 hazard"));
+}
+
+TEST(TraceStory, EveryEventOnALineOfItsOwn) {
+  const TracedTrial trial = SampleTrial();
+  const std::string all = TraceStory(trial, StoryLength::kAll);
+  EXPECT_THAT(all, HasSubstr("hazard ..#.., turned right 10 deg\n"));
+  EXPECT_THAT(all, Not(HasSubstr("hazard scans ")));
+  EXPECT_EQ(LinesOf(all) - LinesOf(TraceStory(trial, StoryLength::kFolded)), 2);
+}
+
+TEST(TraceStory, StaysShortHoweverMuchHappens) {
+  TracedTrial trial = SampleTrial();
+  trial.trace = {};
+  for (int i = 0; i < 3000; ++i) {
+    trial.trace.samples.push_back(SampleOf(i, 0.02 * i, 0.0, 0.0, "drive"));
+    trial.trace.events.push_back(
+        {i + 0.5, {0.02 * i, 0.0, 0.0}, i % 3 == 0 ? "reflection" : "hazard", ""});
+  }
+  EXPECT_GT(LinesOf(TraceStory(trial, StoryLength::kAll)), 3000);
+  EXPECT_LE(LinesOf(TraceStory(trial, StoryLength::kFolded)), kMostStoryLines);
+}
+
+TEST(TraceStory, AFaultBeforeTheFirstTickHasNoFigures) {
+  TracedTrial trial;
+  trial.record.detail = "blew up";
+  const std::string story = TraceStory(trial, StoryLength::kFolded);
+  EXPECT_THAT(story, HasSubstr("simulator_fault (blew up)"));
+  EXPECT_THAT(story, Not(HasSubstr("nan")));
+}
+
+TEST(RecordDifferences, ComparesBits) {
+  const TracedTrial trial = SampleTrial();
+  EXPECT_TRUE(RecordDifferences(trial.schema, trial.record, trial.record).empty());
+  truth::Record other = trial.record;
+  other.values[1] = std::nextafter(other.values[1], 100.0);
+  const auto differences = RecordDifferences(trial.schema, trial.record, other);
+  ASSERT_EQ(differences.size(), 1U);
+  EXPECT_THAT(differences.front(), HasSubstr("scans: stored 9, now 9.000000000000002"));
+
+  truth::Record zero = trial.record;
+  truth::Record negative_zero = trial.record;
+  zero.values[0] = 0.0;
+  negative_zero.values[0] = -0.0;
+  EXPECT_EQ(RecordDifferences(trial.schema, zero, negative_zero).size(), 1U);
+
+  other = trial.record;
+  other.outcome = truth::TrialOutcome::kJammed;
+  other.detail = "stuck";
+  other.values.clear();
+  EXPECT_EQ(RecordDifferences(trial.schema, trial.record, other).size(), 3U);
+}
+
+}  // namespace
+}  // namespace rockyard::report
