@@ -105,6 +105,7 @@ TEST(Drive, TurnsInPlaceWhenTheGoalIsBehind) {
   for (const double heading_deg : {100.0, 135.0, 170.0, -100.0, -135.0, -170.0}) {
     SCOPED_TRACE(heading_deg);
     DriveSetup setup;
+    setup.params.point_turn_bearing_rad = math::DegToRad(90.0);
     setup.start = {0.0, 0.0, math::DegToRad(heading_deg)};
     Drive drive(setup);
     ASSERT_TRUE(drive.StepUntil([](const Tick& t) { return t.moves(); }));
@@ -114,6 +115,23 @@ TEST(Drive, TurnsInPlaceWhenTheGoalIsBehind) {
     EXPECT_LE(std::abs(Bearing(drive.log().back(), setup.goal)),
               setup.params.point_turn_bearing_rad);
     EXPECT_EQ(drive.log().back().estimate.distance_m, 0.0);
+    EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+  }
+}
+
+// The arc to a goal at distance d and bearing b has radius d / (2 sin b); below the tightest radius
+// the rover would circle the goal for ever.
+TEST(Drive, TurnsInPlaceWhenTheGoalLiesInsideTheTightestCircle) {
+  DriveSetup setup;
+  const double bearing_rad = math::DegToRad(60.0);
+  const double reach_m = 2.0 * setup.params.tight_arc_radius_m * std::sin(bearing_rad);
+  for (const bool inside : {true, false}) {
+    SCOPED_TRACE(inside);
+    const double distance_m = inside ? 0.9 * reach_m : 1.1 * reach_m;
+    setup.start = {setup.goal.x_m - distance_m, setup.goal.y_m, -bearing_rad};
+    Drive drive(setup);
+    ASSERT_TRUE(drive.StepUntil([](const Tick& t) { return t.moves(); }));
+    EXPECT_EQ(drive.log().back().turns(), inside);
     EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
   }
 }
