@@ -45,7 +45,7 @@ void ConstraintSolver::Clear() {
 
 void ConstraintSolver::Solve(const DofMatrix& mass_inverse,
                              const messages::PerWheel<double>& wheel_rate_rad_s,
-                             ContactFinder& finder, Multibody& body) {
+                             LooseRocks* loose_rocks, ContactFinder& finder, Multibody& body) {
   const DofVector free_velocity = body.Velocity();
   velocity_ = free_velocity;
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
@@ -55,15 +55,17 @@ void ConstraintSolver::Solve(const DofMatrix& mass_inverse,
   StartStops(mass_inverse, body);
   StartMotors(mass_inverse, wheel_rate_rad_s);
   contact_count_ = 0;
+  if (loose_rocks != nullptr) loose_rocks->Start(finder.contacts());
   for (Contact& contact : finder.contacts()) {
     if (contact.gap_m < ContactFinder::kActiveGap_m) {
-      StartContact(mass_inverse, finder.part(contact.part), body, contact);
+      LooseRock* rock = loose_rocks != nullptr ? loose_rocks->Find(contact.other) : nullptr;
+      StartContact(mass_inverse, finder.part(contact.part), body, rock, contact);
     } else {
       contact.impulse_Ns = {};
       contact.drag_Ns = 0.0;
     }
   }
-  for (std::int64_t i = 0; i < iterations_; ++i) Sweep();
+  for (std::int64_t i = 0; i < iterations_; ++i) Sweep(loose_rocks);
   for (std::size_t i = 0; i < contact_count_; ++i) {
     const ContactRows& rows = contacts_[i];
     rows.contact->impulse_Ns = {rows.normal.impulse, rows.along.impulse, rows.across.impulse};
@@ -74,9 +76,14 @@ void ConstraintSolver::Solve(const DofMatrix& mass_inverse,
 
 void ConstraintSolver::Start(const DofMatrix& mass_inverse, Row& row) {
   row.response.noalias() = mass_inverse * row.J;
-  row.inverse_diagonal = 1.0 / (row.J.dot(row.response) + row.softness);
+  double diagonal = row.J.dot(row.response) + row.softness;
+  if (row.rock != nullptr) {
+    diagonal += row.direction_W.head<2>().squaredNorm() / row.rock->mass_kg;
+  }
+  row.inverse_diagonal = 1.0 / diagonal;
   row.impulse = std::clamp(row.impulse, row.low, row.high);
   velocity_ += row.impulse * row.response;
+  if (row.rock != nullptr) row.rock->PushBack(row.impulse * row.direction_W);
 }
 
 void ConstraintSolver::StartDifferential(const DofMatrix& mass_inverse, const Multibody& body) {
@@ -111,12 +118,16 @@ void ConstraintSolver::StartMotors(const DofMatrix& mass_inverse,
 }
 
 void ConstraintSolver::StartContact(const DofMatrix& mass_inverse, const Part& part,
-                                    const Multibody& body, Contact& contact) {
+                                    const Multibody& body, LooseRock* rock, Contact& contact) {
   if (contact_count_ == contacts_.size()) contacts_.emplace_back();
   ContactRows& rows = contacts_[contact_count_++];
   rows.contact = &contact;
   const bool wheel = part.kind == truth::BodyPart::kWheel;
   const bool wheel_on_soil = wheel && contact.IsSoil();
+  rows.normal.rock = rows.along.rock = rows.across.rock = rock;
+  rows.normal.direction_W = contact.n_W;
+  rows.along.direction_W = contact.along_W;
+  rows.across.direction_W = contact.across_W;
 
   // A spring and damper side by side, solved implicitly: force k d - c v at the end of the step. A
   // gap only bounds the approach.
@@ -174,7 +185,7 @@ double ConstraintSolver::SlipSoftness(const Contact& contact, double spin_rad_s)
   return std::abs(spin_rad_s) * wheel_radius_m_ * slip_per_tau / most_Ns;
 }
 
-void ConstraintSolver::Sweep() {
+void ConstraintSolver::Sweep(LooseRocks* loose_rocks) {
   Relax(differential_);
   for (Row& row : stops_) {
     if (row.high > 0.0) Relax(row);
@@ -190,15 +201,18 @@ void ConstraintSolver::Sweep() {
       Relax(rows.drag);
     }
   }
+  if (loose_rocks != nullptr) loose_rocks->Hold();
 }
 
 double ConstraintSolver::Wanted(const Row& row) const {
-  const double error = row.target - row.J.dot(velocity_) - row.softness * row.impulse;
+  double error = row.target - row.J.dot(velocity_) - row.softness * row.impulse;
+  if (row.rock != nullptr) error += row.direction_W.dot(row.rock->v_W_m_s);
   return row.impulse + error * row.inverse_diagonal;
 }
 
 void ConstraintSolver::Apply(double impulse, Row& row) {
   velocity_ += (impulse - row.impulse) * row.response;
+  if (row.rock != nullptr) row.rock->PushBack((impulse - row.impulse) * row.direction_W);
   row.impulse = impulse;
 }
 

@@ -7,6 +7,7 @@
 
 #include "messages/wheels.h"
 #include "rover/contact_finder.h"
+#include "rover/loose_rocks.h"
 #include "rover/multibody.h"
 #include "rover/rover_params.h"
 
@@ -21,8 +22,9 @@ class ConstraintSolver {
 
   // Changes the velocities of `body`, already accelerated by gravity, so that they keep all
   // constraints; wheels are driven towards wheel_rate_rad_s. Leaves the impulses in the contacts.
+  // Rocks yield where loose_rocks is given; null: they are fixed.
   void Solve(const DofMatrix& mass_inverse, const messages::PerWheel<double>& wheel_rate_rad_s,
-             ContactFinder& finder, Multibody& body);
+             LooseRocks* loose_rocks, ContactFinder& finder, Multibody& body);
 
   double MotorTorque_Nm(std::size_t wheel) const { return motors_[wheel].impulse / step_s_; }
 
@@ -37,6 +39,9 @@ class ConstraintSolver {
     double impulse = 0.0;
     double low = 0.0;
     double high = 0.0;
+    // A row against a rock that may slide also sees that rock's velocity along its direction.
+    LooseRock* rock = nullptr;
+    math::Vector3 direction_W = math::Vector3::Zero();
   };
   struct ContactRows {
     Contact* contact = nullptr;
@@ -52,12 +57,12 @@ class ConstraintSolver {
   void StartStops(const DofMatrix& mass_inverse, const Multibody& body);
   void StartMotors(const DofMatrix& mass_inverse, const messages::PerWheel<double>& rate_rad_s);
   void StartContact(const DofMatrix& mass_inverse, const Part& part, const Multibody& body,
-                    Contact& contact);
+                    LooseRock* rock, Contact& contact);
   void StartDrag(const DofMatrix& mass_inverse, const Part& part, const Multibody& body,
                  ContactRows& rows);
   double SlipSoftness(const Contact& contact, double spin_rad_s) const;
 
-  void Sweep();
+  void Sweep(LooseRocks* loose_rocks);
   // Impulse that would keep the row's constraint, without its bounds.
   double Wanted(const Row& row) const;
   void Apply(double impulse, Row& row);

@@ -40,6 +40,16 @@ void ContactFinder::Clear() {
   gathered_ = false;
 }
 
+void ContactFinder::OnRockMoved(int rock) {
+  Ellipsoid& ellipsoid = rocks_[static_cast<std::size_t>(rock)];
+  const Vector3 before_W = ellipsoid.center_W();
+  ellipsoid = Ellipsoid(terrain_.rocks()[static_cast<std::size_t>(rock)]);
+  for (Contact& contact : contacts_) {
+    if (contact.other == rock) contact.near_W += ellipsoid.center_W() - before_W;
+  }
+  gathered_ = false;
+}
+
 void ContactFinder::Update(const Multibody& body) {
   std::swap(contacts_, last_);
   contacts_.clear();

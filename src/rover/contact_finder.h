@@ -45,6 +45,8 @@ class ContactFinder {
   void Update(const Multibody& body);
   // Forgets everything, for a rover that was lifted.
   void Clear();
+  // Reads the place of a rock again.
+  void OnRockMoved(int rock);
 
   std::vector<Contact>& contacts() { return contacts_; }
   const std::vector<Contact>& contacts() const { return contacts_; }

@@ -58,6 +58,12 @@ RockerBogie::RockerBogie(const RoverParams& params, const terrain::Terrain& terr
       finder_(params.geometry, terrain),
       solver_(params) {}
 
+RockerBogie::RockerBogie(const RoverParams& params, const terrain::RockHoldingParams& holding,
+                         terrain::Terrain& terrain)
+    : RockerBogie(params, terrain) {
+  loose_rocks_.emplace(holding, params.physics.gravity_m_s2, params.physics.step_s, terrain);
+}
+
 math::Transform RockerBogie::LiftedPose(const math::Pose2& X_WR) const {
   const terrain::Ground& ground = terrain_.ground();
   const Vector3 up = ground.Normal(X_WR.x_m, X_WR.y_m);
@@ -89,6 +95,7 @@ void RockerBogie::Place(const math::Pose2& X_WR) {
   body_.UpdatePoses();
   finder_.Clear();
   solver_.Clear();
+  if (loose_rocks_) loose_rocks_->Clear();
   Settle();
   body_.StopMotion();
   // What the wheels turned while settling is not driving: it is taken off the angle.
@@ -131,9 +138,10 @@ void RockerBogie::Advance(const messages::PerWheel<double>& rate_rad_s) {
   body_.UpdatePoses();
   finder_.Update(body_);
   body_.Accelerate(params_.physics.gravity_m_s2, step_s(), mass_inverse_);
-  solver_.Solve(mass_inverse_, rate_rad_s, finder_, body_);
+  solver_.Solve(mass_inverse_, rate_rad_s, loose_rocks_ ? &*loose_rocks_ : nullptr, finder_, body_);
   CheckMotion(body_.Velocity());
   body_.Move(step_s());
+  if (loose_rocks_) loose_rocks_->Move(finder_);
 }
 
 void RockerBogie::CheckMotion(const DofVector& velocity) const {
@@ -187,6 +195,12 @@ void RockerBogie::UpdateContacts() {
 
 std::unique_ptr<Rover> MakeRover(const RoverParams& params, const terrain::Terrain& terrain) {
   return std::make_unique<RockerBogie>(params, terrain);
+}
+
+std::unique_ptr<Rover> MakeRover(const RoverParams& params,
+                                 const terrain::RockHoldingParams& holding,
+                                 terrain::Terrain& terrain) {
+  return std::make_unique<RockerBogie>(params, holding, terrain);
 }
 
 }  // namespace rockyard::rover

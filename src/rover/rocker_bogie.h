@@ -1,8 +1,11 @@
 // The rocker-bogie rover: Bullet's articulated body under rockyard's contacts and constraints.
 #pragma once
 
+#include <optional>
+
 #include "rover/constraint_solver.h"
 #include "rover/contact_finder.h"
+#include "rover/loose_rocks.h"
 #include "rover/multibody.h"
 #include "rover/rover.h"
 
@@ -11,7 +14,10 @@ namespace rockyard::rover {
 // Cost per step: see tests/rover/rover_benchmark.cc. Draws no random numbers.
 class RockerBogie final : public Rover {
  public:
+  // On fixed rocks, and on rocks that the rover can push.
   RockerBogie(const RoverParams& params, const terrain::Terrain& terrain);
+  RockerBogie(const RoverParams& params, const terrain::RockHoldingParams& holding,
+              terrain::Terrain& terrain);
 
   void Place(const math::Pose2& X_WR) override;
   // Throws std::runtime_error when the solution has blown up: a velocity that is not finite or
@@ -34,6 +40,7 @@ class RockerBogie final : public Rover {
   Multibody body_;
   ContactFinder finder_;
   ConstraintSolver solver_;
+  std::optional<LooseRocks> loose_rocks_;
   DofMatrix mass_inverse_ = DofMatrix::Zero();
   messages::PerWheel<double> angle_at_place_rad_{};
   truth::RoverState state_;

@@ -6,6 +6,7 @@
 #include "math/pose.h"
 #include "messages/commands.h"
 #include "rover/rover_params.h"
+#include "terrain/rock_holding_params.h"
 #include "terrain/terrain.h"
 #include "truth/rover_state.h"
 
@@ -27,7 +28,13 @@ class Rover {
 };
 
 // Makes the rover of `params` on `terrain`, which must outlive it. One fresh world per call: equal
-// arguments give bit-for-bit equal motion.
+// arguments give bit-for-bit equal motion. Rocks are fixed.
 std::unique_ptr<Rover> MakeRover(const RoverParams& params, const terrain::Terrain& terrain);
+
+// The same with rocks that slide when the rover pushes them harder than the soil holds them (see
+// README.md of this folder): Place and Step then move rocks of `terrain`.
+std::unique_ptr<Rover> MakeRover(const RoverParams& params,
+                                 const terrain::RockHoldingParams& holding,
+                                 terrain::Terrain& terrain);
 
 }  // namespace rockyard::rover

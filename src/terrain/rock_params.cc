@@ -209,6 +209,7 @@ void RockFieldParams::Visit(core::FieldVisitor& v) {
             .origin = Origin::kAssumed,
             .source = "rocks large enough to matter, a third buried, hold; the paper mentions none "
                       "that moved"});
+  v.Group("holding", holding, "what holds a movable rock; no effect on fixed ones");
 }
 
 }  // namespace rockyard::terrain

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/fields.h"
+#include "terrain/rock_holding_params.h"
 
 namespace rockyard::terrain {
 
@@ -55,6 +56,7 @@ struct RockFieldParams {
   OverlapRule overlap = OverlapRule::kRelocate;
   double clear_radius_m = 0.5;
   RockMobility mobility = RockMobility::kFixed;
+  RockHoldingParams holding;
 
   // Expected number of rocks per m2 of the layout area, before clear zones and overlap.
   double RocksPerM2() const;

@@ -77,6 +77,17 @@ Terrain::Terrain(Ground ground, std::vector<Rock> rocks, std::vector<Wall> walls
   BuildGrid();
 }
 
+void Terrain::MoveRock(int index, double dx_m, double dy_m) {
+  EXPECT(index >= 0 && static_cast<std::size_t>(index) < rocks_.size());
+  Rock& rock = rocks_[static_cast<std::size_t>(index)];
+  math::Vector3& p_W = rock.center_W;
+  const double above_ground_m = p_W.z() - ground_.Height(p_W.x(), p_W.y());
+  p_W.head<2>() += Eigen::Vector2d(dx_m, dy_m);
+  p_W.z() = ground_.Height(p_W.x(), p_W.y()) + above_ground_m;
+  shapes_[static_cast<std::size_t>(index)] = RockShape(rock);
+  BuildGrid();
+}
+
 void Terrain::BuildGrid() {
   if (rocks_.empty()) return;
   Eigen::Array2d low = rocks_.front().center_W.head<2>().array();

@@ -1,5 +1,5 @@
-// A queryable piece of Mars (or of a test arena): ground, rocks, walls. Immutable once built, one
-// per trial; every query is const and thread-safe.
+// A queryable piece of Mars (or of a test arena): ground, rocks, walls. One per trial. Every query
+// is const and thread-safe; only MoveRock changes anything.
 #pragma once
 
 #include <optional>
@@ -37,6 +37,11 @@ class Terrain {
   const Ground& ground() const { return ground_; }
   std::span<const Rock> rocks() const { return rocks_; }
   std::span<const Wall> walls() const { return walls_; }
+
+  // Slides a rock by (dx, dy); it keeps its height above the ground under its centre. Nothing stops
+  // it: rocks may come to overlap one another or a wall, and mirror images stay. Every query sees
+  // it at its new place; indices stay. Cost: that of building the grid, once for each call.
+  void MoveRock(int index, double dx_m, double dy_m);
 
   // Height of the highest surface (ground or rock top) above (x, y), m.
   double Height(double x_m, double y_m) const;

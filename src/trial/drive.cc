@@ -39,6 +39,14 @@ std::unique_ptr<navigation::Navigator> MakeNavigator(const Scenario& scenario) {
                                                            scenario.perception.hazard.enabled);
 }
 
+std::unique_ptr<rover::Rover> MakeTrialRover(const Scenario& scenario, terrain::Terrain& terrain) {
+  const terrain::RockFieldParams& rocks = scenario.terrain.rocks;
+  if (rocks.mobility == terrain::RockMobility::kFixed) {
+    return rover::MakeRover(scenario.rover, terrain);
+  }
+  return rover::MakeRover(scenario.rover, rocks.holding, terrain);
+}
+
 Activity ActivityOf(const messages::MotionCommand& motion, bool steering) {
   if (steering) return Activity::kSteering;
   return motion.kind == MotionKind::kTurnInPlace ? Activity::kTurning : Activity::kDriving;
@@ -75,7 +83,7 @@ Drive::Drive(const Scenario& scenario, core::TrialKey key, truth::Trace* trace)
       trace_(trace),
       field_(terrain::BuildField(scenario.terrain, LayoutKey(scenario, key),
                                  TerrainCourse(scenario.course))),
-      rover_(rover::MakeRover(scenario.rover, field_.terrain)),
+      rover_(MakeTrialRover(scenario, field_.terrain)),
       light_stripe_(scenario.sensors.light_stripe),
       triangulator_(sensing::TrueCalibration(scenario.sensors.light_stripe)),
       hazard_detector_(scenario.perception.hazard),
