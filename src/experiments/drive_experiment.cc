@@ -1,7 +1,9 @@
 #include "experiments/drive_experiment.h"
 
 #include <cmath>
+#include <cstdint>
 #include <exception>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -63,6 +65,9 @@ truth::Record DriveExperiment::RunTraced(std::uint64_t seed, std::uint64_t index
 truth::Record DriveExperiment::RunTrial(std::uint64_t seed, std::uint64_t index,
                                         truth::Trace* trace) const {
   try {
+    if (index > std::numeric_limits<std::uint32_t>::max()) {
+      throw std::out_of_range("trial indices end at 2^32 - 1, the size of their random key");
+    }
     const trial::DriveResult drive =
         trial::RunTrial(scenario_, {seed, static_cast<std::uint32_t>(index)}, trace);
     return {index, drive.outcome, drive.detail, Values(drive.record)};

@@ -38,7 +38,8 @@ class Drive {
   std::optional<Verdict> Scan();
   std::optional<Verdict> Move(const messages::MotionCommand& motion, double duration_s);
 
-  // Holds the command for whole physics steps that cover at least duration_s; returns their time.
+  // Holds the command for duration_s rounded to whole physics steps, one at least; returns their
+  // time.
   double ApplyCommand(const messages::WheelCommand& command, double duration_s);
   void UpdateEstimate(double duration_s, bool moving);
   void ReflectAtMirrorLine();

@@ -12,9 +12,15 @@ DriveMonitor::DriveMonitor(const Underside& underside, const terrain::Terrain& t
       min_clearance_m_(std::numeric_limits<double>::infinity()) {}
 
 void DriveMonitor::Restart(const truth::RoverState& state) {
+  distance_m_ += OpenChord();
   last_ = math::ToPose2(state.X_WR);
   chord_x_m_ = last_.x_m;
   chord_y_m_ = last_.y_m;
+  ObserveClearance(state);
+}
+
+double DriveMonitor::OpenChord() const {
+  return std::hypot(last_.x_m - chord_x_m_, last_.y_m - chord_y_m_);
 }
 
 void DriveMonitor::Observe(const truth::RoverState& state, bool turning) {
@@ -45,7 +51,7 @@ void DriveMonitor::ObserveClearance(const truth::RoverState& state) {
 }
 
 void DriveMonitor::Report(truth::DriveRecord& record) const {
-  record.true_distance_m = distance_m_ + std::hypot(last_.x_m - chord_x_m_, last_.y_m - chord_y_m_);
+  record.true_distance_m = distance_m_ + OpenChord();
   record.turned_in_place_rad = turned_rad_;
   record.max_tilt_deg = math::RadToDeg(max_tilt_rad_);
   record.max_bogie_deg = math::RadToDeg(max_bogie_rad_);

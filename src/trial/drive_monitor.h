@@ -38,6 +38,7 @@ class DriveMonitor {
   void Report(truth::DriveRecord& record) const;
 
  private:
+  double OpenChord() const;  // from the last counted position to the present one, m
   void ObserveClearance(const truth::RoverState& state);
 
   Underside underside_;

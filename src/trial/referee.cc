@@ -29,8 +29,8 @@ Referee::Referee(const RefereeParams& params, const CourseParams& course,
     : params_(params),
       course_(course),
       bounds_(bounds),
-      best_goal_distance_m_(
-          Between(course.start_x_m, course.start_y_m, course.goal_x_m, course.goal_y_m)) {}
+      progress_{Between(course.start_x_m, course.start_y_m, course.goal_x_m, course.goal_y_m),
+                course.start_x_m, course.start_y_m} {}
 
 std::optional<Verdict> Referee::Observe(const Observation& observation, const Ledger& ledger) {
   const truth::RoverState& state = observation.state;
@@ -46,56 +46,76 @@ std::optional<Verdict> Referee::Observe(const Observation& observation, const Le
     return Verdict{TrialOutcome::kTimeLimit, "simulated time reached time_limit_s"};
   }
   if (auto stuck = CheckStuck(observation)) return stuck;
-  return CheckNoPath(observation);
+  return CheckNoPath(observation, ledger.time_s());
 }
 
 std::optional<Verdict> Referee::CheckStuck(const Observation& observation) {
   if (!IsMotion(observation.activity)) return std::nullopt;
-  const math::Pose2 pose = math::ToPose2(observation.state.X_WR);
-  const messages::PoseEstimate& estimate = observation.estimate;
+  if (!window_) OpenWindow(observation);
+  window_->duration_s += observation.duration_s;
+  if (BellyTouches(observation.state)) window_->belly_s += observation.duration_s;
+  if (window_->duration_s < params_.stall_window_s) return std::nullopt;
+  const Window window = *window_;
+  OpenWindow(observation);
+  if (MovedSince(window, observation)) return std::nullopt;
+  if (window.belly_s >= params_.high_centre_load * window.duration_s) {
+    return Verdict{TrialOutcome::kHighCentred, "no net motion with the belly on a rock"};
+  }
+  return Verdict{TrialOutcome::kJammed, "no net motion although the wheels were told to turn"};
+}
+
+void Referee::OpenWindow(const Observation& observation) {
+  window_ = Window{math::ToPose2(observation.state.X_WR), observation.estimate, 0.0, 0.0};
+}
+
+// Net motion: a rover that rocks to and fro between two rocks does not move.
+bool Referee::MovedSince(const Window& window, const Observation& observation) const {
   const auto moved = [&](double distance_m, double turn_rad) {
     return distance_m > params_.stall_distance_m ||
            std::abs(math::WrapAngle(turn_rad)) > params_.stall_turn_rad;
   };
-  const bool truly_moved = moved(Between(window_pose_.x_m, window_pose_.y_m, pose.x_m, pose.y_m),
-                                 pose.heading_rad - window_pose_.heading_rad);
-  const bool believes_moved =
-      params_.spinning_wheels == SpinningWheels::kDriveOn &&
-      moved(Between(window_estimate_.x_m, window_estimate_.y_m, estimate.x_m, estimate.y_m),
-            estimate.heading_rad - window_estimate_.heading_rad);
-  if (!window_open_ || truly_moved || believes_moved) {
-    window_open_ = true;
-    window_pose_ = pose;
-    window_estimate_ = estimate;
-    window_s_ = 0.0;
-    belly_s_ = 0.0;
-    return std::nullopt;
-  }
-  window_s_ += observation.duration_s;
-  if (BellyTouches(observation.state)) belly_s_ += observation.duration_s;
-  if (window_s_ < params_.stall_window_s) return std::nullopt;
-  if (belly_s_ >= params_.high_centre_load * window_s_) {
-    return Verdict{TrialOutcome::kHighCentred, "no motion with the belly on a rock"};
-  }
-  return Verdict{TrialOutcome::kJammed, "no motion although the wheels were told to turn"};
+  const math::Pose2 pose = math::ToPose2(observation.state.X_WR);
+  const messages::PoseEstimate& estimate = observation.estimate;
+  const bool truly = moved(Between(window.pose.x_m, window.pose.y_m, pose.x_m, pose.y_m),
+                           pose.heading_rad - window.pose.heading_rad);
+  const bool believes =
+      moved(Between(window.estimate.x_m, window.estimate.y_m, estimate.x_m, estimate.y_m),
+            estimate.heading_rad - window.estimate.heading_rad);
+  return truly || (believes && params_.spinning_wheels == SpinningWheels::kDriveOn);
 }
 
-std::optional<Verdict> Referee::CheckNoPath(const Observation& observation) {
-  const double goal_distance_m = Between(observation.estimate.x_m, observation.estimate.y_m,
-                                         course_.goal_x_m, course_.goal_y_m);
-  if (goal_distance_m <= best_goal_distance_m_ - params_.no_path_progress_m) {
-    best_goal_distance_m_ = goal_distance_m;
-    progress_distance_m_ = observation.true_distance_m;
-    progress_turn_rad_ = observation.turned_in_place_rad;
+std::optional<Verdict> Referee::CheckNoPath(const Observation& observation, double time_s) {
+  if (MadeProgress(observation)) {
+    progress_.time_s = time_s;
+    progress_.distance_m = observation.true_distance_m;
+    progress_.turned_rad = observation.turned_in_place_rad;
     return std::nullopt;
   }
-  if (observation.true_distance_m - progress_distance_m_ > params_.no_path_distance_m) {
+  if (observation.true_distance_m - progress_.distance_m > params_.no_path_distance_m) {
     return Verdict{TrialOutcome::kNoPath, "drove no_path_distance_m without coming nearer"};
   }
-  if (observation.turned_in_place_rad - progress_turn_rad_ > params_.no_path_turn_rad) {
+  if (observation.turned_in_place_rad - progress_.turned_rad > params_.no_path_turn_rad) {
     return Verdict{TrialOutcome::kNoPath, "turned no_path_turn_deg without coming nearer"};
   }
+  if (time_s - progress_.time_s > params_.no_path_time_s) {
+    return Verdict{TrialOutcome::kNoPath, "spent no_path_time_s without coming nearer"};
+  }
   return std::nullopt;
+}
+
+// The rover believes to be nearer than ever and has truly moved: spinning wheels are no progress.
+bool Referee::MadeProgress(const Observation& observation) {
+  const double goal_distance_m = Between(observation.estimate.x_m, observation.estimate.y_m,
+                                         course_.goal_x_m, course_.goal_y_m);
+  const math::Pose2 pose = math::ToPose2(observation.state.X_WR);
+  if (goal_distance_m > progress_.goal_distance_m - params_.no_path_progress_m ||
+      Between(progress_.x_m, progress_.y_m, pose.x_m, pose.y_m) < params_.no_path_progress_m) {
+    return false;
+  }
+  progress_.goal_distance_m = goal_distance_m;
+  progress_.x_m = pose.x_m;
+  progress_.y_m = pose.y_m;
+  return true;
 }
 
 Verdict Referee::OnNavigatorStop(navigation::NavigatorStatus status,

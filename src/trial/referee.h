@@ -48,24 +48,35 @@ class Referee {
   Verdict OnNavigatorStop(navigation::NavigatorStatus status, const truth::RoverState& state) const;
 
  private:
+  // A stretch of commanded motion, scans left out.
+  struct Window {
+    math::Pose2 pose;  // at its beginning, true and believed
+    messages::PoseEstimate estimate;
+    double duration_s = 0.0;
+    double belly_s = 0.0;  // of it with the belly on a rock
+  };
+
+  // The state at the last progress towards the goal.
+  struct Progress {
+    double goal_distance_m = 0.0;  // believed
+    double x_m = 0.0;              // true
+    double y_m = 0.0;
+    double time_s = 0.0;
+    double distance_m = 0.0;
+    double turned_rad = 0.0;
+  };
+
   std::optional<Verdict> CheckStuck(const Observation& observation);
-  std::optional<Verdict> CheckNoPath(const Observation& observation);
+  void OpenWindow(const Observation& observation);
+  bool MovedSince(const Window& window, const Observation& observation) const;
+  std::optional<Verdict> CheckNoPath(const Observation& observation, double time_s);
+  bool MadeProgress(const Observation& observation);
 
   RefereeParams params_;
   CourseParams course_;
   std::optional<ArenaBounds> bounds_;
-
-  // Stuck: the pose at which the running window of motionless driving began.
-  bool window_open_ = false;
-  math::Pose2 window_pose_;
-  messages::PoseEstimate window_estimate_;
-  double window_s_ = 0.0;
-  double belly_s_ = 0.0;
-
-  // No path: the state at the last progress towards the goal.
-  double best_goal_distance_m_;
-  double progress_distance_m_ = 0.0;
-  double progress_turn_rad_ = 0.0;
+  std::optional<Window> window_;
+  Progress progress_;
 };
 
 }  // namespace rockyard::trial

@@ -28,7 +28,7 @@ void RefereeParams::Visit(core::FieldVisitor& v) {
           .study_low = 5.0,
           .study_high = 60.0});
   v.Real("stall_distance_m", stall_distance_m,
-         {.doc = "true displacement below which there is no motion in the window",
+         {.doc = "true net displacement below which there is no motion in the window",
           .min = 1e-4,
           .max = 1.0,
           .origin = Origin::kAssumed,
@@ -36,7 +36,7 @@ void RefereeParams::Visit(core::FieldVisitor& v) {
           .study_low = 0.01,
           .study_high = 0.05});
   v.Angle("stall_turn_deg", stall_turn_rad,
-          {.doc = "true rotation below which there is no motion in the window",
+          {.doc = "true net rotation below which there is no motion in the window",
            .min = 0.1,
            .max = 90.0,
            .origin = Origin::kAssumed,
@@ -52,15 +52,15 @@ void RefereeParams::Visit(core::FieldVisitor& v) {
           .source = "the belly may lift off for moments while the wheels dig",
           .study_low = 0.1,
           .study_high = 0.5});
-  v.Real(
-      "no_path_progress_m", no_path_progress_m,
-      {.doc = "gain in the believed distance to the goal that counts as progress for the operator",
-       .min = 0.01,
-       .max = 100.0,
-       .origin = Origin::kAssumed,
-       .source = "half a vehicle width",
-       .study_low = 0.1,
-       .study_high = 0.5});
+  v.Real("no_path_progress_m", no_path_progress_m,
+         {.doc = "gain in the believed distance to the goal, with as much true displacement, that "
+                 "counts as progress for the operator",
+          .min = 0.01,
+          .max = 100.0,
+          .origin = Origin::kAssumed,
+          .source = "half a vehicle width",
+          .study_low = 0.1,
+          .study_high = 0.5});
   v.Real("no_path_distance_m", no_path_distance_m,
          {.doc = "true distance driven without progress after which the operator ends the run",
           .min = 0.1,
@@ -77,6 +77,14 @@ void RefereeParams::Visit(core::FieldVisitor& v) {
            .source = "three full turns",
            .study_low = 720.0,
            .study_high = 2160.0});
+  v.Real("no_path_time_s", no_path_time_s,
+         {.doc = "simulated time without progress after which the operator ends the run",
+          .min = 1.0,
+          .max = 1e7,
+          .origin = Origin::kAssumed,
+          .source = "180 scans without coming nearer by half a vehicle width",
+          .study_low = 1800.0,
+          .study_high = 7200.0});
   v.Real("time_limit_s", time_limit_s,
          {.doc = "simulated time after which the run is stopped; the four hours of a rover day",
           .min = 1.0,

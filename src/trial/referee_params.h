@@ -25,6 +25,7 @@ struct RefereeParams {
   double no_path_progress_m = 0.25;
   double no_path_distance_m = 4.0;
   double no_path_turn_rad = math::DegToRad(1080.0);
+  double no_path_time_s = 3600.0;
   double time_limit_s = 14400.0;
 
   void Visit(core::FieldVisitor& v);

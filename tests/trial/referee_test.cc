@@ -75,6 +75,19 @@ TEST_F(RefereeTest, StandingWheelsAreAJamAfterTheWindow) {
   EXPECT_EQ(verdict->outcome, TrialOutcome::kJammed);
 }
 
+TEST_F(RefereeTest, RockingToAndFroIsNoMotion) {
+  double t = 0.0;
+  const auto rock = [&] {
+    t += kTick_s;
+    const double heading_rad = math::DegToRad(6.0) * std::sin(4.0 * t);
+    state_.X_WR.linear() = Eigen::AngleAxisd(heading_rad, math::Vector3::UnitZ()).matrix();
+    MoveTo(3.0 + 0.02 * std::sin(4.0 * t), 0.0);
+  };
+  const auto verdict = Run(10.0 * params_.stall_window_s, rock);
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->outcome, TrialOutcome::kJammed);
+}
+
 TEST_F(RefereeTest, ScanningIsNotStandingStill) {
   EXPECT_FALSE(Run(
       600.0, [] {}, Activity::kScanning));
