@@ -137,6 +137,7 @@ ExitCode CompareWithStore(const TraceOptions& options, const TraceSource& source
     return ExitCode::kDone;
   }
   std::vector<core::Problem> problems;
+  problems.reserve(differences.size() + 1);
   for (const std::string& difference : differences) {
     problems.push_back({fmt::format("trial {}", options.trial), difference, ""});
   }
