@@ -83,6 +83,11 @@ case "$verdict" in
   *) exit "$verdict" ;;
 esac
 
+say "One trial as a picture"
+"$rockyard" trace "$out/nominal" --trial 0 --svg "$out/nominal_trial_0.svg" > /dev/null
+
 say "Results"
 echo "The run folders are in $out: summary.json, trials.csv, distance_cdf.csv, results.sqlite."
+echo "Trial 0 in nominal terrain, seen from above: $out/nominal_trial_0.svg (open it in a browser)."
+echo "What happened in any other: $rockyard trace $out/nominal --trial 1"
 echo "Run scripts/quickstart.sh again to go on after an interruption."
