@@ -66,7 +66,8 @@ class Quickstart(ScriptTest):
             " --resume --force --trials 300",
             f"run scenarios/pathfinder/nominal.json --out {out}/nominal --resume --force --trials 300",
             f"check {out}/obstacles_0.28 {out}/nominal"
-            " --against results/reference/matthies1995.json"])
+            " --against results/reference/matthies1995.json",
+            f"trace {out}/nominal --trial 0 --svg {out}/nominal_trial_0.svg"])
         self.assertIn(out, result.stdout)
 
     def test_options_pass_through(self):
