@@ -45,7 +45,8 @@ if [ "$preset" = tsan ]; then groups="$groups tsan"; fi
 # shellcheck disable=SC2086  # a list of words
 scripts/install_dependencies.sh $groups
 
-cmake --preset "$preset"
+# Quickstart configures the release preset without tests.
+cmake --preset "$preset" -DROCKYARD_BUILD_TESTS=ON
 cmake --build --preset "$preset" -j "$jobs"
 set -- --preset "$preset" -j "$jobs"
 if [ -n "$label" ]; then set -- "$@" -L "$label"; fi

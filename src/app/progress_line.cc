@@ -51,10 +51,10 @@ void ProgressLine::Show(const batch::Progress& progress) {
   if (terminal_) {
     const auto width = static_cast<std::size_t>(std::max(TerminalWidth(stream_) - 1, 20));
     text.resize(std::min(text.size(), width));
-    fmt::print(stream_, "\r{}\x1b[K", text);
+    Write("\r" + text + "\x1b[K");
     std::fflush(stream_);
   } else if (progress.elapsed_s >= next_at_s_) {
-    fmt::print(stream_, "{}\n", text);
+    Write(text + "\n");
     next_at_s_ = progress.elapsed_s + kPlainInterval_s;
   }
 }
@@ -62,7 +62,12 @@ void ProgressLine::Show(const batch::Progress& progress) {
 void ProgressLine::Finish(const batch::Progress& progress) {
   next_at_s_ = 0.0;
   Show(progress);
-  if (terminal_) fmt::print(stream_, "\n");
+  if (terminal_) Write("\n");
+}
+
+// Progress that nobody can read (a closed pipe, a full disk) must not end the run: no check here.
+void ProgressLine::Write(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stream_);
 }
 
 }  // namespace rockyard::app

@@ -22,6 +22,8 @@ class ProgressLine {
   void Finish(const batch::Progress& progress);
 
  private:
+  void Write(const std::string& text);
+
   std::FILE* stream_;
   bool terminal_;
   double next_at_s_ = 0.0;  // when the next plain line is due

@@ -134,6 +134,9 @@ std::optional<Verdict> Drive::Scan() {
     ++scans_;
     if (!first) ++rescans_;
     ledger_.Spend(Activity::kScanning, scenario_.clock.scan_time_s);
+    if (scenario_.sensors.gyro.accumulates_at_rest) {
+      UpdateEstimate(scenario_.clock.scan_time_s, false);
+    }
     seen = hazard_detector_.Process(triangulator_.Elevations(scan));
   }
   report_ = seen.report;
@@ -148,11 +151,13 @@ std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, double
   const messages::WheelCommand command = wheel_driver_.Tick(motion, duration_s);
   const Activity activity = ActivityOf(motion, wheel_driver_.steering());
   const double spent_s = ApplyCommand(command, duration_s);
-  UpdateEstimate(spent_s, motion.kind != MotionKind::kStop);
+  UpdateEstimate(spent_s, motion.kind != MotionKind::kStop && !wheel_driver_.steering());
   ledger_.Spend(activity, spent_s);
   monitor_.Observe(rover_->state(), activity == Activity::kTurning);
   Sample(activity);
-  ReflectAtMirrorLine();
+  // Operators turn a rover whose position reaches the line; one that turns in place stays its own
+  // master, also beyond the line.
+  if (motion.kind == MotionKind::kArc) ReflectAtMirrorLine();
   if (motion.kind == MotionKind::kStop) return std::nullopt;
   return AskReferee(activity, spent_s);
 }
