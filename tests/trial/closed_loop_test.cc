@@ -225,5 +225,25 @@ TEST(WallsTest, KeepTheRoverInside) {
   EXPECT_GT(FarthestLeft("open"), inside_m + 0.01);  // the same drive without a wall goes farther
 }
 
+// Operators turn a rover whose position reaches the line (Matthies 1995 sec. 7); one that turns in
+// place near it is left alone, or it could never turn across the line's direction.
+TEST(MirrorLine, OnlyADrivingRoverIsReflected) {
+  const scenario::Scenario scenario = Pathfinder("obstacles_0.85");
+  int reflections = 0;
+  for (std::uint32_t index = 0; index < 12; ++index) {
+    const TracedTrial trial = RunTraced(scenario, index);
+    for (const truth::TraceEvent& event : trial.trace.events) {
+      if (event.kind != "reflection") continue;
+      ++reflections;
+      const auto sample =
+          std::find_if(trial.trace.samples.begin(), trial.trace.samples.end(),
+                       [&](const truth::TraceSample& s) { return s.time_s >= event.time_s; });
+      ASSERT_NE(sample, trial.trace.samples.end());
+      EXPECT_NE(sample->activity, "turn") << "trial " << index << " at " << event.time_s << " s";
+    }
+  }
+  EXPECT_GT(reflections, 0);
+}
+
 }  // namespace
 }  // namespace rockyard::trial
