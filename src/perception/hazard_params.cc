@@ -48,8 +48,9 @@ void HazardParams::Visit(core::FieldVisitor& v) {
           .study_low = 0.01,
           .study_high = 0.05});
   v.Choice("on_disagreement", on_disagreement,
-           {.doc = "what follows when two scans disagree; in consecutive_moving, scan_again waits "
-                   "for the next scan on the way",
+           {.doc = "what follows when two scans that both show a hazard disagree (a later scan "
+                   "without one is clear at once); in consecutive_moving, scan_again waits for the "
+                   "next scan on the way",
             .origin = Origin::kAssumed,
             .source = "the scans have to agree, so the rover looks until two do"});
   v.Integer(

@@ -31,6 +31,7 @@ enum class ScanAgreement {
 };
 
 // What follows when two scans do not agree.
+// A later scan without a hazard is clear at once, whatever this says.
 enum class Disagreement {
   kScanAgain,      // look again and compare with the newest, up to max_scans; then as on_exhausted
   kTrustLast,      // believe the newest scan alone
