@@ -34,10 +34,6 @@ class ScriptTest(unittest.TestCase):
             self.fake(f"bin/{name}")
         self.fake("build/release/bin/rockyard")
         self.fake("scripts/install_dependencies.sh")
-        for name in ("obstacles_0.28", "nominal"):
-            path = self.root / f"scenarios/pathfinder/{name}.json"
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.touch()
 
     def fake(self, name):
         path = self.root / name
@@ -57,16 +53,18 @@ class ScriptTest(unittest.TestCase):
 
 
 class Quickstart(ScriptTest):
-    def test_runs_every_scenario_that_exists_with_300_trials(self):
+    def test_runs_every_scenario_of_the_comparison_with_300_trials(self):
         result = self.run_script("quickstart.sh")
         self.assertEqual(result.returncode, 0, result.stderr)
         out = "results/runs/quickstart"
+        names = ["obstacles_0.28", "obstacles_0.57", "obstacles_0.85", "nominal",
+                 "nominal_perfect_localization", "level_sand"]
+        runs = [f"run scenarios/pathfinder/{name}.json --out {out}/{name} --resume --force"
+                " --trials 300" for name in names]
+        folders = " ".join(f"{out}/{name}" for name in names)
         self.assertEqual(self.called("rockyard"), [
-            f"run scenarios/pathfinder/obstacles_0.28.json --out {out}/obstacles_0.28"
-            " --resume --force --trials 300",
-            f"run scenarios/pathfinder/nominal.json --out {out}/nominal --resume --force --trials 300",
-            f"check {out}/obstacles_0.28 {out}/nominal"
-            " --against results/reference/matthies1995.json",
+            *runs,
+            f"check {folders} --against results/reference/matthies1995.json",
             f"trace {out}/nominal --trial 0 --svg {out}/nominal_trial_0.svg"])
         self.assertIn(out, result.stdout)
 
