@@ -92,6 +92,10 @@ def design(rows, points, seed):
     return [{path: values[i] for path, values in columns.items()} for i in range(points)]
 
 
+def settings(point):
+    return [part for path, value in point.items() for part in ("--set", f"{path}={value}")]
+
+
 def repaired(point, rows, rockyard, scenario, rng):
     """Draws anew what contradicts other values of the point (its ranges taken one by one overlap).
 
@@ -100,8 +104,7 @@ def repaired(point, rows, rockyard, scenario, rng):
     by_path = {row["path"]: row for row in rows}
     redrawn = []
     for _ in range(100):
-        options = [part for path, value in point.items() for part in ("--set", f"{path}={value}")]
-        result = subprocess.run([str(rockyard), "validate", str(scenario), *options],
+        result = subprocess.run([str(rockyard), "validate", str(scenario), *settings(point)],
                                 capture_output=True, text=True, check=False)
         if result.returncode == 0:
             return redrawn
@@ -156,16 +159,16 @@ def main():
                for path in repaired(point, rows, args.rockyard, args.scenarios[0], rng)]
     args.out.mkdir(parents=True, exist_ok=True)
     (args.out / "design.json").write_text(json.dumps(points, indent=1) + "\n", encoding="utf-8")
-    settings = []
-    for index, point in enumerate(points):
-        options = [part for path, value in point.items() for part in ("--set", f"{path}={value}")]
-        scale = calibrated_scale(args, options, args.out / "level_sand" / f"{index:03d}")
-        settings.append(options + ["--set", f"perception.dead_reckoning.distance_scale={scale}"])
+    scales = [calibrated_scale(args, settings(point), args.out / "level_sand" / f"{index:03d}")
+              for index, point in enumerate(points)]
     print(f"{len(points)} points over {len(rows)} assumed parameters, {args.trials} trials each; "
           f"{len(redrawn)} values drawn again because they contradicted others")
     for scenario in args.scenarios:
         summaries = []
-        for index, options in enumerate(settings):
+        for index, (point, scale) in enumerate(zip(points, scales)):
+            valid = dict(point)  # a value may contradict this scenario and no other
+            repaired(valid, rows, args.rockyard, scenario, rng)
+            options = settings({**valid, "perception.dead_reckoning.distance_scale": scale})
             folder = args.out / scenario.stem / f"{index:03d}"
             command = [args.rockyard, "run", scenario, "--trials", args.trials, "--seed", args.seed,
                        "--out", folder, "--quiet", *options]
