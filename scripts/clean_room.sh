@@ -60,16 +60,16 @@ mount -t proc proc "$root/proc"
 mount --bind /dev "$root/dev"
 mount -t sysfs sys "$root/sys" 2> /dev/null || true
 
-if [ -d "$root/root/rockyard" ]; then
-  git -C "$root/root/rockyard" pull --quiet --ff-only
+if [ -d "$root/srv/rockyard" ]; then
+  git -C "$root/srv/rockyard" pull --quiet --ff-only
 else
-  git clone --quiet "$project" "$root/root/rockyard"
+  git clone --quiet "$project" "$root/srv/rockyard"
 fi
 for command in "$@"; do
   echo "== $command"
   start=$(date +%s)
   env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin TERM="${TERM:-dumb}" \
-    chroot "$root" sh -c "cd /root/rockyard && $command" && status=0 || status=$?
+    chroot "$root" sh -c "cd /srv/rockyard && $command" && status=0 || status=$?
   echo "== $command: exit code $status after $(($(date +%s) - start)) s"
   [ "$status" -eq 0 ] || exit "$status"
 done
