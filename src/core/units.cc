@@ -18,12 +18,38 @@ struct Unit {
   std::string_view text;   // for people
 };
 
-constexpr std::array<Unit, 29> kUnits = {
-    {{"m", "m"},   {"m2", "m2"}, {"m3", "m3"},   {"mm", "mm"},     {"cm", "cm"},   {"s", "s"},
-     {"s2", "s2"}, {"h", "h"},   {"rad", "rad"}, {"rad2", "rad2"}, {"deg", "deg"}, {"deg2", "deg2"},
-     {"kg", "kg"}, {"g", "g"},   {"N", "N"},     {"Nm", "Nm"},     {"Ns", "Ns"},   {"W", "W"},
-     {"Wh", "Wh"}, {"wh", "Wh"}, {"J", "J"},     {"V", "V"},       {"A", "A"},     {"Hz", "Hz"},
-     {"hz", "Hz"}, {"Pa", "Pa"}, {"px", "px"},   {"percent", "%"}, {"K", "K"}}};
+constexpr std::array<Unit, 31> kUnits = {{{"m", "m"},
+                                          {"m2", "m2"},
+                                          {"m3", "m3"},
+                                          {"mm", "mm"},
+                                          {"cm", "cm"},
+                                          {"s", "s"},
+                                          {"s2", "s2"},
+                                          {"h", "h"},
+                                          {"rad", "rad"},
+                                          {"rad2", "rad2"},
+                                          {"deg", "deg"},
+                                          {"deg2", "deg2"},
+                                          {"kg", "kg"},
+                                          {"g", "g"},
+                                          {"N", "N"},
+                                          {"Nm", "Nm"},
+                                          {"Ns", "Ns"},
+                                          {"W", "W"},
+                                          {"Wh", "Wh"},
+                                          {"wh", "Wh"},
+                                          {"J", "J"},
+                                          {"V", "V"},
+                                          {"A", "A"},
+                                          {"Hz", "Hz"},
+                                          {"hz", "Hz"},
+                                          {"Pa", "Pa"},
+                                          {"px", "px"},
+                                          {"percent", "%"},
+                                          {"K", "K"},
+                                          // Powers of Bekker's sinkage exponent n.
+                                          {"mn1", "m^(n+1)"},
+                                          {"mn2", "m^(n+2)"}}};
 
 // Empty where the token names no unit.
 std::string_view UnitText(std::string_view token) {

@@ -12,11 +12,15 @@ constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr double kJointRecovery = 0.2;
 // Joint stops are watched from this angle before them, rad.
 constexpr double kStopWatch_rad = 0.05;
+// Loads below this are taken as this where the soil's answer is looked up, N: a wheel that has just
+// touched has none, and all of it vanishes with the load.
+constexpr double kLeastLoad_N = 0.1;
 
 }  // namespace
 
-ConstraintSolver::ConstraintSolver(const RoverParams& params)
+ConstraintSolver::ConstraintSolver(const RoverParams& params, const terrain::SoilParams& soil)
     : contact_params_(params.contact),
+      soil_(soil, params.geometry.wheel_radius_m, params.geometry.wheel_width_m),
       wheel_radius_m_(params.geometry.wheel_radius_m),
       step_s_(params.physics.step_s),
       iterations_(params.physics.solver_iterations) {
@@ -129,21 +133,9 @@ void ConstraintSolver::StartContact(const DofMatrix& mass_inverse, const Part& p
   rows.along.direction_W = contact.along_W;
   rows.across.direction_W = contact.across_W;
 
-  // A spring and damper side by side, solved implicitly: force k d - c v at the end of the step. A
-  // gap only bounds the approach.
-  const double k = contact_params_.stiffness_N_m;
-  const double c = contact_params_.damping_Ns_m;
-  const double recovery = contact.gap_m > 0.0 ? 1.0 : step_s_ * k / (step_s_ * k + c);
-  body.FillJacobian(part.body, contact.p_W, contact.n_W, rows.normal.J);
-  rows.normal.target = -recovery * contact.gap_m / step_s_;
-  rows.normal.softness = 1.0 / (step_s_ * (step_s_ * k + c));
-  rows.normal.impulse = contact.impulse_Ns[0];
-  rows.normal.high = kUnbounded;
-  Start(mass_inverse, rows.normal);
+  StartNormal(mass_inverse, part, body, wheel_on_soil, rows);
 
-  rows.friction = !wheel             ? contact_params_.body_rock_friction
-                  : contact.IsSoil() ? contact_params_.wheel_soil_friction
-                                     : contact_params_.wheel_rock_friction;
+  rows.friction = FrictionOf(part, contact);
   const double spin_rad_s = wheel ? spin_rad_s_[static_cast<std::size_t>(contact.part)] : 0.0;
   const double softness = wheel_on_soil ? SlipSoftness(contact, spin_rad_s) : 0.0;
   body.FillJacobian(part.body, contact.p_W, contact.along_W, rows.along.J);
@@ -156,8 +148,35 @@ void ConstraintSolver::StartContact(const DofMatrix& mass_inverse, const Part& p
     row->high = kUnbounded;
     Start(mass_inverse, *row);
   }
-  rows.drag_ratio = wheel_on_soil ? contact_params_.soil_drag : 0.0;
+  const double load_N = Load_N(contact);
+  rows.drag_ratio = wheel_on_soil ? soil_.Resistance_N(load_N) / load_N : 0.0;
   StartDrag(mass_inverse, part, body, rows);
+}
+
+// A spring and damper side by side, solved implicitly: force F0 + k (d - d0) - c v at the end of
+// the step, with the penetration d. A gap only bounds the approach. The spring of a wheel on soil
+// is the soil's sinkage in series with the contact's own, taken along its tangent at the last load
+// F0.
+void ConstraintSolver::StartNormal(const DofMatrix& mass_inverse, const Part& part,
+                                   const Multibody& body, bool wheel_on_soil, ContactRows& rows) {
+  const Contact& contact = *rows.contact;
+  double k = contact_params_.stiffness_N_m;
+  const double c = contact_params_.damping_Ns_m;
+  double rest_gap_m = 0.0;  // where the tangent of the spring reaches no force
+  if (wheel_on_soil) {
+    const double load_N = Load_N(contact);
+    const double sinkage_m = soil_.Sinkage_m(load_N);
+    const double depth_m = sinkage_m + load_N / k;
+    k = 1.0 / (1.0 / soil_.Stiffness_N_m(sinkage_m) + 1.0 / k);
+    rest_gap_m = load_N / k - depth_m;
+  }
+  body.FillJacobian(part.body, contact.p_W, contact.n_W, rows.normal.J);
+  rows.normal.target = contact.gap_m > 0.0 ? -contact.gap_m / step_s_
+                                           : k * (rest_gap_m - contact.gap_m) / (step_s_ * k + c);
+  rows.normal.softness = 1.0 / (step_s_ * (step_s_ * k + c));
+  rows.normal.impulse = contact.impulse_Ns[0];
+  rows.normal.high = kUnbounded;
+  Start(mass_inverse, rows.normal);
 }
 
 void ConstraintSolver::StartDrag(const DofMatrix& mass_inverse, const Part& part,
@@ -172,17 +191,26 @@ void ConstraintSolver::StartDrag(const DofMatrix& mass_inverse, const Part& part
   Start(mass_inverse, rows.drag);
 }
 
-// Implicit viscous slip: slip velocity |omega r| s(tau) at traction tau, with s(tau) = -K ln(1-tau)
-// and tau from the last step's impulses, written as softness of the friction rows.
+// Implicit viscous slip: slip velocity |omega r| s(tau) at the share tau of the largest traction,
+// with tau from the last step's impulses, written as softness of the friction rows.
 double ConstraintSolver::SlipSoftness(const Contact& contact, double spin_rad_s) const {
-  const double K = contact_params_.soil_slip;
-  const double most_Ns = contact_params_.wheel_soil_friction * contact.impulse_Ns[0];
-  if (K == 0.0 || most_Ns <= 0.0) return 0.0;
-  const double largest_tau = 1.0 - std::exp(-1.0 / K);  // where the slip reaches 1
+  const double load_N = Load_N(contact);
+  const double most_Ns = soil_.LargestTraction_N(load_N) * step_s_;
+  if (most_Ns <= 0.0) return 0.0;
   const double tau =
-      std::min(std::hypot(contact.impulse_Ns[1], contact.impulse_Ns[2]) / most_Ns, largest_tau);
-  const double slip_per_tau = tau > 1e-6 ? -K * std::log1p(-tau) / tau : K;
-  return std::abs(spin_rad_s) * wheel_radius_m_ * slip_per_tau / most_Ns;
+      std::min(std::hypot(contact.impulse_Ns[1], contact.impulse_Ns[2]) / most_Ns, 1.0);
+  return std::abs(spin_rad_s) * wheel_radius_m_ * soil_.SlipPerShare(tau, load_N) / most_Ns;
+}
+
+double ConstraintSolver::Load_N(const Contact& contact) const {
+  return std::max(contact.impulse_Ns[0] / step_s_, kLeastLoad_N);
+}
+
+double ConstraintSolver::FrictionOf(const Part& part, const Contact& contact) const {
+  if (part.kind != truth::BodyPart::kWheel) return contact_params_.body_rock_friction;
+  if (!contact.IsSoil()) return contact_params_.wheel_rock_friction;
+  const double load_N = Load_N(contact);
+  return soil_.LargestTraction_N(load_N) / load_N;
 }
 
 void ConstraintSolver::Sweep(LooseRocks* loose_rocks) {

@@ -10,12 +10,14 @@
 #include "rover/loose_rocks.h"
 #include "rover/multibody.h"
 #include "rover/rover_params.h"
+#include "rover/wheel_soil.h"
+#include "terrain/soil_params.h"
 
 namespace rockyard::rover {
 
 class ConstraintSolver {
  public:
-  explicit ConstraintSolver(const RoverParams& params);
+  ConstraintSolver(const RoverParams& params, const terrain::SoilParams& soil);
 
   // Forgets the impulses of the last step.
   void Clear();
@@ -60,7 +62,11 @@ class ConstraintSolver {
                     LooseRock* rock, Contact& contact);
   void StartDrag(const DofMatrix& mass_inverse, const Part& part, const Multibody& body,
                  ContactRows& rows);
+  void StartNormal(const DofMatrix& mass_inverse, const Part& part, const Multibody& body,
+                   bool wheel_on_soil, ContactRows& rows);
+  double FrictionOf(const Part& part, const Contact& contact) const;
   double SlipSoftness(const Contact& contact, double spin_rad_s) const;
+  double Load_N(const Contact& contact) const;  // of the last step
 
   void Sweep(LooseRocks* loose_rocks);
   // Impulse that would keep the row's constraint, without its bounds.
@@ -70,6 +76,7 @@ class ConstraintSolver {
   void RelaxFriction(ContactRows& rows);
 
   const RoverContactParams contact_params_;
+  const WheelSoil soil_;
   const double wheel_radius_m_;
   const double step_s_;
   const std::int64_t iterations_;

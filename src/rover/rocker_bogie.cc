@@ -53,10 +53,11 @@ double RiseBelow(const Footprint& area, const math::Transform& X_WR,
 
 RockerBogie::RockerBogie(const RoverParams& params, const terrain::Terrain& terrain)
     : params_(params),
+      steered_(MakeRoverGeometry(params.geometry).steered),
       terrain_(terrain),
       body_(params),
       finder_(params.geometry, terrain),
-      solver_(params) {}
+      solver_(params, terrain.ground().soil()) {}
 
 RockerBogie::RockerBogie(const RoverParams& params, const terrain::RockHoldingParams& holding,
                          terrain::Terrain& terrain)
@@ -125,7 +126,7 @@ void RockerBogie::SetSteer(std::size_t wheel, double angle_rad) {
 void RockerBogie::Step(const messages::WheelCommand& command) {
   const double most_rad = params_.drive.steer_rate_rad_s * step_s();
   for (std::size_t i = 0; i < kWheelCount; ++i) {
-    const double limit = i % 3 == 1 ? 0.0 : params_.drive.max_steer_rad;
+    const double limit = steered_[i] ? params_.drive.max_steer_rad : 0.0;
     const double wanted = std::clamp(command.steer_rad[i], -limit, limit);
     const double change = std::clamp(wanted - state_.steer_rad[i], -most_rad, most_rad);
     if (change != 0.0) SetSteer(i, state_.steer_rad[i] + change);

@@ -36,6 +36,7 @@ class RockerBogie final : public Rover {
   void CheckMotion(const DofVector& velocity) const;
 
   const RoverParams params_;
+  const messages::PerWheel<bool> steered_;
   const terrain::Terrain& terrain_;
   Multibody body_;
   ContactFinder finder_;

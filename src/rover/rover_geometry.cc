@@ -27,7 +27,7 @@ RoverGeometry MakeRoverGeometry(const RoverGeometryParams& params) {
     const std::size_t axle = i % 3;
     const double y = i < 3 ? wheel_y : -wheel_y;
     geometry.wheel_R[i] = Vector3(x[axle], y, params.wheel_radius_m);
-    geometry.steered[i] = axle != 1;
+    geometry.steered[i] = axle != 1 || params.steered_wheels == SteeredWheels::kAll;
     geometry.on_bogie[i] = on_bogie[axle];
   }
   const double bogie_x = 0.5 * (params.middle_wheel_x_m - outer_x);

@@ -1,9 +1,4 @@
 // Parameters of the six-wheel rocker-bogie rover. The defaults describe Rocky 3.2.
-//
-// Frame R: x forward, y left, z up, origin on the ground under the chassis centre while the rover
-// stands on level ground. The pivots of Rocky 3.2 are not public: the defaults take most
-// lateral and vertical dimensions of Rocky 7, whose wheels have the same size, and spread the
-// wheels over the published length. Every such value is marked as assumed with a range.
 #pragma once
 
 #include <array>
@@ -12,35 +7,13 @@
 
 #include "core/fields.h"
 #include "math/angles.h"
+#include "rover/quasi_static_params.h"
+#include "rover/rover_geometry_params.h"
 
 namespace rockyard::rover {
 
-// Which end of the rover stands on the bogies, the other stands on the rockers.
-enum class BogieEnd { kRear, kFront };
-
-struct RoverGeometryParams {
-  double length_m = 0.65;
-  double width_m = 0.48;
-  double height_m = 0.30;
-  double belly_clearance_m = 0.13;
-  double wheel_radius_m = 0.065;
-  double wheel_width_m = 0.08;
-  double middle_wheel_x_m = 0.0;
-  BogieEnd bogie_end = BogieEnd::kFront;
-  double rocker_pivot_x_m = -0.015;
-  double rocker_pivot_z_m = 0.19;
-  double bogie_pivot_z_m = 0.13;
-  double knee_z_m = 0.145;
-  double belly_length_m = 0.40;
-  double belly_width_m = 0.26;
-  double arm_y_m = 0.147;
-  double arm_radius_m = 0.012;
-  double hub_radius_m = 0.025;
-  double rocker_limit_rad = math::DegToRad(25.0);
-  double bogie_limit_rad = math::DegToRad(50.0);
-
-  void Visit(core::FieldVisitor& v);
-};
+// How the rover's motion is computed.
+enum class Fidelity { kMultibody, kQuasiStatic };
 
 struct RoverMassParams {
   double total_kg = 20.0;
@@ -63,11 +36,8 @@ struct RoverDriveParams {
 };
 
 struct RoverContactParams {
-  double wheel_soil_friction = 0.65;
   double wheel_rock_friction = 0.8;
   double body_rock_friction = 0.4;
-  double soil_slip = 0.2;
-  double soil_drag = 0.05;
   double stiffness_N_m = 5e4;
   double damping_Ns_m = 800.0;
 
@@ -83,11 +53,13 @@ struct RoverPhysicsParams {
 };
 
 struct RoverParams {
+  Fidelity fidelity = Fidelity::kMultibody;
   RoverGeometryParams geometry;
   RoverMassParams mass;
   RoverDriveParams drive;
   RoverContactParams contact;
   RoverPhysicsParams physics;
+  QuasiStaticParams quasi_static;
 
   void Visit(core::FieldVisitor& v);
 };
@@ -95,6 +67,6 @@ struct RoverParams {
 }  // namespace rockyard::rover
 
 template <>
-struct rockyard::core::EnumNames<rockyard::rover::BogieEnd> {
-  static constexpr std::array<std::string_view, 2> kNames{"rear", "front"};
+struct rockyard::core::EnumNames<rockyard::rover::Fidelity> {
+  static constexpr std::array<std::string_view, 2> kNames{"multibody", "quasi_static"};
 };

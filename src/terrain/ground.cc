@@ -45,7 +45,8 @@ double FindCrossing(const Gap& gap, double above, double gap_above, double below
 Ground::Ground() = default;
 
 Ground::Ground(const GroundParams& params, core::TrialKey key)
-    : slope_x_(std::tan(params.slope_rad) * std::cos(params.slope_direction_rad)),
+    : soil_(params.soil),
+      slope_x_(std::tan(params.slope_rad) * std::cos(params.slope_direction_rad)),
       slope_y_(std::tan(params.slope_rad) * std::sin(params.slope_direction_rad)) {
   if (params.roughness_rms_m > 0.0) {
     roughness_ = std::make_shared<const RoughnessField>(

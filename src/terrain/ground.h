@@ -1,4 +1,4 @@
-// The ground between the rocks: a plane with a slope, and optional fractal roughness.
+// The ground between the rocks: a plane with a slope, optional fractal roughness, and its soil.
 #pragma once
 
 #include <memory>
@@ -26,6 +26,7 @@ class Ground {
   math::Vector3 Normal(double x_m, double y_m) const;
   // True when the ground is one plane, so that contacts and rays have closed forms.
   bool IsPlane() const { return roughness_ == nullptr; }
+  const SoilParams& soil() const { return soil_; }
 
   // Distance along the unit ray to the ground, at most max_distance_m; 0 where the origin lies on
   // or below it. Closed form on a plane. On rough ground the ray advances by steps that a bound on
@@ -40,6 +41,7 @@ class Ground {
   // Height of a point above the ground, m.
   double Gap(const math::Vector3& p_W) const { return p_W.z() - Height(p_W.x(), p_W.y()); }
 
+  SoilParams soil_;
   double slope_x_ = 0.0;  // dz/dx
   double slope_y_ = 0.0;  // dz/dy
   std::shared_ptr<const RoughnessField> roughness_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/fields.h"
+#include "terrain/soil_params.h"
 
 namespace rockyard::terrain {
 
@@ -11,6 +12,7 @@ struct GroundParams {
   double roughness_rms_m = 0.0;
   double hurst_exponent = 0.8;
   double roughness_wavelength_m = 2.0;
+  SoilParams soil;
 
   void Visit(core::FieldVisitor& v) {
     v.Angle("slope_deg", slope_rad,
@@ -44,6 +46,7 @@ struct GroundParams {
             .source = "no effect at the default RMS of 0",
             .study_low = 1.0,
             .study_high = 8.0});
+    v.Group("soil", soil, "what the ground does to wheels");
   }
 };
 

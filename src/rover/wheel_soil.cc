@@ -1,0 +1,96 @@
+#include "rover/wheel_soil.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rockyard::rover {
+namespace {
+
+// Below this u the closed form loses digits to cancellation; the series has an error of u^3 / 24.
+constexpr double kSeries = 1e-4;
+
+// tau(u) and its derivative.
+struct Share {
+  double value;
+  double slope;
+};
+
+Share ShareAt(double u) {
+  if (u < kSeries) return {u * (0.5 - u / 6.0), 0.5 - u / 3.0};
+  const double rest = -std::expm1(-u) / u;  // (1 - e^-u) / u
+  return {1.0 - rest, (rest - std::exp(-u)) / u};
+}
+
+}  // namespace
+
+double ShearRatio(double tau) {
+  if (tau <= 0.0) return 0.0;
+  // tau(u) is concave and increasing, so Newton from the left of the root stays there and converges
+  // monotonically. 2 tau bounds the root from below for small shares, 1 / (1 - tau) - 1 for all.
+  double u = std::max(2.0 * tau, tau / (1.0 - tau));
+  for (int i = 0; i < 30; ++i) {
+    const Share share = ShareAt(u);
+    const double step = (tau - share.value) / share.slope;
+    u += step;
+    if (std::abs(step) <= 1e-12 * u) break;
+  }
+  return u;
+}
+
+WheelSoil::WheelSoil(const terrain::SoilParams& soil, double wheel_radius_m, double wheel_width_m)
+    : width_m_(wheel_width_m),
+      diameter_m_(2.0 * wheel_radius_m),
+      exponent_(soil.sinkage_exponent),
+      modulus_(soil.cohesive_modulus_N_per_mn1 + wheel_width_m * soil.frictional_modulus_N_per_mn2),
+      cohesion_Pa_(soil.cohesion_Pa),
+      tan_friction_(std::tan(soil.friction_angle_rad)),
+      shear_modulus_m_(soil.shear_modulus_m) {}
+
+double WheelSoil::Load_N(double sinkage_m) const {
+  return (3.0 - exponent_) / 3.0 * modulus_ * std::sqrt(diameter_m_) *
+         std::pow(sinkage_m, exponent_ + 0.5);
+}
+
+double WheelSoil::Stiffness_N_m(double sinkage_m) const {
+  return (3.0 - exponent_) / 3.0 * modulus_ * std::sqrt(diameter_m_) * (exponent_ + 0.5) *
+         std::pow(sinkage_m, exponent_ - 0.5);
+}
+
+double WheelSoil::Sinkage_m(double load_N) const {
+  return std::pow(3.0 * load_N / ((3.0 - exponent_) * modulus_ * std::sqrt(diameter_m_)),
+                  1.0 / (exponent_ + 0.5));
+}
+
+double WheelSoil::Resistance_N(double load_N) const {
+  return modulus_ * std::pow(Sinkage_m(load_N), exponent_ + 1.0) / (exponent_ + 1.0);
+}
+
+double WheelSoil::ContactLength_m(double load_N) const {
+  const double depth = std::min(2.0 * Sinkage_m(load_N) / diameter_m_, 1.0);
+  return 0.5 * diameter_m_ * std::acos(1.0 - depth);
+}
+
+double WheelSoil::LargestTraction_N(double load_N) const {
+  return width_m_ * ContactLength_m(load_N) * cohesion_Pa_ + load_N * tan_friction_;
+}
+
+double WheelSoil::TractionShare(double slip, double load_N) const {
+  if (slip <= 0.0) return 0.0;
+  if (shear_modulus_m_ == 0.0) return 1.0;
+  return ShareAt(slip * ContactLength_m(load_N) / shear_modulus_m_).value;
+}
+
+double WheelSoil::Slip(double tau, double load_N) const {
+  if (tau <= 0.0 || load_N <= 0.0) return 0.0;
+  if (tau >= TractionShare(1.0, load_N)) return 1.0;
+  return std::min(1.0, shear_modulus_m_ / ContactLength_m(load_N) * ShearRatio(tau));
+}
+
+double WheelSoil::SlipPerShare(double tau, double load_N) const {
+  if (shear_modulus_m_ == 0.0 || load_N <= 0.0) return 0.0;
+  constexpr double kSmall = 1e-6;
+  if (tau < kSmall) return 2.0 * shear_modulus_m_ / ContactLength_m(load_N);
+  return Slip(tau, load_N) / tau;
+}
+
+}  // namespace rockyard::rover

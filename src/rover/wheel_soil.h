@@ -1,0 +1,57 @@
+// A rigid wheel on soil: sinkage, motion resistance, traction and slip as functions of its load.
+//
+// Sinkage (Bekker 1969; Wong 2008 sec. 2.5): plates sink under the pressure p = k z^n with
+// k = k_c / b + k_phi, and a wheel of diameter D and width b carries
+//   W(z) = (3 - n) / 3 * b k sqrt(D) z^(n + 1/2).
+// Resistance, by the work of compacting a rut: R = b k z^(n + 1) / (n + 1).
+// Largest traction (Mohr and Coulomb): T_max = b l c + W tan(phi), with the contact length
+// l = (D / 2) acos(1 - 2 z / D) of a wheel in its rut.
+// Slip (Janosi and Hanamoto 1961, uniform pressure along l): T = tau T_max with
+//   tau = 1 - (1 - e^-u) / u,   u = i l / K,   i = 1 - v / (omega r).
+//
+// Limits: steady state; level cut through the rut, no bulldozing wave ahead of it, no ruts left by
+// wheels ahead, no sinkage by slip; z well below D (the formula's own limit is about D / 6).
+#pragma once
+
+#include "terrain/soil_params.h"
+
+namespace rockyard::rover {
+
+class WheelSoil {
+ public:
+  // Radius and width are positive; soil within the bounds of its Visit.
+  WheelSoil(const terrain::SoilParams& soil, double wheel_radius_m, double wheel_width_m);
+
+  // All of a load >= 0; monotone in it.
+  double Sinkage_m(double load_N) const;
+  double Resistance_N(double load_N) const;
+  double ContactLength_m(double load_N) const;
+  double LargestTraction_N(double load_N) const;
+
+  // W(z) and its derivative, for z >= 0.
+  double Load_N(double sinkage_m) const;
+  double Stiffness_N_m(double sinkage_m) const;
+
+  // Slip at the share tau of the largest traction, in [0, 1]: 1 where the wheel spins on the spot.
+  // The inverse gives the share that a slip mobilizes.
+  double Slip(double tau, double load_N) const;
+  double TractionShare(double slip, double load_N) const;
+
+  // Slip per share, i / tau, in the limit of none and in general: what the contact solver softens
+  // its friction rows with. Bounded by the slip of 1.
+  double SlipPerShare(double tau, double load_N) const;
+
+ private:
+  double width_m_;
+  double diameter_m_;
+  double exponent_;         // n
+  double modulus_;          // b k, N/m^(n+1)
+  double cohesion_Pa_;      // c
+  double tan_friction_;     // tan(phi)
+  double shear_modulus_m_;  // K
+};
+
+// u of the share tau in [0, 1): the inverse of tau = 1 - (1 - e^-u) / u. About 20 ns.
+double ShearRatio(double tau);
+
+}  // namespace rockyard::rover

@@ -1,0 +1,82 @@
+#include "terrain/soil_params.h"
+
+namespace rockyard::terrain {
+
+using core::Origin;
+
+SoilParams MakeSoil(SoilPreset preset) {
+  switch (preset) {
+    case SoilPreset::kLandscapingSand:
+      break;
+    case SoilPreset::kMarsDrift:
+      // Strength of the drift material at the Viking 1 site (Moore et al. 1987: 1.6 kPa, 18 deg);
+      // pressure-sinkage of loose dry sand (Wong 2008 table 2.3, Land Locomotion Laboratory),
+      // since nobody has pressed a plate into it.
+      return {preset, 1.1, 0.99e3, 1528.43e3, 1600.0, math::DegToRad(18.0), 0.010};
+    case SoilPreset::kHardGround:
+      // Coulomb friction of 0.8 and next to no sinkage: a wheel of 30 N sinks by some 10 um.
+      return {preset, 1.0, 0.0, 1e11, 0.0, math::DegToRad(38.66), 0.0};
+  }
+  return {};
+}
+
+void SoilParams::Visit(core::FieldVisitor& v) {
+  const SoilPreset before = preset;
+  v.Choice("preset", preset,
+           {.doc = "soil whose values the rest starts from",
+            .origin = Origin::kSetting,
+            .source = "the arena held landscaping sand with crushed brick (Matthies 1995 sec. 2)"});
+  if (preset != before) *this = MakeSoil(preset);
+  v.Real("sinkage_exponent", sinkage_exponent,
+         {.doc = "exponent n of pressure against sinkage, p = (k_c / b + k_phi) z^n (Bekker)",
+          .min = 0.1,
+          .max = 2.0,
+          .origin = Origin::kAssumed,
+          .source = "LETE sand, Wong 2008 table 2.3: 0.79; loose dry sand 1.1",
+          .study_low = 0.7,
+          .study_high = 1.1});
+  v.Real("cohesive_modulus_N_per_mn1", cohesive_modulus_N_per_mn1,
+         {.doc = "k_c of the same law",
+          .min = 0.0,
+          .max = 1e9,
+          .origin = Origin::kAssumed,
+          .source = "LETE sand, Wong 2008 table 2.3: 102e3; loose dry sand 0.99e3",
+          .study_low = 0.0,
+          .study_high = 102e3});
+  v.Real("frictional_modulus_N_per_mn2", frictional_modulus_N_per_mn2,
+         {.doc = "k_phi of the same law",
+          .min = 1e3,
+          .max = 1e14,
+          .origin = Origin::kAssumed,
+          .source = "LETE sand, Wong 2008 table 2.3: 5301e3; loose dry sand 1528e3",
+          .study_low = 1500e3,
+          .study_high = 10000e3});
+  v.Real("cohesion_Pa", cohesion_Pa,
+         {.doc = "cohesion c of the soil in shear (Mohr-Coulomb)",
+          .min = 0.0,
+          .max = 1e6,
+          .origin = Origin::kAssumed,
+          .source = "LETE sand, Wong 2008 table 2.3: 1.3 kPa; loose dry sand 1.04 kPa",
+          .study_low = 0.0,
+          .study_high = 1500.0});
+  v.Angle("friction_angle_deg", friction_angle_rad,
+          {.doc = "angle of internal shearing resistance phi (Mohr-Coulomb)",
+           .min = 0.0,
+           .max = 60.0,
+           .origin = Origin::kAssumed,
+           .source = "LETE sand, Wong 2008 table 2.3: 31.1; loose dry sand 28, dense sand to 38",
+           .study_low = 28.0,
+           .study_high = 38.0});
+  v.Real("shear_modulus_m", shear_modulus_m,
+         {.doc = "shear deformation modulus K of Janosi and Hanamoto 1961; 0: no slip below the "
+                 "largest traction",
+          .min = 0.0,
+          .max = 0.2,
+          .origin = Origin::kAssumed,
+          .source = "plates on sand show 10 to 25 mm (Wong 2008 sec. 2.4); cleats as high as the "
+                    "wheel sinks mobilize the sand ahead of them within a few mm",
+          .study_low = 0.002,
+          .study_high = 0.010});
+}
+
+}  // namespace rockyard::terrain

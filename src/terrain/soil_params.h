@@ -1,0 +1,37 @@
+// What the soil between the rocks does to a wheel: the quantities of Bekker, Wong, and Janosi and
+// Hanamoto. rover/wheel_soil.h has the equations.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "core/fields.h"
+#include "math/angles.h"
+
+namespace rockyard::terrain {
+
+enum class SoilPreset { kLandscapingSand, kMarsDrift, kHardGround };
+
+// The defaults are those of landscaping_sand.
+struct SoilParams {
+  SoilPreset preset = SoilPreset::kLandscapingSand;
+  double sinkage_exponent = 0.79;
+  double cohesive_modulus_N_per_mn1 = 102e3;
+  double frictional_modulus_N_per_mn2 = 5301e3;
+  double cohesion_Pa = 1300.0;
+  double friction_angle_rad = math::DegToRad(31.1);
+  double shear_modulus_m = 0.004;
+
+  // Choosing another preset replaces the defaults of the values that follow it.
+  void Visit(core::FieldVisitor& v);
+};
+
+SoilParams MakeSoil(SoilPreset preset);
+
+}  // namespace rockyard::terrain
+
+template <>
+struct rockyard::core::EnumNames<rockyard::terrain::SoilPreset> {
+  static constexpr std::array<std::string_view, 3> kNames{"landscaping_sand", "mars_drift",
+                                                          "hard_ground"};
+};
