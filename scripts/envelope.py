@@ -20,6 +20,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from calibrate_odometer import SCALE, calibrate
+
 ROOT = Path(__file__).resolve().parent.parent
 
 # Where each prediction stands in summary.json.
@@ -117,21 +119,6 @@ def repaired(point, rows, rockyard, scenario, rng):
     sys.exit(f"found no valid values for {', '.join(sorted(set(redrawn)))}")
 
 
-def calibrated_scale(args, point_settings, folder):
-    """Distance scale for the soil and wheels of this point: as calibrated on level sand."""
-    command = [args.rockyard, "run", ROOT / "scenarios/pathfinder/level_sand.json", "--trials", 20,
-               "--seed", args.seed, "--out", folder, "--quiet", *point_settings,
-               "--set", "sensors.encoders.distance_variance_m2_per_m=0",
-               "--set", "sensors.encoders.physics_variance_m2_per_m=0",
-               "--set", "perception.dead_reckoning.distance_scale=1"]
-    if folder.exists():
-        command += ["--resume", "--force"]
-    run(command)
-    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-    error_percent = pick(summary, ("dead_reckoning", "distance_error_percent", "mean"))
-    return 1.0 / (1.0 + error_percent / 100.0)
-
-
 def pick(summary, path):
     for key in path:
         summary = summary[key]
@@ -139,15 +126,42 @@ def pick(summary, path):
 
 
 def spread(values):
+    """Smallest, quantiles and largest of what has a value."""
     ordered = sorted(value for value in values if value is not None)
     if not ordered:
-        return "no value"
+        return {}
+    at = {"min": 0.0, "p05": 0.05, "median": 0.5, "p95": 0.95, "max": 1.0}
+    return {name: ordered[min(len(ordered) - 1, int(share * len(ordered)))]
+            for name, share in at.items()}
 
-    def at(share):
-        return ordered[min(len(ordered) - 1, int(share * len(ordered)))]
 
-    return (f"{ordered[0]:9.3f} {at(0.05):9.3f} {at(0.5):9.3f} {at(0.95):9.3f} "
-            f"{ordered[-1]:9.3f}")
+def calibrated_scales(args, points):
+    """Distance scale for the soil and wheels of each point: as calibrated on level sand."""
+    stored = args.out / "scales.json"
+    scales = json.loads(stored.read_text(encoding="utf-8")) if stored.exists() else []
+    for point in points[len(scales):]:
+        values = [f"{path}={value}" for path, value in point.items()]
+        scales.append(calibrate(args.rockyard, values, trials=20, seed=args.seed)[SCALE])
+        stored.write_text(json.dumps(scales) + "\n", encoding="utf-8")
+    return scales
+
+
+def run_points(args, scenario, points, scales, rows, rng):
+    """summary.json of the scenario at every point."""
+    summaries = []
+    for index, (point, scale) in enumerate(zip(points, scales)):
+        valid = dict(point)  # a value may contradict this scenario and no other
+        repaired(valid, rows, args.rockyard, scenario, rng)
+        folder = args.out / scenario.stem / f"{index:03d}"
+        command = [args.rockyard, "run", scenario, "--trials", args.trials, "--seed", args.seed,
+                   "--out", folder, "--quiet", *settings({**valid, SCALE: scale})]
+        if folder.exists():
+            command += ["--resume", "--force"]
+        run(command)
+        summaries.append(json.loads((folder / "summary.json").read_text(encoding="utf-8")))
+        print(f"\r{scenario.stem}: {index + 1}/{len(points)}", end="", file=sys.stderr)
+    print(file=sys.stderr)
+    return summaries
 
 
 def main():
@@ -159,29 +173,21 @@ def main():
                for path in repaired(point, rows, args.rockyard, args.scenarios[0], rng)]
     args.out.mkdir(parents=True, exist_ok=True)
     (args.out / "design.json").write_text(json.dumps(points, indent=1) + "\n", encoding="utf-8")
-    scales = [calibrated_scale(args, settings(point), args.out / "level_sand" / f"{index:03d}")
-              for index, point in enumerate(points)]
+    scales = calibrated_scales(args, points)
     print(f"{len(points)} points over {len(rows)} assumed parameters, {args.trials} trials each; "
           f"{len(redrawn)} values drawn again because they contradicted others")
+    result = {"points": len(points), "parameters": len(rows), "trials": args.trials,
+              "scenarios": {}}
     for scenario in args.scenarios:
-        summaries = []
-        for index, (point, scale) in enumerate(zip(points, scales)):
-            valid = dict(point)  # a value may contradict this scenario and no other
-            repaired(valid, rows, args.rockyard, scenario, rng)
-            options = settings({**valid, "perception.dead_reckoning.distance_scale": scale})
-            folder = args.out / scenario.stem / f"{index:03d}"
-            command = [args.rockyard, "run", scenario, "--trials", args.trials, "--seed", args.seed,
-                       "--out", folder, "--quiet", *options]
-            if folder.exists():
-                command += ["--resume", "--force"]
-            run(command)
-            summaries.append(json.loads((folder / "summary.json").read_text(encoding="utf-8")))
-            print(f"\r{scenario.stem}: {index + 1}/{len(points)}", end="", file=sys.stderr)
-        print(file=sys.stderr)
+        summaries = run_points(args, scenario, points, scales, rows, rng)
         print(f"\n{scenario.stem:<28} {'min':>9} {'p05':>9} {'median':>9} {'p95':>9} {'max':>9}")
+        metrics = result["scenarios"].setdefault(scenario.stem, {})
         for name, path in METRICS.items():
-            print(f"  {name:<26} {spread([pick(summary, path) for summary in summaries])}")
+            values = spread([pick(summary, path) for summary in summaries])
+            metrics[name] = {"path": path, **values}
+            print(f"  {name:<26} " + " ".join(f"{value:9.3f}" for value in values.values()))
         sys.stdout.flush()
+    (args.out / "envelope.json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
     return os.EX_OK
 
 

@@ -1,0 +1,266 @@
+#!/usr/bin/env python3
+"""Runs what the tables of README.md report and writes the tables anew.
+
+Each table stands between two comments, <!-- begin NAME --> and <!-- end NAME -->. Runs that are there
+already are taken as they are, so that this can be stopped and started again; delete the folder after
+a change of the code. The whole takes some fifteen minutes of processor time.
+
+    scripts/readme_tables.py [--out results/runs/readme] [--tables comparison,causes,...]
+"""
+
+import argparse
+import json
+import re
+import resource
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+REFERENCE = ROOT / "results/reference/matthies1995.json"
+PATHFINDER = ROOT / "scenarios/pathfinder"
+PUBLISHED = ["obstacles_0.28", "obstacles_0.57", "obstacles_0.85", "nominal",
+             "nominal_perfect_localization", "level_sand"]
+
+# What the table of causes changes: name, settings, scenarios.
+BOTH = ["nominal", "obstacles_0.85"]
+FLAT_ROCKS = ["terrain.rocks.min_height_ratio=0.4", "terrain.rocks.max_height_ratio=0.9"]
+BLIND = ["perception.hazard.enabled=false"]
+CAUSES = [
+    ("blind", "hazard sensing off", BLIND, BOTH),
+    ("each_scan", "turn direction decided at each scan",
+     ["navigation.pathfinder.turn_direction=each_scan"], BOTH),
+    ("moving", "two-scan rule: consecutive scans of the moving rover",
+     ["perception.hazard.agreement=consecutive_moving"], BOTH),
+    ("threshold_3", "hazard threshold 3 cm", ["perception.hazard.neighbour_threshold_m=0.03"], BOTH),
+    ("threshold_13", "hazard threshold 13 cm",
+     ["perception.hazard.neighbour_threshold_m=0.13"], BOTH),
+    ("oracle", "perfect localization", ["sensors.localization=oracle"], BOTH),
+    ("no_inputs", "without the two published inputs (turn scale, scrape jumps)",
+     ["sensors.gyro.scale=1", "sensors.gyro.scrape.enabled=false"], BOTH),
+    ("hard_ground", "hard ground: no slip, no sinkage",
+     ["terrain.ground.soil.preset=hard_ground"], BOTH),
+    ("flat_rocks", "flatter rocks (height ratio 0.4 to 0.9)", FLAT_ROCKS, ["obstacles_0.85"]),
+    ("flat_rocks_blind", "flatter rocks, hazard sensing off", FLAT_ROCKS + BLIND,
+     ["obstacles_0.85"]),
+]
+FIDELITY = ["obstacles_0.28", "obstacles_0.85", "nominal", "vl2"]
+QUASI_STATIC = ["rover.fidelity=quasi_static"]
+
+
+class Study:
+    """Runs scenarios once each and remembers what they cost."""
+
+    def __init__(self, rockyard, out):
+        self.rockyard, self.out = rockyard, out
+
+    def folder(self, name, scenario):
+        return self.out / name / scenario
+
+    def run(self, name, scenario, trials, settings=()):
+        """summary.json of a run; `cpu_s` is added to it."""
+        folder = self.folder(name, scenario)
+        cost = folder / "cpu_seconds"
+        if not cost.exists():
+            print(f"{name}/{scenario}", file=sys.stderr)
+            command = [self.rockyard, "run", PATHFINDER / f"{scenario}.json", "--trials", trials,
+                       "--threads", 1, "--out", folder, "--quiet", "--force"]
+            command += [part for setting in settings for part in ("--set", setting)]
+            before = cpu_seconds()
+            subprocess.run([str(part) for part in command], check=True)
+            cost.write_text(str(cpu_seconds() - before), encoding="utf-8")
+        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+        summary["cpu_s"] = float(cost.read_text(encoding="utf-8"))
+        return summary
+
+    def published(self):
+        return {name: self.run("published", name, 300) for name in PUBLISHED}
+
+    def tool(self, *arguments):
+        result = subprocess.run([str(part) for part in (self.rockyard, *arguments)],
+                                capture_output=True, text=True, check=False)
+        if result.returncode not in (0, 1, 4):  # a comparison may differ or be inconclusive
+            sys.exit(result.stderr)
+        return result.stdout
+
+
+def cpu_seconds():
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+def table(header, rows):
+    lines = [header, ["---"] * len(header), *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def rate(summary, key="declared_success"):
+    value = summary[key]
+    low, high = value["ci95"]
+    return f"{100 * value['rate']:.0f} % ({100 * low:.0f}..{100 * high:.0f})"
+
+
+def trials_per_second(summary):
+    return f"{summary['trials']['completed'] / summary['cpu_s']:.3g}"
+
+
+def comparison(study):
+    study.published()
+    text = study.tool("check", study.out / "published", "--against",
+                      REFERENCE)
+    return f"```\n{text.strip()}\n```"
+
+
+def reference(scenario, column, statistic):
+    """The published number as printed; '-' where there is none."""
+    values = json.loads(REFERENCE.read_text(encoding="utf-8"))["values"]
+    for value in values:
+        if (value["scenario"], value.get("column"), value["statistic"]) == (
+                scenario, column, statistic):
+            size = f"/{value['sample_size']}" if statistic == "outcome_count" else ""
+            return f"{value['value']}{size}"
+    return "-"
+
+
+def errors(study):
+    settings = next(cause[2] for cause in CAUSES if cause[0] == "no_inputs")
+    runs = [study.published()["nominal"], study.run("no_inputs", "nominal", 100, settings)]
+    rows = []
+    for column, name in (("heading_error_deg", "heading error (deg)"),
+                         ("position_error_m", "position error (m)"),
+                         ("distance_error_percent", "distance error (%)")):
+        printed = [reference("nominal", column, statistic)
+                   for statistic in ("minimum", "mode", "median", "maximum")]
+        found = [" / ".join(f"{run['dead_reckoning'][column][part]:.2f}"
+                            for part in ("min", "mode", "median", "max")) for run in runs]
+        rows.append([name, " / ".join(printed), *found])
+    return table(["nominal, min / mode / median / max", "published", "with both inputs (300)",
+                  "without (100)"], rows)
+
+
+def abundance(study):
+    rows = []
+    for scenario in ("obstacles_0.65", "obstacles_2.0", "vl2"):
+        run = study.run("abundance", scenario, 100)
+        failures = ", ".join(f"{name} {count}" for name, count in run["outcomes"].items()
+                             if count and name not in ("goal_reached", "false_goal"))
+        rows.append([scenario, rate(run), rate(run, "true_success"), failures,
+                     f"{run['distance_m']['mode']:.2f}", str(run["trials"]["completed"])])
+    return table(["scenario", "declared success", "true success", "failures", "distance mode (m)",
+                  "trials"], rows)
+
+
+def causes(study):
+    published = study.published()
+    rows = [["as chosen (300 trials)", *(rate(published[scenario]) for scenario in BOTH)]]
+    for name, text, settings, scenarios in CAUSES:
+        rows.append([text, *(rate(study.run(name, scenario, 100, settings))
+                             if scenario in scenarios else "-" for scenario in BOTH)])
+    return table(["change", "nominal", "0.85 per m2"], rows)
+
+
+def paired(study, scenario):
+    """What `rockyard compare` says of one scenario: success difference and differences of means."""
+    text = study.tool("compare", study.folder("multibody", scenario),
+                      study.folder("quasi_static", scenario))
+    success = re.search(r"B - A ([+-][\d.]+) points \(95 % interval ([+-][\d.]+) .. ([+-][\d.]+)\)",
+                        text).groups()
+    means = {match[1]: match.groups()[1:] for match in re.finditer(
+        r"^  (\w+) +\d+ +(\S+) +(\S+) +(\S+) +(\S+) \.\. (\S+)", text, flags=re.MULTILINE)}
+    return success, means
+
+
+def fidelity(study):
+    rows = []
+    for scenario in FIDELITY:
+        runs = [study.run("multibody", scenario, 300),
+                study.run("quasi_static", scenario, 300, QUASI_STATIC)]
+        success, means = paired(study, scenario)
+        rows.append([f"**{scenario}**", "", "", ""])
+        rows.append(["declared success", rate(runs[0]), rate(runs[1]),
+                     f"{success[0]} points ({success[1]}..{success[2]})"])
+        rows.append(["true success", rate(runs[0], "true_success"), rate(runs[1], "true_success"),
+                     ""])
+        for key, text in (("true_distance_m", "distance (m)"),
+                          ("distance_error_percent", "distance error (%)"),
+                          ("heading_error_deg", "heading error (deg)"),
+                          ("position_error_m", "position error (m)"),
+                          ("scrapes", "scrapes"), ("max_tilt_deg", "largest tilt (deg)")):
+            a, b, difference, low, high = means[key]
+            rows.append([text, a, b, f"{difference} ({low}..{high})"])
+        rows.append(["trials per CPU-second", *(trials_per_second(run) for run in runs), ""])
+    return table(["mean over 300 trials", "multibody", "quasi-static", "paired difference (95 %)"],
+                 rows)
+
+
+def speed(study):
+    published = study.published()
+    return table(["scenario", "trials per CPU-second"],
+                 [[name, trials_per_second(published[name])] for name in PUBLISHED])
+
+
+def published_metric(scenario, path):
+    if path[0] == "declared_success":
+        return reference(scenario, None, "outcome_count")
+    column = "true_distance_m" if path[0] == "distance_m" else path[-2]
+    return reference(scenario, column, {"min": "minimum", "max": "maximum"}.get(path[-1], path[-1]))
+
+
+def envelope(study):
+    """From the summary that scripts/envelope.py leaves; None where it was not run."""
+    path = study.out.parent / "envelope/envelope.json"
+    if not path.exists():
+        return None
+    found = json.loads(path.read_text(encoding="utf-8"))
+    chosen = study.published()
+    rows = []
+    for scenario, metrics in found["scenarios"].items():
+        for name, metric in metrics.items():
+            if scenario != "nominal" and "success" not in name:
+                continue
+            value = chosen[scenario]
+            for key in metric["path"]:
+                value = value[key]
+            rows.append([scenario, name, published_metric(scenario, metric["path"]), f"{value:.2f}",
+                         *(f"{metric[part]:.2f}" for part in ("p05", "median", "p95"))])
+    head = (f"{found['points']} points over {found['parameters']} assumed parameters, "
+            f"{found['trials']} trials a point\n\n")
+    return head + table(["scenario", "prediction", "published", "chosen", "envelope 5 %", "median",
+                         "95 %"], rows)
+
+
+TABLES = {f.__name__: f for f in (comparison, errors, envelope, abundance, causes, fidelity, speed)}
+
+
+def replace(text, name, content):
+    pattern = rf"(<!-- begin {name} -->\n).*?(\n<!-- end {name} -->)"
+    if not re.search(pattern, text, flags=re.DOTALL):
+        sys.exit(f"README.md has no table {name}")
+    return re.sub(pattern, lambda match: match[1] + content + match[2], text, flags=re.DOTALL)
+
+
+def main():
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--rockyard", type=Path, default=ROOT / "build/release/bin/rockyard")
+    parser.add_argument("--out", type=Path, default=ROOT / "results/runs/readme")
+    parser.add_argument("--readme", type=Path, default=ROOT / "README.md")
+    parser.add_argument("--tables", default=",".join(TABLES), help="which, joined by commas")
+    args = parser.parse_args()
+    study = Study(args.rockyard, args.out)
+    for name in args.tables.split(","):
+        if name not in TABLES:
+            sys.exit(f"{name} is no table; there are {', '.join(TABLES)}")
+        started = time.monotonic()
+        content = TABLES[name](study)
+        if content is None:
+            print(f"{name}: not run, left as it is", file=sys.stderr)
+            continue
+        text = args.readme.read_text(encoding="utf-8")
+        args.readme.write_text(replace(text, name, content), encoding="utf-8")
+        print(f"{name}: {time.monotonic() - started:.0f} s", file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main()
