@@ -20,30 +20,23 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-truth::Record Fault(std::uint64_t seed, std::uint64_t trial, const std::string& reason) {
-  return {trial,
-          truth::TrialOutcome::kSimulatorFault,
-          fmt::format("{} (seed {}, trial {})", reason, seed, trial),
-          {}};
-}
-
 truth::Record RunOne(const experiments::Experiment& experiment, std::uint64_t seed,
                      std::uint64_t trial) {
   try {
     truth::Record record = experiment.Run(seed, trial);
-    if (record.outcome == truth::TrialOutcome::kSimulatorFault) {
+    if (truth::IsFault(record)) {
       record.values.clear();
     } else if (record.values.size() != experiment.schema().size()) {
-      return Fault(seed, trial,
-                   fmt::format("the record has {} values for {} columns", record.values.size(),
-                               experiment.schema().size()));
+      return truth::MakeFault(seed, trial,
+                              fmt::format("the record has {} values for {} columns",
+                                          record.values.size(), experiment.schema().size()));
     }
     record.trial = trial;
     return record;
   } catch (const std::exception& error) {
-    return Fault(seed, trial, error.what());
+    return truth::MakeFault(seed, trial, error.what());
   } catch (...) {
-    return Fault(seed, trial, "an exception without a message");
+    return truth::MakeFault(seed, trial, "an exception without a message");
   }
 }
 

@@ -13,15 +13,6 @@
 namespace rockyard::experiments {
 namespace {
 
-truth::Record Fault(std::uint64_t seed, std::uint64_t index, const std::string& reason) {
-  truth::Record record;
-  record.trial = index;
-  record.outcome = truth::TrialOutcome::kSimulatorFault;
-  record.detail =
-      reason + " (seed " + std::to_string(seed) + ", trial " + std::to_string(index) + ")";
-  return record;
-}
-
 std::vector<double> Values(const truth::DriveRecord& drive) {
   std::vector<double> values;
   values.reserve(truth::kDriveColumns.size());
@@ -72,7 +63,7 @@ truth::Record DriveExperiment::RunTrial(std::uint64_t seed, std::uint64_t index,
         trial::RunTrial(scenario_, {seed, static_cast<std::uint32_t>(index)}, trace);
     return {index, drive.outcome, drive.detail, Values(drive.record)};
   } catch (const std::exception& error) {
-    return Fault(seed, index, error.what());
+    return truth::MakeFault(seed, index, error.what());
   }
 }
 

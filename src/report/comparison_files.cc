@@ -6,6 +6,7 @@
 
 #include "report/comparison_format.h"
 #include "report/comparison_table.h"
+#include "report/csv.h"
 
 namespace rockyard::report {
 namespace {
@@ -16,28 +17,10 @@ using statistics::PublishedReference;
 using statistics::PublishedValue;
 using statistics::Verdict;
 
-std::string Quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted(1, '"');
-  for (const char c : text) {
-    if (c == '"') quoted.push_back(c);
-    quoted.push_back(c);
-  }
-  quoted.push_back('"');
-  return quoted;
-}
-
-std::string CsvNumber(double value) {
-  return std::isfinite(value) ? fmt::format("{}", value) : std::string();
-}
-
-std::string CsvLine(const std::vector<std::string>& fields) {
-  std::string line;
-  for (const std::string& field : fields) {
-    if (!line.empty()) line.push_back(',');
-    line += Quoted(field);
-  }
-  return line + "\n";
+// Fields that may hold any text, joined.
+std::string Line(std::vector<std::string> fields) {
+  for (std::string& field : fields) field = CsvField(field);
+  return CsvLine(fields);
 }
 
 std::string Escaped(const std::string& text) {
@@ -73,53 +56,53 @@ std::string ComparisonCsv(const ComparisonResult& result) {
   for (const ComparedValue& v : result.values) {
     const PublishedValue& p = v.published;
     const bool layout = v.one_layout.has_value();
-    csv += CsvLine({p.id,
-                    p.scenario,
-                    p.what,
-                    p.place,
-                    std::string(RoleName(p.role)),
-                    p.unit,
-                    CsvNumber(p.value),
-                    fmt::format("{}", p.sample_size),
-                    fmt::format("{}", v.pool),
-                    CsvNumber(v.pool_value),
-                    CsvNumber(v.median),
-                    CsvNumber(v.interval.low),
-                    CsvNumber(v.interval.high),
-                    CsvNumber(v.p_value),
-                    CsvNumber(v.holm_p_value),
-                    CsvNumber(v.level),
-                    CsvNumber(v.power),
-                    statistics::Name(v.verdict),
-                    layout ? CsvNumber(v.one_layout->p_value.low) : "",
-                    layout ? CsvNumber(v.one_layout->p_value.high) : "",
-                    !layout                  ? ""
-                    : v.one_layout->measured ? "1"
-                                             : "0",
-                    v.remark});
+    csv += Line({p.id,
+                 p.scenario,
+                 p.what,
+                 p.place,
+                 std::string(RoleName(p.role)),
+                 p.unit,
+                 CsvNumber(p.value),
+                 fmt::format("{}", p.sample_size),
+                 fmt::format("{}", v.pool),
+                 CsvNumber(v.pool_value),
+                 CsvNumber(v.median),
+                 CsvNumber(v.interval.low),
+                 CsvNumber(v.interval.high),
+                 CsvNumber(v.p_value),
+                 CsvNumber(v.holm_p_value),
+                 CsvNumber(v.level),
+                 CsvNumber(v.power),
+                 statistics::Name(v.verdict),
+                 layout ? CsvNumber(v.one_layout->p_value.low) : "",
+                 layout ? CsvNumber(v.one_layout->p_value.high) : "",
+                 !layout                  ? ""
+                 : v.one_layout->measured ? "1"
+                                          : "0",
+                 v.remark});
     for (const auto& side : v.beside) {
-      csv += CsvLine({p.id + "/" + side.name,
-                      p.scenario,
-                      side.name,
-                      p.place,
-                      std::string(RoleName(p.role)),
-                      p.unit,
-                      CsvNumber(p.value),
-                      fmt::format("{}", p.sample_size),
-                      fmt::format("{}", v.pool),
-                      "",
-                      CsvNumber(side.median),
-                      CsvNumber(side.interval.low),
-                      CsvNumber(side.interval.high),
-                      CsvNumber(side.p_value),
-                      "",
-                      "",
-                      "",
-                      "",
-                      "",
-                      "",
-                      "",
-                      ""});
+      csv += Line({p.id + "/" + side.name,
+                   p.scenario,
+                   side.name,
+                   p.place,
+                   std::string(RoleName(p.role)),
+                   p.unit,
+                   CsvNumber(p.value),
+                   fmt::format("{}", p.sample_size),
+                   fmt::format("{}", v.pool),
+                   "",
+                   CsvNumber(side.median),
+                   CsvNumber(side.interval.low),
+                   CsvNumber(side.interval.high),
+                   CsvNumber(side.p_value),
+                   "",
+                   "",
+                   "",
+                   "",
+                   "",
+                   "",
+                   "",
+                   ""});
     }
   }
   return csv;

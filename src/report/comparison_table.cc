@@ -121,9 +121,11 @@ std::string Footnotes(const ComparisonResult& result) {
       "calibrated with these runs or their like. Indented: other readings, shown and not judged."};
   std::string text;
   for (const std::string_view note : notes) text += Wrap(std::string(note), 0);
-  text += Wrap(fmt::format("{} numbers judged, alpha {}, {} samples for each number, seed {}.",
-                           result.family, options.alpha, options.replicates, options.seed),
-               0);
+  text +=
+      Wrap(fmt::format("{} p-values in Holm's family, alpha {}, {} samples for each, seed {}. A "
+                       "bound is judged without a p-value.",
+                       result.family, options.alpha, options.replicates, options.seed),
+           0);
   return text;
 }
 

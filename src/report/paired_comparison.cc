@@ -23,8 +23,6 @@ constexpr std::uint64_t kBootstrapSeed = 1;
 using Pair = std::pair<const Record*, const Record*>;
 using Succeeded = std::function<bool(TrialOutcome)>;
 
-bool IsFault(const Record& record) { return record.outcome == TrialOutcome::kSimulatorFault; }
-
 std::vector<Pair> Pairs(const ComparedRun& first, const ComparedRun& second) {
   std::vector<Pair> pairs;
   const std::size_t common = std::min(first.records.size(), second.records.size());

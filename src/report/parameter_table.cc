@@ -7,6 +7,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "report/csv.h"
+
 namespace rockyard::report {
 namespace {
 
@@ -71,16 +73,6 @@ std::string Range(const ParameterInfo& parameter) {
   return "held";
 }
 
-std::string CsvText(std::string_view text) {
-  if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
-}
-
 std::string Bound(double value) { return std::isfinite(value) ? Number(value) : ""; }
 
 }  // namespace
@@ -109,10 +101,10 @@ std::string ParametersCsv(std::span<const ParameterInfo> parameters) {
   for (const ParameterInfo& p : parameters) {
     const bool studied = p.HasStudyRange();
     csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", p.path, KindName(p.kind),
-                       CsvText(ValueText(p.value)), p.unit, core::Name(p.origin),
+                       CsvField(ValueText(p.value)), p.unit, core::Name(p.origin),
                        studied ? Number(p.study_low) : "", studied ? Number(p.study_high) : "",
-                       Bound(p.min), Bound(p.max), fmt::join(p.choices, "|"), CsvText(p.source),
-                       CsvText(p.doc));
+                       Bound(p.min), Bound(p.max), fmt::join(p.choices, "|"), CsvField(p.source),
+                       CsvField(p.doc));
   }
   return csv;
 }

@@ -16,10 +16,6 @@ bool Contains(const std::vector<truth::TrialOutcome>& outcomes, truth::TrialOutc
   return std::find(outcomes.begin(), outcomes.end(), outcome) != outcomes.end();
 }
 
-bool IsFault(const truth::Record& record) {
-  return record.outcome == truth::TrialOutcome::kSimulatorFault;
-}
-
 struct PoolCount {
   std::int64_t count = 0;
   std::int64_t pool = 0;

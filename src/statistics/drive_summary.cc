@@ -11,10 +11,6 @@
 namespace rockyard::statistics {
 namespace {
 
-bool IsFault(const truth::Record& record) {
-  return record.outcome == truth::TrialOutcome::kSimulatorFault;
-}
-
 std::vector<double> PathRatios(const truth::RecordSchema& schema,
                                std::span<const truth::Record> records) {
   const auto driven = ColumnIndex(schema, "true_distance_m");

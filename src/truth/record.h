@@ -53,4 +53,17 @@ struct Record {
   std::vector<double> values;  // as RecordSchema; NaN where undefined; empty for simulator faults
 };
 
+// The simulator failed, not the rover.
+inline bool IsFault(const Record& record) {
+  return record.outcome == TrialOutcome::kSimulatorFault;
+}
+
+// The record of a fault; its detail says how to run that trial again.
+inline Record MakeFault(std::uint64_t seed, std::uint64_t trial, const std::string& reason) {
+  return {trial,
+          TrialOutcome::kSimulatorFault,
+          reason + " (seed " + std::to_string(seed) + ", trial " + std::to_string(trial) + ")",
+          {}};
+}
+
 }  // namespace rockyard::truth

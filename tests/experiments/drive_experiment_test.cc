@@ -76,7 +76,8 @@ TEST(DriveExperimentTest, FaultsAreRecordsThatNameSeedAndIndex) {
 TEST(DriveExperimentTest, BlowUpsOfThePhysicsAreFaults) {
   // Beyond the angle of friction the rover slides until its speed leaves the model's range.
   const auto experiment = MakeExperiment(Pathfinder(
-      "level_sand", {"terrain.ground.slope_deg=40", "terrain.ground.slope_direction_deg=90"}));
+      "level_sand", {"terrain.ground.slope_deg=40", "terrain.ground.slope_direction_deg=90",
+                     "terrain.ground.soil.friction_angle_deg=5"}));
   const truth::Record record = experiment->Run(1, 0);
   EXPECT_EQ(record.outcome, truth::TrialOutcome::kSimulatorFault);
   EXPECT_NE(record.detail.find("(seed 1, trial 0)"), std::string::npos) << record.detail;
