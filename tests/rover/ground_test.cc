@@ -25,9 +25,8 @@ TEST(RoughGround, CarriesTheRoverWithoutSnagging) {
 }
 
 TEST(Fault, AFallIsReported) {
-  RoverParams params;
-  params.contact.wheel_soil_friction = 0.0;
-  const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(60.0), 0.0);
+  const RoverParams params;
+  const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(60.0), 0.0, RigidGround(0.0));
   const auto rover = MakeRover(params, terrain);
   rover->Place({});
   EXPECT_THROW(RunFor(*rover, kBraked, 3.0), std::runtime_error);

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "rover_drive.h"
+#include "soil_reference.h"
 
 namespace rockyard::rover {
 namespace {
@@ -27,8 +28,8 @@ class LevelGround : public ::testing::Test {
 // Moments about the bogie pivots and about R's origin: what the chassis side carries is shared by
 // the rocker wheel and the bogie pivot, and the bogie halves its share.
 TEST_F(LevelGround, StaticWheelLoadsFollowFromMoments) {
-  params_.contact.wheel_soil_friction = 0.0;  // friction would make the loads indeterminate
-  params_.contact.soil_drag = 0.0;
+  // Friction would make the loads indeterminate.
+  terrain_ = SlopeTerrain(0.0, 0.0, RigidGround(0.0));
   params_.mass.chassis_com_x_m = 0.02;
   Start();
   RunFor(*rover_, kBraked, 3.0);
@@ -49,14 +50,19 @@ TEST_F(LevelGround, StaticWheelLoadsFollowFromMoments) {
   EXPECT_NEAR(sum_N, w.total_N, 0.05);
 }
 
-TEST_F(LevelGround, StandsOnItsOrigin) {
+// The wheels sink into the soil and by the contact's own spring.
+TEST_F(LevelGround, StandsAsDeepAsItsWheelsSink) {
   Start();
-  EXPECT_NEAR(state().X_WR.translation().z(), 0.0, 0.001);
+  RunFor(*rover_, kBraked, 1.0);
+  const double load_N = params_.mass.total_kg * params_.physics.gravity_m_s2 / 6.0;
+  const double depth_m = SoilReference().Sinkage(load_N) + load_N / params_.contact.stiffness_N_m;
+  EXPECT_NEAR(state().X_WR.translation().z(), -depth_m, 0.02 * depth_m);
   EXPECT_LT(math::Tilt(state().X_WR), math::DegToRad(0.1));
   EXPECT_TRUE(state().contacts.empty());
 }
 
-// Slip on level ground comes from the motion resistance alone: tau = drag / friction.
+// Slip on level ground comes from the motion resistance alone: the traction of six wheels at that
+// slip is the sum of their resistances.
 TEST_F(LevelGround, DrivesStraightWithTheSlipOfItsDrag) {
   Start();
   const messages::WheelCommand command = Drive(params_, 0.15, 0.0);
@@ -66,8 +72,9 @@ TEST_F(LevelGround, DrivesStraightWithTheSlipOfItsDrag) {
   RunFor(*rover_, command, 10.0);
   const double rolled_m = (state().wheel_angle_rad[0] - angle0) * params_.geometry.wheel_radius_m;
   EXPECT_NEAR(rolled_m, 1.5, 1e-3);
-  const double tau = params_.contact.soil_drag / params_.contact.wheel_soil_friction;
-  const double slip = -params_.contact.soil_slip * std::log(1.0 - tau);
+  const SoilReference soil;
+  const messages::PerWheel<double>& loads_N = state().wheel_load_N;
+  const double slip = soil.SlipForPull(soil.SumResistance(loads_N), loads_N);
   EXPECT_NEAR(1.0 - (x() - x0) / rolled_m, slip, 0.002);
   RecordProperty("slip", std::to_string(1.0 - (x() - x0) / rolled_m));
   EXPECT_NEAR(state().X_WR.translation().y(), 0.0, 2e-3);

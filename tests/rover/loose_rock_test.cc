@@ -8,6 +8,7 @@
 #include "rover/loose_rocks.h"
 #include "rover_drive.h"
 #include "sensing/light_stripe.h"
+#include "soil_reference.h"
 #include "terrain/rock_holding.h"
 
 namespace rockyard::rover {
@@ -96,16 +97,18 @@ TEST(LooseRock, OtherRocksFailThatTest) {
   EXPECT_FALSE(PushesWith(PushLoose(rougher), holding_N));
 }
 
-// 178 N against the 128 N that wheels with a friction of 0.65 give while they spin on the spot.
+// Wheels that spin on the spot (slip 1) pull against rock and resistance.
 TEST(LooseRock, HeavyRockHoldsAndStopsTheRover) {
   const terrain::RockHoldingParams holding = Density(12000.0);
-  const RoverParams params = SmoothRover();
-  const double traction_N = params.contact.wheel_soil_friction * params.mass.total_kg * kEarth_m_s2;
+  messages::PerWheel<double> loads_N;
+  loads_N.fill(SmoothRover().mass.total_kg * kEarth_m_s2 / 6.0);
+  const double traction_N = SoilReference().Traction(1.0, loads_N);
   ASSERT_GT(Holding_N(holding), 1.3 * traction_N);
   const Push push = PushLoose(holding);
   EXPECT_EQ(push.rock_m, 0.0);
   EXPECT_LT(push.rover_m, 1e-3);
-  EXPECT_NEAR(push.mean_force_N, traction_N, 0.03 * traction_N);
+  EXPECT_LT(push.mean_force_N, 1.03 * traction_N);
+  EXPECT_GT(push.mean_force_N, traction_N - 1.1 * SoilReference().SumResistance(loads_N));
 }
 
 // How far apart the rover gets, within 10 s, on fixed rocks and on loose ones, which must not move.

@@ -45,11 +45,20 @@ inline terrain::Terrain FlatTerrain(std::vector<terrain::Rock> rocks = {},
   return {terrain::Ground(), std::move(rocks), std::move(walls)};
 }
 
-inline terrain::Terrain SlopeTerrain(double slope_rad, double direction_rad) {
+inline terrain::Terrain SlopeTerrain(double slope_rad, double direction_rad,
+                                     const terrain::SoilParams& soil = {}) {
   terrain::GroundParams params;
   params.slope_rad = slope_rad;
   params.slope_direction_rad = direction_rad;
+  params.soil = soil;
   return {terrain::Ground(params, {}), {}, {}};
+}
+
+// Coulomb friction without sinkage, drag or slip.
+inline terrain::SoilParams RigidGround(double friction) {
+  terrain::SoilParams soil = terrain::MakeSoil(terrain::SoilPreset::kHardGround);
+  soil.friction_angle_rad = std::atan(friction);
+  return soil;
 }
 
 // An ellipsoid with its centre at the given height.

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "rover_drive.h"
+#include "soil_reference.h"
 
 namespace rockyard::rover {
 namespace {
@@ -16,21 +17,22 @@ double Moved(const math::Vector3& from, const truth::RoverState& state) {
   return (state.X_WR.translation() - from).norm();
 }
 
-// Every wheel has the same slip, so every wheel has the same traction tau of its largest:
-// tau = (tan(slope) + drag) / friction.
+// Wheels of one rigid rover share one slip: their tractions at it add up to weight and resistance.
 TEST(Slope, SlipFollowsTheSlipCurve) {
   for (const double slope_deg : {5.0, 10.0, 15.0, 20.0}) {
     const RoverParams params;
-    const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(slope_deg), kUphill);
+    const double slope = math::DegToRad(slope_deg);
+    const terrain::Terrain terrain = SlopeTerrain(slope, kUphill);
     const auto rover = MakeRover(params, terrain);
     rover->Place({});
     const messages::WheelCommand command = Drive(params, 0.15, 0.0);
     RunFor(*rover, command, 3.0);
     const math::Vector3 from = rover->state().X_WR.translation();
     RunFor(*rover, command, 6.0);
-    const double tau = (std::tan(math::DegToRad(slope_deg)) + params.contact.soil_drag) /
-                       params.contact.wheel_soil_friction;
-    const double expected = -params.contact.soil_slip * std::log(1.0 - tau);
+    const SoilReference soil;
+    const messages::PerWheel<double>& loads_N = rover->state().wheel_load_N;
+    const double pull_N = Weights(params).total_N * std::sin(slope) + soil.SumResistance(loads_N);
+    const double expected = soil.SlipForPull(pull_N, loads_N);
     const double slip = 1.0 - Moved(from, rover->state()) / 0.9;
     EXPECT_NEAR(slip, expected, 0.02 * expected + 0.001) << slope_deg;
   }
@@ -56,11 +58,9 @@ TEST(Slope, SlipDoesNotDependOnTheStep) {
 TEST(Slope, BrakedRoverSlidesBeyondTheFrictionAngle) {
   for (const double direction : {kUphill, kLeftUp}) {
     for (const double excess_deg : {-1.0, 1.0}) {
-      RoverParams params;
-      params.contact.wheel_soil_friction = 0.5;
-      params.contact.soil_drag = 0.0;
+      const RoverParams params;
       const double slope = std::atan(0.5) + math::DegToRad(excess_deg);
-      const terrain::Terrain terrain = SlopeTerrain(slope, direction);
+      const terrain::Terrain terrain = SlopeTerrain(slope, direction, RigidGround(0.5));
       const auto rover = MakeRover(params, terrain);
       rover->Place({});
       const math::Vector3 from = rover->state().X_WR.translation();
@@ -78,13 +78,12 @@ TEST(Slope, BrakedRoverSlidesBeyondTheFrictionAngle) {
 
 // It tips about the lower wheels, somewhere between their middle and their outer edge.
 TEST(Slope, TipsOverSidewaysAtTheStaticAngle) {
-  RoverParams params;
-  params.contact.wheel_soil_friction = 3.0;
+  const RoverParams params;
   const double middle_y = 0.5 * (params.geometry.width_m - params.geometry.wheel_width_m);
   const double edge_y = 0.5 * params.geometry.width_m;
   const double height = Weights(params).com_z_m;
   const auto tilt_after = [&](double slope) {
-    const terrain::Terrain terrain = SlopeTerrain(slope, kLeftUp);
+    const terrain::Terrain terrain = SlopeTerrain(slope, kLeftUp, RigidGround(3.0));
     const auto rover = MakeRover(params, terrain);
     rover->Place({});
     double lean = 0.0;

@@ -44,7 +44,7 @@ TEST(OutcomesTest, TipOverOnVeryRoughGround) {
   const scenario::Scenario scenario =
       Pathfinder("level_sand",
                  {"terrain.ground.roughness_rms_m=0.3", "terrain.ground.roughness_wavelength_m=1.5",
-                  "rover.contact.wheel_soil_friction=1.5"});
+                  "terrain.ground.soil.friction_angle_deg=56"});
   const std::vector<DriveResult> results = RunTrials(scenario, 6);
   EXPECT_GE(Count(results)[TrialOutcome::kTipOver], 2);
   for (const DriveResult& result : results) {
