@@ -18,6 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestChain = 16;
+// Files that each name several others multiply: bounds the memory of a mistaken or hostile input.
+constexpr std::size_t kMostFiles = 64;
 constexpr std::string_view kExtends = "extends";
 
 std::string ReadText(const fs::path& path) {
@@ -43,45 +45,78 @@ std::string ReadText(const fs::path& path) {
   return text;
 }
 
+// "a" and "b" to "a.b".
+std::string Join(std::string_view at, std::string_view key) {
+  return at.empty() ? std::string(key) : fmt::format("{}.{}", at, key);
+}
+
+// Problems are named by the place in the whole document where a file is asked for.
 class ExtendsLoader {
  public:
-  JsonValue Load(const fs::path& path) {
+  JsonValue Load(const fs::path& path, const std::string& at) {
     std::error_code error;
     fs::path identity = fs::weakly_canonical(path, error);
     if (error) identity = path;
-    if (std::find(chain_.begin(), chain_.end(), identity) != chain_.end()) {
-      throw UserError(std::string(kExtends),
-                      "the files extend each other in a cycle: " + Chain(path),
-                      "remove one of the \"extends\"");
-    }
-    if (chain_.size() >= kLongestChain) {
-      throw UserError(
-          std::string(kExtends),
-          fmt::format("more than {} files extend each other: {}", kLongestChain, Chain(path)),
-          "merge some of them");
-    }
+    CheckChain(path, identity, at);
     JsonValue value = ParseJson(ReadText(path), path.string());
     chain_.push_back(std::move(identity));
-    value = Resolve(std::move(value), path.parent_path());
+    value = Resolve(std::move(value), path.parent_path(), at);
     chain_.pop_back();
     return value;
   }
 
-  JsonValue Resolve(JsonValue value, const fs::path& folder) {
+  // What stands inside of the value first, then what the value itself extends.
+  JsonValue Resolve(JsonValue value, const fs::path& folder, const std::string& at) {
+    if (value.Is(JsonValue::Type::kList)) {
+      JsonValue::List& items = value.list();
+      for (std::size_t i = 0; i < items.size(); ++i) {
+        items[i] = Resolve(std::move(items[i]), folder, fmt::format("{}[{}]", at, i));
+      }
+    }
+    if (!value.Is(JsonValue::Type::kObject)) return value;
+    for (JsonMember& member : value.members()) {
+      member.value = Resolve(std::move(member.value), folder, Join(at, member.key));
+    }
     const JsonValue* base = value.Find(kExtends);
     if (base == nullptr) return value;
-    if (!base->Is(JsonValue::Type::kText) || base->text().empty()) {
-      throw UserError(std::string(kExtends),
-                      fmt::format("is {}, not a file name", Abbreviate(*base)),
-                      "write a path relative to this file");
-    }
-    JsonValue merged = Load(folder / base->text());
+    JsonValue merged = LoadBase(*base, folder, at);
     value.Erase(kExtends);
     merged.Merge(value);
     return merged;
   }
 
  private:
+  JsonValue LoadBase(const JsonValue& name, const fs::path& folder, const std::string& at) {
+    if (!name.Is(JsonValue::Type::kText) || name.text().empty()) {
+      throw UserError(Join(at, kExtends), fmt::format("is {}, not a file name", Abbreviate(name)),
+                      "write a path relative to this file");
+    }
+    JsonValue base = Load(folder / name.text(), at);
+    if (!base.Is(JsonValue::Type::kObject)) {
+      throw UserError(Join(at, kExtends),
+                      fmt::format("names {}, which holds {}", name.text(), Describe(base.type())),
+                      "name a file that holds an object");
+    }
+    return base;
+  }
+
+  void CheckChain(const fs::path& path, const fs::path& identity, const std::string& at) {
+    if (std::find(chain_.begin(), chain_.end(), identity) != chain_.end()) {
+      throw UserError(Join(at, kExtends), "the files extend each other in a cycle: " + Chain(path),
+                      "remove one of the \"extends\"");
+    }
+    if (chain_.size() >= kLongestChain) {
+      throw UserError(
+          Join(at, kExtends),
+          fmt::format("more than {} files extend each other: {}", kLongestChain, Chain(path)),
+          "merge some of them");
+    }
+    if (++files_ > kMostFiles) {
+      throw UserError(Join(at, kExtends), fmt::format("more than {} files are read", kMostFiles),
+                      "merge some of them");
+    }
+  }
+
   std::string Chain(const fs::path& last) const {
     std::string text;
     for (const fs::path& path : chain_) text += path.filename().string() + " -> ";
@@ -89,6 +124,7 @@ class ExtendsLoader {
   }
 
   std::vector<fs::path> chain_;
+  std::size_t files_ = 0;
 };
 
 // The text as JSON, or nothing where it is none.
@@ -102,10 +138,10 @@ std::optional<JsonValue> TryParse(std::string_view text) {
 
 }  // namespace
 
-JsonValue LoadJsonFile(const fs::path& path) { return ExtendsLoader().Load(path); }
+JsonValue LoadJsonFile(const fs::path& path) { return ExtendsLoader().Load(path, ""); }
 
 JsonValue ResolveExtends(JsonValue value, const fs::path& folder) {
-  return ExtendsLoader().Resolve(std::move(value), folder);
+  return ExtendsLoader().Resolve(std::move(value), folder, "");
 }
 
 void SetPath(JsonValue& document, std::string_view path, JsonValue value) {

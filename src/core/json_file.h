@@ -9,10 +9,13 @@
 
 namespace rockyard::core {
 
-// The value in a file. Where it is an object with a text "extends", that other file (path relative
-// to the folder of the one that names it) is loaded first and this one is merged over it; objects
-// merge, everything else replaces. Throws UserError: file missing, unreadable, no regular file or
-// too large, JSON errors, cycles, more than 16 files in a chain.
+// The value in a file. Wherever it holds an object with a text "extends", that other file (path
+// relative to the folder of the one that names it) is loaded first and the object is merged over
+// it; objects merge, everything else replaces. An object's own members are resolved before it is
+// merged, so that {"rover": {"extends": "mfex.json"}} also works in a file that extends another.
+// Throws UserError: file missing, unreadable, no regular file or too large, JSON errors, a base
+// that is no object, cycles, more than 16 files in a chain or 64 in all. Problems of "extends" are
+// named by their path in the document, such as "rover.extends".
 JsonValue LoadJsonFile(const std::filesystem::path& path);
 
 // Resolves "extends" of a value that came from no file, relative to `folder`.

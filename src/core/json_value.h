@@ -43,6 +43,7 @@ class JsonValue {
   const List& list() const { return std::get<List>(data_); }
   List& list() { return std::get<List>(data_); }
   const Members& members() const { return std::get<Members>(data_); }
+  Members& members() { return std::get<Members>(data_); }  // keys must stay unique
   // An integer or a real.
   double number() const;
 

@@ -15,6 +15,18 @@ Scenario Finish(core::JsonValue document, std::span<const std::string> overrides
   return ReadScenario(document);
 }
 
+// Adds "extends" to an object's schema and to those of the groups in it.
+void AllowExtends(core::JsonValue& schema) {
+  core::JsonValue* properties = schema.Find("properties");
+  if (properties == nullptr) return;
+  for (core::JsonMember& member : properties->members()) AllowExtends(member.value);
+  core::JsonValue extends = core::JsonValue::Object();
+  extends.Set("description",
+              core::JsonValue("file, relative to this one, with an object that this one changes"));
+  extends.Set("type", core::JsonValue("string"));
+  properties->Set("extends", std::move(extends));
+}
+
 }  // namespace
 
 Scenario LoadScenario(const std::filesystem::path& path, std::span<const std::string> overrides) {
@@ -46,12 +58,7 @@ std::uint64_t Fingerprint(const Scenario& scenario) {
 
 std::string SchemaJson() {
   core::JsonValue schema = core::SchemaOf<Scenario>("rockyard scenario");
-  core::JsonValue extends = core::JsonValue::Object();
-  extends.Set(
-      "description",
-      core::JsonValue("another scenario file, relative to this one, that this one changes"));
-  extends.Set("type", core::JsonValue("string"));
-  schema.Find("properties")->Set("extends", std::move(extends));
+  AllowExtends(schema);
   return core::DumpJson(schema);
 }
 

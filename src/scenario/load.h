@@ -14,9 +14,9 @@
 
 namespace rockyard::scenario {
 
-// The scenario in a JSON file (which may extend another: see core::LoadJsonFile) with "PATH=VALUE"
-// overrides applied in order. Keys that are absent keep their defaults. Throws core::UserError with
-// everything that is wrong.
+// The scenario in a JSON file, any object of which may extend another file (see
+// core::LoadJsonFile), with "PATH=VALUE" overrides applied in order. Keys that are absent keep
+// their defaults. Throws core::UserError with everything that is wrong.
 Scenario LoadScenario(const std::filesystem::path& path,
                       std::span<const std::string> overrides = {});
 
@@ -35,7 +35,7 @@ std::string ResolvedJson(const Scenario& scenario);
 // description and the number of trials.
 std::uint64_t Fingerprint(const Scenario& scenario);
 
-// JSON Schema (draft 2020-12) of scenario files; "extends" included.
+// JSON Schema (draft 2020-12) of scenario files; "extends" included in every group.
 std::string SchemaJson();
 
 // ResolvedJson of a default scenario.

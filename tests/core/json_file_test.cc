@@ -68,6 +68,67 @@ TEST_F(JsonFileTest, LongChainsAreErrors) {
   EXPECT_THAT(ProblemOf(folder_ / "0.json").reason, HasSubstr("more than 16 files"));
 }
 
+TEST_F(JsonFileTest, AnyObjectMayExtendAFile) {
+  Write("sub/part.json", R"({"x": 1, "deep": {"extends": "deeper.json", "z": 3}})");
+  Write("sub/deeper.json", R"({"y": 2, "z": 2})");
+  const fs::path top = Write("top.json", R"({"a": {"b": {"extends": "sub/part.json", "x": 5}},
+                                             "list": [1, {"extends": "sub/deeper.json"}]})");
+  EXPECT_EQ(DumpJson(LoadJsonFile(top)),
+            DumpJson(ParseJson(R"({"a": {"b": {"x": 5, "deep": {"y": 2, "z": 3}}},
+                                   "list": [1, {"y": 2, "z": 2}]})",
+                               "test")));
+}
+
+// The part that the top file names replaces the values that it shares with the base's part.
+TEST_F(JsonFileTest, PartsOfAFileLieOverThoseOfItsBase) {
+  Write("one.json", R"({"x": 1, "y": 1})");
+  Write("two.json", R"({"y": 2})");
+  Write("base.json", R"({"part": {"extends": "one.json", "w": 0}})");
+  const fs::path top =
+      Write("top.json", R"({"extends": "base.json", "part": {"extends": "two.json", "v": 3}})");
+  EXPECT_EQ(DumpJson(LoadJsonFile(top)),
+            DumpJson(ParseJson(R"({"part": {"x": 1, "y": 2, "w": 0, "v": 3}})", "test")));
+}
+
+// The same part twice is no cycle.
+TEST_F(JsonFileTest, OneFileMayBeExtendedTwice) {
+  Write("part.json", R"({"x": 1})");
+  const fs::path top =
+      Write("top.json", R"({"a": {"extends": "part.json"}, "b": {"extends": "part.json"}})");
+  EXPECT_EQ(DumpJson(LoadJsonFile(top)),
+            DumpJson(ParseJson(R"({"a": {"x": 1}, "b": {"x": 1}})", "test")));
+}
+
+TEST_F(JsonFileTest, ErrorsOfPartsNameTheirPath) {
+  Problem problem = ProblemOf(Write("type.json", R"({"a": [0, {"b": {"extends": 3}}]})"));
+  EXPECT_EQ(problem.path, "a[1].b.extends");
+  EXPECT_THAT(problem.reason, HasSubstr("is 3, not a file name"));
+  Write("inner.json", R"({"c": {"extends": ""}})");
+  EXPECT_EQ(ProblemOf(Write("in_part.json", R"({"a": {"extends": "inner.json"}})")).path,
+            "a.c.extends");
+  problem = ProblemOf(Write("loop.json", R"({"a": {"b": {"extends": "loop.json"}}})"));
+  EXPECT_EQ(problem.path, "a.b.extends");
+  EXPECT_THAT(problem.reason, HasSubstr("cycle: loop.json -> loop.json"));
+}
+
+TEST_F(JsonFileTest, OnlyObjectsCanBeExtended) {
+  Write("list.json", "[1]");
+  const Problem problem = ProblemOf(Write("top.json", R"({"a": {"extends": "list.json"}})"));
+  EXPECT_EQ(problem.path, "a.extends");
+  EXPECT_THAT(problem.reason, HasSubstr("names list.json, which holds a list"));
+}
+
+// 3^8 files if nothing stopped it.
+TEST_F(JsonFileTest, FilesThatMultiplyAreErrors) {
+  for (int i = 0; i < 8; ++i) {
+    const std::string next = "{\"extends\": \"" + std::to_string(i + 1) + ".json\"}";
+    Write(std::to_string(i) + ".json",
+          "{\"a\": " + next + ", \"b\": " + next + ", \"c\": " + next + "}");
+  }
+  Write("8.json", "{}");
+  EXPECT_THAT(ProblemOf(folder_ / "0.json").reason, HasSubstr("more than 64 files"));
+}
+
 TEST_F(JsonFileTest, MissingAndWrongFilesAreErrors) {
   EXPECT_THAT(ProblemOf(folder_ / "none.json").reason, HasSubstr("does not exist"));
   EXPECT_THAT(ProblemOf(folder_).reason, HasSubstr("not a regular file"));

@@ -166,6 +166,35 @@ TEST_F(LoadFileTest, FilesExtendFiles) {
   EXPECT_EQ(ParseScenario(R"({"extends": "base.json"})", {}, folder_).seed, 5);
 }
 
+TEST_F(LoadFileTest, GroupsExtendFiles) {
+  fs::create_directories(folder_ / "rovers");
+  std::ofstream(folder_ / "rovers" / "small.json")
+      << R"({"mass": {"total_kg": 12, "wheel_kg": 0.4}})";
+  std::ofstream(folder_ / "top.json")
+      << R"({"rover": {"extends": "rovers/small.json", "mass": {"wheel_kg": 0.3}}})";
+  const Scenario scenario = LoadScenario(folder_ / "top.json");
+  EXPECT_EQ(scenario.rover.mass.total_kg, 12.0);
+  EXPECT_EQ(scenario.rover.mass.wheel_kg, 0.3);
+}
+
+// Every object of the schema that has properties allows it, every other one does not.
+void ExpectExtends(const core::JsonValue& schema, const std::string& path) {
+  const core::JsonValue* properties = schema.Find("properties");
+  if (properties == nullptr) return;
+  const core::JsonValue* extends = properties->Find("extends");
+  ASSERT_NE(extends, nullptr) << path;
+  EXPECT_EQ(extends->Find("type")->text(), "string");
+  for (const core::JsonMember& member : properties->members()) {
+    ExpectExtends(member.value, path + "." + member.key);
+  }
+}
+
+TEST(SchemaTest, EveryGroupMayExtend) {
+  const core::JsonValue schema = core::ParseJson(SchemaJson(), "schema");
+  ExpectExtends(schema, "");
+  EXPECT_NE(schema.Find("properties")->Find("rover")->Find("properties")->Find("extends"), nullptr);
+}
+
 TEST_F(LoadFileTest, ResolvedScenariosStandAlone) {
   std::ofstream(folder_ / "a.json") << R"({"seed": 5, "sensors": {"gyro": {"scale": 0.97}}})";
   const Scenario scenario = LoadScenario(folder_ / "a.json");
