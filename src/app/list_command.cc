@@ -12,6 +12,7 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "core/error.h"
+#include "core/json_file.h"
 #include "scenario/load.h"
 
 namespace rockyard::app {
@@ -39,9 +40,21 @@ std::vector<fs::path> JsonFiles(const fs::path& folder) {
   return files;
 }
 
+// Whether the file is one that scenarios extend in a group, such as a rover: none of its keys is a
+// scenario's.
+bool IsPart(const core::JsonValue& document) {
+  if (!document.Is(core::JsonValue::Type::kObject) || document.members().empty()) return false;
+  const core::JsonValue scenario = scenario::WriteScenario({});
+  return std::none_of(
+      document.members().begin(), document.members().end(),
+      [&](const core::JsonMember& member) { return scenario.Find(member.key) != nullptr; });
+}
+
 std::string About(const fs::path& file) {
   try {
-    const scenario::Scenario scenario = scenario::LoadScenario(file);
+    const core::JsonValue document = core::LoadJsonFile(file);
+    if (IsPart(document)) return "part of a scenario: a group can extend it";
+    const scenario::Scenario scenario = scenario::ReadScenario(document);
     return scenario.description.empty() ? scenario.name : scenario.description;
   } catch (const core::UserError& error) {
     const core::Problem& problem = error.problems().front();

@@ -17,7 +17,7 @@ Outline Rectangle(double x_m, double y_m, double length_m, double width_m) {
 
 RoverGeometry MakeRoverGeometry(const RoverGeometryParams& params) {
   RoverGeometry geometry;
-  const double outer_x = 0.5 * params.length_m - params.wheel_radius_m;
+  const double outer_x = 0.5 * params.wheelbase_m;
   const double wheel_y = 0.5 * (params.width_m - params.wheel_width_m);
   const bool bogie_in_front = params.bogie_end == BogieEnd::kFront;
   const double mirror = bogie_in_front ? -1.0 : 1.0;

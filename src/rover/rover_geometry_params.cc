@@ -1,5 +1,7 @@
 #include "rover/rover_geometry_params.h"
 
+#include <cmath>
+
 namespace rockyard::rover {
 
 using core::Origin;
@@ -9,7 +11,7 @@ void RoverGeometryParams::Visit(core::FieldVisitor& v) {
   constexpr std::string_view kRocky7 =
       "Rocky 7, Tarokh and McDermott 2005: the same wheels on a rover of the same size";
   v.Real("length_m", length_m,
-         {.doc = "overall length; the outer wheels end there",
+         {.doc = "overall length, which is that of the solar panel",
           .min = 0.2,
           .max = 5.0,
           .origin = Origin::kPublished,
@@ -46,6 +48,14 @@ void RoverGeometryParams::Visit(core::FieldVisitor& v) {
           .source = kRocky7,
           .study_low = 0.06,
           .study_high = 0.08});
+  v.Real("wheelbase_m", wheelbase_m,
+         {.doc = "distance from the front to the rear axle, centred",
+          .min = 0.1,
+          .max = 5.0,
+          .origin = Origin::kAssumed,
+          .source = "the outer wheels end at the overall length",
+          .study_low = 0.46,
+          .study_high = 0.52});
   v.Real("middle_wheel_x_m", middle_wheel_x_m,
          {.doc = "position of the middle wheels, which do not steer: at 0 they do not scrub while "
                  "the rover turns in place",
@@ -156,10 +166,14 @@ void RoverGeometryParams::Visit(core::FieldVisitor& v) {
            .source = "a bogie wheel on 1.5 wheel diameters needs 49",
            .study_low = 40.0,
            .study_high = 60.0});
-  const double bogie_pivot_x_m = 0.5 * (middle_wheel_x_m - 0.5 * length_m + wheel_radius_m);
-  v.Require("length_m", 0.5 * length_m - wheel_radius_m > middle_wheel_x_m + 2.0 * wheel_radius_m,
+  const double bogie_pivot_x_m = 0.5 * (middle_wheel_x_m - 0.5 * wheelbase_m);
+  constexpr double kRounding_m = 1e-9;
+  v.Require("wheelbase_m", wheelbase_m + 2.0 * wheel_radius_m <= length_m + kRounding_m,
+            "puts the outer wheels beyond the overall length",
+            "use at most length_m less two wheel radii");
+  v.Require("wheelbase_m", 0.5 * wheelbase_m > std::abs(middle_wheel_x_m) + 2.0 * wheel_radius_m,
             "leaves no room for three wheels a side",
-            "use more than six wheel radii plus twice the offset of the middle wheel");
+            "use more than four wheel radii plus twice the offset of the middle wheel");
   v.Require("rocker_pivot_x_m", rocker_pivot_x_m > bogie_pivot_x_m,
             "lies on the far side of the bogie pivot",
             "put it between bogie pivot and outer wheel");

@@ -27,6 +27,7 @@ struct RoverGeometryParams {
   double belly_clearance_m = 0.13;
   double wheel_radius_m = 0.065;
   double wheel_width_m = 0.08;
+  double wheelbase_m = 0.52;
   double middle_wheel_x_m = 0.0;
   SteeredWheels steered_wheels = SteeredWheels::kCorners;
   BogieEnd bogie_end = BogieEnd::kFront;

@@ -44,6 +44,8 @@ TEST_F(CliTools, ListFitsTheTerminal) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.out, HasSubstr("pathfinder/nominal.json"));
   EXPECT_THAT(result.out, HasSubstr("pathfinder/obstacles_0.28.json"));
+  EXPECT_THAT(result.out, testing::ContainsRegex("rovers/mfex.json +part of a scenario"));
+  EXPECT_THAT(result.out, testing::Not(HasSubstr("not valid")));
   std::istringstream lines(result.out);
   std::string line;
   std::getline(lines, line);  // the folder

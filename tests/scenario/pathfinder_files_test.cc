@@ -23,6 +23,7 @@ std::map<std::string, Scenario> LoadAll() {
   std::map<std::string, Scenario> scenarios;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(kRoot / "scenarios")) {
     if (entry.path().extension() != ".json") continue;
+    if (entry.path().parent_path().filename() == "rovers") continue;  // parts of scenarios
     scenarios.emplace(entry.path().stem().string(), LoadScenario(entry.path()));
   }
   return scenarios;
