@@ -194,14 +194,4 @@ void RockerBogie::UpdateContacts() {
   }
 }
 
-std::unique_ptr<Rover> MakeRover(const RoverParams& params, const terrain::Terrain& terrain) {
-  return std::make_unique<RockerBogie>(params, terrain);
-}
-
-std::unique_ptr<Rover> MakeRover(const RoverParams& params,
-                                 const terrain::RockHoldingParams& holding,
-                                 terrain::Terrain& terrain) {
-  return std::make_unique<RockerBogie>(params, holding, terrain);
-}
-
 }  // namespace rockyard::rover

@@ -9,19 +9,14 @@ namespace {
 // Below this u the closed form loses digits to cancellation; the series has an error of u^3 / 24.
 constexpr double kSeries = 1e-4;
 
-// tau(u) and its derivative.
-struct Share {
-  double value;
-  double slope;
-};
-
-Share ShareAt(double u) {
-  if (u < kSeries) return {u * (0.5 - u / 6.0), 0.5 - u / 3.0};
-  const double rest = -std::expm1(-u) / u;  // (1 - e^-u) / u
-  return {1.0 - rest, (rest - std::exp(-u)) / u};
-}
-
 }  // namespace
+
+ShearShare ShareOfRatio(double u) {
+  if (u < kSeries) return {u * (0.5 - u / 6.0), 0.5 - u / 3.0};
+  const double loss = std::expm1(-u);  // e^-u - 1
+  const double rest = -loss / u;
+  return {1.0 - rest, (rest - loss - 1.0) / u};
+}
 
 double ShearRatio(double tau) {
   if (tau <= 0.0) return 0.0;
@@ -29,7 +24,7 @@ double ShearRatio(double tau) {
   // monotonically. 2 tau bounds the root from below for small shares, 1 / (1 - tau) - 1 for all.
   double u = std::max(2.0 * tau, tau / (1.0 - tau));
   for (int i = 0; i < 30; ++i) {
-    const Share share = ShareAt(u);
+    const ShearShare share = ShareOfRatio(u);
     const double step = (tau - share.value) / share.slope;
     u += step;
     if (std::abs(step) <= 1e-12 * u) break;
@@ -74,10 +69,14 @@ double WheelSoil::LargestTraction_N(double load_N) const {
   return width_m_ * ContactLength_m(load_N) * cohesion_Pa_ + load_N * tan_friction_;
 }
 
+double WheelSoil::ShearRatioOfFullSlip(double load_N) const {
+  return ContactLength_m(load_N) / shear_modulus_m_;
+}
+
 double WheelSoil::TractionShare(double slip, double load_N) const {
   if (slip <= 0.0) return 0.0;
   if (shear_modulus_m_ == 0.0) return 1.0;
-  return ShareAt(slip * ContactLength_m(load_N) / shear_modulus_m_).value;
+  return ShareOfRatio(slip * ShearRatioOfFullSlip(load_N)).value;
 }
 
 double WheelSoil::Slip(double tau, double load_N) const {

@@ -27,6 +27,8 @@ class WheelSoil {
   double Resistance_N(double load_N) const;
   double ContactLength_m(double load_N) const;
   double LargestTraction_N(double load_N) const;
+  // l / K, the u of a slip of 1; infinite where K is 0.
+  double ShearRatioOfFullSlip(double load_N) const;
 
   // W(z) and its derivative, for z >= 0.
   double Load_N(double sinkage_m) const;
@@ -50,6 +52,13 @@ class WheelSoil {
   double tan_friction_;     // tan(phi)
   double shear_modulus_m_;  // K
 };
+
+// tau(u) = 1 - (1 - e^-u) / u and its derivative, for u >= 0. About 15 ns.
+struct ShearShare {
+  double value;
+  double slope;
+};
+ShearShare ShareOfRatio(double u);
 
 // u of the share tau in [0, 1): the inverse of tau = 1 - (1 - e^-u) / u. About 20 ns.
 double ShearRatio(double tau);

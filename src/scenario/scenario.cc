@@ -18,10 +18,17 @@ void RequireConsistency(const Scenario& scenario, core::FieldVisitor& v) {
             "is below navigation.pathfinder.goal_tolerance_m, so that a rover without any error "
             "could arrive falsely",
             "use a goal radius of at least the navigator's tolerance");
-  v.Require("clock.control_rate_hz",
-            scenario.clock.control_rate_hz * scenario.rover.physics.step_s <= 1.0,
-            "asks for more than one control step per rover.physics.step_s",
+  const bool multibody = scenario.rover.fidelity == rover::Fidelity::kMultibody;
+  const double step_s =
+      multibody ? scenario.rover.physics.step_s : scenario.rover.quasi_static.step_s;
+  v.Require("clock.control_rate_hz", scenario.clock.control_rate_hz * step_s <= 1.0,
+            "asks for more than one control step per rover.physics.step_s (multibody) or "
+            "rover.quasi_static.step_s (quasi_static)",
             "use a lower rate or a shorter physics step");
+  v.Require("rover.fidelity",
+            multibody || scenario.terrain.rocks.mobility == terrain::RockMobility::kFixed,
+            "is quasi_static, which pushes no rocks, where terrain.rocks.mobility is movable",
+            "use fidelity multibody or fixed rocks");
 }
 
 }  // namespace

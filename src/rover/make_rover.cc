@@ -1,0 +1,22 @@
+#include "core/check.h"
+#include "rover/quasi_static_rover.h"
+#include "rover/rocker_bogie.h"
+#include "rover/rover.h"
+
+namespace rockyard::rover {
+
+std::unique_ptr<Rover> MakeRover(const RoverParams& params, const terrain::Terrain& terrain) {
+  if (params.fidelity == Fidelity::kQuasiStatic) {
+    return std::make_unique<QuasiStaticRover>(params, terrain);
+  }
+  return std::make_unique<RockerBogie>(params, terrain);
+}
+
+std::unique_ptr<Rover> MakeRover(const RoverParams& params,
+                                 const terrain::RockHoldingParams& holding,
+                                 terrain::Terrain& terrain) {
+  EXPECT(params.fidelity == Fidelity::kMultibody);
+  return std::make_unique<RockerBogie>(params, holding, terrain);
+}
+
+}  // namespace rockyard::rover

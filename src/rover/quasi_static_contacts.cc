@@ -1,0 +1,183 @@
+#include "rover/quasi_static_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rockyard::rover {
+namespace {
+
+using math::Vector3;
+
+// The list of near rocks is renewed after this much travel, m.
+constexpr double kGatherStep_m = 0.25;
+// Alternating projections of a body part: most sweeps, and the movement that ends them, m.
+constexpr int kSweeps = 20;
+constexpr double kConverged_m = 1e-4;
+// As in contact_finder.cc: sine of the tilt at which a wheel stands on the edge of its rim.
+constexpr double kEdgeTilt = 0.1;
+
+}  // namespace
+
+QuasiStaticContacts::QuasiStaticContacts(const RoverGeometryParams& params,
+                                         const terrain::Terrain& terrain)
+    : terrain_(terrain),
+      wheel_(params),
+      parts_(MakeParts(params)),
+      reach_R_m_(std::hypot(0.5 * params.length_m, 0.5 * params.width_m)),
+      hub_radius_m_(params.hub_radius_m) {}
+
+void QuasiStaticContacts::Clear() {
+  contacts_.clear();
+  gathered_ = false;
+}
+
+void QuasiStaticContacts::Gather(const Vector3& p_WR) {
+  if (gathered_ && (p_WR - gathered_at_W_).head<2>().squaredNorm() < kGatherStep_m * kGatherStep_m)
+    return;
+  terrain_.RocksNear(p_WR.x(), p_WR.y(), reach_R_m_ + 2.0 * kGatherStep_m, near_);
+  rocks_.clear();
+  for (const int index : near_) {
+    const terrain::Rock& rock = terrain_.rocks()[static_cast<std::size_t>(index)];
+    rocks_.push_back({index, RockSupport(rock), Ellipsoid(rock), {}, {}});
+  }
+  gathered_at_W_ = p_WR;
+  gathered_ = true;
+}
+
+void QuasiStaticContacts::Update(const Linkage& linkage, double reach_m) {
+  std::swap(contacts_, last_);
+  contacts_.clear();
+  Gather(linkage.chassis().p_WB);
+  for (std::size_t wheel = 0; wheel < messages::kWheelCount; ++wheel) {
+    MeetGround(linkage, wheel, reach_m);
+    for (NearRock& rock : rocks_) MeetRock(linkage, wheel, reach_m, rock);
+  }
+  MeetBody(linkage, reach_m);
+  MeetWalls(linkage, reach_m);
+}
+
+void QuasiStaticContacts::Add(const RestingContact& contact) {
+  contacts_.push_back(contact);
+  for (const RestingContact& before : last_) {
+    if (before.part == contact.part && before.other == contact.other) {
+      contacts_.back().load_N = before.load_N;
+      contacts_.back().traction_load_N = before.traction_load_N;
+      return;
+    }
+  }
+}
+
+// The lowest point of the rounded cylinder, moved across the rim in proportion to the tilt: see
+// ContactFinder.
+void QuasiStaticContacts::MeetGround(const Linkage& linkage, std::size_t wheel, double reach_m) {
+  const Vector3& center_W = linkage.wheel_W(wheel);
+  const terrain::Ground& ground = terrain_.ground();
+  const Vector3 n_W = ground.Normal(center_W.x(), center_W.y());
+  const Vector3 axle_W = linkage.axle_W(wheel);
+  const double tilt = -n_W.dot(axle_W);
+  const Vector3 down_W = (-n_W - tilt * axle_W).normalized();
+  const Vector3 p_W = center_W +
+                      wheel_.core_half_width_m * std::clamp(tilt / kEdgeTilt, -1.0, 1.0) * axle_W +
+                      wheel_.core_radius_m * down_W - wheel_.margin_m * n_W;
+  const double gap_m = (p_W.z() - ground.Height(p_W.x(), p_W.y())) * n_W.z();
+  if (gap_m > reach_m) return;
+  Add({.part = static_cast<int>(wheel),
+       .other = kGround,
+       .body = kFirstWheel + static_cast<int>(wheel),
+       .gap_m = gap_m,
+       .p_W = p_W,
+       .n_W = n_W});
+}
+
+void QuasiStaticContacts::MeetRock(const Linkage& linkage, std::size_t wheel, double reach_m,
+                                   NearRock& rock) {
+  const Vector3& center_W = linkage.wheel_W(wheel);
+  const double far_m = rock.support.bounding_radius_m + parts_[wheel].bounding_radius_m + reach_m;
+  if ((center_W - rock.support.center_W).squaredNorm() > far_m * far_m) {
+    rock.known[wheel] = false;
+    return;
+  }
+  if (!rock.known[wheel]) rock.wheel_normal_W[wheel] = GuessNormal(center_W, rock.support);
+  rock.known[wheel] = true;
+  const WheelRockGap gap = FindGap(wheel_, center_W, linkage.axle_W(wheel), rock.support, reach_m,
+                                   rock.wheel_normal_W[wheel]);
+  rock.wheel_normal_W[wheel] = gap.n_W;
+  if (gap.gap_m > reach_m) return;
+  Add({.part = static_cast<int>(wheel),
+       .other = rock.index,
+       .body = kFirstWheel + static_cast<int>(wheel),
+       .gap_m = gap.gap_m,
+       .p_W = gap.p_W,
+       .n_W = gap.n_W});
+}
+
+void QuasiStaticContacts::MeetBody(const Linkage& linkage, double reach_m) {
+  const Linkage::Frame& chassis = linkage.chassis();
+  double lowest_m = chassis.p_WB.z() + 1.0;
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    lowest_m = std::min(lowest_m, linkage.wheel_W(i).z() - hub_radius_m_ - reach_m);
+  }
+  for (const NearRock& rock : rocks_) {
+    if (rock.support.top_W_m < lowest_m) continue;
+    const double far_m = reach_R_m_ + rock.support.bounding_radius_m + reach_m;
+    if ((rock.support.center_W - chassis.p_WB).head<2>().squaredNorm() > far_m * far_m) continue;
+    for (std::size_t i = messages::kWheelCount; i < parts_.size(); ++i) {
+      if (parts_[i].meets == Meets::kRocks) MeetPart(linkage, i, reach_m, rock);
+    }
+  }
+}
+
+void QuasiStaticContacts::MeetPart(const Linkage& linkage, std::size_t index, double reach_m,
+                                   const NearRock& rock) {
+  const Part& part = parts_[index];
+  const Linkage::Frame& frame = linkage.body(part.body);
+  const Vector3 center_W = frame.p_WB + frame.R_WB * part.center_B;
+  const double near_m = part.bounding_radius_m + reach_m;
+  const double far_m = near_m + rock.support.bounding_radius_m;
+  if ((center_W - rock.support.center_W).squaredNorm() > far_m * far_m) return;
+  if (rock.ellipsoid.DistanceBound(center_W) > near_m) return;
+  SurfacePoint surface = rock.ellipsoid.Nearest(center_W);
+  Vector3 core_W = center_W;
+  for (int i = 0; i < kSweeps; ++i) {
+    const Vector3 before_W = surface.point_W;
+    core_W = frame.p_WB + frame.R_WB * NearestOnCore(part, frame.R_WB.transpose() *
+                                                               (surface.point_W - frame.p_WB));
+    surface = rock.ellipsoid.Nearest(core_W);
+    if ((surface.point_W - before_W).squaredNorm() < kConverged_m * kConverged_m) break;
+  }
+  const double gap_m = surface.distance_m - part.margin_m;
+  if (gap_m > reach_m) return;
+  Add({.part = static_cast<int>(index),
+       .other = rock.index,
+       .body = part.body,
+       .kind = part.kind,
+       .gap_m = gap_m,
+       .p_W = core_W - part.margin_m * surface.normal_W,
+       .n_W = surface.normal_W});
+}
+
+void QuasiStaticContacts::MeetWalls(const Linkage& linkage, double reach_m) {
+  const auto walls = terrain_.walls();
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    if (walls[i].offset_m - walls[i].normal_W.dot(linkage.chassis().p_WB) > reach_R_m_ + reach_m) {
+      continue;
+    }
+    for (std::size_t k = messages::kWheelCount; k < parts_.size(); ++k) {
+      const Part& part = parts_[k];
+      if (part.meets != Meets::kGroundAndWalls) continue;
+      const Linkage::Frame& frame = linkage.body(part.body);
+      const Vector3 p_W = frame.p_WB + frame.R_WB * part.a_B;
+      const double gap_m = walls[i].offset_m - walls[i].normal_W.dot(p_W);
+      if (gap_m > reach_m) continue;
+      Add({.part = static_cast<int>(k),
+           .other = kFirstWall - static_cast<int>(i),
+           .body = part.body,
+           .kind = part.kind,
+           .gap_m = gap_m,
+           .p_W = p_W,
+           .n_W = -walls[i].normal_W});
+    }
+  }
+}
+
+}  // namespace rockyard::rover

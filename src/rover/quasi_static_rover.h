@@ -1,0 +1,57 @@
+// The rover as a sequence of balances of forces: no inertia, some centimetres a step.
+#pragma once
+
+#include "rover/quasi_static_balance.h"
+#include "rover/quasi_static_contacts.h"
+#include "rover/quasi_static_linkage.h"
+#include "rover/rover.h"
+
+namespace rockyard::rover {
+
+// Between two balances, settle_distance_m of rim travel (or settle_turn_rad of turning) apart, the
+// posture is interpolated. Draws no random numbers. Cost: tests/rover/quasi_static_benchmark.cc.
+class QuasiStaticRover final : public Rover {
+ public:
+  QuasiStaticRover(const RoverParams& params, const terrain::Terrain& terrain);
+
+  void Place(const math::Pose2& X_WR) override;
+  // Throws std::runtime_error where no balance with finite rates exists.
+  void Step(const messages::WheelCommand& command) override;
+  double step_s() const override { return params_.quasi_static.step_s; }
+  const truth::RoverState& state() const override { return state_; }
+
+ private:
+  // A stretch at constant rates.
+  struct Stretch {
+    Posture from;
+    Posture to;
+    double duration_s = 0.0;
+    double elapsed_s = 0.0;
+    messages::PerWheel<double> rate_rad_s{};
+    messages::PerWheel<double> steer_rad{};
+  };
+
+  void Steer(const messages::PerWheel<double>& wanted_rad);
+  void Rest();
+  bool Goes(const messages::WheelCommand& command) const;
+  void Plan(const messages::PerWheel<double>& rate_rad_s);
+  double StretchTime_s(const messages::PerWheel<double>& rate_rad_s) const;
+  Posture LiftedPosture(const math::Pose2& X_WR) const;
+  void Settle();
+  void UpdatePosture();
+  void UpdateForces();
+
+  const RoverParams params_;
+  const messages::PerWheel<bool> steered_;
+  const double turn_arm_m_;  // of the outermost wheel about R's origin
+  const terrain::Terrain& terrain_;
+  Linkage linkage_;
+  QuasiStaticContacts contacts_;
+  QuasiStaticBalance balance_;
+  Posture posture_;
+  Stretch stretch_;
+  LinkageVector rates_ = LinkageVector::Zero();
+  truth::RoverState state_;
+};
+
+}  // namespace rockyard::rover
