@@ -12,16 +12,11 @@ constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr double kJointRecovery = 0.2;
 // Joint stops are watched from this angle before them, rad.
 constexpr double kStopWatch_rad = 0.05;
-// Loads below this are taken as this where the soil's answer is looked up, N: a wheel that has just
-// touched has none, and all of it vanishes with the load.
-constexpr double kLeastLoad_N = 0.1;
 
 }  // namespace
 
 ConstraintSolver::ConstraintSolver(const RoverParams& params, const terrain::SoilParams& soil)
-    : contact_params_(params.contact),
-      soil_(soil, params.geometry.wheel_radius_m, params.geometry.wheel_width_m),
-      wheel_radius_m_(params.geometry.wheel_radius_m),
+    : laws_(params, soil),
       step_s_(params.physics.step_s),
       iterations_(params.physics.solver_iterations) {
   differential_.J[6 + kLeftRocker] = 1.0;
@@ -67,24 +62,20 @@ void ConstraintSolver::Solve(const DofMatrix& mass_inverse,
     } else {
       contact.impulse_Ns = {};
       contact.drag_Ns = 0.0;
+      contact.slip_m_s = 0.0;
     }
   }
   for (std::int64_t i = 0; i < iterations_; ++i) Sweep(loose_rocks);
-  for (std::size_t i = 0; i < contact_count_; ++i) {
-    const ContactRows& rows = contacts_[i];
-    rows.contact->impulse_Ns = {rows.normal.impulse, rows.along.impulse, rows.across.impulse};
-    rows.contact->drag_Ns = rows.drag.impulse;
-  }
+  for (std::size_t i = 0; i < contact_count_; ++i) KeepForNextStep(contacts_[i]);
   body.AddVelocity(velocity_ - free_velocity);
 }
 
 void ConstraintSolver::Start(const DofMatrix& mass_inverse, Row& row) {
   row.response.noalias() = mass_inverse * row.J;
-  double diagonal = row.J.dot(row.response) + row.softness;
+  row.diagonal = row.J.dot(row.response) + row.softness;
   if (row.rock != nullptr) {
-    diagonal += row.direction_W.head<2>().squaredNorm() / row.rock->mass_kg;
+    row.diagonal += row.direction_W.head<2>().squaredNorm() / row.rock->mass_kg;
   }
-  row.inverse_diagonal = 1.0 / diagonal;
   row.impulse = std::clamp(row.impulse, row.low, row.high);
   velocity_ += row.impulse * row.response;
   if (row.rock != nullptr) row.rock->PushBack(row.impulse * row.direction_W);
@@ -127,63 +118,59 @@ void ConstraintSolver::StartContact(const DofMatrix& mass_inverse, const Part& p
   ContactRows& rows = contacts_[contact_count_++];
   rows.contact = &contact;
   const bool wheel = part.kind == truth::BodyPart::kWheel;
-  const bool wheel_on_soil = wheel && contact.IsSoil();
+  rows.law =
+      laws_.Of(part, contact, wheel ? spin_rad_s_[static_cast<std::size_t>(contact.part)] : 0.0);
   rows.normal.rock = rows.along.rock = rows.across.rock = rock;
-  rows.normal.direction_W = contact.n_W;
-  rows.along.direction_W = contact.along_W;
-  rows.across.direction_W = contact.across_W;
-
-  StartNormal(mass_inverse, part, body, wheel_on_soil, rows);
-
-  rows.friction = FrictionOf(part, contact);
-  const double spin_rad_s = wheel ? spin_rad_s_[static_cast<std::size_t>(contact.part)] : 0.0;
-  const double softness = wheel_on_soil ? SlipSoftness(contact, spin_rad_s) : 0.0;
-  body.FillJacobian(part.body, contact.p_W, contact.along_W, rows.along.J);
-  body.FillJacobian(part.body, contact.p_W, contact.across_W, rows.across.J);
-  rows.along.impulse = contact.impulse_Ns[1];
-  rows.across.impulse = contact.impulse_Ns[2];
-  for (Row* row : {&rows.along, &rows.across}) {
-    row->softness = softness;
-    row->low = -kUnbounded;
-    row->high = kUnbounded;
-    Start(mass_inverse, *row);
-  }
-  const double load_N = Load_N(contact);
-  rows.drag_ratio = wheel_on_soil ? soil_.Resistance_N(load_N) / load_N : 0.0;
+  StartNormal(mass_inverse, part, body, rows);
+  StartFriction(mass_inverse, part, body, rows);
   StartDrag(mass_inverse, part, body, rows);
 }
 
-// A spring and damper side by side, solved implicitly: force F0 + k (d - d0) - c v at the end of
-// the step, with the penetration d. A gap only bounds the approach. The spring of a wheel on soil
-// is the soil's sinkage in series with the contact's own, taken along its tangent at the last load
-// F0.
+// A spring and damper side by side, solved implicitly: force k (d - d0) - c v at the end of the
+// step, with the penetration d. A gap only bounds the approach.
 void ConstraintSolver::StartNormal(const DofMatrix& mass_inverse, const Part& part,
-                                   const Multibody& body, bool wheel_on_soil, ContactRows& rows) {
+                                   const Multibody& body, ContactRows& rows) {
   const Contact& contact = *rows.contact;
-  double k = contact_params_.stiffness_N_m;
-  const double c = contact_params_.damping_Ns_m;
-  double rest_gap_m = 0.0;  // where the tangent of the spring reaches no force
-  if (wheel_on_soil) {
-    const double load_N = Load_N(contact);
-    const double sinkage_m = soil_.Sinkage_m(load_N);
-    const double depth_m = sinkage_m + load_N / k;
-    k = 1.0 / (1.0 / soil_.Stiffness_N_m(sinkage_m) + 1.0 / k);
-    rest_gap_m = load_N / k - depth_m;
-  }
+  const double k = rows.law.stiffness_N_m;
+  const double c = laws_.damping_Ns_m();
   body.FillJacobian(part.body, contact.p_W, contact.n_W, rows.normal.J);
-  rows.normal.target = contact.gap_m > 0.0 ? -contact.gap_m / step_s_
-                                           : k * (rest_gap_m - contact.gap_m) / (step_s_ * k + c);
+  rows.normal.direction_W = contact.n_W;
+  rows.normal.target = contact.gap_m > 0.0
+                           ? -contact.gap_m / step_s_
+                           : -k * (rows.law.rest_depth_m + contact.gap_m) / (step_s_ * k + c);
   rows.normal.softness = 1.0 / (step_s_ * (step_s_ * k + c));
   rows.normal.impulse = contact.impulse_Ns[0];
   rows.normal.high = kUnbounded;
   Start(mass_inverse, rows.normal);
 }
 
+void ConstraintSolver::StartFriction(const DofMatrix& mass_inverse, const Part& part,
+                                     const Multibody& body, ContactRows& rows) {
+  const Contact& contact = *rows.contact;
+  body.FillJacobian(part.body, contact.p_W, contact.along_W, rows.along.J);
+  body.FillJacobian(part.body, contact.p_W, contact.across_W, rows.across.J);
+  rows.along.direction_W = contact.along_W;
+  rows.across.direction_W = contact.across_W;
+  rows.along.impulse = contact.impulse_Ns[1];
+  rows.across.impulse = contact.impulse_Ns[2];
+  for (Row* row : {&rows.along, &rows.across}) {
+    row->softness = rows.law.slip_softness_m_per_Ns;
+    row->low = -kUnbounded;
+    row->high = kUnbounded;
+    Start(mass_inverse, *row);
+  }
+  double coupling = rows.along.J.dot(rows.across.response);
+  if (const LooseRock* rock = rows.along.rock; rock != nullptr) {
+    coupling += contact.along_W.head<2>().dot(contact.across_W.head<2>()) / rock->mass_kg;
+  }
+  rows.friction.Set(rows.along.diagonal, rows.across.diagonal, coupling);
+}
+
+// Motion resistance acts on the axle, so that the wheel has to pull it by traction.
 void ConstraintSolver::StartDrag(const DofMatrix& mass_inverse, const Part& part,
                                  const Multibody& body, ContactRows& rows) {
   rows.drag.impulse = rows.contact->drag_Ns;
-  if (rows.drag_ratio == 0.0) return;
-  // Acts on the axle, so that the wheel has to pull it by traction.
+  if (rows.law.drag_ratio == 0.0) return;
   body.FillJacobian(body.Parent(part.body), body.X_WB(part.body).translation(),
                     rows.contact->along_W, rows.drag.J);
   rows.drag.low = -kUnbounded;
@@ -191,26 +178,11 @@ void ConstraintSolver::StartDrag(const DofMatrix& mass_inverse, const Part& part
   Start(mass_inverse, rows.drag);
 }
 
-// Implicit viscous slip: slip velocity |omega r| s(tau) at the share tau of the largest traction,
-// with tau from the last step's impulses, written as softness of the friction rows.
-double ConstraintSolver::SlipSoftness(const Contact& contact, double spin_rad_s) const {
-  const double load_N = Load_N(contact);
-  const double most_Ns = soil_.LargestTraction_N(load_N) * step_s_;
-  if (most_Ns <= 0.0) return 0.0;
-  const double tau =
-      std::min(std::hypot(contact.impulse_Ns[1], contact.impulse_Ns[2]) / most_Ns, 1.0);
-  return std::abs(spin_rad_s) * wheel_radius_m_ * soil_.SlipPerShare(tau, load_N) / most_Ns;
-}
-
-double ConstraintSolver::Load_N(const Contact& contact) const {
-  return std::max(contact.impulse_Ns[0] / step_s_, kLeastLoad_N);
-}
-
-double ConstraintSolver::FrictionOf(const Part& part, const Contact& contact) const {
-  if (part.kind != truth::BodyPart::kWheel) return contact_params_.body_rock_friction;
-  if (!contact.IsSoil()) return contact_params_.wheel_rock_friction;
-  const double load_N = Load_N(contact);
-  return soil_.LargestTraction_N(load_N) / load_N;
+void ConstraintSolver::KeepForNextStep(const ContactRows& rows) const {
+  Contact& contact = *rows.contact;
+  contact.impulse_Ns = {rows.normal.impulse, rows.along.impulse, rows.across.impulse};
+  contact.drag_Ns = rows.drag.impulse;
+  contact.slip_m_s = std::hypot(rows.along.J.dot(velocity_), rows.across.J.dot(velocity_));
 }
 
 void ConstraintSolver::Sweep(LooseRocks* loose_rocks) {
@@ -223,8 +195,8 @@ void ConstraintSolver::Sweep(LooseRocks* loose_rocks) {
     ContactRows& rows = contacts_[i];
     Relax(rows.normal);
     RelaxFriction(rows);
-    if (rows.drag_ratio > 0.0) {
-      rows.drag.high = rows.drag_ratio * rows.normal.impulse;
+    if (rows.law.drag_ratio > 0.0) {
+      rows.drag.high = rows.law.drag_ratio * rows.normal.impulse;
       rows.drag.low = -rows.drag.high;
       Relax(rows.drag);
     }
@@ -232,10 +204,10 @@ void ConstraintSolver::Sweep(LooseRocks* loose_rocks) {
   if (loose_rocks != nullptr) loose_rocks->Hold();
 }
 
-double ConstraintSolver::Wanted(const Row& row) const {
-  double error = row.target - row.J.dot(velocity_) - row.softness * row.impulse;
-  if (row.rock != nullptr) error += row.direction_W.dot(row.rock->v_W_m_s);
-  return row.impulse + error * row.inverse_diagonal;
+double ConstraintSolver::Residual(const Row& row) const {
+  double residual = row.target - row.J.dot(velocity_) - row.softness * row.impulse;
+  if (row.rock != nullptr) residual += row.direction_W.dot(row.rock->v_W_m_s);
+  return residual;
 }
 
 void ConstraintSolver::Apply(double impulse, Row& row) {
@@ -244,19 +216,20 @@ void ConstraintSolver::Apply(double impulse, Row& row) {
   row.impulse = impulse;
 }
 
-void ConstraintSolver::Relax(Row& row) { Apply(std::clamp(Wanted(row), row.low, row.high), row); }
+void ConstraintSolver::Relax(Row& row) {
+  Apply(std::clamp(row.impulse + Residual(row) / row.diagonal, row.low, row.high), row);
+}
 
-// Both friction rows from the same velocities, then back onto the cone. (One after the other, the
-// second row would take back the yaw that the first one causes, and a sliding wheel would keep
-// part of its cone for a sideways force that nothing asks for.)
 void ConstraintSolver::RelaxFriction(ContactRows& rows) {
-  const double along = Wanted(rows.along);
-  const double across = Wanted(rows.across);
-  const double most_Ns = rows.friction * rows.normal.impulse;
-  const double size_Ns = std::hypot(along, across);
-  const double scale = size_Ns > most_Ns ? most_Ns / size_Ns : 1.0;
-  Apply(scale * along, rows.along);
-  Apply(scale * across, rows.across);
+  const FrictionBlock& A = rows.friction;
+  const double along = rows.along.impulse;
+  const double across = rows.across.impulse;
+  const auto [new_along, new_across] =
+      rows.friction.Solve({Residual(rows.along) + A.a0() * along + A.a01() * across,
+                           Residual(rows.across) + A.a01() * along + A.a1() * across},
+                          rows.law.friction * rows.normal.impulse);
+  Apply(new_along, rows.along);
+  Apply(new_across, rows.across);
 }
 
 }  // namespace rockyard::rover

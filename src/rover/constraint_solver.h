@@ -7,10 +7,11 @@
 
 #include "messages/wheels.h"
 #include "rover/contact_finder.h"
+#include "rover/contact_law.h"
+#include "rover/friction_block.h"
 #include "rover/loose_rocks.h"
 #include "rover/multibody.h"
 #include "rover/rover_params.h"
-#include "rover/wheel_soil.h"
 #include "terrain/soil_params.h"
 
 namespace rockyard::rover {
@@ -37,7 +38,7 @@ class ConstraintSolver {
     DofVector response = DofVector::Zero();  // velocity change per unit impulse
     double target = 0.0;
     double softness = 0.0;
-    double inverse_diagonal = 0.0;
+    double diagonal = 0.0;  // change of the left side per unit impulse
     double impulse = 0.0;
     double low = 0.0;
     double high = 0.0;
@@ -47,9 +48,9 @@ class ConstraintSolver {
   };
   struct ContactRows {
     Contact* contact = nullptr;
-    double friction = 0.0;
-    double drag_ratio = 0.0;  // motion resistance over load
+    ContactLaw law;
     Row normal, along, across, drag;
+    FrictionBlock friction;  // of along and across
   };
   static constexpr std::size_t kStops = 4;  // rockers and bogies
 
@@ -60,24 +61,22 @@ class ConstraintSolver {
   void StartMotors(const DofMatrix& mass_inverse, const messages::PerWheel<double>& rate_rad_s);
   void StartContact(const DofMatrix& mass_inverse, const Part& part, const Multibody& body,
                     LooseRock* rock, Contact& contact);
+  void StartNormal(const DofMatrix& mass_inverse, const Part& part, const Multibody& body,
+                   ContactRows& rows);
+  void StartFriction(const DofMatrix& mass_inverse, const Part& part, const Multibody& body,
+                     ContactRows& rows);
   void StartDrag(const DofMatrix& mass_inverse, const Part& part, const Multibody& body,
                  ContactRows& rows);
-  void StartNormal(const DofMatrix& mass_inverse, const Part& part, const Multibody& body,
-                   bool wheel_on_soil, ContactRows& rows);
-  double FrictionOf(const Part& part, const Contact& contact) const;
-  double SlipSoftness(const Contact& contact, double spin_rad_s) const;
-  double Load_N(const Contact& contact) const;  // of the last step
+  void KeepForNextStep(const ContactRows& rows) const;
 
   void Sweep(LooseRocks* loose_rocks);
-  // Impulse that would keep the row's constraint, without its bounds.
-  double Wanted(const Row& row) const;
+  // What the row's left side lacks to its target.
+  double Residual(const Row& row) const;
   void Apply(double impulse, Row& row);
   void Relax(Row& row);
   void RelaxFriction(ContactRows& rows);
 
-  const RoverContactParams contact_params_;
-  const WheelSoil soil_;
-  const double wheel_radius_m_;
+  const ContactLaws laws_;
   const double step_s_;
   const std::int64_t iterations_;
 

@@ -27,9 +27,11 @@ struct Contact {
   math::Vector3 along_W = math::Vector3::UnitX();  // rolling direction of a wheel, tangential
   math::Vector3 across_W = math::Vector3::UnitY();
   math::Vector3 near_W = math::Vector3::Zero();  // nearest point of the rock
-  // Impulses of the last step, N s: along n_W, along_W, across_W, and the motion resistance.
+  // Of the last step: impulses along n_W, along_W, across_W, N s, the motion resistance, and the
+  // speed at which the two slide on each other.
   std::array<double, 3> impulse_Ns{};
   double drag_Ns = 0.0;
+  double slip_m_s = 0.0;
 
   bool IsSoil() const { return other == kGround; }
 };

@@ -37,36 +37,39 @@ WheelSoil::WheelSoil(const terrain::SoilParams& soil, double wheel_radius_m, dou
       diameter_m_(2.0 * wheel_radius_m),
       exponent_(soil.sinkage_exponent),
       modulus_(soil.cohesive_modulus_N_per_mn1 + wheel_width_m * soil.frictional_modulus_N_per_mn2),
+      load_factor_((3.0 - exponent_) / 3.0 * modulus_ * std::sqrt(diameter_m_)),
       cohesion_Pa_(soil.cohesion_Pa),
       tan_friction_(std::tan(soil.friction_angle_rad)),
       shear_modulus_m_(soil.shear_modulus_m) {}
 
-double WheelSoil::Load_N(double sinkage_m) const {
-  return (3.0 - exponent_) / 3.0 * modulus_ * std::sqrt(diameter_m_) *
-         std::pow(sinkage_m, exponent_ + 0.5);
+Rut WheelSoil::RutUnder(double load_N) const {
+  Rut rut;
+  rut.load_N = load_N;
+  rut.sinkage_m = Sinkage_m(load_N);
+  rut.stiffness_N_m = (exponent_ + 0.5) * load_N / rut.sinkage_m;
+  // b k z^(n + 1) from W(z), without another power.
+  rut.resistance_N =
+      modulus_ / load_factor_ * load_N * std::sqrt(rut.sinkage_m) / (exponent_ + 1.0);
+  const double depth = std::min(2.0 * rut.sinkage_m / diameter_m_, 1.0);
+  rut.contact_length_m = 0.5 * diameter_m_ * std::acos(1.0 - depth);
+  rut.largest_traction_N = width_m_ * rut.contact_length_m * cohesion_Pa_ + load_N * tan_friction_;
+  return rut;
 }
 
-double WheelSoil::Stiffness_N_m(double sinkage_m) const {
-  return (3.0 - exponent_) / 3.0 * modulus_ * std::sqrt(diameter_m_) * (exponent_ + 0.5) *
-         std::pow(sinkage_m, exponent_ - 0.5);
+double WheelSoil::Load_N(double sinkage_m) const {
+  return load_factor_ * std::pow(sinkage_m, exponent_ + 0.5);
 }
 
 double WheelSoil::Sinkage_m(double load_N) const {
-  return std::pow(3.0 * load_N / ((3.0 - exponent_) * modulus_ * std::sqrt(diameter_m_)),
-                  1.0 / (exponent_ + 0.5));
+  return std::pow(load_N / load_factor_, 1.0 / (exponent_ + 0.5));
 }
 
-double WheelSoil::Resistance_N(double load_N) const {
-  return modulus_ * std::pow(Sinkage_m(load_N), exponent_ + 1.0) / (exponent_ + 1.0);
-}
+double WheelSoil::Resistance_N(double load_N) const { return RutUnder(load_N).resistance_N; }
 
-double WheelSoil::ContactLength_m(double load_N) const {
-  const double depth = std::min(2.0 * Sinkage_m(load_N) / diameter_m_, 1.0);
-  return 0.5 * diameter_m_ * std::acos(1.0 - depth);
-}
+double WheelSoil::ContactLength_m(double load_N) const { return RutUnder(load_N).contact_length_m; }
 
 double WheelSoil::LargestTraction_N(double load_N) const {
-  return width_m_ * ContactLength_m(load_N) * cohesion_Pa_ + load_N * tan_friction_;
+  return RutUnder(load_N).largest_traction_N;
 }
 
 double WheelSoil::ShearRatioOfFullSlip(double load_N) const {
@@ -85,11 +88,11 @@ double WheelSoil::Slip(double tau, double load_N) const {
   return std::min(1.0, shear_modulus_m_ / ContactLength_m(load_N) * ShearRatio(tau));
 }
 
-double WheelSoil::SlipPerShare(double tau, double load_N) const {
-  if (shear_modulus_m_ == 0.0 || load_N <= 0.0) return 0.0;
-  constexpr double kSmall = 1e-6;
-  if (tau < kSmall) return 2.0 * shear_modulus_m_ / ContactLength_m(load_N);
-  return Slip(tau, load_N) / tau;
+double WheelSoil::SlipPerShare(double slip, const Rut& rut) const {
+  if (shear_modulus_m_ == 0.0) return 0.0;
+  const double ratio = shear_modulus_m_ / rut.contact_length_m;
+  const double u = slip / ratio;
+  return u == 0.0 ? 2.0 * ratio : slip / ShareOfRatio(u).value;
 }
 
 }  // namespace rockyard::rover

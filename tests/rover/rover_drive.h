@@ -54,9 +54,10 @@ inline terrain::Terrain SlopeTerrain(double slope_rad, double direction_rad,
   return {terrain::Ground(params, {}), {}, {}};
 }
 
-// Coulomb friction without sinkage, drag or slip.
+// Coulomb friction without slip, sinkage of 0.1 um and a drag of 0.0005 of the load.
 inline terrain::SoilParams RigidGround(double friction) {
   terrain::SoilParams soil = terrain::MakeSoil(terrain::SoilPreset::kHardGround);
+  soil.frictional_modulus_N_per_mn2 = 1e14;
   soil.friction_angle_rad = std::atan(friction);
   return soil;
 }
