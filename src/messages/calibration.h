@@ -13,9 +13,12 @@ namespace rockyard::messages {
 // Drive geometry for steering and odometry.
 struct DriveCalibration {
   double wheel_radius_m = 0.065;
-  PerWheel<double> wheel_x_m{};  // contact point in R
+  PerWheel<double> radius_ratio{1.0, 1.0, 1.0, 1.0, 1.0, 1.0};  // of each wheel to wheel_radius_m
+  PerWheel<double> wheel_x_m{};                                 // contact point in R
   PerWheel<double> wheel_y_m{};
   PerWheel<bool> steered{};
+  // Added to the set point of every steered wheel, positive left: where its straight lies.
+  double steering_offset_rad = 0.0;
   double max_steer_rad = 1.0;
   double max_wheel_speed_m_s = 0.15;  // rim speed of the fastest wheel
 };

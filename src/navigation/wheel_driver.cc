@@ -57,7 +57,9 @@ WheelCommand SteadyWheelCommand(const MotionCommand& motion, const DriveCalibrat
   }
   EXPECT(fastest > 0.0);
   const double scale = calibration.max_wheel_speed_m_s / (fastest * calibration.wheel_radius_m);
-  for (std::size_t i = 0; i < kWheelCount; ++i) command.rate_rad_s[i] = rim[i] * scale;
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    command.rate_rad_s[i] = rim[i] * scale / calibration.radius_ratio[i];
+  }
   return command;
 }
 
@@ -79,6 +81,9 @@ WheelCommand WheelDriver::Tick(const MotionCommand& motion, double duration_s) {
   const double allowed = steering_ ? 0.0 : params_.steer_while_driving_rad;
   steering_ = motion.kind != MotionKind::kStop && largest_change > allowed;
   if (steering_) command.rate_rad_s.fill(0.0);
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    if (calibration_.steered[i]) command.steer_rad[i] += calibration_.steering_offset_rad;
+  }
   return command;
 }
 

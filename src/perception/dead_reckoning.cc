@@ -11,7 +11,7 @@ DeadReckoning::DeadReckoning(const messages::DriveCalibration& calibration,
   Apply({initial.x_m, initial.y_m, initial.heading_rad});
 }
 
-double DeadReckoning::MeanWheelTurn(const messages::PerWheel<double>& turn_rad) const {
+double DeadReckoning::MeanRoll(const messages::PerWheel<double>& turn_rad) const {
   const bool all_steered = std::all_of(calibration_.steered.begin(), calibration_.steered.end(),
                                        [](bool steered) { return steered; });
   const bool every_wheel = params_.wheels == OdometryWheels::kAll || all_steered;
@@ -19,7 +19,7 @@ double DeadReckoning::MeanWheelTurn(const messages::PerWheel<double>& turn_rad) 
   int count = 0;
   for (std::size_t wheel = 0; wheel < messages::kWheelCount; ++wheel) {
     if (!every_wheel && calibration_.steered[wheel]) continue;
-    sum += turn_rad[wheel];
+    sum += turn_rad[wheel] * calibration_.radius_ratio[wheel];
     ++count;
   }
   return sum / count;
@@ -27,7 +27,7 @@ double DeadReckoning::MeanWheelTurn(const messages::PerWheel<double>& turn_rad) 
 
 void DeadReckoning::Integrate(const messages::MotionMeasurement& motion) {
   const double forward_m =
-      MeanWheelTurn(motion.wheel_turn_rad) * calibration_.wheel_radius_m * params_.distance_scale;
+      MeanRoll(motion.wheel_turn_rad) * calibration_.wheel_radius_m * params_.distance_scale;
   const double along_rad =
       estimate_.heading_rad +
       (params_.step_heading == StepHeading::kMidpoint ? 0.5 * motion.turn_rad : 0.0);

@@ -31,7 +31,8 @@ class DeadReckoning {
   const messages::PoseEstimate& estimate() const { return estimate_; }
 
  private:
-  double MeanWheelTurn(const messages::PerWheel<double>& turn_rad) const;
+  // Mean of the wheels' turns as if all had wheel_radius_m, rad.
+  double MeanRoll(const messages::PerWheel<double>& turn_rad) const;
 
   messages::DriveCalibration calibration_;
   DeadReckoningParams params_;

@@ -18,6 +18,8 @@ void SensorParams::Visit(core::FieldVisitor& v) {
 void PerceptionParams::Visit(core::FieldVisitor& v) {
   v.Group("hazard", hazard, "hazard criteria and the two-scan rule");
   v.Group("dead_reckoning", dead_reckoning, "pose from wheel encoders and gyro");
+  v.Group("calibration", calibration,
+          "how wrong the rover is about its own geometry: believed less true");
 }
 
 void NavigationParams::Visit(core::FieldVisitor& v) {

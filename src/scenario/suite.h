@@ -7,6 +7,7 @@
 #include "core/fields.h"
 #include "navigation/pathfinder_params.h"
 #include "navigation/wheel_driver_params.h"
+#include "perception/calibration_params.h"
 #include "perception/dead_reckoning_params.h"
 #include "perception/hazard_params.h"
 #include "sensing/encoder_params.h"
@@ -39,6 +40,7 @@ struct SensorParams {
 struct PerceptionParams {
   perception::HazardParams hazard;
   perception::DeadReckoningParams dead_reckoning;
+  perception::CalibrationErrorParams calibration;
 
   void Visit(core::FieldVisitor& v);
 };

@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "navigation/pathfinder.h"
-#include "rover/rover_geometry.h"
 #include "sensing/oracle.h"
 #include "sensing/tracker.h"
 #include "terrain/arena.h"
 #include "trial/layout.h"
+#include "trial/onboard_calibration.h"
 
 namespace rockyard::trial {
 namespace {
@@ -85,12 +85,15 @@ Drive::Drive(const Scenario& scenario, core::TrialKey key, truth::Trace* trace)
                                  TerrainCourse(scenario.course))),
       rover_(MakeTrialRover(scenario, field_.terrain)),
       light_stripe_(scenario.sensors.light_stripe),
-      triangulator_(sensing::TrueCalibration(scenario.sensors.light_stripe)),
+      triangulator_(
+          OnboardStripeCalibration(scenario.sensors.light_stripe, scenario.perception.calibration)),
       hazard_detector_(scenario.perception.hazard),
-      dead_reckoning_(rover::MakeDriveCalibration(scenario.rover),
-                      scenario.perception.dead_reckoning, StartPose(scenario.course)),
+      dead_reckoning_(
+          OnboardDriveCalibration(scenario.rover, scenario.perception.calibration.drive),
+          scenario.perception.dead_reckoning, StartPose(scenario.course)),
       navigator_(MakeNavigator(scenario)),
-      wheel_driver_(rover::MakeDriveCalibration(scenario.rover), scenario.navigation.wheel_driver),
+      wheel_driver_(OnboardDriveCalibration(scenario.rover, scenario.perception.calibration.drive),
+                    scenario.navigation.wheel_driver),
       ledger_(scenario.energy),
       monitor_(UndersideOf(scenario.rover.geometry), field_.terrain),
       referee_(scenario.referee, scenario.course, Bounds(scenario.terrain.arena)) {
@@ -99,8 +102,7 @@ Drive::Drive(const Scenario& scenario, core::TrialKey key, truth::Trace* trace)
   }
   rover_->Place(StartPose(scenario.course));
   motion_sensors_.emplace(scenario.sensors.gyro, scenario.sensors.encoders,
-                          rover::MakeDriveCalibration(scenario.rover).wheel_radius_m, key,
-                          rover_->state());
+                          scenario.rover.geometry.wheel_radius_m, key, rover_->state());
   monitor_.Restart(rover_->state());
 }
 

@@ -1,0 +1,53 @@
+// How wrong the rover is about its own geometry. All zero by default: on-board code then works with
+// the truth. Every error is what the rover believes less what is true.
+#pragma once
+
+#include <array>
+
+#include "core/fields.h"
+#include "messages/measurements.h"
+
+namespace rockyard::perception {
+
+struct DriveCalibrationErrors {
+  double wheel_radius_percent = 0.0;  // of all wheels
+  // Of the left wheels against the right ones: half of it added on the left, half taken on the
+  // right.
+  double wheel_radius_left_right_percent = 0.0;
+  double track_percent = 0.0;
+  double wheelbase_percent = 0.0;
+  double steering_offset_rad = 0.0;  // of every steered wheel
+
+  void Visit(core::FieldVisitor& v);
+};
+
+// One camera of the light stripe sensor: turned about its own axes (yaw, then pitch, then roll) and
+// shifted along those of R.
+struct CameraCalibrationErrors {
+  double roll_rad = 0.0;
+  double pitch_rad = 0.0;
+  double yaw_rad = 0.0;
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double z_m = 0.0;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+// Light planes, turned about the vertical through their emitters.
+struct LaserCalibrationErrors {
+  std::array<double, messages::kStripes> angle_rad{};
+
+  void Visit(core::FieldVisitor& v);
+};
+
+struct CalibrationErrorParams {
+  DriveCalibrationErrors drive;
+  CameraCalibrationErrors left_camera;
+  CameraCalibrationErrors right_camera;
+  LaserCalibrationErrors lasers;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+}  // namespace rockyard::perception

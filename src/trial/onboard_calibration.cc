@@ -1,0 +1,53 @@
+#include "trial/onboard_calibration.h"
+
+#include "math/pose.h"
+#include "rover/rover_geometry.h"
+
+namespace rockyard::trial {
+namespace {
+
+using math::Vector3;
+
+double Factor(double percent) { return 1.0 + 0.01 * percent; }
+
+void Misplace(const perception::CameraCalibrationErrors& errors, messages::StripeCamera& camera) {
+  const Eigen::Matrix3d turned =
+      (Eigen::AngleAxisd(errors.yaw_rad, Vector3::UnitZ()).toRotationMatrix() *
+       Eigen::AngleAxisd(errors.pitch_rad, Vector3::UnitY()).toRotationMatrix()) *
+      Eigen::AngleAxisd(errors.roll_rad, Vector3::UnitX()).toRotationMatrix();
+  camera.X_RC.linear() = (camera.X_RC.linear() * turned).eval();
+  camera.X_RC.translation() += Vector3(errors.x_m, errors.y_m, errors.z_m);
+}
+
+}  // namespace
+
+messages::DriveCalibration OnboardDriveCalibration(
+    const rover::RoverParams& rover, const perception::DriveCalibrationErrors& errors) {
+  messages::DriveCalibration calibration = rover::MakeDriveCalibration(rover);
+  calibration.wheel_radius_m *= Factor(errors.wheel_radius_percent);
+  for (std::size_t wheel = 0; wheel < messages::kWheelCount; ++wheel) {
+    const double side = calibration.wheel_y_m[wheel] > 0.0 ? 0.5 : -0.5;
+    calibration.radius_ratio[wheel] *= Factor(side * errors.wheel_radius_left_right_percent);
+    calibration.wheel_x_m[wheel] *= Factor(errors.wheelbase_percent);
+    calibration.wheel_y_m[wheel] *= Factor(errors.track_percent);
+  }
+  calibration.steering_offset_rad = errors.steering_offset_rad;
+  return calibration;
+}
+
+messages::StripeCalibration OnboardStripeCalibration(
+    const sensing::LightStripeParams& sensor, const perception::CalibrationErrorParams& errors) {
+  messages::StripeCalibration calibration = sensing::TrueCalibration(sensor);
+  Misplace(errors.left_camera, calibration.cameras[0]);
+  Misplace(errors.right_camera, calibration.cameras[1]);
+  for (std::size_t stripe = 0; stripe < messages::kStripes; ++stripe) {
+    const Eigen::Matrix3d turned =
+        Eigen::AngleAxisd(errors.lasers.angle_rad[stripe], Vector3::UnitZ()).toRotationMatrix();
+    messages::StripeLaser& laser = calibration.lasers[stripe];
+    laser.normal_R = (turned * laser.normal_R).eval();
+    laser.axis_R = (turned * laser.axis_R).eval();
+  }
+  return calibration;
+}
+
+}  // namespace rockyard::trial

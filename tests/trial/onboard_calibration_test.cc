@@ -1,0 +1,177 @@
+// What wrong calibrations do to a rover that is true to its description.
+#include "trial/onboard_calibration.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "perception/triangulation.h"
+#include "rover/rover_geometry.h"
+#include "sensing/light_stripe.h"
+#include "trial/pathfinder_trials.h"
+
+namespace rockyard::trial {
+namespace {
+
+using messages::kStripeRows;
+using messages::kStripes;
+
+TEST(OnboardCalibrationTest, NoErrorLeavesTheTruthBitForBit) {
+  const rover::RoverParams rover;
+  const messages::DriveCalibration truth = rover::MakeDriveCalibration(rover);
+  const messages::DriveCalibration drive = OnboardDriveCalibration(rover, {});
+  EXPECT_EQ(drive.wheel_radius_m, truth.wheel_radius_m);
+  EXPECT_EQ(drive.radius_ratio, truth.radius_ratio);
+  EXPECT_EQ(drive.wheel_x_m, truth.wheel_x_m);
+  EXPECT_EQ(drive.wheel_y_m, truth.wheel_y_m);
+  EXPECT_EQ(drive.steering_offset_rad, 0.0);
+  const messages::StripeCalibration sensor = sensing::TrueCalibration({});
+  const messages::StripeCalibration stripe = OnboardStripeCalibration({}, {});
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_TRUE(stripe.cameras[i].X_RC.matrix() == sensor.cameras[i].X_RC.matrix());
+  }
+  for (std::size_t i = 0; i < kStripes; ++i) {
+    EXPECT_TRUE(stripe.lasers[i].normal_R == sensor.lasers[i].normal_R);
+    EXPECT_TRUE(stripe.lasers[i].axis_R == sensor.lasers[i].axis_R);
+  }
+}
+
+TEST(OnboardCalibrationTest, DriveErrorsAreWhatIsBelievedTooMuch) {
+  const rover::RoverParams rover;
+  const messages::DriveCalibration truth = rover::MakeDriveCalibration(rover);
+  const messages::DriveCalibration c =
+      OnboardDriveCalibration(rover, {.wheel_radius_percent = 2.0,
+                                      .wheel_radius_left_right_percent = 4.0,
+                                      .track_percent = -5.0,
+                                      .wheelbase_percent = 10.0,
+                                      .steering_offset_rad = 0.1});
+  EXPECT_DOUBLE_EQ(c.wheel_radius_m, 1.02 * truth.wheel_radius_m);
+  EXPECT_DOUBLE_EQ(c.steering_offset_rad, 0.1);
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    EXPECT_DOUBLE_EQ(c.radius_ratio[i], i < 3 ? 1.02 : 0.98);
+    EXPECT_DOUBLE_EQ(c.wheel_x_m[i], 1.1 * truth.wheel_x_m[i]);
+    EXPECT_DOUBLE_EQ(c.wheel_y_m[i], 0.95 * truth.wheel_y_m[i]);
+  }
+}
+
+// Elevations of flat ground seen by the true sensor and read with a wrong calibration.
+messages::ElevationScan FlatGround(const perception::CalibrationErrorParams& errors) {
+  sensing::LightStripeParams params;
+  params.wrong_place_probability = 0.0;
+  const messages::StripeScan scan = sensing::LightStripe(params).Scan(
+      terrain::Terrain(terrain::Ground(), {}, {}), math::Transform::Identity(), {1, 0}, 0);
+  return perception::Triangulator(OnboardStripeCalibration(params, errors)).Elevations(scan);
+}
+
+// What an error adds to the elevation of one point. Both readings start from the same pixel.
+double Raised(const perception::CalibrationErrorParams& errors, std::size_t row,
+              std::size_t stripe) {
+  const messages::ElevationPoint wrong = FlatGround(errors).points[row][stripe];
+  const messages::ElevationPoint right = FlatGround({}).points[row][stripe];
+  EXPECT_TRUE(wrong.detected && right.detected) << row << ", " << stripe;
+  return wrong.elevation_m - right.elevation_m;
+}
+
+// The centre laser shines straight ahead from the plane of the cameras' height h: a ray at column
+// angle c meets it at distance s = b / sin(c) whatever its depression. The point at depression D,
+// read at D + e, is therefore believed at h - s cos(c) sin(D + e) with s cos(c) sin(D) = h:
+//   elevation = h (1 - sin(D + e) / sin(D)),  D = atan(h / ahead).
+TEST(OnboardCalibrationTest, PitchedCameraRaisesFlatGroundByTheClosedForm) {
+  const sensing::LightStripeParams params;
+  const messages::StripeCalibration truth = sensing::TrueCalibration(params);
+  const double h = params.camera_height_m;
+  for (const double pitch_deg : {-3.0, -1.0, 2.0}) {
+    perception::CalibrationErrorParams errors;
+    errors.left_camera.pitch_rad = math::DegToRad(pitch_deg);
+    for (std::size_t row = 0; row < kStripeRows; ++row) {
+      const double depression = params.camera_pitch_rad + truth.row_angle_rad[row];
+      const double expected =
+          h * (1.0 - std::sin(depression + errors.left_camera.pitch_rad) / std::sin(depression));
+      EXPECT_NEAR(Raised(errors, row, kStripes / 2), expected, 1e-3 + 0.02 * std::abs(expected));
+      EXPECT_EQ(expected > 0.0, pitch_deg < 0.0);
+    }
+  }
+}
+
+TEST(OnboardCalibrationTest, CameraBelievedTooHighRaisesEverythingItSees) {
+  perception::CalibrationErrorParams errors;
+  errors.right_camera.z_m = 0.01;
+  // The right camera sees the two stripes on the right; lines of sight are parallel to the truth.
+  for (std::size_t row = 0; row < kStripeRows; ++row) {
+    EXPECT_EQ(Raised(errors, row, 0), 0.0);
+    EXPECT_NEAR(Raised(errors, row, kStripes - 1), 0.01, 1e-9);
+  }
+}
+
+// A centre plane turned by e left about its emitter, baseline b to the left camera: the ray that
+// met it at x ahead now meets it where y_camera + slope x' = tan(e) x', with slope = -b / x:
+//   x' / x = b / (b + x tan(e)), and the elevation is h (1 - x' / x).
+TEST(OnboardCalibrationTest, TurnedLaserRaisesFlatGroundByTheClosedForm) {
+  const sensing::LightStripeParams params;
+  const messages::StripeCalibration truth = sensing::TrueCalibration(params);
+  const double h = params.camera_height_m;
+  const double b = 0.5 * params.camera_separation_m;
+  perception::CalibrationErrorParams errors;
+  errors.lasers.angle_rad[kStripes / 2] = math::DegToRad(1.0);
+  for (std::size_t row = 0; row < kStripeRows; ++row) {
+    const double x = h / std::tan(params.camera_pitch_rad + truth.row_angle_rad[row]);
+    const double expected = h * (1.0 - b / (b + x * std::tan(math::DegToRad(1.0))));
+    EXPECT_NEAR(Raised(errors, row, kStripes / 2), expected, 1e-3 + 0.03 * std::abs(expected));
+    EXPECT_EQ(Raised(errors, row, 0), 0.0);
+  }
+}
+
+// Straight 7 m on level sand with sensors free of noise.
+TracedTrial LevelSand(Overrides errors) {
+  errors.insert(errors.end(),
+                {"sensors.encoders.distance_variance_m2_per_m=1.2e-5",
+                 "sensors.gyro.heading_variance_deg2_per_m=0", "sensors.gyro.scale=1"});
+  return RunTraced(Pathfinder("level_sand", errors), 0);
+}
+
+double BelievedOverTrue(const TracedTrial& trial) {
+  return trial.result.record.dead_reckoned_distance_m / trial.result.record.true_distance_m;
+}
+
+TEST(OnboardCalibrationTest, WheelRadiusErrorBiasesTheOdometerByItself) {
+  const double right = BelievedOverTrue(LevelSand({}));
+  for (const double percent : {-3.0, 2.0}) {
+    const double wrong = BelievedOverTrue(LevelSand(
+        {"perception.calibration.drive.wheel_radius_percent=" + std::to_string(percent)}));
+    EXPECT_NEAR(wrong / right, 1.0 + 0.01 * percent, 1e-3);
+  }
+}
+
+double LargestAside(const truth::Trace& trace) {
+  double y_m = 0.0;
+  for (const truth::TraceSample& sample : trace.samples) {
+    if (std::abs(sample.pose.y_m) > std::abs(y_m)) y_m = sample.pose.y_m;
+  }
+  return y_m;
+}
+
+// Left wheels believed too large run too slowly: the rover bears left until the gyro, which knows,
+// has it steered back. Dead reckoning takes the heading from the gyro and is not bent.
+TEST(OnboardCalibrationTest, LeftAgainstRightBendsThePathAndNotTheGyrosHeading) {
+  const TracedTrial straight = LevelSand({});
+  const TracedTrial bent =
+      LevelSand({"perception.calibration.drive.wheel_radius_left_right_percent=6"});
+  EXPECT_LT(std::abs(LargestAside(straight.trace)), 0.02);
+  EXPECT_GT(LargestAside(bent.trace), 0.05);
+  for (const truth::TraceSample& sample : bent.trace.samples) {
+    EXPECT_NEAR(sample.estimate.heading_rad, sample.pose.heading_rad, math::DegToRad(0.2));
+  }
+}
+
+// All steered wheels stand to the left: the rover goes aside without turning, unseen by gyro and
+// odometer.
+TEST(OnboardCalibrationTest, SteeringOffsetCarriesTheRoverAsideUnseen) {
+  const TracedTrial trial = LevelSand({"perception.calibration.drive.steering_offset_deg=3"});
+  EXPECT_GT(trial.result.record.final_y_m, 0.1);
+  EXPECT_NEAR(trial.result.record.believed_y_m, 0.0, 0.1);
+}
+
+}  // namespace
+}  // namespace rockyard::trial
