@@ -39,6 +39,10 @@ double SteeringAngle(const PlanarVelocity& velocity) {
   return angle;
 }
 
+bool Same(const MotionCommand& a, const MotionCommand& b) {
+  return a.kind == b.kind && a.curvature_per_m == b.curvature_per_m && a.direction == b.direction;
+}
+
 }  // namespace
 
 WheelCommand SteadyWheelCommand(const MotionCommand& motion, const DriveCalibration& calibration) {
@@ -64,11 +68,21 @@ WheelCommand SteadyWheelCommand(const MotionCommand& motion, const DriveCalibrat
 }
 
 WheelDriver::WheelDriver(const DriveCalibration& calibration, const WheelDriverParams& params)
-    : calibration_(calibration), params_(params) {}
+    : calibration_(calibration),
+      params_(params),
+      steady_(SteadyWheelCommand(last_motion_, calibration)) {}
+
+const WheelCommand& WheelDriver::Steady(const MotionCommand& motion) {
+  if (!Same(motion, last_motion_)) {
+    last_motion_ = motion;
+    steady_ = SteadyWheelCommand(motion, calibration_);
+  }
+  return steady_;
+}
 
 WheelCommand WheelDriver::Tick(const MotionCommand& motion, double duration_s) {
   EXPECT(duration_s > 0.0);
-  WheelCommand command = SteadyWheelCommand(motion, calibration_);
+  WheelCommand command = Steady(motion);
   // A rover at rest keeps its steering angles where they are.
   if (motion.kind == MotionKind::kStop) command.steer_rad = believed_steer_rad_;
   double largest_change = 0.0;

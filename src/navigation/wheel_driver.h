@@ -32,8 +32,13 @@ class WheelDriver {
   bool steering() const { return steering_; }
 
  private:
+  // SteadyWheelCommand of the motion, worked out anew only when it differs from the last one.
+  const messages::WheelCommand& Steady(const messages::MotionCommand& motion);
+
   messages::DriveCalibration calibration_;
   WheelDriverParams params_;
+  messages::MotionCommand last_motion_;  // to which steady_ belongs
+  messages::WheelCommand steady_;
   messages::PerWheel<double> believed_steer_rad_{};
   bool steering_ = false;
 };

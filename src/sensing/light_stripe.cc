@@ -22,6 +22,19 @@ Vector3 ScanlineNormal(const messages::StripeCamera& camera, double row_angle_ra
   return camera.X_RC.linear() * Vector3(std::sin(row_angle_rad), 0.0, std::cos(row_angle_rad));
 }
 
+// Those of the given rocks whose bounding sphere meets the plane through p_W: no line in the plane
+// meets any other.
+void RocksMeetingPlane(const terrain::Terrain& terrain, std::span<const int> rocks,
+                       const Vector3& p_W, const Vector3& normal_W, std::vector<int>& out) {
+  constexpr double kRounding_m = 1e-9;
+  out.clear();
+  for (const int index : rocks) {
+    const terrain::Rock& rock = terrain.rocks()[static_cast<std::size_t>(index)];
+    const double reach_m = rock.semi_axes_m.maxCoeff() + kRounding_m;
+    if (std::abs(normal_W.dot(rock.center_W - p_W)) <= reach_m) out.push_back(index);
+  }
+}
+
 }  // namespace
 
 LightStripe::LightStripe(const LightStripeParams& params)
@@ -35,6 +48,9 @@ LightStripe::LightStripe(const LightStripeParams& params)
     high = high.cwiseMax(point);
   };
   include(calibration_.cameras[1].X_RC.translation());
+  for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
+    half_fan_cosine_[stripe] = std::cos(calibration_.lasers[stripe].half_fan_rad);
+  }
   for (std::size_t row = 0; row < kStripeRows; ++row) {
     for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
       const Line line = MakeLine(row, stripe);
@@ -79,33 +95,35 @@ LightStripe::Line LightStripe::MakeLine(std::size_t row, std::size_t stripe) con
 
 int LightStripe::ColumnOf(const Vector3& p_R, const messages::StripeCamera& camera) const {
   const Vector3 p_C = camera.X_RC.linear().transpose() * (p_R - camera.X_RC.translation());
-  const double angle = std::atan2(-p_C.y(), std::hypot(p_C.x(), p_C.z()));
+  const double angle = std::atan(-p_C.y() / std::sqrt(p_C.x() * p_C.x() + p_C.z() * p_C.z()));
   return static_cast<int>(std::lround(angle / camera.column_pitch_rad));
 }
 
-bool LightStripe::InFan(const Vector3& p_R, const messages::StripeLaser& laser) const {
+bool LightStripe::InFan(const Vector3& p_R, std::size_t stripe) const {
+  const messages::StripeLaser& laser = calibration_.lasers[stripe];
   const Vector3 ray = p_R - laser.p_RoE_R;
-  return laser.axis_R.dot(ray) >= std::cos(laser.half_fan_rad) * ray.norm();
+  return laser.axis_R.dot(ray) >= half_fan_cosine_[stripe] * ray.norm();
 }
 
 messages::StripePixel LightStripe::Find(const terrain::Terrain& terrain,
                                         const math::Transform& X_WR, const Line& line,
-                                        const messages::StripeLaser& laser,
-                                        std::span<const int> rocks) const {
+                                        std::size_t stripe, const Candidates& rocks) const {
   const Vector3 start_W = X_WR * line.start_R;
   const Vector3 direction_W = X_WR.linear() * line.direction_R;
-  const auto hit = terrain.CastRay(start_W, direction_W, line.length_m, rocks);
-  if (!hit) return {};
+  const auto distance_m = terrain.RayDistance(start_W, direction_W, line.length_m, rocks.lit);
+  if (!distance_m) return {};
 
+  const messages::StripeLaser& laser = calibration_.lasers[stripe];
   const messages::StripeCamera& camera = calibration_.cameras[laser.camera];
-  const Vector3 p_R = line.start_R + hit->distance_m * line.direction_R;
+  const Vector3 p_R = line.start_R + *distance_m * line.direction_R;
   if ((p_R - camera.X_RC.translation()).norm() > params_.max_range_m) return {};
-  if (!InFan(p_R, laser)) return {};
+  if (!InFan(p_R, stripe)) return {};
   const int column = ColumnOf(p_R, camera);
   if (column < line.searched.first || column > line.searched.last) return {};
 
+  const Vector3 point_W = start_W + *distance_m * direction_W;
   const auto hidden_from = [&](const Vector3& eye_R) {
-    return terrain.Occluded(X_WR * eye_R, hit->point_W, kOcclusionMargin_m, rocks);
+    return terrain.Occluded(X_WR * eye_R, point_W, kOcclusionMargin_m, rocks.near);
   };
   if (!line.is_light_ray && hidden_from(laser.p_RoE_R)) return {};
   if (hidden_from(camera.X_RC.translation())) return {};
@@ -144,15 +162,18 @@ messages::StripeScan LightStripe::Scan(const terrain::Terrain& terrain, const ma
                                        core::TrialKey key, std::int64_t scan_number) const {
   EXPECT(scan_number >= 0);
   const Vector3 reach_W = X_WR * reach_center_R_;
-  std::vector<int> rocks;
-  terrain.RocksNear(reach_W.x(), reach_W.y(), reach_radius_m_, rocks);
+  std::vector<int> near;
+  terrain.RocksNear(reach_W.x(), reach_W.y(), reach_radius_m_, near);
 
   messages::StripeScan scan;
   scan.number = scan_number;
-  for (std::size_t row = 0; row < kStripeRows; ++row) {
-    for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
-      scan.pixels[row][stripe] =
-          Find(terrain, X_WR, lines_[row][stripe], calibration_.lasers[stripe], rocks);
+  std::vector<int> lit;
+  lit.reserve(near.size());
+  for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
+    const messages::StripeLaser& laser = calibration_.lasers[stripe];
+    RocksMeetingPlane(terrain, near, X_WR * laser.p_RoE_R, X_WR.linear() * laser.normal_R, lit);
+    for (std::size_t row = 0; row < kStripeRows; ++row) {
+      scan.pixels[row][stripe] = Find(terrain, X_WR, lines_[row][stripe], stripe, {near, lit});
     }
   }
   Disturb(key, scan);

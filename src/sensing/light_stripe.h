@@ -21,6 +21,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "core/random.h"
 #include "math/pose.h"
@@ -64,18 +65,24 @@ class LightStripe {
     Columns searched;
   };
 
+  // Rocks that the scan may meet, and those of them that reach into the light plane of one stripe.
+  struct Candidates {
+    std::span<const int> near;
+    std::span<const int> lit;
+  };
+
   Line MakeLine(std::size_t row, std::size_t stripe) const;
   int ColumnOf(const math::Vector3& p_R, const messages::StripeCamera& camera) const;
-  bool InFan(const math::Vector3& p_R, const messages::StripeLaser& laser) const;
+  bool InFan(const math::Vector3& p_R, std::size_t stripe) const;
   messages::StripePixel Find(const terrain::Terrain& terrain, const math::Transform& X_WR,
-                             const Line& line, const messages::StripeLaser& laser,
-                             std::span<const int> rocks) const;
+                             const Line& line, std::size_t stripe, const Candidates& rocks) const;
   void Disturb(core::TrialKey key, messages::StripeScan& scan) const;
 
   LightStripeParams params_;
   messages::StripeCalibration calibration_;
   int last_column_ = 0;  // columns run from -last_column_ to last_column_
   messages::StripeArray<Line> lines_;
+  std::array<double, messages::kStripes> half_fan_cosine_{};
   math::Vector3 reach_center_R_ = math::Vector3::Zero();  // of a sphere around all lines and eyes
   double reach_radius_m_ = 0.0;
 };

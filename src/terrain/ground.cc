@@ -54,9 +54,8 @@ Ground::Ground(const GroundParams& params, core::TrialKey key)
   }
 }
 
-double Ground::Height(double x_m, double y_m) const {
-  const double plane = slope_x_ * x_m + slope_y_ * y_m;
-  return roughness_ ? plane + roughness_->Sample(x_m, y_m).height_m : plane;
+double Ground::RoughnessHeight(double x_m, double y_m) const {
+  return roughness_->Sample(x_m, y_m).height_m;
 }
 
 math::Vector3 Ground::Normal(double x_m, double y_m) const {
@@ -67,18 +66,6 @@ math::Vector3 Ground::Normal(double x_m, double y_m) const {
     normal.y() -= sample.slope_y;
   }
   return normal.normalized();
-}
-
-std::optional<double> Ground::CastRay(const math::Vector3& origin_W,
-                                      const math::Vector3& direction_W,
-                                      double max_distance_m) const {
-  if (roughness_) return MarchRay(origin_W, direction_W, max_distance_m);
-  const double gap = Gap(origin_W);
-  if (gap <= 0.0) return 0.0;
-  const double descent = slope_x_ * direction_W.x() + slope_y_ * direction_W.y() - direction_W.z();
-  // Written so that a ray along the plane divides nothing by zero.
-  if (gap > descent * max_distance_m) return std::nullopt;
-  return gap / descent;
 }
 
 std::optional<double> Ground::MarchRay(const math::Vector3& origin_W,

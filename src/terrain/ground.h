@@ -21,7 +21,10 @@ class Ground {
   Ground(const GroundParams& params, core::TrialKey key);
 
   // Height above the world's z = 0 plane, m.
-  double Height(double x_m, double y_m) const;
+  double Height(double x_m, double y_m) const {
+    const double plane_m = slope_x_ * x_m + slope_y_ * y_m;
+    return roughness_ ? plane_m + RoughnessHeight(x_m, y_m) : plane_m;
+  }
   // Unit normal, pointing up.
   math::Vector3 Normal(double x_m, double y_m) const;
   // True when the ground is one plane, so that contacts and rays have closed forms.
@@ -33,11 +36,21 @@ class Ground {
   // the slope shows to be safe, but never by less than 1 mm, so that a crest cut over less than 1
   // mm of ray can be missed; the crossing itself is bracketed to 1e-12 m.
   std::optional<double> CastRay(const math::Vector3& origin_W, const math::Vector3& direction_W,
-                                double max_distance_m) const;
+                                double max_distance_m) const {
+    if (roughness_) return MarchRay(origin_W, direction_W, max_distance_m);
+    const double gap_m = Gap(origin_W);
+    if (gap_m <= 0.0) return 0.0;
+    const double descent =
+        slope_x_ * direction_W.x() + slope_y_ * direction_W.y() - direction_W.z();
+    // Written so that a ray along the plane divides nothing by zero.
+    if (gap_m > descent * max_distance_m) return std::nullopt;
+    return gap_m / descent;
+  }
 
  private:
   std::optional<double> MarchRay(const math::Vector3& origin_W, const math::Vector3& direction_W,
                                  double max_distance_m) const;
+  double RoughnessHeight(double x_m, double y_m) const;
   // Height of a point above the ground, m.
   double Gap(const math::Vector3& p_W) const { return p_W.z() - Height(p_W.x(), p_W.y()); }
 

@@ -99,6 +99,7 @@ void Terrain::BuildGrid() {
   }
   const Eigen::Array2d extent = high - low;
   cell_m_ = std::max(kSmallestCell_m, std::sqrt(extent.prod() / kMostCells));
+  cells_per_m_ = 1.0 / cell_m_;
   grid_x0_m_ = low.x();
   grid_y0_m_ = low.y();
   grid_nx_ = static_cast<int>(extent.x() / cell_m_) + 1;
@@ -130,7 +131,7 @@ void Terrain::BuildGrid() {
 Terrain::CellRange Terrain::CellsOf(double x_m, double y_m, double radius_m) const {
   // Clamped as doubles first, so that far points cannot overflow the conversion.
   const auto index = [this](double offset_m, int cells) {
-    return static_cast<int>(std::clamp(std::floor(offset_m / cell_m_), -1.0, double(cells)));
+    return static_cast<int>(std::clamp(std::floor(offset_m * cells_per_m_), -1.0, double(cells)));
   };
   const double dx = x_m - grid_x0_m_;
   const double dy = y_m - grid_y0_m_;
@@ -138,22 +139,6 @@ Terrain::CellRange Terrain::CellsOf(double x_m, double y_m, double radius_m) con
           std::min(index(dx + radius_m, grid_nx_), grid_nx_ - 1),
           std::max(index(dy - radius_m, grid_ny_), 0),
           std::min(index(dy + radius_m, grid_ny_), grid_ny_ - 1)};
-}
-
-std::span<const int> Terrain::RocksOfCell(int ix, int iy) const {
-  const std::size_t cell = static_cast<std::size_t>(iy) * grid_nx_ + ix;
-  const int* first = cell_rocks_.data();
-  return {first + cell_start_[cell], first + cell_start_[cell + 1]};
-}
-
-double Terrain::Height(double x_m, double y_m) const {
-  double height = ground_.Height(x_m, y_m);
-  const CellRange cell = CellsOf(x_m, y_m, 0.0);
-  if (cell.first_x > cell.last_x || cell.first_y > cell.last_y) return height;
-  for (const int rock : RocksOfCell(cell.first_x, cell.first_y)) {
-    height = std::max(height, shapes_[static_cast<std::size_t>(rock)].Top(x_m, y_m));
-  }
-  return height;
 }
 
 void Terrain::RocksNear(double x_m, double y_m, double radius_m, std::vector<int>& out) const {
@@ -257,6 +242,16 @@ std::optional<RayHit> Terrain::CastRay(const math::Vector3& origin_W,
   Nearest nearest = MeetBackground(origin_W, direction_W, max_distance_m);
   MeetRocks(rocks, origin_W, direction_W, nearest);
   return MakeHit(origin_W, direction_W, nearest);
+}
+
+std::optional<double> Terrain::RayDistance(const math::Vector3& origin_W,
+                                           const math::Vector3& direction_W, double max_distance_m,
+                                           std::span<const int> rocks) const {
+  EXPECT(std::abs(direction_W.squaredNorm() - 1.0) < 1e-9);
+  Nearest nearest = MeetBackground(origin_W, direction_W, max_distance_m);
+  MeetRocks(rocks, origin_W, direction_W, nearest);
+  if (!nearest.surface) return std::nullopt;
+  return nearest.distance_m;
 }
 
 bool Terrain::Occluded(const math::Vector3& from_W, const math::Vector3& to_W,

@@ -2,6 +2,7 @@
 // is const and thread-safe; only MoveRock changes anything.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
@@ -44,7 +45,13 @@ class Terrain {
   void MoveRock(int index, double dx_m, double dy_m);
 
   // Height of the highest surface (ground or rock top) above (x, y), m.
-  double Height(double x_m, double y_m) const;
+  double Height(double x_m, double y_m) const {
+    double height = ground_.Height(x_m, y_m);
+    for (const int rock : RocksAt(x_m, y_m)) {
+      height = std::max(height, shapes_[static_cast<std::size_t>(rock)].Top(x_m, y_m));
+    }
+    return height;
+  }
 
   // Indices of the rocks that may reach into the disc around (x, y): a superset, ascending, no
   // duplicates, from a uniform grid. Appends nothing elsewhere: `out` is cleared first.
@@ -59,6 +66,11 @@ class Terrain {
   // The same against the given rocks only: gather them once with RocksNear for many short rays.
   std::optional<RayHit> CastRay(const math::Vector3& origin_W, const math::Vector3& direction_W,
                                 double max_distance_m, std::span<const int> rocks) const;
+
+  // Distance at which that ray meets its first surface, without the point and the normal: half the
+  // cost of CastRay.
+  std::optional<double> RayDistance(const math::Vector3& origin_W, const math::Vector3& direction_W,
+                                    double max_distance_m, std::span<const int> rocks) const;
 
   // True if anything lies strictly between the two points (both ends shortened by margin_m).
   bool Occluded(const math::Vector3& from_W, const math::Vector3& to_W, double margin_m) const;
@@ -79,7 +91,19 @@ class Terrain {
 
   void BuildGrid();
   CellRange CellsOf(double x_m, double y_m, double radius_m) const;
-  std::span<const int> RocksOfCell(int ix, int iy) const;
+  std::span<const int> RocksOfCell(int ix, int iy) const {
+    const std::size_t cell = static_cast<std::size_t>(iy) * grid_nx_ + ix;
+    const int* first = cell_rocks_.data();
+    return {first + cell_start_[cell], first + cell_start_[cell + 1]};
+  }
+  // Rocks of the cell that holds (x, y); empty beyond the grid.
+  std::span<const int> RocksAt(double x_m, double y_m) const {
+    const double column = (x_m - grid_x0_m_) * cells_per_m_;
+    const double row = (y_m - grid_y0_m_) * cells_per_m_;
+    // Written so that a coordinate that is not a number has no cell.
+    if (!(column >= 0.0 && column < grid_nx_ && row >= 0.0 && row < grid_ny_)) return {};
+    return RocksOfCell(static_cast<int>(column), static_cast<int>(row));
+  }
 
   // Nearest wall or ground within max_distance_m.
   Nearest MeetBackground(const math::Vector3& origin_W, const math::Vector3& direction_W,
@@ -99,6 +123,7 @@ class Terrain {
   // Uniform grid over the rocks' bounding box: rocks of cell c are
   // cell_rocks_[cell_start_[c] .. cell_start_[c + 1]).
   double cell_m_ = 0.25;
+  double cells_per_m_ = 4.0;
   double grid_x0_m_ = 0.0;
   double grid_y0_m_ = 0.0;
   int grid_nx_ = 0;

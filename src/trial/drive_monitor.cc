@@ -5,55 +5,68 @@
 #include <limits>
 
 namespace rockyard::trial {
+namespace {
+
+std::array<math::Vector3, 9> BellyPoints(const Underside& underside) {
+  std::array<math::Vector3, 9> points;
+  auto* point = points.data();
+  for (const double x : {-1.0, 0.0, 1.0}) {
+    for (const double y : {-1.0, 0.0, 1.0}) {
+      *point++ = {underside.centre_x_m + x * underside.half_length_m, y * underside.half_width_m,
+                  underside.height_m};
+    }
+  }
+  return points;
+}
+
+}  // namespace
 
 DriveMonitor::DriveMonitor(const Underside& underside, const terrain::Terrain& terrain)
-    : underside_(underside),
+    : belly_R_(BellyPoints(underside)),
       terrain_(terrain),
       min_clearance_m_(std::numeric_limits<double>::infinity()) {}
 
 void DriveMonitor::Restart(const truth::RoverState& state) {
   distance_m_ += OpenChord();
-  last_ = math::ToPose2(state.X_WR);
-  chord_x_m_ = last_.x_m;
-  chord_y_m_ = last_.y_m;
-  ObserveClearance(state);
+  last_X_WR_ = state.X_WR;
+  chord_x_m_ = state.X_WR.translation().x();
+  chord_y_m_ = state.X_WR.translation().y();
+  ObserveClearance(state.X_WR);
 }
 
 double DriveMonitor::OpenChord() const {
-  return std::hypot(last_.x_m - chord_x_m_, last_.y_m - chord_y_m_);
+  const auto p = last_X_WR_.translation();
+  return std::hypot(p.x() - chord_x_m_, p.y() - chord_y_m_);
 }
 
 void DriveMonitor::Observe(const truth::RoverState& state, bool turning) {
-  const math::Pose2 pose = math::ToPose2(state.X_WR);
-  const double chord_m = std::hypot(pose.x_m - chord_x_m_, pose.y_m - chord_y_m_);
+  if (turning) {
+    turned_rad_ += std::abs(math::WrapAngle(math::Heading(state.X_WR) - math::Heading(last_X_WR_)));
+  }
+  last_X_WR_ = state.X_WR;
+  const double chord_m = OpenChord();
   if (chord_m >= kChord_m) {
     distance_m_ += chord_m;
-    chord_x_m_ = pose.x_m;
-    chord_y_m_ = pose.y_m;
+    chord_x_m_ = last_X_WR_.translation().x();
+    chord_y_m_ = last_X_WR_.translation().y();
   }
-  if (turning) turned_rad_ += std::abs(math::WrapAngle(pose.heading_rad - last_.heading_rad));
-  last_ = pose;
-  max_tilt_rad_ = std::max(max_tilt_rad_, math::Tilt(state.X_WR));
+  min_tilt_cosine_ = std::min(min_tilt_cosine_, state.X_WR.linear()(2, 2));
   max_bogie_rad_ =
       std::max({max_bogie_rad_, std::abs(state.left_bogie_rad), std::abs(state.right_bogie_rad)});
-  ObserveClearance(state);
+  ObserveClearance(state.X_WR);
 }
 
-void DriveMonitor::ObserveClearance(const truth::RoverState& state) {
-  for (const double x : {-1.0, 0.0, 1.0}) {
-    for (const double y : {-1.0, 0.0, 1.0}) {
-      const math::Vector3 p_W =
-          state.X_WR * math::Vector3(underside_.centre_x_m + x * underside_.half_length_m,
-                                     y * underside_.half_width_m, underside_.height_m);
-      min_clearance_m_ = std::min(min_clearance_m_, p_W.z() - terrain_.Height(p_W.x(), p_W.y()));
-    }
+void DriveMonitor::ObserveClearance(const math::Transform& X_WR) {
+  for (const math::Vector3& p_R : belly_R_) {
+    const math::Vector3 p_W = X_WR * p_R;
+    min_clearance_m_ = std::min(min_clearance_m_, p_W.z() - terrain_.Height(p_W.x(), p_W.y()));
   }
 }
 
 void DriveMonitor::Report(truth::DriveRecord& record) const {
   record.true_distance_m = distance_m_ + OpenChord();
   record.turned_in_place_rad = turned_rad_;
-  record.max_tilt_deg = math::RadToDeg(max_tilt_rad_);
+  record.max_tilt_deg = math::RadToDeg(std::acos(std::max(-1.0, min_tilt_cosine_)));
   record.max_bogie_deg = math::RadToDeg(max_bogie_rad_);
   record.min_clearance_m = min_clearance_m_;
 }

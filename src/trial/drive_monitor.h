@@ -1,6 +1,8 @@
 // Watches the true drive and sums up what reports ask for.
 #pragma once
 
+#include <array>
+
 #include "math/pose.h"
 #include "terrain/terrain.h"
 #include "truth/drive_record.h"
@@ -39,16 +41,17 @@ class DriveMonitor {
 
  private:
   double OpenChord() const;  // from the last counted position to the present one, m
-  void ObserveClearance(const truth::RoverState& state);
+  void ObserveClearance(const math::Transform& X_WR);
 
-  Underside underside_;
+  // Nine points of the belly, in R.
+  std::array<math::Vector3, 9> belly_R_;
   const terrain::Terrain& terrain_;
-  math::Pose2 last_;
+  math::Transform last_X_WR_ = math::Transform::Identity();
   double chord_x_m_ = 0.0;
   double chord_y_m_ = 0.0;
   double distance_m_ = 0.0;
   double turned_rad_ = 0.0;
-  double max_tilt_rad_ = 0.0;
+  double min_tilt_cosine_ = 1.0;
   double max_bogie_rad_ = 0.0;
   double min_clearance_m_;
 };

@@ -29,12 +29,13 @@ Referee::Referee(const RefereeParams& params, const CourseParams& course,
     : params_(params),
       course_(course),
       bounds_(bounds),
+      tip_over_cosine_(std::cos(params.tip_over_rad)),
       progress_{Between(course.start_x_m, course.start_y_m, course.goal_x_m, course.goal_y_m),
                 course.start_x_m, course.start_y_m} {}
 
 std::optional<Verdict> Referee::Observe(const Observation& observation, const Ledger& ledger) {
   const truth::RoverState& state = observation.state;
-  if (math::Tilt(state.X_WR) > params_.tip_over_rad) {
+  if (state.X_WR.linear()(2, 2) < tip_over_cosine_) {
     return Verdict{TrialOutcome::kTipOver, "tilted beyond tip_over_deg"};
   }
   const double x = state.X_WR.translation().x();
@@ -107,14 +108,14 @@ std::optional<Verdict> Referee::CheckNoPath(const Observation& observation, doub
 bool Referee::MadeProgress(const Observation& observation) {
   const double goal_distance_m = Between(observation.estimate.x_m, observation.estimate.y_m,
                                          course_.goal_x_m, course_.goal_y_m);
-  const math::Pose2 pose = math::ToPose2(observation.state.X_WR);
+  const auto p = observation.state.X_WR.translation();
   if (goal_distance_m > progress_.goal_distance_m - params_.no_path_progress_m ||
-      Between(progress_.x_m, progress_.y_m, pose.x_m, pose.y_m) < params_.no_path_progress_m) {
+      Between(progress_.x_m, progress_.y_m, p.x(), p.y()) < params_.no_path_progress_m) {
     return false;
   }
   progress_.goal_distance_m = goal_distance_m;
-  progress_.x_m = pose.x_m;
-  progress_.y_m = pose.y_m;
+  progress_.x_m = p.x();
+  progress_.y_m = p.y();
   return true;
 }
 

@@ -75,6 +75,7 @@ class Referee {
   RefereeParams params_;
   CourseParams course_;
   std::optional<ArenaBounds> bounds_;
+  double tip_over_cosine_;
   std::optional<Window> window_;
   Progress progress_;
 };

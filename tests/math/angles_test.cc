@@ -27,6 +27,15 @@ TEST(AnglesTest, WrapLeavesAnglesInRangeAlone) {
   for (const double angle : {-3.1, -1.0, 0.0, 1e-300, 2.5, 3.1}) EXPECT_EQ(WrapAngle(angle), angle);
 }
 
+// The short cut for angles in range and its border.
+TEST(AnglesTest, WrapIsTheRemainder) {
+  for (const double turns : {0.0, 0.2, 0.5, 0.5 + 1e-16, 0.5 + 1e-15, 0.75, 1.0, 1.5, 1e6}) {
+    for (const double angle : {2.0 * kPi * turns, -2.0 * kPi * turns}) {
+      EXPECT_EQ(WrapAngle(angle), std::remainder(angle, 2.0 * kPi)) << angle;
+    }
+  }
+}
+
 TEST(AnglesTest, WrapTakesTheShortWayRound) {
   EXPECT_NEAR(WrapAngle(DegToRad(350.0) - DegToRad(10.0)), DegToRad(-20.0), 1e-15);
   EXPECT_NEAR(WrapAngle(DegToRad(10.0) - DegToRad(350.0)), DegToRad(20.0), 1e-15);

@@ -128,6 +128,21 @@ TEST(WheelDriver, MotionResumedAfterAStopNeedsNoSteering) {
   }
 }
 
+// Commands of the last motion are kept: none may outlive it.
+TEST(WheelDriver, EveryMotionGetsItsOwnCommand) {
+  WheelDriverParams at_once;
+  at_once.steer_rate_rad_s = 1e3;
+  WheelDriver driver(SixWheels(), at_once);
+  messages::MotionCommand backward = Arc(1.5);
+  backward.direction = -1;
+  for (const messages::MotionCommand& motion :
+       {Arc(1.5), backward, Arc(1.5), Arc(-1.5), TurnInPlace(1), TurnInPlace(-1), Arc(0.0)}) {
+    StandingTicks(driver, motion);
+    ExpectEqual(driver.Tick(motion, kTick_s), SteadyWheelCommand(motion, SixWheels()));
+    EXPECT_TRUE(Stands(driver.Tick({}, kTick_s)));
+  }
+}
+
 TEST(WheelDriver, FasterSteeringMotorsStandShorter) {
   WheelDriverParams fast;
   fast.steer_rate_rad_s = 4.0 * WheelDriverParams{}.steer_rate_rad_s;

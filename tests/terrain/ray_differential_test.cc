@@ -119,9 +119,13 @@ TEST(RayDifferentialTest, CandidatesAroundTheRayAreEnough) {
     terrain.RocksNear(ray.origin_W.x(), ray.origin_W.y(), ray.max_distance_m, near);
     const auto full = terrain.CastRay(ray.origin_W, ray.direction_W, ray.max_distance_m);
     const auto local = terrain.CastRay(ray.origin_W, ray.direction_W, ray.max_distance_m, near);
+    const auto distance_m =
+        terrain.RayDistance(ray.origin_W, ray.direction_W, ray.max_distance_m, near);
     ASSERT_EQ(full.has_value(), local.has_value());
+    ASSERT_EQ(full.has_value(), distance_m.has_value());
     if (full) {
       ASSERT_EQ(full->distance_m, local->distance_m);
+      ASSERT_EQ(full->distance_m, *distance_m);
     }
     const Vector3 end = ray.origin_W + ray.max_distance_m * ray.direction_W;
     ASSERT_EQ(terrain.Occluded(ray.origin_W, end, 1e-6),
@@ -178,6 +182,24 @@ TEST(RayDifferentialTest, RoughGroundAgreesWithMarching) {
   }
   EXPECT_GT(hits, 100);
   EXPECT_LE(grazing, 2);
+}
+
+TEST(HeightDifferentialTest, EqualsTestingEveryRock) {
+  const Terrain terrain = DenseTerrain(2);
+  std::vector<RockShape> shapes;
+  for (const Rock& rock : terrain.rocks()) shapes.emplace_back(rock);
+  core::RandomStream stream({18, 0}, core::Purpose::kTest);
+  int on_rock = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const double x = SampleUniform(stream, -4.0, 12.0);
+    const double y = SampleUniform(stream, -4.0, 4.0);
+    const double ground_m = terrain.ground().Height(x, y);
+    double plain_m = ground_m;
+    for (const RockShape& shape : shapes) plain_m = std::max(plain_m, shape.Top(x, y));
+    ASSERT_EQ(terrain.Height(x, y), plain_m);
+    on_rock += plain_m > ground_m;
+  }
+  EXPECT_GT(on_rock, 200);
 }
 
 TEST(RocksNearDifferentialTest, EqualsTestingEveryRock) {

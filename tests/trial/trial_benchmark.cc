@@ -48,9 +48,16 @@ void ClosedLoop(benchmark::State& state, const std::string& name, const std::str
 }
 BENCHMARK_CAPTURE(ClosedLoop, nominal_multibody, "nominal", "multibody", 8)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(ClosedLoop, obstacles_0 .85_multibody, "obstacles_0.85", "multibody", 8)
+BENCHMARK_CAPTURE(ClosedLoop, obstacles_085_multibody, "obstacles_0.85", "multibody", 8)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(ClosedLoop, vl2_multibody, "vl2", "multibody", 8)->Unit(benchmark::kMillisecond);
+
+BENCHMARK_CAPTURE(ClosedLoop, nominal_quasi_static, "nominal", "quasi_static", 40)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(ClosedLoop, obstacles_085_quasi_static, "obstacles_0.85", "quasi_static", 40)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(ClosedLoop, vl2_quasi_static, "vl2", "quasi_static", 40)
+    ->Unit(benchmark::kMillisecond);
 
 terrain::Field FieldOf(const scenario::Scenario& scenario, std::uint32_t index) {
   return terrain::BuildField(scenario.terrain, LayoutKey(scenario, {1, index}),

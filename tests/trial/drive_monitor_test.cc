@@ -1,0 +1,96 @@
+// True path, tilt, turning and clearance of a drive, tick by tick.
+#include "trial/drive_monitor.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rockyard::trial {
+namespace {
+
+constexpr Underside kUnderside{0.0, 0.2, 0.1, 0.13};
+
+truth::RoverState At(double x_m, double y_m, double heading_rad = 0.0, double pitch_rad = 0.0) {
+  truth::RoverState state;
+  state.X_WR.translation() = math::Vector3(x_m, y_m, 0.0);
+  state.X_WR.linear() = (Eigen::AngleAxisd(heading_rad, math::Vector3::UnitZ()) *
+                         Eigen::AngleAxisd(pitch_rad, math::Vector3::UnitY()))
+                            .toRotationMatrix();
+  return state;
+}
+
+terrain::Terrain OneRock() {
+  terrain::Rock rock;
+  rock.center_W = {1.2, 0.1, 0.0};
+  rock.semi_axes_m = {0.06, 0.05, 0.09};
+  return {terrain::Ground(), {rock}, {}};
+}
+
+class DriveMonitorTest : public testing::Test {
+ protected:
+  truth::DriveRecord Report() const {
+    truth::DriveRecord record;
+    monitor_.Report(record);
+    return record;
+  }
+
+  const terrain::Terrain terrain_ = OneRock();
+  DriveMonitor monitor_{kUnderside, terrain_};
+};
+
+TEST_F(DriveMonitorTest, StartsWithoutTravel) {
+  monitor_.Restart(At(3.0, 2.0));
+  EXPECT_EQ(Report().true_distance_m, 0.0);
+  EXPECT_EQ(Report().turned_in_place_rad, 0.0);
+  EXPECT_EQ(Report().max_tilt_deg, 0.0);
+}
+
+TEST_F(DriveMonitorTest, StraightDriveIsItsLength) {
+  monitor_.Restart(At(0.0, 0.0));
+  for (int i = 1; i <= 301; ++i) monitor_.Observe(At(0.0, 0.0075 * i), false);
+  EXPECT_NEAR(Report().true_distance_m, 301 * 0.0075, 1e-12);
+}
+
+TEST_F(DriveMonitorTest, JitterIsNoTravelAndAHandIsNone) {
+  monitor_.Restart(At(0.0, 0.0));
+  for (int i = 1; i <= 100; ++i) monitor_.Observe(At(0.004 * (i % 2), 0.0), false);
+  EXPECT_NEAR(Report().true_distance_m, 0.0, 1e-12);
+  monitor_.Restart(At(5.0, 0.0));
+  EXPECT_NEAR(Report().true_distance_m, 0.0, 1e-12);
+}
+
+TEST_F(DriveMonitorTest, CountsTurnsInPlaceOnlyAndBothWays) {
+  monitor_.Restart(At(0.0, 0.0, 3.1));
+  monitor_.Observe(At(0.0, 0.0, 3.2), true);  // across half a turn
+  monitor_.Observe(At(0.0, 0.0, 3.3), false);
+  monitor_.Observe(At(0.0, 0.0, 3.1), true);
+  EXPECT_NEAR(Report().turned_in_place_rad, 0.1 + 0.2, 1e-12);
+}
+
+TEST_F(DriveMonitorTest, KeepsTheLargestTilt) {
+  monitor_.Restart(At(0.0, 0.0));
+  for (const double pitch_rad : {0.1, -0.3, 0.2}) monitor_.Observe(At(0, 0, 1.0, pitch_rad), false);
+  EXPECT_NEAR(Report().max_tilt_deg, math::RadToDeg(0.3), 1e-9);
+}
+
+// Nine points of the belly against the terrain's height, the plain way.
+TEST_F(DriveMonitorTest, ClearanceIsTheLeastOfNinePoints) {
+  monitor_.Restart(At(0.0, 0.0));
+  double least_m = kUnderside.height_m;
+  for (int i = 0; i <= 200; ++i) {
+    const truth::RoverState state = At(0.01 * i, 0.03, 0.002 * i, 0.001 * i);
+    monitor_.Observe(state, false);
+    for (const double x : {-0.2, 0.0, 0.2}) {
+      for (const double y : {-0.1, 0.0, 0.1}) {
+        const math::Vector3 p_W = state.X_WR * math::Vector3(x, y, kUnderside.height_m);
+        least_m = std::min(least_m, p_W.z() - terrain_.Height(p_W.x(), p_W.y()));
+      }
+    }
+    EXPECT_EQ(Report().min_clearance_m, least_m) << i;
+  }
+  EXPECT_LT(least_m, 0.06);  // it drove over the rock
+}
+
+}  // namespace
+}  // namespace rockyard::trial
