@@ -18,16 +18,18 @@ struct ClockParams {
             .max = 3600.0,
             .origin = Origin::kPublished,
             .source = "Matthies 1995 sec. 6 (MFEX; Rocky 3.2 has the same computer)"});
-    v.Real("control_rate_hz", control_rate_hz,
-           {.doc = "rate of odometry and manoeuvre control",
-            .min = 1.0,
-            .max = 1000.0,
-            .origin = Origin::kAssumed,
-            .source = "0.75 cm of driving and 1.3 deg of turning in place a tick",
-            .study_low = 10.0,
-            .study_high = 60.0});
+    v.Real(
+        "control_rate_hz", control_rate_hz,
+        {.doc = "rate of odometry and manoeuvre control; a tick takes the nearest whole number of "
+                "steps of the rover",
+         .min = 1.0,
+         .max = 1000.0,
+         .origin = Origin::kAssumed,
+         .source = "0.75 cm of driving and 1.3 deg of turning in place a tick",
+         .study_low = 10.0,
+         .study_high = 60.0});
     v.Real("stop_time_s", stop_time_s,
-           {.doc = "time with braked wheels before a scan",
+           {.doc = "time with braked wheels before a scan, in whole steps of the rover",
             .min = 0.0,
             .max = 10.0,
             .origin = Origin::kAssumed,

@@ -84,6 +84,8 @@ Drive::Drive(const Scenario& scenario, core::TrialKey key, truth::Trace* trace)
       field_(terrain::BuildField(scenario.terrain, LayoutKey(scenario, key),
                                  TerrainCourse(scenario.course))),
       rover_(MakeTrialRover(scenario, field_.terrain)),
+      tick_(WholeSteps(1.0 / scenario.clock.control_rate_hz, rover_->step_s())),
+      stop_(WholeSteps(scenario.clock.stop_time_s, rover_->step_s())),
       light_stripe_(scenario.sensors.light_stripe),
       triangulator_(
           OnboardStripeCalibration(scenario.sensors.light_stripe, scenario.perception.calibration)),
@@ -123,11 +125,11 @@ std::optional<Verdict> Drive::Tick() {
   const bool turning = decision.motion.kind == MotionKind::kTurnInPlace;
   if (turning && !was_turning_) ++turns_;
   was_turning_ = turning;
-  return Move(decision.motion, 1.0 / scenario_.clock.control_rate_hz);
+  return Move(decision.motion, tick_);
 }
 
 std::optional<Verdict> Drive::Scan() {
-  if (auto verdict = Move({}, scenario_.clock.stop_time_s)) return verdict;
+  if (auto verdict = Move({}, stop_)) return verdict;
   hazard_detector_.Reset();
   perception::HazardDetector::Verdict seen{true, {}};
   for (bool first = true; seen.scan_again; first = false) {
@@ -149,24 +151,23 @@ std::optional<Verdict> Drive::Scan() {
   return AskReferee(Activity::kScanning, scenario_.clock.scan_time_s);
 }
 
-std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, double duration_s) {
-  const messages::WheelCommand command = wheel_driver_.Tick(motion, duration_s);
+std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const Stretch& stretch) {
+  const messages::WheelCommand command = wheel_driver_.Tick(motion, stretch.duration_s);
   const Activity activity = ActivityOf(motion, wheel_driver_.steering());
-  const double spent_s = ApplyCommand(command, duration_s);
-  UpdateEstimate(spent_s, motion.kind != MotionKind::kStop && !wheel_driver_.steering());
-  ledger_.Spend(activity, spent_s);
+  ApplyCommand(command, stretch.steps);
+  UpdateEstimate(stretch.duration_s, motion.kind != MotionKind::kStop && !wheel_driver_.steering());
+  ledger_.Spend(activity, stretch.duration_s);
   monitor_.Observe(rover_->state(), activity == Activity::kTurning);
   Sample(activity);
   // Operators turn a rover whose position reaches the line; one that turns in place stays its own
   // master, also beyond the line.
   if (motion.kind == MotionKind::kArc) ReflectAtMirrorLine();
   if (motion.kind == MotionKind::kStop) return std::nullopt;
-  return AskReferee(activity, spent_s);
+  return AskReferee(activity, stretch.duration_s);
 }
 
-double Drive::ApplyCommand(const messages::WheelCommand& command, double duration_s) {
+void Drive::ApplyCommand(const messages::WheelCommand& command, std::int64_t steps) {
   const double step_s = rover_->step_s();
-  const auto steps = std::max<std::int64_t>(1, std::llround(duration_s / step_s));
   for (std::int64_t i = 0; i < steps; ++i) {
     rover_->Step(command);
     const std::int64_t before = motion_sensors_->scrapes().episodes();
@@ -174,7 +175,6 @@ double Drive::ApplyCommand(const messages::WheelCommand& command, double duratio
                              ledger_.time_s() + static_cast<double>(i + 1) * step_s);
     if (motion_sensors_->scrapes().episodes() > before) Record("scrape", "");
   }
-  return static_cast<double>(steps) * step_s;
 }
 
 void Drive::UpdateEstimate(double duration_s, bool moving) {
@@ -188,7 +188,7 @@ void Drive::UpdateEstimate(double duration_s, bool moving) {
 }
 
 void Drive::ReflectAtMirrorLine() {
-  if (!mirror_) return;
+  if (!mirror_ || !mirror_->Reaches(rover_->state().X_WR.translation().y())) return;
   const messages::PoseEstimate before = dead_reckoning_.estimate();
   const auto reflection = mirror_->Reflect(math::ToPose2(rover_->state().X_WR), before);
   if (!reflection) return;

@@ -21,6 +21,7 @@
 #include "trial/mirror_arena.h"
 #include "trial/referee.h"
 #include "trial/run_trial.h"
+#include "trial/stretch.h"
 
 namespace rockyard::trial {
 
@@ -36,11 +37,10 @@ class Drive {
  private:
   std::optional<Verdict> Tick();
   std::optional<Verdict> Scan();
-  std::optional<Verdict> Move(const messages::MotionCommand& motion, double duration_s);
+  std::optional<Verdict> Move(const messages::MotionCommand& motion, const Stretch& stretch);
 
-  // Holds the command for duration_s rounded to whole physics steps, one at least; returns their
-  // time.
-  double ApplyCommand(const messages::WheelCommand& command, double duration_s);
+  // Holds the command for so many physics steps.
+  void ApplyCommand(const messages::WheelCommand& command, std::int64_t steps);
   void UpdateEstimate(double duration_s, bool moving);
   void ReflectAtMirrorLine();
   std::optional<Verdict> AskReferee(Activity activity, double duration_s);
@@ -59,6 +59,8 @@ class Drive {
 
   terrain::Field field_;
   std::unique_ptr<rover::Rover> rover_;
+  Stretch tick_;  // of control
+  Stretch stop_;  // before a scan
   std::optional<MirrorArena> mirror_;
 
   sensing::LightStripe light_stripe_;

@@ -7,9 +7,8 @@ namespace rockyard::trial {
 std::optional<Reflection> MirrorArena::Reflect(const math::Pose2& pose,
                                                const messages::PoseEstimate& estimate) const {
   const double line_m = std::copysign(half_width_m_, pose.y_m);
-  const bool beyond = std::abs(pose.y_m) >= half_width_m_;
   const bool outward = std::sin(pose.heading_rad) * line_m > 0.0;
-  if (!beyond || !outward) return std::nullopt;
+  if (!Reaches(pose.y_m) || !outward) return std::nullopt;
   return Reflection{{pose.x_m, pose.y_m, -pose.heading_rad},
                     {estimate.x_m, 2.0 * line_m - estimate.y_m, -estimate.heading_rad}};
 }

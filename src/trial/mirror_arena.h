@@ -3,6 +3,7 @@
 // reflected about the line.
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "math/pose.h"
@@ -19,6 +20,9 @@ class MirrorArena {
  public:
   // Mirror lines at y = +-half_width_m.
   explicit MirrorArena(double half_width_m) : half_width_m_(half_width_m) {}
+
+  // True on or beyond a line, where Reflect may have something to do.
+  bool Reaches(double y_m) const { return std::abs(y_m) >= half_width_m_; }
 
   // The reflection that is due at this pose: on or beyond a line and heading outward.
   std::optional<Reflection> Reflect(const math::Pose2& pose,

@@ -129,6 +129,21 @@ TEST(ClosedLoopTest, TimeAndEnergyAddUp) {
   }
 }
 
+// 25 Hz and 30 Hz both make a tick of two steps of 1/60 s: then nothing may tell them apart.
+TEST(ClosedLoopTest, TickLastsWholeStepsForAllThatGoesByIt) {
+  const auto drive = [](const std::string& rate_hz) {
+    return RunTraced(Pathfinder("level_sand", {"course.start_heading_deg=40",
+                                               "clock.control_rate_hz=" + rate_hz}),
+                     0);
+  };
+  const TracedTrial asked_25 = drive("25");
+  EXPECT_THAT(Differences(asked_25.result, drive("30").result), testing::IsEmpty());
+  EXPECT_THAT(Differences(asked_25.result, drive("20").result), testing::Not(testing::IsEmpty()));
+  const Books books = BooksOf(asked_25.trace, 2.0 / 60.0);
+  EXPECT_NEAR(asked_25.result.record.drive_time_s, books.drive_s, 1e-6);
+  EXPECT_NEAR(asked_25.result.record.turn_time_s, books.turn_s, 1e-6);
+}
+
 TEST(ClosedLoopTest, JamSpendsTheBatteryExactly) {
   const scenario::Scenario scenario = Pathfinder(
       "level_sand",
