@@ -31,6 +31,7 @@ HEAVY = {
     "SQLite": (r"sqlite3", r"SQLite"),
     "nlohmann-json": (r"nlohmann/", r"nlohmann_json"),
     "CLI11": (r"CLI/", r"CLI11"),
+    "tinyxml2": (r"tinyxml2", r"tinyxml2"),
     "Boost.Math": (r"boost/", r"Boost::"),
 }
 # Everything else that <...> may name: the standard library, POSIX, and light libraries.

@@ -2,6 +2,7 @@
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 
+#include "rover/mass_properties.h"
 #include "rover/rover_geometry.h"
 
 namespace rockyard::rover {
@@ -21,18 +22,6 @@ math::Transform FromBullet(const btTransform& X) {
   return result;
 }
 
-// Moments of inertia about the centre of a solid box.
-btVector3 BoxInertia(double mass_kg, double x_m, double y_m, double z_m) {
-  const double k = mass_kg / 12.0;
-  return {k * (y_m * y_m + z_m * z_m), k * (x_m * x_m + z_m * z_m), k * (x_m * x_m + y_m * y_m)};
-}
-
-// Moments of inertia of a solid cylinder along y.
-btVector3 WheelInertia(double mass_kg, double radius_m, double width_m) {
-  const double across = mass_kg * (3.0 * radius_m * radius_m + width_m * width_m) / 12.0;
-  return {across, 0.5 * mass_kg * radius_m * radius_m, across};
-}
-
 }  // namespace
 
 struct Multibody::Bullet {
@@ -47,15 +36,9 @@ struct Multibody::Bullet {
   btAlignedObjectArray<btQuaternion> rotations;
 };
 
-Multibody::Multibody(const RoverParams& params)
-    : p_RCom_(params.mass.chassis_com_x_m, 0.0, params.mass.chassis_com_z_m) {
-  const RoverMassParams& mass = params.mass;
-  const RoverGeometryParams& size = params.geometry;
-  const double chassis_kg =
-      mass.total_kg - 6.0 * mass.wheel_kg - 2.0 * (mass.rocker_kg + mass.bogie_kg);
-  bullet_ = std::make_unique<Bullet>(chassis_kg,
-                                     BoxInertia(chassis_kg, size.belly_length_m, size.belly_width_m,
-                                                size.height_m - size.belly_clearance_m));
+Multibody::Multibody(const RoverParams& params) : p_RCom_(MakeRoverMasses(params).chassis.com_B) {
+  const BodyMass chassis = MakeRoverMasses(params).chassis;
+  bullet_ = std::make_unique<Bullet>(chassis.mass_kg, ToBullet(chassis.inertia_kg_m2));
   BuildLinks(params);
   btMultiBody& body = bullet_->body;
   body.finalizeMultiDof();
@@ -68,32 +51,28 @@ Multibody::~Multibody() = default;
 
 void Multibody::BuildLinks(const RoverParams& params) {
   const RoverGeometry geometry = MakeRoverGeometry(params.geometry);
-  const double arm_m = 0.5 * params.geometry.length_m;
+  const RoverMasses masses = MakeRoverMasses(params);
   std::array<Vector3, kJoints> pivot_R;
-  const auto add = [&](int joint, int parent, double mass_kg, const btVector3& inertia,
-                       const Vector3& p_R) {
+  const auto add = [&](int joint, int parent, const BodyMass& body, const Vector3& p_R) {
     const Vector3 from = parent == kChassis ? p_RCom_ : pivot_R[static_cast<std::size_t>(parent)];
     pivot_R[static_cast<std::size_t>(joint)] = p_R;
     parent_[static_cast<std::size_t>(joint)] = parent;
-    bullet_->body.setupRevolute(joint, mass_kg, inertia, parent, btQuaternion::getIdentity(),
-                                btVector3(0, 1, 0), ToBullet(p_R - from), btVector3(0, 0, 0));
+    bullet_->body.setupRevolute(joint, body.mass_kg, ToBullet(body.inertia_kg_m2), parent,
+                                btQuaternion::getIdentity(), btVector3(0, 1, 0),
+                                ToBullet(p_R - from), btVector3(0, 0, 0));
   };
   for (int side = 0; side < 2; ++side) {
-    const double kg = params.mass.rocker_kg;
-    add(kLeftRocker + side, kChassis, kg, BoxInertia(kg, arm_m, 0.02, 0.1),
+    add(kLeftRocker + side, kChassis, masses.rocker,
         geometry.rocker_pivot_R[static_cast<std::size_t>(side)]);
   }
   for (int side = 0; side < 2; ++side) {
-    const double kg = params.mass.bogie_kg;
-    add(kLeftBogie + side, kLeftRocker + side, kg, BoxInertia(kg, 0.5 * arm_m, 0.02, 0.1),
+    add(kLeftBogie + side, kLeftRocker + side, masses.bogie,
         geometry.bogie_pivot_R[static_cast<std::size_t>(side)]);
   }
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
     const int side = i < 3 ? 0 : 1;
-    const double kg = params.mass.wheel_kg;
     add(kFirstWheel + static_cast<int>(i), (geometry.on_bogie[i] ? kLeftBogie : kLeftRocker) + side,
-        kg, WheelInertia(kg, params.geometry.wheel_radius_m, params.geometry.wheel_width_m),
-        geometry.wheel_R[i]);
+        masses.wheel, geometry.wheel_R[i]);
   }
 }
 

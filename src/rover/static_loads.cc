@@ -1,0 +1,39 @@
+#include "rover/static_loads.h"
+
+#include "rover/mass_properties.h"
+#include "rover/rover_geometry.h"
+
+namespace rockyard::rover {
+
+messages::PerWheel<double> StaticWheelLoads(const RoverParams& params) {
+  const double g = params.physics.gravity_m_s2;
+  const RoverMasses masses = MakeRoverMasses(params);
+  const RoverGeometry geometry = MakeRoverGeometry(params.geometry);
+  const std::size_t on_rocker = geometry.on_bogie[0] ? 2 : 0;  // of the left wheels
+  const std::size_t bogie_end = 2 - on_rocker;
+  const double rocker_wheel_x = geometry.wheel_R[on_rocker].x();
+  const double bogie_x = geometry.bogie_pivot_R[0].x();
+
+  const double half_chassis_N = 0.5 * masses.chassis.mass_kg * g;
+  const double rocker_N = masses.rocker.mass_kg * g;
+  const double wheel_N = masses.wheel.mass_kg * g;
+  const double carried_N = half_chassis_N + rocker_N + wheel_N;
+  const double moment_Nm = half_chassis_N * (masses.chassis.com_B.x() - bogie_x) +
+                           rocker_N * (geometry.rocker_pivot_R[0].x() - bogie_x) +
+                           wheel_N * (rocker_wheel_x - bogie_x);
+  const double rocker_wheel_N = moment_Nm / (rocker_wheel_x - bogie_x);
+  const double bogie_N = carried_N - rocker_wheel_N + masses.bogie.mass_kg * g;
+  const double middle_x = geometry.wheel_R[1].x();
+  const double end_x = geometry.wheel_R[bogie_end].x();
+  const double middle_share = (bogie_x - end_x) / (middle_x - end_x);
+
+  messages::PerWheel<double> load_N{};
+  for (const std::size_t side : {0, 3}) {
+    load_N[side + on_rocker] = rocker_wheel_N;
+    load_N[side + 1] = middle_share * bogie_N + wheel_N;
+    load_N[side + bogie_end] = (1.0 - middle_share) * bogie_N + wheel_N;
+  }
+  return load_N;
+}
+
+}  // namespace rockyard::rover

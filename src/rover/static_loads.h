@@ -1,0 +1,16 @@
+// What each wheel carries on level ground at rest.
+#pragma once
+
+#include "messages/wheels.h"
+#include "rover/rover_params.h"
+
+namespace rockyard::rover {
+
+// Loads in N, by the law of the lever. Each side carries half of the chassis, whose moment the
+// differential passes on to both rockers alike; moments about the bogie pivot give the load of the
+// wheel on the rocker, and the bogie's wheels share the rest as their levers do. Exact where wheels
+// have no friction along the ground; with friction the loads of a rover at rest also depend on how
+// it came there. A negative load: the rover cannot stand.
+messages::PerWheel<double> StaticWheelLoads(const RoverParams& params);
+
+}  // namespace rockyard::rover

@@ -1,0 +1,31 @@
+// Pieces of a URDF file.
+#pragma once
+
+#include <string>
+
+#include "math/pose.h"
+#include "rover/mass_properties.h"
+#include "rover/part_shapes.h"
+
+namespace tinyxml2 {
+class XMLElement;
+}
+
+namespace rockyard::rover {
+
+// Shortest text that reads back to the same double; no minus before zero.
+std::string Number(double value);
+// "x y z"
+std::string Numbers(const math::Vector3& v);
+
+// <origin> of a child frame: translation in m, then roll, pitch and yaw in rad.
+void AddOrigin(tinyxml2::XMLElement& element, const math::Vector3& xyz, const math::Vector3& rpy);
+
+// <visual> and <collision> of a part, in the frame of its body. Corner points add nothing: they
+// belong to boxes.
+void AddShape(tinyxml2::XMLElement& link, const Part& part);
+
+// <inertial> with a share of a body's mass and inertia.
+void AddInertial(tinyxml2::XMLElement& link, const BodyMass& body, double share);
+
+}  // namespace rockyard::rover
