@@ -12,6 +12,9 @@ constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr double kJointRecovery = 0.2;
 // Joint stops are watched from this angle before them, rad.
 constexpr double kStopWatch_rad = 0.05;
+// Contacts that free motion would bring this near within the step are solved, m: room for what the
+// other contacts change about the motion.
+constexpr double kActiveGap_m = 0.005;
 
 }  // namespace
 
@@ -54,9 +57,10 @@ void ConstraintSolver::Solve(const DofMatrix& mass_inverse,
   StartStops(mass_inverse, body);
   StartMotors(mass_inverse, wheel_rate_rad_s);
   contact_count_ = 0;
+  MarkActive(body, finder);
   if (loose_rocks != nullptr) loose_rocks->Start(finder.contacts());
   for (Contact& contact : finder.contacts()) {
-    if (contact.gap_m < ContactFinder::kActiveGap_m) {
+    if (contact.active) {
       LooseRock* rock = loose_rocks != nullptr ? loose_rocks->Find(contact.other) : nullptr;
       StartContact(mass_inverse, finder.part(contact.part), body, rock, contact);
     } else {
@@ -109,6 +113,17 @@ void ConstraintSolver::StartMotors(const DofMatrix& mass_inverse,
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
     motors_[i].target = rate_rad_s[i];
     Start(mass_inverse, motors_[i]);
+  }
+}
+
+void ConstraintSolver::MarkActive(const Multibody& body, ContactFinder& finder) const {
+  const DofVector velocity = body.Velocity();
+  DofVector J;
+  for (Contact& contact : finder.contacts()) {
+    contact.active = contact.gap_m < kActiveGap_m;
+    if (contact.active) continue;
+    body.FillJacobian(finder.part(contact.part).body, contact.p_W, contact.n_W, J);
+    contact.active = contact.gap_m + step_s_ * J.dot(velocity) < kActiveGap_m;
   }
 }
 

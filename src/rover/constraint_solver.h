@@ -59,6 +59,7 @@ class ConstraintSolver {
   void StartDifferential(const DofMatrix& mass_inverse, const Multibody& body);
   void StartStops(const DofMatrix& mass_inverse, const Multibody& body);
   void StartMotors(const DofMatrix& mass_inverse, const messages::PerWheel<double>& rate_rad_s);
+  void MarkActive(const Multibody& body, ContactFinder& finder) const;
   void StartContact(const DofMatrix& mass_inverse, const Part& part, const Multibody& body,
                     LooseRock* rock, Contact& contact);
   void StartNormal(const DofMatrix& mass_inverse, const Part& part, const Multibody& body,

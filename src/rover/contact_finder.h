@@ -22,6 +22,7 @@ struct Contact {
   int part = 0;
   int other = kGround;
   double gap_m = 0.0;                              // negative: penetration
+  bool active = false;                             // may touch within this step
   math::Vector3 p_W = math::Vector3::Zero();       // on the rover
   math::Vector3 n_W = math::Vector3::UnitZ();      // from the terrain to the rover
   math::Vector3 along_W = math::Vector3::UnitX();  // rolling direction of a wheel, tangential
@@ -38,9 +39,6 @@ struct Contact {
 
 class ContactFinder {
  public:
-  // Contacts matter to the solver below this gap: the travel of one step with room to spare.
-  static constexpr double kActiveGap_m = 0.005;
-
   ContactFinder(const RoverGeometryParams& params, const terrain::Terrain& terrain);
 
   // Updates contacts() for the present poses. Ordered by part, then by other.

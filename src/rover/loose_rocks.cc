@@ -31,7 +31,7 @@ void LooseRocks::Start(const std::vector<Contact>& contacts) {
     rock.load_Ns = 0.0;
   }
   for (const Contact& contact : contacts) {
-    if (contact.other < 0 || contact.gap_m >= ContactFinder::kActiveGap_m) continue;
+    if (contact.other < 0 || !contact.active) continue;
     LooseRock* rock = Find(contact.other);
     if (rock == nullptr) {
       const auto& shape = terrain_.rocks()[static_cast<std::size_t>(contact.other)];

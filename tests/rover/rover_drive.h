@@ -75,12 +75,14 @@ inline terrain::Rock MakeRock(double x_m, double y_m, double center_z_m, double 
 
 // A vertical step across the way, 1.2 m deep: flat ellipsoids stacked so densely that a wheel meets
 // a wall with ripples of 0.1 mm and a sharp upper edge 1 cm below the flat top.
-inline terrain::Terrain StepTerrain(double height_m) {
+inline terrain::Terrain StepTerrain(double height_m, const terrain::SoilParams& soil = {}) {
   std::vector<terrain::Rock> rocks;
   for (double z = height_m - 0.01; z > 0.0; z -= 0.006) {
     rocks.push_back(MakeRock(1.2, 0.0, z, 0.6, 2.0, 0.01));
   }
-  return FlatTerrain(std::move(rocks));
+  terrain::GroundParams ground;
+  ground.soil = soil;
+  return {terrain::Ground(ground, {}), std::move(rocks), {}};
 }
 
 inline void RunFor(Rover& rover, const messages::WheelCommand& command, double time_s) {
@@ -90,9 +92,9 @@ inline void RunFor(Rover& rover, const messages::WheelCommand& command, double t
 
 inline double Pitch(const math::Transform& X_WR) { return -std::asin(X_WR.linear()(2, 0)); }
 
-// Weights of all parts and the height of their common centre of mass.
+// Weights of all parts and where their common centre of mass is, in R.
 struct Weights {
-  double chassis_N, rocker_N, bogie_N, wheel_N, total_N, com_z_m;
+  double chassis_N, rocker_N, bogie_N, wheel_N, total_N, com_x_m, com_z_m;
 
   explicit Weights(const RoverParams& p) {
     const double g = p.physics.gravity_m_s2;
@@ -101,10 +103,14 @@ struct Weights {
     wheel_N = p.mass.wheel_kg * g;
     total_N = p.mass.total_kg * g;
     chassis_N = total_N - 2.0 * (rocker_N + bogie_N) - 6.0 * wheel_N;
-    com_z_m =
-        (chassis_N * p.mass.chassis_com_z_m + 2.0 * rocker_N * p.geometry.rocker_pivot_z_m +
-         2.0 * bogie_N * p.geometry.bogie_pivot_z_m + 6.0 * wheel_N * p.geometry.wheel_radius_m) /
-        total_N;
+    const RoverGeometry geometry = MakeRoverGeometry(p.geometry);
+    math::Vector3 moment_Nm =
+        chassis_N * math::Vector3(p.mass.chassis_com_x_m, 0.0, p.mass.chassis_com_z_m);
+    for (const math::Vector3& pivot_R : geometry.rocker_pivot_R) moment_Nm += rocker_N * pivot_R;
+    for (const math::Vector3& pivot_R : geometry.bogie_pivot_R) moment_Nm += bogie_N * pivot_R;
+    for (const math::Vector3& wheel_R : geometry.wheel_R) moment_Nm += wheel_N * wheel_R;
+    com_x_m = moment_Nm.x() / total_N;
+    com_z_m = moment_Nm.z() / total_N;
   }
 };
 

@@ -60,6 +60,7 @@ struct SoilReference {
   }
   // Mean of 1 - exp(-j / K) over the rut, in which the shear displacement j grows to slip * l.
   double Share(double slip, double load_N) const {
+    if (slip < 0.0) return -Share(-slip, load_N);
     if (soil.shear_modulus_m == 0.0) return slip > 0.0 ? 1.0 : 0.0;
     const double l = ContactLength(load_N);
     return Integrate(l,
@@ -80,8 +81,10 @@ struct SoilReference {
     for (const double load : loads_N) sum += Share(slip, load) * LargestTraction(load);
     return sum;
   }
-  // Slip at which six wheels pull with that force; 1 where they cannot.
+  // Slip at which six wheels pull with that force; 1 where they cannot. Where they hold the rover
+  // back, it runs ahead of its rims by the same law: negative.
   double SlipForPull(double pull_N, const Loads& loads_N) const {
+    if (pull_N < 0.0) return -SlipForPull(-pull_N, loads_N);
     return Bisect(0.0, 1.0, [&](double slip) { return Traction(slip, loads_N) - pull_N; });
   }
 };

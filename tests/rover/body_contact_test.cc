@@ -1,0 +1,147 @@
+// What touches besides the wheels: belly, arms, hubs and panel against rocks, panel and wheels
+// against walls. It blocks, scrapes, deflects, high-centres and jams.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "rover_drive.h"
+
+namespace rockyard::rover {
+namespace {
+
+using truth::BodyPart;
+
+// What the rover feels while it drives straight ahead for a while.
+struct Story {
+  truth::RoverState end;
+  std::array<double, 5> largest_force_N{};      // by BodyPart
+  std::array<double, 5> largest_sliding_m_s{};  // where it scrapes
+  double most_turn_rad = 0.0;
+
+  double Force_N(BodyPart part) const { return largest_force_N[static_cast<std::size_t>(part)]; }
+  double Sliding_m_s(BodyPart part) const {
+    return largest_sliding_m_s[static_cast<std::size_t>(part)];
+  }
+};
+
+Story DriveAhead(const terrain::Terrain& terrain, double time_s, const RoverParams& params = {},
+                 const math::Pose2& X_WR = {}) {
+  const auto rover = MakeRover(params, terrain);
+  rover->Place(X_WR);
+  const messages::WheelCommand command = Drive(params, 0.15, 0.0);
+  Story story;
+  for (int i = 0; i < static_cast<int>(60.0 * time_s); ++i) {
+    rover->Step(command);
+    for (const truth::BodyContact& contact : rover->state().contacts) {
+      const auto part = static_cast<std::size_t>(contact.part);
+      story.largest_force_N[part] = std::max(story.largest_force_N[part], contact.normal_force_N);
+      story.largest_sliding_m_s[part] =
+          std::max(story.largest_sliding_m_s[part], contact.sliding_speed_m_s);
+    }
+    const double turn_rad = math::WrapAngle(math::Heading(rover->state().X_WR) - X_WR.heading_rad);
+    story.most_turn_rad = std::max(story.most_turn_rad, std::abs(turn_rad));
+  }
+  story.end = rover->state();
+  return story;
+}
+
+// Beside the belly, in front of the arm of the left rear wheel: lower than the knee of the front
+// arm, as high as the hubs, too narrow for the wheels to meet it.
+TEST(Rock, BetweenBellyAndWheelIsScrapedByHubAndArm) {
+  const RoverGeometryParams size;
+  const Story story =
+      DriveAhead(FlatTerrain({MakeRock(0.7, size.arm_y_m - 0.01, 0.0, 0.03, 0.012, 0.09)}), 8.0);
+  EXPECT_GT(story.Force_N(BodyPart::kHub), 1.0);
+  EXPECT_GT(story.Sliding_m_s(BodyPart::kHub), 0.02);
+}
+
+// Tall, beyond the outer wheels' path but inside the panel's: the panel's front edge meets it.
+TEST(Rock, TallOneStopsThePanelEdge) {
+  // Leans over the wheels: widest at the height of the panel.
+  const Story story = DriveAhead(FlatTerrain({MakeRock(0.75, 0.0, 0.29, 0.2, 0.2, 0.12)}), 8.0);
+  EXPECT_GT(story.Force_N(BodyPart::kPanelEdge), 20.0);
+  EXPECT_LT(story.end.X_WR.translation().x(), 0.35);
+  EXPECT_LT(story.end.v_WR_m_s.norm(), 0.01);
+}
+
+// A wheel that rubs along a steep rock turns the rover away from it.
+TEST(Rock, GlancingBlowDeflects) {
+  const Story story = DriveAhead(FlatTerrain({MakeRock(0.8, 0.35, 0.0, 0.15, 0.15, 0.4)}), 6.0);
+  EXPECT_GT(story.most_turn_rad, math::DegToRad(2.0));
+}
+
+TEST(Rock, TallerThanTheBellyBlocksIt) {
+  const RoverParams params;
+  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.12, 0.12, 0.2)});
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  RunFor(*rover, Drive(params, 0.15, 0.0), 10.0);
+  const truth::RoverState& state = rover->state();
+  EXPECT_LT(state.X_WR.translation().x(), 0.5);
+  ASSERT_EQ(state.contacts.size(), 1U);
+  EXPECT_EQ(state.contacts[0].part, BodyPart::kBelly);
+  EXPECT_EQ(state.contacts[0].rock, 0);
+  EXPECT_GT(state.contacts[0].normal_force_N, 50.0);
+}
+
+TEST(Rock, UnderTheBellyScrapesAndLiftsIt) {
+  const RoverParams params;
+  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.12, 0.08, 0.137)});
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  const messages::WheelCommand command = Drive(params, 0.15, 0.0);
+  bool scraped = false;
+  for (int i = 0; i < 420; ++i) {
+    rover->Step(command);
+    for (const truth::BodyContact& contact : rover->state().contacts) {
+      scraped |= contact.part == BodyPart::kBelly && contact.sliding_speed_m_s > 0.05;
+    }
+  }
+  EXPECT_TRUE(scraped);
+}
+
+// High-centred: the belly rests on a rock, the wheels hang or slip, and it does not get off.
+TEST(Rock, HighCentresTheRoverPlacedOnIt) {
+  const RoverParams params;
+  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.0, 0.0, 0.0, 0.2, 0.16, 0.18)});
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  RunFor(*rover, Drive(params, 0.15, 0.0), 10.0);
+  const truth::RoverState& state = rover->state();
+  const auto belly =
+      std::find_if(state.contacts.begin(), state.contacts.end(),
+                   [](const truth::BodyContact& c) { return c.part == BodyPart::kBelly; });
+  ASSERT_NE(belly, state.contacts.end());
+  EXPECT_GT(belly->normal_force_N, 0.5 * params.mass.total_kg * 9.81);
+  EXPECT_LT(state.X_WR.translation().head<2>().norm(), 0.1);
+  EXPECT_GT(state.wheel_angle_rad[1], 20.0);
+}
+
+// Between two steep rocks nearer to each other than the rover is wide. At the default friction the
+// wheels climb the wedge.
+TEST(Rock, TwoRocksJamTheRover) {
+  RoverParams params;
+  params.contact.wheel_rock_friction = 0.3;
+  const terrain::Terrain terrain = FlatTerrain(
+      {MakeRock(0.7, 0.33, 0.0, 0.15, 0.15, 0.5), MakeRock(0.7, -0.33, 0.0, 0.15, 0.15, 0.5)});
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  RunFor(*rover, Drive(params, 0.15, 0.0), 10.0);
+  EXPECT_LT(rover->state().X_WR.translation().x(), 0.5);
+  EXPECT_LT(rover->state().v_WR_m_s.norm(), 0.01);
+}
+
+TEST(Wall, StopsThePanel) {
+  const RoverParams params;
+  const terrain::Terrain terrain = FlatTerrain({}, {{math::Vector3::UnitX(), 0.8}});
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  RunFor(*rover, Drive(params, 0.15, 0.0), 6.0);
+  EXPECT_NEAR(rover->state().X_WR.translation().x(), 0.8 - 0.5 * params.geometry.length_m, 0.01);
+  ASSERT_FALSE(rover->state().contacts.empty());
+  EXPECT_EQ(rover->state().contacts[0].part, BodyPart::kPanelEdge);
+  EXPECT_EQ(rover->state().contacts[0].rock, -1);
+}
+
+}  // namespace
+}  // namespace rockyard::rover
