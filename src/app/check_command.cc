@@ -10,6 +10,7 @@
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/output_file.h"
 #include "app/run_source.h"
 #include "batch/run_folder.h"
 #include "core/error.h"
@@ -70,6 +71,8 @@ void NoteUnfinished(const StoredRun& run) {
 }
 
 ExitCode Check(const CheckOptions& options) {
+  CheckOutputFile("--junit", options.junit);
+  CheckOutputFile("--csv", options.csv);
   const statistics::PublishedReference reference = report::LoadReference(options.reference);
   const std::vector<StoredRun> stored = ReadRuns(options.runs);
   std::vector<statistics::ScenarioRun> runs;

@@ -11,7 +11,6 @@
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/terrain_command.h"
 #include "core/error.h"
 #include "core/provenance.h"
 #include "core/spelling.h"
@@ -36,6 +35,7 @@ void AddCommands(CLI::App& app, ExitCode& exit_code) {
   AddRunCommand(app, exit_code);
   AddCheckCommand(app, exit_code);
   AddCompareCommand(app);
+  AddRoverCommand(app);
   AddTerrainCommand(app);
   AddTraceCommand(app, exit_code);
   AddValidateCommand(app);

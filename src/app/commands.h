@@ -13,6 +13,8 @@ namespace rockyard::app {
 void AddRunCommand(CLI::App& app, ExitCode& exit_code);
 void AddCheckCommand(CLI::App& app, ExitCode& exit_code);
 void AddCompareCommand(CLI::App& app);
+void AddRoverCommand(CLI::App& app);
+void AddTerrainCommand(CLI::App& app);
 void AddTraceCommand(CLI::App& app, ExitCode& exit_code);
 void AddValidateCommand(CLI::App& app);
 void AddDefaultsCommand(CLI::App& app);

@@ -1,18 +1,18 @@
-#include "app/terrain_command.h"
-
+// rockyard terrain
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
+#include "app/commands.h"
+#include "app/output_file.h"
 #include "core/error.h"
+#include "report/atomic_file.h"
 #include "scenario/load.h"
 #include "terrain/field.h"
 #include "terrain/field_export.h"
@@ -58,30 +58,15 @@ std::string Export(Format format, const terrain::Field& field, const terrain::Te
   return {};
 }
 
-// Under another name first, so that a full disk leaves neither half a file nor a lost old one.
-void WriteWhole(const std::string& path, const std::string& text) {
-  const std::string unfinished = path + ".part";
-  std::error_code error;
-  std::ofstream file(unfinished, std::ios::binary);
-  file << text;
-  file.close();
-  if (file) fs::rename(unfinished, path, error);
-  if (!file || error) {
-    std::error_code ignored;
-    fs::remove(unfinished, ignored);
-    throw core::UserError("--out", "cannot write " + path,
-                          "check that the folder exists, is writable and has space");
-  }
-}
-
 void WriteTerrain(const TerrainOptions& options) {
   const Format format = FormatOf(options.out);
+  CheckOutputFile("--out", options.out);
   const scenario::Scenario scenario = scenario::LoadScenario(options.scenario, options.overrides);
   const std::uint64_t seed = options.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
   const terrain::Course course = trial::TerrainCourse(scenario.course);
   const terrain::Field field = terrain::BuildField(
       scenario.terrain, trial::LayoutKey(scenario, {seed, options.trial}), course);
-  WriteWhole(options.out, Export(format, field, scenario.terrain, course));
+  report::WriteFileAtomically(options.out, Export(format, field, scenario.terrain, course));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/output_file.h"
 #include "app/run_source.h"
 #include "core/error.h"
 #include "experiments/drive_experiment.h"
@@ -81,22 +82,10 @@ TraceSource FromScenario(const TraceOptions& options) {
   return source;
 }
 
-void CheckOutput(const char* option, const std::string& file) {
-  if (file.empty()) return;
-  std::error_code error;
-  if (!fs::is_directory(fs::absolute(file, error).parent_path(), error)) {
-    throw core::UserError(option, "is in a folder that does not exist: " + file,
-                          "make the folder first");
-  }
-  if (fs::is_directory(file, error)) {
-    throw core::UserError(option, "is a folder: " + file, "name a file");
-  }
-}
-
 // Found before the drive rather than after it.
 void CheckOutputs(const TraceOptions& options) {
-  CheckOutput("--csv", options.csv);
-  CheckOutput("--svg", options.svg);
+  CheckOutputFile("--csv", options.csv);
+  CheckOutputFile("--svg", options.svg);
   if (!options.csv.empty() && options.csv == options.svg) {
     throw core::UserError("--svg", "is the same file as --csv", "name two files");
   }

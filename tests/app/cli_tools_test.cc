@@ -24,8 +24,8 @@ TEST_F(CliTools, VersionAndHelp) {
   EXPECT_THAT(version.out, HasSubstr("flags"));
   const CommandResult help = Run({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* name : {"run", "check", "compare", "terrain", "validate", "defaults", "schema",
-                           "list", "parameters"}) {
+  for (const char* name : {"run", "check", "compare", "rover", "terrain", "validate", "defaults",
+                           "schema", "list", "parameters"}) {
     EXPECT_THAT(help.out, HasSubstr(name));
     EXPECT_EQ(Run({name, "--help"}).exit_code, 0) << name;
   }
@@ -83,6 +83,43 @@ TEST_F(CliTools, CompareAndCheck) {
   const CommandResult twice = Run({"check", "runs", "--against", reference});
   EXPECT_EQ(twice.exit_code, 2);
   EXPECT_THAT(twice.err, HasSubstr("is a run of nominal, and so is"));
+}
+
+TEST_F(CliTools, RoverIsDescribed) {
+  const CommandResult result =
+      Run({"rover", Scenario("nominal"), "--set", "rover.mass.wheel_kg=0.6"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, StartsWith("rover of nominal\n"));
+  EXPECT_THAT(result.out, HasSubstr("0.65 x 0.48 x 0.3 m"));
+  EXPECT_THAT(result.out, HasSubstr("wheels 6 x 0.6"));
+  EXPECT_THAT(result.out, HasSubstr("9.81 m/s2"));
+  EXPECT_TRUE(NothingWritten());
+  const CommandResult help = Run({"rover", "--help"});
+  EXPECT_THAT(help.out, HasSubstr("Example: rockyard rover"));
+}
+
+TEST_F(CliTools, RoverAsUrdf) {
+  const CommandResult result = Run({"rover", Scenario("nominal"), "--out", "rocky.urdf"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(ReadFile(work() / "rocky.urdf"), StartsWith("<?xml"));
+  EXPECT_THAT(ReadFile(work() / "rocky.urdf"), HasSubstr("<robot name=\"rover\">"));
+}
+
+TEST_F(CliTools, OutputsThatCannotBeMeantAreRefusedBeforeTheWork) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> refused = {
+      {{"rover", Scenario("nominal"), "--out", "rover.xml"}, "does not end in .urdf"},
+      {{"rover", Scenario("nominal"), "--out", "no/rover.urdf"}, "in a folder that does not exist"},
+      {{"terrain", Scenario("nominal"), "--out", "no/field.svg"},
+       "in a folder that does not exist"},
+      {{"terrain", Scenario("nominal"), "--out", "field.png"}, "no known extension"}};
+  for (const auto& [words, reason] : refused) {
+    const CommandResult result = Run(words);
+    EXPECT_EQ(result.exit_code, 2) << words[0];
+    EXPECT_THAT(result.err, HasSubstr("--out")) << words[0];
+    EXPECT_THAT(result.err, HasSubstr(reason)) << words[0];
+    EXPECT_TRUE(NothingWritten());
+  }
 }
 
 TEST_F(CliTools, Terrain) {
