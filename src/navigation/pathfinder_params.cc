@@ -59,7 +59,7 @@ void VisitHazardRules(PathfinderParams& p, core::FieldVisitor& v) {
             .source = "the plain reading of the rule"});
 }
 
-void VisitMotion(PathfinderParams& p, core::FieldVisitor& v) {
+void VisitManoeuvres(PathfinderParams& p, core::FieldVisitor& v) {
   v.Real("scan_interval_m", p.scan_interval_m,
          {.doc = "forward motion between hazard scans, as measured on board",
           .min = 0.01,
@@ -98,6 +98,9 @@ void VisitMotion(PathfinderParams& p, core::FieldVisitor& v) {
           .source = "a fraction of the vehicle; the paper names none",
           .study_low = 0.05,
           .study_high = 0.3});
+}
+
+void VisitArcs(PathfinderParams& p, core::FieldVisitor& v) {
   v.Angle(
       "heading_deadband_deg", p.heading_deadband_rad,
       {.doc = "bearing to the goal below which the rover drives straight",
@@ -135,6 +138,9 @@ void VisitMotion(PathfinderParams& p, core::FieldVisitor& v) {
            .study_high = 60.0});
   v.Require("tight_arc_bearing_deg", p.tight_arc_bearing_rad >= p.heading_deadband_rad,
             "is smaller than heading_deadband_deg", "use a value from heading_deadband_deg up");
+}
+
+void VisitPointTurns(PathfinderParams& p, core::FieldVisitor& v) {
   v.Angle("point_turn_bearing_deg", p.point_turn_bearing_rad,
           {.doc = "bearing to the goal above which the rover turns in place towards it; so it does "
                   "where the goal lies inside the tightest turning circle",
@@ -183,7 +189,9 @@ void VisitExtras(PathfinderParams& p, core::FieldVisitor& v) {
 
 void PathfinderParams::Visit(core::FieldVisitor& v) {
   VisitHazardRules(*this, v);
-  VisitMotion(*this, v);
+  VisitManoeuvres(*this, v);
+  VisitArcs(*this, v);
+  VisitPointTurns(*this, v);
   VisitExtras(*this, v);
 }
 

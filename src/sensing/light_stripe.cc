@@ -6,6 +6,7 @@
 
 #include "core/check.h"
 #include "core/distributions.h"
+#include "sensing/stripe_layout_params.h"
 
 namespace rockyard::sensing {
 namespace {

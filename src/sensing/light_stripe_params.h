@@ -66,11 +66,6 @@ struct LightStripeParams {
   void Visit(core::FieldVisitor& v);
 };
 
-// What a perfectly calibrated rover knows of this sensor. The depression of each scanline is
-// rounded to a whole image row, so that the points of a row land within a few millimetres of
-// row_ahead_m.
-messages::StripeCalibration TrueCalibration(const LightStripeParams& params);
-
 }  // namespace rockyard::sensing
 
 template <>

@@ -2,6 +2,7 @@
 
 #include "math/pose.h"
 #include "rover/rover_geometry.h"
+#include "sensing/stripe_layout_params.h"
 
 namespace rockyard::trial {
 namespace {

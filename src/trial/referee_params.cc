@@ -1,9 +1,91 @@
 #include "trial/referee_params.h"
 
 namespace rockyard::trial {
+namespace {
+
+using core::Origin;
+
+void VisitStuck(RefereeParams& p, core::FieldVisitor& v) {
+  v.Choice("spinning_wheels", p.spinning_wheels,
+           {.doc = "whether wheels that spin without moving the rover count as motion",
+            .origin = Origin::kAssumed,
+            .source = "operators see a rover that stands still; the paper does not say when they "
+                      "stopped one"});
+  v.Real("stall_window_s", p.stall_window_s,
+         {.doc = "time of commanded motion without any after which the rover is stuck; scans do "
+                 "not count",
+          .min = 1.0,
+          .max = 3600.0,
+          .origin = Origin::kAssumed,
+          .source = "1.5 m of commanded driving at 15 cm/s, spread over ten minutes of scans",
+          .study_low = 5.0,
+          .study_high = 60.0});
+  v.Real("stall_distance_m", p.stall_distance_m,
+         {.doc = "true net displacement below which there is no motion in the window",
+          .min = 1e-4,
+          .max = 1.0,
+          .origin = Origin::kAssumed,
+          .source = "a third of a wheel radius, above the jitter of spinning wheels",
+          .study_low = 0.01,
+          .study_high = 0.05});
+  v.Angle("stall_turn_deg", p.stall_turn_rad,
+          {.doc = "true net rotation below which there is no motion in the window",
+           .min = 0.1,
+           .max = 90.0,
+           .origin = Origin::kAssumed,
+           .source = "half of the default turn increment",
+           .study_low = 3.0,
+           .study_high = 10.0});
+  v.Real("high_centre_load", p.high_centre_load,
+         {.doc = "share of the window in which the belly rests on a rock that makes a stuck rover "
+                 "high-centred rather than jammed",
+          .min = 0.0,
+          .max = 1.0,
+          .origin = Origin::kAssumed,
+          .source = "the belly may lift off for moments while the wheels dig",
+          .study_low = 0.1,
+          .study_high = 0.5});
+}
+
+void VisitPatience(RefereeParams& p, core::FieldVisitor& v) {
+  v.Real("no_path_progress_m", p.no_path_progress_m,
+         {.doc = "gain in the believed distance to the goal, with as much true displacement, that "
+                 "counts as progress for the operator",
+          .min = 0.01,
+          .max = 100.0,
+          .origin = Origin::kAssumed,
+          .source = "half a vehicle width",
+          .study_low = 0.1,
+          .study_high = 0.5});
+  v.Real("no_path_distance_m", p.no_path_distance_m,
+         {.doc = "true distance driven without progress after which the operator ends the run",
+          .min = 0.1,
+          .max = 1e5,
+          .origin = Origin::kAssumed,
+          .source = "half of the course once more without coming nearer",
+          .study_low = 2.0,
+          .study_high = 10.0});
+  v.Angle("no_path_turn_deg", p.no_path_turn_rad,
+          {.doc = "turning in place without progress after which the operator ends the run",
+           .min = 90.0,
+           .max = 1e5,
+           .origin = Origin::kAssumed,
+           .source = "three full turns",
+           .study_low = 720.0,
+           .study_high = 2160.0});
+  v.Real("no_path_time_s", p.no_path_time_s,
+         {.doc = "simulated time without progress after which the operator ends the run",
+          .min = 1.0,
+          .max = 1e7,
+          .origin = Origin::kAssumed,
+          .source = "180 scans without coming nearer by half a vehicle width",
+          .study_low = 1800.0,
+          .study_high = 7200.0});
+}
+
+}  // namespace
 
 void RefereeParams::Visit(core::FieldVisitor& v) {
-  using core::Origin;
   v.Angle(
       "tip_over_deg", tip_over_rad,
       {.doc = "tilt of the chassis at which the rover has tipped over",
@@ -13,78 +95,8 @@ void RefereeParams::Visit(core::FieldVisitor& v) {
        .source = "beyond any stable pose of a rover with its centre of mass below the track width",
        .study_low = 50.0,
        .study_high = 80.0});
-  v.Choice("spinning_wheels", spinning_wheels,
-           {.doc = "whether wheels that spin without moving the rover count as motion",
-            .origin = Origin::kAssumed,
-            .source = "operators see a rover that stands still; the paper does not say when they "
-                      "stopped one"});
-  v.Real("stall_window_s", stall_window_s,
-         {.doc = "time of commanded motion without any after which the rover is stuck; scans do "
-                 "not count",
-          .min = 1.0,
-          .max = 3600.0,
-          .origin = Origin::kAssumed,
-          .source = "1.5 m of commanded driving at 15 cm/s, spread over ten minutes of scans",
-          .study_low = 5.0,
-          .study_high = 60.0});
-  v.Real("stall_distance_m", stall_distance_m,
-         {.doc = "true net displacement below which there is no motion in the window",
-          .min = 1e-4,
-          .max = 1.0,
-          .origin = Origin::kAssumed,
-          .source = "a third of a wheel radius, above the jitter of spinning wheels",
-          .study_low = 0.01,
-          .study_high = 0.05});
-  v.Angle("stall_turn_deg", stall_turn_rad,
-          {.doc = "true net rotation below which there is no motion in the window",
-           .min = 0.1,
-           .max = 90.0,
-           .origin = Origin::kAssumed,
-           .source = "half of the default turn increment",
-           .study_low = 3.0,
-           .study_high = 10.0});
-  v.Real("high_centre_load", high_centre_load,
-         {.doc = "share of the window in which the belly rests on a rock that makes a stuck rover "
-                 "high-centred rather than jammed",
-          .min = 0.0,
-          .max = 1.0,
-          .origin = Origin::kAssumed,
-          .source = "the belly may lift off for moments while the wheels dig",
-          .study_low = 0.1,
-          .study_high = 0.5});
-  v.Real("no_path_progress_m", no_path_progress_m,
-         {.doc = "gain in the believed distance to the goal, with as much true displacement, that "
-                 "counts as progress for the operator",
-          .min = 0.01,
-          .max = 100.0,
-          .origin = Origin::kAssumed,
-          .source = "half a vehicle width",
-          .study_low = 0.1,
-          .study_high = 0.5});
-  v.Real("no_path_distance_m", no_path_distance_m,
-         {.doc = "true distance driven without progress after which the operator ends the run",
-          .min = 0.1,
-          .max = 1e5,
-          .origin = Origin::kAssumed,
-          .source = "half of the course once more without coming nearer",
-          .study_low = 2.0,
-          .study_high = 10.0});
-  v.Angle("no_path_turn_deg", no_path_turn_rad,
-          {.doc = "turning in place without progress after which the operator ends the run",
-           .min = 90.0,
-           .max = 1e5,
-           .origin = Origin::kAssumed,
-           .source = "three full turns",
-           .study_low = 720.0,
-           .study_high = 2160.0});
-  v.Real("no_path_time_s", no_path_time_s,
-         {.doc = "simulated time without progress after which the operator ends the run",
-          .min = 1.0,
-          .max = 1e7,
-          .origin = Origin::kAssumed,
-          .source = "180 scans without coming nearer by half a vehicle width",
-          .study_low = 1800.0,
-          .study_high = 7200.0});
+  VisitStuck(*this, v);
+  VisitPatience(*this, v);
   v.Real("time_limit_s", time_limit_s,
          {.doc = "simulated time after which the run is stopped; the four hours of a rover day",
           .min = 1.0,

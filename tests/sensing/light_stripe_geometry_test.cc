@@ -7,6 +7,7 @@
 #include "core/archive.h"
 #include "core/error.h"
 #include "sensing/stripe_scene.h"
+#include "sensing/stripe_layout_params.h"
 
 namespace rockyard::sensing {
 namespace {

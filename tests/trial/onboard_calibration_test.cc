@@ -10,6 +10,7 @@
 #include "perception/triangulation.h"
 #include "rover/rover_geometry.h"
 #include "sensing/light_stripe.h"
+#include "sensing/stripe_layout_params.h"
 #include "trial/pathfinder_trials.h"
 
 namespace rockyard::trial {

@@ -1,0 +1,23 @@
+// The layout that the parameters of the light stripe sensor describe, and whether it can work.
+#pragma once
+
+#include "messages/calibration.h"
+#include "sensing/light_stripe_params.h"
+
+namespace rockyard::sensing {
+
+// What a perfectly calibrated rover knows of this sensor. The depression of each scanline is
+// rounded to a whole image row, so that the points of a row land within a few millimetres of
+// row_ahead_m.
+messages::StripeCalibration TrueCalibration(const LightStripeParams& params);
+
+// Layouts for which "ahead" and "below" make sense; the other checks rely on it.
+bool IsLaidOut(const LightStripeParams& params);
+
+// Whether every point on the datum plane lies in the image, in the light and near enough.
+bool RowsFitTheImage(const LightStripeParams& params);
+bool ColumnsFitTheImage(const LightStripeParams& params);
+bool PointsFitTheFans(const LightStripeParams& params);
+bool PointsAreInRange(const LightStripeParams& params);
+
+}  // namespace rockyard::sensing
