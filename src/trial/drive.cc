@@ -122,9 +122,7 @@ std::optional<Verdict> Drive::Tick() {
     return referee_.OnNavigatorStop(decision.status, rover_->state());
   }
   if (decision.scan) return Scan();
-  const bool turning = decision.motion.kind == MotionKind::kTurnInPlace;
-  if (turning && !was_turning_) ++turns_;
-  was_turning_ = turning;
+  turns_.Observe(decision.motion);
   return Move(decision.motion, tick_);
 }
 
@@ -268,7 +266,7 @@ void Drive::ReportCounts(truth::DriveRecord& record) const {
   record.scans = static_cast<double>(scans_);
   record.rescans = static_cast<double>(rescans_);
   record.hazards_believed = static_cast<double>(hazards_);
-  record.turns_in_place = static_cast<double>(turns_);
+  record.turns_in_place = static_cast<double>(turns_.turns());
   record.scrapes = static_cast<double>(motion_sensors_->scrapes().episodes());
   record.scrape_heading_rad = motion_sensors_->scrapes().total_jump_rad();
   record.reflections = static_cast<double>(reflections_);

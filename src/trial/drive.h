@@ -22,6 +22,7 @@
 #include "trial/referee.h"
 #include "trial/run_trial.h"
 #include "trial/stretch.h"
+#include "trial/turn_counter.h"
 
 namespace rockyard::trial {
 
@@ -81,9 +82,8 @@ class Drive {
   std::int64_t scans_ = 0;
   std::int64_t rescans_ = 0;
   std::int64_t hazards_ = 0;
-  std::int64_t turns_ = 0;
+  TurnCounter turns_;
   std::int64_t reflections_ = 0;
-  bool was_turning_ = false;
 };
 
 }  // namespace rockyard::trial
