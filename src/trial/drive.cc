@@ -146,7 +146,7 @@ std::optional<Verdict> Drive::Scan() {
     ++hazards_;
     Record("hazard", Pattern(seen.report));
   }
-  return AskReferee(Activity::kScanning, scenario_.clock.scan_time_s);
+  return AskReferee(Activity::kScanning, 0, scenario_.clock.scan_time_s);
 }
 
 std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const Stretch& stretch) {
@@ -161,7 +161,7 @@ std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const 
   // master, also beyond the line.
   if (motion.kind == MotionKind::kArc) ReflectAtMirrorLine();
   if (motion.kind == MotionKind::kStop) return std::nullopt;
-  return AskReferee(activity, stretch.duration_s);
+  return AskReferee(activity, motion.direction, stretch.duration_s);
 }
 
 void Drive::ApplyCommand(const messages::WheelCommand& command, std::int64_t steps) {
@@ -200,10 +200,11 @@ void Drive::ReflectAtMirrorLine() {
   navigator_->OnPoseUpdate(before, dead_reckoning_.estimate());
 }
 
-std::optional<Verdict> Drive::AskReferee(Activity activity, double duration_s) {
-  return referee_.Observe({activity, duration_s, rover_->state(), dead_reckoning_.estimate(),
-                           monitor_.distance_m(), monitor_.turned_in_place_rad()},
-                          ledger_);
+std::optional<Verdict> Drive::AskReferee(Activity activity, int direction, double duration_s) {
+  return referee_.Observe(
+      {activity, direction, duration_s, rover_->state(), dead_reckoning_.estimate(),
+       monitor_.distance_m(), monitor_.turned_in_place_rad()},
+      ledger_);
 }
 
 DriveResult Drive::Finish(const Verdict& verdict) {

@@ -44,7 +44,7 @@ class Drive {
   void ApplyCommand(const messages::WheelCommand& command, std::int64_t steps);
   void UpdateEstimate(double duration_s, bool moving);
   void ReflectAtMirrorLine();
-  std::optional<Verdict> AskReferee(Activity activity, double duration_s);
+  std::optional<Verdict> AskReferee(Activity activity, int direction, double duration_s);
   DriveResult Finish(const Verdict& verdict);
   void ReportPoses(truth::DriveRecord& record) const;
   void ReportErrors(truth::DriveRecord& record) const;

@@ -54,6 +54,7 @@ std::optional<Verdict> Referee::CheckStuck(const Observation& observation) {
   if (!IsMotion(observation.activity)) return std::nullopt;
   if (!window_) OpenWindow(observation);
   window_->duration_s += observation.duration_s;
+  AddObeyed(observation, *window_);
   if (BellyTouches(observation.state)) window_->belly_s += observation.duration_s;
   if (window_->duration_s < params_.stall_window_s) return std::nullopt;
   const Window window = *window_;
@@ -62,14 +63,32 @@ std::optional<Verdict> Referee::CheckStuck(const Observation& observation) {
   if (window.belly_s >= params_.high_centre_load * window.duration_s) {
     return Verdict{TrialOutcome::kHighCentred, "no net motion with the belly on a rock"};
   }
-  return Verdict{TrialOutcome::kJammed, "no net motion although the wheels were told to turn"};
+  return Verdict{TrialOutcome::kJammed, "no motion although the wheels were told to turn"};
 }
 
 void Referee::OpenWindow(const Observation& observation) {
-  window_ = Window{math::ToPose2(observation.state.X_WR), observation.estimate, 0.0, 0.0};
+  window_ = Window{.pose = math::ToPose2(observation.state.X_WR),
+                   .estimate = observation.estimate,
+                   .last_X_WR = observation.state.X_WR};
 }
 
-// Net motion: a rover that rocks to and fro between two rocks does not move.
+void Referee::AddObeyed(const Observation& observation, Window& window) {
+  const math::Transform& X_WR = observation.state.X_WR;
+  const math::Vector3 before_W = window.last_X_WR.linear().col(0);
+  const math::Vector3 forward_W = X_WR.linear().col(0);
+  if (observation.activity == Activity::kTurning) {
+    const double turn_rad = std::atan2(before_W.x() * forward_W.y() - before_W.y() * forward_W.x(),
+                                       before_W.x() * forward_W.x() + before_W.y() * forward_W.y());
+    window.obeyed_rad += observation.direction * turn_rad;
+  } else {
+    window.obeyed_m +=
+        observation.direction * forward_W.dot(X_WR.translation() - window.last_X_WR.translation());
+  }
+  window.last_X_WR = X_WR;
+}
+
+// A rover that rocks to and fro between two rocks does not move. One that is told to dither and
+// does so is not stuck: it finds no path.
 bool Referee::MovedSince(const Window& window, const Observation& observation) const {
   const auto moved = [&](double distance_m, double turn_rad) {
     return distance_m > params_.stall_distance_m ||
@@ -78,7 +97,9 @@ bool Referee::MovedSince(const Window& window, const Observation& observation) c
   const math::Pose2 pose = math::ToPose2(observation.state.X_WR);
   const messages::PoseEstimate& estimate = observation.estimate;
   const bool truly = moved(Between(window.pose.x_m, window.pose.y_m, pose.x_m, pose.y_m),
-                           pose.heading_rad - window.pose.heading_rad);
+                           pose.heading_rad - window.pose.heading_rad) ||
+                     window.obeyed_m > params_.stall_distance_m ||
+                     window.obeyed_rad > params_.stall_turn_rad;
   const bool believes =
       moved(Between(window.estimate.x_m, window.estimate.y_m, estimate.x_m, estimate.y_m),
             estimate.heading_rad - window.estimate.heading_rad);

@@ -29,6 +29,7 @@ struct ArenaBounds {
 // Truth and belief at the end of one control tick.
 struct Observation {
   Activity activity = Activity::kDriving;
+  int direction = 1;        // of the motion that was told: +1 forward or left, -1 backward or right
   double duration_s = 0.0;  // of the tick
   const truth::RoverState& state;
   const messages::PoseEstimate& estimate;
@@ -54,6 +55,11 @@ class Referee {
     messages::PoseEstimate estimate;
     double duration_s = 0.0;
     double belly_s = 0.0;  // of it with the belly on a rock
+    math::Transform last_X_WR = math::Transform::Identity();
+    // True motion the way it was told, summed tick by tick: it grows under a rover that is told to
+    // go to and fro and does so, and not under one that is rocked to and fro while told one way.
+    double obeyed_m = 0.0;
+    double obeyed_rad = 0.0;
   };
 
   // The state at the last progress towards the goal.
@@ -68,6 +74,7 @@ class Referee {
 
   std::optional<Verdict> CheckStuck(const Observation& observation);
   void OpenWindow(const Observation& observation);
+  static void AddObeyed(const Observation& observation, Window& window);
   bool MovedSince(const Window& window, const Observation& observation) const;
   std::optional<Verdict> CheckNoPath(const Observation& observation, double time_s);
   bool MadeProgress(const Observation& observation);

@@ -17,8 +17,8 @@ class RefereeTest : public testing::Test {
 
   std::optional<Verdict> Tick(Activity activity = Activity::kDriving) {
     ledger_.Spend(activity, kTick_s);
-    return referee_.Observe({activity, kTick_s, state_, estimate_, distance_m_, turned_rad_},
-                            ledger_);
+    return referee_.Observe(
+        {activity, direction_, kTick_s, state_, estimate_, distance_m_, turned_rad_}, ledger_);
   }
 
   // Repeats `step` and a tick until a verdict or `seconds` are over.
@@ -31,6 +31,10 @@ class RefereeTest : public testing::Test {
     return std::nullopt;
   }
 
+  void TurnTo(double heading_rad) {
+    state_.X_WR.linear() = Eigen::AngleAxisd(heading_rad, math::Vector3::UnitZ()).matrix();
+  }
+
   void MoveTo(double x_m, double y_m) { state_.X_WR.translation() = math::Vector3(x_m, y_m, 0.0); }
 
   RefereeParams params_;
@@ -40,6 +44,7 @@ class RefereeTest : public testing::Test {
   messages::PoseEstimate estimate_;
   double distance_m_ = 0.0;
   double turned_rad_ = 0.0;
+  int direction_ = 1;
   Ledger ledger_{energy_};
   Referee referee_{params_, course_, ArenaBounds{-2.0, 10.0}};
 };
@@ -80,12 +85,89 @@ TEST_F(RefereeTest, RockingToAndFroIsNoMotion) {
   const auto rock = [&] {
     t += kTick_s;
     const double heading_rad = math::DegToRad(6.0) * std::sin(4.0 * t);
-    state_.X_WR.linear() = Eigen::AngleAxisd(heading_rad, math::Vector3::UnitZ()).matrix();
+    TurnTo(heading_rad);
     MoveTo(3.0 + 0.02 * std::sin(4.0 * t), 0.0);
   };
   const auto verdict = Run(10.0 * params_.stall_window_s, rock);
   ASSERT_TRUE(verdict);
   EXPECT_EQ(verdict->outcome, TrialOutcome::kJammed);
+}
+
+// Told to turn 10 deg to and fro for ever; the rover turns by `share` of what it is told.
+class DitherTest : public RefereeTest {
+ protected:
+  std::optional<Verdict> Dither(double share) {
+    constexpr double kRate_rad_s = 0.4;
+    const double swing_rad = math::DegToRad(10.0);
+    double told_rad = 0.0;
+    double heading_rad = 0.0;
+    const auto step = [&] {
+      told_rad += direction_ * kRate_rad_s * kTick_s;
+      heading_rad += share * direction_ * kRate_rad_s * kTick_s;
+      turned_rad_ += share * kRate_rad_s * kTick_s;
+      TurnTo(heading_rad);
+      if (told_rad * direction_ >= swing_rad) direction_ = -direction_;
+    };
+    return Run(30.0 * params_.stall_window_s, step, Activity::kTurning);
+  }
+};
+
+TEST_F(DitherTest, ThatObeysFindsNoPath) {
+  const auto verdict = Dither(1.0);
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->outcome, TrialOutcome::kNoPath);
+  EXPECT_NEAR(turned_rad_, params_.no_path_turn_rad, 0.03);
+}
+
+TEST_F(DitherTest, ThatTheRoverDoesNotFollowIsAJam) {
+  const auto verdict = Dither(0.01);
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->outcome, TrialOutcome::kJammed);
+}
+
+TEST_F(RefereeTest, DrivingToAndFroAsToldIsNoPath) {
+  double x_m = 3.0;
+  const auto verdict = Run(20.0 * params_.stall_window_s, [&] {
+    x_m += 0.15 * kTick_s * direction_;
+    distance_m_ += 0.15 * kTick_s;
+    MoveTo(x_m, 0.0);
+    if (std::abs(x_m - 3.0) > 0.05) direction_ = x_m > 3.0 ? -1 : 1;
+  });
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->outcome, TrialOutcome::kNoPath);
+  EXPECT_NEAR(distance_m_, params_.no_path_distance_m, 0.02);
+}
+
+TEST_F(RefereeTest, DrivenAgainstTheCommandIsAJam) {
+  // Slides down and is pushed back again: the wheels forward all the while.
+  double t = 0.0;
+  const auto verdict = Run(20.0 * params_.stall_window_s, [&] {
+    t += kTick_s;
+    MoveTo(3.0 + 0.01 * std::sin(5.0 * t), 0.0);
+  });
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->outcome, TrialOutcome::kJammed);
+}
+
+// Within goal_tolerance_m + no_path_progress_m no progress is left to be seen, and the patience is
+// what it is everywhere: for less to gain.
+TEST_F(RefereeTest, PatienceNearTheGoalIsThatOfAnyPlace) {
+  double x_m = 0.0;
+  EXPECT_FALSE(Run(50.0, [&] {
+    x_m += 0.15 * kTick_s;
+    distance_m_ = x_m;
+    MoveTo(x_m, 0.0);
+    estimate_.x_m = x_m;
+  }));
+  ASSERT_GT(x_m, course_.goal_x_m - 0.25);
+  const double before_m = distance_m_;
+  const auto verdict = Run(100.0, [&] {
+    distance_m_ += 0.15 * kTick_s;
+    MoveTo(x_m + 0.1 * std::sin(distance_m_), 0.1 * std::cos(distance_m_));
+  });
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->outcome, TrialOutcome::kNoPath);
+  EXPECT_GT(distance_m_ - before_m, params_.no_path_distance_m - params_.no_path_progress_m - 0.01);
 }
 
 TEST_F(RefereeTest, ScanningIsNotStandingStill) {
@@ -119,7 +201,7 @@ TEST_F(RefereeTest, TurningWithoutComingNearerIsNoPath) {
       [&] {
         heading += 0.4 * kTick_s;
         turned_rad_ += 0.4 * kTick_s;
-        state_.X_WR.linear() = Eigen::AngleAxisd(heading, math::Vector3::UnitZ()).matrix();
+        TurnTo(heading);
       },
       Activity::kTurning);
   ASSERT_TRUE(verdict);
