@@ -18,8 +18,9 @@ constexpr double kFollowedGap_m = 0.03;
 constexpr int kSweeps = 3;
 constexpr int kFirstSweeps = 30;
 constexpr double kConverged_m = 1e-6;
-// Sine of the wheel's tilt against the ground at which it stands on the edge of its rim. Below, the
-// contact moves in proportion across the rim, as soft soil bears the whole width.
+// Sine of the wheel's tilt against ground or wall at which it stands on the edge of its rim. Below,
+// the contact moves in proportion across the rim, as soft soil bears the whole width; so does the
+// contact of its side with a wall across that side.
 constexpr double kEdgeTilt = 0.1;
 // Chassis and panel cannot touch a plane while the rover stands on its wheels; sine of the tilt
 // from which on they are tested, given the most that rockers and bogies let the chassis lean.
@@ -65,7 +66,10 @@ void ContactFinder::Update(const Multibody& body) {
       if (!upright) MeetGround(index, X_WB);
       continue;
     }
-    if (part.meets == Meets::kGroundAndRocks) MeetGround(index, X_WB);
+    if (part.meets == Meets::kEverything) {
+      MeetWalls(index, X_WB);
+      MeetGround(index, X_WB);
+    }
     const Vector3 center_W = X_WB * part.center_B;
     for (const int rock : near_rocks_) MeetRock(index, X_WB, center_W, rock);
   }
@@ -102,20 +106,24 @@ void ContactFinder::SetTangents(const math::Transform& X_WB, Contact& contact) c
   contact.across_W = contact.n_W.cross(contact.along_W);
 }
 
+Vector3 ContactFinder::Support(const Part& part, const math::Transform& X_WB, const Vector3& n_W) {
+  Vector3 p_W = X_WB * part.center_B;
+  if (part.core != Core::kCylinder) return p_W;
+  const Vector3 axle_W = X_WB.linear().col(1);
+  const double tilt = -n_W.dot(axle_W);
+  const Vector3 down_W = -n_W - tilt * axle_W;  // in the plane of the rim
+  const double size = down_W.norm();
+  p_W += part.b_B.y() * std::clamp(tilt / kEdgeTilt, -1.0, 1.0) * axle_W;
+  p_W += part.b_B.x() / std::max(size, kEdgeTilt) * down_W;
+  return p_W - part.margin_m * n_W;
+}
+
 void ContactFinder::MeetGround(int index, const math::Transform& X_WB) {
   const Part& part = parts_[static_cast<std::size_t>(index)];
   const Vector3 center_W = X_WB * part.center_B;
   const terrain::Ground& ground = terrain_.ground();
   const Vector3 n_W = ground.Normal(center_W.x(), center_W.y());
-  Vector3 p_W = center_W;
-  if (part.core == Core::kCylinder) {
-    // Lowest point of the rounded cylinder, moved across the rim in proportion to the tilt.
-    const Vector3 axle_W = X_WB.linear().col(1);
-    const double tilt = -n_W.dot(axle_W);
-    const Vector3 down_W = (-n_W - tilt * axle_W).normalized();
-    p_W += part.b_B.y() * std::clamp(tilt / kEdgeTilt, -1.0, 1.0) * axle_W + part.b_B.x() * down_W -
-           part.margin_m * n_W;
-  }
+  const Vector3 p_W = Support(part, X_WB, n_W);
   const double gap_m = (p_W.z() - ground.Height(p_W.x(), p_W.y())) * n_W.z();
   if (gap_m > kFollowedGap_m) return;
   bool found = false;
@@ -127,9 +135,13 @@ void ContactFinder::MeetGround(int index, const math::Transform& X_WB) {
 }
 
 void ContactFinder::MeetWalls(int index, const math::Transform& X_WB) {
-  const Vector3 p_W = X_WB * parts_[static_cast<std::size_t>(index)].a_B;
+  const Part& part = parts_[static_cast<std::size_t>(index)];
+  const Vector3 center_W = X_WB * part.center_B;
+  const double reach_m = part.bounding_radius_m + kFollowedGap_m;
   const auto walls = terrain_.walls();
   for (std::size_t i = walls.size(); i-- > 0;) {
+    if (walls[i].offset_m - walls[i].normal_W.dot(center_W) > reach_m) continue;
+    const Vector3 p_W = Support(part, X_WB, -walls[i].normal_W);
     const double gap_m = walls[i].offset_m - walls[i].normal_W.dot(p_W);
     if (gap_m > kFollowedGap_m) continue;
     bool found = false;

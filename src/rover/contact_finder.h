@@ -58,6 +58,9 @@ class ContactFinder {
   void MeetGround(int index, const math::Transform& X_WB);
   void MeetWalls(int index, const math::Transform& X_WB);
   void MeetRock(int index, const math::Transform& X_WB, const math::Vector3& center_W, int rock);
+  // Point of a part that reaches farthest against n_W.
+  static math::Vector3 Support(const Part& part, const math::Transform& X_WB,
+                               const math::Vector3& n_W);
   // Starts a contact from the one of the last step, if there was one.
   Contact& Add(int part, int other, bool& found);
   void SetTangents(const math::Transform& X_WB, Contact& contact) const;

@@ -22,7 +22,8 @@ ContactLaw ContactLaws::Of(const Part& part, const Contact& contact, double spin
   const bool wheel = part.kind == truth::BodyPart::kWheel;
   if (wheel && contact.IsSoil()) return OnSoil(contact, spin_rad_s);
   return {.stiffness_N_m = params_.stiffness_N_m,
-          .friction = wheel ? params_.wheel_rock_friction : params_.body_rock_friction};
+          .friction = wheel && contact.other >= 0 ? params_.wheel_rock_friction
+                                                  : params_.body_rock_friction};
 }
 
 ContactLaw ContactLaws::OnSoil(const Contact& contact, double spin_rad_s) const {

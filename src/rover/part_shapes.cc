@@ -51,11 +51,10 @@ void AddWheels(const RoverGeometryParams& params, std::vector<Part>& parts) {
       std::min(kWheelRounding * params.wheel_width_m, 0.5 * params.wheel_radius_m);
   const double half_width_m = 0.5 * params.wheel_width_m - margin_m;
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
-    parts.push_back({BodyPart::kWheel, kFirstWheel + static_cast<int>(i), Core::kCylinder,
-                     Meets::kGroundAndRocks, Vector3::Zero(),
-                     Vector3(params.wheel_radius_m - margin_m, half_width_m, 0.0), margin_m,
-                     Vector3::Zero(),
-                     std::hypot(params.wheel_radius_m, 0.5 * params.wheel_width_m)});
+    parts.push_back(
+        {BodyPart::kWheel, kFirstWheel + static_cast<int>(i), Core::kCylinder, Meets::kEverything,
+         Vector3::Zero(), Vector3(params.wheel_radius_m - margin_m, half_width_m, 0.0), margin_m,
+         Vector3::Zero(), std::hypot(params.wheel_radius_m, 0.5 * params.wheel_width_m)});
   }
 }
 

@@ -18,7 +18,7 @@ enum class Core {
 };
 
 // What a part is tested against.
-enum class Meets { kRocks, kGroundAndRocks, kGroundAndWalls };
+enum class Meets { kRocks, kEverything, kGroundAndWalls };
 
 struct Part {
   truth::BodyPart kind;
@@ -35,7 +35,8 @@ struct Part {
 // Wheels first, in the order of messages::Wheel. Wheels are cylinders with rounded edges. Arms are
 // capsules along the lines pivot to pivot, pivot to knee and, as strut beside the wheel, knee to
 // hub; hubs are balls at the inner face of each wheel, the panel is a slab of the overall length
-// and width on top. Corners of chassis and panel stand for those two against ground and walls.
+// and width on top. Corners of chassis and panel stand for those two against
+// ground and walls.
 std::vector<Part> MakeParts(const RoverGeometryParams& params);
 
 // The point of the core nearest to p, both in the frame of the body.

@@ -108,7 +108,7 @@ void RockerBogie::Place(const math::Pose2& X_WR) {
 
 void RockerBogie::Settle() {
   const messages::PerWheel<double> braked{};
-  const int steps = static_cast<int>(kSettleTime_s / step_s());
+  const int steps = static_cast<int>(kSettleTime_s / params_.physics.step_s);
   int slow_steps = 0;
   for (int i = 0; i < steps && slow_steps < kSettledSteps; ++i) {
     Advance(braked);
@@ -131,17 +131,20 @@ void RockerBogie::Step(const messages::WheelCommand& command) {
     const double change = std::clamp(wanted - state_.steer_rad[i], -most_rad, most_rad);
     if (change != 0.0) SetSteer(i, state_.steer_rad[i] + change);
   }
-  Advance(command.rate_rad_s);
+  messages::PerWheel<double> rate_rad_s = command.rate_rad_s;
+  for (double& rate : rate_rad_s) rate *= params_.physics.time_scale;
+  Advance(rate_rad_s);
   UpdateState();
 }
 
 void RockerBogie::Advance(const messages::PerWheel<double>& rate_rad_s) {
+  const double h = params_.physics.step_s;
   body_.UpdatePoses();
   finder_.Update(body_);
-  body_.Accelerate(params_.physics.gravity_m_s2, step_s(), mass_inverse_);
+  body_.Accelerate(params_.physics.gravity_m_s2, h, mass_inverse_);
   solver_.Solve(mass_inverse_, rate_rad_s, loose_rocks_ ? &*loose_rocks_ : nullptr, finder_, body_);
   CheckMotion(body_.Velocity());
-  body_.Move(step_s());
+  body_.Move(h);
   if (loose_rocks_) loose_rocks_->Move(finder_);
 }
 
@@ -157,7 +160,7 @@ void RockerBogie::CheckMotion(const DofVector& velocity) const {
 
 void RockerBogie::UpdateState() {
   body_.UpdatePoses();
-  const DofVector velocity = body_.Velocity();
+  const DofVector velocity = body_.Velocity() / params_.physics.time_scale;
   state_.X_WR = body_.X_WR();
   state_.w_WR_rad_s = velocity.head<3>();
   state_.v_WR_m_s = velocity.segment<3>(3) +
@@ -171,15 +174,14 @@ void RockerBogie::UpdateState() {
   state_.right_rocker_rad = body_.JointAngle(kRightRocker);
   state_.left_bogie_rad = body_.JointAngle(kLeftBogie);
   state_.right_bogie_rad = body_.JointAngle(kRightBogie);
-  UpdateContacts();
+  UpdateContacts(velocity);
 }
 
-void RockerBogie::UpdateContacts() {
+void RockerBogie::UpdateContacts(const DofVector& velocity) {
   state_.contacts.clear();
   state_.wheel_load_N.fill(0.0);
-  const DofVector velocity = body_.Velocity();
   for (const Contact& contact : finder_.contacts()) {
-    const double force_N = contact.impulse_Ns[0] / step_s();
+    const double force_N = contact.impulse_Ns[0] / params_.physics.step_s;
     if (force_N <= 0.0) continue;
     const Part& part = finder_.part(contact.part);
     if (part.kind == truth::BodyPart::kWheel) {

@@ -23,7 +23,7 @@ class RockerBogie final : public Rover {
   // Throws std::runtime_error when the solution has blown up: a velocity that is not finite or
   // that no rover reaches.
   void Step(const messages::WheelCommand& command) override;
-  double step_s() const override { return params_.physics.step_s; }
+  double step_s() const override { return params_.physics.time_scale * params_.physics.step_s; }
   const truth::RoverState& state() const override { return state_; }
 
  private:
@@ -32,7 +32,7 @@ class RockerBogie final : public Rover {
   void Advance(const messages::PerWheel<double>& rate_rad_s);
   void Settle();
   void UpdateState();
-  void UpdateContacts();
+  void UpdateContacts(const DofVector& velocity);
   void CheckMotion(const DofVector& velocity) const;
 
   const RoverParams params_;

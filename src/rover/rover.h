@@ -20,7 +20,8 @@ class Rover {
   // with wheels braked and straight. Also used when operators turn the rover by hand.
   virtual void Place(const math::Pose2& X_WR) = 0;
 
-  // Advances by one physics step of step_s() under the held set points.
+  // Advances by one step of step_s(), of real time where the motion is simulated faster, under the
+  // held set points.
   virtual void Step(const messages::WheelCommand& command) = 0;
 
   virtual double step_s() const = 0;

@@ -4,6 +4,15 @@ namespace rockyard::rover {
 
 using core::Origin;
 
+namespace {
+
+// Rim speed up to which motion counts as quasi-static, m/s: a rover that drops by a wheel radius
+// within one needs 0.1 s for it, and stops within 1 mm. README.md of this folder has the
+// comparison.
+constexpr double kFastestScaled_m_s = 0.2;
+
+}  // namespace
+
 void RoverMassParams::Visit(core::FieldVisitor& v) {
   v.Real("total_kg", total_kg,
          {.doc = "mass of the rover",
@@ -99,14 +108,15 @@ void RoverContactParams::Visit(core::FieldVisitor& v) {
           .source = "rocker-bogie climbing analyses use 0.5 to 1",
           .study_low = 0.5,
           .study_high = 1.0});
-  v.Real("body_rock_friction", body_rock_friction,
-         {.doc = "friction of chassis, arms, hubs and panel on rock, ground and walls",
-          .min = 0.0,
-          .max = 3.0,
-          .origin = Origin::kAssumed,
-          .source = "metal on stone",
-          .study_low = 0.2,
-          .study_high = 0.6});
+  v.Real(
+      "body_rock_friction", body_rock_friction,
+      {.doc = "friction of chassis, arms, hubs and panel on rock and ground, and of all on walls",
+       .min = 0.0,
+       .max = 3.0,
+       .origin = Origin::kAssumed,
+       .source = "metal on stone",
+       .study_low = 0.2,
+       .study_high = 0.6});
   v.Real("stiffness_N_m", stiffness_N_m,
          {.doc = "stiffness of each contact",
           .min = 1e3,
@@ -138,6 +148,13 @@ void RoverPhysicsParams::Visit(core::FieldVisitor& v) {
           .min = 0.1,
           .max = 30.0,
           .origin = Origin::kSetting});
+  v.Real("time_scale", time_scale,
+         {.doc = "multibody: rates are simulated so many times faster than real, and times and "
+                 "velocities reported as real; for rovers that drive slowly enough to be at rest "
+                 "along the way",
+          .min = 1.0,
+          .max = 1000.0,
+          .origin = Origin::kSetting});
 }
 
 void RoverParams::Visit(core::FieldVisitor& v) {
@@ -151,6 +168,11 @@ void RoverParams::Visit(core::FieldVisitor& v) {
   v.Group("drive", drive, "drive and steering motors");
   v.Group("contact", contact, "wheels and body against soil and rock");
   v.Group("physics", physics, "gravity and numerical solution");
+  v.Require("physics.time_scale",
+            physics.time_scale == 1.0 || drive.speed_m_s * physics.time_scale <= kFastestScaled_m_s,
+            "makes the simulated rims (drive.speed_m_s times physics.time_scale) faster than "
+            "0.2 m/s, where inertia begins to tell",
+            "use at most 0.2 / drive.speed_m_s, or 1");
   v.Group("quasi_static", quasi_static, "fidelity quasi_static: resolution and clearance");
 }
 

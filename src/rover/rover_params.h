@@ -48,6 +48,7 @@ struct RoverPhysicsParams {
   double step_s = 1.0 / 60.0;
   std::int64_t solver_iterations = 10;
   double gravity_m_s2 = 9.81;
+  double time_scale = 1.0;
 
   void Visit(core::FieldVisitor& v);
 };

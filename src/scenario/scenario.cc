@@ -19,10 +19,12 @@ void RequireConsistency(const Scenario& scenario, core::FieldVisitor& v) {
             "could arrive falsely",
             "use a goal radius of at least the navigator's tolerance");
   const bool multibody = scenario.rover.fidelity == rover::Fidelity::kMultibody;
-  const double step_s =
-      multibody ? scenario.rover.physics.step_s : scenario.rover.quasi_static.step_s;
+  const double step_s = multibody
+                            ? scenario.rover.physics.time_scale * scenario.rover.physics.step_s
+                            : scenario.rover.quasi_static.step_s;
   v.Require("clock.control_rate_hz", scenario.clock.control_rate_hz * step_s <= 1.0,
-            "asks for more than one control step per rover.physics.step_s (multibody) or "
+            "asks for more than one control step per rover.physics.step_s times time_scale "
+            "(multibody) or "
             "rover.quasi_static.step_s (quasi_static)",
             "use a lower rate or a shorter physics step");
   v.Require("rover.fidelity",

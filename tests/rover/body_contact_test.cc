@@ -131,6 +131,36 @@ TEST(Rock, TwoRocksJamTheRover) {
   EXPECT_LT(rover->state().v_WR_m_s.norm(), 0.01);
 }
 
+// Wheels turned as far as they go stick out beyond the panel.
+TEST(Wall, PushesTurnedWheelsAway) {
+  const RoverParams params;
+  const RoverGeometryParams& size = params.geometry;
+  const double turn = params.drive.max_steer_rad;
+  const double wheel_y_m = 0.5 * (size.width_m - size.wheel_width_m);
+  const double wall_y_m = 0.5 * size.width_m + 0.01;
+  // The rounded edge of the wheel ends somewhat short of its corner.
+  const double corner_y_m =
+      wheel_y_m + size.wheel_radius_m * std::sin(turn) + 0.5 * size.wheel_width_m * std::cos(turn);
+  ASSERT_GT(corner_y_m, wall_y_m + 0.015);
+  messages::WheelCommand command;
+  command.steer_rad.fill(turn);
+  for (const bool walled : {false, true}) {
+    std::vector<terrain::Wall> walls;
+    if (walled) walls.push_back({math::Vector3::UnitY(), wall_y_m});
+    const terrain::Terrain terrain = FlatTerrain({}, std::move(walls));
+    const auto rover = MakeRover(params, terrain);
+    rover->Place({});
+    RunFor(*rover, command, 3.0);
+    const double y_m = rover->state().X_WR.translation().y();
+    if (walled) {
+      EXPECT_LT(y_m, -0.01);
+      EXPECT_GT(y_m, wall_y_m - corner_y_m - 0.001);
+    } else {
+      EXPECT_NEAR(y_m, 0.0, 1e-4);
+    }
+  }
+}
+
 TEST(Wall, StopsThePanel) {
   const RoverParams params;
   const terrain::Terrain terrain = FlatTerrain({}, {{math::Vector3::UnitX(), 0.8}});
