@@ -12,22 +12,29 @@ using math::Vector3;
 constexpr double kRockCreep = 0.01;
 // Same for the direction of the motion resistance.
 constexpr double kResistanceCreep = 0.1;
-// A wheel that stands, or turns slowly, is judged by this share of the fastest rim.
+// A wheel that stands, or turns slowly, is judged by this share of the fastest rim, and a rover
+// whose wheels all stand by this share of its speed.
 constexpr double kLeastReference = 0.05;
 // The last change of the rates, over the rover's speed. Newton's method leaves far less.
-constexpr double kTolerance = 3e-3;
+constexpr double kTolerance = 1e-2;
 // Changes of the rates, over the rim speed, below which tractions are taken along their tangent;
 // above it, force over speed, which overshoots nothing.
-constexpr double kTangentRange = 0.1;
+constexpr double kTangentRange = 0.3;
 // A step is cut where the slope at its end is more than this share of that at its start, turned.
 constexpr double kOvershoot = 0.5;
 constexpr int kMostCuts = 4;
 // Change of a load, over the mean wheel load, at which tractions follow it once more; and the
 // longest step by which they do.
-constexpr double kLoadTolerance = 0.02;
+constexpr double kLoadTolerance = 0.05;
 constexpr double kLoadStep = 0.5;
 // Stands for no motion at all.
 constexpr double kHeld = 1e12;
+
+SideVector OfSide(const LinkageVector& rates, std::size_t side) {
+  SideVector result;
+  result << rates.head<7>(), rates[kFirstBogieDof + static_cast<int>(side)];
+  return result;
+}
 
 }  // namespace
 
@@ -39,7 +46,7 @@ QuasiStaticBalance::QuasiStaticBalance(const RoverParams& params, const terrain:
       stall_force_N_(params.drive.stall_torque_Nm / params.geometry.wheel_radius_m),
       stop_rad_{params.geometry.rocker_limit_rad, params.geometry.bogie_limit_rad,
                 params.geometry.bogie_limit_rad},
-      tolerance_m_s_(kTolerance * params.drive.speed_m_s),
+      speed_m_s_(params.drive.speed_m_s),
       mean_load_N_(params.mass.total_kg * params.physics.gravity_m_s2 / 6.0),
       stop_stiffness_Nm_(params.contact.stiffness_N_m * params.geometry.length_m *
                          params.geometry.length_m / 16.0) {
@@ -50,12 +57,14 @@ QuasiStaticBalance::QuasiStaticBalance(const RoverParams& params, const terrain:
 }
 
 void QuasiStaticBalance::MakeRow(const Linkage& linkage, const Drive& drive,
-                                 const RestingContact& contact, Row& row) const {
+                                 const LinkageVector& rates, const RestingContact& contact,
+                                 Row& row) const {
   const PointJacobian J = linkage.Jacobian(contact.body, contact.p_W);
   row.side = Linkage::SideOf(contact.body);
   row.stiffness_N_m = contact_params_.stiffness_N_m;
   row.rest_m = row.rim_m_s = row.arm_m = 0.0;
   row.reference_m_s = rim_speed_m_s_;
+  row.loaded = contact.load_N > 0.0;
   Vector3 along_W = linkage.axle_W(static_cast<std::size_t>(contact.IsWheel() ? contact.part : 0))
                         .cross(contact.n_W);
   if (along_W.squaredNorm() < 1e-6) along_W = contact.n_W.unitOrthogonal();
@@ -63,6 +72,7 @@ void QuasiStaticBalance::MakeRow(const Linkage& linkage, const Drive& drive,
   row.normal = J.transpose() * contact.n_W;
   row.along = J.transpose() * along_W;
   row.across = J.transpose() * contact.n_W.cross(along_W);
+  row.gap_m = contact.gap_m - drive.lead_s * row.normal.dot(OfSide(rates, row.side));
   if (contact.IsWheel()) MakeWheelRow(linkage, drive, contact, row);
   if (contact.IsSoil()) {
     row.axle =
@@ -120,14 +130,16 @@ QuasiStaticBalance::Traction QuasiStaticBalance::TractionOf(const Row& row, doub
   return {per_speed, per_speed * kRockCreep * kRockCreep / root2};
 }
 
-void QuasiStaticBalance::AddForces(const Row& row, const LinkageVector& rates,
-                                   RestingContact& contact) {
-  SideVector w;
-  w << rates.head<7>(), rates[kFirstBogieDof + static_cast<int>(row.side)];
-  const double depth_m = -contact.gap_m - step_s_ * row.normal.dot(w);
-  contact.load_N = std::max(0.0, row.stiffness_N_m * (depth_m - row.rest_m));
+void QuasiStaticBalance::AddForces(const LinkageVector& rates, RestingContact& contact, Row& row) {
+  const SideVector w = OfSide(rates, row.side);
+  const double depth_m = -row.gap_m - step_s_ * row.normal.dot(w);
+  contact.load_N = row.stiffness_N_m * (depth_m - row.rest_m);
   contact.sliding_speed_m_s = 0.0;
-  if (contact.load_N == 0.0) return;
+  if (contact.load_N <= 0.0 && !(first_ && row.loaded)) {
+    contact.load_N = 0.0;
+    return;
+  }
+  if (!first_) FollowLoad(contact, row);
   const double k_n = step_s_ * row.stiffness_N_m;
   if (row.most_N == 0.0) {
     equations_.AddForce(row.side, contact.load_N * row.normal);
@@ -183,7 +195,8 @@ void QuasiStaticBalance::Evaluate(const LinkageVector& rates,
                                   std::vector<RestingContact>& contacts) {
   equations_.Reset(gravity_ - damping_.cwiseProduct(rates), damping_);
   torque_Nm_.fill(0.0);
-  for (std::size_t i = 0; i < contacts.size(); ++i) AddForces(rows_[i], rates, contacts[i]);
+  traction_changed_ = false;
+  for (std::size_t i = 0; i < contacts.size(); ++i) AddForces(rates, contacts[i], rows_[i]);
   AddStops(rates);
 }
 
@@ -192,23 +205,19 @@ bool QuasiStaticBalance::IsSmall(const LinkageVector& change, double speed_m_s) 
          change.tail<6>().cwiseAbs().maxCoeff() * wheel_radius_m_ < speed_m_s;
 }
 
-bool QuasiStaticBalance::UpdateTraction(std::vector<RestingContact>& contacts) {
-  bool changed = false;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    RestingContact& contact = contacts[i];
-    const double change_N = contact.load_N - contact.traction_load_N;
-    if (std::abs(change_N) < kLoadTolerance * mean_load_N_) continue;
-    const double most_N = kLoadStep * mean_load_N_;
-    contact.traction_load_N += std::clamp(change_N, -most_N, most_N);
-    SetTraction(contact, rows_[i]);
-    changed = true;
-  }
-  return changed;
+// Traction follows load by bounded steps: loads of a first guess can be far off.
+void QuasiStaticBalance::FollowLoad(RestingContact& contact, Row& row) {
+  const double change_N = contact.load_N - contact.traction_load_N;
+  if (std::abs(change_N) < kLoadTolerance * mean_load_N_) return;
+  const double most_N = kLoadStep * mean_load_N_;
+  contact.traction_load_N += std::clamp(change_N, -most_N, most_N);
+  SetTraction(contact, row);
+  traction_changed_ = true;
 }
 
 int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, const Drive& drive,
                               std::vector<RestingContact>& contacts, LinkageVector& rates) {
-  rim_speed_m_s_ = 0.0;
+  rim_speed_m_s_ = drive.freedom == Freedom::kSettling ? 0.0 : kLeastReference * speed_m_s_;
   for (const double rate : drive.rate_rad_s) {
     rim_speed_m_s_ = std::max(rim_speed_m_s_, std::abs(rate) * wheel_radius_m_);
   }
@@ -221,15 +230,17 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     RestingContact& contact = contacts[i];
     if (contact.IsWheel() && contact.traction_load_N == 0.0) contact.traction_load_N = mean_load_N_;
-    MakeRow(linkage, drive, contact, rows_[i]);
+    MakeRow(linkage, drive, rates, contact, rows_[i]);
     SetTraction(contact, rows_[i]);
   }
+  first_ = true;
   tangent_ = false;
   Evaluate(rates, contacts);
+  first_ = false;
   for (int iteration = 1; iteration < kMostIterations; ++iteration) {
     LinkageVector change = equations_.Solve();
     const double drop = equations_.force().dot(change);
-    const bool small = IsSmall(change, tolerance_m_s_);
+    const bool small = IsSmall(change, kTolerance * speed_m_s_);
     tangent_ = IsSmall(change, kTangentRange * rim_speed_m_s_);
     LinkageVector next = rates + change;
     Evaluate(next, contacts);
@@ -243,11 +254,7 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
       Evaluate(next, contacts);
     }
     rates = next;
-    if (!UpdateTraction(contacts)) {
-      if (small) return iteration;
-    } else {
-      Evaluate(rates, contacts);
-    }
+    if (small && !traction_changed_) return iteration;
   }
   return kMostIterations;
 }

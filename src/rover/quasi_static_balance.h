@@ -39,6 +39,9 @@ class QuasiStaticBalance {
   struct Drive {
     messages::PerWheel<double> rate_rad_s{};
     double step_s = 0.0;
+    // The linkage and its contacts are given as they are after this time at the rates that the
+    // solution starts from: half a step makes directions second order.
+    double lead_s = 0.0;
     Freedom freedom = Freedom::kAll;
   };
 
@@ -58,7 +61,9 @@ class QuasiStaticBalance {
     SideVector normal, along, across;
     SideVector axle;  // wheel on soil: along, at the axle, where the motion resistance acts
     std::size_t side;
+    bool loaded;  // before
     double stiffness_N_m;
+    double gap_m;          // at the beginning of the step
     double rest_m;         // penetration without load
     double rim_m_s;        // of the wheel against its axle, along
     double arm_m;          // motor torque over force along
@@ -73,8 +78,8 @@ class QuasiStaticBalance {
     double slope;      // derivative of force by slip speed
   };
 
-  void MakeRow(const Linkage& linkage, const Drive& drive, const RestingContact& contact,
-               Row& row) const;
+  void MakeRow(const Linkage& linkage, const Drive& drive, const LinkageVector& rates,
+               const RestingContact& contact, Row& row) const;
   void MakeWheelRow(const Linkage& linkage, const Drive& drive, const RestingContact& contact,
                     Row& row) const;
   void SetTraction(const RestingContact& contact, Row& row) const;
@@ -82,19 +87,18 @@ class QuasiStaticBalance {
 
   // Forces at the given rates and their derivatives.
   void Evaluate(const LinkageVector& rates, std::vector<RestingContact>& contacts);
-  void AddForces(const Row& row, const LinkageVector& rates, RestingContact& contact);
+  void AddForces(const LinkageVector& rates, RestingContact& contact, Row& row);
+  void FollowLoad(RestingContact& contact, Row& row);
   void AddResistance(const Row& row, const SideVector& rates);
   void AddStops(const LinkageVector& rates);
   bool IsSmall(const LinkageVector& change, double speed_m_s) const;
-  // Takes tractions from the present loads; true where that changes them.
-  bool UpdateTraction(std::vector<RestingContact>& contacts);
 
   const RoverContactParams contact_params_;
   const WheelSoilTable soil_;
   const double wheel_radius_m_;
   const double stall_force_N_;
   const std::array<double, 3> stop_rad_;  // rocker, bogies
-  const double tolerance_m_s_;
+  const double speed_m_s_;
   const double mean_load_N_;
   const double stop_stiffness_Nm_;
   LinkageVector free_damping_;
@@ -106,7 +110,9 @@ class QuasiStaticBalance {
   LinkageVector gravity_;
   LinkageVector damping_;
   std::vector<Row> rows_;
+  bool first_ = false;  // evaluation: contacts that bore load before count as closed
   bool tangent_ = false;
+  bool traction_changed_ = false;  // in the last evaluation
   LinkageEquations equations_;
   messages::PerWheel<double> torque_Nm_{};
 };

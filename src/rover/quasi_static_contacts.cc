@@ -15,6 +15,19 @@ constexpr int kSweeps = 20;
 constexpr double kConverged_m = 1e-4;
 // As in contact_finder.cc: sine of the tilt at which a wheel stands on the edge of its rim.
 constexpr double kEdgeTilt = 0.1;
+// As there: chassis and panel cannot touch a plane while the rover stands on its wheels.
+constexpr double kUprightCosine = 0.9;
+
+// Height of the lowest point of a part that rocks can touch.
+double LowestPoint(const Part& part, const Linkage::Frame& frame) {
+  const auto down = frame.R_WB.row(2);
+  if (part.core == Core::kBox) {
+    return frame.p_WB.z() + down * part.a_B - down.cwiseAbs() * part.b_B - part.margin_m;
+  }
+  const double a_m = down * part.a_B;
+  const double b_m = down * part.b_B;
+  return frame.p_WB.z() + std::min(a_m, b_m) - part.margin_m;
+}
 
 }  // namespace
 
@@ -53,7 +66,7 @@ void QuasiStaticContacts::Update(const Linkage& linkage, double reach_m) {
     for (NearRock& rock : rocks_) MeetRock(linkage, wheel, reach_m, rock);
   }
   MeetBody(linkage, reach_m);
-  MeetWalls(linkage, reach_m);
+  MeetCorners(linkage, reach_m);
 }
 
 void QuasiStaticContacts::Add(const RestingContact& contact) {
@@ -131,6 +144,7 @@ void QuasiStaticContacts::MeetPart(const Linkage& linkage, std::size_t index, do
                                    const NearRock& rock) {
   const Part& part = parts_[index];
   const Linkage::Frame& frame = linkage.body(part.body);
+  if (LowestPoint(part, frame) - rock.support.top_W_m > reach_m) return;
   const Vector3 center_W = frame.p_WB + frame.R_WB * part.center_B;
   const double near_m = part.bounding_radius_m + reach_m;
   const double far_m = near_m + rock.support.bounding_radius_m;
@@ -156,27 +170,37 @@ void QuasiStaticContacts::MeetPart(const Linkage& linkage, std::size_t index, do
        .n_W = surface.normal_W});
 }
 
-void QuasiStaticContacts::MeetWalls(const Linkage& linkage, double reach_m) {
+// Corners of chassis and panel against walls and, for a rover that leans far over, the ground.
+void QuasiStaticContacts::MeetCorners(const Linkage& linkage, double reach_m) {
+  const Linkage::Frame& chassis = linkage.chassis();
+  const terrain::Ground& ground = terrain_.ground();
+  const bool upright = ground.IsPlane() && chassis.R_WB(2, 2) > kUprightCosine;
   const auto walls = terrain_.walls();
-  for (std::size_t i = 0; i < walls.size(); ++i) {
-    if (walls[i].offset_m - walls[i].normal_W.dot(linkage.chassis().p_WB) > reach_R_m_ + reach_m) {
-      continue;
-    }
-    for (std::size_t k = messages::kWheelCount; k < parts_.size(); ++k) {
-      const Part& part = parts_[k];
-      if (part.meets != Meets::kGroundAndWalls) continue;
-      const Linkage::Frame& frame = linkage.body(part.body);
-      const Vector3 p_W = frame.p_WB + frame.R_WB * part.a_B;
+  if (upright && walls.empty()) return;
+  for (std::size_t index = messages::kWheelCount; index < parts_.size(); ++index) {
+    const Part& part = parts_[index];
+    if (part.meets != Meets::kGroundAndWalls) continue;
+    const Vector3 p_W = chassis.p_WB + chassis.R_WB * part.a_B;
+    for (std::size_t i = 0; i < walls.size(); ++i) {
       const double gap_m = walls[i].offset_m - walls[i].normal_W.dot(p_W);
       if (gap_m > reach_m) continue;
-      Add({.part = static_cast<int>(k),
+      Add({.part = static_cast<int>(index),
            .other = kFirstWall - static_cast<int>(i),
-           .body = part.body,
            .kind = part.kind,
            .gap_m = gap_m,
            .p_W = p_W,
            .n_W = -walls[i].normal_W});
     }
+    if (upright) continue;
+    const Vector3 n_W = ground.Normal(p_W.x(), p_W.y());
+    const double gap_m = (p_W.z() - ground.Height(p_W.x(), p_W.y())) * n_W.z();
+    if (gap_m > reach_m) continue;
+    Add({.part = static_cast<int>(index),
+         .other = kGround,
+         .kind = part.kind,
+         .gap_m = gap_m,
+         .p_W = p_W,
+         .n_W = n_W});
   }
 }
 

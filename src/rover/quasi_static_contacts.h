@@ -59,7 +59,7 @@ class QuasiStaticContacts {
   void MeetRock(const Linkage& linkage, std::size_t wheel, double reach_m, NearRock& rock);
   void MeetBody(const Linkage& linkage, double reach_m);
   void MeetPart(const Linkage& linkage, std::size_t index, double reach_m, const NearRock& rock);
-  void MeetWalls(const Linkage& linkage, double reach_m);
+  void MeetCorners(const Linkage& linkage, double reach_m);
   void Add(const RestingContact& contact);
 
   const terrain::Terrain& terrain_;

@@ -17,14 +17,6 @@ void QuasiStaticParams::Visit(core::FieldVisitor& v) {
            .min = 0.1,
            .max = 15.0,
            .origin = Origin::kSetting});
-  v.Real("clearance_tolerance_m", clearance_tolerance_m,
-         {.doc = "depth by which the body may press on a rock and scrape over it; more blocks",
-          .min = 0.0,
-          .max = 0.1,
-          .origin = Origin::kAssumed,
-          .source = "what soil and wheels give way by when the belly takes some of the load",
-          .study_low = 0.0,
-          .study_high = 0.02});
 }
 
 }  // namespace rockyard::rover

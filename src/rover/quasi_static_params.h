@@ -10,7 +10,6 @@ struct QuasiStaticParams {
   double step_s = 0.05;
   double settle_distance_m = 0.02;
   double settle_turn_rad = math::DegToRad(3.0);
-  double clearance_tolerance_m = 0.005;
 
   void Visit(core::FieldVisitor& v);
 };

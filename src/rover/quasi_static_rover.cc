@@ -20,6 +20,12 @@ constexpr double kMostMove = 2.0;
 constexpr double kMostTurn_rad = 0.1;
 // A change of steering below this keeps the stretch, rad.
 constexpr double kSameSteer_rad = 0.017;
+// Slower changes than these in a stretch are none.
+constexpr double kSteady_m = 5e-5;
+constexpr double kSteady_rad = 2e-4;
+// A rock deeper than this in the rover, half a step ahead, is met where the rover stands:
+// directions of deep contacts mean nothing.
+constexpr double kDeepest_m = 0.003;
 // Settling: most steps, longest movement in one, and the movement that ends it, m.
 constexpr int kSettleSteps = 200;
 constexpr double kSettleMove_m = 0.02;
@@ -81,6 +87,7 @@ void QuasiStaticRover::Place(const math::Pose2& X_WR) {
   contacts_.Clear();
   Settle();
   stretch_ = {};
+  steady_ = false;
   UpdatePosture();
   UpdateForces();
   Rest();
@@ -92,7 +99,7 @@ void QuasiStaticRover::Settle() {
   for (int i = 0; i < kSettleSteps; ++i) {
     linkage_.Update(posture_, state_.steer_rad);
     contacts_.Update(linkage_, kReach_m + kSettleMove_m);
-    balance_.Solve(linkage_, posture_, {{}, time_s, Freedom::kSettling}, contacts_.contacts(),
+    balance_.Solve(linkage_, posture_, {{}, time_s, 0.0, Freedom::kSettling}, contacts_.contacts(),
                    rates_);
     Limit(time_s, kSettleMove_m, kMostTurn_rad, rates_);
     posture_ = Moved(posture_, rates_, time_s);
@@ -101,13 +108,43 @@ void QuasiStaticRover::Settle() {
   rates_.setZero();
 }
 
-void QuasiStaticRover::Steer(const messages::PerWheel<double>& wanted_rad) {
+bool QuasiStaticRover::Steer(const messages::PerWheel<double>& wanted_rad) {
+  bool changed = false;
   const double most_rad = params_.drive.steer_rate_rad_s * step_s();
   for (std::size_t i = 0; i < kWheelCount; ++i) {
     const double limit = steered_[i] ? params_.drive.max_steer_rad : 0.0;
     const double wanted = std::clamp(wanted_rad[i], -limit, limit);
-    state_.steer_rad[i] += std::clamp(wanted - state_.steer_rad[i], -most_rad, most_rad);
+    const double change = std::clamp(wanted - state_.steer_rad[i], -most_rad, most_rad);
+    state_.steer_rad[i] += change;
+    changed |= change != 0.0;
   }
+  return changed;
+}
+
+// A wheel that swings into a rock pushes the rover away, against its braked wheels.
+void QuasiStaticRover::SteerAtRest() {
+  linkage_.Update(posture_, state_.steer_rad);
+  contacts_.Update(linkage_, kReach_m);
+  const std::vector<RestingContact>& contacts = contacts_.contacts();
+  if (std::none_of(contacts.begin(), contacts.end(), [](const RestingContact& contact) {
+        return contact.gap_m < 0.0 && !contact.IsSoil();
+      })) {
+    return;
+  }
+  rates_.setZero();
+  Balance({{}, step_s(), 0.0, Freedom::kAll});
+  Limit(step_s(), kReach_m, kMostTurn_rad, rates_);
+  posture_ = Moved(posture_, rates_, step_s());
+  stretch_.duration_s = 0.0;
+  steady_ = false;
+  UpdatePosture();
+  UpdateForces();
+}
+
+void QuasiStaticRover::Balance(const QuasiStaticBalance::Drive& drive) {
+  ++work_.balances;
+  work_.iterations += balance_.Solve(linkage_, posture_, drive, contacts_.contacts(), rates_);
+  if (!rates_.allFinite()) throw std::runtime_error("no balance of forces with finite rates");
 }
 
 void QuasiStaticRover::Rest() {
@@ -125,6 +162,23 @@ bool QuasiStaticRover::Goes(const messages::WheelCommand& command) const {
   return true;
 }
 
+// Finds the contacts half a step ahead, or those of now where the way there leads into a rock.
+double QuasiStaticRover::LookAhead(double lead_s) {
+  const double reach_m = params_.quasi_static.settle_distance_m + kReach_m;
+  linkage_.Update(Moved(posture_, rates_, lead_s), state_.steer_rad);
+  contacts_.Update(linkage_, reach_m);
+  const std::vector<RestingContact>& contacts = contacts_.contacts();
+  if (lead_s == 0.0 ||
+      std::none_of(contacts.begin(), contacts.end(), [](const RestingContact& contact) {
+        return !contact.IsSoil() && contact.gap_m < -kDeepest_m;
+      })) {
+    return lead_s;
+  }
+  linkage_.Update(posture_, state_.steer_rad);
+  contacts_.Update(linkage_, reach_m);
+  return 0.0;
+}
+
 double QuasiStaticRover::StretchTime_s(const messages::PerWheel<double>& rate_rad_s) const {
   double rate = 0.0;
   for (const double wheel_rate : rate_rad_s) rate = std::max(rate, std::abs(wheel_rate));
@@ -135,16 +189,21 @@ double QuasiStaticRover::StretchTime_s(const messages::PerWheel<double>& rate_ra
 }
 
 void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
+  const bool same_drive =
+      stretch_.rate_rad_s == rate_rad_s && stretch_.steer_rad == state_.steer_rad;
   stretch_.from = posture_;
   stretch_.duration_s = StretchTime_s(rate_rad_s);
   stretch_.elapsed_s = 0.0;
   stretch_.rate_rad_s = rate_rad_s;
   stretch_.steer_rad = state_.steer_rad;
-  linkage_.Update(posture_, state_.steer_rad);
-  contacts_.Update(linkage_, params_.quasi_static.settle_distance_m + kReach_m);
-  balance_.Solve(linkage_, posture_, {rate_rad_s, stretch_.duration_s, Freedom::kAll},
-                 contacts_.contacts(), rates_);
-  if (!rates_.allFinite()) throw std::runtime_error("no balance of forces with finite rates");
+  const double lead_s = LookAhead(same_drive ? 0.5 * stretch_.duration_s : 0.0);
+  const bool on_level_ground = OnLevelGround();
+  if (same_drive && steady_ && on_level_ground) {
+    RollOn();
+    return;
+  }
+  Balance({rate_rad_s, stretch_.duration_s, lead_s, Freedom::kAll});
+  steady_ = on_level_ground && IsSteady();
   Limit(stretch_.duration_s, kMostMove * params_.quasi_static.settle_distance_m, kMostTurn_rad,
         rates_);
   stretch_.to = Moved(posture_, rates_, stretch_.duration_s);
@@ -153,11 +212,42 @@ void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
   UpdateForces();
 }
 
+bool QuasiStaticRover::OnLevelGround() const {
+  const std::vector<RestingContact>& contacts = contacts_.contacts();
+  if (contacts.size() != kWheelCount || !terrain_.ground().IsPlane()) return false;
+  return std::all_of(contacts.begin(), contacts.end(), [](const RestingContact& contact) {
+    return contact.IsSoil() && contact.n_W.z() == 1.0;
+  });
+}
+
+// All coordinates but the three in the plane are at rest.
+bool QuasiStaticRover::IsSteady() const {
+  return stretch_.duration_s * std::abs(rates_[2]) < kSteady_m &&
+         stretch_.duration_s * rates_.segment<2>(3).cwiseAbs().maxCoeff() < kSteady_rad &&
+         stretch_.duration_s * rates_.tail<3>().cwiseAbs().maxCoeff() < kSteady_rad;
+}
+
+// On level ground nothing has changed but the heading: the last balance holds in the rover's frame.
+void QuasiStaticRover::RollOn() {
+  const double turn_rad = stretch_.duration_s * rates_[5];
+  const double c = std::cos(turn_rad);
+  const double s = std::sin(turn_rad);
+  rates_.head<2>() = Eigen::Vector2d(c * rates_[0] - s * rates_[1], s * rates_[0] + c * rates_[1]);
+  rates_.segment<3>(2).setZero();
+  rates_.tail<3>().setZero();
+  stretch_.to = Moved(posture_, rates_, stretch_.duration_s);
+  state_.v_WR_m_s = rates_.head<3>();
+  state_.w_WR_rad_s = rates_.segment<3>(3);
+}
+
 void QuasiStaticRover::Step(const messages::WheelCommand& command) {
-  Steer(command.steer_rad);
+  const bool steered = Steer(command.steer_rad);
   const bool turning = std::any_of(command.rate_rad_s.begin(), command.rate_rad_s.end(),
                                    [](double rate) { return rate != 0.0; });
-  if (!turning) return Rest();
+  if (!turning) {
+    if (steered) SteerAtRest();
+    return Rest();
+  }
   if (!Goes(command)) Plan(command.rate_rad_s);
   double left_s = step_s();
   while (stretch_.elapsed_s + left_s >= stretch_.duration_s) {

@@ -20,6 +20,13 @@ class QuasiStaticRover final : public Rover {
   double step_s() const override { return params_.quasi_static.step_s; }
   const truth::RoverState& state() const override { return state_; }
 
+  // Work done so far, for benchmarks.
+  struct Work {
+    std::int64_t balances = 0;
+    std::int64_t iterations = 0;
+  };
+  const Work& work() const { return work_; }
+
  private:
   // A stretch at constant rates.
   struct Stretch {
@@ -31,10 +38,18 @@ class QuasiStaticRover final : public Rover {
     messages::PerWheel<double> steer_rad{};
   };
 
-  void Steer(const messages::PerWheel<double>& wanted_rad);
+  // Turns the steering towards what is wanted; true where it moved.
+  bool Steer(const messages::PerWheel<double>& wanted_rad);
+  void SteerAtRest();
+  void Balance(const QuasiStaticBalance::Drive& drive);
   void Rest();
   bool Goes(const messages::WheelCommand& command) const;
   void Plan(const messages::PerWheel<double>& rate_rad_s);
+  bool OnLevelGround() const;
+  bool IsSteady() const;
+  void RollOn();
+  // Updates linkage and contacts; returns how far ahead.
+  double LookAhead(double lead_s);
   double StretchTime_s(const messages::PerWheel<double>& rate_rad_s) const;
   Posture LiftedPosture(const math::Pose2& X_WR) const;
   void Settle();
@@ -51,6 +66,8 @@ class QuasiStaticRover final : public Rover {
   Posture posture_;
   Stretch stretch_;
   LinkageVector rates_ = LinkageVector::Zero();
+  bool steady_ = false;  // rates_ hold for as long as the ground is level and the drive the same
+  Work work_;
   truth::RoverState state_;
 };
 
