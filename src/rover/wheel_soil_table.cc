@@ -18,10 +18,10 @@ WheelSoilTable::WheelSoilTable(const WheelSoil& soil, double most_N) : most_N_(m
     // The first node stands a little above zero, where the stiffness can be infinite.
     const double root = std::max(i, 1) / static_cast<double>(kIntervals);
     const double load_N = root * root * most_N;
-    const double sinkage_m = soil.Sinkage_m(load_N);
+    const Rut rut = soil.RutUnder(load_N);
     const double scale = i == 0 ? 0.0 : 1.0;
-    nodes_.push_back({scale * sinkage_m, soil.Stiffness_N_m(sinkage_m),
-                      scale * soil.LargestTraction_N(load_N), scale * soil.Resistance_N(load_N),
+    nodes_.push_back({scale * rut.sinkage_m, rut.stiffness_N_m, scale * rut.largest_traction_N,
+                      scale * rut.resistance_N,
                       std::min(soil.ShearRatioOfFullSlip(load_N), kMostRatio)});
   }
 }
