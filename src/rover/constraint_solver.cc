@@ -75,7 +75,11 @@ void ConstraintSolver::Solve(const DofMatrix& mass_inverse,
 }
 
 void ConstraintSolver::Start(const DofMatrix& mass_inverse, Row& row) {
-  row.response.noalias() = mass_inverse * row.J;
+  // Of the 16 entries of J a contact uses six and those of the joints that carry its part.
+  row.response.setZero();
+  for (int dof = 0; dof < kDof; ++dof) {
+    if (row.J[dof] != 0.0) row.response += row.J[dof] * mass_inverse.col(dof);
+  }
   row.diagonal = row.J.dot(row.response) + row.softness;
   if (row.rock != nullptr) {
     row.diagonal += row.direction_W.head<2>().squaredNorm() / row.rock->mass_kg;

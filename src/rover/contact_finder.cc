@@ -153,6 +153,14 @@ void ContactFinder::MeetWalls(int index, const math::Transform& X_WB) {
   }
 }
 
+bool ContactFinder::AreApart(const Part& part, const math::Transform& X_WB,
+                             const SurfacePoint& surface) {
+  const Vector3 n_B = X_WB.linear().transpose() * surface.normal_W;
+  const double least_m =
+      LeastAlong(part, n_B) + surface.normal_W.dot(X_WB.translation() - surface.point_W);
+  return least_m - part.margin_m > kFollowedGap_m;
+}
+
 void ContactFinder::MeetRock(int index, const math::Transform& X_WB, const Vector3& center_W,
                              int rock) {
   const Part& part = parts_[static_cast<std::size_t>(index)];
@@ -165,14 +173,19 @@ void ContactFinder::MeetRock(int index, const math::Transform& X_WB, const Vecto
   bool found = false;
   Contact& contact = Add(index, rock, found);
   const Eigen::Matrix3d R_BW = X_WB.linear().transpose();
-  SurfacePoint surface{contact.near_W, Vector3::UnitZ(), 0.0};
+  SurfacePoint surface{contact.near_W, contact.n_W, 0.0};
   if (!found) surface = ellipsoid.Nearest(center_W);
+  if (!found && AreApart(part, X_WB, surface)) {
+    contacts_.pop_back();
+    return;
+  }
   const int sweeps = found ? kSweeps : kFirstSweeps;
   Vector3 core_W = center_W;
   for (int i = 0; i < sweeps; ++i) {
     core_W = X_WB * NearestOnCore(part, R_BW * (surface.point_W - X_WB.translation()));
     const Vector3 before_W = surface.point_W;
     surface = ellipsoid.Nearest(core_W);
+    if (AreApart(part, X_WB, surface)) break;
     if ((surface.point_W - before_W).squaredNorm() < kConverged_m * kConverged_m) break;
   }
   contact.gap_m = surface.distance_m - part.margin_m;

@@ -58,6 +58,9 @@ class ContactFinder {
   void MeetGround(int index, const math::Transform& X_WB);
   void MeetWalls(int index, const math::Transform& X_WB);
   void MeetRock(int index, const math::Transform& X_WB, const math::Vector3& center_W, int rock);
+  // Whether the plane that touches a rock at that point of its surface keeps the part so far away
+  // that the pair need not be followed.
+  static bool AreApart(const Part& part, const math::Transform& X_WB, const SurfacePoint& surface);
   // Point of a part that reaches farthest against n_W.
   static math::Vector3 Support(const Part& part, const math::Transform& X_WB,
                                const math::Vector3& n_W);

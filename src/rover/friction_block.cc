@@ -11,6 +11,9 @@ constexpr double kTolerance = 1e-9;
 // Never reached: Newton doubles the digits in each iteration.
 constexpr int kMaxIterations = 30;
 
+// Without the care for overflow that std::hypot pays for.
+double Length(const std::array<double, 2>& p) { return std::sqrt(p[0] * p[0] + p[1] * p[1]); }
+
 }  // namespace
 
 void FrictionBlock::Set(double a0, double a1, double a01) {
@@ -30,17 +33,15 @@ std::array<double, 2> FrictionBlock::SolveShifted(const std::array<double, 2>& b
 std::array<double, 2> FrictionBlock::Solve(const std::array<double, 2>& b, double most) {
   if (most <= 0.0) return {0.0, 0.0};
   std::array<double, 2> p = SolveShifted(b);
-  double size = std::hypot(p[0], p[1]);
   for (int i = 0; i < kMaxIterations; ++i) {
+    const double size = Length(p);
     const bool free = shift_ == 0.0 && size <= most;
-    if (free || std::abs(size - most) <= kTolerance * most) break;
+    if (free || std::abs(size - most) <= kTolerance * most) return p;
     const std::array<double, 2> q = SolveShifted(p);
     const double slope = (p[0] * q[0] + p[1] * q[1]) / size;  // -d|p| / ds
     shift_ = std::max(0.0, shift_ + (size / most - 1.0) * size / slope);
     p = SolveShifted(b);
-    size = std::hypot(p[0], p[1]);
   }
-  if (size > most) p = {p[0] * most / size, p[1] * most / size};
   return p;
 }
 

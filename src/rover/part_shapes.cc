@@ -122,4 +122,19 @@ Vector3 NearestOnCore(const Part& part, const Vector3& p_B) {
   return part.a_B;
 }
 
+double LeastAlong(const Part& part, const Vector3& n_B) {
+  switch (part.core) {
+    case Core::kPoint:
+      return n_B.dot(part.a_B);
+    case Core::kSegment:
+      return std::min(n_B.dot(part.a_B), n_B.dot(part.b_B));
+    case Core::kCylinder:
+      return -part.b_B.x() * std::sqrt(n_B.x() * n_B.x() + n_B.z() * n_B.z()) -
+             part.b_B.y() * std::abs(n_B.y());
+    case Core::kBox:
+      return n_B.dot(part.a_B) - n_B.cwiseAbs().dot(part.b_B);
+  }
+  return n_B.dot(part.a_B);
+}
+
 }  // namespace rockyard::rover

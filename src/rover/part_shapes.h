@@ -42,4 +42,7 @@ std::vector<Part> MakeParts(const RoverGeometryParams& params);
 // The point of the core nearest to p, both in the frame of the body.
 math::Vector3 NearestOnCore(const Part& part, const math::Vector3& p_B);
 
+// Smallest n . x over the points x of the core, both in the frame of the body.
+double LeastAlong(const Part& part, const math::Vector3& n_B);
+
 }  // namespace rockyard::rover

@@ -1,0 +1,70 @@
+// What time step and solver sweeps do to the motion: not a matter of speed, but of counters.
+// README.md of src/rover has the table; the first argument is the rate in Hz, the second the
+// sweeps.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "rover_drive.h"
+
+namespace rockyard::rover {
+namespace {
+
+RoverParams ParamsOf(const benchmark::State& bench) {
+  RoverParams params;
+  params.physics.step_s = 1.0 / static_cast<double>(bench.range(0));
+  params.physics.solver_iterations = bench.range(1);
+  return params;
+}
+
+// 14 s straight ahead over four rocks that lift one side at a time, by up to 9 cm.
+void Rocks(benchmark::State& bench) {
+  const RoverParams params = ParamsOf(bench);
+  const terrain::Terrain terrain = FlatTerrain(
+      {MakeRock(0.7, 0.2, 0.0, 0.12, 0.12, 0.05), MakeRock(1.1, -0.2, -0.02, 0.2, 0.15, 0.11),
+       MakeRock(1.6, 0.18, -0.03, 0.15, 0.2, 0.10), MakeRock(2.1, 0.0, -0.05, 0.3, 0.5, 0.09)});
+  const messages::WheelCommand command = Drive(params, 0.15, 0.0);
+  for (auto _ : bench) {
+    const auto rover = MakeRover(params, terrain);
+    rover->Place({});
+    double tilt_rad = 0.0;
+    for (int i = 0; i < static_cast<int>(std::lround(14.0 / rover->step_s())); ++i) {
+      rover->Step(command);
+      tilt_rad = std::max(tilt_rad, math::Tilt(rover->state().X_WR));
+    }
+    const math::Transform& X_WR = rover->state().X_WR;
+    bench.counters["x_m"] = X_WR.translation().x();
+    bench.counters["y_m"] = X_WR.translation().y();
+    bench.counters["heading_deg"] = math::RadToDeg(math::Heading(X_WR));
+    bench.counters["most_tilt_deg"] = math::RadToDeg(tilt_rad);
+  }
+}
+
+// Slip in percent and load of the left front wheel, uphill at 15 deg.
+void Slope(benchmark::State& bench) {
+  const RoverParams params = ParamsOf(bench);
+  const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(15.0), 0.0);
+  const messages::WheelCommand command = Drive(params, 0.15, 0.0);
+  for (auto _ : bench) {
+    const auto rover = MakeRover(params, terrain);
+    rover->Place({});
+    RunFor(*rover, command, 3.0);
+    const math::Vector3 from = rover->state().X_WR.translation();
+    RunFor(*rover, command, 4.0);
+    const double moved_m = (rover->state().X_WR.translation() - from).norm();
+    bench.counters["slip_percent"] = 100.0 * (1.0 - moved_m / 0.6);
+    bench.counters["load_N"] = rover->state().wheel_load_N[0];
+  }
+}
+
+void Grid(benchmark::internal::Benchmark* b) {
+  for (const int rate : {60, 120, 240, 480}) b->Args({rate, 10});
+  for (const int sweeps : {5, 20, 40}) b->Args({60, sweeps});
+  b->Iterations(1)->Unit(benchmark::kMillisecond);
+}
+BENCHMARK(Rocks)->Apply(Grid);
+BENCHMARK(Slope)->Apply(Grid);
+
+}  // namespace
+}  // namespace rockyard::rover
