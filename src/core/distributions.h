@@ -11,7 +11,7 @@ namespace rockyard::core {
 // Uniform on (low, high).
 double SampleUniform(RandomStream& stream, double low, double high);
 
-// Normal by inverse CDF (Boost.Math erf_inv), one uniform.
+// Normal by inverse CDF (Boost.Math erf_inv in double precision), one uniform.
 double SampleNormal(RandomStream& stream, double mean, double standard_deviation);
 
 // Exponential with the given mean.
