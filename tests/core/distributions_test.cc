@@ -8,7 +8,9 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/poisson.hpp>
 #include <boost/math/special_functions/erf.hpp>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <vector>
 
