@@ -40,6 +40,7 @@ class ScriptTest(unittest.TestCase):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(FAKE, encoding="utf-8")
         path.chmod(0o755)
+        return path
 
     def run_script(self, name, *arguments, **environment):
         variables = {**os.environ, "CALLS": str(self.calls), **environment,
@@ -111,7 +112,84 @@ class Quickstart(ScriptTest):
         self.assertEqual(self.calls.read_text(encoding="utf-8"), "")
 
 
+class SameBits(ScriptTest):
+    """With builds that say which trial hash they find."""
+
+    def build(self, level, hash_of="echo 0123456789abcdef"):
+        self.fake(f"build/same_bits/{level}/bin/rockyard").write_text(
+            f"""#!/bin/sh
+echo "rockyard {level} $*" >> "$CALLS"
+[ "$1" = run ] || exit 0
+while [ $# -gt 1 ]; do
+  case "$1" in
+    --out) out=$2 ;;
+    --threads) threads=$2 ;;
+    --set) fidelity=${{2#*=}} ;;
+  esac
+  shift
+done
+mkdir -p "$out"
+echo "  \\"trial_hash\\": \\"$({hash_of})\\"," > "$out/summary.json"
+""", encoding="utf-8")
+
+    def test_equal_hashes_of_both_builds_threads_and_fidelities(self):
+        self.build("O2")
+        self.build("O3")
+        result = self.run_script("same_bits.sh", "--trials", "3", "--jobs", "2")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout.count("0123456789abcdef  same"), 8)
+        runs = [line for line in self.called("rockyard") if " run " in line]
+        self.assertEqual(len(runs), 8)
+        for line in runs:
+            self.assertIn("run scenarios/pathfinder/nominal.json", line)
+            self.assertIn("--trials 3", line)
+        flags = [line for line in self.called("cmake") if line.startswith("-S")]
+        self.assertIn('-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG -w', flags[0])
+        self.assertIn('-DCMAKE_CXX_FLAGS_RELEASE=-O3 -DNDEBUG -w', flags[1])
+
+    def test_another_level_or_number_of_threads_that_differs_fails(self):
+        for hash_of in ('[ "$fidelity" = quasi_static ] && echo 1 || echo 2',
+                        'echo "$threads"', 'echo $$'):
+            with self.subTest(hash_of=hash_of):
+                self.build("O2")
+                self.build("O3", hash_of)
+                result = self.run_script("same_bits.sh")
+                self.assertEqual(result.returncode, 1)
+                self.assertIn("DIFFERS", result.stdout)
+
+    def test_fidelities_need_not_agree(self):
+        for level in ("O2", "O3"):
+            self.build(level, '[ "$fidelity" = quasi_static ] && echo 1 || echo 2')
+        self.assertEqual(self.run_script("same_bits.sh").returncode, 0)
+
+    def test_a_failed_run_ends_with_its_code(self):
+        self.fake("build/same_bits/O2/bin/rockyard")
+        self.fake("build/same_bits/O3/bin/rockyard")
+        self.assertEqual(self.run_script("same_bits.sh", RUN_CODE="3").returncode, 3)
+
+    def test_a_run_without_a_hash_is_no_agreement(self):
+        for level in ("O2", "O3"):
+            self.build(level, "true")
+        self.assertEqual(self.run_script("same_bits.sh").returncode, 1)
+
+    def test_unknown_option_runs_nothing(self):
+        self.assertEqual(self.run_script("same_bits.sh", "--fast").returncode, 2)
+        self.assertEqual(self.calls.read_text(encoding="utf-8"), "")
+
+
 class TestScript(ScriptTest):
+    def setUp(self):
+        super().setUp()
+        self.fake("scripts/same_bits.sh")
+
+    def test_builds_are_compared_unless_only_other_tests_are_asked_for(self):
+        for arguments, times in (([], 1), (["--label", "determinism"], 1), (["--quick"], 0),
+                                 (["--label", "unit"], 0), (["--preset", "asan"], 0)):
+            with self.subTest(arguments=arguments):
+                self.calls.write_text("", encoding="utf-8")
+                self.run_script("test.sh", "--jobs", "2", *arguments)
+                self.assertEqual(self.called("same_bits.sh"), ["--jobs 2"] * times)
+
     def test_everything_by_default(self):
         self.assertEqual(self.run_script("test.sh", "--jobs", "2").returncode, 0)
         self.assertEqual(self.called("install_dependencies.sh"), ["build test"])
