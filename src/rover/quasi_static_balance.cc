@@ -109,7 +109,7 @@ void QuasiStaticBalance::SetTraction(const RestingContact& contact, Row& row) co
     row.most_N = std::min(soil.traction_N, stall_force_N_);
     row.shear_ratio = soil.shear_ratio;
     row.resistance_N = soil.resistance_N;
-  } else if (contact.IsWheel()) {
+  } else if (contact.IsWheel() && contact.other >= 0) {
     row.most_N = std::min(contact_params_.wheel_rock_friction * load_N, stall_force_N_);
   } else {
     row.most_N = contact_params_.body_rock_friction * load_N;
@@ -139,7 +139,7 @@ void QuasiStaticBalance::AddForces(const LinkageVector& rates, RestingContact& c
     contact.load_N = 0.0;
     return;
   }
-  if (!first_) FollowLoad(contact, row);
+  if (contact.load_N > 0.0) FollowLoad(contact, row);
   const double k_n = step_s_ * row.stiffness_N_m;
   if (row.most_N == 0.0) {
     equations_.AddForce(row.side, contact.load_N * row.normal);
@@ -215,6 +215,17 @@ void QuasiStaticBalance::FollowLoad(RestingContact& contact, Row& row) {
   traction_changed_ = true;
 }
 
+// A last small change moves the loads along the springs; the tractions stay.
+void QuasiStaticBalance::Finish(const LinkageVector& change,
+                                std::vector<RestingContact>& contacts) const {
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (contacts[i].load_N <= 0.0) continue;
+    const double depth_m = -step_s_ * rows_[i].normal.dot(OfSide(change, rows_[i].side));
+    contacts[i].load_N = std::max(0.0, contacts[i].load_N + rows_[i].stiffness_N_m * depth_m);
+    contacts[i].traction_load_N = contacts[i].load_N;
+  }
+}
+
 int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, const Drive& drive,
                               std::vector<RestingContact>& contacts, LinkageVector& rates) {
   rim_speed_m_s_ = drive.freedom == Freedom::kSettling ? 0.0 : kLeastReference * speed_m_s_;
@@ -234,27 +245,30 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
     SetTraction(contact, rows_[i]);
   }
   first_ = true;
-  tangent_ = false;
+  tangent_ = drive.lead_s > 0.0;  // the last rates are a good start
   Evaluate(rates, contacts);
   first_ = false;
   for (int iteration = 1; iteration < kMostIterations; ++iteration) {
     LinkageVector change = equations_.Solve();
     const double drop = equations_.force().dot(change);
-    const bool small = IsSmall(change, kTolerance * speed_m_s_);
-    tangent_ = IsSmall(change, kTangentRange * rim_speed_m_s_);
+    if (tangent_ && !traction_changed_ && IsSmall(change, kTolerance * speed_m_s_)) {
+      rates += change;
+      Finish(change, contacts);
+      return iteration;
+    }
+    tangent_ = IsSmall(change, kTangentRange * speed_m_s_);
     LinkageVector next = rates + change;
     Evaluate(next, contacts);
     // With its tractions given, the function is convex: where its slope along the change has
     // turned, the minimum lies before.
-    for (int cut = 0; cut < kMostCuts && !small; ++cut) {
+    for (int cut = 0; cut < kMostCuts; ++cut) {
       const double slope = equations_.force().dot(change);
-      if (slope > -kOvershoot * drop) break;
+      if (slope >= -kOvershoot * drop) break;
       change *= drop / (drop - slope);
       next = rates + change;
       Evaluate(next, contacts);
     }
     rates = next;
-    if (small && !traction_changed_) return iteration;
   }
   return kMostIterations;
 }

@@ -91,6 +91,7 @@ class QuasiStaticBalance {
   void FollowLoad(RestingContact& contact, Row& row);
   void AddResistance(const Row& row, const SideVector& rates);
   void AddStops(const LinkageVector& rates);
+  void Finish(const LinkageVector& change, std::vector<RestingContact>& contacts) const;
   bool IsSmall(const LinkageVector& change, double speed_m_s) const;
 
   const RoverContactParams contact_params_;

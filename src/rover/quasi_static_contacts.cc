@@ -29,6 +29,22 @@ double LowestPoint(const Part& part, const Linkage::Frame& frame) {
   return frame.p_WB.z() + std::min(a_m, b_m) - part.margin_m;
 }
 
+// How far a part extends from its centre along n.
+double Extent(const Part& part, const Linkage::Frame& frame, const Vector3& n_W) {
+  const Vector3 n_B = frame.R_WB.transpose() * n_W;
+  const double core_m = part.core == Core::kBox ? n_B.cwiseAbs().dot(part.b_B)
+                                                : 0.5 * std::abs(n_B.dot(part.b_B - part.a_B));
+  return core_m + part.margin_m;
+}
+
+// No more than the gap between a part and a rock: that along one direction.
+double Separation(const Part& part, const Linkage::Frame& frame, const Vector3& center_W,
+                  const RockSupport& rock) {
+  const Vector3 n_W = GuessNormal(center_W, rock);
+  return n_W.dot(center_W - rock.center_W) - std::sqrt(n_W.dot(rock.S_m2 * n_W)) -
+         Extent(part, frame, n_W);
+}
+
 }  // namespace
 
 QuasiStaticContacts::QuasiStaticContacts(const RoverGeometryParams& params,
@@ -63,6 +79,7 @@ void QuasiStaticContacts::Update(const Linkage& linkage, double reach_m) {
   Gather(linkage.chassis().p_WB);
   for (std::size_t wheel = 0; wheel < messages::kWheelCount; ++wheel) {
     MeetGround(linkage, wheel, reach_m);
+    MeetWalls(linkage, wheel, reach_m);
     for (NearRock& rock : rocks_) MeetRock(linkage, wheel, reach_m, rock);
   }
   MeetBody(linkage, reach_m);
@@ -80,18 +97,23 @@ void QuasiStaticContacts::Add(const RestingContact& contact) {
   }
 }
 
-// The lowest point of the rounded cylinder, moved across the rim in proportion to the tilt: see
-// ContactFinder.
+// The point of the rounded cylinder that is first along -n, moved across the rim in proportion to
+// the tilt: see ContactFinder::Support.
+Vector3 QuasiStaticContacts::WheelSupport(const Linkage& linkage, std::size_t wheel,
+                                          const Vector3& n_W) const {
+  const Vector3 axle_W = linkage.axle_W(wheel);
+  const double tilt = -n_W.dot(axle_W);
+  const Vector3 down_W = -n_W - tilt * axle_W;  // in the plane of the rim
+  const double across_m = wheel_.core_half_width_m * std::clamp(tilt / kEdgeTilt, -1.0, 1.0);
+  return linkage.wheel_W(wheel) + across_m * axle_W +
+         wheel_.core_radius_m / std::max(down_W.norm(), kEdgeTilt) * down_W - wheel_.margin_m * n_W;
+}
+
 void QuasiStaticContacts::MeetGround(const Linkage& linkage, std::size_t wheel, double reach_m) {
   const Vector3& center_W = linkage.wheel_W(wheel);
   const terrain::Ground& ground = terrain_.ground();
   const Vector3 n_W = ground.Normal(center_W.x(), center_W.y());
-  const Vector3 axle_W = linkage.axle_W(wheel);
-  const double tilt = -n_W.dot(axle_W);
-  const Vector3 down_W = (-n_W - tilt * axle_W).normalized();
-  const Vector3 p_W = center_W +
-                      wheel_.core_half_width_m * std::clamp(tilt / kEdgeTilt, -1.0, 1.0) * axle_W +
-                      wheel_.core_radius_m * down_W - wheel_.margin_m * n_W;
+  const Vector3 p_W = WheelSupport(linkage, wheel, n_W);
   const double gap_m = (p_W.z() - ground.Height(p_W.x(), p_W.y())) * n_W.z();
   if (gap_m > reach_m) return;
   Add({.part = static_cast<int>(wheel),
@@ -100,6 +122,22 @@ void QuasiStaticContacts::MeetGround(const Linkage& linkage, std::size_t wheel, 
        .gap_m = gap_m,
        .p_W = p_W,
        .n_W = n_W});
+}
+
+void QuasiStaticContacts::MeetWalls(const Linkage& linkage, std::size_t wheel, double reach_m) {
+  const auto walls = terrain_.walls();
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const Vector3 n_W = -walls[i].normal_W;
+    const Vector3 p_W = WheelSupport(linkage, wheel, n_W);
+    const double gap_m = walls[i].offset_m + n_W.dot(p_W);
+    if (gap_m > reach_m) continue;
+    Add({.part = static_cast<int>(wheel),
+         .other = kFirstWall - static_cast<int>(i),
+         .body = kFirstWheel + static_cast<int>(wheel),
+         .gap_m = gap_m,
+         .p_W = p_W,
+         .n_W = n_W});
+  }
 }
 
 void QuasiStaticContacts::MeetRock(const Linkage& linkage, std::size_t wheel, double reach_m,
@@ -146,10 +184,9 @@ void QuasiStaticContacts::MeetPart(const Linkage& linkage, std::size_t index, do
   const Linkage::Frame& frame = linkage.body(part.body);
   if (LowestPoint(part, frame) - rock.support.top_W_m > reach_m) return;
   const Vector3 center_W = frame.p_WB + frame.R_WB * part.center_B;
-  const double near_m = part.bounding_radius_m + reach_m;
-  const double far_m = near_m + rock.support.bounding_radius_m;
+  const double far_m = part.bounding_radius_m + reach_m + rock.support.bounding_radius_m;
   if ((center_W - rock.support.center_W).squaredNorm() > far_m * far_m) return;
-  if (rock.ellipsoid.DistanceBound(center_W) > near_m) return;
+  if (Separation(part, frame, center_W, rock.support) > reach_m) return;
   SurfacePoint surface = rock.ellipsoid.Nearest(center_W);
   Vector3 core_W = center_W;
   for (int i = 0; i < kSweeps; ++i) {

@@ -55,6 +55,9 @@ class QuasiStaticContacts {
   };
 
   void Gather(const math::Vector3& p_WR);
+  math::Vector3 WheelSupport(const Linkage& linkage, std::size_t wheel,
+                             const math::Vector3& n_W) const;
+  void MeetWalls(const Linkage& linkage, std::size_t wheel, double reach_m);
   void MeetGround(const Linkage& linkage, std::size_t wheel, double reach_m);
   void MeetRock(const Linkage& linkage, std::size_t wheel, double reach_m, NearRock& rock);
   void MeetBody(const Linkage& linkage, double reach_m);

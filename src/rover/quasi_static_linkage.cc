@@ -52,6 +52,7 @@ Posture Between(const Posture& from, const Posture& to, double share) {
 }
 
 Linkage::Linkage(const RoverParams& params) {
+  steer_.fill(Eigen::Vector2d::UnitX());
   const RoverGeometry geometry = MakeRoverGeometry(params.geometry);
   const RoverMassParams& mass = params.mass;
   const double g = params.physics.gravity_m_s2;
@@ -105,10 +106,12 @@ void Linkage::Update(const Posture& posture, const messages::PerWheel<double>& s
       const Frame& carrier = on_bogie_[i] ? bogie : rocker;
       Frame& wheel = bodies_[kFirstWheel + i];
       wheel.p_WB = carrier.p_WB + carrier.R_WB * wheel_from_pivot_[i];
-      const double c = std::cos(steer_rad[i]);
-      const double s = std::sin(steer_rad[i]);
-      wheel.R_WB.col(0) = c * carrier.R_WB.col(0) + s * carrier.R_WB.col(1);
-      wheel.R_WB.col(1) = c * carrier.R_WB.col(1) - s * carrier.R_WB.col(0);
+      if (steer_rad[i] != steer_rad_[i]) {
+        steer_rad_[i] = steer_rad[i];
+        steer_[i] = Eigen::Vector2d(std::cos(steer_rad[i]), std::sin(steer_rad[i]));
+      }
+      wheel.R_WB.col(0) = steer_[i].x() * carrier.R_WB.col(0) + steer_[i].y() * carrier.R_WB.col(1);
+      wheel.R_WB.col(1) = steer_[i].x() * carrier.R_WB.col(1) - steer_[i].y() * carrier.R_WB.col(0);
       wheel.R_WB.col(2) = carrier.R_WB.col(2);
     }
   }

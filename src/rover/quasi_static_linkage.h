@@ -87,6 +87,8 @@ class Linkage {
   messages::PerWheel<bool> on_bogie_;
   std::array<Lump, 5> lumps_;
   double weight_N_;
+  messages::PerWheel<double> steer_rad_{};
+  messages::PerWheel<Eigen::Vector2d> steer_;  // cosine and sine
   Frame chassis_;
   std::array<Frame, kJoints> bodies_;
 };

@@ -13,7 +13,7 @@ using math::Vector3;
 using messages::kWheelCount;
 
 // Contacts are looked for this far beyond what a wheel travels in one stretch, m.
-constexpr double kReach_m = 0.01;
+constexpr double kReach_m = 0.005;
 // Longest movement of R's origin and largest turn in one stretch, as multiples of what the wheels
 // would do: a rover that falls does so in several stretches.
 constexpr double kMostMove = 2.0;
@@ -164,9 +164,9 @@ bool QuasiStaticRover::Goes(const messages::WheelCommand& command) const {
 
 // Finds the contacts half a step ahead, or those of now where the way there leads into a rock.
 double QuasiStaticRover::LookAhead(double lead_s) {
-  const double reach_m = params_.quasi_static.settle_distance_m + kReach_m;
+  const double way_m = params_.quasi_static.settle_distance_m;
   linkage_.Update(Moved(posture_, rates_, lead_s), state_.steer_rad);
-  contacts_.Update(linkage_, reach_m);
+  contacts_.Update(linkage_, kReach_m + (lead_s > 0.0 ? 0.5 : 1.0) * way_m);
   const std::vector<RestingContact>& contacts = contacts_.contacts();
   if (lead_s == 0.0 ||
       std::none_of(contacts.begin(), contacts.end(), [](const RestingContact& contact) {
@@ -175,7 +175,7 @@ double QuasiStaticRover::LookAhead(double lead_s) {
     return lead_s;
   }
   linkage_.Update(posture_, state_.steer_rad);
-  contacts_.Update(linkage_, reach_m);
+  contacts_.Update(linkage_, kReach_m + way_m);
   return 0.0;
 }
 

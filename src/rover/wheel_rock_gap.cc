@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rockyard::rover {
 namespace {
@@ -30,6 +31,8 @@ struct Pair {
 // the derivative of the smooth part of f along the axle.
 double AlignInPlane(const Pair& pair, Vector3& n) {
   n -= n.dot(pair.axle_W) * pair.axle_W;
+  // Nothing is left of the normal of a side face: any direction starts as well.
+  if (n.squaredNorm() < 1e-6) n = pair.axle_W.unitOrthogonal();
   n.normalize();
   for (int i = 0; i < kMostIterations; ++i) {
     const Vector3 e = pair.axle_W.cross(n);
@@ -58,6 +61,9 @@ bool TouchesFace(const Pair& pair, const Vector3& face_W) {
 
 // On an edge of the rim: both angles of n.
 void AlignOnEdge(const Pair& pair, Vector3& n) {
+  Vector3 last = n;
+  Vector3 move = Vector3::Zero();
+  double last_f = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMostIterations; ++i) {
     const double t = n.dot(pair.axle_W);
     const double sine = std::max(std::sqrt(std::max(1.0 - t * t, 0.0)), kLeastSine);
@@ -69,6 +75,13 @@ void AlignOnEdge(const Pair& pair, Vector3& n) {
     const Vector3 gradient =
         pair.offset_W - Sn / D - pair.core_radius_m / sine * (n - t * pair.axle_W);
     const double f = n.dot(gradient) - pair.margin_m;
+    if (f < last_f) {  // too far: near a side face the curvature changes quickly
+      move *= 0.5;
+      n = (last + move).normalized();
+      continue;
+    }
+    last = n;
+    last_f = f;
     const double bSn = b.dot(Sn);
     const double eSn = e.dot(Sn);
     const double D3 = D * D * D;
@@ -87,8 +100,8 @@ void AlignOnEdge(const Pair& pair, Vector3& n) {
       step_b *= kLongestStep_rad / size;
       step_e *= kLongestStep_rad / size;
     }
-    n += step_b * b + step_e * e;
-    n.normalize();
+    move = step_b * b + step_e * e;
+    n = (last + move).normalized();
     if (size < kConverged_rad) break;
   }
 }
@@ -139,7 +152,8 @@ WheelRockGap FindGap(const WheelShape& wheel, const Vector3& center_W, const Vec
     const double across_m = pull_m > 0.0 ? -wheel.core_half_width_m : wheel.core_half_width_m;
     pair.offset_W += across_m * axle_W;
     const Vector3 face_W = pull_m > 0.0 ? axle_W : Vector3(-axle_W);
-    if (TouchesFace(pair, face_W)) {
+    const double before_m = Separation(wheel, offset_W, axle_W, rock, n);
+    if (TouchesFace(pair, face_W) && Separation(wheel, offset_W, axle_W, rock, face_W) > before_m) {
       n = face_W;
     } else {
       AlignOnEdge(pair, n);

@@ -1,0 +1,293 @@
+// The quasi-static rover against closed forms.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "rover/wheel_soil.h"
+#include "rover_drive.h"
+
+namespace rockyard::rover {
+namespace {
+
+using truth::BodyPart;
+
+constexpr double kUphill = 0.0;
+constexpr double kLeftUp = std::numbers::pi / 2;
+
+RoverParams QuasiStatic() {
+  RoverParams params;
+  params.fidelity = Fidelity::kQuasiStatic;
+  return params;
+}
+
+double Sum(const messages::PerWheel<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return sum;
+}
+
+TEST(QuasiStaticLevel, WheelsBearTheWeightAndSinkAsTheSoilSays) {
+  const RoverParams params = QuasiStatic();
+  const terrain::Terrain terrain = FlatTerrain();
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({1.0, 2.0, 0.5});
+  const truth::RoverState& state = rover->state();
+  EXPECT_NEAR(Sum(state.wheel_load_N), Weights(params).total_N, 0.01);
+  EXPECT_NEAR(math::Heading(state.X_WR), 0.5, 1e-6);
+  EXPECT_NEAR(state.X_WR.translation().x(), 1.0, 1e-6);
+  // All wheels carry about a sixth: R's origin sinks by the sinkage under it and the contact's own
+  // spring.
+  const double load_N = Weights(params).total_N / 6.0;
+  const WheelSoil soil(terrain.ground().soil(), params.geometry.wheel_radius_m,
+                       params.geometry.wheel_width_m);
+  const double depth_m = soil.Sinkage_m(load_N) + load_N / params.contact.stiffness_N_m;
+  EXPECT_NEAR(state.X_WR.translation().z(), -depth_m, 2e-4);
+}
+
+// Levers about the bogie pivots: equal arms share a bogie's load equally.
+TEST(QuasiStaticLevel, BogieSharesItsLoadByLevers) {
+  const RoverParams params = QuasiStatic();
+  const terrain::Terrain terrain = FlatTerrain();
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  const messages::PerWheel<double>& load_N = rover->state().wheel_load_N;
+  EXPECT_NEAR(load_N[0], load_N[1], 0.1);
+  EXPECT_NEAR(load_N[0], load_N[3], 1e-3);
+  // Moments about the rocker pivot: bogie pivot and rear wheel, less what hangs there itself.
+  const RoverGeometry geometry = MakeRoverGeometry(params.geometry);
+  const Weights weights(params);
+  const double pivot_x = geometry.rocker_pivot_R[0].x();
+  const double bogie_N = load_N[0] + load_N[1] - 2.0 * weights.wheel_N - weights.bogie_N;
+  const double rear_N = load_N[2] - weights.wheel_N;
+  // The rockers are held level by each other: the moments of both sides are equal, not zero. The
+  // chassis' own moment about the pivots closes the balance.
+  const double moment_Nm = 2.0 * (bogie_N * (geometry.bogie_pivot_R[0].x() - pivot_x) +
+                                  rear_N * (geometry.wheel_R[2].x() - pivot_x));
+  EXPECT_NEAR(moment_Nm, weights.chassis_N * (params.mass.chassis_com_x_m - pivot_x), 0.05);
+}
+
+// 1 - v / (omega r) is the slip at which the soil mobilizes slope and motion resistance.
+TEST(QuasiStaticSlope, SlipFollowsTheSoil) {
+  for (const double slope_deg : {0.0, 5.0, 10.0, 15.0}) {
+    const RoverParams params = QuasiStatic();
+    const double slope = math::DegToRad(slope_deg);
+    const terrain::Terrain terrain = SlopeTerrain(slope, kUphill);
+    const auto rover = MakeRover(params, terrain);
+    rover->Place({});
+    const messages::WheelCommand command = Drive(params, 0.15, 0.0);
+    RunFor(*rover, command, 2.0);
+    const math::Vector3 from = rover->state().X_WR.translation();
+    RunFor(*rover, command, 4.0);
+    const double slip = 1.0 - (rover->state().X_WR.translation() - from).norm() / 0.6;
+    // Every wheel slips by as much, so the tractions at that slip must carry the weight downhill
+    // and the resistance.
+    const WheelSoil soil(terrain.ground().soil(), params.geometry.wheel_radius_m,
+                         params.geometry.wheel_width_m);
+    double traction_N = 0.0;
+    double resistance_N = 0.0;
+    for (const double load_N : rover->state().wheel_load_N) {
+      traction_N += soil.LargestTraction_N(load_N) * soil.TractionShare(slip, load_N);
+      resistance_N += soil.Resistance_N(load_N);
+    }
+    const double needed_N = Weights(params).total_N * std::sin(slope) + resistance_N;
+    EXPECT_NEAR(traction_N, needed_N, 0.02 * needed_N) << slope_deg;
+    EXPECT_NEAR(Sum(rover->state().wheel_load_N), Weights(params).total_N * std::cos(slope), 0.1);
+  }
+}
+
+// Beyond what a slip of 1 mobilizes the wheels turn on the spot or the rover slides back.
+TEST(QuasiStaticSlope, SteepSandIsNotClimbed) {
+  const RoverParams params = QuasiStatic();
+  const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(28.0), kUphill);
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  RunFor(*rover, Drive(params, 0.15, 0.0), 5.0);
+  EXPECT_LT(rover->state().X_WR.translation().x(), 0.05);
+  EXPECT_NEAR(rover->state().wheel_angle_rad[0] * params.geometry.wheel_radius_m, 0.75, 0.01);
+}
+
+TEST(QuasiStaticSlope, TipsOverSidewaysAtTheStaticAngle) {
+  const RoverParams params = QuasiStatic();
+  const double height = Weights(params).com_z_m;
+  const double middle_y = 0.5 * (params.geometry.width_m - params.geometry.wheel_width_m);
+  const double edge_y = 0.5 * params.geometry.width_m;
+  const auto tilt_after = [&](double slope) {
+    terrain::GroundParams ground;
+    ground.slope_rad = slope;
+    ground.slope_direction_rad = kLeftUp;
+    ground.soil = terrain::MakeSoil(terrain::SoilPreset::kHardGround);
+    ground.soil.friction_angle_rad = math::DegToRad(60.0);  // holds until it tips
+    const terrain::Terrain terrain(terrain::Ground(ground, {}), {}, {});
+    const auto rover = MakeRover(params, terrain);
+    rover->Place({});
+    RunFor(*rover, Drive(params, 0.15, 0.0), 2.0);
+    return math::Tilt(rover->state().X_WR) - slope;
+  };
+  EXPECT_LT(std::abs(tilt_after(std::atan(middle_y / height) - math::DegToRad(2.0))),
+            math::DegToRad(3.0));
+  EXPECT_GT(tilt_after(std::atan(edge_y / height) + math::DegToRad(2.0)), math::DegToRad(15.0));
+}
+
+TEST(QuasiStaticDrive, TurnsInPlaceAboutItsCentre) {
+  const RoverParams params = QuasiStatic();
+  const terrain::Terrain terrain = FlatTerrain();
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  const messages::WheelCommand command = Drive(params, 0.0, 0.4);
+  RunFor(*rover, SteerOnly(command), 1.0);
+  RunFor(*rover, command, 3.0);
+  const math::Transform& X = rover->state().X_WR;
+  EXPECT_LT(X.translation().head<2>().norm(), 0.005);
+  // Every wheel rolls along its own circle and slips by what its motion resistance asks for.
+  const WheelSoil soil(terrain.ground().soil(), params.geometry.wheel_radius_m,
+                       params.geometry.wheel_width_m);
+  const double load_N = Weights(params).total_N / 6.0;
+  const double slip = soil.Slip(soil.Resistance_N(load_N) / soil.LargestTraction_N(load_N), load_N);
+  EXPECT_NEAR(math::Heading(X), 1.2 * (1.0 - slip), 0.01);
+}
+
+TEST(QuasiStaticDrive, FollowsTheArcOfItsSteering) {
+  const RoverParams params = QuasiStatic();
+  const terrain::Terrain terrain = FlatTerrain();
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  const messages::WheelCommand command = Drive(params, 0.1, 0.1);  // radius 1 m
+  RunFor(*rover, SteerOnly(command), 1.0);
+  RunFor(*rover, command, 10.0);
+  const math::Transform& X = rover->state().X_WR;
+  // The chord of an arc: sin(heading / 2) = chord / (2 R).
+  const double radius_m =
+      X.translation().head<2>().norm() / (2.0 * std::sin(0.5 * math::Heading(X)));
+  EXPECT_NEAR(radius_m, 1.0, 0.02);
+}
+
+// Wheels over a low rock on one side: the wheel centre rises to the rock's top plus the radius less
+// the sinkage, and the bogie's angle follows from its length.
+TEST(QuasiStaticRock, BogieAngleFromGeometry) {
+  const RoverParams params = QuasiStatic();
+  const double top_m = 0.05;
+  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.26, 0.2, 0.0, 0.1, 0.1, top_m)});
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  const RoverGeometry geometry = MakeRoverGeometry(params.geometry);
+  const double length_m = geometry.wheel_R[0].x() - geometry.wheel_R[1].x();
+  const truth::RoverState& state = rover->state();
+  // Pitch of the bogie in W: chassis, rocker and bogie about the same axis.
+  const double bogie_rad = Pitch(state.X_WR) + state.left_rocker_rad + state.left_bogie_rad;
+  EXPECT_NEAR(bogie_rad, -std::asin(top_m / length_m), math::DegToRad(1.0));
+  EXPECT_NEAR(state.left_rocker_rad + state.right_rocker_rad, 0.0, 1e-12);
+}
+
+TEST(QuasiStaticRock, LowerThanTheBellyPassesBetweenTheWheels) {
+  const RoverParams params = QuasiStatic();
+  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.1, 0.1, 0.12)});
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  const messages::WheelCommand command = Drive(params, 0.15, 0.0);
+  for (int i = 0; i < 200; ++i) {
+    rover->Step(command);
+    EXPECT_TRUE(rover->state().contacts.empty());
+  }
+  EXPECT_GT(rover->state().X_WR.translation().x(), 1.3);
+}
+
+TEST(QuasiStaticRock, TallerThanTheBellyBlocksItUntilItBacksOff) {
+  const RoverParams params = QuasiStatic();
+  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.12, 0.12, 0.2)});
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  RunFor(*rover, Drive(params, 0.15, 0.0), 10.0);
+  const truth::RoverState& state = rover->state();
+  EXPECT_LT(state.X_WR.translation().x(), 0.5);
+  ASSERT_EQ(state.contacts.size(), 1U);
+  EXPECT_EQ(state.contacts[0].part, BodyPart::kBelly);
+  EXPECT_EQ(state.contacts[0].rock, 0);
+  EXPECT_GT(state.contacts[0].normal_force_N, 50.0);
+  const double blocked_x = state.X_WR.translation().x();
+  RunFor(*rover, Drive(params, -0.15, 0.0), 1.0);
+  EXPECT_LT(rover->state().X_WR.translation().x(), blocked_x - 0.1);
+}
+
+TEST(QuasiStaticRock, UnderTheBellyScrapesAndLiftsIt) {
+  const RoverParams params = QuasiStatic();
+  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.12, 0.08, 0.137)});
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  bool scraped = false;
+  for (int i = 0; i < 140; ++i) {
+    rover->Step(Drive(params, 0.15, 0.0));
+    for (const truth::BodyContact& contact : rover->state().contacts) {
+      scraped |= contact.part == BodyPart::kBelly && contact.sliding_speed_m_s > 0.05;
+    }
+  }
+  EXPECT_TRUE(scraped);
+}
+
+TEST(QuasiStaticRock, HighCentresTheRoverPlacedOnIt) {
+  const RoverParams params = QuasiStatic();
+  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.0, 0.0, 0.0, 0.2, 0.16, 0.18)});
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  RunFor(*rover, Drive(params, 0.15, 0.0), 10.0);
+  const truth::RoverState& state = rover->state();
+  const auto belly =
+      std::find_if(state.contacts.begin(), state.contacts.end(),
+                   [](const truth::BodyContact& c) { return c.part == BodyPart::kBelly; });
+  ASSERT_NE(belly, state.contacts.end());
+  EXPECT_GT(belly->normal_force_N, 0.5 * Weights(params).total_N);
+  EXPECT_LT(state.X_WR.translation().head<2>().norm(), 0.1);
+  EXPECT_GT(state.wheel_angle_rad[1], 20.0);
+}
+
+TEST(QuasiStaticRock, TwoRocksJamTheRover) {
+  RoverParams params = QuasiStatic();
+  params.contact.wheel_rock_friction = 0.3;
+  const terrain::Terrain terrain = FlatTerrain(
+      {MakeRock(0.7, 0.33, 0.0, 0.15, 0.15, 0.5), MakeRock(0.7, -0.33, 0.0, 0.15, 0.15, 0.5)});
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  RunFor(*rover, Drive(params, 0.15, 0.0), 10.0);
+  EXPECT_LT(rover->state().X_WR.translation().x(), 0.5);
+  EXPECT_LT(rover->state().v_WR_m_s.norm(), 0.01);
+}
+
+TEST(QuasiStaticWall, StopsTheRover) {
+  const RoverParams params = QuasiStatic();
+  const terrain::Terrain terrain = FlatTerrain({}, {{math::Vector3::UnitX(), 0.8}});
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  RunFor(*rover, Drive(params, 0.15, 0.0), 6.0);
+  EXPECT_NEAR(rover->state().X_WR.translation().x(), 0.8 - 0.5 * params.geometry.length_m, 0.01);
+}
+
+// A wheel that is steered into a rock while the rover stands pushes the rover away.
+TEST(QuasiStaticRock, SteeringAtRestLeavesNoWheelInsideARock) {
+  const RoverParams params = QuasiStatic();
+  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.30, -0.345, 0.1, 0.1, 0.1, 0.3)});
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  const math::Vector3 before = rover->state().X_WR.translation();
+  RunFor(*rover, SteerOnly(Drive(params, 0.0, -0.4)), 1.0);
+  EXPECT_GT((rover->state().X_WR.translation() - before).norm(), 0.001);
+}
+
+TEST(QuasiStatic, EqualCallsGiveEqualBits) {
+  const RoverParams params = QuasiStatic();
+  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.5, 0.2, 0.0, 0.1, 0.08, 0.07)});
+  const auto drive = [&] {
+    const auto rover = MakeRover(params, terrain);
+    rover->Place({0.0, 0.01, 0.1});
+    RunFor(*rover, Drive(params, 0.15, 0.05), 8.0);
+    return rover->state();
+  };
+  const truth::RoverState a = drive();
+  const truth::RoverState b = drive();
+  EXPECT_TRUE(a.X_WR.matrix() == b.X_WR.matrix());
+  EXPECT_EQ(a.wheel_load_N, b.wheel_load_N);
+  EXPECT_EQ(a.wheel_angle_rad, b.wheel_angle_rad);
+}
+
+}  // namespace
+}  // namespace rockyard::rover
