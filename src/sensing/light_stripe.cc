@@ -23,6 +23,11 @@ Vector3 ScanlineNormal(const messages::StripeCamera& camera, double row_angle_ra
   return camera.X_RC.linear() * Vector3(std::sin(row_angle_rad), 0.0, std::cos(row_angle_rad));
 }
 
+// Distance along a falling line to a height in R, 0 where it starts below.
+double DistanceDownTo(double z_m, const Vector3& start_R, const Vector3& direction_R) {
+  return std::max(0.0, (start_R.z() - z_m) / -direction_R.z());
+}
+
 // Those of the given rocks whose bounding sphere meets the plane through p_W: no line in the plane
 // meets any other.
 void RocksMeetingPlane(const terrain::Terrain& terrain, std::span<const int> rocks,
@@ -81,23 +86,48 @@ LightStripe::Line LightStripe::MakeLine(std::size_t row, std::size_t stripe) con
   constexpr double kOnAxis_m = 1e-9;
   line.is_light_ray = std::abs(gap) < kOnAxis_m;
 
-  const auto at_elevation = [&](double elevation_m) {
-    const double drop = line.start_R.z() - params_.datum_z_m - elevation_m;
-    return std::max(0.0, drop / -line.direction_R.z());
-  };
-  line.length_m = at_elevation(params_.search_low_m);
-  const double nearest = at_elevation(params_.search_high_m);
-  const int a = ColumnOf(line.start_R + nearest * line.direction_R, camera);
-  const int b = ColumnOf(line.start_R + line.length_m * line.direction_R, camera);
-  line.searched.first = std::max(std::min(a, b), -last_column_);
-  line.searched.last = std::min(std::max(a, b), last_column_);
+  line.length_m =
+      DistanceDownTo(params_.search_low_m + params_.datum_z_m, line.start_R, line.direction_R);
+  SetView(camera, calibration_.row_angle_rad[row], line);
+  if (line.is_light_ray && !InFan(line.start_R + line.direction_R, stripe)) line.last_m = -1.0;
+  line.searched = SearchedColumns(camera, line);
   return line;
 }
 
-int LightStripe::ColumnOf(const Vector3& p_R, const messages::StripeCamera& camera) const {
-  const Vector3 p_C = camera.X_RC.linear().transpose() * (p_R - camera.X_RC.translation());
-  const double angle = std::atan(-p_C.y() / std::sqrt(p_C.x() * p_C.x() + p_C.z() * p_C.z()));
-  return static_cast<int>(std::lround(angle / camera.column_pitch_rad));
+void LightStripe::SetView(const messages::StripeCamera& camera, double row_angle_rad,
+                          Line& line) const {
+  const auto R_RC = camera.X_RC.linear();
+  const Vector3 forward_R = R_RC * Vector3(std::cos(row_angle_rad), 0.0, -std::sin(row_angle_rad));
+  const Vector3 right_R = R_RC * -Vector3::UnitY();
+  const Vector3 p_CS_R = line.start_R - camera.X_RC.translation();
+  line.forward_m = forward_R.dot(p_CS_R);
+  line.forward_slope = forward_R.dot(line.direction_R);
+  line.right_m = right_R.dot(p_CS_R);
+  line.right_slope = right_R.dot(line.direction_R);
+
+  // |p + t d| <= max_range.
+  const double middle_m = -p_CS_R.dot(line.direction_R);
+  const double rest_m2 =
+      params_.max_range_m * params_.max_range_m - p_CS_R.squaredNorm() + middle_m * middle_m;
+  if (rest_m2 < 0.0) return;
+  line.first_m = middle_m - std::sqrt(rest_m2);
+  line.last_m = middle_m + std::sqrt(rest_m2);
+}
+
+LightStripe::Columns LightStripe::SearchedColumns(const messages::StripeCamera& camera,
+                                                  const Line& line) const {
+  const double nearest_m =
+      DistanceDownTo(params_.search_high_m + params_.datum_z_m, line.start_R, line.direction_R);
+  const int a = ColumnAt(line, nearest_m, camera);
+  const int b = ColumnAt(line, line.length_m, camera);
+  return {std::max(std::min(a, b), -last_column_), std::min(std::max(a, b), last_column_)};
+}
+
+int LightStripe::ColumnAt(const Line& line, double distance_m,
+                          const messages::StripeCamera& camera) {
+  const double angle_rad = std::atan((line.right_m + distance_m * line.right_slope) /
+                                     (line.forward_m + distance_m * line.forward_slope));
+  return static_cast<int>(std::lround(angle_rad / camera.column_pitch_rad));
 }
 
 bool LightStripe::InFan(const Vector3& p_R, std::size_t stripe) const {
@@ -116,10 +146,11 @@ messages::StripePixel LightStripe::Find(const terrain::Terrain& terrain,
 
   const messages::StripeLaser& laser = calibration_.lasers[stripe];
   const messages::StripeCamera& camera = calibration_.cameras[laser.camera];
-  const Vector3 p_R = line.start_R + *distance_m * line.direction_R;
-  if ((p_R - camera.X_RC.translation()).norm() > params_.max_range_m) return {};
-  if (!InFan(p_R, stripe)) return {};
-  const int column = ColumnOf(p_R, camera);
+  if (*distance_m < line.first_m || *distance_m > line.last_m) return {};
+  if (!line.is_light_ray && !InFan(line.start_R + *distance_m * line.direction_R, stripe)) {
+    return {};
+  }
+  const int column = ColumnAt(line, *distance_m, camera);
   if (column < line.searched.first || column > line.searched.last) return {};
 
   const Vector3 point_W = start_W + *distance_m * direction_W;

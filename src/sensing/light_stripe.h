@@ -56,12 +56,22 @@ class LightStripe {
   }
 
  private:
-  // Line in which a scanline plane meets a light plane, in R.
+  // Line in which a scanline plane meets a light plane, in R, and how the camera sees it.
   struct Line {
     math::Vector3 start_R;
     math::Vector3 direction_R;  // unit, away from the sensor
     double length_m = 0.0;      // to the lowest searched elevation
     bool is_light_ray = false;  // starts at the emitter
+    // A point at distance t lies forward_m + t forward_slope ahead of the camera within the
+    // scanline plane, and right_m + t right_slope to its right.
+    double forward_m = 0.0;
+    double forward_slope = 0.0;
+    double right_m = 0.0;
+    double right_slope = 0.0;
+    // Distances between which points are near enough to the camera and, on a light ray, lit at all;
+    // none where first > last or last < 0.
+    double first_m = 0.0;
+    double last_m = -1.0;
     Columns searched;
   };
 
@@ -72,7 +82,9 @@ class LightStripe {
   };
 
   Line MakeLine(std::size_t row, std::size_t stripe) const;
-  int ColumnOf(const math::Vector3& p_R, const messages::StripeCamera& camera) const;
+  void SetView(const messages::StripeCamera& camera, double row_angle_rad, Line& line) const;
+  Columns SearchedColumns(const messages::StripeCamera& camera, const Line& line) const;
+  static int ColumnAt(const Line& line, double distance_m, const messages::StripeCamera& camera);
   bool InFan(const math::Vector3& p_R, std::size_t stripe) const;
   messages::StripePixel Find(const terrain::Terrain& terrain, const math::Transform& X_WR,
                              const Line& line, std::size_t stripe, const Candidates& rocks) const;
