@@ -124,7 +124,7 @@ std::string Canonical(const std::string& cell) {
 TEST(RoverFilesTest, MarsScenarioDrivesTheFlightRoverInMarsGravity) {
   const Scenario mars =
       LoadScenario(fs::path(ROCKYARD_SOURCE_DIR) / "scenarios" / "mars" / "mfex_nominal.json");
-  EXPECT_EQ(ValuesOfScenario(mars), Describing(core::LoadJsonFile(File("mfex"))));
+  EXPECT_EQ(ValuesOfScenario(mars), ValuesOfScenario(WithRover("mfex")));
   EXPECT_EQ(mars.rover.physics.gravity_m_s2, 3.72);
   EXPECT_EQ(mars.terrain.rocks.k_per_m2, 0.00415);  // nominal, Matthies 1995 sec. 7
   EXPECT_EQ(mars.clock.scan_time_s, 20.0);          // sec. 6
