@@ -8,7 +8,7 @@
 #include "rover/part_shapes.h"
 
 namespace tinyxml2 {
-class XMLElement;
+class XMLElement;  // NOLINT(cppcoreguidelines-virtual-class-destructor): its document owns it
 }
 
 namespace rockyard::rover {
