@@ -146,8 +146,8 @@ TEST(ClosedLoopTest, TickLastsWholeStepsForAllThatGoesByIt) {
 
 TEST(ClosedLoopTest, JamSpendsTheBatteryExactly) {
   const scenario::Scenario scenario = Pathfinder(
-      "level_sand",
-      {"terrain.arena.kind=walled", "course.start_y_m=1.2", "course.start_heading_deg=90"});
+      "level_sand", {"terrain.arena.kind=walled", "terrain.ground.soil.preset=hard_ground",
+                     "course.start_y_m=1.2", "course.start_heading_deg=90"});
   const TracedTrial trial = RunTraced(scenario, 0);
   ASSERT_EQ(trial.result.outcome, truth::TrialOutcome::kJammed);
   EXPECT_NEAR(trial.result.record.energy_wh, scenario.energy.battery_wh, 1e-9);
