@@ -21,7 +21,8 @@ void VisitStuck(RefereeParams& p, core::FieldVisitor& v) {
           .study_low = 5.0,
           .study_high = 60.0});
   v.Real("stall_distance_m", p.stall_distance_m,
-         {.doc = "true net displacement below which there is no motion in the window",
+         {.doc = "true displacement, net or the way it was told, below which there is no motion in "
+                 "the window",
           .min = 1e-4,
           .max = 1.0,
           .origin = Origin::kAssumed,
@@ -29,7 +30,8 @@ void VisitStuck(RefereeParams& p, core::FieldVisitor& v) {
           .study_low = 0.01,
           .study_high = 0.05});
   v.Angle("stall_turn_deg", p.stall_turn_rad,
-          {.doc = "true net rotation below which there is no motion in the window",
+          {.doc = "true rotation, net or the way it was told, below which there is no motion in "
+                  "the window",
            .min = 0.1,
            .max = 90.0,
            .origin = Origin::kAssumed,
