@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace rockyard::rover {
 namespace {
 
-constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 // Share of a position error of differential or joint stop that one step takes back.
 constexpr double kJointRecovery = 0.2;
 // Joint stops are watched from this angle before them, rad.
@@ -24,8 +22,7 @@ ConstraintSolver::ConstraintSolver(const RoverParams& params, const terrain::Soi
       iterations_(params.physics.solver_iterations) {
   differential_.J[6 + kLeftRocker] = 1.0;
   differential_.J[6 + kRightRocker] = 1.0;
-  differential_.low = -kUnbounded;
-  differential_.high = kUnbounded;
+  differential_.Unbind();
   for (std::size_t i = 0; i < kStops; ++i) {
     const bool rocker = i <= static_cast<std::size_t>(kRightRocker);
     stop_angle_rad_[i] =
@@ -64,9 +61,7 @@ void ConstraintSolver::Solve(const DofMatrix& mass_inverse,
       LooseRock* rock = loose_rocks != nullptr ? loose_rocks->Find(contact.other) : nullptr;
       StartContact(mass_inverse, finder.part(contact.part), body, rock, contact);
     } else {
-      contact.impulse_Ns = {};
-      contact.drag_Ns = 0.0;
-      contact.slip_m_s = 0.0;
+      contact.Forget();
     }
   }
   for (std::int64_t i = 0; i < iterations_; ++i) Sweep(loose_rocks);
@@ -174,8 +169,7 @@ void ConstraintSolver::StartFriction(const DofMatrix& mass_inverse, const Part& 
   rows.across.impulse = contact.impulse_Ns[2];
   for (Row* row : {&rows.along, &rows.across}) {
     row->softness = rows.law.slip_softness_m_per_Ns;
-    row->low = -kUnbounded;
-    row->high = kUnbounded;
+    row->Unbind();
     Start(mass_inverse, *row);
   }
   double coupling = rows.along.J.dot(rows.across.response);
@@ -192,8 +186,7 @@ void ConstraintSolver::StartDrag(const DofMatrix& mass_inverse, const Part& part
   if (rows.law.drag_ratio == 0.0) return;
   body.FillJacobian(body.Parent(part.body), body.X_WB(part.body).translation(),
                     rows.contact->along_W, rows.drag.J);
-  rows.drag.low = -kUnbounded;
-  rows.drag.high = kUnbounded;
+  rows.drag.Unbind();
   Start(mass_inverse, rows.drag);
 }
 

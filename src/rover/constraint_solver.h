@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "messages/wheels.h"
@@ -45,6 +46,11 @@ class ConstraintSolver {
     // A row against a rock that may slide also sees that rock's velocity along its direction.
     LooseRock* rock = nullptr;
     math::Vector3 direction_W = math::Vector3::Zero();
+
+    void Unbind() {
+      low = -kUnbounded;
+      high = kUnbounded;
+    }
   };
   struct ContactRows {
     Contact* contact = nullptr;
@@ -52,6 +58,7 @@ class ConstraintSolver {
     Row normal, along, across, drag;
     FrictionBlock friction;  // of along and across
   };
+  static constexpr double kUnbounded = std::numeric_limits<double>::infinity();
   static constexpr std::size_t kStops = 4;  // rockers and bogies
 
   // Completes a row of given J, target, softness and impulse, and applies the impulse.

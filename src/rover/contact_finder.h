@@ -35,6 +35,10 @@ struct Contact {
   double slip_m_s = 0.0;
 
   bool IsSoil() const { return other == kGround; }
+  void Forget() {
+    impulse_Ns = {};
+    drag_Ns = slip_m_s = 0.0;
+  }
 };
 
 class ContactFinder {

@@ -81,6 +81,26 @@ TEST(Slip, FollowsTheCurveUnderMarsGravity) {
       {terrain::MakeSoil(terrain::SoilPreset::kMarsDrift), 5.0, 0.0067, 60.0, 3.72});
 }
 
+// Near the largest traction a little more pull takes much more slip; wheels that share one slip
+// must not take turns in pulling for that.
+TEST(Slip, WheelsPullSteadilyNearTheLargestTraction) {
+  const RoverParams params;
+  terrain::SoilParams soil;
+  soil.shear_modulus_m = 0.001;
+  const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(26.0), 0.0, soil);
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  const messages::WheelCommand command = Drive(params, 0.15, 0.0);
+  RunFor(*rover, command, 4.0);
+  for (int i = 0; i < 120; ++i) {
+    const PerWheel<double> before_Nm = rover->state().motor_torque_Nm;
+    rover->Step(command);
+    for (std::size_t wheel = 0; wheel < kWheelCount; ++wheel) {
+      EXPECT_NEAR(rover->state().motor_torque_Nm[wheel], before_Nm[wheel], 1e-3);
+    }
+  }
+}
+
 // Planar motion (v_x, v_y, turn rate) of six straight wheels with the given rim speed on a slope
 // that pulls with force_N at the centre of mass: each wheel's friction is opposite to the velocity
 // s of its contact over the soil, as large as the slip |s| / rim mobilizes, and its resistance acts
