@@ -73,7 +73,10 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
 
   JsonValue Take() { return std::move(root_); }
 
-  bool null() override { return Add(JsonValue()); }
+  bool null() override {
+    const JsonValue value;  // named, since gcc 12 at -O2 takes a temporary for uninitialized
+    return Add(value);
+  }
   bool boolean(bool value) override { return Add(JsonValue(value)); }
   bool number_integer(number_integer_t value) override {
     return Add(JsonValue(std::int64_t{value}));
