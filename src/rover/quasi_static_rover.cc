@@ -21,8 +21,10 @@ constexpr double kMostTurn_rad = 0.1;
 // A change of steering below this keeps the stretch, rad.
 constexpr double kSameSteer_rad = 0.017;
 // Slower changes than these in a stretch are none.
-constexpr double kSteady_m = 5e-5;
-constexpr double kSteady_rad = 2e-4;
+constexpr double kSteady_m = 1e-4;
+constexpr double kSteady_rad = 5e-4;
+// A drive that differs from the last one by less still says where the rover will be.
+constexpr double kSimilar = 0.25;
 // A rock deeper than this in the rover, half a step ahead, is met where the rover stands:
 // directions of deep contacts mean nothing.
 constexpr double kDeepest_m = 0.003;
@@ -162,6 +164,20 @@ bool QuasiStaticRover::Goes(const messages::WheelCommand& command) const {
   return true;
 }
 
+// True where rates and steering are those of the last stretch within a share of the fastest rate,
+// or as many radians.
+bool QuasiStaticRover::Like(const messages::PerWheel<double>& rate_rad_s, double share) const {
+  double fastest = 0.0;
+  double change = 0.0;
+  double turn = 0.0;
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    fastest = std::max(fastest, std::abs(rate_rad_s[i]));
+    change = std::max(change, std::abs(rate_rad_s[i] - stretch_.rate_rad_s[i]));
+    turn = std::max(turn, std::abs(state_.steer_rad[i] - stretch_.steer_rad[i]));
+  }
+  return change <= share * fastest && turn <= share;
+}
+
 // Finds the contacts half a step ahead, or those of now where the way there leads into a rock.
 double QuasiStaticRover::LookAhead(double lead_s) {
   const double way_m = params_.quasi_static.settle_distance_m;
@@ -189,14 +205,14 @@ double QuasiStaticRover::StretchTime_s(const messages::PerWheel<double>& rate_ra
 }
 
 void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
-  const bool same_drive =
-      stretch_.rate_rad_s == rate_rad_s && stretch_.steer_rad == state_.steer_rad;
+  const bool same_drive = Like(rate_rad_s, 0.0);
+  const bool similar_drive = Like(rate_rad_s, kSimilar);
   stretch_.from = posture_;
   stretch_.duration_s = StretchTime_s(rate_rad_s);
   stretch_.elapsed_s = 0.0;
   stretch_.rate_rad_s = rate_rad_s;
   stretch_.steer_rad = state_.steer_rad;
-  const double lead_s = LookAhead(same_drive ? 0.5 * stretch_.duration_s : 0.0);
+  const double lead_s = LookAhead(similar_drive ? 0.5 * stretch_.duration_s : 0.0);
   const bool on_level_ground = OnLevelGround();
   if (same_drive && steady_ && on_level_ground) {
     RollOn();

@@ -48,6 +48,7 @@ class QuasiStaticRover final : public Rover {
   bool OnLevelGround() const;
   bool IsSteady() const;
   void RollOn();
+  bool Like(const messages::PerWheel<double>& rate_rad_s, double share) const;
   // Updates linkage and contacts; returns how far ahead.
   double LookAhead(double lead_s);
   double StretchTime_s(const messages::PerWheel<double>& rate_rad_s) const;
