@@ -47,7 +47,7 @@ class QuasiStaticContacts {
 
  private:
   struct NearRock {
-    int index;
+    int index = 0;
     RockSupport support;
     Ellipsoid ellipsoid;
     messages::PerWheel<math::Vector3> wheel_normal_W;  // last one, where the wheel was near

@@ -1,7 +1,6 @@
 // The quasi-static rover against closed forms.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -10,8 +9,6 @@
 
 namespace rockyard::rover {
 namespace {
-
-using truth::BodyPart;
 
 constexpr double kUphill = 0.0;
 constexpr double kLeftUp = std::numbers::pi / 2;
@@ -161,116 +158,6 @@ TEST(QuasiStaticDrive, FollowsTheArcOfItsSteering) {
   const double radius_m =
       X.translation().head<2>().norm() / (2.0 * std::sin(0.5 * math::Heading(X)));
   EXPECT_NEAR(radius_m, 1.0, 0.02);
-}
-
-// Wheels over a low rock on one side: the wheel centre rises to the rock's top plus the radius less
-// the sinkage, and the bogie's angle follows from its length.
-TEST(QuasiStaticRock, BogieAngleFromGeometry) {
-  const RoverParams params = QuasiStatic();
-  const double top_m = 0.05;
-  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.26, 0.2, 0.0, 0.1, 0.1, top_m)});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
-  const RoverGeometry geometry = MakeRoverGeometry(params.geometry);
-  const double length_m = geometry.wheel_R[0].x() - geometry.wheel_R[1].x();
-  const truth::RoverState& state = rover->state();
-  // Pitch of the bogie in W: chassis, rocker and bogie about the same axis.
-  const double bogie_rad = Pitch(state.X_WR) + state.left_rocker_rad + state.left_bogie_rad;
-  EXPECT_NEAR(bogie_rad, -std::asin(top_m / length_m), math::DegToRad(1.0));
-  EXPECT_NEAR(state.left_rocker_rad + state.right_rocker_rad, 0.0, 1e-12);
-}
-
-TEST(QuasiStaticRock, LowerThanTheBellyPassesBetweenTheWheels) {
-  const RoverParams params = QuasiStatic();
-  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.1, 0.1, 0.12)});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
-  const messages::WheelCommand command = Drive(params, 0.15, 0.0);
-  for (int i = 0; i < 200; ++i) {
-    rover->Step(command);
-    EXPECT_TRUE(rover->state().contacts.empty());
-  }
-  EXPECT_GT(rover->state().X_WR.translation().x(), 1.3);
-}
-
-TEST(QuasiStaticRock, TallerThanTheBellyBlocksItUntilItBacksOff) {
-  const RoverParams params = QuasiStatic();
-  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.12, 0.12, 0.2)});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
-  RunFor(*rover, Drive(params, 0.15, 0.0), 10.0);
-  const truth::RoverState& state = rover->state();
-  EXPECT_LT(state.X_WR.translation().x(), 0.5);
-  ASSERT_EQ(state.contacts.size(), 1U);
-  EXPECT_EQ(state.contacts[0].part, BodyPart::kBelly);
-  EXPECT_EQ(state.contacts[0].rock, 0);
-  EXPECT_GT(state.contacts[0].normal_force_N, 50.0);
-  const double blocked_x = state.X_WR.translation().x();
-  RunFor(*rover, Drive(params, -0.15, 0.0), 1.0);
-  EXPECT_LT(rover->state().X_WR.translation().x(), blocked_x - 0.1);
-}
-
-TEST(QuasiStaticRock, UnderTheBellyScrapesAndLiftsIt) {
-  const RoverParams params = QuasiStatic();
-  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.12, 0.08, 0.137)});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
-  bool scraped = false;
-  for (int i = 0; i < 140; ++i) {
-    rover->Step(Drive(params, 0.15, 0.0));
-    for (const truth::BodyContact& contact : rover->state().contacts) {
-      scraped |= contact.part == BodyPart::kBelly && contact.sliding_speed_m_s > 0.05;
-    }
-  }
-  EXPECT_TRUE(scraped);
-}
-
-TEST(QuasiStaticRock, HighCentresTheRoverPlacedOnIt) {
-  const RoverParams params = QuasiStatic();
-  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.0, 0.0, 0.0, 0.2, 0.16, 0.18)});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
-  RunFor(*rover, Drive(params, 0.15, 0.0), 10.0);
-  const truth::RoverState& state = rover->state();
-  const auto belly =
-      std::find_if(state.contacts.begin(), state.contacts.end(),
-                   [](const truth::BodyContact& c) { return c.part == BodyPart::kBelly; });
-  ASSERT_NE(belly, state.contacts.end());
-  EXPECT_GT(belly->normal_force_N, 0.5 * Weights(params).total_N);
-  EXPECT_LT(state.X_WR.translation().head<2>().norm(), 0.1);
-  EXPECT_GT(state.wheel_angle_rad[1], 20.0);
-}
-
-TEST(QuasiStaticRock, TwoRocksJamTheRover) {
-  RoverParams params = QuasiStatic();
-  params.contact.wheel_rock_friction = 0.3;
-  const terrain::Terrain terrain = FlatTerrain(
-      {MakeRock(0.7, 0.33, 0.0, 0.15, 0.15, 0.5), MakeRock(0.7, -0.33, 0.0, 0.15, 0.15, 0.5)});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
-  RunFor(*rover, Drive(params, 0.15, 0.0), 10.0);
-  EXPECT_LT(rover->state().X_WR.translation().x(), 0.5);
-  EXPECT_LT(rover->state().v_WR_m_s.norm(), 0.01);
-}
-
-TEST(QuasiStaticWall, StopsTheRover) {
-  const RoverParams params = QuasiStatic();
-  const terrain::Terrain terrain = FlatTerrain({}, {{math::Vector3::UnitX(), 0.8}});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
-  RunFor(*rover, Drive(params, 0.15, 0.0), 6.0);
-  EXPECT_NEAR(rover->state().X_WR.translation().x(), 0.8 - 0.5 * params.geometry.length_m, 0.01);
-}
-
-// A wheel that is steered into a rock while the rover stands pushes the rover away.
-TEST(QuasiStaticRock, SteeringAtRestLeavesNoWheelInsideARock) {
-  const RoverParams params = QuasiStatic();
-  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.30, -0.345, 0.1, 0.1, 0.1, 0.3)});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
-  const math::Vector3 before = rover->state().X_WR.translation();
-  RunFor(*rover, SteerOnly(Drive(params, 0.0, -0.4)), 1.0);
-  EXPECT_GT((rover->state().X_WR.translation() - before).norm(), 0.001);
 }
 
 TEST(QuasiStatic, EqualCallsGiveEqualBits) {
