@@ -31,7 +31,7 @@ class LinkageEquations {
   using Rows = std::array<std::array<double, kLinkageDof>, kLinkageDof>;
 
   LinkageVector force_;
-  Rows stiffness_;
+  Rows stiffness_{};
 };
 
 }  // namespace rockyard::rover

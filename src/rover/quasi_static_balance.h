@@ -60,18 +60,18 @@ class QuasiStaticBalance {
   struct Row {
     SideVector normal, along, across;
     SideVector axle;  // wheel on soil: along, at the axle, where the motion resistance acts
-    std::size_t side;
-    bool loaded;  // before
-    double stiffness_N_m;
-    double gap_m;          // at the beginning of the step
-    double rest_m;         // penetration without load
-    double rim_m_s;        // of the wheel against its axle, along
-    double arm_m;          // motor torque over force along
-    double reference_m_s;  // slip is measured in shares of this
+    std::size_t side = 0;
+    bool loaded = false;  // before
+    double stiffness_N_m = 0.0;
+    double gap_m = 0.0;          // at the beginning of the step
+    double rest_m = 0.0;         // penetration without load
+    double rim_m_s = 0.0;        // of the wheel against its axle, along
+    double arm_m = 0.0;          // motor torque over force along
+    double reference_m_s = 0.0;  // slip is measured in shares of this
     // At the load that the traction is taken from.
-    double most_N;
-    double shear_ratio;  // 0: Coulomb
-    double resistance_N;
+    double most_N = 0.0;
+    double shear_ratio = 0.0;  // 0: Coulomb
+    double resistance_N = 0.0;
   };
   struct Traction {
     double per_speed;  // force over slip speed

@@ -74,9 +74,9 @@ class Linkage {
 
  private:
   struct Lump {  // weight fixed to a body
-    int body;
-    math::Vector3 p_B;
-    double weight_N;
+    int body = kChassis;
+    math::Vector3 p_B = math::Vector3::Zero();
+    double weight_N = 0.0;
   };
 
   bool OnBogie(int body) const;
@@ -84,7 +84,7 @@ class Linkage {
   std::array<math::Vector3, 2> rocker_pivot_R_;
   std::array<math::Vector3, 2> bogie_from_rocker_;
   messages::PerWheel<math::Vector3> wheel_from_pivot_;
-  messages::PerWheel<bool> on_bogie_;
+  messages::PerWheel<bool> on_bogie_{};
   std::array<Lump, 5> lumps_;
   double weight_N_;
   messages::PerWheel<double> steer_rad_{};
