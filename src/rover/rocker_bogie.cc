@@ -192,7 +192,8 @@ void RockerBogie::UpdateContacts(const DofVector& velocity) {
     body_.FillJacobian(part.body, contact.p_W, contact.along_W, along);
     body_.FillJacobian(part.body, contact.p_W, contact.across_W, across);
     state_.contacts.push_back({part.kind, contact.other >= 0 ? contact.other : -1, force_N,
-                               std::hypot(along.dot(velocity), across.dot(velocity))});
+                               std::hypot(along.dot(velocity), across.dot(velocity)),
+                               contact.n_W.z()});
   }
 }
 

@@ -12,9 +12,13 @@ double Between(double x0_m, double y0_m, double x1_m, double y1_m) {
   return std::hypot(x1_m - x0_m, y1_m - y0_m);
 }
 
-bool BellyTouches(const truth::RoverState& state) {
+// A rock that bears the belly; one that the chassis runs into pushes back rather than up.
+constexpr double kLeastLiftShare = 0.7071;  // within 45 deg of the vertical
+
+bool RestsOnBelly(const truth::RoverState& state) {
   return std::any_of(state.contacts.begin(), state.contacts.end(), [](const auto& contact) {
-    return contact.part == truth::BodyPart::kBelly && contact.normal_force_N > 0.0;
+    return contact.part == truth::BodyPart::kBelly && contact.rock >= 0 &&
+           contact.normal_force_N > 0.0 && contact.lift_share > kLeastLiftShare;
   });
 }
 
@@ -55,12 +59,12 @@ std::optional<Verdict> Referee::CheckStuck(const Observation& observation) {
   if (!window_) OpenWindow(observation);
   window_->duration_s += observation.duration_s;
   AddObeyed(observation, *window_);
-  if (BellyTouches(observation.state)) window_->belly_s += observation.duration_s;
+  if (RestsOnBelly(observation.state)) window_->belly_s += observation.duration_s;
   if (window_->duration_s < params_.stall_window_s) return std::nullopt;
   const Window window = *window_;
   OpenWindow(observation);
   if (MovedSince(window, observation)) return std::nullopt;
-  if (window.belly_s >= params_.high_centre_load * window.duration_s) {
+  if (window.belly_s >= params_.high_centre_time_share * window.duration_s) {
     return Verdict{TrialOutcome::kHighCentred, "no net motion with the belly on a rock"};
   }
   return Verdict{TrialOutcome::kJammed, "no motion although the wheels were told to turn"};

@@ -38,7 +38,7 @@ void VisitStuck(RefereeParams& p, core::FieldVisitor& v) {
            .source = "half of the default turn increment",
            .study_low = 3.0,
            .study_high = 10.0});
-  v.Real("high_centre_load", p.high_centre_load,
+  v.Real("high_centre_time_share", p.high_centre_time_share,
          {.doc = "share of the window in which the belly rests on a rock that makes a stuck rover "
                  "high-centred rather than jammed",
           .min = 0.0,

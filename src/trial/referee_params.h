@@ -21,7 +21,7 @@ struct RefereeParams {
   double stall_window_s = 10.0;
   double stall_distance_m = 0.02;
   double stall_turn_rad = math::DegToRad(5.0);
-  double high_centre_load = 0.2;
+  double high_centre_time_share = 0.2;
   double no_path_progress_m = 0.25;
   double no_path_distance_m = 4.0;
   double no_path_turn_rad = math::DegToRad(1080.0);

@@ -16,6 +16,7 @@ struct BodyContact {
   int rock = -1;  // index in Terrain::rocks(); -1: ground or wall
   double normal_force_N = 0.0;
   double sliding_speed_m_s = 0.0;
+  double lift_share = 0.0;  // vertical part of the normal force: 1 where the rock bears the rover
 };
 
 struct RoverState {

@@ -113,6 +113,7 @@ TEST(Rock, HighCentresTheRoverPlacedOnIt) {
                    [](const truth::BodyContact& c) { return c.part == BodyPart::kBelly; });
   ASSERT_NE(belly, state.contacts.end());
   EXPECT_GT(belly->normal_force_N, 0.5 * params.mass.total_kg * 9.81);
+  EXPECT_GT(belly->lift_share, 0.9);
   EXPECT_LT(state.X_WR.translation().head<2>().norm(), 0.1);
   EXPECT_GT(state.wheel_angle_rad[1], 20.0);
 }

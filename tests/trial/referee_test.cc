@@ -176,10 +176,22 @@ TEST_F(RefereeTest, ScanningIsNotStandingStill) {
 }
 
 TEST_F(RefereeTest, BellyOnARockMakesItHighCentred) {
-  state_.contacts = {{truth::BodyPart::kBelly, 3, 40.0, 0.0}};
+  state_.contacts = {{truth::BodyPart::kBelly, 3, 40.0, 0.0, 0.9}};
   const auto verdict = Run(20.0, [] {});
   ASSERT_TRUE(verdict);
   EXPECT_EQ(verdict->outcome, TrialOutcome::kHighCentred);
+}
+
+TEST_F(RefereeTest, ARockOrWallBeforeTheChassisJamsIt) {
+  for (const truth::BodyContact& contact :
+       {truth::BodyContact{truth::BodyPart::kBelly, 3, 40.0, 0.0, 0.1},
+        truth::BodyContact{truth::BodyPart::kBelly, -1, 40.0, 0.0, 0.0}}) {
+    referee_ = Referee(params_, course_, ArenaBounds{-2.0, 10.0});
+    state_.contacts = {contact};
+    const auto verdict = Run(20.0, [] {});
+    ASSERT_TRUE(verdict);
+    EXPECT_EQ(verdict->outcome, TrialOutcome::kJammed);
+  }
 }
 
 TEST_F(RefereeTest, SpinningWheelsAreStuckByDefaultAndDriveOnByChoice) {
