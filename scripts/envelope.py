@@ -6,7 +6,8 @@ choice for every assumed option, runs each scenario at each point, and prints th
 prediction over the points. Runs that are there already are resumed, so that it can be stopped and
 started again. At each point the odometer is calibrated anew on level sand, as the rover's own was.
 
-    scripts/envelope.py --points 50 --trials 40 scenarios/pathfinder/nominal.json ...
+    scripts/envelope.py --points 50 --trials 40 --set rover.fidelity=quasi_static \\
+        --set terrain.rocks.mobility=fixed scenarios/pathfinder/nominal.json ...
 """
 
 import argparse
@@ -45,6 +46,8 @@ def parse_arguments():
     parser.add_argument("--trials", type=int, default=40, help="trials a point (default 40)")
     parser.add_argument("--seed", type=int, default=1, help="seed of the design and of the trials")
     parser.add_argument("--out", type=Path, default=ROOT / "results/runs/envelope")
+    parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE",
+                        help="held at every point, for example rover.fidelity=quasi_static")
     parser.add_argument("--rockyard", type=Path, default=ROOT / "build/release/bin/rockyard")
     return parser.parse_args()
 
@@ -166,8 +169,10 @@ def run_points(args, scenario, points, scales, rows, rng):
 
 def main():
     args = parse_arguments()
-    rows = assumed_parameters(args.rockyard, args.scenarios[0])
-    points = design(rows, args.points, args.seed)
+    held = dict(setting.split("=", 1) for setting in args.set)
+    rows = [row for row in assumed_parameters(args.rockyard, args.scenarios[0])
+            if row["path"] not in held]
+    points = [{**point, **held} for point in design(rows, args.points, args.seed)]
     rng = random.Random(args.seed + 1)
     redrawn = [path for point in points
                for path in repaired(point, rows, args.rockyard, args.scenarios[0], rng)]
@@ -177,7 +182,7 @@ def main():
     print(f"{len(points)} points over {len(rows)} assumed parameters, {args.trials} trials each; "
           f"{len(redrawn)} values drawn again because they contradicted others")
     result = {"points": len(points), "parameters": len(rows), "trials": args.trials,
-              "scenarios": {}}
+              "held": args.set, "scenarios": {}}
     for scenario in args.scenarios:
         summaries = run_points(args, scenario, points, scales, rows, rng)
         print(f"\n{scenario.stem:<28} {'min':>9} {'p05':>9} {'median':>9} {'p95':>9} {'max':>9}")

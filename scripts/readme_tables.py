@@ -168,9 +168,9 @@ def causes(study):
     return table(["change", "nominal", "0.85 per m2"], rows)
 
 
-def paired(study, scenario):
+def paired(study, scenario, multibody):
     """What `rockyard compare` says of one scenario: success difference and differences of means."""
-    text = study.tool("compare", study.folder("multibody", scenario),
+    text = study.tool("compare", study.folder(multibody, scenario),
                       study.folder("quasi_static", scenario))
     success = re.search(r"B - A ([+-][\d.]+) points \(95 % interval ([+-][\d.]+) .. ([+-][\d.]+)\)",
                         text).groups()
@@ -182,9 +182,10 @@ def paired(study, scenario):
 def fidelity(study):
     rows = []
     for scenario in FIDELITY:
-        runs = [study.run("multibody", scenario, 300),
+        multibody = "published" if scenario in PUBLISHED else "multibody"
+        runs = [study.run(multibody, scenario, 300),
                 study.run("quasi_static", scenario, 300, QUASI_STATIC)]
-        success, means = paired(study, scenario)
+        success, means = paired(study, scenario, multibody)
         rows.append([f"**{scenario}**", "", "", ""])
         rows.append(["declared success", rate(runs[0]), rate(runs[1]),
                      f"{success[0]} points ({success[1]}..{success[2]})"])
@@ -233,7 +234,7 @@ def envelope(study):
             rows.append([scenario, name, published_metric(scenario, metric["path"]), f"{value:.2f}",
                          *(f"{metric[part]:.2f}" for part in ("p05", "median", "p95"))])
     head = (f"{found['points']} points over {found['parameters']} assumed parameters, "
-            f"{found['trials']} trials a point\n\n")
+            f"{found['trials']} trials a point, {', '.join(found['held'])}\n\n")
     return head + table(["scenario", "prediction", "published", "chosen", "envelope 5 %", "median",
                          "95 %"], rows)
 

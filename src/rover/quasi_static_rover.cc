@@ -297,7 +297,8 @@ void QuasiStaticRover::UpdateForces() {
       state_.wheel_load_N[static_cast<std::size_t>(contact.part)] += contact.load_N;
     } else {
       state_.contacts.push_back(
-          {contact.kind, std::max(contact.other, -1), contact.load_N, contact.sliding_speed_m_s});
+          {contact.kind, std::max(contact.other, -1), contact.load_N, contact.sliding_speed_m_s,
+           contact.n_W.z()});
     }
   }
   for (std::size_t i = 0; i < kWheelCount; ++i) {
