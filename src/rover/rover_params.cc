@@ -1,15 +1,41 @@
 #include "rover/rover_params.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
 namespace rockyard::rover {
 
 using core::Origin;
 
 namespace {
 
-// Rim speed up to which motion counts as quasi-static, m/s: a rover that drops by a wheel radius
-// within one needs 0.1 s for it, and stops within 1 mm. README.md of this folder has the
-// comparison.
-constexpr double kFastestScaled_m_s = 0.2;
+// Rim speed up to which motion counts as quasi-static, m/s. Inertia tells against weight by the
+// Froude number v^2 / (g r), which is held at that of the comparison in README.md of this folder:
+// 0.2 m/s with a wheel of 65 mm in Earth's gravity.
+double FastestScaled(const RoverParams& params) {
+  constexpr double kSpeed_m_s = 0.2;
+  constexpr double kGravityTimesRadius_m2_s2 = 9.81 * 0.065;
+  return kSpeed_m_s * std::sqrt(params.physics.gravity_m_s2 * params.geometry.wheel_radius_m /
+                                kGravityTimesRadius_m2_s2);
+}
+
+// Refuses a physics.time_scale with which inertia would tell.
+void RequireSlowMotion(const RoverParams& params, core::FieldVisitor& v) {
+  const double fastest_m_s = FastestScaled(params);
+  const double speed_m_s = params.drive.speed_m_s;
+  const double scale = params.physics.time_scale;
+  v.Require("physics.time_scale", scale == 1.0 || speed_m_s * scale <= fastest_m_s,
+            fmt::format("makes the simulated rims (drive.speed_m_s times physics.time_scale) "
+                        "faster than {:.3g} m/s, where inertia begins to tell in this gravity on "
+                        "these wheels",
+                        fastest_m_s),
+            speed_m_s < fastest_m_s
+                ? fmt::format("use at most {:.4g}, or 1",
+                              std::floor(100.0 * fastest_m_s / speed_m_s) / 100.0)
+                : std::string("use 1"));
+}
 
 }  // namespace
 
@@ -18,10 +44,8 @@ void RoverMassParams::Visit(core::FieldVisitor& v) {
          {.doc = "mass of the rover",
           .min = 0.5,
           .max = 2000.0,
-          .origin = Origin::kAssumed,
-          .source = "MFEX weighs 11.5 kg; the testbed of Rocky 3's make about 20",
-          .study_low = 15.0,
-          .study_high = 25.0});
+          .origin = Origin::kPublished,
+          .source = "Matthies 1995 sec. 2.1: Rocky 3.2 weighs about 20 kg"});
   v.Real("wheel_kg", wheel_kg,
          {.doc = "mass of a wheel with its motor",
           .min = 0.05,
@@ -161,19 +185,15 @@ void RoverParams::Visit(core::FieldVisitor& v) {
   v.Choice(
       "fidelity", fidelity,
       {.doc = "multibody: articulated dynamics in steps of physics.step_s; quasi_static: poses "
-              "at rest along the way, some hundred times cheaper",
+              "at rest along the way, some twenty times cheaper",
        .origin = Origin::kSetting});
   v.Group("geometry", geometry, "dimensions");
   v.Group("mass", mass, "masses");
   v.Group("drive", drive, "drive and steering motors");
   v.Group("contact", contact, "wheels and body against soil and rock");
   v.Group("physics", physics, "gravity and numerical solution");
-  v.Require("physics.time_scale",
-            physics.time_scale == 1.0 || drive.speed_m_s * physics.time_scale <= kFastestScaled_m_s,
-            "makes the simulated rims (drive.speed_m_s times physics.time_scale) faster than "
-            "0.2 m/s, where inertia begins to tell",
-            "use at most 0.2 / drive.speed_m_s, or 1");
-  v.Group("quasi_static", quasi_static, "fidelity quasi_static: resolution and clearance");
+  RequireSlowMotion(*this, v);
+  v.Group("quasi_static", quasi_static, "fidelity quasi_static: step and resolution");
 }
 
 }  // namespace rockyard::rover
