@@ -94,7 +94,10 @@ void RefereeParams::Visit(core::FieldVisitor& v) {
        .min = 20.0,
        .max = 120.0,
        .origin = Origin::kAssumed,
-       .source = "beyond any stable pose of a rover with its centre of mass below the track width",
+       .source =
+           "beyond the static tipping angles of Rocky 3.2, whose centre of mass is 0.17 m high: 50 "
+           "to "
+           "55 deg sideways (wheels from 0.20 to 0.24 m beside it), 57 deg over an axle (0.26 m)",
        .study_low = 50.0,
        .study_high = 80.0});
   VisitStuck(*this, v);
