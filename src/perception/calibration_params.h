@@ -1,5 +1,5 @@
 // How wrong the rover is about its own geometry. All zero by default: on-board code then works with
-// the truth. Every error is what the rover believes less what is true.
+// the truth. Every error is what the rover believes less what is true, except steering_offset_rad.
 #pragma once
 
 #include <array>
@@ -10,19 +10,21 @@
 namespace rockyard::perception {
 
 struct DriveCalibrationErrors {
-  double wheel_radius_percent = 0.0;  // of all wheels
+  double wheel_radius_percent = 0.0;  // of all wheels, > 0: believed too large
   // Of the left wheels against the right ones: half of it added on the left, half taken on the
   // right.
   double wheel_radius_left_right_percent = 0.0;
-  double track_percent = 0.0;
-  double wheelbase_percent = 0.0;
-  double steering_offset_rad = 0.0;  // of every steered wheel
+  double track_percent = 0.0;      // > 0: believed too wide
+  double wheelbase_percent = 0.0;  // > 0: believed too long
+  // Of every steered wheel: what is true less what the rover believes.
+  double steering_offset_rad = 0.0;
 
   void Visit(core::FieldVisitor& v);
 };
 
 // One camera of the light stripe sensor: turned about its own axes (yaw, then pitch, then roll) and
-// shifted along those of R.
+// shifted along those of R. Angles > 0: believed turned too far right side down, down, left; shifts
+// > 0: believed too far forward, left, up.
 struct CameraCalibrationErrors {
   double roll_rad = 0.0;
   double pitch_rad = 0.0;
@@ -34,7 +36,7 @@ struct CameraCalibrationErrors {
   void Visit(core::FieldVisitor& v);
 };
 
-// Light planes, turned about the vertical through their emitters.
+// Light planes, turned about the vertical through their emitters; > 0: believed too far left.
 struct LaserCalibrationErrors {
   std::array<double, messages::kStripes> angle_rad{};
 
