@@ -52,7 +52,7 @@ TEST_P(RoverDescription, StandsOnLevelGround) {
   EXPECT_TRUE(state().contacts.empty());
 }
 
-// Slip of level sand is a few per cent at most.
+// On level sand Rocky 3.2 slips by 8 %, all rovers by less than a tenth.
 TEST_P(RoverDescription, DrivesStraight) {
   StartOn(flat_);
   const double time_s = 0.3 / speed_m_s_;

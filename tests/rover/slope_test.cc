@@ -17,8 +17,8 @@ double Moved(const math::Vector3& from, const truth::RoverState& state) {
   return (state.X_WR.translation() - from).norm();
 }
 
-// A body on a slope: half (g sin - g friction cos - resistance / mass) t^2 down the fall line, or
-// nothing, whatever the gravity and wherever it heads.
+// A body on a slope: half (g sin - g friction cos) t^2 down the fall line, or nothing, whatever the
+// gravity and wherever it heads.
 double SlideLength(double slope, double friction, double gravity_m_s2, double time_s) {
   const double pull = std::sin(slope) - friction * std::cos(slope);
   return pull > 0.0 ? 0.5 * gravity_m_s2 * pull * time_s * time_s : 0.0;
