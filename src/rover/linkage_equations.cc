@@ -1,7 +1,5 @@
 #include "rover/linkage_equations.h"
 
-#include <cmath>
-
 namespace rockyard::rover {
 namespace {
 
@@ -48,26 +46,26 @@ void LinkageEquations::AddAt(int dof, double force, double stiffness) {
   stiffness_[static_cast<std::size_t>(dof)][static_cast<std::size_t>(dof)] += stiffness;
 }
 
+// L D L' without roots, column by column, each taken off the rows below at once: the inner loop has
+// no reduction.
 LinkageVector LinkageEquations::Solve() const {
-  // Column by column, each taken off the rows below at once: the inner loop has no reduction.
   Rows L = stiffness_;
   LinkageVector x = force_;
   std::array<double, kLinkageDof> column{};
   std::array<double, kLinkageDof> inverse{};
   for (int j = 0; j < kLinkageDof; ++j) {
-    inverse[j] = 1.0 / std::sqrt(L[j][j]);
-    x[j] *= inverse[j];
+    inverse[j] = 1.0 / L[j][j];
     for (int i = j + 1; i < kLinkageDof; ++i) {
-      column[i] = L[i][j] * inverse[j];
-      L[i][j] = column[i];
-      x[i] -= column[i] * x[j];
+      column[i] = L[i][j];
+      L[i][j] *= inverse[j];
+      x[i] -= L[i][j] * x[j];
     }
     for (int i = j + 1; i < kLinkageDof; ++i) {
-      for (int k = j + 1; k <= i; ++k) L[i][k] -= column[i] * column[k];
+      for (int k = j + 1; k <= i; ++k) L[i][k] -= L[i][j] * column[k];
     }
   }
+  for (int j = 0; j < kLinkageDof; ++j) x[j] *= inverse[j];
   for (int j = kLinkageDof - 1; j >= 0; --j) {
-    x[j] *= inverse[j];
     for (int i = 0; i < j; ++i) x[i] -= L[j][i] * x[j];
   }
   return x;

@@ -131,8 +131,8 @@ QuasiStaticBalance::Traction QuasiStaticBalance::TractionOf(const Row& row, doub
   return {per_speed, per_speed * kRockCreep * kRockCreep / root2};
 }
 
-void QuasiStaticBalance::AddForces(const LinkageVector& rates, RestingContact& contact, Row& row) {
-  const SideVector w = OfSide(rates, row.side);
+void QuasiStaticBalance::AddForces(const SideVector& w, RestingContact& contact, Row& row) {
+  row.acts = false;
   const double depth_m = -row.gap_m - step_s_ * row.normal.dot(w);
   contact.load_N = row.stiffness_N_m * (depth_m - row.rest_m);
   contact.sliding_speed_m_s = 0.0;
@@ -141,10 +141,9 @@ void QuasiStaticBalance::AddForces(const LinkageVector& rates, RestingContact& c
     return;
   }
   if (contact.load_N > 0.0) FollowLoad(contact, row);
-  const double k_n = step_s_ * row.stiffness_N_m;
+  row.acts = true;
   if (row.most_N == 0.0) {
     equations_.AddForce(row.side, contact.load_N * row.normal);
-    equations_.AddStiffness(row.side, k_n, row.normal);
     return;
   }
   const double along = row.rim_m_s - row.along.dot(w);
@@ -155,28 +154,36 @@ void QuasiStaticBalance::AddForces(const LinkageVector& rates, RestingContact& c
   const double bend = tangent_ && speed_m_s > 0.0
                           ? (traction.slope - traction.per_speed) / (speed_m_s * speed_m_s)
                           : 0.0;
-  const double k_aa = traction.per_speed + bend * along * along;
-  const double k_ab = bend * along * across;
-  const double k_bb = traction.per_speed + bend * across * across;
+  row.k_aa = traction.per_speed + bend * along * along;
+  row.k_ab = bend * along * across;
+  row.k_bb = traction.per_speed + bend * across * across;
   const double F_along = traction.per_speed * along;
   equations_.AddForce(row.side, contact.load_N * row.normal + F_along * row.along +
                                     traction.per_speed * across * row.across);
-  equations_.AddStiffness(row.side, k_n * row.normal, row.normal,
-                          k_aa * row.along + k_ab * row.across, row.along,
-                          k_ab * row.along + k_bb * row.across, row.across);
   if (!contact.IsWheel()) return;
   torque_Nm_[static_cast<std::size_t>(contact.part)] += row.arm_m * F_along;
-  if (contact.IsSoil()) AddResistance(row, w);
+  if (contact.IsSoil()) AddResistance(w, row);
 }
 
 // Against the axle's motion along the wheel: the wheel has to pull it by traction.
-void QuasiStaticBalance::AddResistance(const Row& row, const SideVector& rates) {
+void QuasiStaticBalance::AddResistance(const SideVector& rates, Row& row) {
   const double v_m_s = row.axle.dot(rates);
   const double creep_m_s = kResistanceCreep * row.reference_m_s;
   const double root2 = v_m_s * v_m_s + creep_m_s * creep_m_s;
   const double per_speed = row.resistance_N / std::sqrt(root2);
   equations_.AddForce(row.side, -per_speed * v_m_s * row.axle);
-  equations_.AddStiffness(row.side, per_speed * creep_m_s * creep_m_s / root2, row.axle);
+  row.k_axle = per_speed * creep_m_s * creep_m_s / root2;
+}
+
+// Minus the derivative of the contact's force at the rates of the last evaluation.
+void QuasiStaticBalance::AddStiffness(const RestingContact& contact, const Row& row) {
+  if (!row.acts) return;
+  const double k_n = step_s_ * row.stiffness_N_m;
+  if (row.most_N == 0.0) return equations_.AddStiffness(row.side, k_n, row.normal);
+  equations_.AddStiffness(row.side, k_n * row.normal, row.normal,
+                          row.k_aa * row.along + row.k_ab * row.across, row.along,
+                          row.k_ab * row.along + row.k_bb * row.across, row.across);
+  if (contact.IsSoil()) equations_.AddStiffness(row.side, row.k_axle, row.axle);
 }
 
 void QuasiStaticBalance::AddStops(const LinkageVector& rates) {
@@ -196,8 +203,11 @@ void QuasiStaticBalance::Evaluate(const LinkageVector& rates,
                                   std::vector<RestingContact>& contacts) {
   equations_.Reset(gravity_ - damping_.cwiseProduct(rates), damping_);
   torque_Nm_.fill(0.0);
-  traction_changed_ = false;
-  for (std::size_t i = 0; i < contacts.size(); ++i) AddForces(rates, contacts[i], rows_[i]);
+  traction_lags_ = false;
+  const std::array<SideVector, 2> side_rates{OfSide(rates, 0), OfSide(rates, 1)};
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    AddForces(side_rates[rows_[i].side], contacts[i], rows_[i]);
+  }
   AddStops(rates);
 }
 
@@ -213,7 +223,7 @@ void QuasiStaticBalance::FollowLoad(RestingContact& contact, Row& row) {
   const double most_N = kLoadStep * mean_load_N_;
   contact.traction_load_N += std::clamp(change_N, -most_N, most_N);
   SetTraction(contact, row);
-  traction_changed_ = true;
+  if (std::abs(change_N) > most_N) traction_lags_ = true;
 }
 
 // A last small change moves the loads along the springs; the tractions stay.
@@ -250,9 +260,10 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
   Evaluate(rates, contacts);
   first_ = false;
   for (int iteration = 1; iteration < kMostIterations; ++iteration) {
+    for (std::size_t i = 0; i < contacts.size(); ++i) AddStiffness(contacts[i], rows_[i]);
     LinkageVector change = equations_.Solve();
     const double drop = equations_.force().dot(change);
-    if (tangent_ && !traction_changed_ && IsSmall(change, kTolerance * speed_m_s_)) {
+    if (tangent_ && !traction_lags_ && IsSmall(change, kTolerance * speed_m_s_)) {
       rates += change;
       Finish(change, contacts);
       return iteration;

@@ -51,7 +51,7 @@ class QuasiStaticBalance {
   int Solve(const Linkage& linkage, const Posture& posture, const Drive& drive,
             std::vector<RestingContact>& contacts, LinkageVector& rates);
 
-  static constexpr int kMostIterations = 30;
+  static constexpr int kMostIterations = 20;
 
   double MotorTorque_Nm(std::size_t wheel) const { return torque_Nm_[wheel]; }
 
@@ -72,6 +72,10 @@ class QuasiStaticBalance {
     double most_N = 0.0;
     double shear_ratio = 0.0;  // 0: Coulomb
     double resistance_N = 0.0;
+    // Of the last evaluation: stiffness across the normal and of the motion resistance, N s/m.
+    bool acts = false;
+    double k_aa = 0.0, k_ab = 0.0, k_bb = 0.0;
+    double k_axle = 0.0;
   };
   struct Traction {
     double per_speed;  // force over slip speed
@@ -87,9 +91,10 @@ class QuasiStaticBalance {
 
   // Forces at the given rates and their derivatives.
   void Evaluate(const LinkageVector& rates, std::vector<RestingContact>& contacts);
-  void AddForces(const LinkageVector& rates, RestingContact& contact, Row& row);
+  void AddForces(const SideVector& rates, RestingContact& contact, Row& row);
   void FollowLoad(RestingContact& contact, Row& row);
-  void AddResistance(const Row& row, const SideVector& rates);
+  void AddResistance(const SideVector& rates, Row& row);
+  void AddStiffness(const RestingContact& contact, const Row& row);
   void AddStops(const LinkageVector& rates);
   void Finish(const LinkageVector& change, std::vector<RestingContact>& contacts) const;
   bool IsSmall(const LinkageVector& change, double speed_m_s) const;
@@ -113,7 +118,7 @@ class QuasiStaticBalance {
   std::vector<Row> rows_;
   bool first_ = false;  // evaluation: contacts that bore load before count as closed
   bool tangent_ = false;
-  bool traction_changed_ = false;  // in the last evaluation
+  bool traction_lags_ = false;  // behind a load, in the last evaluation
   LinkageEquations equations_;
   messages::PerWheel<double> torque_Nm_{};
 };

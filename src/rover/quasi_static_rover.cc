@@ -89,6 +89,7 @@ void QuasiStaticRover::Place(const math::Pose2& X_WR) {
   contacts_.Clear();
   Settle();
   stretch_ = {};
+  met_steer_rad_ = state_.steer_rad;
   steady_ = false;
   UpdatePosture();
   UpdateForces();
@@ -125,6 +126,13 @@ bool QuasiStaticRover::Steer(const messages::PerWheel<double>& wanted_rad) {
 
 // A wheel that swings into a rock pushes the rover away, against its braked wheels.
 void QuasiStaticRover::SteerAtRest() {
+  double swing_rad = 0.0;
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    swing_rad = std::max(swing_rad, std::abs(state_.steer_rad[i] - met_steer_rad_[i]));
+  }
+  const double swing_m = swing_rad * params_.geometry.wheel_radius_m;
+  if (swing_m < 0.5 * params_.quasi_static.settle_distance_m) return;
+  met_steer_rad_ = state_.steer_rad;
   linkage_.Update(posture_, state_.steer_rad);
   contacts_.Update(linkage_, kReach_m);
   const std::vector<RestingContact>& contacts = contacts_.contacts();
@@ -212,6 +220,7 @@ void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
   stretch_.elapsed_s = 0.0;
   stretch_.rate_rad_s = rate_rad_s;
   stretch_.steer_rad = state_.steer_rad;
+  met_steer_rad_ = state_.steer_rad;
   const double lead_s = LookAhead(similar_drive ? 0.5 * stretch_.duration_s : 0.0);
   const bool on_level_ground = OnLevelGround();
   if (same_drive && steady_ && on_level_ground) {
@@ -296,9 +305,8 @@ void QuasiStaticRover::UpdateForces() {
     if (contact.IsWheel()) {
       state_.wheel_load_N[static_cast<std::size_t>(contact.part)] += contact.load_N;
     } else {
-      state_.contacts.push_back(
-          {contact.kind, std::max(contact.other, -1), contact.load_N, contact.sliding_speed_m_s,
-           contact.n_W.z()});
+      state_.contacts.push_back({contact.kind, std::max(contact.other, -1), contact.load_N,
+                                 contact.sliding_speed_m_s, contact.n_W.z()});
     }
   }
   for (std::size_t i = 0; i < kWheelCount; ++i) {

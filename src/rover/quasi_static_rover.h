@@ -66,6 +66,7 @@ class QuasiStaticRover final : public Rover {
   QuasiStaticBalance balance_;
   Posture posture_;
   Stretch stretch_;
+  messages::PerWheel<double> met_steer_rad_{};  // at the last look for contacts
   LinkageVector rates_ = LinkageVector::Zero();
   bool steady_ = false;  // rates_ hold for as long as the ground is level and the drive the same
   Work work_;
