@@ -6,8 +6,8 @@
 
 #include "core/archive.h"
 #include "core/error.h"
-#include "sensing/stripe_scene.h"
 #include "sensing/stripe_layout_params.h"
+#include "sensing/stripe_scene.h"
 
 namespace rockyard::sensing {
 namespace {
