@@ -73,6 +73,15 @@ void QuasiStaticContacts::Gather(const Vector3& p_WR) {
   gathered_ = true;
 }
 
+bool QuasiStaticContacts::MayMeetObstacle(const Vector3& p_WR, double reach_m) {
+  if (!terrain_.walls().empty()) return true;
+  Gather(p_WR);
+  return std::any_of(rocks_.begin(), rocks_.end(), [&](const NearRock& rock) {
+    const double far_m = reach_R_m_ + rock.support.bounding_radius_m + reach_m;
+    return (rock.support.center_W - p_WR).head<2>().squaredNorm() < far_m * far_m;
+  });
+}
+
 void QuasiStaticContacts::Update(const Linkage& linkage, double reach_m) {
   std::swap(contacts_, last_);
   contacts_.clear();

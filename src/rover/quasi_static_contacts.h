@@ -39,6 +39,9 @@ class QuasiStaticContacts {
 
   // Finds every pair nearer than reach_m. Loads of pairs that go on are kept.
   void Update(const Linkage& linkage, double reach_m);
+  // False where no rock or wall can be nearer than reach_m to a rover at p_WR; much cheaper than
+  // Update, and may be true in vain.
+  bool MayMeetObstacle(const math::Vector3& p_WR, double reach_m);
   // Forgets everything, for a rover that was lifted.
   void Clear();
 

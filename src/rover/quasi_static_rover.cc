@@ -29,7 +29,7 @@ constexpr double kSimilar = 0.25;
 // directions of deep contacts mean nothing.
 constexpr double kDeepest_m = 0.003;
 // Settling: most steps, longest movement in one, and the movement that ends it, m.
-constexpr int kSettleSteps = 200;
+constexpr int kSettleSteps = 100;
 constexpr double kSettleMove_m = 0.02;
 constexpr double kSettled_m = 1e-6;
 
@@ -221,6 +221,8 @@ void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
   stretch_.rate_rad_s = rate_rad_s;
   stretch_.steer_rad = state_.steer_rad;
   met_steer_rad_ = state_.steer_rad;
+  const double reach_m = kReach_m + params_.quasi_static.settle_distance_m;
+  if (same_drive && steady_ && !contacts_.MayMeetObstacle(posture_.p_WR, reach_m)) return RollOn();
   const double lead_s = LookAhead(similar_drive ? 0.5 * stretch_.duration_s : 0.0);
   const bool on_level_ground = OnLevelGround();
   if (same_drive && steady_ && on_level_ground) {
