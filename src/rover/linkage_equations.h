@@ -24,7 +24,7 @@ class LinkageEquations {
   void AddAt(int dof, double force, double stiffness);
 
   const LinkageVector& force() const { return force_; }
-  // The change of the rates that the force asks for, by Cholesky's decomposition. About 0.15 us.
+  // The change of the rates that the force asks for, by decomposition into L D L'. About 0.1 us.
   LinkageVector Solve() const;
 
  private:
