@@ -40,7 +40,7 @@ class QuasiStaticBalance {
     messages::PerWheel<double> rate_rad_s{};
     double step_s = 0.0;
     // The linkage and its contacts are given as they are after this time at the rates that the
-    // solution starts from: half a step makes directions second order.
+    // solution starts from: half a step, so that directions are those midway.
     double lead_s = 0.0;
     Freedom freedom = Freedom::kAll;
   };
