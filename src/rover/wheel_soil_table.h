@@ -22,6 +22,7 @@ class WheelSoilTable {
  public:
   WheelSoilTable(const WheelSoil& soil, double most_N);
 
+  // Throws std::runtime_error where the load is not a number.
   SoilAnswer At(double load_N) const;
 
  private:

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numbers>
+#include <stdexcept>
 #include <vector>
 
+#include "rover/wheel_soil_table.h"
 #include "soil_reference.h"
 
 namespace rockyard::rover {
@@ -146,6 +149,29 @@ TEST(ShearRatio, AgreesWithBisection) {
     EXPECT_NEAR(ShearRatio(tau) / expected, 1.0, 1e-11 + 1e-15 / tau) << tau;
   }
   EXPECT_EQ(ShearRatio(0.0), 0.0);
+}
+
+// The table against the laws it interpolates, from a hundredth of its range on.
+TEST(WheelSoilTable, IsWithinAPerCentOfTheLaws) {
+  constexpr double kMost_N = 300.0;
+  for (const terrain::SoilParams& params : Presets()) {
+    const WheelSoil soil(params, kRadius_m, kWidth_m);
+    const WheelSoilTable table(soil, kMost_N);
+    for (double load_N = 0.01 * kMost_N; load_N < kMost_N; load_N *= 1.013) {
+      const SoilAnswer answer = table.At(load_N);
+      const Rut rut = soil.RutUnder(load_N);
+      EXPECT_NEAR(answer.sinkage_m, rut.sinkage_m, 0.01 * rut.sinkage_m) << load_N;
+      EXPECT_NEAR(answer.stiffness_N_m, rut.stiffness_N_m, 0.01 * rut.stiffness_N_m) << load_N;
+      EXPECT_NEAR(answer.traction_N, rut.largest_traction_N, 0.01 * rut.largest_traction_N);
+      EXPECT_NEAR(answer.resistance_N, rut.resistance_N, 0.01 * rut.resistance_N) << load_N;
+    }
+  }
+}
+
+TEST(WheelSoilTable, RefusesALoadThatIsNoNumber) {
+  const WheelSoilTable table(WheelSoil(Presets()[0], kRadius_m, kWidth_m), 300.0);
+  EXPECT_THROW(table.At(std::numeric_limits<double>::quiet_NaN()), std::runtime_error);
+  EXPECT_EQ(table.At(0.0).traction_N, 0.0);
 }
 
 }  // namespace
