@@ -20,9 +20,9 @@ constexpr double kMostMove = 2.0;
 constexpr double kMostTurn_rad = 0.1;
 // A change of steering below this keeps the stretch, rad.
 constexpr double kSameSteer_rad = 0.017;
-// Slower changes than these in a stretch are none.
-constexpr double kSteady_m = 1e-4;
-constexpr double kSteady_rad = 5e-4;
+// Slower changes than these in a stretch are none: less than a thousandth of a wheel's load.
+constexpr double kSteady_m = 2e-6;
+constexpr double kSteady_rad = 1e-5;
 // A drive that differs from the last one by less still says where the rover will be.
 constexpr double kSimilar = 0.25;
 // A rock deeper than this in the rover, half a step ahead, is met where the rover stands:

@@ -6,6 +6,7 @@
 
 #include "rover/wheel_soil.h"
 #include "rover_drive.h"
+#include "soil_reference.h"
 
 namespace rockyard::rover {
 namespace {
@@ -41,6 +42,23 @@ TEST(QuasiStaticLevel, WheelsBearTheWeightAndSinkAsTheSoilSays) {
                        params.geometry.wheel_width_m);
   const double depth_m = soil.Sinkage_m(load_N) + load_N / params.contact.stiffness_N_m;
   EXPECT_NEAR(state.X_WR.translation().z(), -depth_m, 2e-4);
+}
+
+// Wheels that share one slip i: sum tau(i) T_max = sum R. How finely the way is cut says nothing.
+TEST(QuasiStaticLevel, WayIsThatOfTheSlipLawHoweverFineTheStretches) {
+  const terrain::Terrain terrain = FlatTerrain();
+  for (const double settle_distance_m : {0.02, 0.01, 0.005, 0.0025}) {
+    RoverParams params = QuasiStatic();
+    params.quasi_static.settle_distance_m = settle_distance_m;
+    const auto rover = MakeRover(params, terrain);
+    rover->Place({});
+    RunFor(*rover, Drive(params, 0.15, 0.0), 20.0);
+    const messages::PerWheel<double>& load_N = rover->state().wheel_load_N;
+    const SoilReference soil{terrain.ground().soil()};
+    const double slip = soil.SlipForPull(soil.SumResistance(load_N), load_N);
+    const double way_m = 0.15 * 20.0 * (1.0 - slip);
+    EXPECT_NEAR(rover->state().X_WR.translation().x(), way_m, 1e-3 * way_m) << settle_distance_m;
+  }
 }
 
 // Levers about the bogie pivots: equal arms share a bogie's load equally.
