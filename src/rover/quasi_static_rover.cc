@@ -4,8 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "rover/rover_geometry.h"
-
 namespace rockyard::rover {
 namespace {
 
@@ -41,20 +39,27 @@ void Limit(double time_s, double most_m, double most_rad, LinkageVector& rates) 
   rates /= scale;
 }
 
-double TurnArm(const RoverGeometry& geometry) {
-  double arm_m = 0.0;
-  for (const Vector3& wheel_R : geometry.wheel_R) {
-    arm_m = std::max(arm_m, wheel_R.head<2>().norm());
+// Turn rate of the rigid motion nearest to what the rims do, for wheels evenly about R's origin.
+double TurnRate(const RoverGeometry& geometry, double radius_m,
+                const messages::PerWheel<double>& rate_rad_s,
+                const messages::PerWheel<double>& steer_rad) {
+  double moment = 0.0;
+  double inertia = 0.0;
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    const Vector3& wheel_R = geometry.wheel_R[i];
+    const double rim_m_s = rate_rad_s[i] * radius_m;
+    moment +=
+        rim_m_s * (wheel_R.x() * std::sin(steer_rad[i]) - wheel_R.y() * std::cos(steer_rad[i]));
+    inertia += wheel_R.head<2>().squaredNorm();
   }
-  return arm_m;
+  return moment / inertia;
 }
 
 }  // namespace
 
 QuasiStaticRover::QuasiStaticRover(const RoverParams& params, const terrain::Terrain& terrain)
     : params_(params),
-      steered_(MakeRoverGeometry(params.geometry).steered),
-      turn_arm_m_(TurnArm(MakeRoverGeometry(params.geometry))),
+      geometry_(MakeRoverGeometry(params.geometry)),
       terrain_(terrain),
       linkage_(params),
       contacts_(params.geometry, terrain),
@@ -115,7 +120,7 @@ bool QuasiStaticRover::Steer(const messages::PerWheel<double>& wanted_rad) {
   bool changed = false;
   const double most_rad = params_.drive.steer_rate_rad_s * step_s();
   for (std::size_t i = 0; i < kWheelCount; ++i) {
-    const double limit = steered_[i] ? params_.drive.max_steer_rad : 0.0;
+    const double limit = geometry_.steered[i] ? params_.drive.max_steer_rad : 0.0;
     const double wanted = std::clamp(wanted_rad[i], -limit, limit);
     const double change = std::clamp(wanted - state_.steer_rad[i], -most_rad, most_rad);
     state_.steer_rad[i] += change;
@@ -206,10 +211,11 @@ double QuasiStaticRover::LookAhead(double lead_s) {
 double QuasiStaticRover::StretchTime_s(const messages::PerWheel<double>& rate_rad_s) const {
   double rate = 0.0;
   for (const double wheel_rate : rate_rad_s) rate = std::max(rate, std::abs(wheel_rate));
-  const double rim_m_s = rate * params_.geometry.wheel_radius_m;
-  const double way_m = std::min(params_.quasi_static.settle_distance_m,
-                                params_.quasi_static.settle_turn_rad * turn_arm_m_);
-  return way_m / rim_m_s;
+  const double radius_m = params_.geometry.wheel_radius_m;
+  const double turn_rad_s = std::abs(TurnRate(geometry_, radius_m, rate_rad_s, state_.steer_rad));
+  const double way_s = params_.quasi_static.settle_distance_m / (rate * radius_m);
+  const double most_rad = params_.quasi_static.settle_turn_rad;
+  return turn_rad_s * way_s > most_rad ? most_rad / turn_rad_s : way_s;
 }
 
 void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {

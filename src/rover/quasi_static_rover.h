@@ -5,6 +5,7 @@
 #include "rover/quasi_static_contacts.h"
 #include "rover/quasi_static_linkage.h"
 #include "rover/rover.h"
+#include "rover/rover_geometry.h"
 
 namespace rockyard::rover {
 
@@ -58,8 +59,7 @@ class QuasiStaticRover final : public Rover {
   void UpdateForces();
 
   const RoverParams params_;
-  const messages::PerWheel<bool> steered_;
-  const double turn_arm_m_;  // of the outermost wheel about R's origin
+  const RoverGeometry geometry_;
   const terrain::Terrain& terrain_;
   Linkage linkage_;
   QuasiStaticContacts contacts_;
