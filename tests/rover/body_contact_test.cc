@@ -84,14 +84,23 @@ TEST(Rock, TallerThanTheBellyBlocksIt) {
   EXPECT_GT(state.contacts[0].normal_force_N, 50.0);
 }
 
-TEST(Rock, UnderTheBellyScrapesAndLiftsIt) {
-  const RoverParams params;
+// The same at both levels of fidelity.
+class RockAtEachFidelity : public testing::TestWithParam<Fidelity> {
+ protected:
+  RockAtEachFidelity() { params_.fidelity = GetParam(); }
+  RoverParams params_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Fidelity, RockAtEachFidelity,
+                         testing::Values(Fidelity::kMultibody, Fidelity::kQuasiStatic));
+
+TEST_P(RockAtEachFidelity, UnderTheBellyScrapesAndLiftsIt) {
   const terrain::Terrain terrain = FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.12, 0.08, 0.137)});
-  const auto rover = MakeRover(params, terrain);
+  const auto rover = MakeRover(params_, terrain);
   rover->Place({});
-  const messages::WheelCommand command = Drive(params, 0.15, 0.0);
+  const messages::WheelCommand command = Drive(params_, 0.15, 0.0);
   bool scraped = false;
-  for (int i = 0; i < 420; ++i) {
+  for (double time_s = 0.0; time_s < 7.0; time_s += rover->step_s()) {
     rover->Step(command);
     for (const truth::BodyContact& contact : rover->state().contacts) {
       scraped |= contact.part == BodyPart::kBelly && contact.sliding_speed_m_s > 0.05;
@@ -101,18 +110,17 @@ TEST(Rock, UnderTheBellyScrapesAndLiftsIt) {
 }
 
 // High-centred: the belly rests on a rock, the wheels hang or slip, and it does not get off.
-TEST(Rock, HighCentresTheRoverPlacedOnIt) {
-  const RoverParams params;
+TEST_P(RockAtEachFidelity, HighCentresTheRoverPlacedOnIt) {
   const terrain::Terrain terrain = FlatTerrain({MakeRock(0.0, 0.0, 0.0, 0.2, 0.16, 0.18)});
-  const auto rover = MakeRover(params, terrain);
+  const auto rover = MakeRover(params_, terrain);
   rover->Place({});
-  RunFor(*rover, Drive(params, 0.15, 0.0), 10.0);
+  RunFor(*rover, Drive(params_, 0.15, 0.0), 10.0);
   const truth::RoverState& state = rover->state();
   const auto belly =
       std::find_if(state.contacts.begin(), state.contacts.end(),
                    [](const truth::BodyContact& c) { return c.part == BodyPart::kBelly; });
   ASSERT_NE(belly, state.contacts.end());
-  EXPECT_GT(belly->normal_force_N, 0.5 * params.mass.total_kg * 9.81);
+  EXPECT_GT(belly->normal_force_N, 0.5 * Weights(params_).total_N);
   EXPECT_GT(belly->lift_share, 0.9);
   EXPECT_LT(state.X_WR.translation().head<2>().norm(), 0.1);
   EXPECT_GT(state.wheel_angle_rad[1], 20.0);
@@ -120,14 +128,13 @@ TEST(Rock, HighCentresTheRoverPlacedOnIt) {
 
 // Between two steep rocks nearer to each other than the rover is wide. At the default friction the
 // wheels climb the wedge.
-TEST(Rock, TwoRocksJamTheRover) {
-  RoverParams params;
-  params.contact.wheel_rock_friction = 0.3;
+TEST_P(RockAtEachFidelity, TwoOfThemJamTheRover) {
+  params_.contact.wheel_rock_friction = 0.3;
   const terrain::Terrain terrain = FlatTerrain(
       {MakeRock(0.7, 0.33, 0.0, 0.15, 0.15, 0.5), MakeRock(0.7, -0.33, 0.0, 0.15, 0.15, 0.5)});
-  const auto rover = MakeRover(params, terrain);
+  const auto rover = MakeRover(params_, terrain);
   rover->Place({});
-  RunFor(*rover, Drive(params, 0.15, 0.0), 10.0);
+  RunFor(*rover, Drive(params_, 0.15, 0.0), 10.0);
   EXPECT_LT(rover->state().X_WR.translation().x(), 0.5);
   EXPECT_LT(rover->state().v_WR_m_s.norm(), 0.01);
 }

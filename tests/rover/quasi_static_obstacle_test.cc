@@ -1,7 +1,6 @@
 // The quasi-static rover on rocks and at walls: climbing, scraping, getting stuck.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "rover_drive.h"
@@ -62,49 +61,6 @@ TEST(QuasiStaticRock, TallerThanTheBellyBlocksItUntilItBacksOff) {
   const double blocked_x = state.X_WR.translation().x();
   RunFor(*rover, Drive(params, -0.15, 0.0), 1.0);
   EXPECT_LT(rover->state().X_WR.translation().x(), blocked_x - 0.1);
-}
-
-TEST(QuasiStaticRock, UnderTheBellyScrapesAndLiftsIt) {
-  const RoverParams params = QuasiStatic();
-  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.6, 0.0, 0.0, 0.12, 0.08, 0.137)});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
-  bool scraped = false;
-  for (int i = 0; i < 140; ++i) {
-    rover->Step(Drive(params, 0.15, 0.0));
-    for (const truth::BodyContact& contact : rover->state().contacts) {
-      scraped |= contact.part == BodyPart::kBelly && contact.sliding_speed_m_s > 0.05;
-    }
-  }
-  EXPECT_TRUE(scraped);
-}
-
-TEST(QuasiStaticRock, HighCentresTheRoverPlacedOnIt) {
-  const RoverParams params = QuasiStatic();
-  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.0, 0.0, 0.0, 0.2, 0.16, 0.18)});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
-  RunFor(*rover, Drive(params, 0.15, 0.0), 10.0);
-  const truth::RoverState& state = rover->state();
-  const auto belly =
-      std::find_if(state.contacts.begin(), state.contacts.end(),
-                   [](const truth::BodyContact& c) { return c.part == BodyPart::kBelly; });
-  ASSERT_NE(belly, state.contacts.end());
-  EXPECT_GT(belly->normal_force_N, 0.5 * Weights(params).total_N);
-  EXPECT_LT(state.X_WR.translation().head<2>().norm(), 0.1);
-  EXPECT_GT(state.wheel_angle_rad[1], 20.0);
-}
-
-TEST(QuasiStaticRock, TwoRocksJamTheRover) {
-  RoverParams params = QuasiStatic();
-  params.contact.wheel_rock_friction = 0.3;
-  const terrain::Terrain terrain = FlatTerrain(
-      {MakeRock(0.7, 0.33, 0.0, 0.15, 0.15, 0.5), MakeRock(0.7, -0.33, 0.0, 0.15, 0.15, 0.5)});
-  const auto rover = MakeRover(params, terrain);
-  rover->Place({});
-  RunFor(*rover, Drive(params, 0.15, 0.0), 10.0);
-  EXPECT_LT(rover->state().X_WR.translation().x(), 0.5);
-  EXPECT_LT(rover->state().v_WR_m_s.norm(), 0.01);
 }
 
 TEST(QuasiStaticWall, StopsTheRover) {
