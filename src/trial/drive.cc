@@ -86,7 +86,7 @@ Drive::Drive(const Scenario& scenario, core::TrialKey key, truth::Trace* trace)
       rover_(MakeTrialRover(scenario, field_.terrain)),
       tick_(WholeSteps(1.0 / scenario.clock.control_rate_hz, rover_->step_s())),
       stop_(WholeSteps(scenario.clock.stop_time_s, rover_->step_s())),
-      light_stripe_(scenario.sensors.light_stripe),
+      scanner_(scenario),
       triangulator_(
           OnboardStripeCalibration(scenario.sensors.light_stripe, scenario.perception.calibration)),
       hazard_detector_(scenario.perception.hazard),
@@ -132,7 +132,7 @@ std::optional<Verdict> Drive::Scan() {
   perception::HazardDetector::Verdict seen{true, {}};
   for (bool first = true; seen.scan_again; first = false) {
     const messages::StripeScan scan =
-        light_stripe_.Scan(field_.terrain, rover_->state().X_WR, key_, scans_);
+        scanner_.Scan(field_.terrain, rover_->state().X_WR, key_, scans_);
     ++scans_;
     if (!first) ++rescans_;
     ledger_.Spend(Activity::kScanning, scenario_.clock.scan_time_s);

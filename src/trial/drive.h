@@ -13,10 +13,10 @@
 #include "perception/triangulation.h"
 #include "rover/rover.h"
 #include "scenario/scenario.h"
-#include "sensing/light_stripe.h"
 #include "sensing/motion_sensors.h"
 #include "terrain/field.h"
 #include "trial/drive_monitor.h"
+#include "trial/hazard_scanner.h"
 #include "trial/ledger.h"
 #include "trial/mirror_arena.h"
 #include "trial/referee.h"
@@ -64,7 +64,7 @@ class Drive {
   Stretch stop_;  // before a scan
   std::optional<MirrorArena> mirror_;
 
-  sensing::LightStripe light_stripe_;
+  HazardScanner scanner_;
   std::optional<sensing::MotionSensors> motion_sensors_;
 
   perception::Triangulator triangulator_;
