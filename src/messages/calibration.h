@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "math/pose.h"
 #include "messages/measurements.h"
@@ -23,12 +24,23 @@ struct DriveCalibration {
   double max_wheel_speed_m_s = 0.15;  // rim speed of the fastest wheel
 };
 
-// One camera of the light stripe sensor. Rows are read as planes through the lateral axis; angles
-// grow in proportion to pixels (f-theta lens).
+// How a lens maps directions to image positions; the equations stand in vision/lens.h.
+enum class Lens {
+  kEquidistantRows,  // rows are planes through the lateral axis; angles grow with pixels
+  kEquidistant,      // f-theta, radially symmetric
+  kPinhole,          // rectilinear
+};
+
+// One camera of the light stripe sensor.
 struct StripeCamera {
+  Lens lens = Lens::kEquidistantRows;
   math::Transform X_RC = math::Transform::Identity();  // x along the optical axis, y left, z up
-  double column_pitch_rad = 0.0;  // angle per column; positive columns look to the camera's right
+  // Angle per pixel, on the axis; columns count to the camera's right, rows downwards.
+  double column_pitch_rad = 0.0;
   double row_pitch_rad = 0.0;
+  // Imager, pixels: columns from -columns / 2 to columns / 2, rows likewise.
+  int columns = 0;
+  int rows = 0;
 };
 
 // One laser fan: a plane through the emitter that contains the rover's z axis direction tilted into
@@ -39,14 +51,20 @@ struct StripeLaser {
   math::Vector3 axis_R = math::Vector3::UnitX();    // centre ray of the fan
   double half_fan_rad = 0.5;
   int camera = 0;  // index of the camera that finds this stripe
+  int group = 0;   // lasers of one group are on in the same image
 };
 
 struct StripeCalibration {
   std::array<StripeCamera, 2> cameras{};
-  std::array<StripeLaser, kStripes> lasers{};
-  // Depression of the scanline plane of each row below the camera's optical axis, per row.
-  std::array<double, kStripeRows> row_angle_rad{};
+  std::vector<StripeLaser> lasers;  // left to right
+  // Image row of each scanline, below the optical axis; nearest first.
+  std::vector<int> scanline_px;
   double datum_z_m = 0.0;  // height in R of the plane from which elevations count
+  // Elevations above it between which stripes are looked for.
+  double search_low_m = -0.30;
+  double search_high_m = 0.20;
+
+  StripeArraySize size() const { return {scanline_px.size(), lasers.size()}; }
 };
 
 }  // namespace rockyard::messages

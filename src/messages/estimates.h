@@ -1,7 +1,6 @@
 // What on-board code believes, and what operators tell it.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "messages/measurements.h"
@@ -37,13 +36,13 @@ struct ElevationPoint {
 
 struct ElevationScan {
   std::int64_t number = 0;
-  StripeArray<ElevationPoint> points{};
+  StripeArray<ElevationPoint> points;
 };
 
 // Which stripes see a hazard; left to right as in StripeScan.
 struct HazardReport {
   std::int64_t scan_number = 0;
-  std::array<bool, kStripes> stripe_hazard{};
+  PerStripe<bool> stripe_hazard;
 
   bool any() const {
     for (const bool hazard : stripe_hazard) {

@@ -1,5 +1,6 @@
 #include "perception/hazard_criteria.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace rockyard::perception {
@@ -7,15 +8,13 @@ namespace {
 
 using messages::ElevationPoint;
 using messages::ElevationScan;
-using messages::kStripeRows;
-using messages::kStripes;
 
 struct Located {
   double elevation_m = 0.0;
   std::size_t stripe = 0;
 };
 
-using StripeFlags = std::array<bool, kStripes>;
+using StripeFlags = messages::PerStripe<bool>;
 
 void ChargeFarther(const Located& a, const Located& b, StripeFlags& flags) {
   const double distance_a = std::abs(a.elevation_m);
@@ -56,7 +55,7 @@ void ChargeRange(const Located& low, const Located& high, RangeBlame blame, Stri
 }
 
 void FindMissing(const ElevationScan& scan, StripeFlags& flags) {
-  for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
+  for (std::size_t stripe = 0; stripe < flags.size(); ++stripe) {
     flags[stripe] = !scan.points[0][stripe].detected || !scan.points[1][stripe].detected;
   }
 }
@@ -68,14 +67,15 @@ void FindNeighbours(const ElevationScan& scan, const HazardParams& params, Strip
     int stripes;
   };
   constexpr std::array<Step, 4> kSteps{{{0, 1}, {1, -1}, {1, 0}, {1, 1}}};
-  for (std::size_t row = 0; row < kStripeRows; ++row) {
-    for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
+  const auto [rows, stripes] = scan.points.size();
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t stripe = 0; stripe < stripes; ++stripe) {
       const ElevationPoint& a = scan.points[row][stripe];
       if (!a.detected) continue;
       for (const Step step : kSteps) {
         // Wraps to a huge value left of stripe 0, which the bound excludes.
         const std::size_t other = stripe + static_cast<std::size_t>(step.stripes);
-        if (row + step.rows >= kStripeRows || other >= kStripes) continue;
+        if (row + step.rows >= rows || other >= stripes) continue;
         const ElevationPoint& b = scan.points[row + step.rows][other];
         if (!b.detected) continue;
         if (std::abs(a.elevation_m - b.elevation_m) <= params.neighbour_threshold_m) continue;
@@ -90,10 +90,12 @@ void FindRange(const ElevationScan& scan, const HazardParams& params, StripeFlag
   bool any = false;
   Located low;
   Located high;
-  for (const auto& row : scan.points) {
-    for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
-      if (!row[stripe].detected) continue;
-      const Located point{row[stripe].elevation_m, stripe};
+  const auto [rows, stripes] = scan.points.size();
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t stripe = 0; stripe < stripes; ++stripe) {
+      const ElevationPoint& at = scan.points[row][stripe];
+      if (!at.detected) continue;
+      const Located point{at.elevation_m, stripe};
       if (!any || point.elevation_m < low.elevation_m) low = point;
       if (!any || point.elevation_m > high.elevation_m) high = point;
       any = true;
@@ -106,7 +108,7 @@ void FindRange(const ElevationScan& scan, const HazardParams& params, StripeFlag
 }  // namespace
 
 HazardFindings AssessHazards(const ElevationScan& scan, const HazardParams& params) {
-  HazardFindings findings;
+  HazardFindings findings(scan.points.stripes());
   FindMissing(scan, findings.missing);
   FindNeighbours(scan, params, findings.neighbour);
   FindRange(scan, params, findings.range);
@@ -115,24 +117,21 @@ HazardFindings AssessHazards(const ElevationScan& scan, const HazardParams& para
 
 messages::HazardReport ReportHazards(const ElevationScan& scan, const HazardParams& params) {
   const HazardFindings findings = AssessHazards(scan, params);
-  messages::HazardReport report;
-  report.scan_number = scan.number;
-  for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
+  messages::HazardReport report{scan.number, messages::PerStripe<bool>(scan.points.stripes())};
+  for (std::size_t stripe = 0; stripe < report.stripe_hazard.size(); ++stripe) {
     report.stripe_hazard[stripe] = findings.Charges(stripe);
   }
   return report;
 }
 
 bool ScansAgree(const ElevationScan& a, const ElevationScan& b, double agree_m) {
-  for (std::size_t row = 0; row < kStripeRows; ++row) {
-    for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
-      const ElevationPoint& p = a.points[row][stripe];
-      const ElevationPoint& q = b.points[row][stripe];
-      if (p.detected != q.detected) return false;
-      if (p.detected && std::abs(p.elevation_m - q.elevation_m) > agree_m) return false;
-    }
-  }
-  return true;
+  const auto agree = [agree_m](const ElevationPoint& p, const ElevationPoint& q) {
+    if (p.detected != q.detected) return false;
+    return !p.detected || std::abs(p.elevation_m - q.elevation_m) <= agree_m;
+  };
+  const auto before = a.points.points();
+  const auto now = b.points.points();
+  return std::equal(before.begin(), before.end(), now.begin(), now.end(), agree);
 }
 
 }  // namespace rockyard::perception

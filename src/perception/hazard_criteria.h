@@ -2,8 +2,6 @@
 // scans.
 #pragma once
 
-#include <array>
-
 #include "messages/estimates.h"
 #include "perception/hazard_params.h"
 
@@ -11,9 +9,12 @@ namespace rockyard::perception {
 
 // Stripes charged by each criterion.
 struct HazardFindings {
-  std::array<bool, messages::kStripes> missing{};    // either of the nearest two points missing
-  std::array<bool, messages::kStripes> neighbour{};  // 8-connected difference above the threshold
-  std::array<bool, messages::kStripes> range{};      // highest - lowest of the array above another
+  explicit HazardFindings(std::size_t stripes)
+      : missing(stripes), neighbour(stripes), range(stripes) {}
+
+  messages::PerStripe<bool> missing;    // either of the nearest two points missing
+  messages::PerStripe<bool> neighbour;  // difference of neighbours above the threshold
+  messages::PerStripe<bool> range;      // highest - lowest of the array above another
 
   bool Charges(std::size_t stripe) const {
     return missing[stripe] || neighbour[stripe] || range[stripe];

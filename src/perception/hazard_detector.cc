@@ -7,13 +7,13 @@ namespace rockyard::perception {
 namespace {
 
 messages::HazardReport Clear(const messages::ElevationScan& scan) {
-  return {.scan_number = scan.number, .stripe_hazard = {}};
+  return {scan.number, messages::PerStripe<bool>(scan.points.stripes())};
 }
 
 messages::HazardReport Union(const messages::HazardReport& before,
                              const messages::HazardReport& now) {
   messages::HazardReport both = now;
-  for (std::size_t stripe = 0; stripe < messages::kStripes; ++stripe) {
+  for (std::size_t stripe = 0; stripe < both.stripe_hazard.size(); ++stripe) {
     both.stripe_hazard[stripe] = now.stripe_hazard[stripe] || before.stripe_hazard[stripe];
   }
   return both;

@@ -12,8 +12,6 @@ namespace rockyard::sensing {
 namespace {
 
 using math::Vector3;
-using messages::kStripeRows;
-using messages::kStripes;
 
 // Surfaces this close to a point do not hide it: half the width of the beam (3 mrad at 0.3 m).
 constexpr double kOcclusionMargin_m = 0.0005;
@@ -54,13 +52,14 @@ LightStripe::LightStripe(const LightStripeParams& params)
     high = high.cwiseMax(point);
   };
   include(calibration_.cameras[1].X_RC.translation());
-  for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
-    half_fan_cosine_[stripe] = std::cos(calibration_.lasers[stripe].half_fan_rad);
+  const auto [rows, stripes] = calibration_.size();
+  for (const messages::StripeLaser& laser : calibration_.lasers) {
+    half_fan_cosine_.push_back(std::cos(laser.half_fan_rad));
   }
-  for (std::size_t row = 0; row < kStripeRows; ++row) {
-    for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t stripe = 0; stripe < stripes; ++stripe) {
       const Line line = MakeLine(row, stripe);
-      lines_[row][stripe] = line;
+      lines_.push_back(line);
       include(calibration_.lasers[stripe].p_RoE_R);
       include(line.start_R);
       include(line.start_R + line.length_m * line.direction_R);
@@ -73,7 +72,8 @@ LightStripe::LightStripe(const LightStripeParams& params)
 LightStripe::Line LightStripe::MakeLine(std::size_t row, std::size_t stripe) const {
   const messages::StripeLaser& laser = calibration_.lasers[stripe];
   const messages::StripeCamera& camera = calibration_.cameras[laser.camera];
-  const Vector3 scanline = ScanlineNormal(camera, calibration_.row_angle_rad[row]);
+  const double row_angle_rad = calibration_.scanline_px[row] * camera.row_pitch_rad;
+  const Vector3 scanline = ScanlineNormal(camera, row_angle_rad);
   Line line;
   line.direction_R = scanline.cross(laser.normal_R).normalized();
   if (line.direction_R.z() > 0.0) line.direction_R = -line.direction_R;
@@ -88,7 +88,7 @@ LightStripe::Line LightStripe::MakeLine(std::size_t row, std::size_t stripe) con
 
   line.length_m =
       DistanceDownTo(params_.search_low_m + params_.datum_z_m, line.start_R, line.direction_R);
-  SetView(camera, calibration_.row_angle_rad[row], line);
+  SetView(camera, row_angle_rad, line);
   if (line.is_light_ray && !InFan(line.start_R + line.direction_R, stripe)) line.last_m = -1.0;
   line.searched = SearchedColumns(camera, line);
   return line;
@@ -166,23 +166,21 @@ void LightStripe::Disturb(core::TrialKey key, messages::StripeScan& scan) const 
   const auto substream = static_cast<std::uint32_t>(scan.number);
   if (params_.missed_probability > 0.0) {
     core::RandomStream missed(key, core::Purpose::kStripeMissed, substream);
-    for (auto& row : scan.pixels) {
-      for (messages::StripePixel& pixel : row) {
-        if (core::SampleBernoulli(missed, params_.missed_probability)) pixel = {};
-      }
+    for (messages::StripePixel& pixel : scan.pixels.points()) {
+      if (core::SampleBernoulli(missed, params_.missed_probability)) pixel = {};
     }
   }
   if (params_.wrong_place_probability <= 0.0) return;
   core::RandomStream wrong(key, core::Purpose::kStripeWrongPlace, substream);
-  messages::StripeArray<bool> misplaced;
-  for (auto& row : misplaced) {
-    for (bool& point : row) point = core::SampleBernoulli(wrong, params_.wrong_place_probability);
+  messages::StripeArray<bool> misplaced(scan.pixels.size());
+  for (bool& point : misplaced.points()) {
+    point = core::SampleBernoulli(wrong, params_.wrong_place_probability);
   }
-  for (std::size_t row = 0; row < kStripeRows; ++row) {
-    for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
+  for (std::size_t row = 0; row < misplaced.rows(); ++row) {
+    for (std::size_t stripe = 0; stripe < misplaced.stripes(); ++stripe) {
       if (!misplaced[row][stripe]) continue;
       const Columns range = params_.wrong_place == WrongPlace::kSearchedPart
-                                ? lines_[row][stripe].searched
+                                ? searched(row, stripe)
                                 : Columns{-last_column_, last_column_};
       const double column = std::floor(core::SampleUniform(wrong, range.first, range.last + 1.0));
       scan.pixels[row][stripe] = {.detected = true, .column_px = column};
@@ -197,15 +195,15 @@ messages::StripeScan LightStripe::Scan(const terrain::Terrain& terrain, const ma
   std::vector<int> near;
   terrain.RocksNear(reach_W.x(), reach_W.y(), reach_radius_m_, near);
 
-  messages::StripeScan scan;
-  scan.number = scan_number;
+  const messages::StripeArraySize size = calibration_.size();
+  messages::StripeScan scan{scan_number, messages::StripeArray<messages::StripePixel>(size)};
   std::vector<int> lit;
   lit.reserve(near.size());
-  for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
+  for (std::size_t stripe = 0; stripe < size.stripes; ++stripe) {
     const messages::StripeLaser& laser = calibration_.lasers[stripe];
     RocksMeetingPlane(terrain, near, X_WR * laser.p_RoE_R, X_WR.linear() * laser.normal_R, lit);
-    for (std::size_t row = 0; row < kStripeRows; ++row) {
-      scan.pixels[row][stripe] = Find(terrain, X_WR, lines_[row][stripe], stripe, {near, lit});
+    for (std::size_t row = 0; row < size.rows; ++row) {
+      scan.pixels[row][stripe] = Find(terrain, X_WR, LineOf(row, stripe), stripe, {near, lit});
     }
   }
   Disturb(key, scan);

@@ -19,9 +19,9 @@
 // several lit points on one scanline only the one nearest to the emitter counts.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/random.h"
 #include "math/pose.h"
@@ -52,7 +52,7 @@ class LightStripe {
     int last = -1;
   };
   Columns searched(std::size_t row, std::size_t stripe) const {
-    return lines_[row][stripe].searched;
+    return LineOf(row, stripe).searched;
   }
 
  private:
@@ -81,6 +81,9 @@ class LightStripe {
     std::span<const int> lit;
   };
 
+  const Line& LineOf(std::size_t row, std::size_t stripe) const {
+    return lines_[row * calibration_.lasers.size() + stripe];
+  }
   Line MakeLine(std::size_t row, std::size_t stripe) const;
   void SetView(const messages::StripeCamera& camera, double row_angle_rad, Line& line) const;
   Columns SearchedColumns(const messages::StripeCamera& camera, const Line& line) const;
@@ -92,9 +95,9 @@ class LightStripe {
 
   LightStripeParams params_;
   messages::StripeCalibration calibration_;
-  int last_column_ = 0;  // columns run from -last_column_ to last_column_
-  messages::StripeArray<Line> lines_;
-  std::array<double, messages::kStripes> half_fan_cosine_{};
+  int last_column_ = 0;      // columns run from -last_column_ to last_column_
+  std::vector<Line> lines_;  // [row][stripe]
+  std::vector<double> half_fan_cosine_;
   math::Vector3 reach_center_R_ = math::Vector3::Zero();  // of a sphere around all lines and eyes
   double reach_radius_m_ = 0.0;
 };

@@ -44,6 +44,19 @@ void VisitOptics(LightStripeParams& p, core::FieldVisitor& v) {
           .max = 0.1,
           .origin = Origin::kPublished,
           .source = kTable3});
+  v.Choice("lens", p.lens,
+           {.doc = "how directions map to the image: both equidistant models have the published "
+                   "field of view; equidistant_rows reads rows as planes, equidistant is the "
+                   "radially symmetric f-theta lens",
+            .origin = Origin::kAssumed,
+            .source = "Matthies 1995 table 3: 8.9 x 6.6 mm at 4 mm are 2.2 x 1.6 rad only for an "
+                      "f-theta lens; rows as planes are what software straightens them to"});
+  v.Integer("lasers_per_image", p.lasers_per_image,
+            {.doc = "lasers that are on in one image",
+             .min = 1,
+             .max = static_cast<double>(messages::kMaxStripes),
+             .origin = Origin::kPublished,
+             .source = kSection6});
   v.Real("fan_rad", p.fan_rad,
          {.doc = "full opening of each light fan",
           .min = 0.05,
@@ -165,6 +178,21 @@ void VisitArray(LightStripeParams& p, core::FieldVisitor& v) {
           .source = kSection6});
 }
 
+void VisitDensity(LightStripeParams& p, core::FieldVisitor& v) {
+  v.Integer("row_subdivision", p.row_subdivision,
+            {.doc = "1: the published four rows; 2: one more between any two, seven in all",
+             .min = 1,
+             .max = 2,
+             .origin = Origin::kPublished,
+             .source = kSection6});
+  v.Integer("stripe_subdivision", p.stripe_subdivision,
+            {.doc = "1: the published five stripes; 2: one more between any two, nine in all",
+             .min = 1,
+             .max = 2,
+             .origin = Origin::kPublished,
+             .source = kSection6});
+}
+
 void VisitDetection(LightStripeParams& p, core::FieldVisitor& v) {
   v.Real("search_low_m", p.search_low_m,
          {.doc = "lowest elevation whose column is searched for a stripe",
@@ -236,6 +264,7 @@ void LightStripeParams::Visit(core::FieldVisitor& v) {
   VisitCameras(*this, v);
   VisitEmitters(*this, v);
   VisitArray(*this, v);
+  VisitDensity(*this, v);
   VisitDetection(*this, v);
   RequireVisibility(*this, v);
 }

@@ -29,7 +29,9 @@ struct LightStripeParams {
   double active_width_m = 0.0089;
   double active_height_m = 0.0066;
   double focal_length_m = 0.0048;
+  messages::Lens lens = messages::Lens::kEquidistantRows;
   double fan_rad = 1.0;
+  std::int64_t lasers_per_image = 2;
 
   // Where cameras and emitters sit, in R.
   double camera_separation_m = 0.12;
@@ -47,6 +49,9 @@ struct LightStripeParams {
   std::array<double, messages::kStripeRows> row_ahead_m{0.10, 0.1667, 0.2333, 0.30};
   double inner_stripe_y_m = 0.185;
   double outer_stripe_y_m = 0.37;
+  // Denser arrays: the published rows and stripes with others evenly between them.
+  std::int64_t row_subdivision = 1;
+  std::int64_t stripe_subdivision = 1;
 
   // Detection.
   double search_low_m = -0.30;
@@ -67,6 +72,12 @@ struct LightStripeParams {
 };
 
 }  // namespace rockyard::sensing
+
+template <>
+struct rockyard::core::EnumNames<rockyard::messages::Lens> {
+  static constexpr std::array<std::string_view, 3> kNames{"equidistant_rows", "equidistant",
+                                                          "pinhole"};
+};
 
 template <>
 struct rockyard::core::EnumNames<rockyard::sensing::WrongPlace> {

@@ -10,19 +10,39 @@ using math::Vector3;
 using messages::kStripeRows;
 using messages::kStripes;
 
+// Shortest of the published camera-to-emitter baselines, less what rounding may take.
+constexpr double kShortestBaseline_m = 0.05 - 1e-9;
+
 // Emitter to the point where its stripe meets the farthest row on the datum plane.
 struct StripeAim {
   Vector3 emitter_R;
   Vector3 far_point_R;
 };
 
+// Value at `index` of a list that is `subdivision` times as dense as the published one: those of
+// the list where it has one, and evenly between them elsewhere.
+template <std::size_t kSize>
+double Subdivided(const std::array<double, kSize>& published, std::int64_t subdivision,
+                  std::size_t index) {
+  const auto parts = static_cast<std::size_t>(subdivision);
+  const std::size_t below = index / parts;
+  if (index % parts == 0) return published[below];
+  const double share = static_cast<double>(index % parts) / static_cast<double>(parts);
+  return published[below] + share * (published[below + 1] - published[below]);
+}
+
 StripeAim AimOf(const LightStripeParams& p, std::size_t stripe) {
   const std::array<double, kStripes> emitter_y{p.outer_emitter_y_m, p.inner_emitter_y_m, 0.0,
                                                -p.inner_emitter_y_m, -p.outer_emitter_y_m};
   const std::array<double, kStripes> stripe_y{p.outer_stripe_y_m, p.inner_stripe_y_m, 0.0,
                                               -p.inner_stripe_y_m, -p.outer_stripe_y_m};
-  return {{p.emitter_x_m, emitter_y[stripe], p.emitter_height_m},
-          {p.front_x_m + p.row_ahead_m.back(), stripe_y[stripe], p.datum_z_m}};
+  return {{p.emitter_x_m, Subdivided(emitter_y, p.stripe_subdivision, stripe), p.emitter_height_m},
+          {p.front_x_m + p.row_ahead_m.back(), Subdivided(stripe_y, p.stripe_subdivision, stripe),
+           p.datum_z_m}};
+}
+
+double RowAhead(const LightStripeParams& p, std::size_t row) {
+  return Subdivided(p.row_ahead_m, p.row_subdivision, row);
 }
 
 // Point of a stripe on the datum plane at a distance ahead of the rover's front.
@@ -40,39 +60,68 @@ Vector3 CameraPosition(const LightStripeParams& p, int camera) {
 }
 
 // The camera on the stripe's own side, which sees it from the smaller baseline; the left one for
-// the centre.
-int CameraOf(std::size_t stripe) { return stripe <= kStripes / 2 ? 0 : 1; }
+// the centre. Where the emitter sits too near to that camera, as in denser arrays, the other one.
+int CameraOf(const LightStripeParams& p, std::size_t stripe) {
+  const int own = stripe <= ArraySize(p).stripes / 2 ? 0 : 1;
+  const double baseline_m = (AimOf(p, stripe).emitter_R - CameraPosition(p, own)).norm();
+  return baseline_m < kShortestBaseline_m ? 1 - own : own;
+}
 
-// Depression of the row's scanline plane below the optical axis, before rounding to an image row.
+// Direction below the optical axis in which the row meets the datum plane.
 double RowAngle(const LightStripeParams& p, std::size_t row) {
-  const double ahead = p.front_x_m + p.row_ahead_m[row] - p.camera_x_m;
+  const double ahead = p.front_x_m + RowAhead(p, row) - p.camera_x_m;
   return std::atan2(p.camera_height_m - p.datum_z_m, ahead) - p.camera_pitch_rad;
+}
+
+// The same as an image row, before rounding; none where a pinhole cannot see it.
+double RowPixel(const LightStripeParams& p, std::size_t row) {
+  const double angle_rad = RowAngle(p, row);
+  const double image = p.lens == messages::Lens::kPinhole ? std::tan(angle_rad) : angle_rad;
+  return image / p.row_pitch_rad();
+}
+
+// Stripes of one image stand as far apart as possible, which is what keeps them apart in it: with
+// two at a time of five, {0, 3}, {1, 4} and {2}.
+int GroupOf(const LightStripeParams& p, std::size_t stripe) {
+  return static_cast<int>(stripe % static_cast<std::size_t>(LaserGroups(p)));
 }
 
 messages::StripeLaser LaserOf(const LightStripeParams& p, std::size_t stripe) {
   const StripeAim aim = AimOf(p, stripe);
   const Vector3 along = aim.far_point_R - aim.emitter_R;
-  const Vector3 near = DatumPoint(p, stripe, p.row_ahead_m.front()) - aim.emitter_R;
+  const Vector3 near = DatumPoint(p, stripe, RowAhead(p, 0)) - aim.emitter_R;
   messages::StripeLaser laser;
   laser.p_RoE_R = aim.emitter_R;
   laser.normal_R = Vector3(-along.y(), along.x(), 0.0).normalized();
   laser.axis_R = (near.normalized() + along.normalized()).normalized();
   laser.half_fan_rad = 0.5 * p.fan_rad;
-  laser.camera = CameraOf(stripe);
+  laser.camera = CameraOf(p, stripe);
+  laser.group = GroupOf(p, stripe);
   return laser;
 }
 
 template <typename Condition>
 bool HoldsForEveryPoint(const LightStripeParams& p, Condition condition) {
-  for (std::size_t row = 0; row < kStripeRows; ++row) {
-    for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
-      if (!condition(stripe, DatumPoint(p, stripe, p.row_ahead_m[row]))) return false;
+  const auto [rows, stripes] = ArraySize(p);
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t stripe = 0; stripe < stripes; ++stripe) {
+      if (!condition(stripe, DatumPoint(p, stripe, RowAhead(p, row)))) return false;
     }
   }
   return true;
 }
 
 }  // namespace
+
+messages::StripeArraySize ArraySize(const LightStripeParams& p) {
+  return {static_cast<std::size_t>(p.row_subdivision) * (kStripeRows - 1) + 1,
+          static_cast<std::size_t>(p.stripe_subdivision) * (kStripes - 1) + 1};
+}
+
+int LaserGroups(const LightStripeParams& p) {
+  const auto at_once = static_cast<std::size_t>(p.lasers_per_image);
+  return static_cast<int>((ArraySize(p).stripes + at_once - 1) / at_once);
+}
 
 bool IsLaidOut(const LightStripeParams& p) {
   const double nearest = p.front_x_m + p.row_ahead_m.front();
@@ -83,9 +132,9 @@ bool IsLaidOut(const LightStripeParams& p) {
 }
 
 bool RowsFitTheImage(const LightStripeParams& p) {
-  const double half = 0.5 * static_cast<double>(p.rows) * p.row_pitch_rad();
-  for (std::size_t row = 0; row < kStripeRows; ++row) {
-    if (std::abs(RowAngle(p, row)) > half) return false;
+  const double half = 0.5 * static_cast<double>(p.rows);
+  for (std::size_t row = 0; row < ArraySize(p).rows; ++row) {
+    if (std::abs(RowPixel(p, row)) > half) return false;
   }
   return true;
 }
@@ -93,7 +142,7 @@ bool RowsFitTheImage(const LightStripeParams& p) {
 bool ColumnsFitTheImage(const LightStripeParams& p) {
   const double half = 0.5 * static_cast<double>(p.columns) * p.column_pitch_rad();
   return HoldsForEveryPoint(p, [&](std::size_t stripe, const Vector3& point) {
-    const Vector3 ray = point - CameraPosition(p, CameraOf(stripe));
+    const Vector3 ray = point - CameraPosition(p, CameraOf(p, stripe));
     return std::abs(std::atan2(ray.y(), std::hypot(ray.x(), ray.z()))) <= half;
   });
 }
@@ -108,7 +157,7 @@ bool PointsFitTheFans(const LightStripeParams& p) {
 
 bool PointsAreInRange(const LightStripeParams& p) {
   return HoldsForEveryPoint(p, [&](std::size_t stripe, const Vector3& point) {
-    return (point - CameraPosition(p, CameraOf(stripe))).norm() <= p.max_range_m;
+    return (point - CameraPosition(p, CameraOf(p, stripe))).norm() <= p.max_range_m;
   });
 }
 
@@ -119,17 +168,22 @@ messages::StripeCalibration TrueCalibration(const LightStripeParams& params) {
     camera.X_RC.translation() = CameraPosition(params, i);
     camera.X_RC.linear() =
         Eigen::AngleAxisd(params.camera_pitch_rad, Vector3::UnitY()).toRotationMatrix();
+    camera.lens = params.lens;
     camera.column_pitch_rad = params.column_pitch_rad();
     camera.row_pitch_rad = params.row_pitch_rad();
+    camera.columns = static_cast<int>(params.columns);
+    camera.rows = static_cast<int>(params.rows);
   }
-  for (std::size_t stripe = 0; stripe < kStripes; ++stripe) {
-    calibration.lasers[stripe] = LaserOf(params, stripe);
+  const auto [rows, stripes] = ArraySize(params);
+  for (std::size_t stripe = 0; stripe < stripes; ++stripe) {
+    calibration.lasers.push_back(LaserOf(params, stripe));
   }
-  for (std::size_t row = 0; row < kStripeRows; ++row) {
-    const double pitch = params.row_pitch_rad();
-    calibration.row_angle_rad[row] = pitch * std::round(RowAngle(params, row) / pitch);
+  for (std::size_t row = 0; row < rows; ++row) {
+    calibration.scanline_px.push_back(static_cast<int>(std::lround(RowPixel(params, row))));
   }
   calibration.datum_z_m = params.datum_z_m;
+  calibration.search_low_m = params.search_low_m;
+  calibration.search_high_m = params.search_high_m;
   return calibration;
 }
 

@@ -6,6 +6,12 @@
 
 namespace rockyard::sensing {
 
+// Points of the sensor: four rows by five stripes, or more where the array is subdivided.
+messages::StripeArraySize ArraySize(const LightStripeParams& params);
+
+// Images with lasers on that one scan takes of each camera.
+int LaserGroups(const LightStripeParams& params);
+
 // What a perfectly calibrated rover knows of this sensor. The depression of each scanline is
 // rounded to a whole image row, so that the points of a row land within a few millimetres of
 // row_ahead_m.

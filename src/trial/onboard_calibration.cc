@@ -41,9 +41,12 @@ messages::StripeCalibration OnboardStripeCalibration(
   messages::StripeCalibration calibration = sensing::TrueCalibration(sensor);
   Misplace(errors.left_camera, calibration.cameras[0]);
   Misplace(errors.right_camera, calibration.cameras[1]);
-  for (std::size_t stripe = 0; stripe < messages::kStripes; ++stripe) {
+  const std::size_t last = calibration.lasers.size() - 1;
+  for (std::size_t stripe = 0; stripe <= last; ++stripe) {
+    // Of a denser array, the laser of the published five that stands nearest.
+    const std::size_t published = (stripe * (messages::kStripes - 1) + last / 2) / last;
     const Eigen::Matrix3d turned =
-        Eigen::AngleAxisd(errors.lasers.angle_rad[stripe], Vector3::UnitZ()).toRotationMatrix();
+        Eigen::AngleAxisd(errors.lasers.angle_rad[published], Vector3::UnitZ()).toRotationMatrix();
     messages::StripeLaser& laser = calibration.lasers[stripe];
     laser.normal_R = (turned * laser.normal_R).eval();
     laser.axis_R = (turned * laser.axis_R).eval();

@@ -33,11 +33,9 @@ TEST(MessagesTest, AReportHasAHazardWhereAnyStripeHas) {
 TEST(MessagesTest, AScanHasTwentyPointsNoneOfThemDetectedYet) {
   const StripeScan scan;
   int points = 0;
-  for (const auto& row : scan.pixels) {
-    for (const StripePixel& pixel : row) {
-      EXPECT_FALSE(pixel.detected);
-      ++points;
-    }
+  for (const StripePixel& pixel : scan.pixels.points()) {
+    EXPECT_FALSE(pixel.detected);
+    ++points;
   }
   EXPECT_EQ(points, 20);
 }

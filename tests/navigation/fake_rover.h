@@ -13,7 +13,7 @@
 
 namespace rockyard::navigation {
 
-using Stripes = std::array<bool, messages::kStripes>;
+using Stripes = messages::PerStripe<bool>;
 
 inline constexpr Stripes kClear{};
 inline constexpr Stripes kLeftHazard{true, true, false, false, false};

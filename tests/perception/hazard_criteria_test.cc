@@ -8,7 +8,7 @@
 namespace rockyard::perception {
 namespace {
 
-using Stripes = std::array<bool, messages::kStripes>;
+using Stripes = messages::PerStripe<bool>;
 constexpr Stripes kNone{};
 constexpr Stripes kAll{true, true, true, true, true};
 

@@ -11,7 +11,7 @@ namespace rockyard::perception {
 namespace {
 
 using messages::ElevationScan;
-using Stripes = std::array<bool, messages::kStripes>;
+using Stripes = messages::PerStripe<bool>;
 
 Stripes Only(std::initializer_list<std::size_t> stripes) {
   Stripes flags{};

@@ -11,7 +11,9 @@ namespace rockyard::perception {
 inline messages::ElevationScan ScanOfRows(const std::array<double, messages::kStripeRows>& rows) {
   messages::ElevationScan scan;
   for (std::size_t row = 0; row < messages::kStripeRows; ++row) {
-    scan.points[row].fill({.detected = true, .elevation_m = rows[row]});
+    for (messages::ElevationPoint& point : scan.points[row]) {
+      point = {.detected = true, .elevation_m = rows[row]};
+    }
   }
   return scan;
 }

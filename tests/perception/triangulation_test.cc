@@ -13,12 +13,16 @@ using math::Vector3;
 // Light plane parallel to the optical axis, 0.1 m to the left.
 messages::StripeCalibration Parallel() {
   messages::StripeCalibration calibration;
-  for (auto& camera : calibration.cameras) camera.column_pitch_rad = 0.001;
+  for (auto& camera : calibration.cameras) {
+    camera.column_pitch_rad = 0.001;
+    camera.row_pitch_rad = 0.001;
+  }
+  calibration.lasers.resize(messages::kStripes);
   for (auto& laser : calibration.lasers) {
     laser.p_RoE_R = Vector3(0.0, 0.1, 0.0);
     laser.normal_R = Vector3::UnitY();
   }
-  calibration.row_angle_rad = {0.6, 0.5, 0.4, 0.3};
+  calibration.scanline_px = {600, 500, 400, 300};
   return calibration;
 }
 
@@ -26,7 +30,9 @@ messages::ElevationScan ElevationsAt(const messages::StripeCalibration& calibrat
                                      double column_px) {
   messages::StripeScan scan;
   scan.number = 12;
-  for (auto& row : scan.pixels) row.fill({.detected = true, .column_px = column_px});
+  for (messages::StripePixel& pixel : scan.pixels.points()) {
+    pixel = {.detected = true, .column_px = column_px};
+  }
   return Triangulator(calibration).Elevations(scan);
 }
 
@@ -62,9 +68,7 @@ TEST(TriangulationTest, UsesTheCameraOfTheStripe) {
 
 TEST(TriangulationTest, MissingStaysMissing) {
   const auto scan = Triangulator(Parallel()).Elevations({});
-  for (const auto& row : scan.points) {
-    for (const auto& point : row) EXPECT_FALSE(point.detected);
-  }
+  for (const auto& point : scan.points.points()) EXPECT_FALSE(point.detected);
 }
 
 }  // namespace

@@ -221,10 +221,8 @@ TEST(LooseRock, SensorSeesItAtItsNewPlace) {
   const auto scan = [&](const terrain::Terrain& seen) {
     core::Hasher hasher;
     const messages::StripeScan scan_of = stripe.Scan(seen, X_WR, {1, 0}, 0);
-    for (const auto& row : scan_of.pixels) {
-      for (const messages::StripePixel& pixel : row) {
-        hasher.Real(pixel.detected ? pixel.column_px : -1.0);
-      }
+    for (const messages::StripePixel& pixel : scan_of.pixels.points()) {
+      hasher.Real(pixel.detected ? pixel.column_px : -1.0);
     }
     return hasher.value();
   };

@@ -41,10 +41,8 @@ void BM_Scan(benchmark::State& state) {
   };
   for (; number < kHashedScans; ++number) {
     const auto scan = sensor.Scan(terrain, pose(number), {1, 0}, number);
-    for (const auto& row : scan.pixels) {
-      for (const auto& pixel : row) {
-        hash.Integer(pixel.detected).Real(pixel.column_px);
-      }
+    for (const auto& pixel : scan.pixels.points()) {
+      hash.Integer(pixel.detected).Real(pixel.column_px);
     }
   }
   for ([[maybe_unused]] auto _ : state) {

@@ -21,7 +21,7 @@ Vector3 GroundPoint(const messages::StripeCalibration& calibration, std::size_t 
                     std::size_t stripe) {
   const messages::StripeLaser& laser = calibration.lasers[stripe];
   const auto& camera = calibration.cameras[static_cast<std::size_t>(laser.camera)];
-  const double angle = calibration.row_angle_rad[row];
+  const double angle = calibration.scanline_px[row] * camera.row_pitch_rad;
   const Vector3 scanline = camera.X_RC.linear() * Vector3(std::sin(angle), 0.0, std::cos(angle));
   Eigen::Matrix3d planes;
   planes.row(0) = scanline;
@@ -60,8 +60,6 @@ TEST(LightStripeGeometryTest, RowsAreRoundedToImageRows) {
   const LightStripeParams params;
   const auto calibration = TrueCalibration(params);
   for (std::size_t row = 0; row < kStripeRows; ++row) {
-    const double rows = calibration.row_angle_rad[row] / params.row_pitch_rad();
-    EXPECT_NEAR(rows, std::round(rows), 1e-9);
     // Half a row moves the point by half a pitch times (h^2 + d^2) / h.
     const double d = params.front_x_m + params.row_ahead_m[row] - params.camera_x_m;
     const double h = params.camera_height_m;
@@ -105,7 +103,8 @@ TEST_P(ResolutionTest, OnePixelIsTheClosedForm) {
   scan.pixels[3][2].column_px = column + 1.0;
   const double after = triangulator.Elevations(scan).points[3][2].elevation_m;
 
-  const double depression = params.camera_pitch_rad + sensor.calibration().row_angle_rad[3];
+  const double depression =
+      params.camera_pitch_rad + sensor.calibration().scanline_px[3] * params.row_pitch_rad();
   const double depth = (params.camera_height_m - before) / std::sin(depression);
   const double expected =
       std::sin(depression) * DepthPerPixel(depth, GetParam(),

@@ -26,10 +26,8 @@ const math::Transform kHighUp = PoseAt(0, 0, 50.0);
 double BinomialP(const messages::StripeArray<int>& counts, double probability) {
   const double expected = kScans * probability;
   double chi_square = 0.0;
-  for (const auto& row : counts) {
-    for (const int count : row) {
-      chi_square += (count - expected) * (count - expected) / (expected * (1.0 - probability));
-    }
+  for (const int count : counts.points()) {
+    chi_square += (count - expected) * (count - expected) / (expected * (1.0 - probability));
   }
   return boost::math::gamma_q(0.5 * kStripeRows * kStripes, 0.5 * chi_square);
 }
@@ -78,9 +76,7 @@ int DisturbedScans(double wrong_place_probability) {
   for (std::int64_t number = 0; number < kScans; ++number) {
     const auto scan = sensor.Scan(flat, kHighUp, kKey, number);
     bool any = false;
-    for (const auto& row : scan.pixels) {
-      for (const auto& pixel : row) any = any || pixel.detected;
-    }
+    for (const auto& pixel : scan.pixels.points()) any = any || pixel.detected;
     disturbed += any;
   }
   return disturbed;

@@ -42,7 +42,8 @@ class ReferenceStripe {
   math::Vector3 PlanePoint(std::size_t row, std::size_t stripe, double column) const {
     const auto& laser = sensor_.calibration().lasers[stripe];
     const auto& camera = sensor_.calibration().cameras[static_cast<std::size_t>(laser.camera)];
-    const double down = params_.camera_pitch_rad + sensor_.calibration().row_angle_rad[row];
+    const double down =
+        params_.camera_pitch_rad + sensor_.calibration().scanline_px[row] * camera.row_pitch_rad;
     const double right = column * camera.column_pitch_rad;
     const math::Vector3 ray(std::cos(right) * std::cos(down), -std::sin(right),
                             -std::cos(right) * std::sin(down));

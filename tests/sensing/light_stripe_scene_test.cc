@@ -39,9 +39,7 @@ void ExpectRows(const ElevationScan& scan, const RowValues& expected) {
 
 int CountDetected(const ElevationScan& scan) {
   int count = 0;
-  for (const auto& row : scan.points) {
-    for (const auto& point : row) count += point.detected;
-  }
+  for (const auto& point : scan.points.points()) count += point.detected;
   return count;
 }
 

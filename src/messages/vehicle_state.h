@@ -1,0 +1,59 @@
+// What the rover feels of itself: the sensors of Matthies 1995, section 6, beside the light stripe.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "math/pose.h"
+#include "messages/wheels.h"
+
+namespace rockyard::messages {
+
+// Angles of the passive joints, positive where the front end goes down against the chassis
+// (rockers) or the rocker (bogies): rotations about the rover's y axis.
+struct Articulation {
+  double left_rocker_rad = 0.0;
+  double right_rocker_rad = 0.0;
+  double left_bogie_rad = 0.0;
+  double right_bogie_rad = 0.0;
+};
+
+// Strips that close where something presses on the edge of the solar panel or on the leading edge
+// of the undercarriage.
+enum class ContactSwitch : std::size_t {
+  kFrontLeft,
+  kFrontCentre,
+  kFrontRight,
+  kLeftEdge,
+  kRightEdge,
+  kRearEdge,
+  kUndercarriage,
+};
+inline constexpr std::size_t kContactSwitchCount = 7;
+using ContactSwitches = std::array<bool, kContactSwitchCount>;
+
+constexpr std::size_t Index(ContactSwitch contact) { return static_cast<std::size_t>(contact); }
+
+// One on-board tick. What the rover has no sensor for is empty.
+struct VehicleState {
+  std::optional<Articulation> articulation;
+  // Specific force along the rover's axes, m/s2: at rest the upward reaction to gravity, (0, 0, g)
+  // on level ground.
+  std::optional<math::Vector3> specific_force_R;
+  std::optional<PerWheel<double>> motor_current_A;  // magnitudes
+  std::optional<ContactSwitches> contact;           // true: pressed
+};
+
+enum class VehicleHazardKind { kContact, kTilt, kArticulation, kMotorCurrent };
+inline constexpr std::size_t kVehicleHazardKindCount = 4;
+
+// Where the cause lies, as far as the sensor tells.
+enum class HazardSide { kLeft, kAhead, kRight, kBehind };
+
+struct VehicleHazard {
+  VehicleHazardKind kind = VehicleHazardKind::kContact;
+  HazardSide side = HazardSide::kAhead;
+};
+
+}  // namespace rockyard::messages

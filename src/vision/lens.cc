@@ -1,0 +1,67 @@
+#include "vision/lens.h"
+
+#include <cmath>
+
+namespace rockyard::vision {
+namespace {
+
+using math::Vector3;
+using messages::Lens;
+
+struct LensAngles {
+  double a_rad = 0.0;  // to the right
+  double b_rad = 0.0;  // downwards
+};
+
+Vector3 Ray(Lens lens, const LensAngles& at) {
+  switch (lens) {
+    case Lens::kEquidistantRows:
+      return {std::cos(at.a_rad) * std::cos(at.b_rad), -std::sin(at.a_rad),
+              -std::cos(at.a_rad) * std::sin(at.b_rad)};
+    case Lens::kEquidistant: {
+      const double theta_rad = std::hypot(at.a_rad, at.b_rad);
+      // sin(theta) / theta, 1 on the axis.
+      const double share = theta_rad > 0.0 ? std::sin(theta_rad) / theta_rad : 1.0;
+      return {std::cos(theta_rad), -share * at.a_rad, -share * at.b_rad};
+    }
+    case Lens::kPinhole:
+      break;
+  }
+  return Vector3(1.0, -at.a_rad, -at.b_rad).normalized();
+}
+
+std::optional<LensAngles> Angles(Lens lens, const Vector3& p) {
+  const double aside_m = std::hypot(p.y(), p.z());
+  switch (lens) {
+    case Lens::kEquidistantRows: {
+      const double in_row_m = std::hypot(p.x(), p.z());
+      if (in_row_m == 0.0) return std::nullopt;
+      return LensAngles{std::atan2(-p.y(), in_row_m), std::atan2(-p.z(), p.x())};
+    }
+    case Lens::kEquidistant: {
+      if (aside_m == 0.0) return p.x() > 0.0 ? std::optional(LensAngles{}) : std::nullopt;
+      const double share = std::atan2(aside_m, p.x()) / aside_m;
+      return LensAngles{-share * p.y(), -share * p.z()};
+    }
+    case Lens::kPinhole:
+      break;
+  }
+  if (p.x() <= 0.0) return std::nullopt;
+  return LensAngles{-p.y() / p.x(), -p.z() / p.x()};
+}
+
+}  // namespace
+
+Vector3 PixelRay(const messages::StripeCamera& camera, const PixelPosition& pixel) {
+  return Ray(camera.lens,
+             {pixel.column_px * camera.column_pitch_rad, pixel.row_px * camera.row_pitch_rad});
+}
+
+std::optional<PixelPosition> Project(const messages::StripeCamera& camera, const Vector3& p_C) {
+  const std::optional<LensAngles> angles = Angles(camera.lens, p_C);
+  if (!angles) return std::nullopt;
+  return PixelPosition{angles->a_rad / camera.column_pitch_rad,
+                       angles->b_rad / camera.row_pitch_rad};
+}
+
+}  // namespace rockyard::vision

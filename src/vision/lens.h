@@ -1,0 +1,40 @@
+// Camera models of wide-angle lenses: pixels to rays and back.
+//
+// Camera frame C: x along the optical axis, y left, z up. Columns and rows count from the pixel on
+// the axis, columns to the right (-y), rows downwards (-z); a = column * column_pitch_rad and
+// b = row * row_pitch_rad are what the lens makes of an image position:
+//   equidistant       (f-theta, r = f theta) the direction lies sqrt(a^2 + b^2) from the axis, at
+//                     the image's own azimuth
+//   equidistant_rows  (separable) a row is the plane through the lateral axis at depression b; the
+//                     column is the angle a within it
+//   pinhole           (rectilinear, r = f tan theta) slopes a and b: the pitches are pixel / focal
+//                     length
+// Matthies 1995 table 3 fixes the lens by its field of view: 8.9 mm / 4 mm = 2.2 rad and 6.6 mm /
+// 4 mm = 1.65 rad hold for both equidistant models; a pinhole would give 1.68 x 1.38 rad. A real
+// f-theta lens is radially symmetric; the separable model is what remains of it where software
+// straightens the rows by a calibration.
+#pragma once
+
+#include <optional>
+
+#include "math/pose.h"
+#include "messages/calibration.h"
+
+namespace rockyard::vision {
+
+// Position in an image, in pixels from the optical axis.
+struct PixelPosition {
+  double column_px = 0.0;
+  double row_px = 0.0;
+};
+
+// Unit viewing ray of an image position, in C. Cost: some sines and cosines.
+math::Vector3 PixelRay(const messages::StripeCamera& camera, const PixelPosition& pixel);
+
+// Where the direction p_C (any length, in C) is imaged; the inverse of PixelRay. None where the
+// lens does not see it: behind a pinhole, along the lateral axis (equidistant_rows), straight
+// behind (equidistant), or of no length. The edge of the imager is not looked at.
+std::optional<PixelPosition> Project(const messages::StripeCamera& camera,
+                                     const math::Vector3& p_C);
+
+}  // namespace rockyard::vision
