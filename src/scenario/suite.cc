@@ -16,6 +16,9 @@ void SensorParams::Visit(core::FieldVisitor& v) {
 }
 
 void PerceptionParams::Visit(core::FieldVisitor& v) {
+  v.Group(
+      "stripe_finder", stripe_finder,
+      "light stripes found in images; where the light stripe sensor is simulated down to images");
   v.Group("hazard", hazard, "hazard criteria and the two-scan rule");
   v.Group("dead_reckoning", dead_reckoning, "pose from wheel encoders and gyro");
   v.Group("calibration", calibration,

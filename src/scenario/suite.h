@@ -10,6 +10,7 @@
 #include "perception/calibration_params.h"
 #include "perception/dead_reckoning_params.h"
 #include "perception/hazard_params.h"
+#include "perception/stripe_finder_params.h"
 #include "sensing/encoder_params.h"
 #include "sensing/gyro_params.h"
 #include "sensing/light_stripe_params.h"
@@ -38,6 +39,7 @@ struct SensorParams {
 };
 
 struct PerceptionParams {
+  perception::StripeFinderParams stripe_finder;
   perception::HazardParams hazard;
   perception::DeadReckoningParams dead_reckoning;
   perception::CalibrationErrorParams calibration;

@@ -1,0 +1,44 @@
+// Parameters of the program that finds light stripes in images (Matthies 1995, section 6).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "core/fields.h"
+
+namespace rockyard::perception {
+
+// Which of several peaks in the searched part of a scanline is taken for the stripe.
+enum class PeakChoice {
+  kStrongest,       // the brightest
+  kNearestToDatum,  // the one nearest to where flat ground would show it
+};
+
+// How finely a peak is located.
+enum class PeakColumn {
+  kWholePixel,  // middle of the columns above the threshold
+  kCentroid,    // their centre of brightness
+};
+
+struct StripeFinderParams {
+  std::int64_t averaging_px = 5;
+  double threshold_counts = 1.0;
+  double noise_multiple = 5.0;
+  PeakChoice peak = PeakChoice::kStrongest;
+  PeakColumn column = PeakColumn::kWholePixel;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+}  // namespace rockyard::perception
+
+template <>
+struct rockyard::core::EnumNames<rockyard::perception::PeakChoice> {
+  static constexpr std::array<std::string_view, 2> kNames{"strongest", "nearest_to_datum"};
+};
+
+template <>
+struct rockyard::core::EnumNames<rockyard::perception::PeakColumn> {
+  static constexpr std::array<std::string_view, 2> kNames{"whole_pixel", "centroid"};
+};

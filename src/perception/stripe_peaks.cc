@@ -1,0 +1,100 @@
+#include "perception/stripe_peaks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "core/check.h"
+
+namespace rockyard::perception {
+namespace {
+
+using messages::ImageBand;
+
+// Lit less dark, summed over rows [first, last] of each column.
+std::vector<std::int64_t> ColumnSums(const ImageBand& lit, const ImageBand& dark, int first_row,
+                                     int last_row) {
+  const auto columns = static_cast<std::size_t>(lit.columns);
+  std::vector<std::int64_t> sums(columns, 0);
+  for (int row = first_row; row <= last_row; ++row) {
+    const std::size_t start = static_cast<std::size_t>(row - lit.first_row) * columns;
+    for (std::size_t i = 0; i < columns; ++i) {
+      sums[i] += static_cast<std::int64_t>(lit.counts[start + i]) - dark.counts[start + i];
+    }
+  }
+  return sums;
+}
+
+StripePeak MakePeak(const ScanlineProfile& profile, std::size_t first, std::size_t last,
+                    PeakColumn precision) {
+  StripePeak peak;
+  double weight = 0.0;
+  double moment = 0.0;
+  for (std::size_t i = first; i <= last; ++i) {
+    peak.height_counts = std::max(peak.height_counts, profile.difference[i]);
+    weight += profile.difference[i];
+    moment += profile.difference[i] * static_cast<double>(i);
+  }
+  const double middle = precision == PeakColumn::kCentroid
+                            ? moment / weight
+                            : static_cast<double>((first + last) / 2);
+  peak.column_px = profile.first_column + middle;
+  return peak;
+}
+
+}  // namespace
+
+double ScanlineProfile::Noise() const {
+  if (difference.empty()) return 0.0;
+  double sum = 0.0;
+  for (const double value : difference) sum += std::abs(value);
+  return std::sqrt(0.5 * std::numbers::pi) * sum / static_cast<double>(difference.size());
+}
+
+std::optional<ScanlineProfile> AverageDifference(const messages::StripeExposure& exposure, int row,
+                                                 int window_px) {
+  const auto holds_row = [row](const ImageBand& band) {
+    return row >= band.first_row && row < band.first_row + band.rows;
+  };
+  const auto found = std::ranges::find_if(exposure.lit, holds_row);
+  if (found == exposure.lit.end()) return std::nullopt;
+  const ImageBand& lit = *found;
+  const ImageBand& dark = exposure.dark[static_cast<std::size_t>(found - exposure.lit.begin())];
+  EXPECT(dark.counts.size() == lit.counts.size() && dark.first_row == lit.first_row);
+
+  const int half = window_px / 2;
+  const int first_row = std::max(row - half, lit.first_row);
+  const int last_row = std::min(row + half, lit.first_row + lit.rows - 1);
+  const std::vector<std::int64_t> sums = ColumnSums(lit, dark, first_row, last_row);
+
+  ScanlineProfile profile{lit.first_column, std::vector<double>(sums.size())};
+  std::int64_t sum = 0;
+  for (int i = 0; i < std::min(half, lit.columns); ++i) sum += sums[static_cast<std::size_t>(i)];
+  for (int i = 0; i < lit.columns; ++i) {
+    if (i + half < lit.columns) sum += sums[static_cast<std::size_t>(i + half)];
+    if (i - half > 0) sum -= sums[static_cast<std::size_t>(i - half - 1)];
+    const int columns = std::min(i + half, lit.columns - 1) - std::max(i - half, 0) + 1;
+    profile.difference[static_cast<std::size_t>(i)] =
+        static_cast<double>(sum) / (columns * (last_row - first_row + 1));
+  }
+  return profile;
+}
+
+std::vector<StripePeak> FindPeaks(const ScanlineProfile& profile,
+                                  const StripeFinderParams& params) {
+  const double threshold =
+      std::max(params.threshold_counts, params.noise_multiple * profile.Noise());
+  std::vector<StripePeak> peaks;
+  const std::size_t columns = profile.difference.size();
+  for (std::size_t first = 0; first < columns; ++first) {
+    if (profile.difference[first] <= threshold) continue;
+    std::size_t last = first;
+    while (last + 1 < columns && profile.difference[last + 1] > threshold) ++last;
+    peaks.push_back(MakePeak(profile, first, last, params.column));
+    first = last;
+  }
+  return peaks;
+}
+
+}  // namespace rockyard::perception

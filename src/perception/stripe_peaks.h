@@ -1,0 +1,40 @@
+// From the images of one exposure to the peaks of one scanline.
+//
+// Matthies 1995, section 6: the image with lasers on less the one with lasers off, averaged over
+// 5 x 5 pixels, compared with a threshold. A peak is a run of columns above it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "messages/stripe_images.h"
+#include "perception/stripe_finder_params.h"
+
+namespace rockyard::perception {
+
+// Averaged difference along one image row.
+struct ScanlineProfile {
+  int first_column = 0;
+  std::vector<double> difference;  // digital numbers
+
+  // Standard deviation of a normal variable of mean zero whose mean size is that of the
+  // differences: sqrt(pi / 2) mean |d|. Sunlight that the subtraction left counts as noise; so does
+  // the stripe itself, which takes up some ten columns of several hundred.
+  double Noise() const;
+};
+
+// None if no band of the exposure holds the row. At the borders of the band the average is that of
+// the pixels that there are. Integer running sums along rows and columns: cost of some operations a
+// pixel, whatever the window.
+std::optional<ScanlineProfile> AverageDifference(const messages::StripeExposure& exposure, int row,
+                                                 int window_px);
+
+struct StripePeak {
+  double column_px = 0.0;
+  double height_counts = 0.0;  // highest averaged difference
+};
+
+// Runs of columns above the threshold, left to right.
+std::vector<StripePeak> FindPeaks(const ScanlineProfile& profile, const StripeFinderParams& params);
+
+}  // namespace rockyard::perception
