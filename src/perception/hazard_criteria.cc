@@ -60,27 +60,38 @@ void FindMissing(const ElevationScan& scan, StripeFlags& flags) {
   }
 }
 
+void CompareNeighbours(const Located& a, const Located& b, const HazardParams& params,
+                       StripeFlags& flags) {
+  if (std::abs(a.elevation_m - b.elevation_m) <= params.neighbour_threshold_m) return;
+  ChargeNeighbours(a, b, params.neighbour_blame, flags);
+}
+
+// The first point of a row that lies up to `reach` from `at`, and the one after the last.
+struct Reach {
+  std::size_t first;
+  std::size_t end;
+};
+Reach Around(std::size_t at, std::size_t reach, std::size_t size) {
+  return {at > reach ? at - reach : 0, std::min(at + reach + 1, size)};
+}
+
 void FindNeighbours(const ElevationScan& scan, const HazardParams& params, StripeFlags& flags) {
-  // Half of the eight neighbours, so that each pair is met once.
-  struct Step {
-    std::size_t rows;
-    int stripes;
-  };
-  constexpr std::array<Step, 4> kSteps{{{0, 1}, {1, -1}, {1, 0}, {1, 1}}};
+  const auto reach = static_cast<std::size_t>(params.neighbour_reach);
   const auto [rows, stripes] = scan.points.size();
   for (std::size_t row = 0; row < rows; ++row) {
+    const std::size_t end_row = Around(row, reach, rows).end;
     for (std::size_t stripe = 0; stripe < stripes; ++stripe) {
       const ElevationPoint& a = scan.points[row][stripe];
       if (!a.detected) continue;
-      for (const Step step : kSteps) {
-        // Wraps to a huge value left of stripe 0, which the bound excludes.
-        const std::size_t other = stripe + static_cast<std::size_t>(step.stripes);
-        if (row + step.rows >= rows || other >= stripes) continue;
-        const ElevationPoint& b = scan.points[row + step.rows][other];
-        if (!b.detected) continue;
-        if (std::abs(a.elevation_m - b.elevation_m) <= params.neighbour_threshold_m) continue;
-        ChargeNeighbours({a.elevation_m, stripe}, {b.elevation_m, other}, params.neighbour_blame,
-                         flags);
+      const Reach aside = Around(stripe, reach, stripes);
+      for (std::size_t other_row = row; other_row < end_row; ++other_row) {
+        // Along its own row only to the right, so that each pair is met once.
+        const std::size_t first = other_row == row ? stripe + 1 : aside.first;
+        for (std::size_t other = first; other < aside.end; ++other) {
+          const ElevationPoint& b = scan.points[other_row][other];
+          if (!b.detected) continue;
+          CompareNeighbours({a.elevation_m, stripe}, {b.elevation_m, other}, params, flags);
+        }
       }
     }
   }

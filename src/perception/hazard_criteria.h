@@ -28,7 +28,7 @@ HazardFindings AssessHazards(const messages::ElevationScan& scan, const HazardPa
 messages::HazardReport ReportHazards(const messages::ElevationScan& scan,
                                      const HazardParams& params);
 
-// True if each of the 20 points is missing in both scans, or found in both at elevations that
+// True if each of the points is missing in both scans, or found in both at elevations that
 // differ by no more than agree_m.
 bool ScansAgree(const messages::ElevationScan& a, const messages::ElevationScan& b, double agree_m);
 

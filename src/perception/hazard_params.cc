@@ -1,5 +1,7 @@
 #include "perception/hazard_params.h"
 
+#include "messages/stripe_array.h"
+
 namespace rockyard::perception {
 namespace {
 
@@ -26,6 +28,15 @@ void VisitCriteria(HazardParams& p, core::FieldVisitor& v) {
                     "undercarriage",
           .study_low = 0.08,
           .study_high = 0.25});
+  v.Integer(
+      "neighbour_reach", p.neighbour_reach,
+      {.doc = "rows and stripes up to which two points count as neighbours: 1 is the published "
+              "8-connection; 2 compares points of a denser array that lie as far apart as "
+              "neighbours of the published one",
+       .min = 1,
+       .max = static_cast<double>(messages::kMaxStripes),
+       .origin = Origin::kPublished,
+       .source = kSection6});
   v.Choice("neighbour_blame", p.neighbour_blame,
            {.doc = "stripes charged with a neighbour difference",
             .origin = Origin::kAssumed,

@@ -43,6 +43,7 @@ struct HazardParams {
   bool enabled = true;
   double neighbour_threshold_m = 0.05;
   double range_threshold_m = 0.13;
+  std::int64_t neighbour_reach = 1;
   NeighbourBlame neighbour_blame = NeighbourBlame::kFartherFromDatum;
   RangeBlame range_blame = RangeBlame::kFartherFromDatum;
   ScanAgreement agreement = ScanAgreement::kRescanSamePose;

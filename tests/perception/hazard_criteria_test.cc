@@ -77,6 +77,30 @@ TEST(HazardCriteriaTest, NeighboursAreEightConnected) {
   }
 }
 
+// The same on a denser array, whose points at the spacing of the published one are two apart.
+TEST(HazardCriteriaTest, NeighboursReachAsFarAsTheyAreTold) {
+  constexpr messages::StripeArraySize kDense{7, 9};
+  HazardParams params;
+  params.neighbour_blame = NeighbourBlame::kBoth;
+  params.range_threshold_m = 1.0;
+  params.neighbour_reach = 2;
+  constexpr int kPoints = 7 * 9;
+  for (int a = 0; a < kPoints; ++a) {
+    for (int b = a + 1; b < kPoints; ++b) {
+      messages::ElevationScan scan{0, messages::StripeArray<messages::ElevationPoint>(kDense)};
+      scan.points.points()[static_cast<std::size_t>(a)] = {.detected = true, .elevation_m = 0.0};
+      scan.points.points()[static_cast<std::size_t>(b)] = {.detected = true, .elevation_m = 0.06};
+      const bool connected = std::abs(a / 9 - b / 9) <= 2 && std::abs(a % 9 - b % 9) <= 2;
+      messages::PerStripe<bool> expected(kDense.stripes);
+      if (connected) {
+        expected[static_cast<std::size_t>(a % 9)] = true;
+        expected[static_cast<std::size_t>(b % 9)] = true;
+      }
+      EXPECT_EQ(AssessHazards(scan, params).neighbour, expected) << a << " " << b;
+    }
+  }
+}
+
 TEST(HazardCriteriaTest, RangeOfTheWholeArray) {
   // A slope too gentle for neighbours: 3.5 cm per row, 10.5 cm in all.
   HazardParams params;
