@@ -31,6 +31,17 @@ enum class Purpose : std::uint32_t {
   kBootstrap = 16,
   kDesign = 17,
   kTest = 18,
+  kImageNoise = 19,
+  kPixelPattern = 20,
+  kImageExposure = 21,
+  kImageSpeckle = 22,
+  kArticulation = 26,
+  kAccelerometer = 27,
+  kMotorCurrent = 28,
+  kContactSwitch = 29,
+  kSceneRock = 30,
+  kScenePlacement = 31,
+  kScenePhase = 32,
 };
 
 // Raw Philox 4x32-10 bijection of one counter under one key.

@@ -4,6 +4,7 @@
 
 #include "messages/commands.h"
 #include "messages/estimates.h"
+#include "messages/vehicle_state.h"
 
 namespace rockyard::navigation {
 
@@ -19,6 +20,8 @@ struct NavigatorInput {
   messages::PoseEstimate estimate;
   // The report that answers the last request for a scan; null at every other tick.
   const messages::HazardReport* report = nullptr;
+  // What the rover feels at this tick; null where it feels no hazard.
+  const messages::VehicleHazard* vehicle_hazard = nullptr;
 };
 
 struct NavigatorDecision {

@@ -30,7 +30,7 @@ bool RightIsClearFor(const HazardReport& report, const PathfinderParams& params)
   if (params.right_is_clear == RightIsClear::kNoRightHazard) {
     return CountHazards(report, params.right_stripes) == 0;
   }
-  return !report.stripe_hazard[messages::kStripes - 1];
+  return !report.stripe_hazard.back();
 }
 
 int TurnFromBothSides(const HazardReport& report, double goal_bearing_rad,
@@ -49,7 +49,7 @@ int TurnFromBothSides(const HazardReport& report, double goal_bearing_rad,
 }
 
 bool OnlyOutermostStripes(const HazardReport& report) {
-  for (std::size_t i = 1; i + 1 < messages::kStripes; ++i) {
+  for (std::size_t i = 1; i + 1 < report.stripe_hazard.size(); ++i) {
     if (report.stripe_hazard[i]) return false;
   }
   return report.stripe_hazard.front() && report.stripe_hazard.back();
@@ -89,13 +89,21 @@ double CurvatureToGoal(double goal_bearing_rad, const PathfinderParams& params) 
 
 PathfinderNavigator::PathfinderNavigator(const PathfinderParams& params, const messages::Goal& goal,
                                          bool uses_hazard_sensor)
-    : params_(params), goal_(goal), uses_hazard_sensor_(uses_hazard_sensor) {}
+    : params_(params),
+      goal_(goal),
+      uses_hazard_sensor_(uses_hazard_sensor),
+      reaction_(params.vehicle_reaction) {}
 
 NavigatorDecision PathfinderNavigator::Decide(const NavigatorInput& input) {
   if (AtGoal(input.estimate)) return Finish(NavigatorStatus::kArrived);
   if (params_.time_out_s > 0.0 && input.time_s >= params_.time_out_s) {
     return Finish(NavigatorStatus::kGaveUp);
   }
+  if (const auto reaction = reaction_.Decide(input, GoalDistance(input.estimate))) {
+    reacting_ = true;
+    return *reaction;
+  }
+  if (reacting_) return AfterReaction(input);
   if (!started_) {
     started_ = true;
     odometer_at_scan_m_ = input.estimate.distance_m;
@@ -108,6 +116,19 @@ NavigatorDecision PathfinderNavigator::Decide(const NavigatorInput& input) {
 void PathfinderNavigator::OnPoseUpdate(const PoseEstimate& before, const PoseEstimate& after) {
   // Turned angles are differences of heading: keep what was already turned.
   anchor_.heading_rad += after.heading_rad - before.heading_rad;
+  reaction_.OnPoseUpdate(before, after);
+}
+
+// What was under way is forgotten: the rover stands elsewhere and faces another way.
+NavigatorDecision PathfinderNavigator::AfterReaction(const NavigatorInput& input) {
+  reacting_ = false;
+  started_ = true;
+  facing_goal_ = false;
+  avoid_direction_.reset();
+  odometer_at_scan_m_ = input.estimate.distance_m;
+  odometer_at_avoiding_m_ = input.estimate.distance_m;
+  clearing_left_m_ = params_.vehicle_reaction.straight_m;
+  return uses_hazard_sensor_ ? BeginScan() : OnClear(input);
 }
 
 NavigatorDecision PathfinderNavigator::OnReport(const NavigatorInput& input) {

@@ -7,7 +7,8 @@
 //   A centre hazard is passed on the right if that is clear, otherwise on the left.
 //
 // Scans are taken at rest: before the first move, after every scan_interval_m of measured driving,
-// and after every turn_increment of measured turning. What the paper leaves open is in
+// and after every turn_increment of measured turning. A hazard that the rover feels interrupts any
+// of this (vehicle_reaction.h); afterwards it scans and goes on. What the paper leaves open is in
 // PathfinderParams.
 #pragma once
 
@@ -16,6 +17,7 @@
 
 #include "navigation/navigator.h"
 #include "navigation/pathfinder_params.h"
+#include "navigation/vehicle_reaction.h"
 
 namespace rockyard::navigation {
 
@@ -59,6 +61,7 @@ class PathfinderNavigator final : public Navigator {
     kBackingOff,
   };
 
+  NavigatorDecision AfterReaction(const NavigatorInput& input);
   NavigatorDecision OnReport(const NavigatorInput& input);
   NavigatorDecision OnHazard(const NavigatorInput& input);
   NavigatorDecision OnClear(const NavigatorInput& input);
@@ -80,6 +83,8 @@ class PathfinderNavigator final : public Navigator {
   PathfinderParams params_;
   messages::Goal goal_;
   bool uses_hazard_sensor_;
+  VehicleReaction reaction_;
+  bool reacting_ = false;  // reaction_ decided at the last tick
 
   Mode mode_ = Mode::kScanning;
   bool started_ = false;

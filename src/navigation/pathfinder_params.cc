@@ -2,21 +2,18 @@
 
 #include <algorithm>
 
-#include "messages/measurements.h"
-
 namespace rockyard::navigation {
 namespace {
 
 using core::Origin;
 
-// True if the three groups name every stripe exactly once.
+// True if the three groups name every stripe from 0 up exactly once.
 bool PartitionsStripes(const PathfinderParams& params) {
   std::vector<std::int64_t> all;
   for (const auto* group : {&params.left_stripes, &params.centre_stripes, &params.right_stripes}) {
     all.insert(all.end(), group->begin(), group->end());
   }
   std::sort(all.begin(), all.end());
-  if (all.size() != messages::kStripes) return false;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (all[i] != static_cast<std::int64_t>(i)) return false;
   }
@@ -27,23 +24,23 @@ void VisitHazardRules(PathfinderParams& p, core::FieldVisitor& v) {
   v.Integers("left_stripes", p.left_stripes,
              {.doc = "stripes whose hazard counts as on the left; 0 is the leftmost",
               .min = 0,
-              .max = 4,
+              .max = 8,
               .origin = Origin::kAssumed,
               .source = "two of five stripes on either side of the central one"});
   v.Integers("centre_stripes", p.centre_stripes,
              {.doc = "stripes whose hazard counts as in the centre",
               .min = 0,
-              .max = 4,
+              .max = 8,
               .origin = Origin::kAssumed,
               .source = "the stripe straight ahead"});
   v.Integers("right_stripes", p.right_stripes,
              {.doc = "stripes whose hazard counts as on the right",
               .min = 0,
-              .max = 4,
+              .max = 8,
               .origin = Origin::kAssumed,
               .source = "two of five stripes on either side of the central one"});
   v.Require("left_stripes", PartitionsStripes(p),
-            "left, centre and right stripes together do not name each of the stripes 0 to 4 once",
+            "left, centre and right stripes together do not name each stripe from 0 up once",
             "use left [0, 1], centre [2], right [3, 4]");
   v.Choice("turn_direction", p.turn_direction,
            {.doc = "whether the side of a turn in place is kept until no hazard is detected",
@@ -193,6 +190,7 @@ void PathfinderParams::Visit(core::FieldVisitor& v) {
   VisitArcs(*this, v);
   VisitPointTurns(*this, v);
   VisitExtras(*this, v);
+  v.Group("vehicle_reaction", vehicle_reaction, "reaction to hazards that the rover feels");
 }
 
 }  // namespace rockyard::navigation

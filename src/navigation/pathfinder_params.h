@@ -8,6 +8,7 @@
 
 #include "core/fields.h"
 #include "math/angles.h"
+#include "navigation/vehicle_reaction_params.h"
 
 namespace rockyard::navigation {
 
@@ -51,6 +52,7 @@ struct PathfinderParams {
   double time_out_s = 0.0;
   double back_off_m = 0.0;
   double threading_m = 0.0;
+  VehicleReactionParams vehicle_reaction;
 
   void Visit(core::FieldVisitor& v);
 };

@@ -308,13 +308,15 @@ void QuasiStaticRover::UpdatePosture() {
 void QuasiStaticRover::UpdateForces() {
   state_.contacts.clear();
   state_.wheel_load_N.fill(0.0);
+  const Linkage::Frame& chassis = linkage_.chassis();  // where the contacts were found
   for (const RestingContact& contact : contacts_.contacts()) {
     if (contact.load_N <= 0.0) continue;
     if (contact.IsWheel()) {
       state_.wheel_load_N[static_cast<std::size_t>(contact.part)] += contact.load_N;
     } else {
       state_.contacts.push_back({contact.kind, std::max(contact.other, -1), contact.load_N,
-                                 contact.sliding_speed_m_s, contact.n_W.z()});
+                                 contact.sliding_speed_m_s, contact.n_W.z(),
+                                 chassis.R_WB.transpose() * (contact.p_W - chassis.p_WB)});
     }
   }
   for (std::size_t i = 0; i < kWheelCount; ++i) {

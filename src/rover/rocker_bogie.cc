@@ -180,6 +180,7 @@ void RockerBogie::UpdateState() {
 void RockerBogie::UpdateContacts(const DofVector& velocity) {
   state_.contacts.clear();
   state_.wheel_load_N.fill(0.0);
+  const math::Transform X_RW = state_.X_WR.inverse(Eigen::Isometry);
   for (const Contact& contact : finder_.contacts()) {
     const double force_N = contact.impulse_Ns[0] / params_.physics.step_s;
     if (force_N <= 0.0) continue;
@@ -193,7 +194,7 @@ void RockerBogie::UpdateContacts(const DofVector& velocity) {
     body_.FillJacobian(part.body, contact.p_W, contact.across_W, across);
     state_.contacts.push_back({part.kind, contact.other >= 0 ? contact.other : -1, force_N,
                                std::hypot(along.dot(velocity), across.dot(velocity)),
-                               contact.n_W.z()});
+                               contact.n_W.z(), X_RW * contact.p_W});
   }
 }
 

@@ -10,9 +10,11 @@ void SensorParams::Visit(core::FieldVisitor& v) {
             .origin = Origin::kPublished,
             .source = "Matthies 1995 sec. 7: dead reckoning"});
   v.Group("light_stripe", light_stripe, "light stripe hazard sensor");
+  v.Group("sun", sun, "sunlight on the terrain and how bright it is; the images of a sensor see it");
   v.Group("gyro", gyro, "turn rate sensor");
   v.Group("encoders", encoders, "wheel encoders");
   v.Group("tracker", tracker, "overhead tracker that reports the true pose in experiments");
+  v.Group("vehicle", vehicle, "what the rover feels of itself: touch, tilt, joints, motors");
 }
 
 void PerceptionParams::Visit(core::FieldVisitor& v) {
@@ -20,6 +22,7 @@ void PerceptionParams::Visit(core::FieldVisitor& v) {
       "stripe_finder", stripe_finder,
       "light stripes found in images; where the light stripe sensor is simulated down to images");
   v.Group("hazard", hazard, "hazard criteria and the two-scan rule");
+  v.Group("vehicle_hazard", vehicle_hazard, "hazards that the rover feels (sensors.vehicle)");
   v.Group("dead_reckoning", dead_reckoning, "pose from wheel encoders and gyro");
   v.Group("calibration", calibration,
           "how wrong the rover is about its own geometry: believed less true");

@@ -11,10 +11,13 @@
 #include "perception/dead_reckoning_params.h"
 #include "perception/hazard_params.h"
 #include "perception/stripe_finder_params.h"
+#include "perception/vehicle_hazard_params.h"
 #include "sensing/encoder_params.h"
 #include "sensing/gyro_params.h"
 #include "sensing/light_stripe_params.h"
+#include "sensing/sun_params.h"
 #include "sensing/tracker_params.h"
+#include "sensing/vehicle_sensor_params.h"
 
 namespace rockyard::scenario {
 
@@ -31,9 +34,11 @@ enum class NavigatorKind {
 struct SensorParams {
   Localization localization = Localization::kDeadReckoning;
   sensing::LightStripeParams light_stripe;
+  sensing::SunParams sun;
   sensing::GyroParams gyro;
   sensing::EncoderParams encoders;
   sensing::TrackerParams tracker;
+  sensing::VehicleSensorParams vehicle;
 
   void Visit(core::FieldVisitor& v);
 };
@@ -41,6 +46,7 @@ struct SensorParams {
 struct PerceptionParams {
   perception::StripeFinderParams stripe_finder;
   perception::HazardParams hazard;
+  perception::VehicleHazardParams vehicle_hazard;
   perception::DeadReckoningParams dead_reckoning;
   perception::CalibrationErrorParams calibration;
 

@@ -7,17 +7,37 @@ namespace rockyard::trial {
 
 struct ClockParams {
   double scan_time_s = 20.0;
+  double scan_fixed_s = 2.0;
+  double scan_speed_factor = 1.0;
   double control_rate_hz = 20.0;
   double stop_time_s = 0.05;
 
   void Visit(core::FieldVisitor& v) {
     using core::Origin;
     v.Real("scan_time_s", scan_time_s,
-           {.doc = "time of one hazard scan",
+           {.doc = "time of one hazard scan of the published sensor: three groups of lasers, "
+                   "8085 and CCDs",
             .min = 0.0,
             .max = 3600.0,
             .origin = Origin::kPublished,
             .source = "Matthies 1995 sec. 6 (MFEX; Rocky 3.2 has the same computer)"});
+    v.Real("scan_fixed_s", scan_fixed_s,
+           {.doc = "part of it that neither fewer images nor faster imaging saves",
+            .min = 0.0,
+            .max = 3600.0,
+            .origin = Origin::kAssumed,
+            .source = "switching, exposure control and the decision; most of the time goes into "
+                      "clocking out and averaging images on the 8085 (Matthies 1995 sec. 6, 8)",
+            .study_low = 0.5,
+            .study_high = 8.0});
+    v.Require("scan_fixed_s", scan_fixed_s <= scan_time_s, "is longer than scan_time_s",
+              "use a value up to scan_time_s");
+    v.Real("scan_speed_factor", scan_speed_factor,
+           {.doc = "how many times faster than the published sensor its images are taken and "
+                   "processed",
+            .min = 0.01,
+            .max = 1e5,
+            .origin = Origin::kSetting});
     v.Real(
         "control_rate_hz", control_rate_hz,
         {.doc = "rate of odometry and manoeuvre control; a tick takes the nearest whole number of "

@@ -7,10 +7,10 @@
 
 #include "navigation/pathfinder.h"
 #include "sensing/oracle.h"
-#include "sensing/tracker.h"
 #include "terrain/arena.h"
 #include "trial/layout.h"
 #include "trial/onboard_calibration.h"
+#include "trial/scan_time.h"
 
 namespace rockyard::trial {
 namespace {
@@ -86,7 +86,9 @@ Drive::Drive(const Scenario& scenario, core::TrialKey key, truth::Trace* trace)
       rover_(MakeTrialRover(scenario, field_.terrain)),
       tick_(WholeSteps(1.0 / scenario.clock.control_rate_hz, rover_->step_s())),
       stop_(WholeSteps(scenario.clock.stop_time_s, rover_->step_s())),
+      scan_time_s_(ScanTime(scenario.clock, scenario.sensors.light_stripe)),
       scanner_(scenario),
+      guard_(scenario, key),
       triangulator_(
           OnboardStripeCalibration(scenario.sensors.light_stripe, scenario.perception.calibration)),
       hazard_detector_(scenario.perception.hazard),
@@ -96,8 +98,10 @@ Drive::Drive(const Scenario& scenario, core::TrialKey key, truth::Trace* trace)
       navigator_(MakeNavigator(scenario)),
       wheel_driver_(OnboardDriveCalibration(scenario.rover, scenario.perception.calibration.drive),
                     scenario.navigation.wheel_driver),
-      ledger_(scenario.energy),
+      ledger_(MakePowerBudget(scenario), scenario.energy.battery_wh),
       monitor_(UndersideOf(scenario.rover.geometry), field_.terrain),
+      watch_(scenario.sensors.light_stripe, scenario.rover.geometry,
+             scenario.referee.hazard_height_m, field_.terrain),
       referee_(scenario.referee, scenario.course, Bounds(scenario.terrain.arena)) {
   if (scenario.terrain.arena.kind == terrain::ArenaKind::kVirtualReflected) {
     mirror_.emplace(scenario.terrain.arena.MirrorLine());
@@ -115,8 +119,9 @@ DriveResult Drive::Run() {
 }
 
 std::optional<Verdict> Drive::Tick() {
-  const navigation::NavigatorDecision decision = navigator_->Decide(
-      {ledger_.time_s(), dead_reckoning_.estimate(), report_ ? &*report_ : nullptr});
+  const navigation::NavigatorDecision decision =
+      navigator_->Decide({ledger_.time_s(), dead_reckoning_.estimate(),
+                          report_ ? &*report_ : nullptr, guard_.hazard()});
   report_.reset();
   if (decision.status != navigation::NavigatorStatus::kDriving) {
     return referee_.OnNavigatorStop(decision.status, rover_->state());
@@ -135,18 +140,17 @@ std::optional<Verdict> Drive::Scan() {
         scanner_.Scan(field_.terrain, rover_->state().X_WR, key_, scans_);
     ++scans_;
     if (!first) ++rescans_;
-    ledger_.Spend(Activity::kScanning, scenario_.clock.scan_time_s);
-    if (scenario_.sensors.gyro.accumulates_at_rest) {
-      UpdateEstimate(scenario_.clock.scan_time_s, false);
-    }
+    ledger_.Spend(Activity::kScanning, scan_time_s_);
+    if (scenario_.sensors.gyro.accumulates_at_rest) UpdateEstimate(scan_time_s_, false);
     seen = hazard_detector_.Process(triangulator_.Elevations(scan));
   }
   report_ = seen.report;
   if (seen.report.any()) {
     ++hazards_;
+    watch_.OnBelieved(rover_->state().X_WR);
     Record("hazard", Pattern(seen.report));
   }
-  return AskReferee(Activity::kScanning, 0, scenario_.clock.scan_time_s);
+  return AskReferee(Activity::kScanning, 0, scan_time_s_);
 }
 
 std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const Stretch& stretch) {
@@ -155,7 +159,11 @@ std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const 
   ApplyCommand(command, stretch.steps);
   UpdateEstimate(stretch.duration_s, motion.kind != MotionKind::kStop && !wheel_driver_.steering());
   ledger_.Spend(activity, stretch.duration_s);
+  if (guard_.Feel(rover_->state(), command, stretch.duration_s)) {
+    Record("felt", Describe(*guard_.hazard()));
+  }
   monitor_.Observe(rover_->state(), activity == Activity::kTurning);
+  watch_.Observe(rover_->state().X_WR);
   Sample(activity);
   // Operators turn a rover whose position reaches the line; one that turns in place stays its own
   // master, also beyond the line.
@@ -168,6 +176,7 @@ void Drive::ApplyCommand(const messages::WheelCommand& command, std::int64_t ste
   const double step_s = rover_->step_s();
   for (std::int64_t i = 0; i < steps; ++i) {
     rover_->Step(command);
+    guard_.Observe(rover_->state());
     const std::int64_t before = motion_sensors_->scrapes().episodes();
     motion_sensors_->Observe(rover_->state(),
                              ledger_.time_s() + static_cast<double>(i + 1) * step_s);
@@ -196,6 +205,7 @@ void Drive::ReflectAtMirrorLine() {
   wheel_driver_.Straighten();
   dead_reckoning_.Apply(reflection->update);
   motion_sensors_->Resume(rover_->state());
+  guard_.Resume(rover_->state());
   monitor_.Restart(rover_->state());
   navigator_->OnPoseUpdate(before, dead_reckoning_.estimate());
 }
@@ -220,60 +230,8 @@ DriveResult Drive::Finish(const Verdict& verdict) {
   ReportErrors(result.record);
   ReportLedger(result.record);
   ReportCounts(result.record);
+  ReportHazards(result.record);
   return result;
-}
-
-void Drive::ReportPoses(truth::DriveRecord& record) const {
-  const math::Pose2 truth = math::ToPose2(rover_->state().X_WR);
-  const messages::PoseEstimate& estimate = dead_reckoning_.estimate();
-  const CourseParams& course = scenario_.course;
-  record.straight_distance_m =
-      std::hypot(course.goal_x_m - course.start_x_m, course.goal_y_m - course.start_y_m);
-  record.true_goal_distance_m =
-      std::hypot(course.goal_x_m - truth.x_m, course.goal_y_m - truth.y_m);
-  record.final_x_m = truth.x_m;
-  record.final_y_m = truth.y_m;
-  record.final_heading_rad = truth.heading_rad;
-  record.believed_x_m = estimate.x_m;
-  record.believed_y_m = estimate.y_m;
-  record.believed_heading_rad = estimate.heading_rad;
-}
-
-void Drive::ReportErrors(truth::DriveRecord& record) const {
-  const math::Pose2 truth = math::ToPose2(rover_->state().X_WR);
-  const sensing::TrackerParams& tracker = scenario_.sensors.tracker;
-  const math::Pose2 reference =
-      tracker.enabled ? sensing::Tracker(tracker, key_).Observe(truth, 0) : truth;
-  const messages::PoseEstimate& estimate = dead_reckoning_.estimate();
-  record.dead_reckoned_distance_m = estimate.distance_m;
-  if (record.true_distance_m > 0.0) {
-    record.distance_error_percent =
-        100.0 * (estimate.distance_m - record.true_distance_m) / record.true_distance_m;
-  }
-  record.heading_error_deg =
-      math::RadToDeg(std::abs(math::WrapAngle(estimate.heading_rad - reference.heading_rad)));
-  record.position_error_m = std::hypot(estimate.x_m - reference.x_m, estimate.y_m - reference.y_m);
-}
-
-void Drive::ReportLedger(truth::DriveRecord& record) const {
-  record.sim_time_s = ledger_.time_s();
-  record.drive_time_s = ledger_.time_s(Activity::kDriving);
-  record.turn_time_s = ledger_.time_s(Activity::kTurning);
-  record.scan_time_s = ledger_.time_s(Activity::kScanning);
-  record.energy_wh = ledger_.energy_wh();
-}
-
-void Drive::ReportCounts(truth::DriveRecord& record) const {
-  record.scans = static_cast<double>(scans_);
-  record.rescans = static_cast<double>(rescans_);
-  record.hazards_believed = static_cast<double>(hazards_);
-  record.turns_in_place = static_cast<double>(turns_.turns());
-  record.scrapes = static_cast<double>(motion_sensors_->scrapes().episodes());
-  record.scrape_heading_rad = motion_sensors_->scrapes().total_jump_rad();
-  record.reflections = static_cast<double>(reflections_);
-  record.layout = static_cast<double>(LayoutKey(scenario_, key_).trial);
-  record.rocks = static_cast<double>(field_.terrain.rocks().size());
-  record.rock_cover = field_.audit.outline_cover;
 }
 
 void Drive::Record(std::string kind, std::string detail) {

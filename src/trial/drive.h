@@ -17,12 +17,14 @@
 #include "terrain/field.h"
 #include "trial/drive_monitor.h"
 #include "trial/hazard_scanner.h"
+#include "trial/hazard_watch.h"
 #include "trial/ledger.h"
 #include "trial/mirror_arena.h"
 #include "trial/referee.h"
 #include "trial/run_trial.h"
 #include "trial/stretch.h"
 #include "trial/turn_counter.h"
+#include "trial/vehicle_guard.h"
 
 namespace rockyard::trial {
 
@@ -50,6 +52,7 @@ class Drive {
   void ReportErrors(truth::DriveRecord& record) const;
   void ReportLedger(truth::DriveRecord& record) const;
   void ReportCounts(truth::DriveRecord& record) const;
+  void ReportHazards(truth::DriveRecord& record) const;
 
   void Record(std::string kind, std::string detail);
   void Sample(Activity activity);
@@ -62,10 +65,12 @@ class Drive {
   std::unique_ptr<rover::Rover> rover_;
   Stretch tick_;  // of control
   Stretch stop_;  // before a scan
+  double scan_time_s_;
   std::optional<MirrorArena> mirror_;
 
   HazardScanner scanner_;
   std::optional<sensing::MotionSensors> motion_sensors_;
+  VehicleGuard guard_;
 
   perception::Triangulator triangulator_;
   perception::HazardDetector hazard_detector_;
@@ -76,6 +81,7 @@ class Drive {
 
   Ledger ledger_;
   DriveMonitor monitor_;
+  HazardWatch watch_;
   Referee referee_;
 
   std::optional<messages::HazardReport> report_;

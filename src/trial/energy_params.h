@@ -6,21 +6,18 @@
 namespace rockyard::trial {
 
 struct EnergyParams {
-  double hazard_detection_W = 7.33;
   double cpu_W = 3.77;
   double gyro_W = 0.80;
+  double accelerometers_W = 0.82;
+  double imaging_W = 0.75;
+  double cmos_imaging_share = 0.1;
+  double laser_supply_efficiency = 1.32 / 2.01;
   double driving_W = 8.28;
   double steering_W = 6.70;
   double battery_wh = 50.0;
 
   void Visit(core::FieldVisitor& v) {
     using core::Origin;
-    v.Real("hazard_detection_W", hazard_detection_W,
-           {.doc = "power during a hazard scan, computer included",
-            .min = 0.0,
-            .max = 1e4,
-            .origin = Origin::kPublished,
-            .source = "Matthies 1995 sec. 6 (MFEX)"});
     v.Real("cpu_W", cpu_W,
            {.doc = "computer and I/O",
             .min = 0.0,
@@ -33,6 +30,30 @@ struct EnergyParams {
             .max = 1e4,
             .origin = Origin::kPublished,
             .source = "Matthies 1995 table 1 (MFEX)"});
+    v.Real("accelerometers_W", accelerometers_W,
+           {.doc = "accelerometers, while the rover moves and where it has them",
+            .min = 0.0,
+            .max = 1e4,
+            .origin = Origin::kPublished,
+            .source = "Matthies 1995 table 1 (MFEX)"});
+    v.Real("imaging_W", imaging_W,
+           {.doc = "CCDs and clocks, during a scan",
+            .min = 0.0,
+            .max = 1e4,
+            .origin = Origin::kPublished,
+            .source = "Matthies 1995 table 1 (MFEX)"});
+    v.Real("cmos_imaging_share", cmos_imaging_share,
+           {.doc = "power of CMOS imagers over that of CCDs",
+            .min = 0.0,
+            .max = 10.0,
+            .origin = Origin::kPublished,
+            .source = "Matthies 1995 sec. 6: potentially a factor of ten for imaging alone"});
+    v.Real("laser_supply_efficiency", laser_supply_efficiency,
+           {.doc = "electrical power of the lasers over what their voltage conversion draws",
+            .min = 0.01,
+            .max = 1.0,
+            .origin = Origin::kPublished,
+            .source = "Matthies 1995 table 3 and sec. 6: 0.66 W each, 2.01 W for two with losses"});
     v.Real("driving_W", driving_W,
            {.doc = "drive motors in extreme terrain; drawn by every motion and by a stall",
             .min = 0.01,

@@ -3,22 +3,13 @@
 
 #include <array>
 
-#include "trial/clock_params.h"
-#include "trial/energy_params.h"
+#include "trial/power_budget.h"
 
 namespace rockyard::trial {
 
-// One major function at a time (Matthies 1995 sec. 2.1.2).
-enum class Activity { kDriving, kTurning, kSteering, kScanning, kStalled };
-inline constexpr std::size_t kActivityCount = 5;
-
 class Ledger {
  public:
-  explicit Ledger(const EnergyParams& params) : params_(params) {}
-
-  // Electrical power of an activity, W: computer and gyro plus the function itself. Hazard
-  // detection is published as a sum that includes them.
-  double Power(Activity activity) const;
+  Ledger(const PowerBudget& budget, double battery_wh) : budget_(budget), battery_wh_(battery_wh) {}
 
   void Spend(Activity activity, double duration_s);
 
@@ -30,12 +21,16 @@ class Ledger {
     return by_activity_s_[static_cast<std::size_t>(activity)];
   }
   double energy_wh() const { return energy_J_ / kJoulesPerWattHour; }
-  bool empty() const { return energy_wh() >= params_.battery_wh; }
+  double energy_wh(Activity activity) const {
+    return budget_.Power(activity) * time_s(activity) / kJoulesPerWattHour;
+  }
+  bool empty() const { return energy_wh() >= battery_wh_; }
 
  private:
   static constexpr double kJoulesPerWattHour = 3600.0;
 
-  EnergyParams params_;
+  PowerBudget budget_;
+  double battery_wh_;
   double time_s_ = 0.0;
   double energy_J_ = 0.0;
   std::array<double, kActivityCount> by_activity_s_{};

@@ -110,6 +110,15 @@ void RefereeParams::Visit(core::FieldVisitor& v) {
           .source = "the four hours of a rover day, Matthies 1995 sec. 2.1.2",
           .study_low = 7200.0,
           .study_high = 28800.0});
+  v.Real("hazard_height_m", hazard_height_m,
+         {.doc = "height from which a rock counts in hazards_met and hazards_missed; decides "
+                 "nothing in the drive",
+          .min = 0.0,
+          .max = 10.0,
+          .origin = Origin::kAssumed,
+          .source = "the clearance of the undercarriage, Matthies 1995 sec. 6",
+          .study_low = 0.075,
+          .study_high = 0.15});
 }
 
 }  // namespace rockyard::trial

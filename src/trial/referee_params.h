@@ -27,6 +27,7 @@ struct RefereeParams {
   double no_path_turn_rad = math::DegToRad(1080.0);
   double no_path_time_s = 3600.0;
   double time_limit_s = 14400.0;
+  double hazard_height_m = 0.13;
 
   void Visit(core::FieldVisitor& v);
 };

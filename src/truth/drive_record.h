@@ -37,10 +37,19 @@ struct DriveRecord {
   double max_tilt_deg = 0.0;
   double max_bogie_deg = 0.0;
   double min_clearance_m = 0.0;
-  double layout = 0.0;              // index of the rock field; trials may share one
-  double rocks = 0.0;               // in the field
-  double rock_cover = 0.0;          // covered fraction of the field's area
-  double scrape_heading_rad = 0.0;  // sum of the injected scrape jumps
+  double layout = 0.0;                // index of the rock field; trials may share one
+  double rocks = 0.0;                 // in the field
+  double rock_cover = 0.0;            // covered fraction of the field's area
+  double scrape_heading_rad = 0.0;    // sum of the injected scrape jumps
+  double net_rate_m_s = 0.0;          // true distance over simulated time
+  double single_scan_rate_m_s = 0.0;  // the same without the time of rescans
+  double scan_energy_wh = 0.0;
+  double hazards_met = 0.0;      // rocks of hazard_height_m or more within reach of the array
+  double hazards_missed = 0.0;   // of these, driven onto without a hazard believed before
+  double contact_hazards = 0.0;  // times that the rover felt a hazard of that kind appear
+  double tilt_hazards = 0.0;
+  double articulation_hazards = 0.0;
+  double current_hazards = 0.0;
 };
 
 struct DriveColumn {
@@ -94,6 +103,22 @@ inline constexpr std::array kDriveColumns = {
     DriveColumn{"rock_cover", "1", "covered fraction of the field", &DriveRecord::rock_cover},
     DriveColumn{"scrape_heading_rad", "rad", "sum of heading jumps from scrapes",
                 &DriveRecord::scrape_heading_rad},
+    DriveColumn{"net_rate_m_s", "m/s", "true distance over simulated time",
+                &DriveRecord::net_rate_m_s},
+    DriveColumn{"single_scan_rate_m_s", "m/s", "the same without the time of rescans",
+                &DriveRecord::single_scan_rate_m_s},
+    DriveColumn{"scan_energy_wh", "Wh", "energy of hazard scans", &DriveRecord::scan_energy_wh},
+    DriveColumn{"hazards_met", "1", "high rocks that came within reach of the hazard array",
+                &DriveRecord::hazards_met},
+    DriveColumn{"hazards_missed", "1", "of these, driven onto without a hazard believed before",
+                &DriveRecord::hazards_missed},
+    DriveColumn{"contact_hazards", "1", "touches felt by contact switches",
+                &DriveRecord::contact_hazards},
+    DriveColumn{"tilt_hazards", "1", "excessive tilts felt", &DriveRecord::tilt_hazards},
+    DriveColumn{"articulation_hazards", "1", "excessive joint angles felt",
+                &DriveRecord::articulation_hazards},
+    DriveColumn{"current_hazards", "1", "excessive motor currents felt",
+                &DriveRecord::current_hazards},
 };
 
 }  // namespace rockyard::truth

@@ -17,6 +17,7 @@ struct BodyContact {
   double normal_force_N = 0.0;
   double sliding_speed_m_s = 0.0;
   double lift_share = 0.0;  // vertical part of the normal force: 1 where the rock bears the rover
+  math::Vector3 p_RoC_R = math::Vector3::Zero();  // where, on the rover
 };
 
 struct RoverState {

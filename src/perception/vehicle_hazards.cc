@@ -1,0 +1,86 @@
+#include "perception/vehicle_hazards.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rockyard::perception {
+namespace {
+
+using messages::ContactSwitch;
+using messages::HazardSide;
+
+HazardSide SideOf(bool left, bool right) {
+  if (left == right) return HazardSide::kAhead;
+  return left ? HazardSide::kLeft : HazardSide::kRight;
+}
+
+std::optional<HazardSide> Touched(const messages::ContactSwitches& closed) {
+  const auto is_closed = [&](ContactSwitch contact) { return closed[messages::Index(contact)]; };
+  const bool left = is_closed(ContactSwitch::kFrontLeft) || is_closed(ContactSwitch::kLeftEdge);
+  const bool right = is_closed(ContactSwitch::kFrontRight) || is_closed(ContactSwitch::kRightEdge);
+  const bool ahead =
+      is_closed(ContactSwitch::kFrontCentre) || is_closed(ContactSwitch::kUndercarriage);
+  if (left || right) return SideOf(left, right);
+  if (ahead) return HazardSide::kAhead;
+  if (is_closed(ContactSwitch::kRearEdge)) return HazardSide::kBehind;
+  return std::nullopt;
+}
+
+}  // namespace
+
+double TiltOf(const math::Vector3& specific_force_R) {
+  return std::atan2(specific_force_R.head<2>().norm(), specific_force_R.z());
+}
+
+std::optional<HazardSide> VehicleHazardDetector::Tilted(const math::Vector3& force_R) const {
+  if (TiltOf(force_R) <= params_.max_tilt_rad) return std::nullopt;
+  if (std::abs(force_R.x()) >= std::abs(force_R.y())) return HazardSide::kAhead;
+  return force_R.y() > 0.0 ? HazardSide::kLeft : HazardSide::kRight;
+}
+
+std::optional<HazardSide> VehicleHazardDetector::Bent(const messages::Articulation& angles) const {
+  const bool left = std::abs(angles.left_bogie_rad) > params_.max_bogie_rad;
+  const bool right = std::abs(angles.right_bogie_rad) > params_.max_bogie_rad;
+  if (left || right) return SideOf(left, right);
+  const double most_rad =
+      std::max(std::abs(angles.left_rocker_rad), std::abs(angles.right_rocker_rad));
+  if (most_rad <= params_.max_rocker_rad) return std::nullopt;
+  return angles.left_rocker_rad < angles.right_rocker_rad ? HazardSide::kLeft : HazardSide::kRight;
+}
+
+std::optional<HazardSide> VehicleHazardDetector::Strained(
+    const messages::PerWheel<double>& current_A) const {
+  const auto middle = current_A.begin() + messages::kWheelCount / 2;  // left wheels come first
+  const auto above = [&](double amperes) { return amperes > params_.max_current_A; };
+  const bool left = std::any_of(current_A.begin(), middle, above);
+  const bool right = std::any_of(middle, current_A.end(), above);
+  if (!left && !right) return std::nullopt;
+  return SideOf(left, right);
+}
+
+std::optional<messages::VehicleHazard> VehicleHazardDetector::Debounced(
+    Kind kind, std::optional<HazardSide> now, std::int64_t ticks) {
+  std::int64_t& held = ticks_[static_cast<std::size_t>(kind)];
+  held = now ? held + 1 : 0;
+  if (!now || held < ticks) return std::nullopt;
+  return messages::VehicleHazard{kind, *now};
+}
+
+std::optional<messages::VehicleHazard> VehicleHazardDetector::Observe(
+    const messages::VehicleState& state) {
+  std::optional<HazardSide> touched, tilted, bent, strained;
+  if (state.contact) touched = Touched(*state.contact);
+  if (state.specific_force_R) tilted = Tilted(*state.specific_force_R);
+  if (state.articulation) bent = Bent(*state.articulation);
+  if (state.motor_current_A) strained = Strained(*state.motor_current_A);
+  // Every kind counts its ticks, whichever is reported.
+  const std::array found{Debounced(Kind::kContact, touched, params_.contact_ticks),
+                         Debounced(Kind::kTilt, tilted, params_.tilt_ticks),
+                         Debounced(Kind::kArticulation, bent, params_.articulation_ticks),
+                         Debounced(Kind::kMotorCurrent, strained, params_.current_ticks)};
+  const auto first = std::find_if(found.begin(), found.end(),
+                                  [](const auto& hazard) { return hazard.has_value(); });
+  return first == found.end() ? std::nullopt : *first;
+}
+
+}  // namespace rockyard::perception

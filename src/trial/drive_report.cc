@@ -1,0 +1,79 @@
+// What a finished drive says of itself: the columns of its record.
+#include <cmath>
+
+#include "math/angles.h"
+#include "sensing/tracker.h"
+#include "trial/drive.h"
+#include "trial/layout.h"
+
+namespace rockyard::trial {
+
+void Drive::ReportPoses(truth::DriveRecord& record) const {
+  const math::Pose2 truth = math::ToPose2(rover_->state().X_WR);
+  const messages::PoseEstimate& estimate = dead_reckoning_.estimate();
+  const CourseParams& course = scenario_.course;
+  record.straight_distance_m =
+      std::hypot(course.goal_x_m - course.start_x_m, course.goal_y_m - course.start_y_m);
+  record.true_goal_distance_m =
+      std::hypot(course.goal_x_m - truth.x_m, course.goal_y_m - truth.y_m);
+  record.final_x_m = truth.x_m;
+  record.final_y_m = truth.y_m;
+  record.final_heading_rad = truth.heading_rad;
+  record.believed_x_m = estimate.x_m;
+  record.believed_y_m = estimate.y_m;
+  record.believed_heading_rad = estimate.heading_rad;
+}
+
+void Drive::ReportErrors(truth::DriveRecord& record) const {
+  const math::Pose2 truth = math::ToPose2(rover_->state().X_WR);
+  const sensing::TrackerParams& tracker = scenario_.sensors.tracker;
+  const math::Pose2 reference =
+      tracker.enabled ? sensing::Tracker(tracker, key_).Observe(truth, 0) : truth;
+  const messages::PoseEstimate& estimate = dead_reckoning_.estimate();
+  record.dead_reckoned_distance_m = estimate.distance_m;
+  if (record.true_distance_m > 0.0) {
+    record.distance_error_percent =
+        100.0 * (estimate.distance_m - record.true_distance_m) / record.true_distance_m;
+  }
+  record.heading_error_deg =
+      math::RadToDeg(std::abs(math::WrapAngle(estimate.heading_rad - reference.heading_rad)));
+  record.position_error_m = std::hypot(estimate.x_m - reference.x_m, estimate.y_m - reference.y_m);
+}
+
+void Drive::ReportLedger(truth::DriveRecord& record) const {
+  record.sim_time_s = ledger_.time_s();
+  record.drive_time_s = ledger_.time_s(Activity::kDriving);
+  record.turn_time_s = ledger_.time_s(Activity::kTurning);
+  record.scan_time_s = ledger_.time_s(Activity::kScanning);
+  record.energy_wh = ledger_.energy_wh();
+  record.scan_energy_wh = ledger_.energy_wh(Activity::kScanning);
+  if (ledger_.time_s() <= 0.0) return;
+  const double again_s = static_cast<double>(rescans_) * scan_time_s_;
+  record.net_rate_m_s = record.true_distance_m / ledger_.time_s();
+  record.single_scan_rate_m_s = record.true_distance_m / (ledger_.time_s() - again_s);
+}
+
+void Drive::ReportCounts(truth::DriveRecord& record) const {
+  record.scans = static_cast<double>(scans_);
+  record.rescans = static_cast<double>(rescans_);
+  record.hazards_believed = static_cast<double>(hazards_);
+  record.turns_in_place = static_cast<double>(turns_.turns());
+  record.scrapes = static_cast<double>(motion_sensors_->scrapes().episodes());
+  record.scrape_heading_rad = motion_sensors_->scrapes().total_jump_rad();
+  record.reflections = static_cast<double>(reflections_);
+  record.layout = static_cast<double>(LayoutKey(scenario_, key_).trial);
+  record.rocks = static_cast<double>(field_.terrain.rocks().size());
+  record.rock_cover = field_.audit.outline_cover;
+}
+
+void Drive::ReportHazards(truth::DriveRecord& record) const {
+  using messages::VehicleHazardKind;
+  record.hazards_met = static_cast<double>(watch_.met());
+  record.hazards_missed = static_cast<double>(watch_.missed());
+  record.contact_hazards = static_cast<double>(guard_.count(VehicleHazardKind::kContact));
+  record.tilt_hazards = static_cast<double>(guard_.count(VehicleHazardKind::kTilt));
+  record.articulation_hazards = static_cast<double>(guard_.count(VehicleHazardKind::kArticulation));
+  record.current_hazards = static_cast<double>(guard_.count(VehicleHazardKind::kMotorCurrent));
+}
+
+}  // namespace rockyard::trial

@@ -1,0 +1,45 @@
+#include "trial/power_budget.h"
+
+#include <algorithm>
+
+#include "sensing/stripe_layout_params.h"
+
+namespace rockyard::trial {
+
+int EmittersAtOnce(const sensing::LightStripeParams& sensor) {
+  const messages::StripeArraySize size = sensing::ArraySize(sensor);
+  const int lasers =
+      std::min(static_cast<int>(sensor.lasers_per_image), static_cast<int>(size.stripes));
+  const bool one_a_point = sensor.laser.fan == sensing::BeamFan::kThreeScanlines;
+  return one_a_point ? lasers * static_cast<int>(size.rows) : lasers;
+}
+
+double PowerBudget::Power(Activity activity) const {
+  switch (activity) {
+    case Activity::kDriving:
+    case Activity::kTurning:
+    case Activity::kStalled:
+      return base_W + guards_W + driving_W;
+    case Activity::kSteering:
+      return base_W + guards_W + steering_W;
+    case Activity::kScanning:
+      return base_W + imaging_W + lasers_W;
+  }
+  return base_W;
+}
+
+PowerBudget MakePowerBudget(const scenario::Scenario& scenario) {
+  const EnergyParams& energy = scenario.energy;
+  const sensing::LightStripeParams& sensor = scenario.sensors.light_stripe;
+  const bool cmos = sensor.imager.kind == sensing::ImagerKind::kCmos;
+  return {
+      .base_W = energy.cpu_W + energy.gyro_W,
+      .guards_W = scenario.sensors.vehicle.accelerometers.enabled ? energy.accelerometers_W : 0.0,
+      .driving_W = energy.driving_W,
+      .steering_W = energy.steering_W,
+      .imaging_W = energy.imaging_W * (cmos ? energy.cmos_imaging_share : 1.0),
+      .lasers_W =
+          EmittersAtOnce(sensor) * sensor.laser.input_power_w / energy.laser_supply_efficiency};
+}
+
+}  // namespace rockyard::trial

@@ -1,0 +1,54 @@
+// What the rover feels, as the closed loop uses it: the vehicle sensors and their hazard criteria.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/random.h"
+#include "messages/commands.h"
+#include "perception/vehicle_hazards.h"
+#include "scenario/scenario.h"
+#include "sensing/vehicle_sensors.h"
+#include "truth/rover_state.h"
+
+namespace rockyard::trial {
+
+// Costs nothing where the rover has none of these sensors.
+class VehicleGuard {
+ public:
+  VehicleGuard(const scenario::Scenario& scenario, core::TrialKey key);
+
+  // Once a physics step.
+  void Observe(const truth::RoverState& state) {
+    if (on_) sensors_.Observe(state);
+  }
+
+  // Once a control tick. True where a hazard has appeared that was not felt at the tick before.
+  bool Feel(const truth::RoverState& state, const messages::WheelCommand& command,
+            double duration_s);
+
+  // Operators moved the rover by hand.
+  void Resume(const truth::RoverState& state);
+
+  // Of the last tick; null where nothing is felt.
+  const messages::VehicleHazard* hazard() const { return felt_ ? &*felt_ : nullptr; }
+
+  // How often a hazard of that kind appeared.
+  std::int64_t count(messages::VehicleHazardKind kind) const {
+    return counts_[static_cast<std::size_t>(kind)];
+  }
+
+ private:
+  bool on_;
+  sensing::VehicleSensors sensors_;
+  perception::VehicleHazardDetector detector_;
+  std::optional<messages::VehicleHazard> felt_;
+  std::array<std::int64_t, messages::kVehicleHazardKindCount> counts_{};
+};
+
+// "contact left" and so on.
+std::string Describe(const messages::VehicleHazard& hazard);
+
+}  // namespace rockyard::trial
