@@ -37,11 +37,14 @@ double SampleUniform(RandomStream& stream, double low, double high) {
   return low + (high - low) * stream.Uniform();
 }
 
+double NormalQuantile(double p) {
+  EXPECT(p > 0.0 && p < 1.0);
+  return std::numbers::sqrt2 * boost::math::erf_inv(2.0 * p - 1.0, InDouble());
+}
+
 double SampleNormal(RandomStream& stream, double mean, double standard_deviation) {
   EXPECT(standard_deviation >= 0.0);
-  const double z =
-      std::numbers::sqrt2 * boost::math::erf_inv(2.0 * stream.Uniform() - 1.0, InDouble());
-  return mean + standard_deviation * z;
+  return mean + standard_deviation * NormalQuantile(stream.Uniform());
 }
 
 double SampleExponential(RandomStream& stream, double mean) {

@@ -11,6 +11,9 @@ namespace rockyard::core {
 // Uniform on (low, high).
 double SampleUniform(RandomStream& stream, double low, double high);
 
+// Value below which a standard normal number lies with probability p, 0 < p < 1.
+double NormalQuantile(double p);
+
 // Normal by inverse CDF (Boost.Math erf_inv in double precision), one uniform.
 double SampleNormal(RandomStream& stream, double mean, double standard_deviation);
 

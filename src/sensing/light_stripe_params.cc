@@ -260,12 +260,18 @@ void RequireVisibility(LightStripeParams& p, core::FieldVisitor& v) {
 }  // namespace
 
 void LightStripeParams::Visit(core::FieldVisitor& v) {
+  v.Choice("fidelity", fidelity,
+           {.doc = "geometric: rays and an error model; image: from light to pixels, and the finder "
+                   "of stripes on board",
+            .origin = Origin::kSetting});
   VisitOptics(*this, v);
   VisitCameras(*this, v);
   VisitEmitters(*this, v);
   VisitArray(*this, v);
   VisitDensity(*this, v);
   VisitDetection(*this, v);
+  v.Group("laser", laser, "light emitters");
+  v.Group("imager", imager, "lens, filter, imager and exposure control");
   RequireVisibility(*this, v);
 }
 

@@ -13,8 +13,16 @@
 #include "core/fields.h"
 #include "math/angles.h"
 #include "messages/calibration.h"
+#include "sensing/imager_params.h"
+#include "sensing/laser_params.h"
 
 namespace rockyard::sensing {
+
+// How much of the sensor is simulated.
+enum class Fidelity {
+  kGeometric,  // where rays meet, with a measured error model
+  kImage,      // images of the scene, and the software that finds stripes in them
+};
 
 // Where a point that is detected in the wrong place appears.
 enum class WrongPlace {
@@ -23,6 +31,8 @@ enum class WrongPlace {
 };
 
 struct LightStripeParams {
+  Fidelity fidelity = Fidelity::kGeometric;
+
   // Optics, table 3; Rocky 3.2 has the 4.8 mm lens.
   std::int64_t columns = 768;
   std::int64_t rows = 484;
@@ -61,6 +71,10 @@ struct LightStripeParams {
   WrongPlace wrong_place = WrongPlace::kSearchedPart;
   double missed_probability = 0.0;
 
+  // From light to images; the geometric fidelity does not look at them.
+  LaserParams laser;
+  ImagerParams imager;
+
   double column_pitch_rad() const {
     return active_width_m / static_cast<double>(columns) / focal_length_m;
   }
@@ -77,6 +91,11 @@ template <>
 struct rockyard::core::EnumNames<rockyard::messages::Lens> {
   static constexpr std::array<std::string_view, 3> kNames{"equidistant_rows", "equidistant",
                                                           "pinhole"};
+};
+
+template <>
+struct rockyard::core::EnumNames<rockyard::sensing::Fidelity> {
+  static constexpr std::array<std::string_view, 2> kNames{"geometric", "image"};
 };
 
 template <>

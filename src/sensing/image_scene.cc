@@ -1,0 +1,151 @@
+#include "sensing/image_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace rockyard::sensing {
+namespace {
+
+using math::Vector3;
+
+// Rays end here: far ground shows no detail.
+constexpr double kFarthest_m = 100.0;
+// Surfaces this close to a point do not hide it from an emitter, as in light_stripe.cc.
+constexpr double kOcclusionMargin_m = 0.0005;
+// Rough ground further than this towards the sun casts no shadow.
+constexpr double kGroundShadow_m = 2.0;
+constexpr double kRounding_m = 1e-9;
+
+double Reach(const terrain::Rock& rock) { return rock.semi_axes_m.maxCoeff() + kRounding_m; }
+
+// Whether a ball may come between another one and the sun: the distance between the centres, square
+// to the sun, and whether it lies on the sun's side.
+bool ComesBetween(const Vector3& from_ball, const Vector3& toward_sun, double reach_m) {
+  const double along = from_ball.dot(toward_sun);
+  if (along < -reach_m) return false;
+  return from_ball.squaredNorm() - along * along <= reach_m * reach_m;
+}
+
+}  // namespace
+
+ImageScene::ImageScene(const terrain::Terrain& terrain, const math::Transform& X_WR,
+                       const SunLight& light, const SunParams& sun, const RoverBody& body)
+    : terrain_(terrain),
+      body_(body),
+      X_WR_(X_WR),
+      X_RW_(X_WR.inverse()),
+      light_(light),
+      sun_(sun),
+      toward_sun_R_(X_RW_.linear() * light.toward_sun_W),
+      body_center_W_(X_WR * body.center_R()) {
+  const Vector3 origin_W = X_WR.translation();
+  terrain.RocksNear(origin_W.x(), origin_W.y(), kSight_m, near_);
+  if (light.direct_w_m2 <= 0.0) return;
+  const auto rocks = terrain.rocks();
+  for (std::size_t i = 0; i < rocks.size(); ++i) {
+    const Vector3 away = rocks[i].center_W - origin_W;
+    if (!ComesBetween(away, light.toward_sun_W, kSight_m + Reach(rocks[i]))) continue;
+    before_sun_.push_back(static_cast<int>(i));
+    shapes_.emplace_back(rocks[i]);
+  }
+}
+
+void ImageScene::RocksInCone(const Vector3& eye_W, const Vector3& axis_W, double half_sine,
+                             double half_cosine, std::vector<int>& out) const {
+  out.clear();
+  for (const int index : near_) {
+    const terrain::Rock& rock = terrain_.rocks()[static_cast<std::size_t>(index)];
+    const Vector3 away = rock.center_W - eye_W;
+    const double reach_m = Reach(rock);
+    const double along_m = away.dot(axis_W);
+    if (along_m < -reach_m) continue;
+    const double aside_m = std::sqrt(std::max(0.0, away.squaredNorm() - along_m * along_m));
+    // Distance from the surface of the cone, positive outside.
+    if (aside_m * half_cosine - along_m * half_sine <= reach_m) out.push_back(index);
+  }
+}
+
+void ImageScene::RocksBeforeSun(const Vector3& center_W, double radius_m,
+                                std::vector<int>& out) const {
+  out.clear();
+  for (std::size_t i = 0; i < before_sun_.size(); ++i) {
+    const auto index = static_cast<std::size_t>(before_sun_[i]);
+    const terrain::Rock& rock = terrain_.rocks()[index];
+    if (ComesBetween(rock.center_W - center_W, light_.toward_sun_W, radius_m + Reach(rock))) {
+      out.push_back(static_cast<int>(i));
+    }
+  }
+}
+
+SurfacePoint ImageScene::MeetRover(const Vector3& eye_W, const Vector3& ray_W,
+                                   double body_m) const {
+  SurfacePoint point;
+  point.surface = SurfacePoint::kRover;
+  point.p_W = eye_W + body_m * ray_W;
+  point.normal_W = X_WR_.linear() * body_.Normal(X_RW_ * eye_W, X_RW_.linear() * ray_W);
+  point.albedo = sun_.rover_albedo;
+  return point;
+}
+
+SurfacePoint ImageScene::Meet(const Vector3& eye_W, const Vector3& ray_W, double body_m,
+                              std::span<const int> rocks) const {
+  const double farthest_m = std::min(body_m, kFarthest_m);
+  const auto hit = terrain_.CastRay(eye_W, ray_W, farthest_m, rocks);
+  if (!hit) return body_m < kFarthest_m ? MeetRover(eye_W, ray_W, body_m) : SurfacePoint{};
+  SurfacePoint point;
+  point.p_W = hit->point_W;
+  point.normal_W = hit->normal_W;
+  switch (hit->surface) {
+    case terrain::Surface::kGround:
+      point.surface = SurfacePoint::kGround;
+      break;
+    case terrain::Surface::kWall:
+      point.surface = SurfacePoint::kWall;
+      break;
+    case terrain::Surface::kRock:
+      point.surface = hit->rock;
+      break;
+  }
+  const bool is_ground = hit->surface == terrain::Surface::kGround;
+  point.albedo = is_ground ? sun_.ground_albedo : sun_.rock_albedo;
+  return point;
+}
+
+bool ImageScene::InRoversShadow(const Vector3& p_W) const {
+  if (!ComesBetween(body_center_W_ - p_W, light_.toward_sun_W, body_.radius_m())) return false;
+  return body_.Distance(X_RW_ * p_W, toward_sun_R_) < RoverBody::kFree;
+}
+
+bool ImageScene::Sunlit(const SurfacePoint& point, std::span<const int> shading) const {
+  if (point.normal_W.dot(light_.toward_sun_W) <= 0.0) return false;
+  for (const int i : shading) {
+    // A rock is convex: where it faces the sun it does not shade itself.
+    if (before_sun_[static_cast<std::size_t>(i)] == point.surface) continue;
+    const terrain::RockShape& shape = shapes_[static_cast<std::size_t>(i)];
+    if (shape.Distance(point.p_W, light_.toward_sun_W) < terrain::RockShape::kNoHit) return false;
+  }
+  if (InRoversShadow(point.p_W)) return false;
+  if (terrain_.ground().IsPlane()) return true;
+  const Vector3 above_W = point.p_W + kOcclusionMargin_m * point.normal_W;
+  return !terrain_.ground().CastRay(above_W, light_.toward_sun_W, kGroundShadow_m);
+}
+
+void ImageScene::Light(std::span<const int> shading, SurfacePoint& point) const {
+  if (point.surface == SurfacePoint::kSky) {
+    point.radiance_w_m2_sr = light_.sky_w_m2 * std::numbers::inv_pi;
+    return;
+  }
+  const bool sunlit = light_.direct_w_m2 > 0.0 && Sunlit(point, shading);
+  point.radiance_w_m2_sr = SunRadiance(light_, point.albedo, point.normal_W, sunlit);
+}
+
+bool ImageScene::Reaches(const Vector3& emitter_W, const Vector3& p_W) const {
+  const Vector3 away = p_W - emitter_W;
+  const double distance_m = away.norm();
+  const Vector3 ray_R = X_RW_.linear() * away / distance_m;
+  if (body_.Distance(X_RW_ * emitter_W, ray_R) < distance_m) return false;
+  return !terrain_.Occluded(emitter_W, p_W, kOcclusionMargin_m, near_);
+}
+
+}  // namespace rockyard::sensing

@@ -1,0 +1,87 @@
+// The terrain, the sunlight and the rover's own body as one scan of the cameras meets them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "math/pose.h"
+#include "sensing/radiometry.h"
+#include "sensing/rover_body.h"
+#include "sensing/sun_params.h"
+#include "terrain/rock_shape.h"
+#include "terrain/terrain.h"
+
+namespace rockyard::sensing {
+
+// A point that a viewing ray meets first.
+struct SurfacePoint {
+  // Values of `surface` other than the index of a rock.
+  static constexpr int kGround = -1;
+  static constexpr int kWall = -2;
+  static constexpr int kSky = -3;
+  static constexpr int kRover = -4;
+
+  math::Vector3 p_W = math::Vector3::Zero();
+  math::Vector3 normal_W = math::Vector3::UnitZ();
+  int surface = kSky;
+  double albedo = 0.0;
+  double radiance_w_m2_sr = 0.0;  // of sunlight within the passband
+
+  bool TakesLaserLight() const { return surface >= kWall; }
+};
+
+// Rocks that a bundle of rays may meet: those in view, and those that may hide the sun.
+struct RockLists {
+  std::vector<int> seen;
+  std::vector<int> shading;
+};
+
+// Rocks farther from the rover's origin than kSight_m are not seen, nor is what they shade; the
+// cameras look at the first metre of ground. Pure queries; must not outlive the terrain.
+class ImageScene {
+ public:
+  static constexpr double kSight_m = 4.0;
+
+  ImageScene(const terrain::Terrain& terrain, const math::Transform& X_WR, const SunLight& light,
+             const SunParams& sun, const RoverBody& body);
+
+  const math::Transform& X_WR() const { return X_WR_; }
+
+  // Rocks whose bounding ball meets the cone from an eye about axis_W (unit).
+  void RocksInCone(const math::Vector3& eye_W, const math::Vector3& axis_W, double half_sine,
+                   double half_cosine, std::vector<int>& out) const;
+  // Rocks whose bounding ball comes between the sun and a ball.
+  void RocksBeforeSun(const math::Vector3& center_W, double radius_m, std::vector<int>& out) const;
+
+  // What the unit ray from an eye meets first among the ground, the walls and the given rocks, if
+  // that is nearer than body_m, where the rover's own part is. Without sunlight.
+  SurfacePoint Meet(const math::Vector3& eye_W, const math::Vector3& ray_W, double body_m,
+                    std::span<const int> rocks) const;
+
+  // Sets the sunlight that a point sends back, in the shadow of the given rocks, of the ground and
+  // of the rover. Walls cast none: they stand for the bounds of the arena.
+  void Light(std::span<const int> shading, SurfacePoint& point) const;
+
+  // Whether the light of an emitter reaches a point: nothing of the terrain or the rover between.
+  bool Reaches(const math::Vector3& emitter_W, const math::Vector3& p_W) const;
+
+ private:
+  bool Sunlit(const SurfacePoint& point, std::span<const int> shading) const;
+  bool InRoversShadow(const math::Vector3& p_W) const;
+  SurfacePoint MeetRover(const math::Vector3& eye_W, const math::Vector3& ray_W,
+                         double body_m) const;
+
+  const terrain::Terrain& terrain_;
+  const RoverBody& body_;
+  math::Transform X_WR_;
+  math::Transform X_RW_;
+  SunLight light_;
+  const SunParams& sun_;
+  math::Vector3 toward_sun_R_;
+  math::Vector3 body_center_W_;
+  std::vector<int> near_;                   // within sight
+  std::vector<int> before_sun_;             // may shade something within sight
+  std::vector<terrain::RockShape> shapes_;  // of before_sun_, by place in it
+};
+
+}  // namespace rockyard::sensing

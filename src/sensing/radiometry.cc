@@ -1,0 +1,69 @@
+#include "sensing/radiometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "vision/lens.h"
+
+namespace rockyard::sensing {
+namespace {
+
+using math::Vector3;
+
+constexpr double kPlanck_j_s = 6.62607015e-34;     // SI, exact
+constexpr double kSpeedOfLight_m_s = 299792458.0;  // SI, exact
+constexpr double kNanometres = 1e9;                // per metre
+constexpr double kScanlinesOfThinBeam = 3.0;       // Matthies 1995 sec. 6
+
+}  // namespace
+
+SunLight MakeSunLight(const SunParams& sun, double filter_width_m) {
+  const double sine = std::sin(sun.elevation_rad);
+  SunLight light;
+  light.toward_sun_W = Vector3(std::cos(sun.elevation_rad) * std::cos(sun.azimuth_rad),
+                               std::cos(sun.elevation_rad) * std::sin(sun.azimuth_rad), sine);
+  if (sine <= 0.0) return light;
+  const double above_w_m2 =
+      sun.irradiance_w_m2_nm * filter_width_m * kNanometres / (sun.distance_au * sun.distance_au);
+  light.direct_w_m2 = above_w_m2 * std::exp(-sun.optical_depth / sine);
+  light.sky_w_m2 = sun.diffuse_share * (above_w_m2 - light.direct_w_m2) * sine;
+  return light;
+}
+
+double SunRadiance(const SunLight& sun, double albedo, const Vector3& normal_W, bool sunlit) {
+  double irradiance_w_m2 = sun.sky_w_m2 * 0.5 * (1.0 + normal_W.z());
+  if (sunlit) irradiance_w_m2 += sun.direct_w_m2 * std::max(0.0, normal_W.dot(sun.toward_sun_W));
+  return albedo * std::numbers::inv_pi * irradiance_w_m2;
+}
+
+double FanPower(const LightStripeParams& params) {
+  const LaserParams& laser = params.laser;
+  const double lit_rad =
+      laser.fan == BeamFan::kFull ? params.fan_rad : kScanlinesOfThinBeam * params.row_pitch_rad();
+  return laser.input_power_w * laser.optical_efficiency / lit_rad;
+}
+
+double ElectronsPerRadiance(const LightStripeParams& params) {
+  const ImagerParams& imager = params.imager;
+  const DetectorParams& detector = imager.detector();
+  const double pixel_m2 = params.active_width_m / static_cast<double>(params.columns) *
+                          params.active_height_m / static_cast<double>(params.rows);
+  const double electrons_per_j = detector.quantum_efficiency * detector.fill_factor *
+                                 params.laser.wavelength_m / (kPlanck_j_s * kSpeedOfLight_m_s);
+  return 0.25 * std::numbers::pi * pixel_m2 * imager.lens_transmission *
+         imager.filter_transmission * electrons_per_j / (imager.f_number * imager.f_number);
+}
+
+double RelativeIllumination(const messages::StripeCamera& camera, double column_px, double row_px) {
+  const auto ray = [&](double column_shift, double row_shift) {
+    return vision::PixelRay(camera, {column_px + column_shift, row_px + row_shift});
+  };
+  const Vector3 across = ray(0.5, 0.0) - ray(-0.5, 0.0);
+  const Vector3 down = ray(0.0, 0.5) - ray(0.0, -0.5);
+  const double solid_angle = across.cross(down).norm();
+  const double cosine = std::max(0.0, ray(0.0, 0.0).x());
+  return solid_angle * cosine / (camera.column_pitch_rad * camera.row_pitch_rad);
+}
+
+}  // namespace rockyard::sensing

@@ -1,0 +1,114 @@
+#include "sensing/rover_body.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rover/rover_geometry.h"
+
+namespace rockyard::sensing {
+namespace {
+
+using math::Vector3;
+
+// Thickness of the solar panel, m, as in the rover's collision shapes.
+constexpr double kPanelThickness_m = 0.025;
+
+// Part of a ray that lies within a slab or a cylinder, and the normal where it enters.
+struct Inside {
+  double enter_m = -RoverBody::kFree;
+  double leave_m = RoverBody::kFree;
+  Vector3 normal_R = Vector3::Zero();
+
+  void Clip(double enter, double leave, const Vector3& normal) {
+    if (enter > enter_m) {
+      enter_m = enter;
+      normal_R = normal;
+    }
+    leave_m = std::min(leave_m, leave);
+  }
+  void ClipToSlab(int axis, double position, double direction, double low, double high) {
+    if (direction == 0.0) {
+      if (position < low || position > high) leave_m = -RoverBody::kFree;
+      return;
+    }
+    const double a = (low - position) / direction;
+    const double b = (high - position) / direction;
+    Vector3 normal = Vector3::Zero();
+    normal[axis] = direction > 0.0 ? -1.0 : 1.0;
+    Clip(std::min(a, b), std::max(a, b), normal);
+  }
+  bool IsEntered() const { return enter_m > 0.0 && enter_m < leave_m; }
+};
+
+}  // namespace
+
+RoverBody::RoverBody(const rover::RoverGeometryParams& params) {
+  const double panel_z_m = params.height_m - kPanelThickness_m;
+  const Vector3 belly(0.5 * params.belly_length_m, 0.5 * params.belly_width_m, 0.0);
+  const Vector3 panel(0.5 * params.length_m, 0.5 * params.width_m, 0.0);
+  boxes_[0] = {Vector3(0, 0, params.belly_clearance_m) - belly, Vector3(0, 0, panel_z_m) + belly};
+  boxes_[1] = {Vector3(0, 0, panel_z_m) - panel, Vector3(0, 0, params.height_m) + panel};
+  for (const Vector3& wheel_R : rover::MakeRoverGeometry(params).wheel_R) {
+    wheels_.push_back({wheel_R, params.wheel_radius_m, 0.5 * params.wheel_width_m});
+  }
+  const Vector3 low(-panel.x(), -panel.y(), 0.0);
+  const Vector3 high(panel.x(), panel.y(), params.height_m);
+  center_R_ = 0.5 * (low + high);
+  const double wheels_reach_m =
+      0.5 * params.wheelbase_m + params.wheel_radius_m + 0.5 * params.width_m;
+  radius_m_ = std::max(0.5 * (high - low).norm(), wheels_reach_m + center_R_.z());
+}
+
+RoverBody::Entry RoverBody::Enter(const Box& box, const Vector3& origin_R,
+                                  const Vector3& direction_R) {
+  Inside inside;
+  for (int axis = 0; axis < 3; ++axis) {
+    inside.ClipToSlab(axis, origin_R[axis], direction_R[axis], box.low_R[axis], box.high_R[axis]);
+  }
+  if (!inside.IsEntered()) return {};
+  return {inside.enter_m, inside.normal_R};
+}
+
+RoverBody::Entry RoverBody::Enter(const Wheel& wheel, const Vector3& origin_R,
+                                  const Vector3& direction_R) {
+  const Vector3 p = origin_R - wheel.center_R;
+  Inside inside;
+  inside.ClipToSlab(1, p.y(), direction_R.y(), -wheel.half_width_m, wheel.half_width_m);
+  // |p + t d| = radius in the plane of the wheel.
+  const double a = direction_R.x() * direction_R.x() + direction_R.z() * direction_R.z();
+  const double b = p.x() * direction_R.x() + p.z() * direction_R.z();
+  const double c = p.x() * p.x() + p.z() * p.z() - wheel.radius_m * wheel.radius_m;
+  if (a > 0.0) {
+    const double discriminant = b * b - a * c;
+    if (discriminant < 0.0) return {};
+    const double root = std::sqrt(discriminant);
+    const double enter_m = (-b - root) / a;
+    const Vector3 rim = p + enter_m * direction_R;
+    inside.Clip(enter_m, (-b + root) / a, Vector3(rim.x(), 0.0, rim.z()) / wheel.radius_m);
+  } else if (c > 0.0) {
+    return {};
+  }
+  if (!inside.IsEntered()) return {};
+  return {inside.enter_m, inside.normal_R};
+}
+
+RoverBody::Entry RoverBody::First(const Vector3& origin_R, const Vector3& direction_R) const {
+  Entry first;
+  const auto consider = [&first](const Entry& entry) {
+    if (entry.distance_m < first.distance_m) first = entry;
+  };
+  for (const Box& box : boxes_) consider(Enter(box, origin_R, direction_R));
+  for (const Wheel& wheel : wheels_) consider(Enter(wheel, origin_R, direction_R));
+  return first;
+}
+
+double RoverBody::Distance(const Vector3& origin_R, const Vector3& direction_R) const {
+  return First(origin_R, direction_R).distance_m;
+}
+
+Vector3 RoverBody::Normal(const Vector3& origin_R, const Vector3& direction_R) const {
+  const Entry first = First(origin_R, direction_R);
+  return first.distance_m < kFree ? first.normal_R : Vector3(-direction_R);
+}
+
+}  // namespace rockyard::sensing

@@ -1,0 +1,60 @@
+// The rover's own parts as its sensors see them: what hides a view or casts a shadow.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "math/pose.h"
+#include "rover/rover_geometry_params.h"
+
+namespace rockyard::sensing {
+
+// Chassis and solar panel as boxes, wheels as cylinders, all in R and where they are on level
+// ground: a wheel that climbs or steers does not move here, and the thin arms are left out.
+class RoverBody {
+ public:
+  static constexpr double kFree = std::numeric_limits<double>::infinity();
+
+  explicit RoverBody(const rover::RoverGeometryParams& params);
+
+  // Distance along the unit ray to the first part that it enters from outside; kFree where there is
+  // none. A part that holds the origin does not count: what is mounted inside looks out of it.
+  double Distance(const math::Vector3& origin_R, const math::Vector3& direction_R) const;
+
+  // Outward normal of the part that the ray enters first; against the ray where it enters none.
+  math::Vector3 Normal(const math::Vector3& origin_R, const math::Vector3& direction_R) const;
+
+  // A ball in R that holds every part.
+  const math::Vector3& center_R() const { return center_R_; }
+  double radius_m() const { return radius_m_; }
+
+ private:
+  struct Entry {
+    double distance_m = kFree;
+    math::Vector3 normal_R = math::Vector3::Zero();
+  };
+  struct Box {
+    math::Vector3 low_R;
+    math::Vector3 high_R;
+  };
+  struct Wheel {
+    math::Vector3 center_R;
+    double radius_m;
+    double half_width_m;
+  };
+
+  static Entry Enter(const Box& box, const math::Vector3& origin_R,
+                     const math::Vector3& direction_R);
+  static Entry Enter(const Wheel& wheel, const math::Vector3& origin_R,
+                     const math::Vector3& direction_R);
+  Entry First(const math::Vector3& origin_R, const math::Vector3& direction_R) const;
+
+  std::array<Box, 2> boxes_;
+  std::vector<Wheel> wheels_;
+  math::Vector3 center_R_ = math::Vector3::Zero();
+  double radius_m_ = 0.0;
+};
+
+}  // namespace rockyard::sensing

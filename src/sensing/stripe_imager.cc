@@ -1,0 +1,152 @@
+#include "sensing/stripe_imager.h"
+
+#include <algorithm>
+
+#include "core/check.h"
+#include "sensing/exposure_control.h"
+#include "sensing/stripe_layout_params.h"
+
+namespace rockyard::sensing {
+namespace {
+
+// One in so many pixels of the middle line of each band is metered.
+constexpr std::size_t kMeteredPixels = 8;
+
+void Meter(const RenderedRow& row, std::vector<double>& rates_e_s) {
+  for (std::size_t pixel = 0; pixel < row.sun_e_s.size(); pixel += kMeteredPixels) {
+    rates_e_s.push_back(row.sun_e_s[pixel]);
+  }
+}
+
+int FirstRow(const messages::StripeCamera& camera) { return -camera.rows / 2; }
+int LastRow(const messages::StripeCamera& camera) { return FirstRow(camera) + camera.rows - 1; }
+int FirstColumn(const messages::StripeCamera& camera) { return -camera.columns / 2; }
+
+}  // namespace
+
+StripeImager::StripeImager(const LightStripeParams& params, const SunParams& sun,
+                           const rover::RoverGeometryParams& rover)
+    : params_(params),
+      sun_(sun),
+      light_(MakeSunLight(sun, params.imager.filter_width_m)),
+      body_(rover),
+      calibration_(TrueCalibration(params)),
+      renderer_(params, calibration_),
+      readout_(params.imager, params.laser.speckle_contrast) {
+  for (const messages::StripeLaser& laser : calibration_.lasers) group_of_.push_back(laser.group);
+  const auto around = static_cast<int>(params.imager.averaging_rows / 2 +  //
+                                       params.imager.margin_rows);
+  for (int camera = 0; camera < 2; ++camera) {
+    for (const int row : calibration_.scanline_px) {
+      views_[static_cast<std::size_t>(camera)].push_back(
+          MakeView(camera, row - around, row + around));
+    }
+  }
+}
+
+StripeImager::View StripeImager::MakeView(int camera, int first_row, int last_row) const {
+  const messages::StripeCamera& eye = calibration_.cameras[static_cast<std::size_t>(camera)];
+  View view;
+  const int last = std::min(last_row, LastRow(eye));
+  for (int row = std::max(first_row, FirstRow(eye)); row <= last; ++row) {
+    view.push_back(MakeViewRow(eye, body_, row, FirstColumn(eye), eye.columns));
+  }
+  return view;
+}
+
+ImageScene StripeImager::MakeScene(const terrain::Terrain& terrain,
+                                   const math::Transform& X_WR) const {
+  return {terrain, X_WR, light_, sun_, body_};
+}
+
+StripeImager::Light StripeImager::Render(const ImageScene& scene, int camera,
+                                         const View& view) const {
+  const math::Vector3 eye_R =
+      calibration_.cameras[static_cast<std::size_t>(camera)].X_RC.translation();
+  Light light;
+  for (const ViewRow& row : view) light.push_back(renderer_.Render(scene, eye_R, row));
+  return light;
+}
+
+messages::ImageBand StripeImager::Read(const Light& light, double exposure_s, core::TrialKey key,
+                                       const ImageName& name) const {
+  const messages::StripeCamera& eye = calibration_.cameras[static_cast<std::size_t>(name.camera)];
+  messages::ImageBand band;
+  band.first_row = light.empty() ? 0 : light.front().row;
+  band.first_column = FirstColumn(eye);
+  band.rows = static_cast<int>(light.size());
+  band.columns = eye.columns;
+  band.counts.reserve(light.size() * static_cast<std::size_t>(eye.columns));
+  for (const RenderedRow& row : light) {
+    readout_.Read(row, band.first_column, exposure_s, key, name, group_of_, band.counts);
+  }
+  return band;
+}
+
+messages::StripeExposure StripeImager::ReadPair(std::span<const Light> bands, double exposure_s,
+                                                core::TrialKey key, ImageName name) const {
+  messages::StripeExposure exposure{name.camera, name.group, {}, {}};
+  name.lit = true;
+  for (const Light& band : bands) exposure.lit.push_back(Read(band, exposure_s, key, name));
+  name.lit = false;
+  const double dark_s = readout_.DarkTime(exposure_s, key, name);
+  for (const Light& band : bands) exposure.dark.push_back(Read(band, dark_s, key, name));
+  return exposure;
+}
+
+bool StripeImager::FindsStripe(int camera, int group) const {
+  return std::any_of(calibration_.lasers.begin(), calibration_.lasers.end(),
+                     [=](const messages::StripeLaser& laser) {
+                       return laser.camera == camera && laser.group == group;
+                     });
+}
+
+messages::StripeImages StripeImager::Expose(const terrain::Terrain& terrain,
+                                            const math::Transform& X_WR, core::TrialKey key,
+                                            std::int64_t scan_number) const {
+  EXPECT(scan_number >= 0);
+  const ImageScene scene = MakeScene(terrain, X_WR);
+  std::array<std::vector<Light>, 2> bands;
+  std::vector<double> metered_e_s;
+  for (int camera = 0; camera < 2; ++camera) {
+    const auto c = static_cast<std::size_t>(camera);
+    for (const View& view : views_[c]) {
+      bands[c].push_back(Render(scene, camera, view));
+      Meter(bands[c].back()[view.size() / 2], metered_e_s);
+    }
+  }
+  messages::StripeImages images;
+  images.number = scan_number;
+  images.exposure_s = ExposureTime(params_.imager, std::move(metered_e_s));
+  images.electrons_per_count = readout_.electrons_per_count();
+  for (int group = 0; group < LaserGroups(params_); ++group) {
+    for (int camera = 0; camera < 2; ++camera) {
+      if (!FindsStripe(camera, group)) continue;
+      images.exposures.push_back(ReadPair(bands[static_cast<std::size_t>(camera)],
+                                          images.exposure_s, key,
+                                          {scan_number, camera, group, false}));
+    }
+  }
+  return images;
+}
+
+messages::StripeExposure StripeImager::FullFrame(const terrain::Terrain& terrain,
+                                                 const math::Transform& X_WR, core::TrialKey key,
+                                                 std::int64_t scan_number, int camera,
+                                                 int group) const {
+  EXPECT(camera == 0 || camera == 1);
+  const ImageScene scene = MakeScene(terrain, X_WR);
+  std::vector<double> metered_e_s;
+  for (int i = 0; i < 2; ++i) {
+    for (const View& view : views_[static_cast<std::size_t>(i)]) {
+      const View middle{view[view.size() / 2]};
+      Meter(Render(scene, i, middle).front(), metered_e_s);
+    }
+  }
+  const double exposure_s = ExposureTime(params_.imager, std::move(metered_e_s));
+  const messages::StripeCamera& eye = calibration_.cameras[static_cast<std::size_t>(camera)];
+  const Light frame = Render(scene, camera, MakeView(camera, FirstRow(eye), LastRow(eye)));
+  return ReadPair({&frame, 1}, exposure_s, key, {scan_number, camera, group, false});
+}
+
+}  // namespace rockyard::sensing

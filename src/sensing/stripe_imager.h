@@ -1,0 +1,84 @@
+// The cameras of the light stripe sensor: images with and without laser light of a true scene.
+//
+// Image formation, in the order in which a scan runs through it (equations beside the code):
+//   radiometry     sun and sky in the passband, camera equation           radiometry.h
+//   view           lens, the rover's own parts                            view_row.h, rover_body.h
+//   scene          what a ray meets, shadows                              image_scene.h
+//   light          sunlight and laser stripes on each pixel               row_renderer.h
+//   exposure       time from the bright pixels of the image without laser exposure_control.h
+//   readout        shot, read, dark and pattern noise, saturation, counts image_readout.h
+// Matthies 1995, section 6: for each group of lasers an image with them on and one with all off,
+// differenced on board. Table 3 gives imager, lens and lasers; what it leaves out is assumed, so
+// that results from these images are sensitivities to those assumptions, not predictions.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/random.h"
+#include "math/pose.h"
+#include "messages/calibration.h"
+#include "messages/stripe_images.h"
+#include "rover/rover_geometry_params.h"
+#include "sensing/image_readout.h"
+#include "sensing/image_scene.h"
+#include "sensing/light_stripe_params.h"
+#include "sensing/rover_body.h"
+#include "sensing/row_renderer.h"
+#include "sensing/sun_params.h"
+#include "sensing/view_row.h"
+#include "terrain/terrain.h"
+
+namespace rockyard::sensing {
+
+class StripeImager {
+ public:
+  // Cost: some 40 ms and 5 MB for the default bands.
+  StripeImager(const LightStripeParams& params, const SunParams& sun,
+               const rover::RoverGeometryParams& rover);
+
+  // One scan with the rover at X_WR: of each group of lasers and each camera that finds a stripe of
+  // that group, the image lines around each scanline (imager.averaging_rows and margin_rows), all
+  // columns. Pure function of its arguments, the same on any thread. Draws from (kImageNoise,
+  // kImageExposure, kImageSpeckle; scan number) and (kPixelPattern): neighbouring scans share
+  // nothing but the pattern of the imagers. scan_number < 2^24. Cost: see the README's benchmark.
+  messages::StripeImages Expose(const terrain::Terrain& terrain, const math::Transform& X_WR,
+                                core::TrialKey key, std::int64_t scan_number) const;
+
+  // The whole image of one camera with one group of lasers on, for pictures; the lines that Expose
+  // also takes are the same, bit for bit. Cost: about 0.3 s.
+  messages::StripeExposure FullFrame(const terrain::Terrain& terrain, const math::Transform& X_WR,
+                                     core::TrialKey key, std::int64_t scan_number, int camera,
+                                     int group) const;
+
+  // Geometry of the true sensor.
+  const messages::StripeCalibration& calibration() const { return calibration_; }
+
+ private:
+  // Consecutive image lines of one camera: how it sees them, and the light on them.
+  using View = std::vector<ViewRow>;
+  using Light = std::vector<RenderedRow>;
+
+  View MakeView(int camera, int first_row, int last_row) const;
+  ImageScene MakeScene(const terrain::Terrain& terrain, const math::Transform& X_WR) const;
+  Light Render(const ImageScene& scene, int camera, const View& view) const;
+  messages::ImageBand Read(const Light& light, double exposure_s, core::TrialKey key,
+                           const ImageName& name) const;
+  messages::StripeExposure ReadPair(std::span<const Light> bands, double exposure_s,
+                                    core::TrialKey key, ImageName name) const;
+  bool FindsStripe(int camera, int group) const;
+
+  LightStripeParams params_;
+  SunParams sun_;
+  SunLight light_;
+  RoverBody body_;
+  messages::StripeCalibration calibration_;
+  std::vector<int> group_of_;  // by laser
+  RowRenderer renderer_;
+  ImageReadout readout_;
+  std::array<std::vector<View>, 2> views_;  // by camera; one for each scanline
+};
+
+}  // namespace rockyard::sensing
