@@ -35,6 +35,8 @@ enum class Purpose : std::uint32_t {
   kPixelPattern = 20,
   kImageExposure = 21,
   kImageSpeckle = 22,
+  kStripePersistence = 23,
+  kStripeColumnNoise = 24,
   kArticulation = 26,
   kAccelerometer = 27,
   kMotorCurrent = 28,

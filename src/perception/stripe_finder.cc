@@ -9,7 +9,7 @@ StripeFinder::StripeFinder(const StripeFinderParams& params,
                            const messages::StripeCalibration& calibration)
     : params_(params), calibration_(calibration), searches_(calibration) {}
 
-ColumnRange StripeFinder::searched(std::size_t row, std::size_t stripe) const {
+messages::ColumnRange StripeFinder::searched(std::size_t row, std::size_t stripe) const {
   return searches_.At(calibration_.lasers[stripe].camera, row, stripe).columns;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "messages/calibration.h"
+#include "messages/column_range.h"
 #include "messages/measurements.h"
 #include "messages/stripe_images.h"
 #include "perception/stripe_finder_params.h"
@@ -26,7 +27,7 @@ class StripeFinder {
   messages::StripeScan Find(const messages::StripeImages& images) const;
 
   // Searched part of a point's scanline, in the camera that measures it.
-  ColumnRange searched(std::size_t row, std::size_t stripe) const;
+  messages::ColumnRange searched(std::size_t row, std::size_t stripe) const;
 
  private:
   void FindIn(const messages::StripeExposure& exposure, std::size_t row,

@@ -4,20 +4,14 @@
 #include <vector>
 
 #include "messages/calibration.h"
+#include "messages/column_range.h"
 
 namespace rockyard::perception {
 
-struct ColumnRange {
-  int first = 0;
-  int last = -1;
-
-  bool empty() const { return last < first; }
-  bool Contains(double column_px) const { return column_px >= first && column_px <= last; }
-};
-
 // Part of one scanline of one camera in which one laser's stripe is looked for.
 struct StripeSearch {
-  ColumnRange columns;      // of the elevations from search_low to search_high, inside the imager
+  messages::ColumnRange
+      columns;              // of the elevations from search_low to search_high, inside the imager
   double datum_column = 0;  // where the datum plane shows the stripe, or the column nearest to it
 };
 

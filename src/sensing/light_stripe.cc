@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/check.h"
-#include "core/distributions.h"
 #include "sensing/stripe_layout_params.h"
+#include "vision/lens.h"
 
 namespace rockyard::sensing {
 namespace {
@@ -43,35 +43,52 @@ void RocksMeetingPlane(const terrain::Terrain& terrain, std::span<const int> roc
 
 LightStripe::LightStripe(const LightStripeParams& params)
     : params_(params),
+      errors_(params),
       calibration_(TrueCalibration(params)),
-      last_column_(static_cast<int>(params.columns / 2)) {
-  Vector3 low = calibration_.cameras[0].X_RC.translation();
-  Vector3 high = low;
-  const auto include = [&](const Vector3& point) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  };
-  include(calibration_.cameras[1].X_RC.translation());
-  const auto [rows, stripes] = calibration_.size();
+      last_column_(static_cast<int>(params.columns / 2)),
+      searched_(calibration_.size()) {
+  Eigen::AlignedBox3d reach_R;
+  for (const messages::StripeCamera& camera : calibration_.cameras) {
+    reach_R.extend(camera.X_RC.translation());
+  }
   for (const messages::StripeLaser& laser : calibration_.lasers) {
     half_fan_cosine_.push_back(std::cos(laser.half_fan_rad));
+    reach_R.extend(laser.p_RoE_R);
   }
-  for (std::size_t row = 0; row < rows; ++row) {
-    for (std::size_t stripe = 0; stripe < stripes; ++stripe) {
+  if (params.lens == messages::Lens::kEquidistantRows) {
+    AddLines(reach_R);
+  } else {
+    AddCurves(reach_R);
+  }
+  reach_center_R_ = 0.5 * (reach_R.min() + reach_R.max());
+  reach_radius_m_ = 0.5 * (reach_R.max() - reach_R.min()).norm();
+}
+
+void LightStripe::AddLines(Eigen::AlignedBox3d& reach_R) {
+  for (std::size_t row = 0; row < searched_.rows(); ++row) {
+    for (std::size_t stripe = 0; stripe < searched_.stripes(); ++stripe) {
       const Line line = MakeLine(row, stripe);
       lines_.push_back(line);
-      include(calibration_.lasers[stripe].p_RoE_R);
-      include(line.start_R);
-      include(line.start_R + line.length_m * line.direction_R);
+      searched_[row][stripe] = SearchedColumns(CameraOf(stripe), line);
+      reach_R.extend(line.start_R);
+      reach_R.extend(line.start_R + line.length_m * line.direction_R);
     }
   }
-  reach_center_R_ = 0.5 * (low + high);
-  reach_radius_m_ = 0.5 * (high - low).norm();
+}
+
+void LightStripe::AddCurves(Eigen::AlignedBox3d& reach_R) {
+  for (std::size_t row = 0; row < searched_.rows(); ++row) {
+    for (std::size_t stripe = 0; stripe < searched_.stripes(); ++stripe) {
+      curves_.emplace_back(calibration_, row, stripe);
+      searched_[row][stripe] = curves_.back().searched();
+      for (const Vector3& vertex_R : curves_.back().vertices()) reach_R.extend(vertex_R);
+    }
+  }
 }
 
 LightStripe::Line LightStripe::MakeLine(std::size_t row, std::size_t stripe) const {
   const messages::StripeLaser& laser = calibration_.lasers[stripe];
-  const messages::StripeCamera& camera = calibration_.cameras[laser.camera];
+  const messages::StripeCamera& camera = CameraOf(stripe);
   const double row_angle_rad = calibration_.scanline_px[row] * camera.row_pitch_rad;
   const Vector3 scanline = ScanlineNormal(camera, row_angle_rad);
   Line line;
@@ -90,7 +107,6 @@ LightStripe::Line LightStripe::MakeLine(std::size_t row, std::size_t stripe) con
       DistanceDownTo(params_.search_low_m + params_.datum_z_m, line.start_R, line.direction_R);
   SetView(camera, row_angle_rad, line);
   if (line.is_light_ray && !InFan(line.start_R + line.direction_R, stripe)) line.last_m = -1.0;
-  line.searched = SearchedColumns(camera, line);
   return line;
 }
 
@@ -114,8 +130,8 @@ void LightStripe::SetView(const messages::StripeCamera& camera, double row_angle
   line.last_m = middle_m + std::sqrt(rest_m2);
 }
 
-LightStripe::Columns LightStripe::SearchedColumns(const messages::StripeCamera& camera,
-                                                  const Line& line) const {
+messages::ColumnRange LightStripe::SearchedColumns(const messages::StripeCamera& camera,
+                                                   const Line& line) const {
   const double nearest_m =
       DistanceDownTo(params_.search_high_m + params_.datum_z_m, line.start_R, line.direction_R);
   const int a = ColumnAt(line, nearest_m, camera);
@@ -136,22 +152,23 @@ bool LightStripe::InFan(const Vector3& p_R, std::size_t stripe) const {
   return laser.axis_R.dot(ray) >= half_fan_cosine_[stripe] * ray.norm();
 }
 
-messages::StripePixel LightStripe::Find(const terrain::Terrain& terrain,
-                                        const math::Transform& X_WR, const Line& line,
-                                        std::size_t stripe, const Candidates& rocks) const {
+messages::StripePixel LightStripe::FindOnLine(const terrain::Terrain& terrain,
+                                              const math::Transform& X_WR, std::size_t row,
+                                              std::size_t stripe, const Candidates& rocks) const {
+  const Line& line = lines_[PointIndex(row, stripe)];
   const Vector3 start_W = X_WR * line.start_R;
   const Vector3 direction_W = X_WR.linear() * line.direction_R;
   const auto distance_m = terrain.RayDistance(start_W, direction_W, line.length_m, rocks.lit);
   if (!distance_m) return {};
 
   const messages::StripeLaser& laser = calibration_.lasers[stripe];
-  const messages::StripeCamera& camera = calibration_.cameras[laser.camera];
+  const messages::StripeCamera& camera = CameraOf(stripe);
   if (*distance_m < line.first_m || *distance_m > line.last_m) return {};
   if (!line.is_light_ray && !InFan(line.start_R + *distance_m * line.direction_R, stripe)) {
     return {};
   }
   const int column = ColumnAt(line, *distance_m, camera);
-  if (column < line.searched.first || column > line.searched.last) return {};
+  if (!searched_[row][stripe].Contains(column)) return {};
 
   const Vector3 point_W = start_W + *distance_m * direction_W;
   const auto hidden_from = [&](const Vector3& eye_R) {
@@ -162,30 +179,27 @@ messages::StripePixel LightStripe::Find(const terrain::Terrain& terrain,
   return {.detected = true, .column_px = static_cast<double>(column)};
 }
 
-void LightStripe::Disturb(core::TrialKey key, messages::StripeScan& scan) const {
-  const auto substream = static_cast<std::uint32_t>(scan.number);
-  if (params_.missed_probability > 0.0) {
-    core::RandomStream missed(key, core::Purpose::kStripeMissed, substream);
-    for (messages::StripePixel& pixel : scan.pixels.points()) {
-      if (core::SampleBernoulli(missed, params_.missed_probability)) pixel = {};
-    }
-  }
-  if (params_.wrong_place_probability <= 0.0) return;
-  core::RandomStream wrong(key, core::Purpose::kStripeWrongPlace, substream);
-  messages::StripeArray<bool> misplaced(scan.pixels.size());
-  for (bool& point : misplaced.points()) {
-    point = core::SampleBernoulli(wrong, params_.wrong_place_probability);
-  }
-  for (std::size_t row = 0; row < misplaced.rows(); ++row) {
-    for (std::size_t stripe = 0; stripe < misplaced.stripes(); ++stripe) {
-      if (!misplaced[row][stripe]) continue;
-      const Columns range = params_.wrong_place == WrongPlace::kSearchedPart
-                                ? searched(row, stripe)
-                                : Columns{-last_column_, last_column_};
-      const double column = std::floor(core::SampleUniform(wrong, range.first, range.last + 1.0));
-      scan.pixels[row][stripe] = {.detected = true, .column_px = column};
-    }
-  }
+messages::StripePixel LightStripe::FindOnCurve(const terrain::Terrain& terrain,
+                                               const math::Transform& X_WR, std::size_t row,
+                                               std::size_t stripe, const Candidates& rocks) const {
+  const auto point_W = curves_[PointIndex(row, stripe)].FirstHit(terrain, X_WR, rocks.lit);
+  if (!point_W) return {};
+
+  const messages::StripeCamera& camera = CameraOf(stripe);
+  const Vector3 point_R = X_WR.inverse() * *point_W;
+  const Vector3 point_C = camera.X_RC.inverse() * point_R;
+  if (point_C.norm() > params_.max_range_m || !InFan(point_R, stripe)) return {};
+  const auto seen = vision::Project(camera, point_C);
+  if (!seen) return {};
+  const double column_px = std::round(seen->column_px);
+  if (!searched_[row][stripe].Contains(column_px)) return {};
+
+  const auto hidden_from = [&](const Vector3& eye_R) {
+    return terrain.Occluded(X_WR * eye_R, *point_W, kOcclusionMargin_m, rocks.near);
+  };
+  if (hidden_from(calibration_.lasers[stripe].p_RoE_R)) return {};
+  if (hidden_from(camera.X_RC.translation())) return {};
+  return {.detected = true, .column_px = column_px};
 }
 
 messages::StripeScan LightStripe::Scan(const terrain::Terrain& terrain, const math::Transform& X_WR,
@@ -203,10 +217,12 @@ messages::StripeScan LightStripe::Scan(const terrain::Terrain& terrain, const ma
     const messages::StripeLaser& laser = calibration_.lasers[stripe];
     RocksMeetingPlane(terrain, near, X_WR * laser.p_RoE_R, X_WR.linear() * laser.normal_R, lit);
     for (std::size_t row = 0; row < size.rows; ++row) {
-      scan.pixels[row][stripe] = Find(terrain, X_WR, LineOf(row, stripe), stripe, {near, lit});
+      scan.pixels[row][stripe] = curves_.empty()
+                                     ? FindOnLine(terrain, X_WR, row, stripe, {near, lit})
+                                     : FindOnCurve(terrain, X_WR, row, stripe, {near, lit});
     }
   }
-  Disturb(key, scan);
+  errors_.Disturb(key, searched_, scan);
   return scan;
 }
 

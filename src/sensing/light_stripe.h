@@ -1,22 +1,21 @@
 // Light stripe sensor: which of its 20 points are found, and in which image column.
 //
-// Model (Matthies 1995, section 6, table 3). Row r of a camera sees the scanline plane that holds
-// the camera's lateral axis and lies row_angle[r] below its optical axis; angles grow in proportion
-// to pixels along both image axes. A stripe's point is the first surface along the line in which
-// scanline plane and light plane meet, starting at the emitter. It is found if
+// Model (Matthies 1995, section 6, table 3). With the lens kEquidistantRows, row r of a camera sees
+// the scanline plane that holds the camera's lateral axis and lies row_angle[r] below its optical
+// axis; a stripe's point is the first surface along the line in which scanline plane and light
+// plane meet, starting at the emitter. Other lenses see curved surfaces, which meet the light plane
+// in a curve (scan_curve.h) that is followed in the same way, from the image border on. The point
+// is found if
 //   - light reaches it: within the fan and unobstructed from the emitter (with emitters on the
 //     cameras' lateral axis, the layout of the defaults, the line itself is the light ray),
 //   - the camera sees it: unobstructed, within max_range and the field of view,
 //   - its column belongs to the searched part of the scanline: those of elevations between
 //     search_low and search_high.
-// The column is rounded to a whole pixel. Then each point is, independently, missed with
-// missed_probability, and replaced by a random column with wrong_place_probability (also where
-// nothing was visible).
+// The column is rounded to a whole pixel. Then the measured errors of detection are added
+// (stripe_errors.h).
 //
-// Deviations. A radially symmetric f-theta lens images these planes as slightly curved lines; the
-// README of this folder gives the size. A lens with distortion that is calibrated away behaves as
-// modelled. Beam width, partly lit pixels, stray light, and the rover's own wheels are left out; of
-// several lit points on one scanline only the one nearest to the emitter counts.
+// Deviations. Beam width, partly lit pixels, stray light, and the rover's own wheels are left out;
+// of several lit points on one scanline only the one nearest to the emitter counts.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +25,11 @@
 #include "core/random.h"
 #include "math/pose.h"
 #include "messages/calibration.h"
+#include "messages/column_range.h"
 #include "messages/measurements.h"
 #include "sensing/light_stripe_params.h"
+#include "sensing/scan_curve.h"
+#include "sensing/stripe_errors.h"
 #include "terrain/terrain.h"
 
 namespace rockyard::sensing {
@@ -36,23 +38,19 @@ class LightStripe {
  public:
   explicit LightStripe(const LightStripeParams& params);
 
-  // One scan with the rover at X_WR. Pure function of its arguments. Draws from the streams
-  // (kStripeMissed, scan_number) and (kStripeWrongPlace, scan_number), whatever the terrain holds:
-  // the same points are misplaced on every terrain. Cost: some microseconds; one surface query and
-  // one occlusion query per point against the rocks near the footprint.
+  // One scan with the rover at X_WR. Pure function of its arguments. Draws as StripeErrors does,
+  // whatever the terrain holds: the same points are misplaced on every terrain. Cost: some
+  // microseconds; one surface query and one occlusion query per point against the rocks near the
+  // footprint; a surface query for each chord with curved scanlines.
   messages::StripeScan Scan(const terrain::Terrain& terrain, const math::Transform& X_WR,
                             core::TrialKey key, std::int64_t scan_number) const;
 
   // Geometry of the true sensor.
   const messages::StripeCalibration& calibration() const { return calibration_; }
 
-  // First and last column of the searched part of a point's scanline.
-  struct Columns {
-    int first = 0;
-    int last = -1;
-  };
-  Columns searched(std::size_t row, std::size_t stripe) const {
-    return LineOf(row, stripe).searched;
+  // Searched part of a point's scanline.
+  messages::ColumnRange searched(std::size_t row, std::size_t stripe) const {
+    return searched_[row][stripe];
   }
 
  private:
@@ -72,7 +70,6 @@ class LightStripe {
     // none where first > last or last < 0.
     double first_m = 0.0;
     double last_m = -1.0;
-    Columns searched;
   };
 
   // Rocks that the scan may meet, and those of them that reach into the light plane of one stripe.
@@ -81,22 +78,34 @@ class LightStripe {
     std::span<const int> lit;
   };
 
-  const Line& LineOf(std::size_t row, std::size_t stripe) const {
-    return lines_[row * calibration_.lasers.size() + stripe];
+  std::size_t PointIndex(std::size_t row, std::size_t stripe) const {
+    return row * calibration_.lasers.size() + stripe;
+  }
+  const messages::StripeCamera& CameraOf(std::size_t stripe) const {
+    return calibration_.cameras[static_cast<std::size_t>(calibration_.lasers[stripe].camera)];
   }
   Line MakeLine(std::size_t row, std::size_t stripe) const;
   void SetView(const messages::StripeCamera& camera, double row_angle_rad, Line& line) const;
-  Columns SearchedColumns(const messages::StripeCamera& camera, const Line& line) const;
+  messages::ColumnRange SearchedColumns(const messages::StripeCamera& camera,
+                                        const Line& line) const;
   static int ColumnAt(const Line& line, double distance_m, const messages::StripeCamera& camera);
   bool InFan(const math::Vector3& p_R, std::size_t stripe) const;
-  messages::StripePixel Find(const terrain::Terrain& terrain, const math::Transform& X_WR,
-                             const Line& line, std::size_t stripe, const Candidates& rocks) const;
-  void Disturb(core::TrialKey key, messages::StripeScan& scan) const;
+  void AddLines(Eigen::AlignedBox3d& reach_R);
+  void AddCurves(Eigen::AlignedBox3d& reach_R);
+  messages::StripePixel FindOnLine(const terrain::Terrain& terrain, const math::Transform& X_WR,
+                                   std::size_t row, std::size_t stripe,
+                                   const Candidates& rocks) const;
+  messages::StripePixel FindOnCurve(const terrain::Terrain& terrain, const math::Transform& X_WR,
+                                    std::size_t row, std::size_t stripe,
+                                    const Candidates& rocks) const;
 
   LightStripeParams params_;
+  StripeErrors errors_;
   messages::StripeCalibration calibration_;
-  int last_column_ = 0;      // columns run from -last_column_ to last_column_
-  std::vector<Line> lines_;  // [row][stripe]
+  int last_column_ = 0;  // columns run from -last_column_ to last_column_
+  messages::StripeArray<messages::ColumnRange> searched_;
+  std::vector<Line> lines_;        // [row][stripe], with straight scanlines
+  std::vector<ScanCurve> curves_;  // [row][stripe], with curved ones
   std::vector<double> half_fan_cosine_;
   math::Vector3 reach_center_R_ = math::Vector3::Zero();  // of a sphere around all lines and eyes
   double reach_radius_m_ = 0.0;

@@ -222,6 +222,9 @@ void VisitDetection(LightStripeParams& p, core::FieldVisitor& v) {
           .source = "twice what flat ground needs",
           .study_low = 0.7,
           .study_high = 2.0});
+}
+
+void VisitErrors(LightStripeParams& p, core::FieldVisitor& v) {
   v.Real("wrong_place_probability", p.wrong_place_probability,
          {.doc = "chance that a point is detected in the wrong place of its scanline",
           .min = 0.0,
@@ -240,6 +243,24 @@ void VisitDetection(LightStripeParams& p, core::FieldVisitor& v) {
           .source = kSection6,
           .study_low = 0.0,
           .study_high = 0.01});
+  v.Real("outlier_persistence", p.outlier_persistence,
+         {.doc = "chance that a point keeps from one scan to the next whether and where it is "
+                 "misplaced; 0: scans are independent",
+          .min = 0.0,
+          .max = 0.99,
+          .origin = Origin::kAssumed,
+          .source = "Matthies 1995 sec. 6: two scans make false alarms vanish, which takes "
+                    "independence; figure 8 shows one that two scans must have agreed on",
+          .study_low = 0.0,
+          .study_high = 0.5});
+  v.Real("column_noise_px", p.column_noise_px,
+         {.doc = "standard deviation by which found columns are off, before rounding to pixels",
+          .min = 0.0,
+          .max = 100.0,
+          .origin = Origin::kAssumed,
+          .source = "Matthies 1995 sec. 6: detected to pixel resolution",
+          .study_low = 0.0,
+          .study_high = 1.0});
 }
 
 void RequireVisibility(LightStripeParams& p, core::FieldVisitor& v) {
@@ -260,16 +281,18 @@ void RequireVisibility(LightStripeParams& p, core::FieldVisitor& v) {
 }  // namespace
 
 void LightStripeParams::Visit(core::FieldVisitor& v) {
-  v.Choice("fidelity", fidelity,
-           {.doc = "geometric: rays and an error model; image: from light to pixels, and the finder "
-                   "of stripes on board",
-            .origin = Origin::kSetting});
+  v.Choice(
+      "fidelity", fidelity,
+      {.doc = "geometric: rays and an error model; image: from light to pixels, and the finder "
+              "of stripes on board",
+       .origin = Origin::kSetting});
   VisitOptics(*this, v);
   VisitCameras(*this, v);
   VisitEmitters(*this, v);
   VisitArray(*this, v);
   VisitDensity(*this, v);
   VisitDetection(*this, v);
+  VisitErrors(*this, v);
   v.Group("laser", laser, "light emitters");
   v.Group("imager", imager, "lens, filter, imager and exposure control");
   RequireVisibility(*this, v);

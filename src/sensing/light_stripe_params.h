@@ -70,6 +70,8 @@ struct LightStripeParams {
   double wrong_place_probability = 0.01;
   WrongPlace wrong_place = WrongPlace::kSearchedPart;
   double missed_probability = 0.0;
+  double outlier_persistence = 0.0;
+  double column_noise_px = 0.0;
 
   // From light to images; the geometric fidelity does not look at them.
   LaserParams laser;

@@ -77,7 +77,8 @@ std::string Pattern(const messages::HazardReport& report) {
 
 }  // namespace
 
-Drive::Drive(const Scenario& scenario, core::TrialKey key, truth::Trace* trace)
+Drive::Drive(const Scenario& scenario, core::TrialKey key, truth::Trace* trace,
+             const ScanWatcher& watcher)
     : scenario_(scenario),
       key_(key),
       trace_(trace),
@@ -87,7 +88,7 @@ Drive::Drive(const Scenario& scenario, core::TrialKey key, truth::Trace* trace)
       tick_(WholeSteps(1.0 / scenario.clock.control_rate_hz, rover_->step_s())),
       stop_(WholeSteps(scenario.clock.stop_time_s, rover_->step_s())),
       scan_time_s_(ScanTime(scenario.clock, scenario.sensors.light_stripe)),
-      scanner_(scenario),
+      scanner_(scenario, watcher),
       guard_(scenario, key),
       triangulator_(
           OnboardStripeCalibration(scenario.sensors.light_stripe, scenario.perception.calibration)),
@@ -247,8 +248,9 @@ void Drive::Sample(Activity activity) {
                              Name(activity)});
 }
 
-DriveResult RunTrial(const Scenario& scenario, core::TrialKey key, truth::Trace* trace) {
-  return Drive(scenario, key, trace).Run();
+DriveResult RunTrial(const Scenario& scenario, core::TrialKey key, truth::Trace* trace,
+                     const ScanWatcher& watcher) {
+  return Drive(scenario, key, trace, watcher).Run();
 }
 
 }  // namespace rockyard::trial

@@ -33,7 +33,8 @@ namespace rockyard::trial {
 // estimator, and shows the truth to the monitor and the referee.
 class Drive {
  public:
-  Drive(const scenario::Scenario& scenario, core::TrialKey key, truth::Trace* trace);
+  Drive(const scenario::Scenario& scenario, core::TrialKey key, truth::Trace* trace,
+        const ScanWatcher& watcher);
 
   DriveResult Run();
 

@@ -1,14 +1,37 @@
 #include "trial/hazard_scanner.h"
 
+#include <utility>
+
+#include "trial/onboard_calibration.h"
+
 namespace rockyard::trial {
 
-HazardScanner::HazardScanner(const scenario::Scenario& scenario)
-    : light_stripe_(scenario.sensors.light_stripe) {}
+HazardScanner::HazardScanner(const scenario::Scenario& scenario, ScanWatcher watcher)
+    : watcher_(std::move(watcher)) {
+  const sensing::LightStripeParams& sensor = scenario.sensors.light_stripe;
+  if (sensor.fidelity == sensing::Fidelity::kGeometric) {
+    geometric_.emplace(sensor);
+    return;
+  }
+  image_.emplace(ImageSensor{
+      sensing::StripeImager(sensor, scenario.sensors.sun, scenario.rover.geometry),
+      perception::StripeFinder(scenario.perception.stripe_finder,
+                               OnboardStripeCalibration(sensor, scenario.perception.calibration))});
+}
 
 messages::StripeScan HazardScanner::Scan(const terrain::Terrain& terrain,
                                          const math::Transform& X_WR, core::TrialKey key,
                                          std::int64_t scan_number) const {
-  return light_stripe_.Scan(terrain, X_WR, key, scan_number);
+  const messages::StripeScan scan = Look(terrain, X_WR, key, scan_number);
+  if (watcher_) watcher_({terrain, X_WR, key, scan});
+  return scan;
+}
+
+messages::StripeScan HazardScanner::Look(const terrain::Terrain& terrain,
+                                         const math::Transform& X_WR, core::TrialKey key,
+                                         std::int64_t scan_number) const {
+  if (geometric_) return geometric_->Scan(terrain, X_WR, key, scan_number);
+  return image_->finder.Find(image_->imager.Expose(terrain, X_WR, key, scan_number));
 }
 
 }  // namespace rockyard::trial

@@ -5,6 +5,7 @@
 
 #include "core/random.h"
 #include "scenario/scenario.h"
+#include "trial/scan_watcher.h"
 #include "truth/drive_record.h"
 #include "truth/record.h"
 #include "truth/trace.h"
@@ -18,9 +19,10 @@ struct DriveResult {
 };
 
 // Drives the trial that `key` names: a pure function of (scenario, key). With `trace` the course of
-// the drive is recorded too, without any influence on it. Throws what the simulation throws: a
-// contract violation, a blow-up of the physics; the experiment turns that into a simulator fault.
+// the drive is recorded too, and `watcher` is called after every scan, both without any influence
+// on it. Throws what the simulation throws: a contract violation, a blow-up of the physics; the
+// experiment turns that into a simulator fault.
 DriveResult RunTrial(const scenario::Scenario& scenario, core::TrialKey key,
-                     truth::Trace* trace = nullptr);
+                     truth::Trace* trace = nullptr, const ScanWatcher& watcher = {});
 
 }  // namespace rockyard::trial
