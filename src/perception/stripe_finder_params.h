@@ -17,8 +17,8 @@ enum class PeakChoice {
 
 // How finely a peak is located.
 enum class PeakColumn {
-  kWholePixel,  // middle of the columns above the threshold
-  kCentroid,    // their centre of brightness
+  kWholePixel,  // centre of brightness of the columns above the threshold, rounded
+  kCentroid,    // the same without rounding
 };
 
 struct StripeFinderParams {

@@ -36,10 +36,8 @@ StripePeak MakePeak(const ScanlineProfile& profile, std::size_t first, std::size
     weight += profile.difference[i];
     moment += profile.difference[i] * static_cast<double>(i);
   }
-  const double middle = precision == PeakColumn::kCentroid
-                            ? moment / weight
-                            : static_cast<double>((first + last) / 2);
-  peak.column_px = profile.first_column + middle;
+  const double centroid_px = profile.first_column + moment / weight;
+  peak.column_px = precision == PeakColumn::kCentroid ? centroid_px : std::round(centroid_px);
   return peak;
 }
 

@@ -28,7 +28,7 @@ void StripeErrors::MoveColumns(core::TrialKey key, const Searched& searched,
   const auto pixels = scan.pixels.points();
   for (std::size_t point = 0; point < pixels.size(); ++point) {
     const double shift = std::round(core::SampleNormal(stream, 0.0, params_.column_noise_px));
-    if (!pixels[point].detected) continue;
+    if (!pixels[point].detected || searched.points()[point].empty()) continue;
     pixels[point].column_px = std::clamp(pixels[point].column_px + shift,
                                          static_cast<double>(searched.points()[point].first),
                                          static_cast<double>(searched.points()[point].last));

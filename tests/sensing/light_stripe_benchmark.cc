@@ -29,9 +29,9 @@ terrain::Terrain RandomField(double per_m2) {
   return FlatWith(std::move(rocks));
 }
 
-void BM_Scan(benchmark::State& state) {
+void Scan(benchmark::State& state, const LightStripeParams& params) {
   const terrain::Terrain terrain = RandomField(static_cast<double>(state.range(0)));
-  const LightStripe sensor{LightStripeParams{}};
+  const LightStripe sensor(params);
   core::Hasher hash;
   constexpr int kHashedScans = 1000;
   std::int64_t number = 0;
@@ -51,7 +51,34 @@ void BM_Scan(benchmark::State& state) {
   }
   state.SetLabel("hash " + core::Hex(hash.value()));
 }
+
+void BM_Scan(benchmark::State& state) { Scan(state, {}); }
 BENCHMARK(BM_Scan)->ArgName("rocks_per_m2")->Arg(0)->Arg(2)->Arg(6)->Arg(20);
+
+// Curved scanlines.
+void BM_ScanRadialLens(benchmark::State& state) {
+  LightStripeParams params;
+  params.lens = messages::Lens::kEquidistant;
+  Scan(state, params);
+}
+BENCHMARK(BM_ScanRadialLens)->ArgName("rocks_per_m2")->Arg(0)->Arg(6);
+
+void BM_ScanAllErrors(benchmark::State& state) {
+  LightStripeParams params;
+  params.missed_probability = 0.01;
+  params.outlier_persistence = 0.5;
+  params.column_noise_px = 0.5;
+  Scan(state, params);
+}
+BENCHMARK(BM_ScanAllErrors)->ArgName("rocks_per_m2")->Arg(0)->Arg(6);
+
+void BM_ScanDenseArray(benchmark::State& state) {
+  LightStripeParams params;
+  params.row_subdivision = 2;
+  params.stripe_subdivision = 2;
+  Scan(state, params);
+}
+BENCHMARK(BM_ScanDenseArray)->ArgName("rocks_per_m2")->Arg(0)->Arg(6);
 
 }  // namespace
 }  // namespace rockyard::sensing

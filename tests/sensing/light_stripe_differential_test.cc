@@ -75,8 +75,12 @@ Tally Compare(const LightStripeParams& params, int scenes) {
   return tally;
 }
 
-TEST(LightStripeDifferentialTest, AgreesWithThePlainReference) {
-  const Tally tally = Compare(NoiselessParams(), 60);
+class LightStripeDifferentialTest : public testing::TestWithParam<messages::Lens> {};
+
+TEST_P(LightStripeDifferentialTest, AgreesWithThePlainReference) {
+  LightStripeParams params = NoiselessParams();
+  params.lens = GetParam();
+  const Tally tally = Compare(params, 60);
   EXPECT_GT(tally.found, tally.points / 2);
   EXPECT_GT(tally.missing, 20);
   // Both decide by sampling or by margins where a line of sight grazes a rock.
@@ -84,7 +88,11 @@ TEST(LightStripeDifferentialTest, AgreesWithThePlainReference) {
   EXPECT_LE(tally.column_differs, tally.points / 200);
 }
 
-TEST(LightStripeDifferentialTest, TellsASensorThatIgnoresItsRange) {
+INSTANTIATE_TEST_SUITE_P(Lenses, LightStripeDifferentialTest,
+                         testing::Values(messages::Lens::kEquidistantRows,
+                                         messages::Lens::kEquidistant, messages::Lens::kPinhole));
+
+TEST(LightStripeReferenceTest, TellsASensorThatIgnoresItsRange) {
   // Negative control: the comparison notices a small difference in what is visible.
   LightStripeParams reference_params = NoiselessParams();
   const LightStripe sensor(reference_params);

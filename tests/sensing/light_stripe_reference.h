@@ -8,6 +8,7 @@
 
 #include "sensing/light_stripe.h"
 #include "terrain/terrain.h"
+#include "vision/lens.h"
 
 namespace rockyard::sensing {
 
@@ -33,6 +34,7 @@ class ReferenceStripe {
       if (!Solid(p_R)) continue;
       if ((p_R - camera.X_RC.translation()).norm() > params_.max_range_m) return {};
       if (MeetsSolid(camera.X_RC.translation(), p_R, 0.002)) return {};
+      if (MeetsSolid(laser.p_RoE_R, p_R, 0.002)) return {};
       return {.detected = true, .column_px = std::round(column - 0.5 * step)};
     }
     return {};
@@ -42,11 +44,10 @@ class ReferenceStripe {
   math::Vector3 PlanePoint(std::size_t row, std::size_t stripe, double column) const {
     const auto& laser = sensor_.calibration().lasers[stripe];
     const auto& camera = sensor_.calibration().cameras[static_cast<std::size_t>(laser.camera)];
-    const double down =
-        params_.camera_pitch_rad + sensor_.calibration().scanline_px[row] * camera.row_pitch_rad;
-    const double right = column * camera.column_pitch_rad;
-    const math::Vector3 ray(std::cos(right) * std::cos(down), -std::sin(right),
-                            -std::cos(right) * std::sin(down));
+    const math::Vector3 ray =
+        camera.X_RC.linear() *
+        vision::PixelRay(camera,
+                         {column, static_cast<double>(sensor_.calibration().scanline_px[row])});
     const math::Vector3 eye = camera.X_RC.translation();
     return eye + ray * laser.normal_R.dot(laser.p_RoE_R - eye) / laser.normal_R.dot(ray);
   }
