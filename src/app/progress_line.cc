@@ -33,7 +33,7 @@ std::string Pace(const batch::Progress& progress) {
 
 std::string ProgressText(const batch::Progress& progress) {
   const batch::PrefixCounts& prefix = progress.prefix;
-  const std::int64_t trials = prefix.trials - prefix.faults;
+  const std::int64_t trials = prefix.trials - prefix.faults - prefix.measured;
   std::string text =
       fmt::format("  {}/{} done{}", progress.finished, progress.planned, Pace(progress));
   if (trials > 0) {

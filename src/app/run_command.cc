@@ -14,6 +14,7 @@
 #include "batch/executor.h"
 #include "batch/store_error.h"
 #include "experiments/experiment.h"
+#include "report/measurement_text.h"
 #include "report/run_files.h"
 #include "report/summary_json.h"
 #include "report/summary_text.h"
@@ -66,6 +67,21 @@ batch::BatchResult RunTrials(const experiments::Experiment& experiment, OpenedRu
   return result;
 }
 
+void Show(Output output, const std::string& text, const std::string& json,
+          const std::filesystem::path& folder) {
+  switch (output) {
+    case Output::kText:
+      Print(text);
+      Print(fmt::format("  results in {}\n", folder.string()));
+      break;
+    case Output::kJson:
+      Print(json);
+      break;
+    case Output::kQuiet:
+      break;
+  }
+}
+
 // Derives the files from what is stored, and shows the summary.
 void Report(const OpenedRun& run, const RunOptions& options) {
   const StoredRun stored{run.folder, run.store.identity(), run.store.planned(), run.store.Builds(),
@@ -73,19 +89,18 @@ void Report(const OpenedRun& run, const RunOptions& options) {
   report::RunDescription description = Describe(stored, batch::ThreadCount(options.batch));
   description.resolved = scenario::ResolvedJson(run.scenario);
   const statistics::IntervalMethod method = MethodOf(options);
-  const statistics::DriveSummary summary = report::WriteRunFiles(
-      run.folder, description, stored.identity.schema, stored.records, stored.prefix(), method);
-  switch (OutputOf(options)) {
-    case Output::kText:
-      Print(report::SummaryText(description, summary, StyleFor(stdout)));
-      Print(fmt::format("  results in {}\n", run.folder.string()));
-      break;
-    case Output::kJson:
-      Print(report::SummaryJson(description, summary, method));
-      break;
-    case Output::kQuiet:
-      break;
+  const truth::RecordSchema& schema = stored.identity.schema;
+  if (truth::IsMeasurement(schema)) {
+    const statistics::MeasurementSummary summary = report::WriteMeasurementFiles(
+        run.folder, description, schema, stored.records, stored.prefix(), method);
+    Show(OutputOf(options), report::MeasurementText(description, summary, StyleFor(stdout)),
+         report::MeasurementJson(description, summary, method), run.folder);
+    return;
   }
+  const statistics::DriveSummary summary = report::WriteRunFiles(
+      run.folder, description, schema, stored.records, stored.prefix(), method);
+  Show(OutputOf(options), report::SummaryText(description, summary, StyleFor(stdout)),
+       report::SummaryJson(description, summary, method), run.folder);
 }
 
 ExitCode Judge(const OpenedRun& run, const batch::BatchResult& result,

@@ -18,6 +18,7 @@ void PrefixCounter::Add(std::int64_t trial, truth::TrialOutcome outcome) {
     const auto kind = static_cast<truth::TrialOutcome>(outcomes_[next]);
     ++prefix_.trials;
     if (kind == truth::TrialOutcome::kSimulatorFault) ++prefix_.faults;
+    if (kind == truth::TrialOutcome::kMeasured) ++prefix_.measured;
     if (truth::DeclaredSuccess(kind)) ++prefix_.declared_successes;
   }
 }

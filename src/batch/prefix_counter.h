@@ -12,6 +12,7 @@ namespace rockyard::batch {
 struct PrefixCounts {
   std::int64_t trials = 0;
   std::int64_t faults = 0;
+  std::int64_t measured = 0;  // no drives: neither success nor failure
   std::int64_t declared_successes = 0;
 };
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "experiments/hazard_detection.h"
 #include "trial/run_trial.h"
 
 namespace rockyard::experiments {
@@ -71,6 +72,8 @@ std::unique_ptr<Experiment> MakeExperiment(const scenario::Scenario& scenario) {
   switch (scenario.experiment) {
     case scenario::ExperimentKind::kDrive:
       return std::make_unique<DriveExperiment>(scenario);
+    case scenario::ExperimentKind::kHazardDetection:
+      return std::make_unique<HazardDetectionExperiment>(scenario);
   }
   throw std::logic_error("unknown experiment");
 }

@@ -1,6 +1,8 @@
 #include "report/run_files.h"
 
 #include "report/atomic_file.h"
+#include "report/measurement_csv.h"
+#include "report/measurement_drawing.h"
 #include "report/run_csv.h"
 #include "report/summary_json.h"
 
@@ -16,6 +18,23 @@ statistics::DriveSummary WriteRunFiles(const std::filesystem::path& folder,
   WriteFileAtomically(folder / "trials.csv", TrialsCsv(schema, records));
   WriteFileAtomically(folder / "distance_cdf.csv", DistanceCdfCsv(schema, prefix));
   WriteFileAtomically(folder / "summary.json", SummaryJson(run, summary, method));
+  return summary;
+}
+
+statistics::MeasurementSummary WriteMeasurementFiles(const std::filesystem::path& folder,
+                                                     const RunDescription& run,
+                                                     const truth::RecordSchema& schema,
+                                                     std::span<const truth::Record> records,
+                                                     std::span<const truth::Record> prefix,
+                                                     statistics::IntervalMethod method) {
+  statistics::MeasurementSummary summary =
+      statistics::SummarizeCells(schema, prefix, run.planned, method);
+  WriteFileAtomically(folder / "scenario.resolved.json", ResolvedScenarioJson(run));
+  WriteFileAtomically(folder / "trials.csv", TrialsCsv(schema, records));
+  WriteFileAtomically(folder / "cells.csv", CellsCsv(summary));
+  const std::string drawing = CellsSvg(summary, run.scenario);
+  if (!drawing.empty()) WriteFileAtomically(folder / "cells.svg", drawing);
+  WriteFileAtomically(folder / "summary.json", MeasurementJson(run, summary, method));
   return summary;
 }
 

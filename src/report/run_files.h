@@ -5,6 +5,7 @@
 #include <span>
 
 #include "report/run_description.h"
+#include "statistics/cell_summary.h"
 #include "statistics/drive_summary.h"
 #include "truth/record.h"
 
@@ -18,5 +19,14 @@ statistics::DriveSummary WriteRunFiles(const std::filesystem::path& folder,
                                        std::span<const truth::Record> records,
                                        std::span<const truth::Record> prefix,
                                        statistics::IntervalMethod method);
+
+// The same for an experiment that measures: summary.json, trials.csv, cells.csv, cells.svg (where
+// there is a curve to draw) and scenario.resolved.json.
+statistics::MeasurementSummary WriteMeasurementFiles(const std::filesystem::path& folder,
+                                                     const RunDescription& run,
+                                                     const truth::RecordSchema& schema,
+                                                     std::span<const truth::Record> records,
+                                                     std::span<const truth::Record> prefix,
+                                                     statistics::IntervalMethod method);
 
 }  // namespace rockyard::report

@@ -36,6 +36,7 @@ Json Rate(const statistics::Proportion& rate, statistics::IntervalMethod method)
 Json Outcomes(const DriveSummary& summary) {
   Json outcomes = Json::object();
   for (std::size_t i = 0; i < truth::kTrialOutcomeNames.size(); ++i) {
+    if (static_cast<truth::TrialOutcome>(i) == truth::TrialOutcome::kMeasured) continue;
     outcomes[std::string(truth::kTrialOutcomeNames[i])] = summary.outcomes[i];
   }
   return outcomes;
@@ -99,10 +100,30 @@ void AddColumns(Json& json, const DriveSummary& summary) {
   json["columns"] = std::move(others);
 }
 
-}  // namespace
+Json CellJson(const statistics::MeasurementSummary& summary, const statistics::Cell& cell,
+              statistics::IntervalMethod method) {
+  Json json = {{"cell", cell.number}, {"runs", cell.runs}};
+  for (std::size_t i = 0; i < cell.factors.size(); ++i) {
+    json[std::string(summary.factors[i]->name)] = Number(cell.factors[i]);
+  }
+  for (std::size_t i = 0; i < cell.bases.size(); ++i) {
+    json[std::string(summary.bases[i]->name)] = Number(cell.bases[i]);
+  }
+  for (std::size_t i = 0; i < cell.rates.size(); ++i) {
+    Json rate = Rate(cell.rates[i].rate, method);
+    const statistics::Interval& all = cell.rates[i].simultaneous;
+    rate["ci95_all_cells"] = Json::array({all.low, all.high});
+    json[std::string(summary.rates[i]->name)] = std::move(rate);
+  }
+  for (std::size_t i = 0; i < cell.means.size(); ++i) {
+    const bool squares = summary.means[i]->role == truth::ColumnRole::kSquares;
+    json[(squares ? "rms_" : "mean_") + std::string(summary.means[i]->name)] =
+        Number(cell.means[i]);
+  }
+  return json;
+}
 
-std::string SummaryJson(const RunDescription& run, const DriveSummary& summary,
-                        statistics::IntervalMethod method) {
+Json Head(const RunDescription& run, std::int64_t completed, std::int64_t faults) {
   Json json = {{"schema_version", kSchemaVersion},
                {"scenario", run.scenario},
                {"seed", run.seed},
@@ -110,8 +131,35 @@ std::string SummaryJson(const RunDescription& run, const DriveSummary& summary,
                {"localization", run.localization}};
   json["trials"] = {{"planned", run.planned},
                     {"stored", run.stored},
-                    {"completed", summary.completed},
-                    {"faults", summary.faults}};
+                    {"completed", completed},
+                    {"faults", faults}};
+  return json;
+}
+
+}  // namespace
+
+std::string MeasurementJson(const RunDescription& run,
+                            const statistics::MeasurementSummary& summary,
+                            statistics::IntervalMethod method) {
+  Json json = Head(run, summary.completed, summary.faults);
+  Json widest = Json::object();
+  for (std::size_t i = 0; i < summary.rates.size(); ++i) {
+    widest[std::string(summary.rates[i]->name)] = summary.WidestInterval(i);
+  }
+  json["widest_ci95"] = std::move(widest);
+  json["simultaneous"] = "ci95_all_cells: level 1 - 0.05 / cells (Bonferroni), all cells at once";
+  json["cells"] = Json::array();
+  for (const statistics::Cell& cell : summary.cells) {
+    json["cells"].push_back(CellJson(summary, cell, method));
+  }
+  json["trial_hash"] = run.trial_hash;
+  json["provenance"] = Provenance(run);
+  return Text(json);
+}
+
+std::string SummaryJson(const RunDescription& run, const DriveSummary& summary,
+                        statistics::IntervalMethod method) {
+  Json json = Head(run, summary.completed, summary.faults);
   json["declared_success"] = Rate(summary.declared_success, method);
   json["true_success"] = Rate(summary.true_success, method);
   json["outcomes"] = Outcomes(summary);

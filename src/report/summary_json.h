@@ -4,6 +4,7 @@
 #include <string>
 
 #include "report/run_description.h"
+#include "statistics/cell_summary.h"
 #include "statistics/drive_summary.h"
 
 namespace rockyard::report {
@@ -16,6 +17,14 @@ namespace rockyard::report {
 // is null.
 std::string SummaryJson(const RunDescription& run, const statistics::DriveSummary& summary,
                         statistics::IntervalMethod method);
+
+// summary.json of an experiment that measures: schema_version, scenario, seed, fingerprint, trials,
+// widest_ci95 (by rate), simultaneous (how the intervals of all cells at once are made), cells (one
+// object per cell: cell, runs, factors, bases, rates with ci95 and ci95_all_cells, means),
+// trial_hash, provenance. No success rates: nothing drives.
+std::string MeasurementJson(const RunDescription& run,
+                            const statistics::MeasurementSummary& summary,
+                            statistics::IntervalMethod method);
 
 // scenario.resolved.json: {"scenario": every effective value, "fingerprint", "provenance"}. The
 // command line reads it wherever it reads a scenario.

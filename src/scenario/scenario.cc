@@ -1,5 +1,10 @@
 #include "scenario/scenario.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "sensing/stripe_layout_params.h"
+
 namespace rockyard::scenario {
 namespace {
 
@@ -33,6 +38,31 @@ void RequireConsistency(const Scenario& scenario, core::FieldVisitor& v) {
             "use fidelity multibody or fixed rocks");
 }
 
+// What the experiment "hazard_detection" takes for granted.
+void RequireMeasurable(const Scenario& scenario, core::FieldVisitor& v) {
+  if (scenario.experiment != ExperimentKind::kHazardDetection) return;
+  const experiments::HazardDetectionParams& study = scenario.hazard_detection;
+  const sensing::LightStripeParams& sensor = scenario.sensors.light_stripe;
+  const terrain::GroundParams& ground = scenario.terrain.ground;
+  v.Require("terrain.ground.slope_deg", ground.slope_rad == 0.0 && ground.roughness_rms_m == 0.0,
+            "or roughness_rms_m is not 0, where the experiment measures on flat sand",
+            "leave the ground flat");
+  v.Require("perception.hazard.agreement",
+            scenario.perception.hazard.agreement != perception::ScanAgreement::kConsecutiveMoving,
+            "is consecutive_moving, where the experiment judges every pose on its own",
+            "use rescan_same_pose or single_scan");
+  const double rows = static_cast<double>(sensing::ArraySize(sensor).rows);
+  v.Require("hazard_detection.rows",
+            std::all_of(study.rows.begin(), study.rows.end(),
+                        [&](double row) { return row < rows && row == std::floor(row); }),
+            "names a row that sensors.light_stripe does not have", "count its rows from 0");
+  v.Require("hazard_detection.sun_elevations_deg",
+            (study.sun_elevations_deg.empty() && study.laser_powers_w.empty()) ||
+                sensor.fidelity == sensing::Fidelity::kImage,
+            "or laser_powers_w is given, but both act on images only",
+            "use sensors.light_stripe.fidelity image, or leave the lists empty");
+}
+
 }  // namespace
 
 void Scenario::Visit(core::FieldVisitor& v) {
@@ -56,7 +86,9 @@ void Scenario::Visit(core::FieldVisitor& v) {
   v.Group("referee", referee, "when a trial is over");
   v.Group("clock", clock, "simulated time");
   v.Group("energy", energy, "electrical power and batteries");
+  v.Group("hazard_detection", hazard_detection, "the experiment of that name");
   RequireConsistency(*this, v);
+  RequireMeasurable(*this, v);
 }
 
 }  // namespace rockyard::scenario

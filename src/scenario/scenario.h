@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/fields.h"
+#include "experiments/hazard_detection_params.h"
 #include "rover/rover_params.h"
 #include "scenario/suite.h"
 #include "terrain/terrain_params.h"
@@ -19,7 +20,8 @@ namespace rockyard::scenario {
 
 // What one run of the experiment is.
 enum class ExperimentKind {
-  kDrive,  // the closed-loop drive to a goal
+  kDrive,            // the closed-loop drive to a goal
+  kHazardDetection,  // what the light stripe sensor sees and misses
 };
 
 struct Scenario {
@@ -38,6 +40,7 @@ struct Scenario {
   trial::RefereeParams referee;
   trial::ClockParams clock;
   trial::EnergyParams energy;
+  experiments::HazardDetectionParams hazard_detection;
 
   // Lists every field and the conditions across modules.
   void Visit(core::FieldVisitor& v);
@@ -47,5 +50,5 @@ struct Scenario {
 
 template <>
 struct rockyard::core::EnumNames<rockyard::scenario::ExperimentKind> {
-  static constexpr std::array<std::string_view, 1> kNames{"drive"};
+  static constexpr std::array<std::string_view, 2> kNames{"drive", "hazard_detection"};
 };

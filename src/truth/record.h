@@ -21,11 +21,12 @@ enum class TrialOutcome {
   kTimeLimit,
   kLeftArena,
   kSimulatorFault,  // NaN, solver blow-up, exception: counted apart, never a failure of the rover
+  kMeasured,        // no drive: the record holds measurements of a sensor
 };
 
-inline constexpr std::array<std::string_view, 10> kTrialOutcomeNames = {
-    "goal_reached", "false_goal",      "tip_over",   "high_centred", "jammed",
-    "no_path",      "energy_depleted", "time_limit", "left_arena",   "simulator_fault"};
+inline constexpr std::array<std::string_view, 11> kTrialOutcomeNames = {
+    "goal_reached",    "false_goal", "tip_over",   "high_centred",    "jammed",  "no_path",
+    "energy_depleted", "time_limit", "left_arena", "simulator_fault", "measured"};
 
 constexpr std::string_view Name(TrialOutcome outcome) {
   return kTrialOutcomeNames[static_cast<std::size_t>(outcome)];

@@ -1,0 +1,87 @@
+// Study "false_alarm": flat sand, no rock.
+#include <algorithm>
+#include <cstdint>
+
+#include "experiments/cell_table.h"
+#include "experiments/hazard_judge.h"
+#include "experiments/hazard_study.h"
+#include "perception/hazard_criteria.h"
+
+namespace rockyard::experiments {
+namespace {
+
+// The scenario of one cell.
+scenario::Scenario WithFactors(scenario::Scenario scenario, const CellTable& table,
+                               std::size_t cell) {
+  const std::vector<std::string_view> columns = table.columns();
+  const std::vector<double> values = table.Values(cell);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    sensing::LightStripeParams& sensor = scenario.sensors.light_stripe;
+    if (columns[i] == "wrong_place_probability") {
+      sensor.wrong_place_probability = values[i];
+    } else if (columns[i] == "laser_power_w") {
+      sensor.laser.input_power_w = values[i];
+    } else if (columns[i] == "sun_elevation_deg") {
+      scenario.sensors.sun.elevation_rad = math::DegToRad(values[i]);
+    }
+  }
+  return scenario;
+}
+
+class AlarmStudy final : public HazardStudyRunner {
+ public:
+  explicit AlarmStudy(const scenario::Scenario& scenario)
+      : scenes_(scenario.hazard_detection.scenes_per_run) {
+    const CellTable table(scenario.hazard_detection.Factors());
+    for (std::size_t cell = 0; cell < table.size(); ++cell) {
+      judges_.emplace_back(WithFactors(scenario, table, cell));
+    }
+  }
+
+  std::vector<std::string_view> columns() const override {
+    return {"scenes", "scans", "alarm_single", "alarm_pair", "alarm_believed"};
+  }
+
+  std::vector<double> Measure(std::size_t cell, core::TrialKey key) const override {
+    const HazardJudge& judge = judges_[cell];
+    const std::int64_t stride = std::max<std::int64_t>(judge.most_scans(), 2);
+    std::vector<double> sums(5, 0.0);
+    for (std::int64_t scene = 0; scene < scenes_; ++scene) {
+      AddScene(judge, key, scene * stride, sums);
+    }
+    return sums;
+  }
+
+ private:
+  void AddScene(const HazardJudge& judge, core::TrialKey key, std::int64_t first_scan,
+                std::vector<double>& sums) const {
+    const math::Transform X_WR = math::Transform::Identity();
+    const messages::ElevationScan first = judge.Scan(sand_, X_WR, key, first_scan);
+    sums[0] += 1.0;
+    if (!perception::ReportHazards(first, judge.hazard()).any()) {
+      sums[1] += 1.0;
+      return;
+    }
+    const messages::ElevationScan second = judge.Scan(sand_, X_WR, key, first_scan + 1);
+    const Sight sight = judge.Look(sand_, X_WR, key, first_scan);
+    sums[1] += static_cast<double>(sight.scans);
+    sums[2] += 1.0;
+    if (perception::ReportHazards(second, judge.hazard()).any() &&
+        perception::ScansAgree(first, second, judge.hazard().agree_m)) {
+      sums[3] += 1.0;
+    }
+    if (Any(sight.believed)) sums[4] += 1.0;
+  }
+
+  std::int64_t scenes_;
+  std::vector<HazardJudge> judges_;
+  terrain::Terrain sand_{terrain::Ground(), {}, {}};
+};
+
+}  // namespace
+
+std::unique_ptr<HazardStudyRunner> MakeAlarmStudy(const scenario::Scenario& scenario) {
+  return std::make_unique<AlarmStudy>(scenario);
+}
+
+}  // namespace rockyard::experiments

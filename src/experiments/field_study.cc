@@ -1,0 +1,154 @@
+// Study "missed": hazards on straight drives through random fields.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+
+#include "core/distributions.h"
+#include "experiments/cell_table.h"
+#include "experiments/hazard_judge.h"
+#include "experiments/hazard_study.h"
+#include "experiments/swept_path.h"
+#include "sensing/stripe_layout_params.h"
+#include "terrain/field.h"
+#include "trial/layout.h"
+
+namespace rockyard::experiments {
+namespace {
+
+using math::Vector3;
+using scenario::Scenario;
+
+// A rock in the way.
+struct Hazard {
+  const terrain::Rock* rock;
+  double contact_x_m;  // of the rover's front
+  bool seen_single = false;
+  bool seen_double = false;
+};
+
+class FieldStudy final : public HazardStudyRunner {
+ public:
+  explicit FieldStudy(const Scenario& scenario)
+      : scenario_(scenario),
+        params_(scenario.hazard_detection),
+        table_(params_.Factors()),
+        judge_(scenario),
+        lasers_(sensing::TrueCalibration(scenario.sensors.light_stripe).lasers) {}
+
+  std::vector<std::string_view> columns() const override {
+    return {"scenes", "path_m", "hazards", "missed_single", "missed"};
+  }
+
+  std::vector<double> Measure(std::size_t cell, core::TrialKey key) const override {
+    const std::uint64_t first = std::uint64_t{key.trial} * params_.scenes_per_run;
+    if (first + params_.scenes_per_run > std::numeric_limits<std::uint32_t>::max()) {
+      throw std::out_of_range("run index times scenes_per_run is over 2^32, the size of their key");
+    }
+    terrain::TerrainParams terrain = scenario_.terrain;
+    terrain.rocks.k_per_m2 = table_.Values(cell)[0];
+    std::vector<double> sums(columns().size(), 0.0);
+    for (std::int64_t scene = 0; scene < params_.scenes_per_run; ++scene) {
+      // Every field has a key of its own.
+      AddDrive(terrain, {key.seed, static_cast<std::uint32_t>(first + scene)}, sums);
+    }
+    return sums;
+  }
+
+ private:
+  void AddDrive(const terrain::TerrainParams& terrain, core::TrialKey key,
+                std::vector<double>& sums) const {
+    const trial::CourseParams& course = scenario_.course;
+    const terrain::Field field = terrain::BuildField(terrain, key, trial::TerrainCourse(course));
+    std::vector<Hazard> hazards = HazardsIn(field.terrain);
+    core::RandomStream phase(key, core::Purpose::kScenePhase);
+    const double start_x_m = course.start_x_m + params_.scan_interval_m * phase.Uniform();
+    const auto poses = static_cast<std::int64_t>(
+        std::floor((course.goal_x_m - start_x_m) / params_.scan_interval_m));
+    for (std::int64_t pose = 0; pose <= poses; ++pose) {
+      const double x_m = start_x_m + static_cast<double>(pose) * params_.scan_interval_m;
+      if (Needed(hazards, x_m)) LookFrom(x_m, field.terrain, key, pose, hazards);
+    }
+    sums[0] += 1.0;
+    sums[1] += course.goal_x_m - course.start_x_m;
+    sums[2] += static_cast<double>(hazards.size());
+    for (const Hazard& hazard : hazards) {
+      sums[3] += hazard.seen_single ? 0.0 : 1.0;
+      sums[4] += hazard.seen_double ? 0.0 : 1.0;
+    }
+  }
+
+  double front_m() const { return scenario_.sensors.light_stripe.front_x_m; }
+
+  // High enough rocks whose outline meets the path swept by the rover, far enough from the start to
+  // be scanned from first_scan_m on, and met before the goal.
+  std::vector<Hazard> HazardsIn(const terrain::Terrain& field) const {
+    const trial::CourseParams& course = scenario_.course;
+    const double half_m = 0.5 * scenario_.rover.geometry.width_m;
+    std::vector<Hazard> hazards;
+    for (const terrain::Rock& rock : field.rocks()) {
+      if (rock.height_m < params_.hazard_height_m) continue;
+      const auto contact_x_m = FirstContact(rock, course.start_y_m, half_m);
+      if (!contact_x_m) continue;
+      const double driven_m = *contact_x_m - front_m() - course.start_x_m;
+      if (driven_m < params_.first_scan_m + params_.scan_interval_m) continue;
+      if (driven_m > course.goal_x_m - course.start_x_m) continue;
+      hazards.push_back({&rock, *contact_x_m});
+    }
+    return hazards;
+  }
+
+  bool Near(const Hazard& hazard, double x_m) const {
+    const double gap_m = hazard.contact_x_m - front_m() - x_m;
+    return gap_m >= 0.0 && gap_m <= params_.first_scan_m;
+  }
+
+  bool Needed(const std::vector<Hazard>& hazards, double x_m) const {
+    return std::any_of(hazards.begin(), hazards.end(), [&](const Hazard& hazard) {
+      return Near(hazard, x_m) && !(hazard.seen_single && hazard.seen_double);
+    });
+  }
+
+  void LookFrom(double x_m, const terrain::Terrain& field, core::TrialKey key, std::int64_t pose,
+                std::vector<Hazard>& hazards) const {
+    math::Transform X_WR = math::Transform::Identity();
+    X_WR.translation() = Vector3(x_m, scenario_.course.start_y_m, 0.0);
+    const std::int64_t first_scan = pose * judge_.most_scans();
+    const Sight seen = judge_.Look(field, X_WR, key, first_scan);
+    const Sight bare = judge_.Look(sand_, X_WR, key, first_scan);
+    for (std::size_t stripe = 0; stripe < lasers_.size(); ++stripe) {
+      const bool single = seen.first.Charges(stripe) && !bare.first.Charges(stripe);
+      const bool believed = seen.believed[stripe] && !bare.believed[stripe];
+      if (!single && !believed) continue;
+      for (Hazard& hazard : hazards) {
+        if (!Near(hazard, x_m) || !Lights(lasers_[stripe], X_WR, *hazard.rock)) continue;
+        hazard.seen_single |= single;
+        hazard.seen_double |= believed;
+      }
+    }
+  }
+
+  // Whether the vertical light plane meets the circle around the rock.
+  static bool Lights(const messages::StripeLaser& laser, const math::Transform& X_WR,
+                     const terrain::Rock& rock) {
+    const Vector3 normal_W = X_WR.linear() * laser.normal_R;
+    const double distance_m = normal_W.dot(rock.center_W - X_WR * laser.p_RoE_R);
+    return std::abs(distance_m) <= 0.5 * rock.diameter_m;
+  }
+
+  Scenario scenario_;
+  HazardDetectionParams params_;
+  CellTable table_;
+  HazardJudge judge_;
+  std::vector<messages::StripeLaser> lasers_;
+  terrain::Terrain sand_{terrain::Ground(), {}, {}};
+};
+
+}  // namespace
+
+std::unique_ptr<HazardStudyRunner> MakeMissedStudy(const Scenario& scenario) {
+  return std::make_unique<FieldStudy>(scenario);
+}
+
+}  // namespace rockyard::experiments

@@ -1,0 +1,61 @@
+#include "experiments/hazard_detection.h"
+
+#include <cstdint>
+#include <exception>
+#include <limits>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include "truth/measurement_record.h"
+
+namespace rockyard::experiments {
+namespace {
+
+std::unique_ptr<HazardStudyRunner> MakeStudy(const scenario::Scenario& scenario) {
+  switch (scenario.hazard_detection.study) {
+    case HazardStudy::kDetection:
+      return MakeDetectionStudy(scenario);
+    case HazardStudy::kApproach:
+      return MakeApproachStudy(scenario);
+    case HazardStudy::kFalseAlarm:
+      return MakeAlarmStudy(scenario);
+    case HazardStudy::kMissed:
+      return MakeMissedStudy(scenario);
+    case HazardStudy::kPrecision:
+      return MakePrecisionStudy(scenario);
+  }
+  throw std::logic_error("unknown study");
+}
+
+truth::RecordSchema MakeSchema(const CellTable& table, const HazardStudyRunner& study) {
+  std::vector<std::string_view> names{truth::kCellColumn};
+  for (const std::string_view name : table.columns()) names.push_back(name);
+  for (const std::string_view name : study.columns()) names.push_back(name);
+  return truth::MeasurementSchema(names);
+}
+
+}  // namespace
+
+HazardDetectionExperiment::HazardDetectionExperiment(const scenario::Scenario& scenario)
+    : table_(scenario.hazard_detection.Factors()),
+      study_(MakeStudy(scenario)),
+      schema_(MakeSchema(table_, *study_)) {}
+
+truth::Record HazardDetectionExperiment::Run(std::uint64_t seed, std::uint64_t index) const {
+  try {
+    if (index > std::numeric_limits<std::uint32_t>::max()) {
+      throw std::out_of_range("trial indices end at 2^32 - 1, the size of their random key");
+    }
+    const std::size_t cell = index % table_.size();
+    truth::Record record{index, truth::TrialOutcome::kMeasured, "", {static_cast<double>(cell)}};
+    for (const double value : table_.Values(cell)) record.values.push_back(value);
+    const core::TrialKey key{seed, static_cast<std::uint32_t>(index)};
+    for (const double value : study_->Measure(cell, key)) record.values.push_back(value);
+    return record;
+  } catch (const std::exception& error) {
+    return truth::MakeFault(seed, index, error.what());
+  }
+}
+
+}  // namespace rockyard::experiments

@@ -1,0 +1,30 @@
+// The experiment "hazard_detection": what the light stripe sensor sees, misses and imagines.
+//
+// One run is a block of independent scenes of one cell; run i belongs to cell i modulo their
+// number, so that every prefix of the runs covers the cells evenly. Its record holds the cell's
+// factors, then counts and sums (truth/measurement_record.h); its outcome is `measured`.
+#pragma once
+
+#include <memory>
+
+#include "experiments/cell_table.h"
+#include "experiments/experiment.h"
+#include "experiments/hazard_study.h"
+#include "scenario/scenario.h"
+
+namespace rockyard::experiments {
+
+class HazardDetectionExperiment final : public Experiment {
+ public:
+  explicit HazardDetectionExperiment(const scenario::Scenario& scenario);
+
+  const truth::RecordSchema& schema() const override { return schema_; }
+  truth::Record Run(std::uint64_t seed, std::uint64_t index) const override;
+
+ private:
+  CellTable table_;
+  std::unique_ptr<HazardStudyRunner> study_;
+  truth::RecordSchema schema_;
+};
+
+}  // namespace rockyard::experiments

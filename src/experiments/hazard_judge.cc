@@ -1,0 +1,41 @@
+#include "experiments/hazard_judge.h"
+
+#include "perception/hazard_detector.h"
+#include "sensing/stripe_layout_params.h"
+#include "trial/onboard_calibration.h"
+
+namespace rockyard::experiments {
+
+HazardJudge::HazardJudge(const scenario::Scenario& scenario)
+    : hazard_(scenario.perception.hazard),
+      scanner_(scenario),
+      triangulator_(trial::OnboardStripeCalibration(scenario.sensors.light_stripe,
+                                                    scenario.perception.calibration)),
+      stripes_(sensing::ArraySize(scenario.sensors.light_stripe).stripes) {}
+
+std::int64_t HazardJudge::most_scans() const {
+  return hazard_.agreement == perception::ScanAgreement::kSingleScan ? 1 : hazard_.max_scans;
+}
+
+messages::ElevationScan HazardJudge::Scan(const terrain::Terrain& terrain,
+                                          const math::Transform& X_WR, core::TrialKey key,
+                                          std::int64_t scan_number) const {
+  return triangulator_.Elevations(scanner_.Scan(terrain, X_WR, key, scan_number));
+}
+
+Sight HazardJudge::Look(const terrain::Terrain& terrain, const math::Transform& X_WR,
+                        core::TrialKey key, std::int64_t first_scan) const {
+  perception::HazardDetector detector(hazard_);
+  Sight sight(stripes_);
+  perception::HazardDetector::Verdict verdict{true, {}};
+  while (verdict.scan_again) {
+    const messages::ElevationScan scan = Scan(terrain, X_WR, key, first_scan + sight.scans);
+    if (sight.scans == 0) sight.first = perception::AssessHazards(scan, hazard_);
+    ++sight.scans;
+    verdict = detector.Process(scan);
+  }
+  sight.believed = verdict.report.stripe_hazard;
+  return sight;
+}
+
+}  // namespace rockyard::experiments

@@ -1,0 +1,68 @@
+// The rover's hazard detection at one pose: scans, triangulation, criteria and two-scan rule, as in
+// the closed loop.
+#pragma once
+
+#include <cstdint>
+
+#include "core/random.h"
+#include "math/pose.h"
+#include "messages/estimates.h"
+#include "perception/hazard_criteria.h"
+#include "perception/hazard_params.h"
+#include "perception/triangulation.h"
+#include "scenario/scenario.h"
+#include "terrain/terrain.h"
+#include "trial/hazard_scanner.h"
+
+namespace rockyard::experiments {
+
+// What the rover makes of one pose.
+struct Sight {
+  explicit Sight(std::size_t stripes) : first(stripes), believed(stripes) {}
+
+  std::int64_t scans = 0;
+  perception::HazardFindings first;    // of the first scan alone
+  messages::PerStripe<bool> believed;  // stripes charged under the rule of the scenario
+};
+
+class HazardJudge {
+ public:
+  explicit HazardJudge(const scenario::Scenario& scenario);
+
+  std::size_t stripes() const { return stripes_; }
+  // Scans that Look may take: scan numbers of poses have to lie so far apart.
+  std::int64_t most_scans() const;
+
+  messages::ElevationScan Scan(const terrain::Terrain& terrain, const math::Transform& X_WR,
+                               core::TrialKey key, std::int64_t scan_number) const;
+
+  // Scans numbered from `first_scan` at one pose until the rule is decided. Draws the sensor's
+  // noise for these numbers only: the same noise on every terrain.
+  Sight Look(const terrain::Terrain& terrain, const math::Transform& X_WR, core::TrialKey key,
+             std::int64_t first_scan) const;
+
+  const perception::HazardParams& hazard() const { return hazard_; }
+
+ private:
+  perception::HazardParams hazard_;
+  trial::HazardScanner scanner_;
+  perception::Triangulator triangulator_;
+  std::size_t stripes_;
+};
+
+// Stripes that are charged in `a` and not in `b`.
+inline messages::PerStripe<bool> ChargedOnlyIn(const messages::PerStripe<bool>& a,
+                                               const messages::PerStripe<bool>& b) {
+  messages::PerStripe<bool> only(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) only[i] = a[i] && !b[i];
+  return only;
+}
+
+inline bool Any(const messages::PerStripe<bool>& flags) {
+  for (const bool flag : flags) {
+    if (flag) return true;
+  }
+  return false;
+}
+
+}  // namespace rockyard::experiments

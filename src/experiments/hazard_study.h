@@ -1,0 +1,37 @@
+// One study of the experiment "hazard_detection": what a block of scenes of one cell counts.
+#pragma once
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "core/random.h"
+#include "scenario/scenario.h"
+
+namespace rockyard::experiments {
+
+class HazardStudyRunner {
+ public:
+  virtual ~HazardStudyRunner() = default;
+
+  // Columns of truth/measurement_record.h that follow those of the factors.
+  virtual std::vector<std::string_view> columns() const = 0;
+
+  // Their values, summed over hazard_detection.scenes_per_run scenes of one cell. A pure function
+  // of its arguments; draws from the sensor's streams and from kSceneRock, kScenePlacement and
+  // kScenePhase, each with the number of the scene.
+  virtual std::vector<double> Measure(std::size_t cell, core::TrialKey key) const = 0;
+};
+
+// rock_studies.cc: one rock, seen from where the rover stands, or on the way past it.
+std::unique_ptr<HazardStudyRunner> MakeDetectionStudy(const scenario::Scenario& scenario);
+std::unique_ptr<HazardStudyRunner> MakeApproachStudy(const scenario::Scenario& scenario);
+// alarm_study.cc: flat sand.
+std::unique_ptr<HazardStudyRunner> MakeAlarmStudy(const scenario::Scenario& scenario);
+
+// field_study.cc: hazards in random fields.
+std::unique_ptr<HazardStudyRunner> MakeMissedStudy(const scenario::Scenario& scenario);
+// plane_study.cc: a plane at known heights.
+std::unique_ptr<HazardStudyRunner> MakePrecisionStudy(const scenario::Scenario& scenario);
+
+}  // namespace rockyard::experiments

@@ -1,0 +1,187 @@
+// Studies "detection" and "approach": one rock a scene.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "core/distributions.h"
+#include "experiments/cell_table.h"
+#include "experiments/hazard_judge.h"
+#include "experiments/hazard_study.h"
+#include "experiments/rock_scenes.h"
+
+namespace rockyard::experiments {
+namespace {
+
+using core::Purpose;
+using core::RandomStream;
+
+// What is drawn for one scene.
+struct RockScene {
+  terrain::Terrain terrain;
+  double heading_rad = 0.0;
+  double distance_shift_m = 0.0;
+};
+
+class RockStudy : public HazardStudyRunner {
+ public:
+  explicit RockStudy(const scenario::Scenario& scenario)
+      : params_(scenario.hazard_detection),
+        law_(scenario.terrain.rocks),
+        front_x_m_(scenario.sensors.light_stripe.front_x_m),
+        table_(params_.Factors()),
+        judge_(scenario) {}
+
+ protected:
+  const HazardDetectionParams& params() const { return params_; }
+  const HazardJudge& judge() const { return judge_; }
+
+  RockCell CellOf(std::size_t cell) const {
+    const std::vector<double> values = table_.Values(cell);
+    if (params_.proportions == RockProportions::kNatural) return {values[0], 0.0, values[1]};
+    return {values[0], values[1], values[2]};
+  }
+
+  // The last factor of the cell.
+  double LastOf(std::size_t cell) const { return table_.Values(cell).back(); }
+
+  RockScene DrawScene(const RockCell& cell, core::TrialKey key, std::uint32_t scene) const {
+    RandomStream placement(key, Purpose::kScenePlacement, scene);
+    const double side = core::SampleBernoulli(placement, 0.5) ? 1.0 : -1.0;
+    const auto spread = [&](double half) { return core::SampleUniform(placement, -half, half); };
+    const double lateral_m = side * (cell.lateral_offset_m + spread(0.5 * params_.lateral_width_m));
+    const double shift_m = spread(0.5 * params_.distance_width_m);
+    const double heading_rad = spread(params_.heading_jitter_rad);
+    RandomStream shape(key, Purpose::kSceneRock, scene);
+    return {SceneTerrain(DrawSceneRock(cell, params_.proportions, law_, lateral_m, shape)),
+            heading_rad, shift_m};
+  }
+
+  math::Transform Pose(double gap_m, double heading_rad) const {
+    return PoseBefore(gap_m, heading_rad, front_x_m_);
+  }
+
+  // Charges that the rock caused: those that bare sand does not draw under the same noise.
+  Sight CausedByRock(const Sight& seen, const math::Transform& X_WR, core::TrialKey key,
+                     std::int64_t first_scan) const {
+    const Sight bare = judge_.Look(bare_, X_WR, key, first_scan);
+    Sight caused(judge_.stripes());
+    caused.scans = seen.scans;
+    caused.first.missing = ChargedOnlyIn(seen.first.missing, bare.first.missing);
+    caused.first.neighbour = ChargedOnlyIn(seen.first.neighbour, bare.first.neighbour);
+    caused.first.range = ChargedOnlyIn(seen.first.range, bare.first.range);
+    caused.believed = ChargedOnlyIn(seen.believed, bare.believed);
+    return caused;
+  }
+
+  Sight LookAt(const terrain::Terrain& terrain, const math::Transform& X_WR, core::TrialKey key,
+               std::int64_t first_scan) const {
+    Sight seen = judge_.Look(terrain, X_WR, key, first_scan);
+    const bool charged = Any(seen.first.missing) || Any(seen.first.neighbour) ||
+                         Any(seen.first.range) || Any(seen.believed);
+    return charged ? CausedByRock(seen, X_WR, key, first_scan) : seen;
+  }
+
+ private:
+  HazardDetectionParams params_;
+  terrain::RockFieldParams law_;
+  double front_x_m_;
+  CellTable table_;
+  HazardJudge judge_;
+  terrain::Terrain bare_{terrain::Ground(), {}, {}};
+};
+
+double Flag(bool flag) { return flag ? 1.0 : 0.0; }
+
+class DetectionStudy final : public RockStudy {
+ public:
+  using RockStudy::RockStudy;
+
+  std::vector<std::string_view> columns() const override {
+    return {"scenes",     "scans",        "detected_single", "detected_double",
+            "by_missing", "by_neighbour", "by_range"};
+  }
+
+  std::vector<double> Measure(std::size_t cell, core::TrialKey key) const override {
+    std::vector<double> sums(7, 0.0);
+    const RockCell rock = CellOf(cell);
+    for (std::int64_t scene = 0; scene < params().scenes_per_run; ++scene) {
+      const RockScene drawn = DrawScene(rock, key, static_cast<std::uint32_t>(scene));
+      const math::Transform X_WR = Pose(LastOf(cell) + drawn.distance_shift_m, drawn.heading_rad);
+      const Sight sight = LookAt(drawn.terrain, X_WR, key, scene * judge().most_scans());
+      const bool missing = Any(sight.first.missing);
+      const bool neighbour = Any(sight.first.neighbour);
+      const bool range = Any(sight.first.range);
+      const double row[] = {1.0,
+                            static_cast<double>(sight.scans),
+                            Flag(missing || neighbour || range),
+                            Flag(Any(sight.believed)),
+                            Flag(missing),
+                            Flag(neighbour),
+                            Flag(range)};
+      for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += row[i];
+    }
+    return sums;
+  }
+};
+
+class ApproachStudy final : public RockStudy {
+ public:
+  using RockStudy::RockStudy;
+
+  std::vector<std::string_view> columns() const override {
+    return {"scenes", "scans", "detected_single", "detected_double"};
+  }
+
+  std::vector<double> Measure(std::size_t cell, core::TrialKey key) const override {
+    std::vector<double> sums(4, 0.0);
+    const RockCell rock = CellOf(cell);
+    for (std::int64_t scene = 0; scene < params().scenes_per_run; ++scene) {
+      AddDrive(rock, key, scene, sums);
+    }
+    return sums;
+  }
+
+ private:
+  // From first_scan_m before the rock until the front reaches it.
+  void AddDrive(const RockCell& rock, core::TrialKey key, std::int64_t scene,
+                std::vector<double>& sums) const {
+    const RockScene drawn = DrawScene(rock, key, static_cast<std::uint32_t>(scene));
+    RandomStream phase(key, Purpose::kScenePhase, static_cast<std::uint32_t>(scene));
+    const double interval_m = params().scan_interval_m;
+    const double last_gap_m = interval_m * phase.Uniform();
+    const auto poses = 1 + static_cast<std::int64_t>(
+                               std::floor((params().first_scan_m - last_gap_m) / interval_m));
+    std::int64_t scans = 0;
+    bool single = false;
+    bool believed = false;
+    for (std::int64_t pose = 0; pose < poses && !(single && believed); ++pose) {
+      const double gap_m = last_gap_m + static_cast<double>(poses - 1 - pose) * interval_m;
+      // Drives share no scan number: each has room for the longest one.
+      const std::int64_t first_scan = (scene * MostPoses() + pose) * judge().most_scans();
+      const Sight sight = LookAt(drawn.terrain, Pose(gap_m, drawn.heading_rad), key, first_scan);
+      scans += sight.scans;
+      single |= Any(sight.first.missing) || Any(sight.first.neighbour) || Any(sight.first.range);
+      believed |= Any(sight.believed);
+    }
+    sums[0] += 1.0;
+    sums[1] += static_cast<double>(scans);
+    sums[2] += Flag(single);
+    sums[3] += Flag(believed);
+  }
+
+  std::int64_t MostPoses() const {
+    return 1 + static_cast<std::int64_t>(params().first_scan_m / params().scan_interval_m);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<HazardStudyRunner> MakeDetectionStudy(const scenario::Scenario& scenario) {
+  return std::make_unique<DetectionStudy>(scenario);
+}
+
+std::unique_ptr<HazardStudyRunner> MakeApproachStudy(const scenario::Scenario& scenario) {
+  return std::make_unique<ApproachStudy>(scenario);
+}
+
+}  // namespace rockyard::experiments

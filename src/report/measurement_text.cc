@@ -1,0 +1,163 @@
+#include "report/measurement_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace rockyard::report {
+namespace {
+
+using statistics::Cell;
+using statistics::MeasurementSummary;
+
+// More cells than this are pooled.
+constexpr std::size_t kMostLines = 40;
+// Columns of numbers that fit into 100 characters.
+constexpr std::size_t kMostColumns = 7;
+constexpr std::size_t kMostFactors = 4;
+
+std::string Head(const RunDescription& run, const MeasurementSummary& summary, TextStyle style) {
+  const std::string name = run.scenario.substr(0, 40);
+  std::string text = style == TextStyle::kPlain ? name : "\x1b[1m" + name + "\x1b[0m";
+  text += fmt::format(", seed {}: {} of {} runs, {} cells\n", run.seed, summary.completed,
+                      run.planned, summary.cells.size());
+  if (run.stored > summary.completed) {
+    text += fmt::format("  {} more finished runs count once those before them are finished\n",
+                        run.stored - summary.completed);
+  }
+  if (summary.faults > 0) {
+    text += fmt::format("  {} simulator faults, in none of the numbers below\n", summary.faults);
+  }
+  return text;
+}
+
+std::string Bases(const MeasurementSummary& summary) {
+  std::string text;
+  for (std::size_t i = 0; i < summary.bases.size(); ++i) {
+    double low = summary.cells.front().bases[i];
+    double high = low;
+    for (const Cell& cell : summary.cells) {
+      low = std::min(low, cell.bases[i]);
+      high = std::max(high, cell.bases[i]);
+    }
+    text += fmt::format("  {} a cell: {:.6g}", summary.bases[i]->name, low);
+    text += high > low ? fmt::format(" .. {:.6g}\n", high) : "\n";
+  }
+  return text;
+}
+
+std::string Widest(const MeasurementSummary& summary) {
+  std::string text;
+  for (std::size_t i = 0; i < summary.rates.size(); ++i) {
+    text += fmt::format("  widest 95 % interval of {}: {:.4f}\n", summary.rates[i]->name,
+                        summary.WidestInterval(i));
+  }
+  return text;
+}
+
+std::string CellLine(const Cell& cell) {
+  std::string line = " ";
+  for (std::size_t i = 0; i < std::min(kMostFactors, cell.factors.size()); ++i) {
+    line += fmt::format(" {:>8.4g}", cell.factors[i]);
+  }
+  std::size_t room = kMostColumns;
+  for (const statistics::CellRate& rate : cell.rates) {
+    if (room-- == 0) return line + "\n";
+    line += fmt::format(" {:>9.4f}", rate.rate.rate);
+  }
+  for (const double mean : cell.means) {
+    if (room-- == 0) return line + "\n";
+    line += fmt::format(" {:>9.3g}", mean);
+  }
+  return line + "\n";
+}
+
+std::string EveryCell(const MeasurementSummary& summary) {
+  // Names are longer than their columns: a letter each, explained above the table.
+  std::string legend;
+  std::string header = " ";
+  char letter = 'A';
+  const auto add = [&](std::string_view name, std::size_t width) {
+    legend += fmt::format("  {} {}\n", letter, name);
+    header += fmt::format(" {:>{}}", letter++, width);
+  };
+  for (std::size_t i = 0; i < std::min(kMostFactors, summary.factors.size()); ++i) {
+    add(summary.factors[i]->name, 8);
+  }
+  std::size_t room = kMostColumns;
+  for (const auto* list : {&summary.rates, &summary.means}) {
+    for (const truth::MeasuredColumn* column : *list) {
+      if (room == 0) break;
+      --room;
+      const bool mean = column->role == truth::ColumnRole::kSum;
+      const bool squares = column->role == truth::ColumnRole::kSquares;
+      add(fmt::format("{}{}", mean ? "mean " : squares ? "rms " : "", column->name), 9);
+    }
+  }
+  std::string text = legend + header + "\n";
+  for (const Cell& cell : summary.cells) text += CellLine(cell);
+  return text;
+}
+
+// Rows: first factor. Columns: second factor. Counts and bases are added up over the others.
+std::string Pooled(const MeasurementSummary& summary, std::size_t rate) {
+  std::map<std::pair<double, double>, std::pair<double, double>> pooled;
+  std::vector<double> rows;
+  std::vector<double> columns;
+  for (const Cell& cell : summary.cells) {
+    const double row = cell.factors[0];
+    const double column = cell.factors.size() > 1 ? cell.factors[1] : 0.0;
+    auto& [count, base] = pooled[{row, column}];
+    count += static_cast<double>(cell.rates[rate].rate.count);
+    base += static_cast<double>(cell.rates[rate].rate.trials);
+    if (std::find(rows.begin(), rows.end(), row) == rows.end()) rows.push_back(row);
+    if (std::find(columns.begin(), columns.end(), column) == columns.end()) {
+      columns.push_back(column);
+    }
+  }
+  columns.resize(std::min<std::size_t>(columns.size(), 9));
+  std::string text = fmt::format("  {} by {} (down) and {} (across), all other factors together\n",
+                                 summary.rates[rate]->name, summary.factors[0]->name,
+                                 summary.factors.size() > 1 ? summary.factors[1]->name : "-");
+  text += fmt::format("  {:>9}", "");
+  for (const double column : columns) text += fmt::format(" {:>8.4g}", column);
+  text += "\n";
+  for (const double row : rows) {
+    text += fmt::format("  {:>9.4g}", row);
+    for (const double column : columns) {
+      const auto& [count, base] = pooled[{row, column}];
+      text += base > 0.0 ? fmt::format(" {:>8.3f}", count / base) : fmt::format(" {:>8}", "-");
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::size_t MainRate(const MeasurementSummary& summary) {
+  for (const std::string_view name : {"detected_double", "alarm_single", "missed"}) {
+    const std::size_t rate = summary.FindRate(name);
+    if (rate < summary.rates.size()) return rate;
+  }
+  return summary.rates.size();
+}
+
+std::string MeasurementText(const RunDescription& run, const MeasurementSummary& summary,
+                            TextStyle style) {
+  std::string text = Head(run, summary, style);
+  if (!summary.cells.empty()) {
+    text += Bases(summary) + Widest(summary);
+    const std::size_t rate = MainRate(summary);
+    const bool pool = summary.cells.size() > kMostLines && rate < summary.rates.size();
+    text += pool ? Pooled(summary, rate) : EveryCell(summary);
+    text += "  intervals of every cell, and of all cells at once, in cells.csv\n";
+  }
+  return text + fmt::format("  trial hash {}\n", run.trial_hash);
+}
+
+}  // namespace rockyard::report

@@ -1,0 +1,22 @@
+// The cells of a measurement for people.
+#pragma once
+
+#include <string>
+
+#include "report/run_description.h"
+#include "report/summary_text.h"
+#include "statistics/cell_summary.h"
+
+namespace rockyard::report {
+
+// Runs, widest intervals, and the cells: every one where they are few, otherwise the main rate
+// pooled over all factors but the first two. At most 100 columns.
+std::string MeasurementText(const RunDescription& run,
+                            const statistics::MeasurementSummary& summary,
+                            TextStyle style = TextStyle::kPlain);
+
+// The rate that text and drawing show where there is room for one; rates.size() where none is
+// measured.
+std::size_t MainRate(const statistics::MeasurementSummary& summary);
+
+}  // namespace rockyard::report

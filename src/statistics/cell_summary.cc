@@ -1,0 +1,146 @@
+#include "statistics/cell_summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "core/check.h"
+
+namespace rockyard::statistics {
+namespace {
+
+using truth::ColumnRole;
+using truth::MeasuredColumn;
+
+constexpr double kConfidence = 0.95;
+
+// A column of the records with its role.
+struct KnownColumn {
+  const MeasuredColumn* what;
+  std::size_t index;
+};
+
+struct Sums {
+  std::int64_t runs = 0;
+  std::vector<double> values;  // by index in the schema; factors are not added up
+};
+
+std::vector<KnownColumn> KnownColumns(const truth::RecordSchema& schema) {
+  std::vector<KnownColumn> columns;
+  for (std::size_t i = 1; i < schema.size(); ++i) {
+    const MeasuredColumn* what = truth::FindMeasuredColumn(schema[i].name);
+    if (what != nullptr) columns.push_back({what, i});
+  }
+  return columns;
+}
+
+std::map<std::int64_t, Sums> Pool(std::span<const truth::Record> records,
+                                  const std::vector<KnownColumn>& columns, std::size_t width) {
+  std::map<std::int64_t, Sums> cells;
+  for (const truth::Record& record : records) {
+    if (IsFault(record) || record.values.size() != width) continue;
+    Sums& sums = cells[static_cast<std::int64_t>(record.values.front())];
+    sums.values.resize(width, 0.0);
+    ++sums.runs;
+    for (const KnownColumn& column : columns) {
+      const double value = record.values[column.index];
+      double& sum = sums.values[column.index];
+      sum = column.what->role == ColumnRole::kFactor ? value : sum + value;
+    }
+  }
+  return cells;
+}
+
+double BaseOf(const std::vector<KnownColumn>& columns, const Sums& sums,
+              const MeasuredColumn& of_column) {
+  for (const KnownColumn& column : columns) {
+    if (column.what->name == of_column.of) return sums.values[column.index];
+  }
+  return 0.0;
+}
+
+CellRate MakeRate(double count, double base, double cells, IntervalMethod method) {
+  const auto k = static_cast<std::int64_t>(std::llround(count));
+  const auto n = static_cast<std::int64_t>(std::llround(base));
+  const double level = 1.0 - (1.0 - kConfidence) / cells;
+  return {MakeProportion(k, n, kConfidence, method), ProportionInterval(k, n, level, method)};
+}
+
+double MakeMean(ColumnRole role, double sum, double base) {
+  if (!(base > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  return role == ColumnRole::kSquares ? std::sqrt(sum / base) : sum / base;
+}
+
+}  // namespace
+
+double MeasurementSummary::WidestInterval(std::size_t rate) const {
+  double widest = 0.0;
+  for (const Cell& cell : cells) {
+    const Interval& interval = cell.rates[rate].rate.interval;
+    widest = std::max(widest, interval.high - interval.low);
+  }
+  return widest;
+}
+
+std::size_t MeasurementSummary::FindRate(std::string_view name) const {
+  const auto found = std::find_if(rates.begin(), rates.end(),
+                                  [&](const MeasuredColumn* rate) { return rate->name == name; });
+  return static_cast<std::size_t>(found - rates.begin());
+}
+
+MeasurementSummary SummarizeCells(const truth::RecordSchema& schema,
+                                  std::span<const truth::Record> records, std::int64_t planned,
+                                  IntervalMethod method) {
+  EXPECT(truth::IsMeasurement(schema));
+  MeasurementSummary summary;
+  summary.completed = static_cast<std::int64_t>(records.size());
+  summary.planned = planned > 0 ? planned : summary.completed;
+  summary.faults = std::count_if(records.begin(), records.end(), truth::IsFault);
+  const std::vector<KnownColumn> columns = KnownColumns(schema);
+  for (const KnownColumn& column : columns) {
+    switch (column.what->role) {
+      case ColumnRole::kFactor:
+        summary.factors.push_back(column.what);
+        break;
+      case ColumnRole::kBase:
+        summary.bases.push_back(column.what);
+        break;
+      case ColumnRole::kCount:
+        summary.rates.push_back(column.what);
+        break;
+      case ColumnRole::kSum:
+      case ColumnRole::kSquares:
+        summary.means.push_back(column.what);
+        break;
+    }
+  }
+  const std::map<std::int64_t, Sums> pooled = Pool(records, columns, schema.size());
+  for (const auto& [number, sums] : pooled) {
+    Cell cell{
+        .number = number, .runs = sums.runs, .factors = {}, .bases = {}, .rates = {}, .means = {}};
+    for (const KnownColumn& column : columns) {
+      const double value = sums.values[column.index];
+      const double base = BaseOf(columns, sums, *column.what);
+      switch (column.what->role) {
+        case ColumnRole::kFactor:
+          cell.factors.push_back(value);
+          break;
+        case ColumnRole::kBase:
+          cell.bases.push_back(value);
+          break;
+        case ColumnRole::kCount:
+          cell.rates.push_back(MakeRate(value, base, static_cast<double>(pooled.size()), method));
+          break;
+        case ColumnRole::kSum:
+        case ColumnRole::kSquares:
+          cell.means.push_back(MakeMean(column.what->role, value, base));
+          break;
+      }
+    }
+    summary.cells.push_back(std::move(cell));
+  }
+  return summary;
+}
+
+}  // namespace rockyard::statistics

@@ -1,0 +1,55 @@
+// Records of measurements (truth/measurement_record.h) pooled by cell.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "statistics/proportions.h"
+#include "truth/measurement_record.h"
+#include "truth/record.h"
+
+namespace rockyard::statistics {
+
+// A count of a cell against its base.
+struct CellRate {
+  Proportion rate;        // with its own 95 % interval
+  Interval simultaneous;  // all intervals of this column hold together with 95 % (Bonferroni)
+};
+
+struct Cell {
+  std::int64_t number = 0;
+  std::int64_t runs = 0;
+  std::vector<double> factors;  // in the order of MeasurementSummary::factors
+  std::vector<double> bases;    // sums
+  std::vector<CellRate> rates;
+  std::vector<double> means;  // sum over base, or the root of it for squares; NaN without base
+};
+
+struct MeasurementSummary {
+  std::int64_t planned = 0;
+  std::int64_t completed = 0;  // records given, faults included
+  std::int64_t faults = 0;     // in no number
+  std::vector<const truth::MeasuredColumn*> factors;
+  std::vector<const truth::MeasuredColumn*> bases;
+  std::vector<const truth::MeasuredColumn*> rates;
+  std::vector<const truth::MeasuredColumn*> means;  // kSum and kSquares
+  std::vector<Cell> cells;                          // ascending; those with a record
+
+  // Full width of the widest pointwise 95 % interval of one rate over all cells.
+  double WidestInterval(std::size_t rate) const;
+  // Position in `rates`; none: rates.size().
+  std::size_t FindRate(std::string_view name) const;
+};
+
+// `records` must be a contiguous prefix of finished runs, of a schema that IsMeasurement; columns
+// that truth/measurement_record.h does not know are left out. Scenes of a cell are independent, so
+// counts add up to binomial counts. Where the base of a count is not made of independent trials
+// (hazards share fields), intervals are somewhat too narrow. Simultaneous intervals take the level
+// 1 - 0.05 / cells. Cost: linear.
+MeasurementSummary SummarizeCells(const truth::RecordSchema& schema,
+                                  std::span<const truth::Record> records, std::int64_t planned = 0,
+                                  IntervalMethod method = IntervalMethod::kWilson);
+
+}  // namespace rockyard::statistics
