@@ -20,51 +20,60 @@ double ImageReadout::DarkTime(double exposure_s, core::TrialKey key, const Image
   return exposure_s * std::max(0.0, 1.0 + core::SampleNormal(stream, 0.0, repeatability_));
 }
 
-void ImageReadout::Read(const RenderedRow& row, int first_column, double exposure_s,
-                        core::TrialKey key, const ImageName& name, std::span<const int> group_of,
-                        std::vector<std::uint16_t>& counts) const {
+PixelPattern ImageReadout::Pattern(int camera, int row, int first_column, int columns,
+                                   core::TrialKey key) const {
+  const auto draw = [&](std::uint32_t kind, double deviation) {
+    const auto image = 2 * static_cast<std::uint32_t>(camera) + kind;
+    std::vector<double> values(static_cast<std::size_t>(columns));
+    ForEachPixelNoise(PixelNoise(key, core::Purpose::kPixelPattern, image), row, first_column,
+                      columns, [&](int column, float z) {
+                        values[static_cast<std::size_t>(column - first_column)] = deviation * z;
+                      });
+    return values;
+  };
+  return {draw(0, detector_.response_nonuniformity), draw(1, detector_.offset_nonuniformity_e)};
+}
+
+std::vector<double> ImageReadout::Photoelectrons(const RenderedRow& row, int first_column,
+                                                 double exposure_s, core::TrialKey key,
+                                                 const ImageName& name,
+                                                 std::span<const int> group_of) const {
   std::vector<double> mean_e(row.sun_e_s.size());
   std::transform(row.sun_e_s.begin(), row.sun_e_s.end(), mean_e.begin(),
                  [exposure_s](double rate_e_s) { return rate_e_s * exposure_s; });
-  if (name.lit) {
-    const PixelNoise speckle(key, core::Purpose::kImageSpeckle, name.substream());
-    for (const RenderedRow::LaserPixel& laser : row.lasers) {
-      if (group_of[static_cast<std::size_t>(laser.laser)] != name.group) continue;
-      const double z = speckle.At(row.row, first_column + laser.pixel);
-      mean_e[static_cast<std::size_t>(laser.pixel)] +=
-          laser.rate_e_s * exposure_s * std::max(0.0, 1.0 + speckle_contrast_ * z);
-    }
+  if (!name.lit) return mean_e;
+  const PixelNoise speckle(key, core::Purpose::kImageSpeckle, name.substream());
+  for (const RenderedRow::LaserPixel& laser : row.lasers) {
+    if (group_of[static_cast<std::size_t>(laser.laser)] != name.group) continue;
+    const double z = speckle.At(row.row, first_column + laser.pixel);
+    mean_e[static_cast<std::size_t>(laser.pixel)] +=
+        laser.rate_e_s * exposure_s * std::max(0.0, 1.0 + speckle_contrast_ * z);
   }
+  return mean_e;
+}
 
-  const auto pattern = [&](std::uint32_t kind) {
-    const auto camera = static_cast<std::uint32_t>(name.camera);
-    return PixelNoise(key, core::Purpose::kPixelPattern, 2 * camera + kind);
-  };
+void ImageReadout::Read(const RenderedRow& row, const PixelPattern& pattern, int first_column,
+                        double exposure_s, core::TrialKey key, const ImageName& name,
+                        std::span<const int> group_of, std::vector<std::uint16_t>& counts) const {
+  const std::vector<double> mean_e =
+      Photoelectrons(row, first_column, exposure_s, key, name, group_of);
   const double dark_e = detector_.dark_current_e_s * exposure_s;
   const double read2_e2 = detector_.read_noise_e * detector_.read_noise_e;
-  const int columns = static_cast<int>(mean_e.size());
-  const auto at = [first_column](int column) {
-    return static_cast<std::size_t>(column - first_column);
-  };
-  std::vector<double> electrons(mean_e.size());
-  ForEachPixelNoise(PixelNoise(key, core::Purpose::kImageNoise, name.substream()), row.row,
-                    first_column, columns, [&](int column, float z) {
-                      const double light_e = mean_e[at(column)];
-                      electrons[at(column)] =
-                          light_e + dark_e + std::sqrt(light_e + dark_e + read2_e2) * z;
-                    });
-  ForEachPixelNoise(pattern(0), row.row, first_column, columns, [&](int column, float z) {
-    electrons[at(column)] += detector_.response_nonuniformity * z * mean_e[at(column)];
-  });
-  ForEachPixelNoise(pattern(1), row.row, first_column, columns, [&](int column, float z) {
-    electrons[at(column)] += detector_.offset_nonuniformity_e * z;
-  });
-  for (const double e : electrons) {
-    const double count = std::min(e, detector_.full_well_e) / electrons_per_count_ + black_counts_;
-    const double rounded = std::floor(count + 0.5);
-    counts.push_back(
-        static_cast<std::uint16_t>(std::clamp(rounded, 0.0, static_cast<double>(largest_count_))));
-  }
+  const double counts_per_electron = 1.0 / electrons_per_count_;
+  const std::size_t first = counts.size();
+  counts.resize(first + mean_e.size());
+  ForEachPixelNoise(
+      PixelNoise(key, core::Purpose::kImageNoise, name.substream()), row.row, first_column,
+      static_cast<int>(mean_e.size()), [&](int column, float z) {
+        const auto i = static_cast<std::size_t>(column - first_column);
+        const double random_e = mean_e[i] + dark_e;
+        const double e = random_e + pattern.response[i] * mean_e[i] + pattern.offset_e[i] +
+                         std::sqrt(random_e + read2_e2) * z;
+        const double count =
+            std::min(e, detector_.full_well_e) * counts_per_electron + black_counts_ + 0.5;
+        counts[first + i] =
+            static_cast<std::uint16_t>(std::clamp(count, 0.0, static_cast<double>(largest_count_)));
+      });
 }
 
 }  // namespace rockyard::sensing

@@ -26,6 +26,12 @@ struct ImageName {
   }
 };
 
+// How the pixels of one line depart from the average pixel, always.
+struct PixelPattern {
+  std::vector<double> response;  // relative
+  std::vector<double> offset_e;
+};
+
 // A pixel collects
 //   N = min(W, (1 + r) R t + D t + sqrt(R t + D t + s^2) z + o)   electrons
 // and is read as round(N / g + black level), between 0 and the largest count: R rate of
@@ -45,14 +51,23 @@ class ImageReadout {
   // factor 1 + N(0, repeatability). Draws from (kImageExposure, name).
   double DarkTime(double exposure_s, core::TrialKey key, const ImageName& name) const;
 
+  // Pattern of `columns` pixels of a line. Draws from (kPixelPattern, camera): once for the trial,
+  // whatever is read out.
+  PixelPattern Pattern(int camera, int row, int first_column, int columns,
+                       core::TrialKey key) const;
+
   // Reads one line; group_of[laser] says which lasers are on in a lit image. Draws from
-  // (kImageNoise, name), (kPixelPattern, camera) and, where it meets laser light, (kImageSpeckle,
-  // name). Appends to `counts`.
-  void Read(const RenderedRow& row, int first_column, double exposure_s, core::TrialKey key,
-            const ImageName& name, std::span<const int> group_of,
-            std::vector<std::uint16_t>& counts) const;
+  // (kImageNoise, name) and, where it meets laser light, (kImageSpeckle, name). Appends to
+  // `counts`.
+  void Read(const RenderedRow& row, const PixelPattern& pattern, int first_column,
+            double exposure_s, core::TrialKey key, const ImageName& name,
+            std::span<const int> group_of, std::vector<std::uint16_t>& counts) const;
 
  private:
+  std::vector<double> Photoelectrons(const RenderedRow& row, int first_column, double exposure_s,
+                                     core::TrialKey key, const ImageName& name,
+                                     std::span<const int> group_of) const;
+
   DetectorParams detector_;
   double repeatability_;
   double speckle_contrast_;

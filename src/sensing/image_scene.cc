@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace rockyard::sensing {
 namespace {
@@ -51,10 +52,23 @@ ImageScene::ImageScene(const terrain::Terrain& terrain, const math::Transform& X
   }
 }
 
-void ImageScene::RocksInCone(const Vector3& eye_W, const Vector3& axis_W, double half_sine,
-                             double half_cosine, std::vector<int>& out) const {
+void ImageScene::RocksNearPlane(const Vector3& eye_W, const Vector3& normal_W, double sine,
+                                std::vector<int>& out) const {
   out.clear();
   for (const int index : near_) {
+    const terrain::Rock& rock = terrain_.rocks()[static_cast<std::size_t>(index)];
+    const Vector3 away = rock.center_W - eye_W;
+    const double reach_m = Reach(rock);
+    const double off_m = std::abs(normal_W.dot(away));
+    if (off_m <= reach_m + sine * (away.norm() + reach_m)) out.push_back(index);
+  }
+}
+
+void ImageScene::RocksInCone(const Vector3& eye_W, const Vector3& axis_W, double half_sine,
+                             double half_cosine, std::span<const int> among,
+                             std::vector<int>& out) const {
+  out.clear();
+  for (const int index : among) {
     const terrain::Rock& rock = terrain_.rocks()[static_cast<std::size_t>(index)];
     const Vector3 away = rock.center_W - eye_W;
     const double reach_m = Reach(rock);
@@ -66,14 +80,30 @@ void ImageScene::RocksInCone(const Vector3& eye_W, const Vector3& axis_W, double
   }
 }
 
-void ImageScene::RocksBeforeSun(const Vector3& center_W, double radius_m,
+void ImageScene::RocksInSheet(const Vector3& p_W, const Vector3& normal_W, double width_m,
+                              std::vector<int>& out) const {
+  out.clear();
+  for (const int index : near_) {
+    const terrain::Rock& rock = terrain_.rocks()[static_cast<std::size_t>(index)];
+    if (std::abs(normal_W.dot(rock.center_W - p_W)) <= width_m + Reach(rock)) out.push_back(index);
+  }
+}
+
+void ImageScene::RocksBeforeSun(const Ball& ball, std::vector<int>& out) const {
+  std::vector<int> all(before_sun_.size());
+  std::iota(all.begin(), all.end(), 0);
+  RocksBeforeSun(ball, all, out);
+}
+
+void ImageScene::RocksBeforeSun(const Ball& ball, std::span<const int> among,
                                 std::vector<int>& out) const {
   out.clear();
-  for (std::size_t i = 0; i < before_sun_.size(); ++i) {
-    const auto index = static_cast<std::size_t>(before_sun_[i]);
+  for (const int i : among) {
+    const auto index = static_cast<std::size_t>(before_sun_[static_cast<std::size_t>(i)]);
     const terrain::Rock& rock = terrain_.rocks()[index];
-    if (ComesBetween(rock.center_W - center_W, light_.toward_sun_W, radius_m + Reach(rock))) {
-      out.push_back(static_cast<int>(i));
+    const double reach_m = ball.radius_m + Reach(rock);
+    if (ComesBetween(rock.center_W - ball.center_W, light_.toward_sun_W, reach_m)) {
+      out.push_back(i);
     }
   }
 }
@@ -140,12 +170,13 @@ void ImageScene::Light(std::span<const int> shading, SurfacePoint& point) const 
   point.radiance_w_m2_sr = SunRadiance(light_, point.albedo, point.normal_W, sunlit);
 }
 
-bool ImageScene::Reaches(const Vector3& emitter_W, const Vector3& p_W) const {
+bool ImageScene::Reaches(const Vector3& emitter_W, const Vector3& p_W,
+                         std::span<const int> rocks) const {
   const Vector3 away = p_W - emitter_W;
   const double distance_m = away.norm();
   const Vector3 ray_R = X_RW_.linear() * away / distance_m;
   if (body_.Distance(X_RW_ * emitter_W, ray_R) < distance_m) return false;
-  return !terrain_.Occluded(emitter_W, p_W, kOcclusionMargin_m, near_);
+  return !terrain_.Occluded(emitter_W, p_W, kOcclusionMargin_m, rocks);
 }
 
 }  // namespace rockyard::sensing

@@ -30,10 +30,9 @@ struct SurfacePoint {
   bool TakesLaserLight() const { return surface >= kWall; }
 };
 
-// Rocks that a bundle of rays may meet: those in view, and those that may hide the sun.
-struct RockLists {
-  std::vector<int> seen;
-  std::vector<int> shading;
+struct Ball {
+  math::Vector3 center_W = math::Vector3::Zero();
+  double radius_m = 0.0;
 };
 
 // Rocks farther from the rover's origin than kSight_m are not seen, nor is what they shade; the
@@ -47,23 +46,32 @@ class ImageScene {
 
   const math::Transform& X_WR() const { return X_WR_; }
 
-  // Rocks whose bounding ball meets the cone from an eye about axis_W (unit).
+  // Rocks of which a part may lie where |normal_W . (p - eye)| <= sine |p - eye|: about a plane.
+  void RocksNearPlane(const math::Vector3& eye_W, const math::Vector3& normal_W, double sine,
+                      std::vector<int>& out) const;
+  // Of the given rocks, those whose bounding ball meets the cone from an eye about axis_W (unit).
   void RocksInCone(const math::Vector3& eye_W, const math::Vector3& axis_W, double half_sine,
-                   double half_cosine, std::vector<int>& out) const;
-  // Rocks whose bounding ball comes between the sun and a ball.
-  void RocksBeforeSun(const math::Vector3& center_W, double radius_m, std::vector<int>& out) const;
+                   double half_cosine, std::span<const int> among, std::vector<int>& out) const;
+  // Rocks that reach into the sheet of width_m on both sides of a plane.
+  void RocksInSheet(const math::Vector3& p_W, const math::Vector3& normal_W, double width_m,
+                    std::vector<int>& out) const;
+  // Rocks that may come between the sun and a ball: for Light. Of all, or of an earlier result.
+  void RocksBeforeSun(const Ball& ball, std::vector<int>& out) const;
+  void RocksBeforeSun(const Ball& ball, std::span<const int> among, std::vector<int>& out) const;
 
   // What the unit ray from an eye meets first among the ground, the walls and the given rocks, if
   // that is nearer than body_m, where the rover's own part is. Without sunlight.
   SurfacePoint Meet(const math::Vector3& eye_W, const math::Vector3& ray_W, double body_m,
                     std::span<const int> rocks) const;
 
-  // Sets the sunlight that a point sends back, in the shadow of the given rocks, of the ground and
-  // of the rover. Walls cast none: they stand for the bounds of the arena.
+  // Sets the sunlight that a point sends back, in the shadow of the given rocks (RocksBeforeSun),
+  // of the ground and of the rover. Walls cast none: they stand for the bounds of the arena.
   void Light(std::span<const int> shading, SurfacePoint& point) const;
 
-  // Whether the light of an emitter reaches a point: nothing of the terrain or the rover between.
-  bool Reaches(const math::Vector3& emitter_W, const math::Vector3& p_W) const;
+  // Whether the light of an emitter reaches a point: neither the ground, the walls, the given rocks
+  // nor the rover between.
+  bool Reaches(const math::Vector3& emitter_W, const math::Vector3& p_W,
+               std::span<const int> rocks) const;
 
  private:
   bool Sunlit(const SurfacePoint& point, std::span<const int> shading) const;

@@ -51,12 +51,24 @@ RoverBody::RoverBody(const rover::RoverGeometryParams& params) {
   for (const Vector3& wheel_R : rover::MakeRoverGeometry(params).wheel_R) {
     wheels_.push_back({wheel_R, params.wheel_radius_m, 0.5 * params.wheel_width_m});
   }
-  const Vector3 low(-panel.x(), -panel.y(), 0.0);
-  const Vector3 high(panel.x(), panel.y(), params.height_m);
-  center_R_ = 0.5 * (low + high);
-  const double wheels_reach_m =
-      0.5 * params.wheelbase_m + params.wheel_radius_m + 0.5 * params.width_m;
-  radius_m_ = std::max(0.5 * (high - low).norm(), wheels_reach_m + center_R_.z());
+  bounds_ = {boxes_[0].low_R.cwiseMin(boxes_[1].low_R),
+             boxes_[0].high_R.cwiseMax(boxes_[1].high_R)};
+  for (const Wheel& wheel : wheels_) {
+    const Vector3 reach(wheel.radius_m, wheel.half_width_m, wheel.radius_m);
+    bounds_.low_R = bounds_.low_R.cwiseMin(wheel.center_R - reach);
+    bounds_.high_R = bounds_.high_R.cwiseMax(wheel.center_R + reach);
+  }
+  center_R_ = 0.5 * (bounds_.low_R + bounds_.high_R);
+  radius_m_ = 0.5 * (bounds_.high_R - bounds_.low_R).norm();
+}
+
+bool RoverBody::PassesBy(const Vector3& origin_R, const Vector3& direction_R) const {
+  Inside inside;
+  for (int axis = 0; axis < 3; ++axis) {
+    inside.ClipToSlab(axis, origin_R[axis], direction_R[axis], bounds_.low_R[axis],
+                      bounds_.high_R[axis]);
+  }
+  return inside.leave_m < 0.0 || inside.enter_m > inside.leave_m;
 }
 
 RoverBody::Entry RoverBody::Enter(const Box& box, const Vector3& origin_R,
@@ -94,6 +106,7 @@ RoverBody::Entry RoverBody::Enter(const Wheel& wheel, const Vector3& origin_R,
 
 RoverBody::Entry RoverBody::First(const Vector3& origin_R, const Vector3& direction_R) const {
   Entry first;
+  if (PassesBy(origin_R, direction_R)) return first;
   const auto consider = [&first](const Entry& entry) {
     if (entry.distance_m < first.distance_m) first = entry;
   };

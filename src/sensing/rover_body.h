@@ -49,8 +49,10 @@ class RoverBody {
                      const math::Vector3& direction_R);
   static Entry Enter(const Wheel& wheel, const math::Vector3& origin_R,
                      const math::Vector3& direction_R);
+  bool PassesBy(const math::Vector3& origin_R, const math::Vector3& direction_R) const;
   Entry First(const math::Vector3& origin_R, const math::Vector3& direction_R) const;
 
+  Box bounds_;  // around every part
   std::array<Box, 2> boxes_;
   std::vector<Wheel> wheels_;
   math::Vector3 center_R_ = math::Vector3::Zero();

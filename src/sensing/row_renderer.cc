@@ -4,38 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "sensing/stripe_layout_params.h"
-#include "vision/lens.h"
+#include "sensing/radiometry.h"
 
 namespace rockyard::sensing {
 namespace {
 
 using math::Vector3;
-
-// Half of the three scanlines of the thin beam.
-constexpr double kThinHalfRows = 1.5;
-
-// Where an image line meets the stripe of a laser on the datum plane, in R.
-Vector3 StripePoint(const messages::StripeCalibration& calibration,
-                    const messages::StripeLaser& laser, int row_px) {
-  const messages::StripeCamera& camera =
-      calibration.cameras[static_cast<std::size_t>(laser.camera)];
-  const Vector3 along = laser.normal_R.cross(Vector3::UnitZ()).normalized();
-  const Vector3 forward = along.dot(laser.axis_R) < 0.0 ? Vector3(-along) : along;
-  const Vector3 foot(laser.p_RoE_R.x(), laser.p_RoE_R.y(), calibration.datum_z_m);
-  const math::Transform X_CR = camera.X_RC.inverse();
-  double near_m = 0.0;
-  double far_m = ImageScene::kSight_m;
-  // Farther points of the stripe are imaged higher up.
-  constexpr int kHalvings = 50;
-  for (int i = 0; i < kHalvings; ++i) {
-    const double middle_m = 0.5 * (near_m + far_m);
-    const auto pixel = vision::Project(camera, X_CR * (foot + middle_m * forward));
-    const bool is_below = !pixel || pixel->row_px > row_px;
-    (is_below ? near_m : far_m) = middle_m;
-  }
-  return foot + 0.5 * (near_m + far_m) * forward;
-}
 
 // Whether a surface goes on from one edge of a pixel to the other: the same one, and the chord
 // between them nearly in its tangent plane.
@@ -51,107 +25,110 @@ bool IsOneSurface(const SurfacePoint& a, const SurfacePoint& b) {
 }  // namespace
 
 struct RowRenderer::Job {
-  const ImageScene& scene;
+  const LitScene& lit;
   Vector3 eye_W;
-  std::array<Vector3, messages::kMaxStripes> emitter_W;
-  std::array<Vector3, messages::kMaxStripes> normal_W;
-  RockLists rocks;
+  std::vector<SurfacePoint> points;    // by edge
+  std::vector<std::vector<int>> seen;  // rocks in view, by segment of the line
 };
 
 RowRenderer::RowRenderer(const LightStripeParams& params,
                          const messages::StripeCalibration& calibration)
     : beam_(params.laser.profile, params.laser.beam_width_rad),
-      fan_power_w_rad_(FanPower(params)),
       electrons_per_radiance_(ElectronsPerRadiance(params)) {
-  for (std::size_t i = 0; i < calibration.lasers.size(); ++i) {
-    emitters_.push_back(MakeEmitter(params, calibration, i));
+  for (const messages::StripeLaser& laser : calibration.lasers) {
+    fans_.emplace_back(params, calibration, laser);
   }
 }
 
-RowRenderer::Emitter RowRenderer::MakeEmitter(const LightStripeParams& params,
-                                              const messages::StripeCalibration& calibration,
-                                              std::size_t laser_index) {
-  const messages::StripeLaser& laser = calibration.lasers[laser_index];
-  Emitter emitter{laser.p_RoE_R, laser.normal_R, {}, 1.0};
-  if (params.laser.fan == BeamFan::kFull) {
-    emitter.axes_R.push_back(laser.axis_R);
-    emitter.half_fan_cosine = std::cos(laser.half_fan_rad);
-    return emitter;
+LitScene RowRenderer::Prepare(const ImageScene& scene) const {
+  LitScene lit{scene, {}};
+  for (const LaserFan& fan : fans_) lit.fans.emplace_back(fan, scene, beam_.reach_rad());
+  return lit;
+}
+
+void RowRenderer::CastRays(const ViewRow& view, Job& job) {
+  const ImageScene& scene = job.lit.scene;
+  const auto R_WR = scene.X_WR().linear();
+  std::vector<int> in_row;
+  scene.RocksNearPlane(job.eye_W, R_WR * view.plane_R, view.plane_sine, in_row);
+  job.points.reserve(view.edge_R.size());
+  job.seen.resize(view.segments.size());
+  for (std::size_t s = 0; s < view.segments.size(); ++s) {
+    const ViewRow::Segment& segment = view.segments[s];
+    scene.RocksInCone(job.eye_W, R_WR * segment.axis_R, segment.half_sine, segment.half_cosine,
+                      in_row, job.seen[s]);
+    const bool is_last = s + 1 == view.segments.size();
+    const int end = is_last ? segment.last_edge + 1 : segment.last_edge;
+    for (int edge = segment.first_edge; edge < end; ++edge) {
+      const auto e = static_cast<std::size_t>(edge);
+      job.points.push_back(
+          scene.Meet(job.eye_W, R_WR * view.edge_R[e], view.body_m[e], job.seen[s]));
+    }
   }
-  for (const int row_px : calibration.scanline_px) {
-    const Vector3 point_R = StripePoint(calibration, laser, row_px);
-    emitter.axes_R.push_back((point_R - laser.p_RoE_R).normalized());
+}
+
+void RowRenderer::LightPoints(const ViewRow& view, Job& job) {
+  const ImageScene& scene = job.lit.scene;
+  const auto ball_of = [&job](int first_edge, int last_edge) {
+    Eigen::AlignedBox3d box;
+    for (int edge = first_edge; edge <= last_edge; ++edge) {
+      const SurfacePoint& point = job.points[static_cast<std::size_t>(edge)];
+      if (point.surface != SurfacePoint::kSky) box.extend(point.p_W);
+    }
+    if (box.isEmpty()) return Ball{};
+    return Ball{box.center(), 0.5 * box.diagonal().norm()};
+  };
+  std::vector<int> of_row;
+  std::vector<int> of_segment;
+  scene.RocksBeforeSun(ball_of(0, view.columns()), of_row);
+  for (const ViewRow::Segment& segment : view.segments) {
+    const Ball ball = ball_of(segment.first_edge, segment.last_edge);
+    scene.RocksBeforeSun(ball, of_row, of_segment);
+    for (int edge = segment.first_edge; edge <= segment.last_edge; ++edge) {
+      scene.Light(of_segment, job.points[static_cast<std::size_t>(edge)]);
+    }
   }
-  emitter.half_fan_cosine = std::cos(kThinHalfRows * params.row_pitch_rad());
-  return emitter;
 }
 
-bool RowRenderer::InFan(const Emitter& emitter, const Vector3& away_R) {
-  const Vector3 in_plane = away_R - emitter.normal_R.dot(away_R) * emitter.normal_R;
-  const double least = emitter.half_fan_cosine * in_plane.norm();
-  return std::any_of(emitter.axes_R.begin(), emitter.axes_R.end(),
-                     [&](const Vector3& axis) { return axis.dot(in_plane) >= least; });
-}
-
-double RowRenderer::OutOfPlane(const Job& job, std::size_t laser, const Vector3& p_W) const {
-  const Vector3 away_W = p_W - job.emitter_W[laser];
-  return std::asin(std::clamp(job.normal_W[laser].dot(away_W) / away_W.norm(), -1.0, 1.0));
-}
-
-// P / (F r^2) cos(i), W/(m2 rad), of a point; 0 where no light of the laser arrives.
-double RowRenderer::PeakIrradiance(const Job& job, std::size_t laser,
-                                   const SurfacePoint& point) const {
-  const Vector3 away_W = point.p_W - job.emitter_W[laser];
-  const double range2_m2 = away_W.squaredNorm();
-  const double cosine = -point.normal_W.dot(away_W) / std::sqrt(range2_m2);
-  if (cosine <= 0.0) return 0.0;
-  const Vector3 away_R = job.scene.X_WR().linear().transpose() * away_W;
-  if (!InFan(emitters_[laser], away_R)) return 0.0;
-  if (!job.scene.Reaches(job.emitter_W[laser], point.p_W)) return 0.0;
-  return fan_power_w_rad_ * cosine / range2_m2;
-}
-
-void RowRenderer::AddLasers(const Job& job, const SurfacePoint& left, const SurfacePoint& right,
-                            int pixel, double gain, RenderedRow& row) const {
+void RowRenderer::AddLasers(const LitScene& lit, const SurfacePoint& left,
+                            const SurfacePoint& right, int pixel, double gain,
+                            RenderedRow& row) const {
   if (!left.TakesLaserLight() && !right.TakesLaserLight()) return;
-  const bool one_surface = IsOneSurface(left, right);
   const double reach_rad = beam_.reach_rad();
-  for (std::size_t laser = 0; laser < emitters_.size(); ++laser) {
-    const auto side = [&](const SurfacePoint& point) {
-      return job.normal_W[laser].dot(point.p_W - job.emitter_W[laser]);
-    };
-    // Farther from the plane than the beam is wide anywhere near: the common case.
-    const double farthest_m = reach_rad * ImageScene::kSight_m;
-    const double a_m = side(left);
-    const double b_m = side(right);
-    if (std::min(a_m, b_m) > farthest_m || std::max(a_m, b_m) < -farthest_m) continue;
-    const double a_rad = OutOfPlane(job, laser, left.p_W);
-    const double b_rad = OutOfPlane(job, laser, right.p_W);
+  for (std::size_t laser = 0; laser < lit.fans.size(); ++laser) {
+    const LitFan& fan = lit.fans[laser];
+    if (fan.PassesBy(left.p_W, right.p_W)) continue;
+    const double a_rad = fan.OutOfPlane(left.p_W);
+    const double b_rad = fan.OutOfPlane(right.p_W);
     if (std::min(a_rad, b_rad) > reach_rad || std::max(a_rad, b_rad) < -reach_rad) continue;
 
-    const auto lit = [&](const SurfacePoint& point, double density) {
-      if (density == 0.0 || !point.TakesLaserLight()) return 0.0;
-      return point.albedo * density * PeakIrradiance(job, laser, point);
-    };
+    const bool one_surface = IsOneSurface(left, right);
     const double mean = one_surface ? beam_.Mean(a_rad, b_rad) : 0.0;
-    const double sum = lit(left, one_surface ? mean : beam_.Density(a_rad)) +
-                       lit(right, one_surface ? mean : beam_.Density(b_rad));
-    if (sum == 0.0) continue;
-    row.lasers.push_back({pixel, static_cast<int>(laser), 0.5 * gain * sum * std::numbers::inv_pi});
+    const auto radiance = [&](const SurfacePoint& point, double angle_rad) {
+      const double density = one_surface ? mean : beam_.Density(angle_rad);
+      if (density == 0.0 || !point.TakesLaserLight()) return 0.0;
+      return point.albedo * std::numbers::inv_pi * density * fan.Irradiance(point);
+    };
+    const double sum = radiance(left, a_rad) + radiance(right, b_rad);
+    if (sum > 0.0) row.lasers.push_back({pixel, static_cast<int>(laser), 0.5 * gain * sum});
   }
 }
 
-void RowRenderer::SplitPixel(const Job& job, const ViewRow& view, int pixel,
-                             RenderedRow& row) const {
+void RowRenderer::SplitPixel(const Job& job, const ViewRow& view, std::span<const int> seen,
+                             int pixel, RenderedRow& row) const {
   const auto edge = static_cast<std::size_t>(pixel);
+  const ImageScene& scene = job.lit.scene;
+  const double body_m = std::min(view.body_m[edge], view.body_m[edge + 1]);
+  std::vector<int> shading;
   const auto point_at = [&](int part) {
+    if (part == 0) return job.points[edge];
+    if (part == kParts) return job.points[edge + 1];
     const double share = static_cast<double>(part) / kParts;
-    const Vector3 ray_R =
-        ((1.0 - share) * view.edge_R[edge] + share * view.edge_R[edge + 1]).normalized();
-    const double body_m = std::min(view.body_m[edge], view.body_m[edge + 1]);
-    SurfacePoint point =
-        job.scene.Meet(job.eye_W, job.scene.X_WR().linear() * ray_R, body_m, job.rocks.seen);
-    job.scene.Light(job.rocks.shading, point);
+    const Vector3 ray_R = (1.0 - share) * view.edge_R[edge] + share * view.edge_R[edge + 1];
+    const Vector3 ray_W = scene.X_WR().linear() * ray_R.normalized();
+    SurfacePoint point = scene.Meet(job.eye_W, ray_W, body_m, seen);
+    scene.RocksBeforeSun({point.p_W, 0.0}, shading);
+    scene.Light(shading, point);
     return point;
   };
   const double gain = view.gain[edge] * electrons_per_radiance_ / kParts;
@@ -160,49 +137,33 @@ void RowRenderer::SplitPixel(const Job& job, const ViewRow& view, int pixel,
   for (int part = 1; part <= kParts; ++part) {
     const SurfacePoint right = point_at(part);
     radiance += 0.5 * (left.radiance_w_m2_sr + right.radiance_w_m2_sr);
-    AddLasers(job, left, right, pixel, gain, row);
+    AddLasers(job.lit, left, right, pixel, gain, row);
     left = right;
   }
   row.sun_e_s[edge] = gain * radiance;
 }
 
-RenderedRow RowRenderer::Render(const ImageScene& scene, const Vector3& eye_R,
+RenderedRow RowRenderer::Render(const LitScene& lit, const Vector3& eye_R,
                                 const ViewRow& view) const {
-  Job job{scene, scene.X_WR() * eye_R, {}, {}, {}};
-  for (std::size_t i = 0; i < emitters_.size(); ++i) {
-    job.emitter_W[i] = scene.X_WR() * emitters_[i].p_RoE_R;
-    job.normal_W[i] = scene.X_WR().linear() * emitters_[i].normal_R;
-  }
+  Job job{lit, lit.scene.X_WR() * eye_R, {}, {}};
+  CastRays(view, job);
+  LightPoints(view, job);
   RenderedRow row;
   row.row = view.row;
   row.sun_e_s.resize(view.gain.size());
-  std::vector<SurfacePoint> points;
-  for (const ViewRow::Segment& segment : view.segments) {
-    scene.RocksInCone(job.eye_W, scene.X_WR().linear() * segment.axis_R, segment.half_sine,
-                      segment.half_cosine, job.rocks.seen);
-    points.clear();
-    Eigen::AlignedBox3d bounds;
-    for (int edge = segment.first_edge; edge <= segment.last_edge; ++edge) {
-      const auto e = static_cast<std::size_t>(edge);
-      const Vector3 ray_W = scene.X_WR().linear() * view.edge_R[e];
-      points.push_back(scene.Meet(job.eye_W, ray_W, view.body_m[e], job.rocks.seen));
-      if (points.back().surface != SurfacePoint::kSky) bounds.extend(points.back().p_W);
-    }
-    if (!bounds.isEmpty()) {
-      scene.RocksBeforeSun(bounds.center(), 0.5 * bounds.diagonal().norm(), job.rocks.shading);
-    }
-    for (SurfacePoint& point : points) scene.Light(job.rocks.shading, point);
+  for (std::size_t s = 0; s < view.segments.size(); ++s) {
+    const ViewRow::Segment& segment = view.segments[s];
     for (int pixel = segment.first_edge; pixel < segment.last_edge; ++pixel) {
       const auto e = static_cast<std::size_t>(pixel);
-      const SurfacePoint& left = points[static_cast<std::size_t>(pixel - segment.first_edge)];
-      const SurfacePoint& right = points[static_cast<std::size_t>(pixel - segment.first_edge) + 1];
+      const SurfacePoint& left = job.points[e];
+      const SurfacePoint& right = job.points[e + 1];
       if (!IsOneSurface(left, right)) {
-        SplitPixel(job, view, pixel, row);
+        SplitPixel(job, view, job.seen[s], pixel, row);
         continue;
       }
       const double gain = view.gain[e] * electrons_per_radiance_;
       row.sun_e_s[e] = 0.5 * gain * (left.radiance_w_m2_sr + right.radiance_w_m2_sr);
-      AddLasers(job, left, right, pixel, gain, row);
+      AddLasers(lit, left, right, pixel, gain, row);
     }
   }
   return row;

@@ -54,17 +54,18 @@ StripeImager::View StripeImager::MakeView(int camera, int first_row, int last_ro
   return view;
 }
 
-ImageScene StripeImager::MakeScene(const terrain::Terrain& terrain,
-                                   const math::Transform& X_WR) const {
-  return {terrain, X_WR, light_, sun_, body_};
+math::Vector3 StripeImager::EyeOf(int camera) const {
+  return calibration_.cameras[static_cast<std::size_t>(camera)].X_RC.translation();
 }
 
-StripeImager::Light StripeImager::Render(const ImageScene& scene, int camera,
-                                         const View& view) const {
-  const math::Vector3 eye_R =
-      calibration_.cameras[static_cast<std::size_t>(camera)].X_RC.translation();
+StripeImager::Light StripeImager::Render(const LitScene& lit, int camera, const View& view,
+                                         core::TrialKey key) const {
   Light light;
-  for (const ViewRow& row : view) light.push_back(renderer_.Render(scene, eye_R, row));
+  for (const ViewRow& row : view) {
+    light.rows.push_back(renderer_.Render(lit, EyeOf(camera), row));
+    light.patterns.push_back(
+        readout_.Pattern(camera, row.row, row.first_column, row.columns(), key));
+  }
   return light;
 }
 
@@ -72,13 +73,14 @@ messages::ImageBand StripeImager::Read(const Light& light, double exposure_s, co
                                        const ImageName& name) const {
   const messages::StripeCamera& eye = calibration_.cameras[static_cast<std::size_t>(name.camera)];
   messages::ImageBand band;
-  band.first_row = light.empty() ? 0 : light.front().row;
+  band.first_row = light.rows.front().row;
   band.first_column = FirstColumn(eye);
-  band.rows = static_cast<int>(light.size());
+  band.rows = static_cast<int>(light.rows.size());
   band.columns = eye.columns;
-  band.counts.reserve(light.size() * static_cast<std::size_t>(eye.columns));
-  for (const RenderedRow& row : light) {
-    readout_.Read(row, band.first_column, exposure_s, key, name, group_of_, band.counts);
+  band.counts.reserve(light.rows.size() * static_cast<std::size_t>(eye.columns));
+  for (std::size_t i = 0; i < light.rows.size(); ++i) {
+    readout_.Read(light.rows[i], light.patterns[i], band.first_column, exposure_s, key, name,
+                  group_of_, band.counts);
   }
   return band;
 }
@@ -105,14 +107,15 @@ messages::StripeImages StripeImager::Expose(const terrain::Terrain& terrain,
                                             const math::Transform& X_WR, core::TrialKey key,
                                             std::int64_t scan_number) const {
   EXPECT(scan_number >= 0);
-  const ImageScene scene = MakeScene(terrain, X_WR);
+  const ImageScene scene(terrain, X_WR, light_, sun_, body_);
+  const LitScene lit = renderer_.Prepare(scene);
   std::array<std::vector<Light>, 2> bands;
   std::vector<double> metered_e_s;
   for (int camera = 0; camera < 2; ++camera) {
     const auto c = static_cast<std::size_t>(camera);
     for (const View& view : views_[c]) {
-      bands[c].push_back(Render(scene, camera, view));
-      Meter(bands[c].back()[view.size() / 2], metered_e_s);
+      bands[c].push_back(Render(lit, camera, view, key));
+      Meter(bands[c].back().rows[view.size() / 2], metered_e_s);
     }
   }
   messages::StripeImages images;
@@ -135,17 +138,17 @@ messages::StripeExposure StripeImager::FullFrame(const terrain::Terrain& terrain
                                                  std::int64_t scan_number, int camera,
                                                  int group) const {
   EXPECT(camera == 0 || camera == 1);
-  const ImageScene scene = MakeScene(terrain, X_WR);
+  const ImageScene scene(terrain, X_WR, light_, sun_, body_);
+  const LitScene lit = renderer_.Prepare(scene);
   std::vector<double> metered_e_s;
   for (int i = 0; i < 2; ++i) {
     for (const View& view : views_[static_cast<std::size_t>(i)]) {
-      const View middle{view[view.size() / 2]};
-      Meter(Render(scene, i, middle).front(), metered_e_s);
+      Meter(renderer_.Render(lit, EyeOf(i), view[view.size() / 2]), metered_e_s);
     }
   }
   const double exposure_s = ExposureTime(params_.imager, std::move(metered_e_s));
   const messages::StripeCamera& eye = calibration_.cameras[static_cast<std::size_t>(camera)];
-  const Light frame = Render(scene, camera, MakeView(camera, FirstRow(eye), LastRow(eye)));
+  const Light frame = Render(lit, camera, MakeView(camera, FirstRow(eye), LastRow(eye)), key);
   return ReadPair({&frame, 1}, exposure_s, key, {scan_number, camera, group, false});
 }
 

@@ -59,11 +59,14 @@ class StripeImager {
  private:
   // Consecutive image lines of one camera: how it sees them, and the light on them.
   using View = std::vector<ViewRow>;
-  using Light = std::vector<RenderedRow>;
+  struct Light {
+    std::vector<RenderedRow> rows;
+    std::vector<PixelPattern> patterns;
+  };
 
   View MakeView(int camera, int first_row, int last_row) const;
-  ImageScene MakeScene(const terrain::Terrain& terrain, const math::Transform& X_WR) const;
-  Light Render(const ImageScene& scene, int camera, const View& view) const;
+  math::Vector3 EyeOf(int camera) const;
+  Light Render(const LitScene& lit, int camera, const View& view, core::TrialKey key) const;
   messages::ImageBand Read(const Light& light, double exposure_s, core::TrialKey key,
                            const ImageName& name) const;
   messages::StripeExposure ReadPair(std::span<const Light> bands, double exposure_s,

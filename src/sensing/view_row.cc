@@ -23,6 +23,15 @@ ViewRow::Segment MakeSegment(const ViewRow& view, int first_edge, int last_edge)
   return segment;
 }
 
+// The plane through the first and the last ray; any plane where they are one line.
+void SetPlane(ViewRow& view) {
+  view.plane_R = view.edge_R.front().cross(view.edge_R.back()).normalized();
+  view.plane_sine = 0.0;
+  for (const math::Vector3& ray_R : view.edge_R) {
+    view.plane_sine = std::max(view.plane_sine, std::abs(view.plane_R.dot(ray_R)));
+  }
+}
+
 }  // namespace
 
 ViewRow MakeViewRow(const messages::StripeCamera& camera, const RoverBody& body, int row,
@@ -37,6 +46,7 @@ ViewRow MakeViewRow(const messages::StripeCamera& camera, const RoverBody& body,
     view.edge_R.emplace_back(camera.X_RC.linear() * ray_C);
     view.body_m.push_back(body.Distance(eye_R, view.edge_R.back()));
   }
+  SetPlane(view);
   for (int pixel = 0; pixel < columns; ++pixel) {
     view.gain.push_back(RelativeIllumination(camera, first_column + pixel, row));
   }

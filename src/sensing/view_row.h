@@ -23,6 +23,9 @@ struct ViewRow {
 
   int row = 0;
   int first_column = 0;
+  // Every ray lies this near to the plane through the eye: |plane_R . ray| <= plane_sine.
+  math::Vector3 plane_R = math::Vector3::UnitZ();
+  double plane_sine = 1.0;
   std::vector<math::Vector3> edge_R;  // columns + 1, unit; edge i lies left of pixel i
   std::vector<double> gain;           // per pixel: relative illumination
   std::vector<double> body_m;         // per edge: distance to the rover's own parts

@@ -115,7 +115,7 @@ TEST(ImageScene, ShadowOfABallIsAnEllipse) {
       const Vector3 eye = ground + Vector3(0.0, 0.0, 0.02);
       if ((eye - ball).norm() <= kRadius) continue;  // under the ball
       SurfacePoint point = scene.Meet(eye, -Vector3::UnitZ(), RoverBody::kFree, {});
-      scene.RocksBeforeSun(point.p_W, 0.001, shading);
+      scene.RocksBeforeSun({point.p_W, 0.0}, shading);
       scene.Light(shading, point);
       EXPECT_NEAR(point.radiance_w_m2_sr, scale < 1.0 ? shaded : bright, 1e-12) << i;
     }

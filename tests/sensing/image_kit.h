@@ -50,7 +50,8 @@ struct LineView {
     const SunLight light = MakeSunLight(sun, params.imager.filter_width_m);
     const ImageScene scene(terrain, X_WR, light, sun, body);
     const RowRenderer renderer(params, calibration);
-    return renderer.Render(scene, Camera(camera).X_RC.translation(), View(camera, row));
+    return renderer.Render(renderer.Prepare(scene), Camera(camera).X_RC.translation(),
+                           View(camera, row));
   }
 };
 

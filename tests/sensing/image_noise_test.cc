@@ -80,6 +80,15 @@ RenderedRow EvenRow(double rate_e_s, int columns) {
   return row;
 }
 
+void ReadRow(const ImageReadout& readout, const RenderedRow& row, double exposure_s,
+             core::TrialKey key, const ImageName& name, const std::vector<int>& group_of,
+             std::vector<std::uint16_t>& counts) {
+  constexpr int kFirst = -384;
+  const auto columns = static_cast<int>(row.sun_e_s.size());
+  const PixelPattern pattern = readout.Pattern(name.camera, row.row, kFirst, columns, key);
+  readout.Read(row, pattern, kFirst, exposure_s, key, name, group_of, counts);
+}
+
 struct Counts {
   double mean = 0.0;
   double sum_of_squares = 0.0;  // about the mean
@@ -90,7 +99,7 @@ Counts ReadEven(const ImagerParams& imager, double rate_e_s, double exposure_s, 
   const ImageReadout readout(imager, 0.0);
   std::vector<std::uint16_t> counts;
   for (int image = 0; image < images; ++image) {
-    readout.Read(EvenRow(rate_e_s, 768), -384, exposure_s, kKey, {image, 0, 0, false}, {}, counts);
+    ReadRow(readout, EvenRow(rate_e_s, 768), exposure_s, kKey, {image, 0, 0, false}, {}, counts);
   }
   Counts result;
   result.size = static_cast<double>(counts.size());
@@ -134,8 +143,8 @@ TEST(ImageReadout, PatternIsFixedForTheTrial) {
     std::vector<double> mean(kColumns);
     for (int image = 0; image < kImages; ++image) {
       std::vector<std::uint16_t> counts;
-      readout.Read(EvenRow(kElectrons, kColumns), -384, 1.0, key, {image, camera, 0, false}, {},
-                   counts);
+      ReadRow(readout, EvenRow(kElectrons, kColumns), 1.0, key, {image, camera, 0, false}, {},
+              counts);
       for (std::size_t i = 0; i < counts.size(); ++i) {
         mean[i] += counts[i] * readout.electrons_per_count() / kImages;
       }
@@ -167,7 +176,7 @@ TEST(ImageReadout, ImagesAreIndependent) {
   constexpr int kColumns = 768;
   const auto departures = [&](const ImageName& name) {
     std::vector<std::uint16_t> counts;
-    readout.Read(EvenRow(20000.0, kColumns), -384, 1.0, kKey, name, std::vector<int>{0}, counts);
+    ReadRow(readout, EvenRow(20000.0, kColumns), 1.0, kKey, name, std::vector<int>{0}, counts);
     std::vector<double> z;
     for (const double count : counts) {
       z.push_back(((count - 0.02 * 65535.0) * readout.electrons_per_count() - 20000.0) /
@@ -198,7 +207,7 @@ TEST(ImageReadout, LaserLightHasSpeckle) {
     for (int i = 0; i < 768; ++i) row.lasers.push_back({i, 0, 10000.0});
     std::vector<std::uint16_t> counts;
     for (int image = 0; image < 20; ++image) {
-      readout.Read(row, -384, 1.0, kKey, {image, 0, 0, lit}, std::vector<int>{0}, counts);
+      ReadRow(readout, row, 1.0, kKey, {image, 0, 0, lit}, std::vector<int>{0}, counts);
     }
     double sum = 0.0;
     for (const double count : counts) {

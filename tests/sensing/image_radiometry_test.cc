@@ -147,13 +147,14 @@ TEST(Radiometry, WholeImageHoldsTheWholePower) {
   const SunLight light = MakeSunLight(line.sun, line.params.imager.filter_width_m);
   const terrain::Terrain terrain = FlatWith({});
   const ImageScene scene(terrain, PoseAt(0, 0, 0), light, line.sun, line.body);
+  const LitScene lit = renderer.Prepare(scene);
   double power_w = 0.0;
   // These lines see the ground and neither the rover nor the end of the fan.
   constexpr int kFirst = -120;
   constexpr int kLast = 150;
   for (int row_px = kFirst; row_px <= kLast; ++row_px) {
     const ViewRow view = line.View(fan.camera, row_px);
-    const auto rates = LaserRates(renderer.Render(scene, eye, view), kLaser);
+    const auto rates = LaserRates(renderer.Render(lit, eye, view), kLaser);
     for (std::size_t i = 0; i < rates.size(); ++i) {
       if (rates[i] == 0.0) continue;
       const double column = view.first_column + static_cast<double>(i);
@@ -171,12 +172,12 @@ TEST(Radiometry, WholeImageHoldsTheWholePower) {
   const auto depression = [&](double row_px) {
     return line.params.camera_pitch_rad + row_px * camera.row_pitch_rad;
   };
-  const double lit = depression(kLast + 0.5) - depression(kFirst - 0.5);
+  const double lit_rad = depression(kLast + 0.5) - depression(kFirst - 0.5);
   ASSERT_LT(std::abs(depression(kLast + 0.5) + std::asin(fan.axis_R.z())), fan.half_fan_rad);
   ASSERT_LT(std::abs(depression(kFirst - 0.5) + std::asin(fan.axis_R.z())), fan.half_fan_rad);
   const LaserParams& laser = line.params.laser;
   const double expected_w =
-      laser.input_power_w * laser.optical_efficiency * lit / line.params.fan_rad;
+      laser.input_power_w * laser.optical_efficiency * lit_rad / line.params.fan_rad;
   EXPECT_NEAR(power_w / expected_w, 1.0, 0.002);
 }
 

@@ -1,0 +1,87 @@
+#include "sensing/laser_fan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sensing/radiometry.h"
+#include "vision/lens.h"
+
+namespace rockyard::sensing {
+namespace {
+
+using math::Vector3;
+
+// Half of the three scanlines of a thin beam.
+constexpr double kThinHalfRows = 1.5;
+
+// Where an image line meets the stripe of a laser on the datum plane, in R.
+Vector3 StripePoint(const messages::StripeCalibration& calibration,
+                    const messages::StripeLaser& laser, int row_px) {
+  const messages::StripeCamera& camera =
+      calibration.cameras[static_cast<std::size_t>(laser.camera)];
+  const Vector3 along = laser.normal_R.cross(Vector3::UnitZ()).normalized();
+  const Vector3 forward = along.dot(laser.axis_R) < 0.0 ? Vector3(-along) : along;
+  const Vector3 foot(laser.p_RoE_R.x(), laser.p_RoE_R.y(), calibration.datum_z_m);
+  const math::Transform X_CR = camera.X_RC.inverse();
+  double near_m = 0.0;
+  double far_m = ImageScene::kSight_m;
+  // Farther points of the stripe are imaged higher up.
+  constexpr int kHalvings = 50;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle_m = 0.5 * (near_m + far_m);
+    const auto pixel = vision::Project(camera, X_CR * (foot + middle_m * forward));
+    const bool is_below = !pixel || pixel->row_px > row_px;
+    (is_below ? near_m : far_m) = middle_m;
+  }
+  return foot + 0.5 * (near_m + far_m) * forward;
+}
+
+}  // namespace
+
+LaserFan::LaserFan(const LightStripeParams& params, const messages::StripeCalibration& calibration,
+                   const messages::StripeLaser& laser)
+    : p_RoE_R_(laser.p_RoE_R), normal_R_(laser.normal_R), power_w_rad_(FanPower(params)) {
+  if (params.laser.fan == BeamFan::kFull) {
+    axes_R_.push_back(laser.axis_R);
+    half_fan_cosine_ = std::cos(laser.half_fan_rad);
+    return;
+  }
+  for (const int row_px : calibration.scanline_px) {
+    axes_R_.emplace_back((StripePoint(calibration, laser, row_px) - p_RoE_R_).normalized());
+  }
+  half_fan_cosine_ = std::cos(kThinHalfRows * params.row_pitch_rad());
+}
+
+bool LaserFan::Lights(const Vector3& away_R) const {
+  const Vector3 in_plane = away_R - normal_R_.dot(away_R) * normal_R_;
+  const double least = half_fan_cosine_ * in_plane.norm();
+  return std::any_of(axes_R_.begin(), axes_R_.end(),
+                     [&](const Vector3& axis) { return axis.dot(in_plane) >= least; });
+}
+
+LitFan::LitFan(const LaserFan& fan, const ImageScene& scene, double reach_rad)
+    : fan_(&fan),
+      scene_(&scene),
+      p_WoE_W_(scene.X_WR() * fan.p_RoE_R()),
+      normal_W_(scene.X_WR().linear() * fan.normal_R()),
+      offset_m_(normal_W_.dot(p_WoE_W_)),
+      width_m_(reach_rad * ImageScene::kSight_m) {
+  scene.RocksInSheet(p_WoE_W_, normal_W_, width_m_, rocks_);
+}
+
+double LitFan::OutOfPlane(const Vector3& p_W) const {
+  const Vector3 away_W = p_W - p_WoE_W_;
+  return std::asin(std::clamp(normal_W_.dot(away_W) / away_W.norm(), -1.0, 1.0));
+}
+
+double LitFan::Irradiance(const SurfacePoint& point) const {
+  const Vector3 away_W = point.p_W - p_WoE_W_;
+  const double range2_m2 = away_W.squaredNorm();
+  const double cosine = -point.normal_W.dot(away_W) / std::sqrt(range2_m2);
+  if (cosine <= 0.0) return 0.0;
+  if (!fan_->Lights(scene_->X_WR().linear().transpose() * away_W)) return 0.0;
+  if (!scene_->Reaches(p_WoE_W_, point.p_W, rocks_)) return 0.0;
+  return fan_->power_w_rad() * cosine / range2_m2;
+}
+
+}  // namespace rockyard::sensing
