@@ -276,6 +276,13 @@ void RequireVisibility(LightStripeParams& p, core::FieldVisitor& v) {
             "use a wider fan or bring the rows closer together");
   v.Require("max_range_m", !laid_out || PointsAreInRange(p),
             "is shorter than the distance to a point on flat ground", "use a larger max_range_m");
+  v.Require("camera_separation_m", !laid_out || BaselinesAreLong(p),
+            "leaves a camera within 1 cm of the light plane of a stripe that it measures (baseline "
+            "zero): the stripe would not move with elevation",
+            "mount cameras and emitters 5 to 10 cm apart");
+  v.Require("fidelity", p.fidelity == Fidelity::kGeometric || !laid_out || BandsFitTheImage(p),
+            "needs imager.averaging_rows around every scanline, which leave the image",
+            "tilt the cameras towards the rows, or average and read fewer lines");
 }
 
 }  // namespace

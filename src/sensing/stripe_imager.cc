@@ -51,6 +51,7 @@ StripeImager::View StripeImager::MakeView(int camera, int first_row, int last_ro
   for (int row = std::max(first_row, FirstRow(eye)); row <= last; ++row) {
     view.push_back(MakeViewRow(eye, body_, row, FirstColumn(eye), eye.columns));
   }
+  ENSURE(!view.empty());
   return view;
 }
 

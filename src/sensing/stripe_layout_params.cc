@@ -161,6 +161,25 @@ bool PointsAreInRange(const LightStripeParams& p) {
   });
 }
 
+bool BandsFitTheImage(const LightStripeParams& p) {
+  const auto around = p.imager.averaging_rows / 2 + p.imager.margin_rows;
+  for (std::size_t row = 0; row < ArraySize(p).rows; ++row) {
+    const std::int64_t middle = std::lround(RowPixel(p, row));
+    if (middle - around < -p.rows / 2 || middle + around >= p.rows - p.rows / 2) return false;
+  }
+  return true;
+}
+
+bool BaselinesAreLong(const LightStripeParams& p) {
+  constexpr double kShortest_m = 0.01;
+  for (std::size_t stripe = 0; stripe < ArraySize(p).stripes; ++stripe) {
+    const messages::StripeLaser laser = LaserOf(p, stripe);
+    const Vector3 camera = CameraPosition(p, laser.camera);
+    if (std::abs(laser.normal_R.dot(camera - laser.p_RoE_R)) < kShortest_m) return false;
+  }
+  return true;
+}
+
 messages::StripeCalibration TrueCalibration(const LightStripeParams& params) {
   messages::StripeCalibration calibration;
   for (int i = 0; i < 2; ++i) {

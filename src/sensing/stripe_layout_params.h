@@ -26,4 +26,11 @@ bool ColumnsFitTheImage(const LightStripeParams& params);
 bool PointsFitTheFans(const LightStripeParams& params);
 bool PointsAreInRange(const LightStripeParams& params);
 
+// Whether the image lines that are averaged around each scanline lie in the image too.
+bool BandsFitTheImage(const LightStripeParams& params);
+
+// Whether no camera lies in (1 cm from) the light plane of a stripe that it measures: there the
+// stripe would not move with elevation.
+bool BaselinesAreLong(const LightStripeParams& params);
+
 }  // namespace rockyard::sensing

@@ -212,6 +212,12 @@ TEST(ImageParams, BadDescriptionsAreRefused) {
   ExpectRefused(R"({"imager": {"ccd": {"adc_bits": 0}}})", "ccd.adc_bits");
   ExpectRefused(R"({"imager": {"cmos": {"read_noise_e": -1}}})", "cmos.read_noise_e");
   ExpectRefused(R"({"imager": {"exposure": {"longest_s": 1e-5}}})", "exposure.longest_s");
+  ExpectRefused(R"({"camera_separation_m": 0.011})", "camera_separation_m");
+  // The geometric sensor reads no lines.
+  ExpectRefused(R"({"fidelity": "image", "imager": {"margin_rows": 200}})", "fidelity");
+  LightStripeParams geometric;
+  core::ReadParams(core::ParseJson(R"({"imager": {"margin_rows": 200}})", "test"), geometric);
+  EXPECT_EQ(geometric.imager.margin_rows, 200);
   SunParams sun;
   EXPECT_THROW(core::ReadParams(core::ParseJson(R"({"elevation_deg": 95})", "test"), sun),
                core::UserError);
