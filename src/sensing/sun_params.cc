@@ -46,7 +46,7 @@ void SunParams::Visit(core::FieldVisitor& v) {
        .min = 0.0,
        .max = 100.0,
        .origin = Origin::kPublished,
-       .source = "ASTM E490 AM0 spectrum, rounded (a black body of 5772 K has 1.03)"});
+       .source = "ASTM G173-03, extraterrestrial: mean over 850 to 870 nm"});
   v.Real("distance_au", distance_au,
          {.doc = "from the sun; irradiance falls with its square",
           .min = 0.1,

@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
 
 #include "core/archive.h"
+#include "core/distributions.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/json_text.h"
@@ -185,6 +187,41 @@ TEST(StripeImager, FarRocksChangeNothing) {
   };
   EXPECT_EQ(hash({EllipsoidRock(-3.0, 0.0, 0.0, 0.2, 0.2, 0.2)}), hash({}));
   EXPECT_NE(hash({EllipsoidRock(0.55, -0.1, 0.0, 0.05, 0.05, 0.05)}), hash({}));
+}
+
+// Whatever the pose: tilted, buried, in a rock, before a wall.
+TEST(RowRenderer, LightIsFiniteInAnyPose) {
+  core::RandomStream stream({4, 0}, core::Purpose::kTest);
+  std::vector<terrain::Rock> rocks;
+  for (int i = 0; i < 40; ++i) {
+    const double radius = core::SampleUniform(stream, 0.02, 0.4);
+    const double x = core::SampleUniform(stream, -2.0, 2.0);
+    const double y = core::SampleUniform(stream, -2.0, 2.0);
+    rocks.push_back(EllipsoidRock(x, y, 0.1 * radius, radius, 0.7 * radius, 0.5 * radius));
+  }
+  const std::vector<terrain::Wall> walls{{math::Vector3::UnitX(), 0.8}};
+  const terrain::Terrain flat = FlatWith(rocks, walls);
+  terrain::GroundParams rough;
+  rough.roughness_rms_m = 0.02;
+  const terrain::Terrain hilly(terrain::Ground(rough, {4, 0}), rocks, walls);
+  for (int i = 0; i < 60; ++i) {
+    LineView line{LightStripeParams{}, SunParams{}};
+    line.sun.elevation_rad = core::SampleUniform(stream, 0.0, math::DegToRad(90.0));
+    line.params.lens = i % 2 == 0 ? messages::Lens::kEquidistant : messages::Lens::kEquidistantRows;
+    line.params.laser.fan = i % 3 == 0 ? BeamFan::kThreeScanlines : BeamFan::kFull;
+    line.calibration = TrueCalibration(line.params);
+    math::Transform X_WR =
+        PoseAt(core::SampleUniform(stream, -2.0, 0.7), core::SampleUniform(stream, -2.0, 2.0),
+               core::SampleUniform(stream, -0.3, 0.5), core::SampleUniform(stream, -3.0, 3.0));
+    X_WR.rotate(Eigen::AngleAxisd(core::SampleUniform(stream, -0.8, 0.8),
+                                  math::Vector3(1.0, stream.Uniform(), 0.0).normalized()));
+    const int row_px = static_cast<int>(core::SampleUniform(stream, -242.0, 241.0));
+    const RenderedRow row = line.Render(i % 4 == 0 ? hilly : flat, X_WR, i % 2, row_px);
+    for (const double rate : row.sun_e_s) ASSERT_TRUE(std::isfinite(rate) && rate >= 0.0) << i;
+    for (const auto& laser : row.lasers) {
+      ASSERT_TRUE(std::isfinite(laser.rate_e_s) && laser.rate_e_s >= 0.0) << i;
+    }
+  }
 }
 
 // Every refusal names the field.
