@@ -32,6 +32,7 @@ HEAVY = {
     "nlohmann-json": (r"nlohmann/", r"nlohmann_json"),
     "CLI11": (r"CLI/", r"CLI11"),
     "tinyxml2": (r"tinyxml2", r"tinyxml2"),
+    "libpng": (r"png\.h", r"PNG::"),
     "Boost.Math": (r"boost/", r"Boost::"),
 }
 # Everything else that <...> may name: the standard library, POSIX, and light libraries.

@@ -38,6 +38,7 @@ void AddCommands(CLI::App& app, ExitCode& exit_code) {
   AddRoverCommand(app);
   AddTerrainCommand(app);
   AddTraceCommand(app, exit_code);
+  AddReplayCommand(app, exit_code);
   AddValidateCommand(app);
   AddDefaultsCommand(app);
   AddSchemaCommand(app);

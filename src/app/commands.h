@@ -13,6 +13,7 @@ namespace rockyard::app {
 void AddRunCommand(CLI::App& app, ExitCode& exit_code);
 void AddCheckCommand(CLI::App& app, ExitCode& exit_code);
 void AddCompareCommand(CLI::App& app);
+void AddReplayCommand(CLI::App& app, ExitCode& exit_code);
 void AddRoverCommand(CLI::App& app);
 void AddTerrainCommand(CLI::App& app);
 void AddTraceCommand(CLI::App& app, ExitCode& exit_code);

@@ -2,19 +2,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/output_file.h"
-#include "app/run_source.h"
+#include "app/trial_source.h"
 #include "core/error.h"
 #include "experiments/drive_experiment.h"
 #include "report/atomic_file.h"
@@ -29,58 +25,12 @@
 namespace rockyard::app {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct TraceOptions {
-  std::string source;
-  std::uint32_t trial = 0;
-  std::optional<std::int64_t> seed;
-  std::vector<std::string> overrides;
+  TrialRequest request;
   std::string csv;
   std::string svg;
   bool all = false;
 };
-
-// The trial to drive, and what a finished run says of it.
-struct TraceSource {
-  scenario::Scenario scenario;
-  std::uint64_t seed = 1;
-  std::optional<truth::Record> stored;
-  std::vector<std::string> builds;  // that wrote the run
-};
-
-TraceSource FromRun(const TraceOptions& options) {
-  if (options.seed || !options.overrides.empty()) {
-    throw core::UserError(options.seed ? "--seed" : "--set",
-                          "makes another trial than the one in the run's store",
-                          "trace " + options.source + "/scenario.resolved.json instead");
-  }
-  const StoredRun run = ReadRun(options.source);
-  const auto found = std::find_if(run.records.begin(), run.records.end(), [&](const auto& record) {
-    return record.trial == options.trial;
-  });
-  if (found == run.records.end()) {
-    throw core::UserError(
-        "--trial", fmt::format("trial {} is not stored in {}", options.trial, options.source),
-        fmt::format("use one of the {} finished trials, or trace the scenario file instead",
-                    run.records.size()));
-  }
-  TraceSource source;
-  source.scenario = LoadScenarioFrom(options.source);
-  source.seed = run.identity.seed;
-  source.stored = *found;
-  source.builds = run.builds;
-  return source;
-}
-
-TraceSource FromScenario(const TraceOptions& options) {
-  std::vector<std::string> overrides = options.overrides;
-  if (options.seed) overrides.push_back(fmt::format("seed={}", *options.seed));
-  TraceSource source;
-  source.scenario = LoadScenarioFrom(options.source, overrides);
-  source.seed = static_cast<std::uint64_t>(source.scenario.seed);
-  return source;
-}
 
 // Found before the drive rather than after it.
 void CheckOutputs(const TraceOptions& options) {
@@ -117,35 +67,7 @@ void WriteOutputs(const TraceOptions& options, const scenario::Scenario& scenari
   }
 }
 
-// Whether this drive is the stored one.
-ExitCode CompareWithStore(const TraceOptions& options, const TraceSource& source,
-                          const report::TracedTrial& traced) {
-  const auto differences = report::RecordDifferences(traced.schema, *source.stored, traced.record);
-  if (differences.empty()) {
-    Print("  same as the stored record, bit for bit\n");
-    return ExitCode::kDone;
-  }
-  std::vector<core::Problem> problems;
-  problems.reserve(differences.size() + 1);
-  for (const std::string& difference : differences) {
-    problems.push_back({fmt::format("trial {}", options.trial), difference, ""});
-  }
-  const bool other_build =
-      std::find(source.builds.begin(), source.builds.end(), BuildName()) == source.builds.end();
-  problems.push_back({options.source, "this drive is not the stored one: the records differ",
-                      other_build
-                          ? "trace with the program that made the run: " + source.builds.front()
-                          : "the same program made it: this is a defect, please report it"});
-  PrintProblems(problems);
-  return ExitCode::kDiffers;
-}
-
-TraceSource SourceOf(const TraceOptions& options) {
-  std::error_code error;
-  return fs::is_directory(options.source, error) ? FromRun(options) : FromScenario(options);
-}
-
-report::TracedTrial Drive(const TraceSource& source, std::uint32_t trial) {
+report::TracedTrial Drive(const TrialSource& source, std::uint32_t trial) {
   report::TracedTrial traced;
   traced.scenario = source.scenario.name;
   traced.seed = source.seed;
@@ -158,12 +80,17 @@ report::TracedTrial Drive(const TraceSource& source, std::uint32_t trial) {
 
 ExitCode Trace(const TraceOptions& options) {
   CheckOutputs(options);
-  const TraceSource source = SourceOf(options);
-  const report::TracedTrial traced = Drive(source, options.trial);
+  const TrialSource source = FindTrial(options.request);
+  if (source.scenario.experiment != scenario::ExperimentKind::kDrive) {
+    throw core::UserError(options.request.source, "is no drive, and only drives have a course",
+                          "use rockyard replay, which lists the scans of any trial");
+  }
+  const report::TracedTrial traced = Drive(source, options.request.trial);
   Print(report::TraceStory(traced,
                            options.all ? report::StoryLength::kAll : report::StoryLength::kFolded));
   const ExitCode exit_code =
-      source.stored ? CompareWithStore(options, source, traced) : ExitCode::kDone;
+      source.stored ? CompareWithStore(options.request, source, traced.schema, traced.record)
+                    : ExitCode::kDone;
   try {
     WriteOutputs(options, source.scenario, traced);
   } catch (const core::UserError& failure) {
@@ -179,14 +106,7 @@ void AddTraceCommand(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<TraceOptions>();
   CLI::App* command = app.add_subcommand(
       "trace", "Drives one trial again and tells what happened; of a run, checks its record");
-  command
-      ->add_option("SCENARIO_OR_RUN", options->source,
-                   "scenario file, scenario.resolved.json, or the folder of a run")
-      ->required();
-  command->add_option("--trial", options->trial, "trial index, from 0")->required();
-  command->add_option("--seed", options->seed, "seed of every random stream");
-  command->add_option("--set", options->overrides, "PATH=VALUE: changes the scenario; repeat")
-      ->allow_extra_args(false);
+  AddTrialOptions(*command, options->request);
   command->add_option("--csv", options->csv, "file for samples and events");
   command->add_option("--svg", options->svg,
                       "file for a plan view with the true and believed path");

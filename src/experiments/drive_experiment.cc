@@ -41,7 +41,8 @@ const truth::RecordSchema& DriveSchema() {
   return kSchema;
 }
 
-DriveExperiment::DriveExperiment(scenario::Scenario scenario) : scenario_(std::move(scenario)) {}
+DriveExperiment::DriveExperiment(scenario::Scenario scenario, trial::ScanWatcher watcher)
+    : scenario_(std::move(scenario)), watcher_(std::move(watcher)) {}
 
 const truth::RecordSchema& DriveExperiment::schema() const { return DriveSchema(); }
 
@@ -61,17 +62,18 @@ truth::Record DriveExperiment::RunTrial(std::uint64_t seed, std::uint64_t index,
       throw std::out_of_range("trial indices end at 2^32 - 1, the size of their random key");
     }
     const trial::DriveResult drive =
-        trial::RunTrial(scenario_, {seed, static_cast<std::uint32_t>(index)}, trace);
+        trial::RunTrial(scenario_, {seed, static_cast<std::uint32_t>(index)}, trace, watcher_);
     return {index, drive.outcome, drive.detail, Values(drive.record)};
   } catch (const std::exception& error) {
     return truth::MakeFault(seed, index, error.what());
   }
 }
 
-std::unique_ptr<Experiment> MakeExperiment(const scenario::Scenario& scenario) {
+std::unique_ptr<Experiment> MakeExperiment(const scenario::Scenario& scenario,
+                                           const trial::ScanWatcher& watcher) {
   switch (scenario.experiment) {
     case scenario::ExperimentKind::kDrive:
-      return std::make_unique<DriveExperiment>(scenario);
+      return std::make_unique<DriveExperiment>(scenario, watcher);
     case scenario::ExperimentKind::kHazardDetection:
       return std::make_unique<HazardDetectionExperiment>(scenario);
   }

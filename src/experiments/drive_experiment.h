@@ -3,6 +3,7 @@
 
 #include "experiments/experiment.h"
 #include "scenario/scenario.h"
+#include "trial/scan_watcher.h"
 #include "truth/drive_record.h"
 #include "truth/trace.h"
 
@@ -13,7 +14,7 @@ const truth::RecordSchema& DriveSchema();
 
 class DriveExperiment final : public Experiment {
  public:
-  explicit DriveExperiment(scenario::Scenario scenario);
+  explicit DriveExperiment(scenario::Scenario scenario, trial::ScanWatcher watcher = {});
 
   const truth::RecordSchema& schema() const override;
   truth::Record Run(std::uint64_t seed, std::uint64_t index) const override;
@@ -25,6 +26,7 @@ class DriveExperiment final : public Experiment {
   truth::Record RunTrial(std::uint64_t seed, std::uint64_t index, truth::Trace* trace) const;
 
   scenario::Scenario scenario_;
+  trial::ScanWatcher watcher_;
 };
 
 }  // namespace rockyard::experiments

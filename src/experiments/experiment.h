@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "scenario/scenario.h"
+#include "trial/scan_watcher.h"
 #include "truth/record.h"
 
 namespace rockyard::experiments {
@@ -22,7 +23,10 @@ class Experiment {
   virtual truth::Record Run(std::uint64_t seed, std::uint64_t index) const = 0;
 };
 
-// Makes the experiment that the scenario names.
-std::unique_ptr<Experiment> MakeExperiment(const scenario::Scenario& scenario);
+// Makes the experiment that the scenario names. `watcher` is called after every scan of the hazard
+// sensor, without any influence on the records; it must stand calls from several threads where Run
+// is called from several.
+std::unique_ptr<Experiment> MakeExperiment(const scenario::Scenario& scenario,
+                                           const trial::ScanWatcher& watcher = {});
 
 }  // namespace rockyard::experiments

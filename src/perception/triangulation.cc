@@ -25,6 +25,13 @@ messages::ElevationScan Triangulator::Elevations(const messages::StripeScan& sca
 
 messages::ElevationPoint Triangulator::Elevation(std::size_t row, std::size_t stripe,
                                                  double column_px) const {
+  const std::optional<Vector3> p_RoP_R = Point(row, stripe, column_px);
+  if (!p_RoP_R) return {};
+  return {.detected = true, .elevation_m = p_RoP_R->z() - calibration_.datum_z_m};
+}
+
+std::optional<Vector3> Triangulator::Point(std::size_t row, std::size_t stripe,
+                                           double column_px) const {
   const messages::StripeLaser& laser = calibration_.lasers[stripe];
   const messages::StripeCamera& camera =
       calibration_.cameras[static_cast<std::size_t>(laser.camera)];
@@ -33,9 +40,8 @@ messages::ElevationPoint Triangulator::Elevation(std::size_t row, std::size_t st
   const Vector3 ray_R = camera.X_RC.linear() * ray_C;
   const Vector3 p_RoC_R = camera.X_RC.translation();
   const double distance_m = laser.normal_R.dot(laser.p_RoE_R - p_RoC_R) / laser.normal_R.dot(ray_R);
-  if (!(distance_m > 0.0) || !std::isfinite(distance_m)) return {};
-  return {.detected = true,
-          .elevation_m = p_RoC_R.z() + distance_m * ray_R.z() - calibration_.datum_z_m};
+  if (!(distance_m > 0.0) || !std::isfinite(distance_m)) return std::nullopt;
+  return p_RoC_R + distance_m * ray_R;
 }
 
 }  // namespace rockyard::perception

@@ -1,6 +1,8 @@
 // Light stripe triangulation: image columns to elevations.
 #pragma once
 
+#include <optional>
+
 #include "math/pose.h"
 #include "messages/calibration.h"
 #include "messages/estimates.h"
@@ -19,6 +21,9 @@ class Triangulator {
 
   // Elevation of one column of one point's scanline.
   messages::ElevationPoint Elevation(std::size_t row, std::size_t stripe, double column_px) const;
+
+  // Where that column shows its stripe, p_RoP_R; none where Elevation is no detection.
+  std::optional<math::Vector3> Point(std::size_t row, std::size_t stripe, double column_px) const;
 
  private:
   messages::StripeCalibration calibration_;

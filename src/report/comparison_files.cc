@@ -7,6 +7,7 @@
 #include "report/comparison_format.h"
 #include "report/comparison_table.h"
 #include "report/csv.h"
+#include "report/xml_text.h"
 
 namespace rockyard::report {
 namespace {
@@ -21,29 +22,6 @@ using statistics::Verdict;
 std::string Line(std::vector<std::string> fields) {
   for (std::string& field : fields) field = CsvField(field);
   return CsvLine(fields);
-}
-
-std::string Escaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return escaped;
 }
 
 }  // namespace
@@ -114,15 +92,15 @@ std::string ComparisonJUnit(const PublishedReference& reference, const Compariso
       CountOf(result, Verdict::kUnderpowered) + CountOf(result, Verdict::kNotJudged);
   std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
   xml += fmt::format("<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n",
-                     Escaped(reference.title), result.values.size(), differs, skipped);
+                     EscapeXml(reference.title), result.values.size(), differs, skipped);
   for (const ComparedValue& value : result.values) {
-    const std::string message = Escaped(fmt::format(
+    const std::string message = EscapeXml(fmt::format(
         "{}: published {}, predicted {}, p {}, Holm {}, power {}. {}",
         statistics::Name(value.verdict), Published(value.published),
-        Prediction(value.median, value.interval, IsCount(value.published)), PValue(value.p_value),
+        Prediction(value), PValue(value.p_value),
         PValue(value.holm_p_value), Power(value.power), value.remark));
     xml += fmt::format("  <testcase classname=\"{}\" name=\"{}\"",
-                       Escaped(value.published.scenario), Escaped(value.published.id));
+                       EscapeXml(value.published.scenario), EscapeXml(value.published.id));
     switch (value.verdict) {
       case Verdict::kAgrees:
         xml += "/>\n";

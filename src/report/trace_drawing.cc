@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "math/angles.h"
+#include "report/xml_text.h"
 
 namespace rockyard::report {
 namespace {
@@ -150,23 +151,6 @@ constexpr std::string_view kBelievedStyle =
     "stroke=\"#b0005a\" stroke-width=\"0.03\" stroke-linecap=\"round\" "
     "stroke-dasharray=\"0.001 0.06\"";
 
-std::string Escaped(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      default:
-        safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return safe;
-}
-
 void DrawMarks(const truth::Trace& trace, std::string_view kind, Canvas& canvas) {
   const TraceEvent* drawn = nullptr;
   for (const TraceEvent& event : trace.events) {
@@ -174,7 +158,7 @@ void DrawMarks(const truth::Trace& trace, std::string_view kind, Canvas& canvas)
     if (drawn != nullptr && Between(drawn->pose, event.pose) < kMarkSpacing_m) continue;
     drawn = &event;
     const std::string name =
-        Escaped(fmt::format("{} {} at {:.0f} s", event.kind, event.detail, event.time_s));
+        EscapeXml(fmt::format("{} {} at {:.0f} s", event.kind, event.detail, event.time_s));
     if (kind == "scrape") {
       canvas.DrawPlus(event.pose, name);
       continue;
@@ -200,7 +184,7 @@ void DrawFooter(const TracedTrial& trial, Canvas& canvas) {
   canvas.DrawPlus({left_m + 7.6, keys_y_m, 0.0}, "key");
   canvas.DrawText(left_m + 7.75, keys_y_m - 0.06, "scrape");
   canvas.DrawText(left_m, top_m - 0.65,
-                  Escaped(fmt::format("{}, seed {}, trial {}: {} ({})", trial.scenario, trial.seed,
+                  EscapeXml(fmt::format("{}, seed {}, trial {}: {} ({})", trial.scenario, trial.seed,
                                       trial.record.trial, truth::Name(trial.record.outcome),
                                       trial.record.detail)));
   canvas.GrowDown(kFooter_m);

@@ -54,7 +54,7 @@ TEST_F(CliTrace, ADamagedRecordIsFound) {
   const CommandResult result = Run({"trace", "run", "--trial", "0"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("sim_time_s: stored"));
-  EXPECT_THAT(result.err, HasSubstr("this drive is not the stored one"));
+  EXPECT_THAT(result.err, HasSubstr("this trial is not the stored one"));
 }
 
 TEST_F(CliTrace, OfAScenarioWithOverrides) {

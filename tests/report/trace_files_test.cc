@@ -49,7 +49,7 @@ TEST(TraceDrawing, PathsBreakAtReflectionsAndMarksLieOnBoth) {
   // Three scans at one place: one circle on each path, and one in the key.
   EXPECT_EQ(CountOf(drawing.elements, "<circle"), 3U);
   EXPECT_THAT(drawing.elements, HasSubstr("scrape  at 67 s"));
-  EXPECT_THAT(drawing.elements, HasSubstr("sample&lt;&amp;>, seed 7, trial 12: no_path"));
+  EXPECT_THAT(drawing.elements, HasSubstr("sample&lt;&amp;&gt;, seed 7, trial 12: no_path"));
   EXPECT_LT(drawing.area.y_min_m, kPlan.y_min_m);
   EXPECT_EQ(drawing.area.x_max_m, kPlan.x_max_m);
 }

@@ -1,0 +1,131 @@
+#include "app/scan_capture.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include "perception/hazard_criteria.h"
+#include "perception/stripe_peaks.h"
+#include "rover/rover_geometry.h"
+#include "sensing/stripe_imager.h"
+#include "trial/onboard_calibration.h"
+
+namespace rockyard::app {
+namespace {
+
+constexpr double kShownAround_m = 1.5;
+constexpr int kOutlineCorners = 24;
+
+// Seen from above, in R: the horizontal axes of the ellipsoid, as the plans of the terrain do.
+report::GroundOutline RockOutline(const terrain::Rock& rock, const math::Transform& X_RW) {
+  report::GroundOutline outline;
+  for (int corner = 0; corner < kOutlineCorners; ++corner) {
+    const double angle_rad = 2.0 * std::numbers::pi * corner / kOutlineCorners;
+    const math::Vector3 on_axes(rock.semi_axes_m.x() * std::cos(angle_rad),
+                                rock.semi_axes_m.y() * std::sin(angle_rad), 0.0);
+    const math::Vector3 p_R =
+        X_RW *
+        (rock.center_W +
+         Eigen::AngleAxisd(rock.yaw_rad, math::Vector3::UnitZ()).toRotationMatrix() * on_axes);
+    outline.emplace_back(p_R.x(), p_R.y());
+  }
+  return outline;
+}
+
+std::vector<report::GroundOutline> RocksAround(const trial::WatchedScan& watched) {
+  const math::Vector3 p_WR = watched.X_WR.translation();
+  std::vector<int> near;
+  watched.terrain.RocksNear(p_WR.x(), p_WR.y(), kShownAround_m, near);
+  std::vector<report::GroundOutline> outlines;
+  for (const int index : near) {
+    outlines.push_back(RockOutline(watched.terrain.rocks()[static_cast<std::size_t>(index)],
+                                   watched.X_WR.inverse()));
+  }
+  return outlines;
+}
+
+// Cameras and groups of lasers that find a stripe.
+std::set<std::pair<int, int>> ExposuresOf(const messages::StripeCalibration& calibration) {
+  std::set<std::pair<int, int>> exposures;
+  for (const messages::StripeLaser& laser : calibration.lasers) {
+    exposures.emplace(laser.camera, laser.group);
+  }
+  return exposures;
+}
+
+}  // namespace
+
+ScanCapture::ScanCapture(const scenario::Scenario& scenario)
+    : scenario_(scenario),
+      calibration_(trial::OnboardStripeCalibration(scenario.sensors.light_stripe,
+                                                   scenario.perception.calibration)),
+      triangulator_(calibration_),
+      searches_(calibration_) {}
+
+report::ShownPoint ScanCapture::ShowPoint(const trial::WatchedScan& watched, std::size_t row,
+                                          std::size_t stripe) const {
+  const perception::StripeSearch& search =
+      searches_.At(calibration_.lasers[stripe].camera, row, stripe);
+  report::ShownPoint point;
+  point.pixel = watched.scan.pixels[row][stripe];
+  point.searched_first_px = search.columns.first;
+  point.searched_last_px = search.columns.last;
+  point.expected_R =
+      triangulator_.Point(row, stripe, search.datum_column).value_or(math::Vector3::Zero());
+  if (!point.pixel.detected) return point;
+  point.elevation = triangulator_.Elevation(row, stripe, point.pixel.column_px);
+  point.p_RoP_R =
+      triangulator_.Point(row, stripe, point.pixel.column_px).value_or(math::Vector3::Zero());
+  return point;
+}
+
+report::ScanView ScanCapture::View(const trial::WatchedScan& watched) const {
+  const messages::StripeArraySize size = watched.scan.pixels.size();
+  report::ScanView view;
+  view.number = watched.scan.number;
+  view.title = fmt::format("{}, seed {}, trial {}, scan {}", scenario_.name, watched.key.seed,
+                           watched.key.trial, watched.scan.number);
+  view.calibration = calibration_;
+  view.points = messages::StripeArray<report::ShownPoint>(size);
+  for (std::size_t row = 0; row < size.rows; ++row) {
+    for (std::size_t stripe = 0; stripe < size.stripes; ++stripe) {
+      view.points[row][stripe] = ShowPoint(watched, row, stripe);
+    }
+  }
+  view.hazards = perception::ReportHazards(triangulator_.Elevations(watched.scan),
+                                           scenario_.perception.hazard);
+  view.rover = rover::BodyOutline(scenario_.rover.geometry);
+  view.rocks = RocksAround(watched);
+  return view;
+}
+
+CapturedScan ScanCapture::Capture(const trial::WatchedScan& watched) const {
+  const sensing::StripeImager imager(scenario_.sensors.light_stripe, scenario_.sensors.sun,
+                                     scenario_.rover.geometry);
+  CapturedScan captured{View(watched), {}};
+  for (const auto& [camera, group] : ExposuresOf(calibration_)) {
+    messages::StripeExposure frames = imager.FullFrame(watched.terrain, watched.X_WR, watched.key,
+                                                       watched.scan.number, camera, group);
+    std::vector<double> difference = Difference(frames);
+    captured.exposures.push_back({std::move(frames), std::move(difference)});
+  }
+  return captured;
+}
+
+std::vector<double> ScanCapture::Difference(const messages::StripeExposure& frames) const {
+  const messages::ImageBand& lit = frames.lit.front();
+  std::vector<double> difference;
+  difference.reserve(lit.counts.size());
+  const auto window_px = static_cast<int>(scenario_.perception.stripe_finder.averaging_px);
+  for (int row = lit.first_row; row < lit.first_row + lit.rows; ++row) {
+    const auto profile = perception::AverageDifference(frames, row, window_px);
+    const std::vector<double>& values = profile.value().difference;
+    difference.insert(difference.end(), values.begin(), values.end());
+  }
+  return difference;
+}
+
+}  // namespace rockyard::app

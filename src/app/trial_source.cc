@@ -1,0 +1,91 @@
+#include "app/trial_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+#include "app/console.h"
+#include "app/run_source.h"
+#include "core/error.h"
+#include "report/trace_view.h"
+
+namespace rockyard::app {
+namespace {
+
+TrialSource FromRun(const TrialRequest& request) {
+  if (request.seed || !request.overrides.empty()) {
+    throw core::UserError(
+        request.seed ? "--seed" : "--set", "makes another trial than the one in the run's store",
+        "name " + request.source + "/scenario.resolved.json instead of the folder");
+  }
+  const StoredRun run = ReadRun(request.source);
+  const auto found = std::find_if(run.records.begin(), run.records.end(), [&](const auto& record) {
+    return record.trial == request.trial;
+  });
+  if (found == run.records.end()) {
+    throw core::UserError(
+        "--trial", fmt::format("trial {} is not stored in {}", request.trial, request.source),
+        fmt::format("use one of the {} finished trials, or name the scenario file instead",
+                    run.records.size()));
+  }
+  TrialSource source;
+  source.scenario = LoadScenarioFrom(request.source);
+  source.seed = run.identity.seed;
+  source.stored = *found;
+  source.builds = run.builds;
+  return source;
+}
+
+TrialSource FromScenario(const TrialRequest& request) {
+  std::vector<std::string> overrides = request.overrides;
+  if (request.seed) overrides.push_back(fmt::format("seed={}", *request.seed));
+  TrialSource source;
+  source.scenario = LoadScenarioFrom(request.source, overrides);
+  source.seed = static_cast<std::uint64_t>(source.scenario.seed);
+  return source;
+}
+
+}  // namespace
+
+void AddTrialOptions(CLI::App& command, TrialRequest& request) {
+  command
+      .add_option("SCENARIO_OR_RUN", request.source,
+                  "scenario file, scenario.resolved.json, or the folder of a run")
+      ->required();
+  command.add_option("--trial", request.trial, "trial index, from 0")->required();
+  command.add_option("--seed", request.seed, "seed of every random stream");
+  command.add_option("--set", request.overrides, "PATH=VALUE: changes the scenario; repeat")
+      ->allow_extra_args(false);
+}
+
+TrialSource FindTrial(const TrialRequest& request) {
+  std::error_code error;
+  return std::filesystem::is_directory(request.source, error) ? FromRun(request)
+                                                              : FromScenario(request);
+}
+
+ExitCode CompareWithStore(const TrialRequest& request, const TrialSource& source,
+                          const truth::RecordSchema& schema, const truth::Record& record) {
+  const auto differences = report::RecordDifferences(schema, *source.stored, record);
+  if (differences.empty()) {
+    Print("  same as the stored record, bit for bit\n");
+    return ExitCode::kDone;
+  }
+  std::vector<core::Problem> problems;
+  problems.reserve(differences.size() + 1);
+  for (const std::string& difference : differences) {
+    problems.push_back({fmt::format("trial {}", request.trial), difference, ""});
+  }
+  const bool other_build =
+      std::find(source.builds.begin(), source.builds.end(), BuildName()) == source.builds.end();
+  problems.push_back({request.source, "this trial is not the stored one: the records differ",
+                      other_build
+                          ? "use the program that made the run: " + source.builds.front()
+                          : "the same program made it: this is a defect, please report it"});
+  PrintProblems(problems);
+  return ExitCode::kDiffers;
+}
+
+}  // namespace rockyard::app

@@ -1,0 +1,41 @@
+// One trial to run again: of a scenario, or of a finished run whose record it must repeat.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/exit_code.h"
+#include "scenario/scenario.h"
+#include "truth/record.h"
+
+namespace rockyard::app {
+
+struct TrialRequest {
+  std::string source;  // scenario file, scenario.resolved.json, or the folder of a run
+  std::uint32_t trial = 0;
+  std::optional<std::int64_t> seed;
+  std::vector<std::string> overrides;
+};
+
+// Adds SCENARIO_OR_RUN, --trial, --seed and --set to a command. `request` must outlive it.
+void AddTrialOptions(CLI::App& command, TrialRequest& request);
+
+// The trial, and what a finished run says of it.
+struct TrialSource {
+  scenario::Scenario scenario;
+  std::uint64_t seed = 1;
+  std::optional<truth::Record> stored;
+  std::vector<std::string> builds;  // that wrote the run
+};
+
+// Throws core::UserError: no such scenario, run or trial, or --seed or --set with a run.
+TrialSource FindTrial(const TrialRequest& request);
+
+// Says whether `record` repeats the stored one, which must be there: kDone or kDiffers.
+ExitCode CompareWithStore(const TrialRequest& request, const TrialSource& source,
+                          const truth::RecordSchema& schema, const truth::Record& record);
+
+}  // namespace rockyard::app

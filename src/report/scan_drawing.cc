@@ -1,0 +1,190 @@
+#include "report/scan_drawing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "report/csv.h"
+#include "report/xml_text.h"
+
+namespace rockyard::report {
+namespace {
+
+constexpr double kFullColour_m = 0.10;  // elevation of the strongest colour
+constexpr double kBehind_m = 0.05;      // of the chassis centre, that is still shown
+constexpr double kMargin_m = 0.12;
+constexpr double kFooter_m = 0.12;
+// Drawn in millimetres: renderers lose text of less than a unit.
+constexpr double kUnits = 1000.0;
+constexpr double kPixelsPerMetre = 900.0;
+
+// What the drawing holds, in R.
+struct Extent {
+  double x_min_m = std::numeric_limits<double>::infinity();
+  double x_max_m = -std::numeric_limits<double>::infinity();
+  double y_min_m = std::numeric_limits<double>::infinity();
+  double y_max_m = -std::numeric_limits<double>::infinity();
+
+  void Include(double x_m, double y_m) {
+    x_min_m = std::min(x_min_m, x_m);
+    x_max_m = std::max(x_max_m, x_m);
+    y_min_m = std::min(y_min_m, y_m);
+    y_max_m = std::max(y_max_m, y_m);
+  }
+};
+
+Extent ExtentOf(const ScanView& scan) {
+  Extent extent;
+  for (const auto& [x, y] : scan.rover) extent.Include(std::max(x, -kBehind_m), y);
+  for (const ShownPoint& point : scan.points.points()) {
+    extent.Include(point.expected_R.x(), point.expected_R.y());
+  }
+  extent.x_max_m += kMargin_m;
+  extent.y_min_m -= kMargin_m;
+  extent.y_max_m += kMargin_m;
+  return extent;
+}
+
+// SVG coordinates of a point of R: forward is up, left is left.
+struct Place {
+  double x;
+  double y;
+};
+Place At(double x_R_m, double y_R_m) { return {-kUnits * y_R_m, -kUnits * x_R_m}; }
+
+std::string Polygon(const GroundOutline& outline, std::string_view style) {
+  std::string points;
+  for (const auto& [x, y] : outline) {
+    const Place at = At(x, y);
+    fmt::format_to(std::back_inserter(points), "{:.1f},{:.1f} ", at.x, at.y);
+  }
+  return fmt::format("<polygon points=\"{}\" {}/>\n", points, style);
+}
+
+std::string Colour(double elevation_m) {
+  const double share = std::clamp(elevation_m / kFullColour_m, -1.0, 1.0);
+  const int fade = static_cast<int>(std::lround(255.0 * (1.0 - std::abs(share))));
+  return share >= 0.0 ? fmt::format("rgb(255,{0},{0})", fade)
+                      : fmt::format("rgb({0},{0},255)", fade);
+}
+
+std::string Line(const math::Vector3& from_R, const math::Vector3& to_R, std::string_view style) {
+  const Place a = At(from_R.x(), from_R.y());
+  const Place b = At(to_R.x(), to_R.y());
+  return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n", a.x,
+                     a.y, b.x, b.y, style);
+}
+
+// White, from its upper left corner.
+std::string Rectangle(const Place& corner, double width_m, double height_m) {
+  return fmt::format(
+      "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#fff\"/>\n",
+      corner.x, corner.y, kUnits * width_m, kUnits * height_m);
+}
+
+std::string Label(const Place& at, double size, std::string_view text) {
+  return fmt::format(
+      "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.0f}\" "
+      "font-family=\"sans-serif\">{}</text>\n",
+      at.x, at.y, size, text);
+}
+
+std::string PointMark(const ShownPoint& point) {
+  if (!point.elevation.detected) {
+    const math::Vector3 arm(0.012, 0.012, 0.0);
+    const math::Vector3 other(0.012, -0.012, 0.0);
+    constexpr std::string_view kStyle = "stroke=\"#888\" stroke-width=\"4\"";
+    return Line(point.expected_R - arm, point.expected_R + arm, kStyle) +
+           Line(point.expected_R - other, point.expected_R + other, kStyle);
+  }
+  const Place at = At(point.p_RoP_R.x(), point.p_RoP_R.y());
+  const double elevation_m = point.elevation.elevation_m;
+  return fmt::format(
+             "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"14\" fill=\"{}\" stroke=\"#000\" "
+             "stroke-width=\"2\"/>\n",
+             at.x, at.y, Colour(elevation_m)) +
+         Label({at.x + 18.0, at.y + 6.0}, 20.0, fmt::format("{:.0f}", 1000.0 * elevation_m));
+}
+
+std::string Stripes(const ScanView& scan) {
+  std::string svg;
+  for (std::size_t stripe = 0; stripe < scan.points.stripes(); ++stripe) {
+    const bool hazard = scan.hazards.stripe_hazard[stripe];
+    svg += Line(
+        scan.calibration.lasers[stripe].p_RoE_R,
+        scan.points[scan.points.rows() - 1][stripe].expected_R,
+        hazard ? "stroke=\"#d22\" stroke-width=\"6\"" : "stroke=\"#e9a0a0\" stroke-width=\"3\"");
+  }
+  return svg;
+}
+
+}  // namespace
+
+std::string ScanSvg(const ScanView& scan) {
+  const Extent extent = ExtentOf(scan);
+  const double width_m = extent.y_max_m - extent.y_min_m;
+  const double height_m = extent.x_max_m - extent.x_min_m + kFooter_m;
+  const Place corner = At(extent.x_max_m, extent.y_max_m);
+  const Place foot = At(extent.x_min_m, extent.y_max_m);
+  const std::string box = fmt::format("{:.1f} {:.1f} {:.1f} {:.1f}", corner.x, corner.y,
+                                      kUnits * width_m, kUnits * height_m);
+  std::string svg = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\" height=\"{:.0f}\" "
+      "viewBox=\"{}\">\n",
+      kPixelsPerMetre * width_m, kPixelsPerMetre * height_m, box);
+  svg += Rectangle(corner, width_m, height_m);
+  for (const GroundOutline& rock : scan.rocks) {
+    svg += Polygon(rock, "fill=\"#c9b8a0\" stroke=\"#7a6a50\" stroke-width=\"3\"");
+  }
+  svg += Polygon(scan.rover, "fill=\"none\" stroke=\"#333\" stroke-width=\"4\"");
+  svg += Stripes(scan);
+  for (const ShownPoint& point : scan.points.points()) svg += PointMark(point);
+  svg += Rectangle(foot, width_m, kFooter_m);
+  svg += Label({foot.x + 20.0, foot.y + 45.0}, 26.0, EscapeXml(scan.title));
+  svg += Label({foot.x + 20.0, foot.y + 85.0}, 22.0,
+               "elevation in mm; cross: not found; red stripe: hazard; forward is up");
+  return svg + "</svg>\n";
+}
+
+std::string ScanText(const ScanView& scan) {
+  std::string text = "  elevation [mm], farthest row first, left to right\n";
+  for (std::size_t row = scan.points.rows(); row-- > 0;) {
+    text += "   ";
+    for (const ShownPoint& point : scan.points[row]) {
+      text += point.elevation.detected
+                  ? fmt::format(" {:>6.0f}", 1000.0 * point.elevation.elevation_m)
+                  : fmt::format(" {:>6}", "-");
+    }
+    text += '\n';
+  }
+  text += "   ";
+  for (const bool hazard : scan.hazards.stripe_hazard) {
+    text += fmt::format(" {:>6}", hazard ? "hazard" : "clear");
+  }
+  return text + '\n';
+}
+
+std::string ScanCsv(const ScanView& scan) {
+  std::string csv = "stripe,row,detected,column_px,elevation_m,x_m,y_m,hazard\n";
+  for (std::size_t stripe = 0; stripe < scan.points.stripes(); ++stripe) {
+    for (std::size_t row = 0; row < scan.points.rows(); ++row) {
+      const ShownPoint& point = scan.points[row][stripe];
+      // What was not found is no number, and leaves its field empty.
+      const double found =
+          point.elevation.detected ? 1.0 : std::numeric_limits<double>::quiet_NaN();
+      csv += CsvLine(std::array{
+          fmt::to_string(stripe), fmt::to_string(row),
+          fmt::format("{:d}", point.elevation.detected), CsvNumber(found * point.pixel.column_px),
+          CsvNumber(found * point.elevation.elevation_m), CsvNumber(found * point.p_RoP_R.x()),
+          CsvNumber(found * point.p_RoP_R.y()),
+          fmt::format("{:d}", scan.hazards.stripe_hazard[stripe])});
+    }
+  }
+  return csv;
+}
+
+}  // namespace rockyard::report

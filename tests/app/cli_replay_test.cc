@@ -1,0 +1,78 @@
+// rockyard replay
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "app/command.h"
+
+namespace rockyard::app {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class CliReplay : public CommandTest {
+ protected:
+  // Half a minute of simulated time: two scans.
+  std::vector<std::string> Trial(const std::vector<std::string>& more) const {
+    return With({"replay", Scenario("nominal"), "--trial", "1", "--set",
+                 "rover.fidelity=quasi_static", "--set", "referee.time_limit_s=30"},
+                more);
+  }
+};
+
+TEST_F(CliReplay, ListsTheScansOfATrial) {
+  const CommandResult result = Run(Trial({}));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("scan     0   x   0.000 m"));
+  EXPECT_THAT(result.out, HasSubstr("2 scans; --scan N draws one of them"));
+  EXPECT_TRUE(NothingWritten());
+}
+
+TEST_F(CliReplay, DrawsOneScan) {
+  const CommandResult result = Run(Trial({"--scan", "1", "--out", "scan"}));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("elevation [mm]"));
+  // Two lasers at a time: three groups, of which the last holds the centre stripe alone.
+  for (const char* stem :
+       {"left-group0", "left-group1", "left-group2", "right-group0", "right-group1"}) {
+    for (const char* what : {"lit", "dark", "difference"}) {
+      EXPECT_THAT(ReadFile(work() / "scan" / (std::string(stem) + "-" + what + ".png")),
+                  StartsWith("\x89PNG"))
+          << stem << " " << what;
+    }
+  }
+  EXPECT_FALSE(fs::exists(work() / "scan" / "right-group2-lit.png"));
+  EXPECT_THAT(ReadFile(work() / "scan" / "array.svg"), HasSubstr("trial 1, scan 1</text>"));
+  const std::string points = ReadFile(work() / "scan" / "points.csv");
+  EXPECT_EQ(std::count(points.begin(), points.end(), '\n'), 21);
+}
+
+TEST_F(CliReplay, AStoredTrialComesOutTheSame) {
+  ASSERT_EQ(
+      Run(With(QuickRun("run", 2), {"--set", "referee.time_limit_s=30", "--quiet"})).exit_code, 0);
+  const CommandResult result = Run({"replay", "run", "--trial", "1"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("same as the stored record, bit for bit"));
+}
+
+TEST_F(CliReplay, AScanThatWasNotTakenIsSaid) {
+  const CommandResult result = Run(Trial({"--scan", "99", "--out", "scan"}));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("scan 99 was not taken in this trial"));
+  EXPECT_THAT(result.err, HasSubstr("the trial took 2 scans"));
+  EXPECT_TRUE(NothingWritten());
+}
+
+TEST_F(CliReplay, AFolderThatCannotBeMadeIsSaid) {
+  WriteFile(work() / "file", "");
+  const CommandResult result = Run(Trial({"--scan", "0", "--out", "file/scan"}));
+  EXPECT_EQ(result.exit_code, 5);
+  EXPECT_THAT(result.err, HasSubstr("--out"));
+}
+
+}  // namespace
+}  // namespace rockyard::app
