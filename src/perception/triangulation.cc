@@ -2,14 +2,18 @@
 
 #include <cmath>
 
-#include "vision/lens.h"
-
 namespace rockyard::perception {
 
 using math::Vector3;
 
 Triangulator::Triangulator(const messages::StripeCalibration& calibration)
-    : calibration_(calibration) {}
+    : calibration_(calibration) {
+  for (std::size_t camera = 0; camera < scanlines_.size(); ++camera) {
+    for (const int row_px : calibration_.scanline_px) {
+      scanlines_[camera].emplace_back(calibration_.cameras[camera], row_px);
+    }
+  }
+}
 
 messages::ElevationScan Triangulator::Elevations(const messages::StripeScan& scan) const {
   messages::ElevationScan elevations{
@@ -33,11 +37,9 @@ messages::ElevationPoint Triangulator::Elevation(std::size_t row, std::size_t st
 std::optional<Vector3> Triangulator::Point(std::size_t row, std::size_t stripe,
                                            double column_px) const {
   const messages::StripeLaser& laser = calibration_.lasers[stripe];
-  const messages::StripeCamera& camera =
-      calibration_.cameras[static_cast<std::size_t>(laser.camera)];
-  const Vector3 ray_C =
-      vision::PixelRay(camera, {column_px, static_cast<double>(calibration_.scanline_px[row])});
-  const Vector3 ray_R = camera.X_RC.linear() * ray_C;
+  const auto camera_index = static_cast<std::size_t>(laser.camera);
+  const messages::StripeCamera& camera = calibration_.cameras[camera_index];
+  const Vector3 ray_R = camera.X_RC.linear() * scanlines_[camera_index][row].Ray(column_px);
   const Vector3 p_RoC_R = camera.X_RC.translation();
   const double distance_m = laser.normal_R.dot(laser.p_RoE_R - p_RoC_R) / laser.normal_R.dot(ray_R);
   if (!(distance_m > 0.0) || !std::isfinite(distance_m)) return std::nullopt;

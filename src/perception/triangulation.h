@@ -1,11 +1,14 @@
 // Light stripe triangulation: image columns to elevations.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <vector>
 
 #include "math/pose.h"
 #include "messages/calibration.h"
 #include "messages/estimates.h"
+#include "vision/lens.h"
 
 namespace rockyard::perception {
 
@@ -27,6 +30,7 @@ class Triangulator {
 
  private:
   messages::StripeCalibration calibration_;
+  std::array<std::vector<vision::ImageRow>, 2> scanlines_;  // [camera][row]
 };
 
 }  // namespace rockyard::perception
