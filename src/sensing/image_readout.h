@@ -8,7 +8,7 @@
 #include "core/random.h"
 #include "sensing/imager_params.h"
 #include "sensing/pixel_noise.h"
-#include "sensing/row_renderer.h"
+#include "sensing/rendered_row.h"
 
 namespace rockyard::sensing {
 

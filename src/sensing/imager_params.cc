@@ -67,6 +67,18 @@ void VisitOptics(ImagerParams& p, core::FieldVisitor& v) {
           .study_high = 0.9});
 }
 
+void VisitBlur(ImagerParams& p, core::FieldVisitor& v) {
+  v.Real("blur_px", p.blur_px,
+         {.doc = "standard deviation of the blur along an image line, in pixels: focus, and charge "
+                 "that 850 nm light sets free deep in the silicon; 0 is sharp",
+          .min = 0.0,
+          .max = 20.0,
+          .origin = Origin::kAssumed,
+          .source = "the beam alone is as wide as a pixel; a fixed-focus lens may add as much",
+          .study_low = 0.0,
+          .study_high = 1.5});
+}
+
 void VisitReadout(ImagerParams& p, core::FieldVisitor& v) {
   v.Real("black_level", p.black_level,
          {.doc = "count without light over the largest count, so that noise is not cut off",
@@ -206,6 +218,7 @@ void ImagerParams::Visit(core::FieldVisitor& v) {
             .origin = Origin::kPublished,
             .source = "Matthies 1995 table 3: CCD; sec. 6: CMOS as an improvement"});
   VisitOptics(*this, v);
+  VisitBlur(*this, v);
   VisitReadout(*this, v);
   v.Group("ccd", ccd, "interline CCD");
   v.Group("cmos", cmos, "CMOS active pixel sensor");

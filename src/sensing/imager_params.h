@@ -46,6 +46,7 @@ struct ImagerParams {
   double lens_transmission = 0.8;
   double filter_width_m = 40e-9;
   double filter_transmission = 0.7;
+  double blur_px = 0.0;
   double black_level = 0.02;
   std::int64_t averaging_rows = 5;
   std::int64_t margin_rows = 0;

@@ -34,6 +34,7 @@ struct RowRenderer::Job {
 RowRenderer::RowRenderer(const LightStripeParams& params,
                          const messages::StripeCalibration& calibration)
     : beam_(params.laser.profile, params.laser.beam_width_rad),
+      blur_(params.imager.blur_px),
       electrons_per_radiance_(ElectronsPerRadiance(params)) {
   for (const messages::StripeLaser& laser : calibration.lasers) {
     fans_.emplace_back(params, calibration, laser);
@@ -166,6 +167,7 @@ RenderedRow RowRenderer::Render(const LitScene& lit, const Vector3& eye_R,
       AddLasers(lit, left, right, pixel, gain, row);
     }
   }
+  blur_.Apply(row);
   return row;
 }
 

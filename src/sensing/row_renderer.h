@@ -8,25 +8,14 @@
 #include "math/pose.h"
 #include "messages/calibration.h"
 #include "sensing/beam_profile.h"
+#include "sensing/image_blur.h"
 #include "sensing/image_scene.h"
 #include "sensing/laser_fan.h"
 #include "sensing/light_stripe_params.h"
+#include "sensing/rendered_row.h"
 #include "sensing/view_row.h"
 
 namespace rockyard::sensing {
-
-// Expected photoelectrons per second of one image line.
-struct RenderedRow {
-  struct LaserPixel {
-    int pixel = 0;  // counts from the first column of the line
-    int laser = 0;
-    double rate_e_s = 0.0;
-  };
-
-  int row = 0;
-  std::vector<double> sun_e_s;     // per pixel, all lasers off
-  std::vector<LaserPixel> lasers;  // what each laser adds, where it adds anything
-};
 
 // A scene with its lasers. Must not outlive either.
 struct LitScene {
@@ -43,8 +32,7 @@ struct LitScene {
 //
 // Deviations: a pixel is sampled along the line through its middle, so that a stripe which runs
 // across the line is as wide as it is there (those of the default layout move by 0.1 to 0.2 columns
-// from line to line). The lens is sharp, nothing reflects twice, and the rover's own parts show no
-// laser light.
+// from line to line). Nothing reflects twice, and the rover's own parts show no laser light.
 class RowRenderer {
  public:
   static constexpr int kParts = 8;
@@ -68,6 +56,7 @@ class RowRenderer {
 
   std::vector<LaserFan> fans_;
   BeamCrossSection beam_;
+  ImageBlur blur_;
   double electrons_per_radiance_ = 0.0;
 };
 

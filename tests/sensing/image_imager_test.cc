@@ -243,6 +243,7 @@ TEST(ImageParams, BadDescriptionsAreRefused) {
   ExpectRefused(R"({"imager": {"filter_width_m": 0}})", "imager.filter_width_m");
   ExpectRefused(R"({"imager": {"filter_transmission": 1.1}})", "imager.filter_transmission");
   ExpectRefused(R"({"imager": {"f_number": 0}})", "imager.f_number");
+  ExpectRefused(R"({"imager": {"blur_px": -0.1}})", "imager.blur_px");
   ExpectRefused(R"({"imager": {"averaging_rows": 4}})", "imager.averaging_rows");
   ExpectRefused(R"({"imager": {"ccd": {"quantum_efficiency": 0}}})", "ccd.quantum_efficiency");
   ExpectRefused(R"({"imager": {"ccd": {"full_well_e": -1}}})", "ccd.full_well_e");

@@ -181,6 +181,34 @@ TEST(Radiometry, WholeImageHoldsTheWholePower) {
   EXPECT_NEAR(power_w / expected_w, 1.0, 0.002);
 }
 
+// A Gaussian of 1.2 pixels: the light stays, its variance along the line grows by 1.2^2.
+TEST(ImageBlur, SpreadsLightAndKeepsIt) {
+  RenderedRow row;
+  row.sun_e_s.assign(101, 5.0);
+  row.sun_e_s[50] = 105.0;
+  row.lasers = {{40, 1, 7.0}, {41, 1, 3.0}, {2, 0, 1.0}};
+  const RenderedRow sharp = row;
+  ImageBlur(0.0).Apply(row);
+  EXPECT_EQ(row.sun_e_s, sharp.sun_e_s);
+  EXPECT_EQ(row.lasers.size(), 3U);
+  ImageBlur(1.2).Apply(row);
+  double variance = 0.0;
+  for (int i = 0; i <= 100; ++i) {
+    variance += (row.sun_e_s[static_cast<std::size_t>(i)] - 5.0) / 100.0 * (i - 50) * (i - 50);
+  }
+  EXPECT_NEAR(variance, 1.44, 0.001);
+  EXPECT_NEAR(std::accumulate(row.sun_e_s.begin(), row.sun_e_s.end(), 0.0), 605.0, 1e-9);
+  EXPECT_NEAR(row.sun_e_s[0], 5.0, 1e-12);
+  const auto stripe = LaserRates(row, 1);
+  EXPECT_NEAR(std::accumulate(stripe.begin(), stripe.end(), 0.0), 10.0, 1e-9);
+  double mean = 0.0;
+  for (std::size_t i = 0; i < stripe.size(); ++i) mean += stripe[i] * static_cast<double>(i) / 10.0;
+  EXPECT_NEAR(mean, 40.3, 1e-9);
+  // Near the edge some of it leaves the image.
+  const auto edge = LaserRates(row, 0);
+  EXPECT_LT(std::accumulate(edge.begin(), edge.end(), 0.0), 0.99);
+}
+
 // Three scanlines instead of a fan of 1 rad: the same light on 1 / 117 of the angle.
 TEST(Radiometry, ThinBeamIsAHundredTimesBrighter) {
   LineView full{QuietParams(), Darkness()};
