@@ -21,9 +21,9 @@ import subprocess
 import sys
 from pathlib import Path
 
+import study
 from calibrate_odometer import SCALE, calibrate
-
-ROOT = Path(__file__).resolve().parent.parent
+from study import ROOT, run
 
 # Where each prediction stands in summary.json.
 METRICS = {
@@ -50,16 +50,6 @@ def parse_arguments():
                         help="held at every point, for example rover.fidelity=quasi_static")
     parser.add_argument("--rockyard", type=Path, default=ROOT / "build/release/bin/rockyard")
     return parser.parse_args()
-
-
-def run(command):
-    """Runs a command; ends with its message if it fails."""
-    result = subprocess.run([str(part) for part in command], capture_output=True, text=True,
-                            check=False)
-    if result.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))}\nexit code {result.returncode}\n"
-                 f"{result.stderr}{result.stdout}")
-    return result.stdout
 
 
 def is_valid(rockyard, scenario, setting):
@@ -156,12 +146,8 @@ def run_points(args, scenario, points, scales, rows, rng):
         valid = dict(point)  # a value may contradict this scenario and no other
         repaired(valid, rows, args.rockyard, scenario, rng)
         folder = args.out / scenario.stem / f"{index:03d}"
-        command = [args.rockyard, "run", scenario, "--trials", args.trials, "--seed", args.seed,
-                   "--out", folder, "--quiet", *settings({**valid, SCALE: scale})]
-        if folder.exists():
-            command += ["--resume", "--force"]
-        run(command)
-        summaries.append(json.loads((folder / "summary.json").read_text(encoding="utf-8")))
+        assignments = [f"{path}={value}" for path, value in {**valid, SCALE: scale}.items()]
+        summaries.append(study.run_scenario(args, scenario, folder, assignments))
         print(f"\r{scenario.stem}: {index + 1}/{len(points)}", end="", file=sys.stderr)
     print(file=sys.stderr)
     return summaries

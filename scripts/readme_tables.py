@@ -18,8 +18,8 @@ import time
 from pathlib import Path
 
 from calibrate_odometer import SCALE, calibrate
+from study import ROOT, table
 
-ROOT = Path(__file__).resolve().parent.parent
 REFERENCE = ROOT / "results/reference/matthies1995.json"
 PATHFINDER = ROOT / "scenarios/pathfinder"
 PUBLISHED = ["obstacles_0.28", "obstacles_0.57", "obstacles_0.85", "nominal",
@@ -94,11 +94,6 @@ class Study:
 def cpu_seconds():
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage.ru_utime + usage.ru_stime
-
-
-def table(header, rows):
-    lines = [header, ["---"] * len(header), *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
 def rate(summary, key="declared_success"):

@@ -40,10 +40,11 @@ std::vector<fs::path> JsonFiles(const fs::path& folder) {
   return files;
 }
 
-// Whether the file is one that scenarios extend in a group, such as a rover: none of its keys is a
-// scenario's.
+// Whether the file is one that scenarios extend: in a group, such as a rover, none of whose keys is
+// a scenario's, or as a whole, such as a sensor profile, which has no name.
 bool IsPart(const core::JsonValue& document) {
   if (!document.Is(core::JsonValue::Type::kObject) || document.members().empty()) return false;
+  if (document.Find("name") == nullptr) return true;
   const core::JsonValue scenario = scenario::WriteScenario({});
   return std::none_of(
       document.members().begin(), document.members().end(),
@@ -53,7 +54,7 @@ bool IsPart(const core::JsonValue& document) {
 std::string About(const fs::path& file) {
   try {
     const core::JsonValue document = core::LoadJsonFile(file);
-    if (IsPart(document)) return "part of a scenario: a group can extend it";
+    if (IsPart(document)) return "part of a scenario, which can extend it";
     const scenario::Scenario scenario = scenario::ReadScenario(document);
     return scenario.description.empty() ? scenario.name : scenario.description;
   } catch (const core::UserError& error) {

@@ -79,13 +79,21 @@ class ExtendsLoader {
     }
     const JsonValue* base = value.Find(kExtends);
     if (base == nullptr) return value;
-    JsonValue merged = LoadBase(*base, folder, at);
+    JsonValue merged = LoadBases(*base, folder, at);
     value.Erase(kExtends);
     merged.Merge(value);
     return merged;
   }
 
  private:
+  // One file, or a list of them of which each lies over the one before.
+  JsonValue LoadBases(const JsonValue& names, const fs::path& folder, const std::string& at) {
+    if (!names.Is(JsonValue::Type::kList)) return LoadBase(names, folder, at);
+    JsonValue merged = JsonValue::Object();
+    for (const JsonValue& name : names.list()) merged.Merge(LoadBase(name, folder, at));
+    return merged;
+  }
+
   JsonValue LoadBase(const JsonValue& name, const fs::path& folder, const std::string& at) {
     if (!name.Is(JsonValue::Type::kText) || name.text().empty()) {
       throw UserError(Join(at, kExtends), fmt::format("is {}, not a file name", Abbreviate(name)),

@@ -11,7 +11,8 @@ namespace rockyard::core {
 
 // The value in a file. Wherever it holds an object with a text "extends", that other file (path
 // relative to the folder of the one that names it) is loaded first and the object is merged over
-// it; objects merge, everything else replaces. An object's own members are resolved before it is
+// it; objects merge, everything else replaces. A list of texts names several files, each merged
+// over the one before. An object's own members are resolved before it is
 // merged, so that {"rover": {"extends": "mfex.json"}} also works in a file that extends another.
 // Throws UserError: file missing, unreadable, no regular file or too large, JSON errors, a base
 // that is no object, cycles, more than 16 files in a chain or 64 in all. Problems of "extends" are

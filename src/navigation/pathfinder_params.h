@@ -54,6 +54,10 @@ struct PathfinderParams {
   double threading_m = 0.0;
   VehicleReactionParams vehicle_reaction;
 
+  std::size_t stripe_count() const {
+    return left_stripes.size() + centre_stripes.size() + right_stripes.size();
+  }
+
   void Visit(core::FieldVisitor& v);
 };
 

@@ -45,15 +45,16 @@ void VehicleHazardParams::Visit(core::FieldVisitor& v) {
            .source = "three fifths of the way to its stop: a front wheel 13 cm up",
            .study_low = 20.0,
            .study_high = 45.0});
-  v.Real("max_current_A", max_current_A,
-         {.doc = "motor current above which there is a hazard",
-          .min = 1e-6,
-          .max = 1000.0,
-          .origin = Origin::kAssumed,
-          .source = "0.6 N m of torque at the wheel, more than wheels get by traction from their "
-                    "own share of the weight on Mars",
-          .study_low = 0.035,
-          .study_high = 0.1});
+  v.Real(
+      "max_current_A", max_current_A,
+      {.doc = "motor current above which there is a hazard",
+       .min = 1e-6,
+       .max = 1000.0,
+       .origin = Origin::kAssumed,
+       .source = "1 N m of torque at the wheel, less than half of the stall torque and beyond what "
+                 "rolling over rocks takes; extreme terrain takes 89 mA by Matthies 1995 table 1",
+       .study_low = 0.04,
+       .study_high = 0.13});
   Ticks(v, "tilt_ticks", tilt_ticks, "a lurch is no slope", 10);
   Ticks(v, "articulation_ticks", articulation_ticks, "one noisy sample is no hazard", 10);
   Ticks(v, "current_ticks", current_ticks, "starting takes more than rolling", 10);

@@ -14,7 +14,7 @@ struct VehicleHazardParams {
   double max_tilt_rad = math::DegToRad(25.0);
   double max_rocker_rad = math::DegToRad(15.0);
   double max_bogie_rad = math::DegToRad(30.0);
-  double max_current_A = 0.05;
+  double max_current_A = 0.07;
   std::int64_t tilt_ticks = 2;
   std::int64_t articulation_ticks = 2;
   std::int64_t current_ticks = 3;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace rockyard::report {
@@ -82,25 +81,34 @@ std::string Value(double value) {
   return fmt::format("{:.{}f}", value, std::abs(value) >= 100.0 ? 1 : 2);
 }
 
-std::string ColumnLine(std::string_view label, const ColumnSummary& c) {
-  return fmt::format("  {:<24} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", label, Value(c.min),
-                     Value(c.p05), Value(c.median), Value(c.mean), Value(c.mode), Value(c.p95),
-                     Value(c.max));
+// One row of the table: a column in the unit that suits its size.
+struct TableRow {
+  std::string_view column;
+  std::string_view label;
+  double scale = 1.0;
+};
+
+std::string ColumnLine(const TableRow& row, const ColumnSummary& c) {
+  const auto value = [&](double x) { return Value(row.scale * x); };
+  return fmt::format("  {:<24} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", row.label,
+                     value(c.min), value(c.p05), value(c.median), value(c.mean), value(c.mode),
+                     value(c.p95), value(c.max));
 }
 
 std::string ColumnTable(const DriveSummary& summary, TextStyle style) {
-  const std::pair<std::string_view, std::string_view> rows[] = {
-      {"true_distance_m", "distance [m]"},
-      {"path_ratio", "path ratio (arrived)"},
-      {"distance_error_percent", "distance error [%]"},
-      {"heading_error_deg", "heading error [deg]"},
-      {"position_error_m", "position error [m]"},
-      {"sim_time_s", "simulated time [s]"},
-      {"energy_wh", "energy [Wh]"}};
+  const TableRow rows[] = {{"true_distance_m", "distance [m]"},
+                           {"path_ratio", "path ratio (arrived)"},
+                           {"distance_error_percent", "distance error [%]"},
+                           {"heading_error_deg", "heading error [deg]"},
+                           {"position_error_m", "position error [m]"},
+                           {"sim_time_s", "simulated time [s]"},
+                           {"net_rate_m_s", "net rate [mm/s]", 1000.0},
+                           {"single_scan_rate_m_s", "without rescans [mm/s]", 1000.0},
+                           {"energy_wh", "energy [Wh]"}};
   std::string text;
-  for (const auto& [name, label] : rows) {
-    const ColumnSummary* column = summary.Find(name);
-    if (column != nullptr && column->count > 0) text += ColumnLine(label, *column);
+  for (const TableRow& row : rows) {
+    const ColumnSummary* column = summary.Find(row.column);
+    if (column != nullptr && column->count > 0) text += ColumnLine(row, *column);
   }
   if (text.empty()) return text;
   return Coloured(style, kBold,

@@ -21,9 +21,12 @@ void AllowExtends(core::JsonValue& schema) {
   if (properties == nullptr) return;
   for (core::JsonMember& member : properties->members()) AllowExtends(member.value);
   core::JsonValue extends = core::JsonValue::Object();
-  extends.Set("description",
-              core::JsonValue("file, relative to this one, with an object that this one changes"));
-  extends.Set("type", core::JsonValue("string"));
+  extends.Set(
+      "description",
+      core::JsonValue("file, relative to this one, with an object that this one changes; or "
+                      "a list of such files, each over the one before"));
+  extends.Set("type", core::JsonValue(core::JsonValue::List{core::JsonValue("string"),
+                                                            core::JsonValue("array")}));
   properties->Set("extends", std::move(extends));
 }
 

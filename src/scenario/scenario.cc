@@ -32,6 +32,13 @@ void RequireConsistency(const Scenario& scenario, core::FieldVisitor& v) {
             "(multibody) or "
             "rover.quasi_static.step_s (quasi_static)",
             "use a lower rate or a shorter physics step");
+  const navigation::PathfinderParams& pathfinder = scenario.navigation.pathfinder;
+  v.Require("navigation.pathfinder.left_stripes",
+            pathfinder.stripe_count() == sensing::ArraySize(scenario.sensors.light_stripe).stripes,
+            "names with centre_stripes and right_stripes another number of stripes than "
+            "sensors.light_stripe has",
+            "name every stripe of a denser array, e.g. left [0, 1, 2, 3], centre [4], right [5, 6, "
+            "7, 8]");
   v.Require("rover.fidelity",
             multibody || scenario.terrain.rocks.mobility == terrain::RockMobility::kFixed,
             "is quasi_static, which pushes no rocks, where terrain.rocks.mobility is movable",
@@ -56,11 +63,17 @@ void RequireMeasurable(const Scenario& scenario, core::FieldVisitor& v) {
             std::all_of(study.rows.begin(), study.rows.end(),
                         [&](double row) { return row < rows && row == std::floor(row); }),
             "names a row that sensors.light_stripe does not have", "count its rows from 0");
+  if (study.study != experiments::HazardStudy::kFalseAlarm) return;
+  const bool images = sensor.fidelity == sensing::Fidelity::kImage;
   v.Require("hazard_detection.sun_elevations_deg",
-            (study.sun_elevations_deg.empty() && study.laser_powers_w.empty()) ||
-                sensor.fidelity == sensing::Fidelity::kImage,
+            images || (study.sun_elevations_deg.empty() && study.laser_powers_w.empty()),
             "or laser_powers_w is given, but both act on images only",
             "use sensors.light_stripe.fidelity image, or leave the lists empty");
+  v.Require(
+      "hazard_detection.wrong_place_probabilities",
+      !images || (study.wrong_place_probabilities.empty() && study.outlier_persistences.empty()),
+      "or outlier_persistences is given, but in images points go wrong by themselves",
+      "leave both lists empty, or use sensors.light_stripe.fidelity geometric");
 }
 
 }  // namespace

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "math/angles.h"
-
 namespace rockyard::trial {
 namespace {
 
@@ -75,13 +73,12 @@ HazardWatch::HazardWatch(const sensing::LightStripeParams& sensor,
 
 void HazardWatch::Observe(const math::Transform& X_WR) {
   if (hazards_.empty()) return;
-  const math::Pose2 pose = math::ToPose2(X_WR);
-  if (looked_ && std::hypot(pose.x_m - looked_from_.x_m, pose.y_m - looked_from_.y_m) < kLook_m &&
-      std::abs(math::WrapAngle(pose.heading_rad - looked_from_.heading_rad)) < kLook_rad) {
-    return;
-  }
+  static const double kLookCosine = std::cos(kLook_rad);
+  const auto moved_W = X_WR.translation() - looked_from_X_WR_.translation();
+  const double turn_cosine = X_WR.linear().col(0).dot(looked_from_X_WR_.linear().col(0));
+  if (looked_ && moved_W.squaredNorm() < kLook_m * kLook_m && turn_cosine > kLookCosine) return;
   looked_ = true;
-  looked_from_ = pose;
+  looked_from_X_WR_ = X_WR;
   Look(X_WR);
 }
 

@@ -59,7 +59,7 @@ class HazardWatch {
   std::vector<Zone> front_and_wheels_;
   double reach_m_;  // of all zones about R's origin
   std::vector<Hazard> hazards_;
-  math::Pose2 looked_from_;
+  math::Transform looked_from_X_WR_ = math::Transform::Identity();
   bool looked_ = false;
   std::int64_t met_ = 0;
   std::int64_t missed_ = 0;

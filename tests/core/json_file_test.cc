@@ -99,6 +99,18 @@ TEST_F(JsonFileTest, OneFileMayBeExtendedTwice) {
             DumpJson(ParseJson(R"({"a": {"x": 1}, "b": {"x": 1}})", "test")));
 }
 
+TEST_F(JsonFileTest, FilesOfAListLieOverEachOther) {
+  Write("one.json", R"({"x": 1, "deep": {"y": 1, "z": 1}})");
+  Write("two.json", R"({"x": 2, "deep": {"y": 2}})");
+  const fs::path top =
+      Write("top.json", R"({"extends": ["one.json", "two.json"], "deep": {"z": 3}})");
+  EXPECT_EQ(DumpJson(LoadJsonFile(top)),
+            DumpJson(ParseJson(R"({"x": 2, "deep": {"y": 2, "z": 3}})", "test")));
+  const Problem problem = ProblemOf(Write("bad.json", R"({"extends": ["one.json", 3]})"));
+  EXPECT_EQ(problem.path, "extends");
+  EXPECT_THAT(problem.reason, HasSubstr("is 3, not a file name"));
+}
+
 TEST_F(JsonFileTest, ErrorsOfPartsNameTheirPath) {
   Problem problem = ProblemOf(Write("type.json", R"({"a": [0, {"b": {"extends": 3}}]})"));
   EXPECT_EQ(problem.path, "a[1].b.extends");

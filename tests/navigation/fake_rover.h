@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -109,6 +110,13 @@ inline HazardSource Sequence(std::vector<Stripes> reports) {
   };
 }
 
+// What the rover feels at a tick.
+using FeltSource = std::function<std::optional<messages::VehicleHazard>(const FakeRover& rover)>;
+
+inline FeltSource Nothing() {
+  return [](const FakeRover&) { return std::nullopt; };
+}
+
 enum class HazardSensor { kOn, kOff };
 
 struct DriveSetup {
@@ -118,6 +126,7 @@ struct DriveSetup {
   FakeRoverConfig rover;
   HazardSource hazards = Always(kClear);
   HazardSensor sensor = HazardSensor::kOn;
+  FeltSource felt = Nothing();
 };
 
 // One control tick: what the navigator saw and decided.
@@ -162,6 +171,8 @@ class Drive {
       tick.has_report = true;
       tick.report = report.stripe_hazard;
     }
+    const std::optional<messages::VehicleHazard> felt = setup_.felt(rover_);
+    if (felt) input.vehicle_hazard = &*felt;
     tick.decision = navigator_.Decide(input);
     if (tick.moves()) rover_.Move(tick.decision.motion);
     log_.push_back(tick);

@@ -91,6 +91,26 @@ class RockAtEachFidelity : public testing::TestWithParam<Fidelity> {
   RoverParams params_;
 };
 
+// What contact switches go by: the place on the rover, here the front edge of the belly, wherever
+// in the world the rover is and whichever way it faces.
+TEST_P(RockAtEachFidelity, ContactIsPlacedInTheRoversFrame) {
+  const double heading_rad = 2.0;
+  const math::Vector3 ahead(std::cos(heading_rad), std::sin(heading_rad), 0.0);
+  const math::Vector3 rock = math::Vector3(3.0, -1.0, 0.0) + 0.6 * ahead;
+  const terrain::Terrain terrain =
+      FlatTerrain({MakeRock(rock.x(), rock.y(), 0.0, 0.12, 0.12, 0.2)});
+  const auto rover = MakeRover(params_, terrain);
+  rover->Place({3.0, -1.0, heading_rad});
+  RunFor(*rover, Drive(params_, 0.15, 0.0), 6.0);
+  const truth::RoverState& state = rover->state();
+  ASSERT_EQ(state.contacts.size(), 1U);
+  ASSERT_EQ(state.contacts[0].part, BodyPart::kBelly);
+  const math::Vector3& p_R = state.contacts[0].p_RoC_R;
+  EXPECT_NEAR(p_R.x(), 0.5 * params_.geometry.belly_length_m, 0.012);  // its rounding is 0.01
+  EXPECT_NEAR(p_R.y(), 0.0, 0.02);
+  EXPECT_NEAR(p_R.z(), params_.geometry.belly_clearance_m, 0.03);
+}
+
 INSTANTIATE_TEST_SUITE_P(Fidelity, RockAtEachFidelity,
                          testing::Values(Fidelity::kMultibody, Fidelity::kQuasiStatic));
 

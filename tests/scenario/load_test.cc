@@ -200,7 +200,9 @@ void ExpectExtends(const core::JsonValue& schema, const std::string& path) {
   if (properties == nullptr) return;
   const core::JsonValue* extends = properties->Find("extends");
   ASSERT_NE(extends, nullptr) << path;
-  EXPECT_EQ(extends->Find("type")->text(), "string");
+  ASSERT_EQ(extends->Find("type")->list().size(), 2U);
+  EXPECT_EQ(extends->Find("type")->list()[0].text(), "string");
+  EXPECT_EQ(extends->Find("type")->list()[1].text(), "array");
   for (const core::JsonMember& member : properties->members()) {
     ExpectExtends(member.value, path + "." + member.key);
   }

@@ -23,7 +23,8 @@ std::map<std::string, Scenario> LoadAll() {
   std::map<std::string, Scenario> scenarios;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(kRoot / "scenarios")) {
     if (entry.path().extension() != ".json") continue;
-    if (entry.path().parent_path().filename() == "rovers") continue;  // parts of scenarios
+    const std::string folder = entry.path().parent_path().filename().string();
+    if (folder == "rovers" || folder == "sensors") continue;  // parts of scenarios
     scenarios.emplace(entry.path().stem().string(), LoadScenario(entry.path()));
   }
   return scenarios;

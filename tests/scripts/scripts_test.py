@@ -218,6 +218,94 @@ class TestScript(ScriptTest):
         self.assertEqual(len(self.called("ctest")), 1)
 
 
+class Studies(ScriptTest):
+    """With a rockyard that leaves the same three trials in every run folder."""
+
+    def setUp(self):
+        super().setUp()
+        self.fake("build/release/bin/rockyard").write_text("""#!/bin/sh
+echo "rockyard $*" >> "$CALLS"
+while [ $# -gt 1 ]; do [ "$1" = --out ] && out=$2; shift; done
+mkdir -p "$out"
+rate='{"rate": 0.5, "ci95": [0.25, 0.75]}'
+echo "{\\"declared_success\\": $rate, \\"true_success\\": $rate}" > "$out/summary.json"
+cat > "$out/trials.csv" << END
+trial,outcome,detail,true_distance_m,scrapes,hazards_met,hazards_missed,sim_time_s,energy_wh,\
+scan_energy_wh,contact_hazards,tilt_hazards,articulation_hazards,current_hazards
+0,goal_reached,,8,1,4,1,600,10,5,1,0,0,0
+1,simulator_fault,,,,,,,,,,,,
+2,no_path,,6,3,4,1,1200,12,6,0,0,0,2
+3,jammed,,4,2,2,0,1800,14,7,0,0,1,0
+END
+""", encoding="utf-8")
+
+    def lines(self, name):
+        return (self.root / "results/runs" / name).read_text(encoding="utf-8").splitlines()
+
+    def test_threshold_study_drives_every_threshold(self):
+        result = self.run_script("threshold_study.py", "--trials", "7", "--low", "4", "--high", "6",
+                                 "--set", "clock.stop_time_s=0.1")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        runs = self.called("rockyard")
+        self.assertEqual(len(runs), 6)
+        for index, line in enumerate(runs):
+            self.assertIn(("nominal.json", "vl2.json")[index // 3], line)
+            self.assertIn(f"neighbour_threshold_m=0.0{4 + index % 3}", line)
+            self.assertIn("--trials 7 --seed 1", line)
+            self.assertIn("--set rover.fidelity=quasi_static --set clock.stop_time_s=0.1", line)
+        table = self.lines("threshold/threshold.md")
+        self.assertEqual(len([line for line in table if line.startswith("| ")]), 8)
+        # Mean of 8, 6 and 4 m with 1.96 standard errors; two of ten hazards; faults left out.
+        self.assertIn("6.00 (3.74..8.26)", table[2])
+        self.assertIn("20.00 (", table[2])
+        self.assertEqual(len(self.lines("threshold/threshold.csv")), 7)
+        svg = "\n".join(self.lines("threshold/threshold.svg"))
+        self.assertEqual(svg.count("<polyline"), 8)
+
+    def test_suite_study_drives_every_subset_once(self):
+        result = self.run_script("sensor_suite_study.py", "scenarios/mars/mfex_nominal.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        runs = self.called("rockyard")
+        self.assertEqual(len({line.split("--set", 1)[1] for line in runs}), 32)
+        for sensor in ("perception.hazard.enabled", "sensors.vehicle.contact.enabled",
+                       "sensors.vehicle.accelerometers.enabled",
+                       "sensors.vehicle.articulation.enabled",
+                       "sensors.vehicle.motor_current.enabled"):
+            self.assertEqual(sum(f"{sensor}=true" in line for line in runs), 16)
+            self.assertEqual(sum(f"{sensor}=false" in line for line in runs), 16)
+        table = self.lines("sensor_suite/sensor_suite.md")
+        self.assertTrue(table[2].startswith("| mfex_nominal | none |"), table[2])
+        self.assertTrue(table[2].endswith("| 33 | 33 |"), table[2])  # jammed, no path
+
+    def test_runs_that_are_there_are_resumed(self):
+        for times in (1, 2):
+            self.run_script("threshold_study.py", "--low", "5", "--high", "5")
+            resumed = [line for line in self.called("rockyard") if "--resume" in line]
+            self.assertEqual(len(resumed), 2 * (times - 1))
+
+    def test_what_makes_no_sense_runs_nothing(self):
+        for arguments in (["--low", "0"], ["--low", "9", "--high", "5"]):
+            self.assertEqual(self.run_script("threshold_study.py", *arguments).returncode, 2)
+        self.assertEqual(self.called("rockyard"), [])
+
+    def test_a_failed_run_says_why(self):
+        self.fake("build/release/bin/rockyard")
+        result = self.run_script("threshold_study.py", RUN_CODE="2")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("exit code 2", result.stderr)
+
+    def test_intervals(self):
+        sys.path.insert(0, str(ROOT / "scripts"))
+        import study  # pylint: disable=import-outside-toplevel
+        self.assertEqual(study.ratio_interval([0, 0], [10, 20]), (0.0, 0.0, 0.1))  # rule of three
+        value, low, high = study.ratio_interval([1, 2, 3], [10, 20, 30])
+        self.assertAlmostEqual(value, 0.1)
+        self.assertAlmostEqual(low, high)  # every trial says the same
+        value, low, high = study.mean_interval([1.0, 3.0])
+        self.assertAlmostEqual(high - value, 1.95996 * 1.0, places=4)
+        self.assertAlmostEqual(value - low, high - value)
+
+
 class InstallDependencies(unittest.TestCase):
     """The real script with a package system that knows some packages and installs nothing."""
 

@@ -99,8 +99,9 @@ Books BooksOf(const truth::Trace& trace, double tick_s) {
 
 double EnergyWh(const Books& books, double scan_s, double stall_s, const EnergyParams& energy) {
   const double base_W = energy.cpu_W + energy.gyro_W;
+  constexpr double kScan_W = 7.33;  // published
   return ((books.drive_s + books.turn_s + stall_s) * (base_W + energy.driving_W) +
-          books.steer_s * (base_W + energy.steering_W) + scan_s * energy.hazard_detection_W) /
+          books.steer_s * (base_W + energy.steering_W) + scan_s * kScan_W) /
          3600.0;
 }
 

@@ -2,19 +2,72 @@
 
 #include <gtest/gtest.h>
 
+#include "pathfinder_trials.h"
+#include "trial/scan_time.h"
+
 namespace rockyard::trial {
 namespace {
 
-TEST(LedgerTest, PowersAreThoseOfTable1AndSection6) {
-  const Ledger ledger{EnergyParams{}};
-  EXPECT_DOUBLE_EQ(ledger.Power(Activity::kScanning), 7.33);
-  EXPECT_DOUBLE_EQ(ledger.Power(Activity::kDriving), 3.77 + 0.80 + 8.28);
-  EXPECT_DOUBLE_EQ(ledger.Power(Activity::kTurning), ledger.Power(Activity::kDriving));
-  EXPECT_DOUBLE_EQ(ledger.Power(Activity::kSteering), 3.77 + 0.80 + 6.70);
+Ledger LedgerOf(const scenario::Scenario& scenario) {
+  return {MakePowerBudget(scenario), scenario.energy.battery_wh};
+}
+
+TEST(PowerBudgetTest, PowersAreThoseOfTable1AndSection6) {
+  const PowerBudget budget = MakePowerBudget({});
+  EXPECT_DOUBLE_EQ(budget.Power(Activity::kScanning), 7.33);
+  EXPECT_DOUBLE_EQ(budget.Power(Activity::kDriving), 3.77 + 0.80 + 8.28);
+  EXPECT_DOUBLE_EQ(budget.Power(Activity::kTurning), budget.Power(Activity::kDriving));
+  EXPECT_DOUBLE_EQ(budget.Power(Activity::kSteering), 3.77 + 0.80 + 6.70);
+}
+
+// 7.33 = 2.01 + 3.77 + 0.75 + 0.80: what a scan saves or costs is its parts' alone.
+TEST(PowerBudgetTest, ScanIsTheSumOfItsPublishedParts) {
+  const auto scan_W = [](const Overrides& overrides) {
+    return MakePowerBudget(Pathfinder("nominal", overrides)).Power(Activity::kScanning);
+  };
+  constexpr double kLaser_W = 2.01 / 2.0;
+  constexpr double kRest_W = 7.33 - 2.01;
+  EXPECT_NEAR(scan_W({"sensors.light_stripe.lasers_per_image=1"}), kRest_W + kLaser_W, 1e-12);
+  EXPECT_NEAR(scan_W({"sensors.light_stripe.lasers_per_image=5"}), kRest_W + 5 * kLaser_W, 1e-12);
+  // There are five lasers, however many may be on at once.
+  EXPECT_NEAR(scan_W({"sensors.light_stripe.lasers_per_image=9"}), kRest_W + 5 * kLaser_W, 1e-12);
+  EXPECT_NEAR(scan_W({"sensors.light_stripe.laser.input_power_w=0.33"}), kRest_W + kLaser_W, 1e-12);
+  EXPECT_NEAR(scan_W({"sensors.light_stripe.imager.kind=cmos"}), 7.33 - 0.9 * 0.75, 1e-12);
+  // An emitter for each of the four points of two stripes, at a hundredth of the power.
+  EXPECT_NEAR(scan_W({"sensors.light_stripe.laser.fan=three_scanlines",
+                      "sensors.light_stripe.laser.input_power_w=0.0066"}),
+              kRest_W + 8 * 0.01 * kLaser_W, 1e-12);
+}
+
+TEST(PowerBudgetTest, AccelerometersWatchMotionAlone) {
+  const PowerBudget budget =
+      MakePowerBudget(Pathfinder("nominal", {"sensors.vehicle.accelerometers.enabled=true"}));
+  EXPECT_NEAR(budget.Power(Activity::kDriving), 3.77 + 0.80 + 0.82 + 8.28, 1e-12);
+  EXPECT_NEAR(budget.Power(Activity::kSteering), 3.77 + 0.80 + 0.82 + 6.70, 1e-12);
+  EXPECT_DOUBLE_EQ(budget.Power(Activity::kScanning), 7.33);
+  const PowerBudget others =
+      MakePowerBudget(Pathfinder("nominal", {"sensors.vehicle.contact.enabled=true",
+                                             "sensors.vehicle.articulation.enabled=true",
+                                             "sensors.vehicle.motor_current.enabled=true"}));
+  EXPECT_DOUBLE_EQ(others.Power(Activity::kDriving), 3.77 + 0.80 + 8.28);
+}
+
+// T = fixed + (20 - fixed) groups / 3 / speed.
+TEST(ScanTimeTest, FollowsLaserGroupsAndSpeed) {
+  const auto time_s = [](const Overrides& overrides) {
+    const scenario::Scenario scenario = Pathfinder("nominal", overrides);
+    return ScanTime(scenario.clock, scenario.sensors.light_stripe);
+  };
+  EXPECT_DOUBLE_EQ(time_s({}), 20.0);
+  EXPECT_DOUBLE_EQ(time_s({"clock.scan_fixed_s=7.3"}), 20.0);  // however it divides
+  EXPECT_DOUBLE_EQ(time_s({"sensors.light_stripe.lasers_per_image=5"}), 2.0 + 18.0 / 3.0);
+  EXPECT_DOUBLE_EQ(time_s({"sensors.light_stripe.lasers_per_image=1"}), 2.0 + 18.0 * 5.0 / 3.0);
+  EXPECT_DOUBLE_EQ(time_s({"clock.scan_speed_factor=10"}), 2.0 + 1.8);
+  EXPECT_DOUBLE_EQ(time_s({"clock.scan_fixed_s=20", "clock.scan_speed_factor=10"}), 20.0);
 }
 
 TEST(LedgerTest, OneScanTakesThePublishedEnergy) {
-  Ledger ledger{EnergyParams{}};
+  Ledger ledger = LedgerOf({});
   ledger.Spend(Activity::kScanning, 20.0);
   EXPECT_NEAR(ledger.energy_wh() * 3600.0, 146.6, 1e-9);
   EXPECT_DOUBLE_EQ(ledger.time_s(), 20.0);
@@ -25,7 +78,7 @@ TEST(LedgerTest, OneScanTakesThePublishedEnergy) {
 // Matthies 1995 sec. 6: 6.5 cm of driving at 0.67 cm/s and one 20 s scan give 0.22 cm/s; sec. 8:
 // about 30 m in four hours.
 TEST(LedgerTest, NetRateOfMfexFollowsFromTheClock) {
-  Ledger ledger{EnergyParams{}};
+  Ledger ledger = LedgerOf({});
   for (int step = 0; step < 100; ++step) {
     ledger.Spend(Activity::kDriving, 0.065 / 0.0067);
     ledger.Spend(Activity::kScanning, 20.0);
@@ -36,15 +89,13 @@ TEST(LedgerTest, NetRateOfMfexFollowsFromTheClock) {
 }
 
 TEST(LedgerTest, StallSpendsExactlyTheRestOfTheBatteries) {
-  EnergyParams params;
-  params.battery_wh = 10.0;
-  Ledger ledger{params};
+  Ledger ledger(MakePowerBudget({}), 10.0);
   ledger.Spend(Activity::kDriving, 600.0);
   const double before_wh = ledger.energy_wh();
   EXPECT_FALSE(ledger.empty());
   ledger.SpendRestStalled();
   EXPECT_NEAR(ledger.energy_wh(), 10.0, 1e-12);
-  const double expected_s = (10.0 - before_wh) * 3600.0 / ledger.Power(Activity::kStalled);
+  const double expected_s = (10.0 - before_wh) * 3600.0 / (3.77 + 0.80 + 8.28);
   EXPECT_NEAR(ledger.time_s(Activity::kStalled), expected_s, 1e-9);
 }
 

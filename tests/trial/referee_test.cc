@@ -11,6 +11,8 @@ using navigation::NavigatorStatus;
 using truth::TrialOutcome;
 
 // Feeds a referee with ticks of 0.05 s.
+constexpr PowerBudget kPower{.base_W = 4.57, .driving_W = 8.28};
+
 class RefereeTest : public testing::Test {
  protected:
   static constexpr double kTick_s = 0.05;
@@ -45,7 +47,7 @@ class RefereeTest : public testing::Test {
   double distance_m_ = 0.0;
   double turned_rad_ = 0.0;
   int direction_ = 1;
-  Ledger ledger_{energy_};
+  Ledger ledger_{kPower, energy_.battery_wh};
   Referee referee_{params_, course_, ArenaBounds{-2.0, 10.0}};
 };
 
@@ -264,7 +266,7 @@ TEST_F(RefereeTest, EmptyBatteriesAndTimeLimit) {
   EXPECT_EQ(verdict->outcome, TrialOutcome::kEnergyDepleted);
 
   energy_.battery_wh = 1e5;
-  ledger_ = Ledger(energy_);
+  ledger_ = Ledger(kPower, energy_.battery_wh);
   ledger_.Spend(Activity::kScanning, params_.time_limit_s);
   verdict = Tick();
   ASSERT_TRUE(verdict);

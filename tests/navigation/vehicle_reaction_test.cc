@@ -1,0 +1,222 @@
+// The reaction to hazards that the rover feels: stop, back off, turn away, scan, go on.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "fake_rover.h"
+
+namespace rockyard::navigation {
+namespace {
+
+using messages::HazardSide;
+using messages::VehicleHazard;
+using messages::VehicleHazardKind;
+
+// Something that is felt while the rover's centre lies within a stretch of x.
+FeltSource Between(double low_m, double high_m, HazardSide side) {
+  return [=](const FakeRover& rover) -> std::optional<VehicleHazard> {
+    const double x_m = rover.X_WR().x_m;
+    if (x_m < low_m || x_m > high_m) return std::nullopt;
+    return VehicleHazard{VehicleHazardKind::kContact, side};
+  };
+}
+
+FeltSource From(double low_m, HazardSide side) {
+  return Between(low_m, std::numeric_limits<double>::infinity(), side);
+}
+
+// First tick from `first` on that drives backwards, turns in place or scans.
+std::size_t Find(const std::vector<Tick>& log, std::size_t first, bool (*holds)(const Tick&)) {
+  const auto found =
+      std::find_if(log.begin() + static_cast<std::ptrdiff_t>(first), log.end(), holds);
+  return static_cast<std::size_t>(found - log.begin());
+}
+
+bool Backs(const Tick& tick) { return tick.drives() && tick.decision.motion.direction < 0; }
+bool Turns(const Tick& tick) { return tick.turns(); }
+bool Scans(const Tick& tick) { return tick.decision.scan; }
+
+// One touch on the way, by a rover that sees clear ground.
+struct Reaction {
+  std::vector<Tick> log;
+  std::size_t backs, turns, scans;
+};
+
+Reaction TouchOnce(HazardSide side, DriveSetup setup = {}) {
+  bool touched = false;
+  setup.felt = [&](const FakeRover& rover) -> std::optional<VehicleHazard> {
+    if (touched || rover.X_WR().x_m < 1.0) return std::nullopt;
+    touched = true;
+    return VehicleHazard{VehicleHazardKind::kContact, side};
+  };
+  Drive drive(setup);
+  drive.Run();
+  Reaction reaction{drive.log(), 0, 0, 0};
+  reaction.backs = Find(reaction.log, 0, Backs);
+  reaction.turns = Find(reaction.log, reaction.backs, Turns);
+  reaction.scans = Find(reaction.log, reaction.turns, Scans);
+  return reaction;
+}
+
+TEST(VehicleReactionTest, BacksOffTurnsAwayAndScans) {
+  const PathfinderParams params;
+  const FakeRoverConfig config;
+  const Reaction reaction = TouchOnce(HazardSide::kLeft);
+  const auto& log = reaction.log;
+  ASSERT_LT(reaction.scans, log.size());
+  EXPECT_LT(reaction.backs, reaction.turns);
+  // The tick at which it is felt already drives backwards.
+  EXPECT_NEAR(log[reaction.backs].X_WR.x_m, 1.0, 0.15 * 0.05);
+  const MeasuredMotion backing = MotionBetween(log, reaction.backs, reaction.turns);
+  EXPECT_GE(backing.driven_m, params.vehicle_reaction.back_off_m - 1e-12);
+  EXPECT_LE(backing.driven_m, params.vehicle_reaction.back_off_m + config.tick_distance_m());
+  const MeasuredMotion turn = MotionBetween(log, reaction.turns, reaction.scans);
+  EXPECT_GE(turn.turned_rad, params.vehicle_reaction.turn_rad - 1e-12);
+  EXPECT_LE(turn.turned_rad, params.vehicle_reaction.turn_rad + config.tick_turn_rad());
+  EXPECT_EQ(turn.driven_m, 0.0);
+  // Clear ground seen: straight on before it steers to the goal again.
+  const Tick& after = log[reaction.scans + 1];
+  EXPECT_TRUE(after.has_report);
+  EXPECT_TRUE(after.drives());
+  EXPECT_EQ(after.decision.motion.curvature_per_m, 0.0);
+  EXPECT_EQ(after.decision.motion.direction, +1);
+  EXPECT_EQ(log.back().decision.status, NavigatorStatus::kArrived);
+}
+
+TEST(VehicleReactionTest, TurnsAwayFromTheSide) {
+  const auto direction = [](HazardSide side) {
+    const Reaction reaction = TouchOnce(side);
+    return reaction.log[reaction.turns].decision.motion.direction;
+  };
+  EXPECT_EQ(direction(HazardSide::kLeft), -1);
+  EXPECT_EQ(direction(HazardSide::kRight), +1);
+  EXPECT_EQ(direction(HazardSide::kAhead), -1);  // as a hazard that is seen in the centre
+}
+
+TEST(VehicleReactionTest, BlindRoverGoesStraightOnAfterTheTurn) {
+  DriveSetup setup;
+  setup.sensor = HazardSensor::kOff;
+  const Reaction reaction = TouchOnce(HazardSide::kLeft, setup);
+  const auto& log = reaction.log;
+  EXPECT_EQ(reaction.scans, log.size());
+  std::size_t i = reaction.turns;
+  while (log[i].turns()) ++i;
+  const std::size_t straight = i;
+  while (log[i].drives() && log[i].decision.motion.curvature_per_m == 0.0) ++i;
+  EXPECT_NEAR(MotionBetween(log, straight, i).driven_m, setup.params.vehicle_reaction.straight_m,
+              setup.rover.tick_distance_m());
+  EXPECT_EQ(log.back().decision.status, NavigatorStatus::kArrived);
+}
+
+TEST(VehicleReactionTest, TouchBehindEndsTheBackOffAndNothingElse) {
+  DriveSetup setup;
+  bool touched = false;
+  setup.felt = [&](const FakeRover& rover) -> std::optional<VehicleHazard> {
+    const double x_m = rover.X_WR().x_m;
+    if (touched) {
+      if (x_m > 0.95) return std::nullopt;
+      return VehicleHazard{VehicleHazardKind::kContact, HazardSide::kBehind};
+    }
+    touched = x_m >= 1.0;
+    if (!touched) return std::nullopt;
+    return VehicleHazard{VehicleHazardKind::kContact, HazardSide::kRight};
+  };
+  Drive drive(setup);
+  ASSERT_TRUE(drive.StepUntil(Turns));
+  EXPECT_NEAR(drive.rover().X_WR().x_m, 0.95, 2.0 * 0.15 * 0.05);  // instead of 0.81
+  // Felt behind all the way, it changes nothing.
+  DriveSetup behind;
+  behind.felt = From(0.5, HazardSide::kBehind);
+  Drive calm(behind);
+  EXPECT_EQ(calm.Run(), NavigatorStatus::kArrived);
+  EXPECT_EQ(Find(calm.log(), 0, Backs), calm.log().size());
+}
+
+// A lasting hazard does not keep the rover from ending its reaction; then it starts another one.
+int BackOffs(const std::vector<Tick>& log) {
+  int count = 0;
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    count += Backs(log[i]) && (i == 0 || !Backs(log[i - 1]));
+  }
+  return count;
+}
+
+TEST(VehicleReactionTest, GivesUpAfterReactionsWithoutProgress) {
+  DriveSetup setup;
+  setup.params.vehicle_reaction.max_repeats = 3;
+  setup.felt = Between(-100.0, 100.0, HazardSide::kLeft);
+  Drive drive(setup);
+  EXPECT_EQ(drive.Run(), NavigatorStatus::kGaveUp);
+  EXPECT_EQ(BackOffs(drive.log()), 3);
+}
+
+TEST(VehicleReactionTest, GoesOnWhereItIsTold) {
+  DriveSetup setup;
+  setup.params.vehicle_reaction.max_repeats = 2;
+  setup.params.vehicle_reaction.on_exhausted = ReactionsExhausted::kGoOn;
+  setup.params.vehicle_reaction.ignore_m = 1.0;
+  setup.felt = Between(0.9, 1.1, HazardSide::kAhead);  // a ridge across the whole way
+  Drive drive(setup);
+  EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+  EXPECT_GE(BackOffs(drive.log()), 2);
+  setup.params.vehicle_reaction.on_exhausted = ReactionsExhausted::kGiveUp;
+  Drive stopped(setup);
+  EXPECT_EQ(stopped.Run(), NavigatorStatus::kGaveUp);
+}
+
+TEST(VehicleReactionTest, ProgressForgetsEarlierReactions) {
+  DriveSetup setup;
+  setup.params.vehicle_reaction.max_repeats = 1;
+  int touches = 0;
+  // Once every metre.
+  setup.felt = [&](const FakeRover& rover) -> std::optional<VehicleHazard> {
+    if (rover.X_WR().x_m < 1.0 + touches) return std::nullopt;
+    ++touches;
+    return VehicleHazard{VehicleHazardKind::kContact, HazardSide::kRight};
+  };
+  Drive drive(setup);
+  EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+  EXPECT_GE(touches, 5);
+  EXPECT_EQ(BackOffs(drive.log()), touches);
+}
+
+TEST(VehicleReactionTest, NewTouchDuringTheTurnStartsAgain) {
+  DriveSetup setup;
+  int tick = 0;
+  bool started = false;
+  setup.felt = [&](const FakeRover& rover) -> std::optional<VehicleHazard> {
+    started = started || rover.X_WR().x_m >= 1.0;
+    if (!started) return std::nullopt;
+    ++tick;
+    // The first touch lasts for a tick, the second comes in the midst of the turn (0.2 m at 7.9 mm
+    // a tick are 26 ticks; 45 deg at 1.35 deg a tick are 34).
+    if (tick == 1) return VehicleHazard{VehicleHazardKind::kContact, HazardSide::kLeft};
+    if (tick == 40) return VehicleHazard{VehicleHazardKind::kContact, HazardSide::kRight};
+    return std::nullopt;
+  };
+  Drive drive(setup);
+  drive.Run();
+  const auto& log = drive.log();
+  const std::size_t first = Find(log, Find(log, 0, Backs), Turns);
+  const std::size_t again = Find(log, first, Backs);
+  ASSERT_LT(again, log.size());
+  EXPECT_LT(MotionBetween(log, first, again).turned_rad, setup.params.vehicle_reaction.turn_rad);
+  EXPECT_EQ(log[Find(log, again, Turns)].decision.motion.direction, +1);
+}
+
+TEST(VehicleReactionTest, PoseUpdateKeepsWhatWasTurned) {
+  DriveSetup setup;
+  setup.felt = Between(1.0, 1.005, HazardSide::kLeft);
+  Drive drive(setup);
+  ASSERT_TRUE(drive.StepUntil(Turns));
+  for (int i = 0; i < 10; ++i) drive.Step();
+  const messages::PoseEstimate before = drive.rover().estimate();
+  drive.UpdatePose({before.x_m, before.y_m, before.heading_rad + 1.0});
+  ASSERT_TRUE(drive.StepUntil(Scans));
+  EXPECT_NEAR(drive.rover().estimate().heading_rad, 1.0 - setup.params.vehicle_reaction.turn_rad,
+              2.0 * setup.rover.tick_turn_rad());
+}
+
+}  // namespace
+}  // namespace rockyard::navigation

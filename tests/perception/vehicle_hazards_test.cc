@@ -1,0 +1,150 @@
+// When the rover feels a hazard, and on which side.
+#include "perception/vehicle_hazards.h"
+
+#include <gtest/gtest.h>
+
+#include "math/angles.h"
+
+namespace rockyard::perception {
+namespace {
+
+using math::DegToRad;
+using math::Vector3;
+using messages::ContactSwitch;
+using messages::HazardSide;
+using messages::VehicleHazardKind;
+using messages::VehicleState;
+
+VehicleHazardParams AtOnce() {
+  VehicleHazardParams params;
+  params.tilt_ticks = params.articulation_ticks = params.current_ticks = params.contact_ticks = 1;
+  return params;
+}
+
+std::optional<messages::VehicleHazard> Felt(const VehicleState& state) {
+  return VehicleHazardDetector(AtOnce()).Observe(state);
+}
+
+void ExpectFelt(const VehicleState& state, VehicleHazardKind kind, HazardSide side) {
+  const auto hazard = Felt(state);
+  ASSERT_TRUE(hazard);
+  EXPECT_EQ(hazard->kind, kind);
+  EXPECT_EQ(hazard->side, side);
+}
+
+// Specific force of a rover at rest: gravity seen from R after a roll (left side up) and a pitch
+// (nose up).
+VehicleState Leaning(double roll_deg, double pitch_deg) {
+  VehicleState state;
+  const Eigen::Matrix3d R_WR = (Eigen::AngleAxisd(-DegToRad(pitch_deg), Vector3::UnitY()) *
+                                Eigen::AngleAxisd(DegToRad(roll_deg), Vector3::UnitX()))
+                                   .toRotationMatrix();
+  state.specific_force_R = R_WR.transpose() * (3.72 * Vector3::UnitZ());
+  return state;
+}
+
+TEST(TiltTest, IsTheAngleToTheVertical) {
+  EXPECT_NEAR(TiltOf(*Leaning(0, 20).specific_force_R), DegToRad(20.0), 1e-12);
+  EXPECT_NEAR(TiltOf(*Leaning(-31, 0).specific_force_R), DegToRad(31.0), 1e-12);
+  // cos(tilt) = cos(roll) cos(pitch)
+  EXPECT_NEAR(std::cos(TiltOf(*Leaning(10, 15).specific_force_R)),
+              std::cos(DegToRad(10.0)) * std::cos(DegToRad(15.0)), 1e-12);
+}
+
+TEST(TiltTest, IsFeltAboveTheThreshold) {
+  EXPECT_FALSE(Felt(Leaning(24.9, 0)));
+  EXPECT_FALSE(Felt(Leaning(0, -24.9)));
+  ExpectFelt(Leaning(25.1, 0), VehicleHazardKind::kTilt, HazardSide::kLeft);
+  ExpectFelt(Leaning(-25.1, 0), VehicleHazardKind::kTilt, HazardSide::kRight);
+  ExpectFelt(Leaning(0, 25.1), VehicleHazardKind::kTilt, HazardSide::kAhead);
+  ExpectFelt(Leaning(0, -25.1), VehicleHazardKind::kTilt, HazardSide::kAhead);
+  ExpectFelt(Leaning(20, 17), VehicleHazardKind::kTilt, HazardSide::kLeft);
+  EXPECT_TRUE(Felt(Leaning(180, 0)));  // upside down
+}
+
+VehicleState Bent(double left_rocker_deg, double left_bogie_deg, double right_bogie_deg) {
+  VehicleState state;
+  state.articulation = messages::Articulation{DegToRad(left_rocker_deg), -DegToRad(left_rocker_deg),
+                                              DegToRad(left_bogie_deg), DegToRad(right_bogie_deg)};
+  return state;
+}
+
+TEST(ArticulationTest, IsFeltAboveTheThreshold) {
+  EXPECT_FALSE(Felt(Bent(14.9, 29.9, -29.9)));
+  ExpectFelt(Bent(0, 30.1, 0), VehicleHazardKind::kArticulation, HazardSide::kLeft);
+  ExpectFelt(Bent(0, 0, -30.1), VehicleHazardKind::kArticulation, HazardSide::kRight);
+  ExpectFelt(Bent(0, -31, -31), VehicleHazardKind::kArticulation, HazardSide::kAhead);
+  // The side whose front end is up: a rotation about y takes the nose down.
+  ExpectFelt(Bent(-15.1, 0, 0), VehicleHazardKind::kArticulation, HazardSide::kLeft);
+  ExpectFelt(Bent(15.1, 0, 0), VehicleHazardKind::kArticulation, HazardSide::kRight);
+}
+
+TEST(CurrentTest, IsFeltAboveTheThresholdOnTheSideOfTheWheel) {
+  for (std::size_t wheel = 0; wheel < messages::kWheelCount; ++wheel) {
+    VehicleState state;
+    state.motor_current_A.emplace();
+    state.motor_current_A->fill(0.03);
+    (*state.motor_current_A)[wheel] = AtOnce().max_current_A - 1e-4;
+    EXPECT_FALSE(Felt(state));
+    (*state.motor_current_A)[wheel] = AtOnce().max_current_A + 1e-4;
+    ExpectFelt(state, VehicleHazardKind::kMotorCurrent,
+               wheel < 3 ? HazardSide::kLeft : HazardSide::kRight);
+  }
+  VehicleState all;
+  all.motor_current_A.emplace();
+  all.motor_current_A->fill(0.09);
+  ExpectFelt(all, VehicleHazardKind::kMotorCurrent, HazardSide::kAhead);
+}
+
+VehicleState Touched(std::initializer_list<ContactSwitch> closed) {
+  VehicleState state;
+  state.contact.emplace();
+  for (const ContactSwitch contact : closed) (*state.contact)[Index(contact)] = true;
+  return state;
+}
+
+TEST(ContactTest, SideIsThatOfTheSwitch) {
+  constexpr auto kContact = VehicleHazardKind::kContact;
+  EXPECT_FALSE(Felt(Touched({})));
+  ExpectFelt(Touched({ContactSwitch::kFrontLeft}), kContact, HazardSide::kLeft);
+  ExpectFelt(Touched({ContactSwitch::kLeftEdge}), kContact, HazardSide::kLeft);
+  ExpectFelt(Touched({ContactSwitch::kFrontRight}), kContact, HazardSide::kRight);
+  ExpectFelt(Touched({ContactSwitch::kRightEdge}), kContact, HazardSide::kRight);
+  ExpectFelt(Touched({ContactSwitch::kFrontCentre}), kContact, HazardSide::kAhead);
+  ExpectFelt(Touched({ContactSwitch::kUndercarriage}), kContact, HazardSide::kAhead);
+  ExpectFelt(Touched({ContactSwitch::kRearEdge}), kContact, HazardSide::kBehind);
+  ExpectFelt(Touched({ContactSwitch::kFrontLeft, ContactSwitch::kFrontRight}), kContact,
+             HazardSide::kAhead);
+  ExpectFelt(Touched({ContactSwitch::kFrontCentre, ContactSwitch::kFrontLeft}), kContact,
+             HazardSide::kLeft);
+  ExpectFelt(Touched({ContactSwitch::kRearEdge, ContactSwitch::kUndercarriage}), kContact,
+             HazardSide::kAhead);
+}
+
+TEST(VehicleHazardDetectorTest, HoldsForTicksInARow) {
+  VehicleHazardParams params;
+  params.tilt_ticks = 3;
+  VehicleHazardDetector detector(params);
+  const VehicleState steep = Leaning(30, 0);
+  const VehicleState level = Leaning(0, 0);
+  EXPECT_FALSE(detector.Observe(steep));
+  EXPECT_FALSE(detector.Observe(steep));
+  EXPECT_FALSE(detector.Observe(level));  // counts from the beginning again
+  EXPECT_FALSE(detector.Observe(steep));
+  EXPECT_FALSE(detector.Observe(steep));
+  EXPECT_TRUE(detector.Observe(steep));
+  EXPECT_TRUE(detector.Observe(steep));
+  EXPECT_FALSE(detector.Observe(level));
+}
+
+TEST(VehicleHazardDetectorTest, TouchComesFirstAndMissingSensorsSayNothing) {
+  VehicleState state = Leaning(30, 0);
+  state.articulation = Bent(0, 40, 0).articulation;
+  ExpectFelt(state, VehicleHazardKind::kTilt, HazardSide::kLeft);
+  state.contact = Touched({ContactSwitch::kFrontRight}).contact;
+  ExpectFelt(state, VehicleHazardKind::kContact, HazardSide::kRight);
+  EXPECT_FALSE(Felt({}));
+}
+
+}  // namespace
+}  // namespace rockyard::perception

@@ -1,0 +1,72 @@
+// Spread of what the vehicle sensors report, against what their parameters say.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <vector>
+
+#include "core/statistical_checks.h"
+#include "sensing/vehicle_sensors.h"
+
+namespace rockyard::sensing {
+namespace {
+
+constexpr double kAlpha = 1e-4;  // chance of a false alarm of each check, were its seed drawn anew
+constexpr int kTicks = 20000;
+
+// Two-sided p-value of the variance of a normal sample about a known mean.
+double VarianceP(const std::vector<double>& sample, double mean, double deviation) {
+  double sum = 0.0;
+  for (const double value : sample) sum += (value - mean) * (value - mean);
+  const boost::math::chi_squared distribution(static_cast<double>(sample.size()));
+  const double statistic = sum / (deviation * deviation);
+  return 2.0 * std::min(cdf(distribution, statistic), cdf(complement(distribution, statistic)));
+}
+
+TEST(VehicleNoiseTest, DeviationsAreThoseOfTheParameters) {
+  VehicleSensorParams params;
+  params.articulation = {true, 0.004, 0.0, 0};
+  params.accelerometers = {true, 0.03, 0.0, 0};
+  params.motor_current = {true, 0.001, 0.0, 0, 20.0, 0.02};
+  rover::RoverParams rover;
+  rover.physics.gravity_m_s2 = 3.72;
+  VehicleSensors sensors(params, rover, {20261121, 0});
+  messages::WheelCommand command;
+  command.rate_rad_s.fill(1.0);
+  std::vector<double> bogie_rad, force_m_s2, current_A;
+  for (int tick = 0; tick < kTicks; ++tick) {
+    const messages::VehicleState state = sensors.Measure({}, command, 0.1);
+    bogie_rad.push_back(state.articulation->right_bogie_rad);
+    force_m_s2.push_back(state.specific_force_R->z());
+    current_A.push_back((*state.motor_current_A)[4]);
+  }
+  EXPECT_GT(VarianceP(bogie_rad, 0.0, 0.004), kAlpha);
+  EXPECT_GT(VarianceP(force_m_s2, 3.72, 0.03), kAlpha);
+  EXPECT_GT(VarianceP(current_A, 0.02, 0.001), kAlpha);
+  // Negative control: five per cent more.
+  EXPECT_LT(VarianceP(bogie_rad, 0.0, 1.05 * 0.004), kAlpha);
+  EXPECT_LT(VarianceP(force_m_s2, 3.72, 1.05 * 0.03), kAlpha);
+  EXPECT_LT(VarianceP(current_A, 0.02, 1.05 * 0.001), kAlpha);
+}
+
+TEST(VehicleNoiseTest, FalseTouchesComeAsOftenAsTheyShould) {
+  VehicleSensorParams params;
+  params.contact = {.enabled = true, .false_probability = 0.01, .latency_ticks = 0};
+  VehicleSensors sensors(params, {}, {20261122, 0});
+  double touches = 0.0;
+  for (int tick = 0; tick < kTicks; ++tick) {
+    const messages::VehicleState state = sensors.Measure({}, {}, 0.1);
+    for (const bool closed : *state.contact) touches += closed;
+  }
+  const double chances = kTicks * static_cast<double>(messages::kContactSwitchCount);
+  const auto p_value = [&](double probability) {
+    return core::ChiSquareP({touches, chances - touches},
+                            {chances * probability, chances * (1.0 - probability)});
+  };
+  EXPECT_GT(p_value(0.01), kAlpha);
+  EXPECT_LT(p_value(0.0115), kAlpha);  // negative control
+}
+
+}  // namespace
+}  // namespace rockyard::sensing

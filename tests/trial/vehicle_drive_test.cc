@@ -1,0 +1,162 @@
+// Whole drives of a rover that feels: the sensors change what it does, and nothing where they are
+// off.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "pathfinder_trials.h"
+
+namespace rockyard::trial {
+namespace {
+
+using truth::TrialOutcome;
+
+Overrides operator+(Overrides a, const Overrides& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+const Overrides kQuasiStatic = {"rover.fidelity=quasi_static"};
+const Overrides kContact = {"sensors.vehicle.contact.enabled=true"};
+const Overrides kTilt = {"sensors.vehicle.accelerometers.enabled=true"};
+const Overrides kBlind = {"perception.hazard.enabled=false"};
+const Overrides kAll = kContact + kTilt +
+                       Overrides{"sensors.vehicle.articulation.enabled=true",
+                                 "sensors.vehicle.motor_current.enabled=true"};
+
+bool Felt(const truth::TraceEvent& event) { return event.kind == "felt"; }
+
+// One tall rock in the way of a rover that sees nothing: higher than its belly and than its panel.
+const Overrides kOneRock = {"terrain.arena.kind=open",
+                            "terrain.rocks.kind=uniform_count",
+                            "terrain.rocks.count=1",
+                            "terrain.rocks.uniform_min_diameter_m=0.7",
+                            "terrain.rocks.uniform_max_diameter_m=0.7",
+                            "terrain.rocks.count_area_x_m=2.0",
+                            "terrain.rocks.count_area_length_m=0.4",
+                            "terrain.rocks.count_area_width_m=0.1",
+                            "course.goal_x_m=5"};
+
+class BlindRover : public testing::TestWithParam<const char*> {
+ protected:
+  scenario::Scenario With(const Overrides& sensors) const {
+    return Pathfinder("nominal", kOneRock + kBlind + sensors +
+                                     Overrides{std::string("rover.fidelity=") + GetParam()});
+  }
+};
+
+TEST_P(BlindRover, BacksOffFromARockThatItTouchesAndTurnsAway) {
+  const TracedTrial trial = RunTraced(With(kContact), 0);
+  const auto& events = trial.trace.events;
+  const auto felt = std::find_if(events.begin(), events.end(), Felt);
+  ASSERT_NE(felt, events.end());
+  EXPECT_THAT(felt->detail, testing::StartsWith("contact"));
+  EXPECT_GE(trial.result.record.contact_hazards, 1.0);
+  // A third of its length back within some seconds, then turned.
+  const auto& samples = trial.trace.samples;
+  const auto later = std::find_if(samples.begin(), samples.end(), [&](const auto& sample) {
+    return sample.time_s > felt->time_s && sample.activity == "turn";
+  });
+  ASSERT_NE(later, samples.end());
+  EXPECT_LT(later->pose.x_m, felt->pose.x_m - 0.1);
+  EXPECT_EQ(trial.result.outcome, TrialOutcome::kGoalReached) << trial.result.detail;
+  // Without the switches it does not get past.
+  const DriveResult stuck = RunTrial(With({}), {1, 0});
+  EXPECT_NE(stuck.outcome, TrialOutcome::kGoalReached);
+  EXPECT_EQ(stuck.record.contact_hazards, 0.0);
+  EXPECT_EQ(stuck.record.hazards_met, 1.0);
+  EXPECT_EQ(stuck.record.hazards_missed, 1.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Fidelities, BlindRover, testing::Values("multibody", "quasi_static"));
+
+// A rover across a slope that steepens beneath it would tip; one that feels its tilt gives up.
+TEST(TiltSensorTest, KeepsTheRoverFromTippingOver) {
+  const Overrides rough = kQuasiStatic + Overrides{"terrain.ground.roughness_rms_m=0.3",
+                                                   "terrain.ground.roughness_wavelength_m=1.5",
+                                                   "terrain.ground.soil.friction_angle_deg=56"};
+  int tipped = 0;
+  int tipped_feeling = 0;
+  for (std::uint32_t index = 0; index < 12; ++index) {
+    tipped +=
+        RunTrial(Pathfinder("level_sand", rough), {1, index}).outcome == TrialOutcome::kTipOver;
+    tipped_feeling += RunTrial(Pathfinder("level_sand", rough + kTilt), {1, index}).outcome ==
+                      TrialOutcome::kTipOver;
+  }
+  EXPECT_GE(tipped, 4);
+  EXPECT_LE(tipped_feeling, tipped / 2);
+}
+
+TEST(TiltSensorTest, SlopeAboveTheThresholdIsFelt) {
+  const auto felt = [](const std::string& slope_deg) {
+    return RunTrial(Pathfinder("level_sand", kQuasiStatic + kTilt +
+                                                 Overrides{"terrain.ground.slope_deg=" + slope_deg,
+                                                           "referee.time_limit_s=60"}),
+                    {1, 0})
+        .record.tilt_hazards;
+  };
+  EXPECT_EQ(felt("15"), 0.0);
+  EXPECT_GE(felt("30"), 1.0);
+}
+
+// Sensors that are off are not there, whatever their parameters say.
+TEST(VehicleSensorsTest, ParametersOfSensorsThatAreOffChangeNothing) {
+  const scenario::Scenario plain = Pathfinder("obstacles_0.85", kQuasiStatic);
+  const scenario::Scenario other =
+      Pathfinder("obstacles_0.85",
+                 kQuasiStatic + Overrides{"sensors.vehicle.contact.min_force_N=0",
+                                          "sensors.vehicle.accelerometers.noise_m_s2=5",
+                                          "perception.vehicle_hazard.max_tilt_deg=1",
+                                          "navigation.pathfinder.vehicle_reaction.turn_deg=9"});
+  for (std::uint32_t index = 0; index < 3; ++index) {
+    EXPECT_THAT(Differences(RunTrial(plain, {1, index}), RunTrial(other, {1, index})),
+                testing::IsEmpty());
+  }
+}
+
+// On level ground without rocks there is nothing to feel: the drive is the same, but for the power
+// that the accelerometers draw.
+TEST(VehicleSensorsTest, NothingIsFeltOnLevelSand) {
+  const Overrides slow = {"rover.drive.speed_m_s=0.05"};
+  const DriveResult without = RunTrial(Pathfinder("level_sand", kQuasiStatic + slow), {1, 0});
+  const DriveResult with = RunTrial(Pathfinder("level_sand", kQuasiStatic + slow + kAll), {1, 0});
+  EXPECT_THAT(Differences(without, with), testing::ElementsAre("energy_wh"));
+  EXPECT_NEAR(with.record.energy_wh - without.record.energy_wh,
+              0.82 * with.record.sim_time_s / 3600.0, 1e-9);
+}
+
+TEST(VehicleSensorsTest, TrialsRepeatBitForBit) {
+  const scenario::Scenario scenario = Pathfinder("obstacles_2.0", kQuasiStatic + kAll + kBlind);
+  double felt = 0.0;
+  for (std::uint32_t index = 0; index < 3; ++index) {
+    const DriveResult first = RunTrial(scenario, {1, index});
+    EXPECT_THAT(Differences(first, RunTrial(scenario, {1, index})), testing::IsEmpty());
+    const truth::DriveRecord& record = first.record;
+    felt += record.contact_hazards + record.tilt_hazards + record.articulation_hazards +
+            record.current_hazards;
+  }
+  EXPECT_GT(felt, 0.0);
+}
+
+TEST(HazardCountsTest, MissesAreAmongTheMet) {
+  const scenario::Scenario blind = Pathfinder("obstacles_2.0", kQuasiStatic + kBlind);
+  const scenario::Scenario seeing = Pathfinder("obstacles_2.0", kQuasiStatic);
+  double missed_blind = 0.0;
+  double missed_seeing = 0.0;
+  for (std::uint32_t index = 0; index < 10; ++index) {
+    const truth::DriveRecord a = RunTrial(blind, {1, index}).record;
+    const truth::DriveRecord b = RunTrial(seeing, {1, index}).record;
+    EXPECT_LE(a.hazards_missed, a.hazards_met);
+    EXPECT_LE(b.hazards_missed, b.hazards_met);
+    EXPECT_EQ(a.scan_energy_wh, 0.0);
+    EXPECT_NEAR(b.scan_energy_wh, 7.33 * b.scan_time_s / 3600.0, 1e-9);
+    missed_blind += a.hazards_missed;
+    missed_seeing += b.hazards_missed;
+  }
+  EXPECT_GT(missed_blind, 5.0);
+  EXPECT_LT(missed_seeing, 0.5 * missed_blind);
+}
+
+}  // namespace
+}  // namespace rockyard::trial
