@@ -1,5 +1,4 @@
 // Study "false_alarm": flat sand, no rock.
-#include <algorithm>
 #include <cstdint>
 
 #include "experiments/cell_table.h"
@@ -19,6 +18,8 @@ scenario::Scenario WithFactors(scenario::Scenario scenario, const CellTable& tab
     sensing::LightStripeParams& sensor = scenario.sensors.light_stripe;
     if (columns[i] == "wrong_place_probability") {
       sensor.wrong_place_probability = values[i];
+    } else if (columns[i] == "outlier_persistence") {
+      sensor.outlier_persistence = values[i];
     } else if (columns[i] == "laser_power_w") {
       sensor.laser.input_power_w = values[i];
     } else if (columns[i] == "sun_elevation_deg") {
@@ -44,26 +45,24 @@ class AlarmStudy final : public HazardStudyRunner {
 
   std::vector<double> Measure(std::size_t cell, core::TrialKey key) const override {
     const HazardJudge& judge = judges_[cell];
-    const std::int64_t stride = std::max<std::int64_t>(judge.most_scans(), 2);
     std::vector<double> sums(5, 0.0);
     for (std::int64_t scene = 0; scene < scenes_; ++scene) {
-      AddScene(judge, key, scene * stride, sums);
+      AddScene(judge, SceneKey(key, scenes_, scene), sums);
     }
     return sums;
   }
 
  private:
-  void AddScene(const HazardJudge& judge, core::TrialKey key, std::int64_t first_scan,
-                std::vector<double>& sums) const {
+  void AddScene(const HazardJudge& judge, core::TrialKey key, std::vector<double>& sums) const {
     const math::Transform X_WR = math::Transform::Identity();
-    const messages::ElevationScan first = judge.Scan(sand_, X_WR, key, first_scan);
+    const messages::ElevationScan first = judge.Scan(sand_, X_WR, key, 0);
     sums[0] += 1.0;
     if (!perception::ReportHazards(first, judge.hazard()).any()) {
       sums[1] += 1.0;
       return;
     }
-    const messages::ElevationScan second = judge.Scan(sand_, X_WR, key, first_scan + 1);
-    const Sight sight = judge.Look(sand_, X_WR, key, first_scan);
+    const messages::ElevationScan second = judge.Scan(sand_, X_WR, key, 1);
+    const Sight sight = judge.Look(sand_, X_WR, key, 0);
     sums[1] += static_cast<double>(sight.scans);
     sums[2] += 1.0;
     if (perception::ReportHazards(second, judge.hazard()).any() &&

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <stdexcept>
+#include <optional>
+#include <vector>
 
 #include "core/distributions.h"
 #include "experiments/cell_table.h"
@@ -42,16 +42,11 @@ class FieldStudy final : public HazardStudyRunner {
   }
 
   std::vector<double> Measure(std::size_t cell, core::TrialKey key) const override {
-    const std::uint64_t first = std::uint64_t{key.trial} * params_.scenes_per_run;
-    if (first + params_.scenes_per_run > std::numeric_limits<std::uint32_t>::max()) {
-      throw std::out_of_range("run index times scenes_per_run is over 2^32, the size of their key");
-    }
     terrain::TerrainParams terrain = scenario_.terrain;
     terrain.rocks.k_per_m2 = table_.Values(cell)[0];
     std::vector<double> sums(columns().size(), 0.0);
     for (std::int64_t scene = 0; scene < params_.scenes_per_run; ++scene) {
-      // Every field has a key of its own.
-      AddDrive(terrain, {key.seed, static_cast<std::uint32_t>(first + scene)}, sums);
+      AddDrive(terrain, SceneKey(key, params_.scenes_per_run, scene), sums);
     }
     return sums;
   }

@@ -85,11 +85,18 @@ void VisitApproach(HazardDetectionParams& p, core::FieldVisitor& v) {
 }
 
 void VisitAlarms(HazardDetectionParams& p, core::FieldVisitor& v) {
-  VisitList(v, "wrong_place_probabilities", p.wrong_place_probabilities,
-            {.doc = "values of sensors.light_stripe.wrong_place_probability; study false_alarm",
-             .min = 0.0,
-             .max = 1.0,
-             .origin = Origin::kSetting});
+  v.Reals("wrong_place_probabilities", p.wrong_place_probabilities,
+          {.doc = "values of sensors.light_stripe.wrong_place_probability, geometric level only; "
+                  "empty: the sensor's own; study false_alarm",
+           .min = 0.0,
+           .max = 1.0,
+           .origin = Origin::kSetting});
+  v.Reals("outlier_persistences", p.outlier_persistences,
+          {.doc = "values of sensors.light_stripe.outlier_persistence, geometric level only; "
+                  "empty: the sensor's own",
+           .min = 0.0,
+           .max = 0.99,
+           .origin = Origin::kSetting});
   v.Reals("sun_elevations_deg", p.sun_elevations_deg,
           {.doc = "elevations of the sun, image level only; empty: the sensor's own",
            .min = 0.0,
@@ -154,7 +161,12 @@ std::vector<CellFactor> HazardDetectionParams::Factors() const {
       if (study == HazardStudy::kDetection) factors.push_back({"distance_m", distances_m});
       break;
     case HazardStudy::kFalseAlarm:
-      factors.push_back({"wrong_place_probability", wrong_place_probabilities});
+      if (!wrong_place_probabilities.empty()) {
+        factors.push_back({"wrong_place_probability", wrong_place_probabilities});
+      }
+      if (!outlier_persistences.empty()) {
+        factors.push_back({"outlier_persistence", outlier_persistences});
+      }
       if (!sun_elevations_deg.empty()) factors.push_back({"sun_elevation_deg", sun_elevations_deg});
       if (!laser_powers_w.empty()) factors.push_back({"laser_power_w", laser_powers_w});
       break;

@@ -48,7 +48,8 @@ struct HazardDetectionParams {
   double scan_interval_m = 0.065;
   double first_scan_m = 0.40;
 
-  std::vector<double> wrong_place_probabilities{0.01};
+  std::vector<double> wrong_place_probabilities;
+  std::vector<double> outlier_persistences;
   std::vector<double> sun_elevations_deg;
   std::vector<double> laser_powers_w;
 

@@ -1,7 +1,10 @@
 // One study of the experiment "hazard_detection": what a block of scenes of one cell counts.
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <memory>
+#include <stdexcept>
 #include <string_view>
 #include <vector>
 
@@ -19,9 +22,22 @@ class HazardStudyRunner {
 
   // Their values, summed over hazard_detection.scenes_per_run scenes of one cell. A pure function
   // of its arguments; draws from the sensor's streams and from kSceneRock, kScenePlacement and
-  // kScenePhase, each with the number of the scene.
+  // kScenePhase under the key of each scene. Throws std::out_of_range as SceneKey does.
   virtual std::vector<double> Measure(std::size_t cell, core::TrialKey key) const = 0;
 };
+
+// A key of its own for every scene of every run, so that nothing that lasts from scan to scan
+// (outliers that persist) links two scenes. Throws std::out_of_range where 32 bits end.
+inline core::TrialKey SceneKey(core::TrialKey run, std::int64_t scenes_per_run,
+                               std::int64_t scene) {
+  const std::uint64_t number =
+      std::uint64_t{run.trial} * static_cast<std::uint64_t>(scenes_per_run) +
+      static_cast<std::uint64_t>(scene);
+  if (number > std::numeric_limits<std::uint32_t>::max()) {
+    throw std::out_of_range("scenes end at 2^32 - 1, the size of their random key");
+  }
+  return {run.seed, static_cast<std::uint32_t>(number)};
+}
 
 // rock_studies.cc: one rock, seen from where the rover stands, or on the way past it.
 std::unique_ptr<HazardStudyRunner> MakeDetectionStudy(const scenario::Scenario& scenario);

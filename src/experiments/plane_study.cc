@@ -114,13 +114,13 @@ class PlaneStudy final : public HazardStudyRunner {
     std::vector<double> sums(columns().size(), 0.0);
     const HazardDetectionParams& params = scenario.hazard_detection;
     for (std::int64_t scene = 0; scene < params.scenes_per_run; ++scene) {
-      core::RandomStream placement(key, core::Purpose::kScenePlacement,
-                                   static_cast<std::uint32_t>(scene));
+      const core::TrialKey scene_key = SceneKey(key, params.scenes_per_run, scene);
+      core::RandomStream placement(scene_key, core::Purpose::kScenePlacement);
       const double half_m = 0.5 * params.plane_width_m;
       const double plane_m = factors[2] + core::SampleUniform(placement, -half_m, half_m);
       math::Transform X_WR = math::Transform::Identity();
       X_WR.translation().z() = -plane_m;
-      const messages::StripeScan scan = scanner.Scan(sand_, X_WR, key, scene);
+      const messages::StripeScan scan = scanner.Scan(sand_, X_WR, scene_key, 0);
       for (std::size_t stripe = 0; stripe < truth.lasers.size(); ++stripe) {
         const Scanline seen(believed, row, stripe);
         const Scanline real(truth, row, stripe);

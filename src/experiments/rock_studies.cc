@@ -44,14 +44,14 @@ class RockStudy : public HazardStudyRunner {
   // The last factor of the cell.
   double LastOf(std::size_t cell) const { return table_.Values(cell).back(); }
 
-  RockScene DrawScene(const RockCell& cell, core::TrialKey key, std::uint32_t scene) const {
-    RandomStream placement(key, Purpose::kScenePlacement, scene);
+  RockScene DrawScene(const RockCell& cell, core::TrialKey key) const {
+    RandomStream placement(key, Purpose::kScenePlacement);
     const double side = core::SampleBernoulli(placement, 0.5) ? 1.0 : -1.0;
     const auto spread = [&](double half) { return core::SampleUniform(placement, -half, half); };
     const double lateral_m = side * (cell.lateral_offset_m + spread(0.5 * params_.lateral_width_m));
     const double shift_m = spread(0.5 * params_.distance_width_m);
     const double heading_rad = spread(params_.heading_jitter_rad);
-    RandomStream shape(key, Purpose::kSceneRock, scene);
+    RandomStream shape(key, Purpose::kSceneRock);
     return {SceneTerrain(DrawSceneRock(cell, params_.proportions, law_, lateral_m, shape)),
             heading_rad, shift_m};
   }
@@ -105,9 +105,10 @@ class DetectionStudy final : public RockStudy {
     std::vector<double> sums(7, 0.0);
     const RockCell rock = CellOf(cell);
     for (std::int64_t scene = 0; scene < params().scenes_per_run; ++scene) {
-      const RockScene drawn = DrawScene(rock, key, static_cast<std::uint32_t>(scene));
+      const core::TrialKey scene_key = SceneKey(key, params().scenes_per_run, scene);
+      const RockScene drawn = DrawScene(rock, scene_key);
       const math::Transform X_WR = Pose(LastOf(cell) + drawn.distance_shift_m, drawn.heading_rad);
-      const Sight sight = LookAt(drawn.terrain, X_WR, key, scene * judge().most_scans());
+      const Sight sight = LookAt(drawn.terrain, X_WR, scene_key, 0);
       const bool missing = Any(sight.first.missing);
       const bool neighbour = Any(sight.first.neighbour);
       const bool range = Any(sight.first.range);
@@ -136,17 +137,16 @@ class ApproachStudy final : public RockStudy {
     std::vector<double> sums(4, 0.0);
     const RockCell rock = CellOf(cell);
     for (std::int64_t scene = 0; scene < params().scenes_per_run; ++scene) {
-      AddDrive(rock, key, scene, sums);
+      AddDrive(rock, SceneKey(key, params().scenes_per_run, scene), sums);
     }
     return sums;
   }
 
  private:
   // From first_scan_m before the rock until the front reaches it.
-  void AddDrive(const RockCell& rock, core::TrialKey key, std::int64_t scene,
-                std::vector<double>& sums) const {
-    const RockScene drawn = DrawScene(rock, key, static_cast<std::uint32_t>(scene));
-    RandomStream phase(key, Purpose::kScenePhase, static_cast<std::uint32_t>(scene));
+  void AddDrive(const RockCell& rock, core::TrialKey key, std::vector<double>& sums) const {
+    const RockScene drawn = DrawScene(rock, key);
+    RandomStream phase(key, Purpose::kScenePhase);
     const double interval_m = params().scan_interval_m;
     const double last_gap_m = interval_m * phase.Uniform();
     const auto poses = 1 + static_cast<std::int64_t>(
@@ -156,8 +156,8 @@ class ApproachStudy final : public RockStudy {
     bool believed = false;
     for (std::int64_t pose = 0; pose < poses && !(single && believed); ++pose) {
       const double gap_m = last_gap_m + static_cast<double>(poses - 1 - pose) * interval_m;
-      // Drives share no scan number: each has room for the longest one.
-      const std::int64_t first_scan = (scene * MostPoses() + pose) * judge().most_scans();
+      // As many numbers a pose as it may take, so that later noise does not depend on rescans.
+      const std::int64_t first_scan = pose * judge().most_scans();
       const Sight sight = LookAt(drawn.terrain, Pose(gap_m, drawn.heading_rad), key, first_scan);
       scans += sight.scans;
       single |= Any(sight.first.missing) || Any(sight.first.neighbour) || Any(sight.first.range);
@@ -167,10 +167,6 @@ class ApproachStudy final : public RockStudy {
     sums[1] += static_cast<double>(scans);
     sums[2] += Flag(single);
     sums[3] += Flag(believed);
-  }
-
-  std::int64_t MostPoses() const {
-    return 1 + static_cast<std::int64_t>(params().first_scan_m / params().scan_interval_m);
   }
 };
 

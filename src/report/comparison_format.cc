@@ -45,6 +45,7 @@ std::string Published(const PublishedValue& value) {
     return fmt::format("of {}", value.sample_size);
   if (value.statistic == StatisticKind::kExponentialTail) return "yes";
   if (!std::isfinite(value.value)) return "stated";
+  if (statistics::HasTolerance(value.statistic)) return fmt::format("{:.4g}", value.value);
   const double step = value.rounding > 0.0 ? value.rounding : 0.01;
   const int digits = std::clamp(static_cast<int>(std::lround(-std::log10(step))), 0, 6);
   const std::string number = fmt::format("{:.{}f}", value.value, digits);
@@ -55,6 +56,16 @@ std::string Prediction(double median, const Interval& interval, bool count) {
   if (!std::isfinite(median)) return "-";
   if (count) return fmt::format("{:.0f} ({:.0f} .. {:.0f})", median, interval.low, interval.high);
   return fmt::format("{} ({} .. {})", Number(median), Number(interval.low), Number(interval.high));
+}
+
+std::string Prediction(const ComparedValue& value) {
+  if (!statistics::HasTolerance(value.published.statistic)) {
+    return Prediction(value.median, value.interval, IsCount(value.published));
+  }
+  if (!std::isfinite(value.pool_value)) return "-";
+  if (value.interval.low == value.interval.high) return fmt::format("{:.4g}", value.pool_value);
+  return fmt::format("{:.3g} ({:.3g} .. {:.3g})", value.pool_value, value.interval.low,
+                     value.interval.high);
 }
 
 std::string_view RoleName(ValueRole role) {

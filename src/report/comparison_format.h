@@ -25,6 +25,9 @@ std::string Published(const statistics::PublishedValue& value);
 // "median (low .. high)".
 std::string Prediction(double median, const statistics::Interval& interval, bool count);
 
+// The same for a compared value, in the digits of its kind.
+std::string Prediction(const statistics::ComparedValue& value);
+
 std::string_view RoleName(statistics::ValueRole role);
 
 std::size_t CountOf(const statistics::ComparisonResult& result, statistics::Verdict verdict);

@@ -12,13 +12,21 @@
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/spelling.h"
+#include "report/tolerance_reference.h"
 #include "truth/record.h"
 
 template <>
 struct rockyard::core::EnumNames<rockyard::statistics::StatisticKind> {
-  static constexpr std::array<std::string_view, 9> kNames{
-      "outcome_count", "failure_kinds",    "negative_count", "minimum",      "maximum",
-      "mode",          "exponential_tail", "lower_bound",    "median_offset"};
+  static constexpr std::array<std::string_view, 14> kNames{
+      "outcome_count",    "failure_kinds", "negative_count", "minimum", "maximum", "mode",
+      "exponential_tail", "lower_bound",   "median_offset",  "rate",    "ratio",   "mean",
+      "crossing",         "computed"};
+};
+
+template <>
+struct rockyard::core::EnumNames<rockyard::statistics::Formula> {
+  static constexpr std::array<std::string_view, 7> kNames{
+      "none", "any_of", "sum", "product", "quotient", "net_rate", "range_resolution"};
 };
 
 template <>
@@ -64,6 +72,14 @@ struct ValueFields {
     v.Text("other_scenario", value.other_scenario, kText);
     v.Integer("other_sample_size", value.other_sample_size, kCount);
     v.Text("note", value.note, kText);
+    v.Real("low", value.low, kText);
+    v.Real("high", value.high, kText);
+    v.Text("of", value.of, kText);
+    v.Real("factor", value.factor, kText);
+    v.Text("along", value.along, kText);
+    v.Real("level", value.level, {.doc = "rate at a crossing", .min = 0.0, .max = 1.0});
+    v.Choice("formula", value.formula, kText);
+    v.Reals("inputs", value.inputs, kText);
   }
 };
 
@@ -73,6 +89,16 @@ struct KindFields {
   void Visit(core::FieldVisitor& v) {
     v.Text("name", kind.name, kText);
     v.Integer("count", kind.count, kCount);
+  }
+};
+
+struct RangeFields {
+  statistics::ColumnRange& range;
+
+  void Visit(core::FieldVisitor& v) {
+    v.Text("column", range.column, kText);
+    v.Real("low", range.low, kText);
+    v.Real("high", range.high, kText);
   }
 };
 
@@ -189,7 +215,7 @@ class Parser {
     PublishedValue value;
     ValueFields fields{value};
     const std::size_t problems_before = problems_.size();
-    Read(Without(json, {"outcomes", "kinds"}), fields, path);
+    Read(Without(json, {"outcomes", "kinds", "where"}), fields, path);
     value.outcomes = ParseOutcomes(json, path);
     for (const auto& [kind_path, item] : Items(json, "kinds", path)) {
       KindFields kind{value.kinds.emplace_back()};
@@ -198,6 +224,12 @@ class Parser {
       Require(!kind.kind.name.empty(), kind_path + "name", "is missing", "name the kind");
       Require(!kind.kind.outcomes.empty(), kind_path + "outcomes", "lists no outcome",
               "list the outcomes of this kind");
+    }
+    for (const auto& [range_path, item] : Items(json, "where", path)) {
+      RangeFields range{value.where.emplace_back()};
+      Read(*item, range, range_path);
+      Require(!range.range.column.empty(), range_path + "column", "is missing",
+              "name a column of the trial records");
     }
     if (problems_.size() == problems_before) Check(json, value, path);
     return value;
@@ -214,6 +246,8 @@ class Parser {
     Require(!value.id.empty(), path + "id", "is missing", "give every value a name of its own");
     Require(ids_.insert(value.id).second, path + "id", "is used twice",
             "give every value a name of its own");
+    for (const Problem& problem : ToleranceProblems(value, path)) problems_.push_back(problem);
+    if (statistics::HasTolerance(value.statistic)) return;
     Require(!value.scenario.empty(), path + "scenario", "is missing", "name the scenario");
     Require(value.sample_size >= 1, path + "sample_size", "is missing or 0",
             "give the number of published runs");

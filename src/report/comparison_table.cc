@@ -38,7 +38,7 @@ char RoleMark(ValueRole role) {
 }
 
 std::string What(const PublishedValue& value) {
-  const bool has_unit = !IsCount(value) && std::isfinite(value.value);
+  const bool has_unit = !IsCount(value) && std::isfinite(value.value) && value.unit != "1";
   return has_unit ? fmt::format("{} [{}]", value.what, value.unit) : value.what;
 }
 
@@ -96,9 +96,9 @@ std::string Details(const ComparedValue& value) {
 
 std::string Row(const ComparedValue& value) {
   const PublishedValue& published = value.published;
-  return Line(RoleMark(published.role), What(published), Published(published),
-              Prediction(value.median, value.interval, IsCount(published)), PValue(value.p_value),
-              PValue(value.holm_p_value), Power(value.power), statistics::Name(value.verdict)) +
+  return Line(RoleMark(published.role), What(published), Published(published), Prediction(value),
+              PValue(value.p_value), PValue(value.holm_p_value), Power(value.power),
+              statistics::Name(value.verdict)) +
          Details(value);
 }
 
@@ -121,6 +121,15 @@ std::string Footnotes(const ComparisonResult& result) {
       "calibrated with these runs or their like. Indented: other readings, shown and not judged."};
   std::string text;
   for (const std::string_view note : notes) text += Wrap(std::string(note), 0);
+  if (std::any_of(result.values.begin(), result.values.end(), [](const ComparedValue& value) {
+        return statistics::HasTolerance(value.published.statistic);
+      })) {
+    text += Wrap(
+        "Numbers with a tolerance: the simulated value and its interval, all such intervals "
+        "together 95 % (Bonferroni). agrees: inside of the tolerance. differs: apart from it. "
+        "underpowered: across an end of it.",
+        0);
+  }
   text +=
       Wrap(fmt::format("{} p-values in Holm's family, alpha {}, {} samples for each, seed {}. A "
                        "bound is judged without a p-value.",
@@ -144,7 +153,7 @@ std::string ComparisonText(const PublishedReference& reference, const Comparison
   std::string text = reference.title + " against simulated trials\n\n";
   text += Line(' ', "number", "published", "predicted (95 %)", "p", "Holm", "power", "verdict");
   for (const std::string& scenario : Scenarios(result)) {
-    text += scenario + "\n";
+    text += (scenario.empty() ? "computed" : scenario) + "\n";
     for (const ComparedValue& value : result.values) {
       if (value.published.scenario == scenario) text += Row(value);
     }

@@ -8,6 +8,7 @@
 #include "statistics/bootstrap.h"
 #include "statistics/drive_summary.h"
 #include "statistics/moments.h"
+#include "truth/measurement_record.h"
 
 namespace rockyard::report {
 namespace {
@@ -150,13 +151,13 @@ RunComparison CompareRuns(const ComparedRun& first, const ComparedRun& second) {
   RunComparison result;
   result.paired = first.seed == second.seed;
   std::vector<Pair> pairs;
-  if (result.paired) {
-    pairs = Pairs(first, second);
-    result.successes = {ComparePaired(pairs, "declared success", declared),
-                        ComparePaired(pairs, "true success", truly)};
-  } else {
-    result.successes = {CompareUnpaired(first, second, "declared success", declared),
-                        CompareUnpaired(first, second, "true success", truly)};
+  if (result.paired) pairs = Pairs(first, second);
+  if (!truth::IsMeasurement(first.schema) && !truth::IsMeasurement(second.schema)) {
+    result.successes =
+        result.paired ? std::vector{ComparePaired(pairs, "declared success", declared),
+                                    ComparePaired(pairs, "true success", truly)}
+                      : std::vector{CompareUnpaired(first, second, "declared success", declared),
+                                    CompareUnpaired(first, second, "true success", truly)};
   }
   result.pairs = static_cast<std::int64_t>(pairs.size());
   for (std::size_t i = 0; i < first.schema.size(); ++i) {

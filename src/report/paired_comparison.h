@@ -49,7 +49,7 @@ struct ColumnComparison {
 struct RunComparison {
   bool paired = false;
   std::int64_t pairs = 0;  // trials that both runs finished without a simulator fault
-  std::vector<SuccessComparison> successes;
+  std::vector<SuccessComparison> successes;  // none where nothing drives
   std::vector<ColumnComparison> columns;  // of both schemas
 };
 

@@ -12,6 +12,9 @@ struct Row {
   ComparedValue value;
   // Power at a level; empty for a row that is decided (or left open) without a p-value.
   std::function<double(double)> power;
+  // Two-sided interval of the simulated value at a confidence; empty for a row that is not judged
+  // by a tolerance.
+  std::function<Interval(double)> interval;
 };
 
 // Counts of outcomes, of negative values, and kinds of failure. compare_counts.cc
@@ -32,5 +35,9 @@ Row CompareMedianOffset(const PublishedValue& published, const ScenarioRun& run,
 
 // A row that says why there is nothing to judge.
 Row NotJudged(const PublishedValue& published, std::string remark);
+
+// Values with a tolerance (HasTolerance). compare_tolerances.cc
+Row CompareTolerance(const PublishedValue& published, const ScenarioRun& run);
+Row CompareComputed(const PublishedValue& published);
 
 }  // namespace rockyard::statistics

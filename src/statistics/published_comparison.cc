@@ -18,6 +18,7 @@ const ScenarioRun* FindRun(std::span<const ScenarioRun> runs, const std::string&
 
 Row CompareOne(const PublishedValue& published, std::span<const ScenarioRun> runs,
                const ComparisonOptions& options) {
+  if (published.statistic == StatisticKind::kComputed) return CompareComputed(published);
   const ScenarioRun* run = FindRun(runs, published.scenario);
   if (run == nullptr) return NotJudged(published, "no run of " + published.scenario);
   switch (published.statistic) {
@@ -40,6 +41,13 @@ Row CompareOne(const PublishedValue& published, std::span<const ScenarioRun> run
       if (other == nullptr) return NotJudged(published, "no run of " + published.other_scenario);
       return CompareMedianOffset(published, *run, *other, options);
     }
+    case StatisticKind::kRate:
+    case StatisticKind::kRatio:
+    case StatisticKind::kMean:
+    case StatisticKind::kCrossing:
+      return CompareTolerance(published, *run);
+    case StatisticKind::kComputed:
+      break;
   }
   return NotJudged(published, "unknown statistic");
 }
@@ -62,6 +70,23 @@ void Judge(std::vector<Row>& rows, double alpha) {
     value.verdict = adjusted[i] <= alpha            ? Verdict::kDiffers
                     : value.power >= kRequiredPower ? Verdict::kAgrees
                                                     : Verdict::kUnderpowered;
+  }
+}
+
+// Bonferroni: all intervals hold together with 1 - alpha, whatever their dependence.
+void JudgeTolerances(std::vector<Row>& rows, double alpha) {
+  const auto family = std::count_if(rows.begin(), rows.end(),
+                                    [](const Row& row) { return row.interval != nullptr; });
+  for (Row& row : rows) {
+    if (!row.interval) continue;
+    ComparedValue& value = row.value;
+    value.level = alpha / static_cast<double>(family);
+    value.interval = row.interval(1.0 - value.level);
+    const double low = value.published.low;
+    const double high = value.published.high;
+    const bool inside = value.interval.low >= low && value.interval.high <= high;
+    const bool apart = value.interval.high < low || value.interval.low > high;
+    value.verdict = inside ? Verdict::kAgrees : apart ? Verdict::kDiffers : Verdict::kUnderpowered;
   }
 }
 
@@ -96,6 +121,7 @@ ComparisonResult Compare(const PublishedReference& reference, std::span<const Sc
     rows.push_back(CompareOne(published, runs, options));
   }
   Judge(rows, options.alpha);
+  JudgeTolerances(rows, options.alpha);
   ComparisonResult result{.options = options, .family = 0, .values = {}};
   for (Row& row : rows) {
     if (row.power) ++result.family;

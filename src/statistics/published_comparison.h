@@ -3,6 +3,11 @@
 // Null hypothesis of each row: the published runs and the simulated trials follow one law. Its
 // p-value is two-sided and contains the simulation's own uncertainty (counts.h, predictive.h).
 // Holm's procedure over all judged rows keeps the chance of any false `differs` at or below alpha.
+//
+// Numbers that are published without a sample, but with a tolerance, are judged by an interval of
+// the simulated value: `agrees` inside of the tolerance, `differs` apart from it, `underpowered`
+// across its ends. The intervals of all such rows hold together with 1 - alpha (Bonferroni). What
+// is computed from published numbers is a point.
 #pragma once
 
 #include <cstddef>

@@ -21,6 +21,26 @@ enum class StatisticKind {
   kExponentialTail,  // statement, no number: `column` looks exponential above its minimum
   kLowerBound,       // of `column` over runs that arrive: `value` less the goal tolerance
   kMedianOffset,     // statement, no number: `column` differs from `other_scenario`
+  // Numbers without a sample: held against the simulation's own value by a tolerance.
+  kRate,      // `column` over `of`, both added up: a binomial rate
+  kRatio,     // the same, times `factor`, for sums that count no independent events
+  kMean,      // of `column` over the runs, times `factor`
+  kCrossing,  // where the rate of `column` over `of` first passes `level` along `along`, times
+              // `factor`
+  kComputed,  // `formula` of `inputs`: no simulation at all
+};
+
+// Whether a value is judged by its tolerance, see StatisticKind.
+constexpr bool HasTolerance(StatisticKind kind) { return kind >= StatisticKind::kRate; }
+
+// Closed forms, see closed_forms.h.
+enum class Formula { kNone, kAnyOf, kSum, kProduct, kQuotient, kNetRate, kRangeResolution };
+
+// Records whose `column` lies within low .. high.
+struct ColumnRange {
+  std::string column;
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
 };
 
 // How independent a comparison is of the published data.
@@ -55,6 +75,16 @@ struct PublishedValue {
   std::vector<FailureKind> kinds;             // kFailureKinds
   std::string other_scenario;                 // kMedianOffset
   std::int64_t other_sample_size = 0;
+  // Tolerance within which a simulated value agrees with the published one: HasTolerance.
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  std::string of;                  // column of the base: kRate, kRatio, kCrossing
+  double factor = 1.0;             // to the published unit: kRatio, kMean, kCrossing
+  std::string along;               // column of the abscissa: kCrossing
+  double level = 0.5;              // kCrossing
+  std::vector<ColumnRange> where;  // records that count; all where empty
+  Formula formula = Formula::kNone;
+  std::vector<double> inputs;
   std::string note;
 };
 

@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+"""Shows what better sensors do to hazard detection: the improvements of Matthies 1995, section 6.
+
+Usage: scripts/hazard_improvements.py ROCKYARD OUT [--share S]
+
+Runs scenarios/hazard_detection with each improvement (run folders below OUT; those that are there
+already are read, not run again) and prints two tables in Markdown. S scales the number of runs.
+  geometric  denser arrays: height at which half of the rocks are seen, false alarms
+  image      beam fan, lasers at once, imager: rocks seen and false alarms from images
+"""
+
+import argparse
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+SCENARIOS = Path(__file__).resolve().parent.parent / "scenarios" / "hazard_detection"
+SENSOR = "sensors.light_stripe."
+STRIPES_9 = [f"{SENSOR}stripe_subdivision=2", "navigation.pathfinder.left_stripes=[0,1,2,3]",
+             "navigation.pathfinder.centre_stripes=[4]",
+             "navigation.pathfinder.right_stripes=[5,6,7,8]"]
+ROWS_7 = [f"{SENSOR}row_subdivision=2"]
+REACH_2 = ["perception.hazard.neighbour_reach=2"]
+
+GEOMETRIC = {
+    "published, 4 x 5": [],
+    "7 rows": ROWS_7,
+    "9 stripes": STRIPES_9,
+    "7 x 9": ROWS_7 + STRIPES_9,
+    "7 x 9, neighbours two apart": ROWS_7 + STRIPES_9 + REACH_2,
+}
+ALL_LASERS = [f"{SENSOR}lasers_per_image=5"]
+FAN_3 = [f"{SENSOR}laser.fan=three_scanlines"]
+IMAGE = {
+    "published": [],
+    "all lasers at once": ALL_LASERS,
+    "fan of 3 scanlines, 1/100 of the power": FAN_3 + [f"{SENSOR}laser.input_power_w=0.0066"],
+    "fan of 3 scanlines, the same power": FAN_3,
+    "CMOS imager": [f"{SENSOR}imager.kind=cmos"],
+}
+
+
+def run(options, name, scenario, overrides):
+    """Returns the summary of a run, made where it is not there yet."""
+    folder = options.out / f"{scenario}-{name}".replace(" ", "_").replace(",", "").replace("/", "-")
+    if not (folder / "summary.json").exists():
+        path = SCENARIOS / f"{scenario}.json"
+        trials = json.loads(path.read_text())["trials"]
+        words = [options.rockyard, "run", path, "--out", folder, "--quiet", "--trials",
+                 str(max(1, round(trials * options.share)))]
+        for override in overrides:
+            words += ["--set", override]
+        subprocess.run(words, check=True)
+    return json.loads((folder / "summary.json").read_text())
+
+
+def crossing(summary):
+    """Height at which half of the rocks are believed, by straight lines between the cells."""
+    curve = [(cell["height_m"], cell["detected_double"]["rate"]) for cell in summary["cells"]]
+    for (x0, y0), (x1, y1) in zip(curve, curve[1:]):
+        if y0 < 0.5 <= y1:
+            return x0 + (x1 - x0) * (0.5 - y0) / (y1 - y0)
+    return float("nan")
+
+
+def pooled(summary, rate):
+    """A rate over all cells together, with the total of its base."""
+    count = sum(cell[rate]["count"] for cell in summary["cells"])
+    base = sum(cell[rate]["trials"] for cell in summary["cells"])
+    return f"{count / base:.4f} of {base}"
+
+
+def geometric(options):
+    """Prints the table of denser arrays."""
+    print("| array | half are seen at | of rocks of 7.5 cm | false alarms a scan, 1 wrong point in "
+          "100 | of these believed |\n|---|---|---|---|---|")
+    for name, overrides in GEOMETRIC.items():
+        factor = run(options, name, "height_factor", overrides)
+        alarms = run(options, name, "false_alarm",
+                     overrides + ["hazard_detection.wrong_place_probabilities=[0.01]"])
+        seen = [cell["detected_double"]["rate"] for cell in factor["cells"]
+                if cell["height_m"] == 0.075]
+        print(f"| {name} | {100 * crossing(factor):.2f} cm | {seen[0]:.3f} | "
+              f"{pooled(alarms, 'alarm_single')} | {pooled(alarms, 'alarm_believed')} |")
+
+
+def image(options):
+    """Prints the table of better lights and imagers."""
+    print("\n| sensor, from images | seen by one scan | believed | false alarms a scan, sun 60 deg |"
+          "\n|---|---|---|---|")
+    for name, overrides in IMAGE.items():
+        seen = run(options, name, "detection_image", overrides)
+        alarms = run(options, name, "false_alarm_image",
+                     overrides + ["hazard_detection.sun_elevations_deg=[60]",
+                                  "hazard_detection.laser_powers_w=[]"])
+        print(f"| {name} | {pooled(seen, 'detected_single')} | {pooled(seen, 'detected_double')} | "
+              f"{pooled(alarms, 'alarm_single')} |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("rockyard", help="the rockyard command")
+    parser.add_argument("out", type=Path, help="folder for the runs")
+    parser.add_argument("--share", type=float, default=1.0, help="of the scenarios' runs")
+    parser.add_argument("--level", choices=["geometric", "image", "both"], default="both")
+    options = parser.parse_args()
+    if options.level != "image":
+        geometric(options)
+    if options.level != "geometric":
+        image(options)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,59 @@
+#include "statistics/closed_forms.h"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+
+#include "core/check.h"
+
+namespace rockyard::statistics {
+
+double AnyOf(double p, double n) { return -std::expm1(n * std::log1p(-p)); }
+
+double NetRate(double step_m, double speed_m_s, double scan_time_s) {
+  return step_m / (step_m / speed_m_s + scan_time_s);
+}
+
+double RangeResolution(double pitch_rad, double range_m, double baseline_m) {
+  return pitch_rad * range_m * range_m / baseline_m;
+}
+
+std::size_t FormulaArity(Formula formula) {
+  switch (formula) {
+    case Formula::kAnyOf:
+    case Formula::kQuotient:
+      return 2;
+    case Formula::kNetRate:
+    case Formula::kRangeResolution:
+      return 3;
+    case Formula::kNone:
+    case Formula::kSum:
+    case Formula::kProduct:
+      break;
+  }
+  return 0;
+}
+
+double Evaluate(Formula formula, std::span<const double> inputs) {
+  EXPECT(FormulaArity(formula) == 0 || FormulaArity(formula) == inputs.size());
+  switch (formula) {
+    case Formula::kAnyOf:
+      return AnyOf(inputs[0], inputs[1]);
+    case Formula::kSum:
+      return std::accumulate(inputs.begin(), inputs.end(), 0.0);
+    case Formula::kProduct:
+      return std::accumulate(inputs.begin(), inputs.end(), 1.0, std::multiplies<>());
+    case Formula::kQuotient:
+      return inputs[0] / inputs[1];
+    case Formula::kNetRate:
+      return NetRate(inputs[0], inputs[1], inputs[2]);
+    case Formula::kRangeResolution:
+      return RangeResolution(inputs[0], inputs[1], inputs[2]);
+    case Formula::kNone:
+      break;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace rockyard::statistics

@@ -1,0 +1,214 @@
+// Rows of the comparison that are judged by a tolerance.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "statistics/closed_forms.h"
+#include "statistics/compare_rows.h"
+#include "statistics/drive_summary.h"
+#include "statistics/moments.h"
+
+namespace rockyard::statistics {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// The values of one record that a statistic needs.
+struct Values {
+  double of_column = 0.0;
+  double base = 0.0;
+  double abscissa = 0.0;
+};
+
+struct Columns {
+  std::size_t column = 0;
+  std::optional<std::size_t> of;
+  std::optional<std::size_t> along;
+};
+
+bool Counts(const PublishedValue& published, const ScenarioRun& run, const truth::Record& record) {
+  if (IsFault(record) || record.values.size() != run.schema.size()) return false;
+  return std::all_of(published.where.begin(), published.where.end(), [&](const ColumnRange& range) {
+    const auto column = ColumnIndex(run.schema, range.column);
+    return column && record.values[*column] >= range.low && record.values[*column] <= range.high;
+  });
+}
+
+// Name of a column that the run lacks; empty where it has all.
+std::string MissingColumn(const PublishedValue& published, const ScenarioRun& run) {
+  std::vector<std::string> names{published.column, published.of, published.along};
+  for (const ColumnRange& range : published.where) names.push_back(range.column);
+  for (const std::string& name : names) {
+    if (!name.empty() && !ColumnIndex(run.schema, name)) return name;
+  }
+  return "";
+}
+
+std::vector<Values> ValuesOf(const PublishedValue& published, const ScenarioRun& run) {
+  const Columns columns{*ColumnIndex(run.schema, published.column),
+                        ColumnIndex(run.schema, published.of),
+                        ColumnIndex(run.schema, published.along)};
+  std::vector<Values> values;
+  for (const truth::Record& record : run.records) {
+    if (!Counts(published, run, record)) continue;
+    values.push_back({record.values[columns.column], columns.of ? record.values[*columns.of] : 1.0,
+                      columns.along ? record.values[*columns.along] : 0.0});
+  }
+  return values;
+}
+
+Values SumOf(const std::vector<Values>& values) {
+  Values sum;
+  for (const Values& each : values) {
+    sum.of_column += each.of_column;
+    sum.base += each.base;
+  }
+  return sum;
+}
+
+// A count and its base, as whole numbers; the exact interval keeps its promise for rare events too.
+Interval RateInterval(double count, double base, double confidence) {
+  return ProportionInterval(std::llround(count), std::llround(base), confidence,
+                            IntervalMethod::kClopperPearson);
+}
+
+// Student's interval around a mean from the scatter of `residuals` about it; a point where nothing
+// scatters.
+Interval MeanInterval(double mean, const std::vector<double>& residuals, double scale,
+                      double confidence) {
+  const Moments moments = MomentsOf(residuals);
+  const auto n = static_cast<double>(moments.count());
+  if (n < 2.0) return {-kInfinity, kInfinity};
+  const double t = boost::math::quantile(boost::math::students_t(n - 1.0), 0.5 + 0.5 * confidence);
+  const double half = t * std::abs(scale) * moments.standard_deviation() / std::sqrt(n);
+  return {mean - half, mean + half};
+}
+
+void SetRate(const Values& sum, Row& row) {
+  row.value.pool = std::llround(sum.base);
+  row.value.pool_value = sum.of_column / sum.base;
+  row.interval = [sum](double confidence) {
+    return RateInterval(sum.of_column, sum.base, confidence);
+  };
+}
+
+// Ratio of two sums over independent runs, by linearization: residuals x - R y over the mean of y.
+void SetRatio(const PublishedValue& published, const std::vector<Values>& values, const Values& sum,
+              Row& row) {
+  const double ratio = sum.of_column / sum.base;
+  std::vector<double> residuals;
+  for (const Values& each : values) residuals.push_back(each.of_column - ratio * each.base);
+  const double scale = published.factor * static_cast<double>(values.size()) / sum.base;
+  const double mean = published.factor * ratio;
+  row.value.pool_value = mean;
+  row.interval = [mean, residuals, scale](double confidence) {
+    return MeanInterval(mean, residuals, scale, confidence);
+  };
+}
+
+// First abscissa, by linear interpolation, at which a curve passes a level upwards.
+double Crossing(const std::vector<std::pair<double, double>>& curve, double level) {
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    if (curve[i].second < level) continue;
+    if (i == 0) return -kInfinity;
+    const auto& [x0, y0] = curve[i - 1];
+    const auto& [x1, y1] = curve[i];
+    return x0 + (x1 - x0) * (level - y0) / (y1 - y0);
+  }
+  return kInfinity;
+}
+
+using RateCurve = std::map<double, Values>;
+
+// The crossings of the upper and of the lower ends of the rates' intervals. A crossing lies between
+// two rates, so each takes half of the error. Interpolation between them is not part of it.
+Interval CrossingInterval(const RateCurve& rates, double level, double factor, double confidence) {
+  std::vector<std::pair<double, double>> upper;
+  std::vector<std::pair<double, double>> lower;
+  for (const auto& [x, sum] : rates) {
+    const Interval interval = RateInterval(sum.of_column, sum.base, 1.0 - 0.5 * (1.0 - confidence));
+    upper.emplace_back(x, interval.high);
+    lower.emplace_back(x, interval.low);
+  }
+  return {factor * Crossing(upper, level), factor * Crossing(lower, level)};
+}
+
+void SetCrossing(const PublishedValue& published, const std::vector<Values>& values, Row& row) {
+  RateCurve rates;
+  for (const Values& each : values) {
+    Values& sum = rates[each.abscissa];
+    sum.of_column += each.of_column;
+    sum.base += each.base;
+  }
+  std::vector<std::pair<double, double>> curve;
+  for (const auto& [x, sum] : rates) curve.emplace_back(x, sum.of_column / sum.base);
+  row.value.pool_value = published.factor * Crossing(curve, published.level);
+  row.interval = [rates, published](double confidence) {
+    return CrossingInterval(rates, published.level, published.factor, confidence);
+  };
+}
+
+void SetMean(const PublishedValue& published, const std::vector<Values>& values, Row& row) {
+  std::vector<double> samples;
+  for (const Values& each : values) samples.push_back(each.of_column);
+  const double mean = published.factor * MomentsOf(samples).mean();
+  row.value.pool_value = mean;
+  row.interval = [mean, samples, factor = published.factor](double confidence) {
+    return MeanInterval(mean, samples, factor, confidence);
+  };
+}
+
+std::string ToleranceRemark(const PublishedValue& published) {
+  return fmt::format("tolerance {:.6g} .. {:.6g}", published.low, published.high);
+}
+
+}  // namespace
+
+Row CompareTolerance(const PublishedValue& published, const ScenarioRun& run) {
+  const std::string missing = MissingColumn(published, run);
+  if (!missing.empty()) return NotJudged(published, "the runs have no column " + missing);
+  const std::vector<Values> values = ValuesOf(published, run);
+  const Values sum = SumOf(values);
+  if (values.empty() || !(sum.base > 0.0)) return NotJudged(published, "no simulated runs");
+  Row row;
+  row.value.published = published;
+  row.value.pool = static_cast<std::int64_t>(values.size());
+  row.value.remark = ToleranceRemark(published);
+  switch (published.statistic) {
+    case StatisticKind::kRate:
+      SetRate(sum, row);
+      break;
+    case StatisticKind::kRatio:
+      SetRatio(published, values, sum, row);
+      break;
+    case StatisticKind::kMean:
+      SetMean(published, values, row);
+      break;
+    default:
+      SetCrossing(published, values, row);
+      break;
+  }
+  row.value.median = row.value.pool_value;
+  return row;
+}
+
+Row CompareComputed(const PublishedValue& published) {
+  Row row;
+  ComparedValue& value = row.value;
+  value.published = published;
+  value.pool_value = Evaluate(published.formula, published.inputs);
+  value.median = value.pool_value;
+  value.interval = {value.pool_value, value.pool_value};
+  value.verdict = value.pool_value >= published.low && value.pool_value <= published.high
+                      ? Verdict::kAgrees
+                      : Verdict::kDiffers;
+  value.remark = ToleranceRemark(published) + "; computed, not simulated";
+  return row;
+}
+
+}  // namespace rockyard::statistics

@@ -1,0 +1,86 @@
+// rockyard run and check on the experiment "hazard_detection".
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/command.h"
+
+namespace rockyard::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+class CliHazard : public CommandTest {
+ protected:
+  static std::vector<std::string> Study(const std::string& name, const std::string& out,
+                                        int trials) {
+    return {"run",
+            std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/hazard_detection/" + name + ".json",
+            "--set",
+            "hazard_detection.scenes_per_run=20",
+            "--out",
+            out,
+            "--trials",
+            std::to_string(trials)};
+  }
+  json Summary(const std::string& folder) const {
+    return json::parse(ReadFile(work() / folder / "summary.json"));
+  }
+};
+
+TEST_F(CliHazard, WritesCellsAndNoSuccess) {
+  const CommandResult result = Run(Study("approach", "a", 96));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  for (const char* name : {"results.sqlite", "summary.json", "trials.csv", "cells.csv", "cells.svg",
+                           "scenario.resolved.json"}) {
+    EXPECT_TRUE(fs::exists(work() / "a" / name)) << name;
+  }
+  EXPECT_FALSE(fs::exists(work() / "a" / "distance_cdf.csv"));
+  EXPECT_EQ(Summary("a")["cells"].size(), 96u);
+  EXPECT_THAT(result.out + result.err, Not(HasSubstr("success")));
+  EXPECT_THAT(result.out, HasSubstr("widest 95 % interval of detected_double"));
+}
+
+TEST_F(CliHazard, ThreadsAndResumeGiveTheSameHash) {
+  Run(With(Study("detection", "one", 30), {"--threads", "1"}));
+  Run(With(Study("detection", "two", 30), {"--threads", "2"}));
+  Run(Study("detection", "parts", 11));
+  EXPECT_EQ(Run(With(Study("detection", "parts", 30), {"--resume"})).exit_code, 0);
+  EXPECT_EQ(Summary("two")["trial_hash"], Summary("one")["trial_hash"]);
+  EXPECT_EQ(Summary("parts")["trial_hash"], Summary("one")["trial_hash"]);
+}
+
+TEST_F(CliHazard, ABadScenarioWritesNothing) {
+  const CommandResult result =
+      Run(With(Study("detection", "a", 3), {"--set", "hazard_detection.heights_m=[]"}));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("hazard_detection.heights_m"));
+  EXPECT_TRUE(NothingWritten());
+}
+
+TEST_F(CliHazard, CheckJudgesByTolerance) {
+  Run(With(Study("false_alarm", "runs/alarm", 60),
+           {"--set", "hazard_detection.scenes_per_run=500"}));
+  const CommandResult result = Run(
+      {"check", "runs", "--against",
+       std::string(ROCKYARD_SOURCE_DIR) + "/results/reference/matthies1995_hazard_detection.json",
+       "--csv", "check.csv"});
+  EXPECT_THAT(result.out, HasSubstr("a wrong point among 20"));
+  EXPECT_THAT(result.out, HasSubstr("tolerance 0.16 .. 0.2"));
+  EXPECT_THAT(ReadFile(work() / "check.csv"), HasSubstr("false_alarm.single"));
+}
+
+TEST_F(CliHazard, CompareShowsNoSuccess) {
+  Run(Study("false_alarm", "a", 6));
+  Run(Study("false_alarm", "b", 6));
+  const CommandResult result = Run({"compare", "a", "b"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, Not(HasSubstr("success")));
+  EXPECT_THAT(result.out, HasSubstr("alarm_single"));
+}
+
+}  // namespace
+}  // namespace rockyard::app

@@ -1,0 +1,117 @@
+#include "experiments/hazard_detection.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "experiments/hazard_scenarios.h"
+#include "truth/measurement_record.h"
+
+namespace rockyard::experiments {
+namespace {
+
+using testing::HasSubstr;
+
+std::string ProblemsOf(const std::vector<std::string>& overrides) {
+  try {
+    HazardScenario("detection", overrides);
+  } catch (const core::UserError& error) {
+    std::string text;
+    for (const core::Problem& problem : error.problems()) {
+      text += problem.path + " " + problem.reason + "; " + problem.suggestion + "\n";
+    }
+    return text;
+  }
+  return "";
+}
+
+TEST(HazardScenarioTest, BadScenariosSayWhatIsWrong) {
+  EXPECT_EQ(ProblemsOf({}), "");
+  EXPECT_THAT(ProblemsOf({"hazard_detection.heights_m=[]"}),
+              HasSubstr("hazard_detection.heights_m is an empty list"));
+  EXPECT_THAT(ProblemsOf({"hazard_detection.heights_m=[0.1, -0.05]"}),
+              HasSubstr("hazard_detection.heights_m"));
+  EXPECT_THAT(ProblemsOf({"hazard_detection.distances_m=[0.01]"}),
+              HasSubstr("puts a rock inside the rover"));
+  EXPECT_THAT(ProblemsOf({"hazard_detection.first_scan_m=0.05"}),
+              HasSubstr("shorter than scan_interval_m"));
+  EXPECT_THAT(ProblemsOf({"hazard_detection.rows=[4]"}), HasSubstr("does not have"));
+  EXPECT_THAT(ProblemsOf({"hazard_detection.study=false_alarm",
+                          "hazard_detection.sun_elevations_deg=[30]"}),
+              HasSubstr("both act on images only"));
+  EXPECT_THAT(
+      ProblemsOf({"hazard_detection.study=false_alarm", "sensors.light_stripe.fidelity=image",
+                  "hazard_detection.wrong_place_probabilities=[0.01]"}),
+      HasSubstr("points go wrong by themselves"));
+  EXPECT_THAT(ProblemsOf({"terrain.ground.slope_deg=5"}), HasSubstr("flat sand"));
+  EXPECT_THAT(ProblemsOf({"perception.hazard.agreement=consecutive_moving"}),
+              HasSubstr("judges every pose on its own"));
+  EXPECT_THAT(ProblemsOf({"hazard_detection.study=detecting"}), HasSubstr("detection"));
+  std::string many = "[0.1";
+  for (int i = 0; i < 50; ++i) many += ", 0.1";
+  EXPECT_THAT(ProblemsOf({"hazard_detection.heights_m=" + many + "]"}),
+              HasSubstr("more than 2000 cells"));
+}
+
+TEST(HazardDetectionTest, ShippedTablesHaveAtMost500CellsAndWholeRounds) {
+  for (const char* name : {"detection", "approach", "height_factor", "false_alarm", "persistence",
+                           "missed", "precision"}) {
+    const scenario::Scenario scenario = HazardScenario(name);
+    const auto cells = static_cast<std::int64_t>(scenario.hazard_detection.Cells());
+    EXPECT_LE(cells, 500) << name;
+    EXPECT_EQ(scenario.trials % cells, 0) << name << ": every cell gets as many runs";
+  }
+}
+
+TEST(HazardDetectionTest, RunsGoRoundTheCellsAndNameTheirFactors) {
+  const auto experiment = MakeExperiment(HazardScenario(
+      "detection",
+      {"hazard_detection.heights_m=[0.05, 0.1]", "hazard_detection.diameters_m=[0.2]",
+       "hazard_detection.lateral_offsets_m=[0.05]", "hazard_detection.distances_m=[0.1, 0.2, 0.3]",
+       "hazard_detection.scenes_per_run=3"}));
+  const truth::RecordSchema& schema = experiment->schema();
+  EXPECT_TRUE(truth::IsMeasurement(schema));
+  std::set<std::pair<double, double>> met;
+  for (std::uint64_t run = 0; run < 6; ++run) {
+    const truth::Record record = experiment->Run(1, run);
+    EXPECT_EQ(record.outcome, truth::TrialOutcome::kMeasured) << record.detail;
+    EXPECT_EQ(record.values.front(), static_cast<double>(run));
+    EXPECT_EQ(ValueOf(schema, record, "scenes"), 3.0);
+    met.insert({ValueOf(schema, record, "height_m"), ValueOf(schema, record, "distance_m")});
+  }
+  EXPECT_EQ(met.size(), 6u);
+  EXPECT_EQ(experiment->Run(1, 6).values.front(), 0.0);
+}
+
+TEST(HazardDetectionTest, ARunIsAFunctionOfSeedAndIndexAlone) {
+  for (const char* name : {"detection", "approach", "height_factor", "false_alarm", "persistence",
+                           "missed", "precision"}) {
+    const scenario::Scenario scenario =
+        HazardScenario(name, {"hazard_detection.scenes_per_run=20"});
+    const auto experiment = MakeExperiment(scenario);
+    const truth::Record first = experiment->Run(1, 5);
+    experiment->Run(1, 6);
+    EXPECT_EQ(experiment->Run(1, 5).values, first.values) << name;
+    EXPECT_EQ(MakeExperiment(scenario)->Run(1, 5).values, first.values) << name;
+    EXPECT_EQ(first.values.size(), experiment->schema().size()) << name;
+  }
+}
+
+TEST(HazardDetectionTest, SeedsDiffer) {
+  const auto experiment = MakeExperiment(HazardScenario("false_alarm"));
+  EXPECT_NE(experiment->Run(1, 3).values, experiment->Run(2, 3).values);
+}
+
+TEST(HazardDetectionTest, AnIndexBeyondTheKeyIsAFault) {
+  const auto experiment = MakeExperiment(HazardScenario("false_alarm"));
+  const truth::Record record = experiment->Run(1, 4000000000u);
+  EXPECT_EQ(record.outcome, truth::TrialOutcome::kSimulatorFault);
+  EXPECT_THAT(record.detail, HasSubstr("scenes end at 2^32 - 1"));
+}
+
+}  // namespace
+}  // namespace rockyard::experiments

@@ -1,0 +1,270 @@
+// Studies of hazard detection against what follows without a simulation.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "core/random.h"
+#include "experiments/experiment.h"
+#include "experiments/hazard_judge.h"
+#include "experiments/hazard_scenarios.h"
+#include "experiments/rock_scenes.h"
+#include "experiments/swept_path.h"
+#include "math/angles.h"
+#include "sensing/light_stripe.h"
+#include "statistics/proportions.h"
+
+namespace rockyard::experiments {
+namespace {
+
+constexpr double kAlpha = 1e-4;  // of each statistical statement below
+
+// One column of run 0, added up over the given number of scenes.
+double Count(const scenario::Scenario& scenario, const std::string& column, std::uint64_t run = 0) {
+  const auto experiment = MakeExperiment(scenario);
+  const truth::Record record = experiment->Run(1, run);
+  EXPECT_EQ(record.outcome, truth::TrialOutcome::kMeasured) << record.detail;
+  return ValueOf(experiment->schema(), record, column);
+}
+
+const std::vector<std::string> kNoNoise{"sensors.light_stripe.wrong_place_probability=0"};
+
+std::vector<std::string> With(std::vector<std::string> all, const std::vector<std::string>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+// Without a rock nothing is caused by one, whatever the noise.
+TEST(HazardPhysicsTest, NoRockIsNeverDetected) {
+  const std::vector<std::string> none{"hazard_detection.heights_m=[0]"};
+  for (const char* study : {"detection", "approach"}) {
+    EXPECT_EQ(Count(HazardScenario(study, none), "detected_single"), 0.0) << study;
+    EXPECT_EQ(Count(HazardScenario(study, none), "detected_double"), 0.0) << study;
+  }
+}
+
+// Elevation 0.12 m is over t_dh = 5 cm, and a rock of 1.2 m that begins 3 cm before the rover and
+// spans the array leaves no two neighbours to compare but on its flank: the array sees either its
+// flank or a range of at least the height of the lowest point that it covers.
+TEST(HazardPhysicsTest, ARockLargerThanTheArrayIsAlwaysSeenOnTheWay) {
+  const scenario::Scenario scenario = HazardScenario(
+      "approach",
+      With(kNoNoise, {"hazard_detection.heights_m=[0.2]", "hazard_detection.diameters_m=[1.2]",
+                      "hazard_detection.lateral_offsets_m=[0]"}));
+  const double scenes = Count(scenario, "scenes");
+  EXPECT_EQ(Count(scenario, "detected_single"), scenes);
+  EXPECT_EQ(Count(scenario, "detected_double"), scenes);
+}
+
+// Negative control of the test above: a rock below the threshold is not seen by a clean sensor. Its
+// height counts at the neighbours' pixels, each rounded by half a pixel: 2 mm at most.
+TEST(HazardPhysicsTest, ARockBelowTheThresholdIsNotSeenWithoutNoise) {
+  const scenario::Scenario scenario = HazardScenario(
+      "approach",
+      With(kNoNoise, {"hazard_detection.heights_m=[0.045]", "hazard_detection.diameters_m=[0.4]",
+                      "hazard_detection.lateral_offsets_m=[0]"}));
+  EXPECT_EQ(Count(scenario, "detected_double"), 0.0);
+}
+
+// One look's chance to see a rock does not fall with its height, all else drawn alike. Runs of
+// equal index share their noise only; cells of one run index differ in height, so compare rates:
+// Wilson intervals at 1 - kAlpha of neighbours must not be apart in the wrong order.
+TEST(HazardPhysicsTest, DetectionGrowsWithHeight) {
+  const auto experiment = MakeExperiment(HazardScenario(
+      "approach",
+      {"hazard_detection.heights_m=[0.03, 0.05, 0.06, 0.075, 0.09, 0.12, 0.2]",
+       "hazard_detection.diameters_m=[0.25]", "hazard_detection.lateral_offsets_m=[0.15]",
+       "hazard_detection.scenes_per_run=400"}));
+  statistics::Interval before{0.0, 0.0};
+  double first_rate = 1.0;
+  double last_rate = 0.0;
+  for (std::uint64_t cell = 0; cell < 7; ++cell) {
+    const truth::Record record = experiment->Run(3, cell);
+    const auto count =
+        static_cast<std::int64_t>(ValueOf(experiment->schema(), record, "detected_double"));
+    const statistics::Proportion rate = statistics::MakeProportion(count, 400, 1.0 - kAlpha);
+    EXPECT_GE(rate.interval.high, before.low) << "cell " << cell;
+    before = rate.interval;
+    if (cell == 0) first_rate = rate.rate;
+    last_rate = rate.rate;
+  }
+  EXPECT_LT(first_rate, 0.3);
+  EXPECT_GT(last_rate, 0.95);
+}
+
+// Chance that a scan of flat sand with exactly one point in a wrong place, at a column of its
+// searched part, raises an alarm: counted over all points and columns.
+double AlarmShareOfOneWrongPoint(const scenario::Scenario& scenario) {
+  const HazardJudge judge(scenario);
+  const sensing::LightStripe sensor(scenario.sensors.light_stripe);
+  const perception::Triangulator triangulator(sensor.calibration());
+  const terrain::Terrain sand(terrain::Ground(), {}, {});
+  const messages::ElevationScan clean = judge.Scan(sand, math::Transform::Identity(), {1, 0}, 0);
+  double share = 0.0;
+  for (std::size_t row = 0; row < clean.points.rows(); ++row) {
+    for (std::size_t stripe = 0; stripe < clean.points.stripes(); ++stripe) {
+      const auto range = sensor.searched(row, stripe);
+      int alarms = 0;
+      for (int column = range.first; column <= range.last; ++column) {
+        messages::ElevationScan scan = clean;
+        scan.points[row][stripe] = triangulator.Elevation(row, stripe, column);
+        if (perception::ReportHazards(scan, judge.hazard()).any()) ++alarms;
+      }
+      share += alarms / static_cast<double>(range.last - range.first + 1);
+    }
+  }
+  return share / static_cast<double>(clean.points.points().size());
+}
+
+// P(alarm) lies between P(one wrong point) q and the same plus P(two or more), with q from above
+// and 20 independent points: 20 p (1 - p)^19 q <= P <= that + 1 - (1 - p)^20 - 20 p (1 - p)^19.
+TEST(HazardPhysicsTest, FalseAlarmsFollowTheArithmeticOfWrongPoints) {
+  const scenario::Scenario clean = HazardScenario("false_alarm", kNoNoise);
+  const double q = AlarmShareOfOneWrongPoint(clean);
+  EXPECT_GT(q, 0.5);
+  EXPECT_LT(q, 1.0);
+  const double p = 0.001;
+  const scenario::Scenario scenario =
+      HazardScenario("false_alarm", {"hazard_detection.wrong_place_probabilities=[0.001]",
+                                     "hazard_detection.scenes_per_run=60000"});
+  const auto experiment = MakeExperiment(scenario);
+  const truth::Record record = experiment->Run(1, 0);
+  const auto alarms =
+      static_cast<std::int64_t>(ValueOf(experiment->schema(), record, "alarm_single"));
+  const statistics::Interval measured = statistics::ProportionInterval(alarms, 60000, 1.0 - kAlpha);
+  const double none = std::pow(1.0 - p, 20);
+  const double one = 20.0 * p * std::pow(1.0 - p, 19);
+  EXPECT_GE(measured.high, one * q);
+  EXPECT_LE(measured.low, one * q + 1.0 - none - one);
+  // Negative control: the bare chance of a wrong point is told apart from that of an alarm.
+  EXPECT_LT(measured.high, 1.0 - none);
+}
+
+TEST(HazardPhysicsTest, NoWrongPointsNoAlarms) {
+  const scenario::Scenario scenario =
+      HazardScenario("false_alarm", {"hazard_detection.wrong_place_probabilities=[0]"});
+  EXPECT_EQ(Count(scenario, "alarm_single"), 0.0);
+  EXPECT_EQ(Count(scenario, "alarm_believed"), 0.0);
+  EXPECT_EQ(Count(scenario, "scans"), Count(scenario, "scenes"));
+}
+
+// A wrong point that always stays is as good as a rock: with persistence r two alarms agree at
+// least with r; without it hardly ever.
+TEST(HazardPhysicsTest, PersistentOutliersPassTheTwoScanRule) {
+  const scenario::Scenario scenario = HazardScenario(
+      "persistence",
+      {"hazard_detection.outlier_persistences=[0, 0.9]", "hazard_detection.scenes_per_run=4000"});
+  const double alarms = Count(scenario, "alarm_single", 1);
+  EXPECT_LT(Count(scenario, "alarm_pair", 0), 0.02 * Count(scenario, "alarm_single", 0));
+  // All 20 points keep their lot with 0.9 each; the one that matters and no new one: over 0.7.
+  EXPECT_GT(Count(scenario, "alarm_pair", 1), 0.7 * alarms);
+}
+
+// Uniform rounding of a column: the error's root mean square is one pixel's range over the root of
+// 12. One pixel's range is pitch r^2 / baseline within the obliqueness of the fans.
+TEST(HazardPhysicsTest, RangeErrorsAreThoseOfRoundedColumns) {
+  const auto experiment = MakeExperiment(HazardScenario(
+      "precision",
+      {"hazard_detection.baselines_m=[0.05, 0.12]", "hazard_detection.rows=[0, 3]",
+       "hazard_detection.plane_heights_m=[0]", "hazard_detection.scenes_per_run=2000"}));
+  const truth::RecordSchema& schema = experiment->schema();
+  for (std::uint64_t cell = 0; cell < 4; ++cell) {
+    const truth::Record record = experiment->Run(1, cell);
+    const double found = ValueOf(schema, record, "found");
+    EXPECT_EQ(found, ValueOf(schema, record, "points"));
+    const double rms = std::sqrt(ValueOf(schema, record, "range_error_m") / found);
+    const double step = ValueOf(schema, record, "range_step_m") / found;
+    EXPECT_NEAR(rms * std::sqrt(12.0) / step, 1.0, 0.05) << "cell " << cell;
+    const double bias = ValueOf(schema, record, "range_bias_m") / found;
+    EXPECT_LT(std::abs(bias), 0.05 * step) << "cell " << cell;
+    EXPECT_GT(step, 0.0);
+  }
+}
+
+// pitch (0.3 m)^2 / baseline with the 4 mm lens: 8.9 mm / 768 / 4 mm = 2.897 mrad.
+TEST(HazardPhysicsTest, ResolutionAtThirtyCentimetres) {
+  const auto experiment = MakeExperiment(HazardScenario(
+      "precision", {"hazard_detection.baselines_m=[0.05, 0.1, 0.12]", "hazard_detection.rows=[0]",
+                    "hazard_detection.plane_heights_m=[0]"}));
+  const double pitch = 0.0089 / 768.0 / 0.004;
+  const double baselines[] = {0.05, 0.1, 0.12};
+  for (std::uint64_t cell = 0; cell < 3; ++cell) {
+    const truth::Record record = experiment->Run(1, cell);
+    EXPECT_NEAR(ValueOf(experiment->schema(), record, "resolution_30cm_m") /
+                    ValueOf(experiment->schema(), record, "points"),
+                pitch * 0.09 / baselines[cell], 1e-9);
+  }
+}
+
+terrain::Rock RockAt(double x_m, double y_m, double a_m, double b_m, double yaw_rad) {
+  terrain::Rock rock;
+  rock.center_W = {x_m, y_m, 0.0};
+  rock.semi_axes_m = {a_m, b_m, 0.1};
+  rock.yaw_rad = yaw_rad;
+  return rock;
+}
+
+TEST(SweptPathTest, FirstContactIsTheLeastXOfTheOutlineInThePath) {
+  // A circle of 0.2 m ahead; beside the path but for its flank; out of reach.
+  EXPECT_NEAR(FirstContact(RockAt(1.0, 0.0, 0.2, 0.2, 0.3), 0.0, 0.24).value(), 0.8, 1e-12);
+  // At y = 0.24 the circle around y = 0.34 begins at 1 - sqrt(0.2^2 - 0.1^2).
+  EXPECT_NEAR(FirstContact(RockAt(1.0, 0.34, 0.2, 0.2, 0.0), 0.0, 0.24).value(),
+              1.0 - std::sqrt(0.03), 1e-12);
+  EXPECT_FALSE(FirstContact(RockAt(1.0, 0.45, 0.2, 0.2, 0.0), 0.0, 0.24).has_value());
+}
+
+// Any ellipse against a fine walk around its outline.
+TEST(SweptPathTest, AgreesWithAWalkAroundTheOutline) {
+  core::RandomStream stream({7, 0}, core::Purpose::kTest);
+  int met = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double a = 0.05 + 0.4 * stream.Uniform();
+    const double b = a * (0.3 + 0.7 * stream.Uniform());
+    const terrain::Rock rock = RockAt(2.0, stream.Uniform() - 0.5, a, b, 3.0 * stream.Uniform());
+    double least = 1e9;
+    constexpr int kSteps = 20000;
+    for (int k = 0; k < kSteps; ++k) {
+      const double t = 2.0 * std::numbers::pi * k / kSteps;
+      const double u = a * std::cos(t);
+      const double w = b * std::sin(t);
+      const double y = rock.center_W.y() + u * std::sin(rock.yaw_rad) + w * std::cos(rock.yaw_rad);
+      if (std::abs(y) > 0.2) continue;
+      least = std::min(least, 2.0 + u * std::cos(rock.yaw_rad) - w * std::sin(rock.yaw_rad));
+    }
+    const auto contact = FirstContact(rock, 0.0, 0.2);
+    ASSERT_EQ(contact.has_value(), least < 1e8) << i;
+    if (!contact) continue;
+    ++met;
+    EXPECT_NEAR(*contact, least, 2e-3) << i;
+  }
+  EXPECT_GT(met, 100);
+}
+
+TEST(RockSceneTest, RocksHaveTheirHeightAndBeginAtZero) {
+  const terrain::RockFieldParams law;
+  core::RandomStream stream({1, 0}, core::Purpose::kSceneRock);
+  for (const RockProportions proportions : {RockProportions::kListed, RockProportions::kNatural}) {
+    const terrain::Rock rock = DrawSceneRock({0.1, 0.3, 0.0}, proportions, law, 0.05, stream);
+    const terrain::Terrain terrain = SceneTerrain(rock);
+    EXPECT_NEAR(terrain.Height(rock.center_W.x(), rock.center_W.y()), 0.1, 1e-12);
+    EXPECT_NEAR(rock.center_W.x() - 0.5 * rock.diameter_m, 0.0, 1e-12);
+    EXPECT_EQ(rock.center_W.y(), 0.05);
+    if (proportions == RockProportions::kListed) {
+      EXPECT_EQ(rock.diameter_m, 0.3);
+    }
+  }
+}
+
+TEST(RockSceneTest, TheFrontStandsTheGapBeforeZero) {
+  const double heading_rad = 0.2;
+  const math::Transform X_WR = PoseBefore(0.25, heading_rad, 0.325);
+  const math::Vector3 front_W = X_WR * math::Vector3(0.325, 0.0, 0.0);
+  EXPECT_NEAR(front_W.x(), -0.25, 1e-12);
+  // Straight on, the front passes the origin.
+  EXPECT_NEAR(front_W.y() + 0.25 * std::tan(heading_rad), 0.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace rockyard::experiments

@@ -1,0 +1,99 @@
+// Reports of experiments that measure.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string_view>
+
+#include "report/measurement_csv.h"
+#include "report/measurement_drawing.h"
+#include "report/measurement_text.h"
+#include "report/sample_run.h"
+#include "report/summary_json.h"
+#include "statistics/cell_summary.h"
+
+namespace rockyard::report {
+namespace {
+
+using nlohmann::json;
+using statistics::IntervalMethod;
+using statistics::MeasurementSummary;
+using testing::HasSubstr;
+using testing::Not;
+using truth::TrialOutcome;
+
+// Heights by diameters, `runs` runs each; the rate grows with the cell.
+MeasurementSummary Sample(int heights, int diameters) {
+  constexpr std::string_view kNames[] = {"cell",  "height_m",        "diameter_m",     "scenes",
+                                         "scans", "detected_single", "detected_double"};
+  std::vector<truth::Record> records;
+  for (int h = 0; h < heights; ++h) {
+    for (int d = 0; d < diameters; ++d) {
+      const double cell = h * diameters + d;
+      records.push_back({records.size(),
+                         TrialOutcome::kMeasured,
+                         "",
+                         {cell, 0.05 * h, 0.1 * d, 100.0, 120.0, 10.0 * h, 5.0 * h}});
+    }
+  }
+  return statistics::SummarizeCells(truth::MeasurementSchema(kNames), records, 100);
+}
+
+TEST(MeasurementReport, NothingSpeaksOfSuccess) {
+  const MeasurementSummary summary = Sample(3, 2);
+  const RunDescription run = SampleDescription();
+  EXPECT_THAT(MeasurementText(run, summary), Not(HasSubstr("success")));
+  EXPECT_THAT(MeasurementJson(run, summary, IntervalMethod::kWilson), Not(HasSubstr("success")));
+}
+
+TEST(MeasurementReport, JsonHoldsEveryCell) {
+  const MeasurementSummary summary = Sample(3, 2);
+  const json parsed =
+      json::parse(MeasurementJson(SampleDescription(), summary, IntervalMethod::kWilson));
+  ASSERT_EQ(parsed["cells"].size(), 6u);
+  const json& cell = parsed["cells"][5];
+  EXPECT_EQ(cell["height_m"], 0.1);
+  EXPECT_EQ(cell["scenes"], 100.0);
+  EXPECT_EQ(cell["detected_double"]["count"], 10);
+  EXPECT_EQ(cell["mean_scans"], 1.2);
+  const json& rate = cell["detected_double"];
+  EXPECT_LT(rate["ci95_all_cells"][0], rate["ci95"][0]);
+  EXPECT_EQ(parsed["widest_ci95"]["detected_double"], summary.WidestInterval(1));
+}
+
+TEST(MeasurementReport, CsvHasALineACellAndAsManyFieldsAsItsHeader) {
+  std::istringstream lines(CellsCsv(Sample(3, 2)));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_THAT(line, HasSubstr("cell,runs,height_m,diameter_m,scenes,detected_single,"));
+  EXPECT_THAT(line, HasSubstr("detected_double_all_high,mean_scans"));
+  const auto fields = std::count(line.begin(), line.end(), ',');
+  int cells = 0;
+  while (std::getline(lines, line)) {
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), fields);
+    ++cells;
+  }
+  EXPECT_EQ(cells, 6);
+}
+
+TEST(MeasurementReport, FewCellsAreListedManyArePooled) {
+  EXPECT_THAT(MeasurementText(SampleDescription(), Sample(3, 2)), HasSubstr("A height_m"));
+  const std::string pooled = MeasurementText(SampleDescription(), Sample(20, 3));
+  EXPECT_THAT(pooled, HasSubstr("detected_double by height_m (down) and diameter_m (across)"));
+  std::istringstream lines(pooled);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+}
+
+TEST(MeasurementReport, TheDrawingHasAPanelAndACurveForEachDiameter) {
+  const std::string svg = CellsSvg(Sample(4, 3), "a < b");
+  EXPECT_THAT(svg, HasSubstr("a &lt; b"));
+  std::size_t curves = 0;
+  for (auto at = svg.find("<polyline"); at != std::string::npos; at = svg.find("<polyline", at + 1))
+    ++curves;
+  EXPECT_EQ(curves, 3u);
+  EXPECT_EQ(CellsSvg(Sample(1, 3), "one height"), "") << "nothing to draw against";
+}
+
+}  // namespace
+}  // namespace rockyard::report

@@ -1,0 +1,78 @@
+// The committed numbers of hazard detection, and mistakes in such a file.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "core/error.h"
+#include "core/json_text.h"
+#include "report/comparison_reference.h"
+#include "report/comparison_table.h"
+#include "statistics/published_comparison.h"
+
+namespace rockyard::report {
+namespace {
+
+using statistics::StatisticKind;
+using statistics::Verdict;
+using testing::HasSubstr;
+
+statistics::PublishedReference HazardDetection() {
+  return LoadReference(ROCKYARD_SOURCE_DIR "/results/reference/matthies1995_hazard_detection.json");
+}
+
+TEST(HazardReference, ItsArithmeticAgrees) {
+  const statistics::ComparisonResult result = statistics::Compare(HazardDetection(), {});
+  std::set<std::string> computed;
+  for (const statistics::ComparedValue& value : result.values) {
+    if (value.published.statistic == StatisticKind::kComputed) {
+      EXPECT_EQ(value.verdict, Verdict::kAgrees) << value.published.id;
+      computed.insert(value.published.id);
+    } else {
+      EXPECT_EQ(value.verdict, Verdict::kNotJudged) << value.published.id;
+    }
+  }
+  for (const char* id :
+       {"false_alarm.any_point", "net_rate.computed", "power.sum", "resolution.equation"}) {
+    EXPECT_TRUE(computed.contains(id)) << id;
+  }
+  EXPECT_THAT(ComparisonText(HazardDetection(), result), HasSubstr("underpowered: across an end"));
+}
+
+std::string ProblemsOf(const std::string& members) {
+  const std::string text = R"({"schema_version": 1, "title": "t", "citation": "c", "values": [)"
+                           R"({"id": "x", "what": "w", "place": "p", )" +
+                           members + "}]}";
+  try {
+    ParseReference(core::ParseJson(text, "test"));
+  } catch (const core::UserError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(HazardReference, MistakesAreNamed) {
+  const std::string rate =
+      R"("statistic": "rate", "scenario": "s", "column": "missed", "of": "hazards", "value": 1)";
+  EXPECT_EQ(ProblemsOf(rate + R"(, "low": 0, "high": 1)"), "");
+  EXPECT_THAT(ProblemsOf(rate), HasSubstr("are no tolerance"));
+  EXPECT_THAT(ProblemsOf(rate + R"(, "low": 2, "high": 1)"), HasSubstr("are no tolerance"));
+  EXPECT_THAT(ProblemsOf(rate + R"(, "low": 0, "sample_size": 3)"), HasSubstr("sample_size"));
+  EXPECT_THAT(ProblemsOf(rate + R"(, "low": 0, "along": "height_m")"),
+              HasSubstr("abscissa of a crossing"));
+  EXPECT_THAT(ProblemsOf(rate + R"(, "low": 0, "formula": "sum")"), HasSubstr("is simulated"));
+  EXPECT_THAT(ProblemsOf(rate + R"(, "low": 0, "where": [{"low": 1}])"),
+              HasSubstr("where[0].column"));
+  EXPECT_THAT(
+      ProblemsOf(R"("statistic": "computed", "formula": "any_of", "inputs": [1], "low": 0)"),
+      HasSubstr("are not as many as the formula takes"));
+  EXPECT_THAT(ProblemsOf(R"("statistic": "computed", "inputs": [1], "low": 0)"),
+              HasSubstr("name a closed form"));
+  EXPECT_THAT(ProblemsOf(R"("statistic": "mode", "scenario": "s", "column": "c", "sample_size": 9,)"
+                         R"("value": 1, "low": 0)"),
+              HasSubstr("has no tolerance"));
+}
+
+}  // namespace
+}  // namespace rockyard::report
