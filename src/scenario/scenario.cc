@@ -39,6 +39,15 @@ void RequireConsistency(const Scenario& scenario, core::FieldVisitor& v) {
             "sensors.light_stripe has",
             "name every stripe of a denser array, e.g. left [0, 1, 2, 3], centre [4], right [5, 6, "
             "7, 8]");
+  const sensing::LightStripeParams& sensor = scenario.sensors.light_stripe;
+  v.Require(
+      "perception.stripe_finder.averaging_px",
+      sensor.fidelity == sensing::Fidelity::kGeometric ||
+          scenario.perception.stripe_finder.averaging_px <=
+              sensor.imager.averaging_rows + 2 * sensor.imager.margin_rows,
+      "is more than the image lines that sensors.light_stripe.imager reads around a scanline, "
+      "so that no point would ever be found",
+      "use at most its averaging_rows plus twice its margin_rows");
   v.Require("rover.fidelity",
             multibody || scenario.terrain.rocks.mobility == terrain::RockMobility::kFixed,
             "is quasi_static, which pushes no rocks, where terrain.rocks.mobility is movable",

@@ -14,12 +14,13 @@ namespace rockyard::sensing {
 
 // Which image of a trial is read out.
 struct ImageName {
+  static constexpr std::int64_t kScans = std::int64_t{1} << 26;  // that have names of their own
+
   std::int64_t scan = 0;
   int camera = 0;
   int group = 0;
   bool lit = false;
 
-  // Below 2^32 for scans up to 2^26.
   std::uint32_t substream() const {
     constexpr std::int64_t kGroups = 16;
     return static_cast<std::uint32_t>(((scan * 2 + camera) * kGroups + group) * 2 + (lit ? 1 : 0));

@@ -41,7 +41,7 @@ class RowRenderer {
 
   LitScene Prepare(const ImageScene& scene) const;
 
-  // Cost: about 0.1 ms for 768 pixels.
+  // Cost: 50 to 130 us for 768 pixels over a plane with 0 to 20 rocks per square metre.
   RenderedRow Render(const LitScene& lit, const math::Vector3& eye_R, const ViewRow& view) const;
 
  private:

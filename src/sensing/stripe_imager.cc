@@ -107,7 +107,7 @@ bool StripeImager::FindsStripe(int camera, int group) const {
 messages::StripeImages StripeImager::Expose(const terrain::Terrain& terrain,
                                             const math::Transform& X_WR, core::TrialKey key,
                                             std::int64_t scan_number) const {
-  EXPECT(scan_number >= 0);
+  EXPECT(scan_number >= 0 && scan_number < ImageName::kScans);
   const ImageScene scene(terrain, X_WR, light_, sun_, body_);
   const LitScene lit = renderer_.Prepare(scene);
   std::array<std::vector<Light>, 2> bands;
@@ -138,6 +138,7 @@ messages::StripeExposure StripeImager::FullFrame(const terrain::Terrain& terrain
                                                  const math::Transform& X_WR, core::TrialKey key,
                                                  std::int64_t scan_number, int camera,
                                                  int group) const {
+  EXPECT(scan_number >= 0 && scan_number < ImageName::kScans);
   EXPECT(camera == 0 || camera == 1);
   const ImageScene scene(terrain, X_WR, light_, sun_, body_);
   const LitScene lit = renderer_.Prepare(scene);

@@ -35,7 +35,7 @@ namespace rockyard::sensing {
 
 class StripeImager {
  public:
-  // Cost: some 40 ms and 5 MB for the default bands.
+  // Cost: 6 ms and 1.3 MB for the default bands.
   StripeImager(const LightStripeParams& params, const SunParams& sun,
                const rover::RoverGeometryParams& rover);
 
@@ -43,12 +43,13 @@ class StripeImager {
   // that group, the image lines around each scanline (imager.averaging_rows and margin_rows), all
   // columns. Pure function of its arguments, the same on any thread. Draws from (kImageNoise,
   // kImageExposure, kImageSpeckle; scan number) and (kPixelPattern): neighbouring scans share
-  // nothing but the pattern of the imagers. scan_number < 2^24. Cost: see the README's benchmark.
+  // nothing but the pattern of the imagers. scan_number < 2^26. Cost: 3 to 6 ms on a plane, mostly
+  // rays and noise; 95 ms on rough ground, where every ray marches.
   messages::StripeImages Expose(const terrain::Terrain& terrain, const math::Transform& X_WR,
                                 core::TrialKey key, std::int64_t scan_number) const;
 
   // The whole image of one camera with one group of lasers on, for pictures; the lines that Expose
-  // also takes are the same, bit for bit. Cost: about 0.3 s.
+  // also takes are the same, bit for bit. Cost: 0.12 s.
   messages::StripeExposure FullFrame(const terrain::Terrain& terrain, const math::Transform& X_WR,
                                      core::TrialKey key, std::int64_t scan_number, int camera,
                                      int group) const;

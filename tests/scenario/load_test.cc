@@ -143,7 +143,11 @@ INSTANTIATE_TEST_SUITE_P(
                     "perception.calibration.lasers.center_deg", "not a known key",
                     "did you mean \"centre_deg\"?"},
         BadScenario{"stripes", R"({"navigation": {"pathfinder": {"left_stripes": [0, 2]}}})",
-                    "navigation.pathfinder.left_stripes", "", ""}),
+                    "navigation.pathfinder.left_stripes", "", ""},
+        BadScenario{"lines",
+                    R"({"sensors": {"light_stripe": {"fidelity": "image",
+                                                     "imager": {"averaging_rows": 3}}}})",
+                    "perception.stripe_finder.averaging_px", "image lines", "averaging_rows"}),
     [](const auto& tested) { return std::string(tested.param.label); });
 
 TEST(LoadTest, UnknownOverridePathsAreErrors) {
