@@ -31,11 +31,11 @@ scenario::Scenario WithFactors(scenario::Scenario scenario, const CellTable& tab
 
 class AlarmStudy final : public HazardStudyRunner {
  public:
-  explicit AlarmStudy(const scenario::Scenario& scenario)
+  AlarmStudy(const scenario::Scenario& scenario, const trial::ScanWatcher& watcher)
       : scenes_(scenario.hazard_detection.scenes_per_run) {
     const CellTable table(scenario.hazard_detection.Factors());
     for (std::size_t cell = 0; cell < table.size(); ++cell) {
-      judges_.emplace_back(WithFactors(scenario, table, cell));
+      judges_.emplace_back(WithFactors(scenario, table, cell), watcher);
     }
   }
 
@@ -79,8 +79,9 @@ class AlarmStudy final : public HazardStudyRunner {
 
 }  // namespace
 
-std::unique_ptr<HazardStudyRunner> MakeAlarmStudy(const scenario::Scenario& scenario) {
-  return std::make_unique<AlarmStudy>(scenario);
+std::unique_ptr<HazardStudyRunner> MakeAlarmStudy(const scenario::Scenario& scenario,
+                                                  const trial::ScanWatcher& watcher) {
+  return std::make_unique<AlarmStudy>(scenario, watcher);
 }
 
 }  // namespace rockyard::experiments

@@ -75,7 +75,7 @@ std::unique_ptr<Experiment> MakeExperiment(const scenario::Scenario& scenario,
     case scenario::ExperimentKind::kDrive:
       return std::make_unique<DriveExperiment>(scenario, watcher);
     case scenario::ExperimentKind::kHazardDetection:
-      return std::make_unique<HazardDetectionExperiment>(scenario);
+      return std::make_unique<HazardDetectionExperiment>(scenario, watcher);
   }
   throw std::logic_error("unknown experiment");
 }

@@ -30,11 +30,12 @@ struct Hazard {
 
 class FieldStudy final : public HazardStudyRunner {
  public:
-  explicit FieldStudy(const Scenario& scenario)
+  FieldStudy(const Scenario& scenario, const trial::ScanWatcher& watcher)
       : scenario_(scenario),
         params_(scenario.hazard_detection),
         table_(params_.Factors()),
-        judge_(scenario),
+        judge_(scenario, watcher),
+        bare_judge_(scenario),
         lasers_(sensing::TrueCalibration(scenario.sensors.light_stripe).lasers) {}
 
   std::vector<std::string_view> columns() const override {
@@ -111,7 +112,7 @@ class FieldStudy final : public HazardStudyRunner {
     X_WR.translation() = Vector3(x_m, scenario_.course.start_y_m, 0.0);
     const std::int64_t first_scan = pose * judge_.most_scans();
     const Sight seen = judge_.Look(field, X_WR, key, first_scan);
-    const Sight bare = judge_.Look(sand_, X_WR, key, first_scan);
+    const Sight bare = bare_judge_.Look(sand_, X_WR, key, first_scan);
     for (std::size_t stripe = 0; stripe < lasers_.size(); ++stripe) {
       const bool single = seen.first.Charges(stripe) && !bare.first.Charges(stripe);
       const bool believed = seen.believed[stripe] && !bare.believed[stripe];
@@ -136,14 +137,16 @@ class FieldStudy final : public HazardStudyRunner {
   HazardDetectionParams params_;
   CellTable table_;
   HazardJudge judge_;
+  HazardJudge bare_judge_;
   std::vector<messages::StripeLaser> lasers_;
   terrain::Terrain sand_{terrain::Ground(), {}, {}};
 };
 
 }  // namespace
 
-std::unique_ptr<HazardStudyRunner> MakeMissedStudy(const Scenario& scenario) {
-  return std::make_unique<FieldStudy>(scenario);
+std::unique_ptr<HazardStudyRunner> MakeMissedStudy(const Scenario& scenario,
+                                                   const trial::ScanWatcher& watcher) {
+  return std::make_unique<FieldStudy>(scenario, watcher);
 }
 
 }  // namespace rockyard::experiments

@@ -12,18 +12,19 @@
 namespace rockyard::experiments {
 namespace {
 
-std::unique_ptr<HazardStudyRunner> MakeStudy(const scenario::Scenario& scenario) {
+std::unique_ptr<HazardStudyRunner> MakeStudy(const scenario::Scenario& scenario,
+                                             const trial::ScanWatcher& watcher) {
   switch (scenario.hazard_detection.study) {
     case HazardStudy::kDetection:
-      return MakeDetectionStudy(scenario);
+      return MakeDetectionStudy(scenario, watcher);
     case HazardStudy::kApproach:
-      return MakeApproachStudy(scenario);
+      return MakeApproachStudy(scenario, watcher);
     case HazardStudy::kFalseAlarm:
-      return MakeAlarmStudy(scenario);
+      return MakeAlarmStudy(scenario, watcher);
     case HazardStudy::kMissed:
-      return MakeMissedStudy(scenario);
+      return MakeMissedStudy(scenario, watcher);
     case HazardStudy::kPrecision:
-      return MakePrecisionStudy(scenario);
+      return MakePrecisionStudy(scenario, watcher);
   }
   throw std::logic_error("unknown study");
 }
@@ -37,9 +38,10 @@ truth::RecordSchema MakeSchema(const CellTable& table, const HazardStudyRunner& 
 
 }  // namespace
 
-HazardDetectionExperiment::HazardDetectionExperiment(const scenario::Scenario& scenario)
+HazardDetectionExperiment::HazardDetectionExperiment(const scenario::Scenario& scenario,
+                                                     const trial::ScanWatcher& watcher)
     : table_(scenario.hazard_detection.Factors()),
-      study_(MakeStudy(scenario)),
+      study_(MakeStudy(scenario, watcher)),
       schema_(MakeSchema(table_, *study_)) {}
 
 truth::Record HazardDetectionExperiment::Run(std::uint64_t seed, std::uint64_t index) const {

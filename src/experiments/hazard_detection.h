@@ -16,7 +16,8 @@ namespace rockyard::experiments {
 
 class HazardDetectionExperiment final : public Experiment {
  public:
-  explicit HazardDetectionExperiment(const scenario::Scenario& scenario);
+  explicit HazardDetectionExperiment(const scenario::Scenario& scenario,
+                                     const trial::ScanWatcher& watcher = {});
 
   const truth::RecordSchema& schema() const override { return schema_; }
   truth::Record Run(std::uint64_t seed, std::uint64_t index) const override;

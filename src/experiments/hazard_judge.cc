@@ -1,14 +1,16 @@
 #include "experiments/hazard_judge.h"
 
+#include <utility>
+
 #include "perception/hazard_detector.h"
 #include "sensing/stripe_layout_params.h"
 #include "trial/onboard_calibration.h"
 
 namespace rockyard::experiments {
 
-HazardJudge::HazardJudge(const scenario::Scenario& scenario)
+HazardJudge::HazardJudge(const scenario::Scenario& scenario, trial::ScanWatcher watcher)
     : hazard_(scenario.perception.hazard),
-      scanner_(scenario),
+      scanner_(scenario, std::move(watcher)),
       triangulator_(trial::OnboardStripeCalibration(scenario.sensors.light_stripe,
                                                     scenario.perception.calibration)),
       stripes_(sensing::ArraySize(scenario.sensors.light_stripe).stripes) {}

@@ -13,6 +13,7 @@
 #include "scenario/scenario.h"
 #include "terrain/terrain.h"
 #include "trial/hazard_scanner.h"
+#include "trial/scan_watcher.h"
 
 namespace rockyard::experiments {
 
@@ -27,7 +28,7 @@ struct Sight {
 
 class HazardJudge {
  public:
-  explicit HazardJudge(const scenario::Scenario& scenario);
+  explicit HazardJudge(const scenario::Scenario& scenario, trial::ScanWatcher watcher = {});
 
   std::size_t stripes() const { return stripes_; }
   // Scans that Look may take: scan numbers of poses have to lie so far apart.

@@ -86,8 +86,8 @@ class Scanline {
 
 class PlaneStudy final : public HazardStudyRunner {
  public:
-  explicit PlaneStudy(const Scenario& scenario)
-      : scenario_(scenario), table_(scenario.hazard_detection.Factors()) {}
+  PlaneStudy(const Scenario& scenario, const trial::ScanWatcher& watcher)
+      : scenario_(scenario), table_(scenario.hazard_detection.Factors()), watcher_(watcher) {}
 
   std::vector<std::string_view> columns() const override {
     return {"points",
@@ -105,7 +105,7 @@ class PlaneStudy final : public HazardStudyRunner {
   std::vector<double> Measure(std::size_t cell, core::TrialKey key) const override {
     const std::vector<double> factors = table_.Values(cell);
     const Scenario scenario = WithBaseline(scenario_, factors[0]);
-    const trial::HazardScanner scanner(scenario);
+    const trial::HazardScanner scanner(scenario, watcher_);
     const messages::StripeCalibration truth =
         sensing::TrueCalibration(scenario.sensors.light_stripe);
     const messages::StripeCalibration believed = trial::OnboardStripeCalibration(
@@ -159,13 +159,15 @@ class PlaneStudy final : public HazardStudyRunner {
 
   Scenario scenario_;
   CellTable table_;
+  trial::ScanWatcher watcher_;
   terrain::Terrain sand_{terrain::Ground(), {}, {}};
 };
 
 }  // namespace
 
-std::unique_ptr<HazardStudyRunner> MakePrecisionStudy(const Scenario& scenario) {
-  return std::make_unique<PlaneStudy>(scenario);
+std::unique_ptr<HazardStudyRunner> MakePrecisionStudy(const Scenario& scenario,
+                                                      const trial::ScanWatcher& watcher) {
+  return std::make_unique<PlaneStudy>(scenario, watcher);
 }
 
 }  // namespace rockyard::experiments

@@ -24,12 +24,13 @@ struct RockScene {
 
 class RockStudy : public HazardStudyRunner {
  public:
-  explicit RockStudy(const scenario::Scenario& scenario)
+  RockStudy(const scenario::Scenario& scenario, const trial::ScanWatcher& watcher)
       : params_(scenario.hazard_detection),
         law_(scenario.terrain.rocks),
         front_x_m_(scenario.sensors.light_stripe.front_x_m),
         table_(params_.Factors()),
-        judge_(scenario) {}
+        judge_(scenario, watcher),
+        bare_judge_(scenario) {}
 
  protected:
   const HazardDetectionParams& params() const { return params_; }
@@ -63,7 +64,7 @@ class RockStudy : public HazardStudyRunner {
   // Charges that the rock caused: those that bare sand does not draw under the same noise.
   Sight CausedByRock(const Sight& seen, const math::Transform& X_WR, core::TrialKey key,
                      std::int64_t first_scan) const {
-    const Sight bare = judge_.Look(bare_, X_WR, key, first_scan);
+    const Sight bare = bare_judge_.Look(bare_, X_WR, key, first_scan);
     Sight caused(judge_.stripes());
     caused.scans = seen.scans;
     caused.first.missing = ChargedOnlyIn(seen.first.missing, bare.first.missing);
@@ -87,6 +88,7 @@ class RockStudy : public HazardStudyRunner {
   double front_x_m_;
   CellTable table_;
   HazardJudge judge_;
+  HazardJudge bare_judge_;
   terrain::Terrain bare_{terrain::Ground(), {}, {}};
 };
 
@@ -172,12 +174,14 @@ class ApproachStudy final : public RockStudy {
 
 }  // namespace
 
-std::unique_ptr<HazardStudyRunner> MakeDetectionStudy(const scenario::Scenario& scenario) {
-  return std::make_unique<DetectionStudy>(scenario);
+std::unique_ptr<HazardStudyRunner> MakeDetectionStudy(const scenario::Scenario& scenario,
+                                                      const trial::ScanWatcher& watcher) {
+  return std::make_unique<DetectionStudy>(scenario, watcher);
 }
 
-std::unique_ptr<HazardStudyRunner> MakeApproachStudy(const scenario::Scenario& scenario) {
-  return std::make_unique<ApproachStudy>(scenario);
+std::unique_ptr<HazardStudyRunner> MakeApproachStudy(const scenario::Scenario& scenario,
+                                                     const trial::ScanWatcher& watcher) {
+  return std::make_unique<ApproachStudy>(scenario, watcher);
 }
 
 }  // namespace rockyard::experiments
