@@ -58,8 +58,9 @@ TEST(HazardScenarioTest, BadScenariosSayWhatIsWrong) {
 }
 
 TEST(HazardDetectionTest, ShippedTablesHaveAtMost500CellsAndWholeRounds) {
-  for (const char* name : {"detection", "approach", "height_factor", "false_alarm", "persistence",
-                           "missed", "precision"}) {
+  for (const char* name :
+       {"detection", "approach", "height_factor", "false_alarm", "persistence", "missed",
+        "precision", "detection_image", "false_alarm_image", "false_alarm_image_earth"}) {
     const scenario::Scenario scenario = HazardScenario(name);
     const auto cells = static_cast<std::int64_t>(scenario.hazard_detection.Cells());
     EXPECT_LE(cells, 500) << name;

@@ -34,7 +34,7 @@ MeasurementSummary Sample(int heights, int diameters) {
       records.push_back({records.size(),
                          TrialOutcome::kMeasured,
                          "",
-                         {cell, 0.05 * h, 0.1 * d, 100.0, 120.0, 10.0 * h, 5.0 * h}});
+                         {cell, 0.05 * h, 0.1 * d, 100.0, 120.0, 5.0 * h, 4.0 * h}});
     }
   }
   return statistics::SummarizeCells(truth::MeasurementSchema(kNames), records, 100);
@@ -55,7 +55,7 @@ TEST(MeasurementReport, JsonHoldsEveryCell) {
   const json& cell = parsed["cells"][5];
   EXPECT_EQ(cell["height_m"], 0.1);
   EXPECT_EQ(cell["scenes"], 100.0);
-  EXPECT_EQ(cell["detected_double"]["count"], 10);
+  EXPECT_EQ(cell["detected_double"]["count"], 8);
   EXPECT_EQ(cell["mean_scans"], 1.2);
   const json& rate = cell["detected_double"];
   EXPECT_LT(rate["ci95_all_cells"][0], rate["ci95"][0]);
