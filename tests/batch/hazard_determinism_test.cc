@@ -1,0 +1,55 @@
+// Hazard studies through the executor: the hash does not depend on threads, order or interruption.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <string>
+
+#include "batch/executor.h"
+#include "batch/trial_hash.h"
+#include "experiments/experiment.h"
+#include "fake_experiment.h"
+#include "scenario/load.h"
+
+namespace rockyard::batch {
+namespace {
+
+constexpr std::int64_t kRuns = 24;
+const std::atomic<bool> kNeverStop = false;
+
+RunIdentity IdentityOf(const experiments::Experiment& experiment) {
+  RunIdentity identity = FakeIdentity();
+  identity.schema = experiment.schema();
+  return identity;
+}
+
+BatchOptions Options(int threads, Order order) {
+  BatchOptions options;
+  options.trials = kRuns;
+  options.threads = threads;
+  options.order = order;
+  return options;
+}
+
+std::string HashOf(const experiments::Experiment& experiment, const BatchOptions& options) {
+  const TemporaryFolder folder;
+  ResultStore store = ResultStore::Create(folder.path(), IdentityOf(experiment), kRuns);
+  RunBatch(experiment, store, options, kNeverStop);
+  return TrialHash(store.Load());
+}
+
+TEST(HazardDeterminism, SameHashWhateverThreadsAndOrder) {
+  for (const char* name : {"detection", "approach", "persistence", "missed", "precision"}) {
+    const auto experiment = experiments::MakeExperiment(scenario::LoadScenario(
+        std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/hazard_detection/" + name + ".json",
+        std::vector<std::string>{"hazard_detection.scenes_per_run=5"}));
+    const std::string expected = HashOf(*experiment, Options(1, Order::kNatural));
+    EXPECT_EQ(HashOf(*experiment, Options(3, Order::kNatural)), expected) << name;
+    EXPECT_EQ(HashOf(*experiment, Options(2, Order::kShuffled)), expected) << name;
+    BatchOptions other_seed = Options(1, Order::kNatural);
+    other_seed.seed = 2;
+    EXPECT_NE(HashOf(*experiment, other_seed), expected) << name;
+  }
+}
+
+}  // namespace
+}  // namespace rockyard::batch
