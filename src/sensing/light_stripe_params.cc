@@ -243,6 +243,18 @@ void VisitErrors(LightStripeParams& p, core::FieldVisitor& v) {
           .source = kSection6,
           .study_low = 0.0,
           .study_high = 0.01});
+  v.Reals(
+      "missed_at", p.missed_at,
+      {.doc = "the same for each point, row by row from the nearest, left to right, in place of "
+              "missed_probability; empty: the same for all. Faint light misses the farthest and "
+              "outermost points first: scripts/fit_stripe_errors.py fits them to images",
+       .min = 0.0,
+       .max = 1.0,
+       .origin = Origin::kSetting});
+  const messages::StripeArraySize size = ArraySize(p);
+  v.Require("missed_at", p.missed_at.empty() || p.missed_at.size() == size.rows * size.stripes,
+            "does not have one value for each point of the array",
+            "give rows times stripes values, or none");
   v.Real("outlier_persistence", p.outlier_persistence,
          {.doc = "chance that a point keeps from one scan to the next whether and where it is "
                  "misplaced; 0: scans are independent",

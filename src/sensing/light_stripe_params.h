@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "core/fields.h"
 #include "math/angles.h"
@@ -70,6 +71,7 @@ struct LightStripeParams {
   double wrong_place_probability = 0.01;
   WrongPlace wrong_place = WrongPlace::kSearchedPart;
   double missed_probability = 0.0;
+  std::vector<double> missed_at;  // instead, of each point, row by row; none: the same for all
   double outlier_persistence = 0.0;
   double column_noise_px = 0.0;
 

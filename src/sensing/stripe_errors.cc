@@ -18,7 +18,7 @@ std::uint32_t Substream(std::int64_t number) { return static_cast<std::uint32_t>
 void StripeErrors::Disturb(core::TrialKey key, const Searched& searched,
                            messages::StripeScan& scan) const {
   if (params_.column_noise_px > 0.0) MoveColumns(key, searched, scan);
-  if (params_.missed_probability > 0.0) Miss(key, scan);
+  if (params_.missed_probability > 0.0 || !params_.missed_at.empty()) Miss(key, scan);
   if (params_.wrong_place_probability > 0.0) Misplace(key, searched, scan);
 }
 
@@ -37,8 +37,11 @@ void StripeErrors::MoveColumns(core::TrialKey key, const Searched& searched,
 
 void StripeErrors::Miss(core::TrialKey key, messages::StripeScan& scan) const {
   core::RandomStream missed(key, core::Purpose::kStripeMissed, Substream(scan.number));
-  for (StripePixel& pixel : scan.pixels.points()) {
-    if (core::SampleBernoulli(missed, params_.missed_probability)) pixel = {};
+  const auto pixels = scan.pixels.points();
+  for (std::size_t point = 0; point < pixels.size(); ++point) {
+    const double probability =
+        params_.missed_at.empty() ? params_.missed_probability : params_.missed_at[point];
+    if (core::SampleBernoulli(missed, probability)) pixels[point] = {};
   }
 }
 

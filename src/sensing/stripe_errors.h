@@ -14,7 +14,7 @@ namespace rockyard::sensing {
 // In this order, each point on its own:
 //   column    moved by a normal amount with deviation column_noise_px, rounded to whole pixels, and
 //             kept inside the searched part
-//   missed    not found with missed_probability
+//   missed    not found with missed_probability, or with the point's own (missed_at)
 //   misplaced at a random column with wrong_place_probability, also where nothing was visible
 //
 // Outliers that persist: from one scan to the next a point keeps, with outlier_persistence r, what

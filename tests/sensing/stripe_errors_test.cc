@@ -171,6 +171,29 @@ TEST(ColumnNoiseTest, StaysInTheSearchedPartAndLeavesMissingPoints) {
   for (const auto& pixel : scan.pixels[1]) EXPECT_FALSE(pixel.detected);
 }
 
+TEST(MissedAtTest, EachPointHasItsOwnProbability) {
+  LightStripeParams params;
+  params.wrong_place_probability = 0.0;
+  for (int point = 0; point < 20; ++point) params.missed_at.push_back(0.05 * point);
+  messages::StripeArray<double> missed;
+  constexpr int kScans = 5000;
+  for (std::int64_t number = 0; number < kScans; ++number) {
+    messages::StripeScan scan;
+    scan.number = number;
+    for (auto& pixel : scan.pixels.points()) pixel = {.detected = true, .column_px = 10.0};
+    StripeErrors(params).Disturb({20260407, 0}, Searched(), scan);
+    for (std::size_t point = 0; point < 20; ++point) {
+      missed.points()[point] += !scan.pixels.points()[point].detected;
+    }
+  }
+  EXPECT_EQ(missed.points()[0], 0.0);
+  for (std::size_t point = 1; point < 20; ++point) {
+    const double count = missed.points()[point];
+    EXPECT_GT(BinomialP(count, kScans, params.missed_at[point]), kAlpha / 19) << point;
+  }
+  EXPECT_LT(BinomialP(missed.points()[10], kScans, params.missed_at[10] + 0.05), kAlpha / 19);
+}
+
 TEST(StripeErrorsTest, NowhereToSearchIsNowhereToMisplace) {
   LightStripeParams params;
   params.wrong_place_probability = 1.0;

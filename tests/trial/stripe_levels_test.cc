@@ -1,0 +1,175 @@
+// Both levels of fidelity of the light stripe sensor on the same scenes: where stripes are found,
+// and what the hazard detector makes of it. The errors of the geometric level come from
+// scenarios/sensors/fitted_*.json, which were counted on the scenes of seed 1; here are others.
+#include "stripe_levels.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "perception/hazard_criteria.h"
+#include "perception/triangulation.h"
+#include "scenario/load.h"
+#include "statistics/proportions.h"
+#include "trial/onboard_calibration.h"
+#include "vision/lens.h"
+
+namespace rockyard::trial {
+namespace {
+
+using scenario::Scenario;
+using sensing::Fidelity;
+
+// Chance of a false alarm of each check if its seed were drawn anew. Seeds are fixed.
+constexpr double kAlpha = 1e-3;
+constexpr std::uint32_t kScenes = 200;
+
+// VL-2 terrain, where most such scenes have a hazard, in the light and with the errors of a file.
+Scenario Light(const std::string& light, const std::vector<std::string>& overrides = {}) {
+  const std::string text = R"({"schema_version": 1, "seed": 2, "extends": ["pathfinder/vl2.json",)"
+                           R"( "sensors/fitted_)" +
+                           light + R"(.json"]})";
+  return scenario::ParseScenario(text, overrides, std::string(ROCKYARD_SOURCE_DIR) + "/scenarios");
+}
+
+struct Decision {
+  messages::PerStripe<bool> stripes;
+  bool any = false;
+};
+
+// Single scans of the scenes as one level sees them.
+std::vector<Decision> Decisions(const Scenario& scenario, Fidelity fidelity,
+                                double inner_shift_m = 0.0) {
+  // What is on board is right, and so is the hardware but for the shift.
+  const perception::Triangulator triangulator(
+      OnboardStripeCalibration(scenario.sensors.light_stripe, {}));
+  Scenario hardware = scenario;
+  hardware.sensors.light_stripe.inner_stripe_y_m += inner_shift_m;
+  const LevelOfStripes level(hardware, fidelity);
+  std::vector<Decision> decisions;
+  for (std::uint32_t index = 0; index < kScenes; ++index) {
+    const auto scan = level.Scan(MakeStripeScene(scenario, SceneKind::kRocks, index));
+    const auto report =
+        perception::ReportHazards(triangulator.Elevations(scan), scenario.perception.hazard);
+    decisions.push_back({report.stripe_hazard, report.any()});
+  }
+  return decisions;
+}
+
+struct Disagreement {
+  int only_first = 0;
+  int only_second = 0;
+  int hazards = 0;  // scenes that the first calls hazardous
+  int stripes = 0;  // flags that differ
+
+  // Exact test of paired decisions: are those of one kind only as frequent as those of the other?
+  double PValue() const { return statistics::McNemarExactPValue(only_first, only_second); }
+};
+
+Disagreement Compare(const std::vector<Decision>& first, const std::vector<Decision>& second) {
+  Disagreement result;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    result.only_first += first[i].any && !second[i].any;
+    result.only_second += second[i].any && !first[i].any;
+    result.hazards += first[i].any;
+    for (std::size_t stripe = 0; stripe < first[i].stripes.size(); ++stripe) {
+      result.stripes += first[i].stripes[stripe] != second[i].stripes[stripe];
+    }
+  }
+  return result;
+}
+
+class StripeLevelsTest : public testing::TestWithParam<std::string> {};
+
+TEST_P(StripeLevelsTest, HazardDecisionsAgree) {
+  const Scenario scenario = Light(GetParam());
+  const auto image = Decisions(scenario, Fidelity::kImage);
+  const Disagreement difference = Compare(image, Decisions(scenario, Fidelity::kGeometric));
+  RecordProperty("hazards", difference.hazards);
+  RecordProperty("only_image", difference.only_first);
+  RecordProperty("only_geometric", difference.only_second);
+  RecordProperty("stripe_flags_that_differ", difference.stripes);
+  EXPECT_GT(difference.hazards, 10);
+  EXPECT_GT(difference.PValue(), kAlpha);
+}
+
+TEST_P(StripeLevelsTest, MissedPointsAreAsFrequent) {
+  const Scenario scenario = Light(GetParam());
+  const auto missed_p = [&](const Scenario& geometric, const PointTally& image) {
+    const PointTally tally = TallyPoints(geometric, Fidelity::kGeometric, SceneKind::kFlat, 200);
+    return statistics::FisherExactPValue(
+        {image.missed, image.visible - image.missed, tally.missed, tally.visible - tally.missed});
+  };
+  const PointTally image = TallyPoints(scenario, Fidelity::kImage, SceneKind::kFlat, 200);
+  EXPECT_GT(missed_p(scenario, image), kAlpha);
+  // Negative control: half as many again, and 2 % more.
+  Scenario wrong = scenario;
+  for (double& probability : wrong.sensors.light_stripe.missed_at) {
+    probability = std::min(1.0, 1.5 * probability + 0.02);
+  }
+  EXPECT_LT(missed_p(wrong, image), kAlpha);
+}
+
+INSTANTIATE_TEST_SUITE_P(Lights, StripeLevelsTest,
+                         testing::Values("mars_noon", "mars_low_sun", "earth_faint",
+                                         "earth_fainter"));
+
+// Negative controls of the comparison of decisions.
+TEST(StripeLevelsControlTest, TellsTheErrorsOfAnotherLight) {
+  const Scenario scenario = Light("mars_noon");
+  const auto image = Decisions(scenario, Fidelity::kImage);
+  // The published one point in a hundred where the images misplace none.
+  const Scenario published =
+      Light("mars_noon", {"sensors.light_stripe.wrong_place_probability=0.01"});
+  EXPECT_LT(Compare(image, Decisions(published, Fidelity::kGeometric)).PValue(), kAlpha);
+}
+
+TEST(StripeLevelsControlTest, TellsAShiftedStripe) {
+  // Light planes that meet the farthest row 3 cm from where the rover believes them to.
+  const Scenario scenario = Light("mars_noon");
+  const auto image = Decisions(scenario, Fidelity::kImage);
+  EXPECT_LT(Compare(image, Decisions(scenario, Fidelity::kGeometric, 0.03)).PValue(), kAlpha);
+}
+
+// Columns of flat ground against the camera model alone, with light so strong that noise plays no
+// part: the renderer and the finder agree on where a stripe lies.
+class StripeColumnsTest : public testing::TestWithParam<messages::Lens> {};
+
+TEST_P(StripeColumnsTest, FlatGroundAppearsWhereTheLensProjectsIt) {
+  Scenario scenario;
+  scenario.sensors.light_stripe.lens = GetParam();
+  scenario.sensors.sun.irradiance_w_m2_nm = 0.0;
+  const LevelOfStripes level(scenario, Fidelity::kImage);
+  const auto scan = level.Scan(MakeStripeScene(scenario, SceneKind::kFlat, 0));
+  const auto calibration = OnboardStripeCalibration(scenario.sensors.light_stripe, {});
+  for (std::size_t row = 0; row < calibration.size().rows; ++row) {
+    for (std::size_t stripe = 0; stripe < calibration.size().stripes; ++stripe) {
+      ASSERT_TRUE(scan.pixels[row][stripe].detected) << row << " " << stripe;
+      // Where the light plane meets the ground on this scanline, by bisection along the plane.
+      const messages::StripeLaser& laser = calibration.lasers[stripe];
+      const auto& camera = calibration.cameras[static_cast<std::size_t>(laser.camera)];
+      const math::Vector3 along = math::Vector3::UnitZ().cross(laser.normal_R).normalized();
+      const auto seen_at = [&](double distance_m) {
+        math::Vector3 p_R = laser.p_RoE_R + distance_m * std::copysign(1.0, along.x()) * along;
+        p_R.z() = 0.0;
+        return *vision::Project(camera, camera.X_RC.inverse() * p_R);
+      };
+      double near_m = 0.02;
+      double far_m = 0.9;
+      for (int i = 0; i < 60; ++i) {
+        const double middle_m = 0.5 * (near_m + far_m);
+        // Farther ground appears higher up.
+        (seen_at(middle_m).row_px > calibration.scanline_px[row] ? near_m : far_m) = middle_m;
+      }
+      EXPECT_NEAR(scan.pixels[row][stripe].column_px, seen_at(near_m).column_px, 1.0)
+          << row << " " << stripe;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Lenses, StripeColumnsTest,
+                         testing::Values(messages::Lens::kEquidistantRows,
+                                         messages::Lens::kEquidistant, messages::Lens::kPinhole));
+
+}  // namespace
+}  // namespace rockyard::trial
