@@ -47,25 +47,26 @@ fs::path FolderOf(const ReplayOptions& options, const TrialSource& source) {
 }
 
 // One line per scan: where the rover stood, and what the scan shows by itself.
-std::string ScanLine(const trial::WatchedScan& watched, const report::ScanView& view) {
+std::string ScanLine(std::int64_t number, const trial::WatchedScan& watched) {
   std::string stripes;
-  for (const bool hazard : view.hazards.stripe_hazard) stripes += hazard ? '#' : '.';
+  for (const bool hazard : HazardsOf(watched).stripe_hazard) stripes += hazard ? '#' : '.';
   const math::Pose2 pose = math::ToPose2(watched.X_WR);
   return fmt::format("  scan {:>5}   x {:>7.3f} m   y {:>7.3f} m   heading {:>7.1f} deg   {}\n",
-                     watched.scan.number, pose.x_m, pose.y_m, math::RadToDeg(pose.heading_rad),
-                     stripes);
+                     number, pose.x_m, pose.y_m, math::RadToDeg(pose.heading_rad), stripes);
 }
 
 Replayed Replay(const ReplayOptions& options, const TrialSource& source) {
-  const ScanCapture capture(source.scenario);
   Replayed replayed;
   const auto experiment =
       experiments::MakeExperiment(source.scenario, [&](const trial::WatchedScan& watched) {
-        ++replayed.scans;
+        const std::int64_t number = replayed.scans++;
         if (!options.scan) {
-          Print(ScanLine(watched, capture.View(watched)));
-        } else if (watched.scan.number == *options.scan) {
-          replayed.captured = capture.Capture(watched);
+          Print(ScanLine(number, watched));
+        } else if (number == *options.scan) {
+          replayed.captured = Capture(watched);
+          replayed.captured->view.title =
+              fmt::format("{}, seed {}, trial {}, scan {}", source.scenario.name, source.seed,
+                          options.request.trial, number);
         }
       });
   replayed.schema = experiment->schema();

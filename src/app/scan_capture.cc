@@ -1,7 +1,5 @@
 #include "app/scan_capture.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -9,6 +7,8 @@
 
 #include "perception/hazard_criteria.h"
 #include "perception/stripe_peaks.h"
+#include "perception/stripe_search.h"
+#include "perception/triangulation.h"
 #include "rover/rover_geometry.h"
 #include "sensing/stripe_imager.h"
 #include "trial/onboard_calibration.h"
@@ -56,76 +56,89 @@ std::set<std::pair<int, int>> ExposuresOf(const messages::StripeCalibration& cal
   return exposures;
 }
 
-}  // namespace
+messages::StripeCalibration CalibrationOf(const scenario::Scenario& scenario) {
+  return trial::OnboardStripeCalibration(scenario.sensors.light_stripe,
+                                         scenario.perception.calibration);
+}
 
-ScanCapture::ScanCapture(const scenario::Scenario& scenario)
-    : scenario_(scenario),
-      calibration_(trial::OnboardStripeCalibration(scenario.sensors.light_stripe,
-                                                   scenario.perception.calibration)),
-      triangulator_(calibration_),
-      searches_(calibration_) {}
+// The geometry that the rover believes, and what follows from it.
+struct Believed {
+  explicit Believed(const scenario::Scenario& scenario)
+      : calibration(CalibrationOf(scenario)), triangulator(calibration), searches(calibration) {}
 
-report::ShownPoint ScanCapture::ShowPoint(const trial::WatchedScan& watched, std::size_t row,
-                                          std::size_t stripe) const {
+  messages::StripeCalibration calibration;
+  perception::Triangulator triangulator;
+  perception::StripeSearches searches;
+};
+
+report::ShownPoint ShowPoint(const Believed& believed, const messages::StripePixel& pixel,
+                             std::size_t row, std::size_t stripe) {
   const perception::StripeSearch& search =
-      searches_.At(calibration_.lasers[stripe].camera, row, stripe);
+      believed.searches.At(believed.calibration.lasers[stripe].camera, row, stripe);
+  const perception::Triangulator& triangulator = believed.triangulator;
   report::ShownPoint point;
-  point.pixel = watched.scan.pixels[row][stripe];
+  point.pixel = pixel;
   point.searched_first_px = search.columns.first;
   point.searched_last_px = search.columns.last;
   point.expected_R =
-      triangulator_.Point(row, stripe, search.datum_column).value_or(math::Vector3::Zero());
-  if (!point.pixel.detected) return point;
-  point.elevation = triangulator_.Elevation(row, stripe, point.pixel.column_px);
-  point.p_RoP_R =
-      triangulator_.Point(row, stripe, point.pixel.column_px).value_or(math::Vector3::Zero());
+      triangulator.Point(row, stripe, search.datum_column).value_or(math::Vector3::Zero());
+  if (!pixel.detected) return point;
+  point.elevation = triangulator.Elevation(row, stripe, pixel.column_px);
+  point.p_RoP_R = triangulator.Point(row, stripe, pixel.column_px).value_or(math::Vector3::Zero());
   return point;
 }
 
-report::ScanView ScanCapture::View(const trial::WatchedScan& watched) const {
+report::ScanView View(const trial::WatchedScan& watched) {
+  const Believed believed(watched.scenario);
   const messages::StripeArraySize size = watched.scan.pixels.size();
   report::ScanView view;
-  view.number = watched.scan.number;
-  view.title = fmt::format("{}, seed {}, trial {}, scan {}", scenario_.name, watched.key.seed,
-                           watched.key.trial, watched.scan.number);
-  view.calibration = calibration_;
+  view.calibration = believed.calibration;
   view.points = messages::StripeArray<report::ShownPoint>(size);
   for (std::size_t row = 0; row < size.rows; ++row) {
     for (std::size_t stripe = 0; stripe < size.stripes; ++stripe) {
-      view.points[row][stripe] = ShowPoint(watched, row, stripe);
+      view.points[row][stripe] = ShowPoint(believed, watched.scan.pixels[row][stripe], row, stripe);
     }
   }
-  view.hazards = perception::ReportHazards(triangulator_.Elevations(watched.scan),
-                                           scenario_.perception.hazard);
-  view.rover = rover::BodyOutline(scenario_.rover.geometry);
+  view.hazards = HazardsOf(watched);
+  view.rover = rover::BodyOutline(watched.scenario.rover.geometry);
   view.rocks = RocksAround(watched);
   return view;
 }
 
-CapturedScan ScanCapture::Capture(const trial::WatchedScan& watched) const {
-  const sensing::StripeImager imager(scenario_.sensors.light_stripe, scenario_.sensors.sun,
-                                     scenario_.rover.geometry);
-  CapturedScan captured{View(watched), {}};
-  for (const auto& [camera, group] : ExposuresOf(calibration_)) {
-    messages::StripeExposure frames = imager.FullFrame(watched.terrain, watched.X_WR, watched.key,
-                                                       watched.scan.number, camera, group);
-    std::vector<double> difference = Difference(frames);
-    captured.exposures.push_back({std::move(frames), std::move(difference)});
-  }
-  return captured;
-}
-
-std::vector<double> ScanCapture::Difference(const messages::StripeExposure& frames) const {
+// The averaged difference of whole images, line by line, as the stripe finder sees it.
+std::vector<double> Difference(const messages::StripeExposure& frames, int window_px) {
   const messages::ImageBand& lit = frames.lit.front();
   std::vector<double> difference;
   difference.reserve(lit.counts.size());
-  const auto window_px = static_cast<int>(scenario_.perception.stripe_finder.averaging_px);
   for (int row = lit.first_row; row < lit.first_row + lit.rows; ++row) {
     const auto profile = perception::AverageDifference(frames, row, window_px);
     const std::vector<double>& values = profile.value().difference;
     difference.insert(difference.end(), values.begin(), values.end());
   }
   return difference;
+}
+
+}  // namespace
+
+messages::HazardReport HazardsOf(const trial::WatchedScan& watched) {
+  const perception::Triangulator triangulator(CalibrationOf(watched.scenario));
+  return perception::ReportHazards(triangulator.Elevations(watched.scan),
+                                   watched.scenario.perception.hazard);
+}
+
+CapturedScan Capture(const trial::WatchedScan& watched) {
+  const scenario::Scenario& scenario = watched.scenario;
+  const sensing::StripeImager imager(scenario.sensors.light_stripe, scenario.sensors.sun,
+                                     scenario.rover.geometry);
+  const auto window_px = static_cast<int>(scenario.perception.stripe_finder.averaging_px);
+  CapturedScan captured{View(watched), {}};
+  for (const auto& [camera, group] : ExposuresOf(captured.view.calibration)) {
+    messages::StripeExposure frames = imager.FullFrame(watched.terrain, watched.X_WR, watched.key,
+                                                       watched.scan.number, camera, group);
+    std::vector<double> difference = Difference(frames, window_px);
+    captured.exposures.push_back({std::move(frames), std::move(difference)});
+  }
+  return captured;
 }
 
 }  // namespace rockyard::app

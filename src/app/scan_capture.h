@@ -1,14 +1,11 @@
 // Everything that can be shown of one scan, taken at the moment when it happens.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
+#include "messages/estimates.h"
 #include "messages/stripe_images.h"
-#include "perception/stripe_search.h"
-#include "perception/triangulation.h"
 #include "report/scan_view.h"
-#include "scenario/scenario.h"
 #include "trial/scan_watcher.h"
 
 namespace rockyard::app {
@@ -24,26 +21,11 @@ struct CapturedScan {
   std::vector<CapturedExposure> exposures;
 };
 
-class ScanCapture {
- public:
-  explicit ScanCapture(const scenario::Scenario& scenario);
+// What the rover makes of a scan by itself, without a second one.
+messages::HazardReport HazardsOf(const trial::WatchedScan& watched);
 
-  // What the rover makes of a scan by itself, without a second one. Cost: some milliseconds.
-  report::ScanView View(const trial::WatchedScan& watched) const;
-
-  // The same with whole images of every camera and group of lasers, rendered also where the scan
-  // came from the geometric model. Cost: some seconds.
-  CapturedScan Capture(const trial::WatchedScan& watched) const;
-
- private:
-  report::ShownPoint ShowPoint(const trial::WatchedScan& watched, std::size_t row,
-                               std::size_t stripe) const;
-  std::vector<double> Difference(const messages::StripeExposure& frames) const;
-
-  scenario::Scenario scenario_;
-  messages::StripeCalibration calibration_;  // as the rover believes it
-  perception::Triangulator triangulator_;
-  perception::StripeSearches searches_;
-};
+// Whole images of every camera and group of lasers are rendered also where the scan came from the
+// geometric model. Cost: some seconds.
+CapturedScan Capture(const trial::WatchedScan& watched);
 
 }  // namespace rockyard::app

@@ -1,7 +1,6 @@
 // One trial to run again: of a scenario, or of a finished run whose record it must repeat.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,6 +9,10 @@
 #include "app/exit_code.h"
 #include "scenario/scenario.h"
 #include "truth/record.h"
+
+namespace CLI {
+class App;
+}
 
 namespace rockyard::app {
 

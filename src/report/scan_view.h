@@ -1,7 +1,6 @@
 // One scan of the light stripe sensor, as far as it can be shown.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,7 +28,6 @@ using GroundOutline = std::vector<std::pair<double, double>>;
 
 struct ScanView {
   std::string title;
-  std::int64_t number = 0;
   messages::StripeCalibration calibration;  // as the rover believes it
   messages::StripeArray<ShownPoint> points;
   messages::HazardReport hazards;  // of this scan alone

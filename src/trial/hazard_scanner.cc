@@ -8,6 +8,7 @@ namespace rockyard::trial {
 
 HazardScanner::HazardScanner(const scenario::Scenario& scenario, ScanWatcher watcher)
     : watcher_(std::move(watcher)) {
+  if (watcher_) watched_ = std::make_shared<const scenario::Scenario>(scenario);
   const sensing::LightStripeParams& sensor = scenario.sensors.light_stripe;
   if (sensor.fidelity == sensing::Fidelity::kGeometric) {
     geometric_.emplace(sensor);
@@ -23,7 +24,7 @@ messages::StripeScan HazardScanner::Scan(const terrain::Terrain& terrain,
                                          const math::Transform& X_WR, core::TrialKey key,
                                          std::int64_t scan_number) const {
   const messages::StripeScan scan = Look(terrain, X_WR, key, scan_number);
-  if (watcher_) watcher_({terrain, X_WR, key, scan});
+  if (watcher_) watcher_({*watched_, terrain, X_WR, key, scan});
   return scan;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "core/random.h"
@@ -41,6 +42,7 @@ class HazardScanner {
   };
 
   ScanWatcher watcher_;
+  std::shared_ptr<const scenario::Scenario> watched_;  // where there is a watcher
   // One of both.
   std::optional<sensing::LightStripe> geometric_;
   std::optional<ImageSensor> image_;
