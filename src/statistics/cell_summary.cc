@@ -60,16 +60,70 @@ double BaseOf(const std::vector<KnownColumn>& columns, const Sums& sums,
   return 0.0;
 }
 
-CellRate MakeRate(double count, double base, double cells, IntervalMethod method) {
+// How intervals of rates are made.
+struct Intervals {
+  double cells = 1.0;
+  IntervalMethod method = IntervalMethod::kWilson;
+};
+
+CellRate MakeRate(double count, double base, const Intervals& intervals) {
   const auto k = static_cast<std::int64_t>(std::llround(count));
   const auto n = static_cast<std::int64_t>(std::llround(base));
-  const double level = 1.0 - (1.0 - kConfidence) / cells;
-  return {MakeProportion(k, n, kConfidence, method), ProportionInterval(k, n, level, method)};
+  const double level = 1.0 - (1.0 - kConfidence) / intervals.cells;
+  return {MakeProportion(k, n, kConfidence, intervals.method),
+          ProportionInterval(k, n, level, intervals.method)};
 }
 
 double MakeMean(ColumnRole role, double sum, double base) {
   if (!(base > 0.0)) return std::numeric_limits<double>::quiet_NaN();
   return role == ColumnRole::kSquares ? std::sqrt(sum / base) : sum / base;
+}
+
+void NameColumns(const std::vector<KnownColumn>& columns, MeasurementSummary& summary) {
+  for (const KnownColumn& column : columns) {
+    switch (column.what->role) {
+      case ColumnRole::kFactor:
+        summary.factors.push_back(column.what);
+        break;
+      case ColumnRole::kBase:
+        summary.bases.push_back(column.what);
+        break;
+      case ColumnRole::kCount:
+        summary.rates.push_back(column.what);
+        break;
+      case ColumnRole::kSum:
+      case ColumnRole::kSquares:
+        summary.means.push_back(column.what);
+        break;
+    }
+  }
+}
+
+Cell MakeCell(std::int64_t number, const Sums& sums, const std::vector<KnownColumn>& columns,
+              const Intervals& intervals) {
+  Cell cell;
+  cell.number = number;
+  cell.runs = sums.runs;
+  for (const KnownColumn& column : columns) {
+    const double value = sums.values[column.index];
+    const double base = BaseOf(columns, sums, *column.what);
+    switch (column.what->role) {
+      case ColumnRole::kFactor:
+        cell.factors.push_back(value);
+        break;
+      case ColumnRole::kBase:
+        cell.bases.push_back(value);
+        break;
+      case ColumnRole::kCount:
+        cell.rates.push_back(MakeRate(value, base, intervals));
+        break;
+      case ColumnRole::kSum:
+      case ColumnRole::kSquares:
+        cell.means.push_back(MakeMean(column.what->role, value, base));
+        break;
+    }
+  }
+  return cell;
 }
 
 }  // namespace
@@ -98,47 +152,11 @@ MeasurementSummary SummarizeCells(const truth::RecordSchema& schema,
   summary.planned = planned > 0 ? planned : summary.completed;
   summary.faults = std::count_if(records.begin(), records.end(), truth::IsFault);
   const std::vector<KnownColumn> columns = KnownColumns(schema);
-  for (const KnownColumn& column : columns) {
-    switch (column.what->role) {
-      case ColumnRole::kFactor:
-        summary.factors.push_back(column.what);
-        break;
-      case ColumnRole::kBase:
-        summary.bases.push_back(column.what);
-        break;
-      case ColumnRole::kCount:
-        summary.rates.push_back(column.what);
-        break;
-      case ColumnRole::kSum:
-      case ColumnRole::kSquares:
-        summary.means.push_back(column.what);
-        break;
-    }
-  }
+  NameColumns(columns, summary);
   const std::map<std::int64_t, Sums> pooled = Pool(records, columns, schema.size());
+  const Intervals intervals{static_cast<double>(pooled.size()), method};
   for (const auto& [number, sums] : pooled) {
-    Cell cell{
-        .number = number, .runs = sums.runs, .factors = {}, .bases = {}, .rates = {}, .means = {}};
-    for (const KnownColumn& column : columns) {
-      const double value = sums.values[column.index];
-      const double base = BaseOf(columns, sums, *column.what);
-      switch (column.what->role) {
-        case ColumnRole::kFactor:
-          cell.factors.push_back(value);
-          break;
-        case ColumnRole::kBase:
-          cell.bases.push_back(value);
-          break;
-        case ColumnRole::kCount:
-          cell.rates.push_back(MakeRate(value, base, static_cast<double>(pooled.size()), method));
-          break;
-        case ColumnRole::kSum:
-        case ColumnRole::kSquares:
-          cell.means.push_back(MakeMean(column.what->role, value, base));
-          break;
-      }
-    }
-    summary.cells.push_back(std::move(cell));
+    summary.cells.push_back(MakeCell(number, sums, columns, intervals));
   }
   return summary;
 }

@@ -102,6 +102,7 @@ void SetRatio(const PublishedValue& published, const std::vector<Values>& values
               Row& row) {
   const double ratio = sum.of_column / sum.base;
   std::vector<double> residuals;
+  residuals.reserve(values.size());
   for (const Values& each : values) residuals.push_back(each.of_column - ratio * each.base);
   const double scale = published.factor * static_cast<double>(values.size()) / sum.base;
   const double mean = published.factor * ratio;
@@ -155,6 +156,7 @@ void SetCrossing(const PublishedValue& published, const std::vector<Values>& val
 
 void SetMean(const PublishedValue& published, const std::vector<Values>& values, Row& row) {
   std::vector<double> samples;
+  samples.reserve(values.size());
   for (const Values& each : values) samples.push_back(each.of_column);
   const double mean = published.factor * MomentsOf(samples).mean();
   row.value.pool_value = mean;
