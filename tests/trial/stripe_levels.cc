@@ -77,6 +77,10 @@ double PointTally::offset_deviation_px() const {
 void PointTally::Add(const messages::StripeScan& truth, const messages::StripeScan& found) {
   const auto expected = truth.pixels.points();
   const auto actual = found.pixels.points();
+  if (visible + hidden == 0) {
+    visible_at = messages::StripeArray<std::int64_t>(truth.pixels.size());
+    missed_at = visible_at;
+  }
   for (std::size_t point = 0; point < expected.size(); ++point) {
     if (!expected[point].detected) {
       ++hidden;
