@@ -1,7 +1,5 @@
 #include "trial/drive.h"
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 

@@ -73,7 +73,6 @@ HazardWatch::HazardWatch(const sensing::LightStripeParams& sensor,
 
 void HazardWatch::Observe(const math::Transform& X_WR) {
   if (hazards_.empty()) return;
-  static const double kLookCosine = std::cos(kLook_rad);
   const auto moved_W = X_WR.translation() - looked_from_X_WR_.translation();
   const double turn_cosine = X_WR.linear().col(0).dot(looked_from_X_WR_.linear().col(0));
   if (looked_ && moved_W.squaredNorm() < kLook_m * kLook_m && turn_cosine > kLookCosine) return;

@@ -27,12 +27,12 @@ bool Reaches(const terrain::Rock& rock, const Zone& zone, const math::Transform&
 // array: from the front of the rover to the farthest row, as wide as the outermost stripes. It is
 // missed once the front of the rover or a row of wheels is over its outline, if no hazard was
 // believed while it was within reach. Each rock counts once. Scenes are looked at every kLook_m of
-// motion or kLook_rad of turning, whether or not the rover scans; a look costs some nanoseconds for
-// each hazard of the field.
+// motion or a turn of kLookCosine, whether or not the rover scans; a look costs some nanoseconds
+// for each hazard of the field.
 class HazardWatch {
  public:
-  static constexpr double kLook_m = 0.03;
-  static constexpr double kLook_rad = 0.1;
+  static constexpr double kLook_m = 0.05;
+  static constexpr double kLookCosine = 0.99;  // 8 deg
 
   HazardWatch(const sensing::LightStripeParams& sensor, const rover::RoverGeometryParams& rover,
               double min_height_m, const terrain::Terrain& terrain);

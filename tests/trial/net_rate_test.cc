@@ -47,16 +47,22 @@ TEST(NetRateTest, RescansOfTheTwoScanRuleCostATenth) {
   double scans = 0.0;
   double rescans = 0.0;
   double distance_m = 0.0;
+  int undisturbed = 0;
   for (std::uint32_t index = 0; index < 6; ++index) {
     const truth::DriveRecord record = RunTrial(scenario, {1, index}).record;
     const double per_step = record.scans / (record.scans - record.rescans);
     const double expected_m_s = ClosedForm(scenario, per_step);
-    EXPECT_NEAR(record.net_rate_m_s, expected_m_s, 0.002 * expected_m_s);
-    EXPECT_NEAR(record.single_scan_rate_m_s, ClosedForm(scenario, 1.0), 0.002 * expected_m_s);
+    // Five scans that disagree leave a false alarm, whose turn takes a minute more.
+    const bool turned = record.turns_in_place > 0.0;
+    const double tolerance = turned ? 0.01 : 0.002;
+    EXPECT_NEAR(record.net_rate_m_s, expected_m_s, tolerance * expected_m_s);
+    EXPECT_NEAR(record.single_scan_rate_m_s, ClosedForm(scenario, 1.0), tolerance * expected_m_s);
+    undisturbed += !turned;
     scans += record.scans;
     rescans += record.rescans;
     distance_m += record.true_distance_m;
   }
+  EXPECT_GE(undisturbed, 2);
   // About 18 % of the steps: 16 % of scans on flat ground show a hazard (src/sensing/README.md),
   // and 0.16 / (1 - 0.16) = 0.19 rescans a step follow. 2600 steps leave a deviation of 0.9 %.
   const double per_step = rescans / (scans - rescans);
