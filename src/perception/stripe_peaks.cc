@@ -70,8 +70,10 @@ std::optional<ScanlineProfile> AverageDifference(const messages::StripeExposure&
   std::int64_t sum = 0;
   for (int i = 0; i < std::min(half, lit.columns); ++i) sum += sums[static_cast<std::size_t>(i)];
   for (int i = 0; i < lit.columns; ++i) {
-    if (i + half < lit.columns) sum += sums[static_cast<std::size_t>(i + half)];
-    if (i - half > 0) sum -= sums[static_cast<std::size_t>(i - half - 1)];
+    const int enters = i + half;
+    const int leaves = i - half - 1;
+    if (enters < lit.columns) sum += sums[static_cast<std::size_t>(enters)];
+    if (leaves >= 0) sum -= sums[static_cast<std::size_t>(leaves)];
     const int columns = std::min(i + half, lit.columns - 1) - std::max(i - half, 0) + 1;
     profile.difference[static_cast<std::size_t>(i)] =
         static_cast<double>(sum) / (columns * (last_row - first_row + 1));
