@@ -9,8 +9,7 @@
 namespace rockyard::report {
 
 Picture::Picture(int width, int height) : width_(width), height_(height) {
-  constexpr int kLargest = 1 << 15;
-  EXPECT(width >= 1 && width <= kLargest && height >= 1 && height <= kLargest);
+  EXPECT(width >= 1 && height >= 1);
   pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
 }
 

@@ -18,7 +18,7 @@ struct Rgb {
 // Row-major, from the upper left corner.
 class Picture {
  public:
-  // Black. width and height at least 1, at most 2^15.
+  // Black. width and height at least 1.
   Picture(int width, int height);
 
   int width() const { return width_; }
