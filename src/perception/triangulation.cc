@@ -2,17 +2,45 @@
 
 #include <cmath>
 
+#include "vision/lens.h"
+
 namespace rockyard::perception {
 
 using math::Vector3;
 
+namespace {
+
+// Whether a ray meets the light plane before the camera.
+bool IsAhead(double distance_m) { return distance_m > 0.0 && std::isfinite(distance_m); }
+
+}  // namespace
+
 Triangulator::Triangulator(const messages::StripeCalibration& calibration)
     : calibration_(calibration) {
-  for (std::size_t camera = 0; camera < scanlines_.size(); ++camera) {
-    for (const int row_px : calibration_.scanline_px) {
-      scanlines_[camera].emplace_back(calibration_.cameras[camera], row_px);
+  geometry_ = messages::StripeArray<PointGeometry>(calibration_.size());
+  for (std::size_t row = 0; row < geometry_.rows(); ++row) {
+    for (std::size_t stripe = 0; stripe < geometry_.stripes(); ++stripe) {
+      geometry_[row][stripe] = MakeGeometry(row, stripe);
     }
   }
+}
+
+Triangulator::PointGeometry Triangulator::MakeGeometry(std::size_t row, std::size_t stripe) const {
+  const messages::StripeLaser& laser = calibration_.lasers[stripe];
+  const messages::StripeCamera& camera =
+      calibration_.cameras[static_cast<std::size_t>(laser.camera)];
+  const vision::PixelPosition middle{0.0, static_cast<double>(calibration_.scanline_px[row])};
+  const Vector3 forward_R = camera.X_RC.linear() * vision::PixelRay(camera, middle);
+  const Vector3 left_R = camera.X_RC.linear() * Vector3::UnitY();
+  const Vector3 p_RoC_R = camera.X_RC.translation();
+  return {.plane_offset_m = laser.normal_R.dot(laser.p_RoE_R - p_RoC_R),
+          .forward_normal = laser.normal_R.dot(forward_R),
+          .left_normal = laser.normal_R.dot(left_R),
+          .forward_z = forward_R.z(),
+          .left_z = left_R.z(),
+          .camera_z_m = p_RoC_R.z() - calibration_.datum_z_m,
+          .column_pitch_rad = camera.column_pitch_rad,
+          .is_planar = camera.lens == messages::Lens::kEquidistantRows};
 }
 
 messages::ElevationScan Triangulator::Elevations(const messages::StripeScan& scan) const {
@@ -29,20 +57,32 @@ messages::ElevationScan Triangulator::Elevations(const messages::StripeScan& sca
 
 messages::ElevationPoint Triangulator::Elevation(std::size_t row, std::size_t stripe,
                                                  double column_px) const {
-  const std::optional<Vector3> p_RoP_R = Point(row, stripe, column_px);
-  if (!p_RoP_R) return {};
-  return {.detected = true, .elevation_m = p_RoP_R->z() - calibration_.datum_z_m};
+  const PointGeometry& at = geometry_[row][stripe];
+  if (!at.is_planar) {
+    const std::optional<Vector3> p_RoP_R = Point(row, stripe, column_px);
+    if (!p_RoP_R) return {};
+    return {.detected = true, .elevation_m = p_RoP_R->z() - calibration_.datum_z_m};
+  }
+  const double cosine = std::cos(column_px * at.column_pitch_rad);
+  const double sine = std::sin(column_px * at.column_pitch_rad);
+  const double distance_m =
+      at.plane_offset_m / (cosine * at.forward_normal - sine * at.left_normal);
+  if (!IsAhead(distance_m)) return {};
+  return {.detected = true,
+          .elevation_m = at.camera_z_m + distance_m * (cosine * at.forward_z - sine * at.left_z)};
 }
 
 std::optional<Vector3> Triangulator::Point(std::size_t row, std::size_t stripe,
                                            double column_px) const {
   const messages::StripeLaser& laser = calibration_.lasers[stripe];
-  const auto camera_index = static_cast<std::size_t>(laser.camera);
-  const messages::StripeCamera& camera = calibration_.cameras[camera_index];
-  const Vector3 ray_R = camera.X_RC.linear() * scanlines_[camera_index][row].Ray(column_px);
+  const messages::StripeCamera& camera =
+      calibration_.cameras[static_cast<std::size_t>(laser.camera)];
+  const Vector3 ray_R =
+      camera.X_RC.linear() *
+      vision::PixelRay(camera, {column_px, static_cast<double>(calibration_.scanline_px[row])});
   const Vector3 p_RoC_R = camera.X_RC.translation();
   const double distance_m = laser.normal_R.dot(laser.p_RoE_R - p_RoC_R) / laser.normal_R.dot(ray_R);
-  if (!(distance_m > 0.0) || !std::isfinite(distance_m)) return std::nullopt;
+  if (!IsAhead(distance_m)) return std::nullopt;
   return p_RoC_R + distance_m * ray_R;
 }
 

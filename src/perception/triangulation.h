@@ -1,14 +1,11 @@
 // Light stripe triangulation: image columns to elevations.
 #pragma once
 
-#include <array>
 #include <optional>
-#include <vector>
 
 #include "math/pose.h"
 #include "messages/calibration.h"
 #include "messages/estimates.h"
-#include "vision/lens.h"
 
 namespace rockyard::perception {
 
@@ -29,8 +26,24 @@ class Triangulator {
   std::optional<math::Vector3> Point(std::size_t row, std::size_t stripe, double column_px) const;
 
  private:
+  // Scanline and light plane of one point. Where the scanline is a plane, the ray of the angle a is
+  // cos(a) forward - sin(a) left, and elevations need no more than its parts along the normal of
+  // the light plane and along z.
+  struct PointGeometry {
+    double plane_offset_m = 0.0;  // light plane from the camera, along its normal
+    double forward_normal = 0.0;
+    double left_normal = 0.0;
+    double forward_z = 0.0;
+    double left_z = 0.0;
+    double camera_z_m = 0.0;  // above the datum plane
+    double column_pitch_rad = 0.0;
+    bool is_planar = false;
+  };
+
+  PointGeometry MakeGeometry(std::size_t row, std::size_t stripe) const;
+
   messages::StripeCalibration calibration_;
-  std::array<std::vector<vision::ImageRow>, 2> scanlines_;  // [camera][row]
+  messages::StripeArray<PointGeometry> geometry_;
 };
 
 }  // namespace rockyard::perception

@@ -81,13 +81,16 @@ void HazardWatch::Observe(const math::Transform& X_WR) {
   Look(X_WR);
 }
 
+bool HazardWatch::IsNear(const terrain::Rock& rock, const math::Transform& X_WR) const {
+  const double far_m = reach_m_ + rock.semi_axes_m.x();
+  return (rock.center_W - X_WR.translation()).head<2>().squaredNorm() <= far_m * far_m;
+}
+
 void HazardWatch::Look(const math::Transform& X_WR) {
   for (Hazard& hazard : hazards_) {
     if (hazard.settled) continue;
     const terrain::Rock& rock = terrain_.rocks()[static_cast<std::size_t>(hazard.rock)];
-    const double far_m = reach_m_ + rock.semi_axes_m.x();
-    const auto away = (rock.center_W - X_WR.translation()).head<2>();
-    if (away.squaredNorm() > far_m * far_m) continue;
+    if (!IsNear(rock, X_WR)) continue;
     if (!hazard.met && Reaches(rock, view_, X_WR)) {
       hazard.met = true;
       ++met_;
@@ -102,7 +105,7 @@ void HazardWatch::Look(const math::Transform& X_WR) {
 void HazardWatch::OnBelieved(const math::Transform& X_WR) {
   for (Hazard& hazard : hazards_) {
     const terrain::Rock& rock = terrain_.rocks()[static_cast<std::size_t>(hazard.rock)];
-    if (hazard.settled || !Reaches(rock, view_, X_WR)) continue;
+    if (hazard.settled || !IsNear(rock, X_WR) || !Reaches(rock, view_, X_WR)) continue;
     if (!hazard.met) ++met_;
     hazard.met = true;
     hazard.settled = true;

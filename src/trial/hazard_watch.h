@@ -52,6 +52,8 @@ class HazardWatch {
     bool settled = false;  // believed or missed
   };
 
+  // Whether any zone could reach the rock.
+  bool IsNear(const terrain::Rock& rock, const math::Transform& X_WR) const;
   void Look(const math::Transform& X_WR);
 
   const terrain::Terrain& terrain_;

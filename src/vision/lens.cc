@@ -35,32 +35,23 @@ std::optional<LensAngles> Angles(Lens lens, const Vector3& p) {
 
 }  // namespace
 
-ImageRow::ImageRow(const messages::StripeCamera& camera, double row_px)
-    : lens_(camera.lens),
-      column_pitch_rad_(camera.column_pitch_rad),
-      b_rad_(row_px * camera.row_pitch_rad),
-      cos_b_(std::cos(b_rad_)),
-      sin_b_(std::sin(b_rad_)) {}
-
-Vector3 ImageRow::Ray(double column_px) const {
-  const double a_rad = column_px * column_pitch_rad_;
-  switch (lens_) {
+Vector3 PixelRay(const messages::StripeCamera& camera, const PixelPosition& pixel) {
+  const double a_rad = pixel.column_px * camera.column_pitch_rad;
+  const double b_rad = pixel.row_px * camera.row_pitch_rad;
+  switch (camera.lens) {
     case Lens::kEquidistantRows:
-      return {std::cos(a_rad) * cos_b_, -std::sin(a_rad), -std::cos(a_rad) * sin_b_};
+      return {std::cos(a_rad) * std::cos(b_rad), -std::sin(a_rad),
+              -std::cos(a_rad) * std::sin(b_rad)};
     case Lens::kEquidistant: {
-      const double theta_rad = std::hypot(a_rad, b_rad_);
+      const double theta_rad = std::hypot(a_rad, b_rad);
       // sin(theta) / theta, 1 on the axis.
       const double share = theta_rad > 0.0 ? std::sin(theta_rad) / theta_rad : 1.0;
-      return {std::cos(theta_rad), -share * a_rad, -share * b_rad_};
+      return {std::cos(theta_rad), -share * a_rad, -share * b_rad};
     }
     case Lens::kPinhole:
       break;
   }
-  return Vector3(1.0, -a_rad, -b_rad_).normalized();
-}
-
-Vector3 PixelRay(const messages::StripeCamera& camera, const PixelPosition& pixel) {
-  return ImageRow(camera, pixel.row_px).Ray(pixel.column_px);
+  return Vector3(1.0, -a_rad, -b_rad).normalized();
 }
 
 std::optional<PixelPosition> Project(const messages::StripeCamera& camera, const Vector3& p_C) {

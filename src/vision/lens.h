@@ -31,22 +31,6 @@ struct PixelPosition {
 // Unit viewing ray of an image position, in C. Cost: some sines and cosines.
 math::Vector3 PixelRay(const messages::StripeCamera& camera, const PixelPosition& pixel);
 
-// The rays of one image row, for many columns: what belongs to the row alone is worked out once.
-class ImageRow {
- public:
-  ImageRow(const messages::StripeCamera& camera, double row_px);
-
-  // PixelRay of a column of this row, in C.
-  math::Vector3 Ray(double column_px) const;
-
- private:
-  messages::Lens lens_;
-  double column_pitch_rad_;
-  double b_rad_;
-  double cos_b_;
-  double sin_b_;
-};
-
 // Where the direction p_C (any length, in C) is imaged; the inverse of PixelRay. None where the
 // lens does not see it: behind a pinhole, along the lateral axis (equidistant_rows), straight
 // behind (equidistant), or of no length. The edge of the imager is not looked at.

@@ -66,6 +66,29 @@ TEST(TriangulationTest, UsesTheCameraOfTheStripe) {
   EXPECT_NEAR(scan.points[0][1].elevation_m, -0.1 / std::tan(0.2) * std::sin(0.6), 1e-12);
 }
 
+// The short form for planar scanlines against rays that meet light planes in space.
+TEST(TriangulationTest, ElevationIsThatOfThePoint) {
+  messages::StripeCalibration calibration = Parallel();
+  calibration.datum_z_m = 0.03;
+  for (auto& camera : calibration.cameras) {
+    camera.X_RC.translation() = Vector3(0.27, -0.06, 0.25);
+    camera.X_RC.linear() =
+        (Eigen::AngleAxisd(0.1, Vector3::UnitZ()) * Eigen::AngleAxisd(0.7, Vector3::UnitY()))
+            .toRotationMatrix();
+  }
+  calibration.lasers[1].normal_R = Vector3(0.3, 0.9, 0.1).normalized();
+  for (const auto lens : {messages::Lens::kEquidistantRows, messages::Lens::kEquidistant}) {
+    for (auto& camera : calibration.cameras) camera.lens = lens;
+    const Triangulator triangulator(calibration);
+    for (double column = -380.0; column <= 380.0; column += 20.0) {
+      const auto point = triangulator.Point(2, 1, column);
+      const auto elevation = triangulator.Elevation(2, 1, column);
+      ASSERT_EQ(elevation.detected, point.has_value());
+      if (point) EXPECT_NEAR(elevation.elevation_m, point->z() - 0.03, 1e-12);
+    }
+  }
+}
+
 TEST(TriangulationTest, MissingStaysMissing) {
   const auto scan = Triangulator(Parallel()).Elevations({});
   for (const auto& point : scan.points.points()) EXPECT_FALSE(point.detected);
