@@ -21,7 +21,8 @@ from calibrate_odometer import SCALE, calibrate
 from study import ROOT, table
 
 REFERENCE = ROOT / "results/reference/matthies1995.json"
-PATHFINDER = ROOT / "scenarios/pathfinder"
+HAZARD_REFERENCE = ROOT / "results/reference/matthies1995_hazard_detection.json"
+SCENARIOS = ROOT / "scenarios"
 PUBLISHED = ["obstacles_0.28", "obstacles_0.57", "obstacles_0.85", "nominal",
              "nominal_perfect_localization", "level_sand"]
 
@@ -64,14 +65,16 @@ class Study:
     def folder(self, name, scenario):
         return self.out / name / scenario
 
-    def run(self, name, scenario, trials, settings=()):
-        """summary.json of a run; `cpu_s` is added to it."""
+    def run(self, name, scenario, trials=None, settings=()):
+        """summary.json of a run, of the scenario's own number of trials where none is given;
+        `cpu_s` is added to it."""
         folder = self.folder(name, scenario)
         cost = folder / "cpu_seconds"
         if not cost.exists():
             print(f"{name}/{scenario}", file=sys.stderr)
-            command = [self.rockyard, "run", PATHFINDER / f"{scenario}.json", "--trials", trials,
-                       "--threads", 1, "--out", folder, "--quiet", "--force"]
+            command = [self.rockyard, "run", scenario_file(scenario), "--threads", 1,
+                       "--out", folder, "--quiet", "--force"]
+            command += ["--trials", trials] if trials else []
             command += [part for setting in settings for part in ("--set", setting)]
             before = cpu_seconds()
             subprocess.run([str(part) for part in command], check=True)
@@ -89,6 +92,14 @@ class Study:
         if result.returncode not in (0, 1, 4):  # a comparison may differ or be inconclusive
             sys.exit(result.stderr)
         return result.stdout
+
+
+def scenario_file(name):
+    """The scenario file whose member "name" it is."""
+    for path in sorted(SCENARIOS.rglob("*.json")):
+        if json.loads(path.read_text(encoding="utf-8")).get("name") == name:
+            return path
+    sys.exit(f"{SCENARIOS} has no scenario {name}")
 
 
 def cpu_seconds():
@@ -110,6 +121,14 @@ def comparison(study):
     study.published()
     text = study.tool("check", study.out / "published", "--against",
                       REFERENCE)
+    return f"```\n{text.strip()}\n```"
+
+
+def hazards(study):
+    values = json.loads(HAZARD_REFERENCE.read_text(encoding="utf-8"))["values"]
+    for name in sorted({value["scenario"] for value in values if value.get("scenario")}):
+        study.run("hazards", name)
+    text = study.tool("check", study.out / "hazards", "--against", HAZARD_REFERENCE)
     return f"```\n{text.strip()}\n```"
 
 
@@ -234,7 +253,7 @@ def envelope(study):
                          "95 %"], rows)
 
 
-TABLES = {f.__name__: f for f in (comparison, errors, envelope, abundance, causes, fidelity, speed)}
+TABLES = {f.__name__: f for f in (comparison, hazards, errors, envelope, abundance, causes, fidelity, speed)}
 
 
 def replace(text, name, content):

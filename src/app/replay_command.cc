@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -19,6 +20,7 @@
 #include "report/png_file.h"
 #include "report/scan_drawing.h"
 #include "report/scan_picture.h"
+#include "scenario/load.h"
 
 namespace rockyard::app {
 namespace {
@@ -37,6 +39,7 @@ struct Replayed {
   truth::Record record;
   std::int64_t scans = 0;
   std::optional<CapturedScan> captured;
+  std::string failure;  // why the scan that was asked for cannot be shown
 };
 
 fs::path FolderOf(const ReplayOptions& options, const TrialSource& source) {
@@ -44,6 +47,15 @@ fs::path FolderOf(const ReplayOptions& options, const TrialSource& source) {
   return fs::path("results") / "runs" /
          fmt::format("{}-seed{}-trial{}-scan{}", source.scenario.name, source.seed,
                      options.request.trial, *options.scan);
+}
+
+// Pictures of two scans in one folder would be told apart by nothing.
+void CheckFolder(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder, error)) return;
+  if (fs::is_directory(folder, error) && fs::is_empty(folder, error)) return;
+  throw core::UserError("--out", folder.string() + " exists and is no empty folder",
+                        "name another folder, or remove it");
 }
 
 // One line per scan: where the rover stood, and what the scan shows by itself.
@@ -63,10 +75,15 @@ Replayed Replay(const ReplayOptions& options, const TrialSource& source) {
         if (!options.scan) {
           Print(ScanLine(number, watched));
         } else if (number == *options.scan) {
-          replayed.captured = Capture(watched);
-          replayed.captured->view.title =
-              fmt::format("{}, seed {}, trial {}, scan {}", source.scenario.name, source.seed,
-                          options.request.trial, number);
+          // A picture that fails must not become a fault of the trial.
+          try {
+            replayed.captured = Capture(watched);
+            replayed.captured->view.title =
+                fmt::format("{}, seed {}, trial {}, scan {}", source.scenario.name, source.seed,
+                            options.request.trial, number);
+          } catch (const std::exception& error) {
+            replayed.failure = error.what();
+          }
         }
       });
   replayed.schema = experiment->schema();
@@ -78,7 +95,8 @@ std::string FileStem(const messages::StripeExposure& frames) {
   return fmt::format("{}-group{}", frames.camera == 0 ? "left" : "right", frames.group);
 }
 
-void WriteScan(const fs::path& folder, const CapturedScan& captured) {
+void WriteScan(const fs::path& folder, const scenario::Scenario& scenario,
+               const CapturedScan& captured) {
   fs::create_directories(folder);
   for (const CapturedExposure& exposure : captured.exposures) {
     const auto write = [&](std::string_view what, const report::Picture& picture) {
@@ -91,6 +109,7 @@ void WriteScan(const fs::path& folder, const CapturedScan& captured) {
     write("difference",
           report::DifferencePicture(captured.view, exposure.frames, exposure.difference));
   }
+  report::WriteFileAtomically(folder / "scenario.resolved.json", scenario::ResolvedJson(scenario));
   report::WriteFileAtomically(folder / "array.svg", report::ScanSvg(captured.view));
   report::WriteFileAtomically(folder / "points.csv", report::ScanCsv(captured.view));
 }
@@ -99,7 +118,7 @@ ExitCode WriteOutputs(const ReplayOptions& options, const TrialSource& source,
                       const CapturedScan& captured) {
   const fs::path folder = FolderOf(options, source);
   try {
-    WriteScan(folder, captured);
+    WriteScan(folder, source.scenario, captured);
   } catch (const core::UserError& failure) {
     PrintProblems(failure.problems());
     return ExitCode::kFailed;
@@ -114,6 +133,7 @@ ExitCode WriteOutputs(const ReplayOptions& options, const TrialSource& source,
 
 ExitCode Replay(const ReplayOptions& options) {
   const TrialSource source = FindTrial(options.request);
+  if (options.scan) CheckFolder(FolderOf(options, source));
   const Replayed replayed = Replay(options, source);
   if (truth::IsFault(replayed.record)) PrintNote("simulator fault: " + replayed.record.detail);
   const ExitCode same =
@@ -123,10 +143,15 @@ ExitCode Replay(const ReplayOptions& options) {
     Print(fmt::format("  {} scans; --scan N draws one of them\n", replayed.scans));
     return same;
   }
+  if (!replayed.failure.empty()) {
+    PrintProblems({{"--scan", "the images cannot be rendered: " + replayed.failure, ""}});
+    return ExitCode::kFailed;
+  }
   if (!replayed.captured) {
     throw core::UserError(
         "--scan", fmt::format("scan {} was not taken in this trial", *options.scan),
-        fmt::format("the trial took {} scans; leave --scan out to list them", replayed.scans));
+        fmt::format("the trial took {} scans{}; leave --scan out to list them", replayed.scans,
+                    truth::IsFault(replayed.record) ? " until its simulator fault" : ""));
   }
   const ExitCode written = WriteOutputs(options, source, *replayed.captured);
   return written == ExitCode::kDone ? same : written;
@@ -139,8 +164,10 @@ void AddReplayCommand(CLI::App& app, ExitCode& exit_code) {
   CLI::App* command = app.add_subcommand(
       "replay", "Runs one trial again and lists its scans, or draws one of them");
   AddTrialOptions(*command, options->request);
-  command->add_option("--scan", options->scan,
-                      "number of the scan, from 0: writes its images and its array");
+  command
+      ->add_option("--scan", options->scan,
+                   "number of the scan, from 0: writes its images and its array")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--out", options->out,
                       "folder (default: results/runs/<name>-seed<seed>-trial<I>-scan<N>)");
   command->callback([options, &exit_code] { exit_code = Replay(*options); });

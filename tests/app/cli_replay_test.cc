@@ -67,10 +67,33 @@ TEST_F(CliReplay, AScanThatWasNotTakenIsSaid) {
   EXPECT_TRUE(NothingWritten());
 }
 
+TEST_F(CliReplay, PicturesOfTwoScansAreNotMixed) {
+  ASSERT_EQ(Run(Trial({"--scan", "0", "--out", "scan"})).exit_code, 0);
+  const CommandResult result = Run(Trial({"--scan", "1", "--out", "scan"}));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("scan exists and is no empty folder"));
+  EXPECT_EQ(Run(Trial({"--scan", "-1", "--out", "other"})).exit_code, 2);
+}
+
+// A study takes the sensor of each cell from its factors: the lasers of the first are the weakest.
+TEST_F(CliReplay, ScansOfAStudyAreDrawnWithTheSensorOfTheirCell) {
+  const std::string study =
+      std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/hazard_detection/false_alarm_image.json";
+  const auto words = [&](const std::string& trial) {
+    return std::vector<std::string>{
+        "replay", study, "--trial", trial,         "--set", "hazard_detection.scenes_per_run=1",
+        "--scan", "0",   "--out",   "cell" + trial};
+  };
+  ASSERT_EQ(Run(words("0")).exit_code, 0);
+  ASSERT_EQ(Run(words("14")).exit_code, 0);
+  EXPECT_NE(ReadFile(work() / "cell0" / "left-group0-lit.png"),
+            ReadFile(work() / "cell14" / "left-group0-lit.png"));
+}
+
 TEST_F(CliReplay, AFolderThatCannotBeMadeIsSaid) {
   WriteFile(work() / "file", "");
   const CommandResult result = Run(Trial({"--scan", "0", "--out", "file/scan"}));
-  EXPECT_EQ(result.exit_code, 5);
+  EXPECT_EQ(result.exit_code, 5) << result.err;
   EXPECT_THAT(result.err, HasSubstr("--out"));
 }
 
