@@ -83,7 +83,8 @@ def with_interval(values, digits, scale=1.0):
     """ "value (low..high)" of a (value, low, high)."""
     if any(math.isnan(value) for value in values):
         return "-"
-    value, low, high = (scale * value for value in values)
+    # Without the sign of a zero that rounding leaves.
+    value, low, high = (round(scale * value, digits) + 0.0 for value in values)
     return f"{value:.{digits}f} ({low:.{digits}f}..{high:.{digits}f})"
 
 
@@ -130,7 +131,8 @@ def _panel(title, series, x_label, left, top):
             (px, bottom), (_, above) = place(x, max(0.0, low)), place(x, high)
             parts.append(f'<line x1="{px:.1f}" x2="{px:.1f}" y1="{bottom:.1f}" y2="{above:.1f}" '
                          f'stroke="{colour}"/>')
-        parts.append(f'<text x="{left + PANEL_W - 6}" y="{top + 16 + 15 * index}" '
+        above_frame = top - 8 - 15 * (len(series) - 1 - index)
+        parts.append(f'<text x="{left + PANEL_W}" y="{above_frame}" '
                      f'text-anchor="end" fill="{colour}">{name}</text>')
     return parts
 
