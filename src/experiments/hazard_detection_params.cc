@@ -104,8 +104,8 @@ void VisitAlarms(HazardDetectionParams& p, core::FieldVisitor& v) {
            .origin = Origin::kSetting});
   v.Reals("laser_powers_w", p.laser_powers_w,
           {.doc = "electrical inputs of a laser, image level only; empty: the sensor's own",
-           .min = 0.0,
-           .max = 1000.0,
+           .min = 1e-6,
+           .max = 100.0,
            .origin = Origin::kSetting});
 }
 
@@ -113,7 +113,7 @@ void VisitFields(HazardDetectionParams& p, core::FieldVisitor& v) {
   VisitList(v, "rock_k_per_m2", p.rock_k_per_m2,
             {.doc = "values of terrain.rocks.k_per_m2; study missed",
              .min = 0.0,
-             .max = 1.0,
+             .max = 0.1,
              .origin = Origin::kSetting});
   v.Real("hazard_height_m", p.hazard_height_m,
          {.doc = "a rock in the way is a hazard from this height",

@@ -54,6 +54,21 @@ void RequireConsistency(const Scenario& scenario, core::FieldVisitor& v) {
             "use fidelity multibody or fixed rocks");
 }
 
+// A list that takes the place of terrain.rocks.k_per_m2 keeps the condition of that field.
+void RequireFields(const Scenario& scenario, core::FieldVisitor& v) {
+  const experiments::HazardDetectionParams& study = scenario.hazard_detection;
+  if (study.study != experiments::HazardStudy::kMissed) return;
+  const terrain::RockFieldParams& rocks = scenario.terrain.rocks;
+  v.Require("terrain.rocks.kind", rocks.kind == terrain::RockFieldKind::kMoore,
+            "is not moore, so that hazard_detection.rock_k_per_m2 would change nothing",
+            "use kind moore");
+  v.Require("hazard_detection.rock_k_per_m2",
+            std::all_of(study.rock_k_per_m2.begin(), study.rock_k_per_m2.end(),
+                        [&](double k_per_m2) { return k_per_m2 <= rocks.k_reference_per_m2; }),
+            "has a value larger than terrain.rocks.k_reference_per_m2",
+            "raise k_reference_per_m2 to at least the largest value of the list");
+}
+
 // What the experiment "hazard_detection" takes for granted.
 void RequireMeasurable(const Scenario& scenario, core::FieldVisitor& v) {
   if (scenario.experiment != ExperimentKind::kHazardDetection) return;
@@ -72,6 +87,7 @@ void RequireMeasurable(const Scenario& scenario, core::FieldVisitor& v) {
             std::all_of(study.rows.begin(), study.rows.end(),
                         [&](double row) { return row < rows && row == std::floor(row); }),
             "names a row that sensors.light_stripe does not have", "count its rows from 0");
+  RequireFields(scenario, v);
   if (study.study != experiments::HazardStudy::kFalseAlarm) return;
   const bool images = sensor.fidelity == sensing::Fidelity::kImage;
   v.Require("hazard_detection.sun_elevations_deg",

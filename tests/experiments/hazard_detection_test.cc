@@ -57,6 +57,34 @@ TEST(HazardScenarioTest, BadScenariosSayWhatIsWrong) {
               HasSubstr("more than 2000 cells"));
 }
 
+// A list that takes the place of a parameter has that parameter's bounds and conditions.
+TEST(HazardScenarioTest, FactorsKeepTheBoundsOfTheirParameters) {
+  const std::vector<std::string> images{"hazard_detection.study=false_alarm",
+                                        "sensors.light_stripe.fidelity=image"};
+  const auto with = [](std::vector<std::string> all, const std::string& more) {
+    all.push_back(more);
+    return all;
+  };
+  EXPECT_EQ(ProblemsOf(with(images, "hazard_detection.laser_powers_w=[1e-6, 100]")), "");
+  for (const char* bad :
+       {"hazard_detection.laser_powers_w=[0]", "hazard_detection.laser_powers_w=[101]",
+        "hazard_detection.sun_elevations_deg=[-1]", "hazard_detection.sun_elevations_deg=[91]"}) {
+    EXPECT_NE(ProblemsOf(with(images, bad)), "") << bad;
+  }
+  for (const char* bad : {"hazard_detection.wrong_place_probabilities=[1.1]",
+                          "hazard_detection.outlier_persistences=[1]"}) {
+    EXPECT_NE(ProblemsOf({"hazard_detection.study=false_alarm", bad}), "") << bad;
+  }
+  const std::vector<std::string> fields{"hazard_detection.study=missed"};
+  EXPECT_EQ(ProblemsOf(with(fields, "hazard_detection.rock_k_per_m2=[0.02]")), "");
+  EXPECT_THAT(ProblemsOf(with(fields, "hazard_detection.rock_k_per_m2=[0.03]")),
+              HasSubstr("larger than terrain.rocks.k_reference_per_m2"));
+  EXPECT_THAT(ProblemsOf({"terrain.rocks.k_reference_per_m2=0.1", "hazard_detection.study=missed",
+                          "hazard_detection.rock_k_per_m2=[0.2]"}),
+              HasSubstr("hazard_detection.rock_k_per_m2"));
+  EXPECT_THAT(ProblemsOf(with(fields, "terrain.rocks.kind=uniform_count")), HasSubstr("kind"));
+}
+
 TEST(HazardDetectionTest, ShippedTablesHaveAtMost500CellsAndWholeRounds) {
   for (const char* name :
        {"detection", "approach", "height_factor", "false_alarm", "persistence", "missed",
