@@ -32,6 +32,11 @@ struct CellFactor {
   std::vector<double> values;
 };
 
+// Of the emitter on the left that stands on the cameras' axis, outwards from the left camera.
+constexpr double BaselineEmitterY(double camera_separation_m, double baseline_m) {
+  return 0.5 * camera_separation_m + baseline_m;
+}
+
 struct HazardDetectionParams {
   HazardStudy study = HazardStudy::kDetection;
   std::int64_t scenes_per_run = 500;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
 
 #include "core/distributions.h"
 #include "experiments/cell_table.h"
@@ -23,10 +24,11 @@ using scenario::Scenario;
 // Published: "range resolution is approximately 2 mm at 30 cm" (Matthies 1995 sec. 6).
 constexpr double kStatedRange_m = 0.3;
 
-// All emitters but the centre one at a given baseline from the camera of their side.
+// All emitters but the centre one at a given baseline from the camera of their side, which has to
+// stand on the axis of the cameras.
 Scenario WithBaseline(Scenario scenario, double baseline_m) {
   sensing::LightStripeParams& sensor = scenario.sensors.light_stripe;
-  sensor.inner_emitter_y_m = 0.5 * sensor.camera_separation_m + baseline_m;
+  sensor.inner_emitter_y_m = BaselineEmitterY(sensor.camera_separation_m, baseline_m);
   sensor.outer_emitter_y_m = sensor.inner_emitter_y_m;
   return scenario;
 }
@@ -129,6 +131,7 @@ class PlaneStudy final : public HazardStudyRunner {
         AddPoint(seen, real, scan.pixels[row][stripe], plane_m - truth.datum_z_m, sums);
       }
     }
+    if (sums[0] == 0.0) throw std::logic_error("no stripe has the baseline of the cell");
     return sums;
   }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/archive.h"
+#include "core/error.h"
 #include "sensing/stripe_layout_params.h"
 
 namespace rockyard::scenario {
@@ -69,6 +71,48 @@ void RequireFields(const Scenario& scenario, core::FieldVisitor& v) {
             "raise k_reference_per_m2 to at least the largest value of the list");
 }
 
+// Whether the sensor can be built with the emitters at this baseline.
+bool HoldsBaseline(sensing::LightStripeParams sensor, double baseline_m) {
+  sensor.inner_emitter_y_m = experiments::BaselineEmitterY(sensor.camera_separation_m, baseline_m);
+  sensor.outer_emitter_y_m = sensor.inner_emitter_y_m;
+  try {
+    core::ReadParams(core::WriteParams(sensor), sensor);
+  } catch (const core::UserError&) {
+    return false;
+  }
+  return true;
+}
+
+// Emitters that the study "precision" moves, and planes that no scan would find.
+void RequirePlanes(const Scenario& scenario, core::FieldVisitor& v) {
+  const experiments::HazardDetectionParams& study = scenario.hazard_detection;
+  if (study.study != experiments::HazardStudy::kPrecision) return;
+  const sensing::LightStripeParams& sensor = scenario.sensors.light_stripe;
+  constexpr double kSame_m = 1e-9;
+  const bool on_axis = std::abs(sensor.emitter_height_m - sensor.camera_height_m) < kSame_m &&
+                       std::abs(sensor.emitter_x_m - sensor.camera_x_m) < kSame_m;
+  v.Require("sensors.light_stripe.emitter_height_m", on_axis,
+            "or emitter_x_m puts the emitters beside the cameras' axis, along which the study "
+            "precision moves them",
+            "use emitter_height_m = camera_height_m and emitter_x_m = camera_x_m");
+  v.Require(
+      "hazard_detection.baselines_m",
+      !on_axis || std::all_of(study.baselines_m.begin(), study.baselines_m.end(),
+                              [&](double baseline_m) { return HoldsBaseline(sensor, baseline_m); }),
+      "puts an emitter where sensors.light_stripe cannot work",
+      "use shorter baselines, or move the stripes (inner_stripe_y_m, outer_stripe_y_m)");
+  const double half_m = 0.5 * study.plane_width_m;
+  v.Require("hazard_detection.plane_heights_m",
+            std::all_of(study.plane_heights_m.begin(), study.plane_heights_m.end(),
+                        [&](double height_m) {
+                          const double elevation_m = height_m - sensor.datum_z_m;
+                          return elevation_m - half_m >= sensor.search_low_m &&
+                                 elevation_m + half_m <= sensor.search_high_m;
+                        }),
+            "and plane_width_m reach beyond the elevations that sensors.light_stripe searches",
+            "use heights between its search_low_m and search_high_m");
+}
+
 // What the experiment "hazard_detection" takes for granted.
 void RequireMeasurable(const Scenario& scenario, core::FieldVisitor& v) {
   if (scenario.experiment != ExperimentKind::kHazardDetection) return;
@@ -88,6 +132,7 @@ void RequireMeasurable(const Scenario& scenario, core::FieldVisitor& v) {
                         [&](double row) { return row < rows && row == std::floor(row); }),
             "names a row that sensors.light_stripe does not have", "count its rows from 0");
   RequireFields(scenario, v);
+  RequirePlanes(scenario, v);
   if (study.study != experiments::HazardStudy::kFalseAlarm) return;
   const bool images = sensor.fidelity == sensing::Fidelity::kImage;
   v.Require("hazard_detection.sun_elevations_deg",

@@ -85,6 +85,34 @@ TEST(HazardScenarioTest, FactorsKeepTheBoundsOfTheirParameters) {
   EXPECT_THAT(ProblemsOf(with(fields, "terrain.rocks.kind=uniform_count")), HasSubstr("kind"));
 }
 
+// Everything that would leave cells without a point: emitters whose stripes the other camera sees,
+// emitters that stand off the cameras' axis, layouts that cannot work, planes out of reach.
+TEST(HazardScenarioTest, PrecisionCellsWithoutPointsAreErrors) {
+  const auto problems = [](std::vector<std::string> overrides) {
+    overrides.push_back("hazard_detection.study=precision");
+    return ProblemsOf(overrides);
+  };
+  EXPECT_EQ(problems({"hazard_detection.baselines_m=[0.05, 0.12]"}), "");
+  EXPECT_THAT(problems({"hazard_detection.baselines_m=[0.049]"}),
+              HasSubstr("hazard_detection.baselines_m"));
+  EXPECT_THAT(problems({"sensors.light_stripe.emitter_height_m=0.24"}),
+              HasSubstr("beside the cameras' axis"));
+  EXPECT_THAT(problems({"sensors.light_stripe.emitter_x_m=0.1"}),
+              HasSubstr("beside the cameras' axis"));
+  EXPECT_THAT(problems({"hazard_detection.baselines_m=[0.05, 0.99]"}), HasSubstr("cannot work"));
+  EXPECT_THAT(problems({"hazard_detection.plane_heights_m=[0.0, 0.2]"}),
+              HasSubstr("elevations that sensors.light_stripe searches"));
+}
+
+// A scenario that was not checked: the run says so, and is no cell of nan.
+TEST(HazardDetectionTest, APrecisionCellWithoutPointsIsAFault) {
+  scenario::Scenario scenario = HazardScenario("precision");
+  scenario.sensors.light_stripe.emitter_height_m += 0.02;
+  const truth::Record record = MakeExperiment(scenario)->Run(1, 0);
+  EXPECT_EQ(record.outcome, truth::TrialOutcome::kSimulatorFault);
+  EXPECT_THAT(record.detail, HasSubstr("no stripe has the baseline"));
+}
+
 TEST(HazardDetectionTest, ShippedTablesHaveAtMost500CellsAndWholeRounds) {
   for (const char* name :
        {"detection", "approach", "height_factor", "false_alarm", "persistence", "missed",
