@@ -81,16 +81,6 @@ Proportion RateOf(std::span<const Record> records, const Succeeded& succeeded) {
   return statistics::MakeProportion(count, trials);
 }
 
-// Newcombe (1998), method 10: the distances of the Wilson ends from the rates, added in squares.
-Interval UnpairedInterval(const Proportion& first, const Proportion& second) {
-  const double difference = second.rate - first.rate;
-  const double below =
-      std::hypot(second.rate - second.interval.low, first.interval.high - first.rate);
-  const double above =
-      std::hypot(second.interval.high - second.rate, first.rate - first.interval.low);
-  return {difference - below, difference + above};
-}
-
 SuccessComparison CompareUnpaired(const ComparedRun& first, const ComparedRun& second,
                                   std::string what, const Succeeded& succeeded) {
   SuccessComparison result;
@@ -98,7 +88,7 @@ SuccessComparison CompareUnpaired(const ComparedRun& first, const ComparedRun& s
   result.first = RateOf(first.records, succeeded);
   result.second = RateOf(second.records, succeeded);
   result.difference = result.second.rate - result.first.rate;
-  result.interval = UnpairedInterval(result.first, result.second);
+  result.interval = statistics::DifferenceInterval(result.first, result.second);
   result.p_value = statistics::FisherExactPValue(
       {result.first.count, result.first.trials - result.first.count, result.second.count,
        result.second.trials - result.second.count});

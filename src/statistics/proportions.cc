@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/binomial.hpp>
-#include <boost/math/distributions/hypergeometric.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/check.h"
 
@@ -33,6 +33,39 @@ Interval ClopperPearson(double count, double trials, double confidence) {
           count == trials ? 1.0 : beta_quantile(count + 1.0, trials - count, 1.0 - tail)};
 }
 
+// Probabilities of the number of successes in group 1, all margins given, over the largest of them.
+struct HypergeometricWeights {
+  std::int64_t lowest = 0;
+  std::vector<double> weights;
+
+  std::int64_t highest() const { return lowest + static_cast<std::int64_t>(weights.size()) - 1; }
+  double& At(std::int64_t x) { return weights[static_cast<std::size_t>(x - lowest)]; }
+  double At(std::int64_t x) const { return weights[static_cast<std::size_t>(x - lowest)]; }
+};
+
+// By the ratio of neighbours outwards from the mode, where nothing can overflow; what underflows is
+// too small to matter. A closed form of each would cost a factorization of the factorials.
+HypergeometricWeights MakeWeights(std::int64_t group_1, std::int64_t group_2,
+                                  std::int64_t successes) {
+  HypergeometricWeights law;
+  law.lowest = std::max<std::int64_t>(0, successes - group_2);
+  const std::int64_t highest = std::min(successes, group_1);
+  law.weights.assign(static_cast<std::size_t>(highest - law.lowest + 1), 1.0);
+  const double a = static_cast<double>(group_1);
+  const double b = static_cast<double>(group_2);
+  const double k = static_cast<double>(successes);
+  // P(x + 1) / P(x)
+  const auto ratio = [&](std::int64_t at) {
+    const double x = static_cast<double>(at);
+    return (k - x) * (a - x) / ((x + 1.0) * (b - k + x + 1.0));
+  };
+  const auto near_mode = static_cast<std::int64_t>((k + 1.0) * (a + 1.0) / (a + b + 2.0));
+  const std::int64_t mode = std::clamp(near_mode, law.lowest, highest);
+  for (std::int64_t x = mode; x < highest; ++x) law.At(x + 1) = law.At(x) * ratio(x);
+  for (std::int64_t x = mode; x > law.lowest; --x) law.At(x - 1) = law.At(x) / ratio(x - 1);
+  return law;
+}
+
 }  // namespace
 
 Interval ProportionInterval(std::int64_t count, std::int64_t trials, double confidence,
@@ -53,30 +86,35 @@ Proportion MakeProportion(std::int64_t count, std::int64_t trials, double confid
   return {count, trials, rate, ProportionInterval(count, trials, confidence, method)};
 }
 
+Interval DifferenceInterval(const Proportion& first, const Proportion& second, double confidence) {
+  if (first.trials == 0 || second.trials == 0) return {-1.0, 1.0};
+  const Interval a = ProportionInterval(first.count, first.trials, confidence);
+  const Interval b = ProportionInterval(second.count, second.trials, confidence);
+  const double difference = second.rate - first.rate;
+  return {difference - std::hypot(second.rate - b.low, a.high - first.rate),
+          difference + std::hypot(b.high - second.rate, first.rate - a.low)};
+}
+
 double FisherExactPValue(const ContingencyTable& table, Alternative alternative) {
   EXPECT(table.success_1 >= 0 && table.failure_1 >= 0 && table.success_2 >= 0 &&
          table.failure_2 >= 0);
-  const std::int64_t successes = table.success_1 + table.success_2;
   const std::int64_t group_1 = table.success_1 + table.failure_1;
-  const std::int64_t total = group_1 + table.success_2 + table.failure_2;
-  if (total == 0) return 1.0;
-  const boost::math::hypergeometric law(static_cast<unsigned>(successes),
-                                        static_cast<unsigned>(group_1),
-                                        static_cast<unsigned>(total));
-  const std::int64_t lowest = std::max<std::int64_t>(0, successes + group_1 - total);
-  const std::int64_t highest = std::min(successes, group_1);
+  const std::int64_t group_2 = table.success_2 + table.failure_2;
+  const std::int64_t successes = table.success_1 + table.success_2;
+  const HypergeometricWeights law = MakeWeights(group_1, group_2, successes);
   constexpr double kTieTolerance = 1e-7;
-  const double limit =
-      boost::math::pdf(law, static_cast<unsigned>(table.success_1)) * (1.0 + kTieTolerance);
-  double p_value = 0.0;
-  for (std::int64_t x = lowest; x <= highest; ++x) {
-    const double probability = boost::math::pdf(law, static_cast<unsigned>(x));
+  const double limit = law.At(table.success_1) * (1.0 + kTieTolerance);
+  double all = 0.0;
+  double extreme = 0.0;
+  for (std::int64_t x = law.lowest; x <= law.highest(); ++x) {
+    const double weight = law.At(x);
     const bool as_extreme = alternative == Alternative::kLess      ? x <= table.success_1
                             : alternative == Alternative::kGreater ? x >= table.success_1
-                                                                   : probability <= limit;
-    if (as_extreme) p_value += probability;
+                                                                   : weight <= limit;
+    all += weight;
+    if (as_extreme) extreme += weight;
   }
-  return std::min(1.0, p_value);
+  return extreme / all;
 }
 
 double McNemarExactPValue(std::int64_t only_first, std::int64_t only_second) {

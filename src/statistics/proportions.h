@@ -32,6 +32,12 @@ Interval ProportionInterval(std::int64_t count, std::int64_t trials, double conf
 Proportion MakeProportion(std::int64_t count, std::int64_t trials, double confidence = 0.95,
                           IntervalMethod method = IntervalMethod::kWilson);
 
+// Interval of the difference second less first of two independent rates: the distances of the
+// Wilson ends from the rates, added in squares (Newcombe 1998, Statistics in Medicine 17, pp.
+// 873-890, method 10). Near nominal on average; [-1, 1] where either has no trials. Cost: constant.
+Interval DifferenceInterval(const Proportion& first, const Proportion& second,
+                            double confidence = 0.95);
+
 enum class Alternative { kTwoSided, kLess, kGreater };
 
 // A 2 x 2 table: rows are two groups, columns are success and failure.
@@ -44,7 +50,7 @@ struct ContingencyTable {
 
 // Fisher's exact test given all margins. kGreater: group 1 succeeds more often than group 2.
 // Two-sided: total probability of the tables that are no more probable than the one observed
-// (relative tolerance 1e-7). Cost: linear in the smallest margin.
+// (relative tolerance 1e-7). An empty table gives 1. Cost: linear in the smallest margin.
 double FisherExactPValue(const ContingencyTable& table,
                          Alternative alternative = Alternative::kTwoSided);
 

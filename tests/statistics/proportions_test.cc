@@ -73,6 +73,40 @@ TEST(ProportionInterval, ExactCoverage) {
   EXPECT_LT(lowest, 0.95);
 }
 
+// Newcombe 1998 (Statistics in Medicine 17, pp. 873-890), table II, method 10, contrasts (a) to
+// (h).
+TEST(DifferenceInterval, EqualsNewcombesExamples) {
+  struct Example {
+    std::int64_t a, m, b, n;
+    double low, high;
+  };
+  for (const Example& e : {Example{56, 70, 48, 80, 0.0524, 0.3339},
+                           {9, 10, 3, 10, 0.1705, 0.8090},
+                           {6, 7, 2, 7, 0.0582, 0.8062},
+                           {5, 56, 0, 29, -0.0381, 0.1926},
+                           {0, 10, 0, 20, -0.1611, 0.2775},
+                           {0, 10, 0, 10, -0.2775, 0.2775},
+                           {10, 10, 0, 20, 0.6791, 1.0},
+                           {10, 10, 0, 10, 0.6075, 1.0}}) {
+    const Interval interval =
+        DifferenceInterval(MakeProportion(e.b, e.n), MakeProportion(e.a, e.m));
+    EXPECT_NEAR(interval.low, e.low, 5e-5) << e.a << "/" << e.m;
+    EXPECT_NEAR(interval.high, e.high, 5e-5) << e.a << "/" << e.m;
+  }
+}
+
+TEST(DifferenceInterval, SwappedRunsSwapTheEndsAndNoTrialsLeaveEverythingOpen) {
+  const Proportion a = MakeProportion(3, 20);
+  const Proportion b = MakeProportion(11, 31);
+  const Interval forward = DifferenceInterval(a, b, 0.99);
+  const Interval backward = DifferenceInterval(b, a, 0.99);
+  EXPECT_DOUBLE_EQ(forward.low, -backward.high);
+  EXPECT_DOUBLE_EQ(forward.high, -backward.low);
+  EXPECT_LT(forward.low, DifferenceInterval(a, b, 0.95).low);
+  EXPECT_EQ(DifferenceInterval(a, MakeProportion(0, 0)).low, -1.0);
+  EXPECT_EQ(DifferenceInterval(MakeProportion(0, 0), b).high, 1.0);
+}
+
 TEST(FisherExact, EqualsOracles) {
   for (const core::JsonValue& c : At(Oracles(), "fisher_exact").list()) {
     const auto first = Numbers(At(c, "table").list()[0]);
@@ -85,6 +119,18 @@ TEST(FisherExact, EqualsOracles) {
                                  std::llround(second[0]), std::llround(second[1])};
     EXPECT_NEAR(FisherExactPValue(table, alternative), At(c, "p").number(), 1e-10);
   }
+}
+
+TEST(FisherExact, LargeTablesInClosedForm) {
+  // All n of the first group succeed and none of the second: 2 / C(2n, n).
+  EXPECT_NEAR(FisherExactPValue({10, 0, 0, 10}) * 184756.0 / 2.0, 1.0, 1e-12);
+  // One success in 2n, in the first group or in the second: both tables are equally likely.
+  EXPECT_DOUBLE_EQ(FisherExactPValue({1, 999999, 0, 1000000}), 1.0);
+  // Two successes, both in the first group: twice (n - 1) / (2 (2n - 1)).
+  constexpr double kN = 1e6;
+  EXPECT_NEAR(FisherExactPValue({2, 999998, 0, 1000000}), (kN - 1.0) / (2.0 * kN - 1.0), 1e-12);
+  // What underflows is impossible, not undefined.
+  EXPECT_EQ(FisherExactPValue({100000, 0, 0, 100000}), 0.0);
 }
 
 TEST(FisherExact, EmptyTableSaysNothing) { EXPECT_EQ(FisherExactPValue({}), 1.0); }
