@@ -62,9 +62,14 @@ class FieldStudy final : public HazardStudyRunner {
     const double start_x_m = course.start_x_m + params_.scan_interval_m * phase.Uniform();
     const auto poses = static_cast<std::int64_t>(
         std::floor((course.goal_x_m - start_x_m) / params_.scan_interval_m));
+    // Scans are numbered one after the other, as in the closed loop: what a point keeps from scan
+    // to scan passes from pose to pose. Poses with nothing to see count as the one scan that they
+    // take without an alarm.
+    std::int64_t scan_number = 0;
     for (std::int64_t pose = 0; pose <= poses; ++pose) {
       const double x_m = start_x_m + static_cast<double>(pose) * params_.scan_interval_m;
-      if (Needed(hazards, x_m)) LookFrom(x_m, field.terrain, key, pose, hazards);
+      scan_number +=
+          Needed(hazards, x_m) ? LookFrom(x_m, field.terrain, key, scan_number, hazards) : 1;
     }
     sums[0] += 1.0;
     sums[1] += course.goal_x_m - course.start_x_m;
@@ -106,11 +111,11 @@ class FieldStudy final : public HazardStudyRunner {
     });
   }
 
-  void LookFrom(double x_m, const terrain::Terrain& field, core::TrialKey key, std::int64_t pose,
-                std::vector<Hazard>& hazards) const {
+  // Returns the number of scans.
+  std::int64_t LookFrom(double x_m, const terrain::Terrain& field, core::TrialKey key,
+                        std::int64_t first_scan, std::vector<Hazard>& hazards) const {
     math::Transform X_WR = math::Transform::Identity();
     X_WR.translation() = Vector3(x_m, scenario_.course.start_y_m, 0.0);
-    const std::int64_t first_scan = pose * judge_.most_scans();
     const Sight seen = judge_.Look(field, X_WR, key, first_scan);
     const Sight bare = bare_judge_.Look(sand_, X_WR, key, first_scan);
     for (std::size_t stripe = 0; stripe < lasers_.size(); ++stripe) {
@@ -123,6 +128,7 @@ class FieldStudy final : public HazardStudyRunner {
         hazard.seen_double |= believed;
       }
     }
+    return seen.scans;
   }
 
   // Whether the vertical light plane meets the circle around the rock.

@@ -15,10 +15,6 @@ HazardJudge::HazardJudge(const scenario::Scenario& scenario, trial::ScanWatcher 
                                                     scenario.perception.calibration)),
       stripes_(sensing::ArraySize(scenario.sensors.light_stripe).stripes) {}
 
-std::int64_t HazardJudge::most_scans() const {
-  return hazard_.agreement == perception::ScanAgreement::kSingleScan ? 1 : hazard_.max_scans;
-}
-
 messages::ElevationScan HazardJudge::Scan(const terrain::Terrain& terrain,
                                           const math::Transform& X_WR, core::TrialKey key,
                                           std::int64_t scan_number) const {

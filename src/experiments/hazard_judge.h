@@ -31,8 +31,6 @@ class HazardJudge {
   explicit HazardJudge(const scenario::Scenario& scenario, trial::ScanWatcher watcher = {});
 
   std::size_t stripes() const { return stripes_; }
-  // Scans that Look may take: scan numbers of poses have to lie so far apart.
-  std::int64_t most_scans() const;
 
   messages::ElevationScan Scan(const terrain::Terrain& terrain, const math::Transform& X_WR,
                                core::TrialKey key, std::int64_t scan_number) const;

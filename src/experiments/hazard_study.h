@@ -41,8 +41,8 @@ inline core::TrialKey SceneKey(core::TrialKey run, std::int64_t scenes_per_run,
 }
 
 // The watcher sees the scans of the scenes, not those of bare sand that they are compared with.
-// Scan numbers begin at 0 in every scene. rock_studies.cc: one rock, seen from where the rover
-// stands, or on the way past it.
+// Scan numbers begin at 0 in every scene and count on from pose to pose. rock_studies.cc: one rock,
+// seen from where the rover stands, or on the way past it.
 std::unique_ptr<HazardStudyRunner> MakeDetectionStudy(const scenario::Scenario& scenario,
                                                       const trial::ScanWatcher& watcher);
 std::unique_ptr<HazardStudyRunner> MakeApproachStudy(const scenario::Scenario& scenario,

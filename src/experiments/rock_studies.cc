@@ -158,9 +158,10 @@ class ApproachStudy final : public RockStudy {
     bool believed = false;
     for (std::int64_t pose = 0; pose < poses && !(single && believed); ++pose) {
       const double gap_m = last_gap_m + static_cast<double>(poses - 1 - pose) * interval_m;
-      // As many numbers a pose as it may take, so that later noise does not depend on rescans.
-      const std::int64_t first_scan = pose * judge().most_scans();
-      const Sight sight = LookAt(drawn.terrain, Pose(gap_m, drawn.heading_rad), key, first_scan);
+      // Scans of a drive are numbered one after the other, as in the closed loop: what a point
+      // keeps from scan to scan passes from pose to pose, and later noise depends on earlier
+      // rescans.
+      const Sight sight = LookAt(drawn.terrain, Pose(gap_m, drawn.heading_rad), key, scans);
       scans += sight.scans;
       single |= Any(sight.first.missing) || Any(sight.first.neighbour) || Any(sight.first.range);
       believed |= Any(sight.believed);
