@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "math/pose.h"
+#include "messages/column_range.h"
 #include "messages/measurements.h"
 #include "messages/wheels.h"
 
@@ -38,13 +39,16 @@ struct StripeCamera {
   // Angle per pixel, on the axis; columns count to the camera's right, rows downwards.
   double column_pitch_rad = 0.0;
   double row_pitch_rad = 0.0;
-  // Imager, pixels: columns from -columns / 2 to columns / 2, rows likewise.
   int columns = 0;
   int rows = 0;
+
+  ColumnRange image_columns() const { return ImageColumns(columns); }
+  int first_row() const { return -rows / 2; }  // of an even number, one more above the axis
+  int last_row() const { return rows - rows / 2 - 1; }
 };
 
-// One laser fan: a plane through the emitter that contains the rover's z axis direction tilted into
-// the fan, given by its normal.
+// One laser fan: the directions from the emitter within half_fan of axis_R, in the light plane
+// n . (p - e) = 0 with the normal n and the emitter e.
 struct StripeLaser {
   math::Vector3 p_RoE_R = math::Vector3::Zero();    // emitter
   math::Vector3 normal_R = math::Vector3::UnitY();  // of the light plane

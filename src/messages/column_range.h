@@ -12,4 +12,7 @@ struct ColumnRange {
   bool Contains(double column_px) const { return column_px >= first && column_px <= last; }
 };
 
+// All columns of an image; of an even number, one more to the left of the axis than to the right.
+inline ColumnRange ImageColumns(int columns) { return {-columns / 2, columns - columns / 2 - 1}; }
+
 }  // namespace rockyard::messages

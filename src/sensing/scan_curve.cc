@@ -9,6 +9,7 @@ namespace rockyard::sensing {
 namespace {
 
 using math::Vector3;
+using messages::ColumnRange;
 
 // The curve of the header, by column.
 class Curve {
@@ -18,7 +19,7 @@ class Curve {
         camera_(calibration.cameras[static_cast<std::size_t>(laser_.camera)]),
         row_px_(calibration.scanline_px[row]) {}
 
-  int half_columns() const { return camera_.columns / 2; }
+  ColumnRange columns() const { return camera_.image_columns(); }
 
   // None where the viewing ray does not meet the light plane in front of the camera.
   std::optional<Vector3> At(double column) const {
@@ -36,22 +37,75 @@ class Curve {
   double row_px_;
 };
 
-// Appends the points after p(from) up to p(to) between which chords are near enough to the curve.
-void Divide(const Curve& curve, double from, double to, std::vector<Vector3>& vertices) {
+// A column and the curve there.
+struct CurvePoint {
+  double column = 0.0;
+  Vector3 p_R;
+};
+
+// Appends the points after `from` up to `to` between which chords are near enough to the curve.
+// Where the curve has a gap between them, the chord bridges it.
+void Divide(const Curve& curve, const CurvePoint& from, const CurvePoint& to,
+            std::vector<Vector3>& vertices) {
   constexpr double kSmallest_px = 0.5;
-  const Vector3 start = *curve.At(from);
-  const Vector3 end = *curve.At(to);
-  const double middle = 0.5 * (from + to);
-  const Vector3 along = (end - start).normalized();
-  const Vector3 aside = *curve.At(middle) - start;
-  // The middle column is not where the chord is farthest from the curve: half the bound is left.
-  const double gap_m = (aside - along.dot(aside) * along).norm();
-  if (gap_m <= 0.5 * ScanCurve::kChordError_m || std::abs(to - from) <= kSmallest_px) {
-    vertices.push_back(end);
+  const double middle = 0.5 * (from.column + to.column);
+  const auto middle_R = curve.At(middle);
+  const bool is_short = std::abs(to.column - from.column) <= kSmallest_px;
+  if (!middle_R || is_short) {
+    vertices.push_back(to.p_R);
     return;
   }
-  Divide(curve, from, middle, vertices);
-  Divide(curve, middle, to, vertices);
+  const Vector3 along = (to.p_R - from.p_R).normalized();
+  const Vector3 aside = *middle_R - from.p_R;
+  // The middle column is not where the chord is farthest from the curve: half the bound is left.
+  const double gap_m = (aside - along.dot(aside) * along).norm();
+  if (gap_m <= 0.5 * ScanCurve::kChordError_m) {
+    vertices.push_back(to.p_R);
+    return;
+  }
+  Divide(curve, from, {middle, *middle_R}, vertices);
+  Divide(curve, {middle, *middle_R}, to, vertices);
+}
+
+// Columns without a gap that see the light plane above the lowest searched elevation, and those of
+// them within the searched elevations.
+struct Stretch {
+  ColumnRange seen;
+  ColumnRange searched;
+
+  int searched_columns() const { return searched.last - searched.first + 1; }
+};
+
+void Extend(ColumnRange& range, int column) {
+  if (range.empty()) range.first = column;
+  range.last = column;
+}
+
+// A wide lens may see the light plane in several stretches, some of them behind the emitter, where
+// no light goes. The one with most of the searched elevations is taken.
+Stretch LongestStretch(const Curve& curve, double low_z_m, double high_z_m) {
+  std::vector<Stretch> stretches(1);
+  const ColumnRange columns = curve.columns();
+  for (int column = columns.first; column <= columns.last; ++column) {
+    const auto point_R = curve.At(column);
+    if (!point_R || point_R->z() < low_z_m) {
+      if (!stretches.back().seen.empty()) stretches.emplace_back();
+      continue;
+    }
+    Extend(stretches.back().seen, column);
+    if (point_R->z() <= high_z_m) Extend(stretches.back().searched, column);
+  }
+  return *std::max_element(stretches.begin(), stretches.end(),
+                           [](const Stretch& a, const Stretch& b) {
+                             return a.searched_columns() < b.searched_columns();
+                           });
+}
+
+// The outer edge of a pixel, or its middle where the curve does not reach the edge.
+CurvePoint EdgeOf(const Curve& curve, int column, double outwards_px) {
+  const auto edge_R = curve.At(column + outwards_px);
+  if (edge_R) return {column + outwards_px, *edge_R};
+  return {static_cast<double>(column), *curve.At(column)};
 }
 
 }  // namespace
@@ -59,24 +113,15 @@ void Divide(const Curve& curve, double from, double to, std::vector<Vector3>& ve
 ScanCurve::ScanCurve(const messages::StripeCalibration& calibration, std::size_t row,
                      std::size_t stripe) {
   const Curve curve(calibration, row, stripe);
-  const double low_z_m = calibration.datum_z_m + calibration.search_low_m;
-  const double high_z_m = calibration.datum_z_m + calibration.search_high_m;
-  messages::ColumnRange seen;
-  for (int column = -curve.half_columns(); column <= curve.half_columns(); ++column) {
-    const auto point_R = curve.At(column);
-    if (!point_R || point_R->z() < low_z_m) continue;
-    if (seen.empty()) seen.first = column;
-    seen.last = column;
-    if (point_R->z() > high_z_m) continue;
-    if (searched_.empty()) searched_.first = column;
-    searched_.last = column;
-  }
+  const auto [seen, searched] =
+      LongestStretch(curve, calibration.datum_z_m + calibration.search_low_m,
+                     calibration.datum_z_m + calibration.search_high_m);
+  searched_ = searched;
   if (seen.last <= seen.first) return;
-  // From edge to edge of the pixels.
-  double begin = curve.At(seen.first - 0.5) ? seen.first - 0.5 : seen.first;
-  double end = curve.At(seen.last + 0.5) ? seen.last + 0.5 : seen.last;
-  if (curve.At(begin)->z() < curve.At(end)->z()) std::swap(begin, end);
-  vertices_R_.push_back(*curve.At(begin));
+  CurvePoint begin = EdgeOf(curve, seen.first, -0.5);
+  CurvePoint end = EdgeOf(curve, seen.last, 0.5);
+  if (begin.p_R.z() < end.p_R.z()) std::swap(begin, end);
+  vertices_R_.push_back(begin.p_R);
   Divide(curve, begin, end, vertices_R_);
 }
 
