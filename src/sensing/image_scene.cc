@@ -31,9 +31,11 @@ bool ComesBetween(const Vector3& from_ball, const Vector3& toward_sun, double re
 }  // namespace
 
 ImageScene::ImageScene(const terrain::Terrain& terrain, const math::Transform& X_WR,
-                       const SunLight& light, const SunParams& sun, const RoverBody& body)
+                       const SunLight& light, const SunParams& sun, const RoverBody& body,
+                       double sight_m)
     : terrain_(terrain),
       body_(body),
+      sight_m_(sight_m),
       X_WR_(X_WR),
       X_RW_(X_WR.inverse()),
       light_(light),
@@ -41,12 +43,12 @@ ImageScene::ImageScene(const terrain::Terrain& terrain, const math::Transform& X
       toward_sun_R_(X_RW_.linear() * light.toward_sun_W),
       body_center_W_(X_WR * body.center_R()) {
   const Vector3 origin_W = X_WR.translation();
-  terrain.RocksNear(origin_W.x(), origin_W.y(), kSight_m, near_);
+  terrain.RocksNear(origin_W.x(), origin_W.y(), sight_m_, near_);
   if (light.direct_w_m2 <= 0.0) return;
   const auto rocks = terrain.rocks();
   for (std::size_t i = 0; i < rocks.size(); ++i) {
     const Vector3 away = rocks[i].center_W - origin_W;
-    if (!ComesBetween(away, light.toward_sun_W, kSight_m + Reach(rocks[i]))) continue;
+    if (!ComesBetween(away, light.toward_sun_W, sight_m_ + Reach(rocks[i]))) continue;
     before_sun_.push_back(static_cast<int>(i));
     shapes_.emplace_back(rocks[i]);
   }

@@ -35,15 +35,15 @@ struct Ball {
   double radius_m = 0.0;
 };
 
-// Rocks farther from the rover's origin than kSight_m are not seen, nor is what they shade; the
-// cameras look at the first metre of ground. Pure queries; must not outlive the terrain.
+// Rocks farther from the rover's origin than sight_m are not seen, nor is what they shade. Pure
+// queries; must not outlive the terrain.
 class ImageScene {
  public:
-  static constexpr double kSight_m = 4.0;
-
+  // sight_m: SightOf the sensor.
   ImageScene(const terrain::Terrain& terrain, const math::Transform& X_WR, const SunLight& light,
-             const SunParams& sun, const RoverBody& body);
+             const SunParams& sun, const RoverBody& body, double sight_m);
 
+  double sight_m() const { return sight_m_; }
   const math::Transform& X_WR() const { return X_WR_; }
 
   // Rocks of which a part may lie where |normal_W . (p - eye)| <= sine |p - eye|: about a plane.
@@ -81,6 +81,7 @@ class ImageScene {
 
   const terrain::Terrain& terrain_;
   const RoverBody& body_;
+  double sight_m_;
   math::Transform X_WR_;
   math::Transform X_RW_;
   SunLight light_;

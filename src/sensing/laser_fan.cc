@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "sensing/radiometry.h"
-#include "vision/lens.h"
+#include "sensing/stripe_view_params.h"
 
 namespace rockyard::sensing {
 namespace {
@@ -13,28 +13,6 @@ using math::Vector3;
 
 // Half of the three scanlines of a thin beam.
 constexpr double kThinHalfRows = 1.5;
-
-// Where an image line meets the stripe of a laser on the datum plane, in R.
-Vector3 StripePoint(const messages::StripeCalibration& calibration,
-                    const messages::StripeLaser& laser, int row_px) {
-  const messages::StripeCamera& camera =
-      calibration.cameras[static_cast<std::size_t>(laser.camera)];
-  const Vector3 along = laser.normal_R.cross(Vector3::UnitZ()).normalized();
-  const Vector3 forward = along.dot(laser.axis_R) < 0.0 ? Vector3(-along) : along;
-  const Vector3 foot(laser.p_RoE_R.x(), laser.p_RoE_R.y(), calibration.datum_z_m);
-  const math::Transform X_CR = camera.X_RC.inverse();
-  double near_m = 0.0;
-  double far_m = ImageScene::kSight_m;
-  // Farther points of the stripe are imaged higher up.
-  constexpr int kHalvings = 50;
-  for (int i = 0; i < kHalvings; ++i) {
-    const double middle_m = 0.5 * (near_m + far_m);
-    const auto pixel = vision::Project(camera, X_CR * (foot + middle_m * forward));
-    const bool is_below = !pixel || pixel->row_px > row_px;
-    (is_below ? near_m : far_m) = middle_m;
-  }
-  return foot + 0.5 * (near_m + far_m) * forward;
-}
 
 }  // namespace
 
@@ -47,7 +25,8 @@ LaserFan::LaserFan(const LightStripeParams& params, const messages::StripeCalibr
     return;
   }
   for (const int row_px : calibration.scanline_px) {
-    axes_R_.emplace_back((StripePoint(calibration, laser, row_px) - p_RoE_R_).normalized());
+    const auto point_R = StripePoint(calibration, laser, row_px);
+    if (point_R) axes_R_.emplace_back((*point_R - p_RoE_R_).normalized());
   }
   half_fan_cosine_ = std::cos(kThinHalfRows * params.row_pitch_rad());
 }
@@ -65,7 +44,7 @@ LitFan::LitFan(const LaserFan& fan, const ImageScene& scene, double reach_rad)
       p_WoE_W_(scene.X_WR() * fan.p_RoE_R()),
       normal_W_(scene.X_WR().linear() * fan.normal_R()),
       offset_m_(normal_W_.dot(p_WoE_W_)),
-      width_m_(reach_rad * ImageScene::kSight_m) {
+      width_m_(reach_rad * scene.sight_m()) {
   scene.RocksInSheet(p_WoE_W_, normal_W_, width_m_, rocks_);
 }
 

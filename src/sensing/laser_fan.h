@@ -15,9 +15,10 @@ namespace rockyard::sensing {
 // the beam's cross section f: the irradiance of a surface at range r, incidence i and the angle a
 // out of the plane is E = P / (F r^2) f(a) cos(i). A full fan has F = fan_rad; a beam of three
 // scanlines lights three scanlines around each measured point, F = 3 row pitches, where an
-// emitter of its own and of the same power serves each point (Matthies 1995, section 6). The
-// scanline on which the point of a raised surface lies is the same where emitters sit on the
-// cameras' lateral axis, as in the default layout; elsewhere a thin beam leaves its scanline.
+// emitter of its own and of the same power serves each point (Matthies 1995, section 6). Where
+// scanlines are planes (every lens but kEquidistant) and emitters sit on the cameras' lateral axis,
+// as in the default layout, the point of a raised surface lies on the same scanline; elsewhere a
+// thin beam leaves its scanline, and parameters refuse the pair with kEquidistant.
 class LaserFan {
  public:
   LaserFan(const LightStripeParams& params, const messages::StripeCalibration& calibration,

@@ -2,6 +2,7 @@
 
 #include "sensing/stripe_detection_params.h"
 #include "sensing/stripe_layout_params.h"
+#include "sensing/stripe_view_params.h"
 
 namespace rockyard::sensing {
 namespace {
@@ -192,36 +193,14 @@ void VisitDensity(LightStripeParams& p, core::FieldVisitor& v) {
              .source = kSection6});
 }
 
-void RequireVisibility(LightStripeParams& p, core::FieldVisitor& v) {
-  const bool laid_out = IsLaidOut(p);
-  v.Require("camera_pitch_deg", !laid_out || RowsFitTheImage(p),
-            "puts a scanline outside the image: the row lies too far from the optical axis",
-            "tilt the cameras towards the rows or use a shorter focal_length_m");
-  v.Require("outer_stripe_y_m", !laid_out || ColumnsFitTheImage(p),
-            "puts a point on flat ground beside the camera's field of view",
-            "move the stripes inwards or use a shorter focal_length_m");
-  v.Require("fan_rad", !laid_out || PointsFitTheFans(p),
-            "is too narrow to light the nearest and the farthest row",
-            "use a wider fan or bring the rows closer together");
-  v.Require("max_range_m", !laid_out || PointsAreInRange(p),
-            "is shorter than the distance to a point on flat ground", "use a larger max_range_m");
-  v.Require("camera_separation_m", !laid_out || BaselinesAreLong(p),
-            "leaves a camera within 1 cm of the light plane of a stripe that it measures (baseline "
-            "zero): the stripe would not move with elevation",
-            "mount cameras and emitters 5 to 10 cm apart");
-  v.Require("fidelity", p.fidelity == Fidelity::kGeometric || !laid_out || BandsFitTheImage(p),
-            "needs imager.averaging_rows around every scanline, which leave the image",
-            "tilt the cameras towards the rows, or average and read fewer lines");
-}
-
 }  // namespace
 
 void LightStripeParams::Visit(core::FieldVisitor& v) {
-  v.Choice(
-      "fidelity", fidelity,
-      {.doc = "geometric: rays and an error model; image: from light to pixels, and the finder "
-              "of stripes on board",
-       .origin = Origin::kSetting});
+  v.Choice("fidelity", fidelity,
+           {.doc = "geometric: rays, which pass through the rover, and an error model; image: from "
+                   "light to pixels, where chassis and panel must hide no point on flat ground, "
+                   "and the finder of stripes on board",
+            .origin = Origin::kSetting});
   VisitOptics(*this, v);
   VisitCameras(*this, v);
   VisitEmitters(*this, v);

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rover/body_boxes_params.h"
 #include "rover/rover_geometry.h"
 
 namespace rockyard::sensing {
 namespace {
 
 using math::Vector3;
-
-// Thickness of the solar panel, m, as in the rover's collision shapes.
-constexpr double kPanelThickness_m = 0.025;
 
 // Part of a ray that lies within a slab or a cylinder, and the normal where it enters.
 struct Inside {
@@ -43,11 +41,8 @@ struct Inside {
 }  // namespace
 
 RoverBody::RoverBody(const rover::RoverGeometryParams& params) {
-  const double panel_z_m = params.height_m - kPanelThickness_m;
-  const Vector3 belly(0.5 * params.belly_length_m, 0.5 * params.belly_width_m, 0.0);
-  const Vector3 panel(0.5 * params.length_m, 0.5 * params.width_m, 0.0);
-  boxes_[0] = {Vector3(0, 0, params.belly_clearance_m) - belly, Vector3(0, 0, panel_z_m) + belly};
-  boxes_[1] = {Vector3(0, 0, panel_z_m) - panel, Vector3(0, 0, params.height_m) + panel};
+  const auto boxes_R = rover::BodyBoxes(params);
+  for (std::size_t i = 0; i < boxes_.size(); ++i) boxes_[i] = {boxes_R[i].min(), boxes_R[i].max()};
   for (const Vector3& wheel_R : rover::MakeRoverGeometry(params).wheel_R) {
     wheels_.push_back({wheel_R, params.wheel_radius_m, 0.5 * params.wheel_width_m});
   }

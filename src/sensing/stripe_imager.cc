@@ -5,6 +5,7 @@
 #include "core/check.h"
 #include "sensing/exposure_control.h"
 #include "sensing/stripe_layout_params.h"
+#include "sensing/stripe_view_params.h"
 
 namespace rockyard::sensing {
 namespace {
@@ -17,10 +18,6 @@ void Meter(const RenderedRow& row, std::vector<double>& rates_e_s) {
     rates_e_s.push_back(row.sun_e_s[pixel]);
   }
 }
-
-int FirstRow(const messages::StripeCamera& camera) { return -camera.rows / 2; }
-int LastRow(const messages::StripeCamera& camera) { return FirstRow(camera) + camera.rows - 1; }
-int FirstColumn(const messages::StripeCamera& camera) { return -camera.columns / 2; }
 
 }  // namespace
 
@@ -47,9 +44,9 @@ StripeImager::StripeImager(const LightStripeParams& params, const SunParams& sun
 StripeImager::View StripeImager::MakeView(int camera, int first_row, int last_row) const {
   const messages::StripeCamera& eye = calibration_.cameras[static_cast<std::size_t>(camera)];
   View view;
-  const int last = std::min(last_row, LastRow(eye));
-  for (int row = std::max(first_row, FirstRow(eye)); row <= last; ++row) {
-    view.push_back(MakeViewRow(eye, body_, row, FirstColumn(eye), eye.columns));
+  const int last = std::min(last_row, eye.last_row());
+  for (int row = std::max(first_row, eye.first_row()); row <= last; ++row) {
+    view.push_back(MakeViewRow(eye, body_, row, eye.image_columns().first, eye.columns));
   }
   ENSURE(!view.empty());
   return view;
@@ -75,7 +72,7 @@ messages::ImageBand StripeImager::Read(const Light& light, double exposure_s, co
   const messages::StripeCamera& eye = calibration_.cameras[static_cast<std::size_t>(name.camera)];
   messages::ImageBand band;
   band.first_row = light.rows.front().row;
-  band.first_column = FirstColumn(eye);
+  band.first_column = eye.image_columns().first;
   band.rows = static_cast<int>(light.rows.size());
   band.columns = eye.columns;
   band.counts.reserve(light.rows.size() * static_cast<std::size_t>(eye.columns));
@@ -108,7 +105,7 @@ messages::StripeImages StripeImager::Expose(const terrain::Terrain& terrain,
                                             const math::Transform& X_WR, core::TrialKey key,
                                             std::int64_t scan_number) const {
   EXPECT(scan_number >= 0 && scan_number < ImageName::kScans);
-  const ImageScene scene(terrain, X_WR, light_, sun_, body_);
+  const ImageScene scene(terrain, X_WR, light_, sun_, body_, SightOf(params_));
   const LitScene lit = renderer_.Prepare(scene);
   std::array<std::vector<Light>, 2> bands;
   std::vector<double> metered_e_s;
@@ -140,7 +137,7 @@ messages::StripeExposure StripeImager::FullFrame(const terrain::Terrain& terrain
                                                  int group) const {
   EXPECT(scan_number >= 0 && scan_number < ImageName::kScans);
   EXPECT(camera == 0 || camera == 1);
-  const ImageScene scene(terrain, X_WR, light_, sun_, body_);
+  const ImageScene scene(terrain, X_WR, light_, sun_, body_, SightOf(params_));
   const LitScene lit = renderer_.Prepare(scene);
   std::vector<double> metered_e_s;
   for (int i = 0; i < 2; ++i) {
@@ -150,7 +147,7 @@ messages::StripeExposure StripeImager::FullFrame(const terrain::Terrain& terrain
   }
   const double exposure_s = ExposureTime(params_.imager, std::move(metered_e_s));
   const messages::StripeCamera& eye = calibration_.cameras[static_cast<std::size_t>(camera)];
-  const Light frame = Render(lit, camera, MakeView(camera, FirstRow(eye), LastRow(eye)), key);
+  const Light frame = Render(lit, camera, MakeView(camera, eye.first_row(), eye.last_row()), key);
   return ReadPair({&frame, 1}, exposure_s, key, {scan_number, camera, group, false});
 }
 

@@ -73,11 +73,23 @@ double RowAngle(const LightStripeParams& p, std::size_t row) {
   return std::atan2(p.camera_height_m - p.datum_z_m, ahead) - p.camera_pitch_rad;
 }
 
-// The same as an image row, before rounding; none where a pinhole cannot see it.
-double RowPixel(const LightStripeParams& p, std::size_t row) {
+// The same as an image row on the axis' column. Rows lie ahead of and below the camera, less than
+// 90 deg off its axis: a pinhole sees them, too.
+std::int64_t RowPixel(const LightStripeParams& p, std::size_t row) {
   const double angle_rad = RowAngle(p, row);
   const double image = p.lens == messages::Lens::kPinhole ? std::tan(angle_rad) : angle_rad;
-  return image / p.row_pitch_rad();
+  return std::lround(image / p.row_pitch_rad());
+}
+
+// Whether the image holds every scanline with so many lines above and below it.
+bool LinesFitTheImage(const LightStripeParams& p, std::int64_t around) {
+  const std::int64_t first = -p.rows / 2;
+  const std::int64_t last = p.rows + first - 1;
+  for (std::size_t row = 0; row < ArraySize(p).rows; ++row) {
+    const std::int64_t middle = RowPixel(p, row);
+    if (middle - around < first || middle + around > last) return false;
+  }
+  return true;
 }
 
 // Stripes of one image stand as far apart as possible, which is what keeps them apart in it: with
@@ -131,21 +143,7 @@ bool IsLaidOut(const LightStripeParams& p) {
          p.emitter_height_m > p.datum_z_m;
 }
 
-bool RowsFitTheImage(const LightStripeParams& p) {
-  const double half = 0.5 * static_cast<double>(p.rows);
-  for (std::size_t row = 0; row < ArraySize(p).rows; ++row) {
-    if (std::abs(RowPixel(p, row)) > half) return false;
-  }
-  return true;
-}
-
-bool ColumnsFitTheImage(const LightStripeParams& p) {
-  const double half = 0.5 * static_cast<double>(p.columns) * p.column_pitch_rad();
-  return HoldsForEveryPoint(p, [&](std::size_t stripe, const Vector3& point) {
-    const Vector3 ray = point - CameraPosition(p, CameraOf(p, stripe));
-    return std::abs(std::atan2(ray.y(), std::hypot(ray.x(), ray.z()))) <= half;
-  });
-}
+bool RowsFitTheImage(const LightStripeParams& p) { return LinesFitTheImage(p, 0); }
 
 bool PointsFitTheFans(const LightStripeParams& p) {
   return HoldsForEveryPoint(p, [&](std::size_t stripe, const Vector3& point) {
@@ -162,12 +160,7 @@ bool PointsAreInRange(const LightStripeParams& p) {
 }
 
 bool BandsFitTheImage(const LightStripeParams& p) {
-  const auto around = p.imager.averaging_rows / 2 + p.imager.margin_rows;
-  for (std::size_t row = 0; row < ArraySize(p).rows; ++row) {
-    const std::int64_t middle = std::lround(RowPixel(p, row));
-    if (middle - around < -p.rows / 2 || middle + around >= p.rows - p.rows / 2) return false;
-  }
-  return true;
+  return LinesFitTheImage(p, p.imager.averaging_rows / 2 + p.imager.margin_rows);
 }
 
 bool BaselinesAreLong(const LightStripeParams& p) {
@@ -198,7 +191,7 @@ messages::StripeCalibration TrueCalibration(const LightStripeParams& params) {
     calibration.lasers.push_back(LaserOf(params, stripe));
   }
   for (std::size_t row = 0; row < rows; ++row) {
-    calibration.scanline_px.push_back(static_cast<int>(std::lround(RowPixel(params, row))));
+    calibration.scanline_px.push_back(static_cast<int>(RowPixel(params, row)));
   }
   calibration.datum_z_m = params.datum_z_m;
   calibration.search_low_m = params.search_low_m;

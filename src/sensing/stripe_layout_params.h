@@ -20,13 +20,14 @@ messages::StripeCalibration TrueCalibration(const LightStripeParams& params);
 // Layouts for which "ahead" and "below" make sense; the other checks rely on it.
 bool IsLaidOut(const LightStripeParams& params);
 
-// Whether every point on the datum plane lies in the image, in the light and near enough.
+// Whether every scanline is a row of the image, and every point on the datum plane in the light and
+// near enough.
 bool RowsFitTheImage(const LightStripeParams& params);
-bool ColumnsFitTheImage(const LightStripeParams& params);
 bool PointsFitTheFans(const LightStripeParams& params);
 bool PointsAreInRange(const LightStripeParams& params);
 
-// Whether the image lines that are averaged around each scanline lie in the image too.
+// Whether the image lines that are read around each scanline lie in the image too. The imager reads
+// what of them there is; the software that averages them needs all.
 bool BandsFitTheImage(const LightStripeParams& params);
 
 // Whether no camera lies in (1 cm from) the light plane of a stripe that it measures: there the

@@ -98,7 +98,7 @@ TEST(ImageScene, ShadowOfABallIsAnEllipse) {
   const terrain::Terrain terrain =
       FlatWith({EllipsoidRock(ball.x(), ball.y(), kCenter, kRadius, kRadius, kRadius)});
   const RoverBody body{rover::RoverGeometryParams{}};
-  const ImageScene scene(terrain, PoseAt(0, 0, 0), light, sun, body);
+  const ImageScene scene(terrain, PoseAt(0, 0, 0), light, sun, body, 4.0);
   const Vector3 away(-std::cos(sun.azimuth_rad), -std::sin(sun.azimuth_rad), 0.0);
   const Vector3 across(-away.y(), away.x(), 0.0);
   const Vector3 middle =
@@ -130,7 +130,7 @@ TEST(ImageScene, FarSideOfARockIsDarkAndWallsCastNoShadow) {
   const RoverBody body{rover::RoverGeometryParams{}};
   const terrain::Terrain terrain =
       FlatWith({EllipsoidRock(1.0, 0.0, 0.0, 0.1, 0.1, 0.1)}, {{Vector3::UnitX(), 1.5}});
-  const ImageScene scene(terrain, PoseAt(0, 0, 0), light, sun, body);
+  const ImageScene scene(terrain, PoseAt(0, 0, 0), light, sun, body, 4.0);
   const std::vector<int> rock{0};
   SurfacePoint facing_rover =
       scene.Meet(Vector3(0.5, 0.0, 0.05), Vector3::UnitX(), RoverBody::kFree, rock);
@@ -153,7 +153,7 @@ TEST(ImageScene, RoverCastsAShadow) {
   const SunLight light = MakeSunLight(sun, 40e-9);
   const RoverBody body{rover::RoverGeometryParams{}};
   const terrain::Terrain terrain = FlatWith({});
-  const ImageScene scene(terrain, PoseAt(0, 0, 0), light, sun, body);
+  const ImageScene scene(terrain, PoseAt(0, 0, 0), light, sun, body, 4.0);
   const double end_m = 0.325 + 0.30 / std::tan(sun.elevation_rad);
   for (const double beyond_m : {-0.005, 0.005}) {
     SurfacePoint point =

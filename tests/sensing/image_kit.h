@@ -1,12 +1,19 @@
 // What the tests of the image formation share.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <numbers>
+#include <string>
 #include <vector>
 
+#include "core/archive.h"
+#include "core/error.h"
+#include "core/json_text.h"
 #include "sensing/row_renderer.h"
 #include "sensing/stripe_imager.h"
 #include "sensing/stripe_layout_params.h"
+#include "sensing/stripe_view_params.h"
 #include "stripe_scene.h"
 
 namespace rockyard::sensing {
@@ -48,7 +55,7 @@ struct LineView {
   RenderedRow Render(const terrain::Terrain& terrain, const math::Transform& X_WR, int camera,
                      int row) const {
     const SunLight light = MakeSunLight(sun, params.imager.filter_width_m);
-    const ImageScene scene(terrain, X_WR, light, sun, body);
+    const ImageScene scene(terrain, X_WR, light, sun, body, SightOf(params));
     const RowRenderer renderer(params, calibration);
     return renderer.Render(renderer.Prepare(scene), Camera(camera).X_RC.translation(),
                            View(camera, row));
@@ -62,6 +69,17 @@ inline std::vector<double> LaserRates(const RenderedRow& row, int laser) {
     if (pixel.laser == laser) rates[static_cast<std::size_t>(pixel.pixel)] += pixel.rate_e_s;
   }
   return rates;
+}
+
+// Every refusal names the field.
+inline void ExpectRefused(const std::string& json, const std::string& field) {
+  LightStripeParams params;
+  try {
+    core::ReadParams(core::ParseJson(json, "test"), params);
+    FAIL() << "accepted " << json;
+  } catch (const core::UserError& error) {
+    EXPECT_NE(std::string(error.what()).find(field), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace rockyard::sensing

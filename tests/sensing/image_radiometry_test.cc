@@ -146,7 +146,8 @@ TEST(Radiometry, WholeImageHoldsTheWholePower) {
   const RowRenderer renderer(line.params, line.calibration);
   const SunLight light = MakeSunLight(line.sun, line.params.imager.filter_width_m);
   const terrain::Terrain terrain = FlatWith({});
-  const ImageScene scene(terrain, PoseAt(0, 0, 0), light, line.sun, line.body);
+  const ImageScene scene(terrain, PoseAt(0, 0, 0), light, line.sun, line.body,
+                         SightOf(line.params));
   const LitScene lit = renderer.Prepare(scene);
   double power_w = 0.0;
   // These lines see the ground and neither the rover nor the end of the fan.

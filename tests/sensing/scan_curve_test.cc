@@ -8,6 +8,7 @@
 
 #include "sensing/stripe_layout_params.h"
 #include "sensing/stripe_scene.h"
+#include "sensing/stripe_view_params.h"
 #include "vision/lens.h"
 
 namespace rockyard::sensing {
@@ -104,6 +105,29 @@ TEST(ScanCurveTest, RowsOfPlanesAreStraight) {
   // Negative control: a radially symmetric lens bends them by more than a chord's error.
   const auto calibration = TrueCalibration(WithLens(Lens::kEquidistant, 0.0048));
   EXPECT_GT(ScanCurve(calibration, 3, 0).vertices().size(), 2u);
+}
+
+// Rows of lenses that see behind themselves meet the light plane in several stretches: the curve is
+// the one in front, without the gaps between.
+TEST(ScanCurveTest, TakesOneStretchOfSeveral) {
+  const auto calibration = TrueCalibration(WithLens(Lens::kEquidistant, 0.0018));
+  for (std::size_t row = 0; row < calibration.size().rows; ++row) {
+    for (std::size_t stripe = 0; stripe < calibration.size().stripes; ++stripe) {
+      const ScanCurve curve(calibration, row, stripe);
+      const auto ground_R =
+          StripePoint(calibration, calibration.lasers[stripe], calibration.scanline_px[row]);
+      ASSERT_TRUE(ground_R);
+      EXPECT_LT(DistanceToChords(*ground_R, curve.vertices()), ScanCurve::kChordError_m)
+          << row << " " << stripe;
+    }
+  }
+  // Views that wrap around, which parameters refuse, have curves, too.
+  for (const double focal_length_m : {0.0005, 0.001, 0.0013, 0.0016}) {
+    const auto wrapped = TrueCalibration(WithLens(Lens::kEquidistant, focal_length_m));
+    for (std::size_t stripe = 0; stripe < wrapped.size().stripes; ++stripe) {
+      EXPECT_GE(ScanCurve(wrapped, 0, stripe).vertices().size(), 2u) << focal_length_m;
+    }
+  }
 }
 
 // The chords of separable rows find what the straight path of the sensor finds.

@@ -1,0 +1,190 @@
+#include "sensing/stripe_view_params.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "sensing/stripe_layout_params.h"
+
+namespace rockyard::sensing {
+namespace {
+
+using math::Vector3;
+using messages::Lens;
+
+struct ImagePosition {
+  double column_px = 0.0;
+  double row_px = 0.0;
+};
+
+// vision::Project, which parameters cannot reach (they may use core, math and messages); the tests
+// compare both.
+std::optional<ImagePosition> Imaged(const messages::StripeCamera& camera, const Vector3& p_C) {
+  double a = 0.0;
+  double b = 0.0;
+  if (camera.lens == Lens::kPinhole) {
+    if (p_C.x() <= 0.0) return std::nullopt;
+    a = -p_C.y() / p_C.x();
+    b = -p_C.z() / p_C.x();
+  } else if (camera.lens == Lens::kEquidistantRows) {
+    a = std::atan2(-p_C.y(), std::hypot(p_C.x(), p_C.z()));
+    b = std::atan2(-p_C.z(), p_C.x());
+  } else {
+    const double aside_m = std::hypot(p_C.y(), p_C.z());
+    const double share = aside_m > 0.0 ? std::atan2(aside_m, p_C.x()) / aside_m : 0.0;
+    a = -share * p_C.y();
+    b = -share * p_C.z();
+  }
+  return ImagePosition{a / camera.column_pitch_rad, b / camera.row_pitch_rad};
+}
+
+const messages::StripeCamera& CameraOf(const messages::StripeCalibration& calibration,
+                                       const messages::StripeLaser& laser) {
+  return calibration.cameras[static_cast<std::size_t>(laser.camera)];
+}
+
+// Whether the box is in the way from an eye outside it to a point: by its slabs.
+bool ComesBetween(const Eigen::AlignedBox3d& box_R, const Vector3& eye_R, const Vector3& point_R) {
+  if (box_R.contains(eye_R)) return false;
+  const Vector3 along = point_R - eye_R;
+  double enter = 0.0;
+  double leave = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = box_R.min()[axis] - eye_R[axis];
+    const double high = box_R.max()[axis] - eye_R[axis];
+    if (along[axis] == 0.0) {
+      if (low > 0.0 || high < 0.0) return false;
+      continue;
+    }
+    enter = std::max(enter, std::min(low / along[axis], high / along[axis]));
+    leave = std::min(leave, std::max(low / along[axis], high / along[axis]));
+  }
+  return enter < leave;
+}
+
+// Whether every point on the datum plane lies on a column of the image.
+bool ColumnsFitTheImage(const LightStripeParams& p) {
+  const messages::StripeCalibration calibration = TrueCalibration(p);
+  for (const messages::StripeLaser& laser : calibration.lasers) {
+    const messages::StripeCamera& camera = CameraOf(calibration, laser);
+    for (const int row_px : calibration.scanline_px) {
+      const auto point_R = StripePoint(calibration, laser, row_px);
+      if (!point_R) return false;
+      const auto imaged = Imaged(camera, camera.X_RC.inverse() * *point_R);
+      if (!imaged || !camera.image_columns().Contains(std::round(imaged->column_px))) return false;
+    }
+  }
+  return true;
+}
+
+// Whether the lens has a direction of its own for every pixel (vision/lens.h): a radially symmetric
+// image ends straight behind the camera, one with rows as planes beside, above and below it.
+bool LensReachesTheCorners(const LightStripeParams& p) {
+  const double half_width_rad = 0.5 * p.active_width_m / p.focal_length_m;
+  const double half_height_rad = 0.5 * p.active_height_m / p.focal_length_m;
+  switch (p.lens) {
+    case Lens::kEquidistantRows:
+      return std::max(half_width_rad, half_height_rad) <= 0.5 * std::numbers::pi;
+    case Lens::kEquidistant:
+      return std::hypot(half_width_rad, half_height_rad) < std::numbers::pi;
+    case Lens::kPinhole:
+      break;
+  }
+  return true;
+}
+
+// What a whole image takes to simulate: about 40 bytes a pixel.
+bool ImageIsNotTooLarge(const LightStripeParams& p) {
+  constexpr std::int64_t kMostPixels = 16'777'216;
+  return p.columns <= kMostPixels / std::max<std::int64_t>(p.rows, 1);
+}
+
+void RequireImage(LightStripeParams& p, core::FieldVisitor& v) {
+  v.Require("columns", ImageIsNotTooLarge(p), "times rows is more than 16777216 pixels",
+            "use 768 columns and 484 rows, or 4096 by 4096 at most");
+  v.Require("focal_length_m", LensReachesTheCorners(p),
+            "is so short that the lens has no direction for the outer pixels: half of width and "
+            "height must stay within 90 deg (equidistant_rows), the corners within 180 deg "
+            "(equidistant)",
+            "use a longer focal_length_m or a smaller active_width_m and active_height_m");
+  v.Require("lens", p.lens != Lens::kEquidistant || p.laser.fan == BeamFan::kFull,
+            "is equidistant, whose scanlines are no planes, where laser.fan is three_scanlines: a "
+            "raised point would leave its scanline, unlit",
+            "use lens equidistant_rows or pinhole, or the full fan");
+}
+
+}  // namespace
+
+std::optional<Vector3> StripePoint(const messages::StripeCalibration& calibration,
+                                   const messages::StripeLaser& laser, int row_px) {
+  const messages::StripeCamera& camera = CameraOf(calibration, laser);
+  const Vector3 along = laser.normal_R.cross(Vector3::UnitZ()).normalized();
+  const Vector3 forward = along.dot(laser.axis_R) < 0.0 ? Vector3(-along) : along;
+  const Vector3 foot(laser.p_RoE_R.x(), laser.p_RoE_R.y(), calibration.datum_z_m);
+  const math::Transform X_CR = camera.X_RC.inverse();
+  constexpr double kFarthest_m = 100.0;
+  double near_m = 0.0;
+  double far_m = kFarthest_m;
+  std::optional<ImagePosition> imaged;
+  // Farther points of the stripe are imaged higher up.
+  constexpr int kHalvings = 55;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle_m = 0.5 * (near_m + far_m);
+    imaged = Imaged(camera, X_CR * (foot + middle_m * forward));
+    const bool is_below = !imaged || imaged->row_px > row_px;
+    (is_below ? near_m : far_m) = middle_m;
+  }
+  constexpr double kSameRow_px = 0.5;
+  if (!imaged || std::abs(imaged->row_px - row_px) > kSameRow_px) return std::nullopt;
+  return foot + 0.5 * (near_m + far_m) * forward;
+}
+
+bool IsHiddenBy(const LightStripeParams& p, std::span<const Eigen::AlignedBox3d> boxes_R) {
+  if (!IsLaidOut(p) || !RowsFitTheImage(p)) return false;  // refused anyway
+  const messages::StripeCalibration calibration = TrueCalibration(p);
+  for (const messages::StripeLaser& laser : calibration.lasers) {
+    const Vector3 camera_R = CameraOf(calibration, laser).X_RC.translation();
+    for (const int row_px : calibration.scanline_px) {
+      const auto point_R = StripePoint(calibration, laser, row_px);
+      if (!point_R) continue;
+      for (const Eigen::AlignedBox3d& box_R : boxes_R) {
+        if (ComesBetween(box_R, camera_R, *point_R)) return true;
+        if (ComesBetween(box_R, laser.p_RoE_R, *point_R)) return true;
+      }
+    }
+  }
+  return false;
+}
+
+double SightOf(const LightStripeParams& p) {
+  constexpr double kShortest_m = 4.0;
+  const double camera_m = std::hypot(p.camera_x_m, 0.5 * p.camera_separation_m);
+  return std::max(kShortest_m, camera_m + p.max_range_m);
+}
+
+void RequireVisibility(LightStripeParams& p, core::FieldVisitor& v) {
+  RequireImage(p, v);
+  const bool laid_out = IsLaidOut(p);
+  const bool has_rows = laid_out && RowsFitTheImage(p);
+  v.Require("camera_pitch_deg", !laid_out || has_rows,
+            "puts a scanline outside the image: the row lies too far from the optical axis",
+            "tilt the cameras towards the rows or use a shorter focal_length_m");
+  v.Require("outer_stripe_y_m", !has_rows || ColumnsFitTheImage(p),
+            "puts a point on flat ground beside the camera's field of view",
+            "move the stripes inwards or use a shorter focal_length_m");
+  v.Require("fan_rad", !laid_out || PointsFitTheFans(p),
+            "is too narrow to light the nearest and the farthest row",
+            "use a wider fan or bring the rows closer together");
+  v.Require("max_range_m", !laid_out || PointsAreInRange(p),
+            "is shorter than the distance to a point on flat ground", "use a larger max_range_m");
+  v.Require("camera_separation_m", !laid_out || BaselinesAreLong(p),
+            "leaves a camera within 1 cm of the light plane of a stripe that it measures (baseline "
+            "zero): the stripe would not move with elevation",
+            "mount cameras and emitters 5 to 10 cm apart");
+  v.Require("fidelity", p.fidelity == Fidelity::kGeometric || !laid_out || BandsFitTheImage(p),
+            "needs imager.averaging_rows around every scanline, which leave the image",
+            "tilt the cameras towards the rows, or average and read fewer lines");
+}
+
+}  // namespace rockyard::sensing
