@@ -5,7 +5,9 @@
 
 #include "core/archive.h"
 #include "core/error.h"
+#include "rover/body_boxes_params.h"
 #include "sensing/stripe_layout_params.h"
+#include "sensing/stripe_view_params.h"
 
 namespace rockyard::scenario {
 namespace {
@@ -54,6 +56,18 @@ void RequireConsistency(const Scenario& scenario, core::FieldVisitor& v) {
             multibody || scenario.terrain.rocks.mobility == terrain::RockMobility::kFixed,
             "is quasi_static, which pushes no rocks, where terrain.rocks.mobility is movable",
             "use fidelity multibody or fixed rocks");
+}
+
+// Images show the rover itself, rays do not.
+void RequireFreeView(const Scenario& scenario, core::FieldVisitor& v) {
+  const sensing::LightStripeParams& sensor = scenario.sensors.light_stripe;
+  v.Require("sensors.light_stripe.fidelity",
+            sensor.fidelity == sensing::Fidelity::kGeometric ||
+                !sensing::IsHiddenBy(sensor, rover::BodyBoxes(scenario.rover.geometry)),
+            "is image, where chassis or solar panel hide a point on flat ground from a camera or a "
+            "light emitter",
+            "mount both below the front edge of the panel, as camera_height_m and "
+            "emitter_height_m 0.25 do on Rocky 3.2, or ahead of it");
 }
 
 // A list that takes the place of terrain.rocks.k_per_m2 keeps the condition of that field.
@@ -171,6 +185,7 @@ void Scenario::Visit(core::FieldVisitor& v) {
   v.Group("energy", energy, "electrical power and batteries");
   v.Group("hazard_detection", hazard_detection, "the experiment of that name");
   RequireConsistency(*this, v);
+  RequireFreeView(*this, v);
   RequireMeasurable(*this, v);
 }
 

@@ -40,8 +40,9 @@ class StripeImager {
                const rover::RoverGeometryParams& rover);
 
   // One scan with the rover at X_WR: of each group of lasers and each camera that finds a stripe of
-  // that group, the image lines around each scanline (imager.averaging_rows and margin_rows) as far
-  // as the image goes, which where fidelity is image it does to all of them; all columns. Pure function of its arguments, the same on any thread. Draws from (kImageNoise,
+  // that group, the image lines around each scanline (imager.averaging_rows and margin_rows), all
+  // columns. Lines beyond the image are left out; where fidelity is image, parameters allow none.
+  // Pure function of its arguments, the same on any thread. Draws from (kImageNoise,
   // kImageExposure, kImageSpeckle; scan number) and (kPixelPattern): neighbouring scans share
   // nothing but the pattern of the imagers. scan_number < 2^26. Cost: 3 to 6 ms on a plane, mostly
   // rays and noise; 95 ms on rough ground, where every ray marches.

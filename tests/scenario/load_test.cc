@@ -147,7 +147,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadScenario{"lines",
                     R"({"sensors": {"light_stripe": {"fidelity": "image",
                                                      "imager": {"averaging_rows": 3}}}})",
-                    "perception.stripe_finder.averaging_px", "image lines", "averaging_rows"}),
+                    "perception.stripe_finder.averaging_px", "image lines", "averaging_rows"},
+        BadScenario{"hidden",
+                    R"({"sensors": {"light_stripe": {"fidelity": "image", "camera_height_m": 0.4,
+                                                     "emitter_height_m": 0.35}}})",
+                    "sensors.light_stripe.fidelity", "solar panel hide a point",
+                    "camera_height_m"}),
     [](const auto& tested) { return std::string(tested.param.label); });
 
 TEST(LoadTest, UnknownOverridePathsAreErrors) {
