@@ -1,15 +1,13 @@
 #include "trial/power_budget.h"
 
-#include <algorithm>
-
 #include "sensing/stripe_layout_params.h"
 
 namespace rockyard::trial {
 
 int EmittersAtOnce(const sensing::LightStripeParams& sensor) {
   const messages::StripeArraySize size = sensing::ArraySize(sensor);
-  const int lasers =
-      std::min(static_cast<int>(sensor.lasers_per_image), static_cast<int>(size.stripes));
+  const int groups = sensing::LaserGroups(sensor);
+  const int lasers = (static_cast<int>(size.stripes) + groups - 1) / groups;
   const bool one_a_point = sensor.laser.fan == sensing::BeamFan::kThreeScanlines;
   return one_a_point ? lasers * static_cast<int>(size.rows) : lasers;
 }

@@ -11,8 +11,9 @@ namespace rockyard::trial {
 enum class Activity { kDriving, kTurning, kSteering, kScanning, kStalled };
 inline constexpr std::size_t kActivityCount = 5;
 
-// Light emitters that are on in the same image: lasers_per_image fans at most; with a
-// three-scanline fan, as many lasers with one emitter for each row.
+// Light emitters that are on in the same image, where most are: the lasers of the largest group,
+// which are fewer than lasers_per_image where the groups share out evenly (four of five: three and
+// two); with a three-scanline fan, one emitter for each row of each of them.
 int EmittersAtOnce(const sensing::LightStripeParams& sensor);
 
 struct PowerBudget {

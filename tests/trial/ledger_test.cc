@@ -31,12 +31,28 @@ TEST(PowerBudgetTest, ScanIsTheSumOfItsPublishedParts) {
   EXPECT_NEAR(scan_W({"sensors.light_stripe.lasers_per_image=5"}), kRest_W + 5 * kLaser_W, 1e-12);
   // There are five lasers, however many may be on at once.
   EXPECT_NEAR(scan_W({"sensors.light_stripe.lasers_per_image=9"}), kRest_W + 5 * kLaser_W, 1e-12);
+  // Groups {0, 2, 4} and {1, 3}: never four at once.
+  EXPECT_NEAR(scan_W({"sensors.light_stripe.lasers_per_image=4"}), kRest_W + 3 * kLaser_W, 1e-12);
   EXPECT_NEAR(scan_W({"sensors.light_stripe.laser.input_power_w=0.33"}), kRest_W + kLaser_W, 1e-12);
   EXPECT_NEAR(scan_W({"sensors.light_stripe.imager.kind=cmos"}), 7.33 - 0.9 * 0.75, 1e-12);
   // An emitter for each of the four points of two stripes, at a hundredth of the power.
   EXPECT_NEAR(scan_W({"sensors.light_stripe.laser.fan=three_scanlines",
                       "sensors.light_stripe.laser.input_power_w=0.0066"}),
               kRest_W + 8 * 0.01 * kLaser_W, 1e-12);
+}
+
+// ceil(n / ceil(n / most)) of n lasers: {0, 2, 4, 6, 8} and {1, 3, 5, 7} of nine at most eight.
+TEST(PowerBudgetTest, LasersAtOnceAreTheLargestGroup) {
+  const auto of_nine = [](std::int64_t lasers_per_image) {
+    sensing::LightStripeParams sensor;
+    sensor.stripe_subdivision = 2;
+    sensor.lasers_per_image = lasers_per_image;
+    return EmittersAtOnce(sensor);
+  };
+  EXPECT_EQ(of_nine(1), 1);
+  EXPECT_EQ(of_nine(4), 3);
+  for (const std::int64_t most : {5, 6, 7, 8}) EXPECT_EQ(of_nine(most), 5);
+  EXPECT_EQ(of_nine(9), 9);
 }
 
 TEST(PowerBudgetTest, AccelerometersWatchMotionAlone) {
