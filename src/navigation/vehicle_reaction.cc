@@ -8,6 +8,7 @@ namespace {
 using messages::HazardSide;
 using messages::MotionCommand;
 using messages::MotionKind;
+using messages::VehicleHazardKind;
 
 bool IsBehind(const messages::VehicleHazard& hazard) { return hazard.side == HazardSide::kBehind; }
 
@@ -15,7 +16,10 @@ bool IsBehind(const messages::VehicleHazard& hazard) { return hazard.side == Haz
 
 std::optional<NavigatorDecision> VehicleReaction::Decide(const NavigatorInput& input,
                                                          double goal_distance_m) {
+  const bool touches =
+      input.vehicle_hazard != nullptr && input.vehicle_hazard->kind == VehicleHazardKind::kContact;
   if (input.vehicle_hazard == nullptr) was_clear_ = true;
+  if (!touches) was_released_ = true;
   switch (stage_) {
     case Stage::kNone:
       return Begin(input, goal_distance_m);
@@ -44,7 +48,9 @@ std::optional<NavigatorDecision> VehicleReaction::Begin(const NavigatorInput& in
     ignored_until_m_ = input.estimate.distance_m + params_.ignore_m;
     return std::nullopt;
   }
+  cause_ = hazard->kind;
   was_clear_ = false;
+  was_released_ = cause_ != VehicleHazardKind::kContact;
   turn_direction_ = hazard->side == HazardSide::kRight ? +1 : -1;
   return Start(Stage::kBackingOff, {MotionKind::kArc, 0.0, -1}, input.estimate);
 }
@@ -60,10 +66,16 @@ std::optional<NavigatorDecision> VehicleReaction::Turn(const NavigatorInput& inp
                                                        double goal_distance_m) {
   const double turned_rad =
       turn_direction_ * math::WrapAngle(input.estimate.heading_rad - anchor_.heading_rad);
-  const bool appeared = input.vehicle_hazard != nullptr && was_clear_;
+  const bool appeared = input.vehicle_hazard != nullptr && Appeared(*input.vehicle_hazard);
   if (!appeared && turned_rad < params_.turn_rad) return GoOn();
   stage_ = Stage::kNone;
   return appeared ? Begin(input, goal_distance_m) : std::nullopt;
+}
+
+bool VehicleReaction::Appeared(const messages::VehicleHazard& hazard) const {
+  if (IsBehind(hazard)) return false;
+  if (hazard.kind == VehicleHazardKind::kContact) return was_released_;
+  return was_clear_ && hazard.kind != cause_;
 }
 
 NavigatorDecision VehicleReaction::Start(Stage stage, const MotionCommand& motion,

@@ -1,9 +1,12 @@
 // The reaction to a hazard that the rover feels: stop, back off, turn away from its side.
 //
 // A hazard ahead is passed on the right, as one that is seen in the centre. A touch behind ends a
-// back-off; otherwise the rover drives away from it by going on. During a reaction the hazard that
-// started it may last; one that appears after a moment without any while the rover turns starts the
-// reaction again. Draws no random numbers.
+// back-off and does nothing else: the rover drives away from it by going on. During a reaction the
+// hazard that started it may last. While the rover turns the reaction starts again with a touch
+// after a tick without one, and with a hazard of another kind after a tick without any. Tilts,
+// joint angles and currents of the kind that started it do not start it again, or one near its
+// threshold would with every noisy sample: what still holds when the turn has ended starts the next
+// reaction. Draws no random numbers.
 #pragma once
 
 #include <limits>
@@ -30,6 +33,8 @@ class VehicleReaction {
   std::optional<NavigatorDecision> Begin(const NavigatorInput& input, double goal_distance_m);
   std::optional<NavigatorDecision> BackOff(const NavigatorInput& input);
   std::optional<NavigatorDecision> Turn(const NavigatorInput& input, double goal_distance_m);
+  // Whether this is new since the reaction began.
+  bool Appeared(const messages::VehicleHazard& hazard) const;
   NavigatorDecision Start(Stage stage, const messages::MotionCommand& motion,
                           const messages::PoseEstimate& estimate);
   NavigatorDecision GoOn() const { return {NavigatorStatus::kDriving, false, motion_}; }
@@ -39,7 +44,9 @@ class VehicleReaction {
   messages::MotionCommand motion_;
   messages::PoseEstimate anchor_;  // estimate when the stage began
   int turn_direction_ = 0;
-  bool was_clear_ = false;  // at some tick of this reaction
+  messages::VehicleHazardKind cause_ = messages::VehicleHazardKind::kContact;
+  bool was_clear_ = false;     // nothing felt at some tick of this reaction
+  bool was_released_ = false;  // no touch at some tick of it
   std::int64_t repeats_ = 0;
   double best_goal_distance_m_ = std::numeric_limits<double>::infinity();
   double ignored_until_m_ = -std::numeric_limits<double>::infinity();  // odometer

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <utility>
 
 #include "fake_rover.h"
 
@@ -125,6 +127,14 @@ TEST(VehicleReactionTest, TouchBehindEndsTheBackOffAndNothingElse) {
   Drive drive(setup);
   ASSERT_TRUE(drive.StepUntil(Turns));
   EXPECT_NEAR(drive.rover().X_WR().x_m, 0.95, 2.0 * 0.15 * 0.05);  // instead of 0.81
+  // The touch lasts while the rover turns.
+  ASSERT_TRUE(drive.StepUntil(Scans));
+  const auto& log = drive.log();
+  const std::size_t turns = Find(log, 0, Turns);
+  const MeasuredMotion turn = MotionBetween(log, turns, Find(log, turns, Scans));
+  EXPECT_GE(turn.turned_rad, setup.params.vehicle_reaction.turn_rad - 1e-12);
+  EXPECT_LE(turn.turned_rad, setup.params.vehicle_reaction.turn_rad + setup.rover.tick_turn_rad());
+  EXPECT_EQ(turn.driven_m, 0.0);
   // Felt behind all the way, it changes nothing.
   DriveSetup behind;
   behind.felt = From(0.5, HazardSide::kBehind);
@@ -203,6 +213,71 @@ TEST(VehicleReactionTest, NewTouchDuringTheTurnStartsAgain) {
   ASSERT_LT(again, log.size());
   EXPECT_LT(MotionBetween(log, first, again).turned_rad, setup.params.vehicle_reaction.turn_rad);
   EXPECT_EQ(log[Find(log, again, Turns)].decision.motion.direction, +1);
+}
+
+// What the rover feels at each tick of a reaction that starts at x = 1 m; nothing before.
+FeltSource Since(std::function<std::optional<VehicleHazard>(int tick)> felt) {
+  return [felt = std::move(felt), tick = 0,
+          started = false](const FakeRover& rover) mutable -> std::optional<VehicleHazard> {
+    started = started || rover.X_WR().x_m >= 1.0;
+    if (!started) return std::nullopt;
+    return felt(tick++);
+  };
+}
+
+// Measured angle of the first turn and back-offs until the first scan after it.
+struct FirstReaction {
+  double turned_rad = 0.0;
+  int back_offs = 0;
+};
+
+FirstReaction ReactTo(const FeltSource& felt) {
+  DriveSetup setup;
+  setup.felt = felt;
+  Drive drive(setup);
+  EXPECT_TRUE(drive.StepUntil(Turns));
+  EXPECT_TRUE(drive.StepUntil(Scans));
+  const std::size_t turns = Find(drive.log(), 0, Turns);
+  return {MotionBetween(drive.log(), turns, drive.log().size() - 1).turned_rad,
+          BackOffs(drive.log())};
+}
+
+// Felt at two ticks of three from the beginning to the midst of the turn.
+TEST(VehicleReactionTest, AHazardThatFlickersStartsOneReaction) {
+  for (const auto kind : {VehicleHazardKind::kTilt, VehicleHazardKind::kArticulation,
+                          VehicleHazardKind::kMotorCurrent}) {
+    const FirstReaction reaction = ReactTo(Since([=](int tick) -> std::optional<VehicleHazard> {
+      if (tick > 45 || tick % 3 == 2) return std::nullopt;
+      return VehicleHazard{kind, HazardSide::kLeft};
+    }));
+    EXPECT_EQ(reaction.back_offs, 1);
+    EXPECT_NEAR(reaction.turned_rad, PathfinderParams{}.vehicle_reaction.turn_rad,
+                FakeRoverConfig{}.tick_turn_rad());
+  }
+}
+
+TEST(VehicleReactionTest, AnotherKindDuringTheTurnStartsAgain) {
+  const auto reaction = [](VehicleHazardKind first, VehicleHazardKind second) {
+    return ReactTo(Since([=](int tick) -> std::optional<VehicleHazard> {
+             if (tick < 2) return VehicleHazard{first, HazardSide::kLeft};
+             if (tick == 40) return VehicleHazard{second, HazardSide::kLeft};
+             return std::nullopt;
+           }))
+        .back_offs;
+  };
+  EXPECT_EQ(reaction(VehicleHazardKind::kContact, VehicleHazardKind::kTilt), 2);
+  EXPECT_EQ(reaction(VehicleHazardKind::kTilt, VehicleHazardKind::kMotorCurrent), 2);
+  EXPECT_EQ(reaction(VehicleHazardKind::kTilt, VehicleHazardKind::kTilt), 1);
+}
+
+// A tilt that lasts does not hide a rock that the turn leads onto.
+TEST(VehicleReactionTest, ATouchDuringALastingTiltStartsAgain) {
+  const FirstReaction reaction = ReactTo(Since([](int tick) -> std::optional<VehicleHazard> {
+    if (tick == 40) return VehicleHazard{VehicleHazardKind::kContact, HazardSide::kRight};
+    if (tick < 60) return VehicleHazard{VehicleHazardKind::kTilt, HazardSide::kLeft};
+    return std::nullopt;
+  }));
+  EXPECT_EQ(reaction.back_offs, 2);
 }
 
 TEST(VehicleReactionTest, PoseUpdateKeepsWhatWasTurned) {
