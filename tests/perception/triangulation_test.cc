@@ -84,7 +84,9 @@ TEST(TriangulationTest, ElevationIsThatOfThePoint) {
       const auto point = triangulator.Point(2, 1, column);
       const auto elevation = triangulator.Elevation(2, 1, column);
       ASSERT_EQ(elevation.detected, point.has_value());
-      if (point) EXPECT_NEAR(elevation.elevation_m, point->z() - 0.03, 1e-12);
+      if (point) {
+        EXPECT_NEAR(elevation.elevation_m, point->z() - 0.03, 1e-12);
+      }
     }
   }
 }
