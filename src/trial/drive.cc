@@ -166,7 +166,7 @@ std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const 
   Sample(activity);
   // Operators turn a rover whose position reaches the line; one that turns in place stays its own
   // master, also beyond the line.
-  if (motion.kind == MotionKind::kArc) ReflectAtMirrorLine();
+  if (motion.kind == MotionKind::kArc) ReflectAtMirrorLine(motion.direction);
   if (motion.kind == MotionKind::kStop) return std::nullopt;
   return AskReferee(activity, motion.direction, stretch.duration_s);
 }
@@ -193,10 +193,10 @@ void Drive::UpdateEstimate(double duration_s, bool moving) {
   }
 }
 
-void Drive::ReflectAtMirrorLine() {
+void Drive::ReflectAtMirrorLine(int direction) {
   if (!mirror_ || !mirror_->Reaches(rover_->state().X_WR.translation().y())) return;
   const messages::PoseEstimate before = dead_reckoning_.estimate();
-  const auto reflection = mirror_->Reflect(math::ToPose2(rover_->state().X_WR), before);
+  const auto reflection = mirror_->Reflect(math::ToPose2(rover_->state().X_WR), direction, before);
   if (!reflection) return;
   ++reflections_;
   Record("reflection", "");

@@ -46,7 +46,7 @@ class Drive {
   // Holds the command for so many physics steps.
   void ApplyCommand(const messages::WheelCommand& command, std::int64_t steps);
   void UpdateEstimate(double duration_s, bool moving);
-  void ReflectAtMirrorLine();
+  void ReflectAtMirrorLine(int direction);
   std::optional<Verdict> AskReferee(Activity activity, int direction, double duration_s);
   DriveResult Finish(const Verdict& verdict);
   void ReportPoses(truth::DriveRecord& record) const;

@@ -24,8 +24,10 @@ class MirrorArena {
   // True on or beyond a line, where Reflect may have something to do.
   bool Reaches(double y_m) const { return std::abs(y_m) >= half_width_m_; }
 
-  // The reflection that is due at this pose: on or beyond a line and heading outward.
-  std::optional<Reflection> Reflect(const math::Pose2& pose,
+  // The reflection that is due at this pose: on or beyond a line and driving outward, forwards
+  // (direction +1) or backwards (-1). It turns the rover to the mirror-image heading, with which
+  // the same drive leads inward.
+  std::optional<Reflection> Reflect(const math::Pose2& pose, int direction,
                                     const messages::PoseEstimate& estimate) const;
 
  private:

@@ -8,17 +8,17 @@ namespace {
 const MirrorArena kArena(1.1);
 
 TEST(MirrorArenaTest, NothingHappensInside) {
-  EXPECT_FALSE(kArena.Reflect({3.0, 1.09, 1.0}, {}).has_value());
-  EXPECT_FALSE(kArena.Reflect({3.0, -1.09, -1.0}, {}).has_value());
+  EXPECT_FALSE(kArena.Reflect({3.0, 1.09, 1.0}, +1, {}).has_value());
+  EXPECT_FALSE(kArena.Reflect({3.0, -1.09, -1.0}, +1, {}).has_value());
 }
 
 TEST(MirrorArenaTest, NothingHappensOnTheWayBackIn) {
-  EXPECT_FALSE(kArena.Reflect({3.0, 1.12, -0.1}, {}).has_value());
-  EXPECT_FALSE(kArena.Reflect({3.0, -1.12, 0.1}, {}).has_value());
+  EXPECT_FALSE(kArena.Reflect({3.0, 1.12, -0.1}, +1, {}).has_value());
+  EXPECT_FALSE(kArena.Reflect({3.0, -1.12, 0.1}, +1, {}).has_value());
 }
 
 TEST(MirrorArenaTest, LeftLineMirrorsHeadingAndEstimate) {
-  const auto reflection = kArena.Reflect({3.0, 1.1, 0.4}, {2.9, 1.3, 0.5, 4.0});
+  const auto reflection = kArena.Reflect({3.0, 1.1, 0.4}, +1, {2.9, 1.3, 0.5, 4.0});
   ASSERT_TRUE(reflection.has_value());
   EXPECT_DOUBLE_EQ(reflection->pose.x_m, 3.0);
   EXPECT_DOUBLE_EQ(reflection->pose.y_m, 1.1);
@@ -28,11 +28,23 @@ TEST(MirrorArenaTest, LeftLineMirrorsHeadingAndEstimate) {
   EXPECT_DOUBLE_EQ(reflection->update.heading_rad, -0.5);
 }
 
+// A rover that backs off crosses a line tail first.
+TEST(MirrorArenaTest, DrivingBackwardsIsOutwardByTheTail) {
+  EXPECT_FALSE(kArena.Reflect({3.0, 1.12, 0.4}, -1, {}).has_value());
+  EXPECT_FALSE(kArena.Reflect({3.0, -1.12, -0.4}, -1, {}).has_value());
+  const auto left = kArena.Reflect({3.0, 1.12, -0.4}, -1, {});
+  ASSERT_TRUE(left.has_value());
+  EXPECT_DOUBLE_EQ(left->pose.heading_rad, 0.4);
+  const auto right = kArena.Reflect({3.0, -1.12, 0.4}, -1, {});
+  ASSERT_TRUE(right.has_value());
+  EXPECT_DOUBLE_EQ(right->pose.heading_rad, -0.4);
+}
+
 // The reflection turns an error into its mirror image: it neither hides nor adds any.
 TEST(MirrorArenaTest, ErrorsKeepTheirSize) {
   const math::Pose2 pose{5.0, -1.15, -0.7};
   const messages::PoseEstimate estimate{5.2, -0.8, -0.9, 6.0};
-  const auto reflection = kArena.Reflect(pose, estimate);
+  const auto reflection = kArena.Reflect(pose, +1, estimate);
   ASSERT_TRUE(reflection.has_value());
   EXPECT_NEAR(reflection->update.x_m - reflection->pose.x_m, estimate.x_m - pose.x_m, 1e-15);
   // The true position lies 5 cm beyond the line and stays there; its mirror image lies 5 cm inside.

@@ -103,6 +103,25 @@ TEST(TiltSensorTest, SlopeAboveTheThresholdIsFelt) {
   EXPECT_GE(felt("30"), 1.0);
 }
 
+// A back-off across a mirror line ends on this side of it as well: a rover that drives, either way,
+// is at most one tick of driving beyond the line when it is turned. Turns in place and slip on the
+// flank of a rock may add to that before it drives.
+TEST(MirrorLineTest, BackingOffDoesNotLeadAcross) {
+  constexpr double kLine_m = 1.1;
+  constexpr double kTick_m = 0.15 / 20.0;
+  constexpr double kSlip_m = 0.02;
+  const scenario::Scenario scenario = Pathfinder(
+      "nominal", kQuasiStatic + kContact + kBlind + Overrides{"terrain.rocks.k_per_m2=0.013"});
+  double farthest_m = 0.0;
+  for (const std::uint32_t index : {7U, 29U}) {
+    for (const truth::TraceSample& sample : RunTraced(scenario, index).trace.samples) {
+      farthest_m = std::max(farthest_m, std::abs(sample.pose.y_m));
+    }
+  }
+  EXPECT_GE(farthest_m, kLine_m);  // the line was reached
+  EXPECT_LT(farthest_m, kLine_m + kTick_m + kSlip_m);
+}
+
 // Sensors that are off are not there, whatever their parameters say.
 TEST(VehicleSensorsTest, ParametersOfSensorsThatAreOffChangeNothing) {
   const scenario::Scenario plain = Pathfinder("obstacles_0.85", kQuasiStatic);
