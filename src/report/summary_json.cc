@@ -147,7 +147,9 @@ std::string MeasurementJson(const RunDescription& run,
     widest[std::string(summary.rates[i]->name)] = summary.WidestInterval(i);
   }
   json["widest_ci95"] = std::move(widest);
-  json["simultaneous"] = "ci95_all_cells: level 1 - 0.05 / cells (Bonferroni), all cells at once";
+  json["simultaneous"] =
+      "ci95_all_cells: Clopper-Pearson at level 1 - 0.05 / planned_cells, all cells at once";
+  json["planned_cells"] = summary.planned_cells;
   json["cells"] = Json::array();
   for (const statistics::Cell& cell : summary.cells) {
     json["cells"].push_back(CellJson(summary, cell, method));

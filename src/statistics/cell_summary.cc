@@ -62,8 +62,8 @@ double BaseOf(const std::vector<KnownColumn>& columns, const Sums& sums,
 
 // How intervals of rates are made.
 struct Intervals {
-  double cells = 1.0;
-  IntervalMethod method = IntervalMethod::kWilson;
+  double cells = 1.0;                               // that hold at once
+  IntervalMethod method = IntervalMethod::kWilson;  // of the interval of one cell alone
 };
 
 CellRate MakeRate(double count, double base, const Intervals& intervals) {
@@ -71,7 +71,17 @@ CellRate MakeRate(double count, double base, const Intervals& intervals) {
   const auto n = static_cast<std::int64_t>(std::llround(base));
   const double level = 1.0 - (1.0 - kConfidence) / intervals.cells;
   return {MakeProportion(k, n, kConfidence, intervals.method),
-          ProportionInterval(k, n, level, intervals.method)};
+          ProportionInterval(k, n, level, IntervalMethod::kClopperPearson)};
+}
+
+// Cells of the whole run, or more: no cell takes a second turn before each had its first, so until
+// then every run that is still to come may belong to a new one.
+std::int64_t PlannedCells(const MeasurementSummary& summary,
+                          const std::map<std::int64_t, Sums>& pooled) {
+  const auto seen = static_cast<std::int64_t>(pooled.size());
+  const bool again = std::any_of(pooled.begin(), pooled.end(),
+                                 [](const auto& cell) { return cell.second.runs > 1; });
+  return again ? seen : seen + std::max<std::int64_t>(0, summary.planned - summary.completed);
 }
 
 double MakeMean(ColumnRole role, double sum, double base) {
@@ -154,7 +164,8 @@ MeasurementSummary SummarizeCells(const truth::RecordSchema& schema,
   const std::vector<KnownColumn> columns = KnownColumns(schema);
   NameColumns(columns, summary);
   const std::map<std::int64_t, Sums> pooled = Pool(records, columns, schema.size());
-  const Intervals intervals{static_cast<double>(pooled.size()), method};
+  summary.planned_cells = PlannedCells(summary, pooled);
+  const Intervals intervals{static_cast<double>(summary.planned_cells), method};
   for (const auto& [number, sums] : pooled) {
     summary.cells.push_back(MakeCell(number, sums, columns, intervals));
   }

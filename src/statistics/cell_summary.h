@@ -15,7 +15,7 @@ namespace rockyard::statistics {
 // A count of a cell against its base.
 struct CellRate {
   Proportion rate;        // with its own 95 % interval
-  Interval simultaneous;  // all intervals of this column hold together with 95 % (Bonferroni)
+  Interval simultaneous;  // exact; all of this column hold together with 95 % (Bonferroni)
 };
 
 struct Cell {
@@ -31,6 +31,9 @@ struct MeasurementSummary {
   std::int64_t planned = 0;
   std::int64_t completed = 0;  // records given, faults included
   std::int64_t faults = 0;     // in no number
+  // Cells whose intervals hold at once: those of the whole run. While no cell has had two runs,
+  // every run to come is counted as one, so that it is too large rather than too small.
+  std::int64_t planned_cells = 0;
   std::vector<const truth::MeasuredColumn*> factors;
   std::vector<const truth::MeasuredColumn*> bases;
   std::vector<const truth::MeasuredColumn*> rates;
@@ -44,10 +47,12 @@ struct MeasurementSummary {
 };
 
 // `records` must be a contiguous prefix of finished runs, of a schema that IsMeasurement; columns
-// that truth/measurement_record.h does not know are left out. Scenes of a cell are independent, so
-// counts add up to binomial counts. Where the base of a count is not made of independent trials
-// (hazards share fields), intervals are somewhat too narrow. Simultaneous intervals take the level
-// 1 - 0.05 / cells. Cost: linear.
+// that truth/measurement_record.h does not know are left out. `planned`: runs of the whole plan, 0
+// for those given. Scenes of a cell are independent, so counts add up to binomial counts. Where the
+// base of a count is not made of independent trials (hazards share fields), intervals are somewhat
+// too narrow. `method` is that of a cell alone. Simultaneous intervals are Clopper and Pearson's at
+// the level 1 - 0.05 / planned_cells: Wilson's keep their level on average over rates only, and far
+// out in the tails not even that. Cost: linear.
 MeasurementSummary SummarizeCells(const truth::RecordSchema& schema,
                                   std::span<const truth::Record> records, std::int64_t planned = 0,
                                   IntervalMethod method = IntervalMethod::kWilson);
