@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "statistics/closed_forms.h"
+#include "statistics/clustered_rate.h"
 #include "statistics/compare_rows.h"
 #include "statistics/drive_summary.h"
 #include "statistics/moments.h"
@@ -71,10 +72,20 @@ Values SumOf(const std::vector<Values>& values) {
   return sum;
 }
 
-// A count and its base, as whole numbers; the exact interval keeps its promise for rare events too.
-Interval RateInterval(double count, double base, double confidence) {
-  return ProportionInterval(std::llround(count), std::llround(base), confidence,
-                            IntervalMethod::kClopperPearson);
+// Scenes are independent (truth/measurement_record.h); no other base promises that.
+bool Independent(const PublishedValue& published) { return published.of == "scenes"; }
+
+// The exact interval keeps its promise for rare events too.
+Interval RateInterval(const std::vector<Values>& values, bool independent, double confidence) {
+  if (independent) {
+    const Values sum = SumOf(values);
+    return ProportionInterval(std::llround(sum.of_column), std::llround(sum.base), confidence,
+                              IntervalMethod::kClopperPearson);
+  }
+  std::vector<CountOfRun> runs;
+  runs.reserve(values.size());
+  for (const Values& each : values) runs.push_back({each.of_column, each.base});
+  return ClusteredRateInterval(runs, confidence);
 }
 
 // Student's interval around a mean from the scatter of `residuals` about it; a point where nothing
@@ -89,11 +100,12 @@ Interval MeanInterval(double mean, const std::vector<double>& residuals, double 
   return {mean - half, mean + half};
 }
 
-void SetRate(const Values& sum, Row& row) {
+void SetRate(const PublishedValue& published, const std::vector<Values>& values, const Values& sum,
+             Row& row) {
   row.value.pool = std::llround(sum.base);
   row.value.pool_value = sum.of_column / sum.base;
-  row.interval = [sum](double confidence) {
-    return RateInterval(sum.of_column, sum.base, confidence);
+  row.interval = [values, independent = Independent(published)](double confidence) {
+    return RateInterval(values, independent, confidence);
   };
 }
 
@@ -124,33 +136,35 @@ double Crossing(const std::vector<std::pair<double, double>>& curve, double leve
   return kInfinity;
 }
 
-using RateCurve = std::map<double, Values>;
+using RateCurve = std::map<double, std::vector<Values>>;
 
 // The crossings of the upper and of the lower ends of the rates' intervals. A crossing lies between
 // two rates, so each takes half of the error. Interpolation between them is not part of it.
-Interval CrossingInterval(const RateCurve& rates, double level, double factor, double confidence) {
+Interval CrossingInterval(const RateCurve& rates, const PublishedValue& published,
+                          double confidence) {
   std::vector<std::pair<double, double>> upper;
   std::vector<std::pair<double, double>> lower;
-  for (const auto& [x, sum] : rates) {
-    const Interval interval = RateInterval(sum.of_column, sum.base, 1.0 - 0.5 * (1.0 - confidence));
+  for (const auto& [x, values] : rates) {
+    const Interval interval =
+        RateInterval(values, Independent(published), 1.0 - 0.5 * (1.0 - confidence));
     upper.emplace_back(x, interval.high);
     lower.emplace_back(x, interval.low);
   }
-  return {factor * Crossing(upper, level), factor * Crossing(lower, level)};
+  return {published.factor * Crossing(upper, published.level),
+          published.factor * Crossing(lower, published.level)};
 }
 
 void SetCrossing(const PublishedValue& published, const std::vector<Values>& values, Row& row) {
   RateCurve rates;
-  for (const Values& each : values) {
-    Values& sum = rates[each.abscissa];
-    sum.of_column += each.of_column;
-    sum.base += each.base;
-  }
+  for (const Values& each : values) rates[each.abscissa].push_back(each);
   std::vector<std::pair<double, double>> curve;
-  for (const auto& [x, sum] : rates) curve.emplace_back(x, sum.of_column / sum.base);
+  for (const auto& [x, of_x] : rates) {
+    const Values sum = SumOf(of_x);
+    curve.emplace_back(x, sum.of_column / sum.base);
+  }
   row.value.pool_value = published.factor * Crossing(curve, published.level);
   row.interval = [rates, published](double confidence) {
-    return CrossingInterval(rates, published.level, published.factor, confidence);
+    return CrossingInterval(rates, published, confidence);
   };
 }
 
@@ -183,7 +197,7 @@ Row CompareTolerance(const PublishedValue& published, const ScenarioRun& run) {
   row.value.remark = ToleranceRemark(published);
   switch (published.statistic) {
     case StatisticKind::kRate:
-      SetRate(sum, row);
+      SetRate(published, values, sum, row);
       break;
     case StatisticKind::kRatio:
       SetRatio(published, values, sum, row);

@@ -89,8 +89,10 @@ struct ComparedValue {
   double pool_value =
       std::numeric_limits<double>::quiet_NaN();              // over the whole pool; rate for counts
   double median = std::numeric_limits<double>::quiet_NaN();  // predictive, for the published size
+  // Predictive, 95 %, for the published size. For a number with a tolerance: confidence interval of
+  // the simulated value, all of a reference together 95 %; the ends are equal where it is computed.
   Interval interval{std::numeric_limits<double>::quiet_NaN(),
-                    std::numeric_limits<double>::quiet_NaN()};  // predictive, 95 %
+                    std::numeric_limits<double>::quiet_NaN()};
   double p_value = std::numeric_limits<double>::quiet_NaN();
   double holm_p_value = std::numeric_limits<double>::quiet_NaN();
   double level = std::numeric_limits<double>::quiet_NaN();  // that Holm grants this row

@@ -22,7 +22,8 @@ enum class StatisticKind {
   kLowerBound,       // of `column` over runs that arrive: `value` less the goal tolerance
   kMedianOffset,     // statement, no number: `column` differs from `other_scenario`
   // Numbers without a sample: held against the simulation's own value by a tolerance.
-  kRate,      // `column` over `of`, both added up: a binomial rate
+  kRate,      // `column` over `of`, both added up: a binomial rate of independent scenes, or one of
+              // events that depend on one another within a run
   kRatio,     // the same, times `factor`, for sums that count no independent events
   kMean,      // of `column` over the runs, times `factor`
   kCrossing,  // where the rate of `column` over `of` first passes `level` along `along`, times
