@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 
@@ -38,6 +39,15 @@ TEST(HazardReference, ItsArithmeticAgrees) {
     EXPECT_TRUE(computed.contains(id)) << id;
   }
   EXPECT_THAT(ComparisonText(HazardDetection(), result), HasSubstr("underpowered: across an end"));
+}
+
+TEST(HazardReference, TheTraverseIsJudgedByTheGivenTolerance) {
+  const statistics::PublishedReference reference = HazardDetection();
+  const auto traverse = std::find_if(reference.values.begin(), reference.values.end(),
+                                     [](const auto& value) { return value.id == "traverse"; });
+  ASSERT_NE(traverse, reference.values.end());
+  EXPECT_EQ(traverse->low, 30.0);
+  EXPECT_EQ(traverse->high, 33.0);
 }
 
 std::string ProblemsOf(const std::string& members) {
