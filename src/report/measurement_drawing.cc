@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "report/measurement_text.h"
+#include "report/xml_text.h"
 
 namespace rockyard::report {
 namespace {
@@ -25,20 +26,6 @@ constexpr double kGap = 34.0;
 // Colours that stay apart for colour-blind readers (Okabe and Ito 2008).
 constexpr std::array<std::string_view, 7> kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                                    "#E69F00", "#56B4E9", "#000000"};
-
-std::string Escaped(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '&') {
-      escaped += "&amp;";
-    } else if (c == '<') {
-      escaped += "&lt;";
-    } else {
-      escaped += c;
-    }
-  }
-  return escaped;
-}
 
 double FactorOf(const Cell& cell, std::size_t factor) {
   return factor < cell.factors.size() ? cell.factors[factor] : 0.0;
@@ -75,7 +62,7 @@ class Drawing {
         "font-family=\"sans-serif\" font-size=\"11\">\n"
         "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
         "<text x=\"12\" y=\"20\" font-size=\"14\">{}: {} against {}, bands of 95 %</text>\n",
-        width, height, Escaped(title), summary_.rates[rate_]->name, summary_.factors[0]->name);
+        width, height, EscapeXml(title), summary_.rates[rate_]->name, summary_.factors[0]->name);
     svg += Legend(curves);
     for (std::size_t row = 0; row < rows.size(); ++row) {
       for (std::size_t column = 0; column < columns.size(); ++column) {

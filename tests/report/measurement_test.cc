@@ -86,8 +86,8 @@ TEST(MeasurementReport, FewCellsAreListedManyArePooled) {
 }
 
 TEST(MeasurementReport, TheDrawingHasAPanelAndACurveForEachDiameter) {
-  const std::string svg = CellsSvg(Sample(4, 3), "a < b");
-  EXPECT_THAT(svg, HasSubstr("a &lt; b"));
+  const std::string svg = CellsSvg(Sample(4, 3), "a < b > \"c\"");
+  EXPECT_THAT(svg, HasSubstr("a &lt; b &gt; &quot;c&quot;"));
   std::size_t curves = 0;
   for (auto at = svg.find("<polyline"); at != std::string::npos; at = svg.find("<polyline", at + 1))
     ++curves;
