@@ -31,6 +31,9 @@ class VehicleHazardDetector {
   // The hazard that holds after the next on-board tick, if any.
   std::optional<messages::VehicleHazard> Observe(const messages::VehicleState& state);
 
+  // Forgets the ticks counted so far.
+  void Reset() { ticks_.fill(0); }
+
  private:
   using Kind = messages::VehicleHazardKind;
 

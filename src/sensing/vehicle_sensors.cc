@@ -96,11 +96,19 @@ messages::VehicleState VehicleSensors::Measure(const truth::RoverState& state,
   }
   if (params_.contact.enabled) measured.contact = contacts_.Push(MeasureContacts());
   ++tick_;
-  Resume(state);
+  BeginTick(state);
   return measured;
 }
 
 void VehicleSensors::Resume(const truth::RoverState& state) {
+  BeginTick(state);
+  articulation_.Clear();
+  force_.Clear();
+  currents_.Clear();
+  contacts_.Clear();
+}
+
+void VehicleSensors::BeginTick(const truth::RoverState& state) {
   last_v_WR_m_s_ = state.v_WR_m_s;
   pressed_.fill(false);
   torque_sum_Nm_.fill(0.0);

@@ -9,9 +9,9 @@
 //
 // Q rounds to the sensor's resolution. Torque is the mean over the tick: motors and wires filter
 // what a physics step shows. Each value is reported latency_ticks late; before that many ticks have
-// passed it is the first one. Noise of tick n comes from substream n of the sensor's own stream
-// (kArticulation, kAccelerometer, kMotorCurrent, kContactSwitch), so that a sensor shifts nobody's
-// noise, whether it is on or off.
+// passed since the start, or since operators moved the rover, it is the first one. Noise of tick n
+// comes from substream n of the sensor's own stream (kArticulation, kAccelerometer, kMotorCurrent,
+// kContactSwitch), so that a sensor shifts nobody's noise, whether it is on or off.
 #pragma once
 
 #include <cstdint>
@@ -48,6 +48,8 @@ class DelayLine {
     return oldest;
   }
 
+  void Clear() { values_.clear(); }
+
  private:
   std::size_t delay_;
   std::deque<T> values_;
@@ -68,10 +70,13 @@ class VehicleSensors {
   messages::VehicleState Measure(const truth::RoverState& state,
                                  const messages::WheelCommand& command, double duration_s);
 
-  // Operators moved the rover by hand: what it touched before is forgotten.
+  // Operators moved the rover by hand: what it measured before is forgotten, also what is still on
+  // its way.
   void Resume(const truth::RoverState& state);
 
  private:
+  // Sums and switches of the next tick begin at this state.
+  void BeginTick(const truth::RoverState& state);
   messages::Articulation MeasureArticulation(const truth::RoverState& state) const;
   math::Vector3 MeasureForce(const truth::RoverState& state, double duration_s);
   messages::PerWheel<double> MeasureCurrents(const truth::RoverState& state,

@@ -50,6 +50,7 @@ bool VehicleGuard::Feel(const truth::RoverState& state, const messages::WheelCom
 
 void VehicleGuard::Resume(const truth::RoverState& state) {
   if (on_) sensors_.Resume(state);
+  detector_.Reset();
   felt_.reset();
 }
 

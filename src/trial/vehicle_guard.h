@@ -29,7 +29,8 @@ class VehicleGuard {
   bool Feel(const truth::RoverState& state, const messages::WheelCommand& command,
             double duration_s);
 
-  // Operators moved the rover by hand.
+  // Operators moved the rover by hand: nothing is felt, and nothing of what was felt before counts
+  // towards a hazard.
   void Resume(const truth::RoverState& state);
 
   // Of the last tick; null where nothing is felt.

@@ -137,6 +137,19 @@ TEST(VehicleHazardDetectorTest, HoldsForTicksInARow) {
   EXPECT_FALSE(detector.Observe(level));
 }
 
+TEST(VehicleHazardDetectorTest, ResetForgetsTheTicksCounted) {
+  VehicleHazardParams params;
+  params.tilt_ticks = 3;
+  VehicleHazardDetector detector(params);
+  const VehicleState steep = Leaning(30, 0);
+  EXPECT_FALSE(detector.Observe(steep));
+  EXPECT_FALSE(detector.Observe(steep));
+  detector.Reset();
+  EXPECT_FALSE(detector.Observe(steep));
+  EXPECT_FALSE(detector.Observe(steep));
+  EXPECT_TRUE(detector.Observe(steep));
+}
+
 TEST(VehicleHazardDetectorTest, TouchComesFirstAndMissingSensorsSayNothing) {
   VehicleState state = Leaning(30, 0);
   state.articulation = Bent(0, 40, 0).articulation;

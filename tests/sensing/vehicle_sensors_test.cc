@@ -166,6 +166,38 @@ TEST(LatencyTest, ValuesComeTicksLater) {
   }
 }
 
+// Operators move the rover: neither what is on its way nor what was felt since the last tick is
+// reported of the place where the rover stood.
+TEST(LatencyTest, NothingFromBeforeAHandMoveArrivesAfterIt) {
+  for (const std::int64_t latency : {0, 1, 3}) {
+    VehicleSensorParams params = Exact();
+    params.articulation.latency_ticks = latency;
+    params.accelerometers.latency_ticks = latency;
+    params.motor_current.latency_ticks = latency;
+    params.contact.latency_ticks = latency;
+    VehicleSensors sensors(params, OnMars(), {1, 0});
+    truth::RoverState before = Touching(BodyPart::kPanelEdge, {0.325, 0.0, 0.28});
+    before.left_bogie_rad = 0.3;
+    before.motor_torque_Nm.fill(2.0);
+    before.X_WR.linear() = Eigen::AngleAxisd(0.5, Vector3::UnitX()).matrix();
+    for (int tick = 0; tick < 5; ++tick) {
+      sensors.Observe(before);
+      sensors.Measure(before, Rolling(), kTick_s);
+    }
+    sensors.Observe(before);
+    const truth::RoverState after;
+    sensors.Resume(after);
+    for (int tick = 0; tick < 5; ++tick) {
+      sensors.Observe(after);
+      const messages::VehicleState seen = sensors.Measure(after, Rolling(), kTick_s);
+      EXPECT_FALSE((*seen.contact)[Index(ContactSwitch::kFrontCentre)]) << latency;
+      EXPECT_EQ(seen.articulation->left_bogie_rad, 0.0) << latency;
+      EXPECT_EQ(seen.specific_force_R->y(), 0.0) << latency;
+      EXPECT_NEAR((*seen.motor_current_A)[0], 0.02, 1e-15) << latency;
+    }
+  }
+}
+
 // Noise belongs to the tick and the sensor: what else is on, and what was measured before, shifts
 // nothing.
 TEST(NoiseTest, IsIndexedByTickAndSensor) {

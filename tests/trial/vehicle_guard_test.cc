@@ -1,0 +1,77 @@
+// What the closed loop makes of what the rover feels: counts, and what a move by hand forgets.
+#include "trial/vehicle_guard.h"
+
+#include <gtest/gtest.h>
+
+#include "math/angles.h"
+
+namespace rockyard::trial {
+namespace {
+
+using messages::VehicleHazardKind;
+
+constexpr double kTick_s = 0.05;
+
+scenario::Scenario Feeling(std::int64_t latency_ticks) {
+  scenario::Scenario scenario;
+  auto& sensors = scenario.sensors.vehicle;
+  sensors.contact.enabled = sensors.accelerometers.enabled = true;
+  sensors.contact.latency_ticks = sensors.accelerometers.latency_ticks = latency_ticks;
+  sensors.accelerometers.noise_m_s2 = 0.0;
+  scenario.perception.vehicle_hazard.contact_ticks = 1;
+  scenario.perception.vehicle_hazard.tilt_ticks = 3;
+  return scenario;
+}
+
+truth::RoverState Leaning(double roll_rad) {
+  truth::RoverState state;
+  state.X_WR.linear() = Eigen::AngleAxisd(roll_rad, math::Vector3::UnitX()).matrix();
+  return state;
+}
+
+truth::RoverState Touching(const rover::RoverGeometryParams& size, double end) {
+  truth::RoverState state;
+  state.contacts = {{.part = truth::BodyPart::kPanelEdge,
+                     .rock = 0,
+                     .normal_force_N = 20.0,
+                     .p_RoC_R = {end * 0.5 * size.length_m, 0.0, 0.28}}};
+  return state;
+}
+
+// One control tick at a state. True where something has appeared.
+bool Feel(VehicleGuard& guard, const truth::RoverState& state) {
+  guard.Observe(state);
+  return guard.Feel(state, {}, kTick_s);
+}
+
+TEST(VehicleGuardTest, TouchesFromBeforeAHandMoveAreForgotten) {
+  for (const std::int64_t latency : {0, 1, 3}) {
+    const scenario::Scenario scenario = Feeling(latency);
+    VehicleGuard guard(scenario, {1, 0});
+    const truth::RoverState touching = Touching(scenario.rover.geometry, +1.0);
+    EXPECT_TRUE(Feel(guard, touching));
+    for (int tick = 0; tick < 4; ++tick) EXPECT_FALSE(Feel(guard, touching));
+    ASSERT_NE(guard.hazard(), nullptr);
+    guard.Resume({});
+    EXPECT_EQ(guard.hazard(), nullptr);
+    for (int tick = 0; tick < 6; ++tick) {
+      EXPECT_FALSE(Feel(guard, {})) << latency;
+      EXPECT_EQ(guard.hazard(), nullptr) << latency;
+    }
+    EXPECT_EQ(guard.count(VehicleHazardKind::kContact), 1);
+  }
+}
+
+TEST(VehicleGuardTest, TicksFromBeforeAHandMoveDoNotCount) {
+  VehicleGuard guard(Feeling(0), {1, 0});
+  const truth::RoverState steep = Leaning(math::DegToRad(35.0));
+  EXPECT_FALSE(Feel(guard, steep));
+  EXPECT_FALSE(Feel(guard, steep));
+  guard.Resume(steep);
+  EXPECT_FALSE(Feel(guard, steep));
+  EXPECT_FALSE(Feel(guard, steep));
+  EXPECT_TRUE(Feel(guard, steep));  // the third in a row, as tilt_ticks asks
+}
+
+}  // namespace
+}  // namespace rockyard::trial
