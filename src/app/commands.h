@@ -12,7 +12,7 @@ namespace rockyard::app {
 
 void AddRunCommand(CLI::App& app, ExitCode& exit_code);
 void AddCheckCommand(CLI::App& app, ExitCode& exit_code);
-void AddCompareCommand(CLI::App& app);
+void AddCompareCommand(CLI::App& app, ExitCode& exit_code);
 void AddReplayCommand(CLI::App& app, ExitCode& exit_code);
 void AddRoverCommand(CLI::App& app);
 void AddTerrainCommand(CLI::App& app);

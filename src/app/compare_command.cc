@@ -1,13 +1,21 @@
 // rockyard compare
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/output_file.h"
 #include "app/run_source.h"
 #include "core/error.h"
+#include "core/json_text.h"
+#include "report/atomic_file.h"
+#include "report/cell_comparison_text.h"
 #include "report/paired_comparison.h"
+#include "statistics/cell_comparison.h"
+#include "truth/measurement_record.h"
 
 namespace rockyard::app {
 namespace {
@@ -15,6 +23,7 @@ namespace {
 struct CompareOptions {
   std::string first;
   std::string second;
+  std::string csv;
 };
 
 report::ComparedRun View(const StoredRun& run) {
@@ -25,23 +34,84 @@ report::ComparedRun View(const StoredRun& run) {
   return {run.identity.scenario, run.identity.seed, run.identity.schema, run.prefix()};
 }
 
-void Compare(const CompareOptions& options) {
-  const StoredRun first = ReadRun(options.first);
-  const StoredRun second = ReadRun(options.second);
+std::string TextAt(const core::JsonValue* value) {
+  const bool text = value != nullptr && value->Is(core::JsonValue::Type::kText);
+  return text ? value->text() : std::string("unknown");
+}
+
+// What a run is of, as its scenario says.
+std::string ExperimentOf(const StoredRun& run) {
+  const core::JsonValue document = core::ParseJson(run.identity.resolved, "resolved scenario");
+  const std::string experiment = TextAt(document.Find("experiment"));
+  if (!truth::IsMeasurement(run.identity.schema)) return "experiment " + experiment;
+  const core::JsonValue* group = document.Find(experiment);
+  const core::JsonValue* study = group == nullptr ? nullptr : group->Find("study");
+  return "study " + TextAt(study) + " of experiment " + experiment;
+}
+
+void RequireSameExperiment(const StoredRun& first, const StoredRun& second) {
+  const std::string a = ExperimentOf(first);
+  const std::string b = ExperimentOf(second);
+  if (a == b) return;
+  throw core::UserError(
+      second.folder.string(),
+      fmt::format("is a run of {}, but {} is one of {}", b, first.folder.string(), a),
+      "compare two runs of the same experiment and study");
+}
+
+ExitCode CompareMeasurements(const StoredRun& first, const StoredRun& second,
+                             const CompareOptions& options) {
+  RequireSameExperiment(first, second);
+  const report::ComparedRun a = View(first);
+  const report::ComparedRun b = View(second);
+  const statistics::CellComparison cells =
+      statistics::CompareCells(statistics::SummarizeCells(a.schema, a.records),
+                               statistics::SummarizeCells(b.schema, b.records));
+  if (cells.tests == 0) {
+    throw core::UserError(second.folder.string(),
+                          "shares no cell with trials with " + first.folder.string(),
+                          "compare runs whose lists of factors have values in common");
+  }
+  if (!options.csv.empty()) {
+    report::WriteFileAtomically(options.csv, report::CellComparisonCsv(cells));
+  }
+  Print(report::CellComparisonText(a, b, cells));
+  return cells.Differing() > 0 ? ExitCode::kDiffers : ExitCode::kDone;
+}
+
+ExitCode CompareDrives(const StoredRun& first, const StoredRun& second,
+                       const CompareOptions& options) {
+  if (!options.csv.empty()) {
+    throw core::UserError("--csv", "is for runs that measure; these drive", "leave it out");
+  }
   const report::ComparedRun a = View(first);
   const report::ComparedRun b = View(second);
   Print(report::RunComparisonText(a, b, report::CompareRuns(a, b)));
+  return ExitCode::kDone;
+}
+
+ExitCode Compare(const CompareOptions& options) {
+  CheckOutputFile("--csv", options.csv);
+  const StoredRun first = ReadRun(options.first);
+  const StoredRun second = ReadRun(options.second);
+  const bool drive =
+      !truth::IsMeasurement(first.identity.schema) && !truth::IsMeasurement(second.identity.schema);
+  return drive ? CompareDrives(first, second, options)
+               : CompareMeasurements(first, second, options);
 }
 
 }  // namespace
 
-void AddCompareCommand(CLI::App& app) {
+void AddCompareCommand(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<CompareOptions>();
   CLI::App* command = app.add_subcommand(
-      "compare", "Compares two runs, trial by trial where their seeds are the same");
+      "compare",
+      "Compares two runs: drives trial by trial where their seeds are the same, measurements cell\n"
+      "by cell (exit code 1 where a rate differs)");
   command->add_option("RUN_A", options->first, "folder of a run")->required();
   command->add_option("RUN_B", options->second, "folder of a run")->required();
-  command->callback([options] { Compare(*options); });
+  command->add_option("--csv", options->csv, "measurements: write every cell to this file");
+  command->callback([options, &exit_code] { exit_code = Compare(*options); });
 }
 
 }  // namespace rockyard::app

@@ -1,7 +1,6 @@
 #include "report/comparison_reference.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <set>
@@ -12,33 +11,13 @@
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/spelling.h"
+#include "report/reference_fields.h"
 #include "report/tolerance_reference.h"
 #include "truth/record.h"
-
-template <>
-struct rockyard::core::EnumNames<rockyard::statistics::StatisticKind> {
-  static constexpr std::array<std::string_view, 14> kNames{
-      "outcome_count",    "failure_kinds", "negative_count", "minimum", "maximum", "mode",
-      "exponential_tail", "lower_bound",   "median_offset",  "rate",    "ratio",   "mean",
-      "crossing",         "computed"};
-};
-
-template <>
-struct rockyard::core::EnumNames<rockyard::statistics::Formula> {
-  static constexpr std::array<std::string_view, 7> kNames{
-      "none", "any_of", "sum", "product", "quotient", "net_rate", "range_resolution"};
-};
-
-template <>
-struct rockyard::core::EnumNames<rockyard::statistics::ValueRole> {
-  static constexpr std::array<std::string_view, 3> kNames{"prediction", "conditional",
-                                                          "calibration"};
-};
 
 namespace rockyard::report {
 namespace {
 
-using core::FieldInfo;
 using core::JsonValue;
 using core::Problem;
 using statistics::FailureKind;
@@ -46,83 +25,8 @@ using statistics::PublishedValue;
 using statistics::StatisticKind;
 using Type = core::JsonValue::Type;
 
-constexpr FieldInfo kText{.doc = "text", .origin = core::Origin::kPublished};
-constexpr FieldInfo kCount{
-    .doc = "published runs", .min = 0.0, .max = 1e5, .origin = core::Origin::kPublished};
 // Counts of runs so small that every division into kinds can be listed.
 constexpr std::int64_t kMostFailures = 50;
-
-struct ValueFields {
-  PublishedValue& value;
-
-  void Visit(core::FieldVisitor& v) {
-    v.Text("id", value.id, kText);
-    v.Text("what", value.what, kText);
-    v.Text("place", value.place, kText);
-    v.Text("scenario", value.scenario, kText);
-    v.Choice("statistic", value.statistic, kText);
-    v.Choice("role", value.role, kText);
-    v.Integer("sample_size", value.sample_size, kCount);
-    v.Real("value", value.value, kText);
-    v.Real("rounding", value.rounding,
-           {.doc = "step of the last printed digit", .min = 0.0, .max = 1e9});
-    v.Text("unit", value.unit, kText);
-    v.Real("lower_limit", value.lower_limit, kText);
-    v.Text("column", value.column, kText);
-    v.Text("other_scenario", value.other_scenario, kText);
-    v.Integer("other_sample_size", value.other_sample_size, kCount);
-    v.Text("note", value.note, kText);
-    v.Real("low", value.low, kText);
-    v.Real("high", value.high, kText);
-    v.Text("of", value.of, kText);
-    v.Real("factor", value.factor, kText);
-    v.Text("along", value.along, kText);
-    v.Real("level", value.level, {.doc = "rate at a crossing", .min = 0.0, .max = 1.0});
-    v.Choice("formula", value.formula, kText);
-    v.Reals("inputs", value.inputs, kText);
-  }
-};
-
-struct KindFields {
-  FailureKind& kind;
-
-  void Visit(core::FieldVisitor& v) {
-    v.Text("name", kind.name, kText);
-    v.Integer("count", kind.count, kCount);
-  }
-};
-
-struct RangeFields {
-  statistics::ColumnRange& range;
-
-  void Visit(core::FieldVisitor& v) {
-    v.Text("column", range.column, kText);
-    v.Real("low", range.low, kText);
-    v.Real("high", range.high, kText);
-  }
-};
-
-struct MisprintFields {
-  statistics::Misprint& misprint;
-
-  void Visit(core::FieldVisitor& v) {
-    v.Text("place", misprint.place, kText);
-    v.Text("printed", misprint.printed, kText);
-    v.Text("used", misprint.used, kText);
-  }
-};
-
-struct HeadFields {
-  statistics::PublishedReference& reference;
-  std::int64_t schema_version = 0;
-
-  void Visit(core::FieldVisitor& v) {
-    v.Integer("schema_version", schema_version,
-              {.doc = "version of this schema", .min = 1.0, .max = 1.0});
-    v.Text("title", reference.title, kText);
-    v.Text("citation", reference.citation, kText);
-  }
-};
 
 class Parser {
  public:

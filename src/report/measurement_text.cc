@@ -139,12 +139,13 @@ std::string Pooled(const MeasurementSummary& summary, std::size_t rate) {
 
 }  // namespace
 
-std::size_t MainRate(const MeasurementSummary& summary) {
+std::size_t MainRate(std::span<const truth::MeasuredColumn* const> rates) {
   for (const std::string_view name : {"detected_double", "alarm_single", "missed"}) {
-    const std::size_t rate = summary.FindRate(name);
-    if (rate < summary.rates.size()) return rate;
+    for (std::size_t rate = 0; rate < rates.size(); ++rate) {
+      if (rates[rate]->name == name) return rate;
+    }
   }
-  return summary.rates.size();
+  return rates.size();
 }
 
 std::string MeasurementText(const RunDescription& run, const MeasurementSummary& summary,
@@ -152,7 +153,7 @@ std::string MeasurementText(const RunDescription& run, const MeasurementSummary&
   std::string text = Head(run, summary, style);
   if (!summary.cells.empty()) {
     text += Bases(summary) + Widest(summary);
-    const std::size_t rate = MainRate(summary);
+    const std::size_t rate = MainRate(summary.rates);
     const bool pool = summary.cells.size() > kMostLines && rate < summary.rates.size();
     text += pool ? Pooled(summary, rate) : EveryCell(summary);
     text += "  intervals of every cell, and of all cells at once, in cells.csv\n";

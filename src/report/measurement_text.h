@@ -1,6 +1,7 @@
 // The cells of a measurement for people.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "report/run_description.h"
@@ -15,8 +16,8 @@ std::string MeasurementText(const RunDescription& run,
                             const statistics::MeasurementSummary& summary,
                             TextStyle style = TextStyle::kPlain);
 
-// The rate that text and drawing show where there is room for one; rates.size() where none is
-// measured.
-std::size_t MainRate(const statistics::MeasurementSummary& summary);
+// The one of `rates` that text and drawing show where there is room for one; rates.size() where
+// none is measured.
+std::size_t MainRate(std::span<const truth::MeasuredColumn* const> rates);
 
 }  // namespace rockyard::report

@@ -47,8 +47,10 @@ struct CellComparison {
 // that anything `differs` without a difference is at most alpha. The samples are taken as
 // independent: runs of one seed whose cells draw the same scenes are closer than that, which makes
 // p-values too large. Where the base of a count is not made of independent trials (hazards share
-// fields, points share scenes) p-values are somewhat too small. No shared cell gives no cells;
-// other factors as well. Cost: linear in the cells and in the counts.
+// fields, points share scenes) p-values are somewhat too small. The tests are exact; Newcombe's
+// intervals keep their level on average over rates only, and the simultaneous ones, far out in the
+// tails, not always that. No shared cell gives no cells; other factors as well. Cost: linear in the
+// cells and in the counts.
 CellComparison CompareCells(const MeasurementSummary& first, const MeasurementSummary& second,
                             double alpha = 0.05);
 

@@ -80,6 +80,46 @@ TEST_F(CliHazard, CompareShowsNoSuccess) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, Not(HasSubstr("success")));
   EXPECT_THAT(result.out, HasSubstr("alarm_single"));
+  EXPECT_THAT(result.out, HasSubstr("6 cells in both; none differs"));
+}
+
+TEST_F(CliHazard, CompareMatchesCellsAndReportsADifference) {
+  // The second height of the first run is the only one of the second.
+  const auto heights = [](const std::string& list) {
+    return std::vector<std::string>{"--set", "hazard_detection.heights_m=" + list,
+                                    "--set", "hazard_detection.diameters_m=[0.25]",
+                                    "--set", "hazard_detection.lateral_offsets_m=[0.05]",
+                                    "--set", "hazard_detection.distances_m=[0.09]"};
+  };
+  Run(With(Study("detection", "a", 20), heights("[0.03, 0.09]")));
+  Run(With(Study("detection", "b", 10), heights("[0.09]")));
+  Run(With(Study("detection", "dull", 10),
+           With(heights("[0.09]"), {"--set", "perception.hazard.neighbour_threshold_m=1", "--set",
+                                    "perception.hazard.range_threshold_m=1"})));
+  const CommandResult same = Run({"compare", "a", "b", "--csv", "cells.csv"});
+  EXPECT_EQ(same.exit_code, 0) << same.out << same.err;
+  EXPECT_THAT(same.out, HasSubstr("1 cell in both, 1 only in A; none differs"));
+  EXPECT_THAT(ReadFile(work() / "cells.csv"), HasSubstr("detected_double,0.09,0.25,"));
+  const CommandResult other = Run({"compare", "a", "dull"});
+  EXPECT_EQ(other.exit_code, 1) << other.out << other.err;
+  EXPECT_THAT(other.out, HasSubstr("1 of them differs"));
+}
+
+TEST_F(CliHazard, CompareRefusesWhatHasNothingInCommon) {
+  Run(Study("detection", "detection", 3));
+  Run(With(Study("detection", "others", 3), {"--set", "hazard_detection.heights_m=[0.123]"}));
+  Run(Study("approach", "approach", 3));
+  Run(QuickRun("drive", 1));
+  const CommandResult cells = Run({"compare", "detection", "others"});
+  EXPECT_EQ(cells.exit_code, 2);
+  EXPECT_THAT(cells.err, HasSubstr("shares no cell"));
+  const CommandResult study = Run({"compare", "detection", "approach"});
+  EXPECT_EQ(study.exit_code, 2);
+  EXPECT_THAT(study.err, HasSubstr("study approach of experiment hazard_detection"));
+  const CommandResult experiment = Run({"compare", "drive", "detection"});
+  EXPECT_EQ(experiment.exit_code, 2);
+  EXPECT_THAT(experiment.err, HasSubstr("is one of experiment drive"));
+  EXPECT_EQ(Run({"compare", "drive", "drive", "--csv", "x.csv"}).exit_code, 2);
 }
 
 }  // namespace

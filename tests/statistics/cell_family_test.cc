@@ -67,7 +67,7 @@ Tally Repeat(double shift) {
 }
 
 // Chance of a false verdict at most 0.05 (Holm on exact tests): at most 30 of 300 at the level of
-// 1 in 5000. Negative control: the p-values of the same samples, not adjusted, break that bound.
+// 1 in 8000. Negative control: the p-values of the same samples, not adjusted, break that bound.
 TEST(CellFamily, EqualRatesSeldomDiffer) {
   const Tally tally = Repeat(0.0);
   EXPECT_LE(tally.family, 30);

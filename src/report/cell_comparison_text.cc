@@ -1,0 +1,137 @@
+#include "report/cell_comparison_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "report/measurement_text.h"
+
+namespace rockyard::report {
+namespace {
+
+using statistics::CellComparison;
+using statistics::ComparedCell;
+using statistics::RateDifference;
+
+// More cells than this are shown by their smallest p-values.
+constexpr std::size_t kMostLines = 40;
+constexpr std::size_t kMostFactors = 4;
+
+std::string Head(const ComparedRun& first, const ComparedRun& second,
+                 const CellComparison& comparison) {
+  std::string text;
+  char letter = 'A';
+  for (const ComparedRun* run : {&first, &second}) {
+    text += fmt::format("{}: {:.60}, seed {}, {} runs\n", letter++, run->name, run->seed,
+                        run->records.size());
+  }
+  text += fmt::format("{} cell{} in both", comparison.cells.size(),
+                      comparison.cells.size() == 1 ? "" : "s");
+  if (comparison.only_first > 0) text += fmt::format(", {} only in A", comparison.only_first);
+  if (comparison.only_second > 0) text += fmt::format(", {} only in B", comparison.only_second);
+  const std::size_t differing = comparison.Differing();
+  text += differing == 0   ? "; none differs"
+          : differing == 1 ? "; 1 of them differs"
+                           : fmt::format("; {} of them differ", differing);
+  return text + fmt::format(" at alpha {:g} after Holm\n", comparison.alpha) +
+         fmt::format(
+             "{} tests (rates x cells) by Fisher, exact; 95 % intervals of B - A by Newcombe\n"
+             "(1998), each alone and all {} at once (Bonferroni)\n\n",
+             comparison.tests, comparison.tests);
+}
+
+// Of each rate the cell with the smallest p-value.
+std::string RateLines(const CellComparison& comparison) {
+  std::string text =
+      fmt::format("  {:<20} {:>7} {:>6} {:>7} {:>15} {:>7} {:>5} {:>11}\n", "least likely cell of",
+                  "A", "B", "B - A", "all at once", "p", "Holm", "that differ");
+  for (std::size_t i = 0; i < comparison.rates.size(); ++i) {
+    const auto less_likely = [i](const ComparedCell& a, const ComparedCell& b) {
+      return a.rates[i].p_value < b.rates[i].p_value;
+    };
+    const RateDifference& r =
+        std::min_element(comparison.cells.begin(), comparison.cells.end(), less_likely)->rates[i];
+    text += fmt::format(
+        "  {:<20.20} {:>7.4f} {:.4f} {:+.4f} {:+.4f} {:+.4f} {:>7.2g} {:>5.2g} {:>11}\n",
+        comparison.rates[i]->name, r.first.rate, r.second.rate, r.difference, r.simultaneous.low,
+        r.simultaneous.high, r.p_value, r.adjusted, comparison.Differing(i));
+  }
+  return text;
+}
+
+std::string CellLine(const CellComparison& comparison, const ComparedCell& cell, std::size_t rate) {
+  std::string line = " ";
+  for (std::size_t i = 0; i < std::min(kMostFactors, cell.factors.size()); ++i) {
+    line += fmt::format(" {:>6.4g}", cell.factors[i]);
+  }
+  const RateDifference& r = cell.rates[rate];
+  if (!r.tested) return line + "  no trials in one of them\n";
+  return line + fmt::format(
+                    " {:.4f} {:.4f} {:+.4f} {:+.4f} {:+.4f} {:+.4f} {:+.4f} {:>7.2g} "
+                    "{:>5.2g}{}\n",
+                    r.first.rate, r.second.rate, r.difference, r.interval.low, r.interval.high,
+                    r.simultaneous.low, r.simultaneous.high, r.p_value, r.adjusted,
+                    comparison.Differs(r) ? " *" : "");
+}
+
+// The cells to show for a rate, in the order of the table.
+std::vector<const ComparedCell*> Shown(const CellComparison& comparison, std::size_t rate,
+                                       bool main) {
+  std::vector<const ComparedCell*> shown;
+  for (const ComparedCell& cell : comparison.cells) {
+    if (main || comparison.Differs(cell.rates[rate])) shown.push_back(&cell);
+  }
+  if (shown.size() <= kMostLines) return shown;
+  std::stable_sort(shown.begin(), shown.end(), [&](const ComparedCell* a, const ComparedCell* b) {
+    return a->rates[rate].p_value < b->rates[rate].p_value;
+  });
+  shown.resize(kMostLines);
+  std::sort(shown.begin(), shown.end());  // they lie in one vector
+  return shown;
+}
+
+std::string CellLines(const CellComparison& comparison, std::size_t rate, bool main) {
+  const std::vector<const ComparedCell*> shown = Shown(comparison, rate, main);
+  if (shown.empty()) return "";
+  std::string text = fmt::format("\n  {}, {}", comparison.rates[rate]->name,
+                                 main ? "every cell" : "the cells that differ");
+  const std::size_t all = main ? comparison.cells.size() : comparison.Differing(rate);
+  if (shown.size() < all) text += fmt::format(": the {} of smallest p", shown.size());
+  text += "\n ";
+  const std::size_t factors = std::min(kMostFactors, comparison.factors.size());
+  for (std::size_t i = 0; i < factors; ++i)
+    text += fmt::format(" {:>6}", fmt::format("({})", i + 1));
+  text += fmt::format(" {:>6} {:>6} {:>7} {:>15} {:>15} {:>7} {:>5}\n", "A", "B", "B - A", "alone",
+                      "all at once", "p", "Holm");
+  for (const ComparedCell* cell : shown) text += CellLine(comparison, *cell, rate);
+  return text;
+}
+
+std::string FactorNames(const CellComparison& comparison) {
+  std::string text = "\n ";
+  const std::size_t factors = std::min(kMostFactors, comparison.factors.size());
+  for (std::size_t i = 0; i < factors; ++i) {
+    text += fmt::format(" ({}) {}", i + 1, comparison.factors[i]->name);
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string CellComparisonText(const ComparedRun& first, const ComparedRun& second,
+                               const CellComparison& comparison) {
+  std::string text = Head(first, second, comparison);
+  if (comparison.tests == 0) return text;
+  text += RateLines(comparison) + FactorNames(comparison);
+  const std::size_t found = MainRate(comparison.rates);
+  const std::size_t main = found < comparison.rates.size() ? found : 0;
+  text += CellLines(comparison, main, true);
+  for (std::size_t i = 0; i < comparison.rates.size(); ++i) {
+    if (i != main) text += CellLines(comparison, i, false);
+  }
+  return text;
+}
+
+}  // namespace rockyard::report

@@ -1,0 +1,109 @@
+// Members of a reference file as fields. For comparison_reference.cc only.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "core/fields.h"
+#include "statistics/published_values.h"
+
+template <>
+struct rockyard::core::EnumNames<rockyard::statistics::StatisticKind> {
+  static constexpr std::array<std::string_view, 14> kNames{
+      "outcome_count",    "failure_kinds", "negative_count", "minimum", "maximum", "mode",
+      "exponential_tail", "lower_bound",   "median_offset",  "rate",    "ratio",   "mean",
+      "crossing",         "computed"};
+};
+
+template <>
+struct rockyard::core::EnumNames<rockyard::statistics::Formula> {
+  static constexpr std::array<std::string_view, 7> kNames{
+      "none", "any_of", "sum", "product", "quotient", "net_rate", "range_resolution"};
+};
+
+template <>
+struct rockyard::core::EnumNames<rockyard::statistics::ValueRole> {
+  static constexpr std::array<std::string_view, 3> kNames{"prediction", "conditional",
+                                                          "calibration"};
+};
+
+namespace rockyard::report {
+
+inline constexpr core::FieldInfo kReferenceText{.doc = "text", .origin = core::Origin::kPublished};
+inline constexpr core::FieldInfo kReferenceCount{
+    .doc = "published runs", .min = 0.0, .max = 1e5, .origin = core::Origin::kPublished};
+
+struct ValueFields {
+  statistics::PublishedValue& value;
+
+  void Visit(core::FieldVisitor& v) {
+    v.Text("id", value.id, kReferenceText);
+    v.Text("what", value.what, kReferenceText);
+    v.Text("place", value.place, kReferenceText);
+    v.Text("scenario", value.scenario, kReferenceText);
+    v.Choice("statistic", value.statistic, kReferenceText);
+    v.Choice("role", value.role, kReferenceText);
+    v.Integer("sample_size", value.sample_size, kReferenceCount);
+    v.Real("value", value.value, kReferenceText);
+    v.Real("rounding", value.rounding,
+           {.doc = "step of the last printed digit", .min = 0.0, .max = 1e9});
+    v.Text("unit", value.unit, kReferenceText);
+    v.Real("lower_limit", value.lower_limit, kReferenceText);
+    v.Text("column", value.column, kReferenceText);
+    v.Text("other_scenario", value.other_scenario, kReferenceText);
+    v.Integer("other_sample_size", value.other_sample_size, kReferenceCount);
+    v.Text("note", value.note, kReferenceText);
+    v.Real("low", value.low, kReferenceText);
+    v.Real("high", value.high, kReferenceText);
+    v.Text("of", value.of, kReferenceText);
+    v.Real("factor", value.factor, kReferenceText);
+    v.Text("along", value.along, kReferenceText);
+    v.Real("level", value.level, {.doc = "rate at a crossing", .min = 0.0, .max = 1.0});
+    v.Choice("formula", value.formula, kReferenceText);
+    v.Reals("inputs", value.inputs, kReferenceText);
+  }
+};
+
+struct KindFields {
+  statistics::FailureKind& kind;
+
+  void Visit(core::FieldVisitor& v) {
+    v.Text("name", kind.name, kReferenceText);
+    v.Integer("count", kind.count, kReferenceCount);
+  }
+};
+
+struct RangeFields {
+  statistics::ColumnRange& range;
+
+  void Visit(core::FieldVisitor& v) {
+    v.Text("column", range.column, kReferenceText);
+    v.Real("low", range.low, kReferenceText);
+    v.Real("high", range.high, kReferenceText);
+  }
+};
+
+struct MisprintFields {
+  statistics::Misprint& misprint;
+
+  void Visit(core::FieldVisitor& v) {
+    v.Text("place", misprint.place, kReferenceText);
+    v.Text("printed", misprint.printed, kReferenceText);
+    v.Text("used", misprint.used, kReferenceText);
+  }
+};
+
+struct HeadFields {
+  statistics::PublishedReference& reference;
+  std::int64_t schema_version = 0;
+
+  void Visit(core::FieldVisitor& v) {
+    v.Integer("schema_version", schema_version,
+              {.doc = "version of this schema", .min = 1.0, .max = 1.0});
+    v.Text("title", reference.title, kReferenceText);
+    v.Text("citation", reference.citation, kReferenceText);
+  }
+};
+
+}  // namespace rockyard::report
