@@ -153,7 +153,7 @@ class Drawing {
 }  // namespace
 
 std::string CellsSvg(const MeasurementSummary& summary, const std::string& title) {
-  const std::size_t rate = MainRate(summary);
+  const std::size_t rate = MainRate(summary.rates);
   if (summary.cells.empty() || summary.factors.empty() || rate == summary.rates.size()) return "";
   if (ValuesOf(summary, 0).size() < 2) return "";
   return Drawing(summary, rate).Draw(title);
