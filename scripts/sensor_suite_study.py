@@ -3,7 +3,9 @@
 
 Drives the same trials with every subset of the Pathfinder rover's hazard sensors: light stripe,
 contact switches, accelerometers (tilt), joint angles (articulation) and motor currents. Writes
-sensor_suite.csv and sensor_suite.md.
+sensor_suite.csv, sensor_suite_pairs.csv and sensor_suite.md. What sensors add to success is tested by pairs of trials with
+the same index: each subset against the one that keeps of it only the light stripe (McNemar, exact),
+all tests of all scenarios together one family (Holm).
 
     scripts/sensor_suite_study.py [--trials 100] [SCENARIO ...]
 """
@@ -25,6 +27,50 @@ SENSORS = {
 SCENARIOS = [study.ROOT / f"scenarios/mars/{name}.json" for name in ("mfex_nominal", "mfex_vl2")]
 FELT = ("contact_hazards", "tilt_hazards", "articulation_hazards", "current_hazards")
 STUCK = ("jammed", "high_centred", "tip_over")
+
+
+SUCCESS = {"declared": ("goal_reached", "false_goal"), "true": ("goal_reached",)}
+
+
+def pairs(columns, base, outcomes):
+    """Trials in both runs: how many succeeded only with, and how many only without the sensors."""
+    ended, of_base = (dict(zip(each["trial"], each["outcome"])) for each in (columns, base))
+    both = [(ended[trial] in outcomes, of_base[trial] in outcomes)
+            for trial in ended if trial in of_base]
+    return both.count((True, False)), both.count((False, True))
+
+
+def paired_tests(runs):
+    """One row per (scenario, subset) and kind of success; runs maps to the columns of the trials."""
+    tests = []
+    for (scenario, names), columns in runs.items():
+        base = ("light stripe",) if "light stripe" in names and len(names) > 1 else ()
+        if names == base:
+            continue
+        for kind, outcomes in SUCCESS.items():
+            gained, lost = pairs(columns, runs[scenario, base], outcomes)
+            tests.append({"scenario": scenario, "sensors": "+".join(names),
+                          "against": "+".join(base) or "none", "success": kind, "gained": gained,
+                          "lost": lost, "p": study.mcnemar(gained, lost)})
+    for test, adjusted in zip(tests, study.holm([test["p"] for test in tests])):
+        test["holm"] = adjusted
+    return tests
+
+
+def paired_text(tests):
+    """The tests that show something, and those of single sensors in which any trial changed."""
+    def shown(test):
+        added = test["sensors"].count("+") - (test["against"] != "none")
+        return test["holm"] <= 0.05 or (added == 0 and test["gained"] + test["lost"] > 0)
+    differ = sum(test["holm"] <= 0.05 for test in tests)
+    text = (f"\n{len(tests)} tests by pairs (McNemar, Holm), {differ} differ at 0.05: those, and single "
+            "sensors that changed any trial. Gained, lost: trials that succeed only with, or only "
+            "without what is added.\n\n")
+    return text + study.table(
+        ["scenario", "sensors", "against", "success", "gained", "lost", "p", "Holm"],
+        [[test["scenario"], test["sensors"], test["against"], test["success"], str(test["gained"]),
+          str(test["lost"]), f"{test['p']:.2g}", f"{test['holm']:.2g}"]
+         for test in sorted(tests, key=lambda test: test["p"]) if shown(test)]) + "\n"
 
 
 def share(columns, outcomes):
@@ -68,7 +114,7 @@ def parse_arguments():
 def main():
     args = parse_arguments()
     held = ["rover.fidelity=quasi_static", *args.set]
-    rows, lines = [], []
+    rows, lines, runs = [], [], {}
     for scenario in args.scenarios:
         for suite in sorted(subsets(), key=lambda each: sum(each.values())):
             names = [name for name, on in suite.items() if on]
@@ -76,9 +122,10 @@ def main():
             switches = [f"{SENSORS[name]}={str(on).lower()}" for name, on in suite.items()]
             summary = study.run_scenario(args, scenario, folder, [*held, *switches])
             columns = study.trial_columns(folder)
+            runs[scenario.stem, tuple(names)] = columns
             found = measures(summary, columns)
             row = {"scenario": scenario.stem, "suite": "+".join(names) or "none",
-                   "trials": len(columns["outcome"])}
+                   "program": study.program(summary), "trials": len(columns["outcome"])}
             for name, values in found.items():
                 row.update(zip((name, f"{name} low", f"{name} high"), values))
             rows.append(row)
@@ -88,9 +135,13 @@ def main():
             print(f"\r{scenario.stem}: {len(rows)} subsets", end="", file=sys.stderr)
         print(file=sys.stderr)
     study.write_csv(args.out / "sensor_suite.csv", rows)
+    tests = paired_tests(runs)
+    study.write_csv(args.out / "sensor_suite_pairs.csv", tests)
     text = study.table(["scenario", "sensors", *found, "stuck or tipped (%)", "no path (%)"], lines)
+    programs = ", ".join(sorted({row["program"] for row in rows}))
     text += (f"\n\n{args.trials} trials a subset, seed {args.seed}, 95 % intervals; held: "
-             f"{', '.join(held)}.\n")
+             f"{', '.join(held)}; made by rockyard {programs}.\n")
+    text += paired_text(tests)
     (args.out / "sensor_suite.md").write_text(text, encoding="utf-8")
     print(text)
     return 0

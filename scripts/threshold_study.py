@@ -58,7 +58,7 @@ def main():
                                          [*held, f"{THRESHOLD}={threshold_cm / 100}"])
             columns = study.trial_columns(folder)
             row = {"scenario": scenario.stem, "threshold_cm": threshold_cm,
-                   "trials": len(columns["outcome"])}
+                   "program": study.program(summary), "trials": len(columns["outcome"])}
             cells = {}
             for name, digits, scale, measure in MEASURES:
                 values = measure(summary, columns)
@@ -77,8 +77,9 @@ def main():
     text = study.table(["scenario", "t_dh (cm)", *names],
                        [[row["scenario"], str(row["threshold_cm"]), *(cells[name] for name in names)]
                         for row, cells in rows])
+    programs = ", ".join(sorted({row["program"] for row, _ in rows}))
     text += (f"\n\n{args.trials} trials a point, seed {args.seed}, 95 % intervals; held: "
-             f"{', '.join(held)}.\n")
+             f"{', '.join(held)}; made by rockyard {programs}.\n")
     (args.out / "threshold.md").write_text(text, encoding="utf-8")
     study.write_svg(args.out / "threshold.svg", list(series.items()), "t_dh (cm)")
     print(text)

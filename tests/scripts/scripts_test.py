@@ -1,5 +1,6 @@
 """The command lines of the scripts: what they accept, refuse and pass on."""
 
+import math
 import os
 import shutil
 import subprocess
@@ -228,7 +229,8 @@ echo "rockyard $*" >> "$CALLS"
 while [ $# -gt 1 ]; do [ "$1" = --out ] && out=$2; shift; done
 mkdir -p "$out"
 rate='{"rate": 0.5, "ci95": [0.25, 0.75]}'
-echo "{\\"declared_success\\": $rate, \\"true_success\\": $rate}" > "$out/summary.json"
+made='"provenance": {"version": "0.1.0", "commit": "abc"}'
+echo "{\\"declared_success\\": $rate, \\"true_success\\": $rate, $made}" > "$out/summary.json"
 cat > "$out/trials.csv" << END
 trial,outcome,detail,true_distance_m,scrapes,hazards_met,hazards_missed,sim_time_s,energy_wh,\
 scan_energy_wh,contact_hazards,tilt_hazards,articulation_hazards,current_hazards
@@ -259,6 +261,7 @@ END
         self.assertIn("6.00 (3.74..8.26)", table[2])
         self.assertIn("20.00 (", table[2])
         self.assertEqual(len(self.lines("threshold/threshold.csv")), 7)
+        self.assertIn("made by rockyard 0.1.0 abc.", table[-1])
         svg = "\n".join(self.lines("threshold/threshold.svg"))
         self.assertEqual(svg.count("<polyline"), 8)
 
@@ -294,16 +297,79 @@ END
         self.assertEqual(result.returncode, 1)
         self.assertIn("exit code 2", result.stderr)
 
-    def test_intervals(self):
+    def test_pairs_of_trials_are_tested(self):
+        # Every subset leaves the same trials: no pair differs. With the light stripe the second
+        # succeeds too, so one pair is gained: p = 1.
+        self.run_script("sensor_suite_study.py", "scenarios/mars/mfex_nominal.json")
+        rows = self.lines("sensor_suite/sensor_suite_pairs.csv")
+        self.assertEqual(len(rows), 1 + 2 * 31)
+        self.assertIn("mfex_nominal,light stripe,none,declared,0,0,1.0,1.0", rows)
+        rockyard = self.root / "build/release/bin/rockyard"
+        rockyard.write_text(rockyard.read_text(encoding="utf-8").replace(
+            "\n2,no_path", "\n2,$(case $out in */contact) echo false_goal;; *) echo no_path;; esac)"),
+            encoding="utf-8")
+        self.run_script("sensor_suite_study.py", "scenarios/mars/mfex_nominal.json")
+        rows = self.lines("sensor_suite/sensor_suite_pairs.csv")
+        self.assertIn("mfex_nominal,contact,none,declared,1,0,1.0,1.0", rows)
+        self.assertIn("mfex_nominal,contact,none,true,0,0,1.0,1.0", rows)
+        self.assertIn("0.1.0 abc", self.lines("sensor_suite/sensor_suite.csv")[1])
+        self.assertIn("62 tests by pairs (McNemar, Holm), 0 differ",
+                      "\n".join(self.lines("sensor_suite/sensor_suite.md")))
+
+
+class StudyStatistics(unittest.TestCase):
+    """The numbers of scripts/study.py against published or independently computed ones."""
+
+    def setUp(self):
         sys.path.insert(0, str(ROOT / "scripts"))
         import study  # pylint: disable=import-outside-toplevel
-        self.assertEqual(study.ratio_interval([0, 0], [10, 20]), (0.0, 0.0, 0.1))  # rule of three
-        value, low, high = study.ratio_interval([1, 2, 3], [10, 20, 30])
-        self.assertAlmostEqual(value, 0.1)
-        self.assertAlmostEqual(low, high)  # every trial says the same
-        value, low, high = study.mean_interval([1.0, 3.0])
-        self.assertAlmostEqual(high - value, 1.95996 * 1.0, places=4)
-        self.assertAlmostEqual(value - low, high - value)
+        self.study = study
+
+    def interval(self, values, expected, places=5):
+        for value, wanted in zip(values, expected):
+            self.assertAlmostEqual(value, wanted, places=places)
+
+    def test_exact_intervals(self):
+        # Closed forms: 0 of n ends at 1 - 0.025^(1/n), n of n begins at 0.025^(1/n), 1 of n begins
+        # at 1 - 0.975^(1/n). 50 of 100: the textbooks' 0.3983 to 0.6017.
+        exact = self.study.exact_interval
+        self.interval(exact(0, 580), (0.0, 1.0 - 0.025 ** (1 / 580)))
+        self.interval(exact(5, 5), (0.025 ** 0.2, 1.0))
+        self.interval(exact(1, 592), (1.0 - 0.975 ** (1 / 592), 0.0093753))
+        self.interval(exact(50, 100), (0.3983, 0.6017), places=4)
+
+    def test_few_events_get_the_exact_interval(self):
+        # One hazard missed of 592: 0.94 % (normal approximation: 0.50 %). None: not one-sided 3 / n.
+        one = self.study.ratio_interval([1] + [0] * 147, [4] * 148)
+        self.interval(one, (1 / 592, 4.2766e-05, 0.0093753), places=4)  # design effect 1.003
+        none = self.study.ratio_interval([0] * 145, [4] * 145)
+        self.interval(none, (0.0, 0.0, 0.0063400))
+        every = self.study.ratio_interval([5], [5])
+        self.interval(every, (1.0, 0.025 ** 0.2, 1.0))
+        self.assertTrue(math.isnan(self.study.ratio_interval([0], [0])[0]))
+
+    def test_trials_that_all_say_the_same_are_as_sure_as_binomial_ones(self):
+        self.interval(self.study.ratio_interval([1, 2, 3], [10, 20, 30]),
+                      (0.1, *self.study.exact_interval(6, 60)))
+
+    def test_events_of_one_trial_widen_the_interval(self):
+        # 20 of 200 trials miss all of their 10: design effect 10 x 200 / 199, so 20 of 200.
+        clustered = self.study.ratio_interval([10] * 20 + [0] * 180, [10] * 200)
+        self.interval(clustered, (0.1, *self.study.exact_interval(19.9, 199.0)))
+        # Negative control: as binomial trials they would say three times as much.
+        low, high = self.study.exact_interval(200, 2000)
+        self.assertGreater(clustered[2] - clustered[1], 3.0 * (high - low))
+
+    def test_means(self):
+        value, low, high = self.study.mean_interval([-1.0, 1.0])
+        self.interval((value, low, high), (0.0, -1.95996, 1.95996), places=4)
+        self.assertEqual(self.study.mean_interval([0.0, 0.0, 1.0])[1], 0.0)  # a count
+
+    def test_paired_trials(self):
+        self.assertAlmostEqual(self.study.mcnemar(1, 9), 2 * 11 / 1024)
+        self.assertEqual(self.study.mcnemar(0, 0), 1.0)
+        self.assertEqual(self.study.mcnemar(3, 3), 1.0)
+        self.interval(self.study.holm([0.01, 0.04, 0.03]), (0.03, 0.06, 0.06))
 
 
 class InstallDependencies(unittest.TestCase):
