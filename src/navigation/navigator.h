@@ -20,8 +20,10 @@ struct NavigatorInput {
   messages::PoseEstimate estimate;
   // The report that answers the last request for a scan; null at every other tick.
   const messages::HazardReport* report = nullptr;
-  // What the rover feels at this tick; null where it feels no hazard.
+  // What the rover feels at this tick and has to get away from, never a touch behind; null where it
+  // feels no such hazard.
   const messages::VehicleHazard* vehicle_hazard = nullptr;
+  bool touches_behind = false;  // at this tick, whatever else it feels
 };
 
 struct NavigatorDecision {

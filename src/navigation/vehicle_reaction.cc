@@ -1,5 +1,6 @@
 #include "navigation/vehicle_reaction.h"
 
+#include "core/check.h"
 #include "math/angles.h"
 
 namespace rockyard::navigation {
@@ -10,12 +11,11 @@ using messages::MotionCommand;
 using messages::MotionKind;
 using messages::VehicleHazardKind;
 
-bool IsBehind(const messages::VehicleHazard& hazard) { return hazard.side == HazardSide::kBehind; }
-
 }  // namespace
 
 std::optional<NavigatorDecision> VehicleReaction::Decide(const NavigatorInput& input,
                                                          double goal_distance_m) {
+  EXPECT(input.vehicle_hazard == nullptr || input.vehicle_hazard->side != HazardSide::kBehind);
   const bool touches =
       input.vehicle_hazard != nullptr && input.vehicle_hazard->kind == VehicleHazardKind::kContact;
   if (input.vehicle_hazard == nullptr) was_clear_ = true;
@@ -34,7 +34,7 @@ std::optional<NavigatorDecision> VehicleReaction::Decide(const NavigatorInput& i
 std::optional<NavigatorDecision> VehicleReaction::Begin(const NavigatorInput& input,
                                                         double goal_distance_m) {
   const messages::VehicleHazard* hazard = input.vehicle_hazard;
-  if (hazard == nullptr || IsBehind(*hazard)) return std::nullopt;
+  if (hazard == nullptr) return std::nullopt;
   if (input.estimate.distance_m < ignored_until_m_) return std::nullopt;
   if (goal_distance_m <= best_goal_distance_m_ - params_.progress_m) {
     best_goal_distance_m_ = goal_distance_m;
@@ -56,9 +56,8 @@ std::optional<NavigatorDecision> VehicleReaction::Begin(const NavigatorInput& in
 }
 
 std::optional<NavigatorDecision> VehicleReaction::BackOff(const NavigatorInput& input) {
-  const bool touches_behind = input.vehicle_hazard != nullptr && IsBehind(*input.vehicle_hazard);
   const double driven_m = input.estimate.distance_m - anchor_.distance_m;
-  if (driven_m < params_.back_off_m && !touches_behind) return GoOn();
+  if (driven_m < params_.back_off_m && !input.touches_behind) return GoOn();
   return Start(Stage::kTurning, {MotionKind::kTurnInPlace, 0.0, turn_direction_}, input.estimate);
 }
 
@@ -73,7 +72,6 @@ std::optional<NavigatorDecision> VehicleReaction::Turn(const NavigatorInput& inp
 }
 
 bool VehicleReaction::Appeared(const messages::VehicleHazard& hazard) const {
-  if (IsBehind(hazard)) return false;
   if (hazard.kind == VehicleHazardKind::kContact) return was_released_;
   return was_clear_ && hazard.kind != cause_;
 }

@@ -32,6 +32,13 @@ double TiltOf(const math::Vector3& specific_force_R) {
   return std::atan2(specific_force_R.head<2>().norm(), specific_force_R.z());
 }
 
+std::optional<messages::VehicleHazard> HazardToAvoid(const FeltHazards& felt) {
+  const auto first = std::find_if(felt.by_kind.begin(), felt.by_kind.end(), [](const auto& hazard) {
+    return hazard && hazard->side != HazardSide::kBehind;
+  });
+  return first == felt.by_kind.end() ? std::nullopt : *first;
+}
+
 std::optional<HazardSide> VehicleHazardDetector::Tilted(const math::Vector3& force_R) const {
   if (TiltOf(force_R) <= params_.max_tilt_rad) return std::nullopt;
   if (std::abs(force_R.x()) >= std::abs(force_R.y())) return HazardSide::kAhead;
@@ -66,21 +73,24 @@ std::optional<messages::VehicleHazard> VehicleHazardDetector::Debounced(
   return messages::VehicleHazard{kind, *now};
 }
 
-std::optional<messages::VehicleHazard> VehicleHazardDetector::Observe(
-    const messages::VehicleState& state) {
+FeltHazards VehicleHazardDetector::Observe(const messages::VehicleState& state) {
   std::optional<HazardSide> touched, tilted, bent, strained;
   if (state.contact) touched = Touched(*state.contact);
   if (state.specific_force_R) tilted = Tilted(*state.specific_force_R);
   if (state.articulation) bent = Bent(*state.articulation);
   if (state.motor_current_A) strained = Strained(*state.motor_current_A);
-  // Every kind counts its ticks, whichever is reported.
-  const std::array found{Debounced(Kind::kContact, touched, params_.contact_ticks),
-                         Debounced(Kind::kTilt, tilted, params_.tilt_ticks),
-                         Debounced(Kind::kArticulation, bent, params_.articulation_ticks),
-                         Debounced(Kind::kMotorCurrent, strained, params_.current_ticks)};
-  const auto first = std::find_if(found.begin(), found.end(),
-                                  [](const auto& hazard) { return hazard.has_value(); });
-  return first == found.end() ? std::nullopt : *first;
+  const bool behind = state.contact && (*state.contact)[messages::Index(ContactSwitch::kRearEdge)];
+  ticks_behind_ = behind ? ticks_behind_ + 1 : 0;
+  return {{Debounced(Kind::kContact, touched, params_.contact_ticks),
+           Debounced(Kind::kTilt, tilted, params_.tilt_ticks),
+           Debounced(Kind::kArticulation, bent, params_.articulation_ticks),
+           Debounced(Kind::kMotorCurrent, strained, params_.current_ticks)},
+          behind && ticks_behind_ >= params_.contact_ticks};
+}
+
+void VehicleHazardDetector::Reset() {
+  ticks_.fill(0);
+  ticks_behind_ = 0;
 }
 
 }  // namespace rockyard::perception

@@ -2,14 +2,15 @@
 // which names the sensors; the criteria are assumptions).
 //
 //   touch:        a contact switch is closed; side by the place of the switch
-//   tilt:         acos(f_z / |f|) > max_tilt of the specific force f; the cause is on the side that
-//                 is higher, ahead where the rover pitches more than it rolls
+//   tilt:         atan2(|(f_x, f_y)|, f_z) > max_tilt of the specific force f, its angle to the
+//                 rover's z axis (0 without any force); the cause is on the side that is higher,
+//                 ahead where the rover pitches more than it rolls
 //   articulation: |bogie| > max_bogie, on its side; |rocker| > max_rocker, on the side whose front
 //                 end is higher (the differential turns the other rocker as far the other way)
 //   current:      any motor above max_current; side of the wheels above it, ahead where both
 //
-// A criterion has to hold for its number of ticks in a row. Of several at once the first in that
-// order is reported.
+// A criterion has to hold for its number of ticks in a row. Kinds are felt independently of each
+// other.
 #pragma once
 
 #include <array>
@@ -24,15 +25,25 @@ namespace rockyard::perception {
 // Angle between the rover's z axis and the specific force, rad.
 double TiltOf(const math::Vector3& specific_force_R);
 
+// After an on-board tick.
+struct FeltHazards {
+  std::array<std::optional<messages::VehicleHazard>, messages::kVehicleHazardKindCount> by_kind;
+  bool touches_behind = false;  // whatever else is touched
+};
+
+// The hazard to get away from: of several the first in the order above. A touch behind is none: the
+// rover drives away from it by going on.
+std::optional<messages::VehicleHazard> HazardToAvoid(const FeltHazards& felt);
+
 class VehicleHazardDetector {
  public:
   explicit VehicleHazardDetector(const VehicleHazardParams& params) : params_(params) {}
 
-  // The hazard that holds after the next on-board tick, if any.
-  std::optional<messages::VehicleHazard> Observe(const messages::VehicleState& state);
+  // The hazards that hold after the next on-board tick.
+  FeltHazards Observe(const messages::VehicleState& state);
 
   // Forgets the ticks counted so far.
-  void Reset() { ticks_.fill(0); }
+  void Reset();
 
  private:
   using Kind = messages::VehicleHazardKind;
@@ -47,6 +58,7 @@ class VehicleHazardDetector {
 
   VehicleHazardParams params_;
   std::array<std::int64_t, messages::kVehicleHazardKindCount> ticks_{};
+  std::int64_t ticks_behind_ = 0;
 };
 
 }  // namespace rockyard::perception

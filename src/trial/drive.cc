@@ -120,7 +120,7 @@ DriveResult Drive::Run() {
 std::optional<Verdict> Drive::Tick() {
   const navigation::NavigatorDecision decision =
       navigator_->Decide({ledger_.time_s(), dead_reckoning_.estimate(),
-                          report_ ? &*report_ : nullptr, guard_.hazard()});
+                          report_ ? &*report_ : nullptr, guard_.hazard(), guard_.touches_behind()});
   report_.reset();
   if (decision.status != navigation::NavigatorStatus::kDriving) {
     return referee_.OnNavigatorStop(decision.status, rover_->state());
@@ -158,8 +158,8 @@ std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const 
   ApplyCommand(command, stretch.steps);
   UpdateEstimate(stretch.duration_s, motion.kind != MotionKind::kStop && !wheel_driver_.steering());
   ledger_.Spend(activity, stretch.duration_s);
-  if (guard_.Feel(rover_->state(), command, stretch.duration_s)) {
-    Record("felt", Describe(*guard_.hazard()));
+  for (const auto& hazard : guard_.Feel(rover_->state(), command, stretch.duration_s)) {
+    Record("felt", Describe(hazard));
   }
   monitor_.Observe(rover_->state(), activity == Activity::kTurning);
   watch_.Observe(rover_->state().X_WR);

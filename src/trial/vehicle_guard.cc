@@ -38,20 +38,27 @@ VehicleGuard::VehicleGuard(const scenario::Scenario& scenario, core::TrialKey ke
       sensors_(scenario.sensors.vehicle, scenario.rover, key),
       detector_(scenario.perception.vehicle_hazard) {}
 
-bool VehicleGuard::Feel(const truth::RoverState& state, const messages::WheelCommand& command,
-                        double duration_s) {
-  if (!on_) return false;
-  const std::optional<messages::VehicleHazard> before = felt_;
+std::vector<messages::VehicleHazard> VehicleGuard::Feel(const truth::RoverState& state,
+                                                        const messages::WheelCommand& command,
+                                                        double duration_s) {
+  std::vector<messages::VehicleHazard> appeared;
+  if (!on_) return appeared;
+  const perception::FeltHazards before = felt_;
   felt_ = detector_.Observe(sensors_.Measure(state, command, duration_s));
-  if (!felt_ || (before && before->kind == felt_->kind)) return false;
-  ++counts_[static_cast<std::size_t>(felt_->kind)];
-  return true;
+  hazard_ = perception::HazardToAvoid(felt_);
+  for (std::size_t kind = 0; kind < counts_.size(); ++kind) {
+    if (!felt_.by_kind[kind] || before.by_kind[kind]) continue;
+    ++counts_[kind];
+    appeared.push_back(*felt_.by_kind[kind]);
+  }
+  return appeared;
 }
 
 void VehicleGuard::Resume(const truth::RoverState& state) {
   if (on_) sensors_.Resume(state);
   detector_.Reset();
-  felt_.reset();
+  felt_ = {};
+  hazard_.reset();
 }
 
 std::string Describe(const messages::VehicleHazard& hazard) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/random.h"
 #include "messages/commands.h"
@@ -25,18 +26,20 @@ class VehicleGuard {
     if (on_) sensors_.Observe(state);
   }
 
-  // Once a control tick. True where a hazard has appeared that was not felt at the tick before.
-  bool Feel(const truth::RoverState& state, const messages::WheelCommand& command,
-            double duration_s);
+  // Once a control tick. The hazards of kinds that were not felt at the tick before.
+  std::vector<messages::VehicleHazard> Feel(const truth::RoverState& state,
+                                            const messages::WheelCommand& command,
+                                            double duration_s);
 
   // Operators moved the rover by hand: nothing is felt, and nothing of what was felt before counts
   // towards a hazard.
   void Resume(const truth::RoverState& state);
 
-  // Of the last tick; null where nothing is felt.
-  const messages::VehicleHazard* hazard() const { return felt_ ? &*felt_ : nullptr; }
+  // Of the last tick: what the rover has to get away from, null where there is nothing.
+  const messages::VehicleHazard* hazard() const { return hazard_ ? &*hazard_ : nullptr; }
+  bool touches_behind() const { return felt_.touches_behind; }
 
-  // How often a hazard of that kind appeared.
+  // How often a hazard of that kind appeared, whatever else was felt.
   std::int64_t count(messages::VehicleHazardKind kind) const {
     return counts_[static_cast<std::size_t>(kind)];
   }
@@ -45,7 +48,8 @@ class VehicleGuard {
   bool on_;
   sensing::VehicleSensors sensors_;
   perception::VehicleHazardDetector detector_;
-  std::optional<messages::VehicleHazard> felt_;
+  perception::FeltHazards felt_;
+  std::optional<messages::VehicleHazard> hazard_;
   std::array<std::int64_t, messages::kVehicleHazardKindCount> counts_{};
 };
 

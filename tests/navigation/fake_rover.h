@@ -127,6 +127,10 @@ struct DriveSetup {
   HazardSource hazards = Always(kClear);
   HazardSensor sensor = HazardSensor::kOn;
   FeltSource felt = Nothing();
+  // Beside what is felt.
+  std::function<bool(const FakeRover& rover)> touches_behind = [](const FakeRover&) {
+    return false;
+  };
 };
 
 // One control tick: what the navigator saw and decided.
@@ -172,7 +176,9 @@ class Drive {
       tick.report = report.stripe_hazard;
     }
     const std::optional<messages::VehicleHazard> felt = setup_.felt(rover_);
-    if (felt) input.vehicle_hazard = &*felt;
+    input.touches_behind = felt && felt->side == messages::HazardSide::kBehind;
+    if (felt && !input.touches_behind) input.vehicle_hazard = &*felt;
+    input.touches_behind |= setup_.touches_behind(rover_);
     tick.decision = navigator_.Decide(input);
     if (tick.moves()) rover_.Move(tick.decision.motion);
     log_.push_back(tick);

@@ -143,6 +143,21 @@ TEST(VehicleReactionTest, TouchBehindEndsTheBackOffAndNothingElse) {
   EXPECT_EQ(Find(calm.log(), 0, Backs), calm.log().size());
 }
 
+// The slope that the rover backs away from does not hide the rock behind it.
+TEST(VehicleReactionTest, TouchBehindEndsTheBackOffFromATiltThatLasts) {
+  DriveSetup setup;
+  setup.felt = [started = false](const FakeRover& rover) mutable -> std::optional<VehicleHazard> {
+    started = started || rover.X_WR().x_m >= 1.0;
+    if (!started) return std::nullopt;
+    return VehicleHazard{VehicleHazardKind::kTilt, HazardSide::kAhead};
+  };
+  setup.touches_behind = [](const FakeRover& rover) { return rover.X_WR().x_m <= 0.95; };
+  setup.start.x_m = 0.96;
+  Drive drive(setup);
+  ASSERT_TRUE(drive.StepUntil(Turns));
+  EXPECT_NEAR(drive.rover().X_WR().x_m, 0.95, 2.0 * 0.15 * 0.05);
+}
+
 // A lasting hazard does not keep the rover from ending its reaction; then it starts another one.
 int BackOffs(const std::vector<Tick>& log) {
   int count = 0;

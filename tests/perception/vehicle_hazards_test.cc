@@ -22,7 +22,7 @@ VehicleHazardParams AtOnce() {
 }
 
 std::optional<messages::VehicleHazard> Felt(const VehicleState& state) {
-  return VehicleHazardDetector(AtOnce()).Observe(state);
+  return HazardToAvoid(VehicleHazardDetector(AtOnce()).Observe(state));
 }
 
 void ExpectFelt(const VehicleState& state, VehicleHazardKind kind, HazardSide side) {
@@ -112,7 +112,6 @@ TEST(ContactTest, SideIsThatOfTheSwitch) {
   ExpectFelt(Touched({ContactSwitch::kRightEdge}), kContact, HazardSide::kRight);
   ExpectFelt(Touched({ContactSwitch::kFrontCentre}), kContact, HazardSide::kAhead);
   ExpectFelt(Touched({ContactSwitch::kUndercarriage}), kContact, HazardSide::kAhead);
-  ExpectFelt(Touched({ContactSwitch::kRearEdge}), kContact, HazardSide::kBehind);
   ExpectFelt(Touched({ContactSwitch::kFrontLeft, ContactSwitch::kFrontRight}), kContact,
              HazardSide::kAhead);
   ExpectFelt(Touched({ContactSwitch::kFrontCentre, ContactSwitch::kFrontLeft}), kContact,
@@ -121,20 +120,51 @@ TEST(ContactTest, SideIsThatOfTheSwitch) {
              HazardSide::kAhead);
 }
 
+// A pressed rear switch is no hazard to get away from, and hides none.
+TEST(ContactTest, TouchBehindHidesNothing) {
+  VehicleState state = Leaning(30, 0);
+  state.contact = Touched({ContactSwitch::kRearEdge}).contact;
+  ExpectFelt(state, VehicleHazardKind::kTilt, HazardSide::kLeft);
+  const FeltHazards felt = VehicleHazardDetector(AtOnce()).Observe(state);
+  EXPECT_TRUE(felt.touches_behind);
+  ASSERT_TRUE(felt.by_kind[0]);
+  EXPECT_EQ(felt.by_kind[0]->side, HazardSide::kBehind);
+
+  const FeltHazards both = VehicleHazardDetector(AtOnce()).Observe(
+      Touched({ContactSwitch::kRearEdge, ContactSwitch::kFrontLeft}));
+  EXPECT_TRUE(both.touches_behind);
+  EXPECT_EQ(both.by_kind[0]->side, HazardSide::kLeft);
+
+  EXPECT_FALSE(Felt(Touched({ContactSwitch::kRearEdge})));
+  EXPECT_FALSE(
+      VehicleHazardDetector(AtOnce()).Observe(Touched({ContactSwitch::kFrontLeft})).touches_behind);
+}
+
+TEST(ContactTest, TouchBehindHoldsForTicksInARow) {
+  VehicleHazardParams params;
+  params.contact_ticks = 2;
+  VehicleHazardDetector detector(params);
+  const VehicleState behind = Touched({ContactSwitch::kRearEdge});
+  EXPECT_FALSE(detector.Observe(behind).touches_behind);
+  EXPECT_TRUE(detector.Observe(behind).touches_behind);
+  detector.Reset();
+  EXPECT_FALSE(detector.Observe(behind).touches_behind);
+}
+
 TEST(VehicleHazardDetectorTest, HoldsForTicksInARow) {
   VehicleHazardParams params;
   params.tilt_ticks = 3;
   VehicleHazardDetector detector(params);
   const VehicleState steep = Leaning(30, 0);
   const VehicleState level = Leaning(0, 0);
-  EXPECT_FALSE(detector.Observe(steep));
-  EXPECT_FALSE(detector.Observe(steep));
-  EXPECT_FALSE(detector.Observe(level));  // counts from the beginning again
-  EXPECT_FALSE(detector.Observe(steep));
-  EXPECT_FALSE(detector.Observe(steep));
-  EXPECT_TRUE(detector.Observe(steep));
-  EXPECT_TRUE(detector.Observe(steep));
-  EXPECT_FALSE(detector.Observe(level));
+  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep)));
+  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep)));
+  EXPECT_FALSE(HazardToAvoid(detector.Observe(level)));  // counts from the beginning again
+  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep)));
+  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep)));
+  EXPECT_TRUE(HazardToAvoid(detector.Observe(steep)));
+  EXPECT_TRUE(HazardToAvoid(detector.Observe(steep)));
+  EXPECT_FALSE(HazardToAvoid(detector.Observe(level)));
 }
 
 TEST(VehicleHazardDetectorTest, ResetForgetsTheTicksCounted) {
@@ -142,12 +172,12 @@ TEST(VehicleHazardDetectorTest, ResetForgetsTheTicksCounted) {
   params.tilt_ticks = 3;
   VehicleHazardDetector detector(params);
   const VehicleState steep = Leaning(30, 0);
-  EXPECT_FALSE(detector.Observe(steep));
-  EXPECT_FALSE(detector.Observe(steep));
+  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep)));
+  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep)));
   detector.Reset();
-  EXPECT_FALSE(detector.Observe(steep));
-  EXPECT_FALSE(detector.Observe(steep));
-  EXPECT_TRUE(detector.Observe(steep));
+  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep)));
+  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep)));
+  EXPECT_TRUE(HazardToAvoid(detector.Observe(steep)));
 }
 
 TEST(VehicleHazardDetectorTest, TouchComesFirstAndMissingSensorsSayNothing) {

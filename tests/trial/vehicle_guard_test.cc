@@ -41,7 +41,7 @@ truth::RoverState Touching(const rover::RoverGeometryParams& size, double end) {
 // One control tick at a state. True where something has appeared.
 bool Feel(VehicleGuard& guard, const truth::RoverState& state) {
   guard.Observe(state);
-  return guard.Feel(state, {}, kTick_s);
+  return !guard.Feel(state, {}, kTick_s).empty();
 }
 
 TEST(VehicleGuardTest, TouchesFromBeforeAHandMoveAreForgotten) {
@@ -59,6 +59,26 @@ TEST(VehicleGuardTest, TouchesFromBeforeAHandMoveAreForgotten) {
       EXPECT_EQ(guard.hazard(), nullptr) << latency;
     }
     EXPECT_EQ(guard.count(VehicleHazardKind::kContact), 1);
+  }
+}
+
+// Every kind is counted when it appears, also one that appears beside another.
+TEST(VehicleGuardTest, CountsEachKindWhenItAppears) {
+  const scenario::Scenario scenario = Feeling(0);
+  for (const double end : {+1.0, -1.0}) {  // touches ahead, behind
+    VehicleGuard guard(scenario, {1, 0});
+    truth::RoverState state = Touching(scenario.rover.geometry, end);
+    state.X_WR.linear() = Leaning(math::DegToRad(35.0)).X_WR.linear();
+    for (int tick = 0; tick < 5; ++tick) Feel(guard, state);
+    EXPECT_EQ(guard.count(VehicleHazardKind::kContact), 1);
+    EXPECT_EQ(guard.count(VehicleHazardKind::kTilt), 1);
+    EXPECT_EQ(guard.touches_behind(), end < 0.0);
+    ASSERT_NE(guard.hazard(), nullptr);
+    EXPECT_EQ(guard.hazard()->kind,
+              end < 0.0 ? VehicleHazardKind::kTilt : VehicleHazardKind::kContact);
+    // Nothing appears where the touch ends and the tilt lasts.
+    EXPECT_FALSE(Feel(guard, Leaning(math::DegToRad(35.0))));
+    EXPECT_EQ(guard.count(VehicleHazardKind::kTilt), 1);
   }
 }
 
