@@ -33,6 +33,10 @@ Scenario WithBaseline(Scenario scenario, double baseline_m) {
   return scenario;
 }
 
+// Contribution of one measured error to the mean range that a column stands for: errors uniform
+// over a column have a quarter of it as their mean magnitude.
+double RangeOfAPixel(double range_error_m) { return 4.0 * std::abs(range_error_m); }
+
 // Columns of one scanline to points, with one calibration.
 class Scanline {
  public:
@@ -139,9 +143,7 @@ class PlaneStudy final : public HazardStudyRunner {
   static void AddPoint(const Scanline& seen, const Scanline& real,
                        const messages::StripePixel& pixel, double elevation_m,
                        std::vector<double>& sums) {
-    const double pitch = real.Pitch();
     sums[0] += 1.0;
-    sums[9] += pitch * kStatedRange_m * kStatedRange_m / real.Baseline();
     if (!pixel.detected) return;
     const auto column = real.ColumnOf(elevation_m, pixel.column_px);
     if (!column) return;
@@ -149,6 +151,7 @@ class PlaneStudy final : public HazardStudyRunner {
     const double range_error_m = seen.Range(pixel.column_px) - range_m;
     const double elevation_error_m = seen.Elevation(pixel.column_px) - elevation_m;
     const double step_m = std::abs(real.Range(*column + 0.5) - real.Range(*column - 0.5));
+    const double scale = kStatedRange_m / range_m;
     const double row[] = {1.0,
                           range_m,
                           range_error_m,
@@ -156,7 +159,8 @@ class PlaneStudy final : public HazardStudyRunner {
                           elevation_error_m,
                           elevation_error_m * elevation_error_m,
                           step_m,
-                          pitch * range_m * range_m / real.Baseline()};
+                          real.Pitch() * range_m * range_m / real.Baseline(),
+                          RangeOfAPixel(range_error_m) * scale * scale};
     for (std::size_t i = 0; i < std::size(row); ++i) sums[i + 1] += row[i];
   }
 

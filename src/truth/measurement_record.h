@@ -87,8 +87,9 @@ inline constexpr std::array kMeasuredColumns = {
                    "found"},
     MeasuredColumn{"equation_2_m", "m", "the same by pitch range^2 / baseline", ColumnRole::kSum,
                    "found"},
-    MeasuredColumn{"resolution_30cm_m", "m", "pitch (0.3 m)^2 / baseline", ColumnRole::kSum,
-                   "points"},
+    MeasuredColumn{"resolution_30cm_m", "m",
+                   "four times the magnitude of the range error, times (0.3 m / range)^2",
+                   ColumnRole::kSum, "found"},
 };
 
 // Null where no such column is known.

@@ -1,10 +1,8 @@
 // Studies of hazard detection against what follows without a simulation.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -18,27 +16,13 @@
 #include "math/angles.h"
 #include "sensing/light_stripe.h"
 #include "statistics/proportions.h"
-#include "trial/scan_watcher.h"
 
 namespace rockyard::experiments {
 namespace {
 
 constexpr double kAlpha = 1e-4;  // of each statistical statement below
 
-// One column of run 0, added up over the given number of scenes.
-double Count(const scenario::Scenario& scenario, const std::string& column, std::uint64_t run = 0) {
-  const auto experiment = MakeExperiment(scenario);
-  const truth::Record record = experiment->Run(1, run);
-  EXPECT_EQ(record.outcome, truth::TrialOutcome::kMeasured) << record.detail;
-  return ValueOf(experiment->schema(), record, column);
-}
-
 const std::vector<std::string> kNoNoise{"sensors.light_stripe.wrong_place_probability=0"};
-
-std::vector<std::string> With(std::vector<std::string> all, const std::vector<std::string>& more) {
-  all.insert(all.end(), more.begin(), more.end());
-  return all;
-}
 
 // Without a rock nothing is caused by one, whatever the noise.
 TEST(HazardPhysicsTest, NoRockIsNeverDetected) {
@@ -169,103 +153,6 @@ TEST(HazardPhysicsTest, PersistentOutliersPassTheTwoScanRule) {
   EXPECT_LT(Count(scenario, "alarm_pair", 0), 0.02 * Count(scenario, "alarm_single", 0));
   // All 20 points keep their lot with 0.9 each; the one that matters and no new one: over 0.7.
   EXPECT_GT(Count(scenario, "alarm_pair", 1), 0.7 * alarms);
-}
-
-// One scan of a drive: its number, and how far the rover has come.
-struct DriveScan {
-  std::int64_t number;
-  double x_m;
-};
-
-// Scans of run 0 by scene, each in the order in which they were taken.
-std::map<std::uint32_t, std::vector<DriveScan>> ScansByDrive(const scenario::Scenario& scenario) {
-  std::map<std::uint32_t, std::vector<DriveScan>> drives;
-  const auto watch = [&](const trial::WatchedScan& seen) {
-    drives[seen.key.trial].push_back({seen.scan.number, seen.X_WR.translation().x()});
-  };
-  EXPECT_EQ(MakeExperiment(scenario, watch)->Run(1, 0).outcome, truth::TrialOutcome::kMeasured);
-  return drives;
-}
-
-// The closed loop numbers scans one after the other, so that a point keeps its lot with chance r
-// from the last scan at one pose to the first at the next. Every wrong point takes more scans at
-// its pose.
-TEST(HazardPhysicsTest, ScansOnTheWayToARockAreNumberedOneAfterTheOther) {
-  const scenario::Scenario scenario =
-      HazardScenario("approach", {"hazard_detection.scenes_per_run=50",
-                                  "sensors.light_stripe.outlier_persistence=0.5",
-                                  "hazard_detection.heights_m=[0]"});
-  int poses = 0;
-  int rescans = 0;
-  for (const auto& [scene, scans] : ScansByDrive(scenario)) {
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-      EXPECT_EQ(scans[i].number, static_cast<std::int64_t>(i)) << "scene " << scene;
-      ++(i > 0 && scans[i].x_m == scans[i - 1].x_m ? rescans : poses);
-    }
-  }
-  EXPECT_GT(poses, 200);
-  EXPECT_GT(rescans, 10);
-}
-
-// The same through fields, where poses without a hazard ahead are not looked at: each of them
-// counts as one scan.
-TEST(HazardPhysicsTest, ScansThroughAFieldAreNumberedOneAfterTheOther) {
-  const scenario::Scenario scenario = HazardScenario(
-      "missed",
-      {"hazard_detection.scenes_per_run=20", "sensors.light_stripe.outlier_persistence=0.5"});
-  const double interval_m = scenario.hazard_detection.scan_interval_m;
-  const auto poses_in = [&](double way_m) { return std::llround(way_m / interval_m); };
-  int scanned_next = 0;
-  int skipped = 0;
-  for (const auto& [scene, scans] : ScansByDrive(scenario)) {
-    // The drive begins within the first interval.
-    EXPECT_EQ(scans[0].number, std::floor((scans[0].x_m - scenario.course.start_x_m) / interval_m));
-    for (std::size_t i = 1; i < scans.size(); ++i) {
-      const std::int64_t way = poses_in(scans[i].x_m - scans[i - 1].x_m);
-      EXPECT_EQ(scans[i].number - scans[i - 1].number, std::max<std::int64_t>(way, 1))
-          << "scene " << scene;
-      scanned_next += way == 1;
-      skipped += way > 1;
-    }
-  }
-  EXPECT_GT(scanned_next, 20);
-  EXPECT_GT(skipped, 3);
-}
-
-// Uniform rounding of a column: the error's root mean square is one pixel's range over the root of
-// 12. One pixel's range is pitch r^2 / baseline within the obliqueness of the fans.
-TEST(HazardPhysicsTest, RangeErrorsAreThoseOfRoundedColumns) {
-  const auto experiment = MakeExperiment(HazardScenario(
-      "precision",
-      {"hazard_detection.baselines_m=[0.05, 0.12]", "hazard_detection.rows=[0, 3]",
-       "hazard_detection.plane_heights_m=[0]", "hazard_detection.scenes_per_run=2000"}));
-  const truth::RecordSchema& schema = experiment->schema();
-  for (std::uint64_t cell = 0; cell < 4; ++cell) {
-    const truth::Record record = experiment->Run(1, cell);
-    const double found = ValueOf(schema, record, "found");
-    EXPECT_EQ(found, ValueOf(schema, record, "points"));
-    const double rms = std::sqrt(ValueOf(schema, record, "range_error_m") / found);
-    const double step = ValueOf(schema, record, "range_step_m") / found;
-    EXPECT_NEAR(rms * std::sqrt(12.0) / step, 1.0, 0.05) << "cell " << cell;
-    const double bias = ValueOf(schema, record, "range_bias_m") / found;
-    EXPECT_LT(std::abs(bias), 0.05 * step) << "cell " << cell;
-    EXPECT_GT(step, 0.0);
-  }
-}
-
-// pitch (0.3 m)^2 / baseline with the 4 mm lens: 8.9 mm / 768 / 4 mm = 2.897 mrad.
-TEST(HazardPhysicsTest, ResolutionAtThirtyCentimetres) {
-  const auto experiment = MakeExperiment(HazardScenario(
-      "precision", {"hazard_detection.baselines_m=[0.05, 0.1, 0.12]", "hazard_detection.rows=[0]",
-                    "hazard_detection.plane_heights_m=[0]"}));
-  const double pitch = 0.0089 / 768.0 / 0.004;
-  const double baselines[] = {0.05, 0.1, 0.12};
-  for (std::uint64_t cell = 0; cell < 3; ++cell) {
-    const truth::Record record = experiment->Run(1, cell);
-    EXPECT_NEAR(ValueOf(experiment->schema(), record, "resolution_30cm_m") /
-                    ValueOf(experiment->schema(), record, "points"),
-                pitch * 0.09 / baselines[cell], 1e-9);
-  }
 }
 
 terrain::Rock RockAt(double x_m, double y_m, double a_m, double b_m, double yaw_rad) {
