@@ -33,7 +33,8 @@ void VisitSearch(LightStripeParams& p, core::FieldVisitor& v) {
             "reaches the height of the cameras or emitters, where a scanline holds no point",
             "use a value below camera_height_m and emitter_height_m, counted from datum_z_m");
   v.Real("max_range_m", p.max_range_m,
-         {.doc = "largest distance from the camera at which a stripe is bright enough",
+         {.doc = "largest distance from the camera at which a stripe is bright enough (geometric "
+                 "level); images show rocks that far",
           .min = 0.05,
           .max = 10.0,
           .origin = Origin::kAssumed,
@@ -44,17 +45,18 @@ void VisitSearch(LightStripeParams& p, core::FieldVisitor& v) {
 
 void VisitErrors(LightStripeParams& p, core::FieldVisitor& v) {
   v.Real("wrong_place_probability", p.wrong_place_probability,
-         {.doc = "chance that a point is detected in the wrong place of its scanline",
+         {.doc = "chance that a point is detected in the wrong place of its scanline (geometric "
+                 "level only)",
           .min = 0.0,
           .max = 1.0,
           .origin = Origin::kPublished,
           .source = kSection6});
   v.Choice("wrong_place", p.wrong_place,
-           {.doc = "where such a point appears",
+           {.doc = "where such a point appears (geometric level only)",
             .origin = Origin::kAssumed,
             .source = "a wrong peak is found where a peak is looked for"});
   v.Real("missed_probability", p.missed_probability,
-         {.doc = "chance that a visible point is not detected",
+         {.doc = "chance that a visible point is not detected (geometric level only)",
           .min = 0.0,
           .max = 1.0,
           .origin = Origin::kAssumed,
@@ -63,9 +65,11 @@ void VisitErrors(LightStripeParams& p, core::FieldVisitor& v) {
           .study_high = 0.01});
   v.Reals(
       "missed_at", p.missed_at,
-      {.doc = "the same for each point, row by row from the nearest, left to right, in place of "
-              "missed_probability; empty: the same for all. Faint light misses the farthest and "
-              "outermost points first: scripts/fit_stripe_errors.py fits them to images",
+      {.doc =
+           "the same for each point, row by row from the nearest, left to right, in place of "
+           "missed_probability (geometric level only); empty: the same for all. Faint light "
+           "misses the farthest and outermost points first: scripts/fit_stripe_errors.py fits them "
+           "to images",
        .min = 0.0,
        .max = 1.0,
        .origin = Origin::kSetting});
@@ -75,7 +79,7 @@ void VisitErrors(LightStripeParams& p, core::FieldVisitor& v) {
             "give rows times stripes values, or none");
   v.Real("outlier_persistence", p.outlier_persistence,
          {.doc = "chance that a point keeps from one scan to the next whether and where it is "
-                 "misplaced; 0: scans are independent",
+                 "misplaced; 0: scans are independent (geometric level only)",
           .min = 0.0,
           .max = 0.99,
           .origin = Origin::kAssumed,
@@ -84,7 +88,8 @@ void VisitErrors(LightStripeParams& p, core::FieldVisitor& v) {
           .study_low = 0.0,
           .study_high = 0.5});
   v.Real("column_noise_px", p.column_noise_px,
-         {.doc = "standard deviation by which found columns are off, before rounding to pixels",
+         {.doc = "standard deviation by which found columns are off, before rounding to pixels "
+                 "(geometric level only)",
           .min = 0.0,
           .max = 100.0,
           .origin = Origin::kAssumed,

@@ -46,7 +46,9 @@ void SunParams::Visit(core::FieldVisitor& v) {
        .min = 0.0,
        .max = 100.0,
        .origin = Origin::kPublished,
-       .source = "ASTM G173-03, extraterrestrial: mean over 850 to 870 nm"});
+       .source =
+           "ASTM G173-03, extraterrestrial: mean over 850 to 870 nm, taken for the whole passband, "
+           "830 to 870 nm by default"});
   v.Real("distance_au", distance_au,
          {.doc = "from the sun; irradiance falls with its square",
           .min = 0.1,
