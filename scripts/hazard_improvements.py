@@ -3,19 +3,21 @@
 
 Usage: scripts/hazard_improvements.py ROCKYARD OUT [--share S]
 
-Runs scenarios/hazard_detection with each improvement (run folders below OUT; those that are there
-already are read, not run again) and prints two tables in Markdown. S scales the number of runs.
+Runs scenarios/hazard_detection with each improvement (run folders below OUT; what is there goes on
+where it stopped) and prints two tables in Markdown and the program that made them. S scales the
+number of runs. Alarms are rates of a scan, not of an alarm.
   geometric  denser arrays: height at which half of the rocks are seen, false alarms
   image      beam fan, lasers at once, imager: rocks seen and false alarms from images
 """
 
 import argparse
 import json
-import subprocess
 import sys
 from pathlib import Path
 
-SCENARIOS = Path(__file__).resolve().parent.parent / "scenarios" / "hazard_detection"
+import study
+
+SCENARIOS = study.ROOT / "scenarios/hazard_detection"
 SENSOR = "sensors.light_stripe."
 STRIPES_9 = [f"{SENSOR}stripe_subdivision=2", "navigation.pathfinder.left_stripes=[0,1,2,3]",
              "navigation.pathfinder.centre_stripes=[4]",
@@ -48,17 +50,14 @@ FAINT_SUN_DEG = 70
 
 
 def run(options, name, scenario, overrides):
-    """Returns the summary of a run, made where it is not there yet."""
+    """Runs a scenario with overrides, or goes on with its run; returns the summary."""
     folder = options.out / f"{scenario}-{name}".replace(" ", "_").replace(",", "").replace("/", "-")
-    if not (folder / "summary.json").exists():
-        path = SCENARIOS / f"{scenario}.json"
-        trials = json.loads(path.read_text())["trials"]
-        words = [options.rockyard, "run", path, "--out", folder, "--quiet", "--resume", "--trials",
-                 str(max(1, round(trials * options.share)))]
-        for override in overrides:
-            words += ["--set", override]
-        subprocess.run(words, check=True)
-    return json.loads((folder / "summary.json").read_text())
+    path = SCENARIOS / f"{scenario}.json"
+    trials = json.loads(path.read_text(encoding="utf-8"))["trials"]
+    options.trials = max(1, round(trials * options.share))
+    summary = study.run_scenario(options, path, folder, overrides)
+    options.programs.add(study.program(summary))
+    return summary
 
 
 def crossing(summary):
@@ -80,7 +79,7 @@ def pooled(summary, rate):
 def geometric(options):
     """Prints the table of denser arrays."""
     print("| array | half are seen at | of rocks of 7.5 cm | false alarms a scan, 1 wrong point in "
-          "100 | of these believed |\n|---|---|---|---|---|")
+          "100 | believed alarms a scan |\n|---|---|---|---|---|")
     for name, overrides in GEOMETRIC.items():
         factor = run(options, name, "height_factor", overrides)
         alarms = run(options, name, "false_alarm",
@@ -94,7 +93,7 @@ def geometric(options):
 def image(options):
     """Prints the table of better lights and imagers."""
     print("\n| sensor, from images | rocks seen by one scan | believed | false alarms a scan in faint "
-          "light | of these believed |\n|---|---|---|---|---|")
+          "light | believed alarms a scan |\n|---|---|---|---|---|")
     for name, (overrides, share) in IMAGE.items():
         power = [f"{SENSOR}laser.input_power_w={LASER_W * share:g}"]
         seen = run(options, name, "detection_image", overrides + power)
@@ -111,11 +110,16 @@ def main():
     parser.add_argument("out", type=Path, help="folder for the runs")
     parser.add_argument("--share", type=float, default=1.0, help="of the scenarios' runs")
     parser.add_argument("--level", choices=["geometric", "image", "both"], default="both")
+    parser.add_argument("--seed", type=int, default=1, help="seed of the runs")
+    parser.add_argument("--threads", type=int, default=1)
     options = parser.parse_args()
+    options.programs = set()
     if options.level != "image":
         geometric(options)
     if options.level != "geometric":
         image(options)
+    print(f"\n{options.share:g} of the shipped runs, seed {options.seed}; made by rockyard "
+          f"{', '.join(sorted(options.programs))}.")
     return 0
 
 

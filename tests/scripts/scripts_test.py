@@ -317,6 +317,42 @@ END
                       "\n".join(self.lines("sensor_suite/sensor_suite.md")))
 
 
+class HazardImprovements(ScriptTest):
+    """With a rockyard that measures as many scenes a cell as it is told runs."""
+
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(ROOT / "scenarios/hazard_detection", self.root / "scenarios/hazard_detection")
+        self.fake("build/release/bin/rockyard").write_text("""#!/bin/sh
+echo "rockyard $*" >> "$CALLS"
+while [ $# -gt 1 ]; do
+  case "$1" in --out) out=$2 ;; --trials) trials=$2 ;; esac
+  shift
+done
+mkdir -p "$out"
+rate="{\\"rate\\": 0.5, \\"count\\": $trials, \\"trials\\": $trials}"
+echo "{\\"provenance\\": {\\"version\\": \\"0.1.0\\", \\"commit\\": \\"abc\\"}, \\"cells\\": [
+  {\\"height_m\\": 0.075, \\"detected_double\\": $rate, \\"alarm_single\\": $rate,
+   \\"alarm_believed\\": $rate}]}" > "$out/summary.json"
+""", encoding="utf-8")
+
+    def test_another_share_or_build_never_reads_the_runs_that_are_there(self):
+        rockyard = self.root / "build/release/bin/rockyard"
+        out = self.root / "out"
+        for share, trials in ((0.2, 240), (0.4, 480)):
+            self.calls.write_text("", encoding="utf-8")
+            result = self.run_script("hazard_improvements.py", rockyard, out, "--level", "geometric",
+                                     "--share", str(share))
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(len(self.called("rockyard")), 10)
+            self.assertEqual(result.stdout.count(f"1.0000 of {trials} "), 10)
+            self.assertIn(f"{share} of the shipped runs, seed 1; made by rockyard 0.1.0 abc.",
+                          result.stdout)
+        for line in self.called("rockyard"):
+            self.assertIn("--resume --force", line)
+        self.assertNotIn("of these", result.stdout)
+
+
 class StudyStatistics(unittest.TestCase):
     """The numbers of scripts/study.py against published or independently computed ones."""
 
