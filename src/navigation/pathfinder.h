@@ -17,28 +17,10 @@
 
 #include "navigation/navigator.h"
 #include "navigation/pathfinder_params.h"
+#include "navigation/pathfinder_rules.h"
 #include "navigation/vehicle_reaction.h"
 
 namespace rockyard::navigation {
-
-// Sides on which a report shows hazards.
-struct HazardSides {
-  bool left = false;
-  bool centre = false;
-  bool right = false;
-
-  bool any() const { return left || centre || right; }
-};
-
-HazardSides ClassifySides(const messages::HazardReport& report, const PathfinderParams& params);
-
-// Turn direction (+1 left, -1 right) that the rules choose. `goal_bearing_rad` is positive when the
-// goal lies to the left. Requires a report with a hazard.
-int ChooseTurn(const messages::HazardReport& report, double goal_bearing_rad,
-               const PathfinderParams& params);
-
-// Curvature (1/m, positive left) that leads towards a goal at the given bearing.
-double CurvatureToGoal(double goal_bearing_rad, const PathfinderParams& params);
 
 class PathfinderNavigator final : public Navigator {
  public:

@@ -50,22 +50,6 @@ Activity ActivityOf(const messages::MotionCommand& motion, bool steering) {
   return motion.kind == MotionKind::kTurnInPlace ? Activity::kTurning : Activity::kDriving;
 }
 
-std::string Name(Activity activity) {
-  switch (activity) {
-    case Activity::kDriving:
-      return "drive";
-    case Activity::kTurning:
-      return "turn";
-    case Activity::kSteering:
-      return "steer";
-    case Activity::kScanning:
-      return "scan";
-    case Activity::kStalled:
-      return "stall";
-  }
-  return "";
-}
-
 // One character a stripe, left to right.
 std::string Pattern(const messages::HazardReport& report) {
   std::string text;
@@ -231,19 +215,6 @@ DriveResult Drive::Finish(const Verdict& verdict) {
   ReportCounts(result.record);
   ReportHazards(result.record);
   return result;
-}
-
-void Drive::Record(std::string kind, std::string detail) {
-  if (trace_ == nullptr) return;
-  trace_->events.push_back(
-      {ledger_.time_s(), math::ToPose2(rover_->state().X_WR), std::move(kind), std::move(detail)});
-}
-
-void Drive::Sample(Activity activity) {
-  if (trace_ == nullptr) return;
-  trace_->samples.push_back({ledger_.time_s(), math::ToPose2(rover_->state().X_WR),
-                             math::Tilt(rover_->state().X_WR), dead_reckoning_.estimate(),
-                             Name(activity)});
 }
 
 DriveResult RunTrial(const Scenario& scenario, core::TrialKey key, truth::Trace* trace,

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "core/check.h"
-#include "navigation/pathfinder.h"
+#include "navigation/pathfinder_rules.h"
 
 namespace rockyard::navigation {
 namespace {
