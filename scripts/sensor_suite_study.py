@@ -85,7 +85,7 @@ def measures(summary, columns):
                                  *(100.0 * end for end in summary["declared_success"]["ci95"])),
         "true success (%)": (100.0 * summary["true_success"]["rate"],
                              *(100.0 * end for end in summary["true_success"]["ci95"])),
-        "hazards missed (%)": tuple(
+        "hazards driven onto unseen (%)": tuple(
             100.0 * value
             for value in study.ratio_interval(columns["hazards_missed"], columns["hazards_met"])),
         "scrapes a trial": study.mean_interval(columns["scrapes"]),

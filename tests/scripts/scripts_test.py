@@ -263,7 +263,7 @@ END
         self.assertEqual(len(self.lines("threshold/threshold.csv")), 7)
         self.assertIn("made by rockyard 0.1.0 abc.", table[-1])
         svg = "\n".join(self.lines("threshold/threshold.svg"))
-        self.assertEqual(svg.count("<polyline"), 8)
+        self.assertEqual(svg.count("<polyline"), 10)
 
     def test_suite_study_drives_every_subset_once(self):
         result = self.run_script("sensor_suite_study.py", "scenarios/mars/mfex_nominal.json")
