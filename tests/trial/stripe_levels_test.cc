@@ -37,9 +37,9 @@ struct Decision {
   bool any = false;
 };
 
-// Single scans of the scenes as one level sees them.
+// Single scans of the scenes as one level sees them; draw 1 has other noise than draw 0.
 std::vector<Decision> Decisions(const Scenario& scenario, Fidelity fidelity,
-                                double inner_shift_m = 0.0) {
+                                double inner_shift_m = 0.0, std::uint64_t draw = 0) {
   // What is on board is right, and so is the hardware but for the shift.
   const perception::Triangulator triangulator(
       OnboardStripeCalibration(scenario.sensors.light_stripe, {}));
@@ -48,7 +48,10 @@ std::vector<Decision> Decisions(const Scenario& scenario, Fidelity fidelity,
   const LevelOfStripes level(hardware, fidelity);
   std::vector<Decision> decisions;
   for (std::uint32_t index = 0; index < kScenes; ++index) {
-    const auto scan = level.Scan(MakeStripeScene(scenario, SceneKind::kRocks, index));
+    StripeScene scene = MakeStripeScene(scenario, SceneKind::kRocks, index);
+    constexpr std::uint64_t kOtherSeed = 1000;
+    scene.key.seed += draw * kOtherSeed;
+    const auto scan = level.Scan(scene);
     const auto report =
         perception::ReportHazards(triangulator.Elevations(scan), scenario.perception.hazard);
     decisions.push_back({report.stripe_hazard, report.any()});
@@ -79,18 +82,58 @@ Disagreement Compare(const std::vector<Decision>& first, const std::vector<Decis
   return result;
 }
 
+int StripesThatDiffer(const Decision& a, const Decision& b) {
+  int count = 0;
+  for (std::size_t i = 0; i < a.stripes.size(); ++i) count += a.stripes[i] != b.stripes[i];
+  return count;
+}
+
+// Whether `other` differs from `geometric` as often as another draw of the geometric sensor does.
+// Null: given the scene, `other` is one more such draw, so that it and `redrawn` may be exchanged:
+// of the scenes in which one of them differs more, each is the one with chance 1/2, whatever the
+// scenes hold and however the flags of one scan hang together. Exact sign tests.
+struct ShareTest {
+  double scenes_p = 1.0;  // scenes that are called hazardous or not
+  double flags_p = 1.0;   // scenes by the number of their stripes' flags that differ
+};
+
+ShareTest CompareShares(const std::vector<Decision>& other, const std::vector<Decision>& geometric,
+                        const std::vector<Decision>& redrawn) {
+  int scenes[2] = {0, 0};
+  int flags[2] = {0, 0};
+  for (std::size_t i = 0; i < geometric.size(); ++i) {
+    const bool of_other = other[i].any != geometric[i].any;
+    const bool of_redrawn = redrawn[i].any != geometric[i].any;
+    if (of_other != of_redrawn) ++scenes[of_other ? 0 : 1];
+    const int more =
+        StripesThatDiffer(other[i], geometric[i]) - StripesThatDiffer(redrawn[i], geometric[i]);
+    if (more != 0) ++flags[more > 0 ? 0 : 1];
+  }
+  testing::Test::RecordProperty("scenes_other_differs", scenes[0]);
+  testing::Test::RecordProperty("scenes_redrawn_differs", scenes[1]);
+  testing::Test::RecordProperty("flags_other_differs", flags[0]);
+  testing::Test::RecordProperty("flags_redrawn_differs", flags[1]);
+  return {statistics::McNemarExactPValue(scenes[0], scenes[1]),
+          statistics::McNemarExactPValue(flags[0], flags[1])};
+}
+
 class StripeLevelsTest : public testing::TestWithParam<std::string> {};
 
 TEST_P(StripeLevelsTest, HazardDecisionsAgree) {
   const Scenario scenario = Light(GetParam());
   const auto image = Decisions(scenario, Fidelity::kImage);
-  const Disagreement difference = Compare(image, Decisions(scenario, Fidelity::kGeometric));
+  const auto geometric = Decisions(scenario, Fidelity::kGeometric);
+  const Disagreement difference = Compare(image, geometric);
   RecordProperty("hazards", difference.hazards);
   RecordProperty("only_image", difference.only_first);
   RecordProperty("only_geometric", difference.only_second);
   RecordProperty("stripe_flags_that_differ", difference.stripes);
   EXPECT_GT(difference.hazards, 10);
   EXPECT_GT(difference.PValue(), kAlpha);
+  const ShareTest shares =
+      CompareShares(image, geometric, Decisions(scenario, Fidelity::kGeometric, 0.0, 1));
+  EXPECT_GT(shares.scenes_p, kAlpha);
+  EXPECT_GT(shares.flags_p, kAlpha);
 }
 
 TEST_P(StripeLevelsTest, MissedPointsAreAsFrequent) {
@@ -129,6 +172,23 @@ TEST(StripeLevelsControlTest, TellsAShiftedStripe) {
   const Scenario scenario = Light("mars_noon");
   const auto image = Decisions(scenario, Fidelity::kImage);
   EXPECT_LT(Compare(image, Decisions(scenario, Fidelity::kGeometric, 0.03)).PValue(), kAlpha);
+}
+
+// Every tenth decision turned round, hazards and free scenes alike: symmetric, so that McNemar's
+// test sees nothing, but ten in a hundred scenes differ.
+TEST(StripeLevelsControlTest, TellsDecisionsThatDifferBothWays) {
+  const Scenario scenario = Light("mars_noon");
+  const auto geometric = Decisions(scenario, Fidelity::kGeometric);
+  auto flipped = geometric;
+  for (std::size_t i = 0; i < flipped.size(); i += 10) {
+    flipped[i].any = !flipped[i].any;
+    for (bool& stripe : flipped[i].stripes) stripe = !stripe;
+  }
+  EXPECT_GT(Compare(flipped, geometric).PValue(), kAlpha);
+  const ShareTest shares =
+      CompareShares(flipped, geometric, Decisions(scenario, Fidelity::kGeometric, 0.0, 1));
+  EXPECT_LT(shares.scenes_p, kAlpha);
+  EXPECT_LT(shares.flags_p, kAlpha);
 }
 
 // Columns of flat ground against the camera model alone, with light so strong that noise plays no
