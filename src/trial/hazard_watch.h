@@ -26,9 +26,10 @@ bool Reaches(const terrain::Rock& rock, const Zone& zone, const math::Transform&
 // A hazard is a rock of at least min_height_m. It is met once its outline comes within reach of the
 // array: from the front of the rover to the farthest row, as wide as the outermost stripes. It is
 // missed once the front of the rover or a row of wheels is over its outline, if no hazard was
-// believed while it was within reach. Each rock counts once. Scenes are looked at every kLook_m of
-// motion or a turn of kLookCosine, whether or not the rover scans; a look costs some nanoseconds
-// for each hazard of the field.
+// believed while it was within reach: one that is believed credits every rock within reach at that
+// pose, whichever raised it, so that missed() is a lower bound. Each rock counts once. Scenes are
+// looked at every kLook_m of motion or a turn of kLookCosine, whether or not the rover scans; a
+// look costs some nanoseconds for each hazard of the field.
 class HazardWatch {
  public:
   static constexpr double kLook_m = 0.05;

@@ -44,8 +44,9 @@ struct DriveRecord {
   double net_rate_m_s = 0.0;          // true distance over simulated time
   double single_scan_rate_m_s = 0.0;  // the same without the time of rescans
   double scan_energy_wh = 0.0;
-  double hazards_met = 0.0;      // rocks of hazard_height_m or more within reach of the array
-  double hazards_missed = 0.0;   // of these, driven onto without a hazard believed before
+  double hazards_met = 0.0;  // rocks of hazard_height_m or more within reach of the array
+  // Of these, driven onto with no hazard, of whatever rock, believed while they were within reach.
+  double hazards_missed = 0.0;
   double contact_hazards = 0.0;  // times that the rover felt a hazard of that kind appear
   double tilt_hazards = 0.0;
   double articulation_hazards = 0.0;
@@ -110,7 +111,8 @@ inline constexpr std::array kDriveColumns = {
     DriveColumn{"scan_energy_wh", "Wh", "energy of hazard scans", &DriveRecord::scan_energy_wh},
     DriveColumn{"hazards_met", "1", "high rocks that came within reach of the hazard array",
                 &DriveRecord::hazards_met},
-    DriveColumn{"hazards_missed", "1", "of these, driven onto without a hazard believed before",
+    DriveColumn{"hazards_missed", "1",
+                "of these, driven onto with no hazard believed, of any rock, while within reach",
                 &DriveRecord::hazards_missed},
     DriveColumn{"contact_hazards", "1", "touches felt by contact switches",
                 &DriveRecord::contact_hazards},
