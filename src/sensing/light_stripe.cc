@@ -45,6 +45,7 @@ LightStripe::LightStripe(const LightStripeParams& params)
     : params_(params),
       errors_(params),
       calibration_(TrueCalibration(params)),
+      last_column_(static_cast<int>(params.columns / 2)),
       searched_(calibration_.size()) {
   Eigen::AlignedBox3d reach_R;
   for (const messages::StripeCamera& camera : calibration_.cameras) {
@@ -135,8 +136,7 @@ messages::ColumnRange LightStripe::SearchedColumns(const messages::StripeCamera&
       DistanceDownTo(params_.search_high_m + params_.datum_z_m, line.start_R, line.direction_R);
   const int a = ColumnAt(line, nearest_m, camera);
   const int b = ColumnAt(line, line.length_m, camera);
-  const messages::ColumnRange image = camera.image_columns();
-  return {std::max(std::min(a, b), image.first), std::min(std::max(a, b), image.last)};
+  return {std::max(std::min(a, b), -last_column_), std::min(std::max(a, b), last_column_)};
 }
 
 int LightStripe::ColumnAt(const Line& line, double distance_m,

@@ -1,4 +1,4 @@
-// Light stripe sensor: which of its points are found, and in which image column.
+// Light stripe sensor: which of its 20 points are found, and in which image column.
 //
 // Model (Matthies 1995, section 6, table 3). With the lens kEquidistantRows, row r of a camera sees
 // the scanline plane that holds the camera's lateral axis and lies row_angle[r] below its optical
@@ -102,6 +102,7 @@ class LightStripe {
   LightStripeParams params_;
   StripeErrors errors_;
   messages::StripeCalibration calibration_;
+  int last_column_ = 0;  // columns run from -last_column_ to last_column_
   messages::StripeArray<messages::ColumnRange> searched_;
   std::vector<Line> lines_;        // [row][stripe], with straight scanlines
   std::vector<ScanCurve> curves_;  // [row][stripe], with curved ones

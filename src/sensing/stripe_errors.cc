@@ -48,15 +48,16 @@ void StripeErrors::Miss(core::TrialKey key, messages::StripeScan& scan) const {
 template <typename Place>
 void StripeErrors::DrawMisplaced(core::TrialKey key, std::int64_t number, const Searched& searched,
                                  Place place) const {
-  const ColumnRange whole = messages::ImageColumns(static_cast<int>(params_.columns));
+  const int last_column = static_cast<int>(params_.columns / 2);
   core::RandomStream wrong(key, core::Purpose::kStripeWrongPlace, Substream(number));
   messages::StripeArray<bool> misplaced(searched.size());
   for (bool& point : misplaced.points()) {
     point = core::SampleBernoulli(wrong, params_.wrong_place_probability);
   }
   for (std::size_t point = 0; point < misplaced.points().size(); ++point) {
-    const ColumnRange range =
-        params_.wrong_place == WrongPlace::kSearchedPart ? searched.points()[point] : whole;
+    const ColumnRange range = params_.wrong_place == WrongPlace::kSearchedPart
+                                  ? searched.points()[point]
+                                  : ColumnRange{-last_column, last_column};
     if (!misplaced.points()[point] || range.empty()) continue;
     place(point, std::floor(core::SampleUniform(wrong, range.first, range.last + 1.0)));
   }
