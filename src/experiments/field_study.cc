@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/distributions.h"
@@ -10,8 +11,8 @@
 #include "experiments/hazard_judge.h"
 #include "experiments/hazard_study.h"
 #include "experiments/swept_path.h"
-#include "sensing/stripe_layout_params.h"
 #include "terrain/field.h"
+#include "terrain/terrain.h"
 #include "trial/layout.h"
 
 namespace rockyard::experiments {
@@ -22,8 +23,8 @@ using scenario::Scenario;
 
 // A rock in the way.
 struct Hazard {
-  const terrain::Rock* rock;
-  double contact_x_m;  // of the rover's front
+  double contact_x_m;        // of the rover's front
+  terrain::Terrain without;  // the same field without this rock
   bool seen_single = false;
   bool seen_double = false;
 };
@@ -35,8 +36,7 @@ class FieldStudy final : public HazardStudyRunner {
         params_(scenario.hazard_detection),
         table_(params_.Factors()),
         judge_(scenario, watcher),
-        bare_judge_(scenario),
-        lasers_(sensing::TrueCalibration(scenario.sensors.light_stripe).lasers) {}
+        bare_judge_(scenario) {}
 
   std::vector<std::string_view> columns() const override {
     return {"scenes", "path_m", "hazards", "missed_single", "missed"};
@@ -72,13 +72,16 @@ class FieldStudy final : public HazardStudyRunner {
           Needed(hazards, x_m) ? LookFrom(x_m, field.terrain, key, scan_number, hazards) : 1;
     }
     sums[0] += 1.0;
-    sums[1] += course.goal_x_m - course.start_x_m;
+    sums[1] += course.goal_x_m - course.start_x_m - Unseen_m();
     sums[2] += static_cast<double>(hazards.size());
     for (const Hazard& hazard : hazards) {
       sums[3] += hazard.seen_single ? 0.0 : 1.0;
       sums[4] += hazard.seen_double ? 0.0 : 1.0;
     }
   }
+
+  // At the start, where a hazard would be met before it could be scanned from first_scan_m on.
+  double Unseen_m() const { return params_.first_scan_m + params_.scan_interval_m; }
 
   double front_m() const { return scenario_.sensors.light_stripe.front_x_m; }
 
@@ -93,11 +96,20 @@ class FieldStudy final : public HazardStudyRunner {
       const auto contact_x_m = FirstContact(rock, course.start_y_m, half_m);
       if (!contact_x_m) continue;
       const double driven_m = *contact_x_m - front_m() - course.start_x_m;
-      if (driven_m < params_.first_scan_m + params_.scan_interval_m) continue;
+      if (driven_m < Unseen_m()) continue;
       if (driven_m > course.goal_x_m - course.start_x_m) continue;
-      hazards.push_back({&rock, *contact_x_m});
+      hazards.push_back({*contact_x_m, Without(field, rock)});
     }
     return hazards;
+  }
+
+  static terrain::Terrain Without(const terrain::Terrain& field, const terrain::Rock& rock) {
+    std::vector<terrain::Rock> others;
+    for (const terrain::Rock& other : field.rocks()) {
+      if (&other != &rock) others.push_back(other);
+    }
+    const auto walls = field.walls();
+    return {field.ground(), std::move(others), {walls.begin(), walls.end()}};
   }
 
   bool Near(const Hazard& hazard, double x_m) const {
@@ -111,32 +123,22 @@ class FieldStudy final : public HazardStudyRunner {
     });
   }
 
-  // Returns the number of scans.
+  // A hazard is seen where a stripe is charged that would not be charged if this rock were not
+  // there, all noise being the same. Returns the number of scans.
   std::int64_t LookFrom(double x_m, const terrain::Terrain& field, core::TrialKey key,
                         std::int64_t first_scan, std::vector<Hazard>& hazards) const {
     math::Transform X_WR = math::Transform::Identity();
     X_WR.translation() = Vector3(x_m, scenario_.course.start_y_m, 0.0);
     const Sight seen = judge_.Look(field, X_WR, key, first_scan);
-    const Sight bare = bare_judge_.Look(sand_, X_WR, key, first_scan);
-    for (std::size_t stripe = 0; stripe < lasers_.size(); ++stripe) {
-      const bool single = seen.first.Charges(stripe) && !bare.first.Charges(stripe);
-      const bool believed = seen.believed[stripe] && !bare.believed[stripe];
-      if (!single && !believed) continue;
-      for (Hazard& hazard : hazards) {
-        if (!Near(hazard, x_m) || !Lights(lasers_[stripe], X_WR, *hazard.rock)) continue;
-        hazard.seen_single |= single;
-        hazard.seen_double |= believed;
+    for (Hazard& hazard : hazards) {
+      if (!Near(hazard, x_m) || (hazard.seen_single && hazard.seen_double)) continue;
+      const Sight bare = bare_judge_.Look(hazard.without, X_WR, key, first_scan);
+      for (std::size_t stripe = 0; stripe < judge_.stripes(); ++stripe) {
+        hazard.seen_single |= seen.first.Charges(stripe) && !bare.first.Charges(stripe);
+        hazard.seen_double |= seen.believed[stripe] && !bare.believed[stripe];
       }
     }
     return seen.scans;
-  }
-
-  // Whether the vertical light plane meets the circle around the rock.
-  static bool Lights(const messages::StripeLaser& laser, const math::Transform& X_WR,
-                     const terrain::Rock& rock) {
-    const Vector3 normal_W = X_WR.linear() * laser.normal_R;
-    const double distance_m = normal_W.dot(rock.center_W - X_WR * laser.p_RoE_R);
-    return std::abs(distance_m) <= 0.5 * rock.diameter_m;
   }
 
   Scenario scenario_;
@@ -144,8 +146,6 @@ class FieldStudy final : public HazardStudyRunner {
   CellTable table_;
   HazardJudge judge_;
   HazardJudge bare_judge_;
-  std::vector<messages::StripeLaser> lasers_;
-  terrain::Terrain sand_{terrain::Ground(), {}, {}};
 };
 
 }  // namespace

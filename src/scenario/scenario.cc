@@ -83,6 +83,16 @@ void RequireFields(const Scenario& scenario, core::FieldVisitor& v) {
                         [&](double k_per_m2) { return k_per_m2 <= rocks.k_reference_per_m2; }),
             "has a value larger than terrain.rocks.k_reference_per_m2",
             "raise k_reference_per_m2 to at least the largest value of the list");
+  const trial::CourseParams& course = scenario.course;
+  v.Require("course.goal_y_m",
+            course.goal_y_m == course.start_y_m && course.start_heading_rad == 0.0,
+            "or start_heading_deg asks for another drive than straight along x",
+            "use start_y_m, and a heading of 0");
+  v.Require("course.goal_x_m",
+            course.goal_x_m - course.start_x_m > study.first_scan_m + study.scan_interval_m,
+            "lies nearer to the start than hazard_detection.first_scan_m and scan_interval_m "
+            "together, so that no hazard could be scanned before it is met",
+            "move the goal away, or begin to scan later");
 }
 
 // Whether the sensor can be built with the emitters at this baseline.

@@ -52,7 +52,8 @@ inline constexpr std::array kMeasuredColumns = {
     // Bases.
     MeasuredColumn{"scenes", "1", "independent scenes", ColumnRole::kBase},
     MeasuredColumn{"hazards", "1", "rocks in the way that are high enough", ColumnRole::kBase},
-    MeasuredColumn{"path_m", "m", "length of the straight drives", ColumnRole::kBase},
+    MeasuredColumn{"path_m", "m", "length of the straight drives in which hazards count",
+                   ColumnRole::kBase},
     MeasuredColumn{"points", "1", "points that a scan looks for", ColumnRole::kBase},
     // Counts.
     MeasuredColumn{"detected_single", "1", "seen by a single scan", ColumnRole::kCount, "scenes"},

@@ -85,7 +85,8 @@ TEST(TriangulationTest, ElevationIsThatOfThePoint) {
       const auto elevation = triangulator.Elevation(2, 1, column);
       ASSERT_EQ(elevation.detected, point.has_value());
       if (point) {
-        EXPECT_NEAR(elevation.elevation_m, point->z() - 0.03, 1e-12);
+        // Relative to the distance: rays that hardly meet the light plane meet it far away.
+        EXPECT_NEAR(elevation.elevation_m, point->z() - 0.03, 1e-12 * (1.0 + point->norm()));
       }
     }
   }
