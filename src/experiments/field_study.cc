@@ -25,6 +25,7 @@ using scenario::Scenario;
 struct Hazard {
   double contact_x_m;        // of the rover's front
   terrain::Terrain without;  // the same field without this rock
+  terrain::Terrain alone;    // this rock on bare sand
   bool seen_single = false;
   bool seen_double = false;
 };
@@ -98,7 +99,7 @@ class FieldStudy final : public HazardStudyRunner {
       const double driven_m = *contact_x_m - front_m() - course.start_x_m;
       if (driven_m < Unseen_m()) continue;
       if (driven_m > course.goal_x_m - course.start_x_m) continue;
-      hazards.push_back({*contact_x_m, Without(field, rock)});
+      hazards.push_back({*contact_x_m, Without(field, rock), {terrain::Ground(), {rock}, {}}});
     }
     return hazards;
   }
@@ -123,19 +124,28 @@ class FieldStudy final : public HazardStudyRunner {
     });
   }
 
-  // A hazard is seen where a stripe is charged that would not be charged if this rock were not
-  // there, all noise being the same. Returns the number of scans.
+  // Whether a stripe that is charged is charged for this rock, all noise being the same: it would
+  // not be without the rock, or the rock would do it by itself on bare sand.
+  static bool IsDueTo(bool without, bool alone, bool sand) { return !without || (alone && !sand); }
+
+  // Returns the number of scans.
   std::int64_t LookFrom(double x_m, const terrain::Terrain& field, core::TrialKey key,
                         std::int64_t first_scan, std::vector<Hazard>& hazards) const {
     math::Transform X_WR = math::Transform::Identity();
     X_WR.translation() = Vector3(x_m, scenario_.course.start_y_m, 0.0);
     const Sight seen = judge_.Look(field, X_WR, key, first_scan);
+    const Sight sand = bare_judge_.Look(sand_, X_WR, key, first_scan);
     for (Hazard& hazard : hazards) {
       if (!Near(hazard, x_m) || (hazard.seen_single && hazard.seen_double)) continue;
-      const Sight bare = bare_judge_.Look(hazard.without, X_WR, key, first_scan);
+      const Sight without = bare_judge_.Look(hazard.without, X_WR, key, first_scan);
+      const Sight alone = bare_judge_.Look(hazard.alone, X_WR, key, first_scan);
       for (std::size_t stripe = 0; stripe < judge_.stripes(); ++stripe) {
-        hazard.seen_single |= seen.first.Charges(stripe) && !bare.first.Charges(stripe);
-        hazard.seen_double |= seen.believed[stripe] && !bare.believed[stripe];
+        hazard.seen_single |= seen.first.Charges(stripe) &&
+                              IsDueTo(without.first.Charges(stripe), alone.first.Charges(stripe),
+                                      sand.first.Charges(stripe));
+        hazard.seen_double |=
+            seen.believed[stripe] &&
+            IsDueTo(without.believed[stripe], alone.believed[stripe], sand.believed[stripe]);
       }
     }
     return seen.scans;
@@ -146,6 +156,7 @@ class FieldStudy final : public HazardStudyRunner {
   CellTable table_;
   HazardJudge judge_;
   HazardJudge bare_judge_;
+  terrain::Terrain sand_{terrain::Ground(), {}, {}};
 };
 
 }  // namespace

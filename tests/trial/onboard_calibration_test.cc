@@ -87,7 +87,8 @@ TEST(OnboardCalibrationTest, PitchedCameraRaisesFlatGroundByTheClosedForm) {
     perception::CalibrationErrorParams errors;
     errors.left_camera.pitch_rad = math::DegToRad(pitch_deg);
     for (std::size_t row = 0; row < kStripeRows; ++row) {
-      const double depression = params.camera_pitch_rad + truth.row_angle_rad[row];
+      const double depression =
+          params.camera_pitch_rad + truth.scanline_px[row] * params.row_pitch_rad();
       const double expected =
           h * (1.0 - std::sin(depression + errors.left_camera.pitch_rad) / std::sin(depression));
       EXPECT_NEAR(Raised(errors, row, kStripes / 2), expected, 1e-3 + 0.02 * std::abs(expected));
@@ -117,7 +118,8 @@ TEST(OnboardCalibrationTest, TurnedLaserRaisesFlatGroundByTheClosedForm) {
   perception::CalibrationErrorParams errors;
   errors.lasers.angle_rad[kStripes / 2] = math::DegToRad(1.0);
   for (std::size_t row = 0; row < kStripeRows; ++row) {
-    const double x = h / std::tan(params.camera_pitch_rad + truth.row_angle_rad[row]);
+    const double x =
+        h / std::tan(params.camera_pitch_rad + truth.scanline_px[row] * params.row_pitch_rad());
     const double expected = h * (1.0 - b / (b + x * std::tan(math::DegToRad(1.0))));
     EXPECT_NEAR(Raised(errors, row, kStripes / 2), expected, 1e-3 + 0.03 * std::abs(expected));
     EXPECT_EQ(Raised(errors, row, 0), 0.0);

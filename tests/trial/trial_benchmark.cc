@@ -124,8 +124,9 @@ void Scan(benchmark::State& state, const std::string& name) {
   for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(scan(i++));
   core::Hasher hash;
   for (std::size_t k = 0; k < tracks.poses.size(); ++k) {
-    for (const auto& row : scan(k).pixels) {
-      for (const auto& pixel : row) hash.Integer(pixel.detected).Real(pixel.column_px);
+    const messages::StripeScan seen = scan(k);
+    for (const messages::StripePixel& pixel : seen.pixels.points()) {
+      hash.Integer(pixel.detected).Real(pixel.column_px);
     }
   }
   state.counters["poses"] = static_cast<double>(tracks.poses.size());
