@@ -96,9 +96,8 @@ std::string ComparisonJUnit(const PublishedReference& reference, const Compariso
   for (const ComparedValue& value : result.values) {
     const std::string message = EscapeXml(fmt::format(
         "{}: published {}, predicted {}, p {}, Holm {}, power {}. {}",
-        statistics::Name(value.verdict), Published(value.published),
-        Prediction(value), PValue(value.p_value),
-        PValue(value.holm_p_value), Power(value.power), value.remark));
+        statistics::Name(value.verdict), Published(value.published), Prediction(value),
+        PValue(value.p_value), PValue(value.holm_p_value), Power(value.power), value.remark));
     xml += fmt::format("  <testcase classname=\"{}\" name=\"{}\"",
                        EscapeXml(value.published.scenario), EscapeXml(value.published.id));
     switch (value.verdict) {

@@ -50,7 +50,7 @@ struct RunComparison {
   bool paired = false;
   std::int64_t pairs = 0;  // trials that both runs finished without a simulator fault
   std::vector<SuccessComparison> successes;  // none where nothing drives
-  std::vector<ColumnComparison> columns;  // of both schemas
+  std::vector<ColumnComparison> columns;     // of both schemas
 };
 
 // Equal seed and index mean equal rocks and equal noise, so that differences have far less variance

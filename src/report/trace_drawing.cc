@@ -184,9 +184,9 @@ void DrawFooter(const TracedTrial& trial, Canvas& canvas) {
   canvas.DrawPlus({left_m + 7.6, keys_y_m, 0.0}, "key");
   canvas.DrawText(left_m + 7.75, keys_y_m - 0.06, "scrape");
   canvas.DrawText(left_m, top_m - 0.65,
-                  EscapeXml(fmt::format("{}, seed {}, trial {}: {} ({})", trial.scenario, trial.seed,
-                                      trial.record.trial, truth::Name(trial.record.outcome),
-                                      trial.record.detail)));
+                  EscapeXml(fmt::format("{}, seed {}, trial {}: {} ({})", trial.scenario,
+                                        trial.seed, trial.record.trial,
+                                        truth::Name(trial.record.outcome), trial.record.detail)));
   canvas.GrowDown(kFooter_m);
 }
 

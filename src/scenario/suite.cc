@@ -10,7 +10,8 @@ void SensorParams::Visit(core::FieldVisitor& v) {
             .origin = Origin::kPublished,
             .source = "Matthies 1995 sec. 7: dead reckoning"});
   v.Group("light_stripe", light_stripe, "light stripe hazard sensor");
-  v.Group("sun", sun, "sunlight on the terrain and how bright it is; the images of a sensor see it");
+  v.Group("sun", sun,
+          "sunlight on the terrain and how bright it is; the images of a sensor see it");
   v.Group("gyro", gyro, "turn rate sensor");
   v.Group("encoders", encoders, "wheel encoders");
   v.Group("tracker", tracker, "overhead tracker that reports the true pose in experiments");
