@@ -40,6 +40,7 @@ std::vector<report::GroundOutline> RocksAround(const trial::WatchedScan& watched
   std::vector<int> near;
   watched.terrain.RocksNear(p_WR.x(), p_WR.y(), kShownAround_m, near);
   std::vector<report::GroundOutline> outlines;
+  outlines.reserve(near.size());
   for (const int index : near) {
     outlines.push_back(RockOutline(watched.terrain.rocks()[static_cast<std::size_t>(index)],
                                    watched.X_WR.inverse()));

@@ -43,7 +43,7 @@ class DelayLine {
   T Push(const T& value) {
     if (delay_ == 0) return value;
     values_.push_back(value);
-    const T oldest = values_.front();
+    T oldest = values_.front();
     if (values_.size() > delay_) values_.pop_front();
     return oldest;
   }
