@@ -34,4 +34,17 @@ inline Pose2 ToPose2(const Transform& X_WR) {
   return {X_WR.translation().x(), X_WR.translation().y(), Heading(X_WR)};
 }
 
+// Pose of R at p_WoRo_W with the given attitude: heading about z, then pitch about y (positive:
+// nose down), then roll about x (positive: left side up).
+inline Transform MakePose(const Vector3& p_WoRo_W, double heading_rad, double pitch_rad,
+                          double roll_rad) {
+  Transform X_WR = Transform::Identity();
+  X_WR.linear() = (Eigen::AngleAxisd(heading_rad, Vector3::UnitZ()) *
+                   Eigen::AngleAxisd(pitch_rad, Vector3::UnitY()) *
+                   Eigen::AngleAxisd(roll_rad, Vector3::UnitX()))
+                      .toRotationMatrix();
+  X_WR.translation() = p_WoRo_W;
+  return X_WR;
+}
+
 }  // namespace rockyard::math

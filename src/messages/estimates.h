@@ -15,6 +15,13 @@ struct PoseEstimate {
   double distance_m = 0.0;  // odometer: integral of |forward increments|
 };
 
+// What the rover believes of its stance, beside its planar pose.
+struct AttitudeEstimate {
+  double roll_rad = 0.0;   // about x of the levelled rover frame, positive: left side up
+  double pitch_rad = 0.0;  // about y, positive: nose down
+  double z_m = 0.0;        // of R's origin above where the drive began
+};
+
 // An absolute correction from outside: lander update, arena reflection.
 struct PoseUpdate {
   double x_m = 0.0;

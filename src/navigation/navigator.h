@@ -2,8 +2,12 @@
 // only.
 #pragma once
 
+#include <optional>
+
 #include "messages/commands.h"
 #include "messages/estimates.h"
+#include "messages/navigation_view.h"
+#include "messages/point_cloud.h"
 #include "messages/vehicle_state.h"
 
 namespace rockyard::navigation {
@@ -18,8 +22,11 @@ enum class NavigatorStatus {
 struct NavigatorInput {
   double time_s = 0.0;  // on-board clock since the start
   messages::PoseEstimate estimate;
-  // The report that answers the last request for a scan; null at every other tick.
+  messages::AttitudeEstimate attitude;
+  // What answers the last request for a look; null at every other tick. A behaviour controller
+  // reads the hazard report, a map-based navigator the points.
   const messages::HazardReport* report = nullptr;
+  const messages::PointCloud* cloud = nullptr;
   // What the rover feels at this tick and has to get away from, never a touch behind; null where it
   // feels no such hazard.
   const messages::VehicleHazard* vehicle_hazard = nullptr;
@@ -28,9 +35,11 @@ struct NavigatorInput {
 
 struct NavigatorDecision {
   NavigatorStatus status = NavigatorStatus::kDriving;
-  // Stop and look: the next input carries a report. The motion is ignored.
-  bool scan = false;
+  // Stop and look: the next input carries what was seen. The motion is ignored.
+  std::optional<messages::LookDirection> look;
   messages::MotionCommand motion;
+
+  bool looks() const { return look.has_value(); }
 };
 
 class Navigator {
@@ -45,6 +54,9 @@ class Navigator {
   // have to follow.
   virtual void OnPoseUpdate(const messages::PoseEstimate& before,
                             const messages::PoseEstimate& after) = 0;
+
+  // What the last answered look led to; null where a navigator keeps no map, and before the first.
+  virtual const messages::NavigationView* view() const { return nullptr; }
 };
 
 }  // namespace rockyard::navigation

@@ -24,10 +24,10 @@ bool OnlyOutermostStripes(const HazardReport& report) {
 }
 
 NavigatorDecision Move(const MotionCommand& motion) {
-  return {NavigatorStatus::kDriving, false, motion};
+  return {NavigatorStatus::kDriving, {}, motion};
 }
 
-NavigatorDecision Finish(NavigatorStatus status) { return {status, false, {}}; }
+NavigatorDecision Finish(NavigatorStatus status) { return {status, {}, {}}; }
 
 }  // namespace
 
@@ -151,7 +151,7 @@ NavigatorDecision PathfinderNavigator::ContinueDrive(const NavigatorInput& input
 
 NavigatorDecision PathfinderNavigator::BeginScan() {
   mode_ = Mode::kScanning;
-  return {NavigatorStatus::kDriving, true, {}};
+  return {NavigatorStatus::kDriving, messages::LookDirection::kAhead, {}};
 }
 
 NavigatorDecision PathfinderNavigator::ScanOrGoOn(const NavigatorInput& input) {

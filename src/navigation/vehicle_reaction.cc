@@ -42,7 +42,7 @@ std::optional<NavigatorDecision> VehicleReaction::Begin(const NavigatorInput& in
   }
   if (++repeats_ > params_.max_repeats) {
     if (params_.on_exhausted == ReactionsExhausted::kGiveUp) {
-      return NavigatorDecision{NavigatorStatus::kGaveUp, false, {}};
+      return NavigatorDecision{NavigatorStatus::kGaveUp, {}, {}};
     }
     repeats_ = 0;
     ignored_until_m_ = input.estimate.distance_m + params_.ignore_m;

@@ -37,7 +37,7 @@ class VehicleReaction {
   bool Appeared(const messages::VehicleHazard& hazard) const;
   NavigatorDecision Start(Stage stage, const messages::MotionCommand& motion,
                           const messages::PoseEstimate& estimate);
-  NavigatorDecision GoOn() const { return {NavigatorStatus::kDriving, false, motion_}; }
+  NavigatorDecision GoOn() const { return {NavigatorStatus::kDriving, {}, motion_}; }
 
   VehicleReactionParams params_;
   Stage stage_ = Stage::kNone;

@@ -103,13 +103,18 @@ DriveResult Drive::Run() {
 
 std::optional<Verdict> Drive::Tick() {
   const navigation::NavigatorDecision decision =
-      navigator_->Decide({ledger_.time_s(), dead_reckoning_.estimate(),
-                          report_ ? &*report_ : nullptr, guard_.hazard(), guard_.touches_behind()});
+      navigator_->Decide({.time_s = ledger_.time_s(),
+                          .estimate = dead_reckoning_.estimate(),
+                          .attitude = {},
+                          .report = report_ ? &*report_ : nullptr,
+                          .cloud = nullptr,
+                          .vehicle_hazard = guard_.hazard(),
+                          .touches_behind = guard_.touches_behind()});
   report_.reset();
   if (decision.status != navigation::NavigatorStatus::kDriving) {
     return referee_.OnNavigatorStop(decision.status, rover_->state());
   }
-  if (decision.scan) return Scan();
+  if (decision.looks()) return Scan();
   turns_.Observe(decision.motion);
   return Move(decision.motion, tick_);
 }

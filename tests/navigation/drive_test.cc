@@ -29,7 +29,7 @@ TEST(Drive, ArrivesWhenTheBelievedPositionIsWithinTolerance) {
 
 TEST(Drive, ScansAtRestBeforeTheFirstMove) {
   Drive drive({});
-  EXPECT_TRUE(drive.Step().decision.scan);
+  EXPECT_TRUE(drive.Step().decision.looks());
   const Tick& second = drive.Step();
   EXPECT_TRUE(second.has_report);
   EXPECT_EQ(second.estimate.distance_m, 0.0);
@@ -57,9 +57,9 @@ TEST(Drive, StandsStillWhileItScans) {
   ASSERT_EQ(drive.Run(), NavigatorStatus::kArrived);
   const std::vector<Tick>& log = drive.log();
   for (std::size_t i = 0; i + 1 < log.size(); ++i) {
-    if (!log[i].decision.scan) continue;
+    if (!log[i].decision.looks()) continue;
     EXPECT_EQ(log[i].X_WR.x_m, log[i + 1].X_WR.x_m);
-    EXPECT_FALSE(log[i + 1].decision.scan) << "a report answers a scan";
+    EXPECT_FALSE(log[i + 1].decision.looks()) << "a report answers a scan";
   }
 }
 
@@ -87,7 +87,7 @@ TEST(Drive, KeepsItsCommandWhileNothingIsMeasured) {
   for (int i = 0; i < 1000; ++i) {
     const NavigatorDecision held = drive.HeldDecision(0.1 + 0.05 * i);
     EXPECT_EQ(held.status, NavigatorStatus::kDriving);
-    EXPECT_FALSE(held.scan);
+    EXPECT_FALSE(held.looks());
     EXPECT_EQ(held.motion.kind, driving.motion.kind);
     EXPECT_EQ(held.motion.curvature_per_m, driving.motion.curvature_per_m);
   }

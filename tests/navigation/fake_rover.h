@@ -143,7 +143,7 @@ struct Tick {
   NavigatorDecision decision;
 
   bool moves() const {
-    return !decision.scan && decision.status == NavigatorStatus::kDriving &&
+    return !decision.looks() && decision.status == NavigatorStatus::kDriving &&
            decision.motion.kind != messages::MotionKind::kStop;
   }
   bool turns() const {
@@ -167,7 +167,7 @@ class Drive {
     tick.X_WR = rover_.X_WR();
     messages::HazardReport report;
     NavigatorInput input{.time_s = tick.time_s, .estimate = tick.estimate};
-    if (!log_.empty() && log_.back().decision.scan) {
+    if (!log_.empty() && log_.back().decision.looks()) {
       report.scan_number = scans_;
       report.stripe_hazard = setup_.hazards(rover_, scans_);
       ++scans_;
@@ -248,7 +248,7 @@ inline MeasuredMotion MotionBetween(const std::vector<Tick>& log, std::size_t fi
 inline std::vector<std::size_t> ScanTicks(const std::vector<Tick>& log) {
   std::vector<std::size_t> ticks;
   for (std::size_t i = 0; i < log.size(); ++i) {
-    if (log[i].decision.scan) ticks.push_back(i);
+    if (log[i].decision.looks()) ticks.push_back(i);
   }
   return ticks;
 }

@@ -61,10 +61,10 @@ TEST(Mirror, OnlyTheCentreRuleAndTheOrderOfTheRulesPreferTheRight) {
 
 void ExpectMirrored(const Tick& a, const Tick& b) {
   EXPECT_EQ(a.decision.status, b.decision.status);
-  EXPECT_EQ(a.decision.scan, b.decision.scan);
+  EXPECT_EQ(a.decision.looks(), b.decision.looks());
   EXPECT_NEAR(a.X_WR.x_m, b.X_WR.x_m, 1e-9);
   EXPECT_NEAR(a.X_WR.y_m, -b.X_WR.y_m, 1e-9);
-  if (a.decision.scan) return;
+  if (a.decision.looks()) return;
   EXPECT_EQ(a.decision.motion.kind, b.decision.motion.kind);
   EXPECT_NEAR(a.decision.motion.curvature_per_m, -b.decision.motion.curvature_per_m, 1e-12);
   const bool turns = a.decision.motion.kind == messages::MotionKind::kTurnInPlace;

@@ -62,9 +62,9 @@ void ExpectWellFormed(const NavigatorDecision& decision, const PathfinderParams&
   ASSERT_LE(std::abs(decision.motion.curvature_per_m), 1.0 / params.tight_arc_radius_m + kRounding);
   ASSERT_EQ(std::abs(decision.motion.direction), 1);
   if (decision.status != NavigatorStatus::kDriving) {
-    ASSERT_FALSE(decision.scan);
+    ASSERT_FALSE(decision.looks());
     ASSERT_EQ(decision.motion.kind, messages::MotionKind::kStop);
-  } else if (!decision.scan) {
+  } else if (!decision.looks()) {
     ASSERT_NE(decision.motion.kind, messages::MotionKind::kStop) << "drives, looks or ends";
   }
 }
@@ -177,7 +177,7 @@ TEST(NavigatorProperty, JumpingEstimatesKeepDecisionsWellFormed) {
       messages::HazardReport report;
       report.stripe_hazard = RandomStripes(draws, 0.2);
       decision = navigator.Decide(
-          {.time_s = 0.05 * i, .estimate = estimate, .report = decision.scan ? &report : nullptr});
+          {.time_s = 0.05 * i, .estimate = estimate, .report = decision.looks() ? &report : nullptr});
       ExpectWellFormed(decision, params);
       if (HasFatalFailure()) return;
     }

@@ -33,7 +33,7 @@ TEST(PoseUpdate, DoesNotChangeTheAngleOfATurnUnderWay) {
       for (int i = 0; i < 12; ++i) drive.Step();
       ASSERT_TRUE(drive.log().back().turns());
       drive.UpdatePose(Shifted(drive.rover().estimate(), jump_rad));
-      ASSERT_TRUE(drive.StepUntil([](const Tick& t) { return t.decision.scan; }, 200));
+      ASSERT_TRUE(drive.StepUntil([](const Tick& t) { return t.decision.looks(); }, 200));
       const double turned_rad = TurnedByGyro(drive.log(), setup.rover.gyro_scale);
       EXPECT_GE(turned_rad, setup.params.turn_increment_rad - kRounding);
       EXPECT_LE(turned_rad,

@@ -37,7 +37,7 @@ std::size_t Find(const std::vector<Tick>& log, std::size_t first, bool (*holds)(
 
 bool Backs(const Tick& tick) { return tick.drives() && tick.decision.motion.direction < 0; }
 bool Turns(const Tick& tick) { return tick.turns(); }
-bool Scans(const Tick& tick) { return tick.decision.scan; }
+bool Scans(const Tick& tick) { return tick.decision.looks(); }
 
 // One touch on the way, by a rover that sees clear ground.
 struct Reaction {

@@ -1,0 +1,55 @@
+// What a map-based navigator shows of a decision: the diagnostic image of Goldberg 2002, figure 3,
+// as data. For people; nothing on board reads it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "messages/commands.h"
+#include "messages/estimates.h"
+
+namespace rockyard::messages {
+
+struct MapCellView {
+  bool has_data = false;     // holds range points
+  double elevation_m = 0.0;  // mean of its points, in the map's frame
+  bool known = false;        // was evaluated
+  std::uint8_t goodness = 0;
+  std::uint8_t certainty = 0;
+};
+
+// Cells of the map around the rover, unwrapped: [iy][ix], row-major, x ascending with ix.
+struct MapView {
+  double x0_m = 0.0;  // lower corner of cell (0, 0), in the estimated world frame
+  double y0_m = 0.0;
+  double xstep_m = 0.2;
+  double ystep_m = 0.2;
+  int nx = 0;
+  int ny = 0;
+  std::vector<MapCellView> cells;
+};
+
+// A candidate motion and its votes. Votes run from 0 to 255.
+struct MotionVote {
+  MotionCommand motion;
+  double hazard = 0.0;
+  double hazard_certainty = 0.0;
+  double waypoint = 0.0;
+  double merged = 0.0;
+  bool best = false;    // shares the highest merged vote
+  bool chosen = false;  // the motion that is driven
+};
+
+struct NavigationView {
+  std::int64_t step = 0;  // counts decisions from 0
+  PoseEstimate estimate;
+  Goal goal;
+  bool looked_behind = false;
+  MapView map;
+  // Curvatures from right (most negative) to left (most positive).
+  std::vector<MotionVote> forward;
+  std::vector<MotionVote> backward;
+  std::vector<MotionVote> point_turns;
+};
+
+}  // namespace rockyard::messages
