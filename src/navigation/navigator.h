@@ -22,7 +22,7 @@ enum class NavigatorStatus {
 struct NavigatorInput {
   double time_s = 0.0;  // on-board clock since the start
   messages::PoseEstimate estimate;
-  messages::AttitudeEstimate attitude;
+  messages::AttitudeEstimate attitude = {};
   // What answers the last request for a look; null at every other tick. A behaviour controller
   // reads the hazard report, a map-based navigator the points.
   const messages::HazardReport* report = nullptr;
