@@ -2,6 +2,7 @@
 // as data. For people; nothing on board reads it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -27,6 +28,11 @@ struct MapView {
   int nx = 0;
   int ny = 0;
   std::vector<MapCellView> cells;
+
+  const MapCellView& Cell(int ix, int iy) const {
+    return cells[static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) +
+                 static_cast<std::size_t>(ix)];
+  }
 };
 
 // A candidate motion and its votes. Votes run from 0 to 255.
