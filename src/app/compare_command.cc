@@ -2,13 +2,17 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/output_file.h"
 #include "app/run_source.h"
+#include "batch/scenario_difference.h"
 #include "core/error.h"
 #include "core/json_text.h"
 #include "report/atomic_file.h"
@@ -26,12 +30,24 @@ struct CompareOptions {
   std::string csv;
 };
 
+// The settings that decide which rocks a trial meets, and where it starts and ends.
+std::string FieldsOf(const StoredRun& run) {
+  const core::JsonValue document = core::ParseJson(run.identity.resolved, "resolved scenario");
+  std::string text;
+  for (const char* group : {"terrain", "course"}) {
+    const core::JsonValue* value = document.Find(group);
+    if (value != nullptr) text += core::DumpJson(*value);
+  }
+  return text;
+}
+
 report::ComparedRun View(const StoredRun& run) {
   if (run.prefix().empty()) {
     throw core::UserError(run.folder.string(), "holds no finished trials to compare",
                           "run some first");
   }
-  return {run.identity.scenario, run.identity.seed, run.identity.schema, run.prefix()};
+  return {run.identity.scenario, run.identity.seed, run.identity.schema, run.prefix(),
+          FieldsOf(run)};
 }
 
 std::string TextAt(const core::JsonValue* value) {
@@ -79,14 +95,33 @@ ExitCode CompareMeasurements(const StoredRun& first, const StoredRun& second,
   return cells.Differing() > 0 ? ExitCode::kDiffers : ExitCode::kDone;
 }
 
+// The settings in which two runs differ, one per line.
+std::string SettingsText(const StoredRun& first, const StoredRun& second) {
+  constexpr std::size_t kShown = 12;
+  const std::vector<batch::ScenarioDifference> differences =
+      batch::FindScenarioDifferences(first.identity.resolved, second.identity.resolved);
+  if (differences.empty()) return "\nno setting differs\n";
+  std::string text = "\nsettings that differ (A, B)\n";
+  for (const batch::ScenarioDifference& each :
+       std::span(differences).first(std::min(kShown, differences.size()))) {
+    text += fmt::format("  {:<56} {:>18.18} {:>20.20}\n", each.path, each.first, each.second);
+  }
+  if (differences.size() > kShown) {
+    text += fmt::format("  and {} more: compare the files scenario.resolved.json\n",
+                        differences.size() - kShown);
+  }
+  return text;
+}
+
 ExitCode CompareDrives(const StoredRun& first, const StoredRun& second,
                        const CompareOptions& options) {
-  if (!options.csv.empty()) {
-    throw core::UserError("--csv", "is for runs that measure; these drive", "leave it out");
-  }
   const report::ComparedRun a = View(first);
   const report::ComparedRun b = View(second);
-  Print(report::RunComparisonText(a, b, report::CompareRuns(a, b)));
+  const report::RunComparison comparison = report::CompareRuns(a, b);
+  if (!options.csv.empty()) {
+    report::WriteFileAtomically(options.csv, report::RunComparisonCsv(comparison));
+  }
+  Print(report::RunComparisonText(a, b, comparison) + SettingsText(first, second));
   return ExitCode::kDone;
 }
 
@@ -110,7 +145,8 @@ void AddCompareCommand(CLI::App& app, ExitCode& exit_code) {
       "by cell (exit code 1 where a rate differs)");
   command->add_option("RUN_A", options->first, "folder of a run")->required();
   command->add_option("RUN_B", options->second, "folder of a run")->required();
-  command->add_option("--csv", options->csv, "measurements: write every cell to this file");
+  command->add_option("--csv", options->csv,
+                      "write every cell, or every column of drives, to this file");
   command->callback([options, &exit_code] { exit_code = Compare(*options); });
 }
 

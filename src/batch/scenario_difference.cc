@@ -4,6 +4,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 
 #include "core/json_text.h"
 
@@ -34,20 +35,11 @@ class Walk {
       CompareMembers(path, *stored, *wanted);
     } else if (stored == nullptr || wanted == nullptr ||
                core::DumpJson(*stored) != core::DumpJson(*wanted)) {
-      found_.push_back(
-          {path, fmt::format("is {} in the stored run and {} now", Show(stored), Show(wanted)),
-           ""});
+      found_.push_back({path, Show(stored), Show(wanted)});
     }
   }
 
-  std::vector<core::Problem> Take(std::size_t limit) {
-    if (found_.size() > limit) {
-      const std::size_t more = found_.size() - limit;
-      found_.resize(limit);
-      found_.push_back({"scenario", fmt::format("differs in {} more places", more), ""});
-    }
-    return std::move(found_);
-  }
+  std::vector<ScenarioDifference> Take() { return std::move(found_); }
 
  private:
   void CompareMembers(const std::string& path, const JsonValue& stored, const JsonValue& wanted) {
@@ -75,22 +67,39 @@ class Walk {
     return path.empty() ? key : path + "." + key;
   }
 
-  std::vector<core::Problem> found_;
+  std::vector<ScenarioDifference> found_;
 };
 
 }  // namespace
 
+std::vector<ScenarioDifference> FindScenarioDifferences(std::string_view first,
+                                                        std::string_view second) {
+  const JsonValue before = core::ParseJson(first, "stored scenario");
+  const JsonValue now = core::ParseJson(second, "scenario");
+  Walk walk;
+  walk.Compare("", &before, &now);
+  return walk.Take();
+}
+
 std::vector<core::Problem> ScenarioDifferences(std::string_view stored, std::string_view wanted,
                                                std::size_t limit) {
+  std::vector<core::Problem> problems;
   try {
-    const JsonValue before = core::ParseJson(stored, "stored scenario");
-    const JsonValue now = core::ParseJson(wanted, "scenario");
-    Walk walk;
-    walk.Compare("", &before, &now);
-    return walk.Take(limit);
+    const std::vector<ScenarioDifference> found = FindScenarioDifferences(stored, wanted);
+    for (const ScenarioDifference& each : found) {
+      if (problems.size() == limit) {
+        const std::string rest = fmt::format("differs in {} more places", found.size() - limit);
+        problems.push_back({"scenario", rest, ""});
+        break;
+      }
+      const std::string reason =
+          fmt::format("is {} in the stored run and {} now", each.first, each.second);
+      problems.push_back({each.path, reason, ""});
+    }
   } catch (const core::UserError& error) {
     return error.problems();
   }
+  return problems;
 }
 
 }  // namespace rockyard::batch

@@ -24,6 +24,8 @@ constexpr std::uint64_t kBootstrapSeed = 1;
 using Pair = std::pair<const Record*, const Record*>;
 using Succeeded = std::function<bool(TrialOutcome)>;
 
+bool TrulyThere(TrialOutcome outcome) { return outcome == TrialOutcome::kGoalReached; }
+
 std::vector<Pair> Pairs(const ComparedRun& first, const ComparedRun& second) {
   std::vector<Pair> pairs;
   const std::size_t common = std::min(first.records.size(), second.records.size());
@@ -131,36 +133,87 @@ void CompareUnpairedColumn(const std::vector<double>& first, const std::vector<d
                      result.difference + kNormal975 * error};
 }
 
-}  // namespace
-
-RunComparison CompareRuns(const ComparedRun& first, const ComparedRun& second) {
-  const Succeeded declared = truth::DeclaredSuccess;
-  const Succeeded truly = [](TrialOutcome outcome) {
-    return outcome == TrialOutcome::kGoalReached;
-  };
-  RunComparison result;
-  result.paired = first.seed == second.seed;
-  std::vector<Pair> pairs;
-  if (result.paired) pairs = Pairs(first, second);
-  if (!truth::IsMeasurement(first.schema) && !truth::IsMeasurement(second.schema)) {
-    result.successes =
-        result.paired ? std::vector{ComparePaired(pairs, "declared success", declared),
-                                    ComparePaired(pairs, "true success", truly)}
-                      : std::vector{CompareUnpaired(first, second, "declared success", declared),
-                                    CompareUnpaired(first, second, "true success", truly)};
-  }
-  result.pairs = static_cast<std::int64_t>(pairs.size());
+// Every column that both schemas have; `compare` gets its index in each and fills the rest.
+template <typename Compare>
+std::vector<ColumnComparison> CommonColumns(const ComparedRun& first, const ComparedRun& second,
+                                            const Compare& compare) {
+  std::vector<ColumnComparison> columns;
   for (std::size_t i = 0; i < first.schema.size(); ++i) {
     const auto other = statistics::ColumnIndex(second.schema, first.schema[i].name);
     if (!other) continue;
     ColumnComparison column{.name = first.schema[i].name, .unit = first.schema[i].unit};
-    if (result.paired) {
-      ComparePairedColumn(pairs, i, *other, column);
-    } else {
-      CompareUnpairedColumn(statistics::ColumnValues(first.records, i),
-                            statistics::ColumnValues(second.records, *other), column);
-    }
-    result.columns.push_back(std::move(column));
+    compare(i, *other, column);
+    columns.push_back(std::move(column));
+  }
+  return columns;
+}
+
+std::vector<ColumnComparison> PairedColumns(const ComparedRun& first, const ComparedRun& second,
+                                            const std::vector<Pair>& pairs) {
+  return CommonColumns(first, second, [&](std::size_t a, std::size_t b, ColumnComparison& column) {
+    ComparePairedColumn(pairs, a, b, column);
+  });
+}
+
+std::vector<ColumnComparison> UnpairedColumns(const ComparedRun& first, const ComparedRun& second) {
+  return CommonColumns(first, second, [&](std::size_t a, std::size_t b, ColumnComparison& column) {
+    CompareUnpairedColumn(statistics::ColumnValues(first.records, a),
+                          statistics::ColumnValues(second.records, b), column);
+  });
+}
+
+std::vector<Pair> BothArrived(std::vector<Pair> pairs) {
+  std::erase_if(pairs, [](const Pair& pair) {
+    return !truth::DeclaredSuccess(pair.first->outcome) ||
+           !truth::DeclaredSuccess(pair.second->outcome);
+  });
+  return pairs;
+}
+
+std::vector<Record> Arrived(std::span<const Record> records) {
+  std::vector<Record> arrived(records.begin(), records.end());
+  std::erase_if(arrived,
+                [](const Record& record) { return !truth::DeclaredSuccess(record.outcome); });
+  return arrived;
+}
+
+void CompareInPairs(const ComparedRun& first, const ComparedRun& second, bool drives,
+                    RunComparison& result) {
+  const std::vector<Pair> pairs = Pairs(first, second);
+  result.pairs = static_cast<std::int64_t>(pairs.size());
+  result.columns = PairedColumns(first, second, pairs);
+  if (!drives) return;
+  result.successes = {ComparePaired(pairs, "declared success", truth::DeclaredSuccess),
+                      ComparePaired(pairs, "true success", TrulyThere)};
+  result.arrived_columns = PairedColumns(first, second, BothArrived(pairs));
+}
+
+void CompareAsSamples(const ComparedRun& first, const ComparedRun& second, bool drives,
+                      RunComparison& result) {
+  result.columns = UnpairedColumns(first, second);
+  if (!drives) return;
+  result.successes = {CompareUnpaired(first, second, "declared success", truth::DeclaredSuccess),
+                      CompareUnpaired(first, second, "true success", TrulyThere)};
+  const std::vector<Record> a = Arrived(first.records);
+  const std::vector<Record> b = Arrived(second.records);
+  ComparedRun first_arrived = first;
+  ComparedRun second_arrived = second;
+  first_arrived.records = a;
+  second_arrived.records = b;
+  result.arrived_columns = UnpairedColumns(first_arrived, second_arrived);
+}
+
+}  // namespace
+
+RunComparison CompareRuns(const ComparedRun& first, const ComparedRun& second) {
+  const bool drives = !truth::IsMeasurement(first.schema) && !truth::IsMeasurement(second.schema);
+  RunComparison result;
+  result.paired = first.seed == second.seed;
+  result.same_terrain = first.fields == second.fields;
+  if (result.paired) {
+    CompareInPairs(first, second, drives, result);
+  } else {
+    CompareAsSamples(first, second, drives, result);
   }
   return result;
 }

@@ -16,6 +16,7 @@ struct ComparedRun {
   std::uint64_t seed = 1;
   truth::RecordSchema schema;
   std::span<const truth::Record> records;  // contiguous prefix
+  std::string fields = {};  // what decides rocks, start and goal; equal texts mean equal fields
 };
 
 // Success by trial in both runs.
@@ -48,9 +49,13 @@ struct ColumnComparison {
 
 struct RunComparison {
   bool paired = false;
-  std::int64_t pairs = 0;  // trials that both runs finished without a simulator fault
+  std::int64_t pairs = 0;    // trials that both runs finished without a simulator fault
+  bool same_terrain = true;  // equal seed and index mean equal rocks, start and goal
   std::vector<SuccessComparison> successes;  // none where nothing drives
-  std::vector<ColumnComparison> columns;     // of both schemas
+  std::vector<ColumnComparison> columns;     // of both schemas, all trials
+  // The same where the drive was a declared success: paired, in both runs. A distance to the goal
+  // exists there only, but these are the easier fields: the columns of all trials belong beside it.
+  std::vector<ColumnComparison> arrived_columns;
 };
 
 // Equal seed and index mean equal rocks and equal noise, so that differences have far less variance
@@ -64,5 +69,9 @@ RunComparison CompareRuns(const ComparedRun& first, const ComparedRun& second);
 // At most 100 columns wide.
 std::string RunComparisonText(const ComparedRun& first, const ComparedRun& second,
                               const RunComparison& comparison);
+
+// Every column of both tables: trials (all, arrived), column, unit, n, both means, their difference
+// and its interval.
+std::string RunComparisonCsv(const RunComparison& comparison);
 
 }  // namespace rockyard::report

@@ -1,7 +1,12 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <span>
+#include <string>
+#include <string_view>
 
+#include "report/csv.h"
 #include "report/paired_comparison.h"
 
 namespace rockyard::report {
@@ -38,6 +43,32 @@ std::string ColumnLine(const ColumnComparison& column) {
                      Number(column.interval.high));
 }
 
+std::string ColumnTable(std::string_view title, std::span<const ColumnComparison> columns) {
+  std::string text = fmt::format("\n  {:<27} {:>5} {:>10} {:>10} {:>10} {:>19}\n", title, "n", "A",
+                                 "B", "B - A", "95 % interval");
+  for (const ColumnComparison& column : columns) text += ColumnLine(column);
+  return text;
+}
+
+std::string Pairing(const RunComparison& comparison) {
+  if (!comparison.paired) return "different seeds: compared as two samples, not in pairs\n\n";
+  return fmt::format("{} pairs of trials with {}\n\n", comparison.pairs,
+                     comparison.same_terrain
+                         ? "equal rocks and equal noise"
+                         : "equal random numbers, but other settings of terrain or course");
+}
+
+std::string CsvRows(std::string_view trials, std::span<const ColumnComparison> columns) {
+  std::string csv;
+  for (const ColumnComparison& column : columns) {
+    csv += CsvLine(std::array{std::string(trials), CsvField(column.name), CsvField(column.unit),
+                              fmt::to_string(column.count), CsvNumber(column.first_mean),
+                              CsvNumber(column.second_mean), CsvNumber(column.difference),
+                              CsvNumber(column.interval.low), CsvNumber(column.interval.high)});
+  }
+  return csv;
+}
+
 }  // namespace
 
 std::string RunComparisonText(const ComparedRun& first, const ComparedRun& second,
@@ -45,17 +76,22 @@ std::string RunComparisonText(const ComparedRun& first, const ComparedRun& secon
   std::string text =
       fmt::format("A: {}, seed {}, {} trials\nB: {}, seed {}, {} trials\n", first.name, first.seed,
                   first.records.size(), second.name, second.seed, second.records.size());
-  text +=
-      comparison.paired
-          ? fmt::format("{} pairs of trials with equal rocks and equal noise\n\n", comparison.pairs)
-          : std::string("different seeds: compared as two samples, not in pairs\n\n");
+  text += Pairing(comparison);
   for (const SuccessComparison& success : comparison.successes) {
     text += SuccessLines(success, comparison.paired);
   }
-  text += fmt::format("\n  {:<27} {:>5} {:>10} {:>10} {:>10} {:>19}\n", "means", "n", "A", "B",
-                      "B - A", "95 % interval");
-  for (const ColumnComparison& column : comparison.columns) text += ColumnLine(column);
+  text += ColumnTable("means, all trials", comparison.columns);
+  if (!comparison.arrived_columns.empty()) {
+    text += ColumnTable(comparison.paired ? "means, both arrived" : "means, arrived",
+                        comparison.arrived_columns);
+    text += "  (arrived: declared success; trials that one of both failed are left out here)\n";
+  }
   return text;
+}
+
+std::string RunComparisonCsv(const RunComparison& comparison) {
+  return "trials,column,unit,n,mean_a,mean_b,difference,ci95_low,ci95_high\n" +
+         CsvRows("all", comparison.columns) + CsvRows("arrived", comparison.arrived_columns);
 }
 
 }  // namespace rockyard::report

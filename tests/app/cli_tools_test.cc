@@ -68,6 +68,12 @@ TEST_F(CliTools, CompareAndCheck) {
   const CommandResult compare = Run({"compare", "runs/a", "other/b"});
   EXPECT_EQ(compare.exit_code, 0) << compare.err;
   EXPECT_THAT(compare.out, HasSubstr("3 pairs"));
+  EXPECT_THAT(compare.out, HasSubstr("equal rocks and equal noise"));
+  Run(With(QuickRun("dense", 3), {"--set", "terrain.rocks.k_per_m2=0.01"}));
+  const CommandResult other = Run({"compare", "runs/a", "dense", "--csv", "columns.csv"});
+  EXPECT_THAT(other.out, HasSubstr("other settings of terrain"));
+  EXPECT_THAT(other.out, HasSubstr("terrain.rocks.k_per_m2"));
+  EXPECT_THAT(ReadFile(work() / "columns.csv"), HasSubstr("all,true_distance_m,m,3,"));
 
   const std::string reference =
       std::string(ROCKYARD_SOURCE_DIR) + "/results/reference/matthies1995.json";

@@ -32,10 +32,10 @@ struct TwoRuns {
     return CompareRuns(First(), Second(seed_b));
   }
   ComparedRun First() const {
-    return {"a", 1, {{"true_distance_m", "m", ""}, {"only_a", "1", ""}}, a};
+    return {"a", 1, {{"true_distance_m", "m", ""}, {"only_a", "1", ""}}, a, "rocks"};
   }
   ComparedRun Second(std::uint64_t seed = 1) const {
-    return {"b", seed, {{"only_b", "1", ""}, {"true_distance_m", "m", ""}}, b};
+    return {"b", seed, {{"only_b", "1", ""}, {"true_distance_m", "m", ""}}, b, "rocks"};
   }
 
   std::vector<Record> a;
@@ -82,6 +82,45 @@ TEST(CompareRuns, LeavesOutFaultsAndWhatOnlyOneRunHas) {
   runs.a[3] = {3, TrialOutcome::kSimulatorFault, "", {}};
   runs.b.resize(8);
   EXPECT_EQ(runs.Compare().pairs, 7);
+}
+
+// Those that both drove to the end differ by 0.5 m; one that only one of both did, by much more.
+TEST(CompareRuns, DistancesOfArrivedPairsBesideThoseOfAll) {
+  TwoRuns runs(30, 8, 1, 11);
+  for (std::size_t i = 30; i < runs.b.size(); ++i) runs.b[i].values[1] += 4.0;
+  const RunComparison paired = runs.Compare();
+  ASSERT_EQ(paired.arrived_columns.size(), 1U);
+  EXPECT_EQ(paired.arrived_columns[0].count, 30);
+  EXPECT_NEAR(paired.arrived_columns[0].difference, 0.5, 1e-12);
+  EXPECT_EQ(paired.columns[0].count, 50);
+  EXPECT_NEAR(paired.columns[0].difference, 0.5 + 4.0 * 20.0 / 50.0, 1e-12);
+  // As two samples each run has its own: 38 of the first arrived, 31 of the second.
+  const RunComparison samples = runs.Compare(2);
+  EXPECT_EQ(samples.arrived_columns[0].count, 31);
+  double first_m = 0.0;
+  for (int i = 0; i < 38; ++i) first_m += runs.a[static_cast<std::size_t>(i)].values[0] / 38.0;
+  EXPECT_NEAR(samples.arrived_columns[0].first_mean, first_m, 1e-12);
+}
+
+TEST(CompareRuns, NoPairArrived) {
+  const RunComparison result = TwoRuns(0, 5, 5, 5).Compare();
+  EXPECT_EQ(result.arrived_columns[0].count, 0);
+  EXPECT_THAT(RunComparisonText(TwoRuns(0, 5, 5, 5).First(), TwoRuns(0, 5, 5, 5).Second(), result),
+              HasSubstr("means, both arrived"));
+}
+
+TEST(CompareRuns, OtherFieldsAreNotCalledEqualRocks) {
+  const TwoRuns runs(30, 8, 1, 11);
+  ComparedRun other = runs.Second();
+  other.fields = "more rocks";
+  EXPECT_THAT(RunComparisonText(runs.First(), other, CompareRuns(runs.First(), other)),
+              HasSubstr("other settings of terrain"));
+}
+
+TEST(RunComparisonCsv, HoldsBothTables) {
+  const std::string csv = RunComparisonCsv(TwoRuns(30, 8, 1, 11).Compare());
+  EXPECT_THAT(csv, HasSubstr("\nall,true_distance_m,m,50,"));
+  EXPECT_THAT(csv, HasSubstr("\narrived,true_distance_m,m,30,"));
 }
 
 TEST(RunComparisonText, SaysWhetherItPairedAndFits) {
