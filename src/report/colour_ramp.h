@@ -1,0 +1,12 @@
+// A sequential colour ramp that keeps its order for colour-blind readers and in grey print.
+#pragma once
+
+#include "report/png_file.h"
+
+namespace rockyard::report {
+
+// Dark violet at 0, green-blue in the middle, yellow at 1; shares beyond are clamped. Luminance
+// grows all the way.
+Rgb RampColour(double share);
+
+}  // namespace rockyard::report

@@ -1,0 +1,243 @@
+#include "report/navigation_drawing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "math/angles.h"
+#include "report/colour_ramp.h"
+#include "report/xml_text.h"
+
+namespace rockyard::report {
+namespace {
+
+using messages::MapCellView;
+using messages::MapView;
+using messages::MotionVote;
+using messages::NavigationView;
+
+// Pixels.
+constexpr double kPanel = 380.0;
+constexpr double kGap = 24.0;
+constexpr double kTop = 70.0;
+constexpr double kVoteWidth = 14.0;
+constexpr double kVoteHeight = 20.0;
+constexpr double kVoteLabel = 62.0;
+
+constexpr double kDrawnArc_m = 1.5;
+constexpr int kArcPoints = 16;
+constexpr double kBestVote = 255.0;
+
+std::string Text(double x, double y, std::string_view text, double size = 13.0) {
+  return fmt::format(
+      "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.0f}\" font-family=\"sans-serif\">{}</text>\n",
+      x, y, size, EscapeXml(text));
+}
+
+std::string Box(double x, double y, double width, double height, std::string_view style) {
+  return fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" {}/>\n", x,
+                     y, width, height, style);
+}
+
+std::string Fill(const Rgb& colour) {
+  return fmt::format("fill=\"#{:02x}{:02x}{:02x}\"", colour.red, colour.green, colour.blue);
+}
+
+// Maps of one size side by side: x to the right, y up.
+class MapPanel {
+ public:
+  MapPanel(const MapView& map, double left, double top)
+      : map_(map),
+        left_(left),
+        top_(top),
+        scale_(kPanel / std::max({map.nx * map.xstep_m, map.ny * map.ystep_m, map.xstep_m})) {}
+
+  double X(double x_m) const { return left_ + scale_ * (x_m - map_.x0_m); }
+  double Y(double y_m) const { return top_ + scale_ * (map_.y0_m + map_.ny * map_.ystep_m - y_m); }
+
+  // Neighbours of one colour in a row share a rectangle. What has no colour stays grey.
+  std::string Cells(const std::function<std::optional<Rgb>(const MapCellView&)>& colour) const {
+    std::string svg = Box(X(map_.x0_m), top_, scale_ * map_.nx * map_.xstep_m,
+                          scale_ * map_.ny * map_.ystep_m, "fill=\"#d0d0d0\"");
+    for (int iy = 0; iy < map_.ny; ++iy) {
+      for (int ix = 0; ix < map_.nx;) {
+        const std::optional<Rgb> here = colour(map_.Cell(ix, iy));
+        int end = ix + 1;
+        while (end < map_.nx && colour(map_.Cell(end, iy)) == here) ++end;
+        if (here) {
+          svg += Box(X(map_.x0_m + ix * map_.xstep_m), Y(map_.y0_m + (iy + 1) * map_.ystep_m),
+                     scale_ * (end - ix) * map_.xstep_m, scale_ * map_.ystep_m, Fill(*here));
+        }
+        ix = end;
+      }
+    }
+    return svg;
+  }
+
+  // A triangle that points along the heading, and a ring around the goal where it is in sight.
+  std::string RoverAndGoal(const NavigationView& view) const {
+    const double x = X(view.estimate.x_m);
+    const double y = Y(view.estimate.y_m);
+    std::string svg = fmt::format(
+        "<path d=\"M 12 0 L -8 7 L -8 -7 Z\" transform=\"translate({:.1f} {:.1f}) "
+        "rotate({:.2f})\" fill=\"#fff\" stroke=\"#000\"/>\n",
+        x, y, -math::RadToDeg(view.estimate.heading_rad));
+    const double goal_x = X(view.goal.x_m);
+    const double goal_y = Y(view.goal.y_m);
+    const bool inside =
+        goal_x >= left_ && goal_x <= left_ + kPanel && goal_y >= top_ && goal_y <= top_ + kPanel;
+    if (inside) {
+      svg += fmt::format(
+          "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"7\" fill=\"none\" stroke=\"#d55e00\" "
+          "stroke-width=\"3\"/>\n",
+          goal_x, goal_y);
+    }
+    return svg;
+  }
+
+  // The first kDrawnArc_m of a candidate.
+  std::string Arc(const NavigationView& view, const MotionVote& vote) const {
+    std::string points;
+    for (int i = 0; i <= kArcPoints; ++i) {
+      const double s = vote.motion.direction * kDrawnArc_m * i / kArcPoints;
+      const double turned = 0.5 * vote.motion.curvature_per_m * s;
+      // Chord of the arc: 2 sin(c s / 2) / c long, at half the turned angle.
+      const double chord = turned == 0.0 ? s : s * std::sin(turned) / turned;
+      const double direction = view.estimate.heading_rad + turned;
+      fmt::format_to(std::back_inserter(points), "{:.1f},{:.1f} ",
+                     X(view.estimate.x_m + chord * std::cos(direction)),
+                     Y(view.estimate.y_m + chord * std::sin(direction)));
+    }
+    return fmt::format("<polyline points=\"{}\" fill=\"none\" {}/>\n", points,
+                       vote.chosen ? "stroke=\"#d55e00\" stroke-width=\"4\""
+                                   : "stroke=\"#fff\" stroke-width=\"0.8\"");
+  }
+
+ private:
+  const MapView& map_;
+  double left_;
+  double top_;
+  double scale_;  // pixels per metre
+};
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+};
+
+Range Elevations(const MapView& map) {
+  Range range;
+  for (const MapCellView& cell : map.cells) {
+    if (!cell.has_data) continue;
+    range.low = std::min(range.low, cell.elevation_m);
+    range.high = std::max(range.high, cell.elevation_m);
+  }
+  return range;
+}
+
+std::string ElevationPanel(const NavigationView& view, const MapPanel& panel, double left) {
+  const Range range = Elevations(view.map);
+  const double span_m = std::max(range.high - range.low, 1e-3);
+  std::string title = "elevation: no data";
+  if (range.low <= range.high) {
+    title = fmt::format("elevation: dark {:.2f} m, light {:.2f} m", range.low, range.high);
+  }
+  return Text(left, kTop - 8.0, title) +
+         panel.Cells([&](const MapCellView& cell) -> std::optional<Rgb> {
+           if (!cell.has_data) return std::nullopt;
+           return RampColour((cell.elevation_m - range.low) / span_m);
+         });
+}
+
+std::string BytePanel(std::string_view title, const MapPanel& panel, double left,
+                      std::uint8_t MapCellView::*value) {
+  return Text(left, kTop - 8.0, title) +
+         panel.Cells([&](const MapCellView& cell) -> std::optional<Rgb> {
+           if (!cell.known) return std::nullopt;
+           return RampColour(cell.*value / kBestVote);
+         });
+}
+
+// Candidates from the leftmost to the rightmost turn.
+std::vector<const MotionVote*> LeftToRight(const std::vector<MotionVote>& votes) {
+  std::vector<const MotionVote*> ordered;
+  for (const MotionVote& vote : votes) ordered.push_back(&vote);
+  std::reverse(ordered.begin(), ordered.end());
+  return ordered;
+}
+
+std::string VoteBlock(std::string_view title, const std::vector<MotionVote>& votes, double left,
+                      double top) {
+  struct Row {
+    std::string_view name;
+    double MotionVote::*value;
+  };
+  constexpr Row kRows[] = {{"waypoint", &MotionVote::waypoint},
+                           {"hazard", &MotionVote::hazard},
+                           {"merged", &MotionVote::merged}};
+  std::string svg = Text(left, top - 8.0, title);
+  double y = top;
+  for (const Row& row : kRows) {
+    svg += Text(left, y + 0.7 * kVoteHeight, row.name, 12.0);
+    double x = left + kVoteLabel;
+    for (const MotionVote* vote : LeftToRight(votes)) {
+      svg += Box(x, y, kVoteWidth - 1.0, kVoteHeight - 1.0,
+                 Fill(RampColour(vote->*row.value / kBestVote)));
+      x += kVoteWidth;
+    }
+    y += kVoteHeight;
+  }
+  double x = left + kVoteLabel;
+  for (const MotionVote* vote : LeftToRight(votes)) {
+    if (vote->best) svg += Box(x, y + 2.0, kVoteWidth - 1.0, 3.0, "fill=\"#009e73\"");
+    if (vote->chosen) {
+      svg += Box(x - 1.0, top - 1.0, kVoteWidth + 1.0, 3 * kVoteHeight + 1.0,
+                 "fill=\"none\" stroke=\"#009e73\" stroke-width=\"2\"");
+    }
+    x += kVoteWidth;
+  }
+  return svg;
+}
+
+}  // namespace
+
+std::string NavigationSvg(const NavigationPicture& picture) {
+  const NavigationView& view = picture.view;
+  const auto left = [](int column) { return kGap + column * (kPanel + kGap); };
+  const double votes_top = kTop + kPanel + 50.0;
+  const double width = left(3);
+  const double height = votes_top + 3 * kVoteHeight + 40.0;
+  std::string svg = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
+      "viewBox=\"0 0 {0:.0f} {1:.0f}\">\n",
+      width, height);
+  svg += Box(0.0, 0.0, width, height, "fill=\"#fff\"");
+  svg += Text(kGap, 28.0, fmt::format("{}: {}", picture.title, ChosenText(view)), 17.0);
+  const MapPanel elevation(view.map, left(0), kTop);
+  const MapPanel goodness(view.map, left(1), kTop);
+  const MapPanel certainty(view.map, left(2), kTop);
+  svg += ElevationPanel(view, elevation, left(0));
+  svg += BytePanel("goodness: dark 0 (obstacle), light 255; grey: unknown", goodness, left(1),
+                   &MapCellView::goodness);
+  for (const MotionVote& vote : view.forward) svg += goodness.Arc(view, vote);
+  for (const MotionVote& vote : view.backward) svg += goodness.Arc(view, vote);
+  svg += BytePanel("certainty: dark 0, light 255; grey: unknown", certainty, left(2),
+                   &MapCellView::certainty);
+  for (const MapPanel* panel : {&elevation, &goodness, &certainty}) {
+    svg += panel->RoverAndGoal(view);
+  }
+  svg +=
+      VoteBlock("forward arcs, left to right: dark 0, light 255", view.forward, left(0), votes_top);
+  svg += VoteBlock("backward arcs, same curvatures", view.backward, left(1), votes_top);
+  svg += VoteBlock("turns in place", view.point_turns, left(2), votes_top);
+  return svg + "</svg>\n";
+}
+
+}  // namespace rockyard::report
