@@ -44,6 +44,8 @@ enum class Purpose : std::uint32_t {
   kSceneRock = 30,
   kScenePlacement = 31,
   kScenePhase = 32,
+  kStereoDisparity = 33,
+  kStereoDropout = 34,
 };
 
 // Raw Philox 4x32-10 bijection of one counter under one key.

@@ -1,0 +1,232 @@
+#include "sensing/stereo_params.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace rockyard::sensing {
+namespace {
+
+using core::Origin;
+
+constexpr std::string_view kFido = "FIDO rover's Hazcam, WUSTL data sheet: 110 x 90 deg, 12 cm";
+constexpr double kGrazing_rad = math::DegToRad(1.0);
+
+// Angle below the horizon of the lowest ray in the middle of the image; at most straight down.
+double LowestDepression(const StereoMountParams& mount, double vertical_fov_rad) {
+  return std::min(mount.pitch_rad + 0.5 * vertical_fov_rad, 0.5 * std::numbers::pi);
+}
+
+bool SeesGround(const StereoMountParams& mount, const StereoParams& p) {
+  const double depression = LowestDepression(mount, p.vertical_fov_rad);
+  return depression > kGrazing_rad && mount.height_m <= p.max_range_m * std::sin(depression);
+}
+
+// Whether the middle of the window, on flat ground, is in the image and in range.
+bool SeesWindow(const StereoMountParams& mount, const StereoParams& p) {
+  const double ahead_m = 0.5 * (p.stripe_window.near_m + p.stripe_window.far_m) - mount.ahead_m;
+  const double off_axis = std::atan2(mount.height_m, ahead_m) - mount.pitch_rad;
+  return std::abs(off_axis) <= 0.5 * p.vertical_fov_rad &&
+         std::hypot(ahead_m, mount.height_m) <= p.max_range_m;
+}
+
+void VisitImage(StereoParams& p, core::FieldVisitor& v) {
+  v.Integer("columns", p.columns,
+            {.doc = "range points in an image row",
+             .min = 8,
+             .max = 1024,
+             .origin = Origin::kPublished,
+             .source = "Goldberg 2002 table 2: 512 x 512 down to 128 x 128"});
+  v.Integer("rows", p.rows,
+            {.doc = "range points in an image column",
+             .min = 8,
+             .max = 1024,
+             .origin = Origin::kPublished,
+             .source = "Goldberg 2002 table 2: 512 x 512 down to 128 x 128"});
+  v.Angle("horizontal_fov_deg", p.horizontal_fov_rad,
+          {.doc = "field of view from the left to the right edge of the rectified image",
+           .min = 1.0,
+           .max = 150.0,
+           .origin = Origin::kAssumed,
+           .source = kFido,
+           .study_low = 60.0,
+           .study_high = 124.0});
+  v.Angle("vertical_fov_deg", p.vertical_fov_rad,
+          {.doc = "field of view from its upper to its lower edge",
+           .min = 1.0,
+           .max = 150.0,
+           .origin = Origin::kAssumed,
+           .source = kFido,
+           .study_low = 45.0,
+           .study_high = 124.0});
+  v.Real("baseline_m", p.baseline_m,
+         {.doc = "distance between the two cameras of a pair",
+          .min = 1e-3,
+          .max = 2.0,
+          .origin = Origin::kAssumed,
+          .source = kFido,
+          .study_low = 0.08,
+          .study_high = 0.2});
+}
+
+void VisitMatching(StereoParams& p, core::FieldVisitor& v) {
+  v.Real("disparity_noise_px", p.disparity_noise_px,
+         {.doc = "standard deviation of a matched disparity, independent from point to point",
+          .min = 0.0,
+          .max = 5.0,
+          .origin = Origin::kAssumed,
+          .source = "FLIR stereo accuracy note: 0.18 px with a 7 px window, the size in Goldberg "
+                    "2002 sec. 2; Xiong and Matthies 1997: errors exceed 0.3 px",
+          .study_low = 0.05,
+          .study_high = 0.35});
+  v.Real("disparity_step_px", p.disparity_step_px,
+         {.doc = "disparities are rounded to a multiple of this; 0: not rounded",
+          .min = 0.0,
+          .max = 4.0,
+          .origin = Origin::kAssumed,
+          .source = "Goldberg 2002 sec. 2: fitted to subpixel precision, resolution not given",
+          .study_low = 0.0,
+          .study_high = 0.25});
+  v.Real("min_disparity_px", p.min_disparity_px,
+         {.doc = "smallest disparity that the matching searches: limits depth",
+          .min = 1e-3,
+          .max = 1000.0,
+          .origin = Origin::kAssumed,
+          .source = "no match with the horizon",
+          .study_low = 0.1,
+          .study_high = 2.0});
+  v.Real("max_disparity_px", p.max_disparity_px,
+         {.doc = "largest disparity that the matching searches: the near blind zone",
+          .min = 2e-3,
+          .max = 1000.0,
+          .origin = Origin::kAssumed,
+          .source = "Goldberg 2002 sec. 3: 32 disparities in images 256 wide; half of it at 128",
+          .study_low = 8.0,
+          .study_high = 32.0});
+  v.Require("max_disparity_px", p.max_disparity_px > p.min_disparity_px,
+            "is not larger than min_disparity_px", "use a larger value");
+  v.Require("max_disparity_px",
+            p.focal_columns_px() * p.baseline_m < p.max_disparity_px * p.max_range_m,
+            "leaves everything within max_range_m in the near blind zone",
+            "search larger disparities, or use a shorter baseline or a wider field of view");
+}
+
+void VisitDropouts(StereoParams& p, core::FieldVisitor& v) {
+  v.Real("dropout_probability", p.dropout_probability,
+         {.doc = "chance that a point finds no match that holds from left to right and back",
+          .min = 0.0,
+          .max = 0.999,
+          .origin = Origin::kAssumed,
+          .source = "Goldberg 2002 sec. 2 names the check without a rate",
+          .study_low = 0.0,
+          .study_high = 0.4});
+  v.Real("edge_dropout_probability", p.edge_dropout_probability,
+         {.doc = "the same beside a jump in depth, where a matching window holds two surfaces",
+          .min = 0.0,
+          .max = 0.999,
+          .origin = Origin::kAssumed,
+          .source = "half of such a window belongs to either surface",
+          .study_low = 0.0,
+          .study_high = 0.9});
+  v.Integer("edge_reach_px", p.edge_reach_px,
+            {.doc = "columns on both sides of the jump where that holds; 0: nowhere",
+             .min = 0,
+             .max = 100,
+             .origin = Origin::kPublished,
+             .source = "Goldberg 2002 sec. 2: half of a 7 x 7 window"});
+  v.Real("edge_disparity_px", p.edge_disparity_px,
+         {.doc = "difference in disparity between columns from which depth jumps",
+          .min = 0.01,
+          .max = 100.0,
+          .origin = Origin::kAssumed,
+          .source = "more than sloping ground has",
+          .study_low = 0.5,
+          .study_high = 2.0});
+}
+
+}  // namespace
+
+double StereoParams::focal_columns_px() const {
+  return 0.5 * static_cast<double>(columns) / std::tan(0.5 * horizontal_fov_rad);
+}
+
+double StereoParams::focal_rows_px() const {
+  return 0.5 * static_cast<double>(rows) / std::tan(0.5 * vertical_fov_rad);
+}
+
+void StereoMountParams::Visit(core::FieldVisitor& v) {
+  v.Real("ahead_m", ahead_m,
+         {.doc = "distance of the cameras from the chassis centre in the direction they look",
+          .min = -5.0,
+          .max = 5.0,
+          .origin = Origin::kAssumed,
+          .source = "front of a body of 0.8 m between wheels 1.04 m long",
+          .study_low = 0.3,
+          .study_high = 0.52});
+  v.Real("height_m", height_m,
+         {.doc = "height of the cameras above R's origin",
+          .min = 0.01,
+          .max = 10.0,
+          .origin = Origin::kAssumed,
+          .source = "below the deck of FIDO, 0.53 m high; MER: 0.52 m (Maki et al. 2003)",
+          .study_low = 0.3,
+          .study_high = 0.55});
+  v.Angle("pitch_deg", pitch_rad,
+          {.doc = "optical axes below the horizontal",
+           .min = -90.0,
+           .max = 90.0,
+           .origin = Origin::kAssumed,
+           .source = "MER: 45 deg (Maki et al. 2003)",
+           .study_low = 25.0,
+           .study_high = 50.0});
+}
+
+void StripeWindowParams::Visit(core::FieldVisitor& v) {
+  constexpr std::string_view kRocky =
+      "Matthies 1995 sec. 6: points 10 to 30 cm ahead of the "
+      "front, 13 cm beyond the sides; rover of 0.65 x 0.48 m";
+  const auto length = [&v](std::string_view name, double& value, std::string_view doc) {
+    v.Real(name, value,
+           {.doc = doc, .min = 0.0, .max = 20.0, .origin = Origin::kPublished, .source = kRocky});
+  };
+  length("near_m", near_m, "nearest row of points from the chassis centre");
+  length("far_m", far_m, "farthest row of points from the chassis centre");
+  v.Require("far_m", far_m > near_m, "is not larger than near_m", "use a larger value");
+  length("half_width_m", half_width_m, "outermost points from the middle line");
+  v.Require("half_width_m", half_width_m > 0.0, "leaves no ground", "use a positive value");
+}
+
+void StereoParams::Visit(core::FieldVisitor& v) {
+  v.Choice("fidelity", fidelity,
+           {.doc = "ideal: exact range points; error_model: those of a camera pair",
+            .origin = Origin::kSetting});
+  v.Choice("field_of_view", field_of_view,
+           {.doc = "full, or stripe: only points over stripe_window, for telling a navigator from "
+                   "its sensor",
+            .origin = Origin::kSetting});
+  VisitImage(*this, v);
+  v.Group("front", front, "the pair that looks ahead");
+  v.Group("rear", rear, "the pair that looks behind");
+  v.Real("max_range_m", max_range_m,
+         {.doc = "distance from the cameras up to which surfaces give points",
+          .min = 0.05,
+          .max = 100.0,
+          .origin = Origin::kAssumed,
+          .source = "grid-dist-timeout of 3 m (Goldberg 2002 table 1) and half a rover more",
+          .study_low = 3.0,
+          .study_high = 8.0});
+  VisitMatching(*this, v);
+  VisitDropouts(*this, v);
+  v.Group("stripe_window", stripe_window, "ground under the light stripe array");
+  constexpr std::string_view kNoGround = "shows no level ground within max_range_m";
+  constexpr std::string_view kLower =
+      "look further down, mount the cameras lower, or widen the "
+      "field of view";
+  v.Require("front", SeesGround(front, *this), kNoGround, kLower);
+  v.Require("rear", SeesGround(rear, *this), kNoGround, kLower);
+  const bool windowed = field_of_view == StereoFieldOfView::kStripe;
+  v.Require("stripe_window", !windowed || (SeesWindow(front, *this) && SeesWindow(rear, *this)),
+            "has its middle outside the images", "move the window or the cameras");
+}
+
+}  // namespace rockyard::sensing

@@ -1,0 +1,79 @@
+// Parameters of range sensing by stereo cameras at the rover's front and rear.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "core/fields.h"
+#include "math/angles.h"
+
+namespace rockyard::sensing {
+
+enum class StereoFidelity {
+  kIdeal,       // the first surface on every ray from the middle of the pair, without error
+  kErrorModel,  // what stereo matching makes of it
+};
+
+enum class StereoFieldOfView {
+  kFull,    // all that the cameras see
+  kStripe,  // of that, what lies over the ground that a light stripe sensor scans
+};
+
+// Where a pair of cameras sits, seen along its own viewing direction.
+struct StereoMountParams {
+  double ahead_m = 0.40;
+  double height_m = 0.45;
+  double pitch_rad = math::DegToRad(45.0);
+
+  void Visit(core::FieldVisitor& v);
+};
+
+// Rectangle of the ground, in the viewing direction from R's origin.
+struct StripeWindowParams {
+  double near_m = 0.425;
+  double far_m = 0.625;
+  double half_width_m = 0.37;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+struct StereoParams {
+  StereoFidelity fidelity = StereoFidelity::kErrorModel;
+  StereoFieldOfView field_of_view = StereoFieldOfView::kFull;
+  std::int64_t columns = 128;
+  std::int64_t rows = 128;
+  double horizontal_fov_rad = math::DegToRad(110.0);
+  double vertical_fov_rad = math::DegToRad(90.0);
+  double baseline_m = 0.12;
+  StereoMountParams front;
+  StereoMountParams rear;
+  double max_range_m = 4.0;
+  double disparity_noise_px = 0.18;
+  double disparity_step_px = 0.0;
+  double min_disparity_px = 0.5;
+  double max_disparity_px = 16.0;
+  double dropout_probability = 0.05;
+  double edge_dropout_probability = 0.5;
+  std::int64_t edge_reach_px = 3;
+  double edge_disparity_px = 1.0;
+  StripeWindowParams stripe_window;
+
+  // Focal length along an image row and along a column, px.
+  double focal_columns_px() const;
+  double focal_rows_px() const;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+}  // namespace rockyard::sensing
+
+template <>
+struct rockyard::core::EnumNames<rockyard::sensing::StereoFidelity> {
+  static constexpr std::array<std::string_view, 2> kNames{"ideal", "error_model"};
+};
+
+template <>
+struct rockyard::core::EnumNames<rockyard::sensing::StereoFieldOfView> {
+  static constexpr std::array<std::string_view, 2> kNames{"full", "stripe"};
+};

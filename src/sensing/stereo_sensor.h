@@ -1,0 +1,59 @@
+// Range points from the stereo cameras at the rover's front and rear.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/random.h"
+#include "math/pose.h"
+#include "messages/point_cloud.h"
+#include "sensing/stereo_match.h"
+#include "sensing/stereo_params.h"
+#include "sensing/stereo_view.h"
+#include "terrain/terrain.h"
+
+namespace rockyard::sensing {
+
+// One point for each pixel of the left image for which all of the following hold:
+//  - its ray meets a surface within max_range_m;
+//  - the right camera sees that point too: inside its image, nothing in between;
+//  - disparity d = f b / Z (Goldberg 2002, section 2), with Z the depth along the optical axis,
+//  plus
+//    N(0, disparity_noise_px), rounded to disparity_step_px, lies between min_ and
+//    max_disparity_px. The point is put on the same ray at depth f b / d, so that to first order
+//    sigma_Z = Z^2 sigma_d / (f b);
+//  - it did not drop out, with dropout_probability or edge_dropout_probability.
+// The ideal sensor stops after the first. With field_of_view stripe, points outside the window are
+// dropped last.
+//
+// Limits: the rover's own body is not seen. Errors are independent from pixel to pixel, while
+// matching windows make those of neighbours alike and round off edges. No false matches beyond the
+// noise, no dependence on texture or light.
+class StereoSensor {
+ public:
+  explicit StereoSensor(const StereoParams& params);
+
+  // A pure function of its arguments. Draws from (key, kStereoDisparity and kStereoDropout, look
+  // number), by pixel: at most 2^32 looks.
+  messages::PointCloud Look(const terrain::Terrain& terrain, const math::Transform& X_WR,
+                            core::TrialKey key, std::int64_t look_number,
+                            messages::LookDirection direction) const;
+
+  const StereoView& view_R(messages::LookDirection direction) const {
+    return direction == messages::LookDirection::kAhead ? ahead_R_ : behind_R_;
+  }
+
+ private:
+  // One over the matched depths, 1/m; 0 where there is no match.
+  std::vector<double> MatchedDepths(core::TrialKey key, std::int64_t look_number,
+                                    const terrain::Terrain& terrain,
+                                    const StereoView& view_W) const;
+  bool InWindow(const math::Vector3& p_RoP_R, messages::LookDirection direction) const;
+
+  StereoParams params_;
+  StereoMatcher matcher_;
+  StereoView ahead_R_;
+  StereoView behind_R_;
+};
+
+}  // namespace rockyard::sensing

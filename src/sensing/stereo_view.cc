@@ -1,0 +1,44 @@
+#include "sensing/stereo_view.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace rockyard::sensing {
+
+using math::Vector3;
+
+StereoView StereoView::From(const math::Transform& X_WR) const {
+  StereoView view = *this;
+  view.eye = X_WR * eye;
+  view.right_eye = X_WR * right_eye;
+  view.first = X_WR.linear() * first;
+  view.along_row = X_WR.linear() * along_row;
+  view.along_column = X_WR.linear() * along_column;
+  return view;
+}
+
+StereoView MakeStereoView(const StereoParams& params, messages::LookDirection direction) {
+  const bool ahead = direction == messages::LookDirection::kAhead;
+  const StereoMountParams& mount = ahead ? params.front : params.rear;
+  const double sign = ahead ? 1.0 : -1.0;
+  const double sine = std::sin(mount.pitch_rad);
+  const double cosine = std::cos(mount.pitch_rad);
+  const Vector3 axis(sign * cosine, 0.0, -sine);
+  const Vector3 right(0.0, -sign, 0.0);
+  const Vector3 down(-sign * sine, 0.0, -cosine);
+  StereoView view;
+  view.columns = static_cast<int>(params.columns);
+  view.rows = static_cast<int>(params.rows);
+  view.focal_px = params.focal_columns_px();
+  view.baseline_m = params.fidelity == StereoFidelity::kIdeal ? 0.0 : params.baseline_m;
+  const Vector3 middle(sign * mount.ahead_m, 0.0, mount.height_m);
+  view.eye = middle - 0.5 * view.baseline_m * right;
+  view.right_eye = middle + 0.5 * view.baseline_m * right;
+  view.along_row = right / params.focal_columns_px();
+  view.along_column = down / params.focal_rows_px();
+  view.first =
+      axis - 0.5 * (view.columns - 1) * view.along_row - 0.5 * (view.rows - 1) * view.along_column;
+  return view;
+}
+
+}  // namespace rockyard::sensing

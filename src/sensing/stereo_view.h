@@ -1,0 +1,38 @@
+// One rectified pinhole pair, as a rover carries it.
+#pragma once
+
+#include <cstdint>
+
+#include "math/pose.h"
+#include "messages/point_cloud.h"
+#include "sensing/stereo_params.h"
+
+namespace rockyard::sensing {
+
+// Pixel (column, row), counted from the upper left one, looks along
+//   e(column, row) = first + column along_row + row along_column,
+// scaled so that its part along the optical axis is 1: eye + Z e is the point at depth Z. The right
+// eye has parallel axes and the baseline b along its rows: the same point appears f b / Z columns
+// further left there. In R, or in W after the pose of the rover.
+struct StereoView {
+  int columns = 0;
+  int rows = 0;
+  double focal_px = 0.0;                               // along rows
+  double baseline_m = 0.0;                             // 0: one eye
+  math::Vector3 eye = math::Vector3::Zero();           // the left one, to which points belong
+  math::Vector3 right_eye = math::Vector3::Zero();     // equal to it where there is one eye
+  math::Vector3 first = math::Vector3::UnitX();        // ray of pixel (0, 0)
+  math::Vector3 along_row = math::Vector3::Zero();     // from column to column, to the right
+  math::Vector3 along_column = math::Vector3::Zero();  // from row to row, downwards
+
+  math::Vector3 Ray(double column, double row) const {
+    return first + column * along_row + row * along_column;
+  }
+  // Same view in W.
+  StereoView From(const math::Transform& X_WR) const;
+};
+
+// The view in R. The ideal sensor has one eye in the middle of the pair.
+StereoView MakeStereoView(const StereoParams& params, messages::LookDirection direction);
+
+}  // namespace rockyard::sensing
