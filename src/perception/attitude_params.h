@@ -1,0 +1,57 @@
+// Parameters of the attitude that the rover believes.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "core/fields.h"
+
+namespace rockyard::perception {
+
+enum class AttitudeSource {
+  kLevel,           // the rover takes itself to be level
+  kAccelerometers,  // where it has them; level where not
+};
+
+enum class HeightSource {
+  kLevel,       // the ground is taken to be flat: z = 0
+  kIntegrated,  // z grows by the distance driven times the sine of the climb
+};
+
+struct AttitudeParams {
+  AttitudeSource source = AttitudeSource::kAccelerometers;
+  double filter_s = 0.5;
+  HeightSource height = HeightSource::kIntegrated;
+
+  void Visit(core::FieldVisitor& v) {
+    using core::Origin;
+    v.Choice("source", source,
+             {.doc = "what roll and pitch come from; level where the rover has no accelerometers",
+              .origin = Origin::kAssumed,
+              .source = "Goldberg 2002 sec. 4 asks for an attitude estimate without naming one"});
+    v.Real("filter_s", filter_s,
+           {.doc = "time constant of the low pass on the specific force; 0: none",
+            .min = 0.0,
+            .max = 100.0,
+            .origin = Origin::kAssumed,
+            .source = "longer than a jolt, shorter than the drive over half a wheel diameter",
+            .study_low = 0.0,
+            .study_high = 2.0});
+    v.Choice("height", height,
+             {.doc = "what the height above the start comes from",
+              .origin = Origin::kAssumed,
+              .source = "odometry along the slope is what a rover without visual odometry has"});
+  }
+};
+
+}  // namespace rockyard::perception
+
+template <>
+struct rockyard::core::EnumNames<rockyard::perception::AttitudeSource> {
+  static constexpr std::array<std::string_view, 2> kNames{"level", "accelerometers"};
+};
+
+template <>
+struct rockyard::core::EnumNames<rockyard::perception::HeightSource> {
+  static constexpr std::array<std::string_view, 2> kNames{"level", "integrated"};
+};

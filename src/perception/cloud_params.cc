@@ -1,0 +1,75 @@
+#include "perception/cloud_params.h"
+
+#include "messages/stripe_array.h"
+
+namespace rockyard::perception {
+namespace {
+
+using core::Origin;
+
+void VisitGround(CloudElevationParams& p, core::FieldVisitor& v) {
+  const auto length = [&v](std::string_view name, double& value, std::string_view doc,
+                           std::string_view reason, double study_low, double study_high) {
+    v.Real(name, value,
+           {.doc = doc,
+            .min = 0.0,
+            .max = 20.0,
+            .origin = Origin::kAssumed,
+            .source = reason,
+            .study_low = study_low,
+            .study_high = study_high});
+  };
+  length("near_m", p.near_m, "nearest edge of the ground, from the chassis centre, as they look",
+         "where the light stripe array begins on Rocky 3.2", 0.4, 0.8);
+  length("far_m", p.far_m, "its farthest edge", "five times as long as the light stripe array", 0.8,
+         2.5);
+  v.Require("far_m", p.far_m > p.near_m, "is not larger than near_m", "use a larger value");
+  length("half_width_m", p.half_width_m, "its edges left and right of the middle line",
+         "a rover's width and as much again for clearance", 0.37, 1.2);
+  v.Require("half_width_m", p.half_width_m > 0.0, "leaves no ground", "use a positive value");
+}
+
+}  // namespace
+
+void CloudElevationParams::Visit(core::FieldVisitor& v) {
+  v.Integer("rows", rows,
+            {.doc = "rows of bins, from near to far",
+             .min = 2,
+             .max = static_cast<double>(messages::kMaxStripeRows),
+             .origin = Origin::kAssumed,
+             .source = "as many as the light stripe array has",
+             .study_low = 4,
+             .study_high = 7});
+  v.Integer("stripes", stripes,
+            {.doc = "bins of a row, from left to right",
+             .min = 3,
+             .max = static_cast<double>(messages::kMaxStripes),
+             .origin = Origin::kAssumed,
+             .source = "as many as the light stripe array has",
+             .study_low = 5,
+             .study_high = 9});
+  VisitGround(*this, v);
+  v.Real("quantile", quantile,
+         {.doc = "share of a bin's points that lie no higher than its elevation; 1: the highest "
+                 "point",
+          .min = 0.0,
+          .max = 1.0,
+          .origin = Origin::kAssumed,
+          .source = "the highest of hundreds of noisy points is noise",
+          .study_low = 0.5,
+          .study_high = 1.0});
+  v.Integer("min_points", min_points,
+            {.doc = "points from which a bin counts as seen",
+             .min = 1,
+             .max = 100000,
+             .origin = Origin::kAssumed,
+             .source = "one stray point is no ground",
+             .study_low = 1,
+             .study_high = 10});
+  v.Choice("frame", frame,
+           {.doc = "frame in which heights count",
+            .origin = Origin::kAssumed,
+            .source = "over a metre, a pitch of 7 deg is as high as the clearance"});
+}
+
+}  // namespace rockyard::perception
