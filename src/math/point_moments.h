@@ -1,0 +1,105 @@
+// Sums over points from which planes are fitted: the ten moments of Goldberg 2002, section 4,
+// step 2.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "math/pose.h"
+#include "math/symmetric_eigen.h"
+
+namespace rockyard::math {
+
+// Coordinates enter the moments in whole micrometres: far finer than any range sensor, and whole
+// numbers add up exactly in every order.
+inline constexpr double kMomentUnit_m = 1e-6;
+
+// To the nearest unit, halves away from zero: mirrored points have mirrored coordinates. The
+// coordinate must be smaller than 9e12 m.
+inline std::int64_t ToMomentUnits(double coordinate_m) {
+  return static_cast<std::int64_t>(coordinate_m / kMomentUnit_m + std::copysign(0.5, coordinate_m));
+}
+
+// Count, mean and covariance (with the count as divisor) of points.
+struct PointSpread {
+  std::int64_t count = 0;
+  Vector3 mean_m = Vector3::Zero();
+  SymmetricMatrix3 covariance_m2;
+};
+
+// Number of points, sums of their coordinates and of the products of these, about the origin of
+// the frame, modulo 2^64. Sums may pass 2^64 (squares do from 4 km on): what is derived is exact
+// nevertheless while it is small itself, that is while
+//   the absolute sum of a coordinate stays below 2^63 um (9e12 m), and
+//   count times the mean square distance from the mean stays below 2^63 um^2 (9e6 m^2).
+struct PointMoments {
+  enum Index { kCount, kX, kY, kZ, kXX, kYY, kZZ, kXY, kXZ, kYZ, kSize };
+  std::array<std::uint64_t, kSize> sums{};
+
+  std::int64_t count() const { return static_cast<std::int64_t>(sums[kCount]); }
+  bool empty() const { return sums[kCount] == 0; }
+
+  // Coordinates in units of kMomentUnit_m.
+  void AddPoint(std::int64_t x, std::int64_t y, std::int64_t z) {
+    const auto ux = static_cast<std::uint64_t>(x);
+    const auto uy = static_cast<std::uint64_t>(y);
+    const auto uz = static_cast<std::uint64_t>(z);
+    const std::array<std::uint64_t, kSize> terms = {1,       ux,      uy,      uz,      ux * ux,
+                                                    uy * uy, uz * uz, ux * uy, ux * uz, uy * uz};
+    for (std::size_t i = 0; i < kSize; ++i) sums[i] += terms[i];
+  }
+
+  PointMoments& operator+=(const PointMoments& other) {
+    for (std::size_t i = 0; i < kSize; ++i) sums[i] += other.sums[i];
+    return *this;
+  }
+  // Takes back what `other` had added.
+  PointMoments& operator-=(const PointMoments& other) {
+    for (std::size_t i = 0; i < kSize; ++i) sums[i] -= other.sums[i];
+    return *this;
+  }
+  bool operator==(const PointMoments&) const = default;
+
+  // Mean height of the points. There must be one.
+  double MeanZ_m() const {
+    return static_cast<double>(static_cast<std::int64_t>(sums[kZ])) / static_cast<double>(count()) *
+           kMomentUnit_m;
+  }
+};
+
+// There must be a point. The second moments are shifted in whole numbers to the unit next to the
+// mean before anything is rounded, so that nothing cancels however far the origin is.
+inline PointSpread Spread(const PointMoments& moments) {
+  using M = PointMoments;
+  const auto& s = moments.sums;
+  const double inverse_count = 1.0 / static_cast<double>(moments.count());
+  std::array<std::uint64_t, 3> near{};  // the unit next to the mean
+  std::array<std::uint64_t, 3> rest{};  // sums about it
+  std::array<double, 3> offset{};       // of the mean from it
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double mean =
+        static_cast<double>(static_cast<std::int64_t>(s[M::kX + i])) * inverse_count;
+    near[i] = static_cast<std::uint64_t>(static_cast<std::int64_t>(mean));
+    rest[i] = s[M::kX + i] - s[M::kCount] * near[i];
+    offset[i] = static_cast<double>(static_cast<std::int64_t>(rest[i])) * inverse_count;
+  }
+  const auto covariance = [&](std::size_t product, std::size_t i, std::size_t j) {
+    const std::uint64_t about_near = s[product] - near[i] * s[M::kX + j] - near[j] * rest[i];
+    const double square = static_cast<double>(static_cast<std::int64_t>(about_near));
+    return (square * inverse_count - offset[i] * offset[j]) * (kMomentUnit_m * kMomentUnit_m);
+  };
+  PointSpread spread;
+  spread.count = moments.count();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double mean = static_cast<double>(static_cast<std::int64_t>(near[i])) + offset[i];
+    spread.mean_m(static_cast<Eigen::Index>(i)) = mean * kMomentUnit_m;
+  }
+  spread.covariance_m2 = {covariance(M::kXX, 0, 0), covariance(M::kYY, 1, 1),
+                          covariance(M::kZZ, 2, 2), covariance(M::kXY, 0, 1),
+                          covariance(M::kXZ, 0, 2), covariance(M::kYZ, 1, 2)};
+  return spread;
+}
+
+}  // namespace rockyard::math
