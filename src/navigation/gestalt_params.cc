@@ -40,6 +40,15 @@ void VisitChoices(GestaltDriveParams& p, core::FieldVisitor& v) {
 }
 
 void VisitEndings(GestaltDriveParams& p, core::FieldVisitor& v) {
+  v.Real("step_time_out_s", p.step_time_out_s,
+         {.doc = "time after which a drive or turn that is not measured as done ends all the same",
+          .min = 1.0,
+          .max = 1e6,
+          .origin = Origin::kAssumed,
+          .source = "twenty times the 15 s of a step (Goldberg 2002 table 2): keeps a rover that "
+                    "measures no motion from waiting for ever",
+          .study_low = 60.0,
+          .study_high = 600.0});
   v.Angle("search_turn_deg", p.search_turn_rad,
           {.doc = "measured turning in place, look by look, after which no more is to be seen",
            .min = 90.0,
@@ -81,14 +90,14 @@ void VisitFeltHazards(GestaltDriveParams& p, core::FieldVisitor& v) {
           .study_low = 0.1,
           .study_high = 0.5});
   v.Real("felt_radius_m", p.felt_radius_m,
-         {.doc = "radius of the obstacle that a felt hazard leaves in the map, its edge where the "
-                 "rover stood; 0 leaves none",
+         {.doc = "radius of the obstacle that a felt hazard leaves in the map, at the end of the "
+                 "vehicle that was driven into it; 0 marks one cell",
           .min = 0.0,
           .max = 5.0,
           .origin = Origin::kAssumed,
-          .source = "a rock about as large as a wheel base is wide of it",
-          .study_low = 0.1,
-          .study_high = 0.6});
+          .source = "a wheel radius: smaller rocks are climbed",
+          .study_low = 0.0,
+          .study_high = 0.4});
   v.Real("felt_again_m", p.felt_again_m,
          {.doc = "drive after which a hazard that was felt already when the step began counts",
           .min = 0.0,

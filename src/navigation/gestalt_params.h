@@ -37,11 +37,12 @@ struct GestaltDriveParams {
   BackwardArcs backward_arcs = BackwardArcs::kBelowThreshold;
   PointTurns point_turns = PointTurns::kBelowMinVote;
   double min_drive_goodness = 10.0;
+  double step_time_out_s = 300.0;
   double search_turn_rad = math::DegToRad(360.0);
   std::int64_t max_fruitless_cycles = 100;
   double progress_m = 0.25;
   double back_off_m = 0.35;
-  double felt_radius_m = 0.30;
+  double felt_radius_m = 0.10;
   double felt_again_m = 0.10;
   std::int64_t max_felt = 6;
   ArrivalCheck arrival_check = ArrivalCheck::kBetweenSteps;

@@ -96,11 +96,11 @@ void GestaltPlanParams::Visit(core::FieldVisitor& v) {
             .source = "Goldberg 2002 step 4 says biased to nearby cells, not how"});
   v.Real("far_weight", far_weight,
          {.doc = "weight at plan_max_dist where path_weight is linear; it is 1 at plan_min_dist",
-          .min = 0.0,
+          .min = 0.001,
           .max = 1.0,
           .origin = Origin::kAssumed,
           .source = "the paper names none",
-          .study_low = 0.0,
+          .study_low = 0.05,
           .study_high = 1.0});
   v.Integer("samples_per_cell", samples_per_cell,
             {.doc = "places along a path at which the map is read, in a cell's width",
