@@ -9,6 +9,7 @@ a change of the code. The whole takes some fifteen minutes of processor time.
 """
 
 import argparse
+import csv
 import json
 import re
 import resource
@@ -182,15 +183,17 @@ def causes(study):
     return table(["change", "nominal", "0.85 per m2"], rows)
 
 
-def paired(study, scenario, multibody):
-    """What `rockyard compare` says of one scenario: success difference and differences of means."""
-    text = study.tool("compare", study.folder(multibody, scenario),
-                      study.folder("quasi_static", scenario))
+def paired(study, first, second):
+    """What `rockyard compare` says of two run folders: success difference and, of all trials, means,
+    difference and interval by column."""
+    columns = second / "compared.csv"
+    text = study.tool("compare", first, second, "--csv", columns)
     success = re.search(r"B - A ([+-][\d.]+) points \(95 % interval ([+-][\d.]+) .. ([+-][\d.]+)\)",
                         text).groups()
-    means = {match[1]: match.groups()[1:] for match in re.finditer(
-        r"^  (\w+) +\d+ +(\S+) +(\S+) +(\S+) +(\S+) \.\. (\S+)", text, flags=re.MULTILINE)}
-    return success, means
+    with open(columns, encoding="utf-8", newline="") as file:
+        rows = [row for row in csv.DictReader(file) if row["trials"] == "all"]
+    keys = ("mean_a", "mean_b", "difference", "ci95_low", "ci95_high")
+    return success, {row["column"]: [f"{float(row[key]):.4g}" for key in keys] for row in rows}
 
 
 def fidelity(study):
@@ -199,7 +202,8 @@ def fidelity(study):
         multibody = "published" if scenario in PUBLISHED else "multibody"
         runs = [study.run(multibody, scenario, 300),
                 study.run("quasi_static", scenario, 300, QUASI_STATIC)]
-        success, means = paired(study, scenario, multibody)
+        success, means = paired(study, study.folder(multibody, scenario),
+                                study.folder("quasi_static", scenario))
         rows.append([f"**{scenario}**", "", "", ""])
         rows.append(["declared success", rate(runs[0]), rate(runs[1]),
                      f"{success[0]} points ({success[1]}..{success[2]})"])
