@@ -2,43 +2,81 @@
 // steps 1 to 3).
 #pragma once
 
+#include <cstdint>
+
 #include "math/pose.h"
 #include "messages/navigation_view.h"
 #include "messages/point_cloud.h"
+#include "navigation/gestalt_cells.h"
 #include "navigation/gestalt_map_params.h"
+#include "navigation/gestalt_planes.h"
+#include "navigation/gestalt_steps.h"
+#include "navigation/gestalt_traversability.h"
 #include "navigation/goodness_grid.h"
 
 namespace rockyard::navigation {
 
+// A grid with a fixed memory that wraps around the vehicle (Howard 2012, section 2). Frame: the
+// world as estimated on board; the map stays where it was put when the estimate jumps.
+//
+// Deviations from the paper. Its ten floats a cell are whole numbers of micrometres here, so that
+// what a map holds does not depend on the order of its points, on the window or on the distance
+// from the origin. The bounds x0..xN give the size of the window and the phase of its cells; the
+// window follows the rover, as bounds that are fixed would end every drive after 10 m.
 class GestaltMap {
  public:
   explicit GestaltMap(const GestaltMapParams& params);
 
-  // A new navigation cycle with the rover at (x, y) of the estimated world frame: moves the window
-  // by whole cells so that the rover is in its middle, and throws out cells that leave it, that are
-  // farther than grid_dist_timeout, or that got no data for more than max_idles cycles.
+  // A new navigation cycle with the rover at (x, y), which must be finite: moves the window by
+  // whole cells so that the rover is in its middle one (the upper of two), and throws out cells
+  // that leave it, whose centre is farther than grid_dist_timeout_m, or that got no data for more
+  // than max_idles cycles. O(cells).
   void BeginCycle(double x_m, double y_m);
 
-  // Takes the points of a cloud that lie in the window and within grid_dist_timeout. X_WR as
-  // estimated. Any number of clouds a cycle.
+  // Takes the points of a cloud, seen from X_WR as estimated, in any number of clouds a cycle.
+  // Points are left out that are not finite, outside the window, in cells whose centre is farther
+  // than grid_dist_timeout_m from the rover of BeginCycle, or more than 10 m above or below R; and
+  // those beyond the 65536th of a cell: the exactness of the sums ends there.
   void Add(const messages::PointCloud& cloud, const math::Transform& X_WR);
 
-  // What the rover felt: every patch that holds one of the cells within `radius_m` of (x, y), or
-  // the cell there, becomes a step obstacle. Ages as data do.
+  // What the rover felt: every patch that holds the cell at (x, y), or one whose centre lies within
+  // `radius_m` of it, becomes a step obstacle. Marks age and are thrown out as data are; new data
+  // keep them.
   void MarkObstacle(double x_m, double y_m, double radius_m);
 
-  // Forgets everything.
+  // Forgets everything but where the rover is.
   void Clear();
 
-  // Goodness and certainty of every cell of the window. The reference stays valid, and holds until
-  // the next call.
+  // Goodness and certainty of every cell of the window. The reference stays valid, its contents
+  // hold until the next call. O(cells), see tests/benchmarks/gestalt_benchmark.cc.
   const GoodnessGrid& Evaluate();
 
-  // The window as of the last Evaluate, for people.
+  // The cells as they are, with the goodness of the last Evaluate, for people.
   messages::MapView View() const;
 
  private:
+  struct LatticeCell {
+    std::int64_t x;
+    std::int64_t y;
+  };
+
+  LatticeCell LatticeAt(double x_m, double y_m) const;
+  math::Vector3 Centre(int ix, int iy) const;
+  bool IsNear(int ix, int iy) const;
+  bool InWindow(LatticeCell cell) const;
+  void DropOldCells(LatticeCell first);
+  void AddPoint(const math::Vector3& p_WP_W);
+  void GrowBox(int ix, int iy);
+
   GestaltMapParams params_;
+  CellWindow cells_;
+  CellBox box_;  // of the window's cells that may hold something
+  std::int64_t cycle_ = 0;
+  double rover_x_m_ = 0.0;
+  double rover_y_m_ = 0.0;
+  PatchPlanes planes_;
+  PatchSteps steps_;
+  Traversability traversability_;
   GoodnessGrid grid_;
 };
 

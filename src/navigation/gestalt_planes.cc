@@ -1,0 +1,162 @@
+#include "navigation/gestalt_planes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rockyard::navigation {
+namespace {
+
+// Against shares such as 0.56 of 25 cells that should be whole numbers.
+constexpr double kRounding = 1e-6;
+
+int Reach(double side_m, double step_m) {
+  return std::max(0, static_cast<int>(std::ceil(0.5 * (side_m - step_m) / step_m - kRounding)));
+}
+
+int AtLeast(double share, int count) {
+  return static_cast<int>(std::ceil(share * count - kRounding));
+}
+
+}  // namespace
+
+PatchReach ReachOf(const GestaltMapParams& params) {
+  return {Reach(params.PatchSide_m(), params.grid.xstep_m),
+          Reach(params.PatchSide_m(), params.grid.ystep_m)};
+}
+
+PatchPlanes::PatchPlanes(const GestaltMapParams& params)
+    : params_(params), reach_(ReachOf(params)) {
+  const int columns = 2 * reach_.x + 1;
+  const int rows = 2 * reach_.y + 1;
+  needed_cells_ = static_cast<std::uint64_t>(AtLeast(params.min_patch_share, columns * rows));
+  needed_columns_ = AtLeast(params.min_cell_coverage, columns);
+  needed_rows_ = AtLeast(params.min_cell_coverage, rows);
+}
+
+void PatchPlanes::AddCell(Sums& sums, const MapCell& cell) const {
+  sums.moments += cell.moments;
+  sums.filled += cell.moments.count() >= params_.min_cell_points ? 1 : 0;
+  sums.marked += cell.marked ? 1 : 0;
+}
+
+void PatchPlanes::TakeCell(Sums& sums, const MapCell& cell) const {
+  sums.moments -= cell.moments;
+  sums.filled -= cell.moments.count() >= params_.min_cell_points ? 1 : 0;
+  sums.marked -= cell.marked ? 1 : 0;
+}
+
+void PatchPlanes::Fit(const CellWindow& cells, const CellBox& box) {
+  width_ = cells.nx();
+  planes_.assign(static_cast<std::size_t>(cells.nx()) * static_cast<std::size_t>(cells.ny()), {});
+  if (box.empty()) return;
+  const CellBox out = box.Grown(reach_.x, reach_.y, cells.nx(), cells.ny());
+  FindRowsWithData(cells, box, out);
+  columns_.assign(static_cast<std::size_t>(cells.nx()), {});
+  rows_with_data_.assign(static_cast<std::size_t>(cells.nx()), 0);
+  // From above the box, where every sum is zero.
+  for (int iy = box.y - reach_.y; iy < out.y_end; ++iy) {
+    SlideDown(cells, box, out, iy);
+    if (iy >= out.y) FitRow(cells, box, out, iy);
+  }
+}
+
+void PatchPlanes::FindRowsWithData(const CellWindow& cells, const CellBox& box,
+                                   const CellBox& out) {
+  row_holds_data_.assign(planes_.size(), 0);
+  const auto holds = [&](int ix, int iy) {
+    return ix >= box.x && ix < box.x_end && !cells.At(ix, iy).moments.empty() ? 1 : 0;
+  };
+  for (int iy = box.y; iy < box.y_end; ++iy) {
+    int count = 0;
+    for (int ix = box.x - reach_.x; ix < out.x_end; ++ix) {
+      count += holds(ix + reach_.x, iy) - holds(ix - reach_.x - 1, iy);
+      if (ix >= out.x) row_holds_data_[static_cast<std::size_t>(iy * width_ + ix)] = count > 0;
+    }
+  }
+}
+
+void PatchPlanes::SlideDown(const CellWindow& cells, const CellBox& box, const CellBox& out,
+                            int iy) {
+  const int in = iy + reach_.y;
+  const int gone = iy - reach_.y - 1;
+  const bool adds = in < box.y_end;
+  const bool takes = gone >= box.y && gone < box.y_end;
+  for (int ix = box.x; ix < box.x_end; ++ix) {
+    Sums& column = columns_[static_cast<std::size_t>(ix)];
+    if (adds) AddCell(column, cells.At(ix, in));
+    if (takes) TakeCell(column, cells.At(ix, gone));
+  }
+  for (int ix = out.x; ix < out.x_end; ++ix) {
+    std::int32_t& rows = rows_with_data_[static_cast<std::size_t>(ix)];
+    if (adds) rows += row_holds_data_[static_cast<std::size_t>(in * width_ + ix)];
+    if (takes) rows -= row_holds_data_[static_cast<std::size_t>(gone * width_ + ix)];
+  }
+}
+
+void PatchPlanes::FitRow(const CellWindow& cells, const CellBox& box, const CellBox& out, int iy) {
+  Sums patch;
+  int columns = 0;
+  for (int ix = box.x - reach_.x; ix < out.x_end; ++ix) {
+    const int in = ix + reach_.x;
+    const int gone = ix - reach_.x - 1;
+    if (in < box.x_end) {
+      const Sums& column = columns_[static_cast<std::size_t>(in)];
+      patch.moments += column.moments;
+      patch.filled += column.filled;
+      patch.marked += column.marked;
+      columns += column.moments.empty() ? 0 : 1;
+    }
+    if (gone >= box.x && gone < box.x_end) {
+      const Sums& column = columns_[static_cast<std::size_t>(gone)];
+      patch.moments -= column.moments;
+      patch.filled -= column.filled;
+      patch.marked -= column.marked;
+      columns -= column.moments.empty() ? 0 : 1;
+    }
+    if (ix < out.x) continue;
+    PatchPlane& plane = planes_[static_cast<std::size_t>(iy * width_ + ix)];
+    plane.marked = patch.marked > 0;
+    plane.enough = patch.filled >= needed_cells_ && !patch.moments.empty();
+    const bool covered =
+        columns >= needed_columns_ && rows_with_data_[static_cast<std::size_t>(ix)] >= needed_rows_;
+    if (plane.enough && covered) FitPatch(cells, patch.moments, {ix, iy}, plane);
+  }
+}
+
+void PatchPlanes::FitPatch(const CellWindow& cells, const math::PointMoments& moments, Cell middle,
+                           PatchPlane& plane) const {
+  const math::PlaneFit fit = params_.outliers_per_cell > 0
+                                 ? FitWithoutOutliers(cells, moments, middle)
+                                 : math::FitPlane(math::Spread(moments).covariance_m2);
+  plane.plane_valid = fit.eigen_ratio >= params_.eigen_ratio;
+  plane.residual_m = fit.residual_m;
+  if (params_.tests.pitch) plane.slope_rad = fit.Slope_rad();
+}
+
+math::PlaneFit PatchPlanes::FitWithoutOutliers(const CellWindow& cells, math::PointMoments moments,
+                                               Cell middle) const {
+  const CellBox patch = CellBox{middle.ix, middle.ix + 1, middle.iy, middle.iy + 1}.Grown(
+      reach_.x, reach_.y, cells.nx(), cells.ny());
+  std::vector<const MapCell*> left;
+  for (int iy = patch.y; iy < patch.y_end; ++iy) {
+    for (int ix = patch.x; ix < patch.x_end; ++ix) {
+      if (!cells.At(ix, iy).moments.empty()) left.push_back(&cells.At(ix, iy));
+    }
+  }
+  math::PointSpread spread = math::Spread(moments);
+  math::PlaneFit fit = math::FitPlane(spread.covariance_m2);
+  for (std::int64_t i = 0; i < params_.outliers_per_cell && left.size() > 1; ++i) {
+    const auto distance = [&](const MapCell* cell) {
+      return std::abs(fit.normal.dot(math::Spread(cell->moments).mean_m - spread.mean_m));
+    };
+    const auto worst = std::max_element(
+        left.begin(), left.end(), [&](auto* a, auto* b) { return distance(a) < distance(b); });
+    moments -= (*worst)->moments;
+    left.erase(worst);
+    spread = math::Spread(moments);
+    fit = math::FitPlane(spread.covariance_m2);
+  }
+  return fit;
+}
+
+}  // namespace rockyard::navigation
