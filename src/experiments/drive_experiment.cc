@@ -41,8 +41,11 @@ const truth::RecordSchema& DriveSchema() {
   return kSchema;
 }
 
-DriveExperiment::DriveExperiment(scenario::Scenario scenario, trial::ScanWatcher watcher)
-    : scenario_(std::move(scenario)), watcher_(std::move(watcher)) {}
+DriveExperiment::DriveExperiment(scenario::Scenario scenario, trial::ScanWatcher scan_watcher,
+                                 trial::StepWatcher step_watcher)
+    : scenario_(std::move(scenario)),
+      scan_watcher_(std::move(scan_watcher)),
+      step_watcher_(std::move(step_watcher)) {}
 
 const truth::RecordSchema& DriveExperiment::schema() const { return DriveSchema(); }
 
@@ -61,8 +64,8 @@ truth::Record DriveExperiment::RunTrial(std::uint64_t seed, std::uint64_t index,
     if (index > std::numeric_limits<std::uint32_t>::max()) {
       throw std::out_of_range("trial indices end at 2^32 - 1, the size of their random key");
     }
-    const trial::DriveResult drive =
-        trial::RunTrial(scenario_, {seed, static_cast<std::uint32_t>(index)}, trace, watcher_);
+    const trial::DriveResult drive = trial::RunTrial(
+        scenario_, {seed, static_cast<std::uint32_t>(index)}, trace, scan_watcher_, step_watcher_);
     return {index, drive.outcome, drive.detail, Values(drive.record)};
   } catch (const std::exception& error) {
     return truth::MakeFault(seed, index, error.what());
@@ -70,12 +73,13 @@ truth::Record DriveExperiment::RunTrial(std::uint64_t seed, std::uint64_t index,
 }
 
 std::unique_ptr<Experiment> MakeExperiment(const scenario::Scenario& scenario,
-                                           const trial::ScanWatcher& watcher) {
+                                           const trial::ScanWatcher& scan_watcher,
+                                           const trial::StepWatcher& step_watcher) {
   switch (scenario.experiment) {
     case scenario::ExperimentKind::kDrive:
-      return std::make_unique<DriveExperiment>(scenario, watcher);
+      return std::make_unique<DriveExperiment>(scenario, scan_watcher, step_watcher);
     case scenario::ExperimentKind::kHazardDetection:
-      return std::make_unique<HazardDetectionExperiment>(scenario, watcher);
+      return std::make_unique<HazardDetectionExperiment>(scenario, scan_watcher);
   }
   throw std::logic_error("unknown experiment");
 }

@@ -4,6 +4,7 @@
 #include "experiments/experiment.h"
 #include "scenario/scenario.h"
 #include "trial/scan_watcher.h"
+#include "trial/step_watcher.h"
 #include "truth/drive_record.h"
 #include "truth/trace.h"
 
@@ -14,7 +15,8 @@ const truth::RecordSchema& DriveSchema();
 
 class DriveExperiment final : public Experiment {
  public:
-  explicit DriveExperiment(scenario::Scenario scenario, trial::ScanWatcher watcher = {});
+  explicit DriveExperiment(scenario::Scenario scenario, trial::ScanWatcher scan_watcher = {},
+                           trial::StepWatcher step_watcher = {});
 
   const truth::RecordSchema& schema() const override;
   truth::Record Run(std::uint64_t seed, std::uint64_t index) const override;
@@ -26,7 +28,8 @@ class DriveExperiment final : public Experiment {
   truth::Record RunTrial(std::uint64_t seed, std::uint64_t index, truth::Trace* trace) const;
 
   scenario::Scenario scenario_;
-  trial::ScanWatcher watcher_;
+  trial::ScanWatcher scan_watcher_;
+  trial::StepWatcher step_watcher_;
 };
 
 }  // namespace rockyard::experiments

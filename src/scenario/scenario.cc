@@ -22,11 +22,6 @@ void RequireConsistency(const Scenario& scenario, core::FieldVisitor& v) {
   v.Require("course.goal_x_m", arena.HoldsCoursePoint(course.goal_x_m, course.goal_y_m),
             "puts the goal outside of terrain.arena (or of the mirror lines of a virtual arena)",
             "move the goal or enlarge the arena");
-  v.Require("course.goal_radius_m",
-            course.goal_radius_m >= scenario.navigation.pathfinder.goal_tolerance_m,
-            "is below navigation.pathfinder.goal_tolerance_m, so that a rover without any error "
-            "could arrive falsely",
-            "use a goal radius of at least the navigator's tolerance");
   const bool multibody = scenario.rover.fidelity == rover::Fidelity::kMultibody;
   const double step_s = multibody
                             ? scenario.rover.physics.time_scale * scenario.rover.physics.step_s
@@ -36,13 +31,57 @@ void RequireConsistency(const Scenario& scenario, core::FieldVisitor& v) {
             "(multibody) or "
             "rover.quasi_static.step_s (quasi_static)",
             "use a lower rate or a shorter physics step");
-  const navigation::PathfinderParams& pathfinder = scenario.navigation.pathfinder;
+  v.Require("rover.fidelity",
+            multibody || scenario.terrain.rocks.mobility == terrain::RockMobility::kFixed,
+            "is quasi_static, which pushes no rocks, where terrain.rocks.mobility is movable",
+            "use fidelity multibody or fixed rocks");
+}
+
+// What an arrival of the navigator means.
+void RequireArrival(const Scenario& scenario, core::FieldVisitor& v) {
+  const double radius_m = scenario.course.goal_radius_m;
+  const NavigationParams& navigation = scenario.navigation;
+  const bool behaviour = navigation.navigator == NavigatorKind::kPathfinder;
+  v.Require("course.goal_radius_m",
+            !behaviour || radius_m >= navigation.pathfinder.goal_tolerance_m,
+            "is below navigation.pathfinder.goal_tolerance_m, so that a rover without any error "
+            "could arrive falsely",
+            "use a goal radius of at least the navigator's tolerance");
+  v.Require("course.goal_radius_m",
+            behaviour || radius_m >= navigation.gestalt.waypoints.goal_tolerance_m,
+            "is below navigation.gestalt.waypoints.goal_tolerance_m, so that a rover without any "
+            "error could arrive falsely",
+            "use a goal radius of at least the navigator's tolerance");
+}
+
+// Whether the light stripe sensor has any part in the experiment.
+bool UsesLightStripe(const Scenario& scenario) {
+  return scenario.experiment == ExperimentKind::kHazardDetection ||
+         scenario.sensors.terrain_sensor == TerrainSensor::kLightStripe;
+}
+
+// What the behaviour controller takes for left, centre and right.
+void RequireStripes(const Scenario& scenario, core::FieldVisitor& v) {
+  const NavigationParams& navigation = scenario.navigation;
+  if (navigation.navigator != NavigatorKind::kPathfinder) return;
+  const bool light_stripe = UsesLightStripe(scenario);
   v.Require("navigation.pathfinder.left_stripes",
-            pathfinder.stripe_count() == sensing::ArraySize(scenario.sensors.light_stripe).stripes,
+            !light_stripe || navigation.pathfinder.stripe_count() ==
+                                 sensing::ArraySize(scenario.sensors.light_stripe).stripes,
             "names with centre_stripes and right_stripes another number of stripes than "
             "sensors.light_stripe has",
             "name every stripe of a denser array, e.g. left [0, 1, 2, 3], centre [4], right [5, 6, "
             "7, 8]");
+  v.Require("navigation.pathfinder.left_stripes",
+            light_stripe || static_cast<std::int64_t>(navigation.pathfinder.stripe_count()) ==
+                                scenario.perception.cloud_elevations.stripes,
+            "names with centre_stripes and right_stripes another number of stripes than "
+            "perception.cloud_elevations.stripes",
+            "name every stripe of the array, from left to right");
+}
+
+void RequireFinder(const Scenario& scenario, core::FieldVisitor& v) {
+  if (!UsesLightStripe(scenario)) return;
   const sensing::LightStripeParams& sensor = scenario.sensors.light_stripe;
   v.Require(
       "perception.stripe_finder.averaging_px",
@@ -52,14 +91,11 @@ void RequireConsistency(const Scenario& scenario, core::FieldVisitor& v) {
       "is more than the image lines that sensors.light_stripe.imager reads around a scanline, "
       "so that no point would ever be found",
       "use at most its averaging_rows plus twice its margin_rows");
-  v.Require("rover.fidelity",
-            multibody || scenario.terrain.rocks.mobility == terrain::RockMobility::kFixed,
-            "is quasi_static, which pushes no rocks, where terrain.rocks.mobility is movable",
-            "use fidelity multibody or fixed rocks");
 }
 
 // Images show the rover itself, rays do not.
 void RequireFreeView(const Scenario& scenario, core::FieldVisitor& v) {
+  if (!UsesLightStripe(scenario)) return;
   const sensing::LightStripeParams& sensor = scenario.sensors.light_stripe;
   v.Require("sensors.light_stripe.fidelity",
             sensor.fidelity == sensing::Fidelity::kGeometric ||
@@ -142,6 +178,10 @@ void RequireMeasurable(const Scenario& scenario, core::FieldVisitor& v) {
   if (scenario.experiment != ExperimentKind::kHazardDetection) return;
   const experiments::HazardDetectionParams& study = scenario.hazard_detection;
   const sensing::LightStripeParams& sensor = scenario.sensors.light_stripe;
+  v.Require("sensors.terrain_sensor",
+            scenario.sensors.terrain_sensor == TerrainSensor::kLightStripe,
+            "is not light_stripe, the sensor that the experiment hazard_detection measures",
+            "use light_stripe");
   const terrain::GroundParams& ground = scenario.terrain.ground;
   v.Require("terrain.ground.slope_deg", ground.slope_rad == 0.0 && ground.roughness_rms_m == 0.0,
             "or roughness_rms_m is not 0, where the experiment measures on flat sand",
@@ -195,6 +235,9 @@ void Scenario::Visit(core::FieldVisitor& v) {
   v.Group("energy", energy, "electrical power and batteries");
   v.Group("hazard_detection", hazard_detection, "the experiment of that name");
   RequireConsistency(*this, v);
+  RequireArrival(*this, v);
+  RequireStripes(*this, v);
+  RequireFinder(*this, v);
   RequireFreeView(*this, v);
   RequireMeasurable(*this, v);
 }

@@ -9,7 +9,12 @@ void SensorParams::Visit(core::FieldVisitor& v) {
            {.doc = "where the pose that the rover believes comes from",
             .origin = Origin::kPublished,
             .source = "Matthies 1995 sec. 7: dead reckoning"});
+  v.Choice("terrain_sensor", terrain_sensor,
+           {.doc = "what the rover looks at the terrain with; the groups of other sensors do "
+                   "nothing",
+            .origin = Origin::kSetting});
   v.Group("light_stripe", light_stripe, "light stripe hazard sensor");
+  v.Group("stereo", stereo, "stereo cameras ahead and behind");
   v.Group("sun", sun,
           "sunlight on the terrain and how bright it is; the images of a sensor see it");
   v.Group("gyro", gyro, "turn rate sensor");
@@ -27,11 +32,17 @@ void PerceptionParams::Visit(core::FieldVisitor& v) {
   v.Group("dead_reckoning", dead_reckoning, "pose from wheel encoders and gyro");
   v.Group("calibration", calibration,
           "how wrong the rover is about its own geometry: believed less true");
+  v.Group("attitude", attitude, "roll, pitch and height from accelerometers and odometry");
+  v.Group("cloud_elevations", cloud_elevations,
+          "elevation array that the behaviour controller makes of stereo's points");
 }
 
 void NavigationParams::Visit(core::FieldVisitor& v) {
-  v.Choice("navigator", navigator, {.doc = "what decides the motions", .origin = Origin::kSetting});
+  v.Choice("navigator", navigator,
+           {.doc = "what decides the motions; the groups of other navigators do nothing",
+            .origin = Origin::kSetting});
   v.Group("pathfinder", pathfinder, "behaviour controller");
+  v.Group("gestalt", gestalt, "map-based navigator");
   v.Group("wheel_driver", wheel_driver, "from motions to wheel and steering set points");
 }
 

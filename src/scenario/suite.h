@@ -5,9 +5,12 @@
 #include <string_view>
 
 #include "core/fields.h"
+#include "navigation/gestalt_params.h"
 #include "navigation/pathfinder_params.h"
 #include "navigation/wheel_driver_params.h"
+#include "perception/attitude_params.h"
 #include "perception/calibration_params.h"
+#include "perception/cloud_params.h"
 #include "perception/dead_reckoning_params.h"
 #include "perception/hazard_params.h"
 #include "perception/stripe_finder_params.h"
@@ -15,6 +18,7 @@
 #include "sensing/encoder_params.h"
 #include "sensing/gyro_params.h"
 #include "sensing/light_stripe_params.h"
+#include "sensing/stereo_params.h"
 #include "sensing/sun_params.h"
 #include "sensing/tracker_params.h"
 #include "sensing/vehicle_sensor_params.h"
@@ -27,13 +31,22 @@ enum class Localization {
   kOracle,         // the true pose: a sensor without noise, marked in the results
 };
 
+// What the rover looks at the terrain with.
+enum class TerrainSensor {
+  kLightStripe,  // Matthies 1995, section 6: ahead only
+  kStereo,       // Goldberg 2002: cameras at the front and at the rear
+};
+
 enum class NavigatorKind {
   kPathfinder,  // behaviour controller of Matthies 1995, section 7
+  kGestalt,     // map of Goldberg 2002, section 4
 };
 
 struct SensorParams {
   Localization localization = Localization::kDeadReckoning;
+  TerrainSensor terrain_sensor = TerrainSensor::kLightStripe;
   sensing::LightStripeParams light_stripe;
+  sensing::StereoParams stereo;
   sensing::SunParams sun;
   sensing::GyroParams gyro;
   sensing::EncoderParams encoders;
@@ -49,6 +62,8 @@ struct PerceptionParams {
   perception::VehicleHazardParams vehicle_hazard;
   perception::DeadReckoningParams dead_reckoning;
   perception::CalibrationErrorParams calibration;
+  perception::AttitudeParams attitude;
+  perception::CloudElevationParams cloud_elevations;
 
   void Visit(core::FieldVisitor& v);
 };
@@ -56,6 +71,7 @@ struct PerceptionParams {
 struct NavigationParams {
   NavigatorKind navigator = NavigatorKind::kPathfinder;
   navigation::PathfinderParams pathfinder;
+  navigation::GestaltParams gestalt;
   navigation::WheelDriverParams wheel_driver;
 
   void Visit(core::FieldVisitor& v);
@@ -69,6 +85,11 @@ struct rockyard::core::EnumNames<rockyard::scenario::Localization> {
 };
 
 template <>
+struct rockyard::core::EnumNames<rockyard::scenario::TerrainSensor> {
+  static constexpr std::array<std::string_view, 2> kNames{"light_stripe", "stereo"};
+};
+
+template <>
 struct rockyard::core::EnumNames<rockyard::scenario::NavigatorKind> {
-  static constexpr std::array<std::string_view, 1> kNames{"pathfinder"};
+  static constexpr std::array<std::string_view, 2> kNames{"pathfinder", "gestalt"};
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/fields.h"
+#include "trial/compute_params.h"
 
 namespace rockyard::trial {
 
@@ -11,6 +12,7 @@ struct ClockParams {
   double scan_speed_factor = 1.0;
   double control_rate_hz = 20.0;
   double stop_time_s = 0.05;
+  ComputeParams compute;
 
   void Visit(core::FieldVisitor& v) {
     using core::Origin;
@@ -56,6 +58,7 @@ struct ClockParams {
             .source = "one control tick; motors hold at once",
             .study_low = 0.05,
             .study_high = 0.5});
+    v.Group("compute", compute, "what stereo and navigation take");
   }
 };
 

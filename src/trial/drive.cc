@@ -1,14 +1,14 @@
 #include "trial/drive.h"
 
+#include <limits>
 #include <string>
 #include <utility>
 
+#include "navigation/gestalt.h"
 #include "navigation/pathfinder.h"
-#include "sensing/oracle.h"
 #include "terrain/arena.h"
 #include "trial/layout.h"
 #include "trial/onboard_calibration.h"
-#include "trial/scan_time.h"
 
 namespace rockyard::trial {
 namespace {
@@ -33,6 +33,12 @@ std::optional<ArenaBounds> Bounds(const terrain::ArenaParams& arena) {
 
 std::unique_ptr<navigation::Navigator> MakeNavigator(const Scenario& scenario) {
   const messages::Goal goal{scenario.course.goal_x_m, scenario.course.goal_y_m};
+  switch (scenario.navigation.navigator) {
+    case scenario::NavigatorKind::kPathfinder:
+      break;
+    case scenario::NavigatorKind::kGestalt:
+      return std::make_unique<navigation::GestaltNavigator>(scenario.navigation.gestalt, goal);
+  }
   return std::make_unique<navigation::PathfinderNavigator>(scenario.navigation.pathfinder, goal,
                                                            scenario.perception.hazard.enabled);
 }
@@ -45,22 +51,32 @@ std::unique_ptr<rover::Rover> MakeTrialRover(const Scenario& scenario, terrain::
   return rover::MakeRover(scenario.rover, rocks.holding, terrain);
 }
 
+// Where the sensor of a behaviour controller shows the ground.
+Zone WatchedZone(const Scenario& scenario) {
+  if (scenario.sensors.terrain_sensor == scenario::TerrainSensor::kLightStripe) {
+    return ArrayZone(scenario.sensors.light_stripe);
+  }
+  const perception::CloudElevationParams& array = scenario.perception.cloud_elevations;
+  return {0.5 * scenario.rover.geometry.length_m, array.far_m, -array.half_width_m,
+          array.half_width_m};
+}
+
+// A map-based navigator reports no hazards, so that none can be met or missed.
+double WatchedHeight(const Scenario& scenario) {
+  return scenario.navigation.navigator == scenario::NavigatorKind::kPathfinder
+             ? scenario.referee.hazard_height_m
+             : std::numeric_limits<double>::infinity();
+}
+
 Activity ActivityOf(const messages::MotionCommand& motion, bool steering) {
   if (steering) return Activity::kSteering;
   return motion.kind == MotionKind::kTurnInPlace ? Activity::kTurning : Activity::kDriving;
 }
 
-// One character a stripe, left to right.
-std::string Pattern(const messages::HazardReport& report) {
-  std::string text;
-  for (const bool hazard : report.stripe_hazard) text += hazard ? '#' : '.';
-  return text;
-}
-
 }  // namespace
 
 Drive::Drive(const Scenario& scenario, core::TrialKey key, truth::Trace* trace,
-             const ScanWatcher& watcher)
+             const ScanWatcher& scan_watcher, StepWatcher step_watcher)
     : scenario_(scenario),
       key_(key),
       trace_(trace),
@@ -69,23 +85,18 @@ Drive::Drive(const Scenario& scenario, core::TrialKey key, truth::Trace* trace,
       rover_(MakeTrialRover(scenario, field_.terrain)),
       tick_(WholeSteps(1.0 / scenario.clock.control_rate_hz, rover_->step_s())),
       stop_(WholeSteps(scenario.clock.stop_time_s, rover_->step_s())),
-      scan_time_s_(ScanTime(scenario.clock, scenario.sensors.light_stripe)),
-      scanner_(scenario, watcher),
+      lookout_(scenario, key, scan_watcher),
       guard_(scenario, key),
-      triangulator_(
-          OnboardStripeCalibration(scenario.sensors.light_stripe, scenario.perception.calibration)),
-      hazard_detector_(scenario.perception.hazard),
-      dead_reckoning_(
-          OnboardDriveCalibration(scenario.rover, scenario.perception.calibration.drive),
-          scenario.perception.dead_reckoning, StartPose(scenario.course)),
+      localizer_(scenario, StartPose(scenario.course)),
       navigator_(MakeNavigator(scenario)),
       wheel_driver_(OnboardDriveCalibration(scenario.rover, scenario.perception.calibration.drive),
                     scenario.navigation.wheel_driver),
       ledger_(MakePowerBudget(scenario), scenario.energy.battery_wh),
       monitor_(UndersideOf(scenario.rover.geometry), field_.terrain),
-      watch_(scenario.sensors.light_stripe, scenario.rover.geometry,
-             scenario.referee.hazard_height_m, field_.terrain),
-      referee_(scenario.referee, scenario.course, Bounds(scenario.terrain.arena)) {
+      watch_(WatchedZone(scenario), scenario.rover.geometry, WatchedHeight(scenario),
+             field_.terrain),
+      referee_(scenario.referee, scenario.course, Bounds(scenario.terrain.arena)),
+      step_watcher_(std::move(step_watcher)) {
   if (scenario.terrain.arena.kind == terrain::ArenaKind::kVirtualReflected) {
     mirror_.emplace(scenario.terrain.arena.MirrorLine());
   }
@@ -93,6 +104,8 @@ Drive::Drive(const Scenario& scenario, core::TrialKey key, truth::Trace* trace,
   motion_sensors_.emplace(scenario.sensors.gyro, scenario.sensors.encoders,
                           scenario.rover.geometry.wheel_radius_m, key, rover_->state());
   monitor_.Restart(rover_->state());
+  localizer_.Place(rover_->state());
+  ledger_.Spend(Activity::kComputing, StartUpTime(scenario));
 }
 
 DriveResult Drive::Run() {
@@ -104,41 +117,40 @@ DriveResult Drive::Run() {
 std::optional<Verdict> Drive::Tick() {
   const navigation::NavigatorDecision decision =
       navigator_->Decide({.time_s = ledger_.time_s(),
-                          .estimate = dead_reckoning_.estimate(),
-                          .attitude = {},
-                          .report = report_ ? &*report_ : nullptr,
-                          .cloud = nullptr,
+                          .estimate = localizer_.pose(),
+                          .attitude = localizer_.attitude(),
+                          .report = sight_.report ? &*sight_.report : nullptr,
+                          .cloud = sight_.cloud ? &*sight_.cloud : nullptr,
                           .vehicle_hazard = guard_.hazard(),
                           .touches_behind = guard_.touches_behind()});
-  report_.reset();
+  if (!decision.looks()) ShowStep();
+  sight_ = {};
   if (decision.status != navigation::NavigatorStatus::kDriving) {
     return referee_.OnNavigatorStop(decision.status, rover_->state());
   }
-  if (decision.looks()) return Scan();
+  if (decision.look) return Look(*decision.look);
   turns_.Observe(decision.motion);
+  moves_.Observe(decision.motion);
   return Move(decision.motion, tick_);
 }
 
-std::optional<Verdict> Drive::Scan() {
+std::optional<Verdict> Drive::Look(messages::LookDirection direction) {
+  moves_.OnLook();
   if (auto verdict = Move({}, stop_)) return verdict;
-  hazard_detector_.Reset();
-  perception::HazardDetector::Verdict seen{true, {}};
-  for (bool first = true; seen.scan_again; first = false) {
-    const messages::StripeScan scan =
-        scanner_.Scan(field_.terrain, rover_->state().X_WR, key_, scans_);
-    ++scans_;
-    if (!first) ++rescans_;
-    ledger_.Spend(Activity::kScanning, scan_time_s_);
-    if (scenario_.sensors.gyro.accumulates_at_rest) UpdateEstimate(scan_time_s_, false);
-    seen = hazard_detector_.Process(triangulator_.Elevations(scan));
-  }
-  report_ = seen.report;
-  if (seen.report.any()) {
+  lookout_.Begin();
+  do {
+    sight_ = lookout_.Look(direction, field_.terrain, rover_->state().X_WR, localizer_.attitude());
+    ledger_.Spend(Activity::kScanning, sight_.time.scanning_s);
+    ledger_.Spend(Activity::kImaging, sight_.time.imaging_s);
+    ledger_.Spend(Activity::kComputing, sight_.time.computing_s);
+    if (scenario_.sensors.gyro.accumulates_at_rest) UpdateEstimate(sight_.time.total_s(), false);
+  } while (sight_.look_again);
+  RecordLook(direction);
+  if (sight_.report && sight_.report->any()) {
     ++hazards_;
     watch_.OnBelieved(rover_->state().X_WR);
-    Record("hazard", Pattern(seen.report));
   }
-  return AskReferee(Activity::kScanning, 0, scan_time_s_);
+  return AskReferee(Activity::kScanning, 0, sight_.time.total_s());
 }
 
 std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const Stretch& stretch) {
@@ -150,6 +162,7 @@ std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const 
   for (const auto& hazard : guard_.Feel(rover_->state(), command, stretch.duration_s)) {
     Record("felt", Describe(hazard));
   }
+  localizer_.Level(guard_.measured(), stretch.duration_s);
   monitor_.Observe(rover_->state(), activity == Activity::kTurning);
   watch_.Observe(rover_->state().X_WR);
   Sample(activity);
@@ -173,36 +186,30 @@ void Drive::ApplyCommand(const messages::WheelCommand& command, std::int64_t ste
 }
 
 void Drive::UpdateEstimate(double duration_s, bool moving) {
-  const messages::MotionMeasurement motion =
-      motion_sensors_->Measure(rover_->state(), duration_s, moving);
-  if (scenario_.sensors.localization == scenario::Localization::kOracle) {
-    dead_reckoning_.Follow(sensing::TruePose(rover_->state()));
-  } else {
-    dead_reckoning_.Integrate(motion);
-  }
+  localizer_.Integrate(motion_sensors_->Measure(rover_->state(), duration_s, moving),
+                       rover_->state());
 }
 
 void Drive::ReflectAtMirrorLine(int direction) {
   if (!mirror_ || !mirror_->Reaches(rover_->state().X_WR.translation().y())) return;
-  const messages::PoseEstimate before = dead_reckoning_.estimate();
+  const messages::PoseEstimate before = localizer_.pose();
   const auto reflection = mirror_->Reflect(math::ToPose2(rover_->state().X_WR), direction, before);
   if (!reflection) return;
   ++reflections_;
   Record("reflection", "");
   rover_->Place(reflection->pose);
   wheel_driver_.Straighten();
-  dead_reckoning_.Apply(reflection->update);
+  localizer_.Apply(reflection->update);
   motion_sensors_->Resume(rover_->state());
   guard_.Resume(rover_->state());
   monitor_.Restart(rover_->state());
-  navigator_->OnPoseUpdate(before, dead_reckoning_.estimate());
+  navigator_->OnPoseUpdate(before, localizer_.pose());
 }
 
 std::optional<Verdict> Drive::AskReferee(Activity activity, int direction, double duration_s) {
-  return referee_.Observe(
-      {activity, direction, duration_s, rover_->state(), dead_reckoning_.estimate(),
-       monitor_.distance_m(), monitor_.turned_in_place_rad()},
-      ledger_);
+  return referee_.Observe({activity, direction, duration_s, rover_->state(), localizer_.pose(),
+                           monitor_.distance_m(), monitor_.turned_in_place_rad()},
+                          ledger_);
 }
 
 DriveResult Drive::Finish(const Verdict& verdict) {
@@ -223,8 +230,8 @@ DriveResult Drive::Finish(const Verdict& verdict) {
 }
 
 DriveResult RunTrial(const Scenario& scenario, core::TrialKey key, truth::Trace* trace,
-                     const ScanWatcher& watcher) {
-  return Drive(scenario, key, trace, watcher).Run();
+                     const ScanWatcher& scan_watcher, const StepWatcher& step_watcher) {
+  return Drive(scenario, key, trace, scan_watcher, step_watcher).Run();
 }
 
 }  // namespace rockyard::trial

@@ -8,20 +8,20 @@
 #include "core/random.h"
 #include "navigation/navigator.h"
 #include "navigation/wheel_driver.h"
-#include "perception/dead_reckoning.h"
-#include "perception/hazard_detector.h"
-#include "perception/triangulation.h"
 #include "rover/rover.h"
 #include "scenario/scenario.h"
 #include "sensing/motion_sensors.h"
 #include "terrain/field.h"
 #include "trial/drive_monitor.h"
-#include "trial/hazard_scanner.h"
 #include "trial/hazard_watch.h"
 #include "trial/ledger.h"
+#include "trial/localizer.h"
+#include "trial/lookout.h"
 #include "trial/mirror_arena.h"
+#include "trial/move_counter.h"
 #include "trial/referee.h"
 #include "trial/run_trial.h"
+#include "trial/step_watcher.h"
 #include "trial/stretch.h"
 #include "trial/turn_counter.h"
 #include "trial/vehicle_guard.h"
@@ -34,13 +34,15 @@ namespace rockyard::trial {
 class Drive {
  public:
   Drive(const scenario::Scenario& scenario, core::TrialKey key, truth::Trace* trace,
-        const ScanWatcher& watcher);
+        const ScanWatcher& scan_watcher, StepWatcher step_watcher);
 
   DriveResult Run();
 
  private:
   std::optional<Verdict> Tick();
-  std::optional<Verdict> Scan();
+  std::optional<Verdict> Look(messages::LookDirection direction);
+  // What the navigator made of the last look.
+  void ShowStep();
   std::optional<Verdict> Move(const messages::MotionCommand& motion, const Stretch& stretch);
 
   // Holds the command for so many physics steps.
@@ -56,6 +58,7 @@ class Drive {
   void ReportHazards(truth::DriveRecord& record) const;
 
   void Record(std::string kind, std::string detail);
+  void RecordLook(messages::LookDirection direction);
   void Sample(Activity activity);
 
   const scenario::Scenario& scenario_;
@@ -66,16 +69,13 @@ class Drive {
   std::unique_ptr<rover::Rover> rover_;
   Stretch tick_;  // of control
   Stretch stop_;  // before a scan
-  double scan_time_s_;
   std::optional<MirrorArena> mirror_;
 
-  HazardScanner scanner_;
+  Lookout lookout_;
   std::optional<sensing::MotionSensors> motion_sensors_;
   VehicleGuard guard_;
 
-  perception::Triangulator triangulator_;
-  perception::HazardDetector hazard_detector_;
-  perception::DeadReckoning dead_reckoning_;
+  Localizer localizer_;
 
   std::unique_ptr<navigation::Navigator> navigator_;
   navigation::WheelDriver wheel_driver_;
@@ -85,11 +85,11 @@ class Drive {
   HazardWatch watch_;
   Referee referee_;
 
-  std::optional<messages::HazardReport> report_;
-  std::int64_t scans_ = 0;
-  std::int64_t rescans_ = 0;
+  StepWatcher step_watcher_;
+  Sight sight_;  // of the last tick, where it was a look
   std::int64_t hazards_ = 0;
   TurnCounter turns_;
+  MoveCounter moves_;
   std::int64_t reflections_ = 0;
 };
 

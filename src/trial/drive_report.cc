@@ -10,7 +10,7 @@ namespace rockyard::trial {
 
 void Drive::ReportPoses(truth::DriveRecord& record) const {
   const math::Pose2 truth = math::ToPose2(rover_->state().X_WR);
-  const messages::PoseEstimate& estimate = dead_reckoning_.estimate();
+  const messages::PoseEstimate& estimate = localizer_.pose();
   const CourseParams& course = scenario_.course;
   record.straight_distance_m =
       std::hypot(course.goal_x_m - course.start_x_m, course.goal_y_m - course.start_y_m);
@@ -29,7 +29,7 @@ void Drive::ReportErrors(truth::DriveRecord& record) const {
   const sensing::TrackerParams& tracker = scenario_.sensors.tracker;
   const math::Pose2 reference =
       tracker.enabled ? sensing::Tracker(tracker, key_).Observe(truth, 0) : truth;
-  const messages::PoseEstimate& estimate = dead_reckoning_.estimate();
+  const messages::PoseEstimate& estimate = localizer_.pose();
   record.dead_reckoned_distance_m = estimate.distance_m;
   if (record.true_distance_m > 0.0) {
     record.distance_error_percent =
@@ -47,15 +47,23 @@ void Drive::ReportLedger(truth::DriveRecord& record) const {
   record.scan_time_s = ledger_.time_s(Activity::kScanning);
   record.energy_wh = ledger_.energy_wh();
   record.scan_energy_wh = ledger_.energy_wh(Activity::kScanning);
+  record.imaging_time_s = ledger_.time_s(Activity::kImaging);
+  record.compute_time_s = ledger_.time_s(Activity::kComputing);
+  record.imaging_energy_wh = ledger_.energy_wh(Activity::kImaging);
+  record.compute_energy_wh = ledger_.energy_wh(Activity::kComputing);
   if (ledger_.time_s() <= 0.0) return;
-  const double again_s = static_cast<double>(rescans_) * scan_time_s_;
+  const double again_s = static_cast<double>(lookout_.rescans()) * lookout_.look_time().total_s();
   record.net_rate_m_s = record.true_distance_m / ledger_.time_s();
   record.single_scan_rate_m_s = record.true_distance_m / (ledger_.time_s() - again_s);
 }
 
 void Drive::ReportCounts(truth::DriveRecord& record) const {
-  record.scans = static_cast<double>(scans_);
-  record.rescans = static_cast<double>(rescans_);
+  record.scans = static_cast<double>(lookout_.scans());
+  record.rescans = static_cast<double>(lookout_.rescans());
+  record.image_sets = static_cast<double>(lookout_.image_sets());
+  record.rear_image_sets = static_cast<double>(lookout_.rear_image_sets());
+  record.moves = static_cast<double>(moves_.moves());
+  record.point_turns = static_cast<double>(moves_.point_turns());
   record.hazards_believed = static_cast<double>(hazards_);
   record.turns_in_place = static_cast<double>(turns_.turns());
   record.scrapes = static_cast<double>(motion_sensors_->scrapes().episodes());
@@ -73,6 +81,7 @@ void Drive::ReportHazards(truth::DriveRecord& record) const {
   record.contact_hazards = static_cast<double>(guard_.count(VehicleHazardKind::kContact));
   record.tilt_hazards = static_cast<double>(guard_.count(VehicleHazardKind::kTilt));
   record.articulation_hazards = static_cast<double>(guard_.count(VehicleHazardKind::kArticulation));
+  record.safeguard_stops = static_cast<double>(guard_.stops());
   record.current_hazards = static_cast<double>(guard_.count(VehicleHazardKind::kMotorCurrent));
 }
 

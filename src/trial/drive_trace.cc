@@ -1,4 +1,7 @@
 // What a drive tells of its course, where somebody asks for a trace.
+#include <fmt/format.h>
+
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -19,11 +22,62 @@ std::string Name(Activity activity) {
       return "scan";
     case Activity::kStalled:
       return "stall";
+    case Activity::kImaging:
+      return "image";
+    case Activity::kComputing:
+      return "compute";
   }
   return "";
 }
 
+// One character a stripe, left to right.
+std::string Pattern(const messages::HazardReport& report) {
+  std::string text;
+  for (const bool hazard : report.stripe_hazard) text += hazard ? '#' : '.';
+  return text;
+}
+
+std::string Describe(const messages::MotionCommand& motion) {
+  const auto side = [](double left) { return left > 0.0 ? "left" : "right"; };
+  if (motion.kind == messages::MotionKind::kTurnInPlace) {
+    return fmt::format("turn {}", side(motion.direction));
+  }
+  const std::string way = motion.direction > 0 ? "forward" : "backward";
+  if (motion.curvature_per_m == 0.0) return way + " straight";
+  return fmt::format("{} {} {:.2f}/m", way, side(motion.curvature_per_m),
+                     std::abs(motion.curvature_per_m));
+}
+
+std::string Describe(const messages::MotionVote& vote) {
+  return fmt::format("{}: vote {:.0f}, hazard {:.0f}, waypoint {:.0f}", Describe(vote.motion),
+                     vote.merged, vote.hazard, vote.waypoint);
+}
+
 }  // namespace
+
+// Reports of hazards that are believed, and every look that shows points.
+void Drive::RecordLook(messages::LookDirection direction) {
+  if (trace_ == nullptr) return;
+  if (sight_.report && sight_.report->any()) Record("hazard", Pattern(*sight_.report));
+  if (!sight_.cloud) return;
+  const bool ahead = direction == messages::LookDirection::kAhead;
+  Record("look",
+         fmt::format("{}, {} points", ahead ? "ahead" : "behind", sight_.cloud->points_R.size()));
+}
+
+void Drive::ShowStep() {
+  const messages::NavigationView* view = navigator_->view();
+  if (!sight_.cloud || view == nullptr) return;
+  if (step_watcher_) {
+    step_watcher_({scenario_, field_.terrain, rover_->state().X_WR, key_, *view, *sight_.cloud});
+  }
+  if (trace_ == nullptr) return;
+  for (const auto* row : {&view->forward, &view->backward, &view->point_turns}) {
+    for (const messages::MotionVote& vote : *row) {
+      if (vote.chosen) Record("chosen", Describe(vote));
+    }
+  }
+}
 
 void Drive::Record(std::string kind, std::string detail) {
   if (trace_ == nullptr) return;
@@ -34,8 +88,7 @@ void Drive::Record(std::string kind, std::string detail) {
 void Drive::Sample(Activity activity) {
   if (trace_ == nullptr) return;
   trace_->samples.push_back({ledger_.time_s(), math::ToPose2(rover_->state().X_WR),
-                             math::Tilt(rover_->state().X_WR), dead_reckoning_.estimate(),
-                             Name(activity)});
+                             math::Tilt(rover_->state().X_WR), localizer_.pose(), Name(activity)});
 }
 
 }  // namespace rockyard::trial

@@ -12,6 +12,8 @@ struct EnergyParams {
   double imaging_W = 0.75;
   double cmos_imaging_share = 0.1;
   double laser_supply_efficiency = 1.32 / 2.01;
+  double stereo_imaging_W = 0.75;
+  double computing_W = 0.0;
   double driving_W = 8.28;
   double steering_W = 6.70;
   double battery_wh = 50.0;
@@ -54,6 +56,23 @@ struct EnergyParams {
             .max = 1.0,
             .origin = Origin::kPublished,
             .source = "Matthies 1995 table 3 and sec. 6: 0.66 W each, 2.01 W for two with losses"});
+    v.Real("stereo_imaging_W", stereo_imaging_W,
+           {.doc = "a pair of stereo cameras while they take images",
+            .min = 0.0,
+            .max = 1e4,
+            .origin = Origin::kAssumed,
+            .source = "as the two CCDs of the light stripe sensor (Matthies 1995 table 1)",
+            .study_low = 0.5,
+            .study_high = 10.0});
+    v.Real("computing_W", computing_W,
+           {.doc = "drawn beyond cpu_W while the rover computes stereo, map and votes",
+            .min = 0.0,
+            .max = 1e4,
+            .origin = Origin::kAssumed,
+            .source = "a computer that draws the same idle and busy; that of the Athena SDM is not "
+                      "published",
+            .study_low = 0.0,
+            .study_high = 10.0});
     v.Real("driving_W", driving_W,
            {.doc = "drive motors in extreme terrain; drawn by every motion and by a stall",
             .min = 0.01,

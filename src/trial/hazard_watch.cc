@@ -51,12 +51,14 @@ bool Reaches(const terrain::Rock& rock, const Zone& zone, const math::Transform&
   return inside;
 }
 
-HazardWatch::HazardWatch(const sensing::LightStripeParams& sensor,
-                         const rover::RoverGeometryParams& rover, double min_height_m,
-                         const terrain::Terrain& terrain)
-    : terrain_(terrain),
-      view_{sensor.front_x_m, sensor.front_x_m + sensor.row_ahead_m.back(),
-            -sensor.outer_stripe_y_m, sensor.outer_stripe_y_m} {
+Zone ArrayZone(const sensing::LightStripeParams& sensor) {
+  return {sensor.front_x_m, sensor.front_x_m + sensor.row_ahead_m.back(), -sensor.outer_stripe_y_m,
+          sensor.outer_stripe_y_m};
+}
+
+HazardWatch::HazardWatch(const Zone& view, const rover::RoverGeometryParams& rover,
+                         double min_height_m, const terrain::Terrain& terrain)
+    : terrain_(terrain), view_(view) {
   const double front_m = 0.5 * rover.length_m;
   const double side_m = 0.5 * rover.width_m;
   const double inner_m = side_m - rover.wheel_width_m;

@@ -19,6 +19,9 @@ struct Zone {
   double y_high_m = 0.0;
 };
 
+// From the front of the light stripe array to its farthest row, as wide as the outermost stripes.
+Zone ArrayZone(const sensing::LightStripeParams& sensor);
+
 // Whether the outline of a rock, as seen from above, reaches into a zone of a rover at X_WR, which
 // is taken as level.
 bool Reaches(const terrain::Rock& rock, const Zone& zone, const math::Transform& X_WR);
@@ -35,8 +38,9 @@ class HazardWatch {
   static constexpr double kLook_m = 0.05;
   static constexpr double kLookCosine = 0.99;  // 8 deg
 
-  HazardWatch(const sensing::LightStripeParams& sensor, const rover::RoverGeometryParams& rover,
-              double min_height_m, const terrain::Terrain& terrain);
+  // `view` is what the array covers.
+  HazardWatch(const Zone& view, const rover::RoverGeometryParams& rover, double min_height_m,
+              const terrain::Terrain& terrain);
 
   // Once a control tick.
   void Observe(const math::Transform& X_WR);

@@ -22,6 +22,10 @@ double PowerBudget::Power(Activity activity) const {
       return base_W + guards_W + steering_W;
     case Activity::kScanning:
       return base_W + imaging_W + lasers_W;
+    case Activity::kImaging:
+      return base_W + stereo_imaging_W;
+    case Activity::kComputing:
+      return base_W + computing_W;
   }
   return base_W;
 }
@@ -37,7 +41,9 @@ PowerBudget MakePowerBudget(const scenario::Scenario& scenario) {
       .steering_W = energy.steering_W,
       .imaging_W = energy.imaging_W * (cmos ? energy.cmos_imaging_share : 1.0),
       .lasers_W =
-          EmittersAtOnce(sensor) * sensor.laser.input_power_w / energy.laser_supply_efficiency};
+          EmittersAtOnce(sensor) * sensor.laser.input_power_w / energy.laser_supply_efficiency,
+      .stereo_imaging_W = energy.stereo_imaging_W,
+      .computing_W = energy.computing_W};
 }
 
 }  // namespace rockyard::trial

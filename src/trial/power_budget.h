@@ -8,8 +8,16 @@
 namespace rockyard::trial {
 
 // One major function at a time (Matthies 1995 sec. 2.1.2).
-enum class Activity { kDriving, kTurning, kSteering, kScanning, kStalled };
-inline constexpr std::size_t kActivityCount = 5;
+enum class Activity {
+  kDriving,
+  kTurning,
+  kSteering,
+  kScanning,  // with the light stripe sensor
+  kStalled,
+  kImaging,    // taking stereo images
+  kComputing,  // stereo, map and votes
+};
+inline constexpr std::size_t kActivityCount = 7;
 
 // Light emitters that are on in the same image, where most are: the lasers of the largest group,
 // which are fewer than lasers_per_image where the groups share out evenly (four of five: three and
@@ -23,6 +31,8 @@ struct PowerBudget {
   double steering_W = 0.0;  // steering motors
   double imaging_W = 0.0;
   double lasers_W = 0.0;
+  double stereo_imaging_W = 0.0;
+  double computing_W = 0.0;  // beyond base_W
 
   // Of everything that an activity needs, W. A scan (Matthies 1995, section 6):
   //   7.33 = 3.77 (computer and I/O) + 0.80 (attitude) + 0.75 (imagers) + 2.01 (two lasers),

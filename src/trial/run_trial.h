@@ -6,6 +6,7 @@
 #include "core/random.h"
 #include "scenario/scenario.h"
 #include "trial/scan_watcher.h"
+#include "trial/step_watcher.h"
 #include "truth/drive_record.h"
 #include "truth/record.h"
 #include "truth/trace.h"
@@ -19,10 +20,12 @@ struct DriveResult {
 };
 
 // Drives the trial that `key` names: a pure function of (scenario, key). With `trace` the course of
-// the drive is recorded too, and `watcher` is called after every scan, both without any influence
-// on it. Throws what the simulation throws: a contract violation, a blow-up of the physics; the
-// experiment turns that into a simulator fault.
+// the drive is recorded too; `scan_watcher` is called after every scan of the light stripe, and
+// `step_watcher` after every decision of a map-based navigator that follows a look; all without any
+// influence on it. Throws what the simulation throws: a contract violation, a blow-up of the
+// physics; the experiment turns that into a simulator fault.
 DriveResult RunTrial(const scenario::Scenario& scenario, core::TrialKey key,
-                     truth::Trace* trace = nullptr, const ScanWatcher& watcher = {});
+                     truth::Trace* trace = nullptr, const ScanWatcher& scan_watcher = {},
+                     const StepWatcher& step_watcher = {});
 
 }  // namespace rockyard::trial

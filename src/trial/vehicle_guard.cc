@@ -44,8 +44,11 @@ std::vector<messages::VehicleHazard> VehicleGuard::Feel(const truth::RoverState&
   std::vector<messages::VehicleHazard> appeared;
   if (!on_) return appeared;
   const perception::FeltHazards before = felt_;
-  felt_ = detector_.Observe(sensors_.Measure(state, command, duration_s));
+  measured_ = sensors_.Measure(state, command, duration_s);
+  felt_ = detector_.Observe(measured_);
+  const bool avoided_before = hazard_.has_value();
   hazard_ = perception::HazardToAvoid(felt_);
+  if (hazard_ && !avoided_before) ++stops_;
   for (std::size_t kind = 0; kind < counts_.size(); ++kind) {
     if (!felt_.by_kind[kind] || before.by_kind[kind]) continue;
     ++counts_[kind];

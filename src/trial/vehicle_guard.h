@@ -38,19 +38,26 @@ class VehicleGuard {
   // Of the last tick: what the rover has to get away from, null where there is nothing.
   const messages::VehicleHazard* hazard() const { return hazard_ ? &*hazard_ : nullptr; }
   bool touches_behind() const { return felt_.touches_behind; }
+  // What was measured at the last tick.
+  const messages::VehicleState& measured() const { return measured_; }
 
   // How often a hazard of that kind appeared, whatever else was felt.
   std::int64_t count(messages::VehicleHazardKind kind) const {
     return counts_[static_cast<std::size_t>(kind)];
   }
 
+  // How often there came to be something to get away from.
+  std::int64_t stops() const { return stops_; }
+
  private:
   bool on_;
   sensing::VehicleSensors sensors_;
   perception::VehicleHazardDetector detector_;
+  messages::VehicleState measured_;
   perception::FeltHazards felt_;
   std::optional<messages::VehicleHazard> hazard_;
   std::array<std::int64_t, messages::kVehicleHazardKindCount> counts_{};
+  std::int64_t stops_ = 0;
 };
 
 // "contact left" and so on.

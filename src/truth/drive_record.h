@@ -51,6 +51,15 @@ struct DriveRecord {
   double tilt_hazards = 0.0;
   double articulation_hazards = 0.0;
   double current_hazards = 0.0;
+  double moves = 0.0;            // motion commands between looks or other commands
+  double point_turns = 0.0;      // of them turns in place
+  double image_sets = 0.0;       // pairs of stereo images
+  double rear_image_sets = 0.0;  // of them from rear cameras
+  double safeguard_stops = 0.0;  // times that there came to be a felt hazard to get away from
+  double imaging_time_s = 0.0;   // taking stereo images
+  double compute_time_s = 0.0;   // stereo, map and votes
+  double imaging_energy_wh = 0.0;
+  double compute_energy_wh = 0.0;
 };
 
 struct DriveColumn {
@@ -121,6 +130,23 @@ inline constexpr std::array kDriveColumns = {
                 &DriveRecord::articulation_hazards},
     DriveColumn{"current_hazards", "1", "excessive motor currents felt",
                 &DriveRecord::current_hazards},
+    DriveColumn{"moves", "1", "motion commands, each until another one or a look",
+                &DriveRecord::moves},
+    DriveColumn{"point_turns", "1", "of these, turns in place", &DriveRecord::point_turns},
+    DriveColumn{"image_sets", "1", "pairs of stereo images", &DriveRecord::image_sets},
+    DriveColumn{"rear_image_sets", "1", "of these, from rear cameras",
+                &DriveRecord::rear_image_sets},
+    DriveColumn{"safeguard_stops", "1",
+                "times that there came to be a felt hazard to get away from",
+                &DriveRecord::safeguard_stops},
+    DriveColumn{"imaging_time_s", "s", "simulated time taking stereo images",
+                &DriveRecord::imaging_time_s},
+    DriveColumn{"compute_time_s", "s", "simulated time computing stereo, map and votes",
+                &DriveRecord::compute_time_s},
+    DriveColumn{"imaging_energy_wh", "Wh", "energy of stereo images",
+                &DriveRecord::imaging_energy_wh},
+    DriveColumn{"compute_energy_wh", "Wh", "energy of computing stereo, map and votes",
+                &DriveRecord::compute_energy_wh},
 };
 
 }  // namespace rockyard::truth

@@ -20,7 +20,7 @@ struct TraceSample {
 struct TraceEvent {
   double time_s = 0.0;
   math::Pose2 pose;  // true, when it happened
-  std::string kind;  // "scan", "hazard", "scrape", "reflection", "end"
+  std::string kind;  // "hazard", "look", "chosen", "felt", "scrape", "reflection", "end"
   std::string detail;
 };
 

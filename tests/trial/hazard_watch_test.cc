@@ -79,7 +79,7 @@ class HazardWatchTest : public testing::Test {
  protected:
   void Rocks(std::vector<terrain::Rock> rocks) {
     terrain_.emplace(terrain::Ground(), std::move(rocks), std::vector<terrain::Wall>{});
-    watch_.emplace(sensing::LightStripeParams{}, rover::RoverGeometryParams{}, 0.13, *terrain_);
+    watch_.emplace(ArrayZone({}), rover::RoverGeometryParams{}, 0.13, *terrain_);
   }
   void Drive(double from_m, double to_m, double y_m = 0.0) {
     for (double x_m = from_m; x_m < to_m; x_m += 0.01) watch_->Observe(At(x_m, y_m, 0.0));

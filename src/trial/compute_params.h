@@ -1,0 +1,60 @@
+// The computer of the simulated clock: whose times of imaging, stereo and navigation a look takes.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "core/fields.h"
+
+namespace rockyard::trial {
+
+// Computers of Goldberg 2002, section 5. Their times stand in compute_tables.h.
+enum class Computer {
+  kNone,      // images, stereo and navigation take no time
+  kR3000,     // 12 MHz, on board of the Athena SDM (table 2)
+  kPentium3,  // 500 MHz workstation (table 3)
+  kSparc,     // 300 MHz workstation (table 3)
+  kRad6000,   // 20 MHz, a desktop cage (table 3)
+};
+
+struct ComputeParams {
+  Computer computer = Computer::kNone;
+  double acquisition_s = 8.974;
+  double behaviour_s = 0.0;
+
+  void Visit(core::FieldVisitor& v) {
+    using core::Origin;
+    v.Choice("computer", computer,
+             {.doc = "whose times of stereo, map and votes a look takes; the time of light stripe "
+                     "scans is clock.scan_time_s, whichever computer",
+              .origin = Origin::kSetting});
+    v.Real("acquisition_s", acquisition_s,
+           {.doc = "time to take a pair of stereo images where the computer is one of table 3, "
+                   "which has no such row; r3000_12mhz has its own in table 2",
+            .min = 0.0,
+            .max = 3600.0,
+            .origin = Origin::kAssumed,
+            .source = "as on the Athena SDM (Goldberg 2002 table 2, six rows): the grab of the "
+                      "images takes most of it",
+            .study_low = 0.5,
+            .study_high = 10.0});
+    v.Real("behaviour_s", behaviour_s,
+           {.doc = "time in which the behaviour controller judges the elevations of a stereo look, "
+                   "beyond stereo's own; not spent with computer none",
+            .min = 0.0,
+            .max = 3600.0,
+            .origin = Origin::kAssumed,
+            .source = "some tens of numbers against two thresholds, where table 2's shortest rows "
+                      "take 13 ms",
+            .study_low = 0.0,
+            .study_high = 1.0});
+  }
+};
+
+}  // namespace rockyard::trial
+
+template <>
+struct rockyard::core::EnumNames<rockyard::trial::Computer> {
+  static constexpr std::array<std::string_view, 5> kNames{"none", "r3000_12mhz", "pentium_3_500mhz",
+                                                          "sparc_300mhz", "rad6000_20mhz"};
+};

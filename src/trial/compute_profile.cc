@@ -1,0 +1,107 @@
+#include "trial/compute_profile.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string_view>
+
+#include "core/check.h"
+#include "trial/compute_tables.h"
+
+namespace rockyard::trial {
+namespace {
+
+using Column = std::array<double, 3>;
+using Machine = Column Table3Row::*;
+
+constexpr std::array<Machine, 3> kMachines{&Table3Row::pentium_3_s, &Table3Row::sparc_s,
+                                           &Table3Row::rad6000_s};
+
+// The time of a row for cells of a size, on the grid of table 3.
+double TimeAt(const Column& times_s, Growth growth, double cell_m) {
+  const std::size_t first = cell_m > kTable3Cells_m[1] ? 0 : 1;  // of the two nearest sizes
+  double share = std::log(cell_m / kTable3Cells_m[first]) /
+                 std::log(kTable3Cells_m[first + 1] / kTable3Cells_m[first]);
+  if (growth == Growth::kNone) share = std::clamp(share, 0.0, 1.0);
+  const double from_s = times_s[first];
+  const double to_s = times_s[first + 1];
+  if (from_s <= 0.0 || to_s <= 0.0) return std::max(0.0, from_s + share * (to_s - from_s));
+  return from_s * std::pow(to_s / from_s, share);
+}
+
+// Time for cells of that size over time for those of table 2: geometric mean of the machines.
+double AthenaGrowth(std::string_view table3_row, double cell_m) {
+  const auto row = std::find_if(kTable3Rows.begin(), kTable3Rows.end(),
+                                [&](const Table3Row& other) { return other.name == table3_row; });
+  EXPECT(row != kTable3Rows.end());
+  double sum = 0.0;
+  for (const Machine machine : kMachines) {
+    const Column& times_s = (*row).*machine;
+    sum += std::log(TimeAt(times_s, row->growth, cell_m) /
+                    TimeAt(times_s, row->growth, kAthenaCell_m));
+  }
+  return std::exp(sum / static_cast<double>(kMachines.size()));
+}
+
+void Add(Phase phase, double time_s, ComputeTimes& times) {
+  switch (phase) {
+    case Phase::kStartUp:
+      times.start_up_s += time_s;
+      return;
+    case Phase::kAcquisition:
+      times.acquisition_s += time_s;
+      return;
+    case Phase::kStereo:
+      times.stereo_s += time_s;
+      return;
+    case Phase::kNavigation:
+      times.navigation_s += time_s;
+      return;
+    case Phase::kDriving:
+      return;
+  }
+}
+
+ComputeTimes AthenaTimes(const GridSize& grid) {
+  ComputeTimes times;
+  for (const AthenaRow& row : kAthenaRows) {
+    double time_s = row.time_s;
+    if (row.growth == Growth::kCells) time_s *= grid.area_m2 / kAthenaArea_m2;
+    if (!row.grows_as.empty()) time_s *= AthenaGrowth(row.grows_as, grid.cell_m);
+    Add(row.phase, time_s, times);
+  }
+  return times;
+}
+
+ComputeTimes Table3Times(Machine machine, double acquisition_s, const GridSize& grid) {
+  ComputeTimes times;
+  times.acquisition_s = acquisition_s;
+  for (const Table3Row& row : kTable3Rows) {
+    double time_s = TimeAt(row.*machine, row.growth, grid.cell_m);
+    if (row.growth == Growth::kCells) time_s *= grid.area_m2 / kTable3Area_m2;
+    Add(row.phase, time_s, times);
+  }
+  return times;
+}
+
+}  // namespace
+
+ComputeTimes MakeComputeTimes(const ComputeParams& params, const GridSize& grid) {
+  EXPECT(grid.cell_m > 0.0 && grid.area_m2 > 0.0);
+  switch (params.computer) {
+    case Computer::kNone:
+      return {};
+    case Computer::kR3000:
+      return AthenaTimes(grid);
+    case Computer::kPentium3:
+      return Table3Times(&Table3Row::pentium_3_s, params.acquisition_s, grid);
+    case Computer::kSparc:
+      return Table3Times(&Table3Row::sparc_s, params.acquisition_s, grid);
+    case Computer::kRad6000:
+      return Table3Times(&Table3Row::rad6000_s, params.acquisition_s, grid);
+  }
+  return {};
+}
+
+}  // namespace rockyard::trial

@@ -1,0 +1,34 @@
+// What a look takes on the computer of the scenario (Goldberg 2002, section 5).
+#pragma once
+
+#include "trial/compute_params.h"
+
+namespace rockyard::trial {
+
+// The grid of a map-based navigator.
+struct GridSize {
+  double cell_m = 0.2;  // side of a square of the same area as a cell
+  double area_m2 = 100.0;
+};
+
+// s. Every look takes all parts but the first, or those of them that it has a use for.
+struct ComputeTimes {
+  double start_up_s = 0.0;  // once, before the first move
+  double acquisition_s = 0.0;
+  double stereo_s = 0.0;
+  double navigation_s = 0.0;  // map and votes
+};
+
+// Sums of the rows of table 2 or 3 for a grid, zero with computer none. Between cells of 50, 20 and
+// 10 cm times follow a straight line in the logarithms of time and size, and outside of these sizes
+// the line of the two nearest goes on for map and votes, while rows of images keep the nearest
+// size's; where a table has 0 the line is straight in time. Rows of cells are scaled by the area of
+// the grid over that of the table (9 m x 9 m, or 10 m x 10 m), path votes are not: paths are as
+// long in any grid.
+//
+// Table 2 knows cells of 20 cm alone. Elsewhere its times of planes, traversability and path votes
+// are assumed to grow as the geometric mean of table 3's machines does; its adding of disparities
+// to the grid does not depend on the cells, as table 3's XYZ map does not.
+ComputeTimes MakeComputeTimes(const ComputeParams& params, const GridSize& grid);
+
+}  // namespace rockyard::trial

@@ -1,0 +1,42 @@
+#include "trial/localizer.h"
+
+#include "sensing/oracle.h"
+#include "trial/onboard_calibration.h"
+
+namespace rockyard::trial {
+
+Localizer::Localizer(const scenario::Scenario& scenario, const math::Pose2& start)
+    : oracle_(scenario.sensors.localization == scenario::Localization::kOracle),
+      dead_reckoning_(
+          OnboardDriveCalibration(scenario.rover, scenario.perception.calibration.drive),
+          scenario.perception.dead_reckoning, start),
+      attitude_(scenario.perception.attitude),
+      levelled_(dead_reckoning_.estimate()) {}
+
+void Localizer::Place(const truth::RoverState& state) {
+  start_z_m_ = state.X_WR.translation().z();
+  true_attitude_ = sensing::TrueAttitude(state, start_z_m_);
+}
+
+void Localizer::Integrate(const messages::MotionMeasurement& motion,
+                          const truth::RoverState& state) {
+  if (!oracle_) {
+    dead_reckoning_.Integrate(motion);
+    return;
+  }
+  dead_reckoning_.Follow(sensing::TruePose(state));
+  true_attitude_ = sensing::TrueAttitude(state, start_z_m_);
+}
+
+void Localizer::Level(const messages::VehicleState& felt, double duration_s) {
+  attitude_.Integrate(felt, perception::ForwardStep(levelled_, pose()), duration_s);
+  levelled_ = pose();
+}
+
+void Localizer::Apply(const messages::PoseUpdate& update) {
+  dead_reckoning_.Apply(update);
+  attitude_.Resume();
+  levelled_ = pose();
+}
+
+}  // namespace rockyard::trial

@@ -1,0 +1,61 @@
+#include "trial/lookout.h"
+
+#include <utility>
+
+#include "perception/cloud_elevations.h"
+#include "trial/onboard_calibration.h"
+
+namespace rockyard::trial {
+
+using messages::LookDirection;
+
+Lookout::Lookout(const scenario::Scenario& scenario, core::TrialKey key, ScanWatcher watcher)
+    : key_(key),
+      reads_points_(scenario.navigation.navigator == scenario::NavigatorKind::kGestalt),
+      scanner_(scenario, std::move(watcher)),
+      triangulator_(
+          OnboardStripeCalibration(scenario.sensors.light_stripe, scenario.perception.calibration)),
+      cloud_elevations_(scenario.perception.cloud_elevations),
+      hazard_detector_(scenario.perception.hazard),
+      look_time_(MakeLookTime(scenario)) {
+  if (scenario.sensors.terrain_sensor == scenario::TerrainSensor::kStereo) {
+    stereo_.emplace(scenario.sensors.stereo);
+  }
+}
+
+Sight Lookout::Look(LookDirection direction, const terrain::Terrain& terrain,
+                    const math::Transform& X_WR, const messages::AttitudeEstimate& attitude) {
+  if (looks_again_) ++rescans_;
+  Sight sight =
+      stereo_ ? TakeImages(direction, terrain, X_WR, attitude) : Scan(direction, terrain, X_WR);
+  looks_again_ = sight.look_again;
+  return sight;
+}
+
+Sight Lookout::Scan(LookDirection direction, const terrain::Terrain& terrain,
+                    const math::Transform& X_WR) {
+  if (direction == LookDirection::kBehind) {
+    return {.cloud = messages::PointCloud{scans_, direction, {}}};
+  }
+  const messages::StripeScan scan = scanner_.Scan(terrain, X_WR, key_, scans_);
+  ++scans_;
+  if (reads_points_)
+    return {.time = look_time_, .cloud = perception::StripeCloud(scan, triangulator_)};
+  return Judge(triangulator_.Elevations(scan));
+}
+
+Sight Lookout::TakeImages(LookDirection direction, const terrain::Terrain& terrain,
+                          const math::Transform& X_WR, const messages::AttitudeEstimate& attitude) {
+  messages::PointCloud cloud = stereo_->Look(terrain, X_WR, key_, image_sets_, direction);
+  ++image_sets_;
+  if (direction == LookDirection::kBehind) ++rear_image_sets_;
+  if (reads_points_) return {.time = look_time_, .cloud = std::move(cloud)};
+  return Judge(perception::CloudElevations(cloud, attitude, cloud_elevations_));
+}
+
+Sight Lookout::Judge(const messages::ElevationScan& elevations) {
+  const perception::HazardDetector::Verdict verdict = hazard_detector_.Process(elevations);
+  return {.look_again = verdict.scan_again, .time = look_time_, .report = verdict.report};
+}
+
+}  // namespace rockyard::trial

@@ -1,0 +1,37 @@
+// How many moves the rover was told to make.
+#pragma once
+
+#include <cstdint>
+
+#include "messages/commands.h"
+
+namespace rockyard::trial {
+
+// A move is one motion command, held until another one follows or the rover looks: an arc, or a
+// turn in place.
+class MoveCounter {
+ public:
+  // Once a control tick, with what the navigator told.
+  void Observe(const messages::MotionCommand& motion) {
+    const bool same = moving_ && motion.kind == last_.kind &&
+                      motion.curvature_per_m == last_.curvature_per_m &&
+                      motion.direction == last_.direction;
+    moving_ = motion.kind != messages::MotionKind::kStop;
+    last_ = motion;
+    if (same || !moving_) return;
+    ++moves_;
+    if (motion.kind == messages::MotionKind::kTurnInPlace) ++point_turns_;
+  }
+  void OnLook() { moving_ = false; }
+
+  std::int64_t moves() const { return moves_; }
+  std::int64_t point_turns() const { return point_turns_; }
+
+ private:
+  messages::MotionCommand last_;
+  bool moving_ = false;
+  std::int64_t moves_ = 0;
+  std::int64_t point_turns_ = 0;
+};
+
+}  // namespace rockyard::trial

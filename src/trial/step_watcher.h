@@ -1,0 +1,27 @@
+// Looks over the shoulder of a map-based navigator: for pictures of a step, never for decisions.
+#pragma once
+
+#include <functional>
+
+#include "core/random.h"
+#include "math/pose.h"
+#include "messages/navigation_view.h"
+#include "messages/point_cloud.h"
+#include "scenario/scenario.h"
+#include "terrain/terrain.h"
+
+namespace rockyard::trial {
+
+// A decision that followed a look, and what was seen. Valid during the call only.
+struct WatchedStep {
+  const scenario::Scenario& scenario;
+  const terrain::Terrain& terrain;
+  const math::Transform& X_WR;  // true
+  core::TrialKey key;
+  const messages::NavigationView& view;
+  const messages::PointCloud& cloud;
+};
+
+using StepWatcher = std::function<void(const WatchedStep&)>;
+
+}  // namespace rockyard::trial
