@@ -1,42 +1,187 @@
 #include "sensing/stereo_depth.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace rockyard::sensing {
 namespace {
 
 using math::Vector3;
 
-// A surface this close to a point does not hide it.
+// A surface this close to a point does not hide it, as in light_stripe.cc.
 constexpr double kOcclusionMargin_m = 0.0005;
+
+// Whole columns of a span within the image.
+struct Columns {
+  int first;
+  int last;  // inclusive
+
+  Columns(const ColumnSpan& span, int columns)
+      : first(static_cast<int>(std::ceil(std::clamp(span.first, 0.0, double(columns))))),
+        last(static_cast<int>(std::floor(std::clamp(span.last, -1.0, columns - 1.0)))) {}
+
+  int count() const { return std::max(last - first + 1, 0); }
+};
 
 }  // namespace
 
-std::vector<double> InverseDepths(const terrain::Terrain& terrain, const StereoView& view_W,
-                                  double max_range_m) {
-  std::vector<double> depths;
-  depths.reserve(static_cast<std::size_t>(view_W.rows) * static_cast<std::size_t>(view_W.columns));
-  for (int row = 0; row < view_W.rows; ++row) {
-    for (int column = 0; column < view_W.columns; ++column) {
-      const Vector3 ray_W = view_W.Ray(column, row);
-      const double length = ray_W.norm();
-      const auto hit = terrain.CastRay(view_W.eye, ray_W / length, max_range_m);
-      depths.push_back(hit && hit->distance_m > 0.0 ? length / hit->distance_m : 0.0);
-    }
+StereoScene::StereoScene(const terrain::Terrain& terrain, const StereoView& view_W,
+                         double max_range_m)
+    : terrain_(terrain),
+      view_W_(view_W),
+      max_range_m_(max_range_m),
+      columns_(Eigen::ArrayXd::LinSpaced(view_W.columns, 0.0, view_W.columns - 1.0)) {
+  std::vector<int> near;
+  terrain.RocksNear(view_W.eye.x(), view_W.eye.y(), max_range_m, near);
+  rocks_.reserve(near.size());
+  for (const int index : near) {
+    const terrain::Rock& rock = terrain.rocks()[static_cast<std::size_t>(index)];
+    rocks_.push_back({terrain::RockShape(rock), rock.center_W});
   }
-  return depths;
 }
 
-void HideFromRightEye(const terrain::Terrain& terrain, const StereoView& view_W,
-                      std::vector<double>& inverse_depths) {
-  std::size_t pixel = 0;
-  for (int row = 0; row < view_W.rows; ++row) {
-    for (int column = 0; column < view_W.columns; ++column, ++pixel) {
-      const double w = inverse_depths[pixel];
-      if (w <= 0.0) continue;
-      const Vector3 p_W = view_W.eye + view_W.Ray(column, row) / w;
-      const bool outside = column + 0.5 < view_W.focal_px * view_W.baseline_m * w;
-      if (outside || terrain.Occluded(view_W.right_eye, p_W, kOcclusionMargin_m)) {
-        inverse_depths[pixel] = 0.0;
+bool StereoScene::SeesNothing(const Vector3& eye_W) const {
+  if (eye_W.z() <= terrain_.ground().Height(eye_W.x(), eye_W.y())) return true;
+  const auto beyond = [&eye_W](const terrain::Wall& wall) {
+    return wall.normal_W.dot(eye_W) >= wall.offset_m;
+  };
+  const auto within = [&eye_W](const Candidate& rock) {
+    return rock.shape.Map(eye_W - rock.center_W).squaredNorm() <= 1.0;
+  };
+  return std::any_of(terrain_.walls().begin(), terrain_.walls().end(), beyond) ||
+         std::any_of(rocks_.begin(), rocks_.end(), within);
+}
+
+DepthImage StereoScene::InverseDepths() const {
+  DepthImage image = DepthImage::Zero(view_W_.rows, view_W_.columns);
+  if (SeesNothing(view_W_.eye)) return image;
+  AddPlanes(image);
+  for (const Candidate& rock : rocks_) {
+    AddRock({rock.shape, rock.center_W, view_W_, view_W_.eye}, image);
+  }
+  DropFarther(image);
+  if (!terrain_.ground().IsPlane()) AddRoughGround(image);
+  return image;
+}
+
+// On the plane n . p = k the ray eye + Z e has 1/Z = n . e / (k - n . eye).
+void StereoScene::AddPlanes(DepthImage& image) const {
+  const auto add = [&](const Vector3& toward_W, double distance_m) {
+    const Vector3 scaled_W = toward_W / distance_m;
+    const double across = scaled_W.dot(view_W_.along_row);
+    for (int row = 0; row < view_W_.rows; ++row) {
+      const double start = scaled_W.dot(view_W_.Ray(0.0, row));
+      image.row(row) = image.row(row).max((start + across * columns_).transpose());
+    }
+  };
+  for (const terrain::Wall& wall : terrain_.walls()) {
+    add(wall.normal_W, wall.offset_m - wall.normal_W.dot(view_W_.eye));
+  }
+  const terrain::Ground& ground = terrain_.ground();
+  if (!ground.IsPlane()) return;
+  const Vector3& eye_W = view_W_.eye;
+  const Vector3 normal_W = ground.Normal(eye_W.x(), eye_W.y());
+  add(-normal_W, normal_W.z() * (eye_W.z() - ground.Height(eye_W.x(), eye_W.y())));
+}
+
+void StereoScene::AddRock(const RockOutline& outline, DepthImage& image) const {
+  for (int row = outline.first_row(); row <= outline.last_row(); ++row) {
+    const RowCut cut = outline.Row(row);
+    const Columns seen(cut.span, view_W_.columns);
+    if (seen.count() == 0) continue;
+    auto pixels = image.row(row).segment(seen.first, seen.count()).transpose();
+    if (!cut.exact) {
+      for (int i = 0; i < seen.count(); ++i) {
+        pixels[i] = std::max(pixels[i], cut.InverseDepth(seen.first + i));
       }
+      continue;
+    }
+    const auto c = columns_.segment(seen.first, seen.count());
+    const auto discriminant = (cut.quadratic * c + 2.0 * cut.linear) * c + cut.constant;
+    pixels = pixels.max((cut.approach_0 + cut.approach_1 * c + discriminant.max(0.0).sqrt()) *
+                        cut.inverse_outside_1);
+  }
+}
+
+// Distance = |e| Z.
+void StereoScene::DropFarther(DepthImage& image) const {
+  const double nearest = 1.0 / (max_range_m_ * max_range_m_);
+  const double step2 = view_W_.along_row.squaredNorm();
+  for (int row = 0; row < view_W_.rows; ++row) {
+    const Vector3 start = view_W_.Ray(0.0, row);
+    const double linear = 2.0 * start.dot(view_W_.along_row);
+    const double constant = start.squaredNorm();
+    auto pixels = image.row(row).transpose();
+    pixels = (pixels.square() >= ((step2 * columns_ + linear) * columns_ + constant) * nearest)
+                 .select(pixels, 0.0);
+  }
+}
+
+void StereoScene::AddRoughGround(DepthImage& image) const {
+  for (int row = 0; row < view_W_.rows; ++row) {
+    for (int column = 0; column < view_W_.columns; ++column) {
+      double& pixel = image(row, column);
+      const Vector3 ray_W = view_W_.Ray(column, row);
+      const double length = ray_W.norm();
+      const double farthest_m = pixel > 0.0 ? length / pixel : max_range_m_;
+      const auto distance_m = terrain_.ground().CastRay(view_W_.eye, ray_W / length, farthest_m);
+      if (distance_m && *distance_m > 0.0) pixel = length / *distance_m;
+    }
+  }
+}
+
+void StereoScene::HideFromRightEye(DepthImage& inverse_depths) const {
+  if (SeesNothing(view_W_.right_eye)) {
+    inverse_depths.setZero();
+    return;
+  }
+  if (!terrain_.ground().IsPlane()) HideBehindGround(inverse_depths);
+  for (const Candidate& rock : rocks_) {
+    HideBehind({rock.shape, rock.center_W, view_W_, view_W_.right_eye}, inverse_depths);
+  }
+  const double scale_px_m = view_W_.focal_px * view_W_.baseline_m;
+  for (int row = 0; row < view_W_.rows; ++row) {
+    auto pixels = inverse_depths.row(row).transpose();
+    pixels = (scale_px_m * pixels <= columns_ + 0.5).select(pixels, 0.0);
+  }
+}
+
+// The point of column c and disparity d is the rock's neighbour in the right image at c - d.
+void StereoScene::HideBehind(const RockOutline& outline_right, DepthImage& image) const {
+  const double scale_px_m = view_W_.focal_px * view_W_.baseline_m;
+  for (int row = outline_right.first_row(); row <= outline_right.last_row(); ++row) {
+    const RowCut cut = outline_right.Row(row);
+    const double shift_px = cut.exact ? scale_px_m * cut.NearestInverseDepth() : 0.0;
+    const Columns behind({cut.span.first, cut.span.last + shift_px}, view_W_.columns);
+    for (int column = behind.first; column <= behind.last; ++column) {
+      double& pixel = image(row, column);
+      if (pixel <= 0.0) continue;
+      const double column_right = column - scale_px_m * pixel;
+      const double rock = cut.InverseDepth(column_right);
+      if (rock <= pixel) continue;
+      const double length = view_W_.Ray(column_right, row).norm();
+      if (length / rock <= length / pixel - kOcclusionMargin_m) pixel = 0.0;
+    }
+  }
+}
+
+// What is hidden by something that the left eye sees has that on its right in the left image, and
+// not so in the right one.
+void StereoScene::HideBehindGround(DepthImage& image) const {
+  constexpr double kSlack_px = 0.5;
+  const double scale_px_m = view_W_.focal_px * view_W_.baseline_m;
+  for (int row = 0; row < view_W_.rows; ++row) {
+    double leftmost_px = std::numeric_limits<double>::infinity();
+    for (int column = view_W_.columns - 1; column >= 0; --column) {
+      double& pixel = image(row, column);
+      if (pixel <= 0.0) continue;
+      const double column_right = column - scale_px_m * pixel;
+      const bool may_be_hidden = column_right + kSlack_px >= leftmost_px;
+      leftmost_px = std::min(leftmost_px, column_right);
+      if (!may_be_hidden) continue;
+      const Vector3 p_W = view_W_.eye + view_W_.Ray(column, row) / pixel;
+      if (terrain_.Occluded(view_W_.right_eye, p_W, kOcclusionMargin_m, {})) pixel = 0.0;
     }
   }
 }

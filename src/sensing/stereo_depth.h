@@ -1,20 +1,60 @@
 // What the left camera of a stereo pair meets, and what of it the right one does not see.
 #pragma once
 
+#include <Eigen/Core>
+#include <span>
 #include <vector>
 
+#include "sensing/stereo_outline.h"
 #include "sensing/stereo_view.h"
 #include "terrain/terrain.h"
 
 namespace rockyard::sensing {
 
-// One over the depth Z of the first surface on each pixel's ray (StereoView::Ray), 1/m, row by row;
-// 0 where there is none within max_range_m of the eye. The view is one in W.
-std::vector<double> InverseDepths(const terrain::Terrain& terrain, const StereoView& view_W,
-                                  double max_range_m);
+// A value for each pixel, [row][column]: one over a depth, 1/m, or a disparity, px; 0 where the
+// pixel shows nothing.
+using DepthImage = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Sets to 0 what lies outside the right image, or behind something else there.
-void HideFromRightEye(const terrain::Terrain& terrain, const StereoView& view_W,
-                      std::vector<double>& inverse_depths);
+// The terrain from one place. Pinhole pixels make one over the depth of every plane linear in
+// column and row, and that of an ellipsoid a root of a quadratic (RockOutline), so that each rock
+// costs its own pixels only. An eye below the ground, in a rock or beyond a wall sees nothing.
+//
+// Cost: 128 x 128 pixels, both eyes, see src/sensing/README.md; on rough ground one ray march each.
+class StereoScene {
+ public:
+  // Surfaces farther than max_range_m from the left eye are not seen. The view is one in W; both
+  // have to outlive the scene.
+  StereoScene(const terrain::Terrain& terrain, const StereoView& view_W, double max_range_m);
+
+  // One over the depth Z of the first surface on each pixel's ray (StereoView::Ray) from the left
+  // eye. The same as Terrain::CastRay to rounding.
+  DepthImage InverseDepths() const;
+
+  // Sets to 0 what lies outside the right image or behind something else there, by 0.5 mm or more.
+  // On rough ground what the ground hides is looked for only where disparity changes by half a
+  // column or more from one to the next.
+  void HideFromRightEye(DepthImage& inverse_depths) const;
+
+ private:
+  // A rock near enough to be seen.
+  struct Candidate {
+    terrain::RockShape shape;
+    math::Vector3 center_W;
+  };
+
+  bool SeesNothing(const math::Vector3& eye_W) const;
+  void AddPlanes(DepthImage& image) const;
+  void AddRock(const RockOutline& outline, DepthImage& image) const;
+  void AddRoughGround(DepthImage& image) const;
+  void DropFarther(DepthImage& image) const;
+  void HideBehind(const RockOutline& outline_right, DepthImage& image) const;
+  void HideBehindGround(DepthImage& image) const;
+
+  const terrain::Terrain& terrain_;
+  const StereoView& view_W_;
+  double max_range_m_;
+  std::vector<Candidate> rocks_;
+  Eigen::ArrayXd columns_;  // 0, 1, 2, ...
+};
 
 }  // namespace rockyard::sensing

@@ -1,10 +1,6 @@
 #include "sensing/stereo_sensor.h"
 
 #include <cmath>
-#include <utility>
-#include <vector>
-
-#include "sensing/stereo_depth.h"
 
 namespace rockyard::sensing {
 
@@ -17,17 +13,17 @@ StereoSensor::StereoSensor(const StereoParams& params)
       ahead_R_(MakeStereoView(params, LookDirection::kAhead)),
       behind_R_(MakeStereoView(params, LookDirection::kBehind)) {}
 
-std::vector<double> StereoSensor::MatchedDepths(core::TrialKey key, std::int64_t look_number,
-                                                const terrain::Terrain& terrain,
-                                                const StereoView& view_W) const {
-  const double scale_px_m = view_W.focal_px * view_W.baseline_m;
-  std::vector<double> all = InverseDepths(terrain, view_W, params_.max_range_m);
-  std::vector<double> seen = all;
-  HideFromRightEye(terrain, view_W, seen);
-  for (double& inverse_depth : all) inverse_depth *= scale_px_m;
-  for (double& inverse_depth : seen) inverse_depth *= scale_px_m;
+DepthImage StereoSensor::Measure(const StereoScene& scene, core::TrialKey key,
+                                 std::int64_t look_number) const {
+  DepthImage all = scene.InverseDepths();
+  if (params_.fidelity == StereoFidelity::kIdeal) return all;
+  DepthImage seen = all;
+  scene.HideFromRightEye(seen);
+  const double scale_px_m = params_.focal_columns_px() * params_.baseline_m;
+  all *= scale_px_m;
+  seen *= scale_px_m;
   matcher_.Match(key, static_cast<std::uint32_t>(look_number), all, seen);
-  for (double& disparity_px : seen) disparity_px /= scale_px_m;
+  seen /= scale_px_m;
   return seen;
 }
 
@@ -36,16 +32,15 @@ messages::PointCloud StereoSensor::Look(const terrain::Terrain& terrain,
                                         std::int64_t look_number, LookDirection direction) const {
   const StereoView& view_R = this->view_R(direction);
   const StereoView view_W = view_R.From(X_WR);
-  const std::vector<double> depths = params_.fidelity == StereoFidelity::kIdeal
-                                         ? InverseDepths(terrain, view_W, params_.max_range_m)
-                                         : MatchedDepths(key, look_number, terrain, view_W);
+  const StereoScene scene(terrain, view_W, params_.max_range_m);
+  const DepthImage inverse_depths = Measure(scene, key, look_number);
   messages::PointCloud cloud{.number = look_number, .direction = direction, .points_R = {}};
-  cloud.points_R.reserve(depths.size());
-  const double* inverse_depth = depths.data();
+  cloud.points_R.reserve(static_cast<std::size_t>(inverse_depths.size()));
   for (int row = 0; row < view_R.rows; ++row) {
-    for (int column = 0; column < view_R.columns; ++column, ++inverse_depth) {
-      if (*inverse_depth <= 0.0) continue;
-      const Vector3 p_RoP_R = view_R.eye + view_R.Ray(column, row) / *inverse_depth;
+    for (int column = 0; column < view_R.columns; ++column) {
+      const double inverse_depth = inverse_depths(row, column);
+      if (inverse_depth <= 0.0) continue;
+      const Vector3 p_RoP_R = view_R.eye + view_R.Ray(column, row) / inverse_depth;
       if (InWindow(p_RoP_R, direction)) cloud.points_R.push_back(p_RoP_R);
     }
   }

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "core/random.h"
 #include "math/pose.h"
 #include "messages/point_cloud.h"
+#include "sensing/stereo_depth.h"
 #include "sensing/stereo_match.h"
 #include "sensing/stereo_params.h"
 #include "sensing/stereo_view.h"
@@ -44,10 +44,8 @@ class StereoSensor {
   }
 
  private:
-  // One over the matched depths, 1/m; 0 where there is no match.
-  std::vector<double> MatchedDepths(core::TrialKey key, std::int64_t look_number,
-                                    const terrain::Terrain& terrain,
-                                    const StereoView& view_W) const;
+  // One over the depths, 1/m, as they are measured; 0 where there is no point.
+  DepthImage Measure(const StereoScene& scene, core::TrialKey key, std::int64_t look_number) const;
   bool InWindow(const math::Vector3& p_RoP_R, messages::LookDirection direction) const;
 
   StereoParams params_;

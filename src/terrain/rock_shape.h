@@ -21,6 +21,11 @@ class RockShape {
         yy_(std::cos(rock.yaw_rad) / rock.semi_axes_m.y()),
         zz_(1.0 / rock.semi_axes_m.z()) {}
 
+  // A vector of W in the coordinates in which the rock is the unit sphere.
+  math::Vector3 Map(const math::Vector3& v) const {
+    return {xx_ * v.x() + xy_ * v.y(), yx_ * v.x() + yy_ * v.y(), zz_ * v.z()};
+  }
+
   // Distance along the ray to the surface, which it meets from outside: the smaller root of
   // |q + t e| = 1 for the origin q and the direction e in unit-sphere coordinates. 0 where the
   // origin lies inside; kNoHit where the ray misses.
@@ -55,10 +60,6 @@ class RockShape {
   }
 
  private:
-  math::Vector3 Map(const math::Vector3& v) const {
-    return {xx_ * v.x() + xy_ * v.y(), yx_ * v.x() + yy_ * v.y(), zz_ * v.z()};
-  }
-
   math::Vector3 center_W_;
   double xx_, xy_, yx_, yy_, zz_;
 };

@@ -1,0 +1,32 @@
+// Scenes and sensors for tests of range sensing.
+#pragma once
+
+#include <cstdint>
+
+#include "math/pose.h"
+#include "sensing/stereo_sensor.h"
+#include "stripe_scene.h"
+
+namespace rockyard::sensing {
+
+// The error model without any error: geometry alone.
+inline StereoParams NoiselessStereo() {
+  StereoParams params;
+  params.disparity_noise_px = 0.0;
+  params.dropout_probability = 0.0;
+  params.edge_dropout_probability = 0.0;
+  return params;
+}
+
+inline StereoParams IdealStereo() {
+  StereoParams params;
+  params.fidelity = StereoFidelity::kIdeal;
+  return params;
+}
+
+inline messages::PointCloud LookAhead(const StereoParams& params, const terrain::Terrain& terrain,
+                                      const math::Transform& X_WR, std::int64_t number = 0) {
+  return StereoSensor(params).Look(terrain, X_WR, {1, 0}, number, messages::LookDirection::kAhead);
+}
+
+}  // namespace rockyard::sensing
