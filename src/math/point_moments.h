@@ -14,12 +14,13 @@ namespace rockyard::math {
 
 // Coordinates enter the moments in whole micrometres: far finer than any range sensor, and whole
 // numbers add up exactly in every order.
-inline constexpr double kMomentUnit_m = 1e-6;
+inline constexpr double kMomentUnitsPerMetre = 1e6;
 
 // To the nearest unit, halves away from zero: mirrored points have mirrored coordinates. The
 // coordinate must be smaller than 9e12 m.
 inline std::int64_t ToMomentUnits(double coordinate_m) {
-  return static_cast<std::int64_t>(coordinate_m / kMomentUnit_m + std::copysign(0.5, coordinate_m));
+  return static_cast<std::int64_t>(coordinate_m * kMomentUnitsPerMetre +
+                                   std::copysign(0.5, coordinate_m));
 }
 
 // Count, mean and covariance (with the count as divisor) of points.
@@ -41,7 +42,7 @@ struct PointMoments {
   std::int64_t count() const { return static_cast<std::int64_t>(sums[kCount]); }
   bool empty() const { return sums[kCount] == 0; }
 
-  // Coordinates in units of kMomentUnit_m.
+  // Coordinates in moment units.
   void AddPoint(std::int64_t x, std::int64_t y, std::int64_t z) {
     const auto ux = static_cast<std::uint64_t>(x);
     const auto uy = static_cast<std::uint64_t>(y);
@@ -64,8 +65,8 @@ struct PointMoments {
 
   // Mean height of the points. There must be one.
   double MeanZ_m() const {
-    return static_cast<double>(static_cast<std::int64_t>(sums[kZ])) / static_cast<double>(count()) *
-           kMomentUnit_m;
+    return static_cast<double>(static_cast<std::int64_t>(sums[kZ])) / static_cast<double>(count()) /
+           kMomentUnitsPerMetre;
   }
 };
 
@@ -88,13 +89,13 @@ inline PointSpread Spread(const PointMoments& moments) {
   const auto covariance = [&](std::size_t product, std::size_t i, std::size_t j) {
     const std::uint64_t about_near = s[product] - near[i] * s[M::kX + j] - near[j] * rest[i];
     const double square = static_cast<double>(static_cast<std::int64_t>(about_near));
-    return (square * inverse_count - offset[i] * offset[j]) * (kMomentUnit_m * kMomentUnit_m);
+    return (square * inverse_count - offset[i] * offset[j]) * 1e-12;
   };
   PointSpread spread;
   spread.count = moments.count();
   for (std::size_t i = 0; i < 3; ++i) {
     const double mean = static_cast<double>(static_cast<std::int64_t>(near[i])) + offset[i];
-    spread.mean_m(static_cast<Eigen::Index>(i)) = mean * kMomentUnit_m;
+    spread.mean_m(static_cast<Eigen::Index>(i)) = mean / kMomentUnitsPerMetre;
   }
   spread.covariance_m2 = {covariance(M::kXX, 0, 0), covariance(M::kYY, 1, 1),
                           covariance(M::kZZ, 2, 2), covariance(M::kXY, 0, 1),

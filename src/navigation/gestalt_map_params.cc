@@ -75,11 +75,12 @@ void VisitFormulas(GestaltMapParams& p, core::FieldVisitor& v) {
            {.doc = "side of the square of cells that stands for the vehicle",
             .origin = Origin::kPublished,
             .source = "Goldberg 2002 sec. 4: obstacles grow by half the vehicle width"});
-  v.Choice("failed_fit", p.failed_fit,
-           {.doc = "what a plane that fails min_cell_coverage or eigen_ratio leads to",
-            .origin = Origin::kAssumed,
-            .source = "unknown cells may be crossed, so a step must not become unknown because it "
-                      "fits no plane; the paper says neither"});
+  v.Choice(
+      "failed_fit", p.failed_fit,
+      {.doc = "what a plane that fails min_cell_coverage or eigen_ratio leads to",
+       .origin = Origin::kAssumed,
+       .source = "without a plane nothing is known, but unknown cells may be crossed: a step must "
+                 "not become unknown because it fits no plane; the paper says neither"});
   v.Choice("certainty", p.certainty,
            {.doc = "certainty of an evaluated cell: always 255, or that of the hazard that decides",
             .origin = Origin::kPublished,

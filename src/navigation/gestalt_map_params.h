@@ -33,8 +33,9 @@ enum class PatchSize {
 
 // What a plane that fails the coverage or the eigenvalue test leads to.
 enum class FailedFit {
-  kSkipPlaneTests,  // no roughness and no pitch hazard; the cell is unknown only if no test is left
+  kStepOrUnknown,   // the cell is unknown unless there is a step hazard
   kUnknown,         // the cell is unknown, whatever its steps
+  kSkipPlaneTests,  // no roughness and no pitch hazard; unknown only if no other test is enabled
 };
 
 // The certainty of a cell that was evaluated.
@@ -119,7 +120,7 @@ struct GestaltMapParams {
   RoughnessFormula roughness_formula = RoughnessFormula::kAsPrinted;
   double roughness_fraction = 1.0;
   PatchSize patch = PatchSize::kWidth;
-  FailedFit failed_fit = FailedFit::kSkipPlaneTests;
+  FailedFit failed_fit = FailedFit::kStepOrUnknown;
   CellCertainty certainty = CellCertainty::kFull;
   BorderNeighbours border_neighbours = BorderNeighbours::kEight;
   GestaltPairParams pairs;
@@ -153,7 +154,8 @@ struct rockyard::core::EnumNames<rockyard::navigation::PatchSize> {
 
 template <>
 struct rockyard::core::EnumNames<rockyard::navigation::FailedFit> {
-  static constexpr std::array<std::string_view, 2> kNames{"skip_plane_tests", "unknown"};
+  static constexpr std::array<std::string_view, 3> kNames{"step_or_unknown", "unknown",
+                                                          "skip_plane_tests"};
 };
 
 template <>

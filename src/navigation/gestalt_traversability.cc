@@ -34,27 +34,32 @@ CellValue Traversability::Unknown() const {
                 false);
 }
 
-bool Traversability::IsKnown(const PatchPlane& plane) const {
+std::int64_t Traversability::FromSteps(const PatchPlane& plane, double step_m) const {
+  const std::int64_t obstacle = params_.pairs.step_obst.goodness;
+  if (plane.marked) return obstacle;
+  if (!params_.tests.step) return kBestGoodness;
+  return StepGoodness(step_m, params_.HazardHeight_m(), obstacle);
+}
+
+bool Traversability::IsKnown(const PatchPlane& plane, bool step_hazard) const {
   if (plane.marked) return true;
   if (!plane.enough) return false;
   if (plane.plane_valid) return true;
+  if (params_.failed_fit == FailedFit::kUnknown) return false;
+  if (params_.failed_fit == FailedFit::kStepOrUnknown) return step_hazard;
   const bool plane_tests = params_.tests.rough || params_.tests.pitch;
-  return params_.failed_fit == FailedFit::kSkipPlaneTests && (params_.tests.step || !plane_tests);
+  return params_.tests.step || !plane_tests;
 }
 
 CellValue Traversability::Value(const PatchPlane& plane, double step_m) const {
-  if (!IsKnown(plane)) return Unknown();
+  const GestaltPairParams& pairs = params_.pairs;
+  const double h_m = params_.HazardHeight_m();
   GoodnessPair value{kBestGoodness, kFullCertainty};
   const auto apply = [&value](std::int64_t goodness, const GoodnessPair& pair) {
     if (goodness < value.goodness) value = {goodness, pair.certainty};
   };
-  const GestaltPairParams& pairs = params_.pairs;
-  const double h_m = params_.HazardHeight_m();
-  if (plane.marked) {
-    apply(pairs.step_obst.goodness, pairs.step_obst);
-  } else if (params_.tests.step) {
-    apply(StepGoodness(step_m, h_m, pairs.step_obst.goodness), pairs.step_obst);
-  }
+  apply(FromSteps(plane, step_m), pairs.step_obst);
+  if (!IsKnown(plane, value.goodness < kBestGoodness)) return Unknown();
   if (params_.tests.rough && plane.plane_valid) {
     apply(RoughnessGoodness(plane.residual_m, h_m, params_.roughness_fraction,
                             params_.roughness_formula, pairs.rough_obst.goodness),

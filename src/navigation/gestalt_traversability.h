@@ -32,7 +32,9 @@ class Traversability {
 
  private:
   CellValue Value(const PatchPlane& plane, double step_m) const;
-  bool IsKnown(const PatchPlane& plane) const;
+  // Goodness for the steps of a patch and for what the rover felt there.
+  std::int64_t FromSteps(const PatchPlane& plane, double step_m) const;
+  bool IsKnown(const PatchPlane& plane, bool step_hazard) const;
   void AddBorders(GoodnessGrid& grid) const;
 
   GestaltMapParams params_;
