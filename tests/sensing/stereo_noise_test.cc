@@ -1,0 +1,135 @@
+// Spread of stereo range and rate of dropouts against their laws.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <vector>
+
+#include "stereo_scene.h"
+
+namespace rockyard::sensing {
+namespace {
+
+using math::Vector3;
+using messages::LookDirection;
+
+constexpr double kAlpha = 1e-4;  // chance of a false alarm of each check, were its seed drawn anew
+
+// Cameras that look straight at a wall at this depth.
+constexpr double kDepth_m = 2.0;
+
+StereoParams LevelCameras() {
+  StereoParams params = NoiselessStereo();
+  params.front = {.ahead_m = 0.0, .height_m = 3.0, .pitch_rad = 0.0};
+  params.vertical_fov_rad = math::DegToRad(60.0);
+  params.max_range_m = 10.0;
+  return params;
+}
+
+terrain::Terrain Wall() { return FlatWith({}, {{Vector3::UnitX(), kDepth_m}}); }
+
+std::vector<double> Depths(const StereoParams& params, std::int64_t look) {
+  std::vector<double> depths;
+  for (const Vector3& p_R : LookAhead(params, Wall(), PoseAt(0, 0, 0), look).points_R) {
+    depths.push_back(p_R.x());
+  }
+  return depths;
+}
+
+// Two-sided p-value of the variance of a normal sample about a known mean.
+double VarianceP(const std::vector<double>& sample, double mean, double deviation) {
+  double sum = 0.0;
+  for (const double value : sample) sum += (value - mean) * (value - mean);
+  const boost::math::chi_squared law(static_cast<double>(sample.size()));
+  const double statistic = sum / (deviation * deviation);
+  return 2.0 * std::min(cdf(law, statistic), cdf(complement(law, statistic)));
+}
+
+double BinomialP(double count, double chances, double probability) {
+  const boost::math::binomial law(chances, probability);
+  return 2.0 * std::min(cdf(law, count), cdf(complement(law, count - 1.0)));
+}
+
+TEST(StereoNoiseTest, RangeErrorGrowsWithTheSquareOfDepth) {
+  // sigma_Z = Z^2 sigma_d / (f b), to first order: the disparity is 2.7 px, sigma 0.7 % of it, and
+  // second order adds 8 (0.7 %)^2 = 0.04 % to a variance known to 0.9 %.
+  StereoParams params = LevelCameras();
+  params.disparity_noise_px = 0.02;
+  std::vector<double> depths = Depths(params, 0);
+  const std::vector<double> more = Depths(params, 1);
+  depths.insert(depths.end(), more.begin(), more.end());
+  ASSERT_GT(depths.size(), 30000U);
+  const double deviation_m =
+      kDepth_m * kDepth_m * 0.02 / (params.focal_columns_px() * params.baseline_m);
+  EXPECT_NEAR(deviation_m, 0.0149, 1e-4);
+  EXPECT_GT(VarianceP(depths, kDepth_m, deviation_m), kAlpha);
+  // Negative control: four per cent more.
+  EXPECT_LT(VarianceP(depths, kDepth_m, 1.04 * deviation_m), kAlpha);
+}
+
+TEST(StereoNoiseTest, ErrorsOfTwoLooksAreIndependent) {
+  StereoParams params = LevelCameras();
+  params.disparity_noise_px = 0.02;
+  const std::vector<double> first = Depths(params, 5);
+  const std::vector<double> second = Depths(params, 6);
+  ASSERT_EQ(first.size(), second.size());
+  const auto correlation = [](const std::vector<double>& a, const std::vector<double>& b) {
+    double ab = 0.0, aa = 0.0, bb = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      ab += (a[i] - kDepth_m) * (b[i] - kDepth_m);
+      aa += (a[i] - kDepth_m) * (a[i] - kDepth_m);
+      bb += (b[i] - kDepth_m) * (b[i] - kDepth_m);
+    }
+    return ab / std::sqrt(aa * bb);
+  };
+  // 3.9 standard deviations of 1 / sqrt(n): alpha = 1e-4.
+  const double limit = 3.9 / std::sqrt(static_cast<double>(first.size()));
+  EXPECT_LT(std::abs(correlation(first, second)), limit);
+  EXPECT_GT(std::abs(correlation(first, first)), limit);  // negative control
+}
+
+TEST(StereoNoiseTest, DropoutsComeAsOftenAsTheyShould) {
+  StereoParams params = LevelCameras();
+  const auto all = static_cast<double>(Depths(params, 0).size());
+  params.dropout_probability = 0.05;
+  params.edge_reach_px = 0;
+  const double lost = all - static_cast<double>(Depths(params, 0).size());
+  EXPECT_GT(BinomialP(lost, all, 0.05), kAlpha);
+  EXPECT_LT(BinomialP(lost, all, 0.06), kAlpha);  // negative control
+}
+
+TEST(StereoNoiseTest, MoreDropsOutBesideAJumpInDepth) {
+  // A plate 1 m before the wall: three columns on both sides of its edges have the other rate.
+  StereoParams params = LevelCameras();
+  params.edge_dropout_probability = 0.5;
+  const terrain::Terrain terrain =
+      FlatWith({EllipsoidRock(1.0, 0.0, 3.0, 1e-4, 0.3, 0.3)}, {{Vector3::UnitX(), kDepth_m}});
+  const StereoView view = MakeStereoView(params, LookDirection::kAhead);
+  const DepthImage depths = StereoScene(terrain, view, params.max_range_m).InverseDepths();
+  const DepthImage all_px = depths * view.focal_px * view.baseline_m;
+  double beside = 0.0, lost = 0.0, lost_elsewhere = 0.0;
+  for (std::uint32_t look = 0; look < 20; ++look) {
+    DepthImage seen_px = all_px;
+    StereoMatcher(params).Match({1, 0}, look, all_px, seen_px);
+    for (int row = 0; row < view.rows; ++row) {
+      for (int column = 0; column < view.columns; ++column) {
+        bool edge = false;
+        for (int at = std::max(column - 2, 1); at <= std::min(column + 3, 127); ++at) {
+          edge = edge || std::abs(all_px(row, at) - all_px(row, at - 1)) >= 1.0;
+        }
+        const bool is_lost = seen_px(row, column) == 0.0;
+        beside += edge;
+        (edge ? lost : lost_elsewhere) += is_lost;
+      }
+    }
+  }
+  EXPECT_GT(beside, 5000.0);
+  EXPECT_EQ(lost_elsewhere, 0.0);
+  EXPECT_GT(BinomialP(lost, beside, 0.5), kAlpha);
+  EXPECT_LT(BinomialP(lost, beside, 0.53), kAlpha);  // negative control
+}
+
+}  // namespace
+}  // namespace rockyard::sensing
