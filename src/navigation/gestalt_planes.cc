@@ -8,6 +8,8 @@ namespace {
 
 // Against shares such as 0.56 of 25 cells that should be whole numbers.
 constexpr double kRounding = 1e-6;
+// A cell whose mean is no farther from a plane is no outlier: the resolution of coordinates.
+constexpr double kInPlane_m = 1e-6;
 
 int Reach(double side_m, double step_m) {
   return std::max(0, static_cast<int>(std::ceil(0.5 * (side_m - step_m) / step_m - kRounding)));
@@ -151,6 +153,7 @@ math::PlaneFit PatchPlanes::FitWithoutOutliers(const CellWindow& cells, math::Po
     };
     const auto worst = std::max_element(
         left.begin(), left.end(), [&](auto* a, auto* b) { return distance(a) < distance(b); });
+    if (distance(*worst) < kInPlane_m) break;
     moments -= (*worst)->moments;
     left.erase(worst);
     spread = math::Spread(moments);
