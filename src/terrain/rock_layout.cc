@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -159,6 +160,24 @@ RockLayout LayOutExactCount(const TerrainParams& params, core::TrialKey key, con
   return builder.Take();
 }
 
+// Ellipsoids of revolution with the given outline on the ground they stand on: of the full height
+// 2 c the buried share is below, h = 2 c (1 - burial).
+RockLayout LayOutList(const RockFieldParams& params) {
+  const ListedRocksParams& list = params.listed;
+  RockLayout layout;
+  for (std::size_t i = 0; i < list.x_m.size(); ++i) {
+    Rock rock;
+    rock.diameter_m = list.diameter_m[i];
+    rock.height_m = list.height_m[i];
+    const double c_m = 0.5 * rock.height_m / (1.0 - params.burial_mean);
+    rock.semi_axes_m = {0.5 * rock.diameter_m, 0.5 * rock.diameter_m, c_m};
+    rock.center_W = {list.x_m[i], list.y_m[i], rock.height_m - c_m};
+    layout.rocks.push_back(rock);
+  }
+  layout.drawn = static_cast<int>(layout.rocks.size());
+  return layout;
+}
+
 }  // namespace
 
 RockLayout LayOutRocks(const TerrainParams& params, core::TrialKey key, const Course& course) {
@@ -169,6 +188,8 @@ RockLayout LayOutRocks(const TerrainParams& params, core::TrialKey key, const Co
       return LayOutMoore(params, key, course);
     case RockFieldKind::kUniformCount:
       return LayOutExactCount(params, key, course);
+    case RockFieldKind::kListed:
+      return LayOutList(params.rocks);
   }
   return {};
 }

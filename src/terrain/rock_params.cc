@@ -165,6 +165,7 @@ double MooreNumberPerM2(double k_per_m2, double diameter_m) {
 double RockFieldParams::RocksPerM2() const {
   switch (kind) {
     case RockFieldKind::kNone:
+    case RockFieldKind::kListed:
       return 0.0;
     case RockFieldKind::kMoore:
       return MooreNumberPerM2(k_per_m2, min_diameter_m) -
@@ -184,11 +185,12 @@ double RockFieldParams::ReferenceRocksPerM2() const {
 void RockFieldParams::Visit(core::FieldVisitor& v) {
   v.Choice("kind", kind,
            {.doc = "none, moore: random sizes and counts, uniform_count: an exact count of similar "
-                   "rocks",
+                   "rocks, listed: those of the group of that name",
             .origin = Origin::kSetting});
   VisitMoore(*this, v);
   VisitUniform(*this, v);
   VisitShape(*this, v);
+  v.Group("listed", listed, "rocks one by one, for kind listed");
   v.Choice("overlap", overlap,
            {.doc = "what happens to a rock that overlaps one placed before it",
             .origin = Origin::kAssumed,

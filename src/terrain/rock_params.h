@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/fields.h"
+#include "terrain/listed_rocks_params.h"
 #include "terrain/rock_holding_params.h"
 
 namespace rockyard::terrain {
@@ -21,6 +22,7 @@ enum class RockFieldKind {
   kNone,
   kMoore,         // Poisson counts, diameters from Moore's law between two explicit bounds
   kUniformCount,  // an exact count, diameters uniform between two bounds
+  kListed,        // those of a list, the same in every trial
 };
 
 enum class OverlapRule {
@@ -54,11 +56,13 @@ struct RockFieldParams {
   double burial_spread = 0.1;
 
   OverlapRule overlap = OverlapRule::kRelocate;
+  ListedRocksParams listed;
   double clear_radius_m = 0.5;
   RockMobility mobility = RockMobility::kFixed;
   RockHoldingParams holding;
 
-  // Expected number of rocks per m2 of the layout area, before clear zones and overlap.
+  // Expected number of rocks per m2 of the layout area, before clear zones and overlap; 0 for
+  // listed ones, which follow no law.
   double RocksPerM2() const;
   // The same for the reference field that is thinned down to k; equal for exact counts.
   double ReferenceRocksPerM2() const;
@@ -70,7 +74,8 @@ struct RockFieldParams {
 
 template <>
 struct rockyard::core::EnumNames<rockyard::terrain::RockFieldKind> {
-  static constexpr std::array<std::string_view, 3> kNames{"none", "moore", "uniform_count"};
+  static constexpr std::array<std::string_view, 4> kNames{"none", "moore", "uniform_count",
+                                                          "listed"};
 };
 template <>
 struct rockyard::core::EnumNames<rockyard::terrain::OverlapRule> {

@@ -67,6 +67,7 @@ double UniformSizeLaw::MeanPower(double power) const {
 std::unique_ptr<RockSizeLaw> MakeSizeLaw(const RockFieldParams& params) {
   switch (params.kind) {
     case RockFieldKind::kNone:
+    case RockFieldKind::kListed:
       break;
     case RockFieldKind::kMoore:
       return std::make_unique<MooreSizeLaw>(params.min_diameter_m, params.max_diameter_m);

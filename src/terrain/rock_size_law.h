@@ -52,7 +52,7 @@ class UniformSizeLaw : public RockSizeLaw {
   double max_m_;
 };
 
-// The law that the parameters name; kNone has none (nullptr).
+// The law that the parameters name; kNone and kListed have none (nullptr).
 std::unique_ptr<RockSizeLaw> MakeSizeLaw(const RockFieldParams& params);
 
 }  // namespace rockyard::terrain

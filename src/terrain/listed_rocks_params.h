@@ -1,0 +1,21 @@
+// Rocks at given places: a course as it was laid out by hand.
+#pragma once
+
+#include <vector>
+
+#include "core/fields.h"
+
+namespace rockyard::terrain {
+
+// One entry of each list for every rock. They are round, the same in every trial, and share
+// burial_mean of the field; overlap, clear zones and shape ratios do not touch them.
+struct ListedRocksParams {
+  std::vector<double> x_m;  // centres, in the world frame
+  std::vector<double> y_m;
+  std::vector<double> diameter_m;
+  std::vector<double> height_m;  // above the ground
+
+  void Visit(core::FieldVisitor& v);
+};
+
+}  // namespace rockyard::terrain
