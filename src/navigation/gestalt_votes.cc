@@ -74,8 +74,12 @@ double BestCurvature(const GoalDirection& goal, int direction, double step_m,
   const double turn_rad =
       with_rear ? math::WrapAngle(goal.bearing_rad - std::numbers::pi) : goal.bearing_rad;
   const double tight = direction * turn_rad / std::min(step_m, distance_m);
+  // The arc through a goal behind begins almost straight away from it: turn as for one abeam.
+  const double right_angle = 0.5 * std::numbers::pi;
+  const double bearing_rad =
+      direction > 0 ? std::clamp(goal.bearing_rad, -right_angle, right_angle) : goal.bearing_rad;
   const double side = towards ? 1.0 : direction;
-  const double broad = side * 2.0 * std::sin(goal.bearing_rad) / distance_m;
+  const double broad = side * 2.0 * std::sin(bearing_rad) / distance_m;
   const double fraction = params.waypoints.tight_curve_fraction;
   return fraction * std::clamp(tight, -limit, limit) +
          (1.0 - fraction) * std::clamp(broad, -limit, limit);

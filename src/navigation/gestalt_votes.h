@@ -43,13 +43,14 @@ GoalDirection TowardsGoal(const messages::PoseEstimate& estimate, const messages
 double WaypointPeak(const GoalDirection& goal, int direction);
 
 // Curvature of the arc that "best points the rover toward the goal" (step 5), at most
-// max_curvature,
-//   c = f c_tight + (1 - f) c_broad,  f = tight_curve_fraction:
-// tight faces the goal after one step, c_tight = direction * turn / min(step, distance), where
-// `turn` brings the front to the goal, or the rear when driving backward towards a goal behind;
-// broad is the one arc through the goal, c_broad = 2 sin(bearing) / distance. Backward away from a
-// goal ahead that arc's mirror image is meant, which turns the front to the goal. The paper names
-// the two ends only ("Broad (0) v. Tight (1)").
+// max_curvature:
+//   c = f c_tight + (1 - f) c_broad,  f = tight_curve_fraction.
+// Tight faces the goal after one step, c_tight = direction * turn / min(step, distance), where
+// `turn` brings the front to the goal, or the rear when driving backward towards a goal behind.
+// Broad is the one arc through the goal, c_broad = 2 sin(bearing) / distance. Two cases have no
+// such arc: forward away from a goal behind the bearing counts as 90 deg, and backward away from a
+// goal ahead the arc's mirror image is meant, which turns the front to the goal. A goal exactly
+// behind is turned to by the left. The paper names the two ends only ("Broad (0) v. Tight (1)").
 double BestCurvature(const GoalDirection& goal, int direction, double step_m,
                      const GestaltParams& params);
 

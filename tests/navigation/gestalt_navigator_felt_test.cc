@@ -1,0 +1,188 @@
+// Hazards that the rover feels while GESTALT drives blindly.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "gestalt_drive.h"
+
+namespace rockyard::navigation {
+namespace {
+
+using messages::HazardSide;
+using messages::LookDirection;
+using messages::VehicleHazard;
+using messages::VehicleHazardKind;
+
+constexpr double kRounding = 1e-9;
+constexpr VehicleHazard kTouchAhead{VehicleHazardKind::kContact, HazardSide::kAhead};
+
+// The rover's front, half its length ahead, touches a block that no camera sees.
+std::function<std::optional<VehicleHazard>(const FakeRover&)> Unseen(const Block& block) {
+  return [block](const FakeRover& rover) -> std::optional<VehicleHazard> {
+    const math::Pose2& X_WR = rover.X_WR();
+    for (const double y_m : {-0.42, -0.21, 0.0, 0.21, 0.42}) {
+      const double c = std::cos(X_WR.heading_rad);
+      const double s = std::sin(X_WR.heading_rad);
+      if (block.Holds(X_WR.x_m + c * 0.52 - s * y_m, X_WR.y_m + s * 0.52 + c * y_m)) {
+        return kTouchAhead;
+      }
+    }
+    return std::nullopt;
+  };
+}
+
+// First tick at which the motion is a backward arc.
+std::size_t FirstBackward(const std::vector<GestaltTick>& log) {
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    if (log[i].drives() && log[i].decision.motion.direction < 0) return i;
+  }
+  return log.size();
+}
+
+TEST(GestaltFelt, BacksOffAlongTheArcByWhatWasDriven) {
+  GestaltSetup setup;
+  setup.goal = {5.0, 0.9};  // on an arc to the left
+  setup.felt = [](const FakeRover& rover) -> std::optional<VehicleHazard> {
+    if (rover.X_WR().x_m > 0.2) return kTouchAhead;
+    return std::nullopt;
+  };
+  GestaltDrive drive(setup);
+  ASSERT_TRUE(drive.StepUntil(
+      [](const GestaltTick& t) { return t.drives() && t.decision.motion.direction < 0; }));
+  const std::size_t back = drive.log().size() - 1;
+  const double driven_m = drive.log()[back].estimate.distance_m;
+  EXPECT_GT(drive.log()[back - 1].decision.motion.curvature_per_m, 0.0);
+  EXPECT_EQ(drive.log()[back].decision.motion.curvature_per_m,
+            drive.log()[back - 1].decision.motion.curvature_per_m);
+  ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.decision.looks(); }));
+  const messages::PoseEstimate& end = drive.log().back().estimate;
+  EXPECT_GE(end.distance_m - driven_m, driven_m - kRounding);
+  EXPECT_LE(end.distance_m - driven_m, driven_m + setup.rover.tick_distance_m() + kRounding);
+  EXPECT_NEAR(end.x_m, 0.0, 2.0 * setup.rover.tick_distance_m()) << "where it came from";
+  EXPECT_NEAR(end.y_m, 0.0, 2.0 * setup.rover.tick_distance_m());
+}
+
+TEST(GestaltFelt, BacksOffNoFurtherThanAskedFor) {
+  GestaltSetup setup;
+  setup.params.drive.back_off_m = 0.10;
+  setup.felt = [](const FakeRover& rover) -> std::optional<VehicleHazard> {
+    if (rover.X_WR().x_m > 0.25) return kTouchAhead;
+    return std::nullopt;
+  };
+  GestaltDrive drive(setup);
+  ASSERT_TRUE(drive.StepUntil(
+      [](const GestaltTick& t) { return t.drives() && t.decision.motion.direction < 0; }));
+  const double felt_m = drive.log().back().estimate.distance_m;
+  ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.decision.looks(); }));
+  EXPECT_NEAR(drive.log().back().estimate.distance_m - felt_m, 0.10,
+              setup.rover.tick_distance_m() + kRounding);
+}
+
+TEST(GestaltFelt, DrivesRoundWhatItFeltAndDoesNotSee) {
+  for (const double y_m : {-0.15, 0.0, 0.2}) {
+    GestaltSetup setup;
+    setup.rover = TrueRover();
+    setup.felt = Unseen({2.0, 2.3, y_m - 0.15, y_m + 0.15});
+    GestaltDrive drive(setup);
+    EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+    EXPECT_LT(FirstBackward(drive.log()), drive.log().size()) << "it did meet the block";
+    EXPECT_LT(drive.rover().estimate().distance_m, 15.0);
+  }
+}
+
+TEST(GestaltFelt, MarksAnObstacleAtTheEndThatLed) {
+  for (const HazardSide side : {HazardSide::kLeft, HazardSide::kAhead, HazardSide::kRight}) {
+    GestaltSetup setup;
+    setup.rover = TrueRover();
+    setup.felt = [side](const FakeRover& rover) -> std::optional<VehicleHazard> {
+      if (rover.X_WR().x_m > 1.2 && rover.X_WR().x_m < 1.25) {
+        return VehicleHazard{VehicleHazardKind::kArticulation, side};
+      }
+      return std::nullopt;
+    };
+    GestaltDrive drive(setup);
+    ASSERT_TRUE(drive.StepUntil(
+        [](const GestaltTick& t) { return t.drives() && t.decision.motion.direction < 0; }));
+    ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.has_cloud && t.moves(); }));
+    // Half the length ahead of x = 1.2, half the width aside; the ground is flat otherwise.
+    const double y_m =
+        side == HazardSide::kAhead ? 0.0 : (side == HazardSide::kLeft ? 0.42 : -0.42);
+    const messages::MapView& map = drive.navigator().view()->map;
+    const auto goodness = [&map](double x, double y) {
+      const int ix = static_cast<int>(std::floor((x - map.x0_m) / map.xstep_m));
+      const int iy = static_cast<int>(std::floor((y - map.y0_m) / map.ystep_m));
+      return static_cast<int>(map.cells[static_cast<std::size_t>(iy * map.nx + ix)].goodness);
+    };
+    EXPECT_EQ(goodness(1.72, y_m), 0);
+    EXPECT_GT(goodness(1.72 + 1.2, y_m), 200);
+    EXPECT_GT(goodness(1.72, side == HazardSide::kLeft ? -0.5 : 0.9), 200) << "the other side";
+  }
+}
+
+// A wall across the whole way that no camera sees.
+TEST(GestaltFelt, GivesUpAfterTooManyWithoutProgress) {
+  GestaltSetup setup;
+  setup.params.drive.max_felt = 3;
+  setup.felt = Unseen({1.5, 2.0, -50.0, 50.0});
+  GestaltDrive drive(setup);
+  EXPECT_EQ(drive.Run(), NavigatorStatus::kGaveUp);
+  EXPECT_TRUE(setup.felt(drive.rover()).has_value()) << "at the touch after the last allowed one";
+  int back_offs = 0;
+  for (std::size_t i = 1; i < drive.log().size(); ++i) {
+    const bool touched =
+        drive.log()[i - 1].drives() && drive.log()[i].drives() &&
+        drive.log()[i].decision.motion.direction != drive.log()[i - 1].decision.motion.direction;
+    back_offs += touched ? 1 : 0;
+  }
+  EXPECT_EQ(back_offs, 3);
+}
+
+TEST(GestaltFelt, AHazardThatLastsCountsAgainOnlyAfterSomeDriving) {
+  GestaltSetup setup;
+  setup.params.drive.felt_again_m = 0.2;
+  setup.felt = [](const FakeRover&) -> std::optional<VehicleHazard> {
+    return VehicleHazard{VehicleHazardKind::kTilt, HazardSide::kAhead};
+  };
+  GestaltDrive drive(setup);  // stands tilted from the start
+  ASSERT_TRUE(drive.StepUntil(
+      [](const GestaltTick& t) { return t.drives() && t.decision.motion.direction < 0; }));
+  EXPECT_NEAR(drive.log().back().estimate.distance_m, 0.2,
+              setup.rover.tick_distance_m() + kRounding);
+}
+
+TEST(GestaltFelt, ATouchBehindEndsABackOffAndNothingElse) {
+  GestaltSetup setup;
+  setup.felt = [](const FakeRover& rover) -> std::optional<VehicleHazard> {
+    if (rover.X_WR().x_m > 0.3) return kTouchAhead;
+    return std::nullopt;
+  };
+  setup.touches_behind = [](const FakeRover& rover) { return rover.estimate().distance_m < 0.4; };
+  GestaltDrive drive(setup);
+  ASSERT_TRUE(drive.StepUntil(
+      [](const GestaltTick& t) { return t.drives() && t.decision.motion.direction < 0; }));
+  const double felt_m = drive.log().back().estimate.distance_m;
+  EXPECT_GT(felt_m, 0.3) << "driving forward it does not matter";
+  ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.decision.looks(); }));
+  EXPECT_LE(drive.log().back().estimate.distance_m - felt_m,
+            setup.rover.tick_distance_m() + kRounding);
+}
+
+TEST(GestaltFelt, DuringASearchTurnsTheOtherWay) {
+  GestaltSetup setup;
+  setup.range.range_m = 0.2;  // sees nothing: it turns in place to search
+  setup.goal = {4.0, 1.0};
+  setup.felt = [](const FakeRover& rover) -> std::optional<VehicleHazard> {
+    if (rover.X_WR().heading_rad > 0.5) return kTouchAhead;
+    return std::nullopt;
+  };
+  GestaltDrive drive(setup);
+  ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.turns(); }));
+  EXPECT_EQ(drive.log().back().decision.motion.direction, +1);
+  ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.decision.looks(); }));
+  EXPECT_NEAR(drive.rover().X_WR().heading_rad, 0.5, 0.03);
+  ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.turns(); }));
+  EXPECT_EQ(drive.log().back().decision.motion.direction, -1);
+}
+
+}  // namespace
+}  // namespace rockyard::navigation
