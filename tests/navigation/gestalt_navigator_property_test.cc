@@ -99,10 +99,10 @@ void ExpectWellFormed(const NavigatorDecision& decision) {
 messages::PointCloud RandomCloud(Draws& draws, messages::LookDirection direction) {
   messages::PointCloud cloud;
   cloud.direction = direction;
-  const int points = draws.Below(3000);
-  const double roughness_m = draws.Between(0.0, 0.3);
+  const int points = draws.Below(6000);
+  const double roughness_m = draws.Chance(0.7) ? 0.02 : 0.3;  // good ground, or obstacles
   for (int i = 0; i < points; ++i) {
-    cloud.points_R.push_back({draws.Between(-4.0, 4.0), draws.Between(-4.0, 4.0),
+    cloud.points_R.push_back({draws.Between(-3.0, 3.0), draws.Between(-3.0, 3.0),
                               draws.Between(-roughness_m, roughness_m)});
   }
   if (draws.Chance(0.2)) {
@@ -123,6 +123,7 @@ TEST(GestaltProperty, RandomWorldsNeverHangAndAlwaysDriveACandidate) {
     Draws draws(trial, 0);
     GestaltNavigator navigator(RandomParams(draws), {draws.Between(-5, 5), draws.Between(-5, 5)});
     const double touchy = draws.Between(0.0, 0.2);
+    const double tilt = draws.Chance(0.7) ? 0.005 : 0.5;  // the map is a mess where it is large
     NavigatorDecision decision;
     messages::PoseEstimate estimate;
     int ticks = 0;
@@ -137,7 +138,8 @@ TEST(GestaltProperty, RandomWorldsNeverHangAndAlwaysDriveACandidate) {
         navigator.OnPoseUpdate(before, estimate);
       }
       NavigatorInput input{.time_s = 0.5 * ticks, .estimate = estimate};
-      input.attitude = {draws.Between(-0.5, 0.5), draws.Between(-0.5, 0.5), draws.Between(-1, 1)};
+      input.attitude = {draws.Between(-tilt, tilt), draws.Between(-tilt, tilt),
+                        draws.Between(-tilt, tilt)};
       messages::PointCloud cloud;
       if (decision.looks()) {
         cloud = RandomCloud(draws, *decision.look);
