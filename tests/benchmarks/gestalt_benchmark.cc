@@ -12,6 +12,7 @@
 #include "core/hash.h"
 #include "core/random.h"
 #include "navigation/gestalt_map.h"
+#include "navigation/gestalt_votes.h"
 
 namespace rockyard::navigation {
 namespace {
@@ -28,6 +29,7 @@ struct Table3 {
 constexpr Table3 kFitPlanes = {{0.0294, 0.14, 1.0}, {0.0761, 0.404, 2.72}, {1.4, 4.21, 25.1}};
 constexpr Table3 kTraversability = {
     {0.00171, 0.0192, 0.144}, {0.00351, 0.0579, 0.45}, {0.0567, 0.685, 5.49}};
+constexpr Table3 kPathVotes = {{0.022, 0.0454, 0.0838}, {0.0637, 0.126, 0.214}, {1.15, 1.69, 3.06}};
 
 GestaltMapParams Params(double cell_m) {
   GestaltMapParams params;
@@ -124,6 +126,25 @@ void BM_Traversability(benchmark::State& state) {
   Publish(state, kTraversability, hash);
 }
 
+// All votes of one cycle: 23 arcs either way and two point turns.
+void BM_PathVotes(benchmark::State& state) {
+  GestaltParams params;
+  params.map = Params(CellSize(state));
+  GestaltMap map(params.map);
+  map.BeginCycle(0.0, 0.0);
+  map.Add(Ground(), math::Transform::Identity());
+  const GoodnessGrid grid = map.Evaluate();
+  const ArcVoter voter(params);
+  const messages::PoseEstimate estimate{.x_m = 0.03, .y_m = -0.07, .heading_rad = 0.4};
+  const messages::Goal goal{7.0, 1.0};
+  for (auto _ : state) benchmark::DoNotOptimize(voter.Vote(grid, estimate, goal).forward.data());
+  core::Hasher hash;
+  for (const messages::MotionVote& vote : voter.Vote(grid, estimate, goal).forward) {
+    hash.Real(vote.hazard).Real(vote.merged);
+  }
+  Publish(state, kPathVotes, hash);
+}
+
 // A whole cycle with a cloud of 128 x 128 points ahead, as a stereo pair gives it.
 void BM_Cycle(benchmark::State& state) {
   GestaltMapParams params = Params(CellSize(state));
@@ -154,6 +175,7 @@ BENCHMARK(BM_FitPlanes)
     ->ArgsProduct({{0, 1, 2}, {0, 1}})
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_Traversability)->ArgName("cells")->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_PathVotes)->ArgName("cells")->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_Cycle)->ArgName("cells")->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
 
 }  // namespace
