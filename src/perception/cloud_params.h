@@ -21,7 +21,7 @@ struct CloudElevationParams {
   double near_m = 0.425;
   double far_m = 1.425;
   double half_width_m = 0.6;
-  double quantile = 0.9;
+  double quantile = 1.0;
   std::int64_t min_points = 3;
   ElevationFrame frame = ElevationFrame::kLevel;
 

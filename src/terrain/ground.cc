@@ -40,6 +40,20 @@ double FindCrossing(const Gap& gap, double above, double gap_above, double below
   return above;
 }
 
+// How a ray nears the ground at one of its points.
+struct Approach {
+  double gap_m;  // height above the ground
+  double rate;   // closing of the gap per metre of ray
+};
+
+// The ray stays above the ground for the t with gap - rate t - bend t^2 / 2 > 0, where the rate
+// changes by no more than `bend` per metre: Newton's step, nearly, where the gap is small.
+double SafeStep(const Approach& now, double bend_per_m) {
+  const double root = std::sqrt(now.rate * now.rate + 2.0 * bend_per_m * now.gap_m);
+  // Two forms of one root, each without a difference of nearly equal numbers.
+  return now.rate > 0.0 ? 2.0 * now.gap_m / (now.rate + root) : (root - now.rate) / bend_per_m;
+}
+
 }  // namespace
 
 Ground::Ground() = default;
@@ -71,23 +85,36 @@ math::Vector3 Ground::Normal(double x_m, double y_m) const {
 std::optional<double> Ground::MarchRay(const math::Vector3& origin_W,
                                        const math::Vector3& direction_W,
                                        double max_distance_m) const {
-  double gap = Gap(origin_W);
-  if (gap <= 0.0) return 0.0;
-  // Largest rate at which the gap can close per metre of ray.
   const double horizontal = std::hypot(direction_W.x(), direction_W.y());
-  const double plane_descent =
+  const double plane_gap = origin_W.z() - slope_x_ * origin_W.x() - slope_y_ * origin_W.y();
+  const double plane_rate =
       slope_x_ * direction_W.x() + slope_y_ * direction_W.y() - direction_W.z();
-  const double closing = plane_descent + roughness_->MaxSlope() * horizontal;
-  if (gap > closing * max_distance_m) return std::nullopt;
-
-  const auto gap_at = [&](double t) { return Gap(origin_W + t * direction_W); };
-  double above = 0.0;  // a distance at which the ray is above the ground by `gap`
+  const auto at = [&](double t) -> Approach {
+    const RoughnessSample rough =
+        roughness_->Sample(origin_W.x() + t * direction_W.x(), origin_W.y() + t * direction_W.y());
+    return {plane_gap - t * plane_rate - rough.height_m,
+            plane_rate + rough.slope_x * direction_W.x() + rough.slope_y * direction_W.y()};
+  };
+  // Above the highest that roughness can be there is nothing to meet.
+  const double free_gap = plane_gap - roughness_->MaxHeight();
+  if (free_gap > 0.0 && free_gap > plane_rate * max_distance_m) return std::nullopt;
+  double above = free_gap > 0.0 ? free_gap / plane_rate : 0.0;
+  Approach now = at(above);
+  if (now.gap_m <= 0.0) return above;
+  const double most_rate = plane_rate + roughness_->MaxSlope() * horizontal;
+  const double bend_per_m = roughness_->MaxCurvature() * horizontal * horizontal;
+  if (now.gap_m > most_rate * (max_distance_m - above)) return std::nullopt;
   while (above < max_distance_m) {
-    const double next = std::min(above + std::max(gap / closing, kSmallestStep_m), max_distance_m);
-    const double next_gap = gap_at(next);
-    if (next_gap <= 0.0) return FindCrossing(gap_at, above, gap, next, next_gap);
+    const double step =
+        std::max(SafeStep(now, bend_per_m), std::max(now.gap_m / most_rate, kSmallestStep_m));
+    const double next = std::min(above + step, max_distance_m);
+    const Approach then = at(next);
+    if (then.gap_m <= 0.0) {
+      const auto gap_at = [&at](double t) { return at(t).gap_m; };
+      return FindCrossing(gap_at, above, now.gap_m, next, then.gap_m);
+    }
     above = next;
-    gap = next_gap;
+    now = then;
   }
   return std::nullopt;
 }

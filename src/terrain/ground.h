@@ -32,9 +32,10 @@ class Ground {
   const SoilParams& soil() const { return soil_; }
 
   // Distance along the unit ray to the ground, at most max_distance_m; 0 where the origin lies on
-  // or below it. Closed form on a plane. On rough ground the ray advances by steps that a bound on
-  // the slope shows to be safe, but never by less than 1 mm, so that a crest cut over less than 1
-  // mm of ray can be missed; the crossing itself is bracketed to 1e-12 m.
+  // or below it. Closed form on a plane. On rough ground the ray advances by steps that bounds on
+  // the height, the slope and the curvature show to be safe, but never by less than 1 mm, so that a
+  // crest cut over less than 1 mm of ray can be missed; the crossing itself is bracketed to 1e-12
+  // m.
   std::optional<double> CastRay(const math::Vector3& origin_W, const math::Vector3& direction_W,
                                 double max_distance_m) const {
     if (roughness_) return MarchRay(origin_W, direction_W, max_distance_m);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 #include "core/check.h"
 #include "core/distributions.h"
@@ -55,26 +56,38 @@ RoughnessField::RoughnessField(double rms_m, double hurst, double longest_wavele
     for (double& coefficient : octave.coefficients_m) {
       coefficient = core::SampleNormal(stream, 0.0, octave_rms_m / kSplineMeanSquare);
     }
-    max_slope_ += SlopeBound(octave);
+    AddBounds(octave);
   }
 }
 
 // The derivative of a B-spline is a B-spline of the coefficients' differences over the spacing, and
 // a B-spline lies within the hull of its coefficients.
-double RoughnessField::SlopeBound(const Octave& octave) {
-  double along_x = 0.0;
-  double along_y = 0.0;
+void RoughnessField::AddBounds(const Octave& octave) {
+  double height = 0.0, along_x = 0.0, along_y = 0.0, bend_x = 0.0, bend_y = 0.0, twist = 0.0;
   const auto at = [&octave](int column, int row) {
     const int index = row % kNodes * kNodes + column % kNodes;
     return octave.coefficients_m[static_cast<std::size_t>(index)];
   };
+  const auto grow = [](double& bound, double value) { bound = std::max(bound, std::abs(value)); };
   for (int row = 0; row < kNodes; ++row) {
     for (int column = 0; column < kNodes; ++column) {
-      along_x = std::max(along_x, std::abs(at(column + 1, row) - at(column, row)));
-      along_y = std::max(along_y, std::abs(at(column, row + 1) - at(column, row)));
+      const double here = at(column, row);
+      const double right = at(column + 1, row);
+      const double above = at(column, row + 1);
+      grow(height, here);
+      grow(along_x, right - here);
+      grow(along_y, above - here);
+      grow(bend_x, at(column + 2, row) - 2.0 * right + here);
+      grow(bend_y, at(column, row + 2) - 2.0 * above + here);
+      grow(twist, at(column + 1, row + 1) - right - above + here);
     }
   }
-  return std::hypot(along_x, along_y) / octave.spacing_m;
+  const double spacing_m = octave.spacing_m;
+  max_height_m_ += height;
+  max_slope_ += std::hypot(along_x, along_y) / spacing_m;
+  // The norm of the matrix of second derivatives is no larger than its Frobenius norm.
+  max_curvature_per_m_ +=
+      std::hypot(std::hypot(bend_x, bend_y), std::numbers::sqrt2 * twist) / (spacing_m * spacing_m);
 }
 
 void RoughnessField::AddOctave(const Octave& octave, double x_m, double y_m, RoughnessSample& sum) {

@@ -32,8 +32,11 @@ class RoughnessField {
   // Height and slopes at a point; about 30 ns per octave.
   RoughnessSample Sample(double x_m, double y_m) const;
 
-  // Upper bound of the slope's magnitude anywhere.
+  // Upper bounds of the magnitudes anywhere: of the height, m, of the slope, and of the second
+  // derivative in any direction, 1/m.
+  double MaxHeight() const { return max_height_m_; }
   double MaxSlope() const { return max_slope_; }
+  double MaxCurvature() const { return max_curvature_per_m_; }
 
  private:
   struct Octave {
@@ -44,10 +47,12 @@ class RoughnessField {
   static constexpr int kNodes = 64;
 
   static void AddOctave(const Octave& octave, double x_m, double y_m, RoughnessSample& sum);
-  static double SlopeBound(const Octave& octave);
+  void AddBounds(const Octave& octave);
 
   std::vector<Octave> octaves_;
+  double max_height_m_ = 0.0;
   double max_slope_ = 0.0;
+  double max_curvature_per_m_ = 0.0;
 };
 
 }  // namespace rockyard::terrain

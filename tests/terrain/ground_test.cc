@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "math/angles.h"
+#include "terrain/roughness_field.h"
 
 namespace rockyard::terrain {
 namespace {
@@ -102,6 +104,29 @@ TEST_F(RoughGroundTest, EveryRayHitLiesOnTheGround) {
     EXPECT_NEAR(point.z(), ground_.Height(point.x(), point.y()), 1e-9);
   }
   EXPECT_GT(hits, 90);
+}
+
+// What the march of rays relies on: bounds hold, and are of the size of what occurs.
+TEST(RoughnessFieldTest, BoundsHoldEverywhere) {
+  constexpr double kStep_m = 1e-4;
+  const RoughnessField field(0.05, 0.8, 2.0, kKey);
+  double height = 0.0, slope = 0.0, curvature = 0.0;
+  for (int i = 0; i < 40000; ++i) {
+    const double x = 0.0237 * (i % 200);
+    const double y = 0.0229 * (i / 200);
+    const RoughnessSample at = field.Sample(x, y);
+    const RoughnessSample ahead = field.Sample(x + kStep_m, y);
+    height = std::max(height, std::abs(at.height_m));
+    slope = std::max(slope, std::hypot(at.slope_x, at.slope_y));
+    curvature = std::max(
+        curvature, std::hypot(ahead.slope_x - at.slope_x, ahead.slope_y - at.slope_y) / kStep_m);
+  }
+  EXPECT_LE(height, field.MaxHeight());
+  EXPECT_LE(slope, field.MaxSlope());
+  EXPECT_LE(curvature, field.MaxCurvature());
+  EXPECT_GT(height, 0.1 * field.MaxHeight());
+  EXPECT_GT(slope, 0.1 * field.MaxSlope());
+  EXPECT_GT(curvature, 0.1 * field.MaxCurvature());
 }
 
 TEST_F(RoughGroundTest, AnotherTrialHasAnotherGround) {
