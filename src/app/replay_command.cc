@@ -5,22 +5,22 @@
 #include <cstdint>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/replay_files.h"
 #include "app/scan_capture.h"
 #include "app/trial_source.h"
 #include "core/error.h"
 #include "experiments/experiment.h"
-#include "report/atomic_file.h"
-#include "report/png_file.h"
 #include "report/scan_drawing.h"
-#include "report/scan_picture.h"
-#include "scenario/load.h"
 
 namespace rockyard::app {
 namespace {
@@ -30,26 +30,34 @@ namespace fs = std::filesystem;
 struct ReplayOptions {
   TrialRequest request;
   std::optional<std::int64_t> scan;
+  std::optional<std::int64_t> step;
   std::string out;
+
+  bool draws() const { return scan || step; }
+  std::string_view option() const { return scan ? "--scan" : "--step"; }
+  std::string_view what() const { return scan ? "scan" : "step"; }
+  std::int64_t number() const { return scan ? *scan : step.value_or(0); }
 };
 
-// Scans of the trial, and of the one that was asked for everything that can be shown.
+// Scans and steps of the trial, and of the one that was asked for everything that can be shown.
 struct Replayed {
   truth::RecordSchema schema;
   truth::Record record;
   std::int64_t scans = 0;
-  std::optional<CapturedScan> captured;
-  std::string failure;  // why the scan that was asked for cannot be shown
+  std::int64_t steps = 0;
+  std::optional<CapturedScan> scan;
+  std::optional<CapturedStep> step;
+  std::string failure;  // why what was asked for cannot be shown
 };
 
 fs::path FolderOf(const ReplayOptions& options, const TrialSource& source) {
   if (!options.out.empty()) return options.out;
   return fs::path("results") / "runs" /
-         fmt::format("{}-seed{}-trial{}-scan{}", source.scenario.name, source.seed,
-                     options.request.trial, *options.scan);
+         fmt::format("{}-seed{}-trial{}-{}{}", source.scenario.name, source.seed,
+                     options.request.trial, options.what(), options.number());
 }
 
-// Pictures of two scans in one folder would be told apart by nothing.
+// Pictures of two moments in one folder would be told apart by nothing.
 void CheckFolder(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder, error)) return;
@@ -58,102 +66,141 @@ void CheckFolder(const fs::path& folder) {
                         "name another folder, or remove it");
 }
 
-// One line per scan: where the rover stood, and what the scan shows by itself.
+std::string Line(std::string_view what, std::int64_t number, const math::Transform& X_WR,
+                 std::string_view rest) {
+  const math::Pose2 pose = math::ToPose2(X_WR);
+  return fmt::format("  {} {:>5}   x {:>7.3f} m   y {:>7.3f} m   heading {:>7.1f} deg   {}\n", what,
+                     number, pose.x_m, pose.y_m, math::RadToDeg(pose.heading_rad), rest);
+}
+
+// Where the rover stood, and what the scan shows by itself.
 std::string ScanLine(std::int64_t number, const trial::WatchedScan& watched) {
   std::string stripes;
   for (const bool hazard : HazardsOf(watched).stripe_hazard) stripes += hazard ? '#' : '.';
-  const math::Pose2 pose = math::ToPose2(watched.X_WR);
-  return fmt::format("  scan {:>5}   x {:>7.3f} m   y {:>7.3f} m   heading {:>7.1f} deg   {}\n",
-                     number, pose.x_m, pose.y_m, math::RadToDeg(pose.heading_rad), stripes);
+  return Line("scan", number, watched.X_WR, stripes);
 }
 
-Replayed Replay(const ReplayOptions& options, const TrialSource& source) {
-  Replayed replayed;
-  const auto experiment =
-      experiments::MakeExperiment(source.scenario, [&](const trial::WatchedScan& watched) {
-        const std::int64_t number = replayed.scans++;
-        if (!options.scan) {
-          Print(ScanLine(number, watched));
-        } else if (number == *options.scan) {
-          // A picture that fails must not become a fault of the trial.
-          try {
-            replayed.captured = Capture(watched);
-            replayed.captured->view.title =
-                fmt::format("{}, seed {}, trial {}, scan {}", source.scenario.name, source.seed,
-                            options.request.trial, number);
-          } catch (const std::exception& error) {
-            replayed.failure = error.what();
-          }
-        }
-      });
-  replayed.schema = experiment->schema();
-  replayed.record = experiment->Run(source.seed, options.request.trial);
-  return replayed;
+// Where the rover stood, and what it chose.
+std::string StepLine(const trial::WatchedStep& watched) {
+  return Line("step", watched.view.step, watched.X_WR,
+              report::ChosenText(watched.view) + (watched.view.looked_behind ? ", rear" : ""));
 }
 
-std::string FileStem(const messages::StripeExposure& frames) {
-  return fmt::format("{}-group{}", frames.camera == 0 ? "left" : "right", frames.group);
-}
+class Replayer {
+ public:
+  Replayer(const ReplayOptions& options, const TrialSource& source)
+      : options_(options), source_(source) {}
 
-void WriteScan(const fs::path& folder, const scenario::Scenario& scenario,
-               const CapturedScan& captured) {
-  fs::create_directories(folder);
-  for (const CapturedExposure& exposure : captured.exposures) {
-    const auto write = [&](std::string_view what, const report::Picture& picture) {
-      report::WriteFileAtomically(
-          folder / fmt::format("{}-{}.png", FileStem(exposure.frames), what),
-          report::EncodePng(picture));
-    };
-    write("lit", report::FramePicture(exposure.frames.lit.front()));
-    write("dark", report::FramePicture(exposure.frames.dark.front()));
-    write("difference",
-          report::DifferencePicture(captured.view, exposure.frames, exposure.difference));
+  Replayed Run() {
+    const auto experiment = experiments::MakeExperiment(
+        source_.scenario, [this](const trial::WatchedScan& watched) { OnScan(watched); },
+        [this](const trial::WatchedStep& watched) { OnStep(watched); });
+    replayed_.schema = experiment->schema();
+    replayed_.record = experiment->Run(source_.seed, options_.request.trial);
+    return std::move(replayed_);
   }
-  report::WriteFileAtomically(folder / "scenario.resolved.json", scenario::ResolvedJson(scenario));
-  report::WriteFileAtomically(folder / "array.svg", report::ScanSvg(captured.view));
-  report::WriteFileAtomically(folder / "points.csv", report::ScanCsv(captured.view));
+
+ private:
+  std::string Title(std::string_view what, std::int64_t number) const {
+    return fmt::format("{}, seed {}, trial {}, {} {}", source_.scenario.name, source_.seed,
+                       options_.request.trial, what, number);
+  }
+
+  void OnScan(const trial::WatchedScan& watched) {
+    const std::int64_t number = replayed_.scans++;
+    if (!options_.draws()) Print(ScanLine(number, watched));
+    if (options_.scan != number) return;
+    // A picture that fails must not become a fault of the trial.
+    try {
+      replayed_.scan = Capture(watched);
+      replayed_.scan->view.title = Title("scan", number);
+    } catch (const std::exception& error) {
+      replayed_.failure = error.what();
+    }
+  }
+
+  void OnStep(const trial::WatchedStep& watched) {
+    ++replayed_.steps;
+    if (!options_.draws()) Print(StepLine(watched));
+    if (options_.step != watched.view.step) return;
+    replayed_.step = {{Title("step", watched.view.step), watched.view}, watched.cloud};
+  }
+
+  const ReplayOptions& options_;
+  const TrialSource& source_;
+  Replayed replayed_;
+};
+
+// True if the files could be written.
+bool Write(const fs::path& folder, const std::function<void()>& write) {
+  try {
+    write();
+    return true;
+  } catch (const core::UserError& failure) {
+    PrintProblems(failure.problems());
+  } catch (const fs::filesystem_error& failure) {
+    PrintProblems({{folder.string(), failure.code().message(), "name another folder with --out"}});
+  }
+  return false;
 }
 
 ExitCode WriteOutputs(const ReplayOptions& options, const TrialSource& source,
-                      const CapturedScan& captured) {
+                      const Replayed& replayed) {
   const fs::path folder = FolderOf(options, source);
-  try {
-    WriteScan(folder, source.scenario, captured);
-  } catch (const core::UserError& failure) {
-    PrintProblems(failure.problems());
-    return ExitCode::kFailed;
-  } catch (const fs::filesystem_error& failure) {
-    PrintProblems({{folder.string(), failure.code().message(), "name another folder with --out"}});
-    return ExitCode::kFailed;
+  if (replayed.scan) {
+    const auto write = [&] { WriteScanFiles(folder, source.scenario, *replayed.scan); };
+    if (!Write(folder, write)) return ExitCode::kFailed;
+    Print(report::ScanText(replayed.scan->view));
+    Print(fmt::format("  images, array.svg and points.csv in {}\n", folder.string()));
+  } else {
+    const auto write = [&] { WriteStepFiles(folder, source.scenario, *replayed.step); };
+    if (!Write(folder, write)) return ExitCode::kFailed;
+    Print(fmt::format("  {}\n  step.svg, map.csv, votes.csv and points.csv in {}\n",
+                      report::ChosenText(replayed.step->picture.view), folder.string()));
   }
-  Print(report::ScanText(captured.view));
-  Print(fmt::format("  images, array.svg and points.csv in {}\n", folder.string()));
   return ExitCode::kDone;
+}
+
+std::string Counted(const Replayed& replayed) {
+  std::string text;
+  if (replayed.scans > 0 || replayed.steps == 0) {
+    text += fmt::format("  {} scans; --scan N draws one of them\n", replayed.scans);
+  }
+  if (replayed.steps > 0) {
+    text += fmt::format("  {} steps; --step N draws one of them\n", replayed.steps);
+  }
+  return text;
+}
+
+// Of what was asked for and did not happen.
+core::UserError Missing(const ReplayOptions& options, const Replayed& replayed) {
+  const std::int64_t there = options.scan ? replayed.scans : replayed.steps;
+  return {std::string(options.option()),
+          fmt::format("{} {} does not occur in this trial", options.what(), options.number()),
+          fmt::format("the trial has {} {}s{}; leave {} out to list them", there, options.what(),
+                      truth::IsFault(replayed.record) ? " until its simulator fault" : "",
+                      options.option())};
 }
 
 ExitCode Replay(const ReplayOptions& options) {
   const TrialSource source = FindTrial(options.request);
-  if (options.scan) CheckFolder(FolderOf(options, source));
-  const Replayed replayed = Replay(options, source);
+  if (options.draws()) CheckFolder(FolderOf(options, source));
+  const Replayed replayed = Replayer(options, source).Run();
   if (truth::IsFault(replayed.record)) PrintNote("simulator fault: " + replayed.record.detail);
   const ExitCode same =
       source.stored ? CompareWithStore(options.request, source, replayed.schema, replayed.record)
                     : ExitCode::kDone;
-  if (!options.scan) {
-    Print(fmt::format("  {} scans; --scan N draws one of them\n", replayed.scans));
+  if (!options.draws()) {
+    Print(Counted(replayed));
     return same;
   }
   if (!replayed.failure.empty()) {
-    PrintProblems({{"--scan", "the images cannot be rendered: " + replayed.failure, ""}});
+    PrintProblems({{std::string(options.option()),
+                    "the images cannot be rendered: " + replayed.failure, ""}});
     return ExitCode::kFailed;
   }
-  if (!replayed.captured) {
-    throw core::UserError(
-        "--scan", fmt::format("scan {} was not taken in this trial", *options.scan),
-        fmt::format("the trial took {} scans{}; leave --scan out to list them", replayed.scans,
-                    truth::IsFault(replayed.record) ? " until its simulator fault" : ""));
-  }
-  const ExitCode written = WriteOutputs(options, source, *replayed.captured);
+  if (!replayed.scan && !replayed.step) throw Missing(options, replayed);
+  const ExitCode written = WriteOutputs(options, source, replayed);
   return written == ExitCode::kDone ? same : written;
 }
 
@@ -161,15 +208,24 @@ ExitCode Replay(const ReplayOptions& options) {
 
 void AddReplayCommand(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<ReplayOptions>();
-  CLI::App* command = app.add_subcommand(
-      "replay", "Runs one trial again and lists its scans, or draws one of them");
+  CLI::App* command = app.add_subcommand("replay",
+                                         "Runs one trial again and lists the scans of its light "
+                                         "stripe and the steps of its map-based\n"
+                                         "navigator, or draws one of them");
   AddTrialOptions(*command, options->request);
+  CLI::Option* scan =
+      command
+          ->add_option("--scan", options->scan,
+                       "number of the scan, from 0: writes its images and its array")
+          ->check(CLI::NonNegativeNumber);
   command
-      ->add_option("--scan", options->scan,
-                   "number of the scan, from 0: writes its images and its array")
-      ->check(CLI::NonNegativeNumber);
-  command->add_option("--out", options->out,
-                      "folder (default: results/runs/<name>-seed<seed>-trial<I>-scan<N>)");
+      ->add_option("--step", options->step,
+                   "number of the step, from 0: writes map, votes and choice of the navigator")
+      ->check(CLI::NonNegativeNumber)
+      ->excludes(scan);
+  command->add_option(
+      "--out", options->out,
+      "folder (default: results/runs/<name>-seed<seed>-trial<I>-scan<N>, or -step<N>)");
   command->callback([options, &exit_code] { exit_code = Replay(*options); });
 }
 

@@ -54,6 +54,14 @@ std::string VotesCsv(const messages::NavigationView& view) {
          VoteRows("point_turn", view.point_turns);
 }
 
+std::string CloudCsv(const messages::PointCloud& cloud) {
+  std::string csv = "x_m,y_m,z_m\n";
+  for (const math::Vector3& p_R : cloud.points_R) {
+    csv += CsvLine(std::array{CsvNumber(p_R.x()), CsvNumber(p_R.y()), CsvNumber(p_R.z())});
+  }
+  return csv;
+}
+
 std::string ChosenText(const messages::NavigationView& view) {
   for (const auto* arcs : {&view.forward, &view.backward}) {
     const MotionVote* vote = Chosen(*arcs);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "messages/navigation_view.h"
+#include "messages/point_cloud.h"
 
 namespace rockyard::report {
 
@@ -26,6 +27,9 @@ std::string MapCsv(const messages::MapView& map);
 // Every candidate: kind (forward, backward, point_turn), curvature_per_m, direction, the four
 // votes, best, chosen.
 std::string VotesCsv(const messages::NavigationView& view);
+
+// Points of a cloud: x_m, y_m, z_m in R.
+std::string CloudCsv(const messages::PointCloud& cloud);
 
 // What was decided, in a line: "forward 0.55 /m (vote 213)".
 std::string ChosenText(const messages::NavigationView& view);

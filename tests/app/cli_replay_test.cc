@@ -62,8 +62,8 @@ TEST_F(CliReplay, AStoredTrialComesOutTheSame) {
 TEST_F(CliReplay, AScanThatWasNotTakenIsSaid) {
   const CommandResult result = Run(Trial({"--scan", "99", "--out", "scan"}));
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("scan 99 was not taken in this trial"));
-  EXPECT_THAT(result.err, HasSubstr("the trial took 2 scans"));
+  EXPECT_THAT(result.err, HasSubstr("scan 99 does not occur in this trial"));
+  EXPECT_THAT(result.err, HasSubstr("the trial has 2 scans"));
   EXPECT_TRUE(NothingWritten());
 }
 
@@ -95,6 +95,48 @@ TEST_F(CliReplay, AFolderThatCannotBeMadeIsSaid) {
   const CommandResult result = Run(Trial({"--scan", "0", "--out", "file/scan"}));
   EXPECT_EQ(result.exit_code, 5) << result.err;
   EXPECT_THAT(result.err, HasSubstr("--out"));
+}
+
+class CliReplayStep : public CommandTest {
+ protected:
+  // Four minutes of simulated time: some steps of a map-based navigator.
+  std::vector<std::string> Trial(const std::vector<std::string>& more) const {
+    return With(
+        {"replay", std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/gestalt/viking_lander_2.json",
+         "--trial", "0", "--set", "referee.time_limit_s=240"},
+        more);
+  }
+};
+
+TEST_F(CliReplayStep, ListsTheSteps) {
+  const CommandResult result = Run(Trial({}));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("step     0   x   0.000 m"));
+  EXPECT_THAT(result.out, HasSubstr("(vote "));
+  EXPECT_THAT(result.out, HasSubstr("steps; --step N draws one of them"));
+  EXPECT_THAT(result.out, testing::Not(HasSubstr("scans")));
+  EXPECT_TRUE(NothingWritten());
+}
+
+TEST_F(CliReplayStep, DrawsOneStep) {
+  const CommandResult result = Run(Trial({"--step", "2", "--out", "step"}));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(ReadFile(work() / "step" / "step.svg"), HasSubstr("trial 0, step 2: forward"));
+  const std::string votes = ReadFile(work() / "step" / "votes.csv");
+  EXPECT_EQ(std::count(votes.begin(), votes.end(), '\n'), 1 + 23 + 23 + 2);
+  const std::string map = ReadFile(work() / "step" / "map.csv");
+  EXPECT_EQ(std::count(map.begin(), map.end(), '\n'), 1 + 50 * 50);
+  const std::string points = ReadFile(work() / "step" / "points.csv");
+  EXPECT_GT(std::count(points.begin(), points.end(), '\n'), 1000);
+  EXPECT_TRUE(fs::exists(work() / "step" / "scenario.resolved.json"));
+}
+
+TEST_F(CliReplayStep, AStepThatDoesNotOccur) {
+  const CommandResult result = Run(Trial({"--step", "99", "--out", "step"}));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("step 99 does not occur in this trial"));
+  EXPECT_TRUE(NothingWritten());
+  EXPECT_EQ(Run(Trial({"--step", "1", "--scan", "1"})).exit_code, 2);
 }
 
 }  // namespace

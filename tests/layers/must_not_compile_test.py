@@ -80,6 +80,31 @@ class CheatingNavigator(unittest.TestCase):
         self.assertRegex(result.stderr, rf"{header}.*(No such file|file not found)")
 
 
+class CheatingGestalt(unittest.TestCase):
+    """The real sources of the map-based navigator, as they are and with one include more."""
+
+    def setUp(self):
+        self.sources = sorted((ROOT / "src" / "navigation").glob("gestalt*.cc"))
+        self.assertGreaterEqual(len(self.sources), 4, "where has GESTALT gone?")
+
+    def test_control_compiles(self):
+        for source in self.sources:
+            with self.subTest(source=source.name):
+                result = compile_source("navigation", [str(source)])
+                self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_no_source_reaches_terrain_truth_or_sensors(self):
+        headers = ("terrain/terrain.h", "truth/rover_state.h", "rover/rover.h",
+                   "sensing/stereo_sensor.h", "trial/drive.h")
+        for source in self.sources:
+            for header in headers:
+                self.assertTrue((ROOT / "src" / header).is_file(), f"{header} is gone")
+                with self.subTest(source=source.name, header=header):
+                    result = compile_source("navigation", ["-include", header, str(source)])
+                    self.assertNotEqual(result.returncode, 0)
+                    self.assertRegex(result.stderr, rf"{header}.*(No such file|file not found)")
+
+
 class Reach(unittest.TestCase):
     """Every module sees the headers that the table of src/README.md allows, and no other.
 

@@ -92,6 +92,12 @@ TEST(NavigationCsv, LeavesUnknownFieldsEmpty) {
   EXPECT_THAT(votes, HasSubstr("\nbackward,-2,-1,0,0,0,0,0,0\n"));
 }
 
+TEST(NavigationCsv, PointsOfACloud) {
+  messages::PointCloud cloud;
+  cloud.points_R = {{0.5, -0.25, 0.125}};
+  EXPECT_EQ(CloudCsv(cloud), "x_m,y_m,z_m\n0.5,-0.25,0.125\n");
+}
+
 TEST(ChosenText, NamesTurns) {
   NavigationView view;
   view.point_turns.push_back(
