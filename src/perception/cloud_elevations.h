@@ -19,7 +19,7 @@ namespace rockyard::perception {
 // that thresholds (perception.hazard) have to grow with it; and with the default blame the bin
 // farther from the datum is charged.
 //
-// Cost: about 3 ns a point in the bins and 1 ns a point beside them.
+// Cost: about 3 ns a point.
 messages::ElevationScan CloudElevations(const messages::PointCloud& cloud,
                                         const messages::AttitudeEstimate& attitude,
                                         const CloudElevationParams& params);

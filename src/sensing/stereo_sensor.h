@@ -28,7 +28,10 @@ namespace rockyard::sensing {
 //
 // Limits: the rover's own body is not seen. Errors are independent from pixel to pixel, while
 // matching windows make those of neighbours alike and round off edges. No false matches beyond the
-// noise, no dependence on texture or light.
+// noise, no dependence on texture or light. Surfaces beyond max_range_m give no point, but noise
+// may put a point farther away.
+//
+// Cost: 0.2 to 0.3 ms a look of 128 x 128 in nominal and VL-2 terrain, 37 ms on rough ground.
 class StereoSensor {
  public:
   explicit StereoSensor(const StereoParams& params);
