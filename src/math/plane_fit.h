@@ -1,7 +1,7 @@
 // Planes through points, by total least squares.
 #pragma once
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -25,19 +25,37 @@ struct PlaneFit {
   double Slope_rad() const { return std::atan2(std::hypot(normal.x(), normal.y()), normal.z()); }
 };
 
-inline PlaneFit FitPlane(const SymmetricMatrix3& covariance_m2) {
-  const SymmetricEigen3 eigen = EigenOf(covariance_m2);
+// From the eigenvalues of a covariance, ascending, and the axis of the smallest.
+inline PlaneFit PlaneFrom(double smallest_m2, double middle_m2, double largest_m2,
+                          const Vector3& axis) {
   // What rounding leaves of an eigenvalue of zero, of either sign.
-  const double floor = 4.0 * std::numeric_limits<double>::epsilon() * eigen.values[2];
+  const double floor = 4.0 * std::numeric_limits<double>::epsilon() * largest_m2;
   PlaneFit fit;
-  fit.normal = eigen.smallest_axis.z() < 0.0 ? Vector3(-eigen.smallest_axis) : eigen.smallest_axis;
-  if (eigen.values[0] > floor) {
-    fit.residual_m = std::sqrt(eigen.values[0]);
-    fit.eigen_ratio = eigen.values[1] / eigen.values[0];
-  } else if (eigen.values[1] > floor) {
+  fit.normal = axis.z() < 0.0 ? Vector3(-axis) : axis;
+  if (smallest_m2 > floor) {
+    fit.residual_m = std::sqrt(smallest_m2);
+    fit.eigen_ratio = middle_m2 / smallest_m2;
+  } else if (middle_m2 > floor) {
     fit.eigen_ratio = std::numeric_limits<double>::infinity();
   }
   return fit;
+}
+
+// The planes of two sets of points for the price of one.
+inline std::array<PlaneFit, 2> FitPlanes(const SymmetricMatrix3& a_m2,
+                                         const SymmetricMatrix3& b_m2) {
+  const SymmetricEigenPair eigen = EigenOf(
+      SymmetricMatrixPair{Pair{a_m2.xx, b_m2.xx}, Pair{a_m2.yy, b_m2.yy}, Pair{a_m2.zz, b_m2.zz},
+                          Pair{a_m2.xy, b_m2.xy}, Pair{a_m2.xz, b_m2.xz}, Pair{a_m2.yz, b_m2.yz}});
+  const PairVector& axis = eigen.smallest_axis;
+  return {PlaneFrom(eigen.smallest[0], eigen.middle[0], eigen.largest[0],
+                    {axis.x[0], axis.y[0], axis.z[0]}),
+          PlaneFrom(eigen.smallest[1], eigen.middle[1], eigen.largest[1],
+                    {axis.x[1], axis.y[1], axis.z[1]})};
+}
+
+inline PlaneFit FitPlane(const SymmetricMatrix3& covariance_m2) {
+  return FitPlanes(covariance_m2, covariance_m2)[0];
 }
 
 }  // namespace rockyard::math

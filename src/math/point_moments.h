@@ -47,9 +47,16 @@ struct PointMoments {
     const auto ux = static_cast<std::uint64_t>(x);
     const auto uy = static_cast<std::uint64_t>(y);
     const auto uz = static_cast<std::uint64_t>(z);
-    const std::array<std::uint64_t, kSize> terms = {1,       ux,      uy,      uz,      ux * ux,
-                                                    uy * uy, uz * uz, ux * uy, ux * uz, uy * uz};
-    for (std::size_t i = 0; i < kSize; ++i) sums[i] += terms[i];
+    sums[kCount] += 1;
+    sums[kX] += ux;
+    sums[kY] += uy;
+    sums[kZ] += uz;
+    sums[kXX] += ux * ux;
+    sums[kYY] += uy * uy;
+    sums[kZZ] += uz * uz;
+    sums[kXY] += ux * uy;
+    sums[kXZ] += ux * uz;
+    sums[kYZ] += uy * uz;
   }
 
   PointMoments& operator+=(const PointMoments& other) {

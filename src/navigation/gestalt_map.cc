@@ -21,6 +21,8 @@ double Clamped(double x_m) { return std::clamp(x_m, -kFarthest_m, kFarthest_m); 
 GestaltMap::GestaltMap(const GestaltMapParams& params)
     : params_(params),
       cells_(params.grid.nx(), params.grid.ny()),
+      squares_x_m2_(static_cast<std::size_t>(cells_.nx())),
+      squares_y_m2_(static_cast<std::size_t>(cells_.ny())),
       planes_(params),
       traversability_(params) {
   grid_.xstep_m = params.grid.xstep_m;
@@ -37,17 +39,23 @@ GestaltMap::LatticeCell GestaltMap::LatticeAt(double x_m, double y_m) const {
           static_cast<std::int64_t>(std::floor((y_m - grid.y0_m) / grid.ystep_m))};
 }
 
-math::Vector3 GestaltMap::Centre(int ix, int iy) const {
-  const GestaltGridParams& grid = params_.grid;
-  return {grid.x0_m + (static_cast<double>(cells_.first_x() + ix) + 0.5) * grid.xstep_m,
-          grid.y0_m + (static_cast<double>(cells_.first_y() + iy) + 0.5) * grid.ystep_m, 0.0};
+double GestaltMap::CentreX_m(std::int64_t i) const {
+  return params_.grid.x0_m + (static_cast<double>(i) + 0.5) * params_.grid.xstep_m;
 }
 
-bool GestaltMap::IsNear(int ix, int iy) const {
-  const math::Vector3 centre = Centre(ix, iy);
-  const double dx = centre.x() - rover_x_m_;
-  const double dy = centre.y() - rover_y_m_;
-  return dx * dx + dy * dy <= params_.grid_dist_timeout_m * params_.grid_dist_timeout_m;
+double GestaltMap::CentreY_m(std::int64_t j) const {
+  return params_.grid.y0_m + (static_cast<double>(j) + 0.5) * params_.grid.ystep_m;
+}
+
+void GestaltMap::MeasureDistances(LatticeCell first) {
+  for (std::size_t i = 0; i < squares_x_m2_.size(); ++i) {
+    const double distance = CentreX_m(first.x + static_cast<std::int64_t>(i)) - rover_x_m_;
+    squares_x_m2_[i] = distance * distance;
+  }
+  for (std::size_t j = 0; j < squares_y_m2_.size(); ++j) {
+    const double distance = CentreY_m(first.y + static_cast<std::int64_t>(j)) - rover_y_m_;
+    squares_y_m2_[j] = distance * distance;
+  }
 }
 
 bool GestaltMap::InWindow(LatticeCell cell) const {
@@ -70,27 +78,32 @@ void GestaltMap::BeginCycle(double x_m, double y_m) {
   rover_x_m_ = Clamped(x_m);
   rover_y_m_ = Clamped(y_m);
   const LatticeCell rover = LatticeAt(rover_x_m_, rover_y_m_);
-  DropOldCells({rover.x - cells_.nx() / 2, rover.y - cells_.ny() / 2});
+  const LatticeCell first{rover.x - cells_.nx() / 2, rover.y - cells_.ny() / 2};
+  MeasureDistances(first);
+  DropOldCells(first);
+  cells_.MoveTo(first.x, first.y);
 }
 
 void GestaltMap::DropOldCells(LatticeCell first) {
   const CellBox old = box_;
-  const LatticeCell shift{first.x - cells_.first_x(), first.y - cells_.first_y()};
   box_ = {};
   for (int iy = old.y; iy < old.y_end; ++iy) {
     for (int ix = old.x; ix < old.x_end; ++ix) {
       MapCell& cell = cells_.At(ix, iy);
       if (cell.empty()) continue;
-      const bool leaves = ix < shift.x || ix >= shift.x + cells_.nx() || iy < shift.y ||
-                          iy >= shift.y + cells_.ny();
-      if (leaves || !IsNear(ix, iy) || cycle_ - cell.last_cycle > params_.max_idles) {
-        cell = {};
+      // Where it will be in the window.
+      const std::int64_t column = cells_.first_x() + ix - first.x;
+      const std::int64_t row = cells_.first_y() + iy - first.y;
+      const bool stays = column >= 0 && column < cells_.nx() && row >= 0 && row < cells_.ny() &&
+                         IsNear(static_cast<int>(column), static_cast<int>(row)) &&
+                         cycle_ - cell.last_cycle <= params_.max_idles;
+      if (stays) {
+        GrowBox(static_cast<int>(column), static_cast<int>(row));
       } else {
-        GrowBox(ix - static_cast<int>(shift.x), iy - static_cast<int>(shift.y));
+        cell = {};
       }
     }
   }
-  cells_.MoveTo(first.x, first.y);
 }
 
 void GestaltMap::AddPoint(const math::Vector3& p_WP_W) {
@@ -124,9 +137,9 @@ void GestaltMap::MarkObstacle(double x_m, double y_m, double radius_m) {
   const LatticeCell at = LatticeAt(Clamped(x_m), Clamped(y_m));
   for (int iy = 0; iy < cells_.ny(); ++iy) {
     for (int ix = 0; ix < cells_.nx(); ++ix) {
-      const math::Vector3 centre = Centre(ix, iy);
       const bool here = at.x == cells_.first_x() + ix && at.y == cells_.first_y() + iy;
-      const bool within = std::hypot(centre.x() - x_m, centre.y() - y_m) <= radius_m;
+      const bool within = std::hypot(CentreX_m(cells_.first_x() + ix) - x_m,
+                                     CentreY_m(cells_.first_y() + iy) - y_m) <= radius_m;
       if (!here && !within) continue;
       MapCell& cell = cells_.At(ix, iy);
       cell.marked = true;
@@ -144,9 +157,8 @@ void GestaltMap::Clear() {
 }
 
 const GoodnessGrid& GestaltMap::Evaluate() {
-  const math::Vector3 corner = Centre(0, 0);
-  grid_.x0_m = corner.x() - 0.5 * grid_.xstep_m;
-  grid_.y0_m = corner.y() - 0.5 * grid_.ystep_m;
+  grid_.x0_m = CentreX_m(cells_.first_x()) - 0.5 * grid_.xstep_m;
+  grid_.y0_m = CentreY_m(cells_.first_y()) - 0.5 * grid_.ystep_m;
   planes_.Fit(cells_, box_);
   steps_.Find(cells_, box_, planes_.reach());
   traversability_.Assess(planes_.planes(), steps_.steps_m(), grid_);

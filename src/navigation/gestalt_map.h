@@ -2,7 +2,9 @@
 // steps 1 to 3).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "math/pose.h"
 #include "messages/navigation_view.h"
@@ -61,9 +63,19 @@ class GestaltMap {
   };
 
   LatticeCell LatticeAt(double x_m, double y_m) const;
-  math::Vector3 Centre(int ix, int iy) const;
-  bool IsNear(int ix, int iy) const;
+  // Centre of a column or row of the lattice.
+  double CentreX_m(std::int64_t i) const;
+  double CentreY_m(std::int64_t j) const;
+  // Whether the centre of a cell lies within grid_dist_timeout_m of the rover.
+  bool IsNear(int ix, int iy) const {
+    return squares_x_m2_[static_cast<std::size_t>(ix)] +
+               squares_y_m2_[static_cast<std::size_t>(iy)] <=
+           params_.grid_dist_timeout_m * params_.grid_dist_timeout_m;
+  }
+  // For a window whose first cell is `first`.
+  void MeasureDistances(LatticeCell first);
   bool InWindow(LatticeCell cell) const;
+  // Empties what does not belong into a window whose first cell is `first`.
   void DropOldCells(LatticeCell first);
   void AddPoint(const math::Vector3& p_WP_W);
   void GrowBox(int ix, int iy);
@@ -74,6 +86,8 @@ class GestaltMap {
   std::int64_t cycle_ = 0;
   double rover_x_m_ = 0.0;
   double rover_y_m_ = 0.0;
+  std::vector<double> squares_x_m2_;  // of the distances of columns and rows from the rover
+  std::vector<double> squares_y_m2_;
   PatchPlanes planes_;
   PatchSteps steps_;
   Traversability traversability_;

@@ -60,6 +60,7 @@ void PatchPlanes::Fit(const CellWindow& cells, const CellBox& box) {
     SlideDown(cells, box, out, iy);
     if (iy >= out.y) FitRow(cells, box, out, iy);
   }
+  FitWaiting();
 }
 
 void PatchPlanes::FindRowsWithData(const CellWindow& cells, const CellBox& box,
@@ -126,10 +127,29 @@ void PatchPlanes::FitRow(const CellWindow& cells, const CellBox& box, const Cell
 }
 
 void PatchPlanes::FitPatch(const CellWindow& cells, const math::PointMoments& moments, Cell middle,
-                           PatchPlane& plane) const {
-  const math::PlaneFit fit = params_.outliers_per_cell > 0
-                                 ? FitWithoutOutliers(cells, moments, middle)
-                                 : math::FitPlane(math::Spread(moments).covariance_m2);
+                           PatchPlane& plane) {
+  if (params_.outliers_per_cell > 0) {
+    Store(FitWithoutOutliers(cells, moments, middle), plane);
+    return;
+  }
+  const math::SymmetricMatrix3 covariance_m2 = math::Spread(moments).covariance_m2;
+  if (waiting_.plane == nullptr) {
+    waiting_ = {&plane, covariance_m2};
+    return;
+  }
+  const auto fits = math::FitPlanes(waiting_.covariance_m2, covariance_m2);
+  Store(fits[0], *waiting_.plane);
+  Store(fits[1], plane);
+  waiting_.plane = nullptr;
+}
+
+void PatchPlanes::FitWaiting() {
+  if (waiting_.plane == nullptr) return;
+  Store(math::FitPlane(waiting_.covariance_m2), *waiting_.plane);
+  waiting_.plane = nullptr;
+}
+
+void PatchPlanes::Store(const math::PlaneFit& fit, PatchPlane& plane) const {
   plane.plane_valid = fit.eigen_ratio >= params_.eigen_ratio;
   plane.residual_m = fit.residual_m;
   if (params_.tests.pitch) plane.slope_rad = fit.Slope_rad();

@@ -53,6 +53,11 @@ class PatchPlanes {
     int ix;
     int iy;
   };
+  // A patch whose plane is put off.
+  struct Waiting {
+    PatchPlane* plane = nullptr;
+    math::SymmetricMatrix3 covariance_m2;
+  };
 
   void AddCell(Sums& sums, const MapCell& cell) const;
   void TakeCell(Sums& sums, const MapCell& cell) const;
@@ -60,9 +65,12 @@ class PatchPlanes {
   // Moves the sums over columns from the patches of row iy - 1 to those of row iy.
   void SlideDown(const CellWindow& cells, const CellBox& box, const CellBox& out, int iy);
   void FitRow(const CellWindow& cells, const CellBox& box, const CellBox& out, int iy);
-  // The plane of the patch around `middle`, whose points have `moments`.
+  // Fits the plane of the patch around `middle`, whose points have `moments`, or puts it off until
+  // there is another: planes are fitted in pairs.
   void FitPatch(const CellWindow& cells, const math::PointMoments& moments, Cell middle,
-                PatchPlane& plane) const;
+                PatchPlane& plane);
+  void FitWaiting();
+  void Store(const math::PlaneFit& fit, PatchPlane& plane) const;
   math::PlaneFit FitWithoutOutliers(const CellWindow& cells, math::PointMoments moments,
                                     Cell middle) const;
 
@@ -75,6 +83,7 @@ class PatchPlanes {
   std::vector<PatchPlane> planes_;
   std::vector<Sums> columns_;                 // over the rows of a patch
   std::vector<std::uint8_t> row_holds_data_;  // among the columns of the patch around a cell
+  Waiting waiting_;
   std::vector<std::int32_t> rows_with_data_;  // of the patches of the row at hand
 };
 
