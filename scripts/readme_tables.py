@@ -9,7 +9,6 @@ a change of the code. The whole takes some fifteen minutes of processor time.
 """
 
 import argparse
-import csv
 import json
 import re
 import resource
@@ -19,7 +18,7 @@ import time
 from pathlib import Path
 
 from calibrate_odometer import SCALE, calibrate
-from study import ROOT, table
+from study import ROOT, compare, table
 
 REFERENCE = ROOT / "results/reference/matthies1995.json"
 HAZARD_REFERENCE = ROOT / "results/reference/matthies1995_hazard_detection.json"
@@ -54,6 +53,7 @@ CAUSES = [
 # Causes that change the soil, on which the odometer is calibrated.
 SOILS = {"stiff_sand", "hard_ground"}
 FIDELITY = ["obstacles_0.28", "obstacles_0.85", "nominal", "vl2"]
+MEANS = ("mean_a", "mean_b", "difference", "ci95_low", "ci95_high")
 QUASI_STATIC = ["rover.fidelity=quasi_static"]
 
 
@@ -183,30 +183,18 @@ def causes(study):
     return table(["change", "nominal", "0.85 per m2"], rows)
 
 
-def paired(study, first, second):
-    """What `rockyard compare` says of two run folders: success difference and, of all trials, means,
-    difference and interval by column."""
-    columns = second / "compared.csv"
-    text = study.tool("compare", first, second, "--csv", columns)
-    success = re.search(r"B - A ([+-][\d.]+) points \(95 % interval ([+-][\d.]+) .. ([+-][\d.]+)\)",
-                        text).groups()
-    with open(columns, encoding="utf-8", newline="") as file:
-        rows = [row for row in csv.DictReader(file) if row["trials"] == "all"]
-    keys = ("mean_a", "mean_b", "difference", "ci95_low", "ci95_high")
-    return success, {row["column"]: [f"{float(row[key]):.4g}" for key in keys] for row in rows}
-
-
 def fidelity(study):
     rows = []
     for scenario in FIDELITY:
         multibody = "published" if scenario in PUBLISHED else "multibody"
         runs = [study.run(multibody, scenario, 300),
                 study.run("quasi_static", scenario, 300, QUASI_STATIC)]
-        success, means = paired(study, study.folder(multibody, scenario),
-                                study.folder("quasi_static", scenario))
+        success, means = compare(study.rockyard, study.folder(multibody, scenario),
+                                 study.folder("quasi_static", scenario))
+        points, low, high, _ = success["declared"]
         rows.append([f"**{scenario}**", "", "", ""])
         rows.append(["declared success", rate(runs[0]), rate(runs[1]),
-                     f"{success[0]} points ({success[1]}..{success[2]})"])
+                     f"{points:+.1f} points ({low:+.1f}..{high:+.1f})"])
         rows.append(["true success", rate(runs[0], "true_success"), rate(runs[1], "true_success"),
                      ""])
         for key, text in (("true_distance_m", "distance (m)"),
@@ -214,7 +202,7 @@ def fidelity(study):
                           ("heading_error_deg", "heading error (deg)"),
                           ("position_error_m", "position error (m)"),
                           ("scrapes", "scrapes"), ("max_tilt_deg", "largest tilt (deg)")):
-            a, b, difference, low, high = means[key]
+            a, b, difference, low, high = (f"{float(means['all', key][part]):.4g}" for part in MEANS)
             rows.append([text, a, b, f"{difference} ({low}..{high})"])
         rows.append(["trials per CPU-second", *(trials_per_second(run) for run in runs), ""])
     return table(["mean over 300 trials", "multibody", "quasi-static", "paired difference (95 %)"],

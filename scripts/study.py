@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -42,6 +43,24 @@ def run_scenario(args, scenario, folder, settings):
         command += ["--resume", "--force"]
     run(command)
     return json.loads((Path(folder) / "summary.json").read_text(encoding="utf-8"))
+
+
+def compare(rockyard, first, second):
+    """What `rockyard compare` says of two run folders.
+
+    Success: difference in points with its interval, McNemar's p, for "declared" and "true"; means: rows
+    of its CSV by (trials, column), where trials are "all" or "arrived".
+    """
+    path = Path(second) / "compared.csv"
+    text = run([rockyard, "compare", first, second, "--csv", path])
+    number = r"([+-][\d.]+)"
+    found = re.findall(rf"B - A {number} points \(95 % interval {number} .. {number}\)\n"
+                       r".*?p = (\S+)", text)
+    success = {kind: tuple(float(part) for part in parts)
+               for kind, parts in zip(("declared", "true"), found)}
+    with open(path, encoding="utf-8", newline="") as file:
+        means = {(row["trials"], row["column"]): row for row in csv.DictReader(file)}
+    return success, means
 
 
 def trial_columns(folder):
