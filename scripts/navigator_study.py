@@ -119,7 +119,7 @@ def pairs_table(pairs, trials):
 def panels(rows):
     """Declared and true success over abundance, by rover."""
     found = []
-    for rover in ROVERS:
+    for rover in dict.fromkeys(row["rover"] for row in rows):
         for kind in ("declared", "true"):
             series = []
             for arm in MAIN:

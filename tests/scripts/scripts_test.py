@@ -317,6 +317,83 @@ END
                       "\n".join(self.lines("sensor_suite/sensor_suite.md")))
 
 
+class NavigatorStudy(ScriptTest):
+    """With a rockyard whose GESTALT gains two of three pairs, whatever the rocks."""
+
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(ROOT / "scenarios/gestalt", self.root / "scenarios/gestalt")
+        self.fake("build/release/bin/rockyard").write_text("""#!/bin/sh
+echo "rockyard $*" >> "$CALLS"
+if [ "$1" = compare ]; then
+  echo "  declared success  A 1 of 3 (33.3 %)  B 3 of 3 (100.0 %)"
+  echo "                    B - A +66.7 points (95 % interval +7.7 .. +92.3)"
+  echo "                    both 1, only A 0, only B 2, neither 0; McNemar, exact: p = 0.5"
+  echo "  true success      A 1 of 3 (33.3 %)  B 1 of 3 (33.3 %)"
+  echo "                    B - A +0.0 points (95 % interval -42.0 .. +42.0)"
+  echo "                    both 1, only A 0, only B 0, neither 2; McNemar, exact: p = 1"
+  { echo trials,column,unit,n,mean_a,mean_b,difference,ci95_low,ci95_high
+    for column in true_distance_m sim_time_s energy_wh; do
+      echo "all,$column,m,3,6,9,3,2.5,3.5"
+      echo "arrived,$column,m,0,,,,,"
+    done; } > "$5"
+  exit 0
+fi
+while [ $# -gt 1 ]; do [ "$1" = --out ] && out=$2; shift; done
+mkdir -p "$out"
+rate='{"rate": 0.5, "ci95": [0.25, 0.75]}'
+made='"provenance": {"version": "0.1.0", "commit": "abc"}'
+echo "{\\"declared_success\\": $rate, \\"true_success\\": $rate, $made}" > "$out/summary.json"
+printf 'trial,outcome,detail\\n0,goal_reached,\\n1,no_path,\\n2,no_path,\\n' > "$out/trials.csv"
+""", encoding="utf-8")
+
+    def lines(self, name):
+        path = self.root / "results/runs/navigators" / name
+        return path.read_text(encoding="utf-8").splitlines()
+
+    def test_both_navigators_meet_the_same_trials(self):
+        result = self.run_script("navigator_study.py", "--trials", "3")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        calls = self.called("rockyard")
+        runs = [line for line in calls if line.startswith("run")]
+        # Two rovers: five abundances with two arms, and at two of them two more.
+        self.assertEqual(len(runs), 2 * (5 * 2 + 2 * 2))
+        for rover, behaviour in (("abundance.json", "abundance_behaviour.json"),
+                                 ("abundance_rocky_3_2.json", "abundance_rocky_3_2_behaviour.json")):
+            self.assertEqual(sum(f"gestalt/{rover}" in line for line in runs), 7)
+            self.assertEqual(sum(f"gestalt/{behaviour}" in line for line in runs), 7)
+        self.assertEqual(sum("field_of_view=stripe" in line for line in runs), 4)
+        self.assertEqual(sum("terrain_sensor=stereo" in line for line in runs), 4)
+        self.assertEqual(sum("k_per_m2=0.013" in line for line in runs), 8)
+        for line in runs:
+            self.assertIn("--trials 3 --seed 1", line)
+        pairs = 2 * (5 + 2 * 4)
+        self.assertEqual(sum(line.startswith("compare") for line in calls), pairs)
+        rows = self.lines("navigators_pairs.csv")
+        self.assertEqual(len(rows), 1 + pairs)
+        self.assertIn("GESTALT", rows[1])
+        self.assertIn(",66.7,7.7,92.3,0.5,", rows[1])
+        self.assertTrue(rows[1].endswith(",1.0,1.0"), rows[1])  # Holm: 26 tests of p 0.5, 26 of p 1
+        table = "\n".join(self.lines("navigators.md"))
+        self.assertIn("| +0 (-42..+42) | 1 | 3 | 3.00 (2.50..3.50) |", table)
+        self.assertIn("| +0 (-42..+42) | 1 | 0 | - | - | - |", table)
+        self.assertIn("no_path 2", table)
+        self.assertEqual("\n".join(self.lines("navigators.svg")).count("<polyline"), 8)
+
+    def test_one_rover_alone(self):
+        self.run_script("navigator_study.py", "--rovers", "rocky_3_2", "--set", "seed=4")
+        runs = [line for line in self.called("rockyard") if line.startswith("run")]
+        self.assertEqual(len(runs), 14)
+        self.assertIn("held: seed=4", "\n".join(self.lines("navigators.md")))
+
+    def test_scenarios_of_every_arm_are_there(self):
+        sys.path.insert(0, str(ROOT / "scripts"))
+        import navigator_study  # pylint: disable=import-outside-toplevel
+        for stem in navigator_study.ROVERS.values():
+            for ending, _ in navigator_study.ARMS.values():
+                self.assertTrue((ROOT / f"scenarios/gestalt/{stem}{ending}.json").is_file())
+
+
 class HazardImprovements(ScriptTest):
     """With a rockyard that measures as many scenes a cell as it is told runs."""
 
