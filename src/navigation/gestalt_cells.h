@@ -29,12 +29,17 @@ struct CellBox {
   }
 };
 
+// Of cell (ix, iy) in a map that is `width` cells wide, row by row.
+inline std::size_t CellIndex(int ix, int iy, int width) {
+  return static_cast<std::size_t>(iy) * static_cast<std::size_t>(width) +
+         static_cast<std::size_t>(ix);
+}
+
 // A window of nx by ny cells onto an endless lattice: cell (i, j) of the lattice lies in slot
 // (i mod nx, j mod ny), so that a window that moves keeps what stays in it where it is.
 class CellWindow {
  public:
-  CellWindow(int nx, int ny)
-      : nx_(nx), ny_(ny), slots_(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny)) {}
+  CellWindow(int nx, int ny) : nx_(nx), ny_(ny), slots_(CellIndex(0, ny, nx)) {}
 
   int nx() const { return nx_; }
   int ny() const { return ny_; }
@@ -62,8 +67,7 @@ class CellWindow {
   std::size_t Slot(int ix, int iy) const {
     const int column = ix + wrap_x_ < nx_ ? ix + wrap_x_ : ix + wrap_x_ - nx_;
     const int row = iy + wrap_y_ < ny_ ? iy + wrap_y_ : iy + wrap_y_ - ny_;
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(nx_) +
-           static_cast<std::size_t>(column);
+    return CellIndex(column, row, nx_);
   }
 
   int nx_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "navigation/gestalt_map_params.h"
@@ -10,9 +11,7 @@ namespace rockyard::navigation {
 
 // 8 bits of a goodness in [0, 255]: to the nearest, halves up. The paper does not say how it
 // rounds; cutting off would give up to one less.
-inline std::int64_t ToGoodness(double goodness) {
-  return static_cast<std::int64_t>(goodness + 0.5);
-}
+inline std::int64_t ToGoodness(double goodness) { return std::lround(goodness); }
 
 inline constexpr std::int64_t kBestGoodness = 255;
 

@@ -49,7 +49,7 @@ void PatchPlanes::TakeCell(Sums& sums, const MapCell& cell) const {
 
 void PatchPlanes::Fit(const CellWindow& cells, const CellBox& box) {
   width_ = cells.nx();
-  planes_.assign(static_cast<std::size_t>(cells.nx()) * static_cast<std::size_t>(cells.ny()), {});
+  planes_.assign(CellIndex(0, cells.ny(), width_), {});
   if (box.empty()) return;
   const CellBox out = box.Grown(reach_.x, reach_.y, cells.nx(), cells.ny());
   FindRowsWithData(cells, box, out);
@@ -73,7 +73,7 @@ void PatchPlanes::FindRowsWithData(const CellWindow& cells, const CellBox& box,
     int count = 0;
     for (int ix = box.x - reach_.x; ix < out.x_end; ++ix) {
       count += holds(ix + reach_.x, iy) - holds(ix - reach_.x - 1, iy);
-      if (ix >= out.x) row_holds_data_[static_cast<std::size_t>(iy * width_ + ix)] = count > 0;
+      if (ix >= out.x) row_holds_data_[CellIndex(ix, iy, width_)] = count > 0;
     }
   }
 }
@@ -91,8 +91,8 @@ void PatchPlanes::SlideDown(const CellWindow& cells, const CellBox& box, const C
   }
   for (int ix = out.x; ix < out.x_end; ++ix) {
     std::int32_t& rows = rows_with_data_[static_cast<std::size_t>(ix)];
-    if (adds) rows += row_holds_data_[static_cast<std::size_t>(in * width_ + ix)];
-    if (takes) rows -= row_holds_data_[static_cast<std::size_t>(gone * width_ + ix)];
+    if (adds) rows += row_holds_data_[CellIndex(ix, in, width_)];
+    if (takes) rows -= row_holds_data_[CellIndex(ix, gone, width_)];
   }
 }
 
@@ -117,7 +117,7 @@ void PatchPlanes::FitRow(const CellWindow& cells, const CellBox& box, const Cell
       columns -= column.moments.empty() ? 0 : 1;
     }
     if (ix < out.x) continue;
-    PatchPlane& plane = planes_[static_cast<std::size_t>(iy * width_ + ix)];
+    PatchPlane& plane = planes_[CellIndex(ix, iy, width_)];
     plane.marked = patch.marked > 0;
     plane.enough = patch.filled >= needed_cells_ && !patch.moments.empty();
     const bool covered =

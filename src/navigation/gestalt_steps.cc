@@ -30,11 +30,11 @@ void SpanExtremes(std::vector<double>& values, std::size_t stride, int span, Bet
 void PatchSteps::LoadElevations(const CellWindow& cells, const CellBox& box, PatchReach reach) {
   width_ = box.x_end - box.x + 4 * reach.x;
   height_ = box.y_end - box.y + 4 * reach.y;
-  const std::size_t size = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+  const std::size_t size = CellIndex(0, height_, width_);
   highest_.assign(size, -kNone);
   lowest_.assign(size, kNone);
   for (int iy = box.y; iy < box.y_end; ++iy) {
-    std::size_t i = static_cast<std::size_t>((iy - box.y + 2 * reach.y) * width_ + 2 * reach.x);
+    std::size_t i = CellIndex(2 * reach.x, iy - box.y + 2 * reach.y, width_);
     for (int ix = box.x; ix < box.x_end; ++ix, ++i) {
       const math::PointMoments& moments = cells.At(ix, iy).moments;
       if (moments.empty()) continue;
@@ -44,7 +44,7 @@ void PatchSteps::LoadElevations(const CellWindow& cells, const CellBox& box, Pat
 }
 
 void PatchSteps::Find(const CellWindow& cells, const CellBox& box, PatchReach reach) {
-  steps_.assign(static_cast<std::size_t>(cells.nx()) * static_cast<std::size_t>(cells.ny()), 0.0);
+  steps_.assign(CellIndex(0, cells.ny(), cells.nx()), 0.0);
   if (box.empty()) return;
   LoadElevations(cells, box, reach);
   const auto larger = [](double a, double b) { return a > b ? a : b; };
@@ -58,10 +58,9 @@ void PatchSteps::Find(const CellWindow& cells, const CellBox& box, PatchReach re
   const CellBox out = box.Grown(reach.x, reach.y, cells.nx(), cells.ny());
   for (int iy = out.y; iy < out.y_end; ++iy) {
     for (int ix = out.x; ix < out.x_end; ++ix) {
-      const std::size_t i =
-          static_cast<std::size_t>((iy - box.y + reach.y) * width_ + ix - box.x + reach.x);
+      const std::size_t i = CellIndex(ix - box.x + reach.x, iy - box.y + reach.y, width_);
       const double step = highest_[i] - lowest_[i];
-      steps_[static_cast<std::size_t>(iy * cells.nx() + ix)] = step > 0.0 ? step : 0.0;
+      steps_[CellIndex(ix, iy, cells.nx())] = step > 0.0 ? step : 0.0;
     }
   }
 }

@@ -77,7 +77,7 @@ void Traversability::AddBorders(GoodnessGrid& grid) const {
   const GoodnessPair& border = params_.pairs.border;
   for (int iy = 0; iy < grid.ny; ++iy) {
     for (int ix = 0; ix < grid.nx; ++ix) {
-      CellValue& cell = grid.cells[static_cast<std::size_t>(iy * grid.nx + ix)];
+      CellValue& cell = grid.cells[CellIndex(ix, iy, grid.nx)];
       if (!cell.known || cell.goodness <= border.goodness) continue;
       if (!BordersUnknown(grid, ix, iy, params_.border_neighbours)) continue;
       const bool full = params_.certainty == CellCertainty::kFull;
