@@ -46,6 +46,7 @@ enum class Purpose : std::uint32_t {
   kScenePhase = 32,
   kStereoDisparity = 33,
   kStereoDropout = 34,
+  kStereoMismatch = 35,
 };
 
 // Raw Philox 4x32-10 bijection of one counter under one key.

@@ -56,7 +56,7 @@ void CloudElevationParams::Visit(core::FieldVisitor& v) {
           .max = 1.0,
           .origin = Origin::kAssumed,
           .source = "the highest point: what noise adds is much the same in all bins, and less "
-                   "shows a rock that fills a tenth of one",
+                    "shows a rock that fills a tenth of one",
           .study_low = 0.5,
           .study_high = 1.0});
   v.Integer("min_points", min_points,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 
 #include "core/distributions.h"
 #include "sensing/pixel_noise.h"
@@ -17,10 +18,23 @@ float Quantile(double probability) {
   return static_cast<float>(core::NormalQuantile(probability));
 }
 
+// Sums over `window` neighbours along rows, and then along columns, so that a square of independent
+// numbers of variance 1, divided by its side, has variance 1 again.
+DepthImage MeanOfWindows(const DepthImage& numbers, Eigen::Index window) {
+  const Eigen::Index rows = numbers.rows() - window + 1;
+  const Eigen::Index columns = numbers.cols() - window + 1;
+  DepthImage along_rows = numbers.leftCols(columns);
+  for (Eigen::Index i = 1; i < window; ++i) along_rows += numbers.middleCols(i, columns);
+  DepthImage sums = along_rows.topRows(rows);
+  for (Eigen::Index i = 1; i < window; ++i) sums += along_rows.middleRows(i, rows);
+  return sums / static_cast<double>(window);
+}
+
 }  // namespace
 
 StereoMatcher::StereoMatcher(const StereoParams& params)
     : params_(params),
+      mismatch_quantile_(Quantile(params.mismatch_probability)),
       dropout_quantile_(Quantile(params.dropout_probability)),
       edge_dropout_quantile_(Quantile(params.edge_dropout_probability)) {}
 
@@ -29,6 +43,7 @@ void StereoMatcher::Match(core::TrialKey key, std::uint32_t look, const DepthIma
   AddNoise(key, look, seen);
   const double step_px = params_.disparity_step_px;
   if (step_px > 0.0) seen = step_px * (seen / step_px).round();
+  if (params_.mismatch_probability > 0.0) Mismatch(key, look, seen);
   seen = (seen >= params_.min_disparity_px && seen <= params_.max_disparity_px).select(seen, 0.0);
   if (params_.dropout_probability > 0.0 || params_.edge_dropout_probability > 0.0) {
     DropOut(key, look, all, seen);
@@ -38,12 +53,26 @@ void StereoMatcher::Match(core::TrialKey key, std::uint32_t look, const DepthIma
 void StereoMatcher::AddNoise(core::TrialKey key, std::uint32_t look, DepthImage& seen) const {
   if (params_.disparity_noise_px <= 0.0) return;
   const PixelNoise noise(key, core::Purpose::kStereoDisparity, look);
-  const int columns = static_cast<int>(seen.cols());
+  const auto beyond = static_cast<int>(params_.noise_window_px) - 1;
+  DepthImage numbers(seen.rows() + beyond, seen.cols() + beyond);
+  for (int row = 0; row < numbers.rows(); ++row) {
+    ForEachPixelNoise(noise, row, 0, static_cast<int>(numbers.cols()),
+                      [&](int column, float number) { numbers(row, column) = number; });
+  }
+  if (beyond > 0) numbers = MeanOfWindows(numbers, beyond + 1);
+  seen = (seen > 0.0).select(seen + params_.disparity_noise_px * numbers, 0.0);
+}
+
+// A number below the quantile of p lies there uniformly in its share of the probability.
+void StereoMatcher::Mismatch(core::TrialKey key, std::uint32_t look, DepthImage& seen) const {
+  const PixelNoise noise(key, core::Purpose::kStereoMismatch, look);
+  const double searched_px = params_.max_disparity_px - params_.min_disparity_px;
   for (int row = 0; row < seen.rows(); ++row) {
-    if ((seen.row(row) == 0.0).all()) continue;
-    ForEachPixelNoise(noise, row, 0, columns, [&](int column, float number) {
-      double& disparity_px = seen(row, column);
-      if (disparity_px > 0.0) disparity_px += params_.disparity_noise_px * number;
+    ForEachPixelNoise(noise, row, 0, static_cast<int>(seen.cols()), [&](int column, float number) {
+      if (number >= mismatch_quantile_ || seen(row, column) == 0.0) return;
+      const double share =
+          0.5 * std::erfc(-number / std::numbers::sqrt2) / params_.mismatch_probability;
+      seen(row, column) = params_.min_disparity_px + std::min(share, 1.0) * searched_px;
     });
   }
 }

@@ -10,6 +10,9 @@ namespace {
 using core::Origin;
 
 constexpr std::string_view kFido = "FIDO rover's Hazcam, WUSTL data sheet: 110 x 90 deg, 12 cm";
+constexpr std::string_view kArray =
+    "Matthies 1995 sec. 6: points 10 to 30 cm ahead of the front, 13 cm beyond the sides; rover of "
+    "0.65 x 0.48 m";
 constexpr double kGrazing_rad = math::DegToRad(1.0);
 
 // Angle below the horizon of the lowest ray in the middle of the image; at most straight down.
@@ -71,7 +74,7 @@ void VisitImage(StereoParams& p, core::FieldVisitor& v) {
 
 void VisitMatching(StereoParams& p, core::FieldVisitor& v) {
   v.Real("disparity_noise_px", p.disparity_noise_px,
-         {.doc = "standard deviation of a matched disparity, independent from point to point",
+         {.doc = "standard deviation of a matched disparity",
           .min = 0.0,
           .max = 5.0,
           .origin = Origin::kAssumed,
@@ -79,6 +82,16 @@ void VisitMatching(StereoParams& p, core::FieldVisitor& v) {
                     "2002 sec. 2; Xiong and Matthies 1997: errors exceed 0.3 px",
           .study_low = 0.05,
           .study_high = 0.35});
+  v.Integer("noise_window_px", p.noise_window_px,
+            {.doc = "side of the square of pixels over which errors are alike: each is the mean of "
+                    "independent numbers over such a window, of the same deviation; 1: independent",
+             .min = 1,
+             .max = 31,
+             .origin = Origin::kAssumed,
+             .source = "Goldberg 2002 sec. 2 matches 7 x 7 windows, whose errors are alike as far "
+                       "as they overlap; the simplest choice",
+             .study_low = 1,
+             .study_high = 7});
   v.Real("disparity_step_px", p.disparity_step_px,
          {.doc = "disparities are rounded to a multiple of this; 0: not rounded",
           .min = 0.0,
@@ -112,6 +125,16 @@ void VisitMatching(StereoParams& p, core::FieldVisitor& v) {
 }
 
 void VisitDropouts(StereoParams& p, core::FieldVisitor& v) {
+  v.Real(
+      "mismatch_probability", p.mismatch_probability,
+      {.doc = "chance that a point is matched with anything in the searched range of disparities",
+       .min = 0.0,
+       .max = 0.999,
+       .origin = Origin::kAssumed,
+       .source = "Goldberg 2002 sec. 2 removes small blobs of wrong matches; what is left is "
+                 "not given",
+       .study_low = 0.0,
+       .study_high = 0.02});
   v.Real("dropout_probability", p.dropout_probability,
          {.doc = "chance that a point finds no match that holds from left to right and back",
           .min = 0.0,
@@ -182,12 +205,9 @@ void StereoMountParams::Visit(core::FieldVisitor& v) {
 }
 
 void StripeWindowParams::Visit(core::FieldVisitor& v) {
-  constexpr std::string_view kRocky =
-      "Matthies 1995 sec. 6: points 10 to 30 cm ahead of the "
-      "front, 13 cm beyond the sides; rover of 0.65 x 0.48 m";
   const auto length = [&v](std::string_view name, double& value, std::string_view doc) {
     v.Real(name, value,
-           {.doc = doc, .min = 0.0, .max = 20.0, .origin = Origin::kPublished, .source = kRocky});
+           {.doc = doc, .min = 0.0, .max = 20.0, .origin = Origin::kPublished, .source = kArray});
   };
   length("near_m", near_m, "nearest row of points from the chassis centre");
   length("far_m", far_m, "farthest row of points from the chassis centre");

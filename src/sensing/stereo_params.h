@@ -50,9 +50,11 @@ struct StereoParams {
   StereoMountParams rear;
   double max_range_m = 4.0;
   double disparity_noise_px = 0.18;
+  std::int64_t noise_window_px = 1;
   double disparity_step_px = 0.0;
   double min_disparity_px = 0.5;
   double max_disparity_px = 16.0;
+  double mismatch_probability = 0.0;
   double dropout_probability = 0.05;
   double edge_dropout_probability = 0.5;
   std::int64_t edge_reach_px = 3;

@@ -18,26 +18,25 @@ namespace rockyard::sensing {
 //  - its ray meets a surface within max_range_m;
 //  - the right camera sees that point too: inside its image, nothing in between;
 //  - disparity d = f b / Z (Goldberg 2002, section 2), with Z the depth along the optical axis,
-//  plus
-//    N(0, disparity_noise_px), rounded to disparity_step_px, lies between min_ and
-//    max_disparity_px. The point is put on the same ray at depth f b / d, so that to first order
-//    sigma_Z = Z^2 sigma_d / (f b);
+//    changed by N(0, disparity_noise_px), rounded to disparity_step_px, or wrong altogether with
+//    mismatch_probability, lies between min_ and max_disparity_px. The point is put on the same ray
+//    at depth f b / d, so that to first order sigma_Z = Z^2 sigma_d / (f b);
 //  - it did not drop out, with dropout_probability or edge_dropout_probability.
 // The ideal sensor stops after the first. With field_of_view stripe, points outside the window are
 // dropped last.
 //
-// Limits: the rover's own body is not seen. Errors are independent from pixel to pixel, while
-// matching windows make those of neighbours alike and round off edges. No false matches beyond the
-// noise, no dependence on texture or light. Surfaces beyond max_range_m give no point, but noise
-// may put a point farther away.
+// Limits: the rover's own body is not seen. By default errors are independent from pixel to pixel,
+// while matching windows make those of neighbours alike (noise_window_px) and round off edges. No
+// dependence on texture or light. Surfaces beyond max_range_m give no point, but noise may put a
+// point farther away.
 //
 // Cost: 0.2 to 0.3 ms a look of 128 x 128 in nominal and VL-2 terrain, 37 ms on rough ground.
 class StereoSensor {
  public:
   explicit StereoSensor(const StereoParams& params);
 
-  // A pure function of its arguments. Draws from (key, kStereoDisparity and kStereoDropout, look
-  // number), by pixel: at most 2^32 looks.
+  // A pure function of its arguments. Draws from (key, kStereoDisparity, kStereoMismatch and
+  // kStereoDropout, look number), by pixel: at most 2^32 looks.
   messages::PointCloud Look(const terrain::Terrain& terrain, const math::Transform& X_WR,
                             core::TrialKey key, std::int64_t look_number,
                             messages::LookDirection direction) const;

@@ -80,6 +80,14 @@ void BM_LookIdeal(benchmark::State& state) {
 }
 BENCHMARK(BM_LookIdeal)->ArgName("rocks_per_m2")->Arg(0)->Arg(6)->Unit(benchmark::kMicrosecond);
 
+void BM_LookErrorsAlike(benchmark::State& state) {
+  StereoParams params;
+  params.noise_window_px = 7;
+  params.mismatch_probability = 0.01;
+  Look(state, RandomField(2.0, 0.0), params);
+}
+BENCHMARK(BM_LookErrorsAlike)->Unit(benchmark::kMicrosecond);
+
 void BM_LookRoughGround(benchmark::State& state) { Look(state, RandomField(2.0, 0.02), {}); }
 BENCHMARK(BM_LookRoughGround)->Unit(benchmark::kMicrosecond);
 

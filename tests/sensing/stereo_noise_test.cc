@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/statistical_checks.h"
 #include "stereo_scene.h"
 
 namespace rockyard::sensing {
@@ -88,6 +89,76 @@ TEST(StereoNoiseTest, ErrorsOfTwoLooksAreIndependent) {
   const double limit = 3.9 / std::sqrt(static_cast<double>(first.size()));
   EXPECT_LT(std::abs(correlation(first, second)), limit);
   EXPECT_GT(std::abs(correlation(first, first)), limit);  // negative control
+}
+
+// Mean product of the disparity errors of pixels so far apart, over their mean square.
+double Correlation(const StereoParams& params, int columns_apart, int rows_apart) {
+  const StereoMatcher matcher(params);
+  const DepthImage true_px = DepthImage::Constant(128, 128, 8.0);
+  double product = 0.0, square = 0.0;
+  for (std::uint32_t look = 0; look < 40; ++look) {
+    DepthImage seen_px = true_px;
+    matcher.Match({9, 0}, look, true_px, seen_px);
+    const DepthImage error = seen_px - true_px;
+    const Eigen::Index rows = 128 - rows_apart;
+    const Eigen::Index columns = 128 - columns_apart;
+    product += (error.topLeftCorner(rows, columns) * error.bottomRightCorner(rows, columns)).mean();
+    square += error.square().mean();
+  }
+  return product / square;
+}
+
+TEST(StereoNoiseTest, ErrorsAreAlikeAsFarAsWindowsOverlap) {
+  // (1 - i / w) (1 - j / w). 40 looks of 128^2 / 7^2 independent windows: 1 / sqrt(n) = 0.009, and
+  // 0.035 is 3.9 of it, alpha = 1e-4.
+  StereoParams params = LevelCameras();
+  params.disparity_noise_px = 0.3;
+  params.noise_window_px = 7;
+  EXPECT_NEAR(Correlation(params, 1, 0), 6.0 / 7.0, 0.035);
+  EXPECT_NEAR(Correlation(params, 3, 2), 4.0 / 7.0 * 5.0 / 7.0, 0.035);
+  EXPECT_NEAR(Correlation(params, 0, 6), 1.0 / 7.0, 0.035);
+  EXPECT_NEAR(Correlation(params, 7, 0), 0.0, 0.035);
+  // Negative control: neighbours of independent errors.
+  params.noise_window_px = 1;
+  EXPECT_NEAR(Correlation(params, 1, 0), 0.0, 0.035);
+}
+
+TEST(StereoNoiseTest, WindowsKeepTheDeviation) {
+  // 80 looks give 80 x 128^2 / 7^2 = 26700 windows' worth; their variance scatters by sqrt(2 / n)
+  // = 0.9 %, and more than a window counts as one: 3.5 % is beyond 3.9 of it.
+  StereoParams params = LevelCameras();
+  params.disparity_noise_px = 0.3;
+  params.noise_window_px = 7;
+  const StereoMatcher matcher(params);
+  double square = 0.0;
+  for (std::uint32_t look = 0; look < 80; ++look) {
+    DepthImage seen_px = DepthImage::Constant(128, 128, 8.0);
+    matcher.Match({9, 0}, look, seen_px, seen_px);
+    square += (seen_px - 8.0).square().mean() / 80.0;
+  }
+  EXPECT_NEAR(square / (0.3 * 0.3), 1.0, 0.035);
+}
+
+TEST(StereoNoiseTest, WrongMatchesAreUniformOverTheSearchedDisparities) {
+  StereoParams params = LevelCameras();
+  params.mismatch_probability = 0.02;
+  const StereoMatcher matcher(params);
+  std::vector<double> wrong;
+  for (std::uint32_t look = 0; look < 20; ++look) {
+    DepthImage seen_px = DepthImage::Constant(128, 128, 8.0);
+    matcher.Match({9, 1}, look, seen_px, seen_px);
+    for (const double disparity_px : seen_px.reshaped()) {
+      if (disparity_px != 8.0) wrong.push_back(disparity_px);
+    }
+  }
+  constexpr double kPixels = 20.0 * 128.0 * 128.0;
+  EXPECT_GT(BinomialP(static_cast<double>(wrong.size()), kPixels, 0.02), kAlpha);
+  EXPECT_LT(BinomialP(static_cast<double>(wrong.size()), kPixels, 0.021), kAlpha);
+  const auto uniform = [](double low_px, double high_px) {
+    return [=](double px) { return (px - low_px) / (high_px - low_px); };
+  };
+  EXPECT_GT(core::KolmogorovP(wrong, uniform(0.5, 16.0)), kAlpha);
+  EXPECT_LT(core::KolmogorovP(wrong, uniform(0.5, 17.0)), kAlpha);  // negative control
 }
 
 TEST(StereoNoiseTest, DropoutsComeAsOftenAsTheyShould) {

@@ -51,6 +51,7 @@ TEST(StereoParamsTest, ExtremesThatAreAcceptedWork) {
            R"({"front": {"pitch_deg": -43}, "max_range_m": 20})",
            R"({"disparity_noise_px": 5, "disparity_step_px": 4, "dropout_probability": 0.999})",
            R"({"edge_reach_px": 100, "edge_disparity_px": 0.01, "min_disparity_px": 0.001})",
+           R"({"noise_window_px": 31, "mismatch_probability": 0.999})",
            R"({"max_disparity_px": 2, "field_of_view": "stripe"})",
        }) {
     StereoParams params;
