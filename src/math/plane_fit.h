@@ -22,7 +22,9 @@ struct PlaneFit {
   double eigen_ratio = 1.0;
 
   // Angle between the plane and the level, in [0, pi/2].
-  double Slope_rad() const { return std::atan2(std::hypot(normal.x(), normal.y()), normal.z()); }
+  double Slope_rad() const {
+    return std::atan2(std::sqrt(normal.x() * normal.x() + normal.y() * normal.y()), normal.z());
+  }
 };
 
 // From the eigenvalues of a covariance, ascending, and the axis of the smallest.
