@@ -1,5 +1,7 @@
 #include "trial/look_time.h"
 
+#include <cmath>
+
 #include "trial/compute_profile.h"
 #include "trial/scan_time.h"
 
@@ -10,11 +12,18 @@ using scenario::NavigatorKind;
 using scenario::TerrainSensor;
 
 ComputeTimes ComputeTimesOf(const scenario::Scenario& scenario) {
-  return MakeComputeTimes(scenario.clock.compute, {});
+  const navigation::GestaltGridParams& grid = scenario.navigation.gestalt.map.grid;
+  return MakeComputeTimes(scenario.clock.compute,
+                          {.cell_m = std::sqrt(grid.xstep_m * grid.ystep_m),
+                           .area_m2 = (grid.xN_m - grid.x0_m) * (grid.yN_m - grid.y0_m)});
 }
 
 bool UsesNavigationSoftware(const scenario::Scenario& scenario) {
   return scenario.navigation.navigator == NavigatorKind::kGestalt;
+}
+
+bool JudgesElevations(const scenario::Scenario& scenario) {
+  return scenario.clock.compute.computer != Computer::kNone && !UsesNavigationSoftware(scenario);
 }
 
 }  // namespace
@@ -29,6 +38,7 @@ LookTime MakeLookTime(const scenario::Scenario& scenario) {
   }
   look.imaging_s = times.acquisition_s;
   look.computing_s += times.stereo_s;
+  if (JudgesElevations(scenario)) look.computing_s += scenario.clock.compute.behaviour_s;
   return look;
 }
 

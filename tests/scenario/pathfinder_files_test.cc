@@ -24,8 +24,9 @@ std::map<std::string, Scenario> LoadAll() {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(kRoot / "scenarios")) {
     if (entry.path().extension() != ".json") continue;
     const std::string folder = entry.path().parent_path().filename().string();
-    if (folder == "rovers" || folder == "sensors") continue;  // parts of scenarios
-    scenarios.emplace(entry.path().stem().string(), LoadScenario(entry.path()));
+    if (folder == "navigation" || folder == "rovers" || folder == "sensors") continue;  // parts
+    const std::string prefix = folder == "gestalt" ? "gestalt_" : "";
+    scenarios.emplace(prefix + entry.path().stem().string(), LoadScenario(entry.path()));
   }
   return scenarios;
 }
@@ -54,7 +55,8 @@ double ObstaclesPerM2(const Scenario& scenario) {
   return static_cast<double>(rocks.count) / (rocks.count_area_length_m * rocks.count_area_width_m);
 }
 
-// Those of the hazard studies begin with "hazard_", which their folder says already.
+// Those of the hazard studies begin with "hazard_" and those of the map-based navigator with
+// "gestalt_", which their folders say already.
 TEST(PathfinderFilesTest, NamesAreFileNames) {
   const std::map<std::string, Scenario> scenarios = LoadAll();
   ASSERT_GE(scenarios.size(), 9u);

@@ -1,0 +1,157 @@
+// The committed scenarios of the map-based navigator hold what Goldberg 2002 states, and pairs of
+// them meet the same rocks.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/json_file.h"
+#include "core/json_text.h"
+#include "scenario/load.h"
+
+namespace rockyard::scenario {
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+const std::filesystem::path kFolder =
+    std::filesystem::path(ROCKYARD_SOURCE_DIR) / "scenarios" / "gestalt";
+
+Scenario Load(const std::string& name, const Overrides& overrides = {}) {
+  return LoadScenario(kFolder / (name + ".json"), overrides);
+}
+
+// What is said to be wrong, one problem after the other; empty if nothing is.
+std::string ProblemsOf(const std::string& name, const Overrides& overrides) {
+  try {
+    Load(name, overrides);
+  } catch (const core::UserError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool Complains(const std::string& name, const Overrides& overrides, const std::string& path) {
+  return ProblemsOf(name, overrides).find(path) != std::string::npos;
+}
+
+std::string GroupText(const Scenario& scenario, const std::string& group) {
+  return core::DumpJson(*WriteScenario(scenario).Find(group));
+}
+
+TEST(GestaltFilesTest, EveryFileDrivesAPublishedOrNamedPair) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kFolder)) {
+    if (entry.path().extension() != ".json") continue;
+    ++files;
+    const std::string name = entry.path().stem().string();
+    const Scenario scenario = Load(name);
+    const bool behaviour = name.ends_with("_behaviour");
+    EXPECT_EQ(scenario.name, "gestalt_" + name);
+    EXPECT_EQ(scenario.navigation.navigator,
+              behaviour ? NavigatorKind::kPathfinder : NavigatorKind::kGestalt)
+        << name;
+    EXPECT_EQ(scenario.sensors.terrain_sensor,
+              behaviour ? TerrainSensor::kLightStripe : TerrainSensor::kStereo)
+        << name;
+    EXPECT_EQ(scenario.rover.fidelity, rover::Fidelity::kQuasiStatic) << name;
+    EXPECT_EQ(scenario.clock.compute.computer, trial::Computer::kR3000) << name;
+  }
+  EXPECT_EQ(files, 7);
+}
+
+TEST(GestaltFilesTest, RunsAreThoseOfTheFigures) {
+  const Scenario vl2 = Load("viking_lander_2");
+  EXPECT_EQ(vl2.course.goal_x_m - vl2.course.start_x_m, 17.5);  // Goldberg 2002 fig. 4
+  EXPECT_EQ(vl2.terrain.rocks.k_per_m2, 0.013);                 // Matthies 1995 sec. 7
+  const Scenario narrow = Load("narrow_course");
+  EXPECT_EQ(narrow.course.goal_x_m - narrow.course.start_x_m, 5.0);  // Goldberg 2002 fig. 3
+  EXPECT_EQ(narrow.terrain.rocks.kind, terrain::RockFieldKind::kListed);
+}
+
+TEST(GestaltFilesTest, EveryPublishedValueHasItsScenario) {
+  const core::JsonValue reference = core::LoadJsonFile(
+      std::filesystem::path(ROCKYARD_SOURCE_DIR) / "results" / "reference" / "goldberg2002.json");
+  for (const core::JsonValue& value : reference.Find("values")->list()) {
+    const std::string scenario = value.Find("scenario")->text();
+    const std::string stem = scenario.substr(std::string("gestalt_").size());
+    EXPECT_TRUE(std::filesystem::exists(kFolder / (stem + ".json"))) << scenario;
+  }
+}
+
+// Table 1 as it stands for the Athena SDM, whatever else a scenario changes.
+TEST(GestaltFilesTest, TheAthenaSdmKeepsTable1) {
+  const std::string published = GroupText(Scenario{}, "navigation");
+  for (const char* name : {"viking_lander_2", "narrow_course", "abundance", "localization_error"}) {
+    Scenario scenario = Load(name);
+    scenario.navigation.navigator = NavigatorKind::kPathfinder;  // the default
+    EXPECT_EQ(GroupText(scenario, "navigation"), published) << name;
+  }
+}
+
+TEST(GestaltFilesTest, Rocky32IsModelledAtItsSize) {
+  const Scenario scenario = Load("abundance_rocky_3_2");
+  const navigation::GestaltRoverParams& model = scenario.navigation.gestalt.map.rover;
+  const rover::RoverGeometryParams& geometry = scenario.rover.geometry;
+  EXPECT_EQ(model.length_m, geometry.length_m);
+  EXPECT_EQ(model.width_m, geometry.width_m);
+  EXPECT_EQ(model.wheel_radius_m, geometry.wheel_radius_m);
+  EXPECT_EQ(model.clearance_m, geometry.belly_clearance_m);
+  EXPECT_EQ(GroupText(scenario, "rover"),
+            GroupText(Load("abundance_rocky_3_2_behaviour"), "rover"));
+  Scenario plain;
+  plain.rover.fidelity = rover::Fidelity::kQuasiStatic;
+  EXPECT_EQ(GroupText(scenario, "rover"), GroupText(plain, "rover"));
+}
+
+TEST(GestaltFilesTest, PairsDifferInNavigatorAndSensorAlone) {
+  for (const std::string name : {"abundance", "abundance_rocky_3_2"}) {
+    const Scenario map = Load(name);
+    const Scenario behaviour = Load(name + "_behaviour");
+    for (const char* group : {"terrain", "rover", "course", "referee", "clock", "energy"}) {
+      EXPECT_EQ(GroupText(map, group), GroupText(behaviour, group)) << name << " " << group;
+    }
+    EXPECT_EQ(map.seed, behaviour.seed);
+    EXPECT_EQ(map.trials, behaviour.trials);
+  }
+  for (const char* name : {"abundance_rocky_3_2", "localization_error"}) {
+    EXPECT_EQ(GroupText(Load("abundance"), "terrain"), GroupText(Load(name), "terrain")) << name;
+  }
+}
+
+TEST(GestaltChecksTest, TheSelectedNavigatorsToleranceCounts) {
+  EXPECT_TRUE(Complains("abundance", {"course.goal_radius_m=0.2"},
+                        "navigation.gestalt.waypoints.goal_tolerance_m"));
+  EXPECT_EQ(ProblemsOf("abundance", {"navigation.pathfinder.goal_tolerance_m=2"}), "");
+  EXPECT_EQ(ProblemsOf("abundance_behaviour", {"navigation.gestalt.waypoints.goal_tolerance_m=2"}),
+            "");
+  EXPECT_TRUE(Complains("abundance_behaviour", {"navigation.pathfinder.goal_tolerance_m=2"},
+                        "navigation.pathfinder.goal_tolerance_m"));
+}
+
+TEST(GestaltChecksTest, GroupsThatDoNothingAreNotHeldAgainstEachOther) {
+  const Overrides seven = {"perception.cloud_elevations.stripes=7"};
+  EXPECT_EQ(ProblemsOf("abundance", seven), "");
+  EXPECT_EQ(ProblemsOf("abundance_behaviour", seven), "");
+  EXPECT_TRUE(Complains("abundance_behaviour",
+                        {"perception.cloud_elevations.stripes=7", "sensors.terrain_sensor=stereo"},
+                        "perception.cloud_elevations.stripes"));
+  EXPECT_EQ(ProblemsOf("abundance", {"sensors.light_stripe.stripe_subdivision=2"}), "");
+  EXPECT_TRUE(Complains("abundance_behaviour", {"sensors.light_stripe.stripe_subdivision=2"},
+                        "sensors.light_stripe has"));
+}
+
+TEST(GestaltChecksTest, TheHazardStudiesMeasureTheLightStripe) {
+  EXPECT_TRUE(Complains("../hazard_detection/detection", {"sensors.terrain_sensor=stereo"},
+                        "sensors.terrain_sensor"));
+}
+
+TEST(GestaltChecksTest, ListedRocksNeedEveryColumn) {
+  EXPECT_TRUE(
+      Complains("narrow_course", {"terrain.rocks.listed.y_m=[0.5]"}, "terrain.rocks.listed.x_m"));
+}
+
+}  // namespace
+}  // namespace rockyard::scenario

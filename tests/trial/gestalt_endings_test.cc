@@ -1,0 +1,134 @@
+// How drives of the map-based navigator end where they cannot succeed, and the four pairs of
+// navigator and sensor.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "trial/gestalt_trials.h"
+#include "trial/look_time.h"
+
+namespace rockyard::trial {
+namespace {
+
+using truth::TrialOutcome;
+
+// High rocks side by side on a circle about the start, but for a gap of that half angle ahead.
+scenario::Scenario InARing(double gap_rad) {
+  scenario::Scenario scenario = Gestalt("abundance", {"sensors.localization=oracle"});
+  scenario.terrain.rocks.kind = terrain::RockFieldKind::kListed;
+  terrain::ListedRocksParams& ring = scenario.terrain.rocks.listed;
+  constexpr int kRocks = 24;
+  constexpr double kRadius_m = 1.7;
+  for (int i = 0; i < kRocks; ++i) {
+    const double angle_rad = std::numbers::pi * (2.0 * i / kRocks - 1.0);
+    if (std::abs(angle_rad) < gap_rad) continue;
+    ring.x_m.push_back(kRadius_m * std::cos(angle_rad));
+    ring.y_m.push_back(kRadius_m * std::sin(angle_rad));
+    ring.diameter_m.push_back(0.5);
+    ring.height_m.push_back(0.5);
+  }
+  return scenario;
+}
+
+TEST(GestaltEndingsTest, FindsNoPathOutOfARing) {
+  const DriveResult result = RunTrial(InARing(0.0), {1, 0});
+  EXPECT_EQ(result.outcome, TrialOutcome::kNoPath) << result.detail;
+  EXPECT_LT(std::hypot(result.record.final_x_m, result.record.final_y_m), 1.2);
+  EXPECT_GT(result.record.rear_image_sets, 0.0);
+}
+
+// Negative control of the ring.
+TEST(GestaltEndingsTest, LeavesARingWithAGap) {
+  const DriveResult result = RunTrial(InARing(std::numbers::pi / 3.0), {1, 0});
+  EXPECT_EQ(result.outcome, TrialOutcome::kGoalReached) << result.detail;
+}
+
+TEST(GestaltEndingsTest, ARoverWithoutTorqueIsJammed) {
+  const DriveResult result = RunTrial(
+      Gestalt("abundance", kShortAndEmpty + Overrides{"rover.drive.stall_torque_Nm=0.05",
+                                                      "sensors.vehicle.motor_current.enabled="
+                                                      "false"}),
+      {1, 0});
+  EXPECT_EQ(result.outcome, TrialOutcome::kJammed) << result.detail;
+  EXPECT_LT(result.record.true_distance_m, 0.1);
+}
+
+TEST(GestaltEndingsTest, TheTiltGuardStopsTheRoverOnASlope) {
+  const Overrides slope = kShortAndEmpty + Overrides{"terrain.ground.slope_deg=8"};
+  const DriveResult free = RunTrial(Gestalt("abundance", slope), {1, 0});
+  const DriveResult guarded = RunTrial(
+      Gestalt("abundance", slope + Overrides{"perception.vehicle_hazard.max_tilt_deg=4"}), {1, 0});
+  EXPECT_EQ(free.outcome, TrialOutcome::kGoalReached) << free.detail;
+  EXPECT_EQ(free.record.safeguard_stops, 0.0);
+  EXPECT_EQ(guarded.outcome, TrialOutcome::kNoPath) << guarded.detail;
+  EXPECT_GE(guarded.record.tilt_hazards, 1.0);
+  EXPECT_GE(guarded.record.safeguard_stops, guarded.record.tilt_hazards);
+}
+
+struct Pair {
+  std::string navigator;
+  std::string sensor;
+};
+
+class PairTest : public testing::TestWithParam<Pair> {
+ protected:
+  static DriveResult Run(const std::string& navigator, const std::string& sensor) {
+    return RunTrial(Gestalt("abundance_rocky_3_2", {"navigation.navigator=" + navigator,
+                                                    "sensors.terrain_sensor=" + sensor}),
+                    {1, 2});
+  }
+};
+
+TEST_P(PairTest, RunsAmongTheSameRocks) {
+  const auto& [navigator, sensor] = GetParam();
+  const bool map = navigator == "gestalt";
+  const bool stereo = sensor == "stereo";
+  const DriveResult result = Run(navigator, sensor);
+  EXPECT_NE(result.outcome, TrialOutcome::kSimulatorFault) << result.detail;
+  EXPECT_GT(result.record.true_distance_m, 1.0) << result.detail;
+  EXPECT_EQ(result.record.scans > 0.0, !stereo);
+  EXPECT_EQ(result.record.scan_time_s > 0.0, !stereo);
+  EXPECT_EQ(result.record.image_sets > 0.0, stereo);
+  EXPECT_EQ(result.record.imaging_time_s > 0.0, stereo);
+  EXPECT_EQ(result.record.compute_time_s > 0.0, stereo || map);
+  if (!map || !stereo) {
+    EXPECT_EQ(result.record.rear_image_sets, 0.0);
+  }
+  if (map) {
+    EXPECT_EQ(result.record.hazards_believed, 0.0);
+  }
+  const DriveResult published = Run("pathfinder", "light_stripe");
+  EXPECT_EQ(result.record.rocks, published.record.rocks);
+  EXPECT_EQ(result.record.rock_cover, published.record.rock_cover);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    TwoByTwo, PairTest,
+    testing::Values(Pair{"pathfinder", "light_stripe"}, Pair{"pathfinder", "stereo"},
+                    Pair{"gestalt", "light_stripe"}, Pair{"gestalt", "stereo"}),
+    [](const auto& pair) { return pair.param.navigator + "_" + pair.param.sensor; });
+
+// What a look takes with each pair; table 2 on the grid of table 1.
+TEST(LookTimeTest, EachPairTakesItsPartsOfALook) {
+  const auto time = [](const std::string& navigator, const std::string& sensor) {
+    return MakeLookTime(Gestalt(
+        "abundance", {"navigation.navigator=" + navigator, "sensors.terrain_sensor=" + sensor,
+                      "clock.compute.behaviour_s=0.5"}));
+  };
+  const auto expect = [](const LookTime& look, double scanning_s, double imaging_s,
+                         double computing_s) {
+    EXPECT_NEAR(look.scanning_s, scanning_s, 1e-9);
+    EXPECT_NEAR(look.imaging_s, imaging_s, 1e-9);
+    EXPECT_NEAR(look.computing_s, computing_s, 1e-9);
+  };
+  expect(time("pathfinder", "light_stripe"), 20.0, 0.0, 0.0);
+  expect(time("gestalt", "light_stripe"), 20.0, 0.0, 13.154);
+  expect(time("gestalt", "stereo"), 0.0, 8.974, 4.634 + 13.154);
+  expect(time("pathfinder", "stereo"), 0.0, 8.974, 4.634 + 0.5);
+}
+
+}  // namespace
+}  // namespace rockyard::trial

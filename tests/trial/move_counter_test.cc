@@ -1,0 +1,34 @@
+#include "trial/move_counter.h"
+
+#include <gtest/gtest.h>
+
+namespace rockyard::trial {
+namespace {
+
+using messages::MotionCommand;
+using messages::MotionKind;
+
+TEST(MoveCounterTest, AMoveIsOneCommandUntilAnotherOneOrALook) {
+  constexpr MotionCommand kArc{MotionKind::kArc, 0.5, 1};
+  constexpr MotionCommand kBack{MotionKind::kArc, 0.5, -1};
+  constexpr MotionCommand kTurn{MotionKind::kTurnInPlace, 0.0, 1};
+  MoveCounter counter;
+  EXPECT_EQ(counter.moves(), 0);
+  counter.Observe(kArc);
+  counter.Observe(kArc);
+  EXPECT_EQ(counter.moves(), 1);
+  counter.OnLook();
+  counter.Observe(kArc);  // the same arc again
+  EXPECT_EQ(counter.moves(), 2);
+  counter.Observe(kBack);  // backs off without a look
+  EXPECT_EQ(counter.moves(), 3);
+  counter.Observe(MotionCommand{});  // stands: no move
+  EXPECT_EQ(counter.moves(), 3);
+  counter.Observe(kTurn);
+  counter.Observe(kTurn);
+  EXPECT_EQ(counter.moves(), 4);
+  EXPECT_EQ(counter.point_turns(), 1);
+}
+
+}  // namespace
+}  // namespace rockyard::trial
