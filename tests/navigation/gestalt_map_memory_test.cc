@@ -186,6 +186,15 @@ TEST(GestaltMemoryTest, WhatTheRoverFeltIsAnObstacleUntilItAges) {
   EXPECT_EQ(map.Evaluate().Cell(10, 10), best);
 }
 
+TEST(GestaltMemoryTest, WhatTheRoverFeltIsKnownWhereNothingWasSeen) {
+  GestaltMap map(HandParams());
+  map.BeginCycle(kHandRover_m, kHandRover_m);
+  map.MarkObstacle(0.1, 0.1, 0.05);
+  const GoodnessGrid& grid = map.Evaluate();
+  EXPECT_EQ(grid.Cell(12, 8), (CellValue{0, 255, true}));
+  EXPECT_EQ(grid.Cell(13, 8), (CellValue{11, 0, false}));
+}
+
 TEST(GestaltMemoryTest, ClearForgetsAll) {
   GestaltMap map = MapOf(HandParams(), PointsOn(kWholeWindow, Level));
   map.MarkObstacle(0.1, 0.1, 0.5);
