@@ -30,7 +30,7 @@ namespace rockyard::sensing {
 // dependence on texture or light. Surfaces beyond max_range_m give no point, but noise may put a
 // point farther away.
 //
-// Cost: 0.2 to 0.3 ms a look of 128 x 128 in nominal and VL-2 terrain, 37 ms on rough ground.
+// Cost: 0.2 to 0.3 ms a look of 128 x 128 in nominal and VL-2 terrain, 36 ms on rough ground.
 class StereoSensor {
  public:
   explicit StereoSensor(const StereoParams& params);
