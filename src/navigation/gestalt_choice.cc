@@ -15,11 +15,21 @@ using messages::MotionVote;
 // A row whose arcs compete. Rows are listed from the most preferred one on.
 using Rows = std::vector<std::span<MotionVote>>;
 
+bool BackwardArcsCompete(const MotionVotes& votes, const GestaltParams& params) {
+  switch (params.drive.backward_arcs) {
+    case BackwardArcs::kBelowThreshold:
+      return BestVote(votes.forward) < params.votes.min_fwd_threshold;
+    case BackwardArcs::kAlways:
+      return true;
+    case BackwardArcs::kLastResort:
+      return BestVote(votes.forward) < params.votes.min_vote_goodness;
+  }
+  return true;
+}
+
 Rows CompetingRows(MotionVotes& votes, const GestaltParams& params) {
   Rows rows{votes.forward};
-  const bool backward = params.drive.backward_arcs == BackwardArcs::kAlways ||
-                        BestVote(votes.forward) < params.votes.min_fwd_threshold;
-  if (backward) rows.push_back(votes.backward);
+  if (BackwardArcsCompete(votes, params)) rows.push_back(votes.backward);
   return rows;
 }
 

@@ -19,8 +19,9 @@ void VisitChoices(GestaltDriveParams& p, core::FieldVisitor& v) {
   v.Choice("backward_arcs", p.backward_arcs,
            {.doc = "when a backward arc may be chosen",
             .origin = Origin::kAssumed,
-            .source = "backward arcs merge to 200 on seen ground: always would send the rover back "
-                      "from forward votes of 180 to 200"});
+            .source = "Goldberg 2002 step 7: the highest vote of all arcs, but backward ones merge "
+                      "to 200 on seen ground and would win over forward votes that are good enough "
+                      "not to look behind"});
   v.Choice("point_turns", p.point_turns,
            {.doc = "when turning in place is chosen over an arc",
             .origin = Origin::kAssumed,

@@ -24,6 +24,7 @@ enum class PointTurns {
 enum class BackwardArcs {
   kBelowThreshold,  // the best forward vote is below min_fwd_threshold
   kAlways,
+  kLastResort,  // the best forward vote is below min_vote_goodness
 };
 
 enum class ArrivalCheck {
@@ -72,7 +73,8 @@ struct rockyard::core::EnumNames<rockyard::navigation::PointTurns> {
 
 template <>
 struct rockyard::core::EnumNames<rockyard::navigation::BackwardArcs> {
-  static constexpr std::array<std::string_view, 2> kNames{"below_threshold", "always"};
+  static constexpr std::array<std::string_view, 3> kNames{"below_threshold", "always",
+                                                          "last_resort"};
 };
 
 template <>

@@ -48,7 +48,7 @@ GestaltParams RandomParams(Draws& draws) {
   p.votes.whole_numbers = draws.Chance(0.5);
   p.drive.step_m = draws.Between(0.05, 1.0);
   p.drive.rear_cameras = draws.Chance(0.5);
-  p.drive.backward_arcs = static_cast<BackwardArcs>(draws.Below(2));
+  p.drive.backward_arcs = static_cast<BackwardArcs>(draws.Below(3));
   p.drive.point_turns = static_cast<PointTurns>(draws.Below(4));
   p.drive.min_drive_goodness = draws.Between(0.0, 60.0);
   p.drive.search_turn_rad = math::DegToRad(draws.Between(90.0, 720.0));

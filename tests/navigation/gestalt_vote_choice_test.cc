@@ -84,13 +84,17 @@ TEST(GestaltChoice, SetsThatTouchTheEnds) {
   EXPECT_EQ(Chosen(Votes({210, 210, 210, 210, 210, 210, 210})), "f3");
 }
 
-TEST(GestaltChoice, BackwardArcsCompeteOnlyBelowTheForwardThreshold) {
+TEST(GestaltChoice, BackwardArcsCompeteAsNamed) {
   const std::vector<double> backward = {150, 150, 150, 200, 150, 150, 150};
   EXPECT_EQ(Chosen(Votes({100, 100, 100, 180, 100, 100, 100}, backward)), "f3") << "180: not below";
   EXPECT_EQ(Chosen(Votes({100, 100, 100, 179, 100, 100, 100}, backward)), "b3");
   GestaltParams always;
   always.drive.backward_arcs = BackwardArcs::kAlways;
   EXPECT_EQ(Chosen(Votes({100, 100, 100, 180, 100, 100, 100}, backward), always), "b3");
+  GestaltParams last_resort;
+  last_resort.drive.backward_arcs = BackwardArcs::kLastResort;
+  EXPECT_EQ(Chosen(Votes({0, 0, 0, 26, 0, 0, 0}, backward), last_resort), "f3") << "26: not below";
+  EXPECT_EQ(Chosen(Votes({0, 0, 0, 25, 0, 0, 0}, backward), last_resort), "b3");
 }
 
 TEST(GestaltChoice, ForwardBeforeBackwardAmongEquals) {
