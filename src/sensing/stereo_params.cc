@@ -119,7 +119,8 @@ void VisitMatching(StereoParams& p, core::FieldVisitor& v) {
   v.Require("max_disparity_px", p.max_disparity_px > p.min_disparity_px,
             "is not larger than min_disparity_px", "use a larger value");
   v.Require("max_disparity_px",
-            p.focal_columns_px() * p.baseline_m < p.max_disparity_px * p.max_range_m,
+            p.fidelity == StereoFidelity::kIdeal ||
+                p.focal_columns_px() * p.baseline_m < p.max_disparity_px * p.max_range_m,
             "leaves everything within max_range_m in the near blind zone",
             "search larger disparities, or use a shorter baseline or a wider field of view");
 }

@@ -38,6 +38,7 @@ TEST(StereoParamsTest, LayoutsThatCannotWorkAreRefused) {
   ExpectRefused(R"({"dropout_probability": 1})", "dropout_probability");
   ExpectRefused(R"({"min_disparity_px": 20})", "max_disparity_px");
   ExpectRefused(R"({"max_disparity_px": 1, "max_range_m": 2})", "max_disparity_px");
+  ExpectRefused(R"({"horizontal_fov_deg": 10})", "max_disparity_px");
   ExpectRefused(R"({"stripe_window": {"near_m": 0.7}})", "stripe_window.far_m");
   ExpectRefused(R"({"stripe_window": {"half_width_m": 0}})", "stripe_window.half_width_m");
   ExpectRefused(R"({"field_of_view": "stripe", "stripe_window": {"far_m": 9}})", "stripe_window");
@@ -51,6 +52,7 @@ TEST(StereoParamsTest, ExtremesThatAreAcceptedWork) {
            R"({"front": {"pitch_deg": -43}, "max_range_m": 20})",
            R"({"disparity_noise_px": 5, "disparity_step_px": 4, "dropout_probability": 0.999})",
            R"({"edge_reach_px": 100, "edge_disparity_px": 0.01, "min_disparity_px": 0.001})",
+           R"({"fidelity": "ideal", "horizontal_fov_deg": 10})",
            R"({"noise_window_px": 31, "mismatch_probability": 0.999})",
            R"({"max_disparity_px": 2, "field_of_view": "stripe"})",
        }) {
