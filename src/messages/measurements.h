@@ -8,10 +8,11 @@
 
 namespace rockyard::messages {
 
-// Wheel encoders and turn-rate gyro over one on-board tick.
+// Wheel encoders, steering angles and turn-rate gyro over one on-board tick.
 struct MotionMeasurement {
   double duration_s = 0.0;
   PerWheel<double> wheel_turn_rad{};  // encoder increment of each drive motor
+  PerWheel<double> steer_rad{};       // at the end of the tick, positive left
   double turn_rad = 0.0;              // integrated gyro rate, positive left
 };
 

@@ -11,23 +11,24 @@ DeadReckoning::DeadReckoning(const messages::DriveCalibration& calibration,
   Apply({initial.x_m, initial.y_m, initial.heading_rad});
 }
 
-double DeadReckoning::MeanRoll(const messages::PerWheel<double>& turn_rad) const {
+double DeadReckoning::MeanRoll(const messages::MotionMeasurement& motion) const {
   const bool all_steered = std::all_of(calibration_.steered.begin(), calibration_.steered.end(),
                                        [](bool steered) { return steered; });
-  const bool every_wheel = params_.wheels == OdometryWheels::kAll || all_steered;
+  const bool every_wheel = params_.wheels != OdometryWheels::kUnsteered || all_steered;
+  const bool forward = params_.wheels == OdometryWheels::kForward;
   double sum = 0.0;
   int count = 0;
   for (std::size_t wheel = 0; wheel < messages::kWheelCount; ++wheel) {
     if (!every_wheel && calibration_.steered[wheel]) continue;
-    sum += turn_rad[wheel] * calibration_.radius_ratio[wheel];
+    const double share = forward ? std::cos(motion.steer_rad[wheel]) : 1.0;
+    sum += motion.wheel_turn_rad[wheel] * calibration_.radius_ratio[wheel] * share;
     ++count;
   }
   return sum / count;
 }
 
 void DeadReckoning::Integrate(const messages::MotionMeasurement& motion) {
-  const double forward_m =
-      MeanRoll(motion.wheel_turn_rad) * calibration_.wheel_radius_m * params_.distance_scale;
+  const double forward_m = MeanRoll(motion) * calibration_.wheel_radius_m * params_.distance_scale;
   const double along_rad =
       estimate_.heading_rad +
       (params_.step_heading == StepHeading::kMidpoint ? 0.5 * motion.turn_rad : 0.0);

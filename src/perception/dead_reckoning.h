@@ -31,8 +31,10 @@ class DeadReckoning {
   const messages::PoseEstimate& estimate() const { return estimate_; }
 
  private:
-  // Mean of the wheels' turns as if all had wheel_radius_m, rad.
-  double MeanRoll(const messages::PerWheel<double>& turn_rad) const;
+  // Mean of the wheels' turns as if all had wheel_radius_m, rad. A wheel at (x, y) that rolls along
+  // an arc about (0, R) goes forward by the turn times R - y, whatever its x: with steering taken
+  // into account the mean over both sides is the arc of the rover's origin.
+  double MeanRoll(const messages::MotionMeasurement& motion) const;
 
   messages::DriveCalibration calibration_;
   DeadReckoningParams params_;

@@ -10,8 +10,11 @@ namespace rockyard::perception {
 
 // Whose encoders give the distance.
 enum class OdometryWheels {
-  kAll,       // mean of all six; 1 to 4 % too long on arcs, where corner wheels run wider circles
-  kUnsteered  // mean of the wheels that are not steered: exact on arcs
+  kAll,        // mean of all six; too long on arcs, where corner wheels run wider circles: 1 to 4 %
+               // on those of Rocky 3.2, 27 % on the tightest of GESTALT with the Athena SDM
+  kUnsteered,  // mean of the wheels that are not steered: exact on arcs
+  kForward,  // mean over all six of what they roll times the cosine of their steering angle: exact
+             // on arcs where all wheels are steered
 };
 
 // The heading along which a step's distance is laid off.
@@ -36,7 +39,7 @@ struct DeadReckoningParams {
             .source = "Matthies 1995 sec. 5, note 4; straight 7 m runs of the simulated rover on "
                       "level sand"});
     v.Choice("wheels", wheels,
-             {.doc = "wheels whose encoders give the distance",
+             {.doc = "wheels whose encoders give the distance, and whether their steering counts",
               .origin = Origin::kAssumed,
               .source = "the paper names wheel encoders without singling any out"});
     v.Choice("step_heading", step_heading,
@@ -50,7 +53,7 @@ struct DeadReckoningParams {
 
 template <>
 struct rockyard::core::EnumNames<rockyard::perception::OdometryWheels> {
-  static constexpr std::array<std::string_view, 2> kNames{"all", "unsteered"};
+  static constexpr std::array<std::string_view, 3> kNames{"all", "unsteered", "forward"};
 };
 
 template <>

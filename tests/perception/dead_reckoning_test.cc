@@ -108,6 +108,41 @@ TEST(DeadReckoningTest, CornerWheelsLengthenArcs) {
   EXPECT_NEAR(middle.estimate().distance_m, 0.75 * turn, 1e-12);
 }
 
+// All six wheels of the Athena SDM (x = +-0.42 and 0, y = +-0.36) roll about (0, R), and steer for
+// it.
+MotionMeasurement SixSteeredWheels(double radius_m, double turn_rad) {
+  MotionMeasurement motion;
+  motion.turn_rad = turn_rad;
+  const double x_m[] = {0.42, 0.0, -0.42, 0.42, 0.0, -0.42};
+  for (std::size_t wheel = 0; wheel < messages::kWheelCount; ++wheel) {
+    const double y_m = wheel < 3 ? 0.36 : -0.36;
+    const double ahead_m = radius_m - y_m;
+    const double sign = ahead_m < 0.0 ? -1.0 : 1.0;  // a wheel rolls backwards beyond the centre
+    motion.steer_rad[wheel] = std::atan2(sign * x_m[wheel], sign * ahead_m);
+    motion.wheel_turn_rad[wheel] = sign * std::hypot(ahead_m, x_m[wheel]) * turn_rad / kRadius_m;
+  }
+  return motion;
+}
+
+TEST(DeadReckoningTest, SteeringTakenIntoAccountIsExactOnArcs) {
+  DeadReckoningParams params;
+  params.wheels = OdometryWheels::kForward;
+  for (const double radius_m : {0.5, 1.0, 4.0}) {
+    auto forward = Make(params);
+    forward.Integrate(SixSteeredWheels(radius_m, 0.1));
+    EXPECT_NEAR(forward.estimate().distance_m, radius_m * 0.1, 1e-12) << radius_m;
+  }
+  // The plain mean on the tightest arc: (4 corner wheels, 2 middle ones) over the radius.
+  const double corners = std::hypot(0.14, 0.42) + std::hypot(0.86, 0.42);
+  auto all = Make();
+  all.Integrate(SixSteeredWheels(0.5, 0.1));
+  EXPECT_NEAR(all.estimate().distance_m / 0.05, (2.0 * corners + 1.0) / 6.0 / 0.5, 1e-9);
+  // A turn in place goes nowhere.
+  auto turning = Make(params);
+  turning.Integrate(SixSteeredWheels(0.0, 0.5));
+  EXPECT_NEAR(turning.estimate().distance_m, 0.0, 1e-12);
+}
+
 TEST(DeadReckoningTest, HeadingsStayWrapped) {
   auto dead_reckoning = Make({}, {0.0, 0.0, 3.0});
   dead_reckoning.Integrate(Straight(0.0, 0.3));
