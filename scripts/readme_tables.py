@@ -9,6 +9,7 @@ a change of the code. The whole takes some fifteen minutes of processor time.
 """
 
 import argparse
+import csv
 import json
 import re
 import resource
@@ -17,8 +18,9 @@ import sys
 import time
 from pathlib import Path
 
+import navigator_study
 from calibrate_odometer import SCALE, calibrate
-from study import ROOT, compare, table
+from study import ROOT, compare, table, trial_columns, with_interval
 
 REFERENCE = ROOT / "results/reference/matthies1995.json"
 HAZARD_REFERENCE = ROOT / "results/reference/matthies1995_hazard_detection.json"
@@ -53,6 +55,21 @@ CAUSES = [
 # Causes that change the soil, on which the odometer is calibrated.
 SOILS = {"stiff_sand", "hard_ground"}
 FIDELITY = ["obstacles_0.28", "obstacles_0.85", "nominal", "vl2"]
+# Drives with a map: name of the run, scenario, settings.
+GESTALT = [
+    ("narrow", "gestalt_narrow_course", []),
+    ("vl2", "gestalt_viking_lander_2", []),
+    ("vl2_oracle", "gestalt_viking_lander_2", ["sensors.localization=oracle"]),
+    ("error", "gestalt_localization_error", []),
+    ("error_oracle", "gestalt_localization_error", ["sensors.localization=oracle"]),
+]
+GESTALT_NAMES = {
+    "narrow": "narrow_course, 5 m",
+    "vl2": "viking_lander_2, 17.5 m",
+    "vl2_oracle": "the same, perfect localization",
+    "error": "localization_error, 7.6 m nominal",
+    "error_oracle": "the same, perfect localization",
+}
 MEANS = ("mean_a", "mean_b", "difference", "ci95_low", "ci95_high")
 QUASI_STATIC = ["rover.fidelity=quasi_static"]
 
@@ -245,7 +262,76 @@ def envelope(study):
                          "95 %"], rows)
 
 
-TABLES = {f.__name__: f for f in (comparison, hazards, errors, envelope, abundance, causes, fidelity, speed)}
+def failures(summary):
+    outcomes = {name: count for name, count in summary["outcomes"].items()
+                if count and name not in ("goal_reached", "false_goal")}
+    return ", ".join(f"{name} {count}" for name, count in outcomes.items()) or "-"
+
+
+def gestalt(study):
+    """The two drives of Goldberg 2002, their failures and distances, and what localization does."""
+    rows = []
+    for name, scenario, settings in GESTALT:
+        summary = study.run("gestalt_" + name, scenario, 500, settings)
+        distance, speed = summary["distance_m"], summary["net_rate_m_s"]
+        looks = trial_columns(study.folder("gestalt_" + name, scenario))
+        images, moves = sum(looks["image_sets"]), sum(looks["moves"]) + sum(looks["point_turns"])
+        rows.append([GESTALT_NAMES[name], rate(summary), rate(summary, "true_success"),
+                     failures(summary),
+                     " / ".join(f"{distance[key]:.1f}" for key in ("min", "median", "p95", "max")),
+                     f"{100.0 * speed['mean']:.2f}", f"{images / moves:.2f}",
+                     trials_per_second(summary)])
+    return table(["500 trials", "declared success", "true success", "failures",
+                  "distance, min / median / 95 % / max (m)", "mean speed (cm/s)",
+                  "image sets a move", "trials per CPU-second"], rows)
+
+
+def navigators(study):
+    """Both navigators over abundance, from the study that scripts/navigator_study.py left."""
+    with open(ROOT / "results/studies/navigators.csv", encoding="utf-8", newline="") as file:
+        runs = {(row["rover"], row["k_per_m2"], row["arm"]): row for row in csv.DictReader(file)}
+    with open(ROOT / "results/studies/navigators_pairs.csv", encoding="utf-8", newline="") as file:
+        pairs = [row for row in csv.DictReader(file)
+                 if (row["first"], row["second"]) == navigator_study.MAIN]
+    rows = []
+    for row in pairs:
+        both = [runs[row["rover"], row["k_per_m2"], arm] for arm in navigator_study.MAIN]
+        number = lambda key: float(row[key])
+        rows.append([row["rover"], row["k_per_m2"],
+                     *(f"{100 * float(run['declared']):.0f} / {100 * float(run['true']):.0f}"
+                       for run in both),
+                     f"{number('true_points'):+.0f} ({number('true_low'):+.0f}.."
+                     f"{number('true_high'):+.0f})", f"{number('true_holm'):.2g}",
+                     paired_mean(row, "all", "true_distance_m", 1.0, 1),
+                     paired_mean(row, "arrived", "true_distance_m", 1.0, 1),
+                     paired_mean(row, "all", "sim_time_s", 1.0 / 60.0, 0),
+                     paired_mean(row, "all", "energy_wh", 1.0, 1)])
+    return table(["rover", "k (1/m2)", "behaviour: declared / true (%)",
+                  "GESTALT: declared / true (%)", "difference of true success (points)", "Holm p",
+                  "distance (m)", "the same where both arrived", "time (min)", "energy (Wh)"], rows)
+
+
+def paired_mean(row, trials, column, scale, digits):
+    values = [float(row[f"{trials}_{column}_{key}"]) for key in
+              ("difference", "ci95_low", "ci95_high")]
+    text = with_interval(values, digits, scale)
+    return text if trials == "all" else f"{text}, n {float(row[f'{trials}_{column}_n']):.0f}"
+
+
+def navigator_speed(study):
+    """Trials per CPU-second of both navigators among the same rocks, 20 and 200 trials."""
+    rows = []
+    for name, scenario in (("behaviour, light stripe", "gestalt_abundance_behaviour"),
+                           ("GESTALT, stereo", "gestalt_abundance")):
+        slow = study.run("multibody_speed", scenario, 20, ["rover.fidelity=multibody"])
+        fast = study.run("quasi_static_speed", scenario, 200)
+        rows.append([name, trials_per_second(slow), trials_per_second(fast)])
+    return table(["Athena SDM, 7.6 m of nominal terrain, one core", "multibody", "quasi-static"],
+                 rows)
+
+
+TABLES = {f.__name__: f for f in (comparison, hazards, errors, envelope, abundance, causes, fidelity,
+                                 speed, gestalt, navigators, navigator_speed)}
 
 
 def replace(text, name, content):
