@@ -275,7 +275,7 @@ def gestalt(study):
         summary = study.run("gestalt_" + name, scenario, 500, settings)
         distance, speed = summary["distance_m"], summary["net_rate_m_s"]
         looks = trial_columns(study.folder("gestalt_" + name, scenario))
-        images, moves = sum(looks["image_sets"]), sum(looks["moves"]) + sum(looks["point_turns"])
+        images, moves = sum(looks["image_sets"]), sum(looks["moves"])  # turns in place among them
         rows.append([GESTALT_NAMES[name], rate(summary), rate(summary, "true_success"),
                      failures(summary),
                      " / ".join(f"{distance[key]:.1f}" for key in ("min", "median", "p95", "max")),

@@ -141,8 +141,8 @@ void AddCompareCommand(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<CompareOptions>();
   CLI::App* command = app.add_subcommand(
       "compare",
-      "Compares two runs: drives trial by trial where their seeds are the same, measurements cell\n"
-      "by cell (exit code 1 where a rate differs)");
+      "Compares two runs: drives trial by trial where their seeds are the same (exit code 0: they\n"
+      "describe), measurements cell by cell (exit code 1 where a rate differs)");
   command->add_option("RUN_A", options->first, "folder of a run")->required();
   command->add_option("RUN_B", options->second, "folder of a run")->required();
   command->add_option("--csv", options->csv,

@@ -177,6 +177,14 @@ std::vector<Record> Arrived(std::span<const Record> records) {
   return arrived;
 }
 
+// Consecutive trials share a layout, so that equal neighbours are enough to know.
+bool SharesLayouts(const ComparedRun& run) {
+  const auto layout = statistics::ColumnIndex(run.schema, "layout");
+  if (!layout) return false;
+  const std::vector<double> layouts = statistics::ColumnValues(run.records, *layout);
+  return std::adjacent_find(layouts.begin(), layouts.end()) != layouts.end();
+}
+
 void CompareInPairs(const ComparedRun& first, const ComparedRun& second, bool drives,
                     RunComparison& result) {
   const std::vector<Pair> pairs = Pairs(first, second);
@@ -210,6 +218,7 @@ RunComparison CompareRuns(const ComparedRun& first, const ComparedRun& second) {
   RunComparison result;
   result.paired = first.seed == second.seed;
   result.same_terrain = first.fields == second.fields;
+  result.shared_layouts = SharesLayouts(first) || SharesLayouts(second);
   if (result.paired) {
     CompareInPairs(first, second, drives, result);
   } else {

@@ -49,7 +49,10 @@ struct ColumnComparison {
 
 struct RunComparison {
   bool paired = false;
-  std::int64_t pairs = 0;    // trials that both runs finished without a simulator fault
+  std::int64_t pairs = 0;  // trials that both runs finished without a simulator fault
+  // Trials that share their rocks with another one (course.trials_per_layout), in either run:
+  // p-values and intervals, which take trials as independent, are then too sure.
+  bool shared_layouts = false;
   bool same_terrain = true;  // equal seed and index mean equal rocks, start and goal
   std::vector<SuccessComparison> successes;  // none where nothing drives
   std::vector<ColumnComparison> columns;     // of both schemas, all trials

@@ -77,6 +77,11 @@ std::string RunComparisonText(const ComparedRun& first, const ComparedRun& secon
       fmt::format("A: {}, seed {}, {} trials\nB: {}, seed {}, {} trials\n", first.name, first.seed,
                   first.records.size(), second.name, second.seed, second.records.size());
   text += Pairing(comparison);
+  if (comparison.shared_layouts) {
+    text +=
+        "Trials share rock layouts: intervals and p-values take trials as independent, and are too "
+        "sure.\n\n";
+  }
   for (const SuccessComparison& success : comparison.successes) {
     text += SuccessLines(success, comparison.paired);
   }

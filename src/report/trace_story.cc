@@ -117,7 +117,42 @@ std::vector<Fold> FoldsOf(const Trace& trace, StoryLength length) {
   return folds;
 }
 
-std::string_view Noun(std::string_view kind) { return kind == "hazard" ? "hazard scan" : kind; }
+struct EventKind {
+  std::string_view name;
+  std::string_view singular;
+  std::string_view plural;
+};
+
+// In the order in which a folded line names them. Looks are told where nothing else happened.
+constexpr EventKind kLook{"look", "look", "looks"};
+constexpr std::array<EventKind, 5> kEventKinds{{{"chosen", "choice", "choices"},
+                                                {"hazard", "hazard scan", "hazard scans"},
+                                                {"felt", "felt hazard", "felt hazards"},
+                                                {"scrape", "scrape", "scrapes"},
+                                                {"reflection", "reflection", "reflections"}}};
+
+// What a folded line keeps of an event: of a choice the motion, without its votes.
+std::string Short(const TraceEvent& event) {
+  return event.detail.substr(0, event.detail.find(':'));
+}
+
+// "12 hazard scans ..#.. to .#...", of the events of one kind; empty where there are none.
+std::string Told(Fold fold, const EventKind& kind) {
+  const TraceEvent* first = nullptr;
+  const TraceEvent* last = nullptr;
+  int count = 0;
+  for (const TraceEvent& event : fold) {
+    if (event.kind != kind.name) continue;
+    if (first == nullptr) first = &event;
+    last = &event;
+    ++count;
+  }
+  if (count == 0) return "";
+  std::string text = fmt::format("{} {}", count, count == 1 ? kind.singular : kind.plural);
+  if (!last->detail.empty()) text += fmt::format(" {}", Short(*first));
+  if (Short(*first) != Short(*last)) text += fmt::format(" to {}", Short(*last));
+  return text;
+}
 
 // "12 hazard scans ..#.. to .#..., 2 scrapes".
 std::string What(Fold fold) {
@@ -126,23 +161,11 @@ std::string What(Fold fold) {
     return fold.front().kind + (detail.empty() ? "" : " ") + detail;
   }
   std::string text;
-  for (const std::string_view kind : {"hazard", "scrape", "reflection"}) {
-    const TraceEvent* first = nullptr;
-    const TraceEvent* last = nullptr;
-    int count = 0;
-    for (const TraceEvent& event : fold) {
-      if (event.kind != kind) continue;
-      if (first == nullptr) first = &event;
-      last = &event;
-      ++count;
-    }
-    if (count == 0) continue;
-    text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", count, Noun(kind),
-                        count == 1 ? "" : "s");
-    if (!last->detail.empty()) text += " " + first->detail;
-    if (count > 1 && first->detail != last->detail) text += " to " + last->detail;
+  for (const EventKind& kind : kEventKinds) {
+    const std::string told = Told(fold, kind);
+    if (!told.empty()) text += fmt::format("{}{}", text.empty() ? "" : ", ", told);
   }
-  return text;
+  return text.empty() ? Told(fold, kLook) : text;
 }
 
 // Rounded to a multiple of `unit`, without a negative zero.
@@ -211,6 +234,14 @@ std::string KeyFigures(const TracedTrial& trial) {
       "  {:.2f} m from the goal at ({:.2f}, {:.2f}) m; believed {:.2f} m\n",
       value("true_goal_distance_m"), trial.goal.x_m, trial.goal.y_m,
       std::hypot(trial.goal.x_m - value("believed_x_m"), trial.goal.y_m - value("believed_y_m")));
+  if (value("image_sets") > 0.0) {
+    text += fmt::format(
+        "  {:.0f} moves ({:.0f} turns in place), {:.0f} image sets ({:.0f} behind), {:.0f} stops "
+        "by "
+        "safeguards\n",
+        value("moves"), value("point_turns"), value("image_sets"), value("rear_image_sets"),
+        value("safeguard_stops"));
+  }
   text += fmt::format(
       "  {:.0f} scans ({:.0f} repeated), {:.0f} hazards believed, {:.0f} turns in place ({:.0f} "
       "deg "

@@ -117,6 +117,21 @@ TEST(CompareRuns, OtherFieldsAreNotCalledEqualRocks) {
               HasSubstr("other settings of terrain"));
 }
 
+TEST(CompareRuns, WarnsWhereTrialsShareTheirRocks) {
+  const truth::RecordSchema schema{{"layout", "1", ""}};
+  std::vector<Record> own;
+  std::vector<Record> shared;
+  for (std::uint64_t i = 0; i < 6; ++i) {
+    own.push_back({i, TrialOutcome::kGoalReached, "", {static_cast<double>(i)}});
+    shared.push_back({i, TrialOutcome::kGoalReached, "", {static_cast<double>(i / 3)}});
+  }
+  const ComparedRun each{"each", 1, schema, own};
+  const ComparedRun three{"three", 1, schema, shared};
+  EXPECT_FALSE(CompareRuns(each, each).shared_layouts);
+  EXPECT_TRUE(CompareRuns(each, three).shared_layouts);
+  EXPECT_THAT(RunComparisonText(each, three, CompareRuns(each, three)), HasSubstr("too sure"));
+}
+
 TEST(RunComparisonCsv, HoldsBothTables) {
   const std::string csv = RunComparisonCsv(TwoRuns(30, 8, 1, 11).Compare());
   EXPECT_THAT(csv, HasSubstr("\nall,true_distance_m,m,50,"));

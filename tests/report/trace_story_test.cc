@@ -29,6 +29,22 @@ TEST(TraceStory, TellsTurnsAndDrivesBetweenFoldedEvents) {
   EXPECT_THAT(story, HasSubstr("  1.00   0.00     0    1.50   0.00     0    2.00  3 hazard"));
 }
 
+TEST(TraceStory, FoldsLooksChoicesAndFeltHazards) {
+  TracedTrial trial = SampleTrial();
+  trial.trace.events = {{1.0, {}, "look", "ahead, 900 points"},
+                        {1.0, {}, "chosen", "forward left 0.55/m: vote 200"},
+                        {1.1, {}, "felt", "tilt ahead"},
+                        {1.2, {}, "look", "ahead, 800 points"},
+                        {1.2, {}, "chosen", "backward straight: vote 190"}};
+  EXPECT_THAT(TraceStory(trial, StoryLength::kFolded),
+              HasSubstr("  2 choices forward left 0.55/m to backward straight, 1 felt hazard tilt "
+                        "ahead"));
+  trial.trace.events.resize(1);
+  trial.trace.events.push_back({1.05, {}, "look", "behind, 700 points"});
+  EXPECT_THAT(TraceStory(trial, StoryLength::kFolded),
+              HasSubstr("  2 looks ahead, 900 points to behind, 700 points"));
+}
+
 TEST(TraceStory, EveryEventOnALineOfItsOwn) {
   const TracedTrial trial = SampleTrial();
   const std::string all = TraceStory(trial, StoryLength::kAll);
