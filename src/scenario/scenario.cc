@@ -6,6 +6,7 @@
 #include "core/archive.h"
 #include "core/error.h"
 #include "rover/body_boxes_params.h"
+#include "scenario/drive_checks.h"
 #include "sensing/stripe_layout_params.h"
 #include "sensing/stripe_view_params.h"
 
@@ -240,6 +241,7 @@ void Scenario::Visit(core::FieldVisitor& v) {
   RequireFinder(*this, v);
   RequireFreeView(*this, v);
   RequireMeasurable(*this, v);
+  RequireSoundDrive(*this, v);
 }
 
 }  // namespace rockyard::scenario

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/archive.h"
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/json_text.h"
@@ -48,18 +49,19 @@ TEST(GestaltFilesTest, EveryFileDrivesAPublishedOrNamedPair) {
     ++files;
     const std::string name = entry.path().stem().string();
     const Scenario scenario = Load(name);
-    const bool behaviour = name.ends_with("_behaviour");
+    const bool behaviour = name.find("_behaviour") != std::string::npos;
+    const bool light_stripe = name.ends_with("_behaviour");
     EXPECT_EQ(scenario.name, "gestalt_" + name);
     EXPECT_EQ(scenario.navigation.navigator,
               behaviour ? NavigatorKind::kPathfinder : NavigatorKind::kGestalt)
         << name;
     EXPECT_EQ(scenario.sensors.terrain_sensor,
-              behaviour ? TerrainSensor::kLightStripe : TerrainSensor::kStereo)
+              light_stripe ? TerrainSensor::kLightStripe : TerrainSensor::kStereo)
         << name;
     EXPECT_EQ(scenario.rover.fidelity, rover::Fidelity::kQuasiStatic) << name;
     EXPECT_EQ(scenario.clock.compute.computer, trial::Computer::kR3000) << name;
   }
-  EXPECT_EQ(files, 7);
+  EXPECT_EQ(files, 11);
 }
 
 TEST(GestaltFilesTest, RunsAreThoseOfTheFigures) {
@@ -118,6 +120,56 @@ TEST(GestaltFilesTest, PairsDifferInNavigatorAndSensorAlone) {
   }
   for (const char* name : {"abundance_rocky_3_2", "localization_error"}) {
     EXPECT_EQ(GroupText(Load("abundance"), "terrain"), GroupText(Load(name), "terrain")) << name;
+  }
+}
+
+// With the same sensor the two navigators see the same, and what the behaviour controller takes for
+// a hazard is what its vehicle cannot straddle.
+TEST(GestaltFilesTest, NavigatorsAreComparedWithTheSameStereo) {
+  for (const std::string name : {"abundance", "abundance_rocky_3_2"}) {
+    const Scenario map = Load(name);
+    const Scenario behaviour = Load(name + "_behaviour_stereo");
+    for (const char* group : {"terrain", "rover", "course", "referee", "clock", "energy"}) {
+      EXPECT_EQ(GroupText(map, group), GroupText(behaviour, group)) << name << " " << group;
+    }
+    EXPECT_EQ(core::DumpJson(core::WriteParams(map.sensors.stereo)),
+              core::DumpJson(core::WriteParams(behaviour.sensors.stereo)))
+        << name;
+    const rover::RoverGeometryParams& rover = behaviour.rover.geometry;
+    const perception::HazardParams& hazard = behaviour.perception.hazard;
+    EXPECT_EQ(hazard.neighbour_threshold_m, rover.belly_clearance_m) << name;
+    EXPECT_EQ(hazard.range_threshold_m, rover.belly_clearance_m) << name;
+    EXPECT_EQ(hazard.agreement, perception::ScanAgreement::kSingleScan) << name;
+    // One vehicle length of ground from the front on, a bin around each stripe of the array.
+    const perception::CloudElevationParams& array = behaviour.perception.cloud_elevations;
+    EXPECT_DOUBLE_EQ(array.near_m, 0.5 * rover.length_m) << name;
+    EXPECT_DOUBLE_EQ(array.far_m, 1.5 * rover.length_m) << name;
+    EXPECT_DOUBLE_EQ(array.half_width_m, 2.5 * behaviour.sensors.light_stripe.inner_stripe_y_m)
+        << name;
+  }
+}
+
+TEST(GestaltFilesTest, TheCroppedViewIsThatOfTheRoversOwnStripes) {
+  for (const std::string name : {"abundance", "abundance_rocky_3_2"}) {
+    const Scenario cropped = Load(name + "_behaviour_stereo_stripe");
+    Scenario full = Load(name + "_behaviour_stereo");
+    EXPECT_EQ(cropped.sensors.stereo.field_of_view, sensing::StereoFieldOfView::kStripe) << name;
+    const sensing::StripeWindowParams& window = cropped.sensors.stereo.stripe_window;
+    const sensing::LightStripeParams& stripes = cropped.sensors.light_stripe;
+    EXPECT_DOUBLE_EQ(window.near_m, stripes.front_x_m + stripes.row_ahead_m.front()) << name;
+    EXPECT_DOUBLE_EQ(window.far_m, stripes.front_x_m + stripes.row_ahead_m.back()) << name;
+    EXPECT_DOUBLE_EQ(window.half_width_m, stripes.outer_stripe_y_m) << name;
+    const perception::CloudElevationParams& array = cropped.perception.cloud_elevations;
+    EXPECT_EQ(array.near_m, window.near_m) << name;
+    EXPECT_EQ(array.far_m, window.far_m) << name;
+    EXPECT_EQ(array.half_width_m, window.half_width_m) << name;
+    // Nothing else differs from the full view.
+    full.sensors.stereo.field_of_view = sensing::StereoFieldOfView::kStripe;
+    full.perception.cloud_elevations = array;
+    for (const char* group :
+         {"terrain", "rover", "sensors", "perception", "navigation", "course"}) {
+      EXPECT_EQ(GroupText(cropped, group), GroupText(full, group)) << name << " " << group;
+    }
   }
 }
 

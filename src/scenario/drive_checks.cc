@@ -1,0 +1,140 @@
+#include "scenario/drive_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+
+namespace rockyard::scenario {
+namespace {
+
+// Lengths that are written in two places of a file agree to this.
+constexpr double kSame_m = 1e-9;
+
+// Distance from R's origin, straight ahead, up to which cameras show level ground: the end of their
+// range, or the upper edge of the image where that meets the ground before.
+double GroundReach_m(const sensing::StereoParams& stereo) {
+  const sensing::StereoMountParams& mount = stereo.front;
+  const double range_m = std::sqrt(
+      std::max(stereo.max_range_m * stereo.max_range_m - mount.height_m * mount.height_m, 0.0));
+  const double upper_rad = mount.pitch_rad - 0.5 * stereo.vertical_fov_rad;
+  const double image_m = upper_rad > 0.0 ? mount.height_m / std::tan(upper_rad)
+                                         : std::numeric_limits<double>::infinity();
+  return mount.ahead_m + std::min(range_m, image_m);
+}
+
+// Distance from which they show it: the lower edge of the image.
+double GroundStart_m(const sensing::StereoParams& stereo) {
+  const sensing::StereoMountParams& mount = stereo.front;
+  const double lower_rad =
+      std::min(mount.pitch_rad + 0.5 * stereo.vertical_fov_rad, 0.5 * std::numbers::pi);
+  return mount.ahead_m + mount.height_m / std::tan(lower_rad);
+}
+
+bool HoldsCameras(const rover::RoverGeometryParams& rover, double ahead_m) {
+  return ahead_m >= -0.5 * rover.length_m && ahead_m <= rover.length_m;
+}
+
+void RequireCameras(const Scenario& scenario, core::FieldVisitor& v) {
+  const rover::RoverGeometryParams& rover = scenario.rover.geometry;
+  const sensing::StereoParams& stereo = scenario.sensors.stereo;
+  constexpr std::string_view kElsewhere =
+      "puts the cameras behind the rover or more than half its length beyond its end";
+  constexpr std::string_view kMount =
+      "use -length_m / 2 to length_m of rover.geometry, or the cameras of that rover "
+      "(scenarios/sensors/stereo_*.json)";
+  v.Require("sensors.stereo.front.ahead_m", HoldsCameras(rover, stereo.front.ahead_m), kElsewhere,
+            kMount);
+  v.Require("sensors.stereo.rear.ahead_m", HoldsCameras(rover, stereo.rear.ahead_m), kElsewhere,
+            kMount);
+}
+
+// The array that the behaviour controller judges: a stripe whose first two rows are not seen is a
+// hazard, so that an array beyond the view would stop every rover.
+void RequireArray(const Scenario& scenario, core::FieldVisitor& v) {
+  const sensing::StereoParams& stereo = scenario.sensors.stereo;
+  const perception::CloudElevationParams& array = scenario.perception.cloud_elevations;
+  v.Require("perception.cloud_elevations.far_m", array.far_m <= GroundReach_m(stereo) + kSame_m,
+            "lies beyond the level ground that sensors.stereo shows (max_range_m, front)",
+            "use a shorter array, a longer range, or cameras that look less far down");
+  const double row_m = (array.far_m - array.near_m) / static_cast<double>(array.rows);
+  v.Require("perception.cloud_elevations.near_m", array.near_m + row_m > GroundStart_m(stereo),
+            "begins with a row of bins nearer than any ground that sensors.stereo shows (front)",
+            "begin farther away, or use fewer rows");
+  // Bins do not overlap: their points add up to no more than the pixels of an image.
+  const double pixels = static_cast<double>(stereo.columns) * static_cast<double>(stereo.rows);
+  const double needed =
+      2.0 * static_cast<double>(array.stripes) * static_cast<double>(array.min_points);
+  v.Require("perception.cloud_elevations.min_points", needed <= pixels,
+            "asks for more points in the first two rows of bins than sensors.stereo has pixels "
+            "(columns times rows), so that some stripe would always be a hazard",
+            "use fewer points");
+  const sensing::StripeWindowParams& window = stereo.stripe_window;
+  v.Require("perception.cloud_elevations",
+            stereo.field_of_view == sensing::StereoFieldOfView::kFull ||
+                (array.near_m >= window.near_m - kSame_m && array.far_m <= window.far_m + kSame_m &&
+                 array.half_width_m <= window.half_width_m + kSame_m),
+            "reaches beyond sensors.stereo.stripe_window, where field_of_view is stripe",
+            "use near_m, far_m and half_width_m of the window");
+}
+
+bool IsFree(const terrain::ListedRocksParams& rocks, double x_m, double y_m, double clear_m) {
+  for (std::size_t i = 0; i < rocks.x_m.size(); ++i) {
+    const double centre_m = std::hypot(rocks.x_m[i] - x_m, rocks.y_m[i] - y_m);
+    if (centre_m < clear_m + 0.5 * rocks.diameter_m[i]) return false;
+  }
+  return true;
+}
+
+// Random rocks keep away from start and goal, listed ones stand where they were put.
+void RequireFreeEnds(const Scenario& scenario, core::FieldVisitor& v) {
+  const terrain::RockFieldParams& rocks = scenario.terrain.rocks;
+  const terrain::ListedRocksParams& listed = rocks.listed;
+  // Lists of different lengths have been refused by their own group.
+  const bool complete =
+      listed.y_m.size() == listed.x_m.size() && listed.diameter_m.size() == listed.x_m.size();
+  if (rocks.kind != terrain::RockFieldKind::kListed || !complete) return;
+  const trial::CourseParams& course = scenario.course;
+  constexpr std::string_view kMove =
+      "move the rock or the course, or use a smaller clear_radius_m where that is meant";
+  v.Require("terrain.rocks.listed.x_m",
+            IsFree(listed, course.start_x_m, course.start_y_m, rocks.clear_radius_m),
+            "puts a rock nearer to course.start_x_m, start_y_m than terrain.rocks.clear_radius_m",
+            kMove);
+  v.Require("terrain.rocks.listed.x_m",
+            IsFree(listed, course.goal_x_m, course.goal_y_m, rocks.clear_radius_m),
+            "puts a rock nearer to course.goal_x_m, goal_y_m than terrain.rocks.clear_radius_m",
+            kMove);
+}
+
+bool IsLike(double believed_m, double true_m) {
+  return believed_m <= 2.0 * true_m && believed_m >= 0.5 * true_m;
+}
+
+void RequireOwnSize(const Scenario& scenario, core::FieldVisitor& v) {
+  const navigation::GestaltRoverParams& believed = scenario.navigation.gestalt.map.rover;
+  const rover::RoverGeometryParams& rover = scenario.rover.geometry;
+  if (!believed.modelled) return;
+  constexpr std::string_view kModel =
+      "use the size of the rover, e.g. \"extends\": scenarios/navigation/gestalt_rocky_3_2.json in "
+      "navigation.gestalt";
+  v.Require("navigation.gestalt.map.rover.length_m", IsLike(believed.length_m, rover.length_m),
+            "is more than a factor of two from rover.geometry.length_m", kModel);
+  v.Require("navigation.gestalt.map.rover.width_m", IsLike(believed.width_m, rover.width_m),
+            "is more than a factor of two from rover.geometry.width_m", kModel);
+}
+
+}  // namespace
+
+void RequireSoundDrive(const Scenario& scenario, core::FieldVisitor& v) {
+  if (scenario.experiment != ExperimentKind::kDrive) return;
+  const bool stereo = scenario.sensors.terrain_sensor == TerrainSensor::kStereo;
+  const bool behaviour = scenario.navigation.navigator == NavigatorKind::kPathfinder;
+  if (stereo) RequireCameras(scenario, v);
+  if (stereo && behaviour) RequireArray(scenario, v);
+  if (!behaviour) RequireOwnSize(scenario, v);
+  RequireFreeEnds(scenario, v);
+}
+
+}  // namespace rockyard::scenario

@@ -1,0 +1,19 @@
+// Conditions across modules of a drive: combinations that every module accepts and that mislead.
+#pragma once
+
+#include "core/fields.h"
+#include "scenario/scenario.h"
+
+namespace rockyard::scenario {
+
+// Requires of groups that are in use, and of no others:
+// - stereo cameras are on the rover: from its rear edge to half its length ahead of its front;
+// - the elevation array that the behaviour controller takes from stereo lies on level ground that
+//   the cameras ahead can show (bounds that no view exceeds; the view may be narrower), and asks
+//   for no more points than an image has pixels;
+// - listed rocks leave start and goal of a drive free by terrain.rocks.clear_radius_m;
+// - GESTALT takes its vehicle for at most twice and at least half as long and wide as it is.
+// Each failure names the parameter, what is wrong and a remedy.
+void RequireSoundDrive(const Scenario& scenario, core::FieldVisitor& v);
+
+}  // namespace rockyard::scenario

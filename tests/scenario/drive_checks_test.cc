@@ -1,0 +1,102 @@
+// Settings that every module accepts alone and that would mislead together are refused, where the
+// groups are in use.
+#include "scenario/drive_checks.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "scenario/load.h"
+
+namespace rockyard::scenario {
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+std::vector<core::Problem> ProblemsOf(const std::string& name, const Overrides& overrides) {
+  const auto folder = std::filesystem::path(ROCKYARD_SOURCE_DIR) / "scenarios" / "gestalt";
+  try {
+    LoadScenario(folder / (name + ".json"), overrides);
+  } catch (const core::UserError& error) {
+    return error.problems();
+  }
+  return {};
+}
+
+// One setting beyond its limit, and the same within it.
+struct Limit {
+  std::string label;
+  std::string scenario;
+  std::string beyond;
+  std::string within;
+  std::string path;
+};
+
+std::ostream& operator<<(std::ostream& out, const Limit& limit) { return out << limit.label; }
+
+class DriveLimitTest : public testing::TestWithParam<Limit> {};
+
+TEST_P(DriveLimitTest, RefusesWhatMisleadsAndNothingElse) {
+  const Limit& limit = GetParam();
+  const std::vector<core::Problem> problems = ProblemsOf(limit.scenario, {limit.beyond});
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].path, limit.path);
+  EXPECT_FALSE(problems[0].reason.empty());
+  EXPECT_FALSE(problems[0].suggestion.empty());
+  EXPECT_TRUE(ProblemsOf(limit.scenario, {limit.within}).empty());
+}
+
+const std::string kStereo = "abundance_behaviour_stereo";
+const std::string kArray = "perception.cloud_elevations";
+const std::string kListed = "terrain.rocks.listed.x_m";
+const std::string kSize = "navigation.gestalt.map.rover";
+
+// Closed forms, for cameras at x = 0.40 m, 0.45 m high, range 4 m: level ground ends at
+// 0.4 + sqrt(4^2 - 0.45^2) = 4.375 m. 45 deg down with 90 deg of view it begins under the cameras
+// at 0.4 m: of rows of (1.56 m - near_m) / 4 the first ends there for near_m = 0.0133 m. An image
+// of 128 x 128 pixels holds 1638 points for each of the ten bins of two rows.
+INSTANTIATE_TEST_SUITE_P(
+    Drives, DriveLimitTest,
+    testing::Values(
+        Limit{"front_cameras", "abundance", "sensors.stereo.front.ahead_m=-0.53",
+              "sensors.stereo.front.ahead_m=-0.51", "sensors.stereo.front.ahead_m"},
+        Limit{"rear_cameras", "abundance", "sensors.stereo.rear.ahead_m=1.05",
+              "sensors.stereo.rear.ahead_m=1.03", "sensors.stereo.rear.ahead_m"},
+        Limit{"array_too_long", kStereo, kArray + ".far_m=4.38", kArray + ".far_m=4.37",
+              kArray + ".far_m"},
+        Limit{"array_too_near", kStereo, kArray + ".near_m=0.01", kArray + ".near_m=0.02",
+              kArray + ".near_m"},
+        Limit{"more_points_than_pixels", kStereo, kArray + ".min_points=1639",
+              kArray + ".min_points=1638", kArray + ".min_points"},
+        Limit{"array_beyond_the_window", kStereo + "_stripe", kArray + ".half_width_m=0.6",
+              kArray + ".half_width_m=0.5", kArray},
+        // Rocks of 0.4 m at (0.6, 1.8) and (3.8, 0.2) keep 0.8 m from the flank, 1 m from the
+        // centre: y = 1.8 - sqrt(1 - 0.6^2) = 1.0 m, x = 3.8 + sqrt(1 - 0.2^2) = 4.780 m.
+        Limit{"start_on_a_rock", "narrow_course", "course.start_y_m=1.01", "course.start_y_m=0.99",
+              kListed},
+        Limit{"goal_on_a_rock", "narrow_course", "course.goal_x_m=4.77", "course.goal_x_m=4.79",
+              kListed},
+        Limit{"model_too_short", "abundance", kSize + ".length_m=0.51", kSize + ".length_m=0.53",
+              kSize + ".length_m"},
+        Limit{"model_too_wide", "abundance", kSize + ".width_m=1.69", kSize + ".width_m=1.67",
+              kSize + ".width_m"}),
+    [](const auto& tested) { return tested.param.label; });
+
+TEST(DriveChecksTest, GroupsThatDoNothingMayHoldAnything) {
+  const Overrides odd = {"sensors.stereo.front.ahead_m=-2", kArray + ".far_m=15",
+                         kArray + ".min_points=90000"};
+  EXPECT_TRUE(ProblemsOf("abundance_behaviour", odd).empty());
+  EXPECT_TRUE(ProblemsOf("abundance", {kArray + ".far_m=15"}).empty());
+  EXPECT_TRUE(ProblemsOf("abundance_behaviour", {kSize + ".length_m=3"}).empty());
+  EXPECT_TRUE(ProblemsOf("abundance", {kSize + ".length_m=3", kSize + ".modelled=false"}).empty());
+  EXPECT_TRUE(
+      ProblemsOf("narrow_course", {"course.start_y_m=1.4", "terrain.rocks.kind=none"}).empty());
+}
+
+}  // namespace
+}  // namespace rockyard::scenario
