@@ -333,7 +333,7 @@ if [ "$1" = compare ]; then
   echo "                    B - A +0.0 points (95 % interval -42.0 .. +42.0)"
   echo "                    both 1, only A 0, only B 0, neither 2; McNemar, exact: p = 1"
   { echo trials,column,unit,n,mean_a,mean_b,difference,ci95_low,ci95_high
-    for column in true_distance_m sim_time_s energy_wh; do
+    for column in true_distance_m active_time_s active_energy_wh; do
       echo "all,$column,m,3,6,9,3,2.5,3.5"
       echo "arrived,$column,m,0,,,,,"
     done; } > "$5"
@@ -356,24 +356,27 @@ printf 'trial,outcome,detail\\n0,goal_reached,\\n1,no_path,\\n2,no_path,\\n' > "
         self.assertEqual(result.returncode, 0, result.stderr)
         calls = self.called("rockyard")
         runs = [line for line in calls if line.startswith("run")]
-        # Two rovers: five abundances with two arms, and at two of them two more.
-        self.assertEqual(len(runs), 2 * (5 * 2 + 2 * 2))
-        for rover, behaviour in (("abundance.json", "abundance_behaviour.json"),
-                                 ("abundance_rocky_3_2.json", "abundance_rocky_3_2_behaviour.json")):
-            self.assertEqual(sum(f"gestalt/{rover}" in line for line in runs), 7)
-            self.assertEqual(sum(f"gestalt/{behaviour}" in line for line in runs), 7)
-        self.assertEqual(sum("field_of_view=stripe" in line for line in runs), 4)
-        self.assertEqual(sum("terrain_sensor=stereo" in line for line in runs), 4)
-        self.assertEqual(sum("k_per_m2=0.013" in line for line in runs), 8)
+        # Two rovers: five abundances with two arms, and at two of them three more.
+        self.assertEqual(len(runs), 2 * (5 * 2 + 2 * 3))
+        for rover in ("abundance", "abundance_rocky_3_2"):
+            for ending, count in (("", 7), ("_behaviour", 5), ("_behaviour_stereo", 2),
+                                  ("_behaviour_stereo_stripe", 2)):
+                self.assertEqual(sum(f"gestalt/{rover}{ending}.json" in line for line in runs), count)
+        cropped = [line for line in runs if "field_of_view=stripe" in line]
+        self.assertEqual(len(cropped), 4)
+        self.assertNotIn("_behaviour", "".join(line.split("--out")[0] for line in cropped))
+        # No arm takes another sensor by a setting: thresholds belong to the sensor.
+        self.assertFalse(any("terrain_sensor=" in line or "navigator=" in line for line in runs))
+        self.assertEqual(sum("k_per_m2=0.013" in line for line in runs), 10)
         for line in runs:
             self.assertIn("--trials 3 --seed 1", line)
-        pairs = 2 * (5 + 2 * 4)
+        pairs = 2 * (5 + 2 * 5)
         self.assertEqual(sum(line.startswith("compare") for line in calls), pairs)
         rows = self.lines("navigators_pairs.csv")
         self.assertEqual(len(rows), 1 + pairs)
         self.assertIn("GESTALT", rows[1])
         self.assertIn(",66.7,7.7,92.3,0.5,", rows[1])
-        self.assertTrue(rows[1].endswith(",1.0,1.0"), rows[1])  # Holm: 26 tests of p 0.5, 26 of p 1
+        self.assertTrue(rows[1].endswith(",1.0,1.0"), rows[1])  # Holm: 30 tests of p 0.5, 30 of p 1
         table = "\n".join(self.lines("navigators.md"))
         self.assertIn("| +0 (-42..+42) | 1 | 3 | 3.00 (2.50..3.50) |", table)
         self.assertIn("| +0 (-42..+42) | 1 | 0 | - | - | - |", table)
@@ -383,7 +386,7 @@ printf 'trial,outcome,detail\\n0,goal_reached,\\n1,no_path,\\n2,no_path,\\n' > "
     def test_one_rover_alone(self):
         self.run_script("navigator_study.py", "--rovers", "rocky_3_2", "--set", "seed=4")
         runs = [line for line in self.called("rockyard") if line.startswith("run")]
-        self.assertEqual(len(runs), 14)
+        self.assertEqual(len(runs), 16)
         self.assertIn("held: seed=4", "\n".join(self.lines("navigators.md")))
 
     def test_scenarios_of_every_arm_are_there(self):
