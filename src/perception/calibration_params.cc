@@ -56,6 +56,8 @@ void CalibrationErrorParams::Visit(core::FieldVisitor& v) {
   v.Group("left_camera", left_camera, "left camera of the light stripe sensor");
   v.Group("right_camera", right_camera, "right camera of the light stripe sensor");
   v.Group("lasers", lasers, "lasers of the light stripe sensor");
+  v.Group("stereo_front", stereo_front, "stereo cameras at the front, as one rigid pair");
+  v.Group("stereo_rear", stereo_rear, "stereo cameras at the rear, as one rigid pair");
 }
 
 }  // namespace rockyard::perception

@@ -22,9 +22,10 @@ struct DriveCalibrationErrors {
   void Visit(core::FieldVisitor& v);
 };
 
-// One camera of the light stripe sensor: turned about its own axes (yaw, then pitch, then roll) and
-// shifted along those of R. Angles > 0: believed turned too far right side down, down, left; shifts
-// > 0: believed too far forward, left, up.
+// One camera of the light stripe sensor, or one rigid pair of stereo cameras, about its middle:
+// turned about its own axes (yaw, then pitch, then roll) and shifted along those of R. Angles > 0:
+// believed turned too far right side down, down, left, as seen from behind the camera; shifts > 0:
+// believed too far forward, left, up, as seen by the rover.
 struct CameraCalibrationErrors {
   double roll_rad = 0.0;
   double pitch_rad = 0.0;
@@ -48,6 +49,8 @@ struct CalibrationErrorParams {
   CameraCalibrationErrors left_camera;
   CameraCalibrationErrors right_camera;
   LaserCalibrationErrors lasers;
+  CameraCalibrationErrors stereo_front;
+  CameraCalibrationErrors stereo_rear;
 
   void Visit(core::FieldVisitor& v);
 };

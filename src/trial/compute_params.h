@@ -21,6 +21,7 @@ struct ComputeParams {
   Computer computer = Computer::kNone;
   double acquisition_s = 8.974;
   double behaviour_s = 0.0;
+  double move_overhead_s = 0.0;
 
   void Visit(core::FieldVisitor& v) {
     using core::Origin;
@@ -48,6 +49,15 @@ struct ComputeParams {
                       "take 13 ms",
             .study_low = 0.0,
             .study_high = 1.0});
+    v.Real("move_overhead_s", move_overhead_s,
+           {.doc = "time at rest that every move takes beyond the motion of its wheels, whichever "
+                   "computer and navigator: command, brakes, settling; at the power of computing",
+            .min = 0.0,
+            .max = 3600.0,
+            .origin = Origin::kCalibrated,
+            .source = "0 for a rover that moves on at once; 7.3 s for the Athena SDM: 15 s a move "
+                      "(Goldberg 2002 table 2) less the 7.66 s that the simulated rover's wheels "
+                      "turn for 35 cm of level sand"});
   }
 };
 

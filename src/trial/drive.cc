@@ -130,7 +130,7 @@ std::optional<Verdict> Drive::Tick() {
   }
   if (decision.look) return Look(*decision.look);
   turns_.Observe(decision.motion);
-  moves_.Observe(decision.motion);
+  if (moves_.Observe(decision.motion)) SpendOverhead();
   return Move(decision.motion, tick_);
 }
 
@@ -151,6 +151,13 @@ std::optional<Verdict> Drive::Look(messages::LookDirection direction) {
     watch_.OnBelieved(rover_->state().X_WR);
   }
   return AskReferee(Activity::kScanning, 0, sight_.time.total_s());
+}
+
+void Drive::SpendOverhead() {
+  const double overhead_s = scenario_.clock.compute.move_overhead_s;
+  if (overhead_s <= 0.0) return;
+  ledger_.Spend(Activity::kOverhead, overhead_s);
+  if (scenario_.sensors.gyro.accumulates_at_rest) UpdateEstimate(overhead_s, false);
 }
 
 std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const Stretch& stretch) {

@@ -43,6 +43,8 @@ class Drive {
   std::optional<Verdict> Look(messages::LookDirection direction);
   // What the navigator made of the last look.
   void ShowStep();
+  // What a move takes beyond the motion of wheels.
+  void SpendOverhead();
   std::optional<Verdict> Move(const messages::MotionCommand& motion, const Stretch& stretch);
 
   // Holds the command for so many physics steps.

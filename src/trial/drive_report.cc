@@ -38,6 +38,9 @@ void Drive::ReportErrors(truth::DriveRecord& record) const {
   record.heading_error_deg =
       math::RadToDeg(std::abs(math::WrapAngle(estimate.heading_rad - reference.heading_rad)));
   record.position_error_m = std::hypot(estimate.x_m - reference.x_m, estimate.y_m - reference.y_m);
+  if (navigator_->view() != nullptr) {
+    record.height_error_m = localizer_.HeightError(rover_->state());
+  }
 }
 
 void Drive::ReportLedger(truth::DriveRecord& record) const {
@@ -51,6 +54,11 @@ void Drive::ReportLedger(truth::DriveRecord& record) const {
   record.compute_time_s = ledger_.time_s(Activity::kComputing);
   record.imaging_energy_wh = ledger_.energy_wh(Activity::kImaging);
   record.compute_energy_wh = ledger_.energy_wh(Activity::kComputing);
+  record.steer_time_s = ledger_.time_s(Activity::kSteering);
+  record.move_overhead_time_s = ledger_.time_s(Activity::kOverhead);
+  record.stall_time_s = ledger_.time_s(Activity::kStalled);
+  record.active_time_s = ledger_.time_s() - record.stall_time_s;
+  record.active_energy_wh = ledger_.energy_wh() - ledger_.energy_wh(Activity::kStalled);
   if (ledger_.time_s() <= 0.0) return;
   const double again_s = static_cast<double>(lookout_.rescans()) * lookout_.look_time().total_s();
   record.net_rate_m_s = record.true_distance_m / ledger_.time_s();
@@ -64,6 +72,7 @@ void Drive::ReportCounts(truth::DriveRecord& record) const {
   record.rear_image_sets = static_cast<double>(lookout_.rear_image_sets());
   record.moves = static_cast<double>(moves_.moves());
   record.point_turns = static_cast<double>(moves_.point_turns());
+  record.reversals = static_cast<double>(moves_.reversals());
   record.hazards_believed = static_cast<double>(hazards_);
   record.turns_in_place = static_cast<double>(turns_.turns());
   record.scrapes = static_cast<double>(motion_sensors_->scrapes().episodes());

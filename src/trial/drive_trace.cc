@@ -26,6 +26,8 @@ std::string Name(Activity activity) {
       return "image";
     case Activity::kComputing:
       return "compute";
+    case Activity::kOverhead:
+      return "overhead";
   }
   return "";
 }

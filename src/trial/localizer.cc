@@ -33,6 +33,10 @@ void Localizer::Level(const messages::VehicleState& felt, double duration_s) {
   levelled_ = pose();
 }
 
+double Localizer::HeightError(const truth::RoverState& state) const {
+  return attitude().z_m - (state.X_WR.translation().z() - start_z_m_);
+}
+
 void Localizer::Apply(const messages::PoseUpdate& update) {
   dead_reckoning_.Apply(update);
   attitude_.Resume();

@@ -35,6 +35,9 @@ class Localizer {
     return oracle_ ? true_attitude_ : attitude_.estimate();
   }
 
+  // Believed less true height above the start, m.
+  double HeightError(const truth::RoverState& state) const;
+
  private:
   bool oracle_;
   perception::DeadReckoning dead_reckoning_;

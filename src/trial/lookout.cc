@@ -19,7 +19,11 @@ Lookout::Lookout(const scenario::Scenario& scenario, core::TrialKey key, ScanWat
       hazard_detector_(scenario.perception.hazard),
       look_time_(MakeLookTime(scenario)) {
   if (scenario.sensors.terrain_sensor == scenario::TerrainSensor::kStereo) {
-    stereo_.emplace(scenario.sensors.stereo);
+    const sensing::StereoParams& sensor = scenario.sensors.stereo;
+    const perception::CalibrationErrorParams& errors = scenario.perception.calibration;
+    stereo_.emplace(sensor);
+    misplaced_ahead_ = StereoMisplacement(sensor, errors, LookDirection::kAhead);
+    misplaced_behind_ = StereoMisplacement(sensor, errors, LookDirection::kBehind);
   }
 }
 
@@ -47,6 +51,10 @@ Sight Lookout::Scan(LookDirection direction, const terrain::Terrain& terrain,
 Sight Lookout::TakeImages(LookDirection direction, const terrain::Terrain& terrain,
                           const math::Transform& X_WR, const messages::AttitudeEstimate& attitude) {
   messages::PointCloud cloud = stereo_->Look(terrain, X_WR, key_, image_sets_, direction);
+  const auto& misplaced = direction == LookDirection::kAhead ? misplaced_ahead_ : misplaced_behind_;
+  if (misplaced) {
+    for (math::Vector3& p_RoP_R : cloud.points_R) p_RoP_R = *misplaced * p_RoP_R;
+  }
   ++image_sets_;
   if (direction == LookDirection::kBehind) ++rear_image_sets_;
   if (reads_points_) return {.time = look_time_, .cloud = std::move(cloud)};

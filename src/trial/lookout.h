@@ -63,6 +63,9 @@ class Lookout {
   bool reads_points_;  // the navigator
   HazardScanner scanner_;
   std::optional<sensing::StereoSensor> stereo_;
+  // Of the points that it sees, by a wrong calibration; none where it is right.
+  std::optional<math::Transform> misplaced_ahead_;
+  std::optional<math::Transform> misplaced_behind_;
   perception::Triangulator triangulator_;
   perception::CloudElevationParams cloud_elevations_;
   perception::HazardDetector hazard_detector_;

@@ -11,27 +11,37 @@ namespace rockyard::trial {
 // turn in place.
 class MoveCounter {
  public:
-  // Once a control tick, with what the navigator told.
-  void Observe(const messages::MotionCommand& motion) {
+  // Once a control tick, with what the navigator told; true where a move begins.
+  bool Observe(const messages::MotionCommand& motion) {
     const bool same = moving_ && motion.kind == last_.kind &&
                       motion.curvature_per_m == last_.curvature_per_m &&
                       motion.direction == last_.direction;
     moving_ = motion.kind != messages::MotionKind::kStop;
     last_ = motion;
-    if (same || !moving_) return;
+    if (same || !moving_) return false;
     ++moves_;
-    if (motion.kind == messages::MotionKind::kTurnInPlace) ++point_turns_;
+    if (motion.kind == messages::MotionKind::kTurnInPlace) {
+      ++point_turns_;
+    } else {
+      if (motion.direction == -way_) ++reversals_;
+      way_ = motion.direction;
+    }
+    return true;
   }
   void OnLook() { moving_ = false; }
 
   std::int64_t moves() const { return moves_; }
   std::int64_t point_turns() const { return point_turns_; }
+  // Arcs driven the other way than the last arc before, whatever lies between them.
+  std::int64_t reversals() const { return reversals_; }
 
  private:
   messages::MotionCommand last_;
   bool moving_ = false;
   std::int64_t moves_ = 0;
+  int way_ = 0;  // of the last arc, 0 before the first
   std::int64_t point_turns_ = 0;
+  std::int64_t reversals_ = 0;
 };
 
 }  // namespace rockyard::trial

@@ -2,10 +2,15 @@
 // (perception.calibration).
 #pragma once
 
+#include <optional>
+
+#include "math/pose.h"
 #include "messages/calibration.h"
+#include "messages/point_cloud.h"
 #include "perception/calibration_params.h"
 #include "rover/rover_params.h"
 #include "sensing/light_stripe_params.h"
+#include "sensing/stereo_params.h"
 
 namespace rockyard::trial {
 
@@ -14,5 +19,14 @@ messages::DriveCalibration OnboardDriveCalibration(
     const rover::RoverParams& rover, const perception::DriveCalibrationErrors& errors);
 messages::StripeCalibration OnboardStripeCalibration(
     const sensing::LightStripeParams& sensor, const perception::CalibrationErrorParams& errors);
+
+// What a wrong mount makes of the points that a pair of stereo cameras sees,
+//   p_believed = X_RC_believed X_RC_true^-1 p_true,
+// with C at the middle of the pair, x along its optical axis, y to its left. None where all errors
+// are zero, so that points stay as they are, bit for bit. What the pair sees follows its true
+// mount.
+std::optional<math::Transform> StereoMisplacement(const sensing::StereoParams& sensor,
+                                                  const perception::CalibrationErrorParams& errors,
+                                                  messages::LookDirection direction);
 
 }  // namespace rockyard::trial

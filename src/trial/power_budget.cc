@@ -25,6 +25,7 @@ double PowerBudget::Power(Activity activity) const {
     case Activity::kImaging:
       return base_W + stereo_imaging_W;
     case Activity::kComputing:
+    case Activity::kOverhead:
       return base_W + computing_W;
   }
   return base_W;

@@ -60,6 +60,13 @@ struct DriveRecord {
   double compute_time_s = 0.0;   // stereo, map and votes
   double imaging_energy_wh = 0.0;
   double compute_energy_wh = 0.0;
+  double steer_time_s = 0.0;          // wheels steering at rest
+  double move_overhead_time_s = 0.0;  // at rest about moves
+  double stall_time_s = 0.0;      // after a verdict of being stuck, until the batteries are empty
+  double active_time_s = 0.0;     // simulated time less that of the stall
+  double active_energy_wh = 0.0;  // energy less that of the stall
+  double reversals = 0.0;         // arcs driven the other way than the last arc before
+  double height_error_m = 0.0;    // believed - true height above the start, where there is a map
 };
 
 struct DriveColumn {
@@ -96,9 +103,14 @@ inline constexpr std::array kDriveColumns = {
     DriveColumn{"energy_wh", "Wh", "energy drawn", &DriveRecord::energy_wh},
     DriveColumn{"scans", "1", "hazard scans", &DriveRecord::scans},
     DriveColumn{"rescans", "1", "second and later scans at one pose", &DriveRecord::rescans},
-    DriveColumn{"hazards_believed", "1", "scans whose hazard was believed",
+    DriveColumn{"hazards_believed", "1",
+                "scans whose hazard was believed; 0 with a navigator that reports no hazards (a "
+                "map)",
                 &DriveRecord::hazards_believed},
-    DriveColumn{"turns_in_place", "1", "turns in place", &DriveRecord::turns_in_place},
+    DriveColumn{"turns_in_place", "1",
+                "turns in place, each until a motion of another kind or the other way round; a "
+                "look does not end one",
+                &DriveRecord::turns_in_place},
     DriveColumn{"turned_in_place_rad", "rad", "total true rotation of turns in place",
                 &DriveRecord::turned_in_place_rad},
     DriveColumn{"scrapes", "1", "episodes of body contact with a rock", &DriveRecord::scrapes},
@@ -118,10 +130,13 @@ inline constexpr std::array kDriveColumns = {
     DriveColumn{"single_scan_rate_m_s", "m/s", "the same without the time of rescans",
                 &DriveRecord::single_scan_rate_m_s},
     DriveColumn{"scan_energy_wh", "Wh", "energy of hazard scans", &DriveRecord::scan_energy_wh},
-    DriveColumn{"hazards_met", "1", "high rocks that came within reach of the hazard array",
+    DriveColumn{"hazards_met", "1",
+                "high rocks that came within reach of the hazard array; 0 with a navigator that "
+                "reports no hazards (a map)",
                 &DriveRecord::hazards_met},
     DriveColumn{"hazards_missed", "1",
-                "of these, driven onto with no hazard believed, of any rock, while within reach",
+                "of these, driven onto with no hazard believed, of any rock, while within reach; 0 "
+                "with a navigator that reports no hazards (a map)",
                 &DriveRecord::hazards_missed},
     DriveColumn{"contact_hazards", "1", "touches felt by contact switches",
                 &DriveRecord::contact_hazards},
@@ -132,7 +147,10 @@ inline constexpr std::array kDriveColumns = {
                 &DriveRecord::current_hazards},
     DriveColumn{"moves", "1", "motion commands, each until another one or a look",
                 &DriveRecord::moves},
-    DriveColumn{"point_turns", "1", "of these, turns in place", &DriveRecord::point_turns},
+    DriveColumn{"point_turns", "1",
+                "of these, turns in place; a turn that goes on after a look counts again, unlike "
+                "in turns_in_place",
+                &DriveRecord::point_turns},
     DriveColumn{"image_sets", "1", "pairs of stereo images", &DriveRecord::image_sets},
     DriveColumn{"rear_image_sets", "1", "of these, from rear cameras",
                 &DriveRecord::rear_image_sets},
@@ -147,6 +165,27 @@ inline constexpr std::array kDriveColumns = {
                 &DriveRecord::imaging_energy_wh},
     DriveColumn{"compute_energy_wh", "Wh", "energy of computing stereo, map and votes",
                 &DriveRecord::compute_energy_wh},
+    DriveColumn{"steer_time_s", "s", "simulated time steering wheels at rest",
+                &DriveRecord::steer_time_s},
+    DriveColumn{"move_overhead_time_s", "s",
+                "simulated time at rest about moves (clock.compute.move_overhead_s)",
+                &DriveRecord::move_overhead_time_s},
+    DriveColumn{"stall_time_s", "s",
+                "simulated time of a rover found stuck, until its batteries are empty; 0 where a "
+                "trial ends otherwise",
+                &DriveRecord::stall_time_s},
+    DriveColumn{"active_time_s", "s", "simulated time less stall_time_s",
+                &DriveRecord::active_time_s},
+    DriveColumn{"active_energy_wh", "Wh", "energy drawn less that of stall_time_s",
+                &DriveRecord::active_energy_wh},
+    DriveColumn{"reversals", "1",
+                "arcs driven the other way, forward or backward, than the last arc before, looks "
+                "and turns in place between them or not; backing off counts",
+                &DriveRecord::reversals},
+    DriveColumn{"height_error_m", "m",
+                "believed less true height above the start, at the end; 0 with a navigator that "
+                "keeps no map and has no use for it",
+                &DriveRecord::height_error_m},
 };
 
 }  // namespace rockyard::truth

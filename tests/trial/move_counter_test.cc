@@ -30,5 +30,36 @@ TEST(MoveCounterTest, AMoveIsOneCommandUntilAnotherOneOrALook) {
   EXPECT_EQ(counter.point_turns(), 1);
 }
 
+TEST(MoveCounterTest, SaysWhereAMoveBegins) {
+  constexpr MotionCommand kArc{MotionKind::kArc, 0.5, 1};
+  MoveCounter counter;
+  EXPECT_TRUE(counter.Observe(kArc));
+  EXPECT_FALSE(counter.Observe(kArc));
+  counter.OnLook();
+  EXPECT_TRUE(counter.Observe(kArc));
+  EXPECT_FALSE(counter.Observe(MotionCommand{}));
+}
+
+TEST(MoveCounterTest, ReversalsAreArcsTheOtherWayThanTheLastOne) {
+  constexpr MotionCommand kAhead{MotionKind::kArc, 0.5, 1};
+  constexpr MotionCommand kBack{MotionKind::kArc, -0.2, -1};
+  constexpr MotionCommand kTurn{MotionKind::kTurnInPlace, 0.0, -1};
+  MoveCounter counter;
+  counter.Observe(kBack);  // the first has nothing before it
+  counter.OnLook();
+  counter.Observe(kBack);
+  EXPECT_EQ(counter.reversals(), 0);
+  counter.Observe(kAhead);
+  EXPECT_EQ(counter.reversals(), 1);
+  counter.Observe(kTurn);  // to the right: no way of driving
+  EXPECT_EQ(counter.reversals(), 1);
+  counter.OnLook();
+  counter.Observe(kAhead);
+  EXPECT_EQ(counter.reversals(), 1);
+  counter.Observe(kTurn);
+  counter.Observe(kBack);
+  EXPECT_EQ(counter.reversals(), 2);
+}
+
 }  // namespace
 }  // namespace rockyard::trial
