@@ -10,7 +10,6 @@
 namespace rockyard::navigation {
 namespace {
 
-using messages::HazardSide;
 using messages::LookDirection;
 using messages::MotionCommand;
 using messages::MotionKind;
@@ -30,6 +29,13 @@ math::Transform BelievedPose(const NavigatorInput& input) {
   const PoseEstimate& e = input.estimate;
   return math::MakePose({e.x_m, e.y_m, input.attitude.z_m}, e.heading_rad, input.attitude.pitch_rad,
                         input.attitude.roll_rad);
+}
+
+// Whether something presses on the end of the vehicle that leads in the direction.
+bool Touches(const NavigatorInput& input, int direction) {
+  if (direction < 0) return input.touches_behind;
+  return input.vehicle_hazard != nullptr &&
+         input.vehicle_hazard->kind == messages::VehicleHazardKind::kContact;
 }
 
 }  // namespace
@@ -63,6 +69,10 @@ NavigatorDecision GestaltNavigator::Decide(const NavigatorInput& input) {
 
 void GestaltNavigator::OnPoseUpdate(const PoseEstimate& before, const PoseEstimate& after) {
   map_.Clear();
+  map_.BeginCycle(after.x_m, after.y_m);
+  felt_places_.Move(before, after, params_.drive.felt_radius_m, map_);
+  // The ground that a search has seen is forgotten: it is searched again.
+  searched_rad_ = 0.0;
   // Turned angles are differences of heading: keep what was already turned.
   anchor_.heading_rad += after.heading_rad - before.heading_rad;
   // Progress is counted from where the rover now believes to be.
@@ -97,30 +107,32 @@ NavigatorDecision GestaltNavigator::OnCloud(const NavigatorInput& input) {
 NavigatorDecision GestaltNavigator::Choose(const NavigatorInput& input) {
   MotionVote* chosen = ChooseArc(votes_, params_);
   const bool searched = searched_rad_ >= params_.drive.search_turn_rad - kRounding_rad;
-  const bool turns = !searched && TurnsInPlace(votes_, chosen, params_);
-  if (turns) chosen = SearchTurn(input.estimate);
+  MotionVote& turn = NextTurn(input.estimate);
+  const bool turns = !searched && TurnsInPlace(turn, chosen, params_);
+  if (turns) chosen = &turn;
   if (chosen != nullptr) MarkChoice(votes_, *chosen, params_);
   FillView(input);
   if (chosen == nullptr) return Finish(NavigatorStatus::kGaveUp);
-  if (turns) return Begin(Mode::kTurning, chosen->motion, 0.0, input);
+  search_direction_ = turns ? turn.motion.direction : 0;
+  if (turns) return Begin(Mode::kTurning, turn.motion, 0.0, input);
   searched_rad_ = 0.0;
-  search_direction_ = 0;
   const double left_m = TowardsGoal(input.estimate, goal_).distance_m;
   return Begin(Mode::kDriving, chosen->motion, std::min(params_.drive.step_m, left_m), input);
 }
 
 // A search turns one way only: the other way lies what it has just seen.
-MotionVote* GestaltNavigator::SearchTurn(const PoseEstimate& estimate) {
-  MotionVote* better = ChoosePointTurn(votes_, TowardsGoal(estimate, goal_).bearing_rad);
-  if (search_direction_ == 0) search_direction_ = better->motion.direction;
-  return search_direction_ < 0 ? &votes_.point_turns.front() : &votes_.point_turns.back();
+MotionVote& GestaltNavigator::NextTurn(const PoseEstimate& estimate) {
+  if (search_direction_ == 0) {
+    return *ChoosePointTurn(votes_, TowardsGoal(estimate, goal_).bearing_rad);
+  }
+  return search_direction_ < 0 ? votes_.point_turns.front() : votes_.point_turns.back();
 }
 
 NavigatorDecision GestaltNavigator::ContinueDrive(const NavigatorInput& input) {
   const double driven_m = input.estimate.distance_m - anchor_.distance_m;
   const bool feels = Feels(input);
-  if (!feels) felt_ever_since_ = false;
-  const bool counts = !felt_ever_since_ || driven_m >= params_.drive.felt_again_m;
+  if (!feels) felt_since_start_ = false;
+  const bool counts = !felt_since_start_ || driven_m >= params_.drive.felt_again_m;
   if (feels && counts) return OnFelt(input);
   if (driven_m < leg_m_ && !TimedOut(input)) return Move(motion_);
   return BeginCycle(input);
@@ -130,8 +142,8 @@ NavigatorDecision GestaltNavigator::ContinueTurn(const NavigatorInput& input) {
   const double turned_rad =
       motion_.direction * math::WrapAngle(input.estimate.heading_rad - anchor_.heading_rad);
   const bool feels = Feels(input);
-  if (!feels) felt_ever_since_ = false;
-  const bool stops = feels && !felt_ever_since_;
+  if (!feels) felt_since_start_ = false;
+  const bool stops = feels && !felt_since_start_;
   const bool turned_enough = turned_rad >= params_.arcs.point_turn_amount_rad;
   if (!stops && !turned_enough && !TimedOut(input)) return Move(motion_);
   searched_rad_ += std::abs(turned_rad);
@@ -139,13 +151,9 @@ NavigatorDecision GestaltNavigator::ContinueTurn(const NavigatorInput& input) {
 }
 
 NavigatorDecision GestaltNavigator::ContinueBackOff(const NavigatorInput& input) {
-  const bool touches = motion_.direction < 0 ? input.touches_behind
-                                             : input.vehicle_hazard != nullptr &&
-                                                   input.vehicle_hazard->kind ==
-                                                       messages::VehicleHazardKind::kContact;
   const double driven_m = input.estimate.distance_m - anchor_.distance_m;
-  if (driven_m < leg_m_ && !touches && !TimedOut(input)) return Move(motion_);
-  return BeginCycle(input);
+  const bool ends = driven_m >= leg_m_ || Touches(input, motion_.direction) || TimedOut(input);
+  return ends ? BeginCycle(input) : Move(motion_);
 }
 
 NavigatorDecision GestaltNavigator::OnFelt(const NavigatorInput& input) {
@@ -154,29 +162,12 @@ NavigatorDecision GestaltNavigator::OnFelt(const NavigatorInput& input) {
     search_direction_ = -motion_.direction;
     return BeginCycle(input);
   }
-  MarkFelt(input);
+  felt_places_.Feel(input, motion_.direction, params_.map.rover, params_.drive.felt_radius_m, map_);
   const double driven_m = input.estimate.distance_m - anchor_.distance_m;
   const double leg_m = std::min(driven_m, params_.drive.back_off_m);
-  if (leg_m <= 0.0) return BeginCycle(input);
+  if (leg_m <= 0.0 || Touches(input, -motion_.direction)) return BeginCycle(input);
   const MotionCommand back{motion_.kind, motion_.curvature_per_m, -motion_.direction};
   return Begin(Mode::kBackingOff, back, leg_m, input);
-}
-
-// What was felt lies at the end of the vehicle that led, on the side that the sensor names.
-void GestaltNavigator::MarkFelt(const NavigatorInput& input) {
-  const GestaltRoverParams& rover = params_.map.rover;
-  double aside = 0.0;
-  if (input.vehicle_hazard != nullptr) {
-    if (input.vehicle_hazard->side == HazardSide::kLeft) aside = 1.0;
-    if (input.vehicle_hazard->side == HazardSide::kRight) aside = -1.0;
-  }
-  const double x_m = 0.5 * motion_.direction * rover.length_m;
-  const double y_m = 0.5 * aside * rover.width_m;
-  const PoseEstimate& e = input.estimate;
-  const double cosine = std::cos(e.heading_rad);
-  const double sine = std::sin(e.heading_rad);
-  map_.MarkObstacle(e.x_m + cosine * x_m - sine * y_m, e.y_m + sine * x_m + cosine * y_m,
-                    params_.drive.felt_radius_m);
 }
 
 NavigatorDecision GestaltNavigator::Look(Mode mode) {
@@ -192,7 +183,7 @@ NavigatorDecision GestaltNavigator::Begin(Mode mode, const MotionCommand& motion
   leg_m_ = leg_m;
   anchor_ = input.estimate;
   began_s_ = input.time_s;
-  felt_ever_since_ = Feels(input);
+  felt_since_start_ = Feels(input);
   return Move(motion_);
 }
 
@@ -213,6 +204,7 @@ bool GestaltNavigator::Progresses(const PoseEstimate& estimate) {
     best_goal_distance_m_ = distance_m;
     fruitless_cycles_ = 0;
     felt_hazards_ = 0;
+    felt_places_.Forget();
     return true;
   }
   return ++fruitless_cycles_ <= params_.drive.max_fruitless_cycles;
@@ -220,7 +212,7 @@ bool GestaltNavigator::Progresses(const PoseEstimate& estimate) {
 
 bool GestaltNavigator::Feels(const NavigatorInput& input) const {
   const bool backward = motion_.kind == MotionKind::kArc && motion_.direction < 0;
-  return input.vehicle_hazard != nullptr || (backward && input.touches_behind);
+  return input.vehicle_hazard != nullptr || (backward && Touches(input, -1));
 }
 
 bool GestaltNavigator::TimedOut(const NavigatorInput& input) const {

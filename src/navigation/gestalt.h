@@ -9,14 +9,16 @@
 // Nothing to choose after turning in place by search_turn: given up.
 //
 // Drives and turns end by what is measured on board. A hazard that the rover feels on the way
-// (tilt, joint angles, motor current, contact) ends a drive: the rover marks an obstacle at the end
-// of the vehicle that was driven into it, backs off along the arc, and begins a cycle. The paper
-// names these safeguards, not what follows; all of it is assumed. Draws no random numbers.
+// (tilt, joint angles, motor current, contact) ends a drive: the rover marks an obstacle where it
+// feels it (FeltPlaces), backs off along the arc unless it touches something at that end too, and
+// begins a cycle. The paper names these safeguards, not what follows; all of it is assumed. Draws
+// no random numbers.
 #pragma once
 
 #include <cstdint>
 #include <limits>
 
+#include "navigation/gestalt_felt.h"
 #include "navigation/gestalt_map.h"
 #include "navigation/gestalt_params.h"
 #include "navigation/gestalt_votes.h"
@@ -30,8 +32,9 @@ class GestaltNavigator final : public Navigator {
 
   NavigatorDecision Decide(const NavigatorInput& input) override;
 
-  // Forgets the map, which lies where the rover no longer believes to be. A manoeuvre under way
-  // ends as it would have; the look after it finds the ground anew.
+  // Forgets the map, which lies where the rover no longer believes to be, but for what it felt
+  // since its last progress: no look would find that again. A manoeuvre under way ends as it would
+  // have; a search begins anew.
   void OnPoseUpdate(const messages::PoseEstimate& before,
                     const messages::PoseEstimate& after) override;
 
@@ -52,9 +55,8 @@ class GestaltNavigator final : public Navigator {
   NavigatorDecision Look(Mode mode);
   NavigatorDecision Begin(Mode mode, const messages::MotionCommand& motion, double leg_m,
                           const NavigatorInput& input);
-  messages::MotionVote* SearchTurn(const messages::PoseEstimate& estimate);
+  messages::MotionVote& NextTurn(const messages::PoseEstimate& estimate);
   void FillView(const NavigatorInput& input);
-  void MarkFelt(const NavigatorInput& input);
 
   bool Progresses(const messages::PoseEstimate& estimate);
   bool Feels(const NavigatorInput& input) const;
@@ -71,7 +73,7 @@ class GestaltNavigator final : public Navigator {
   messages::PoseEstimate anchor_;  // estimate when the running manoeuvre began
   double began_s_ = 0.0;           // on-board clock then
   double leg_m_ = 0.0;             // length of the running drive
-  bool felt_ever_since_ = false;   // a hazard, since before the manoeuvre began
+  bool felt_since_start_ = false;  // a hazard without a break since the manoeuvre began
 
   double searched_rad_ = 0.0;  // turned in place since the last drive
   int search_direction_ = 0;   // kept during a search; 0: none yet
@@ -79,6 +81,7 @@ class GestaltNavigator final : public Navigator {
   double best_goal_distance_m_ = std::numeric_limits<double>::infinity();
   std::int64_t fruitless_cycles_ = 0;
   std::int64_t felt_hazards_ = 0;  // in a row without progress
+  FeltPlaces felt_places_;         // of these
 
   MotionVotes votes_;  // after the last look
   bool looked_behind_ = false;

@@ -100,7 +100,7 @@ MotionVote* ChooseArc(MotionVotes& votes, const GestaltParams& params) {
   return best.middle;
 }
 
-bool TurnsInPlace(const MotionVotes& votes, const MotionVote* arc, const GestaltParams& params) {
+bool TurnsInPlace(const MotionVote& turn, const MotionVote* arc, const GestaltParams& params) {
   switch (params.drive.point_turns) {
     case PointTurns::kNever:
       return false;
@@ -109,7 +109,7 @@ bool TurnsInPlace(const MotionVotes& votes, const MotionVote* arc, const Gestalt
     case PointTurns::kBelowMinVote:
       return arc == nullptr || arc->merged < params.votes.min_vote_goodness;
     case PointTurns::kCandidates:
-      return arc == nullptr || BestVote(votes.point_turns) > arc->merged;
+      return arc == nullptr || turn.merged > arc->merged;
   }
   return false;
 }

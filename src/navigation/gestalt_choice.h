@@ -21,8 +21,8 @@ namespace rockyard::navigation {
 // The pointer is into `votes`. Cost: linear in the number of arcs.
 messages::MotionVote* ChooseArc(MotionVotes& votes, const GestaltParams& params);
 
-// Whether a point turn is to be made instead of driving `arc` (null: none), as PointTurns says.
-bool TurnsInPlace(const MotionVotes& votes, const messages::MotionVote* arc,
+// Whether `turn` is to be made instead of driving `arc` (null: none), as PointTurns says.
+bool TurnsInPlace(const messages::MotionVote& turn, const messages::MotionVote* arc,
                   const GestaltParams& params);
 
 // The better of the point turns; on a tie towards the goal, left for a goal straight ahead or

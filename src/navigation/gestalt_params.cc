@@ -12,10 +12,12 @@ void VisitChoices(GestaltDriveParams& p, core::FieldVisitor& v) {
           .max = 5.0,
           .origin = Origin::kPublished,
           .source = "Goldberg 2002 sec. 4, \"e.g., 35 cm\""});
-  v.Boolean("rear_cameras", p.rear_cameras,
-            {.doc = "look behind too where the best forward vote is below min_fwd_threshold",
-             .origin = Origin::kPublished,
-             .source = "Goldberg 2002 sec. 5"});
+  v.Boolean(
+      "rear_cameras", p.rear_cameras,
+      {.doc = "look behind too where the best forward vote is below min_fwd_threshold; without "
+              "backward arcs this can only show forward ones what they would turn into",
+       .origin = Origin::kPublished,
+       .source = "Goldberg 2002 sec. 5"});
   v.Choice("backward_arcs", p.backward_arcs,
            {.doc = "when a backward arc may be chosen",
             .origin = Origin::kAssumed,
@@ -133,6 +135,15 @@ void GestaltParams::Visit(core::FieldVisitor& v) {
   v.Group("plan", plan, "how far and how densely paths are judged");
   v.Group("votes", votes, "thresholds of the votes");
   v.Group("drive", drive, "the drive cycle, and what ends it");
+  v.Require("drive.step_m", drive.step_m <= plan.plan_max_dist_m,
+            "is beyond plan.plan_max_dist_m: the rover would drive blindly past what it judged",
+            "use a smaller step_m or a larger plan.plan_max_dist_m");
+  v.Require("drive.max_fruitless_cycles",
+            static_cast<double>(drive.max_fruitless_cycles) * arcs.point_turn_amount_rad >=
+                drive.search_turn_rad,
+            "ends a search before it has turned search_turn_deg: each look is one of "
+            "max_fruitless_cycles",
+            "use at least search_turn_deg / point_turn_amount_deg cycles");
 }
 
 }  // namespace rockyard::navigation

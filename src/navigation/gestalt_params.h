@@ -17,7 +17,7 @@ enum class PointTurns {
   kNever,
   kNothingSafe,   // no arc may be driven
   kBelowMinVote,  // no arc's merged vote reaches min_vote_goodness
-  kCandidates,    // whenever a point turn's merged vote is the highest
+  kCandidates,    // the turn that would be made merges to more than every arc
 };
 
 // When backward arcs may be chosen.

@@ -34,8 +34,8 @@ struct GestaltWaypointParams {
 // Weight of a cell at distance s along a path: "biased to consider nearby cells more strongly"
 // (Goldberg 2002, step 4).
 enum class PathWeight {
-  kLinear,   // from 1 at plan_min_dist down to far_weight at plan_max_dist
-  kInverse,  // plan_min_dist / s
+  kLinear,   // 1 - (1 - far_weight) (s - plan_min_dist) / (plan_max_dist - plan_min_dist)
+  kInverse,  // 1 / s
   kUniform,  // 1: no bias
 };
 

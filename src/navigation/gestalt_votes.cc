@@ -20,6 +20,9 @@ constexpr double kPeakAway = 128.0;
 // Keeps quotients finite for a rover that stands on its goal.
 constexpr double kLeastDistance_m = 1e-6;
 
+// A goal this near to straight behind is on the left, whatever rounding made of it.
+constexpr double kBehind_rad = 1e-9;
+
 double Rounded(double vote, bool whole_numbers) {
   return whole_numbers ? std::floor(vote + 0.5) : vote;
 }
@@ -58,7 +61,9 @@ HazardVote VoteOnPath(const GoodnessGrid& grid, const PoseEstimate& estimate,
 GoalDirection TowardsGoal(const PoseEstimate& estimate, const messages::Goal& goal) {
   const double dx_m = goal.x_m - estimate.x_m;
   const double dy_m = goal.y_m - estimate.y_m;
-  return {std::hypot(dx_m, dy_m), math::WrapAngle(std::atan2(dy_m, dx_m) - estimate.heading_rad)};
+  const double bearing_rad = math::WrapAngle(std::atan2(dy_m, dx_m) - estimate.heading_rad);
+  const bool behind = bearing_rad < kBehind_rad - std::numbers::pi;
+  return {std::hypot(dx_m, dy_m), behind ? std::numbers::pi : bearing_rad};
 }
 
 double WaypointPeak(const GoalDirection& goal, int direction) {

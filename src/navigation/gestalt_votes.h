@@ -33,7 +33,7 @@ HazardVote VoteOnPath(const GoodnessGrid& grid, const messages::PoseEstimate& es
 // The goal as the rover sees it.
 struct GoalDirection {
   double distance_m = 0.0;
-  double bearing_rad = 0.0;  // from straight ahead, positive left, in [-pi, pi]
+  double bearing_rad = 0.0;  // from straight ahead, positive left, in (-pi, pi]
 };
 
 GoalDirection TowardsGoal(const messages::PoseEstimate& estimate, const messages::Goal& goal);
@@ -50,7 +50,8 @@ double WaypointPeak(const GoalDirection& goal, int direction);
 // Broad is the one arc through the goal, c_broad = 2 sin(bearing) / distance. Two cases have no
 // such arc: forward away from a goal behind the bearing counts as 90 deg, and backward away from a
 // goal ahead the arc's mirror image is meant, which turns the front to the goal. A goal exactly
-// behind is turned to by the left. The paper names the two ends only ("Broad (0) v. Tight (1)").
+// behind, to 1e-9 rad, counts as on the left. The paper names the two ends only ("Broad (0) v.
+// Tight (1)").
 double BestCurvature(const GoalDirection& goal, int direction, double step_m,
                      const GestaltParams& params);
 

@@ -75,6 +75,7 @@ struct GestaltSetup {
   GestaltParams params;
   messages::Goal goal{5.0, 0.0};
   math::Pose2 start;
+  messages::AttitudeEstimate attitude;  // how the rover stands, and believes to stand, everywhere
   FakeRoverConfig rover;
   HeightAt height = Flat();
   FakeRange range;
@@ -109,11 +110,13 @@ class GestaltDrive {
     tick.time_s = static_cast<double>(log_.size()) * setup_.rover.tick_s;
     tick.estimate = rover_.estimate();
     tick.X_WR = rover_.X_WR();
-    NavigatorInput input{.time_s = tick.time_s, .estimate = tick.estimate};
+    NavigatorInput input{
+        .time_s = tick.time_s, .estimate = tick.estimate, .attitude = setup_.attitude};
     messages::PointCloud cloud;
     if (!log_.empty() && log_.back().decision.looks()) {
       cloud.direction = *log_.back().decision.look;
       cloud.points_R = setup_.range.Look(rover_.X_WR(), cloud.direction, setup_.height);
+      Tilt(cloud);
       input.cloud = &cloud;
       tick.has_cloud = true;
     }
@@ -157,11 +160,28 @@ class GestaltDrive {
   const GestaltNavigator& navigator() const { return navigator_; }
 
  private:
+  // From the levelled frame of the rover to its own.
+  void Tilt(messages::PointCloud& cloud) const {
+    const messages::AttitudeEstimate& a = setup_.attitude;
+    const math::Transform X_LR = math::MakePose({0.0, 0.0, a.z_m}, 0.0, a.pitch_rad, a.roll_rad);
+    for (math::Vector3& point : cloud.points_R) point = X_LR.inverse() * point;
+  }
+
   GestaltSetup setup_;
   GestaltNavigator navigator_;
   FakeRover rover_;
   std::vector<GestaltTick> log_;
 };
+
+// Whether two maps hold the same heights in the same cells.
+inline bool HoldSameData(const messages::MapView& a, const messages::MapView& b) {
+  if (a.x0_m != b.x0_m || a.y0_m != b.y0_m || a.cells.size() != b.cells.size()) return false;
+  for (std::size_t i = 0; i < a.cells.size(); ++i) {
+    if (a.cells[i].has_data != b.cells[i].has_data) return false;
+    if (a.cells[i].elevation_m != b.cells[i].elevation_m) return false;
+  }
+  return true;
+}
 
 // A rover whose encoders and gyro tell the truth.
 inline FakeRoverConfig TrueRover() {

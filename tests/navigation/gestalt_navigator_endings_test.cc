@@ -81,6 +81,26 @@ TEST(GestaltEndings, UnknownGroundIsDrivenOnlyAfterAFullTurn) {
   EXPECT_EQ(careful.rover().estimate().distance_m, 0.0);
 }
 
+// Four turns of 90 deg overshoot by a tick's share each, 0.017 rad together: a goal 0.005 rad to
+// the left is on the right then. A second search is as long as the first, and turns towards it.
+TEST(GestaltEndings, EveryDriveEndsASearch) {
+  GestaltSetup setup;
+  setup.rover = TrueRover();
+  setup.range.range_m = 0.2;
+  setup.goal = {4.0, 0.02};
+  GestaltDrive drive(setup);
+  int drives = 0;
+  bool drove = false;
+  ASSERT_TRUE(drive.StepUntil([&](const GestaltTick& t) {
+    drives += t.drives() && !drove ? 1 : 0;
+    drove = t.drives();
+    return drives == 2;
+  }));
+  const auto turns = Turns(drive.log());
+  ASSERT_EQ(turns.size(), 8u);
+  for (std::size_t i = 0; i < turns.size(); ++i) EXPECT_EQ(turns[i].second, i < 4 ? +1 : -1) << i;
+}
+
 TEST(GestaltEndings, GivesUpInAPitAfterFruitlessCycles) {
   GestaltSetup setup;
   setup.height = Blocks({{1.2, 1.6, -1.6, 1.6},
@@ -135,24 +155,54 @@ TEST(GestaltEndings, ALookThatIsNotAnsweredIsAskedForAgain) {
 
 // The arena reflects the rover's estimate: what was mapped lies elsewhere now.
 TEST(GestaltEndings, PoseUpdateForgetsTheMapAndLooksAnew) {
+  for (const double jump_m : {0.0, 1.0}) {
+    GestaltSetup setup;
+    setup.rover = TrueRover();
+    setup.range.half_angle_rad = math::DegToRad(30.0);
+    setup.params.drive.rear_cameras = false;
+    GestaltDrive drive(setup);
+    ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.estimate.distance_m > 2.0; }));
+    const messages::PoseEstimate before = drive.rover().estimate();
+    drive.UpdatePose({before.x_m - jump_m, before.y_m + jump_m, 0.0});
+    ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.has_cloud; }));
+    const GestaltTick& tick = drive.log().back();
+    // A map that never held anything but this cloud.
+    GestaltMap fresh(setup.params.map);
+    fresh.BeginCycle(tick.estimate.x_m, tick.estimate.y_m);
+    fresh.Add({0, LookDirection::kAhead,
+               setup.range.Look(tick.X_WR, LookDirection::kAhead, setup.height)},
+              math::MakePose({tick.estimate.x_m, tick.estimate.y_m, 0.0}, tick.estimate.heading_rad,
+                             0.0, 0.0));
+    fresh.Evaluate();
+    EXPECT_TRUE(HoldSameData(fresh.View(), drive.navigator().view()->map));
+    EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+    EXPECT_LE(DistanceToGoal(drive.rover().estimate(), setup.goal), 0.25);
+  }
+}
+
+// Four metres that were done are to be done again, in more cycles than may be fruitless.
+TEST(GestaltEndings, ProgressIsCountedAnewFromAPoseUpdateOn) {
   GestaltSetup setup;
-  setup.rover = TrueRover();
-  setup.range.half_angle_rad = math::DegToRad(30.0);
-  setup.params.drive.rear_cameras = false;
+  setup.params.drive.max_fruitless_cycles = 4;
   GestaltDrive drive(setup);
-  ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.estimate.distance_m > 2.0; }));
-  const auto known = [](const messages::NavigationView& view) {
-    int cells = 0;
-    for (const auto& cell : view.map.cells) cells += cell.has_data ? 1 : 0;
-    return cells;
-  };
-  const int before = known(*drive.navigator().view());
-  const messages::PoseEstimate& e = drive.rover().estimate();
-  drive.UpdatePose({e.x_m - 1.0, e.y_m + 0.5, 0.0});
-  ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.has_cloud; }));
-  EXPECT_LT(known(*drive.navigator().view()), before - 10) << "one look's cells only";
+  ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.estimate.x_m > 4.0; }));
+  drive.UpdatePose({0.0, 0.0, 0.0});
   EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
-  EXPECT_LE(DistanceToGoal(drive.rover().estimate(), setup.goal), 0.25);
+}
+
+// What a search has seen is forgotten by a pose update: it begins anew, the same way round.
+TEST(GestaltEndings, PoseUpdateStartsASearchAgain) {
+  GestaltSetup setup;
+  setup.height = Spikes();
+  GestaltDrive drive(setup);
+  const auto third = [&drive](const GestaltTick& t) {
+    return t.looks(LookDirection::kAhead) && Turns(drive.log()).size() == 3;
+  };
+  ASSERT_TRUE(drive.StepUntil(third));
+  const messages::PoseEstimate& e = drive.rover().estimate();
+  drive.UpdatePose({e.x_m, e.y_m, e.heading_rad});
+  EXPECT_EQ(drive.Run(), NavigatorStatus::kGaveUp);
+  EXPECT_EQ(Turns(drive.log()).size(), 7u);
 }
 
 TEST(GestaltEndings, PoseUpdateDoesNotChangeTheAngleOfATurnUnderWay) {

@@ -152,19 +152,33 @@ TEST(GestaltFelt, AHazardThatLastsCountsAgainOnlyAfterSomeDriving) {
 
 TEST(GestaltFelt, ATouchBehindEndsABackOffAndNothingElse) {
   GestaltSetup setup;
+  setup.rover = TrueRover();
   setup.felt = [](const FakeRover& rover) -> std::optional<VehicleHazard> {
     if (rover.X_WR().x_m > 0.3) return kTouchAhead;
     return std::nullopt;
   };
-  setup.touches_behind = [](const FakeRover& rover) { return rover.estimate().distance_m < 0.4; };
+  setup.touches_behind = [](const FakeRover& rover) { return rover.X_WR().x_m < 0.28; };
   GestaltDrive drive(setup);
   ASSERT_TRUE(drive.StepUntil(
       [](const GestaltTick& t) { return t.drives() && t.decision.motion.direction < 0; }));
   const double felt_m = drive.log().back().estimate.distance_m;
   EXPECT_GT(felt_m, 0.3) << "driving forward it does not matter";
   ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.decision.looks(); }));
-  EXPECT_LE(drive.log().back().estimate.distance_m - felt_m,
-            setup.rover.tick_distance_m() + kRounding);
+  // From 0.30 to 0.28, a tick late at either end.
+  EXPECT_NEAR(drive.log().back().estimate.distance_m - felt_m, 0.02,
+              2.0 * setup.rover.tick_distance_m() + kRounding);
+}
+
+TEST(GestaltFelt, TouchedAtBothEndsDoesNotBackOff) {
+  GestaltSetup setup;
+  setup.felt = [](const FakeRover& rover) -> std::optional<VehicleHazard> {
+    if (rover.X_WR().x_m > 0.2) return kTouchAhead;
+    return std::nullopt;
+  };
+  setup.touches_behind = [](const FakeRover&) { return true; };
+  GestaltDrive drive(setup);
+  ASSERT_TRUE(drive.StepUntil([&setup](const GestaltTick& t) { return t.X_WR.x_m > 0.2; }));
+  EXPECT_TRUE(drive.log().back().looks(LookDirection::kAhead));
 }
 
 TEST(GestaltFelt, DuringASearchTurnsTheOtherWay) {

@@ -72,11 +72,29 @@ TEST(GestaltNavigator, DrivesOutOfADeadEnd) {
   }
 }
 
+// A rover that stands tilted, and above where the estimate has its plane, and knows it: level
+// ground is level in its map.
+TEST(GestaltNavigator, MapsWhatItSeesFromTheBelievedAttitude) {
+  GestaltSetup setup;
+  setup.attitude = {0.15, -0.2, 0.3};
+  GestaltDrive drive(setup);
+  ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.estimate.distance_m > 1.0; }));
+  int seen = 0;
+  for (const auto& cell : drive.navigator().view()->map.cells) {
+    if (!cell.has_data) continue;
+    ++seen;
+    ASSERT_NEAR(cell.elevation_m, 0.0, 2e-6) << "points are rounded to 1 um";
+  }
+  EXPECT_GT(seen, 100);
+  EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+}
+
 // The best forward vote after each look ahead, from a map and votes of the test's own.
 TEST(GestaltNavigator, LooksBehindExactlyWhereTheBestForwardVoteIsBelowTheThreshold) {
   GestaltSetup setup;
   setup.rover = TrueRover();
   setup.height = Blocks({{2.0, 2.4, -1.2, 1.2}, {0.5, 2.4, -1.4, -1.2}, {0.5, 2.4, 1.2, 1.4}});
+  setup.params.map.max_idles = 3;  // so that a map that ages by looks, not by cycles, shows
   GestaltDrive drive(setup);
   GestaltMap map(setup.params.map);
   const ArcVoter voter(setup.params);
@@ -96,6 +114,10 @@ TEST(GestaltNavigator, LooksBehindExactlyWhereTheBestForwardVoteIsBelowTheThresh
     map.Add(cloud, math::MakePose({at.x_m, at.y_m, 0.0}, at.heading_rad, 0.0, 0.0));
     const double best = BestVote(voter.Vote(map.Evaluate(), at, setup.goal).forward);
     const GestaltTick& tick = drive.Step();
+    if (tick.moves()) {
+      EXPECT_TRUE(HoldSameData(map.View(), drive.navigator().view()->map));
+      EXPECT_EQ(drive.navigator().view()->looked_behind, asked == LookDirection::kBehind);
+    }
     if (asked == LookDirection::kBehind) continue;
     EXPECT_EQ(tick.looks(LookDirection::kBehind), best < 180.0) << best;
     (best < 180.0 ? behind : ahead_only) += 1;

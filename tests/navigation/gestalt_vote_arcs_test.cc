@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "navigation/gestalt_arcs.h"
+#include "navigation/gestalt_votes.h"
 
 namespace rockyard::navigation {
 namespace {
@@ -119,6 +120,17 @@ TEST(GestaltArcs, NearestArcOfMirroredCurvatureIsMirrored) {
     EXPECT_EQ(NearestArc(c, 23, 2.0), 22 - NearestArc(-c, 23, 2.0)) << c;
   }
   EXPECT_EQ(NearestArc(0.0, 22, 2.0), 10u) << "the right one of two in the middle";
+}
+
+// Cells longer than wide: the shorter side counts, whichever it is.
+TEST(GestaltArcs, PathsAreSampledByTheShorterSideOfACell) {
+  for (const bool short_x : {false, true}) {
+    GestaltParams params;
+    params.map.grid.xstep_m = short_x ? 0.1 : 0.4;
+    params.map.grid.ystep_m = short_x ? 0.4 : 0.1;
+    const ArcVoter voter(params);
+    EXPECT_NEAR(voter.sampling().distance_m[1] - voter.sampling().distance_m[0], 0.05, 1e-12);
+  }
 }
 
 }  // namespace

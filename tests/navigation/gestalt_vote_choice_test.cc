@@ -130,11 +130,12 @@ TEST(GestaltChoice, MirroredVotesGiveTheMirroredArc) {
   }
 }
 
+// Of the two the left turn is the one that would be made.
 bool Turns(const MotionVotes& votes, PointTurns when) {
   GestaltParams params;
   params.drive.point_turns = when;
   MotionVotes copy = votes;
-  return TurnsInPlace(copy, ChooseArc(copy, params), params);
+  return TurnsInPlace(copy.point_turns.back(), ChooseArc(copy, params), params);
 }
 
 TEST(GestaltChoice, PointTurnsAsNamed) {
@@ -148,6 +149,8 @@ TEST(GestaltChoice, PointTurnsAsNamed) {
   EXPECT_TRUE(Turns(unknown, PointTurns::kBelowMinVote));
   EXPECT_FALSE(Turns(known, PointTurns::kBelowMinVote));
   EXPECT_FALSE(Turns(known, PointTurns::kCandidates));
+  known.point_turns[0].merged = 27.0;
+  EXPECT_FALSE(Turns(known, PointTurns::kCandidates)) << "the other turn";
   known.point_turns[1].merged = 27.0;
   EXPECT_TRUE(Turns(known, PointTurns::kCandidates));
 }

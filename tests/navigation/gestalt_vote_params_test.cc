@@ -76,6 +76,10 @@ TEST(GestaltVoteParams, RefuseWhatCannotBeDriven) {
   EXPECT_THAT(Problems(R"({"waypoints": {"vote_index_variance": 0}})"),
               HasSubstr("smallest allowed value"));
   EXPECT_THAT(Problems(R"({"drive": {"step_m": 0}})"), HasSubstr("smallest allowed value"));
+  EXPECT_THAT(Problems(R"({"drive": {"step_m": 3.1}})"), HasSubstr("beyond plan.plan_max_dist_m"));
+  EXPECT_THAT(Problems(R"({"arcs": {"point_turn_amount_deg": 3.5}})"),
+              HasSubstr("ends a search before"));
+  EXPECT_EQ(Problems(R"({"arcs": {"point_turn_amount_deg": 3.7}})"), "");
   EXPECT_NE(Problems(R"({"drive": {"point_turns": "often"}})"), "");
   EXPECT_NE(Problems(R"({"votes": {"whole_numbers": 1}})"), "");
 }
@@ -87,9 +91,11 @@ TEST(GestaltVoteParams, ExtremesWork) {
         R"({"arcs": {"num_forward_arcs": 201, "num_backward_arcs": 201},
             "plan": {"plan_max_dist_m": 20, "samples_per_cell": 4},
             "map": {"grid": {"xstep_m": 0.05, "ystep_m": 0.05}}})",
-        R"({"arcs": {"max_curvature_per_m": 20, "point_turn_amount_deg": 1}})",
+        R"({"arcs": {"max_curvature_per_m": 20, "point_turn_amount_deg": 1},
+            "drive": {"max_fruitless_cycles": 360}})",
         R"({"arcs": {"num_forward_arcs": 2, "max_curvature_per_m": 0.01}})",
-        R"({"plan": {"plan_min_dist_m": 0, "plan_max_dist_m": 0.05, "path_weight": "inverse"}})",
+        R"({"plan": {"plan_min_dist_m": 0, "plan_max_dist_m": 0.05, "path_weight": "inverse"},
+            "drive": {"step_m": 0.05}})",
         R"({"plan": {"max_path_turn_deg": 10, "far_weight": 0.001},
             "map": {"grid": {"xstep_m": 2, "ystep_m": 2}}})",
         R"({"votes": {"min_allowed_goodness": 255}})",
@@ -97,7 +103,8 @@ TEST(GestaltVoteParams, ExtremesWork) {
         R"({"waypoints": {"waypoint_certainty": 0, "vote_index_variance": 0.01}})",
         R"({"drive": {"min_drive_goodness": 255, "search_turn_deg": 3600}})",
         R"({"drive": {"point_turns": "candidates", "backward_arcs": "always"}})",
-        R"({"drive": {"step_m": 5, "progress_m": 10, "step_time_out_s": 1}})"}) {
+        R"({"plan": {"plan_max_dist_m": 5},
+            "drive": {"step_m": 5, "progress_m": 10, "step_time_out_s": 1}})"}) {
     SCOPED_TRACE(json);
     GestaltSetup setup;
     setup.params = Read(json);

@@ -93,6 +93,19 @@ TEST(GestaltWaypointVote, BackwardTurnsTheFrontOrTheRearToTheGoal) {
   EXPECT_NEAR(turn_rad(-kPi + 0.14), 0.14, kRounding);
 }
 
+// Rounding makes such bearings -pi as often as +pi.
+TEST(GestaltWaypointVote, AGoalExactlyBehindIsOnTheLeft) {
+  for (int k = -12; k <= 12; ++k) {
+    const double heading_rad = kPi * k / 12.0;
+    const GoalDirection goal = TowardsGoal(
+        At(0.0, 0.0, heading_rad), {-5.0 * std::cos(heading_rad), -5.0 * std::sin(heading_rad)});
+    EXPECT_NEAR(goal.bearing_rad, kPi, 1e-12) << k;
+    EXPECT_GT(BestCurvature(goal, +1, 0.35, {}), 0.0) << k;
+  }
+  const GoalDirection right = TowardsGoal(At(0.0, 0.0, 0.0), {-5.0, -1e-6});
+  EXPECT_LT(right.bearing_rad, 0.0) << "hardly to the right of it is to the right";
+}
+
 TEST(GestaltWaypointVote, OfAPointTurnIsThatOfTheStraightArcAfterIt) {
   const MotionVotes votes = ArcVoter(Exact()).Vote(UniformGrid(kGood), At(0, 0, 0), {0.0, 5.0});
   EXPECT_EQ(votes.point_turns[1].waypoint, 255.0) << "left, where the goal is";

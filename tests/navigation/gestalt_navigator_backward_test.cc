@@ -1,0 +1,201 @@
+// What GESTALT feels while it drives backward, and what becomes of it when its estimate is moved.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "gestalt_drive.h"
+
+namespace rockyard::navigation {
+namespace {
+
+using messages::HazardSide;
+using messages::LookDirection;
+using messages::VehicleHazard;
+using messages::VehicleHazardKind;
+
+constexpr double kRounding = 1e-9;
+constexpr VehicleHazard kTouchAhead{VehicleHazardKind::kContact, HazardSide::kAhead};
+constexpr VehicleHazard kTiltLeft{VehicleHazardKind::kTilt, HazardSide::kLeft};
+constexpr double kHalfLength_m = 0.52;
+constexpr double kHalfWidth_m = 0.42;
+
+// Felt where the true x lies in (low, high).
+std::function<std::optional<VehicleHazard>(const FakeRover&)> Between(double low_m, double high_m,
+                                                                      const VehicleHazard& what) {
+  return [=](const FakeRover& rover) -> std::optional<VehicleHazard> {
+    if (rover.X_WR().x_m > low_m && rover.X_WR().x_m < high_m) return what;
+    return std::nullopt;
+  };
+}
+
+// A touch ahead for a tick, as soon as each of these distances is measured; counts them.
+std::function<std::optional<VehicleHazard>(const FakeRover&)> FeltOnceAfter(
+    const std::vector<double>& driven_m, int& count) {
+  return [driven_m, &count](const FakeRover& rover) -> std::optional<VehicleHazard> {
+    const auto next = static_cast<std::size_t>(count);
+    if (next >= driven_m.size() || rover.estimate().distance_m < driven_m[next]) {
+      return std::nullopt;
+    }
+    ++count;
+    return kTouchAhead;
+  };
+}
+
+// A goal straight behind, to which the rover drives backward on flat ground that it has seen.
+GestaltSetup Backward() {
+  GestaltSetup setup;
+  setup.rover = TrueRover();
+  setup.goal = {-6.0, 0.0};
+  setup.params.drive.backward_arcs = BackwardArcs::kAlways;
+  setup.params.votes.min_fwd_threshold = 256.0;  // looks both ways, always
+  return setup;
+}
+
+int GoodnessAt(const GestaltDrive& drive, double x_m, double y_m) {
+  const messages::MapView& map = drive.navigator().view()->map;
+  const int ix = static_cast<int>(std::floor((x_m - map.x0_m) / map.xstep_m));
+  const int iy = static_cast<int>(std::floor((y_m - map.y0_m) / map.ystep_m));
+  return map.Cell(ix, iy).goodness;
+}
+
+bool DrivesBackward(const GestaltTick& t) { return t.drives() && t.decision.motion.direction < 0; }
+bool DrivesForward(const GestaltTick& t) { return t.drives() && t.decision.motion.direction > 0; }
+bool Chooses(const GestaltTick& t) { return t.has_cloud && t.moves(); }
+bool Looks(const GestaltTick& t) { return t.decision.looks(); }
+
+TEST(GestaltBackward, ATouchBehindIsMarkedBehindAndBackedOffFromForward) {
+  GestaltSetup setup = Backward();
+  setup.touches_behind = [](const FakeRover& rover) {
+    return rover.X_WR().x_m < -0.2 && rover.X_WR().x_m > -0.25;
+  };
+  GestaltDrive drive(setup);
+  ASSERT_TRUE(drive.StepUntil(DrivesBackward));
+  ASSERT_TRUE(drive.StepUntil(DrivesForward));
+  const double felt_m = drive.rover().estimate().distance_m;
+  EXPECT_NEAR(drive.log().back().X_WR.x_m, -0.2, setup.rover.tick_distance_m() + kRounding);
+  ASSERT_TRUE(drive.StepUntil(Looks));
+  EXPECT_NEAR(drive.rover().X_WR().x_m, 0.0, 2.0 * setup.rover.tick_distance_m() + kRounding)
+      << "where it came from";
+  EXPECT_GT(drive.rover().estimate().distance_m, felt_m + 0.19);
+  ASSERT_TRUE(drive.StepUntil(Chooses));
+  EXPECT_EQ(GoodnessAt(drive, -0.2 - kHalfLength_m, 0.0), 0);
+  EXPECT_GT(GoodnessAt(drive, -0.2 + kHalfLength_m + 0.3, 0.0), 200);
+}
+
+TEST(GestaltBackward, ATiltIsMarkedAtTheEndThatLed) {
+  GestaltSetup setup = Backward();
+  setup.felt = Between(-0.25, -0.2, kTiltLeft);
+  GestaltDrive drive(setup);
+  ASSERT_TRUE(drive.StepUntil(DrivesBackward));
+  ASSERT_TRUE(drive.StepUntil(DrivesForward));
+  ASSERT_TRUE(drive.StepUntil(Chooses));
+  EXPECT_EQ(GoodnessAt(drive, -0.2 - kHalfLength_m, kHalfWidth_m), 0);
+  EXPECT_GT(GoodnessAt(drive, -0.2 - kHalfLength_m, -kHalfWidth_m - 0.3), 200);
+  EXPECT_GT(GoodnessAt(drive, -0.2 + kHalfLength_m + 0.3, kHalfWidth_m), 200);
+}
+
+// Its front swings out, or it stands at a rock: the front is no place to back off to.
+TEST(GestaltBackward, ATouchAheadIsMarkedAheadAndNotDrivenInto) {
+  GestaltSetup setup = Backward();
+  setup.felt = Between(-0.25, -0.2, kTouchAhead);
+  GestaltDrive drive(setup);
+  ASSERT_TRUE(drive.StepUntil(DrivesBackward));
+  ASSERT_TRUE(drive.StepUntil(Looks));
+  EXPECT_NEAR(drive.log().back().X_WR.x_m, -0.2, setup.rover.tick_distance_m() + kRounding);
+  ASSERT_TRUE(drive.StepUntil(Chooses));
+  EXPECT_EQ(GoodnessAt(drive, -0.2 + kHalfLength_m, 0.0), 0);
+  EXPECT_GT(GoodnessAt(drive, -0.2 - kHalfLength_m - 0.3, 0.0), 200);
+}
+
+TEST(GestaltBackward, ATouchAheadEndsABackOffForward) {
+  GestaltSetup setup = Backward();
+  const auto touch = Between(-0.1, 1.0, kTouchAhead);
+  const auto tilt = Between(-0.25, -0.2, kTiltLeft);
+  setup.felt = [=](const FakeRover& rover) {
+    // On the way there the front is free.
+    const bool back = rover.estimate().distance_m > 0.2;
+    return back && touch(rover) ? touch(rover) : tilt(rover);
+  };
+  GestaltDrive drive(setup);
+  ASSERT_TRUE(drive.StepUntil(DrivesForward));
+  ASSERT_TRUE(drive.StepUntil(Looks));
+  EXPECT_NEAR(drive.rover().X_WR().x_m, -0.1, setup.rover.tick_distance_m() + kRounding);
+}
+
+// The arena turns the estimate about during a back-off: no camera sees what was felt, so the place
+// has to move with the rover, to a far window too.
+TEST(GestaltMovedEstimate, WhatWasFeltStaysWhereTheRoverFeltIt) {
+  for (const math::Pose2& to : {math::Pose2{1.2, 0.0, 0.0}, math::Pose2{40.0, -30.0, 2.0}}) {
+    GestaltSetup setup;
+    setup.rover = TrueRover();
+    setup.felt = Between(1.2, 1.3, kTouchAhead);
+    GestaltDrive drive(setup);
+    ASSERT_TRUE(drive.StepUntil(DrivesBackward));
+    const double ahead_m = 1.2 + kHalfLength_m - drive.rover().X_WR().x_m;
+    drive.UpdatePose({to.x_m, to.y_m, to.heading_rad});
+    ASSERT_TRUE(drive.StepUntil(Chooses));
+    const auto goodness = [&](double further_m) {
+      const double x_m = ahead_m + further_m;
+      return GoodnessAt(drive, to.x_m + x_m * std::cos(to.heading_rad),
+                        to.y_m + x_m * std::sin(to.heading_rad));
+    };
+    EXPECT_EQ(goodness(0.0), 0);
+    EXPECT_GT(goodness(1.2), 200);
+  }
+}
+
+TEST(GestaltMovedEstimate, WhatWasFeltBeforeTheLastProgressIsForgotten) {
+  GestaltSetup setup;
+  setup.rover = TrueRover();
+  setup.goal = {8.0, 0.0};
+  int felt = 0;
+  setup.felt = FeltOnceAfter({2.1}, felt);
+  GestaltDrive drive(setup);
+  ASSERT_TRUE(drive.StepUntil(DrivesBackward));
+  ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.X_WR.x_m > 5.0; }));
+  const math::Pose2& at = drive.rover().X_WR();
+  drive.UpdatePose({at.x_m, at.y_m, at.heading_rad});
+  ASSERT_TRUE(drive.StepUntil(Chooses));
+  for (const auto& cell : drive.navigator().view()->map.cells) ASSERT_GT(cell.goodness, 0);
+}
+
+// Two hazards with progress between them, where one in a row is allowed.
+TEST(GestaltMovedEstimate, ProgressForgivesWhatWasFelt) {
+  GestaltSetup setup;
+  setup.rover = TrueRover();
+  setup.goal = {10.0, 0.0};
+  setup.params.drive.max_felt = 1;
+  int felt = 0;
+  setup.felt = FeltOnceAfter({2.1, 6.0}, felt);
+  GestaltDrive drive(setup);
+  EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+  EXPECT_EQ(felt, 2);
+  EXPECT_GT(std::count_if(drive.log().begin(), drive.log().end(), DrivesBackward), 0);
+}
+
+// Walls 0.5 rad to either side stop each turn: half a radian, then one each. What was turned counts
+// in the search, and a wall that is touched when a turn begins does not stop it.
+TEST(GestaltMovedEstimate, TurnsThatAreStoppedCountInASearch) {
+  GestaltSetup setup;
+  setup.rover = TrueRover();
+  setup.range.range_m = 0.2;
+  setup.goal = {4.0, 1.0};
+  setup.params.drive.max_felt = 1000;
+  setup.felt = [](const FakeRover& rover) -> std::optional<VehicleHazard> {
+    if (std::abs(rover.X_WR().heading_rad) > 0.5) return kTouchAhead;
+    return std::nullopt;
+  };
+  GestaltDrive drive(setup);
+  int turns = 0;
+  bool turned = false;
+  ASSERT_TRUE(drive.StepUntil([&](const GestaltTick& t) {
+    turns += t.turns() && !turned ? 1 : 0;
+    turned = t.turns();
+    return t.drives();
+  }));
+  // 0.5 + 6 x 1 > 2 pi with a tick's turn at either end of each.
+  EXPECT_EQ(turns, 7);
+}
+
+}  // namespace
+}  // namespace rockyard::navigation
