@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "math/pose.h"
 #include "math/symmetric_eigen.h"
@@ -77,6 +78,10 @@ struct PointMoments {
   }
 };
 
+// So many points have exact moments wherever they are if they span less than 23 m along each axis:
+// 65536 times (23/2 m)^2, the most that their mean square distance can be, is 8.7e6 m^2.
+inline constexpr std::int64_t kExactPoints = 65536;
+
 // There must be a point. The second moments are shifted in whole numbers to the unit next to the
 // mean before anything is rounded, so that nothing cancels however far the origin is.
 inline PointSpread Spread(const PointMoments& moments) {
@@ -108,6 +113,30 @@ inline PointSpread Spread(const PointMoments& moments) {
                           covariance(M::kZZ, 2, 2), covariance(M::kXY, 0, 1),
                           covariance(M::kXZ, 0, 2), covariance(M::kYZ, 1, 2)};
   return spread;
+}
+
+// Of all points of several sets, of which there must be one, in floating point: for sets whose sum
+// is past the bound of PointMoments while each one is not. With n_i, m_i and C_i of each set and
+// d_i = m_i - mean: mean = sum n_i m_i / n, covariance = sum n_i (C_i + d_i d_i^T) / n.
+inline PointSpread Merged(std::span<const PointSpread> sets) {
+  PointSpread all;
+  for (const PointSpread& set : sets) {
+    all.count += set.count;
+    all.mean_m += static_cast<double>(set.count) * set.mean_m;
+  }
+  all.mean_m /= static_cast<double>(all.count);
+  SymmetricMatrix3& sum_m2 = all.covariance_m2;
+  for (const PointSpread& set : sets) {
+    const Vector3 d = set.mean_m - all.mean_m;
+    const double share = static_cast<double>(set.count) / static_cast<double>(all.count);
+    sum_m2.xx += share * (set.covariance_m2.xx + d.x() * d.x());
+    sum_m2.yy += share * (set.covariance_m2.yy + d.y() * d.y());
+    sum_m2.zz += share * (set.covariance_m2.zz + d.z() * d.z());
+    sum_m2.xy += share * (set.covariance_m2.xy + d.x() * d.y());
+    sum_m2.xz += share * (set.covariance_m2.xz + d.x() * d.z());
+    sum_m2.yz += share * (set.covariance_m2.yz + d.y() * d.z());
+  }
+  return all;
 }
 
 }  // namespace rockyard::math

@@ -118,11 +118,12 @@ inline SymmetricEigenPair NormalizedEigen(const SymmetricMatrixPair& m) {
 
 }  // namespace internal
 
-// Eigenvalues, each to about 1e-15 of the largest magnitude among the elements, and the axis of the
+// Eigenvalues, each to about 4e-15 of the largest magnitude among the elements, and the axis of the
 // smallest. Elements must be finite and below 1e300; matrices below 1e-300 count as zero. Where the
 // smallest eigenvalue is not simple the axis is one of many: z for a multiple of the identity.
-// Swapping x and y swaps the result bit for bit but where two directions are equally good. About 60
-// flops and four roots a matrix.
+// Swapping x and y swaps the result bit for bit but where two directions are equally good. About
+// 150 flops and three roots a matrix, about 200 and five where the largest eigenvalue is the one
+// apart.
 inline SymmetricEigenPair EigenOf(const SymmetricMatrixPair& m) {
   const Pair scale =
       Max(Max(Max(Abs(m.xx), Abs(m.yy)), Max(Abs(m.zz), Abs(m.xy))), Max(Abs(m.xz), Abs(m.yz)));

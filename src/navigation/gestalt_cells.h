@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "math/point_moments.h"
+#include "navigation/cell_index.h"
 
 namespace rockyard::navigation {
 
@@ -28,12 +29,6 @@ struct CellBox {
             y > margin_y ? y - margin_y : 0, y_end + margin_y < ny ? y_end + margin_y : ny};
   }
 };
-
-// Of cell (ix, iy) in a map that is `width` cells wide, row by row.
-inline std::size_t CellIndex(int ix, int iy, int width) {
-  return static_cast<std::size_t>(iy) * static_cast<std::size_t>(width) +
-         static_cast<std::size_t>(ix);
-}
 
 // A window of nx by ny cells onto an endless lattice: cell (i, j) of the lattice lies in slot
 // (i mod nx, j mod ny), so that a window that moves keeps what stays in it where it is.

@@ -38,7 +38,8 @@ class GestaltMap {
   // Takes the points of a cloud, seen from X_WR as estimated, in any number of clouds a cycle.
   // Points are left out that are not finite, outside the window, in cells whose centre is farther
   // than grid_dist_timeout_m from the rover of BeginCycle, or more than 10 m above or below R; and
-  // those beyond the 65536th of a cell: the exactness of the sums ends there.
+  // those beyond the 65536th of a cell, up to which its sums are exact if its points span less than
+  // 23 m of height: 20 m where R stays at its height.
   void Add(const messages::PointCloud& cloud, const math::Transform& X_WR);
 
   // What the rover felt: every patch that holds the cell at (x, y), or one whose centre lies within

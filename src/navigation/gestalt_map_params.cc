@@ -1,5 +1,6 @@
 #include "navigation/gestalt_map_params.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace rockyard::navigation {
@@ -9,8 +10,11 @@ using core::FieldInfo;
 using core::Origin;
 
 constexpr std::string_view kTable1 = "Goldberg 2002 table 1";
-// Keeps the memory of a map below 4 MB and an evaluation below seconds, whatever is set.
+// Keeps the memory of a map below 10 MB, whatever is set.
 constexpr double kMostCells = 40000.0;
+// Distances of cells from planes in the search for outliers, in one evaluation. Together they keep
+// it below half a second.
+constexpr double kMostDistances = 2e7;
 
 // Cells that cover `extent_m`; a hair of tolerance for extents such as 9 m in steps of 0.1 m.
 int Cells(double extent_m, double step_m) {
@@ -28,7 +32,7 @@ FieldInfo PublishedFlag(std::string_view doc) {
 void VisitValidity(GestaltMapParams& p, core::FieldVisitor& v) {
   v.Integer("outliers_per_cell", p.outliers_per_cell,
             Published("cells of a patch left out of its plane, one after the other, the farthest "
-                      "from the plane first",
+                      "from the plane first; coverage and data are tested before",
                       0, 8));
   v.Real("eigen_ratio", p.eigen_ratio,
          Published("ratio of the middle to the smallest eigenvalue of a patch's covariance from "
@@ -36,7 +40,8 @@ void VisitValidity(GestaltMapParams& p, core::FieldVisitor& v) {
                    1.0, 1e9));
   v.Real("min_cell_coverage", p.min_cell_coverage,
          Published("share of the columns of a patch, and of its rows, that must hold range data "
-                   "for its plane to be valid",
+                   "for its plane to be valid: the reading here of the fraction of a cell in each "
+                   "of X and Y; up to min_patch_share it is always met",
                    0.0, 1.0));
   v.Real("min_patch_share", p.min_patch_share,
          {.doc = "share of the cells of a patch that must hold min_cell_points; below it the cell "
@@ -51,6 +56,32 @@ void VisitValidity(GestaltMapParams& p, core::FieldVisitor& v) {
              .max = 1000,
              .origin = Origin::kPublished,
              .source = "Goldberg 2002 sec. 4 step 3: more than 1 point"});
+}
+
+// Cells that a patch has at most, with a cell more on every side than the square of the vehicle.
+double MostPatchCells(const GestaltMapParams& p) {
+  return (p.PatchSide_m() / p.grid.xstep_m + 2.0) * (p.PatchSide_m() / p.grid.ystep_m + 2.0);
+}
+
+// Conditions across groups.
+void RequireUse(GestaltMapParams& p, core::FieldVisitor& v) {
+  const double size_m = std::max(p.rover.length_m, p.rover.width_m);
+  constexpr std::string_view kTooNear =
+      "ends the map within a vehicle's length of the rover: hardly any of the ground ahead could "
+      "be known, and what the rover felt would be forgotten as it backs off";
+  const GestaltGridParams& grid = p.grid;
+  v.Require("grid", std::min(grid.xN_m - grid.x0_m, grid.yN_m - grid.y0_m) >= 2.0 * size_m,
+            kTooNear, "set bounds at least two vehicle lengths apart, better those of table 1");
+  v.Require("grid_dist_timeout_m", p.grid_dist_timeout_m >= size_m, kTooNear,
+            "use at least the vehicle's length, better plan_max_dist_m");
+  const double cells =
+      (grid.xN_m - grid.x0_m) / grid.xstep_m * ((grid.yN_m - grid.y0_m) / grid.ystep_m);
+  v.Require(
+      "outliers_per_cell",
+      cells * MostPatchCells(p) * static_cast<double>(p.outliers_per_cell) <= kMostDistances,
+      "makes more than 2e7 distances of cells from planes, cells times cells of a patch times "
+      "outliers_per_cell: seconds for every look",
+      "use fewer outliers, larger cells or closer bounds");
 }
 
 void VisitFormulas(GestaltMapParams& p, core::FieldVisitor& v) {
@@ -181,7 +212,7 @@ double GestaltMapParams::PatchSide_m() const {
 void GestaltMapParams::Visit(core::FieldVisitor& v) {
   v.Group("grid", grid, "bounds and resolution of the map");
   v.Integer("max_idles", max_idles,
-            Published("cycles without data after which a cell is zeroed", 0, 1e9));
+            Published("cycles without data after which a cell is zeroed", 1, 1e9));
   v.Real("grid_dist_timeout_m", grid_dist_timeout_m,
          Published("cells whose centre is farther from the rover are thrown out", 0.1, 1000.0));
   v.Group("tests", tests, "traversability tests that run");
@@ -189,6 +220,7 @@ void GestaltMapParams::Visit(core::FieldVisitor& v) {
   VisitFormulas(*this, v);
   v.Group("pairs", pairs, "goodness and certainty of hazards");
   v.Group("rover", rover, "what the navigator believes of its vehicle");
+  RequireUse(*this, v);
 }
 
 }  // namespace rockyard::navigation

@@ -8,8 +8,6 @@ namespace {
 
 // Against shares such as 0.56 of 25 cells that should be whole numbers.
 constexpr double kRounding = 1e-6;
-// A cell whose mean is no farther from a plane is no outlier: the resolution of coordinates.
-constexpr double kInPlane_m = 1e-6;
 
 int Reach(double side_m, double step_m) {
   return std::max(0, static_cast<int>(std::ceil(0.5 * (side_m - step_m) / step_m - kRounding)));
@@ -35,21 +33,29 @@ PatchPlanes::PatchPlanes(const GestaltMapParams& params)
   needed_rows_ = AtLeast(params.min_cell_coverage, rows);
 }
 
-void PatchPlanes::AddCell(Sums& sums, const MapCell& cell) const {
-  sums.moments += cell.moments;
-  sums.filled += cell.moments.count() >= params_.min_cell_points ? 1 : 0;
-  sums.marked += cell.marked ? 1 : 0;
+PatchPlanes::Sums& PatchPlanes::Sums::operator+=(const Sums& other) {
+  moments += other.moments;
+  filled += other.filled;
+  marked += other.marked;
+  return *this;
 }
 
-void PatchPlanes::TakeCell(Sums& sums, const MapCell& cell) const {
-  sums.moments -= cell.moments;
-  sums.filled -= cell.moments.count() >= params_.min_cell_points ? 1 : 0;
-  sums.marked -= cell.marked ? 1 : 0;
+PatchPlanes::Sums& PatchPlanes::Sums::operator-=(const Sums& other) {
+  moments -= other.moments;
+  filled -= other.filled;
+  marked -= other.marked;
+  return *this;
+}
+
+PatchPlanes::Sums PatchPlanes::SumsOf(const MapCell& cell) const {
+  return {cell.moments, cell.moments.count() >= params_.min_cell_points ? 1U : 0U,
+          cell.marked ? 1U : 0U};
 }
 
 void PatchPlanes::Fit(const CellWindow& cells, const CellBox& box) {
   width_ = cells.nx();
   planes_.assign(CellIndex(0, cells.ny(), width_), {});
+  spreads_.clear();
   if (box.empty()) return;
   const CellBox out = box.Grown(reach_.x, reach_.y, cells.nx(), cells.ny());
   FindRowsWithData(cells, box, out);
@@ -86,8 +92,8 @@ void PatchPlanes::SlideDown(const CellWindow& cells, const CellBox& box, const C
   const bool takes = gone >= box.y && gone < box.y_end;
   for (int ix = box.x; ix < box.x_end; ++ix) {
     Sums& column = columns_[static_cast<std::size_t>(ix)];
-    if (adds) AddCell(column, cells.At(ix, in));
-    if (takes) TakeCell(column, cells.At(ix, gone));
+    if (adds) column += SumsOf(cells.At(ix, in));
+    if (takes) column -= SumsOf(cells.At(ix, gone));
   }
   for (int ix = out.x; ix < out.x_end; ++ix) {
     std::int32_t& rows = rows_with_data_[static_cast<std::size_t>(ix)];
@@ -98,38 +104,38 @@ void PatchPlanes::SlideDown(const CellWindow& cells, const CellBox& box, const C
 
 void PatchPlanes::FitRow(const CellWindow& cells, const CellBox& box, const CellBox& out, int iy) {
   Sums patch;
-  int columns = 0;
+  int columns_with_data = 0;
   for (int ix = box.x - reach_.x; ix < out.x_end; ++ix) {
     const int in = ix + reach_.x;
     const int gone = ix - reach_.x - 1;
     if (in < box.x_end) {
       const Sums& column = columns_[static_cast<std::size_t>(in)];
-      patch.moments += column.moments;
-      patch.filled += column.filled;
-      patch.marked += column.marked;
-      columns += column.moments.empty() ? 0 : 1;
+      patch += column;
+      columns_with_data += column.moments.empty() ? 0 : 1;
     }
     if (gone >= box.x && gone < box.x_end) {
       const Sums& column = columns_[static_cast<std::size_t>(gone)];
-      patch.moments -= column.moments;
-      patch.filled -= column.filled;
-      patch.marked -= column.marked;
-      columns -= column.moments.empty() ? 0 : 1;
+      patch -= column;
+      columns_with_data -= column.moments.empty() ? 0 : 1;
     }
-    if (ix < out.x) continue;
-    PatchPlane& plane = planes_[CellIndex(ix, iy, width_)];
-    plane.marked = patch.marked > 0;
-    plane.enough = patch.filled >= needed_cells_ && !patch.moments.empty();
-    const bool covered =
-        columns >= needed_columns_ && rows_with_data_[static_cast<std::size_t>(ix)] >= needed_rows_;
-    if (plane.enough && covered) FitPatch(cells, patch.moments, {ix, iy}, plane);
+    if (ix >= out.x) Assess(cells, patch, columns_with_data, {ix, iy});
   }
+}
+
+void PatchPlanes::Assess(const CellWindow& cells, const Sums& patch, int columns_with_data,
+                         Cell middle) {
+  PatchPlane& plane = planes_[CellIndex(middle.ix, middle.iy, width_)];
+  plane.marked = patch.marked > 0;
+  plane.enough = patch.filled >= needed_cells_ && !patch.moments.empty();
+  const bool covered = columns_with_data >= needed_columns_ &&
+                       rows_with_data_[static_cast<std::size_t>(middle.ix)] >= needed_rows_;
+  if (plane.enough && covered) FitPatch(cells, patch.moments, middle, plane);
 }
 
 void PatchPlanes::FitPatch(const CellWindow& cells, const math::PointMoments& moments, Cell middle,
                            PatchPlane& plane) {
-  if (params_.outliers_per_cell > 0) {
-    Store(FitWithoutOutliers(cells, moments, middle), plane);
+  if (params_.outliers_per_cell > 0 || moments.count() > math::kExactPoints) {
+    Store(FitWithoutOutliers(CellsOf(cells, middle), moments, params_.outliers_per_cell), plane);
     return;
   }
   const math::SymmetricMatrix3 covariance_m2 = math::Spread(moments).covariance_m2;
@@ -155,31 +161,28 @@ void PatchPlanes::Store(const math::PlaneFit& fit, PatchPlane& plane) const {
   if (params_.tests.pitch) plane.slope_rad = fit.Slope_rad();
 }
 
-math::PlaneFit PatchPlanes::FitWithoutOutliers(const CellWindow& cells, math::PointMoments moments,
-                                               Cell middle) const {
-  const CellBox patch = CellBox{middle.ix, middle.ix + 1, middle.iy, middle.iy + 1}.Grown(
-      reach_.x, reach_.y, cells.nx(), cells.ny());
-  std::vector<const MapCell*> left;
-  for (int iy = patch.y; iy < patch.y_end; ++iy) {
-    for (int ix = patch.x; ix < patch.x_end; ++ix) {
-      if (!cells.At(ix, iy).moments.empty()) left.push_back(&cells.At(ix, iy));
+void PatchPlanes::FindSpreads(const CellWindow& cells) {
+  spreads_.resize(planes_.size());
+  for (int iy = 0; iy < cells.ny(); ++iy) {
+    for (int ix = 0; ix < cells.nx(); ++ix) {
+      const math::PointMoments& moments = cells.At(ix, iy).moments;
+      if (!moments.empty()) spreads_[CellIndex(ix, iy, width_)] = math::Spread(moments);
     }
   }
-  math::PointSpread spread = math::Spread(moments);
-  math::PlaneFit fit = math::FitPlane(spread.covariance_m2);
-  for (std::int64_t i = 0; i < params_.outliers_per_cell && left.size() > 1; ++i) {
-    const auto distance = [&](const MapCell* cell) {
-      return std::abs(fit.normal.dot(math::Spread(cell->moments).mean_m - spread.mean_m));
-    };
-    const auto worst = std::max_element(
-        left.begin(), left.end(), [&](auto* a, auto* b) { return distance(a) < distance(b); });
-    if (distance(*worst) < kInPlane_m) break;
-    moments -= (*worst)->moments;
-    left.erase(worst);
-    spread = math::Spread(moments);
-    fit = math::FitPlane(spread.covariance_m2);
+}
+
+std::vector<PatchCell> PatchPlanes::CellsOf(const CellWindow& cells, Cell middle) {
+  if (spreads_.empty()) FindSpreads(cells);
+  const CellBox patch = CellBox{middle.ix, middle.ix + 1, middle.iy, middle.iy + 1}.Grown(
+      reach_.x, reach_.y, cells.nx(), cells.ny());
+  std::vector<PatchCell> with_data;
+  for (int iy = patch.y; iy < patch.y_end; ++iy) {
+    for (int ix = patch.x; ix < patch.x_end; ++ix) {
+      const math::PointMoments& moments = cells.At(ix, iy).moments;
+      if (!moments.empty()) with_data.push_back({&moments, &spreads_[CellIndex(ix, iy, width_)]});
+    }
   }
-  return fit;
+  return with_data;
 }
 
 }  // namespace rockyard::navigation

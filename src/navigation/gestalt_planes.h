@@ -7,6 +7,7 @@
 #include "math/plane_fit.h"
 #include "navigation/gestalt_cells.h"
 #include "navigation/gestalt_map_params.h"
+#include "navigation/gestalt_patch.h"
 
 namespace rockyard::navigation {
 
@@ -29,8 +30,12 @@ PatchReach ReachOf(const GestaltMapParams& params);
 
 // Merges the moments of all patches and fits their planes. Sums of whole numbers slide over the
 // map: O(cells) whatever the size of the patch, and exact. Cells outside the window count as
-// empty. With outliers_per_cell each patch is searched that often for the cell whose mean lies
-// farthest from the plane, which is then left out.
+// empty. Patches of more than math::kExactPoints points are merged from the means and covariances
+// of their cells instead, where sums of whole numbers could run over.
+//
+// With outliers_per_cell each patch is searched that often for the cell whose mean lies farthest
+// from the plane, which is then left out: O(cells times cells of a patch times outliers_per_cell).
+// What is left need not have enough data and coverage by itself: those are tested before.
 class PatchPlanes {
  public:
   explicit PatchPlanes(const GestaltMapParams& params);
@@ -48,6 +53,9 @@ class PatchPlanes {
     math::PointMoments moments;
     std::uint64_t filled = 0;  // cells with min_cell_points
     std::uint64_t marked = 0;
+
+    Sums& operator+=(const Sums& other);
+    Sums& operator-=(const Sums& other);
   };
   struct Cell {
     int ix;
@@ -59,20 +67,25 @@ class PatchPlanes {
     math::SymmetricMatrix3 covariance_m2;
   };
 
-  void AddCell(Sums& sums, const MapCell& cell) const;
-  void TakeCell(Sums& sums, const MapCell& cell) const;
+  Sums SumsOf(const MapCell& cell) const;
   void FindRowsWithData(const CellWindow& cells, const CellBox& box, const CellBox& out);
   // Moves the sums over columns from the patches of row iy - 1 to those of row iy.
   void SlideDown(const CellWindow& cells, const CellBox& box, const CellBox& out, int iy);
+  // Slides along row iy.
   void FitRow(const CellWindow& cells, const CellBox& box, const CellBox& out, int iy);
+  // Tests the patch around `middle` and fits its plane. `columns_with_data` of its columns hold
+  // data.
+  void Assess(const CellWindow& cells, const Sums& patch, int columns_with_data, Cell middle);
   // Fits the plane of the patch around `middle`, whose points have `moments`, or puts it off until
   // there is another: planes are fitted in pairs.
   void FitPatch(const CellWindow& cells, const math::PointMoments& moments, Cell middle,
                 PatchPlane& plane);
   void FitWaiting();
   void Store(const math::PlaneFit& fit, PatchPlane& plane) const;
-  math::PlaneFit FitWithoutOutliers(const CellWindow& cells, math::PointMoments moments,
-                                    Cell middle) const;
+  void FindSpreads(const CellWindow& cells);
+  // The cells with data of the patch around `middle`. Finds the spreads of all cells when it is
+  // first called in a Fit.
+  std::vector<PatchCell> CellsOf(const CellWindow& cells, Cell middle);
 
   GestaltMapParams params_;
   PatchReach reach_;
@@ -85,6 +98,7 @@ class PatchPlanes {
   std::vector<std::uint8_t> row_holds_data_;  // among the columns of the patch around a cell
   Waiting waiting_;
   std::vector<std::int32_t> rows_with_data_;  // of the patches of the row at hand
+  std::vector<math::PointSpread> spreads_;    // of all cells, or nothing where not needed
 };
 
 }  // namespace rockyard::navigation

@@ -3,9 +3,10 @@
 #pragma once
 
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "navigation/cell_index.h"
 
 namespace rockyard::navigation {
 
@@ -30,10 +31,7 @@ struct GoodnessGrid {
   CellValue unknown;             // of everything outside the window
   std::vector<CellValue> cells;  // [iy][ix]
 
-  const CellValue& Cell(int ix, int iy) const {
-    return cells[static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) +
-                 static_cast<std::size_t>(ix)];
-  }
+  const CellValue& Cell(int ix, int iy) const { return cells[CellIndex(ix, iy, nx)]; }
   const CellValue& At(double x_m, double y_m) const {
     const double column = std::floor((x_m - x0_m) / xstep_m);
     const double row = std::floor((y_m - y0_m) / ystep_m);

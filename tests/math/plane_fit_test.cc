@@ -105,6 +105,38 @@ TEST(PointSpreadTest, DoesNotDependOnTheOrigin) {
   EXPECT_NEAR(a.yz, b.yz, 1e-15);
 }
 
+// Points merged as they are or by sets of three sizes: the same mean and covariance but for
+// rounding.
+TEST(PointSpreadTest, MergedSetsAreOneSet) {
+  core::RandomStream stream({23, 0}, core::Purpose::kTest, 1);
+  PointMoments all;
+  std::vector<PointSpread> spreads;
+  for (const int size : {1, 20, 500}) {
+    PointMoments set;
+    for (int i = 0; i < size; ++i) {
+      const auto x = static_cast<std::int64_t>((stream.Uniform() + size) * 1e6);
+      const auto y = static_cast<std::int64_t>(stream.Uniform() * 2e6 - 1e3 * size);
+      const auto z = x / 3 + static_cast<std::int64_t>(stream.Uniform() * 3e5);
+      set.AddPoint(x, y, z);
+    }
+    spreads.push_back(Spread(set));
+    all += set;
+  }
+  const PointSpread merged = Merged(spreads);
+  const PointSpread whole = Spread(all);
+  EXPECT_EQ(merged.count, 521);
+  EXPECT_LT((merged.mean_m - whole.mean_m).norm(), 1e-11);
+  const SymmetricMatrix3& a = merged.covariance_m2;
+  const SymmetricMatrix3& b = whole.covariance_m2;
+  const double size_m2 = b.xx;  // the largest
+  EXPECT_NEAR(a.xx, b.xx, 1e-13 * size_m2);
+  EXPECT_NEAR(a.yy, b.yy, 1e-13 * size_m2);
+  EXPECT_NEAR(a.zz, b.zz, 1e-13 * size_m2);
+  EXPECT_NEAR(a.xy, b.xy, 1e-13 * size_m2);
+  EXPECT_NEAR(a.xz, b.xz, 1e-13 * size_m2);
+  EXPECT_NEAR(a.yz, b.yz, 1e-13 * size_m2);
+}
+
 // Points on z = a x + b y: no residual; normal (-a, -b, 1)/sqrt(1 + a^2 + b^2), slope
 // atan sqrt(a^2 + b^2).
 TEST(PlaneFitTest, TiltedPlane) {

@@ -123,7 +123,9 @@ TEST(GestaltDifferentialTest, EveryChoice) {
     params.min_patch_share = 0.21 * pick(20, 4);
     params.eigen_ratio = 2.0 + 10.0 * pick(22, 3);
     params.outliers_per_cell = pick(25, 4);
-    params.pairs.pitch_obst = {0, 200};
+    params.pairs.step_obst = {40, 250};
+    params.pairs.rough_obst = {60, 220};
+    params.pairs.pitch_obst = {80, 200};
     SCOPED_TRACE(trial);
     Compare(params, trial, 1500);
   }

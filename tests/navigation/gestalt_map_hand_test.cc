@@ -150,6 +150,32 @@ TEST(GestaltHandTest, RoughGroundThatIsNoPlane) {
   ExpectBlock(Rough(params, 0.25), {}, {}, Good(0));
 }
 
+// A million points in a patch at +-2^32/1000 um: their squares add up to 2^64 um^2 but for a
+// rest, in which sums of whole numbers see level ground. The residual is that of the vertical plane
+// through them: sqrt(0.0825 m2) = 28.7 cm in the patch around cell (10, 10), which is the only one
+// with 25 cells.
+TEST(GestaltHandTest, ManyPointsDoNotHideAnObstacle) {
+  GestaltMapParams params = HandParams();
+  params.eigen_ratio = 1.0;
+  GestaltMap map(params);
+  map.BeginCycle(kHandRover_m, kHandRover_m);
+  messages::PointCloud cloud;
+  for (const double height_m : {4.294967, -4.294967}) {
+    const messages::PointCloud layer =
+        PointsOn({8, 13, 8, 13}, [height_m](double, double) { return height_m; });
+    for (int i = 0; i < 5000; ++i) {
+      cloud.points_R.insert(cloud.points_R.end(), layer.points_R.begin(), layer.points_R.end());
+    }
+  }
+  map.Add(cloud, math::Transform::Identity());
+  EXPECT_EQ(map.Evaluate().Cell(10, 10), Good(0));
+  params.rover.obst_height_m = 0.5;  // 255 (1 - 28.72/50) = 108.5
+  GestaltMap higher(params);
+  higher.BeginCycle(kHandRover_m, kHandRover_m);
+  higher.Add(cloud, math::Transform::Identity());
+  EXPECT_EQ(higher.Evaluate().Cell(10, 10), Good(109));
+}
+
 // Data up to column 9: a patch has 3 of its columns there around column 9, 2 around column 10. At
 // the upper and lower edge other borders come in.
 TEST(GestaltHandTest, BorderOfTheUnknown) {

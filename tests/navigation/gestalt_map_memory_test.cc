@@ -140,6 +140,20 @@ TEST(GestaltMemoryTest, PointsThatAreNoGroundAreLeftOut) {
   EXPECT_EQ(CellsWithData(map), 1);
 }
 
+// 10 m above or below R, not above or below the origin of the world.
+TEST(GestaltMemoryTest, HeightCountsFromTheRover) {
+  GestaltMap map(HandParams());
+  map.BeginCycle(kHandRover_m, kHandRover_m);
+  const Transform X_WR = math::MakePose({0.0, 0.0, 50.0}, 0.0, 0.0, 0.0);
+  map.Add(OnePoint(0.1, 0.1, -50.0), X_WR);  // at the height of the origin
+  map.Add(OnePoint(0.1, 0.1, 10.1), X_WR);
+  map.Add(OnePoint(0.1, 0.1, -10.1), X_WR);
+  EXPECT_EQ(CellsWithData(map), 0);
+  map.Add(OnePoint(0.1, 0.1, 9.9), X_WR);
+  map.Add(OnePoint(0.9, 0.1, -9.9), X_WR);
+  EXPECT_EQ(CellsWithData(map), 2);
+}
+
 TEST(GestaltMemoryTest, FarAwayAndBackIsNoProblem) {
   GestaltMap map = MapOf(HandParams(), PointsOn(kWholeWindow, Level));
   for (const double far : {1e9, -1e300, 0.0}) {
@@ -162,37 +176,6 @@ TEST(GestaltMemoryTest, CellsTakeSoManyPoints) {
   map.Add(cloud, Transform::Identity());
   map.Evaluate();
   EXPECT_EQ(map.View().Cell(10, 10).elevation_m, 1.0);
-}
-
-TEST(GestaltMemoryTest, WhatTheRoverFeltIsAnObstacleUntilItAges) {
-  GestaltMapParams params = HandParams();
-  params.max_idles = 2;
-  GestaltMap map = MapOf(params, PointsOn(kWholeWindow, Level));
-  map.MarkObstacle(0.1, 0.1, 0.05);  // cell (10, 10) alone: every patch within two cells
-  const GoodnessGrid& grid = map.Evaluate();
-  const CellValue obstacle{0, 255, true}, best{255, 255, true};
-  for (int i = 5; i < 16; ++i) {
-    EXPECT_EQ(grid.Cell(i, 10), std::abs(i - 10) <= 2 ? obstacle : best) << i;
-    EXPECT_EQ(grid.Cell(10, i), std::abs(i - 10) <= 2 ? obstacle : best) << i;
-  }
-  map.MarkObstacle(0.1, 0.1, 0.25);  // the four neighbours too
-  EXPECT_EQ(map.Evaluate().Cell(13, 10), obstacle);
-  EXPECT_EQ(map.Evaluate().Cell(13, 13), best);
-  map.BeginCycle(kHandRover_m, kHandRover_m);
-  map.Add(PointsOn(kWholeWindow, Level), Transform::Identity());
-  EXPECT_EQ(map.Evaluate().Cell(10, 10), obstacle) << "data do not clear it";
-  for (int i = 0; i < 3; ++i) map.BeginCycle(kHandRover_m, kHandRover_m);
-  map.Add(PointsOn(kWholeWindow, Level), Transform::Identity());
-  EXPECT_EQ(map.Evaluate().Cell(10, 10), best);
-}
-
-TEST(GestaltMemoryTest, WhatTheRoverFeltIsKnownWhereNothingWasSeen) {
-  GestaltMap map(HandParams());
-  map.BeginCycle(kHandRover_m, kHandRover_m);
-  map.MarkObstacle(0.1, 0.1, 0.05);
-  const GoodnessGrid& grid = map.Evaluate();
-  EXPECT_EQ(grid.Cell(12, 8), (CellValue{0, 255, true}));
-  EXPECT_EQ(grid.Cell(13, 8), (CellValue{11, 0, false}));
 }
 
 TEST(GestaltMemoryTest, ClearForgetsAll) {

@@ -98,8 +98,30 @@ TEST(GestaltMapParamsTest, RefusesWhatMakesNoMap) {
   EXPECT_THAT(Problems(R"({"pairs": {"unknown": {"goodness": 256}}})"),
               HasSubstr("largest allowed value"));
   EXPECT_THAT(Problems(R"({"rover": {"width_m": -0.84}})"), HasSubstr("smallest allowed value"));
+  EXPECT_THAT(Problems(R"({"max_idles": 0})"), HasSubstr("smallest allowed value"));
   EXPECT_NE(Problems(R"({"failed_fit": "guess"})"), "");
   EXPECT_NE(Problems(R"({"roughness_fraction": 0})"), "");
+}
+
+// A map that ends within the vehicle's 1.04 m of the rover.
+TEST(GestaltMapParamsTest, RefusesMapsThatEndAtTheVehicle) {
+  using testing::HasSubstr;
+  const auto too_near = HasSubstr("within a vehicle's length of the rover");
+  EXPECT_THAT(Problems(R"({"grid": {"xN_m": 0.4, "yN_m": 0.4}})"), too_near);
+  EXPECT_THAT(Problems(R"({"grid": {"yN_m": 2.07}})"), too_near);
+  EXPECT_EQ(Problems(R"({"grid": {"xN_m": 2.09, "yN_m": 2.09}})"), "");
+  EXPECT_THAT(Problems(R"({"grid_dist_timeout_m": 1.03})"), too_near);
+  EXPECT_EQ(Problems(R"({"grid_dist_timeout_m": 1.04})"), "");
+  EXPECT_THAT(Problems(R"({"rover": {"width_m": 3}, "grid_dist_timeout_m": 2.9})"), too_near);
+}
+
+TEST(GestaltMapParamsTest, RefusesOutliersThatTakeSeconds) {
+  using testing::HasSubstr;
+  EXPECT_THAT(
+      Problems(
+          R"({"grid": {"xstep_m": 0.05, "ystep_m": 0.05}, "rover": {"width_m": 3}, "outliers_per_cell": 8})"),
+      HasSubstr("2e7 distances"));
+  EXPECT_EQ(Problems(R"({"grid": {"xstep_m": 0.1, "ystep_m": 0.1}, "outliers_per_cell": 8})"), "");
 }
 
 TEST(GestaltMapParamsTest, CellsCoverTheBounds) {
@@ -142,10 +164,10 @@ TEST(GestaltMapParamsTest, ExtremesWork) {
        {R"({"grid": {"xN_m": 4, "yN_m": 4, "xstep_m": 2, "ystep_m": 2}})",
         R"({"grid": {"xstep_m": 0.05, "ystep_m": 0.05}, "outliers_per_cell": 1})",
         R"({"grid": {"xN_m": 1000, "xstep_m": 2}, "grid_dist_timeout_m": 1000})",
-        R"({"min_patch_share": 0, "min_cell_coverage": 0, "eigen_ratio": 1, "max_idles": 0})",
+        R"({"min_patch_share": 0, "min_cell_coverage": 0, "eigen_ratio": 1, "max_idles": 1})",
         R"({"outliers_per_cell": 8, "min_patch_share": 0, "min_cell_points": 1})",
         R"({"rover": {"width_m": 3}, "patch": "width", "tests": {"pitch": true}})",
-        R"({"grid_dist_timeout_m": 0.1})"}) {
+        R"({"grid": {"xN_m": 2.08, "yN_m": 2.08}, "grid_dist_timeout_m": 1.04})"}) {
     const GestaltMapParams params = Read(json);
     GestaltMap map = MapOf(params, PointsOn(kWholeWindow, Level));
     map.MarkObstacle(0.5, 0.5, 0.2);

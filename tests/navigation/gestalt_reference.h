@@ -1,5 +1,6 @@
 // A plain map of GESTALT to compare the fast one with: it keeps every point, and goes through all
-// points of every patch with Eigen's solver. Written from Goldberg 2002, section 4, alone.
+// points of every patch with Eigen's solver. The same readings of Goldberg 2002, section 4, and of
+// its table 1, by an independent algorithm.
 #pragma once
 
 #include <Eigen/Eigenvalues>
@@ -76,6 +77,7 @@ class ReferenceMap {
     return reach;
   }
 
+  // Coverage and data are not asked for again of what is left without outliers.
   Plane FitPlane(std::vector<Points> cells) const {
     for (std::int64_t left_out = 0;; ++left_out) {
       Points all;
@@ -150,9 +152,11 @@ class ReferenceMap {
     const double h = p_.HazardHeight_m();
     double goodness = 255.0;
     std::int64_t certainty = 255;
-    const auto hazard = [&](double value, const GoodnessPair& pair) {
-      if (std::floor(value + 0.5) < goodness) {
-        goodness = std::floor(value + 0.5);
+    // The pair of table 1 is that of the whole obstacle: no hazard is worse.
+    const auto hazard = [&](double formula, const GoodnessPair& pair) {
+      const double value = std::max(std::floor(formula + 0.5), static_cast<double>(pair.goodness));
+      if (value < goodness) {
+        goodness = value;
         certainty = pair.certainty;
       }
     };
