@@ -209,6 +209,11 @@ double GestaltMapParams::PatchSide_m() const {
   return patch == PatchSize::kLength ? rover.length_m : rover.width_m;
 }
 
+double GestaltMapParams::Reach_m() const {
+  return std::min(
+      {0.5 * (grid.xN_m - grid.x0_m), 0.5 * (grid.yN_m - grid.y0_m), grid_dist_timeout_m});
+}
+
 void GestaltMapParams::Visit(core::FieldVisitor& v) {
   v.Group("grid", grid, "bounds and resolution of the map");
   v.Integer("max_idles", max_idles,

@@ -135,6 +135,10 @@ void GestaltParams::Visit(core::FieldVisitor& v) {
   v.Group("plan", plan, "how far and how densely paths are judged");
   v.Group("votes", votes, "thresholds of the votes");
   v.Group("drive", drive, "the drive cycle, and what ends it");
+  v.Require("plan.plan_min_dist_m", plan.plan_min_dist_m < map.Reach_m(),
+            "is where the map ends or beyond (half of its grid, or grid_dist_timeout_m): nothing "
+            "of any path could be known",
+            "use a smaller plan_min_dist_m or a larger map");
   v.Require("drive.step_m", drive.step_m <= plan.plan_max_dist_m,
             "is beyond plan.plan_max_dist_m: the rover would drive blindly past what it judged",
             "use a smaller step_m or a larger plan.plan_max_dist_m");

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/json_text.h"
 #include "navigation/gestalt_clouds.h"
+#include "navigation/gestalt_params.h"
 
 namespace rockyard::navigation {
 namespace {
@@ -113,6 +114,23 @@ TEST(GestaltMapParamsTest, RefusesMapsThatEndAtTheVehicle) {
   EXPECT_THAT(Problems(R"({"grid_dist_timeout_m": 1.03})"), too_near);
   EXPECT_EQ(Problems(R"({"grid_dist_timeout_m": 1.04})"), "");
   EXPECT_THAT(Problems(R"({"rover": {"width_m": 3}, "grid_dist_timeout_m": 2.9})"), too_near);
+}
+
+TEST(GestaltMapParamsTest, PathsBeginWithinTheMap) {
+  const auto problems = [](const std::string& json) -> std::string {
+    GestaltParams params;
+    try {
+      core::ReadParams(core::ParseJson(json, "test"), params);
+    } catch (const core::UserError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto beyond = testing::HasSubstr("where the map ends or beyond");
+  EXPECT_THAT(problems(R"({"plan": {"plan_min_dist_m": 3.0, "plan_max_dist_m": 4}})"), beyond);
+  EXPECT_EQ(problems(R"({"plan": {"plan_min_dist_m": 2.9, "plan_max_dist_m": 4}})"), "");
+  EXPECT_THAT(problems(R"({"map": {"grid": {"yN_m": 3}}, "plan": {"plan_min_dist_m": 1.6}})"),
+              beyond);
 }
 
 TEST(GestaltMapParamsTest, RefusesOutliersThatTakeSeconds) {
