@@ -57,7 +57,7 @@ double StepEnergyWh(const scenario::Scenario& scenario, const truth::DriveRecord
   return ((record.drive_time_s + record.turn_time_s) * (moving_W + energy.driving_W) +
           steer_s * (moving_W + energy.steering_W) +
           record.imaging_time_s * (base_W + energy.stereo_imaging_W) +
-          record.compute_time_s * (base_W + energy.computing_W)) /
+          (record.compute_time_s + record.move_overhead_time_s) * (base_W + energy.computing_W)) /
          3600.0;
 }
 
@@ -79,10 +79,16 @@ TEST(GestaltDriveTest, TimeAndEnergyAddUp) {
         tick_s * static_cast<double>(std::count_if(
                      trial.trace.samples.begin(), trial.trace.samples.end(),
                      [](const truth::TraceSample& s) { return s.activity == "steer"; }));
+    EXPECT_NEAR(record.steer_time_s, steer_s, 1e-6);
+    EXPECT_NEAR(record.move_overhead_time_s, record.moves * scenario.clock.compute.move_overhead_s,
+                1e-6);
     EXPECT_NEAR(record.sim_time_s,
                 record.drive_time_s + record.turn_time_s + steer_s + record.imaging_time_s +
-                    record.compute_time_s,
+                    record.compute_time_s + record.move_overhead_time_s,
                 1e-6);
+    EXPECT_EQ(record.stall_time_s, 0.0);
+    EXPECT_EQ(record.active_time_s, record.sim_time_s);
+    EXPECT_EQ(record.active_energy_wh, record.energy_wh);
     EXPECT_NEAR(record.energy_wh, StepEnergyWh(scenario, record, steer_s), 1e-9);
     EXPECT_NEAR(record.imaging_energy_wh, record.imaging_time_s * (3.77 + 0.80 + 1.25) / 3600.0,
                 1e-9);
