@@ -173,16 +173,19 @@ TEST(GestaltMovedEstimate, ProgressForgivesWhatWasFelt) {
   EXPECT_GT(std::count_if(drive.log().begin(), drive.log().end(), DrivesBackward), 0);
 }
 
-// Walls 0.5 rad to either side stop each turn: half a radian, then one each. What was turned counts
-// in the search, and a wall that is touched when a turn begins does not stop it.
+// Walls 0.5 rad to either side, felt until 0.4 rad, stop each turn: half a radian, then one each.
+// What was turned counts in the search, and a wall that is felt when a turn begins does not stop
+// it.
 TEST(GestaltMovedEstimate, TurnsThatAreStoppedCountInASearch) {
   GestaltSetup setup;
   setup.rover = TrueRover();
   setup.range.range_m = 0.2;
   setup.goal = {4.0, 1.0};
   setup.params.drive.max_felt = 1000;
-  setup.felt = [](const FakeRover& rover) -> std::optional<VehicleHazard> {
-    if (std::abs(rover.X_WR().heading_rad) > 0.5) return kTouchAhead;
+  bool touches = false;
+  setup.felt = [&touches](const FakeRover& rover) -> std::optional<VehicleHazard> {
+    touches = std::abs(rover.X_WR().heading_rad) > (touches ? 0.4 : 0.5);
+    if (touches) return kTouchAhead;
     return std::nullopt;
   };
   GestaltDrive drive(setup);

@@ -100,6 +100,15 @@ TEST(GestaltArcs, ArcsEndWhereTheyHaveTurnedEnough) {
   EXPECT_EQ(motions.forward[11].points.size(), 27u);
 }
 
+TEST(GestaltArcs, ArcsThatTurnTooFastAreJudgedAtTheirFirstPoint) {
+  GestaltArcParams arcs;
+  arcs.max_curvature_per_m = 20.0;
+  GestaltPlanParams plan;
+  plan.max_path_turn_rad = 0.2;
+  const CandidateMotions motions = MakeCandidates(arcs, plan, SamplePaths(plan, 0.2));
+  EXPECT_EQ(motions.forward.front().points.size(), 1u) << "7 rad at 0.35 m";
+}
+
 TEST(GestaltArcs, NearestArcIsThatOfTheLeastDifference) {
   for (const std::size_t count : {1u, 2u, 5u, 22u, 23u}) {
     for (double c = -2.53; c < 2.6; c += 0.0371) {
