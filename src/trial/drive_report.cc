@@ -56,6 +56,8 @@ void Drive::ReportLedger(truth::DriveRecord& record) const {
   record.compute_energy_wh = ledger_.energy_wh(Activity::kComputing);
   record.steer_time_s = ledger_.time_s(Activity::kSteering);
   record.move_overhead_time_s = ledger_.time_s(Activity::kOverhead);
+  record.move_time_s =
+      record.drive_time_s + record.turn_time_s + record.steer_time_s + record.move_overhead_time_s;
   record.stall_time_s = ledger_.time_s(Activity::kStalled);
   record.active_time_s = ledger_.time_s() - record.stall_time_s;
   record.active_energy_wh = ledger_.energy_wh() - ledger_.energy_wh(Activity::kStalled);

@@ -67,6 +67,7 @@ struct DriveRecord {
   double active_energy_wh = 0.0;  // energy less that of the stall
   double reversals = 0.0;         // arcs driven the other way than the last arc before
   double height_error_m = 0.0;    // believed - true height above the start, where there is a map
+  double move_time_s = 0.0;       // driving, turning in place, steering, and at rest about moves
 };
 
 struct DriveColumn {
@@ -186,6 +187,10 @@ inline constexpr std::array kDriveColumns = {
                 "believed less true height above the start, at the end; 0 with a navigator that "
                 "keeps no map and has no use for it",
                 &DriveRecord::height_error_m},
+    DriveColumn{"move_time_s", "s",
+                "simulated time of moves: driving, turning in place, steering, and "
+                "move_overhead_time_s",
+                &DriveRecord::move_time_s},
 };
 
 }  // namespace rockyard::truth

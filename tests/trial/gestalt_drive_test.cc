@@ -86,6 +86,8 @@ TEST(GestaltDriveTest, TimeAndEnergyAddUp) {
                 record.drive_time_s + record.turn_time_s + steer_s + record.imaging_time_s +
                     record.compute_time_s + record.move_overhead_time_s,
                 1e-6);
+    EXPECT_NEAR(record.move_time_s,
+                record.sim_time_s - record.imaging_time_s - record.compute_time_s, 1e-6);
     EXPECT_EQ(record.stall_time_s, 0.0);
     EXPECT_EQ(record.active_time_s, record.sim_time_s);
     EXPECT_EQ(record.active_energy_wh, record.energy_wh);

@@ -22,11 +22,7 @@ scenario::Scenario TwentySteps(const Overrides& overrides = {}) {
 }
 
 // Time of a move beyond its looks.
-double DrivingTime(const truth::DriveRecord& record) {
-  return (record.drive_time_s + record.turn_time_s + record.steer_time_s +
-          record.move_overhead_time_s) /
-         record.moves;
-}
+double DrivingTime(const truth::DriveRecord& record) { return record.move_time_s / record.moves; }
 
 // Table 2: 26.76 s a look and 15 s of driving a move. 154 looks for 105 moves are then 54 s a move.
 TEST(GestaltMoveTest, AMoveTakesTheTimeOfTable2) {
