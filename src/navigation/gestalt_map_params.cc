@@ -12,8 +12,8 @@ using core::Origin;
 constexpr std::string_view kTable1 = "Goldberg 2002 table 1";
 // Keeps the memory of a map below 10 MB, whatever is set.
 constexpr double kMostCells = 40000.0;
-// Distances of cells from planes in the search for outliers, in one evaluation. Together they keep
-// it below half a second.
+// Distances of cells from planes in the search for outliers, in one evaluation: a fifth of a
+// second.
 constexpr double kMostDistances = 2e7;
 
 // Cells that cover `extent_m`; a hair of tolerance for extents such as 9 m in steps of 0.1 m.

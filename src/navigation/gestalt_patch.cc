@@ -39,7 +39,8 @@ math::PlaneFit FitWithoutOutliers(std::vector<PatchCell> cells, math::PointMomen
   for (std::int64_t left_out = 0;; ++left_out) {
     const math::PointSpread spread = SpreadOf(cells, sum);
     const math::PlaneFit fit = math::FitPlane(spread.covariance_m2);
-    if (left_out == outliers || cells.size() == 1) return fit;
+    if (left_out == outliers) return fit;
+    // The last cell lies in its own plane.
     const Farthest worst = FarthestFrom(fit.normal, spread.mean_m, cells);
     if (worst.distance_m < kInPlane_m) return fit;
     sum -= *cells[worst.index].moments;

@@ -150,6 +150,33 @@ TEST(GestaltHandTest, RoughGroundThatIsNoPlane) {
   ExpectBlock(Rough(params, 0.25), {}, {}, Good(0));
 }
 
+// Nine points in a plane, one a cell: whatever is left out of them, none is an outlier. With eight
+// left out there would be no plane.
+TEST(GestaltHandTest, CellsInThePlaneAreNoOutliers) {
+  GestaltMapParams params = HandParams();
+  params.min_cell_points = 1;
+  params.min_patch_share = 0.3;
+  params.outliers_per_cell = 8;
+  messages::PointCloud cloud;
+  for (int i = 9; i < 12; ++i) {
+    for (int j = 9; j < 12; ++j) cloud.points_R.push_back({Edge(i) + 0.1, Edge(j) + 0.1, 0.0});
+  }
+  const GoodnessGrid grid = MapOf(params, cloud).Evaluate();
+  EXPECT_EQ(grid.Cell(10, 10), kBest);
+}
+
+// What was found of a map earlier does not show in what is found of it now.
+TEST(GestaltHandTest, EvaluatingTwiceIsEvaluatingOnce) {
+  GestaltMapParams params = HandParams();
+  params.outliers_per_cell = 1;
+  const auto step = [](double x, double) { return x > Edge(12) ? 0.15 : 0.0; };
+  GestaltMap map = MapOf(params, PointsOn(kWholeWindow, Level));
+  map.Evaluate();
+  map.Clear();
+  map.Add(PointsOn(kWholeWindow, step), math::Transform::Identity());
+  EXPECT_EQ(map.Evaluate().cells, GridOf(params, step).cells);
+}
+
 // A million points in a patch at +-2^32/1000 um: their squares add up to 2^64 um^2 but for a
 // rest, in which sums of whole numbers see level ground. The residual is that of the vertical plane
 // through them: sqrt(0.0825 m2) = 28.7 cm in the patch around cell (10, 10), which is the only one

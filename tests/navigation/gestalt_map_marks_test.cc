@@ -32,6 +32,16 @@ TEST(GestaltMarksTest, WhatTheRoverFeltIsAnObstacleUntilItAges) {
   EXPECT_EQ(map.Evaluate().Cell(10, 10), best);
 }
 
+// It has the pair of table 1 for step obstacles.
+TEST(GestaltMarksTest, WhatTheRoverFeltIsAStepObstacle) {
+  GestaltMapParams params = HandParams();
+  params.pairs.step_obst = {40, 200};
+  params.certainty = CellCertainty::kOfHazard;
+  GestaltMap map = MapOf(params, PointsOn(kWholeWindow, Level));
+  map.MarkObstacle(0.1, 0.1, 0.05);
+  EXPECT_EQ(map.Evaluate().Cell(10, 10), (CellValue{40, 200, true}));
+}
+
 // A mark is as young as the cycle in which it is made, whatever the age of the data under it.
 TEST(GestaltMarksTest, MarksAgeFromTheCycleInWhichTheyAreMade) {
   GestaltMapParams params = HandParams();
