@@ -165,16 +165,20 @@ TEST(GestaltHandTest, CellsInThePlaneAreNoOutliers) {
   EXPECT_EQ(grid.Cell(10, 10), kBest);
 }
 
-// What was found of a map earlier does not show in what is found of it now.
-TEST(GestaltHandTest, EvaluatingTwiceIsEvaluatingOnce) {
+// Without the cell that stands 1 m above level ground its patch is level; with it the residual
+// would be sqrt(0.04 x 0.96) m = 19.6 cm. What was found of the map earlier does not show.
+TEST(GestaltHandTest, OutliersOfTheMapAsItIs) {
   GestaltMapParams params = HandParams();
+  params.tests.step = false;
   params.outliers_per_cell = 1;
-  const auto step = [](double x, double) { return x > Edge(12) ? 0.15 : 0.0; };
+  const auto post = [](double x, double y) { return In(x, y, {10, 11, 10, 11}) ? 1.0 : 0.0; };
   GestaltMap map = MapOf(params, PointsOn(kWholeWindow, Level));
-  map.Evaluate();
+  EXPECT_EQ(map.Evaluate().Cell(10, 10), kBest);
   map.Clear();
-  map.Add(PointsOn(kWholeWindow, step), math::Transform::Identity());
-  EXPECT_EQ(map.Evaluate().cells, GridOf(params, step).cells);
+  map.Add(PointsOn(kWholeWindow, post), math::Transform::Identity());
+  ExpectBlock(map.Evaluate(), {}, {}, kBest);
+  params.outliers_per_cell = 0;
+  EXPECT_EQ(GridOf(params, post).Cell(10, 10), Good(5));  // 255 (1 - 19.596/20)
 }
 
 // A million points in a patch at +-2^32/1000 um: their squares add up to 2^64 um^2 but for a
