@@ -279,11 +279,12 @@ def gestalt(study):
         rows.append([GESTALT_NAMES[name], rate(summary), rate(summary, "true_success"),
                      failures(summary),
                      " / ".join(f"{distance[key]:.1f}" for key in ("min", "median", "p95", "max")),
-                     f"{100.0 * speed['mean']:.2f}", f"{images / moves:.2f}",
+                     f"{100.0 * speed['median']:.2f}", f"{images / moves:.2f}",
+                     f"{100.0 * sum(looks['reversals']) / moves:.0f}",
                      trials_per_second(summary)])
     return table(["500 trials", "declared success", "true success", "failures",
-                  "distance, min / median / 95 % / max (m)", "mean speed (cm/s)",
-                  "image sets a move", "trials per CPU-second"], rows)
+                  "distance, min / median / 95 % / max (m)", "median speed (cm/s)",
+                  "image sets a move", "moves the other way (%)", "trials per CPU-second"], rows)
 
 
 def navigators(study):
@@ -304,8 +305,8 @@ def navigators(study):
                      f"{number('true_high'):+.0f})", f"{number('true_holm'):.2g}",
                      paired_mean(row, "all", "true_distance_m", 1.0, 1),
                      paired_mean(row, "arrived", "true_distance_m", 1.0, 1),
-                     paired_mean(row, "all", "sim_time_s", 1.0 / 60.0, 0),
-                     paired_mean(row, "all", "energy_wh", 1.0, 1)])
+                     paired_mean(row, "all", "active_time_s", 1.0 / 60.0, 0),
+                     paired_mean(row, "all", "active_energy_wh", 1.0, 1)])
     return table(["rover", "k (1/m2)", "behaviour: declared / true (%)",
                   "GESTALT: declared / true (%)", "difference of true success (points)", "Holm p",
                   "distance (m)", "the same where both arrived", "time (min)", "energy (Wh)"], rows)
