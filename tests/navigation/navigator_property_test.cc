@@ -176,8 +176,9 @@ TEST(NavigatorProperty, JumpingEstimatesKeepDecisionsWellFormed) {
       if (draws.Chance(0.2)) navigator.OnPoseUpdate(before, estimate);
       messages::HazardReport report;
       report.stripe_hazard = RandomStripes(draws, 0.2);
-      decision = navigator.Decide(
-          {.time_s = 0.05 * i, .estimate = estimate, .report = decision.looks() ? &report : nullptr});
+      decision = navigator.Decide({.time_s = 0.05 * i,
+                                   .estimate = estimate,
+                                   .report = decision.looks() ? &report : nullptr});
       ExpectWellFormed(decision, params);
       if (HasFatalFailure()) return;
     }
