@@ -38,7 +38,7 @@ math::PlaneFit FitWithoutOutliers(std::vector<PatchCell> cells, math::PointMomen
                                   std::int64_t outliers) {
   for (std::int64_t left_out = 0;; ++left_out) {
     const math::PointSpread spread = SpreadOf(cells, sum);
-    const math::PlaneFit fit = math::FitPlane(spread.covariance_m2);
+    math::PlaneFit fit = math::FitPlane(spread.covariance_m2);
     if (left_out == outliers) return fit;
     // The last cell lies in its own plane.
     const Farthest worst = FarthestFrom(fit.normal, spread.mean_m, cells);
