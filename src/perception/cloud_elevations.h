@@ -17,8 +17,8 @@ namespace rockyard::perception {
 // The criteria were published for points 7 cm (rows) and 18 cm (stripes) apart on 20 cm of ground.
 // The neighbours of a coarser array differ by s tan(slope) more on a slope, s their distance, so
 // that thresholds (perception.hazard) have to grow with it; and with the default blame the bin
-// farther from the datum is charged. The highest point of a bin is the height of the rock in it: the
-// threshold that belongs to it is what the vehicle can straddle.
+// farther from the datum is charged. The highest point of a bin is the height of the rock in it:
+// the threshold that belongs to it is what the vehicle can straddle.
 //
 // Cost: about 3 ns a point.
 messages::ElevationScan CloudElevations(const messages::PointCloud& cloud,
