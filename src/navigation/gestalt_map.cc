@@ -9,7 +9,7 @@
 namespace rockyard::navigation {
 namespace {
 
-constexpr double kLargestHeight_m = 10.0;    // of points above and below R
+constexpr double kLargestHeight_m = 10.0;                 // of points above and below R
 constexpr std::int64_t kMostPoints = math::kExactPoints;  // of a cell
 // Estimates are taken as if they were here at most; lattice numbers stay far from overflow.
 constexpr double kFarthest_m = 1e6;
