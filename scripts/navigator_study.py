@@ -40,6 +40,7 @@ PAIRS = [MAIN, ("behaviour, stereo", "GESTALT, stereo"),
          ("behaviour, stereo of the stripe's view", "behaviour, stereo"),
          ("GESTALT, stereo of the stripe's view", "GESTALT, stereo"),
          ("behaviour, light stripe", "behaviour, stereo of the stripe's view")]
+FEWEST_PAIRS = 5  # for an interval by the bootstrap
 # Columns compared in pairs: name, digits, scale. Time and energy without the stall that ends a trial,
 # whose length is the referee's.
 MEANS = {"true_distance_m": ("distance (m)", 2, 1.0),
@@ -108,11 +109,19 @@ def rates_table(rows):
           percent(row, "true"), row["failures"]] for row in rows])
 
 
+def mean_difference(row, trials, column, digits, scale):
+    """Difference of means with its interval; '-' where too few pairs are there to resample."""
+    if float(row[f"{trials}_{column}_n"]) < FEWEST_PAIRS:
+        return "-"
+    values = [float(row[f"{trials}_{column}_{key}"])
+              for key in ("difference", "ci95_low", "ci95_high")]
+    return study.with_interval(values, digits, scale)
+
+
 def pairs_table(pairs, trials):
     def mean(row, column):
         _, digits, scale = MEANS[column]
-        values = [row[f"{trials}_{column}_{key}"] for key in ("difference", "ci95_low", "ci95_high")]
-        return study.with_interval(values, digits, scale)
+        return mean_difference(row, trials, column, digits, scale)
     return study.table(
         ["rover", "k (1/m2)", "first", "second", "true success, second less first (points)", "Holm p",
          "n", *(name for name, *_ in MEANS.values())],

@@ -20,7 +20,7 @@ from pathlib import Path
 
 import navigator_study
 from calibrate_odometer import SCALE, calibrate
-from study import ROOT, compare, table, trial_columns, with_interval
+from study import ROOT, compare, table, trial_columns
 
 REFERENCE = ROOT / "results/reference/matthies1995.json"
 HAZARD_REFERENCE = ROOT / "results/reference/matthies1995_hazard_detection.json"
@@ -273,7 +273,7 @@ def gestalt(study):
     rows = []
     for name, scenario, settings in GESTALT:
         summary = study.run("gestalt_" + name, scenario, 500, settings)
-        distance, speed = summary["distance_m"], summary["net_rate_m_s"]
+        distance, speed = summary["distance_m"], summary["columns"]["net_rate_m_s"]
         looks = trial_columns(study.folder("gestalt_" + name, scenario))
         images, moves = sum(looks["image_sets"]), sum(looks["moves"])  # turns in place among them
         rows.append([GESTALT_NAMES[name], rate(summary), rate(summary, "true_success"),
@@ -313,9 +313,7 @@ def navigators(study):
 
 
 def paired_mean(row, trials, column, scale, digits):
-    values = [float(row[f"{trials}_{column}_{key}"]) for key in
-              ("difference", "ci95_low", "ci95_high")]
-    text = with_interval(values, digits, scale)
+    text = navigator_study.mean_difference(row, trials, column, digits, scale)
     return text if trials == "all" else f"{text}, n {float(row[f'{trials}_{column}_n']):.0f}"
 
 

@@ -334,7 +334,7 @@ if [ "$1" = compare ]; then
   echo "                    both 1, only A 0, only B 0, neither 2; McNemar, exact: p = 1"
   { echo trials,column,unit,n,mean_a,mean_b,difference,ci95_low,ci95_high
     for column in true_distance_m active_time_s active_energy_wh; do
-      echo "all,$column,m,3,6,9,3,2.5,3.5"
+      echo "all,$column,m,30,6,9,3,2.5,3.5"
       echo "arrived,$column,m,0,,,,,"
     done; } > "$5"
   exit 0
@@ -378,7 +378,7 @@ printf 'trial,outcome,detail\\n0,goal_reached,\\n1,no_path,\\n2,no_path,\\n' > "
         self.assertIn(",66.7,7.7,92.3,0.5,", rows[1])
         self.assertTrue(rows[1].endswith(",1.0,1.0"), rows[1])  # Holm: 30 tests of p 0.5, 30 of p 1
         table = "\n".join(self.lines("navigators.md"))
-        self.assertIn("| +0 (-42..+42) | 1 | 3 | 3.00 (2.50..3.50) |", table)
+        self.assertIn("| +0 (-42..+42) | 1 | 30 | 3.00 (2.50..3.50) |", table)
         self.assertIn("| +0 (-42..+42) | 1 | 0 | - | - | - |", table)
         self.assertIn("no_path 2", table)
         self.assertEqual("\n".join(self.lines("navigators.svg")).count("<polyline"), 8)
