@@ -65,7 +65,8 @@ TEST(CloudElevationsTest, PointsBesideTheGroundDoNotCount) {
   PointCloud cloud;
   cloud.points_R = {{0.39, 0.0, 1.0},  {1.41, 0.0, 1.0}, {0.7, 0.51, 1.0},
                     {0.7, -0.51, 1.0}, {-0.7, 0.0, 1.0}, {kNan, 0.0, 1.0}};
-  for (const auto& point : CloudElevations(cloud, {}, Bins()).points.points()) {
+  const messages::ElevationScan scan = CloudElevations(cloud, {}, Bins());
+  for (const auto& point : scan.points.points()) {
     EXPECT_FALSE(point.detected);
   }
 }
@@ -111,7 +112,8 @@ TEST(CloudElevationsTest, LevelGroundIsFlatForARoverThatTiltsAndKnowsIt) {
   PointCloud cloud = Ground([](double, double) { return 0.0; });
   for (Vector3& p : cloud.points_R) p = X_WR.inverse() * p;
   CloudElevationParams params = Bins();
-  for (const auto& point : CloudElevations(cloud, attitude, params).points.points()) {
+  const messages::ElevationScan scan = CloudElevations(cloud, attitude, params);
+  for (const auto& point : scan.points.points()) {
     EXPECT_TRUE(point.detected);
     EXPECT_NEAR(point.elevation_m, 0.0, 1e-12);
   }

@@ -49,7 +49,8 @@ TEST(PlacementTest, PositionsAreUniformOverTheLayoutArea) {
   std::vector<double> observed(kColumns * kRows, 0.0);
   double total = 0.0;
   for (std::uint32_t i = 0; i < 100; ++i) {
-    for (const Rock& rock : BuildField(params, {71, i}, {}).terrain.rocks()) {
+    const Field field = BuildField(params, {71, i}, {});
+    for (const Rock& rock : field.terrain.rocks()) {
       const int column = static_cast<int>(rock.center_W.x() - area.x_min_m);
       const int row = static_cast<int>(rock.center_W.y() - area.y_min_m);
       observed[static_cast<std::size_t>(row * kColumns + column)] += 1.0;
