@@ -168,6 +168,7 @@ std::string BytePanel(std::string_view title, const MapPanel& panel, double left
 // Candidates from the leftmost to the rightmost turn.
 std::vector<const MotionVote*> LeftToRight(const std::vector<MotionVote>& votes) {
   std::vector<const MotionVote*> ordered;
+  ordered.reserve(votes.size());
   for (const MotionVote& vote : votes) ordered.push_back(&vote);
   std::reverse(ordered.begin(), ordered.end());
   return ordered;

@@ -108,9 +108,17 @@ TEST(GestaltFilesTest, Rocky32IsModelledAtItsSize) {
   EXPECT_EQ(GroupText(scenario, "rover"), GroupText(plain, "rover"));
 }
 
+// What table 2 of Goldberg 2002 leaves for a move beyond the motion of its wheels was measured with
+// GESTALT: the behaviour controller keeps the times of Matthies 1995, which leave no room for it.
+Scenario WithoutOverhead(Scenario scenario) {
+  scenario.clock.compute.move_overhead_s = 0.0;
+  return scenario;
+}
+
 TEST(GestaltFilesTest, PairsDifferInNavigatorAndSensorAlone) {
   for (const std::string name : {"abundance", "abundance_rocky_3_2"}) {
-    const Scenario map = Load(name);
+    EXPECT_GT(Load(name).clock.compute.move_overhead_s, 0.0);
+    const Scenario map = WithoutOverhead(Load(name));
     const Scenario behaviour = Load(name + "_behaviour");
     for (const char* group : {"terrain", "rover", "course", "referee", "clock", "energy"}) {
       EXPECT_EQ(GroupText(map, group), GroupText(behaviour, group)) << name << " " << group;
@@ -127,7 +135,7 @@ TEST(GestaltFilesTest, PairsDifferInNavigatorAndSensorAlone) {
 // a hazard is what its vehicle cannot straddle.
 TEST(GestaltFilesTest, NavigatorsAreComparedWithTheSameStereo) {
   for (const std::string name : {"abundance", "abundance_rocky_3_2"}) {
-    const Scenario map = Load(name);
+    const Scenario map = WithoutOverhead(Load(name));
     const Scenario behaviour = Load(name + "_behaviour_stereo");
     for (const char* group : {"terrain", "rover", "course", "referee", "clock", "energy"}) {
       EXPECT_EQ(GroupText(map, group), GroupText(behaviour, group)) << name << " " << group;
