@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "math/pose.h"
+#include "navigation/logged_drive.h"
 #include "navigation/pathfinder.h"
 
 namespace rockyard::navigation {
@@ -153,14 +154,14 @@ struct Tick {
 };
 
 // The closed loop of navigator and fake rover, with a log of every tick.
-class Drive {
+class Drive final : public LoggedDrive<Tick> {
  public:
   explicit Drive(const DriveSetup& setup)
       : setup_(setup),
         navigator_(setup.params, setup.goal, setup.sensor == HazardSensor::kOn),
         rover_(setup.rover, setup.start) {}
 
-  const Tick& Step() {
+  const Tick& Step() override {
     Tick tick;
     tick.time_s = static_cast<double>(log_.size()) * setup_.rover.tick_s;
     tick.estimate = rover_.estimate();
@@ -185,21 +186,6 @@ class Drive {
     return log_.back();
   }
 
-  // Steps until a tick satisfies `stop` or the limit is reached; true when it did.
-  bool StepUntil(const std::function<bool(const Tick&)>& stop, int max_ticks = 20000) {
-    for (int i = 0; i < max_ticks; ++i) {
-      if (stop(Step())) return true;
-    }
-    return false;
-  }
-
-  // Steps until the navigator arrives or gives up; kDriving when it does neither.
-  NavigatorStatus Run(int max_ticks = 100000) {
-    StepUntil([](const Tick& t) { return t.decision.status != NavigatorStatus::kDriving; },
-              max_ticks);
-    return log_.back().decision.status;
-  }
-
   void UpdatePose(const messages::PoseUpdate& update) {
     const messages::PoseEstimate before = rover_.estimate();
     rover_.SetEstimate(update);
@@ -211,7 +197,6 @@ class Drive {
     return navigator_.Decide({.time_s = time_s, .estimate = rover_.estimate()});
   }
 
-  const std::vector<Tick>& log() const { return log_; }
   const FakeRover& rover() const { return rover_; }
   int scans() const { return scans_; }
 
@@ -219,7 +204,6 @@ class Drive {
   DriveSetup setup_;
   PathfinderNavigator navigator_;
   FakeRover rover_;
-  std::vector<Tick> log_;
   int scans_ = 0;
 };
 

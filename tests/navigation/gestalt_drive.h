@@ -100,12 +100,12 @@ struct GestaltTick {
   }
 };
 
-class GestaltDrive {
+class GestaltDrive final : public LoggedDrive<GestaltTick> {
  public:
   explicit GestaltDrive(const GestaltSetup& setup)
       : setup_(setup), navigator_(setup.params, setup.goal), rover_(setup.rover, setup.start) {}
 
-  const GestaltTick& Step() {
+  const GestaltTick& Step() override {
     GestaltTick tick;
     tick.time_s = static_cast<double>(log_.size()) * setup_.rover.tick_s;
     tick.estimate = rover_.estimate();
@@ -129,20 +129,6 @@ class GestaltDrive {
     return log_.back();
   }
 
-  bool StepUntil(const std::function<bool(const GestaltTick&)>& stop, int max_ticks = 20000) {
-    for (int i = 0; i < max_ticks; ++i) {
-      if (stop(Step())) return true;
-    }
-    return false;
-  }
-
-  // Steps until the navigator arrives or gives up; kDriving when it does neither.
-  NavigatorStatus Run(int max_ticks = 200000) {
-    StepUntil([](const GestaltTick& t) { return t.decision.status != NavigatorStatus::kDriving; },
-              max_ticks);
-    return log_.back().decision.status;
-  }
-
   void UpdatePose(const messages::PoseUpdate& update) {
     const messages::PoseEstimate before = rover_.estimate();
     rover_.SetEstimate(update);
@@ -155,7 +141,6 @@ class GestaltDrive {
     return looks;
   }
 
-  const std::vector<GestaltTick>& log() const { return log_; }
   const FakeRover& rover() const { return rover_; }
   const GestaltNavigator& navigator() const { return navigator_; }
 
@@ -170,7 +155,6 @@ class GestaltDrive {
   GestaltSetup setup_;
   GestaltNavigator navigator_;
   FakeRover rover_;
-  std::vector<GestaltTick> log_;
 };
 
 // Whether two maps hold the same heights in the same cells.

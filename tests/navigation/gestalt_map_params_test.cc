@@ -12,27 +12,15 @@
 #include "core/archive.h"
 #include "core/error.h"
 #include "core/json_text.h"
+#include "core/params_text.h"
 #include "navigation/gestalt_clouds.h"
 #include "navigation/gestalt_params.h"
 
 namespace rockyard::navigation {
 namespace {
 
-GestaltMapParams Read(const std::string& json) {
-  GestaltMapParams params;
-  core::ReadParams(core::ParseJson(json, "test"), params);
-  return params;
-}
-
-// The problems of an input as one text; empty where it is accepted.
-std::string Problems(const std::string& json) {
-  try {
-    Read(json);
-  } catch (const core::UserError& error) {
-    return error.what();
-  }
-  return "";
-}
+constexpr auto& Read = core::ReadText<GestaltMapParams>;
+constexpr auto& Problems = core::ProblemsOf<GestaltMapParams>;
 
 // Goldberg 2002, table 1, but for arcs, waypoints and votes.
 TEST(GestaltMapParamsTest, DefaultsAreThoseOfTable1) {

@@ -8,28 +8,15 @@
 #include <vector>
 
 #include "core/archive.h"
-#include "core/error.h"
 #include "core/json_text.h"
+#include "core/params_text.h"
 #include "gestalt_drive.h"
 
 namespace rockyard::navigation {
 namespace {
 
-GestaltParams Read(const std::string& json) {
-  GestaltParams params;
-  core::ReadParams(core::ParseJson(json, "test"), params);
-  return params;
-}
-
-// The problems of an input as one text; empty where it is accepted.
-std::string Problems(const std::string& json) {
-  try {
-    Read(json);
-  } catch (const core::UserError& error) {
-    return error.what();
-  }
-  return "";
-}
+constexpr auto& Read = core::ReadText<GestaltParams>;
+constexpr auto& Problems = core::ProblemsOf<GestaltParams>;
 
 // Goldberg 2002, table 1, but for the map; and the step of section 4.
 TEST(GestaltVoteParams, DefaultsAreThoseOfTable1) {

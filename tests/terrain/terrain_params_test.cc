@@ -6,8 +6,8 @@
 #include <string>
 
 #include "core/archive.h"
-#include "core/error.h"
 #include "core/json_text.h"
+#include "core/params_text.h"
 #include "terrain/arena.h"
 #include "terrain/test_fields.h"
 
@@ -16,21 +16,8 @@ namespace {
 
 using testing::HasSubstr;
 
-TerrainParams Read(const std::string& json) {
-  TerrainParams params;
-  core::ReadParams(core::ParseJson(json, "test"), params);
-  return params;
-}
-
-// The problems of an input as one text; empty where it is accepted.
-std::string Problems(const std::string& json) {
-  try {
-    Read(json);
-  } catch (const core::UserError& error) {
-    return error.what();
-  }
-  return "";
-}
+constexpr auto& Read = core::ReadText<TerrainParams>;
+constexpr auto& Problems = core::ProblemsOf<TerrainParams>;
 
 TEST(TerrainParamsTest, DefaultsAreValidAndSurviveARoundTrip) {
   const TerrainParams defaults;
