@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs what the tables of README.md report and writes the tables anew.
+"""Runs what the tables of README.md and of the pages in results/ report and writes them anew.
 
 Each table stands between two comments, <!-- begin NAME --> and <!-- end NAME -->. Runs that are there
 already are taken as they are, so that this can be stopped and started again; delete the folder after
@@ -135,11 +135,31 @@ def trials_per_second(summary):
     return f"{summary['trials']['completed'] / summary['cpu_s']:.3g}"
 
 
-def comparison(study):
+def published_check(study):
     study.published()
-    text = study.tool("check", study.out / "published", "--against",
-                      REFERENCE)
-    return f"```\n{text.strip()}\n```"
+    return study.tool("check", study.out / "published", "--against", REFERENCE)
+
+
+def comparison(study):
+    return f"```\n{published_check(study).strip()}\n```"
+
+
+def comparison_excerpt(study):
+    """A row of each verdict for the first page; the whole table stands on a page of its own."""
+    shown = {"obstacles_0.28": "declared", "obstacles_0.85": "declared", "nominal": "declared",
+             "nominal_perfect_localization": "true distance, lower bound",
+             "level_sand": "k distance error, mode"}
+    lines, rows = published_check(study).splitlines(), []
+    scenario = None
+    for line in lines:
+        if line.startswith("  number"):
+            rows.append(line)
+        elif line in shown:
+            scenario = line
+        elif scenario and line.removeprefix("  ").startswith(shown[scenario]):
+            rows += [scenario, line]
+            scenario = None
+    return "```\n" + "\n".join(rows) + "\n```"
 
 
 def hazards(study):
@@ -329,15 +349,23 @@ def navigator_speed(study):
                  rows)
 
 
-TABLES = {f.__name__: f for f in (comparison, hazards, errors, envelope, abundance, causes, fidelity,
-                                 speed, gestalt, navigators, navigator_speed)}
+TABLES = {f.__name__: f for f in (comparison, comparison_excerpt, hazards, errors, envelope,
+                                 abundance, causes, fidelity, speed, gestalt, navigators,
+                                 navigator_speed)}
 
 
-def replace(text, name, content):
+def write_table(pages, name, content):
+    """Replaces what stands between the marks of the table, on every page that has them."""
     pattern = rf"(<!-- begin {name} -->\n).*?(\n<!-- end {name} -->)"
-    if not re.search(pattern, text, flags=re.DOTALL):
-        sys.exit(f"README.md has no table {name}")
-    return re.sub(pattern, lambda match: match[1] + content + match[2], text, flags=re.DOTALL)
+    found = False
+    for page in pages:
+        text, count = re.subn(pattern, lambda match: match[1] + content + match[2],
+                              page.read_text(encoding="utf-8"), flags=re.DOTALL)
+        if count:
+            page.write_text(text, encoding="utf-8")
+            found = True
+    if not found:
+        sys.exit(f"no page has a table {name}")
 
 
 def main():
@@ -345,7 +373,9 @@ def main():
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rockyard", type=Path, default=ROOT / "build/release/bin/rockyard")
     parser.add_argument("--out", type=Path, default=ROOT / "results/runs/readme")
-    parser.add_argument("--readme", type=Path, default=ROOT / "README.md")
+    parser.add_argument("--pages", type=Path, nargs="+",
+                        default=[ROOT / "README.md", *sorted((ROOT / "results").glob("*.md"))],
+                        help="where the tables stand (README.md and results/*.md)")
     parser.add_argument("--tables", default=",".join(TABLES), help="which, joined by commas")
     args = parser.parse_args()
     study = Study(args.rockyard, args.out)
@@ -357,8 +387,7 @@ def main():
         if content is None:
             print(f"{name}: not run, left as it is", file=sys.stderr)
             continue
-        text = args.readme.read_text(encoding="utf-8")
-        args.readme.write_text(replace(text, name, content), encoding="utf-8")
+        write_table(args.pages, name, content)
         print(f"{name}: {time.monotonic() - started:.0f} s", file=sys.stderr)
 
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Runs what the README tells a newcomer to run.
+"""Runs what the README and the pages of results/ tell a newcomer to run.
 
 Commands of the project's scripts are called with --help (the scripts themselves are run by whoever
 sets up a machine); every other command runs as printed, in a scratch folder that sees the scenarios
 and the reference values. The JSON example must be a valid scenario. Links must lead somewhere.
 
-Usage: readme_test.py README ROCKYARD
+Usage: readme_test.py README ROCKYARD (pages: README, and results/*.md beside it)
 """
 
 import os
@@ -47,15 +47,16 @@ def check_json(text, folder, environment):
         yield run(f"rockyard validate {path}", folder, environment)
 
 
-def check_links(text, root):
-    for target in re.findall(r"\]\(([^)#:]+)\)", text):
-        if not (root / target).exists():
-            yield f"link to {target}, which does not exist"
+def check_links(page):
+    for target in re.findall(r"\]\(([^)#:]+)\)", page.read_text(encoding="utf-8")):
+        if not (page.parent / target).exists():
+            yield f"{page.name}: link to {target}, which does not exist"
 
 
 def main():
     readme, rockyard = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
     root = readme.parent
+    pages = [readme, *sorted((root / "results").glob("*.md"))]
     text = readme.read_text(encoding="utf-8")
     found = commands(text)
     if [line for line in found[:2]] != ["scripts/quickstart.sh", "scripts/test.sh"]:
@@ -66,9 +67,11 @@ def main():
         shutil.copytree(root / "results/reference", folder / "results/reference")
         (folder / "scripts").symlink_to(root / "scripts")
         environment = dict(os.environ, PATH=f"{rockyard.parent}{os.pathsep}{os.environ['PATH']}")
+        for page in pages[1:]:
+            found += commands(page.read_text(encoding="utf-8"))
         faults = [run(command, folder, environment) for command in found]
         faults += check_json(text, folder, environment)
-        faults += check_links(text, root)
+        faults += [fault for page in pages for fault in check_links(page)]
     faults = [fault for fault in faults if fault]
     print(f"{len(found)} commands, {len(faults)} faults")
     sys.exit("\n".join(faults) if faults else 0)
