@@ -1,0 +1,76 @@
+// Which trials are in the air, in memory that outlives the process that runs them.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "batch/campaign.h"
+
+namespace rockyard::batch {
+
+// A trial that has begun and not ended.
+struct Flight {
+  TrialId id;
+  bool overdue = false;  // has used up its CPU time
+};
+
+// Shared between a supervisor and the worker that it forks (anonymous shared memory, lock-free
+// atomics): when the worker dies, the supervisor still reads what was in flight. Also of use
+// without a supervisor, for the watchdog. Any thread of the worker; one writer per slot.
+// Cost of a trial: two atomic writes and two readings of a clock.
+class FlightLog {
+ public:
+  static constexpr int kSlots = 4096;  // trials at the same time
+
+  // Throws core::UserError where the machine has no memory.
+  FlightLog();
+  ~FlightLog();
+  FlightLog(const FlightLog&) = delete;
+  FlightLog& operator=(const FlightLog&) = delete;
+
+  // A trial begins on the calling thread. Returns its slot.
+  int Begin(TrialId id);
+  // The trial of the slot has ended, with a record.
+  void End(int slot);
+
+  std::vector<Flight> Flights() const;
+  std::int64_t finished() const { return shared_->finished; }  // since Clear
+
+  // Marks every flight that has used more CPU time than the limit; returns whether any is. Only in
+  // the process that runs them: it reads the clocks of its threads.
+  bool MarkOverdue(double limit_s);
+
+  // The worker is to begin no further trial.
+  std::atomic<bool>& stop() { return shared_->stop; }
+
+  // The worker has opened its store: what comes after it goes on with that store.
+  void SetOpened() { shared_->opened = true; }
+  bool opened() const { return shared_->opened; }
+
+  // Before another worker starts: forgets flights, count and the stop flag.
+  void Clear();
+
+ private:
+  enum State : std::int32_t { kFree, kClaimed, kFlying, kOverdue };
+
+  struct alignas(64) Slot {
+    std::atomic<std::int32_t> state = kFree;
+    std::atomic<std::int32_t> cell = 0;
+    std::atomic<std::int64_t> trial = 0;
+    std::atomic<std::int32_t> clock = 0;  // of the thread's CPU time
+    std::atomic<std::int64_t> began_ns = 0;
+  };
+  static_assert(std::atomic<std::int64_t>::is_always_lock_free, "shared between processes");
+
+  struct Shared {
+    std::atomic<std::int64_t> finished = 0;
+    std::atomic<bool> stop = false;
+    std::atomic<bool> opened = false;
+    Slot slots[kSlots];
+  };
+
+  Shared* shared_ = nullptr;
+};
+
+}  // namespace rockyard::batch

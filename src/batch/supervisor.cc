@@ -1,0 +1,170 @@
+#include "batch/supervisor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <optional>
+#include <utility>
+
+#include "batch/child_process.h"
+#include "batch/watchdog.h"
+
+namespace rockyard::batch {
+namespace {
+
+using Task = Mission::Task;
+
+bool AskedToEnd(int signal) { return signal == SIGINT || signal == SIGTERM || signal == SIGHUP; }
+
+class Supervisor {
+ public:
+  Supervisor(FlightLog& log, const Worker& worker, const SupervisorOptions& options,
+             const std::function<void(const std::string&)>& note)
+      : log_(log), worker_(worker), options_(options), note_(note) {}
+
+  int Run() {
+    for (int fruitless = 0; fruitless <= options_.fruitless_restarts;) {
+      const ProcessEnd end = Do({.task = log_.opened() ? Task::kGoOn : Task::kBegin});
+      if (exit_code_) return *exit_code_;
+      const std::vector<Flight> flights = log_.Flights();
+      Tell(end, flights);
+      const bool fruitful = log_.finished() > 0 || !flights.empty();
+      fruitless = fruitful ? 0 : fruitless + 1;
+      for (const Flight& flight : flights) {
+        Resolve(flight, end);
+        if (exit_code_) return *exit_code_;
+      }
+    }
+    note_(
+        fmt::format("the worker process died {} times without finishing a trial: giving up; "
+                    "what was finished is stored, go on with --resume",
+                    options_.fruitless_restarts + 1));
+    return options_.failed_exit;
+  }
+
+ private:
+  enum class Alone { kPassed, kCrashed, kKilled, kHung, kEnded };
+
+  // Runs one process; sets exit_code_ where the campaign ends with it.
+  ProcessEnd Do(Mission mission) {
+    log_.Clear();
+    mission.left_out = left_out_;
+    const ProcessEnd end = held_.Run([&] { return worker_(mission); });
+    if (end.interrupted || AskedToEnd(end.signal)) {
+      exit_code_ = end.signal == 0 ? end.code : options_.interrupted_exit;
+    } else if (end.signal == 0 && end.code != kOverdueExit) {
+      const bool campaign = mission.task == Task::kBegin || mission.task == Task::kGoOn;
+      if (campaign || end.code != 0) exit_code_ = end.code;
+    }
+    return end;
+  }
+
+  void Tell(const ProcessEnd& end, const std::vector<Flight>& flights) const {
+    if (end.signal != 0) {
+      note_(
+          fmt::format("the worker process was ended by {}; {} trials were in flight and are run "
+                      "again one by one",
+                      SignalText(end.signal), flights.size()));
+    }
+  }
+
+  void Resolve(const Flight& flight, const ProcessEnd& end) {
+    if (flight.overdue) {
+      NoteOverdue(flight.id);
+    } else if (end.signal == 0) {
+      return;  // it had no time left to be stored, and is run again with the others
+    }
+    int hung = flight.overdue ? 1 : 0;
+    int killed = 0;
+    for (;;) {
+      ProcessEnd last;
+      switch (RunAlone(flight.id, last)) {
+        case Alone::kEnded:
+          return;
+        case Alone::kPassed:
+          if (!flight.overdue) NotePassed(flight.id, end);
+          return;
+        case Alone::kCrashed:
+          StoreFault(flight.id, last);
+          return;
+        case Alone::kKilled:
+          if (++killed > options_.killed_retries) return StoreFault(flight.id, last);
+          NoteKilled(flight.id);
+          break;
+        case Alone::kHung:
+          NoteOverdue(flight.id);
+          if (++hung > options_.hung_retries) return LeaveOut(flight.id);
+          break;
+      }
+      if (exit_code_) return;
+    }
+  }
+
+  Alone RunAlone(TrialId id, ProcessEnd& end) {
+    end = Do({.task = Task::kRunAlone, .trial = id});
+    if (exit_code_) return Alone::kEnded;
+    if (end.signal == SIGKILL) return Alone::kKilled;
+    if (end.signal != 0) return Alone::kCrashed;
+    return end.code == kOverdueExit ? Alone::kHung : Alone::kPassed;
+  }
+
+  // Without the entry the trial would be run, and crash, for ever.
+  void Store(Mission mission) {
+    const ProcessEnd end = Do(std::move(mission));
+    if (exit_code_ || end.signal == 0) return;
+    note_(
+        fmt::format("the process that stores faults was ended by {}: giving up; what was "
+                    "finished is stored, go on with --resume",
+                    SignalText(end.signal)));
+    exit_code_ = options_.failed_exit;
+  }
+
+  void StoreFault(TrialId id, const ProcessEnd& end) {
+    Store({.task = Task::kStoreFault,
+           .trial = id,
+           .reason = fmt::format("the simulator crashed by {}, again when the trial ran alone",
+                                 SignalText(end.signal))});
+  }
+
+  void NoteFault(TrialId id, std::string kind, std::string reason) {
+    Store({.task = Task::kStoreMachineFault,
+           .trial = id,
+           .kind = std::move(kind),
+           .reason = std::move(reason)});
+  }
+
+  void NoteOverdue(TrialId id) {
+    NoteFault(id, "cpu_time_limit", "the trial used more CPU time than --trial-cpu-limit");
+  }
+
+  void NoteKilled(TrialId id) {
+    NoteFault(id, "killed", "the process in which the trial ran alone was ended by SIGKILL");
+  }
+
+  void NotePassed(TrialId id, const ProcessEnd& end) {
+    NoteFault(id, end.signal == SIGKILL ? "killed" : "crashed",
+              fmt::format("the worker process was ended by {} while the trial ran; alone the trial "
+                          "passed",
+                          SignalText(end.signal)));
+  }
+
+  void LeaveOut(TrialId id) { left_out_.push_back(id); }
+
+  FlightLog& log_;
+  const Worker& worker_;
+  const SupervisorOptions& options_;
+  const std::function<void(const std::string&)>& note_;
+  const SignalsHeld held_;
+  std::vector<TrialId> left_out_;
+  std::optional<int> exit_code_;
+};
+
+}  // namespace
+
+int Supervise(FlightLog& log, const Worker& worker, const SupervisorOptions& options,
+              const std::function<void(const std::string&)>& note) {
+  return Supervisor(log, worker, options, note).Run();
+}
+
+}  // namespace rockyard::batch

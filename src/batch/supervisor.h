@@ -1,0 +1,58 @@
+// Keeps a campaign going when the process that runs it dies.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "batch/campaign.h"
+#include "batch/flight_log.h"
+
+namespace rockyard::batch {
+
+// What a worker process is to do.
+struct Mission {
+  enum class Task {
+    kBegin,             // the whole campaign, as the user asked for it
+    kGoOn,              // the rest of it: the store is there
+    kRunAlone,          // one trial, and store it
+    kStoreFault,        // store one trial as a simulator fault
+    kStoreMachineFault  // note an infrastructure fault of one trial
+  };
+
+  Task task = Task::kBegin;
+  TrialId trial{};                  // of the last three
+  std::string kind{};               // of the infrastructure fault
+  std::string reason{};             // of either fault, a sentence without seed and trial
+  std::vector<TrialId> left_out{};  // kGoOn: not to be run, as they hang
+};
+
+// Does the mission in a process of its own and returns its exit code. Must not throw.
+using Worker = std::function<int(const Mission&)>;
+
+// How often things are tried again.
+struct SupervisorOptions {
+  int hung_retries = 2;        // of a trial that used up its CPU time
+  int killed_retries = 2;      // of a trial whose process was ended by SIGKILL, from outside
+  int fruitless_restarts = 3;  // of workers that die and resolve no trial
+  int failed_exit = 5;         // exit code when that is too often
+  int interrupted_exit = 130;  // exit code when a polite signal ended the worker
+};
+
+// Forks the worker, waits for it, and returns its exit code. When it dies by a signal (a crash, the
+// out-of-memory killer) the trials that were in flight are run one by one, each in a process of its
+// own: one that crashes again is stored as a simulator fault, one that passes leaves an
+// infrastructure fault behind (the machine failed, not the trial); then another worker goes on.
+// A worker that ends with kOverdueExit (watchdog.h) left hanging trials: each is tried again alone,
+// and left out, pending, when it hangs again.
+//
+// SIGINT, SIGTERM and SIGHUP are passed on to the worker; the second one kills it (what is stored
+// stays). The worker dies with the supervisor.
+//
+// Call it while the process has one thread and no open store: a fork copies the calling thread
+// only, so that locks, OpenMP teams and SQLite handles of others would be dead in the child.
+// `note` is given sentences for the user. Throws core::UserError where no process can be made.
+int Supervise(FlightLog& log, const Worker& worker, const SupervisorOptions& options,
+              const std::function<void(const std::string&)>& note);
+
+}  // namespace rockyard::batch
