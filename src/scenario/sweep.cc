@@ -1,0 +1,183 @@
+#include "scenario/sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "core/error.h"
+#include "core/hash.h"
+#include "core/json_file.h"
+#include "core/json_text.h"
+#include "scenario/load.h"
+#include "scenario/sweep_cell.h"
+#include "scenario/sweep_spec.h"
+
+namespace rockyard::scenario {
+namespace {
+
+using core::JsonValue;
+using core::Problem;
+
+// "k_per_m2=0.01,navigator=gestalt"; a listed cell has its own name.
+std::string NameOf(const SweepSpec& spec, const std::vector<LevelSpec>& levels) {
+  if (spec.params.design.kind == DesignKind::kList) return levels.front().text;
+  std::string name;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    name += fmt::format("{}{}={}", i == 0 ? "" : ",", spec.axes[i].axis.name, levels[i].text);
+  }
+  return name;
+}
+
+// Seeds below 2^53 keep their digits in every JSON reader.
+std::int64_t SeedOf(const SweepSpec& spec, const std::string& cell_name) {
+  if (spec.params.common_random_numbers) return spec.params.seed;
+  const std::uint64_t hash =
+      core::Hasher().Integer(static_cast<std::uint64_t>(spec.params.seed)).Text(cell_name).value();
+  return static_cast<std::int64_t>(hash >> 11);
+}
+
+// One problem that many cells have is said once.
+class CellProblems {
+ public:
+  void Add(const std::string& cell, const Problem& problem) {
+    const auto [at, fresh] = found_.try_emplace({problem.path, problem.reason}, problems_.size());
+    if (!fresh) {
+      ++cells_[at->second];
+      return;
+    }
+    problems_.push_back(
+        {fmt::format("cell {}: {}", cell, problem.path), problem.reason, problem.suggestion});
+    cells_.push_back(1);
+  }
+
+  // Throws where there are any.
+  void Finish() {
+    if (problems_.empty()) return;
+    for (std::size_t i = 0; i < problems_.size(); ++i) {
+      if (cells_[i] == 1) continue;
+      problems_[i].reason += fmt::format(" (and so in {} more cells)", cells_[i] - 1);
+    }
+    if (problems_.size() > kMostShown) {
+      const std::size_t more = problems_.size() - kMostShown;
+      problems_.resize(kMostShown);
+      problems_.push_back({"(more)", fmt::format("{} more problems", more), "correct these first"});
+    }
+    throw core::UserError(std::move(problems_));
+  }
+
+ private:
+  static constexpr std::size_t kMostShown = 100;
+  std::map<std::pair<std::string, std::string>, std::size_t> found_;
+  std::vector<Problem> problems_;
+  std::vector<std::int64_t> cells_;
+};
+
+// Cells that are the same scenario but for name, trials and seed: a setting without effect.
+class Duplicates {
+ public:
+  void Check(const std::string& name, const JsonValue& resolved, CellProblems& problems) {
+    JsonValue decisive = resolved;
+    for (const char* key : {"name", "description", "trials", "seed"}) decisive.Erase(key);
+    const std::uint64_t hash = core::Hasher().Text(core::DumpJson(decisive)).value();
+    const auto [at, fresh] = cells_.try_emplace(hash, name);
+    if (fresh) return;
+    problems.Add(name, {"(scenario)", fmt::format("is the same as that of cell {}", at->second),
+                        "a level has no effect: set another value, or leave the cell out"});
+  }
+
+ private:
+  std::map<std::uint64_t, std::string> cells_;
+};
+
+SweepCell MakeCell(const SweepSpec& spec, const std::vector<std::string>& overrides,
+                   const std::vector<LevelSpec>& levels, Duplicates& duplicates,
+                   CellProblems& problems) {
+  SweepCell cell;
+  cell.name = NameOf(spec, levels);
+  for (const LevelSpec& level : levels) cell.levels.push_back({level.text, level.number});
+  try {
+    ResolvedCell resolved = ResolveCell(spec, overrides, levels);
+    cell.scenario = std::move(resolved.scenario);
+    for (const Problem& problem : resolved.problems) problems.Add(cell.name, problem);
+    duplicates.Check(cell.name, resolved.document, problems);
+  } catch (const core::UserError& error) {
+    for (const Problem& problem : error.problems()) problems.Add(cell.name, problem);
+  }
+  cell.scenario.name = fmt::format("{} {}", spec.params.name, cell.name);
+  cell.scenario.trials = spec.params.trials;
+  cell.scenario.seed = SeedOf(spec, cell.name);
+  return cell;
+}
+
+std::optional<std::size_t> FitAxis(const SweepSpec& spec) {
+  for (std::size_t i = 0; i < spec.axes.size(); ++i) {
+    const SweepAxis& axis = spec.axes[i].axis;
+    const bool wanted = spec.params.fit.axis.empty() || spec.params.fit.axis == axis.name;
+    if (axis.numeric && wanted) return i;
+  }
+  return std::nullopt;
+}
+
+Sweep Describe(const SweepSpec& spec) {
+  Sweep sweep;
+  sweep.name = spec.params.name;
+  sweep.description = spec.params.description;
+  sweep.document = core::DumpJson(spec.document);
+  sweep.design = spec.params.design.kind;
+  sweep.seed = static_cast<std::uint64_t>(spec.params.seed);
+  sweep.common_random_numbers = spec.params.common_random_numbers;
+  for (const AxisSpec& axis : spec.axes) sweep.axes.push_back(axis.axis);
+  if (sweep.design == DesignKind::kList) sweep.axes.push_back({.name = "cell"});
+  sweep.fit_axis = FitAxis(spec);
+  sweep.fit_scale = spec.params.fit.scale;
+  return sweep;
+}
+
+Sweep Resolve(JsonValue document, const SweepChanges& changes,
+              const std::filesystem::path& folder) {
+  if (changes.trials) document.Set("trials", JsonValue(*changes.trials));
+  if (changes.seed) document.Set("seed", JsonValue(*changes.seed));
+  std::vector<Problem> problems;
+  const SweepSpec spec = ReadSweepSpec(std::move(document), folder, problems);
+  CheckDesign(spec, problems);
+  if (!problems.empty()) throw core::UserError(std::move(problems));
+  Sweep sweep = Describe(spec);
+  Duplicates duplicates;
+  CellProblems cell_problems;
+  for (const std::vector<LevelSpec>& levels : DesignCells(spec)) {
+    sweep.cells.push_back(MakeCell(spec, changes.overrides, levels, duplicates, cell_problems));
+  }
+  cell_problems.Finish();
+  return sweep;
+}
+
+}  // namespace
+
+bool IsSweep(const JsonValue& document) {
+  return document.Find("axes") != nullptr || document.Find("cells") != nullptr;
+}
+
+Sweep LoadSweep(const std::filesystem::path& path, const SweepChanges& changes) {
+  return Resolve(core::LoadJsonFile(path), changes, path.parent_path());
+}
+
+Sweep ParseSweep(std::string_view text, const SweepChanges& changes,
+                 const std::filesystem::path& folder) {
+  return Resolve(core::ResolveExtends(core::ParseJson(text, "sweep"), folder), changes, folder);
+}
+
+std::string CellFileName(std::size_t index, std::string_view cell_name) {
+  constexpr std::size_t kLongest = 100;
+  std::string name = fmt::format("{:04}-{}", index + 1, cell_name.substr(0, kLongest));
+  for (char& c : name) {
+    const bool kept = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+                      c == '-' || c == '.' || c == '_';
+    if (!kept) c = '_';
+  }
+  return name;
+}
+
+}  // namespace rockyard::scenario

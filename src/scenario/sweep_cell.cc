@@ -1,0 +1,110 @@
+#include "scenario/sweep_cell.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <utility>
+
+#include "core/json_file.h"
+#include "core/json_text.h"
+#include "math/angles.h"
+#include "scenario/load.h"
+
+namespace rockyard::scenario {
+namespace {
+
+using core::JsonValue;
+using core::Problem;
+using Type = JsonValue::Type;
+
+const JsonValue* FindPath(const JsonValue& document, std::string_view path) {
+  const JsonValue* at = &document;
+  while (at != nullptr && !path.empty()) {
+    const std::size_t dot = path.find('.');
+    at = at->Find(path.substr(0, dot));
+    path = dot == std::string_view::npos ? std::string_view() : path.substr(dot + 1);
+  }
+  return at;
+}
+
+// Objects merge, so that {"rover": {"extends": "../rovers/mfex.json"}} changes a group in part.
+void Apply(JsonValue& document, const std::string& path, const JsonValue& value) {
+  const JsonValue* present = FindPath(document, path);
+  if (present == nullptr || !value.Is(Type::kObject)) {
+    core::SetPath(document, path, value);
+    return;
+  }
+  JsonValue merged = *present;
+  merged.Merge(value);
+  core::SetPath(document, path, std::move(merged));
+}
+
+// Angles are kept in radians and written with the fewest digits that read back to the same bits.
+bool SameNumber(double asked, double found, std::string_view path) {
+  if (asked == found) return true;
+  const bool angle = path.ends_with("deg");
+  return angle && math::DegToRad(asked) == math::DegToRad(found);
+}
+
+// Compares what was asked for with what the resolved scenario holds, down to single values.
+void ReadBack(const JsonValue& asked, const JsonValue* found, const std::string& path,
+              std::vector<Problem>& problems) {
+  if (found == nullptr) {
+    problems.push_back(
+        {path, "was set, but the resolved scenario has no such value", "check the path"});
+    return;
+  }
+  if (asked.Is(Type::kObject)) {
+    for (const core::JsonMember& member : asked.members()) {
+      ReadBack(member.value, found->Find(member.key), fmt::format("{}.{}", path, member.key),
+               problems);
+    }
+    return;
+  }
+  const bool same = asked.IsNumber() && found->IsNumber()
+                        ? SameNumber(asked.number(), found->number(), path)
+                        : core::DumpJson(asked) == core::DumpJson(*found);
+  if (same) return;
+  problems.push_back({path,
+                      fmt::format("was set to {}, but is {} in the resolved scenario",
+                                  core::Abbreviate(asked), core::Abbreviate(*found)),
+                      "another setting, axis or --set lies over it: keep one of them"});
+}
+
+JsonValue BaseOf(const SweepSpec& spec, const std::vector<LevelSpec>& levels) {
+  const JsonValue* base = spec.scenario.get();
+  for (const LevelSpec& level : levels) {
+    if (level.scenario != nullptr) base = level.scenario.get();
+  }
+  return base == nullptr ? JsonValue::Object() : *base;
+}
+
+}  // namespace
+
+ResolvedCell ResolveCell(const SweepSpec& spec, const std::vector<std::string>& overrides,
+                         const std::vector<LevelSpec>& levels) {
+  JsonValue document = BaseOf(spec, levels);
+  std::vector<std::pair<std::string, JsonValue>> asked;
+  const auto apply = [&](const JsonValue& settings) {
+    for (const core::JsonMember& member : settings.members()) {
+      Apply(document, member.key, member.value);
+      asked.emplace_back(member.key, member.value);
+    }
+  };
+  apply(spec.settings);
+  for (const std::string& assignment : overrides) {
+    core::ApplyOverride(document, assignment);
+    const std::string path = assignment.substr(0, assignment.find('='));
+    asked.emplace_back(path, *FindPath(document, path));
+  }
+  for (const LevelSpec& level : levels) apply(level.settings);
+  ResolvedCell cell;
+  cell.scenario = ReadScenario(document);
+  cell.document = WriteScenario(cell.scenario);
+  for (const auto& [path, value] : asked) {
+    ReadBack(value, FindPath(cell.document, path), path, cell.problems);
+  }
+  return cell;
+}
+
+}  // namespace rockyard::scenario

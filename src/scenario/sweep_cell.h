@@ -1,0 +1,25 @@
+// From the levels of a cell to its scenario. Internal to scenario's sweep files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/json_value.h"
+#include "scenario/scenario.h"
+#include "scenario/sweep_spec.h"
+
+namespace rockyard::scenario {
+
+struct ResolvedCell {
+  Scenario scenario;
+  core::JsonValue document;             // WriteScenario of it
+  std::vector<core::Problem> problems;  // settings that are not there in the end
+};
+
+// Lays base, "set" of the file, overrides and levels over each other (sweep.h), reads the result,
+// and reads every setting back from it. Throws core::UserError where it is no valid scenario.
+ResolvedCell ResolveCell(const SweepSpec& spec, const std::vector<std::string>& overrides,
+                         const std::vector<LevelSpec>& levels);
+
+}  // namespace rockyard::scenario

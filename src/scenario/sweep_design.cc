@@ -1,0 +1,161 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+
+#include "core/space_filling.h"
+#include "core/spelling.h"
+#include "scenario/sweep_spec.h"
+
+namespace rockyard::scenario {
+namespace {
+
+using Cells = std::vector<std::vector<LevelSpec>>;
+
+double Rounded(double value) {
+  const std::string text = fmt::format("{:.6g}", value);
+  double rounded = value;
+  std::from_chars(text.data(), text.data() + text.size(), rounded);
+  return rounded;
+}
+
+Cells Grid(const SweepSpec& spec) {
+  Cells cells{{}};
+  for (const AxisSpec& axis : spec.axes) {
+    Cells longer;
+    longer.reserve(cells.size() * axis.levels.size());
+    for (const std::vector<LevelSpec>& cell : cells) {
+      for (const LevelSpec& level : axis.levels) {
+        longer.push_back(cell);
+        longer.back().push_back(level);
+      }
+    }
+    cells = std::move(longer);
+  }
+  return cells;
+}
+
+Cells Points(const SweepSpec& spec) {
+  const auto points = static_cast<std::size_t>(spec.params.design.points);
+  const auto seed = static_cast<std::uint64_t>(spec.params.seed);
+  const core::UnitPoints shares = spec.params.design.kind == DesignKind::kSobol
+                                      ? core::SobolPoints(points, spec.axes.size(), seed)
+                                      : core::LatinHypercube(points, spec.axes.size(), seed);
+  Cells cells(points);
+  for (std::size_t i = 0; i < points; ++i) {
+    for (std::size_t a = 0; a < spec.axes.size(); ++a) {
+      cells[i].push_back(spec.axes[a].At(shares[i][a]));
+    }
+  }
+  return cells;
+}
+
+Cells Listed(const SweepSpec& spec) {
+  Cells cells;
+  for (const LevelSpec& cell : spec.cells) cells.push_back({cell});
+  return cells;
+}
+
+// Before they are made: a grid grows by the product of its axes.
+void RefuseTooMany(const SweepSpec& spec) {
+  double cells = 1.0;
+  for (const AxisSpec& axis : spec.axes) cells *= static_cast<double>(axis.levels.size());
+  if (spec.params.design.kind == DesignKind::kList) cells = static_cast<double>(spec.cells.size());
+  if (cells <= static_cast<double>(kMostSweepCells)) return;
+  throw core::UserError("axes",
+                        fmt::format("make {:.0f} cells, more than {}", cells, kMostSweepCells),
+                        "use fewer levels, or design sobol with \"points\"");
+}
+
+// Names in which tables and settings of cells tell axes apart.
+void CheckAxes(const SweepSpec& spec, std::vector<core::Problem>& problems) {
+  const bool grid = spec.params.design.kind == DesignKind::kGrid;
+  for (std::size_t i = 0; i < spec.axes.size(); ++i) {
+    const AxisSpec& axis = spec.axes[i];
+    const std::string path = fmt::format("axes[{}]", i);
+    if (grid && axis.continuous()) {
+      problems.push_back({path, "is a range without steps, which a grid cannot have",
+                          "add \"steps\", or use design latin_hypercube or sobol"});
+    }
+    const auto same = [&](const AxisSpec& other) { return other.axis.name == axis.axis.name; };
+    if (std::any_of(spec.axes.begin(), spec.axes.begin() + static_cast<std::ptrdiff_t>(i), same)) {
+      problems.push_back({path + ".name",
+                          fmt::format("is \"{}\", as another axis is called", axis.axis.name),
+                          "give each axis a name of its own"});
+    }
+  }
+}
+
+void CheckFit(const SweepSpec& spec, std::vector<core::Problem>& problems) {
+  const std::string& name = spec.params.fit.axis;
+  if (name.empty()) return;
+  std::vector<std::string_view> numeric;
+  for (const AxisSpec& axis : spec.axes) {
+    if (axis.axis.numeric) numeric.push_back(axis.axis.name);
+  }
+  if (std::find(numeric.begin(), numeric.end(), name) != numeric.end()) return;
+  problems.push_back({"fit.axis", fmt::format("is {}, which is no axis of numbers", name),
+                      core::Suggest(name, numeric)});
+}
+
+}  // namespace
+
+void CheckDesign(const SweepSpec& spec, std::vector<core::Problem>& problems) {
+  const bool list = spec.params.design.kind == DesignKind::kList;
+  if (list && spec.cells.empty()) {
+    problems.push_back({"cells", "is missing, which design list needs",
+                        "write [{\"name\": ..., \"set\": {...}}]"});
+  }
+  if (!list && spec.axes.empty()) {
+    problems.push_back({"axes", "is missing", "name at least one axis, or use design list"});
+  }
+  if (list != spec.axes.empty() || list == spec.cells.empty()) {
+    const std::string_view wrong = list ? "axes" : "cells";
+    if (spec.document.Find(wrong) != nullptr) {
+      problems.push_back(
+          {std::string(wrong),
+           fmt::format("has no meaning in design {}", list ? "list" : "other than list"),
+           "remove it, or change design.kind"});
+    }
+  }
+  if (spec.axes.size() > core::kMostDesignDimensions) {
+    problems.push_back({"axes", fmt::format("has {} axes", spec.axes.size()),
+                        fmt::format("use at most {}", core::kMostDesignDimensions)});
+  }
+  CheckAxes(spec, problems);
+  CheckFit(spec, problems);
+}
+
+LevelSpec AxisSpec::At(double share) const {
+  if (!continuous()) {
+    const auto index = static_cast<std::size_t>(share * static_cast<double>(levels.size()));
+    return levels[std::min(index, levels.size() - 1)];
+  }
+  double value = axis.scale == AxisScale::kLog ? from * std::pow(to / from, share)
+                                               : from + (to - from) * share;
+  value = whole ? std::round(value) : Rounded(value);
+  LevelSpec level;
+  level.number = value;
+  level.text = fmt::format("{}", value);
+  level.settings.Set(path, core::JsonValue(value));
+  return level;
+}
+
+std::vector<std::vector<LevelSpec>> DesignCells(const SweepSpec& spec) {
+  switch (spec.params.design.kind) {
+    case DesignKind::kGrid:
+      RefuseTooMany(spec);
+      return Grid(spec);
+    case DesignKind::kList:
+      RefuseTooMany(spec);
+      return Listed(spec);
+    case DesignKind::kLatinHypercube:
+    case DesignKind::kSobol:
+      return Points(spec);
+  }
+  return {};
+}
+
+}  // namespace rockyard::scenario

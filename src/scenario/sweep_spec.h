@@ -1,0 +1,60 @@
+// What a sweep file says, before any cell is made. Internal to scenario's sweep files.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/json_value.h"
+#include "scenario/sweep_keys.h"
+
+namespace rockyard::scenario {
+
+// One value of an axis, or one listed cell: what it changes of the scenario.
+struct LevelSpec {
+  std::string text;
+  std::optional<double> number = {};
+  core::JsonValue settings = core::JsonValue::Object();  // dotted path -> value
+  std::shared_ptr<const core::JsonValue> scenario = {};  // takes the place of the base
+  std::string ablation = {};                             // applied after all settings
+};
+
+struct AxisSpec {
+  SweepAxis axis;
+  std::string path;    // of a parameter; empty where levels set several
+  bool whole = false;  // the parameter takes integers only
+  double from = 0.0;   // range of an axis without levels
+  double to = 0.0;
+  std::vector<LevelSpec> levels;
+
+  bool continuous() const { return levels.empty(); }
+  // The level at a share of the range from 0 to 1, rounded to six significant digits, so that
+  // names stay short. Of an axis with levels: the one whose slice holds the share.
+  LevelSpec At(double share) const;
+};
+
+struct SweepSpec {
+  SweepParams params;
+  core::JsonValue document;  // with every file that is named
+  std::shared_ptr<const core::JsonValue> scenario;
+  core::JsonValue settings = core::JsonValue::Object();  // "set" of the file
+  std::vector<AxisSpec> axes;
+  std::vector<LevelSpec> cells;  // of design list
+};
+
+// Reads the document of a sweep file, whose "extends" are resolved. Adds what is wrong to
+// `problems`; the result is of use only where nothing was added.
+SweepSpec ReadSweepSpec(core::JsonValue document, const std::filesystem::path& folder,
+                        std::vector<core::Problem>& problems);
+
+// Whether design, axes, cells and fit fit together; adds to `problems`.
+void CheckDesign(const SweepSpec& spec, std::vector<core::Problem>& problems);
+
+// Which levels each cell has, one per axis, in the order of the design: a grid with its last axis
+// fastest. Throws core::UserError where there are more than kMostSweepCells.
+std::vector<std::vector<LevelSpec>> DesignCells(const SweepSpec& spec);
+
+}  // namespace rockyard::scenario
