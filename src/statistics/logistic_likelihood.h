@@ -1,0 +1,52 @@
+// The likelihood of a logistic curve and its maximum. Internal to the fits of this folder.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "statistics/logistic_fit.h"
+
+namespace rockyard::statistics {
+
+// A setting on the scale of the fit.
+struct Dose {
+  double u = 0.0;
+  double count = 0.0;
+  double trials = 0.0;
+};
+
+double Transform(FitScale scale, double x);
+double Inverse(FitScale scale, double u);
+double Expit(double logit);
+
+// Ascending, equal settings pooled, those without trials left out.
+std::vector<Dose> PoolDoses(std::span<const DosePoint> points, FitScale scale);
+
+// logit = a + b (u - centre): a and b are nearly independent where the centre is that of the runs.
+struct LogitLine {
+  double a = 0.0;
+  double b = 0.0;
+  double centre = 0.0;
+
+  double At(double u) const { return a + b * (u - centre); }
+};
+
+// Gradient of the log-likelihood and Fisher information in (a, b).
+struct LikelihoodSlopes {
+  double a = 0.0;
+  double b = 0.0;
+  double aa = 0.0;
+  double ab = 0.0;
+  double bb = 0.0;
+};
+
+LikelihoodSlopes SlopesAt(std::span<const Dose> doses, const LogitLine& line);
+
+// Which parameters a maximum is sought over; the others stay as they are.
+enum class FreeParameters { kBoth, kIntercept, kSlope };
+
+// Newton's method from `line`, with steps halved that go too far; returns the log-likelihood at its
+// end. Requires that there is a maximum.
+double MaximizeLikelihood(std::span<const Dose> doses, FreeParameters free, LogitLine& line);
+
+}  // namespace rockyard::statistics
