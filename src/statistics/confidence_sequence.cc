@@ -1,5 +1,6 @@
 #include "statistics/confidence_sequence.h"
 
+#include <algorithm>
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/special_functions/beta.hpp>
 #include <boost/math/tools/roots.hpp>
@@ -35,10 +36,17 @@ double LowerEnd(double successes, double failures, double alpha) {
   const auto excess = [&](double rate) {
     return LogMartingale(successes, failures, rate) + std::log(alpha);
   };
-  constexpr double kTiny = 1e-300;
+  const double trials = successes + failures;
+  const double step = std::sqrt(successes * failures / (trials * trials * trials));
+  double high = successes / trials;
+  double low = std::max(high - step, 0.5 * high);
+  while (excess(low) < 0.0) {
+    high = low;
+    low = std::max(high - step, 0.5 * high);
+  }
+  std::uintmax_t iterations = 100;
   const boost::math::tools::eps_tolerance<double> precise(48);
-  return boost::math::tools::bisect(excess, kTiny, successes / (successes + failures), precise)
-      .first;
+  return boost::math::tools::toms748_solve(excess, low, high, precise, iterations).first;
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ namespace rockyard::statistics {
 // rate 1/2 the interval of 2000 trials is 1.9 times as wide as Wilson's.
 //
 // 0 <= successes <= trials, 0 < confidence < 1. No trials: [0, 1]. Ends are exact to 1e-12. Draws
-// nothing. Cost: some 100 evaluations of M.
+// nothing. Cost: some 40 evaluations of M, 50 us.
 Interval ConfidenceSequence(std::int64_t successes, std::int64_t trials, double confidence = 0.95);
 
 // Logarithm of M_n(p) above for 0 < p < 1; infinite where p is too unlikely for a double.

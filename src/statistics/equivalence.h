@@ -1,0 +1,62 @@
+// Differences of means and of rates: are they there, and are they small enough not to matter?
+//
+// "Not significant" is not "equal". Equivalence is shown by two one-sided tests (TOST; Schuirmann
+// 1987, Journal of Pharmacokinetics and Biopharmaceutics 15, pp. 657-680): the difference is not at
+// or below -margin, and not at or above +margin. Its p-value is the larger one of both; at or below
+// alpha it says the same as that the interval of confidence 1 - 2 alpha lies between the margins.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "statistics/proportions.h"
+
+namespace rockyard::statistics {
+
+// A difference of means that follows Student's law about the true one.
+struct MeanDifference {
+  double difference = 0.0;  // second less first; NaN where either is empty
+  double standard_error = 0.0;
+  double degrees_of_freedom = 0.0;  // 0: one value or none, so that nothing can be said
+
+  bool known() const { return degrees_of_freedom > 0.0; }
+};
+
+// Of pairs, from their differences (Student 1908). Values must be finite.
+MeanDifference PairedMeans(std::span<const double> differences);
+
+// Of two independent samples (Welch 1947, Biometrika 34, pp. 28-35). Values must be finite.
+MeanDifference WelchMeans(std::span<const double> first, std::span<const double> second);
+
+// Limits of all of these: the means must be near normal, which some dozens of values without a
+// heavy tail make them. Where the standard error is 0 the difference is taken for exact. Where
+// nothing is known p = 1 and the interval is unbounded.
+Interval DifferenceInterval(const MeanDifference& means, double confidence = 0.95);
+double ChangePValue(const MeanDifference& means);  // two-sided, of no difference
+double EquivalencePValue(const MeanDifference& means, double margin);  // TOST, margin > 0
+
+// Success of the same trials under two settings.
+struct PairedCounts {
+  std::int64_t both = 0;
+  std::int64_t only_first = 0;
+  std::int64_t only_second = 0;
+  std::int64_t neither = 0;
+
+  std::int64_t pairs() const { return both + only_first + only_second + neither; }
+};
+
+// Score interval of the rate of the second less that of the first (Tango 1998, Statistics in
+// Medicine 17, pp. 891-908), and TOST by the same score. Asymptotic: exact coverage is near nominal
+// from some dozens of pairs on, also where hardly any pair is discordant. [-1, 1] and p = 1 without
+// pairs. The test of no difference that goes with them is McNemarExactPValue.
+Interval DifferenceInterval(const PairedCounts& counts, double confidence = 0.95);
+double EquivalencePValue(const PairedCounts& counts, double margin);
+
+// Score interval and TOST of two independent rates, success_2 less success_1 (Farrington and
+// Manning 1990, Statistics in Medicine 9, pp. 1447-1454; the interval is that of Miettinen and
+// Nurminen 1985 without their factor n / (n - 1)). Asymptotic as above. [-1, 1] and p = 1 where a
+// group is empty. The test of no difference that goes with them is FisherExactPValue.
+Interval DifferenceInterval(const ContingencyTable& table, double confidence = 0.95);
+double EquivalencePValue(const ContingencyTable& table, double margin);
+
+}  // namespace rockyard::statistics
