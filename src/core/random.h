@@ -47,6 +47,7 @@ enum class Purpose : std::uint32_t {
   kStereoDisparity = 33,
   kStereoDropout = 34,
   kStereoMismatch = 35,
+  kGoalDesignation = 39,
 };
 
 // Raw Philox 4x32-10 bijection of one counter under one key.

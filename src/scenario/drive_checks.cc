@@ -108,6 +108,21 @@ void RequireFreeEnds(const Scenario& scenario, core::FieldVisitor& v) {
             kMove);
 }
 
+// A goal beyond a mirror line is never reached: the rover is turned back there.
+void RequireToldGoals(const Scenario& scenario, core::FieldVisitor& v) {
+  const trial::CourseParams& course = scenario.course;
+  const terrain::ArenaParams& arena = scenario.terrain.arena;
+  if (!course.designation.enabled || arena.kind != terrain::ArenaKind::kVirtualReflected) return;
+  constexpr double kDeviations = 5.0;  // one trial in a million lies beyond
+  const trial::DesignationErrors errors = course.designation.ErrorsAt(course.DesignationRange_m());
+  const double reach_m = kDeviations * std::max(errors.crossrange_sd_m, errors.downrange_sd_m) +
+                         std::abs(errors.crossrange_bias_m);
+  v.Require("course.designation.enabled", std::abs(course.goal_y_m) + reach_m <= arena.MirrorLine(),
+            "is true where goals may be designated beyond the mirror lines of terrain.arena, where "
+            "no rover arrives",
+            "use a wider arena, another kind, a nearer lander or smaller errors");
+}
+
 bool IsLike(double believed_m, double true_m) {
   return believed_m <= 2.0 * true_m && believed_m >= 0.5 * true_m;
 }
@@ -135,6 +150,7 @@ void RequireSoundDrive(const Scenario& scenario, core::FieldVisitor& v) {
   if (stereo && behaviour) RequireArray(scenario, v);
   if (!behaviour) RequireOwnSize(scenario, v);
   RequireFreeEnds(scenario, v);
+  RequireToldGoals(scenario, v);
 }
 
 }  // namespace rockyard::scenario

@@ -12,6 +12,7 @@ namespace rockyard::scenario {
 //   the cameras ahead can show (bounds that no view exceeds; the view may be narrower), and asks
 //   for no more points than an image has pixels;
 // - listed rocks leave start and goal of a drive free by terrain.rocks.clear_radius_m;
+// - goals that a lander designates stay between the mirror lines of a virtual_reflected arena;
 // - GESTALT takes its vehicle for at most twice and at least half as long and wide as it is.
 // Each failure names the parameter, what is wrong and a remedy.
 void RequireSoundDrive(const Scenario& scenario, core::FieldVisitor& v);

@@ -1,9 +1,11 @@
 // Where a trial starts, where it leads, and how near counts as there.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "core/fields.h"
+#include "trial/designation_params.h"
 
 namespace rockyard::trial {
 
@@ -15,6 +17,13 @@ struct CourseParams {
   double goal_y_m = 0.0;
   double goal_radius_m = 0.65;
   std::int64_t trials_per_layout = 1;
+  DesignationParams designation;
+
+  // From the lander's cameras to the goal.
+  double DesignationRange_m() const {
+    const double straight_m = std::hypot(goal_x_m - start_x_m, goal_y_m - start_y_m);
+    return std::hypot(straight_m - designation.lander_ahead_m, designation.lander_left_m);
+  }
 
   void Visit(core::FieldVisitor& v) {
     using core::Origin;
@@ -51,6 +60,7 @@ struct CourseParams {
                .min = 1,
                .max = 1e6,
                .origin = Origin::kSetting});
+    v.Group("designation", designation, "the goal that the rover is told");
     const double dx = goal_x_m - start_x_m;
     const double dy = goal_y_m - start_y_m;
     v.Require("goal_x_m", dx * dx + dy * dy > 0.01, "puts the goal within 0.1 m of the start",

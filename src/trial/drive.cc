@@ -7,6 +7,7 @@
 #include "navigation/gestalt.h"
 #include "navigation/pathfinder.h"
 #include "terrain/arena.h"
+#include "trial/goal_designation.h"
 #include "trial/layout.h"
 #include "trial/onboard_calibration.h"
 
@@ -31,8 +32,8 @@ std::optional<ArenaBounds> Bounds(const terrain::ArenaParams& arena) {
   return ArenaBounds{bounds.x_min_m, bounds.x_max_m};
 }
 
-std::unique_ptr<navigation::Navigator> MakeNavigator(const Scenario& scenario) {
-  const messages::Goal goal{scenario.course.goal_x_m, scenario.course.goal_y_m};
+std::unique_ptr<navigation::Navigator> MakeNavigator(const Scenario& scenario,
+                                                     const messages::Goal& goal) {
   switch (scenario.navigation.navigator) {
     case scenario::NavigatorKind::kPathfinder:
       break;
@@ -79,6 +80,7 @@ Drive::Drive(const Scenario& scenario, core::TrialKey key, truth::Trace* trace,
              const ScanWatcher& scan_watcher, StepWatcher step_watcher)
     : scenario_(scenario),
       key_(key),
+      told_goal_(ToldGoal(scenario.course, key)),
       trace_(trace),
       field_(terrain::BuildField(scenario.terrain, LayoutKey(scenario, key),
                                  TerrainCourse(scenario.course))),
@@ -88,14 +90,14 @@ Drive::Drive(const Scenario& scenario, core::TrialKey key, truth::Trace* trace,
       lookout_(scenario, key, scan_watcher),
       guard_(scenario, key),
       localizer_(scenario, StartPose(scenario.course)),
-      navigator_(MakeNavigator(scenario)),
+      navigator_(MakeNavigator(scenario, told_goal_)),
       wheel_driver_(OnboardDriveCalibration(scenario.rover, scenario.perception.calibration.drive),
                     scenario.navigation.wheel_driver),
       ledger_(MakePowerBudget(scenario), scenario.energy.battery_wh),
       monitor_(UndersideOf(scenario.rover.geometry), field_.terrain),
       watch_(WatchedZone(scenario), scenario.rover.geometry, WatchedHeight(scenario),
              field_.terrain),
-      referee_(scenario.referee, scenario.course, Bounds(scenario.terrain.arena)),
+      referee_(scenario.referee, scenario.course, told_goal_, Bounds(scenario.terrain.arena)),
       step_watcher_(std::move(step_watcher)) {
   if (scenario.terrain.arena.kind == terrain::ArenaKind::kVirtualReflected) {
     mirror_.emplace(scenario.terrain.arena.MirrorLine());
@@ -156,6 +158,7 @@ std::optional<Verdict> Drive::Look(messages::LookDirection direction) {
 void Drive::SpendOverhead() {
   const double overhead_s = scenario_.clock.compute.move_overhead_s;
   if (overhead_s <= 0.0) return;
+  stops_.Observe(false);
   ledger_.Spend(Activity::kOverhead, overhead_s);
   if (scenario_.sensors.gyro.accumulates_at_rest) UpdateEstimate(overhead_s, false);
 }
@@ -163,8 +166,10 @@ void Drive::SpendOverhead() {
 std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const Stretch& stretch) {
   const messages::WheelCommand command = wheel_driver_.Tick(motion, stretch.duration_s);
   const Activity activity = ActivityOf(motion, wheel_driver_.steering());
+  const bool moving = motion.kind != MotionKind::kStop && !wheel_driver_.steering();
+  stops_.Observe(moving);
   ApplyCommand(command, stretch.steps);
-  UpdateEstimate(stretch.duration_s, motion.kind != MotionKind::kStop && !wheel_driver_.steering());
+  UpdateEstimate(stretch.duration_s, moving);
   ledger_.Spend(activity, stretch.duration_s);
   for (const auto& hazard : guard_.Feel(rover_->state(), command, stretch.duration_s)) {
     Record("felt", Describe(hazard));
@@ -188,7 +193,9 @@ void Drive::ApplyCommand(const messages::WheelCommand& command, std::int64_t ste
     const std::int64_t before = motion_sensors_->scrapes().episodes();
     motion_sensors_->Observe(rover_->state(),
                              ledger_.time_s() + static_cast<double>(i + 1) * step_s);
-    if (motion_sensors_->scrapes().episodes() > before) Record("scrape", "");
+    if (motion_sensors_->scrapes().episodes() == before) continue;
+    if (!first_scrape_m_) first_scrape_m_ = monitor_.distance_m();
+    Record("scrape", "");
   }
 }
 
@@ -228,6 +235,7 @@ DriveResult Drive::Finish(const Verdict& verdict) {
 
   DriveResult result{verdict.outcome, verdict.detail, {}};
   monitor_.Report(result.record);
+  ReportGoals(result.record);
   ReportPoses(result.record);
   ReportErrors(result.record);
   ReportLedger(result.record);

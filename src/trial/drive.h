@@ -22,6 +22,7 @@
 #include "trial/referee.h"
 #include "trial/run_trial.h"
 #include "trial/step_watcher.h"
+#include "trial/stop_counter.h"
 #include "trial/stretch.h"
 #include "trial/turn_counter.h"
 #include "trial/vehicle_guard.h"
@@ -53,6 +54,7 @@ class Drive {
   void ReflectAtMirrorLine(int direction);
   std::optional<Verdict> AskReferee(Activity activity, int direction, double duration_s);
   DriveResult Finish(const Verdict& verdict);
+  void ReportGoals(truth::DriveRecord& record) const;
   void ReportPoses(truth::DriveRecord& record) const;
   void ReportErrors(truth::DriveRecord& record) const;
   void ReportLedger(truth::DriveRecord& record) const;
@@ -65,6 +67,7 @@ class Drive {
 
   const scenario::Scenario& scenario_;
   core::TrialKey key_;
+  messages::Goal told_goal_;
   truth::Trace* trace_;
 
   terrain::Field field_;
@@ -92,6 +95,8 @@ class Drive {
   std::int64_t hazards_ = 0;
   TurnCounter turns_;
   MoveCounter moves_;
+  StopCounter stops_;
+  std::optional<double> first_scrape_m_;  // true path length
   std::int64_t reflections_ = 0;
 };
 

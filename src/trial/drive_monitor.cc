@@ -53,6 +53,10 @@ void DriveMonitor::Observe(const truth::RoverState& state, bool turning) {
   min_tilt_cosine_ = std::min(min_tilt_cosine_, state.X_WR.linear()(2, 2));
   max_bogie_rad_ =
       std::max({max_bogie_rad_, std::abs(state.left_bogie_rad), std::abs(state.right_bogie_rad)});
+  max_rocker_rad_ = std::max(
+      {max_rocker_rad_, std::abs(state.left_rocker_rad), std::abs(state.right_rocker_rad)});
+  max_pitch_sine_ = std::max(max_pitch_sine_, std::abs(state.X_WR.linear()(2, 0)));
+  max_roll_sine_ = std::max(max_roll_sine_, std::abs(state.X_WR.linear()(2, 1)));
   ObserveClearance(state.X_WR);
 }
 
@@ -68,6 +72,9 @@ void DriveMonitor::Report(truth::DriveRecord& record) const {
   record.turned_in_place_rad = turned_rad_;
   record.max_tilt_deg = math::RadToDeg(std::acos(std::max(-1.0, min_tilt_cosine_)));
   record.max_bogie_deg = math::RadToDeg(max_bogie_rad_);
+  record.max_rocker_deg = math::RadToDeg(max_rocker_rad_);
+  record.max_roll_deg = math::RadToDeg(std::asin(std::min(1.0, max_roll_sine_)));
+  record.max_pitch_deg = math::RadToDeg(std::asin(std::min(1.0, max_pitch_sine_)));
   record.min_clearance_m = min_clearance_m_;
 }
 

@@ -53,6 +53,9 @@ class DriveMonitor {
   double turned_rad_ = 0.0;
   double min_tilt_cosine_ = 1.0;
   double max_bogie_rad_ = 0.0;
+  double max_rocker_rad_ = 0.0;
+  double max_roll_sine_ = 0.0;
+  double max_pitch_sine_ = 0.0;
   double min_clearance_m_;
 };
 

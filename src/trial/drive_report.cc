@@ -8,12 +8,24 @@
 
 namespace rockyard::trial {
 
+void Drive::ReportGoals(truth::DriveRecord& record) const {
+  const CourseParams& course = scenario_.course;
+  const messages::PoseEstimate& estimate = localizer_.pose();
+  record.straight_distance_m =
+      std::hypot(course.goal_x_m - course.start_x_m, course.goal_y_m - course.start_y_m);
+  record.path_ratio = record.true_distance_m / record.straight_distance_m;
+  record.told_goal_x_m = told_goal_.x_m;
+  record.told_goal_y_m = told_goal_.y_m;
+  record.designation_error_m =
+      std::hypot(told_goal_.x_m - course.goal_x_m, told_goal_.y_m - course.goal_y_m);
+  record.believed_goal_distance_m =
+      std::hypot(told_goal_.x_m - estimate.x_m, told_goal_.y_m - estimate.y_m);
+}
+
 void Drive::ReportPoses(truth::DriveRecord& record) const {
   const math::Pose2 truth = math::ToPose2(rover_->state().X_WR);
   const messages::PoseEstimate& estimate = localizer_.pose();
   const CourseParams& course = scenario_.course;
-  record.straight_distance_m =
-      std::hypot(course.goal_x_m - course.start_x_m, course.goal_y_m - course.start_y_m);
   record.true_goal_distance_m =
       std::hypot(course.goal_x_m - truth.x_m, course.goal_y_m - truth.y_m);
   record.final_x_m = truth.x_m;
@@ -78,6 +90,8 @@ void Drive::ReportCounts(truth::DriveRecord& record) const {
   record.hazards_believed = static_cast<double>(hazards_);
   record.turns_in_place = static_cast<double>(turns_.turns());
   record.scrapes = static_cast<double>(motion_sensors_->scrapes().episodes());
+  record.stops = static_cast<double>(stops_.stops());
+  record.first_scrape_distance_m = first_scrape_m_.value_or(record.true_distance_m);
   record.scrape_heading_rad = motion_sensors_->scrapes().total_jump_rad();
   record.reflections = static_cast<double>(reflections_);
   record.layout = static_cast<double>(LayoutKey(scenario_, key_).trial);

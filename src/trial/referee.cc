@@ -29,12 +29,13 @@ bool IsMotion(Activity activity) {
 }  // namespace
 
 Referee::Referee(const RefereeParams& params, const CourseParams& course,
-                 std::optional<ArenaBounds> bounds)
+                 const messages::Goal& told_goal, std::optional<ArenaBounds> bounds)
     : params_(params),
       course_(course),
+      told_goal_(told_goal),
       bounds_(bounds),
       tip_over_cosine_(std::cos(params.tip_over_rad)),
-      progress_{Between(course.start_x_m, course.start_y_m, course.goal_x_m, course.goal_y_m),
+      progress_{Between(course.start_x_m, course.start_y_m, told_goal.x_m, told_goal.y_m),
                 course.start_x_m, course.start_y_m} {}
 
 std::optional<Verdict> Referee::Observe(const Observation& observation, const Ledger& ledger) {
@@ -131,8 +132,8 @@ std::optional<Verdict> Referee::CheckNoPath(const Observation& observation, doub
 
 // The rover believes to be nearer than ever and has truly moved: spinning wheels are no progress.
 bool Referee::MadeProgress(const Observation& observation) {
-  const double goal_distance_m = Between(observation.estimate.x_m, observation.estimate.y_m,
-                                         course_.goal_x_m, course_.goal_y_m);
+  const double goal_distance_m =
+      Between(observation.estimate.x_m, observation.estimate.y_m, told_goal_.x_m, told_goal_.y_m);
   const auto p = observation.state.X_WR.translation();
   if (goal_distance_m > progress_.goal_distance_m - params_.no_path_progress_m ||
       Between(progress_.x_m, progress_.y_m, p.x(), p.y()) < params_.no_path_progress_m) {

@@ -39,7 +39,9 @@ struct Observation {
 
 class Referee {
  public:
-  Referee(const RefereeParams& params, const CourseParams& course,
+  // Arrival is judged at the true goal of `course`; progress is what brings the rover nearer to the
+  // goal that it was told.
+  Referee(const RefereeParams& params, const CourseParams& course, const messages::Goal& told_goal,
           std::optional<ArenaBounds> bounds);
 
   // The verdict after a tick, if the trial is over for another reason than the navigator's own.
@@ -81,6 +83,7 @@ class Referee {
 
   RefereeParams params_;
   CourseParams course_;
+  messages::Goal told_goal_;
   std::optional<ArenaBounds> bounds_;
   double tip_over_cosine_;
   std::optional<Window> window_;

@@ -12,6 +12,7 @@ using truth::TrialOutcome;
 
 // Feeds a referee with ticks of 0.05 s.
 constexpr PowerBudget kPower{.base_W = 4.57, .driving_W = 8.28};
+constexpr messages::Goal kGoal{7.6, 0.0};  // as in CourseParams
 
 class RefereeTest : public testing::Test {
  protected:
@@ -48,7 +49,7 @@ class RefereeTest : public testing::Test {
   double turned_rad_ = 0.0;
   int direction_ = 1;
   Ledger ledger_{kPower, energy_.battery_wh};
-  Referee referee_{params_, course_, ArenaBounds{-2.0, 10.0}};
+  Referee referee_{params_, course_, kGoal, ArenaBounds{-2.0, 10.0}};
 };
 
 TEST_F(RefereeTest, SteadyDriveHasNoVerdict) {
@@ -188,7 +189,7 @@ TEST_F(RefereeTest, ARockOrWallBeforeTheChassisJamsIt) {
   for (const truth::BodyContact& contact :
        {truth::BodyContact{truth::BodyPart::kBelly, 3, 40.0, 0.0, 0.1},
         truth::BodyContact{truth::BodyPart::kBelly, -1, 40.0, 0.0, 0.0}}) {
-    referee_ = Referee(params_, course_, ArenaBounds{-2.0, 10.0});
+    referee_ = Referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0});
     state_.contacts = {contact};
     const auto verdict = Run(20.0, [] {});
     ASSERT_TRUE(verdict);
@@ -203,7 +204,7 @@ TEST_F(RefereeTest, SpinningWheelsAreStuckByDefaultAndDriveOnByChoice) {
   EXPECT_EQ(verdict->outcome, TrialOutcome::kJammed);
 
   params_.spinning_wheels = SpinningWheels::kDriveOn;
-  referee_ = Referee(params_, course_, ArenaBounds{-2.0, 10.0});
+  referee_ = Referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0});
   estimate_ = {};
   EXPECT_FALSE(Run(40.0, spin));
 }
