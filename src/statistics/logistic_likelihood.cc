@@ -11,7 +11,7 @@ namespace rockyard::statistics {
 namespace {
 
 constexpr int kMostSteps = 200;
-constexpr double kConverged = 1e-12;  // relative gain of log-likelihood
+constexpr double kConverged = 1e-15;  // relative gain of log-likelihood
 
 // ln(1 + e^z) without overflow.
 double SoftPlus(double z) { return std::max(z, 0.0) + std::log1p(std::exp(-std::fabs(z))); }
