@@ -1,0 +1,46 @@
+// How the processes of one campaign talk to each other.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace rockyard::batch {
+
+struct Message {
+  int rank = 0;  // it comes from
+  int tag = 0;
+  std::string bytes;
+};
+
+// Point-to-point messages between ranks 0 .. size()-1. Messages from one rank to another arrive in
+// order. Only the thread that made it may call it.
+class Communicator {
+ public:
+  virtual ~Communicator() = default;
+
+  virtual int rank() const = 0;
+  virtual int size() const = 0;
+
+  // Returns when `bytes` may be changed, perhaps before they arrive.
+  virtual void Send(int rank, int tag, const std::string& bytes) = 0;
+
+  // The next message, if one is there.
+  virtual std::optional<Message> Poll() = 0;
+};
+
+// Where this process stands among those that mpirun (or srun) started, as its environment says:
+// known before MPI starts, so that plain runs pay nothing for it and messages need no MPI.
+struct Launch {
+  int rank = 0;
+  int ranks = 1;
+  int local_ranks = 1;  // on this machine
+};
+std::optional<Launch> FindLaunch();
+
+// Starts MPI (MPI_THREAD_FUNNELED: the calling thread alone speaks it) and ends it with the last
+// reference. A rank that ends without that takes the others with it. Once per process. Throws
+// core::UserError in a build without MPI.
+std::unique_ptr<Communicator> StartMpi();
+
+}  // namespace rockyard::batch

@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdlib>
+#include <string_view>
+
+#include "batch/communicator.h"
+#include "core/error.h"
+
+#ifdef ROCKYARD_MPI
+#include <mpi.h>
+#endif
+
+namespace rockyard::batch {
+namespace {
+
+std::optional<int> NumberOf(const char* name) {
+  const char* text = std::getenv(name);
+  if (text == nullptr) return std::nullopt;
+  const std::string_view digits = text;
+  int value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const bool good = error == std::errc() && end == digits.data() + digits.size() && value >= 0;
+  return good ? std::optional(value) : std::nullopt;
+}
+
+// What launchers call rank, ranks and ranks on this machine: Open MPI's mpirun, MPICH's, and
+// srun --mpi.
+struct Names {
+  const char* rank;
+  const char* ranks;
+  const char* local_ranks;
+};
+constexpr std::array kLaunchers = {
+    Names{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_LOCAL_SIZE"},
+    Names{"PMI_RANK", "PMI_SIZE", "MPI_LOCALNRANKS"},
+    Names{"PMIX_RANK", "SLURM_NTASKS", "SLURM_NTASKS_PER_NODE"}};
+
+}  // namespace
+
+std::optional<Launch> FindLaunch() {
+  for (const Names& names : kLaunchers) {
+    const std::optional<int> rank = NumberOf(names.rank);
+    const std::optional<int> ranks = NumberOf(names.ranks);
+    if (!rank || !ranks || *rank >= *ranks) continue;
+    return Launch{*rank, *ranks, std::max(NumberOf(names.local_ranks).value_or(1), 1)};
+  }
+  return std::nullopt;
+}
+
+#ifdef ROCKYARD_MPI
+
+namespace {
+
+// Errors of MPI end every rank, as is MPI's default.
+class MpiCommunicator final : public Communicator {
+ public:
+  MpiCommunicator() {
+    int provided = MPI_THREAD_SINGLE;
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+    if (provided < MPI_THREAD_FUNNELED) {
+      MPI_Finalize();
+      throw core::UserError("MPI", "allows no threads", "use another MPI library, or no mpirun");
+    }
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &size_);
+  }
+  ~MpiCommunicator() override { MPI_Finalize(); }
+  MpiCommunicator(const MpiCommunicator&) = delete;
+  MpiCommunicator& operator=(const MpiCommunicator&) = delete;
+
+  int rank() const override { return rank_; }
+  int size() const override { return size_; }
+
+  void Send(int rank, int tag, const std::string& bytes) override {
+    MPI_Send(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, rank, tag, MPI_COMM_WORLD);
+  }
+
+  std::optional<Message> Poll() override {
+    int there = 0;
+    MPI_Status status;
+    MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &status);
+    if (there == 0) return std::nullopt;
+    int size = 0;
+    MPI_Get_count(&status, MPI_BYTE, &size);
+    Message message{status.MPI_SOURCE, status.MPI_TAG, std::string(size, '\0')};
+    MPI_Recv(message.bytes.data(), size, MPI_BYTE, message.rank, message.tag, MPI_COMM_WORLD,
+             MPI_STATUS_IGNORE);
+    return message;
+  }
+
+ private:
+  int rank_ = 0;
+  int size_ = 1;
+};
+
+}  // namespace
+
+std::unique_ptr<Communicator> StartMpi() { return std::make_unique<MpiCommunicator>(); }
+
+#else
+
+std::unique_ptr<Communicator> StartMpi() {
+  throw core::UserError("MPI", "is not in this build of the program",
+                        "install libopenmpi-dev and build with -DROCKYARD_MPI=ON, or use --shard "
+                        "and `rockyard merge` in place of mpirun");
+}
+
+#endif
+
+}  // namespace rockyard::batch

@@ -1,0 +1,291 @@
+// Several ranks as threads of this process: the protocol without MPI. The real thing is tested with
+// the command (tests/app/cli_mpi_test.cc).
+#include "batch/distributed.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "batch/packet.h"
+#include "batch/remote_work.h"
+#include "batch/store_error.h"
+#include "batch/trial_hash.h"
+#include "fake_experiment.h"
+
+namespace rockyard::batch {
+namespace {
+
+constexpr std::int64_t kTrials = 300;
+
+// Mailboxes of all ranks.
+struct Post {
+  explicit Post(int ranks) : boxes(static_cast<std::size_t>(ranks)) {}
+  std::mutex mutex;
+  std::vector<std::deque<Message>> boxes;
+};
+
+class PostCommunicator final : public Communicator {
+ public:
+  PostCommunicator(Post& post, int rank) : post_(post), rank_(rank) {}
+  int rank() const override { return rank_; }
+  int size() const override { return static_cast<int>(post_.boxes.size()); }
+  void Send(int rank, int tag, const std::string& bytes) override {
+    const std::lock_guard lock(post_.mutex);
+    post_.boxes.at(static_cast<std::size_t>(rank)).push_back({rank_, tag, bytes});
+  }
+  std::optional<Message> Poll() override {
+    const std::lock_guard lock(post_.mutex);
+    std::deque<Message>& box = post_.boxes[static_cast<std::size_t>(rank_)];
+    if (box.empty()) return std::nullopt;
+    Message message = std::move(box.front());
+    box.pop_front();
+    return message;
+  }
+
+ private:
+  Post& post_;
+  int rank_;
+};
+
+std::string PlainHash() {
+  std::vector<truth::Record> records;
+  for (std::uint64_t i = 0; i < kTrials; ++i) records.push_back(FakeRecord(1, i));
+  return TrialHash(records);
+}
+
+class Cluster {
+ public:
+  using Hook = std::function<void(int rank, std::uint64_t trial)>;
+
+  explicit Cluster(int ranks) : stops_(static_cast<std::size_t>(ranks)), post_(ranks) {}
+
+  BatchResult Run(ResultStore& store, const BatchOptions& options, const Hook& hook) {
+    std::vector<std::thread> others;
+    for (int rank = 1; rank < size(); ++rank) {
+      others.emplace_back([this, rank, &options, &hook] {
+        PostCommunicator communicator(post_, rank);
+        const FakeExperiment experiment = Experiment(rank, hook);
+        const CellWork work{&experiment, 1};
+        ServeBatch(communicator, std::span(&work, 1), options.threads, stop(rank));
+      });
+    }
+    PostCommunicator communicator(post_, 0);
+    const FakeExperiment experiment = Experiment(0, hook);
+    const CellWork work{&experiment, 1};
+    BatchResult result;
+    std::exception_ptr error;
+    try {
+      result = RunDistributedBatch(communicator, std::span(&work, 1), store, options, stop(0));
+    } catch (...) {
+      error = std::current_exception();
+    }
+    for (std::thread& other : others) other.join();
+    if (error) std::rethrow_exception(error);
+    return result;
+  }
+
+  std::atomic<bool>& stop(int rank) { return stops_[static_cast<std::size_t>(rank)]; }
+  int size() const { return static_cast<int>(stops_.size()); }
+  // By rank, of trials that began there.
+  std::map<int, int> begun() const { return begun_; }
+  int total() const {
+    int sum = 0;
+    for (const auto& [rank, count] : begun_) sum += count;
+    return sum;
+  }
+
+ private:
+  FakeExperiment Experiment(int rank, const Hook& hook) {
+    return FakeExperiment([this, rank, &hook](std::uint64_t trial) {
+      {
+        const std::lock_guard lock(mutex_);
+        ++begun_[rank];
+      }
+      if (hook) hook(rank, trial);
+    });
+  }
+
+  std::vector<std::atomic<bool>> stops_;
+  Post post_;
+  std::mutex mutex_;
+  std::map<int, int> begun_;
+};
+
+BatchOptions Options(int threads) {
+  return {.threads = threads, .interval = std::chrono::milliseconds(5)};
+}
+
+void Sleep(int milliseconds) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+}
+
+class Distributed : public testing::Test {
+ protected:
+  TemporaryFolder folder_;
+  ResultStore store_ = ResultStore::Create(folder_.path(), FakeIdentity(), kTrials);
+};
+
+class Ranks : public Distributed, public testing::WithParamInterface<std::pair<int, int>> {};
+
+TEST_P(Ranks, SameHashAndEveryTrialOnce) {
+  const auto [ranks, threads] = GetParam();
+  Cluster cluster(ranks);
+  const BatchResult result =
+      cluster.Run(store_, Options(threads), [](int, std::uint64_t) { Sleep(2); });
+  EXPECT_EQ(result.end, BatchEnd::kFinished);
+  EXPECT_EQ(TrialHash(store_.Load()), PlainHash());
+  EXPECT_EQ(cluster.total(), kTrials);
+  EXPECT_EQ(cluster.begun().size(), static_cast<std::size_t>(ranks)) << "every rank had some";
+}
+
+INSTANTIATE_TEST_SUITE_P(RanksAndThreads, Ranks,
+                         testing::Values(std::pair(1, 1), std::pair(2, 1), std::pair(3, 1),
+                                         std::pair(2, 3), std::pair(5, 2)));
+
+TEST_F(Distributed, TrialsWithoutCost) {
+  Cluster cluster(3);
+  EXPECT_EQ(cluster.Run(store_, Options(2), {}).end, BatchEnd::kFinished);
+  EXPECT_EQ(TrialHash(store_.Load()), PlainHash());
+}
+
+TEST_F(Distributed, NothingToDo) {
+  Cluster(2).Run(store_, Options(1), {});
+  Cluster again(3);
+  EXPECT_EQ(again.Run(store_, Options(1), {}).end, BatchEnd::kFinished);
+  EXPECT_EQ(again.total(), 0);
+}
+
+// One that takes 20 times as long must not hold trials that others could have done.
+TEST_F(Distributed, SlowRankGetsFewTrials) {
+  Cluster cluster(2);
+  cluster.Run(store_, Options(1), [](int rank, std::uint64_t) { Sleep(rank == 1 ? 40 : 2); });
+  EXPECT_EQ(TrialHash(store_.Load()), PlainHash());
+  EXPECT_GE(cluster.begun()[1], 1);
+  EXPECT_LE(cluster.begun()[1], 45) << "of 300; a fair share would be 15";
+}
+
+TEST_F(Distributed, RankThatStopsGivesBackWhatItHasNotBegun) {
+  Cluster cluster(3);
+  const BatchResult result = cluster.Run(store_, Options(2), [&](int rank, std::uint64_t) {
+    Sleep(2);
+    if (rank == 1) cluster.stop(1) = true;
+  });
+  EXPECT_EQ(result.end, BatchEnd::kFinished);
+  EXPECT_EQ(TrialHash(store_.Load()), PlainHash());
+  EXPECT_EQ(cluster.total(), kTrials);
+  EXPECT_LE(cluster.begun()[1], 2) << "one for each thread";
+}
+
+TEST_F(Distributed, StopOfRankZeroEndsAllAndAnotherNumberOfRanksGoesOn) {
+  Cluster cluster(3);
+  const BatchResult result = cluster.Run(store_, Options(1), [&](int, std::uint64_t trial) {
+    Sleep(2);
+    if (trial == 50) cluster.stop(0) = true;
+  });
+  EXPECT_EQ(result.end, BatchEnd::kStopped);
+  EXPECT_EQ(static_cast<int>(store_.Load().size()), cluster.total()) << "all that began is stored";
+  EXPECT_LT(cluster.total(), kTrials);
+  EXPECT_EQ(Cluster(2).Run(store_, Options(2), {}).end, BatchEnd::kFinished);
+  EXPECT_EQ(TrialHash(store_.Load()), PlainHash());
+}
+
+// A rule decides at the ends of rounds: ranks wait, and the same trials run.
+TEST_F(Distributed, RoundsOfAStoppingRule) {
+  BatchOptions options = Options(2);
+  options.rule = StoppingRule{.half_width = 0.12, .block = 40, .confidence = 0.95};
+  const BatchResult result = Cluster(3).Run(store_, options, [](int, std::uint64_t) { Sleep(1); });
+  EXPECT_EQ(result.end, BatchEnd::kFinished);
+  const TemporaryFolder other;
+  ResultStore alone = ResultStore::Create(other.path(), FakeIdentity(), kTrials);
+  const std::atomic<bool> never = false;
+  RunBatch(FakeExperiment(), alone, options, never);
+  EXPECT_EQ(TrialHash(store_.Load()), TrialHash(alone.Load()));
+  EXPECT_LT(store_.Load().size(), static_cast<std::size_t>(kTrials)) << "the rule was met";
+}
+
+TEST_F(Distributed, TrialThatThrowsElsewhereIsAFault) {
+  Cluster cluster(2);
+  cluster.Run(store_, Options(1), [](int, std::uint64_t trial) {
+    Sleep(1);
+    if (trial % 100 == 7) throw std::runtime_error("broken");
+  });
+  const std::vector<truth::Record> records = store_.Load();
+  ASSERT_EQ(records.size(), static_cast<std::size_t>(kTrials));
+  for (const truth::Record& record : records) {
+    EXPECT_EQ(truth::IsFault(record), record.trial % 100 == 7);
+  }
+}
+
+TEST(Packet, KeepsEveryBit) {
+  const double payload = std::bit_cast<double>(std::uint64_t{0x7ff8000000000123});
+  const std::vector<CellRecord> sent = {
+      {3, {1ULL << 40, truth::TrialOutcome::kJammed, "a \"b\"\n\0c", {-0.0, payload, 1e-310}}},
+      {0, truth::MakeFault(1, 2, "broken")}};
+  const std::vector<TrialId> ids = {{0, 5}, {7, 1LL << 50}};
+  const PacketWriter writer = PacketWriter().Records(sent).Trials(ids).Text("").Real(-0.0);
+  PacketReader reader(writer.bytes());
+  const std::vector<CellRecord> got = reader.Records();
+  ASSERT_EQ(got.size(), sent.size());
+  for (std::size_t i = 0; i < sent.size(); ++i) {
+    EXPECT_EQ(got[i].cell, sent[i].cell);
+    EXPECT_EQ(got[i].record.detail, sent[i].record.detail);
+    EXPECT_EQ(TrialHash(std::span(&got[i].record, 1)), TrialHash(std::span(&sent[i].record, 1)));
+  }
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(got[0].record.values[1]),
+            std::bit_cast<std::uint64_t>(payload));
+  EXPECT_EQ(reader.Trials(), ids);
+  EXPECT_EQ(reader.Text(), "");
+  EXPECT_TRUE(std::signbit(reader.Real()));
+}
+
+TEST(Packet, CutOffIsAnError) {
+  const std::string whole = PacketWriter().Trials({{1, 2}, {3, 4}}).Text("words").bytes();
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    const std::string part = whole.substr(0, size);
+    PacketReader reader(part);
+    const auto read = [&] {
+      reader.Trials();
+      reader.Text();
+    };
+    EXPECT_THROW(read(), std::runtime_error) << size;
+  }
+}
+
+TEST(RemoteWork, AsksForAQuarterOfASecond) {
+  const std::atomic<bool> stop = false;
+  RemoteWorkSource source(2, stop);
+  EXPECT_EQ(source.Wanted(), 0) << "nobody waits yet";
+  std::vector<TrialId> block;
+  for (int i = 0; i < 4; ++i) block.push_back({0, i});
+  source.Add(block);
+  for (int i = 0; i < 4; ++i) {
+    const std::optional<TrialId> id = source.Take();
+    ASSERT_TRUE(id);
+    Sleep(10);
+    source.Finish({0, FakeRecord(1, static_cast<std::uint64_t>(id->trial))});
+  }
+  // 2 threads x 0.25 s / 10 ms, a little less as sleeping takes longer than asked for.
+  EXPECT_GE(source.Wanted(), 10);
+  EXPECT_LE(source.Wanted(), 50);
+  EXPECT_EQ(source.Collect().size(), 4U);
+  EXPECT_TRUE(source.Collect().empty());
+}
+
+TEST(RemoteWork, ClosedHandsOutNothing) {
+  const std::atomic<bool> stop = false;
+  RemoteWorkSource source(1, stop);
+  source.Add({{0, 1}, {0, 2}});
+  source.Take();
+  source.Close();
+  EXPECT_FALSE(source.Take());
+  EXPECT_EQ(source.Untaken(), (std::vector<TrialId>{{0, 2}}));
+}
+
+}  // namespace
+}  // namespace rockyard::batch
