@@ -100,6 +100,39 @@ void AddColumns(Json& json, const DriveSummary& summary) {
   json["columns"] = std::move(others);
 }
 
+Json Ends(const statistics::Interval& interval) {
+  return Json::array({Number(interval.low), Number(interval.high)});
+}
+
+Json MetricJson(const statistics::MetricSummary& summary) {
+  Json json = {
+      {"count", summary.count}, {"mean", Number(summary.mean)}, {"ci95", Ends(summary.interval)}};
+  if (summary.metric->kind == statistics::MetricKind::kRate) return json;
+  json["median"] = Number(summary.median);
+  json["median_ci95"] = Ends(summary.median_interval);
+  json["min"] = Number(summary.min);
+  json["max"] = Number(summary.max);
+  json["std"] = Number(summary.deviation);
+  return json;
+}
+
+Json MetricsJson(const std::vector<statistics::MetricSummary>& metrics) {
+  Json json = Json::object();
+  for (const statistics::MetricSummary& summary : metrics) {
+    if (summary.count > 0) json[std::string(summary.metric->name)] = MetricJson(summary);
+  }
+  return json;
+}
+
+Json MetricsByOutcome(const DriveSummary& summary) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < summary.metrics_by_outcome.size(); ++i) {
+    if (summary.metrics_by_outcome[i].empty()) continue;
+    json[std::string(truth::kTrialOutcomeNames[i])] = MetricsJson(summary.metrics_by_outcome[i]);
+  }
+  return json;
+}
+
 Json CellJson(const statistics::MeasurementSummary& summary, const statistics::Cell& cell,
               statistics::IntervalMethod method) {
   Json json = {{"cell", cell.number}, {"runs", cell.runs}};
@@ -166,6 +199,8 @@ std::string SummaryJson(const RunDescription& run, const DriveSummary& summary,
   json["true_success"] = Rate(summary.true_success, method);
   json["outcomes"] = Outcomes(summary);
   AddColumns(json, summary);
+  json["metrics"] = MetricsJson(summary.metrics);
+  json["metrics_by_outcome"] = MetricsByOutcome(summary);
   json["trial_hash"] = run.trial_hash;
   json["provenance"] = Provenance(run);
   return Text(json);

@@ -117,12 +117,34 @@ std::string ColumnTable(const DriveSummary& summary, TextStyle style) {
          "\n" + text;
 }
 
+// Means with their intervals, of what the table above has not.
+std::string MetricLines(const DriveSummary& summary) {
+  const TableRow rows[] = {{"time_to_goal_s", "time to goal [s]"},
+                           {"energy_to_goal_wh", "energy to goal [Wh]"},
+                           {"min_clearance_m", "least clearance [mm]", 1000.0},
+                           {"scrapes", "scrapes"},
+                           {"max_tilt_deg", "largest tilt [deg]"},
+                           {"turns_in_place", "turns in place"},
+                           {"stops", "stops"}};
+  std::string text;
+  for (const TableRow& row : rows) {
+    const auto found = std::find_if(summary.metrics.begin(), summary.metrics.end(),
+                                    [&](const auto& m) { return m.metric->name == row.column; });
+    if (found == summary.metrics.end() || found->count < 2) continue;
+    text += fmt::format("  {:<24} {:>9}   95 % interval {} .. {}\n", row.label,
+                        Value(row.scale * found->mean), Value(row.scale * found->interval.low),
+                        Value(row.scale * found->interval.high));
+  }
+  return text.empty() ? text : "  means\n" + text;
+}
+
 }  // namespace
 
 std::string SummaryText(const RunDescription& run, const DriveSummary& summary, TextStyle style) {
   return Head(run, summary, style) + RateLine("declared success", summary.declared_success) +
          RateLine("true success", summary.true_success) + OutcomeLines(summary, style) +
-         ColumnTable(summary, style) + fmt::format("  trial hash {}\n", run.trial_hash);
+         ColumnTable(summary, style) + MetricLines(summary) +
+         fmt::format("  trial hash {}\n", run.trial_hash);
 }
 
 }  // namespace rockyard::report

@@ -11,18 +11,16 @@
 namespace rockyard::statistics {
 namespace {
 
-std::vector<double> PathRatios(const truth::RecordSchema& schema,
-                               std::span<const truth::Record> records) {
-  const auto driven = ColumnIndex(schema, "true_distance_m");
-  const auto straight = ColumnIndex(schema, "straight_distance_m");
-  std::vector<double> ratios;
-  if (!driven || !straight) return ratios;
-  for (const truth::Record& record : records) {
-    if (!truth::DeclaredSuccess(record.outcome)) continue;
-    if (std::max(*driven, *straight) >= record.values.size()) continue;
-    ratios.push_back(record.values[*driven] / record.values[*straight]);
+constexpr std::string_view kPathRatio = "path_ratio";
+
+void AddMetrics(const truth::RecordSchema& schema, std::span<const truth::Record> records,
+                IntervalMethod method, DriveSummary& summary) {
+  summary.metrics = SummarizeMetrics(schema, records, method);
+  for (std::size_t i = 0; i < summary.outcomes.size(); ++i) {
+    const auto outcome = static_cast<truth::TrialOutcome>(i);
+    if (summary.outcomes[i] == 0 || outcome == truth::TrialOutcome::kSimulatorFault) continue;
+    summary.metrics_by_outcome[i] = SummarizeMetrics(schema, records, method, outcome);
   }
-  return ratios;
 }
 
 }  // namespace
@@ -80,10 +78,14 @@ DriveSummary Summarize(const truth::RecordSchema& schema, std::span<const truth:
   summary.declared_success = MakeProportion(reached + believed, counted, 0.95, method);
   summary.true_success = MakeProportion(reached, counted, 0.95, method);
   for (std::size_t i = 0; i < schema.size(); ++i) {
+    if (schema[i].name == kPathRatio) continue;
     summary.columns.push_back(
         SummarizeColumn(schema[i].name, schema[i].unit, ColumnValues(records, i)));
   }
-  summary.columns.push_back(SummarizeColumn("path_ratio", "1", PathRatios(schema, records)));
+  const auto ratios = MetricValues(*FindMetric(kPathRatio), schema, records);
+  summary.columns.push_back(
+      SummarizeColumn(std::string(kPathRatio), "1", ratios.value_or(std::vector<double>())));
+  AddMetrics(schema, records, method, summary);
   return summary;
 }
 

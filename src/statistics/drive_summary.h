@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "statistics/metrics.h"
 #include "statistics/proportions.h"
 #include "truth/record.h"
 
@@ -38,9 +39,12 @@ struct DriveSummary {
   Proportion declared_success;  // goal_reached and false_goal
   Proportion true_success;      // goal_reached
   std::array<std::int64_t, truth::kTrialOutcomeNames.size()> outcomes{};
-  // Every column of the schema over all trials without a fault, in the schema's order, then
-  // "path_ratio": true distance over straight distance, declared successes only.
+  // Every column of the schema over all trials without a fault, in the schema's order; but
+  // "path_ratio", last, is over declared successes only, whether the schema has it or not.
   std::vector<ColumnSummary> columns;
+  std::vector<MetricSummary> metrics;  // over all trials
+  // The same over the trials that ended in one way each; empty where none did.
+  std::array<std::vector<MetricSummary>, truth::kTrialOutcomeNames.size()> metrics_by_outcome;
 
   std::int64_t outcome(truth::TrialOutcome kind) const {
     return outcomes[static_cast<std::size_t>(kind)];

@@ -1,6 +1,7 @@
 #include "statistics/quantiles.h"
 
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <limits>
 
@@ -25,6 +26,20 @@ double Quantile(std::span<const double> sorted, double probability) {
   const std::size_t above = std::min(below + 1, sorted.size() - 1);
   const double weight = position - static_cast<double>(below);
   return sorted[below] + weight * (sorted[above] - sorted[below]);
+}
+
+Interval MedianInterval(std::span<const double> sorted, double confidence) {
+  EXPECT(confidence > 0.0 && confidence < 1.0);
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  if (sorted.empty()) return {kNaN, kNaN};
+  const boost::math::binomial below(static_cast<double>(sorted.size()), 0.5);
+  const double tail = 0.5 * (1.0 - confidence);
+  // Values that may be left out at each end: the most with P(at most so many below) <= tail.
+  // Boost's quantile is that number or next to it.
+  auto out = static_cast<std::size_t>(std::max(0.0, boost::math::quantile(below, tail) - 1.0));
+  while (boost::math::cdf(below, static_cast<double>(out)) <= tail) ++out;
+  if (out == 0) return {kNaN, kNaN};
+  return {sorted[out - 1], sorted[sorted.size() - out]};
 }
 
 std::vector<EcdfPoint> Ecdf(std::span<const double> values, double confidence, BandMethod method) {

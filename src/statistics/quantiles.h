@@ -15,6 +15,11 @@ std::vector<double> SortedFinite(std::span<const double> values);
 // NumPy. `sorted` ascending; 0 <= probability <= 1. NaN when empty.
 double Quantile(std::span<const double> sorted, double probability);
 
+// Interval of the median from two order statistics, whose ranks the binomial law of the values
+// below it gives (Thompson 1936): covers with at least this confidence whatever the continuous law.
+// `sorted` ascending; NaN where so few values cannot give the confidence (below 6 at 95 %).
+Interval MedianInterval(std::span<const double> sorted, double confidence = 0.95);
+
 enum class BandMethod {
   kSimultaneous,  // Dvoretzky-Kiefer-Wolfowitz with Massart's constant (1990): the whole curve
   kPointwise,     // Clopper-Pearson at each point on its own

@@ -1,0 +1,132 @@
+// The table of metrics.
+#include <algorithm>
+
+#include "statistics/metrics.h"
+
+namespace rockyard::statistics {
+namespace {
+
+using truth::TrialOutcome;
+
+constexpr std::uint32_t Bit(TrialOutcome outcome) {
+  return std::uint32_t{1} << static_cast<unsigned>(outcome);
+}
+
+constexpr double kRateMargin = 0.1;
+
+constexpr Metric OutcomeRate(std::string_view name, std::uint32_t outcomes,
+                             std::string_view definition) {
+  return {.name = name,
+          .unit = "1",
+          .definition = definition,
+          .kind = MetricKind::kRate,
+          .source = MetricSource::kOutcome,
+          .outcomes = outcomes,
+          .margin = kRateMargin};
+}
+
+constexpr Metric Arrived(std::string_view name, std::string_view unit, std::string_view column,
+                         double margin, double relative_margin, std::string_view definition) {
+  return {.name = name,
+          .unit = unit,
+          .definition = definition,
+          .trials = MetricTrials::kArrived,
+          .columns = {column},
+          .margin = margin,
+          .relative_margin = relative_margin};
+}
+
+constexpr Metric All(std::string_view name, std::string_view unit, std::string_view column,
+                     double margin, double relative_margin, std::string_view definition) {
+  Metric metric = Arrived(name, unit, column, margin, relative_margin, definition);
+  metric.trials = MetricTrials::kAll;
+  return metric;
+}
+
+constexpr Metric Quotient(std::string_view name, std::string_view over, std::string_view under,
+                          double relative_margin, std::string_view definition) {
+  Metric metric = Arrived(name, "1", over, 0.0, relative_margin, definition);
+  metric.source = MetricSource::kQuotient;
+  metric.columns[1] = under;
+  return metric;
+}
+
+constexpr Metric ShareWith(std::string_view name, std::string_view column,
+                           std::string_view definition) {
+  return {.name = name,
+          .unit = "1",
+          .definition = definition,
+          .kind = MetricKind::kRate,
+          .source = MetricSource::kPositive,
+          .columns = {column},
+          .margin = kRateMargin};
+}
+
+constexpr std::array kMetrics = {
+    OutcomeRate("declared_success", Bit(TrialOutcome::kGoalReached) | Bit(TrialOutcome::kFalseGoal),
+                "share of trials in which the rover believes that it arrived"),
+    OutcomeRate("true_success", Bit(TrialOutcome::kGoalReached),
+                "share of trials that end believed and truly at the goal"),
+    OutcomeRate("false_goal", Bit(TrialOutcome::kFalseGoal),
+                "share of trials that end believed, but not truly, at the goal"),
+    OutcomeRate("tip_over", Bit(TrialOutcome::kTipOver), "share of trials that tip over"),
+    OutcomeRate("high_centred", Bit(TrialOutcome::kHighCentred),
+                "share of trials that end with the body on a rock"),
+    OutcomeRate("jammed", Bit(TrialOutcome::kJammed),
+                "share of trials that end with the rover unable to move"),
+    OutcomeRate("no_path", Bit(TrialOutcome::kNoPath),
+                "share of trials in which the navigator gives up"),
+    OutcomeRate("energy_depleted", Bit(TrialOutcome::kEnergyDepleted),
+                "share of trials that end with empty batteries"),
+    OutcomeRate("time_limit", Bit(TrialOutcome::kTimeLimit),
+                "share of trials that the time limit ends"),
+    OutcomeRate("left_arena", Bit(TrialOutcome::kLeftArena),
+                "share of trials that leave the arena"),
+    Quotient("path_ratio", "true_distance_m", "straight_distance_m", 0.05,
+             "true path length over the straight distance from start to goal"),
+    Arrived("time_to_goal_s", "s", "sim_time_s", 0.0, 0.1, "simulated time up to the goal"),
+    Arrived("energy_to_goal_wh", "Wh", "energy_wh", 0.0, 0.1, "energy drawn up to the goal"),
+    Arrived("true_goal_distance_m", "m", "true_goal_distance_m", 0.1, 0.1,
+            "true final position to the goal"),
+    Arrived("believed_goal_distance_m", "m", "believed_goal_distance_m", 0.05, 0.1,
+            "believed final position to the goal that the rover was told"),
+    All("true_distance_m", "m", "true_distance_m", 0.0, 0.1, "true path length"),
+    All("active_time_s", "s", "active_time_s", 0.0, 0.1,
+        "simulated time less what a rover found stuck waits for its batteries to empty"),
+    All("active_energy_wh", "Wh", "active_energy_wh", 0.0, 0.1,
+        "energy drawn less that of such a wait"),
+    All("net_rate_m_s", "m/s", "net_rate_m_s", 0.0, 0.1, "true path length over simulated time"),
+    All("min_clearance_m", "m", "min_clearance_m", 0.02, 0.0,
+        "smallest clearance of the belly over a rock"),
+    All("scrapes", "1", "scrapes", 0.25, 0.25, "episodes of body contact with a rock"),
+    ShareWith("scraped", "scrapes", "share of trials with at least one scrape"),
+    All("max_tilt_deg", "deg", "max_tilt_deg", 2.0, 0.0, "largest tilt of the chassis"),
+    All("max_bogie_deg", "deg", "max_bogie_deg", 2.0, 0.0, "largest angle of a bogie"),
+    All("max_rocker_deg", "deg", "max_rocker_deg", 2.0, 0.0, "largest angle of a rocker"),
+    All("turns_in_place", "1", "turns_in_place", 0.5, 0.15, "turns in place"),
+    All("turned_in_place_rad", "rad", "turned_in_place_rad", 0.5, 0.15,
+        "total true rotation of turns in place"),
+    All("scans", "1", "scans", 0.5, 0.1, "hazard scans"),
+    All("image_sets", "1", "image_sets", 0.5, 0.1, "pairs of stereo images"),
+    All("hazards_believed", "1", "hazards_believed", 0.5, 0.15,
+        "scans whose hazard the navigator believed"),
+    All("stops", "1", "stops", 0.5, 0.1, "times that the rover came to rest"),
+    All("distance_error_percent", "%", "distance_error_percent", 1.0, 0.0,
+        "100 (dead-reckoned less true path length) over the true one"),
+    All("heading_error_deg", "deg", "heading_error_deg", 2.0, 0.15,
+        "absolute error of the believed heading at the end"),
+    All("position_error_m", "m", "position_error_m", 0.05, 0.15,
+        "distance from the believed to the true final position"),
+};
+
+}  // namespace
+
+std::span<const Metric> Metrics() { return kMetrics; }
+
+const Metric* FindMetric(std::string_view name) {
+  const auto found = std::find_if(kMetrics.begin(), kMetrics.end(),
+                                  [&](const Metric& metric) { return metric.name == name; });
+  return found == kMetrics.end() ? nullptr : &*found;
+}
+
+}  // namespace rockyard::statistics

@@ -1,0 +1,111 @@
+#include "statistics/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/check.h"
+#include "statistics/drive_summary.h"
+#include "statistics/equivalence.h"
+#include "statistics/moments.h"
+#include "statistics/quantiles.h"
+
+namespace rockyard::statistics {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+bool Counts(const Metric& metric, const truth::Record& record) {
+  if (IsFault(record)) return false;
+  return metric.trials == MetricTrials::kAll || truth::DeclaredSuccess(record.outcome);
+}
+
+bool HasOutcome(const Metric& metric, truth::TrialOutcome outcome) {
+  return (metric.outcomes >> static_cast<unsigned>(outcome) & 1u) != 0;
+}
+
+double ValueOf(const Metric& metric, const truth::Record& record, std::size_t first,
+               std::size_t second) {
+  if (metric.source == MetricSource::kOutcome)
+    return HasOutcome(metric, record.outcome) ? 1.0 : 0.0;
+  if (std::max(first, second) >= record.values.size()) return kNaN;
+  const double value = record.values[first];
+  if (!std::isfinite(value)) return kNaN;
+  if (metric.source == MetricSource::kPositive) return value > 0.0 ? 1.0 : 0.0;
+  if (metric.source == MetricSource::kColumn) return value;
+  const double quotient = value / record.values[second];
+  return std::isfinite(quotient) ? quotient : kNaN;
+}
+
+Interval MeanInterval(const std::vector<double>& values, double confidence) {
+  const MeanDifference mean = PairedMeans(values);
+  return mean.known() ? DifferenceInterval(mean, confidence) : Interval{kNaN, kNaN};
+}
+
+}  // namespace
+
+double DefaultMargin(const Metric& metric, double mean) {
+  const double relative = std::isfinite(mean) ? metric.relative_margin * std::abs(mean) : 0.0;
+  return std::max(metric.margin, relative);
+}
+
+std::optional<std::vector<double>> MetricValues(const Metric& metric,
+                                                const truth::RecordSchema& schema,
+                                                std::span<const truth::Record> records) {
+  std::array<std::size_t, 2> at{};
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    if (metric.columns[i].empty()) continue;
+    const auto found = ColumnIndex(schema, metric.columns[i]);
+    if (!found) return std::nullopt;
+    at[i] = *found;
+  }
+  std::vector<double> values;
+  values.reserve(records.size());
+  for (const truth::Record& record : records) {
+    values.push_back(Counts(metric, record) ? ValueOf(metric, record, at[0], at[1]) : kNaN);
+  }
+  return values;
+}
+
+MetricSummary SummarizeMetric(const Metric& metric, std::span<const double> values,
+                              double confidence, IntervalMethod method) {
+  const std::vector<double> sorted = SortedFinite(values);
+  const Moments moments = MomentsOf(sorted);
+  MetricSummary summary{.metric = &metric,
+                        .count = moments.count(),
+                        .mean = moments.mean(),
+                        .deviation = moments.standard_deviation(),
+                        .interval = {},
+                        .median = kNaN,
+                        .median_interval = {kNaN, kNaN},
+                        .min = moments.min(),
+                        .max = moments.max()};
+  if (metric.kind == MetricKind::kRate) {
+    const auto ones = std::count(sorted.begin(), sorted.end(), 1.0);
+    summary.interval = ProportionInterval(ones, summary.count, confidence, method);
+    return summary;
+  }
+  summary.interval = MeanInterval(sorted, confidence);
+  summary.median = Quantile(sorted, 0.5);
+  summary.median_interval = MedianInterval(sorted, confidence);
+  return summary;
+}
+
+std::vector<MetricSummary> SummarizeMetrics(const truth::RecordSchema& schema,
+                                            std::span<const truth::Record> records,
+                                            IntervalMethod method,
+                                            std::optional<truth::TrialOutcome> outcome) {
+  std::vector<MetricSummary> summaries;
+  for (const Metric& metric : Metrics()) {
+    if (outcome && metric.source == MetricSource::kOutcome) continue;
+    auto values = MetricValues(metric, schema, records);
+    if (!values) continue;
+    for (std::size_t i = 0; outcome && i < records.size(); ++i) {
+      if (records[i].outcome != *outcome) (*values)[i] = kNaN;
+    }
+    summaries.push_back(SummarizeMetric(metric, *values, 0.95, method));
+  }
+  return summaries;
+}
+
+}  // namespace rockyard::statistics

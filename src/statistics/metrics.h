@@ -1,0 +1,88 @@
+// The numbers that people ask of drives, each defined here and nowhere else.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "statistics/proportions.h"
+#include "truth/record.h"
+
+namespace rockyard::statistics {
+
+enum class MetricKind {
+  kRate,  // of each trial 0 or 1
+  kMean,  // of each trial a number
+};
+
+enum class MetricTrials {
+  kAll,      // every trial without a simulator fault
+  kArrived,  // of these, declared successes (goal_reached and false_goal)
+};
+
+// How the value of a trial is made.
+enum class MetricSource {
+  kOutcome,   // 1 if the outcome is in `outcomes`
+  kColumn,    // the first column
+  kQuotient,  // the first column over the second
+  kPositive,  // 1 if the first column is above 0
+};
+
+struct Metric {
+  std::string_view name;
+  std::string_view unit;
+  std::string_view definition;  // one sentence
+  MetricKind kind = MetricKind::kMean;
+  MetricTrials trials = MetricTrials::kAll;
+  MetricSource source = MetricSource::kColumn;
+  std::array<std::string_view, 2> columns{};  // of the record
+  std::uint32_t outcomes = 0;                 // one bit for each, kOutcome only
+  // Differences below max(margin, relative_margin |mean|) do not matter, unless a user says
+  // otherwise: default of the equivalence tests, a convention and no result.
+  double margin = 0.0;
+  double relative_margin = 0.0;
+};
+
+// All of them, in the order of reports.
+std::span<const Metric> Metrics();
+const Metric* FindMetric(std::string_view name);  // nullptr where there is none
+
+// Difference below which a metric whose mean is `mean` counts as unchanged. In the metric's unit.
+double DefaultMargin(const Metric& metric, double mean);
+
+// One value for each record, in their order; NaN where the trial does not count or has no finite
+// value. nullopt where the schema lacks a column. Cost: linear.
+std::optional<std::vector<double>> MetricValues(const Metric& metric,
+                                                const truth::RecordSchema& schema,
+                                                std::span<const truth::Record> records);
+
+// A metric over some trials. What is undefined is NaN.
+struct MetricSummary {
+  const Metric* metric = nullptr;
+  std::int64_t count = 0;  // trials with a value
+  double mean = 0.0;       // the rate, of a rate
+  double deviation = 0.0;  // unbiased standard deviation
+  // Rates: as asked for. Means: Student's interval, which needs some dozens of values without a
+  // heavy tail (its coverage for skewed laws stands in README.md); unknown below two values.
+  Interval interval;
+  double median = 0.0;       // NaN of a rate
+  Interval median_interval;  // of order statistics, exact for any law; NaN below six values
+  double min = 0.0;
+  double max = 0.0;
+};
+
+MetricSummary SummarizeMetric(const Metric& metric, std::span<const double> values,
+                              double confidence = 0.95,
+                              IntervalMethod method = IntervalMethod::kWilson);
+
+// Every metric whose columns the schema has. `outcome`: over trials that ended so (rates of
+// outcomes are then left out).
+std::vector<MetricSummary> SummarizeMetrics(const truth::RecordSchema& schema,
+                                            std::span<const truth::Record> records,
+                                            IntervalMethod method = IntervalMethod::kWilson,
+                                            std::optional<truth::TrialOutcome> outcome = {});
+
+}  // namespace rockyard::statistics
