@@ -26,6 +26,7 @@ namespace {
 struct CheckOptions {
   std::vector<std::string> runs;
   std::string reference;
+  std::string cell;
   std::string junit;
   std::string csv;
   statistics::ComparisonOptions comparison;
@@ -42,13 +43,14 @@ double GoalTolerance_m(const std::string& resolved) {
   return at->IsNumber() ? at->number() : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::vector<StoredRun> ReadRuns(const std::vector<std::string>& paths) {
+std::vector<StoredRun> ReadRuns(const std::vector<std::string>& paths, const std::string& cell) {
   std::vector<StoredRun> runs;
   std::map<std::string, std::string> folders;  // by scenario
   std::vector<core::Problem> problems;
   for (const std::string& path : paths) {
     for (const auto& folder : batch::FindRuns(path)) {
-      runs.push_back(ReadRun(folder));
+      runs.push_back(ReadRun(folder, cell));
+      RequireWhole(runs.back());
       const std::string& scenario = runs.back().identity.scenario;
       const auto [at, is_new] = folders.emplace(scenario, folder.string());
       if (!is_new) {
@@ -74,12 +76,12 @@ ExitCode Check(const CheckOptions& options) {
   CheckOutputFile("--junit", options.junit);
   CheckOutputFile("--csv", options.csv);
   const statistics::PublishedReference reference = report::LoadReference(options.reference);
-  const std::vector<StoredRun> stored = ReadRuns(options.runs);
+  const std::vector<StoredRun> stored = ReadRuns(options.runs, options.cell);
   std::vector<statistics::ScenarioRun> runs;
   for (const StoredRun& run : stored) {
     NoteUnfinished(run);
-    runs.push_back({run.identity.scenario, run.identity.schema, run.prefix(),
-                    GoalTolerance_m(run.identity.resolved)});
+    runs.push_back(
+        {run.identity.scenario, run.schema, run.prefix(), GoalTolerance_m(run.identity.resolved)});
   }
   const statistics::ComparisonResult result =
       statistics::Compare(reference, runs, options.comparison);
@@ -102,6 +104,7 @@ void AddCheckCommand(CLI::App& app, ExitCode& exit_code) {
   command->add_option("RUN", options->runs, "folders of runs, or a folder of such folders")
       ->required();
   command->add_option("--against", options->reference, "reference file")->required();
+  command->add_option("--cell", options->cell, "cell of a campaign: its name, or number from 0");
   command->add_option("--junit", options->junit, "write a JUnit report to this file");
   command->add_option("--csv", options->csv, "write the table as CSV to this file");
   command->add_option("--seed", options->comparison.seed, "seed of the resampling")

@@ -27,6 +27,8 @@ namespace {
 struct CompareOptions {
   std::string first;
   std::string second;
+  std::string cell;
+  std::string second_cell;
   std::string csv;
 };
 
@@ -43,11 +45,9 @@ std::string FieldsOf(const StoredRun& run) {
 
 report::ComparedRun View(const StoredRun& run) {
   if (run.prefix().empty()) {
-    throw core::UserError(run.folder.string(), "holds no finished trials to compare",
-                          "run some first");
+    throw core::UserError(run.Label(), "holds no finished trials to compare", "run some first");
   }
-  return {run.identity.scenario, run.identity.seed, run.identity.schema, run.prefix(),
-          FieldsOf(run)};
+  return {run.identity.scenario, run.identity.seed, run.schema, run.prefix(), FieldsOf(run)};
 }
 
 std::string TextAt(const core::JsonValue* value) {
@@ -59,7 +59,7 @@ std::string TextAt(const core::JsonValue* value) {
 std::string ExperimentOf(const StoredRun& run) {
   const core::JsonValue document = core::ParseJson(run.identity.resolved, "resolved scenario");
   const std::string experiment = TextAt(document.Find("experiment"));
-  if (!truth::IsMeasurement(run.identity.schema)) return "experiment " + experiment;
+  if (!truth::IsMeasurement(run.schema)) return "experiment " + experiment;
   const core::JsonValue* group = document.Find(experiment);
   const core::JsonValue* study = group == nullptr ? nullptr : group->Find("study");
   return "study " + TextAt(study) + " of experiment " + experiment;
@@ -69,10 +69,9 @@ void RequireSameExperiment(const StoredRun& first, const StoredRun& second) {
   const std::string a = ExperimentOf(first);
   const std::string b = ExperimentOf(second);
   if (a == b) return;
-  throw core::UserError(
-      second.folder.string(),
-      fmt::format("is a run of {}, but {} is one of {}", b, first.folder.string(), a),
-      "compare two runs of the same experiment and study");
+  throw core::UserError(second.Label(),
+                        fmt::format("is a run of {}, but {} is one of {}", b, first.Label(), a),
+                        "compare two runs of the same experiment and study");
 }
 
 ExitCode CompareMeasurements(const StoredRun& first, const StoredRun& second,
@@ -84,8 +83,7 @@ ExitCode CompareMeasurements(const StoredRun& first, const StoredRun& second,
       statistics::CompareCells(statistics::SummarizeCells(a.schema, a.records),
                                statistics::SummarizeCells(b.schema, b.records));
   if (cells.tests == 0) {
-    throw core::UserError(second.folder.string(),
-                          "shares no cell with trials with " + first.folder.string(),
+    throw core::UserError(second.Label(), "shares no cell with trials with " + first.Label(),
                           "compare runs whose lists of factors have values in common");
   }
   if (!options.csv.empty()) {
@@ -127,10 +125,12 @@ ExitCode CompareDrives(const StoredRun& first, const StoredRun& second,
 
 ExitCode Compare(const CompareOptions& options) {
   CheckOutputFile("--csv", options.csv);
-  const StoredRun first = ReadRun(options.first);
-  const StoredRun second = ReadRun(options.second);
-  const bool drive =
-      !truth::IsMeasurement(first.identity.schema) && !truth::IsMeasurement(second.identity.schema);
+  const StoredRun first = ReadRun(options.first, options.cell);
+  const StoredRun second =
+      ReadRun(options.second, options.second_cell.empty() ? options.cell : options.second_cell);
+  RequireWhole(first);
+  RequireWhole(second);
+  const bool drive = !truth::IsMeasurement(first.schema) && !truth::IsMeasurement(second.schema);
   return drive ? CompareDrives(first, second, options)
                : CompareMeasurements(first, second, options);
 }
@@ -145,6 +145,9 @@ void AddCompareCommand(CLI::App& app, ExitCode& exit_code) {
       "describe), measurements cell by cell (exit code 1 where a rate differs)");
   command->add_option("RUN_A", options->first, "folder of a run")->required();
   command->add_option("RUN_B", options->second, "folder of a run")->required();
+  command->add_option("--cell", options->cell,
+                      "cell of a campaign: its name, or number from 0; of both runs");
+  command->add_option("--cell-b", options->second_cell, "cell of RUN_B, where it is another one");
   command->add_option("--csv", options->csv,
                       "write every cell, or every column of drives, to this file");
   command->callback([options, &exit_code] { exit_code = Compare(*options); });

@@ -35,14 +35,17 @@ fs::path FolderOf(const RunRequest& request, const scenario::Scenario& scenario)
          fmt::format("{}-seed{}", FileName(scenario.name), scenario.seed);
 }
 
-batch::RunIdentity IdentityOf(const scenario::Scenario& scenario,
-                              const truth::RecordSchema& schema) {
-  return {.scenario = scenario.name,
-          .fingerprint = core::Hex(scenario::Fingerprint(scenario)),
-          .resolved = scenario::ResolvedJson(scenario),
-          .seed = static_cast<std::uint64_t>(scenario.seed),
+batch::CampaignIdentity IdentityOf(const scenario::Scenario& scenario,
+                                   const truth::RecordSchema& schema) {
+  return {.name = scenario.name,
+          .design = "",
           .build = BuildName(),
-          .schema = schema};
+          .schema = schema,
+          .cells = {{.name = "",
+                     .scenario = scenario.name,
+                     .fingerprint = core::Hex(scenario::Fingerprint(scenario)),
+                     .resolved = scenario::ResolvedJson(scenario),
+                     .seed = static_cast<std::uint64_t>(scenario.seed)}}};
 }
 
 // Removes the folder again, if it was not there before, unless all went well.
@@ -138,21 +141,22 @@ class Opener {
 
   // A resumed run keeps its plan unless --trials says more.
   std::int64_t PlanTrials(batch::ResultStore& store) {
-    const std::int64_t stored = store.EndOfTrials();
+    const std::vector<batch::FinishedTrial> finished = store.Finished();
+    const std::int64_t stored = finished.empty() ? 0 : finished.back().id.trial + 1;
     const std::int64_t wanted = request_.trials ? scenario_.trials : store.planned();
     const std::int64_t trials = std::max(wanted, stored);
     if (stored > 0) {
       notes_.push_back(fmt::format("going on with {}: trials up to {} of {} are there",
                                    folder_.string(), stored, trials));
     }
-    if (trials != store.planned()) store.SetPlanned(trials);
+    if (trials != store.planned()) store.SetPlanned(0, trials);
     return trials;
   }
 
   const RunRequest& request_;
   scenario::Scenario scenario_;
   fs::path folder_;
-  batch::RunIdentity identity_;
+  batch::CampaignIdentity identity_;
   std::vector<std::string> notes_;
 };
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <memory>
 #include <string>
 
@@ -55,13 +56,14 @@ statistics::IntervalMethod MethodOf(const RunOptions& options) {
 
 batch::BatchResult RunTrials(const experiments::Experiment& experiment, OpenedRun& run,
                              const batch::BatchOptions& options, Output output) {
-  const InterruptGuard interrupt;
+  std::atomic<bool> stop = false;
+  const InterruptGuard interrupt(stop, SecondSignal::kEnds);
   if (output == Output::kQuiet) {
-    return batch::RunBatch(experiment, run.store, options, interrupt.requested());
+    return batch::RunBatch(experiment, run.store, options, stop);
   }
   ProgressLine line(stderr);
   const batch::BatchResult result =
-      batch::RunBatch(experiment, run.store, options, interrupt.requested(),
+      batch::RunBatch(experiment, run.store, options, stop,
                       [&](const batch::Progress& progress) { line.Show(progress); });
   line.Finish(result.progress);
   return result;
@@ -84,12 +86,11 @@ void Show(Output output, const std::string& text, const std::string& json,
 
 // Derives the files from what is stored, and shows the summary.
 void Report(const OpenedRun& run, const RunOptions& options) {
-  const StoredRun stored{run.folder, run.store.identity(), run.store.planned(), run.store.Builds(),
-                         run.store.Load()};
+  const StoredRun stored = ReadRun(run.folder);
   report::RunDescription description = Describe(stored, batch::ThreadCount(options.batch));
   description.resolved = scenario::ResolvedJson(run.scenario);
   const statistics::IntervalMethod method = MethodOf(options);
-  const truth::RecordSchema& schema = stored.identity.schema;
+  const truth::RecordSchema& schema = stored.schema;
   if (truth::IsMeasurement(schema)) {
     const statistics::MeasurementSummary summary = report::WriteMeasurementFiles(
         run.folder, description, schema, stored.records, stored.prefix(), method);
@@ -123,8 +124,6 @@ ExitCode Judge(const OpenedRun& run, const batch::BatchResult& result,
 
 // What fails from here on is no bad input: trials have been run, and are stored.
 ExitCode RunAndReport(OpenedRun& run, RunOptions& options) {
-  options.batch.trials = run.trials;
-  options.batch.seed = static_cast<std::uint64_t>(run.scenario.seed);
   try {
     const auto experiment = experiments::MakeExperiment(run.scenario);
     const batch::BatchResult result = RunTrials(*experiment, run, options.batch, OutputOf(options));

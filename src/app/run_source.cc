@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <system_error>
 #include <utility>
 
@@ -16,10 +17,51 @@ namespace {
 
 namespace fs = std::filesystem;
 
-core::JsonValue LoadDocument(const fs::path& path) {
+// "0 (k=0.004), 1 (k=0.013), ...": what --cell takes.
+std::string CellList(const std::vector<batch::CellIdentity>& cells) {
+  constexpr std::size_t kShown = 8;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(cells.size(), kShown); ++i) {
+    text += fmt::format("{}{} ({})", i == 0 ? "" : ", ", i, cells[i].name);
+  }
+  if (cells.size() > kShown) text += fmt::format(", ... {}", cells.size() - 1);
+  return text;
+}
+
+int FindCell(const fs::path& folder, const std::vector<batch::CellIdentity>& cells,
+             const std::string& wanted) {
+  if (wanted.empty() && cells.size() == 1) return 0;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const bool named = !wanted.empty() && cells[i].name == wanted;
+    if (named || std::to_string(i) == wanted) return static_cast<int>(i);
+  }
+  if (wanted.empty()) {
+    throw core::UserError(folder.string(),
+                          fmt::format("holds a campaign of {} cells", cells.size()),
+                          "choose one of them with --cell: " + CellList(cells));
+  }
+  throw core::UserError("--cell", fmt::format("\"{}\" is no cell of {}", wanted, folder.string()),
+                        "use one of " + CellList(cells));
+}
+
+StoredRun LoadCell(const fs::path& folder, const batch::ResultStore& store, int cell) {
+  return {.folder = folder,
+          .cell = cell,
+          .identity = store.identity().cells.at(static_cast<std::size_t>(cell)),
+          .schema = store.identity().schema,
+          .shard = store.identity().shard,
+          .planned = store.planned(cell),
+          .builds = store.Builds(),
+          .records = store.Load(cell)};
+}
+
+core::JsonValue LoadDocument(const fs::path& path, const std::string& cell) {
   std::error_code error;
   if (fs::is_directory(path, error)) {
-    return core::ParseJson(batch::ResultStore::Read(path).identity().resolved, path.string());
+    const batch::ResultStore store = batch::ResultStore::Read(path);
+    const std::vector<batch::CellIdentity>& cells = store.identity().cells;
+    const int index = FindCell(path, cells, cell);
+    return core::ParseJson(cells[static_cast<std::size_t>(index)].resolved, path.string());
   }
   core::JsonValue document = core::LoadJsonFile(path);
   const core::JsonValue* inner = document.Find("scenario");
@@ -38,15 +80,36 @@ std::string Localization(const std::string& resolved) {
 
 }  // namespace
 
-scenario::Scenario LoadScenarioFrom(const fs::path& path, std::span<const std::string> overrides) {
-  core::JsonValue document = LoadDocument(path);
+scenario::Scenario LoadScenarioFrom(const fs::path& path, std::span<const std::string> overrides,
+                                    const std::string& cell) {
+  core::JsonValue document = LoadDocument(path, cell);
   for (const std::string& assignment : overrides) core::ApplyOverride(document, assignment);
   return scenario::ReadScenario(document);
 }
 
-StoredRun ReadRun(const fs::path& folder) {
+std::string StoredRun::Label() const {
+  return identity.name.empty() ? folder.string()
+                               : fmt::format("{}, cell {}", folder.string(), identity.name);
+}
+
+StoredRun ReadRun(const fs::path& folder, const std::string& cell) {
   const batch::ResultStore store = batch::ResultStore::Read(folder);
-  return {folder, store.identity(), store.planned(), store.Builds(), store.Load()};
+  return LoadCell(folder, store, FindCell(folder, store.identity().cells, cell));
+}
+
+std::vector<StoredRun> ReadCampaign(const fs::path& folder) {
+  const batch::ResultStore store = batch::ResultStore::Read(folder);
+  std::vector<StoredRun> runs;
+  for (int cell = 0; cell < store.cells(); ++cell) runs.push_back(LoadCell(folder, store, cell));
+  return runs;
+}
+
+void RequireWhole(const StoredRun& run) {
+  if (run.shard.whole()) return;
+  throw core::UserError(
+      run.folder.string(),
+      fmt::format("holds shard {}/{} of a campaign", run.shard.index, run.shard.count),
+      "put all shards together first: rockyard merge SHARD... --out DIR");
 }
 
 std::string BuildName() {

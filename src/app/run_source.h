@@ -13,23 +13,38 @@
 
 namespace rockyard::app {
 
-// The scenario in a scenario file, in a scenario.resolved.json, or of the run in a folder, with
-// "PATH=VALUE" overrides. Throws core::UserError.
+// The scenario in a scenario file, in a scenario.resolved.json, or of the run (and its cell, as
+// ReadRun takes it) in a folder, with "PATH=VALUE" overrides. Throws core::UserError.
 scenario::Scenario LoadScenarioFrom(const std::filesystem::path& path,
-                                    std::span<const std::string> overrides = {});
+                                    std::span<const std::string> overrides = {},
+                                    const std::string& cell = "");
 
-// A run read back from its folder.
+// One cell of a campaign, read back from its folder; of a run, the only one.
 struct StoredRun {
   std::filesystem::path folder;
-  batch::RunIdentity identity;
+  int cell = 0;
+  batch::CellIdentity identity;
+  truth::RecordSchema schema;
+  batch::Shard shard;
   std::int64_t planned = 0;
   std::vector<std::string> builds;
   std::vector<truth::Record> records;  // by trial index
 
   std::span<const truth::Record> prefix() const { return batch::ContiguousPrefix(records); }
+  // For people: the folder, and the cell where it has a name.
+  std::string Label() const;
 };
 
-StoredRun ReadRun(const std::filesystem::path& folder);
+// `cell`: the name of a cell, or its number from 0; may be left out where the store has only one.
+// Throws core::UserError, which lists the cells where it must not be left out or is none of them.
+StoredRun ReadRun(const std::filesystem::path& folder, const std::string& cell = "");
+
+// Every cell. Memory: all records of the campaign.
+std::vector<StoredRun> ReadCampaign(const std::filesystem::path& folder);
+
+// Throws core::UserError where the run is one shard of a campaign, whose trials are no contiguous
+// prefix: no rate can be told from it alone.
+void RequireWhole(const StoredRun& run);
 
 // The program, its compiler and the CPU level that records may depend on.
 std::string BuildName();

@@ -19,20 +19,20 @@ TrialSource FromRun(const TrialRequest& request) {
   if (request.seed || !request.overrides.empty()) {
     throw core::UserError(
         request.seed ? "--seed" : "--set", "makes another trial than the one in the run's store",
-        "name " + request.source + "/scenario.resolved.json instead of the folder");
+        "name the scenario file, or a scenario.resolved.json, instead of the folder");
   }
-  const StoredRun run = ReadRun(request.source);
+  const StoredRun run = ReadRun(request.source, request.cell);
   const auto found = std::find_if(run.records.begin(), run.records.end(), [&](const auto& record) {
     return record.trial == request.trial;
   });
   if (found == run.records.end()) {
     throw core::UserError(
-        "--trial", fmt::format("trial {} is not stored in {}", request.trial, request.source),
+        "--trial", fmt::format("trial {} is not stored in {}", request.trial, run.Label()),
         fmt::format("use one of the {} finished trials, or name the scenario file instead",
                     run.records.size()));
   }
   TrialSource source;
-  source.scenario = LoadScenarioFrom(request.source);
+  source.scenario = LoadScenarioFrom(request.source, {}, request.cell);
   source.seed = run.identity.seed;
   source.stored = *found;
   source.builds = run.builds;
@@ -40,6 +40,10 @@ TrialSource FromRun(const TrialRequest& request) {
 }
 
 TrialSource FromScenario(const TrialRequest& request) {
+  if (!request.cell.empty()) {
+    throw core::UserError("--cell", "is for the folder of a campaign, and this is a scenario",
+                          "leave it out");
+  }
   std::vector<std::string> overrides = request.overrides;
   if (request.seed) overrides.push_back(fmt::format("seed={}", *request.seed));
   TrialSource source;
@@ -56,6 +60,7 @@ void AddTrialOptions(CLI::App& command, TrialRequest& request) {
                   "scenario file, scenario.resolved.json, or the folder of a run")
       ->required();
   command.add_option("--trial", request.trial, "trial index, from 0")->required();
+  command.add_option("--cell", request.cell, "cell of a campaign: its name, or number from 0");
   command.add_option("--seed", request.seed, "seed of every random stream");
   command.add_option("--set", request.overrides, "PATH=VALUE: changes the scenario; repeat")
       ->allow_extra_args(false);

@@ -18,12 +18,13 @@ namespace rockyard::app {
 
 struct TrialRequest {
   std::string source;  // scenario file, scenario.resolved.json, or the folder of a run
+  std::string cell;    // of a campaign: its name, or number from 0
   std::uint32_t trial = 0;
   std::optional<std::int64_t> seed;
   std::vector<std::string> overrides;
 };
 
-// Adds SCENARIO_OR_RUN, --trial, --seed and --set to a command. `request` must outlive it.
+// Adds SCENARIO_OR_RUN, --trial, --cell, --seed and --set to a command. `request` must outlive it.
 void AddTrialOptions(CLI::App& command, TrialRequest& request);
 
 // The trial, and what a finished run says of it.

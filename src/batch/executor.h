@@ -1,38 +1,50 @@
-// Runs the trials of an experiment on several threads, and stores every one.
+// Runs the trials of a campaign on several threads, and stores every one.
 #pragma once
 
 #include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <span>
+#include <vector>
 
 #include "batch/prefix_counter.h"
 #include "batch/result_store.h"
+#include "batch/work_plan.h"
+#include "batch/work_source.h"
 #include "experiments/experiment.h"
 
 namespace rockyard::batch {
 
-// In which order pending trials are started. No result depends on it; kShuffled exists to test
-// that.
-enum class Order { kNatural, kShuffled };
+// What a cell runs.
+struct CellWork {
+  const experiments::Experiment* experiment = nullptr;
+  std::uint64_t seed = 1;
+};
 
 struct BatchOptions {
-  std::int64_t trials = 300;  // indices 0 .. trials-1, those in the store included
-  std::uint64_t seed = 1;
   int threads = 0;  // 0: as many as the machine runs at once
   Order order = Order::kNatural;
   double max_fault_fraction = 0.01;  // of all finished trials
   // Between two commits and two reports. With the time of a commit below one second.
   std::chrono::milliseconds interval{500};
+  std::optional<StoppingRule> rule{};  // none: every planned trial
+  Allocation allocation = Allocation::kUniform;
+  std::optional<std::int64_t> budget{};  // of trials, all cells together; with a rule only
 };
 
 struct Progress {
-  std::int64_t planned = 0;
+  std::int64_t planned = 0;          // by all cells; less once a rule has ended cells
   std::int64_t finished = 0;         // all that are finished, in any order
   std::int64_t finished_before = 0;  // of these, in earlier sessions
   std::int64_t faults = 0;           // of all finished
-  PrefixCounts prefix{};             // what rates may be shown of
+  PrefixCounts prefix{};             // of the only cell: what rates may be shown of
   double elapsed_s = 0.0;            // of this session, wall clock
+  int cells = 1;
+  int cells_ended = 0;             // by a rule, a maximum or a budget
+  double widest_half_width = 0.0;  // of the cells, with a rule: at their last decisions
+  double target_half_width = 0.0;  // 0: no rule
 };
 using ProgressReport = std::function<void(const Progress&)>;
 
@@ -45,16 +57,30 @@ struct BatchResult {
   BatchEnd end = BatchEnd::kFinished;
   Progress progress;
   bool too_many_faults = false;  // more than max_fault_fraction of the finished trials
+  std::vector<CellState> cells;
 };
 
 int ThreadCount(const BatchOptions& options);
 
-// Runs the trials that the store lacks and stores them. `report` is called about twice per second
-// and once at the end, by one thread at a time. When `stop` becomes true no further trial starts,
-// those in flight finish and are stored. An exception out of a trial, or a record that does not fit
-// the schema, is stored as a simulator fault. Throws StoreError when the store cannot be written:
-// the message says how many finished trials it lacks (they are run again, to the same bits, by a
-// later session). The records do not depend on threads, order or interruptions.
+// Runs one trial. An exception out of it, or a record that does not fit the schema, comes back as a
+// simulator fault.
+CellRecord RunTrial(std::span<const CellWork> work, TrialId id);
+
+// Takes trials from the source on that many threads until it has none left.
+void RunTrials(std::span<const CellWork> work, WorkSource& source, int threads);
+
+// Runs the trials that the store lacks of those planned, and stores them. `work`: one for each cell
+// of the store. `report` is called about twice per second and once at the end, by one thread at a
+// time. When `stop` becomes true no further trial starts, those in flight finish and are stored.
+// Where the rule ends a cell early its planned trials become those that it asked for. Throws
+// StoreError when the store cannot be written: the message says how many finished trials it lacks
+// (they are run again, to the same bits, by a later session). The records do not depend on threads,
+// order or interruptions. Memory: one byte per trial besides the records that wait to be written.
+BatchResult RunBatch(std::span<const CellWork> work, ResultStore& store,
+                     const BatchOptions& options, const std::atomic<bool>& stop,
+                     const ProgressReport& report = {});
+
+// The same for a store of one cell, with the seed that it names.
 BatchResult RunBatch(const experiments::Experiment& experiment, ResultStore& store,
                      const BatchOptions& options, const std::atomic<bool>& stop,
                      const ProgressReport& report = {});

@@ -3,24 +3,53 @@
 #include "core/check.h"
 
 namespace rockyard::batch {
+namespace {
 
-void PrefixCounter::Add(std::int64_t trial, truth::TrialOutcome outcome) {
+PrefixCounts CountOf(truth::TrialOutcome outcome) {
+  PrefixCounts counts;
+  counts.trials = 1;
+  counts.faults = outcome == truth::TrialOutcome::kSimulatorFault ? 1 : 0;
+  counts.measured = outcome == truth::TrialOutcome::kMeasured ? 1 : 0;
+  counts.declared_successes = truth::DeclaredSuccess(outcome) ? 1 : 0;
+  return counts;
+}
+
+}  // namespace
+
+PrefixCounts& PrefixCounts::operator+=(const PrefixCounts& other) {
+  trials += other.trials;
+  faults += other.faults;
+  measured += other.measured;
+  declared_successes += other.declared_successes;
+  return *this;
+}
+
+bool PrefixCounter::Add(std::int64_t trial, truth::TrialOutcome outcome) {
   EXPECT(trial >= 0);
+  if (Has(trial)) return false;
   const auto index = static_cast<std::size_t>(trial);
   if (index >= outcomes_.size()) outcomes_.resize(index + 1, kPending);
-  EXPECT(outcomes_[index] == kPending);
   outcomes_[index] = static_cast<std::int8_t>(outcome);
   ++finished_;
   if (outcome == truth::TrialOutcome::kSimulatorFault) ++faults_;
+  std::int64_t prefix_end = prefix_.trials;
+  while (Has(prefix_end)) ++prefix_end;
+  prefix_ += Count(prefix_.trials, prefix_end);
+  return true;
+}
 
-  for (auto next = static_cast<std::size_t>(prefix_.trials);
-       next < outcomes_.size() && outcomes_[next] != kPending; ++next) {
-    const auto kind = static_cast<truth::TrialOutcome>(outcomes_[next]);
-    ++prefix_.trials;
-    if (kind == truth::TrialOutcome::kSimulatorFault) ++prefix_.faults;
-    if (kind == truth::TrialOutcome::kMeasured) ++prefix_.measured;
-    if (truth::DeclaredSuccess(kind)) ++prefix_.declared_successes;
+bool PrefixCounter::Has(std::int64_t trial) const {
+  return trial < end() && outcomes_[static_cast<std::size_t>(trial)] != kPending;
+}
+
+PrefixCounts PrefixCounter::Count(std::int64_t from, std::int64_t to) const {
+  PrefixCounts counts;
+  for (std::int64_t trial = from; trial < to; ++trial) {
+    EXPECT(Has(trial));
+    const auto outcome = outcomes_[static_cast<std::size_t>(trial)];
+    counts += CountOf(static_cast<truth::TrialOutcome>(outcome));
   }
+  return counts;
 }
 
 }  // namespace rockyard::batch

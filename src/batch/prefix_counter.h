@@ -14,15 +14,25 @@ struct PrefixCounts {
   std::int64_t faults = 0;
   std::int64_t measured = 0;  // no drives: neither success nor failure
   std::int64_t declared_successes = 0;
+
+  // Those that a success rate is about.
+  std::int64_t drives() const { return trials - faults - measured; }
+  PrefixCounts& operator+=(const PrefixCounts& other);
 };
 
 // Finished trials arrive in any order; rates use only the contiguous prefix of their indices.
 // Trials that fail run longer, so that over completion order successes would be counted too often;
-// the prefix waits for every trial before it.
+// the prefix waits for every trial before it. Memory: one byte per trial.
 class PrefixCounter {
  public:
-  // Each trial at most once; 0 <= trial.
-  void Add(std::int64_t trial, truth::TrialOutcome outcome);
+  // 0 <= trial. False, and nothing changes, where the trial has been added before.
+  bool Add(std::int64_t trial, truth::TrialOutcome outcome);
+
+  bool Has(std::int64_t trial) const;
+  // One more than the largest trial that was added.
+  std::int64_t end() const { return static_cast<std::int64_t>(outcomes_.size()); }
+  // Counts over from <= trial < to, all of which are finished.
+  PrefixCounts Count(std::int64_t from, std::int64_t to) const;
 
   std::int64_t finished() const { return finished_; }
   std::int64_t faults() const { return faults_; }

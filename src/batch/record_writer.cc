@@ -8,17 +8,18 @@ namespace rockyard::batch {
 
 RecordWriter::RecordWriter(ResultStore& store, std::chrono::milliseconds interval,
                            std::function<void()> after_tick)
-    : store_(store),
-      interval_(interval),
-      after_tick_(std::move(after_tick)),
-      thread_([this] { Loop(); }) {}
+    : store_(store), interval_(interval), after_tick_(std::move(after_tick)) {}
+
+void RecordWriter::Start() {
+  thread_ = std::thread([this] { Loop(); });
+}
 
 RecordWriter::~RecordWriter() {
   Stop();
   WriteQueue();
 }
 
-void RecordWriter::Push(truth::Record record) {
+void RecordWriter::Push(CellRecord record) {
   const std::lock_guard lock(mutex_);
   queue_.push_back(std::move(record));
 }
@@ -50,7 +51,7 @@ void RecordWriter::Loop() {
 }
 
 void RecordWriter::WriteQueue() {
-  std::vector<truth::Record> batch;
+  std::vector<CellRecord> batch;
   {
     const std::lock_guard lock(mutex_);
     batch.swap(queue_);

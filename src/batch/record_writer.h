@@ -22,13 +22,15 @@ class RecordWriter {
   // `after_tick` is called by the writing thread after each interval, never by two threads at once.
   RecordWriter(ResultStore& store, std::chrono::milliseconds interval,
                std::function<void()> after_tick);
+  // From now on there is the thread. Once; without it, Close writes everything.
+  void Start();
   // Writes what remains if it can, and swallows errors: call Close to know.
   ~RecordWriter();
   RecordWriter(const RecordWriter&) = delete;
   RecordWriter& operator=(const RecordWriter&) = delete;
 
   // Any thread.
-  void Push(truth::Record record);
+  void Push(CellRecord record);
 
   // True once a write has failed: start no more trials.
   bool failed() const { return failed_; }
@@ -49,7 +51,7 @@ class RecordWriter {
   const std::function<void()> after_tick_;
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::vector<truth::Record> queue_;
+  std::vector<CellRecord> queue_;
   bool stopping_ = false;
   std::atomic<bool> failed_ = false;
   std::exception_ptr error_;

@@ -1,4 +1,4 @@
-// The store of one run: every finished trial, durable, in one SQLite file.
+// The store of one campaign: every finished trial, durable, in one SQLite file.
 #pragma once
 
 #include <cstdint>
@@ -8,31 +8,21 @@
 #include <string>
 #include <vector>
 
+#include "batch/campaign.h"
+#include "batch/campaign_differences.h"
 #include "truth/record.h"
 
 namespace rockyard::batch {
 
-// What decides the records of a run. Plain texts, so that the store knows no scenario.
-struct RunIdentity {
-  std::string scenario;     // name
-  std::string fingerprint;  // of the resolved scenario
-  std::string resolved;     // JSON of every effective value
-  std::uint64_t seed = 1;
-  std::string build;  // program, compiler, flags and CPU level: what libm and the code depend on
-  truth::RecordSchema schema;
-};
-
-// Whether a run may go on with another build than the one that began it. Another scenario or seed
-// is never accepted: the trials would not belong together.
-enum class BuildPolicy { kSame, kAny };
-
 class SqliteDatabase;
 
-// The file `results.sqlite` in a run folder. Tables:
-//   meta(key, value)                        schema version, planned trials, and the RunIdentity
+// The file `results.sqlite` in a run folder. Tables, version 2:
+//   meta(key, value)                        schema version, name, design, shard, stopping rule
+//   cells(cell, name, scenario, fingerprint, resolved, seed, planned)
 //   columns(position, name, unit, meaning)  the record schema
 //   builds(build)                           every build that wrote trials
-//   trials(trial, outcome, detail, one column per value)
+//   trials(campaign_cell, trial, outcome, detail, one column per value)
+//   infrastructure_faults(cell, trial, kind, detail)   no results: counted, retried
 // Value columns have no declared type, because a REAL column would lose the sign of zero; doubles
 // keep their bits, and NaN is NULL. A simulator fault has NULL everywhere.
 //
@@ -41,13 +31,17 @@ class SqliteDatabase;
 // StoreError. One thread at a time; one writer per folder (hold a FolderClaim).
 class ResultStore {
  public:
-  // Makes the store; there must be none. kExists, kUnwritable, kFull.
-  static ResultStore Create(const std::filesystem::path& folder, const RunIdentity& identity,
+  // Makes the store; there must be none. `planned`: trials of each cell. kExists, kUnwritable,
+  // kFull.
+  static ResultStore Create(const std::filesystem::path& folder, const CampaignIdentity& identity,
+                            const std::vector<std::int64_t>& planned);
+  // The same number of trials for every cell.
+  static ResultStore Create(const std::filesystem::path& folder, const CampaignIdentity& identity,
                             std::int64_t planned);
 
-  // Opens the store to go on. kMissing, kDamaged, and kMismatch with every difference: the JSON
-  // paths of the scenario, the seed, the build, the columns.
-  static ResultStore Resume(const std::filesystem::path& folder, const RunIdentity& identity,
+  // Opens the store to go on. kMissing, kDamaged, and kMismatch with every difference
+  // (campaign_differences.h, and the shard).
+  static ResultStore Resume(const std::filesystem::path& folder, const CampaignIdentity& identity,
                             BuildPolicy policy = BuildPolicy::kSame);
 
   // Opens the store to read, also while a run writes it. kMissing, kDamaged.
@@ -57,30 +51,36 @@ class ResultStore {
   ResultStore& operator=(ResultStore&&) noexcept;
   ~ResultStore();
 
-  const RunIdentity& identity() const { return identity_; }
+  const CampaignIdentity& identity() const { return identity_; }
+  int cells() const { return static_cast<int>(identity_.cells.size()); }
   const std::filesystem::path& path() const { return path_; }
-  std::int64_t planned() const { return planned_; }
+  // Trials of the whole cell, also where this is a shard of it.
+  std::int64_t planned(int cell = 0) const { return planned_.at(static_cast<std::size_t>(cell)); }
   std::vector<std::string> Builds() const;
-  // One more than the largest stored trial index; 0 where there is none.
-  std::int64_t EndOfTrials() const;
 
-  void SetPlanned(std::int64_t planned);
+  void SetPlanned(int cell, std::int64_t planned);
 
   // Adds records in one transaction; all are durable when it returns, none when it throws. A trial
   // that is already there keeps its first record. Each record fits the schema or is a fault.
-  void Append(std::span<const truth::Record> records);
+  void Append(std::span<const CellRecord> records);
 
-  // Every stored record, by trial index. Cost: reads the whole file.
-  std::vector<truth::Record> Load() const;
+  // Every stored record of a cell, by trial index. Cost: reads all of them into memory.
+  std::vector<truth::Record> Load(int cell = 0) const;
+
+  // Every stored trial without its values, by cell and trial: 24 bytes for each.
+  std::vector<FinishedTrial> Finished() const;
+
+  // Something that kept a trial from its result. Durable when it returns.
+  void AddInfrastructureFault(const InfrastructureFault& fault);
+  std::vector<InfrastructureFault> InfrastructureFaults() const;
 
  private:
   ResultStore(std::filesystem::path path, std::unique_ptr<SqliteDatabase> database);
-  void ReadMeta();
 
   std::filesystem::path path_;
   std::unique_ptr<SqliteDatabase> database_;
-  RunIdentity identity_;
-  std::int64_t planned_ = 0;
+  CampaignIdentity identity_;
+  std::vector<std::int64_t> planned_;
 };
 
 // The records 0, 1, 2, ... up to the first trial that is missing: what rates may be computed from

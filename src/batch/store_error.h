@@ -1,6 +1,7 @@
 // What can go wrong with a run folder and its store.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -29,5 +30,8 @@ class StoreError : public core::UserError {
  private:
   StoreProblem problem_;
 };
+
+// Throws kDamaged, with what to do.
+[[noreturn]] void FailDamaged(const std::filesystem::path& path, const std::string& reason);
 
 }  // namespace rockyard::batch

@@ -14,4 +14,11 @@ std::string TrialHash(std::span<const truth::Record> records) {
   return core::Hex(hasher.value());
 }
 
+std::string CampaignHash(std::span<const CellHash> cells) {
+  if (cells.size() == 1) return cells.front().hash;
+  core::Hasher hasher;
+  for (const CellHash& cell : cells) hasher.Text(cell.name).Text(cell.hash);
+  return core::Hex(hasher.value());
+}
+
 }  // namespace rockyard::batch

@@ -14,4 +14,13 @@ namespace rockyard::batch {
 // interruptions made them.
 std::string TrialHash(std::span<const truth::Record> records);
 
+struct CellHash {
+  std::string name;
+  std::string hash;  // TrialHash
+};
+
+// The hash of a campaign: that of its cell where there is one, else over name and hash of each cell
+// in order.
+std::string CampaignHash(std::span<const CellHash> cells);
+
 }  // namespace rockyard::batch

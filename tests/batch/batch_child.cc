@@ -39,10 +39,9 @@ int RunChild(const std::vector<const char*>& arguments) {
   const long hang_at = std::atol(arguments.at(5));
   const FolderClaim claim(folder);
   BatchOptions options;
-  options.trials = std::atol(arguments.at(2));
   options.threads = std::atoi(arguments.at(3));
   options.interval = std::chrono::milliseconds(20);
-  ResultStore store = OpenStore(folder, options.trials);
+  ResultStore store = OpenStore(folder, std::atol(arguments.at(2)));
   LimitFiles(std::atol(arguments.at(6)));
   const FakeExperiment experiment([&](std::uint64_t index) {
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));

@@ -22,10 +22,7 @@ constexpr std::int64_t kTrials = 200;
 const std::atomic<bool> kNeverStop = false;
 
 BatchOptions Options(int threads, Order order = Order::kNatural) {
-  return {.trials = kTrials,
-          .threads = threads,
-          .order = order,
-          .interval = std::chrono::milliseconds(5)};
+  return {.threads = threads, .order = order, .interval = std::chrono::milliseconds(5)};
 }
 
 std::string PlainHash() {
@@ -34,9 +31,9 @@ std::string PlainHash() {
   return TrialHash(records);
 }
 
-std::string HashAfter(const BatchOptions& options) {
+std::string HashAfter(const BatchOptions& options, std::uint64_t seed = 1) {
   const TemporaryFolder folder;
-  ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), kTrials);
+  ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(seed), kTrials);
   const BatchResult result = RunBatch(FakeExperiment(), store, options, kNeverStop);
   EXPECT_EQ(result.end, BatchEnd::kFinished);
   EXPECT_EQ(result.progress.finished, kTrials);
@@ -50,9 +47,7 @@ TEST(Executor, SameRecordsWhateverThreadsAndOrder) {
   EXPECT_EQ(HashAfter(Options(5)), expected);
   EXPECT_EQ(HashAfter(Options(1, Order::kShuffled)), expected);
   EXPECT_EQ(HashAfter(Options(2, Order::kShuffled)), expected);
-  BatchOptions other_seed = Options(2);
-  other_seed.seed = 2;
-  EXPECT_NE(HashAfter(other_seed), expected);
+  EXPECT_NE(HashAfter(Options(2), 2), expected);
 }
 
 TEST(Executor, ShuffledOrderIsAnotherOrder) {
@@ -94,10 +89,9 @@ TEST(Executor, StopsOnRequestAndGoesOnToTheSameHash) {
 TEST(Executor, ExtendsARun) {
   const TemporaryFolder folder;
   ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 50);
-  BatchOptions fewer = Options(2);
-  fewer.trials = 50;
-  RunBatch(FakeExperiment(), store, fewer, kNeverStop);
+  RunBatch(FakeExperiment(), store, Options(2), kNeverStop);
   EXPECT_EQ(store.Load().size(), 50U);
+  store.SetPlanned(0, kTrials);
   RunBatch(FakeExperiment(), store, Options(2), kNeverStop);
   EXPECT_EQ(TrialHash(store.Load()), PlainHash());
 }
@@ -173,8 +167,7 @@ TEST(Executor, AStoreThatFailsStopsTheRunAndLosesNothingStored) {
     ++started;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   });
-  BatchOptions options = Options(2);
-  options.trials = 100000;
+  const BatchOptions options = Options(2);
   try {
     RunBatch(experiment, store, options, kNeverStop);
     FAIL() << "nothing was thrown";
@@ -184,7 +177,7 @@ TEST(Executor, AStoreThatFailsStopsTheRunAndLosesNothingStored) {
   }
   EXPECT_LT(started.load(), 10000) << "no new trials after the failure";
   SqliteDatabase(StorePath(folder.path()), Access::kChange).Execute("DROP TRIGGER refuse");
-  options.trials = kTrials;
+  store.SetPlanned(0, kTrials);
   RunBatch(FakeExperiment(), store, options, kNeverStop);
   EXPECT_EQ(TrialHash(store.Load()), PlainHash());
 }

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "batch/result_store.h"
 #include "core/random.h"
@@ -54,13 +55,27 @@ class FakeExperiment final : public experiments::Experiment {
   Hook hook_;
 };
 
-inline RunIdentity FakeIdentity(std::uint64_t seed = 1) {
-  return {.scenario = "fake",
+inline CellIdentity FakeCell(std::uint64_t seed = 1, const std::string& name = "") {
+  return {.name = name,
+          .scenario = "fake",
           .fingerprint = "00ff",
           .resolved = "{\"name\": \"fake\", \"trials\": 10, \"terrain\": {\"k\": 0.00415}}",
-          .seed = seed,
+          .seed = seed};
+}
+
+inline CampaignIdentity FakeIdentity(std::uint64_t seed = 1) {
+  return {.name = "fake",
+          .design = "",
           .build = "0.1.0 abc",
-          .schema = FakeSchema()};
+          .schema = FakeSchema(),
+          .cells = {FakeCell(seed)}};
+}
+
+// Of the only cell.
+inline void AppendRecords(ResultStore& store, const std::vector<truth::Record>& records) {
+  std::vector<CellRecord> rows;
+  for (const truth::Record& record : records) rows.push_back({0, record});
+  store.Append(rows);
 }
 
 // A folder of its own, removed in the end.

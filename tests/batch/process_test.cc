@@ -111,7 +111,8 @@ std::string HashAfterResume(const fs::path& folder, std::int64_t trials) {
   const FolderClaim claim(folder);
   ResultStore store = ResultStore::Resume(folder, FakeIdentity());
   const std::atomic<bool> never_stop = false;
-  RunBatch(FakeExperiment(), store, {.trials = trials, .threads = 2}, never_stop);
+  store.SetPlanned(0, trials);
+  RunBatch(FakeExperiment(), store, {.threads = 2}, never_stop);
   return TrialHash(store.Load());
 }
 

@@ -38,7 +38,7 @@ TEST(ResultStore, KeepsEveryBitOfDoubles) {
   for (const double value : values) {
     records.push_back({records.size(), TrialOutcome::kJammed, "", {value, value, value}});
   }
-  store.Append(records);
+  AppendRecords(store, records);
   const std::vector<Record> loaded = ResultStore::Read(folder.path()).Load();
   ASSERT_EQ(loaded.size(), records.size());
   for (std::size_t i = 0; i < records.size(); ++i) {
@@ -51,10 +51,10 @@ TEST(ResultStore, KeepsNanTextsFaultsAndOrder) {
   const TemporaryFolder folder;
   ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 5);
   const std::string detail = "quote ' and \" and\nline, \xc3\xa4, DROP TABLE trials;--";
-  store.Append(std::vector<Record>{
-      {4, TrialOutcome::kTipOver, detail, {1.0, std::nan(""), 2.0}},
-      {0, TrialOutcome::kSimulatorFault, "blew up", {}},
-  });
+  AppendRecords(store, {
+                           {4, TrialOutcome::kTipOver, detail, {1.0, std::nan(""), 2.0}},
+                           {0, TrialOutcome::kSimulatorFault, "blew up", {}},
+                       });
   const std::vector<Record> loaded = store.Load();
   ASSERT_EQ(loaded.size(), 2U);
   EXPECT_EQ(loaded[0].trial, 0U);
@@ -68,29 +68,32 @@ TEST(ResultStore, KeepsNanTextsFaultsAndOrder) {
 
 TEST(ResultStore, KeepsIdentityAndPlan) {
   const TemporaryFolder folder;
-  const RunIdentity identity = FakeIdentity(18446744073709551615ULL);
+  const CampaignIdentity identity = FakeIdentity(18446744073709551615ULL);
   ResultStore store = ResultStore::Create(folder.path(), identity, 7);
-  store.SetPlanned(9);
+  store.SetPlanned(0, 9);
   const ResultStore read = ResultStore::Read(folder.path());
   EXPECT_EQ(read.planned(), 9);
-  EXPECT_EQ(read.identity().scenario, identity.scenario);
-  EXPECT_EQ(read.identity().fingerprint, identity.fingerprint);
-  EXPECT_EQ(read.identity().resolved, identity.resolved);
-  EXPECT_EQ(read.identity().seed, identity.seed);
+  EXPECT_EQ(read.identity().name, identity.name);
+  ASSERT_EQ(read.cells(), 1);
+  const CellIdentity& cell = read.identity().cells[0];
+  EXPECT_EQ(cell.scenario, identity.cells[0].scenario);
+  EXPECT_EQ(cell.fingerprint, identity.cells[0].fingerprint);
+  EXPECT_EQ(cell.resolved, identity.cells[0].resolved);
+  EXPECT_EQ(cell.seed, identity.cells[0].seed);
   EXPECT_EQ(read.identity().build, identity.build);
   ASSERT_EQ(read.identity().schema.size(), identity.schema.size());
   EXPECT_EQ(read.identity().schema[2].name, "odd \"name\"");
-  EXPECT_EQ(read.EndOfTrials(), 0);
+  EXPECT_TRUE(read.Finished().empty());
 }
 
 TEST(ResultStore, KeepsTheFirstRecordOfATrial) {
   const TemporaryFolder folder;
   ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 3);
-  store.Append(std::vector<Record>{{1, TrialOutcome::kJammed, "first", {1.0, 1.0, 1.0}}});
-  store.Append(std::vector<Record>{{1, TrialOutcome::kNoPath, "second", {2.0, 2.0, 2.0}}});
+  AppendRecords(store, {{1, TrialOutcome::kJammed, "first", {1.0, 1.0, 1.0}}});
+  AppendRecords(store, {{1, TrialOutcome::kNoPath, "second", {2.0, 2.0, 2.0}}});
   ASSERT_EQ(store.Load().size(), 1U);
   EXPECT_EQ(store.Load()[0].detail, "first");
-  EXPECT_EQ(store.EndOfTrials(), 2);
+  EXPECT_EQ(store.Finished().back().id.trial, 1);
 }
 
 TEST(ResultStore, CanBeReadWhileItIsWritten) {
@@ -98,7 +101,7 @@ TEST(ResultStore, CanBeReadWhileItIsWritten) {
   ResultStore writer = ResultStore::Create(folder.path(), FakeIdentity(), 3);
   const ResultStore reader = ResultStore::Read(folder.path());
   EXPECT_TRUE(reader.Load().empty());
-  writer.Append(std::vector<Record>{FakeRecord(1, 0)});
+  AppendRecords(writer, std::vector<Record>{FakeRecord(1, 0)});
   EXPECT_EQ(reader.Load().size(), 1U);
 }
 
@@ -106,7 +109,8 @@ TEST(ResultStore, TakesOddFolderNames) {
   const TemporaryFolder folder;
   const auto odd = folder.path() / "a b?c#d%20'e";
   std::filesystem::create_directories(odd);
-  ResultStore::Create(odd, FakeIdentity(), 1).Append(std::vector<Record>{FakeRecord(1, 0)});
+  ResultStore store = ResultStore::Create(odd, FakeIdentity(), 1);
+  AppendRecords(store, {FakeRecord(1, 0)});
   EXPECT_TRUE(std::filesystem::exists(odd / "results.sqlite"));
   EXPECT_EQ(ResultStore::Read(odd).Load().size(), 1U);
 }

@@ -52,7 +52,7 @@ TEST(SetStoreAside, KeepsEveryTrial) {
   for (int generation = 0; generation < 3; ++generation) {
     ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 5);
     for (int i = 0; i <= generation; ++i) {
-      store.Append(std::vector<truth::Record>{FakeRecord(1, static_cast<std::uint64_t>(i))});
+      AppendRecords(store, {FakeRecord(1, static_cast<std::uint64_t>(i))});
     }
     // The store is still open, so that its last trials are in the log alone.
     kept.push_back(SetStoreAside(folder.path()));

@@ -48,20 +48,25 @@ void WriteFile(const fs::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
+void ReadAll(const ResultStore& store) {
+  store.Finished();
+  store.Load();
+}
+
 class DamagedStore : public testing::Test {
  protected:
   DamagedStore() {
     ResultStore store = ResultStore::Create(folder_.path(), FakeIdentity(), 400);
     std::vector<Record> records;
     for (std::uint64_t i = 0; i < 400; ++i) records.push_back(FakeRecord(1, i));
-    store.Append(records);
+    AppendRecords(store, records);
   }
 
   void ExpectRefused() {
-    const auto read = ErrorOf([&] { ResultStore::Read(folder_.path()).Load(); });
+    const auto read = ErrorOf([&] { ReadAll(ResultStore::Read(folder_.path())); });
     ExpectError(read, StoreProblem::kDamaged, StorePath(folder_.path()));
     const auto resume =
-        ErrorOf([&] { ResultStore::Resume(folder_.path(), FakeIdentity()).Load(); });
+        ErrorOf([&] { ReadAll(ResultStore::Resume(folder_.path(), FakeIdentity())); });
     ExpectError(resume, StoreProblem::kDamaged, StorePath(folder_.path()));
   }
 
@@ -112,11 +117,14 @@ TEST_F(DamagedStore, AnotherDatabase) {
 TEST_F(DamagedStore, ImpossibleContents) {
   const fs::path path = StorePath(folder_.path());
   const std::string whole = ReadFile(path);
-  for (const char* sql : {"UPDATE trials SET outcome = 'flew away' WHERE trial = 17",
-                          "UPDATE trials SET true_distance_m = 'far' WHERE trial = 17",
-                          "UPDATE trials SET trial = -3 WHERE trial = 17",
-                          "UPDATE meta SET value = 'many' WHERE key = 'planned'",
-                          "DELETE FROM meta WHERE key = 'seed'", "DROP TABLE columns"}) {
+  for (const char* sql :
+       {"UPDATE trials SET outcome = 'flew away' WHERE trial = 17",
+        "UPDATE trials SET true_distance_m = 'far' WHERE trial = 17",
+        "UPDATE trials SET trial = -3 WHERE trial = 17", "UPDATE cells SET planned = 'many'",
+        "UPDATE cells SET seed = '-1'", "UPDATE cells SET cell = 7", "DELETE FROM cells",
+        "UPDATE trials SET campaign_cell = 3 WHERE trial = 17",
+        "UPDATE meta SET value = '2' WHERE key = 'shard_index'",
+        "DELETE FROM meta WHERE key = 'design'", "DROP TABLE columns"}) {
     WriteFile(path, whole);
     SqliteDatabase(path, Access::kChange).Execute(sql);
     SCOPED_TRACE(sql);
@@ -135,8 +143,10 @@ TEST(StoreFailure, NothingToReadAndNothingToOverwrite) {
   const TemporaryFolder folder;
   ExpectError(ErrorOf([&] { ResultStore::Read(folder.path()); }), StoreProblem::kMissing,
               StorePath(folder.path()));
-  ResultStore::Create(folder.path(), FakeIdentity(), 1)
-      .Append(std::vector<Record>{FakeRecord(1, 0)});
+  {
+    ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 1);
+    AppendRecords(store, {FakeRecord(1, 0)});
+  }
   ExpectError(ErrorOf([&] { ResultStore::Create(folder.path(), FakeIdentity(), 1); }),
               StoreProblem::kExists, StorePath(folder.path()));
   EXPECT_EQ(ResultStore::Read(folder.path()).Load().size(), 1U);
@@ -153,19 +163,19 @@ TEST(StoreFailure, LockedByAnotherProgram) {
   ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 2);
   SqliteDatabase other(StorePath(folder.path()), Access::kChange);
   SqliteTransaction transaction(other);
-  const auto error = ErrorOf([&] { store.Append(std::vector<Record>{FakeRecord(1, 0)}); });
+  const auto error = ErrorOf([&] { AppendRecords(store, {FakeRecord(1, 0)}); });
   ExpectError(error, StoreProblem::kInUse, StorePath(folder.path()));
   transaction.Commit();
-  store.Append(std::vector<Record>{FakeRecord(1, 0)});
+  AppendRecords(store, {FakeRecord(1, 0)});
   EXPECT_EQ(store.Load().size(), 1U);
 }
 
 TEST(ResumeMismatch, NamesEveryDifference) {
   const TemporaryFolder folder;
   ResultStore::Create(folder.path(), FakeIdentity(), 2);
-  RunIdentity wanted = FakeIdentity(5);
-  wanted.fingerprint = "1234";
-  wanted.resolved = "{\"name\": \"other\", \"trials\": 99, \"terrain\": {\"k\": 0.013}}";
+  CampaignIdentity wanted = FakeIdentity(5);
+  wanted.cells[0].fingerprint = "1234";
+  wanted.cells[0].resolved = "{\"name\": \"other\", \"trials\": 99, \"terrain\": {\"k\": 0.013}}";
   wanted.build = "0.2.0 def";
   const auto error = ErrorOf([&] { ResultStore::Resume(folder.path(), wanted); });
   ExpectError(error, StoreProblem::kMismatch, StorePath(folder.path()));
@@ -179,7 +189,7 @@ TEST(ResumeMismatch, NamesEveryDifference) {
 TEST(ResumeMismatch, AnotherBuildOnRequestOnly) {
   const TemporaryFolder folder;
   ResultStore::Create(folder.path(), FakeIdentity(), 2);
-  RunIdentity wanted = FakeIdentity();
+  CampaignIdentity wanted = FakeIdentity();
   wanted.build = "0.2.0 def";
   ExpectError(ErrorOf([&] { ResultStore::Resume(folder.path(), wanted); }), StoreProblem::kMismatch,
               StorePath(folder.path()));

@@ -1,0 +1,110 @@
+#include "batch/batch_session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "batch/store_error.h"
+#include "core/check.h"
+
+namespace rockyard::batch {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// The first error of the writer with what it means for the finished trials.
+[[noreturn]] void ReportLoss(const StoreError& error, std::size_t unwritten) {
+  std::vector<core::Problem> problems = error.problems();
+  problems.front().reason += fmt::format(
+      "; {} finished trials could not be stored, those stored before are safe", unwritten);
+  throw StoreError(error.problem(), std::move(problems));
+}
+
+void CloseWriter(RecordWriter& writer) {
+  try {
+    writer.Close();
+  } catch (const StoreError& error) {
+    ReportLoss(error, writer.unwritten());
+  }
+}
+
+Progress ProgressOf(const WorkPlan& plan) {
+  Progress progress;
+  progress.finished = plan.finished();
+  progress.faults = plan.faults();
+  progress.cells = plan.cells();
+  for (int cell = 0; cell < plan.cells(); ++cell) {
+    progress.planned += plan.planned(cell);
+    if (plan.state(cell).end != CellEnd::kOpen) ++progress.cells_ended;
+    progress.widest_half_width =
+        std::max(progress.widest_half_width, plan.state(cell).half_width());
+  }
+  if (plan.cells() == 1) progress.prefix = plan.counter(0).prefix();
+  return progress;
+}
+
+}  // namespace
+
+WorkPlan StoredPlan(const ResultStore& store, const BatchOptions& options) {
+  std::vector<std::int64_t> planned;
+  for (int cell = 0; cell < store.cells(); ++cell) planned.push_back(store.planned(cell));
+  WorkPlan plan(std::move(planned), {.rule = options.rule,
+                                     .allocation = options.allocation,
+                                     .budget = options.budget,
+                                     .order = options.order,
+                                     .shard = store.identity().shard});
+  plan.AddStored(store.Finished());
+  return plan;
+}
+
+BatchSession::BatchSession(ResultStore& store, const BatchOptions& options,
+                           const std::atomic<bool>& stop, ProgressReport report)
+    : store_(store),
+      options_(options),
+      report_(std::move(report)),
+      start_(Clock::now()),
+      plan_(StoredPlan(store, options)),
+      finished_before_(plan_.finished()),
+      source_(plan_, writer_, stop),
+      writer_(store, options.interval, [this] { Tell(); }) {
+  writer_.Start();
+}
+
+BatchResult BatchSession::Close() {
+  CloseWriter(writer_);
+  Tell();
+  BatchResult result;
+  result.progress = Now();
+  const Progress& progress = result.progress;
+  result.end = source_.exhausted() ? BatchEnd::kFinished : BatchEnd::kStopped;
+  result.too_many_faults = static_cast<double>(progress.faults) >
+                           options_.max_fault_fraction * static_cast<double>(progress.finished);
+  for (int cell = 0; cell < plan_.cells(); ++cell) result.cells.push_back(plan_.state(cell));
+  if (result.end == BatchEnd::kFinished) {
+    ENSURE(progress.finished == progress.planned);
+    StoreEnds();
+  }
+  return result;
+}
+
+void BatchSession::StoreEnds() {
+  if (!options_.rule) return;
+  for (int cell = 0; cell < plan_.cells(); ++cell) {
+    if (plan_.planned(cell) != store_.planned(cell)) store_.SetPlanned(cell, plan_.planned(cell));
+  }
+}
+
+Progress BatchSession::Now() const {
+  Progress progress = source_.Read(ProgressOf);
+  progress.finished_before = finished_before_;
+  progress.target_half_width = options_.rule ? options_.rule->half_width : 0.0;
+  progress.elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();
+  return progress;
+}
+
+void BatchSession::Tell() const {
+  if (report_) report_(Now());
+}
+
+}  // namespace rockyard::batch

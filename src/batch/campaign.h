@@ -1,0 +1,69 @@
+// What a campaign is: a list of cells, each one resolved scenario with its trials.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "truth/record.h"
+
+namespace rockyard::batch {
+
+// One part of a campaign that is divided between machines: it runs the trials t of every cell with
+// t % count == index - 1. The default is the whole campaign.
+struct Shard {
+  int index = 1;  // 1 .. count
+  int count = 1;
+
+  bool whole() const { return count == 1; }
+  bool Has(std::int64_t trial) const { return trial % count == index - 1; }
+  // How many of the trials 0 .. trials-1 are its own.
+  std::int64_t Share(std::int64_t trials) const { return (trials + count - index) / count; }
+  bool operator==(const Shard&) const = default;
+};
+
+// What decides the records of one cell. Plain texts, so that the store knows no scenario.
+struct CellIdentity {
+  std::string name;         // "" in a campaign of one cell
+  std::string scenario;     // name
+  std::string fingerprint;  // of the resolved scenario
+  std::string resolved;     // JSON of every effective value
+  std::uint64_t seed = 1;
+};
+
+// What decides the records of a campaign.
+struct CampaignIdentity {
+  std::string name;
+  std::string design;  // JSON text of the sweep file; "" for a run of one scenario
+  std::string build;   // program, compiler, flags and CPU level: what libm and the code depend on
+  truth::RecordSchema schema;
+  std::vector<CellIdentity> cells;
+  Shard shard{};
+};
+
+struct TrialId {
+  int cell = 0;  // index in CampaignIdentity::cells
+  std::int64_t trial = 0;
+
+  bool operator==(const TrialId&) const = default;
+};
+
+struct CellRecord {
+  int cell = 0;
+  truth::Record record;
+};
+
+// A stored trial without its values.
+struct FinishedTrial {
+  TrialId id;
+  truth::TrialOutcome outcome = truth::TrialOutcome::kSimulatorFault;
+};
+
+// What happened to a machine or a process while a trial ran: no result, retried, in no hash.
+struct InfrastructureFault {
+  TrialId id;
+  std::string kind;    // e.g. "cpu_time_limit"
+  std::string detail;  // a sentence for people
+};
+
+}  // namespace rockyard::batch

@@ -1,0 +1,85 @@
+#include "batch/campaign_differences.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "batch/scenario_difference.h"
+
+namespace rockyard::batch {
+namespace {
+
+using core::Problem;
+
+// Each cell may differ in many places; the first few cells tell what has happened.
+constexpr std::size_t kCellsShown = 3;
+
+std::string ColumnList(const truth::RecordSchema& schema) {
+  std::string text;
+  for (const truth::ValueInfo& value : schema) text += (text.empty() ? "" : ", ") + value.name;
+  return text;
+}
+
+std::vector<Problem> CellDifferences(const CellIdentity& stored, const CellIdentity& wanted) {
+  std::vector<Problem> problems;
+  if (stored.fingerprint != wanted.fingerprint) {
+    problems = ScenarioDifferences(stored.resolved, wanted.resolved);
+    if (problems.empty()) problems.push_back({"scenario", "has another fingerprint", ""});
+  }
+  const auto has_seed = [](const Problem& problem) { return problem.path == "seed"; };
+  if (stored.seed != wanted.seed && std::none_of(problems.begin(), problems.end(), has_seed)) {
+    problems.push_back(
+        {"seed", fmt::format("is {} in the stored run and {} now", stored.seed, wanted.seed), ""});
+  }
+  if (stored.name != wanted.name) {
+    problems.push_back(
+        {"name of the cell",
+         fmt::format("is \"{}\" in the stored run and \"{}\" now", stored.name, wanted.name), ""});
+  }
+  for (Problem& problem : problems) {
+    if (!wanted.name.empty()) problem.path = fmt::format("cell {}: {}", wanted.name, problem.path);
+  }
+  return problems;
+}
+
+void AddCells(const CampaignIdentity& stored, const CampaignIdentity& wanted,
+              std::vector<Problem>& problems) {
+  if (stored.cells.size() != wanted.cells.size()) {
+    problems.push_back({"cells",
+                        fmt::format("are {} in the stored campaign and {} now", stored.cells.size(),
+                                    wanted.cells.size()),
+                        ""});
+    return;
+  }
+  std::size_t differing = 0;
+  for (std::size_t i = 0; i < stored.cells.size(); ++i) {
+    const std::vector<Problem> found = CellDifferences(stored.cells[i], wanted.cells[i]);
+    if (found.empty() || ++differing > kCellsShown) continue;
+    problems.insert(problems.end(), found.begin(), found.end());
+  }
+  if (differing > kCellsShown) {
+    problems.push_back({"cells", fmt::format("{} more differ", differing - kCellsShown), ""});
+  }
+}
+
+}  // namespace
+
+std::vector<Problem> CampaignDifferences(const CampaignIdentity& stored,
+                                         const CampaignIdentity& wanted,
+                                         const std::vector<std::string>& builds,
+                                         BuildPolicy policy) {
+  std::vector<Problem> problems;
+  AddCells(stored, wanted, problems);
+  if (ColumnList(stored.schema) != ColumnList(wanted.schema)) {
+    problems.push_back({"columns", "of the records differ: the program has changed", ""});
+  }
+  for (const std::string& build : builds) {
+    if (policy == BuildPolicy::kAny || build == wanted.build) continue;
+    problems.push_back({"build", fmt::format("was \"{}\", is \"{}\" now", build, wanted.build),
+                        "add --any-build to go on all the same: records may differ in their last "
+                        "bits or more"});
+  }
+  return problems;
+}
+
+}  // namespace rockyard::batch

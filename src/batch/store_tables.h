@@ -1,0 +1,45 @@
+// The tables of a result store: how they are made, written and read.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "batch/campaign.h"
+#include "batch/sqlite_database.h"
+
+namespace rockyard::batch {
+
+// What a store says of itself, besides its trials.
+struct StoreHead {
+  CampaignIdentity identity;          // with the first of the builds
+  std::vector<std::int64_t> planned;  // trials, by cell
+};
+
+// Makes every table, in one transaction.
+void WriteStoreHead(SqliteDatabase& database, const StoreHead& head);
+
+// kMismatch: another version; kDamaged: what no version of this program writes.
+StoreHead ReadStoreHead(const SqliteDatabase& database);
+
+// A name as SQL writes it, in double quotes.
+std::string QuotedName(std::string_view name);
+
+void PutMeta(SqliteDatabase& database, std::string_view key, std::string_view value);
+
+std::vector<std::string> ReadBuilds(const SqliteDatabase& database);
+
+// Adds the records in one transaction. A trial that is already there keeps its first record.
+void InsertRecords(SqliteDatabase& database, const truth::RecordSchema& schema,
+                   std::span<const CellRecord> records);
+
+// The records of a cell by trial index. kDamaged.
+std::vector<truth::Record> SelectRecords(const SqliteDatabase& database,
+                                         const truth::RecordSchema& schema, int cell);
+
+// Every stored trial by cell and trial index. kDamaged.
+std::vector<FinishedTrial> SelectFinished(const SqliteDatabase& database, int cells);
+
+}  // namespace rockyard::batch
