@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "report/curve_colours.h"
 #include "report/measurement_text.h"
 #include "report/xml_text.h"
 
@@ -23,9 +24,6 @@ constexpr double kPanelHeight = 130.0;
 constexpr double kLeft = 60.0;
 constexpr double kTop = 70.0;
 constexpr double kGap = 34.0;
-// Colours that stay apart for colour-blind readers (Okabe and Ito 2008).
-constexpr std::array<std::string_view, 7> kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                                   "#E69F00", "#56B4E9", "#000000"};
 
 double FactorOf(const Cell& cell, std::size_t factor) {
   return factor < cell.factors.size() ? cell.factors[factor] : 0.0;
@@ -92,9 +90,9 @@ class Drawing {
     std::string svg;
     if (summary_.factors.size() < 3) return svg;
     for (std::size_t i = 0; i < curves.size(); ++i) {
-      svg += fmt::format("<text x=\"{:.0f}\" y=\"40\" fill=\"{}\">{}</text>\n",
-                         12.0 + 170.0 * static_cast<double>(i), kColours[i % kColours.size()],
-                         Label(2, curves[i]));
+      svg +=
+          fmt::format("<text x=\"{:.0f}\" y=\"40\" fill=\"{}\">{}</text>\n",
+                      12.0 + 170.0 * static_cast<double>(i), CurveColour(i), Label(2, curves[i]));
     }
     return svg;
   }
@@ -137,7 +135,7 @@ class Drawing {
       upper += fmt::format("{:.1f},{:.1f} ", x, Y(row, rate.interval.high));
       lower.insert(0, fmt::format("{:.1f},{:.1f} ", x, Y(row, rate.interval.low)));
     }
-    const std::string_view colour = kColours[curve % kColours.size()];
+    const std::string_view colour = CurveColour(curve);
     return fmt::format(
         "<polygon points=\"{}{}\" fill=\"{}\" fill-opacity=\"0.25\"/>\n"
         "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\"/>\n",

@@ -1,0 +1,64 @@
+// A sweep for people and for programs.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/provenance.h"
+#include "report/summary_text.h"
+#include "report/sweep_summary.h"
+#include "scenario/sweep.h"
+
+namespace rockyard::report {
+
+// What a report says of a campaign besides its cells.
+struct SweepDescription {
+  std::string trial_hash;  // over all cells
+  core::Provenance provenance;
+  std::vector<std::string> builds;
+  int threads = 1;
+};
+
+// cells.csv: one line per cell: cell, name, the axes, seed, planned, stored, completed, faults,
+// every outcome, and for declared and true success: rate, 95 % interval, and the interval that
+// holds for all cells at once.
+std::string SweepCellsCsv(const scenario::Sweep& sweep, const SweepSummary& summary);
+
+// curves.csv: one line per cell and metric (statistics/metrics.h): cell, the axes, metric, unit, n,
+// mean (the rate, of a rate) with its 95 % interval, median with its own. Empty where undefined.
+std::string SweepCurvesCsv(const scenario::Sweep& sweep, const SweepSummary& summary);
+
+// fit.csv: the fitted curves with their pointwise 95 % bands at 61 numbers over the settings:
+// curve, success (declared or true), x, rate, low, high.
+std::string SweepFitCsv(const SweepSummary& summary);
+
+// fits.csv: one line per curve and success: status, scale, coefficients, covariance, deviance with
+// degrees of freedom and p, and the numbers at which 90 % and 50 % succeed with 95 % intervals and
+// whether they lie outside of the settings.
+std::string SweepFitsCsv(const SweepSummary& summary);
+
+// differences.csv: one line per pair of levels and success.
+std::string SweepDifferencesCsv(const SweepSummary& summary);
+
+// success.svg: success against the numbers of the fit axis: points with interval bars, fitted
+// curves with bands, one colour and one mark per curve; declared and true success side by side.
+// Empty where the sweep has no curve of at least two cells.
+std::string SweepSvg(const scenario::Sweep& sweep, const SweepSummary& summary);
+
+// The table for the terminal, at most 100 columns wide.
+std::string SweepText(const scenario::Sweep& sweep, const SweepSummary& summary,
+                      const SweepDescription& description, TextStyle style);
+
+// summary.json of a sweep: schema_version, kind "sweep", name, design, seed, common_random_numbers,
+// axes, trials (planned, stored, completed, faults), cells, fits, differences, notes, trial_hash,
+// provenance. What is undefined or infinite is null.
+std::string SweepJson(const scenario::Sweep& sweep, const SweepSummary& summary,
+                      const SweepDescription& description);
+
+// Writes sweep.json, summary.json and all files above, each whole or not at all. Throws
+// core::UserError where one cannot be written.
+void WriteSweepFiles(const std::filesystem::path& folder, const scenario::Sweep& sweep,
+                     const SweepSummary& summary, const SweepDescription& description);
+
+}  // namespace rockyard::report

@@ -1,0 +1,96 @@
+// What the cells of a sweep say, in numbers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/paired_comparison.h"
+#include "scenario/sweep.h"
+#include "statistics/logistic_fit.h"
+#include "statistics/metrics.h"
+#include "statistics/proportions.h"
+#include "truth/record.h"
+
+namespace rockyard::report {
+
+// The finished trials of one cell, as the store has them.
+struct SweepCellTrials {
+  truth::RecordSchema schema;
+  std::vector<truth::Record> prefix;  // contiguous
+  std::int64_t planned = 0;
+  std::int64_t stored = 0;  // beyond the prefix too
+  std::string trial_hash;   // of the prefix
+};
+
+// Loads a cell by its index in the sweep. Called once per cell, in order, so that only the records
+// of one cell are in memory at a time.
+using SweepCellLoader = std::function<SweepCellTrials(std::size_t)>;
+
+// A rate with its own 95 % interval, and one that holds for all cells of the sweep at once with 95
+// % (Bonferroni, by Clopper and Pearson, as for the cells of a measurement).
+struct SweepRate {
+  statistics::Proportion rate;
+  statistics::Interval simultaneous{0.0, 1.0};
+};
+
+struct SweepCellSummary {
+  std::int64_t planned = 0;
+  std::int64_t stored = 0;
+  std::int64_t completed = 0;  // of the prefix, faults included
+  std::int64_t faults = 0;     // simulator faults: in no rate and in no metric
+  SweepRate declared_success;
+  SweepRate true_success;
+  std::array<std::int64_t, truth::kTrialOutcomeNames.size()> outcomes{};
+  std::vector<statistics::MetricSummary> metrics;
+  std::string trial_hash;
+};
+
+enum class SuccessKind { kDeclared, kTrue };
+inline constexpr std::array<std::string_view, 2> kSuccessNames{"declared success", "true success"};
+
+// Success against the numbers of the fit axis, at fixed levels of all others.
+struct SweepCurve {
+  std::string label;               // "navigator=gestalt"; empty where there is one curve
+  std::vector<std::size_t> cells;  // ascending along the axis
+  std::vector<double> x;
+  std::array<statistics::LogisticFit, 2> fits;  // by SuccessKind
+  // The numbers at which 90 % and 50 % succeed; empty where there is no fit.
+  std::array<std::vector<statistics::FitCrossing>, 2> crossings;
+};
+
+// A number between the lowest setting of a fit (share 0) and the highest (1), in equal steps of the
+// fit's scale.
+double FitAbscissa(const statistics::LogisticFit& fit, double share);
+
+// Two levels of an axis of names, everything else equal: the first level against another.
+struct SweepDifference {
+  std::string axis;
+  std::string first;   // level
+  std::string second;  // level
+  std::string at;      // levels of the other axes
+  bool paired = false;
+  SuccessComparison success;
+  double adjusted_p = 1.0;  // Holm, over every difference of the sweep
+};
+
+struct SweepSummary {
+  std::vector<SweepCellSummary> cells;  // as those of the sweep
+  std::vector<SweepCurve> curves;       // of grids with a numeric axis
+  std::vector<SweepDifference> differences;
+  std::vector<std::string> notes;  // cells whose trials are equal: a setting without effect
+};
+
+// Rates cover the contiguous prefix of each cell, without simulator faults.
+//
+// Curves: statistics::FitLogistic. Where the sweep uses common random numbers the cells of a curve
+// are dependent, which the fit does not know: the level of the curve is then less sure than its
+// band says. Differences: report::CompareRuns; in pairs where cells share their seed. Cost: linear
+// in the trials, and at most some milliseconds per curve.
+SweepSummary SummarizeSweep(const scenario::Sweep& sweep, const SweepCellLoader& load,
+                            statistics::IntervalMethod method);
+
+}  // namespace rockyard::report

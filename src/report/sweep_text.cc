@@ -1,0 +1,188 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "report/sweep_files.h"
+
+namespace rockyard::report {
+namespace {
+
+using scenario::Sweep;
+using statistics::FitStatus;
+
+constexpr std::size_t kLabelWidth = 26;
+// Longer tables are for files.
+constexpr std::size_t kMostCells = 60;
+constexpr std::size_t kMostDifferences = 40;
+
+std::string Cut(const std::string& text, std::size_t width) {
+  return text.size() <= width ? text : text.substr(0, width - 3) + "...";
+}
+
+std::string Percent(const statistics::Proportion& rate) {
+  if (rate.trials == 0) return fmt::format("{:>21}", "-");
+  return fmt::format("{:5.1f} ({:5.1f} ..{:6.1f})", 100.0 * rate.rate, 100.0 * rate.interval.low,
+                     100.0 * rate.interval.high);
+}
+
+std::string Mean(const SweepCellSummary& cell, std::string_view metric) {
+  const auto found = std::find_if(
+      cell.metrics.begin(), cell.metrics.end(),
+      [&](const statistics::MetricSummary& each) { return each.metric->name == metric; });
+  if (found == cell.metrics.end() || !std::isfinite(found->mean)) return "-";
+  return fmt::format("{:.{}f}", found->mean, std::fabs(found->mean) < 100.0 ? 2 : 0);
+}
+
+std::string_view DesignName(scenario::DesignKind design) {
+  switch (design) {
+    case scenario::DesignKind::kGrid:
+      return "grid";
+    case scenario::DesignKind::kList:
+      return "list";
+    case scenario::DesignKind::kLatinHypercube:
+      return "Latin hypercube";
+    case scenario::DesignKind::kSobol:
+      return "Sobol points";
+  }
+  return "";
+}
+
+std::string Head(const Sweep& sweep, const SweepSummary& summary) {
+  std::int64_t completed = 0;
+  std::int64_t planned = 0;
+  std::int64_t faults = 0;
+  for (const SweepCellSummary& cell : summary.cells) {
+    completed += cell.completed;
+    planned += cell.planned;
+    faults += cell.faults;
+  }
+  std::string text =
+      fmt::format("{}: {}, {} cells, seed {}{}\n  {} of {} trials\n", Cut(sweep.name, 40),
+                  DesignName(sweep.design), sweep.cells.size(), sweep.seed,
+                  sweep.common_random_numbers ? ", common random numbers" : "", completed, planned);
+  if (faults > 0) {
+    text += fmt::format("  {} simulator faults, in none of the rates below\n", faults);
+  }
+  return text;
+}
+
+// Levels say more than numbers of cells, as long as they are few.
+std::string Label(const Sweep& sweep, std::size_t cell) {
+  if (sweep.axes.size() > 2) return fmt::format("cell {}", cell);
+  std::string label;
+  for (const scenario::SweepLevel& level : sweep.cells[cell].levels) {
+    label += fmt::format("{}{}", label.empty() ? "" : ", ", level.text);
+  }
+  return label;
+}
+
+std::string AxisNames(const Sweep& sweep) {
+  if (sweep.axes.size() > 2) return "see cells.csv";
+  std::string names;
+  for (const scenario::SweepAxis& axis : sweep.axes) {
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", axis.name);
+  }
+  return names;
+}
+
+std::string CellTable(const Sweep& sweep, const SweepSummary& summary, TextStyle style) {
+  std::string head = fmt::format(
+      "  {:<{}} {:>5} {:>21} {:>21} {:>6} {:>7} {:>6}", Cut(AxisNames(sweep), kLabelWidth),
+      kLabelWidth, "n", "declared success [%]", "true success [%]", "path", "time", "energy");
+  std::string text =
+      (style == TextStyle::kColour ? fmt::format("\x1b[1m{}\x1b[0m", head) : head) + "\n";
+  for (std::size_t i = 0; i < std::min(summary.cells.size(), kMostCells); ++i) {
+    const SweepCellSummary& cell = summary.cells[i];
+    text +=
+        fmt::format("  {:<{}} {:>5} {} {} {:>6} {:>7} {:>6}\n", Cut(Label(sweep, i), kLabelWidth),
+                    kLabelWidth, cell.completed - cell.faults, Percent(cell.declared_success.rate),
+                    Percent(cell.true_success.rate), Mean(cell, "path_ratio"),
+                    Mean(cell, "time_to_goal_s"), Mean(cell, "energy_to_goal_wh"));
+  }
+  if (summary.cells.size() > kMostCells) {
+    text += fmt::format("  and {} more cells: cells.csv\n", summary.cells.size() - kMostCells);
+  }
+  return text +
+         "  (intervals of 95 % for a cell alone; path ratio, time [s] and energy [Wh]: means of "
+         "arrivals)\n";
+}
+
+// A number outside of the settings is not known any better than that.
+std::string Place(double x, const statistics::LogisticFit& fit) {
+  if (x < fit.lowest_x) return fmt::format("< {:.3g}", fit.lowest_x);
+  if (x > fit.highest_x) return fmt::format("> {:.3g}", fit.highest_x);
+  return fmt::format("{:.3g}", x);
+}
+
+std::string FitLine(const SweepCurve& curve, std::size_t kind) {
+  const statistics::LogisticFit& fit = curve.fits[kind];
+  std::string text = fmt::format("    {:<17}", kSuccessNames[kind]);
+  switch (fit.status) {
+    case FitStatus::kFitted:
+      break;
+    case FitStatus::kTooFewPoints:
+      return text + "no fit: fewer than two cells with trials\n";
+    case FitStatus::kNoContrast:
+      return text + "no fit: nothing but successes, or nothing but failures\n";
+    case FitStatus::kSeparated:
+      return text + "no fit: successes and failures do not overlap; put cells between them\n";
+  }
+  for (const statistics::FitCrossing& crossing : curve.crossings[kind]) {
+    text +=
+        fmt::format("{:.0f} % at {} ({} .. {})   ", 100.0 * crossing.rate, Place(crossing.x, fit),
+                    Place(crossing.interval.low, fit), Place(crossing.interval.high, fit));
+  }
+  text += std::isfinite(fit.p_value) ? fmt::format("fit p = {:.2g}", fit.p_value)
+                                     : std::string("no fit test");
+  return text + "\n";
+}
+
+std::string Fits(const Sweep& sweep, const SweepSummary& summary) {
+  if (summary.curves.empty()) return "";
+  const bool log = summary.curves.front().fits[0].scale == statistics::FitScale::kLog;
+  std::string text =
+      fmt::format("\n  logistic fit of success against {}{}, 95 % intervals{}\n", log ? "ln " : "",
+                  sweep.axes[*sweep.fit_axis].name,
+                  sweep.common_random_numbers ? " as if cells were independent" : "");
+  for (const SweepCurve& curve : summary.curves) {
+    if (!curve.label.empty()) text += "  " + Cut(curve.label, 96) + "\n";
+    for (std::size_t kind = 0; kind < kSuccessNames.size(); ++kind) text += FitLine(curve, kind);
+  }
+  return text;
+}
+
+std::string Differences(const SweepSummary& summary) {
+  if (summary.differences.empty()) return "";
+  std::string text =
+      fmt::format("\n  differences of success, {}, in points; p by Holm over all {}\n",
+                  summary.differences.front().paired ? "trial by trial" : "as two samples",
+                  summary.differences.size());
+  for (std::size_t i = 0; i < std::min(summary.differences.size(), kMostDifferences); ++i) {
+    const SweepDifference& each = summary.differences[i];
+    const SuccessComparison& success = each.success;
+    text +=
+        fmt::format("  {:<32} {:<18} {:<8} {:+6.1f} ({:+6.1f} ..{:+7.1f})  p = {:.2g}\n",
+                    Cut(fmt::format("{} - {}", each.second, each.first), 32), Cut(each.at, 18),
+                    success.what.substr(0, success.what.find(' ')), 100.0 * success.difference,
+                    100.0 * success.interval.low, 100.0 * success.interval.high, each.adjusted_p);
+  }
+  if (summary.differences.size() > kMostDifferences) {
+    text += fmt::format("  and {} more: differences.csv\n",
+                        summary.differences.size() - kMostDifferences);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string SweepText(const Sweep& sweep, const SweepSummary& summary,
+                      const SweepDescription& description, TextStyle style) {
+  std::string text = Head(sweep, summary) + CellTable(sweep, summary, style) +
+                     Fits(sweep, summary) + Differences(summary);
+  for (const std::string& note : summary.notes) text += "  " + note + "\n";
+  return text + fmt::format("  trial hash {}\n", description.trial_hash);
+}
+
+}  // namespace rockyard::report
