@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "report/csv.h"
+#include "report/regression_format.h"
+#include "report/regression_report.h"
+#include "report/xml_text.h"
+
+namespace rockyard::report {
+
+using statistics::RegressionRow;
+using statistics::RegressionVerdict;
+
+std::string_view Name(RegressionVerdict verdict) {
+  switch (verdict) {
+    case RegressionVerdict::kChanged:
+      return "changed";
+    case RegressionVerdict::kEquivalent:
+      return "equivalent";
+    case RegressionVerdict::kInconclusive:
+      break;
+  }
+  return "inconclusive";
+}
+
+std::string Short(double value) {
+  return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-";
+}
+
+std::string Signed(double value) {
+  return std::isfinite(value) ? fmt::format("{:+.4g}", value) : "-";
+}
+
+std::string Probability(double p) {
+  return p < 1e-4 ? fmt::format("{:.0e}", p) : fmt::format("{:.4f}", p);
+}
+
+std::string Label(const RegressionRow& row) {
+  return row.cell.empty() ? std::string(row.metric->name)
+                          : fmt::format("{}: {}", row.cell, row.metric->name);
+}
+
+std::string Sentence(const RegressionRow& row) {
+  const std::string moved = fmt::format(
+      "{} {} by {} {}, from {} to {} (95 % {} to {}, Holm p {}{})", Label(row),
+      row.difference < 0.0 ? "fell" : "rose", Short(std::abs(row.difference)), row.metric->unit,
+      Short(row.baseline_mean), Short(row.run_mean), Signed(row.interval.low),
+      Signed(row.interval.high), Probability(row.holm_p_value),
+      std::abs(row.difference) < row.margin ? "; less than its margin" : "");
+  if (row.verdict == RegressionVerdict::kChanged) return moved;
+  if (row.verdict == RegressionVerdict::kEquivalent) {
+    return fmt::format("{}: less than {} {} apart", Label(row), Short(row.margin),
+                       row.metric->unit);
+  }
+  if (!std::isfinite(row.seen_80)) {
+    return fmt::format("{}: too few values ({} and {}) to tell anything", Label(row),
+                       row.baseline_count, row.run_count);
+  }
+  return fmt::format(
+      "{}: {} apart; the run would have seen {} with 80 %, the margin is {}: about {} trials tell",
+      Label(row), Signed(row.difference), Short(row.seen_80), Short(row.margin),
+      row.trials_for_margin);
+}
+
+std::string RegressionCsv(const RegressionReport& report) {
+  std::string csv =
+      "cell,metric,unit,verdict,paired,baseline_count,run_count,baseline_mean,run_mean,difference,"
+      "difference_low,difference_high,margin,p_value,p_holm,level,p_equivalence,seen_80,seen_90,"
+      "trials_for_margin\n";
+  for (const RegressionRow& row : report.result.rows) {
+    const std::vector<std::string> fields = {CsvField(row.cell),
+                                             std::string(row.metric->name),
+                                             CsvField(row.metric->unit),
+                                             std::string(Name(row.verdict)),
+                                             row.paired ? "1" : "0",
+                                             std::to_string(row.baseline_count),
+                                             std::to_string(row.run_count),
+                                             CsvNumber(row.baseline_mean),
+                                             CsvNumber(row.run_mean),
+                                             CsvNumber(row.difference),
+                                             CsvNumber(row.interval.low),
+                                             CsvNumber(row.interval.high),
+                                             CsvNumber(row.margin),
+                                             CsvNumber(row.p_value),
+                                             CsvNumber(row.holm_p_value),
+                                             CsvNumber(row.level),
+                                             CsvNumber(row.equivalence_p_value),
+                                             CsvNumber(row.seen_80),
+                                             CsvNumber(row.seen_90),
+                                             std::to_string(row.trials_for_margin)};
+    csv += CsvLine(fields);
+  }
+  return csv;
+}
+
+std::string RegressionJUnit(const RegressionReport& report) {
+  const statistics::RegressionResult& result = report.result;
+  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+  xml += fmt::format("<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n",
+                     EscapeXml(report.baseline), result.rows.size(),
+                     result.Count(RegressionVerdict::kChanged),
+                     result.Count(RegressionVerdict::kInconclusive));
+  for (const RegressionRow& row : result.rows) {
+    const std::string cell = row.cell.empty() ? report.baseline : row.cell;
+    xml += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", EscapeXml(cell),
+                       EscapeXml(row.metric->name));
+    if (row.verdict == RegressionVerdict::kEquivalent) {
+      xml += "/>\n";
+      continue;
+    }
+    const char* element = row.verdict == RegressionVerdict::kChanged ? "failure" : "skipped";
+    xml += fmt::format(">\n    <{} message=\"{}\"/>\n  </testcase>\n", element,
+                       EscapeXml(Sentence(row)));
+  }
+  return xml + "</testsuite>\n";
+}
+
+}  // namespace rockyard::report

@@ -1,0 +1,20 @@
+// How numbers of a check against a baseline are written. For regression_*.cc only.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "statistics/regression.h"
+
+namespace rockyard::report {
+
+std::string_view Name(statistics::RegressionVerdict verdict);
+std::string Short(double value);   // four significant digits; "-" where it is not finite
+std::string Signed(double value);  // the same with its sign
+std::string Probability(double p);
+std::string Label(const statistics::RegressionRow& row);  // "cell: metric"
+
+// Which metric moved, by how much, and whether the run was large enough to know.
+std::string Sentence(const statistics::RegressionRow& row);
+
+}  // namespace rockyard::report
