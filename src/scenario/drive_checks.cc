@@ -146,9 +146,10 @@ void RequireSoundDrive(const Scenario& scenario, core::FieldVisitor& v) {
   if (scenario.experiment != ExperimentKind::kDrive) return;
   const bool stereo = scenario.sensors.terrain_sensor == TerrainSensor::kStereo;
   const bool behaviour = scenario.navigation.navigator == NavigatorKind::kPathfinder;
+  const bool map = scenario.navigation.navigator == NavigatorKind::kGestalt;
   if (stereo) RequireCameras(scenario, v);
   if (stereo && behaviour) RequireArray(scenario, v);
-  if (!behaviour) RequireOwnSize(scenario, v);
+  if (map) RequireOwnSize(scenario, v);
   RequireFreeEnds(scenario, v);
   RequireToldGoals(scenario, v);
 }

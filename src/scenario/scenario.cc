@@ -38,21 +38,38 @@ void RequireConsistency(const Scenario& scenario, core::FieldVisitor& v) {
             "use fidelity multibody or fixed rocks");
 }
 
+// The parameter of the navigator in use that says how near counts as arrived.
+struct ArrivalTolerance {
+  std::string_view reason;
+  double tolerance_m;
+};
+
+ArrivalTolerance ToleranceOf(const NavigationParams& navigation) {
+  switch (navigation.navigator) {
+    case NavigatorKind::kPathfinder:
+      break;
+    case NavigatorKind::kGestalt:
+      return {
+          "is below navigation.gestalt.waypoints.goal_tolerance_m, so that a rover without any "
+          "error could arrive falsely",
+          navigation.gestalt.waypoints.goal_tolerance_m};
+    case NavigatorKind::kRoute:
+      return {
+          "is below navigation.route.goal_tolerance_m, so that a rover without any error could "
+          "arrive falsely",
+          navigation.route.goal_tolerance_m};
+  }
+  return {
+      "is below navigation.pathfinder.goal_tolerance_m, so that a rover without any error could "
+      "arrive falsely",
+      navigation.pathfinder.goal_tolerance_m};
+}
+
 // What an arrival of the navigator means.
 void RequireArrival(const Scenario& scenario, core::FieldVisitor& v) {
-  const double radius_m = scenario.course.goal_radius_m;
-  const NavigationParams& navigation = scenario.navigation;
-  const bool behaviour = navigation.navigator == NavigatorKind::kPathfinder;
-  v.Require("course.goal_radius_m",
-            !behaviour || radius_m >= navigation.pathfinder.goal_tolerance_m,
-            "is below navigation.pathfinder.goal_tolerance_m, so that a rover without any error "
-            "could arrive falsely",
-            "use a goal radius of at least the navigator's tolerance");
-  v.Require("course.goal_radius_m",
-            behaviour || radius_m >= navigation.gestalt.waypoints.goal_tolerance_m,
-            "is below navigation.gestalt.waypoints.goal_tolerance_m, so that a rover without any "
-            "error could arrive falsely",
-            "use a goal radius of at least the navigator's tolerance");
+  const ArrivalTolerance arrival = ToleranceOf(scenario.navigation);
+  v.Require("course.goal_radius_m", scenario.course.goal_radius_m >= arrival.tolerance_m,
+            arrival.reason, "use a goal radius of at least the navigator's tolerance");
 }
 
 // Whether the light stripe sensor has any part in the experiment.

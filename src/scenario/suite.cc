@@ -43,6 +43,9 @@ void NavigationParams::Visit(core::FieldVisitor& v) {
             .origin = Origin::kSetting});
   v.Group("pathfinder", pathfinder, "behaviour controller");
   v.Group("gestalt", gestalt, "map-based navigator");
+  v.Group(
+      "route", route,
+      "follower of the route that an oracle plans (course.oracle_route): perfect path selection");
   v.Group("wheel_driver", wheel_driver, "from motions to wheel and steering set points");
 }
 

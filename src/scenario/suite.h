@@ -7,6 +7,7 @@
 #include "core/fields.h"
 #include "navigation/gestalt_params.h"
 #include "navigation/pathfinder_params.h"
+#include "navigation/route_params.h"
 #include "navigation/wheel_driver_params.h"
 #include "perception/attitude_params.h"
 #include "perception/calibration_params.h"
@@ -40,6 +41,7 @@ enum class TerrainSensor {
 enum class NavigatorKind {
   kPathfinder,  // behaviour controller of Matthies 1995, section 7
   kGestalt,     // map of Goldberg 2002, section 4
+  kRoute,       // an oracle: a route by true knowledge of the rocks, followed by dead reckoning
 };
 
 struct SensorParams {
@@ -72,6 +74,7 @@ struct NavigationParams {
   NavigatorKind navigator = NavigatorKind::kPathfinder;
   navigation::PathfinderParams pathfinder;
   navigation::GestaltParams gestalt;
+  navigation::RouteParams route;
   navigation::WheelDriverParams wheel_driver;
 
   void Visit(core::FieldVisitor& v);
@@ -91,5 +94,5 @@ struct rockyard::core::EnumNames<rockyard::scenario::TerrainSensor> {
 
 template <>
 struct rockyard::core::EnumNames<rockyard::scenario::NavigatorKind> {
-  static constexpr std::array<std::string_view, 2> kNames{"pathfinder", "gestalt"};
+  static constexpr std::array<std::string_view, 3> kNames{"pathfinder", "gestalt", "route"};
 };

@@ -6,6 +6,7 @@
 
 #include "core/fields.h"
 #include "trial/designation_params.h"
+#include "trial/route_plan_params.h"
 
 namespace rockyard::trial {
 
@@ -18,6 +19,7 @@ struct CourseParams {
   double goal_radius_m = 0.65;
   std::int64_t trials_per_layout = 1;
   DesignationParams designation;
+  RoutePlanParams oracle_route;
 
   // From the lander's cameras to the goal.
   double DesignationRange_m() const {
@@ -61,6 +63,8 @@ struct CourseParams {
                .max = 1e6,
                .origin = Origin::kSetting});
     v.Group("designation", designation, "the goal that the rover is told");
+    v.Group("oracle_route", oracle_route,
+            "how the route is planned that navigation.navigator route follows");
     const double dx = goal_x_m - start_x_m;
     const double dy = goal_y_m - start_y_m;
     v.Require("goal_x_m", dx * dx + dy * dy > 0.01, "puts the goal within 0.1 m of the start",

@@ -6,10 +6,12 @@
 
 #include "navigation/gestalt.h"
 #include "navigation/pathfinder.h"
+#include "navigation/route_follower.h"
 #include "terrain/arena.h"
 #include "trial/goal_designation.h"
 #include "trial/layout.h"
 #include "trial/onboard_calibration.h"
+#include "trial/route_planner.h"
 
 namespace rockyard::trial {
 namespace {
@@ -33,12 +35,16 @@ std::optional<ArenaBounds> Bounds(const terrain::ArenaParams& arena) {
 }
 
 std::unique_ptr<navigation::Navigator> MakeNavigator(const Scenario& scenario,
+                                                     const terrain::Terrain& terrain,
                                                      const messages::Goal& goal) {
   switch (scenario.navigation.navigator) {
     case scenario::NavigatorKind::kPathfinder:
       break;
     case scenario::NavigatorKind::kGestalt:
       return std::make_unique<navigation::GestaltNavigator>(scenario.navigation.gestalt, goal);
+    case scenario::NavigatorKind::kRoute:
+      return std::make_unique<navigation::RouteFollower>(scenario.navigation.route,
+                                                         PlanRoute(scenario, terrain, goal));
   }
   return std::make_unique<navigation::PathfinderNavigator>(scenario.navigation.pathfinder, goal,
                                                            scenario.perception.hazard.enabled);
@@ -90,7 +96,7 @@ Drive::Drive(const Scenario& scenario, core::TrialKey key, truth::Trace* trace,
       lookout_(scenario, key, scan_watcher),
       guard_(scenario, key),
       localizer_(scenario, StartPose(scenario.course)),
-      navigator_(MakeNavigator(scenario, told_goal_)),
+      navigator_(MakeNavigator(scenario, field_.terrain, told_goal_)),
       wheel_driver_(OnboardDriveCalibration(scenario.rover, scenario.perception.calibration.drive),
                     scenario.navigation.wheel_driver),
       ledger_(MakePowerBudget(scenario), scenario.energy.battery_wh),

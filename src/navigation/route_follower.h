@@ -1,0 +1,48 @@
+// Follows a route by dead reckoning and looks at nothing: what is left of a navigator where path
+// selection is perfect. Whoever makes the route knows the terrain, this one does not.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "messages/route.h"
+#include "navigation/navigator.h"
+#include "navigation/route_params.h"
+
+namespace rockyard::navigation {
+
+// From corner to corner: turns in place where the next corner lies off by more than
+// point_turn_bearing, or inside of the tightest circle; otherwise drives the arc that leads there,
+// of curvature 2 sin(bearing) / distance, worked out anew every steer_interval_m. Hazards are
+// neither looked for nor, where the rover feels any, heeded. An empty route: it gives up at once.
+class RouteFollower final : public Navigator {
+ public:
+  RouteFollower(const RouteParams& params, messages::Route route);
+
+  NavigatorDecision Decide(const NavigatorInput& input) override;
+  void OnPoseUpdate(const messages::PoseEstimate& before,
+                    const messages::PoseEstimate& after) override;
+
+ private:
+  // Of the next corner, as believed.
+  struct Sight {
+    double distance_m = 0.0;
+    double bearing_rad = 0.0;
+  };
+
+  Sight SightOf(const messages::Goal& corner, const messages::PoseEstimate& estimate) const;
+  bool HasPassed(const messages::Goal& corner, const messages::PoseEstimate& estimate) const;
+  void PassCorners(const messages::PoseEstimate& estimate);
+  bool NeedsPointTurn(const Sight& sight) const;
+  NavigatorDecision Steer(const Sight& sight, const messages::PoseEstimate& estimate);
+
+  RouteParams params_;
+  messages::Route route_;
+  std::size_t next_ = 0;  // corner
+  std::optional<messages::Goal> leg_from_;
+  bool under_way_ = false;
+  messages::MotionCommand motion_;
+  double steered_at_m_ = 0.0;  // odometer
+};
+
+}  // namespace rockyard::navigation

@@ -1,0 +1,55 @@
+// Where the centre of a rover may be: cells of a rectangle, free or blocked.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "messages/estimates.h"
+#include "terrain/arena.h"
+#include "terrain/rock.h"
+
+namespace rockyard::trial {
+
+class FreeGrid {
+ public:
+  FreeGrid(const terrain::Rectangle& bounds, double cell_m);
+
+  // Blocks the cells whose centres lie inside the rock's outline, its half axes longer by room_m.
+  void Block(const terrain::Rock& rock, double room_m);
+
+  int nx() const { return nx_; }
+  int ny() const { return ny_; }
+  std::size_t size() const { return blocked_.size(); }
+  bool IsFree(int ix, int iy) const {
+    return ix >= 0 && ix < nx_ && iy >= 0 && iy < ny_ && blocked_[Index(ix, iy)] == 0;
+  }
+  bool IsFree(const messages::Goal& point) const {
+    return IsFree(Column(point.x_m), Row(point.y_m));
+  }
+  std::size_t Index(int ix, int iy) const {
+    return static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx_) +
+           static_cast<std::size_t>(ix);
+  }
+  // The cell that holds a point; beyond the grid where the point is.
+  int Column(double x_m) const;
+  int Row(double y_m) const;
+  messages::Goal Centre(std::size_t index) const;
+
+  // Whether a straight way leads over free cells only, looked at every half cell.
+  bool IsClear(const messages::Goal& from, const messages::Goal& to) const;
+
+ private:
+  terrain::Rectangle bounds_;
+  double cell_m_;
+  int nx_;
+  int ny_;
+  std::vector<std::uint8_t> blocked_;
+};
+
+// The cells of a shortest way between free cells, both ends included; empty where there is none.
+// Moves lead to the eight neighbours, across a corner only where both cells beside it are free. Of
+// equally short ways always the same one.
+std::vector<std::size_t> ShortestWay(const FreeGrid& grid, std::size_t from, std::size_t to);
+
+}  // namespace rockyard::trial
