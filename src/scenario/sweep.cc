@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <utility>
 
 #include "core/error.h"
@@ -92,14 +91,13 @@ class Duplicates {
   std::map<std::uint64_t, std::string> cells_;
 };
 
-SweepCell MakeCell(const SweepSpec& spec, const std::vector<std::string>& overrides,
-                   const std::vector<LevelSpec>& levels, Duplicates& duplicates,
-                   CellProblems& problems) {
+SweepCell MakeCell(const SweepSpec& spec, const std::vector<LevelSpec>& levels,
+                   Duplicates& duplicates, CellProblems& problems) {
   SweepCell cell;
   cell.name = NameOf(spec, levels);
   for (const LevelSpec& level : levels) cell.levels.push_back({level.text, level.number});
   try {
-    ResolvedCell resolved = ResolveCell(spec, overrides, levels);
+    ResolvedCell resolved = ResolveCell(spec, levels);
     cell.scenario = std::move(resolved.scenario);
     for (const Problem& problem : resolved.problems) problems.Add(cell.name, problem);
     duplicates.Check(cell.name, resolved.document, problems);
@@ -121,6 +119,22 @@ std::optional<std::size_t> FitAxis(const SweepSpec& spec) {
   return std::nullopt;
 }
 
+// Into the document, so that it says by itself what is run. An override goes last among the
+// settings.
+void ApplyChanges(JsonValue& document, const SweepChanges& changes) {
+  if (changes.trials) document.Set("trials", JsonValue(*changes.trials));
+  if (changes.seed) document.Set("seed", JsonValue(*changes.seed));
+  for (const std::string& assignment : changes.overrides) {
+    JsonValue parsed = JsonValue::Object();
+    core::ApplyOverride(parsed, assignment);
+    const std::string path = assignment.substr(0, assignment.find('='));
+    JsonValue* set = document.Find("set");
+    if (set == nullptr) set = &document.Set("set", JsonValue::Object());
+    set->Erase(path);
+    set->Set(path, *FindPath(parsed, path));
+  }
+}
+
 Sweep Describe(const SweepSpec& spec) {
   Sweep sweep;
   sweep.name = spec.params.name;
@@ -138,8 +152,7 @@ Sweep Describe(const SweepSpec& spec) {
 
 Sweep Resolve(JsonValue document, const SweepChanges& changes,
               const std::filesystem::path& folder) {
-  if (changes.trials) document.Set("trials", JsonValue(*changes.trials));
-  if (changes.seed) document.Set("seed", JsonValue(*changes.seed));
+  ApplyChanges(document, changes);
   std::vector<Problem> problems;
   const SweepSpec spec = ReadSweepSpec(std::move(document), folder, problems);
   CheckDesign(spec, problems);
@@ -148,7 +161,7 @@ Sweep Resolve(JsonValue document, const SweepChanges& changes,
   Duplicates duplicates;
   CellProblems cell_problems;
   for (const std::vector<LevelSpec>& levels : DesignCells(spec)) {
-    sweep.cells.push_back(MakeCell(spec, changes.overrides, levels, duplicates, cell_problems));
+    sweep.cells.push_back(MakeCell(spec, levels, duplicates, cell_problems));
   }
   cell_problems.Finish();
   return sweep;

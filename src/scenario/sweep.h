@@ -73,10 +73,11 @@ bool IsSweep(const core::JsonValue& document);
 // Reads a sweep file (scenarios/sweeps/README.md describes it) and resolves every cell.
 //
 // The scenario of a cell is, in this order: the scenario of its level where an axis has scenarios,
-// else that of the file; "set" of the file; the overrides; the settings of each axis, in the order
-// of the axes. Its seed is that of the campaign with common random numbers, so that cells can be
-// compared in pairs; else a hash of that seed and the settings of the cell, so that cells keep
-// their trials when a design grows.
+// else that of the file; "set" of the file and the overrides; the settings of each axis, in the
+// order of the axes. A setting that is an object changes the members that it names. Its seed is
+// that of the campaign with common random numbers, so that cells can be compared in pairs; else a
+// hash of that seed and the settings of the cell, so that cells keep their trials when a design
+// grows.
 //
 // Every value that was asked for is read back from the resolved scenario and must be there.
 // Throws core::UserError with everything that is wrong: unknown keys, cells that are no valid

@@ -17,16 +17,6 @@ using core::JsonValue;
 using core::Problem;
 using Type = JsonValue::Type;
 
-const JsonValue* FindPath(const JsonValue& document, std::string_view path) {
-  const JsonValue* at = &document;
-  while (at != nullptr && !path.empty()) {
-    const std::size_t dot = path.find('.');
-    at = at->Find(path.substr(0, dot));
-    path = dot == std::string_view::npos ? std::string_view() : path.substr(dot + 1);
-  }
-  return at;
-}
-
 // Objects merge, so that {"rover": {"extends": "../rovers/mfex.json"}} changes a group in part.
 void Apply(JsonValue& document, const std::string& path, const JsonValue& value) {
   const JsonValue* present = FindPath(document, path);
@@ -81,8 +71,17 @@ JsonValue BaseOf(const SweepSpec& spec, const std::vector<LevelSpec>& levels) {
 
 }  // namespace
 
-ResolvedCell ResolveCell(const SweepSpec& spec, const std::vector<std::string>& overrides,
-                         const std::vector<LevelSpec>& levels) {
+const JsonValue* FindPath(const JsonValue& document, std::string_view path) {
+  const JsonValue* at = &document;
+  while (at != nullptr && !path.empty()) {
+    const std::size_t dot = path.find('.');
+    at = at->Find(path.substr(0, dot));
+    path = dot == std::string_view::npos ? std::string_view() : path.substr(dot + 1);
+  }
+  return at;
+}
+
+ResolvedCell ResolveCell(const SweepSpec& spec, const std::vector<LevelSpec>& levels) {
   JsonValue document = BaseOf(spec, levels);
   std::vector<std::pair<std::string, JsonValue>> asked;
   const auto apply = [&](const JsonValue& settings) {
@@ -92,11 +91,6 @@ ResolvedCell ResolveCell(const SweepSpec& spec, const std::vector<std::string>& 
     }
   };
   apply(spec.settings);
-  for (const std::string& assignment : overrides) {
-    core::ApplyOverride(document, assignment);
-    const std::string path = assignment.substr(0, assignment.find('='));
-    asked.emplace_back(path, *FindPath(document, path));
-  }
   for (const LevelSpec& level : levels) apply(level.settings);
   ResolvedCell cell;
   cell.scenario = ReadScenario(document);

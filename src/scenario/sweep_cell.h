@@ -1,7 +1,7 @@
 // From the levels of a cell to its scenario. Internal to scenario's sweep files.
 #pragma once
 
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/error.h"
@@ -17,9 +17,11 @@ struct ResolvedCell {
   std::vector<core::Problem> problems;  // settings that are not there in the end
 };
 
-// Lays base, "set" of the file, overrides and levels over each other (sweep.h), reads the result,
+// The value at a dotted path; nullptr where there is none.
+const core::JsonValue* FindPath(const core::JsonValue& document, std::string_view path);
+
+// Lays base, "set" of the file and levels over each other (sweep.h), reads the result,
 // and reads every setting back from it. Throws core::UserError where it is no valid scenario.
-ResolvedCell ResolveCell(const SweepSpec& spec, const std::vector<std::string>& overrides,
-                         const std::vector<LevelSpec>& levels);
+ResolvedCell ResolveCell(const SweepSpec& spec, const std::vector<LevelSpec>& levels);
 
 }  // namespace rockyard::scenario

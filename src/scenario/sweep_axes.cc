@@ -1,0 +1,194 @@
+#include "scenario/sweep_axes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "core/json_text.h"
+#include "core/spelling.h"
+#include "scenario/load.h"
+
+namespace rockyard::scenario {
+namespace {
+
+using core::JsonValue;
+using Type = JsonValue::Type;
+
+std::string LastPart(const std::string& path) { return path.substr(path.rfind('.') + 1); }
+
+std::string LevelText(const JsonValue& value) {
+  if (value.Is(Type::kText)) return value.text();
+  return value.IsNumber() ? fmt::format("{}", value.number()) : core::Abbreviate(value);
+}
+
+bool Has(const JsonValue& value, std::string_view key) { return value.Find(key) != nullptr; }
+
+}  // namespace
+
+AxisReader::AxisReader(PartReader& parts) : parts_(parts), parameters_(ListParameters()) {}
+
+AxisSpec AxisReader::Read(JsonValue& value, const std::string& path) {
+  AxisSpec axis;
+  const auto params = parts_.Fixed<AxisParams>(value, path, kFreeAxisKeys);
+  if (!value.Is(Type::kObject)) return axis;
+  axis.axis.name = params.name.empty() ? LastPart(params.path) : params.name;
+  axis.axis.scale = params.scale;
+  axis.path = params.path;
+  ReadLevels(value, params, path, axis);
+  parts_.CheckName(axis.axis.name, path + ".name");
+  CheckLevels(axis, path);
+  return axis;
+}
+
+// Exactly one of the ways to say what the levels are.
+void AxisReader::ReadLevels(JsonValue& value, const AxisParams& params, const std::string& path,
+                            AxisSpec& axis) {
+  const std::array<std::string_view, 4> ways{"values", "levels", "scenarios", "ablation"};
+  const auto given = std::count_if(ways.begin(), ways.end(),
+                                   [&](std::string_view way) { return Has(value, way); });
+  const bool takes_path = given == 0 || Has(value, "values");
+  if (given > 1) {
+    parts_.Add(path, "has several of values, levels, scenarios and ablation", "keep one of them");
+  } else if (takes_path == params.path.empty()) {
+    parts_.Add(path + ".path", takes_path ? "is missing" : "has no meaning beside named levels",
+               takes_path ? "name a parameter, such as terrain.rocks.k_per_m2" : "remove it");
+  } else if (given == 1 && (Has(value, "from") || Has(value, "to") || Has(value, "steps"))) {
+    parts_.Add(path, "has a range beside its levels", "remove from, to and steps");
+  } else if (Has(value, "values")) {
+    ReadValues(value, path, axis);
+  } else if (Has(value, "levels")) {
+    for (JsonValue* level : parts_.Elements(value, "levels", path)) {
+      axis.levels.push_back(
+          parts_.Level(*level, fmt::format("{}.levels[{}]", path, axis.levels.size())));
+    }
+  } else if (Has(value, "scenarios")) {
+    ReadScenarios(value, path, axis);
+  } else if (Has(value, "ablation")) {
+    ReadAblation(params, axis);
+  } else {
+    ReadRange(value, params, path, axis);
+  }
+}
+
+void AxisReader::ReadValues(JsonValue& value, const std::string& path, AxisSpec& axis) {
+  Describe(path, axis);
+  axis.axis.numeric = true;
+  for (const JsonValue* element : parts_.Elements(value, "values", path)) {
+    LevelSpec level{.text = LevelText(*element)};
+    parts_.CheckName(level.text, fmt::format("{}.values[{}]", path, axis.levels.size()));
+    if (element->IsNumber()) level.number = element->number();
+    axis.axis.numeric = axis.axis.numeric && level.number.has_value();
+    level.settings.Set(axis.path, *element);
+    axis.levels.push_back(std::move(level));
+  }
+}
+
+// The list becomes one of levels that hold their scenarios, so that the document needs no files.
+void AxisReader::ReadScenarios(JsonValue& value, const std::string& path, AxisSpec& axis) {
+  if (axis.axis.name.empty()) axis.axis.name = "scenario";
+  JsonValue::List levels;
+  for (JsonValue* element : parts_.Elements(value, "scenarios", path)) {
+    const std::string at = fmt::format("{}.scenarios[{}]", path, axis.levels.size());
+    JsonValue level = JsonValue::Object();
+    if (element->Is(Type::kText)) {
+      level.Set("name", JsonValue(std::filesystem::path(element->text()).stem().string()));
+      level.Set("scenario", parts_.ScenarioFile(element->text(), at));
+      axis.levels.push_back(parts_.Level(level, at));
+    } else {
+      parts_.Add(at, fmt::format("is {}, not the name of a file", core::Abbreviate(*element)),
+                 "write a path relative to this file");
+    }
+    levels.push_back(std::move(level));
+  }
+  value.Erase("scenarios");
+  value.Set("name", JsonValue(axis.axis.name));
+  value.Set("levels", JsonValue(std::move(levels)));
+}
+
+void AxisReader::ReadAblation(const AxisParams& params, AxisSpec& axis) {
+  if (axis.axis.name.empty()) axis.axis.name = params.ablation;
+  axis.levels = {LevelSpec{.text = "off"}, LevelSpec{.text = "on"}};
+  axis.levels[1].ablation = params.ablation;
+}
+
+// From "from" to "to", or over the study range of the parameter.
+void AxisReader::ReadRange(const JsonValue& value, const AxisParams& params,
+                           const std::string& path, AxisSpec& axis) {
+  axis.axis.numeric = true;
+  const core::ParameterInfo* parameter = Describe(path, axis);
+  if (parameter == nullptr) return;
+  if (!(Has(value, "from") && Has(value, "to")) && !parameter->HasStudyRange()) {
+    parts_.Add(path, "has neither values nor a range, and the parameter has no study range",
+               "write \"values\", or \"from\" and \"to\"");
+    return;
+  }
+  axis.from = Has(value, "from") ? params.from : parameter->study_low;
+  axis.to = Has(value, "to") ? params.to : parameter->study_high;
+  if (!(axis.from < axis.to)) {
+    parts_.Add(path + ".to", fmt::format("is {}, not above from, {}", axis.to, axis.from),
+               "write the smaller value first");
+  } else if (params.scale == AxisScale::kLog && axis.from <= 0.0) {
+    parts_.Add(path + ".from", fmt::format("is {}, which has no logarithm", axis.from),
+               "use a positive value, or scale linear");
+  } else if (Has(value, "steps")) {
+    const auto last = static_cast<double>(params.steps - 1);
+    std::vector<LevelSpec> levels;
+    for (std::int64_t i = 0; i < params.steps; ++i) {
+      levels.push_back(axis.At(static_cast<double>(i) / last));
+    }
+    axis.levels = std::move(levels);
+  }
+}
+
+const core::ParameterInfo* AxisReader::Describe(const std::string& path, AxisSpec& axis) {
+  const auto found = std::find_if(
+      parameters_.begin(), parameters_.end(),
+      [&](const core::ParameterInfo& parameter) { return parameter.path == axis.path; });
+  if (found != parameters_.end()) {
+    axis.axis.unit = found->unit;
+    axis.whole = found->kind == core::FieldKind::kInteger;
+    return &*found;
+  }
+  const std::string shown = axis.path.substr(0, 80);
+  if (IsGroup(axis.path)) {
+    parts_.Add(path + ".path", fmt::format("is {}, a group of parameters", shown),
+               "name one of them, or write \"levels\"");
+  } else {
+    parts_.Add(path + ".path", fmt::format("is {}, which is no parameter", shown),
+               Nearest(axis.path));
+  }
+  return nullptr;
+}
+
+bool AxisReader::IsGroup(const std::string& path) const {
+  const std::string group = path + ".";
+  return std::any_of(
+      parameters_.begin(), parameters_.end(),
+      [&](const core::ParameterInfo& parameter) { return parameter.path.starts_with(group); });
+}
+
+std::string AxisReader::Nearest(const std::string& path) const {
+  std::vector<std::string_view> names;
+  for (const core::ParameterInfo& parameter : parameters_) names.push_back(parameter.path);
+  const std::string_view nearest = core::Nearest(path, names);
+  return nearest.empty() ? "rockyard parameters lists them"
+                         : fmt::format("did you mean \"{}\"?", nearest);
+}
+
+// Names decide cells' names and seeds, so that two equal ones cannot be.
+void AxisReader::CheckLevels(const AxisSpec& axis, const std::string& path) {
+  std::set<std::string_view> seen;
+  for (const LevelSpec& level : axis.levels) {
+    if (level.text.empty() || seen.insert(level.text).second) continue;
+    parts_.Add(path, fmt::format("has the level \"{}\" twice", level.text.substr(0, 80)),
+               "keep one of them");
+    return;
+  }
+}
+
+}  // namespace rockyard::scenario
