@@ -1,0 +1,115 @@
+#include "scenario/ablations.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/json_file.h"
+#include "core/json_text.h"
+#include "scenario/load.h"
+
+namespace rockyard::scenario {
+namespace {
+
+using Names = std::vector<std::string>;
+
+Scenario Nominal(const std::vector<std::string>& overrides = {}) {
+  return LoadScenario(std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/nominal.json",
+                      overrides);
+}
+
+std::string ReasonOf(const Scenario& scenario, const Names& names) {
+  try {
+    WithAblations(scenario, names);
+  } catch (const core::UserError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(AblationsTest, EachHasANameASentenceAndSettings) {
+  std::set<std::string_view> names;
+  for (const Ablation& ablation : Ablations()) {
+    EXPECT_TRUE(names.insert(ablation.name).second) << ablation.name;
+    EXPECT_GT(ablation.sentence.size(), 10U) << ablation.name;
+    EXPECT_FALSE(ablation.settings.empty()) << ablation.name;
+  }
+  EXPECT_EQ(names.size(), 6U);
+}
+
+TEST(AblationsTest, EachChangesAScenarioOnceAndThenIsInForce) {
+  const Scenario nominal = Nominal({"course.designation.enabled=true"});
+  for (const Ablation& ablation : Ablations()) {
+    const Names names{std::string(ablation.name)};
+    const AblatedScenario ablated = WithAblations(nominal, names);
+    EXPECT_TRUE(ablated.idle.empty()) << ablation.name;
+    EXPECT_NE(Fingerprint(ablated.scenario), Fingerprint(nominal)) << ablation.name;
+    EXPECT_EQ(AblationsInForce(ablated.scenario), names);
+    EXPECT_EQ(WithAblations(ablated.scenario, names).idle, names);
+  }
+}
+
+TEST(AblationsTest, TheFourFunctionsAreIndependent) {
+  const Scenario nominal = Nominal({"course.designation.enabled=true"});
+  const Names forward{"perfect_designation", "perfect_localization", "perfect_sensing",
+                      "perfect_path_selection"};
+  const Names backward(forward.rbegin(), forward.rend());
+  const AblatedScenario one = WithAblations(nominal, forward);
+  EXPECT_EQ(Fingerprint(one.scenario), Fingerprint(WithAblations(nominal, backward).scenario));
+  EXPECT_EQ(AblationsInForce(one.scenario), forward);
+}
+
+TEST(AblationsTest, OneWithoutEffectIsNamed) {
+  EXPECT_EQ(WithAblations(Nominal(), Names{"perfect_designation", "no_slip"}).idle,
+            Names{"perfect_designation"});
+}
+
+TEST(AblationsTest, ChangesResolvedDocumentsAndOthersAlike) {
+  for (const Ablation& ablation : Ablations()) {
+    core::JsonValue resolved = WriteScenario(Nominal());
+    core::JsonValue written = core::ParseJson(
+        R"({"terrain": {"rocks": {"k_per_m2": 0.00415}}, "course": {"goal_x_m": 7.6},
+            "sensors": {"encoders": {"physics_variance_m2_per_m": 4.1e-06}},
+            "perception": {"dead_reckoning": {"distance_scale": 0.9197}}})",
+        "test");
+    ApplyAblation(resolved, ablation.name);
+    ApplyAblation(written, ablation.name);
+    EXPECT_EQ(Fingerprint(ReadScenario(resolved)), Fingerprint(ReadScenario(written)))
+        << ablation.name;
+  }
+}
+
+TEST(AblationsTest, PerfectSensingTakesEveryErrorOfTheSensorAway) {
+  Scenario rough = Nominal({"sensors.light_stripe.column_noise_px=0.5",
+                            "sensors.light_stripe.missed_probability=0.1",
+                            "sensors.light_stripe.wrong_place_probability=0.01",
+                            "sensors.light_stripe.outlier_persistence=0.5",
+                            "perception.calibration.left_camera.pitch_deg=1",
+                            "perception.calibration.stereo_rear.y_m=0.01",
+                            "perception.calibration.drive.track_percent=2"});
+  const Scenario perfect = WithAblations(rough, Names{"perfect_sensing"}).scenario;
+  EXPECT_EQ(perfect.sensors.light_stripe.column_noise_px, 0.0);
+  EXPECT_EQ(perfect.sensors.light_stripe.missed_probability, 0.0);
+  EXPECT_EQ(perfect.sensors.light_stripe.wrong_place_probability, 0.0);
+  EXPECT_EQ(perfect.sensors.light_stripe.outlier_persistence, 0.0);
+  EXPECT_EQ(perfect.sensors.stereo.fidelity, sensing::StereoFidelity::kIdeal);
+  EXPECT_EQ(perfect.perception.calibration.left_camera.pitch_rad, 0.0);
+  EXPECT_EQ(perfect.perception.calibration.stereo_rear.y_m, 0.0);
+  // Wheels and steering are a matter of localization.
+  EXPECT_EQ(perfect.perception.calibration.drive.track_percent, 2.0);
+}
+
+TEST(AblationsTest, NamesWhatIsWrong) {
+  EXPECT_NE(ReasonOf(Nominal(), {"perfect_localisation"}).find("perfect_localization"),
+            std::string::npos);
+  EXPECT_NE(ReasonOf(Nominal(), {"no_slip", "no_slip"}).find("twice"), std::string::npos);
+  EXPECT_NE(ReasonOf(Nominal(), {"no_avoidance", "perfect_path_selection"}).find("undone"),
+            std::string::npos);
+  EXPECT_EQ(ReasonOf(Nominal(), {"no_avoidance", "no_slip"}), "");
+}
+
+}  // namespace
+}  // namespace rockyard::scenario
