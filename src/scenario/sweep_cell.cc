@@ -61,6 +61,21 @@ void ReadBack(const JsonValue& asked, const JsonValue* found, const std::string&
                       "another setting, axis or --set lies over it: keep one of them"});
 }
 
+// What a cell gets from the sweep, and what no sweep can be of.
+void CheckScope(std::string_view path, std::vector<Problem>& problems) {
+  for (const std::string_view key : {"name", "seed", "trials"}) {
+    if (path != key) continue;
+    problems.push_back({std::string(path), "is set, but cells get it from the sweep",
+                        fmt::format("write \"{}\" beside \"axes\"", key)});
+  }
+}
+
+void CheckExperiment(const Scenario& scenario, std::vector<Problem>& problems) {
+  if (scenario.experiment == ExperimentKind::kDrive) return;
+  problems.push_back({"experiment", "is hazard_detection, whose studies have factors of their own",
+                      "use rockyard run, or sweep drives"});
+}
+
 JsonValue BaseOf(const SweepSpec& spec, const std::vector<LevelSpec>& levels) {
   const JsonValue* base = spec.scenario.get();
   for (const LevelSpec& level : levels) {
@@ -95,7 +110,9 @@ ResolvedCell ResolveCell(const SweepSpec& spec, const std::vector<LevelSpec>& le
   ResolvedCell cell;
   cell.scenario = ReadScenario(document);
   cell.document = WriteScenario(cell.scenario);
+  CheckExperiment(cell.scenario, cell.problems);
   for (const auto& [path, value] : asked) {
+    CheckScope(path, cell.problems);
     ReadBack(value, FindPath(cell.document, path), path, cell.problems);
   }
   return cell;
