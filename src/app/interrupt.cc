@@ -10,21 +10,27 @@ constexpr std::array kPolite = {SIGINT, SIGTERM, SIGHUP};
 constexpr std::array kBecomeErrors = {SIGPIPE, SIGXFSZ};
 
 // A signal handler can reach nothing but static storage.
-std::atomic<bool> requested_flag = false;
+std::atomic<std::atomic<bool>*> requested_flag = nullptr;
 static_assert(std::atomic<bool>::is_always_lock_free, "the signal handler writes it");
+static_assert(std::atomic<std::atomic<bool>*>::is_always_lock_free, "and reads where it is");
 
-void OnSignal(int signal) {
-  requested_flag = true;
+void SetFlag(int) {
+  if (std::atomic<bool>* flag = requested_flag) *flag = true;
+}
+
+void SetFlagOnce(int signal) {
+  SetFlag(signal);
   std::signal(signal, SIG_DFL);
 }
 
 }  // namespace
 
-InterruptGuard::InterruptGuard() {
-  requested_flag = false;
+InterruptGuard::InterruptGuard(std::atomic<bool>& requested, SecondSignal second) {
+  requested_flag = &requested;
+  const auto handler = second == SecondSignal::kEnds ? SetFlagOnce : SetFlag;
   for (const int signal : kPolite) {
     // What the caller told to ignore (nohup, background jobs of a script) stays ignored.
-    if (std::signal(signal, OnSignal) == SIG_IGN) std::signal(signal, SIG_IGN);
+    if (std::signal(signal, handler) == SIG_IGN) std::signal(signal, SIG_IGN);
   }
   for (const int signal : kBecomeErrors) std::signal(signal, SIG_IGN);
 }
@@ -34,8 +40,7 @@ InterruptGuard::~InterruptGuard() {
     if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
   }
   for (const int signal : kBecomeErrors) std::signal(signal, SIG_DFL);
+  requested_flag = nullptr;
 }
-
-const std::atomic<bool>& InterruptGuard::requested() const { return requested_flag; }
 
 }  // namespace rockyard::app

@@ -5,18 +5,22 @@
 
 namespace rockyard::app {
 
-// While this lives, the first SIGINT, SIGTERM or SIGHUP sets a flag, and the second one ends the
-// process at once (which loses no stored trial). Writing to a closed pipe or beyond a file size
-// limit becomes an error instead of a signal. One at a time; the former handlers come back at the
-// end.
+// What the second polite signal does.
+enum class SecondSignal {
+  kEnds,      // the process at once, which loses no stored trial
+  kIsTheSame  // nothing more: somebody else (a supervisor, mpirun) decides when patience ends
+};
+
+// While this lives, the first SIGINT, SIGTERM or SIGHUP sets the flag. Writing to a closed pipe or
+// beyond a file size limit becomes an error instead of a signal. One at a time; the former handlers
+// come back at the end.
 class InterruptGuard {
  public:
-  InterruptGuard();
+  // `requested` must outlive this; it may be shared with others who may ask for an end.
+  InterruptGuard(std::atomic<bool>& requested, SecondSignal second);
   ~InterruptGuard();
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
-
-  const std::atomic<bool>& requested() const;
 };
 
 }  // namespace rockyard::app

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "batch/batch_session.h"
 #include "batch/packet.h"
 #include "batch/remote_work.h"
 
@@ -188,17 +187,12 @@ class Client {
 
 }  // namespace
 
-BatchResult RunDistributedBatch(Communicator& communicator, std::span<const CellWork> work,
-                                ResultStore& store, const BatchOptions& options,
-                                const std::atomic<bool>& stop, const ProgressReport& report) {
-  BatchSession session(store, options, stop, report);
-  {
-    const Engine engine(work, session.source(), ThreadCount(options));
-    Desk desk(communicator, session.source());
-    Idleness idleness;
-    while (!engine.done() || !desk.empty()) idleness.Rest(desk.Serve());
-  }
-  return session.Close();
+void RunTrialsOnRanks(Communicator& communicator, std::span<const CellWork> work,
+                      LocalWorkSource& source, int threads) {
+  const Engine engine(work, source, threads);
+  Desk desk(communicator, source);
+  Idleness idleness;
+  while (!engine.done() || !desk.empty()) idleness.Rest(desk.Serve());
 }
 
 void ServeBatch(Communicator& communicator, std::span<const CellWork> work, int threads,

@@ -19,10 +19,10 @@ namespace rockyard::batch {
 // begun, and the others do it; the stop flag of rank 0 ends all. A rank that dies without a word
 // takes the others with it (MPI): what rank 0 had received is in the store within a second.
 
-// On rank 0, while every other rank is in ServeBatch. As RunBatch.
-BatchResult RunDistributedBatch(Communicator& communicator, std::span<const CellWork> work,
-                                ResultStore& store, const BatchOptions& options,
-                                const std::atomic<bool>& stop, const ProgressReport& report = {});
+// On rank 0, while every other rank is in ServeBatch or on its way there: in place of RunTrials.
+// Returns when `source` has no more trials and all ranks have sent what they had.
+void RunTrialsOnRanks(Communicator& communicator, std::span<const CellWork> work,
+                      LocalWorkSource& source, int threads);
 
 // On every other rank: returns when rank 0 has no more trials or `stop` is true, and everything
 // that was begun has been sent.

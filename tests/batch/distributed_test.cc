@@ -12,6 +12,7 @@
 #include <mutex>
 #include <thread>
 
+#include "batch/batch_session.h"
 #include "batch/packet.h"
 #include "batch/remote_work.h"
 #include "batch/store_error.h"
@@ -78,16 +79,10 @@ class Cluster {
     PostCommunicator communicator(post_, 0);
     const FakeExperiment experiment = Experiment(0, hook);
     const CellWork work{&experiment, 1};
-    BatchResult result;
-    std::exception_ptr error;
-    try {
-      result = RunDistributedBatch(communicator, std::span(&work, 1), store, options, stop(0));
-    } catch (...) {
-      error = std::current_exception();
-    }
+    BatchSession session(store, options, stop(0), {});
+    RunTrialsOnRanks(communicator, std::span(&work, 1), session.source(), options.threads);
     for (std::thread& other : others) other.join();
-    if (error) std::rethrow_exception(error);
-    return result;
+    return session.Close();
   }
 
   std::atomic<bool>& stop(int rank) { return stops_[static_cast<std::size_t>(rank)]; }
