@@ -29,25 +29,6 @@ std::string FileName(const std::string& name) {
   return safe;
 }
 
-fs::path FolderOf(const RunRequest& request, const scenario::Scenario& scenario) {
-  if (!request.out.empty()) return request.out;
-  return fs::path("results") / "runs" /
-         fmt::format("{}-seed{}", FileName(scenario.name), scenario.seed);
-}
-
-batch::CampaignIdentity IdentityOf(const scenario::Scenario& scenario,
-                                   const truth::RecordSchema& schema) {
-  return {.name = scenario.name,
-          .design = "",
-          .build = BuildName(),
-          .schema = schema,
-          .cells = {{.name = "",
-                     .scenario = scenario.name,
-                     .fingerprint = core::Hex(scenario::Fingerprint(scenario)),
-                     .resolved = scenario::ResolvedJson(scenario),
-                     .seed = static_cast<std::uint64_t>(scenario.seed)}}};
-}
-
 // Removes the folder again, if it was not there before, unless all went well.
 class NewFolderGuard {
  public:
@@ -70,23 +51,20 @@ class NewFolderGuard {
 
 class Opener {
  public:
-  Opener(const RunRequest& request, const scenario::Scenario& scenario,
-         const truth::RecordSchema& schema)
+  Opener(const OpenRequest& request, const CampaignPlan& plan, const truth::RecordSchema& schema)
       : request_(request),
-        scenario_(scenario),
-        folder_(FolderOf(request, scenario)),
-        identity_(IdentityOf(scenario, schema)) {}
+        plan_(plan),
+        folder_(request.folder),
+        identity_(IdentityOf(plan, schema, request.shard)) {}
 
   OpenedRun Open() {
     RefuseForeignFolder();
     NewFolderGuard guard(folder_);
     auto claim = std::make_unique<batch::FolderClaim>(folder_);
     batch::ResultStore store = OpenStore();
-    const std::int64_t trials = PlanTrials(store);
+    PlanTrials(store);
     guard.Keep();
-    scenario_.trials = trials;
-    return {std::move(scenario_), std::move(folder_), std::move(claim), std::move(store), trials,
-            std::move(notes_)};
+    return {folder_, std::move(claim), std::move(store), std::move(notes_)};
   }
 
  private:
@@ -119,7 +97,9 @@ class Opener {
   batch::ResultStore OpenStore() {
     if (batch::HoldsStore(folder_) && MayResume()) {
       try {
-        return batch::ResultStore::Resume(folder_, identity_, request_.build);
+        batch::ResultStore store = batch::ResultStore::Resume(folder_, identity_, request_.build);
+        resumed_ = true;
+        return store;
       } catch (const StoreError& error) {
         const bool useless =
             error.problem() == StoreProblem::kMismatch || error.problem() == StoreProblem::kDamaged;
@@ -131,7 +111,7 @@ class Opener {
       const fs::path aside = batch::SetStoreAside(folder_);
       notes_.push_back("the former results are kept as " + aside.string());
     }
-    return batch::ResultStore::Create(folder_, identity_, scenario_.trials);
+    return batch::ResultStore::Create(folder_, identity_, WantedTrials());
   }
 
   static std::string FirstReason(const StoreError& error) {
@@ -139,39 +119,73 @@ class Opener {
     return problem.path + " " + problem.reason;
   }
 
-  // A resumed run keeps its plan unless --trials says more.
-  std::int64_t PlanTrials(batch::ResultStore& store) {
-    const std::vector<batch::FinishedTrial> finished = store.Finished();
-    const std::int64_t stored = finished.empty() ? 0 : finished.back().id.trial + 1;
-    const std::int64_t wanted = request_.trials ? scenario_.trials : store.planned();
-    const std::int64_t trials = std::max(wanted, stored);
-    if (stored > 0) {
-      notes_.push_back(fmt::format("going on with {}: trials up to {} of {} are there",
-                                   folder_.string(), stored, trials));
-    }
-    if (trials != store.planned()) store.SetPlanned(0, trials);
+  std::vector<std::int64_t> WantedTrials() const {
+    std::vector<std::int64_t> trials;
+    for (const CampaignCell& cell : plan_.cells) trials.push_back(cell.scenario.trials);
     return trials;
   }
 
-  const RunRequest& request_;
-  scenario::Scenario scenario_;
+  // A resumed run keeps its plan and its rule unless the user says otherwise; what is stored stays
+  // planned.
+  void PlanTrials(batch::ResultStore& store) {
+    const std::vector<batch::FinishedTrial> finished = store.Finished();
+    std::vector<std::int64_t> ends(plan_.cells.size(), 0);
+    for (const batch::FinishedTrial& trial : finished) {
+      ends[static_cast<std::size_t>(trial.id.cell)] = trial.id.trial + 1;
+    }
+    std::optional<batch::StoppingRule> rule = request_.rule;
+    if (!rule && resumed_ && !request_.trials_given) rule = store.rule();
+    if (rule != store.rule()) store.SetRule(rule);
+    std::int64_t planned = 0;
+    for (int cell = 0; cell < store.cells(); ++cell) {
+      const auto i = static_cast<std::size_t>(cell);
+      const bool kept = resumed_ && !request_.trials_given;
+      std::int64_t wanted = kept ? store.planned(cell) : plan_.cells[i].scenario.trials;
+      if (rule) wanted = rule->max_trials;
+      wanted = std::max(wanted, ends[i]);
+      if (wanted != store.planned(cell)) store.SetPlanned(cell, wanted);
+      planned += store.identity().shard.Share(wanted);
+    }
+    if (finished.empty()) return;
+    notes_.push_back(fmt::format("going on with {}: {} of {}{} trials are there", folder_.string(),
+                                 finished.size(), rule ? "at most " : "", planned));
+  }
+
+  const OpenRequest& request_;
+  const CampaignPlan& plan_;
   fs::path folder_;
   batch::CampaignIdentity identity_;
   std::vector<std::string> notes_;
+  bool resumed_ = false;
 };
 
 }  // namespace
 
-scenario::Scenario RequestedScenario(const RunRequest& request) {
-  std::vector<std::string> overrides = request.overrides;
-  if (request.trials) overrides.push_back(fmt::format("trials={}", *request.trials));
-  if (request.seed) overrides.push_back(fmt::format("seed={}", *request.seed));
-  return LoadScenarioFrom(request.scenario, overrides);
+fs::path DefaultFolder(const std::string& name, std::int64_t seed) {
+  return fs::path("results") / "runs" / fmt::format("{}-seed{}", FileName(name), seed);
 }
 
-OpenedRun OpenRun(const RunRequest& request, const scenario::Scenario& scenario,
+batch::CampaignIdentity IdentityOf(const CampaignPlan& plan, const truth::RecordSchema& schema,
+                                   batch::Shard shard) {
+  batch::CampaignIdentity identity{.name = plan.name,
+                                   .design = plan.design,
+                                   .build = BuildName(),
+                                   .schema = schema,
+                                   .cells = {},
+                                   .shard = shard};
+  for (const CampaignCell& cell : plan.cells) {
+    identity.cells.push_back({.name = cell.name,
+                              .scenario = cell.scenario.name,
+                              .fingerprint = core::Hex(scenario::Fingerprint(cell.scenario)),
+                              .resolved = scenario::ResolvedJson(cell.scenario),
+                              .seed = static_cast<std::uint64_t>(cell.scenario.seed)});
+  }
+  return identity;
+}
+
+OpenedRun OpenRun(const OpenRequest& request, const CampaignPlan& plan,
                   const truth::RecordSchema& schema) {
-  return Opener(request, scenario, schema).Open();
+  return Opener(request, plan, schema).Open();
 }
 
 }  // namespace rockyard::app

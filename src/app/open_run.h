@@ -1,4 +1,4 @@
-// From the options of `rockyard run` to a store that is ready for trials.
+// From a plan to a store that is ready for trials.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "batch/campaign.h"
+#include "batch/campaign_differences.h"
 #include "batch/result_store.h"
 #include "batch/run_folder.h"
+#include "batch/stopping_rule.h"
 #include "scenario/scenario.h"
 #include "truth/record.h"
 
@@ -23,31 +26,46 @@ enum class ExistingRun {
   kResumeOrSetAside,  // --resume --force: go on where it fits, otherwise set aside
 };
 
-struct RunRequest {
-  std::filesystem::path scenario;
-  std::vector<std::string> overrides;
-  std::optional<std::int64_t> trials;  // absent: the scenario's, or those planned before
-  std::optional<std::int64_t> seed;    // absent: the scenario's
-  std::filesystem::path out;           // empty: results/runs/<name>-seed<seed>
+// A cell as it is to be run; its scenario says how many trials.
+struct CampaignCell {
+  std::string name;  // "" in a run of one scenario
+  scenario::Scenario scenario;
+};
+
+// What is to be run.
+struct CampaignPlan {
+  std::string name;
+  std::string design;            // JSON text of the sweep file; "" for a run
+  std::filesystem::path folder;  // where nothing else is asked for
+  std::vector<CampaignCell> cells;
+};
+
+struct OpenRequest {
+  std::filesystem::path folder;
   ExistingRun existing = ExistingRun::kRefuse;
   batch::BuildPolicy build = batch::BuildPolicy::kSame;
+  bool trials_given = false;  // false: those planned before count, where there is a run
+  std::optional<batch::StoppingRule> rule;  // none: that of a run that goes on
+  batch::Shard shard;
 };
 
 struct OpenedRun {
-  scenario::Scenario scenario;
   std::filesystem::path folder;
   std::unique_ptr<batch::FolderClaim> claim;
-  batch::ResultStore store;
-  std::int64_t trials = 0;         // to have in the end
+  batch::ResultStore store;        // with its rule and the trials that each cell is to have
   std::vector<std::string> notes;  // for the user: what was set aside, where it goes on
 };
 
-// `schema` of the scenario's experiment. Throws core::UserError (batch::StoreError where it is
-// about the folder); a folder made for the run is then removed again.
-OpenedRun OpenRun(const RunRequest& request, const scenario::Scenario& scenario,
-                  const truth::RecordSchema& schema);
+// results/runs/<name>-seed<seed>, with '_' for what has no place in the name of a file.
+std::filesystem::path DefaultFolder(const std::string& name, std::int64_t seed);
 
-// The scenario of the request with --set, --trials and --seed.
-scenario::Scenario RequestedScenario(const RunRequest& request);
+// What the store of a plan says of itself. `schema`: of every cell's experiment.
+batch::CampaignIdentity IdentityOf(const CampaignPlan& plan, const truth::RecordSchema& schema,
+                                   batch::Shard shard);
+
+// Throws core::UserError (batch::StoreError where it is about the folder); a folder made for the
+// run is then removed again.
+OpenedRun OpenRun(const OpenRequest& request, const CampaignPlan& plan,
+                  const truth::RecordSchema& schema);
 
 }  // namespace rockyard::app

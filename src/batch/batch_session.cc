@@ -49,11 +49,8 @@ Progress ProgressOf(const WorkPlan& plan) {
 WorkPlan StoredPlan(const ResultStore& store, const BatchOptions& options) {
   std::vector<std::int64_t> planned;
   for (int cell = 0; cell < store.cells(); ++cell) planned.push_back(store.planned(cell));
-  WorkPlan plan(std::move(planned), {.rule = options.rule,
-                                     .allocation = options.allocation,
-                                     .budget = options.budget,
-                                     .order = options.order,
-                                     .shard = store.identity().shard});
+  WorkPlan plan(std::move(planned),
+                {.rule = options.rule, .order = options.order, .shard = store.identity().shard});
   plan.AddStored(store.Finished());
   return plan;
 }

@@ -30,8 +30,6 @@ struct BatchOptions {
   // Between two commits and two reports. With the time of a commit below one second.
   std::chrono::milliseconds interval{500};
   std::optional<StoppingRule> rule{};  // none: every planned trial
-  Allocation allocation = Allocation::kUniform;
-  std::optional<std::int64_t> budget{};  // of trials, all cells together; with a rule only
 };
 
 struct Progress {

@@ -59,7 +59,7 @@ ResultStore ResultStore::Create(const fs::path& folder, const CampaignIdentity& 
   try {
     ResultStore store(path, std::make_unique<SqliteDatabase>(path, Access::kCreate));
     PrepareToWrite(*store.database_);
-    WriteStoreHead(*store.database_, {identity, planned});
+    WriteStoreHead(*store.database_, {identity, planned, std::nullopt});
     store.identity_ = identity;
     store.planned_ = planned;
     return store;
@@ -105,6 +105,7 @@ ResultStore ResultStore::Read(const fs::path& folder) {
   StoreHead head = ReadStoreHead(*store.database_);
   store.identity_ = std::move(head.identity);
   store.planned_ = std::move(head.planned);
+  store.rule_ = head.rule;
   return store;
 }
 
@@ -114,6 +115,11 @@ void ResultStore::SetPlanned(int cell, std::int64_t planned) {
   SqliteStatement update = database_->Prepare("UPDATE cells SET planned = ? WHERE cell = ?");
   update.Bind(0, planned).Bind(1, static_cast<std::int64_t>(cell)).Step();
   planned_.at(static_cast<std::size_t>(cell)) = planned;
+}
+
+void ResultStore::SetRule(const std::optional<StoppingRule>& rule) {
+  WriteRule(*database_, rule);
+  rule_ = rule;
 }
 
 void ResultStore::Append(std::span<const CellRecord> records) {

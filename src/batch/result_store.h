@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "batch/campaign.h"
 #include "batch/campaign_differences.h"
+#include "batch/stopping_rule.h"
 #include "truth/record.h"
 
 namespace rockyard::batch {
@@ -60,6 +62,10 @@ class ResultStore {
 
   void SetPlanned(int cell, std::int64_t planned);
 
+  // The rule that ended, or will end, the cells; none: every planned trial is run.
+  const std::optional<StoppingRule>& rule() const { return rule_; }
+  void SetRule(const std::optional<StoppingRule>& rule);
+
   // Adds records in one transaction; all are durable when it returns, none when it throws. A trial
   // that is already there keeps its first record. Each record fits the schema or is a fault.
   void Append(std::span<const CellRecord> records);
@@ -81,6 +87,7 @@ class ResultStore {
   std::unique_ptr<SqliteDatabase> database_;
   CampaignIdentity identity_;
   std::vector<std::int64_t> planned_;
+  std::optional<StoppingRule> rule_;
 };
 
 // The records 0, 1, 2, ... up to the first trial that is missing: what rates may be computed from

@@ -21,6 +21,11 @@ std::string CreateTrialsSql(const truth::RecordSchema& schema) {
   return sql + ", PRIMARY KEY (campaign_cell, trial))";
 }
 
+void PutMeta(SqliteDatabase& database, std::string_view key, std::string_view value) {
+  SqliteStatement put = database.Prepare("INSERT OR REPLACE INTO meta VALUES (?, ?)");
+  put.Bind(0, key).Bind(1, value).Step();
+}
+
 std::string GetMeta(const SqliteDatabase& database, std::string_view key) {
   SqliteStatement get = database.Prepare("SELECT value FROM meta WHERE key = ?");
   if (!get.Bind(0, key).Step()) {
@@ -29,18 +34,18 @@ std::string GetMeta(const SqliteDatabase& database, std::string_view key) {
   return get.Text(0);
 }
 
-template <typename Integer>
-Integer ParseNumber(const SqliteDatabase& database, std::string_view key, const std::string& text) {
-  Integer value = 0;
+template <typename Number>
+Number ParseNumber(const SqliteDatabase& database, std::string_view key, const std::string& text) {
+  Number value = 0;
   const char* end = text.data() + text.size();
   const std::from_chars_result result = std::from_chars(text.data(), end, value);
   if (result.ec == std::errc{} && result.ptr == end && value >= 0) return value;
-  FailDamaged(database.path(), fmt::format("has {} = \"{}\", which is no count", key, text));
+  FailDamaged(database.path(), fmt::format("has {} = \"{}\", which is no such number", key, text));
 }
 
-template <typename Integer>
-Integer GetNumber(const SqliteDatabase& database, std::string_view key) {
-  return ParseNumber<Integer>(database, key, GetMeta(database, key));
+template <typename Number>
+Number GetNumber(const SqliteDatabase& database, std::string_view key) {
+  return ParseNumber<Number>(database, key, GetMeta(database, key));
 }
 
 void CreateTables(SqliteDatabase& database, const truth::RecordSchema& schema) {
@@ -103,7 +108,34 @@ Shard ReadShard(const SqliteDatabase& database) {
   return shard;
 }
 
+std::optional<StoppingRule> ReadRule(const SqliteDatabase& database) {
+  if (GetMeta(database, "rule") == "none") return std::nullopt;
+  const bool adaptive = GetMeta(database, "rule") == "adaptive";
+  const StoppingRule rule{
+      .half_width = GetNumber<double>(database, "rule_half_width"),
+      .max_trials = GetNumber<std::int64_t>(database, "rule_max_trials"),
+      .block = GetNumber<std::int64_t>(database, "rule_block"),
+      .confidence = GetNumber<double>(database, "rule_confidence"),
+      .allocation = adaptive ? Allocation::kAdaptive : Allocation::kUniform,
+      .budget = GetNumber<std::int64_t>(database, "rule_budget"),
+  };
+  if (rule.block < 1 || !(rule.confidence > 0.0 && rule.confidence < 1.0)) {
+    FailDamaged(database.path(), "has an impossible stopping rule");
+  }
+  return rule;
+}
+
 }  // namespace
+
+void WriteRule(SqliteDatabase& database, const std::optional<StoppingRule>& rule) {
+  if (!rule) return PutMeta(database, "rule", "none");
+  PutMeta(database, "rule_half_width", fmt::format("{}", rule->half_width));
+  PutMeta(database, "rule_max_trials", std::to_string(rule->max_trials));
+  PutMeta(database, "rule_block", std::to_string(rule->block));
+  PutMeta(database, "rule_confidence", fmt::format("{}", rule->confidence));
+  PutMeta(database, "rule_budget", std::to_string(rule->budget));
+  PutMeta(database, "rule", rule->allocation == Allocation::kAdaptive ? "adaptive" : "uniform");
+}
 
 std::string QuotedName(std::string_view name) {
   std::string quoted(1, '"');
@@ -112,11 +144,6 @@ std::string QuotedName(std::string_view name) {
     quoted += c;
   }
   return quoted + '"';
-}
-
-void PutMeta(SqliteDatabase& database, std::string_view key, std::string_view value) {
-  SqliteStatement put = database.Prepare("INSERT OR REPLACE INTO meta VALUES (?, ?)");
-  put.Bind(0, key).Bind(1, value).Step();
 }
 
 void WriteStoreHead(SqliteDatabase& database, const StoreHead& head) {
@@ -128,6 +155,7 @@ void WriteStoreHead(SqliteDatabase& database, const StoreHead& head) {
   PutMeta(database, "design", identity.design);
   PutMeta(database, "shard_index", std::to_string(identity.shard.index));
   PutMeta(database, "shard_count", std::to_string(identity.shard.count));
+  WriteRule(database, head.rule);
   database.Prepare("INSERT INTO builds VALUES (?)").Bind(0, identity.build).Step();
   InsertColumns(database, identity.schema);
   InsertCells(database, head);
@@ -151,6 +179,7 @@ StoreHead ReadStoreHead(const SqliteDatabase& database) {
     head.identity.schema.push_back({columns.Text(0), columns.Text(1), columns.Text(2)});
   }
   ReadCells(database, head);
+  head.rule = ReadRule(database);
   const std::vector<std::string> builds = ReadBuilds(database);
   if (!builds.empty()) head.identity.build = builds.front();
   return head;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 
 #include "batch/campaign.h"
 #include "batch/sqlite_database.h"
+#include "batch/stopping_rule.h"
 
 namespace rockyard::batch {
 
@@ -16,6 +18,7 @@ namespace rockyard::batch {
 struct StoreHead {
   CampaignIdentity identity;          // with the first of the builds
   std::vector<std::int64_t> planned;  // trials, by cell
+  std::optional<StoppingRule> rule;
 };
 
 // Makes every table, in one transaction.
@@ -27,7 +30,7 @@ StoreHead ReadStoreHead(const SqliteDatabase& database);
 // A name as SQL writes it, in double quotes.
 std::string QuotedName(std::string_view name);
 
-void PutMeta(SqliteDatabase& database, std::string_view key, std::string_view value);
+void WriteRule(SqliteDatabase& database, const std::optional<StoppingRule>& rule);
 
 std::vector<std::string> ReadBuilds(const SqliteDatabase& database);
 

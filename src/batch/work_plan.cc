@@ -24,7 +24,6 @@ WorkPlan::WorkPlan(std::vector<std::int64_t> planned, const PlanOptions& options
     : options_(options), cells_(planned.size()) {
   EXPECT(options.shard.index >= 1 && options.shard.index <= options.shard.count);
   EXPECT(!options.rule || (options.shard.whole() && options.rule->block >= 1));
-  EXPECT(options.rule || !options.budget);
   for (std::size_t i = 0; i < planned.size(); ++i) {
     EXPECT(planned[i] >= 0);
     cells_[i].planned = planned[i];
@@ -92,7 +91,7 @@ void WorkPlan::Decide(Cell& cell) const {
     state.end = CellEnd::kPrecise;
   } else if (state.asked == cell.planned) {
     state.end = CellEnd::kPlanned;
-  } else if (options_.budget && asked_ >= *options_.budget) {
+  } else if (options_.rule->budget > 0 && asked_ >= options_.rule->budget) {
     state.end = CellEnd::kBudget;
   }
 }
@@ -102,7 +101,7 @@ std::vector<int> WorkPlan::CellsOfNextRound() const {
   for (int cell = 0; cell < cells(); ++cell) {
     if (state(cell).end == CellEnd::kOpen) open.push_back(cell);
   }
-  if (options_.allocation == Allocation::kUniform) return open;
+  if (options_.rule->allocation == Allocation::kUniform) return open;
   std::stable_sort(open.begin(), open.end(), [this](int first, int second) {
     return state(first).half_width() > state(second).half_width();
   });
@@ -113,7 +112,8 @@ std::vector<int> WorkPlan::CellsOfNextRound() const {
 void WorkPlan::AddRange(int cell, std::int64_t trials) {
   Cell& at = cells_[static_cast<std::size_t>(cell)];
   std::int64_t to = std::min(at.state.asked + trials, at.planned);
-  if (options_.budget) to = std::min(to, at.state.asked + *options_.budget - asked_);
+  const std::int64_t budget = options_.rule ? options_.rule->budget : 0;
+  if (budget > 0) to = std::min(to, at.state.asked + budget - asked_);
   if (to <= at.state.asked) return;
   const Range range{cell, at.state.asked, to};
   asked_ += to - at.state.asked;

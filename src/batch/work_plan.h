@@ -8,6 +8,7 @@
 
 #include "batch/campaign.h"
 #include "batch/prefix_counter.h"
+#include "batch/stopping_rule.h"
 #include "statistics/proportions.h"
 
 namespace rockyard::batch {
@@ -16,24 +17,8 @@ namespace rockyard::batch {
 // that.
 enum class Order { kNatural, kShuffled };
 
-// A cell ends at the first block end where the confidence sequence of its declared success
-// (statistics/confidence_sequence.h) has at most this half-width. Simulator faults enter no rate.
-struct StoppingRule {
-  double half_width = 0.02;
-  std::int64_t block = 100;  // trials between two decisions
-  double confidence = 0.95;
-};
-
-// Who gets the blocks of a round.
-enum class Allocation {
-  kUniform,   // every cell that has not ended gets one
-  kAdaptive,  // the half of them (rounded up) with the widest sequences; at a tie the first
-};
-
 struct PlanOptions {
   std::optional<StoppingRule> rule{};  // none: every planned trial runs, in one round
-  Allocation allocation = Allocation::kUniform;
-  std::optional<std::int64_t> budget{};  // of trials, all cells together; with a rule only
   Order order = Order::kNatural;
   Shard shard{};
 };

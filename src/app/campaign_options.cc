@@ -1,0 +1,139 @@
+#include "app/campaign_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <string_view>
+
+#include "core/error.h"
+
+namespace rockyard::app {
+namespace {
+
+constexpr int kMostShards = 1'000'000;
+
+bool ParseNumber(std::string_view text, int& number) {
+  const char* end = text.data() + text.size();
+  const std::from_chars_result result = std::from_chars(text.data(), end, number);
+  return result.ec == std::errc{} && result.ptr == end;
+}
+
+void AddPlanOptions(CLI::App& command, CampaignOptions& options) {
+  CLI::Option* trials = command
+                            .add_option("--trials", options.trials,
+                                        "number of trials (of each cell), those stored included")
+                            ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}));
+  CLI::Option* until =
+      command
+          .add_option("--until-half-width", options.until_half_width,
+                      "run until the confidence sequence (95 %, valid at any time) of declared "
+                      "success is that narrow, e.g. 0.02")
+          ->check(CLI::Range(0.0005, 0.5))
+          ->excludes(trials);
+  command.add_option("--max-trials", options.rule.max_trials, "most trials (of each cell) of that")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}))
+      ->capture_default_str()
+      ->needs(until);
+  command.add_option("--block", options.rule.block, "trials between two looks of that")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str()
+      ->needs(until);
+  command
+      .add_option("--allocate", options.allocate,
+                  "which cells get the next blocks of that: all (uniform), or the half of them "
+                  "with the widest sequences (adaptive)")
+      ->check(CLI::IsMember({"uniform", "adaptive"}))
+      ->capture_default_str()
+      ->needs(until);
+  command
+      .add_option("--budget", options.rule.budget,
+                  "most trials of all cells together (default: no limit)")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000'000}))
+      ->needs(until);
+  command
+      .add_option("--shard", options.shard_text,
+                  "I/N: only the I-th of N parts of the trials; `rockyard merge` puts the parts "
+                  "together")
+      ->excludes(until);
+  command.add_option("--seed", options.seed, "seed of every random stream");
+  command.add_option("--set", options.overrides, "PATH=VALUE: changes the scenario; repeat")
+      ->allow_extra_args(false);
+}
+
+void AddFolderOptions(CLI::App& command, CampaignOptions& options) {
+  command.add_option("--out", options.out, "run folder (default: results/runs/<name>-seed<seed>)");
+  command.add_flag("--resume", options.resume,
+                   "go on with the run in the folder; a larger --trials extends it");
+  command.add_flag("--force", options.force,
+                   "set a run in the folder aside (nothing is deleted) and start anew; with "
+                   "--resume only where it cannot go on");
+  command.add_flag("--any-build", options.any_build,
+                   "let --resume mix trials of different builds of the program");
+  command.add_flag("--dry-run", options.dry_run,
+                   "say what would be done and what it would cost; run and write nothing else");
+}
+
+void AddProcessOptions(CLI::App& command, CampaignOptions& options) {
+  command.add_option("--threads", options.threads, "threads (default: all of the machine)")
+      ->check(CLI::Range(1, 4096));
+  command
+      .add_option("--max-faults", options.max_fault_fraction,
+                  "fraction of simulator faults above which the run fails")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command.add_flag("--no-supervisor", options.no_supervisor,
+                   "one process: a crash of the simulator ends the run");
+  command
+      .add_option("--trial-cpu-limit", options.trial_cpu_limit_s,
+                  "CPU seconds after which a trial is taken to hang; 0: none")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  CLI::Option* json =
+      command.add_flag("--json", options.json, "print summary.json instead of the table");
+  command.add_flag("--quiet", options.quiet, "print nothing but errors")->excludes(json);
+}
+
+}  // namespace
+
+Output CampaignOptions::output() const {
+  if (json) return Output::kJson;
+  return quiet ? Output::kQuiet : Output::kText;
+}
+
+ExistingRun CampaignOptions::existing() const {
+  if (resume) return force ? ExistingRun::kResumeOrSetAside : ExistingRun::kResume;
+  return force ? ExistingRun::kSetAside : ExistingRun::kRefuse;
+}
+
+std::optional<batch::StoppingRule> CampaignOptions::stopping_rule() const {
+  if (until_half_width <= 0.0) return std::nullopt;
+  batch::StoppingRule wanted = rule;
+  wanted.half_width = until_half_width;
+  wanted.allocation =
+      allocate == "adaptive" ? batch::Allocation::kAdaptive : batch::Allocation::kUniform;
+  return wanted;
+}
+
+batch::Shard CampaignOptions::shard() const {
+  if (shard_text.empty()) return {};
+  const std::size_t slash = shard_text.find('/');
+  const std::string_view text = shard_text;
+  batch::Shard shard;
+  const bool numbers = slash != std::string::npos &&
+                       ParseNumber(text.substr(0, slash), shard.index) &&
+                       ParseNumber(text.substr(slash + 1), shard.count);
+  if (!numbers || shard.index < 1 || shard.index > shard.count || shard.count > kMostShards) {
+    throw core::UserError("--shard", fmt::format("\"{}\" is no part of a campaign", shard_text),
+                          "use I/N with 1 <= I <= N, e.g. 1/4");
+  }
+  return shard;
+}
+
+void AddCampaignOptions(CLI::App& command, CampaignOptions& options) {
+  AddPlanOptions(command, options);
+  AddFolderOptions(command, options);
+  AddProcessOptions(command, options);
+}
+
+}  // namespace rockyard::app

@@ -1,0 +1,160 @@
+#include "app/run_campaign.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/campaign_process.h"
+#include "app/console.h"
+#include "app/progress_line.h"
+#include "core/error.h"
+#include "experiments/experiment.h"
+
+namespace rockyard::app {
+namespace {
+
+// The experiments of a plan, one per cell.
+class PlannedWork {
+ public:
+  explicit PlannedWork(const CampaignPlan& plan) {
+    for (const CampaignCell& cell : plan.cells) {
+      experiments_.push_back(experiments::MakeExperiment(cell.scenario));
+      work_.push_back({experiments_.back().get(), static_cast<std::uint64_t>(cell.scenario.seed)});
+    }
+  }
+
+  std::span<const batch::CellWork> work() const { return work_; }
+  const truth::RecordSchema& schema() const { return experiments_.front()->schema(); }
+
+ private:
+  std::vector<std::unique_ptr<experiments::Experiment>> experiments_;
+  std::vector<batch::CellWork> work_;
+};
+
+bool SameColumns(const truth::RecordSchema& first, const truth::RecordSchema& second) {
+  if (first.size() != second.size()) return false;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (first[i].name != second[i].name) return false;
+  }
+  return true;
+}
+
+std::string Label(const CampaignCell& cell) {
+  return cell.name.empty() ? "scenario" : fmt::format("cell {}", cell.name);
+}
+
+void CheckColumns(const CampaignPlan& plan, const PlannedWork& work) {
+  for (std::size_t i = 1; i < plan.cells.size(); ++i) {
+    if (SameColumns(work.work()[i].experiment->schema(), work.schema())) continue;
+    throw core::UserError(Label(plan.cells[i]),
+                          fmt::format("measures other things than {}", Label(plan.cells[0])),
+                          "make a campaign of one experiment and study");
+  }
+}
+
+batch::BatchResult RunTrials(std::span<const batch::CellWork> work, OpenedRun& run,
+                             const CampaignOptions& options, CampaignProcess& process) {
+  batch::BatchOptions batch;
+  batch.max_fault_fraction = options.max_fault_fraction;
+  batch.rule = run.store.rule();
+  if (options.output() == Output::kQuiet) return process.RunTrials(work, run.store, batch);
+  ProgressLine line(stderr);
+  const batch::BatchResult result = process.RunTrials(
+      work, run.store, batch, [&](const batch::Progress& progress) { line.Show(progress); });
+  line.Finish(result.progress);
+  return result;
+}
+
+ExitCode Judge(const OpenedRun& run, const batch::BatchResult& result,
+               const CampaignOptions& options) {
+  const batch::Progress& progress = result.progress;
+  if (result.end == batch::BatchEnd::kStopped) {
+    PrintNote(fmt::format(
+        "interrupted: {} of {} trials are stored; go on with the same command and --resume",
+        progress.finished, progress.planned));
+    return ExitCode::kInterrupted;
+  }
+  if (!result.too_many_faults) return ExitCode::kDone;
+  PrintProblems(
+      {{run.folder.string(),
+        fmt::format("{} of {} trials ended in a simulator fault, more than {} %", progress.faults,
+                    progress.finished, 100.0 * options.max_fault_fraction),
+        "trials.csv names seed and trial of each: look there for the reason"}});
+  return ExitCode::kTooManyFaults;
+}
+
+// What fails from here on is no bad input: trials have been run, and are stored.
+ExitCode RunAndReport(std::span<const batch::CellWork> work, OpenedRun& run,
+                      const CampaignOptions& options, CampaignProcess& process,
+                      const CampaignReporter& reporter) {
+  try {
+    if (!process.whole()) return process.DoTask(work, run.store);
+    const batch::BatchResult result = RunTrials(work, run, options, process);
+    reporter(run, result);
+    if (process.TellLeftOut(run.store)) return ExitCode::kFailed;
+    return Judge(run, result, options);
+  } catch (const core::UserError& error) {
+    PrintProblems(error.problems());
+    return ExitCode::kFailed;
+  }
+}
+
+ExitCode RunInProcess(const CampaignOptions& options, const CampaignPlanner& planner,
+                      const CampaignReporter& reporter, CampaignProcess& process) {
+  const CampaignPlan plan = planner();
+  CheckPlan(options, plan);
+  const PlannedWork work(plan);
+  CheckColumns(plan, work);
+  OpenRequest request = RequestOf(options, plan);
+  if (!process.begins()) request.existing = ExistingRun::kResume;
+  OpenedRun run = OpenRun(request, plan, work.schema());
+  if (options.output() != Output::kQuiet && process.begins()) {
+    for (const std::string& note : run.notes) PrintNote(note);
+  }
+  return RunAndReport(work.work(), run, options, process, reporter);
+}
+
+}  // namespace
+
+void CheckPlan(const CampaignOptions& options, const CampaignPlan& plan) {
+  if (!options.stopping_rule()) return;
+  std::vector<core::Problem> problems;
+  for (const CampaignCell& cell : plan.cells) {
+    if (cell.scenario.experiment != scenario::ExperimentKind::kDrive) {
+      problems.push_back({"--until-half-width",
+                          fmt::format("needs drives, and {} measures", Label(cell)),
+                          "say how many trials to run with --trials"});
+    } else if (cell.scenario.course.trials_per_layout > 1) {
+      problems.push_back(
+          {"--until-half-width",
+           fmt::format("needs independent trials, and in {} {} trials share a layout of rocks",
+                       Label(cell), cell.scenario.course.trials_per_layout),
+           "set course.trials_per_layout=1, or say how many trials to run with --trials"});
+    }
+  }
+  if (!problems.empty()) throw core::UserError(std::move(problems));
+}
+
+OpenRequest RequestOf(const CampaignOptions& options, const CampaignPlan& plan) {
+  return {.folder = options.out.empty() ? plan.folder : std::filesystem::path(options.out),
+          .existing = options.existing(),
+          .build = options.any_build ? batch::BuildPolicy::kAny : batch::BuildPolicy::kSame,
+          .trials_given = options.trials.has_value(),
+          .rule = options.stopping_rule(),
+          .shard = options.shard()};
+}
+
+ExitCode RunCampaign(const CampaignOptions& options, const CampaignPlanner& planner,
+                     const CampaignReporter& reporter) {
+  const ContainmentOptions containment{.supervisor = !options.no_supervisor,
+                                       .trial_cpu_limit_s = options.trial_cpu_limit_s,
+                                       .threads = options.threads};
+  return RunContained(containment, [&](CampaignProcess& process) {
+    return RunInProcess(options, planner, reporter, process);
+  });
+}
+
+}  // namespace rockyard::app
