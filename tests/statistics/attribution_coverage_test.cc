@@ -1,0 +1,67 @@
+// Whether intervals of Shapley shares and interactions hold the truth as often as they say.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "core/random.h"
+#include "statistics/attribution.h"
+
+namespace rockyard::statistics {
+namespace {
+
+constexpr std::size_t kTrials = 150;
+constexpr int kCampaigns = 2000;
+
+// A trial fails where u < 0.25 unless a is perfect, or where w < 0.10 unless both are perfect; u
+// and w are independent and the same in all four combinations.
+FactorialFailures Draw(std::uint32_t campaign) {
+  FactorialFailures failures{{"a", "b"}, std::vector<std::vector<std::uint8_t>>(4)};
+  core::RandomStream stream({11, campaign}, core::Purpose::kTest);
+  for (std::size_t t = 0; t < kTrials; ++t) {
+    const bool first = stream.Uniform() < 0.25;
+    const bool second = stream.Uniform() < 0.10;
+    for (Combination c = 0; c < 4; ++c) {
+      failures.failed[c].push_back((first && (c & 1U) == 0) || (second && c != 3U) ? 1 : 0);
+    }
+  }
+  return failures;
+}
+
+// P(fail) by inclusion and exclusion.
+constexpr std::array<double, 4> kTruth{0.25 + 0.10 - 0.025, 0.10, 0.25 + 0.10 - 0.025, 0.0};
+
+double Coverage(const Contrast& contrast, double confidence) {
+  double truth = 0.0;
+  for (std::size_t c = 0; c < 4; ++c) truth += contrast.weights[c] * kTruth[c];
+  int held = 0;
+  for (std::uint32_t campaign = 0; campaign < kCampaigns; ++campaign) {
+    const Interval interval = Estimated(Draw(campaign), contrast, confidence).interval;
+    if (interval.low <= truth && truth <= interval.high) ++held;
+  }
+  return static_cast<double>(held) / kCampaigns;
+}
+
+// Simulated coverage lies within four standard errors (0.0049 each) of what a near-nominal method
+// may have: 0.935 to 0.97. A sound method leaves that once in some 10^4 sets of seeds.
+bool IsNearNominal(double coverage) {
+  const double slack = 4.0 * std::sqrt(0.95 * 0.05 / kCampaigns);
+  return coverage > 0.935 - slack && coverage < 0.97 + slack;
+}
+
+TEST(AttributionCoverageTest, SharesAndInteractionsAreCoveredAsStated) {
+  for (const Contrast& contrast :
+       {ShapleyShare(2, 0), ShapleyShare(2, 1), FactorialEffect(2, 3), Removed(2, 3)}) {
+    const double coverage = Coverage(contrast, 0.95);
+    EXPECT_TRUE(IsNearNominal(coverage)) << coverage;
+  }
+}
+
+// Negative control: intervals of 80 % do not pass for such of 95 %.
+TEST(AttributionCoverageTest, NarrowerIntervalsAreFoundOut) {
+  EXPECT_FALSE(IsNearNominal(Coverage(ShapleyShare(2, 0), 0.80)));
+}
+
+}  // namespace
+}  // namespace rockyard::statistics
