@@ -51,8 +51,8 @@ std::string SweepText(const scenario::Sweep& sweep, const SweepSummary& summary,
                       const SweepDescription& description, TextStyle style);
 
 // summary.json of a sweep: schema_version, kind "sweep", name, design, seed, common_random_numbers,
-// axes, trials (planned, stored, completed, faults), cells, fits, differences, notes, trial_hash,
-// provenance. What is undefined or infinite is null.
+// axes, trials (planned, stored, completed, faults), cells, fits, differences, attribution, notes,
+// trial_hash, provenance. What is undefined or infinite is null.
 std::string SweepJson(const scenario::Sweep& sweep, const SweepSummary& summary,
                       const SweepDescription& description);
 

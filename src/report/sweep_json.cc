@@ -140,6 +140,7 @@ std::string SweepJson(const Sweep& sweep, const SweepSummary& summary,
                      {"cells", cells},
                      {"fits", fits},
                      {"differences", differences},
+                     {"attribution", Json::parse(AttributionJson(summary.attributions))},
                      {"notes", summary.notes},
                      {"trial_hash", description.trial_hash},
                      {"provenance",
@@ -159,6 +160,9 @@ void WriteSweepFiles(const std::filesystem::path& folder, const Sweep& sweep,
   WriteFileAtomically(folder / "fit.csv", SweepFitCsv(summary));
   WriteFileAtomically(folder / "fits.csv", SweepFitsCsv(summary));
   WriteFileAtomically(folder / "differences.csv", SweepDifferencesCsv(summary));
+  if (!summary.attributions.empty()) {
+    WriteFileAtomically(folder / "attribution.csv", AttributionCsv(summary.attributions));
+  }
   const std::string drawing = SweepSvg(sweep, summary);
   if (!drawing.empty()) WriteFileAtomically(folder / "success.svg", drawing);
   WriteFileAtomically(folder / "summary.json", SweepJson(sweep, summary, description));

@@ -208,6 +208,7 @@ SweepSummary SummarizeSweep(const Sweep& sweep, const SweepCellLoader& load,
   }
   summary.curves = Curves(sweep, summary.cells);
   summary.differences = Comparer(sweep, outcomes).Compare();
+  summary.attributions = AttributeSweep(sweep, outcomes);
   summary.notes = EqualCells(sweep, summary.cells);
   return summary;
 }

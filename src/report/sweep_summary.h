@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "report/attribution.h"
 #include "report/paired_comparison.h"
 #include "scenario/sweep.h"
 #include "statistics/logistic_fit.h"
@@ -81,6 +82,7 @@ struct SweepSummary {
   std::vector<SweepCellSummary> cells;  // as those of the sweep
   std::vector<SweepCurve> curves;       // of grids with a numeric axis
   std::vector<SweepDifference> differences;
+  std::vector<SweepAttribution> attributions;  // of sweeps along ablations
   std::vector<std::string> notes;  // cells whose trials are equal: a setting without effect
 };
 

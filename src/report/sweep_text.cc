@@ -180,7 +180,8 @@ std::string Differences(const SweepSummary& summary) {
 std::string SweepText(const Sweep& sweep, const SweepSummary& summary,
                       const SweepDescription& description, TextStyle style) {
   std::string text = Head(sweep, summary) + CellTable(sweep, summary, style) +
-                     Fits(sweep, summary) + Differences(summary);
+                     Fits(sweep, summary) + Differences(summary) +
+                     AttributionText(summary.attributions);
   for (const std::string& note : summary.notes) text += "  " + note + "\n";
   return text + fmt::format("  trial hash {}\n", description.trial_hash);
 }

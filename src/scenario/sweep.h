@@ -31,6 +31,7 @@ struct SweepAxis {
   std::string unit = "1";
   bool numeric = false;
   AxisScale scale = AxisScale::kLinear;
+  std::string ablation = {};  // that its second level applies; empty for any other axis
 };
 
 // Where a cell stands on an axis.

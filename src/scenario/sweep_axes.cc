@@ -112,6 +112,7 @@ void AxisReader::ReadScenarios(JsonValue& value, const std::string& path, AxisSp
 
 void AxisReader::ReadAblation(const AxisParams& params, AxisSpec& axis) {
   if (axis.axis.name.empty()) axis.axis.name = params.ablation;
+  axis.axis.ablation = params.ablation;
   axis.levels = {LevelSpec{.text = "off"}, LevelSpec{.text = "on"}};
   axis.levels[1].ablation = params.ablation;
 }

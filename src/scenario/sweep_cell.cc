@@ -8,6 +8,7 @@
 #include "core/json_file.h"
 #include "core/json_text.h"
 #include "math/angles.h"
+#include "scenario/ablations.h"
 #include "scenario/load.h"
 
 namespace rockyard::scenario {
@@ -84,6 +85,14 @@ JsonValue BaseOf(const SweepSpec& spec, const std::vector<LevelSpec>& levels) {
   return base == nullptr ? JsonValue::Object() : *base;
 }
 
+std::vector<std::string> AblationsOf(const std::vector<LevelSpec>& levels) {
+  std::vector<std::string> names;
+  for (const LevelSpec& level : levels) {
+    if (!level.ablation.empty()) names.push_back(level.ablation);
+  }
+  return names;
+}
+
 }  // namespace
 
 const JsonValue* FindPath(const JsonValue& document, std::string_view path) {
@@ -115,6 +124,10 @@ ResolvedCell ResolveCell(const SweepSpec& spec, const std::vector<LevelSpec>& le
     CheckScope(path, cell.problems);
     ReadBack(value, FindPath(cell.document, path), path, cell.problems);
   }
+  const std::vector<std::string> ablations = AblationsOf(levels);
+  if (ablations.empty()) return cell;
+  cell.scenario = WithAblations(cell.scenario, ablations).scenario;
+  cell.document = WriteScenario(cell.scenario);
   return cell;
 }
 

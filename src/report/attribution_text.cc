@@ -1,0 +1,96 @@
+#include <fmt/format.h>
+
+#include "report/attribution.h"
+#include "report/sweep_summary.h"
+
+namespace rockyard::report {
+namespace {
+
+using statistics::Attribution;
+using statistics::Estimate;
+
+constexpr std::size_t kNameWidth = 26;
+// Longer tables are for files.
+constexpr std::size_t kMostEffects = 15;
+
+std::string Cut(const std::string& text) {
+  return text.size() <= kNameWidth ? text : text.substr(0, kNameWidth - 3) + "...";
+}
+
+std::string Percent(const Estimate& estimate) {
+  return fmt::format("{:6.1f} ({:6.1f} ..{:6.1f})", 100.0 * estimate.value,
+                     100.0 * estimate.interval.low, 100.0 * estimate.interval.high);
+}
+
+std::string Percent(const statistics::Proportion& rate) {
+  return Percent(Estimate{rate.rate, rate.interval});
+}
+
+std::string Shares(const Attribution& result) {
+  std::string text = fmt::format("  {:<{}} {:<23} {:<23} {}\n", "made perfect removes, %",
+                                 kNameWidth, "Shapley share", "alone", "after all others");
+  for (const statistics::FunctionShare& row : result.shares) {
+    text += fmt::format("  {:<{}} {} {} {}\n", Cut(row.function), kNameWidth, Percent(row.share),
+                        Percent(row.first), Percent(row.last));
+  }
+  text += fmt::format("  {:<{}} {} {:6.1f}: these need not sum\n", "all of them", kNameWidth,
+                      Percent(result.removed), 100.0 * result.sum_of_firsts);
+  return text;
+}
+
+std::string Failures(const Attribution& result) {
+  return fmt::format("  {:<{}} {}\n  {:<{}} {}\n", "fail as flown, %", kNameWidth,
+                     Percent(result.failures.front()), "fail with all perfect, %", kNameWidth,
+                     Percent(result.remainder));
+}
+
+std::string Effects(const Attribution& result) {
+  std::string text =
+      "  effects on the failure probability, points of per cent (interactions: halved "
+      "differences)\n";
+  for (std::size_t i = 0; i < result.effects.size() && i < kMostEffects; ++i) {
+    const statistics::EffectOfSet& row = result.effects[i];
+    text += fmt::format("    {}  {}\n", Percent(row.effect),
+                        statistics::NameOf(row.set, result.functions).substr(0, 70));
+  }
+  return text;
+}
+
+std::string Combinations(const Attribution& result) {
+  std::string text = "  failures of each combination, %\n";
+  for (std::size_t c = 0; c < result.failures.size() && c <= kMostEffects; ++c) {
+    const auto set = static_cast<statistics::Combination>(c);
+    const std::string name = statistics::NameOf(set, result.functions, " + ");
+    text += fmt::format("    {}  {}\n", Percent(result.failures[c]), name.substr(0, 70));
+  }
+  return text;
+}
+
+std::string Table(const SweepAttribution& attribution, std::size_t kind) {
+  const Attribution& result = attribution.by_success[kind];
+  const std::string at = attribution.at.empty() ? "" : ", " + attribution.at;
+  std::string text = fmt::format("\nattribution of failures, {}{}: {} paired trials",
+                                 kSuccessNames[kind], at.substr(0, 40), result.trials);
+  if (attribution.left_out > 0) {
+    text += fmt::format(", {} with a fault left out", attribution.left_out);
+  }
+  text += "\n";
+  if (result.trials == 0) return text;
+  text += Failures(result) + Shares(result);
+  // The other definition of success gets the short table.
+  if (kind == static_cast<std::size_t>(SuccessKind::kDeclared)) return text;
+  return text + Effects(result) + Combinations(result);
+}
+
+}  // namespace
+
+std::string AttributionText(std::span<const SweepAttribution> attributions) {
+  std::string text;
+  for (const SweepAttribution& attribution : attributions) {
+    text += Table(attribution, static_cast<std::size_t>(SuccessKind::kTrue));
+    text += Table(attribution, static_cast<std::size_t>(SuccessKind::kDeclared));
+  }
+  return text;
+}
+
+}  // namespace rockyard::report
