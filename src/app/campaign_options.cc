@@ -20,10 +20,8 @@ bool ParseNumber(std::string_view text, int& number) {
 }
 
 void AddPlanOptions(CLI::App& command, CampaignOptions& options) {
-  CLI::Option* trials = command
-                            .add_option("--trials", options.trials,
-                                        "number of trials (of each cell), those stored included")
-                            ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}));
+  CLI::Option* trials = command.add_option(
+      "--trials", options.trials, "number of trials (of each cell), those stored included");
   CLI::Option* until =
       command
           .add_option("--until-half-width", options.until_half_width,

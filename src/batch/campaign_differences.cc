@@ -13,6 +13,7 @@ using core::Problem;
 
 // Each cell may differ in many places; the first few cells tell what has happened.
 constexpr std::size_t kCellsShown = 3;
+constexpr std::size_t kPathsShown = 12;
 
 std::string ColumnList(const truth::RecordSchema& schema) {
   std::string text;
@@ -20,16 +21,19 @@ std::string ColumnList(const truth::RecordSchema& schema) {
   return text;
 }
 
-std::vector<Problem> CellDifferences(const CellIdentity& stored, const CellIdentity& wanted) {
+std::vector<Problem> CellDifferences(const CellIdentity& stored, const CellIdentity& wanted,
+                                     const DifferenceWords& words) {
   std::vector<Problem> problems;
   if (stored.fingerprint != wanted.fingerprint) {
-    problems = ScenarioDifferences(stored.resolved, wanted.resolved);
+    problems = ScenarioDifferences(stored.resolved, wanted.resolved, kPathsShown, words);
     if (problems.empty()) problems.push_back({"scenario", "has another fingerprint", ""});
   }
   const auto has_seed = [](const Problem& problem) { return problem.path == "seed"; };
   if (stored.seed != wanted.seed && std::none_of(problems.begin(), problems.end(), has_seed)) {
     problems.push_back(
-        {"seed", fmt::format("is {} in the stored run and {} now", stored.seed, wanted.seed), ""});
+        {"seed",
+         fmt::format("is {} {} and {} {}", stored.seed, words.first, wanted.seed, words.second),
+         ""});
   }
   if (stored.name != wanted.name) {
     problems.push_back(
@@ -43,7 +47,7 @@ std::vector<Problem> CellDifferences(const CellIdentity& stored, const CellIdent
 }
 
 void AddCells(const CampaignIdentity& stored, const CampaignIdentity& wanted,
-              std::vector<Problem>& problems) {
+              const DifferenceWords& words, std::vector<Problem>& problems) {
   if (stored.cells.size() != wanted.cells.size()) {
     problems.push_back({"cells",
                         fmt::format("are {} in the stored campaign and {} now", stored.cells.size(),
@@ -53,7 +57,7 @@ void AddCells(const CampaignIdentity& stored, const CampaignIdentity& wanted,
   }
   std::size_t differing = 0;
   for (std::size_t i = 0; i < stored.cells.size(); ++i) {
-    const std::vector<Problem> found = CellDifferences(stored.cells[i], wanted.cells[i]);
+    const std::vector<Problem> found = CellDifferences(stored.cells[i], wanted.cells[i], words);
     if (found.empty() || ++differing > kCellsShown) continue;
     problems.insert(problems.end(), found.begin(), found.end());
   }
@@ -66,18 +70,20 @@ void AddCells(const CampaignIdentity& stored, const CampaignIdentity& wanted,
 
 std::vector<Problem> CampaignDifferences(const CampaignIdentity& stored,
                                          const CampaignIdentity& wanted,
-                                         const std::vector<std::string>& builds,
-                                         BuildPolicy policy) {
+                                         const std::vector<std::string>& builds, BuildPolicy policy,
+                                         const DifferenceWords& words) {
   std::vector<Problem> problems;
-  AddCells(stored, wanted, problems);
+  AddCells(stored, wanted, words, problems);
   if (ColumnList(stored.schema) != ColumnList(wanted.schema)) {
     problems.push_back({"columns", "of the records differ: the program has changed", ""});
   }
   for (const std::string& build : builds) {
     if (policy == BuildPolicy::kAny || build == wanted.build) continue;
-    problems.push_back({"build", fmt::format("was \"{}\", is \"{}\" now", build, wanted.build),
-                        "add --any-build to go on all the same: records may differ in their last "
-                        "bits or more"});
+    problems.push_back(
+        {"build",
+         fmt::format("is \"{}\" {} and \"{}\" {}", build, words.first, wanted.build, words.second),
+         "add --any-build to mix them all the same: records may differ in their "
+         "last bits or more"});
   }
   return problems;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "batch/campaign.h"
+#include "batch/scenario_difference.h"
 #include "core/error.h"
 
 namespace rockyard::batch {
@@ -19,6 +20,7 @@ enum class BuildPolicy { kSame, kAny };
 std::vector<core::Problem> CampaignDifferences(const CampaignIdentity& stored,
                                                const CampaignIdentity& wanted,
                                                const std::vector<std::string>& builds,
-                                               BuildPolicy policy);
+                                               BuildPolicy policy,
+                                               const DifferenceWords& words = {});
 
 }  // namespace rockyard::batch

@@ -82,8 +82,7 @@ ResultStore ResultStore::Resume(const fs::path& folder, const CampaignIdentity& 
   CheckIdentity(store.path_, store.identity_, identity, store.Builds(), policy);
   store.database_ = std::make_unique<SqliteDatabase>(store.path_, Access::kChange);
   PrepareToWrite(*store.database_);
-  SqliteStatement build = store.database_->Prepare("INSERT OR IGNORE INTO builds VALUES (?)");
-  build.Bind(0, identity.build).Step();
+  store.AddBuild(identity.build);
   store.identity_ = identity;
   return store;
 }
@@ -110,6 +109,10 @@ ResultStore ResultStore::Read(const fs::path& folder) {
 }
 
 std::vector<std::string> ResultStore::Builds() const { return ReadBuilds(*database_); }
+
+void ResultStore::AddBuild(std::string_view build) {
+  database_->Prepare("INSERT OR IGNORE INTO builds VALUES (?)").Bind(0, build).Step();
+}
 
 void ResultStore::SetPlanned(int cell, std::int64_t planned) {
   SqliteStatement update = database_->Prepare("UPDATE cells SET planned = ? WHERE cell = ?");

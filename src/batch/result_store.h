@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "batch/campaign.h"
@@ -59,6 +60,9 @@ class ResultStore {
   // Trials of the whole cell, also where this is a shard of it.
   std::int64_t planned(int cell = 0) const { return planned_.at(static_cast<std::size_t>(cell)); }
   std::vector<std::string> Builds() const;
+
+  // Another build that wrote some of the trials.
+  void AddBuild(std::string_view build);
 
   void SetPlanned(int cell, std::int64_t planned);
 

@@ -82,7 +82,7 @@ std::vector<ScenarioDifference> FindScenarioDifferences(std::string_view first,
 }
 
 std::vector<core::Problem> ScenarioDifferences(std::string_view stored, std::string_view wanted,
-                                               std::size_t limit) {
+                                               std::size_t limit, const DifferenceWords& words) {
   std::vector<core::Problem> problems;
   try {
     const std::vector<ScenarioDifference> found = FindScenarioDifferences(stored, wanted);
@@ -93,7 +93,7 @@ std::vector<core::Problem> ScenarioDifferences(std::string_view stored, std::str
         break;
       }
       const std::string reason =
-          fmt::format("is {} in the stored run and {} now", each.first, each.second);
+          fmt::format("is {} {} and {} {}", each.first, words.first, each.second, words.second);
       problems.push_back({each.path, reason, ""});
     }
   } catch (const core::UserError& error) {

@@ -21,11 +21,18 @@ struct ScenarioDifference {
 std::vector<ScenarioDifference> FindScenarioDifferences(std::string_view first,
                                                         std::string_view second);
 
+// Where the two values of a difference are found, for messages.
+struct DifferenceWords {
+  std::string_view first = "in the stored run";
+  std::string_view second = "now";
+};
+
 // The same as problems of a run that is to be resumed: one entry per JSON path whose value differs,
 // e.g. "terrain.rocks.k_per_m2: is 0.00415 in the stored run and 0.013 now". At most `limit`
 // entries, then one that counts the rest. Both are JSON texts; what is none gives one entry that
 // says so.
 std::vector<core::Problem> ScenarioDifferences(std::string_view stored, std::string_view wanted,
-                                               std::size_t limit = 12);
+                                               std::size_t limit = 12,
+                                               const DifferenceWords& words = {});
 
 }  // namespace rockyard::batch

@@ -182,7 +182,7 @@ TEST(ResumeMismatch, NamesEveryDifference) {
   const std::string text = error->what();
   EXPECT_THAT(text, HasSubstr("terrain.k: is 0.00415 in the stored run and 0.013 now"));
   EXPECT_THAT(text, HasSubstr("seed: is 1 in the stored run and 5 now"));
-  EXPECT_THAT(text, HasSubstr("build: was \"0.1.0 abc\", is \"0.2.0 def\" now"));
+  EXPECT_THAT(text, HasSubstr("build: is \"0.1.0 abc\" in the stored run and \"0.2.0 def\" now"));
   EXPECT_THAT(text, testing::Not(HasSubstr("trials: ")));
 }
 

@@ -1,0 +1,172 @@
+#include "batch/merge_shards.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "batch/result_store.h"
+#include "batch/run_folder.h"
+#include "batch/store_error.h"
+
+namespace rockyard::batch {
+namespace {
+
+namespace fs = std::filesystem;
+using core::Problem;
+
+struct Part {
+  fs::path folder;
+  ResultStore store;
+};
+
+std::string ShardName(const Shard& shard) {
+  return fmt::format("shard {}/{}", shard.index, shard.count);
+}
+
+// Whatever is wrong with the parts, all at once.
+class Inspector {
+ public:
+  Inspector(const std::vector<Part>& parts, const MergeOptions& options)
+      : parts_(parts), options_(options) {}
+
+  std::vector<Problem> Problems() {
+    for (const Part& part : parts_) Inspect(part);
+    for (std::size_t i = 0; i < folders_.size() && !options_.partial; ++i) {
+      if (folders_[i].empty()) missing_.push_back(fmt::format("{}/{}", i + 1, folders_.size()));
+    }
+    if (!missing_.empty() && problems_.empty()) {
+      Add(fmt::format("shards of {}", First().folder.string()),
+          fmt::format("are missing: {}", fmt::join(missing_, ", ")),
+          "name their folders too, or take what there is with --partial");
+    }
+    return std::move(problems_);
+  }
+
+ private:
+  const Part& First() const { return parts_.front(); }
+
+  void Add(std::string path, std::string reason, std::string suggestion) {
+    problems_.push_back({std::move(path), std::move(reason), std::move(suggestion)});
+  }
+
+  void Inspect(const Part& part) {
+    const Shard& shard = part.store.identity().shard;
+    if (shard.whole()) {
+      Add(part.folder.string(), "holds a whole campaign, not a shard",
+          "name folders that were made with --shard I/N");
+      return;
+    }
+    if (&part != &First() && !BelongsToFirst(part)) return;
+    folders_.resize(static_cast<std::size_t>(shard.count));
+    std::string& owner = folders_[static_cast<std::size_t>(shard.index - 1)];
+    if (!owner.empty()) {
+      Add(part.folder.string(), fmt::format("holds {}, and so does {}", ShardName(shard), owner),
+          "name each shard once");
+    }
+    owner = part.folder.string();
+    InspectTrials(part);
+  }
+
+  bool BelongsToFirst(const Part& part) {
+    const CampaignIdentity& first = First().store.identity();
+    const CampaignIdentity& own = part.store.identity();
+    std::vector<Problem> found =
+        CampaignDifferences(own, first, part.store.Builds(), options_.build,
+                            {.first = "there", .second = "in the first shard"});
+    if (own.shard.count != first.shard.count) {
+      found.push_back({"shards",
+                       fmt::format("are {} there and {} in the first shard", own.shard.count,
+                                   first.shard.count),
+                       ""});
+    }
+    for (int cell = 0; found.empty() && cell < part.store.cells() && !options_.partial; ++cell) {
+      const std::int64_t there = part.store.planned(cell);
+      if (there == First().store.planned(cell)) continue;
+      found.push_back({"trials",
+                       fmt::format("planned are {} there and {} in the first shard", there,
+                                   First().store.planned(cell)),
+                       "run the shorter ones again with --resume and more --trials"});
+    }
+    if (found.empty()) return true;
+    Add(part.folder.string(),
+        fmt::format("does not go with the shard in {}", First().folder.string()), "");
+    problems_.insert(problems_.end(), found.begin(), found.end());
+    return false;
+  }
+
+  void InspectTrials(const Part& part) {
+    if (options_.partial) return;
+    std::int64_t planned = 0;
+    for (int cell = 0; cell < part.store.cells(); ++cell) {
+      planned += part.store.identity().shard.Share(part.store.planned(cell));
+    }
+    const auto finished = static_cast<std::int64_t>(part.store.Finished().size());
+    if (finished == planned) return;
+    Add(part.folder.string(), fmt::format("has {} of {} trials", finished, planned),
+        "finish it with --resume, or take what there is with --partial");
+  }
+
+  const std::vector<Part>& parts_;
+  const MergeOptions& options_;
+  std::vector<std::string> folders_;  // by shard
+  std::vector<std::string> missing_;
+  std::vector<Problem> problems_;
+};
+
+std::vector<std::int64_t> MostPlanned(const std::vector<Part>& parts) {
+  std::vector<std::int64_t> planned(static_cast<std::size_t>(parts.front().store.cells()), 0);
+  for (const Part& part : parts) {
+    for (int cell = 0; cell < part.store.cells(); ++cell) {
+      std::int64_t& most = planned[static_cast<std::size_t>(cell)];
+      most = std::max(most, part.store.planned(cell));
+    }
+  }
+  return planned;
+}
+
+void CopyTrials(const ResultStore& from, ResultStore& to) {
+  for (const std::string& build : from.Builds()) to.AddBuild(build);
+  for (int cell = 0; cell < from.cells(); ++cell) {
+    std::vector<CellRecord> rows;
+    for (truth::Record& record : from.Load(cell)) rows.push_back({cell, std::move(record)});
+    to.Append(rows);
+  }
+  for (const InfrastructureFault& fault : from.InfrastructureFaults()) {
+    to.AddInfrastructureFault(fault);
+  }
+}
+
+void WriteMerged(const std::vector<Part>& parts, const fs::path& out) {
+  CampaignIdentity identity = parts.front().store.identity();
+  identity.shard = {};
+  ResultStore merged = ResultStore::Create(out, identity, MostPlanned(parts));
+  for (const Part& part : parts) CopyTrials(part.store, merged);
+}
+
+}  // namespace
+
+void MergeShards(std::span<const fs::path> shards, const fs::path& out,
+                 const MergeOptions& options) {
+  std::error_code error;
+  if (fs::exists(out, error)) {
+    throw StoreError(StoreProblem::kExists, out.string(), "exists",
+                     "choose a new folder with --out");
+  }
+  std::vector<Part> parts;
+  for (const fs::path& folder : shards) parts.push_back({folder, ResultStore::Read(folder)});
+  std::vector<Problem> problems = Inspector(parts, options).Problems();
+  if (!problems.empty()) throw StoreError(StoreProblem::kMismatch, std::move(problems));
+  try {
+    const FolderClaim claim(out);
+    WriteMerged(parts, out);
+  } catch (...) {
+    // Half of a campaign must not be taken for all of it. Nothing else has been in the folder.
+    fs::remove_all(out, error);
+    throw;
+  }
+}
+
+}  // namespace rockyard::batch

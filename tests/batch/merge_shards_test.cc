@@ -1,0 +1,157 @@
+#include "batch/merge_shards.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "batch/executor.h"
+#include "batch/store_error.h"
+#include "batch/trial_hash.h"
+#include "fake_experiment.h"
+
+namespace rockyard::batch {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr std::int64_t kTrials = 50;
+const std::atomic<bool> kNeverStop = false;
+
+CampaignIdentity TwoCells(Shard shard = {}) {
+  CampaignIdentity identity = FakeIdentity();
+  identity.cells = {FakeCell(1, "a"), FakeCell(2, "b")};
+  identity.shard = shard;
+  return identity;
+}
+
+void RunAll(ResultStore& store) {
+  const FakeExperiment experiment;
+  std::vector<CellWork> work;
+  for (const CellIdentity& cell : store.identity().cells) work.push_back({&experiment, cell.seed});
+  RunBatch(work, store, {.threads = 2}, kNeverStop);
+}
+
+std::string HashOf(const fs::path& folder) {
+  const ResultStore store = ResultStore::Read(folder);
+  std::vector<CellHash> hashes;
+  for (int cell = 0; cell < store.cells(); ++cell) {
+    hashes.push_back(
+        {store.identity().cells[static_cast<std::size_t>(cell)].name, TrialHash(store.Load(cell))});
+  }
+  return CampaignHash(hashes);
+}
+
+class MergeTest : public testing::Test {
+ protected:
+  fs::path MakeShard(int index, int count, const CampaignIdentity& identity = TwoCells(),
+                     std::int64_t trials = kTrials) {
+    const fs::path path = folder_.path() / ("shard" + std::to_string(made_++));
+    fs::create_directories(path);
+    CampaignIdentity own = identity;
+    own.shard = {index, count};
+    ResultStore store = ResultStore::Create(path, own, trials);
+    RunAll(store);
+    return path;
+  }
+
+  std::string ErrorOf(const std::vector<fs::path>& shards, const MergeOptions& options = {}) {
+    try {
+      MergeShards(shards, Out(), options);
+    } catch (const StoreError& error) {
+      EXPECT_FALSE(fs::exists(Out())) << "nothing is left behind";
+      return error.what();
+    }
+    return "";
+  }
+
+  fs::path Out() const { return folder_.path() / "merged"; }
+
+  TemporaryFolder folder_;
+  int made_ = 0;
+};
+
+TEST_F(MergeTest, GivesTheHashOfOneMachine) {
+  const fs::path whole = folder_.path() / "whole";
+  fs::create_directories(whole);
+  ResultStore store = ResultStore::Create(whole, TwoCells(), kTrials);
+  RunAll(store);
+  // In any order.
+  const std::vector<fs::path> shards = {MakeShard(3, 4), MakeShard(1, 4), MakeShard(4, 4),
+                                        MakeShard(2, 4)};
+  MergeShards(shards, Out());
+  EXPECT_EQ(HashOf(Out()), HashOf(whole));
+  const ResultStore merged = ResultStore::Read(Out());
+  EXPECT_TRUE(merged.identity().shard.whole());
+  EXPECT_EQ(merged.planned(1), kTrials);
+  EXPECT_EQ(merged.Finished().size(), 2U * kTrials);
+}
+
+TEST_F(MergeTest, KeepsBuildsAndInfrastructureFaults) {
+  CampaignIdentity other = TwoCells();
+  other.build = "0.2.0 def";
+  const fs::path first = MakeShard(1, 2);
+  const fs::path second = MakeShard(2, 2, other);
+  {
+    CampaignIdentity own = other;
+    own.shard = {2, 2};
+    ResultStore::Resume(second, own).AddInfrastructureFault({{1, 7}, "cpu_time_limit", "slow"});
+  }
+  const std::vector<fs::path> shards = {first, second};
+  EXPECT_THAT(ErrorOf(shards), HasSubstr("0.2.0 def"));
+  MergeShards(shards, Out(), {.build = BuildPolicy::kAny});
+  const ResultStore merged = ResultStore::Read(Out());
+  EXPECT_THAT(merged.Builds(), testing::ElementsAre("0.1.0 abc", "0.2.0 def"));
+  ASSERT_EQ(merged.InfrastructureFaults().size(), 1U);
+  EXPECT_EQ(merged.InfrastructureFaults()[0].id, (TrialId{1, 7}));
+}
+
+TEST_F(MergeTest, RefusesMissingAndRepeatedShards) {
+  const fs::path first = MakeShard(1, 3);
+  const fs::path third = MakeShard(3, 3);
+  EXPECT_THAT(ErrorOf({first, third}), HasSubstr("are missing: 2/3"));
+  EXPECT_THAT(ErrorOf({first, MakeShard(1, 3), third}), HasSubstr("shard 1/3, and so does"));
+  MergeShards(std::vector<fs::path>{first, third}, Out(), {.partial = true});
+  EXPECT_EQ(ResultStore::Read(Out()).Finished().size(), 2U * (17 + 16));
+}
+
+TEST_F(MergeTest, RefusesAShardThatLacksTrials) {
+  CampaignIdentity identity = TwoCells({2, 2});
+  const fs::path begun = folder_.path() / "begun";
+  fs::create_directories(begun);
+  ResultStore::Create(begun, identity, kTrials);
+  EXPECT_THAT(ErrorOf({MakeShard(1, 2), begun}), HasSubstr("has 0 of 50 trials"));
+}
+
+TEST_F(MergeTest, RefusesShardsOfDifferentCampaigns) {
+  CampaignIdentity other = TwoCells();
+  other.cells[1] = FakeCell(3, "b");
+  const std::string seeds = ErrorOf({MakeShard(1, 2), MakeShard(2, 2, other)});
+  EXPECT_THAT(seeds, HasSubstr("does not go with"));
+  EXPECT_THAT(seeds, HasSubstr("cell b: seed: is 3 there and 2 in the first shard"));
+  EXPECT_THAT(ErrorOf({MakeShard(1, 2), MakeShard(2, 3)}),
+              HasSubstr("are 3 there and 2 in the first shard"));
+  EXPECT_THAT(ErrorOf({MakeShard(1, 2), MakeShard(2, 2, TwoCells(), 60)}),
+              HasSubstr("planned are 60 there and 50"));
+  other = FakeIdentity();
+  EXPECT_THAT(ErrorOf({MakeShard(1, 2), MakeShard(2, 2, other)}), HasSubstr("cells: are 1 there and 2"));
+}
+
+TEST_F(MergeTest, RefusesWhatIsNoShardAndAFolderThatExists) {
+  const fs::path whole = MakeShard(1, 1);
+  EXPECT_THAT(ErrorOf({whole}), HasSubstr("holds a whole campaign"));
+  EXPECT_THAT(ErrorOf({folder_.path() / "nowhere"}), HasSubstr("does not exist"));
+  fs::create_directories(Out());
+  try {
+    MergeShards(std::vector<fs::path>{MakeShard(1, 2), MakeShard(2, 2)}, Out());
+    FAIL() << "nothing was thrown";
+  } catch (const StoreError& error) {
+    EXPECT_EQ(error.problem(), StoreProblem::kExists);
+  }
+  EXPECT_TRUE(fs::is_empty(Out()));
+}
+
+}  // namespace
+}  // namespace rockyard::batch
