@@ -1,0 +1,36 @@
+// A few trials of each cell of a sweep, to know what the campaign will cost.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scenario/sweep.h"
+
+namespace rockyard::app {
+
+// The pilots of one cell. Zero trials: it had none.
+struct PilotCost {
+  std::int64_t trials = 0;
+  double mean_s = 0.0;       // CPU time of a trial
+  double variance_s2 = 0.0;  // unbiased; 0 below two trials
+  double slowest_s = 0.0;
+  std::string hash;  // of the records
+};
+
+// Runs the first `trials` trials of every cell, of about a hundred evenly spread cells where there
+// are more, with the seed of the campaign. On this thread.
+std::vector<PilotCost> RunPilots(const scenario::Sweep& sweep, int trials);
+
+struct CampaignCost {
+  std::int64_t pilots = 0;
+  double total_s = 0.0;  // CPU time of every trial of every cell
+  // Of that: what the pilots leave open of each cell's mean, and the scatter of the trials. Of the
+  // cells with pilots; the others are taken to cost as much as the mean of these.
+  double standard_error_s = 0.0;
+  double slowest_s = 0.0;  // pilot
+};
+
+CampaignCost ExpectedCost(const scenario::Sweep& sweep, const std::vector<PilotCost>& pilots);
+
+}  // namespace rockyard::app

@@ -1,0 +1,25 @@
+// What a sweep would run, and what it would cost.
+#pragma once
+
+#include <filesystem>
+
+#include "app/campaign_options.h"
+#include "scenario/sweep.h"
+
+namespace rockyard::app {
+
+struct SweepPlanOptions {
+  std::filesystem::path folder;  // empty: results/runs/<name>-seed<seed>-plan
+  int pilots = 3;                // trials of each cell that are run for their cost; 0: none
+  Output output = Output::kText;
+};
+
+// Writes plan.json, plan.csv and cells/<number>-<name>.json (each resolved scenario) into the
+// folder, which must not exist, be empty, or hold a plan. Nothing that is measured of the pilots
+// but their CPU time is kept: they are no results. With a hundred cells or more only a hundred of
+// them, evenly spread, have pilots, which all use the seed of the campaign: cells whose pilots come
+// out equal to the last bit are named, since a setting that changes no trial has no effect. Throws
+// core::UserError where the folder cannot be used. Cost: the pilots, on one thread.
+void WriteSweepPlan(const scenario::Sweep& sweep, const SweepPlanOptions& options);
+
+}  // namespace rockyard::app
