@@ -11,11 +11,14 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/output_file.h"
+#include "app/regression_check.h"
 #include "app/run_source.h"
 #include "batch/run_folder.h"
 #include "core/error.h"
+#include "core/json_file.h"
 #include "core/json_text.h"
 #include "report/atomic_file.h"
+#include "report/baseline.h"
 #include "report/comparison_reference.h"
 #include "report/comparison_table.h"
 #include "statistics/published_comparison.h"
@@ -24,6 +27,8 @@ namespace rockyard::app {
 namespace {
 
 struct CheckOptions {
+  RegressionRequest regression;  // without runs and files
+  bool allow_scenario_change = false;
   std::vector<std::string> runs;
   std::string reference;
   std::string cell;
@@ -72,10 +77,38 @@ void NoteUnfinished(const StoredRun& run) {
   }
 }
 
+RegressionRequest Regression(const CheckOptions& options) {
+  RegressionRequest request = options.regression;
+  request.runs = options.runs;
+  request.junit = options.junit;
+  request.csv = options.csv;
+  if (options.allow_scenario_change) request.scenario_change = ScenarioChange::kAllow;
+  return request;
+}
+
+// Of the options for a baseline.
+void AddRegressionOptions(CLI::App& command, CheckOptions& options) {
+  command.add_flag("--allow-scenario-change", options.allow_scenario_change,
+                   "baseline: compare although settings differ");
+  command.add_flag("--all", options.regression.all_rows, "baseline: show equivalent metrics too");
+  command
+      .add_option("--alpha", options.regression.options.alpha,
+                  "baseline: chance of any false alarm in an unchanged build")
+      ->check(CLI::Range(1e-6, 0.2))
+      ->capture_default_str();
+  command
+      .add_option("--equivalence-alpha", options.regression.options.equivalence_alpha,
+                  "baseline: chance to call a metric equivalent that moved by its margin")
+      ->check(CLI::Range(1e-6, 0.2))
+      ->capture_default_str();
+}
+
 ExitCode Check(const CheckOptions& options) {
   CheckOutputFile("--junit", options.junit);
   CheckOutputFile("--csv", options.csv);
-  const statistics::PublishedReference reference = report::LoadReference(options.reference);
+  const core::JsonValue document = core::LoadJsonFile(options.reference);
+  if (report::IsBaseline(document)) return CheckAgainstBaseline(document, Regression(options));
+  const statistics::PublishedReference reference = report::ParseReference(document);
   const std::vector<StoredRun> stored = ReadRuns(options.runs, options.cell);
   std::vector<statistics::ScenarioRun> runs;
   for (const StoredRun& run : stored) {
@@ -99,11 +132,11 @@ ExitCode Check(const CheckOptions& options) {
 
 void AddCheckCommand(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<CheckOptions>();
-  CLI::App* command =
-      app.add_subcommand("check", "Compares runs with published values; exit code 0, 1 or 4");
+  CLI::App* command = app.add_subcommand(
+      "check", "Compares runs with published values or a baseline; exit code 0, 1 or 4");
   command->add_option("RUN", options->runs, "folders of runs, or a folder of such folders")
       ->required();
-  command->add_option("--against", options->reference, "reference file")->required();
+  command->add_option("--against", options->reference, "reference or baseline file")->required();
   command->add_option("--cell", options->cell, "cell of a campaign: its name, or number from 0");
   command->add_option("--junit", options->junit, "write a JUnit report to this file");
   command->add_option("--csv", options->csv, "write the table as CSV to this file");
@@ -112,6 +145,7 @@ void AddCheckCommand(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--replicates", options->comparison.replicates, "samples for each number")
       ->check(CLI::Range(100, 1000000))
       ->capture_default_str();
+  AddRegressionOptions(*command, *options);
   command->callback([options, &exit_code] { exit_code = Check(*options); });
 }
 

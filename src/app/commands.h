@@ -11,6 +11,7 @@ class App;
 namespace rockyard::app {
 
 void AddRunCommand(CLI::App& app, ExitCode& exit_code);
+void AddBaselineCommand(CLI::App& app);
 void AddCheckCommand(CLI::App& app, ExitCode& exit_code);
 void AddCompareCommand(CLI::App& app, ExitCode& exit_code);
 void AddReplayCommand(CLI::App& app, ExitCode& exit_code);

@@ -104,6 +104,10 @@ std::vector<StoredRun> ReadCampaign(const fs::path& folder) {
   return runs;
 }
 
+std::string CellName(const StoredRun& run) {
+  return run.identity.name.empty() ? run.identity.scenario : run.identity.name;
+}
+
 void RequireWhole(const StoredRun& run) {
   if (run.shard.whole()) return;
   throw core::UserError(

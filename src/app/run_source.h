@@ -42,6 +42,9 @@ StoredRun ReadRun(const std::filesystem::path& folder, const std::string& cell =
 // Every cell. Memory: all records of the campaign.
 std::vector<StoredRun> ReadCampaign(const std::filesystem::path& folder);
 
+// What the cell goes by in a campaign: its name, or that of its scenario where it has none.
+std::string CellName(const StoredRun& run);
+
 // Throws core::UserError where the run is one shard of a campaign, whose trials are no contiguous
 // prefix: no rate can be told from it alone.
 void RequireWhole(const StoredRun& run);
