@@ -156,8 +156,10 @@ ExitCode CampaignProcess::DoTask(std::span<const CellWork> work, batch::ResultSt
     record.record = truth::MakeFault(SeedOf(store, id.cell), id.trial, reason);
   } else {
     const LoggedWork logged(work, log_);
-    const batch::Watchdog watchdog(log_, {.cpu_limit_s = options_.trial_cpu_limit_s},
-                                   [](const auto&) { _exit(batch::kOverdueExit); });
+    // No other trial is to be stored meanwhile.
+    const batch::WatchdogOptions limits{.cpu_limit_s = options_.trial_cpu_limit_s,
+                                        .grace = std::chrono::milliseconds(0)};
+    const batch::Watchdog watchdog(log_, limits, [](const auto&) { _exit(batch::kOverdueExit); });
     record = batch::RunTrial(logged.work(), id);
   }
   store.Append(std::span(&record, 1));
