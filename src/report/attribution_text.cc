@@ -57,7 +57,7 @@ std::string Effects(const Attribution& result) {
 }
 
 std::string Combinations(const Attribution& result) {
-  std::string text = "  failures of each combination, %\n";
+  std::string text = "  failures with these perfect, %\n";
   for (std::size_t c = 0; c < result.failures.size() && c <= kMostEffects; ++c) {
     const auto set = static_cast<statistics::Combination>(c);
     const std::string name = statistics::NameOf(set, result.functions, " + ");
