@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "app/commands.h"
@@ -11,7 +13,9 @@
 #include "app/run_source.h"
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/json_file.h"
 #include "scenario/load.h"
+#include "scenario/sweep.h"
 
 namespace rockyard::app {
 namespace {
@@ -21,14 +25,28 @@ struct ValidateOptions {
   std::vector<std::string> overrides;
 };
 
+bool IsSweepFile(const std::string& path) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(path, error) &&
+         scenario::IsSweep(core::LoadJsonFile(path));
+}
+
+// What is to be said of a valid file.
+std::string Check(const std::string& path, const std::vector<std::string>& overrides) {
+  if (IsSweepFile(path)) {
+    const scenario::Sweep sweep =
+        scenario::LoadSweep(path, {.overrides = overrides, .trials = {}, .seed = {}});
+    return fmt::format("a sweep of {} cells", sweep.cells.size());
+  }
+  return "fingerprint " + core::Hex(scenario::Fingerprint(LoadScenarioFrom(path, overrides)));
+}
+
 // Every problem of every file, not of the first alone.
 void Validate(const ValidateOptions& options) {
   std::vector<core::Problem> problems;
   for (const std::string& path : options.scenarios) {
     try {
-      const scenario::Scenario scenario = LoadScenarioFrom(path, options.overrides);
-      Print(fmt::format("{}: valid, fingerprint {}\n", path,
-                        core::Hex(scenario::Fingerprint(scenario))));
+      Print(fmt::format("{}: valid, {}\n", path, Check(path, options.overrides)));
     } catch (const core::UserError& error) {
       for (core::Problem problem : error.problems()) {
         if (options.scenarios.size() > 1) problem.path = path + ": " + problem.path;
@@ -43,8 +61,8 @@ void Validate(const ValidateOptions& options) {
 
 void AddValidateCommand(CLI::App& app) {
   auto options = std::make_shared<ValidateOptions>();
-  CLI::App* command = app.add_subcommand("validate", "Checks scenario files");
-  command->add_option("SCENARIO", options->scenarios, "scenario files")->required();
+  CLI::App* command = app.add_subcommand("validate", "Checks scenario and sweep files");
+  command->add_option("SCENARIO", options->scenarios, "scenario or sweep files")->required();
   command->add_option("--set", options->overrides, "PATH=VALUE: changes the scenario; repeat")
       ->allow_extra_args(false);
   command->callback([options] { Validate(*options); });

@@ -16,6 +16,8 @@ constexpr std::size_t kLabelWidth = 26;
 // Longer tables are for files.
 constexpr std::size_t kMostCells = 60;
 constexpr std::size_t kMostDifferences = 40;
+// Goodness of fit below which the text warns of a curve.
+constexpr double kMisfit = 0.01;
 
 std::string Cut(const std::string& text, std::size_t width) {
   return text.size() <= width ? text : text.substr(0, width - 3) + "...";
@@ -116,6 +118,8 @@ std::string Place(double x, const statistics::LogisticFit& fit) {
   return fmt::format("{:.3g}", x);
 }
 
+bool Misfits(const statistics::LogisticFit& fit) { return fit.p_value < kMisfit; }
+
 std::string FitLine(const SweepCurve& curve, std::size_t kind) {
   const statistics::LogisticFit& fit = curve.fits[kind];
   std::string text = fmt::format("    {:<17}", kSuccessNames[kind]);
@@ -134,8 +138,9 @@ std::string FitLine(const SweepCurve& curve, std::size_t kind) {
         fmt::format("{:.0f} % at {} ({} .. {})   ", 100.0 * crossing.rate, Place(crossing.x, fit),
                     Place(crossing.interval.low, fit), Place(crossing.interval.high, fit));
   }
-  text += std::isfinite(fit.p_value) ? fmt::format("fit p = {:.2g}", fit.p_value)
-                                     : std::string("no fit test");
+  text += std::isfinite(fit.p_value)
+              ? fmt::format("fit p = {:.2g}{}", fit.p_value, Misfits(fit) ? " *" : "")
+              : std::string("no fit test");
   return text + "\n";
 }
 
@@ -149,6 +154,15 @@ std::string Fits(const Sweep& sweep, const SweepSummary& summary) {
   for (const SweepCurve& curve : summary.curves) {
     if (!curve.label.empty()) text += "  " + Cut(curve.label, 96) + "\n";
     for (std::size_t kind = 0; kind < kSuccessNames.size(); ++kind) text += FitLine(curve, kind);
+  }
+  const bool misfit =
+      std::any_of(summary.curves.begin(), summary.curves.end(), [](const SweepCurve& curve) {
+        return std::any_of(curve.fits.begin(), curve.fits.end(), Misfits);
+      });
+  if (misfit) {
+    text += fmt::format(
+        "    * the rates lie beside the curve (p < {}): trust them rather than its crossings\n",
+        kMisfit);
   }
   return text;
 }

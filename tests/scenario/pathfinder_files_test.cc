@@ -25,6 +25,7 @@ std::map<std::string, Scenario> LoadAll() {
     if (entry.path().extension() != ".json") continue;
     const std::string folder = entry.path().parent_path().filename().string();
     if (folder == "navigation" || folder == "rovers" || folder == "sensors") continue;  // parts
+    if (folder == "sweeps") continue;  // of scenarios
     const std::string prefix = folder == "gestalt" ? "gestalt_" : "";
     scenarios.emplace(prefix + entry.path().stem().string(), LoadScenario(entry.path()));
   }

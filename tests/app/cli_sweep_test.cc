@@ -1,0 +1,172 @@
+// rockyard sweep, with real trials of one simulated second.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/command.h"
+
+namespace rockyard::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+// Two abundances, two speeds; a trial ends after a simulated second.
+constexpr const char* kSweep = R"({
+  "name": "small", "trials": 3, "seed": 4,
+  "set": {"rover.fidelity": "quasi_static", "referee.time_limit_s": 1},
+  "axes": [{"path": "terrain.rocks.k_per_m2", "values": [0.001, 0.004]},
+           {"name": "speed", "levels": [{"name": "<slow>", "set": {"rover.drive.speed_m_s": 0.05}},
+                                        {"name": "../fast", "set": {}}]}]
+})";
+
+class CliSweep : public CommandTest {
+ protected:
+  CliSweep() { WriteFile(work() / "small.json", kSweep); }
+
+  static std::vector<std::string> SweepTo(const std::string& out) {
+    return {"sweep", "small.json", "--out", out};
+  }
+  json Summary(const std::string& folder) const {
+    return json::parse(ReadFile(work() / folder / "summary.json"));
+  }
+  std::string Hash(const std::string& folder) const { return Summary(folder)["trial_hash"]; }
+};
+
+TEST_F(CliSweep, WritesTheWholeFolder) {
+  const CommandResult result = Run(SweepTo("a"));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  for (const char* name : {"results.sqlite", "summary.json", "sweep.json", "cells.csv",
+                           "curves.csv", "fit.csv", "fits.csv", "differences.csv", "success.svg"}) {
+    EXPECT_TRUE(fs::exists(work() / "a" / name)) << name;
+  }
+  const json summary = Summary("a");
+  EXPECT_EQ(summary["kind"], "sweep");
+  EXPECT_EQ(summary["trials"]["completed"], 12);
+  ASSERT_EQ(summary["cells"].size(), 4u);
+  EXPECT_EQ(summary["cells"][1]["levels"]["k_per_m2"], 0.001);
+  EXPECT_EQ(summary["cells"][1]["levels"]["speed"], "../fast");
+  EXPECT_EQ(summary["cells"][3]["outcomes"]["time_limit"], 3);
+  EXPECT_THAT(result.out, HasSubstr("12 of 12 trials"));
+  EXPECT_THAT(result.out, HasSubstr("no fit: nothing but successes, or nothing but failures"));
+  EXPECT_THAT(result.err, HasSubstr("12/12 done"));
+}
+
+TEST_F(CliSweep, ThreadsResumeAndGrowthGiveTheSameHash) {
+  EXPECT_EQ(Run(With(SweepTo("one"), {"--threads", "1"})).exit_code, 0);
+  EXPECT_EQ(Run(With(SweepTo("two"), {"--threads", "2", "--no-supervisor"})).exit_code, 0);
+  EXPECT_EQ(Run(With(SweepTo("grown"), {"--trials", "2"})).exit_code, 0);
+  EXPECT_NE(Hash("grown"), Hash("one"));
+  EXPECT_EQ(Run(With(SweepTo("grown"), {"--trials", "3", "--resume"})).exit_code, 0);
+  EXPECT_EQ(Hash("two"), Hash("one"));
+  EXPECT_EQ(Hash("grown"), Hash("one"));
+  EXPECT_EQ(Run(With(SweepTo("other"), {"--seed", "5"})).exit_code, 0);
+  EXPECT_NE(Hash("other"), Hash("one")) << "the comparison could not fail";
+}
+
+TEST_F(CliSweep, ResumeRefusesAnotherDesign) {
+  EXPECT_EQ(Run(SweepTo("a")).exit_code, 0);
+  const CommandResult again = Run(SweepTo("a"));
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_THAT(again.err, HasSubstr("--resume"));
+  const CommandResult other =
+      Run(With(SweepTo("a"), {"--resume", "--set", "course.goal_radius_m=0.9"}));
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, HasSubstr("course.goal_radius_m"));
+}
+
+TEST_F(CliSweep, OverridesReachEveryCell) {
+  EXPECT_EQ(Run(With(SweepTo("a"), {"--dry-run", "--pilots", "0", "--set", "course.goal_x_m=5"}))
+                .exit_code,
+            0);
+  for (const auto& entry : fs::directory_iterator(work() / "a" / "cells")) {
+    EXPECT_EQ(json::parse(ReadFile(entry.path()))["course"]["goal_x_m"], 5.0);
+  }
+}
+
+TEST_F(CliSweep, ADryRunWritesThePlanAndRunsNothing) {
+  const CommandResult result = Run(With(SweepTo("plan"), {"--dry-run", "--pilots", "2"}));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_FALSE(fs::exists(work() / "plan" / "results.sqlite"));
+  const json plan = json::parse(ReadFile(work() / "plan" / "plan.json"));
+  EXPECT_EQ(plan["trials"], 12);
+  EXPECT_EQ(plan["cost"]["pilots"], 8);
+  EXPECT_GT(plan["cost"]["cpu_s"], 0.0);
+  ASSERT_EQ(plan["cells"].size(), 4u);
+  for (const json& cell : plan["cells"]) {
+    const fs::path file = work() / "plan" / std::string(cell["file"]);
+    ASSERT_TRUE(fs::exists(file)) << file;
+    const json scenario = json::parse(ReadFile(file));
+    EXPECT_EQ(scenario["seed"], cell["seed"]);
+    EXPECT_EQ(scenario["terrain"]["rocks"]["k_per_m2"], cell["levels"]["k_per_m2"]);
+    // A cell's file is a scenario like any other.
+    const CommandResult valid = Run({"validate", file.string()});
+    EXPECT_THAT(valid.out, HasSubstr(std::string(cell["fingerprint"])));
+  }
+  EXPECT_TRUE(fs::exists(work() / "plan" / "cells" / "0002-k_per_m2_0.001_speed_.._fast.json"));
+  EXPECT_THAT(result.out, HasSubstr("expected cost, from 8 pilot trials"));
+}
+
+TEST_F(CliSweep, APlanReplacesAPlanAndNothingElse) {
+  EXPECT_EQ(Run(With(SweepTo("p"), {"--dry-run", "--pilots", "0"})).exit_code, 0);
+  EXPECT_EQ(Run(With(SweepTo("p"), {"--dry-run", "--pilots", "0"})).exit_code, 0);
+  fs::create_directories(work() / "mine");
+  WriteFile(work() / "mine" / "letter.txt", "dear");
+  const CommandResult refused = Run(With(SweepTo("mine"), {"--dry-run", "--pilots", "0"}));
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("holds no plan"));
+}
+
+// What has no effect comes to light where the numbers are common.
+TEST_F(CliSweep, CellsWithEqualTrialsAreNamed) {
+  WriteFile(work() / "idle.json", R"({
+    "name": "idle", "trials": 2, "common_random_numbers": true,
+    "set": {"rover.fidelity": "quasi_static", "referee.time_limit_s": 1},
+    "axes": [{"path": "terrain.rocks.uniform_max_diameter_m", "values": [0.4, 0.5]}]})");
+  const CommandResult result = Run({"sweep", "idle.json", "--out", "a"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("had no effect"));
+  const CommandResult plan = Run({"sweep", "idle.json", "--out", "p", "--dry-run"});
+  EXPECT_THAT(plan.err, HasSubstr("may have no effect"));
+  EXPECT_THAT(Run(SweepTo("b")).out, Not(HasSubstr("no effect")));
+}
+
+TEST_F(CliSweep, NamesAreTextInEveryFile) {
+  EXPECT_EQ(Run(SweepTo("a")).exit_code, 0);
+  const std::string drawing = ReadFile(work() / "a" / "success.svg");
+  EXPECT_THAT(drawing, HasSubstr("speed=&lt;slow&gt;"));
+  EXPECT_THAT(drawing, Not(HasSubstr("<slow>")));
+  EXPECT_THAT(ReadFile(work() / "a" / "cells.csv"), HasSubstr("\"k_per_m2=0.001,speed=<slow>\""));
+}
+
+TEST_F(CliSweep, BadFilesAreRefusedAndNothingIsWritten) {
+  WriteFile(work() / "small.json",
+            R"({"axes": [{"path": "terrain.rocks.kper_m2", "values": [1]}]})");
+  const CommandResult result = Run(SweepTo("a"));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("axes[0].path"));
+  EXPECT_THAT(result.err, HasSubstr("did you mean \"terrain.rocks.k_per_m2\"?"));
+  EXPECT_FALSE(fs::exists(work() / "a"));
+  EXPECT_EQ(Run({"sweep", "none.json"}).exit_code, 2);
+}
+
+TEST_F(CliSweep, OtherCommandsKnowSweeps) {
+  const CommandResult valid = Run({"validate", "small.json"});
+  EXPECT_EQ(valid.exit_code, 0) << valid.err;
+  EXPECT_THAT(valid.out, HasSubstr("a sweep of 4 cells"));
+  EXPECT_THAT(Run({"list", "."}).out, HasSubstr("sweep of 4 cells: small"));
+  const CommandResult run = Run({"run", "small.json"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("use rockyard sweep"));
+}
+
+TEST_F(CliSweep, JsonIsTheSummary) {
+  const CommandResult result = Run(With(SweepTo("a"), {"--json"}));
+  EXPECT_EQ(json::parse(result.out)["trial_hash"], Hash("a"));
+  EXPECT_TRUE(Run(With(SweepTo("b"), {"--quiet"})).out.empty());
+}
+
+}  // namespace
+}  // namespace rockyard::app
