@@ -33,6 +33,7 @@ void AddCommands(CLI::App& app, ExitCode& exit_code) {
   app.footer(kFooter);
   app.set_version_flag("--version", VersionText);
   AddRunCommand(app, exit_code);
+  AddSweepCommand(app, exit_code);
   AddCheckCommand(app, exit_code);
   AddBaselineCommand(app);
   AddCompareCommand(app, exit_code);

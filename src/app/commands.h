@@ -12,6 +12,7 @@ namespace rockyard::app {
 
 void AddRunCommand(CLI::App& app, ExitCode& exit_code);
 void AddBaselineCommand(CLI::App& app);
+void AddSweepCommand(CLI::App& app, ExitCode& exit_code);
 void AddCheckCommand(CLI::App& app, ExitCode& exit_code);
 void AddCompareCommand(CLI::App& app, ExitCode& exit_code);
 void AddReplayCommand(CLI::App& app, ExitCode& exit_code);
