@@ -46,6 +46,8 @@ void AddCommands(CLI::App& app, ExitCode& exit_code) {
   AddSchemaCommand(app);
   AddListCommand(app);
   AddParametersCommand(app);
+  AddPlanCommand(app);
+  AddMetricsCommand(app);
 }
 
 // "rockyard run --help" where a subcommand was named, else "rockyard --help".

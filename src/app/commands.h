@@ -24,5 +24,7 @@ void AddDefaultsCommand(CLI::App& app);
 void AddSchemaCommand(CLI::App& app);
 void AddListCommand(CLI::App& app);
 void AddParametersCommand(CLI::App& app);
+void AddPlanCommand(CLI::App& app);
+void AddMetricsCommand(CLI::App& app);
 
 }  // namespace rockyard::app

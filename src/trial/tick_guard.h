@@ -1,0 +1,41 @@
+// Ends a drive that has no end of its own.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+
+namespace rockyard::trial {
+
+// Counts the decisions of a drive, not seconds of a clock, so that it ends the same drives on every
+// machine. The referee ends a drive in simulated time; but a navigator that always stands still is
+// never judged, and looks that take no time never bring time_limit_s nearer. Both would be faults
+// of the program, and become simulator faults.
+class TickGuard {
+ public:
+  // Per control tick up to the time limit: one move and one look, and as much again.
+  static constexpr double kTicksPerStep = 4.0;
+  static constexpr std::int64_t kLeast = 100'000;  // for short limits
+  // Decisions in a row that take no simulated time.
+  static constexpr std::int64_t kMostWithoutTime = 10'000;
+
+  TickGuard(double time_limit_s, double tick_s)
+      : left_(kLeast + static_cast<std::int64_t>(kTicksPerStep * time_limit_s / tick_s)) {}
+
+  // Before each decision. Throws std::runtime_error, which becomes the fault.
+  void Observe(double time_s) {
+    if (--left_ < 0) throw std::runtime_error("the drive makes more decisions than its time has");
+    if (time_s > last_s_) {
+      without_time_ = 0;
+      last_s_ = time_s;
+    } else if (++without_time_ > kMostWithoutTime) {
+      throw std::runtime_error("the drive makes decisions that take no time, without an end");
+    }
+  }
+
+ private:
+  std::int64_t left_;
+  double last_s_ = -1.0;
+  std::int64_t without_time_ = 0;
+};
+
+}  // namespace rockyard::trial
