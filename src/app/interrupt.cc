@@ -6,7 +6,8 @@
 namespace rockyard::app {
 namespace {
 
-constexpr std::array kPolite = {SIGINT, SIGTERM, SIGHUP};
+// SIGUSR1: mpirun passes it on to every rank, where it would make an end of SIGTERM by itself.
+constexpr std::array kPolite = {SIGINT, SIGTERM, SIGHUP, SIGUSR1};
 constexpr std::array kBecomeErrors = {SIGPIPE, SIGXFSZ};
 
 // A signal handler can reach nothing but static storage.

@@ -11,9 +11,9 @@ enum class SecondSignal {
   kIsTheSame  // nothing more: somebody else (a supervisor, mpirun) decides when patience ends
 };
 
-// While this lives, the first SIGINT, SIGTERM or SIGHUP sets the flag. Writing to a closed pipe or
-// beyond a file size limit becomes an error instead of a signal. One at a time; the former handlers
-// come back at the end.
+// While this lives, the first SIGINT, SIGTERM, SIGHUP or SIGUSR1 sets the flag. Writing to a closed
+// pipe or beyond a file size limit becomes an error instead of a signal. One at a time; the former
+// handlers come back at the end.
 class InterruptGuard {
  public:
   // `requested` must outlive this; it may be shared with others who may ask for an end.

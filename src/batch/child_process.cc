@@ -19,7 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::array kPolite = {SIGINT, SIGTERM, SIGHUP};
+constexpr std::array kPolite = {SIGINT, SIGTERM, SIGHUP, SIGUSR1};
 
 // One wish to end can arrive as several signals: timeout(1) sends to a process and to its group.
 constexpr std::chrono::milliseconds kSameWish{500};

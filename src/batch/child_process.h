@@ -18,9 +18,9 @@ struct ProcessEnd {
 // e.g. "SIGSEGV (Segmentation fault)"
 std::string SignalText(int signal);
 
-// While this lives, polite signals (SIGINT, SIGTERM, SIGHUP; those that the caller of the program
-// told to ignore stay ignored) wait until a child is waited for. One at a time, in a process with
-// one thread.
+// While this lives, polite signals (SIGINT, SIGTERM, SIGHUP, SIGUSR1; those that the caller of the
+// program told to ignore stay ignored) wait until a child is waited for. One at a time, in a
+// process with one thread.
 class SignalsHeld {
  public:
   SignalsHeld();

@@ -15,7 +15,9 @@ namespace {
 
 using Task = Mission::Task;
 
-bool AskedToEnd(int signal) { return signal == SIGINT || signal == SIGTERM || signal == SIGHUP; }
+bool AskedToEnd(int signal) {
+  return signal == SIGINT || signal == SIGTERM || signal == SIGHUP || signal == SIGUSR1;
+}
 
 class Supervisor {
  public:

@@ -46,8 +46,8 @@ struct SupervisorOptions {
 // A worker that ends with kOverdueExit (watchdog.h) left hanging trials: each is tried again alone,
 // and left out, pending, when it hangs again.
 //
-// SIGINT, SIGTERM and SIGHUP are passed on to the worker; the second one kills it (what is stored
-// stays). The worker dies with the supervisor.
+// SIGINT, SIGTERM, SIGHUP and SIGUSR1 are passed on to the worker; the second one kills it (what is
+// stored stays). The worker dies with the supervisor.
 //
 // Call it while the process has one thread and no open store: a fork copies the calling thread
 // only, so that locks, OpenMP teams and SQLite handles of others would be dead in the child.
