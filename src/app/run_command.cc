@@ -15,6 +15,7 @@
 #include "report/run_files.h"
 #include "report/summary_json.h"
 #include "report/summary_text.h"
+#include "scenario/ablations.h"
 #include "scenario/load.h"
 #include "truth/measurement_record.h"
 
@@ -25,6 +26,7 @@ struct RunOptions {
   CampaignOptions campaign;
   std::string scenario;
   std::string interval = "wilson";
+  std::vector<std::string> ablations;
 };
 
 statistics::IntervalMethod MethodOf(const RunOptions& options) {
@@ -38,11 +40,24 @@ CampaignPlan PlanOf(const RunOptions& options) {
     overrides.push_back(fmt::format("trials={}", *options.campaign.trials));
   }
   if (options.campaign.seed) overrides.push_back(fmt::format("seed={}", *options.campaign.seed));
-  const scenario::Scenario scenario = LoadScenarioFrom(options.scenario, overrides);
+  const scenario::Scenario scenario =
+      scenario::WithAblations(LoadScenarioFrom(options.scenario, overrides), options.ablations)
+          .scenario;
+  std::string folder = scenario.name;
+  for (const std::string& ablation : options.ablations) folder += fmt::format("-{}", ablation);
   return {.name = scenario.name,
           .design = "",
-          .folder = DefaultFolder(scenario.name, scenario.seed),
+          .folder = DefaultFolder(folder, scenario.seed),
           .cells = {{.name = "", .scenario = scenario}}};
+}
+
+// An ablation that changes nothing may be a mistake: nothing of that kind is in the scenario.
+void TellIdleAblations(const RunOptions& options) {
+  if (options.ablations.empty() || options.campaign.quiet) return;
+  const scenario::Scenario base = LoadScenarioFrom(options.scenario, options.campaign.overrides);
+  for (const std::string& name : scenario::WithAblations(base, options.ablations).idle) {
+    PrintNote(fmt::format("--ablate {} changes nothing in this scenario", name));
+  }
 }
 
 void Show(const RunOptions& options, const std::string& text, const std::string& json,
@@ -83,9 +98,18 @@ void Report(const OpenedRun& run, const RunOptions& options) {
 }
 
 ExitCode Run(const RunOptions& options) {
+  TellIdleAblations(options);
   return RunCampaign(
       options.campaign, [&] { return PlanOf(options); },
       [&](const OpenedRun& run, const batch::BatchResult&) { Report(run, options); });
+}
+
+std::string AblationNames() {
+  std::string names;
+  for (const scenario::Ablation& ablation : scenario::Ablations()) {
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", ablation.name);
+  }
+  return names;
 }
 
 void AddOptions(CLI::App& command, RunOptions& options) {
@@ -94,6 +118,10 @@ void AddOptions(CLI::App& command, RunOptions& options) {
                   "scenario file, scenario.resolved.json, or the folder of a run")
       ->required();
   AddCampaignOptions(command, options.campaign);
+  command
+      .add_option("--ablate", options.ablations,
+                  fmt::format("take one cause of failure away; repeat: {}", AblationNames()))
+      ->allow_extra_args(false);
   command.add_option("--interval", options.interval, "of rates: wilson or clopper-pearson")
       ->check(CLI::IsMember({"wilson", "clopper-pearson"}))
       ->capture_default_str();

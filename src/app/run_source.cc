@@ -10,6 +10,7 @@
 #include "batch/trial_hash.h"
 #include "core/json_file.h"
 #include "core/json_text.h"
+#include "scenario/ablations.h"
 #include "scenario/load.h"
 
 namespace rockyard::app {
@@ -78,6 +79,15 @@ std::string Localization(const std::string& resolved) {
   return text ? found->text() : std::string();
 }
 
+// None where the scenario is of another version of the program.
+std::vector<std::string> AblationsIn(const std::string& resolved) {
+  try {
+    return scenario::AblationsInForce(scenario::ParseScenario(resolved));
+  } catch (const core::UserError&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 scenario::Scenario LoadScenarioFrom(const fs::path& path, std::span<const std::string> overrides,
@@ -125,6 +135,7 @@ report::RunDescription Describe(const StoredRun& run, int threads) {
   return {.scenario = run.identity.scenario,
           .fingerprint = run.identity.fingerprint,
           .resolved = run.identity.resolved,
+          .ablations = AblationsIn(run.identity.resolved),
           .localization = Localization(run.identity.resolved),
           .seed = run.identity.seed,
           .planned = run.planned,

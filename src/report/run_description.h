@@ -11,8 +11,9 @@ namespace rockyard::report {
 
 struct RunDescription {
   std::string scenario;
-  std::string fingerprint;   // of the resolved scenario
-  std::string resolved;      // JSON of every effective value
+  std::string fingerprint;             // of the resolved scenario
+  std::string resolved;                // JSON of every effective value
+  std::vector<std::string> ablations;  // in force (scenario/ablations.h), however they came to be
   std::string localization;  // "dead_reckoning", or "oracle": a perfect sensor, to be told apart
   std::uint64_t seed = 1;
   std::int64_t planned = 0;

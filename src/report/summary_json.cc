@@ -161,7 +161,8 @@ Json Head(const RunDescription& run, std::int64_t completed, std::int64_t faults
                {"scenario", run.scenario},
                {"seed", run.seed},
                {"fingerprint", run.fingerprint},
-               {"localization", run.localization}};
+               {"localization", run.localization},
+               {"ablations", run.ablations}};
   json["trials"] = {{"planned", run.planned},
                     {"stored", run.stored},
                     {"completed", completed},

@@ -9,14 +9,14 @@
 
 namespace rockyard::report {
 
-// summary.json. Members: schema_version, scenario, seed, fingerprint, localization, trials
-// (planned, stored, completed: the contiguous prefix that all else is about, faults),
-// declared_success and true_success (count, trials, rate, ci95, ci_method), outcomes (every kind),
-// distance_m, path_ratio, dead_reckoning, sim_time_s, energy_wh, columns (all others), metrics and
-// metrics_by_outcome, trial_hash, provenance. A column is {count, min, p05, median, mean, mode,
-// p95, max, std}; a metric (statistics/metrics.h) {count, mean, ci95} and, where it is no rate,
-// {median, median_ci95, min, max, std}; metrics without a value are left out. What is undefined is
-// null.
+// summary.json. Members: schema_version, scenario, seed, fingerprint, localization, ablations (in
+// force), trials (planned, stored, completed: the contiguous prefix that all else is about,
+// faults), declared_success and true_success (count, trials, rate, ci95, ci_method), outcomes
+// (every kind), distance_m, path_ratio, dead_reckoning, sim_time_s, energy_wh, columns (all
+// others), metrics and metrics_by_outcome, trial_hash, provenance. A column is {count, min, p05,
+// median, mean, mode, p95, max, std}; a metric (statistics/metrics.h) {count, mean, ci95} and,
+// where it is no rate, {median, median_ci95, min, max, std}; metrics without a value are left out.
+// What is undefined is null.
 std::string SummaryJson(const RunDescription& run, const statistics::DriveSummary& summary,
                         statistics::IntervalMethod method);
 

@@ -28,12 +28,23 @@ std::string Cut(const std::string& text, std::size_t width) {
   return text.size() <= width ? text : text.substr(0, width - 3) + "...";
 }
 
+// Two are told elsewhere: localization in the line above, and designation is perfect by default.
+std::string AblationLine(const RunDescription& run) {
+  std::string names;
+  for (const std::string& name : run.ablations) {
+    if (name == "perfect_designation" || name == "perfect_localization") continue;
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
+  }
+  return names.empty() ? "" : fmt::format("  ablations: {}\n", names);
+}
+
 std::string Head(const RunDescription& run, const DriveSummary& summary, TextStyle style) {
   std::string text =
       Coloured(style, kBold, Cut(run.scenario, 40)) +
       fmt::format(", seed {}: {} of {} trials", run.seed, summary.completed, run.planned);
   if (run.localization == "oracle") text += ", perfect localization";
   text += '\n';
+  text += AblationLine(run);
   if (run.stored > summary.completed) {
     text += fmt::format("  {} more finished trials count once those before them are finished\n",
                         run.stored - summary.completed);
