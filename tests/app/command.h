@@ -42,8 +42,11 @@ class CommandTest : public testing::Test {
     std::filesystem::remove_all(folder_, ignored);
   }
 
-  pid_t Start(std::vector<std::string> words) const {
-    words.insert(words.begin(), ROCKYARD_COMMAND);
+  pid_t Start(const std::vector<std::string>& words) const {
+    return StartProgram(With({ROCKYARD_COMMAND}, words));
+  }
+
+  pid_t StartProgram(std::vector<std::string> words) const {
     const pid_t process = fork();
     if (process != 0) return process;
     Redirect(folder_ / "out", STDOUT_FILENO);

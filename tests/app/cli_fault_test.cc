@@ -1,0 +1,238 @@
+// What goes wrong around a campaign: every fault ends with a clear message, and no finished trial
+// is lost. Disks that are full or lose parts of a store, and more of each, are in tests/batch.
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+
+#include <random>
+#include <set>
+
+#include "app/command.h"
+#include "batch/result_store.h"
+#include "batch/run_folder.h"
+#include "batch/sqlite_database.h"
+#include "batch/store_error.h"
+#include "batch/trial_hash.h"
+
+namespace rockyard::app {
+namespace {
+
+namespace fs = std::filesystem;
+using batch::ResultStore;
+using testing::AnyOf;
+using testing::HasSubstr;
+
+class CliFault : public CommandTest {
+ protected:
+  // Trials of some milliseconds.
+  static std::vector<std::string> Drives(const std::string& out, int trials,
+                                         const std::vector<std::string>& more = {}) {
+    return With({"run", Scenario("nominal"), "--out", out, "--set", "referee.time_limit_s=300",
+                 "--threads", "2", "--quiet", "--trials", std::to_string(trials)},
+                more);
+  }
+
+  std::size_t Stored(const std::string& out) const {
+    try {
+      return ResultStore::Read(work() / out).Finished().size();
+    } catch (const batch::StoreError&) {
+      return 0;  // not there yet
+    }
+  }
+
+  bool WaitForTrials(const std::string& out, std::size_t count) const {
+    for (int i = 0; i < 2000 && Stored(out) < count; ++i) usleep(10000);
+    return Stored(out) >= count;
+  }
+
+  std::string Hash(const std::string& out) const {
+    return batch::TrialHash(ResultStore::Read(work() / out).Load());
+  }
+
+  std::string PlainHash(int trials) const {
+    EXPECT_EQ(Run(Drives("plain", trials, {"--no-supervisor", "--threads", "1"})).exit_code, 0);
+    return Hash("plain");
+  }
+
+  // The process that the supervisor has started; 0: none.
+  static pid_t WorkerOf(pid_t supervisor) {
+    const std::string id = std::to_string(supervisor);
+    pid_t worker = 0;
+    std::ifstream("/proc/" + id + "/task/" + id + "/children") >> worker;
+    return worker;
+  }
+
+  static void WaitForEnd(pid_t process) {
+    while (process != 0 && kill(process, 0) == 0) usleep(1000);
+  }
+};
+
+TEST_F(CliFault, KilledWorkerIsReplaced) {
+  const std::string expected = PlainHash(300);
+  const pid_t process = Start(Drives("a", 300));
+  ASSERT_TRUE(WaitForTrials("a", 20));
+  ASSERT_EQ(kill(WorkerOf(process), SIGKILL), 0);
+  const CommandResult result = Wait(process);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("SIGKILL"));
+  EXPECT_EQ(Hash("a"), expected);
+  EXPECT_LE(ResultStore::Read(work() / "a").InfrastructureFaults().size(), 2U) << "two threads";
+}
+
+TEST_F(CliFault, CrashedWorkerLeavesNoFaultWhereTheTrialsPass) {
+  const std::string expected = PlainHash(300);
+  const pid_t process = Start(Drives("a", 300));
+  ASSERT_TRUE(WaitForTrials("a", 20));
+  ASSERT_EQ(kill(WorkerOf(process), SIGSEGV), 0);
+  const CommandResult result = Wait(process);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("SIGSEGV"));
+  EXPECT_EQ(Hash("a"), expected);
+}
+
+TEST_F(CliFault, SignalsReachTheWorker) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const std::string out = "run" + std::to_string(signal);
+    const pid_t process = Start(Drives(out, 100000));
+    ASSERT_TRUE(WaitForTrials(out, 10));
+    const pid_t worker = WorkerOf(process);
+    kill(process, signal);
+    const CommandResult result = Wait(process);
+    EXPECT_EQ(result.exit_code, 130) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("--resume"));
+    EXPECT_NE(kill(worker, 0), 0) << "the worker is gone";
+    EXPECT_GE(Stored(out), 10U);
+  }
+}
+
+// By a seed, so that a failure can be looked at again; the moment decides what is cut in two.
+TEST_F(CliFault, TwentyRandomKillsAndTheSameHash) {
+  constexpr int kTrials = 500;
+  const std::string expected = PlainHash(kTrials);
+  std::mt19937 random(20261121);
+  std::size_t stored = 0;
+  for (int kills = 0; kills < 20; ++kills) {
+    const pid_t process = Start(Drives("a", kTrials, {"--resume"}));
+    usleep(20000 + random() % 250000);
+    const pid_t worker = WorkerOf(process);
+    const bool both = random() % 3 != 0;
+    if (!both && worker != 0) kill(worker, SIGKILL);
+    if (!both) usleep(random() % 100000);
+    kill(process, SIGKILL);
+    Wait(process);
+    WaitForEnd(worker);
+    usleep(20000);  // a worker that was started meanwhile dies with its supervisor
+    ASSERT_GE(Stored("a"), stored) << "no stored trial is lost";
+    stored = Stored("a");
+  }
+  EXPECT_GT(stored, 0U);
+  const CommandResult result = Run(Drives("a", kTrials, {"--resume"}));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(Hash("a"), expected);
+}
+
+TEST_F(CliFault, TwoRunsOnOneFolder) {
+  const pid_t first = Start(Drives("a", 300));
+  ASSERT_TRUE(WaitForTrials("a", 5));
+  // The second one writes elsewhere than the first what it says.
+  fs::create_directories(work() / "elsewhere");
+  const std::string command = std::string(ROCKYARD_COMMAND) + " run '" + Scenario("nominal") +
+                              "' --out '" + (work() / "a").string() +
+                              "' --set referee.time_limit_s=300 --resume 2> '" +
+                              (work() / "elsewhere/err").string() + "'";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);
+  EXPECT_THAT(ReadFile(work() / "elsewhere/err"), HasSubstr("in use by another run"));
+  EXPECT_EQ(Wait(first).exit_code, 0);
+  EXPECT_EQ(Hash("a"), PlainHash(300));
+}
+
+TEST_F(CliFault, ScenarioChangedBetweenRuns) {
+  ASSERT_EQ(Run(Drives("a", 5)).exit_code, 0);
+  const std::string before = Hash("a");
+  const CommandResult result =
+      Run(Drives("a", 10, {"--resume", "--set", "terrain.rocks.k_per_m2=0.02"}));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("terrain.rocks.k_per_m2: is "));
+  EXPECT_THAT(result.err, HasSubstr("0.02 now"));
+  EXPECT_EQ(Hash("a"), before);
+}
+
+TEST_F(CliFault, StoreLockedForAMomentIsWaitedFor) {
+  ASSERT_EQ(Run(Drives("a", 5)).exit_code, 0);
+  batch::SqliteDatabase other(batch::StorePath(work() / "a"), batch::Access::kChange);
+  other.Execute("BEGIN IMMEDIATE");
+  const pid_t process = Start(Drives("a", 50, {"--resume"}));
+  usleep(700000);
+  other.Execute("ROLLBACK");
+  const CommandResult result = Wait(process);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(Hash("a"), PlainHash(50));
+}
+
+TEST_F(CliFault, StoreThatStaysLockedEndsTheRun) {
+  const pid_t process = Start(Drives("a", 100000));
+  ASSERT_TRUE(WaitForTrials("a", 10));
+  {
+    batch::SqliteDatabase other(batch::StorePath(work() / "a"), batch::Access::kChange);
+    other.Execute("BEGIN IMMEDIATE");
+    const CommandResult result = Wait(process);
+    EXPECT_EQ(result.exit_code, 5) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("results.sqlite: is locked by another program"));
+    EXPECT_THAT(result.err, HasSubstr("could not be stored"));
+    EXPECT_THAT(result.err, HasSubstr("--resume"));
+  }
+  const auto trials = static_cast<int>(Stored("a")) + 20;
+  EXPECT_GE(trials, 30);
+  EXPECT_EQ(Run(Drives("b", trials)).exit_code, 0);
+  const std::vector<truth::Record> all = ResultStore::Read(work() / "b").Load();
+  std::set<std::uint64_t> seen;
+  for (const truth::Record& record : ResultStore::Read(work() / "a").Load()) {
+    if (record.trial >= all.size()) continue;
+    EXPECT_EQ(batch::TrialHash({&record, 1}), batch::TrialHash({&all[record.trial], 1}));
+    EXPECT_TRUE(seen.insert(record.trial).second);
+  }
+}
+
+TEST_F(CliFault, StoreCutOffIsRefusedAndKept) {
+  ASSERT_EQ(Run(Drives("a", 200)).exit_code, 0);
+  const fs::path store = batch::StorePath(work() / "a");
+  fs::resize_file(store, fs::file_size(store) / 2);
+  const std::string half = ReadFile(store);
+  const CommandResult result = Run(Drives("a", 200, {"--resume"}));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("results.sqlite"));
+  EXPECT_THAT(result.err, HasSubstr("--force"));
+  EXPECT_EQ(ReadFile(store), half);
+}
+
+TEST_F(CliFault, FolderThatCannotBeWritten) {
+  WriteFile(work() / "file", "mine");
+  for (const std::string out : {"file", "file/below", "/proc/rockyard", "/sys/rockyard"}) {
+    const CommandResult result = Run(Drives(out, 5));
+    EXPECT_EQ(result.exit_code, 2) << out;
+    EXPECT_THAT(result.err, AnyOf(HasSubstr("cannot be"), HasSubstr("is a file"))) << out;
+    EXPECT_THAT(result.err, HasSubstr("--out")) << out;
+  }
+  EXPECT_EQ(ReadFile(work() / "file"), "mine");
+}
+
+// A limit on the size of files stands in for a full disk, in worker and supervisor alike.
+TEST_F(CliFault, DiskFull) {
+  rlimit former{};
+  getrlimit(RLIMIT_FSIZE, &former);
+  const rlimit small{200000, former.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  const pid_t process = Start(Drives("a", 100000));
+  setrlimit(RLIMIT_FSIZE, &former);
+  const CommandResult result = Wait(process);
+  EXPECT_EQ(result.exit_code, 5) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("results.sqlite: cannot be written"));
+  EXPECT_THAT(result.err, HasSubstr("could not be stored"));
+  const std::size_t stored = Stored("a");
+  EXPECT_GT(stored, 0U);
+  const auto trials = static_cast<int>(stored) + 50;
+  EXPECT_EQ(Run(Drives("a", trials, {"--resume"})).exit_code, 0);
+  EXPECT_EQ(Hash("a"), PlainHash(trials));
+}
+
+}  // namespace
+}  // namespace rockyard::app
