@@ -12,6 +12,7 @@
 #include "trial/layout.h"
 #include "trial/onboard_calibration.h"
 #include "trial/route_planner.h"
+#include "trial/tick_guard.h"
 
 namespace rockyard::trial {
 namespace {
@@ -117,8 +118,12 @@ Drive::Drive(const Scenario& scenario, core::TrialKey key, truth::Trace* trace,
 }
 
 DriveResult Drive::Run() {
+  TickGuard guard(scenario_.referee.time_limit_s, tick_.duration_s);
   std::optional<Verdict> verdict;
-  while (!verdict) verdict = Tick();
+  while (!verdict) {
+    guard.Observe(ledger_.time_s());
+    verdict = Tick();
+  }
   return Finish(*verdict);
 }
 
