@@ -15,6 +15,7 @@
 #include "core/json_file.h"
 #include "scenario/ablations.h"
 #include "scenario/load.h"
+#include "scenario/sweep.h"
 
 namespace rockyard::app {
 namespace {
@@ -52,9 +53,16 @@ bool IsPart(const core::JsonValue& document) {
       [&](const core::JsonMember& member) { return scenario.Find(member.key) != nullptr; });
 }
 
+std::string AboutSweep(const fs::path& file) {
+  const scenario::Sweep sweep = scenario::LoadSweep(file);
+  return fmt::format("sweep of {} cells: {}", sweep.cells.size(),
+                     sweep.description.empty() ? sweep.name : sweep.description);
+}
+
 std::string About(const fs::path& file) {
   try {
     const core::JsonValue document = core::LoadJsonFile(file);
+    if (scenario::IsSweep(document)) return AboutSweep(file);
     if (IsPart(document)) return "part of a scenario, which can extend it";
     const scenario::Scenario scenario = scenario::ReadScenario(document);
     return scenario.description.empty() ? scenario.name : scenario.description;
@@ -94,7 +102,7 @@ void ListAblations() {
 void AddListCommand(CLI::App& app) {
   auto folder = std::make_shared<std::string>("scenarios");
   auto ablations = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand("list", "Lists scenarios with a line each");
+  CLI::App* command = app.add_subcommand("list", "Lists scenarios and sweeps with a line each");
   command->add_option("FOLDER", *folder, "where to look")->capture_default_str();
   command->add_flag("--ablations", *ablations,
                     "list what `rockyard run --ablate` and sweeps can take away, with settings");
