@@ -15,8 +15,8 @@ namespace rockyard::report {
 // What a report says of a campaign besides its cells.
 struct SweepDescription {
   std::string trial_hash;  // over all cells
-  core::Provenance provenance;
-  std::vector<std::string> builds;
+  core::Provenance provenance = {};
+  std::vector<std::string> builds = {};
   int threads = 1;
 };
 

@@ -12,7 +12,7 @@ namespace {
 using scenario::Sweep;
 using statistics::FitStatus;
 
-constexpr std::size_t kLabelWidth = 26;
+constexpr std::size_t kLabelWidth = 24;
 // Longer tables are for files.
 constexpr std::size_t kMostCells = 60;
 constexpr std::size_t kMostDifferences = 40;
@@ -122,7 +122,8 @@ bool Misfits(const statistics::LogisticFit& fit) { return fit.p_value < kMisfit;
 
 std::string FitLine(const SweepCurve& curve, std::size_t kind) {
   const statistics::LogisticFit& fit = curve.fits[kind];
-  std::string text = fmt::format("    {:<17}", kSuccessNames[kind]);
+  const std::string_view name = kSuccessNames[kind];
+  std::string text = fmt::format("    {:<9} ", name.substr(0, name.find(' ')));
   switch (fit.status) {
     case FitStatus::kFitted:
       break;
@@ -134,13 +135,13 @@ std::string FitLine(const SweepCurve& curve, std::size_t kind) {
       return text + "no fit: successes and failures do not overlap; put cells between them\n";
   }
   for (const statistics::FitCrossing& crossing : curve.crossings[kind]) {
-    text +=
-        fmt::format("{:.0f} % at {} ({} .. {})   ", 100.0 * crossing.rate, Place(crossing.x, fit),
-                    Place(crossing.interval.low, fit), Place(crossing.interval.high, fit));
+    text += fmt::format("{:<35} ", fmt::format("{} ({} .. {})", Place(crossing.x, fit),
+                                               Place(crossing.interval.low, fit),
+                                               Place(crossing.interval.high, fit)));
   }
   text += std::isfinite(fit.p_value)
-              ? fmt::format("fit p = {:.2g}{}", fit.p_value, Misfits(fit) ? " *" : "")
-              : std::string("no fit test");
+              ? fmt::format("{:.2g}{}", fit.p_value, Misfits(fit) ? " *" : "")
+              : std::string("-");
   return text + "\n";
 }
 
@@ -151,6 +152,7 @@ std::string Fits(const Sweep& sweep, const SweepSummary& summary) {
       fmt::format("\n  logistic fit of success against {}{}, 95 % intervals{}\n", log ? "ln " : "",
                   sweep.axes[*sweep.fit_axis].name,
                   sweep.common_random_numbers ? " as if cells were independent" : "");
+  text += fmt::format("    {:<9} {:<35} {:<35} fit p\n", "success", "90 % at", "50 % at");
   for (const SweepCurve& curve : summary.curves) {
     if (!curve.label.empty()) text += "  " + Cut(curve.label, 96) + "\n";
     for (std::size_t kind = 0; kind < kSuccessNames.size(); ++kind) text += FitLine(curve, kind);

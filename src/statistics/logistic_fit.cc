@@ -59,7 +59,7 @@ double Deviance(std::span<const Dose> doses, const LogitLine& line) {
     sum += term(dose.count, dose.trials * Expit(logit));
     sum += term(dose.trials - dose.count, dose.trials * Expit(-logit));
   }
-  return 2.0 * sum;
+  return std::max(0.0, 2.0 * sum);  // rounding, where the curve meets every rate
 }
 
 // Inverse of the information, with the intercept moved from the centre to u = 0.

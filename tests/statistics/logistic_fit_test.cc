@@ -138,6 +138,17 @@ TEST(LogisticFitTest, SaysWhyThereIsNoFiniteFit) {
   EXPECT_EQ(status({{1.0, 10, 10}, {2.0, 5, 10}, {3.0, 0, 10}}), FitStatus::kSeparated);
 }
 
+TEST(LogisticFitTest, ACurveThroughEveryRateHasNoDeviance) {
+  for (const std::int64_t count : {3, 5, 6, 9}) {
+    const std::vector<DosePoint> points{{1.0, count, 39}, {2.0, count, 39}, {3.0, count, 39}};
+    const LogisticFit fit = FitLogistic(points, FitScale::kLog);
+    EXPECT_GE(fit.deviance, 0.0);
+    EXPECT_NEAR(fit.deviance, 0.0, 1e-9);
+    EXPECT_NEAR(fit.p_value, 1.0, 1e-6);
+    EXPECT_NEAR(fit.slope, 0.0, 1e-9);
+  }
+}
+
 TEST(LogisticFitTest, ANearlySeparatedCurveConverges) {
   const std::vector<DosePoint> points{
       {1.0, 100000, 100000}, {2.0, 99999, 100000}, {3.0, 1, 100000}, {4.0, 0, 100000}};
