@@ -1,0 +1,163 @@
+// The blind swath: kinematic first contacts in Poisson fields against the closed form.
+#include "terrain/blind_swath.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "core/statistical_checks.h"
+#include "terrain/field.h"
+
+namespace rockyard::terrain {
+namespace {
+
+constexpr double kRoverWidth_m = 0.48;
+constexpr double kBig_m = 0.2;
+
+// Long enough that one swath in 10^4 meets nothing.
+TerrainParams PoissonField() {
+  TerrainParams params;
+  params.arena.kind = ArenaKind::kOpen;
+  params.arena.length_m = 44.0;
+  params.rocks.overlap = OverlapRule::kAllow;
+  params.rocks.clear_radius_m = 0.0;
+  params.rocks.k_reference_per_m2 = params.rocks.k_per_m2;
+  return params;
+}
+
+std::vector<double> FirstContacts(const TerrainParams& params, const BlindSwath& swath,
+                                  std::uint32_t fields) {
+  std::vector<double> distances;
+  for (std::uint32_t i = 0; i < fields; ++i) {
+    const Field field = BuildField(params, {5, i}, {});
+    const std::vector<Rock> rocks(field.terrain.rocks().begin(), field.terrain.rocks().end());
+    distances.push_back(FirstContact_m(rocks, swath, 0.0, 0.0));
+  }
+  return distances;
+}
+
+double ExponentialP(const std::vector<double>& distances, double contacts_per_m) {
+  return core::KolmogorovP(distances,
+                           [&](double x_m) { return 1.0 - std::exp(-contacts_per_m * x_m); });
+}
+
+// The integral of eq. (1) of the header by a sum over thin slices of diameter, for round rocks.
+double ByQuadrature(const RockFieldParams& rocks, const BlindSwath& swath) {
+  constexpr int kSlices = 200000;
+  const double low_m = std::max(swath.min_diameter_m, rocks.min_diameter_m);
+  const double step_m = (rocks.max_diameter_m - low_m) / kSlices;
+  double sum = 0.0;
+  for (int i = 0; i < kSlices; ++i) {
+    const double d_m = low_m + (i + 0.5) * step_m;
+    const double density =
+        rocks.k_per_m2 * kMooreExponent * std::pow(d_m, -kMooreExponent - 1.0);  // -dN/dD
+    sum += (swath.width_m + d_m) * density * step_m;
+  }
+  return sum;
+}
+
+Rock Ellipse(double x_m, double y_m, double a_m, double b_m, double yaw_rad) {
+  Rock rock;
+  rock.center_W = {x_m, y_m, 0.0};
+  rock.semi_axes_m = {a_m, b_m, 0.1};
+  rock.yaw_rad = yaw_rad;
+  rock.diameter_m = 2.0 * a_m;
+  return rock;
+}
+
+TEST(BlindSwathTest, ClosedFormEqualsQuadrature) {
+  RockFieldParams rocks;
+  rocks.min_width_ratio = 1.0;
+  rocks.max_width_ratio = 1.0;
+  for (const double min_m : {0.0, 0.1, 0.2, 0.5}) {
+    const BlindSwath swath{kRoverWidth_m, min_m};
+    const double expected = ByQuadrature(rocks, swath);
+    EXPECT_NEAR(BlindContactsPerM(rocks, swath), expected, 1e-7 * expected) << min_m;
+  }
+  EXPECT_EQ(BlindContactsPerM(rocks, {kRoverWidth_m, 1.0}), 0.0);
+}
+
+TEST(BlindSwathTest, UniformRocksOfOneSizeNeedNoIntegral) {
+  RockFieldParams rocks;
+  rocks.kind = RockFieldKind::kUniformCount;
+  rocks.count = 10;
+  rocks.uniform_min_diameter_m = 0.3;
+  rocks.uniform_max_diameter_m = 0.3;
+  rocks.min_width_ratio = 1.0;
+  EXPECT_NEAR(BlindContactsPerM(rocks, {0.5, 0.2}), 10.0 / 17.6 * 0.8, 1e-12);
+  EXPECT_EQ(BlindContactsPerM(rocks, {0.5, 0.31}), 0.0);
+  rocks.kind = RockFieldKind::kNone;
+  EXPECT_EQ(BlindContactsPerM(rocks, {0.5, 0.0}), 0.0);
+}
+
+// Needles: the mean extent of a segment of length 1 is 2 / pi (Buffon). The flattest ellipses that
+// a field may have are 0.2, whose perimeter over pi is 0.6688 by Ramanujan's second approximation.
+TEST(BlindSwathTest, FlatRocksAreMetByTheirMeanExtent) {
+  RockFieldParams round;
+  round.min_width_ratio = 1.0;
+  RockFieldParams flat;
+  flat.min_width_ratio = 0.2;
+  flat.max_width_ratio = 0.2;
+  const double h = std::pow(0.8 / 1.2, 2.0);
+  const double extent = 0.5 * 1.2 * (1.0 + 3.0 * h / (10.0 + std::sqrt(4.0 - 3.0 * h)));
+  const double ratio = BlindContactsPerM(flat, {0.0, 0.1}) / BlindContactsPerM(round, {0.0, 0.1});
+  EXPECT_NEAR(ratio, extent, 1e-4);
+}
+
+TEST(BlindSwathTest, ContactsOfKnownRocks) {
+  const BlindSwath swath{0.4, 0.0};
+  EXPECT_NEAR(FirstContact_m({Ellipse(2.0, 0.1, 0.3, 0.3, 0.0)}, swath, 0.0, 0.0), 1.7, 1e-12);
+  // Beside the front's end by 0.18 of a radius of 0.3: touched at the end, 0.24 before the centre.
+  EXPECT_NEAR(FirstContact_m({Ellipse(2.0, 0.38, 0.3, 0.3, 0.0)}, swath, 0.0, 0.0), 1.76, 1e-12);
+  EXPECT_EQ(FirstContact_m({Ellipse(2.0, 0.51, 0.3, 0.3, 0.0)}, swath, 0.0, 0.0),
+            std::numeric_limits<double>::infinity());
+  // Behind the start, and below the smallest obstacle.
+  EXPECT_NEAR(FirstContact_m({Ellipse(0.1, 0.0, 0.3, 0.3, 0.0), Ellipse(3.0, 0.0, 0.3, 0.2, 0.0)},
+                             swath, 0.0, 0.0),
+              2.7, 1e-12);
+  EXPECT_EQ(FirstContact_m({Ellipse(2.0, 0.0, 0.3, 0.3, 0.0)}, {0.4, 0.7}, 0.0, 0.0),
+            std::numeric_limits<double>::infinity());
+  // Across, an ellipse is met by its short axis; turned by 90 deg a wide swath meets its end.
+  EXPECT_NEAR(
+      FirstContact_m({Ellipse(2.0, 0.0, 0.3, 0.1, 0.5 * std::numbers::pi)}, {1.0, 0.0}, 0.0, 0.0),
+      1.9, 1e-12);
+}
+
+// Against points of the outline, at every yaw and offset.
+TEST(BlindSwathTest, ContactsAgreeWithSampledOutlines) {
+  const BlindSwath swath{0.4, 0.0};
+  for (double yaw = -1.5; yaw < 1.6; yaw += 0.25) {
+    for (double y_m = -0.45; y_m < 0.46; y_m += 0.15) {
+      const Rock rock = Ellipse(2.0, y_m, 0.35, 0.2, yaw);
+      double expected_m = std::numeric_limits<double>::infinity();
+      for (int i = 0; i < 40000; ++i) {
+        const double t = 2.0 * std::numbers::pi * i / 40000.0;
+        const double u = 0.35 * std::cos(t);
+        const double v = 0.2 * std::sin(t);
+        const double y = y_m + u * std::sin(yaw) + v * std::cos(yaw);
+        if (std::abs(y) > 0.2) continue;
+        expected_m = std::min(expected_m, 2.0 + u * std::cos(yaw) - v * std::sin(yaw));
+      }
+      const double found_m = FirstContact_m({rock}, swath, 0.0, 0.0);
+      if (std::isinf(expected_m)) continue;  // the outline's points may just miss the swath
+      EXPECT_NEAR(found_m, expected_m, 1e-3) << yaw << " " << y_m;
+    }
+  }
+}
+
+// Kolmogorov and Smirnov at alpha = 0.001, 1500 fields, fixed seeds.
+TEST(BlindSwathTest, DistancesInAPoissonFieldAreExponential) {
+  const TerrainParams params = PoissonField();
+  const BlindSwath swath{kRoverWidth_m, kBig_m};
+  const std::vector<double> distances = FirstContacts(params, swath, 1500);
+  EXPECT_GT(ExponentialP(distances, BlindContactsPerM(params.rocks, swath)), 0.001);
+  // Negative controls: another width, another smallest obstacle.
+  EXPECT_LT(ExponentialP(distances, BlindContactsPerM(params.rocks, {0.40, kBig_m})), 0.001);
+  EXPECT_LT(ExponentialP(distances, BlindContactsPerM(params.rocks, {kRoverWidth_m, 0.15})), 1e-6);
+}
+
+}  // namespace
+}  // namespace rockyard::terrain
