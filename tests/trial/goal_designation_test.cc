@@ -1,0 +1,98 @@
+// Goals as a lander designates them: Matthies 1995, section 4 and figure 4.
+#include "trial/goal_designation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "core/statistical_checks.h"
+
+namespace rockyard::trial {
+namespace {
+
+CourseParams Course(double range_m) {
+  CourseParams course;
+  course.goal_x_m = range_m;
+  course.designation.enabled = true;
+  return course;
+}
+
+double NormalCdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
+
+TEST(GoalDesignationTest, OffTellsTheTrueGoal) {
+  CourseParams course = Course(7.6);
+  course.designation.enabled = false;
+  const messages::Goal goal = ToldGoal(course, {1, 2});
+  EXPECT_EQ(goal.x_m, 7.6);
+  EXPECT_EQ(goal.y_m, 0.0);
+}
+
+// Sections 4, 5 and 8, figure 4: below 17.5 cm at 10 m, the largest being the pan error's; sigma_d
+// and the pan error together one vehicle length (60 cm) at 20 m.
+TEST(GoalDesignationTest, PublishedNumbersComeOut) {
+  const DesignationParams params;
+  const DesignationErrors at_10 = params.ErrorsAt(10.0);
+  EXPECT_NEAR(at_10.crossrange_sd_m, 0.01, 1e-12);
+  EXPECT_NEAR(at_10.downrange_sd_m, 0.0667, 1e-4);
+  EXPECT_NEAR(at_10.crossrange_bias_m, 0.17, 0.005);
+  const DesignationErrors at_20 = params.ErrorsAt(20.0);
+  EXPECT_NEAR(at_20.downrange_sd_m, 0.267, 1e-3);
+  EXPECT_NEAR(at_20.downrange_sd_m + at_20.crossrange_bias_m, 0.60, 0.02);
+}
+
+// Kolmogorov and Smirnov, alpha 0.001 each, 4000 goals of fixed seeds.
+TEST(GoalDesignationTest, SpreadIsTheClosedForm) {
+  const CourseParams course = Course(20.0);
+  const DesignationErrors errors = course.designation.ErrorsAt(20.0);
+  std::vector<double> downrange;
+  std::vector<double> crossrange;
+  for (std::uint32_t trial = 0; trial < 4000; ++trial) {
+    const messages::Goal goal = ToldGoal(course, {3, trial});
+    downrange.push_back((goal.x_m - 20.0) / errors.downrange_sd_m);
+    crossrange.push_back((goal.y_m - errors.crossrange_bias_m) / errors.crossrange_sd_m);
+  }
+  EXPECT_GT(core::KolmogorovP(downrange, NormalCdf), 0.001);
+  EXPECT_GT(core::KolmogorovP(crossrange, NormalCdf), 0.001);
+  // Negative control: a disparity known 15 % worse.
+  for (double& z : downrange) z *= 1.15;
+  EXPECT_LT(core::KolmogorovP(downrange, NormalCdf), 0.001);
+}
+
+TEST(GoalDesignationTest, UniformPanErrorFillsItsBound) {
+  CourseParams course = Course(20.0);
+  course.designation.pan_kind = PanError::kUniform;
+  course.designation.pixel_sd_px = 0.0;
+  const double bound_m = course.designation.ErrorsAt(20.0).crossrange_bias_m;
+  std::vector<double> left;
+  for (std::uint32_t trial = 0; trial < 2000; ++trial) {
+    left.push_back(ToldGoal(course, {3, trial}).y_m);
+  }
+  const auto cdf = [&](double y_m) { return (y_m / bound_m + 1.0) / 2.0; };
+  EXPECT_GT(core::KolmogorovP(left, cdf), 0.001);
+}
+
+// The lander stands 20 m ahead of the start, beside the goal, 5 m left of the line.
+TEST(GoalDesignationTest, ErrorsLieAlongTheLineOfSight) {
+  CourseParams course = Course(20.0);
+  course.designation.lander_ahead_m = 20.0;
+  course.designation.lander_left_m = 5.0;
+  course.designation.pixel_sd_px = 0.0;
+  EXPECT_NEAR(course.DesignationRange_m(), 5.0, 1e-12);
+  // Seen from there the goal lies to the right (-y): the pan error, to the left, goes to +x.
+  const messages::Goal goal = ToldGoal(course, {3, 1});
+  EXPECT_NEAR(goal.x_m, 20.0 + 5.0 * course.designation.pan_error_rad, 1e-9);
+  EXPECT_NE(goal.y_m, 0.0);
+}
+
+TEST(GoalDesignationTest, OneErrorShiftsNoOther) {
+  CourseParams course = Course(20.0);
+  const messages::Goal before = ToldGoal(course, {3, 1});
+  course.designation.pixel_sd_px = 0.0;
+  course.designation.pan_kind = PanError::kUniform;
+  EXPECT_EQ(ToldGoal(course, {3, 1}).x_m, before.x_m);
+}
+
+}  // namespace
+}  // namespace rockyard::trial
