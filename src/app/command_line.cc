@@ -3,14 +3,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <exception>
-#include <new>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/guard.h"
+#include "batch/communicator.h"
 #include "core/error.h"
 #include "core/provenance.h"
 #include "core/spelling.h"
@@ -37,6 +38,7 @@ void AddCommands(CLI::App& app, ExitCode& exit_code) {
   AddCheckCommand(app, exit_code);
   AddBaselineCommand(app);
   AddCompareCommand(app, exit_code);
+  AddMergeCommand(app, exit_code);
   AddRoverCommand(app);
   AddTerrainCommand(app);
   AddTraceCommand(app, exit_code);
@@ -68,6 +70,12 @@ core::Problem Explain(const CLI::App& app, const CLI::ParseError& error, std::st
           core::Suggest(first, candidates)};
 }
 
+// Every rank that mpirun started reads the same command line; one message is enough.
+void PrintOnce(const std::vector<core::Problem>& problems) {
+  const std::optional<batch::Launch> launch = batch::FindLaunch();
+  if (!launch || launch->rank == 0) PrintProblems(problems);
+}
+
 ExitCode Parse(CLI::App& app, int argc, const char* const* argv, const ExitCode& exit_code) {
   try {
     app.parse(argc, argv);
@@ -76,19 +84,9 @@ ExitCode Parse(CLI::App& app, int argc, const char* const* argv, const ExitCode&
     app.exit(request);
     return ExitCode::kDone;
   } catch (const CLI::ParseError& error) {
-    PrintProblems({Explain(app, error, argc > 1 ? argv[1] : "")});
+    PrintOnce({Explain(app, error, argc > 1 ? argv[1] : "")});
     return ExitCode::kBadInput;
-  } catch (const core::UserError& error) {
-    PrintProblems(error.problems());
-    return ExitCode::kBadInput;
-  } catch (const std::bad_alloc&) {
-    PrintProblems({{"memory", "is exhausted", "ask for fewer trials, threads or rocks"}});
-  } catch (const std::exception& error) {
-    PrintProblems({{"rockyard", error.what(), ""}});
-  } catch (...) {
-    PrintProblems({{"rockyard", "failed for an unknown reason", ""}});
   }
-  return ExitCode::kFailed;
 }
 
 }  // namespace
@@ -97,7 +95,7 @@ int RunCommandLine(int argc, const char* const* argv) {
   CLI::App app("Monte Carlo performance evaluation of planetary rovers", "rockyard");
   ExitCode exit_code = ExitCode::kDone;
   AddCommands(app, exit_code);
-  return static_cast<int>(Parse(app, argc, argv, exit_code));
+  return static_cast<int>(Guarded([&] { return Parse(app, argc, argv, exit_code); }));
 }
 
 }  // namespace rockyard::app

@@ -14,6 +14,7 @@ void AddRunCommand(CLI::App& app, ExitCode& exit_code);
 void AddBaselineCommand(CLI::App& app);
 void AddSweepCommand(CLI::App& app, ExitCode& exit_code);
 void AddCheckCommand(CLI::App& app, ExitCode& exit_code);
+void AddMergeCommand(CLI::App& app, ExitCode& exit_code);
 void AddCompareCommand(CLI::App& app, ExitCode& exit_code);
 void AddReplayCommand(CLI::App& app, ExitCode& exit_code);
 void AddRoverCommand(CLI::App& app);

@@ -49,6 +49,34 @@ class NewFolderGuard {
   fs::path folder_;
 };
 
+bool MayResume(const OpenRequest& request) {
+  return request.existing == ExistingRun::kResume ||
+         request.existing == ExistingRun::kResumeOrSetAside;
+}
+
+bool MaySetAside(const OpenRequest& request) {
+  return request.existing == ExistingRun::kSetAside ||
+         request.existing == ExistingRun::kResumeOrSetAside;
+}
+
+// Before anything is made or claimed: a folder that no run made is not written into by accident.
+void RefuseForeignFolder(const OpenRequest& request) {
+  const fs::path& folder = request.folder;
+  std::error_code error;
+  const bool empty =
+      !fs::exists(folder, error) || !fs::is_directory(folder, error) || fs::is_empty(folder, error);
+  if (empty || MaySetAside(request)) return;
+  if (!batch::HoldsStore(folder)) {
+    throw StoreError(StoreProblem::kExists, folder.string(), "is not empty and holds no run",
+                     "choose another folder with --out, or write into it with --force");
+  }
+  if (!MayResume(request)) {
+    throw StoreError(StoreProblem::kExists, folder.string(), "holds a run already",
+                     "go on with it by --resume, set it aside by --force (nothing is "
+                     "deleted), or choose another folder with --out");
+  }
+}
+
 class Opener {
  public:
   Opener(const OpenRequest& request, const CampaignPlan& plan, const truth::RecordSchema& schema)
@@ -58,7 +86,7 @@ class Opener {
         identity_(IdentityOf(plan, schema, request.shard)) {}
 
   OpenedRun Open() {
-    RefuseForeignFolder();
+    RefuseForeignFolder(request_);
     NewFolderGuard guard(folder_);
     auto claim = std::make_unique<batch::FolderClaim>(folder_);
     batch::ResultStore store = OpenStore();
@@ -68,34 +96,8 @@ class Opener {
   }
 
  private:
-  bool MayResume() const {
-    return request_.existing == ExistingRun::kResume ||
-           request_.existing == ExistingRun::kResumeOrSetAside;
-  }
-  bool MaySetAside() const {
-    return request_.existing == ExistingRun::kSetAside ||
-           request_.existing == ExistingRun::kResumeOrSetAside;
-  }
-
-  // Before anything is made or claimed: a folder that no run made is not written into by accident.
-  void RefuseForeignFolder() const {
-    std::error_code error;
-    const bool empty = !fs::exists(folder_, error) || !fs::is_directory(folder_, error) ||
-                       fs::is_empty(folder_, error);
-    if (empty || MaySetAside()) return;
-    if (!batch::HoldsStore(folder_)) {
-      throw StoreError(StoreProblem::kExists, folder_.string(), "is not empty and holds no run",
-                       "choose another folder with --out, or write into it with --force");
-    }
-    if (!MayResume()) {
-      throw StoreError(StoreProblem::kExists, folder_.string(), "holds a run already",
-                       "go on with it by --resume, set it aside by --force (nothing is "
-                       "deleted), or choose another folder with --out");
-    }
-  }
-
   batch::ResultStore OpenStore() {
-    if (batch::HoldsStore(folder_) && MayResume()) {
+    if (batch::HoldsStore(folder_) && MayResume(request_)) {
       try {
         batch::ResultStore store = batch::ResultStore::Resume(folder_, identity_, request_.build);
         resumed_ = true;
@@ -103,7 +105,7 @@ class Opener {
       } catch (const StoreError& error) {
         const bool useless =
             error.problem() == StoreProblem::kMismatch || error.problem() == StoreProblem::kDamaged;
-        if (!useless || !MaySetAside()) throw;
+        if (!useless || !MaySetAside(request_)) throw;
         notes_.push_back("cannot go on with the run in the folder: " + FirstReason(error));
       }
     }
@@ -181,6 +183,13 @@ batch::CampaignIdentity IdentityOf(const CampaignPlan& plan, const truth::Record
                               .seed = static_cast<std::uint64_t>(cell.scenario.seed)});
   }
   return identity;
+}
+
+void CheckFolder(const OpenRequest& request, const batch::CampaignIdentity& identity) {
+  RefuseForeignFolder(request);
+  if (request.existing == ExistingRun::kResume && batch::HoldsStore(request.folder)) {
+    batch::ResultStore::RequireSame(request.folder, identity, request.build);
+  }
 }
 
 OpenedRun OpenRun(const OpenRequest& request, const CampaignPlan& plan,

@@ -63,6 +63,10 @@ std::filesystem::path DefaultFolder(const std::string& name, std::int64_t seed);
 batch::CampaignIdentity IdentityOf(const CampaignPlan& plan, const truth::RecordSchema& schema,
                                    batch::Shard shard);
 
+// Throws batch::StoreError where the request may not use the folder as it is: it holds something
+// else, or a run that may not be gone on with. Writes nothing.
+void CheckFolder(const OpenRequest& request, const batch::CampaignIdentity& identity);
+
 // Throws core::UserError (batch::StoreError where it is about the folder); a folder made for the
 // run is then removed again.
 OpenedRun OpenRun(const OpenRequest& request, const CampaignPlan& plan,

@@ -9,15 +9,11 @@
 #include "app/campaign_options.h"
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/dry_run.h"
 #include "app/run_campaign.h"
+#include "app/run_report.h"
 #include "app/run_source.h"
-#include "report/measurement_text.h"
-#include "report/run_files.h"
-#include "report/summary_json.h"
-#include "report/summary_text.h"
 #include "scenario/ablations.h"
-#include "scenario/load.h"
-#include "truth/measurement_record.h"
 
 namespace rockyard::app {
 namespace {
@@ -28,11 +24,6 @@ struct RunOptions {
   std::string interval = "wilson";
   std::vector<std::string> ablations;
 };
-
-statistics::IntervalMethod MethodOf(const RunOptions& options) {
-  return options.interval == "wilson" ? statistics::IntervalMethod::kWilson
-                                      : statistics::IntervalMethod::kClopperPearson;
-}
 
 CampaignPlan PlanOf(const RunOptions& options) {
   std::vector<std::string> overrides = options.campaign.overrides;
@@ -60,48 +51,21 @@ void TellIdleAblations(const RunOptions& options) {
   }
 }
 
-void Show(const RunOptions& options, const std::string& text, const std::string& json,
-          const std::filesystem::path& folder) {
-  switch (options.campaign.output()) {
-    case Output::kText:
-      Print(text);
-      Print(fmt::format("  results in {}\n", folder.string()));
-      break;
-    case Output::kJson:
-      Print(json);
-      break;
-    case Output::kQuiet:
-      break;
-  }
-}
-
-// Derives the files from what is stored, and shows the summary.
-void Report(const OpenedRun& run, const RunOptions& options) {
-  const StoredRun stored = ReadRun(run.folder);
-  report::RunDescription description =
-      Describe(stored, batch::ThreadCount({.threads = options.campaign.threads}));
-  description.resolved = scenario::ResolvedJson(
-      LoadScenarioFrom(run.folder, std::vector{fmt::format("trials={}", stored.planned)}));
-  const statistics::IntervalMethod method = MethodOf(options);
-  const truth::RecordSchema& schema = stored.schema;
-  if (truth::IsMeasurement(schema)) {
-    const statistics::MeasurementSummary summary = report::WriteMeasurementFiles(
-        run.folder, description, schema, stored.records, stored.prefix(), method);
-    Show(options, report::MeasurementText(description, summary, StyleFor(stdout)),
-         report::MeasurementJson(description, summary, method), run.folder);
-    return;
-  }
-  const statistics::DriveSummary summary = report::WriteRunFiles(
-      run.folder, description, schema, stored.records, stored.prefix(), method);
-  Show(options, report::SummaryText(description, summary, StyleFor(stdout)),
-       report::SummaryJson(description, summary, method), run.folder);
+ReportOptions ReportOptionsOf(const RunOptions& options) {
+  return {.output = options.campaign.output(),
+          .method = options.interval == "wilson" ? statistics::IntervalMethod::kWilson
+                                                 : statistics::IntervalMethod::kClopperPearson,
+          .threads = options.campaign.threads};
 }
 
 ExitCode Run(const RunOptions& options) {
   TellIdleAblations(options);
+  if (options.campaign.dry_run) return DryRun(options.campaign, PlanOf(options));
   return RunCampaign(
       options.campaign, [&] { return PlanOf(options); },
-      [&](const OpenedRun& run, const batch::BatchResult&) { Report(run, options); });
+      [&](const OpenedRun& run, const batch::BatchResult&) {
+        ReportRun(run.folder, ReportOptionsOf(options));
+      });
 }
 
 std::string AblationNames() {

@@ -3,15 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <system_error>
 #include <utility>
 
 #include "batch/run_folder.h"
+#include "batch/stored_ends.h"
 #include "batch/trial_hash.h"
+#include "core/check.h"
 #include "core/json_file.h"
 #include "core/json_text.h"
 #include "scenario/ablations.h"
 #include "scenario/load.h"
+#include "scenario/sweep.h"
 
 namespace rockyard::app {
 namespace {
@@ -45,15 +49,69 @@ int FindCell(const fs::path& folder, const std::vector<batch::CellIdentity>& cel
                         "use one of " + CellList(cells));
 }
 
-StoredRun LoadCell(const fs::path& folder, const batch::ResultStore& store, int cell) {
-  return {.folder = folder,
-          .cell = cell,
-          .identity = store.identity().cells.at(static_cast<std::size_t>(cell)),
-          .schema = store.identity().schema,
-          .shard = store.identity().shard,
-          .planned = store.planned(cell),
-          .builds = store.Builds(),
-          .records = store.Load(cell)};
+// Reads cells of one store, one after the other.
+class CellLoader {
+ public:
+  CellLoader(const fs::path& folder, const batch::ResultStore& store)
+      : folder_(folder),
+        store_(store),
+        ends_(batch::StoredEnds(store)),
+        faults_(static_cast<std::size_t>(store.cells()), 0) {
+    for (const batch::InfrastructureFault& fault : store.InfrastructureFaults()) {
+      ++faults_.at(static_cast<std::size_t>(fault.id.cell));
+    }
+  }
+
+  StoredRun Load(int cell) const {
+    const auto index = static_cast<std::size_t>(cell);
+    return {.folder = folder_,
+            .cell = cell,
+            .identity = store_.identity().cells.at(index),
+            .schema = store_.identity().schema,
+            .shard = store_.identity().shard,
+            .planned = store_.planned(cell),
+            .builds = store_.Builds(),
+            .records = store_.Load(cell),
+            .infrastructure_faults = faults_[index],
+            .rule = store_.rule(),
+            .state = ends_[index]};
+  }
+
+ private:
+  const fs::path& folder_;
+  const batch::ResultStore& store_;
+  const std::vector<batch::CellState> ends_;
+  std::vector<std::int64_t> faults_;
+};
+
+report::Accounting AccountingOf(const StoredRun& run) {
+  report::Accounting accounting;
+  accounting.planned = run.shard.Share(run.planned);
+  accounting.faulted = std::count_if(run.records.begin(), run.records.end(), truth::IsFault);
+  const auto stored = static_cast<std::int64_t>(run.records.size());
+  accounting.completed = stored - accounting.faulted;
+  accounting.pending = accounting.planned - stored;
+  accounting.infrastructure_faults = run.infrastructure_faults;
+  ENSURE(accounting.pending >= 0);
+  return accounting;
+}
+
+std::optional<report::StoppingReport> StoppingOf(const StoredRun& run) {
+  if (!run.rule) return std::nullopt;
+  constexpr std::array kEnds = {"open", "max_trials", "precise", "budget"};
+  const bool adaptive = run.rule->allocation == batch::Allocation::kAdaptive;
+  return report::StoppingReport{.half_width = run.rule->half_width,
+                                .max_trials = run.rule->max_trials,
+                                .block = run.rule->block,
+                                .confidence = run.rule->confidence,
+                                .allocation = adaptive ? "adaptive" : "uniform",
+                                .budget = run.rule->budget,
+                                .end = kEnds[static_cast<std::size_t>(run.state.end)],
+                                .trials = run.state.counts.trials,
+                                .drives = run.state.counts.drives(),
+                                .successes = run.state.counts.declared_successes,
+                                .low = run.state.sequence.low,
+                                .high = run.state.sequence.high};
 }
 
 core::JsonValue LoadDocument(const fs::path& path, const std::string& cell) {
@@ -65,6 +123,9 @@ core::JsonValue LoadDocument(const fs::path& path, const std::string& cell) {
     return core::ParseJson(cells[static_cast<std::size_t>(index)].resolved, path.string());
   }
   core::JsonValue document = core::LoadJsonFile(path);
+  if (scenario::IsSweep(document)) {
+    throw core::UserError(path.string(), "is a sweep, not a scenario", "use rockyard sweep");
+  }
   const core::JsonValue* inner = document.Find("scenario");
   const bool resolved = inner != nullptr && document.Find("provenance") != nullptr;
   return resolved ? core::JsonValue(*inner) : document;
@@ -104,13 +165,14 @@ std::string StoredRun::Label() const {
 
 StoredRun ReadRun(const fs::path& folder, const std::string& cell) {
   const batch::ResultStore store = batch::ResultStore::Read(folder);
-  return LoadCell(folder, store, FindCell(folder, store.identity().cells, cell));
+  return CellLoader(folder, store).Load(FindCell(folder, store.identity().cells, cell));
 }
 
 std::vector<StoredRun> ReadCampaign(const fs::path& folder) {
   const batch::ResultStore store = batch::ResultStore::Read(folder);
+  const CellLoader loader(folder, store);
   std::vector<StoredRun> runs;
-  for (int cell = 0; cell < store.cells(); ++cell) runs.push_back(LoadCell(folder, store, cell));
+  for (int cell = 0; cell < store.cells(); ++cell) runs.push_back(loader.Load(cell));
   return runs;
 }
 
@@ -143,7 +205,11 @@ report::RunDescription Describe(const StoredRun& run, int threads) {
           .trial_hash = batch::TrialHash(run.prefix()),
           .provenance = core::CurrentProvenance(),
           .builds = run.builds,
-          .threads = threads};
+          .threads = threads,
+          .accounting = AccountingOf(run),
+          .stopping = StoppingOf(run),
+          .shard_index = run.shard.index,
+          .shard_count = run.shard.count};
 }
 
 }  // namespace rockyard::app

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "batch/result_store.h"
+#include "batch/work_plan.h"
 #include "report/run_description.h"
 #include "scenario/scenario.h"
 #include "truth/record.h"
@@ -29,6 +31,9 @@ struct StoredRun {
   std::int64_t planned = 0;
   std::vector<std::string> builds;
   std::vector<truth::Record> records;  // by trial index
+  std::int64_t infrastructure_faults = 0;
+  std::optional<batch::StoppingRule> rule;
+  batch::CellState state;  // where the rule ended it
 
   std::span<const truth::Record> prefix() const { return batch::ContiguousPrefix(records); }
   // For people: the folder, and the cell where it has a name.

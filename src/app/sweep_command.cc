@@ -1,21 +1,13 @@
 // rockyard sweep
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "app/campaign_options.h"
 #include "app/commands.h"
-#include "app/console.h"
 #include "app/run_campaign.h"
-#include "app/run_source.h"
 #include "app/sweep_plan.h"
-#include "batch/trial_hash.h"
-#include "core/error.h"
-#include "report/sweep_files.h"
+#include "app/sweep_report.h"
 #include "scenario/sweep.h"
 
 namespace rockyard::app {
@@ -45,65 +37,11 @@ CampaignPlan PlanOf(const scenario::Sweep& sweep) {
   return plan;
 }
 
-// Loads one cell after the other, and keeps their hashes for that of the campaign.
-class StoredCells {
- public:
-  explicit StoredCells(const batch::ResultStore& store) : store_(store) {}
-
-  report::SweepCellTrials Load(std::size_t index) {
-    const int cell = static_cast<int>(index);
-    std::vector<truth::Record> records = store_.Load(cell);
-    const auto stored = static_cast<std::int64_t>(records.size());
-    records.resize(batch::ContiguousPrefix(records).size());
-    std::string hash = batch::TrialHash(records);
-    hashes_.push_back({store_.identity().cells[index].name, hash});
-    return {.schema = store_.identity().schema,
-            .prefix = std::move(records),
-            .planned = store_.planned(cell),
-            .stored = stored,
-            .trial_hash = std::move(hash)};
-  }
-
-  std::string CampaignHash() const { return batch::CampaignHash(hashes_); }
-
- private:
-  const batch::ResultStore& store_;
-  std::vector<batch::CellHash> hashes_;
-};
-
-// A shard holds no contiguous prefix of any cell, so that no rate can be told from it.
-bool TellShard(const OpenedRun& run) {
-  const batch::Shard shard = run.store.identity().shard;
-  if (shard.whole()) return false;
-  PrintNote(fmt::format("part {} of {} is in {}; `rockyard merge` puts the parts together",
-                        shard.index, shard.count, run.folder.string()));
-  return true;
-}
-
-void Report(const OpenedRun& run, const scenario::Sweep& sweep, const SweepOptions& options) {
-  if (TellShard(run)) return;
-  const auto method = options.interval == "wilson" ? statistics::IntervalMethod::kWilson
-                                                   : statistics::IntervalMethod::kClopperPearson;
-  StoredCells cells(run.store);
-  const report::SweepSummary summary = report::SummarizeSweep(
-      sweep, [&](std::size_t index) { return cells.Load(index); }, method);
-  const report::SweepDescription description{
-      .trial_hash = cells.CampaignHash(),
-      .provenance = core::CurrentProvenance(),
-      .builds = run.store.Builds(),
-      .threads = batch::ThreadCount({.threads = options.campaign.threads})};
-  report::WriteSweepFiles(run.folder, sweep, summary, description);
-  switch (options.campaign.output()) {
-    case Output::kText:
-      Print(report::SweepText(sweep, summary, description, StyleFor(stdout)));
-      Print(fmt::format("  results in {}\n", run.folder.string()));
-      break;
-    case Output::kJson:
-      Print(report::SweepJson(sweep, summary, description));
-      break;
-    case Output::kQuiet:
-      break;
-  }
+ReportOptions ReportOptionsOf(const SweepOptions& options) {
+  return {.output = options.campaign.output(),
+          .method = options.interval == "wilson" ? statistics::IntervalMethod::kWilson
+                                                 : statistics::IntervalMethod::kClopperPearson,
+          .threads = options.campaign.threads};
 }
 
 ExitCode Sweep(const SweepOptions& options) {
@@ -116,7 +54,9 @@ ExitCode Sweep(const SweepOptions& options) {
   }
   return RunCampaign(
       options.campaign, [&] { return PlanOf(sweep); },
-      [&](const OpenedRun& run, const batch::BatchResult&) { Report(run, sweep, options); });
+      [&](const OpenedRun& run, const batch::BatchResult&) {
+        ReportSweep(run.store, sweep, ReportOptionsOf(options));
+      });
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "batch/store_error.h"
+#include "batch/stored_ends.h"
 #include "core/check.h"
 
 namespace rockyard::batch {
@@ -46,22 +47,13 @@ Progress ProgressOf(const WorkPlan& plan) {
 
 }  // namespace
 
-WorkPlan StoredPlan(const ResultStore& store, const BatchOptions& options) {
-  std::vector<std::int64_t> planned;
-  for (int cell = 0; cell < store.cells(); ++cell) planned.push_back(store.planned(cell));
-  WorkPlan plan(std::move(planned),
-                {.rule = options.rule, .order = options.order, .shard = store.identity().shard});
-  plan.AddStored(store.Finished());
-  return plan;
-}
-
 BatchSession::BatchSession(ResultStore& store, const BatchOptions& options,
                            const std::atomic<bool>& stop, ProgressReport report)
     : store_(store),
       options_(options),
       report_(std::move(report)),
       start_(Clock::now()),
-      plan_(StoredPlan(store, options)),
+      plan_(StoredPlan(store, options.rule, options.order)),
       finished_before_(plan_.finished()),
       source_(plan_, writer_, stop),
       writer_(store, options.interval, [this] { Tell(); }) {

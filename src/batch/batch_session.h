@@ -12,9 +12,6 @@
 
 namespace rockyard::batch {
 
-// The plan of a store with its finished trials; before the first Next.
-WorkPlan StoredPlan(const ResultStore& store, const BatchOptions& options);
-
 // The plan of a store, the thread that writes it, and the source that hands out what is left. Make
 // it, run trials from source() in any way, then Close.
 class BatchSession {

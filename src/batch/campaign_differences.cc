@@ -36,9 +36,10 @@ std::vector<Problem> CellDifferences(const CellIdentity& stored, const CellIdent
          ""});
   }
   if (stored.name != wanted.name) {
-    problems.push_back(
-        {"name of the cell",
-         fmt::format("is \"{}\" in the stored run and \"{}\" now", stored.name, wanted.name), ""});
+    problems.push_back({"name of the cell",
+                        fmt::format("is \"{}\" {} and \"{}\" {}", stored.name, words.first,
+                                    wanted.name, words.second),
+                        ""});
   }
   for (Problem& problem : problems) {
     if (!wanted.name.empty()) problem.path = fmt::format("cell {}: {}", wanted.name, problem.path);
@@ -50,8 +51,8 @@ void AddCells(const CampaignIdentity& stored, const CampaignIdentity& wanted,
               const DifferenceWords& words, std::vector<Problem>& problems) {
   if (stored.cells.size() != wanted.cells.size()) {
     problems.push_back({"cells",
-                        fmt::format("are {} in the stored campaign and {} now", stored.cells.size(),
-                                    wanted.cells.size()),
+                        fmt::format("are {} {} and {} {}", stored.cells.size(), words.first,
+                                    wanted.cells.size(), words.second),
                         ""});
     return;
   }

@@ -76,6 +76,12 @@ ResultStore ResultStore::Create(const fs::path& folder, const CampaignIdentity& 
   return Create(folder, identity, std::vector<std::int64_t>(identity.cells.size(), planned));
 }
 
+void ResultStore::RequireSame(const fs::path& folder, const CampaignIdentity& identity,
+                              BuildPolicy policy) {
+  const ResultStore store = Read(folder);
+  CheckIdentity(store.path_, store.identity_, identity, store.Builds(), policy);
+}
+
 ResultStore ResultStore::Resume(const fs::path& folder, const CampaignIdentity& identity,
                                 BuildPolicy policy) {
   ResultStore store = Read(folder);

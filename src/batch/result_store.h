@@ -47,6 +47,10 @@ class ResultStore {
   static ResultStore Resume(const std::filesystem::path& folder, const CampaignIdentity& identity,
                             BuildPolicy policy = BuildPolicy::kSame);
 
+  // Throws as Resume does, and changes nothing.
+  static void RequireSame(const std::filesystem::path& folder, const CampaignIdentity& identity,
+                          BuildPolicy policy);
+
   // Opens the store to read, also while a run writes it. kMissing, kDamaged.
   static ResultStore Read(const std::filesystem::path& folder);
 

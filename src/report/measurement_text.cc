@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "report/accounting.h"
+
 namespace rockyard::report {
 namespace {
 
@@ -29,6 +31,7 @@ std::string Head(const RunDescription& run, const MeasurementSummary& summary, T
     text += fmt::format("  {} more finished runs count once those before them are finished\n",
                         run.stored - summary.completed);
   }
+  text += AccountingText(run);
   if (summary.faults > 0) {
     text += fmt::format("  {} simulator faults, in none of the numbers below\n", summary.faults);
   }

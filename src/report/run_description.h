@@ -2,12 +2,41 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/provenance.h"
 
 namespace rockyard::report {
+
+// What has become of the planned trials: planned = completed + faulted + pending.
+struct Accounting {
+  std::int64_t planned = 0;                // of a shard: its share
+  std::int64_t completed = 0;              // stored without a fault, in any order
+  std::int64_t faulted = 0;                // stored as simulator faults
+  std::int64_t pending = 0;                // with a stopping rule that has not ended: at most
+  std::int64_t infrastructure_faults = 0;  // failures of the machine: retried, in none of these
+};
+
+// The rule that ended the trials, or will.
+struct StoppingReport {
+  double half_width = 0.0;
+  std::int64_t max_trials = 0;
+  std::int64_t block = 0;
+  double confidence = 0.95;
+  std::string allocation;   // "uniform" or "adaptive"
+  std::int64_t budget = 0;  // 0: none
+  // "open", "precise" (the half-width is reached), "max_trials" or "budget".
+  std::string end;
+  // At the last decision, over trials 0 .. trials-1: declared successes of those without a fault,
+  // and the confidence sequence, which holds the rate whenever it is looked at.
+  std::int64_t trials = 0;
+  std::int64_t drives = 0;
+  std::int64_t successes = 0;
+  double low = 0.0;
+  double high = 1.0;
+};
 
 struct RunDescription {
   std::string scenario;
@@ -22,6 +51,10 @@ struct RunDescription {
   core::Provenance provenance;
   std::vector<std::string> builds;  // every build that wrote trials
   int threads = 1;
+  Accounting accounting;
+  std::optional<StoppingReport> stopping;
+  int shard_index = 1;  // of shard_count; the whole where that is 1
+  int shard_count = 1;
 };
 
 }  // namespace rockyard::report

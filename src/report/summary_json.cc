@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "report/accounting.h"
+
 namespace rockyard::report {
 namespace {
 
@@ -167,6 +169,8 @@ Json Head(const RunDescription& run, std::int64_t completed, std::int64_t faults
                     {"stored", run.stored},
                     {"completed", completed},
                     {"faults", faults}};
+  // Text, because JSON types stay inside one file.
+  json.update(Json::parse(AccountingJson(run)));
   return json;
 }
 

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "report/accounting.h"
+
 namespace rockyard::report {
 namespace {
 
@@ -49,6 +51,7 @@ std::string Head(const RunDescription& run, const DriveSummary& summary, TextSty
     text += fmt::format("  {} more finished trials count once those before them are finished\n",
                         run.stored - summary.completed);
   }
+  text += AccountingText(run);
   if (summary.faults > 0) {
     text +=
         "  " +

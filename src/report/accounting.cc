@@ -1,0 +1,90 @@
+#include "report/accounting.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace rockyard::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json Stopping(const StoppingReport& stopping) {
+  Json json = {{"rule", "until_half_width"},        {"half_width", stopping.half_width},
+               {"max_trials", stopping.max_trials}, {"block", stopping.block},
+               {"confidence", stopping.confidence}, {"allocation", stopping.allocation}};
+  json["budget"] = stopping.budget > 0 ? Json(stopping.budget) : Json(nullptr);
+  json["end"] = stopping.end;
+  json["trials"] = stopping.trials;
+  json["declared_success"] = {{"count", stopping.successes}, {"trials", stopping.drives}};
+  json["confidence_sequence"] = Json::array({stopping.low, stopping.high});
+  return json;
+}
+
+Json Parts(const RunDescription& run) {
+  const Accounting& a = run.accounting;
+  Json json;
+  json["accounting"] = {{"planned", a.planned},
+                        {"completed", a.completed},
+                        {"faulted", a.faulted},
+                        {"pending", a.pending},
+                        {"infrastructure_faults", a.infrastructure_faults}};
+  if (run.stopping) json["stopping"] = Stopping(*run.stopping);
+  if (run.shard_count > 1) {
+    json["shard"] = {{"index", run.shard_index}, {"count", run.shard_count}};
+  }
+  return json;
+}
+
+std::string Why(const StoppingReport& stopping) {
+  if (stopping.end == "precise") return "precise enough";
+  if (stopping.end == "max_trials") return "at the most trials, not precise enough";
+  if (stopping.end == "budget") return "the budget is used up, not precise enough";
+  return "not yet precise enough";
+}
+
+std::string StoppingText(const StoppingReport& stopping) {
+  return fmt::format(
+      "  {} after {} trials: half-width {:.2f} % for {:.2f} % wanted, looked at every {} trials\n"
+      "  declared success at that look {} of {}: {:.1f} .. {:.1f} % ({:g} %, valid at any time)\n",
+      Why(stopping), stopping.trials, 50.0 * (stopping.high - stopping.low),
+      100.0 * stopping.half_width, stopping.block, stopping.successes, stopping.drives,
+      100.0 * stopping.low, 100.0 * stopping.high, 100.0 * stopping.confidence);
+}
+
+}  // namespace
+
+std::string AccountingJson(const RunDescription& run) { return Parts(run).dump(); }
+
+std::string AccountingText(const RunDescription& run) {
+  const Accounting& a = run.accounting;
+  std::string text = fmt::format("  {} planned = {} completed + {} faulted + {} pending\n",
+                                 a.planned, a.completed, a.faulted, a.pending);
+  if (a.infrastructure_faults > 0) {
+    text +=
+        fmt::format("  {} failures of the machine, retried: no results\n", a.infrastructure_faults);
+  }
+  return run.stopping ? text + StoppingText(*run.stopping) : text;
+}
+
+std::string ShardJson(const RunDescription& run) {
+  Json json = {{"schema_version", 1},
+               {"scenario", run.scenario},
+               {"seed", run.seed},
+               {"fingerprint", run.fingerprint}};
+  json.update(Parts(run));
+  json["note"] = "a shard tells no rates: put all shards together with rockyard merge";
+  json["shard_hash"] = run.trial_hash;
+  json["builds"] = run.builds;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string ShardText(const RunDescription& run) {
+  return fmt::format("{}, seed {}: shard {} of {}\n", run.scenario.substr(0, 40), run.seed,
+                     run.shard_index, run.shard_count) +
+         AccountingText(run) +
+         "  no rates from a shard; put all of them together:\n"
+         "  rockyard merge SHARD... --out DIR\n";
+}
+
+}  // namespace rockyard::report
