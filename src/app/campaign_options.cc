@@ -49,11 +49,9 @@ void AddPlanOptions(CLI::App& command, CampaignOptions& options) {
                   "most trials of all cells together (default: no limit)")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000'000}))
       ->needs(until);
-  command
-      .add_option("--shard", options.shard_text,
-                  "I/N: only the I-th of N parts of the trials; `rockyard merge` puts the parts "
-                  "together")
-      ->excludes(until);
+  command.add_option("--shard", options.shard_text,
+                     "I/N: only the I-th of N parts of the trials; `rockyard merge` puts the parts "
+                     "together");
   command.add_option("--seed", options.seed, "seed of every random stream");
   command.add_option("--set", options.overrides, "PATH=VALUE: changes the scenario; repeat")
       ->allow_extra_args(false);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "app/console.h"
 #include "statistics/proportions.h"
@@ -29,17 +30,30 @@ std::string Pace(const batch::Progress& progress) {
   return fmt::format(", {:.3g}/s, ETA {}", rate, Duration(static_cast<double>(left) / rate));
 }
 
+// A rule may end cells before their maximum.
+std::string_view AtMost(const batch::Progress& progress) {
+  const bool open = progress.target_half_width > 0.0 && progress.finished < progress.planned;
+  return open ? "<=" : "";
+}
+
 }  // namespace
 
 std::string ProgressText(const batch::Progress& progress) {
   const batch::PrefixCounts& prefix = progress.prefix;
   const std::int64_t trials = prefix.trials - prefix.faults - prefix.measured;
-  std::string text =
-      fmt::format("  {}/{} done{}", progress.finished, progress.planned, Pace(progress));
+  std::string text = fmt::format("  {}/{}{} done{}", progress.finished, AtMost(progress),
+                                 progress.planned, Pace(progress));
   if (trials > 0) {
     const auto rate = statistics::MakeProportion(prefix.declared_successes, trials);
     text += fmt::format(", success {:.1f} % (95 %: {:.1f} .. {:.1f} of {})", 100.0 * rate.rate,
                         100.0 * rate.interval.low, 100.0 * rate.interval.high, trials);
+  }
+  if (progress.cells > 1) {
+    text += fmt::format(", {}/{} cells ended", progress.cells_ended, progress.cells);
+  }
+  if (progress.target_half_width > 0.0) {
+    text += fmt::format(", half-width {:.2f} % for {:.2f} %", 100.0 * progress.widest_half_width,
+                        100.0 * progress.target_half_width);
   }
   return text + fmt::format(", faults {}", progress.faults);
 }

@@ -122,6 +122,11 @@ ExitCode RunInProcess(const CampaignOptions& options, const CampaignPlanner& pla
 void CheckPlan(const CampaignOptions& options, const CampaignPlan& plan) {
   if (!options.stopping_rule()) return;
   std::vector<core::Problem> problems;
+  if (!options.shard().whole()) {
+    problems.push_back({"--until-half-width",
+                        "looks at trials 0, 1, 2, ... of a cell, of which a shard has only some",
+                        "leave out --shard, or say how many trials to run with --trials"});
+  }
   for (const CampaignCell& cell : plan.cells) {
     if (cell.scenario.experiment != scenario::ExperimentKind::kDrive) {
       problems.push_back({"--until-half-width",

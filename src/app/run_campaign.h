@@ -20,8 +20,8 @@ using CampaignReporter =
     std::function<void(const OpenedRun& run, const batch::BatchResult& result)>;
 
 // Throws core::UserError with everything that the options ask of this plan and that cannot be: a
-// stopping rule where nothing drives, or where trials share layouts and are not independent; cells
-// whose records have different columns.
+// stopping rule of a shard, where nothing drives, or where trials share layouts and are not
+// independent; cells whose records have different columns.
 void CheckPlan(const CampaignOptions& options, const CampaignPlan& plan);
 
 // The request that the options make of a plan.

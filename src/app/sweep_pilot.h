@@ -2,25 +2,16 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
+#include "batch/pilot.h"
 #include "scenario/sweep.h"
 
 namespace rockyard::app {
 
-// The pilots of one cell. Zero trials: it had none.
-struct PilotCost {
-  std::int64_t trials = 0;
-  double mean_s = 0.0;       // CPU time of a trial
-  double variance_s2 = 0.0;  // unbiased; 0 below two trials
-  double slowest_s = 0.0;
-  std::string hash;  // of the records
-};
-
 // Runs the first `trials` trials of every cell, of about a hundred evenly spread cells where there
 // are more, with the seed of the campaign. On this thread.
-std::vector<PilotCost> RunPilots(const scenario::Sweep& sweep, int trials);
+std::vector<batch::PilotCost> RunPilots(const scenario::Sweep& sweep, int trials);
 
 struct CampaignCost {
   std::int64_t pilots = 0;
@@ -31,6 +22,7 @@ struct CampaignCost {
   double slowest_s = 0.0;  // pilot
 };
 
-CampaignCost ExpectedCost(const scenario::Sweep& sweep, const std::vector<PilotCost>& pilots);
+CampaignCost ExpectedCost(const scenario::Sweep& sweep,
+                          const std::vector<batch::PilotCost>& pilots);
 
 }  // namespace rockyard::app

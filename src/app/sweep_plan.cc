@@ -61,7 +61,7 @@ std::int64_t TotalTrials(const Sweep& sweep) {
   return total;
 }
 
-JsonValue CellPlan(const Sweep& sweep, std::size_t index, const PilotCost& cost) {
+JsonValue CellPlan(const Sweep& sweep, std::size_t index, const batch::PilotCost& cost) {
   const scenario::SweepCell& cell = sweep.cells[index];
   JsonValue levels = JsonValue::Object();
   for (std::size_t i = 0; i < sweep.axes.size(); ++i) {
@@ -91,7 +91,7 @@ JsonValue CostOf(const CampaignCost& cost) {
   return json;
 }
 
-std::string PlanJson(const Sweep& sweep, const std::vector<PilotCost>& pilots,
+std::string PlanJson(const Sweep& sweep, const std::vector<batch::PilotCost>& pilots,
                      const CampaignCost& cost) {
   JsonValue::List cells;
   for (std::size_t i = 0; i < sweep.cells.size(); ++i) {
@@ -108,7 +108,7 @@ std::string PlanJson(const Sweep& sweep, const std::vector<PilotCost>& pilots,
   return core::DumpJson(plan);
 }
 
-std::string PlanCsv(const Sweep& sweep, const std::vector<PilotCost>& pilots) {
+std::string PlanCsv(const Sweep& sweep, const std::vector<batch::PilotCost>& pilots) {
   std::vector<std::string> fields{"cell", "name"};
   for (const scenario::SweepAxis& axis : sweep.axes) fields.push_back(report::CsvField(axis.name));
   for (const char* name : {"seed", "trials", "fingerprint", "pilots", "cpu_s_per_trial",
@@ -118,7 +118,7 @@ std::string PlanCsv(const Sweep& sweep, const std::vector<PilotCost>& pilots) {
   std::string csv = report::CsvLine(fields);
   for (std::size_t i = 0; i < sweep.cells.size(); ++i) {
     const scenario::SweepCell& cell = sweep.cells[i];
-    const PilotCost& pilot = pilots[i];
+    const batch::PilotCost& pilot = pilots[i];
     fields = {std::to_string(i), report::CsvField(cell.name)};
     for (const scenario::SweepLevel& level : cell.levels) {
       fields.push_back(report::CsvField(level.text));
@@ -156,7 +156,8 @@ std::string CostText(const CampaignCost& cost) {
 }
 
 // Cells whose pilots are equal differ by a setting that changed no trial.
-std::vector<std::string> EqualPilots(const Sweep& sweep, const std::vector<PilotCost>& pilots) {
+std::vector<std::string> EqualPilots(const Sweep& sweep,
+                                     const std::vector<batch::PilotCost>& pilots) {
   std::vector<std::string> notes;
   std::map<std::string, std::size_t> known;
   for (std::size_t i = 0; i < pilots.size(); ++i) {
@@ -181,7 +182,7 @@ void WriteSweepPlan(const Sweep& sweep, const SweepPlanOptions& options) {
     report::WriteFileAtomically(folder / "cells" / (scenario::CellFileName(i, cell.name) + ".json"),
                                 scenario::ResolvedJson(cell.scenario));
   }
-  const std::vector<PilotCost> pilots = RunPilots(sweep, options.pilots);
+  const std::vector<batch::PilotCost> pilots = RunPilots(sweep, options.pilots);
   const CampaignCost cost = ExpectedCost(sweep, pilots);
   const std::string json = PlanJson(sweep, pilots, cost);
   report::WriteFileAtomically(folder / "plan.csv", PlanCsv(sweep, pilots));

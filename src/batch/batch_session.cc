@@ -37,7 +37,7 @@ Progress ProgressOf(const WorkPlan& plan) {
   progress.cells = plan.cells();
   for (int cell = 0; cell < plan.cells(); ++cell) {
     progress.planned += plan.planned(cell);
-    if (plan.state(cell).end != CellEnd::kOpen) ++progress.cells_ended;
+    if (plan.counter(cell).finished() == plan.planned(cell)) ++progress.cells_ended;
     progress.widest_half_width =
         std::max(progress.widest_half_width, plan.state(cell).half_width());
   }

@@ -40,7 +40,7 @@ struct Progress {
   PrefixCounts prefix{};             // of the only cell: what rates may be shown of
   double elapsed_s = 0.0;            // of this session, wall clock
   int cells = 1;
-  int cells_ended = 0;             // by a rule, a maximum or a budget
+  int cells_ended = 0;             // all their planned trials are finished
   double widest_half_width = 0.0;  // of the cells, with a rule: at their last decisions
   double target_half_width = 0.0;  // 0: no rule
 };

@@ -28,6 +28,17 @@ TEST(ProgressText, SaysNothingThatItDoesNotKnow) {
   EXPECT_THAT(text, Not(HasSubstr("nan")));
 }
 
+TEST(ProgressText, SaysHowFarAStoppingRuleIs) {
+  const batch::Progress progress{.planned = 30000,
+                                 .finished = 700,
+                                 .cells = 3,
+                                 .cells_ended = 1,
+                                 .widest_half_width = 0.0812,
+                                 .target_half_width = 0.02};
+  EXPECT_EQ(ProgressText(progress),
+            "  700/<=30000 done, 1/3 cells ended, half-width 8.12 % for 2.00 %, faults 0");
+}
+
 TEST(ProgressText, LongRuns) {
   const batch::Progress progress{.planned = 1000000, .finished = 100, .elapsed_s = 100.0};
   EXPECT_THAT(ProgressText(progress), HasSubstr("ETA 277:45:00"));

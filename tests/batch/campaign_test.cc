@@ -1,0 +1,172 @@
+// Campaigns of several cells through the executor: accounting, rules, shards, memory of a plan.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "batch/executor.h"
+#include "batch/merge_shards.h"
+#include "batch/stored_ends.h"
+#include "batch/trial_hash.h"
+#include "experiments/experiment.h"
+#include "fake_experiment.h"
+#include "scenario/load.h"
+
+namespace rockyard::batch {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::atomic<bool> kNeverStop = false;
+
+CampaignIdentity ThreeCells() {
+  CampaignIdentity identity = FakeIdentity();
+  identity.cells = {FakeCell(1, "a"), FakeCell(2, "b"), FakeCell(3, "c")};
+  return identity;
+}
+
+std::vector<CellWork> WorkOf(const experiments::Experiment& experiment, const ResultStore& store) {
+  std::vector<CellWork> work;
+  for (const CellIdentity& cell : store.identity().cells) work.push_back({&experiment, cell.seed});
+  return work;
+}
+
+std::string HashOf(const ResultStore& store) {
+  std::vector<CellHash> hashes;
+  for (int cell = 0; cell < store.cells(); ++cell) {
+    hashes.push_back(
+        {store.identity().cells[static_cast<std::size_t>(cell)].name, TrialHash(store.Load(cell))});
+  }
+  return CampaignHash(hashes);
+}
+
+BatchOptions RuleOptions(int threads, Order order = Order::kNatural) {
+  BatchOptions options;
+  options.threads = threads;
+  options.order = order;
+  options.rule = {.half_width = 0.12, .max_trials = 1000, .block = 25};
+  return options;
+}
+
+std::string HashUnderRule(const BatchOptions& options, std::int64_t& trials) {
+  const TemporaryFolder folder;
+  ResultStore store = ResultStore::Create(folder.path(), ThreeCells(), 1000);
+  store.SetRule(options.rule);
+  const FakeExperiment experiment;
+  const BatchResult result = RunBatch(WorkOf(experiment, store), store, options, kNeverStop);
+  EXPECT_EQ(result.end, BatchEnd::kFinished);
+  EXPECT_EQ(result.progress.finished, result.progress.planned);
+  trials = result.progress.finished;
+  const ResultStore read = ResultStore::Read(folder.path());
+  const std::vector<CellState> ends = StoredEnds(read);
+  for (int cell = 0; cell < read.cells(); ++cell) {
+    const CellState& end = ends[static_cast<std::size_t>(cell)];
+    EXPECT_EQ(end.end, CellEnd::kPrecise);
+    EXPECT_EQ(end.asked, read.planned(cell));
+    EXPECT_EQ(end.asked % 25, 0);
+  }
+  return HashOf(read);
+}
+
+TEST(Campaign, RuleEndsTheSameWhateverThreadsAndOrder) {
+  std::int64_t expected_trials = 0;
+  const std::string expected = HashUnderRule(RuleOptions(1), expected_trials);
+  EXPECT_LT(expected_trials, 3000);
+  for (const Order order : {Order::kNatural, Order::kShuffled}) {
+    std::int64_t trials = 0;
+    EXPECT_EQ(HashUnderRule(RuleOptions(3, order), trials), expected);
+    EXPECT_EQ(trials, expected_trials);
+  }
+}
+
+TEST(Campaign, RuleGoesOnAfterAStop) {
+  std::int64_t expected_trials = 0;
+  const std::string expected = HashUnderRule(RuleOptions(1), expected_trials);
+  const TemporaryFolder folder;
+  std::atomic<int> started = 0;
+  std::atomic<bool> stop = false;
+  const FakeExperiment experiment([&](std::uint64_t) { stop = ++started % 40 == 0; });
+  ResultStore store = ResultStore::Create(folder.path(), ThreeCells(), 1000);
+  BatchResult result;
+  int sessions = 0;
+  do {
+    stop = false;
+    result = RunBatch(WorkOf(experiment, store), store, RuleOptions(2), stop);
+    ++sessions;
+  } while (result.end == BatchEnd::kStopped && sessions < 200);
+  EXPECT_GT(sessions, 2);
+  EXPECT_EQ(started, expected_trials) << "nothing is run twice, nothing beyond the rule";
+  EXPECT_EQ(HashOf(store), expected);
+}
+
+// planned = completed + faulted + pending, at every report.
+TEST(Campaign, EveryPlannedTrialIsAccountedFor) {
+  const TemporaryFolder folder;
+  const FakeExperiment experiment([](std::uint64_t index) {
+    if (index % 10 == 3) throw std::runtime_error("blew up");
+  });
+  ResultStore store = ResultStore::Create(folder.path(), ThreeCells(), 40);
+  const BatchResult result = RunBatch(WorkOf(experiment, store), store,
+                                      {.threads = 2, .max_fault_fraction = 1.0}, kNeverStop);
+  EXPECT_EQ(result.progress.planned, 120);
+  EXPECT_EQ(result.progress.finished, 120);
+  EXPECT_EQ(result.progress.faults, 12);
+  EXPECT_EQ(result.progress.cells_ended, 3);
+  store.AddInfrastructureFault({{2, 5}, "cpu_time_limit", "slow"});
+  EXPECT_EQ(store.Finished().size(), 120U) << "failures of the machine are no trials";
+  EXPECT_EQ(store.InfrastructureFaults()[0].kind, "cpu_time_limit");
+}
+
+TEST(CampaignHash, OfOneCellIsThatOfItsTrials) {
+  EXPECT_EQ(CampaignHash(std::vector<CellHash>{{"", "abc"}}), "abc");
+  const std::string two = CampaignHash(std::vector<CellHash>{{"a", "x"}, {"b", "y"}});
+  EXPECT_NE(two, CampaignHash(std::vector<CellHash>{{"b", "y"}, {"a", "x"}}));
+  EXPECT_NE(two, CampaignHash(std::vector<CellHash>{{"a", "x"}, {"c", "y"}}));
+}
+
+// Quasi-static drives.
+class DriveCampaign : public testing::Test {
+ protected:
+  static constexpr std::int64_t kDrives = 8;
+
+  DriveCampaign()
+      : experiment_(experiments::MakeExperiment(scenario::LoadScenario(
+            std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/nominal.json",
+            std::vector<std::string>{"rover.fidelity=quasi_static"}))) {
+    identity_ = FakeIdentity();
+    identity_.schema = experiment_->schema();
+  }
+
+  std::string Run(const std::string& name, const BatchOptions& options, Shard shard = {}) {
+    const fs::path path = folder_.path() / name;
+    fs::create_directories(path);
+    CampaignIdentity identity = identity_;
+    identity.shard = shard;
+    ResultStore store = ResultStore::Create(path, identity, kDrives);
+    RunBatch(*experiment_, store, options, kNeverStop);
+    return HashOf(store);
+  }
+
+  TemporaryFolder folder_;
+  std::unique_ptr<experiments::Experiment> experiment_;
+  CampaignIdentity identity_;
+};
+
+TEST_F(DriveCampaign, SameHashForThreadsShardsAndOrders) {
+  const std::string expected = Run("one", {.threads = 1});
+  EXPECT_EQ(Run("two", {.threads = 2}), expected);
+  EXPECT_EQ(Run("shuffled", {.threads = 2, .order = Order::kShuffled}), expected);
+  std::vector<fs::path> shards;
+  for (int index = 1; index <= 4; ++index) {
+    const std::string name = "shard" + std::to_string(index);
+    EXPECT_NE(Run(name, {.threads = 1}, {index, 4}), expected);
+    shards.push_back(folder_.path() / name);
+  }
+  MergeShards(shards, folder_.path() / "merged");
+  EXPECT_EQ(HashOf(ResultStore::Read(folder_.path() / "merged")), expected);
+}
+
+}  // namespace
+}  // namespace rockyard::batch
