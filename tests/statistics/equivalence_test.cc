@@ -1,0 +1,188 @@
+#include "statistics/equivalence.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/json_file.h"
+#include "oracles.h"
+#include "statistics/counts.h"
+#include "statistics/quantiles.h"
+#include "statistics/sample_size.h"
+
+namespace rockyard::statistics {
+namespace {
+
+// Numbers of scipy; the file names the functions.
+const core::JsonValue& ScipyNumbers() {
+  static const core::JsonValue oracles =
+      core::LoadJsonFile(ROCKYARD_SOURCE_DIR "/tests/data/equivalence_oracles.json");
+  return oracles;
+}
+
+std::vector<double> Sample(std::string_view name) { return Numbers(At(ScipyNumbers(), name)); }
+
+TEST(PairedMeans, EqualScipy) {
+  const std::vector<double> a = Sample("a");
+  const std::vector<double> c = Sample("c");
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < a.size(); ++i) differences.push_back(c[i] - a[i]);
+  const MeanDifference means = PairedMeans(differences);
+  const core::JsonValue& expected = At(ScipyNumbers(), "paired");
+  EXPECT_NEAR(ChangePValue(means), At(expected, "p").number(), 1e-10);
+  EXPECT_NEAR(EquivalencePValue(means, 0.5), At(expected, "tost_0.5").number(), 1e-10);
+  EXPECT_NEAR(EquivalencePValue(means, 1.0), At(expected, "tost_1").number(), 1e-10);
+  const Interval interval = DifferenceInterval(means, 0.9);
+  EXPECT_NEAR(interval.low, Numbers(At(expected, "ci90"))[0], 1e-10);
+  EXPECT_NEAR(interval.high, Numbers(At(expected, "ci90"))[1], 1e-10);
+}
+
+TEST(WelchMeans, EqualScipy) {
+  const MeanDifference means = WelchMeans(Sample("a"), Sample("b"));
+  const core::JsonValue& expected = At(ScipyNumbers(), "welch");
+  EXPECT_NEAR(ChangePValue(means), At(expected, "p").number(), 1e-10);
+  EXPECT_NEAR(EquivalencePValue(means, 1.0), At(expected, "tost_1").number(), 1e-10);
+  EXPECT_NEAR(EquivalencePValue(means, 2.5), At(expected, "tost_2.5").number(), 1e-10);
+}
+
+TEST(MeanDifference, NoScatterAndNoValues) {
+  const MeanDifference same = PairedMeans(std::vector<double>(5, 0.0));
+  EXPECT_EQ(ChangePValue(same), 1.0);
+  EXPECT_EQ(EquivalencePValue(same, 0.1), 0.0);
+  const MeanDifference moved = PairedMeans(std::vector<double>(5, 0.2));
+  EXPECT_EQ(ChangePValue(moved), 0.0);
+  EXPECT_EQ(EquivalencePValue(moved, 0.1), 1.0);
+  const MeanDifference unknown = PairedMeans(std::vector<double>{1.0});
+  EXPECT_FALSE(unknown.known());
+  EXPECT_EQ(ChangePValue(unknown), 1.0);
+  EXPECT_EQ(EquivalencePValue(unknown, 1.0), 1.0);
+}
+
+// Without scatter about it the score interval has a closed form: with no discordant pair of n the
+// variance is n delta (1 - delta), so that the end solves n delta = z^2 (1 - delta).
+TEST(PairedRates, NoDiscordantPairInClosedForm) {
+  const double square = 1.959963984540054 * 1.959963984540054;
+  const Interval interval = DifferenceInterval(PairedCounts{.both = 30, .neither = 10}, 0.95);
+  EXPECT_NEAR(interval.high, square / (40.0 + square), 1e-9);
+  EXPECT_NEAR(interval.low, -interval.high, 1e-9);
+}
+
+// With no difference the score is McNemar's (c - b) / sqrt(b + c), which ends the interval where it
+// touches 0.
+TEST(PairedRates, EndIsZeroWhereMcNemarsScoreIsCritical) {
+  const PairedCounts counts{.both = 20, .only_first = 3, .only_second = 13, .neither = 8};
+  const double score = 10.0 / std::sqrt(16.0);
+  const double confidence = std::erf(score / std::sqrt(2.0));
+  EXPECT_NEAR(DifferenceInterval(counts, confidence).low, 0.0, 1e-9);
+}
+
+// The same for two groups: the pooled z score.
+TEST(UnpairedRates, EndIsZeroWhereThePooledScoreIsCritical) {
+  const ContingencyTable table{20, 30, 36, 14};
+  const double pooled = 56.0 / 100.0;
+  const double score = (0.72 - 0.4) / std::sqrt(pooled * (1.0 - pooled) * 2.0 / 50.0);
+  EXPECT_NEAR(DifferenceInterval(table, std::erf(score / std::sqrt(2.0))).low, 0.0, 1e-9);
+}
+
+// Exact size of TOST at the margin: the chance to call two groups equivalent that differ by it.
+double ExactSize(std::int64_t n, double first, double margin) {
+  const CountLaw a = BinomialLaw(n, first);
+  const CountLaw b = BinomialLaw(n, first + margin);
+  double size = 0.0;
+  for (std::int64_t i = 0; i <= n; ++i) {
+    for (std::int64_t j = 0; j <= n; ++j) {
+      const double weight = a[static_cast<std::size_t>(i)] * b[static_cast<std::size_t>(j)];
+      if (weight < 1e-12) continue;
+      if (EquivalencePValue(ContingencyTable{i, n - i, j, n - j}, margin) <= 0.05) size += weight;
+    }
+  }
+  return size;
+}
+
+TEST(UnpairedRates, EquivalenceKeepsItsLevel) {
+  for (const double first : {0.1, 0.5, 0.75}) {
+    const double size = ExactSize(120, first, 0.15);
+    EXPECT_LT(size, 0.06) << first;
+    EXPECT_GT(size, 0.02) << first;
+  }
+}
+
+// Negative control: "not significant" calls the same groups equal far more often.
+TEST(UnpairedRates, NotSignificantIsNotEquivalent) {
+  const CountLaw a = BinomialLaw(120, 0.5);
+  const CountLaw b = BinomialLaw(120, 0.65);
+  double called_equal = 0.0;
+  for (std::int64_t i = 0; i <= 120; ++i) {
+    for (std::int64_t j = 0; j <= 120; ++j) {
+      const double weight = a[static_cast<std::size_t>(i)] * b[static_cast<std::size_t>(j)];
+      if (weight < 1e-9) continue;
+      if (FisherExactPValue({i, 120 - i, j, 120 - j}) > 0.05) called_equal += weight;
+    }
+  }
+  EXPECT_GT(called_equal, 0.25);
+}
+
+TEST(Median, RanksEqualTheBinomialLaws) {
+  for (const core::JsonValue& c : At(ScipyNumbers(), "median_ranks").list()) {
+    const auto n = static_cast<std::size_t>(c.list()[0].integer());
+    std::vector<double> ranks(n);
+    for (std::size_t i = 0; i < n; ++i) ranks[i] = static_cast<double>(i + 1);
+    const Interval interval = MedianInterval(ranks);
+    const double rank = c.list()[1].number();  // scipy's ppf: the first whose tail is above 2.5 %
+    EXPECT_EQ(interval.low, rank) << n;
+    EXPECT_EQ(interval.high, static_cast<double>(n) + 1.0 - rank) << n;
+  }
+  EXPECT_TRUE(std::isnan(MedianInterval(std::vector<double>{1, 2, 3, 4, 5}).low));
+}
+
+TEST(SampleSize, ClaimsEqualScipy) {
+  for (const core::JsonValue& c : At(ScipyNumbers(), "claims").list()) {
+    EXPECT_EQ(TrialsForClaim(c.list()[0].number(), c.list()[2].number(), c.list()[1].integer()),
+              c.list()[3].integer());
+  }
+  EXPECT_EQ(TrialsForClaim(0.001, 0.95, 0), 2995);
+  EXPECT_NEAR(ClaimChance(2995, 0.001, 0), 0.05, 1e-4);
+}
+
+TEST(SampleSize, OneTrialLessIsNotEnough) {
+  const std::int64_t n = TrialsForHalfWidth(0.5, 0.02, 0.95, IntervalMethod::kWilson);
+  const auto half = [](std::int64_t trials) {
+    const Interval i = ProportionInterval((trials + 1) / 2, trials);
+    return 0.5 * (i.high - i.low);
+  };
+  EXPECT_LE(half(n), 0.02);
+  EXPECT_GT(half(n - 1), 0.02);
+  EXPECT_NEAR(static_cast<double>(n), 2401.0, 5.0);
+  EXPECT_EQ(TrialsForSequence(0.5, 0.02, 0.95, 100) % 100, 0);
+}
+
+TEST(SampleSize, PowersAreReached) {
+  const RatePair rates{0.85, 0.75};
+  EXPECT_NEAR(FisherPower(TrialsForFisher(rates, 0.05, 0.8), rates, 0.05), 0.8, 0.02);
+  const RatePair discordant{0.15, 0.05};
+  const std::int64_t pairs = TrialsForMcNemar(discordant, 0.05, 0.8);
+  EXPECT_GE(McNemarPower(pairs, discordant, 0.05), 0.8);
+  EXPECT_LT(McNemarPower(pairs - 1, discordant, 0.05), 0.8);
+  // Large samples: (1.645 + 1.282)^2 / margin^2 pairs of unit deviation, 80 % on both sides.
+  EXPECT_NEAR(static_cast<double>(TrialsForEquivalence(0.1, 1.0, 0.05, 0.8, Pairing::kPaired)),
+              856.0, 3.0);
+}
+
+// The power is the chance to reject, summed by hand over a small design.
+TEST(SampleSize, FisherPowerIsTheSumOverTables) {
+  const RatePair rates{0.3, 0.8};
+  const CountLaw a = BinomialLaw(15, 0.3);
+  const CountLaw b = BinomialLaw(15, 0.8);
+  double power = 0.0;
+  for (std::int64_t i = 0; i <= 15; ++i) {
+    for (std::int64_t j = 0; j <= 15; ++j) {
+      if (FisherExactPValue({i, 15 - i, j, 15 - j}) > 0.05) continue;
+      power += a[static_cast<std::size_t>(i)] * b[static_cast<std::size_t>(j)];
+    }
+  }
+  EXPECT_NEAR(FisherPower(15, rates, 0.05), power, 1e-9);
+}
+
+}  // namespace
+}  // namespace rockyard::statistics
