@@ -43,7 +43,7 @@ void FillBaselineCell(const truth::RecordSchema& schema, std::span<const truth::
 // letter for each trial: G goal_reached, F false_goal, T tip_over, H high_centred, J jammed, N
 // no_path, E energy_depleted, L time_limit, A left_arena, X simulator_fault), margins (by metric),
 // metrics (by metric a list with a number or null for each trial; rates of outcomes follow from
-// outcomes), resolved. Some 150 bytes for each trial.
+// outcomes), resolved. Some 250 bytes for each trial.
 std::string BaselineJson(const Baseline& baseline);
 
 // Whether a JSON document says that it is a baseline.
