@@ -1,0 +1,76 @@
+// Levels of the exact tests of two samples: how often they reject what is true.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/random.h"
+#include "statistics/counts.h"
+#include "statistics/kolmogorov.h"
+#include "statistics/proportions.h"
+
+namespace rockyard::statistics {
+namespace {
+
+// Chance that Fisher's test of two groups of n rejects at 0.05, summed over all tables.
+double FisherLevel(std::int64_t n, double first, double second) {
+  const CountLaw a = BinomialLaw(n, first);
+  const CountLaw b = BinomialLaw(n, second);
+  double level = 0.0;
+  for (std::int64_t i = 0; i <= n; ++i) {
+    for (std::int64_t j = 0; j <= n; ++j) {
+      if (FisherExactPValue({i, n - i, j, n - j}) > 0.05) continue;
+      level += a[static_cast<std::size_t>(i)] * b[static_cast<std::size_t>(j)];
+    }
+  }
+  return level;
+}
+
+TEST(FisherExact, KeepsItsLevelAndFindsADifference) {
+  for (const double rate : {0.02, 0.2, 0.5, 0.9}) EXPECT_LE(FisherLevel(40, rate, rate), 0.05);
+  EXPECT_GT(FisherLevel(40, 0.5, 0.85), 0.8);
+}
+
+// Discordant pairs fall either way like a coin.
+TEST(McNemarExact, KeepsItsLevelAndFindsADifference) {
+  const auto level = [](std::int64_t pairs, double share) {
+    const CountLaw law = BinomialLaw(pairs, share);
+    double sum = 0.0;
+    for (std::int64_t k = 0; k <= pairs; ++k) {
+      if (McNemarExactPValue(k, pairs - k) <= 0.05) sum += law[static_cast<std::size_t>(k)];
+    }
+    return sum;
+  };
+  for (const std::int64_t pairs : {5, 20, 61}) EXPECT_LE(level(pairs, 0.5), 0.05);
+  EXPECT_GT(level(61, 0.75), 0.9);
+}
+
+// Simulated level of the two-sample test (n = m = 25; D >= 10/25 is critical, whose exact chance is
+// the p-value that the test gives it), within 4 standard errors of 4000 pairs.
+TEST(KolmogorovSmirnov, SimulatedLevelIsTheExactOne) {
+  constexpr std::uint32_t kPairs = 4000;
+  double largest = 0.0;  // p-value at or below 0.05: the level that the lattice of D allows
+  int rejected = 0;
+  int found = 0;
+  for (std::uint32_t pair = 0; pair < kPairs; ++pair) {
+    core::RandomStream stream({.seed = 91, .trial = pair}, core::Purpose::kTest);
+    std::vector<double> a(25);
+    std::vector<double> b(25);
+    for (double& x : a) x = stream.Uniform();
+    for (double& x : b) x = stream.Uniform();
+    const double p = KolmogorovSmirnov(a, b).p_value;
+    if (p <= 0.05) {
+      ++rejected;
+      largest = std::max(largest, p);
+    }
+    for (double& x : b) x += 0.5;
+    found += KolmogorovSmirnov(a, b).p_value <= 0.05 ? 1 : 0;
+  }
+  const double error = std::sqrt(largest * (1.0 - largest) / kPairs);
+  EXPECT_NEAR(static_cast<double>(rejected) / kPairs, largest, 4.0 * error);
+  EXPECT_GT(found, 0.9 * kPairs);
+}
+
+}  // namespace
+}  // namespace rockyard::statistics
