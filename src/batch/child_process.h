@@ -37,9 +37,9 @@ class SignalsHeld {
  private:
   ProcessEnd Wait(pid_t child) const;
 
-  sigset_t held_;
-  sigset_t former_;
-  struct sigaction former_child_action_;
+  sigset_t held_{};
+  sigset_t former_{};
+  struct sigaction former_child_action_ {};
 };
 
 }  // namespace rockyard::batch

@@ -36,10 +36,12 @@ class CliMpi : public CommandTest {
   }
 
   static std::vector<std::string> Drives(const std::string& out, int trials,
-                                         const std::vector<std::string>& more = {}) {
-    return With({"run", Scenario("nominal"), "--out", out, "--set", "referee.time_limit_s=300",
-                 "--threads", "1", "--quiet", "--trials", std::to_string(trials)},
-                more);
+                                         const std::vector<std::string>& more = {},
+                                         int threads = 1) {
+    return With(
+        {"run", Scenario("nominal"), "--out", out, "--set", "referee.time_limit_s=300", "--threads",
+         std::to_string(threads), "--quiet", "--trials", std::to_string(trials)},
+        more);
   }
 
   std::size_t Stored(const std::string& out) const {
@@ -69,8 +71,7 @@ TEST_F(CliMpi, RanksAndThreadsGiveTheSameHash) {
   ASSERT_EQ(Run(Drives("plain", 200)).exit_code, 0);
   for (const int ranks : {1, 2, 3}) {
     const std::string out = "ranks" + std::to_string(ranks);
-    const CommandResult result =
-        RunOn(ranks, Drives(out, 200, {"--threads", ranks == 3 ? "2" : "1"}));
+    const CommandResult result = RunOn(ranks, Drives(out, 200, {}, ranks == 3 ? 2 : 1));
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(Hash(out), Hash("plain")) << ranks << " ranks";
     EXPECT_TRUE(fs::exists(work() / out / "summary.json"));
@@ -136,7 +137,7 @@ TEST_F(CliMpi, CtrlCEndsAllRanksPolitely) {
   EXPECT_NE(result.exit_code, 0);
   EXPECT_THAT(result.err, HasSubstr("--resume"));
   EXPECT_TRUE(fs::exists(work() / "a" / "summary.json")) << "rank 0 had the time to report";
-  for (const pid_t rank : ranks) EXPECT_NE(kill(rank, 0), 0);
+  for (const pid_t rank : ranks) EXPECT_TRUE(WaitForEnd(rank));
 }
 
 // One rank told to end gives its trials back; the others finish the campaign.

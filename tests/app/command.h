@@ -29,6 +29,17 @@ inline void WriteFile(const std::filesystem::path& path, const std::string& text
   std::ofstream(path, std::ios::binary) << text;
 }
 
+// A process that has ended, but whom nobody has waited for, is not alive.
+inline bool Alive(pid_t process) {
+  return !ReadFile("/proc/" + std::to_string(process) + "/cmdline").empty();
+}
+
+// False where it has not ended after some seconds.
+inline bool WaitForEnd(pid_t process) {
+  for (int i = 0; i < 5000 && Alive(process); ++i) usleep(1000);
+  return !Alive(process);
+}
+
 // A test with a folder of its own, in which the command runs.
 class CommandTest : public testing::Test {
  protected:
