@@ -174,7 +174,12 @@ bool IsSweep(const JsonValue& document) {
 }
 
 Sweep LoadSweep(const std::filesystem::path& path, const SweepChanges& changes) {
-  return Resolve(core::LoadJsonFile(path), changes, path.parent_path());
+  JsonValue document = core::LoadJsonFile(path);
+  if (!IsSweep(document)) {
+    throw core::UserError(path.string(), "is no sweep: it has neither axes nor cells",
+                          "use rockyard run for a scenario");
+  }
+  return Resolve(std::move(document), changes, path.parent_path());
 }
 
 Sweep ParseSweep(std::string_view text, const SweepChanges& changes,

@@ -185,6 +185,17 @@ TEST(SweepErrorsTest, AnOverrideOfAnAxisIsRefused) {
   EXPECT_THAT(problems[0].suggestion, HasSubstr("--set"));
 }
 
+TEST(SweepErrorsTest, AScenarioIsNoSweep) {
+  try {
+    LoadSweep(ROCKYARD_SOURCE_DIR "/scenarios/pathfinder/nominal.json");
+    FAIL() << "no error";
+  } catch (const core::UserError& error) {
+    ASSERT_EQ(error.problems().size(), 1u);
+    EXPECT_THAT(error.problems()[0].reason, HasSubstr("is no sweep"));
+    EXPECT_THAT(error.problems()[0].suggestion, HasSubstr("rockyard run"));
+  }
+}
+
 TEST(SweepErrorsTest, AtMostAHundredProblemsAreListed) {
   std::string values;
   for (int i = 1; i <= 150; ++i) values += (i > 1 ? ", -" : "-") + std::to_string(i);
