@@ -9,7 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "app/blind_swath.h"
 #include "app/commands.h"
+#include "app/console.h"
 #include "app/output_file.h"
 #include "core/error.h"
 #include "report/atomic_file.h"
@@ -29,6 +31,10 @@ struct TerrainOptions {
   std::uint32_t trial = 0;
   std::vector<std::string> overrides;
   std::string out;
+  bool blind_swath = false;
+  std::optional<double> width_m;
+  std::optional<double> min_diameter_m;
+  std::int64_t fields = 1000;
 };
 
 enum class Format { kJson, kCsv, kObj, kSvg };
@@ -59,6 +65,10 @@ std::string Export(Format format, const terrain::Field& field, const terrain::Te
 }
 
 void WriteTerrain(const TerrainOptions& options) {
+  if (options.out.empty()) {
+    throw core::UserError("--out", "is not given",
+                          "name a file to write, or ask for --blind-swath");
+  }
   const Format format = FormatOf(options.out);
   CheckOutputFile("--out", options.out);
   const scenario::Scenario scenario = scenario::LoadScenario(options.scenario, options.overrides);
@@ -69,21 +79,57 @@ void WriteTerrain(const TerrainOptions& options) {
   report::WriteFileAtomically(options.out, Export(format, field, scenario.terrain, course));
 }
 
+void ShowBlindSwath(const TerrainOptions& options) {
+  const scenario::Scenario scenario = scenario::LoadScenario(options.scenario, options.overrides);
+  const std::uint64_t seed = options.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
+  terrain::BlindSwath swath = SwathOf(scenario);
+  swath.width_m = options.width_m.value_or(swath.width_m);
+  swath.min_diameter_m = options.min_diameter_m.value_or(swath.min_diameter_m);
+  Print(BlindSwathText(scenario, seed, options.fields, swath));
+}
+
+void AddSwathOptions(CLI::App& command, TerrainOptions& options, CLI::Option* out) {
+  CLI::Option* blind = command.add_flag(
+      "--blind-swath", options.blind_swath,
+      "Print how far a straight blind swath gets before it meets a rock; writes no file");
+  blind->excludes(out);
+  command.add_option("--width", options.width_m, "of the swath, m; the rover's by default")
+      ->check(CLI::Range(0.0, 100.0))
+      ->needs(blind);
+  command
+      .add_option("--min-diameter", options.min_diameter_m,
+                  "of rocks that count, m; by default those of mean shape that reach the belly")
+      ->check(CLI::Range(0.0, 100.0))
+      ->needs(blind);
+  command.add_option("--fields", options.fields, "number of fields")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str()
+      ->needs(blind);
+}
+
 }  // namespace
 
 void AddTerrainCommand(CLI::App& app) {
   auto options = std::make_shared<TerrainOptions>();
   CLI::App* command = app.add_subcommand(
       "terrain",
-      "Writes the terrain of one trial as JSON, CSV, OBJ or SVG, by the file's extension");
+      "Writes the terrain of one trial as JSON, CSV, OBJ or SVG, by the file's extension, or "
+      "tells how far a blind swath gets");
   command->add_option("scenario", options->scenario, "Scenario file")->required();
   command->add_option("--seed", options->seed, "Campaign seed; the scenario's by default");
   command->add_option("--trial", options->trial, "Trial index, from 0")->capture_default_str();
   command->add_option("--set", options->overrides, "Override: PATH=VALUE, may be repeated")
       ->allow_extra_args(false);
-  command->add_option("--out", options->out, "File to write: .json, .csv, .obj or .svg")
-      ->required();
-  command->callback([options] { WriteTerrain(*options); });
+  CLI::Option* out =
+      command->add_option("--out", options->out, "File to write: .json, .csv, .obj or .svg");
+  AddSwathOptions(*command, *options, out);
+  command->callback([options] {
+    if (options->blind_swath) {
+      ShowBlindSwath(*options);
+    } else {
+      WriteTerrain(*options);
+    }
+  });
 }
 
 }  // namespace rockyard::app

@@ -1,0 +1,75 @@
+#include "app/blind_swath.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/error.h"
+#include "statistics/proportions.h"
+#include "terrain/field.h"
+#include "trial/layout.h"
+
+namespace rockyard::app {
+namespace {
+
+std::vector<double> Distances(const scenario::Scenario& scenario, std::uint64_t seed,
+                              std::int64_t fields, const terrain::BlindSwath& swath,
+                              double first_x_m) {
+  std::vector<double> distances;
+  for (std::int64_t i = 0; i < fields; ++i) {
+    const terrain::Field field =
+        terrain::BuildField(scenario.terrain, {seed, static_cast<std::uint32_t>(i)},
+                            trial::TerrainCourse(scenario.course));
+    const std::vector<terrain::Rock> rocks(field.terrain.rocks().begin(),
+                                           field.terrain.rocks().end());
+    const double contact_m =
+        terrain::FirstContact_m(rocks, swath, first_x_m, scenario.course.start_y_m);
+    distances.push_back(contact_m - first_x_m);
+  }
+  std::sort(distances.begin(), distances.end());
+  return distances;
+}
+
+}  // namespace
+
+terrain::BlindSwath SwathOf(const scenario::Scenario& scenario) {
+  const terrain::RockFieldParams& rocks = scenario.terrain.rocks;
+  const double height_ratio = 0.5 * (rocks.min_height_ratio + rocks.max_height_ratio);
+  return {scenario.rover.geometry.width_m,
+          scenario.rover.geometry.belly_clearance_m / (height_ratio * (1.0 - rocks.burial_mean))};
+}
+
+std::string BlindSwathText(const scenario::Scenario& scenario, std::uint64_t seed,
+                           std::int64_t fields, const terrain::BlindSwath& swath) {
+  const trial::CourseParams& course = scenario.course;
+  const double clear_m = scenario.terrain.rocks.clear_radius_m;
+  const double first_x_m = course.start_x_m + clear_m;
+  const double length_m = course.goal_x_m - clear_m - first_x_m;
+  if (length_m <= 0.0) {
+    throw core::UserError("course.goal_x_m", "leaves no way along +x between the clear zones",
+                          "use a goal farther along +x from the start");
+  }
+  const double per_m = terrain::BlindContactsPerM(scenario.terrain.rocks, swath);
+  const std::vector<double> distances = Distances(scenario, seed, fields, swath, first_x_m);
+  std::string text = fmt::format(
+      "blind swath of {:.2f} m, rocks of {:.3f} m and more across: {:.4f} contacts per m by the "
+      "law",
+      swath.width_m, swath.min_diameter_m, per_m);
+  text += per_m > 0.0 ? fmt::format(", lambda {:.2f} m\n", 1.0 / per_m) : "\n";
+  text += fmt::format("  {} fields, from {:.1f} m behind the start on\n", fields, clear_m);
+  text += "  clear to [m]   closed form [%]   fields [%]   95 % interval\n";
+  constexpr int kRows = 8;
+  for (int i = 1; i <= kRows; ++i) {
+    const double x_m = length_m * i / kRows;
+    const auto clear = distances.end() - std::lower_bound(distances.begin(), distances.end(), x_m);
+    const statistics::Proportion rate = statistics::MakeProportion(clear, fields);
+    text += fmt::format("  {:12.2f} {:17.1f} {:12.1f}   {:.1f} .. {:.1f}\n", x_m,
+                        100.0 * std::exp(-per_m * x_m), 100.0 * rate.rate,
+                        100.0 * rate.interval.low, 100.0 * rate.interval.high);
+  }
+  return text;
+}
+
+}  // namespace rockyard::app
