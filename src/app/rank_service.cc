@@ -93,6 +93,7 @@ class ReceivedWork {
 
 void EndOverdue(const std::vector<batch::Flight>& overdue) {
   std::vector<core::Problem> problems;
+  problems.reserve(overdue.size());
   for (const batch::Flight& flight : overdue) {
     problems.push_back({fmt::format("trial {} of cell {}", flight.id.trial, flight.id.cell),
                         "used more CPU time than --trial-cpu-limit, and is pending",
