@@ -56,6 +56,7 @@ std::uint64_t SeedOf(const batch::ResultStore& store, int cell) {
 // Without a supervisor that would try again.
 [[noreturn]] void EndOverdue(const batch::ResultStore& store, const std::vector<Flight>& overdue) {
   std::vector<core::Problem> problems;
+  problems.reserve(overdue.size());
   for (const Flight& flight : overdue) {
     problems.push_back({fmt::format("trial {}", flight.id.trial),
                         "used more CPU time than --trial-cpu-limit, and is pending",
@@ -168,6 +169,7 @@ ExitCode CampaignProcess::DoTask(std::span<const CellWork> work, batch::ResultSt
 
 bool CampaignProcess::TellLeftOut(const batch::ResultStore& store) const {
   std::vector<core::Problem> problems;
+  problems.reserve(mission_.left_out.size());
   for (const batch::TrialId& id : mission_.left_out) {
     problems.push_back(
         {fmt::format("trial {}{}", id.trial, CellPart(store, id.cell)),
