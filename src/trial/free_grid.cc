@@ -52,8 +52,10 @@ int FreeGrid::Row(double y_m) const {
 
 messages::Goal FreeGrid::Centre(std::size_t index) const {
   const auto columns = static_cast<std::size_t>(nx_);
-  return {bounds_.x_min_m + (static_cast<double>(index % columns) + 0.5) * cell_m_,
-          bounds_.y_min_m + (static_cast<double>(index / columns) + 0.5) * cell_m_};
+  const std::size_t column = index % columns;
+  const std::size_t row = index / columns;
+  return {bounds_.x_min_m + (static_cast<double>(column) + 0.5) * cell_m_,
+          bounds_.y_min_m + (static_cast<double>(row) + 0.5) * cell_m_};
 }
 
 void FreeGrid::Block(const terrain::Rock& rock, double room_m) {
