@@ -89,7 +89,7 @@ std::string Unsure(const RegressionReport& report) {
       unsure, report.result.rows.size());
   if (worst != nullptr) {
     text += fmt::format(
-        "  The hardest, {}, needs about {} trials with a value to see a shift of its margin.\n",
+        "  The hardest, {},\n  needs about {} trials with a value to see a shift of its margin.\n",
         Label(*worst), most);
   }
   return text;
