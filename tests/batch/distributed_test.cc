@@ -89,6 +89,10 @@ class Cluster {
   int size() const { return static_cast<int>(stops_.size()); }
   // By rank, of trials that began there.
   std::map<int, int> begun() const { return begun_; }
+  int ranks_begun() {
+    const std::lock_guard lock(mutex_);
+    return static_cast<int>(begun_.size());
+  }
   int total() const {
     int sum = 0;
     for (const auto& [rank, count] : begun_) sum += count;
@@ -129,10 +133,14 @@ class Distributed : public testing::Test {
 class Ranks : public Distributed, public testing::WithParamInterface<std::pair<int, int>> {};
 
 TEST_P(Ranks, SameHashAndEveryTrialOnce) {
-  const auto [ranks, threads] = GetParam();
+  const int ranks = GetParam().first;
+  const int threads = GetParam().second;
   Cluster cluster(ranks);
-  const BatchResult result =
-      cluster.Run(store_, Options(threads), [](int, std::uint64_t) { Sleep(2); });
+  // No trial ends before every rank has one, however slow the machine starts their threads.
+  const BatchResult result = cluster.Run(store_, Options(threads), [&](int, std::uint64_t) {
+    for (int i = 0; i < 10000 && cluster.ranks_begun() < ranks; ++i) Sleep(1);
+    Sleep(1);
+  });
   EXPECT_EQ(result.end, BatchEnd::kFinished);
   EXPECT_EQ(TrialHash(store_.Load()), PlainHash());
   EXPECT_EQ(cluster.total(), kTrials);
