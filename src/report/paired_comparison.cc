@@ -37,36 +37,18 @@ std::vector<Pair> Pairs(const ComparedRun& first, const ComparedRun& second) {
   return pairs;
 }
 
-// Agresti and Min (2005), section 3: half a pair more in each cell, then the Wald interval.
-Interval PairedInterval(const PairedCounts& counts) {
-  const auto n =
-      static_cast<double>(counts.both + counts.only_first + counts.only_second + counts.neither) +
-      2.0;
-  const double b = static_cast<double>(counts.only_first) + 0.5;
-  const double c = static_cast<double>(counts.only_second) + 0.5;
-  const double difference = (c - b) / n;
-  const double error = std::sqrt((b + c) - (c - b) * (c - b) / n) / n;
-  return {std::max(-1.0, difference - kNormal975 * error),
-          std::min(1.0, difference + kNormal975 * error)};
-}
-
 SuccessComparison ComparePaired(const std::vector<Pair>& pairs, std::string what,
                                 const Succeeded& succeeded) {
   SuccessComparison result;
   result.what = std::move(what);
   for (const auto& [a, b] : pairs) {
-    const bool first = succeeded(a->outcome);
-    const bool second = succeeded(b->outcome);
-    result.counts.both += first && second ? 1 : 0;
-    result.counts.only_first += first && !second ? 1 : 0;
-    result.counts.only_second += !first && second ? 1 : 0;
-    result.counts.neither += !first && !second ? 1 : 0;
+    result.counts.Add(succeeded(a->outcome), succeeded(b->outcome));
   }
   const auto n = static_cast<std::int64_t>(pairs.size());
   result.first = statistics::MakeProportion(result.counts.both + result.counts.only_first, n);
   result.second = statistics::MakeProportion(result.counts.both + result.counts.only_second, n);
   result.difference = result.second.rate - result.first.rate;
-  result.interval = PairedInterval(result.counts);
+  result.interval = statistics::AgrestiMinInterval(statistics::DifferencesOf(result.counts));
   result.p_value =
       statistics::McNemarExactPValue(result.counts.only_first, result.counts.only_second);
   return result;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "statistics/paired_counts.h"
 #include "statistics/proportions.h"
 #include "truth/record.h"
 
@@ -19,14 +20,6 @@ struct ComparedRun {
   std::string fields = {};  // what decides rocks, start and goal; equal texts mean equal fields
 };
 
-// Success by trial in both runs.
-struct PairedCounts {
-  std::int64_t both = 0;
-  std::int64_t only_first = 0;
-  std::int64_t only_second = 0;
-  std::int64_t neither = 0;
-};
-
 struct SuccessComparison {
   std::string what;  // "declared success" or "true success"
   statistics::Proportion first;
@@ -34,7 +27,7 @@ struct SuccessComparison {
   double difference = 0.0;          // rate of the second less rate of the first
   statistics::Interval interval{};  // 95 %, of the difference
   double p_value = 1.0;             // McNemar where paired, else Fisher; both exact
-  PairedCounts counts;              // zero where not paired
+  statistics::PairedCounts counts;  // zero where not paired
 };
 
 struct ColumnComparison {

@@ -25,7 +25,7 @@ std::string SuccessLines(const SuccessComparison& success, bool paired) {
       "  {:<17} A {:<26} B {}\n  {:<17} B - A {:+.1f} points (95 % interval {:+.1f} .. {:+.1f})\n",
       success.what, Percent(success.first), Percent(success.second), "", 100.0 * success.difference,
       100.0 * success.interval.low, 100.0 * success.interval.high);
-  const PairedCounts& counts = success.counts;
+  const statistics::PairedCounts& counts = success.counts;
   if (paired) {
     text += fmt::format(
         "  {:<17} both {}, only A {}, only B {}, neither {}; McNemar, exact: p = {:.3g}\n", "",

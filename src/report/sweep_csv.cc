@@ -172,7 +172,7 @@ std::string SweepDifferencesCsv(const SweepSummary& summary) {
     }
     fields.push_back(CsvNumber(success.difference));
     AddInterval(success.interval, fields);
-    const PairedCounts& counts = success.counts;
+    const statistics::PairedCounts& counts = success.counts;
     for (const std::int64_t count :
          {counts.both, counts.only_first, counts.only_second, counts.neither}) {
       fields.push_back(each.paired ? std::to_string(count) : std::string());

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "core/check.h"
-#include "core/distributions.h"
+#include "statistics/paired_counts.h"
 
 namespace rockyard::statistics {
 namespace {
@@ -65,26 +65,19 @@ Contrast Removed(std::size_t functions, Combination set) {
 }
 
 Estimate Estimated(const FactorialFailures& failures, const Contrast& contrast, double confidence) {
-  EXPECT(confidence > 0.0 && confidence < 1.0);
   EXPECT(contrast.weights.size() == failures.failed.size());
   const std::size_t trials = failures.failed.front().size();
   if (trials == 0) {
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     return {kNaN, {-1.0, 1.0}};
   }
-  double sum = 0.0;
-  double squares = 1.0;  // of the trials that are added; their sum is 0
+  SignedValues values{.n = static_cast<double>(trials)};
   for (std::size_t t = 0; t < trials; ++t) {
     const double value = ValueOf(failures, contrast, t);
-    sum += value;
-    squares += value * value;
+    values.sum += value;
+    values.squares += value * value;
   }
-  const double n = static_cast<double>(trials) + 2.0;
-  const double centre = sum / n;
-  const double deviation = std::sqrt(std::max(squares / n - centre * centre, 0.0) / n);
-  const double half = core::NormalQuantile(0.5 * (1.0 + confidence)) * deviation;
-  return {sum / static_cast<double>(trials),
-          {std::max(centre - half, -1.0), std::min(centre + half, 1.0)}};
+  return {values.sum / values.n, AgrestiMinInterval(values, confidence)};
 }
 
 Attribution Attribute(const FactorialFailures& failures, double confidence) {

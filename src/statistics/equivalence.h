@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 
+#include "statistics/paired_counts.h"
 #include "statistics/proportions.h"
 
 namespace rockyard::statistics {
@@ -34,16 +35,6 @@ MeanDifference WelchMeans(std::span<const double> first, std::span<const double>
 Interval DifferenceInterval(const MeanDifference& means, double confidence = 0.95);
 double ChangePValue(const MeanDifference& means);  // two-sided, of no difference
 double EquivalencePValue(const MeanDifference& means, double margin);  // TOST, margin > 0
-
-// Success of the same trials under two settings.
-struct PairedCounts {
-  std::int64_t both = 0;
-  std::int64_t only_first = 0;
-  std::int64_t only_second = 0;
-  std::int64_t neither = 0;
-
-  std::int64_t pairs() const { return both + only_first + only_second + neither; }
-};
 
 // Score interval of the rate of the second less that of the first (Tango 1998, Statistics in
 // Medicine 17, pp. 891-908), and TOST by the same score. Asymptotic: exact coverage is near nominal

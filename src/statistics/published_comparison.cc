@@ -62,10 +62,11 @@ void Judge(std::vector<Row>& rows, double alpha) {
     p_values.push_back(row.value.p_value);
   }
   const std::vector<double> adjusted = HolmAdjust(p_values);
+  const std::vector<double> levels = HolmLevels(p_values, alpha);
   for (std::size_t i = 0; i < family.size(); ++i) {
     ComparedValue& value = family[i]->value;
     value.holm_p_value = adjusted[i];
-    value.level = HolmLevel(p_values, i, alpha);
+    value.level = levels[i];
     value.power = family[i]->power(value.level);
     value.verdict = adjusted[i] <= alpha            ? Verdict::kDiffers
                     : value.power >= kRequiredPower ? Verdict::kAgrees

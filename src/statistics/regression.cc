@@ -56,12 +56,7 @@ MeanDifference MeansOf(const Samples& samples, bool paired) {
 PairedCounts CountPairs(const Samples& samples) {
   PairedCounts counts;
   for (std::size_t i = 0; i < samples.run.size(); ++i) {
-    const bool before = samples.baseline[i] > 0.0;
-    const bool after = samples.run[i] > 0.0;
-    counts.both += before && after ? 1 : 0;
-    counts.only_first += before && !after ? 1 : 0;
-    counts.only_second += !before && after ? 1 : 0;
-    counts.neither += !before && !after ? 1 : 0;
+    counts.Add(samples.baseline[i] > 0.0, samples.run[i] > 0.0);
   }
   return counts;
 }
@@ -191,9 +186,10 @@ RegressionResult CheckRegression(std::span<const RegressionCell> cells,
   std::vector<double> p_values;
   for (const RegressionRow& row : result.rows) p_values.push_back(row.p_value);
   const std::vector<double> adjusted = HolmAdjust(p_values);
+  const std::vector<double> levels = HolmLevels(p_values, options.alpha);
   for (std::size_t i = 0; i < result.rows.size(); ++i) {
     result.rows[i].holm_p_value = adjusted[i];
-    result.rows[i].level = HolmLevel(p_values, i, options.alpha);
+    result.rows[i].level = levels[i];
     AddPower(samples[i], result.rows[i]);
     Judge(options, result.rows[i]);
   }

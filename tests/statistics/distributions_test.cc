@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <limits>
 
+#include "core/random.h"
 #include "oracles.h"
 #include "statistics/goodness_of_fit.h"
 #include "statistics/kolmogorov.h"
@@ -182,12 +184,41 @@ TEST(Holm, LevelIsWhereTheVerdictTurns) {
   std::vector<double> p = {0.001, 0.5, 0.02, 0.9};
   for (std::size_t i = 0; i < p.size(); ++i) {
     std::vector<double> changed = p;
-    const double level = HolmLevel(p, i, 0.05);
+    const double level = HolmLevels(p, 0.05)[i];
     changed[i] = level * (1.0 - 1e-9);
     EXPECT_LE(HolmAdjust(changed)[i], 0.05);
     changed[i] = level * (1.0 + 1e-9);
     EXPECT_GT(HolmAdjust(changed)[i], 0.05);
   }
+}
+
+// One by one, as the procedure is defined: step down the others.
+double LevelByDefinition(std::vector<double> others, std::size_t index, double alpha) {
+  const auto family = static_cast<double>(others.size());
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(index));
+  std::sort(others.begin(), others.end());
+  double rejected = 0.0;
+  for (const double p : others) {
+    if (p > alpha / (family - rejected)) break;
+    rejected += 1.0;
+  }
+  return alpha / (family - rejected);
+}
+
+// Families in which none, some or all are rejected, with ties and values that are rejected only
+// after another one has left.
+TEST(Holm, LevelsOfAllAtOnceAreThoseOneByOne) {
+  core::RandomStream stream({.seed = 6, .trial = 1}, core::Purpose::kTest);
+  for (int family = 0; family < 2000; ++family) {
+    std::vector<double> p(static_cast<std::size_t>(1 + family % 12));
+    const double spread = 0.01 + 0.2 * stream.Uniform();
+    for (double& value : p) value = std::round(1000.0 * spread * stream.Uniform()) / 1000.0;
+    const std::vector<double> levels = HolmLevels(p, 0.05);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      EXPECT_EQ(levels[i], LevelByDefinition(p, i, 0.05)) << family << " " << i;
+    }
+  }
+  EXPECT_TRUE(HolmLevels({}, 0.05).empty());
 }
 
 }  // namespace
