@@ -18,8 +18,9 @@ namespace {
 
 using Overrides = std::vector<std::string>;
 
-std::vector<core::Problem> ProblemsOf(const std::string& name, const Overrides& overrides) {
-  const auto folder = std::filesystem::path(ROCKYARD_SOURCE_DIR) / "scenarios" / "gestalt";
+std::vector<core::Problem> ProblemsOf(const std::string& name, const Overrides& overrides,
+                                      const std::string& family = "gestalt") {
+  const auto folder = std::filesystem::path(ROCKYARD_SOURCE_DIR) / "scenarios" / family;
   try {
     LoadScenario(folder / (name + ".json"), overrides);
   } catch (const core::UserError& error) {
@@ -96,6 +97,41 @@ TEST(DriveChecksTest, GroupsThatDoNothingMayHoldAnything) {
   EXPECT_TRUE(ProblemsOf("abundance", {kSize + ".length_m=3", kSize + ".modelled=false"}).empty());
   EXPECT_TRUE(
       ProblemsOf("narrow_course", {"course.start_y_m=1.4", "terrain.rocks.kind=none"}).empty());
+}
+
+std::vector<core::Problem> ToldGoals(const Overrides& overrides) {
+  Overrides all{"course.designation.enabled=true"};
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  return ProblemsOf("nominal", all, "pathfinder");
+}
+
+// By the paper's errors at 7.6 m: sigma_downrange = 0.0001 (7.6 m)^2 / 0.15 m = 0.0385 m, one
+// degree of pan is 0.1326 m. Five deviations and the pan reach 0.325 m, of 1.1 m up to the mirror
+// line.
+TEST(ToldGoalsTest, AreRefusedWhereTheyMayLieBeyondAMirrorLine) {
+  EXPECT_TRUE(ToldGoals({}).empty());
+  EXPECT_TRUE(ToldGoals({"course.goal_y_m=0.77"}).empty());
+  for (const Overrides& beyond :
+       {Overrides{"course.goal_y_m=0.78"}, Overrides{"course.goal_y_m=-0.78"},
+        Overrides{"course.designation.lander_ahead_m=-25"},
+        Overrides{"course.designation.pan_error_deg=-8"},
+        Overrides{"course.designation.pan_error_deg=8", "course.designation.pan_kind=uniform"},
+        Overrides{"course.designation.disparity_sd_px=1"}}) {
+    SCOPED_TRACE(beyond.front());
+    const std::vector<core::Problem> problems = ToldGoals(beyond);
+    ASSERT_EQ(problems.size(), 1u);
+    EXPECT_EQ(problems[0].path, "course.designation.enabled");
+    EXPECT_NE(problems[0].reason.find("mirror lines"), std::string::npos);
+    EXPECT_FALSE(problems[0].suggestion.empty());
+  }
+}
+
+TEST(ToldGoalsTest, MayLieAnywhereWithoutMirrorLinesOrErrors) {
+  const std::string far = "course.designation.lander_ahead_m=-100";
+  EXPECT_FALSE(ToldGoals({far}).empty());
+  EXPECT_TRUE(ToldGoals({far, "terrain.arena.kind=open"}).empty());
+  EXPECT_TRUE(ToldGoals({far, "terrain.arena.kind=virtual_unfolded"}).empty());
+  EXPECT_TRUE(ToldGoals({far, "course.designation.enabled=false"}).empty());
 }
 
 }  // namespace

@@ -1,0 +1,184 @@
+// A route followed by believed poses.
+#include "navigation/route_follower.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fake_rover.h"
+
+namespace rockyard::navigation {
+namespace {
+
+using messages::Goal;
+using messages::MotionKind;
+
+struct RouteTick {
+  math::Pose2 X_WR;
+  messages::PoseEstimate estimate;
+  NavigatorDecision decision;
+};
+
+// The closed loop of a route follower and the fake rover. A pose update may come before any tick.
+class RouteDrive {
+ public:
+  explicit RouteDrive(std::vector<Goal> corners, const FakeRoverConfig& config = {},
+                      const math::Pose2& start = {})
+      : navigator_(RouteParams{}, {std::move(corners)}), rover_(config, start) {}
+
+  const RouteTick& Step(const NavigatorInput& felt = {}) {
+    NavigatorInput input = felt;
+    input.estimate = rover_.estimate();
+    log_.push_back({rover_.X_WR(), rover_.estimate(), navigator_.Decide(input)});
+    if (log_.back().decision.status == NavigatorStatus::kDriving) {
+      rover_.Move(log_.back().decision.motion);
+    }
+    return log_.back();
+  }
+
+  NavigatorStatus Run(int max_ticks = 20000) {
+    for (int i = 0; i < max_ticks; ++i) {
+      const NavigatorStatus status = Step().decision.status;
+      if (status != NavigatorStatus::kDriving) return status;
+    }
+    return NavigatorStatus::kDriving;
+  }
+
+  void UpdatePose(const messages::PoseUpdate& update) {
+    const messages::PoseEstimate before = rover_.estimate();
+    rover_.SetEstimate(update);
+    navigator_.OnPoseUpdate(before, rover_.estimate());
+  }
+
+  // Least distance of the believed way to a point.
+  double NearestBelieved_m(const Goal& corner) const {
+    double nearest_m = INFINITY;
+    for (const RouteTick& tick : log_) {
+      nearest_m = std::min(nearest_m, DistanceToGoal(tick.estimate, corner));
+    }
+    return nearest_m;
+  }
+
+  const std::vector<RouteTick>& log() const { return log_; }
+
+ private:
+  RouteFollower navigator_;
+  FakeRover rover_;
+  std::vector<RouteTick> log_;
+};
+
+const std::vector<Goal> kZigzag{{2.0, 0.0}, {3.0, 1.5}, {5.0, 1.5}, {5.0, -1.0}, {7.6, 0.0}};
+
+TEST(RouteFollowerTest, PassesEveryCornerAndArrivesAtTheLast) {
+  RouteDrive drive(kZigzag);
+  ASSERT_EQ(drive.Run(), NavigatorStatus::kArrived);
+  const double tick_m = FakeRoverConfig{}.tick_distance_m();
+  for (const Goal& corner : kZigzag) {
+    EXPECT_LE(drive.NearestBelieved_m(corner), RouteParams{}.goal_tolerance_m + tick_m)
+        << corner.x_m << ", " << corner.y_m;
+  }
+  const messages::PoseEstimate& end = drive.log().back().estimate;
+  EXPECT_LE(DistanceToGoal(end, kZigzag.back()), RouteParams{}.goal_tolerance_m);
+  EXPECT_GT(DistanceToGoal(end, {5.0, -1.0}), 2.0) << "the way would not tell corners apart";
+}
+
+// The same decisions with any error of the wheels: corners are where the rover believes them.
+TEST(RouteFollowerTest, GoesByTheBelievedPoseAlone) {
+  FakeRoverConfig wrong;
+  wrong.odometer_scale = 1.25;
+  wrong.gyro_scale = 1.0;
+  RouteDrive drive({{5.0, 0.0}}, wrong);
+  ASSERT_EQ(drive.Run(), NavigatorStatus::kArrived);
+  EXPECT_NEAR(drive.log().back().estimate.x_m, 4.9, 0.02);
+  EXPECT_NEAR(drive.log().back().X_WR.x_m, 4.9 / 1.25, 0.02) << "it stops short and does not know";
+}
+
+TEST(RouteFollowerTest, GivesUpAtOnceWithoutARoute) {
+  RouteDrive drive({});
+  EXPECT_EQ(drive.Step().decision.status, NavigatorStatus::kGaveUp);
+}
+
+TEST(RouteFollowerTest, ArrivesAtOnceWhereTheGoalIs) {
+  RouteDrive drive({{0.05, 0.05}});
+  EXPECT_EQ(drive.Step().decision.status, NavigatorStatus::kArrived);
+}
+
+TEST(RouteFollowerTest, NeverLooksAndHeedsNothingThatItFeels) {
+  const messages::VehicleHazard hazard{};
+  const messages::HazardReport report{.scan_number = 0, .stripe_hazard = kAllHazards};
+  RouteDrive deaf(kZigzag);
+  RouteDrive plain(kZigzag);
+  for (int i = 0; i < 300; ++i) {
+    const NavigatorDecision& decision =
+        deaf.Step({.estimate = {}, .report = &report, .vehicle_hazard = &hazard}).decision;
+    EXPECT_FALSE(decision.looks());
+    EXPECT_EQ(decision.motion.kind, plain.Step().decision.motion.kind);
+    EXPECT_EQ(decision.motion.curvature_per_m, plain.log().back().decision.motion.curvature_per_m);
+  }
+}
+
+TEST(RouteFollowerTest, TurnsInPlaceTowardsTheSideOfTheCorner) {
+  for (const int side : {+1, -1}) {
+    RouteDrive drive({{0.0, 3.0 * side}});
+    const NavigatorDecision first = drive.Step().decision;
+    EXPECT_EQ(first.motion.kind, MotionKind::kTurnInPlace);
+    EXPECT_EQ(first.motion.direction, side);
+    EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+  }
+}
+
+// A corner at distance d and bearing b lies on the arc of curvature 2 sin(b) / d.
+TEST(RouteFollowerTest, DrivesTheArcThatLeadsToTheCorner) {
+  const double bearing_rad = math::DegToRad(10.0);
+  for (const double side : {+1.0, -1.0}) {
+    RouteDrive drive({{4.0 * std::cos(bearing_rad), side * 4.0 * std::sin(bearing_rad)}});
+    const messages::MotionCommand motion = drive.Step().decision.motion;
+    EXPECT_EQ(motion.kind, MotionKind::kArc);
+    EXPECT_NEAR(motion.curvature_per_m, side * 2.0 * std::sin(bearing_rad) / 4.0, 1e-12);
+  }
+  // So near that the arc would be tighter than the rover drives: 0.4 m < 2 (0.75 m) sin(bearing).
+  const double near_rad = math::DegToRad(14.9);
+  ASSERT_LT(near_rad, RouteParams{}.point_turn_bearing_rad);
+  RouteDrive tight({{0.38 * std::cos(near_rad), 0.38 * std::sin(near_rad)}, {3.0, 3.0}});
+  EXPECT_EQ(tight.Step().decision.motion.kind, MotionKind::kTurnInPlace);
+}
+
+// Told in the middle of a leg that it stands elsewhere, it steers for the same corner from there.
+TEST(RouteFollowerTest, SteersAnewAfterAPoseUpdate) {
+  RouteDrive drive({{6.0, 0.0}});
+  for (int i = 0; i < 20; ++i) drive.Step();
+  EXPECT_EQ(drive.log().back().decision.motion.curvature_per_m, 0.0);
+  drive.UpdatePose({2.0, 0.6, 0.0});
+  const messages::MotionCommand motion = drive.Step().decision.motion;
+  EXPECT_EQ(motion.kind, MotionKind::kArc);
+  const double distance_m = std::hypot(4.0, 0.6);
+  EXPECT_NEAR(motion.curvature_per_m, -2.0 * (0.6 / distance_m) / distance_m, 1e-12);
+  EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+}
+
+// Also where a turn was under way: it ends facing the corner, not where it had been going to.
+TEST(RouteFollowerTest, EndsATurnByTheNewHeading) {
+  RouteDrive drive({{0.0, 4.0}});
+  for (int i = 0; i < 10; ++i) drive.Step();
+  ASSERT_EQ(drive.log().back().decision.motion.direction, +1);
+  drive.UpdatePose({0.0, 0.0, math::DegToRad(150.0)});
+  const messages::MotionCommand motion = drive.Step().decision.motion;
+  EXPECT_EQ(motion.kind, MotionKind::kTurnInPlace);
+  EXPECT_EQ(motion.direction, -1);
+  EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+}
+
+// An update beyond a corner: there is nothing to go back for.
+TEST(RouteFollowerTest, PassesCornersThatLieBehind) {
+  RouteDrive drive({{1.0, 0.0}, {2.0, 0.0}, {6.0, 0.0}});
+  drive.Step();
+  drive.UpdatePose({3.0, 0.4, 0.0});
+  const messages::MotionCommand motion = drive.Step().decision.motion;
+  const double distance_m = std::hypot(3.0, 0.4);
+  EXPECT_EQ(motion.kind, MotionKind::kArc);
+  EXPECT_NEAR(motion.curvature_per_m, -2.0 * (0.4 / distance_m) / distance_m, 1e-12);
+}
+
+}  // namespace
+}  // namespace rockyard::navigation
