@@ -27,7 +27,7 @@ void AddPlanOptions(CLI::App& command, CampaignOptions& options) {
           .add_option("--until-half-width", options.until_half_width,
                       "run until the confidence sequence (95 %, valid at any time) of declared "
                       "success is that narrow, e.g. 0.02")
-          ->check(CLI::Range(0.0005, 0.5))
+          ->check(CLI::Range(0.0005, 0.49))
           ->excludes(trials);
   command.add_option("--max-trials", options.rule.max_trials, "most trials (of each cell) of that")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}))

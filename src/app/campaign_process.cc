@@ -130,13 +130,19 @@ batch::BatchResult CampaignProcess::RunTrials(std::span<const CellWork> work,
   const bool alone = !supervised && communicator_ == nullptr;
   const InterruptGuard interrupt(log_.stop(),
                                  alone ? SecondSignal::kEnds : SecondSignal::kIsTheSame);
-  batch::BatchSession session(store, options, log_.stop(), report);
+  const auto note = [&](const batch::Progress& progress) {
+    log_.SetStored(progress.stored);
+    if (report) report(progress);
+  };
+  batch::BatchSession session(store, options, log_.stop(), note);
   const int threads = batch::ThreadCount(options);
   if (communicator_ != nullptr) {
     StartRanks(*communicator_, store.identity());
     batch::RunTrialsOnRanks(*communicator_, logged.work(), session.source(), threads);
   } else {
-    batch::LeavingOutSource source(session.source(), mission_.left_out);
+    std::vector<batch::TrialId> left_out;
+    for (const batch::LeftOut& left : mission_.left_out) left_out.push_back(left.id);
+    batch::LeavingOutSource source(session.source(), std::move(left_out));
     batch::RunTrials(logged.work(), source, threads);
   }
   batch::BatchResult result = session.Close();
@@ -170,9 +176,16 @@ ExitCode CampaignProcess::DoTask(std::span<const CellWork> work, batch::ResultSt
 bool CampaignProcess::TellLeftOut(const batch::ResultStore& store) const {
   std::vector<core::Problem> problems;
   problems.reserve(mission_.left_out.size());
-  for (const batch::TrialId& id : mission_.left_out) {
+  for (const auto& [id, why] : mission_.left_out) {
+    const std::string trial = fmt::format("trial {}{}", id.trial, CellPart(store, id.cell));
+    if (why == batch::LeftOut::Why::kIsKilled) {
+      problems.push_back(
+          {trial, "is pending: each time it was tried its process was killed",
+           fmt::format("--resume with more memory, or `{}`", ReplayLine(store, id))});
+      continue;
+    }
     problems.push_back(
-        {fmt::format("trial {}{}", id.trial, CellPart(store, id.cell)),
+        {trial,
          fmt::format("is pending: each time it was tried it used more than {} s of CPU time",
                      options_.trial_cpu_limit_s),
          fmt::format("`{}`, or --resume with a larger --trial-cpu-limit", ReplayLine(store, id))});

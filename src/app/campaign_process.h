@@ -44,7 +44,8 @@ class CampaignProcess {
   // The task for one trial.
   ExitCode DoTask(std::span<const batch::CellWork> work, batch::ResultStore& store);
 
-  // Tells of every trial that was left out, pending, as it hangs; true where there is one.
+  // Tells of every trial that was left out, pending, as it hangs or is killed; true where there is
+  // one.
   bool TellLeftOut(const batch::ResultStore& store) const;
 
  private:

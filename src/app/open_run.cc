@@ -29,13 +29,10 @@ std::string FileName(const std::string& name) {
   return safe;
 }
 
-// Removes the folder again, if it was not there before, unless all went well.
+// Removes the folder again, where it is empty, unless all went well.
 class NewFolderGuard {
  public:
-  explicit NewFolderGuard(const fs::path& folder) {
-    std::error_code error;
-    if (!fs::exists(folder, error)) folder_ = folder;
-  }
+  explicit NewFolderGuard(const fs::path& folder) : folder_(folder) {}
   ~NewFolderGuard() {
     std::error_code ignored;
     if (!folder_.empty()) fs::remove(folder_, ignored);
@@ -87,8 +84,11 @@ class Opener {
 
   OpenedRun Open() {
     RefuseForeignFolder(request_);
-    NewFolderGuard guard(folder_);
+    std::error_code error;
+    const bool there = fs::exists(folder_, error);
     auto claim = std::make_unique<batch::FolderClaim>(folder_);
+    // Not before the claim: the folder of a run that came first is its own.
+    NewFolderGuard guard(there ? fs::path() : folder_);
     batch::ResultStore store = OpenStore();
     PlanTrials(store);
     guard.Keep();

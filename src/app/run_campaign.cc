@@ -68,6 +68,23 @@ batch::BatchResult RunTrials(std::span<const batch::CellWork> work, OpenedRun& r
   return result;
 }
 
+// One broken cell among many is named, however few its trials are of all.
+void TellFaults(const OpenedRun& run, const batch::BatchResult& result, double most) {
+  std::string cells;
+  for (const int cell : result.faulty_cells) {
+    const std::string& name = run.store.identity().cells[static_cast<std::size_t>(cell)].name;
+    if (!name.empty()) cells += fmt::format("{}{}", cells.empty() ? "; in cells " : ", ", name);
+  }
+  PrintProblems(
+      {{run.folder.string(),
+        fmt::format("{} of {} trials ended in a simulator fault, more than {} %{}",
+                    result.progress.faults, result.progress.finished, 100.0 * most,
+                    cells.empty() ? "" : fmt::format(" of all, or of a cell{}", cells)),
+        cells.empty()
+            ? "trials.csv names seed and trial of each: look there for the reason"
+            : "`detail` in the table trials of results.sqlite names the reason of each"}});
+}
+
 ExitCode Judge(const OpenedRun& run, const batch::BatchResult& result,
                const CampaignOptions& options) {
   const batch::Progress& progress = result.progress;
@@ -78,11 +95,7 @@ ExitCode Judge(const OpenedRun& run, const batch::BatchResult& result,
     return ExitCode::kInterrupted;
   }
   if (!result.too_many_faults) return ExitCode::kDone;
-  PrintProblems(
-      {{run.folder.string(),
-        fmt::format("{} of {} trials ended in a simulator fault, more than {} %", progress.faults,
-                    progress.finished, 100.0 * options.max_fault_fraction),
-        "trials.csv names seed and trial of each: look there for the reason"}});
+  TellFaults(run, result, options.max_fault_fraction);
   return ExitCode::kTooManyFaults;
 }
 

@@ -32,12 +32,13 @@ void CloseWriter(RecordWriter& writer) {
 
 Progress ProgressOf(const WorkPlan& plan) {
   Progress progress;
-  progress.finished = plan.finished();
-  progress.faults = plan.faults();
   progress.cells = plan.cells();
   for (int cell = 0; cell < plan.cells(); ++cell) {
+    const FinishedCounts finished = plan.finished(cell);
+    progress.finished += finished.trials;
+    progress.faults += finished.faults;
     progress.planned += plan.planned(cell);
-    if (plan.counter(cell).finished() == plan.planned(cell)) ++progress.cells_ended;
+    if (finished.trials == plan.planned(cell)) ++progress.cells_ended;
     progress.widest_half_width =
         std::max(progress.widest_half_width, plan.state(cell).half_width());
   }
@@ -54,7 +55,7 @@ BatchSession::BatchSession(ResultStore& store, const BatchOptions& options,
       report_(std::move(report)),
       start_(Clock::now()),
       plan_(StoredPlan(store, options.rule, options.order)),
-      finished_before_(plan_.finished()),
+      finished_before_(ProgressOf(plan_).finished),
       source_(plan_, writer_, stop),
       writer_(store, options.interval, [this] { Tell(); }) {
   writer_.Start();
@@ -67,9 +68,17 @@ BatchResult BatchSession::Close() {
   result.progress = Now();
   const Progress& progress = result.progress;
   result.end = source_.exhausted() ? BatchEnd::kFinished : BatchEnd::kStopped;
-  result.too_many_faults = static_cast<double>(progress.faults) >
-                           options_.max_fault_fraction * static_cast<double>(progress.finished);
-  for (int cell = 0; cell < plan_.cells(); ++cell) result.cells.push_back(plan_.state(cell));
+  const auto too_many = [&](std::int64_t faults, std::int64_t finished) {
+    return static_cast<double>(faults) >
+           options_.max_fault_fraction * static_cast<double>(finished);
+  };
+  for (int cell = 0; cell < plan_.cells(); ++cell) {
+    const FinishedCounts finished = plan_.finished(cell);
+    if (too_many(finished.faults, finished.trials)) result.faulty_cells.push_back(cell);
+    result.cells.push_back(plan_.state(cell));
+  }
+  result.too_many_faults =
+      !result.faulty_cells.empty() || too_many(progress.faults, progress.finished);
   if (result.end == BatchEnd::kFinished) {
     ENSURE(progress.finished == progress.planned);
     StoreEnds();
@@ -86,7 +95,8 @@ void BatchSession::StoreEnds() {
 
 Progress BatchSession::Now() const {
   Progress progress = source_.Read(ProgressOf);
-  progress.finished_before = finished_before_;
+  progress.finished_before = std::min(finished_before_, progress.finished);
+  progress.stored = writer_.stored();
   progress.target_half_width = options_.rule ? options_.rule->half_width : 0.0;
   progress.elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();
   return progress;

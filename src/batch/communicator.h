@@ -22,7 +22,8 @@ class Communicator {
   virtual int rank() const = 0;
   virtual int size() const = 0;
 
-  // Returns when `bytes` may be changed, perhaps before they arrive.
+  // Never waits for the receiver: two ranks may send to each other at the same time, whatever the
+  // size. Bytes that are under way move on in Poll and at the end.
   virtual void Send(int rank, int tag, const std::string& bytes) = 0;
 
   // The next message, if one is there.

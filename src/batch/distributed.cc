@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -39,21 +40,25 @@ class Idleness {
   std::chrono::microseconds pause_ = kShort;
 };
 
-// Computes until the source has no more trials.
+// Computes until the source has no more trials, or this ends: then what was begun is finished.
 class Engine {
  public:
   Engine(std::span<const CellWork> work, WorkSource& source, int threads)
-      : thread_([=, this, &source] {
-          RunTrials(work, source, threads);
+      : source_(source), thread_([=, this] {
+          RunTrials(work, source_, threads);
           done_ = true;
         }) {}
-  ~Engine() { thread_.join(); }
+  ~Engine() {
+    source_.Close();
+    thread_.join();
+  }
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
   bool done() const { return done_; }
 
  private:
+  WorkSource& source_;
   std::atomic<bool> done_ = false;
   std::thread thread_;
 };
@@ -92,6 +97,9 @@ class Desk {
   };
 
   void Receive(const Message& message) {
+    if (message.tag != kReport && message.tag != kBye) {
+      throw std::runtime_error("a rank says what it should not");
+    }
     Rank& rank = ranks_.at(static_cast<std::size_t>(message.rank));
     PacketReader packet(message.bytes);
     for (CellRecord& record : packet.Records()) source_.Finish(std::move(record));
@@ -154,6 +162,7 @@ class Client {
 
  private:
   void Receive(const Message& message) {
+    if (message.tag != kBlock) throw std::runtime_error("rank 0 has given up");
     PacketReader packet(message.bytes);
     source_.Add(packet.Trials());
     last_ = packet.Integer() == 1;

@@ -26,7 +26,7 @@ struct CellWork {
 struct BatchOptions {
   int threads = 0;  // 0: as many as the machine runs at once
   Order order = Order::kNatural;
-  double max_fault_fraction = 0.01;  // of all finished trials
+  double max_fault_fraction = 0.01;  // of the finished trials, of all and of each cell
   // Between two commits and two reports. With the time of a commit below one second.
   std::chrono::milliseconds interval{500};
   std::optional<StoppingRule> rule{};  // none: every planned trial
@@ -34,8 +34,9 @@ struct BatchOptions {
 
 struct Progress {
   std::int64_t planned = 0;          // by all cells; less once a rule has ended cells
-  std::int64_t finished = 0;         // all that are finished, in any order
+  std::int64_t finished = 0;         // of those planned, in any order
   std::int64_t finished_before = 0;  // of these, in earlier sessions
+  std::int64_t stored = 0;           // of this session, brought to the store
   std::int64_t faults = 0;           // of all finished
   PrefixCounts prefix{};             // of the only cell: what rates may be shown of
   double elapsed_s = 0.0;            // of this session, wall clock
@@ -54,7 +55,8 @@ enum class BatchEnd {
 struct BatchResult {
   BatchEnd end = BatchEnd::kFinished;
   Progress progress;
-  bool too_many_faults = false;  // more than max_fault_fraction of the finished trials
+  bool too_many_faults = false;  // more than max_fault_fraction of all trials, or of a cell's
+  std::vector<int> faulty_cells;
   std::vector<CellState> cells;
 };
 

@@ -41,34 +41,36 @@ FlightLog::~FlightLog() { munmap(shared_, sizeof(Shared)); }
 
 int FlightLog::Begin(TrialId id) {
   int number = 0;
-  std::int32_t expected = kFree;
-  while (number < kSlots &&
-         !shared_->slots[number].state.compare_exchange_strong(expected, kClaimed)) {
-    expected = kFree;
+  std::uint64_t word = shared_->slots[0].word;
+  while (StateOf(word) != kFree ||
+         !shared_->slots[number].word.compare_exchange_strong(word, word + kClaimed)) {
     ++number;
+    EXPECT(number < kSlots);
+    word = shared_->slots[number].word;
   }
-  EXPECT(number < kSlots);
   Slot& slot = shared_->slots[number];
   slot.cell = id.cell;
   slot.trial = id.trial;
   slot.clock = CpuClockOfThisThread();
   slot.began_ns = Nanoseconds(CLOCK_THREAD_CPUTIME_ID);
-  slot.state = kFlying;
+  slot.word = word + kFlying;
   return number;
 }
 
 void FlightLog::End(int slot) {
-  shared_->slots[slot].state = kFree;
-  ++shared_->finished;
+  std::atomic<std::uint64_t>& word = shared_->slots[slot].word;
+  // It may become overdue in this moment; nobody but this thread frees it.
+  word = word - StateOf(word) + kStates;
 }
 
 std::vector<Flight> FlightLog::Flights() const {
   std::vector<Flight> flights;
   for (const Slot& slot : shared_->slots) {
-    const std::int32_t state = slot.state;
-    if (state == kFlying || state == kOverdue) {
-      flights.push_back({{slot.cell, slot.trial}, state == kOverdue});
-    }
+    const std::uint64_t word = slot.word;
+    const Flight flight{{slot.cell, slot.trial}, StateOf(word) == kOverdue};
+    const bool flies = StateOf(word) == kFlying || StateOf(word) == kOverdue;
+    // Another word: that flight has ended, or become overdue, which the next look will tell.
+    if (flies && slot.word / kStates == word / kStates) flights.push_back(flight);
   }
   return flights;
 }
@@ -76,20 +78,22 @@ std::vector<Flight> FlightLog::Flights() const {
 bool FlightLog::MarkOverdue(double limit_s) {
   bool any = false;
   for (Slot& slot : shared_->slots) {
-    std::int32_t state = slot.state;
-    if (state == kFlying) {
+    std::uint64_t word = slot.word;
+    if (StateOf(word) == kFlying) {
       const auto used_ns = static_cast<double>(Nanoseconds(slot.clock) - slot.began_ns);
-      // A trial that ends in this moment is not overdue.
-      if (used_ns > 1e9 * limit_s) slot.state.compare_exchange_strong(state, kOverdue);
+      // A trial that ends in this moment is not overdue, nor is the one that follows it.
+      if (used_ns > 1e9 * limit_s) {
+        slot.word.compare_exchange_strong(word, word - kFlying + kOverdue);
+      }
     }
-    any = any || slot.state == kOverdue;
+    any = any || StateOf(slot.word) == kOverdue;
   }
   return any;
 }
 
 void FlightLog::Clear() {
-  for (Slot& slot : shared_->slots) slot.state = kFree;
-  shared_->finished = 0;
+  for (Slot& slot : shared_->slots) slot.word = slot.word - StateOf(slot.word) + kStates;
+  shared_->stored = 0;
   shared_->stop = false;
 }
 

@@ -35,7 +35,10 @@ class FlightLog {
   void End(int slot);
 
   std::vector<Flight> Flights() const;
-  std::int64_t finished() const { return shared_->finished; }  // since Clear
+
+  // How many trials the worker has brought to its store, since Clear.
+  void SetStored(std::int64_t trials) { shared_->stored = trials; }
+  std::int64_t stored() const { return shared_->stored; }
 
   // Marks every flight that has used more CPU time than the limit; returns whether any is. Only in
   // the process that runs them: it reads the clocks of its threads.
@@ -52,10 +55,14 @@ class FlightLog {
   void Clear();
 
  private:
-  enum State : std::int32_t { kFree, kClaimed, kFlying, kOverdue };
+  // In the lowest bits of a slot's word; above them is the number of the flight, so that the word
+  // of one that has ended never comes back.
+  enum State : std::uint64_t { kFree, kClaimed, kFlying, kOverdue };
+  static constexpr std::uint64_t kStates = 4;
+  static std::uint64_t StateOf(std::uint64_t word) { return word % kStates; }
 
   struct alignas(64) Slot {
-    std::atomic<std::int32_t> state = kFree;
+    std::atomic<std::uint64_t> word = kFree;
     std::atomic<std::int32_t> cell = 0;
     std::atomic<std::int64_t> trial = 0;
     std::atomic<std::int32_t> clock = 0;  // of the thread's CPU time
@@ -64,7 +71,7 @@ class FlightLog {
   static_assert(std::atomic<std::int64_t>::is_always_lock_free, "shared between processes");
 
   struct Shared {
-    std::atomic<std::int64_t> finished = 0;
+    std::atomic<std::int64_t> stored = 0;
     std::atomic<bool> stop = false;
     std::atomic<bool> opened = false;
     Slot slots[kSlots];

@@ -127,16 +127,31 @@ std::vector<std::int64_t> MostPlanned(const std::vector<Part>& parts) {
   return planned;
 }
 
+// At once in memory and in one transaction.
+constexpr std::int64_t kTrialsOfAPiece = 10000;
+
+void CopyPiece(const ResultStore& from, ResultStore& to, int cell, std::int64_t begin) {
+  std::vector<CellRecord> rows;
+  for (truth::Record& record : from.Load(cell, begin, begin + kTrialsOfAPiece)) {
+    rows.push_back({cell, std::move(record)});
+  }
+  to.Append(rows);
+}
+
 void CopyTrials(const ResultStore& from, ResultStore& to) {
   for (const std::string& build : from.Builds()) to.AddBuild(build);
   for (int cell = 0; cell < from.cells(); ++cell) {
-    std::vector<CellRecord> rows;
-    for (truth::Record& record : from.Load(cell)) rows.push_back({cell, std::move(record)});
-    to.Append(rows);
+    for (std::int64_t begin = 0; begin < from.planned(cell); begin += kTrialsOfAPiece) {
+      CopyPiece(from, to, cell, begin);
+    }
   }
   for (const InfrastructureFault& fault : from.InfrastructureFaults()) {
     to.AddInfrastructureFault(fault);
   }
+}
+
+[[noreturn]] void FailExists(const fs::path& out) {
+  throw StoreError(StoreProblem::kExists, out.string(), "exists", "choose a new folder with --out");
 }
 
 void WriteMerged(const std::vector<Part>& parts, const fs::path& out) {
@@ -151,19 +166,18 @@ void WriteMerged(const std::vector<Part>& parts, const fs::path& out) {
 void MergeShards(std::span<const fs::path> shards, const fs::path& out,
                  const MergeOptions& options) {
   std::error_code error;
-  if (fs::exists(out, error)) {
-    throw StoreError(StoreProblem::kExists, out.string(), "exists",
-                     "choose a new folder with --out");
-  }
+  if (fs::exists(out, error)) FailExists(out);
   std::vector<Part> parts;
   for (const fs::path& folder : shards) parts.push_back({folder, ResultStore::Read(folder)});
   std::vector<Problem> problems = Inspector(parts, options).Problems();
   if (!problems.empty()) throw StoreError(StoreProblem::kMismatch, std::move(problems));
+  // Another merge may have come first while this one read: what it makes, or made, is its own.
+  const FolderClaim claim(out);
+  if (!fs::is_empty(out, error)) FailExists(out);
   try {
-    const FolderClaim claim(out);
     WriteMerged(parts, out);
   } catch (...) {
-    // Half of a campaign must not be taken for all of it. Nothing else has been in the folder.
+    // Half of a campaign must not be taken for all of it.
     fs::remove_all(out, error);
     throw;
   }

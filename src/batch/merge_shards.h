@@ -17,7 +17,8 @@ struct MergeOptions {
 // the same hash, but for the order of the rows. Throws StoreError, with everything that is wrong
 // and nothing written: a folder that holds no shard; shards of different campaigns, or of different
 // numbers of shards or trials; builds that differ; a shard that is there twice, that is missing, or
-// that lacks trials; an `out` that exists. Memory: the records of one cell of one shard.
+// that lacks trials; an `out` that exists, or that another merge makes meanwhile (kInUse, kExists).
+// Memory: some thousand records, and for a moment 24 bytes per trial of a shard.
 void MergeShards(std::span<const std::filesystem::path> shards, const std::filesystem::path& out,
                  const MergeOptions& options = {});
 

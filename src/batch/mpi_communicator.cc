@@ -2,6 +2,7 @@
 #include <array>
 #include <charconv>
 #include <cstdlib>
+#include <list>
 #include <string_view>
 
 #include "batch/communicator.h"
@@ -65,7 +66,10 @@ class MpiCommunicator final : public Communicator {
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
   }
-  ~MpiCommunicator() override { MPI_Finalize(); }
+  ~MpiCommunicator() override {
+    for (Outgoing& message : outgoing_) MPI_Wait(&message.request, MPI_STATUS_IGNORE);
+    MPI_Finalize();
+  }
   MpiCommunicator(const MpiCommunicator&) = delete;
   MpiCommunicator& operator=(const MpiCommunicator&) = delete;
 
@@ -73,10 +77,14 @@ class MpiCommunicator final : public Communicator {
   int size() const override { return size_; }
 
   void Send(int rank, int tag, const std::string& bytes) override {
-    MPI_Send(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, rank, tag, MPI_COMM_WORLD);
+    Outgoing& message = outgoing_.emplace_back(Outgoing{bytes, MPI_REQUEST_NULL});
+    MPI_Isend(message.bytes.data(), static_cast<int>(message.bytes.size()), MPI_BYTE, rank, tag,
+              MPI_COMM_WORLD, &message.request);
+    ForgetSent();
   }
 
   std::optional<Message> Poll() override {
+    ForgetSent();
     int there = 0;
     MPI_Status status;
     MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &status);
@@ -90,8 +98,22 @@ class MpiCommunicator final : public Communicator {
   }
 
  private:
+  struct Outgoing {
+    std::string bytes;  // MPI's until it is sent
+    MPI_Request request;
+  };
+
+  void ForgetSent() {
+    std::erase_if(outgoing_, [](Outgoing& message) {
+      int sent = 0;
+      MPI_Test(&message.request, &sent, MPI_STATUS_IGNORE);
+      return sent != 0;
+    });
+  }
+
   int rank_ = 0;
   int size_ = 1;
+  std::list<Outgoing> outgoing_;  // which stay where they are
 };
 
 }  // namespace

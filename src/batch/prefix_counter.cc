@@ -30,8 +30,8 @@ bool PrefixCounter::Add(std::int64_t trial, truth::TrialOutcome outcome) {
   const auto index = static_cast<std::size_t>(trial);
   if (index >= outcomes_.size()) outcomes_.resize(index + 1, kPending);
   outcomes_[index] = static_cast<std::int8_t>(outcome);
-  ++finished_;
-  if (outcome == truth::TrialOutcome::kSimulatorFault) ++faults_;
+  ++finished_.trials;
+  if (outcome == truth::TrialOutcome::kSimulatorFault) ++finished_.faults;
   std::int64_t prefix_end = prefix_.trials;
   while (Has(prefix_end)) ++prefix_end;
   prefix_ += Count(prefix_.trials, prefix_end);
@@ -40,6 +40,17 @@ bool PrefixCounter::Add(std::int64_t trial, truth::TrialOutcome outcome) {
 
 bool PrefixCounter::Has(std::int64_t trial) const {
   return trial < end() && outcomes_[static_cast<std::size_t>(trial)] != kPending;
+}
+
+FinishedCounts PrefixCounter::Finished(std::int64_t to) const {
+  if (to >= end()) return finished_;
+  FinishedCounts counts;
+  for (std::int64_t trial = 0; trial < to; ++trial) {
+    if (!Has(trial)) continue;
+    ++counts.trials;
+    counts.faults += Count(trial, trial + 1).faults;
+  }
+  return counts;
 }
 
 PrefixCounts PrefixCounter::Count(std::int64_t from, std::int64_t to) const {

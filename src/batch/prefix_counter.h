@@ -20,6 +20,12 @@ struct PrefixCounts {
   PrefixCounts& operator+=(const PrefixCounts& other);
 };
 
+// Of any trials.
+struct FinishedCounts {
+  std::int64_t trials = 0;
+  std::int64_t faults = 0;  // of these
+};
+
 // Finished trials arrive in any order; rates use only the contiguous prefix of their indices.
 // Trials that fail run longer, so that over completion order successes would be counted too often;
 // the prefix waits for every trial before it. Memory: one byte per trial.
@@ -34,16 +40,16 @@ class PrefixCounter {
   // Counts over from <= trial < to, all of which are finished.
   PrefixCounts Count(std::int64_t from, std::int64_t to) const;
 
-  std::int64_t finished() const { return finished_; }
-  std::int64_t faults() const { return faults_; }
+  // Those below `to`. Cost: linear in `to` where there are others.
+  FinishedCounts Finished(std::int64_t to) const;
+  std::int64_t finished() const { return finished_.trials; }
   const PrefixCounts& prefix() const { return prefix_; }
 
  private:
   static constexpr std::int8_t kPending = -1;
 
   std::vector<std::int8_t> outcomes_;  // by trial
-  std::int64_t finished_ = 0;
-  std::int64_t faults_ = 0;
+  FinishedCounts finished_;
   PrefixCounts prefix_;
 };
 

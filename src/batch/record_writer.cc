@@ -20,8 +20,12 @@ RecordWriter::~RecordWriter() {
 }
 
 void RecordWriter::Push(CellRecord record) {
-  const std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_);
+  taken_.wait(lock, [this] {
+    return queue_.size() < kMostWaiting || failed_ || stopping_ || !thread_.joinable();
+  });
   queue_.push_back(std::move(record));
+  if (queue_.size() >= kMostWaiting) wake_.notify_one();
 }
 
 void RecordWriter::Close() {
@@ -36,12 +40,16 @@ void RecordWriter::Stop() {
     stopping_ = true;
   }
   wake_.notify_all();
+  taken_.notify_all();
   if (thread_.joinable()) thread_.join();
 }
 
 void RecordWriter::Loop() {
   std::unique_lock lock(mutex_);
-  while (!wake_.wait_for(lock, interval_, [this] { return stopping_; })) {
+  while (!stopping_) {
+    wake_.wait_for(lock, interval_,
+                   [this] { return stopping_ || (queue_.size() >= kMostWaiting && !failed_); });
+    if (stopping_) return;
     lock.unlock();
     // After a failure the rest is tried once more, when the trials in flight have ended.
     if (!failed_) WriteQueue();
@@ -56,12 +64,15 @@ void RecordWriter::WriteQueue() {
     const std::lock_guard lock(mutex_);
     batch.swap(queue_);
   }
+  taken_.notify_all();
   try {
     store_.Append(batch);
+    stored_ += static_cast<std::int64_t>(batch.size());
   } catch (const std::exception&) {
-    failed_ = true;
     if (!error_) error_ = std::current_exception();
     const std::lock_guard lock(mutex_);
+    failed_ = true;
+    taken_.notify_all();
     batch.insert(batch.end(), std::make_move_iterator(queue_.begin()),
                  std::make_move_iterator(queue_.end()));
     queue_ = std::move(batch);

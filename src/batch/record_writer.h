@@ -29,8 +29,13 @@ class RecordWriter {
   RecordWriter(const RecordWriter&) = delete;
   RecordWriter& operator=(const RecordWriter&) = delete;
 
-  // Any thread.
+  // Any thread. Blocks while kMostWaiting records wait for a store that is slower than the trials,
+  // so that memory stays bounded; not after a failure, nor without the thread.
   void Push(CellRecord record);
+  static constexpr std::size_t kMostWaiting = 20000;
+
+  // Records that have been brought to the store.
+  std::int64_t stored() const { return stored_; }
 
   // True once a write has failed: start no more trials.
   bool failed() const { return failed_; }
@@ -50,9 +55,11 @@ class RecordWriter {
   const std::chrono::milliseconds interval_;
   const std::function<void()> after_tick_;
   std::mutex mutex_;
-  std::condition_variable wake_;
+  std::condition_variable wake_;   // the thread
+  std::condition_variable taken_;  // the queue is empty again, or never will be
   std::vector<CellRecord> queue_;
   bool stopping_ = false;
+  std::atomic<std::int64_t> stored_ = 0;
   std::atomic<bool> failed_ = false;
   std::exception_ptr error_;
   std::thread thread_;

@@ -29,10 +29,9 @@ class RemoteWorkSource final : public WorkSource {
 
   std::optional<TrialId> Take() override;
   void Finish(CellRecord record) override;
+  void Close() override;
 
   void Add(const std::vector<TrialId>& trials);
-  // Nothing more comes; what has not been taken is not handed out.
-  void Close();
   // How many more trials to ask for; 0 while there are enough.
   std::int64_t Wanted() const;
   // Records that were finished since the last call.

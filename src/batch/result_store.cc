@@ -136,8 +136,12 @@ void ResultStore::Append(std::span<const CellRecord> records) {
 }
 
 std::vector<truth::Record> ResultStore::Load(int cell) const {
+  return Load(cell, 0, planned(cell));
+}
+
+std::vector<truth::Record> ResultStore::Load(int cell, std::int64_t from, std::int64_t to) const {
   EXPECT(cell >= 0 && cell < cells());
-  return SelectRecords(*database_, identity_.schema, cell);
+  return SelectRecords(*database_, identity_.schema, {.cell = cell, .from = from, .to = to});
 }
 
 std::vector<FinishedTrial> ResultStore::Finished() const {

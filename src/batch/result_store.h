@@ -78,10 +78,14 @@ class ResultStore {
   // that is already there keeps its first record. Each record fits the schema or is a fault.
   void Append(std::span<const CellRecord> records);
 
-  // Every stored record of a cell, by trial index. Cost: reads all of them into memory.
+  // The stored records of a cell, by trial index. Trials beyond those planned, which a wider
+  // stopping rule did not ask for, stay in the store and are left out: the campaign is the same as
+  // if they had not run. Cost: reads all of them into memory.
   std::vector<truth::Record> Load(int cell = 0) const;
+  // Those with from <= trial < to, planned or not.
+  std::vector<truth::Record> Load(int cell, std::int64_t from, std::int64_t to) const;
 
-  // Every stored trial without its values, by cell and trial: 24 bytes for each.
+  // Every stored trial, planned or not, without its values, by cell and trial: 24 bytes for each.
   std::vector<FinishedTrial> Finished() const;
 
   // Something that kept a trial from its result. Durable when it returns.

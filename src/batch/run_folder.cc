@@ -19,17 +19,19 @@ namespace fs = std::filesystem;
 
 constexpr const char* kOtherFolder = "check the permissions, or choose another folder with --out";
 
-void MakeFolder(const fs::path& folder) {
+// False where it was there.
+bool MakeFolder(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
     throw StoreError(StoreProblem::kUnwritable, folder.string(), "is a file, not a folder",
                      "choose another folder with --out");
   }
-  fs::create_directories(folder, error);
+  const bool made = fs::create_directories(folder, error);
   if (error) {
     throw StoreError(StoreProblem::kUnwritable, folder.string(),
                      "cannot be made: " + error.message(), kOtherFolder);
   }
+  return made;
 }
 
 // A folder can exist and still refuse files: permissions, read-only media, full disks.
@@ -60,7 +62,7 @@ bool HoldsStore(const fs::path& folder) {
 }
 
 FolderClaim::FolderClaim(const fs::path& folder) {
-  MakeFolder(folder);
+  const bool made = MakeFolder(folder);
   descriptor_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor_ < 0) {
     throw StoreError(StoreProblem::kUnwritable, folder.string(),
@@ -74,6 +76,8 @@ FolderClaim::FolderClaim(const fs::path& folder) {
   try {
     CheckWritable(folder);
   } catch (...) {
+    std::error_code ignored;
+    if (made) fs::remove(folder, ignored);
     close(descriptor_);
     throw;
   }

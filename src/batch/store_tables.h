@@ -38,9 +38,17 @@ std::vector<std::string> ReadBuilds(const SqliteDatabase& database);
 void InsertRecords(SqliteDatabase& database, const truth::RecordSchema& schema,
                    std::span<const CellRecord> records);
 
-// The records of a cell by trial index. kDamaged.
+// Trials from .. to-1 of a cell.
+struct TrialRange {
+  int cell = 0;
+  std::int64_t from = 0;
+  std::int64_t to = 0;
+};
+
+// The records there are of those, by trial index. kDamaged.
 std::vector<truth::Record> SelectRecords(const SqliteDatabase& database,
-                                         const truth::RecordSchema& schema, int cell);
+                                         const truth::RecordSchema& schema,
+                                         const TrialRange& range);
 
 // Every stored trial by cell and trial index. kDamaged.
 std::vector<FinishedTrial> SelectFinished(const SqliteDatabase& database, int cells);

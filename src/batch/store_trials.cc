@@ -22,7 +22,7 @@ std::string InsertSql(std::size_t values) {
 std::string SelectSql(const truth::RecordSchema& schema) {
   std::string sql = "SELECT campaign_cell, trial, outcome, detail";
   for (const truth::ValueInfo& value : schema) sql += ", " + QuotedName(value.name);
-  return sql + " FROM trials WHERE campaign_cell = ? ORDER BY trial";
+  return sql + " FROM trials WHERE campaign_cell = ? AND trial >= ? AND trial < ? ORDER BY trial";
 }
 
 std::int64_t CheckedTrial(const SqliteDatabase& database, std::int64_t trial) {
@@ -69,11 +69,12 @@ void InsertRecords(SqliteDatabase& database, const truth::RecordSchema& schema,
 }
 
 std::vector<truth::Record> SelectRecords(const SqliteDatabase& database,
-                                         const truth::RecordSchema& schema, int cell) {
+                                         const truth::RecordSchema& schema,
+                                         const TrialRange& range) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   std::vector<truth::Record> records;
   SqliteStatement select = database.Prepare(SelectSql(schema));
-  select.Bind(0, static_cast<std::int64_t>(cell));
+  select.Bind(0, static_cast<std::int64_t>(range.cell)).Bind(1, range.from).Bind(2, range.to);
   while (select.Step()) {
     truth::Record record;
     const std::int64_t trial = CheckedTrial(database, select.Integer(1));

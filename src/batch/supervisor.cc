@@ -14,6 +14,7 @@ namespace rockyard::batch {
 namespace {
 
 using Task = Mission::Task;
+using Why = LeftOut::Why;
 
 bool AskedToEnd(int signal) {
   return signal == SIGINT || signal == SIGTERM || signal == SIGHUP || signal == SIGUSR1;
@@ -31,7 +32,7 @@ class Supervisor {
       if (exit_code_) return *exit_code_;
       const std::vector<Flight> flights = log_.Flights();
       Tell(end, flights);
-      const bool fruitful = log_.finished() > 0 || !flights.empty();
+      const bool fruitful = log_.stored() > 0 || !flights.empty();
       fruitless = fruitful ? 0 : fruitless + 1;
       for (const Flight& flight : flights) {
         Resolve(flight, end);
@@ -39,7 +40,7 @@ class Supervisor {
       }
     }
     note_(
-        fmt::format("the worker process died {} times without finishing a trial: giving up; "
+        fmt::format("the worker process died {} times without storing a trial: giving up; "
                     "what was finished is stored, go on with --resume",
                     options_.fruitless_restarts + 1));
     return options_.failed_exit;
@@ -54,7 +55,9 @@ class Supervisor {
     mission.left_out = left_out_;
     const ProcessEnd end = held_.Run([&] { return worker_(mission); });
     if (end.interrupted || AskedToEnd(end.signal)) {
-      exit_code_ = end.signal == 0 ? end.code : options_.interrupted_exit;
+      // That a trial hung meanwhile is nothing that the user asked for.
+      const bool own = end.signal == 0 && end.code != kOverdueExit;
+      exit_code_ = own ? end.code : options_.interrupted_exit;
     } else if (end.signal == 0 && end.code != kOverdueExit) {
       const bool campaign = mission.task == Task::kBegin || mission.task == Task::kGoOn;
       if (campaign || end.code != 0) exit_code_ = end.code;
@@ -78,6 +81,7 @@ class Supervisor {
       return;  // it had no time left to be stored, and is run again with the others
     }
     int hung = flight.overdue ? 1 : 0;
+    int crashed = !flight.overdue && end.signal != SIGKILL ? 1 : 0;
     int killed = 0;
     for (;;) {
       ProcessEnd last;
@@ -88,15 +92,16 @@ class Supervisor {
           if (!flight.overdue) NotePassed(flight.id, end);
           return;
         case Alone::kCrashed:
-          StoreFault(flight.id, last);
-          return;
+          if (++crashed > 1) return StoreFault(flight.id, last);
+          NoteCrashed(flight.id, last);
+          break;
         case Alone::kKilled:
-          if (++killed > options_.killed_retries) return StoreFault(flight.id, last);
           NoteKilled(flight.id);
+          if (++killed > options_.killed_retries) return LeaveOut(flight.id, Why::kIsKilled);
           break;
         case Alone::kHung:
           NoteOverdue(flight.id);
-          if (++hung > options_.hung_retries) return LeaveOut(flight.id);
+          if (++hung > options_.hung_retries) return LeaveOut(flight.id, Why::kHangs);
           break;
       }
       if (exit_code_) return;
@@ -144,6 +149,13 @@ class Supervisor {
     NoteFault(id, "killed", "the process in which the trial ran alone was ended by SIGKILL");
   }
 
+  void NoteCrashed(TrialId id, const ProcessEnd& end) {
+    NoteFault(id, "crashed",
+              fmt::format("the process in which the trial ran alone was ended by {}, for the first "
+                          "time",
+                          SignalText(end.signal)));
+  }
+
   void NotePassed(TrialId id, const ProcessEnd& end) {
     NoteFault(id, end.signal == SIGKILL ? "killed" : "crashed",
               fmt::format("the worker process was ended by {} while the trial ran; alone the trial "
@@ -151,14 +163,14 @@ class Supervisor {
                           SignalText(end.signal)));
   }
 
-  void LeaveOut(TrialId id) { left_out_.push_back(id); }
+  void LeaveOut(TrialId id, Why why) { left_out_.push_back({id, why}); }
 
   FlightLog& log_;
   const Worker& worker_;
   const SupervisorOptions& options_;
   const std::function<void(const std::string&)>& note_;
   const SignalsHeld held_;
-  std::vector<TrialId> left_out_;
+  std::vector<LeftOut> left_out_;
   std::optional<int> exit_code_;
 };
 

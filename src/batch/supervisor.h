@@ -10,6 +10,12 @@
 
 namespace rockyard::batch {
 
+// A trial that stays pending, as what it needs is not there: no result, in no hash, exit code 5.
+struct LeftOut {
+  TrialId id;
+  enum class Why { kHangs, kIsKilled } why = Why::kHangs;
+};
+
 // What a worker process is to do.
 struct Mission {
   enum class Task {
@@ -24,7 +30,7 @@ struct Mission {
   TrialId trial{};                  // of the last three
   std::string kind{};               // of the infrastructure fault
   std::string reason{};             // of either fault, a sentence without seed and trial
-  std::vector<TrialId> left_out{};  // kGoOn: not to be run, as they hang
+  std::vector<LeftOut> left_out{};  // kGoOn: not to be run
 };
 
 // Does the mission in a process of its own and returns its exit code. Must not throw.
@@ -34,17 +40,19 @@ using Worker = std::function<int(const Mission&)>;
 struct SupervisorOptions {
   int hung_retries = 2;        // of a trial that used up its CPU time
   int killed_retries = 2;      // of a trial whose process was ended by SIGKILL, from outside
-  int fruitless_restarts = 3;  // of workers that die and resolve no trial
+  int fruitless_restarts = 3;  // of workers that die and store no trial
   int failed_exit = 5;         // exit code when that is too often
   int interrupted_exit = 130;  // exit code when a polite signal ended the worker
 };
 
 // Forks the worker, waits for it, and returns its exit code. When it dies by a signal (a crash, the
 // out-of-memory killer) the trials that were in flight are run one by one, each in a process of its
-// own: one that crashes again is stored as a simulator fault, one that passes leaves an
-// infrastructure fault behind (the machine failed, not the trial); then another worker goes on.
+// own: one that crashes again (in two crashes, one of them alone) is stored as a simulator fault,
+// one that passes leaves an infrastructure fault behind (the machine failed, not the trial); then
+// another worker goes on. SIGKILL comes from outside, where memory is short: such a trial is tried
+// again alone, and left out, pending, when it is killed again; no machine decides what is a fault.
 // A worker that ends with kOverdueExit (watchdog.h) left hanging trials: each is tried again alone,
-// and left out, pending, when it hangs again.
+// and left out, too, when it hangs again.
 //
 // SIGINT, SIGTERM, SIGHUP and SIGUSR1 are passed on to the worker; the second one kills it (what is
 // stored stays). The worker dies with the supervisor.

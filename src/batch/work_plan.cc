@@ -23,7 +23,9 @@ void Shuffle(std::vector<TrialId>& trials) {
 WorkPlan::WorkPlan(std::vector<std::int64_t> planned, const PlanOptions& options)
     : options_(options), cells_(planned.size()) {
   EXPECT(options.shard.index >= 1 && options.shard.index <= options.shard.count);
-  EXPECT(!options.rule || (options.shard.whole() && options.rule->block >= 1));
+  // A half-width of 0.5 is met by no trials at all.
+  EXPECT(!options.rule ||
+         (options.shard.whole() && options.rule->block >= 1 && options.rule->half_width < 0.5));
   for (std::size_t i = 0; i < planned.size(); ++i) {
     EXPECT(planned[i] >= 0);
     cells_[i].planned = planned[i];
@@ -50,8 +52,6 @@ bool WorkPlan::Finish(TrialId id, truth::TrialOutcome outcome) {
   });
   if (!cells_.at(static_cast<std::size_t>(id.cell)).counter.Add(id.trial, outcome)) return false;
   if (of_round) --remaining_;
-  ++finished_;
-  if (outcome == truth::TrialOutcome::kSimulatorFault) ++faults_;
   return true;
 }
 
@@ -59,10 +59,16 @@ void WorkPlan::PutBack(TrialId id) {
   if (Pending(id)) listed_.push_back(id);
 }
 
-std::int64_t WorkPlan::planned(int cell) const {
+std::int64_t WorkPlan::planned(int cell) const { return options_.shard.Share(End(At(cell))); }
+
+FinishedCounts WorkPlan::finished(int cell) const {
   const Cell& at = At(cell);
-  const std::int64_t end = at.state.end == CellEnd::kOpen ? at.planned : at.state.asked;
-  return options_.shard.Share(std::max(end, at.counter.end()));
+  return at.counter.Finished(End(at));
+}
+
+// One more than the last trial that is planned.
+std::int64_t WorkPlan::End(const Cell& cell) const {
+  return cell.state.end == CellEnd::kOpen ? cell.planned : cell.state.asked;
 }
 
 void WorkPlan::BeginRound() {

@@ -73,8 +73,9 @@ class WorkPlan {
   const PrefixCounter& counter(int cell) const { return At(cell).counter; }
   // Trials of the cell that this campaign (or its shard) is to finish; an open cell may need less.
   std::int64_t planned(int cell) const;
-  std::int64_t finished() const { return finished_; }
-  std::int64_t faults() const { return faults_; }
+  // Of those planned. What earlier sessions stored beyond them, with gaps perhaps, is no part of
+  // the campaign.
+  FinishedCounts finished(int cell) const;
 
  private:
   struct Cell {
@@ -89,6 +90,7 @@ class WorkPlan {
   };
 
   const Cell& At(int cell) const { return cells_.at(static_cast<std::size_t>(cell)); }
+  std::int64_t End(const Cell& cell) const;
   void BeginRound();
   void Decide(Cell& cell) const;
   std::vector<int> CellsOfNextRound() const;
@@ -106,8 +108,6 @@ class WorkPlan {
   std::int64_t remaining_ = 0;   // trials of the round that are not finished
   std::vector<TrialId> listed_;  // handed out first, from the back
   std::int64_t asked_ = 0;       // of all cells
-  std::int64_t finished_ = 0;
-  std::int64_t faults_ = 0;
 };
 
 }  // namespace rockyard::batch

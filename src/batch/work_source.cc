@@ -35,6 +35,14 @@ void LocalWorkSource::Finish(CellRecord record) {
   writer_.Push(std::move(record));
 }
 
+void LocalWorkSource::Close() {
+  {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+  }
+  changed_.notify_all();
+}
+
 WorkPlan::NextStep LocalWorkSource::TryTake() {
   const std::lock_guard lock(mutex_);
   return NextLocked();
@@ -54,7 +62,7 @@ bool LocalWorkSource::exhausted() const {
 }
 
 WorkPlan::NextStep LocalWorkSource::NextLocked() {
-  if (stop_ || writer_.failed()) return {WorkPlan::Step::kDone};
+  if (closed_ || stop_ || writer_.failed()) return {WorkPlan::Step::kDone};
   const WorkPlan::NextStep next = plan_.Next();
   if (next.step == WorkPlan::Step::kDone) exhausted_ = true;
   return next;

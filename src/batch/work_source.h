@@ -20,8 +20,11 @@ class WorkSource {
   // The next trial. Blocks while a round ends. Nothing where all are done, or no more may start.
   virtual std::optional<TrialId> Take() = 0;
 
-  // The record of a trial that was taken.
+  // The record of a trial that was taken. May block until earlier ones have been stored.
   virtual void Finish(CellRecord record) = 0;
+
+  // Nothing more is handed out; who waits for a trial gets none.
+  virtual void Close() = 0;
 };
 
 // The trials of a plan, in this process; records go to a writer.
@@ -32,6 +35,7 @@ class LocalWorkSource final : public WorkSource {
 
   std::optional<TrialId> Take() override;
   void Finish(CellRecord record) override;
+  void Close() override;
 
   // Take without blocking, for who serves others: kDone also when the campaign is to stop.
   WorkPlan::NextStep TryTake();
@@ -58,6 +62,7 @@ class LocalWorkSource final : public WorkSource {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   bool exhausted_ = false;
+  bool closed_ = false;
 };
 
 }  // namespace rockyard::batch

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <ctime>
 #include <functional>
 #include <new>
 #include <thread>
@@ -31,7 +32,8 @@ struct Board {
   std::atomic<bool> stored[kTrials];
   std::atomic<int> faults[kTrials];  // stored as simulator faults
   std::atomic<int> machine_faults[kTrials];
-  std::atomic<int> workers;  // begun
+  std::atomic<LeftOut::Why> why[kTrials];  // left out
+  std::atomic<int> workers;                // begun
 };
 
 class SupervisorTest : public testing::Test {
@@ -82,8 +84,11 @@ class SupervisorTest : public testing::Test {
     std::atomic<int> next = 0;
     const auto loop = [&] {
       for (int trial = next++; trial < kTrials; trial = next++) {
-        const bool left_out = std::find(mission.left_out.begin(), mission.left_out.end(),
-                                        TrialId{0, trial}) != mission.left_out.end();
+        const bool left_out =
+            std::any_of(mission.left_out.begin(), mission.left_out.end(), [&](const LeftOut& left) {
+              return left.id == TrialId{0, trial};
+            });
+        for (const LeftOut& left : mission.left_out) board_->why[left.id.trial] = left.why;
         if (!log_.stop() && !board_->stored[trial] && !left_out) RunTrial(trial, hook);
       }
     };
@@ -98,6 +103,7 @@ class SupervisorTest : public testing::Test {
     ++board_->runs[trial];
     hook(trial);
     board_->stored[trial] = true;
+    log_.SetStored(Stored());
     log_.End(slot);
   }
 
@@ -121,6 +127,11 @@ class SupervisorTest : public testing::Test {
   for (;;) count = count + 1;
 }
 
+void Crash(int signal = SIGSEGV) {
+  std::signal(signal, SIG_DFL);
+  raise(signal);
+}
+
 TEST_F(SupervisorTest, WithoutCrashOneWorkerDoesAll) {
   EXPECT_EQ(Supervised([](int) {}), 0);
   EXPECT_EQ(Stored(), kTrials);
@@ -140,10 +151,7 @@ class CrashingTrial : public SupervisorTest, public testing::WithParamInterface<
 
 TEST_P(CrashingTrial, BecomesAFaultAndTheOthersGoOn) {
   EXPECT_EQ(Supervised([](int trial) {
-              if (trial == 5) {
-                std::signal(GetParam(), SIG_DFL);
-                raise(GetParam());
-              }
+              if (trial == 5) Crash(GetParam());
             }),
             0);
   EXPECT_EQ(Stored(), kTrials);
@@ -157,8 +165,54 @@ TEST_P(CrashingTrial, BecomesAFaultAndTheOthersGoOn) {
 INSTANTIATE_TEST_SUITE_P(Signals, CrashingTrial, testing::Values(SIGSEGV, SIGABRT, SIGFPE, SIGBUS));
 
 TEST_F(SupervisorTest, EveryTrialMayCrash) {
-  EXPECT_EQ(Supervised([](int) { raise(SIGKILL); }), 0);
+  EXPECT_EQ(Supervised([](int) { Crash(); }), 0);
   EXPECT_EQ(Sum(board_->faults), kTrials);
+}
+
+// A trial that does not fit into this machine may fit into another one.
+TEST_F(SupervisorTest, KilledEachTimeStaysPending) {
+  EXPECT_EQ(Supervised([](int trial) {
+              if (trial == 4) raise(SIGKILL);
+            }),
+            5);
+  EXPECT_EQ(Stored(), kTrials - 1);
+  EXPECT_FALSE(board_->stored[4]);
+  EXPECT_EQ(Sum(board_->faults), 0);
+  EXPECT_EQ(board_->runs[4], 4) << "once with others, three times alone";
+  EXPECT_EQ(board_->machine_faults[4], 3);
+  EXPECT_EQ(board_->why[4], LeftOut::Why::kIsKilled);
+}
+
+// One crash can be the machine's.
+TEST_F(SupervisorTest, HungThenCrashedOnceIsNoFault) {
+  EXPECT_EQ(Supervised([&](int trial) {
+              if (trial == 7 && board_->runs[7] == 1) Spin();
+              if (trial == 7 && board_->runs[7] == 2) Crash();
+            }),
+            0);
+  EXPECT_EQ(Stored(), kTrials);
+  EXPECT_EQ(Sum(board_->faults), 0);
+  EXPECT_EQ(board_->machine_faults[7], 2);
+}
+
+TEST_F(SupervisorTest, HungThenCrashedTwiceIsAFault) {
+  EXPECT_EQ(Supervised([&](int trial) {
+              if (trial == 7 && board_->runs[7] == 1) Spin();
+              if (trial == 7) Crash();
+            }),
+            0);
+  EXPECT_EQ(board_->faults[7], 1);
+  EXPECT_EQ(board_->runs[7], 3);
+}
+
+TEST_F(SupervisorTest, KilledThenCrashedOnceIsNoFault) {
+  EXPECT_EQ(Supervised([&](int trial) {
+              if (trial == 4 && board_->runs[4] == 1) raise(SIGKILL);
+              if (trial == 4 && board_->runs[4] == 2) Crash();
+            }),
+            0);
+  EXPECT_EQ(Sum(board_->faults), 0);
+  EXPECT_TRUE(board_->stored[4]);
 }
 
 TEST_F(SupervisorTest, KilledFromOutsideLeavesNoSimulatorFault) {
@@ -226,6 +280,29 @@ TEST_F(SupervisorTest, WorkerThatDiesWithoutTrialsIsGivenUp) {
   EXPECT_THAT(notes_, HasSubstr("giving up"));
 }
 
+// Trials that end, but never reach the store, are no progress.
+TEST_F(SupervisorTest, WorkerThatStoresNothingIsGivenUp) {
+  const Worker worker = [&](const Mission&) {
+    ++board_->workers;
+    log_.End(log_.Begin({0, 3}));
+    raise(SIGABRT);
+    return 0;
+  };
+  EXPECT_EQ(Supervise(log_, worker, {.fruitless_restarts = 2}, [](const std::string&) {}), 5);
+  EXPECT_EQ(board_->workers, 3);
+}
+
+TEST_F(SupervisorTest, WorkerThatStoresIsNotGivenUp) {
+  const Worker worker = [&](const Mission&) {
+    if (++board_->workers == 8) return 0;
+    log_.SetStored(1);
+    raise(SIGABRT);
+    return 0;
+  };
+  EXPECT_EQ(Supervise(log_, worker, {.fruitless_restarts = 2}, [](const std::string&) {}), 0);
+  EXPECT_EQ(board_->workers, 8);
+}
+
 // A trial whose fault cannot be stored would crash for ever.
 TEST_F(SupervisorTest, CrashWhileStoringFaultsIsGivenUp) {
   const Worker worker = [&](const Mission& mission) {
@@ -257,6 +334,44 @@ TEST_F(SupervisorTest, PoliteSignalReachesTheWorker) {
   };
   EXPECT_EQ(Supervise(log_, worker, {}, [](const std::string&) {}), 130);
   EXPECT_EQ(board_->workers, 1);
+}
+
+// What a worker says of a hang is nothing for the user.
+TEST_F(SupervisorTest, PoliteSignalDuringAHangIsAnInterruption) {
+  const pid_t supervisor = getpid();
+  const Worker worker = [&](const Mission&) {
+    std::signal(SIGTERM, SIG_IGN);
+    kill(supervisor, SIGINT);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    return kOverdueExit;
+  };
+  EXPECT_EQ(Supervise(log_, worker, {}, [](const std::string&) {}), 130);
+}
+
+// The watchdog reads clock and begin of a flight; another thread may have the slot by then.
+TEST_F(SupervisorTest, SlotOfAnotherTrialIsNeverOverdue) {
+  constexpr double kLimit_s = 0.1;
+  std::atomic<int> turn = 0;
+  std::atomic<bool> over = false;
+  const auto fly = [&](int own, double burn_s) {
+    const std::clock_t begin = std::clock();
+    while (static_cast<double>(std::clock() - begin) < burn_s * CLOCKS_PER_SEC) {
+    }
+    while (!over) {
+      if (turn != own) continue;
+      log_.End(log_.Begin({0, own}));
+      turn = 1 - own;
+    }
+  };
+  // The CPU clock of one thread is ahead of the other's by more than the limit.
+  std::thread ahead(fly, 0, 0.3);
+  std::thread behind(fly, 1, 0.0);
+  bool any = false;
+  for (int i = 0; i < 20000 && !any; ++i) any = log_.MarkOverdue(kLimit_s);
+  over = true;
+  ahead.join();
+  behind.join();
+  EXPECT_FALSE(any);
 }
 
 TEST_F(SupervisorTest, SecondSignalKills) {

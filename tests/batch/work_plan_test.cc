@@ -75,7 +75,7 @@ TEST(WorkPlan, FixedNumbersRunOnceInTurns) {
   for (const TrialId& id : order) plan.Finish(id, TrialOutcome::kGoalReached);
   EXPECT_EQ(plan.Next().step, WorkPlan::Step::kDone);
   EXPECT_FALSE(plan.Finish({0, 0}, TrialOutcome::kGoalReached)) << "it has been finished before";
-  EXPECT_EQ(plan.finished(), 6);
+  EXPECT_EQ(plan.finished(0).trials + plan.finished(1).trials + plan.finished(2).trials, 6);
 }
 
 TEST(WorkPlan, WhatIsStoredDoesNotRunAndWhatIsPutBackDoes) {
@@ -156,6 +156,37 @@ TEST_P(RulePlan, DecidesTheSameWhenItGoesOn) {
     WorkPlan plan(planned_, Options());
     plan.AddStored(stored);
     EXPECT_EQ(RunPlan(plan, 4, 5), missing) << part;
+  }
+}
+
+// What is stored beyond the decisions, with gaps, neither enters them nor is finished or planned.
+TEST_P(RulePlan, DecidesTheSameWhateverIsStoredBeyond) {
+  WorkPlan plain(planned_, Options());
+  const auto expected = RunPlan(plain, 1, 1);
+  WorkPlan plan(planned_, Options());
+  for (int cell = 0; cell < plan.cells(); ++cell) {
+    // All that goes wrong beyond would change every decision that looked at it.
+    const std::int64_t asked = plain.state(cell).asked;
+    for (std::int64_t trial = asked; trial < asked + 400; ++trial) {
+      if (trial % 50 == 49) continue;
+      const TrialId id{cell, trial};
+      plan.AddStored(std::vector<FinishedTrial>{{id, TrialOutcome::kSimulatorFault}});
+    }
+    if (cell == 1) plan.AddStored(std::vector<FinishedTrial>{{{cell, 3}, OutcomeOf({cell, 3})}});
+  }
+  auto missing = expected;
+  std::erase(missing[1], 3);
+  EXPECT_EQ(RunPlan(plan, 4, 5), missing);
+  for (int cell = 0; cell < plan.cells(); ++cell) {
+    const CellState& state = plan.state(cell);
+    EXPECT_EQ(state.end, plain.state(cell).end);
+    EXPECT_EQ(state.asked, plain.state(cell).asked);
+    EXPECT_EQ(state.counts.trials, plain.state(cell).counts.trials);
+    EXPECT_EQ(state.sequence.low, plain.state(cell).sequence.low);
+    EXPECT_EQ(state.sequence.high, plain.state(cell).sequence.high);
+    EXPECT_EQ(plan.planned(cell), state.asked);
+    EXPECT_EQ(plan.finished(cell).trials, state.asked);
+    EXPECT_EQ(plan.finished(cell).faults, plain.finished(cell).faults);
   }
 }
 
