@@ -164,8 +164,7 @@ void PlanDifference(const DifferenceQuestion& q) {
   const statistics::RatePair rates{q.first, q.second};
   const std::int64_t group = statistics::TrialsForFisher(rates, o.alpha, o.power);
   report.Add("fisher", "of each of two groups with other seeds, Fisher's exact test", group);
-  constexpr std::int64_t kMostExact = 3000;
-  if (group <= kMostExact) {
+  if (group <= statistics::kMostExactFisher) {
     report.Add("fisher_power", "    its exact power",
                statistics::FisherPower(group, rates, o.alpha));
   }

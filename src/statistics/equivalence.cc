@@ -1,6 +1,7 @@
 #include "statistics/equivalence.h"
 
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/tools/roots.hpp>
@@ -14,6 +15,7 @@
 namespace rockyard::statistics {
 namespace {
 
+constexpr double kCorrection = 0.5;  // of a trial, where rates are held against a margin
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double UpperTail(double z) {
@@ -21,10 +23,9 @@ double UpperTail(double z) {
   return boost::math::cdf(boost::math::complement(boost::math::normal(), z));
 }
 
-// P(T >= t); a standard error of 0 makes t infinite, or 0 / 0 where the value is the one in
-// question.
+// P(T >= t); without scatter, the chance of that.
 double StudentUpperTail(double distance, const MeanDifference& means) {
-  if (means.standard_error == 0.0) return distance > 0.0 ? 0.0 : 1.0;
+  if (means.standard_error == 0.0) return distance > 0.0 ? 0.5 * means.accident : 1.0;
   const boost::math::students_t law(means.degrees_of_freedom);
   return boost::math::cdf(boost::math::complement(law, distance / means.standard_error));
 }
@@ -36,8 +37,14 @@ double Score(double distance, double variance) {
   return distance > 0.0 ? kInfinity : -kInfinity;
 }
 
+// A distance less a continuity correction, if it is as long.
+double Shortened(double distance, double correction) {
+  return std::copysign(std::max(0.0, std::abs(distance) - correction), distance);
+}
+
 // Tango 1998, equations 5 and 6: the variance at the likeliest rates whose difference is `delta`.
-double PairedScore(const PairedCounts& counts, double delta) {
+// `correction`: of pairs.
+double PairedScore(const PairedCounts& counts, double delta, double correction = 0.0) {
   const auto n = static_cast<double>(counts.pairs());
   const auto up = static_cast<double>(counts.only_second);
   const auto down = static_cast<double>(counts.only_first);
@@ -46,12 +53,12 @@ double PairedScore(const PairedCounts& counts, double delta) {
   const double root = std::sqrt(std::max(0.0, b * b - 8.0 * n * c));
   const double likeliest_down = (root - b) / (4.0 * n);
   const double variance = n * (2.0 * likeliest_down + delta * (1.0 - delta));
-  return Score(up - down - n * delta, variance);
+  return Score(Shortened(up - down - n * delta, correction), variance);
 }
 
 // Farrington and Manning 1990, appendix: the likeliest rates whose difference is `delta` solve a
-// cubic equation.
-double UnpairedScore(const ContingencyTable& table, double delta) {
+// cubic equation. `correction`: of trials of each group.
+double UnpairedScore(const ContingencyTable& table, double delta, double correction = 0.0) {
   const auto n_1 = static_cast<double>(table.success_2 + table.failure_2);
   const auto n_2 = static_cast<double>(table.success_1 + table.failure_1);
   const double p_1 = static_cast<double>(table.success_2) / n_1;
@@ -70,7 +77,8 @@ double UnpairedScore(const ContingencyTable& table, double delta) {
   const double high = std::min(1.0, 1.0 + delta);
   const double q_1 = std::clamp(2.0 * u * std::cos(w) - third, low, high);
   const double q_2 = std::clamp(q_1 - delta, 0.0, 1.0);
-  return Score(p_1 - p_2 - delta, q_1 * (1.0 - q_1) / n_1 + q_2 * (1.0 - q_2) / n_2);
+  return Score(Shortened(p_1 - p_2 - delta, 0.5 * correction * (1.0 / n_1 + 1.0 / n_2)),
+               q_1 * (1.0 - q_1) / n_1 + q_2 * (1.0 - q_2) / n_2);
 }
 
 // The differences that the score does not reject; it falls as they grow.
@@ -114,7 +122,7 @@ MeanDifference PairedMeans(std::span<const double> differences) {
   EXPECT(moments.not_finite() == 0);
   const auto n = static_cast<double>(moments.count());
   if (moments.count() < 2) return {moments.mean(), 0.0, 0.0};
-  return {moments.mean(), std::sqrt(moments.variance() / n), n - 1.0};
+  return {moments.mean(), std::sqrt(moments.variance() / n), n - 1.0, std::exp2(1.0 - n)};
 }
 
 MeanDifference WelchMeans(std::span<const double> first, std::span<const double> second) {
@@ -128,7 +136,11 @@ MeanDifference WelchMeans(std::span<const double> first, std::span<const double>
   const double square_a = a.variance() / n_a;
   const double square_b = b.variance() / n_b;
   const double square = square_a + square_b;
-  if (square == 0.0) return {difference, 0.0, n_a + n_b - 2.0};
+  if (square == 0.0) {
+    const double ways =
+        std::lgamma(n_a + n_b + 1.0) - std::lgamma(n_a + 1.0) - std::lgamma(n_b + 1.0);
+    return {difference, 0.0, n_a + n_b - 2.0, std::min(1.0, 2.0 * std::exp(-ways))};
+  }
   const double freedom =
       square * square / (square_a * square_a / (n_a - 1.0) + square_b * square_b / (n_b - 1.0));
   return {difference, std::sqrt(square), freedom};
@@ -154,6 +166,17 @@ double EquivalencePValue(const MeanDifference& means, double margin) {
                   StudentUpperTail(margin - means.difference, means));
 }
 
+double SparseEquivalencePValue(std::int64_t pairs, std::int64_t differing, double margin,
+                               double range) {
+  EXPECT(margin > 0.0 && range >= 0.0 && differing >= 0 && differing <= pairs);
+  if (pairs == 0 || differing == pairs) return 1.0;
+  constexpr double kShareThatShows = 0.05;
+  const double share = range > 0.0 ? margin / range : kShareThatShows;
+  if (share >= 1.0) return 0.0;
+  const boost::math::binomial law(static_cast<double>(pairs), share);
+  return boost::math::cdf(law, static_cast<double>(differing));
+}
+
 Interval DifferenceInterval(const PairedCounts& counts, double confidence) {
   if (counts.pairs() == 0) return {-1.0, 1.0};
   return ScoreInterval([&](double delta) { return PairedScore(counts, delta); },
@@ -163,7 +186,8 @@ Interval DifferenceInterval(const PairedCounts& counts, double confidence) {
 double EquivalencePValue(const PairedCounts& counts, double margin) {
   EXPECT(margin > 0.0);
   if (counts.pairs() == 0 || margin >= 1.0) return counts.pairs() == 0 ? 1.0 : 0.0;
-  return std::max(UpperTail(PairedScore(counts, -margin)), UpperTail(-PairedScore(counts, margin)));
+  return std::max(UpperTail(PairedScore(counts, -margin, kCorrection)),
+                  UpperTail(-PairedScore(counts, margin, kCorrection)));
 }
 
 Interval DifferenceInterval(const ContingencyTable& table, double confidence) {
@@ -175,8 +199,8 @@ Interval DifferenceInterval(const ContingencyTable& table, double confidence) {
 double EquivalencePValue(const ContingencyTable& table, double margin) {
   EXPECT(margin > 0.0);
   if (HasEmptyGroup(table) || margin >= 1.0) return HasEmptyGroup(table) ? 1.0 : 0.0;
-  return std::max(UpperTail(UnpairedScore(table, -margin)),
-                  UpperTail(-UnpairedScore(table, margin)));
+  return std::max(UpperTail(UnpairedScore(table, -margin, kCorrection)),
+                  UpperTail(-UnpairedScore(table, margin, kCorrection)));
 }
 
 }  // namespace rockyard::statistics

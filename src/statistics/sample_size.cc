@@ -14,6 +14,8 @@ namespace {
 
 using Binomial = boost::math::binomial;
 
+constexpr std::int64_t kUnknown = -2;  // no critical count has been looked for
+
 // Smallest number that is enough, where enough stays enough; else one that is while the number
 // before is not.
 template <typename IsEnough>
@@ -54,6 +56,12 @@ Window LikelyCounts(std::int64_t n, double rate) {
 
 double Probability(std::int64_t n, double rate, std::int64_t count) {
   return boost::math::pdf(Binomial(static_cast<double>(n), rate), static_cast<double>(count));
+}
+
+std::vector<double> LawOf(std::int64_t n, double rate, const Window& window) {
+  std::vector<double> law;
+  for (std::int64_t k = window.first; k <= window.last; ++k) law.push_back(Probability(n, rate, k));
+  return law;
 }
 
 // P(count <= at); 0 below 0.
@@ -114,23 +122,41 @@ double ClaimChance(std::int64_t trials, double rate, std::int64_t failures) {
   return AtMost(trials, rate, failures);
 }
 
-double FisherPower(std::int64_t n, const RatePair& rates, double alpha) {
-  const Window first = LikelyCounts(n, rates.first);
-  const Window second = LikelyCounts(n, rates.second);
+FisherTest::FisherTest(std::int64_t n, double alpha)
+    : n_(n), alpha_(alpha), critical_(static_cast<std::size_t>(2 * n + 1), kUnknown) {
+  EXPECT(n > 0 && alpha > 0.0 && alpha < 1.0);
+}
+
+std::int64_t FisherTest::Critical(std::int64_t successes) {
+  std::int64_t& critical = critical_[static_cast<std::size_t>(successes)];
+  if (critical == kUnknown) critical = FisherCritical(n_, successes, alpha_);
+  return critical;
+}
+
+double FisherTest::Power(const RatePair& rates) {
+  const Window first = LikelyCounts(n_, rates.first);
+  const Window second = LikelyCounts(n_, rates.second);
+  const std::vector<double> first_law = LawOf(n_, rates.first, first);
+  const std::vector<double> second_law = LawOf(n_, rates.second, second);
   double power = 0.0;
   for (std::int64_t all = first.first + second.first; all <= first.last + second.last; ++all) {
-    const std::int64_t critical = FisherCritical(n, all, alpha);
+    const std::int64_t critical = Critical(all);
     const std::int64_t from = std::max(first.first, all - second.last);
     const std::int64_t to = std::min(first.last, all - second.first);
     for (std::int64_t k = from; k <= to; ++k) {
       if (k > critical && all - k > critical) continue;
-      power += Probability(n, rates.first, k) * Probability(n, rates.second, all - k);
+      power += first_law[static_cast<std::size_t>(k - first.first)] *
+               second_law[static_cast<std::size_t>(all - k - second.first)];
     }
   }
   return power;
 }
 
-std::int64_t TrialsForFisher(const RatePair& rates, double alpha, double power) {
+double FisherPower(std::int64_t n, const RatePair& rates, double alpha) {
+  return FisherTest(n, alpha).Power(rates);
+}
+
+std::int64_t TrialsForFisherFormula(const RatePair& rates, double alpha, double power) {
   const double difference = std::abs(rates.second - rates.first);
   EXPECT(difference > 0.0);
   const double mean = 0.5 * (rates.first + rates.second);
@@ -141,6 +167,12 @@ std::int64_t TrialsForFisher(const RatePair& rates, double alpha, double power) 
   const double n = 0.25 * root * root / (difference * difference) * corrected * corrected;
   return n >= static_cast<double>(kMostTrials) ? kMostTrials
                                                : static_cast<std::int64_t>(std::ceil(n));
+}
+
+std::int64_t TrialsForFisher(const RatePair& rates, double alpha, double power) {
+  const std::int64_t formula = TrialsForFisherFormula(rates, alpha, power);
+  if (formula > kMostExactFisher) return formula;
+  return FirstEnough(1, [&](std::int64_t n) { return FisherPower(n, rates, alpha) >= power; });
 }
 
 double McNemarPower(std::int64_t n, const RatePair& discordant, double alpha) {

@@ -1,0 +1,118 @@
+#include "statistics/regression_power.h"
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <limits>
+
+namespace rockyard::statistics {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kPower = 0.8;  // of trials_for_margin
+
+// Smallest shift up to `most` with this power; NaN where none has it.
+template <typename PowerOf>
+double SmallestShift(double most, double power, const PowerOf& power_of) {
+  constexpr double kPrecision = 1e-4;
+  if (most <= 0.0 || power_of(most) < power) return kNaN;
+  double low = 0.0;
+  double high = most;
+  while (high - low > kPrecision) {
+    const double middle = 0.5 * (low + high);
+    (power_of(middle) >= power ? high : low) = middle;
+  }
+  return high;
+}
+
+// Of all pairs, those in which both sides differ one way; as many the other way.
+double Background(const RegressionSamples& samples) {
+  const PairedCounts counts = CountPairs(samples);
+  return 0.5 * static_cast<double>(counts.only_first + counts.only_second) /
+         static_cast<double>(counts.pairs());
+}
+
+double SeenPairShift(const RegressionSamples& samples, double level, double power) {
+  const double background = Background(samples);
+  return SmallestShift(1.0 - 2.0 * background, power, [&](double shift) {
+    return McNemarPower(samples.count(), {background, background + shift}, level);
+  });
+}
+
+// The baseline's rate, moved the way that has more room, which is the harder one to see.
+RatePair Moved(const RegressionSamples& samples, double shift) {
+  const auto rate =
+      static_cast<double>(CountGroups(samples).success_1) / static_cast<double>(samples.count());
+  return {rate, std::clamp(rate > 0.5 ? rate - shift : rate + shift, 0.0, 1.0)};
+}
+
+double SeenMeanShift(const MeanDifference& means, double level, double power) {
+  if (!means.known()) return kNaN;
+  const boost::math::students_t law(means.degrees_of_freedom);
+  return (boost::math::quantile(law, 1.0 - 0.5 * level) + boost::math::quantile(law, power)) *
+         means.standard_error;
+}
+
+std::int64_t TrialsForRate(const RegressionSamples& samples, const RegressionRow& row) {
+  if (row.margin >= 1.0) return 1;
+  if (!row.paired) return TrialsForFisherFormula(Moved(samples, row.margin), row.level, kPower);
+  const double background = std::min(Background(samples), 0.5 * (1.0 - row.margin));
+  return TrialsForMcNemar({background, background + row.margin}, row.level, kPower);
+}
+
+// Also those without which pairs that hardly differ show nothing.
+std::int64_t TrialsForMean(const RegressionSamples& samples, const RegressionRow& row,
+                           double equivalence_alpha) {
+  const double ratio = SeenMeanShift(MeansOf(samples, row.paired), row.level, kPower) / row.margin;
+  if (!std::isfinite(ratio)) return 0;
+  double needed = static_cast<double>(samples.count()) * ratio * ratio;
+  const Spread spread = SpreadOf(samples);
+  if (!row.paired) {
+    needed = std::max(needed, static_cast<double>(kLeastValues));
+  } else if (spread.differing < kLeastDiffering && row.margin < spread.range) {
+    needed = std::max(needed, std::log(equivalence_alpha) / std::log1p(-row.margin / spread.range));
+  }
+  return std::llround(std::min(std::ceil(needed), static_cast<double>(kMostTrials)));
+}
+
+}  // namespace
+
+double RegressionPower::SeenGroupShift(const RegressionSamples& samples, double level,
+                                       double power) {
+  if (samples.count() > kMostExactFisher) {
+    return SmallestShift(1.0, power, [&](double shift) {
+      const std::int64_t needed = TrialsForFisherFormula(Moved(samples, shift), level, power);
+      return needed <= samples.count() ? 1.0 : 0.0;
+    });
+  }
+  FisherTest& test =
+      tests_.try_emplace({samples.count(), level}, samples.count(), level).first->second;
+  const double rate = Moved(samples, 0.0).first;
+  return SmallestShift(std::max(rate, 1.0 - rate), power,
+                       [&](double shift) { return test.Power(Moved(samples, shift)); });
+}
+
+double RegressionPower::SeenRateShift(const RegressionSamples& samples, const RegressionRow& row,
+                                      double power) {
+  return row.paired ? SeenPairShift(samples, row.level, power)
+                    : SeenGroupShift(samples, row.level, power);
+}
+
+void RegressionPower::Fill(const RegressionSamples& samples, double equivalence_alpha,
+                           RegressionRow& row) {
+  row.seen_80 = row.seen_90 = kNaN;
+  if (samples.empty()) return;
+  if (row.metric->kind == MetricKind::kRate) {
+    row.seen_80 = SeenRateShift(samples, row, 0.8);
+    row.seen_90 = SeenRateShift(samples, row, 0.9);
+    row.trials_for_margin = TrialsForRate(samples, row);
+    return;
+  }
+  row.trials_for_margin = TrialsForMean(samples, row, equivalence_alpha);
+  if (!row.paired && samples.count() < kLeastValues) return;
+  const MeanDifference means = MeansOf(samples, row.paired);
+  row.seen_80 = SeenMeanShift(means, row.level, 0.8);
+  row.seen_90 = SeenMeanShift(means, row.level, 0.9);
+}
+
+}  // namespace rockyard::statistics

@@ -1,0 +1,43 @@
+// One metric of a regression check: what both sides say of it, tested. For regression*.cc only.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "statistics/equivalence.h"
+#include "statistics/proportions.h"
+#include "statistics/regression.h"
+
+namespace rockyard::statistics {
+
+// As many values on both sides. Where trials are paired, value i of one belongs to value i of the
+// other.
+struct RegressionSamples {
+  std::vector<double> baseline;
+  std::vector<double> run;
+
+  bool empty() const { return run.empty(); }
+  std::int64_t count() const { return static_cast<std::int64_t>(run.size()); }
+};
+
+// Of the trials that both sides have, those with a value: on both sides where paired; else the
+// first of each side, as many as the other has.
+RegressionSamples TakeSamples(bool paired, std::span<const double> baseline,
+                              std::span<const double> run);
+
+MeanDifference MeansOf(const RegressionSamples& samples, bool paired);
+PairedCounts CountPairs(const RegressionSamples& samples);
+ContingencyTable CountGroups(const RegressionSamples& samples);
+
+// Pairs whose values differ, and how far apart any values of both sides are.
+struct Spread {
+  std::int64_t differing = 0;
+  double range = 0.0;
+};
+Spread SpreadOf(const RegressionSamples& samples);
+
+// Fills the p-values and the interval of the row, of which metric, paired and margin are set.
+void TestSamples(const RegressionSamples& samples, RegressionRow& row);
+
+}  // namespace rockyard::statistics
