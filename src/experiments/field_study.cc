@@ -10,8 +10,8 @@
 #include "experiments/cell_table.h"
 #include "experiments/hazard_judge.h"
 #include "experiments/hazard_study.h"
-#include "experiments/swept_path.h"
 #include "terrain/field.h"
+#include "terrain/swept_path.h"
 #include "terrain/terrain.h"
 #include "trial/layout.h"
 
@@ -94,7 +94,7 @@ class FieldStudy final : public HazardStudyRunner {
     std::vector<Hazard> hazards;
     for (const terrain::Rock& rock : field.rocks()) {
       if (rock.height_m < params_.hazard_height_m) continue;
-      const auto contact_x_m = FirstContact(rock, course.start_y_m, half_m);
+      const auto contact_x_m = terrain::FirstContact(rock, course.start_y_m, half_m);
       if (!contact_x_m) continue;
       const double driven_m = *contact_x_m - front_m() - course.start_x_m;
       if (driven_m < Unseen_m()) continue;

@@ -6,8 +6,10 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <optional>
 
 #include "terrain/rock_size_law.h"
+#include "terrain/swept_path.h"
 
 namespace rockyard::terrain {
 namespace {
@@ -52,30 +54,6 @@ double UpperMoment(const RockFieldParams& rocks, double power, double low_m) {
   return kept * MakeSizeLaw(upper)->MeanPower(power);
 }
 
-// Where the front first meets an outline, whose half extents are (along, across): an ellipse
-// rho(theta) = p cos + q sin per axis.
-double ContactX(const Rock& rock, double low_y, double high_y) {
-  const double c = std::cos(rock.yaw_rad);
-  const double s = std::sin(rock.yaw_rad);
-  const double a_m = rock.semi_axes_m.x();
-  const double b_m = rock.semi_axes_m.y();
-  const double along_m = std::hypot(a_m * c, b_m * s);
-  const double across_m = std::hypot(a_m * s, b_m * c);
-  const double y = rock.center_W.y();
-  if (y + across_m <= low_y || y - across_m >= high_y) {
-    return std::numeric_limits<double>::infinity();
-  }
-  // At height v above the centre the outline reaches back to
-  //   slope v - along_m' sqrt(1 - v^2 / across_m^2), along_m' = a b / across_m.
-  const double slope = (a_m * a_m - b_m * b_m) * c * s / (across_m * across_m);
-  const double depth_m = a_m * b_m / across_m;
-  const double lowest_v = -slope * across_m * across_m / along_m;  // of the rearmost point
-  const double v =
-      std::clamp(lowest_v, std::max(low_y - y, -across_m), std::min(high_y - y, across_m));
-  const double share = std::max(0.0, 1.0 - v * v / (across_m * across_m));
-  return rock.center_W.x() + slope * v - depth_m * std::sqrt(share);
-}
-
 }  // namespace
 
 double BlindContactsPerM(const RockFieldParams& rocks, const BlindSwath& swath) {
@@ -90,8 +68,8 @@ double FirstContact_m(const std::vector<Rock>& rocks, const BlindSwath& swath, d
   double first_m = std::numeric_limits<double>::infinity();
   for (const Rock& rock : rocks) {
     if (rock.diameter_m < swath.min_diameter_m) continue;
-    const double x_m = ContactX(rock, y_m - 0.5 * swath.width_m, y_m + 0.5 * swath.width_m);
-    if (x_m >= x0_m) first_m = std::min(first_m, x_m);
+    const std::optional<double> x_m = FirstContact(rock, y_m, 0.5 * swath.width_m);
+    if (x_m && *x_m >= x0_m) first_m = std::min(first_m, *x_m);
   }
   return first_m;
 }

@@ -20,8 +20,17 @@ constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
 constexpr Offset kNeighbours[] = {{1, 0}, {-1, 0}, {0, 1},  {0, -1},
                                   {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
 
+// As many as have their centres within the length; one at least.
 int Cells(double length_m, double cell_m) {
-  return std::max(1, static_cast<int>(std::ceil(length_m / cell_m)));
+  constexpr double kRounding = 1e-9;
+  return std::max(1, static_cast<int>(std::floor(length_m / cell_m + 0.5 + kRounding)));
+}
+
+// What is left of the length belongs to the last cell.
+int CellAt(double x_m, double min_m, double max_m, double cell_m, int cells) {
+  const double cell = std::floor((x_m - min_m) / cell_m);
+  const double last = x_m <= max_m ? cells - 1 : cells;
+  return static_cast<int>(std::clamp(cell, -1.0, last));
 }
 
 // Shortest way over an empty grid, in cells.
@@ -41,13 +50,11 @@ FreeGrid::FreeGrid(const terrain::Rectangle& bounds, double cell_m)
       blocked_(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_)) {}
 
 int FreeGrid::Column(double x_m) const {
-  const double column = std::floor((x_m - bounds_.x_min_m) / cell_m_);
-  return static_cast<int>(std::clamp(column, -1.0, static_cast<double>(nx_)));
+  return CellAt(x_m, bounds_.x_min_m, bounds_.x_max_m, cell_m_, nx_);
 }
 
 int FreeGrid::Row(double y_m) const {
-  const double row = std::floor((y_m - bounds_.y_min_m) / cell_m_);
-  return static_cast<int>(std::clamp(row, -1.0, static_cast<double>(ny_)));
+  return CellAt(y_m, bounds_.y_min_m, bounds_.y_max_m, cell_m_, ny_);
 }
 
 messages::Goal FreeGrid::Centre(std::size_t index) const {

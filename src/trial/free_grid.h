@@ -1,4 +1,6 @@
-// Where the centre of a rover may be: cells of a rectangle, free or blocked.
+// Where the centre of a rover may be: cells of a rectangle, free or blocked. Their centres lie
+// within it (unless it is narrower than half a cell); the last ones are longer or shorter than the
+// others.
 #pragma once
 
 #include <cstddef>

@@ -57,6 +57,22 @@ TEST(FreeGridTest, ShortestWayGoesRoundAWall) {
   EXPECT_TRUE(ShortestWay(grid, grid.Index(0, 0), grid.Index(4, 0)).empty());
 }
 
+// Routes lead over centres, so that these must keep the room to the walls that the bounds stand
+// for.
+TEST(FreeGridTest, CentresLieWithinTheBoundsAndTheBoundsWithinTheCells) {
+  for (const double length_m : {5.0, 5.2, 5.49, 5.5, 5.7, 5.99}) {
+    const terrain::Rectangle bounds{1.0, 1.0 + length_m, -2.0, -2.0 + length_m};
+    const FreeGrid grid(bounds, 1.0);
+    const messages::Goal last = grid.Centre(grid.size() - 1);
+    EXPECT_LE(last.x_m, bounds.x_max_m) << length_m;
+    EXPECT_LE(last.y_m, bounds.y_max_m) << length_m;
+    EXPECT_GT(last.x_m + 1.0, bounds.x_max_m) << "no cell is missing, " << length_m;
+    EXPECT_TRUE(grid.IsFree({bounds.x_max_m - 1e-9, bounds.y_max_m - 1e-9})) << length_m;
+    EXPECT_FALSE(grid.IsFree({bounds.x_max_m + 0.6, bounds.y_min_m + 0.5})) << length_m;
+    EXPECT_FALSE(grid.IsFree({bounds.x_min_m - 1e-9, bounds.y_min_m + 0.5})) << length_m;
+  }
+}
+
 TEST(RoutePlannerTest, NoRocksGiveOneStraightLeg) {
   const messages::Route route = PlanAmong({});
   ASSERT_EQ(route.corners.size(), 1U);

@@ -1,14 +1,14 @@
-#include "experiments/swept_path.h"
+#include "terrain/swept_path.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace rockyard::experiments {
+namespace rockyard::terrain {
 
 // The ellipse is (x, y) = centre + (A cos t + B sin t, C cos t + D sin t) with the semi-axes turned
 // by yaw. Its line y = const is met at two t; its least x lies at (x, y) = -(A^2 + B^2, AC + BD) /
 // sqrt(A^2 + B^2).
-std::optional<double> FirstContact(const terrain::Rock& rock, double y_m, double half_width_m) {
+std::optional<double> FirstContact(const Rock& rock, double y_m, double half_width_m) {
   const double cosine = std::cos(rock.yaw_rad);
   const double sine = std::sin(rock.yaw_rad);
   const double a = rock.semi_axes_m.x() * cosine;
@@ -33,4 +33,4 @@ std::optional<double> FirstContact(const terrain::Rock& rock, double y_m, double
   return rock.center_W.x() + x_m;
 }
 
-}  // namespace rockyard::experiments
+}  // namespace rockyard::terrain
