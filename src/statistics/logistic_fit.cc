@@ -1,6 +1,7 @@
 #include "statistics/logistic_fit.h"
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -71,7 +72,23 @@ std::array<double, 3> Covariance(const LikelihoodSlopes& s, double centre) {
   return {aa - 2.0 * centre * ab + centre * centre * bb, ab - centre * bb, bb};
 }
 
-double NormalOf(double confidence) { return core::NormalQuantile(0.5 + 0.5 * confidence); }
+// Of the logit at u.
+double VarianceAt(const std::array<double, 3>& covariance, double u) {
+  return std::max(0.0, covariance[0] + 2.0 * u * covariance[1] + u * u * covariance[2]);
+}
+
+double QuantileOf(const LogisticFit& fit, double confidence) {
+  const double tail = 0.5 + 0.5 * confidence;
+  if (fit.clusters == 0) return core::NormalQuantile(tail);
+  return boost::math::quantile(boost::math::students_t(static_cast<double>(fit.clusters) - 1.0),
+                               tail);
+}
+
+// How much more clusters scatter the logit at u than independent trials would.
+double ExcessAt(const LogisticFit& fit, double u) {
+  if (fit.clusters == 0) return 1.0;
+  return VarianceAt(fit.covariance, u) / VarianceAt(fit.model_covariance, u);
+}
 
 // How much less likely the runs are if the curve has the rate of `logit` at u0: likelihood ratio.
 double RatioAt(std::span<const Dose> doses, double best, double logit, double u0) {
@@ -83,7 +100,7 @@ double RatioAt(std::span<const Dose> doses, double best, double logit, double u0
 double CrossingEnd(std::span<const Dose> doses, const LogisticFit& fit, double logit,
                    double estimate, double bound, double direction) {
   const auto inside = [&](double u) {
-    return RatioAt(doses, fit.log_likelihood, logit, u) <= bound;
+    return RatioAt(doses, fit.log_likelihood, logit, u) <= bound * ExcessAt(fit, u);
   };
   constexpr int kDoublings = 60;
   constexpr int kHalvings = 60;
@@ -111,9 +128,11 @@ LogisticFit FitLogistic(std::span<const DosePoint> points, FitScale scale) {
                   .intercept = kNaN,
                   .slope = kNaN,
                   .covariance = {kNaN, kNaN, kNaN},
+                  .model_covariance = {kNaN, kNaN, kNaN},
                   .log_likelihood = kNaN,
                   .deviance = kNaN,
                   .p_value = kNaN,
+                  .slope_ratio = kNaN,
                   .slope_p_value = kNaN,
                   .lowest_x = kNaN,
                   .highest_x = kNaN};
@@ -128,12 +147,14 @@ LogisticFit FitLogistic(std::span<const DosePoint> points, FitScale scale) {
   fit.intercept = line.a - line.b * line.centre;
   fit.slope = line.b;
   fit.covariance = Covariance(SlopesAt(doses, line), line.centre);
+  fit.model_covariance = fit.covariance;
   fit.deviance = Deviance(doses, line);
   fit.degrees_of_freedom = static_cast<int>(doses.size()) - 2;
   if (fit.degrees_of_freedom > 0) {
     fit.p_value = ChiSquareTail(fit.deviance, fit.degrees_of_freedom);
   }
-  fit.slope_p_value = ChiSquareTail(2.0 * std::max(0.0, fit.log_likelihood - without_slope), 1);
+  fit.slope_ratio = 2.0 * std::max(0.0, fit.log_likelihood - without_slope);
+  fit.slope_p_value = ChiSquareTail(fit.slope_ratio, 1);
   return fit;
 }
 
@@ -142,9 +163,56 @@ double LogisticFit::Rate(double x) const { return Expit(intercept + slope * Tran
 Interval LogisticFit::Band(double x, double confidence) const {
   const double u = Transform(scale, x);
   const double logit = intercept + slope * u;
-  const double variance = covariance[0] + 2.0 * u * covariance[1] + u * u * covariance[2];
-  const double half = NormalOf(confidence) * std::sqrt(std::max(0.0, variance));
+  const double half = QuantileOf(*this, confidence) * std::sqrt(VarianceAt(covariance, u));
   return {Expit(logit - half), Expit(logit + half)};
+}
+
+void ClusterScores::Add(std::size_t cluster, double x, bool success) {
+  if (cluster >= scores_.size()) scores_.resize(cluster + 1);
+  const double u = Transform(fit_.scale, x);
+  const double rate = fit_.Rate(x);
+  const double excess = (success ? 1.0 : 0.0) - rate;
+  const double weight = rate * (1.0 - rate);
+  LikelihoodSlopes& score = scores_[cluster];
+  score.a += excess;
+  score.b += excess * u;
+  score.aa += weight;
+  score.ab += weight * u;
+  score.bb += weight * u * u;
+}
+
+LogisticFit ClusterScores::Fit(bool shared_within) const {
+  EXPECT(fit_.status == FitStatus::kFitted);
+  const auto& [aa, ab, bb] = fit_.model_covariance;
+  double clusters = 0.0;
+  std::array<double, 3> sums{};
+  for (const LikelihoodSlopes& score : scores_) {
+    if (score.aa <= 0.0) continue;
+    clusters += 1.0;
+    // (I - A V) y = s.
+    const double m_aa = 1.0 - (score.aa * aa + score.ab * ab);
+    const double m_ab = -(score.aa * ab + score.ab * bb);
+    const double m_ba = -(score.ab * aa + score.bb * ab);
+    const double m_bb = 1.0 - (score.ab * ab + score.bb * bb);
+    const double determinant = m_aa * m_bb - m_ab * m_ba;
+    const double y_a = (m_bb * score.a - m_ab * score.b) / determinant;
+    const double y_b = (m_aa * score.b - m_ba * score.a) / determinant;
+    const double a = aa * y_a + ab * y_b;
+    const double b = ab * y_a + bb * y_b;
+    sums[0] += a * a;
+    sums[1] += a * b;
+    sums[2] += b * b;
+  }
+  EXPECT(clusters >= 3.0);
+  LogisticFit fit = fit_;
+  fit.clusters = static_cast<std::int64_t>(clusters);
+  fit.covariance = sums;
+  if (shared_within) fit.p_value = kNaN;
+  // As for crossings, whose interval has two ends where a level curve is rejected.
+  const boost::math::students_t law(clusters - 1.0);
+  const double t = std::sqrt(fit.slope_ratio * fit.model_covariance[2] / fit.covariance[2]);
+  fit.slope_p_value = 2.0 * boost::math::cdf(boost::math::complement(law, t));
+  return fit;
 }
 
 FitCrossing FindCrossing(const LogisticFit& fit, std::span<const DosePoint> points, double rate,
@@ -153,9 +221,9 @@ FitCrossing FindCrossing(const LogisticFit& fit, std::span<const DosePoint> poin
   EXPECT(rate > 0.0 && rate < 1.0);
   const std::vector<Dose> doses = PoolDoses(points, fit.scale);
   const double logit = Logit(rate);
-  const double u = (logit - fit.intercept) / fit.slope;
-  const double z = NormalOf(confidence);
-  FitCrossing crossing{.rate = rate, .x = Inverse(fit.scale, u)};
+  const double u = (logit - fit.intercept) / fit.slope;  // not finite where the curve is level
+  const double z = QuantileOf(fit, confidence);
+  FitCrossing crossing{.rate = rate, .x = std::isfinite(u) ? Inverse(fit.scale, u) : kNaN};
   crossing.extrapolated = !(crossing.x >= fit.lowest_x && crossing.x <= fit.highest_x);
   double low = -kInfinity;
   double high = kInfinity;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "statistics/proportions.h"
 
@@ -34,20 +35,27 @@ struct LogisticFit {
   double intercept = 0.0;
   double slope = 0.0;
   std::array<double, 3> covariance{};  // var(intercept), cov(intercept, slope), var(slope)
-  double log_likelihood = 0.0;         // without the binomial coefficients
+  // The same if trials were independent: the inverse of the information.
+  std::array<double, 3> model_covariance{};
+  std::int64_t clusters = 0;    // 0: trials are independent, and both covariances are equal
+  double log_likelihood = 0.0;  // without the binomial coefficients
   // Against the model with a rate of its own for every setting, as chi-square with so many degrees
   // of freedom (settings less two). p is NaN where none is left; it is only near where settings
-  // expect fewer than about five successes or failures.
+  // expect fewer than about five successes or failures. Knows nothing of clusters: settings that
+  // share their random numbers scatter less about the curve than it expects, so that it is then too
+  // large rather than too small; NaN where trials within a setting share a cluster.
   double deviance = 0.0;
   int degrees_of_freedom = 0;
   double p_value = 1.0;
-  double slope_p_value = 1.0;  // of no slope at all: likelihood ratio, one degree of freedom
+  double slope_ratio = 0.0;    // likelihood ratio of no slope at all
+  double slope_p_value = 1.0;  // by that ratio, one degree of freedom
   double lowest_x = 0.0;       // range of the settings
   double highest_x = 0.0;
 
   double Rate(double x) const;
-  // Pointwise: Wald's interval of the logit, turned back into a rate. Coverage is near nominal
-  // where the settings around x have some dozens of trials.
+  // Pointwise: Wald's interval of the logit, turned back into a rate; by Student's law with a
+  // degree of freedom less than clusters, where there are some. Coverage is near nominal where the
+  // settings around x have some dozens of trials.
   Interval Band(double x, double confidence = 0.95) const;
 };
 
@@ -59,9 +67,45 @@ struct LogisticFit {
 // pooled. Cost: linear in the points, about ten passes.
 LogisticFit FitLogistic(std::span<const DosePoint> points, FitScale scale);
 
+// Gradient of the log-likelihood and Fisher information in two parameters of the line.
+struct LikelihoodSlopes {
+  double a = 0.0;
+  double b = 0.0;
+  double aa = 0.0;
+  double ab = 0.0;
+  double bb = 0.0;
+};
+
+// Trials that hang together: those of one index in cells with common random numbers, those on one
+// layout of rocks. Trials of different clusters are independent.
+//
+// Keeps for each cluster the slope s and the information A of its log-likelihood: 40 bytes. The
+// covariance of the fit is then (Liang and Zeger 1986, Biometrika 73, pp. 13-22, with independence
+// as the working correlation; A for the few clusters by Mancl and DeRouen 2001, Biometrics 57, pp.
+// 126-134)
+//   V (sum over clusters of y y^T) V,   y = (I - A V)^-1 s,   V the covariance of the model.
+class ClusterScores {
+ public:
+  // `fit` of all these trials, fitted.
+  explicit ClusterScores(const LogisticFit& fit) : fit_(fit) {}
+
+  void Add(std::size_t cluster, double x, bool success);
+
+  // The fit with the covariance of clusters. A cluster that is met twice within a setting must be
+  // told by `shared_within`: the deviance then has no law. Requires three clusters.
+  LogisticFit Fit(bool shared_within) const;
+
+ private:
+  const LogisticFit& fit_;
+  std::vector<LikelihoodSlopes> scores_;
+};
+
 // The x at which the fitted curve has a rate, with its profile likelihood interval: every x0 that
-// the likelihood ratio test does not reject (one degree of freedom). Where the slope itself is not
-// significant every x0 passes: the interval is then from -infinity (0 on a log scale) to infinity.
+// the likelihood ratio test does not reject (one degree of freedom). With clusters the ratio is
+// held against chi-square times the variance of the logit at x0 over that of the model (Rotnitzky
+// and Jewell 1990, Biometrika 77, pp. 485-497). NaN and no bound where the curve is level. Where
+// the slope itself is not significant every x0 passes: the interval is then from -infinity (0 on a
+// log scale) to infinity.
 struct FitCrossing {
   double rate = 0.5;
   double x = 0.0;

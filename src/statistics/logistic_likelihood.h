@@ -31,15 +31,6 @@ struct LogitLine {
   double At(double u) const { return a + b * (u - centre); }
 };
 
-// Gradient of the log-likelihood and Fisher information in (a, b).
-struct LikelihoodSlopes {
-  double a = 0.0;
-  double b = 0.0;
-  double aa = 0.0;
-  double ab = 0.0;
-  double bb = 0.0;
-};
-
 LikelihoodSlopes SlopesAt(std::span<const Dose> doses, const LogitLine& line);
 
 // Which parameters a maximum is sought over; the others stay as they are.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -147,6 +148,58 @@ TEST(LogisticFitTest, ACurveThroughEveryRateHasNoDeviance) {
     EXPECT_NEAR(fit.p_value, 1.0, 1e-6);
     EXPECT_NEAR(fit.slope, 0.0, 1e-9);
   }
+}
+
+TEST(LogisticFitTest, ALevelCurveCrossesNothing) {
+  const std::vector<DosePoint> points{{1.0, 5, 10}, {2.0, 5, 10}};
+  const LogisticFit fit = FitLogistic(points, FitScale::kLinear);
+  ASSERT_EQ(fit.slope, 0.0);
+  for (const double rate : {0.5, 0.9}) {
+    const FitCrossing crossing = FindCrossing(fit, points, rate);
+    EXPECT_TRUE(std::isnan(crossing.x)) << rate;
+    EXPECT_TRUE(crossing.extrapolated);
+    EXPECT_EQ(crossing.interval.low, -INFINITY);
+    EXPECT_EQ(crossing.interval.high, INFINITY);
+  }
+}
+
+// Every trial in each setting c times over: c copies say no more than one.
+TEST(LogisticFitTest, CopiesWithinAClusterAddNothing) {
+  constexpr std::int64_t kTrials = 200;
+  const auto happens = [](std::int64_t trial, std::size_t setting) {
+    return trial * 7919 % kTrials < kTrials * static_cast<std::int64_t>(4 - setting) / 5;
+  };
+  const std::array<double, 3> settings{1.0, 2.0, 4.0};
+  const auto fit_of = [&](std::int64_t copies, std::vector<DosePoint>& points) {
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+      points.push_back({settings[i], 0, copies * kTrials});
+      for (std::int64_t t = 0; t < kTrials; ++t) points[i].count += happens(t, i) ? copies : 0;
+    }
+    const LogisticFit fit = FitLogistic(points, FitScale::kLog);
+    ClusterScores scores(fit);
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+      for (std::int64_t t = 0; t < kTrials; ++t) {
+        for (std::int64_t c = 0; c < copies; ++c) {
+          scores.Add(static_cast<std::size_t>(t), settings[i], happens(t, i));
+        }
+      }
+    }
+    return scores.Fit(copies > 1);
+  };
+  std::vector<DosePoint> single;
+  std::vector<DosePoint> fivefold;
+  const LogisticFit a = fit_of(1, single);
+  const LogisticFit b = fit_of(5, fivefold);
+  EXPECT_EQ(a.clusters, kTrials);
+  for (std::size_t i = 0; i < 3; ++i) ExpectNear(b.covariance[i], a.covariance[i], 1e-9);
+  ExpectNear(b.slope_p_value, a.slope_p_value, 1e-6);
+  const FitCrossing first = FindCrossing(a, single, 0.5);
+  const FitCrossing second = FindCrossing(b, fivefold, 0.5);
+  ExpectNear(second.interval.low, first.interval.low, 1e-6);
+  ExpectNear(second.interval.high, first.interval.high, 1e-6);
+  EXPECT_LT(b.model_covariance[2], 0.21 * a.model_covariance[2]) << "what the model would say";
+  EXPECT_TRUE(std::isfinite(a.p_value));
+  EXPECT_TRUE(std::isnan(b.p_value));
 }
 
 TEST(LogisticFitTest, ANearlySeparatedCurveConverges) {
