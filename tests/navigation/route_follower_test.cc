@@ -180,5 +180,36 @@ TEST(RouteFollowerTest, PassesCornersThatLieBehind) {
   EXPECT_NEAR(motion.curvature_per_m, -2.0 * (0.4 / distance_m) / distance_m, 1e-12);
 }
 
+TEST(RouteFollowerTest, TheNextLegBeginsNearACorner) {
+  const double tolerance_m = RouteParams{}.corner_tolerance_m;
+  for (const double before_m : {1.2 * tolerance_m, 0.8 * tolerance_m}) {
+    RouteDrive drive({{1.0, 0.0}, {1.0, 3.0}});
+    drive.Step();
+    drive.UpdatePose({1.0 - before_m, 0.0, 0.0});
+    EXPECT_EQ(drive.Step().decision.motion.kind,
+              before_m < tolerance_m ? MotionKind::kTurnInPlace : MotionKind::kArc);
+  }
+}
+
+// The gyro is wrong, so that the arc that leads to the goal is another one from every place.
+TEST(RouteFollowerTest, SteersAnewOnTheWay) {
+  const double bearing_rad = math::DegToRad(14.0);
+  RouteDrive drive({{4.0 * std::cos(bearing_rad), 4.0 * std::sin(bearing_rad)}});
+  ASSERT_EQ(drive.Run(), NavigatorStatus::kArrived);
+  int changes = 0;
+  double steered_at_m = 0.0;
+  for (std::size_t i = 1; i < drive.log().size(); ++i) {
+    if (drive.log()[i].decision.motion.curvature_per_m ==
+        drive.log()[i - 1].decision.motion.curvature_per_m) {
+      continue;
+    }
+    const double at_m = drive.log()[i].estimate.distance_m;
+    ++changes;
+    EXPECT_GE(at_m - steered_at_m, RouteParams{}.steer_interval_m - 1e-9);
+    steered_at_m = at_m;
+  }
+  EXPECT_GT(changes, 30) << "of 60 steering intervals";
+}
+
 }  // namespace
 }  // namespace rockyard::navigation
