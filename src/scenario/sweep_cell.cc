@@ -18,18 +18,6 @@ using core::JsonValue;
 using core::Problem;
 using Type = JsonValue::Type;
 
-// Objects merge, so that {"rover": {"extends": "../rovers/mfex.json"}} changes a group in part.
-void Apply(JsonValue& document, const std::string& path, const JsonValue& value) {
-  const JsonValue* present = FindPath(document, path);
-  if (present == nullptr || !value.Is(Type::kObject)) {
-    core::SetPath(document, path, value);
-    return;
-  }
-  JsonValue merged = *present;
-  merged.Merge(value);
-  core::SetPath(document, path, std::move(merged));
-}
-
 // Angles are kept in radians and written with the fewest digits that read back to the same bits.
 bool SameNumber(double asked, double found, std::string_view path) {
   if (asked == found) return true;
@@ -110,7 +98,7 @@ ResolvedCell ResolveCell(const SweepSpec& spec, const std::vector<LevelSpec>& le
   std::vector<std::pair<std::string, JsonValue>> asked;
   const auto apply = [&](const JsonValue& settings) {
     for (const core::JsonMember& member : settings.members()) {
-      Apply(document, member.key, member.value);
+      core::SetPath(document, member.key, member.value);
       asked.emplace_back(member.key, member.value);
     }
   };

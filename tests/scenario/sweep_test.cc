@@ -44,12 +44,30 @@ TEST(SweepTest, AGridHasItsLastAxisFastest) {
   const SweepCell& last = sweep.cells[3];
   EXPECT_EQ(last.scenario.terrain.rocks.k_per_m2, 0.01);
   EXPECT_EQ(last.scenario.rover.drive.speed_m_s, 0.1);
-  EXPECT_EQ(last.scenario.rover.drive.stall_torque_Nm, Scenario{}.rover.drive.stall_torque_Nm)
-      << "a setting that is an object changes what it names, no more";
+  EXPECT_EQ(last.scenario.rover.drive.stall_torque_Nm, Scenario{}.rover.drive.stall_torque_Nm);
   EXPECT_EQ(last.scenario.trials, 20);
   EXPECT_EQ(last.scenario.name, "grid k_per_m2=0.01,rover=fast");
   EXPECT_EQ(last.levels[0].number, 0.01);
   EXPECT_EQ(last.levels[1].text, "fast");
+}
+
+// A setting means the same in a sweep, in its file and with rockyard run: an object takes the place
+// of the whole group.
+TEST(SweepTest, AnObjectReplacesAGroupAsItDoesInARun) {
+  constexpr std::string_view kBase = R"({"course": {"goal_x_m": 5, "goal_radius_m": 0.7}})";
+  const std::vector<std::string> overrides{R"(course={"goal_radius_m": 0.9})"};
+  const Scenario run = ParseScenario(kBase, overrides);
+  const std::string scenario = R"({"scenario": )" + std::string(kBase);
+  const std::string axes = R"(, "axes": [{"path": "referee.time_limit_s", "values": [100, 200]}]})";
+  const Sweep given =
+      ParseSweep(scenario + axes, {.overrides = overrides, .trials = {}, .seed = {}});
+  const Sweep written =
+      ParseSweep(scenario + R"(, "set": {"course": {"goal_radius_m": 0.9}})" + axes);
+  for (const Sweep* sweep : {&given, &written}) {
+    EXPECT_EQ(sweep->cells[0].scenario.course.goal_radius_m, 0.9);
+    EXPECT_EQ(sweep->cells[0].scenario.course.goal_x_m, run.course.goal_x_m);
+  }
+  EXPECT_EQ(run.course.goal_x_m, Scenario{}.course.goal_x_m);
 }
 
 TEST(SweepTest, RangesAreSteppedLinearlyOrByRatios) {
