@@ -49,71 +49,6 @@ int FindCell(const fs::path& folder, const std::vector<batch::CellIdentity>& cel
                         "use one of " + CellList(cells));
 }
 
-// Reads cells of one store, one after the other.
-class CellLoader {
- public:
-  CellLoader(const fs::path& folder, const batch::ResultStore& store)
-      : folder_(folder),
-        store_(store),
-        ends_(batch::StoredEnds(store)),
-        faults_(static_cast<std::size_t>(store.cells()), 0) {
-    for (const batch::InfrastructureFault& fault : store.InfrastructureFaults()) {
-      ++faults_.at(static_cast<std::size_t>(fault.id.cell));
-    }
-  }
-
-  StoredRun Load(int cell) const {
-    const auto index = static_cast<std::size_t>(cell);
-    return {.folder = folder_,
-            .cell = cell,
-            .identity = store_.identity().cells.at(index),
-            .schema = store_.identity().schema,
-            .shard = store_.identity().shard,
-            .planned = store_.planned(cell),
-            .builds = store_.Builds(),
-            .records = store_.Load(cell),
-            .infrastructure_faults = faults_[index],
-            .rule = store_.rule(),
-            .state = ends_[index]};
-  }
-
- private:
-  const fs::path& folder_;
-  const batch::ResultStore& store_;
-  const std::vector<batch::CellState> ends_;
-  std::vector<std::int64_t> faults_;
-};
-
-report::Accounting AccountingOf(const StoredRun& run) {
-  report::Accounting accounting;
-  accounting.planned = run.shard.Share(run.planned);
-  accounting.faulted = std::count_if(run.records.begin(), run.records.end(), truth::IsFault);
-  const auto stored = static_cast<std::int64_t>(run.records.size());
-  accounting.completed = stored - accounting.faulted;
-  accounting.pending = accounting.planned - stored;
-  accounting.infrastructure_faults = run.infrastructure_faults;
-  ENSURE(accounting.pending >= 0);
-  return accounting;
-}
-
-std::optional<report::StoppingReport> StoppingOf(const StoredRun& run) {
-  if (!run.rule) return std::nullopt;
-  constexpr std::array kEnds = {"open", "max_trials", "precise", "budget"};
-  const bool adaptive = run.rule->allocation == batch::Allocation::kAdaptive;
-  return report::StoppingReport{.half_width = run.rule->half_width,
-                                .max_trials = run.rule->max_trials,
-                                .block = run.rule->block,
-                                .confidence = run.rule->confidence,
-                                .allocation = adaptive ? "adaptive" : "uniform",
-                                .budget = run.rule->budget,
-                                .end = kEnds[static_cast<std::size_t>(run.state.end)],
-                                .trials = run.state.counts.trials,
-                                .drives = run.state.counts.drives(),
-                                .successes = run.state.counts.declared_successes,
-                                .low = run.state.sequence.low,
-                                .high = run.state.sequence.high};
-}
-
 core::JsonValue LoadDocument(const fs::path& path, const std::string& cell) {
   std::error_code error;
   if (fs::is_directory(path, error)) {
@@ -158,6 +93,61 @@ scenario::Scenario LoadScenarioFrom(const fs::path& path, std::span<const std::s
   return scenario::ReadScenario(document);
 }
 
+CellReader::CellReader(fs::path folder, const batch::ResultStore& store)
+    : folder_(std::move(folder)),
+      store_(store),
+      ends_(batch::StoredEnds(store)),
+      faults_(static_cast<std::size_t>(store.cells()), 0) {
+  for (const batch::InfrastructureFault& fault : store.InfrastructureFaults()) {
+    ++faults_.at(static_cast<std::size_t>(fault.id.cell));
+  }
+}
+
+StoredRun CellReader::Load(int cell) const {
+  const auto index = static_cast<std::size_t>(cell);
+  return {.folder = folder_,
+          .cell = cell,
+          .identity = store_.identity().cells.at(index),
+          .schema = store_.identity().schema,
+          .shard = store_.identity().shard,
+          .planned = store_.planned(cell),
+          .builds = store_.Builds(),
+          .records = store_.Load(cell),
+          .infrastructure_faults = faults_[index],
+          .rule = store_.rule(),
+          .state = ends_[index]};
+}
+
+report::Accounting AccountingOf(const StoredRun& run) {
+  report::Accounting accounting;
+  accounting.planned = run.shard.Share(run.planned);
+  accounting.faulted = std::count_if(run.records.begin(), run.records.end(), truth::IsFault);
+  const auto stored = static_cast<std::int64_t>(run.records.size());
+  accounting.completed = stored - accounting.faulted;
+  accounting.pending = accounting.planned - stored;
+  accounting.infrastructure_faults = run.infrastructure_faults;
+  ENSURE(accounting.pending >= 0);
+  return accounting;
+}
+
+std::optional<report::StoppingReport> StoppingOf(const StoredRun& run) {
+  if (!run.rule) return std::nullopt;
+  constexpr std::array kEnds = {"open", "max_trials", "precise", "budget"};
+  const bool adaptive = run.rule->allocation == batch::Allocation::kAdaptive;
+  return report::StoppingReport{.half_width = run.rule->half_width,
+                                .max_trials = run.rule->max_trials,
+                                .block = run.rule->block,
+                                .confidence = run.rule->confidence,
+                                .allocation = adaptive ? "adaptive" : "uniform",
+                                .budget = run.rule->budget,
+                                .end = kEnds[static_cast<std::size_t>(run.state.end)],
+                                .trials = run.state.counts.trials,
+                                .drives = run.state.counts.drives(),
+                                .successes = run.state.counts.declared_successes,
+                                .low = run.state.sequence.low,
+                                .high = run.state.sequence.high};
+}
+
 std::string StoredRun::Label() const {
   return identity.name.empty() ? folder.string()
                                : fmt::format("{}, cell {}", folder.string(), identity.name);
@@ -165,12 +155,12 @@ std::string StoredRun::Label() const {
 
 StoredRun ReadRun(const fs::path& folder, const std::string& cell) {
   const batch::ResultStore store = batch::ResultStore::Read(folder);
-  return CellLoader(folder, store).Load(FindCell(folder, store.identity().cells, cell));
+  return CellReader(folder, store).Load(FindCell(folder, store.identity().cells, cell));
 }
 
 std::vector<StoredRun> ReadCampaign(const fs::path& folder) {
   const batch::ResultStore store = batch::ResultStore::Read(folder);
-  const CellLoader loader(folder, store);
+  const CellReader loader(folder, store);
   std::vector<StoredRun> runs;
   for (int cell = 0; cell < store.cells(); ++cell) runs.push_back(loader.Load(cell));
   return runs;

@@ -40,6 +40,25 @@ struct StoredRun {
   std::string Label() const;
 };
 
+// Reads cells of one store, one after the other. The store must outlive it.
+class CellReader {
+ public:
+  CellReader(std::filesystem::path folder, const batch::ResultStore& store);
+  StoredRun Load(int cell) const;
+
+ private:
+  std::filesystem::path folder_;
+  const batch::ResultStore& store_;
+  std::vector<batch::CellState> ends_;
+  std::vector<std::int64_t> faults_;
+};
+
+// planned = completed + faulted + pending, which is checked.
+report::Accounting AccountingOf(const StoredRun& run);
+
+// Where the rule ended the cell; nothing without a rule.
+std::optional<report::StoppingReport> StoppingOf(const StoredRun& run);
+
 // `cell`: the name of a cell, or its number from 0; may be left out where the store has only one.
 // Throws core::UserError, which lists the cells where it must not be left out or is none of them.
 StoredRun ReadRun(const std::filesystem::path& folder, const std::string& cell = "");

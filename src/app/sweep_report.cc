@@ -9,9 +9,12 @@
 #include <vector>
 
 #include "app/console.h"
+#include "app/run_source.h"
 #include "batch/executor.h"
 #include "batch/trial_hash.h"
 #include "core/provenance.h"
+#include "report/accounting.h"
+#include "report/atomic_file.h"
 #include "report/sweep_files.h"
 
 namespace rockyard::app {
@@ -20,43 +23,60 @@ namespace {
 // Loads one cell after the other, and keeps their hashes for that of the campaign.
 class StoredCells {
  public:
-  explicit StoredCells(const batch::ResultStore& store) : store_(store) {}
+  explicit StoredCells(const batch::ResultStore& store)
+      : reader_(store.path().parent_path(), store) {}
 
   report::SweepCellTrials Load(std::size_t index) {
-    const int cell = static_cast<int>(index);
-    std::vector<truth::Record> records = store_.Load(cell);
-    const auto stored = static_cast<std::int64_t>(records.size());
-    records.resize(batch::ContiguousPrefix(records).size());
-    std::string hash = batch::TrialHash(records);
-    hashes_.push_back({store_.identity().cells[index].name, hash});
-    return {.schema = store_.identity().schema,
-            .prefix = std::move(records),
-            .planned = store_.planned(cell),
+    StoredRun run = reader_.Load(static_cast<int>(index));
+    const report::Accounting accounting = AccountingOf(run);
+    const auto stored = static_cast<std::int64_t>(run.records.size());
+    run.records.resize(run.prefix().size());
+    std::string hash = batch::TrialHash(run.records);
+    hashes_.push_back({run.identity.name, hash});
+    return {.schema = run.schema,
+            .prefix = std::move(run.records),
+            .planned = run.planned,
             .stored = stored,
-            .trial_hash = std::move(hash)};
+            .trial_hash = std::move(hash),
+            .accounting = accounting,
+            .stopping = StoppingOf(run)};
   }
 
   std::string CampaignHash() const { return batch::CampaignHash(hashes_); }
 
  private:
-  const batch::ResultStore& store_;
+  CellReader reader_;
   std::vector<batch::CellHash> hashes_;
 };
 
-// A shard holds no contiguous prefix of any cell.
-bool TellShard(const batch::ResultStore& store) {
+// A shard holds no contiguous prefix of any cell: counts, and no rates.
+void ReportSweepShard(const batch::ResultStore& store, const ReportOptions& options) {
   const batch::Shard shard = store.identity().shard;
-  if (shard.whole()) return false;
+  const std::filesystem::path folder = store.path().parent_path();
+  const CellReader reader(folder, store);
+  std::vector<report::ShardCell> cells;
+  report::Accounting total;
+  for (int cell = 0; cell < store.cells(); ++cell) {
+    const StoredRun run = reader.Load(cell);
+    cells.push_back({run.identity.name, AccountingOf(run)});
+    total = report::Sum(total, cells.back().accounting);
+  }
+  const std::string json =
+      report::ShardCampaignJson(store.identity().name, shard.index, shard.count, cells);
+  report::WriteFileAtomically(folder / "summary.json", json);
+  if (options.output == Output::kJson) Print(json);
+  if (options.output != Output::kText) return;
+  Print(fmt::format("{}: shard {} of {}\n{}", store.identity().name.substr(0, 40), shard.index,
+                    shard.count, report::AccountingText(total)));
   PrintNote(fmt::format("part {} of {} is in {}; `rockyard merge` puts the parts together",
-                        shard.index, shard.count, store.path().parent_path().string()));
-  return true;
+                        shard.index, shard.count, folder.string()));
 }
 
 }  // namespace
 
 void ReportSweep(const batch::ResultStore& store, const scenario::Sweep& sweep,
                  const ReportOptions& options) {
-  if (TellShard(store)) return;
+  if (!store.identity().shard.whole()) return ReportSweepShard(store, options);
   const std::filesystem::path folder = store.path().parent_path();
   StoredCells cells(store);
   const report::SweepSummary summary = report::SummarizeSweep(

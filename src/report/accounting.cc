@@ -9,6 +9,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kShardNote =
+    "a shard tells no rates: put all shards together with rockyard merge";
+
 Json Stopping(const StoppingReport& stopping) {
   Json json = {{"rule", "until_half_width"},        {"half_width", stopping.half_width},
                {"max_trials", stopping.max_trials}, {"block", stopping.block},
@@ -21,15 +24,19 @@ Json Stopping(const StoppingReport& stopping) {
   return json;
 }
 
-Json Parts(const RunDescription& run) {
-  const Accounting& a = run.accounting;
+Json Parts(const Accounting& a, const std::optional<StoppingReport>& stopping) {
   Json json;
   json["accounting"] = {{"planned", a.planned},
                         {"completed", a.completed},
                         {"faulted", a.faulted},
                         {"pending", a.pending},
                         {"infrastructure_faults", a.infrastructure_faults}};
-  if (run.stopping) json["stopping"] = Stopping(*run.stopping);
+  if (stopping) json["stopping"] = Stopping(*stopping);
+  return json;
+}
+
+Json Parts(const RunDescription& run) {
+  Json json = Parts(run.accounting, run.stopping);
   if (run.shard_count > 1) {
     json["shard"] = {{"index", run.shard_index}, {"count", run.shard_count}};
   }
@@ -56,15 +63,55 @@ std::string StoppingText(const StoppingReport& stopping) {
 
 std::string AccountingJson(const RunDescription& run) { return Parts(run).dump(); }
 
-std::string AccountingText(const RunDescription& run) {
-  const Accounting& a = run.accounting;
+std::string AccountingJson(const Accounting& accounting,
+                           const std::optional<StoppingReport>& stopping) {
+  return Parts(accounting, stopping).dump();
+}
+
+std::string AccountingText(const Accounting& a) {
   std::string text = fmt::format("  {} planned = {} completed + {} faulted + {} pending\n",
                                  a.planned, a.completed, a.faulted, a.pending);
   if (a.infrastructure_faults > 0) {
     text +=
         fmt::format("  {} failures of the machine, retried: no results\n", a.infrastructure_faults);
   }
+  return text;
+}
+
+std::string AccountingText(const RunDescription& run) {
+  const std::string text = AccountingText(run.accounting);
   return run.stopping ? text + StoppingText(*run.stopping) : text;
+}
+
+Accounting Sum(const Accounting& first, const Accounting& second) {
+  return {.planned = first.planned + second.planned,
+          .completed = first.completed + second.completed,
+          .faulted = first.faulted + second.faulted,
+          .pending = first.pending + second.pending,
+          .infrastructure_faults = first.infrastructure_faults + second.infrastructure_faults};
+}
+
+std::string StoppingPhrase(const StoppingReport& stopping) {
+  return fmt::format("{} after {} trials, {:.1f} .. {:.1f} %", Why(stopping), stopping.trials,
+                     100.0 * stopping.low, 100.0 * stopping.high);
+}
+
+std::string ShardCampaignJson(const std::string& name, int index, int count,
+                              const std::vector<ShardCell>& cells) {
+  Accounting total;
+  Json parts = Json::array();
+  for (const ShardCell& cell : cells) {
+    total = Sum(total, cell.accounting);
+    Json part = {{"name", cell.name}};
+    part.update(Parts(cell.accounting, std::nullopt));
+    parts.push_back(part);
+  }
+  Json json = {{"schema_version", 1}, {"kind", "sweep_shard"}, {"name", name}};
+  json.update(Parts(total, std::nullopt));
+  json["shard"] = {{"index", index}, {"count", count}};
+  json["cells"] = parts;
+  json["note"] = kShardNote;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string ShardJson(const RunDescription& run) {
@@ -73,7 +120,7 @@ std::string ShardJson(const RunDescription& run) {
                {"seed", run.seed},
                {"fingerprint", run.fingerprint}};
   json.update(Parts(run));
-  json["note"] = "a shard tells no rates: put all shards together with rockyard merge";
+  json["note"] = kShardNote;
   json["shard_hash"] = run.trial_hash;
   json["builds"] = run.builds;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -1,7 +1,9 @@
 // What has become of the planned trials, and why there are no more.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "report/run_description.h"
 
@@ -11,8 +13,29 @@ namespace rockyard::report {
 // has them, "stopping" (the rule, where it ended, the confidence sequence there) and "shard".
 std::string AccountingJson(const RunDescription& run);
 
-// A line for the terminal that adds up, and one for the rule.
+// The same of a cell.
+std::string AccountingJson(const Accounting& accounting,
+                           const std::optional<StoppingReport>& stopping);
+
+// A line for the terminal that adds up, and one for failures of the machine.
+std::string AccountingText(const Accounting& accounting);
+
+// The same, and lines for the rule.
 std::string AccountingText(const RunDescription& run);
+
+// Cells of a campaign together.
+Accounting Sum(const Accounting& first, const Accounting& second);
+
+// Where the rule ended a cell, in some words: "precise enough after 40 trials, 1.0 .. 12.3 %".
+std::string StoppingPhrase(const StoppingReport& stopping);
+
+// What a shard of a campaign of cells has.
+struct ShardCell {
+  std::string name;
+  Accounting accounting;
+};
+std::string ShardCampaignJson(const std::string& name, int index, int count,
+                              const std::vector<ShardCell>& cells);
 
 // summary.json of a shard: no rates, since its trials are no contiguous prefix.
 std::string ShardJson(const RunDescription& run);

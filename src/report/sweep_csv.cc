@@ -44,6 +44,15 @@ Fields CellFields(std::size_t index, const Sweep& sweep, const SweepCellSummary&
   AddRate(cell.declared_success, fields);
   AddRate(cell.true_success, fields);
   fields.push_back(cell.trial_hash);
+  fields.push_back(std::to_string(cell.accounting.pending));
+  fields.push_back(std::to_string(cell.accounting.infrastructure_faults));
+  if (cell.stopping) {
+    fields.push_back(cell.stopping->end);
+    fields.push_back(std::to_string(cell.stopping->trials));
+    AddInterval({cell.stopping->low, cell.stopping->high}, fields);
+  } else {
+    fields.resize(fields.size() + 4);
+  }
   return fields;
 }
 
@@ -95,7 +104,10 @@ std::string SweepCellsCsv(const Sweep& sweep, const SweepSummary& summary) {
       head.push_back(name + suffix);
     }
   }
-  head.emplace_back("trial_hash");
+  for (const char* name : {"trial_hash", "pending", "infrastructure_faults", "stopped",
+                           "stopped_at", "sequence_low", "sequence_high"}) {
+    head.emplace_back(name);
+  }
   std::string csv = CsvLine(head);
   for (std::size_t i = 0; i < summary.cells.size(); ++i) {
     csv += CsvLine(CellFields(i, sweep, summary.cells[i]));

@@ -21,8 +21,10 @@ struct SweepDescription {
 };
 
 // cells.csv: one line per cell: cell, name, the axes, seed, planned, stored, completed, faults,
-// every outcome, and for declared and true success: rate, 95 % interval, and the interval that
-// holds for all cells at once.
+// every outcome, for declared and true success: rate, 95 % interval, and the interval that holds
+// for all cells at once; hash; pending trials and failures of the machine; and with a stopping rule
+// where it ended the cell ("precise", "max_trials", "budget", "open"), after how many trials, and
+// the confidence sequence of declared success there.
 std::string SweepCellsCsv(const scenario::Sweep& sweep, const SweepSummary& summary);
 
 // curves.csv: one line per cell and metric (statistics/metrics.h): cell, the axes, metric, unit, n,
@@ -51,7 +53,8 @@ std::string SweepText(const scenario::Sweep& sweep, const SweepSummary& summary,
                       const SweepDescription& description, TextStyle style);
 
 // summary.json of a sweep: schema_version, kind "sweep", name, design, seed, common_random_numbers,
-// axes, trials (planned, stored, completed, faults), cells, fits, differences, attribution, notes,
+// axes, trials (planned, stored, completed, faults), accounting, cells (with the rule and where it
+// ended each), fits, differences, attribution, notes,
 // trial_hash, provenance. What is undefined or infinite is null.
 std::string SweepJson(const scenario::Sweep& sweep, const SweepSummary& summary,
                       const SweepDescription& description);

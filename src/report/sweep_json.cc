@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "report/accounting.h"
 #include "report/atomic_file.h"
 #include "report/sweep_files.h"
 
@@ -42,20 +43,22 @@ Json Cell(const Sweep& sweep, std::size_t index, const SweepCellSummary& cell) {
     metrics[std::string(metric.metric->name)] = {
         {"count", metric.count}, {"mean", Number(metric.mean)}, {"ci95", Pair(metric.interval)}};
   }
-  return {{"cell", index},
-          {"name", sweep.cells[index].name},
-          {"levels", levels},
-          {"seed", sweep.cells[index].scenario.seed},
-          {"trials",
-           {{"planned", cell.planned},
-            {"stored", cell.stored},
-            {"completed", cell.completed},
-            {"faults", cell.faults}}},
-          {"declared_success", Rate(cell.declared_success)},
-          {"true_success", Rate(cell.true_success)},
-          {"outcomes", outcomes},
-          {"metrics", metrics},
-          {"trial_hash", cell.trial_hash}};
+  Json json = {{"cell", index},
+               {"name", sweep.cells[index].name},
+               {"levels", levels},
+               {"seed", sweep.cells[index].scenario.seed},
+               {"trials",
+                {{"planned", cell.planned},
+                 {"stored", cell.stored},
+                 {"completed", cell.completed},
+                 {"faults", cell.faults}}},
+               {"declared_success", Rate(cell.declared_success)},
+               {"true_success", Rate(cell.true_success)},
+               {"outcomes", outcomes},
+               {"metrics", metrics},
+               {"trial_hash", cell.trial_hash}};
+  json.update(Json::parse(AccountingJson(cell.accounting, cell.stopping)));
+  return json;
 }
 
 Json Fit(const SweepCurve& curve, std::size_t kind) {
@@ -114,6 +117,10 @@ Json Totals(const SweepSummary& summary) {
   return {{"planned", planned}, {"stored", stored}, {"completed", completed}, {"faults", faults}};
 }
 
+Json Accounted(const SweepSummary& summary) {
+  return Json::parse(AccountingJson(TotalAccounting(summary), std::nullopt))["accounting"];
+}
+
 }  // namespace
 
 std::string SweepJson(const Sweep& sweep, const SweepSummary& summary,
@@ -137,6 +144,7 @@ std::string SweepJson(const Sweep& sweep, const SweepSummary& summary,
                      {"common_random_numbers", sweep.common_random_numbers},
                      {"axes", Axes(sweep)},
                      {"trials", Totals(summary)},
+                     {"accounting", Accounted(summary)},
                      {"cells", cells},
                      {"fits", fits},
                      {"differences", differences},

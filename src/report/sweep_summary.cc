@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "report/accounting.h"
 #include "statistics/drive_summary.h"
 #include "statistics/multiple_testing.h"
 
@@ -34,6 +35,8 @@ SweepCellSummary SummarizeCell(const SweepCellTrials& trials, std::size_t cells,
   SweepCellSummary summary;
   summary.planned = trials.planned;
   summary.stored = trials.stored;
+  summary.accounting = trials.accounting;
+  summary.stopping = trials.stopping;
   summary.completed = drive.completed;
   summary.faults = drive.faults;
   summary.declared_success = RateOf(drive.declared_success, cells);
@@ -195,6 +198,12 @@ double FitAbscissa(const statistics::LogisticFit& fit, double share) {
     return fit.lowest_x + share * (fit.highest_x - fit.lowest_x);
   }
   return fit.lowest_x * std::pow(fit.highest_x / fit.lowest_x, share);
+}
+
+Accounting TotalAccounting(const SweepSummary& summary) {
+  Accounting total;
+  for (const SweepCellSummary& cell : summary.cells) total = Sum(total, cell.accounting);
+  return total;
 }
 
 SweepSummary SummarizeSweep(const Sweep& sweep, const SweepCellLoader& load,

@@ -10,6 +10,7 @@
 
 #include "report/attribution.h"
 #include "report/paired_comparison.h"
+#include "report/run_description.h"
 #include "scenario/sweep.h"
 #include "statistics/logistic_fit.h"
 #include "statistics/metrics.h"
@@ -25,6 +26,8 @@ struct SweepCellTrials {
   std::int64_t planned = 0;
   std::int64_t stored = 0;  // beyond the prefix too
   std::string trial_hash;   // of the prefix
+  Accounting accounting = {};
+  std::optional<StoppingReport> stopping = {};  // where the rule ended the cell, if there is one
 };
 
 // Loads a cell by its index in the sweep. Called once per cell, in order, so that only the records
@@ -48,6 +51,8 @@ struct SweepCellSummary {
   std::array<std::int64_t, truth::kTrialOutcomeNames.size()> outcomes{};
   std::vector<statistics::MetricSummary> metrics;
   std::string trial_hash;
+  Accounting accounting = {};
+  std::optional<StoppingReport> stopping = {};
 };
 
 enum class SuccessKind { kDeclared, kTrue };
@@ -85,6 +90,9 @@ struct SweepSummary {
   std::vector<SweepAttribution> attributions;  // of sweeps along ablations
   std::vector<std::string> notes;  // cells whose trials are equal: a setting without effect
 };
+
+// Of all cells.
+Accounting TotalAccounting(const SweepSummary& summary);
 
 // Rates cover the contiguous prefix of each cell, without simulator faults.
 //

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "report/accounting.h"
 #include "report/sweep_files.h"
 
 namespace rockyard::report {
@@ -64,6 +65,7 @@ std::string Head(const Sweep& sweep, const SweepSummary& summary) {
       fmt::format("{}: {}, {} cells, seed {}{}\n  {} of {} trials\n", Cut(sweep.name, 40),
                   DesignName(sweep.design), sweep.cells.size(), sweep.seed,
                   sweep.common_random_numbers ? ", common random numbers" : "", completed, planned);
+  text += AccountingText(TotalAccounting(summary));
   if (faults > 0) {
     text += fmt::format("  {} simulator faults, in none of the rates below\n", faults);
   }
@@ -109,6 +111,24 @@ std::string CellTable(const Sweep& sweep, const SweepSummary& summary, TextStyle
   return text +
          "  (intervals of 95 % for a cell alone; path ratio, time [s] and energy [Wh]: means of "
          "arrivals)\n";
+}
+
+// Where the rule ended each cell. The intervals of the table are for numbers of trials that do not
+// depend on outcomes; the confidence sequences here allow for that.
+std::string Stops(const Sweep& sweep, const SweepSummary& summary) {
+  if (summary.cells.empty() || !summary.cells.front().stopping) return "";
+  const StoppingReport& rule = *summary.cells.front().stopping;
+  std::string text = fmt::format(
+      "  stopping rule: half-width {:.2f} % of declared success ({:g} %, valid at any time), "
+      "looked "
+      "at\n  every {} trials, at most {} of a cell; allocation {}\n",
+      100.0 * rule.half_width, 100.0 * rule.confidence, rule.block, rule.max_trials,
+      rule.allocation);
+  for (std::size_t i = 0; i < std::min(summary.cells.size(), kMostCells); ++i) {
+    text += fmt::format("    {:<{}} {}\n", Cut(Label(sweep, i), kLabelWidth), kLabelWidth,
+                        StoppingPhrase(*summary.cells[i].stopping));
+  }
+  return text;
 }
 
 // A number outside of the settings is not known any better than that.
@@ -196,7 +216,7 @@ std::string Differences(const SweepSummary& summary) {
 std::string SweepText(const Sweep& sweep, const SweepSummary& summary,
                       const SweepDescription& description, TextStyle style) {
   std::string text = Head(sweep, summary) + CellTable(sweep, summary, style) +
-                     Fits(sweep, summary) + Differences(summary) +
+                     Stops(sweep, summary) + Fits(sweep, summary) + Differences(summary) +
                      AttributionText(summary.attributions);
   for (const std::string& note : summary.notes) text += "  " + note + "\n";
   return text + fmt::format("  trial hash {}\n", description.trial_hash);
