@@ -13,6 +13,7 @@ import csv
 import json
 import re
 import resource
+import shutil
 import subprocess
 import sys
 import time
@@ -103,6 +104,13 @@ class Study:
 
     def published(self):
         return {name: self.run("published", name, 300) for name in PUBLISHED}
+
+    def swept(self, name, trials):
+        """What `rockyard sweep` prints of scenarios/sweeps/NAME.json; its folder keeps the files."""
+        folder = self.out / "sweeps" / name
+        text = self.tool("sweep", SCENARIOS / "sweeps" / f"{name}.json", "--trials", trials,
+                         "--out", folder, "--resume", "--force")
+        return "```\n" + text.rsplit("  results in ", 1)[0].strip() + "\n```"
 
     def tool(self, *arguments):
         result = subprocess.run([str(part) for part in (self.rockyard, *arguments)],
@@ -349,9 +357,34 @@ def navigator_speed(study):
                  rows)
 
 
+def abundance_sweep(study):
+    """Success over rock abundance with its fit; the drawing goes to results/studies."""
+    text = study.swept("abundance", 1000)
+    shutil.copy(study.out / "sweeps/abundance/success.svg", ROOT / "results/studies/abundance.svg")
+    return text
+
+
+def navigator_sweep(study):
+    return study.swept("navigators", 200)
+
+
+def attribution(study):
+    text = study.swept("attribution", 300)
+    return "```\n" + text[text.index("attribution of failures"):]
+
+
+def scaling(study):
+    """On a machine that does nothing else."""
+    result = subprocess.run([sys.executable, ROOT / "scripts/scaling_study.py", "--rockyard",
+                             study.rockyard, "--out", study.out / "scaling"],
+                            capture_output=True, text=True, check=True)
+    return result.stdout.strip()
+
+
 TABLES = {f.__name__: f for f in (comparison, comparison_excerpt, hazards, errors, envelope,
                                  abundance, causes, fidelity, speed, gestalt, navigators,
-                                 navigator_speed)}
+                                 navigator_speed, abundance_sweep, navigator_sweep, attribution,
+                                 scaling)}
 
 
 def write_table(pages, name, content):

@@ -64,7 +64,8 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
         shutil.copytree(root / "scenarios", folder / "scenarios")
-        shutil.copytree(root / "results/reference", folder / "results/reference")
+        for name in ("reference", "baselines"):
+            shutil.copytree(root / "results" / name, folder / "results" / name)
         (folder / "scripts").symlink_to(root / "scripts")
         environment = dict(os.environ, PATH=f"{rockyard.parent}{os.pathsep}{os.environ['PATH']}")
         for page in pages[1:]:
