@@ -1,4 +1,5 @@
 // Campaigns of several cells through the executor: accounting, rules, shards, memory of a plan.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -99,6 +100,57 @@ TEST(Campaign, RuleGoesOnAfterAStop) {
   EXPECT_GT(sessions, 2);
   EXPECT_EQ(started, expected_trials) << "nothing is run twice, nothing beyond the rule";
   EXPECT_EQ(HashOf(store), expected);
+}
+
+// A longer run was killed, which left holes; a rule that is content with less goes on with it: the
+// campaign is the one that the rule alone would have made.
+TEST(Campaign, RuleOnAStoreWithMoreTrialsAndHoles) {
+  std::int64_t expected_trials = 0;
+  const std::string expected = HashUnderRule(RuleOptions(1), expected_trials);
+  const TemporaryFolder folder;
+  ResultStore store = ResultStore::Create(folder.path(), ThreeCells(), 1000);
+  for (int cell = 0; cell < 3; ++cell) {
+    std::vector<CellRecord> rows;
+    for (std::uint64_t trial = 0; trial < 900; ++trial) {
+      const bool hole = (trial >= 10 && trial < 15) || trial == 700;
+      if (!hole) rows.push_back({cell, FakeRecord(static_cast<std::uint64_t>(cell) + 1, trial)});
+    }
+    store.Append(rows);
+  }
+  const BatchOptions options = RuleOptions(2);
+  store.SetRule(options.rule);
+  const FakeExperiment experiment;
+  const BatchResult result = RunBatch(WorkOf(experiment, store), store, options, kNeverStop);
+  EXPECT_EQ(result.end, BatchEnd::kFinished);
+  EXPECT_EQ(result.progress.planned, expected_trials);
+  EXPECT_EQ(result.progress.finished, expected_trials);
+  const ResultStore read = ResultStore::Read(folder.path());
+  EXPECT_EQ(HashOf(read), expected);
+  for (int cell = 0; cell < 3; ++cell) {
+    EXPECT_EQ(static_cast<std::int64_t>(read.Load(cell).size()), read.planned(cell));
+  }
+  EXPECT_EQ(read.Finished().size(), 3U * 899) << "nothing is deleted; the five holes are run";
+}
+
+// One broken cell is no small part of the whole.
+TEST(Campaign, FaultsAreJudgedInEachCell) {
+  CampaignIdentity identity = FakeIdentity();
+  identity.cells.clear();
+  for (int i = 0; i < 50; ++i) identity.cells.push_back(FakeCell(1, fmt::format("c{}", i)));
+  for (const bool broken : {false, true}) {
+    const TemporaryFolder folder;
+    ResultStore store = ResultStore::Create(folder.path(), identity, 100);
+    const FakeExperiment good;
+    const FakeExperiment bad([](std::uint64_t trial) {
+      if (trial % 4 == 0) throw std::runtime_error("blew up");
+    });
+    std::vector<CellWork> work = WorkOf(good, store);
+    if (broken) work[37].experiment = &bad;
+    const BatchResult result = RunBatch(work, store, {.threads = 2}, kNeverStop);
+    EXPECT_LT(result.progress.faults, 50) << "less than 1 % of all 5000";
+    EXPECT_EQ(result.too_many_faults, broken);
+    EXPECT_EQ(result.faulty_cells, broken ? std::vector<int>{37} : std::vector<int>{});
+  }
 }
 
 // planned = completed + faulted + pending, at every report.

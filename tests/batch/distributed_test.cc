@@ -225,6 +225,35 @@ TEST_F(Distributed, TrialThatThrowsElsewhereIsAFault) {
   }
 }
 
+// Rank 0 must end with an error, and not wait for threads that wait for trials which do not come.
+TEST_F(Distributed, CutOffPacketIsAnErrorNotAHang) {
+  BatchOptions options = Options(2);
+  options.rule = StoppingRule{.half_width = 0.12, .block = 40, .confidence = 0.95};
+  const std::atomic<bool> never = false;
+  BatchSession session(store_, options, never, {});
+  // Another rank has a trial of the round, so that the threads of this one wait for its end.
+  ASSERT_EQ(session.source().TryTake().step, WorkPlan::Step::kTrial);
+  Post post(2);
+  PostCommunicator(post, 1).Send(0, 1, "cut");
+  PostCommunicator communicator(post, 0);
+  const FakeExperiment experiment;
+  const CellWork work{&experiment, 1};
+  EXPECT_THROW(
+      RunTrialsOnRanks(communicator, std::span(&work, 1), session.source(), options.threads),
+      std::runtime_error);
+}
+
+// The end of the campaign, sent while this rank computes, is no block of trials.
+TEST_F(Distributed, RankEndsWhereRankZeroHasGivenUp) {
+  Post post(2);
+  PostCommunicator(post, 0).Send(1, 11, PacketWriter().Integer(5).bytes());
+  PostCommunicator communicator(post, 1);
+  const FakeExperiment experiment;
+  const CellWork work{&experiment, 1};
+  const std::atomic<bool> never = false;
+  EXPECT_THROW(ServeBatch(communicator, std::span(&work, 1), 2, never), std::runtime_error);
+}
+
 TEST(Packet, KeepsEveryBit) {
   const double payload = std::bit_cast<double>(std::uint64_t{0x7ff8000000000123});
   const std::vector<CellRecord> sent = {

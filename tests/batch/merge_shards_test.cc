@@ -3,10 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "batch/executor.h"
+#include "batch/run_folder.h"
 #include "batch/store_error.h"
 #include "batch/trial_hash.h"
 #include "fake_experiment.h"
@@ -108,6 +111,35 @@ TEST_F(MergeTest, KeepsBuildsAndInfrastructureFaults) {
   EXPECT_EQ(merged.InfrastructureFaults()[0].id, (TrialId{1, 7}));
 }
 
+// Tasks of a job array may all call merge at their ends: one wins, the others say why not.
+TEST_F(MergeTest, TwoAtOnceLeaveOneWhole) {
+  const std::vector<fs::path> shards = {MakeShard(1, 2), MakeShard(2, 2)};
+  for (int round = 0; round < 10; ++round) {
+    std::atomic<int> ready = 0;
+    std::atomic<int> made = 0;
+    const auto merge = [&] {
+      for (++ready; ready < 3;) std::this_thread::yield();
+      try {
+        MergeShards(shards, Out());
+        ++made;
+      } catch (const StoreError& error) {
+        EXPECT_TRUE(error.problem() == StoreProblem::kInUse ||
+                    error.problem() == StoreProblem::kExists)
+            << error.what();
+      }
+    };
+    std::thread first(merge);
+    std::thread second(merge);
+    merge();
+    first.join();
+    second.join();
+    EXPECT_EQ(made, 1);
+    ASSERT_TRUE(HoldsStore(Out()));
+    EXPECT_EQ(ResultStore::Read(Out()).Finished().size(), 2U * kTrials);
+    fs::remove_all(Out());
+  }
+}
+
 TEST_F(MergeTest, RefusesMissingAndRepeatedShards) {
   const fs::path first = MakeShard(1, 3);
   const fs::path third = MakeShard(3, 3);
@@ -136,7 +168,8 @@ TEST_F(MergeTest, RefusesShardsOfDifferentCampaigns) {
   EXPECT_THAT(ErrorOf({MakeShard(1, 2), MakeShard(2, 2, TwoCells(), 60)}),
               HasSubstr("planned are 60 there and 50"));
   other = FakeIdentity();
-  EXPECT_THAT(ErrorOf({MakeShard(1, 2), MakeShard(2, 2, other)}), HasSubstr("cells: are 1 there and 2"));
+  EXPECT_THAT(ErrorOf({MakeShard(1, 2), MakeShard(2, 2, other)}),
+              HasSubstr("cells: are 1 there and 2"));
 }
 
 TEST_F(MergeTest, RefusesWhatIsNoShardAndAFolderThatExists) {
