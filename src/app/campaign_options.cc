@@ -62,8 +62,8 @@ void AddFolderOptions(CLI::App& command, CampaignOptions& options) {
   command.add_flag("--resume", options.resume,
                    "go on with the run in the folder; a larger --trials extends it");
   command.add_flag("--force", options.force,
-                   "set a run in the folder aside (nothing is deleted) and start anew; with "
-                   "--resume only where it cannot go on");
+                   "set a run in the folder and the files of its names aside (as *.old-1.*: "
+                   "nothing is deleted) and start anew; with --resume only where it cannot go on");
   command.add_flag("--any-build", options.any_build,
                    "let --resume mix trials of different builds of the program");
   command.add_flag("--dry-run", options.dry_run,

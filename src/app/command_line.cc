@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,7 +10,7 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/guard.h"
-#include "batch/communicator.h"
+#include "app/option_checks.h"
 #include "core/error.h"
 #include "core/provenance.h"
 #include "core/spelling.h"
@@ -50,6 +49,7 @@ void AddCommands(CLI::App& app, ExitCode& exit_code) {
   AddParametersCommand(app);
   AddPlanCommand(app);
   AddMetricsCommand(app);
+  CheckEveryValue(app);
 }
 
 // "rockyard run --help" where a subcommand was named, else "rockyard --help".
@@ -72,9 +72,11 @@ core::Problem Explain(const CLI::App& app, const CLI::ParseError& error, std::st
 
 // Every rank that mpirun started reads the same command line; one message is enough.
 void PrintOnce(const std::vector<core::Problem>& problems) {
-  const std::optional<batch::Launch> launch = batch::FindLaunch();
-  if (!launch || launch->rank == 0) PrintProblems(problems);
+  if (IsFirstRank()) PrintProblems(problems);
 }
+
+// Ranks share the trials of a campaign; anything else is done once.
+bool IsForAllRanks(std::string_view command) { return command == "run" || command == "sweep"; }
 
 ExitCode Parse(CLI::App& app, int argc, const char* const* argv, const ExitCode& exit_code) {
   try {
@@ -92,6 +94,9 @@ ExitCode Parse(CLI::App& app, int argc, const char* const* argv, const ExitCode&
 }  // namespace
 
 int RunCommandLine(int argc, const char* const* argv) {
+  if (!IsFirstRank() && !(argc > 1 && IsForAllRanks(argv[1]))) {
+    return static_cast<int>(ExitCode::kDone);
+  }
   CLI::App app("Monte Carlo performance evaluation of planetary rovers", "rockyard");
   ExitCode exit_code = ExitCode::kDone;
   AddCommands(app, exit_code);

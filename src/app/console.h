@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdio>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -10,7 +11,12 @@
 
 namespace rockyard::app {
 
+// False in a process of mpirun, which gives a terminal of its own making to rank 0 wherever its own
+// output goes.
 bool IsTerminal(std::FILE* stream);
+
+// Whether this process is rank 0 of those that mpirun started, or was started alone.
+bool IsFirstRank();
 
 // Columns of the terminal on `stream`; 100 where it is none or does not tell.
 int TerminalWidth(std::FILE* stream);
@@ -23,6 +29,13 @@ void Print(std::string_view text);  // to standard output
 // To standard error, all at once: "error: PATH: reason" and "  try: suggestion". Control characters
 // in what the user typed are shown as '?'.
 void PrintProblems(const std::vector<core::Problem>& problems);
-void PrintNote(std::string_view text);  // to standard error, one line
+
+// To standard error, in lines of at most 100 columns as far as its words allow, the first of them
+// not indented. Control characters as above.
+void PrintNote(std::string_view text);
+
+// Text of one or more lines, each broken between words where it has more than 100 columns; what is
+// broken off is indented by four more than its line.
+std::string Wrapped(std::string_view text);
 
 }  // namespace rockyard::app

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 
 #include "app/console.h"
+#include "app/planned_trials.h"
 #include "app/run_campaign.h"
 #include "batch/executor.h"
 #include "batch/pilot.h"
@@ -27,24 +29,18 @@ std::int64_t StoredTrials(const OpenRequest& request) {
   return static_cast<std::int64_t>(batch::ResultStore::Read(request.folder).Finished().size());
 }
 
-std::int64_t PlannedTrials(const OpenRequest& request, const CampaignPlan& plan) {
-  std::int64_t planned = 0;
-  for (const CampaignCell& cell : plan.cells) {
-    planned += request.shard.Share(request.rule ? request.rule->max_trials : cell.scenario.trials);
-  }
-  return planned;
-}
-
-std::string CostText(const batch::PilotCost& pilot, std::int64_t pending, int threads) {
+std::string CostText(const batch::PilotCost& pilot, std::int64_t pending, std::string_view at_most,
+                     int threads) {
   const double count = static_cast<double>(pending);
   const double total_s = count * pilot.mean_s;
   // What three pilots leave open of the mean, and the scatter of the trials to come.
   const double error_s =
       std::sqrt(pilot.variance_s2 * count * (1.0 + count / static_cast<double>(pilot.trials)));
   return fmt::format(
-      "  cost {:.3g} CPU seconds, give or take {:.2g}: {:.3g} s a trial in {} pilot trials; about "
+      "  cost {}{:.3g} CPU seconds, give or take {:.2g}: {:.3g} s a trial in {} pilot trials; "
+      "about "
       "{:.3g} s on {} threads\n",
-      total_s, error_s, pilot.mean_s, pilot.trials, total_s / threads, threads);
+      at_most, total_s, error_s, pilot.mean_s, pilot.trials, total_s / threads, threads);
 }
 
 }  // namespace
@@ -56,14 +52,15 @@ ExitCode DryRun(const CampaignOptions& options, const CampaignPlan& plan) {
   const auto experiment = experiments::MakeExperiment(scenario);
   CheckFolder(request, IdentityOf(plan, experiment->schema(), request.shard));
   const std::int64_t stored = StoredTrials(request);
-  const std::int64_t planned = PlannedTrials(request, plan);
-  const std::int64_t pending = std::max<std::int64_t>(planned - stored, 0);
+  const PlannedTrials planned = TrialsOf(request, plan);
+  const std::int64_t pending = std::max<std::int64_t>(planned.total - stored, 0);
   const batch::PilotCost pilot =
       batch::RunPilots(*experiment, static_cast<std::uint64_t>(scenario.seed), kPilots);
-  Print(fmt::format("{}, seed {}: {} cells, {}{} trials planned, {} stored, {} to run\n", plan.name,
-                    scenario.seed, plan.cells.size(), request.rule ? "at most " : "", planned,
-                    stored, pending));
-  Print(CostText(pilot, pending, batch::ThreadCount({.threads = options.threads})));
+  Print(Wrapped(fmt::format("{}, seed {}: {} planned, {} stored, {}{} to run\n", plan.name,
+                            scenario.seed, planned.text(), stored,
+                            planned.at_most ? "at most " : "", pending)));
+  Print(Wrapped(CostText(pilot, pending, planned.at_most ? "at most " : "",
+                         batch::ThreadCount({.threads = options.threads}))));
   Print(fmt::format("  into {}; nothing was written\n", request.folder.string()));
   return ExitCode::kDone;
 }

@@ -16,8 +16,9 @@ void AddMetricsCommand(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("metrics", "Lists what is computed of drives, each with its definition");
   command->add_flag("--markdown", *markdown, "as the table of src/statistics/README.md");
-  command->callback(
-      [markdown] { Print(*markdown ? report::MetricTableMarkdown() : report::MetricTableText()); });
+  command->callback([markdown] {
+    Print(*markdown ? report::MetricTableMarkdown() : Wrapped(report::MetricTableText()));
+  });
 }
 
 }  // namespace rockyard::app

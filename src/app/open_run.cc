@@ -6,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include "app/derived_files.h"
 #include "app/run_source.h"
 #include "batch/store_error.h"
 #include "core/hash.h"
@@ -65,7 +66,8 @@ void RefuseForeignFolder(const OpenRequest& request) {
   if (empty || MaySetAside(request)) return;
   if (!batch::HoldsStore(folder)) {
     throw StoreError(StoreProblem::kExists, folder.string(), "is not empty and holds no run",
-                     "choose another folder with --out, or write into it with --force");
+                     "choose another folder with --out, or write into it with --force, which "
+                     "renames files of the names it needs");
   }
   if (!MayResume(request)) {
     throw StoreError(StoreProblem::kExists, folder.string(), "holds a run already",
@@ -113,7 +115,17 @@ class Opener {
       const fs::path aside = batch::SetStoreAside(folder_);
       notes_.push_back("the former results are kept as " + aside.string());
     }
+    SetFilesAside();
     return batch::ResultStore::Create(folder_, identity_, WantedTrials());
+  }
+
+  // Only where all that is in the folder may be set aside is there anything.
+  void SetFilesAside() {
+    std::string names;
+    for (const std::string& name : SetDerivedFilesAside(folder_)) {
+      names += (names.empty() ? "" : ", ") + name;
+    }
+    if (!names.empty()) notes_.push_back("files that were there are kept as " + names);
   }
 
   static std::string FirstReason(const StoreError& error) {

@@ -50,7 +50,7 @@ void AddJson(CLI::App& command, PlanOptions& options) {
 }
 
 void Show(const PlanReport& report, const PlanOptions& options) {
-  Print(options.json ? PlanJson(report) : PlanText(report));
+  Print(options.json ? PlanJson(report) : Wrapped(PlanText(report)));
 }
 
 struct HalfWidthQuestion {
@@ -110,6 +110,7 @@ void PlanClaim(const ClaimQuestion& q) {
   report.Add("rule_of_three", "rule of three (95 %, no failure): 3 over the rate",
              std::int64_t{std::llround(std::ceil(3.0 / q.below))});
   for (const double part : {2.0, 5.0, 10.0}) {
+    if (IsCutOff(trials)) break;
     report.Add(fmt::format("chance_at_{:g}th", part),
                fmt::format("chance to pass if the true rate is {:g}", q.below / part),
                statistics::ClaimChance(trials, q.below / part, q.failures));

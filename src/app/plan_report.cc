@@ -9,13 +9,16 @@
 
 namespace rockyard::app {
 
+bool IsCutOff(std::int64_t trials) { return trials >= statistics::kMostTrials; }
+
 void PlanReport::Add(std::string key, std::string what, std::int64_t trials) {
-  if (trials >= statistics::kMostTrials) what += " (that many or more)";
-  lines_.push_back({std::move(key), std::move(what), core::JsonValue(trials)});
+  const bool cut_off = IsCutOff(trials);
+  if (cut_off) what += " (that many or more: the search ends there)";
+  lines_.push_back({std::move(key), std::move(what), core::JsonValue(trials), cut_off});
 }
 
 void PlanReport::Add(std::string key, std::string what, double probability) {
-  lines_.push_back({std::move(key), std::move(what), core::JsonValue(probability)});
+  lines_.push_back({std::move(key), std::move(what), core::JsonValue(probability), false});
 }
 
 std::string PlanText(const PlanReport& report) {
@@ -32,7 +35,10 @@ std::string PlanText(const PlanReport& report) {
 std::string PlanJson(const PlanReport& report) {
   core::JsonValue json = core::JsonValue::Object();
   json.Set("question", core::JsonValue(report.question()));
-  for (const PlanReport::Line& line : report.lines()) json.Set(line.key, line.number);
+  for (const PlanReport::Line& line : report.lines()) {
+    json.Set(line.key, line.number);
+    if (line.cut_off) json.Set(line.key + "_or_more", core::JsonValue(true));
+  }
   return core::DumpJson(json);
 }
 

@@ -10,6 +10,9 @@
 
 namespace rockyard::app {
 
+// Whether a number of trials is where the search for it ended, and no answer.
+bool IsCutOff(std::int64_t trials);
+
 class PlanReport {
  public:
   explicit PlanReport(std::string question) : question_(std::move(question)) {}
@@ -22,6 +25,7 @@ class PlanReport {
     std::string key;
     std::string what;
     core::JsonValue number;
+    bool cut_off = false;
   };
   const std::string& question() const { return question_; }
   const std::vector<Line>& lines() const { return lines_; }
@@ -32,6 +36,7 @@ class PlanReport {
 };
 
 std::string PlanText(const PlanReport& report);
-std::string PlanJson(const PlanReport& report);  // {"question", and a number for each key}
+std::string PlanJson(const PlanReport& report);  // {"question", and a number for each key}, and
+                                                 // KEY_or_more: true where its search was cut off
 
 }  // namespace rockyard::app

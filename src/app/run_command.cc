@@ -59,7 +59,8 @@ ReportOptions ReportOptionsOf(const RunOptions& options) {
 }
 
 ExitCode Run(const RunOptions& options) {
-  TellIdleAblations(options);
+  if (IsFirstRank()) TellIdleAblations(options);
+  if (options.campaign.dry_run && !IsFirstRank()) return ExitCode::kDone;
   if (options.campaign.dry_run) return DryRun(options.campaign, PlanOf(options));
   return RunCampaign(
       options.campaign, [&] { return PlanOf(options); },

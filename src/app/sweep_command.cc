@@ -1,13 +1,20 @@
 // rockyard sweep
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/campaign_options.h"
 #include "app/commands.h"
+#include "app/console.h"
+#include "app/planned_trials.h"
 #include "app/run_campaign.h"
 #include "app/sweep_plan.h"
 #include "app/sweep_report.h"
+#include "core/error.h"
 #include "scenario/sweep.h"
 
 namespace rockyard::app {
@@ -20,10 +27,20 @@ struct SweepOptions {
   int pilots = 3;
 };
 
+// Problems name the file, of which a cluster job may have many.
 scenario::Sweep SweepOf(const SweepOptions& options) {
-  return scenario::LoadSweep(options.file, {.overrides = options.campaign.overrides,
-                                            .trials = options.campaign.trials,
-                                            .seed = options.campaign.seed});
+  try {
+    return scenario::LoadSweep(options.file, {.overrides = options.campaign.overrides,
+                                              .trials = options.campaign.trials,
+                                              .seed = options.campaign.seed});
+  } catch (const core::UserError& error) {
+    std::vector<core::Problem> problems = error.problems();
+    for (core::Problem& problem : problems) {
+      if (problem.path.starts_with(options.file)) continue;
+      problem.path = fmt::format("{}: {}", options.file, problem.path);
+    }
+    throw core::UserError(std::move(problems));
+  }
 }
 
 CampaignPlan PlanOf(const scenario::Sweep& sweep) {
@@ -44,16 +61,29 @@ ReportOptions ReportOptionsOf(const SweepOptions& options) {
           .threads = options.campaign.threads};
 }
 
-ExitCode Sweep(const SweepOptions& options) {
+// On rank 0 alone.
+ExitCode DryRun(const SweepOptions& options) {
+  if (!IsFirstRank()) return ExitCode::kDone;
   const scenario::Sweep sweep = SweepOf(options);
-  if (options.campaign.dry_run) {
-    WriteSweepPlan(sweep, {.folder = options.campaign.out,
-                           .pilots = options.pilots,
-                           .output = options.campaign.output()});
-    return ExitCode::kDone;
-  }
+  const CampaignPlan plan = PlanOf(sweep);
+  CheckPlan(options.campaign, plan);
+  WriteSweepPlan(sweep, {.folder = options.campaign.out,
+                         .trials = TrialsOf(RequestOf(options.campaign, plan), plan),
+                         .pilots = options.pilots,
+                         .output = options.campaign.output()});
+  return ExitCode::kDone;
+}
+
+ExitCode Sweep(const SweepOptions& options) {
+  if (options.campaign.dry_run) return DryRun(options);
+  // Read where trials are planned: on rank 0 alone, so that a mistake is told once.
+  scenario::Sweep sweep;
   return RunCampaign(
-      options.campaign, [&] { return PlanOf(sweep); },
+      options.campaign,
+      [&] {
+        sweep = SweepOf(options);
+        return PlanOf(sweep);
+      },
       [&](const OpenedRun& run, const batch::BatchResult&) {
         ReportSweep(run.store, sweep, ReportOptionsOf(options));
       });

@@ -23,27 +23,27 @@ std::vector<batch::PilotCost> RunPilots(const scenario::Sweep& sweep, int trials
   return pilots;
 }
 
-CampaignCost ExpectedCost(const scenario::Sweep& sweep,
+CampaignCost ExpectedCost(const PlannedTrials& planned,
                           const std::vector<batch::PilotCost>& pilots) {
   CampaignCost cost;
   double measured_trials = 0.0;
-  double all_trials = 0.0;
   double variance = 0.0;
+  bool scatter = false;
   for (std::size_t i = 0; i < pilots.size(); ++i) {
-    const auto planned = static_cast<double>(sweep.cells[i].scenario.trials);
+    const auto trials = static_cast<double>(planned.cells[i]);
     const batch::PilotCost& pilot = pilots[i];
-    all_trials += planned;
     if (pilot.trials == 0) continue;
-    measured_trials += planned;
+    measured_trials += trials;
     cost.pilots += pilot.trials;
-    cost.total_s += planned * pilot.mean_s;
+    cost.total_s += trials * pilot.mean_s;
     cost.slowest_s = std::max(cost.slowest_s, pilot.slowest_s);
-    variance += pilot.variance_s2 * planned * (1.0 + planned / static_cast<double>(pilot.trials));
+    variance += pilot.variance_s2 * trials * (1.0 + trials / static_cast<double>(pilot.trials));
+    scatter = scatter || pilot.trials > 1;
   }
   if (measured_trials == 0.0) return cost;
-  const double share = all_trials / measured_trials;
+  const double share = static_cast<double>(planned.total) / measured_trials;
   cost.total_s *= share;
-  cost.standard_error_s = share * std::sqrt(variance);
+  if (scatter) cost.standard_error_s = share * std::sqrt(variance);
   return cost;
 }
 

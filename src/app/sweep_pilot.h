@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "app/planned_trials.h"
 #include "batch/pilot.h"
 #include "scenario/sweep.h"
 
@@ -18,11 +20,13 @@ struct CampaignCost {
   double total_s = 0.0;  // CPU time of every trial of every cell
   // Of that: what the pilots leave open of each cell's mean, and the scatter of the trials. Of the
   // cells with pilots; the others are taken to cost as much as the mean of these.
-  double standard_error_s = 0.0;
+  // Absent where each of them had one pilot, which tells of no scatter.
+  std::optional<double> standard_error_s = {};
   double slowest_s = 0.0;  // pilot
 };
 
-CampaignCost ExpectedCost(const scenario::Sweep& sweep,
+// Of the trials that are planned, by cell as the pilots are.
+CampaignCost ExpectedCost(const PlannedTrials& planned,
                           const std::vector<batch::PilotCost>& pilots);
 
 }  // namespace rockyard::app

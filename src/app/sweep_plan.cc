@@ -29,7 +29,10 @@ using core::JsonValue;
 using scenario::Sweep;
 
 constexpr const char* kPlanFile = "plan.json";
+constexpr const char* kTableFile = "plan.csv";
+constexpr const char* kCellFolder = "cells";
 constexpr std::array<int, 4> kThreadCounts{1, 2, 4, 16};
+constexpr int kLeastToCompare = 2;  // one pilot may be equal by chance
 
 fs::path FolderOf(const Sweep& sweep, const SweepPlanOptions& options) {
   if (!options.folder.empty()) return options.folder;
@@ -38,30 +41,38 @@ fs::path FolderOf(const Sweep& sweep, const SweepPlanOptions& options) {
   return folder;
 }
 
+// The mark of a plan is not asked for: a dry run may be interrupted before it is written.
+bool IsPartOfPlan(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return name == kCellFolder || name.starts_with(kPlanFile) || name.starts_with(kTableFile);
+}
+
 // A plan replaces a plan, and nothing else.
+void CheckPlanFolder(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder, error)) return;
+  bool free = fs::is_directory(folder, error);
+  if (free) {
+    const fs::directory_iterator entries(folder, error);
+    free = std::all_of(begin(entries), end(entries),
+                       [](const auto& entry) { return IsPartOfPlan(entry.path()); });
+  }
+  if (free && !error) return;
+  throw core::UserError(folder.string(), "holds something else than a plan",
+                        "choose another folder with --out");
+}
+
 void MakeFolder(const fs::path& folder) {
   std::error_code error;
-  const bool free = !fs::exists(folder, error) ||
-                    (fs::is_directory(folder, error) &&
-                     (fs::is_empty(folder, error) || fs::exists(folder / kPlanFile, error)));
-  if (!free) {
-    throw core::UserError(folder.string(), "is not empty and holds no plan",
-                          "choose another folder with --out");
-  }
-  fs::create_directories(folder / "cells", error);
+  fs::create_directories(folder / kCellFolder, error);
   if (error) {
     throw core::UserError(folder.string(), "cannot be made: " + error.message(),
                           "check the path and its permissions");
   }
 }
 
-std::int64_t TotalTrials(const Sweep& sweep) {
-  std::int64_t total = 0;
-  for (const scenario::SweepCell& cell : sweep.cells) total += cell.scenario.trials;
-  return total;
-}
-
-JsonValue CellPlan(const Sweep& sweep, std::size_t index, const batch::PilotCost& cost) {
+JsonValue CellPlan(const Sweep& sweep, std::size_t index, std::int64_t trials,
+                   const batch::PilotCost& cost) {
   const scenario::SweepCell& cell = sweep.cells[index];
   JsonValue levels = JsonValue::Object();
   for (std::size_t i = 0; i < sweep.axes.size(); ++i) {
@@ -70,11 +81,11 @@ JsonValue CellPlan(const Sweep& sweep, std::size_t index, const batch::PilotCost
   }
   JsonValue plan = JsonValue::Object();
   plan.Set("name", JsonValue(cell.name));
-  plan.Set("file",
-           JsonValue(fmt::format("cells/{}.json", scenario::CellFileName(index, cell.name))));
+  plan.Set("file", JsonValue(fmt::format("{}/{}.json", kCellFolder,
+                                         scenario::CellFileName(index, cell.name))));
   plan.Set("levels", std::move(levels));
   plan.Set("seed", JsonValue(cell.scenario.seed));
-  plan.Set("trials", JsonValue(cell.scenario.trials));
+  plan.Set("trials", JsonValue(trials));
   plan.Set("fingerprint", JsonValue(core::Hex(scenario::Fingerprint(cell.scenario))));
   if (cost.trials == 0) return plan;
   plan.Set("pilots", JsonValue(cost.trials));
@@ -87,28 +98,32 @@ JsonValue CostOf(const CampaignCost& cost) {
   JsonValue json = JsonValue::Object();
   json.Set("pilots", JsonValue(cost.pilots));
   json.Set("cpu_s", JsonValue(cost.total_s));
-  json.Set("cpu_s_standard_error", JsonValue(cost.standard_error_s));
+  if (cost.standard_error_s) {
+    json.Set("cpu_s_standard_error", JsonValue(*cost.standard_error_s));
+  }
   return json;
 }
 
-std::string PlanJson(const Sweep& sweep, const std::vector<batch::PilotCost>& pilots,
-                     const CampaignCost& cost) {
+std::string PlanJson(const Sweep& sweep, const PlannedTrials& trials,
+                     const std::vector<batch::PilotCost>& pilots, const CampaignCost& cost) {
   JsonValue::List cells;
   for (std::size_t i = 0; i < sweep.cells.size(); ++i) {
-    cells.push_back(CellPlan(sweep, i, pilots[i]));
+    cells.push_back(CellPlan(sweep, i, trials.cells[i], pilots[i]));
   }
   JsonValue plan = JsonValue::Object();
   plan.Set("schema_version", JsonValue(std::int64_t{1}));
   plan.Set("name", JsonValue(sweep.name));
   plan.Set("seed", JsonValue(static_cast<std::int64_t>(sweep.seed)));
   plan.Set("common_random_numbers", JsonValue(sweep.common_random_numbers));
-  plan.Set("trials", JsonValue(TotalTrials(sweep)));
+  plan.Set("trials", JsonValue(trials.total));
+  plan.Set("at_most", JsonValue(trials.at_most));
   if (cost.pilots > 0) plan.Set("cost", CostOf(cost));
   plan.Set("cells", JsonValue(std::move(cells)));
   return core::DumpJson(plan);
 }
 
-std::string PlanCsv(const Sweep& sweep, const std::vector<batch::PilotCost>& pilots) {
+std::string PlanCsv(const Sweep& sweep, const PlannedTrials& trials,
+                    const std::vector<batch::PilotCost>& pilots) {
   std::vector<std::string> fields{"cell", "name"};
   for (const scenario::SweepAxis& axis : sweep.axes) fields.push_back(report::CsvField(axis.name));
   for (const char* name : {"seed", "trials", "fingerprint", "pilots", "cpu_s_per_trial",
@@ -124,10 +139,10 @@ std::string PlanCsv(const Sweep& sweep, const std::vector<batch::PilotCost>& pil
       fields.push_back(report::CsvField(level.text));
     }
     fields.push_back(std::to_string(cell.scenario.seed));
-    fields.push_back(std::to_string(cell.scenario.trials));
+    fields.push_back(std::to_string(trials.cells[i]));
     fields.push_back(core::Hex(scenario::Fingerprint(cell.scenario)));
     fields.push_back(std::to_string(pilot.trials));
-    const double expected_s = pilot.mean_s * static_cast<double>(cell.scenario.trials);
+    const double expected_s = pilot.mean_s * static_cast<double>(trials.cells[i]);
     for (const double number : {pilot.mean_s, pilot.slowest_s, expected_s}) {
       fields.push_back(pilot.trials == 0 ? std::string() : report::CsvNumber(number));
     }
@@ -142,11 +157,14 @@ std::string Duration(double seconds) {
   return fmt::format("{:.3g} h", seconds / 3600.0);
 }
 
-std::string CostText(const CampaignCost& cost) {
+std::string CostText(const CampaignCost& cost, const PlannedTrials& trials) {
   if (cost.pilots == 0) return "  no pilots, no cost\n";
+  const std::string error = cost.standard_error_s
+                                ? "standard error " + Duration(*cost.standard_error_s)
+                                : "one pilot a cell tells no standard error";
   std::string text =
-      fmt::format("  expected cost, from {} pilot trials: {} of CPU time (standard error {})\n    ",
-                  cost.pilots, Duration(cost.total_s), Duration(cost.standard_error_s));
+      fmt::format("  expected cost, from {} pilot trials: {}{} of CPU time ({})\n    ", cost.pilots,
+                  trials.at_most ? "at most " : "", Duration(cost.total_s), error);
   for (const int threads : kThreadCounts) {
     text += fmt::format("{} with {} thread{}{}", Duration(cost.total_s / threads), threads,
                         threads == 1 ? "" : "s", threads == kThreadCounts.back() ? "\n" : ", ");
@@ -161,7 +179,7 @@ std::vector<std::string> EqualPilots(const Sweep& sweep,
   std::vector<std::string> notes;
   std::map<std::string, std::size_t> known;
   for (std::size_t i = 0; i < pilots.size(); ++i) {
-    if (pilots[i].trials == 0) continue;
+    if (pilots[i].trials < kLeastToCompare) continue;
     const auto [at, fresh] = known.try_emplace(pilots[i].hash, i);
     if (fresh) continue;
     notes.push_back(fmt::format(
@@ -176,23 +194,24 @@ std::vector<std::string> EqualPilots(const Sweep& sweep,
 
 void WriteSweepPlan(const Sweep& sweep, const SweepPlanOptions& options) {
   const fs::path folder = FolderOf(sweep, options);
+  CheckPlanFolder(folder);
+  const std::vector<batch::PilotCost> pilots = RunPilots(sweep, options.pilots);
+  const CampaignCost cost = ExpectedCost(options.trials, pilots);
+  const std::string json = PlanJson(sweep, options.trials, pilots, cost);
   MakeFolder(folder);
   for (std::size_t i = 0; i < sweep.cells.size(); ++i) {
     const scenario::SweepCell& cell = sweep.cells[i];
-    report::WriteFileAtomically(folder / "cells" / (scenario::CellFileName(i, cell.name) + ".json"),
-                                scenario::ResolvedJson(cell.scenario));
+    const std::string name = scenario::CellFileName(i, cell.name) + ".json";
+    report::WriteFileAtomically(folder / kCellFolder / name, scenario::ResolvedJson(cell.scenario));
   }
-  const std::vector<batch::PilotCost> pilots = RunPilots(sweep, options.pilots);
-  const CampaignCost cost = ExpectedCost(sweep, pilots);
-  const std::string json = PlanJson(sweep, pilots, cost);
-  report::WriteFileAtomically(folder / "plan.csv", PlanCsv(sweep, pilots));
+  report::WriteFileAtomically(folder / kTableFile, PlanCsv(sweep, options.trials, pilots));
   report::WriteFileAtomically(folder / kPlanFile, json);
   for (const std::string& note : EqualPilots(sweep, pilots)) PrintNote(note);
   if (options.output == Output::kJson) Print(json);
   if (options.output != Output::kText) return;
-  Print(fmt::format("{}: {} cells, {} trials, seed {}\n", sweep.name, sweep.cells.size(),
-                    TotalTrials(sweep), sweep.seed));
-  Print(CostText(cost));
+  Print(Wrapped(fmt::format("{}: {} cells, {}, seed {}\n", sweep.name, sweep.cells.size(),
+                            options.trials.text(), sweep.seed)));
+  Print(Wrapped(CostText(cost, options.trials)));
   Print(fmt::format("  plan, and every cell's scenario, in {}\n", folder.string()));
 }
 

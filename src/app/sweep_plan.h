@@ -4,18 +4,21 @@
 #include <filesystem>
 
 #include "app/campaign_options.h"
+#include "app/planned_trials.h"
 #include "scenario/sweep.h"
 
 namespace rockyard::app {
 
 struct SweepPlanOptions {
   std::filesystem::path folder;  // empty: results/runs/<name>-seed<seed>-plan
+  PlannedTrials trials;          // of the cells of the sweep
   int pilots = 3;                // trials of each cell that are run for their cost; 0: none
   Output output = Output::kText;
 };
 
 // Writes plan.json, plan.csv and cells/<number>-<name>.json (each resolved scenario) into the
-// folder, which must not exist, be empty, or hold a plan. Nothing that is measured of the pilots
+// folder, which must not exist, be empty, or hold nothing but a plan or what an interrupted dry run
+// left of one; the pilots run before anything is written. Nothing that is measured of the pilots
 // but their CPU time is kept: they are no results. With a hundred cells or more only a hundred of
 // them, evenly spread, have pilots, which all use the seed of the campaign: cells whose pilots come
 // out equal to the last bit are named, since a setting that changes no trial has no effect. Throws

@@ -88,7 +88,27 @@ void CheckAxes(const SweepSpec& spec, std::vector<core::Problem>& problems) {
   }
 }
 
+// A scale that nobody asked for gives way to the numbers; one that was asked for does not.
+void CheckFitScale(const SweepSpec& spec, std::vector<core::Problem>& problems) {
+  const core::JsonValue* fit = spec.document.Find("fit");
+  const bool asked = fit != nullptr && fit->Find("scale") != nullptr;
+  if (!asked || spec.params.fit.scale != AxisScale::kLog) return;
+  const std::string& name = spec.params.fit.axis;
+  const auto axis = std::find_if(spec.axes.begin(), spec.axes.end(), [&](const AxisSpec& each) {
+    return each.axis.numeric && (name.empty() || each.axis.name == name);
+  });
+  if (axis == spec.axes.end()) return;
+  double least = axis->continuous() ? std::min(axis->from, axis->to) : 1.0;
+  for (const LevelSpec& level : axis->levels) least = std::min(least, level.number.value_or(1.0));
+  if (least > 0.0) return;
+  problems.push_back({"fit.scale",
+                      fmt::format("is log, and axis {} has the number {}, which has no logarithm",
+                                  axis->axis.name, least),
+                      "use scale linear, or leave that number out"});
+}
+
 void CheckFit(const SweepSpec& spec, std::vector<core::Problem>& problems) {
+  CheckFitScale(spec, problems);
   const std::string& name = spec.params.fit.axis;
   if (name.empty()) return;
   std::vector<std::string_view> numeric;

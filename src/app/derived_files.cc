@@ -1,0 +1,50 @@
+#include "app/derived_files.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <system_error>
+
+#include "core/error.h"
+
+namespace rockyard::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+// As report/run_files.h and report/sweep_files.h write them.
+constexpr std::array kDerivedFiles = {
+    "attribution.csv", "cells.csv",        "cells.svg",
+    "curves.csv",      "distance_cdf.csv", "differences.csv",
+    "fit.csv",         "fits.csv",         "scenario.resolved.json",
+    "success.svg",     "summary.json",     "sweep.json",
+    "trials.csv"};
+
+fs::path FreeName(const fs::path& folder, const fs::path& name) {
+  for (int number = 1;; ++number) {
+    fs::path aside =
+        fmt::format("{}.old-{}{}", name.stem().string(), number, name.extension().string());
+    std::error_code error;
+    if (!fs::exists(fs::symlink_status(folder / aside, error))) return aside;
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> SetDerivedFilesAside(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const fs::path name : kDerivedFiles) {
+    std::error_code error;
+    if (!fs::exists(fs::symlink_status(folder / name, error))) continue;
+    const fs::path aside = FreeName(folder, name);
+    fs::rename(folder / name, folder / aside, error);
+    if (error) {
+      throw core::UserError((folder / name).string(), "cannot be set aside: " + error.message(),
+                            "check the permissions, or choose another folder with --out");
+    }
+    names.push_back(aside.string());
+  }
+  return names;
+}
+
+}  // namespace rockyard::app

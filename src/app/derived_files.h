@@ -1,0 +1,16 @@
+// Files that a campaign derives from its store, beside it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rockyard::app {
+
+// Renames every file in the folder that has the name of one that a campaign writes beside its
+// store, whoever wrote it: summary.json to summary.old-1.json, or -2, ... Nothing is deleted or
+// overwritten. Returns the new names. Requires a claim of the folder. Throws core::UserError where
+// one cannot be renamed.
+std::vector<std::string> SetDerivedFilesAside(const std::filesystem::path& folder);
+
+}  // namespace rockyard::app

@@ -1,0 +1,16 @@
+// What no option of any command may be given.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace rockyard::app {
+
+// Lets every option of the command and of its subcommands refuse, on top of its own checks, an
+// empty value, which the parser would take for none, and where it takes a real number "nan" and
+// "inf": a range lets NaN pass, since NaN lies neither below nor above it. Called when all options
+// have been added.
+void CheckEveryValue(CLI::App& app);
+
+}  // namespace rockyard::app
