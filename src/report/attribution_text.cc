@@ -9,12 +9,13 @@ namespace {
 using statistics::Attribution;
 using statistics::Estimate;
 
-constexpr std::size_t kNameWidth = 26;
+constexpr std::size_t kNameWidth = 23;  // three intervals beside it fit 100 columns
+constexpr std::size_t kPlaceWidth = 30;
 // Longer tables are for files.
 constexpr std::size_t kMostEffects = 15;
 
-std::string Cut(const std::string& text) {
-  return text.size() <= kNameWidth ? text : text.substr(0, kNameWidth - 3) + "...";
+std::string Cut(const std::string& text, std::size_t width = kNameWidth) {
+  return text.size() <= width ? text : text.substr(0, width - 3) + "...";
 }
 
 std::string Percent(const Estimate& estimate) {
@@ -27,7 +28,7 @@ std::string Percent(const statistics::Proportion& rate) {
 }
 
 std::string Shares(const Attribution& result) {
-  std::string text = fmt::format("  {:<{}} {:<23} {:<23} {}\n", "made perfect removes, %",
+  std::string text = fmt::format("  {:<{}} {:<24} {:<24} {}\n", "made perfect removes, %",
                                  kNameWidth, "Shapley share", "alone", "after all others");
   for (const statistics::FunctionShare& row : result.shares) {
     text += fmt::format("  {:<{}} {} {} {}\n", Cut(row.function), kNameWidth, Percent(row.share),
@@ -40,7 +41,7 @@ std::string Shares(const Attribution& result) {
 
 std::string Failures(const Attribution& result) {
   return fmt::format("  {:<{}} {}\n  {:<{}} {}\n", "fail as flown, %", kNameWidth,
-                     Percent(result.failures.front()), "fail with all perfect, %", kNameWidth,
+                     Percent(result.failures.front()), "fail, all perfect, %", kNameWidth,
                      Percent(result.remainder));
 }
 
@@ -68,13 +69,12 @@ std::string Combinations(const Attribution& result) {
 
 std::string Table(const SweepAttribution& attribution, std::size_t kind) {
   const Attribution& result = attribution.by_success[kind];
-  const std::string at = attribution.at.empty() ? "" : ", " + attribution.at;
-  std::string text = fmt::format("\nattribution of failures, {}{}: {} paired trials",
-                                 kSuccessNames[kind], at.substr(0, 40), result.trials);
+  const std::string at = attribution.at.empty() ? "" : ", " + Cut(attribution.at, kPlaceWidth);
+  std::string text = fmt::format("\nattribution of failures, {}{}: {} paired trials\n",
+                                 kSuccessNames[kind], at, result.trials);
   if (attribution.left_out > 0) {
-    text += fmt::format(", {} with a fault left out", attribution.left_out);
+    text += fmt::format("  {} with a fault in some cell left out\n", attribution.left_out);
   }
-  text += "\n";
   if (result.trials == 0) return text;
   text += Failures(result) + Shares(result);
   // The other definition of success gets the short table.
