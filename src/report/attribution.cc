@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
-
-#include "report/sweep_summary.h"
 
 namespace rockyard::report {
 namespace {
@@ -15,7 +14,6 @@ namespace {
 using scenario::Sweep;
 using statistics::Combination;
 using statistics::FactorialFailures;
-using truth::Record;
 
 // Cells of one setting of the other axes, by combination.
 struct Setting {
@@ -62,30 +60,32 @@ std::vector<Setting> Settings(const Sweep& sweep, std::span<const std::size_t> a
   return settings;
 }
 
-bool Failed(const Record& record, SuccessKind kind) {
-  return kind == SuccessKind::kDeclared ? !truth::DeclaredSuccess(record.outcome)
-                                        : record.outcome != truth::TrialOutcome::kGoalReached;
-}
-
 SweepAttribution AttributeSetting(const Setting& setting, const std::vector<std::string>& functions,
-                                  std::span<const std::vector<Record>> outcomes) {
+                                  std::span<const CellOutcomes> outcomes) {
   SweepAttribution result{.at = setting.at, .by_success = {}};
   std::size_t trials = outcomes[setting.cells.front()].size();
-  for (const std::size_t cell : setting.cells) trials = std::min(trials, outcomes[cell].size());
+  std::size_t per_layout = 1;
+  for (const std::size_t cell : setting.cells) {
+    trials = std::min(trials, outcomes[cell].size());
+    per_layout = std::lcm(per_layout, outcomes[cell].per_layout());
+  }
   std::array<FactorialFailures, 2> failures;
   for (FactorialFailures& each : failures) {
-    each = {functions, std::vector<std::vector<std::uint8_t>>(setting.cells.size())};
+    each.functions = functions;
+    each.failed.resize(setting.cells.size());
   }
   for (std::size_t t = 0; t < trials; ++t) {
     if (std::any_of(setting.cells.begin(), setting.cells.end(),
-                    [&](std::size_t cell) { return truth::IsFault(outcomes[cell][t]); })) {
+                    [&](std::size_t cell) { return outcomes[cell].IsFault(t); })) {
       ++result.left_out;
       continue;
     }
     for (std::size_t kind = 0; kind < failures.size(); ++kind) {
+      if (per_layout > 1) failures[kind].clusters.push_back(t / per_layout);
       for (std::size_t c = 0; c < setting.cells.size(); ++c) {
-        const Record& record = outcomes[setting.cells[c]][t];
-        failures[kind].failed[c].push_back(Failed(record, static_cast<SuccessKind>(kind)) ? 1 : 0);
+        const CellOutcomes& cell = outcomes[setting.cells[c]];
+        failures[kind].failed[c].push_back(cell.Succeeded(t, static_cast<SuccessKind>(kind)) ? 0
+                                                                                             : 1);
       }
     }
   }
@@ -98,7 +98,7 @@ SweepAttribution AttributeSetting(const Setting& setting, const std::vector<std:
 }  // namespace
 
 std::vector<SweepAttribution> AttributeSweep(const Sweep& sweep,
-                                             std::span<const std::vector<Record>> outcomes) {
+                                             std::span<const CellOutcomes> outcomes) {
   const std::vector<std::size_t> axes = AblationAxes(sweep);
   if (sweep.design != scenario::DesignKind::kGrid || !sweep.common_random_numbers || axes.empty() ||
       axes.size() > statistics::kMostFunctions) {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "report/sweep_outcomes.h"
 #include "scenario/sweep.h"
 #include "statistics/attribution.h"
-#include "truth/record.h"
 
 namespace rockyard::report {
 
@@ -24,9 +24,9 @@ struct SweepAttribution {
 // One attribution for each setting of the axes that are no ablations. Nothing for sweeps that are
 // no grid, have no axis of ablations or more than statistics::kMostFunctions, or no common random
 // numbers: trials are compared in pairs. Uses the trials that every cell of a setting has.
-// `outcomes` of each cell, by trial from 0 on; values are not looked at.
+// `outcomes` of each cell, by trial from 0 on. Intervals allow for trials that share layouts.
 std::vector<SweepAttribution> AttributeSweep(const scenario::Sweep& sweep,
-                                             std::span<const std::vector<truth::Record>> outcomes);
+                                             std::span<const CellOutcomes> outcomes);
 
 // Tables for the terminal, at most 100 columns wide. Empty where there is nothing.
 std::string AttributionText(std::span<const SweepAttribution> attributions);

@@ -87,6 +87,7 @@ Fields FitFields(const SweepCurve& curve, std::size_t kind) {
     AddInterval(crossing.interval, fields);
     fields.emplace_back(crossing.extrapolated ? "outside" : "inside");
   }
+  fields.push_back(std::to_string(fit.clusters));
   return fields;
 }
 
@@ -161,7 +162,7 @@ std::string SweepFitsCsv(const SweepSummary& summary) {
   std::string csv =
       "curve,success,status,scale,intercept,slope,var_intercept,covariance,var_slope,deviance,"
       "degrees_of_freedom,p_value,slope_p_value,x90,x90_low,x90_high,x90_place,x50,x50_low,"
-      "x50_high,x50_place\n";
+      "x50_high,x50_place,clusters\n";
   for (const SweepCurve& curve : summary.curves) {
     for (std::size_t kind = 0; kind < kSuccessNames.size(); ++kind) {
       csv += CsvLine(FitFields(curve, kind));

@@ -37,7 +37,8 @@ std::string SweepFitCsv(const SweepSummary& summary);
 
 // fits.csv: one line per curve and success: status, scale, coefficients, covariance, deviance with
 // degrees of freedom and p, and the numbers at which 90 % and 50 % succeed with 95 % intervals and
-// whether they lie outside of the settings.
+// whether they lie outside of the settings, and of how many clusters of dependent trials the
+// covariance knows (0: trials are independent).
 std::string SweepFitsCsv(const SweepSummary& summary);
 
 // differences.csv: one line per pair of levels and success.

@@ -79,6 +79,7 @@ Json Fit(const SweepCurve& curve, std::size_t kind) {
           {"deviance", Number(fit.deviance)},
           {"degrees_of_freedom", fit.degrees_of_freedom},
           {"p_value", Number(fit.p_value)},
+          {"clusters", fit.clusters},
           {"crossings", crossings}};
 }
 

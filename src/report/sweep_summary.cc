@@ -4,10 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
 #include "report/accounting.h"
+#include "report/sweep_curves.h"
+#include "report/sweep_outcomes.h"
+#include "statistics/clustered_rate.h"
+#include "statistics/confidence_sequence.h"
 #include "statistics/drive_summary.h"
 #include "statistics/multiple_testing.h"
 
@@ -16,20 +21,40 @@ namespace {
 
 using scenario::Sweep;
 using scenario::SweepCell;
+using statistics::Interval;
 using statistics::Proportion;
 using truth::Record;
 
 constexpr double kConfidence = 0.95;
-constexpr std::array<double, 2> kCrossingRates{0.9, 0.5};
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-SweepRate RateOf(const Proportion& rate, std::size_t cells) {
-  const double alone = 1.0 - (1.0 - kConfidence) / static_cast<double>(cells);
-  return {rate, statistics::ProportionInterval(rate.count, rate.trials, alone,
-                                               statistics::IntervalMethod::kClopperPearson)};
+// With a stopping rule the number of trials depends on what they say, so that only the sequence
+// holds the rate as often as it states; trials on one layout are no independent ones.
+Interval IntervalOf(const SweepCellTrials& trials, const CellOutcomes& outcomes, SuccessKind kind,
+                    const Proportion& rate, double confidence) {
+  if (trials.stopping) {
+    return statistics::ConfidenceSequence(rate.count, rate.trials, confidence);
+  }
+  if (outcomes.SharesLayouts()) {
+    return statistics::ClusteredRateInterval(outcomes.ByLayout(kind), confidence,
+                                             statistics::WithoutScatter::kOnePerRun);
+  }
+  return statistics::ProportionInterval(rate.count, rate.trials, confidence,
+                                        statistics::IntervalMethod::kClopperPearson);
 }
 
-SweepCellSummary SummarizeCell(const SweepCellTrials& trials, std::size_t cells,
-                               statistics::IntervalMethod method) {
+SweepRate RateOf(const SweepCellTrials& trials, const CellOutcomes& outcomes, SuccessKind kind,
+                 const Proportion& rate, std::size_t cells) {
+  const double alone = 1.0 - (1.0 - kConfidence) / static_cast<double>(cells);
+  SweepRate result{rate, IntervalOf(trials, outcomes, kind, rate, alone)};
+  if (trials.stopping || outcomes.SharesLayouts()) {
+    result.rate.interval = IntervalOf(trials, outcomes, kind, rate, kConfidence);
+  }
+  return result;
+}
+
+SweepCellSummary SummarizeCell(const SweepCellTrials& trials, const CellOutcomes& outcomes,
+                               std::size_t cells, statistics::IntervalMethod method) {
   const statistics::DriveSummary drive =
       statistics::Summarize(trials.schema, trials.prefix, trials.planned, method);
   SweepCellSummary summary;
@@ -39,96 +64,20 @@ SweepCellSummary SummarizeCell(const SweepCellTrials& trials, std::size_t cells,
   summary.stopping = trials.stopping;
   summary.completed = drive.completed;
   summary.faults = drive.faults;
-  summary.declared_success = RateOf(drive.declared_success, cells);
-  summary.true_success = RateOf(drive.true_success, cells);
+  summary.declared_success =
+      RateOf(trials, outcomes, SuccessKind::kDeclared, drive.declared_success, cells);
+  summary.true_success = RateOf(trials, outcomes, SuccessKind::kTrue, drive.true_success, cells);
   summary.outcomes = drive.outcomes;
   summary.metrics = statistics::SummarizeMetrics(trials.schema, trials.prefix, method);
   summary.trial_hash = trials.trial_hash;
   return summary;
 }
 
-// The levels of a cell but for one axis: what has to be equal for two cells to be compared along
-// it.
-std::string Others(const Sweep& sweep, const SweepCell& cell, std::size_t axis) {
-  std::string text;
-  for (std::size_t i = 0; i < sweep.axes.size(); ++i) {
-    if (i == axis) continue;
-    text +=
-        fmt::format("{}{}={}", text.empty() ? "" : ",", sweep.axes[i].name, cell.levels[i].text);
-  }
-  return text;
-}
-
-// Cells that differ along one axis alone, in the order of the sweep.
-std::vector<std::pair<std::string, std::vector<std::size_t>>> Groups(const Sweep& sweep,
-                                                                     std::size_t axis) {
-  std::vector<std::pair<std::string, std::vector<std::size_t>>> groups;
-  std::map<std::string, std::size_t> known;
-  for (std::size_t i = 0; i < sweep.cells.size(); ++i) {
-    const std::string others = Others(sweep, sweep.cells[i], axis);
-    const auto [at, fresh] = known.try_emplace(others, groups.size());
-    if (fresh) groups.emplace_back(others, std::vector<std::size_t>());
-    groups[at->second].second.push_back(i);
-  }
-  return groups;
-}
-
-SweepCurve Curve(const Sweep& sweep, const std::vector<SweepCellSummary>& cells, std::string label,
-                 std::vector<std::size_t> members) {
-  const std::size_t axis = *sweep.fit_axis;
-  const auto number = [&](std::size_t cell) { return *sweep.cells[cell].levels[axis].number; };
-  std::sort(members.begin(), members.end(),
-            [&](std::size_t a, std::size_t b) { return number(a) < number(b); });
-  SweepCurve curve{
-      .label = std::move(label), .cells = std::move(members), .x = {}, .fits = {}, .crossings = {}};
-  for (const std::size_t cell : curve.cells) curve.x.push_back(number(cell));
-  const bool log = sweep.fit_scale == scenario::AxisScale::kLog && curve.x.front() > 0.0;
-  for (std::size_t kind = 0; kind < 2; ++kind) {
-    std::vector<statistics::DosePoint> points;
-    for (std::size_t i = 0; i < curve.cells.size(); ++i) {
-      const SweepCellSummary& cell = cells[curve.cells[i]];
-      const Proportion& rate = kind == 0 ? cell.declared_success.rate : cell.true_success.rate;
-      points.push_back({curve.x[i], rate.count, rate.trials});
-    }
-    statistics::LogisticFit& fit = curve.fits[kind];
-    fit = statistics::FitLogistic(points,
-                                  log ? statistics::FitScale::kLog : statistics::FitScale::kLinear);
-    if (fit.status != statistics::FitStatus::kFitted) continue;
-    for (const double rate : kCrossingRates) {
-      curve.crossings[kind].push_back(statistics::FindCrossing(fit, points, rate));
-    }
-  }
-  return curve;
-}
-
-// Points that fill several axes share no levels: each would be a curve of its own.
-bool HasCurves(const Sweep& sweep) {
-  return sweep.fit_axis && (sweep.design == scenario::DesignKind::kGrid || sweep.axes.size() == 1);
-}
-
-std::vector<SweepCurve> Curves(const Sweep& sweep, const std::vector<SweepCellSummary>& cells) {
-  std::vector<SweepCurve> curves;
-  if (!HasCurves(sweep)) return curves;
-  for (auto& [label, members] : Groups(sweep, *sweep.fit_axis)) {
-    curves.push_back(Curve(sweep, cells, label, std::move(members)));
-  }
-  return curves;
-}
-
-// Records without their values: what comparing successes needs.
-std::vector<Record> OutcomesOf(const std::vector<Record>& records) {
-  std::vector<Record> outcomes;
-  outcomes.reserve(records.size());
-  for (const Record& record : records) {
-    outcomes.push_back({record.trial, record.outcome, {}, {}});
-  }
-  return outcomes;
-}
-
 class Comparer {
  public:
-  Comparer(const Sweep& sweep, const std::vector<std::vector<Record>>& outcomes)
-      : sweep_(sweep), outcomes_(outcomes) {}
+  Comparer(const Sweep& sweep, std::span<const SweepCellSummary> cells,
+           std::span<const CellOutcomes> outcomes)
+      : sweep_(sweep), cells_(cells), outcomes_(outcomes) {}
 
   std::vector<SweepDifference> Compare() {
     if (sweep_.design == scenario::DesignKind::kGrid) {
@@ -136,41 +85,74 @@ class Comparer {
         if (!sweep_.axes[axis].numeric) CompareAlong(axis);
       }
     }
+    // Tests that cannot be made are no members of the family.
     std::vector<double> p_values;
-    for (const SweepDifference& each : differences_) p_values.push_back(each.success.p_value);
+    for (const SweepDifference& each : differences_) {
+      if (std::isfinite(each.success.p_value)) p_values.push_back(each.success.p_value);
+    }
     const std::vector<double> adjusted = statistics::HolmAdjust(p_values);
-    for (std::size_t i = 0; i < adjusted.size(); ++i) differences_[i].adjusted_p = adjusted[i];
+    auto next = adjusted.begin();
+    for (SweepDifference& each : differences_) {
+      each.adjusted_p = std::isfinite(each.success.p_value) ? *next++ : kNaN;
+    }
     return std::move(differences_);
   }
 
  private:
   void CompareAlong(std::size_t axis) {
-    for (const auto& [at, members] : Groups(sweep_, axis)) {
+    for (const auto& [at, members] : CellsAlong(sweep_, axis)) {
       for (std::size_t i = 1; i < members.size(); ++i) Add(axis, at, members.front(), members[i]);
     }
   }
 
   void Add(std::size_t axis, const std::string& at, std::size_t first, std::size_t second) {
-    const RunComparison comparison = CompareRuns(View(first), View(second));
-    for (const SuccessComparison& success : comparison.successes) {
+    // Records of two cells at a time.
+    const std::vector<Record> before = outcomes_[first].Records();
+    const std::vector<Record> after = outcomes_[second].Records();
+    const RunComparison comparison = CompareRuns(View(first, before), View(second, after));
+    for (std::size_t kind = 0; kind < comparison.successes.size(); ++kind) {
       differences_.push_back({.axis = sweep_.axes[axis].name,
                               .first = sweep_.cells[first].levels[axis].text,
                               .second = sweep_.cells[second].levels[axis].text,
                               .at = at,
                               .paired = comparison.paired,
-                              .success = success});
+                              .success = comparison.successes[kind]});
+      if (outcomes_[first].SharesLayouts() || outcomes_[second].SharesLayouts()) {
+        AllowForLayouts(first, second, static_cast<SuccessKind>(kind), differences_.back());
+      }
     }
   }
 
-  ComparedRun View(std::size_t cell) const {
+  // The exact tests take trials as independent.
+  void AllowForLayouts(std::size_t first, std::size_t second, SuccessKind kind,
+                       SweepDifference& difference) const {
+    SuccessComparison& success = difference.success;
+    success.p_value = kNaN;
+    if (difference.paired) {
+      success.interval = PairedByLayout(outcomes_[first], outcomes_[second], kind, kConfidence);
+      return;
+    }
+    success.first = RateIn(first, kind);
+    success.second = RateIn(second, kind);
+    success.interval = statistics::DifferenceInterval(success.first, success.second);
+  }
+
+  const Proportion& RateIn(std::size_t cell, SuccessKind kind) const {
+    const SweepCellSummary& summary = cells_[cell];
+    return kind == SuccessKind::kDeclared ? summary.declared_success.rate
+                                          : summary.true_success.rate;
+  }
+
+  ComparedRun View(std::size_t cell, std::span<const Record> records) const {
     return {.name = sweep_.cells[cell].name,
             .seed = static_cast<std::uint64_t>(sweep_.cells[cell].scenario.seed),
             .schema = {},
-            .records = outcomes_[cell]};
+            .records = records};
   }
 
   const Sweep& sweep_;
-  const std::vector<std::vector<Record>>& outcomes_;
+  std::span<const SweepCellSummary> cells_;
+  std::span<const CellOutcomes> outcomes_;
   std::vector<SweepDifference> differences_;
 };
 
@@ -191,14 +173,27 @@ std::vector<std::string> EqualCells(const Sweep& sweep,
   return notes;
 }
 
-}  // namespace
-
-double FitAbscissa(const statistics::LogisticFit& fit, double share) {
-  if (fit.scale == statistics::FitScale::kLinear) {
-    return fit.lowest_x + share * (fit.highest_x - fit.lowest_x);
+// What the intervals allow for, and what does not.
+void AddCautions(std::span<const SweepCellSummary> cells, std::span<const CellOutcomes> outcomes,
+                 std::vector<std::string>& notes) {
+  if (std::any_of(cells.begin(), cells.end(),
+                  [](const SweepCellSummary& cell) { return cell.stopping.has_value(); })) {
+    notes.emplace_back(
+        "a rule ended cells: intervals of their rates are confidence sequences, which allow for "
+        "it;");
+    notes.emplace_back(
+        "fits, differences, shares and means take the numbers of trials as if they were planned");
   }
-  return fit.lowest_x * std::pow(fit.highest_x / fit.lowest_x, share);
+  if (std::any_of(outcomes.begin(), outcomes.end(),
+                  [](const CellOutcomes& cell) { return cell.SharesLayouts(); })) {
+    notes.emplace_back(
+        "trials share layouts of rocks: intervals of rates, fits, differences and shares allow "
+        "for");
+    notes.emplace_back("it; those of other metrics do not, and differences have no p-values");
+  }
 }
+
+}  // namespace
 
 Accounting TotalAccounting(const SweepSummary& summary) {
   Accounting total;
@@ -209,16 +204,17 @@ Accounting TotalAccounting(const SweepSummary& summary) {
 SweepSummary SummarizeSweep(const Sweep& sweep, const SweepCellLoader& load,
                             statistics::IntervalMethod method) {
   SweepSummary summary;
-  std::vector<std::vector<Record>> outcomes;
+  std::vector<CellOutcomes> outcomes;
   for (std::size_t i = 0; i < sweep.cells.size(); ++i) {
     const SweepCellTrials trials = load(i);
-    summary.cells.push_back(SummarizeCell(trials, sweep.cells.size(), method));
-    outcomes.push_back(OutcomesOf(trials.prefix));
+    outcomes.emplace_back(trials.prefix, sweep.cells[i].scenario.course.trials_per_layout);
+    summary.cells.push_back(SummarizeCell(trials, outcomes.back(), sweep.cells.size(), method));
   }
-  summary.curves = Curves(sweep, summary.cells);
-  summary.differences = Comparer(sweep, outcomes).Compare();
+  summary.curves = FitCurves(sweep, outcomes);
+  summary.differences = Comparer(sweep, summary.cells, outcomes).Compare();
   summary.attributions = AttributeSweep(sweep, outcomes);
   summary.notes = EqualCells(sweep, summary.cells);
+  AddCautions(summary.cells, outcomes, summary.notes);
   return summary;
 }
 

@@ -11,6 +11,7 @@
 #include "report/attribution.h"
 #include "report/paired_comparison.h"
 #include "report/run_description.h"
+#include "report/sweep_outcomes.h"
 #include "scenario/sweep.h"
 #include "statistics/logistic_fit.h"
 #include "statistics/metrics.h"
@@ -30,12 +31,14 @@ struct SweepCellTrials {
   std::optional<StoppingReport> stopping = {};  // where the rule ended the cell, if there is one
 };
 
-// Loads a cell by its index in the sweep. Called once per cell, in order, so that only the records
-// of one cell are in memory at a time.
+// Loads a cell by its index in the sweep. Called once per cell, in order, so that the records of
+// one cell are in memory at a time; of the others one byte per trial is kept.
 using SweepCellLoader = std::function<SweepCellTrials(std::size_t)>;
 
 // A rate with its own 95 % interval, and one that holds for all cells of the sweep at once with 95
-// % (Bonferroni, by Clopper and Pearson, as for the cells of a measurement).
+// % (Bonferroni, by Clopper and Pearson, as for the cells of a measurement). Both are the
+// confidence sequence (statistics/confidence_sequence.h) where a rule ended the cell, and by
+// layouts (statistics/clustered_rate.h) where trials share them.
 struct SweepRate {
   statistics::Proportion rate;
   statistics::Interval simultaneous{0.0, 1.0};
@@ -54,9 +57,6 @@ struct SweepCellSummary {
   Accounting accounting = {};
   std::optional<StoppingReport> stopping = {};
 };
-
-enum class SuccessKind { kDeclared, kTrue };
-inline constexpr std::array<std::string_view, 2> kSuccessNames{"declared success", "true success"};
 
 // Success against the numbers of the fit axis, at fixed levels of all others.
 struct SweepCurve {
@@ -96,10 +96,10 @@ Accounting TotalAccounting(const SweepSummary& summary);
 
 // Rates cover the contiguous prefix of each cell, without simulator faults.
 //
-// Curves: statistics::FitLogistic. Where the sweep uses common random numbers the cells of a curve
-// are dependent, which the fit does not know: the level of the curve is then less sure than its
-// band says. Differences: report::CompareRuns; in pairs where cells share their seed. Cost: linear
-// in the trials, and at most some milliseconds per curve.
+// Curves: report::FitCurves. Differences: report::CompareRuns, in pairs where cells share their
+// seed; where trials share layouts, with intervals that allow for it and no p-value. Cost: linear
+// in the trials, and at most some milliseconds per curve. Memory: the records of one cell, and one
+// byte for each trial of the sweep.
 SweepSummary SummarizeSweep(const scenario::Sweep& sweep, const SweepCellLoader& load,
                             statistics::IntervalMethod method);
 

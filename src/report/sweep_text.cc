@@ -133,6 +133,7 @@ std::string Stops(const Sweep& sweep, const SweepSummary& summary) {
 
 // A number outside of the settings is not known any better than that.
 std::string Place(double x, const statistics::LogisticFit& fit) {
+  if (std::isnan(x)) return "none";
   if (x < fit.lowest_x) return fmt::format("< {:.3g}", fit.lowest_x);
   if (x > fit.highest_x) return fmt::format("> {:.3g}", fit.highest_x);
   return fmt::format("{:.3g}", x);
@@ -168,10 +169,9 @@ std::string FitLine(const SweepCurve& curve, std::size_t kind) {
 std::string Fits(const Sweep& sweep, const SweepSummary& summary) {
   if (summary.curves.empty()) return "";
   const bool log = summary.curves.front().fits[0].scale == statistics::FitScale::kLog;
-  std::string text =
-      fmt::format("\n  logistic fit of success against {}{}, 95 % intervals{}\n", log ? "ln " : "",
-                  sweep.axes[*sweep.fit_axis].name,
-                  sweep.common_random_numbers ? " as if cells were independent" : "");
+  std::string text = fmt::format("\n  logistic fit of success against {}{}, 95 % intervals{}\n",
+                                 log ? "ln " : "", sweep.axes[*sweep.fit_axis].name,
+                                 sweep.common_random_numbers ? ", with common random numbers" : "");
   text += fmt::format("    {:<9} {:<35} {:<35} fit p\n", "success", "90 % at", "50 % at");
   for (const SweepCurve& curve : summary.curves) {
     if (!curve.label.empty()) text += "  " + Cut(curve.label, 96) + "\n";
@@ -198,11 +198,12 @@ std::string Differences(const SweepSummary& summary) {
   for (std::size_t i = 0; i < std::min(summary.differences.size(), kMostDifferences); ++i) {
     const SweepDifference& each = summary.differences[i];
     const SuccessComparison& success = each.success;
-    text +=
-        fmt::format("  {:<32} {:<18} {:<8} {:+6.1f} ({:+6.1f} ..{:+7.1f})  p = {:.2g}\n",
-                    Cut(fmt::format("{} - {}", each.second, each.first), 32), Cut(each.at, 18),
-                    success.what.substr(0, success.what.find(' ')), 100.0 * success.difference,
-                    100.0 * success.interval.low, 100.0 * success.interval.high, each.adjusted_p);
+    text += fmt::format("  {:<32} {:<18} {:<8} {:+6.1f} ({:+6.1f} ..{:+7.1f})  {}\n",
+                        Cut(fmt::format("{} - {}", each.second, each.first), 32), Cut(each.at, 18),
+                        success.what.substr(0, success.what.find(' ')), 100.0 * success.difference,
+                        100.0 * success.interval.low, 100.0 * success.interval.high,
+                        std::isfinite(each.adjusted_p) ? fmt::format("p = {:.2g}", each.adjusted_p)
+                                                       : std::string());
   }
   if (summary.differences.size() > kMostDifferences) {
     text += fmt::format("  and {} more: differences.csv\n",

@@ -4,9 +4,11 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include "core/check.h"
+#include "statistics/clustered_rate.h"
 #include "statistics/paired_counts.h"
 
 namespace rockyard::statistics {
@@ -28,6 +30,22 @@ double ValueOf(const FactorialFailures& failures, const Contrast& contrast, std:
     if (failures.failed[c][trial] != 0) value += contrast.weights[c];
   }
   return value;
+}
+
+Proportion RateOf(const std::vector<std::uint8_t>& failed, std::span<const std::size_t> clusters,
+                  double confidence) {
+  Proportion rate =
+      MakeProportion(Count(failed), static_cast<std::int64_t>(failed.size()), confidence);
+  if (clusters.empty()) return rate;
+  std::map<std::size_t, CountOfRun> runs;
+  for (std::size_t t = 0; t < failed.size(); ++t) {
+    runs[clusters[t]].count += failed[t];
+    runs[clusters[t]].base += 1.0;
+  }
+  std::vector<CountOfRun> counts;
+  for (const auto& [cluster, run] : runs) counts.push_back(run);
+  rate.interval = ClusteredRateInterval(counts, confidence, WithoutScatter::kOnePerRun);
+  return rate;
 }
 
 }  // namespace
@@ -72,12 +90,16 @@ Estimate Estimated(const FactorialFailures& failures, const Contrast& contrast, 
     return {kNaN, {-1.0, 1.0}};
   }
   SignedValues values{.n = static_cast<double>(trials)};
+  ClusteredValues clustered;
   for (std::size_t t = 0; t < trials; ++t) {
     const double value = ValueOf(failures, contrast, t);
     values.sum += value;
     values.squares += value * value;
+    if (!failures.clusters.empty()) clustered.Add(failures.clusters[t], value);
   }
-  return {values.sum / values.n, AgrestiMinInterval(values, confidence)};
+  return {values.sum / values.n,
+          AgrestiMinInterval(failures.clusters.empty() ? values : clustered.Effective(confidence),
+                             confidence)};
 }
 
 Attribution Attribute(const FactorialFailures& failures, double confidence) {
@@ -87,10 +109,10 @@ Attribution Attribute(const FactorialFailures& failures, double confidence) {
   Attribution result;
   result.functions = failures.functions;
   result.trials = failures.failed.front().size();
+  EXPECT(failures.clusters.empty() || failures.clusters.size() == result.trials);
   for (const std::vector<std::uint8_t>& failed : failures.failed) {
     EXPECT(failed.size() == result.trials);
-    result.failures.push_back(
-        MakeProportion(Count(failed), static_cast<std::int64_t>(result.trials), confidence));
+    result.failures.push_back(RateOf(failed, failures.clusters, confidence));
   }
   const auto estimate = [&](const Contrast& contrast) {
     return Estimated(failures, contrast, confidence);

@@ -23,6 +23,8 @@ using Combination = std::uint32_t;
 struct FactorialFailures {
   std::vector<std::string> functions;
   std::vector<std::vector<std::uint8_t>> failed;
+  // By trial: those of one cluster share a rock field. Empty: all trials are independent.
+  std::vector<std::size_t> clusters = {};
 };
 
 struct Estimate {
@@ -55,11 +57,10 @@ Contrast Removed(std::size_t functions, Combination set);
 
 // The mean over trials of the contrast, with an interval. All contrasts here are linear in the
 // failures, so that each trial has a value of its own between -1 and +1 and pairs are kept as
-// pairs. The interval is that of a mean after half a trial of -1, half of +1 and one of 0 are added
-// (Agresti and Min 2005, Statistics in Medicine 24, pp. 729-740, for differences of paired rates):
-// near nominal, and no point where all trials agree. A bootstrap over trials estimates the same,
-// and has no width there. NaN without trials. Trials must be independent: where several share a
-// rock field, intervals are too narrow.
+// pairs. The interval is Agresti and Min's (statistics/paired_counts.h): near nominal, and no point
+// where all trials agree. A bootstrap over trials estimates the same, and has no width there. Where
+// trials share clusters, of as many independent values as say as much (ClusteredValues). NaN
+// without trials.
 Estimate Estimated(const FactorialFailures& failures, const Contrast& contrast,
                    double confidence = 0.95);
 

@@ -80,6 +80,7 @@ double VarianceAt(const std::array<double, 3>& covariance, double u) {
 double QuantileOf(const LogisticFit& fit, double confidence) {
   const double tail = 0.5 + 0.5 * confidence;
   if (fit.clusters == 0) return core::NormalQuantile(tail);
+  if (fit.clusters < 3) return kInfinity;
   return boost::math::quantile(boost::math::students_t(static_cast<double>(fit.clusters) - 1.0),
                                tail);
 }
@@ -163,6 +164,7 @@ double LogisticFit::Rate(double x) const { return Expit(intercept + slope * Tran
 Interval LogisticFit::Band(double x, double confidence) const {
   const double u = Transform(scale, x);
   const double logit = intercept + slope * u;
+  if (clusters > 0 && clusters < 3) return {0.0, 1.0};
   const double half = QuantileOf(*this, confidence) * std::sqrt(VarianceAt(covariance, u));
   return {Expit(logit - half), Expit(logit + half)};
 }
@@ -203,12 +205,20 @@ LogisticFit ClusterScores::Fit(bool shared_within) const {
     sums[1] += a * b;
     sums[2] += b * b;
   }
-  EXPECT(clusters >= 3.0);
   LogisticFit fit = fit_;
   fit.clusters = static_cast<std::int64_t>(clusters);
-  fit.covariance = sums;
   if (shared_within) fit.p_value = kNaN;
+  if (clusters < 3.0) {
+    fit.covariance = {kInfinity, 0.0, kInfinity};
+    fit.slope_p_value = 1.0;
+    return fit;
+  }
+  fit.covariance = sums;
   // As for crossings, whose interval has two ends where a level curve is rejected.
+  // Cells whose trials are equal have none, and a scatter of rounding.
+  constexpr double kRounding = 1e-12;
+  fit.slope_p_value = 1.0;
+  if (fit.covariance[2] <= kRounding * fit.model_covariance[2]) return fit;
   const boost::math::students_t law(clusters - 1.0);
   const double t = std::sqrt(fit.slope_ratio * fit.model_covariance[2] / fit.covariance[2]);
   fit.slope_p_value = 2.0 * boost::math::cdf(boost::math::complement(law, t));

@@ -92,7 +92,8 @@ class ClusterScores {
   void Add(std::size_t cluster, double x, bool success);
 
   // The fit with the covariance of clusters. A cluster that is met twice within a setting must be
-  // told by `shared_within`: the deviance then has no law. Requires three clusters.
+  // told by `shared_within`: the deviance then has no law. Fewer than three clusters say nothing:
+  // bands are [0, 1], crossings have no bounds.
   LogisticFit Fit(bool shared_within) const;
 
  private:

@@ -32,12 +32,40 @@ FactorialFailures Draw(std::uint32_t campaign) {
 // P(fail) by inclusion and exclusion.
 constexpr std::array<double, 4> kTruth{0.25 + 0.10 - 0.025, 0.10, 0.25 + 0.10 - 0.025, 0.0};
 
-double Coverage(const Contrast& contrast, double confidence) {
+// The same, but 3 of 5 trials of a layout, on average, draw what the layout draws: 50 layouts of 3.
+constexpr std::size_t kPerLayout = 3;
+FactorialFailures DrawOnLayouts(std::uint32_t campaign) {
+  FactorialFailures failures{{"a", "b"}, std::vector<std::vector<std::uint8_t>>(4)};
+  core::RandomStream stream({12, campaign}, core::Purpose::kTest);
+  std::array<double, 2> layout{};
+  for (std::size_t t = 0; t < kTrials; ++t) {
+    if (t % kPerLayout == 0) layout = {stream.Uniform(), stream.Uniform()};
+    const std::array<double, 2> own{stream.Uniform(), stream.Uniform()};
+    const std::array<double, 2>& drawn = stream.Uniform() < 0.8 ? layout : own;
+    const bool first = drawn[0] < 0.25;
+    const bool second = drawn[1] < 0.10;
+    for (Combination c = 0; c < 4; ++c) {
+      failures.failed[c].push_back((first && (c & 1U) == 0) || (second && c != 3U) ? 1 : 0);
+    }
+    failures.clusters.push_back(t / kPerLayout);
+  }
+  return failures;
+}
+
+FactorialFailures DrawAsIfIndependent(std::uint32_t campaign) {
+  FactorialFailures failures = DrawOnLayouts(campaign);
+  failures.clusters.clear();
+  return failures;
+}
+
+using Drawing = FactorialFailures (*)(std::uint32_t);
+
+double Coverage(const Contrast& contrast, double confidence, Drawing draw = Draw) {
   double truth = 0.0;
   for (std::size_t c = 0; c < 4; ++c) truth += contrast.weights[c] * kTruth[c];
   int held = 0;
   for (std::uint32_t campaign = 0; campaign < kCampaigns; ++campaign) {
-    const Interval interval = Estimated(Draw(campaign), contrast, confidence).interval;
+    const Interval interval = Estimated(draw(campaign), contrast, confidence).interval;
     if (interval.low <= truth && truth <= interval.high) ++held;
   }
   return static_cast<double>(held) / kCampaigns;
@@ -56,6 +84,26 @@ TEST(AttributionCoverageTest, SharesAndInteractionsAreCoveredAsStated) {
     const double coverage = Coverage(contrast, 0.95);
     EXPECT_TRUE(IsNearNominal(coverage)) << coverage;
   }
+}
+
+// The negative control is what takes trials on one layout for independent.
+TEST(AttributionCoverageTest, SharesAreCoveredWhereTrialsShareLayouts) {
+  for (const Contrast& contrast : {ShapleyShare(2, 0), ShapleyShare(2, 1), Removed(2, 3)}) {
+    const double coverage = Coverage(contrast, 0.95, DrawOnLayouts);
+    EXPECT_TRUE(IsNearNominal(coverage)) << coverage;
+    const double independent = Coverage(contrast, 0.95, DrawAsIfIndependent);
+    EXPECT_LT(independent, 0.9);
+  }
+}
+
+TEST(AttributionCoverageTest, LayoutsThatAgreeSayAsMuchAsOneTrialEach) {
+  FactorialFailures failures{{"a"}, {std::vector<std::uint8_t>(40), std::vector<std::uint8_t>(40)}};
+  const double independent = Attribute(failures).failures[0].interval.high;
+  for (std::size_t t = 0; t < 40; ++t) failures.clusters.push_back(t / 4);
+  const Attribution result = Attribute(failures);
+  EXPECT_GT(result.failures[0].interval.high, 0.3) << "no failure on ten layouts";
+  EXPECT_LT(independent, 0.1);
+  EXPECT_GT(result.removed.interval.high, 0.15);
 }
 
 // Negative control: intervals of 80 % do not pass for such of 95 %.

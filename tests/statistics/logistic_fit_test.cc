@@ -202,6 +202,39 @@ TEST(LogisticFitTest, CopiesWithinAClusterAddNothing) {
   EXPECT_TRUE(std::isnan(b.p_value));
 }
 
+// The same trials in every cell: a level curve, whose slope has no scatter either.
+TEST(LogisticFitTest, EqualCellsOfClustersHaveNoCrossing) {
+  std::vector<DosePoint> points;
+  for (const double x : {1.0, 2.0, 3.0}) points.push_back({x, 13, 39});
+  const LogisticFit fit = FitLogistic(points, FitScale::kLog);
+  ClusterScores scores(fit);
+  for (const DosePoint& point : points) {
+    for (std::size_t t = 0; t < 39; ++t) scores.Add(t, point.x, t < 13);
+  }
+  const LogisticFit clustered = scores.Fit(false);
+  EXPECT_EQ(clustered.slope_p_value, 1.0);
+  const FitCrossing crossing = FindCrossing(clustered, points, 0.5);
+  EXPECT_EQ(crossing.interval.low, 0.0);
+  EXPECT_EQ(crossing.interval.high, INFINITY);
+  EXPECT_LT(fit.Band(1.5).low, 0.3);
+  EXPECT_LT(clustered.Band(1.5).low, fit.Band(1.5).low) << "39 trials, not 117";
+}
+
+TEST(LogisticFitTest, TwoClustersSayNothing) {
+  const std::vector<DosePoint> points{{1.0, 15, 20}, {2.0, 10, 20}, {3.0, 4, 20}};
+  const LogisticFit fit = FitLogistic(points, FitScale::kLinear);
+  ClusterScores scores(fit);
+  for (const DosePoint& point : points) {
+    for (std::int64_t t = 0; t < 20; ++t) {
+      scores.Add(static_cast<std::size_t>(t / 10), point.x, t < point.count);
+    }
+  }
+  const LogisticFit clustered = scores.Fit(true);
+  EXPECT_EQ(clustered.Band(2.0).low, 0.0);
+  EXPECT_EQ(clustered.Band(2.0).high, 1.0);
+  EXPECT_EQ(FindCrossing(clustered, points, 0.5).interval.high, INFINITY);
+}
+
 TEST(LogisticFitTest, ANearlySeparatedCurveConverges) {
   const std::vector<DosePoint> points{
       {1.0, 100000, 100000}, {2.0, 99999, 100000}, {3.0, 1, 100000}, {4.0, 0, 100000}};

@@ -1,0 +1,27 @@
+// Success along the numeric axis of a sweep.
+#pragma once
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "report/sweep_outcomes.h"
+#include "report/sweep_summary.h"
+#include "scenario/sweep.h"
+
+namespace rockyard::report {
+
+// Cells that differ along one axis alone, in the order of the sweep, by the levels of the others.
+std::vector<std::pair<std::string, std::vector<std::size_t>>> CellsAlong(
+    const scenario::Sweep& sweep, std::size_t axis);
+
+// One curve for each setting of the other axes; none where points fill several axes, which share no
+// levels. Trials are clusters (statistics::ClusterScores) where cells share random numbers or
+// trials share layouts: those of one index or, where they share layouts, of one layout (of the
+// least common multiple, where cells differ in how many do); of all cells with common random
+// numbers, else of each cell. Memory: 40 bytes per cluster of a curve.
+std::vector<SweepCurve> FitCurves(const scenario::Sweep& sweep,
+                                  std::span<const CellOutcomes> outcomes);
+
+}  // namespace rockyard::report
