@@ -101,11 +101,56 @@ double ExactSize(std::int64_t n, double first, double margin) {
 }
 
 TEST(UnpairedRates, EquivalenceKeepsItsLevel) {
-  for (const double first : {0.1, 0.5, 0.75}) {
-    const double size = ExactSize(120, first, 0.15);
-    EXPECT_LT(size, 0.06) << first;
-    EXPECT_GT(size, 0.02) << first;
+  for (const double margin : {0.05, 0.1, 0.15, 0.3}) {
+    for (const std::int64_t n : {10, 25, 50, 100}) {
+      for (const double share : {0.0, 0.01, 0.1, 0.25, 0.5, 0.75, 1.0}) {
+        EXPECT_LE(ExactSize(n, share * (1.0 - margin), margin), 0.05)
+            << n << ' ' << margin << ' ' << share;
+      }
+    }
   }
+  EXPECT_GT(ExactSize(100, 0.5, 0.3), 0.03) << "the test rejects at all";
+}
+
+// The same of pairs: discordant pairs of both kinds, their difference the margin. Sums over the
+// counts that the test rejects (a trinomial law as two binomial ones).
+double ExactPairedSize(std::int64_t n, double only_first, double margin) {
+  const CountLaw first = BinomialLaw(n, only_first);
+  double size = 0.0;
+  for (std::int64_t b = 0; b <= n; ++b) {
+    const double weight = first[static_cast<std::size_t>(b)];
+    if (weight < 1e-10) continue;
+    const CountLaw second = BinomialLaw(n - b, (only_first + margin) / (1.0 - only_first));
+    for (std::int64_t c = 0; c <= n - b; ++c) {
+      const double chance = weight * second[static_cast<std::size_t>(c)];
+      if (chance < 1e-12) continue;
+      const PairedCounts counts{.both = n - b - c, .only_first = b, .only_second = c};
+      if (EquivalencePValue(counts, margin) <= 0.05) size += chance;
+    }
+  }
+  return size;
+}
+
+TEST(PairedRates, EquivalenceKeepsItsLevel) {
+  for (const double margin : {0.05, 0.1, 0.2, 0.3}) {
+    for (const std::int64_t n : {10, 25, 42, 58, 100}) {
+      for (const double share : {0.0, 0.01, 0.05, 0.2, 0.5, 0.9}) {
+        EXPECT_LE(ExactPairedSize(n, share * 0.5 * (1.0 - margin), margin), 0.05)
+            << n << ' ' << margin << ' ' << share;
+      }
+    }
+  }
+  EXPECT_GT(ExactPairedSize(100, 0.1, 0.2), 0.03) << "the test rejects at all";
+}
+
+// P(Binomial(n, margin / range) <= differing), by hand.
+TEST(SparseEquivalence, IsABinomialTail) {
+  EXPECT_NEAR(SparseEquivalencePValue(10, 0, 1.0, 4.0), std::pow(0.75, 10), 1e-12);
+  EXPECT_NEAR(SparseEquivalencePValue(3, 1, 1.0, 2.0), 0.5, 1e-12);
+  EXPECT_NEAR(SparseEquivalencePValue(59, 0, 1.0, 0.0), std::pow(0.95, 59), 1e-12);
+  EXPECT_EQ(SparseEquivalencePValue(3, 1, 2.0, 2.0), 0.0) << "no pair can move the mean so far";
+  EXPECT_EQ(SparseEquivalencePValue(3, 3, 1.0, 2.0), 1.0);
+  EXPECT_EQ(SparseEquivalencePValue(0, 0, 1.0, 2.0), 1.0);
 }
 
 // Negative control: "not significant" calls the same groups equal far more often.
@@ -158,8 +203,14 @@ TEST(SampleSize, OneTrialLessIsNotEnough) {
 }
 
 TEST(SampleSize, PowersAreReached) {
-  const RatePair rates{0.85, 0.75};
-  EXPECT_NEAR(FisherPower(TrialsForFisher(rates, 0.05, 0.8), rates, 0.05), 0.8, 0.02);
+  for (const RatePair rates :
+       {RatePair{0.85, 0.75}, RatePair{0.001, 0.02}, RatePair{0.0, 0.05}, RatePair{0.9, 0.99}}) {
+    const std::int64_t n = TrialsForFisher(rates, 0.05, 0.8);
+    EXPECT_GE(FisherPower(n, rates, 0.05), 0.8) << rates.first;
+    EXPECT_LT(FisherPower(n - 1, rates, 0.05), 0.8) << rates.first;
+  }
+  EXPECT_GT(FisherPower(TrialsForFisherFormula({0.0, 0.05}, 0.05, 0.8), {0.0, 0.05}, 0.05), 0.9)
+      << "the formula asks for too many of what is rare";
   const RatePair discordant{0.15, 0.05};
   const std::int64_t pairs = TrialsForMcNemar(discordant, 0.05, 0.8);
   EXPECT_GE(McNemarPower(pairs, discordant, 0.05), 0.8);
