@@ -1,13 +1,16 @@
 // rockyard baseline
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <system_error>
 #include <vector>
 
+#include "app/baseline_scenario.h"
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/output_file.h"
@@ -31,6 +34,11 @@ struct BaselineOptions {
   std::string out;
 };
 
+// Every build that wrote trials of the runs: one, if an exact comparison is to be possible.
+std::string Joined(const std::set<std::string>& builds) {
+  return fmt::format("{}", fmt::join(builds, "; "));
+}
+
 // What would make a bad baseline.
 std::vector<core::Problem> ProblemsOf(const StoredRun& run) {
   if (truth::IsMeasurement(run.schema)) {
@@ -42,7 +50,7 @@ std::vector<core::Problem> ProblemsOf(const StoredRun& run) {
              fmt::format("is unfinished: {} of {} trials", run.prefix().size(), run.planned),
              "finish it with rockyard run --resume"}};
   }
-  return {};
+  return SharedLayoutProblems(run.Label(), run.identity.resolved);
 }
 
 report::BaselineCell CellOf(const StoredRun& run) {
@@ -61,13 +69,14 @@ report::BaselineCell CellOf(const StoredRun& run) {
 report::Baseline ReadBaseline(const BaselineOptions& options) {
   report::Baseline baseline;
   baseline.reason = options.reason;
-  baseline.build = BuildName();
+  std::set<std::string> builds;
   std::vector<core::Problem> problems;
   for (const std::string& path : options.runs) {
     for (const fs::path& folder : batch::FindRuns(path)) {
       for (const StoredRun& run : ReadCampaign(folder)) {
         RequireWhole(run);
         for (core::Problem& problem : ProblemsOf(run)) problems.push_back(std::move(problem));
+        builds.insert(run.builds.begin(), run.builds.end());
         baseline.cells.push_back(CellOf(run));
       }
     }
@@ -80,6 +89,7 @@ report::Baseline ReadBaseline(const BaselineOptions& options) {
     }
   }
   if (!problems.empty()) throw core::UserError(std::move(problems));
+  baseline.build = Joined(builds);
   return baseline;
 }
 

@@ -1,14 +1,16 @@
 #include "app/regression_check.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <string_view>
 #include <utility>
 
+#include "app/baseline_cells.h"
+#include "app/baseline_scenario.h"
 #include "app/console.h"
 #include "app/run_source.h"
-#include "batch/run_folder.h"
 #include "batch/scenario_difference.h"
 #include "batch/trial_hash.h"
 #include "core/error.h"
@@ -25,23 +27,11 @@ using report::CheckedCell;
 
 constexpr std::size_t kShownDifferences = 12;
 
-std::vector<StoredRun> ReadCells(const std::vector<std::string>& paths) {
-  std::vector<StoredRun> cells;
-  for (const std::string& path : paths) {
-    for (const auto& folder : batch::FindRuns(path)) {
-      for (StoredRun& cell : ReadCampaign(folder)) {
-        RequireWhole(cell);
-        cells.push_back(std::move(cell));
-      }
-    }
-  }
-  return cells;
-}
-
 class Check {
  public:
   Check(report::Baseline baseline, const RegressionRequest& request)
-      : baseline_(std::move(baseline)), request_(request), runs_(ReadCells(request.runs)) {
+      : baseline_(std::move(baseline)), request_(request), runs_(ReadCells(request.runs, request.cell)) {
+    if (!request.cell.empty()) KeepCellsOf(runs_, baseline_);
     report_.baseline = baseline_.name;
     report_.reason = baseline_.reason;
     report_.baseline_build = baseline_.build;
@@ -86,13 +76,7 @@ class Check {
   }
 
   statistics::RegressionCell Compare(const BaselineCell& cell, const StoredRun& run) {
-    const std::span<const truth::Record> records = run.prefix();
-    if (records.empty()) {
-      problems_.push_back({run.Label(), "holds no finished trials", "run some first"});
-    } else if (static_cast<std::int64_t>(records.size()) < run.planned) {
-      report_.notes.push_back(fmt::format("{}: unfinished, {} of {} trials are used", run.Label(),
-                                          records.size(), run.planned));
-    }
+    const std::span<const truth::Record> records = UsedRecords(cell, run);
     CheckedCell checked{.name = cell.name,
                         .baseline_seed = cell.seed,
                         .run_seed = run.identity.seed,
@@ -100,16 +84,61 @@ class Check {
                         .run_trials = static_cast<std::int64_t>(records.size())};
     checked.same_fields = CompareScenarios(cell, run);
     checked.paired = checked.same_fields && cell.seed == run.identity.seed;
-    checked.identical = checked.paired && checked.baseline_trials == checked.run_trials &&
-                        batch::TrialHash(records) == cell.trial_hash;
+    Compare(cell, run, records, checked);
     if (!run.builds.empty()) report_.run_build = run.builds.back();
-    statistics::RegressionCell compared{
-        .name = cell.name, .paired = checked.paired, .baseline = cell.metrics, .run = {}};
+    statistics::RegressionCell compared{.name = cell.name,
+                                        .paired = checked.paired,
+                                        .identical = checked.identical,
+                                        .baseline = cell.metrics,
+                                        .run = {}};
     for (const statistics::BaselineMetric& metric : cell.metrics) {
       compared.run.push_back(ValuesOf(metric.name, run.schema, records));
+      if (compared.run.back().empty()) {
+        report_.notes.push_back(
+            fmt::format("{}: the run has no column for {}", cell.name, metric.name));
+      }
     }
+    if (checked.paired) checked.same_pairs = SamePairs(cell, records, compared.run);
     report_.cells.push_back(std::move(checked));
     return compared;
+  }
+
+  // As many as the baseline has.
+  std::span<const truth::Record> UsedRecords(const BaselineCell& cell, const StoredRun& run) {
+    const std::span<const truth::Record> records = run.prefix();
+    if (records.empty()) {
+      problems_.push_back({run.Label(), "holds no finished trials", "run some first"});
+    } else if (static_cast<std::int64_t>(records.size()) < run.planned) {
+      report_.notes.push_back(fmt::format("{}: unfinished, {} of {} trials are used", run.Label(),
+                                          records.size(), run.planned));
+    }
+    for (const std::string& resolved : {cell.resolved, run.identity.resolved}) {
+      std::vector<core::Problem> shared = SharedLayoutProblems(run.Label(), resolved);
+      if (shared.empty()) continue;
+      problems_.push_back(std::move(shared.front()));
+      break;
+    }
+    const std::size_t used = std::min(records.size(), cell.outcomes.size());
+    const std::size_t most = std::max(records.size(), cell.outcomes.size());
+    if (used < most) {
+      report_.notes.push_back(
+          fmt::format("{}: of the {} the first {} of {} trials are used, as "
+                      "many as the other has",
+                      cell.name, used < records.size() ? "run" : "baseline", used, most));
+    }
+    return records.first(used);
+  }
+
+  // The exact tier: the same build, seeds and settings give the same records. A build from changed
+  // files goes by the name of the last commit, so that its name proves nothing.
+  void Compare(const BaselineCell& cell, const StoredRun& run,
+               std::span<const truth::Record> records, CheckedCell& checked) const {
+    if (!checked.paired || checked.baseline_trials != checked.run_trials) return;
+    checked.identical = batch::TrialHash(records) == cell.trial_hash;
+    const bool same_build = run.builds.size() == 1 && run.builds.front() == baseline_.build &&
+                            baseline_.build.find("-dirty") == std::string::npos;
+    checked.not_deterministic =
+        !checked.identical && same_build && cell.fingerprint == run.identity.fingerprint;
   }
 
   static std::vector<double> ValuesOf(const std::string& name, const truth::RecordSchema& schema,
@@ -121,34 +150,23 @@ class Check {
     return values;
   }
 
-  // Whether the settings that decide rocks, start and goal are the same. A parameter that only the
-  // run has is younger than the baseline: whether its default changes anything is what a check is
-  // for.
+  // Whether the settings that decide rocks, start and goal are the same.
   bool CompareScenarios(const BaselineCell& cell, const StoredRun& run) {
     if (cell.fingerprint == run.identity.fingerprint) return true;
-    bool same_fields = true;
-    std::vector<ScenarioDifference> differences =
-        batch::FindScenarioDifferences(cell.resolved, run.identity.resolved);
-    // Another seed is another sample of the same: compared unpaired.
-    std::erase_if(differences, [](const ScenarioDifference& each) { return each.path == "seed"; });
-    const auto younger = std::erase_if(
-        differences, [](const ScenarioDifference& each) { return each.first == "absent"; });
-    if (younger > 0) {
-      report_.notes.push_back(
-          fmt::format("{}: {} parameters are younger than the baseline", cell.name, younger));
+    const BaselineScenario compared = CompareWithBaseline(cell.resolved, run.identity.resolved);
+    if (!compared.younger.empty()) {
+      report_.notes.push_back(fmt::format("{}: younger than the baseline, at their defaults: {}",
+                                          cell.name, fmt::join(compared.younger, ", ")));
     }
-    for (std::size_t i = 0; i < differences.size(); ++i) {
-      const ScenarioDifference& each = differences[i];
-      if (each.path.starts_with("terrain.") || each.path.starts_with("course.")) {
-        same_fields = false;
-      }
-      if (i < kShownDifferences) Tell(cell, each);
+    const std::vector<ScenarioDifference>& differences = compared.differences;
+    for (std::size_t i = 0; i < std::min(differences.size(), kShownDifferences); ++i) {
+      Tell(cell, differences[i]);
     }
     if (differences.size() > kShownDifferences) {
       report_.notes.push_back(
           fmt::format("{}: {} settings differ in all", cell.name, differences.size()));
     }
-    return same_fields;
+    return compared.same_fields;
   }
 
   void Tell(const BaselineCell& cell, const ScenarioDifference& each) {
@@ -183,16 +201,19 @@ ExitCode CheckAgainstBaseline(const core::JsonValue& baseline, const RegressionR
   Check check(report::ParseBaseline(baseline, &unknown), request);
   report::RegressionReport report = check.Run();
   if (!unknown.empty()) {
-    report.notes.push_back(
-        fmt::format("{} metrics of the baseline are unknown to this program", unknown.size()));
+    report.notes.push_back(fmt::format(
+        "metrics of the baseline that are unknown to this program: {}", fmt::join(unknown, ", ")));
   }
   if (!request.junit.empty()) {
     report::WriteFileAtomically(request.junit, report::RegressionJUnit(report));
   }
   if (!request.csv.empty()) report::WriteFileAtomically(request.csv, report::RegressionCsv(report));
-  Print(report::RegressionText(report, request.all_rows ? report::ReportedRows::kAll
-                                                        : report::ReportedRows::kNotEquivalent));
-  return static_cast<ExitCode>(statistics::ExitCode(report.result));
+  Print(Wrapped(report::RegressionText(
+      report,
+      request.all_rows ? report::ReportedRows::kAll : report::ReportedRows::kNotEquivalent)));
+  const auto code = static_cast<ExitCode>(statistics::ExitCode(report.result));
+  if (report::BrokenDeterminism(report)) return ExitCode::kDiffers;
+  return code == ExitCode::kDone && !unknown.empty() ? ExitCode::kInconclusive : code;
 }
 
 }  // namespace rockyard::app

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "report/csv.h"
@@ -53,6 +54,10 @@ std::string Sentence(const RegressionRow& row) {
     return fmt::format("{}: less than {} {} apart", Label(row), Short(row.margin),
                        row.metric->unit);
   }
+  if (row.run_count == 0) {
+    return fmt::format("{}: the run has no value of it, the baseline has {}", Label(row),
+                       row.baseline_count);
+  }
   if (!std::isfinite(row.seen_80)) {
     return fmt::format("{}: too few values ({} and {}) to tell anything", Label(row),
                        row.baseline_count, row.run_count);
@@ -61,6 +66,16 @@ std::string Sentence(const RegressionRow& row) {
       "{}: {} apart; the run would have seen {} with 80 %, the margin is {}: about {} trials tell",
       Label(row), Signed(row.difference), Short(row.seen_80), Short(row.margin),
       row.trials_for_margin);
+}
+
+std::string NotDeterministic(const CheckedCell& cell) {
+  return fmt::format("{}: the baseline's own build, seed and settings gave other records",
+                     cell.name.empty() ? "the run" : cell.name);
+}
+
+bool BrokenDeterminism(const RegressionReport& report) {
+  return std::any_of(report.cells.begin(), report.cells.end(),
+                     [](const CheckedCell& cell) { return cell.not_deterministic; });
 }
 
 std::string RegressionCsv(const RegressionReport& report) {
@@ -96,11 +111,24 @@ std::string RegressionCsv(const RegressionReport& report) {
 
 std::string RegressionJUnit(const RegressionReport& report) {
   const statistics::RegressionResult& result = report.result;
+  std::string determinism;
+  const auto broken = std::count_if(report.cells.begin(), report.cells.end(),
+                                    [](const CheckedCell& cell) { return cell.not_deterministic; });
+  for (const CheckedCell& cell : report.cells) {
+    if (!cell.not_deterministic) continue;
+    determinism += fmt::format(
+        "  <testcase classname=\"{}\" name=\"determinism\">\n    <failure message=\"{}\"/>\n"
+        "  </testcase>\n",
+        EscapeXml(cell.name.empty() ? report.baseline : cell.name),
+        EscapeXml(NotDeterministic(cell)));
+  }
   std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
   xml += fmt::format("<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n",
-                     EscapeXml(report.baseline), result.rows.size(),
-                     result.Count(RegressionVerdict::kChanged),
+                     EscapeXml(report.baseline),
+                     static_cast<std::int64_t>(result.rows.size()) + broken,
+                     result.Count(RegressionVerdict::kChanged) + broken,
                      result.Count(RegressionVerdict::kInconclusive));
+  xml += determinism;
   for (const RegressionRow& row : result.rows) {
     const std::string cell = row.cell.empty() ? report.baseline : row.cell;
     xml += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", EscapeXml(cell),

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "report/regression_report.h"
 #include "statistics/regression.h"
 
 namespace rockyard::report {
@@ -13,6 +14,9 @@ std::string Short(double value);   // four significant digits; "-" where it is n
 std::string Signed(double value);  // the same with its sign
 std::string Probability(double p);
 std::string Label(const statistics::RegressionRow& row);  // "cell: metric"
+
+// That the build of the baseline gave this cell other records.
+std::string NotDeterministic(const CheckedCell& cell);
 
 // Which metric moved, by how much, and whether the run was large enough to know.
 std::string Sentence(const statistics::RegressionRow& row);

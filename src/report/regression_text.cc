@@ -19,8 +19,9 @@ std::string CellLine(const CheckedCell& cell) {
   if (cell.identical) {
     how = fmt::format("identical: {} trials, every bit", cell.run_trials);
   } else if (cell.paired) {
-    how = fmt::format("{} trials in pairs with the baseline's (seed {})",
-                      std::min(cell.run_trials, cell.baseline_trials), cell.run_seed);
+    how = fmt::format("{} pairs with the baseline's trials (seed {}), {} of them the same",
+                      std::min(cell.run_trials, cell.baseline_trials), cell.run_seed,
+                      cell.same_pairs);
   } else {
     how = fmt::format("{} trials (seed {}) against {} (seed {}){}", cell.run_trials, cell.run_seed,
                       cell.baseline_trials, cell.baseline_seed,
@@ -100,17 +101,27 @@ std::string Rates(const RegressionReport& report) {
   return fmt::format(
       "\n{} changed, {} equivalent, {} inconclusive of {} metrics in {} cells\n"
       "false alarm in an unchanged build: at most {} for all metrics together (Holm)\n"
-      "equivalent although moved by its margin: at most {} for each metric (TOST)\n"
-      "seen 80 %: shift that this run would have called changed with 80 %\n",
+      "equivalent although moved by its margin: at most {} for each rate, about that for values\n"
+      "seen 80 %: shift that such a run would have called changed with 80 %\n",
       result.Count(RegressionVerdict::kChanged), result.Count(RegressionVerdict::kEquivalent),
       result.Count(RegressionVerdict::kInconclusive), result.rows.size(), report.cells.size(),
       result.options.alpha, result.options.equivalence_alpha);
 }
 
+std::string Determinism(const RegressionReport& report) {
+  std::string text;
+  for (const CheckedCell& cell : report.cells) {
+    if (!cell.not_deterministic) continue;
+    text += fmt::format("  {}\n", NotDeterministic(cell));
+  }
+  return text.empty() ? text : "determinism is broken\n" + text + "\n";
+}
+
 }  // namespace
 
 std::string RegressionText(const RegressionReport& report, ReportedRows rows) {
-  std::string text = fmt::format("against baseline {}: {}\n", report.baseline, report.reason);
+  std::string text = Determinism(report);
+  text += fmt::format("against baseline {}: {}\n", report.baseline, report.reason);
   for (const std::string& note : report.notes) text += "  note: " + note + "\n";
   for (const CheckedCell& cell : report.cells) text += CellLine(cell);
   return text + Table(report, rows) + Moved(report) + Unsure(report) + Rates(report);
