@@ -1,4 +1,5 @@
 // Axes of sweeps that take causes of failure away.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <string>
@@ -61,8 +62,9 @@ TEST(SweepAblationTest, AblationsLieOverSettings) {
   const std::string levels = R"({"name": "by", "levels": [
       {"name": "wheels", "set": {"sensors.localization": "dead_reckoning"}},
       {"name": "far", "set": {"course.goal_x_m": 6}}]})";
-  for (const std::string& axes : {ablation + "," + levels, levels + "," + ablation}) {
-    const Sweep sweep = ParseSweep(R"({"axes": [)" + axes + "]}");
+  for (const std::string& axes :
+       {fmt::format("{}, {}", ablation, levels), fmt::format("{}, {}", levels, ablation)}) {
+    const Sweep sweep = ParseSweep(fmt::format(R"({{"axes": [{}]}})", axes));
     ASSERT_EQ(sweep.cells.size(), 4u);
     const bool ablation_first = sweep.axes[0].name == "known";
     const Scenario& off = sweep.cells[0].scenario;  // by wheels
