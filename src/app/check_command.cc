@@ -80,6 +80,7 @@ void NoteUnfinished(const StoredRun& run) {
 RegressionRequest Regression(const CheckOptions& options) {
   RegressionRequest request = options.regression;
   request.runs = options.runs;
+  request.cell = options.cell;
   request.junit = options.junit;
   request.csv = options.csv;
   if (options.allow_scenario_change) request.scenario_change = ScenarioChange::kAllow;
