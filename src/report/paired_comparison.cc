@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include "statistics/bootstrap.h"
 #include "statistics/drive_summary.h"
+#include "statistics/equivalence.h"
 #include "statistics/moments.h"
+#include "statistics/quantiles.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::report {
@@ -18,7 +21,6 @@ using statistics::Proportion;
 using truth::Record;
 using truth::TrialOutcome;
 
-constexpr double kNormal975 = 1.959963984540054;  // 97.5 % quantile of the standard normal law
 constexpr std::uint64_t kBootstrapSeed = 1;
 
 using Pair = std::pair<const Record*, const Record*>;
@@ -101,18 +103,19 @@ void ComparePairedColumn(const std::vector<Pair>& pairs, std::size_t in_first,
   result.interval = statistics::BootstrapInterval(differences, Mean, kBootstrapSeed);
 }
 
+// Welch's interval; unknown where either side has fewer than two values.
 void CompareUnpairedColumn(const std::vector<double>& first, const std::vector<double>& second,
                            ColumnComparison& result) {
-  const statistics::Moments a = statistics::MomentsOf(first);
-  const statistics::Moments b = statistics::MomentsOf(second);
-  const double error = std::sqrt(a.variance() / static_cast<double>(a.count()) +
-                                 b.variance() / static_cast<double>(b.count()));
-  result.count = std::min(a.count(), b.count());
-  result.first_mean = a.mean();
-  result.second_mean = b.mean();
-  result.difference = b.mean() - a.mean();
-  result.interval = {result.difference - kNormal975 * error,
-                     result.difference + kNormal975 * error};
+  const std::vector<double> a = statistics::SortedFinite(first);
+  const std::vector<double> b = statistics::SortedFinite(second);
+  const statistics::MeanDifference means = statistics::WelchMeans(a, b);
+  result.count = static_cast<std::int64_t>(std::min(a.size(), b.size()));
+  result.first_mean = Mean(a);
+  result.second_mean = Mean(b);
+  result.difference = means.difference;
+  result.interval = {std::numeric_limits<double>::quiet_NaN(),
+                     std::numeric_limits<double>::quiet_NaN()};
+  if (means.known()) result.interval = statistics::DifferenceInterval(means);
 }
 
 // Every column that both schemas have; `compare` gets its index in each and fills the rest.

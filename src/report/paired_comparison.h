@@ -57,8 +57,9 @@ struct RunComparison {
 // Equal seed and index mean equal rocks and equal noise, so that differences have far less variance
 // than two samples. Paired intervals: success by Agresti and Min (2005), half a pair added to each
 // of the four cells; columns by the percentile bootstrap of the mean difference (seed 1). Not
-// paired: success by Newcombe (1998), method 10, from the Wilson intervals; columns by the
-// difference of the means with the normal approximation. No correction for the number of columns:
+// paired: success by Newcombe (1998), method 10, from the Wilson intervals; columns by
+// Welch's t interval of the difference of the means (NaN where either side has fewer than two
+// values). No correction for the number of columns:
 // they describe.
 RunComparison CompareRuns(const ComparedRun& first, const ComparedRun& second);
 

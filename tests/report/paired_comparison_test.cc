@@ -77,6 +77,21 @@ TEST(CompareRuns, OtherSeedsAreTwoSamples) {
   EXPECT_NEAR(result.columns[0].difference, 0.5, 1e-12);
 }
 
+// Two values a side: Student's quantile for two degrees of freedom is 4.30, not 1.96.
+TEST(CompareRuns, FewUnpairedValuesHaveStudentsInterval) {
+  TwoRuns runs(4, 0, 0, 0);
+  runs.a.resize(2);
+  runs.b.resize(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    runs.a[i].values.assign(runs.a[i].values.size(), static_cast<double>(i));
+    runs.b[i].values.assign(runs.b[i].values.size(), static_cast<double>(i) + 3.0);
+  }
+  const statistics::Interval interval = runs.Compare(2).columns[0].interval;
+  const double error = 0.7071067811865476;  // of each group 0.5 / 2
+  EXPECT_NEAR(interval.low, 3.0 - 4.302652729911275 * error, 1e-9);
+  EXPECT_NEAR(interval.high, 3.0 + 4.302652729911275 * error, 1e-9);
+}
+
 TEST(CompareRuns, LeavesOutFaultsAndWhatOnlyOneRunHas) {
   TwoRuns runs(10, 0, 0, 0);
   runs.a[3] = {3, TrialOutcome::kSimulatorFault, "", {}};
