@@ -62,7 +62,7 @@ batch::BatchResult RunTrials(std::span<const batch::CellWork> work, OpenedRun& r
   batch.rule = run.store.rule();
   if (options.output() == Output::kQuiet) return process.RunTrials(work, run.store, batch);
   ProgressLine line(stderr);
-  const batch::BatchResult result = process.RunTrials(
+  batch::BatchResult result = process.RunTrials(
       work, run.store, batch, [&](const batch::Progress& progress) { line.Show(progress); });
   line.Finish(result.progress);
   return result;

@@ -162,6 +162,7 @@ std::vector<StoredRun> ReadCampaign(const fs::path& folder) {
   const batch::ResultStore store = batch::ResultStore::Read(folder);
   const CellReader loader(folder, store);
   std::vector<StoredRun> runs;
+  runs.reserve(static_cast<std::size_t>(store.cells()));
   for (int cell = 0; cell < store.cells(); ++cell) runs.push_back(loader.Load(cell));
   return runs;
 }

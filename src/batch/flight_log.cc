@@ -75,12 +75,14 @@ std::vector<Flight> FlightLog::Flights() const {
   return flights;
 }
 
-bool FlightLog::MarkOverdue(double limit_s) {
+std::int64_t FlightLog::ReadCpuClock(clockid_t clock) { return Nanoseconds(clock); }
+
+bool FlightLog::MarkOverdue(double limit_s, const CpuClock& now_ns) {
   bool any = false;
   for (Slot& slot : shared_->slots) {
     std::uint64_t word = slot.word;
     if (StateOf(word) == kFlying) {
-      const auto used_ns = static_cast<double>(Nanoseconds(slot.clock) - slot.began_ns);
+      const auto used_ns = static_cast<double>(now_ns(slot.clock) - slot.began_ns);
       // A trial that ends in this moment is not overdue, nor is the one that follows it.
       if (used_ns > 1e9 * limit_s) {
         slot.word.compare_exchange_strong(word, word - kFlying + kOverdue);

@@ -1,8 +1,11 @@
 // Which trials are in the air, in memory that outlives the process that runs them.
 #pragma once
 
+#include <sys/types.h>
+
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "batch/campaign.h"
@@ -41,8 +44,9 @@ class FlightLog {
   std::int64_t stored() const { return shared_->stored; }
 
   // Marks every flight that has used more CPU time than the limit; returns whether any is. Only in
-  // the process that runs them: it reads the clocks of its threads.
-  bool MarkOverdue(double limit_s);
+  // the process that runs them: it reads the clocks of its threads, by `now_ns` in tests.
+  using CpuClock = std::function<std::int64_t(clockid_t clock)>;
+  bool MarkOverdue(double limit_s, const CpuClock& now_ns = ReadCpuClock);
 
   // The worker is to begin no further trial.
   std::atomic<bool>& stop() { return shared_->stop; }
@@ -55,6 +59,8 @@ class FlightLog {
   void Clear();
 
  private:
+  static std::int64_t ReadCpuClock(clockid_t clock);
+
   // In the lowest bits of a slot's word; above them is the number of the flight, so that the word
   // of one that has ended never comes back.
   enum State : std::uint64_t { kFree, kClaimed, kFlying, kOverdue };

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <csignal>
-#include <ctime>
 #include <functional>
 #include <new>
 #include <thread>
@@ -348,30 +347,21 @@ TEST_F(SupervisorTest, PoliteSignalDuringAHangIsAnInterruption) {
   EXPECT_EQ(Supervise(log_, worker, {}, [](const std::string&) {}), 130);
 }
 
-// The watchdog reads clock and begin of a flight; another thread may have the slot by then.
-TEST_F(SupervisorTest, SlotOfAnotherTrialIsNeverOverdue) {
-  constexpr double kLimit_s = 0.1;
-  std::atomic<int> turn = 0;
-  std::atomic<bool> over = false;
-  const auto fly = [&](int own, double burn_s) {
-    const std::clock_t begin = std::clock();
-    while (static_cast<double>(std::clock() - begin) < burn_s * CLOCKS_PER_SEC) {
-    }
-    while (!over) {
-      if (turn != own) continue;
-      log_.End(log_.Begin({0, own}));
-      turn = 1 - own;
-    }
+// Between a look at the clock of a trial and the mark the trial may end, and another one begin.
+TEST_F(SupervisorTest, TrialThatFollowsAnOverdueOneIsNotMarked) {
+  int slot = log_.Begin({0, 1});
+  const auto late = [&](clockid_t) {
+    log_.End(slot);
+    slot = log_.Begin({0, 2});
+    return std::int64_t{1} << 60;
   };
-  // The CPU clock of one thread is ahead of the other's by more than the limit.
-  std::thread ahead(fly, 0, 0.3);
-  std::thread behind(fly, 1, 0.0);
-  bool any = false;
-  for (int i = 0; i < 20000 && !any; ++i) any = log_.MarkOverdue(kLimit_s);
-  over = true;
-  ahead.join();
-  behind.join();
-  EXPECT_FALSE(any);
+  EXPECT_FALSE(log_.MarkOverdue(1.0, late));
+  ASSERT_EQ(log_.Flights().size(), 1U);
+  EXPECT_EQ(log_.Flights()[0].id, (TrialId{0, 2})) << "in the same slot";
+  EXPECT_FALSE(log_.Flights()[0].overdue);
+  EXPECT_TRUE(log_.MarkOverdue(1.0, [](clockid_t) { return std::int64_t{1} << 60; }));
+  log_.End(slot);
+  EXPECT_TRUE(log_.Flights().empty());
 }
 
 TEST_F(SupervisorTest, SecondSignalKills) {
