@@ -105,6 +105,7 @@ std::vector<SweepAttribution> AttributeSweep(const Sweep& sweep,
     return {};
   }
   std::vector<std::string> functions;
+  functions.reserve(axes.size());
   for (const std::size_t axis : axes) functions.push_back(sweep.axes[axis].name);
   std::vector<SweepAttribution> attributions;
   for (const Setting& setting : Settings(sweep, axes)) {
