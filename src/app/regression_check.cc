@@ -30,7 +30,9 @@ constexpr std::size_t kShownDifferences = 12;
 class Check {
  public:
   Check(report::Baseline baseline, const RegressionRequest& request)
-      : baseline_(std::move(baseline)), request_(request), runs_(ReadCells(request.runs, request.cell)) {
+      : baseline_(std::move(baseline)),
+        request_(request),
+        runs_(ReadCells(request.runs, request.cell)) {
     if (!request.cell.empty()) KeepCellsOf(runs_, baseline_);
     report_.baseline = baseline_.name;
     report_.reason = baseline_.reason;
@@ -208,9 +210,9 @@ ExitCode CheckAgainstBaseline(const core::JsonValue& baseline, const RegressionR
     report::WriteFileAtomically(request.junit, report::RegressionJUnit(report));
   }
   if (!request.csv.empty()) report::WriteFileAtomically(request.csv, report::RegressionCsv(report));
-  Print(Wrapped(report::RegressionText(
-      report,
-      request.all_rows ? report::ReportedRows::kAll : report::ReportedRows::kNotEquivalent)));
+  Print(Wrapped(report::RegressionText(report, request.all_rows
+                                                   ? report::ReportedRows::kAll
+                                                   : report::ReportedRows::kNotEquivalent)));
   const auto code = static_cast<ExitCode>(statistics::ExitCode(report.result));
   if (report::BrokenDeterminism(report)) return ExitCode::kDiffers;
   return code == ExitCode::kDone && !unknown.empty() ? ExitCode::kInconclusive : code;
