@@ -1,0 +1,158 @@
+// Planning, metrics, baselines and the check against them, as typed.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/command.h"
+
+namespace rockyard::app {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class CliRegression : public CommandTest {
+ protected:
+  void MakeBaseline(int trials) {
+    ASSERT_EQ(Run(QuickRun("a", trials)).exit_code, 0);
+    ASSERT_EQ(Run({"baseline", "a", "--reason", "first", "--out", "b.json"}).exit_code, 0);
+  }
+  std::vector<std::string> CheckOf(const std::string& run) const {
+    return {"check", run, "--against", "b.json"};
+  }
+  json Baseline() const { return json::parse(ReadFile(work() / "b.json")); }
+  void Write(const json& baseline) const { WriteFile(work() / "b.json", baseline.dump()); }
+};
+
+TEST_F(CliRegression, PlanAnswersInTextAndJson) {
+  const CommandResult claim = Run({"plan", "claim", "--below", "0.001", "--json"});
+  EXPECT_EQ(claim.exit_code, 0);
+  EXPECT_EQ(json::parse(claim.out)["trials"], 2995);
+  const CommandResult difference = Run(
+      {"plan", "difference", "--from", "0.85", "--to", "0.75", "--discordant", "0.2", "--json"});
+  EXPECT_GE(json::parse(difference.out)["fisher_power"], 0.8);
+  EXPECT_GT(json::parse(difference.out)["mcnemar"], 0);
+  EXPECT_THAT(Run({"plan", "half-width", "--half-width", "0.02"}).out, HasSubstr("Wilson"));
+  EXPECT_THAT(Run({"plan", "equivalence", "--margin", "1", "--deviation", "2"}).out,
+              HasSubstr("pairs"));
+}
+
+TEST_F(CliRegression, PlanRefusesWhatHasNoAnswer) {
+  EXPECT_EQ(Run({"plan"}).exit_code, 2);
+  EXPECT_EQ(Run({"plan", "claim", "--below", "2"}).exit_code, 2);
+  EXPECT_EQ(Run({"plan", "half-width", "--half-width", "0.5"}).exit_code, 2);
+  EXPECT_THAT(Run({"plan", "difference", "--from", "0.5", "--to", "0.5"}).err, HasSubstr("--to"));
+  EXPECT_THAT(
+      Run({"plan", "difference", "--from", "0.9", "--to", "0.8", "--discordant", "0.01"}).err,
+      HasSubstr("--discordant"));
+}
+
+TEST_F(CliRegression, MetricsAreListed) {
+  const CommandResult result = Run({"metrics"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, AllOf(HasSubstr("path_ratio"), HasSubstr("min_clearance_m")));
+}
+
+TEST_F(CliRegression, IdenticalRunsAreDoneHoweverFewAndLonger) {
+  MakeBaseline(4);
+  const CommandResult same = Run(CheckOf("a"));
+  EXPECT_EQ(same.exit_code, 0) << same.out;
+  EXPECT_THAT(same.out, HasSubstr("identical: 4 trials, every bit"));
+  ASSERT_EQ(Run(QuickRun("longer", 6)).exit_code, 0);
+  const CommandResult longer = Run(CheckOf("longer"));
+  EXPECT_EQ(longer.exit_code, 0) << longer.out;
+  EXPECT_THAT(longer.out, HasSubstr("the first 4 of 6 trials are used"));
+}
+
+TEST_F(CliRegression, AnotherHashOfTheSameBuildIsADifference) {
+  MakeBaseline(4);
+  json baseline = Baseline();
+  baseline["cells"][0]["trial_hash"] = "0000000000000000";
+  Write(baseline);
+  const bool dirty = std::string(baseline["build"]).find("-dirty") != std::string::npos;
+  const CommandResult result = Run(With(CheckOf("a"), {"--junit", "j.xml"}));
+  EXPECT_EQ(result.exit_code, dirty ? 4 : 1) << "a build of changed files proves nothing";
+  EXPECT_EQ(result.out.starts_with("determinism is broken"), !dirty);
+  baseline["build"] = "another";
+  Write(baseline);
+  EXPECT_EQ(Run(CheckOf("a")).exit_code, 4) << "four trials of another build tell nothing";
+}
+
+TEST_F(CliRegression, UnknownMetricsAreNotPassedOver) {
+  MakeBaseline(4);
+  json baseline = Baseline();
+  baseline["cells"][0]["margins"]["smoothness"] = 1.0;
+  baseline["cells"][0]["metrics"]["smoothness"] = {1, 2, 3, 4};
+  Write(baseline);
+  const CommandResult result = Run(CheckOf("a"));
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_THAT(result.out, HasSubstr("unknown to this program: smoothness"));
+}
+
+TEST_F(CliRegression, OtherScenariosAreRefused) {
+  MakeBaseline(4);
+  ASSERT_EQ(Run(With(QuickRun("c", 4), {"--set", "terrain.rocks.k_per_m2=0.01"})).exit_code, 0);
+  const CommandResult refused = Run(CheckOf("c"));
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("terrain.rocks.k_per_m2"));
+  EXPECT_NE(Run(With(CheckOf("c"), {"--allow-scenario-change"})).exit_code, 2);
+}
+
+// A setting that the baseline's program did not have: harmless at its default only.
+TEST_F(CliRegression, YoungerSettingsAreAnotherScenarioUnlessAtTheirDefault) {
+  MakeBaseline(4);
+  json baseline = Baseline();
+  json& cell = baseline["cells"][0];
+  cell["fingerprint"] = "0";
+  json& referee = cell["resolved"]["referee"];
+  referee.erase("time_limit_s");  // which the run has at 1 s, not at its default
+  Write(baseline);
+  const CommandResult refused = Run(CheckOf("a"));
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("referee.time_limit_s"));
+  baseline = Baseline();
+  json& resolved = baseline["cells"][0]["resolved"];
+  resolved["referee"]["time_limit_s"] = 1.0;
+  resolved["course"].erase("trials_per_layout");
+  Write(baseline);
+  const CommandResult passed = Run(CheckOf("a"));
+  EXPECT_EQ(passed.exit_code, 0) << passed.err;
+  EXPECT_THAT(passed.out, HasSubstr("course.trials_per_layout"));
+}
+
+TEST_F(CliRegression, SharedRocksAreRefused) {
+  ASSERT_EQ(Run(With(QuickRun("s", 4), {"--set", "course.trials_per_layout=2"})).exit_code, 0);
+  const CommandResult made = Run({"baseline", "s", "--reason", "r", "--out", "b.json"});
+  EXPECT_EQ(made.exit_code, 2);
+  EXPECT_THAT(made.err, HasSubstr("not independent"));
+  MakeBaseline(4);
+  const CommandResult checked = Run(With(CheckOf("s"), {"--allow-scenario-change"}));
+  EXPECT_EQ(checked.exit_code, 2);
+  EXPECT_THAT(checked.err, HasSubstr("not independent"));
+}
+
+TEST_F(CliRegression, BaselinesNeedAReasonAndARun) {
+  ASSERT_EQ(Run(QuickRun("a", 2)).exit_code, 0);
+  EXPECT_EQ(Run({"baseline", "a"}).exit_code, 2);
+  EXPECT_THAT(Run({"baseline", "a", "--reason", " "}).err, HasSubstr("--reason"));
+  EXPECT_EQ(Run({"baseline", "nowhere", "--reason", "r", "--out", "b.json"}).exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(work() / "b.json"));
+}
+
+// A deliberate change of the vehicle against the committed baseline: stripe points are missed.
+TEST_F(CliRegression, AChangedBuildIsCaught) {
+  const std::string root = ROCKYARD_SOURCE_DIR;
+  const CommandResult run =
+      Run({"sweep", root + "/scenarios/sweeps/regression.json", "--out", "changed", "--quiet",
+           "--set", "sensors.light_stripe.missed_probability=0.05"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const CommandResult result =
+      Run({"check", "changed", "--against", root + "/results/baselines/regression.json",
+           "--allow-scenario-change"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, AllOf(HasSubstr("missed_probability"), HasSubstr("time_to_goal_s rose")));
+}
+
+}  // namespace
+}  // namespace rockyard::app
