@@ -87,7 +87,7 @@ TEST_F(CliAblation, TellsWhatHasNoEffect) {
 TEST_F(CliAblation, RefusesWhatCannotBe) {
   ExpectRefused(With(QuickRun("a", 2), {"--ablate", "perfect_localisation"}),
                 "did you mean \"perfect_localization\"?");
-  ExpectRefused(With(QuickRun("a", 2), {"--ablate", ""}), "ablation");
+  ExpectRefused(With(QuickRun("a", 2), {"--ablate", ""}), "--ablate: is empty");
   ExpectRefused(With(QuickRun("a", 2), {"--ablate"}), "--ablate");
   ExpectRefused(With(QuickRun("a", 2), {"--ablate", "no_slip", "--ablate", "no_slip"}), "twice");
   ExpectRefused(
