@@ -161,7 +161,7 @@ std::string CostText(const CampaignCost& cost, const PlannedTrials& trials) {
   if (cost.pilots == 0) return "  no pilots, no cost\n";
   const std::string error = cost.standard_error_s
                                 ? "standard error " + Duration(*cost.standard_error_s)
-                                : "one pilot a cell tells no standard error";
+                                : "standard error unknown";
   std::string text =
       fmt::format("  expected cost, from {} pilot trials: {}{} of CPU time ({})\n    ", cost.pilots,
                   trials.at_most ? "at most " : "", Duration(cost.total_s), error);

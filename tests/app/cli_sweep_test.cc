@@ -54,6 +54,46 @@ TEST_F(CliSweep, WritesTheWholeFolder) {
   EXPECT_THAT(result.err, HasSubstr("12/12 done"));
 }
 
+TEST_F(CliSweep, MergedShardsAreTheSweepOfOneMachine) {
+  ASSERT_EQ(Run(SweepTo("whole")).exit_code, 0);
+  for (const char* part : {"1", "2"}) {
+    const std::string out = std::string("s") + part;
+    const CommandResult shard = Run(With(SweepTo(out), {"--shard", std::string(part) + "/2"}));
+    EXPECT_EQ(shard.exit_code, 0) << shard.err;
+    EXPECT_THAT(shard.out, HasSubstr(std::string("shard ") + part + " of 2"));
+  }
+  // Trials 0, 2 of each of four cells here, trial 1 there.
+  EXPECT_EQ(Summary("s1")["accounting"]["completed"], 8);
+  EXPECT_EQ(Summary("s2")["accounting"]["planned"], 4);
+  EXPECT_EQ(Summary("s2")["cells"][3]["accounting"]["completed"], 1);
+  EXPECT_FALSE(Summary("s2")["cells"][3].contains("declared_success")) << "no rates from a shard";
+  const CommandResult merged = Run({"merge", "s2", "s1", "--out", "merged"});
+  EXPECT_EQ(merged.exit_code, 0) << merged.err;
+  EXPECT_EQ(Hash("merged"), Hash("whole"));
+  EXPECT_EQ(ReadFile(work() / "merged" / "cells.csv"), ReadFile(work() / "whole" / "cells.csv"));
+  EXPECT_EQ(Summary("merged")["accounting"], Summary("whole")["accounting"]);
+}
+
+TEST_F(CliSweep, SaysWhereEachCellStoppedAndWhy) {
+  const CommandResult result =
+      Run(With(SweepTo("a"), {"--until-half-width", "0.15", "--block", "5", "--max-trials", "60"}));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("stopping rule: half-width 15.00 %"));
+  EXPECT_THAT(result.out, HasSubstr("precise enough after"));
+  const json summary = Summary("a");
+  std::int64_t planned = 0;
+  for (const json& cell : summary["cells"]) {
+    EXPECT_EQ(cell["stopping"]["end"], "precise");
+    EXPECT_EQ(cell["stopping"]["trials"], cell["accounting"]["planned"]);
+    EXPECT_EQ(cell["accounting"]["pending"], 0);
+    EXPECT_LE(cell["stopping"]["confidence_sequence"][1], 0.3);
+    planned += cell["accounting"]["planned"].get<std::int64_t>();
+  }
+  EXPECT_EQ(summary["accounting"]["planned"], planned);
+  EXPECT_THAT(result.out, HasSubstr(std::to_string(planned) + " planned = "));
+  EXPECT_THAT(ReadFile(work() / "a" / "cells.csv"), HasSubstr(",precise,"));
+}
+
 TEST_F(CliSweep, ThreadsResumeAndGrowthGiveTheSameHash) {
   EXPECT_EQ(Run(With(SweepTo("one"), {"--threads", "1"})).exit_code, 0);
   EXPECT_EQ(Run(With(SweepTo("two"), {"--threads", "2", "--no-supervisor"})).exit_code, 0);
@@ -116,7 +156,7 @@ TEST_F(CliSweep, APlanReplacesAPlanAndNothingElse) {
   WriteFile(work() / "mine" / "letter.txt", "dear");
   const CommandResult refused = Run(With(SweepTo("mine"), {"--dry-run", "--pilots", "0"}));
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("holds no plan"));
+  EXPECT_THAT(refused.err, HasSubstr("something else than a plan"));
 }
 
 // What has no effect comes to light where the numbers are common.
