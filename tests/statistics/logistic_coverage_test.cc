@@ -126,6 +126,7 @@ Coverages CoverageOf(const Dependent& law) {
     core::RandomStream stream({.seed = 2, .trial = static_cast<std::uint32_t>(number)},
                               core::Purpose::kTest);
     std::vector<DosePoint> points;
+    points.reserve(kSettings.size());
     for (const double x : kSettings) points.push_back({x, 0, kTrials});
     std::vector<std::array<bool, kSettings.size()>> success(kTrials);
     double common = 0.0;
