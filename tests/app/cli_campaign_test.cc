@@ -86,6 +86,40 @@ TEST_F(CliCampaign, StopsByPrecisionAndGoesOnWithTheSameRule) {
   EXPECT_EQ(Run(With(words, {"--block", "10"})).exit_code, 2) << "of what?";
 }
 
+// A half-width of 0.5 is met without any trial.
+TEST_F(CliCampaign, HalfWidthsThatSayNothingAreRefused) {
+  std::vector<std::string> words = QuickRun("a", 7);
+  const auto trials = std::find(words.begin(), words.end(), "--trials");
+  words.erase(trials, trials + 2);
+  for (const char* wrong : {"0.5", "0.491", "1", "0", "-0.1", "0.0004", "nan", "inf", "x"}) {
+    const CommandResult result = Run(With(words, {"--until-half-width", wrong}));
+    EXPECT_EQ(result.exit_code, 2) << wrong;
+    EXPECT_THAT(result.err, HasSubstr("--until-half-width")) << wrong;
+    EXPECT_FALSE(fs::exists(work() / "a")) << wrong;
+  }
+  const CommandResult widest = Run(With(words, {"--until-half-width", "0.49", "--block", "1"}));
+  EXPECT_EQ(widest.exit_code, 0) << widest.err;
+  EXPECT_GE(Summary("a")["accounting"]["completed"], 1);
+}
+
+// What a longer run had stored is no part of a campaign that is content with less.
+TEST_F(CliCampaign, RuleOnALongerRunIsTheRunOfTheRule) {
+  std::vector<std::string> words = QuickRun("a", 30);
+  ASSERT_EQ(Run(words).exit_code, 0);
+  const auto trials = std::find(words.begin(), words.end(), "--trials");
+  words.erase(trials, trials + 2);
+  const std::vector<std::string> rule = {"--until-half-width", "0.2", "--block", "10"};
+  const CommandResult result = Run(With(With(words, rule), {"--resume"}));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  std::vector<std::string> fresh = With(words, rule);
+  *std::find(fresh.begin(), fresh.end(), "a") = "b";
+  ASSERT_EQ(Run(fresh).exit_code, 0);
+  EXPECT_LT(Summary("b")["accounting"]["planned"], 30);
+  EXPECT_EQ(Summary("a")["accounting"], Summary("b")["accounting"]);
+  EXPECT_EQ(Summary("a")["trial_hash"], Summary("b")["trial_hash"]);
+  EXPECT_EQ(ReadFile(work() / "a/trials.csv"), ReadFile(work() / "b/trials.csv"));
+}
+
 TEST_F(CliCampaign, RuleNeedsIndependentTrials) {
   std::vector<std::string> words = QuickRun("a", 7);
   const auto trials = std::find(words.begin(), words.end(), "--trials");
