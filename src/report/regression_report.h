@@ -21,7 +21,7 @@ struct CheckedCell {
   std::int64_t baseline_trials = 0;
   std::int64_t run_trials = 0;
   std::int64_t same_pairs = 0;  // same outcome, same value of every metric as the baseline keeps it
-  bool same_fields = true;  // scenario settings that decide rocks, start and goal
+  bool same_fields = true;      // scenario settings that decide rocks, start and goal
 };
 
 struct RegressionReport {

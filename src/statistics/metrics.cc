@@ -45,8 +45,9 @@ Interval MeanInterval(const std::vector<double>& values, double confidence) {
 }  // namespace
 
 double DefaultMargin(const Metric& metric, double mean) {
+  constexpr double kAnyDifference = 1e-9;  // where a mean of 0 gives no scale
   const double relative = std::isfinite(mean) ? metric.relative_margin * std::abs(mean) : 0.0;
-  return std::max(metric.margin, relative);
+  return std::max({metric.margin, relative, kAnyDifference});
 }
 
 std::optional<std::vector<double>> MetricValues(const Metric& metric,

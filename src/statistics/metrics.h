@@ -50,7 +50,8 @@ struct Metric {
 std::span<const Metric> Metrics();
 const Metric* FindMetric(std::string_view name);  // nullptr where there is none
 
-// Difference below which a metric whose mean is `mean` counts as unchanged. In the metric's unit.
+// Difference below which a metric whose mean is `mean` counts as unchanged. In the metric's unit;
+// always above 0: where neither margin says anything (a mean of 0), any difference matters.
 double DefaultMargin(const Metric& metric, double mean);
 
 // One value for each record, in their order; NaN where the trial does not count or has no finite

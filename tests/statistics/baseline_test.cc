@@ -58,6 +58,23 @@ TEST(Baseline, ReadsBackWhatWasWritten) {
   }
 }
 
+// A mean of 0 gives a relative margin no scale; the file must still be one that can be read.
+TEST(Baseline, AMetricThatIsAlwaysZeroHasAMargin) {
+  const truth::RecordSchema schema = {{"true_distance_m", "m", ""}};
+  const std::vector<truth::Record> records = {{0, truth::TrialOutcome::kJammed, "", {0.0}},
+                                              {1, truth::TrialOutcome::kJammed, "", {0.0}}};
+  Baseline still = SampleBaseline();
+  BaselineCell& cell = still.cells[0];
+  cell.outcomes.clear();
+  cell.metrics.clear();
+  FillBaselineCell(schema, records, cell);
+  const Baseline read = ParseBaseline(core::ParseJson(BaselineJson(still), "baseline"));
+  for (const statistics::BaselineMetric& metric : read.cells.at(0).metrics) {
+    EXPECT_GT(metric.margin, 0.0) << metric.name;
+  }
+  EXPECT_EQ(read.cells[0].metrics.back().values, std::vector<double>(2, 0.0));
+}
+
 TEST(Baseline, EveryMistakeIsNamed) {
   const core::JsonValue json = core::ParseJson(
       R"({"kind": "rockyard_baseline", "schema_version": 2, "name": 1, "reason": "r", "build": "b",
