@@ -369,8 +369,10 @@ def navigator_sweep(study):
 
 
 def attribution(study):
+    """Of the printed table the part about attribution, without the notes on equal cells below it."""
     text = study.swept("attribution", 300)
-    return "```\n" + text[text.index("attribution of failures"):]
+    text = text[text.index("attribution of failures"):]
+    return "```\n" + text[:text.index("  every trial of cell")].rstrip() + "\n```"
 
 
 def scaling(study):
