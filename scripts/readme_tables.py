@@ -372,7 +372,7 @@ def attribution(study):
     """Of the printed table the part about attribution, without the notes on equal cells below it."""
     text = study.swept("attribution", 300)
     text = text[text.index("attribution of failures"):]
-    return "```\n" + text[:text.index("  every trial of cell")].rstrip() + "\n```"
+    return "```\n" + text.split("  every trial of cell")[0].rstrip() + "\n```"
 
 
 def scaling(study):

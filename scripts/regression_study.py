@@ -63,14 +63,18 @@ def main():
     parser.add_argument("program")
     parser.add_argument("baseline")
     parser.add_argument("out")
-    parser.add_argument("--reruns", type=int, default=20)
+    parser.add_argument("--reruns", type=int, default=20, help="unchanged, with other seeds (20)")
+    parser.add_argument("--repeats", type=int, default=10,
+                        help="of each change, with other seeds: the share caught is its power (10)")
     arguments = parser.parse_args()
 
     studies = [("unchanged, same seed", [])]
     for name, settings in CHANGES.items():
         options = [part for setting in settings for part in ("--set", setting)]
         studies.append((f"{name}, same seed", options))
-        studies.append((f"{name}, other seed", options + ["--seed", str(FIRST_OTHER_SEED)]))
+        studies += [(f"{name}, seed {FIRST_OTHER_SEED + i}",
+                     options + ["--seed", str(FIRST_OTHER_SEED + i)])
+                    for i in range(arguments.repeats)]
     studies += [(f"unchanged, seed {FIRST_OTHER_SEED + i}", ["--seed", str(FIRST_OTHER_SEED + i)])
                 for i in range(arguments.reruns)]
     with tempfile.TemporaryDirectory() as scratch, open(arguments.out, "w", encoding="utf-8",

@@ -43,7 +43,7 @@ std::string Label(const RegressionRow& row) {
 }
 
 std::string Sentence(const RegressionRow& row) {
-  const std::string moved = fmt::format(
+  std::string moved = fmt::format(
       "{} {} by {} {}, from {} to {} (95 % {} to {}, Holm p {}{})", Label(row),
       row.difference < 0.0 ? "fell" : "rose", Short(std::abs(row.difference)), row.metric->unit,
       Short(row.baseline_mean), Short(row.run_mean), Signed(row.interval.low),
