@@ -85,7 +85,8 @@ class Desk {
       busy = true;
     }
     for (std::size_t rank = 1; rank < ranks_.size(); ++rank) {
-      if (ranks_[rank].wanted > 0) busy = Answer(static_cast<int>(rank)) || busy;
+      if (ranks_[rank].wanted > 0 && !ranks_[rank].closed)
+        busy = Answer(static_cast<int>(rank)) || busy;
     }
     return busy;
   }
@@ -93,6 +94,7 @@ class Desk {
  private:
   struct Rank {
     std::int64_t wanted = 0;
+    bool closed = false;  // has its last block: it reads no other one after that
     bool gone = false;
   };
 
@@ -109,7 +111,7 @@ class Desk {
       return;
     }
     rank.wanted += packet.Integer();
-    if (packet.Integer() == 1) SendBlock(message.rank, {}, true);
+    if (packet.Integer() == 1 && !rank.closed) SendBlock(message.rank, {}, true);
   }
 
   // False while a round of the plan goes on that has no trial left to hand out.
@@ -130,6 +132,7 @@ class Desk {
   void SendBlock(int rank, const std::vector<TrialId>& block, bool last) {
     communicator_.Send(rank, kBlock, PacketWriter().Trials(block).Integer(last ? 1 : 0).bytes());
     ranks_[rank].wanted = 0;
+    ranks_[rank].closed = last;
   }
 
   Communicator& communicator_;

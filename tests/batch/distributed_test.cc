@@ -243,6 +243,35 @@ TEST_F(Distributed, CutOffPacketIsAnErrorNotAHang) {
       std::runtime_error);
 }
 
+// A rank that asked and then wants to end, while all end: after its last block it reads what comes
+// as something else.
+TEST_F(Distributed, ARankGetsOneLastBlock) {
+  const std::atomic<bool> stopped = true;
+  BatchSession session(store_, Options(1), stopped, {});
+  Post post(2);
+  PostCommunicator other(post, 1);
+  std::vector<Message> answers;
+  std::thread rank([&] {
+    const auto send = [&](std::int64_t wanted, std::int64_t ends) {
+      other.Send(0, 1, PacketWriter().Records({}).Integer(wanted).Integer(ends).bytes());
+    };
+    const auto read = [&] {
+      while (std::optional<Message> answer = other.Poll()) answers.push_back(*std::move(answer));
+    };
+    send(3, 0);
+    while (answers.empty()) read();
+    send(0, 1);
+    other.Send(0, 2, PacketWriter().Records({}).Trials({}).bytes());
+  });
+  PostCommunicator communicator(post, 0);
+  const FakeExperiment experiment;
+  const CellWork work{&experiment, 1};
+  RunTrialsOnRanks(communicator, std::span(&work, 1), session.source(), 1);
+  rank.join();
+  while (std::optional<Message> answer = other.Poll()) answers.push_back(*std::move(answer));
+  EXPECT_EQ(answers.size(), 1u);
+}
+
 // The end of the campaign, sent while this rank computes, is no block of trials.
 TEST_F(Distributed, RankEndsWhereRankZeroHasGivenUp) {
   Post post(2);
