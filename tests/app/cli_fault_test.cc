@@ -6,12 +6,9 @@
 #include <random>
 #include <set>
 
-#include "app/command.h"
-#include "batch/result_store.h"
+#include "app/watched_run.h"
 #include "batch/run_folder.h"
 #include "batch/sqlite_database.h"
-#include "batch/store_error.h"
-#include "batch/trial_hash.h"
 
 namespace rockyard::app {
 namespace {
@@ -21,34 +18,9 @@ using batch::ResultStore;
 using testing::AnyOf;
 using testing::HasSubstr;
 
-class CliFault : public CommandTest {
+class CliFault : public WatchedRunTest {
  protected:
-  // Trials of some milliseconds.
-  static std::vector<std::string> Drives(const std::string& out, int trials,
-                                         const std::vector<std::string>& more = {},
-                                         int threads = 2) {
-    return With(
-        {"run", Scenario("nominal"), "--out", out, "--set", "referee.time_limit_s=300", "--threads",
-         std::to_string(threads), "--quiet", "--trials", std::to_string(trials)},
-        more);
-  }
-
-  std::size_t Stored(const std::string& out) const {
-    try {
-      return ResultStore::Read(work() / out).Finished().size();
-    } catch (const batch::StoreError&) {
-      return 0;  // not there yet
-    }
-  }
-
-  bool WaitForTrials(const std::string& out, std::size_t count) const {
-    for (int i = 0; i < 2000 && Stored(out) < count; ++i) usleep(10000);
-    return Stored(out) >= count;
-  }
-
-  std::string Hash(const std::string& out) const {
-    return batch::TrialHash(ResultStore::Read(work() / out).Load());
-  }
+  CliFault() : WatchedRunTest(2) {}
 
   std::string PlainHash(int trials) const {
     EXPECT_EQ(Run(Drives("plain", trials, {"--no-supervisor"}, 1)).exit_code, 0);
@@ -57,38 +29,32 @@ class CliFault : public CommandTest {
 
   // The process that the supervisor has started; 0: none.
   static pid_t WorkerOf(pid_t supervisor) {
-    const std::string id = std::to_string(supervisor);
-    pid_t worker = 0;
-    std::ifstream("/proc/" + id + "/task/" + id + "/children") >> worker;
-    return worker;
+    const std::vector<pid_t> children = ChildrenOf(supervisor);
+    return children.empty() ? 0 : children.front();
+  }
+
+  // A worker that dies by a signal from outside is replaced, and the records are the same.
+  void ExpectReplaced(int signal, const std::string& name) const {
+    const std::string expected = PlainHash(300);
+    const pid_t process = Start(Drives("a", 300));
+    ASSERT_TRUE(WaitForTrials("a", 20));
+    const pid_t worker = WorkerOf(process);
+    ASSERT_GT(worker, 0) << "the run is long enough to be hit";
+    ASSERT_EQ(kill(worker, signal), 0);
+    const CommandResult result = Wait(process);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(name));
+    EXPECT_EQ(Hash("a"), expected);
   }
 };
 
 TEST_F(CliFault, KilledWorkerIsReplaced) {
-  const std::string expected = PlainHash(300);
-  const pid_t process = Start(Drives("a", 300));
-  ASSERT_TRUE(WaitForTrials("a", 20));
-  const pid_t worker = WorkerOf(process);
-  ASSERT_GT(worker, 0) << "the run is long enough to be hit";
-  ASSERT_EQ(kill(worker, SIGKILL), 0);
-  const CommandResult result = Wait(process);
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("SIGKILL"));
-  EXPECT_EQ(Hash("a"), expected);
+  ExpectReplaced(SIGKILL, "SIGKILL");
   EXPECT_LE(ResultStore::Read(work() / "a").InfrastructureFaults().size(), 2U) << "two threads";
 }
 
 TEST_F(CliFault, CrashedWorkerLeavesNoFaultWhereTheTrialsPass) {
-  const std::string expected = PlainHash(300);
-  const pid_t process = Start(Drives("a", 300));
-  ASSERT_TRUE(WaitForTrials("a", 20));
-  const pid_t worker = WorkerOf(process);
-  ASSERT_GT(worker, 0) << "the run is long enough to be hit";
-  ASSERT_EQ(kill(worker, SIGSEGV), 0);
-  const CommandResult result = Wait(process);
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("SIGSEGV"));
-  EXPECT_EQ(Hash("a"), expected);
+  ExpectReplaced(SIGSEGV, "SIGSEGV");
 }
 
 TEST_F(CliFault, SignalsReachTheWorker) {

@@ -3,24 +3,19 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "app/command.h"
-#include "batch/result_store.h"
-#include "batch/store_error.h"
-#include "batch/trial_hash.h"
+#include "app/watched_run.h"
 
 namespace rockyard::app {
 namespace {
 
 namespace fs = std::filesystem;
-using batch::ResultStore;
 using testing::HasSubstr;
 
-class CliMpi : public CommandTest {
+class CliMpi : public WatchedRunTest {
  protected:
-  CliMpi() {
+  CliMpi() : WatchedRunTest(1) {
     // Tests run as root in containers, with more ranks than cores.
     setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
     setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
@@ -35,35 +30,24 @@ class CliMpi : public CommandTest {
     return Wait(StartOn(ranks, words));
   }
 
-  static std::vector<std::string> Drives(const std::string& out, int trials,
-                                         const std::vector<std::string>& more = {},
-                                         int threads = 1) {
-    return With(
-        {"run", Scenario("nominal"), "--out", out, "--set", "referee.time_limit_s=300", "--threads",
-         std::to_string(threads), "--quiet", "--trials", std::to_string(trials)},
-        more);
-  }
-
-  std::size_t Stored(const std::string& out) const {
-    try {
-      return ResultStore::Read(work() / out).Finished().size();
-    } catch (const batch::StoreError&) {
-      return 0;
-    }
-  }
-  bool WaitForTrials(const std::string& out, std::size_t count) const {
-    for (int i = 0; i < 2000 && Stored(out) < count; ++i) usleep(10000);
-    return Stored(out) >= count;
-  }
-  std::string Hash(const std::string& out) const {
-    return batch::TrialHash(ResultStore::Read(work() / out).Load());
-  }
-
-  // Processes of the command that mpirun has started.
-  static std::vector<pid_t> RanksOf(pid_t mpirun) {
-    const std::string id = std::to_string(mpirun);
-    std::ifstream file("/proc/" + id + "/task/" + id + "/children");
-    return {std::istream_iterator<pid_t>(file), {}};
+  // What is stored stays when the rank of that number is killed, and others go on: on so many
+  // ranks, or without mpirun (0).
+  void ExpectKillLosesNothing(std::size_t rank, int ranks_of_resume) const {
+    ASSERT_EQ(Run(Drives("plain", 600)).exit_code, 0);
+    const pid_t process = StartOn(3, Drives("a", 600));
+    ASSERT_TRUE(WaitForTrials("a", 30));
+    const std::vector<pid_t> ranks = ChildrenOf(process);
+    ASSERT_EQ(ranks.size(), 3U);
+    kill(ranks[rank], SIGKILL);
+    EXPECT_NE(Wait(process).exit_code, 0);
+    const std::size_t stored = Stored("a");
+    EXPECT_GE(stored, 30U);
+    EXPECT_LT(stored, 600U);
+    const std::vector<std::string> resume = Drives("a", 600, {"--resume"});
+    const CommandResult resumed =
+        ranks_of_resume > 0 ? RunOn(ranks_of_resume, resume) : Run(resume);
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+    EXPECT_EQ(Hash("a"), Hash("plain"));
   }
 };
 
@@ -99,39 +83,14 @@ TEST_F(CliMpi, BadInputIsToldOnce) {
   }
 }
 
-TEST_F(CliMpi, KilledRankLosesNoStoredTrialAndOthersGoOn) {
-  ASSERT_EQ(Run(Drives("plain", 600)).exit_code, 0);
-  const pid_t process = StartOn(3, Drives("a", 600));
-  ASSERT_TRUE(WaitForTrials("a", 30));
-  const std::vector<pid_t> ranks = RanksOf(process);
-  ASSERT_EQ(ranks.size(), 3U);
-  kill(ranks.back(), SIGKILL);
-  EXPECT_NE(Wait(process).exit_code, 0);
-  const std::size_t stored = Stored("a");
-  EXPECT_GE(stored, 30U);
-  EXPECT_LT(stored, 600U);
-  const CommandResult resumed = RunOn(2, Drives("a", 600, {"--resume"}));
-  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
-  EXPECT_EQ(Hash("a"), Hash("plain"));
-}
+TEST_F(CliMpi, KilledRankLosesNoStoredTrialAndOthersGoOn) { ExpectKillLosesNothing(2, 2); }
 
-TEST_F(CliMpi, KilledRankZeroIsResumedWithoutMpi) {
-  ASSERT_EQ(Run(Drives("plain", 600)).exit_code, 0);
-  const pid_t process = StartOn(3, Drives("a", 600));
-  ASSERT_TRUE(WaitForTrials("a", 30));
-  const std::vector<pid_t> ranks = RanksOf(process);
-  ASSERT_EQ(ranks.size(), 3U);
-  kill(ranks.front(), SIGKILL);
-  EXPECT_NE(Wait(process).exit_code, 0);
-  EXPECT_GE(Stored("a"), 30U);
-  EXPECT_EQ(Run(Drives("a", 600, {"--resume"})).exit_code, 0);
-  EXPECT_EQ(Hash("a"), Hash("plain"));
-}
+TEST_F(CliMpi, KilledRankZeroIsResumedWithoutMpi) { ExpectKillLosesNothing(0, 0); }
 
 TEST_F(CliMpi, CtrlCEndsAllRanksPolitely) {
   const pid_t process = StartOn(3, Drives("a", 100000));
   ASSERT_TRUE(WaitForTrials("a", 20));
-  const std::vector<pid_t> ranks = RanksOf(process);
+  const std::vector<pid_t> ranks = ChildrenOf(process);
   kill(process, SIGINT);
   const CommandResult result = Wait(process);
   EXPECT_NE(result.exit_code, 0);
@@ -145,7 +104,7 @@ TEST_F(CliMpi, OneRankMayLeave) {
   ASSERT_EQ(Run(Drives("plain", 400)).exit_code, 0);
   const pid_t process = StartOn(3, Drives("a", 400));
   ASSERT_TRUE(WaitForTrials("a", 30));
-  const std::vector<pid_t> ranks = RanksOf(process);
+  const std::vector<pid_t> ranks = ChildrenOf(process);
   ASSERT_EQ(ranks.size(), 3U);
   kill(ranks.back(), SIGTERM);
   const CommandResult result = Wait(process);
