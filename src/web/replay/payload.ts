@@ -1,0 +1,175 @@
+// What `rockyard replay` writes into its page (report/replay_data.h). SI units; W is the world
+// (x from start to goal, z up), R the rover (x forward, y left, z up, origin on the ground under the
+// chassis while it stands on level ground). Angles in rad. What is undefined is null.
+
+export interface ReplayPayload {
+  version: 1;
+  title: string;
+  scenario: string;
+  cell: string;
+  seed: number | string;
+  trial: number;
+  outcome: string;
+  detail: string;
+  /** Whether the drive repeated the stored record bit for bit; null where there was none. */
+  repeats_stored: boolean | null;
+  /** Hash of the trial's record. */
+  record_hash: string;
+  command: string;
+  provenance: Record<string, unknown>;
+  /** The record of the trial, column by column. */
+  record: { name: string; unit: string; value: number | null }[];
+  course: Course;
+  ground: Ground;
+  rocks: Rock[];
+  /** Where rocks were pushed: rock index, time, new centre; in the order of time. */
+  rock_moves: { rock: number; t: number; x: number; y: number; z: number }[];
+  rover: RoverShape;
+  motion: Motion;
+  scans: Scan[];
+  steps: Step[];
+  events: TrialEvent[];
+}
+
+export interface Course {
+  start: { x: number; y: number; heading: number };
+  goal: { x: number; y: number; radius: number };
+  /** The goal that the rover was told, where it was designated with errors. */
+  told_goal: { x: number; y: number };
+  /** Corners of the area that holds terrain. */
+  bounds: { x_min: number; x_max: number; y_min: number; y_max: number };
+  /** Vertical planes that bound the arena: normal . p = offset. */
+  walls: { nx: number; ny: number; offset: number }[];
+}
+
+/** Heights of the ground without rocks, row-major: z[iy * nx + ix] at (x0 + ix step, y0 + iy step). */
+export interface Ground {
+  x0: number;
+  y0: number;
+  step: number;
+  nx: number;
+  ny: number;
+  z: number[];
+}
+
+/** An ellipsoid, partly below the ground. */
+export interface Rock {
+  x: number;
+  y: number;
+  z: number;
+  /** Semi-axes along its own x, y, z. */
+  a: number;
+  b: number;
+  c: number;
+  yaw: number;
+  /** Of its top above the ground. */
+  height: number;
+}
+
+/**
+ * The rover as links with boxes, cylinders, capsules and spheres. Link 0 is the chassis, whose frame
+ * is R. Each other link turns about `axis` through `pivot` (both in the frame of its parent, on level
+ * ground with all angles 0, where all frames are parallel to R) by the channel of `motion.joints`
+ * that has its name.
+ */
+export interface RoverShape {
+  links: {
+    name: string;
+    parent: number;
+    pivot: [number, number, number];
+    axis: [number, number, number];
+    shapes: Shape[];
+  }[];
+}
+
+export type Shape =
+  | { kind: "box"; part: string; center: [number, number, number]; size: [number, number, number] }
+  /** Axis along y. */
+  | { kind: "wheel"; part: string; center: [number, number, number]; radius: number; width: number }
+  | { kind: "capsule"; part: string; from: [number, number, number]; to: [number, number, number]; radius: number }
+  | { kind: "sphere"; part: string; center: [number, number, number]; radius: number };
+
+/** One entry per sample, ascending time; equal lengths. */
+export interface Motion {
+  t: number[];
+  /** True pose: origin of R in W, and the unit quaternion of its attitude. */
+  x: number[];
+  y: number[];
+  z: number[];
+  qw: number[];
+  qx: number[];
+  qy: number[];
+  qz: number[];
+  /** By link name: rad. */
+  joints: Record<string, number[]>;
+  /** As the rover believes. */
+  believed_x: number[];
+  believed_y: number[];
+  believed_heading: number[];
+  /** Indices into activity_names: drive, turn, steer, scan, stall, image, compute, overhead. */
+  activity: number[];
+  activity_names: string[];
+  tilt: number[];
+  /** Indices of samples at which operators set the rover back (mirrored arena): the path breaks before. */
+  breaks: number[];
+}
+
+/** One scan of the light stripe sensor. */
+export interface Scan {
+  t: number;
+  /** Of the rover when it scanned. */
+  x: number;
+  y: number;
+  heading: number;
+  /** Points as the rover triangulates them, in W through the true pose; stripe and height as believed. */
+  points: { x: number; y: number; z: number; stripe: number; height: number }[];
+  /** Per stripe from left to right, of this scan alone. */
+  hazards: boolean[];
+}
+
+/** One decision of a map-based navigator. */
+export interface Step {
+  t: number;
+  step: number;
+  /** The believed pose: the map lies in the believed world. */
+  believed: { x: number; y: number; heading: number };
+  pose: { x: number; y: number; heading: number };
+  behind: boolean;
+  map: {
+    x0: number;
+    y0: number;
+    xstep: number;
+    ystep: number;
+    nx: number;
+    ny: number;
+    /** Row-major [iy][ix]; 0 to 255, or -1 where unknown. */
+    goodness: number[];
+    certainty: number[];
+    /** m, null where there are no points. */
+    elevation: (number | null)[];
+  };
+  votes: Vote[];
+  /** At most some hundred of the points that the look gave, in W through the true pose. */
+  points: [number, number, number][];
+}
+
+export interface Vote {
+  kind: "forward" | "backward" | "turn";
+  /** 1/m, positive to the left; of turns the direction. */
+  curvature: number;
+  hazard: number;
+  certainty: number;
+  waypoint: number;
+  merged: number;
+  chosen: boolean;
+}
+
+export interface TrialEvent {
+  t: number;
+  /** "hazard", "look", "chosen", "felt", "scrape", "reflection", "turn", "stall", "end", ... */
+  kind: string;
+  detail: string;
+  x: number;
+  y: number;
+  heading: number;
+}

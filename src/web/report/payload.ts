@@ -1,0 +1,149 @@
+// What `rockyard report` writes into its page (report/page_data.h). Numbers are SI unless a name
+// says otherwise; what is undefined is null.
+
+export interface ReportPayload {
+  version: 1;
+  title: string;
+  /** The command that made the page, and the program. */
+  command: string;
+  provenance: Record<string, unknown>;
+  /** One per run folder, or per cell of a campaign. */
+  runs: Run[];
+  /** One per sweep folder: summary.json of the sweep, its fitted curves. */
+  sweeps: Sweep[];
+  /** Runs compared in pairs: the first with each other; empty for one run and within sweeps. */
+  comparisons: Comparison[];
+}
+
+export interface Run {
+  /** What the run goes by on the page: unique. */
+  label: string;
+  folder: string;
+  /** Name of the cell in its campaign; "" for a run. */
+  cell: string;
+  /** Index in `sweeps`, or null. */
+  sweep: number | null;
+  kind: "drive" | "measurement";
+  /** summary.json, as it is. */
+  summary: Record<string, any>;
+  /** Exact in trials.csv; here 6 significant digits. */
+  trials: TrialTable;
+  /** distance_cdf.csv by column, thinned to at most 1000 steps; null where nothing drives. */
+  cdf: Record<string, (number | null)[]> | null;
+  /** `rockyard check` against the published reference; null where it says nothing of the scenario. */
+  published: PublishedTable | null;
+  parameters: Parameter[];
+  /** Replay pages that were written with the report, by trial number: links relative to the page. */
+  replays: Record<string, string>;
+  /** The command that writes any other; {trial} stands for the number. */
+  replay_command: string;
+}
+
+export interface TrialTable {
+  /** Finished trials in the order of their numbers, faults included. */
+  trial: number[];
+  /** Indices into outcome_names. */
+  outcome: number[];
+  outcome_names: string[];
+  /** Indices into detail_texts. */
+  detail: number[];
+  detail_texts: string[];
+  /** The records' columns; see Column. */
+  columns: Column[];
+}
+
+export interface Column {
+  name: string;
+  unit: string;
+  /** One per trial. */
+  values: (number | null)[];
+}
+
+export interface PublishedTable {
+  reference: string;
+  citation: string;
+  /** What the verdicts mean. */
+  notes: string[];
+  rows: PublishedRow[];
+}
+
+export interface PublishedRow {
+  id: string;
+  what: string;
+  unit: string;
+  /** As text, the way that it was published: "39/40", ">= 7.6", "1.7". */
+  published: string;
+  /** The value as a number where it is one: a rate, a mean. */
+  published_value: number | null;
+  predicted: string;
+  predicted_value: number | null;
+  /** 95 % prediction interval of what as many runs would have shown. */
+  predicted_low: number | null;
+  predicted_high: number | null;
+  /** Adjusted by Holm; null where not judged. */
+  p_holm: number | null;
+  power: number | null;
+  verdict: string;
+  source: string;
+}
+
+export interface Parameter {
+  path: string;
+  value: string;
+  unit: string;
+  /** "published", "calibrated", "assumed" or "setting". */
+  origin: string;
+  range: string;
+  source: string;
+  doc: string;
+}
+
+export interface Sweep {
+  label: string;
+  folder: string;
+  /** summary.json of the sweep, as it is. */
+  summary: Record<string, any>;
+  curves: Curve[];
+}
+
+/** Success along a numeric axis. */
+export interface Curve {
+  label: string;
+  axis: string;
+  unit: string;
+  scale: "linear" | "log";
+  success: "declared" | "true";
+  /** One per cell. */
+  points: { x: number; rate: number; low: number; high: number; trials: number; cell: string }[];
+  /** The fit with its pointwise 95 % band; empty where there is none, and then why. */
+  fit: { x: number; rate: number; low: number; high: number }[];
+  fit_status: string;
+}
+
+export interface Comparison {
+  first: string;
+  second: string;
+  paired: boolean;
+  pairs: number;
+  notes: string[];
+  successes: {
+    what: string;
+    first: number;
+    second: number;
+    difference: number;
+    low: number;
+    high: number;
+    p: number;
+  }[];
+  columns: {
+    trials: "all" | "arrived";
+    name: string;
+    unit: string;
+    n: number;
+    first: number;
+    second: number;
+    difference: number;
+    low: number;
+    high: number;
+  }[];
+}
