@@ -1,0 +1,58 @@
+// Elements from data. Text only ever becomes text nodes and attributes: nothing here reads markup.
+
+export type Child = Node | string | number | null | undefined | false;
+
+type Attributes = Record<string, string | number | boolean | null | undefined>;
+
+/** An element with attributes (left out where null, undefined or false) and children. */
+export function el<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  attributes: Attributes = {},
+  ...children: Child[]
+): HTMLElementTagNameMap[K] {
+  const element = document.createElement(tag);
+  setAttributes(element, attributes);
+  append(element, children);
+  return element;
+}
+
+const SVG = "http://www.w3.org/2000/svg";
+
+/** The same for a drawing. */
+export function svg<K extends keyof SVGElementTagNameMap>(
+  tag: K,
+  attributes: Attributes = {},
+  ...children: Child[]
+): SVGElementTagNameMap[K] {
+  const element = document.createElementNS(SVG, tag);
+  setAttributes(element, attributes);
+  append(element, children);
+  return element;
+}
+
+function setAttributes(element: Element, attributes: Attributes): void {
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === null || value === undefined || value === false) continue;
+    element.setAttribute(name, value === true ? "" : String(value));
+  }
+}
+
+function append(element: Element, children: Child[]): void {
+  for (const child of children) {
+    if (child === null || child === undefined || child === false) continue;
+    element.append(child instanceof Node ? child : String(child));
+  }
+}
+
+/** A labelled control: the label stands before it. */
+export function labelled(label: string, control: HTMLElement): HTMLLabelElement {
+  return el("label", { class: "labelled" }, el("span", {}, label), control);
+}
+
+/** A drop-down list; `options` are [value, text]. */
+export function select(options: [string, string][], chosen?: string): HTMLSelectElement {
+  const list = el("select");
+  for (const [value, text] of options) list.append(el("option", { value }, text));
+  if (chosen !== undefined) list.value = chosen;
+  return list;
+}
