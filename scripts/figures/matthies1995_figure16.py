@@ -1,0 +1,85 @@
+"""Matthies 1995, figure 16: map of one run with the true and the dead-reckoned path."""
+
+import math
+
+from . import Drawn, Figure, FigureError, style
+
+# Samples nearer than this to the last one drawn add nothing that can be seen.
+LEAST_STEP_M = 0.01
+
+
+def path_of(samples, kind):
+    """(x, y) of the true or believed path, without samples that hardly moved; the last one stays."""
+    points = [(float(row[f"{kind}_x_m"]), float(row[f"{kind}_y_m"])) for row in samples]
+    kept = points[:1]
+    for point in points[1:]:
+        if math.dist(point, kept[-1]) >= LEAST_STEP_M:
+            kept.append(point)
+    return kept if not points or kept[-1] == points[-1] else [*kept, points[-1]]
+
+
+def places(events, kind):
+    return [(float(row[f"{kind}_x_m"]), float(row[f"{kind}_y_m"])) for row in events
+            if row[f"{kind}_x_m"] != ""]
+
+
+def rocks_of(terrain):
+    """(x, y, diameter) of every rock, mirror images too."""
+    return [(rock["center_m"][0], rock["center_m"][1], rock["diameter_m"])
+            for rock in terrain["rocks"]]
+
+
+def draw(sources, options):
+    source = sources[0]
+    terrain = source.terrain(options.trial)
+    rows = source.trace(options.trial)
+    samples = [row for row in rows if row["row"] == "sample"]
+    if not samples:
+        raise FigureError(f"{source.path}: trial {options.trial} ended before it began (a simulator "
+                          "fault?); take another one with --trial")
+    hazards = [row for row in rows if row["row"] == "event" and row["kind"] == "hazard"]
+    drawn = {"rocks": rocks_of(terrain), "true": path_of(samples, "true"),
+             "believed": path_of(samples, "believed"), "hazards_true": places(hazards, "true"),
+             "hazards_believed": places(hazards, "believed")}
+    figure, axes = style.new_figure(8.0, 3.7)
+    _draw_ground(axes, terrain, drawn["rocks"])
+    _draw_paths(axes, drawn)
+    for place in (terrain["start_m"], terrain["goal_m"]):
+        axes.plot(*place, "x", color=style.INK, markersize=9, markeredgewidth=2.2, zorder=6)
+    axes.set(xlabel="x (m)", ylabel="y (m)")
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3, fontsize=8)
+    return Drawn(figure, _caption(source, options.trial, rows, drawn), drawn)
+
+
+def _draw_ground(axes, terrain, rocks):
+    style.octagons(axes, rocks, facecolor=style.PALE, edgecolor=style.GREY, linewidth=0.7, zorder=2)
+    bounds = terrain["drivable"]
+    axes.set(aspect="equal", xlim=bounds["x_m"], ylim=bounds["y_m"])
+    axes.grid(False)
+    for y in terrain.get("mirror_lines_y_m", []):
+        axes.axhline(y, color=style.GREY, linewidth=0.7, linestyle=(0, (1, 4)), zorder=1)
+
+
+def _draw_paths(axes, drawn):
+    axes.plot(*zip(*drawn["true"]), color=style.BLUE, label="true path", zorder=4)
+    axes.plot(*zip(*drawn["believed"]), color=style.VERMILION, linestyle=":", linewidth=1.8,
+              label="dead-reckoned path", zorder=4)
+    for name, colour in (("hazards_true", style.BLUE), ("hazards_believed", style.VERMILION)):
+        if drawn[name]:
+            label = "obstacle detected here" if name == "hazards_true" else None
+            axes.plot(*zip(*drawn[name]), "o", color=colour, markersize=4.5, label=label, zorder=5)
+
+
+def _caption(source, trial, rows, drawn):
+    end = rows[-1]
+    off = math.dist(drawn["true"][-1], drawn["believed"][-1])
+    return (f"Map of one run in the manner of Matthies 1995, figure 16: {source.name}, seed "
+            f"{source.seed}, trial {trial}, which ended: {end['detail'] or end['kind']}. Octagons: "
+            "rocks. Solid: true path; dotted: dead-reckoned path. Filled circles: where obstacles were "
+            f"detected ({len(drawn['hazards_true'])} detections). Crosses: start (left) and goal. "
+            f"At the end the rover is {off:.2f} m from where it believes itself (1.4 m from the goal in "
+            "the published run). Thin dotted lines: where the virtual arena reflects, if it does.")
+
+
+FIGURE = Figure(name="matthies1995-16", title="map of one run: rocks, true and dead-reckoned path",
+                runs="a run of drives; --trial says which of its trials", accepts=(1, 1), draw=draw)
