@@ -2,13 +2,13 @@
 
 #include <tinyxml2.h>
 
-#include <array>
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include "rover/mass_properties.h"
 #include "rover/part_shapes.h"
 #include "rover/rover_geometry.h"
+#include "rover/rover_links.h"
 #include "rover/urdf_elements.h"
 
 namespace rockyard::rover {
@@ -22,23 +22,10 @@ constexpr double kKnuckleShare = 0.05;
 // Rate at which passive joints are said to turn at most, rad/s: URDF wants one.
 constexpr double kPassiveRate_rad_s = 10.0;
 
-constexpr std::array<std::string_view, 2> kSides{"left", "right"};
-constexpr std::array<std::string_view, 3> kAxles{"front", "middle", "rear"};
-
 struct Limits {
   double angle_rad = 0.0;  // on either side; 0: none
   double effort_Nm = 0.0;
   double rate_rad_s = 0.0;
-};
-
-struct Joint {
-  std::string name;
-  const char* type;
-  std::string parent;
-  std::string child;
-  Vector3 p_PJ;  // from the parent's frame
-  Vector3 axis;
-  Limits limits;
 };
 
 class UrdfWriter {
@@ -55,108 +42,92 @@ class UrdfWriter {
   }
 
   std::string Write() {
-    AddBody("chassis", kChassis, masses_.chassis);
-    for (std::size_t side = 0; side < 2; ++side) AddSide(side);
+    const std::vector<Link> links = MakeLinks(params_.geometry);
+    for (const Link& link : links) {
+      AddLink(link);
+      if (link.parent >= 0) AddJoint(link, links[static_cast<std::size_t>(link.parent)]);
+    }
     tinyxml2::XMLPrinter printer;
     document_.Print(&printer);
     return printer.CStr();
   }
 
  private:
-  void AddBody(const std::string& name, int body, const BodyMass& mass, double share = 1.0) {
-    XMLElement& link = AddLink(name, mass, share);
+  void AddLink(const Link& link) {
+    XMLElement& element = *robot_->InsertNewChildElement("link");
+    element.SetAttribute("name", link.name.c_str());
+    AddInertial(element, MassOf(link), ShareOf(link));
     for (const Part& part : parts_) {
-      if (part.body == body) AddShape(link, part);
+      if (part.body == link.body) AddShape(element, part);
     }
   }
 
-  XMLElement& AddLink(const std::string& name, const BodyMass& mass, double share) {
-    XMLElement& link = *robot_->InsertNewChildElement("link");
-    link.SetAttribute("name", name.c_str());
-    AddInertial(link, mass, share);
-    return link;
-  }
-
-  XMLElement& AddJoint(const Joint& joint) {
+  void AddJoint(const Link& link, const Link& parent) {
     XMLElement& element = *robot_->InsertNewChildElement("joint");
-    element.SetAttribute("name", joint.name.c_str());
-    element.SetAttribute("type", joint.type);
-    AddOrigin(element, joint.p_PJ, Vector3::Zero());
-    element.InsertNewChildElement("parent")->SetAttribute("link", joint.parent.c_str());
-    element.InsertNewChildElement("child")->SetAttribute("link", joint.child.c_str());
-    element.InsertNewChildElement("axis")->SetAttribute("xyz", Numbers(joint.axis).c_str());
+    element.SetAttribute("name", JointName(link).c_str());
+    element.SetAttribute("type", link.joint == LinkJoint::kWheel ? "continuous" : "revolute");
+    AddOrigin(element, link.pivot_P, Vector3::Zero());
+    element.InsertNewChildElement("parent")->SetAttribute("link", parent.name.c_str());
+    element.InsertNewChildElement("child")->SetAttribute("link", link.name.c_str());
+    element.InsertNewChildElement("axis")->SetAttribute("xyz", Numbers(link.axis).c_str());
+    const Limits limits = LimitsOf(link.joint);
     XMLElement& limit = *element.InsertNewChildElement("limit");
-    if (joint.limits.angle_rad > 0.0) {
-      limit.SetAttribute("lower", Number(-joint.limits.angle_rad).c_str());
-      limit.SetAttribute("upper", Number(joint.limits.angle_rad).c_str());
+    if (limits.angle_rad > 0.0) {
+      limit.SetAttribute("lower", Number(-limits.angle_rad).c_str());
+      limit.SetAttribute("upper", Number(limits.angle_rad).c_str());
     }
-    limit.SetAttribute("effort", Number(joint.limits.effort_Nm).c_str());
-    limit.SetAttribute("velocity", Number(joint.limits.rate_rad_s).c_str());
-    return element;
+    limit.SetAttribute("effort", Number(limits.effort_Nm).c_str());
+    limit.SetAttribute("velocity", Number(limits.rate_rad_s).c_str());
+    if (link.joint != LinkJoint::kRocker || link.index != 1) return;
+    XMLElement& mimic = *element.InsertNewChildElement("mimic");
+    mimic.SetAttribute("joint", "left_rocker_joint");
+    mimic.SetAttribute("multiplier", "-1");
+    mimic.SetAttribute("offset", "0");
   }
 
-  void AddSide(std::size_t side) {
-    const std::string name(kSides[side]);
-    const Vector3 rocker_R = geometry_.rocker_pivot_R[side];
-    const Vector3 bogie_R = geometry_.bogie_pivot_R[side];
-    AddBody(name + "_rocker", kLeftRocker + static_cast<int>(side), masses_.rocker);
-    XMLElement& rocker = AddJoint({name + "_rocker_joint",
-                                   "revolute",
-                                   "chassis",
-                                   name + "_rocker",
-                                   rocker_R,
-                                   Vector3::UnitY(),
-                                   {params_.geometry.rocker_limit_rad, 0.0, kPassiveRate_rad_s}});
-    if (side == 1) {
-      XMLElement& mimic = *rocker.InsertNewChildElement("mimic");
-      mimic.SetAttribute("joint", "left_rocker_joint");
-      mimic.SetAttribute("multiplier", "-1");
-      mimic.SetAttribute("offset", "0");
-    }
-    AddBody(name + "_bogie", kLeftBogie + static_cast<int>(side), masses_.bogie);
-    AddJoint({name + "_bogie_joint",
-              "revolute",
-              name + "_rocker",
-              name + "_bogie",
-              bogie_R - rocker_R,
-              Vector3::UnitY(),
-              {params_.geometry.bogie_limit_rad, 0.0, kPassiveRate_rad_s}});
-    for (std::size_t axle = 0; axle < 3; ++axle) {
-      const std::size_t wheel = 3 * side + axle;
-      const std::string arm = name + (geometry_.on_bogie[wheel] ? "_bogie" : "_rocker");
-      const Vector3 arm_R = geometry_.on_bogie[wheel] ? bogie_R : rocker_R;
-      AddWheel(wheel, name + "_" + std::string(kAxles[axle]), arm, arm_R);
-    }
+  // left_rocker_joint; of a knuckle left_front_steering_joint.
+  static std::string JointName(const Link& link) {
+    if (link.joint != LinkJoint::kSteering) return link.name + "_joint";
+    return link.name.substr(0, link.name.rfind('_')) + "_steering_joint";
   }
 
-  void AddWheel(std::size_t wheel, const std::string& name, const std::string& arm,
-                const Vector3& arm_R) {
-    std::string parent = arm;
-    Vector3 p_PJ = geometry_.wheel_R[wheel] - arm_R;
-    double share = 1.0;
-    if (geometry_.steered[wheel]) {
-      share -= kKnuckleShare;
-      AddLink(name + "_knuckle", masses_.wheel, kKnuckleShare);
-      AddJoint({name + "_steering_joint",
-                "revolute",
-                arm,
-                name + "_knuckle",
-                p_PJ,
-                Vector3::UnitZ(),
-                {params_.drive.max_steer_rad, params_.drive.stall_torque_Nm,
-                 params_.drive.steer_rate_rad_s}});
-      parent = name + "_knuckle";
-      p_PJ.setZero();
+  const BodyMass& MassOf(const Link& link) const {
+    switch (link.joint) {
+      case LinkJoint::kFixed:
+        return masses_.chassis;
+      case LinkJoint::kRocker:
+        return masses_.rocker;
+      case LinkJoint::kBogie:
+        return masses_.bogie;
+      case LinkJoint::kSteering:
+      case LinkJoint::kWheel:
+        break;
     }
-    AddBody(name + "_wheel", kFirstWheel + static_cast<int>(wheel), masses_.wheel, share);
-    const double rate_rad_s = params_.drive.speed_m_s / params_.geometry.wheel_radius_m;
-    AddJoint({name + "_wheel_joint",
-              "continuous",
-              parent,
-              name + "_wheel",
-              p_PJ,
-              Vector3::UnitY(),
-              {0.0, params_.drive.stall_torque_Nm, rate_rad_s}});
+    return masses_.wheel;
+  }
+
+  // Of that mass.
+  double ShareOf(const Link& link) const {
+    if (link.joint == LinkJoint::kSteering) return kKnuckleShare;
+    const bool steered = link.joint == LinkJoint::kWheel && geometry_.steered[link.index];
+    return steered ? 1.0 - kKnuckleShare : 1.0;
+  }
+
+  Limits LimitsOf(LinkJoint joint) const {
+    const RoverDriveParams& drive = params_.drive;
+    switch (joint) {
+      case LinkJoint::kFixed:
+        break;
+      case LinkJoint::kRocker:
+        return {params_.geometry.rocker_limit_rad, 0.0, kPassiveRate_rad_s};
+      case LinkJoint::kBogie:
+        return {params_.geometry.bogie_limit_rad, 0.0, kPassiveRate_rad_s};
+      case LinkJoint::kSteering:
+        return {drive.max_steer_rad, drive.stall_torque_Nm, drive.steer_rate_rad_s};
+      case LinkJoint::kWheel:
+        return {0.0, drive.stall_torque_Nm, drive.speed_m_s / params_.geometry.wheel_radius_m};
+    }
+    return {};
   }
 
   const RoverParams& params_;

@@ -109,12 +109,14 @@ Drive::Drive(const Scenario& scenario, core::TrialKey key, truth::Trace* trace,
   if (scenario.terrain.arena.kind == terrain::ArenaKind::kVirtualReflected) {
     mirror_.emplace(scenario.terrain.arena.MirrorLine());
   }
+  if (trace_ != nullptr) RecordRocks();
   rover_->Place(StartPose(scenario.course));
   motion_sensors_.emplace(scenario.sensors.gyro, scenario.sensors.encoders,
                           scenario.rover.geometry.wheel_radius_m, key, rover_->state());
   monitor_.Restart(rover_->state());
   localizer_.Place(rover_->state());
-  ledger_.Spend(Activity::kComputing, StartUpTime(scenario));
+  RecordRest({});
+  Rest(Activity::kComputing, StartUpTime(scenario));
 }
 
 DriveResult Drive::Run() {
@@ -153,9 +155,9 @@ std::optional<Verdict> Drive::Look(messages::LookDirection direction) {
   lookout_.Begin();
   do {
     sight_ = lookout_.Look(direction, field_.terrain, rover_->state().X_WR, localizer_.attitude());
-    ledger_.Spend(Activity::kScanning, sight_.time.scanning_s);
-    ledger_.Spend(Activity::kImaging, sight_.time.imaging_s);
-    ledger_.Spend(Activity::kComputing, sight_.time.computing_s);
+    Rest(Activity::kScanning, sight_.time.scanning_s);
+    Rest(Activity::kImaging, sight_.time.imaging_s);
+    Rest(Activity::kComputing, sight_.time.computing_s);
     if (scenario_.sensors.gyro.accumulates_at_rest) UpdateEstimate(sight_.time.total_s(), false);
   } while (sight_.look_again);
   RecordLook(direction);
@@ -170,7 +172,7 @@ void Drive::SpendOverhead() {
   const double overhead_s = scenario_.clock.compute.move_overhead_s;
   if (overhead_s <= 0.0) return;
   stops_.Observe(false);
-  ledger_.Spend(Activity::kOverhead, overhead_s);
+  Rest(Activity::kOverhead, overhead_s);
   if (scenario_.sensors.gyro.accumulates_at_rest) UpdateEstimate(overhead_s, false);
 }
 
@@ -229,6 +231,7 @@ void Drive::ReflectAtMirrorLine(int direction) {
   guard_.Resume(rover_->state());
   monitor_.Restart(rover_->state());
   navigator_->OnPoseUpdate(before, localizer_.pose());
+  RecordRest({}, true);
 }
 
 std::optional<Verdict> Drive::AskReferee(Activity activity, int direction, double duration_s) {
@@ -238,10 +241,10 @@ std::optional<Verdict> Drive::AskReferee(Activity activity, int direction, doubl
 }
 
 DriveResult Drive::Finish(const Verdict& verdict) {
-  if (verdict.outcome == truth::TrialOutcome::kJammed ||
-      verdict.outcome == truth::TrialOutcome::kHighCentred) {
-    ledger_.SpendRestStalled();
-  }
+  const bool stuck = verdict.outcome == truth::TrialOutcome::kJammed ||
+                     verdict.outcome == truth::TrialOutcome::kHighCentred;
+  if (stuck) ledger_.SpendRestStalled();
+  RecordRest(stuck ? std::optional(Activity::kStalled) : std::nullopt);
   Record("end", verdict.detail);
 
   DriveResult result{verdict.outcome, verdict.detail, {}};

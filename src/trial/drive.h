@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/random.h"
 #include "navigation/navigator.h"
@@ -64,6 +66,12 @@ class Drive {
   void Record(std::string kind, std::string detail);
   void RecordLook(messages::LookDirection direction);
   void Sample(Activity activity);
+  // Spends time at rest.
+  void Rest(Activity activity, double duration_s);
+  // A moment between control ticks; `activity`: of the rest that ends here.
+  void RecordRest(std::optional<Activity> activity, bool set_back = false);
+  void RecordRocks();
+  truth::TraceSample Now(std::string activity) const;
 
   const scenario::Scenario& scenario_;
   core::TrialKey key_;
@@ -71,6 +79,7 @@ class Drive {
   truth::Trace* trace_;
 
   terrain::Field field_;
+  std::vector<math::Vector3> rock_centers_;  // where a trace knows rocks that can move
   std::unique_ptr<rover::Rover> rover_;
   Stretch tick_;  // of control
   Stretch stop_;  // before a scan

@@ -87,10 +87,46 @@ void Drive::Record(std::string kind, std::string detail) {
       {ledger_.time_s(), math::ToPose2(rover_->state().X_WR), std::move(kind), std::move(detail)});
 }
 
+truth::TraceSample Drive::Now(std::string activity) const {
+  const truth::RoverState& state = rover_->state();
+  return {ledger_.time_s(),
+          math::ToPose2(state.X_WR),
+          math::Tilt(state.X_WR),
+          localizer_.pose(),
+          std::move(activity),
+          {state.X_WR, state.left_rocker_rad, state.right_rocker_rad, state.left_bogie_rad,
+           state.right_bogie_rad, state.steer_rad, state.wheel_angle_rad}};
+}
+
 void Drive::Sample(Activity activity) {
   if (trace_ == nullptr) return;
-  trace_->samples.push_back({ledger_.time_s(), math::ToPose2(rover_->state().X_WR),
-                             math::Tilt(rover_->state().X_WR), localizer_.pose(), Name(activity)});
+  trace_->samples.push_back(Now(Name(activity)));
+  RecordRocks();
+}
+
+void Drive::Rest(Activity activity, double duration_s) {
+  ledger_.Spend(activity, duration_s);
+  if (duration_s > 0.0) RecordRest(activity);
+}
+
+void Drive::RecordRest(std::optional<Activity> activity, bool set_back) {
+  if (trace_ == nullptr) return;
+  trace_->rests.push_back(
+      {trace_->samples.size(), set_back, Now(activity ? Name(*activity) : std::string())});
+  RecordRocks();
+}
+
+void Drive::RecordRocks() {
+  if (scenario_.terrain.rocks.mobility == terrain::RockMobility::kFixed) return;
+  const auto rocks = field_.terrain.rocks();
+  const bool first = rock_centers_.empty();
+  rock_centers_.resize(rocks.size());
+  for (std::size_t i = 0; i < rocks.size(); ++i) {
+    const math::Vector3& center_W = rocks[i].center_W;
+    const bool moved = !first && center_W != rock_centers_[i];
+    rock_centers_[i] = center_W;
+    if (moved) trace_->rock_moves.push_back({ledger_.time_s(), static_cast<int>(i), center_W});
+  }
 }
 
 }  // namespace rockyard::trial

@@ -1,20 +1,43 @@
 // The course of one trial over time, recorded on request.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <vector>
 
 #include "math/pose.h"
 #include "messages/estimates.h"
+#include "messages/wheels.h"
 
 namespace rockyard::truth {
+
+// How the rover stands: true pose and every joint, as in truth::RoverState.
+struct RoverPosture {
+  math::Transform X_WR = math::Transform::Identity();
+  double left_rocker_rad = 0.0;
+  double right_rocker_rad = 0.0;
+  double left_bogie_rad = 0.0;
+  double right_bogie_rad = 0.0;
+  messages::PerWheel<double> steer_rad{};
+  messages::PerWheel<double> wheel_angle_rad{};
+};
 
 struct TraceSample {
   double time_s = 0.0;
   math::Pose2 pose;  // true
   double tilt_rad = 0.0;
   messages::PoseEstimate estimate;
-  std::string activity;  // "drive", "turn", "steer"
+  std::string activity;  // of the stretch that ends here: "drive", "turn", "steer"
+  RoverPosture posture{};
+};
+
+// A moment between two control ticks: the start, the end of a stretch at rest ("scan", "image",
+// "compute", "overhead", "stall"), after operators set the rover back, the end.
+struct TraceRest {
+  std::size_t samples_before = 0;
+  bool set_back = false;  // by operators: the rover stands elsewhere than a moment before
+  TraceSample sample;
 };
 
 struct TraceEvent {
@@ -24,9 +47,24 @@ struct TraceEvent {
   std::string detail;
 };
 
+// A rock that the rover has pushed to another place.
+struct RockMove {
+  double time_s = 0.0;
+  int rock = 0;  // index in Terrain::rocks()
+  math::Vector3 center_W = math::Vector3::Zero();
+};
+
 struct Trace {
-  std::vector<TraceSample> samples;
+  std::vector<TraceSample> samples;  // of every control tick
+  std::vector<TraceRest> rests;
   std::vector<TraceEvent> events;
+  std::vector<RockMove> rock_moves;
+
+  // Time of the last sample or rest, s.
+  double now_s() const {
+    const double at_rest_s = rests.empty() ? 0.0 : rests.back().sample.time_s;
+    return samples.empty() ? at_rest_s : std::max(at_rest_s, samples.back().time_s);
+  }
 };
 
 }  // namespace rockyard::truth

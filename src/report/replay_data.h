@@ -1,0 +1,126 @@
+// All that the replay page shows of one trial. SI units; W is the world, R the rover.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/provenance.h"
+#include "math/pose.h"
+#include "messages/estimates.h"
+#include "messages/navigation_view.h"
+#include "truth/record.h"
+#include "truth/trace.h"
+
+namespace rockyard::report {
+
+struct ReplayWall {
+  math::Vector3 normal_W = math::Vector3::UnitY();  // horizontal
+  double offset_m = 0.0;
+};
+
+struct ReplayCourse {
+  math::Pose2 start;
+  messages::Goal goal;
+  double goal_radius_m = 0.0;
+  messages::Goal told_goal;
+  double x_min_m = 0.0;  // of the area that holds terrain
+  double x_max_m = 0.0;
+  double y_min_m = 0.0;
+  double y_max_m = 0.0;
+  std::vector<ReplayWall> walls;
+};
+
+// Heights on a grid, row-major, x fastest.
+struct ReplayGround {
+  double x0_m = 0.0;
+  double y0_m = 0.0;
+  double step_m = 0.1;
+  std::size_t nx = 0;
+  std::size_t ny = 0;
+  std::vector<double> z_m;
+};
+
+struct ReplayRock {
+  math::Vector3 center_W = math::Vector3::Zero();
+  math::Vector3 semi_axes_m = math::Vector3::Ones();
+  double yaw_rad = 0.0;
+  double height_m = 0.0;
+};
+
+enum class ShapeKind { kBox, kWheel, kCapsule, kSphere };
+
+// In the frame of its link.
+struct ReplayShape {
+  ShapeKind kind = ShapeKind::kBox;
+  std::string part;                           // "belly", "rocker", "hub", "panel", "wheel"
+  math::Vector3 a_m = math::Vector3::Zero();  // centre; of a capsule one end
+  math::Vector3 b_m = math::Vector3::Zero();  // size of a box; of a capsule the other end
+  double radius_m = 0.0;
+  double width_m = 0.0;  // of a wheel, along y
+};
+
+struct ReplayLink {
+  std::string name;
+  int parent = -1;
+  math::Vector3 pivot_P = math::Vector3::Zero();
+  math::Vector3 axis = math::Vector3::UnitY();
+  std::vector<ReplayShape> shapes;
+};
+
+// One moment of the motion.
+struct ReplayPose {
+  truth::TraceSample sample;
+  std::vector<double> joint_rad;  // of each link but the chassis
+  bool set_back = false;          // by operators: the path breaks before
+};
+
+struct StripePoint {
+  math::Vector3 p_W = math::Vector3::Zero();
+  std::size_t stripe = 0;
+  double height_m = 0.0;  // as the rover believes
+};
+
+struct ReplayScan {
+  double time_s = 0.0;
+  math::Pose2 pose;  // true
+  std::vector<StripePoint> points;
+  messages::PerStripe<bool> hazards;
+};
+
+struct ReplayStep {
+  double time_s = 0.0;
+  math::Pose2 pose;  // true
+  messages::NavigationView view;
+  std::vector<math::Vector3> points_W;
+};
+
+struct ReplayData {
+  std::string title;
+  std::string scenario;
+  std::string cell;
+  std::uint64_t seed = 1;
+  std::optional<bool> repeats_stored;
+  std::string record_hash;
+  std::string command;
+  core::Provenance provenance;
+  truth::RecordSchema schema;
+  truth::Record record;
+  ReplayCourse course;
+  ReplayGround ground;
+  std::vector<ReplayRock> rocks;
+  std::vector<truth::RockMove> rock_moves;
+  std::vector<ReplayLink> links;
+  std::vector<ReplayPose> poses;  // every moment, not thinned
+  std::vector<ReplayScan> scans;
+  std::vector<ReplayStep> steps;
+  std::vector<truth::TraceEvent> events;
+};
+
+// As src/web/replay/payload.ts says, on one line. Moments of little change are left out (see
+// replay_motion.h), lengths have 0.1 mm, but the last moment has every digit of its pose.
+std::string ReplayJson(const ReplayData& data);
+
+}  // namespace rockyard::report

@@ -1,0 +1,48 @@
+#include "report/worst_trials.h"
+
+#include <algorithm>
+
+#include "statistics/drive_summary.h"
+
+namespace rockyard::report {
+namespace {
+
+bool Failed(const truth::Record& record) {
+  return !truth::IsFault(record) && record.outcome != truth::TrialOutcome::kGoalReached &&
+         record.outcome != truth::TrialOutcome::kMeasured;
+}
+
+}  // namespace
+
+std::vector<std::uint64_t> FailedTrials(std::span<const truth::Record> records) {
+  std::vector<std::uint64_t> trials;
+  for (const truth::Record& record : records) {
+    if (Failed(record)) trials.push_back(record.trial);
+  }
+  std::sort(trials.begin(), trials.end());
+  return trials;
+}
+
+std::vector<std::uint64_t> WorstTrials(const truth::RecordSchema& schema,
+                                       std::span<const truth::Record> records, std::size_t most) {
+  struct Failure {
+    std::uint64_t trial;
+    double distance_m;
+  };
+  const auto column = statistics::ColumnIndex(schema, "true_goal_distance_m");
+  std::vector<Failure> failures;
+  for (const truth::Record& record : records) {
+    if (!Failed(record)) continue;
+    failures.push_back({record.trial, column ? record.values.at(*column) : 0.0});
+  }
+  std::sort(failures.begin(), failures.end(), [](const Failure& a, const Failure& b) {
+    return a.distance_m != b.distance_m ? a.distance_m > b.distance_m : a.trial < b.trial;
+  });
+  failures.resize(std::min(most, failures.size()));
+  std::vector<std::uint64_t> trials;
+  trials.reserve(failures.size());
+  for (const Failure& failure : failures) trials.push_back(failure.trial);
+  return trials;
+}
+
+}  // namespace rockyard::report

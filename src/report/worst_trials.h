@@ -1,0 +1,22 @@
+// Which trials of a run to look at first.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "truth/record.h"
+
+namespace rockyard::report {
+
+// Trials that ended other than goal_reached, simulator faults left out: the failures of the rover.
+// By trial number.
+std::vector<std::uint64_t> FailedTrials(std::span<const truth::Record> records);
+
+// At most `most` failed trials, those that ended furthest from the goal (true_goal_distance_m)
+// first, ties by trial number. By trial number alone where the schema has no such column.
+std::vector<std::uint64_t> WorstTrials(const truth::RecordSchema& schema,
+                                       std::span<const truth::Record> records, std::size_t most);
+
+}  // namespace rockyard::report
