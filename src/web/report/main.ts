@@ -1,9 +1,78 @@
+// The report page: the data of the page, section by section.
+
+import "../shared/theme.css";
+import "./report.css";
+import "./charts.css";
+import "./trial_table.css";
+
+import { el } from "../shared/dom";
 import { readPayload } from "../shared/payload";
+import { Context } from "./context";
 import type { ReportPayload } from "./payload";
+import { abundance } from "./sections/abundance";
+import { comparison } from "./sections/comparison";
+import { distance } from "./sections/distance";
+import { deadReckoning, timeAndEnergy } from "./sections/distributions";
+import { pageHeader } from "./sections/header";
+import { headline } from "./sections/headline";
+import { measurements } from "./sections/measurements";
+import { outcomes } from "./sections/outcomes";
+import { parameters } from "./sections/parameters";
+import { provenance } from "./sections/provenance";
+import { published } from "./sections/published";
+import { runPicker } from "./sections/runs";
+import { sectionElement } from "./sections/section";
+import { trials } from "./sections/trials";
+
+const SECTIONS = [
+  headline, published, comparison, abundance, measurements, outcomes, distance, deadReckoning, timeAndEnergy, trials, parameters, provenance,
+];
+// The choice of runs stands before the first section that follows it.
+const FIRST_TO_FOLLOW = distance.id;
+
+function contents(sections: HTMLElement[]): HTMLElement {
+  const items = sections.map((section) =>
+    el("li", {}, el("a", { href: `#${section.id}` }, section.querySelector("h2")?.textContent ?? "")));
+  return el("nav", { class: "contents", "aria-label": "Contents" }, el("ul", {}, ...items));
+}
+
+function build(page: HTMLElement, payload: ReportPayload): void {
+  if (typeof payload !== "object" || payload === null || !Array.isArray(payload.runs)) {
+    throw new Error("The data of this page is not that of a report.");
+  }
+  const context = new Context(payload);
+  const sections = SECTIONS.map((section) => sectionElement(section, context)).filter((section) => section !== null);
+  const picker = runPicker(context);
+  const body = sections.flatMap((section) => (section.id === FIRST_TO_FOLLOW && picker ? [picker, section] : [section]));
+  page.replaceChildren(
+    el("a", { class: "skip-link", href: "#content" }, "Skip to the content"),
+    pageHeader(context),
+    contents(sections),
+    el("div", { id: "content", tabindex: -1 }, ...body),
+  );
+}
+
+function showProblem(page: HTMLElement, error: unknown): void {
+  const reason = error instanceof Error ? error.message : String(error);
+  page.replaceChildren(
+    el("div", { class: "problem", role: "alert" },
+      el("h1", {}, "This report cannot be shown"),
+      el("p", {}, "Its data is damaged or was not written to its end. Write it again with rockyard report."),
+      el("p", {}, el("code", {}, reason))),
+  );
+}
 
 async function main(): Promise<void> {
-  const payload = await readPayload<ReportPayload>();
-  document.getElementById("page")!.textContent = payload.title;
+  const page = document.getElementById("page")!;
+  page.className = "report";
+  try {
+    build(page, await readPayload<ReportPayload>());
+    // The place that the address names was not there while the page was read.
+    if (location.hash.length > 1) document.getElementById(location.hash.slice(1))?.scrollIntoView();
+  } catch (error) {
+    showProblem(page, error);
+  }
+  document.documentElement.dataset.ready = String(Math.round(performance.now()));
 }
 
 void main();

@@ -32,6 +32,8 @@ export interface Run {
   cdf: Record<string, (number | null)[]> | null;
   /** `rockyard check` against the published reference; null where it says nothing of the scenario. */
   published: PublishedTable | null;
+  /** Columns that tell the cells of a measurement apart; where absent the page guesses. */
+  factors?: string[];
   parameters: Parameter[];
   /** Replay pages that were written with the report, by trial number: links relative to the page. */
   replays: Record<string, string>;
@@ -85,6 +87,8 @@ export interface PublishedRow {
   power: number | null;
   verdict: string;
   source: string;
+  /** What else is to be said of it: the kinds of failure, other readings, one layout for all. */
+  remarks: string[];
 }
 
 export interface Parameter {
@@ -126,24 +130,26 @@ export interface Comparison {
   paired: boolean;
   pairs: number;
   notes: string[];
+  /** In which the two runs differ: values as text. */
+  settings: { path: string; first: string; second: string }[];
   successes: {
     what: string;
-    first: number;
-    second: number;
-    difference: number;
-    low: number;
-    high: number;
-    p: number;
+    first: number | null;
+    second: number | null;
+    difference: number | null;
+    low: number | null;
+    high: number | null;
+    p: number | null;
   }[];
   columns: {
     trials: "all" | "arrived";
     name: string;
     unit: string;
     n: number;
-    first: number;
-    second: number;
-    difference: number;
-    low: number;
-    high: number;
+    first: number | null;
+    second: number | null;
+    difference: number | null;
+    low: number | null;
+    high: number | null;
   }[];
 }

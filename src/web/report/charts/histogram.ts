@@ -1,0 +1,188 @@
+// Histograms of one column, a row for each run, with the published values as marks.
+
+import * as Plot from "@observablehq/plot";
+
+import { isNumber, number } from "../../shared/format";
+import { numeric, rowHeader, table } from "../../shared/table";
+import type { ShownRun } from "../context";
+import { seriesStyle } from "../series";
+import { columnLabel } from "../words";
+import type { Mark } from "./distribution";
+
+export interface Sample {
+  shown: ShownRun;
+  values: number[];
+}
+
+export interface Bins {
+  edges: number[];
+  /** One row of counts per sample. */
+  counts: number[][];
+}
+
+/** The finite values of a column; null where the run has none. Faults hold none. */
+export function sampleOf(shown: ShownRun, name: string): Sample | null {
+  const column = shown.run.trials?.columns?.find((each) => each.name === name);
+  const fault = (shown.run.trials?.outcome_names ?? []).indexOf("simulator_fault");
+  const values = (column?.values ?? []).filter(
+    (value, i): value is number => isNumber(value) && shown.run.trials.outcome[i] !== fault,
+  );
+  return values.length > 0 ? { shown, values } : null;
+}
+
+// A step of 1, 2 or 5 times a power of ten, about `count` of them in the width.
+function niceStep(width: number, count: number): number {
+  const raw = width / count;
+  const power = 10 ** Math.floor(Math.log10(raw));
+  const lead = raw / power;
+  return power * (lead <= 1 ? 1 : lead <= 2 ? 2 : lead <= 5 ? 5 : 10);
+}
+
+function range(samples: Sample[]): [number, number] {
+  let low = Infinity;
+  let high = -Infinity;
+  for (const { values } of samples) {
+    for (const value of values) {
+      low = Math.min(low, value);
+      high = Math.max(high, value);
+    }
+  }
+  return [low, high];
+}
+
+/** Common bins of equal width for all samples. */
+export function bin(samples: Sample[]): Bins {
+  const [low, high] = range(samples);
+  const most = Math.max(...samples.map((each) => each.values.length));
+  const width = high > low ? high - low : Math.abs(low) || 1;
+  const step = niceStep(width, Math.min(40, Math.max(8, Math.ceil(2 * Math.sqrt(most)))));
+  const first = Math.floor(low / step);
+  const count = Math.max(1, Math.floor(high / step) - first + 1);
+  // Rounded, so that an edge reads 0.3 and not 0.30000000000000004.
+  const edges = Array.from({ length: count + 1 }, (_, i) => Number(((first + i) * step).toPrecision(12)));
+  const counts = samples.map(({ values }) => {
+    const row = new Array<number>(count).fill(0);
+    for (const value of values) row[Math.min(count - 1, Math.max(0, Math.floor(value / step) - first))]! += 1;
+    return row;
+  });
+  return { edges, counts };
+}
+
+function quantile(sorted: number[], p: number): number {
+  const at = p * (sorted.length - 1);
+  const low = Math.floor(at);
+  const next = sorted[Math.min(low + 1, sorted.length - 1)]!;
+  return sorted[low]! + (at - low) * (next - sorted[low]!);
+}
+
+interface Bar {
+  from: number;
+  to: number;
+  share: number;
+  row: number;
+  colour: string;
+}
+
+function barsOf(samples: Sample[], bins: Bins): Bar[] {
+  return samples.flatMap((sample, row) =>
+    bins.counts[row]!.flatMap((count, i) =>
+      count === 0
+        ? []
+        : [{
+            from: bins.edges[i]!,
+            to: bins.edges[i + 1]!,
+            share: count / sample.values.length,
+            row,
+            colour: seriesStyle(sample.shown.slot).colour,
+          }],
+    ),
+  );
+}
+
+const ROW_HEIGHT = 96;
+const LABEL_STEP = 14;
+
+// Rows of labels above the drawing: a label that would meet its left neighbour goes one row up.
+function labelRows(marks: Mark[], domain: [number, number], width: number): { mark: Mark; row: number }[] {
+  const ends: number[] = [];
+  return [...marks].sort((a, b) => a.x - b.x).map((mark) => {
+    const half = 3.4 * mark.label.length;
+    const at = ((mark.x - domain[0]) / (domain[1] - domain[0])) * width;
+    let row = ends.findIndex((end) => end < at - half);
+    if (row < 0) row = ends.length;
+    ends[row] = at + half;
+    return { mark, row };
+  });
+}
+
+export function drawHistograms(samples: Sample[], marks: Mark[], name: string, unit: string, width: number): Element {
+  const bins = bin(samples);
+  const domain: [number, number] = [
+    Math.min(bins.edges[0]!, ...marks.map((mark) => mark.x)),
+    Math.max(bins.edges[bins.edges.length - 1]!, ...marks.map((mark) => mark.x)),
+  ];
+  const margin = 0.03 * (domain[1] - domain[0]);
+  domain[0] -= margin;
+  domain[1] += margin;
+  const labels = labelRows(marks, domain, width - 60);
+  const top = 12 + LABEL_STEP * (1 + Math.max(-1, ...labels.map((label) => label.row)));
+  const quantiles = samples.map(({ values }, row) => {
+    const sorted = [...values].sort((a, b) => a - b);
+    return { row, low: quantile(sorted, 0.05), median: quantile(sorted, 0.5), high: quantile(sorted, 0.95) };
+  });
+  return Plot.plot({
+    width,
+    height: top + 40 + Math.max(ROW_HEIGHT * samples.length, 150),
+    marginTop: top,
+    marginLeft: 44,
+    marginRight: 16,
+    marginBottom: 40,
+    x: { domain, label: columnLabel(name, unit), labelAnchor: "center", labelArrow: "none", ticks: Math.max(3, width / 90) },
+    y: { label: null, ticks: samples.length > 2 ? 2 : 3, tickFormat: (share: number) => `${+(100 * share).toFixed(1)} %`, grid: true, insetBottom: 12 },
+    fy: { axis: null, padding: 0.12 },
+    marks: [
+      Plot.rectY(barsOf(samples, bins), { x1: "from", x2: "to", y: "share", fy: "row", fill: "colour", insetLeft: 0.5, insetRight: 0.5 }),
+      Plot.ruleY([0], { stroke: "var(--line-strong)" }),
+      Plot.link(quantiles, { x1: "low", x2: "high", y1: 0, y2: 0, fy: "row", stroke: "currentColor", strokeWidth: 2, dy: 6 } as Plot.LinkOptions),
+      Plot.dot(quantiles, { x: "median", y: 0, fy: "row", r: 4, fill: "currentColor", stroke: "var(--ground)", dy: 6 }),
+      Plot.ruleX(marks, { x: "x", stroke: "currentColor", strokeDasharray: "3 3" }),
+      ...labels.map(({ mark, row }) =>
+        Plot.text([mark], {
+          x: "x", text: "label", frameAnchor: "top", lineAnchor: "bottom", dy: -4 - LABEL_STEP * row, fill: "currentColor",
+          ...(samples.length > 1 ? { fy: () => 0 } : {}),
+        }),
+      ),
+    ],
+  });
+}
+
+export function binTable(samples: Sample[], name: string, unit: string): HTMLElement {
+  const bins = bin(samples);
+  return table({
+    caption: `Trials in each bin of ${columnLabel(name, unit)}`,
+    captionShown: true,
+    head: ["from", "to", ...samples.map((each) => each.shown.run.label)].map((content) => ({ content, numeric: true })),
+    rows: bins.edges.slice(0, -1).map((edge, i) => [
+      numeric(number(edge), edge),
+      numeric(number(bins.edges[i + 1]), bins.edges[i + 1]),
+      ...bins.counts.map((row) => numeric(number(row[i]), row[i])),
+    ]),
+  });
+}
+
+const STATISTICS = ["count", "min", "p05", "median", "mean", "mode", "p95", "max", "std"] as const;
+
+const STATISTIC_WORDS: Record<string, string> = { p05: "5 %", p95: "95 %", std: "standard deviation", count: "trials" };
+
+/** A column of summary.json, exactly as it stands there. */
+export function summaryTable(rows: { label: string; summary: Record<string, number | null> }[], what: string): HTMLElement {
+  return table({
+    caption: `${what}: from summary.json`,
+    captionShown: true,
+    head: ["run", ...STATISTICS.map((name) => ({ content: STATISTIC_WORDS[name] ?? name, numeric: true }))],
+    rows: rows.map(({ label, summary }) => [
+      rowHeader(label),
+      ...STATISTICS.map((name) => numeric(number(summary[name]), summary[name])),
+    ]),
+  });
+}

@@ -1,0 +1,76 @@
+// What the sections share: the data, which runs the charts show, and what the table of trials is asked.
+
+import type { ReportPayload, Run } from "./payload";
+
+/** As many runs as there are colours, marks and dashes that can be told apart. */
+export const MOST_SHOWN = 6;
+
+export interface ShownRun {
+  run: Run;
+  index: number;
+  /** Which colour, mark and dash: 0 to MOST_SHOWN - 1; a run keeps its own while it is shown. */
+  slot: number;
+}
+
+/** What a chart asks the table of trials to show. */
+export interface TrialQuery {
+  run?: string;
+  outcome?: string;
+}
+
+type Listener = () => void;
+
+export class Context {
+  readonly runs: Run[];
+  /** Index of a run to its slot. */
+  private slots = new Map<number, number>();
+  private listeners: Listener[] = [];
+  /** Set by the section of trials; does nothing without it. */
+  showTrials: (query: TrialQuery) => void = () => {};
+
+  constructor(readonly payload: ReportPayload) {
+    this.runs = payload.runs ?? [];
+    for (const index of spread(this.runs.length, MOST_SHOWN)) this.slots.set(index, this.slots.size);
+  }
+
+  shown(): ShownRun[] {
+    return [...this.slots.entries()]
+      .map(([index, slot]) => ({ run: this.runs[index]!, index, slot }))
+      .sort((a, b) => a.index - b.index);
+  }
+
+  drives(): ShownRun[] {
+    return this.shown().filter((each) => each.run.kind !== "measurement");
+  }
+
+  isShown(index: number): boolean {
+    return this.slots.has(index);
+  }
+
+  full(): boolean {
+    return this.slots.size >= MOST_SHOWN;
+  }
+
+  setShown(index: number, shown: boolean): void {
+    if (shown && !this.full()) this.slots.set(index, this.freeSlot());
+    if (!shown) this.slots.delete(index);
+    for (const listener of this.listeners) listener();
+  }
+
+  onChange(listener: Listener): void {
+    this.listeners.push(listener);
+  }
+
+  private freeSlot(): number {
+    const taken = new Set(this.slots.values());
+    let slot = 0;
+    while (taken.has(slot)) ++slot;
+    return slot;
+  }
+}
+
+/** At most `most` of the indices 0 to n - 1, evenly spread, both ends included. */
+function spread(n: number, most: number): number[] {
+  if (n <= most) return Array.from({ length: n }, (_, i) => i);
+  return Array.from({ length: most }, (_, i) => Math.round((i * (n - 1)) / (most - 1)));
+}

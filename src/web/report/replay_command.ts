@@ -1,0 +1,48 @@
+// A trial's replay: the link of its page, or the command that writes it.
+
+import { el } from "../shared/dom";
+import type { Run } from "./payload";
+import type { TrialRow } from "./trial_rows";
+
+/** The line that shows a command, with a button that copies it. */
+export class ReplayCommand {
+  private readonly code = el("code");
+  private readonly copy = el("button", { type: "button" }, "Copy");
+  private readonly close = el("button", { type: "button" }, "Close");
+  readonly element = el("div", { class: "replay-command", role: "status", hidden: true },
+    el("span", {}, "This trial's page is written by"), this.code, this.copy, this.close);
+
+  constructor() {
+    this.copy.addEventListener("click", () => void this.toClipboard());
+    this.close.addEventListener("click", () => (this.element.hidden = true));
+  }
+
+  show(command: string): void {
+    this.code.textContent = command;
+    this.copy.textContent = "Copy";
+    this.element.hidden = false;
+    this.element.scrollIntoView({ block: "nearest" });
+  }
+
+  // Where a page from disk may not use the clipboard, the text is selected: copying is one key then.
+  private async toClipboard(): Promise<void> {
+    try {
+      await navigator.clipboard.writeText(this.code.textContent ?? "");
+      this.copy.textContent = "Copied";
+    } catch {
+      getSelection()?.selectAllChildren(this.code);
+      this.copy.textContent = "Selected";
+    }
+  }
+}
+
+/** What stands in the table. */
+export function replayCell(row: TrialRow, runs: Run[], command: ReplayCommand): HTMLElement {
+  if (row.replay !== "") return el("a", { href: row.replay }, "Replay", el("span", { class: "visually-hidden" }, ` of trial ${row.trial}`));
+  const text = runs[row.of]?.replay_command;
+  if (!text) return el("span");
+  const button = el("button", { type: "button", class: "command-button" }, "Command",
+    el("span", { class: "visually-hidden" }, ` for trial ${row.trial}`));
+  button.addEventListener("click", () => command.show(text.replaceAll("{trial}", String(row.trial))));
+  return button;
+}

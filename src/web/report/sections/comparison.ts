@@ -1,0 +1,132 @@
+// Differences between two runs.
+
+import { el, type Child } from "../../shared/dom";
+import { counted, interval, isNumber, number, percent, percentInterval, pValue } from "../../shared/format";
+import { numeric, rowHeader, table, type Cell } from "../../shared/table";
+import { chartFigure } from "../charts/figure";
+import { drawForest, type Difference } from "../charts/forest";
+import type { Context } from "../context";
+import type { Comparison } from "../payload";
+import { columnLabel, columnWords } from "../words";
+import type { Section } from "./section";
+
+type Column = Comparison["columns"][number];
+
+const CLEAR = (low: number | null, high: number | null) => isNumber(low) && isNumber(high) && (low > 0 || high < 0);
+
+function successRows(of: Comparison): Difference[] {
+  return of.successes.flatMap((row) =>
+    isNumber(row.difference) && isNumber(row.low) && isNumber(row.high)
+      ? [{ label: row.what, difference: 100 * row.difference, low: 100 * row.low, high: 100 * row.high }]
+      : [],
+  );
+}
+
+// Columns have different units: as a share of the first run's mean they go on one axis.
+function columnRows(of: Comparison): Difference[] {
+  return of.columns.flatMap((row) => {
+    if (!isNumber(row.first) || !isNumber(row.difference) || !isNumber(row.low) || !isNumber(row.high)) return [];
+    if (row.first === 0) return [];
+    const scale = 100 / Math.abs(row.first);
+    const label = row.trials === "arrived" ? `${columnWords(row.name)} (arrived)` : columnWords(row.name);
+    return [{ label, difference: scale * row.difference, low: scale * row.low, high: scale * row.high }];
+  });
+}
+
+const sentence = (rows: Difference[], unit: string) =>
+  rows.map((row) => `${row.label}: ${number(row.difference, 3)} ${unit} (${interval(row.low, row.high)})`).join("; ");
+
+function successTable(of: Comparison): HTMLElement {
+  return table({
+    caption: `Success of ${of.first} and ${of.second}`,
+    head: ["Success", ...[of.first, of.second, "Difference", "95 % interval", "p"].map((content) => ({ content, numeric: true }))],
+    rows: of.successes.map((row) => [
+      rowHeader(row.what),
+      numeric(percent(row.first), row.first),
+      numeric(percent(row.second), row.second),
+      numeric(percent(row.difference), row.difference),
+      numeric(percentInterval(row.low, row.high)),
+      numeric(pValue(row.p), row.p),
+    ]),
+  });
+}
+
+function columnRow(row: Column): (Child | Cell)[] {
+  return [
+    rowHeader(columnLabel(row.name, row.unit)),
+    row.trials === "arrived" ? "those that arrived in both" : "all",
+    numeric(number(row.n), row.n),
+    numeric(number(row.first), row.first),
+    numeric(number(row.second), row.second),
+    numeric(CLEAR(row.low, row.high) ? el("strong", {}, number(row.difference, 3)) : number(row.difference, 3), row.difference),
+    numeric(interval(row.low, row.high)),
+  ];
+}
+
+function columnTable(of: Comparison): HTMLElement {
+  return table({
+    caption: `Means of ${of.first} and ${of.second}`,
+    head: ["Column", "Trials", ...["n", of.first, of.second, "Difference", "95 % interval"].map((content) => ({ content, numeric: true }))],
+    rows: of.columns.map(columnRow),
+  });
+}
+
+function forests(of: Comparison, at: number): HTMLElement {
+  const successes = successRows(of);
+  const columns = columnRows(of);
+  const read = "A square is the difference, the line its 95 % interval: where it crosses zero, the runs may be alike.";
+  return el(
+    "div",
+    { class: "chart-grid" },
+    successes.length > 0 &&
+      chartFigure({
+        id: `forest-success-${at}`,
+        title: "Success",
+        caption: `Rate of ${of.second} less that of ${of.first}, in percentage points. ${read}`,
+        alternative: sentence(successes, "points"),
+        draw: (width) => drawForest(successes, "difference [percentage points]", width),
+        numbers: () => [successTable(of)],
+      }),
+    columns.length > 0 &&
+      chartFigure({
+        id: `forest-columns-${at}`,
+        title: "Means",
+        caption: `Mean of ${of.second} less that of ${of.first}, in per cent of the latter. ${read}`,
+        alternative: sentence(columns, "%"),
+        draw: (width) => drawForest(columns, `difference [% of ${of.first}]`, width),
+        numbers: () => [columnTable(of)],
+      }),
+  );
+}
+
+function settings(of: Comparison): HTMLElement | null {
+  const rows = of.settings ?? [];
+  if (rows.length === 0) return null;
+  return el("details", { class: "numbers" }, el("summary", {}, `${counted(rows.length, "setting")} in which they differ`), table({
+    caption: `Settings of ${of.first} and ${of.second}`,
+    head: ["Setting", of.first, of.second],
+    rows: rows.map((row) => [rowHeader(el("code", {}, row.path)), row.first, row.second]),
+  }));
+}
+
+function content(of: Comparison, at: number): Child[] {
+  const how = of.paired ? `${counted(of.pairs, "pair")} of trials with the same seed` : "two samples, not in pairs";
+  return [
+    el("h3", {}, `${of.second} against ${of.first}`),
+    el("p", { class: "note" }, `Compared: ${how}.`),
+    settings(of),
+    forests(of, at),
+    successTable(of),
+    columnTable(of),
+    (of.notes ?? []).length > 0 ? el("ul", { class: "note" }, ...of.notes.map((note) => el("li", {}, note))) : null,
+  ];
+}
+
+export const comparison: Section = {
+  id: "comparison",
+  title: "Differences between runs",
+  render: (context: Context) => {
+    const all = context.payload.comparisons ?? [];
+    return all.length === 0 ? null : all.flatMap(content);
+  },
+};

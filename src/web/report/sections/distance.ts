@@ -1,0 +1,79 @@
+// How far the rover drove, and by which distance it had arrived.
+
+import { el } from "../../shared/dom";
+import { number } from "../../shared/format";
+import { drawSteps, stepsOf, stepTable, type Mark, type Steps } from "../charts/distribution";
+import { chartFigure } from "../charts/figure";
+import type { Context } from "../context";
+import type { PublishedRow, Run } from "../payload";
+import { legend } from "../series";
+import { publishedMarks } from "./published_marks";
+import type { Section } from "./section";
+
+function isDistance(row: PublishedRow): boolean {
+  return /(^|\.)distance\.(min|mode|mean|median|max)$/.test(row.id);
+}
+
+/** The published distances of the runs that are shown; the same value once. */
+export function distanceMarks(runs: Run[]): Mark[] {
+  return publishedMarks(runs, isDistance);
+}
+
+const key = (all: Steps[]) => legend(all.map(({ shown }) => ({ slot: shown.slot, label: shown.run.label })));
+
+function endsOf(all: Steps[], what: string): string {
+  return all
+    .map(({ shown, points }) => {
+      const last = points[points.length - 1]!;
+      return `${shown.run.label}: ${what} reaches ${number(100 * last.y, 3)} % at ${number(last.x, 3)} m`;
+    })
+    .join("; ");
+}
+
+function distances(all: Steps[], marks: Mark[]): HTMLElement {
+  const shown = marks.length > 0
+    ? " Dashed uprights are values that the published text and tables state; the published figure of this curve (figure 17) " +
+      "is not available, so its points are not shown."
+    : " The published figure of this curve (figure 17) is not available, so no points of it are shown.";
+  return chartFigure({
+    id: "distance-cdf",
+    title: "Distance driven",
+    caption:
+      "At a distance x the curve gives the share of all trials that drove no further than x, whatever their end. The shaded band " +
+      "holds the whole true curve with 95 % confidence (simultaneous)." + shown,
+    alternative: `Distribution function of the true distance. ${endsOf(all, "the curve")}.`,
+    key: key(all),
+    draw: (width) => drawSteps(all, marks, "share of trials", width),
+    numbers: () => all.map((steps) => stepTable(steps, "share of trials")),
+  });
+}
+
+function arrivals(all: Steps[]): HTMLElement {
+  return chartFigure({
+    id: "goal-incidence",
+    title: "Arrivals at the goal",
+    caption:
+      "At a distance x the curve gives the share of trials that believed by then to be at the goal. Failures compete: they never " +
+      "arrive, so the curve ends below 100 %. The band is a 95 % interval at each distance by itself (pointwise).",
+    alternative: `Share of trials that had arrived, by true distance. ${endsOf(all, "the share")}.`,
+    key: key(all),
+    draw: (width) => drawSteps(all, [], "share that arrived", width),
+    numbers: () => all.map((steps) => stepTable(steps, "share that arrived")),
+  });
+}
+
+const present = (steps: Steps | null): steps is Steps => steps !== null;
+
+export const distance: Section = {
+  id: "distance",
+  title: "Distance",
+  follows: true,
+  render: (context: Context) => {
+    const shown = context.drives();
+    const all = shown.map((each) => stepsOf(each, "ecdf")).filter(present);
+    const goals = shown.map((each) => stepsOf(each, "goal")).filter(present);
+    if (all.length === 0) return null;
+    const marks = distanceMarks(all.map((steps) => steps.shown.run));
+    return [el("div", { class: "chart-grid" }, distances(all, marks), goals.length > 0 ? arrivals(goals) : null)];
+  },
+};

@@ -1,0 +1,105 @@
+// Columns of the trials as distributions: errors of dead reckoning, time and energy.
+
+import { el } from "../../shared/dom";
+import { number } from "../../shared/format";
+import { chartFigure } from "../charts/figure";
+import { binTable, drawHistograms, sampleOf, summaryTable, type Sample } from "../charts/histogram";
+import type { Context, ShownRun } from "../context";
+import type { PublishedRow } from "../payload";
+import { legend } from "../series";
+import { columnWords, unitText } from "../words";
+import { publishedMarks } from "./published_marks";
+import type { Section } from "./section";
+
+interface Distribution {
+  column: string;
+  title: string;
+  what: string;
+  /** Beginning of the ids of published values, after the scenario's name. */
+  published?: string;
+  summary: (summary: Record<string, any>) => Record<string, number | null> | undefined;
+}
+
+const ERRORS: Distribution[] = [
+  {
+    column: "distance_error_percent", title: "Distance error", published: "distance_error",
+    what: "dead-reckoned less true path length, in per cent of the true one; below zero the rover believed to have driven less than it had",
+    summary: (summary) => summary.dead_reckoning?.distance_error_percent,
+  },
+  {
+    column: "heading_error_deg", title: "Heading error", published: "heading_error",
+    what: "size of the difference between believed and true heading at the end",
+    summary: (summary) => summary.dead_reckoning?.heading_error_deg,
+  },
+  {
+    column: "position_error_m", title: "Position error", published: "position_error",
+    what: "distance between believed and true position at the end",
+    summary: (summary) => summary.dead_reckoning?.position_error_m,
+  },
+];
+
+const COSTS: Distribution[] = [
+  { column: "sim_time_s", title: "Time", what: "simulated time of the whole trial", summary: (summary) => summary.sim_time_s },
+  { column: "energy_wh", title: "Energy", what: "taken from the batteries in the whole trial", summary: (summary) => summary.energy_wh },
+  {
+    column: "net_rate_m_s", title: "Net rate", what: "distance gained towards the goal over the time of the trial",
+    summary: (summary) => summary.columns?.net_rate_m_s,
+  },
+];
+
+function unitOf(shown: ShownRun, name: string): string {
+  return shown.run.trials.columns.find((each) => each.name === name)?.unit ?? "";
+}
+
+function alternative(samples: Sample[], of: Distribution, unit: string): string {
+  const parts = samples.map(({ shown }) => {
+    const summary = of.summary(shown.run.summary ?? {});
+    return `${shown.run.label}: median ${number(summary?.median)} ${unitText(unit)}, 90 % of trials from ${number(summary?.p05)} to ${number(summary?.p95)}`;
+  });
+  return `Histogram of the ${columnWords(of.column)}. ${parts.join("; ")}.`;
+}
+
+function isOf(row: PublishedRow, prefix: string | undefined): boolean {
+  if (prefix === undefined) return false;
+  return ["min", "mode", "mean", "max"].some((end) => row.id.endsWith(`.${prefix}.${end}`) || row.id === `${prefix}.${end}`);
+}
+
+function figure(context: Context, of: Distribution): HTMLElement | null {
+  const samples = context.drives().map((shown) => sampleOf(shown, of.column)).filter((each): each is Sample => each !== null);
+  const first = samples[0];
+  if (!first) return null;
+  const unit = unitOf(first.shown, of.column);
+  const marks = publishedMarks(samples.map((each) => each.shown.run), (row) => isOf(row, of.published), "");
+  return chartFigure({
+    id: `histogram-${of.column}`,
+    title: of.title,
+    caption:
+      `Share of trials in each bin: ${of.what}. Below the bars: the dot is the median, the line holds 90 % of the trials.` +
+      (marks.length > 0 ? " Dashed uprights: published least, commonest (mode) and greatest." : ""),
+    alternative: alternative(samples, of, unit),
+    key: legend(samples.map(({ shown }) => ({ slot: shown.slot, label: shown.run.label })), "box"),
+    draw: (width) => drawHistograms(samples, marks, of.column, unit, width),
+    numbers: () => {
+      const rows = samples.flatMap(({ shown }) => {
+        const summary = of.summary(shown.run.summary ?? {});
+        return summary ? [{ label: shown.run.label, summary }] : [];
+      });
+      return [summaryTable(rows, columnWords(of.column)), binTable(samples, of.column, unit)];
+    },
+  });
+}
+
+function section(id: string, title: string, distributions: Distribution[]): Section {
+  return {
+    id,
+    title,
+    follows: true,
+    render: (context) => {
+      const figures = distributions.map((each) => figure(context, each));
+      return figures.every((each) => each === null) ? null : [el("div", { class: "chart-grid three" }, ...figures)];
+    },
+  };
+}
+
+export const deadReckoning = section("dead-reckoning", "Errors of dead reckoning", ERRORS);
+export const timeAndEnergy = section("time-energy", "Time and energy", COSTS);

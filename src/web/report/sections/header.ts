@@ -1,0 +1,75 @@
+// What the page is about, at a glance.
+
+import { el, type Child } from "../../shared/dom";
+import { counted, number } from "../../shared/format";
+import { themeSwitch } from "../../shared/theme";
+import type { Context } from "../context";
+import type { Run } from "../payload";
+import { words } from "../words";
+
+/** [planned, completed, faulted, pending], as far as the summary gives them. */
+export function accounting(run: Run): { planned?: number; completed?: number; faulted?: number; pending?: number } {
+  return run.summary?.accounting ?? run.summary?.trials ?? {};
+}
+
+function trialsText(run: Run): string {
+  const { planned, completed, faulted, pending } = accounting(run);
+  const parts = [`${number(completed)} of ${number(planned)} completed`];
+  if (faulted) parts.push(counted(faulted, "simulator fault"));
+  if (pending) parts.push(`${number(pending)} pending`);
+  return parts.join(", ");
+}
+
+function facts(entries: [string, Child][]): HTMLElement {
+  return el(
+    "dl",
+    { class: "facts" },
+    ...entries
+      .filter(([, value]) => value !== null && value !== undefined && value !== "")
+      .map(([name, value]) => el("div", {}, el("dt", {}, name), el("dd", {}, value))),
+  );
+}
+
+function runFacts(run: Run): HTMLElement {
+  const summary = run.summary ?? {};
+  const ablations: string[] = summary.ablations ?? [];
+  return facts([
+    ["Scenario", summary.scenario],
+    ["Seed", summary.seed === undefined ? null : String(summary.seed)],
+    ["Trials", trialsText(run)],
+    ["Localization", words(String(summary.localization ?? ""))],
+    ["Perfect parts", ablations.map(words).join(", ")],
+    ["Trial hash", el("code", {}, summary.trial_hash ?? "")],
+    ["Build", [summary.provenance?.version, summary.provenance?.commit].filter(Boolean).join(" ")],
+  ]);
+}
+
+function sumOf(runs: Run[], name: "planned" | "completed" | "faulted" | "pending"): number {
+  return runs.reduce((sum, run) => sum + (accounting(run)[name] ?? 0), 0);
+}
+
+function manyFacts(context: Context): HTMLElement {
+  const runs = context.runs;
+  const sweeps = context.payload.sweeps ?? [];
+  const alone = runs.filter((run) => run.sweep === null || run.sweep === undefined).length;
+  const builds = new Set(runs.map((run) => run.summary?.provenance?.commit).filter(Boolean));
+  return facts([
+    ["Campaigns", sweeps.map((sweep) => sweep.label).join(", ")],
+    ["Runs", alone > 0 ? number(alone) : null],
+    ["Cells", runs.length - alone > 0 ? number(runs.length - alone) : null],
+    ["Trials", `${number(sumOf(runs, "completed"))} of ${number(sumOf(runs, "planned"))} completed`],
+    ["Simulator faults", sumOf(runs, "faulted") > 0 ? number(sumOf(runs, "faulted")) : null],
+    ["Pending", sumOf(runs, "pending") > 0 ? number(sumOf(runs, "pending")) : null],
+    ["Builds", [...builds].join(", ")],
+  ]);
+}
+
+export function pageHeader(context: Context): HTMLElement {
+  const { payload, runs } = context;
+  return el(
+    "header",
+    { class: "page-header" },
+    el("div", { class: "title-row" }, el("h1", {}, payload.title || "rockyard report"), themeSwitch()),
+    runs.length === 1 ? runFacts(runs[0]!) : manyFacts(context),
+  );
+}

@@ -1,0 +1,99 @@
+// How trials ended. Every count is a button that shows its trials in the table.
+
+import { el, type Child } from "../../shared/dom";
+import { number, percent } from "../../shared/format";
+import { numeric, rowHeader, table, type Cell } from "../../shared/table";
+import type { Context } from "../context";
+import type { Run } from "../payload";
+import { outcomeMeaning, words } from "../words";
+import type { Section } from "./section";
+
+type Counts = Record<string, number>;
+
+const countsOf = (run: Run): Counts => run.summary?.outcomes ?? {};
+
+const total = (run: Run) => Object.values(countsOf(run)).reduce((sum, count) => sum + count, 0);
+
+// A hatch for each outcome, so that bars differ without their colour.
+const TONES: Record<string, string> = { goal_reached: "good", false_goal: "doubtful", simulator_fault: "fault" };
+
+function bar(share: number, outcome: string): HTMLElement {
+  return el(
+    "span",
+    { class: "share-bar", "aria-hidden": "true" },
+    el("span", { class: `share ${TONES[outcome] ?? "failed"}`, style: `width:${(100 * share).toFixed(2)}%` }),
+  );
+}
+
+function countButton(context: Context, run: Run, outcome: string): HTMLElement | string {
+  const count = countsOf(run)[outcome] ?? 0;
+  if (count === 0) return el("span", { class: "none" }, "0");
+  const button = el(
+    "button",
+    { type: "button", class: "count", title: "Show these trials in the table", "data-outcome": outcome, "data-run": run.label, "data-value": count },
+    number(count),
+    el("span", { class: "visually-hidden" }, ` trials: show ${words(outcome)} of ${run.label} in the table`),
+  );
+  button.addEventListener("click", () => context.showTrials({ run: run.label, outcome }));
+  return button;
+}
+
+function occurring(runs: Run[]): string[] {
+  const names = [...new Set(runs.flatMap((run) => Object.keys(countsOf(run))))];
+  return names.filter((name) => runs.some((run) => (countsOf(run)[name] ?? 0) > 0));
+}
+
+function oneRun(context: Context, run: Run): HTMLElement {
+  const trials = total(run);
+  return table({
+    caption: "How the trials ended",
+    className: "outcome-table",
+    head: ["Outcome", { content: "Trials", numeric: true }, { content: "Share", numeric: true }, "", "What it means"],
+    rows: occurring([run]).map((name) => {
+      const count = countsOf(run)[name] ?? 0;
+      return [
+        rowHeader(words(name)),
+        { content: countButton(context, run, name), numeric: true, value: count },
+        numeric(percent(count / trials), count / trials),
+        bar(count / trials, name),
+        outcomeMeaning(name),
+      ];
+    }),
+  });
+}
+
+function cell(context: Context, run: Run, outcome: string): Cell {
+  const count = countsOf(run)[outcome] ?? 0;
+  const content = el("div", { class: "outcome-cell" }, countButton(context, run, outcome), bar(count / (total(run) || 1), outcome));
+  return { content, numeric: true, value: count };
+}
+
+function manyRuns(context: Context, runs: Run[]): Child[] {
+  const names = occurring(runs);
+  return [
+    table({
+      caption: "How the trials of each run ended",
+      className: "outcome-table",
+      head: ["Run", ...names.map((name) => ({ content: words(name), numeric: true }))],
+      rows: runs.map((run): (Child | Cell)[] => [rowHeader(run.label), ...names.map((name) => cell(context, run, name))]),
+    }),
+    el(
+      "dl",
+      { class: "meanings" },
+      ...names.map((name) => el("div", {}, el("dt", {}, words(name)), el("dd", {}, outcomeMeaning(name)))),
+    ),
+  ];
+}
+
+export const outcomes: Section = {
+  id: "outcomes",
+  title: "How trials ended",
+  render: (context: Context) => {
+    const runs = context.runs.filter((run) => run.kind !== "measurement" && total(run) > 0);
+    if (runs.length === 0) return null;
+    return [
+      ...(runs.length === 1 ? [oneRun(context, runs[0]!)] : manyRuns(context, runs)),
+      el("p", { class: "note" }, "A bar is the share of the run's trials. A count shows its trials in the table of trials."),
+    ];
+  },
+};

@@ -1,0 +1,108 @@
+// The comparison with what was published.
+
+import { el, type Child } from "../../shared/dom";
+import { interval, isNumber, MISSING, number, pValue } from "../../shared/format";
+import { numeric, rowHeader, table, type Cell } from "../../shared/table";
+import { predictionBar } from "../charts/glyphs";
+import type { Context } from "../context";
+import type { PublishedRow, Run } from "../payload";
+import { unitText, verdictWords, words } from "../words";
+import type { Section } from "./section";
+
+function verdict(row: PublishedRow): Cell {
+  const { mark, tone } = verdictWords(row.verdict);
+  return {
+    content: el("span", { class: `verdict ${tone}` }, el("span", { "aria-hidden": "true", class: "verdict-mark" }, mark), words(row.verdict)),
+    value: row.verdict,
+  };
+}
+
+function predicted(row: PublishedRow): Cell {
+  const text = row.predicted || (isNumber(row.predicted_value) ? number(row.predicted_value, 3) : MISSING);
+  return {
+    content: el(
+      "div",
+      { class: "rate-drawn" },
+      el("span", {}, text),
+      isNumber(row.predicted_low) && !text.includes("..")
+        ? el("span", { class: "of" }, interval(row.predicted_low, row.predicted_high))
+        : null,
+    ),
+    numeric: true,
+    value: row.predicted_value,
+  };
+}
+
+function cells(row: PublishedRow): (Child | Cell)[] {
+  const unit = row.unit === "" || row.unit === "1" || row.unit === "p" ? "" : ` [${unitText(row.unit)}]`;
+  return [
+    rowHeader(row.what + unit),
+    numeric(row.published || MISSING, row.published_value),
+    predicted(row),
+    predictionBar(row.published_value, row.predicted_value, row.predicted_low, row.predicted_high),
+    verdict(row),
+    numeric(pValue(row.p_holm), row.p_holm),
+    numeric(isNumber(row.power) ? row.power.toFixed(2) : MISSING, row.power),
+    row.source,
+  ];
+}
+
+function meanings(rows: PublishedRow[]): HTMLElement {
+  const names = [...new Set(rows.map((row) => row.verdict))];
+  return el(
+    "dl",
+    { class: "meanings" },
+    ...names.map((name) => {
+      const { mark, tone, meaning } = verdictWords(name);
+      const count = rows.filter((row) => row.verdict === name).length;
+      return el(
+        "div",
+        {},
+        el("dt", { class: `verdict ${tone}` }, el("span", { "aria-hidden": "true", class: "verdict-mark" }, mark), `${words(name)} (${count})`),
+        el("dd", {}, meaning),
+      );
+    }),
+  );
+}
+
+function comparison(run: Run, titled: boolean): Child[] {
+  const published = run.published!;
+  return [
+    titled ? el("h3", {}, run.label) : null,
+    el("p", { class: "note" }, `Against ${published.reference}${published.citation ? `: ${published.citation}` : ""}`),
+    meanings(published.rows),
+    table({
+      caption: `${run.label} against ${published.reference}`,
+      head: [
+        "Number",
+        { content: "Published", numeric: true },
+        { content: "Predicted (95 %)", numeric: true },
+        "Where it lies",
+        "Verdict",
+        { content: "p (Holm)", numeric: true },
+        { content: "Power", numeric: true },
+        "Place",
+      ],
+      rows: published.rows.map(cells),
+    }),
+    el(
+      "p",
+      { class: "note" },
+      "Where it lies: the bar is the 95 % interval of what as many simulated runs would have shown, the dot its middle, the " +
+        "diamond the published value; each row has its own scale.",
+    ),
+    (published.notes ?? []).length > 0
+      ? el("details", { class: "numbers" }, el("summary", {}, "How it is judged"),
+          el("ul", {}, ...published.notes.map((note) => el("li", {}, note))))
+      : null,
+  ];
+}
+
+export const published: Section = {
+  id: "published",
+  title: "Against what was published",
+  render: (context: Context) => {
+    const runs = context.runs.filter((run) => (run.published?.rows ?? []).length > 0);
+    return runs.length === 0 ? null : runs.flatMap((run) => comparison(run, context.runs.length > 1));
+  },
+};

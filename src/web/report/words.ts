@@ -1,0 +1,81 @@
+// What names in the data mean, in words.
+
+const OUTCOMES: Record<string, string> = {
+  goal_reached: "believed to be at the goal, and truly there",
+  false_goal: "believed to be at the goal, but truly elsewhere",
+  tip_over: "tipped over",
+  high_centred: "hung on a rock by the belly",
+  jammed: "stuck between rocks",
+  no_path: "found no way on",
+  energy_depleted: "batteries empty",
+  time_limit: "ran out of time",
+  left_arena: "left the arena",
+  simulator_fault: "the simulator failed, not the rover: in no rate",
+  measured: "measured",
+};
+
+export function outcomeMeaning(name: string): string {
+  return OUTCOMES[name] ?? "";
+}
+
+/** "false_goal" as "false goal". */
+export function words(name: string): string {
+  return name.replaceAll("_", " ");
+}
+
+const COLUMNS: Record<string, string> = {
+  true_distance_m: "true distance",
+  dead_reckoned_distance_m: "dead-reckoned distance",
+  sim_time_s: "simulated time",
+  energy_wh: "energy",
+  net_rate_m_s: "net rate",
+  net_rate: "net rate",
+  distance_error_percent: "distance error",
+  heading_error_deg: "heading error",
+  position_error_m: "position error",
+  true_goal_distance_m: "true distance to the goal at the end",
+};
+
+const UNIT_ENDINGS = /_(m_s|m2|m|s|rad|deg|percent|wh|kg|w|px|hz)$/;
+
+/** A column's name for people, without its unit. */
+export function columnWords(name: string): string {
+  return COLUMNS[name] ?? words(name.replace(UNIT_ENDINGS, ""));
+}
+
+/** The same with the unit in brackets. */
+export function columnLabel(name: string, unit: string): string {
+  const shown = unit === "" || unit === "1" ? "" : ` [${unitText(unit)}]`;
+  return columnWords(name) + shown;
+}
+
+/** Units as they are printed. */
+export function unitText(unit: string): string {
+  return unit.replace("m2", "m²").replace("m3", "m³").replace(/\bdeg\b/, "°");
+}
+
+const METHODS: Record<string, string> = {
+  wilson: "Wilson",
+  clopper_pearson: "Clopper-Pearson",
+};
+
+export function methodName(method: unknown): string {
+  return typeof method === "string" ? (METHODS[method] ?? method) : "unnamed";
+}
+
+export interface VerdictWords {
+  mark: string;
+  tone: "good" | "bad" | "unsure" | "none";
+  meaning: string;
+}
+
+const VERDICTS: Record<string, VerdictWords> = {
+  agrees: { mark: "✓", tone: "good", meaning: "not rejected, and enough published runs to have noticed a difference" },
+  differs: { mark: "✗", tone: "bad", meaning: "the simulation and the published runs do not follow one law" },
+  underpowered: { mark: "?", tone: "unsure", meaning: "not rejected, but too few published runs to tell" },
+  "not judged": { mark: "·", tone: "none", meaning: "no number to judge by, or no simulated trials" },
+};
+
+export function verdictWords(verdict: string): VerdictWords {
+  return VERDICTS[words(verdict)] ?? { mark: "·", tone: "none", meaning: "" };
+}

@@ -1,0 +1,60 @@
+// Plain tables. A wide one scrolls in its own box, which the keyboard reaches.
+
+import { el, type Child } from "./dom";
+
+export interface Cell {
+  content: Child;
+  /** The exact number behind the text, for whoever reads the page by program. */
+  value?: number | string | null;
+  numeric?: boolean;
+  header?: boolean;
+}
+
+export interface TableSpec {
+  /** What the table shows: read out, and shown above it where `captionShown`. */
+  caption: string;
+  captionShown?: boolean;
+  head: (string | Cell)[];
+  rows: (Child | Cell)[][];
+  className?: string;
+}
+
+/** A right-aligned number with its exact value. */
+export function numeric(content: Child, value?: number | null): Cell {
+  return { content, value, numeric: true };
+}
+
+/** A cell that names its row. */
+export function rowHeader(content: Child): Cell {
+  return { content, header: true };
+}
+
+function isCell(cell: Child | Cell): cell is Cell {
+  return typeof cell === "object" && cell !== null && !(cell instanceof Node);
+}
+
+function headCell(head: string | Cell): HTMLElement {
+  const cell = typeof head === "string" ? { content: head } : head;
+  return el("th", { scope: "col", class: cell.numeric ? "numeric" : null }, cell.content);
+}
+
+function bodyCell(given: Child | Cell): HTMLElement {
+  const cell = isCell(given) ? given : { content: given };
+  const attributes = { class: cell.numeric ? "numeric" : null, "data-value": cell.value };
+  return cell.header
+    ? el("th", { scope: "row", ...attributes }, cell.content)
+    : el("td", attributes, cell.content);
+}
+
+/** The table in its scrolling box. */
+export function table(spec: TableSpec): HTMLElement {
+  const head = el("thead", {}, el("tr", {}, ...spec.head.map(headCell)));
+  const body = el("tbody", {});
+  for (const row of spec.rows) body.append(el("tr", {}, ...row.map(bodyCell)));
+  const caption = el("caption", { class: spec.captionShown ? null : "visually-hidden" }, spec.caption);
+  return el(
+    "div",
+    { class: "table-box", tabindex: 0, role: "region", "aria-label": spec.caption },
+    el("table", { class: spec.className }, caption, head, body),
+  );
+}
