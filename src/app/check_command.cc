@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -13,10 +12,10 @@
 #include "app/output_file.h"
 #include "app/regression_check.h"
 #include "app/run_source.h"
+#include "app/run_views.h"
 #include "batch/run_folder.h"
 #include "core/error.h"
 #include "core/json_file.h"
-#include "core/json_text.h"
 #include "report/atomic_file.h"
 #include "report/baseline.h"
 #include "report/comparison_reference.h"
@@ -36,17 +35,6 @@ struct CheckOptions {
   std::string csv;
   statistics::ComparisonOptions comparison;
 };
-
-// Of the scenario as it was run; NaN where that program had no such parameter.
-double GoalTolerance_m(const std::string& resolved) {
-  const core::JsonValue document = core::ParseJson(resolved, "resolved scenario");
-  const core::JsonValue* at = &document;
-  for (const char* key : {"navigation", "pathfinder", "goal_tolerance_m"}) {
-    at = at->Find(key);
-    if (at == nullptr) return std::numeric_limits<double>::quiet_NaN();
-  }
-  return at->IsNumber() ? at->number() : std::numeric_limits<double>::quiet_NaN();
-}
 
 std::vector<StoredRun> ReadRuns(const std::vector<std::string>& paths, const std::string& cell) {
   std::vector<StoredRun> runs;
@@ -114,8 +102,7 @@ ExitCode Check(const CheckOptions& options) {
   std::vector<statistics::ScenarioRun> runs;
   for (const StoredRun& run : stored) {
     NoteUnfinished(run);
-    runs.push_back(
-        {run.identity.scenario, run.schema, run.prefix(), GoalTolerance_m(run.identity.resolved)});
+    runs.push_back(ScenarioView(run));
   }
   const statistics::ComparisonResult result =
       statistics::Compare(reference, runs, options.comparison);

@@ -12,6 +12,7 @@
 #include "app/console.h"
 #include "app/output_file.h"
 #include "app/run_source.h"
+#include "app/run_views.h"
 #include "batch/scenario_difference.h"
 #include "core/error.h"
 #include "core/json_text.h"
@@ -31,24 +32,6 @@ struct CompareOptions {
   std::string second_cell;
   std::string csv;
 };
-
-// The settings that decide which rocks a trial meets, and where it starts and ends.
-std::string FieldsOf(const StoredRun& run) {
-  const core::JsonValue document = core::ParseJson(run.identity.resolved, "resolved scenario");
-  std::string text;
-  for (const char* group : {"terrain", "course"}) {
-    const core::JsonValue* value = document.Find(group);
-    if (value != nullptr) text += core::DumpJson(*value);
-  }
-  return text;
-}
-
-report::ComparedRun View(const StoredRun& run) {
-  if (run.prefix().empty()) {
-    throw core::UserError(run.Label(), "holds no finished trials to compare", "run some first");
-  }
-  return {run.identity.scenario, run.identity.seed, run.schema, run.prefix(), FieldsOf(run)};
-}
 
 std::string TextAt(const core::JsonValue* value) {
   const bool text = value != nullptr && value->Is(core::JsonValue::Type::kText);
@@ -77,8 +60,8 @@ void RequireSameExperiment(const StoredRun& first, const StoredRun& second) {
 ExitCode CompareMeasurements(const StoredRun& first, const StoredRun& second,
                              const CompareOptions& options) {
   RequireSameExperiment(first, second);
-  const report::ComparedRun a = View(first);
-  const report::ComparedRun b = View(second);
+  const report::ComparedRun a = ComparedView(first);
+  const report::ComparedRun b = ComparedView(second);
   const statistics::CellComparison cells =
       statistics::CompareCells(statistics::SummarizeCells(a.schema, a.records),
                                statistics::SummarizeCells(b.schema, b.records));
@@ -113,8 +96,8 @@ std::string SettingsText(const StoredRun& first, const StoredRun& second) {
 
 ExitCode CompareDrives(const StoredRun& first, const StoredRun& second,
                        const CompareOptions& options) {
-  const report::ComparedRun a = View(first);
-  const report::ComparedRun b = View(second);
+  const report::ComparedRun a = ComparedView(first);
+  const report::ComparedRun b = ComparedView(second);
   const report::RunComparison comparison = report::CompareRuns(a, b);
   if (!options.csv.empty()) {
     report::WriteFileAtomically(options.csv, report::RunComparisonCsv(comparison));

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <system_error>
 
+#include "batch/run_folder.h"
 #include "core/error.h"
 
 namespace rockyard::app {
@@ -30,6 +32,11 @@ fs::path FreeName(const fs::path& folder, const fs::path& name) {
 }
 
 }  // namespace
+
+bool IsRunFile(const fs::path& name) {
+  return name == batch::kStoreFile ||
+         std::find(kDerivedFiles.begin(), kDerivedFiles.end(), name) != kDerivedFiles.end();
+}
 
 std::vector<std::string> SetDerivedFilesAside(const fs::path& folder) {
   std::vector<std::string> names;

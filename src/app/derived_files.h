@@ -13,4 +13,7 @@ namespace rockyard::app {
 // one cannot be renamed.
 std::vector<std::string> SetDerivedFilesAside(const std::filesystem::path& folder);
 
+// Whether a campaign writes a file of that name into its folder, or has its store there.
+bool IsRunFile(const std::filesystem::path& name);
+
 }  // namespace rockyard::app

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "app/console.h"
+#include "app/next_command.h"
 #include "app/run_source.h"
+#include "app/run_views.h"
 #include "batch/executor.h"
 #include "batch/trial_hash.h"
 #include "core/provenance.h"
@@ -28,18 +30,10 @@ class StoredCells {
 
   report::SweepCellTrials Load(std::size_t index) {
     StoredRun run = reader_.Load(static_cast<int>(index));
-    const report::Accounting accounting = AccountingOf(run);
-    const auto stored = static_cast<std::int64_t>(run.records.size());
-    run.records.resize(run.prefix().size());
-    std::string hash = batch::TrialHash(run.records);
-    hashes_.push_back({run.identity.name, hash});
-    return {.schema = run.schema,
-            .prefix = std::move(run.records),
-            .planned = run.planned,
-            .stored = stored,
-            .trial_hash = std::move(hash),
-            .accounting = accounting,
-            .stopping = StoppingOf(run)};
+    std::string name = run.identity.name;
+    report::SweepCellTrials trials = SweepCellView(std::move(run));
+    hashes_.push_back({std::move(name), trials.trial_hash});
+    return trials;
   }
 
   std::string CampaignHash() const { return batch::CampaignHash(hashes_); }
@@ -48,6 +42,10 @@ class StoredCells {
   CellReader reader_;
   std::vector<batch::CellHash> hashes_;
 };
+
+void PrintNext(const ReportOptions& options, const std::filesystem::path& folder, Finished what) {
+  Print(NextLine(options.resume.empty() ? NextCommand(folder, what) : options.resume));
+}
 
 // A shard holds no contiguous prefix of any cell: counts, and no rates.
 void ReportSweepShard(const batch::ResultStore& store, const ReportOptions& options) {
@@ -68,8 +66,8 @@ void ReportSweepShard(const batch::ResultStore& store, const ReportOptions& opti
   if (options.output != Output::kText) return;
   Print(fmt::format("{}: shard {} of {}\n{}", store.identity().name.substr(0, 40), shard.index,
                     shard.count, report::AccountingText(total)));
-  PrintNote(fmt::format("part {} of {} is in {}; `rockyard merge` puts the parts together",
-                        shard.index, shard.count, folder.string()));
+  Print(fmt::format("  results in {}\n", folder.string()));
+  PrintNext(options, folder, Finished::kShard);
 }
 
 }  // namespace
@@ -91,6 +89,7 @@ void ReportSweep(const batch::ResultStore& store, const scenario::Sweep& sweep,
     case Output::kText:
       Print(report::SweepText(sweep, summary, description, StyleFor(stdout)));
       Print(fmt::format("  results in {}\n", folder.string()));
+      PrintNext(options, folder, Finished::kSweep);
       break;
     case Output::kJson:
       Print(report::SweepJson(sweep, summary, description));

@@ -6,6 +6,18 @@
 #include <cmath>
 
 namespace rockyard::report {
+namespace {
+
+std::string OneLayoutRemark(const statistics::OneLayout& layout) {
+  const std::string low = PValue(layout.p_value.low);
+  const std::string high = PValue(layout.p_value.high);
+  const std::string_view basis = layout.measured ? "from repeated layouts" : "bounds";
+  return low == high ? fmt::format("one rock layout for all runs of the set: p {} ({})", low, basis)
+                     : fmt::format("one rock layout for all runs of the set: p from {} to {} ({})",
+                                   low, high, basis);
+}
+
+}  // namespace
 
 using statistics::ComparedValue;
 using statistics::ComparisonResult;
@@ -66,6 +78,17 @@ std::string Prediction(const ComparedValue& value) {
   if (value.interval.low == value.interval.high) return fmt::format("{:.4g}", value.pool_value);
   return fmt::format("{:.3g} ({:.3g} .. {:.3g})", value.pool_value, value.interval.low,
                      value.interval.high);
+}
+
+std::vector<std::string> Remarks(const ComparedValue& value) {
+  std::vector<std::string> remarks;
+  for (const statistics::KindPrediction& kind : value.kinds) {
+    remarks.push_back(fmt::format("{}: {} published, {} of {} simulated failures", kind.name,
+                                  kind.published, kind.simulated, value.pool));
+  }
+  if (value.one_layout) remarks.push_back(OneLayoutRemark(*value.one_layout));
+  if (!value.remark.empty()) remarks.push_back(value.remark);
+  return remarks;
 }
 
 std::string_view RoleName(ValueRole role) {

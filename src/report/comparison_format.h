@@ -1,9 +1,11 @@
-// How numbers of the comparison are written. For comparison_table.cc and comparison_files.cc only.
+// How numbers of the comparison are written. For comparison_table.cc,
+// comparison_files.cc and page_published.cc only.
 #pragma once
 
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "statistics/published_comparison.h"
 
@@ -27,6 +29,9 @@ std::string Prediction(double median, const statistics::Interval& interval, bool
 
 // The same for a compared value, in the digits of its kind.
 std::string Prediction(const statistics::ComparedValue& value);
+
+// What else is to be said of a value: kinds of failure, one layout for all runs, a remark.
+std::vector<std::string> Remarks(const statistics::ComparedValue& value);
 
 std::string_view RoleName(statistics::ValueRole role);
 

@@ -25,6 +25,11 @@ using statistics::Verdict;
 constexpr std::size_t kWidth = 100;
 constexpr std::size_t kRemarkIndent = 6;
 
+// What the columns show by marks and indents.
+constexpr const char* kMarks =
+    "c: conditional on error sizes that the publication states as inputs. k: the simulation was "
+    "calibrated with these runs or their like. Indented: other readings, shown and not judged.";
+
 char RoleMark(ValueRole role) {
   switch (role) {
     case ValueRole::kConditional:
@@ -69,28 +74,13 @@ std::string Line(char mark, const std::string& what, const std::string& publishe
   return line + "\n";
 }
 
-std::string OneLayoutRemark(const statistics::OneLayout& layout) {
-  const std::string low = PValue(layout.p_value.low);
-  const std::string high = PValue(layout.p_value.high);
-  const std::string_view basis = layout.measured ? "from repeated layouts" : "bounds";
-  return low == high ? fmt::format("one rock layout for all runs of the set: p {} ({})", low, basis)
-                     : fmt::format("one rock layout for all runs of the set: p from {} to {} ({})",
-                                   low, high, basis);
-}
-
 std::string Details(const ComparedValue& value) {
   std::string text;
   for (const auto& side : value.beside) {
     text += Line(' ', "    " + side.name, "", Prediction(side.median, side.interval, false),
                  PValue(side.p_value), "", "", "");
   }
-  for (const auto& kind : value.kinds) {
-    text += Wrap(fmt::format("{}: {} published, {} of {} simulated failures", kind.name,
-                             kind.published, kind.simulated, value.pool),
-                 kRemarkIndent);
-  }
-  if (value.one_layout) text += Wrap(OneLayoutRemark(*value.one_layout), kRemarkIndent);
-  if (!value.remark.empty()) text += Wrap(value.remark, kRemarkIndent);
+  for (const std::string& remark : Remarks(value)) text += Wrap(remark, kRemarkIndent);
   return text;
 }
 
@@ -103,38 +93,10 @@ std::string Row(const ComparedValue& value) {
 }
 
 std::string Footnotes(const ComparisonResult& result) {
-  const statistics::ComparisonOptions& options = result.options;
-  const std::string_view notes[] = {
-      "published: successes of runs, or the printed number. predicted: median and 95 % interval "
-      "for a "
-      "new set of the published size, the simulation's own uncertainty included.",
-      "p: two-sided, that the published and the simulated runs follow one law. Holm: adjusted for "
-      "the "
-      "family. power: chance to see a success rate 0.20 lower (other counts: 0.20 nearer to one "
-      "half; "
-      "other numbers: a shift by half a standard deviation) at the level that Holm grants.",
-      "agrees: not rejected, and power 0.8 or more. differs: Holm at or below alpha. underpowered: "
-      "not "
-      "rejected, but too few published runs to tell. not judged: no number, or no simulated "
-      "trials.",
-      "c: conditional on error sizes that the publication states as inputs. k: the simulation was "
-      "calibrated with these runs or their like. Indented: other readings, shown and not judged."};
+  std::vector<std::string> notes = ComparisonNotes(result);
+  notes.insert(notes.begin() + 3, kMarks);
   std::string text;
-  for (const std::string_view note : notes) text += Wrap(std::string(note), 0);
-  if (std::any_of(result.values.begin(), result.values.end(), [](const ComparedValue& value) {
-        return statistics::HasTolerance(value.published.statistic);
-      })) {
-    text += Wrap(
-        "Numbers with a tolerance: the simulated value and its interval, all such intervals "
-        "together 95 % (Bonferroni). agrees: inside of the tolerance. differs: apart from it. "
-        "underpowered: across an end of it.",
-        0);
-  }
-  text +=
-      Wrap(fmt::format("{} p-values in Holm's family, alpha {}, {} samples for each, seed {}. A "
-                       "bound is judged without a p-value.",
-                       result.family, options.alpha, options.replicates, options.seed),
-           0);
+  for (const std::string& note : notes) text += Wrap(note, 0);
   return text;
 }
 
@@ -148,6 +110,33 @@ std::vector<std::string> Scenarios(const ComparisonResult& result) {
 }
 
 }  // namespace
+
+std::vector<std::string> ComparisonNotes(const ComparisonResult& result) {
+  const statistics::ComparisonOptions& options = result.options;
+  std::vector<std::string> notes{
+      "published: successes of runs, or the printed number. predicted: median and 95 % interval "
+      "for a new set of the published size, the simulation's own uncertainty included.",
+      "p: two-sided, that the published and the simulated runs follow one law. Holm: adjusted for "
+      "the family. power: chance to see a success rate 0.20 lower (other counts: 0.20 nearer to "
+      "one half; other numbers: a shift by half a standard deviation) at the level that Holm "
+      "grants.",
+      "agrees: not rejected, and power 0.8 or more. differs: Holm at or below alpha. "
+      "underpowered: not rejected, but too few published runs to tell. not judged: no number, or "
+      "no simulated trials."};
+  if (std::any_of(result.values.begin(), result.values.end(), [](const ComparedValue& value) {
+        return statistics::HasTolerance(value.published.statistic);
+      })) {
+    notes.emplace_back(
+        "Numbers with a tolerance: the simulated value and its interval, all such intervals "
+        "together 95 % (Bonferroni). agrees: inside of the tolerance. differs: apart from it. "
+        "underpowered: across an end of it.");
+  }
+  notes.push_back(
+      fmt::format("{} p-values in Holm's family, alpha {}, {} samples for each, seed {}. A bound "
+                  "is judged without a p-value.",
+                  result.family, options.alpha, options.replicates, options.seed));
+  return notes;
+}
 
 std::string ComparisonText(const PublishedReference& reference, const ComparisonResult& result) {
   std::string text = reference.title + " against simulated trials\n\n";

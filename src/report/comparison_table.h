@@ -2,11 +2,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "statistics/published_comparison.h"
 #include "statistics/published_values.h"
 
 namespace rockyard::report {
+
+// What its columns mean (2), what its verdicts mean (1), and how it was made.
+std::vector<std::string> ComparisonNotes(const statistics::ComparisonResult& result);
 
 // Aligned plain text, at most 100 columns, grouped by scenario, with footnotes on what the columns
 // and verdicts mean. Ends with a newline.

@@ -63,7 +63,13 @@ std::string ValueText(const core::JsonValue& value) {
   return "";
 }
 
-std::string Range(const ParameterInfo& parameter) {
+std::string Bound(double value) { return std::isfinite(value) ? Number(value) : ""; }
+
+}  // namespace
+
+std::string ParameterValue(const ParameterInfo& parameter) { return ValueText(parameter.value); }
+
+std::string ParameterRange(const ParameterInfo& parameter) {
   if (parameter.kind == FieldKind::kChoice) {
     return fmt::format("{}", fmt::join(parameter.choices, ", "));
   }
@@ -72,10 +78,6 @@ std::string Range(const ParameterInfo& parameter) {
   }
   return "held";
 }
-
-std::string Bound(double value) { return std::isfinite(value) ? Number(value) : ""; }
-
-}  // namespace
 
 std::vector<ParameterInfo> SelectParameters(std::span<const ParameterInfo> parameters,
                                             std::optional<core::Origin> origin) {
@@ -90,8 +92,8 @@ std::string ParametersMarkdown(std::span<const ParameterInfo> parameters) {
       "| parameter | value | unit | range | reason or source | meaning "
       "|\n|---|---|---|---|---|---|\n";
   for (const ParameterInfo& p : parameters) {
-    table += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", p.path, ValueText(p.value), p.unit,
-                         Range(p), p.source, p.doc);
+    table += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", p.path, ParameterValue(p), p.unit,
+                         ParameterRange(p), p.source, p.doc);
   }
   return table;
 }
@@ -101,7 +103,7 @@ std::string ParametersCsv(std::span<const ParameterInfo> parameters) {
   for (const ParameterInfo& p : parameters) {
     const bool studied = p.HasStudyRange();
     csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", p.path, KindName(p.kind),
-                       CsvField(ValueText(p.value)), p.unit, core::Name(p.origin),
+                       CsvField(ParameterValue(p)), p.unit, core::Name(p.origin),
                        studied ? Number(p.study_low) : "", studied ? Number(p.study_high) : "",
                        Bound(p.min), Bound(p.max), fmt::join(p.choices, "|"), CsvField(p.source),
                        CsvField(p.doc));

@@ -15,6 +15,12 @@ namespace rockyard::report {
 std::vector<core::ParameterInfo> SelectParameters(std::span<const core::ParameterInfo> parameters,
                                                   std::optional<core::Origin> origin);
 
+// Its value: a number with six digits, "[1, 2]" for a list.
+std::string ParameterValue(const core::ParameterInfo& parameter);
+
+// "lo to hi" where it has a study range, the choices, or "held".
+std::string ParameterRange(const core::ParameterInfo& parameter);
+
 // One row a parameter: path, value, unit, range ("lo to hi", or the choices), reason or source,
 // meaning. Markdown with a header row.
 std::string ParametersMarkdown(std::span<const core::ParameterInfo> parameters);

@@ -3,9 +3,7 @@
 #include <vector>
 
 #include "report/csv.h"
-#include "statistics/cumulative_incidence.h"
-#include "statistics/drive_summary.h"
-#include "statistics/quantiles.h"
+#include "report/distance_steps.h"
 
 namespace rockyard::report {
 namespace {
@@ -34,25 +32,12 @@ std::string TrialsCsv(const truth::RecordSchema& schema, std::span<const truth::
 std::string DistanceCdfCsv(const truth::RecordSchema& schema,
                            std::span<const truth::Record> records) {
   std::string csv = kCdfHeader;
-  const auto column = statistics::ColumnIndex(schema, "true_distance_m");
-  if (!column) return csv;
-  const std::vector<double> distances = statistics::ColumnValues(records, *column);
-  const auto durations = statistics::GoalDurations(records, *column);
-  const auto steps = statistics::CumulativeIncidence(durations);
-
-  // Before the first step nothing has happened.
-  statistics::IncidenceStep now;
-  std::size_t next = 0;
-  std::size_t passed = 0;
-  const std::vector<double> sorted = statistics::SortedFinite(distances);
-  for (const statistics::EcdfPoint& point : statistics::Ecdf(distances)) {
-    while (next < steps.size() && steps[next].at <= point.value) now = steps[next++];
-    const std::size_t at_risk = sorted.size() - passed;
-    while (passed < sorted.size() && sorted[passed] <= point.value) ++passed;
+  for (const DistanceStep& step : DistanceSteps(schema, records)) {
     csv += CsvLine(std::vector<std::string>{
-        CsvNumber(point.value), CsvNumber(point.fraction), CsvNumber(point.band.low),
-        CsvNumber(point.band.high), CsvNumber(now.event), CsvNumber(now.band.low),
-        CsvNumber(now.band.high), CsvNumber(now.competing), std::to_string(at_risk)});
+        CsvNumber(step.all.value), CsvNumber(step.all.fraction), CsvNumber(step.all.band.low),
+        CsvNumber(step.all.band.high), CsvNumber(step.goal.event), CsvNumber(step.goal.band.low),
+        CsvNumber(step.goal.band.high), CsvNumber(step.goal.competing),
+        std::to_string(step.at_risk)});
   }
   return csv;
 }

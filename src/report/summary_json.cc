@@ -44,20 +44,18 @@ Json Outcomes(const DriveSummary& summary) {
   return outcomes;
 }
 
+Json Program(const core::Provenance& p) {
+  return {{"version", p.version},     {"commit", p.commit},         {"compiler", p.compiler},
+          {"flags", p.flags},         {"build_type", p.build_type}, {"host", p.host},
+          {"cpu_model", p.cpu_model}, {"cpu_level", p.cpu_level},   {"cpu_threads", p.cpu_threads}};
+}
+
 Json Provenance(const RunDescription& run) {
-  const core::Provenance& p = run.provenance;
-  return {{"version", p.version},
-          {"commit", p.commit},
-          {"compiler", p.compiler},
-          {"flags", p.flags},
-          {"build_type", p.build_type},
-          {"host", p.host},
-          {"cpu_model", p.cpu_model},
-          {"cpu_level", p.cpu_level},
-          {"cpu_threads", p.cpu_threads},
-          {"threads", run.threads},
-          {"ranks", 1},
-          {"builds", run.builds}};
+  Json json = Program(run.provenance);
+  json["threads"] = run.threads;
+  json["ranks"] = 1;
+  json["builds"] = run.builds;
+  return json;
 }
 
 std::string Text(const Json& json) {
@@ -210,6 +208,8 @@ std::string SummaryJson(const RunDescription& run, const DriveSummary& summary,
   json["provenance"] = Provenance(run);
   return Text(json);
 }
+
+std::string ProvenanceJson(const core::Provenance& provenance) { return Text(Program(provenance)); }
 
 std::string ResolvedScenarioJson(const RunDescription& run) {
   return Text({{"scenario", Json::parse(run.resolved)},

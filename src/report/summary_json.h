@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/provenance.h"
 #include "report/run_description.h"
 #include "statistics/cell_summary.h"
 #include "statistics/drive_summary.h"
@@ -27,6 +28,10 @@ std::string SummaryJson(const RunDescription& run, const statistics::DriveSummar
 std::string MeasurementJson(const RunDescription& run,
                             const statistics::MeasurementSummary& summary,
                             statistics::IntervalMethod method);
+
+// The program and the machine: version, commit, compiler, flags, build_type, host, cpu_model,
+// cpu_level, cpu_threads.
+std::string ProvenanceJson(const core::Provenance& provenance);
 
 // scenario.resolved.json: {"scenario": every effective value, "fingerprint", "provenance"}. The
 // command line reads it wherever it reads a scenario.

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "report/csv.h"
+#include "report/sweep_curves.h"
 #include "report/sweep_files.h"
 
 namespace rockyard::report {
@@ -10,8 +11,6 @@ namespace {
 
 using scenario::Sweep;
 using Fields = std::vector<std::string>;
-
-constexpr int kFitPoints = 61;
 
 void AddAxes(const Sweep& sweep, Fields& fields) {
   for (const scenario::SweepAxis& axis : sweep.axes) fields.push_back(CsvField(axis.name));
@@ -145,13 +144,10 @@ std::string SweepFitCsv(const SweepSummary& summary) {
   std::string csv = "curve,success,x,rate,low,high\n";
   for (const SweepCurve& curve : summary.curves) {
     for (std::size_t kind = 0; kind < kSuccessNames.size(); ++kind) {
-      const statistics::LogisticFit& fit = curve.fits[kind];
-      if (fit.status != statistics::FitStatus::kFitted) continue;
-      for (int i = 0; i < kFitPoints; ++i) {
-        const double x = FitAbscissa(fit, i / (kFitPoints - 1.0));
-        const statistics::Interval band = fit.Band(x);
-        csv += CsvLine(Fields{CsvField(curve.label), std::string(kSuccessNames[kind]), CsvNumber(x),
-                              CsvNumber(fit.Rate(x)), CsvNumber(band.low), CsvNumber(band.high)});
+      for (const FitPoint& point : FittedLine(curve.fits[kind])) {
+        csv += CsvLine(Fields{CsvField(curve.label), std::string(kSuccessNames[kind]),
+                              CsvNumber(point.x), CsvNumber(point.rate), CsvNumber(point.band.low),
+                              CsvNumber(point.band.high)});
       }
     }
   }

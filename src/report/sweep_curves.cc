@@ -20,6 +20,7 @@ using statistics::FitStatus;
 using statistics::LogisticFit;
 
 constexpr std::array<double, 2> kCrossingRates{0.9, 0.5};
+constexpr int kFitPoints = 61;
 
 // The levels of a cell but for one axis: what has to be equal for two cells to be compared along
 // it.
@@ -104,6 +105,15 @@ SweepCurve Curve(const Sweep& sweep, std::span<const CellOutcomes> outcomes, std
   return curve;
 }
 
+// A number between the lowest setting of a fit (share 0) and the highest (1), in equal steps of the
+// fit's scale.
+double Abscissa(const LogisticFit& fit, double share) {
+  if (fit.scale == FitScale::kLinear) {
+    return fit.lowest_x + share * (fit.highest_x - fit.lowest_x);
+  }
+  return fit.lowest_x * std::pow(fit.highest_x / fit.lowest_x, share);
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::vector<std::size_t>>> CellsAlong(const Sweep& sweep,
@@ -129,11 +139,14 @@ std::vector<SweepCurve> FitCurves(const Sweep& sweep, std::span<const CellOutcom
   return curves;
 }
 
-double FitAbscissa(const LogisticFit& fit, double share) {
-  if (fit.scale == FitScale::kLinear) {
-    return fit.lowest_x + share * (fit.highest_x - fit.lowest_x);
+std::vector<FitPoint> FittedLine(const LogisticFit& fit) {
+  std::vector<FitPoint> line;
+  if (fit.status != FitStatus::kFitted) return line;
+  for (int i = 0; i < kFitPoints; ++i) {
+    const double x = Abscissa(fit, i / (kFitPoints - 1.0));
+    line.push_back({.x = x, .rate = fit.Rate(x), .band = fit.Band(x)});
   }
-  return fit.lowest_x * std::pow(fit.highest_x / fit.lowest_x, share);
+  return line;
 }
 
 }  // namespace rockyard::report

@@ -24,4 +24,15 @@ std::vector<std::pair<std::string, std::vector<std::size_t>>> CellsAlong(
 std::vector<SweepCurve> FitCurves(const scenario::Sweep& sweep,
                                   std::span<const CellOutcomes> outcomes);
 
+// A point of a fitted curve.
+struct FitPoint {
+  double x = 0.0;
+  double rate = 0.0;
+  statistics::Interval band;  // pointwise, 95 %
+};
+
+// 61 of them from the lowest setting to the highest, in equal steps of the fit's scale; none where
+// nothing is fitted.
+std::vector<FitPoint> FittedLine(const statistics::LogisticFit& fit);
+
 }  // namespace rockyard::report

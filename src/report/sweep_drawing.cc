@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "report/curve_colours.h"
+#include "report/sweep_curves.h"
 #include "report/sweep_files.h"
 #include "report/xml_text.h"
 
@@ -13,7 +14,6 @@ namespace rockyard::report {
 namespace {
 
 using scenario::Sweep;
-using statistics::LogisticFit;
 
 // Pixels.
 constexpr double kPanelWidth = 430.0;
@@ -24,7 +24,6 @@ constexpr double kGap = 56.0;
 constexpr double kLegendLine = 18.0;
 constexpr double kBottom = 56.0;
 constexpr double kMark = 4.0;
-constexpr int kFitPoints = 61;
 
 std::string Text(double x, double y, std::string_view text, std::string_view style = "") {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, style,
@@ -120,15 +119,13 @@ class Panel {
   }
 
   std::string Fit(std::size_t number) const {
-    const LogisticFit& fit = summary_.curves[number].fits[kind_];
-    if (fit.status != statistics::FitStatus::kFitted) return "";
+    const std::vector<FitPoint> points = FittedLine(summary_.curves[number].fits[kind_]);
+    if (points.empty()) return "";
     std::string line;
     std::string upper;
     std::string lower;
-    for (int i = 0; i < kFitPoints; ++i) {
-      const double x = FitAbscissa(fit, i / (kFitPoints - 1.0));
-      const statistics::Interval band = fit.Band(x);
-      line += fmt::format("{:.1f},{:.1f} ", X(x), Y(fit.Rate(x)));
+    for (const auto& [x, rate, band] : points) {
+      line += fmt::format("{:.1f},{:.1f} ", X(x), Y(rate));
       upper += fmt::format("{:.1f},{:.1f} ", X(x), Y(band.high));
       lower.insert(0, fmt::format("{:.1f},{:.1f} ", X(x), Y(band.low)));
     }

@@ -68,10 +68,6 @@ struct SweepCurve {
   std::array<std::vector<statistics::FitCrossing>, 2> crossings;
 };
 
-// A number between the lowest setting of a fit (share 0) and the highest (1), in equal steps of the
-// fit's scale.
-double FitAbscissa(const statistics::LogisticFit& fit, double share);
-
 // Two levels of an axis of names, everything else equal: the first level against another.
 struct SweepDifference {
   std::string axis;

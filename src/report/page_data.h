@@ -1,0 +1,117 @@
+// The data of the report page, in the shape of src/web/report/payload.ts: numbers of runs, sweeps
+// and comparisons that are there already, put together as JSON.
+//
+// What is undefined is null. Texts may be anything: what is no UTF-8 is replaced. Nothing here
+// draws random numbers but the bootstrap of the comparisons that it is given. Cost: linear in the
+// values of the records, about 0.3 us each. Memory: the text, about 7 bytes for each value of each
+// trial.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/field_table.h"
+#include "core/provenance.h"
+#include "report/page_json.h"
+#include "report/paired_comparison.h"
+#include "report/run_description.h"
+#include "report/sweep_files.h"
+#include "report/sweep_summary.h"
+#include "scenario/sweep.h"
+#include "statistics/proportions.h"
+#include "statistics/published_comparison.h"
+#include "truth/record.h"
+
+namespace rockyard::report {
+
+// Steps of a distribution function that a page holds at most.
+inline constexpr std::size_t kMostPageSteps = 1000;
+
+// A link to the replay of a trial, relative to the page.
+struct ReplayLink {
+  std::uint64_t trial = 0;
+  std::string link;
+};
+
+// A run, or a cell of a campaign, with all that the page tells of it.
+struct PageRun {
+  std::string label;                 // unique on the page
+  std::string folder;                // as the user named it
+  std::string cell;                  // "" of a run of one scenario
+  std::optional<std::size_t> sweep;  // position among the sweeps of the page
+  RunDescription description;
+  truth::RecordSchema schema;
+  std::span<const truth::Record> records;       // all that are stored, by trial
+  std::span<const truth::Record> prefix;        // those that rates may be computed from
+  std::vector<core::ParameterInfo> parameters;  // none where another version made the run
+  std::string published = "null";               // PublishedJson
+  std::string replay_command;                   // with {trial} for the number
+};
+
+// `Run` of payload.ts but for its replays, which are told when all runs are known. Its summary is
+// SummaryJson (or MeasurementJson) of the prefix: the run's summary.json.
+JsonObject PageRunMembers(const PageRun& run, statistics::IntervalMethod method);
+
+// Member "replays" of a run.
+std::string PageReplaysJson(std::span<const ReplayLink> links);
+
+// `TrialTable`: every record, values with six significant digits.
+std::string PageTrialsJson(const truth::RecordSchema& schema,
+                           std::span<const truth::Record> records);
+
+// Members of distance_cdf.csv by column, of at most kMostPageSteps steps: the first, the last, and
+// others in equal numbers of steps from each other. What is kept is exact, so that the function
+// drawn is nowhere further off than the share of the steps between two kept ones. null where the
+// records have no true distance.
+std::string PageCdfJson(const truth::RecordSchema& schema, std::span<const truth::Record> prefix);
+
+std::string PageParametersJson(std::span<const core::ParameterInfo> parameters);
+
+// `PublishedTable`: the rows of `result` (of all runs that share Holm's family) that are about one
+// scenario. "null" where there is none.
+std::string PublishedJson(const statistics::PublishedReference& reference,
+                          const statistics::ComparisonResult& result, std::string_view scenario);
+
+// `Sweep`: SweepJson, and its curves as points and fitted lines of 61 points.
+std::string PageSweepJson(std::string_view label, std::string_view folder,
+                          const scenario::Sweep& sweep, const SweepSummary& summary,
+                          const SweepDescription& description);
+
+// A setting in which two runs differ.
+struct PageSetting {
+  std::string path;
+  std::string first;
+  std::string second;
+};
+
+// Two runs of the page.
+struct PageComparison {
+  std::string first;  // labels
+  std::string second;
+  RunComparison comparison;
+  std::vector<PageSetting> settings;
+};
+
+// Adjusts the p-values of all successes together by Holm, where there is more than one pair of
+// runs. Those that are not known stay so and are no members of the family.
+void AdjustSuccesses(std::span<PageComparison> comparisons);
+
+// `Comparison`. `adjusted`: whether AdjustSuccesses has been over its p-values.
+std::string PageComparisonJson(const PageComparison& comparison, bool adjusted);
+
+struct PageHead {
+  std::string title;
+  std::string command;
+  core::Provenance provenance;
+};
+
+// `ReportPayload`, of members that are JSON already.
+std::string PageJson(const PageHead& head, std::span<const std::string> runs,
+                     std::span<const std::string> sweeps, std::span<const std::string> comparisons);
+
+}  // namespace rockyard::report

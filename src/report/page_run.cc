@@ -1,0 +1,109 @@
+#include <array>
+#include <functional>
+
+#include "report/distance_steps.h"
+#include "report/page_data.h"
+#include "report/page_json.h"
+#include "report/parameter_table.h"
+#include "report/summary_json.h"
+#include "statistics/cell_summary.h"
+#include "statistics/drive_summary.h"
+#include "truth/measurement_record.h"
+
+namespace rockyard::report {
+namespace {
+
+std::string Summary(const PageRun& run, statistics::IntervalMethod method) {
+  const std::int64_t planned = run.description.planned;
+  if (truth::IsMeasurement(run.schema)) {
+    return MeasurementJson(run.description,
+                           statistics::SummarizeCells(run.schema, run.prefix, planned, method),
+                           method);
+  }
+  return SummaryJson(run.description,
+                     statistics::Summarize(run.schema, run.prefix, planned, method), method);
+}
+
+// Of `size` steps, at most kMostPageSteps with both ends.
+std::vector<std::size_t> KeptSteps(std::size_t size) {
+  std::vector<std::size_t> kept;
+  const std::size_t count = std::min(size, kMostPageSteps);
+  for (std::size_t i = 0; i < count; ++i) {
+    kept.push_back(count == size ? i : i * (size - 1) / (count - 1));
+  }
+  return kept;
+}
+
+struct CdfColumn {
+  const char* name;
+  std::function<double(const DistanceStep&)> value;
+};
+
+}  // namespace
+
+std::string PageCdfJson(const truth::RecordSchema& schema, std::span<const truth::Record> prefix) {
+  const std::vector<DistanceStep> steps = DistanceSteps(schema, prefix);
+  if (steps.empty()) return "null";
+  const std::array<CdfColumn, 9> columns{{
+      {"distance_m", [](const DistanceStep& s) { return s.all.value; }},
+      {"ecdf", [](const DistanceStep& s) { return s.all.fraction; }},
+      {"ecdf_low", [](const DistanceStep& s) { return s.all.band.low; }},
+      {"ecdf_high", [](const DistanceStep& s) { return s.all.band.high; }},
+      {"goal", [](const DistanceStep& s) { return s.goal.event; }},
+      {"goal_low", [](const DistanceStep& s) { return s.goal.band.low; }},
+      {"goal_high", [](const DistanceStep& s) { return s.goal.band.high; }},
+      {"failure", [](const DistanceStep& s) { return s.goal.competing; }},
+      {"at_risk", [](const DistanceStep& s) { return static_cast<double>(s.at_risk); }},
+  }};
+  const std::vector<std::size_t> kept = KeptSteps(steps.size());
+  JsonObject json;
+  for (const CdfColumn& column : columns) {
+    std::vector<std::string> values;
+    values.reserve(kept.size());
+    for (const std::size_t i : kept) values.push_back(JsonSixDigits(column.value(steps[i])));
+    json.Add(column.name, JsonList(values));
+  }
+  return json.Text();
+}
+
+std::string PageParametersJson(std::span<const core::ParameterInfo> parameters) {
+  std::vector<std::string> rows;
+  rows.reserve(parameters.size());
+  for (const core::ParameterInfo& parameter : parameters) {
+    rows.push_back(JsonObject()
+                       .AddText("path", parameter.path)
+                       .AddText("value", ParameterValue(parameter))
+                       .AddText("unit", parameter.unit)
+                       .AddText("origin", core::Name(parameter.origin))
+                       .AddText("range", ParameterRange(parameter))
+                       .AddText("source", parameter.source)
+                       .AddText("doc", parameter.doc)
+                       .Text());
+  }
+  return JsonList(rows);
+}
+
+std::string PageReplaysJson(std::span<const ReplayLink> links) {
+  JsonObject json;
+  for (const ReplayLink& link : links) json.AddText(std::to_string(link.trial), link.link);
+  return json.Text();
+}
+
+JsonObject PageRunMembers(const PageRun& run, statistics::IntervalMethod method) {
+  const bool measures = truth::IsMeasurement(run.schema);
+  JsonObject json;
+  json.AddText("label", run.label)
+      .AddText("folder", run.folder)
+      .AddText("cell", run.cell)
+      .Add("sweep", run.sweep ? std::to_string(*run.sweep) : "null")
+      .AddText("kind", measures ? "measurement" : "drive")
+      .Add("summary", JsonCompact(Summary(run, method)))
+      .Add("trials", PageTrialsJson(run.schema, run.records))
+      .Add("cdf", measures ? "null" : PageCdfJson(run.schema, run.prefix))
+      .Add("published", run.published)
+      .Add("parameters", PageParametersJson(run.parameters))
+      .AddText("replay_command", run.replay_command);
+  return json;
+}
+
+}  // namespace rockyard::report
