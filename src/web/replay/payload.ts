@@ -89,7 +89,11 @@ export type Shape =
   | { kind: "capsule"; part: string; from: [number, number, number]; to: [number, number, number]; radius: number }
   | { kind: "sphere"; part: string; center: [number, number, number]; radius: number };
 
-/** One entry per sample, ascending time; equal lengths. */
+/**
+ * One entry per moment, in the order of time; equal lengths. Between two moments positions, joints and
+ * the believed pose go linearly in time (headings the short way round), attitudes by slerp: that is
+ * within the tolerances of the truth. At a break two moments share one time.
+ */
 export interface Motion {
   t: number[];
   /** True pose: origin of R in W, and the unit quaternion of its attitude. */
@@ -106,16 +110,21 @@ export interface Motion {
   believed_x: number[];
   believed_y: number[];
   believed_heading: number[];
-  /** Indices into activity_names: drive, turn, steer, scan, stall, image, compute, overhead. */
+  /** Of the stretch that ends at the moment: indices into activity_names: drive, turn, steer, scan, stall, image, compute, overhead. */
   activity: number[];
   activity_names: string[];
   tilt: number[];
   /** Indices of samples at which operators set the rover back (mirrored arena): the path breaks before. */
   breaks: number[];
+  /** m, of true and believed positions. */
+  position_tolerance: number;
+  /** rad, of attitude and believed heading; joints have twice that. */
+  angle_tolerance: number;
 }
 
 /** One scan of the light stripe sensor. */
 export interface Scan {
+  /** When it begins; it ends with the stretch of motion whose activity is scan. */
   t: number;
   /** Of the rover when it scanned. */
   x: number;

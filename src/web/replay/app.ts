@@ -1,0 +1,269 @@
+// The page: what it is made of, and what goes on when time, switches or the window change.
+import { el } from "../shared/dom";
+import { themeSwitch } from "../shared/theme";
+import { button } from "./controls";
+import { timelineEvents } from "./events";
+import { Course as Drive, lastAtOrBefore, type Moment } from "./motion";
+import { bindKeys, helpDialog, type Key } from "./panels/keys";
+import { layersPanel } from "./panels/layers";
+import { Readout } from "./panels/readout";
+import { originPanel, outcomeBanner, recordPanel } from "./panels/record";
+import { Timeline } from "./panels/timeline";
+import { Transport } from "./panels/transport";
+import { VotesPanel } from "./panels/votes";
+import type { ReplayPayload } from "./payload";
+import { PlanView } from "./plan_view";
+import { Player, standingStretches } from "./player";
+import type { Extent } from "./scene/ground";
+import { SceneView } from "./scene/scene_view";
+import type { CameraMode, DrawnPose, Layers, MapKind, Shown, View } from "./view";
+
+const MODE_NAMES: Record<CameraMode, string> = { follow: "Follow", top: "Top", orbit: "Free", rover: "From the rover" };
+const MAP_KINDS: MapKind[] = ["goodness", "certainty", "elevation", "off"];
+// About the whole drive in the plan, m.
+const PLAN_MARGIN_M = 0.8;
+const LONGEST_FRAME_S = 0.1;
+
+/** For tests and for the console: what is shown, and the player; nothing of the trial can be changed. */
+export interface Handle {
+  readonly duration: number;
+  readonly time: number;
+  readonly playing: boolean;
+  readonly mode: CameraMode;
+  seek(t: number): void;
+  play(): void;
+  /** As drawn now. */
+  pose(): DrawnPose;
+  /** The moment of sample i. */
+  sample(i: number): Moment;
+}
+
+export class App {
+  private readonly drive: Drive;
+  private readonly player: Player;
+  private readonly view: View;
+  private readonly layers: Layers;
+  private readonly readout: Readout;
+  private readonly votes = new VotesPanel();
+  private readonly timeline: Timeline;
+  private readonly transport: Transport;
+  private readonly modeButtons = new Map<CameraMode, HTMLButtonElement>();
+  private layerPanel: HTMLElement;
+  private readonly scanTimes: number[];
+  private readonly stepTimes: number[];
+  private dirty = true;
+  private before = 0;
+
+  constructor(
+    private readonly payload: ReplayPayload,
+    private readonly root: HTMLElement,
+  ) {
+    this.drive = new Drive(payload.motion);
+    const { drive } = this;
+    this.player = new Player(drive.start, drive.end, standingStretches(payload.motion.t, (i) => drive.standsAfter(i)));
+    this.scanTimes = payload.scans.map((scan) => scan.t);
+    this.stepTimes = payload.steps.map((step) => step.t);
+    this.layers = {
+      believed: true,
+      wholePath: false,
+      scan: payload.steps.length === 0,
+      map: payload.steps.length > 0 ? "goodness" : "off",
+      mapAtTruth: false,
+      votes: true,
+      grid: true,
+    };
+    const events = timelineEvents(payload);
+    this.readout = new Readout(payload, events);
+    this.timeline = new Timeline(payload, events, this.player, () => this.refresh());
+    this.transport = new Transport(this.player, () => this.timeline.shownTimes);
+    this.layerPanel = this.makeLayers();
+    this.view = this.makeView();
+    this.build();
+    bindKeys(this.keys());
+    this.player.onChange(() => this.refresh());
+    requestAnimationFrame((now) => this.frame(now));
+  }
+
+  handle(): Handle {
+    const { player, drive, view } = this;
+    return {
+      get duration() {
+        return player.end - player.start;
+      },
+      get time() {
+        return player.time;
+      },
+      get playing() {
+        return player.playing;
+      },
+      get mode() {
+        return view.mode;
+      },
+      seek: (t) => player.seek(t),
+      play: () => player.play(),
+      pose: () => {
+        this.update();
+        return view.drawn();
+      },
+      sample: (i) => drive.at(this.payload.motion.t[i] ?? NaN),
+    };
+  }
+
+  private makeView(): View {
+    const plan = planExtent(this.payload);
+    try {
+      return new SceneView(this.payload, this.drive, plan);
+    } catch {
+      return new PlanView(this.payload, this.drive, plan);
+    }
+  }
+
+  private build(): void {
+    const { payload, view } = this;
+    const help = helpDialog(this.keys());
+    const title = el("div", { class: "title" }, el("h1", {}, payload.title), outcomeBanner(payload));
+    const tools = el("div", { class: "tools" }, button("Keys", "Keys (?)", () => help.showModal()));
+    tools.append(themeSwitch(() => this.recolour()));
+    const picture = el("div", { class: "picture" }, view.element, this.cameraBar());
+    if (view.modes.length === 1) {
+      picture.append(el("p", { class: "no-webgl" }, "This browser shows no WebGL: here is the plan, without the third dimension."));
+    }
+    view.element.setAttribute("role", "img");
+    view.element.setAttribute("aria-label", `Picture of the trial: ${payload.title}`);
+    const stage = el("section", { class: "stage" }, picture, this.transport.element, this.timeline.element);
+    const votes = payload.steps.length > 0 ? this.votes.element : null;
+    const side = el("div", { class: "side" }, this.readout.element, this.layerPanel, votes, recordPanel(payload), originPanel(payload));
+    this.root.classList.add("replay");
+    this.root.replaceChildren(el("header", {}, title, tools), el("div", { class: "columns" }, stage, side));
+    view.onMoved(() => (this.dirty = true));
+    new ResizeObserver(() => this.resized()).observe(picture);
+    this.resized();
+    this.setMode(view.modes[0]!);
+  }
+
+  private cameraBar(): HTMLElement {
+    const bar = el("div", { class: "cameras", role: "group", "aria-label": "Camera" });
+    for (const mode of this.view.modes) {
+      const item = button(MODE_NAMES[mode], `Camera: ${MODE_NAMES[mode]}`, () => this.setMode(mode));
+      this.modeButtons.set(mode, item);
+      bar.append(item);
+    }
+    bar.append(button("Plan of the paths", "From above with the whole paths, as figure 16 of Matthies 1995 shows a drive (6)", () => this.planOfPaths()));
+    return bar;
+  }
+
+  private makeLayers(): HTMLElement {
+    return layersPanel(this.payload, this.layers, () => this.refresh());
+  }
+
+  private setMode(mode: CameraMode): void {
+    if (!this.view.modes.includes(mode)) return;
+    this.view.setMode(mode);
+    for (const [name, item] of this.modeButtons) item.setAttribute("aria-pressed", String(name === mode));
+    this.refresh();
+  }
+
+  /** The plan with both paths to their ends. */
+  private planOfPaths(): void {
+    this.change({ believed: true, wholePath: true });
+    this.setMode("top");
+  }
+
+  private change(layers: Partial<Layers>): void {
+    Object.assign(this.layers, layers);
+    const panel = this.makeLayers();
+    this.layerPanel.replaceWith(panel);
+    this.layerPanel = panel;
+    this.refresh();
+  }
+
+  private recolour(): void {
+    this.view.recolour();
+    this.refresh();
+  }
+
+  private resized(): void {
+    this.view.resize();
+    this.refresh();
+    // Before the browser shows the new size: an empty picture would flicker.
+    this.update();
+  }
+
+  private refresh(): void {
+    this.dirty = true;
+  }
+
+  private frame(now: number): void {
+    const passed = Math.min(LONGEST_FRAME_S, (now - this.before) / 1000);
+    this.before = now;
+    this.player.advance(passed);
+    if (this.dirty) this.update();
+    requestAnimationFrame((next) => this.frame(next));
+  }
+
+  private update(): void {
+    this.dirty = false;
+    const shown = this.shownAt(this.player.time);
+    this.view.show(shown, this.layers);
+    this.view.draw();
+    this.readout.show(shown.moment);
+    this.votes.show(shown.step);
+    // Moving the camera with the rover counts as moving it by hand.
+    this.dirty = false;
+  }
+
+  private shownAt(t: number): Shown {
+    return {
+      moment: this.drive.at(t),
+      scan: this.payload.scans[lastAtOrBefore(this.scanTimes, t)] ?? null,
+      step: this.payload.steps[lastAtOrBefore(this.stepTimes, t)] ?? null,
+    };
+  }
+
+  private keys(): Key[] {
+    const { player } = this;
+    const scrub = (share: number): void => player.seek(player.time + share * (player.end - player.start));
+    const camera = (key: string, mode: CameraMode, does: string): Key => ({ keys: [key], shown: key, does, act: () => this.setMode(mode) });
+    const nextMap = (): void => this.change({ map: MAP_KINDS[(MAP_KINDS.indexOf(this.layers.map) + 1) % MAP_KINDS.length]! });
+    return [
+      { keys: [" "], shown: "space", does: "play or pause", act: () => player.toggle() },
+      { keys: ["ArrowRight"], shown: "→", does: "on by 1 % of the time", act: () => scrub(0.01) },
+      { keys: ["ArrowLeft"], shown: "←", does: "back by 1 % of the time", act: () => scrub(-0.01) },
+      { keys: ["n"], shown: "n", does: "next event", act: () => this.transport.step(1) },
+      { keys: ["p"], shown: "p", does: "previous event", act: () => this.transport.step(-1) },
+      { keys: ["Home"], shown: "Home", does: "to the start", act: () => player.seek(player.start) },
+      { keys: ["End"], shown: "End", does: "to the end", act: () => player.seek(player.end) },
+      { keys: ["+", "="], shown: "+", does: "faster", act: () => player.changeSpeed(1) },
+      { keys: ["-"], shown: "−", does: "slower", act: () => player.changeSpeed(-1) },
+      { keys: ["s"], shown: "s", does: "skip standing, or not", act: () => (player.skipStanding = !player.skipStanding) },
+      camera("f", "follow", "camera that follows the rover"),
+      camera("t", "top", "plan from above, x to the right"),
+      camera("o", "orbit", "free camera"),
+      camera("r", "rover", "from the rover's front"),
+      { keys: ["6"], shown: "6", does: "plan of both paths (figure 16)", act: () => this.planOfPaths() },
+      { keys: ["b"], shown: "b", does: "believed path, or not", act: () => this.change({ believed: !this.layers.believed }) },
+      { keys: ["m"], shown: "m", does: "next kind of map", act: nextMap },
+      { keys: ["?"], shown: "?", does: "this help", act: () => document.querySelector("dialog")?.showModal() },
+    ];
+  }
+}
+
+/** What the plan shows: the drive with start and goal, within the ground. */
+function planExtent({ motion, course }: ReplayPayload): Extent {
+  const { start, goal, told_goal: told } = course;
+  const extent = { xMin: start.x, xMax: start.x, yMin: start.y, yMax: start.y };
+  const hold = (x: number, y: number, reach: number): void => {
+    extent.xMin = Math.min(extent.xMin, x - reach);
+    extent.xMax = Math.max(extent.xMax, x + reach);
+    extent.yMin = Math.min(extent.yMin, y - reach);
+    extent.yMax = Math.max(extent.yMax, y + reach);
+  };
+  hold(start.x, start.y, PLAN_MARGIN_M);
+  hold(goal.x, goal.y, goal.radius + PLAN_MARGIN_M);
+  hold(told.x, told.y, goal.radius + PLAN_MARGIN_M);
+  motion.t.forEach((_, i) => {
+    hold(motion.x[i]!, motion.y[i]!, PLAN_MARGIN_M);
+    hold(motion.believed_x[i]!, motion.believed_y[i]!, PLAN_MARGIN_M);
+  });
+  return extent;
+}

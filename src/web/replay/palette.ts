@@ -1,0 +1,52 @@
+// Colours of the pictures, from the style sheet, so that light, dark and print agree with the page.
+import { resolvedColour } from "../shared/theme";
+
+const NAMES = [
+  "sky",
+  "ground",
+  "grid",
+  "rock",
+  "wall",
+  "true-path",
+  "believed-path",
+  "goal",
+  "told-goal",
+  "hazard",
+  "clear",
+  "body",
+  "panel",
+  "wheel",
+  "arm",
+  "label",
+  "chosen",
+] as const;
+
+export type Palette = Record<(typeof NAMES)[number], string>;
+
+export function readPalette(): Palette {
+  const palette = {} as Palette;
+  for (const name of NAMES) palette[name] = resolvedColour(`--scene-${name}`);
+  return palette;
+}
+
+// The ramp of the drawings that the program writes (report/colour_ramp.cc): its luminance grows all
+// the way, so colour-blind readers and grey print keep the order.
+const RAMP: readonly (readonly [number, number, number])[] = [
+  [68, 1, 84],
+  [59, 82, 139],
+  [33, 145, 140],
+  [94, 201, 98],
+  [253, 231, 37],
+];
+
+/** Red, green, blue from 0 to 255 for a share from 0 (dark) to 1 (yellow). */
+export function ramp(share: number): [number, number, number] {
+  const place = Math.min(1, Math.max(0, share)) * (RAMP.length - 1);
+  const below = Math.min(Math.floor(place), RAMP.length - 2);
+  const rest = place - below;
+  const from = RAMP[below]!;
+  const to = RAMP[below + 1]!;
+  return [0, 1, 2].map((i) => from[i]! + rest * (to[i]! - from[i]!)) as [number, number, number];
+}
+
+export const rampCss = (share: number): string => `rgb(${ramp(share).map(Math.round).join(" ")})`;

@@ -1,0 +1,80 @@
+// What the picture shows, as switches that are its key as well.
+import { el, labelled, select, svg } from "../../shared/dom";
+import { checkbox } from "../controls";
+import { rampCss } from "../palette";
+import type { ReplayPayload } from "../payload";
+import { toldElsewhere } from "../scene/course";
+import type { Layers, MapKind } from "../view";
+
+const MAPS: [MapKind, string][] = [
+  ["goodness", "goodness"],
+  ["certainty", "certainty"],
+  ["elevation", "elevation"],
+  ["off", "off"],
+];
+
+const MAP_WORDS: Record<MapKind, [string, string]> = {
+  goodness: ["0, impassable", "255, safe; fainter where less certain"],
+  certainty: ["0, unsure", "255, sure"],
+  elevation: ["lowest", "highest of this map"],
+  off: ["", ""],
+};
+
+export function layersPanel(payload: ReplayPayload, layers: Layers, changed: () => void): HTMLElement {
+  const panel = el("section", { class: "panel layers", "aria-label": "What is shown" }, el("h2", {}, "Shown"));
+  type Switch = "believed" | "wholePath" | "scan" | "grid" | "votes" | "mapAtTruth";
+  const add = (name: Switch, label: string, mark: string | null = null): void => {
+    const box = checkbox(label, layers[name], (on) => {
+      layers[name] = on;
+      changed();
+    });
+    box.append(mark ? swatch(mark) : "");
+    panel.append(box);
+  };
+  panel.append(el("p", { class: "key" }, "True path", swatch("true")));
+  add("believed", "Believed path and outline", "believed");
+  add("wholePath", "Path to come");
+  if (payload.scans.length > 0) {
+    add("scan", "Last scan");
+    panel.append(el("p", { class: "key" }, swatch("clear"), "clear stripe ", swatch("hazard"), "stripe with a hazard"));
+  }
+  if (payload.steps.length > 0) addMap(panel, layers, add, changed);
+  add("grid", "Grid in metres");
+  if (toldElsewhere(payload.course)) panel.append(el("p", { class: "key" }, "Goal as told to the rover", swatch("told")));
+  return panel;
+}
+
+function addMap(panel: HTMLElement, layers: Layers, add: (name: "votes" | "mapAtTruth" | "scan", label: string) => void, changed: () => void): void {
+  const list = select(MAPS, layers.map);
+  const low = el("span", {});
+  const high = el("span", {});
+  const key = el("p", { class: "ramp" }, low, rampBar(), high);
+  const say = (): void => {
+    [low.textContent, high.textContent] = MAP_WORDS[layers.map];
+    key.hidden = layers.map === "off";
+  };
+  list.addEventListener("change", () => {
+    layers.map = list.value as MapKind;
+    say();
+    changed();
+  });
+  say();
+  panel.append(labelled("Map", list), key);
+  add("mapAtTruth", "Map and arcs at the true pose");
+  add("votes", "Arcs: wide and yellow is a high vote");
+  add("scan", "Some of the points seen");
+}
+
+function rampBar(): SVGSVGElement {
+  const bar = svg("svg", { viewBox: "0 0 64 8", class: "ramp-bar", "aria-hidden": "true" });
+  for (let i = 0; i < 16; ++i) bar.append(svg("rect", { x: 4 * i, y: 0, width: 4.2, height: 8, style: `fill: ${rampCss(i / 15)}` }));
+  return bar;
+}
+
+function swatch(kind: string): SVGSVGElement {
+  const drawing = svg("svg", { viewBox: "0 0 34 12", class: `swatch ${kind}`, "aria-hidden": "true" });
+  if (kind === "clear") drawing.append(svg("circle", { cx: 17, cy: 6, r: 3 }));
+  else if (kind === "hazard") drawing.append(svg("path", { d: "M17 0l6 6-6 6-6-6z" }));
+  else drawing.append(svg("path", { d: "M1 6h32" }));
+  return drawing;
+}

@@ -1,0 +1,248 @@
+// Events over time by kind, what the rover did, and two curves; a click anywhere goes there.
+import { el, svg } from "../../shared/dom";
+import { activityRuns, inWords, kindsOf, type Run } from "../events";
+import { clock } from "../format";
+import type { ReplayPayload, TrialEvent } from "../payload";
+import type { Player } from "../player";
+import { niceStep } from "../scene/ground";
+import { curve, type Curve } from "./curves";
+import { bandOf, markOf } from "./marks";
+
+const ROW = 20;
+const STRIP = 24;
+const CURVE = 46;
+const AXIS = 20;
+const PAD = 8;
+// So near to a mark a click means the mark, px.
+const SNAP = 6;
+
+export class Timeline {
+  readonly element = el("div", { class: "timeline" });
+  private readonly kinds: string[];
+  private readonly hidden = new Set<string>();
+  private readonly runs: Run[];
+  private readonly labels = el("div", { class: "timeline-labels" });
+  private readonly drawing = svg("svg", { class: "timeline-drawing" });
+  private readonly cursor = svg("line", { class: "cursor" });
+  private marks: { event: TrialEvent; element: SVGGElement }[] = [];
+  private width = 0;
+
+  constructor(
+    private readonly payload: ReplayPayload,
+    private readonly events: TrialEvent[],
+    private readonly player: Player,
+    private readonly filtered: () => void,
+  ) {
+    this.kinds = kindsOf(events);
+    this.runs = activityRuns(payload);
+    this.element.append(this.labels, this.drawing);
+    this.drawing.addEventListener("pointerdown", (event) => this.drag(event));
+    this.drawing.addEventListener("keydown", (event) => this.walk(event));
+    this.makeLabels();
+    new ResizeObserver(() => this.resize()).observe(this.drawing);
+    player.onChange(() => this.moveCursor());
+  }
+
+  /** Ascending times of the events whose kinds are shown. */
+  get shownTimes(): number[] {
+    return this.events.filter((event) => !this.hidden.has(event.kind)).map((event) => event.t);
+  }
+
+  private get height(): number {
+    return this.kinds.length * ROW + STRIP + 2 * CURVE + AXIS;
+  }
+
+  private makeLabels(): void {
+    for (const kind of this.kinds) {
+      const count = this.events.filter((event) => event.kind === kind).length;
+      const input = el("input", { type: "checkbox", checked: true });
+      input.addEventListener("change", () => {
+        if (input.checked) this.hidden.delete(kind);
+        else this.hidden.add(kind);
+        this.draw();
+        this.filtered();
+      });
+      const look = markOf(kind);
+      const mark = svg(
+        "svg",
+        { class: "mark", viewBox: "-7 -7 14 14", "aria-hidden": "true" },
+        svg("path", { d: look.path, style: `fill: var(${look.colour})` }),
+      );
+      const name = el("span", { class: "kind" }, kind);
+      this.labels.append(
+        el("label", { class: "row", title: `${count} of kind ${kind}` }, input, mark, name, el("span", { class: "count" }, `${count}`)),
+      );
+    }
+    this.labels.append(el("div", { class: "strip" }, "activity"));
+    this.labels.append(el("div", { class: "curve" }, "tilt"), el("div", { class: "curve" }, "position error"));
+    this.labels.append(el("div", { class: "axis" }, "time"));
+  }
+
+  private resize(): void {
+    const width = Math.round(this.drawing.getBoundingClientRect().width);
+    if (width === this.width || width === 0) return;
+    this.width = width;
+    this.draw();
+  }
+
+  private x(t: number): number {
+    const { start, end } = this.player;
+    return PAD + ((this.width - 2 * PAD) * (t - start)) / Math.max(1e-9, end - start);
+  }
+
+  private time(x: number): number {
+    const { start, end } = this.player;
+    return start + ((x - PAD) / Math.max(1, this.width - 2 * PAD)) * (end - start);
+  }
+
+  private draw(): void {
+    this.drawing.replaceChildren();
+    this.drawing.setAttribute("viewBox", `0 0 ${this.width} ${this.height}`);
+    this.drawing.setAttribute("height", `${this.height}`);
+    this.drawAxis();
+    this.kinds.forEach((_, i) => {
+      const y = (i + 1) * ROW;
+      this.drawing.append(svg("line", { class: "rule", x1: PAD, x2: this.width - PAD, y1: y, y2: y }));
+    });
+    this.drawActivities(this.kinds.length * ROW);
+    this.drawCurves(this.kinds.length * ROW + STRIP);
+    this.drawing.append(this.cursor);
+    this.drawMarks();
+    this.moveCursor();
+  }
+
+  private drawMarks(): void {
+    const group = svg("g", { role: "toolbar", "aria-label": "Events: arrow keys walk along them, Enter goes there" });
+    this.marks = [];
+    this.kinds.forEach((kind, row) => {
+      if (this.hidden.has(kind)) return;
+      const look = markOf(kind);
+      for (const event of this.events) {
+        if (event.kind !== kind) continue;
+        const label = `${clock(event.t)} ${inWords(event)}`;
+        const element = svg(
+          "g",
+          { class: "event", role: "button", tabindex: -1, "aria-label": label, transform: `translate(${this.x(event.t)} ${(row + 0.5) * ROW})` },
+          svg("title", {}, label),
+          svg("path", { d: look.path, style: `fill: var(${look.colour})` }),
+        );
+        group.append(element);
+        this.marks.push({ event, element });
+      }
+    });
+    this.marks[0]?.element.setAttribute("tabindex", "0");
+    this.drawing.append(group);
+  }
+
+  private drawActivities(top: number): void {
+    for (const { from, to, activity } of this.runs) {
+      const { colour, height } = bandOf(activity);
+      const x = this.x(from);
+      const rect = svg(
+        "rect",
+        { x, y: top + STRIP - 2 - height, width: Math.max(0.75, this.x(to) - x), height, style: `fill: var(${colour})` },
+        svg("title", {}, `${activity}, ${clock(from)} to ${clock(to)}`),
+      );
+      this.drawing.append(rect);
+    }
+  }
+
+  private drawCurves(top: number): void {
+    const { motion } = this.payload;
+    const error = motion.t.map((_, i) => Math.hypot(motion.believed_x[i]! - motion.x[i]!, motion.believed_y[i]! - motion.y[i]!));
+    const tilt = motion.tilt.map((value) => (value * 180) / Math.PI);
+    const curves: Curve[] = [
+      { values: tilt, unit: "°", least: 5, class: "tilt" },
+      { values: error, unit: "m", least: 0.05, class: "error" },
+    ];
+    curves.forEach((entry, i) => {
+      const box = { left: PAD, right: this.width - PAD, top: top + i * CURVE + 6, bottom: top + (i + 1) * CURVE - 4 };
+      this.drawing.append(curve(entry, motion.t, (t) => this.x(t), box));
+    });
+  }
+
+  private drawAxis(): void {
+    const { start, end } = this.player;
+    const step = niceTime((end - start) / Math.max(2, this.width / 90));
+    for (let t = Math.ceil(start / step) * step; t <= end; t += step) {
+      const x = this.x(t);
+      const y = this.height - AXIS;
+      this.drawing.append(svg("line", { class: "tick", x1: x, x2: x, y1: 0, y2: y + 3 }));
+      const anchor = x < 20 ? "start" : x > this.width - 24 ? "end" : "middle";
+      this.drawing.append(svg("text", { x, y: y + 15, "text-anchor": anchor }, clock(t).replace(/\.0$/, "")));
+    }
+  }
+
+  private moveCursor(): void {
+    const x = String(this.x(this.player.time));
+    for (const name of ["x1", "x2"]) this.cursor.setAttribute(name, x);
+    this.cursor.setAttribute("y1", "0");
+    this.cursor.setAttribute("y2", String(this.height - AXIS));
+  }
+
+  private drag(event: PointerEvent): void {
+    if (event.button !== 0) return;
+    const box = this.drawing.getBoundingClientRect();
+    const go = (at: PointerEvent): void => this.player.seek(this.time(at.clientX - box.left));
+    const hit = this.markAt(event.clientX - box.left, event.clientY - box.top);
+    if (hit) {
+      this.player.seek(hit.t);
+      return;
+    }
+    go(event);
+    this.drawing.setPointerCapture(event.pointerId);
+    this.drawing.addEventListener("pointermove", go);
+    const stop = (): void => this.drawing.removeEventListener("pointermove", go);
+    for (const name of ["pointerup", "pointercancel"] as const) this.drawing.addEventListener(name, stop, { once: true });
+  }
+
+  private markAt(x: number, y: number): TrialEvent | null {
+    const kind = this.kinds[Math.floor(y / ROW)];
+    let best: TrialEvent | null = null;
+    for (const { event } of this.marks) {
+      const away = Math.abs(this.x(event.t) - x);
+      if (event.kind === kind && away <= SNAP && away < Math.abs(this.x(best?.t ?? Infinity) - x)) best = event;
+    }
+    return best;
+  }
+
+  // Left and right along a row, up and down between rows: one stop of the Tab key for all marks.
+  private walk(key: KeyboardEvent): void {
+    const at = this.marks.findIndex(({ element }) => element === document.activeElement);
+    const here = this.marks[at];
+    if (!here) return;
+    const goal = this.next(at, key.key);
+    if (goal) {
+      here.element.setAttribute("tabindex", "-1");
+      goal.element.setAttribute("tabindex", "0");
+      goal.element.focus();
+      this.player.seek(goal.event.t);
+    } else if (key.key === "Enter" || key.key === " ") {
+      this.player.seek(here.event.t);
+    } else {
+      return;
+    }
+    key.preventDefault();
+    key.stopPropagation();
+  }
+
+  private next(at: number, key: string): { event: TrialEvent; element: SVGGElement } | null {
+    const here = this.marks[at]!;
+    if (key === "ArrowRight" || key === "ArrowLeft") {
+      const other = this.marks[at + (key === "ArrowRight" ? 1 : -1)];
+      return other?.event.kind === here.event.kind ? other : null;
+    }
+    if (key !== "ArrowDown" && key !== "ArrowUp") return null;
+    const rows = [...new Set(this.marks.map(({ event }) => event.kind))];
+    const row = rows[rows.indexOf(here.event.kind) + (key === "ArrowDown" ? 1 : -1)];
+    const others = this.marks.filter(({ event }) => event.kind === row);
+    const away = (mark: { event: TrialEvent }): number => Math.abs(mark.event.t - here.event.t);
+    return others.sort((a, b) => away(a) - away(b))[0] ?? null;
+  }
+}
+
+/** Seconds between ticks that read well as a clock. */
+function niceTime(least: number): number {
+  const steps = [1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600, 7200, 14400];
+  return steps.find((step) => step >= least) ?? niceStep(least, 1);
+}

@@ -1,0 +1,68 @@
+// Play, pause, speed and scrubbing.
+import { el, labelled, select } from "../../shared/dom";
+import { button, checkbox } from "../controls";
+import { clock } from "../format";
+import { neighbour, SPEEDS, STANDING_S, type Player } from "../player";
+
+const SLIDER_STEPS = 10_000;
+const EVENT_GAP_S = 0.05;
+
+export class Transport {
+  readonly element = el("div", { class: "transport", role: "group", "aria-label": "Player" });
+  private readonly playButton: HTMLButtonElement;
+  private readonly slider = el("input", {
+    type: "range", min: 0, max: SLIDER_STEPS, step: 1, value: 0, class: "scrub", "aria-label": "Time",
+  });
+  private readonly time = el("output", { class: "time" });
+  private readonly speed = select(SPEEDS.map((speed) => [`${speed}`, `${speed}×`]));
+  private readonly skip: HTMLInputElement;
+
+  constructor(
+    private readonly player: Player,
+    private readonly eventTimes: () => number[],
+  ) {
+    this.playButton = button("Play", "Play or pause (space)", () => player.toggle(), { class: "play" });
+    const skip = checkbox("Skip standing", player.skipStanding, (on) => (player.skipStanding = on),
+      `While nothing moves (scans, computing), more than ${STANDING_S} s is played as ${STANDING_S} s`);
+    this.skip = skip.querySelector("input")!;
+    this.slider.addEventListener("input", () => {
+      player.seek(player.start + (Number(this.slider.value) / SLIDER_STEPS) * (player.end - player.start));
+    });
+    this.speed.addEventListener("change", () => player.setSpeed(Number(this.speed.value)));
+    this.element.append(
+      el(
+        "div",
+        { class: "buttons" },
+        button("⏮", "To the start (Home)", () => player.seek(player.start), { "aria-label": "To the start" }),
+        button("◀ event", "Previous event (p)", () => this.step(-1)),
+        this.playButton,
+        button("event ▶", "Next event (n)", () => this.step(1)),
+        button("⏭", "To the end (End)", () => player.seek(player.end), { "aria-label": "To the end" }),
+        labelled("Speed", this.speed),
+        skip,
+        this.time,
+      ),
+      this.slider,
+    );
+    player.onChange(() => this.show());
+    this.show();
+  }
+
+  /** To the next (+1) or previous (-1) event whose kind is shown. */
+  step(by: 1 | -1): void {
+    const t = neighbour(this.eventTimes(), this.player.time, by, EVENT_GAP_S);
+    this.player.pause();
+    this.player.seek(t ?? (by > 0 ? this.player.end : this.player.start));
+  }
+
+  private show(): void {
+    const { player } = this;
+    this.playButton.textContent = player.playing ? "❚❚ Pause" : "▶ Play";
+    const share = (player.time - player.start) / Math.max(1e-9, player.end - player.start);
+    this.slider.value = String(Math.round(share * SLIDER_STEPS));
+    this.slider.setAttribute("aria-valuetext", `${clock(player.time)} of ${clock(player.end)}`);
+    this.speed.value = String(player.speed);
+    this.skip.checked = player.skipStanding;
+    this.time.textContent = `${clock(player.time)} of ${clock(player.end)}`;
+  }
+}

@@ -1,0 +1,185 @@
+// Time of the replay: what plays when, how fast, and what is skipped. No clock, no page: whoever
+// draws calls `advance` with the time that went by.
+import { lastAtOrBefore } from "./motion";
+
+export const SPEEDS = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000] as const;
+
+/** Standing for longer is played as if it were this long, s. */
+export const STANDING_S = 1;
+
+/** How long a whole replay should take by itself, s. */
+const COMFORTABLE_S = 60;
+
+export interface Stretch {
+  from: number;
+  to: number;
+}
+
+/** Stretches of `t` in which `stands(i)` holds from sample i to i + 1, joined where they touch. */
+export function standingStretches(t: number[], stands: (index: number) => boolean): Stretch[] {
+  const stretches: Stretch[] = [];
+  for (let i = 0; i + 1 < t.length; ++i) {
+    if (!stands(i)) continue;
+    const last = stretches[stretches.length - 1];
+    if (last && last.to === t[i]) last.to = t[i + 1]!;
+    else stretches.push({ from: t[i]!, to: t[i + 1]! });
+  }
+  return stretches;
+}
+
+/** Maps simulated time to played time and back: both grow together, piece by piece. */
+export class Pace {
+  private readonly simulated: number[];
+  private readonly played: number[];
+
+  constructor(start: number, end: number, skipped: Stretch[]) {
+    this.simulated = [start];
+    this.played = [start];
+    for (const { from, to } of skipped) {
+      if (to - from <= STANDING_S) continue;
+      this.add(from, from - this.simulated[this.simulated.length - 1]!);
+      this.add(to, STANDING_S);
+    }
+    this.add(end, end - this.simulated[this.simulated.length - 1]!);
+  }
+
+  /** Played seconds of the whole. */
+  get duration(): number {
+    return this.played[this.played.length - 1]! - this.played[0]!;
+  }
+
+  toPlayed(t: number): number {
+    return Pace.map(this.simulated, this.played, t);
+  }
+
+  toSimulated(t: number): number {
+    return Pace.map(this.played, this.simulated, t);
+  }
+
+  private add(simulated: number, seconds: number): void {
+    if (seconds <= 0) return;
+    this.simulated.push(simulated);
+    this.played.push(this.played[this.played.length - 1]! + seconds);
+  }
+
+  private static map(from: number[], to: number[], t: number): number {
+    const last = from.length - 1;
+    if (t >= from[last]!) return to[last]!;
+    const index = lastAtOrBefore(from, t);
+    if (index < 0) return to[0]!;
+    const share = (t - from[index]!) / (from[index + 1]! - from[index]!);
+    return to[index]! + share * (to[index + 1]! - to[index]!);
+  }
+}
+
+/** The speed at which the whole takes about a minute. */
+export function comfortableSpeed(duration: number): number {
+  const wanted = duration / COMFORTABLE_S;
+  return SPEEDS.find((speed) => speed >= wanted) ?? SPEEDS[SPEEDS.length - 1]!;
+}
+
+export class Player {
+  time: number;
+  playing = false;
+  speed: number;
+  private skipping = true;
+  private readonly whole: Pace;
+  private readonly shortened: Pace;
+  private readonly listeners: (() => void)[] = [];
+
+  constructor(
+    readonly start: number,
+    readonly end: number,
+    standing: Stretch[],
+  ) {
+    this.time = start;
+    this.whole = new Pace(start, end, []);
+    this.shortened = new Pace(start, end, standing);
+    this.speed = comfortableSpeed(this.shortened.duration);
+  }
+
+  get skipStanding(): boolean {
+    return this.skipping;
+  }
+
+  set skipStanding(skip: boolean) {
+    this.skipping = skip;
+    this.tell();
+  }
+
+  /** Seconds that the rest takes at this speed. */
+  get remaining(): number {
+    const pace = this.pace;
+    return (pace.toPlayed(this.end) - pace.toPlayed(this.time)) / this.speed;
+  }
+
+  /** Called whenever time, speed or playing have changed. */
+  onChange(listener: () => void): void {
+    this.listeners.push(listener);
+  }
+
+  /** Starts again from the beginning where the end was reached. */
+  play(): void {
+    if (this.time >= this.end) this.time = this.start;
+    this.playing = this.end > this.start;
+    this.tell();
+  }
+
+  pause(): void {
+    this.playing = false;
+    this.tell();
+  }
+
+  toggle(): void {
+    if (this.playing) this.pause();
+    else this.play();
+  }
+
+  seek(t: number): void {
+    if (Number.isNaN(t)) return;
+    this.time = Math.min(this.end, Math.max(this.start, t));
+    if (this.time >= this.end) this.playing = false;
+    this.tell();
+  }
+
+  setSpeed(speed: number): void {
+    this.speed = Math.min(SPEEDS[SPEEDS.length - 1]!, Math.max(SPEEDS[0], speed));
+    this.tell();
+  }
+
+  /** One speed faster (+1) or slower (-1). */
+  changeSpeed(by: number): void {
+    const at = SPEEDS.findIndex((speed) => speed >= this.speed);
+    this.setSpeed(SPEEDS[Math.min(SPEEDS.length - 1, Math.max(0, at + by))]!);
+  }
+
+  /** Plays on by `seconds` of the viewer's time; stops at the end. */
+  advance(seconds: number): void {
+    if (!this.playing || seconds <= 0) return;
+    const pace = this.pace;
+    this.seek(pace.toSimulated(pace.toPlayed(this.time) + seconds * this.speed));
+  }
+
+  private get pace(): Pace {
+    return this.skipping ? this.shortened : this.whole;
+  }
+
+  private tell(): void {
+    for (const listener of this.listeners) listener();
+  }
+}
+
+/**
+ * The next (+1) or previous (-1) of ascending `times`, at least `gap` away, because events come in
+ * groups: what happened in one look is one step. Null where there is none.
+ */
+export function neighbour(times: number[], now: number, by: 1 | -1, gap = 1e-6): number | null {
+  if (by > 0) {
+    const index = lastAtOrBefore(times, now + gap) + 1;
+    return times[index] ?? null;
+  }
+  for (let i = times.length - 1; i >= 0; --i) {
+    if (times[i]! < now - gap) return times[i]!;
+  }
+  return null;
+}

@@ -1,0 +1,65 @@
+// Where the drive starts and where it should end.
+import { BufferGeometry, CircleGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial } from "three";
+import type { Palette } from "../palette";
+import type { Course } from "../payload";
+import type { GroundHeights } from "./ground";
+import { Lines, type Point } from "./lines";
+import { makeLabel } from "./terrain";
+
+const CORNERS = 64;
+const LIFT_M = 0.008;
+const SAME_GOAL_M = 0.005;
+
+export function toldElsewhere({ goal, told_goal: told }: Course): boolean {
+  return Math.hypot(goal.x - told.x, goal.y - told.y) > SAME_GOAL_M;
+}
+
+function ring(x: number, y: number, radius: number, heights: GroundHeights): Point[] {
+  return Array.from({ length: CORNERS + 1 }, (_, i) => {
+    const angle = (2 * Math.PI * i) / CORNERS;
+    const px = x + radius * Math.cos(angle);
+    const py = y + radius * Math.sin(angle);
+    return [px, py, heights.at(px, py) + LIFT_M];
+  });
+}
+
+function disc(x: number, y: number, radius: number, heights: GroundHeights): BufferGeometry {
+  const geometry = new CircleGeometry(radius, CORNERS).translate(x, y, 0);
+  const position = geometry.getAttribute("position");
+  for (let i = 0; i < position.count; ++i) {
+    position.setZ(i, heights.at(position.getX(i), position.getY(i)) + LIFT_M);
+  }
+  return geometry;
+}
+
+export function makeCourse(course: Course, heights: GroundHeights, palette: Palette): Group {
+  const { start, goal, told_goal: told } = course;
+  const group = new Group();
+  const size = 0.22;
+  const line = (points: Point[], colour: string, dash?: [number, number]): void => {
+    const lines = new Lines({ width_px: 2.5, dash });
+    lines.setPath(points);
+    lines.recolour(colour);
+    group.add(lines.object);
+  };
+  const label = (text: string, x: number, y: number, colour: string): void => {
+    group.add(makeLabel(text, x, y, heights.at(x, y) + 0.5 * size, size, colour));
+  };
+  line(ring(start.x, start.y, 0.12, heights), palette.label);
+  label("start", start.x - 0.45, start.y - 0.4, palette.label);
+  const fill = new MeshBasicMaterial({
+    color: palette.goal,
+    transparent: true,
+    opacity: 0.25,
+    side: DoubleSide,
+    depthWrite: false,
+  });
+  group.add(new Mesh(disc(goal.x, goal.y, goal.radius, heights), fill));
+  line(ring(goal.x, goal.y, goal.radius, heights), palette.goal);
+  label("goal", goal.x, goal.y + goal.radius + size, palette.goal);
+  if (toldElsewhere(course)) {
+    line(ring(told.x, told.y, goal.radius, heights), palette["told-goal"], [0.08, 0.06]);
+    label("goal as told", told.x, told.y - goal.radius - size, palette["told-goal"]);
+  }
+  return group;
+}

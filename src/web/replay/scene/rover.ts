@@ -1,0 +1,173 @@
+// The articulated rover: its links as groups that turn about their pivots; solid, or as an outline.
+import {
+  BoxGeometry,
+  BufferGeometry,
+  CapsuleGeometry,
+  Color,
+  CylinderGeometry,
+  EdgesGeometry,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshLambertMaterial,
+  Object3D,
+  Quaternion,
+  SphereGeometry,
+  Vector3,
+} from "three";
+import type { Palette } from "../palette";
+import type { RoverShape, Shape } from "../payload";
+
+type Vec = [number, number, number];
+
+const GROUSERS = 16;
+const EDGE_ANGLE_DEG = 35;
+
+interface Link {
+  name: string;
+  axis: Vector3;
+  group: Group;
+}
+
+abstract class Rover {
+  /** Frame R. */
+  readonly body = new Group();
+  private readonly links: Link[] = [];
+
+  protected build(shape: RoverShape): void {
+    for (const { name, parent, pivot, axis, shapes } of shape.links) {
+      const group = new Group();
+      if (this.links.length > 0) {
+        group.position.set(...pivot);
+        (this.links[parent]?.group ?? this.body).add(group);
+      } else {
+        this.body.add(group);
+      }
+      for (const part of shapes) this.add(group, part);
+      this.links.push({ name, axis: new Vector3(...axis).normalize(), group });
+    }
+  }
+
+  protected abstract add(group: Group, shape: Shape): void;
+
+  setJoints(joints: Record<string, number>): void {
+    for (const { name, axis, group } of this.links.slice(1)) {
+      group.quaternion.setFromAxisAngle(axis, joints[name] ?? 0);
+    }
+  }
+}
+
+/** The rover as it is. */
+export class SolidRover extends Rover {
+  private readonly materials: { material: MeshLambertMaterial; of: keyof Palette; shade: number }[] = [];
+
+  constructor(shape: RoverShape) {
+    super();
+    this.build(shape);
+  }
+
+  recolour(palette: Palette): void {
+    for (const { material, of, shade } of this.materials) {
+      material.color.copy(new Color(palette[of]).multiplyScalar(shade));
+    }
+  }
+
+  protected add(group: Group, shape: Shape): void {
+    if (shape.kind === "wheel") {
+      this.addWheel(group, shape);
+      return;
+    }
+    const panel = shape.part.includes("panel");
+    const paint: keyof Palette = shape.kind === "box" ? (panel ? "panel" : "body") : "arm";
+    this.mesh(group, geometryOf(shape), paint);
+    if (shape.kind === "box" && panel) this.addCells(group, shape.center, shape.size);
+  }
+
+  // Rim, grousers and spokes: with a plain cylinder nobody sees it roll.
+  private addWheel(group: Group, { center, radius, width }: Extract<Shape, { kind: "wheel" }>): void {
+    const wheel = new Group();
+    wheel.position.set(...center);
+    group.add(wheel);
+    this.mesh(wheel, new CylinderGeometry(0.94 * radius, 0.94 * radius, width, 32), "wheel");
+    const grouser = new BoxGeometry(0.16 * radius, width, 0.08 * radius);
+    for (let i = 0; i < GROUSERS; ++i) {
+      const angle = (2 * Math.PI * i) / GROUSERS;
+      const mesh = this.mesh(wheel, grouser, "wheel", 1.5);
+      mesh.position.set(0.92 * radius * Math.cos(angle), 0, -0.92 * radius * Math.sin(angle));
+      mesh.rotation.y = angle;
+    }
+    const spoke = new BoxGeometry(1.5 * radius, 1.02 * width, 0.14 * radius);
+    for (const angle of [0, Math.PI / 3, (2 * Math.PI) / 3]) {
+      this.mesh(wheel, spoke, "arm", 0.9).rotation.y = angle;
+    }
+  }
+
+  // Rows of solar cells, and a bright edge that says where the front is.
+  private addCells(group: Group, [x, y, z]: Vec, [length, width, height]: Vec): void {
+    const across = new BoxGeometry(0.006, 0.96 * width, 0.002);
+    for (let i = 1; i < 6; ++i) {
+      this.mesh(group, across, "arm").position.set(x + (i / 6 - 0.5) * length, y, z + height / 2);
+    }
+    const along = new BoxGeometry(0.96 * length, 0.006, 0.002);
+    for (let i = 1; i < 4; ++i) {
+      this.mesh(group, along, "arm").position.set(x, y + (i / 4 - 0.5) * width, z + height / 2);
+    }
+    const front = new BoxGeometry(0.03, 0.98 * width, 0.004);
+    this.mesh(group, front, "chosen").position.set(x + length / 2 - 0.02, y, z + height / 2);
+  }
+
+  private mesh(group: Object3D, geometry: BufferGeometry, of: keyof Palette, shade = 1): Mesh {
+    let entry = this.materials.find((known) => known.of === of && known.shade === shade);
+    if (!entry) {
+      entry = { material: new MeshLambertMaterial(), of, shade };
+      this.materials.push(entry);
+    }
+    const mesh = new Mesh(geometry, entry.material);
+    mesh.castShadow = true;
+    mesh.receiveShadow = true;
+    group.add(mesh);
+    return mesh;
+  }
+}
+
+/** The rover where it believes to be: edges only. */
+export class GhostRover extends Rover {
+  private readonly material = new LineBasicMaterial({ transparent: true, opacity: 0.9 });
+
+  constructor(shape: RoverShape) {
+    super();
+    this.build(shape);
+  }
+
+  recolour(palette: Palette): void {
+    this.material.color.set(palette["believed-path"]);
+  }
+
+  protected add(group: Group, shape: Shape): void {
+    if (shape.kind === "sphere" || shape.kind === "capsule") return;
+    group.add(new LineSegments(new EdgesGeometry(geometryOf(shape), EDGE_ANGLE_DEG), this.material));
+  }
+}
+
+/** In the frame of the link. */
+function geometryOf(shape: Shape): BufferGeometry {
+  switch (shape.kind) {
+    case "box":
+      return new BoxGeometry(...shape.size).translate(...shape.center);
+    case "wheel":
+      return new CylinderGeometry(shape.radius, shape.radius, shape.width, 24).translate(...shape.center);
+    case "sphere":
+      return new SphereGeometry(shape.radius, 16, 12).translate(...shape.center);
+    case "capsule": {
+      const from = new Vector3(...shape.from);
+      const to = new Vector3(...shape.to);
+      const along = to.clone().sub(from);
+      const turn = new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), along.clone().normalize());
+      const middle = from.add(to).multiplyScalar(0.5);
+      return new CapsuleGeometry(shape.radius, along.length(), 4, 10)
+        .applyQuaternion(turn)
+        .translate(middle.x, middle.y, middle.z);
+    }
+  }
+}
