@@ -139,6 +139,15 @@ export class App {
     new ResizeObserver(() => this.resized()).observe(picture);
     this.resized();
     this.setMode(view.modes[0]!);
+    this.followLink(new URLSearchParams(location.hash.slice(1)));
+  }
+
+  // replay.html#view=plan, #view=top&t=120: where a link into the page leads.
+  private followLink(link: URLSearchParams): void {
+    const mode = link.get("view");
+    if (mode === "plan") this.planOfPaths();
+    else if (mode !== null) this.setMode(mode as CameraMode);
+    if (link.has("t")) this.player.seek(Number(link.get("t")));
   }
 
   private cameraBar(): HTMLElement {
@@ -235,7 +244,7 @@ export class App {
       { keys: ["End"], shown: "End", does: "to the end", act: () => player.seek(player.end) },
       { keys: ["+", "="], shown: "+", does: "faster", act: () => player.changeSpeed(1) },
       { keys: ["-"], shown: "−", does: "slower", act: () => player.changeSpeed(-1) },
-      { keys: ["s"], shown: "s", does: "skip standing, or not", act: () => (player.skipStanding = !player.skipStanding) },
+      { keys: ["s"], shown: "s", does: "shorten standing to 1 s, or not", act: () => (player.skipStanding = !player.skipStanding) },
       camera("f", "follow", "camera that follows the rover"),
       camera("t", "top", "plan from above, x to the right"),
       camera("o", "orbit", "free camera"),

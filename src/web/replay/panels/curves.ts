@@ -1,10 +1,8 @@
-// A small curve over time with its largest value written beside it.
+// A small curve over time.
 import { svg } from "../../shared/dom";
-import { fixed } from "../format";
 
 export interface Curve {
   values: number[];
-  unit: string;
   /** The scale reaches this far at least, so that noise does not look like a mountain. */
   least: number;
   class: string;
@@ -17,15 +15,15 @@ export interface Box {
   bottom: number;
 }
 
-export function curve({ values, unit, least, class: name }: Curve, t: number[], x: (t: number) => number, box: Box): SVGGElement {
-  const top = values.reduce((most, value) => Math.max(most, value), 0);
-  const scale = Math.max(least, top);
+/** Of values that are not negative. */
+export const greatest = (values: number[]): number => values.reduce((most, value) => Math.max(most, value), 0);
+
+export function curve({ values, least, class: name }: Curve, t: number[], x: (t: number) => number, box: Box): SVGGElement {
+  const scale = Math.max(least, greatest(values));
   const y = (value: number): number => box.bottom - (value / scale) * (box.bottom - box.top);
   const group = svg("g", { class: `curve ${name}` });
   group.append(svg("line", { class: "rule", x1: box.left, x2: box.right, y1: box.bottom, y2: box.bottom }));
   group.append(svg("path", { d: outline(values, t, x, y) }));
-  const label = `at most ${fixed(top, unit === "m" ? 2 : 1)} ${unit}`.replace(" °", "°");
-  group.append(svg("text", { x: box.right, y: box.top + 8, "text-anchor": "end" }, label));
   return group;
 }
 

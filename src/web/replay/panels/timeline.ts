@@ -1,11 +1,11 @@
 // Events over time by kind, what the rover did, and two curves; a click anywhere goes there.
 import { el, svg } from "../../shared/dom";
 import { activityRuns, inWords, kindsOf, type Run } from "../events";
-import { clock } from "../format";
+import { clock, degrees, fixed } from "../format";
 import type { ReplayPayload, TrialEvent } from "../payload";
 import type { Player } from "../player";
 import { niceStep } from "../scene/ground";
-import { curve, type Curve } from "./curves";
+import { curve, greatest, type Curve } from "./curves";
 import { bandOf, markOf } from "./marks";
 
 const ROW = 20;
@@ -21,6 +21,8 @@ export class Timeline {
   private readonly kinds: string[];
   private readonly hidden = new Set<string>();
   private readonly runs: Run[];
+  private readonly tilt: number[];
+  private readonly error: number[];
   private readonly labels = el("div", { class: "timeline-labels" });
   private readonly drawing = svg("svg", { class: "timeline-drawing" });
   private readonly cursor = svg("line", { class: "cursor" });
@@ -35,10 +37,14 @@ export class Timeline {
   ) {
     this.kinds = kindsOf(events);
     this.runs = activityRuns(payload);
+    const { motion } = payload;
+    this.tilt = motion.tilt.map(degrees);
+    this.error = motion.t.map((_, i) => Math.hypot(motion.believed_x[i]! - motion.x[i]!, motion.believed_y[i]! - motion.y[i]!));
     this.element.append(this.labels, this.drawing);
     this.drawing.addEventListener("pointerdown", (event) => this.drag(event));
     this.drawing.addEventListener("keydown", (event) => this.walk(event));
     this.makeLabels();
+    this.element.append(this.activityKey());
     new ResizeObserver(() => this.resize()).observe(this.drawing);
     player.onChange(() => this.moveCursor());
   }
@@ -74,8 +80,21 @@ export class Timeline {
       );
     }
     this.labels.append(el("div", { class: "strip" }, "activity"));
-    this.labels.append(el("div", { class: "curve" }, "tilt"), el("div", { class: "curve" }, "position error"));
+    const curve = (name: string, most: string): HTMLElement =>
+      el("div", { class: "curve" }, el("div", {}, name), el("div", { class: "count" }, `at most ${most}`));
+    this.labels.append(curve("tilt", `${fixed(greatest(this.tilt), 1)}°`));
+    this.labels.append(curve("position error", `${fixed(greatest(this.error), 2)} m`));
     this.labels.append(el("div", { class: "axis" }, "time"));
+  }
+
+  private activityKey(): HTMLElement {
+    const key = el("p", { class: "activity-key" }, "Activity: ");
+    for (const name of new Set(this.runs.map((run) => run.activity))) {
+      const { colour, height } = bandOf(name);
+      const band = svg("rect", { x: 0, y: 16 - height, width: 12, height, style: `fill: var(${colour})` });
+      key.append(el("span", {}, svg("svg", { viewBox: "0 0 12 16", width: 12, height: 16, "aria-hidden": "true" }, band), name));
+    }
+    return key;
   }
 
   private resize(): void {
@@ -149,11 +168,9 @@ export class Timeline {
 
   private drawCurves(top: number): void {
     const { motion } = this.payload;
-    const error = motion.t.map((_, i) => Math.hypot(motion.believed_x[i]! - motion.x[i]!, motion.believed_y[i]! - motion.y[i]!));
-    const tilt = motion.tilt.map((value) => (value * 180) / Math.PI);
     const curves: Curve[] = [
-      { values: tilt, unit: "°", least: 5, class: "tilt" },
-      { values: error, unit: "m", least: 0.05, class: "error" },
+      { values: this.tilt, least: 5, class: "tilt" },
+      { values: this.error, least: 0.05, class: "error" },
     ];
     curves.forEach((entry, i) => {
       const box = { left: PAD, right: this.width - PAD, top: top + i * CURVE + 6, bottom: top + (i + 1) * CURVE - 4 };

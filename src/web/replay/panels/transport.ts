@@ -22,8 +22,8 @@ export class Transport {
     private readonly eventTimes: () => number[],
   ) {
     this.playButton = button("Play", "Play or pause (space)", () => player.toggle(), { class: "play" });
-    const skip = checkbox("Skip standing", player.skipStanding, (on) => (player.skipStanding = on),
-      `While nothing moves (scans, computing), more than ${STANDING_S} s is played as ${STANDING_S} s`);
+    const skip = checkbox(`Standing takes ${STANDING_S} s`, player.skipStanding, (on) => (player.skipStanding = on),
+      `Where nothing moves for longer (scans, computing), it is played as if it were ${STANDING_S} s of the drive (s)`);
     this.skip = skip.querySelector("input")!;
     this.slider.addEventListener("input", () => {
       player.seek(player.start + (Number(this.slider.value) / SLIDER_STEPS) * (player.end - player.start));
@@ -33,11 +33,11 @@ export class Transport {
       el(
         "div",
         { class: "buttons" },
-        button("⏮", "To the start (Home)", () => player.seek(player.start), { "aria-label": "To the start" }),
+        button("Start", "To the start (Home)", () => player.seek(player.start)),
         button("◀ event", "Previous event (p)", () => this.step(-1)),
         this.playButton,
         button("event ▶", "Next event (n)", () => this.step(1)),
-        button("⏭", "To the end (End)", () => player.seek(player.end), { "aria-label": "To the end" }),
+        button("End", "To the end (End)", () => player.seek(player.end)),
         labelled("Speed", this.speed),
         skip,
         this.time,

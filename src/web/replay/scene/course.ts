@@ -4,7 +4,7 @@ import type { Palette } from "../palette";
 import type { Course } from "../payload";
 import type { GroundHeights } from "./ground";
 import { Lines, type Point } from "./lines";
-import { makeLabel } from "./terrain";
+import { makeLabel } from "./labels";
 
 const CORNERS = 64;
 const LIFT_M = 0.008;
@@ -35,18 +35,19 @@ function disc(x: number, y: number, radius: number, heights: GroundHeights): Buf
 export function makeCourse(course: Course, heights: GroundHeights, palette: Palette): Group {
   const { start, goal, told_goal: told } = course;
   const group = new Group();
-  const size = 0.22;
   const line = (points: Point[], colour: string, dash?: [number, number]): void => {
     const lines = new Lines({ width_px: 2.5, dash });
     lines.setPath(points);
     lines.recolour(colour);
     group.add(lines.object);
   };
-  const label = (text: string, x: number, y: number, colour: string): void => {
-    group.add(makeLabel(text, x, y, heights.at(x, y) + 0.5 * size, size, colour));
+  const sign = (text: string, x: number, y: number, pole_m: number, colour: string, below = false): void => {
+    const z = heights.at(x, y);
+    line([[x, y, z], [x, y, z + pole_m]], colour);
+    group.add(makeLabel(text, x, y, z + pole_m, { colour, anchor: [0.5, below ? 1.2 : -0.1] }));
   };
   line(ring(start.x, start.y, 0.12, heights), palette.label);
-  label("start", start.x - 0.45, start.y - 0.4, palette.label);
+  sign("start", start.x, start.y, 0.1, palette.label, true);
   const fill = new MeshBasicMaterial({
     color: palette.goal,
     transparent: true,
@@ -56,10 +57,10 @@ export function makeCourse(course: Course, heights: GroundHeights, palette: Pale
   });
   group.add(new Mesh(disc(goal.x, goal.y, goal.radius, heights), fill));
   line(ring(goal.x, goal.y, goal.radius, heights), palette.goal);
-  label("goal", goal.x, goal.y + goal.radius + size, palette.goal);
+  sign("goal", goal.x, goal.y, 0.5, palette.goal);
   if (toldElsewhere(course)) {
     line(ring(told.x, told.y, goal.radius, heights), palette["told-goal"], [0.08, 0.06]);
-    label("goal as told", told.x, told.y - goal.radius - size, palette["told-goal"]);
+    sign("goal as told", told.x, told.y, 0.1, palette["told-goal"], true);
   }
   return group;
 }

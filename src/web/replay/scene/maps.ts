@@ -20,8 +20,8 @@ const MAP_LIFT_M = 0.012;
 const ARC_LIFT_M = 0.03;
 const ARC_PIECES = 24;
 const FULL_VOTE = 255;
-const LEAST_ALPHA = 0.15;
-const MOST_ALPHA = 0.8;
+const LEAST_ALPHA = 0.2;
+const MOST_ALPHA = 0.9;
 
 export class StepPicture {
   readonly group = new Group();

@@ -17,6 +17,7 @@ import type { ReplayPayload } from "../payload";
 import type { CameraMode, DrawnPose, Layers, Shown, View } from "../view";
 import { makeCourse } from "./course";
 import { extentOf, GroundHeights, type Extent } from "./ground";
+import { fitLabels } from "./labels";
 import { StepPicture } from "./maps";
 import { Paths } from "./paths";
 import { Rocks } from "./rocks";
@@ -50,7 +51,7 @@ export class SceneView implements View {
   constructor(
     private readonly payload: ReplayPayload,
     drive: Drive,
-    plan: Extent,
+    private readonly plan: Extent,
   ) {
     this.renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
     this.renderer.shadowMap.enabled = true;
@@ -110,7 +111,7 @@ export class SceneView implements View {
     const palette = readPalette();
     this.scene.background = new Color(palette.sky);
     this.fixed.clear();
-    this.grid = makeGrid(this.heights, this.extent, palette);
+    this.grid = makeGrid(this.heights, this.extent, this.plan, palette);
     this.fixed.add(
       makeGround(this.payload.ground, this.extent, palette),
       makeWalls(this.payload.course, this.heights, palette),
@@ -130,6 +131,7 @@ export class SceneView implements View {
   }
 
   draw(): void {
+    fitLabels(this.fixed, this.rig.camera, this.element.clientHeight);
     this.renderer.render(this.scene, this.rig.camera);
   }
 

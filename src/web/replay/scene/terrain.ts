@@ -1,7 +1,6 @@
 // The ground with a grid in metres, and the walls of an arena.
 import {
   BufferGeometry,
-  CanvasTexture,
   DoubleSide,
   Float32BufferAttribute,
   Group,
@@ -11,15 +10,17 @@ import {
   MeshBasicMaterial,
   MeshLambertMaterial,
   PlaneGeometry,
-  Sprite,
-  SpriteMaterial,
+  type Sprite,
 } from "three";
 import type { Palette } from "../palette";
 import type { Course, Ground } from "../payload";
 import { extentOf, GroundHeights, niceStep, type Extent } from "./ground";
+import { makeLabel } from "./labels";
 
 const GRID_LIFT_M = 0.004;
 const WALL_HEIGHT_M = 0.35;
+// In steps between labels: further away they would lie on each other.
+const LABEL_REACH = 9;
 
 export function makeGround(ground: Ground, extent: Extent, palette: Palette): Mesh {
   const material = new MeshLambertMaterial({ color: palette.ground, side: DoubleSide });
@@ -55,8 +56,11 @@ function relief({ x0, y0, step, nx, ny, z }: Ground): BufferGeometry {
   return geometry;
 }
 
-/** Lines every metre, or at wider steps on wide ground, with their distances written at the edge. */
-export function makeGrid(heights: GroundHeights, extent: Extent, palette: Palette): Group {
+/**
+ * Lines every metre, or at wider steps on wide ground; distances are written along two sides of
+ * `labelled`, a part of the ground.
+ */
+export function makeGrid(heights: GroundHeights, extent: Extent, labelled: Extent, palette: Palette): Group {
   const { xMin, xMax, yMin, yMax } = extent;
   const length = Math.max(xMax - xMin, yMax - yMin);
   const step = Math.max(1, niceStep(length, 40));
@@ -77,41 +81,20 @@ export function makeGrid(heights: GroundHeights, extent: Extent, palette: Palett
   geometry.setAttribute("position", new Float32BufferAttribute(points, 3));
   const material = new LineBasicMaterial({ color: palette.grid, transparent: true, opacity: 0.55 });
   const group = new Group();
-  group.add(new LineSegments(geometry, material), ...gridLabels(heights, extent, palette, length));
+  group.add(new LineSegments(geometry, material), ...gridLabels(heights, labelled, palette));
   return group;
 }
 
-function gridLabels(heights: GroundHeights, extent: Extent, palette: Palette, length: number): Sprite[] {
-  const { xMin, xMax, yMin, yMax } = extent;
-  const every = Math.max(1, niceStep(length, 10));
-  const size = Math.min(1, Math.max(0.22, length / 45));
+function gridLabels(heights: GroundHeights, { xMin, xMax, yMin, yMax }: Extent, palette: Palette): Sprite[] {
+  const length = Math.max(xMax - xMin, yMax - yMin);
+  const every = Math.max(1, niceStep(length, 12));
   const labels: Sprite[] = [];
   const put = (text: string, x: number, y: number): void => {
-    labels.push(makeLabel(text, x, y, heights.at(x, y) + size / 2, size, palette.label));
+    labels.push(makeLabel(text, x, y, heights.at(x, y), { colour: palette.label, reach_m: LABEL_REACH * every }));
   };
-  for (let x = Math.ceil(xMin / every) * every; x <= xMax; x += every) put(`${x} m`, x, yMin - size);
-  for (let y = Math.ceil(yMin / every) * every; y <= yMax; y += every) put(`${y} m`, xMin - 1.5 * size, y);
+  for (let x = Math.ceil(xMin / every) * every; x <= xMax; x += every) put(`${x} m`, x, yMin);
+  for (let y = Math.ceil(yMin / every) * every; y <= yMax; y += every) put(`${y} m`, xMin, y);
   return labels;
-}
-
-/** Text that faces the viewer, `size_m` high. */
-export function makeLabel(text: string, x: number, y: number, z: number, size_m: number, colour: string): Sprite {
-  const canvas = document.createElement("canvas");
-  const context = canvas.getContext("2d")!;
-  const font = "600 48px system-ui, sans-serif";
-  context.font = font;
-  canvas.width = Math.ceil(context.measureText(text).width) + 16;
-  canvas.height = 64;
-  context.font = font;
-  context.textBaseline = "middle";
-  context.textAlign = "center";
-  context.fillStyle = colour;
-  context.fillText(text, canvas.width / 2, 34);
-  const material = new SpriteMaterial({ map: new CanvasTexture(canvas), depthWrite: false });
-  const sprite = new Sprite(material);
-  sprite.scale.set((size_m * canvas.width) / canvas.height, size_m, 1);
-  sprite.position.set(x, y, z);
-  return sprite;
 }
 
 /** Walls as translucent upright planes, as long as the ground is. */
