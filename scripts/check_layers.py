@@ -33,6 +33,8 @@ HEAVY = {
     "CLI11": (r"CLI/", r"CLI11"),
     "tinyxml2": (r"tinyxml2", r"tinyxml2"),
     "libpng": (r"png\.h", r"PNG::"),
+    "libzip": (r"zip\.h", r"LIBZIP"),
+    "zlib": (r"zlib\.h", r"ZLIB::"),
     "Boost.Math": (r"boost/", r"Boost::"),
 }
 # Everything else that <...> may name: the standard library, POSIX, and light libraries.

@@ -20,8 +20,10 @@ for group in "$@"; do
   packages=$(awk -v group="$group" '!/^#/ && $2 == group { print $1 }' "$list")
   [ -n "$packages" ] || fail "no package of group '$group' in $list"
   command -v dpkg-query > /dev/null || fail "this is not a Debian system: install these yourself:
-$packages"
-  for package in $packages; do
+$(printf '%s\n' "$packages" | sed 's/:.*//')"
+  for entry in $packages; do
+    package=${entry%%:*}
+    if [ "$package" != "$entry" ] && command -v "${entry#*:}" > /dev/null; then continue; fi
     status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2> /dev/null) || status=absent
     [ "$status" = installed ] || missing="$missing $package"
   done

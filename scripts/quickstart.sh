@@ -53,7 +53,7 @@ fi
 say() { printf '\n== %s\n' "$*"; }
 
 say "Packages"
-scripts/install_dependencies.sh build
+scripts/install_dependencies.sh build pages
 
 say "Build"
 if [ -f build/release/CMakeCache.txt ]; then

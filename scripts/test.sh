@@ -42,7 +42,7 @@ while [ $# -gt 0 ]; do
   esac
 done
 
-groups="build test"
+groups="build pages test figures"
 if [ "$preset" = tsan ]; then groups="$groups tsan"; fi
 # shellcheck disable=SC2086  # a list of words
 scripts/install_dependencies.sh $groups

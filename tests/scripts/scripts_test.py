@@ -193,7 +193,7 @@ class TestScript(ScriptTest):
 
     def test_everything_by_default(self):
         self.assertEqual(self.run_script("test.sh", "--jobs", "2").returncode, 0)
-        self.assertEqual(self.called("install_dependencies.sh"), ["build test"])
+        self.assertEqual(self.called("install_dependencies.sh"), ["build pages test figures"])
         self.assertEqual(self.called("ctest"),
                          ["--preset test -j 2 --no-tests=error --output-on-failure"])
 
@@ -203,7 +203,7 @@ class TestScript(ScriptTest):
 
     def test_tsan_needs_its_own_packages(self):
         self.run_script("test.sh", "--preset", "tsan")
-        self.assertEqual(self.called("install_dependencies.sh"), ["build test tsan"])
+        self.assertEqual(self.called("install_dependencies.sh"), ["build pages test figures tsan"])
 
     def test_unknown_option_runs_nothing(self):
         for arguments in (["--fast"], ["--label"]):
@@ -539,6 +539,13 @@ class InstallDependencies(unittest.TestCase):
         self.assertEqual((result.returncode, calls), (1, []))
         self.assertIn("needs root or sudo: away", result.stderr)
 
+    def test_a_command_of_another_package_counts_as_its_own(self):
+        (self.root / "scripts/debian_packages.txt").write_text(
+            "npm:sh build reason\nnodejs:no-such-command build reason\n", encoding="utf-8")
+        result, calls = self.install("build")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(calls, ["install -y --no-install-recommends nodejs"])
+
     def test_unknown_group(self):
         result, calls = self.install("nonsense")
         self.assertEqual((result.returncode, calls), (1, []))
@@ -551,7 +558,7 @@ class PackageList(unittest.TestCase):
         packages = [line.split(None, 2) for line in lines if line and not line.startswith("#")]
         for fields in packages:
             self.assertEqual(len(fields), 3, fields)
-            self.assertIn(fields[1], ("build", "test", "tsan", "figures"))
+            self.assertIn(fields[1], ("build", "pages", "test", "tsan", "figures"))
         names = [fields[0] for fields in packages]
         self.assertEqual(len(names), len(set(names)))
 

@@ -31,8 +31,8 @@ const SECTIONS = [
 const FIRST_TO_FOLLOW = distance.id;
 
 function contents(sections: HTMLElement[]): HTMLElement {
-  const items = sections.map((section) =>
-    el("li", {}, el("a", { href: `#${section.id}` }, section.querySelector("h2")?.textContent ?? "")));
+  const items = SECTIONS.filter(({ id }) => sections.some((section) => section.id === id)).map(({ id, short }) =>
+    el("li", {}, el("a", { href: `#${id}` }, short)));
   return el("nav", { class: "contents", "aria-label": "Contents" }, el("ul", {}, ...items));
 }
 

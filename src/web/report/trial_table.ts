@@ -3,7 +3,7 @@
 import { FormatModule, PageModule, ResizeColumnsModule, SortModule, Tabulator, type ColumnDefinition } from "tabulator-tables";
 
 import { el, labelled, select } from "../shared/dom";
-import { counted, number, type Maybe } from "../shared/format";
+import { counted, fixed, isNumber, number, type Maybe } from "../shared/format";
 import type { TrialQuery } from "./context";
 import type { Run } from "./payload";
 import { replayCell, ReplayCommand } from "./replay_command";
@@ -21,6 +21,21 @@ const PAGE_SIZES = [25, 50, 100, 250];
 // A button in the header, so that the keyboard can sort too.
 function headerButton(title: string): ColumnDefinition["titleFormatter"] {
   return () => el("button", { type: "button", class: "sort-button" }, title);
+}
+
+// As many decimals for a whole column as its greatest value needs for four digits: points stand below
+// each other.
+function numberFormatter(rows: TrialRow[], field: `v_${string}`): ColumnDefinition["formatter"] {
+  let greatest = 0;
+  let whole = true;
+  for (const row of rows) {
+    const value = row[field];
+    if (!isNumber(value)) continue;
+    greatest = Math.max(greatest, Math.abs(value));
+    whole &&= Number.isInteger(value);
+  }
+  const decimals = whole || greatest === 0 ? 0 : Math.min(8, Math.max(0, 3 - Math.floor(Math.log10(greatest))));
+  return (cell) => document.createTextNode(fixed(cell.getValue() as Maybe, decimals)) as unknown as HTMLElement;
 }
 
 function columnAtFirst(columns: ColumnInfo[]): Set<string> {
@@ -93,7 +108,7 @@ export class TrialTableView {
   private definitions(shown: Set<string>): ColumnDefinition[] {
     const text = { formatter: "plaintext", headerSort: true, resizable: true } as const;
     const fixed: ColumnDefinition[] = [
-      { title: "Trial", field: "trial", titleFormatter: headerButton("Trial"), hozAlign: "right", width: 84, sorter: "number", ...text },
+      { title: "Trial", field: "trial", titleFormatter: headerButton("Trial"), hozAlign: "right", headerHozAlign: "right", width: 92, sorter: "number", ...text },
       { title: "Run", field: "run", titleFormatter: headerButton("Run"), visible: this.runs.length > 1, sorter: "string", ...text },
       {
         title: "Outcome", field: "outcome", titleFormatter: headerButton("Outcome"), sorter: "string", ...text,
@@ -110,9 +125,10 @@ export class TrialTableView {
       titleFormatter: headerButton(columnLabel(name, unit)),
       visible: shown.has(name),
       hozAlign: "right",
+      headerHozAlign: "right",
       sorter: "number",
       sorterParams: { alignEmptyValues: "bottom" },
-      formatter: (cell) => document.createTextNode(number(cell.getValue() as Maybe, 5)) as unknown as HTMLElement,
+      formatter: numberFormatter(this.rows, fieldOf(name)),
     }));
     return [
       ...fixed,

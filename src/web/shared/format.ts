@@ -30,6 +30,12 @@ function powerOfTen(value: number, digits: number): string {
 // A minus as wide as a digit.
 const sign = (text: string) => text.replace(/^-/, "−");
 
+/** With as many decimals as are asked for. */
+export function fixed(value: Maybe, decimals: number): string {
+  if (!isNumber(value)) return MISSING;
+  return sign(value.toLocaleString("en-US", { minimumFractionDigits: decimals, maximumFractionDigits: decimals }));
+}
+
 /** 0.9 as "90.0 %". */
 export function percent(rate: Maybe, decimals = 1): string {
   return isNumber(rate) ? `${sign((100 * rate).toFixed(decimals))} %` : MISSING;

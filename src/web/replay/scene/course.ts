@@ -41,13 +41,13 @@ export function makeCourse(course: Course, heights: GroundHeights, palette: Pale
     lines.recolour(colour);
     group.add(lines.object);
   };
-  const sign = (text: string, x: number, y: number, pole_m: number, colour: string, below = false): void => {
+  const sign = (text: string, x: number, y: number, pole_m: number, colour: string, anchor: [number, number]): void => {
     const z = heights.at(x, y);
     line([[x, y, z], [x, y, z + pole_m]], colour);
-    group.add(makeLabel(text, x, y, z + pole_m, { colour, anchor: [0.5, below ? 1.2 : -0.1] }));
+    group.add(makeLabel(text, x, y, z + pole_m, { colour, anchor }));
   };
   line(ring(start.x, start.y, 0.12, heights), palette.label);
-  sign("start", start.x, start.y, 0.1, palette.label, true);
+  sign("start", start.x, start.y, 0.1, palette.label, [1.3, 0]);
   const fill = new MeshBasicMaterial({
     color: palette.goal,
     transparent: true,
@@ -57,10 +57,10 @@ export function makeCourse(course: Course, heights: GroundHeights, palette: Pale
   });
   group.add(new Mesh(disc(goal.x, goal.y, goal.radius, heights), fill));
   line(ring(goal.x, goal.y, goal.radius, heights), palette.goal);
-  sign("goal", goal.x, goal.y, 0.5, palette.goal);
+  sign("goal", goal.x, goal.y, 0.5, palette.goal, [1.08, 0]);
   if (toldElsewhere(course)) {
     line(ring(told.x, told.y, goal.radius, heights), palette["told-goal"], [0.08, 0.06]);
-    sign("goal as told", told.x, told.y, 0.1, palette["told-goal"], true);
+    sign("goal as told", told.x, told.y, 0.25, palette["told-goal"], [-0.08, 0]);
   }
   return group;
 }

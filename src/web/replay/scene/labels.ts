@@ -29,7 +29,7 @@ export function makeLabel(text: string, x: number, y: number, z: number, style: 
   const sprite = new Sprite(new SpriteMaterial({ map: texture, depthWrite: false }));
   sprite.renderOrder = 5;
   sprite.position.set(x, y, z);
-  sprite.center.set(...(style.anchor ?? [0.5, 0.5]));
+  sprite.center.set(...(style.anchor ?? [0.5, 0]));
   sprite.userData = { aspect: canvas.width / canvas.height, reach_m: style.reach_m ?? Infinity };
   return sprite;
 }
@@ -43,6 +43,8 @@ export function fitLabels(root: Object3D, camera: Camera, height_px: number): vo
     const distance = eye.distanceTo(object.position);
     const flat = camera instanceof OrthographicCamera;
     object.visible = flat || distance < reach;
+    // Seen from above, half of a text would be under the ground.
+    object.material.depthTest = !flat;
     const size = (TEXT_PX / height_px) * visibleHeight(camera, distance);
     object.scale.set(size * aspect, size, 1);
   });

@@ -6,7 +6,6 @@ import { isNumber, number } from "../../shared/format";
 import { numeric, rowHeader, table } from "../../shared/table";
 import type { ShownRun } from "../context";
 import { seriesStyle } from "../series";
-import { columnLabel } from "../words";
 import type { Mark } from "./distribution";
 
 export interface Sample {
@@ -20,19 +19,18 @@ export interface Bins {
   counts: number[][];
 }
 
-/** The finite values of a column; null where the run has none. Faults hold none. */
-export function sampleOf(shown: ShownRun, name: string): Sample | null {
+/** The finite values of a column times `factor`; null where the run has none. Faults hold none. */
+export function sampleOf(shown: ShownRun, name: string, factor: number): Sample | null {
   const column = shown.run.trials?.columns?.find((each) => each.name === name);
   const fault = (shown.run.trials?.outcome_names ?? []).indexOf("simulator_fault");
   const values = (column?.values ?? []).filter(
     (value, i): value is number => isNumber(value) && shown.run.trials.outcome[i] !== fault,
   );
-  return values.length > 0 ? { shown, values } : null;
+  return values.length > 0 ? { shown, values: values.map((value) => factor * value) } : null;
 }
 
-// A step of 1, 2 or 5 times a power of ten, about `count` of them in the width.
-function niceStep(width: number, count: number): number {
-  const raw = width / count;
+// The next longer step that is 1, 2 or 5 times a power of ten.
+function niceStep(raw: number): number {
   const power = 10 ** Math.floor(Math.log10(raw));
   const lead = raw / power;
   return power * (lead <= 1 ? 1 : lead <= 2 ? 2 : lead <= 5 ? 5 : 10);
@@ -50,12 +48,24 @@ function range(samples: Sample[]): [number, number] {
   return [low, high];
 }
 
+const MOST_BINS = 80;
+
+// The width of bins by Freedman and Diaconis (1981) in the sample where it is narrowest: a few values
+// far off do not make it coarse.
+function binWidth(samples: Sample[], width: number): number {
+  const widths = samples.map(({ values }) => {
+    const sorted = [...values].sort((a, b) => a - b);
+    return (2 * (quantile(sorted, 0.75) - quantile(sorted, 0.25))) / Math.cbrt(values.length);
+  });
+  const least = Math.min(...widths.filter((each) => each > 0), width / 8);
+  return niceStep(Math.max(least, width / MOST_BINS));
+}
+
 /** Common bins of equal width for all samples. */
 export function bin(samples: Sample[]): Bins {
   const [low, high] = range(samples);
-  const most = Math.max(...samples.map((each) => each.values.length));
   const width = high > low ? high - low : Math.abs(low) || 1;
-  const step = niceStep(width, Math.min(40, Math.max(8, Math.ceil(2 * Math.sqrt(most)))));
+  const step = binWidth(samples, width);
   const first = Math.floor(low / step);
   const count = Math.max(1, Math.floor(high / step) - first + 1);
   // Rounded, so that an edge reads 0.3 and not 0.30000000000000004.
@@ -101,21 +111,25 @@ function barsOf(samples: Sample[], bins: Bins): Bar[] {
 
 const ROW_HEIGHT = 96;
 const LABEL_STEP = 14;
+const LETTER = 6.6;
 
 // Rows of labels above the drawing: a label that would meet its left neighbour goes one row up.
-function labelRows(marks: Mark[], domain: [number, number], width: number): { mark: Mark; row: number }[] {
+// One at an edge is written inwards.
+function labelRows(marks: Mark[], domain: [number, number], width: number): { mark: Mark; row: number; anchor: "start" | "middle" | "end" }[] {
   const ends: number[] = [];
   return [...marks].sort((a, b) => a.x - b.x).map((mark) => {
-    const half = 3.4 * mark.label.length;
+    const length = LETTER * mark.label.length;
     const at = ((mark.x - domain[0]) / (domain[1] - domain[0])) * width;
-    let row = ends.findIndex((end) => end < at - half);
+    const anchor = at < length / 2 ? "start" : at > width - length / 2 ? "end" : "middle";
+    const from = anchor === "start" ? at : anchor === "end" ? at - length : at - length / 2;
+    let row = ends.findIndex((end) => end < from);
     if (row < 0) row = ends.length;
-    ends[row] = at + half;
-    return { mark, row };
+    ends[row] = from + length + LETTER;
+    return { mark, row, anchor };
   });
 }
 
-export function drawHistograms(samples: Sample[], marks: Mark[], name: string, unit: string, width: number): Element {
+export function drawHistograms(samples: Sample[], marks: Mark[], label: string, width: number): Element {
   const bins = bin(samples);
   const domain: [number, number] = [
     Math.min(bins.edges[0]!, ...marks.map((mark) => mark.x)),
@@ -137,7 +151,7 @@ export function drawHistograms(samples: Sample[], marks: Mark[], name: string, u
     marginLeft: 44,
     marginRight: 16,
     marginBottom: 40,
-    x: { domain, label: columnLabel(name, unit), labelAnchor: "center", labelArrow: "none", ticks: Math.max(3, width / 90) },
+    x: { domain, label, labelAnchor: "center", labelArrow: "none", ticks: Math.max(3, width / 90) },
     y: { label: null, ticks: samples.length > 2 ? 2 : 3, tickFormat: (share: number) => `${+(100 * share).toFixed(1)} %`, grid: true, insetBottom: 12 },
     fy: { axis: null, padding: 0.12 },
     marks: [
@@ -146,9 +160,9 @@ export function drawHistograms(samples: Sample[], marks: Mark[], name: string, u
       Plot.link(quantiles, { x1: "low", x2: "high", y1: 0, y2: 0, fy: "row", stroke: "currentColor", strokeWidth: 2, dy: 6 } as Plot.LinkOptions),
       Plot.dot(quantiles, { x: "median", y: 0, fy: "row", r: 4, fill: "currentColor", stroke: "var(--ground)", dy: 6 }),
       Plot.ruleX(marks, { x: "x", stroke: "currentColor", strokeDasharray: "3 3" }),
-      ...labels.map(({ mark, row }) =>
+      ...labels.map(({ mark, row, anchor }) =>
         Plot.text([mark], {
-          x: "x", text: "label", frameAnchor: "top", lineAnchor: "bottom", dy: -4 - LABEL_STEP * row, fill: "currentColor",
+          x: "x", text: "label", frameAnchor: "top", lineAnchor: "bottom", textAnchor: anchor, dy: -4 - LABEL_STEP * row, fill: "currentColor",
           ...(samples.length > 1 ? { fy: () => 0 } : {}),
         }),
       ),
@@ -156,10 +170,10 @@ export function drawHistograms(samples: Sample[], marks: Mark[], name: string, u
   });
 }
 
-export function binTable(samples: Sample[], name: string, unit: string): HTMLElement {
+export function binTable(samples: Sample[], label: string): HTMLElement {
   const bins = bin(samples);
   return table({
-    caption: `Trials in each bin of ${columnLabel(name, unit)}`,
+    caption: `Trials in each bin of ${label}`,
     captionShown: true,
     head: ["from", "to", ...samples.map((each) => each.shown.run.label)].map((content) => ({ content, numeric: true })),
     rows: bins.edges.slice(0, -1).map((edge, i) => [

@@ -113,6 +113,7 @@ function sweepCharts(sweep: Sweep, at: number): Child[] {
 export const abundance: Section = {
   id: "curves",
   title: "Success along an axis",
+  short: "Curves",
   render: (context: Context) => {
     const content = (context.payload.sweeps ?? []).flatMap(sweepCharts);
     return content.length > 0 ? content : null;

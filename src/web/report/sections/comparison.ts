@@ -125,6 +125,7 @@ function content(of: Comparison, at: number): Child[] {
 export const comparison: Section = {
   id: "comparison",
   title: "Differences between runs",
+  short: "Differences",
   render: (context: Context) => {
     const all = context.payload.comparisons ?? [];
     return all.length === 0 ? null : all.flatMap(content);

@@ -67,6 +67,7 @@ const present = (steps: Steps | null): steps is Steps => steps !== null;
 export const distance: Section = {
   id: "distance",
   title: "Distance",
+  short: "Distance",
   follows: true,
   render: (context: Context) => {
     const shown = context.drives();

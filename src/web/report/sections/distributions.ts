@@ -7,7 +7,7 @@ import { binTable, drawHistograms, sampleOf, summaryTable, type Sample } from ".
 import type { Context, ShownRun } from "../context";
 import type { PublishedRow } from "../payload";
 import { legend } from "../series";
-import { columnWords, unitText } from "../words";
+import { columnLabel, columnWords, unitText } from "../words";
 import { publishedMarks } from "./published_marks";
 import type { Section } from "./section";
 
@@ -17,6 +17,8 @@ interface Distribution {
   what: string;
   /** Beginning of the ids of published values, after the scenario's name. */
   published?: string;
+  /** Drawn in a unit of its own: thousandths are hard to read. */
+  drawn?: { factor: number; unit: string };
   summary: (summary: Record<string, any>) => Record<string, number | null> | undefined;
 }
 
@@ -43,6 +45,7 @@ const COSTS: Distribution[] = [
   { column: "energy_wh", title: "Energy", what: "taken from the batteries in the whole trial", summary: (summary) => summary.energy_wh },
   {
     column: "net_rate_m_s", title: "Net rate", what: "distance gained towards the goal over the time of the trial",
+    drawn: { factor: 1000, unit: "mm/s" },
     summary: (summary) => summary.columns?.net_rate_m_s,
   },
 ];
@@ -65,34 +68,36 @@ function isOf(row: PublishedRow, prefix: string | undefined): boolean {
 }
 
 function figure(context: Context, of: Distribution): HTMLElement | null {
-  const samples = context.drives().map((shown) => sampleOf(shown, of.column)).filter((each): each is Sample => each !== null);
+  const samples = context.drives().map((shown) => sampleOf(shown, of.column, of.drawn?.factor ?? 1)).filter((each): each is Sample => each !== null);
   const first = samples[0];
   if (!first) return null;
   const unit = unitOf(first.shown, of.column);
+  const drawnUnit = of.drawn?.unit ?? unit;
   const marks = publishedMarks(samples.map((each) => each.shown.run), (row) => isOf(row, of.published), "");
   return chartFigure({
     id: `histogram-${of.column}`,
     title: of.title,
     caption:
       `Share of trials in each bin: ${of.what}. Below the bars: the dot is the median, the line holds 90 % of the trials.` +
-      (marks.length > 0 ? " Dashed uprights: published least, commonest (mode) and greatest." : ""),
+      (marks.length > 0 ? " Dashed uprights: published minimum, mode and maximum." : ""),
     alternative: alternative(samples, of, unit),
     key: legend(samples.map(({ shown }) => ({ slot: shown.slot, label: shown.run.label })), "box"),
-    draw: (width) => drawHistograms(samples, marks, of.column, unit, width),
+    draw: (width) => drawHistograms(samples, marks, columnLabel(of.column, drawnUnit), width),
     numbers: () => {
       const rows = samples.flatMap(({ shown }) => {
         const summary = of.summary(shown.run.summary ?? {});
         return summary ? [{ label: shown.run.label, summary }] : [];
       });
-      return [summaryTable(rows, columnWords(of.column)), binTable(samples, of.column, unit)];
+      return [summaryTable(rows, columnLabel(of.column, unit)), binTable(samples, columnLabel(of.column, drawnUnit))];
     },
   });
 }
 
-function section(id: string, title: string, distributions: Distribution[]): Section {
+function section(id: string, title: string, short: string, distributions: Distribution[]): Section {
   return {
     id,
     title,
+    short,
     follows: true,
     render: (context) => {
       const figures = distributions.map((each) => figure(context, each));
@@ -101,5 +106,5 @@ function section(id: string, title: string, distributions: Distribution[]): Sect
   };
 }
 
-export const deadReckoning = section("dead-reckoning", "Errors of dead reckoning", ERRORS);
-export const timeAndEnergy = section("time-energy", "Time and energy", COSTS);
+export const deadReckoning = section("dead-reckoning", "Errors of dead reckoning", "Dead reckoning", ERRORS);
+export const timeAndEnergy = section("time-energy", "Time and energy", "Time and energy", COSTS);

@@ -72,6 +72,7 @@ function methods(runs: Run[]): string {
 export const headline: Section = {
   id: "headline",
   title: "Success",
+  short: "Success",
   render: (context: Context) => {
     const runs = context.runs.filter((run) => run.summary?.declared_success);
     if (runs.length === 0) return null;

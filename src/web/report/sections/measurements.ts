@@ -99,6 +99,7 @@ function content(run: Run, at: number): Child[] {
 export const measurements: Section = {
   id: "measurements",
   title: "Measurements",
+  short: "Measurements",
   render: (context: Context) => {
     const runs = context.runs.filter((run) => run.kind === "measurement" && (run.summary?.cells ?? []).length > 0);
     return runs.length === 0 ? null : runs.flatMap(content);

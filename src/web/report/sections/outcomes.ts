@@ -27,7 +27,7 @@ function bar(share: number, outcome: string): HTMLElement {
 
 function countButton(context: Context, run: Run, outcome: string): HTMLElement | string {
   const count = countsOf(run)[outcome] ?? 0;
-  if (count === 0) return el("span", { class: "none" }, "0");
+  if (count === 0) return el("span", { class: "count-none" }, "0");
   const button = el(
     "button",
     { type: "button", class: "count", title: "Show these trials in the table", "data-outcome": outcome, "data-run": run.label, "data-value": count },
@@ -88,6 +88,7 @@ function manyRuns(context: Context, runs: Run[]): Child[] {
 export const outcomes: Section = {
   id: "outcomes",
   title: "How trials ended",
+  short: "Outcomes",
   render: (context: Context) => {
     const runs = context.runs.filter((run) => run.kind !== "measurement" && total(run) > 0);
     if (runs.length === 0) return null;

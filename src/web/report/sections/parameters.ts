@@ -97,6 +97,7 @@ function browser(runs: Run[]): Child[] {
 export const parameters: Section = {
   id: "parameters",
   title: "Parameters",
+  short: "Parameters",
   render: (context: Context) => {
     const runs = context.runs.filter((run) => (run.parameters ?? []).length > 0);
     if (runs.length === 0) return null;

@@ -33,10 +33,15 @@ function predicted(row: PublishedRow): Cell {
   };
 }
 
+function remarks(row: PublishedRow): HTMLElement | null {
+  if ((row.remarks ?? []).length === 0) return null;
+  return el("details", { class: "remarks" }, el("summary", {}, "more"), el("ul", {}, ...row.remarks.map((remark) => el("li", {}, remark))));
+}
+
 function cells(row: PublishedRow): (Child | Cell)[] {
   const unit = row.unit === "" || row.unit === "1" || row.unit === "p" ? "" : ` [${unitText(row.unit)}]`;
   return [
-    rowHeader(row.what + unit),
+    rowHeader(el("div", {}, row.what + unit, remarks(row))),
     numeric(row.published || MISSING, row.published_value),
     predicted(row),
     predictionBar(row.published_value, row.predicted_value, row.predicted_low, row.predicted_high),
@@ -101,6 +106,7 @@ function comparison(run: Run, titled: boolean): Child[] {
 export const published: Section = {
   id: "published",
   title: "Against what was published",
+  short: "Published",
   render: (context: Context) => {
     const runs = context.runs.filter((run) => (run.published?.rows ?? []).length > 0);
     return runs.length === 0 ? null : runs.flatMap((run) => comparison(run, context.runs.length > 1));

@@ -4,7 +4,7 @@ import { isNumber } from "../../shared/format";
 import type { Mark } from "../charts/distribution";
 import type { PublishedRow, Run } from "../payload";
 
-const STATISTICS: Record<string, string> = { min: "least", max: "greatest" };
+const STATISTICS: Record<string, string> = { min: "minimum", max: "maximum" };
 
 function statistic(row: PublishedRow): string {
   const last = row.id.slice(row.id.lastIndexOf(".") + 1);

@@ -7,6 +7,8 @@ import type { Context } from "../context";
 export interface Section {
   id: string;
   title: string;
+  /** What the list of contents calls it. */
+  short: string;
   /** True where the content depends on which runs are shown. */
   follows?: boolean;
   /** The content; null where the data has nothing of it. */

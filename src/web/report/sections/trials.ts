@@ -8,6 +8,7 @@ import type { Section } from "./section";
 export const trials: Section = {
   id: "trials",
   title: "Trials",
+  short: "Trials",
   render: (context: Context) => {
     if (!context.runs.some((run) => (run.trials?.trial ?? []).length > 0)) return null;
     const box = el("div", { class: "trial-section" });

@@ -1,0 +1,76 @@
+// What the tests of the pages share: a browser, pages opened from disk, and the rockyard command.
+//
+// ROCKYARD is the command, ROCKYARD_PAGES_FOLDER holds node_modules, CHROMIUM is the browser.
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, rmSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import path from "node:path";
+import { fileURLToPath, pathToFileURL } from "node:url";
+
+function fromEnvironment(name) {
+  const value = process.env[name];
+  if (!value) throw new Error(`the environment variable ${name} is missing: run these tests with ctest`);
+  return value;
+}
+
+export const commandLine = fromEnvironment("ROCKYARD");
+export const sourceFolder = path.resolve(path.dirname(fileURLToPath(import.meta.url)), "../..");
+/** Holds the npm packages and the bundled pages. */
+export const pagesFolder = fromEnvironment("ROCKYARD_PAGES_FOLDER");
+/** Loads an npm package of the pages. */
+export const requirePackage = createRequire(path.join(pagesFolder, "package.json"));
+
+const { chromium } = requirePackage("playwright-core");
+
+/** Runs rockyard in the source folder; throws with what it printed unless it exits as expected. */
+export function rockyard(args, { exit = 0 } = {}) {
+  try {
+    const text = execFileSync(commandLine, args, {
+      cwd: sourceFolder, encoding: "utf8", stdio: ["ignore", "pipe", "pipe"], maxBuffer: 1 << 28,
+    });
+    if (exit !== 0) throw new Error(`rockyard ${args.join(" ")} exited with 0, not ${exit}`);
+    return text;
+  } catch (error) {
+    if (error.status === exit && exit !== undefined) return `${error.stdout}${error.stderr}`;
+    throw new Error(`rockyard ${args.join(" ")}: ${error.message}\n${error.stdout ?? ""}${error.stderr ?? ""}`);
+  }
+}
+
+/** A folder that goes when the test file ends. */
+export function temporaryFolder() {
+  const folder = mkdtempSync(path.join(tmpdir(), "rockyard-web-"));
+  process.on("exit", () => rmSync(folder, { recursive: true, force: true }));
+  return folder;
+}
+
+/** The browser without a window, with 3-D drawing in software. */
+export function launch() {
+  return chromium.launch({
+    executablePath: fromEnvironment("CHROMIUM"),
+    // No sandbox: tests run as root in containers, and open only pages that they wrote themselves.
+    args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+  });
+}
+
+/**
+ * Opens a file. Returns the page, every request that it made and everything that went wrong in it:
+ * errors and warnings on the console, exceptions, requests that failed.
+ */
+export async function openPage(browser, file, { width = 1280, height = 900, scheme = "light", ...context } = {}) {
+  const opened = await browser.newContext({ viewport: { width, height }, colorScheme: scheme, ...context });
+  const page = await opened.newPage();
+  const requests = [];
+  const problems = [];
+  page.on("request", (request) => requests.push(request.url()));
+  page.on("requestfailed", (request) => problems.push(`request failed: ${request.url()}`));
+  page.on("pageerror", (error) => problems.push(`exception: ${error.message}`));
+  page.on("console", (message) => {
+    if (["error", "warning"].includes(message.type()) && !isNoise(message.text())) problems.push(message.text());
+  });
+  await page.goto(pathToFileURL(file).href);
+  return { page, requests, problems, url: pathToFileURL(file).href };
+}
+
+// What the driver of software rendering says of its own speed when a test reads pixels.
+const isNoise = (text) => /GL Driver Message.*(ReadPixels|GPU stall)/.test(text);
