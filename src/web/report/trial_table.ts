@@ -16,6 +16,7 @@ const SHOWN_AT_FIRST = [
   "true_distance_m", "true_goal_distance_m", "sim_time_s", "energy_wh", "distance_error_percent", "heading_error_deg", "position_error_m",
 ];
 const MOST_AT_FIRST = 7;
+const VALUE_WIDTH = 112;
 const PAGE_SIZES = [25, 50, 100, 250];
 
 // A button in the header, so that the keyboard can sort too.
@@ -124,6 +125,7 @@ export class TrialTableView {
       field: fieldOf(name),
       titleFormatter: headerButton(columnLabel(name, unit)),
       visible: shown.has(name),
+      width: VALUE_WIDTH,
       hozAlign: "right",
       headerHozAlign: "right",
       sorter: "number",

@@ -33,7 +33,7 @@ const COLUMNS: Record<string, string> = {
   distance_error_percent: "distance error",
   heading_error_deg: "heading error",
   position_error_m: "position error",
-  true_goal_distance_m: "true distance to the goal at the end",
+  true_goal_distance_m: "true goal distance",
 };
 
 const UNIT_ENDINGS = /_(m_s|m2|m|s|rad|deg|percent|wh|kg|w|px|hz)$/;

@@ -17,6 +17,8 @@ export interface TableSpec {
   head: (string | Cell)[];
   rows: (Child | Cell)[][];
   className?: string;
+  /** On a narrow page each row becomes a block of named values. */
+  stacks?: boolean;
 }
 
 /** A right-aligned number with its exact value. */
@@ -38,9 +40,9 @@ function headCell(head: string | Cell): HTMLElement {
   return el("th", { scope: "col", class: cell.numeric ? "numeric" : null }, cell.content);
 }
 
-function bodyCell(given: Child | Cell): HTMLElement {
+function bodyCell(given: Child | Cell, label: string | null): HTMLElement {
   const cell = isCell(given) ? given : { content: given };
-  const attributes = { class: cell.numeric ? "numeric" : null, "data-value": cell.value };
+  const attributes = { class: cell.numeric ? "numeric" : null, "data-value": cell.value, "data-label": label };
   return cell.header
     ? el("th", { scope: "row", ...attributes }, cell.content)
     : el("td", attributes, cell.content);
@@ -50,11 +52,12 @@ function bodyCell(given: Child | Cell): HTMLElement {
 export function table(spec: TableSpec): HTMLElement {
   const head = el("thead", {}, el("tr", {}, ...spec.head.map(headCell)));
   const body = el("tbody", {});
-  for (const row of spec.rows) body.append(el("tr", {}, ...row.map(bodyCell)));
+  const labels = spec.head.map((head) => (spec.stacks ? String(typeof head === "string" ? head : head.content) : null));
+  for (const row of spec.rows) body.append(el("tr", {}, ...row.map((cell, i) => bodyCell(cell, labels[i] ?? null))));
   const caption = el("caption", { class: spec.captionShown ? null : "visually-hidden" }, spec.caption);
   return el(
     "div",
     { class: "table-box", tabindex: 0, role: "region", "aria-label": spec.caption },
-    el("table", { class: spec.className }, caption, head, body),
+    el("table", { class: [spec.className, spec.stacks ? "stacks" : ""].join(" ").trim() || null }, caption, head, body),
   );
 }

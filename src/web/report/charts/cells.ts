@@ -43,15 +43,15 @@ function marksOf(series: CellSeries): Plot.Markish[] {
   ];
 }
 
-export function drawCells(series: CellSeries[], factor: string, of: Quantity, width: number): Element {
+export function drawCells(series: CellSeries[], xLabel: string, of: Quantity, width: number): Element {
   return Plot.plot({
     width,
     height: Math.min(380, Math.max(260, width * 0.5)),
     marginLeft: 56,
     marginBottom: 42,
-    x: { label: factor, labelAnchor: "center", labelArrow: "none", ticks: Math.max(3, width / 80), inset: 6 },
+    x: { label: xLabel, labelAnchor: "center", labelArrow: "none", ticks: Math.max(3, width / 80), inset: 6 },
     y: {
-      label: of.name, labelArrow: "none", grid: true, ticks: 5, zero: of.rate,
+      label: columnWords(of.name), labelArrow: "none", grid: true, ticks: 5, zero: of.rate,
       ...(of.rate ? { domain: [0, 1] as [number, number], tickFormat: (rate: number) => `${Math.round(100 * rate)} %` } : { nice: true }),
     },
     marks: series.flatMap(marksOf),

@@ -2,6 +2,9 @@
 
 import * as Plot from "@observablehq/plot";
 
+import { number } from "../../shared/format";
+import { numeric, rowHeader, table } from "../../shared/table";
+
 export interface Difference {
   label: string;
   difference: number;
@@ -9,13 +12,46 @@ export interface Difference {
   high: number;
 }
 
-const LETTER = 6.3;
+const LETTER = 7;
+// One wide interval must not press all others into a line: what goes further is cut and gets an arrow.
+const MOST_OF_MEDIAN = 6;
+
+function reach(rows: Difference[]): number {
+  const ends = rows.map((row) => Math.max(Math.abs(row.low), Math.abs(row.high))).sort((a, b) => a - b);
+  const median = ends[Math.floor(ends.length / 2)] ?? 1;
+  return 1.08 * (Math.min(ends[ends.length - 1] ?? 1, MOST_OF_MEDIAN * median) || 1);
+}
+
+interface Arrow {
+  label: string;
+  x: number;
+  text: string;
+}
+
+function arrows(rows: Difference[], far: number): Arrow[] {
+  return rows.flatMap(({ label, low, high }) => [
+    ...(low < -far ? [{ label, x: -far, text: "◂" }] : []),
+    ...(high > far ? [{ label, x: far, text: "▸" }] : []),
+  ]);
+}
+
+export function forestTable(rows: Difference[], unit: string): HTMLElement {
+  return table({
+    caption: `Differences as drawn, ${unit}`,
+    head: ["", ...["difference", "from", "to"].map((content) => ({ content, numeric: true }))],
+    rows: rows.map((row) => [
+      rowHeader(row.label),
+      ...[row.difference, row.low, row.high].map((value) => numeric(number(value), value)),
+    ]),
+  });
+}
 
 // On a narrow page the labels stand above their bars, on a wide one beside them.
 export function drawForest(rows: Difference[], xLabel: string, width: number): Element {
   const longest = LETTER * Math.max(...rows.map((row) => row.label.length));
   const beside = longest < 0.42 * width;
-  const far = Math.max(...rows.flatMap((row) => [Math.abs(row.low), Math.abs(row.high)])) || 1;
+  const far = reach(rows);
+  const within = (value: number) => Math.min(far, Math.max(-far, value));
   const line = { y: "label", stroke: "var(--series-1)", strokeWidth: 2 } as const;
   return Plot.plot({
     width,
@@ -23,14 +59,15 @@ export function drawForest(rows: Difference[], xLabel: string, width: number): E
     marginLeft: beside ? longest + 18 : 12,
     marginRight: 24,
     marginBottom: 42,
-    x: { domain: [-1.05 * far, 1.05 * far], label: xLabel, labelAnchor: "center", labelArrow: "none", grid: true, ticks: Math.max(3, Math.min(8, width / 90)) },
+    x: { domain: [-far, far], label: xLabel, labelAnchor: "center", labelArrow: "none", grid: true, ticks: Math.max(3, Math.min(8, width / 90)) },
     y: { domain: rows.map((row) => row.label), label: null, axis: beside ? "left" : null, tickSize: 0 },
     marks: [
       Plot.ruleX([0], { stroke: "var(--line-strong)", strokeWidth: 1.5 }),
-      Plot.ruleY(rows, { x1: "low", x2: "high", ...line }),
-      Plot.tickX(rows, { x: "low", ...line, insetTop: 8, insetBottom: 8 }),
-      Plot.tickX(rows, { x: "high", ...line, insetTop: 8, insetBottom: 8 }),
-      Plot.dot(rows, { x: "difference", y: "label", symbol: "square", r: 5, fill: "var(--series-1)", stroke: "var(--ground)" }),
+      Plot.ruleY(rows, { x1: (row: Difference) => within(row.low), x2: (row: Difference) => within(row.high), ...line }),
+      Plot.tickX(rows.filter((row) => row.low >= -far), { x: "low", ...line, insetTop: 8, insetBottom: 8 }),
+      Plot.tickX(rows.filter((row) => row.high <= far), { x: "high", ...line, insetTop: 8, insetBottom: 8 }),
+      Plot.text(arrows(rows, far), { x: "x", y: "label", text: "text", fill: "var(--series-1)", fontSize: 16 }),
+      Plot.dot(rows.filter((row) => Math.abs(row.difference) <= far), { x: "difference", y: "label", symbol: "square", r: 5, fill: "var(--series-1)", stroke: "var(--ground)" }),
       beside ? null : Plot.text(rows, { y: "label", text: "label", frameAnchor: "left", dy: -15, fill: "currentColor" }),
     ],
   });

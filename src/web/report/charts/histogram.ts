@@ -29,11 +29,11 @@ export function sampleOf(shown: ShownRun, name: string, factor: number): Sample 
   return values.length > 0 ? { shown, values: values.map((value) => factor * value) } : null;
 }
 
-// The next longer step that is 1, 2 or 5 times a power of ten.
+// The nearest step that is 1, 2 or 5 times a power of ten.
 function niceStep(raw: number): number {
   const power = 10 ** Math.floor(Math.log10(raw));
   const lead = raw / power;
-  return power * (lead <= 1 ? 1 : lead <= 2 ? 2 : lead <= 5 ? 5 : 10);
+  return power * (lead < 1.4 ? 1 : lead < 3.2 ? 2 : lead < 7 ? 5 : 10);
 }
 
 function range(samples: Sample[]): [number, number] {
@@ -111,7 +111,8 @@ function barsOf(samples: Sample[], bins: Bins): Bar[] {
 
 const ROW_HEIGHT = 96;
 const LABEL_STEP = 14;
-const LETTER = 6.6;
+const LETTER = 7.2;
+const MARK_ROWS = 3;
 
 // Rows of labels above the drawing: a label that would meet its left neighbour goes one row up.
 // One at an edge is written inwards.
@@ -139,7 +140,8 @@ export function drawHistograms(samples: Sample[], marks: Mark[], label: string, 
   domain[0] -= margin;
   domain[1] += margin;
   const labels = labelRows(marks, domain, width - 60);
-  const top = 12 + LABEL_STEP * (1 + Math.max(-1, ...labels.map((label) => label.row)));
+  // The same for all charts with marks, so that charts side by side stand on one line.
+  const top = 12 + (marks.length === 0 ? 0 : LABEL_STEP * Math.max(MARK_ROWS, ...labels.map((label) => label.row + 1)));
   const quantiles = samples.map(({ values }, row) => {
     const sorted = [...values].sort((a, b) => a - b);
     return { row, low: quantile(sorted, 0.05), median: quantile(sorted, 0.5), high: quantile(sorted, 0.95) };

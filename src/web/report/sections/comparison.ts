@@ -4,7 +4,7 @@ import { el, type Child } from "../../shared/dom";
 import { counted, interval, isNumber, number, percent, percentInterval, pValue } from "../../shared/format";
 import { numeric, rowHeader, table, type Cell } from "../../shared/table";
 import { chartFigure } from "../charts/figure";
-import { drawForest, type Difference } from "../charts/forest";
+import { drawForest, forestTable, type Difference } from "../charts/forest";
 import type { Context } from "../context";
 import type { Comparison } from "../payload";
 import { columnLabel, columnWords } from "../words";
@@ -74,7 +74,7 @@ function columnTable(of: Comparison): HTMLElement {
 function forests(of: Comparison, at: number): HTMLElement {
   const successes = successRows(of);
   const columns = columnRows(of);
-  const read = "A square is the difference, the line its 95 % interval: where it crosses zero, the runs may be alike.";
+  const read = "A square is the difference, the line its 95 % interval: where it crosses zero, the runs may be alike. An arrow: it goes on.";
   return el(
     "div",
     { class: "chart-grid" },
@@ -85,7 +85,7 @@ function forests(of: Comparison, at: number): HTMLElement {
         caption: `Rate of ${of.second} less that of ${of.first}, in percentage points. ${read}`,
         alternative: sentence(successes, "points"),
         draw: (width) => drawForest(successes, "difference [percentage points]", width),
-        numbers: () => [successTable(of)],
+        numbers: () => [forestTable(successes, "percentage points")],
       }),
     columns.length > 0 &&
       chartFigure({
@@ -94,7 +94,7 @@ function forests(of: Comparison, at: number): HTMLElement {
         caption: `Mean of ${of.second} less that of ${of.first}, in per cent of the latter. ${read}`,
         alternative: sentence(columns, "%"),
         draw: (width) => drawForest(columns, `difference [% of ${of.first}]`, width),
-        numbers: () => [columnTable(of)],
+        numbers: () => [forestTable(columns, `% of ${of.first}`)],
       }),
   );
 }

@@ -77,9 +77,7 @@ function figure(context: Context, of: Distribution): HTMLElement | null {
   return chartFigure({
     id: `histogram-${of.column}`,
     title: of.title,
-    caption:
-      `Share of trials in each bin: ${of.what}. Below the bars: the dot is the median, the line holds 90 % of the trials.` +
-      (marks.length > 0 ? " Dashed uprights: published minimum, mode and maximum." : ""),
+    caption: `Share of trials by ${columnWords(of.column)}: ${of.what}.`,
     alternative: alternative(samples, of, unit),
     key: legend(samples.map(({ shown }) => ({ slot: shown.slot, label: shown.run.label })), "box"),
     draw: (width) => drawHistograms(samples, marks, columnLabel(of.column, drawnUnit), width),
@@ -93,6 +91,10 @@ function figure(context: Context, of: Distribution): HTMLElement | null {
   });
 }
 
+const HOW_TO_READ =
+  "Bars are shares of a run's trials, faults left out. Below them the dot is the median, and the line holds 90 % of the trials.";
+const PUBLISHED = " Dashed uprights are the published minimum, mode and maximum, where there are any.";
+
 function section(id: string, title: string, short: string, distributions: Distribution[]): Section {
   return {
     id,
@@ -101,7 +103,8 @@ function section(id: string, title: string, short: string, distributions: Distri
     follows: true,
     render: (context) => {
       const figures = distributions.map((each) => figure(context, each));
-      return figures.every((each) => each === null) ? null : [el("div", { class: "chart-grid three" }, ...figures)];
+      if (figures.every((each) => each === null)) return null;
+      return [el("p", { class: "note" }, HOW_TO_READ + (id === "dead-reckoning" ? PUBLISHED : "")), el("div", { class: "chart-grid three" }, ...figures)];
     },
   };
 }

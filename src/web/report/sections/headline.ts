@@ -80,13 +80,14 @@ export const headline: Section = {
       table({
         caption: "Success of each run",
         className: "headline-table",
+      stacks: true,
         head: [
           "Run",
           { content: "Trials", numeric: true },
           { content: "Declared success", numeric: true },
-          "95 % interval",
+          "Declared, 95 % interval",
           { content: "True success", numeric: true },
-          "95 % interval",
+          "True, 95 % interval",
           { content: "Median distance [m]", numeric: true },
           "Commonest failure",
         ],

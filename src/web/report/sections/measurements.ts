@@ -9,7 +9,7 @@ import type { Context } from "../context";
 import { factorNames, quantities, type MeasuredCell, type Quantity } from "../measured";
 import type { Run } from "../payload";
 import { legend } from "../series";
-import { columnWords } from "../words";
+import { columnLabel, columnWords } from "../words";
 import type { Section } from "./section";
 
 function cellTable(run: Run, cells: MeasuredCell[], of: Quantity[]): HTMLElement {
@@ -49,7 +49,9 @@ function numbersOf(series: CellSeries[], factor: string, of: Quantity): HTMLElem
   });
 }
 
-function curve(at: number, cells: MeasuredCell[], factors: string[], factor: string, of: Quantity): HTMLElement {
+function curve(at: number, run: Run, factors: string[], factor: string, of: Quantity): HTMLElement {
+  const cells: MeasuredCell[] = run.summary.cells;
+  const unit = run.trials?.columns?.find((column) => column.name === factor)?.unit ?? "";
   const { series, left } = seriesOf(cells, factors, factor, of);
   const others = factors.filter((name) => name !== factor).map(columnWords).join(", ");
   return chartFigure({
@@ -63,12 +65,12 @@ function curve(at: number, cells: MeasuredCell[], factors: string[], factor: str
       .map((each) => `${each.label || of.name}: ${each.points.map((point) => `${number(point.value, 3)} at ${number(point.x, 3)}`).join(", ")}`)
       .join("; "),
     key: legend(series.map(({ slot, label }) => ({ slot, label })), "dot"),
-    draw: (width) => drawCells(series, factor, of, width),
+    draw: (width) => drawCells(series, columnLabel(factor, unit), of, width),
     numbers: () => [numbersOf(series, factor, of)],
   });
 }
 
-function chosenCurve(at: number, cells: MeasuredCell[], factors: string[], of: Quantity[]): Child[] {
+function chosenCurve(at: number, run: Run, cells: MeasuredCell[], factors: string[], of: Quantity[]): Child[] {
   const numericFactors = factors.filter((name) => new Set(cells.map((cell) => cell[name])).size > 1);
   if (numericFactors.length === 0 || of.length === 0) return [];
   const most = [...numericFactors].sort((a, b) => new Set(cells.map((cell) => cell[b])).size - new Set(cells.map((cell) => cell[a])).size);
@@ -77,7 +79,7 @@ function chosenCurve(at: number, cells: MeasuredCell[], factors: string[], of: Q
   const box = el("div");
   const draw = () => {
     const chosen = of.find((each) => each.name === y.value) ?? of[0]!;
-    box.replaceChildren(curve(at, cells, numericFactors, x.value, chosen));
+    box.replaceChildren(curve(at, run, numericFactors, x.value, chosen));
   };
   y.addEventListener("change", draw);
   x.addEventListener("change", draw);
@@ -91,7 +93,7 @@ function content(run: Run, at: number): Child[] {
   const of = quantities(cells);
   return [
     el("h3", {}, run.label),
-    ...chosenCurve(at, cells, factorNames(run, cells), of),
+    ...chosenCurve(at, run, cells, factorNames(run, cells), of),
     cellTable(run, cells, of),
   ];
 }

@@ -48,6 +48,7 @@ function oneRun(context: Context, run: Run): HTMLElement {
   return table({
     caption: "How the trials ended",
     className: "outcome-table",
+    stacks: true,
     head: ["Outcome", { content: "Trials", numeric: true }, { content: "Share", numeric: true }, "", "What it means"],
     rows: occurring([run]).map((name) => {
       const count = countsOf(run)[name] ?? 0;

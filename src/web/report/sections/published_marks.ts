@@ -17,7 +17,7 @@ export function publishedMarks(runs: Run[], wanted: (row: PublishedRow) => boole
   for (const run of runs) {
     for (const row of run.published?.rows ?? []) {
       if (!wanted(row) || !isNumber(row.published_value)) continue;
-      const label = `${prefix}${statistic(row)} ${row.published}`;
+      const label = `${prefix}${statistic(row)} ${row.published.replace(/^-/, "−")}`;
       marks.set(label, { x: row.published_value, label });
     }
   }
