@@ -2,231 +2,164 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdint>
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
-#include <string_view>
-#include <system_error>
 #include <utility>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/replay_files.h"
-#include "app/scan_capture.h"
-#include "app/trial_source.h"
+#include "app/open_run.h"
+#include "app/output_file.h"
+#include "app/replay_options.h"
+#include "app/replay_page.h"
+#include "app/replay_views.h"
 #include "core/error.h"
-#include "experiments/experiment.h"
-#include "report/scan_drawing.h"
+#include "report/atomic_file.h"
+#include "web/page.h"
 
 namespace rockyard::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct ReplayOptions {
-  TrialRequest request;
-  std::optional<std::int64_t> scan;
-  std::optional<std::int64_t> step;
-  std::string out;
-
-  bool draws() const { return scan || step; }
-  std::string_view option() const { return scan ? "--scan" : "--step"; }
-  std::string_view what() const { return scan ? "scan" : "step"; }
-  std::int64_t number() const { return scan ? *scan : step.value_or(0); }
+// One file that is asked for.
+struct AskedFile {
+  std::string option;  // that names it; "" where the command chose
+  std::string what;
+  fs::path path;
+  std::function<std::string(const ReplayedTrial&)> text;
 };
 
-// Scans and steps of the trial, and of the one that was asked for everything that can be shown.
-struct Replayed {
-  truth::RecordSchema schema;
-  truth::Record record;
-  std::int64_t scans = 0;
-  std::int64_t steps = 0;
-  std::optional<CapturedScan> scan;
-  std::optional<CapturedStep> step;
-  std::string failure;  // why what was asked for cannot be shown
-};
-
-fs::path FolderOf(const ReplayOptions& options, const TrialSource& source) {
-  if (!options.out.empty()) return options.out;
-  return fs::path("results") / "runs" /
-         fmt::format("{}-seed{}-trial{}-{}{}", source.scenario.name, source.seed,
-                     options.request.trial, options.what(), options.number());
+std::string DefaultStem(const TrialSource& source, std::uint32_t trial) {
+  const std::string cell = source.cell.empty() ? "" : fmt::format("-{}", source.cell);
+  const fs::path folder =
+      DefaultFolder(source.scenario.name + cell, static_cast<std::int64_t>(source.seed));
+  return fmt::format("{}-trial{}", folder.string(), trial);
 }
 
-// Pictures of two moments in one folder would be told apart by nothing.
-void CheckFolder(const fs::path& folder) {
-  std::error_code error;
-  if (!fs::exists(folder, error)) return;
-  if (fs::is_directory(folder, error) && fs::is_empty(folder, error)) return;
-  throw core::UserError("--out", folder.string() + " exists and is no empty folder",
-                        "name another folder, or remove it");
-}
-
-std::string Line(std::string_view what, std::int64_t number, const math::Transform& X_WR,
-                 std::string_view rest) {
-  const math::Pose2 pose = math::ToPose2(X_WR);
-  return fmt::format("  {} {:>5}   x {:>7.3f} m   y {:>7.3f} m   heading {:>7.1f} deg   {}\n", what,
-                     number, pose.x_m, pose.y_m, math::RadToDeg(pose.heading_rad), rest);
-}
-
-// Where the rover stood, and what the scan shows by itself.
-std::string ScanLine(std::int64_t number, const trial::WatchedScan& watched) {
-  std::string stripes;
-  for (const bool hazard : HazardsOf(watched).stripe_hazard) stripes += hazard ? '#' : '.';
-  return Line("scan", number, watched.X_WR, stripes);
-}
-
-// Where the rover stood, and what it chose.
-std::string StepLine(const trial::WatchedStep& watched) {
-  return Line("step", watched.view.step, watched.X_WR,
-              report::ChosenText(watched.view) + (watched.view.looked_behind ? ", rear" : ""));
-}
-
-class Replayer {
- public:
-  Replayer(const ReplayOptions& options, const TrialSource& source)
-      : options_(options), source_(source) {}
-
-  Replayed Run() {
-    const auto experiment = experiments::MakeExperiment(
-        source_.scenario, [this](const trial::WatchedScan& watched) { OnScan(watched); },
-        [this](const trial::WatchedStep& watched) { OnStep(watched); });
-    replayed_.schema = experiment->schema();
-    replayed_.record = experiment->Run(source_.seed, options_.request.trial);
-    return std::move(replayed_);
+// Without pages there are the plan and the data.
+std::vector<AskedFile> OutputsOf(const ReplayOptions& options, const TrialSource& source) {
+  const std::string stem = options.out.empty() ? DefaultStem(source, options.request.trial)
+                                               : fs::path(options.out).replace_extension().string();
+  const bool pages = web::PagesBuilt();
+  const auto path = [&](const std::string& asked, const char* extension) {
+    return asked.empty() ? fs::path(stem + extension) : fs::path(asked);
+  };
+  std::vector<AskedFile> outputs;
+  if (pages) {
+    outputs.push_back(
+        {"--out", "3-D replay", path(options.out, ".html"), [](const ReplayedTrial& replayed) {
+           return web::MakePage(web::Page::kReplay, replayed.data.title, ReplayPayload(replayed));
+         }});
   }
-
- private:
-  std::string Title(std::string_view what, std::int64_t number) const {
-    return fmt::format("{}, seed {}, trial {}, {} {}", source_.scenario.name, source_.seed,
-                       options_.request.trial, what, number);
+  outputs.push_back({"--svg", "plan view", path(options.svg, ".svg"),
+                     [](const ReplayedTrial& replayed) { return replayed.plan_svg; }});
+  if (!pages || !options.data.empty()) {
+    outputs.push_back({"--data", "data of the page", path(options.data, ".json"), ReplayPayload});
   }
+  return outputs;
+}
 
-  void OnScan(const trial::WatchedScan& watched) {
-    const std::int64_t number = replayed_.scans++;
-    if (!options_.draws()) Print(ScanLine(number, watched));
-    if (options_.scan != number) return;
-    // A picture that fails must not become a fault of the trial.
-    try {
-      replayed_.scan = Capture(watched);
-      replayed_.scan->view.title = Title("scan", number);
-    } catch (const std::exception& error) {
-      replayed_.failure = error.what();
+// Found before the drive rather than after it.
+void CheckOutputs(const ReplayOptions& options, const std::vector<AskedFile>& outputs) {
+  for (const auto& [option, file] :
+       {std::pair{"--out", options.out}, {"--svg", options.svg}, {"--data", options.data}}) {
+    CheckOutputFile(option, file);
+  }
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (outputs[i].path != outputs[j].path) continue;
+      throw core::UserError(
+          outputs[i].option,
+          fmt::format("is the same file as {}: {}", outputs[j].option, outputs[i].path.string()),
+          "name another file");
     }
   }
-
-  void OnStep(const trial::WatchedStep& watched) {
-    ++replayed_.steps;
-    if (!options_.draws()) Print(StepLine(watched));
-    if (options_.step != watched.view.step) return;
-    replayed_.step = {{Title("step", watched.view.step), watched.view}, watched.cloud};
-  }
-
-  const ReplayOptions& options_;
-  const TrialSource& source_;
-  Replayed replayed_;
-};
-
-// True if the files could be written.
-bool Write(const fs::path& folder, const std::function<void()>& write) {
-  try {
-    write();
-    return true;
-  } catch (const core::UserError& failure) {
-    PrintProblems(failure.problems());
-  } catch (const fs::filesystem_error& failure) {
-    PrintProblems({{folder.string(), failure.code().message(), "name another folder with --out"}});
-  }
-  return false;
 }
 
-ExitCode WriteOutputs(const ReplayOptions& options, const TrialSource& source,
-                      const Replayed& replayed) {
-  const fs::path folder = FolderOf(options, source);
-  if (replayed.scan) {
-    const auto write = [&] { WriteScanFiles(folder, source.scenario, *replayed.scan); };
-    if (!Write(folder, write)) return ExitCode::kFailed;
-    Print(report::ScanText(replayed.scan->view));
-    Print(fmt::format("  images, array.svg and points.csv in {}\n", folder.string()));
-  } else {
-    const auto write = [&] { WriteStepFiles(folder, source.scenario, *replayed.step); };
-    if (!Write(folder, write)) return ExitCode::kFailed;
-    Print(fmt::format("  {}\n  step.svg, map.csv, votes.csv and points.csv in {}\n",
-                      report::ChosenText(replayed.step->picture.view), folder.string()));
+ExitCode WriteOutputs(const std::vector<AskedFile>& outputs, const ReplayedTrial& replayed) {
+  try {
+    for (const AskedFile& output : outputs) {
+      if (output.path.has_parent_path()) fs::create_directories(output.path.parent_path());
+      report::WriteFileAtomically(output.path, output.text(replayed));
+      Print(fmt::format("  {} in {}\n", output.what, output.path.string()));
+    }
+  } catch (const core::UserError& failure) {
+    PrintProblems(failure.problems());
+    return ExitCode::kFailed;
+  } catch (const fs::filesystem_error& failure) {
+    PrintProblems(
+        {{failure.path1().string(), failure.code().message(), "name another file with --out"}});
+    return ExitCode::kFailed;
   }
   return ExitCode::kDone;
 }
 
-std::string Counted(const Replayed& replayed) {
-  std::string text;
-  if (replayed.scans > 0 || replayed.steps == 0) {
-    text += fmt::format("  {} scans; --scan N draws one of them\n", replayed.scans);
-  }
-  if (replayed.steps > 0) {
-    text += fmt::format("  {} steps; --step N draws one of them\n", replayed.steps);
-  }
-  return text;
-}
-
-// Of what was asked for and did not happen.
-core::UserError Missing(const ReplayOptions& options, const Replayed& replayed) {
-  const std::int64_t there = options.scan ? replayed.scans : replayed.steps;
-  return {std::string(options.option()),
-          fmt::format("{} {} does not occur in this trial", options.what(), options.number()),
-          fmt::format("the trial has {} {}s{}; leave {} out to list them", there, options.what(),
-                      truth::IsFault(replayed.record) ? " until its simulator fault" : "",
-                      options.option())};
-}
-
-ExitCode Replay(const ReplayOptions& options) {
+ExitCode WritePage(const ReplayOptions& options) {
   const TrialSource source = FindTrial(options.request);
-  if (options.draws()) CheckFolder(FolderOf(options, source));
-  const Replayed replayed = Replayer(options, source).Run();
-  if (truth::IsFault(replayed.record)) PrintNote("simulator fault: " + replayed.record.detail);
-  const ExitCode same =
-      source.stored ? CompareWithStore(options.request, source, replayed.schema, replayed.record)
-                    : ExitCode::kDone;
-  if (!options.draws()) {
-    Print(Counted(replayed));
-    return same;
+  const std::vector<AskedFile> outputs = OutputsOf(options, source);
+  CheckOutputs(options, outputs);
+  const ReplayedTrial replayed = ReplayTrial(source, options.request.trial);
+  const report::ReplayData& data = replayed.data;
+  Print(fmt::format("  {}: {}, {}\n", data.title, truth::Name(data.record.outcome),
+                    data.record.detail));
+  const ExitCode same = source.stored
+                            ? CompareWithStore(options.request, source, data.schema, data.record)
+                            : ExitCode::kDone;
+  if (!web::PagesBuilt()) {
+    PrintNote(
+        "this build has no pages, so the 3-D replay is left out: install nodejs and npm, and build "
+        "again");
   }
-  if (!replayed.failure.empty()) {
-    PrintProblems({{std::string(options.option()),
-                    "the images cannot be rendered: " + replayed.failure, ""}});
-    return ExitCode::kFailed;
-  }
-  if (!replayed.scan && !replayed.step) throw Missing(options, replayed);
-  const ExitCode written = WriteOutputs(options, source, replayed);
+  const ExitCode written = WriteOutputs(outputs, replayed);
   return written == ExitCode::kDone ? same : written;
+}
+
+void AddOptions(CLI::App& command, ReplayOptions& options) {
+  CLI::Option* scan =
+      command
+          .add_option("--scan", options.scan,
+                      "number of a scan, from 0: writes its images and its array instead")
+          ->check(CLI::NonNegativeNumber);
+  CLI::Option* step =
+      command
+          .add_option("--step", options.step,
+                      "number of a step, from 0: writes map, votes and choice of the navigator "
+                      "instead")
+          ->check(CLI::NonNegativeNumber)
+          ->excludes(scan);
+  CLI::Option* list =
+      command.add_flag("--list", options.list, "lists scans and steps, and writes nothing")
+          ->excludes(scan)
+          ->excludes(step);
+  command
+      .add_option("--out", options.out,
+                  "page (default: results/runs/<name>-seed<seed>-trial<I>.html); of a scan or step "
+                  "a folder (default: ...-scan<N>, or -step<N>)")
+      ->excludes(list);
+  for (const auto& [name, file, what] :
+       {std::tuple{"--svg", &options.svg, "file for the plan view (default: beside the page)"},
+        std::tuple{"--data", &options.data, "file for what the page is given, as JSON"}}) {
+    command.add_option(name, *file, what)->excludes(list)->excludes(scan)->excludes(step);
+  }
 }
 
 }  // namespace
 
 void AddReplayCommand(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<ReplayOptions>();
-  CLI::App* command = app.add_subcommand("replay",
-                                         "Runs one trial again and lists the scans of its light "
-                                         "stripe and the steps of its map-based\n"
-                                         "navigator, or draws one of them");
+  CLI::App* command = app.add_subcommand(
+      "replay",
+      "Runs one trial again and writes a 3-D replay of it, a page for a browser, and a plan view; "
+      "or lists\nor draws the scans of its light stripe and the steps of its map-based navigator");
   AddTrialOptions(*command, options->request);
-  CLI::Option* scan =
-      command
-          ->add_option("--scan", options->scan,
-                       "number of the scan, from 0: writes its images and its array")
-          ->check(CLI::NonNegativeNumber);
-  command
-      ->add_option("--step", options->step,
-                   "number of the step, from 0: writes map, votes and choice of the navigator")
-      ->check(CLI::NonNegativeNumber)
-      ->excludes(scan);
-  command->add_option(
-      "--out", options->out,
-      "folder (default: results/runs/<name>-seed<seed>-trial<I>-scan<N>, or -step<N>)");
-  command->callback([options, &exit_code] { exit_code = Replay(*options); });
+  AddOptions(*command, *options);
+  command->callback([options, &exit_code] {
+    exit_code = options->list || options->draws() ? ShowViews(*options) : WritePage(*options);
+  });
 }
 
 }  // namespace rockyard::app

@@ -1,19 +1,17 @@
 // The 3-D replay of one trial as a page for a browser, and its plan view.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
 #include "app/trial_source.h"
 #include "report/replay_data.h"
-#include "truth/record.h"
 
 namespace rockyard::app {
 
 // A trial that was driven again: all that can be shown of it.
 struct ReplayedTrial {
-  truth::RecordSchema schema;
-  truth::Record record;
   report::ReplayData data;
   std::string plan_svg;  // plan view in the manner of Matthies 1995, figure 16
 };

@@ -10,17 +10,13 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/output_file.h"
+#include "app/plan_view.h"
 #include "app/trial_source.h"
 #include "core/error.h"
 #include "experiments/drive_experiment.h"
 #include "report/atomic_file.h"
 #include "report/trace_csv.h"
-#include "report/trace_drawing.h"
 #include "report/trace_story.h"
-#include "terrain/arena.h"
-#include "terrain/field.h"
-#include "terrain/field_export.h"
-#include "trial/layout.h"
 
 namespace rockyard::app {
 namespace {
@@ -41,20 +37,6 @@ void CheckOutputs(const TraceOptions& options) {
   }
 }
 
-std::string Svg(const scenario::Scenario& scenario, const report::TracedTrial& traced) {
-  const terrain::Rectangle all = terrain::DrivableBounds(scenario.terrain.arena);
-  const report::TraceDrawing drawing =
-      report::DrawTrace(traced, {all.x_min_m, all.x_max_m, all.y_min_m, all.y_max_m});
-  const report::DrawnArea& area = drawing.area;
-  const terrain::Course course = trial::TerrainCourse(scenario.course);
-  const core::TrialKey key{traced.seed, static_cast<std::uint32_t>(traced.record.trial)};
-  const terrain::Field field =
-      terrain::BuildField(scenario.terrain, trial::LayoutKey(scenario, key), course);
-  return terrain::ToSvg(
-      field, scenario.terrain, course,
-      {drawing.elements, {area.x_min_m, area.x_max_m, area.y_min_m, area.y_max_m}});
-}
-
 void WriteOutputs(const TraceOptions& options, const scenario::Scenario& scenario,
                   const report::TracedTrial& traced) {
   if (!options.csv.empty()) {
@@ -62,7 +44,7 @@ void WriteOutputs(const TraceOptions& options, const scenario::Scenario& scenari
     Print(fmt::format("  samples and events in {}\n", options.csv));
   }
   if (!options.svg.empty()) {
-    report::WriteFileAtomically(options.svg, Svg(scenario, traced));
+    report::WriteFileAtomically(options.svg, PlanView(scenario, traced));
     Print(fmt::format("  plan view in {}\n", options.svg));
   }
 }

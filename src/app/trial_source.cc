@@ -9,6 +9,7 @@
 
 #include "app/console.h"
 #include "app/run_source.h"
+#include "app/shell_word.h"
 #include "core/error.h"
 #include "report/trace_view.h"
 
@@ -34,6 +35,7 @@ TrialSource FromRun(const TrialRequest& request) {
   TrialSource source;
   source.scenario = LoadScenarioFrom(request.source, {}, request.cell);
   source.seed = run.identity.seed;
+  source.cell = run.identity.name;
   source.stored = *found;
   source.builds = run.builds;
   return source;
@@ -52,6 +54,17 @@ TrialSource FromScenario(const TrialRequest& request) {
   return source;
 }
 
+// Without the trial, which comes last.
+std::string RequestWords(const TrialRequest& request) {
+  std::string words = ShellWord(request.source);
+  if (!request.cell.empty()) words += fmt::format(" --cell {}", ShellWord(request.cell));
+  if (request.seed) words += fmt::format(" --seed {}", *request.seed);
+  for (const std::string& assignment : request.overrides) {
+    words += fmt::format(" --set {}", ShellWord(assignment));
+  }
+  return words;
+}
+
 }  // namespace
 
 void AddTrialOptions(CLI::App& command, TrialRequest& request) {
@@ -68,8 +81,14 @@ void AddTrialOptions(CLI::App& command, TrialRequest& request) {
 
 TrialSource FindTrial(const TrialRequest& request) {
   std::error_code error;
-  return std::filesystem::is_directory(request.source, error) ? FromRun(request)
-                                                              : FromScenario(request);
+  TrialSource source = std::filesystem::is_directory(request.source, error) ? FromRun(request)
+                                                                            : FromScenario(request);
+  source.request = RequestWords(request);
+  return source;
+}
+
+std::string ReplayCommandLine(const TrialSource& source, std::uint64_t trial) {
+  return fmt::format("rockyard replay {} --trial {}", source.request, trial);
 }
 
 ExitCode CompareWithStore(const TrialRequest& request, const TrialSource& source,

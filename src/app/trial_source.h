@@ -31,12 +31,17 @@ void AddTrialOptions(CLI::App& command, TrialRequest& request);
 struct TrialSource {
   scenario::Scenario scenario;
   std::uint64_t seed = 1;
+  std::string cell;     // name of the campaign's cell; "" for a run or a scenario
+  std::string request;  // the words that name the trial again, but for --trial
   std::optional<truth::Record> stored;
   std::vector<std::string> builds;  // that wrote the run
 };
 
 // Throws core::UserError: no such scenario, run or trial, or --seed or --set with a run.
 TrialSource FindTrial(const TrialRequest& request);
+
+// "rockyard replay ..." of that trial, as a shell reads it.
+std::string ReplayCommandLine(const TrialSource& source, std::uint64_t trial);
 
 // Says whether `record` repeats the stored one, which must be there: kDone or kDiffers.
 ExitCode CompareWithStore(const TrialRequest& request, const TrialSource& source,

@@ -1,0 +1,160 @@
+// The JSON text of src/web/replay/payload.ts.
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "report/page_json.h"
+#include "report/replay_data.h"
+#include "report/replay_text.h"
+
+namespace rockyard::report {
+namespace {
+
+constexpr std::uint64_t kMostExactInteger = std::uint64_t{1} << 53;
+
+std::string RecordText(const ReplayData& data) {
+  std::string list = "[";
+  for (std::size_t i = 0; i < std::min(data.schema.size(), data.record.values.size()); ++i) {
+    if (i > 0) list += ',';
+    list += JsonObject()
+                .AddText("name", data.schema[i].name)
+                .AddText("unit", data.schema[i].unit)
+                .AddNumber("value", data.record.values[i])
+                .Text();
+  }
+  return list + ']';
+}
+
+std::string CourseText(const ReplayCourse& course) {
+  return JsonObject()
+      .Add("start", PoseText(course.start))
+      .Add("goal", JsonObject()
+                       .Add("x", Length(course.goal.x_m))
+                       .Add("y", Length(course.goal.y_m))
+                       .Add("radius", Length(course.goal_radius_m))
+                       .Text())
+      .Add("told_goal", JsonObject()
+                            .Add("x", Length(course.told_goal.x_m))
+                            .Add("y", Length(course.told_goal.y_m))
+                            .Text())
+      .Add("bounds", JsonObject()
+                         .Add("x_min", Length(course.x_min_m))
+                         .Add("x_max", Length(course.x_max_m))
+                         .Add("y_min", Length(course.y_min_m))
+                         .Add("y_max", Length(course.y_max_m))
+                         .Text())
+      .Add("walls", List(course.walls,
+                         [](const ReplayWall& wall) {
+                           return JsonObject()
+                               .Add("nx", Angle(wall.normal_W.x()))
+                               .Add("ny", Angle(wall.normal_W.y()))
+                               .Add("offset", Length(wall.offset_m))
+                               .Text();
+                         }))
+      .Text();
+}
+
+std::string GroundText(const ReplayGround& ground) {
+  return JsonObject()
+      .Add("x0", Length(ground.x0_m))
+      .Add("y0", Length(ground.y0_m))
+      .AddNumber("step", ground.step_m)
+      .AddInteger("nx", static_cast<std::int64_t>(ground.nx))
+      .AddInteger("ny", static_cast<std::int64_t>(ground.ny))
+      .Add("z", List(ground.z_m, Length))
+      .Text();
+}
+
+std::string RockText(const ReplayRock& rock) {
+  return JsonObject()
+      .Add("x", Length(rock.center_W.x()))
+      .Add("y", Length(rock.center_W.y()))
+      .Add("z", Length(rock.center_W.z()))
+      .Add("a", Length(rock.semi_axes_m.x()))
+      .Add("b", Length(rock.semi_axes_m.y()))
+      .Add("c", Length(rock.semi_axes_m.z()))
+      .Add("yaw", Angle(rock.yaw_rad))
+      .Add("height", Length(rock.height_m))
+      .Text();
+}
+
+std::string MoveText(const truth::RockMove& move) {
+  return JsonObject()
+      .AddInteger("rock", move.rock)
+      .Add("t", Length(move.time_s))
+      .Add("x", Length(move.center_W.x()))
+      .Add("y", Length(move.center_W.y()))
+      .Add("z", Length(move.center_W.z()))
+      .Text();
+}
+
+std::string ShapeText(const ReplayShape& shape) {
+  constexpr std::array<std::string_view, 4> kKinds{"box", "wheel", "capsule", "sphere"};
+  JsonObject object;
+  object.AddText("kind", kKinds.at(static_cast<std::size_t>(shape.kind)))
+      .AddText("part", shape.part);
+  switch (shape.kind) {
+    case ShapeKind::kBox:
+      return object.Add("center", Point(shape.a_m)).Add("size", Point(shape.b_m)).Text();
+    case ShapeKind::kWheel:
+      return object.Add("center", Point(shape.a_m))
+          .Add("radius", Length(shape.radius_m))
+          .Add("width", Length(shape.width_m))
+          .Text();
+    case ShapeKind::kCapsule:
+      return object.Add("from", Point(shape.a_m))
+          .Add("to", Point(shape.b_m))
+          .Add("radius", Length(shape.radius_m))
+          .Text();
+    case ShapeKind::kSphere:
+      break;
+  }
+  return object.Add("center", Point(shape.a_m)).Add("radius", Length(shape.radius_m)).Text();
+}
+
+std::string LinkText(const ReplayLink& link) {
+  return JsonObject()
+      .AddText("name", link.name)
+      .AddInteger("parent", link.parent)
+      .Add("pivot", Point(link.pivot_P))
+      .Add("axis", Point(link.axis))
+      .Add("shapes", List(link.shapes, ShapeText))
+      .Text();
+}
+
+}  // namespace
+
+std::string ReplayJson(const ReplayData& data) {
+  JsonObject object;
+  object.AddInteger("version", 1)
+      .AddText("title", data.title)
+      .AddText("scenario", data.scenario)
+      .AddText("cell", data.cell);
+  if (data.seed < kMostExactInteger) {
+    object.AddInteger("seed", static_cast<std::int64_t>(data.seed));
+  } else {
+    object.AddText("seed", std::to_string(data.seed));
+  }
+  object.AddInteger("trial", static_cast<std::int64_t>(data.record.trial))
+      .AddText("outcome", truth::Name(data.record.outcome))
+      .AddText("detail", data.record.detail)
+      .Add("repeats_stored",
+           !data.repeats_stored ? "null" : (*data.repeats_stored ? "true" : "false"))
+      .AddText("record_hash", data.record_hash)
+      .AddText("command", data.command)
+      .Add("provenance", ProvenanceText(data.provenance))
+      .Add("record", RecordText(data))
+      .Add("course", CourseText(data.course))
+      .Add("ground", GroundText(data.ground))
+      .Add("rocks", List(data.rocks, RockText))
+      .Add("rock_moves", List(data.rock_moves, MoveText))
+      .Add("rover", JsonObject().Add("links", List(data.links, LinkText)).Text())
+      .Add("motion", MotionJson(data.links, data.poses))
+      .Add("scans", ScansJson(data.scans))
+      .Add("steps", StepsJson(data.steps))
+      .Add("events", EventsJson(data.events));
+  return object.Text();
+}
+
+}  // namespace rockyard::report

@@ -1,0 +1,112 @@
+// What a rover sees and chooses in a replay, and what happens to it, as JSON.
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "report/replay_text.h"
+
+namespace rockyard::report {
+namespace {
+
+using messages::MapCellView;
+using messages::MotionVote;
+
+constexpr double kVoteDigits = 10.0;
+constexpr double kHeightDigits = 1e3;  // of map cells
+constexpr int kUnknown = -1;
+
+std::string StripePointText(const StripePoint& point) {
+  return JsonObject()
+      .Add("x", Length(point.p_W.x()))
+      .Add("y", Length(point.p_W.y()))
+      .Add("z", Length(point.p_W.z()))
+      .AddInteger("stripe", static_cast<std::int64_t>(point.stripe))
+      .Add("height", Length(point.height_m))
+      .Text();
+}
+
+std::string MapText(const messages::MapView& map) {
+  const auto byte = [&](std::uint8_t MapCellView::*member) {
+    return List(map.cells, [member](const MapCellView& cell) {
+      return std::to_string(cell.known ? int{cell.*member} : kUnknown);
+    });
+  };
+  return JsonObject()
+      .Add("x0", Length(map.x0_m))
+      .Add("y0", Length(map.y0_m))
+      .AddNumber("xstep", map.xstep_m)
+      .AddNumber("ystep", map.ystep_m)
+      .AddInteger("nx", map.nx)
+      .AddInteger("ny", map.ny)
+      .Add("goodness", byte(&MapCellView::goodness))
+      .Add("certainty", byte(&MapCellView::certainty))
+      .Add("elevation", List(map.cells,
+                             [](const MapCellView& cell) {
+                               return cell.has_data ? Rounded(cell.elevation_m, kHeightDigits)
+                                                    : std::string("null");
+                             }))
+      .Text();
+}
+
+std::string VoteText(std::string_view kind, const MotionVote& vote) {
+  const bool turn = kind == "turn";
+  return JsonObject()
+      .AddText("kind", kind)
+      .Add("curvature",
+           turn ? std::to_string(vote.motion.direction) : Length(vote.motion.curvature_per_m))
+      .Add("hazard", Rounded(vote.hazard, kVoteDigits))
+      .Add("certainty", Rounded(vote.hazard_certainty, kVoteDigits))
+      .Add("waypoint", Rounded(vote.waypoint, kVoteDigits))
+      .Add("merged", Rounded(vote.merged, kVoteDigits))
+      .AddFlag("chosen", vote.chosen)
+      .Text();
+}
+
+std::string VotesText(const messages::NavigationView& view) {
+  std::vector<std::string> votes;
+  for (const MotionVote& vote : view.forward) votes.push_back(VoteText("forward", vote));
+  for (const MotionVote& vote : view.backward) votes.push_back(VoteText("backward", vote));
+  for (const MotionVote& vote : view.point_turns) votes.push_back(VoteText("turn", vote));
+  return JsonList(votes);
+}
+
+std::string StepText(const ReplayStep& step) {
+  const messages::PoseEstimate& believed = step.view.estimate;
+  return JsonObject()
+      .Add("t", Length(step.time_s))
+      .AddInteger("step", step.view.step)
+      .Add("believed", PoseText({believed.x_m, believed.y_m, believed.heading_rad}))
+      .Add("pose", PoseText(step.pose))
+      .AddFlag("behind", step.view.looked_behind)
+      .Add("map", MapText(step.view.map))
+      .Add("votes", VotesText(step.view))
+      .Add("points", List(step.points_W, Point))
+      .Text();
+}
+
+}  // namespace
+
+std::string ScansJson(std::span<const ReplayScan> scans) {
+  return List(scans, [](const ReplayScan& scan) {
+    JsonObject object;
+    object.Add("t", Length(scan.time_s));
+    return AddPose(object, scan.pose)
+        .Add("points", List(scan.points, StripePointText))
+        .Add("hazards", List(scan.hazards, [](bool hazard) { return hazard ? "true" : "false"; }))
+        .Text();
+  });
+}
+
+std::string StepsJson(std::span<const ReplayStep> steps) { return List(steps, StepText); }
+
+std::string EventsJson(std::span<const truth::TraceEvent> events) {
+  return List(events, [](const truth::TraceEvent& event) {
+    JsonObject object;
+    object.Add("t", Length(event.time_s))
+        .AddText("kind", event.kind)
+        .AddText("detail", event.detail);
+    return AddPose(object, event.pose).Text();
+  });
+}
+
+}  // namespace rockyard::report

@@ -1,0 +1,253 @@
+#include "report/trace_npz.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+#include "report/npz_file.h"
+#include "report/replay_text.h"
+
+namespace rockyard::report {
+namespace {
+
+using messages::MapCellView;
+using messages::MotionVote;
+
+constexpr int kFormatVersion = 1;
+constexpr std::int64_t kUnknown = -1;
+
+// Rows of equally many numbers.
+class Table {
+ public:
+  explicit Table(std::size_t columns) : columns_(columns) {}
+
+  template <typename Values>
+  void Add(const Values& values) {
+    for (const double value : values) numbers_.push_back(value);
+  }
+  void Add(const math::Pose2& pose) { Add(std::array{pose.x_m, pose.y_m, pose.heading_rad}); }
+
+  void Write(std::string_view name, NpzFile& file) const {
+    file.AddReals(name, numbers_, {numbers_.size() / columns_, columns_});
+  }
+
+ private:
+  std::size_t columns_;
+  std::vector<double> numbers_;
+};
+
+// One number for each item.
+template <typename Items, typename Value>
+void AddColumn(std::string_view name, const Items& items, const Value& value, NpzFile& file) {
+  std::vector<double> numbers;
+  numbers.reserve(items.size());
+  for (const auto& item : items) numbers.push_back(value(item));
+  file.AddReals(name, numbers, {numbers.size()});
+}
+
+void AddMoments(std::span<const ReplayPose> poses, NpzFile& file) {
+  Table position(3);
+  Table attitude(4);
+  Table rocker(2);
+  Table bogie(2);
+  Table steer(messages::kWheelCount);
+  Table wheel(messages::kWheelCount);
+  Table believed(4);
+  std::vector<std::string> activity;
+  std::vector<std::uint8_t> set_back;
+  for (const ReplayPose& pose : poses) {
+    const truth::RoverPosture& posture = pose.sample.posture;
+    const messages::PoseEstimate& estimate = pose.sample.estimate;
+    const Eigen::Quaterniond q(posture.X_WR.linear());
+    const math::Vector3 p = posture.X_WR.translation();
+    position.Add(std::array{p.x(), p.y(), p.z()});
+    attitude.Add(std::array{q.w(), q.x(), q.y(), q.z()});
+    rocker.Add(std::array{posture.left_rocker_rad, posture.right_rocker_rad});
+    bogie.Add(std::array{posture.left_bogie_rad, posture.right_bogie_rad});
+    steer.Add(posture.steer_rad);
+    wheel.Add(posture.wheel_angle_rad);
+    believed.Add(std::array{estimate.x_m, estimate.y_m, estimate.heading_rad, estimate.distance_m});
+    activity.push_back(pose.sample.activity);
+    set_back.push_back(pose.set_back ? 1 : 0);
+  }
+  AddColumn(
+      "time_s", poses, [](const ReplayPose& p) { return p.sample.time_s; }, file);
+  position.Write("position_m", file);
+  attitude.Write("attitude_wxyz", file);
+  AddColumn(
+      "heading_rad", poses, [](const ReplayPose& p) { return p.sample.pose.heading_rad; }, file);
+  AddColumn(
+      "tilt_rad", poses, [](const ReplayPose& p) { return p.sample.tilt_rad; }, file);
+  rocker.Write("rocker_rad", file);
+  bogie.Write("bogie_rad", file);
+  steer.Write("steer_rad", file);
+  wheel.Write("wheel_angle_rad", file);
+  believed.Write("believed", file);
+  file.AddTexts("activity", activity);
+  file.AddFlags("set_back", set_back, {set_back.size()});
+}
+
+void AddEvents(const truth::Trace& trace, NpzFile& file) {
+  Table pose(3);
+  std::vector<std::string> kind;
+  std::vector<std::string> detail;
+  for (const truth::TraceEvent& event : trace.events) {
+    pose.Add(event.pose);
+    kind.push_back(event.kind);
+    detail.push_back(event.detail);
+  }
+  AddColumn(
+      "event_time_s", trace.events, [](const auto& event) { return event.time_s; }, file);
+  pose.Write("event_pose", file);
+  file.AddTexts("event_kind", kind);
+  file.AddTexts("event_detail", detail);
+  Table moves(5);
+  for (const truth::RockMove& move : trace.rock_moves) {
+    moves.Add(std::array{move.time_s, static_cast<double>(move.rock), move.center_W.x(),
+                         move.center_W.y(), move.center_W.z()});
+  }
+  moves.Write("rock_moves", file);
+}
+
+void AddScans(std::span<const ReplayScan> scans, NpzFile& file) {
+  Table pose(3);
+  Table points(6);
+  std::vector<std::uint8_t> hazards;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    pose.Add(scans[i].pose);
+    for (const bool hazard : scans[i].hazards) hazards.push_back(hazard ? 1 : 0);
+    for (const StripePoint& point : scans[i].points) {
+      points.Add(std::array{static_cast<double>(i), point.p_W.x(), point.p_W.y(), point.p_W.z(),
+                            static_cast<double>(point.stripe), point.height_m});
+    }
+  }
+  const std::size_t stripes = scans.empty() ? 0 : scans.front().hazards.size();
+  AddColumn(
+      "scan_time_s", scans, [](const ReplayScan& scan) { return scan.time_s; }, file);
+  pose.Write("scan_pose", file);
+  file.AddFlags("scan_hazards", hazards, {scans.size(), stripes});
+  points.Write("scan_points", file);
+}
+
+// Every candidate motion of every step.
+class Votes {
+ public:
+  void Add(std::size_t step, const messages::NavigationView& view) {
+    for (const MotionVote& vote : view.forward) Add(step, "forward", vote);
+    for (const MotionVote& vote : view.backward) Add(step, "backward", vote);
+    for (const MotionVote& vote : view.point_turns) Add(step, "turn", vote);
+  }
+
+  void Write(NpzFile& file) const {
+    file.AddIntegers("vote_step", step_, {step_.size()});
+    file.AddTexts("vote_kind", kind_);
+    numbers_.Write("vote", file);
+    file.AddFlags("vote_chosen", chosen_, {chosen_.size()});
+  }
+
+ private:
+  void Add(std::size_t step, const char* kind, const MotionVote& vote) {
+    step_.push_back(static_cast<std::int64_t>(step));
+    kind_.emplace_back(kind);
+    numbers_.Add(std::array{vote.motion.curvature_per_m, static_cast<double>(vote.motion.direction),
+                            vote.hazard, vote.hazard_certainty, vote.waypoint, vote.merged});
+    chosen_.push_back(vote.chosen ? 1 : 0);
+  }
+
+  std::vector<std::int64_t> step_;
+  std::vector<std::string> kind_;
+  Table numbers_{6};
+  std::vector<std::uint8_t> chosen_;
+};
+
+void AddMaps(std::span<const ReplayStep> steps, NpzFile& file) {
+  Table grid(4);
+  std::vector<double> elevation;
+  std::vector<std::int64_t> goodness;
+  std::vector<std::int64_t> certainty;
+  for (const ReplayStep& step : steps) {
+    const messages::MapView& map = step.view.map;
+    grid.Add(std::array{map.x0_m, map.y0_m, map.xstep_m, map.ystep_m});
+    for (const MapCellView& cell : map.cells) {
+      elevation.push_back(cell.has_data ? cell.elevation_m
+                                        : std::numeric_limits<double>::quiet_NaN());
+      goodness.push_back(cell.known ? std::int64_t{cell.goodness} : kUnknown);
+      certainty.push_back(cell.known ? std::int64_t{cell.certainty} : kUnknown);
+    }
+  }
+  NpzFile::Shape shape{steps.size(), 0, 0};
+  if (!steps.empty()) {
+    shape[1] = static_cast<std::size_t>(steps.front().view.map.ny);
+    shape[2] = static_cast<std::size_t>(steps.front().view.map.nx);
+  }
+  grid.Write("map_grid", file);
+  file.AddReals("map_elevation_m", elevation, shape);
+  file.AddIntegers("map_goodness", goodness, shape);
+  file.AddIntegers("map_certainty", certainty, shape);
+}
+
+void AddSteps(std::span<const ReplayStep> steps, NpzFile& file) {
+  Table pose(3);
+  Table believed(3);
+  std::vector<std::int64_t> number;
+  std::vector<std::uint8_t> behind;
+  Votes votes;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const messages::NavigationView& view = steps[i].view;
+    pose.Add(steps[i].pose);
+    believed.Add(math::Pose2{view.estimate.x_m, view.estimate.y_m, view.estimate.heading_rad});
+    number.push_back(view.step);
+    behind.push_back(view.looked_behind ? 1 : 0);
+    votes.Add(i, view);
+  }
+  AddColumn(
+      "step_time_s", steps, [](const ReplayStep& step) { return step.time_s; }, file);
+  file.AddIntegers("step_number", number, {number.size()});
+  pose.Write("step_pose", file);
+  believed.Write("step_believed", file);
+  file.AddFlags("step_behind", behind, {behind.size()});
+  votes.Write(file);
+  AddMaps(steps, file);
+}
+
+void AddRecord(const TracedTrial& traced, NpzFile& file) {
+  const std::size_t columns = std::min(traced.schema.size(), traced.record.values.size());
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < columns; ++i) names.push_back(traced.schema[i].name);
+  file.AddTexts("record_names", names);
+  file.AddReals("record", std::span(traced.record.values).first(columns), {columns});
+}
+
+std::string MetaText(const TraceArrays& arrays) {
+  const TracedTrial& traced = arrays.traced;
+  return JsonObject()
+      .AddText("format", "rockyard trace")
+      .AddInteger("version", kFormatVersion)
+      .AddText("scenario", traced.scenario)
+      .AddText("cell", arrays.cell)
+      .AddText("seed", std::to_string(traced.seed))
+      .AddInteger("trial", static_cast<std::int64_t>(traced.record.trial))
+      .AddText("outcome", truth::Name(traced.record.outcome))
+      .AddText("detail", traced.record.detail)
+      .AddText("record_hash", arrays.record_hash)
+      .Add("provenance", ProvenanceText(arrays.provenance))
+      .Text();
+}
+
+}  // namespace
+
+std::string TraceNpz(const TraceArrays& arrays) {
+  NpzFile file;
+  file.AddText("meta", MetaText(arrays));
+  AddRecord(arrays.traced, file);
+  AddMoments(arrays.poses, file);
+  AddEvents(arrays.traced.trace, file);
+  AddScans(arrays.scans, file);
+  AddSteps(arrays.steps, file);
+  return file.Bytes();
+}
+
+}  // namespace rockyard::report
