@@ -16,7 +16,7 @@ import { PlanView } from "./plan_view";
 import { Player, standingStretches } from "./player";
 import type { Extent } from "./scene/ground";
 import { SceneView } from "./scene/scene_view";
-import type { CameraMode, DrawnPose, Layers, MapKind, Shown, View } from "./view";
+import type { CameraMode, DrawnLink, DrawnPose, Layers, MapKind, Shown, View } from "./view";
 
 const MODE_NAMES: Record<CameraMode, string> = { follow: "Follow", top: "Top", orbit: "Free", rover: "From the rover" };
 const MAP_KINDS: MapKind[] = ["goodness", "certainty", "elevation", "off"];
@@ -34,6 +34,8 @@ export interface Handle {
   play(): void;
   /** As drawn now. */
   pose(): DrawnPose;
+  /** The links' pivots as drawn now. */
+  links(): DrawnLink[];
   /** The moment of sample i. */
   sample(i: number): Moment;
 }
@@ -105,17 +107,18 @@ export class App {
         this.update();
         return view.drawn();
       },
+      links: () => {
+        this.update();
+        return view.drawnLinks();
+      },
       sample: (i) => drive.at(this.payload.motion.t[i] ?? NaN),
     };
   }
 
   private makeView(): View {
     const plan = planExtent(this.payload);
-    try {
-      return new SceneView(this.payload, this.drive, plan);
-    } catch {
-      return new PlanView(this.payload, this.drive, plan);
-    }
+    const View = hasWebGl() ? SceneView : PlanView;
+    return new View(this.payload, this.drive, plan);
   }
 
   private build(): void {
@@ -255,6 +258,11 @@ export class App {
       { keys: ["?"], shown: "?", does: "this help", act: () => document.querySelector("dialog")?.showModal() },
     ];
   }
+}
+
+// Asked of a canvas of its own, because three.js writes errors to the console.
+function hasWebGl(): boolean {
+  return document.createElement("canvas").getContext("webgl2") !== null;
 }
 
 /** What the plan shows: the drive with start and goal, within the ground. */

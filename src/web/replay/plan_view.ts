@@ -5,8 +5,8 @@ import { rampCss, readPalette, type Palette } from "./palette";
 import type { ReplayPayload, Shape } from "./payload";
 import { arcPoint, frameOf, turnPoint } from "./scene/arcs";
 import { toldElsewhere } from "./scene/course";
-import type { Extent } from "./scene/ground";
-import type { CameraMode, DrawnPose, Layers, Shown, View } from "./view";
+import { extentOf, type Extent } from "./scene/ground";
+import type { CameraMode, DrawnLink, DrawnPose, Layers, Shown, View } from "./view";
 
 const MARGIN_PX = 16;
 
@@ -53,6 +53,10 @@ export class PlanView implements View {
     return { x, y, z, heading };
   }
 
+  drawnLinks(): DrawnLink[] {
+    return [];
+  }
+
   draw(): void {
     if (!this.shown || !this.layers) return;
     const { context, palette, shown, layers } = this;
@@ -77,7 +81,8 @@ export class PlanView implements View {
   }
 
   private drawGrid(pixel: number): void {
-    const { context, extent } = this;
+    const { context } = this;
+    const extent = extentOf(this.payload.course);
     context.strokeStyle = this.palette.grid;
     context.lineWidth = pixel;
     context.beginPath();

@@ -32,6 +32,14 @@ export interface DrawnPose {
   heading: number;
 }
 
+/** Where the pivot of a link is drawn, in W. */
+export interface DrawnLink {
+  name: string;
+  x: number;
+  y: number;
+  z: number;
+}
+
 export interface View {
   readonly element: HTMLElement;
   /** The modes that this picture has. */
@@ -46,4 +54,6 @@ export interface View {
   resize(): void;
   draw(): void;
   drawn(): DrawnPose;
+  /** None where the picture has no links. */
+  drawnLinks(): DrawnLink[];
 }

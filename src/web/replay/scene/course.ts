@@ -47,7 +47,7 @@ export function makeCourse(course: Course, heights: GroundHeights, palette: Pale
     group.add(makeLabel(text, x, y, z + pole_m, { colour, anchor }));
   };
   line(ring(start.x, start.y, 0.12, heights), palette.label);
-  sign("start", start.x, start.y, 0.1, palette.label, [1.3, 0]);
+  sign("start", start.x, start.y, 0.1, palette.label, [0.5, -0.7]);
   const fill = new MeshBasicMaterial({
     color: palette.goal,
     transparent: true,

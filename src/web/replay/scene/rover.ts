@@ -18,6 +18,7 @@ import {
 } from "three";
 import type { Palette } from "../palette";
 import type { RoverShape, Shape } from "../payload";
+import type { DrawnLink } from "../view";
 
 type Vec = [number, number, number];
 
@@ -50,6 +51,15 @@ abstract class Rover {
   }
 
   protected abstract add(group: Group, shape: Shape): void;
+
+  /** In the frame of the scene. */
+  pivots(): DrawnLink[] {
+    this.body.updateMatrixWorld();
+    return this.links.map(({ name, group }) => {
+      const { x, y, z } = group.getWorldPosition(new Vector3());
+      return { name, x, y, z };
+    });
+  }
 
   setJoints(joints: Record<string, number>): void {
     for (const { name, axis, group } of this.links.slice(1)) {

@@ -14,7 +14,7 @@ import { CameraRig } from "../camera";
 import { headingOf, type Course as Drive } from "../motion";
 import { readPalette } from "../palette";
 import type { ReplayPayload } from "../payload";
-import type { CameraMode, DrawnPose, Layers, Shown, View } from "../view";
+import type { CameraMode, DrawnLink, DrawnPose, Layers, Shown, View } from "../view";
 import { makeCourse } from "./course";
 import { extentOf, GroundHeights, type Extent } from "./ground";
 import { fitLabels } from "./labels";
@@ -47,7 +47,6 @@ export class SceneView implements View {
   private readonly fixed = new Group();
   private grid: Object3D = new Group();
 
-  /** Throws where the browser has no WebGL. */
   constructor(
     private readonly payload: ReplayPayload,
     drive: Drive,
@@ -139,6 +138,10 @@ export class SceneView implements View {
   drawn(): DrawnPose {
     const { position, quaternion } = this.rover.body;
     return { x: position.x, y: position.y, z: position.z, heading: headingOf(quaternion) };
+  }
+
+  drawnLinks(): DrawnLink[] {
+    return this.rover.pivots();
   }
 
   private light(): void {
