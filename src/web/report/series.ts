@@ -28,13 +28,9 @@ const OUTLINES: Record<SeriesStyle["symbol"], string> = {
 };
 
 /** A short piece of the series' line with its mark. */
-export function swatch(slot: number, mark: "line" | "dot" | "box" = "line"): SVGSVGElement {
+export function swatch(slot: number, mark: "line" | "dot" = "line"): SVGSVGElement {
   const style = seriesStyle(slot);
   const drawing = svg("svg", { width: 34, height: 14, viewBox: "-17 -7 34 14", "aria-hidden": "true", class: "swatch" });
-  if (mark === "box") {
-    drawing.append(svg("rect", { x: -10, y: -6, width: 20, height: 12, fill: style.colour }));
-    return drawing;
-  }
   const dash = style.dash === "none" ? null : style.dash;
   const line = { x1: -17, x2: 17, y1: 0, y2: 0, stroke: style.colour, "stroke-width": 2, "stroke-dasharray": dash };
   if (mark === "line") drawing.append(svg("line", line));
@@ -53,7 +49,7 @@ export function swatch(slot: number, mark: "line" | "dot" | "box" = "line"): SVG
 }
 
 /** The key of a chart: nothing where there is one series. */
-export function legend(entries: { slot: number; label: string }[], mark: "line" | "dot" | "box" = "line"): HTMLElement | null {
+export function legend(entries: { slot: number; label: string }[], mark: "line" | "dot" = "line"): HTMLElement | null {
   if (entries.length < 2) return null;
   return el(
     "ul",

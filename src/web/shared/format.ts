@@ -1,6 +1,8 @@
 // Numbers as text. A missing number is a dash.
 
 export const MISSING = "–";
+// Keeps a number and its unit on one line.
+const SPACE = "\u00a0";
 
 export type Maybe = number | null | undefined;
 
@@ -38,13 +40,13 @@ export function fixed(value: Maybe, decimals: number): string {
 
 /** 0.9 as "90.0 %". */
 export function percent(rate: Maybe, decimals = 1): string {
-  return isNumber(rate) ? `${sign((100 * rate).toFixed(decimals))} %` : MISSING;
+  return isNumber(rate) ? `${sign((100 * rate).toFixed(decimals))}${SPACE}%` : MISSING;
 }
 
 /** [0.7, 0.97] as "69.9 to 97.2 %". */
 export function percentInterval(low: Maybe, high: Maybe, decimals = 1): string {
   if (!isNumber(low) || !isNumber(high)) return MISSING;
-  return `${sign((100 * low).toFixed(decimals))} to ${sign((100 * high).toFixed(decimals))} %`;
+  return `${sign((100 * low).toFixed(decimals))} to ${sign((100 * high).toFixed(decimals))}${SPACE}%`;
 }
 
 export function interval(low: Maybe, high: Maybe, digits = 3): string {
@@ -56,13 +58,6 @@ export function interval(low: Maybe, high: Maybe, digits = 3): string {
 export function pValue(p: Maybe): string {
   if (!isNumber(p)) return MISSING;
   return p < 0.001 ? "< 0.001" : p.toFixed(3);
-}
-
-/** With the number's unit; "1" is no unit. */
-export function withUnit(value: Maybe, unit: string, digits = 4): string {
-  const text = number(value, digits);
-  if (text === MISSING || unit === "" || unit === "1") return text;
-  return `${text} ${unit}`;
 }
 
 /** "1 trial", "2 trials". */

@@ -55,9 +55,10 @@ export function drawForest(rows: Difference[], xLabel: string, width: number): E
   const line = { y: "label", stroke: "var(--series-1)", strokeWidth: 2 } as const;
   return Plot.plot({
     width,
-    height: 60 + rows.length * (beside ? 28 : 44),
+    height: 54 + rows.length * (beside ? 28 : 44),
     marginLeft: beside ? longest + 18 : 12,
     marginRight: 24,
+    marginTop: 8,
     marginBottom: 42,
     x: { domain: [-far, far], label: xLabel, labelAnchor: "center", labelArrow: "none", grid: true, ticks: Math.max(3, Math.min(8, width / 90)) },
     y: { domain: rows.map((row) => row.label), label: null, axis: beside ? "left" : null, tickSize: 0 },

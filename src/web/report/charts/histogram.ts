@@ -162,6 +162,12 @@ export function drawHistograms(samples: Sample[], marks: Mark[], label: string, 
       Plot.link(quantiles, { x1: "low", x2: "high", y1: 0, y2: 0, fy: "row", stroke: "currentColor", strokeWidth: 2, dy: 6 } as Plot.LinkOptions),
       Plot.dot(quantiles, { x: "median", y: 0, fy: "row", r: 4, fill: "currentColor", stroke: "var(--ground)", dy: 6 }),
       Plot.ruleX(marks, { x: "x", stroke: "currentColor", strokeDasharray: "3 3" }),
+      samples.length > 1
+        ? Plot.text(samples.map((sample, row) => ({ row, label: sample.shown.run.label })), {
+            fy: "row", text: "label", frameAnchor: "top-right", lineAnchor: "top", dy: 5, fill: "currentColor", stroke: "var(--ground)",
+            strokeWidth: 5, textOverflow: "ellipsis", lineWidth: Math.max(12, (width - 60) / 13),
+          })
+        : null,
       ...labels.map(({ mark, row, anchor }) =>
         Plot.text([mark], {
           x: "x", text: "label", frameAnchor: "top", lineAnchor: "bottom", textAnchor: anchor, dy: -4 - LABEL_STEP * row, fill: "currentColor",

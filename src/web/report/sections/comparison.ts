@@ -93,7 +93,7 @@ function forests(of: Comparison, at: number): HTMLElement {
         title: "Means",
         caption: `Mean of ${of.second} less that of ${of.first}, in per cent of the latter. ${read}`,
         alternative: sentence(columns, "%"),
-        draw: (width) => drawForest(columns, `difference [% of ${of.first}]`, width),
+        draw: (width) => drawForest(columns, "difference [%]", width),
         numbers: () => [forestTable(columns, `% of ${of.first}`)],
       }),
   );

@@ -6,7 +6,6 @@ import { chartFigure } from "../charts/figure";
 import { binTable, drawHistograms, sampleOf, summaryTable, type Sample } from "../charts/histogram";
 import type { Context, ShownRun } from "../context";
 import type { PublishedRow } from "../payload";
-import { legend } from "../series";
 import { columnLabel, columnWords, unitText } from "../words";
 import { publishedMarks } from "./published_marks";
 import type { Section } from "./section";
@@ -79,7 +78,6 @@ function figure(context: Context, of: Distribution): HTMLElement | null {
     title: of.title,
     caption: `Share of trials by ${columnWords(of.column)}: ${of.what}.`,
     alternative: alternative(samples, of, unit),
-    key: legend(samples.map(({ shown }) => ({ slot: shown.slot, label: shown.run.label })), "box"),
     draw: (width) => drawHistograms(samples, marks, columnLabel(of.column, drawnUnit), width),
     numbers: () => {
       const rows = samples.flatMap(({ shown }) => {

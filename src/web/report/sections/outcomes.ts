@@ -47,7 +47,7 @@ function oneRun(context: Context, run: Run): HTMLElement {
   const trials = total(run);
   return table({
     caption: "How the trials ended",
-    className: "outcome-table",
+    className: "one-run",
     stacks: true,
     head: ["Outcome", { content: "Trials", numeric: true }, { content: "Share", numeric: true }, "", "What it means"],
     rows: occurring([run]).map((name) => {
@@ -66,7 +66,7 @@ function oneRun(context: Context, run: Run): HTMLElement {
 function cell(context: Context, run: Run, outcome: string): Cell {
   const count = countsOf(run)[outcome] ?? 0;
   const content = el("div", { class: "outcome-cell" }, countButton(context, run, outcome), bar(count / (total(run) || 1), outcome));
-  return { content, numeric: true, value: count };
+  return { content, value: count };
 }
 
 function manyRuns(context: Context, runs: Run[]): Child[] {
@@ -74,8 +74,7 @@ function manyRuns(context: Context, runs: Run[]): Child[] {
   return [
     table({
       caption: "How the trials of each run ended",
-      className: "outcome-table",
-      head: ["Run", ...names.map((name) => ({ content: words(name), numeric: true }))],
+      head: ["Run", ...names.map(words)],
       rows: runs.map((run): (Child | Cell)[] => [rowHeader(run.label), ...names.map((name) => cell(context, run, name))]),
     }),
     el(
