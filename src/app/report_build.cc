@@ -1,0 +1,198 @@
+#include "app/report_build.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "app/report_published.h"
+#include "app/run_source.h"
+#include "app/run_views.h"
+#include "app/shell_word.h"
+#include "batch/executor.h"
+#include "batch/result_store.h"
+#include "batch/scenario_difference.h"
+#include "batch/trial_hash.h"
+#include "core/error.h"
+#include "core/provenance.h"
+#include "report/page_data.h"
+#include "scenario/load.h"
+#include "scenario/sweep.h"
+#include "truth/measurement_record.h"
+
+namespace rockyard::app {
+namespace {
+
+constexpr std::size_t kMostCompared = 6;
+constexpr auto kMethod = statistics::IntervalMethod::kWilson;
+
+// None where the scenario is of another version of the program.
+std::vector<core::ParameterInfo> ParametersOf(const StoredRun& run) {
+  try {
+    return scenario::ListParameters(scenario::ParseScenario(run.identity.resolved));
+  } catch (const core::UserError&) {
+    return {};
+  }
+}
+
+std::string ReplayCommand(const StoredRun& run) {
+  std::string command = "rockyard replay " + ShellWord(run.folder.string());
+  if (!run.identity.name.empty()) command += " --cell " + ShellWord(run.identity.name);
+  return command + " --trial {trial}";
+}
+
+[[noreturn]] void FailEmpty(const std::filesystem::path& folder) {
+  throw core::UserError(folder.string(), "holds no finished trials to report",
+                        "let it run: the same `rockyard run` or `rockyard sweep` with --resume");
+}
+
+scenario::Sweep SweepOf(const batch::ResultStore& store, const std::filesystem::path& folder) {
+  try {
+    scenario::Sweep sweep = scenario::ParseSweep(store.identity().design);
+    if (sweep.cells.size() == static_cast<std::size_t>(store.cells())) return sweep;
+  } catch (const core::UserError&) {
+    // Said below: its problems are about a file that the user has not got.
+  }
+  throw core::UserError(folder.string(),
+                        "holds a sweep that this version of the program reads differently",
+                        "use the program that made it: " + store.Builds().front());
+}
+
+class Builder {
+ public:
+  explicit Builder(const ReportRequest& request) : request_(request), published_(request.against) {}
+
+  Report Build() {
+    LoadRuns();
+    const std::vector<std::string> tables = published_.Tables(plain_);
+    std::size_t next = 0;
+    for (const ReportInput& input : request_.inputs) {
+      if (input.sweep) {
+        AddSweep(input);
+        continue;
+      }
+      const StoredRun& run = plain_[next];
+      AddRun(run, input.label, {}, tables[next++]);
+    }
+    RequirePublished();
+    Compare();
+    return Finish();
+  }
+
+ private:
+  void LoadRuns() {
+    for (const ReportInput& input : request_.inputs) {
+      if (input.sweep) continue;
+      plain_.push_back(ReadRun(input.folder, input.cell));
+      if (plain_.back().records.empty()) FailEmpty(input.folder);
+    }
+  }
+
+  void AddRun(const StoredRun& run, const std::string& label, std::optional<std::size_t> sweep,
+              std::string published) {
+    report::PageRun page{.label = label,
+                         .folder = run.folder.string(),
+                         .cell = run.identity.name,
+                         .sweep = sweep,
+                         .description = Describe(run, batch::ThreadCount({})),
+                         .schema = run.schema,
+                         .records = run.records,
+                         .prefix = run.prefix(),
+                         .parameters = ParametersOf(run),
+                         .published = std::move(published),
+                         .replay_command = ReplayCommand(run)};
+    any_published_ = any_published_ || page.published != "null";
+    report_.trials += run.records.size();
+    runs_.push_back(report::PageRunMembers(page, kMethod));
+  }
+
+  void AddSweep(const ReportInput& input) {
+    const batch::ResultStore store = batch::ResultStore::Read(input.folder);
+    const scenario::Sweep sweep = SweepOf(store, input.folder);
+    const CellReader reader(input.folder, store);
+    std::vector<batch::CellHash> hashes;
+    const std::size_t before = report_.trials;
+    const auto load = [&](std::size_t cell) {
+      StoredRun run = reader.Load(static_cast<int>(cell));
+      AddRun(run, input.cell_labels[cell], sweeps_.size(), published_.Tables({&run, 1}).front());
+      std::string name = run.identity.name;
+      report::SweepCellTrials trials = SweepCellView(std::move(run));
+      hashes.push_back({std::move(name), trials.trial_hash});
+      return trials;
+    };
+    const report::SweepSummary summary = report::SummarizeSweep(sweep, load, kMethod);
+    if (report_.trials == before) FailEmpty(input.folder);
+    sweeps_.push_back(report::PageSweepJson(input.label, input.folder.string(), sweep, summary,
+                                            {.trial_hash = batch::CampaignHash(hashes),
+                                             .provenance = core::CurrentProvenance(),
+                                             .builds = store.Builds(),
+                                             .threads = batch::ThreadCount({})}));
+  }
+
+  void RequirePublished() const {
+    if (request_.against.empty() || any_published_) return;
+    throw core::UserError("--against", request_.against + " names the scenario of none of the runs",
+                          "name the reference that their scenarios are in, or leave it out");
+  }
+
+  // Each drive that was named against the first one.
+  void Compare() {
+    std::vector<std::pair<const StoredRun*, std::string>> drives;
+    std::size_t next = 0;
+    for (const ReportInput& input : request_.inputs) {
+      if (input.sweep) continue;
+      const StoredRun& run = plain_[next++];
+      if (truth::IsMeasurement(run.schema) || run.prefix().empty()) continue;
+      drives.emplace_back(&run, input.label);
+    }
+    if (drives.size() < 2 || drives.size() > kMostCompared) return;
+    const auto& [first, first_label] = drives.front();
+    for (std::size_t i = 1; i < drives.size(); ++i) {
+      const auto& [second, label] = drives[i];
+      report::PageComparison comparison{
+          .first = first_label,
+          .second = label,
+          .comparison = report::CompareRuns(ComparedView(*first), ComparedView(*second)),
+          .settings = {}};
+      for (const batch::ScenarioDifference& each :
+           batch::FindScenarioDifferences(first->identity.resolved, second->identity.resolved)) {
+        comparison.settings.push_back({each.path, each.first, each.second});
+      }
+      comparisons_.push_back(std::move(comparison));
+    }
+  }
+
+  Report Finish() {
+    report_.replays.links.resize(runs_.size());
+    std::vector<std::string> runs;
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      runs.push_back(
+          runs_[i].Add("replays", report::PageReplaysJson(report_.replays.links[i])).Text());
+    }
+    const bool adjusted = comparisons_.size() > 1;
+    if (adjusted) report::AdjustSuccesses(comparisons_);
+    std::vector<std::string> comparisons;
+    for (const report::PageComparison& each : comparisons_) {
+      comparisons.push_back(report::PageComparisonJson(each, adjusted));
+    }
+    report_.runs = runs.size();
+    report_.json = report::PageJson({request_.title, request_.command, core::CurrentProvenance()},
+                                    runs, sweeps_, comparisons);
+    return std::move(report_);
+  }
+
+  const ReportRequest& request_;
+  PublishedTables published_;
+  std::vector<StoredRun> plain_;  // that are no cells of a sweep
+  std::vector<report::JsonObject> runs_;
+  std::vector<std::string> sweeps_;
+  std::vector<report::PageComparison> comparisons_;
+  bool any_published_ = false;
+  Report report_;
+};
+
+}  // namespace
+
+Report BuildReport(const ReportRequest& request) { return Builder(request).Build(); }
+
+}  // namespace rockyard::app

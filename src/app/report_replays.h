@@ -1,0 +1,46 @@
+// The replay pages that are written with a report.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/exit_code.h"
+#include "app/run_source.h"
+#include "report/page_data.h"
+
+namespace rockyard::app {
+
+// A failed trial that is worth a look.
+struct WorstTrial {
+  std::filesystem::path folder;
+  std::string cell;     // number, or "" of a run
+  std::size_t run = 0;  // position on the page
+  std::string label;
+  std::uint64_t trial = 0;
+  double goal_distance_m = 0.0;  // infinity where unknown
+};
+
+// The worst failed trials of a run (report/worst_trials.h); none of one that measures.
+std::vector<WorstTrial> FindWorst(const StoredRun& run, std::size_t most);
+
+// The worst of several cells together: furthest from the goal first, at most `most`.
+std::vector<WorstTrial> Worst(std::vector<WorstTrial> trials, std::size_t most);
+
+struct ReportReplays {
+  std::vector<std::vector<report::ReplayLink>> links;  // by run of the page
+  std::size_t written = 0;
+  std::filesystem::path folder;
+  ExitCode exit_code = ExitCode::kDone;
+};
+
+// Drives them again and writes a page each into <stem of `page`>_replays beside it, which is made
+// where it is needed. A trial that does not repeat its stored record is reported, not linked, and
+// makes kDiffers; one that cannot be driven or written makes kFailed. A line on standard error says
+// how far it is. Cost: that of the trials.
+ReportReplays WriteReplays(const std::filesystem::path& page, std::span<const WorstTrial> trials,
+                           std::size_t runs);
+
+}  // namespace rockyard::app
