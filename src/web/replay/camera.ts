@@ -1,14 +1,14 @@
 // The viewer's place: behind the rover, above the plan, free, or on the rover's front.
-import { OrthographicCamera, PerspectiveCamera, Vector3, type Camera } from "three";
+import { OrthographicCamera, PerspectiveCamera, Vector3, type Camera, type Object3D } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Extent } from "./scene/ground";
-import type { Object3D } from "three";
 import type { CameraMode } from "./view";
 
-const FOLLOW_FROM = new Vector3(-1.5, -1.25, 1.05);
-// In the rover's frame: above the front edge, looking at the ground ahead.
-const EYE_R = new Vector3(0.22, 0, 0.55);
-const LOOK_R = new Vector3(1.6, 0, 0);
+// In lengths of the rover.
+const FOLLOW_FROM = new Vector3(-2.3, -1.9, 1.6);
+// In the rover's frame and lengths of it: above the front edge, looking at the ground ahead.
+const EYE_R = new Vector3(0.34, 0, 0.85);
+const LOOK_R = new Vector3(2.5, 0, 0);
 const PLAN_MARGIN = 1.08;
 
 export class CameraRig {
@@ -25,6 +25,7 @@ export class CameraRig {
   constructor(
     element: HTMLElement,
     private readonly extent: Extent,
+    private readonly length_m: number,
   ) {
     for (const camera of [this.near, this.plan]) camera.up.set(0, 0, 1);
     // x to the right and y up.
@@ -40,7 +41,7 @@ export class CameraRig {
     this.pan.mouseButtons.LEFT = this.pan.mouseButtons.RIGHT;
     this.pan.touches.ONE = 1;
     for (const controls of [this.orbit, this.pan]) controls.enableDamping = false;
-    this.near.position.copy(FOLLOW_FROM);
+    this.near.position.copy(FOLLOW_FROM).multiplyScalar(length_m);
     this.setMode("follow");
   }
 
@@ -59,7 +60,7 @@ export class CameraRig {
     this.orbit.enabled = mode === "follow" || mode === "orbit";
     this.pan.enabled = mode === "top";
     if (mode === "top") this.fitPlan(this.planned ?? this.extent);
-    if (mode === "follow" || (mode === "orbit" && before === "rover")) this.near.position.copy(this.target).add(FOLLOW_FROM);
+    if (mode === "follow" || (mode === "orbit" && before === "rover")) this.near.position.copy(this.target).addScaledVector(FOLLOW_FROM, this.length_m);
     if (this.orbit.enabled) {
       this.orbit.target.copy(this.target);
       this.orbit.update();
@@ -91,8 +92,8 @@ export class CameraRig {
     }
     if (this.mode === "rover") {
       rover.updateMatrixWorld();
-      this.near.position.copy(rover.localToWorld(EYE_R.clone()));
-      this.near.lookAt(rover.localToWorld(LOOK_R.clone()));
+      this.near.position.copy(rover.localToWorld(EYE_R.clone().multiplyScalar(this.length_m)));
+      this.near.lookAt(rover.localToWorld(LOOK_R.clone().multiplyScalar(this.length_m)));
     }
   }
 

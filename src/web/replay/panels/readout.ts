@@ -8,15 +8,18 @@ import type { ReplayPayload, TrialEvent } from "../payload";
 export class Readout {
   readonly element = el("section", { class: "panel readout", "aria-label": "Now" });
   private readonly rows = new Map<string, HTMLElement>();
+  private readonly events: TrialEvent[];
   private readonly times: number[];
 
   constructor(
     private readonly payload: ReplayPayload,
-    private readonly events: TrialEvent[],
+    events: TrialEvent[],
   ) {
-    this.times = events.map((event) => event.t);
+    // Scans and looks come so often that nothing else would ever stand here.
+    this.events = events.filter(({ kind }) => kind !== "scan" && kind !== "look");
+    this.times = this.events.map((event) => event.t);
     const list = el("dl", {});
-    const names = ["Time", "Activity", "Last event", "True pose", "Believed pose", "Position error", "To the goal", "Tilt"];
+    const names = ["Time", "Activity", "True pose", "Believed pose", "Position error", "To the goal", "Tilt", "Last event"];
     for (const name of names) this.add(list, name);
     const joints = el("dl", {});
     for (const name of this.jointNames()) this.add(joints, name);

@@ -2,6 +2,7 @@
 // of the points that it saw.
 import {
   BufferGeometry,
+  Color,
   DoubleSide,
   Float32BufferAttribute,
   Group,
@@ -16,12 +17,16 @@ import type { Layers } from "../view";
 import { arcPoint, elevationRange, frameOf, turnPoint, type Frame } from "./arcs";
 import type { GroundHeights } from "./ground";
 
+type Rgb = [number, number, number];
+
 const MAP_LIFT_M = 0.012;
 const ARC_LIFT_M = 0.03;
 const ARC_PIECES = 24;
 const FULL_VOTE = 255;
+// Edge of arcs that were not chosen, linear light.
+const PALE: Rgb = [0.8, 0.8, 0.8];
 const LEAST_ALPHA = 0.2;
-const MOST_ALPHA = 0.9;
+const MOST_ALPHA = 0.75;
 
 export class StepPicture {
   readonly group = new Group();
@@ -32,14 +37,15 @@ export class StepPicture {
     depthWrite: false,
   });
   private readonly solid = new MeshBasicMaterial({ vertexColors: true, side: DoubleSide });
-  private readonly edge = new MeshBasicMaterial({ side: DoubleSide });
   private readonly seen = new PointsMaterial({ size: 3, sizeAttenuation: false });
+  private chosen: Rgb = PALE;
   private key = "";
 
   constructor(private readonly heights: GroundHeights) {}
 
   recolour(palette: Palette): void {
-    this.edge.color.set(palette.chosen);
+    this.chosen = new Color(palette.chosen).toArray() as Rgb;
+    this.key = "";
     this.seen.color.set(palette.clear);
   }
 
@@ -80,40 +86,17 @@ export class StepPicture {
     this.group.add(mesh);
   }
 
+  // All arcs are one mesh, in the order of drawing: pale edges keep dark arcs apart from dark cells.
   private addVotes(step: Step, frame: Frame): void {
-    // The chosen one last and above the others.
     const votes = [...step.votes].sort((a, b) => Number(a.chosen) - Number(b.chosen) || a.merged - b.merged);
+    const strips = new Strips(frame, this.heights);
     for (const vote of votes) {
-      const width = 0.008 + 0.022 * (vote.merged / FULL_VOTE);
-      if (vote.chosen) this.addRibbon(vote, frame, width + 0.05, ARC_LIFT_M + 0.004, true);
-      this.addRibbon(vote, frame, vote.chosen ? width + 0.02 : width, ARC_LIFT_M + (vote.chosen ? 0.008 : 0), false);
+      const width = (vote.chosen ? 0.03 : 0.006) + 0.022 * (vote.merged / FULL_VOTE);
+      const lift = ARC_LIFT_M + (vote.chosen ? 0.006 : 0);
+      strips.add(vote, width + (vote.chosen ? 0.03 : 0.008), lift, vote.chosen ? this.chosen : PALE);
+      strips.add(vote, width, lift + 0.003, linear(ramp(vote.merged / FULL_VOTE)));
     }
-  }
-
-  // A strip along the arc; that of the chosen one ends in an arrow.
-  private addRibbon(vote: Vote, frame: Frame, width: number, lift: number, edge: boolean): void {
-    const colour = ramp(vote.merged / FULL_VOTE).map((value) => (value / 255) ** 2.2);
-    const positions: number[] = [];
-    const colours: number[] = [];
-    const put = (share: number, side: number): void => {
-      const { x, y, heading } = vote.kind === "turn" ? turnPoint(vote, share) : arcPoint(vote, share);
-      const [wx, wy] = frame.ahead(x - side * Math.sin(heading), y + side * Math.cos(heading));
-      positions.push(wx, wy, this.heights.at(wx, wy) + lift);
-      colours.push(...colour);
-    };
-    for (let i = 0; i < ARC_PIECES; ++i) {
-      const [a, b] = [i / ARC_PIECES, (i + 1) / ARC_PIECES];
-      for (const [share, side] of [[a, -1], [b, -1], [b, 1], [a, -1], [b, 1], [a, 1]] as const) {
-        put(share, (side * width) / 2);
-      }
-    }
-    if (vote.chosen) {
-      const wide = 0.07 + width / 2;
-      put(1, -wide);
-      put(1.1, 0);
-      put(1, wide);
-    }
-    const mesh = new Mesh(coloured(positions, colours, 3), edge ? this.edge : this.solid);
+    const mesh = new Mesh(coloured(strips.positions, strips.colours, 3), this.solid);
     mesh.renderOrder = 2;
     this.group.add(mesh);
   }
@@ -125,7 +108,40 @@ export class StepPicture {
   }
 }
 
+/** Strips along arcs; those of chosen ones end in arrows. */
+class Strips {
+  readonly positions: number[] = [];
+  readonly colours: number[] = [];
+
+  constructor(
+    private readonly frame: Frame,
+    private readonly heights: GroundHeights,
+  ) {}
+
+  add(vote: Vote, width: number, lift: number, colour: Rgb): void {
+    const put = (share: number, side: number): void => {
+      const { x, y, heading } = vote.kind === "turn" ? turnPoint(vote, share) : arcPoint(vote, share);
+      const [wx, wy] = this.frame.ahead(x - side * Math.sin(heading), y + side * Math.cos(heading));
+      this.positions.push(wx, wy, this.heights.at(wx, wy) + lift);
+      this.colours.push(...colour);
+    };
+    for (let i = 0; i < ARC_PIECES; ++i) {
+      const [a, b] = [i / ARC_PIECES, (i + 1) / ARC_PIECES];
+      for (const [share, side] of [[a, -1], [b, -1], [b, 1], [a, -1], [b, 1], [a, 1]] as const) {
+        put(share, (side * width) / 2);
+      }
+    }
+    if (!vote.chosen) return;
+    put(1, -1.4 * width);
+    put(1 + 1.2 * width, 0);
+    put(1, 1.4 * width);
+  }
+}
+
 const CELL_CORNERS = [[0, 0], [1, 0], [1, 1], [0, 0], [1, 1], [0, 1]] as const;
+
+/** Vertex colours are taken as linear light. */
+const linear = (rgb: Rgb): Rgb => rgb.map((value) => (value / 255) ** 2.2) as Rgb;
 
 /** Red, green, blue (linear light) and opacity, 0 to 1; null where nothing is known. */
 function cellColour(
@@ -147,9 +163,7 @@ function cellColour(
     share = (kind === "goodness" ? goodness : certainty) / FULL_VOTE;
     if (kind === "goodness") alpha = LEAST_ALPHA + (MOST_ALPHA - LEAST_ALPHA) * (certainty / FULL_VOTE);
   }
-  // Vertex colours are taken as linear light.
-  const [r, g, b] = ramp(share).map((value) => (value / 255) ** 2.2) as [number, number, number];
-  return [r, g, b, alpha];
+  return [...linear(ramp(share)), alpha];
 }
 
 function coloured(positions: number[], colours: number[], channels: number): BufferGeometry {

@@ -1,5 +1,6 @@
 // The articulated rover: its links as groups that turn about their pivots; solid, or as an outline.
 import {
+  Box3,
   BoxGeometry,
   BufferGeometry,
   CapsuleGeometry,
@@ -51,6 +52,12 @@ abstract class Rover {
   }
 
   protected abstract add(group: Group, shape: Shape): void;
+
+  /** From front to rear while all angles are 0, m. */
+  length(): number {
+    const box = new Box3().setFromObject(this.body);
+    return Math.max(0.1, box.max.x - box.min.x);
+  }
 
   /** In the frame of the scene. */
   pivots(): DrawnLink[] {

@@ -25,7 +25,8 @@ import { GhostRover, SolidRover } from "./rover";
 import { ScanPoints } from "./scans";
 import { makeGrid, makeGround, makeWalls } from "./terrain";
 
-const SHADOW_REACH_M = 2.5;
+// In lengths of the rover.
+const SHADOW_REACH = 4;
 const SUN_FROM = [-2, -3, 6] as const;
 
 export class SceneView implements View {
@@ -64,7 +65,7 @@ export class SceneView implements View {
     this.paths = new Paths(drive, this.heights);
     this.scan = new ScanPoints(this.heights);
     this.step = new StepPicture(this.heights);
-    this.rig = new CameraRig(this.element, this.extent);
+    this.rig = new CameraRig(this.element, this.extent, this.rover.length());
     this.rig.setPlanExtent(plan);
     this.light();
     this.scene.add(this.fixed, this.rocks.mesh, this.rover.body, this.ghost.body);
@@ -145,12 +146,13 @@ export class SceneView implements View {
   }
 
   private light(): void {
+    const reach = SHADOW_REACH * this.rover.length();
     this.scene.add(new AmbientLight(0xffffff, 0.5), new HemisphereLight(0xffffff, 0x8a7a6a, 1.1));
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(1024, 1024);
     const frustum = this.sun.shadow.camera;
-    frustum.left = frustum.bottom = -SHADOW_REACH_M;
-    frustum.right = frustum.top = SHADOW_REACH_M;
+    frustum.left = frustum.bottom = -reach;
+    frustum.right = frustum.top = reach;
     frustum.near = 1;
     frustum.far = 12;
     this.sun.shadow.bias = -0.002;
