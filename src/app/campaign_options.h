@@ -36,7 +36,8 @@ struct CampaignOptions {
   std::string shard_text;            // "I/N"; empty: the whole campaign
   double until_half_width = 0.0;     // 0: no stopping rule
   std::string allocate = "uniform";
-  batch::StoppingRule rule;  // where until_half_width is given; its half-width is that one
+  std::string resume_command;  // as ResumeText gives it
+  batch::StoppingRule rule;    // where until_half_width is given; its half-width is that one
 
   Output output() const;
   ExistingRun existing() const;

@@ -9,6 +9,7 @@
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/examples.h"
 #include "app/guard.h"
 #include "app/option_checks.h"
 #include "core/error.h"
@@ -28,40 +29,53 @@ std::string VersionText() {
                      p.host, p.cpu_model, p.cpu_level, p.cpu_threads);
 }
 
-void AddCommands(CLI::App& app, ExitCode& exit_code) {
-  app.require_subcommand(1);
-  app.footer(kFooter);
-  app.set_version_flag("--version", VersionText);
-  AddRunCommand(app, exit_code);
-  AddSweepCommand(app, exit_code);
-  AddCheckCommand(app, exit_code);
-  AddBaselineCommand(app);
-  AddCompareCommand(app, exit_code);
-  AddMergeCommand(app, exit_code);
-  AddRoverCommand(app);
-  AddTerrainCommand(app);
-  AddTraceCommand(app, exit_code);
-  AddReplayCommand(app, exit_code);
-  AddValidateCommand(app);
-  AddDefaultsCommand(app);
-  AddSchemaCommand(app);
-  AddListCommand(app);
-  AddParametersCommand(app);
-  AddPlanCommand(app);
-  AddMetricsCommand(app);
-  CheckEveryValue(app);
-}
-
 // "rockyard run --help" where a subcommand was named, else "rockyard --help".
 std::string HelpCommand(const CLI::App& app) {
   const auto chosen = app.get_subcommands();
   return chosen.empty() ? "rockyard --help" : "rockyard " + chosen.front()->get_name() + " --help";
 }
 
+// "--trails" of "The following arguments were not expected: 5 --trails"; empty for other errors,
+// and where no option is among them.
+std::string UnknownOption(const CLI::ParseError& error) {
+  const std::string text = error.what();
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return "";
+  const std::size_t dashes = text.find(" --", text.find(": "));
+  if (dashes == std::string::npos) return "";
+  const std::string word = text.substr(dashes + 1);
+  return word.substr(0, word.find_first_of(" ="));
+}
+
+// The option of the subcommand that was meant; empty where none is near.
+std::string NearestOption(const CLI::App& command, std::string_view word) {
+  if (!word.starts_with("--")) return "";
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  const std::vector<std::string_view> candidates(names.begin(), names.end());
+  return std::string(core::Nearest(word, candidates));
+}
+
+core::Problem ExplainOption(const CLI::App& app, const CLI::App& command,
+                            const std::string& unknown, const CLI::ParseError& error) {
+  const std::string text = error.what();
+  if (text.find("--trials") != std::string::npos &&
+      text.find("--until-half-width") != std::string::npos) {
+    return {"command line", text, "--max-trials bounds the trials of --until-half-width"};
+  }
+  const std::string meant = NearestOption(command, unknown);
+  if (meant.empty()) return {"command line", text, HelpCommand(app)};
+  return {"command line", fmt::format("{} is no option of this command", unknown),
+          fmt::format("did you mean \"{}\"? see {}", meant, HelpCommand(app))};
+}
+
 // The parser alone would say that a subcommand is missing, not that the one given is unknown.
 core::Problem Explain(const CLI::App& app, const CLI::ParseError& error, std::string_view first) {
-  if (!app.get_subcommands().empty() || first.empty() || first.front() == '-') {
-    return {"command line", error.what(), HelpCommand(app)};
+  const auto chosen = app.get_subcommands();
+  if (!chosen.empty()) return ExplainOption(app, *chosen.front(), UnknownOption(error), error);
+  if (first.empty() || first.front() == '-') {
+    return ExplainOption(app, app, std::string(first), error);
   }
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
@@ -92,6 +106,33 @@ ExitCode Parse(CLI::App& app, int argc, const char* const* argv, const ExitCode&
 }
 
 }  // namespace
+
+void AddCommands(CLI::App& app, ExitCode& exit_code) {
+  app.require_subcommand(1);
+  app.footer(kFooter);
+  app.set_version_flag("--version", VersionText);
+  AddRunCommand(app, exit_code);
+  AddSweepCommand(app, exit_code);
+  AddCheckCommand(app, exit_code);
+  AddBaselineCommand(app);
+  AddCompareCommand(app, exit_code);
+  AddMergeCommand(app, exit_code);
+  AddRoverCommand(app);
+  AddTerrainCommand(app);
+  AddTraceCommand(app, exit_code);
+  AddReplayCommand(app, exit_code);
+  AddReportCommand(app, exit_code);
+  AddValidateCommand(app);
+  AddDefaultsCommand(app);
+  AddSchemaCommand(app);
+  AddListCommand(app);
+  AddParametersCommand(app);
+  AddPlanCommand(app);
+  AddMetricsCommand(app);
+  AddCompletionCommand(app);
+  AddExamples(app);
+  CheckEveryValue(app);
+}
 
 int RunCommandLine(int argc, const char* const* argv) {
   if (!IsFirstRank() && !(argc > 1 && IsForAllRanks(argv[1]))) {

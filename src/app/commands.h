@@ -17,6 +17,7 @@ void AddCheckCommand(CLI::App& app, ExitCode& exit_code);
 void AddMergeCommand(CLI::App& app, ExitCode& exit_code);
 void AddCompareCommand(CLI::App& app, ExitCode& exit_code);
 void AddReplayCommand(CLI::App& app, ExitCode& exit_code);
+void AddReportCommand(CLI::App& app, ExitCode& exit_code);
 void AddRoverCommand(CLI::App& app);
 void AddTerrainCommand(CLI::App& app);
 void AddTraceCommand(CLI::App& app, ExitCode& exit_code);
@@ -27,5 +28,9 @@ void AddListCommand(CLI::App& app);
 void AddParametersCommand(CLI::App& app);
 void AddPlanCommand(CLI::App& app);
 void AddMetricsCommand(CLI::App& app);
+void AddCompletionCommand(CLI::App& app);  // after all others, which it completes
+
+// All of them, with their examples and with what no option may be given.
+void AddCommands(CLI::App& app, ExitCode& exit_code);
 
 }  // namespace rockyard::app

@@ -10,36 +10,19 @@
 #include <string>
 
 #include "batch/communicator.h"
+#include "report/line_text.h"
 
 namespace rockyard::app {
 namespace {
 
+using report::Printable;
+
 constexpr int kDefaultWidth = 100;
-constexpr std::size_t kTextWidth = 100;
 
-std::string WrappedLine(std::string line) {
-  std::size_t words = line.find_first_not_of(' ');  // where they begin
-  if (words == std::string::npos) return line;
-  const std::string indent(words + 4, ' ');
-  std::string text;
-  while (line.size() > kTextWidth) {
-    std::size_t space = line.rfind(' ', kTextWidth);
-    if (space < words) space = line.find(' ', kTextWidth);  // a word of that many columns
-    if (space == std::string::npos) break;
-    text += line.substr(0, space) + "\n";
-    line.replace(0, space + 1, indent);
-    words = indent.size();
-  }
-  return text + line;
-}
-
-std::string Printable(std::string_view text) {
-  std::string safe(text);
-  for (char& c : safe) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7f) c = c == '\n' ? ' ' : '?';
-  }
-  return safe;
+// Empty where it is not set.
+std::string_view Variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? std::string_view() : std::string_view(value);
 }
 
 }  // namespace
@@ -60,22 +43,11 @@ int TerminalWidth(std::FILE* stream) {
 }
 
 report::TextStyle StyleFor(std::FILE* stream) {
-  const char* no_color = std::getenv("NO_COLOR");
-  const char* term = std::getenv("TERM");
-  const bool refused = (no_color != nullptr && *no_color != '\0') ||
-                       (term != nullptr && std::string_view(term) == "dumb");
-  return IsTerminal(stream) && !refused ? report::TextStyle::kColour : report::TextStyle::kPlain;
-}
-
-std::string Wrapped(std::string_view text) {
-  std::string wrapped;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    wrapped += WrappedLine(std::string(text.substr(begin, end - begin)));
-    if (end < text.size()) wrapped += '\n';
-    begin = end + 1;
-  }
-  return wrapped;
+  using report::TextStyle;
+  if (!Variable("NO_COLOR").empty()) return TextStyle::kPlain;
+  const std::string_view forced = Variable("CLICOLOR_FORCE");
+  if (!forced.empty() && forced != "0") return TextStyle::kColour;
+  return IsTerminal(stream) && Variable("TERM") != "dumb" ? TextStyle::kColour : TextStyle::kPlain;
 }
 
 void Print(std::string_view text) {

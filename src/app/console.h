@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "report/line_text.h"
 #include "report/summary_text.h"
 
 namespace rockyard::app {
@@ -21,7 +22,8 @@ bool IsFirstRank();
 // Columns of the terminal on `stream`; 100 where it is none or does not tell.
 int TerminalWidth(std::FILE* stream);
 
-// Colours only on a terminal that is not "dumb", and not where NO_COLOR is set (no-color.org).
+// Colours on a terminal that is not "dumb", or anywhere where CLICOLOR_FORCE is set to something
+// else than 0; none where NO_COLOR is set (no-color.org), whatever else is.
 report::TextStyle StyleFor(std::FILE* stream);
 
 void Print(std::string_view text);  // to standard output
@@ -34,8 +36,6 @@ void PrintProblems(const std::vector<core::Problem>& problems);
 // not indented. Control characters as above.
 void PrintNote(std::string_view text);
 
-// Text of one or more lines, each broken between words where it has more than 100 columns; what is
-// broken off is indented by four more than its line.
-std::string Wrapped(std::string_view text);
+using report::Wrapped;
 
 }  // namespace rockyard::app

@@ -3,89 +3,75 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <string>
-#include <system_error>
-#include <vector>
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "core/error.h"
-#include "core/json_file.h"
+#include "app/scenario_list.h"
+#include "core/json_text.h"
+#include "core/json_value.h"
+#include "report/line_text.h"
 #include "scenario/ablations.h"
-#include "scenario/load.h"
-#include "scenario/sweep.h"
 
 namespace rockyard::app {
 namespace {
 
-namespace fs = std::filesystem;
+using core::JsonValue;
 
-constexpr std::size_t kWidth = 100;
+constexpr std::size_t kLeastWidth = 40;
 
-std::vector<fs::path> JsonFiles(const fs::path& folder) {
-  std::error_code error;
-  std::vector<fs::path> files;
-  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
-       at.increment(error)) {
-    if (at->is_regular_file(error) && at->path().extension() == ".json") {
-      files.push_back(at->path());
-    }
-  }
-  if (error || files.empty()) {
-    throw core::UserError(folder.string(),
-                          error ? "cannot be read: " + error.message() : "holds no scenario files",
-                          "name a folder with scenarios");
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
+struct ListOptions {
+  std::string folder = "scenarios";
+  bool all = false;
+  bool ablations = false;
+  bool json = false;
+};
 
-// Whether the file is one that scenarios extend: in a group, such as a rover, none of whose keys is
-// a scenario's, or as a whole, such as a sensor profile, which has no name.
-bool IsPart(const core::JsonValue& document) {
-  if (!document.Is(core::JsonValue::Type::kObject) || document.members().empty()) return false;
-  if (document.Find("name") == nullptr) return true;
-  const core::JsonValue scenario = scenario::WriteScenario({});
-  return std::none_of(
-      document.members().begin(), document.members().end(),
-      [&](const core::JsonMember& member) { return scenario.Find(member.key) != nullptr; });
-}
-
-std::string AboutSweep(const fs::path& file) {
-  const scenario::Sweep sweep = scenario::LoadSweep(file);
-  return fmt::format("sweep of {} cells: {}", sweep.cells.size(),
-                     sweep.description.empty() ? sweep.name : sweep.description);
-}
-
-std::string About(const fs::path& file) {
-  try {
-    const core::JsonValue document = core::LoadJsonFile(file);
-    if (scenario::IsSweep(document)) return AboutSweep(file);
-    if (IsPart(document)) return "part of a scenario, which can extend it";
-    const scenario::Scenario scenario = scenario::ReadScenario(document);
-    return scenario.description.empty() ? scenario.name : scenario.description;
-  } catch (const core::UserError& error) {
-    const core::Problem& problem = error.problems().front();
-    return fmt::format("not valid: {}: {}", problem.path, problem.reason);
-  }
+std::string Bold(const std::string& text) {
+  return StyleFor(stdout) == report::TextStyle::kColour ? fmt::format("\x1b[1m{}\x1b[0m", text)
+                                                        : text;
 }
 
 // Names are relative to the folder, so that there is room for what they are.
-void List(const std::string& folder) {
-  const std::vector<fs::path> files = JsonFiles(folder);
+void PrintEntries(const std::string& folder, const std::vector<ListedFile>& files, bool all) {
+  const std::size_t width = std::max<std::size_t>(
+      static_cast<std::size_t>(std::max(TerminalWidth(stdout), 0)), kLeastWidth);
   std::size_t widest = 0;
-  for (const fs::path& file : files) {
-    widest = std::max(widest, file.lexically_relative(folder).string().size());
+  for (const ListedFile& file : files) {
+    if (IsShown(file, all))
+      widest = std::max(widest, report::Columns(report::Printable(file.path)));
   }
-  Print(fmt::format("in {}:\n", folder));
-  for (const fs::path& file : files) {
-    std::string line =
-        fmt::format("{:<{}}  {}", file.lexically_relative(folder).string(), widest, About(file));
-    if (line.size() > kWidth) line = line.substr(0, kWidth - 3) + "...";
-    Print(line + "\n");
+  std::string group;
+  std::size_t left_out = 0;
+  Print(report::Printable(fmt::format("in {}:", folder)) + "\n");
+  for (const ListedFile& file : files) {
+    if (!IsShown(file, all)) {
+      ++left_out;
+      continue;
+    }
+    if (file.group != group) Print(Bold(report::Printable(file.group)) + "\n");
+    group = file.group;
+    const std::string line = fmt::format("  {:<{}}  {}", report::Printable(file.path), widest,
+                                         report::Printable(file.About()));
+    Print(report::Cut(line, width) + "\n");
   }
+  if (left_out > 0) {
+    Print(
+        fmt::format("{} parts of scenarios, which these extend, are left out: --all\n", left_out));
+  }
+}
+
+void PrintEntriesAsJson(const std::string& folder, const std::vector<ListedFile>& files, bool all) {
+  JsonValue::List entries;
+  for (const ListedFile& file : files) {
+    if (IsShown(file, all)) entries.push_back(Json(file));
+  }
+  JsonValue json = JsonValue::Object();
+  json.Set("schema_version", JsonValue(std::int64_t{1}));
+  json.Set("folder", JsonValue(folder));
+  json.Set("files", JsonValue(std::move(entries)));
+  Print(core::DumpJson(json));
 }
 
 void ListAblations() {
@@ -97,22 +83,46 @@ void ListAblations() {
   }
 }
 
+void ListAblationsAsJson() {
+  JsonValue::List entries;
+  for (const scenario::Ablation& ablation : scenario::Ablations()) {
+    JsonValue::List settings;
+    for (const std::string_view setting : ablation.settings) {
+      settings.emplace_back(std::string(setting));
+    }
+    JsonValue entry = JsonValue::Object();
+    entry.Set("name", JsonValue(std::string(ablation.name)));
+    entry.Set("description", JsonValue(std::string(ablation.sentence)));
+    entry.Set("settings", JsonValue(std::move(settings)));
+    entries.push_back(std::move(entry));
+  }
+  JsonValue json = JsonValue::Object();
+  json.Set("schema_version", JsonValue(std::int64_t{1}));
+  json.Set("ablations", JsonValue(std::move(entries)));
+  Print(core::DumpJson(json));
+}
+
+void List(const ListOptions& options) {
+  if (options.ablations) return options.json ? ListAblationsAsJson() : ListAblations();
+  const std::vector<ListedFile> files = ListScenarios(options.folder);
+  if (options.json) {
+    PrintEntriesAsJson(options.folder, files, options.all);
+  } else {
+    PrintEntries(options.folder, files, options.all);
+  }
+}
+
 }  // namespace
 
 void AddListCommand(CLI::App& app) {
-  auto folder = std::make_shared<std::string>("scenarios");
-  auto ablations = std::make_shared<bool>(false);
+  auto options = std::make_shared<ListOptions>();
   CLI::App* command = app.add_subcommand("list", "Lists scenarios and sweeps with a line each");
-  command->add_option("FOLDER", *folder, "where to look")->capture_default_str();
-  command->add_flag("--ablations", *ablations,
+  command->add_option("FOLDER", options->folder, "where to look")->capture_default_str();
+  command->add_flag("--all", options->all, "list parts of scenarios, such as rovers, too");
+  command->add_flag("--ablations", options->ablations,
                     "list what `rockyard run --ablate` and sweeps can take away, with settings");
-  command->callback([folder, ablations] {
-    if (*ablations) {
-      ListAblations();
-    } else {
-      List(*folder);
-    }
-  });
+  command->add_flag("--json", options->json, "for programs");
+  command->callback([options] { List(*options); });
 }
 
 }  // namespace rockyard::app

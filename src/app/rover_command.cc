@@ -101,9 +101,7 @@ void AddRoverCommand(CLI::App& app) {
   auto options = std::make_shared<RoverOptions>();
   CLI::App* command =
       app.add_subcommand("rover", "Describes a scenario's rover, or writes it as a URDF file");
-  command->footer(
-      "Example: rockyard rover scenarios/pathfinder/nominal.json --out rocky_3_2.urdf\n"
-      "scenarios/rovers/README.md tells how a scenario takes another rover.");
+  command->footer("scenarios/rovers/README.md tells how a scenario takes another rover.");
   command->add_option("SCENARIO", options->scenario, "scenario file, or the folder of a run")
       ->required();
   command->add_option("--set", options->overrides, "PATH=VALUE: changes the scenario; repeat")

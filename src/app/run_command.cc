@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/campaign_options.h"
+#include "app/command_text.h"
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/dry_run.h"
@@ -51,11 +52,12 @@ void TellIdleAblations(const RunOptions& options) {
   }
 }
 
-ReportOptions ReportOptionsOf(const RunOptions& options) {
+ReportOptions ReportOptionsOf(const RunOptions& options, const batch::BatchResult& result) {
   return {.output = options.campaign.output(),
           .method = options.interval == "wilson" ? statistics::IntervalMethod::kWilson
                                                  : statistics::IntervalMethod::kClopperPearson,
-          .threads = options.campaign.threads};
+          .threads = options.campaign.threads,
+          .resume = result.end == batch::BatchEnd::kStopped ? options.campaign.resume_command : ""};
 }
 
 ExitCode Run(const RunOptions& options) {
@@ -64,8 +66,8 @@ ExitCode Run(const RunOptions& options) {
   if (options.campaign.dry_run) return DryRun(options.campaign, PlanOf(options));
   return RunCampaign(
       options.campaign, [&] { return PlanOf(options); },
-      [&](const OpenedRun& run, const batch::BatchResult&) {
-        ReportRun(run.folder, ReportOptionsOf(options));
+      [&](const OpenedRun& run, const batch::BatchResult& result) {
+        ReportRun(run.folder, ReportOptionsOf(options, result));
       });
 }
 
@@ -98,7 +100,10 @@ void AddRunCommand(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", "Runs the trials of a scenario");
   AddOptions(*command, *options);
-  command->callback([options, &exit_code] { exit_code = Run(*options); });
+  command->callback([options, command, &exit_code] {
+    options->campaign.resume_command = ResumeText(*command);
+    exit_code = Run(*options);
+  });
 }
 
 }  // namespace rockyard::app

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/console.h"
+#include "app/next_command.h"
 #include "app/run_source.h"
 #include "batch/executor.h"
 #include "report/accounting.h"
@@ -22,11 +23,12 @@ namespace rockyard::app {
 namespace {
 
 void Show(const ReportOptions& options, const std::string& text, const std::string& json,
-          const std::filesystem::path& folder) {
+          const std::filesystem::path& folder, Finished what) {
   switch (options.output) {
     case Output::kText:
       Print(text);
       Print(fmt::format("  results in {}\n", folder.string()));
+      Print(NextLine(folder, what, options.resume));
       break;
     case Output::kJson:
       Print(json);
@@ -44,7 +46,7 @@ void ReportShard(const StoredRun& run, const report::RunDescription& description
   report::WriteFileAtomically(run.folder / "trials.csv",
                               report::TrialsCsv(run.schema, run.records));
   report::WriteFileAtomically(run.folder / "summary.json", json);
-  Show(options, report::ShardText(description), json, run.folder);
+  Show(options, report::ShardText(description), json, run.folder, Finished::kShard);
 }
 
 void ReportMeasurement(const StoredRun& run, const report::RunDescription& description,
@@ -52,7 +54,8 @@ void ReportMeasurement(const StoredRun& run, const report::RunDescription& descr
   const statistics::MeasurementSummary summary = report::WriteMeasurementFiles(
       run.folder, description, run.schema, run.records, run.prefix(), options.method);
   Show(options, report::MeasurementText(description, summary, StyleFor(stdout)),
-       report::MeasurementJson(description, summary, options.method), run.folder);
+       report::MeasurementJson(description, summary, options.method), run.folder,
+       Finished::kMeasurement);
 }
 
 void ReportDrives(const StoredRun& run, const report::RunDescription& description,
@@ -60,7 +63,7 @@ void ReportDrives(const StoredRun& run, const report::RunDescription& descriptio
   const statistics::DriveSummary summary = report::WriteRunFiles(
       run.folder, description, run.schema, run.records, run.prefix(), options.method);
   Show(options, report::SummaryText(description, summary, StyleFor(stdout)),
-       report::SummaryJson(description, summary, options.method), run.folder);
+       report::SummaryJson(description, summary, options.method), run.folder, Finished::kDrives);
 }
 
 }  // namespace

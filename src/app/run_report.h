@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "app/campaign_options.h"
 #include "statistics/proportions.h"
@@ -11,7 +12,8 @@ namespace rockyard::app {
 struct ReportOptions {
   Output output = Output::kText;
   statistics::IntervalMethod method = statistics::IntervalMethod::kWilson;
-  int threads = 0;  // as the summary names them; 0: as many as the machine runs at once
+  int threads = 0;     // as the summary names them; 0: as many as the machine runs at once
+  std::string resume;  // the command that goes on with a campaign that stopped; empty: none did
 };
 
 // Of a run of one scenario. A shard gets trials.csv and a summary.json without rates.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/campaign_options.h"
+#include "app/command_text.h"
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/planned_trials.h"
@@ -54,11 +55,12 @@ CampaignPlan PlanOf(const scenario::Sweep& sweep) {
   return plan;
 }
 
-ReportOptions ReportOptionsOf(const SweepOptions& options) {
+ReportOptions ReportOptionsOf(const SweepOptions& options, const batch::BatchResult& result) {
   return {.output = options.campaign.output(),
           .method = options.interval == "wilson" ? statistics::IntervalMethod::kWilson
                                                  : statistics::IntervalMethod::kClopperPearson,
-          .threads = options.campaign.threads};
+          .threads = options.campaign.threads,
+          .resume = result.end == batch::BatchEnd::kStopped ? options.campaign.resume_command : ""};
 }
 
 // On rank 0 alone.
@@ -84,8 +86,8 @@ ExitCode Sweep(const SweepOptions& options) {
         sweep = SweepOf(options);
         return PlanOf(sweep);
       },
-      [&](const OpenedRun& run, const batch::BatchResult&) {
-        ReportSweep(run.store, sweep, ReportOptionsOf(options));
+      [&](const OpenedRun& run, const batch::BatchResult& result) {
+        ReportSweep(run.store, sweep, ReportOptionsOf(options, result));
       });
 }
 
@@ -105,7 +107,10 @@ void AddSweepCommand(CLI::App& app, ExitCode& exit_code) {
                    "trials of each cell from which --dry-run measures the cost; 0: none")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
-  command->callback([options, &exit_code] { exit_code = Sweep(*options); });
+  command->callback([options, command, &exit_code] {
+    options->campaign.resume_command = ResumeText(*command);
+    exit_code = Sweep(*options);
+  });
 }
 
 }  // namespace rockyard::app

@@ -17,6 +17,7 @@
 #include "core/provenance.h"
 #include "report/accounting.h"
 #include "report/atomic_file.h"
+#include "report/line_text.h"
 #include "report/sweep_files.h"
 
 namespace rockyard::app {
@@ -43,10 +44,6 @@ class StoredCells {
   std::vector<batch::CellHash> hashes_;
 };
 
-void PrintNext(const ReportOptions& options, const std::filesystem::path& folder, Finished what) {
-  Print(NextLine(options.resume.empty() ? NextCommand(folder, what) : options.resume));
-}
-
 // A shard holds no contiguous prefix of any cell: counts, and no rates.
 void ReportSweepShard(const batch::ResultStore& store, const ReportOptions& options) {
   const batch::Shard shard = store.identity().shard;
@@ -64,10 +61,11 @@ void ReportSweepShard(const batch::ResultStore& store, const ReportOptions& opti
   report::WriteFileAtomically(folder / "summary.json", json);
   if (options.output == Output::kJson) Print(json);
   if (options.output != Output::kText) return;
-  Print(fmt::format("{}: shard {} of {}\n{}", store.identity().name.substr(0, 40), shard.index,
+  Print(fmt::format("{}: shard {} of {}\n{}",
+                    report::Cut(report::Printable(store.identity().name), 40), shard.index,
                     shard.count, report::AccountingText(total)));
   Print(fmt::format("  results in {}\n", folder.string()));
-  PrintNext(options, folder, Finished::kShard);
+  Print(NextLine(folder, Finished::kShard, options.resume));
 }
 
 }  // namespace
@@ -89,7 +87,7 @@ void ReportSweep(const batch::ResultStore& store, const scenario::Sweep& sweep,
     case Output::kText:
       Print(report::SweepText(sweep, summary, description, StyleFor(stdout)));
       Print(fmt::format("  results in {}\n", folder.string()));
-      PrintNext(options, folder, Finished::kSweep);
+      Print(NextLine(folder, Finished::kSweep, options.resume));
       break;
     case Output::kJson:
       Print(report::SweepJson(sweep, summary, description));

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "report/line_text.h"
+
 namespace rockyard::report {
 namespace {
 
@@ -51,12 +53,12 @@ std::string Why(const StoppingReport& stopping) {
 }
 
 std::string StoppingText(const StoppingReport& stopping) {
-  return fmt::format(
+  return Wrapped(fmt::format(
       "  {} after {} trials: half-width {:.2f} % for {:.2f} % wanted, looked at every {} trials\n"
       "  declared success at that look {} of {}: {:.1f} .. {:.1f} % ({:g} %, valid at any time)\n",
       Why(stopping), stopping.trials, 50.0 * (stopping.high - stopping.low),
       100.0 * stopping.half_width, stopping.block, stopping.successes, stopping.drives,
-      100.0 * stopping.low, 100.0 * stopping.high, 100.0 * stopping.confidence);
+      100.0 * stopping.low, 100.0 * stopping.high, 100.0 * stopping.confidence));
 }
 
 }  // namespace
@@ -127,11 +129,9 @@ std::string ShardJson(const RunDescription& run) {
 }
 
 std::string ShardText(const RunDescription& run) {
-  return fmt::format("{}, seed {}: shard {} of {}\n", run.scenario.substr(0, 40), run.seed,
+  return fmt::format("{}, seed {}: shard {} of {}\n", Cut(Printable(run.scenario), 40), run.seed,
                      run.shard_index, run.shard_count) +
-         AccountingText(run) +
-         "  no rates from a shard; put all of them together:\n"
-         "  rockyard merge SHARD... --out DIR\n";
+         AccountingText(run) + "  no rates from a shard: put all of them together\n";
 }
 
 }  // namespace rockyard::report

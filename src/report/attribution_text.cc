@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "report/attribution.h"
+#include "report/line_text.h"
 #include "report/sweep_summary.h"
 
 namespace rockyard::report {
@@ -13,10 +14,6 @@ constexpr std::size_t kNameWidth = 23;  // three intervals beside it fit 100 col
 constexpr std::size_t kPlaceWidth = 30;
 // Longer tables are for files.
 constexpr std::size_t kMostEffects = 15;
-
-std::string Cut(const std::string& text, std::size_t width = kNameWidth) {
-  return text.size() <= width ? text : text.substr(0, width - 3) + "...";
-}
 
 std::string Percent(const Estimate& estimate) {
   return fmt::format("{:6.1f} ({:6.1f} ..{:6.1f})", 100.0 * estimate.value,
@@ -31,8 +28,8 @@ std::string Shares(const Attribution& result) {
   std::string text = fmt::format("  {:<{}} {:<24} {:<24} {}\n", "made perfect removes, %",
                                  kNameWidth, "Shapley share", "alone", "after all others");
   for (const statistics::FunctionShare& row : result.shares) {
-    text += fmt::format("  {:<{}} {} {} {}\n", Cut(row.function), kNameWidth, Percent(row.share),
-                        Percent(row.first), Percent(row.last));
+    text += fmt::format("  {:<{}} {} {} {}\n", Cut(row.function, kNameWidth), kNameWidth,
+                        Percent(row.share), Percent(row.first), Percent(row.last));
   }
   text += fmt::format("  {:<{}} {} {:6.1f}: these need not sum\n", "all of them", kNameWidth,
                       Percent(result.removed), 100.0 * result.sum_of_firsts);

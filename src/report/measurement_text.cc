@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "report/accounting.h"
+#include "report/line_text.h"
 
 namespace rockyard::report {
 namespace {
@@ -23,7 +24,7 @@ constexpr std::size_t kMostColumns = 7;
 constexpr std::size_t kMostFactors = 4;
 
 std::string Head(const RunDescription& run, const MeasurementSummary& summary, TextStyle style) {
-  const std::string name = run.scenario.substr(0, 40);
+  const std::string name = Cut(Printable(run.scenario), 40);
   std::string text = style == TextStyle::kPlain ? name : "\x1b[1m" + name + "\x1b[0m";
   text += fmt::format(", seed {}: {} of {} runs, {} cells\n", run.seed, summary.completed,
                       run.planned, summary.cells.size());

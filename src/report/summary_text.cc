@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "report/accounting.h"
+#include "report/line_text.h"
 
 namespace rockyard::report {
 namespace {
@@ -21,13 +22,11 @@ constexpr std::string_view kGreen = "32";
 constexpr std::string_view kYellow = "33";
 constexpr std::string_view kRed = "31";
 constexpr int kBarWidth = 30;
+constexpr std::size_t kTextWidth = 100;
+constexpr double kHuge = 1e7;  // what has more digits would not fit its column
 
 std::string Coloured(TextStyle style, std::string_view colour, const std::string& text) {
   return style == TextStyle::kPlain ? text : fmt::format("\x1b[{}m{}\x1b[0m", colour, text);
-}
-
-std::string Cut(const std::string& text, std::size_t width) {
-  return text.size() <= width ? text : text.substr(0, width - 3) + "...";
 }
 
 // Two are told elsewhere: localization in the line above, and designation is perfect by default.
@@ -37,14 +36,21 @@ std::string AblationLine(const RunDescription& run) {
     if (name == "perfect_designation" || name == "perfect_localization") continue;
     names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
   }
-  return names.empty() ? "" : fmt::format("  ablations: {}\n", names);
+  return names.empty() ? "" : fmt::format("  ablations: {}\n", Cut(names, kTextWidth - 13));
+}
+
+// Beside the name, or below it where both are long.
+std::string LocalizationText(const RunDescription& run, const DriveSummary& summary) {
+  const std::size_t beside = fmt::formatted_size("{}{}{}{}", Cut(run.scenario, 40), run.seed,
+                                                 summary.completed, run.planned);
+  return beside <= 50 ? ", perfect localization" : "\n  perfect localization";
 }
 
 std::string Head(const RunDescription& run, const DriveSummary& summary, TextStyle style) {
   std::string text =
-      Coloured(style, kBold, Cut(run.scenario, 40)) +
+      Coloured(style, kBold, Cut(Printable(run.scenario), 40)) +
       fmt::format(", seed {}: {} of {} trials", run.seed, summary.completed, run.planned);
-  if (run.localization == "oracle") text += ", perfect localization";
+  if (run.localization == "oracle") text += LocalizationText(run, summary);
   text += '\n';
   text += AblationLine(run);
   if (run.stored > summary.completed) {
@@ -92,7 +98,9 @@ std::string OutcomeLines(const DriveSummary& summary, TextStyle style) {
 
 std::string Value(double value) {
   if (!std::isfinite(value)) return "-";
-  return fmt::format("{:.{}f}", value, std::abs(value) >= 100.0 ? 1 : 2);
+  if (std::abs(value) >= kHuge) return fmt::format("{:.2e}", value);
+  const std::string text = fmt::format("{:.{}f}", value, std::abs(value) >= 100.0 ? 1 : 2);
+  return text == "-0.00" ? "0.00" : text;
 }
 
 // One row of the table: a column in the unit that suits its size.

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "report/accounting.h"
+#include "report/line_text.h"
 #include "report/sweep_files.h"
 
 namespace rockyard::report {
@@ -17,12 +18,12 @@ constexpr std::size_t kLabelWidth = 24;
 // Longer tables are for files.
 constexpr std::size_t kMostCells = 60;
 constexpr std::size_t kMostDifferences = 40;
+// What has more digits does not fit its column.
+constexpr double kHuge = 1e5;
+constexpr std::int64_t kManyTrials = 10'000'000;
+constexpr double kLeastP = 1e-9;
 // Goodness of fit below which the text warns of a curve.
 constexpr double kMisfit = 0.01;
-
-std::string Cut(const std::string& text, std::size_t width) {
-  return text.size() <= width ? text : text.substr(0, width - 3) + "...";
-}
 
 std::string Percent(const statistics::Proportion& rate) {
   if (rate.trials == 0) return fmt::format("{:>21}", "-");
@@ -35,7 +36,13 @@ std::string Mean(const SweepCellSummary& cell, std::string_view metric) {
       cell.metrics.begin(), cell.metrics.end(),
       [&](const statistics::MetricSummary& each) { return each.metric->name == metric; });
   if (found == cell.metrics.end() || !std::isfinite(found->mean)) return "-";
+  if (std::fabs(found->mean) >= kHuge) return fmt::format("{:.0e}", found->mean);
   return fmt::format("{:.{}f}", found->mean, std::fabs(found->mean) < 100.0 ? 2 : 0);
+}
+
+std::string Count(std::int64_t trials) {
+  return trials < kManyTrials ? fmt::format("{}", trials)
+                              : fmt::format("{:.1e}", static_cast<double>(trials));
 }
 
 std::string_view DesignName(scenario::DesignKind design) {
@@ -61,10 +68,10 @@ std::string Head(const Sweep& sweep, const SweepSummary& summary) {
     planned += cell.planned;
     faults += cell.faults;
   }
-  std::string text =
-      fmt::format("{}: {}, {} cells, seed {}{}\n  {} of {} trials\n", Cut(sweep.name, 40),
-                  DesignName(sweep.design), sweep.cells.size(), sweep.seed,
-                  sweep.common_random_numbers ? ", common random numbers" : "", completed, planned);
+  std::string text = Wrapped(fmt::format(
+      "{}: {}, {} cells, seed {}{}\n  {} of {} trials\n", Cut(Printable(sweep.name), 40),
+      DesignName(sweep.design), sweep.cells.size(), sweep.seed,
+      sweep.common_random_numbers ? ", common random numbers" : "", completed, planned));
   text += AccountingText(TotalAccounting(summary));
   if (faults > 0) {
     text += fmt::format("  {} simulator faults, in none of the rates below\n", faults);
@@ -99,11 +106,11 @@ std::string CellTable(const Sweep& sweep, const SweepSummary& summary, TextStyle
       (style == TextStyle::kColour ? fmt::format("\x1b[1m{}\x1b[0m", head) : head) + "\n";
   for (std::size_t i = 0; i < std::min(summary.cells.size(), kMostCells); ++i) {
     const SweepCellSummary& cell = summary.cells[i];
-    text +=
-        fmt::format("  {:<{}} {:>5} {} {} {:>6} {:>7} {:>6}\n", Cut(Label(sweep, i), kLabelWidth),
-                    kLabelWidth, cell.completed - cell.faults, Percent(cell.declared_success.rate),
-                    Percent(cell.true_success.rate), Mean(cell, "path_ratio"),
-                    Mean(cell, "time_to_goal_s"), Mean(cell, "energy_to_goal_wh"));
+    text += fmt::format("  {:<{}} {:>5} {} {} {:>6} {:>7} {:>6}\n",
+                        Cut(Label(sweep, i), kLabelWidth), kLabelWidth,
+                        Count(cell.completed - cell.faults), Percent(cell.declared_success.rate),
+                        Percent(cell.true_success.rate), Mean(cell, "path_ratio"),
+                        Mean(cell, "time_to_goal_s"), Mean(cell, "energy_to_goal_wh"));
   }
   if (summary.cells.size() > kMostCells) {
     text += fmt::format("  and {} more cells: cells.csv\n", summary.cells.size() - kMostCells);
@@ -128,7 +135,7 @@ std::string Stops(const Sweep& sweep, const SweepSummary& summary) {
     text += fmt::format("    {:<{}} {}\n", Cut(Label(sweep, i), kLabelWidth), kLabelWidth,
                         StoppingPhrase(*summary.cells[i].stopping));
   }
-  return text;
+  return Wrapped(text);
 }
 
 // A number outside of the settings is not known any better than that.
@@ -189,6 +196,11 @@ std::string Fits(const Sweep& sweep, const SweepSummary& summary) {
   return text;
 }
 
+std::string PText(double p) {
+  if (!std::isfinite(p)) return "";
+  return p < kLeastP ? fmt::format("p < {:g}", kLeastP) : fmt::format("p = {:.2g}", p);
+}
+
 std::string Differences(const SweepSummary& summary) {
   if (summary.differences.empty()) return "";
   std::string text =
@@ -198,12 +210,11 @@ std::string Differences(const SweepSummary& summary) {
   for (std::size_t i = 0; i < std::min(summary.differences.size(), kMostDifferences); ++i) {
     const SweepDifference& each = summary.differences[i];
     const SuccessComparison& success = each.success;
-    text += fmt::format("  {:<32} {:<18} {:<8} {:+6.1f} ({:+6.1f} ..{:+7.1f})  {}\n",
-                        Cut(fmt::format("{} - {}", each.second, each.first), 32), Cut(each.at, 18),
+    text += fmt::format("  {:<31} {:<18} {:<8} {:+6.1f} ({:+6.1f} ..{:+7.1f})  {}\n",
+                        Cut(fmt::format("{} - {}", each.second, each.first), 31), Cut(each.at, 18),
                         success.what.substr(0, success.what.find(' ')), 100.0 * success.difference,
                         100.0 * success.interval.low, 100.0 * success.interval.high,
-                        std::isfinite(each.adjusted_p) ? fmt::format("p = {:.2g}", each.adjusted_p)
-                                                       : std::string());
+                        PText(each.adjusted_p));
   }
   if (summary.differences.size() > kMostDifferences) {
     text += fmt::format("  and {} more: differences.csv\n",
@@ -219,7 +230,7 @@ std::string SweepText(const Sweep& sweep, const SweepSummary& summary,
   std::string text = Head(sweep, summary) + CellTable(sweep, summary, style) +
                      Stops(sweep, summary) + Fits(sweep, summary) + Differences(summary) +
                      AttributionText(summary.attributions);
-  for (const std::string& note : summary.notes) text += "  " + note + "\n";
+  for (const std::string& note : summary.notes) text += Wrapped("  " + Printable(note)) + "\n";
   return text + fmt::format("  trial hash {}\n", description.trial_hash);
 }
 

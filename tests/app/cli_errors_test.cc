@@ -26,9 +26,16 @@ TEST_F(CliErrors, Arguments) {
   ExpectRefused({"fly"}, "\"fly\" is no subcommand");
   ExpectRefused({"chekc", "a"}, "did you mean \"check\"");
   ExpectRefused({"run"}, "SCENARIO");
-  ExpectRefused({"run", Scenario("nominal"), "--trails", "3"}, "--trails");
+  ExpectRefused({"run", Scenario("nominal"), "--trails", "3"}, "did you mean \"--trials\"?");
+  ExpectRefused({"run", "--trails", "3", Scenario("nominal")}, "did you mean \"--trials\"?");
+  ExpectRefused({"run", Scenario("nominal"), "--nonsense", "3"}, "rockyard run --help");
+  ExpectRefused({"--versoin"}, "did you mean \"--version\"?");
+  ExpectRefused({"run", "a.json", "--trials", "3", "--until-half-width", "0.1"}, "--max-trials");
   ExpectRefused({"run", Scenario("nominal"), "--trials", "many"}, "--trials");
   ExpectRefused({"run", Scenario("nominal"), "--trials", "99999999999999999999999"}, "trials");
+  ExpectRefused({"run", Scenario("nominal"), "--seed", "9223372036854775808"},
+                "9223372036854775808 has too many digits");
+  ExpectRefused({"terrain", Scenario("nominal"), "--out", "a.svg", "--seed", "-1"}, "is negative");
   ExpectRefused({"run", Scenario("nominal"), "--trials"}, "--trials");
   ExpectRefused({"run", Scenario("nominal"), "--threads", "0"}, "--threads");
   ExpectRefused({"run", Scenario("nominal"), "--threads", "1000000"}, "--threads");

@@ -54,6 +54,8 @@ TEST_F(CliRun, AnInterruptStoresWhatIsFinishedAndSaysHowToGoOn) {
   const CommandResult result = Wait(process);
   EXPECT_EQ(result.exit_code, 130) << result.err;
   EXPECT_THAT(result.err, HasSubstr("--resume"));
+  EXPECT_THAT(result.out, HasSubstr("\n  next: rockyard run "));
+  EXPECT_TRUE(result.out.ends_with(" --resume\n")) << result.out;
   const std::int64_t stored = Summary("a")["trials"]["stored"];
   EXPECT_LT(stored, 100000);
   EXPECT_EQ(Summary("a")["trials"]["planned"], 100000);

@@ -44,7 +44,6 @@ TEST_F(CliTools, ListFitsTheTerminal) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.out, HasSubstr("pathfinder/nominal.json"));
   EXPECT_THAT(result.out, HasSubstr("pathfinder/obstacles_0.28.json"));
-  EXPECT_THAT(result.out, testing::ContainsRegex("rovers/mfex.json +part of a scenario"));
   EXPECT_THAT(result.out, testing::Not(HasSubstr("not valid")));
   std::istringstream lines(result.out);
   std::string line;
@@ -101,7 +100,7 @@ TEST_F(CliTools, RoverIsDescribed) {
   EXPECT_THAT(result.out, HasSubstr("9.81 m/s2"));
   EXPECT_TRUE(NothingWritten());
   const CommandResult help = Run({"rover", "--help"});
-  EXPECT_THAT(help.out, HasSubstr("Example: rockyard rover"));
+  EXPECT_THAT(help.out, HasSubstr("Examples:\n  rockyard rover"));
 }
 
 TEST_F(CliTools, RoverAsUrdf) {

@@ -107,6 +107,45 @@ TEST(SummaryText, FitsAndColoursOnRequestOnly) {
   EXPECT_NE(SummaryText(run, Summary(), TextStyle::kColour).find('\x1b'), std::string::npos);
 }
 
+// Numbers as large as any run's, and a name that could break the line or the terminal.
+TEST(SummaryText, FitsWhateverTheNumbersAre) {
+  constexpr std::int64_t kMost = 1'000'000'000;
+  RunDescription run = SampleDescription();
+  run.scenario = "odd\n\x1b[31m name with " + std::string(300, 'n');
+  run.localization = "oracle";
+  run.planned = kMost;
+  run.stored = kMost;
+  run.ablations = {std::string(90, 'a'), std::string(90, 'b')};
+  run.accounting = {kMost, kMost, kMost, kMost, kMost};
+  run.stopping = StoppingReport{.half_width = 0.49,
+                                .max_trials = kMost,
+                                .block = 1000000,
+                                .confidence = 0.95,
+                                .allocation = "adaptive",
+                                .budget = 0,
+                                .end = "max_trials",
+                                .trials = kMost,
+                                .drives = kMost,
+                                .successes = kMost,
+                                .low = 0.0,
+                                .high = 1.0};
+  statistics::DriveSummary summary = Summary();
+  summary.completed = kMost;
+  summary.faults = kMost;
+  summary.declared_success = {kMost, kMost, 1.0, {1.0, 1.0}};
+  summary.outcomes.fill(kMost);
+  for (statistics::ColumnSummary& column : summary.columns) {
+    column.mean = column.max = column.p95 = -1.2345e300;
+    column.min = -0.0001;
+  }
+  const std::string text = SummaryText(run, summary);
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
+  EXPECT_THAT(text, testing::StartsWith("odd ?[31m name with nnn"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("-0.00")));
+  EXPECT_EQ(text.find('\x1b'), std::string::npos);
+}
+
 TEST(SummaryText, FlagsPerfectLocalization) {
   RunDescription run = SampleDescription();
   EXPECT_EQ(SummaryText(run, Summary()).find("perfect"), std::string::npos);

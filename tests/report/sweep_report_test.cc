@@ -102,6 +102,40 @@ TEST(SweepFilesTest, TheTableFitsTheTerminal) {
   const std::string text =
       SweepText(sweep, Summary(sweep), {.trial_hash = "feed"}, TextStyle::kPlain);
   for (const std::string& line : Lines(text)) EXPECT_LE(line.size(), 100u) << line;
+}
+
+TEST(SweepFilesTest, TheTableFitsWhateverTheNumbersAre) {
+  constexpr std::int64_t kMost = 1'000'000'000;
+  scenario::Sweep sweep = TestSweep();
+  sweep.name = "odd\n\x1b[31m" + std::string(300, 'n');
+  sweep.seed = 9'000'000'000'000'000'000U;
+  SweepSummary summary = Summary(sweep);
+  summary.notes = {"a note\nof many words: " + std::string(90, 'n') + " " + std::string(90, 'm')};
+  for (SweepCellSummary& cell : summary.cells) {
+    cell.completed = cell.planned = kMost;
+    cell.accounting = {kMost, kMost, kMost, kMost, kMost};
+    cell.stopping = StoppingReport{.half_width = 0.49,
+                                   .max_trials = kMost,
+                                   .block = 1000000,
+                                   .confidence = 0.95,
+                                   .allocation = "adaptive",
+                                   .budget = 0,
+                                   .end = "max_trials",
+                                   .trials = kMost,
+                                   .drives = kMost,
+                                   .successes = kMost,
+                                   .low = 0.0,
+                                   .high = 1.0};
+    for (statistics::MetricSummary& metric : cell.metrics) metric.mean = 1.5e200;
+  }
+  for (SweepDifference& each : summary.differences) {
+    each.first = each.second = each.at = std::string(60, 'd');
+    each.adjusted_p = 1e-200;
+  }
+  const std::string text = SweepText(sweep, summary, {.trial_hash = "feed"}, TextStyle::kPlain);
+  for (const std::string& line : Lines(text)) EXPECT_LE(line.size(), 100u) << line;
+  EXPECT_EQ(text.find('\x1b'), std::string::npos);
+  EXPECT_THAT(text, HasSubstr("p < 1e-09"));
   EXPECT_THAT(text, HasSubstr("320 of 320 trials"));
   EXPECT_THAT(text, HasSubstr("8 simulator faults"));
   EXPECT_THAT(text, HasSubstr("90 % at"));

@@ -1,0 +1,44 @@
+#include "app/command_text.h"
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <string_view>
+
+#include "app/shell_word.h"
+
+namespace rockyard::app {
+namespace {
+
+constexpr std::string_view kResume = "--resume";
+constexpr std::string_view kForce = "--force";
+
+bool IsFlag(const CLI::Option& option) { return option.get_items_expected_min() == 0; }
+
+// Positional arguments first, so that none of them is taken for the value of an option.
+std::string Text(const CLI::App& command, bool resume) {
+  std::string words;
+  std::string options;
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() == 0 || (resume && (name == kResume || name == kForce))) continue;
+    if (option->get_positional()) {
+      for (const std::string& word : option->results()) words += " " + ShellWord(word);
+    } else if (IsFlag(*option)) {
+      options += " " + name;
+    } else {
+      for (const std::string& word : option->results()) {
+        options += " " + name + " " + ShellWord(word);
+      }
+    }
+  }
+  if (resume) options += " " + std::string(kResume);
+  return "rockyard " + command.get_name() + words + options;
+}
+
+}  // namespace
+
+std::string CommandText(const CLI::App& command) { return Text(command, false); }
+
+std::string ResumeText(const CLI::App& command) { return Text(command, true); }
+
+}  // namespace rockyard::app

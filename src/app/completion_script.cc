@@ -1,0 +1,292 @@
+#include "app/completion_script.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+namespace rockyard::app {
+namespace {
+
+enum class Takes { kNothing, kNumber, kWord, kText };
+
+struct Offer {
+  std::vector<std::string> names;    // as typed: --trials, -h
+  Takes takes = Takes::kNothing;     // after it
+  std::vector<std::string> choices;  // where it takes a word of a few
+  std::string about;
+};
+
+struct CommandOffer {
+  std::string name;
+  std::string about;
+  std::vector<Offer> options;
+  std::vector<std::string> words;  // that may stand in place of a file
+  bool takes_files = false;
+};
+
+// "wilson" and "clopper-pearson" of "TEXT:{wilson,clopper-pearson}", as the parser shows it.
+std::vector<std::string> Choices(const std::string& type) {
+  const std::size_t open = type.find('{');
+  const std::size_t close = type.find('}', open);
+  if (open == std::string::npos || close == std::string::npos) return {};
+  return CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
+}
+
+Takes TakenBy(const CLI::Option& option) {
+  if (option.get_expected_min() == 0 || option.get_items_expected_min() == 0) {
+    return Takes::kNothing;
+  }
+  const std::string type = option.get_type_name();
+  if (!Choices(type).empty()) return Takes::kWord;
+  const bool number =
+      type.starts_with("INT") || type.starts_with("UINT") || type.starts_with("FLOAT");
+  return number ? Takes::kNumber : Takes::kText;
+}
+
+std::string FirstLine(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+void AddOptions(const CLI::App& app, CommandOffer& offer) {
+  for (const CLI::Option* option : app.get_options()) {
+    const Takes takes = TakenBy(*option);
+    const std::vector<std::string> choices = Choices(option->get_type_name());
+    if (option->get_positional()) {
+      offer.words.insert(offer.words.end(), choices.begin(), choices.end());
+      offer.takes_files = offer.takes_files || takes == Takes::kText;
+      continue;
+    }
+    Offer each{{}, takes, choices, FirstLine(option->get_description())};
+    for (const std::string& name : option->get_lnames()) each.names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) each.names.push_back("-" + name);
+    const auto known = std::find_if(offer.options.begin(), offer.options.end(),
+                                    [&](const Offer& other) { return other.names == each.names; });
+    if (known == offer.options.end()) offer.options.push_back(std::move(each));
+  }
+}
+
+CommandOffer OfferOf(const CLI::App& command) {
+  CommandOffer offer{command.get_name(), FirstLine(command.get_description()), {}, {}, false};
+  AddOptions(command, offer);
+  for (const CLI::App* inner : command.get_subcommands({})) {
+    offer.words.push_back(inner->get_name());
+    AddOptions(*inner, offer);
+  }
+  return offer;
+}
+
+std::vector<CommandOffer> Offers(const CLI::App& app) {
+  std::vector<CommandOffer> offers;
+  for (const CLI::App* command : app.get_subcommands({})) offers.push_back(OfferOf(*command));
+  return offers;
+}
+
+std::string OptionNames(const CommandOffer& command) {
+  std::vector<std::string> names;
+  for (const Offer& option : command.options) {
+    names.insert(names.end(), option.names.begin(), option.names.end());
+  }
+  return fmt::format("{}", fmt::join(names, " "));
+}
+
+std::string CommandNames(const std::vector<CommandOffer>& commands, std::string_view between) {
+  std::vector<std::string> names;
+  for (const CommandOffer& command : commands) names.push_back(command.name);
+  return fmt::format("{}", fmt::join(names, between));
+}
+
+// Text in single quotes of a shell.
+std::string Quoted(std::string_view text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+// The line of a `case` of bash that completes what an option takes; empty where that is a file.
+std::string BashValue(const CommandOffer& command, const Offer& option) {
+  if (option.takes == Takes::kNothing || option.takes == Takes::kText) return "";
+  std::string patterns;
+  for (const std::string& name : option.names) {
+    patterns += fmt::format("{}'{} {}'", patterns.empty() ? "" : " | ", command.name, name);
+  }
+  if (option.takes == Takes::kNumber) return fmt::format("    {}) return ;;\n", patterns);
+  return fmt::format("    {})\n      COMPREPLY=($(compgen -W '{}' -- \"$cur\"))\n      return ;;\n",
+                     patterns, fmt::join(option.choices, " "));
+}
+
+// What may stand where no option is being typed.
+std::string BashWords(const CommandOffer& command) {
+  std::string find;
+  if (!command.words.empty()) {
+    find = fmt::format("$(IFS=' '; compgen -W '{}' -- \"$cur\")", fmt::join(command.words, " "));
+  }
+  if (command.takes_files)
+    find += fmt::format("{}$(compgen -f -- \"$cur\")", find.empty() ? "" : " ");
+  return fmt::format("    {}) options='{}'; COMPREPLY=({}) ;;\n", command.name,
+                     OptionNames(command), find);
+}
+
+std::string Bash(const std::vector<CommandOffer>& commands) {
+  std::string values;
+  std::string words;
+  for (const CommandOffer& command : commands) {
+    for (const Offer& option : command.options) values += BashValue(command, option);
+    words += BashWords(command);
+  }
+  return fmt::format(R"sh(# Completion of rockyard for bash: eval "$(rockyard completion bash)"
+_rockyard() {{
+  local IFS=$' \t\n'
+  local cur="${{COMP_WORDS[COMP_CWORD]}}" prev="${{COMP_WORDS[COMP_CWORD-1]}}" command='' options=''
+  local word
+  COMPREPLY=()
+  if [[ $cur == = ]]; then
+    cur=''
+  elif [[ $prev == = ]]; then
+    prev="${{COMP_WORDS[COMP_CWORD-2]}}"
+  fi
+  for word in "${{COMP_WORDS[@]:1:COMP_CWORD-1}}"; do
+    case "$word" in {}) command="$word"; break ;; esac
+  done
+  case "$command $prev" in
+{}    *) ;;
+  esac
+  IFS=$'\n'
+  case "$command" in
+{}    *) options='{} --help --version' ;;
+  esac
+  if [[ -z $command || $cur == -* ]]; then
+    IFS=$' \t\n'
+    COMPREPLY=($(compgen -W "$options" -- "$cur"))
+  fi
+}}
+complete -o filenames -F _rockyard rockyard
+)sh",
+                     CommandNames(commands, " | "), values, words, CommandNames(commands, " "));
+}
+
+// Of a description inside [...] or before a colon.
+std::string ZshText(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '[' || c == ']' || c == ':' || c == '\\') safe += '\\';
+    safe += c;
+  }
+  return safe;
+}
+
+std::string ZshOption(const Offer& option) {
+  std::string text;
+  for (const std::string& name : option.names) {
+    std::string spec = fmt::format("*{}[{}]", name, ZshText(option.about));
+    if (option.takes == Takes::kNumber) spec += ":number:";
+    if (option.takes == Takes::kWord) {
+      spec += fmt::format(":word:({})", fmt::join(option.choices, " "));
+    }
+    if (option.takes == Takes::kText) spec += ":value:_files";
+    text += fmt::format("            {} \\\n", Quoted(spec));
+  }
+  return text;
+}
+
+std::string Zsh(const std::vector<CommandOffer>& commands) {
+  std::string names;
+  std::string cases;
+  for (const CommandOffer& command : commands) {
+    names += fmt::format("        {}\n", Quoted(command.name + ":" + ZshText(command.about)));
+    cases += fmt::format("        {})\n          _arguments \\\n", command.name);
+    for (const Offer& option : command.options) cases += ZshOption(option);
+    if (!command.words.empty()) {
+      cases += fmt::format("            '1:word:({})' \\\n", fmt::join(command.words, " "));
+    }
+    cases += command.takes_files ? "            '*:file:_files' ;;\n" : "            ;;\n";
+  }
+  return fmt::format(R"(#compdef rockyard
+# Completion of rockyard for zsh: rockyard completion zsh > "${{fpath[1]}}/_rockyard"
+_rockyard() {{
+  local context state state_descr line
+  typeset -A opt_args
+  _arguments -C '--help[help]' '--version[version]' '1:command:->command' '*::argument:->argument'
+  case $state in
+    command)
+      local -a commands=(
+{}      )
+      _describe command commands ;;
+    argument)
+      case $words[1] in
+{}      esac ;;
+  esac
+}}
+if [ "$funcstack[1]" = _rockyard ]; then
+  _rockyard "$@"
+else
+  compdef _rockyard rockyard
+fi
+)",
+                     names, cases);
+}
+
+// Text in single quotes of fish, where only these two are special.
+std::string FishQuoted(std::string_view text) {
+  std::string quoted = "'";
+  for (const char c : text) {
+    if (c == '\'' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + "'";
+}
+
+std::string FishOption(const CommandOffer& command, const Offer& option) {
+  std::string line =
+      fmt::format("complete -c rockyard -n '__fish_seen_subcommand_from {}'", command.name);
+  for (const std::string& name : option.names) {
+    line += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+  }
+  if (option.takes == Takes::kNumber) line += " -x";
+  if (option.takes == Takes::kText) line += " -r -F";
+  if (option.takes == Takes::kWord) {
+    line += fmt::format(" -x -a '{}'", fmt::join(option.choices, " "));
+  }
+  return line + fmt::format(" -d {}\n", FishQuoted(option.about));
+}
+
+std::string Fish(const std::vector<CommandOffer>& commands) {
+  std::string text =
+      "# Completion of rockyard for fish:\n"
+      "# rockyard completion fish > ~/.config/fish/completions/rockyard.fish\n"
+      "complete -c rockyard -f -n __fish_use_subcommand -l help -d 'help'\n"
+      "complete -c rockyard -f -n __fish_use_subcommand -l version -d 'version'\n";
+  for (const CommandOffer& command : commands) {
+    text += fmt::format("complete -c rockyard -f -n __fish_use_subcommand -a {} -d {}\n",
+                        command.name, FishQuoted(command.about));
+    const std::string seen =
+        fmt::format("complete -c rockyard -n '__fish_seen_subcommand_from {}'", command.name);
+    if (!command.words.empty()) {
+      text += fmt::format("{} -f -a '{}'\n", seen, fmt::join(command.words, " "));
+    }
+    if (command.takes_files) text += seen + " -F\n";
+    for (const Offer& option : command.options) text += FishOption(command, option);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string CompletionScript(const CLI::App& app, Shell shell) {
+  const std::vector<CommandOffer> commands = Offers(app);
+  switch (shell) {
+    case Shell::kBash:
+      return Bash(commands);
+    case Shell::kZsh:
+      return Zsh(commands);
+    case Shell::kFish:
+      return Fish(commands);
+  }
+  return {};
+}
+
+}  // namespace rockyard::app

@@ -1,0 +1,86 @@
+#include "app/examples.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace rockyard::app {
+namespace {
+
+constexpr CommandExample kExamples[] = {
+    {"run", "rockyard run scenarios/pathfinder/nominal.json --trials 300 --out results/runs/first",
+     "300 trials into a folder of their own"},
+    {"run", "rockyard run scenarios/pathfinder/nominal.json --until-half-width 0.02",
+     "as many trials as the success rate to 2 % takes"},
+    {"run",
+     "rockyard run scenarios/pathfinder/vl2.json --set perception.hazard.enabled=false --trials 50",
+     "with a changed setting"},
+    {"sweep", "rockyard sweep scenarios/sweeps/abundance.json --trials 100",
+     "every cell of a sweep file"},
+    {"sweep", "rockyard sweep scenarios/sweeps/abundance.json --dry-run",
+     "what it would cost; runs a few trials and writes the plan"},
+    {"check", "rockyard check results/runs/first --against results/reference/matthies1995.json",
+     "runs against the published values"},
+    {"check", "rockyard check results/runs/first --against results/baselines/regression.json --all",
+     "runs against a baseline, equivalent metrics too"},
+    {"baseline", "rockyard baseline results/runs/first --out baseline.json --reason first",
+     "keeps a run to check later builds against"},
+    {"compare", "rockyard compare results/runs/first results/runs/second",
+     "trial by trial where their seeds are the same"},
+    {"merge", "rockyard merge parts/1 parts/2 --out results/runs/whole",
+     "the parts of `rockyard run --shard`"},
+    {"report", "rockyard report results/runs/first", "a page for a browser beside the run"},
+    {"report", "rockyard report results/runs/first results/runs/second --out both.html",
+     "two runs, compared with the first"},
+    {"rover", "rockyard rover scenarios/pathfinder/nominal.json", "sizes, masses, wheel loads"},
+    {"rover", "rockyard rover scenarios/pathfinder/nominal.json --out rocky_3_2.urdf",
+     "as a URDF file"},
+    {"terrain", "rockyard terrain scenarios/pathfinder/vl2.json --trial 3 --out field.svg",
+     "a picture of one trial's rocks"},
+    {"terrain", "rockyard terrain scenarios/pathfinder/vl2.json --blind-swath",
+     "how far a rover that sees nothing gets"},
+    {"trace", "rockyard trace results/runs/first --trial 0 --svg trial.svg",
+     "what happened in a trial, and a plan view"},
+    {"trace", "rockyard trace scenarios/pathfinder/nominal.json --trial 7 --csv trial.csv",
+     "a trial that need not have been run before"},
+    {"replay", "rockyard replay results/runs/first --trial 0", "one trial of a run again"},
+    {"replay", "rockyard replay results/runs/first --trial 0 --scan 12 --out scan",
+     "one scan of it as pictures"},
+    {"validate", "rockyard validate scenarios/pathfinder/nominal.json",
+     "whether a scenario can be run"},
+    {"defaults", "rockyard defaults", "every setting of a scenario, with its default"},
+    {"schema", "rockyard schema", "what editors check scenario files with"},
+    {"list", "rockyard list", "scenarios and sweeps"},
+    {"list", "rockyard list scenarios/pathfinder --json", "of one folder, for programs"},
+    {"list", "rockyard list --ablations", "what `rockyard run --ablate` takes away"},
+    {"parameters", "rockyard parameters scenarios/pathfinder/nominal.json --origin assumed",
+     "the settings that rest on an assumption"},
+    {"plan", "rockyard plan half-width --half-width 0.02 --rate 0.9",
+     "trials for a rate of 90 % to 2 %"},
+    {"plan", "rockyard plan claim --below 0.01", "trials that show a rate below 1 %"},
+    {"metrics", "rockyard metrics", "what of a trial is measured"},
+    {"completion", "eval \"$(rockyard completion bash)\"", "in this shell; ~/.bashrc keeps it"},
+    {"completion", "rockyard completion zsh > \"${fpath[1]}/_rockyard\"", "for zsh"},
+    {"completion", "rockyard completion fish > ~/.config/fish/completions/rockyard.fish",
+     "for fish"},
+};
+
+}  // namespace
+
+std::span<const CommandExample> Examples() { return kExamples; }
+
+void AddExamples(CLI::App& app) {
+  for (CLI::App* command : app.get_subcommands({})) {
+    std::string text;
+    for (const CommandExample& example : Examples()) {
+      if (example.command != command->get_name()) continue;
+      text += fmt::format("  {}\n      {}\n", example.line, example.what);
+    }
+    if (text.empty()) continue;
+    const std::string footer = command->get_footer();
+    command->footer(fmt::format("Examples:\n{}{}{}", text, footer.empty() ? "" : "\n", footer));
+  }
+}
+
+}  // namespace rockyard::app

@@ -1,0 +1,43 @@
+// The scenario files of a folder.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/json_value.h"
+
+namespace rockyard::app {
+
+enum class ListedKind {
+  kScenario,
+  kSweep,
+  kPart,    // what scenarios extend: a rover, a sensor
+  kInvalid  // none of these
+};
+
+struct ListedFile {
+  std::string path;   // relative to the folder, with forward slashes
+  std::string group;  // its folder; "." for the folder itself
+  ListedKind kind = ListedKind::kInvalid;
+  std::string name;         // as the file says; empty for parts and invalid files
+  std::string description;  // as the file says, or why it is not valid
+  std::size_t cells = 0;    // of a sweep
+
+  // Of one line, however long.
+  std::string About() const;
+};
+
+// Parts only where everything is asked for.
+bool IsShown(const ListedFile& file, bool all);
+
+// Every .json file of the folder and those below, group by group, by path in each; groups in order
+// of their names. Throws core::UserError where the folder cannot be read or holds none.
+std::vector<ListedFile> ListScenarios(const std::filesystem::path& folder);
+
+// {"file", "kind": scenario, sweep, part or invalid, "name", "description", and "cells" of a
+// sweep}.
+core::JsonValue Json(const ListedFile& file);
+
+}  // namespace rockyard::app

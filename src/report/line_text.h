@@ -1,0 +1,24 @@
+// Text that must stay in one line of a terminal, or in a column of a table.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace rockyard::report {
+
+// Line breaks as spaces, other control characters (escape sequences begin with one) as '?'.
+std::string Printable(std::string_view text);
+
+// Columns of a terminal, one for each code point of UTF-8. Limit: marks that combine and letters of
+// double width are counted as one, too.
+std::size_t Columns(std::string_view text);
+
+// At most that many columns, at least 3; what is longer ends with "...", never inside a code point.
+std::string Cut(std::string_view text, std::size_t columns);
+
+// Text of one or more lines, each broken between words where it has more than 100 bytes; what is
+// broken off is indented by four more than its line.
+std::string Wrapped(std::string_view text);
+
+}  // namespace rockyard::report

@@ -1,0 +1,84 @@
+// The scripts of `rockyard completion`, read and run by the shells themselves.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <string>
+
+#include "app/command.h"
+
+namespace rockyard::app {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+class CliCompletion : public CommandTest {
+ protected:
+  void Write(const std::string& shell) {
+    const CommandResult script = Run({"completion", shell});
+    ASSERT_EQ(script.exit_code, 0) << script.err;
+    WriteFile(work() / "script", script.out);
+  }
+
+  // What bash offers for the last of the words, one each line.
+  std::string Offered(const std::string& words) {
+    Write("bash");
+    const std::string program =
+        "source ./script; COMP_WORDS=(" + words +
+        "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _rockyard; printf '%s\\n' \"${COMPREPLY[@]}\"";
+    const CommandResult result = Wait(StartProgram({"/bin/bash", "-c", program}));
+    EXPECT_EQ(result.err, "");
+    return "\n" + result.out;
+  }
+};
+
+TEST_F(CliCompletion, BashTakesItAndRegistersIt) {
+  Write("bash");
+  const CommandResult result =
+      Wait(StartProgram({"/bin/bash", "-c", "source ./script && complete -p rockyard"}));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(result.out, HasSubstr("-F _rockyard rockyard"));
+}
+
+TEST_F(CliCompletion, BashCompletesCommandsOptionsAndChoices) {
+  EXPECT_THAT(Offered("rockyard ''"), HasSubstr("\nsweep\n"));
+  EXPECT_EQ(Offered("rockyard comp"), "\ncompare\ncompletion\n");
+  const std::string options = Offered("rockyard run a.json --tr");
+  EXPECT_THAT(options, HasSubstr("\n--trials\n"));
+  EXPECT_THAT(options, Not(HasSubstr("--seed")));
+  EXPECT_EQ(Offered("rockyard run a.json --interval ''"), "\nwilson\nclopper-pearson\n");
+  EXPECT_EQ(Offered("rockyard run a.json --interval = cl"), "\nclopper-pearson\n");
+  EXPECT_EQ(Offered("rockyard completion z"), "\nzsh\n");
+  EXPECT_EQ(Offered("rockyard plan cl"), "\nclaim\n");
+  EXPECT_EQ(Offered("rockyard run a.json --trials ''"), "\n\n") << "a number: nothing to offer";
+}
+
+TEST_F(CliCompletion, BashCompletesFiles) {
+  WriteFile(work() / "my scenario.json", "{}");
+  WriteFile(work() / "other.json", "{}");
+  EXPECT_EQ(Offered("rockyard run my"), "\nmy scenario.json\n");
+  EXPECT_EQ(Offered("rockyard run a.json --out o"), "\nother.json\n");
+}
+
+TEST_F(CliCompletion, OtherShellsReadTheirs) {
+  for (const std::string shell : {"zsh", "fish"}) {
+    Write(shell);
+    const std::string program = "/usr/bin/" + shell;
+    if (!std::filesystem::exists(program)) continue;
+    const CommandResult result = Wait(StartProgram({program, "--no-execute", "./script"}));
+    EXPECT_EQ(result.exit_code, 0) << shell << result.err;
+  }
+  EXPECT_THAT(Run({"completion", "zsh"}).out, StartsWith("#compdef rockyard\n"));
+  EXPECT_THAT(Run({"completion", "fish"}).out, HasSubstr("complete -c rockyard"));
+}
+
+TEST_F(CliCompletion, UnknownShell) {
+  const CommandResult result = Run({"completion", "tcsh"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("bash"));
+}
+
+}  // namespace
+}  // namespace rockyard::app

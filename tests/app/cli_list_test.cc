@@ -1,0 +1,97 @@
+// rockyard list
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "app/command.h"
+
+namespace rockyard::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+class CliList : public CommandTest {
+ protected:
+  static std::string Scenarios() { return std::string(ROCKYARD_SOURCE_DIR) + "/scenarios"; }
+};
+
+TEST_F(CliList, PartsAreLeftOutUnlessAskedFor) {
+  const CommandResult some = Run({"list", Scenarios()});
+  EXPECT_EQ(some.exit_code, 0) << some.err;
+  EXPECT_THAT(some.out, HasSubstr("pathfinder/nominal.json"));
+  EXPECT_THAT(some.out, Not(HasSubstr("rovers/mfex.json")));
+  EXPECT_THAT(some.out, HasSubstr("are left out: --all"));
+  const CommandResult all = Run({"list", Scenarios(), "--all"});
+  EXPECT_THAT(all.out, testing::ContainsRegex("rovers/mfex.json +part of a scenario"));
+  EXPECT_THAT(all.out, Not(HasSubstr("left out")));
+  EXPECT_THAT(all.out, Not(HasSubstr("not valid")));
+}
+
+TEST_F(CliList, GroupsAndFilesAreInOrder) {
+  fs::create_directories(work() / "s" / "b");
+  fs::create_directories(work() / "s" / "a");
+  const std::string nominal = Run({"defaults"}).out;
+  for (const char* name : {"b/1", "a/2", "a/1", "z"}) {
+    WriteFile(work() / "s" / (std::string(name) + ".json"), nominal);
+  }
+  const std::string text = Run({"list", "s"}).out;
+  std::vector<std::string> firsts;
+  std::istringstream lines(text);
+  for (std::string line, first; std::getline(lines, line);) {
+    std::istringstream(line) >> first;
+    firsts.push_back(first);
+  }
+  EXPECT_THAT(firsts, testing::ElementsAre("in", ".", "z.json", "a", "a/1.json", "a/2.json", "b",
+                                           "b/1.json"));
+}
+
+// Names come from files of others: they may hold anything.
+TEST_F(CliList, OddTextStaysInItsLine) {
+  fs::create_directories(work() / "s");
+  json scenario = json::parse(Run({"defaults"}).out);
+  scenario["name"] = "odd";
+  std::string wide;
+  for (int i = 0; i < 200; ++i) wide += "\u00e9";
+  scenario["description"] = "\x1b[31mred\nsecond line " + wide;
+  WriteFile(work() / "s" / "odd.json", scenario.dump());
+  WriteFile(work() / "s" / "broken.json", "{");
+  const CommandResult result = Run({"list", "s"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, Not(HasSubstr("\x1b")));
+  EXPECT_THAT(result.out, HasSubstr("?[31mred second line"));
+  EXPECT_THAT(result.out, HasSubstr("not valid"));
+  std::istringstream lines(result.out);
+  for (std::string line; std::getline(lines, line);) {
+    const auto columns =
+        std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xc0) != 0x80; });
+    EXPECT_LE(columns, 100) << line;
+  }
+  EXPECT_NO_THROW(json(result.out).dump()) << "no code point was cut";
+}
+
+TEST_F(CliList, Json) {
+  const json list = json::parse(Run({"list", Scenarios(), "--json", "--all"}).out);
+  EXPECT_EQ(list["schema_version"], 1);
+  std::map<std::string, json> files;
+  for (const json& file : list["files"]) files[file["file"]] = file;
+  EXPECT_EQ(files.at("pathfinder/nominal.json")["kind"], "scenario");
+  EXPECT_EQ(files.at("pathfinder/nominal.json")["name"], "nominal");
+  EXPECT_EQ(files.at("sweeps/abundance.json")["kind"], "sweep");
+  EXPECT_GT(files.at("sweeps/abundance.json")["cells"], 1);
+  EXPECT_EQ(files.at("rovers/mfex.json")["kind"], "part");
+  const json ablations = json::parse(Run({"list", "--ablations", "--json"}).out);
+  EXPECT_FALSE(ablations["ablations"].empty());
+  EXPECT_FALSE(ablations["ablations"][0]["settings"].empty());
+}
+
+}  // namespace
+}  // namespace rockyard::app

@@ -1,0 +1,47 @@
+#include "app/command_text.h"
+
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+
+namespace rockyard::app {
+namespace {
+
+class CommandLine : public testing::Test {
+ protected:
+  CommandLine() { AddCommands(app_, exit_code_); }
+
+  const CLI::App& Parsed(const std::string& name, std::vector<std::string> words) {
+    CLI::App* command = app_.get_subcommand(name);
+    command->callback([] {});
+    words.insert(words.begin(), name);
+    std::reverse(words.begin(), words.end());  // as this parser wants them
+    app_.parse(words);
+    return *command;
+  }
+
+ private:
+  CLI::App app_{"test", "rockyard"};
+  ExitCode exit_code_ = ExitCode::kDone;
+};
+
+TEST_F(CommandLine, IsWhatWasTyped) {
+  const CLI::App& command = Parsed(
+      "run", {"--trials", "30", "a b.json", "--set", "a=1", "--set", "name='it'", "--quiet"});
+  EXPECT_EQ(CommandText(command),
+            "rockyard run 'a b.json' --trials 30 --set a=1 --set 'name='\\''it'\\''' --quiet");
+}
+
+TEST_F(CommandLine, ResumesWithoutSettingAside) {
+  EXPECT_EQ(ResumeText(Parsed("sweep", {"s.json", "--force", "--out", "x"})),
+            "rockyard sweep s.json --out x --resume");
+  EXPECT_EQ(ResumeText(Parsed("run", {"s.json", "--resume"})), "rockyard run s.json --resume");
+}
+
+}  // namespace
+}  // namespace rockyard::app

@@ -1,0 +1,60 @@
+#include "app/completion_script.h"
+
+#include <gmock/gmock.h>
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace rockyard::app {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+// A parser with one of everything.
+class Script : public testing::Test {
+ protected:
+  Script() {
+    CLI::App* fly = app_.add_subcommand("fly", "It's a [test]: of quotes");
+    fly->add_option("FILE", file_, "a file")->required();
+    fly->add_option("--mode", mode_, "how")->check(CLI::IsMember({"fast", "slow"}));
+    fly->add_option("-n,--count", count_, "how many");
+    fly->add_option("--out", out_, "the user's file");
+    fly->add_flag("--dry", dry_, "don't");
+  }
+
+  CLI::App app_{"test", "rockyard"};
+
+ private:
+  std::string file_;
+  std::string mode_;
+  int count_ = 0;
+  std::string out_;
+  bool dry_ = false;
+};
+
+TEST_F(Script, BashKnowsChoicesNumbersAndFiles) {
+  const std::string text = CompletionScript(app_, Shell::kBash);
+  EXPECT_THAT(text, HasSubstr("'fly --mode')\n      COMPREPLY=($(compgen -W 'fast slow'"));
+  EXPECT_THAT(text, HasSubstr("'fly --count' | 'fly -n') return ;;"));
+  EXPECT_THAT(text, HasSubstr("--dry"));
+  EXPECT_THAT(text, Not(HasSubstr("'fly --out'"))) << "files, as everywhere else";
+  EXPECT_THAT(text, HasSubstr("complete -o filenames -F _rockyard rockyard"));
+}
+
+TEST_F(Script, ZshEscapesWhatItReads) {
+  const std::string text = CompletionScript(app_, Shell::kZsh);
+  EXPECT_THAT(text, HasSubstr("'fly:It'\\''s a \\[test\\]\\: of quotes'"));
+  EXPECT_THAT(text, HasSubstr("'*--mode[how]:word:(fast slow)'"));
+  EXPECT_THAT(text, HasSubstr("'*--out[the user'\\''s file]:value:_files'"));
+}
+
+TEST_F(Script, FishEscapesWhatItReads) {
+  const std::string text = CompletionScript(app_, Shell::kFish);
+  EXPECT_THAT(text, HasSubstr("-a fly -d 'It\\'s a [test]: of quotes'"));
+  EXPECT_THAT(text, HasSubstr(" -l mode -x -a 'fast slow' -d 'how'"));
+  EXPECT_THAT(text, HasSubstr(" -l count -s n -x -d 'how many'"));
+}
+
+}  // namespace
+}  // namespace rockyard::app
