@@ -102,19 +102,19 @@ test("standing is where nothing moves: no drive, no turn, no break", () => {
   assert.deepEqual(joined, [{ from: 0, to: 2 }, { from: 3, to: 4 }]);
 });
 
-test("standing is played as one second", () => {
-  const pace = new Pace(0, 50, [{ from: 10, to: 30 }, { from: 41, to: 41.5 }]);
-  assert.equal(pace.duration, 31);
+test("standing is played as a quarter of a second", () => {
+  const pace = new Pace(0, 50, [{ from: 10, to: 30 }, { from: 41, to: 41.5 }, { from: 45, to: 45.2 }]);
+  assert.equal(pace.duration, 30);
   assert.equal(pace.toPlayed(10), 10);
-  assert.equal(pace.toPlayed(20), 10.5);
-  assert.equal(pace.toPlayed(30), 11);
-  assert.equal(pace.toPlayed(50), 31);
+  assert.equal(pace.toPlayed(20), 10.125);
+  assert.equal(pace.toPlayed(30), 10.25);
+  assert.equal(pace.toPlayed(50), 30);
   for (const t of [0, 3, 10, 17, 30, 41.2, 50]) about(pace.toSimulated(pace.toPlayed(t)), t, 1e-9);
 });
 
 test("a drive that stands at both ends keeps them", () => {
   const pace = new Pace(5, 100, [{ from: 5, to: 50 }, { from: 60, to: 100 }]);
-  assert.equal(pace.duration, 12);
+  assert.equal(pace.duration, 10.5);
   assert.equal(pace.toSimulated(pace.toPlayed(100)), 100);
   assert.equal(pace.toSimulated(pace.toPlayed(5)), 5);
 });
@@ -128,7 +128,7 @@ test("the player plays at its speed and stops exactly at the end", () => {
   player.play();
   player.advance(2.5);
   assert.equal(player.time, 5);
-  player.advance(3);
+  player.advance(2.625);
   assert.equal(player.time, 30);
   player.skipStanding = false;
   player.seek(10);
@@ -149,6 +149,18 @@ test("playing at the end starts anew; seeking stays within the drive", () => {
   assert.equal(player.time, 10);
   player.seek(NaN);
   assert.equal(player.time, 10);
+});
+
+test("shares are of what is played", () => {
+  const player = new Player(0, 50, [{ from: 10, to: 30 }]);
+  about(player.shareOf(10), 10 / 30.25);
+  about(player.timeOf(10.25 / 30.25), 30);
+  player.skipStanding = false;
+  about(player.shareOf(10), 0.2);
+  about(player.timeOf(0.5), 25);
+  assert.equal(player.timeOf(1), 50);
+  assert.equal(player.timeOf(-1), 0);
+  assert.equal(new Player(3, 3, []).shareOf(3), 0);
 });
 
 test("an empty drive cannot be played", () => {

@@ -13,7 +13,7 @@ import { Transport } from "./panels/transport";
 import { VotesPanel } from "./panels/votes";
 import type { ReplayPayload } from "./payload";
 import { PlanView } from "./plan_view";
-import { Player, standingStretches } from "./player";
+import { Player, STANDING_S, standingStretches } from "./player";
 import type { Extent } from "./scene/ground";
 import { SceneView } from "./scene/scene_view";
 import type { CameraMode, DrawnLink, DrawnPose, Layers, MapKind, Shown, View } from "./view";
@@ -234,7 +234,7 @@ export class App {
 
   private keys(): Key[] {
     const { player } = this;
-    const scrub = (share: number): void => player.seek(player.time + share * (player.end - player.start));
+    const scrub = (share: number): void => player.seek(player.timeOf(player.shareOf(player.time) + share));
     const camera = (key: string, mode: CameraMode, does: string): Key => ({ keys: [key], shown: key, does, act: () => this.setMode(mode) });
     const nextMap = (): void => this.change({ map: MAP_KINDS[(MAP_KINDS.indexOf(this.layers.map) + 1) % MAP_KINDS.length]! });
     return [
@@ -247,11 +247,11 @@ export class App {
       { keys: ["End"], shown: "End", does: "to the end", act: () => player.seek(player.end) },
       { keys: ["+", "="], shown: "+", does: "faster", act: () => player.changeSpeed(1) },
       { keys: ["-"], shown: "−", does: "slower", act: () => player.changeSpeed(-1) },
-      { keys: ["s"], shown: "s", does: "shorten standing to 1 s, or not", act: () => (player.skipStanding = !player.skipStanding) },
+      { keys: ["s"], shown: "s", does: `shorten standing to ${STANDING_S} s, or not`, act: () => (player.skipStanding = !player.skipStanding) },
       camera("f", "follow", "camera that follows the rover"),
       camera("t", "top", "plan from above, x to the right"),
       camera("o", "orbit", "free camera"),
-      camera("r", "rover", "from the rover's front"),
+      camera("r", "rover", "from a mast on the rover"),
       { keys: ["6"], shown: "6", does: "plan of both paths (figure 16)", act: () => this.planOfPaths() },
       { keys: ["b"], shown: "b", does: "believed path, or not", act: () => this.change({ believed: !this.layers.believed }) },
       { keys: ["m"], shown: "m", does: "next kind of map", act: nextMap },

@@ -5,7 +5,7 @@ import { lastAtOrBefore } from "./motion";
 export const SPEEDS = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000] as const;
 
 /** Standing for longer is played as if it were this long, s. */
-export const STANDING_S = 1;
+export const STANDING_S = 0.25;
 
 /** How long a whole replay should take by itself, s. */
 const COMFORTABLE_S = 60;
@@ -107,10 +107,15 @@ export class Player {
     this.tell();
   }
 
-  /** Seconds that the rest takes at this speed. */
-  get remaining(): number {
-    const pace = this.pace;
-    return (pace.toPlayed(this.end) - pace.toPlayed(this.time)) / this.speed;
+  /** How much of the whole was played by `t`, 0 to 1. */
+  shareOf(t: number): number {
+    const { pace } = this;
+    return pace.duration > 0 ? (pace.toPlayed(t) - this.start) / pace.duration : 0;
+  }
+
+  /** The time by which `share` of the whole was played. */
+  timeOf(share: number): number {
+    return this.pace.toSimulated(this.start + share * this.pace.duration);
   }
 
   /** Called whenever time, speed or playing have changed. */

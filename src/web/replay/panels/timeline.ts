@@ -13,6 +13,8 @@ const STRIP = 24;
 const CURVE = 46;
 const AXIS = 20;
 const PAD = 8;
+// Between times on the axis, px.
+const TICK_SPACING = 72;
 // So near to a mark a click means the mark, px.
 const SNAP = 6;
 
@@ -27,7 +29,9 @@ export class Timeline {
   private readonly drawing = svg("svg", { class: "timeline-drawing" });
   private readonly cursor = svg("line", { class: "cursor" });
   private marks: { event: TrialEvent; element: SVGGElement }[] = [];
+  private readonly axisLabel = el("div", { class: "axis" });
   private width = 0;
+  private shortened = false;
 
   constructor(
     private readonly payload: ReplayPayload,
@@ -46,7 +50,7 @@ export class Timeline {
     this.makeLabels();
     this.element.append(this.activityKey());
     new ResizeObserver(() => this.resize()).observe(this.drawing);
-    player.onChange(() => this.moveCursor());
+    player.onChange(() => this.changed());
   }
 
   /** Ascending times of the events whose kinds are shown. */
@@ -81,10 +85,10 @@ export class Timeline {
     }
     this.labels.append(el("div", { class: "strip" }, "activity"));
     const curve = (name: string, most: string): HTMLElement =>
-      el("div", { class: "curve" }, el("div", {}, name), el("div", { class: "count" }, `at most ${most}`));
+      el("div", { class: "curve" }, el("div", {}, name), el("div", { class: "count" }, `≤ ${most}`));
     this.labels.append(curve("tilt", `${fixed(greatest(this.tilt), 1)}°`));
     this.labels.append(curve("position error", `${fixed(greatest(this.error), 2)} m`));
-    this.labels.append(el("div", { class: "axis" }, "time"));
+    this.labels.append(this.axisLabel);
   }
 
   private activityKey(): HTMLElement {
@@ -104,18 +108,20 @@ export class Timeline {
     this.draw();
   }
 
+  // As played: where standing is shortened it is narrow here too, else a rover that was stuck for
+  // hours would leave no room for its drive.
   private x(t: number): number {
-    const { start, end } = this.player;
-    return PAD + ((this.width - 2 * PAD) * (t - start)) / Math.max(1e-9, end - start);
+    return PAD + (this.width - 2 * PAD) * this.player.shareOf(t);
   }
 
   private time(x: number): number {
-    const { start, end } = this.player;
-    return start + ((x - PAD) / Math.max(1, this.width - 2 * PAD)) * (end - start);
+    return this.player.timeOf((x - PAD) / Math.max(1, this.width - 2 * PAD));
   }
 
   private draw(): void {
     this.drawing.replaceChildren();
+    this.shortened = this.player.skipStanding;
+    this.axisLabel.textContent = this.shortened ? "time as played" : "time";
     this.drawing.setAttribute("viewBox", `0 0 ${this.width} ${this.height}`);
     this.drawing.setAttribute("height", `${this.height}`);
     this.drawAxis();
@@ -180,14 +186,22 @@ export class Timeline {
 
   private drawAxis(): void {
     const { start, end } = this.player;
-    const step = niceTime((end - start) / Math.max(2, this.width / 90));
+    const step = niceTime((this.player.timeOf(0.1) - start) / 2);
+    let last = -Infinity;
     for (let t = Math.ceil(start / step) * step; t <= end; t += step) {
       const x = this.x(t);
+      if (x - last < TICK_SPACING) continue;
+      last = x;
       const y = this.height - AXIS;
       this.drawing.append(svg("line", { class: "tick", x1: x, x2: x, y1: 0, y2: y + 3 }));
       const anchor = x < 20 ? "start" : x > this.width - 24 ? "end" : "middle";
       this.drawing.append(svg("text", { x, y: y + 15, "text-anchor": anchor }, clock(t).replace(/\.0$/, "")));
     }
+  }
+
+  private changed(): void {
+    if (this.player.skipStanding !== this.shortened) this.draw();
+    else this.moveCursor();
   }
 
   private moveCursor(): void {

@@ -26,7 +26,7 @@ export class Transport {
       `Where nothing moves for longer (scans, computing), it is played as if it were ${STANDING_S} s of the drive (s)`);
     this.skip = skip.querySelector("input")!;
     this.slider.addEventListener("input", () => {
-      player.seek(player.start + (Number(this.slider.value) / SLIDER_STEPS) * (player.end - player.start));
+      player.seek(player.timeOf(Number(this.slider.value) / SLIDER_STEPS));
     });
     this.speed.addEventListener("change", () => player.setSpeed(Number(this.speed.value)));
     this.element.append(
@@ -58,8 +58,7 @@ export class Transport {
   private show(): void {
     const { player } = this;
     this.playButton.textContent = player.playing ? "❚❚ Pause" : "▶ Play";
-    const share = (player.time - player.start) / Math.max(1e-9, player.end - player.start);
-    this.slider.value = String(Math.round(share * SLIDER_STEPS));
+    this.slider.value = String(Math.round(player.shareOf(player.time) * SLIDER_STEPS));
     this.slider.setAttribute("aria-valuetext", `${clock(player.time)} of ${clock(player.end)}`);
     this.speed.value = String(player.speed);
     this.skip.checked = player.skipStanding;

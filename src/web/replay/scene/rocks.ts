@@ -1,5 +1,5 @@
 // Rocks as ellipsoids, where they lie at a time.
-import { Color, Euler, IcosahedronGeometry, InstancedMesh, Matrix4, MeshLambertMaterial, Quaternion, Vector3 } from "three";
+import { Color, Euler, FrontSide, IcosahedronGeometry, InstancedMesh, Matrix4, MeshLambertMaterial, Quaternion, Vector3 } from "three";
 import type { Palette } from "../palette";
 import type { ReplayPayload } from "../payload";
 
@@ -13,7 +13,9 @@ export class Rocks {
   constructor(private readonly payload: ReplayPayload) {
     const { rocks } = payload;
     const geometry = new IcosahedronGeometry(1, rocks.length > MANY_ROCKS ? 2 : 4);
-    this.mesh = new InstancedMesh(geometry, new MeshLambertMaterial(), Math.max(1, rocks.length));
+    // Their far sides lie in the ground and would cast shadows around them.
+    const material = new MeshLambertMaterial({ shadowSide: FrontSide });
+    this.mesh = new InstancedMesh(geometry, material, Math.max(1, rocks.length));
     this.mesh.count = rocks.length;
     this.mesh.castShadow = true;
     this.mesh.receiveShadow = true;

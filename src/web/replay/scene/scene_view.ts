@@ -155,7 +155,8 @@ export class SceneView implements View {
     frustum.right = frustum.top = reach;
     frustum.near = 1;
     frustum.far = 12;
-    this.sun.shadow.bias = -0.002;
+    this.sun.shadow.bias = -0.001;
+    this.sun.shadow.normalBias = 0.01;
     this.scene.add(this.sun, this.sun.target);
   }
 }
