@@ -57,7 +57,7 @@ def draw(sources, options):
 
 
 def _draw_law(axes, law, counts, area_m2, k):
-    axes.plot(DIAMETERS_M, law, color=style.INK, label=f"N = {k:g} D$^{{-2.66}}$")
+    axes.plot(DIAMETERS_M, law, color=style.INK, label=f"N = {k:g} D⁻²·⁶⁶")
     drawn = [(d, n) for d, n in zip(DIAMETERS_M, counts) if n > 0]
     errors = [Z95 * math.sqrt(n) / area_m2 for _, n in drawn]
     axes.errorbar([d for d, _ in drawn], [n / area_m2 for _, n in drawn],
@@ -66,12 +66,13 @@ def _draw_law(axes, law, counts, area_m2, k):
     for diameter, density in PUBLISHED:
         axes.plot(diameter, density, "s", color=style.VERMILION, markersize=6, zorder=5,
                   label="read off in the paper" if diameter == PUBLISHED[0][0] else None)
-        axes.annotate(f"{100 * diameter:.0f} cm: {density:g} per m$^2$", (diameter, density),
+        axes.annotate(f"{100 * diameter:.0f} cm: {density:g} per m²", (diameter, density),
                       xytext=(8, 4), textcoords="offset points", fontsize=8)
     axes.set(xscale="log", yscale="log", xlabel="diameter D (m)",
-             ylabel="rocks per m$^2$ of diameter D and larger", title="(a)",
+             ylabel="rocks per m² of diameter D and larger", title="(a)",
              xticks=[0.1, 0.2, 0.5, 1.0], xticklabels=["0.1", "0.2", "0.5", "1"],
              ylim=(0.5 * law[-1], 2.0 * max(law[0], PUBLISHED[-1][1])))
+    axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
     axes.legend(fontsize=8, loc="lower left")
 
 

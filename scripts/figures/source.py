@@ -2,8 +2,10 @@
 
 import csv
 import json
+import shutil
 import subprocess
 import tempfile
+import weakref
 from functools import cached_property
 from pathlib import Path
 
@@ -35,7 +37,8 @@ class Source:
     def __init__(self, path, rockyard):
         self.path = Path(path)
         self._rockyard = Path(rockyard)
-        self._scratch = tempfile.TemporaryDirectory(prefix="rockyard-figure-")
+        self._scratch = Path(tempfile.mkdtemp(prefix="rockyard-figure-"))
+        weakref.finalize(self, shutil.rmtree, self._scratch, ignore_errors=True)
         if not self.path.exists():
             raise FigureError(f"{path}: does not exist; make it with: rockyard run SCENARIO --out {path}")
 
@@ -98,10 +101,10 @@ class Source:
 
     def terrain(self, trial):
         """The rocks of a trial, as `rockyard terrain` tells them."""
-        path = Path(self._scratch.name) / f"terrain-{trial}.json"
+        path = self._scratch / f"terrain-{trial}.json"
         source = self.path
         if self.is_run:
-            source = Path(self._scratch.name) / "scenario.json"
+            source = self._scratch / "scenario.json"
             source.write_text(json.dumps(self.scenario), encoding="utf-8")
         self._call("terrain", source, "--trial", trial, "--out", path)
         return json.loads(path.read_text(encoding="utf-8"))
@@ -109,14 +112,14 @@ class Source:
     def trace(self, trial):
         """Samples and events of a trial, run again: rows of `rockyard trace --csv`."""
         self.require_drives()
-        path = Path(self._scratch.name) / f"trace-{trial}.csv"
+        path = self._scratch / f"trace-{trial}.csv"
         self._call("trace", self.path, "--trial", trial, "--csv", path)
         return read_csv(path)
 
     def step(self, trial, step):
         """Folder with map.csv, votes.csv and points.csv of a decision of a map-based navigator."""
         self.require_drives()
-        folder = Path(self._scratch.name) / f"step-{trial}-{step}"
+        folder = self._scratch / f"step-{trial}-{step}"
         self._call("replay", self.path, "--trial", trial, "--step", step, "--out", folder)
         return folder
 

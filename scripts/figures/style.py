@@ -28,6 +28,7 @@ plt.rcParams.update({
     "lines.linewidth": 1.6, "legend.frameon": False, "figure.facecolor": "white",
     "savefig.facecolor": "white", "svg.fonttype": "none", "svg.hashsalt": "rockyard",
     "path.simplify": False,
+    "text.parse_math": False,  # names of runs are text, whatever signs they hold
 })
 
 

@@ -1,0 +1,221 @@
+#!/usr/bin/python3
+"""scripts/figures.py: what it draws is what the files say, and the same bytes each time.
+
+Usage: figures_test.py ROCKYARD [unittest options]. Needs Debian's matplotlib, as the script does.
+"""
+
+import csv
+import json
+import math
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from types import SimpleNamespace
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "scripts"))
+
+import figures  # noqa: E402  pylint: disable=wrong-import-position
+from figures import goldberg2002_figure3 as gestalt  # noqa: E402  pylint: disable=wrong-import-position
+from figures import matthies1995_figure15 as figure15  # noqa: E402  pylint: disable=wrong-import-position
+from figures import matthies1995_figure16 as figure16  # noqa: E402  pylint: disable=wrong-import-position
+from figures.source import Source  # noqa: E402  pylint: disable=wrong-import-position
+
+ROCKYARD = None
+QUICK = ["--set", "referee.time_limit_s=1500", "--threads", "2", "--quiet"]
+
+
+def rows(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+class FiguresTest(unittest.TestCase):
+    """Runs of a few short trials, made once."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.root = Path(cls.scratch.name)
+        for name, scenario, trials in (("nominal", "pathfinder/nominal", 4),
+                                       ("perfect", "pathfinder/nominal_perfect_localization", 3),
+                                       ("gestalt", "gestalt/narrow_course", 1),
+                                       ("scan", "hazard_detection/detection", 1)):
+            extra = ["--set", "hazard_detection.scenes_per_run=2"] if name == "scan" else []
+            subprocess.run([ROCKYARD, "run", ROOT / f"scenarios/{scenario}.json", "--trials",
+                            str(trials), "--out", cls.root / name, *QUICK, *extra], check=True)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def draw(self, name, *runs, **options):
+        sources = [Source(self.root / run, ROCKYARD) for run in runs]
+        return figures.all_figures()[name].draw(
+            sources, SimpleNamespace(**{"trial": 0, "step": 0, "fields": 3, **options}))
+
+    def script(self, *words, code=0, rockyard=True):
+        command = [ROOT / "scripts/figures.py", *words]
+        if rockyard:
+            command += ["--rockyard", ROCKYARD]
+        result = subprocess.run([str(word) for word in command], cwd=self.root, text=True,
+                                capture_output=True, check=False)
+        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
+        return result.stdout + result.stderr
+
+
+class DrawnNumbers(FiguresTest):
+    def test_distances_are_those_of_the_file(self):
+        drawn = self.draw("matthies1995-17", "nominal", "perfect")
+        curves = drawn.figure.axes[0].get_lines()
+        for run, line in zip(("nominal", "perfect"), (each for each in curves
+                                                      if len(each.get_xdata()) > 2
+                                                      and each.get_marker() == "None")):
+            table = rows(self.root / run / "distance_cdf.csv")
+            distances = [float(row["distance_m"]) for row in table]
+            self.assertEqual(list(line.get_xdata())[1:-1], distances)
+            self.assertEqual(list(line.get_ydata())[1:-1], [float(row["ecdf"]) for row in table])
+            self.assertIn(f"{distances[0]:.2f} m", drawn.caption)
+        self.assertIn("not available", drawn.caption)
+        marks = [line.get_xdata()[0] for line in curves if len(set(line.get_xdata())) == 1]
+        self.assertEqual(marks, [7.0, 7.6, 8.39])
+
+    def test_paths_end_where_the_trial_did(self):
+        drawn = self.draw("matthies1995-16", "nominal", trial=1)
+        trial = rows(self.root / "nominal/trials.csv")[1]
+        for path, columns in (("true", ("final_x_m", "final_y_m")),
+                              ("believed", ("believed_x_m", "believed_y_m"))):
+            for value, column in zip(drawn.numbers[path][-1], columns):
+                self.assertAlmostEqual(value, float(trial[column]), places=9)
+        self.assertEqual(len(drawn.numbers["rocks"]), int(trial["rocks"]))
+
+    def test_obstacles_are_where_scans_found_them(self):
+        trace = Source(self.root / "nominal", ROCKYARD).trace(1)
+        hazards = [(float(row["true_x_m"]), float(row["true_y_m"])) for row in trace
+                   if row["row"] == "event" and row["kind"] == "hazard"]
+        self.assertEqual(self.draw("matthies1995-16", "nominal", trial=1).numbers["hazards_true"],
+                         hazards)
+
+    def test_rocks_are_counted_without_their_mirror_images(self):
+        drawn = self.draw("matthies1995-15", "nominal", fields=3)
+        source = Source(self.root / "nominal", ROCKYARD)
+        terrains = [source.terrain(trial) for trial in range(3)]
+        placed = sum(terrain["audit"]["placed"] for terrain in terrains)
+        self.assertEqual(drawn.numbers["counts"][0], placed)  # from 10 cm, the smallest there are
+        self.assertAlmostEqual(drawn.numbers["area_m2"], 3 * 26.4)
+        self.assertEqual(min(rock[2] for rock in drawn.numbers["plan"]) >= 0.15, True)
+
+    def test_moores_law(self):
+        self.assertAlmostEqual(figure15.law_per_m2(0.013, 0.23), 0.65, places=2)
+        self.assertAlmostEqual(figure15.law_per_m2(0.013, 0.15), 2.0, places=1)
+
+    def test_votes_are_those_of_the_step(self):
+        drawn = self.draw("goldberg2002-3", "gestalt", step=1)
+        source = Source(self.root / "gestalt", ROCKYARD)
+        table = rows(source.step(0, 1) / "votes.csv")
+        meshes = [mesh for axes in drawn.figure.axes for mesh in axes.collections
+                  if mesh.get_array() is not None and mesh.get_array().size == 3 * 23]
+        self.assertEqual(len(meshes), 2)
+        for group, mesh in zip(gestalt.GROUPS, meshes):
+            votes = [row for row in table if row["kind"] == group][::-1]  # left turns on the left
+            for line, kind in zip(mesh.get_array().reshape(3, 23)[::-1], gestalt.ROWS):
+                self.assertEqual(list(line), [float(vote[kind]) for vote in votes])
+        chosen = [row for row in table if row["chosen"] == "1" and row["kind"] != "point_turn"]
+        self.assertEqual([each[1] for each in drawn.numbers["chosen"]],
+                         [float(row["curvature_per_m"]) for row in chosen])
+
+    def test_arcs(self):
+        quarter = math.pi / 2 / gestalt.ARC_M  # a quarter of a circle over the drawn length
+        forward, left = gestalt.arc_points(quarter, 1)[-1]
+        self.assertAlmostEqual(forward, 1.0 / quarter)
+        self.assertAlmostEqual(left, 1.0 / quarter)
+        self.assertEqual(gestalt.arc_points(0.0, -1)[-1], (-gestalt.ARC_M, 0.0))
+
+    def test_errors_of_table_4(self):
+        drawn = self.draw("matthies1995-table4", "nominal")
+        table = rows(self.root / "nominal/trials.csv")
+        for column in ("distance_error_percent", "heading_error_deg", "position_error_m"):
+            self.assertEqual(drawn.numbers[column], [float(row[column]) for row in table])
+
+    def test_paths_keep_their_ends(self):
+        samples = [{"true_x_m": str(x), "true_y_m": "0"} for x in (0.0, 0.004, 0.02, 0.021)]
+        self.assertEqual(figure16.path_of(samples, "true"), [(0.0, 0.0), (0.02, 0.0), (0.021, 0.0)])
+
+
+class CommandLine(FiguresTest):
+    def test_every_figure_is_listed_with_its_runs(self):
+        text = self.script("--list")
+        for name in ("matthies1995-15", "matthies1995-16", "matthies1995-17", "matthies1995-table4",
+                     "goldberg2002-3"):
+            self.assertIn(name, text)
+
+    def test_the_same_runs_give_the_same_bytes(self):
+        for out in ("first", "second"):
+            for name, run in (("matthies1995-17", "nominal"), ("goldberg2002-3", "gestalt"),
+                              ("matthies1995-16", "nominal")):
+                self.script(name, run, "--out", out)
+        files = sorted(path.name for path in (self.root / "first").iterdir())
+        self.assertEqual(len(files), 9)  # SVG, PNG and caption of each
+        for name in files:
+            first, second = ((self.root / out / name).read_bytes() for out in ("first", "second"))
+            self.assertEqual(first, second, name)
+            self.assertLess(len(first), 200_000, name)
+
+    def test_names_of_runs_are_text(self):
+        run = self.root / "marked"
+        subprocess.run([ROCKYARD, "run", ROOT / "scenarios/pathfinder/nominal.json", "--trials", "1",
+                        "--out", run, *QUICK, "--set", "name=<script>&$x^2$"], check=True)
+        self.script("matthies1995-17", run, "--out", "marked_out")
+        svg = (self.root / "marked_out/matthies1995-17.svg").read_text(encoding="utf-8")
+        self.assertNotIn("<script", svg)
+        self.assertIn("&lt;script&gt;&amp;$x^2$", svg)
+
+    def test_what_is_wrong_is_said_in_a_line(self):
+        (self.root / "empty").mkdir(exist_ok=True)
+        broken = self.root / "broken"
+        broken.mkdir(exist_ok=True)
+        (broken / "summary.json").write_text('{"scenario": "na', encoding="utf-8")
+        sweep = self.root / "sweep"
+        sweep.mkdir(exist_ok=True)
+        (sweep / "summary.json").write_text(json.dumps({"kind": "sweep"}), encoding="utf-8")
+        for words, reason in ((["matthies1995-17"], "needs 1 to 2 RUN, and 0 were given"),
+                              (["matthies1995-99", "nominal"], "is no figure; one of"),
+                              ([], "no figure is named"),
+                              (["matthies1995-17", "nowhere"], "does not exist"),
+                              (["matthies1995-17", "empty"], "finished run"),
+                              (["matthies1995-17", "broken"], "is no JSON"),
+                              (["matthies1995-17", "sweep"], "no run of one scenario"),
+                              (["matthies1995-17", "scan"], "no run of drives"),
+                              (["matthies1995-16", "nominal", "--trial", "99"], "trial 99"),
+                              (["matthies1995-16", "nominal", "--trial", "-1"], "at least 0"),
+                              (["goldberg2002-3", "gestalt", "--step", "999"], "step 999"),
+                              (["goldberg2002-3", "nominal"], "step"),
+                              (["matthies1995-15", "gestalt"], "Moore's model")):
+            with self.subTest(words=words):
+                text = self.script(*words, "--out", "none", code=2)
+                self.assertIn("error: ", text)
+                self.assertIn(reason, text)
+                self.assertNotIn("Traceback", text)
+        self.assertFalse((self.root / "none").exists())
+
+    def test_a_command_that_is_not_there(self):
+        text = self.script("matthies1995-16", "nominal", "--rockyard", "/nowhere/rockyard", code=2,
+                           rockyard=False)
+        self.assertIn("quickstart.sh", text)
+
+    def test_without_matplotlib_it_says_how_to_get_it(self):
+        (self.root / "shadow").mkdir(exist_ok=True)
+        (self.root / "shadow/matplotlib.py").write_text("raise ImportError('no matplotlib')\n",
+                                                        encoding="utf-8")
+        result = subprocess.run([ROOT / "scripts/figures.py", "--list"], text=True,
+                                env={"PYTHONPATH": str(self.root / "shadow")}, capture_output=True,
+                                check=False)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("scripts/install_dependencies.sh figures", result.stderr)
+
+
+if __name__ == "__main__":
+    ROCKYARD = Path(sys.argv.pop(1)).resolve()
+    unittest.main()
