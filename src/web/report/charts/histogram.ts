@@ -61,6 +61,15 @@ function binWidth(samples: Sample[], width: number): number {
   return niceStep(Math.max(least, width / MOST_BINS));
 }
 
+// The bin that holds the value, from a guess that rounding may have put one off.
+function binOf(value: number, edges: number[], guess: number): number {
+  const last = edges.length - 2;
+  let at = Math.min(last, Math.max(0, guess));
+  if (at < last && value >= edges[at + 1]!) ++at;
+  if (at > 0 && value < edges[at]!) --at;
+  return at;
+}
+
 /** Common bins of equal width for all samples. */
 export function bin(samples: Sample[]): Bins {
   const [low, high] = range(samples);
@@ -72,7 +81,7 @@ export function bin(samples: Sample[]): Bins {
   const edges = Array.from({ length: count + 1 }, (_, i) => Number(((first + i) * step).toPrecision(12)));
   const counts = samples.map(({ values }) => {
     const row = new Array<number>(count).fill(0);
-    for (const value of values) row[Math.min(count - 1, Math.max(0, Math.floor(value / step) - first))]! += 1;
+    for (const value of values) row[binOf(value, edges, Math.floor(value / step) - first)]! += 1;
     return row;
   });
   return { edges, counts };

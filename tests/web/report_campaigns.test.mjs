@@ -1,0 +1,92 @@
+// The report page of sweeps and of measurements.
+import assert from "node:assert/strict";
+import { readFileSync, writeFileSync } from "node:fs";
+import path from "node:path";
+import { after, before, test } from "node:test";
+import { launch, openPage, rockyard, sourceFolder, temporaryFolder } from "./harness.mjs";
+
+const ABUNDANCES = [0.001, 0.004, 0.012];
+
+const folder = temporaryFolder();
+const at = (...names) => path.join(folder, ...names);
+const summary = (name) => JSON.parse(readFileSync(at(name, "summary.json"), "utf8"));
+let browser;
+
+before(async () => {
+  writeFileSync(at("abundance.json"), JSON.stringify({
+    name: "abundance", scenario: path.join(sourceFolder, "scenarios/pathfinder/nominal.json"), trials: 10, seed: 4,
+    set: { "rover.fidelity": "quasi_static" },
+    axes: [{ path: "terrain.rocks.k_per_m2", values: ABUNDANCES }],
+    fit: { axis: "k_per_m2", scale: "log" },
+  }));
+  rockyard(["sweep", at("abundance.json"), "--out", at("abundance")]);
+  rockyard(["report", at("abundance"), "--out", at("sweep.html"), "--replays", "0"]);
+  rockyard(["run", "scenarios/hazard_detection/height_factor.json", "--trials", "32", "--out", at("height")]);
+  rockyard(["report", at("height"), "--out", at("height.html")]);
+  browser = await launch();
+});
+
+after(() => browser?.close());
+
+async function open(name) {
+  const opened = await openPage(browser, at(name));
+  await opened.page.waitForFunction(() => document.documentElement.dataset.ready);
+  return opened;
+}
+
+const values = (table) =>
+  table.locator("tbody tr").evaluateAll((rows) =>
+    rows.map((row) => [...row.children].map((cell) => cell.dataset.value ?? cell.textContent)));
+
+test("a curve has the rates of the sweep's cells", async () => {
+  const { page, problems } = await open("sweep.html");
+  const { cells } = summary("abundance");
+  for (const success of ["declared", "true"]) {
+    const figure = page.locator(`#curve-0-${success}`);
+    await figure.locator("summary").click();
+    await figure.locator("details table").waitFor();
+    const rows = await values(figure.locator("details table"));
+    assert.equal(rows.length, cells.length);
+    rows.forEach((row, i) => {
+      const rate = cells[i][`${success}_success`];
+      assert.deepEqual(row.slice(1, 4).map(Number), [ABUNDANCES[i], rate.trials, rate.rate]);
+      assert.equal(Number(row[4]), rate.ci95[1]);
+    });
+    // One mark for each cell.
+    assert.equal(await figure.locator("svg g[aria-label=dot] path, svg g[aria-label=dot] circle").count(), cells.length);
+    assert.match(await figure.locator(".fit-notes").innerText(), /fit/);
+  }
+  assert.deepEqual(problems, []);
+  await page.close();
+});
+
+test("every cell of a sweep is in the headline and among the outcomes", async () => {
+  const { page } = await open("sweep.html");
+  const { cells } = summary("abundance");
+  const rows = await values(page.locator("#headline table"));
+  assert.deepEqual(rows.map((row) => Number(row[2])), cells.map((cell) => cell.declared_success.rate));
+  assert.deepEqual(rows.map((row) => Number(row[4])), cells.map((cell) => cell.true_success.rate));
+  const counts = await page.locator("#outcomes button.count").evaluateAll((all) => all.map(({ dataset }) => Number(dataset.value)));
+  const expected = cells.flatMap((cell) => Object.values(cell.outcomes).filter((count) => count > 0));
+  assert.deepEqual(counts.sort(), expected.sort());
+  await page.close();
+});
+
+test("a measurement shows its cells, as a table and along a factor", async () => {
+  const { page, problems } = await open("height.html");
+  const { cells } = summary("height");
+  const rows = await values(page.locator("#measurements .section-body > .table-box table"));
+  assert.equal(rows.length, cells.length);
+  const heads = await page.locator("#measurements .section-body > .table-box thead th").allInnerTexts();
+  const rates = heads.indexOf("detected_single");
+  assert.deepEqual(rows.map((row) => Number(row[rates])), cells.map((cell) => cell.detected_single.rate));
+  const figure = page.locator("#cells-0");
+  await figure.locator("summary").click();
+  await figure.locator("details table").waitFor();
+  const points = await values(figure.locator("details table"));
+  assert.deepEqual(points.map((row) => row.slice(1, 3).map(Number)),
+    cells.map((cell) => [cell.height_m, cell.detected_single.rate]).sort((a, b) => a[0] - b[0]));
+  assert.equal(await page.locator("#headline, #distance").count(), 0);
+  assert.deepEqual(problems, []);
+  await page.close();
+});
