@@ -17,6 +17,14 @@ def law_per_m2(k, diameter_m):
     return k * diameter_m ** EXPONENT
 
 
+def as_made(rocks, placed_per_m2):
+    """Expected rocks per m2 in fields whose sizes end somewhere and whose course has clear ends."""
+    most, least = (law_per_m2(rocks["k_per_m2"], rocks[name])
+                   for name in ("min_diameter_m", "max_diameter_m"))
+    return [placed_per_m2 * max(law_per_m2(rocks["k_per_m2"], d) - least, 0.0) / (most - least)
+            for d in DIAMETERS_M]
+
+
 def counted(terrains):
     """(diameters of all rocks that were placed, area of the layouts in m2); no mirror images."""
     diameters = [rock["diameter_m"] for terrain in terrains for rock in terrain["rocks"]
@@ -47,11 +55,15 @@ def draw(sources, options):
     plan = plan_source.terrain(options.trial)
     figure, (left, right) = style.new_figure(8.6, 4.0, ncols=2, width_ratios=(1.0, 1.15))
     law = [law_per_m2(rocks["k_per_m2"], d) for d in DIAMETERS_M]
-    _draw_law(left, law, counts, area_m2, rocks["k_per_m2"])
-    shown = _draw_plan(right, plan)
     expected = sum(t["audit"]["expected_placed"] for t in terrains)
+    made = as_made(rocks, expected / area_m2)
+    _draw_law(left, law, counts, area_m2, rocks["k_per_m2"])
+    left.plot(DIAMETERS_M, made, color=style.BLUE, linestyle="--", linewidth=1.0,
+              label="what they are made to hold")
+    left.legend(fontsize=8, loc="lower left")
+    shown = _draw_plan(right, plan)
     drawn = {"diameter_m": DIAMETERS_M, "law_per_m2": law, "area_m2": area_m2, "counts": counts,
-             "plan": shown}
+             "made_per_m2": made, "plan": shown}
     return Drawn(figure, _caption(law_source, plan_source, options, len(diameters), expected, area_m2,
                                   rocks), drawn)
 
@@ -73,7 +85,6 @@ def _draw_law(axes, law, counts, area_m2, k):
              xticks=[0.1, 0.2, 0.5, 1.0], xticklabels=["0.1", "0.2", "0.5", "1"],
              ylim=(0.5 * law[-1], 2.0 * max(law[0], PUBLISHED[-1][1])))
     axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
-    axes.legend(fontsize=8, loc="lower left")
 
 
 def _draw_plan(axes, terrain):
@@ -101,9 +112,9 @@ def _caption(law_source, plan_source, options, placed, expected, area_m2, rocks)
     return (f"(a) Rock sizes in the manner of Matthies 1995, figure 15: Moore's model, k = "
             f"{rocks['k_per_m2']:g} per m2 (line), against {placed} rocks in {options.fields} fields of "
             f"{law_source.name}, seed {law_source.seed}, {area_m2:.0f} m2 (dots, 95 % of a Poisson "
-            f"count; {expected:.0f} rocks were expected). Our fields lie below the line: sizes end at "
-            f"{rocks['max_diameter_m']:g} m, and no rock is placed within {rocks['clear_radius_m']:g} m "
-            "of start and goal. Squares: the two densities that section 7 reads off for VL-2. (b) Part "
+            f"count). Dashed: what the fields are made to hold ({expected:.0f} rocks were expected): sizes "
+            f"end at {rocks['max_diameter_m']:g} m, and no rock is within "
+            f"{rocks['clear_radius_m']:g} m of start and goal. Squares: the two densities that section 7 reads off for VL-2. (b) Part "
             f"of the field of trial {options.trial} of {plan_source.name}: obstacles of at least 15 cm "
             f"are filled (the model says {at_15:.1f} per m2), smaller rocks outlined; rover to scale.")
 

@@ -64,7 +64,7 @@ def _mark_published(axes):
     """The numbers that the text gives; its curves' points are not in it."""
     for at in (SHORTEST_PUBLISHED_M, STRAIGHT_M, MODE_PUBLISHED_M):
         line = axes.axvline(at, color=style.GREY, linewidth=0.9, linestyle=(0, (6, 3)))
-        axes.annotate(f"{at:.3g}", (at, 1.0), xycoords=("data", "axes fraction"), xytext=(0, 2),
+        axes.annotate(f"{at:.2f}".removesuffix("0"), (at, 1.0), xycoords=("data", "axes fraction"), xytext=(0, 2),
                       textcoords="offset points", ha="center", fontsize=7.5)
     line.set_label("published: 7.0 m shortest and 8.39 m mode of 40 runs, 7.6 m straight to the goal")
 

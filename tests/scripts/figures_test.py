@@ -105,6 +105,9 @@ class DrawnNumbers(FiguresTest):
         placed = sum(terrain["audit"]["placed"] for terrain in terrains)
         self.assertEqual(drawn.numbers["counts"][0], placed)  # from 10 cm, the smallest there are
         self.assertAlmostEqual(drawn.numbers["area_m2"], 3 * 26.4)
+        expected = sum(terrain["audit"]["expected_placed"] for terrain in terrains)
+        self.assertAlmostEqual(drawn.numbers["made_per_m2"][0] * 3 * 26.4, expected)
+        self.assertAlmostEqual(drawn.numbers["made_per_m2"][-1], 0.0, places=9)
         self.assertEqual(min(rock[2] for rock in drawn.numbers["plan"]) >= 0.15, True)
 
     def test_moores_law(self):
