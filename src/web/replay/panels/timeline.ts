@@ -230,9 +230,12 @@ export class Timeline {
   private markAt(x: number, y: number): TrialEvent | null {
     const kind = this.kinds[Math.floor(y / ROW)];
     let best: TrialEvent | null = null;
+    let nearest = SNAP;
     for (const { event } of this.marks) {
       const away = Math.abs(this.x(event.t) - x);
-      if (event.kind === kind && away <= SNAP && away < Math.abs(this.x(best?.t ?? Infinity) - x)) best = event;
+      if (event.kind !== kind || away > nearest) continue;
+      best = event;
+      nearest = away;
     }
     return best;
   }
