@@ -72,6 +72,7 @@ class Builder {
         continue;
       }
       const StoredRun& run = plain_[next];
+      AddWorst(FindWorst(run, request_.replays), input.label);
       AddRun(run, input.label, {}, tables[next++]);
     }
     RequirePublished();
@@ -106,14 +107,25 @@ class Builder {
     runs_.push_back(report::PageRunMembers(page, kMethod));
   }
 
+  void AddWorst(std::vector<WorstTrial> worst, const std::string& label) {
+    for (WorstTrial& each : worst) {
+      each.run = runs_.size();
+      each.label = label;
+      worst_.push_back(std::move(each));
+    }
+  }
+
   void AddSweep(const ReportInput& input) {
     const batch::ResultStore store = batch::ResultStore::Read(input.folder);
     const scenario::Sweep sweep = SweepOf(store, input.folder);
     const CellReader reader(input.folder, store);
     std::vector<batch::CellHash> hashes;
+    std::vector<WorstTrial> others = std::exchange(worst_, {});
     const std::size_t before = report_.trials;
     const auto load = [&](std::size_t cell) {
       StoredRun run = reader.Load(static_cast<int>(cell));
+      AddWorst(FindWorst(run, request_.replays), input.cell_labels[cell]);
+      worst_ = Worst(std::move(worst_), request_.replays);
       AddRun(run, input.cell_labels[cell], sweeps_.size(), published_.Tables({&run, 1}).front());
       std::string name = run.identity.name;
       report::SweepCellTrials trials = SweepCellView(std::move(run));
@@ -122,6 +134,7 @@ class Builder {
     };
     const report::SweepSummary summary = report::SummarizeSweep(sweep, load, kMethod);
     if (report_.trials == before) FailEmpty(input.folder);
+    worst_.insert(worst_.begin(), others.begin(), others.end());
     sweeps_.push_back(report::PageSweepJson(input.label, input.folder.string(), sweep, summary,
                                             {.trial_hash = batch::CampaignHash(hashes),
                                              .provenance = core::CurrentProvenance(),
@@ -163,7 +176,7 @@ class Builder {
   }
 
   Report Finish() {
-    report_.replays.links.resize(runs_.size());
+    report_.replays = WriteReplays(request_.page, worst_, runs_.size());
     std::vector<std::string> runs;
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       runs.push_back(
@@ -187,6 +200,7 @@ class Builder {
   std::vector<report::JsonObject> runs_;
   std::vector<std::string> sweeps_;
   std::vector<report::PageComparison> comparisons_;
+  std::vector<WorstTrial> worst_;
   bool any_published_ = false;
   Report report_;
 };

@@ -45,7 +45,9 @@ std::vector<std::string> With(std::vector<std::string> names, const std::string&
 
 ReportInput Open(const fs::path& folder, const std::string& cell) {
   const batch::ResultStore store = batch::ResultStore::Read(folder);
-  ReportInput input{.folder = folder, .cell = cell};
+  ReportInput input;
+  input.folder = folder;
+  input.cell = cell;
   if (!store.identity().shard.whole() || !cell.empty()) {
     // Says what is wrong, the same way as every other command.
     const StoredRun run = ReadRun(folder, cell.empty() ? "0" : cell);

@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "report/worst_trials.h"
 #include "statistics/drive_summary.h"
+#include "truth/measurement_record.h"
 
 namespace rockyard::app {
 namespace {

@@ -30,7 +30,7 @@ std::vector<WorstTrial> FindWorst(const StoredRun& run, std::size_t most);
 std::vector<WorstTrial> Worst(std::vector<WorstTrial> trials, std::size_t most);
 
 struct ReportReplays {
-  std::vector<std::vector<report::ReplayLink>> links;  // by run of the page
+  std::vector<std::vector<report::PageLink>> links;  // by run of the page
   std::size_t written = 0;
   std::filesystem::path folder;
   ExitCode exit_code = ExitCode::kDone;

@@ -33,7 +33,7 @@ namespace rockyard::report {
 inline constexpr std::size_t kMostPageSteps = 1000;
 
 // A link to the replay of a trial, relative to the page.
-struct ReplayLink {
+struct PageLink {
   std::uint64_t trial = 0;
   std::string link;
 };
@@ -58,7 +58,7 @@ struct PageRun {
 JsonObject PageRunMembers(const PageRun& run, statistics::IntervalMethod method);
 
 // Member "replays" of a run.
-std::string PageReplaysJson(std::span<const ReplayLink> links);
+std::string PageReplaysJson(std::span<const PageLink> links);
 
 // `TrialTable`: every record, values with six significant digits.
 std::string PageTrialsJson(const truth::RecordSchema& schema,

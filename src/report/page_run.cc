@@ -83,9 +83,9 @@ std::string PageParametersJson(std::span<const core::ParameterInfo> parameters) 
   return JsonList(rows);
 }
 
-std::string PageReplaysJson(std::span<const ReplayLink> links) {
+std::string PageReplaysJson(std::span<const PageLink> links) {
   JsonObject json;
-  for (const ReplayLink& link : links) json.AddText(std::to_string(link.trial), link.link);
+  for (const PageLink& link : links) json.AddText(std::to_string(link.trial), link.link);
   return json.Text();
 }
 

@@ -1,0 +1,224 @@
+// What the report page is given of a run.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "report/page_data.h"
+#include "report/run_csv.h"
+#include "report/summary_json.h"
+#include "sample_run.h"
+#include "statistics/drive_summary.h"
+#include "truth/measurement_record.h"
+
+namespace rockyard::report {
+namespace {
+
+using nlohmann::json;
+using testing::ElementsAre;
+
+constexpr auto kWilson = statistics::IntervalMethod::kWilson;
+
+// Markup, quotes, a control character, and bytes that are no UTF-8.
+const std::string kHostile = "</script><img src=x onerror=alert(1)>\"'\x01\xff\xc3(";
+
+PageRun SamplePageRun(const std::vector<truth::Record>& records) {
+  return {.label = "sample",
+          .folder = "runs/sample",
+          .cell = "",
+          .sweep = {},
+          .description = SampleDescription(),
+          .schema = SampleSchema(),
+          .records = records,
+          .prefix = records,
+          .parameters = {},
+          .replay_command = "rockyard replay runs/sample --trial {trial}"};
+}
+
+json Parsed(const PageRun& run) { return json::parse(PageRunMembers(run, kWilson).Text()); }
+
+TEST(PageRun, ItsSummaryIsSummaryJson) {
+  const std::vector<truth::Record> records = SampleRecords();
+  const json run = Parsed(SamplePageRun(records));
+  const std::string expected = SummaryJson(
+      SampleDescription(), statistics::Summarize(SampleSchema(), records, 8, kWilson), kWilson);
+  EXPECT_EQ(run["summary"], json::parse(expected));
+  EXPECT_EQ(run["kind"], "drive");
+  EXPECT_TRUE(run["sweep"].is_null());
+  EXPECT_TRUE(run["published"].is_null());
+  EXPECT_EQ(run["replay_command"], "rockyard replay runs/sample --trial {trial}");
+}
+
+TEST(PageRun, AMeasurementHasCellsAndNoDistances) {
+  const std::vector<std::string_view> names{"cell", "height_m", "scenes", "detected_single"};
+  const std::vector<truth::Record> records{
+      {0, truth::TrialOutcome::kMeasured, "", {0.0, 0.1, 20.0, 15.0}},
+      {1, truth::TrialOutcome::kMeasured, "", {1.0, 0.2, 20.0, 20.0}}};
+  PageRun page = SamplePageRun(records);
+  page.schema = truth::MeasurementSchema(names);
+  const json run = Parsed(page);
+  EXPECT_EQ(run["kind"], "measurement");
+  EXPECT_TRUE(run["cdf"].is_null());
+  EXPECT_EQ(run["summary"]["cells"].size(), 2u);
+  EXPECT_FALSE(run["summary"].contains("declared_success"));
+}
+
+TEST(PageRun, WithoutTrialsRatesAreUnknown) {
+  const std::vector<truth::Record> none;
+  const json run = Parsed(SamplePageRun(none));
+  EXPECT_TRUE(run["summary"]["true_success"]["rate"].is_null());
+  EXPECT_TRUE(run["cdf"].is_null());
+  EXPECT_TRUE(run["trials"]["trial"].empty());
+  EXPECT_EQ(run["trials"]["columns"].size(), SampleSchema().size());
+}
+
+TEST(PageRun, TextsAreTextsWhateverTheyHold) {
+  std::vector<truth::Record> records = SampleRecords();
+  records[0].detail = kHostile;
+  PageRun page = SamplePageRun(records);
+  page.label = page.folder = page.cell = page.replay_command = kHostile;
+  page.description.scenario = kHostile;
+  page.schema[0].name = kHostile;
+  const json run = Parsed(page);
+  const std::string replaced =
+      "</script><img src=x onerror=alert(1)>\"'\x01\xef\xbf\xbd\xef\xbf\xbd(";
+  EXPECT_EQ(run["label"], replaced);
+  EXPECT_EQ(run["summary"]["scenario"], replaced);
+  EXPECT_EQ(run["trials"]["detail_texts"][0], replaced);
+  EXPECT_EQ(run["trials"]["columns"][0]["name"], replaced);
+}
+
+TEST(PageTrials, AreColumnsOfNumbersWithNullForWhatIsUndefined) {
+  std::vector<truth::Record> records = SampleRecords();
+  records[1].values[0] = std::numeric_limits<double>::infinity();
+  const json trials = json::parse(PageTrialsJson(SampleSchema(), records));
+  EXPECT_THAT(trials["trial"], ElementsAre(0, 1, 2, 3, 4, 5));
+  EXPECT_THAT(trials["outcome_names"], ElementsAre("goal_reached", "false_goal", "no_path",
+                                                   "simulator_fault", "time_limit"));
+  EXPECT_THAT(trials["outcome"], ElementsAre(0, 1, 2, 3, 4, 0));
+  EXPECT_THAT(trials["detail"], ElementsAre(0, 1, 2, 3, 4, 0));
+  EXPECT_EQ(trials["detail_texts"][1], "believed, \"only\"");
+  const json& distance = trials["columns"][0];
+  EXPECT_EQ(distance["name"], "true_distance_m");
+  EXPECT_EQ(distance["unit"], "m");
+  EXPECT_THAT(distance["values"], ElementsAre(8.0, nullptr, 4.0, nullptr, 6.0, 8.0));
+  EXPECT_TRUE(trials["columns"][3]["values"][2].is_null());  // NaN in the sample
+}
+
+TEST(PageTrials, NumbersHaveSixSignificantDigits) {
+  const double tiny = std::numeric_limits<double>::denorm_min();
+  const std::vector<double> values{123456.789, -1.0 / 3.0, 1e300, tiny, -0.0, 65536.0};
+  std::vector<truth::Record> records;
+  for (const double value : values) {
+    records.push_back({records.size(), truth::TrialOutcome::kNoPath, "", {value}});
+  }
+  const json trials = json::parse(PageTrialsJson({{"x", "1", ""}}, records));
+  const json& read = trials["columns"][0]["values"];
+  EXPECT_EQ(read[0], 123457);
+  EXPECT_EQ(read[1], -0.333333);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    EXPECT_NEAR(read[i].get<double>(), values[i], 5e-6 * std::abs(values[i])) << i;
+  }
+}
+
+// distance_cdf.csv, by line.
+std::vector<std::vector<double>> CsvRows(const std::string& csv) {
+  std::vector<std::vector<double>> rows;
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    std::istringstream fields(line);
+    rows.emplace_back();
+    for (std::string field; std::getline(fields, field, ',');) {
+      rows.back().push_back(std::stod(field));
+    }
+  }
+  return rows;
+}
+
+std::vector<truth::Record> Distances(int count) {
+  std::vector<truth::Record> records;
+  for (int i = 0; i < count; ++i) {
+    const auto outcome =
+        i % 3 == 0 ? truth::TrialOutcome::kNoPath : truth::TrialOutcome::kGoalReached;
+    records.push_back({static_cast<std::uint64_t>(i), outcome, "", {5.0 + 0.001 * i}});
+  }
+  return records;
+}
+
+constexpr const char* kCdfColumns[] = {"distance_m", "ecdf",      "ecdf_low", "ecdf_high", "goal",
+                                       "goal_low",   "goal_high", "failure",  "at_risk"};
+
+void ExpectRow(const json& cdf, std::size_t at, const std::vector<double>& row) {
+  ASSERT_EQ(row.size(), std::size(kCdfColumns));
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    EXPECT_NEAR(cdf[kCdfColumns[i]][at].get<double>(), row[i], 5e-6 * std::abs(row[i]))
+        << kCdfColumns[i] << " at " << at;
+  }
+}
+
+TEST(PageCdf, HoldsEveryStepOfAShortRun) {
+  const std::vector<truth::Record> records = Distances(7);
+  const truth::RecordSchema schema{{"true_distance_m", "m", ""}};
+  const auto rows = CsvRows(DistanceCdfCsv(schema, records));
+  const json cdf = json::parse(PageCdfJson(schema, records));
+  ASSERT_EQ(rows.size(), 7u);
+  ASSERT_EQ(cdf["ecdf"].size(), 7u);
+  for (std::size_t i = 0; i < rows.size(); ++i) ExpectRow(cdf, i, rows[i]);
+}
+
+TEST(PageCdf, ThinningKeepsBothEndsAndExactSteps) {
+  const truth::RecordSchema schema{{"true_distance_m", "m", ""}};
+  for (const int count : {1000, 1001, 4321}) {
+    const std::vector<truth::Record> records = Distances(count);
+    const auto rows = CsvRows(DistanceCdfCsv(schema, records));
+    const json cdf = json::parse(PageCdfJson(schema, records));
+    ASSERT_EQ(cdf["distance_m"].size(), kMostPageSteps);
+    ExpectRow(cdf, 0, rows.front());
+    ExpectRow(cdf, kMostPageSteps - 1, rows.back());
+    const double widest = std::ceil((count - 1) / (kMostPageSteps - 1.0)) / count;
+    for (std::size_t i = 1; i < kMostPageSteps; ++i) {
+      const double step = cdf["ecdf"][i].get<double>() - cdf["ecdf"][i - 1].get<double>();
+      EXPECT_GT(step, 0.0) << i;
+      EXPECT_LE(step, widest + 1e-5) << i;
+    }
+  }
+}
+
+TEST(PageCdf, IsNullWithoutDistances) {
+  EXPECT_EQ(PageCdfJson({{"rocks", "1", ""}}, std::vector<truth::Record>{}), "null");
+}
+
+TEST(PageReplays, AreLinksByTrial) {
+  const std::vector<PageLink> links{{12, "a_replays/12.html"}, {7, kHostile}};
+  const json replays = json::parse(PageReplaysJson(links));
+  EXPECT_EQ(replays["12"], "a_replays/12.html");
+  EXPECT_TRUE(replays["7"].is_string());
+  EXPECT_EQ(PageReplaysJson({}), "{}");
+}
+
+TEST(PageParameters, AreTextsWithTheirOrigin) {
+  core::ParameterInfo parameter;
+  parameter.path = "terrain.rocks.k_per_m2";
+  parameter.kind = core::FieldKind::kReal;
+  parameter.value = core::JsonValue(0.00415);
+  parameter.unit = "1/m2";
+  parameter.origin = core::Origin::kPublished;
+  parameter.source = "Moore 1989";
+  parameter.doc = kHostile;
+  parameter.study_low = 0.002;
+  parameter.study_high = 0.008;
+  const json rows = json::parse(PageParametersJson(std::vector{parameter}));
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0]["path"], "terrain.rocks.k_per_m2");
+  EXPECT_EQ(rows[0]["value"], "0.00415");
+  EXPECT_EQ(rows[0]["origin"], "published");
+  EXPECT_EQ(rows[0]["range"], "0.002 to 0.008");
+}
+
+}  // namespace
+}  // namespace rockyard::report
