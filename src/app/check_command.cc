@@ -20,6 +20,7 @@
 #include "report/baseline.h"
 #include "report/comparison_reference.h"
 #include "report/comparison_table.h"
+#include "report/result_json.h"
 #include "statistics/published_comparison.h"
 
 namespace rockyard::app {
@@ -112,8 +113,10 @@ ExitCode Check(const CheckOptions& options) {
   if (!options.csv.empty()) {
     report::WriteFileAtomically(options.csv, report::ComparisonCsv(result));
   }
-  Print(report::ComparisonText(reference, result));
-  return static_cast<ExitCode>(statistics::ExitCode(result));
+  const int code = statistics::ExitCode(result);
+  Print(options.regression.json ? report::PublishedCheckJson(reference, result, code)
+                                : report::ComparisonText(reference, result));
+  return static_cast<ExitCode>(code);
 }
 
 }  // namespace
@@ -128,6 +131,7 @@ void AddCheckCommand(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--cell", options->cell, "cell of a campaign: its name, or number from 0");
   command->add_option("--junit", options->junit, "write a JUnit report to this file");
   command->add_option("--csv", options->csv, "write the table as CSV to this file");
+  command->add_flag("--json", options->regression.json, "print JSON instead of the table");
   command->add_option("--seed", options->comparison.seed, "seed of the resampling")
       ->capture_default_str();
   command->add_option("--replicates", options->comparison.replicates, "samples for each number")

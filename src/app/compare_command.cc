@@ -19,6 +19,7 @@
 #include "report/atomic_file.h"
 #include "report/cell_comparison_text.h"
 #include "report/paired_comparison.h"
+#include "report/result_json.h"
 #include "statistics/cell_comparison.h"
 #include "truth/measurement_record.h"
 
@@ -31,6 +32,7 @@ struct CompareOptions {
   std::string cell;
   std::string second_cell;
   std::string csv;
+  bool json = false;
 };
 
 std::string TextAt(const core::JsonValue* value) {
@@ -72,8 +74,10 @@ ExitCode CompareMeasurements(const StoredRun& first, const StoredRun& second,
   if (!options.csv.empty()) {
     report::WriteFileAtomically(options.csv, report::CellComparisonCsv(cells));
   }
-  Print(report::CellComparisonText(a, b, cells));
-  return cells.Differing() > 0 ? ExitCode::kDiffers : ExitCode::kDone;
+  const ExitCode code = cells.Differing() > 0 ? ExitCode::kDiffers : ExitCode::kDone;
+  Print(options.json ? report::CellComparisonJson(a, b, cells, static_cast<int>(code))
+                     : report::CellComparisonText(a, b, cells));
+  return code;
 }
 
 // The settings in which two runs differ, one per line.
@@ -94,6 +98,16 @@ std::string SettingsText(const StoredRun& first, const StoredRun& second) {
   return text;
 }
 
+std::string DriveJson(const StoredRun& first, const StoredRun& second,
+                      const report::RunComparison& comparison) {
+  report::PageComparison told{first.Label(), second.Label(), comparison, {}};
+  for (const batch::ScenarioDifference& each :
+       batch::FindScenarioDifferences(first.identity.resolved, second.identity.resolved)) {
+    told.settings.push_back({each.path, each.first, each.second});
+  }
+  return report::DriveComparisonJson(told);
+}
+
 ExitCode CompareDrives(const StoredRun& first, const StoredRun& second,
                        const CompareOptions& options) {
   const report::ComparedRun a = ComparedView(first);
@@ -102,7 +116,8 @@ ExitCode CompareDrives(const StoredRun& first, const StoredRun& second,
   if (!options.csv.empty()) {
     report::WriteFileAtomically(options.csv, report::RunComparisonCsv(comparison));
   }
-  Print(report::RunComparisonText(a, b, comparison) + SettingsText(first, second));
+  Print(options.json ? DriveJson(first, second, comparison)
+                     : report::RunComparisonText(a, b, comparison) + SettingsText(first, second));
   return ExitCode::kDone;
 }
 
@@ -133,6 +148,7 @@ void AddCompareCommand(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--cell-b", options->second_cell, "cell of RUN_B, where it is another one");
   command->add_option("--csv", options->csv,
                       "write every cell, or every column of drives, to this file");
+  command->add_flag("--json", options->json, "print JSON instead of the table");
   command->callback([options, &exit_code] { exit_code = Compare(*options); });
 }
 

@@ -17,6 +17,7 @@
 #include "report/atomic_file.h"
 #include "report/baseline.h"
 #include "report/regression_report.h"
+#include "report/result_json.h"
 
 namespace rockyard::app {
 namespace {
@@ -196,6 +197,13 @@ class Check {
   std::vector<core::Problem> problems_;
 };
 
+// `unknown`: whether the baseline has metrics that this program does not know.
+ExitCode CodeOf(const report::RegressionReport& report, bool unknown) {
+  if (report::BrokenDeterminism(report)) return ExitCode::kDiffers;
+  const auto code = static_cast<ExitCode>(statistics::ExitCode(report.result));
+  return code == ExitCode::kDone && unknown ? ExitCode::kInconclusive : code;
+}
+
 }  // namespace
 
 ExitCode CheckAgainstBaseline(const core::JsonValue& baseline, const RegressionRequest& request) {
@@ -210,12 +218,12 @@ ExitCode CheckAgainstBaseline(const core::JsonValue& baseline, const RegressionR
     report::WriteFileAtomically(request.junit, report::RegressionJUnit(report));
   }
   if (!request.csv.empty()) report::WriteFileAtomically(request.csv, report::RegressionCsv(report));
-  Print(Wrapped(report::RegressionText(report, request.all_rows
-                                                   ? report::ReportedRows::kAll
-                                                   : report::ReportedRows::kNotEquivalent)));
-  const auto code = static_cast<ExitCode>(statistics::ExitCode(report.result));
-  if (report::BrokenDeterminism(report)) return ExitCode::kDiffers;
-  return code == ExitCode::kDone && !unknown.empty() ? ExitCode::kInconclusive : code;
+  const ExitCode code = CodeOf(report, !unknown.empty());
+  Print(request.json ? report::BaselineCheckJson(report, static_cast<int>(code))
+                     : Wrapped(report::RegressionText(
+                           report, request.all_rows ? report::ReportedRows::kAll
+                                                    : report::ReportedRows::kNotEquivalent)));
+  return code;
 }
 
 }  // namespace rockyard::app

@@ -22,6 +22,7 @@ struct RegressionRequest {
   std::string junit;
   std::string csv;
   ScenarioChange scenario_change = ScenarioChange::kRefuse;
+  bool json = false;  // for programs; else text
   bool all_rows = false;
   statistics::RegressionOptions options;
 };
