@@ -1,6 +1,6 @@
 // How one series is told from another: colour, mark and dash together, never colour alone.
 
-import { el, svg } from "../shared/dom";
+import { breakable, el, svg } from "../shared/dom";
 
 export interface SeriesStyle {
   colour: string;
@@ -54,6 +54,6 @@ export function legend(entries: { slot: number; label: string }[], mark: "line" 
   return el(
     "ul",
     { class: "legend", "aria-label": "Key" },
-    ...entries.map(({ slot, label }) => el("li", {}, swatch(slot, mark), label)),
+    ...entries.map(({ slot, label }) => el("li", {}, swatch(slot, mark), breakable(label))),
   );
 }

@@ -110,7 +110,7 @@ export class TrialTableView {
     const text = { formatter: "plaintext", headerSort: true, resizable: true } as const;
     const fixed: ColumnDefinition[] = [
       { title: "Trial", field: "trial", titleFormatter: headerButton("Trial"), hozAlign: "right", headerHozAlign: "right", width: 92, sorter: "number", ...text },
-      { title: "Run", field: "run", titleFormatter: headerButton("Run"), visible: this.runs.length > 1, sorter: "string", ...text },
+      { title: "Run", field: "run", titleFormatter: headerButton("Run"), visible: this.runs.length > 1, sorter: "string", width: 220, ...text },
       {
         title: "Outcome", field: "outcome", titleFormatter: headerButton("Outcome"), sorter: "string", ...text,
         formatter: (cell) => document.createTextNode(words(cell.getValue() as string)) as unknown as HTMLElement,

@@ -44,6 +44,12 @@ function append(element: Element, children: Child[]): void {
   }
 }
 
+/** A name that may be broken after a comma: names of cells are lists without spaces. */
+export function breakable(name: string): HTMLElement {
+  const parts = name.split(/(?<=,)/);
+  return el("span", {}, ...parts.flatMap((part, i) => (i > 0 ? [el("wbr"), part] : [part])));
+}
+
 /** A labelled control: the label stands before it. */
 export function labelled(label: string, control: HTMLElement): HTMLLabelElement {
   return el("label", { class: "labelled" }, el("span", {}, label), control);

@@ -17,6 +17,8 @@ export interface TableSpec {
   head: (string | Cell)[];
   rows: (Child | Cell)[][];
   className?: string;
+  /** Scrolls up and down too, under its head. */
+  tall?: boolean;
   /** On a narrow page each row becomes a block of named values. */
   stacks?: boolean;
 }
@@ -57,7 +59,7 @@ export function table(spec: TableSpec): HTMLElement {
   const caption = el("caption", { class: spec.captionShown ? null : "visually-hidden" }, spec.caption);
   return el(
     "div",
-    { class: "table-box", tabindex: 0, role: "region", "aria-label": spec.caption },
+    { class: spec.tall ? "table-box tall" : "table-box", tabindex: 0, role: "region", "aria-label": spec.caption },
     el("table", { class: [spec.className, spec.stacks ? "stacks" : ""].join(" ").trim() || null }, caption, head, body),
   );
 }

@@ -55,11 +55,11 @@ function extent(all: Steps[], marks: Mark[]): [number, number] {
   return [low - margin, high + margin];
 }
 
-function seriesMarks(steps: Steps, domain: [number, number]): Plot.Markish[] {
+function seriesMarks(steps: Steps, domain: [number, number], opacity: number): Plot.Markish[] {
   const style = seriesStyle(steps.shown.slot);
   const points = extended(steps, ...domain);
   return [
-    Plot.areaY(points, { x: "x", y1: "low", y2: "high", curve: "step-after", fill: style.colour, fillOpacity: 0.16 }),
+    Plot.areaY(points, { x: "x", y1: "low", y2: "high", curve: "step-after", fill: style.colour, fillOpacity: opacity }),
     Plot.lineY(points, {
       x: "x", y: "y", curve: "step-after", stroke: style.colour, strokeWidth: 2, strokeDasharray: style.dash,
     }),
@@ -90,7 +90,7 @@ export function drawSteps(all: Steps[], marks: Mark[], yLabel: string, width: nu
     y: { domain: [0, 1], label: yLabel, grid: true, ticks: 5, percent: false, labelArrow: "none", tickFormat: (rate: number) => `${Math.round(100 * rate)} %` },
     marks: [
       Plot.ruleY([0], { stroke: "var(--line-strong)" }),
-      ...all.flatMap((steps) => seriesMarks(steps, domain)),
+      ...all.flatMap((steps) => seriesMarks(steps, domain, all.length > 3 ? 0.09 : 0.16)),
       ...publishedMarks(marks, domain),
     ],
   });

@@ -163,7 +163,7 @@ export function drawHistograms(samples: Sample[], marks: Mark[], label: string, 
     marginRight: 16,
     marginBottom: 40,
     x: { domain, label, labelAnchor: "center", labelArrow: "none", ticks: Math.max(3, width / 90) },
-    y: { label: null, ticks: samples.length > 2 ? 2 : 3, tickFormat: (share: number) => `${+(100 * share).toFixed(1)} %`, grid: true, insetBottom: 12 },
+    y: { label: null, ticks: samples.length > 2 ? 2 : 3, tickFormat: (share: number) => `${+(100 * share).toFixed(1)} %`, grid: true, insetBottom: 12, insetTop: samples.length > 1 ? 18 : 0 },
     fy: { axis: null, padding: 0.12 },
     marks: [
       Plot.rectY(barsOf(samples, bins), { x1: "from", x2: "to", y: "share", fy: "row", fill: "colour", insetLeft: 0.5, insetRight: 0.5 }),
@@ -173,7 +173,7 @@ export function drawHistograms(samples: Sample[], marks: Mark[], label: string, 
       Plot.ruleX(marks, { x: "x", stroke: "currentColor", strokeDasharray: "3 3" }),
       samples.length > 1
         ? Plot.text(samples.map((sample, row) => ({ row, label: sample.shown.run.label })), {
-            fy: "row", text: "label", frameAnchor: "top-right", lineAnchor: "top", dy: 5, fill: "currentColor", stroke: "var(--ground)",
+            fy: "row", text: "label", frameAnchor: "top-right", lineAnchor: "top", fill: "currentColor", stroke: "var(--ground)",
             strokeWidth: 5, textOverflow: "ellipsis", lineWidth: Math.max(12, (width - 60) / 13),
           })
         : null,

@@ -1,6 +1,6 @@
 // Success of every run with its interval.
 
-import { el, type Child } from "../../shared/dom";
+import { breakable, el, type Child } from "../../shared/dom";
 import { MISSING, number, percent, percentInterval } from "../../shared/format";
 import { numeric, rowHeader, table, type Cell } from "../../shared/table";
 import { rateBar } from "../charts/glyphs";
@@ -55,7 +55,7 @@ function trialsCell(run: Run): Cell {
 function row(run: Run): (Child | Cell)[] {
   const distance = run.summary?.distance_m?.median;
   return [
-    rowHeader(run.label),
+    rowHeader(breakable(run.label)),
     trialsCell(run),
     ...rateCells(run.summary?.declared_success),
     ...rateCells(run.summary?.true_success),
@@ -66,7 +66,8 @@ function row(run: Run): (Child | Cell)[] {
 
 function methods(runs: Run[]): string {
   const names = new Set(runs.flatMap((run) => [run.summary?.declared_success?.ci_method, run.summary?.true_success?.ci_method]));
-  return [...names].filter(Boolean).map(methodName).join(" and ");
+  const known = [...names].filter(Boolean).map(methodName);
+  return known.length > 0 ? ` (${known.join(" and ")})` : "";
 }
 
 export const headline: Section = {
@@ -97,7 +98,7 @@ export const headline: Section = {
         "p",
         { class: "note" },
         "Declared: the rover believed that it was at its goal, which is how the published runs were judged. True: it also " +
-          `was there. Bars run from 0 to 100 %: the dot is the rate, the bar its 95 % interval (${methods(runs)}). ` +
+          `was there. Bars run from 0 to 100 %: the dot is the rate, the bar its 95 % interval${methods(runs)}. ` +
           "Simulator faults are in no rate.",
       ),
     ];

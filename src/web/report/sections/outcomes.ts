@@ -1,6 +1,6 @@
 // How trials ended. Every count is a button that shows its trials in the table.
 
-import { el, type Child } from "../../shared/dom";
+import { breakable, el, type Child } from "../../shared/dom";
 import { number, percent } from "../../shared/format";
 import { numeric, rowHeader, table, type Cell } from "../../shared/table";
 import type { Context } from "../context";
@@ -21,7 +21,7 @@ function bar(share: number, outcome: string): HTMLElement {
   return el(
     "span",
     { class: "share-bar", "aria-hidden": "true" },
-    el("span", { class: `share ${TONES[outcome] ?? "failed"}`, style: `width:${(100 * share).toFixed(2)}%` }),
+    share > 0 && el("span", { class: `share ${TONES[outcome] ?? "failed"}`, style: `width:${(100 * share).toFixed(2)}%` }),
   );
 }
 
@@ -75,7 +75,7 @@ function manyRuns(context: Context, runs: Run[]): Child[] {
     table({
       caption: "How the trials of each run ended",
       head: ["Run", ...names.map(words)],
-      rows: runs.map((run): (Child | Cell)[] => [rowHeader(run.label), ...names.map((name) => cell(context, run, name))]),
+      rows: runs.map((run): (Child | Cell)[] => [rowHeader(breakable(run.label)), ...names.map((name) => cell(context, run, name))]),
     }),
     el(
       "dl",

@@ -32,15 +32,15 @@ function rowsTable(parameters: Parameter[], caption: string): HTMLElement {
   return table({
     caption,
     className: "parameter-table",
-    head: ["Parameter", { content: "Value", numeric: true }, "Unit", "Origin", "Range", "Source", "What it is"],
+    tall: true,
+    head: ["Parameter", { content: "Value", numeric: true }, "Unit", "Origin", "Range", "Source"],
     rows: parameters.map((each) => [
-      rowHeader(el("code", {}, each.path)),
+      rowHeader(el("div", {}, el("code", {}, each.path), el("span", { class: "doc" }, each.doc))),
       { content: each.value, numeric: true, value: each.value },
-      unitText(each.unit),
+      each.unit === "1" ? "" : unitText(each.unit),
       el("span", { class: `origin ${each.origin in ORIGINS ? each.origin : ""}` }, each.origin),
       each.range,
       each.source,
-      each.doc,
     ]),
   });
 }
@@ -90,7 +90,7 @@ function browser(runs: Run[]): Child[] {
     counts,
     el("div", { class: "controls" }, runs.length > 1 ? labelled("Run", chosen) : null, labelled("Search", search), labelled("Origin", origin)),
     found,
-    el("div", { class: "tall-box" }, box),
+    box,
   ];
 }
 

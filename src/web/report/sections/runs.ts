@@ -1,6 +1,6 @@
 // Which runs the charts show, where there are several.
 
-import { el } from "../../shared/dom";
+import { breakable, el } from "../../shared/dom";
 import { MOST_SHOWN, type Context } from "../context";
 import { seriesStyle, swatch } from "../series";
 
@@ -28,6 +28,6 @@ export function runPicker(context: Context): HTMLElement | null {
     "fieldset",
     { class: "run-picker", id: "runs" },
     el("legend", {}, `Runs in the charts (at most ${MOST_SHOWN})`),
-    el("div", { class: "picker-list" }, ...boxes.map(({ run, box, mark }) => el("label", {}, box, mark, el("span", {}, run.label)))),
+    el("div", { class: "picker-list" }, ...boxes.map(({ run, box, mark }) => el("label", {}, box, mark, breakable(run.label)))),
   );
 }
