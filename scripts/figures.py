@@ -34,6 +34,7 @@ def parser():
     result.add_argument("--out", type=Path, default=Path("."), metavar="FOLDER",
                         help="where the files go (default: here)")
     result.add_argument("--name", help="of the files (default: the figure's)")
+    result.add_argument("--format", choices=style.FORMATS, help="of the picture (default: both)")
     result.add_argument("--trial", type=int, default=0, help="for figures of one trial (default: 0)")
     result.add_argument("--step", type=int, default=0,
                         help="for figures of one decision of a navigator (default: 0)")
@@ -80,7 +81,8 @@ def make(options, known):
     drawn = figure.draw(sources, options)
     options.out.mkdir(parents=True, exist_ok=True)
     name = options.name or figure.name
-    paths = style.save(drawn.figure, options.out, name)
+    formats = (options.format,) if options.format else style.FORMATS
+    paths = style.save(drawn.figure, options.out, name, formats)
     text = options.out / f"{name}.txt"
     text.write_text(drawn.caption + "\n", encoding="utf-8")
     print("\n".join(str(path) for path in (*paths, text)))

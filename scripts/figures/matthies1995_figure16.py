@@ -41,14 +41,14 @@ def draw(sources, options):
     drawn = {"rocks": rocks_of(terrain), "true": path_of(samples, "true"),
              "believed": path_of(samples, "believed"), "hazards_true": places(hazards, "true"),
              "hazards_believed": places(hazards, "believed")}
-    figure, axes = style.new_figure(8.0, 3.7)
+    figure, axes = style.new_figure(8.0, 3.3)
     _draw_ground(axes, terrain, drawn["rocks"])
     _draw_paths(axes, drawn)
     for place in (terrain["start_m"], terrain["goal_m"]):
         axes.plot(*place, "x", color=style.INK, markersize=9, markeredgewidth=2.2, zorder=6)
     axes.set(xlabel="x (m)", ylabel="y (m)")
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3, fontsize=8)
-    return Drawn(figure, _caption(source, options.trial, rows, drawn), drawn)
+    return Drawn(figure, _caption(source, options.trial, rows, drawn, terrain["goal_m"]), drawn)
 
 
 def _draw_ground(axes, terrain, rocks):
@@ -70,15 +70,15 @@ def _draw_paths(axes, drawn):
             axes.plot(*zip(*drawn[name]), "o", color=colour, markersize=4.5, label=label, zorder=5)
 
 
-def _caption(source, trial, rows, drawn):
+def _caption(source, trial, rows, drawn, goal):
     end = rows[-1]
     off = math.dist(drawn["true"][-1], drawn["believed"][-1])
     return (f"Map of one run in the manner of Matthies 1995, figure 16: {source.name}, seed "
             f"{source.seed}, trial {trial}, which ended: {end['detail'] or end['kind']}. Octagons: "
             "rocks. Solid: true path; dotted: dead-reckoned path. Filled circles: where obstacles were "
             f"detected ({len(drawn['hazards_true'])} detections). Crosses: start (left) and goal. "
-            f"At the end the rover is {off:.2f} m from where it believes itself (1.4 m from the goal in "
-            "the published run). Thin dotted lines: where the virtual arena reflects, if it does.")
+            f"At the end the rover is {off:.2f} m from where it believes itself, and "
+            f"{math.dist(drawn['true'][-1], goal):.2f} m from the goal (1.4 m in the published run). Thin dotted lines: where the virtual arena reflects, if it does.")
 
 
 FIGURE = Figure(name="matthies1995-16", title="map of one run: rocks, true and dead-reckoned path",
