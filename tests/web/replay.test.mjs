@@ -170,6 +170,12 @@ describe("a drive with light stripes", () => {
       pictures.push(await pixels(page));
     }
     for (const other of [1, 3]) assert.ok(difference(pictures[0], pictures[other]) > 0.2);
+    await page.keyboard.press("f");
+    for (const key of ["]", "[", ",", "."]) {
+      const still = await pixels(page);
+      await page.keyboard.press(key);
+      assert.ok(difference(still, await pixels(page)) > 0.05, key);
+    }
     await page.keyboard.press("?");
     assert.equal(await page.isVisible("dialog"), true);
     await page.keyboard.press("Escape");
@@ -233,7 +239,6 @@ describe("a drive with light stripes", () => {
 
   test("shows every column of the record and finds one", async () => {
     const { page } = await open(file);
-    await page.locator(".record summary").click();
     const { record } = payloadOf(file);
     assert.equal(await page.locator(".record tbody tr:visible").count(), record.length);
     await page.locator(".record input").fill("max_tilt");
@@ -290,6 +295,23 @@ describe("a drive with light stripes", () => {
     assert.ok(Math.abs((await page.evaluate(() => rockyardReplay.pose().x)) - Number(stored.final_x_m)) < SAME);
     assert.deepEqual(errors, []);
     await context.close();
+  });
+
+  test("shows a trial that ended where it began", async () => {
+    const target = changed(file, "short.html", (payload) => {
+      const { motion } = payload;
+      const first = (list) => list.slice(0, 1);
+      for (const [name, list] of Object.entries(motion)) if (Array.isArray(list) && name !== "activity_names") motion[name] = first(list);
+      for (const [name, list] of Object.entries(motion.joints)) motion.joints[name] = first(list);
+      Object.assign(motion, { breaks: [] });
+      Object.assign(payload, { scans: [], steps: [], events: [], rocks: [], rock_moves: [] });
+    });
+    const { page, problems } = await open(target);
+    await page.keyboard.press("Space");
+    await page.keyboard.press("n");
+    assert.equal(await page.evaluate(() => rockyardReplay.playing), false);
+    assert.deepEqual(problems, []);
+    await page.context().close();
   });
 
   test("says what is wrong with a page that was cut off", async () => {

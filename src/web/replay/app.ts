@@ -23,6 +23,9 @@ const MAP_KINDS: MapKind[] = ["goodness", "certainty", "elevation", "off"];
 // About the whole drive in the plan, m.
 const PLAN_MARGIN_M = 0.8;
 const LONGEST_FRAME_S = 0.1;
+// Of one press of a key.
+const NEARER = 1.2;
+const TURN_RAD = 0.15;
 
 /** For tests and for the console: what is shown, and the player; nothing of the trial can be changed. */
 export interface Handle {
@@ -135,9 +138,10 @@ export class App {
     view.element.setAttribute("aria-label", `Picture of the trial: ${payload.title}`);
     const stage = el("section", { class: "stage" }, picture, this.transport.element, this.timeline.element);
     const votes = payload.steps.length > 0 ? this.votes.element : null;
-    const side = el("div", { class: "side" }, this.readout.element, this.layerPanel, votes, recordPanel(payload), originPanel(payload));
+    const side = el("div", { class: "side" }, this.readout.element, this.layerPanel, votes);
+    const below = el("div", { class: "below" }, recordPanel(payload), originPanel(payload));
     this.root.classList.add("replay");
-    this.root.replaceChildren(el("header", {}, title, tools), el("div", { class: "columns" }, stage, side));
+    this.root.replaceChildren(el("header", {}, title, tools), el("div", { class: "columns" }, stage, side, below));
     view.onMoved(() => (this.dirty = true));
     new ResizeObserver(() => this.resized()).observe(picture);
     this.resized();
@@ -172,6 +176,11 @@ export class App {
     if (!this.view.modes.includes(mode)) return;
     this.view.setMode(mode);
     for (const [name, item] of this.modeButtons) item.setAttribute("aria-pressed", String(name === mode));
+    this.refresh();
+  }
+
+  private moveCamera(move: () => void): void {
+    move();
     this.refresh();
   }
 
@@ -252,6 +261,10 @@ export class App {
       camera("t", "top", "plan from above, x to the right"),
       camera("o", "orbit", "free camera"),
       camera("r", "rover", "from a mast on the rover"),
+      { keys: ["]"], shown: "]", does: "nearer", act: () => this.moveCamera(() => this.view.approach(NEARER)) },
+      { keys: ["["], shown: "[", does: "further away", act: () => this.moveCamera(() => this.view.approach(1 / NEARER)) },
+      { keys: [","], shown: ",", does: "camera to the left", act: () => this.moveCamera(() => this.view.turn(-TURN_RAD)) },
+      { keys: ["."], shown: ".", does: "camera to the right", act: () => this.moveCamera(() => this.view.turn(TURN_RAD)) },
       { keys: ["6"], shown: "6", does: "plan of both paths (figure 16)", act: () => this.planOfPaths() },
       { keys: ["b"], shown: "b", does: "believed path, or not", act: () => this.change({ believed: !this.layers.believed }) },
       { keys: ["m"], shown: "m", does: "next kind of map", act: nextMap },

@@ -67,6 +67,25 @@ export class CameraRig {
     }
   }
 
+  /** Nearer by a factor, or further away below 1. */
+  approach(factor: number): void {
+    if (this.mode === "top") {
+      this.plan.zoom *= factor;
+      this.plan.updateProjectionMatrix();
+    } else if (this.orbit.enabled) {
+      this.near.position.sub(this.orbit.target).divideScalar(factor).add(this.orbit.target);
+      this.orbit.update();
+    }
+  }
+
+  /** Around what is looked at, rad, counter-clockwise from above. */
+  turn(angle: number): void {
+    if (!this.orbit.enabled) return;
+    const { target } = this.orbit;
+    this.near.position.sub(target).applyAxisAngle(this.near.up, angle).add(target);
+    this.orbit.update();
+  }
+
   /** What the plan shows when it is opened. */
   setPlanExtent(extent: Extent): void {
     this.planned = extent;

@@ -31,6 +31,10 @@ export class PlanView implements View {
 
   setMode(): void {}
 
+  approach(): void {}
+
+  turn(): void {}
+
   onMoved(): void {}
 
   show(shown: Shown, layers: Layers): void {

@@ -46,6 +46,9 @@ export interface View {
   readonly modes: readonly CameraMode[];
   mode: CameraMode;
   setMode(mode: CameraMode): void;
+  /** As CameraRig says; nothing where the picture has one camera only. */
+  approach(factor: number): void;
+  turn(angle: number): void;
   /** Called when somebody turns or moves the picture by hand. */
   onMoved(listener: () => void): void;
   show(shown: Shown, layers: Layers): void;

@@ -4,6 +4,9 @@ import { button } from "../controls";
 import { outcomeSentence, recorded, spaced } from "../format";
 import type { ReplayPayload } from "../payload";
 
+// Where there is room beside the readouts, as in the style sheet.
+const WIDE = "(min-width: 901px)";
+
 const REPEATS = {
   yes: "This drive repeats the stored record bit for bit.",
   no: "This drive differs from the stored record: another build, or another machine. What is shown here is not the drive that was counted.",
@@ -37,7 +40,7 @@ export function recordPanel(payload: ReplayPayload): HTMLElement {
   const head = el("thead", {}, el("tr", {}, el("th", {}, "Column"), el("th", {}, "Value"), el("th", {}, "Unit")));
   return el(
     "details",
-    { class: "panel record" },
+    { class: "panel record", open: matchMedia(WIDE).matches },
     el("summary", {}, `Record of the trial: ${payload.record.length} columns`),
     find,
     el("div", { class: "table" }, el("table", {}, head, body)),

@@ -4,7 +4,7 @@ import type { Palette } from "../palette";
 import type { ReplayPayload } from "../payload";
 
 // Beyond this many rocks each is drawn with fewer faces, so that a phone keeps up.
-const MANY_ROCKS = 1500;
+const MANY_ROCKS = 500;
 
 export class Rocks {
   readonly mesh: InstancedMesh;
@@ -12,7 +12,7 @@ export class Rocks {
 
   constructor(private readonly payload: ReplayPayload) {
     const { rocks } = payload;
-    const geometry = new IcosahedronGeometry(1, rocks.length > MANY_ROCKS ? 2 : 4);
+    const geometry = new IcosahedronGeometry(1, rocks.length > MANY_ROCKS ? 2 : 3);
     // Their far sides lie in the ground and would cast shadows around them.
     const material = new MeshLambertMaterial({ shadowSide: FrontSide });
     this.mesh = new InstancedMesh(geometry, material, Math.max(1, rocks.length));

@@ -83,6 +83,14 @@ export class SceneView implements View {
     this.paths.onTop = mode === "top";
   }
 
+  approach(factor: number): void {
+    this.rig.approach(factor);
+  }
+
+  turn(angle: number): void {
+    this.rig.turn(angle);
+  }
+
   onMoved(listener: () => void): void {
     this.rig.onMoved(listener);
   }
