@@ -1,5 +1,7 @@
 #include "app/output_file.h"
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <system_error>
 
@@ -18,6 +20,23 @@ void CheckOutputFile(std::string_view option, const std::string& file) {
   }
   if (fs::is_directory(file, error)) {
     throw core::UserError(std::string(option), "is a folder: " + file, "name a file");
+  }
+  // Files are made beside their place and renamed, so that the folder is what counts.
+  if (access(fs::absolute(file, error).parent_path().c_str(), W_OK) != 0) {
+    throw core::UserError(std::string(option), "is in a folder that cannot be written to: " + file,
+                          "check its permissions, or name a file elsewhere");
+  }
+}
+
+void CheckDistinct(std::span<const NamedFile> files) {
+  const auto normal = [](const NamedFile& file) { return fs::path(file.file).lexically_normal(); };
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (files[i].file.empty() || normal(files[i]) != normal(files[j])) continue;
+      throw core::UserError(files[i].option,
+                            "is the same file as " + files[j].option + ": " + files[i].file,
+                            "name another file");
+    }
   }
 }
 

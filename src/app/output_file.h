@@ -1,14 +1,23 @@
 // Files that a command is asked to write. They are written by report::WriteFileAtomically.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
 namespace rockyard::app {
 
 // Throws core::UserError where `file` cannot be meant: it is a folder, or in a folder that does not
-// exist. Called before long work rather than after it; an empty name passes. `option` is the one to
-// blame, such as "--out".
+// exist or cannot be written to. Called before long work rather than after it; an empty name
+// passes. `option` is the one to blame, such as "--out".
 void CheckOutputFile(std::string_view option, const std::string& file);
+
+struct NamedFile {
+  std::string option;
+  std::string file;
+};
+
+// Throws core::UserError where two of a command's files are the same; empty names are none.
+void CheckDistinct(std::span<const NamedFile> files);
 
 }  // namespace rockyard::app
