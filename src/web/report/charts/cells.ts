@@ -39,6 +39,7 @@ function marksOf(series: CellSeries): Plot.Markish[] {
     Plot.dot(series.points, {
       x: "x", y: "value", symbol: style.symbol, r: 4.5, strokeWidth: 1.5,
       stroke: hollow ? style.colour : "var(--ground)", fill: hollow ? "none" : style.colour,
+      tip: { format: { x: (x: number) => number(x), y: (y: number) => number(y) } },
     }),
   ];
 }

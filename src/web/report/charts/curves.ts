@@ -24,6 +24,7 @@ function marksOf({ curve, slot }: SlottedCurve): Plot.Markish[] {
       x: "x", y: "rate", symbol: style.symbol, r: 4.5, strokeWidth: 1.5,
       stroke: style.symbol === "times" ? style.colour : "var(--ground)",
       fill: style.symbol === "times" ? "none" : style.colour,
+      tip: { format: { x: (x: number) => number(x), y: (rate: number) => percent(rate) } },
     }),
   ];
 }

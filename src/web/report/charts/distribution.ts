@@ -2,7 +2,7 @@
 
 import * as Plot from "@observablehq/plot";
 
-import { isNumber, number } from "../../shared/format";
+import { isNumber, number, percent } from "../../shared/format";
 import { numeric, table } from "../../shared/table";
 import type { ShownRun } from "../context";
 import { seriesStyle } from "../series";
@@ -62,6 +62,7 @@ function seriesMarks(steps: Steps, domain: [number, number], opacity: number): P
     Plot.areaY(points, { x: "x", y1: "low", y2: "high", curve: "step-after", fill: style.colour, fillOpacity: opacity }),
     Plot.lineY(points, {
       x: "x", y: "y", curve: "step-after", stroke: style.colour, strokeWidth: 2, strokeDasharray: style.dash,
+      tip: { format: { x: (x: number) => `${number(x)} m`, y: (y: number) => percent(y), stroke: false } },
     }),
   ];
 }

@@ -91,6 +91,7 @@ function browser(runs: Run[]): Child[] {
     el("div", { class: "controls" }, runs.length > 1 ? labelled("Run", chosen) : null, labelled("Search", search), labelled("Origin", origin)),
     found,
     box,
+    el("p", { class: "note print-only" }, "Their values are on the page itself and in scenario.resolved.json of the run's folder."),
   ];
 }
 

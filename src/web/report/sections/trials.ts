@@ -23,6 +23,8 @@ export const trials: Section = {
       { rootMargin: "600px" },
     );
     observer.observe(box);
+    // On paper: its first rows.
+    addEventListener("beforeprint", open);
     context.showTrials = (query: TrialQuery) => {
       open().show(query);
       document.getElementById("trials")?.scrollIntoView();
