@@ -129,6 +129,7 @@ batch::Shard CampaignOptions::shard() const {
 void AddCampaignOptions(CLI::App& command, CampaignOptions& options) {
   AddPlanOptions(command, options);
   AddFolderOptions(command, options);
+  AddTraceOptions(command, options.traces);
   AddProcessOptions(command, options);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/open_run.h"
+#include "app/trace_retention.h"
 #include "batch/campaign.h"
 #include "batch/stopping_rule.h"
 
@@ -36,6 +37,7 @@ struct CampaignOptions {
   std::string shard_text;            // "I/N"; empty: the whole campaign
   double until_half_width = 0.0;     // 0: no stopping rule
   std::string allocate = "uniform";
+  TraceOptions traces;
   std::string resume_command;  // as ResumeText gives it
   batch::StoppingRule rule;    // where until_half_width is given; its half-width is that one
 

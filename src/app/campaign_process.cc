@@ -127,9 +127,8 @@ batch::BatchResult CampaignProcess::RunTrials(std::span<const CellWork> work,
                                    if (supervised) _exit(batch::kOverdueExit);
                                    EndOverdue(store, overdue);
                                  });
-  const bool alone = !supervised && communicator_ == nullptr;
   const InterruptGuard interrupt(log_.stop(),
-                                 alone ? SecondSignal::kEnds : SecondSignal::kIsTheSame);
+                                 alone() ? SecondSignal::kEnds : SecondSignal::kIsTheSame);
   const auto note = [&](const batch::Progress& progress) {
     log_.SetStored(progress.stored);
     if (report) report(progress);
@@ -149,6 +148,12 @@ batch::BatchResult CampaignProcess::RunTrials(std::span<const CellWork> work,
   // The overdue trial has ended after all, and the stop was not the user's wish.
   if (watchdog.bit() && supervised) _exit(batch::kOverdueExit);
   return result;
+}
+
+void CampaignProcess::Afterwards(const std::function<void(const std::atomic<bool>& stop)>& work) {
+  const InterruptGuard interrupt(log_.stop(),
+                                 alone() ? SecondSignal::kEnds : SecondSignal::kIsTheSame);
+  work(log_.stop());
 }
 
 ExitCode CampaignProcess::DoTask(std::span<const CellWork> work, batch::ResultStore& store) {

@@ -1,6 +1,7 @@
 // The processes of a campaign: a supervised worker, or the ranks that mpirun started.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <span>
 #include <vector>
@@ -41,6 +42,10 @@ class CampaignProcess {
                                batch::BatchOptions options,
                                const batch::ProgressReport& report = {});
 
+  // Does more work with the stored trials, in this process: until it ends, or polite signals make
+  // the flag true that it is given.
+  void Afterwards(const std::function<void(const std::atomic<bool>& stop)>& work);
+
   // The task for one trial.
   ExitCode DoTask(std::span<const batch::CellWork> work, batch::ResultStore& store);
 
@@ -49,6 +54,9 @@ class CampaignProcess {
   bool TellLeftOut(const batch::ResultStore& store) const;
 
  private:
+  // Neither a supervisor nor mpirun decides when patience ends.
+  bool alone() const { return !options_.supervisor && communicator_ == nullptr; }
+
   const ContainmentOptions& options_;
   const batch::Mission& mission_;
   batch::FlightLog& log_;

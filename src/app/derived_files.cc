@@ -14,13 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As report/run_files.h and report/sweep_files.h write them.
+// As report/run_files.h and report/sweep_files.h write them, and the folder of campaign_traces.h.
 constexpr std::array kDerivedFiles = {
     "attribution.csv", "cells.csv",        "cells.svg",
     "curves.csv",      "distance_cdf.csv", "differences.csv",
     "fit.csv",         "fits.csv",         "scenario.resolved.json",
     "success.svg",     "summary.json",     "sweep.json",
-    "trials.csv"};
+    "traces",          "trials.csv"};
 
 fs::path FreeName(const fs::path& folder, const fs::path& name) {
   for (int number = 1;; ++number) {

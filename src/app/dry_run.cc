@@ -43,6 +43,14 @@ std::string CostText(const batch::PilotCost& pilot, std::int64_t pending, std::s
       at_most, total_s, error_s, pilot.mean_s, pilot.trials, total_s / threads, threads);
 }
 
+// Empty where none are asked for. Which trials fail is not known before.
+std::string TracesText(const CampaignOptions& options, std::int64_t trials) {
+  const TraceRetention retention = options.traces.retention();
+  if (!retention.any()) return "";
+  return fmt::format("  traces of {} (of at most {} trials), which are driven twice\n",
+                     RetentionText(retention), trials);
+}
+
 }  // namespace
 
 ExitCode DryRun(const CampaignOptions& options, const CampaignPlan& plan) {
@@ -61,6 +69,7 @@ ExitCode DryRun(const CampaignOptions& options, const CampaignPlan& plan) {
                             planned.at_most ? "at most " : "", pending)));
   Print(Wrapped(CostText(pilot, pending, planned.at_most ? "at most " : "",
                          batch::ThreadCount({.threads = options.threads}))));
+  Print(Wrapped(TracesText(options, planned.total)));
   Print(fmt::format("  into {}; nothing was written\n", request.folder.string()));
   return ExitCode::kDone;
 }

@@ -61,14 +61,10 @@ std::string ProgressText(const batch::Progress& progress) {
 ProgressLine::ProgressLine(std::FILE* stream) : stream_(stream), terminal_(IsTerminal(stream)) {}
 
 void ProgressLine::Show(const batch::Progress& progress) {
-  std::string text = ProgressText(progress);
   if (terminal_) {
-    const auto width = static_cast<std::size_t>(std::max(TerminalWidth(stream_) - 1, 20));
-    text.resize(std::min(text.size(), width));
-    Write("\r" + text + "\x1b[K");
-    std::fflush(stream_);
+    ShowText(ProgressText(progress));
   } else if (progress.elapsed_s >= next_at_s_) {
-    Write(text + "\n");
+    Write(ProgressText(progress) + "\n");
     next_at_s_ = progress.elapsed_s + kPlainInterval_s;
   }
 }
@@ -77,6 +73,20 @@ void ProgressLine::Finish(const batch::Progress& progress) {
   next_at_s_ = 0.0;
   Show(progress);
   if (terminal_) Write("\n");
+}
+
+void ProgressLine::ShowText(std::string text) {
+  if (!terminal_) return;
+  const auto width = static_cast<std::size_t>(std::max(TerminalWidth(stream_) - 1, 20));
+  text.resize(std::min(text.size(), width));
+  Write("\r" + text + "\x1b[K");
+  std::fflush(stream_);
+}
+
+void ProgressLine::FinishText(std::string text) {
+  if (!terminal_) return Write(text + "\n");
+  ShowText(std::move(text));
+  Write("\n");
 }
 
 // Progress that nobody can read (a closed pipe, a full disk) must not end the run: no check here.

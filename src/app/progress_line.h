@@ -23,6 +23,10 @@ class ProgressLine {
   // Shows the end, whatever the time, and ends the line.
   void Finish(const batch::Progress& progress);
 
+  // The same for progress of another kind, as text; on a terminal alone but for the end.
+  void ShowText(std::string text);
+  void FinishText(std::string text);
+
  private:
   void Write(const std::string& text);
 

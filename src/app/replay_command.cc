@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 // One file that is asked for.
 struct AskedFile {
-  std::string option;  // that names it; "" where the command chose
+  std::string option;  // that names it
   std::string what;
   fs::path path;
   std::function<std::string(const ReplayedTrial&)> text;
@@ -65,19 +65,12 @@ std::vector<AskedFile> OutputsOf(const ReplayOptions& options, const TrialSource
 
 // Found before the drive rather than after it.
 void CheckOutputs(const ReplayOptions& options, const std::vector<AskedFile>& outputs) {
-  for (const auto& [option, file] :
-       {std::pair{"--out", options.out}, {"--svg", options.svg}, {"--data", options.data}}) {
-    CheckOutputFile(option, file);
-  }
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (outputs[i].path != outputs[j].path) continue;
-      throw core::UserError(
-          outputs[i].option,
-          fmt::format("is the same file as {}: {}", outputs[j].option, outputs[i].path.string()),
-          "name another file");
-    }
-  }
+  CheckOutputFile("--out", options.out);
+  CheckOutputFile("--svg", options.svg);
+  CheckOutputFile("--data", options.data);
+  std::vector<NamedFile> files;
+  for (const AskedFile& output : outputs) files.push_back({output.option, output.path.string()});
+  CheckDistinct(files);
 }
 
 ExitCode WriteOutputs(const std::vector<AskedFile>& outputs, const ReplayedTrial& replayed) {

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "app/campaign_process.h"
+#include "app/campaign_traces.h"
 #include "app/console.h"
 #include "app/progress_line.h"
 #include "core/error.h"
@@ -99,6 +101,20 @@ ExitCode Judge(const OpenedRun& run, const batch::BatchResult& result,
   return ExitCode::kTooManyFaults;
 }
 
+// Traces of the trials that the rules keep, once all are stored.
+ExitCode TraceTrials(const OpenedRun& run, const CampaignOptions& options,
+                     CampaignProcess& process) {
+  const TraceRequest request{.retention = options.traces.retention(),
+                             .format = options.traces.form(),
+                             .threads = batch::ThreadCount({.threads = process.threads()}),
+                             .quiet = options.output() == Output::kQuiet};
+  if (!request.retention.any()) return ExitCode::kDone;
+  ExitCode code = ExitCode::kDone;
+  process.Afterwards(
+      [&](const std::atomic<bool>& stop) { code = WriteTraces(run.folder, request, stop); });
+  return code;
+}
+
 // What fails from here on is no bad input: trials have been run, and are stored.
 ExitCode RunAndReport(std::span<const batch::CellWork> work, OpenedRun& run,
                       const CampaignOptions& options, CampaignProcess& process,
@@ -108,7 +124,10 @@ ExitCode RunAndReport(std::span<const batch::CellWork> work, OpenedRun& run,
     const batch::BatchResult result = RunTrials(work, run, options, process);
     reporter(run, result);
     if (process.TellLeftOut(run.store)) return ExitCode::kFailed;
-    return Judge(run, result, options);
+    const ExitCode code = Judge(run, result, options);
+    if (code == ExitCode::kInterrupted) return code;
+    const ExitCode traced = TraceTrials(run, options, process);
+    return traced == ExitCode::kDone ? code : traced;
   } catch (const core::UserError& error) {
     PrintProblems(error.problems());
     return ExitCode::kFailed;
@@ -130,11 +149,10 @@ ExitCode RunInProcess(const CampaignOptions& options, const CampaignPlanner& pla
   return RunAndReport(work.work(), run, options, process, reporter);
 }
 
-}  // namespace
-
-void CheckPlan(const CampaignOptions& options, const CampaignPlan& plan) {
+// What a stopping rule asks of the cells.
+void CheckRule(const CampaignOptions& options, const CampaignPlan& plan,
+               std::vector<core::Problem>& problems) {
   if (!options.stopping_rule()) return;
-  std::vector<core::Problem> problems;
   if (!options.shard().whole()) {
     problems.push_back({"--until-half-width",
                         "looks at trials 0, 1, 2, ... of a cell, of which a shard has only some",
@@ -153,6 +171,30 @@ void CheckPlan(const CampaignOptions& options, const CampaignPlan& plan) {
            "set course.trials_per_layout=1, or say how many trials to run with --trials"});
     }
   }
+}
+
+// What traces ask of the cells.
+void CheckTraces(const CampaignOptions& options, const CampaignPlan& plan,
+                 std::vector<core::Problem>& problems) {
+  try {
+    if (!options.traces.retention().any()) return;
+  } catch (const core::UserError& error) {
+    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    return;
+  }
+  for (const CampaignCell& cell : plan.cells) {
+    if (cell.scenario.experiment == scenario::ExperimentKind::kDrive) continue;
+    problems.push_back(
+        {"--traces", fmt::format("needs drives, and {} measures", Label(cell)), "leave it out"});
+  }
+}
+
+}  // namespace
+
+void CheckPlan(const CampaignOptions& options, const CampaignPlan& plan) {
+  std::vector<core::Problem> problems;
+  CheckRule(options, plan, problems);
+  CheckTraces(options, plan, problems);
   if (!problems.empty()) throw core::UserError(std::move(problems));
 }
 

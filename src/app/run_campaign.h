@@ -21,7 +21,8 @@ using CampaignReporter =
 
 // Throws core::UserError with everything that the options ask of this plan and that cannot be: a
 // stopping rule of a shard, where nothing drives, or where trials share layouts and are not
-// independent; cells whose records have different columns.
+// independent; traces that are asked for with a rule that is none, or where nothing drives; cells
+// whose records have different columns.
 void CheckPlan(const CampaignOptions& options, const CampaignPlan& plan);
 
 // The request that the options make of a plan.

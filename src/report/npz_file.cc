@@ -7,7 +7,9 @@
 #include <array>
 #include <bit>
 #include <ctime>
+#include <functional>
 #include <memory>
+#include <numeric>
 #include <stdexcept>
 
 #include "core/check.h"
@@ -122,10 +124,9 @@ std::string ReadAll(zip_source_t& source) {
 }  // namespace
 
 void NpzFile::Add(std::string_view name, std::string_view type, const Shape& shape,
-                  std::size_t values, std::span<const std::byte> data) {
-  std::size_t wanted = 1;
-  for (const std::size_t extent : shape) wanted *= extent;
-  EXPECT(wanted == values);
+                  [[maybe_unused]] std::size_t values, std::span<const std::byte> data) {
+  EXPECT(std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>()) ==
+         values);
   EXPECT(std::none_of(entries_.begin(), entries_.end(),
                       [name](const Entry& entry) { return entry.name == name; }));
   std::string npy = Header(type, shape);

@@ -1,4 +1,5 @@
 // What a rover sees and chooses in a replay, and what happens to it, as JSON.
+#include <array>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -12,7 +13,7 @@ using messages::MapCellView;
 using messages::MotionVote;
 
 constexpr double kVoteDigits = 10.0;
-constexpr double kHeightDigits = 1e3;  // of map cells
+constexpr double kCoarseDigits = 1e3;  // of map cells and range points
 constexpr int kUnknown = -1;
 
 std::string StripePointText(const StripePoint& point) {
@@ -42,7 +43,7 @@ std::string MapText(const messages::MapView& map) {
       .Add("certainty", byte(&MapCellView::certainty))
       .Add("elevation", List(map.cells,
                              [](const MapCellView& cell) {
-                               return cell.has_data ? Rounded(cell.elevation_m, kHeightDigits)
+                               return cell.has_data ? Rounded(cell.elevation_m, kCoarseDigits)
                                                     : std::string("null");
                              }))
       .Text();
@@ -70,6 +71,11 @@ std::string VotesText(const messages::NavigationView& view) {
   return JsonList(votes);
 }
 
+std::string RangePointText(const math::Vector3& p) {
+  return JsonList(std::array{Rounded(p.x(), kCoarseDigits), Rounded(p.y(), kCoarseDigits),
+                             Rounded(p.z(), kCoarseDigits)});
+}
+
 std::string StepText(const ReplayStep& step) {
   const messages::PoseEstimate& believed = step.view.estimate;
   return JsonObject()
@@ -80,7 +86,7 @@ std::string StepText(const ReplayStep& step) {
       .AddFlag("behind", step.view.looked_behind)
       .Add("map", MapText(step.view.map))
       .Add("votes", VotesText(step.view))
-      .Add("points", List(step.points_W, Point))
+      .Add("points", List(step.points_W, RangePointText))
       .Text();
 }
 

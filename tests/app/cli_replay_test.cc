@@ -1,11 +1,13 @@
 // rockyard replay
 #include <gmock/gmock.h>
+#include <sqlite3.h>
 
 #include <algorithm>
 #include <string>
 #include <vector>
 
 #include "app/command.h"
+#include "web/page.h"
 
 namespace rockyard::app {
 namespace {
@@ -25,7 +27,7 @@ class CliReplay : public CommandTest {
 };
 
 TEST_F(CliReplay, ListsTheScansOfATrial) {
-  const CommandResult result = Run(Trial({}));
+  const CommandResult result = Run(Trial({"--list"}));
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("scan     0   x   0.000 m"));
   EXPECT_THAT(result.out, HasSubstr("2 scans; --scan N draws one of them"));
@@ -54,9 +56,71 @@ TEST_F(CliReplay, DrawsOneScan) {
 TEST_F(CliReplay, AStoredTrialComesOutTheSame) {
   ASSERT_EQ(
       Run(With(QuickRun("run", 2), {"--set", "referee.time_limit_s=30", "--quiet"})).exit_code, 0);
-  const CommandResult result = Run({"replay", "run", "--trial", "1"});
+  for (const std::vector<std::string>& how :
+       {std::vector<std::string>{}, std::vector<std::string>{"--list"}}) {
+    const CommandResult result = Run(With({"replay", "run", "--trial", "1"}, how));
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("same as the stored record, bit for bit"));
+  }
+}
+
+// Another trial than the stored one, as if a program had changed.
+TEST_F(CliReplay, ATrialThatComesOutOtherwiseIsSaidOnThePageToo) {
+  ASSERT_EQ(
+      Run(With(QuickRun("run", 2), {"--set", "referee.time_limit_s=30", "--quiet"})).exit_code, 0);
+  const std::string change = "UPDATE trials SET outcome = 'jammed' WHERE trial = 1";
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open((work() / "run" / "results.sqlite").c_str(), &database), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(database, change.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(database);
+  const CommandResult result =
+      Run({"replay", "run", "--trial", "1", "--out", "page.html", "--data", "page.json"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("this trial is not the stored one"));
+  EXPECT_THAT(ReadFile(work() / "page.json"), HasSubstr("\"repeats_stored\":false"));
+}
+
+TEST_F(CliReplay, WritesPagePlanAndData) {
+  const CommandResult result = Run(Trial({"--out", "page.html", "--data", "data.json"}));
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("same as the stored record, bit for bit"));
+  if (web::PagesBuilt()) {
+    EXPECT_THAT(result.out, HasSubstr("3-D replay in page.html"));
+    EXPECT_THAT(ReadFile(work() / "page.html"), HasSubstr("<title>nominal, seed 1, trial 1"));
+  } else {
+    EXPECT_THAT(result.err, HasSubstr("this build has no pages"));
+    EXPECT_FALSE(fs::exists(work() / "page.html"));
+  }
+  EXPECT_THAT(ReadFile(work() / "page.svg"), HasSubstr("<title>goal</title>"));
+  EXPECT_THAT(ReadFile(work() / "data.json"), StartsWith("{\"version\":1,"));
+}
+
+TEST_F(CliReplay, ChoosesNamesByItself) {
+  const CommandResult result = Run(Trial({}));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(fs::exists(work() / "results/runs/nominal-seed1-trial1.svg"));
+  EXPECT_EQ(fs::exists(work() / "results/runs/nominal-seed1-trial1.html"), web::PagesBuilt());
+}
+
+TEST_F(CliReplay, FilesThatCannotBeAreSaidBeforeTheDrive) {
+  for (const std::vector<std::string>& more : {std::vector<std::string>{"--out", "none/page.html"},
+                                               {"--svg", "none/plan.svg"},
+                                               {"--out", "a.html", "--svg", "a.html"},
+                                               {"--svg", "a", "--data", "./a"},
+                                               {"--list", "--out", "a"},
+                                               {"--scan", "1", "--svg", "a.svg"}}) {
+    EXPECT_EQ(Run(Trial(more)).exit_code, 2) << more.front();
+    EXPECT_TRUE(NothingWritten()) << more.front();
+  }
+}
+
+TEST_F(CliReplay, AStudyOfASensorHasNoCourse) {
+  const CommandResult result = Run(
+      {"replay", std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/hazard_detection/false_alarm.json",
+       "--trial", "0"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("is no drive"));
+  EXPECT_THAT(result.err, HasSubstr("replay --list"));
+  EXPECT_TRUE(NothingWritten());
 }
 
 TEST_F(CliReplay, AScanThatWasNotTakenIsSaid) {
@@ -109,7 +173,7 @@ class CliReplayStep : public CommandTest {
 };
 
 TEST_F(CliReplayStep, ListsTheSteps) {
-  const CommandResult result = Run(Trial({}));
+  const CommandResult result = Run(Trial({"--list"}));
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("step     0   x   0.000 m"));
   EXPECT_THAT(result.out, HasSubstr("(vote "));

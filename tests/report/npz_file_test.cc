@@ -1,0 +1,92 @@
+// Arrays as NumPy files. trace_npz_test.py reads whole traces with NumPy itself.
+#include "report/npz_file.h"
+
+#include <gmock/gmock.h>
+#include <zip.h>
+
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/check.h"
+
+namespace rockyard::report {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+// Files of a zip archive, by name.
+std::vector<std::pair<std::string, std::string>> Unzip(const std::string& bytes) {
+  zip_error_t error;
+  zip_error_init(&error);
+  zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
+  zip_t* archive = zip_open_from_source(source, ZIP_RDONLY | ZIP_CHECKCONS, &error);
+  if (archive == nullptr) throw std::runtime_error(zip_error_strerror(&error));
+  std::vector<std::pair<std::string, std::string>> files;
+  for (zip_int64_t i = 0; i < zip_get_num_entries(archive, 0); ++i) {
+    zip_stat_t stat;
+    zip_stat_index(archive, static_cast<zip_uint64_t>(i), 0, &stat);
+    std::string text(stat.size, '\0');
+    zip_file_t* file = zip_fopen_index(archive, static_cast<zip_uint64_t>(i), 0);
+    zip_fread(file, text.data(), text.size());
+    zip_fclose(file);
+    files.emplace_back(stat.name, text);
+  }
+  zip_discard(archive);
+  return files;
+}
+
+NpzFile Sample() {
+  NpzFile file;
+  file.AddReals("reals", std::vector{1.5, -2.0, 0.0, 1e300, std::nan(""), 6.0}, {2, 3});
+  file.AddIntegers("integers", std::vector<std::int64_t>{-1, 255}, {2});
+  file.AddFlags("flags", std::vector<std::uint8_t>{1, 0, 1}, {3});
+  file.AddTexts("texts",
+                std::vector<std::string>{"plain", "", "\xc3\xa9\xe2\x82\xac\xf0\x9f\xaa\xa8",
+                                         "a\xff"
+                                         "b"});
+  file.AddText("meta", "{\"x\": 1}");
+  file.AddReals("empty", {}, {0, 3});
+  return file;
+}
+
+TEST(NpzFile, HoldsOneFilePerArray) {
+  std::vector<std::string> names;
+  for (const auto& [name, npy] : Unzip(Sample().Bytes())) {
+    names.push_back(name);
+    EXPECT_THAT(npy, StartsWith("\x93NUMPY\x01"));
+    const std::size_t header =
+        10 + static_cast<unsigned char>(npy[8]) + 256 * static_cast<unsigned char>(npy[9]);
+    EXPECT_EQ(header % 64, 0U) << name;
+    EXPECT_EQ(npy[header - 1], '\n');
+  }
+  EXPECT_THAT(names, ElementsAre("reals.npy", "integers.npy", "flags.npy", "texts.npy", "meta.npy",
+                                 "empty.npy"));
+}
+
+TEST(NpzFile, NumbersLieAsTheyAre) {
+  const std::string npy = Unzip(Sample().Bytes()).front().second;
+  EXPECT_THAT(npy, HasSubstr("{'descr': '<f8', 'fortran_order': False, 'shape': (2,3,), }"));
+  double value = 0.0;
+  std::memcpy(&value, npy.data() + npy.size() - 6 * sizeof(double), sizeof value);
+  EXPECT_EQ(value, 1.5);
+}
+
+TEST(NpzFile, EqualArraysGiveEqualBytes) { EXPECT_EQ(Sample().Bytes(), Sample().Bytes()); }
+
+#ifdef ROCKYARD_CONTRACTS
+TEST(NpzFile, AShapeThatDoesNotFitOrANameTwiceIsADefect) {
+  NpzFile file;
+  EXPECT_THROW(file.AddReals("a", std::vector{1.0, 2.0}, {3}), core::ContractViolation);
+  file.AddReals("a", std::vector{1.0}, {1});
+  EXPECT_THROW(file.AddReals("a", std::vector{1.0}, {1}), core::ContractViolation);
+}
+#endif
+
+}  // namespace
+}  // namespace rockyard::report

@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+"""Reads traces with NumPy and holds them against the CSV of the same drive.
+
+Usage: trace_npz_test.py ROCKYARD SCENARIOS     ROCKYARD: the command; SCENARIOS: the project's folder
+Exit code 0: the arrays are as src/report/README.md says; 1: they are not; 77: there is no NumPy.
+"""
+
+import csv
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+try:
+    import numpy
+except ImportError:
+    print("no NumPy: skipped")
+    sys.exit(77)
+
+ROCKYARD, SCENARIOS = Path(sys.argv[1]), Path(sys.argv[2])
+
+
+def trace(folder, scenario, *more):
+    """Arrays and CSV rows of trial 2 of a scenario."""
+    files = [folder / "trace.npz", folder / "trace.csv"]
+    subprocess.run([ROCKYARD, "trace", SCENARIOS / scenario, "--trial", "2", "--npz", files[0],
+                    "--csv", files[1], *more], check=True, stdout=subprocess.DEVNULL)
+    with files[1].open(encoding="utf-8") as text:
+        rows = list(csv.DictReader(text))
+    with numpy.load(files[0], allow_pickle=False) as arrays:
+        return {name: arrays[name] for name in arrays.files}, rows
+
+
+class StripeTrace(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        with tempfile.TemporaryDirectory() as folder:
+            cls.arrays, cls.rows = trace(Path(folder), "pathfinder/nominal.json")
+        cls.meta = json.loads(str(cls.arrays["meta"]))
+        cls.record = dict(zip(cls.arrays["record_names"].tolist(), cls.arrays["record"].tolist()))
+
+    def test_meta(self):
+        self.assertEqual((self.meta["format"], self.meta["version"]), ("rockyard trace", 1))
+        self.assertEqual((self.meta["trial"], self.meta["seed"]), (2, "1"))
+        self.assertEqual(len(self.meta["record_hash"]), 16)
+        self.assertEqual(self.meta["outcome"], "false_goal")
+
+    def test_last_moment_is_that_of_the_record(self):
+        self.assertEqual(self.arrays["time_s"][-1], self.record["sim_time_s"])
+        self.assertEqual(self.arrays["position_m"][-1, 0], self.record["final_x_m"])
+        self.assertEqual(self.arrays["position_m"][-1, 1], self.record["final_y_m"])
+        self.assertEqual(self.arrays["heading_rad"][-1], self.record["final_heading_rad"])
+        self.assertEqual(self.arrays["believed"][-1, 0], self.record["believed_x_m"])
+
+    def test_every_sample_of_the_csv_is_there(self):
+        samples = [row for row in self.rows if row["row"] == "sample"]
+        driving = numpy.isin(self.arrays["activity"], ["drive", "turn", "steer"])
+        self.assertEqual(int(driving.sum()), len(samples))
+        x = numpy.array([float(row["true_x_m"]) for row in samples])
+        numpy.testing.assert_array_equal(self.arrays["position_m"][driving, 0], x)
+        tilt = numpy.array([float(row["tilt_rad"]) for row in samples])
+        numpy.testing.assert_array_equal(self.arrays["tilt_rad"][driving], tilt)
+
+    def test_every_event_of_the_csv_is_there(self):
+        events = [row for row in self.rows if row["row"] == "event"]
+        self.assertEqual(self.arrays["event_kind"].tolist(), [row["kind"] for row in events])
+        self.assertEqual(self.arrays["event_detail"].tolist(), [row["detail"] for row in events])
+
+    def test_times_ascend_and_attitudes_are_rotations(self):
+        self.assertTrue((numpy.diff(self.arrays["time_s"]) >= 0).all())
+        norms = numpy.linalg.norm(self.arrays["attitude_wxyz"], axis=1)
+        numpy.testing.assert_allclose(norms, 1.0, atol=1e-12)
+        self.assertEqual(int(self.arrays["set_back"].sum()), int(self.record["reflections"]))
+
+    def test_scans(self):
+        scans = int(self.record["scans"])
+        self.assertEqual(self.arrays["scan_hazards"].shape, (scans, 5))
+        self.assertEqual(self.arrays["scan_hazards"].dtype, numpy.bool_)
+        points = self.arrays["scan_points"]
+        self.assertTrue((points[:, 0] < scans).all() and (points[:, 4] < 5).all())
+        self.assertEqual(self.arrays["map_goodness"].shape, (0, 0, 0))
+
+
+class MapTrace(unittest.TestCase):
+    def test_maps_and_votes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            arrays, _ = trace(Path(folder), "gestalt/narrow_course.json", "--set",
+                              "referee.time_limit_s=600")
+        steps = len(arrays["step_time_s"])
+        self.assertGreater(steps, 3)
+        self.assertEqual(arrays["map_elevation_m"].shape, arrays["map_goodness"].shape)
+        self.assertEqual(arrays["map_goodness"].shape[0], steps)
+        known = arrays["map_goodness"] >= 0
+        self.assertTrue(known.any() and (arrays["map_goodness"][known] <= 255).all())
+        chosen = arrays["vote_step"][arrays["vote_chosen"]]
+        numpy.testing.assert_array_equal(chosen, numpy.arange(steps))
+        self.assertEqual(set(arrays["vote_kind"].tolist()), {"forward", "backward", "turn"})
+        self.assertEqual(arrays["scan_points"].shape, (0, 6))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
