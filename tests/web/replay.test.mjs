@@ -65,6 +65,48 @@ const difference = (a, b) => a.filter((colour, i) => colour !== b[i]).length / a
 const time = (page) => page.evaluate(() => rockyardReplay.time);
 const seekShare = (page, share) => page.evaluate((s) => rockyardReplay.seek(rockyardReplay.sample(0).t + s * rockyardReplay.duration), share);
 
+const times = ([aw, ax, ay, az], [bw, bx, by, bz]) => [
+  aw * bw - ax * bx - ay * by - az * bz,
+  aw * bx + ax * bw + ay * bz - az * by,
+  aw * by - ax * bz + ay * bw + az * bx,
+  aw * bz + ax * by - ay * bx + az * bw,
+];
+
+const unit = (q) => q.map((value) => value / Math.hypot(...q));
+
+const rotated = (q, v) => times(times(q, [0, ...v]), [q[0], -q[1], -q[2], -q[3]]).slice(1);
+
+/** Pivots and attitudes of all links at sample i, from the definition in payload.ts. */
+function expectedLinks({ links }, motion, i) {
+  const placed = [];
+  for (const { name, parent, pivot, axis } of links) {
+    if (placed.length === 0) {
+      placed.push({ at: [motion.x[i], motion.y[i], motion.z[i]], turn: unit([motion.qw[i], motion.qx[i], motion.qy[i], motion.qz[i]]) });
+      continue;
+    }
+    const { at, turn } = placed[parent];
+    const angle = motion.joints[name][i];
+    const offset = rotated(turn, pivot);
+    const own = [Math.cos(angle / 2), ...axis.map((a) => a * Math.sin(angle / 2))];
+    placed.push({ at: at.map((value, k) => value + offset[k]), turn: times(turn, own) });
+  }
+  return placed;
+}
+
+/** Middle of the dark blue of the solar panel in a picture `width` wide. */
+function panelAt(colours, width) {
+  let [x, y, count] = [0, 0, 0];
+  colours.forEach((colour, i) => {
+    const [r, g, b] = [colour & 255, (colour >> 8) & 255, (colour >> 16) & 255];
+    if (b < r + 25 || g > 85 || r > 70) return;
+    x += i % width;
+    y += Math.floor(i / width);
+    ++count;
+  });
+  assert.ok(count > 20, "no panel is seen");
+  return { x: x / count, y: y / count };
+}
+
 before(async () => {
   browser = await launch();
 });
@@ -142,6 +184,60 @@ describe("a drive with light stripes", () => {
       const spread = Math.max(...wheels.map((a) => Math.hypot(a.x - wheels[0].x, a.y - wheels[0].y)));
       assert.ok(spread > 0.5 && spread < 0.8, `wheels are ${spread} m apart`);
     }
+    await page.context().close();
+  });
+
+  test("every link is where the angles of its sample put it", async () => {
+    const { motion, rover } = payloadOf(file);
+    const { page } = await open(file);
+    for (const name of ["left_bogie", "right_rocker", "left_front_knuckle"]) {
+      const angles = motion.joints[name].map(Math.abs);
+      const i = angles.indexOf(Math.max(...angles));
+      assert.ok(angles[i] > 0.02, `${name} never turns`);
+      const drawn = await page.evaluate((t) => (rockyardReplay.seek(t), rockyardReplay.links()), motion.t[i]);
+      expectedLinks(rover, motion, i).forEach(({ at, turn }, k) => {
+        const { x, y, z, attitude } = drawn[k];
+        assert.equal(drawn[k].name, rover.links[k].name);
+        assert.ok(Math.hypot(x - at[0], y - at[1], z - at[2]) < 1e-6, `${drawn[k].name} while ${name} is turned`);
+        const cosine = attitude.w * turn[0] + attitude.x * turn[1] + attitude.y * turn[2] + attitude.z * turn[3];
+        assert.ok(Math.abs(cosine) > 1 - 1e-6, `${drawn[k].name} is turned otherwise`);
+      });
+    }
+    await page.context().close();
+  });
+
+  test("readouts tell what the data says", async () => {
+    const { motion, events } = payloadOf(file);
+    const i = Math.floor(motion.t.length / 2);
+    const { page } = await open(file);
+    await page.evaluate((t) => (rockyardReplay.seek(t), rockyardReplay.pose()), motion.t[i]);
+    const rows = await page.locator(".readout > dl").evaluate((list) =>
+      Object.fromEntries([...list.querySelectorAll("dt")].map((name) => [name.textContent, name.nextSibling.textContent.replaceAll("−", "-")])));
+    const numbers = (text) => text.match(/-?\d+(\.\d+)?/g).map(Number);
+    const near = (text, values) => numbers(text).forEach((value, k) => k < values.length && assert.ok(Math.abs(value - values[k]) < 0.0051, `${text}: ${values}`));
+    near(rows["True pose"], [motion.x[i], motion.y[i]]);
+    near(rows["Believed pose"], [motion.believed_x[i], motion.believed_y[i]]);
+    near(rows["Position error"], [Math.hypot(motion.believed_x[i] - motion.x[i], motion.believed_y[i] - motion.y[i])]);
+    assert.equal(rows.Activity, motion.activity_names[motion.activity[i]]);
+    assert.ok(events.some((event) => event.t <= motion.t[i] && rows["Last event"].length > 0));
+    await page.context().close();
+  });
+
+  test("the plan has x to the right and y up", async () => {
+    const { motion } = payloadOf(file);
+    const { page } = await open(file);
+    await page.keyboard.press("t");
+    await page.keyboard.press("b");
+    const highest = motion.y.indexOf(Math.max(...motion.y));
+    const lowest = motion.y.indexOf(Math.min(...motion.y));
+    const places = [];
+    for (const i of [0, motion.t.length - 1, highest, lowest]) {
+      await page.evaluate((t) => rockyardReplay.seek(t), motion.t[i]);
+      places.push(panelAt(await pixels(page), await page.evaluate(() => Math.floor(document.querySelector(".picture canvas").width / 4))));
+    }
+    const [start, end, high, low] = places;
+    assert.ok(end.x > start.x + 50, `${end.x} is not right of ${start.x}`);
+    assert.ok(high.y < low.y - 5, `${high.y} is not above ${low.y}`);
     await page.context().close();
   });
 

@@ -1,6 +1,6 @@
 // What any picture of the trial can do: the scene in three dimensions, and the plan where WebGL is
 // missing.
-import type { Moment } from "./motion";
+import type { Moment, Quaternion } from "./motion";
 import type { Scan, Step } from "./payload";
 
 export type CameraMode = "follow" | "top" | "orbit" | "rover";
@@ -32,12 +32,13 @@ export interface DrawnPose {
   heading: number;
 }
 
-/** Where the pivot of a link is drawn, in W. */
+/** Where the pivot of a link is drawn, in W, and how the link is turned. */
 export interface DrawnLink {
   name: string;
   x: number;
   y: number;
   z: number;
+  attitude: Quaternion;
 }
 
 export interface View {

@@ -64,7 +64,8 @@ abstract class Rover {
     this.body.updateMatrixWorld();
     return this.links.map(({ name, group }) => {
       const { x, y, z } = group.getWorldPosition(new Vector3());
-      return { name, x, y, z };
+      const turn = group.getWorldQuaternion(new Quaternion());
+      return { name, x, y, z, attitude: { w: turn.w, x: turn.x, y: turn.y, z: turn.z } };
     });
   }
 

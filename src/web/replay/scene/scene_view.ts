@@ -98,7 +98,8 @@ export class SceneView implements View {
   show({ moment, scan, step }: Shown, layers: Layers): void {
     const { attitude, believed } = moment;
     this.rover.body.position.set(moment.x, moment.y, moment.z);
-    this.rover.body.quaternion.set(attitude.x, attitude.y, attitude.z, attitude.w);
+    // The data's digits are few.
+    this.rover.body.quaternion.set(attitude.x, attitude.y, attitude.z, attitude.w).normalize();
     this.rover.setJoints(moment.joints);
     this.ghost.body.visible = layers.believed && this.mode !== "rover";
     this.ghost.body.position.set(believed.x, believed.y, this.heights.at(believed.x, believed.y));
