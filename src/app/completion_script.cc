@@ -28,12 +28,15 @@ struct CommandOffer {
   bool takes_files = false;
 };
 
-// "wilson" and "clopper-pearson" of "TEXT:{wilson,clopper-pearson}", as the parser shows it.
+// "wilson" and "clopper-pearson" of "TEXT:{wilson,clopper-pearson}", as the parser shows it; words
+// that stand for numbers are shown as "word->number".
 std::vector<std::string> Choices(const std::string& type) {
   const std::size_t open = type.find('{');
   const std::size_t close = type.find('}', open);
   if (open == std::string::npos || close == std::string::npos) return {};
-  return CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
+  auto words = CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
+  for (std::string& word : words) word = word.substr(0, word.find("->"));
+  return words;
 }
 
 Takes TakenBy(const CLI::Option& option) {

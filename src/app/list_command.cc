@@ -3,8 +3,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
+#include <iterator>
 #include <memory>
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/console.h"
@@ -33,32 +38,38 @@ std::string Bold(const std::string& text) {
                                                         : text;
 }
 
-// Names are relative to the folder, so that there is room for what they are.
-void PrintEntries(const std::string& folder, const std::vector<ListedFile>& files, bool all) {
-  const std::size_t width = std::max<std::size_t>(
-      static_cast<std::size_t>(std::max(TerminalWidth(stdout), 0)), kLeastWidth);
+std::size_t LineWidth() {
+  return std::max(static_cast<std::size_t>(std::max(TerminalWidth(stdout), 0)), kLeastWidth);
+}
+
+// The files of one folder below its name, so that there is room for what they are.
+void PrintGroup(const std::string& folder, std::span<const ListedFile> files) {
   std::size_t widest = 0;
   for (const ListedFile& file : files) {
-    if (IsShown(file, all))
-      widest = std::max(widest, report::Columns(report::Printable(file.path)));
+    widest = std::max(widest, report::Columns(report::Printable(file.name_in_group())));
   }
-  std::string group;
-  std::size_t left_out = 0;
-  Print(report::Printable(fmt::format("in {}:", folder)) + "\n");
+  const std::filesystem::path path = std::filesystem::path(folder) / files.front().group;
+  Print(Bold(report::Printable(path.lexically_normal().generic_string())) + "\n");
   for (const ListedFile& file : files) {
-    if (!IsShown(file, all)) {
-      ++left_out;
-      continue;
-    }
-    if (file.group != group) Print(Bold(report::Printable(file.group)) + "\n");
-    group = file.group;
-    const std::string line = fmt::format("  {:<{}}  {}", report::Printable(file.path), widest,
-                                         report::Printable(file.About()));
-    Print(report::Cut(line, width) + "\n");
+    const std::string line = fmt::format("  {:<{}}  {}", report::Printable(file.name_in_group()),
+                                         widest, report::Printable(file.About()));
+    Print(report::Cut(line, LineWidth()) + "\n");
   }
-  if (left_out > 0) {
-    Print(
-        fmt::format("{} parts of scenarios, which these extend, are left out: --all\n", left_out));
+}
+
+void PrintEntries(const std::string& folder, const std::vector<ListedFile>& files, bool all) {
+  std::vector<ListedFile> shown;
+  std::copy_if(files.begin(), files.end(), std::back_inserter(shown),
+               [&](const ListedFile& file) { return IsShown(file, all); });
+  for (auto begin = shown.begin(); begin != shown.end();) {
+    const auto end = std::find_if(
+        begin, shown.end(), [&](const ListedFile& file) { return file.group != begin->group; });
+    PrintGroup(folder, {begin, end});
+    begin = end;
+  }
+  if (shown.size() < files.size()) {
+    Print(fmt::format("{} parts of scenarios, which these extend, are left out: --all\n",
+                      files.size() - shown.size()));
   }
 }
 

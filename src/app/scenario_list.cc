@@ -110,6 +110,8 @@ std::string ListedFile::About() const {
   return {};
 }
 
+std::string ListedFile::name_in_group() const { return fs::path(path).filename().string(); }
+
 bool IsShown(const ListedFile& file, bool all) { return all || file.kind != ListedKind::kPart; }
 
 std::vector<ListedFile> ListScenarios(const fs::path& folder) {

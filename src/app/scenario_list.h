@@ -27,6 +27,8 @@ struct ListedFile {
 
   // Of one line, however long.
   std::string About() const;
+  // The path without its group.
+  std::string name_in_group() const;
 };
 
 // Parts only where everything is asked for.

@@ -67,8 +67,9 @@ TEST_F(CliCompletion, OtherShellsReadTheirs) {
     Write(shell);
     const std::string program = "/usr/bin/" + shell;
     if (!std::filesystem::exists(program)) continue;
-    const CommandResult result = Wait(StartProgram({program, "--no-execute", "./script"}));
+    const CommandResult result = Wait(StartProgram({program, "-n", "./script"}));
     EXPECT_EQ(result.exit_code, 0) << shell << result.err;
+    EXPECT_EQ(result.err, "");
   }
   EXPECT_THAT(Run({"completion", "zsh"}).out, StartsWith("#compdef rockyard\n"));
   EXPECT_THAT(Run({"completion", "fish"}).out, HasSubstr("complete -c rockyard"));

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <string>
 
 namespace rockyard::app {
@@ -18,6 +19,8 @@ class Script : public testing::Test {
     CLI::App* fly = app_.add_subcommand("fly", "It's a [test]: of quotes");
     fly->add_option("FILE", file_, "a file")->required();
     fly->add_option("--mode", mode_, "how")->check(CLI::IsMember({"fast", "slow"}));
+    fly->add_option("--rank", count_, "as a word")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, int>{{"high", 1}, {"low", 2}}));
     fly->add_option("-n,--count", count_, "how many");
     fly->add_option("--out", out_, "the user's file");
     fly->add_flag("--dry", dry_, "don't");
@@ -36,6 +39,7 @@ class Script : public testing::Test {
 TEST_F(Script, BashKnowsChoicesNumbersAndFiles) {
   const std::string text = CompletionScript(app_, Shell::kBash);
   EXPECT_THAT(text, HasSubstr("'fly --mode')\n      COMPREPLY=($(compgen -W 'fast slow'"));
+  EXPECT_THAT(text, HasSubstr("'fly --rank')\n      COMPREPLY=($(compgen -W 'high low'"));
   EXPECT_THAT(text, HasSubstr("'fly --count' | 'fly -n') return ;;"));
   EXPECT_THAT(text, HasSubstr("--dry"));
   EXPECT_THAT(text, Not(HasSubstr("'fly --out'"))) << "files, as everywhere else";

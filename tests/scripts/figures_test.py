@@ -17,11 +17,12 @@ from types import SimpleNamespace
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "scripts"))
 
-import figures  # noqa: E402  pylint: disable=wrong-import-position
-from figures import goldberg2002_figure3 as gestalt  # noqa: E402  pylint: disable=wrong-import-position
-from figures import matthies1995_figure15 as figure15  # noqa: E402  pylint: disable=wrong-import-position
-from figures import matthies1995_figure16 as figure16  # noqa: E402  pylint: disable=wrong-import-position
-from figures.source import Source  # noqa: E402  pylint: disable=wrong-import-position
+# pylint: disable=wrong-import-position
+import figures
+from figures import goldberg2002_figure3 as gestalt
+from figures import matthies1995_figure15 as figure15
+from figures import matthies1995_figure16 as figure16
+from figures.source import Source
 
 ROCKYARD = None
 QUICK = ["--set", "referee.time_limit_s=1500", "--threads", "2", "--quiet"]
