@@ -233,7 +233,7 @@ describe("one run", () => {
     }
     await page.locator("#parameters select").selectOption("");
     await page.locator("#parameter-search").fill("k_per_m2");
-    const paths = await rows.locator("th").allInnerTexts();
+    const paths = await rows.locator("th code").allInnerTexts();
     assert.ok(paths.length > 0 && paths.length < parameters.length);
     assert.ok(paths.includes(parameters.find((each) => each.path.includes("k_per_m2")).path));
     await page.close();
@@ -264,10 +264,13 @@ describe("two runs", () => {
     assert.equal(await lines.count(), 2);
     const before = await strokes();
     const boxes = page.locator("#runs input");
+    // Charts are drawn with the next frame.
     await boxes.nth(0).uncheck();
+    await lines.first().waitFor();
     assert.equal(await lines.count(), 1);
     assert.deepEqual(await strokes(), [before[1]]);
     await boxes.nth(0).check();
+    await lines.first().waitFor();
     assert.deepEqual(await strokes(), before);
     await page.close();
   });
