@@ -40,8 +40,9 @@ function changed(file, name, change) {
   return target;
 }
 
+// Small, because drawing in software takes its time by the pixel.
 async function open(file, options) {
-  const opened = await openPage(browser, file, options);
+  const opened = await openPage(browser, file, { width: 1000, height: 640, ...options });
   await opened.page.waitForFunction(() => window.rockyardReplay);
   return opened;
 }
