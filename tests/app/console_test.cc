@@ -66,5 +66,38 @@ TEST(IsTerminal, ATerminalOfMpirunIsNone) {
   close(master);
 }
 
+// A stream that is no terminal, with variables of the environment as given.
+class Style : public testing::Test {
+ protected:
+  Style() {
+    for (const char* name : kNames) unsetenv(name);
+  }
+  ~Style() override {
+    for (const char* name : kNames) unsetenv(name);
+    std::fclose(file_);
+  }
+
+  report::TextStyle With(const char* name, const char* value) {
+    setenv(name, value, 1);
+    return StyleFor(file_);
+  }
+
+ private:
+  static constexpr const char* kNames[] = {"NO_COLOR", "CLICOLOR_FORCE"};
+  std::FILE* file_ = std::tmpfile();
+};
+
+TEST_F(Style, IsColouredOffTheTerminalOnlyWhereForced) {
+  EXPECT_EQ(With("CLICOLOR_FORCE", ""), report::TextStyle::kPlain);
+  EXPECT_EQ(With("CLICOLOR_FORCE", "0"), report::TextStyle::kPlain);
+  EXPECT_EQ(With("CLICOLOR_FORCE", "1"), report::TextStyle::kColour);
+}
+
+TEST_F(Style, NoColorWins) {
+  EXPECT_EQ(With("CLICOLOR_FORCE", "1"), report::TextStyle::kColour);
+  EXPECT_EQ(With("NO_COLOR", ""), report::TextStyle::kColour) << "empty: not set";
+  EXPECT_EQ(With("NO_COLOR", "1"), report::TextStyle::kPlain);
+}
+
 }  // namespace
 }  // namespace rockyard::app

@@ -33,24 +33,26 @@ def rows(path):
         return list(csv.DictReader(file))
 
 
-class FiguresTest(unittest.TestCase):
+SCRATCH = tempfile.TemporaryDirectory()  # of all tests
+
+
+def setUpModule():
     """Runs of a few short trials, made once."""
+    for name, scenario, trials in (("nominal", "pathfinder/nominal", 4),
+                                   ("perfect", "pathfinder/nominal_perfect_localization", 3),
+                                   ("gestalt", "gestalt/narrow_course", 1),
+                                   ("scan", "hazard_detection/detection", 1)):
+        extra = ["--set", "hazard_detection.scenes_per_run=2"] if name == "scan" else []
+        subprocess.run([ROCKYARD, "run", ROOT / f"scenarios/{scenario}.json", "--trials", str(trials),
+                        "--out", Path(SCRATCH.name) / name, *QUICK, *extra], check=True)
 
-    @classmethod
-    def setUpClass(cls):
-        cls.scratch = tempfile.TemporaryDirectory()
-        cls.root = Path(cls.scratch.name)
-        for name, scenario, trials in (("nominal", "pathfinder/nominal", 4),
-                                       ("perfect", "pathfinder/nominal_perfect_localization", 3),
-                                       ("gestalt", "gestalt/narrow_course", 1),
-                                       ("scan", "hazard_detection/detection", 1)):
-            extra = ["--set", "hazard_detection.scenes_per_run=2"] if name == "scan" else []
-            subprocess.run([ROCKYARD, "run", ROOT / f"scenarios/{scenario}.json", "--trials",
-                            str(trials), "--out", cls.root / name, *QUICK, *extra], check=True)
 
-    @classmethod
-    def tearDownClass(cls):
-        cls.scratch.cleanup()
+def tearDownModule():
+    SCRATCH.cleanup()
+
+
+class FiguresTest(unittest.TestCase):
+    root = Path(SCRATCH.name)
 
     def draw(self, name, *runs, **options):
         sources = [Source(self.root / run, ROCKYARD) for run in runs]
