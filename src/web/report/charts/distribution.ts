@@ -91,7 +91,7 @@ export function drawSteps(all: Steps[], marks: Mark[], yLabel: string, width: nu
     y: { domain: [0, 1], label: yLabel, grid: true, ticks: 5, percent: false, labelArrow: "none", tickFormat: (rate: number) => `${Math.round(100 * rate)} %` },
     marks: [
       Plot.ruleY([0], { stroke: "var(--line-strong)" }),
-      ...all.flatMap((steps) => seriesMarks(steps, domain, all.length > 3 ? 0.09 : 0.16)),
+      ...all.flatMap((steps) => seriesMarks(steps, domain, all.length > 3 ? 0.07 : 0.16)),
       ...publishedMarks(marks, domain),
     ],
   });

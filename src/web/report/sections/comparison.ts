@@ -22,9 +22,24 @@ function successRows(of: Comparison): Difference[] {
   );
 }
 
+// What is looked at first; positions and headings at the end have means that say little.
+const DRAWN: Record<Column["trials"], string[]> = {
+  all: [
+    "true_distance_m", "true_goal_distance_m", "sim_time_s", "energy_wh", "net_rate_m_s", "scans", "hazards_believed", "turns_in_place",
+    "scrapes", "max_tilt_deg", "min_clearance_m", "heading_error_deg", "position_error_m",
+  ],
+  arrived: ["path_ratio", "sim_time_s", "energy_wh"],
+};
+const MOST_DRAWN = 16;
+
+function drawnColumns(of: Comparison): Column[] {
+  const known = of.columns.filter((row) => DRAWN[row.trials]?.includes(row.name));
+  return known.length > 0 ? known : of.columns.slice(0, MOST_DRAWN);
+}
+
 // Columns have different units: as a share of the first run's mean they go on one axis.
 function columnRows(of: Comparison): Difference[] {
-  return of.columns.flatMap((row) => {
+  return drawnColumns(of).flatMap((row) => {
     if (!isNumber(row.first) || !isNumber(row.difference) || !isNumber(row.low) || !isNumber(row.high)) return [];
     if (row.first === 0) return [];
     const scale = 100 / Math.abs(row.first);
@@ -66,6 +81,7 @@ function columnRow(row: Column): (Child | Cell)[] {
 function columnTable(of: Comparison): HTMLElement {
   return table({
     caption: `Means of ${of.first} and ${of.second}`,
+    tall: of.columns.length > MOST_DRAWN,
     head: ["Column", "Trials", ...["n", of.first, of.second, "Difference", "95 % interval"].map((content) => ({ content, numeric: true }))],
     rows: of.columns.map(columnRow),
   });
@@ -91,7 +107,7 @@ function forests(of: Comparison, at: number): HTMLElement {
       chartFigure({
         id: `forest-columns-${at}`,
         title: "Means",
-        caption: `Mean of ${of.second} less that of ${of.first}, in per cent of the latter. ${read}`,
+        caption: `Mean of ${of.second} less that of ${of.first}, in per cent of the latter, for the columns that are looked at first; the table below has all. ${read}`,
         alternative: sentence(columns, "%"),
         draw: (width) => drawForest(columns, "difference [%]", width),
         numbers: () => [forestTable(columns, `% of ${of.first}`)],

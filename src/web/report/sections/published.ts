@@ -9,6 +9,10 @@ import type { PublishedRow, Run } from "../payload";
 import { unitText, verdictWords, words } from "../words";
 import type { Section } from "./section";
 
+const VERDICTS_IN_ORDER = ["agrees", "differs", "underpowered", "not judged"];
+// Units of counts and of p-values say nothing more.
+const NO_UNITS = ["", "1", "p", "runs"];
+
 function verdict(row: PublishedRow): Cell {
   const { mark, tone } = verdictWords(row.verdict);
   return {
@@ -39,7 +43,7 @@ function remarks(row: PublishedRow): HTMLElement | null {
 }
 
 function cells(row: PublishedRow): (Child | Cell)[] {
-  const unit = row.unit === "" || row.unit === "1" || row.unit === "p" ? "" : ` [${unitText(row.unit)}]`;
+  const unit = NO_UNITS.includes(row.unit) ? "" : `\u00a0[${unitText(row.unit)}]`;
   return [
     rowHeader(el("div", {}, row.what + unit, remarks(row))),
     numeric(row.published || MISSING, row.published_value),
@@ -53,7 +57,8 @@ function cells(row: PublishedRow): (Child | Cell)[] {
 }
 
 function meanings(rows: PublishedRow[]): HTMLElement {
-  const names = [...new Set(rows.map((row) => row.verdict))];
+  const present = [...new Set(rows.map((row) => row.verdict))];
+  const names = [...VERDICTS_IN_ORDER.filter((name) => present.includes(name)), ...present.filter((name) => !VERDICTS_IN_ORDER.includes(name))];
   return el(
     "dl",
     { class: "meanings" },
@@ -78,6 +83,7 @@ function comparison(run: Run, titled: boolean): Child[] {
     meanings(published.rows),
     table({
       caption: `${run.label} against ${published.reference}`,
+      className: "published-table",
       head: [
         "Number",
         { content: "Published", numeric: true },
