@@ -10,6 +10,7 @@ import { readPayload } from "../shared/payload";
 import { Context } from "./context";
 import type { ReportPayload } from "./payload";
 import { abundance } from "./sections/abundance";
+import { withParameters } from "./cell_parameters";
 import { comparison } from "./sections/comparison";
 import { distance } from "./sections/distance";
 import { deadReckoning, timeAndEnergy } from "./sections/distributions";
@@ -66,7 +67,7 @@ async function main(): Promise<void> {
   const page = document.getElementById("page")!;
   page.className = "report";
   try {
-    build(page, await readPayload<ReportPayload>());
+    build(page, withParameters(await readPayload<ReportPayload>()));
     // The place that the address names was not there while the page was read.
     if (location.hash.length > 1) document.getElementById(location.hash.slice(1))?.scrollIntoView();
   } catch (error) {

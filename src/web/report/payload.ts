@@ -35,6 +35,8 @@ export interface Run {
   /** Columns that tell the cells of a measurement apart; where absent the page guesses. */
   factors?: string[];
   parameters: Parameter[];
+  /** Index of an earlier run whose parameters hold here too, but for those above; null: all are above. */
+  parameters_as: number | null;
   /** Replay pages that were written with the report, by trial number: links relative to the page. */
   replays: Record<string, string>;
   /** The command that writes any other; {trial} stands for the number. */

@@ -54,6 +54,7 @@ const sentence = (rows: Difference[], unit: string) =>
 function successTable(of: Comparison): HTMLElement {
   return table({
     caption: `Success of ${of.first} and ${of.second}`,
+    className: "compact",
     head: ["Success", ...[of.first, of.second, "Difference", "95 % interval", "p"].map((content) => ({ content, numeric: true }))],
     rows: of.successes.map((row) => [
       rowHeader(row.what),
@@ -91,9 +92,10 @@ function forests(of: Comparison, at: number): HTMLElement {
   const successes = successRows(of);
   const columns = columnRows(of);
   const read = "A square is the difference, the line its 95 % interval: where it crosses zero, the runs may be alike. An arrow: it goes on.";
-  return el(
+  // The short chart has its table below it, beside the long one.
+  const success = el(
     "div",
-    { class: "chart-grid" },
+    { class: "chart-figure" },
     successes.length > 0 &&
       chartFigure({
         id: `forest-success-${at}`,
@@ -103,6 +105,12 @@ function forests(of: Comparison, at: number): HTMLElement {
         draw: (width) => drawForest(successes, "difference [percentage points]", width),
         numbers: () => [forestTable(successes, "percentage points")],
       }),
+    successTable(of),
+  );
+  return el(
+    "div",
+    { class: "chart-grid" },
+    success,
     columns.length > 0 &&
       chartFigure({
         id: `forest-columns-${at}`,
@@ -132,7 +140,6 @@ function content(of: Comparison, at: number): Child[] {
     el("p", { class: "note" }, `Compared: ${how}.`),
     settings(of),
     forests(of, at),
-    successTable(of),
     columnTable(of),
     (of.notes ?? []).length > 0 ? el("ul", { class: "note" }, ...of.notes.map((note) => el("li", {}, note))) : null,
   ];
