@@ -3,7 +3,9 @@ import { el } from "../shared/dom";
 import { themeSwitch } from "../shared/theme";
 import { button } from "./controls";
 import { timelineEvents } from "./events";
+import { makeView } from "./make_view";
 import { Course as Drive, lastAtOrBefore, type Moment } from "./motion";
+import { pageKeys } from "./page_keys";
 import { bindKeys, helpDialog, type Key } from "./panels/keys";
 import { layersPanel } from "./panels/layers";
 import { Readout } from "./panels/readout";
@@ -12,20 +14,12 @@ import { Timeline } from "./panels/timeline";
 import { Transport } from "./panels/transport";
 import { VotesPanel } from "./panels/votes";
 import type { ReplayPayload } from "./payload";
-import { PlanView } from "./plan_view";
-import { Player, STANDING_S, standingStretches } from "./player";
-import type { Extent } from "./scene/ground";
-import { SceneView } from "./scene/scene_view";
+import { Player, standingStretches } from "./player";
 import type { CameraMode, DrawnLink, DrawnPose, Layers, MapKind, Shown, View } from "./view";
 
 const MODE_NAMES: Record<CameraMode, string> = { follow: "Follow", top: "Top", orbit: "Free", rover: "From the rover" };
 const MAP_KINDS: MapKind[] = ["goodness", "certainty", "elevation", "off"];
-// About the whole drive in the plan, m.
-const PLAN_MARGIN_M = 0.8;
 const LONGEST_FRAME_S = 0.1;
-// Of one press of a key.
-const NEARER = 1.2;
-const TURN_RAD = 0.15;
 
 /** For tests and for the console: what is shown, and the player; nothing of the trial can be changed. */
 export interface Handle {
@@ -75,6 +69,7 @@ export class App {
       map: payload.steps.length > 0 ? "goodness" : "off",
       mapAtTruth: false,
       votes: true,
+      marks: true,
       grid: true,
     };
     const events = timelineEvents(payload);
@@ -82,7 +77,7 @@ export class App {
     this.timeline = new Timeline(payload, events, this.player, () => this.refresh());
     this.transport = new Transport(this.player, () => this.timeline.shownTimes);
     this.layerPanel = this.makeLayers();
-    this.view = this.makeView();
+    this.view = makeView(payload, this.drive);
     this.build();
     bindKeys(this.keys());
     this.player.onChange(() => this.refresh());
@@ -116,12 +111,6 @@ export class App {
       },
       sample: (i) => drive.at(this.payload.motion.t[i] ?? NaN),
     };
-  }
-
-  private makeView(): View {
-    const plan = planExtent(this.payload);
-    const View = hasWebGl() ? SceneView : PlanView;
-    return new View(this.payload, this.drive, plan);
   }
 
   private build(): void {
@@ -179,14 +168,9 @@ export class App {
     this.refresh();
   }
 
-  private moveCamera(move: () => void): void {
-    move();
-    this.refresh();
-  }
-
   /** The plan with both paths to their ends. */
   private planOfPaths(): void {
-    this.change({ believed: true, wholePath: true });
+    this.change({ believed: true, wholePath: true, marks: true });
     this.setMode("top");
   }
 
@@ -242,58 +226,19 @@ export class App {
   }
 
   private keys(): Key[] {
-    const { player } = this;
-    const scrub = (share: number): void => player.seek(player.timeOf(player.shareOf(player.time) + share));
-    const camera = (key: string, mode: CameraMode, does: string): Key => ({ keys: [key], shown: key, does, act: () => this.setMode(mode) });
-    const nextMap = (): void => this.change({ map: MAP_KINDS[(MAP_KINDS.indexOf(this.layers.map) + 1) % MAP_KINDS.length]! });
-    return [
-      { keys: [" "], shown: "space", does: "play or pause", act: () => player.toggle() },
-      { keys: ["ArrowRight"], shown: "→", does: "on by 1 % of the time", act: () => scrub(0.01) },
-      { keys: ["ArrowLeft"], shown: "←", does: "back by 1 % of the time", act: () => scrub(-0.01) },
-      { keys: ["n"], shown: "n", does: "next event", act: () => this.transport.step(1) },
-      { keys: ["p"], shown: "p", does: "previous event", act: () => this.transport.step(-1) },
-      { keys: ["Home"], shown: "Home", does: "to the start", act: () => player.seek(player.start) },
-      { keys: ["End"], shown: "End", does: "to the end", act: () => player.seek(player.end) },
-      { keys: ["+", "="], shown: "+", does: "faster", act: () => player.changeSpeed(1) },
-      { keys: ["-"], shown: "−", does: "slower", act: () => player.changeSpeed(-1) },
-      { keys: ["s"], shown: "s", does: `shorten standing to ${STANDING_S} s, or not`, act: () => (player.skipStanding = !player.skipStanding) },
-      camera("f", "follow", "camera that follows the rover"),
-      camera("t", "top", "plan from above, x to the right"),
-      camera("o", "orbit", "free camera"),
-      camera("r", "rover", "from a mast on the rover"),
-      { keys: ["]"], shown: "]", does: "nearer", act: () => this.moveCamera(() => this.view.approach(NEARER)) },
-      { keys: ["["], shown: "[", does: "further away", act: () => this.moveCamera(() => this.view.approach(1 / NEARER)) },
-      { keys: [","], shown: ",", does: "camera to the left", act: () => this.moveCamera(() => this.view.turn(-TURN_RAD)) },
-      { keys: ["."], shown: ".", does: "camera to the right", act: () => this.moveCamera(() => this.view.turn(TURN_RAD)) },
-      { keys: ["6"], shown: "6", does: "plan of both paths (figure 16)", act: () => this.planOfPaths() },
-      { keys: ["b"], shown: "b", does: "believed path, or not", act: () => this.change({ believed: !this.layers.believed }) },
-      { keys: ["m"], shown: "m", does: "next kind of map", act: nextMap },
-      { keys: ["?"], shown: "?", does: "this help", act: () => document.querySelector("dialog")?.showModal() },
-    ];
+    const move = (change: () => void): void => {
+      change();
+      this.refresh();
+    };
+    return pageKeys({
+      player: this.player,
+      step: (by) => this.transport.step(by),
+      camera: (mode) => this.setMode(mode),
+      approach: (factor) => move(() => this.view.approach(factor)),
+      turn: (angle) => move(() => this.view.turn(angle)),
+      planOfPaths: () => this.planOfPaths(),
+      toggleBelieved: () => this.change({ believed: !this.layers.believed }),
+      nextMap: () => this.change({ map: MAP_KINDS[(MAP_KINDS.indexOf(this.layers.map) + 1) % MAP_KINDS.length]! }),
+    });
   }
-}
-
-// Asked of a canvas of its own, because three.js writes errors to the console.
-function hasWebGl(): boolean {
-  return document.createElement("canvas").getContext("webgl2") !== null;
-}
-
-/** What the plan shows: the drive with start and goal, within the ground. */
-function planExtent({ motion, course }: ReplayPayload): Extent {
-  const { start, goal, told_goal: told } = course;
-  const extent = { xMin: start.x, xMax: start.x, yMin: start.y, yMax: start.y };
-  const hold = (x: number, y: number, reach: number): void => {
-    extent.xMin = Math.min(extent.xMin, x - reach);
-    extent.xMax = Math.max(extent.xMax, x + reach);
-    extent.yMin = Math.min(extent.yMin, y - reach);
-    extent.yMax = Math.max(extent.yMax, y + reach);
-  };
-  hold(start.x, start.y, PLAN_MARGIN_M);
-  hold(goal.x, goal.y, goal.radius + PLAN_MARGIN_M);
-  hold(told.x, told.y, goal.radius + PLAN_MARGIN_M);
-  motion.t.forEach((_, i) => {
-    hold(motion.x[i]!, motion.y[i]!, PLAN_MARGIN_M);
-    hold(motion.believed_x[i]!, motion.believed_y[i]!, PLAN_MARGIN_M);
-  });
-  return extent;
 }

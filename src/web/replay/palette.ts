@@ -12,6 +12,8 @@ const NAMES = [
   "goal",
   "told-goal",
   "hazard",
+  "scrape",
+  "stall",
   "clear",
   "body",
   "panel",

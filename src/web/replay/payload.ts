@@ -136,7 +136,10 @@ export interface Scan {
   hazards: boolean[];
 }
 
-/** One decision of a map-based navigator. */
+/**
+ * One decision of a map-based navigator. Of more than 240 steps only every second, or third, ... has
+ * elevations and points; the others have nulls and none.
+ */
 export interface Step {
   t: number;
   step: number;
@@ -158,7 +161,7 @@ export interface Step {
     elevation: (number | null)[];
   };
   votes: Vote[];
-  /** At most some hundred of the points that the look gave, in W through the true pose. */
+  /** At most 120 of the points that the look gave, in W through the true pose. */
   points: [number, number, number][];
 }
 

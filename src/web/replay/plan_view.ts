@@ -79,6 +79,7 @@ export class PlanView implements View {
     this.drawCourse(pixel);
     this.drawPaths(shown.moment, pixel);
     this.drawScan(pixel);
+    if (layers.marks) this.drawMarks(shown.moment.t, pixel);
     const { moment } = shown;
     if (layers.believed) this.drawRover(moment.believed, palette["believed-path"], pixel, [4 * pixel, 3 * pixel]);
     this.drawRover(moment, palette["true-path"], pixel, []);
@@ -172,6 +173,25 @@ export class PlanView implements View {
       context.beginPath();
       context.arc(x, y, (hazard ? 4 : 2) * pixel, 0, 2 * Math.PI);
       context.fill();
+    }
+  }
+
+  private drawMarks(t: number, pixel: number): void {
+    const { context, palette } = this;
+    for (const { t: at, kind, x, y } of this.payload.events) {
+      if (at > t || (kind !== "hazard" && kind !== "scrape" && kind !== "stall")) continue;
+      context.fillStyle = context.strokeStyle = palette[kind];
+      context.lineWidth = 2 * pixel;
+      const reach = 4 * pixel;
+      context.beginPath();
+      if (kind === "hazard") context.arc(x, y, reach, 0, 2 * Math.PI);
+      else if (kind === "stall") context.rect(x - reach, y - reach, 2 * reach, 2 * reach);
+      else {
+        this.move(x - reach, y - reach, x + reach, y + reach);
+        this.move(x - reach, y + reach, x + reach, y - reach);
+      }
+      if (kind === "scrape") context.stroke();
+      else context.fill();
     }
   }
 

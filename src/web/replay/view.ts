@@ -14,6 +14,8 @@ export interface Layers {
   /** Whether map and votes lie where the rover truly is instead of where it believes to be. */
   mapAtTruth: boolean;
   votes: boolean;
+  /** Of hazards, scrapes and stalls so far. */
+  marks: boolean;
   grid: boolean;
 }
 

@@ -7,7 +7,7 @@ export interface Key {
   keys: string[];
   shown: string;
   does: string;
-  act: (event: KeyboardEvent) => void;
+  act: () => void;
 }
 
 /** Keys act anywhere but in fields that take text, and where a control uses the key itself. */
@@ -18,7 +18,7 @@ export function bindKeys(keys: Key[]): void {
     const entry = keys.find((key) => key.keys.includes(event.key));
     if (!entry || usesKey(event.target, event.key)) return;
     event.preventDefault();
-    entry.act(event);
+    entry.act();
   });
 }
 

@@ -20,9 +20,17 @@ const MAP_WORDS: Record<MapKind, [string, string]> = {
   off: ["", ""],
 };
 
+const MARKS = [
+  { kind: "hazard", mark: "hazard-mark", name: "hazard believed" },
+  { kind: "scrape", mark: "scrape", name: "scrape" },
+  { kind: "stall", mark: "stall", name: "stuck" },
+];
+
+const isMarked = (kind: string): boolean => MARKS.some((mark) => mark.kind === kind);
+
 export function layersPanel(payload: ReplayPayload, layers: Layers, changed: () => void): HTMLElement {
   const panel = el("section", { class: "panel layers", "aria-label": "What is shown" }, el("h2", {}, "Shown"));
-  type Switch = "believed" | "wholePath" | "scan" | "grid" | "votes" | "mapAtTruth";
+  type Switch = "marks" | "believed" | "wholePath" | "scan" | "grid" | "votes" | "mapAtTruth";
   const add = (name: Switch, label: string, mark: string | null = null): void => {
     const box = checkbox(label, layers[name], (on) => {
       layers[name] = on;
@@ -39,6 +47,14 @@ export function layersPanel(payload: ReplayPayload, layers: Layers, changed: () 
     panel.append(el("p", { class: "key" }, swatch("clear"), "clear stripe ", swatch("hazard"), "stripe with a hazard"));
   }
   if (payload.steps.length > 0) addMap(panel, layers, add, changed);
+  if (payload.events.some(({ kind }) => isMarked(kind))) {
+    add("marks", "Where it happened");
+    const key = el("p", { class: "key" });
+    for (const { kind, mark, name } of MARKS) {
+      if (payload.events.some((event) => event.kind === kind)) key.append(swatch(mark), name);
+    }
+    panel.append(key);
+  }
   add("grid", "Grid in metres");
   if (toldElsewhere(payload.course)) panel.append(el("p", { class: "key" }, "Goal as told to the rover", swatch("told")));
   return panel;
@@ -75,6 +91,9 @@ function swatch(kind: string): SVGSVGElement {
   const drawing = svg("svg", { viewBox: "0 0 34 12", class: `swatch ${kind}`, "aria-hidden": "true" });
   if (kind === "clear") drawing.append(svg("circle", { cx: 17, cy: 6, r: 3 }));
   else if (kind === "hazard") drawing.append(svg("path", { d: "M17 0l6 6-6 6-6-6z" }));
+  else if (kind === "hazard-mark") drawing.append(svg("circle", { cx: 17, cy: 6, r: 5 }));
+  else if (kind === "scrape") drawing.append(svg("path", { d: "M12 1l10 10m0-10l-10 10" }));
+  else if (kind === "stall") drawing.append(svg("rect", { x: 12, y: 1, width: 10, height: 10 }));
   else drawing.append(svg("path", { d: "M1 6h32" }));
   return drawing;
 }

@@ -6,6 +6,7 @@ import type { ReplayPayload, TrialEvent } from "../payload";
 import type { Player } from "../player";
 import { niceStep } from "../scene/ground";
 import { curve, greatest, type Curve } from "./curves";
+import { startWalk, walk, type Mark } from "./mark_walk";
 import { bandOf, markOf } from "./marks";
 
 const ROW = 20;
@@ -28,7 +29,7 @@ export class Timeline {
   private readonly labels = el("div", { class: "timeline-labels" });
   private readonly drawing = svg("svg", { class: "timeline-drawing" });
   private readonly cursor = svg("line", { class: "cursor" });
-  private marks: { event: TrialEvent; element: SVGGElement }[] = [];
+  private marks: Mark[] = [];
   private readonly axisLabel = el("div", { class: "axis" });
   private width = 0;
   private shortened = false;
@@ -46,7 +47,11 @@ export class Timeline {
     this.error = motion.t.map((_, i) => Math.hypot(motion.believed_x[i]! - motion.x[i]!, motion.believed_y[i]! - motion.y[i]!));
     this.element.append(this.labels, this.drawing);
     this.drawing.addEventListener("pointerdown", (event) => this.drag(event));
-    this.drawing.addEventListener("keydown", (event) => this.walk(event));
+    this.drawing.addEventListener("keydown", (key) => {
+      if (!walk(this.marks, key.key, (event) => player.seek(event.t))) return;
+      key.preventDefault();
+      key.stopPropagation();
+    });
     this.makeLabels();
     this.element.append(this.activityKey());
     new ResizeObserver(() => this.resize()).observe(this.drawing);
@@ -155,7 +160,7 @@ export class Timeline {
         this.marks.push({ event, element });
       }
     });
-    this.marks[0]?.element.setAttribute("tabindex", "0");
+    startWalk(this.marks);
     this.drawing.append(group);
   }
 
@@ -238,40 +243,6 @@ export class Timeline {
       nearest = away;
     }
     return best;
-  }
-
-  // Left and right along a row, up and down between rows: one stop of the Tab key for all marks.
-  private walk(key: KeyboardEvent): void {
-    const at = this.marks.findIndex(({ element }) => element === document.activeElement);
-    const here = this.marks[at];
-    if (!here) return;
-    const goal = this.next(at, key.key);
-    if (goal) {
-      here.element.setAttribute("tabindex", "-1");
-      goal.element.setAttribute("tabindex", "0");
-      goal.element.focus();
-      this.player.seek(goal.event.t);
-    } else if (key.key === "Enter" || key.key === " ") {
-      this.player.seek(here.event.t);
-    } else {
-      return;
-    }
-    key.preventDefault();
-    key.stopPropagation();
-  }
-
-  private next(at: number, key: string): { event: TrialEvent; element: SVGGElement } | null {
-    const here = this.marks[at]!;
-    if (key === "ArrowRight" || key === "ArrowLeft") {
-      const other = this.marks[at + (key === "ArrowRight" ? 1 : -1)];
-      return other?.event.kind === here.event.kind ? other : null;
-    }
-    if (key !== "ArrowDown" && key !== "ArrowUp") return null;
-    const rows = [...new Set(this.marks.map(({ event }) => event.kind))];
-    const row = rows[rows.indexOf(here.event.kind) + (key === "ArrowDown" ? 1 : -1)];
-    const others = this.marks.filter(({ event }) => event.kind === row);
-    const away = (mark: { event: TrialEvent }): number => Math.abs(mark.event.t - here.event.t);
-    return others.sort((a, b) => away(a) - away(b))[0] ?? null;
   }
 }
 

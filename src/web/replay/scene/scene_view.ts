@@ -19,6 +19,7 @@ import { makeCourse } from "./course";
 import { extentOf, GroundHeights, type Extent } from "./ground";
 import { fitLabels } from "./labels";
 import { StepPicture } from "./maps";
+import { EventMarks } from "./marks";
 import { Paths } from "./paths";
 import { Rocks } from "./rocks";
 import { GhostRover, SolidRover } from "./rover";
@@ -44,6 +45,7 @@ export class SceneView implements View {
   private readonly paths: Paths;
   private readonly scan: ScanPoints;
   private readonly step: StepPicture;
+  private readonly marks: EventMarks;
   // Ground, walls and course are made anew with the colours.
   private readonly fixed = new Group();
   private grid: Object3D = new Group();
@@ -65,11 +67,12 @@ export class SceneView implements View {
     this.paths = new Paths(drive, this.heights);
     this.scan = new ScanPoints(this.heights);
     this.step = new StepPicture(this.heights);
+    this.marks = new EventMarks(payload.events, this.heights);
     this.rig = new CameraRig(this.element, this.extent, this.rover.length());
     this.rig.setPlanExtent(plan);
     this.light();
     this.scene.add(this.fixed, this.rocks.mesh, this.rover.body, this.ghost.body);
-    this.scene.add(this.paths.group, this.scan.group, this.step.group);
+    this.scene.add(this.paths.group, this.scan.group, this.step.group, this.marks.group);
     this.recolour();
   }
 
@@ -80,7 +83,7 @@ export class SceneView implements View {
   setMode(mode: CameraMode): void {
     this.rig.setMode(mode);
     this.rig.update(this.rover.body);
-    this.paths.onTop = mode === "top";
+    this.paths.onTop = this.marks.onTop = mode === "top";
   }
 
   approach(factor: number): void {
@@ -110,6 +113,7 @@ export class SceneView implements View {
     this.paths.show(moment, layers.wholePath, layers.believed);
     this.scan.show(layers.scan ? scan : null);
     this.step.show(step, layers);
+    this.marks.show(moment.t, layers.marks);
     this.sun.position.set(moment.x + SUN_FROM[0], moment.y + SUN_FROM[1], moment.z + SUN_FROM[2]);
     this.sun.target.position.set(moment.x, moment.y, moment.z);
     this.sun.target.updateMatrixWorld();
@@ -127,7 +131,7 @@ export class SceneView implements View {
       makeCourse(this.payload.course, this.heights, palette),
       this.grid,
     );
-    for (const part of [this.rover, this.ghost, this.rocks, this.paths, this.scan, this.step]) part.recolour(palette);
+    for (const part of [this.rover, this.ghost, this.rocks, this.paths, this.scan, this.step, this.marks]) part.recolour(palette);
   }
 
   resize(): void {

@@ -1,0 +1,92 @@
+// The replay page where something is unusual: names with markup, another record, no WebGL, damage.
+import assert from "node:assert/strict";
+import { readFileSync, writeFileSync } from "node:fs";
+import path from "node:path";
+import { before, test } from "node:test";
+import { openPage } from "./harness.mjs";
+import { changed, difference, folder, open, PAYLOAD, pixels, replayOf, seekShare, testBrowser } from "./replay_pages.mjs";
+
+const SAME = 1e-9;
+
+let file;
+let stored;
+before(() => {
+  ({ file, stored } = replayOf("pathfinder/nominal", "nominal"));
+});
+
+test("shows markup in names as text", async () => {
+  const nasty = `</script><img src=x onerror="document.title='run'"><b>bold</b>`;
+  const target = changed(file, "nasty.html", (payload) => {
+    payload.title = payload.scenario = payload.cell = payload.detail = payload.command = nasty;
+    payload.events.forEach((event) => (event.detail = nasty));
+    payload.record.forEach((column) => (column.name = nasty));
+  });
+  const { page, requests, problems } = await open(target);
+  await seekShare(page, 1);
+  assert.equal(await page.textContent("h1"), nasty);
+  assert.equal(await page.locator("main img, main b").count(), 0);
+  assert.equal(await page.title(), nasty);
+  assert.equal(requests.length, 1);
+  assert.deepEqual(problems, []);
+  await page.context().close();
+});
+
+test("says aloud where the drive differs from the stored record, or there is none", async () => {
+  for (const [repeats, words] of [[false, /differs from the stored record/], [null, /no stored record/]]) {
+    const target = changed(file, "differs.html", (payload) => (payload.repeats_stored = repeats));
+    const { page } = await open(target);
+    assert.match(await page.textContent(".repeats"), words);
+    assert.equal(await page.locator(".repeats[role=alert]").count(), repeats === false ? 1 : 0);
+    await page.context().close();
+  }
+});
+
+test("shows a plan where there is no WebGL", async () => {
+  const context = await testBrowser().newContext();
+  await context.addInitScript(() => {
+    const getContext = HTMLCanvasElement.prototype.getContext;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+      return kind.startsWith("webgl") ? null : getContext.call(this, kind, ...rest);
+    };
+  });
+  const page = await context.newPage();
+  const errors = [];
+  page.on("pageerror", (error) => errors.push(error.message));
+  page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
+  await page.goto(`file://${file}`);
+  await page.waitForFunction(() => window.rockyardReplay);
+  assert.match(await page.textContent(".picture"), /no WebGL/);
+  const first = await pixels(page);
+  await seekShare(page, 1);
+  assert.ok(new Set(first).size > 20, "the plan is blank");
+  assert.ok(difference(first, await pixels(page)) > 0.002);
+  assert.ok(Math.abs((await page.evaluate(() => rockyardReplay.pose().x)) - Number(stored.final_x_m)) < SAME);
+  assert.deepEqual(errors, []);
+  await context.close();
+});
+
+test("shows a trial that ended where it began", async () => {
+  const target = changed(file, "short.html", (payload) => {
+    const { motion } = payload;
+    const first = (list) => list.slice(0, 1);
+    for (const [name, list] of Object.entries(motion)) if (Array.isArray(list) && name !== "activity_names") motion[name] = first(list);
+    for (const [name, list] of Object.entries(motion.joints)) motion.joints[name] = first(list);
+    Object.assign(motion, { breaks: [] });
+    Object.assign(payload, { scans: [], steps: [], events: [], rocks: [], rock_moves: [] });
+  });
+  const { page, problems } = await open(target);
+  await page.keyboard.press("Space");
+  await page.keyboard.press("n");
+  assert.equal(await page.evaluate(() => rockyardReplay.playing), false);
+  assert.deepEqual(problems, []);
+  await page.context().close();
+});
+
+test("says what is wrong with a page that was cut off", async () => {
+  const target = path.join(folder, "cut.html");
+  writeFileSync(target, readFileSync(file, "utf8").replace(PAYLOAD, (_, mark, text) => mark + text.slice(0, 400)));
+  const { page } = await openPage(testBrowser(), target);
+  await page.waitForSelector(".problem");
+  assert.match(await page.textContent(".problem"), /cannot be shown/);
+  await page.context().close();
+});
