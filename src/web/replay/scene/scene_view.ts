@@ -71,7 +71,7 @@ export class SceneView implements View {
     this.rig = new CameraRig(this.element, this.extent, this.rover.length());
     this.rig.setPlanExtent(plan);
     this.light();
-    this.scene.add(this.fixed, this.rocks.mesh, this.rover.body, this.ghost.body);
+    this.scene.add(this.fixed, this.rocks.group, this.rover.body, this.ghost.body);
     this.scene.add(this.paths.group, this.scan.group, this.step.group, this.marks.group);
     this.recolour();
   }
