@@ -99,6 +99,7 @@ std::string OptionNames(const CommandOffer& command) {
 
 std::string CommandNames(const std::vector<CommandOffer>& commands, std::string_view between) {
   std::vector<std::string> names;
+  names.reserve(commands.size());
   for (const CommandOffer& command : commands) names.push_back(command.name);
   return fmt::format("{}", fmt::join(names, between));
 }

@@ -20,13 +20,12 @@ constexpr std::size_t kMostCells = 60;
 constexpr std::size_t kMostDifferences = 40;
 // What has more digits does not fit its column.
 constexpr double kHuge = 1e5;
-constexpr std::int64_t kManyTrials = 10'000'000;
 constexpr double kLeastP = 1e-9;
 // Goodness of fit below which the text warns of a curve.
 constexpr double kMisfit = 0.01;
 
 std::string Percent(const statistics::Proportion& rate) {
-  if (rate.trials == 0) return fmt::format("{:>21}", "-");
+  if (rate.trials == 0) return fmt::format("{:>22}", "-");
   return fmt::format("{:5.1f} ({:5.1f} ..{:6.1f})", 100.0 * rate.rate, 100.0 * rate.interval.low,
                      100.0 * rate.interval.high);
 }
@@ -40,9 +39,11 @@ std::string Mean(const SweepCellSummary& cell, std::string_view metric) {
   return fmt::format("{:.{}f}", found->mean, std::fabs(found->mean) < 100.0 ? 2 : 0);
 }
 
+// In five columns; cells.csv has every digit.
 std::string Count(std::int64_t trials) {
-  return trials < kManyTrials ? fmt::format("{}", trials)
-                              : fmt::format("{:.1e}", static_cast<double>(trials));
+  if (trials < 100'000) return fmt::format("{}", trials);
+  return trials < 10'000'000 ? fmt::format("{}k", trials / 1000)
+                             : fmt::format("{}M", trials / 1'000'000);
 }
 
 std::string_view DesignName(scenario::DesignKind design) {
@@ -100,7 +101,7 @@ std::string AxisNames(const Sweep& sweep) {
 
 std::string CellTable(const Sweep& sweep, const SweepSummary& summary, TextStyle style) {
   std::string head = fmt::format(
-      "  {:<{}} {:>5} {:>21} {:>21} {:>6} {:>7} {:>6}", Cut(AxisNames(sweep), kLabelWidth),
+      "  {:<{}} {:>5} {:>22} {:>22} {:>6} {:>7} {:>6}", Cut(AxisNames(sweep), kLabelWidth),
       kLabelWidth, "n", "declared success [%]", "true success [%]", "path", "time", "energy");
   std::string text =
       (style == TextStyle::kColour ? fmt::format("\x1b[1m{}\x1b[0m", head) : head) + "\n";
