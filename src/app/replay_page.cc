@@ -17,10 +17,11 @@
 namespace rockyard::app {
 namespace {
 
-// What the motion tells beyond the events of the trace: where turns in place and stalls begin.
-std::vector<truth::TraceEvent> EventsOf(const truth::Trace& trace,
+// What the motion tells beyond the events of the trace: where turns in place and stalls begin, and
+// a simulator fault, which the drive does not live to tell.
+std::vector<truth::TraceEvent> EventsOf(const report::TracedTrial& traced,
                                         const std::vector<report::ReplayPose>& poses) {
-  std::vector<truth::TraceEvent> events = trace.events;
+  std::vector<truth::TraceEvent> events = traced.trace.events;
   std::string before;
   double since_s = 0.0;  // the end of the stretch before
   for (const report::ReplayPose& pose : poses) {
@@ -30,6 +31,9 @@ std::vector<truth::TraceEvent> EventsOf(const truth::Trace& trace,
     }
     if (!activity.empty()) before = activity;
     since_s = pose.sample.time_s;
+  }
+  if (truth::IsFault(traced.record) && !poses.empty()) {
+    events.push_back({since_s, poses.back().sample.pose, "end", traced.record.detail});
   }
   std::stable_sort(events.begin(), events.end(),
                    [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
@@ -60,7 +64,7 @@ ReplayedTrial ReplayTrial(const TrialSource& source, std::uint64_t trial) {
   data.rock_moves = traced.trace.rock_moves;
   data.links = LinksOf(source.scenario);
   data.poses = PosesOf(source.scenario, traced.trace);
-  data.events = EventsOf(traced.trace, data.poses);
+  data.events = EventsOf(traced, data.poses);
   data.scans = std::move(recording.scans);
   data.steps = std::move(recording.steps);
   replayed.plan_svg = PlanView(source.scenario, traced);

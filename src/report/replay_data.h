@@ -119,6 +119,10 @@ struct ReplayData {
   std::vector<truth::TraceEvent> events;
 };
 
+// Most steps with heights of the map and range points; where there are more, every second, or third,
+// ... has them, so that a page stays small.
+inline constexpr std::size_t kMostDetailedSteps = 240;
+
 // As src/web/replay/payload.ts says, on one line. Moments of little change are left out (see
 // replay_motion.h), lengths have 0.1 mm, but the last moment has every digit of its pose.
 std::string ReplayJson(const ReplayData& data);

@@ -82,8 +82,8 @@ double ShownError(const ReplayPose& before, const ReplayPose& after, const Repla
   const truth::TraceSample& b = after.sample;
   const truth::TraceSample& now = pose.sample;
   const double share = ShareOfTime(a.time_s, b.time_s, now.time_s);
-  const auto position = [](const truth::TraceSample& s) -> const auto{
-    return s.posture.X_WR.translation();
+  const auto position = [](const truth::TraceSample& s) {
+    return math::Vector3(s.posture.X_WR.translation());
   };
   const auto attitude = [](const truth::TraceSample& s) {
     return Eigen::Quaterniond(s.posture.X_WR.linear());

@@ -26,7 +26,8 @@ std::string StripePointText(const StripePoint& point) {
       .Text();
 }
 
-std::string MapText(const messages::MapView& map) {
+// Without heights all of them are null, which takes next to no room.
+std::string MapText(const messages::MapView& map, bool heights) {
   const auto byte = [&](std::uint8_t MapCellView::*member) {
     return List(map.cells, [member](const MapCellView& cell) {
       return std::to_string(cell.known ? int{cell.*member} : kUnknown);
@@ -42,9 +43,10 @@ std::string MapText(const messages::MapView& map) {
       .Add("goodness", byte(&MapCellView::goodness))
       .Add("certainty", byte(&MapCellView::certainty))
       .Add("elevation", List(map.cells,
-                             [](const MapCellView& cell) {
-                               return cell.has_data ? Rounded(cell.elevation_m, kCoarseDigits)
-                                                    : std::string("null");
+                             [heights](const MapCellView& cell) {
+                               return heights && cell.has_data
+                                          ? Rounded(cell.elevation_m, kCoarseDigits)
+                                          : std::string("null");
                              }))
       .Text();
 }
@@ -76,7 +78,7 @@ std::string RangePointText(const math::Vector3& p) {
                              Rounded(p.z(), kCoarseDigits)});
 }
 
-std::string StepText(const ReplayStep& step) {
+std::string StepText(const ReplayStep& step, bool detailed) {
   const messages::PoseEstimate& believed = step.view.estimate;
   return JsonObject()
       .Add("t", Length(step.time_s))
@@ -84,9 +86,9 @@ std::string StepText(const ReplayStep& step) {
       .Add("believed", PoseText({believed.x_m, believed.y_m, believed.heading_rad}))
       .Add("pose", PoseText(step.pose))
       .AddFlag("behind", step.view.looked_behind)
-      .Add("map", MapText(step.view.map))
+      .Add("map", MapText(step.view.map, detailed))
       .Add("votes", VotesText(step.view))
-      .Add("points", List(step.points_W, RangePointText))
+      .Add("points", detailed ? List(step.points_W, RangePointText) : "[]")
       .Text();
 }
 
@@ -103,7 +105,11 @@ std::string ScansJson(std::span<const ReplayScan> scans) {
   });
 }
 
-std::string StepsJson(std::span<const ReplayStep> steps) { return List(steps, StepText); }
+std::string StepsJson(std::span<const ReplayStep> steps) {
+  const std::size_t every = (steps.size() + kMostDetailedSteps - 1) / kMostDetailedSteps;
+  std::size_t number = 0;
+  return List(steps, [&](const ReplayStep& step) { return StepText(step, number++ % every == 0); });
+}
 
 std::string EventsJson(std::span<const truth::TraceEvent> events) {
   return List(events, [](const truth::TraceEvent& event) {

@@ -85,7 +85,7 @@ TEST_F(CliTraces, AreTheSameBytesWhateverWritesThem) {
 
 TEST_F(CliTraces, OfEveryCellOfASweep) {
   WriteFile(work() / "sweep.json",
-            "{\"name\": \"s\", \"base\": \"" + Scenario("nominal") +
+            "{\"name\": \"s\", \"scenario\": \"" + Scenario("nominal") +
                 "\", \"trials\": 2, \"axes\": [{\"path\": \"referee.time_limit_s\", "
                 "\"values\": [1, 2]}]}");
   const CommandResult result = Run({"sweep", "sweep.json", "--out", "run", "--traces", "worst:1"});

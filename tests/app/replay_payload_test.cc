@@ -206,6 +206,26 @@ TEST(ReplayPayload, StepsOfAMapBasedNavigator) {
   }
 }
 
+// Of many steps only some keep what takes room. Steps of a real drive, over and over.
+TEST(ReplayPayload, ManyStepsStaySmall) {
+  ReplayedTrial replayed = ReplayTrial(SourceOf("gestalt/narrow_course"), 0);
+  std::vector<report::ReplayStep>& steps = replayed.data.steps;
+  const std::vector<report::ReplayStep> few = steps;
+  while (steps.size() <= 2 * report::kMostDetailedSteps) {
+    steps.insert(steps.end(), few.begin(), few.end());
+  }
+  const Json payload = Json::parse(ReplayPayload(replayed));
+  std::size_t detailed = 0;
+  for (const Json& step : payload["steps"]) {
+    const Json& heights = step["map"]["elevation"];
+    const bool any = std::any_of(heights.begin(), heights.end(),
+                                 [](const Json& height) { return !height.is_null(); });
+    EXPECT_EQ(any, !step["points"].empty());
+    detailed += any;
+  }
+  EXPECT_EQ(detailed, (steps.size() + 2) / 3);
+}
+
 // Four hours of simulated time, and rough ground in the arena.
 TEST(ReplayPayload, TheLongestTrialStaysSmall) {
   const std::string text = ReplayPayload(
@@ -214,6 +234,37 @@ TEST(ReplayPayload, TheLongestTrialStaysSmall) {
                   1));
   // Compressed and in base64 a fifth of it; the page itself has some 0.8 MB.
   EXPECT_LT(text.size(), 6'000'000U);
+}
+
+// A rover that slides until its speed leaves the model's range.
+TEST(ReplayPayload, ASimulatorFaultIsShownUpToWhereItHappens) {
+  const Json payload =
+      PayloadOf(SourceOf("pathfinder/level_sand",
+                         {"terrain.ground.slope_deg=40", "terrain.ground.slope_direction_deg=90",
+                          "terrain.ground.soil.friction_angle_deg=5"}),
+                0);
+  EXPECT_EQ(payload["outcome"], "simulator_fault");
+  EXPECT_TRUE(payload["record"].empty());
+  EXPECT_LT(Channel(payload, "y").back(), -1.0);
+  EXPECT_EQ(payload["events"].back()["kind"], "end");
+  EXPECT_EQ(payload["events"].back()["t"], Channel(payload, "t").back());
+  EXPECT_EQ(payload["events"].back()["detail"], payload["detail"]);
+}
+
+// No place for every rock of an exact count.
+TEST(ReplayPayload, ATrialWithoutATerrainIsSaid) {
+  const TrialSource source = SourceOf(
+      "pathfinder/obstacles_0.85", {"terrain.rocks.clear_radius_m=3.3", "referee.time_limit_s=1"});
+  int told = 0;
+  for (std::uint64_t trial = 0; trial < 8; ++trial) {
+    try {
+      ReplayTrial(source, trial);
+    } catch (const core::UserError& error) {
+      EXPECT_THAT(error.problems().front().reason, HasSubstr("has no terrain to show"));
+      ++told;
+    }
+  }
+  EXPECT_GE(told, 1);
 }
 
 TEST(ReplayPayload, AMeasurementHasNoCourse) {
