@@ -102,9 +102,23 @@ class Builder {
                          .parameters = ParametersOf(run),
                          .published = std::move(published),
                          .replay_command = ReplayCommand(run)};
+    if (sweep) ShareParameters(page);
     any_published_ = any_published_ || page.published != "null";
     report_.trials += run.records.size();
     runs_.push_back(report::PageRunMembers(page, kMethod));
+  }
+
+  // The first cell of a sweep has all of them, the others refer to it.
+  void ShareParameters(report::PageRun& page) {
+    if (first_cell_parameters_.empty()) {
+      first_cell_ = runs_.size();
+      first_cell_parameters_ = page.parameters;
+      return;
+    }
+    auto others = report::OtherParameters(page.parameters, first_cell_parameters_);
+    if (others.size() == page.parameters.size()) return;
+    page.parameters = std::move(others);
+    page.parameters_as = first_cell_;
   }
 
   void AddWorst(std::vector<WorstTrial> worst, const std::string& label) {
@@ -122,6 +136,7 @@ class Builder {
     std::vector<batch::CellHash> hashes;
     std::vector<WorstTrial> others = std::exchange(worst_, {});
     const std::size_t before = report_.trials;
+    first_cell_parameters_.clear();
     const auto load = [&](std::size_t cell) {
       StoredRun run = reader.Load(static_cast<int>(cell));
       AddWorst(FindWorst(run, request_.replays), input.cell_labels[cell]);
@@ -201,6 +216,8 @@ class Builder {
   std::vector<std::string> sweeps_;
   std::vector<report::PageComparison> comparisons_;
   std::vector<WorstTrial> worst_;
+  std::size_t first_cell_ = 0;  // of the sweep that is being added
+  std::vector<core::ParameterInfo> first_cell_parameters_;
   bool any_published_ = false;
   Report report_;
 };

@@ -46,11 +46,12 @@ struct PageRun {
   std::optional<std::size_t> sweep;  // position among the sweeps of the page
   RunDescription description;
   truth::RecordSchema schema;
-  std::span<const truth::Record> records;       // all that are stored, by trial
-  std::span<const truth::Record> prefix;        // those that rates may be computed from
-  std::vector<core::ParameterInfo> parameters;  // none where another version made the run
-  std::string published = "null";               // PublishedJson
-  std::string replay_command;                   // with {trial} for the number
+  std::span<const truth::Record> records;         // all that are stored, by trial
+  std::span<const truth::Record> prefix;          // those that rates may be computed from
+  std::vector<core::ParameterInfo> parameters;    // none where another version made the run
+  std::optional<std::size_t> parameters_as = {};  // run of the page that has all others
+  std::string published = "null";                 // PublishedJson
+  std::string replay_command;                     // with {trial} for the number
 };
 
 // `Run` of payload.ts but for its replays, which are told when all runs are known. Its summary is
@@ -69,6 +70,12 @@ std::string PageTrialsJson(const truth::RecordSchema& schema,
 // drawn is nowhere further off than the share of the steps between two kept ones. null where the
 // records have no true distance.
 std::string PageCdfJson(const truth::RecordSchema& schema, std::span<const truth::Record> prefix);
+
+// Those of a run that another one has not: other in value. All of them where the two are not of the
+// same parameters in the same order. Cells of a sweep differ in few, and all cells of a large one
+// would fill a page with the rest.
+std::vector<core::ParameterInfo> OtherParameters(std::span<const core::ParameterInfo> parameters,
+                                                 std::span<const core::ParameterInfo> of);
 
 std::string PageParametersJson(std::span<const core::ParameterInfo> parameters);
 

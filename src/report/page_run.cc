@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <functional>
 
@@ -22,6 +23,21 @@ std::string Summary(const PageRun& run, statistics::IntervalMethod method) {
   }
   return SummaryJson(run.description,
                      statistics::Summarize(run.schema, run.prefix, planned, method), method);
+}
+
+std::string Index(const std::optional<std::size_t>& index) {
+  return index ? std::to_string(*index) : "null";
+}
+
+// What tells the cells of a measurement apart; nothing for drives.
+std::vector<std::string> Factors(const truth::RecordSchema& schema) {
+  std::vector<std::string> names;
+  for (const truth::ValueInfo& info : schema) {
+    const truth::MeasuredColumn* column = truth::FindMeasuredColumn(info.name);
+    const bool factor = column != nullptr && column->role == truth::ColumnRole::kFactor;
+    if (factor && info.name != truth::kCellColumn) names.push_back(info.name);
+  }
+  return names;
 }
 
 // Of `size` steps, at most kMostPageSteps with both ends.
@@ -66,6 +82,18 @@ std::string PageCdfJson(const truth::RecordSchema& schema, std::span<const truth
   return json.Text();
 }
 
+std::vector<core::ParameterInfo> OtherParameters(std::span<const core::ParameterInfo> parameters,
+                                                 std::span<const core::ParameterInfo> of) {
+  const bool same = std::equal(parameters.begin(), parameters.end(), of.begin(), of.end(),
+                               [](const auto& a, const auto& b) { return a.path == b.path; });
+  std::vector<core::ParameterInfo> others;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (same && ParameterValue(parameters[i]) == ParameterValue(of[i])) continue;
+    others.push_back(parameters[i]);
+  }
+  return others;
+}
+
 std::string PageParametersJson(std::span<const core::ParameterInfo> parameters) {
   std::vector<std::string> rows;
   rows.reserve(parameters.size());
@@ -95,13 +123,15 @@ JsonObject PageRunMembers(const PageRun& run, statistics::IntervalMethod method)
   json.AddText("label", run.label)
       .AddText("folder", run.folder)
       .AddText("cell", run.cell)
-      .Add("sweep", run.sweep ? std::to_string(*run.sweep) : "null")
+      .Add("sweep", Index(run.sweep))
       .AddText("kind", measures ? "measurement" : "drive")
       .Add("summary", JsonCompact(Summary(run, method)))
       .Add("trials", PageTrialsJson(run.schema, run.records))
       .Add("cdf", measures ? "null" : PageCdfJson(run.schema, run.prefix))
+      .Add("factors", measures ? JsonTexts(Factors(run.schema)) : "[]")
       .Add("published", run.published)
       .Add("parameters", PageParametersJson(run.parameters))
+      .Add("parameters_as", Index(run.parameters_as))
       .AddText("replay_command", run.replay_command);
   return json;
 }

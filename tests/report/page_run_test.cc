@@ -201,6 +201,26 @@ TEST(PageReplays, AreLinksByTrial) {
   EXPECT_EQ(PageReplaysJson({}), "{}");
 }
 
+core::ParameterInfo Parameter(const char* path, double value) {
+  core::ParameterInfo parameter;
+  parameter.path = path;
+  parameter.value = core::JsonValue(value);
+  return parameter;
+}
+
+TEST(PageParameters, OfALaterCellAreThoseThatDiffer) {
+  const std::vector first{Parameter("a", 1.0), Parameter("b", 2.0)};
+  const std::vector second{Parameter("a", 1.0), Parameter("b", 3.0)};
+  const auto others = OtherParameters(second, first);
+  ASSERT_EQ(others.size(), 1u);
+  EXPECT_EQ(others[0].path, "b");
+  EXPECT_TRUE(OtherParameters(first, first).empty());
+  // Of another experiment: all of them.
+  EXPECT_EQ(OtherParameters(second, std::vector{Parameter("a", 1.0)}).size(), 2u);
+  EXPECT_EQ(OtherParameters(second, std::vector{Parameter("a", 1.0), Parameter("c", 3.0)}).size(),
+            2u);
+}
+
 TEST(PageParameters, AreTextsWithTheirOrigin) {
   core::ParameterInfo parameter;
   parameter.path = "terrain.rocks.k_per_m2";

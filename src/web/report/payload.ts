@@ -32,8 +32,8 @@ export interface Run {
   cdf: Record<string, (number | null)[]> | null;
   /** `rockyard check` against the published reference; null where it says nothing of the scenario. */
   published: PublishedTable | null;
-  /** Columns that tell the cells of a measurement apart; where absent the page guesses. */
-  factors?: string[];
+  /** Columns that tell the cells of a measurement apart; empty for drives. */
+  factors: string[];
   parameters: Parameter[];
   /** Index of an earlier run whose parameters hold here too, but for those above; null: all are above. */
   parameters_as: number | null;
