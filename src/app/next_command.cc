@@ -16,7 +16,7 @@ std::string NextCommand(const std::filesystem::path& folder, Finished what) {
     case Finished::kDrives:
       return fmt::format("rockyard trace {} --trial 0", word);
     case Finished::kMeasurement:
-      return fmt::format("rockyard replay {} --trial 0", word);
+      return fmt::format("rockyard replay {} --trial 0 --list", word);
     default:
       return fmt::format("rockyard trace {} --cell 0 --trial 0", word);
   }
