@@ -109,3 +109,17 @@ test("shows every column of the record and finds one", async () => {
   assert.equal(await page.locator(".record tbody tr:visible").count(), 1);
   await page.context().close();
 });
+
+test("prints in light colours whatever the screen shows", async () => {
+  const { page } = await open(file, { scheme: "dark" });
+  await page.getByRole("button", { name: "Light colours" }).click();
+  await page.getByRole("button", { name: "Dark colours" }).click();
+  const brightness = (colours) => colours.reduce((sum, colour) => sum + ((colour >> 8) & 255), 0) / colours.length;
+  const dark = brightness(await pixels(page));
+  await page.emulateMedia({ media: "print" });
+  // The browser tells the page of the other medium with its next frames.
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  assert.ok(brightness(await pixels(page)) > dark + 50);
+  assert.equal(await page.locator(".transport .play").isVisible(), false);
+  await page.context().close();
+});

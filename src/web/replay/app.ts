@@ -133,6 +133,11 @@ export class App {
     this.root.replaceChildren(el("header", {}, title, tools), el("div", { class: "columns" }, stage, side, below));
     view.onMoved(() => (this.dirty = true));
     new ResizeObserver(() => this.resized()).observe(picture);
+    // Paper is light whatever the screen is; it does not wait for the next frame.
+    matchMedia("print").addEventListener("change", () => {
+      this.recolour();
+      this.update();
+    });
     this.resized();
     this.setMode(view.modes[0]!);
     this.followLink(new URLSearchParams(location.hash.slice(1)));
