@@ -1,0 +1,52 @@
+// Runs and sweeps to report, and what came of it.
+#pragma once
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/command.h"
+
+namespace rockyard::app {
+
+class CliReportTest : public CommandTest {
+ protected:
+  // Long enough that something happens, and fast.
+  CommandResult Drive(const std::string& out, int trials,
+                      const std::vector<std::string>& more = {}) const {
+    return Run(With(
+        QuickRun(out, trials),
+        With({"--set", "rover.fidelity=quasi_static", "--set", "referee.time_limit_s=300"}, more)));
+  }
+  CommandResult Sweep(const std::string& out) const {
+    WriteFile(work() / "two.json", R"({
+      "name": "two", "trials": 4, "common_random_numbers": true,
+      "set": {"rover.fidelity": "quasi_static", "referee.time_limit_s": 100},
+      "axes": [{"path": "terrain.rocks.k_per_m2", "values": [0.001, 0.004]}]})");
+    return Run({"sweep", "two.json", "--out", out});
+  }
+  CommandResult Report(const std::vector<std::string>& words, int replays = 0) const {
+    return Run(
+        With({"report", "--replays", std::to_string(replays), "--data", "data.json"}, words));
+  }
+  nlohmann::json Data() const { return nlohmann::json::parse(ReadFile(work() / "data.json")); }
+  nlohmann::json Summary(const std::string& run) const {
+    return nlohmann::json::parse(ReadFile(work() / run / "summary.json"));
+  }
+  void ExpectRefused(const CommandResult& result, const std::string& why) const {
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_THAT(result.err, testing::HasSubstr(why));
+    EXPECT_EQ(result.out, "");
+    EXPECT_FALSE(std::filesystem::exists(work() / "data.json"));
+  }
+  static std::string Reference(const char* name) {
+    return std::string(ROCKYARD_SOURCE_DIR) + "/results/reference/" + name + ".json";
+  }
+  // Without npm there is no page: the numbers alone.
+  bool HasPages() const { return Report({"none"}).err.find("built without") == std::string::npos; }
+};
+
+}  // namespace rockyard::app

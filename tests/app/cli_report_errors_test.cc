@@ -1,0 +1,84 @@
+// rockyard report: what it refuses, and what it says of runs that are not as they should be.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/cli_report.h"
+
+namespace rockyard::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+using CliReportErrors = CliReportTest;
+
+TEST_F(CliReportErrors, AReplayThatDiffersIsReportedAndNotLinked) {
+  if (!HasPages()) GTEST_SKIP() << "built without npm";
+  ASSERT_EQ(Drive("a", 1, {"--set", "referee.time_limit_s=20"}).exit_code, 0);
+  const pid_t python =
+      StartProgram({ROCKYARD_PYTHON, "-c",
+                    "import sqlite3\nwith sqlite3.connect('a/results.sqlite') as store:\n"
+                    "  store.execute('update trials set energy_wh = energy_wh + 1')"});
+  ASSERT_EQ(Wait(python).exit_code, 0);
+  const CommandResult result = Report({"a"}, 1);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("is not the stored one"));
+  EXPECT_TRUE(fs::exists(work() / "a/report.html"));
+  EXPECT_TRUE(Data()["runs"][0]["replays"].empty());
+}
+
+TEST_F(CliReportErrors, PendingTrialsAreTold) {
+  ASSERT_EQ(Drive("a", 3).exit_code, 0);
+  ASSERT_EQ(Run({"run", Scenario("nominal"), "--out", "b", "--set", "referee.time_limit_s=1",
+                 "--trials", "6", "--shard", "1/2"})
+                .exit_code,
+            0);
+  ASSERT_EQ(Run({"merge", "b", "--out", "half", "--partial"}).exit_code, 0);
+  ASSERT_EQ(Report({"half"}).exit_code, 0);
+  const json run = Data()["runs"][0];
+  EXPECT_EQ(run["summary"]["accounting"]["pending"], 3);
+  EXPECT_EQ(run["trials"]["trial"], json({0, 2, 4}));
+  fs::remove(work() / "data.json");
+  ExpectRefused(Report({"b"}), "holds shard 1/2 of a campaign");
+}
+
+TEST_F(CliReportErrors, WhatIsNoWholeRunIsRefused) {
+  fs::create_directories(work() / "empty");
+  ExpectRefused(Report({"empty"}), "holds no results.sqlite");
+  ExpectRefused(Report({"missing"}), "missing");
+  ASSERT_EQ(Drive("a", 3).exit_code, 0);
+  ExpectRefused(Report({"a", "a/"}), "is named twice");
+  fs::create_directories(work() / "cut");
+  const std::string store = ReadFile(work() / "a/results.sqlite");
+  for (const std::size_t size : {std::size_t{0}, std::size_t{100}, store.size() / 2}) {
+    WriteFile(work() / "cut/results.sqlite", store.substr(0, size));
+    ExpectRefused(Report({"a", "cut"}), "cut/results.sqlite");
+  }
+  WriteFile(work() / "cut/results.sqlite", "this is no database, whatever its name may say");
+  const CommandResult both = Report({"cut", "missing"});
+  ExpectRefused(both, "cut/results.sqlite");
+  EXPECT_THAT(both.err, HasSubstr("missing"));  // all that is wrong, at once
+}
+
+TEST_F(CliReportErrors, FilesThatCannotBeMeantAreRefusedBeforeTheWork) {
+  ASSERT_EQ(Drive("a", 2).exit_code, 0);
+  const auto refused = [&](const std::vector<std::string>& words, const char* why) {
+    const CommandResult result = Run(With({"report", "a"}, words));
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(why));
+  };
+  refused({"--data", "a/summary.json"}, "is a file of the run itself");
+  refused({"--data", "no/where/data.json"}, "--data");
+  refused({"--data", "data.txt"}, "does not end in .json");
+  refused({"--data", "data.json", "--replays", "-1"}, "--replays");
+  if (!HasPages()) return;
+  refused({"--out", "a/results.sqlite"}, "does not end in .html");
+  refused({"--out", "no/where/page.html"}, "--out");
+  fs::create_directories(work() / "folder.html");
+  refused({"--out", "folder.html"}, "is a folder");
+}
+
+}  // namespace
+}  // namespace rockyard::app
