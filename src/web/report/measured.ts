@@ -1,7 +1,6 @@
-// The cells of a measurement in summary.json: plain members are its factors and the numbers that
-// rates are of, objects are rates, and names with mean_ or rms_ are means.
+// The cells of a measurement in summary.json: objects are rates, names with mean_ or rms_ are means,
+// and the other members are factors and the numbers that rates are of.
 
-import { isNumber } from "../shared/format";
 import type { Run } from "./payload";
 
 export type MeasuredCell = Record<string, any>;
@@ -32,13 +31,7 @@ export function quantities(cells: MeasuredCell[]): Quantity[] {
   });
 }
 
-/** The factors: as the data names them, else plain members that come before the first rate and vary less than the cells. */
-export function factorNames(run: Run, cells: MeasuredCell[]): string[] {
-  if (run.factors) return run.factors;
-  const first = cells[0] ?? {};
-  const names = Object.keys(first);
-  const rate = names.findIndex((name) => typeof first[name] === "object" && first[name] !== null);
-  const plain = (rate < 0 ? names : names.slice(0, rate)).filter((name) => name !== "cell" && name !== "runs" && !isMean(name) && isNumber(first[name]));
-  // The last plain one is what the rates are of.
-  return plain.length > 1 ? plain.slice(0, -1) : plain;
+/** The factors that have more than one value. */
+export function variedFactors(run: Run, cells: MeasuredCell[]): string[] {
+  return (run.factors ?? []).filter((name) => new Set(cells.map((cell) => cell[name])).size > 1);
 }

@@ -6,7 +6,7 @@ import { numeric, table } from "../../shared/table";
 import { drawCells, seriesOf, type CellSeries } from "../charts/cells";
 import { chartFigure } from "../charts/figure";
 import type { Context } from "../context";
-import { factorNames, quantities, type MeasuredCell, type Quantity } from "../measured";
+import { variedFactors, quantities, type MeasuredCell, type Quantity } from "../measured";
 import type { Run } from "../payload";
 import { legend } from "../series";
 import { columnLabel, columnWords } from "../words";
@@ -71,21 +71,20 @@ function curve(at: number, run: Run, factors: string[], factor: string, of: Quan
 }
 
 function chosenCurve(at: number, run: Run, cells: MeasuredCell[], factors: string[], of: Quantity[]): Child[] {
-  const numericFactors = factors.filter((name) => new Set(cells.map((cell) => cell[name])).size > 1);
-  if (numericFactors.length === 0 || of.length === 0) return [];
-  const most = [...numericFactors].sort((a, b) => new Set(cells.map((cell) => cell[b])).size - new Set(cells.map((cell) => cell[a])).size);
+  if (factors.length === 0 || of.length === 0) return [];
+  const most = [...factors].sort((a, b) => new Set(cells.map((cell) => cell[b])).size - new Set(cells.map((cell) => cell[a])).size);
   const y = select(of.map((each) => [each.name, columnWords(each.name)]), of[0]!.name);
-  const x = select(numericFactors.map((name) => [name, columnWords(name)]), most[0]);
+  const x = select(factors.map((name) => [name, columnWords(name)]), most[0]);
   const box = el("div");
   const draw = () => {
     const chosen = of.find((each) => each.name === y.value) ?? of[0]!;
-    box.replaceChildren(curve(at, run, numericFactors, x.value, chosen));
+    box.replaceChildren(curve(at, run, factors, x.value, chosen));
   };
   y.addEventListener("change", draw);
   x.addEventListener("change", draw);
   draw();
-  const controls = el("div", { class: "controls" }, labelled("Quantity", y), numericFactors.length > 1 ? labelled("Along", x) : null);
-  return [of.length > 1 || numericFactors.length > 1 ? controls : null, box];
+  const controls = el("div", { class: "controls" }, labelled("Quantity", y), factors.length > 1 ? labelled("Along", x) : null);
+  return [of.length > 1 || factors.length > 1 ? controls : null, box];
 }
 
 function content(run: Run, at: number): Child[] {
@@ -93,7 +92,7 @@ function content(run: Run, at: number): Child[] {
   const of = quantities(cells);
   return [
     el("h3", {}, run.label),
-    ...chosenCurve(at, run, cells, factorNames(run, cells), of),
+    ...chosenCurve(at, run, cells, variedFactors(run, cells), of),
     cellTable(run, cells, of),
   ];
 }
