@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { statSync } from "node:fs";
 import { before, describe, test } from "node:test";
-import { difference, open, payloadOf, pixels, replayOf, seekShare, time } from "./replay_pages.mjs";
+import { changed, difference, open, payloadOf, pixels, replayOf, seekShare, time } from "./replay_pages.mjs";
 
 const MOST_BYTES = 3_000_000;
 // final_x_m and others are compared with what the page draws: it keeps every digit of the last pose.
@@ -157,6 +157,39 @@ describe("a drive with light stripes", () => {
     assert.equal(rows.Activity, motion.activity_names[motion.activity[i]]);
     assert.ok(events.some((event) => event.t <= motion.t[i] && rows["Last event"].length > 0));
     await page.context().close();
+  });
+
+  // Pictures from above at the start and at half time, of the page with other data.
+  async function twoPictures(change) {
+    const { page } = await open(changed(file, "other.html", change));
+    await page.keyboard.press("t");
+    await seekShare(page, 0.5);
+    const half = await pixels(page);
+    await seekShare(page, 0);
+    const start = await pixels(page);
+    await page.context().close();
+    return { start, half };
+  }
+
+  test("pushed rocks lie where they were pushed to, and go back with time", async () => {
+    const still = await twoPictures(() => {});
+    const pushed = await twoPictures((payload) => {
+      const { t } = payload.motion;
+      const rock = payload.rocks.findIndex(({ x, y }) => x > 1 && x < 6 && Math.abs(y) < 1.5);
+      const { x, y, z } = payload.rocks[rock];
+      payload.rock_moves = [{ rock, t: t[0] + 0.3 * (t[t.length - 1] - t[0]), x: x + 0.5, y, z }];
+    });
+    assert.ok(difference(still.half, pushed.half) > 0.0005);
+    assert.equal(difference(still.start, pushed.start), 0);
+  });
+
+  test("the points of a scan look otherwise where there is a hazard, and are gone without a scan", async () => {
+    const pictures = [];
+    for (const hazard of [false, true]) {
+      pictures.push(await twoPictures(({ scans }) => scans.forEach((scan) => scan.hazards.fill(hazard))));
+    }
+    pictures.push(await twoPictures((payload) => (payload.scans = [])));
+    for (const [a, b] of [[0, 1], [0, 2], [1, 2]]) assert.ok(difference(pictures[a].half, pictures[b].half) > 0.0003, `${a} and ${b}`);
   });
 
   test("the plan has x to the right and y up", async () => {
