@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <optional>
 #include <utility>
 
+#include "app/console.h"
 #include "app/report_published.h"
 #include "app/run_source.h"
 #include "app/run_views.h"
@@ -173,7 +174,12 @@ class Builder {
       if (truth::IsMeasurement(run.schema) || run.prefix().empty()) continue;
       drives.emplace_back(&run, input.label);
     }
-    if (drives.size() < 2 || drives.size() > kMostCompared) return;
+    if (drives.size() > kMostCompared) {
+      PrintNote(fmt::format("{} runs are too many to compare with the first: name up to {}",
+                            drives.size(), kMostCompared));
+      return;
+    }
+    if (drives.size() < 2) return;
     const auto& [first, first_label] = drives.front();
     for (std::size_t i = 1; i < drives.size(); ++i) {
       const auto& [second, label] = drives[i];

@@ -69,6 +69,7 @@ std::vector<std::string> PublishedTables::Tables(std::span<const StoredRun> runs
     }
     for (const std::vector<std::size_t>& family : families) {
       std::vector<statistics::ScenarioRun> views;
+      views.reserve(family.size());
       for (const std::size_t i : family) views.push_back(ScenarioView(runs[i]));
       const statistics::ComparisonResult result = statistics::Compare(reference, views);
       for (const std::size_t i : family) {
