@@ -14,14 +14,17 @@ namespace {
 
 class CommandLine : public testing::Test {
  protected:
-  CommandLine() { AddCommands(app_, exit_code_); }
+  CommandLine() {
+    AddCommands(app_, exit_code_);
+    // Called when all is parsed, before the callbacks of subcommands, which own their options.
+    app_.parse_complete_callback([] { throw CLI::Success(); });
+  }
 
   const CLI::App& Parsed(const std::string& name, std::vector<std::string> words) {
-    CLI::App* command = app_.get_subcommand(name);
-    command->callback([] {});
+    const CLI::App* command = app_.get_subcommand(name);
     words.insert(words.begin(), name);
     std::reverse(words.begin(), words.end());  // as this parser wants them
-    app_.parse(words);
+    EXPECT_THROW(app_.parse(words), CLI::Success);
     return *command;
   }
 
