@@ -36,7 +36,7 @@ const COLUMNS: Record<string, string> = {
   true_goal_distance_m: "true goal distance",
 };
 
-const UNIT_ENDINGS = /_(m_s|m2|m|s|rad|deg|percent|wh|kg|w|px|hz)$/;
+const UNIT_ENDINGS = /(_per)?_(m_s|m2|m|s|rad|deg|percent|wh|kg|w|px|hz)$/;
 
 /** A column's name for people, without its unit. */
 export function columnWords(name: string): string {
@@ -76,6 +76,14 @@ const VERDICTS: Record<string, VerdictWords> = {
   "not judged": { mark: "·", tone: "none", meaning: "no number to judge by, or no simulated trials" },
 };
 
-export function verdictWords(verdict: string): VerdictWords {
-  return VERDICTS[words(verdict)] ?? { mark: "·", tone: "none", meaning: "" };
+// Measured numbers are judged by a tolerance, not by a test.
+const BY_TOLERANCE: Record<string, string> = {
+  agrees: "the interval of the simulated value lies inside of the tolerance of the published one",
+  differs: "the interval lies apart from the tolerance",
+  underpowered: "the interval lies across an end of the tolerance: too few trials to tell",
+};
+
+export function verdictWords(verdict: string, byTolerance = false): VerdictWords {
+  const known = VERDICTS[words(verdict)] ?? { mark: "·", tone: "none", meaning: "" };
+  return { ...known, meaning: (byTolerance && BY_TOLERANCE[words(verdict)]) || known.meaning };
 }

@@ -44,6 +44,14 @@ function marksOf(series: CellSeries): Plot.Markish[] {
   ];
 }
 
+const SMALL_RATE = 0.3;
+
+// Rare events would lie on the axis of a scale to 100 %.
+function top(series: CellSeries[]): number {
+  const highest = Math.max(...series.flatMap(({ points }) => points.map((point) => point.high ?? point.value ?? 0)));
+  return highest > 0 && highest < SMALL_RATE ? 1.1 * highest : 1;
+}
+
 export function drawCells(series: CellSeries[], xLabel: string, of: Quantity, width: number): Element {
   return Plot.plot({
     width,
@@ -53,7 +61,7 @@ export function drawCells(series: CellSeries[], xLabel: string, of: Quantity, wi
     x: { label: xLabel, labelAnchor: "center", labelArrow: "none", ticks: Math.max(3, width / 80), inset: 6 },
     y: {
       label: columnWords(of.name), labelArrow: "none", grid: true, ticks: 5, zero: of.rate,
-      ...(of.rate ? { domain: [0, 1] as [number, number], tickFormat: (rate: number) => `${Math.round(100 * rate)} %` } : { nice: true }),
+      ...(of.rate ? { domain: [0, top(series)], tickFormat: (rate: number) => `${+(100 * rate).toFixed(3)} %` } : { nice: true }),
     },
     marks: series.flatMap(marksOf),
   });

@@ -42,7 +42,7 @@ function remarks(row: PublishedRow): HTMLElement | null {
   return el("details", { class: "remarks" }, el("summary", {}, "more"), el("ul", {}, ...row.remarks.map((remark) => el("li", {}, remark))));
 }
 
-function cells(row: PublishedRow): (Child | Cell)[] {
+function cells(row: PublishedRow, tested: boolean): (Child | Cell)[] {
   const unit = NO_UNITS.includes(row.unit) ? "" : `\u00a0[${unitText(row.unit)}]`;
   return [
     rowHeader(el("div", {}, row.what + unit, remarks(row))),
@@ -50,20 +50,21 @@ function cells(row: PublishedRow): (Child | Cell)[] {
     predicted(row),
     predictionBar(row.published_value, row.predicted_value, row.predicted_low, row.predicted_high),
     verdict(row),
-    numeric(pValue(row.p_holm), row.p_holm),
-    numeric(isNumber(row.power) ? row.power.toFixed(2) : MISSING, row.power),
+    ...(tested
+      ? [numeric(pValue(row.p_holm), row.p_holm), numeric(isNumber(row.power) ? row.power.toFixed(2) : MISSING, row.power)]
+      : []),
     row.source,
   ];
 }
 
-function meanings(rows: PublishedRow[]): HTMLElement {
+function meanings(rows: PublishedRow[], tested: boolean): HTMLElement {
   const present = [...new Set(rows.map((row) => row.verdict))];
   const names = [...VERDICTS_IN_ORDER.filter((name) => present.includes(name)), ...present.filter((name) => !VERDICTS_IN_ORDER.includes(name))];
   return el(
     "dl",
     { class: "meanings" },
     ...names.map((name) => {
-      const { mark, tone, meaning } = verdictWords(name);
+      const { mark, tone, meaning } = verdictWords(name, !tested);
       const count = rows.filter((row) => row.verdict === name).length;
       return el(
         "div",
@@ -77,10 +78,11 @@ function meanings(rows: PublishedRow[]): HTMLElement {
 
 function comparison(run: Run, titled: boolean): Child[] {
   const published = run.published!;
+  const tested = run.kind !== "measurement";
   return [
     titled ? el("h3", {}, run.label) : null,
     el("p", { class: "note" }, `Against ${published.reference}${published.citation ? `: ${published.citation}` : ""}`),
-    meanings(published.rows),
+    meanings(published.rows, tested),
     table({
       caption: `${run.label} against ${published.reference}`,
       className: "published-table",
@@ -90,17 +92,18 @@ function comparison(run: Run, titled: boolean): Child[] {
         { content: "Predicted (95 %)", numeric: true },
         "Where it lies",
         "Verdict",
-        { content: "p (Holm)", numeric: true },
-        { content: "Power", numeric: true },
+        ...(tested ? [{ content: "p (Holm)", numeric: true }, { content: "Power", numeric: true }] : []),
         "Place",
       ],
-      rows: published.rows.map(cells),
+      rows: published.rows.map((row) => cells(row, tested)),
     }),
     el(
       "p",
       { class: "note" },
-      "Where it lies: the bar is the 95 % interval of what as many simulated runs would have shown, the dot its middle, the " +
-        "diamond the published value; each row has its own scale.",
+      (tested
+        ? "Where it lies: the bar is the 95 % interval of what as many simulated runs would have shown, the dot its middle, "
+        : "Where it lies: the dot is the simulated value, the bar its interval, ") +
+        "the diamond the published value; each row has its own scale.",
     ),
     (published.notes ?? []).length > 0
       ? el("details", { class: "numbers" }, el("summary", {}, "How it is judged"),
