@@ -39,8 +39,10 @@ export class ReplayCommand {
 /** What stands in the table. */
 export function replayCell(row: TrialRow, runs: Run[], command: ReplayCommand): HTMLElement {
   if (row.replay !== "") return el("a", { href: row.replay }, "Replay", el("span", { class: "visually-hidden" }, ` of trial ${row.trial}`));
-  const text = runs[row.of]?.replay_command;
-  if (!text) return el("span");
+  const run = runs[row.of];
+  const text = run?.replay_command;
+  // Measurements have no course to replay.
+  if (!text || run.kind === "measurement") return el("span");
   const button = el("button", { type: "button", class: "command-button" }, "Command",
     el("span", { class: "visually-hidden" }, ` for trial ${row.trial}`));
   button.addEventListener("click", () => command.show(text.replaceAll("{trial}", String(row.trial))));

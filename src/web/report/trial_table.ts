@@ -116,7 +116,7 @@ export class TrialTableView {
         formatter: (cell) => document.createTextNode(words(cell.getValue() as string)) as unknown as HTMLElement,
       },
       {
-        title: "Replay", field: "replay", titleFormatter: headerButton("Replay"), sorter: "string", headerSortStartingDir: "desc", width: 118,
+        title: "Replay", field: "replay", titleFormatter: headerButton("Replay"), visible: this.runs.some((run) => run.kind !== "measurement"), sorter: "string", headerSortStartingDir: "desc", width: 118,
         formatter: (cell) => replayCell(cell.getData() as TrialRow, this.runs, this.command),
       },
     ];

@@ -38,14 +38,19 @@ export function fixed(value: Maybe, decimals: number): string {
   return sign(value.toLocaleString("en-US", { minimumFractionDigits: decimals, maximumFractionDigits: decimals }));
 }
 
+// Rare events keep their digits: 0.0004 is 0.04 %, not 0.0 %.
+const decimalsOf = (rate: number, decimals: number) => (rate !== 0 && Math.abs(rate) < 0.005 ? 3 : decimals);
+
 /** 0.9 as "90.0 %". */
-export function percent(rate: Maybe, decimals = 1): string {
+export function percent(rate: Maybe, atLeast = 1): string {
+  const decimals = isNumber(rate) ? decimalsOf(rate, atLeast) : atLeast;
   return isNumber(rate) ? `${sign((100 * rate).toFixed(decimals))}${SPACE}%` : MISSING;
 }
 
 /** [0.7, 0.97] as "69.9 to 97.2 %". */
-export function percentInterval(low: Maybe, high: Maybe, decimals = 1): string {
+export function percentInterval(low: Maybe, high: Maybe, atLeast = 1): string {
   if (!isNumber(low) || !isNumber(high)) return MISSING;
+  const decimals = decimalsOf(high, atLeast);
   return `${sign((100 * low).toFixed(decimals))} to ${sign((100 * high).toFixed(decimals))}${SPACE}%`;
 }
 
