@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostProblems = 8;  // that are told
 
 fs::path CellFolder(const fs::path& folder, const StoredRun& run) {
-  const fs::path traces = folder / "traces";
+  fs::path traces = folder / "traces";
   if (run.identity.name.empty()) return traces;
   return traces / scenario::CellFileName(static_cast<std::size_t>(run.cell), run.identity.name);
 }

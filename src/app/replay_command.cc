@@ -69,6 +69,7 @@ void CheckOutputs(const ReplayOptions& options, const std::vector<AskedFile>& ou
   CheckOutputFile("--svg", options.svg);
   CheckOutputFile("--data", options.data);
   std::vector<NamedFile> files;
+  files.reserve(outputs.size());
   for (const AskedFile& output : outputs) files.push_back({output.option, output.path.string()});
   CheckDistinct(files);
 }
