@@ -83,8 +83,9 @@ SuccessComparison CompareUnpaired(const ComparedRun& first, const ComparedRun& s
 
 double Mean(std::span<const double> values) { return statistics::MomentsOf(values).mean(); }
 
-void ComparePairedColumn(const std::vector<Pair>& pairs, std::size_t in_first,
-                         std::size_t in_second, ColumnComparison& result) {
+// All but the interval, which is that of the mean of the differences returned.
+std::vector<double> ComparePairedColumn(const std::vector<Pair>& pairs, std::size_t in_first,
+                                        std::size_t in_second, ColumnComparison& result) {
   std::vector<double> first;
   std::vector<double> second;
   std::vector<double> differences;
@@ -100,7 +101,7 @@ void ComparePairedColumn(const std::vector<Pair>& pairs, std::size_t in_first,
   result.first_mean = Mean(first);
   result.second_mean = Mean(second);
   result.difference = Mean(differences);
-  result.interval = statistics::BootstrapInterval(differences, Mean, kBootstrapSeed);
+  return differences;
 }
 
 // Welch's interval; unknown where either side has fewer than two values.
@@ -135,9 +136,15 @@ std::vector<ColumnComparison> CommonColumns(const ComparedRun& first, const Comp
 
 std::vector<ColumnComparison> PairedColumns(const ComparedRun& first, const ComparedRun& second,
                                             const std::vector<Pair>& pairs) {
-  return CommonColumns(first, second, [&](std::size_t a, std::size_t b, ColumnComparison& column) {
-    ComparePairedColumn(pairs, a, b, column);
-  });
+  std::vector<std::vector<double>> differences;
+  std::vector<ColumnComparison> columns =
+      CommonColumns(first, second, [&](std::size_t a, std::size_t b, ColumnComparison& column) {
+        differences.push_back(ComparePairedColumn(pairs, a, b, column));
+      });
+  const std::vector<Interval> intervals =
+      statistics::BootstrapMeanIntervals(differences, kBootstrapSeed);
+  for (std::size_t i = 0; i < columns.size(); ++i) columns[i].interval = intervals[i];
+  return columns;
 }
 
 std::vector<ColumnComparison> UnpairedColumns(const ComparedRun& first, const ComparedRun& second) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "statistics/proportions.h"
 
@@ -20,5 +21,13 @@ using Statistic = std::function<double(std::span<const double>)>;
 Interval BootstrapInterval(std::span<const double> sample, const Statistic& statistic,
                            std::uint64_t seed, double confidence = 0.95,
                            std::size_t replicates = 2000);
+
+// What BootstrapInterval gives for the mean (of MomentsOf) of each sample, bit for bit: samples
+// with as many finite values are resampled alike there too, so that here they share the draws, and
+// several resamples are summed at once, and nothing is sorted. Cost: about 1 ns per finite value
+// and replicate. Memory: a copy of the samples, and 100 bytes for each value of the longest.
+std::vector<Interval> BootstrapMeanIntervals(std::span<const std::vector<double>> samples,
+                                             std::uint64_t seed, double confidence = 0.95,
+                                             std::size_t replicates = 2000);
 
 }  // namespace rockyard::statistics

@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/distributions.h"
@@ -56,6 +59,38 @@ TEST(Bootstrap, IsReproducibleAndEmptySafe) {
   EXPECT_EQ(a.low, b.low);
   EXPECT_NE(a.low, BootstrapInterval(sample, MeanOf, 6).low);
   EXPECT_TRUE(std::isnan(BootstrapInterval({}, MeanOf, 5).low));
+}
+
+// The plain way is the reference: equal bits, whatever shares the draws. Number of replicates that
+// leaves a block unfilled.
+TEST(Bootstrap, MeansOfManySamplesAreThoseOfEachAlone) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> with_gaps = Normals(4, 61, 1.0);
+  with_gaps[7] = kNaN;
+  with_gaps[20] = std::numeric_limits<double>::infinity();
+  std::vector<double> mostly_zero(60, 0.0);
+  mostly_zero[59] = -2.5;
+  const std::vector<std::vector<double>> samples = {Normals(1, 60, 0.0),
+                                                    Exponentials(2, 60, 3.0),
+                                                    {},
+                                                    with_gaps,
+                                                    mostly_zero,
+                                                    Normals(3, 7, 0.0),
+                                                    {-0.0, 0.0},
+                                                    std::vector<double>(9, 0.1),
+                                                    {kNaN},
+                                                    {4.0}};
+  const std::vector<Interval> all = BootstrapMeanIntervals(samples, 5, 0.9, 203);
+  ASSERT_EQ(all.size(), samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Interval alone = BootstrapInterval(samples[i], MeanOf, 5, 0.9, 203);
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(all[i].low), std::bit_cast<std::uint64_t>(alone.low))
+        << i << ": " << all[i].low << " is not " << alone.low;
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(all[i].high), std::bit_cast<std::uint64_t>(alone.high))
+        << i << ": " << all[i].high << " is not " << alone.high;
+  }
+  EXPECT_LT(all[0].low, all[0].high);
+  EXPECT_NE(all[0].low, BootstrapMeanIntervals(samples, 6, 0.9, 203)[0].low);
 }
 
 // Uniform p-values under the null: Kolmogorov test at alpha = 0.01 over the p-values.
