@@ -79,7 +79,7 @@ function(rockyard_bundle_pages SOURCE_VARIABLE)
   endforeach()
   set(pages ${work}/pages)
   set(bundled ${pages}/bundled_pages.cc)
-  add_custom_command(OUTPUT ${bundled} ${pages}/report.html ${pages}/replay.html
+  add_custom_command(OUTPUT ${bundled} ${pages}/report.html ${pages}/replay.html ${pages}/trace_to_mcap.mjs
     DEPENDS ${copies} ${work}/installed.txt
     COMMAND ${ROCKYARD_NODE} build.mjs ${pages} WORKING_DIRECTORY ${work}
     COMMENT "Bundling the pages for a browser")

@@ -1,4 +1,5 @@
-// Bundles each page into one HTML file with everything in it, and writes them as C++ literals too.
+// Bundles each page into one HTML file with everything in it, and writes them as C++ literals too;
+// and trace_to_mcap.mjs, which node runs.
 // Usage: node build.mjs OUT    (run where node_modules lies beside this file)
 //
 // A page keeps two marks that web/page.cc fills in: where its title and its data go.
@@ -60,7 +61,21 @@ function literal(html) {
   return parts.map((part) => `R"${DELIMITER}(${part})${DELIMITER}"`).join("\n");
 }
 
+// Some of its packages are CommonJS and call require, which a module lacks.
+const REQUIRE = `import { createRequire } from "node:module"; const require = createRequire(import.meta.url);`;
+
 await mkdir(out, { recursive: true });
+await build({
+  entryPoints: ["mcap/main.ts"],
+  outfile: path.join(out, "trace_to_mcap.mjs"),
+  bundle: true,
+  platform: "node",
+  format: "esm",
+  target: ["node18"],
+  banner: { js: REQUIRE },
+  legalComments: "inline",
+  logLevel: "warning",
+});
 const definitions = [];
 for (const page of PAGES) {
   const html = await makePage(page);

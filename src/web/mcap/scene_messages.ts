@@ -1,0 +1,136 @@
+// Ground, course, rocks, rover and paths as entities of a 3-D scene.
+import { LineType, type LinePrimitive, type SceneEntity, type SceneUpdate, type SpherePrimitive } from "@foxglove/schemas";
+import { GroundHeights } from "../replay/scene/ground";
+import type { ReplayPayload, Rock } from "../replay/payload";
+import { colour, NO_TURN, pose, timestamp, vector, yaw } from "./geometry";
+import { WORLD } from "./motion_messages";
+import { roverParts } from "./rover_parts";
+import type { Message, Topic } from "./topics";
+
+const GROUND = colour(0.62, 0.47, 0.36);
+const ROCK = colour(0.4, 0.33, 0.3);
+const GOAL = colour(0, 0.62, 0.45, 0.5);
+const TOLD_GOAL = colour(0.9, 0.62, 0, 0.5);
+const TRUE_PATH = colour(0, 0.45, 0.7);
+const BELIEVED_PATH = colour(0.84, 0.37, 0);
+
+const LINE_PX = 2;
+const PATH_LIFT_M = 0.01;
+const GOAL_HEIGHT_M = 0.02;
+const TOLD_GOAL_RADIUS_M = 0.1;
+
+type Parts = Partial<
+  Pick<SceneEntity, "arrows" | "cubes" | "spheres" | "cylinders" | "lines" | "triangles" | "texts" | "models">
+>;
+
+function entity(t: number, frame: string, id: string, parts: Parts): SceneEntity {
+  return {
+    timestamp: timestamp(t),
+    frame_id: frame,
+    id,
+    lifetime: { sec: 0, nsec: 0 },
+    frame_locked: true,
+    metadata: [],
+    arrows: [],
+    cubes: [],
+    spheres: [],
+    cylinders: [],
+    lines: [],
+    triangles: [],
+    texts: [],
+    models: [],
+    ...parts,
+  };
+}
+
+function update(topic: Topic, t: number, entities: SceneEntity[]): Message {
+  const content: SceneUpdate = { deletions: [], entities };
+  return { topic, t, content };
+}
+
+function groundParts({ ground: { x0, y0, step, nx, ny, z } }: ReplayPayload): Parts {
+  const points = z.map((height, i) => vector(x0 + (i % nx) * step, y0 + Math.floor(i / nx) * step, height));
+  const indices: number[] = [];
+  for (let iy = 0; iy + 1 < ny; ++iy) {
+    for (let ix = 0; ix + 1 < nx; ++ix) {
+      const corner = iy * nx + ix;
+      indices.push(corner, corner + 1, corner + nx + 1, corner, corner + nx + 1, corner + nx);
+    }
+  }
+  return { triangles: [{ pose: pose(vector(0, 0, 0)), points, color: GROUND, colors: [], indices }] };
+}
+
+function course(replay: ReplayPayload, t: number): Message {
+  const heights = new GroundHeights(replay.ground);
+  const { goal, told_goal: told } = replay.course;
+  const disc = (x: number, y: number, radius: number, color: typeof GOAL): Parts => ({
+    cylinders: [
+      {
+        pose: pose(vector(x, y, heights.at(x, y))),
+        size: vector(2 * radius, 2 * radius, GOAL_HEIGHT_M),
+        bottom_scale: 1,
+        top_scale: 1,
+        color,
+      },
+    ],
+  });
+  return update("/scene/course", t, [
+    entity(t, WORLD, "ground", groundParts(replay)),
+    entity(t, WORLD, "goal", disc(goal.x, goal.y, goal.radius, GOAL)),
+    entity(t, WORLD, "told_goal", disc(told.x, told.y, TOLD_GOAL_RADIUS_M, TOLD_GOAL)),
+  ]);
+}
+
+const ellipsoid = ({ x, y, z, a, b, c, yaw: angle }: Rock): SpherePrimitive => ({
+  pose: pose(vector(x, y, z), yaw(angle)),
+  size: vector(2 * a, 2 * b, 2 * c),
+  color: ROCK,
+});
+
+// Those that lie still are written once. The others are few, and are written whole at every push.
+function rocks(replay: ReplayPayload, t: number): Message[] {
+  const now = replay.rocks.map((rock) => ({ ...rock }));
+  const pushed = [...new Set(replay.rock_moves.map(({ rock }) => rock))];
+  const still = now.filter((_, i) => !pushed.includes(i));
+  const messages = [update("/scene/rocks", t, [entity(t, WORLD, "rocks", { spheres: still.map(ellipsoid) })])];
+  const tell = (time: number): void => {
+    const spheres = pushed.map((i) => ellipsoid(now[i]!));
+    messages.push(update("/scene/pushed_rocks", time, [entity(time, WORLD, "pushed_rocks", { spheres })]));
+  };
+  if (pushed.length > 0) tell(t);
+  for (const { rock, t: time, ...place } of replay.rock_moves) {
+    Object.assign(now[rock]!, place);
+    tell(time);
+  }
+  return messages;
+}
+
+/** One line for each stretch without a break. */
+function path({ motion }: ReplayPayload, x: number[], y: number[], color: typeof GOAL): LinePrimitive[] {
+  const ends = [0, ...motion.breaks, motion.t.length];
+  return ends.slice(1).map((end, k) => ({
+    type: LineType.LINE_STRIP,
+    pose: pose(vector(0, 0, PATH_LIFT_M), NO_TURN),
+    thickness: LINE_PX,
+    scale_invariant: true,
+    points: motion.z.slice(ends[k], end).map((z, i) => vector(x[ends[k]! + i]!, y[ends[k]! + i]!, z)),
+    color,
+    colors: [],
+    indices: [],
+  }));
+}
+
+function paths(replay: ReplayPayload, t: number): Message {
+  const { x, y, believed_x: bx, believed_y: by } = replay.motion;
+  return update("/scene/paths", t, [
+    entity(t, WORLD, "true_path", { lines: path(replay, x, y, TRUE_PATH) }),
+    entity(t, WORLD, "believed_path", { lines: path(replay, bx, by, BELIEVED_PATH) }),
+  ]);
+}
+
+/** What is there from the first moment on, and every push of a rock. */
+export function sceneMessages(replay: ReplayPayload): Message[] {
+  const t = replay.motion.t[0]!;
+  const links = roverParts(replay.rover).map(({ frame, ...parts }) => entity(t, frame, frame, parts));
+  return [course(replay, t), ...rocks(replay, t), update("/scene/rover", t, links), paths(replay, t)];
+}

@@ -1,0 +1,80 @@
+// What is written where: topics with their schemas, and a message on its way into the file.
+import * as foxglove from "@foxglove/schemas/jsonschema";
+
+const TIME = {
+  type: "object",
+  title: "time",
+  properties: { sec: { type: "integer", minimum: 0 }, nsec: { type: "integer", minimum: 0, maximum: 999_999_999 } },
+  required: ["sec", "nsec"],
+};
+const NUMBER = { type: "number" };
+
+/** What has no counterpart among Foxglove's schemas. */
+const STATE = {
+  title: "rockyard.State",
+  description: "What the rover does, its tilt and the angles of its joints, rad",
+  type: "object",
+  properties: {
+    timestamp: TIME,
+    activity: { type: "string", description: "Of the stretch that ends here" },
+    tilt_rad: NUMBER,
+    joints_rad: { type: "object", additionalProperties: NUMBER },
+  },
+  required: ["timestamp", "activity", "tilt_rad", "joints_rad"],
+};
+
+const VOTES = {
+  title: "rockyard.Votes",
+  description: "One decision of a map-based navigator; votes from 0 to 255, curvature 1/m, positive to the left",
+  type: "object",
+  properties: {
+    timestamp: TIME,
+    step: { type: "integer" },
+    behind: { type: "boolean" },
+    votes: {
+      type: "array",
+      items: {
+        type: "object",
+        properties: {
+          kind: { type: "string" },
+          curvature: NUMBER,
+          hazard: NUMBER,
+          certainty: NUMBER,
+          waypoint: NUMBER,
+          merged: NUMBER,
+          chosen: { type: "boolean" },
+        },
+        required: ["kind", "curvature", "hazard", "certainty", "waypoint", "merged", "chosen"],
+      },
+    },
+  },
+  required: ["timestamp", "step", "behind", "votes"],
+};
+
+/** A player that jumps to a time shows the last message of each topic: each is whole by itself. */
+export const TOPICS = {
+  "/tf": foxglove.FrameTransforms,
+  "/pose/true": foxglove.PoseInFrame,
+  "/pose/believed": foxglove.PoseInFrame,
+  "/state": STATE,
+  "/scene/course": foxglove.SceneUpdate,
+  "/scene/rocks": foxglove.SceneUpdate,
+  "/scene/pushed_rocks": foxglove.SceneUpdate,
+  "/scene/rover": foxglove.SceneUpdate,
+  "/scene/paths": foxglove.SceneUpdate,
+  "/scan": foxglove.PointCloud,
+  "/look": foxglove.PointCloud,
+  "/map": foxglove.Grid,
+  "/votes": VOTES,
+  "/events": foxglove.Log,
+};
+
+export type Topic = keyof typeof TOPICS;
+
+export interface Message {
+  topic: Topic;
+  /** Simulated time, s. */
+  t: number;
+  /** Bytes in it are written in base64. */
+  content: object;
+}
