@@ -1,76 +1,10 @@
 // Traces as MCAP files: written from replay data, and read back with the library of the format.
 import assert from "node:assert/strict";
-import { spawnSync } from "node:child_process";
-import { existsSync, readFileSync, writeFileSync } from "node:fs";
-import path from "node:path";
 import { before, test } from "node:test";
-import { pagesFolder, requirePackage, rockyard, temporaryFolder } from "./harness.mjs";
+import { requirePackage } from "./harness.mjs";
+import { changed, converted, inFolder, open, trial } from "./mcap_trace.mjs";
 
-const { McapIndexedReader } = requirePackage("@mcap/core");
 const foxglove = requirePackage("@foxglove/schemas/jsonschema");
-const Ajv = requirePackage("ajv").default;
-
-const folder = temporaryFolder();
-const inFolder = (name) => path.join(folder, name);
-
-function convert(...args) {
-  const script = path.join(pagesFolder, "pages", "trace_to_mcap.mjs");
-  return spawnSync(process.execPath, [script, ...args], { encoding: "utf8" });
-}
-
-function converted(input, out) {
-  const { status, stderr } = convert(input, "--out", out);
-  assert.equal(status, 0, stderr);
-  return out;
-}
-
-const read = (file) => JSON.parse(readFileSync(file, "utf8"));
-
-/** Replay data with a change, as another file. */
-function changed(file, name, change) {
-  const data = read(file);
-  const target = inFolder(name);
-  writeFileSync(target, JSON.stringify(change(data) ?? data));
-  return target;
-}
-
-/** Everything in a file: messages in the order of the file, each held against the schema in it. */
-async function open(file) {
-  const bytes = readFileSync(file);
-  const readable = {
-    size: async () => BigInt(bytes.length),
-    read: async (offset, length) => new Uint8Array(bytes.buffer, bytes.byteOffset + Number(offset), Number(length)),
-  };
-  const reader = await McapIndexedReader.Initialize({ readable });
-  const ajv = new Ajv({ strict: false });
-  const text = (data) => JSON.parse(new TextDecoder().decode(data));
-  const schemas = new Map();
-  for (const [id, { name, encoding, data }] of reader.schemasById) {
-    assert.equal(encoding, "jsonschema");
-    schemas.set(id, { name, schema: text(data), fits: ajv.compile(text(data)) });
-  }
-  const messages = [];
-  for await (const { channelId, logTime, publishTime, sequence, data } of reader.readMessages()) {
-    const { topic, schemaId, messageEncoding } = reader.channelsById.get(channelId);
-    assert.equal(messageEncoding, "json");
-    const { name, fits } = schemas.get(schemaId);
-    const content = text(data);
-    assert.ok(fits(content), `${topic}: ${ajv.errorsText(fits.errors)}`);
-    messages.push({ topic, schema: name, logTime, publishTime, sequence, content });
-  }
-  const metadata = {};
-  for await (const entry of reader.readMetadata()) metadata[entry.name] = Object.fromEntries(entry.metadata);
-  return { schemas: [...schemas.values()], messages, metadata, of: (topic) => messages.filter((m) => m.topic === topic) };
-}
-
-function trial(scenario, name) {
-  const run = inFolder(name);
-  rockyard(["run", `scenarios/${scenario}.json`, "--trials", "1", "--seed", "1", "--threads", "1", "--out", run]);
-  const data = inFolder(`${name}.json`);
-  const pages = ["--out", inFolder(`${name}.html`), "--svg", inFolder(`${name}.svg`)];
-  rockyard(["replay", run, "--trial", "0", "--data", data, ...pages]);
-  return { data, replay: read(data), file: converted(data, inFolder(`${name}.mcap`)) };
-}
 
 let stripe;
 let mapped;
@@ -169,5 +103,135 @@ test("events are told as the data has them, troubles above the others", () => {
   }
   const levels = (trace, kind) => trace.of("/events").filter((m) => m.content.name === kind).map((m) => m.content.level);
   assert.ok(levels(stripe.trace, "hazard").every((level) => level === 3));
-  assert.deepEqual(levels(stripe.trace, "end"), [2]);
+  // The one arrived, the other only believes so.
+  assert.equal(mapped.replay.outcome, "goal_reached");
+  assert.deepEqual(levels(mapped.trace, "end"), [2]);
+  assert.notEqual(stripe.replay.outcome, "goal_reached");
+  assert.deepEqual(levels(stripe.trace, "end"), [4]);
+});
+
+/** The rows of a point cloud or grid by the names of their fields. */
+function unpack({ fields, data, point_stride: pointStride, cell_stride: cellStride }) {
+  const bytes = Buffer.from(data, "base64");
+  const stride = pointStride ?? cellStride;
+  return Array.from({ length: bytes.length / stride }, (_, row) =>
+    Object.fromEntries(fields.map(({ name, offset }) => [name, bytes.readFloatLE(row * stride + offset)])));
+}
+
+test("points of scans and looks, and maps, hold what the data holds", () => {
+  const asFloats = (values) => values.map(Math.fround);
+  stripe.replay.scans.forEach(({ points, hazards }, i) => {
+    const rows = unpack(stripe.trace.of("/scan")[i].content);
+    assert.equal(rows.length, points.length);
+    rows.forEach(({ x, y, z, stripe: index, height, hazard }, k) => {
+      const point = points[k];
+      assert.deepEqual([x, y, z, height], asFloats([point.x, point.y, point.z, point.height]));
+      assert.deepEqual([index, hazard], [point.stripe, hazards[point.stripe] ? 1 : 0]);
+    });
+  });
+  mapped.replay.steps.forEach(({ map, points, votes }, i) => {
+    const { content } = mapped.trace.of("/map")[i];
+    assert.deepEqual([content.pose.position.x, content.pose.position.y], [map.x0, map.y0]);
+    assert.deepEqual([content.column_count, content.cell_size], [map.nx, { x: map.xstep, y: map.ystep }]);
+    const cells = unpack(content);
+    assert.deepEqual(cells.map(({ goodness }) => goodness), map.goodness);
+    assert.deepEqual(cells.map(({ certainty }) => certainty), map.certainty);
+    assert.deepEqual(cells.map(({ elevation }) => elevation), map.elevation.map((z) => (z === null ? NaN : Math.fround(z))));
+    assert.deepEqual(unpack(mapped.trace.of("/look")[i].content).map(({ x, y, z }) => [x, y, z]), points.map(asFloats));
+    assert.deepEqual(mapped.trace.of("/votes")[i].content.votes, votes);
+  });
+});
+
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const sum = (...terms) => [0, 1, 2].map((i) => terms.reduce((total, term) => total + term[i], 0));
+const times = (k, v) => v.map((entry) => k * entry);
+
+/** Rodrigues' formula: without quaternions, for the check of those that were written. */
+function turned(v, axis, angle) {
+  const along = times((1 - Math.cos(angle)) * dot(axis, v), axis);
+  return sum(times(Math.cos(angle), v), times(Math.sin(angle), cross(axis, v)), along);
+}
+
+const rotated = (v, { x, y, z, w }) => {
+  const t = times(2, cross([x, y, z], v));
+  return sum(v, times(w, t), cross([x, y, z], t));
+};
+const list = ({ x, y, z }) => [x, y, z];
+
+function near(actual, expected, what) {
+  actual.forEach((value, i) => assert.ok(Math.abs(value - expected[i]) < 1e-9, `${what}: ${actual}, not ${expected}`));
+}
+
+test("frames of links lie where pivots, axes and joints put them", () => {
+  const { replay: { rover: { links }, motion }, trace } = stripe;
+  const frameOf = (i) => (i === 0 ? "rover" : `rover/${links[i].name}`);
+  const inRover = (place, index, moment) => {
+    let point = place;
+    for (let i = index; i > 0; i = links[i].parent) {
+      const { name, pivot, axis } = links[i];
+      point = sum(pivot, turned(point, axis, motion.joints[name][moment]));
+    }
+    return point;
+  };
+  for (const moment of [0, Math.floor(motion.t.length / 2), motion.t.length - 1]) {
+    const { transforms } = trace.of("/tf")[moment].content;
+    const byChild = new Map(transforms.map((transform) => [transform.child_frame_id, transform]));
+    assert.equal(byChild.size, transforms.length);
+    assert.equal(byChild.get("believed_rover").parent_frame_id, "world");
+    assert.equal(byChild.get("believed_rover").translation.x, motion.believed_x[moment]);
+    assert.deepEqual(list(byChild.get("rover").translation), [motion.x[moment], motion.y[moment], motion.z[moment]]);
+    links.forEach((_, i) => {
+      const place = [0.1, -0.2, 0.3];
+      let point = place;
+      for (let frame = frameOf(i); frame !== "rover"; frame = byChild.get(frame).parent_frame_id) {
+        const { translation, rotation } = byChild.get(frame);
+        point = sum(list(translation), rotated(point, rotation));
+      }
+      near(point, inRover(place, i, moment), frameOf(i));
+    });
+  }
+});
+
+test("the rover's shapes are in the frames of its links, wheels across, struts from end to end", () => {
+  const { links } = stripe.replay.rover;
+  const { entities } = stripe.trace.of("/scene/rover")[0].content;
+  const shown = links.filter(({ shapes }) => shapes.length > 0);
+  assert.deepEqual(entities.map(({ frame_id: frame }) => frame), shown.map(({ name }) => (name === "chassis" ? "rover" : `rover/${name}`)));
+  shown.forEach(({ shapes }, i) => {
+    assert.equal(entities[i].frame_locked, true);
+    const long = shapes.filter(({ kind }) => kind === "capsule" || kind === "wheel");
+    assert.equal(entities[i].cylinders.length, long.length);
+    assert.equal(entities[i].cubes.length, shapes.filter(({ kind }) => kind === "box").length);
+    long.forEach(({ kind, from, to, center, radius, width }, k) => {
+      const { pose, size } = entities[i].cylinders[k];
+      assert.equal(size.x, 2 * radius);
+      const end = sum(list(pose.position), rotated([0, 0, size.z / 2], pose.orientation));
+      near(end, kind === "wheel" ? sum(center, [0, width / 2, 0]) : to, "upper end");
+      if (kind === "capsule") near(sum(times(2, list(pose.position)), times(-1, end)), from, "lower end");
+    });
+  });
+});
+
+test("rocks, pushes, walls and settings back are in the scene", async () => {
+  const end = stripe.replay.motion.t.at(-1);
+  const data = changed(stripe.data, "pushed.json", (replay) => {
+    replay.rock_moves = [{ rock: 3, t: 0.25 * end, x: 1, y: 2, z: 3 }, { rock: 5, t: 0.5 * end, x: 4, y: 5, z: 6 }];
+    replay.course.walls = [{ nx: 0, ny: 1, offset: 1.5 }, { nx: 1, ny: 0, offset: 1e4 }];
+    replay.motion.breaks = [20];
+  });
+  const trace = await open(converted(data, inFolder("pushed.mcap")));
+  const spheres = ({ content: { entities } }) => entities[0].spheres;
+  const { rocks } = stripe.replay;
+  assert.equal(spheres(trace.of("/scene/rocks")[0]).length, rocks.length - 2);
+  const { pose, size } = spheres(stripe.trace.of("/scene/rocks")[0])[0];
+  assert.deepEqual([list(pose.position), list(size)], [[rocks[0].x, rocks[0].y, rocks[0].z], [2 * rocks[0].a, 2 * rocks[0].b, 2 * rocks[0].c]]);
+  const places = trace.of("/scene/pushed_rocks").map((message) => spheres(message).map((sphere) => list(sphere.pose.position)));
+  const [third, fifth] = [3, 5].map((i) => [rocks[i].x, rocks[i].y, rocks[i].z]);
+  assert.deepEqual(places, [[third, fifth], [[1, 2, 3], fifth], [[1, 2, 3], [4, 5, 6]]]);
+  const entity = (topic, name) => trace.of(topic)[0].content.entities.find(({ id }) => id === name);
+  const walls = entity("/scene/course", "walls").cubes;
+  assert.deepEqual(walls.map((cube) => cube.pose.position.y), [1.5]);
+  const stretches = entity("/scene/paths", "true_path").lines.map(({ points }) => points.length);
+  assert.deepEqual(stretches, [20, stripe.replay.motion.t.length - 20]);
 });

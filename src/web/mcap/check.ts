@@ -9,6 +9,25 @@ const ROUNDING_S = 1e-6;
 const PLACE = { x: "number", y: "number" } as const;
 const POSE = { ...PLACE, heading: "number" } as const;
 
+/** Columns with an entry for each moment. */
+const MOTION = {
+  t: ["number"],
+  x: ["number"],
+  y: ["number"],
+  z: ["number"],
+  qw: ["number"],
+  qx: ["number"],
+  qy: ["number"],
+  qz: ["number"],
+  believed_x: ["number"],
+  believed_y: ["number"],
+  believed_heading: ["number"],
+  activity: ["number"],
+  tilt: ["number"],
+} as const;
+
+const COLUMNS = Object.keys(MOTION) as (keyof typeof MOTION)[];
+
 const REPLAY: Shape = {
   title: "text",
   scenario: "text",
@@ -26,30 +45,14 @@ const REPLAY: Shape = {
     start: POSE,
     goal: { ...PLACE, radius: "number" },
     told_goal: PLACE,
+    bounds: { x_min: "number", x_max: "number", y_min: "number", y_max: "number" },
     walls: [{ nx: "number", ny: "number", offset: "number" }],
   },
   ground: { x0: "number", y0: "number", step: "number", nx: "number", ny: "number", z: ["number"] },
   rocks: [{ ...PLACE, z: "number", a: "number", b: "number", c: "number", yaw: "number" }],
   rock_moves: [{ ...PLACE, rock: "number", t: "number", z: "number" }],
   rover: { links: [{ name: "text", parent: "number", pivot: ["number"], axis: ["number"], shapes: [{ kind: "text" }] }] },
-  motion: {
-    t: ["number"],
-    x: ["number"],
-    y: ["number"],
-    z: ["number"],
-    qw: ["number"],
-    qx: ["number"],
-    qy: ["number"],
-    qz: ["number"],
-    joints: {},
-    believed_x: ["number"],
-    believed_y: ["number"],
-    believed_heading: ["number"],
-    activity: ["number"],
-    activity_names: ["text"],
-    tilt: ["number"],
-    breaks: ["number"],
-  },
+  motion: { ...MOTION, joints: {}, activity_names: ["text"], breaks: ["number"] },
   scans: [
     {
       ...POSE,
@@ -100,24 +103,25 @@ const SHAPES: Record<string, Shape> = {
 };
 
 function motionProblem(motion: Motion): string | null {
-  const { breaks, activity_names: _, joints, ...columns } = motion;
-  const all = Object.entries({ ...joints, ...columns }).filter(([, column]) => Array.isArray(column));
-  if (motion.t.length === 0) return "motion.t must not be empty";
-  const descends = motion.t.findIndex((t, i) => t < (motion.t[i - 1] ?? 0) - ROUNDING_S);
+  const { t: times, joints } = motion;
+  if (times.length === 0) return "motion.t must not be empty";
+  const descends = times.findIndex((t, i) => t < (times[i - 1] ?? 0) - ROUNDING_S);
   if (descends >= 0) return `motion.t[${descends}] must be no less than the time before it`;
-  return first(all, ([name, column]) =>
-    (column as number[]).length === motion.t.length ? null : `motion: ${name} must be as long as t`,
+  const asLong = (name: string, column: number[]): string | null =>
+    column.length === times.length ? null : `${name} must be as long as motion.t`;
+  return (
+    first(COLUMNS, (name) => asLong(`motion.${name}`, motion[name])) ??
+    first(Object.entries(joints), ([name, column]) => {
+      const path = `motion.joints.${name}`;
+      return mismatch(column, ["number"], path) ?? asLong(path, column);
+    })
   );
 }
 
-function linkProblem({ links }: ReplayPayload["rover"], { joints }: Motion): string | null {
-  return first(links, ({ name, parent, shapes }, i) => {
+function linkProblem({ links }: ReplayPayload["rover"]): string | null {
+  return first(links, ({ parent, axis, shapes }, i) => {
     if (i > 0 && !(parent in links && parent < i)) return `rover.links[${i}].parent must come before it`;
-    const column = (joints as Record<string, unknown>)[name];
-    if (column !== undefined) {
-      const bad = mismatch(column, ["number"], `motion.joints.${name}`);
-      if (bad) return bad;
-    }
+    if (!(Math.hypot(...axis) > 0)) return `rover.links[${i}].axis must have a length`;
     return first(shapes, (shape, k) => {
       const path = `rover.links[${i}].shapes[${k}]`;
       const wanted = SHAPES[shape.kind];
@@ -142,7 +146,7 @@ export function asReplay(value: unknown): ReplayPayload {
   const problem =
     mismatch(value, REPLAY) ??
     motionProblem(replay.motion) ??
-    linkProblem(replay.rover, replay.motion) ??
+    linkProblem(replay.rover) ??
     (ground.z.length === ground.nx * ground.ny ? null : "ground.z must have nx times ny heights") ??
     first(moves, ({ rock }, i) => (rock in rocks ? null : `rock_moves[${i}].rock must be the number of a rock`)) ??
     first(steps, ({ map: { nx, ny, goodness } }, i) =>

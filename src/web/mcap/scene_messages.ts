@@ -1,6 +1,6 @@
 // Ground, course, rocks, rover and paths as entities of a 3-D scene.
 import { LineType, type LinePrimitive, type SceneEntity, type SceneUpdate, type SpherePrimitive } from "@foxglove/schemas";
-import { GroundHeights } from "../replay/scene/ground";
+import { extentOf, GroundHeights, WALL_HEIGHT_M, wallWithin } from "../replay/scene/ground";
 import type { ReplayPayload, Rock } from "../replay/payload";
 import { colour, NO_TURN, pose, timestamp, vector, yaw } from "./geometry";
 import { WORLD } from "./motion_messages";
@@ -11,6 +11,7 @@ const GROUND = colour(0.62, 0.47, 0.36);
 const ROCK = colour(0.4, 0.33, 0.3);
 const GOAL = colour(0, 0.62, 0.45, 0.5);
 const TOLD_GOAL = colour(0.9, 0.62, 0, 0.5);
+const WALL = colour(0.34, 0.71, 0.91, 0.3);
 const TRUE_PATH = colour(0, 0.45, 0.7);
 const BELIEVED_PATH = colour(0.84, 0.37, 0);
 
@@ -18,6 +19,7 @@ const LINE_PX = 2;
 const PATH_LIFT_M = 0.01;
 const GOAL_HEIGHT_M = 0.02;
 const TOLD_GOAL_RADIUS_M = 0.1;
+const WALL_THICKNESS_M = 0.01;
 
 type Parts = Partial<
   Pick<SceneEntity, "arrows" | "cubes" | "spheres" | "cylinders" | "lines" | "triangles" | "texts" | "models">
@@ -60,6 +62,20 @@ function groundParts({ ground: { x0, y0, step, nx, ny, z } }: ReplayPayload): Pa
   return { triangles: [{ pose: pose(vector(0, 0, 0)), points, color: GROUND, colors: [], indices }] };
 }
 
+function wallParts({ course }: ReplayPayload, heights: GroundHeights): Parts {
+  const cubes = course.walls.flatMap((wall) => {
+    const ends = wallWithin(wall, extentOf(course));
+    if (!ends) return [];
+    const { foot, from, to } = ends;
+    const along = (from + to) / 2;
+    const z = heights.at(foot.x, foot.y) + WALL_HEIGHT_M / 2;
+    const center = vector(foot.x - wall.ny * along, foot.y + wall.nx * along, z);
+    const size = vector(to - from, WALL_THICKNESS_M, WALL_HEIGHT_M);
+    return [{ pose: pose(center, yaw(Math.atan2(wall.nx, -wall.ny))), size, color: WALL }];
+  });
+  return { cubes };
+}
+
 function course(replay: ReplayPayload, t: number): Message {
   const heights = new GroundHeights(replay.ground);
   const { goal, told_goal: told } = replay.course;
@@ -78,6 +94,7 @@ function course(replay: ReplayPayload, t: number): Message {
     entity(t, WORLD, "ground", groundParts(replay)),
     entity(t, WORLD, "goal", disc(goal.x, goal.y, goal.radius, GOAL)),
     entity(t, WORLD, "told_goal", disc(told.x, told.y, TOLD_GOAL_RADIUS_M, TOLD_GOAL)),
+    entity(t, WORLD, "walls", wallParts(replay, heights)),
   ]);
 }
 

@@ -1,6 +1,9 @@
 // Heights of the ground between the points that the page holds.
 import type { Course, Ground } from "../payload";
 
+/** As walls are drawn: they have none. */
+export const WALL_HEIGHT_M = 0.35;
+
 export interface Extent {
   xMin: number;
   xMax: number;
@@ -41,4 +44,46 @@ export function niceStep(length: number, count: number): number {
   const power = 10 ** Math.floor(Math.log10(raw));
   const share = raw / power;
   return power * (share <= 1.5 ? 1 : share <= 3.5 ? 2 : share <= 7.5 ? 5 : 10);
+}
+
+/**
+ * The part of a wall that lies within the ground: from foot + from * along to foot + to * along, where
+ * along is (-ny, nx). Null where the wall passes it by.
+ */
+export function wallWithin(
+  { nx, ny, offset }: Course["walls"][number],
+  extent: Extent,
+): { foot: { x: number; y: number }; from: number; to: number } | null {
+  const reach = Math.hypot(extent.xMax - extent.xMin, extent.yMax - extent.yMin);
+  const middle = { x: (extent.xMin + extent.xMax) / 2, y: (extent.yMin + extent.yMax) / 2 };
+  const away = offset - (nx * middle.x + ny * middle.y);
+  const foot = { x: middle.x + away * nx, y: middle.y + away * ny };
+  const ends = clip(foot, { x: -ny, y: nx }, extent, reach);
+  return ends && { foot, ...ends };
+}
+
+// The part of a line through `foot` that lies within the ground, a little beyond its edge.
+function clip(
+  foot: { x: number; y: number },
+  along: { x: number; y: number },
+  extent: Extent,
+  reach: number,
+): { from: number; to: number } | null {
+  const slack = 0.01 * reach;
+  let from = -reach;
+  let to = reach;
+  const sides: [number, number, number, number][] = [
+    [foot.x, along.x, extent.xMin - slack, extent.xMax + slack],
+    [foot.y, along.y, extent.yMin - slack, extent.yMax + slack],
+  ];
+  for (const [start, rate, low, high] of sides) {
+    if (Math.abs(rate) < 1e-9) {
+      if (start < low || start > high) return null;
+      continue;
+    }
+    const ends = [(low - start) / rate, (high - start) / rate].sort((a, b) => a - b);
+    from = Math.max(from, ends[0]!);
+    to = Math.min(to, ends[1]!);
+  }
+  return to > from ? { from, to } : null;
 }

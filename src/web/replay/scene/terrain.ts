@@ -14,11 +14,10 @@ import {
 } from "three";
 import type { Palette } from "../palette";
 import type { Course, Ground } from "../payload";
-import { extentOf, GroundHeights, niceStep, type Extent } from "./ground";
+import { extentOf, GroundHeights, niceStep, WALL_HEIGHT_M, wallWithin, type Extent } from "./ground";
 import { makeLabel } from "./labels";
 
 const GRID_LIFT_M = 0.004;
-const WALL_HEIGHT_M = 0.35;
 // In steps between labels: further away they would lie on each other.
 const LABEL_REACH = 9;
 
@@ -101,8 +100,6 @@ function gridLabels(heights: GroundHeights, { xMin, xMax, yMin, yMax }: Extent, 
 export function makeWalls(course: Course, heights: GroundHeights, palette: Palette): Group {
   const group = new Group();
   const extent = extentOf(course);
-  const reach = Math.hypot(extent.xMax - extent.xMin, extent.yMax - extent.yMin);
-  const middle = { x: (extent.xMin + extent.xMax) / 2, y: (extent.yMin + extent.yMax) / 2 };
   const material = new MeshBasicMaterial({
     color: palette.wall,
     transparent: true,
@@ -110,11 +107,11 @@ export function makeWalls(course: Course, heights: GroundHeights, palette: Palet
     side: DoubleSide,
     depthWrite: false,
   });
-  for (const { nx, ny, offset } of course.walls) {
-    const away = offset - (nx * middle.x + ny * middle.y);
-    const foot = { x: middle.x + away * nx, y: middle.y + away * ny };
-    const ends = clip(foot, { x: -ny, y: nx }, extent, reach);
+  for (const wall of course.walls) {
+    const ends = wallWithin(wall, extent);
     if (!ends) continue;
+    const { nx, ny } = wall;
+    const { foot } = ends;
     const plane = new PlaneGeometry(ends.to - ends.from, WALL_HEIGHT_M).rotateX(Math.PI / 2);
     const mesh = new Mesh(plane, material);
     const along = (ends.from + ends.to) / 2;
@@ -123,30 +120,4 @@ export function makeWalls(course: Course, heights: GroundHeights, palette: Palet
     group.add(mesh);
   }
   return group;
-}
-
-// The part of a line through `foot` that lies within the ground, a little beyond its edge.
-function clip(
-  foot: { x: number; y: number },
-  along: { x: number; y: number },
-  extent: Extent,
-  reach: number,
-): { from: number; to: number } | null {
-  const slack = 0.01 * reach;
-  let from = -reach;
-  let to = reach;
-  const sides: [number, number, number, number][] = [
-    [foot.x, along.x, extent.xMin - slack, extent.xMax + slack],
-    [foot.y, along.y, extent.yMin - slack, extent.yMax + slack],
-  ];
-  for (const [start, rate, low, high] of sides) {
-    if (Math.abs(rate) < 1e-9) {
-      if (start < low || start > high) return null;
-      continue;
-    }
-    const ends = [(low - start) / rate, (high - start) / rate].sort((a, b) => a - b);
-    from = Math.max(from, ends[0]!);
-    to = Math.min(to, ends[1]!);
-  }
-  return to > from ? { from, to } : null;
 }
