@@ -19,6 +19,7 @@ const WELL_KNOWN = {
   "/tf": "FrameTransforms",
   "/pose/true": "PoseInFrame",
   "/pose/believed": "PoseInFrame",
+  "/joints": "JointStates",
   "/scene/course": "SceneUpdate",
   "/scene/rocks": "SceneUpdate",
   "/scene/rover": "SceneUpdate",
@@ -47,7 +48,7 @@ test("topics carry Foxglove's schemas, word for word", () => {
 test("there are as many messages as the data has moments, scans, decisions and events", () => {
   for (const { replay, trace } of [stripe, mapped]) {
     const { motion, scans, steps, events } = replay;
-    for (const topic of ["/tf", "/pose/true", "/pose/believed", "/state"]) {
+    for (const topic of ["/tf", "/pose/true", "/pose/believed", "/joints", "/state"]) {
       assert.equal(trace.of(topic).length, motion.t.length, topic);
     }
     assert.equal(trace.of("/scan").length, scans.length);
@@ -92,6 +93,18 @@ test("the drive ends where the stored record says, with every digit", () => {
     }
     assert.equal(trace.metadata["rockyard.trial"].record_hash, replay.record_hash);
     assert.equal(trace.metadata["rockyard.record_units"].final_x_m, "m");
+  }
+});
+
+test("joints, tilt and activity are those of each moment", () => {
+  for (const { replay: { motion }, trace } of [stripe, mapped]) {
+    trace.of("/joints").forEach(({ content }, i) => {
+      const angles = Object.fromEntries(content.joints.map(({ name, position }) => [name, position]));
+      assert.deepEqual(angles, Object.fromEntries(Object.entries(motion.joints).map(([name, column]) => [name, column[i]])));
+    });
+    trace.of("/state").forEach(({ content }, i) => {
+      assert.deepEqual([content.tilt_rad, content.activity], [motion.tilt[i], motion.activity_names[motion.activity[i]] ?? ""]);
+    });
   }
 });
 

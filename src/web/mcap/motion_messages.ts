@@ -1,5 +1,5 @@
 // Where the rover and its links are, where it believes to be, and what it does.
-import type { FrameTransform, FrameTransforms, PoseInFrame } from "@foxglove/schemas";
+import type { FrameTransform, FrameTransforms, JointStates, PoseInFrame } from "@foxglove/schemas";
 import type { ReplayPayload } from "../replay/payload";
 import { fromList, pose, timestamp, turnAbout, vector, yaw } from "./geometry";
 import type { Message } from "./topics";
@@ -48,10 +48,9 @@ function transformsAt(replay: ReplayPayload, i: number): FrameTransforms {
   };
 }
 
-/** Four messages for each moment. */
+/** Five messages for each moment. */
 export function motionMessages(replay: ReplayPayload): Message[] {
   const { motion } = replay;
-  const names = Object.keys(motion.joints);
   return motion.t.flatMap((t, i): Message[] => {
     const { real, believed } = placesAt(replay, i);
     const inWorld = ({ translation, rotation }: Place): PoseInFrame => ({
@@ -63,12 +62,16 @@ export function motionMessages(replay: ReplayPayload): Message[] {
       timestamp: timestamp(t),
       activity: motion.activity_names[motion.activity[i]!] ?? "",
       tilt_rad: motion.tilt[i]!,
-      joints_rad: Object.fromEntries(names.map((name) => [name, motion.joints[name]![i]!])),
+    };
+    const joints: JointStates = {
+      timestamp: timestamp(t),
+      joints: Object.entries(motion.joints).map(([name, angles]) => ({ name, position: angles[i]! })),
     };
     return [
       { topic: "/tf", t, content: transformsAt(replay, i) },
       { topic: "/pose/true", t, content: inWorld(real) },
       { topic: "/pose/believed", t, content: inWorld(believed) },
+      { topic: "/joints", t, content: joints },
       { topic: "/state", t, content: state },
     ];
   });

@@ -12,15 +12,14 @@ const NUMBER = { type: "number" };
 /** What has no counterpart among Foxglove's schemas. */
 const STATE = {
   title: "rockyard.State",
-  description: "What the rover does, its tilt and the angles of its joints, rad",
+  description: "What the rover does, and its tilt",
   type: "object",
   properties: {
     timestamp: TIME,
     activity: { type: "string", description: "Of the stretch that ends here" },
     tilt_rad: NUMBER,
-    joints_rad: { type: "object", additionalProperties: NUMBER },
   },
-  required: ["timestamp", "activity", "tilt_rad", "joints_rad"],
+  required: ["timestamp", "activity", "tilt_rad"],
 };
 
 const VOTES = {
@@ -56,6 +55,7 @@ export const TOPICS = {
   "/tf": foxglove.FrameTransforms,
   "/pose/true": foxglove.PoseInFrame,
   "/pose/believed": foxglove.PoseInFrame,
+  "/joints": foxglove.JointStates,
   "/state": STATE,
   "/scene/course": foxglove.SceneUpdate,
   "/scene/rocks": foxglove.SceneUpdate,
