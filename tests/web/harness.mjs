@@ -23,6 +23,13 @@ export const requirePackage = createRequire(path.join(pagesFolder, "package.json
 
 const { chromium } = requirePackage("playwright-core");
 
+/** A module of the pages, by its path in src/web, for tests without a browser. */
+export async function loadModule(module) {
+  const entry = path.join(sourceFolder, "src/web", module);
+  const { outputFiles } = requirePackage("esbuild").buildSync({ entryPoints: [entry], bundle: true, write: false, format: "esm" });
+  return import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].text).toString("base64")}`);
+}
+
 /** Runs rockyard in the source folder; throws with what it printed unless it exits as expected. */
 export function rockyard(args, { exit = 0 } = {}) {
   try {

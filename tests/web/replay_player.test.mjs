@@ -1,21 +1,12 @@
 // Time and motion of the replay, without a browser.
 import assert from "node:assert/strict";
-import path from "node:path";
 import { test } from "node:test";
-import { requirePackage, sourceFolder } from "./harness.mjs";
+import { loadModule } from "./harness.mjs";
 
-const { buildSync } = requirePackage("esbuild");
-
-async function load(module) {
-  const entry = path.join(sourceFolder, "src/web/replay", module);
-  const { outputFiles } = buildSync({ entryPoints: [entry], bundle: true, write: false, format: "esm" });
-  return import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].text).toString("base64")}`);
-}
-
-const { comfortableSpeed, neighbour, Pace, Player, standingStretches } = await load("player.ts");
-const { angleBetween, Course, headingOf, lastAtOrBefore, slerp } = await load("motion.ts");
-const { activityRuns, inWords, kindsOf, timelineEvents } = await load("events.ts");
-const { clock, recorded } = await load("format.ts");
+const { comfortableSpeed, neighbour, Pace, Player, standingStretches } = await loadModule("replay/player.ts");
+const { angleBetween, Course, headingOf, lastAtOrBefore, slerp } = await loadModule("replay/motion.ts");
+const { activityRuns, inWords, kindsOf, timelineEvents } = await loadModule("replay/events.ts");
+const { clock, recorded } = await loadModule("replay/format.ts");
 
 const about = (actual, expected, within = 1e-12) =>
   assert.ok(Math.abs(actual - expected) <= within, `${actual} is not ${expected} within ${within}`);

@@ -1,8 +1,7 @@
 // Trials of all runs as rows, and the conditions by which some are shown.
 
-import { isNumber } from "../shared/format";
+import { isNumber, words } from "../shared/format";
 import type { Run } from "./payload";
-import { words } from "./words";
 
 export interface TrialRow {
   run: string;

@@ -3,12 +3,12 @@
 import { FormatModule, PageModule, ResizeColumnsModule, SortModule, Tabulator, type ColumnDefinition } from "tabulator-tables";
 
 import { el, labelled, select } from "../shared/dom";
-import { counted, fixed, isNumber, number, type Maybe } from "../shared/format";
+import { counted, fixed, isNumber, number, words, type Maybe } from "../shared/format";
 import type { TrialQuery } from "./context";
 import type { Run } from "./payload";
 import { replayCell, ReplayCommand } from "./replay_command";
 import { columnsOf, fieldOf, matching, trialRows, type ColumnInfo, type TrialRow } from "./trial_rows";
-import { columnLabel, words } from "./words";
+import { columnLabel } from "./words";
 
 Tabulator.registerModule([FormatModule, PageModule, ResizeColumnsModule, SortModule]);
 

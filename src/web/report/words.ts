@@ -1,27 +1,6 @@
 // What names in the data mean, in words.
 
-const OUTCOMES: Record<string, string> = {
-  goal_reached: "believed to be at the goal, and truly there",
-  false_goal: "believed to be at the goal, but truly elsewhere",
-  tip_over: "tipped over",
-  high_centred: "hung on a rock by the belly",
-  jammed: "stuck between rocks",
-  no_path: "found no way on",
-  energy_depleted: "batteries empty",
-  time_limit: "ran out of time",
-  left_arena: "left the arena",
-  simulator_fault: "the simulator failed, not the rover: in no rate",
-  measured: "measured",
-};
-
-export function outcomeMeaning(name: string): string {
-  return OUTCOMES[name] ?? "";
-}
-
-/** "false_goal" as "false goal". */
-export function words(name: string): string {
-  return name.replaceAll("_", " ");
-}
+import { words } from "../shared/format";
 
 const COLUMNS: Record<string, string> = {
   true_distance_m: "true distance",

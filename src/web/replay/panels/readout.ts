@@ -1,7 +1,8 @@
 // Where the rover is, where it believes to be, and what happened last.
 import { el } from "../../shared/dom";
 import { inWords } from "../events";
-import { clock, degrees, fixed, headingText, spaced } from "../format";
+import { fixed, words } from "../../shared/format";
+import { clock, degrees, headingText } from "../format";
 import { lastAtOrBefore, type Moment } from "../motion";
 import type { ReplayPayload, TrialEvent } from "../payload";
 
@@ -51,7 +52,7 @@ export class Readout {
   private add(list: HTMLElement, name: string): void {
     const value = el("dd", {});
     this.rows.set(name, value);
-    list.append(el("dt", {}, spaced(name)), value);
+    list.append(el("dt", {}, words(name)), value);
   }
 
   private set(name: string, text: string): void {

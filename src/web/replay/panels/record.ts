@@ -1,7 +1,9 @@
 // How the trial ended, whether this is what was stored, and all columns of its record.
 import { el } from "../../shared/dom";
 import { button } from "../controls";
-import { outcomeSentence, recorded, spaced } from "../format";
+import { words } from "../../shared/format";
+import { outcomeSentence } from "../../shared/outcomes";
+import { recorded } from "../format";
 import type { ReplayPayload } from "../payload";
 
 // Where there is room beside the readouts, as in the style sheet.
@@ -16,7 +18,7 @@ const REPEATS = {
 export function outcomeBanner({ outcome, detail, repeats_stored: repeats }: ReplayPayload): HTMLElement {
   const success = outcome === "goal_reached";
   const banner = el("div", { class: "outcome" });
-  banner.append(el("strong", { class: success ? "good" : "bad" }, `${success ? "✓" : "✗"} ${spaced(outcome)}`));
+  banner.append(el("strong", { class: success ? "good" : "bad" }, `${success ? "✓" : "✗"} ${words(outcome)}`));
   const sentence = outcomeSentence(outcome);
   if (sentence) banner.append(" ", sentence);
   if (detail) banner.append(" ", el("span", { class: "detail" }, `(${detail})`));
@@ -28,9 +30,9 @@ export function outcomeBanner({ outcome, detail, repeats_stored: repeats }: Repl
 export function recordPanel(payload: ReplayPayload): HTMLElement {
   const body = el("tbody", {});
   const rows = payload.record.map(({ name, unit, value }) => {
-    const row = el("tr", {}, el("th", { scope: "row" }, spaced(name)), el("td", {}, recorded(value)), el("td", {}, unit === "1" ? "" : unit));
+    const row = el("tr", {}, el("th", { scope: "row" }, words(name)), el("td", {}, recorded(value)), el("td", {}, unit === "1" ? "" : unit));
     body.append(row);
-    return { row, text: `${name} ${spaced(name)}` };
+    return { row, text: `${name} ${words(name)}` };
   });
   const find = el("input", { type: "search", placeholder: "Find a column", "aria-label": "Find a column of the record" });
   find.addEventListener("input", () => {
@@ -65,7 +67,7 @@ export function originPanel(payload: ReplayPayload): HTMLElement {
   add("trial", `${payload.trial}`);
   add("record hash", payload.record_hash);
   for (const [name, value] of Object.entries(payload.provenance)) {
-    add(spaced(name), typeof value === "object" ? JSON.stringify(value) : String(value));
+    add(words(name), typeof value === "object" ? JSON.stringify(value) : String(value));
   }
   return el(
     "details",

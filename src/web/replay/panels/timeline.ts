@@ -1,7 +1,8 @@
 // Events over time by kind, what the rover did, and two curves; a click anywhere goes there.
 import { el, svg } from "../../shared/dom";
 import { activityRuns, inWords, kindsOf, type Run } from "../events";
-import { clock, degrees, fixed } from "../format";
+import { fixed } from "../../shared/format";
+import { clock, degrees } from "../format";
 import type { ReplayPayload, TrialEvent } from "../payload";
 import type { Player } from "../player";
 import { niceStep } from "../scene/ground";

@@ -1,6 +1,7 @@
 // The votes of the decision that is shown, arc by arc.
 import { el, svg } from "../../shared/dom";
-import { clock, fixed } from "../format";
+import { fixed } from "../../shared/format";
+import { clock } from "../format";
 import { rampCss } from "../palette";
 import type { Step, Vote } from "../payload";
 

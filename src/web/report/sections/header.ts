@@ -1,11 +1,10 @@
 // What the page is about, at a glance.
 
-import { el, type Child } from "../../shared/dom";
-import { counted, number } from "../../shared/format";
+import { breakable, el, type Child } from "../../shared/dom";
+import { counted, number, words } from "../../shared/format";
 import { themeSwitch } from "../../shared/theme";
 import type { Context } from "../context";
 import type { Run } from "../payload";
-import { words } from "../words";
 
 /** [planned, completed, faulted, pending], as far as the summary gives them. */
 export function accounting(run: Run): { planned?: number; completed?: number; faulted?: number; pending?: number } {
@@ -30,11 +29,18 @@ function facts(entries: [string, Child][]): HTMLElement {
   );
 }
 
+/** What the scenario was changed by; null is "not known", of runs of older programs. */
+function settingsText(settings: string[] | null | undefined): Child {
+  if (!settings || settings.length === 0) return null;
+  return breakable(settings.join(", "));
+}
+
 function runFacts(run: Run): HTMLElement {
   const summary = run.summary ?? {};
   const ablations: string[] = summary.ablations ?? [];
   return facts([
     ["Scenario", summary.scenario],
+    ["Changed settings", settingsText(summary.settings)],
     ["Seed", summary.seed === undefined ? null : String(summary.seed)],
     ["Trials", trialsText(run)],
     ["Localization", words(String(summary.localization ?? ""))],

@@ -1,12 +1,12 @@
 // Success of every run with its interval.
 
 import { breakable, el, type Child } from "../../shared/dom";
-import { MISSING, number, percent, percentInterval } from "../../shared/format";
+import { MISSING, number, percent, percentInterval, words } from "../../shared/format";
 import { numeric, rowHeader, table, type Cell } from "../../shared/table";
 import { rateBar } from "../charts/glyphs";
 import type { Context } from "../context";
 import type { Run } from "../payload";
-import { methodName, words } from "../words";
+import { methodName } from "../words";
 import { accounting } from "./header";
 import type { Section } from "./section";
 

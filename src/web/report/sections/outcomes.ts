@@ -1,11 +1,11 @@
 // How trials ended. Every count is a button that shows its trials in the table.
 
 import { breakable, el, type Child } from "../../shared/dom";
-import { number, percent } from "../../shared/format";
+import { number, percent, words } from "../../shared/format";
+import { outcomeSentence } from "../../shared/outcomes";
 import { numeric, rowHeader, table, type Cell } from "../../shared/table";
 import type { Context } from "../context";
 import type { Run } from "../payload";
-import { outcomeMeaning, words } from "../words";
 import type { Section } from "./section";
 
 type Counts = Record<string, number>;
@@ -57,7 +57,7 @@ function oneRun(context: Context, run: Run): HTMLElement {
         { content: countButton(context, run, name), numeric: true, value: count },
         numeric(percent(count / trials), count / trials),
         bar(count / trials, name),
-        outcomeMeaning(name),
+        outcomeSentence(name),
       ];
     }),
   });
@@ -80,7 +80,7 @@ function manyRuns(context: Context, runs: Run[]): Child[] {
     el(
       "dl",
       { class: "meanings" },
-      ...names.map((name) => el("div", {}, el("dt", {}, words(name)), el("dd", {}, outcomeMeaning(name)))),
+      ...names.map((name) => el("div", {}, el("dt", {}, words(name)), el("dd", {}, outcomeSentence(name)))),
     ),
   ];
 }

@@ -1,12 +1,12 @@
 // The comparison with what was published.
 
-import { el, type Child } from "../../shared/dom";
-import { interval, isNumber, MISSING, number, pValue } from "../../shared/format";
+import { breakable, el, type Child } from "../../shared/dom";
+import { interval, isNumber, MISSING, number, pValue, words } from "../../shared/format";
 import { numeric, rowHeader, table, type Cell } from "../../shared/table";
 import { predictionBar } from "../charts/glyphs";
 import type { Context } from "../context";
 import type { PublishedRow, Run } from "../payload";
-import { unitText, verdictWords, words } from "../words";
+import { unitText, verdictWords } from "../words";
 import type { Section } from "./section";
 
 const VERDICTS_IN_ORDER = ["agrees", "differs", "underpowered", "not judged"];
@@ -76,12 +76,24 @@ function meanings(rows: PublishedRow[], tested: boolean): HTMLElement {
   );
 }
 
+/** A run of another case than the published one must not be read as a verdict on it. */
+function otherSettings(settings: string[]): HTMLElement | null {
+  if (settings.length === 0) return null;
+  return el(
+    "div",
+    { class: "not-published-case", role: "note" },
+    el("p", {}, el("strong", {}, "Not the published case."), " This run has other settings than the scenario that the published values are about. The verdicts are as computed, but say nothing of how well the published case is predicted."),
+    el("ul", {}, ...settings.map((setting) => el("li", {}, breakable(setting)))),
+  );
+}
+
 function comparison(run: Run, titled: boolean): Child[] {
   const published = run.published!;
   const tested = run.kind !== "measurement";
   return [
     titled ? el("h3", {}, run.label) : null,
     el("p", { class: "note" }, `Against ${published.reference}${published.citation ? `: ${published.citation}` : ""}`),
+    otherSettings(published.settings ?? []),
     meanings(published.rows, tested),
     table({
       caption: `${run.label} against ${published.reference}`,
