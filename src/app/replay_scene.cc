@@ -58,9 +58,14 @@ report::ReplayCourse CourseOf(const scenario::Scenario& scenario, const report::
       .x_max_m = bounds.x_max_m,
       .y_min_m = bounds.y_min_m,
       .y_max_m = bounds.y_max_m,
-      .walls = {}};
+      .walls = {},
+      .mirror_lines_m = {}};
   for (const terrain::Wall& wall : terrain.walls()) {
     shown.walls.push_back({wall.normal_W, wall.offset_m});
+  }
+  const terrain::ArenaParams& arena = scenario.terrain.arena;
+  if (arena.kind == terrain::ArenaKind::kVirtualReflected) {
+    shown.mirror_lines_m = {-arena.MirrorLine(), arena.MirrorLine()};
   }
   return shown;
 }

@@ -31,6 +31,8 @@ struct ReplayCourse {
   double y_min_m = 0.0;
   double y_max_m = 0.0;
   std::vector<ReplayWall> walls;
+  // y of the lines at which operators reflect the rover (Matthies 1995 sec. 7); none elsewhere.
+  std::vector<double> mirror_lines_m;
 };
 
 // Heights on a grid, row-major, x fastest.

@@ -52,6 +52,7 @@ std::string CourseText(const ReplayCourse& course) {
                                .Add("offset", Length(wall.offset_m))
                                .Text();
                          }))
+      .Add("mirror_lines", List(course.mirror_lines_m, Length))
       .Text();
 }
 

@@ -40,6 +40,8 @@ export interface Course {
   bounds: { x_min: number; x_max: number; y_min: number; y_max: number };
   /** Vertical planes that bound the arena: normal . p = offset. */
   walls: { nx: number; ny: number; offset: number }[];
+  /** y of the lines at which operators reflect the rover; none but in the reflected arena. */
+  mirror_lines: number[];
 }
 
 /** Heights of the ground without rocks, row-major: z[iy * nx + ix] at (x0 + ix step, y0 + iy step). */
