@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -10,9 +11,9 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/output_file.h"
+#include "app/published_settings.h"
 #include "app/regression_check.h"
 #include "app/run_source.h"
-#include "app/run_views.h"
 #include "batch/run_folder.h"
 #include "core/error.h"
 #include "core/json_file.h"
@@ -100,13 +101,14 @@ ExitCode Check(const CheckOptions& options) {
   if (report::IsBaseline(document)) return CheckAgainstBaseline(document, Regression(options));
   const statistics::PublishedReference reference = report::ParseReference(document);
   const std::vector<StoredRun> stored = ReadRuns(options.runs, options.cell);
-  std::vector<statistics::ScenarioRun> runs;
+  std::vector<const StoredRun*> runs;
   for (const StoredRun& run : stored) {
     NoteUnfinished(run);
-    runs.push_back(ScenarioView(run));
+    runs.push_back(&run);
   }
+  const std::filesystem::path folder = std::filesystem::path(options.reference).parent_path();
   const statistics::ComparisonResult result =
-      statistics::Compare(reference, runs, options.comparison);
+      statistics::Compare(reference, PublishedViews(reference, folder, runs), options.comparison);
   if (!options.junit.empty()) {
     report::WriteFileAtomically(options.junit, report::ComparisonJUnit(reference, result));
   }

@@ -186,7 +186,8 @@ batch::CampaignIdentity IdentityOf(const CampaignPlan& plan, const truth::Record
                                    .build = BuildName(),
                                    .schema = schema,
                                    .cells = {},
-                                   .shard = shard};
+                                   .shard = shard,
+                                   .settings = plan.settings};
   for (const CampaignCell& cell : plan.cells) {
     identity.cells.push_back({.name = cell.name,
                               .scenario = cell.scenario.name,

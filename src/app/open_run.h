@@ -38,6 +38,7 @@ struct CampaignPlan {
   std::string design;            // JSON text of the sweep file; "" for a run
   std::filesystem::path folder;  // where nothing else is asked for
   std::vector<CampaignCell> cells;
+  std::optional<std::vector<std::string>> settings = std::nullopt;  // CampaignIdentity::settings
 };
 
 struct OpenRequest {

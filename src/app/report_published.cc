@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "app/console.h"
-#include "app/run_views.h"
+#include "app/published_settings.h"
 #include "core/error.h"
 #include "report/comparison_reference.h"
 #include "report/page_data.h"
@@ -39,14 +39,18 @@ bool Names(const statistics::PublishedReference& reference, const std::string& s
 
 }  // namespace
 
+void PublishedTables::Load(const fs::path& file) {
+  references_.push_back({file.parent_path(), report::LoadReference(file)});
+}
+
 PublishedTables::PublishedTables(const std::string& file) {
   if (!file.empty()) {
-    references_.push_back(report::LoadReference(file));
+    Load(file);
     return;
   }
   for (const fs::path& each : StoredReferences()) {
     try {
-      references_.push_back(report::LoadReference(each));
+      Load(each);
     } catch (const core::UserError& error) {
       PrintNote(fmt::format("{} is left out: {} {}", each.string(), error.problems().front().path,
                             error.problems().front().reason));
@@ -56,7 +60,7 @@ PublishedTables::PublishedTables(const std::string& file) {
 
 std::vector<std::string> PublishedTables::Tables(std::span<const StoredRun> runs) const {
   std::vector<std::string> tables(runs.size(), "null");
-  for (const statistics::PublishedReference& reference : references_) {
+  for (const auto& [folder, reference] : references_) {
     // Families by how many earlier runs are of the same scenario.
     std::vector<std::vector<std::size_t>> families;
     std::map<std::string, std::size_t> earlier;
@@ -68,10 +72,11 @@ std::vector<std::string> PublishedTables::Tables(std::span<const StoredRun> runs
       families[family].push_back(i);
     }
     for (const std::vector<std::size_t>& family : families) {
-      std::vector<statistics::ScenarioRun> views;
-      views.reserve(family.size());
-      for (const std::size_t i : family) views.push_back(ScenarioView(runs[i]));
-      const statistics::ComparisonResult result = statistics::Compare(reference, views);
+      std::vector<const StoredRun*> members;
+      members.reserve(family.size());
+      for (const std::size_t i : family) members.push_back(&runs[i]);
+      const statistics::ComparisonResult result =
+          statistics::Compare(reference, PublishedViews(reference, folder, members));
       for (const std::size_t i : family) {
         tables[i] = report::PublishedJson(reference, result, runs[i].identity.scenario);
       }

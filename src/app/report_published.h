@@ -1,6 +1,7 @@
 // Which runs of a report can be held against published values, and what comes of it.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,7 +26,13 @@ class PublishedTables {
   std::vector<std::string> Tables(std::span<const StoredRun> runs) const;
 
  private:
-  std::vector<statistics::PublishedReference> references_;
+  struct Reference {
+    std::filesystem::path folder;
+    statistics::PublishedReference values;
+  };
+  void Load(const std::filesystem::path& file);
+
+  std::vector<Reference> references_;
 };
 
 }  // namespace rockyard::app

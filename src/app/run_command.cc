@@ -3,7 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/campaign_options.h"
@@ -26,6 +28,11 @@ struct RunOptions {
   std::vector<std::string> ablations;
 };
 
+void AddSettings(const RunOptions& options, std::vector<std::string>& settings) {
+  for (const std::string& setting : options.campaign.overrides) settings.push_back(setting);
+  for (const std::string& name : options.ablations) settings.push_back("--ablate " + name);
+}
+
 CampaignPlan PlanOf(const RunOptions& options) {
   std::vector<std::string> overrides = options.campaign.overrides;
   if (options.campaign.trials) {
@@ -37,10 +44,13 @@ CampaignPlan PlanOf(const RunOptions& options) {
           .scenario;
   std::string folder = scenario.name;
   for (const std::string& ablation : options.ablations) folder += fmt::format("-{}", ablation);
+  std::optional<std::vector<std::string>> settings = SettingsOf(options.scenario);
+  if (settings) AddSettings(options, *settings);
   return {.name = scenario.name,
           .design = "",
           .folder = DefaultFolder(folder, scenario.seed),
-          .cells = {{.name = "", .scenario = scenario}}};
+          .cells = {{.name = "", .scenario = scenario}},
+          .settings = std::move(settings)};
 }
 
 // An ablation that changes nothing may be a mistake: nothing of that kind is in the scenario.

@@ -49,6 +49,11 @@ int FindCell(const fs::path& folder, const std::vector<batch::CellIdentity>& cel
                         "use one of " + CellList(cells));
 }
 
+// As in scenario.resolved.json.
+bool IsResolved(const core::JsonValue& document) {
+  return document.Find("scenario") != nullptr && document.Find("provenance") != nullptr;
+}
+
 core::JsonValue LoadDocument(const fs::path& path, const std::string& cell) {
   std::error_code error;
   if (fs::is_directory(path, error)) {
@@ -61,9 +66,7 @@ core::JsonValue LoadDocument(const fs::path& path, const std::string& cell) {
   if (scenario::IsSweep(document)) {
     throw core::UserError(path.string(), "is a sweep, not a scenario", "use rockyard sweep");
   }
-  const core::JsonValue* inner = document.Find("scenario");
-  const bool resolved = inner != nullptr && document.Find("provenance") != nullptr;
-  return resolved ? core::JsonValue(*inner) : document;
+  return IsResolved(document) ? core::JsonValue(*document.Find("scenario")) : document;
 }
 
 // Absent where the scenario is of another version of the program.
@@ -93,6 +96,15 @@ scenario::Scenario LoadScenarioFrom(const fs::path& path, std::span<const std::s
   return scenario::ReadScenario(document);
 }
 
+std::optional<std::vector<std::string>> SettingsOf(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) return batch::ResultStore::Read(path).identity().settings;
+  const core::JsonValue document = core::LoadJsonFile(path);
+  if (!IsResolved(document)) return std::vector<std::string>();
+  const core::JsonValue* list = document.Find("settings");
+  return list == nullptr ? std::nullopt : core::TextsIn(*list);
+}
+
 CellReader::CellReader(fs::path folder, const batch::ResultStore& store)
     : folder_(std::move(folder)),
       store_(store),
@@ -110,6 +122,7 @@ StoredRun CellReader::Load(int cell) const {
           .identity = store_.identity().cells.at(index),
           .schema = store_.identity().schema,
           .shard = store_.identity().shard,
+          .settings = store_.identity().settings,
           .planned = store_.planned(cell),
           .builds = store_.Builds(),
           .records = store_.Load(cell),
@@ -188,6 +201,7 @@ report::RunDescription Describe(const StoredRun& run, int threads) {
   return {.scenario = run.identity.scenario,
           .fingerprint = run.identity.fingerprint,
           .resolved = run.identity.resolved,
+          .settings = run.settings,
           .ablations = AblationsIn(run.identity.resolved),
           .localization = Localization(run.identity.resolved),
           .seed = run.identity.seed,

@@ -21,6 +21,10 @@ scenario::Scenario LoadScenarioFrom(const std::filesystem::path& path,
                                     std::span<const std::string> overrides = {},
                                     const std::string& cell = "");
 
+// What the scenario of that source was changed by before: of a run its settings
+// (CampaignIdentity::settings), of a scenario file nothing. Throws core::UserError.
+std::optional<std::vector<std::string>> SettingsOf(const std::filesystem::path& path);
+
 // One cell of a campaign, read back from its folder; of a run, the only one.
 struct StoredRun {
   std::filesystem::path folder;
@@ -28,6 +32,7 @@ struct StoredRun {
   batch::CellIdentity identity;
   truth::RecordSchema schema;
   batch::Shard shard;
+  std::optional<std::vector<std::string>> settings;  // CampaignIdentity::settings
   std::int64_t planned = 0;
   std::vector<std::string> builds;
   std::vector<truth::Record> records;  // by trial index

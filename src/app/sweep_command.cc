@@ -44,11 +44,12 @@ scenario::Sweep SweepOf(const SweepOptions& options) {
   }
 }
 
-CampaignPlan PlanOf(const scenario::Sweep& sweep) {
+CampaignPlan PlanOf(const SweepOptions& options, const scenario::Sweep& sweep) {
   CampaignPlan plan{.name = sweep.name,
                     .design = sweep.document,
                     .folder = DefaultFolder(sweep.name, static_cast<std::int64_t>(sweep.seed)),
-                    .cells = {}};
+                    .cells = {},
+                    .settings = options.campaign.overrides};
   for (const scenario::SweepCell& cell : sweep.cells) {
     plan.cells.push_back({.name = cell.name, .scenario = cell.scenario});
   }
@@ -67,7 +68,7 @@ ReportOptions ReportOptionsOf(const SweepOptions& options, const batch::BatchRes
 ExitCode DryRun(const SweepOptions& options) {
   if (!IsFirstRank()) return ExitCode::kDone;
   const scenario::Sweep sweep = SweepOf(options);
-  const CampaignPlan plan = PlanOf(sweep);
+  const CampaignPlan plan = PlanOf(options, sweep);
   CheckPlan(options.campaign, plan);
   WriteSweepPlan(sweep, {.folder = options.campaign.out,
                          .trials = TrialsOf(RequestOf(options.campaign, plan), plan),
@@ -84,7 +85,7 @@ ExitCode Sweep(const SweepOptions& options) {
       options.campaign,
       [&] {
         sweep = SweepOf(options);
-        return PlanOf(sweep);
+        return PlanOf(options, sweep);
       },
       [&](const OpenedRun& run, const batch::BatchResult& result) {
         ReportSweep(run.store, sweep, ReportOptionsOf(options, result));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,9 @@ struct CampaignIdentity {
   truth::RecordSchema schema;
   std::vector<CellIdentity> cells;
   Shard shard{};
+  // What the scenario or sweep was changed by on the way from its file, for people: "PATH=VALUE",
+  // "--ablate NAME". Decides nothing by itself. Nothing: not known.
+  std::optional<std::vector<std::string>> settings = std::nullopt;
 };
 
 struct TrialId {

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "batch/store_error.h"
+#include "core/json_text.h"
 
 namespace rockyard::batch {
 namespace {
@@ -125,6 +126,23 @@ std::optional<StoppingRule> ReadRule(const SqliteDatabase& database) {
   return rule;
 }
 
+// A JSON list of texts.
+void PutSettings(SqliteDatabase& database, const std::vector<std::string>& settings) {
+  PutMeta(database, "settings", core::DumpJson(core::ListOf(settings)));
+}
+
+// Nothing in the stores of older programs.
+std::optional<std::vector<std::string>> ReadSettings(const SqliteDatabase& database) {
+  SqliteStatement get = database.Prepare("SELECT value FROM meta WHERE key = 'settings'");
+  if (!get.Step()) return std::nullopt;
+  try {
+    if (auto texts = core::TextsIn(core::ParseJson(get.Text(0), "settings"))) return texts;
+  } catch (const core::UserError&) {
+    // Told below.
+  }
+  FailDamaged(database.path(), "has settings that are no list of texts");
+}
+
 }  // namespace
 
 void WriteRule(SqliteDatabase& database, const std::optional<StoppingRule>& rule) {
@@ -155,6 +173,7 @@ void WriteStoreHead(SqliteDatabase& database, const StoreHead& head) {
   PutMeta(database, "design", identity.design);
   PutMeta(database, "shard_index", std::to_string(identity.shard.index));
   PutMeta(database, "shard_count", std::to_string(identity.shard.count));
+  if (identity.settings) PutSettings(database, *identity.settings);
   WriteRule(database, head.rule);
   database.Prepare("INSERT INTO builds VALUES (?)").Bind(0, identity.build).Step();
   InsertColumns(database, identity.schema);
@@ -173,6 +192,7 @@ StoreHead ReadStoreHead(const SqliteDatabase& database) {
   head.identity.name = GetMeta(database, "name");
   head.identity.design = GetMeta(database, "design");
   head.identity.shard = ReadShard(database);
+  head.identity.settings = ReadSettings(database);
   SqliteStatement columns =
       database.Prepare("SELECT name, unit, meaning FROM columns ORDER BY position");
   while (columns.Step()) {

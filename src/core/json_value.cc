@@ -72,6 +72,16 @@ void JsonValue::Merge(const JsonValue& over) {
   }
 }
 
+std::optional<std::vector<std::string>> TextsIn(const JsonValue& list) {
+  if (!list.Is(JsonValue::Type::kList)) return std::nullopt;
+  std::vector<std::string> texts;
+  for (const JsonValue& value : list.list()) {
+    if (!value.Is(JsonValue::Type::kText)) return std::nullopt;
+    texts.push_back(value.text());
+  }
+  return texts;
+}
+
 std::string_view Describe(JsonValue::Type type) {
   constexpr std::array<std::string_view, 7> kNames = {
       "null", "true or false", "an integer", "a number", "a text", "a list", "an object"};

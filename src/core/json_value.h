@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -80,6 +81,9 @@ JsonValue ListOf(const Values& values) {
   for (const auto& value : values) list.push_back(JsonValue(value));
   return JsonValue(std::move(list));
 }
+
+// Nothing where it is no list of texts.
+std::optional<std::vector<std::string>> TextsIn(const JsonValue& list);
 
 // "a list", "a number", ... for messages.
 std::string_view Describe(JsonValue::Type type);

@@ -1,6 +1,7 @@
 #include "report/accounting.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 
@@ -80,6 +81,13 @@ std::string AccountingText(const Accounting& a) {
   return text;
 }
 
+std::string SettingsText(const RunDescription& run) {
+  if (!run.settings || run.settings->empty()) return "";
+  constexpr std::size_t kWidth = 100;
+  const std::string settings = fmt::format("{}", fmt::join(*run.settings, ", "));
+  return fmt::format("  with {}\n", Cut(Printable(settings), kWidth - 7));
+}
+
 std::string AccountingText(const RunDescription& run) {
   const std::string text = AccountingText(run.accounting);
   return run.stopping ? text + StoppingText(*run.stopping) : text;
@@ -131,7 +139,8 @@ std::string ShardJson(const RunDescription& run) {
 std::string ShardText(const RunDescription& run) {
   return fmt::format("{}, seed {}: shard {} of {}\n", Cut(Printable(run.scenario), 40), run.seed,
                      run.shard_index, run.shard_count) +
-         AccountingText(run) + "  no rates from a shard: put all of them together\n";
+         SettingsText(run) + AccountingText(run) +
+         "  no rates from a shard: put all of them together\n";
 }
 
 }  // namespace rockyard::report

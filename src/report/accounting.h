@@ -23,6 +23,10 @@ std::string AccountingText(const Accounting& accounting);
 // The same, and lines for the rule.
 std::string AccountingText(const RunDescription& run);
 
+// A line that keeps a changed scenario from being taken for that of its name; empty where nothing
+// was changed, or that is not known.
+std::string SettingsText(const RunDescription& run);
+
 // Cells of a campaign together.
 Accounting Sum(const Accounting& first, const Accounting& second);
 

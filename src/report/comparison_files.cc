@@ -24,6 +24,26 @@ std::string Line(std::vector<std::string> fields) {
   return CsvLine(fields);
 }
 
+// With what must not be missed where rows are read one by one.
+std::string Remark(const ComparisonResult& result, const ComparedValue& value) {
+  if (result.FindChanged(value.published.scenario) == nullptr) return value.remark;
+  return fmt::format("{}{}{}", kNotPublishedCase, value.remark.empty() ? "" : "; ", value.remark);
+}
+
+// Test cases that pass hold no message, so that the suite says it.
+std::string ChangedXml(const ComparisonResult& result) {
+  if (result.changed.empty()) return "";
+  std::string xml = "  <properties>\n";
+  for (const statistics::OtherSettings& changed : result.changed) {
+    for (const std::string& setting : changed.settings) {
+      xml += fmt::format("    <property name=\"{}\" value=\"{}\"/>\n",
+                         EscapeXml(fmt::format("{}: {}", changed.scenario, kNotPublishedCase)),
+                         EscapeXml(setting));
+    }
+  }
+  return xml + "  </properties>\n";
+}
+
 }  // namespace
 
 std::string ComparisonCsv(const ComparisonResult& result) {
@@ -57,7 +77,7 @@ std::string ComparisonCsv(const ComparisonResult& result) {
                  !layout                  ? ""
                  : v.one_layout->measured ? "1"
                                           : "0",
-                 v.remark});
+                 Remark(result, v)});
     for (const auto& side : v.beside) {
       csv += Line({p.id + "/" + side.name,
                    p.scenario,
@@ -93,11 +113,13 @@ std::string ComparisonJUnit(const PublishedReference& reference, const Compariso
   std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
   xml += fmt::format("<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n",
                      EscapeXml(reference.title), result.values.size(), differs, skipped);
+  xml += ChangedXml(result);
   for (const ComparedValue& value : result.values) {
-    const std::string message = EscapeXml(fmt::format(
-        "{}: published {}, predicted {}, p {}, Holm {}, power {}. {}",
-        statistics::Name(value.verdict), Published(value.published), Prediction(value),
-        PValue(value.p_value), PValue(value.holm_p_value), Power(value.power), value.remark));
+    const std::string message =
+        EscapeXml(fmt::format("{}: published {}, predicted {}, p {}, Holm {}, power {}. {}",
+                              statistics::Name(value.verdict), Published(value.published),
+                              Prediction(value), PValue(value.p_value), PValue(value.holm_p_value),
+                              Power(value.power), Remark(result, value)));
     xml += fmt::format("  <testcase classname=\"{}\" name=\"{}\"",
                        EscapeXml(value.published.scenario), EscapeXml(value.published.id));
     switch (value.verdict) {

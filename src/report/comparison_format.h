@@ -11,6 +11,9 @@
 
 namespace rockyard::report {
 
+inline constexpr std::string_view kNotPublishedCase =
+    "NOT the published case: run with other settings than the scenario that the reference is about";
+
 bool IsCount(const statistics::PublishedValue& value);
 
 // Three significant digits, "-" where it is not finite.

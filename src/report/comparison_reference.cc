@@ -33,7 +33,7 @@ class Parser {
   statistics::PublishedReference Parse(const JsonValue& json) {
     statistics::PublishedReference reference;
     HeadFields head{reference};
-    Read(Without(json, {"values", "misprints"}), head, "");
+    Read(Without(json, {"values", "misprints", "scenarios"}), head, "");
     if (json.Is(Type::kObject) && json.Find("schema_version") == nullptr) {
       Add("schema_version", "is missing", "write 1");
     }
@@ -43,6 +43,13 @@ class Parser {
     for (const auto& [path, item] : Items(json, "misprints", "")) {
       MisprintFields fields{reference.misprints.emplace_back()};
       Read(*item, fields, path);
+    }
+    for (const auto& [path, item] : Items(json, "scenarios", "")) {
+      ScenarioFields fields{reference.scenarios.emplace_back()};
+      Read(*item, fields, path);
+      Require(!fields.scenario.name.empty(), path + "name", "is missing", "name the scenario");
+      Require(!fields.scenario.file.empty(), path + "file", "is missing",
+              "name its file, relative to the reference");
     }
     if (reference.values.empty() && problems_.empty()) {
       Add("values", "lists no published value", "list at least one");

@@ -92,6 +92,15 @@ std::string Row(const ComparedValue& value) {
          Details(value);
 }
 
+// What a reader must not miss: it stands between the name of a scenario and its rows.
+std::string Changed(const ComparisonResult& result, std::string_view scenario) {
+  const statistics::OtherSettings* changed = result.FindChanged(scenario);
+  if (changed == nullptr) return "";
+  std::string text = Wrap(std::string(kNotPublishedCase) + ":", 2);
+  for (const std::string& setting : changed->settings) text += Wrap(setting, 4);
+  return text;
+}
+
 std::string Footnotes(const ComparisonResult& result) {
   std::vector<std::string> notes = ComparisonNotes(result);
   notes.insert(notes.begin() + 3, kMarks);
@@ -142,7 +151,7 @@ std::string ComparisonText(const PublishedReference& reference, const Comparison
   std::string text = reference.title + " against simulated trials\n\n";
   text += Line(' ', "number", "published", "predicted (95 %)", "p", "Holm", "power", "verdict");
   for (const std::string& scenario : Scenarios(result)) {
-    text += (scenario.empty() ? "computed" : scenario) + "\n";
+    text += (scenario.empty() ? "computed" : scenario) + "\n" + Changed(result, scenario);
     for (const ComparedValue& value : result.values) {
       if (value.published.scenario == scenario) text += Row(value);
     }
@@ -151,6 +160,9 @@ std::string ComparisonText(const PublishedReference& reference, const Comparison
       fmt::format("\n{} agree, {} differ, {} underpowered, {} not judged\n\n",
                   CountOf(result, Verdict::kAgrees), CountOf(result, Verdict::kDiffers),
                   CountOf(result, Verdict::kUnderpowered), CountOf(result, Verdict::kNotJudged));
+  for (const statistics::OtherSettings& changed : result.changed) {
+    text += Wrap(fmt::format("{} is {}", changed.scenario, kNotPublishedCase), 0) + "\n";
+  }
   return text + Footnotes(result);
 }
 

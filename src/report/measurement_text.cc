@@ -28,6 +28,7 @@ std::string Head(const RunDescription& run, const MeasurementSummary& summary, T
   std::string text = style == TextStyle::kPlain ? name : "\x1b[1m" + name + "\x1b[0m";
   text += fmt::format(", seed {}: {} of {} runs, {} cells\n", run.seed, summary.completed,
                       run.planned, summary.cells.size());
+  text += SettingsText(run);
   if (run.stored > summary.completed) {
     text += fmt::format("  {} more finished runs count once those before them are finished\n",
                         run.stored - summary.completed);

@@ -66,10 +66,13 @@ std::string PublishedJson(const statistics::PublishedReference& reference,
     if (value.published.scenario == scenario) rows.push_back(Row(value));
   }
   if (rows.empty()) return "null";
+  const statistics::OtherSettings* changed = result.FindChanged(scenario);
   return JsonObject()
       .AddText("reference", reference.title)
       .AddText("citation", reference.citation)
       .Add("notes", JsonTexts(ComparisonNotes(result)))
+      .Add("settings",
+           JsonTexts(changed == nullptr ? std::vector<std::string>() : changed->settings))
       .Add("rows", JsonList(rows))
       .Text();
 }

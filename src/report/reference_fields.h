@@ -94,6 +94,15 @@ struct MisprintFields {
   }
 };
 
+struct ScenarioFields {
+  statistics::ReferenceScenario& scenario;
+
+  void Visit(core::FieldVisitor& v) {
+    v.Text("name", scenario.name, kReferenceText);
+    v.Text("file", scenario.file, kReferenceText);
+  }
+};
+
 struct HeadFields {
   statistics::PublishedReference& reference;
   std::int64_t schema_version = 0;

@@ -113,8 +113,16 @@ std::string PublishedCheckJson(const statistics::PublishedReference& reference,
                                const statistics::ComparisonResult& result, int exit_code) {
   std::vector<std::string> values;
   for (const statistics::ComparedValue& value : result.values) values.push_back(Value(value));
+  std::vector<std::string> changed;
+  for (const statistics::OtherSettings& other : result.changed) {
+    changed.push_back(JsonObject()
+                          .AddText("scenario", other.scenario)
+                          .Add("settings", JsonTexts(other.settings))
+                          .Text());
+  }
   return Line(Begin("published_check")
                   .AddText("reference", reference.title)
+                  .Add("not_the_published_case", JsonList(changed))
                   .AddInteger("exit_code", exit_code)
                   .AddInteger("family", static_cast<std::int64_t>(result.family))
                   .Add("values", JsonList(values)));

@@ -40,8 +40,11 @@ struct StoppingReport {
 
 struct RunDescription {
   std::string scenario;
-  std::string fingerprint;             // of the resolved scenario
-  std::string resolved;                // JSON of every effective value
+  std::string fingerprint;  // of the resolved scenario
+  std::string resolved;     // JSON of every effective value
+  // What the scenario was changed by on the way from its file: "PATH=VALUE", "--ablate NAME".
+  // Nothing: not known.
+  std::optional<std::vector<std::string>> settings;
   std::vector<std::string> ablations;  // in force (scenario/ablations.h), however they came to be
   std::string localization;  // "dead_reckoning", or "oracle": a perfect sensor, to be told apart
   std::uint64_t seed = 1;

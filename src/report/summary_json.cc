@@ -156,11 +156,14 @@ Json CellJson(const statistics::MeasurementSummary& summary, const statistics::C
   return json;
 }
 
+Json Settings(const RunDescription& run) { return run.settings ? Json(*run.settings) : Json(); }
+
 Json Head(const RunDescription& run, std::int64_t completed, std::int64_t faults) {
   Json json = {{"schema_version", kSchemaVersion},
                {"scenario", run.scenario},
                {"seed", run.seed},
                {"fingerprint", run.fingerprint},
+               {"settings", Settings(run)},
                {"localization", run.localization},
                {"ablations", run.ablations}};
   json["trials"] = {{"planned", run.planned},
@@ -214,6 +217,7 @@ std::string ProvenanceJson(const core::Provenance& provenance) { return Text(Pro
 std::string ResolvedScenarioJson(const RunDescription& run) {
   return Text({{"scenario", Json::parse(run.resolved)},
                {"fingerprint", run.fingerprint},
+               {"settings", Settings(run)},
                {"provenance", Provenance(run)}});
 }
 

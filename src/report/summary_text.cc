@@ -52,7 +52,7 @@ std::string Head(const RunDescription& run, const DriveSummary& summary, TextSty
       fmt::format(", seed {}: {} of {} trials", run.seed, summary.completed, run.planned);
   if (run.localization == "oracle") text += LocalizationText(run, summary);
   text += '\n';
-  text += AblationLine(run);
+  text += SettingsText(run) + AblationLine(run);
   if (run.stored > summary.completed) {
     text += fmt::format("  {} more finished trials count once those before them are finished\n",
                         run.stored - summary.completed);

@@ -136,7 +136,8 @@ std::vector<Interval> BootstrapMeanIntervals(std::span<const std::vector<double>
       intervals[i] = {values.front() + 0.0, values.front() + 0.0};
       continue;
     }
-    sizes[values.size()].push_back({.place = i, .values = std::move(values), .means = {}});
+    std::vector<MeanSample>& alike = sizes[values.size()];
+    alike.push_back({.place = i, .values = std::move(values), .means = {}});
   }
   Resample(seed, replicates, sizes);
   for (const auto& [size, of_size] : sizes) {

@@ -128,7 +128,17 @@ ComparisonResult Compare(const PublishedReference& reference, std::span<const Sc
     if (row.power) ++result.family;
     result.values.push_back(std::move(row.value));
   }
+  for (const ScenarioRun& run : runs) {
+    if (!run.other_settings.empty()) result.changed.push_back({run.scenario, run.other_settings});
+  }
   return result;
+}
+
+const OtherSettings* ComparisonResult::FindChanged(std::string_view scenario) const {
+  const auto found = std::find_if(changed.begin(), changed.end(), [&](const OtherSettings& other) {
+    return other.scenario == scenario;
+  });
+  return found == changed.end() ? nullptr : &*found;
 }
 
 int ExitCode(const ComparisonResult& result) {

@@ -16,6 +16,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "statistics/proportions.h"
@@ -44,6 +45,9 @@ struct ScenarioRun {
   // Distance to the goal at which the rover declares arrival; NaN: taken from the trials as the
   // largest true final distance of a declared success.
   double goal_tolerance_m = std::numeric_limits<double>::quiet_NaN();
+  // In which the run differs from the scenario that the reference is about, one each, for people.
+  // Not empty: what is compared is not the published case.
+  std::vector<std::string> other_settings = {};
 };
 
 struct ComparisonOptions {
@@ -103,10 +107,21 @@ struct ComparedValue {
   std::string remark;
 };
 
+// A scenario of the runs that is not the published case.
+struct OtherSettings {
+  std::string scenario;
+  std::vector<std::string> settings;
+};
+
 struct ComparisonResult {
   ComparisonOptions options;
   std::size_t family = 0;             // rows in Holm's procedure
   std::vector<ComparedValue> values;  // in the order of the reference
+  // Verdicts on these are as computed, and hold other settings against the published numbers.
+  std::vector<OtherSettings> changed = {};
+
+  // Those of a scenario; null where it is the published case.
+  const OtherSettings* FindChanged(std::string_view scenario) const;
 };
 
 // Compares every value of the reference with the run of its scenario; values without a run are

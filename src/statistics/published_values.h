@@ -96,9 +96,16 @@ struct Misprint {
   std::string used;
 };
 
+// The scenario file that stands for a published case.
+struct ReferenceScenario {
+  std::string name;
+  std::string file;  // relative to the reference
+};
+
 struct PublishedReference {
   std::string title;
   std::string citation;
+  std::vector<ReferenceScenario> scenarios;  // those whose files are known
   std::vector<PublishedValue> values;
   std::vector<Misprint> misprints;
 };

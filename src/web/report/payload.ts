@@ -68,6 +68,8 @@ export interface PublishedTable {
   citation: string;
   /** What the verdicts mean. */
   notes: string[];
+  /** In which the run differs from the scenario that the reference is about; not empty: not the published case. */
+  settings: string[];
   rows: PublishedRow[];
 }
 

@@ -1,0 +1,72 @@
+#include "app/published_settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "app/baseline_scenario.h"
+#include "app/console.h"
+#include "app/run_views.h"
+#include "core/error.h"
+#include "scenario/load.h"
+
+namespace rockyard::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Settings = std::vector<std::string>;
+
+constexpr std::size_t kMostShown = 12;
+
+// Nothing where the file cannot be read.
+std::optional<Settings> DifferencesFrom(const fs::path& file, const StoredRun& run) {
+  try {
+    const std::string published = scenario::ResolvedJson(LoadScenarioFrom(file));
+    // The run may be of an older program, which had fewer settings.
+    const BaselineScenario compared = CompareWithBaseline(run.identity.resolved, published);
+    Settings settings;
+    for (const batch::ScenarioDifference& each : compared.differences) {
+      if (settings.size() == kMostShown) {
+        settings.push_back(fmt::format("and {} more", compared.differences.size() - kMostShown));
+        break;
+      }
+      settings.push_back(
+          fmt::format("{} is {}, {} in {}", each.path, each.first, each.second, file.string()));
+    }
+    return settings;
+  } catch (const core::UserError& error) {
+    const core::Problem& problem = error.problems().front();
+    PrintNote(fmt::format("whether {} is the published case is not known: {} {}", run.Label(),
+                          problem.path, problem.reason));
+    return std::nullopt;
+  }
+}
+
+Settings OtherSettings(const statistics::PublishedReference& reference, const fs::path& folder,
+                       const StoredRun& run) {
+  const auto found =
+      std::find_if(reference.scenarios.begin(), reference.scenarios.end(),
+                   [&](const auto& scenario) { return scenario.name == run.identity.scenario; });
+  if (found != reference.scenarios.end()) {
+    const fs::path file = (folder / found->file).lexically_normal();
+    if (std::optional<Settings> settings = DifferencesFrom(file, run)) return *settings;
+  }
+  return run.settings.value_or(Settings());
+}
+
+}  // namespace
+
+std::vector<statistics::ScenarioRun> PublishedViews(const statistics::PublishedReference& reference,
+                                                    const fs::path& folder,
+                                                    std::span<const StoredRun* const> runs) {
+  std::vector<statistics::ScenarioRun> views;
+  views.reserve(runs.size());
+  for (const StoredRun* run : runs) {
+    views.push_back(ScenarioView(*run));
+    views.back().other_settings = OtherSettings(reference, folder, *run);
+  }
+  return views;
+}
+
+}  // namespace rockyard::app
