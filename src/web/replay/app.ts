@@ -3,8 +3,9 @@ import { el } from "../shared/dom";
 import { themeSwitch } from "../shared/theme";
 import { button } from "./controls";
 import { timelineEvents } from "./events";
+import type { Handle } from "./handle";
 import { makeView } from "./make_view";
-import { Course as Drive, lastAtOrBefore, type Moment } from "./motion";
+import { Course as Drive, lastAtOrBefore } from "./motion";
 import { pageKeys } from "./page_keys";
 import { bindKeys, helpDialog, type Key } from "./panels/keys";
 import { layersPanel } from "./panels/layers";
@@ -15,27 +16,12 @@ import { Transport } from "./panels/transport";
 import { VotesPanel } from "./panels/votes";
 import type { ReplayPayload } from "./payload";
 import { Player, standingStretches } from "./player";
-import type { CameraMode, DrawnLink, DrawnPose, Layers, MapKind, Shown, View } from "./view";
+import { shareTouch } from "./touch";
+import type { CameraMode, Layers, MapKind, Shown, View } from "./view";
 
 const MODE_NAMES: Record<CameraMode, string> = { follow: "Follow", top: "Top", orbit: "Free", rover: "From the rover" };
 const MAP_KINDS: MapKind[] = ["goodness", "certainty", "elevation", "off"];
 const LONGEST_FRAME_S = 0.1;
-
-/** For tests and for the console: what is shown, and the player; nothing of the trial can be changed. */
-export interface Handle {
-  readonly duration: number;
-  readonly time: number;
-  readonly playing: boolean;
-  readonly mode: CameraMode;
-  seek(t: number): void;
-  play(): void;
-  /** As drawn now. */
-  pose(): DrawnPose;
-  /** The links' pivots as drawn now. */
-  links(): DrawnLink[];
-  /** The moment of sample i. */
-  sample(i: number): Moment;
-}
 
 export class App {
   private readonly drive: Drive;
@@ -52,6 +38,7 @@ export class App {
   private readonly stepTimes: number[];
   private dirty = true;
   private before = 0;
+  private frames = 0;
 
   constructor(
     private readonly payload: ReplayPayload,
@@ -86,6 +73,7 @@ export class App {
 
   handle(): Handle {
     const { player, drive, view } = this;
+    const frames = (): number => this.frames;
     return {
       get duration() {
         return player.end - player.start;
@@ -98,6 +86,9 @@ export class App {
       },
       get mode() {
         return view.mode;
+      },
+      get frames() {
+        return frames();
       },
       seek: (t) => player.seek(t),
       play: () => player.play(),
@@ -120,9 +111,8 @@ export class App {
     const tools = el("div", { class: "tools" }, button("Keys", "Keys (?)", () => help.showModal()));
     tools.append(themeSwitch(() => this.recolour()));
     const picture = el("div", { class: "picture" }, view.element, this.cameraBar());
-    if (view.modes.length === 1) {
-      picture.append(el("p", { class: "no-webgl" }, "This browser shows no WebGL: here is the plan, without the third dimension."));
-    }
+    if (view.modes.length > 1) picture.append(shareTouch(view.element));
+    else picture.append(el("p", { class: "note" }, "This browser shows no WebGL: here is the plan, without the third dimension."));
     view.element.setAttribute("role", "img");
     view.element.setAttribute("aria-label", `Picture of the trial: ${payload.title}`);
     const stage = el("section", { class: "stage" }, picture, this.transport.element, this.timeline.element);
@@ -207,7 +197,10 @@ export class App {
     const passed = Math.min(LONGEST_FRAME_S, (now - this.before) / 1000);
     this.before = now;
     this.player.advance(passed);
-    if (this.dirty) this.update();
+    if (this.dirty) {
+      this.update();
+      ++this.frames;
+    }
     requestAnimationFrame((next) => this.frame(next));
   }
 

@@ -1,6 +1,7 @@
 import { el } from "../shared/dom";
 import { readPayload } from "../shared/payload";
-import { App, type Handle } from "./app";
+import { App } from "./app";
+import type { Handle } from "./handle";
 import type { ReplayPayload } from "./payload";
 import "./replay.css";
 

@@ -7,6 +7,7 @@ const NAMES = [
   "grid",
   "rock",
   "wall",
+  "mirror",
   "true-path",
   "believed-path",
   "goal",

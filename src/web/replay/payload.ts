@@ -23,7 +23,7 @@ export interface ReplayPayload {
   ground: Ground;
   rocks: Rock[];
   /** Where rocks were pushed: rock index, time, new centre; in the order of time. */
-  rock_moves: { rock: number; t: number; x: number; y: number; z: number }[];
+  rock_moves: RockMove[];
   rover: RoverShape;
   motion: Motion;
   scans: Scan[];
@@ -66,6 +66,14 @@ export interface Rock {
   yaw: number;
   /** Of its top above the ground. */
   height: number;
+}
+
+export interface RockMove {
+  rock: number;
+  t: number;
+  x: number;
+  y: number;
+  z: number;
 }
 
 /**

@@ -57,6 +57,9 @@ export function layersPanel(payload: ReplayPayload, layers: Layers, changed: () 
   }
   add("grid", "Grid in metres");
   if (toldElsewhere(payload.course)) panel.append(el("p", { class: "key" }, "Goal as told to the rover", swatch("told")));
+  if (payload.course.mirror_lines.length > 0) {
+    panel.append(el("p", { class: "key" }, "Mirror line: operators turn the rover back", swatch("mirror")));
+  }
   return panel;
 }
 

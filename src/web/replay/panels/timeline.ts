@@ -6,9 +6,10 @@ import { clock, degrees } from "../format";
 import type { ReplayPayload, TrialEvent } from "../payload";
 import type { Player } from "../player";
 import { niceStep } from "../scene/ground";
+import { activityBand, activityKey } from "./activities";
 import { curve, greatest, type Curve } from "./curves";
 import { startWalk, walk, type Mark } from "./mark_walk";
-import { bandOf, markOf } from "./marks";
+import { markOf } from "./marks";
 
 const ROW = 20;
 const STRIP = 24;
@@ -54,7 +55,7 @@ export class Timeline {
       key.stopPropagation();
     });
     this.makeLabels();
-    this.element.append(this.activityKey());
+    this.element.append(activityKey(this.runs));
     new ResizeObserver(() => this.resize()).observe(this.drawing);
     player.onChange(() => this.changed());
   }
@@ -97,16 +98,6 @@ export class Timeline {
     this.labels.append(this.axisLabel);
   }
 
-  private activityKey(): HTMLElement {
-    const key = el("p", { class: "activity-key" }, "Activity: ");
-    for (const name of new Set(this.runs.map((run) => run.activity))) {
-      const { colour, height } = bandOf(name);
-      const band = svg("rect", { x: 0, y: 16 - height, width: 12, height, style: `fill: var(${colour})` });
-      key.append(el("span", {}, svg("svg", { viewBox: "0 0 12 16", width: 12, height: 16, "aria-hidden": "true" }, band), name));
-    }
-    return key;
-  }
-
   private resize(): void {
     const width = Math.round(this.drawing.getBoundingClientRect().width);
     if (width === this.width || width === 0) return;
@@ -135,7 +126,7 @@ export class Timeline {
       const y = (i + 1) * ROW;
       this.drawing.append(svg("line", { class: "rule", x1: PAD, x2: this.width - PAD, y1: y, y2: y }));
     });
-    this.drawActivities(this.kinds.length * ROW);
+    this.drawing.append(...activityBand(this.runs, (t) => this.x(t), this.kinds.length * ROW + STRIP - 2));
     this.drawCurves(this.kinds.length * ROW + STRIP);
     this.drawing.append(this.cursor);
     this.drawMarks();
@@ -163,19 +154,6 @@ export class Timeline {
     });
     startWalk(this.marks);
     this.drawing.append(group);
-  }
-
-  private drawActivities(top: number): void {
-    for (const { from, to, activity } of this.runs) {
-      const { colour, height } = bandOf(activity);
-      const x = this.x(from);
-      const rect = svg(
-        "rect",
-        { x, y: top + STRIP - 2 - height, width: Math.max(0.75, this.x(to) - x), height, style: `fill: var(${colour})` },
-        svg("title", {}, `${activity}, ${clock(from)} to ${clock(to)}`),
-      );
-      this.drawing.append(rect);
-    }
   }
 
   private drawCurves(top: number): void {

@@ -1,13 +1,14 @@
-// Where the drive starts and where it should end.
+// Where the drive starts, where it should end, and where operators turn it back.
 import { BufferGeometry, CircleGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial } from "three";
 import type { Palette } from "../palette";
 import type { Course } from "../payload";
-import type { GroundHeights } from "./ground";
+import { extentOf, type GroundHeights } from "./ground";
 import { Lines, type Point } from "./lines";
 import { makeLabel } from "./labels";
 
 const CORNERS = 64;
 const LIFT_M = 0.008;
+const PIECE_M = 0.1;
 const SAME_GOAL_M = 0.005;
 
 export function toldElsewhere({ goal, told_goal: told }: Course): boolean {
@@ -32,6 +33,16 @@ function disc(x: number, y: number, radius: number, heights: GroundHeights): Buf
   return geometry;
 }
 
+// Along x from edge to edge, on the ground.
+function acrossGround(course: Course, y: number, heights: GroundHeights): Point[] {
+  const { xMin, xMax } = extentOf(course);
+  const count = Math.max(1, Math.ceil((xMax - xMin) / PIECE_M));
+  return Array.from({ length: count + 1 }, (_, i) => {
+    const x = xMin + ((xMax - xMin) * i) / count;
+    return [x, y, heights.at(x, y) + LIFT_M];
+  });
+}
+
 export function makeCourse(course: Course, heights: GroundHeights, palette: Palette): Group {
   const { start, goal, told_goal: told } = course;
   const group = new Group();
@@ -46,6 +57,7 @@ export function makeCourse(course: Course, heights: GroundHeights, palette: Pale
     line([[x, y, z], [x, y, z + pole_m]], colour);
     group.add(makeLabel(text, x, y, z + pole_m, { colour, anchor }));
   };
+  for (const y of course.mirror_lines) line(acrossGround(course, y, heights), palette.mirror, [0.25, 0.12]);
   line(ring(start.x, start.y, 0.12, heights), palette.label);
   sign("start", start.x, start.y, 0.1, palette.label, [0.5, -0.7]);
   const fill = new MeshBasicMaterial({
