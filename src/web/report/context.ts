@@ -16,6 +16,8 @@ export interface ShownRun {
 export interface TrialQuery {
   run?: string;
   outcome?: string;
+  /** Only trials that are in the rates. */
+  onlyRated?: boolean;
 }
 
 type Listener = () => void;

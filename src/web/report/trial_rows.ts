@@ -2,6 +2,7 @@
 
 import { isNumber, words } from "../shared/format";
 import type { Run } from "./payload";
+import { ratedTrials } from "./prefix";
 
 export interface TrialRow {
   run: string;
@@ -12,6 +13,8 @@ export interface TrialRow {
   replay: string;
   /** Index of its run. */
   of: number;
+  /** "", or that the trial is in no rate. */
+  unrated: string;
   /** Values by column name: field names are "v_" + name, so that no name can hide another member. */
   [value: `v_${string}`]: number | null;
 }
@@ -38,8 +41,11 @@ function safeLink(link: string | undefined): string {
   return link !== undefined && !/^[a-z][a-z0-9+.-]*:/i.test(link.trim()) && !link.startsWith("//") ? link : "";
 }
 
+const NOT_IN_RATES = "not in the rates";
+
 function rowsOfRun(run: Run, of: number): TrialRow[] {
   const { trial, outcome, outcome_names, detail, detail_texts, columns } = run.trials;
+  const rated = ratedTrials(run);
   return trial.map((number, i) => {
     const row: TrialRow = {
       run: run.label,
@@ -48,6 +54,7 @@ function rowsOfRun(run: Run, of: number): TrialRow[] {
       detail: detail_texts?.[detail?.[i] ?? -1] ?? "",
       replay: safeLink(run.replays?.[String(number)]),
       of,
+      unrated: i < rated ? "" : NOT_IN_RATES,
     };
     for (const column of columns) row[fieldOf(column.name)] = column.values[i] ?? null;
     return row;
@@ -63,6 +70,7 @@ export interface TrialFilter {
   run: string;
   outcome: string;
   onlyReplays: boolean;
+  onlyRated: boolean;
 }
 
 const OPERATORS: Record<string, (a: number, b: number) => boolean> = {
@@ -88,7 +96,7 @@ function condition(word: string): Condition {
   const wanted = word.toLowerCase();
   return (row) =>
     String(row.trial) === wanted ||
-    [row.run, row.outcome, words(row.outcome), row.detail].some((text) => text.toLowerCase().includes(wanted));
+    [row.run, row.outcome, words(row.outcome), row.unrated, row.detail].some((text) => text.toLowerCase().includes(wanted));
 }
 
 /** The rows that meet every word of the text and every choice. */
@@ -99,6 +107,7 @@ export function matching(rows: TrialRow[], filter: TrialFilter): TrialRow[] {
       (filter.run === "" || row.run === filter.run) &&
       (filter.outcome === "" || row.outcome === filter.outcome) &&
       (!filter.onlyReplays || row.replay !== "") &&
+      (!filter.onlyRated || row.unrated === "") &&
       conditions.every((holds) => holds(row)),
   );
 }

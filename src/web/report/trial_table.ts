@@ -6,6 +6,7 @@ import { el, labelled, select } from "../shared/dom";
 import { counted, fixed, isNumber, number, words, type Maybe } from "../shared/format";
 import type { TrialQuery } from "./context";
 import type { Run } from "./payload";
+import { hasUnrated } from "./prefix";
 import { replayCell, ReplayCommand } from "./replay_command";
 import { columnsOf, fieldOf, matching, trialRows, type ColumnInfo, type TrialRow } from "./trial_rows";
 import { columnLabel } from "./words";
@@ -53,12 +54,16 @@ export class TrialTableView {
   private readonly run: HTMLSelectElement;
   private readonly outcome: HTMLSelectElement;
   private readonly onlyReplays = el("input", { type: "checkbox" });
+  private readonly onlyRated = el("input", { type: "checkbox", id: "trials-only-rated" });
+  /** Some trials are in no rate: only then the page speaks of it. */
+  private readonly someUnrated: boolean;
   private readonly found = el("p", { class: "note", role: "status", id: "trials-found" });
   private readonly command = new ReplayCommand();
 
   constructor(private readonly runs: Run[], box: HTMLElement) {
     this.rows = trialRows(runs);
     this.columns = columnsOf(runs);
+    this.someUnrated = runs.some(hasUnrated);
     const outcomes = [...new Set(runs.flatMap((run) => run.trials?.outcome_names ?? []))];
     this.run = select([["", "all runs"], ...runs.map((run): [string, string] => [run.label, run.label])]);
     this.outcome = select([["", "all outcomes"], ...outcomes.map((name): [string, string] => [name, words(name)])]);
@@ -74,6 +79,7 @@ export class TrialTableView {
   show(query: TrialQuery): void {
     this.search.value = "";
     this.onlyReplays.checked = false;
+    this.onlyRated.checked = query.onlyRated ?? false;
     this.run.value = query.run ?? "";
     this.outcome.value = query.outcome ?? "";
     this.refresh();
@@ -89,6 +95,7 @@ export class TrialTableView {
       this.runs.length > 1 ? labelled("Run", this.run) : null,
       labelled("Outcome", this.outcome),
       el("label", { class: "tick" }, this.onlyReplays, "with a replay page"),
+      this.someUnrated ? el("label", { class: "tick" }, this.onlyRated, "in the rates") : null,
       reset,
     );
   }
@@ -115,6 +122,7 @@ export class TrialTableView {
         title: "Outcome", field: "outcome", titleFormatter: headerButton("Outcome"), sorter: "string", ...text,
         formatter: (cell) => document.createTextNode(words(cell.getValue() as string)) as unknown as HTMLElement,
       },
+      { title: "Rates", field: "unrated", titleFormatter: headerButton("Rates"), visible: this.someUnrated, sorter: "string", headerSortStartingDir: "desc", width: 140, ...text },
       {
         title: "Replay", field: "replay", titleFormatter: headerButton("Replay"), visible: this.runs.some((run) => run.kind !== "measurement"), sorter: "string", headerSortStartingDir: "desc", width: 118,
         formatter: (cell) => replayCell(cell.getData() as TrialRow, this.runs, this.command),
@@ -156,7 +164,7 @@ export class TrialTableView {
 
   private listen(): void {
     this.search.addEventListener("input", () => this.refresh());
-    for (const control of [this.run, this.outcome, this.onlyReplays]) control.addEventListener("change", () => this.refresh());
+    for (const control of [this.run, this.outcome, this.onlyReplays, this.onlyRated]) control.addEventListener("change", () => this.refresh());
     this.table.on("tableBuilt", () => {
       this.built = true;
       this.refresh();
@@ -169,6 +177,7 @@ export class TrialTableView {
       run: this.run.value,
       outcome: this.outcome.value,
       onlyReplays: this.onlyReplays.checked,
+      onlyRated: this.onlyRated.checked,
     });
     this.found.textContent = `${number(kept.length)} of ${counted(this.rows.length, "trial")}`;
     if (this.built) void this.table.replaceData(kept);

@@ -42,6 +42,10 @@ export function methodName(method: unknown): string {
   return typeof method === "string" ? (METHODS[method] ?? method) : "unnamed";
 }
 
+/** Of runs where several trials drive over the same rocks. */
+export const SHARED_LAYOUTS =
+  "Trials share layouts of rocks: they are not independent, and intervals that take them so are too narrow.";
+
 export interface VerdictWords {
   mark: string;
   tone: "good" | "bad" | "unsure" | "none";

@@ -6,13 +6,25 @@ import { isNumber, number, percent } from "../../shared/format";
 import { numeric, table } from "../../shared/table";
 import type { ShownRun } from "../context";
 import { seriesStyle } from "../series";
+import { niceStep } from "./histogram";
 
 export interface Steps {
   shown: ShownRun;
-  /** Upper end of the band before the first step. */
-  startHigh: number;
-  /** Sorted by x; a step goes up at x. */
-  points: { x: number; y: number; low: number; high: number }[];
+  /** Upper end of the band before the first step; null where there is no band there. */
+  startHigh: number | null;
+  /** The curve goes on beyond its last step, because nothing is left to come. */
+  complete: boolean;
+  /** Sorted by x; a step goes up at x. Without a band where it would have no width: that is no knowledge, as before the first arrival. */
+  points: Step[];
+  /** Trials that still drove when they came to x: as many numbers as points. */
+  atRisk: number[];
+}
+
+export interface Step {
+  x: number;
+  y: number;
+  low: number | null;
+  high: number | null;
 }
 
 export interface Mark {
@@ -26,24 +38,34 @@ export function stepsOf(shown: ShownRun, name: "ecdf" | "goal"): Steps | null {
   const x = cdf?.["distance_m"];
   const columns = [cdf?.[name], cdf?.[`${name}_low`], cdf?.[`${name}_high`]];
   if (!x || columns.some((column) => !column)) return null;
-  const points: Steps["points"] = [];
+  const points: Step[] = [];
+  const atRisk: number[] = [];
   x.forEach((value, i) => {
     const [at, lower, upper] = columns.map((column) => column![i]);
-    if (isNumber(value) && isNumber(at) && isNumber(lower) && isNumber(upper)) {
-      points.push({ x: value, y: at, low: lower, high: upper });
-    }
+    if (!isNumber(value) || !isNumber(at) || !isNumber(lower) || !isNumber(upper)) return;
+    const banded = upper > lower;
+    points.push({ x: value, y: at, low: banded ? lower : null, high: banded ? upper : null });
+    atRisk.push(cdf?.["at_risk"]?.[i] ?? NaN);
   });
   const first = points[0];
   if (!first) return null;
-  // The band of the distribution function has one width everywhere; the other is pointwise, and
-  // where nobody has arrived yet there is none.
-  return { shown, points, startHigh: name === "ecdf" ? Math.max(0, first.high - first.y) : 0 };
+  // The band of the distribution function has one width everywhere.
+  const startHigh = name === "ecdf" ? Math.max(0, first.high! - first.y) : null;
+  return { shown, points, startHigh, complete: name === "ecdf", atRisk };
+}
+
+/** How many trials still drove at x; null where that is not known. */
+export function atRiskAt({ points, atRisk }: Steps, x: number): number | null {
+  const next = points.findIndex((point) => point.x >= x);
+  const count = next < 0 ? 0 : atRisk[next];
+  return isNumber(count) ? count : null;
 }
 
 // A distribution function is 0 before its first step.
-function extended({ points, startHigh }: Steps, from: number, to: number): Steps["points"] {
+function extended({ points, startHigh, complete }: Steps, from: number, to: number): Step[] {
   const last = points[points.length - 1]!;
-  return [{ x: from, y: 0, low: 0, high: startHigh }, ...points, { ...last, x: to }];
+  const start = { x: from, y: 0, low: startHigh === null ? null : 0, high: startHigh };
+  return [start, ...points, ...(complete ? [{ ...last, x: to }] : [])];
 }
 
 function extent(all: Steps[], marks: Mark[]): [number, number] {
@@ -59,7 +81,7 @@ function seriesMarks(steps: Steps, domain: [number, number], opacity: number): P
   const style = seriesStyle(steps.shown.slot);
   const points = extended(steps, ...domain);
   return [
-    Plot.areaY(points, { x: "x", y1: "low", y2: "high", curve: "step-after", fill: style.colour, fillOpacity: opacity }),
+    Plot.areaY(points.filter((point) => point.high !== null), { x: "x", y1: "low", y2: "high", curve: "step-after", fill: style.colour, fillOpacity: opacity }),
     Plot.lineY(points, {
       x: "x", y: "y", curve: "step-after", stroke: style.colour, strokeWidth: 2, strokeDasharray: style.dash,
       tip: { format: { x: (x: number) => `${number(x)} m`, y: (y: number) => percent(y), stroke: false } },
@@ -80,19 +102,56 @@ function publishedMarks(marks: Mark[], domain: [number, number]): Plot.Markish[]
   ];
 }
 
-export function drawSteps(all: Steps[], marks: Mark[], yLabel: string, width: number): Element {
+const RISK_ROW = 16;
+
+// A row of numbers for each run below the axis, at its ticks.
+function riskMarks(all: Steps[], ticks: number[]): Plot.Markish[] {
+  return all.flatMap((steps, row) => {
+    const style = seriesStyle(steps.shown.slot);
+    const dy = 52 + RISK_ROW * (row + 1);
+    const texts = ticks.flatMap((x) => {
+      const count = atRiskAt(steps, x);
+      return count === null ? [] : [{ x, text: number(count) }];
+    });
+    return [
+      Plot.text(texts, { x: "x", text: "text", frameAnchor: "bottom", dy, fill: "currentColor" }),
+      all.length > 1
+        ? Plot.dot([0], { frameAnchor: "bottom-left", dx: -34, dy, symbol: style.symbol, r: 4, fill: style.symbol === "times" ? "none" : style.colour, stroke: style.colour })
+        : null,
+    ];
+  });
+}
+
+function ticksOf([low, high]: [number, number], count: number): number[] {
+  const step = niceStep((high - low) / count);
+  const first = Math.ceil(low / step);
+  return Array.from({ length: Math.floor(high / step) - first + 1 }, (_, i) => Number(((first + i) * step).toPrecision(12)));
+}
+
+export interface StepDrawing {
+  all: Steps[];
+  marks: Mark[];
+  yLabel: string;
+  /** Numbers of trials that still drive, below the axis. */
+  atRisk: boolean;
+}
+
+export function drawSteps({ all, marks, yLabel, atRisk }: StepDrawing, width: number): Element {
   const domain = extent(all, marks);
+  const ticks = ticksOf(domain, Math.max(4, width / 90));
+  const below = atRisk ? 26 + RISK_ROW * all.length : 0;
   return Plot.plot({
     width,
-    height: Math.min(380, Math.max(260, width * 0.55)),
+    height: Math.min(380, Math.max(260, width * 0.55)) + below,
     marginLeft: 52,
-    marginBottom: 42,
-    x: { domain, label: "true distance [m]", labelAnchor: "center", labelArrow: "none", ticks: Math.max(4, width / 90) },
+    marginBottom: 42 + below,
+    x: { domain, label: "true distance [m]", labelAnchor: "center", labelArrow: "none", labelOffset: 36, ticks },
     y: { domain: [0, 1], label: yLabel, grid: true, ticks: 5, percent: false, labelArrow: "none", tickFormat: (rate: number) => `${Math.round(100 * rate)} %` },
     marks: [
       Plot.ruleY([0], { stroke: "var(--line-strong)" }),
       ...all.flatMap((steps) => seriesMarks(steps, domain, all.length > 3 ? 0.07 : 0.16)),
       ...publishedMarks(marks, domain),
+      ...(atRisk ? [Plot.text(["still driving"], { frameAnchor: "bottom-left", textAnchor: "start", dx: -46, dy: 52, fill: "currentColor", fontWeight: 600 }), ...riskMarks(all, ticks)] : []),
     ],
   });
 }
@@ -101,9 +160,9 @@ export function stepTable(steps: Steps, what: string): HTMLElement {
   return table({
     caption: `${steps.shown.run.label}: ${what}`,
     captionShown: true,
-    head: ["distance [m]", what, "band from", "band to"].map((content) => ({ content, numeric: true })),
-    rows: steps.points.map((point) =>
-      [point.x, point.y, point.low, point.high].map((value) => numeric(number(value), value)),
+    head: ["distance [m]", what, "band from", "band to", "still driving"].map((content) => ({ content, numeric: true })),
+    rows: steps.points.map((point, i) =>
+      [point.x, point.y, point.low, point.high, steps.atRisk[i]].map((value) => numeric(number(value), value)),
     ),
   });
 }

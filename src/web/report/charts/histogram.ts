@@ -5,6 +5,8 @@ import * as Plot from "@observablehq/plot";
 import { isNumber, number } from "../../shared/format";
 import { numeric, rowHeader, table } from "../../shared/table";
 import type { ShownRun } from "../context";
+import type { Run } from "../payload";
+import { ratedTrials } from "../prefix";
 import { seriesStyle } from "../series";
 import type { Mark } from "./distribution";
 
@@ -19,18 +21,23 @@ export interface Bins {
   counts: number[][];
 }
 
-/** The finite values of a column times `factor`; null where the run has none. Faults hold none. */
-export function sampleOf(shown: ShownRun, name: string, factor: number): Sample | null {
-  const column = shown.run.trials?.columns?.find((each) => each.name === name);
-  const fault = (shown.run.trials?.outcome_names ?? []).indexOf("simulator_fault");
-  const values = (column?.values ?? []).filter(
-    (value, i): value is number => isNumber(value) && shown.run.trials.outcome[i] !== fault,
+/** The finite values of a column, of the trials that are in the rates. */
+export function ratedValues(run: Run, name: string): number[] {
+  const column = run.trials?.columns?.find((each) => each.name === name);
+  const fault = (run.trials?.outcome_names ?? []).indexOf("simulator_fault");
+  return (column?.values ?? []).slice(0, ratedTrials(run)).filter(
+    (value, i): value is number => isNumber(value) && run.trials.outcome[i] !== fault,
   );
+}
+
+/** The same times `factor`; null where there are none. */
+export function sampleOf(shown: ShownRun, name: string, factor: number): Sample | null {
+  const values = ratedValues(shown.run, name);
   return values.length > 0 ? { shown, values: values.map((value) => factor * value) } : null;
 }
 
 // The nearest step that is 1, 2 or 5 times a power of ten.
-function niceStep(raw: number): number {
+export function niceStep(raw: number): number {
   const power = 10 ** Math.floor(Math.log10(raw));
   const lead = raw / power;
   return power * (lead < 1.4 ? 1 : lead < 3.2 ? 2 : lead < 7 ? 5 : 10);

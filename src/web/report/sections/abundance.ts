@@ -10,9 +10,6 @@ import type { Curve, Sweep } from "../payload";
 import { legend } from "../series";
 import type { Section } from "./section";
 
-// As in the terminal's table of fits.
-const REJECTED_BELOW = 0.01;
-
 interface Fit {
   curve: string;
   success: string;
@@ -26,13 +23,18 @@ function fitOf(sweep: Sweep, curve: Curve): Fit | undefined {
   return fits.find((fit) => fit.curve === curve.label && fit.success.startsWith(curve.success));
 }
 
+function curveOf(sweep: Sweep, fit: Fit): Curve | undefined {
+  return (sweep.curves ?? []).find((curve) => curve.label === fit.curve && fit.success.startsWith(curve.success));
+}
+
 /** What is to be said of a fit, in words. */
 export function fitWords(curve: Curve, fit: Fit | undefined): string {
   if ((curve.fit ?? []).length === 0) return `no fit: ${curve.fit_status || "none was made"}`;
-  if (!isNumber(fit?.p_value)) return curve.fit_status || "fitted";
-  return fit.p_value < REJECTED_BELOW
-    ? `fit rejected (p ${pValue(fit.p_value)}): the points do not follow the line; believe the points`
-    : `fit not rejected (p ${pValue(fit.p_value)})`;
+  if (typeof curve.fit_rejected !== "boolean") return curve.fit_status || "fitted";
+  const p = isNumber(fit?.p_value) ? ` (p ${pValue(fit.p_value)})` : "";
+  return curve.fit_rejected
+    ? `fit rejected${p}: the points do not follow the line; believe the points`
+    : `fit not rejected${p}`;
 }
 
 function curvesOf(sweep: Sweep, success: Curve["success"]): SlottedCurve[] {
@@ -88,7 +90,7 @@ function crossings(sweep: Sweep): HTMLElement | null {
         numeric(number(crossing.ci95?.[1]), crossing.ci95?.[1]),
         [
           crossing.outside_of_data ? "outside of the cells" : "",
-          isNumber(fit.p_value) && fit.p_value < REJECTED_BELOW ? "the fit is rejected" : "",
+          curveOf(sweep, fit)?.fit_rejected ? "the fit is rejected" : "",
         ].filter(Boolean).join("; "),
       ]),
     ),

@@ -1,7 +1,7 @@
 // Differences between two runs.
 
 import { el, type Child } from "../../shared/dom";
-import { counted, interval, isNumber, number, percent, percentInterval, pValue } from "../../shared/format";
+import { counted, interval, isNumber, number, percent, points, pointsInterval, pValue } from "../../shared/format";
 import { numeric, rowHeader, table, type Cell } from "../../shared/table";
 import { chartFigure } from "../charts/figure";
 import { drawForest, forestTable, type Difference } from "../charts/forest";
@@ -37,15 +37,24 @@ function drawnColumns(of: Comparison): Column[] {
   return known.length > 0 ? known : of.columns.slice(0, MOST_DRAWN);
 }
 
+const drawnLabel = (row: Column) => (row.trials === "arrived" ? `${columnWords(row.name)} (arrived)` : columnWords(row.name));
+
 // Columns have different units: as a share of the first run's mean they go on one axis.
 function columnRows(of: Comparison): Difference[] {
   return drawnColumns(of).flatMap((row) => {
     if (!isNumber(row.first) || !isNumber(row.difference) || !isNumber(row.low) || !isNumber(row.high)) return [];
     if (row.first === 0) return [];
     const scale = 100 / Math.abs(row.first);
-    const label = row.trials === "arrived" ? `${columnWords(row.name)} (arrived)` : columnWords(row.name);
-    return [{ label, difference: scale * row.difference, low: scale * row.low, high: scale * row.high }];
+    return [{ label: drawnLabel(row), difference: scale * row.difference, low: scale * row.low, high: scale * row.high }];
   });
+}
+
+// Of a mean of 0 there is no share: such columns are named with their means.
+function notDrawn(of: Comparison): string {
+  const texts = drawnColumns(of)
+    .filter((row) => row.first === 0 && isNumber(row.second) && row.second !== 0)
+    .map((row) => `${drawnLabel(row)} (0, then ${number(row.second, 3)})`);
+  return texts.length > 0 ? ` Not drawn, because a share of 0 is not defined: ${texts.join(", ")}.` : "";
 }
 
 const sentence = (rows: Difference[], unit: string) =>
@@ -55,23 +64,25 @@ function successTable(of: Comparison): HTMLElement {
   return table({
     caption: `Success of ${of.first} and ${of.second}`,
     className: "compact",
-    head: ["Success", ...[of.first, of.second, "Difference", "95 % interval", "p"].map((content) => ({ content, numeric: true }))],
+    head: ["Success", ...[of.first, of.second, "Difference [points]", "95 % interval [points]", "p"].map((content) => ({ content, numeric: true }))],
     rows: of.successes.map((row) => [
       rowHeader(row.what),
       numeric(percent(row.first), row.first),
       numeric(percent(row.second), row.second),
-      numeric(percent(row.difference), row.difference),
-      numeric(percentInterval(row.low, row.high)),
+      numeric(points(row.difference), row.difference),
+      numeric(pointsInterval(row.low, row.high)),
       numeric(pValue(row.p), row.p),
     ]),
   });
 }
 
-function columnRow(row: Column): (Child | Cell)[] {
+function columnRow(of: Comparison, row: Column): (Child | Cell)[] {
+  const arrived = of.paired ? "those that arrived in both" : "those that arrived";
+  const n = isNumber(row.n_second) ? `${number(row.n)} / ${number(row.n_second)}` : number(row.n);
   return [
     rowHeader(columnLabel(row.name, row.unit)),
-    row.trials === "arrived" ? "those that arrived in both" : "all",
-    numeric(number(row.n), row.n),
+    row.trials === "arrived" ? arrived : "all",
+    numeric(n, row.n),
     numeric(number(row.first), row.first),
     numeric(number(row.second), row.second),
     numeric(CLEAR(row.low, row.high) ? el("strong", {}, number(row.difference, 3)) : number(row.difference, 3), row.difference),
@@ -84,7 +95,7 @@ function columnTable(of: Comparison): HTMLElement {
     caption: `Means of ${of.first} and ${of.second}`,
     tall: of.columns.length > MOST_DRAWN,
     head: ["Column", "Trials", ...["n", of.first, of.second, "Difference", "95 % interval"].map((content) => ({ content, numeric: true }))],
-    rows: of.columns.map(columnRow),
+    rows: of.columns.map((row) => columnRow(of, row)),
   });
 }
 
@@ -115,7 +126,7 @@ function forests(of: Comparison, at: number): HTMLElement {
       chartFigure({
         id: `forest-columns-${at}`,
         title: "Means",
-        caption: `Mean of ${of.second} less that of ${of.first}, in per cent of the latter, for the columns that are looked at first; the table below has all. ${read}`,
+        caption: `Mean of ${of.second} less that of ${of.first}, in per cent of the latter, for the columns that are looked at first; the table below has all. ${read}${notDrawn(of)}`,
         alternative: sentence(columns, "%"),
         draw: (width) => drawForest(columns, "difference [%]", width),
         numbers: () => [forestTable(columns, `% of ${of.first}`)],

@@ -7,6 +7,8 @@ import { chartFigure } from "../charts/figure";
 import type { Context } from "../context";
 import type { PublishedRow, Run } from "../payload";
 import { legend } from "../series";
+import { ratedValues } from "../charts/histogram";
+import { SHARED_LAYOUTS } from "../words";
 import { publishedMarks } from "./published_marks";
 import type { Section } from "./section";
 
@@ -30,6 +32,22 @@ function endsOf(all: Steps[], what: string): string {
     .join("; ");
 }
 
+// Distances of the trials that are in the curve.
+function distinctDistances(run: Run): number {
+  return new Set(ratedValues(run, "true_distance_m")).size;
+}
+
+/** What holds of the curves of some runs only. */
+function remarks(all: Steps[]): string {
+  const runs = all.map(({ shown }) => shown.run);
+  const thinned = runs.filter((run) => distinctDistances(run) > (run.cdf?.["distance_m"]?.length ?? 0));
+  const drawn = thinned.map((run) => `${number(run.cdf!["distance_m"]!.length)} of its ${number(distinctDistances(run))} steps`);
+  return (
+    (thinned.length > 0 ? ` Drawn with fewer steps than there are (${drawn.join("; ")}); distance_cdf.csv has all.` : "") +
+    (runs.some((run) => run.shared_layouts) ? ` ${SHARED_LAYOUTS}` : "")
+  );
+}
+
 function distances(all: Steps[], marks: Mark[]): HTMLElement {
   const shown = marks.length > 0
     ? " Dashed uprights are values that the published text and tables state; the published figure of this curve (figure 17) " +
@@ -40,10 +58,10 @@ function distances(all: Steps[], marks: Mark[]): HTMLElement {
     title: "Distance driven",
     caption:
       "At a distance x the curve gives the share of all trials that drove no further than x, whatever their end. The shaded band " +
-      "holds the whole true curve with 95 % confidence (simultaneous)." + shown,
+      "holds the whole true curve with 95 % confidence (simultaneous)." + remarks(all) + shown,
     alternative: `Distribution function of the true distance. ${endsOf(all, "the curve")}.`,
     key: key(all),
-    draw: (width) => drawSteps(all, marks, "share of trials", width),
+    draw: (width) => drawSteps({ all, marks, yLabel: "share of trials", atRisk: false }, width),
     numbers: () => all.map((steps) => stepTable(steps, "share of trials")),
   });
 }
@@ -54,10 +72,10 @@ function arrivals(all: Steps[]): HTMLElement {
     title: "Arrivals at the goal",
     caption:
       "At a distance x the curve gives the share of trials that believed by then to be at the goal. Failures compete: they never " +
-      "arrive, so the curve ends below 100 %. The band is a 95 % interval at each distance by itself (pointwise).",
+      "arrive, so the curve ends below 100 %. The band is a 95 % interval at each distance by itself (pointwise); where it would have no width, as before the first arrival, none is drawn. Below the axis: how many trials still drove at that distance." + remarks(all),
     alternative: `Share of trials that had arrived, by true distance. ${endsOf(all, "the share")}.`,
     key: key(all),
-    draw: (width) => drawSteps(all, [], "share that arrived", width),
+    draw: (width) => drawSteps({ all, marks: [], yLabel: "share that arrived", atRisk: true }, width),
     numbers: () => all.map((steps) => stepTable(steps, "share that arrived")),
   });
 }

@@ -5,6 +5,7 @@ import { counted, number, words } from "../../shared/format";
 import { themeSwitch } from "../../shared/theme";
 import type { Context } from "../context";
 import type { Run } from "../payload";
+import { hasUnrated, ratedTrials } from "../prefix";
 
 /** [planned, completed, faulted, pending], as far as the summary gives them. */
 export function accounting(run: Run): { planned?: number; completed?: number; faulted?: number; pending?: number } {
@@ -16,6 +17,7 @@ function trialsText(run: Run): string {
   const parts = [`${number(completed)} of ${number(planned)} completed`];
   if (faulted) parts.push(counted(faulted, "simulator fault"));
   if (pending) parts.push(`${number(pending)} pending`);
+  if (hasUnrated(run)) parts.push(`rates from the first ${number(ratedTrials(run))}`);
   return parts.join(", ");
 }
 
@@ -66,6 +68,7 @@ function manyFacts(context: Context): HTMLElement {
     ["Trials", `${number(sumOf(runs, "completed"))} of ${number(sumOf(runs, "planned"))} completed`],
     ["Simulator faults", sumOf(runs, "faulted") > 0 ? number(sumOf(runs, "faulted")) : null],
     ["Pending", sumOf(runs, "pending") > 0 ? number(sumOf(runs, "pending")) : null],
+    ["In the rates", runs.some(hasUnrated) ? `the first ${number(runs.reduce((sum, run) => sum + ratedTrials(run), 0))} of the runs` : null],
     ["Builds", [...builds].join(", ")],
   ]);
 }

@@ -6,7 +6,9 @@ import { numeric, rowHeader, table, type Cell } from "../../shared/table";
 import { rateBar } from "../charts/glyphs";
 import type { Context } from "../context";
 import type { Run } from "../payload";
-import { methodName } from "../words";
+import { methodName, SHARED_LAYOUTS } from "../words";
+import { hasUnrated, ratedTrials } from "../prefix";
+import { stoppingOf, stoppingText, type Stopping } from "../stopping";
 import { accounting } from "./header";
 import type { Section } from "./section";
 
@@ -18,9 +20,11 @@ interface Rate {
   ci_method?: string;
 }
 
-function rateCells(rate: Rate | undefined): Cell[] {
+// A run that was ended by looking at the rate has this interval, which is valid at any look, and
+// Wilson's beside it: that one takes the number of trials as fixed.
+function rateCells(rate: Rate | undefined, stopping?: Stopping): Cell[] {
   if (!rate) return [{ content: MISSING }, { content: "" }];
-  const [low, high] = rate.ci95 ?? [null, null];
+  const [low, high] = stopping?.confidence_sequence ?? rate.ci95 ?? [null, null];
   const text = el(
     "div",
     { class: "rate" },
@@ -32,6 +36,7 @@ function rateCells(rate: Rate | undefined): Cell[] {
     { class: "rate-drawn" },
     rateBar(rate.rate, low, high),
     el("span", { class: "of", "data-low": low, "data-high": high }, percentInterval(low, high)),
+    stopping ? el("span", { class: "of" }, `${methodName(rate.ci_method)}: ${percentInterval(rate.ci95?.[0], rate.ci95?.[1])}`) : null,
   );
   return [{ content: text, numeric: true, value: rate.rate }, { content: bar }];
 }
@@ -49,6 +54,7 @@ function trialsCell(run: Run): Cell {
   const notes: Child[] = [];
   if (faulted) notes.push(el("span", { class: "of" }, `${number(faulted)} faulted`));
   if (pending) notes.push(el("span", { class: "of" }, `${number(pending)} pending of ${number(planned)}`));
+  if (hasUnrated(run)) notes.push(el("span", { class: "of" }, `rates from the first ${number(ratedTrials(run))}`));
   return { content: el("div", { class: "rate" }, el("span", {}, number(completed)), ...notes), numeric: true, value: completed };
 }
 
@@ -57,7 +63,7 @@ function row(run: Run): (Child | Cell)[] {
   return [
     rowHeader(breakable(run.label)),
     trialsCell(run),
-    ...rateCells(run.summary?.declared_success),
+    ...rateCells(run.summary?.declared_success, stoppingOf(run)),
     ...rateCells(run.summary?.true_success),
     numeric(number(distance, 3), distance),
     commonest(run),
@@ -68,6 +74,24 @@ function methods(runs: Run[]): string {
   const names = new Set(runs.flatMap((run) => [run.summary?.declared_success?.ci_method, run.summary?.true_success?.ci_method]));
   const known = [...names].filter(Boolean).map(methodName);
   return known.length > 0 ? ` (${known.join(" and ")})` : "";
+}
+
+// What a reader must know before believing the table.
+function cautions(runs: Run[]): Child[] {
+  const several = runs.length > 1;
+  const caution = (run: Run, text: string) =>
+    el("p", { class: "note caution", role: "note" }, several ? el("strong", {}, breakable(run.label), ": ") : null, text);
+  return runs.flatMap((run) => {
+    const stopping = stoppingOf(run);
+    return [
+      stopping ? caution(run, stoppingText(stopping)) : null,
+      run.shared_layouts ? caution(run, SHARED_LAYOUTS) : null,
+      hasUnrated(run)
+        ? caution(run, `Rates, curves and distributions are of the first ${number(ratedTrials(run))} trials, up to one that is still to be run. ` +
+            "Those that are stored beyond it are in the table of trials alone: they would favour what ends early.")
+        : null,
+    ];
+  });
 }
 
 export const headline: Section = {
@@ -81,7 +105,7 @@ export const headline: Section = {
       table({
         caption: "Success of each run",
         className: "headline-table",
-      stacks: true,
+        stacks: true,
         head: [
           "Run",
           { content: "Trials", numeric: true },
@@ -101,6 +125,7 @@ export const headline: Section = {
           `was there. Bars run from 0 to 100 %: the dot is the rate, the bar its 95 % interval${methods(runs)}. ` +
           "Simulator faults are in no rate.",
       ),
+      ...cautions(runs),
     ];
   },
 };

@@ -6,6 +6,7 @@ import { outcomeSentence } from "../../shared/outcomes";
 import { numeric, rowHeader, table, type Cell } from "../../shared/table";
 import type { Context } from "../context";
 import type { Run } from "../payload";
+import { hasUnrated } from "../prefix";
 import type { Section } from "./section";
 
 type Counts = Record<string, number>;
@@ -34,7 +35,7 @@ function countButton(context: Context, run: Run, outcome: string): HTMLElement |
     number(count),
     el("span", { class: "visually-hidden" }, ` trials: show ${words(outcome)} of ${run.label} in the table`),
   );
-  button.addEventListener("click", () => context.showTrials({ run: run.label, outcome }));
+  button.addEventListener("click", () => context.showTrials({ run: run.label, outcome, onlyRated: hasUnrated(run) }));
   return button;
 }
 
