@@ -1,4 +1,5 @@
 #include <cmath>
+#include <string>
 
 #include "report/page_data.h"
 #include "report/page_json.h"
@@ -19,7 +20,7 @@ std::string Success(const SuccessComparison& success) {
       .Text();
 }
 
-void AddColumns(std::string_view trials, const std::vector<ColumnComparison>& columns,
+void AddColumns(std::string_view trials, const std::vector<ColumnComparison>& columns, bool paired,
                 std::vector<std::string>& rows) {
   for (const ColumnComparison& column : columns) {
     rows.push_back(JsonObject()
@@ -27,6 +28,7 @@ void AddColumns(std::string_view trials, const std::vector<ColumnComparison>& co
                        .AddText("name", column.name)
                        .AddText("unit", column.unit)
                        .AddInteger("n", column.count)
+                       .Add("n_second", paired ? "null" : std::to_string(column.second_count))
                        .AddNumber("first", column.first_mean)
                        .AddNumber("second", column.second_mean)
                        .AddNumber("difference", column.difference)
@@ -93,8 +95,8 @@ std::string PageComparisonJson(const PageComparison& comparison, bool adjusted) 
   std::vector<std::string> successes;
   for (const SuccessComparison& success : result.successes) successes.push_back(Success(success));
   std::vector<std::string> columns;
-  AddColumns("all", result.columns, columns);
-  AddColumns("arrived", result.arrived_columns, columns);
+  AddColumns("all", result.columns, result.paired, columns);
+  AddColumns("arrived", result.arrived_columns, result.paired, columns);
   return JsonObject()
       .AddText("first", comparison.first)
       .AddText("second", comparison.second)

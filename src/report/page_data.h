@@ -17,6 +17,7 @@
 
 #include "core/field_table.h"
 #include "core/provenance.h"
+#include "report/distance_steps.h"
 #include "report/page_json.h"
 #include "report/paired_comparison.h"
 #include "report/run_description.h"
@@ -65,11 +66,12 @@ std::string PageReplaysJson(std::span<const PageLink> links);
 std::string PageTrialsJson(const truth::RecordSchema& schema,
                            std::span<const truth::Record> records);
 
-// Members of distance_cdf.csv by column, of at most kMostPageSteps steps: the first, the last, and
-// others in equal numbers of steps from each other. What is kept is exact, so that the function
-// drawn is nowhere further off than the share of the steps between two kept ones. null where the
-// records have no true distance.
-std::string PageCdfJson(const truth::RecordSchema& schema, std::span<const truth::Record> prefix);
+// Members of distance_cdf.csv by column, of at most kMostPageSteps steps: all of them, or the
+// first, the last, and each at which the distribution function has grown by more than 1/998 since
+// the one before. What is kept is exact. Drawn as steps from it, the function is nowhere above that
+// of all steps and nowhere below it by more than 1/998, however many trials share a distance. null
+// where there are no steps.
+std::string PageCdfJson(std::span<const DistanceStep> steps);
 
 // Those of a run that another one has not: other in value. All of them where the two are not of the
 // same parameters in the same order. Cells of a sweep differ in few, and all cells of a large one

@@ -2,9 +2,9 @@
 #include <array>
 #include <functional>
 
-#include "report/distance_steps.h"
 #include "report/page_data.h"
 #include "report/page_json.h"
+#include "report/paired_comparison.h"
 #include "report/parameter_table.h"
 #include "report/summary_json.h"
 #include "statistics/cell_summary.h"
@@ -40,12 +40,15 @@ std::vector<std::string> Factors(const truth::RecordSchema& schema) {
   return names;
 }
 
-// Of `size` steps, at most kMostPageSteps with both ends.
-std::vector<std::size_t> KeptSteps(std::size_t size) {
+// All where they are few enough. Else both ends, and every step at which the function has grown by
+// more than kLeast since the one kept before: those growths sum up to no more than 1.
+std::vector<std::size_t> KeptSteps(std::span<const DistanceStep> steps) {
+  constexpr double kLeast = 1.0 / static_cast<double>(kMostPageSteps - 2);
   std::vector<std::size_t> kept;
-  const std::size_t count = std::min(size, kMostPageSteps);
-  for (std::size_t i = 0; i < count; ++i) {
-    kept.push_back(count == size ? i : i * (size - 1) / (count - 1));
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const bool grown =
+        kept.empty() || steps[i].all.fraction - steps[kept.back()].all.fraction > kLeast;
+    if (steps.size() <= kMostPageSteps || grown || i + 1 == steps.size()) kept.push_back(i);
   }
   return kept;
 }
@@ -57,8 +60,7 @@ struct CdfColumn {
 
 }  // namespace
 
-std::string PageCdfJson(const truth::RecordSchema& schema, std::span<const truth::Record> prefix) {
-  const std::vector<DistanceStep> steps = DistanceSteps(schema, prefix);
+std::string PageCdfJson(std::span<const DistanceStep> steps) {
   if (steps.empty()) return "null";
   const std::array<CdfColumn, 9> columns{{
       {"distance_m", [](const DistanceStep& s) { return s.all.value; }},
@@ -71,7 +73,7 @@ std::string PageCdfJson(const truth::RecordSchema& schema, std::span<const truth
       {"failure", [](const DistanceStep& s) { return s.goal.competing; }},
       {"at_risk", [](const DistanceStep& s) { return static_cast<double>(s.at_risk); }},
   }};
-  const std::vector<std::size_t> kept = KeptSteps(steps.size());
+  const std::vector<std::size_t> kept = KeptSteps(steps);
   JsonObject json;
   for (const CdfColumn& column : columns) {
     std::vector<std::string> values;
@@ -119,6 +121,8 @@ std::string PageReplaysJson(std::span<const PageLink> links) {
 
 JsonObject PageRunMembers(const PageRun& run, statistics::IntervalMethod method) {
   const bool measures = truth::IsMeasurement(run.schema);
+  std::vector<DistanceStep> steps;
+  if (!measures) steps = DistanceSteps(run.schema, run.prefix);
   JsonObject json;
   json.AddText("label", run.label)
       .AddText("folder", run.folder)
@@ -127,7 +131,10 @@ JsonObject PageRunMembers(const PageRun& run, statistics::IntervalMethod method)
       .AddText("kind", measures ? "measurement" : "drive")
       .Add("summary", JsonCompact(Summary(run, method)))
       .Add("trials", PageTrialsJson(run.schema, run.records))
-      .Add("cdf", measures ? "null" : PageCdfJson(run.schema, run.prefix))
+      .AddInteger("prefix_trials", static_cast<std::int64_t>(run.prefix.size()))
+      .AddFlag("shared_layouts", SharesLayouts(run.schema, run.prefix))
+      .Add("cdf", PageCdfJson(steps))
+      .AddInteger("cdf_steps", static_cast<std::int64_t>(steps.size()))
       .Add("factors", measures ? JsonTexts(Factors(run.schema)) : "[]")
       .Add("published", run.published)
       .Add("parameters", PageParametersJson(run.parameters))

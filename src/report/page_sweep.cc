@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "report/page_data.h"
 #include "report/page_json.h"
 #include "report/sweep_curves.h"
@@ -56,6 +58,11 @@ const char* Status(statistics::FitStatus status) {
   return "";
 }
 
+const char* Rejected(const LogisticFit& fit) {
+  if (fit.status != statistics::FitStatus::kFitted || !std::isfinite(fit.p_value)) return "null";
+  return Misfits(fit) ? "true" : "false";
+}
+
 std::string Curve(const scenario::Sweep& sweep, const SweepSummary& summary,
                   const SweepCurve& curve, SuccessKind kind) {
   const scenario::SweepAxis& axis = sweep.axes[*sweep.fit_axis];
@@ -70,6 +77,7 @@ std::string Curve(const scenario::Sweep& sweep, const SweepSummary& summary,
       .Add("points", Points(sweep, summary, curve, kind))
       .Add("fit", Line(fit))
       .AddText("fit_status", Status(fit.status))
+      .Add("fit_rejected", Rejected(fit))
       .Text();
 }
 

@@ -98,6 +98,7 @@ std::vector<double> ComparePairedColumn(const std::vector<Pair>& pairs, std::siz
     differences.push_back(after - before);
   }
   result.count = static_cast<std::int64_t>(differences.size());
+  result.second_count = result.count;
   result.first_mean = Mean(first);
   result.second_mean = Mean(second);
   result.difference = Mean(differences);
@@ -110,7 +111,8 @@ void CompareUnpairedColumn(const std::vector<double>& first, const std::vector<d
   const std::vector<double> a = statistics::SortedFinite(first);
   const std::vector<double> b = statistics::SortedFinite(second);
   const statistics::MeanDifference means = statistics::WelchMeans(a, b);
-  result.count = static_cast<std::int64_t>(std::min(a.size(), b.size()));
+  result.count = static_cast<std::int64_t>(a.size());
+  result.second_count = static_cast<std::int64_t>(b.size());
   result.first_mean = Mean(a);
   result.second_mean = Mean(b);
   result.difference = means.difference;
@@ -169,14 +171,6 @@ std::vector<Record> Arrived(std::span<const Record> records) {
   return arrived;
 }
 
-// Consecutive trials share a layout, so that equal neighbours are enough to know.
-bool SharesLayouts(const ComparedRun& run) {
-  const auto layout = statistics::ColumnIndex(run.schema, "layout");
-  if (!layout) return false;
-  const std::vector<double> layouts = statistics::ColumnValues(run.records, *layout);
-  return std::adjacent_find(layouts.begin(), layouts.end()) != layouts.end();
-}
-
 void CompareInPairs(const ComparedRun& first, const ComparedRun& second, bool drives,
                     RunComparison& result) {
   const std::vector<Pair> pairs = Pairs(first, second);
@@ -205,12 +199,21 @@ void CompareAsSamples(const ComparedRun& first, const ComparedRun& second, bool 
 
 }  // namespace
 
+bool SharesLayouts(const truth::RecordSchema& schema, std::span<const Record> records) {
+  const auto column = statistics::ColumnIndex(schema, "layout");
+  if (!column) return false;
+  const std::vector<double> layouts =
+      statistics::SortedFinite(statistics::ColumnValues(records, *column));
+  return std::adjacent_find(layouts.begin(), layouts.end()) != layouts.end();
+}
+
 RunComparison CompareRuns(const ComparedRun& first, const ComparedRun& second) {
   const bool drives = !truth::IsMeasurement(first.schema) && !truth::IsMeasurement(second.schema);
   RunComparison result;
   result.paired = first.seed == second.seed;
   result.same_terrain = first.fields == second.fields;
-  result.shared_layouts = SharesLayouts(first) || SharesLayouts(second);
+  result.shared_layouts =
+      SharesLayouts(first.schema, first.records) || SharesLayouts(second.schema, second.records);
   if (result.paired) {
     CompareInPairs(first, second, drives, result);
   } else {

@@ -33,7 +33,8 @@ struct SuccessComparison {
 struct ColumnComparison {
   std::string name;
   std::string unit;
-  std::int64_t count = 0;  // pairs with two finite values (not paired: the smaller sample)
+  std::int64_t count = 0;         // pairs with two finite values (not paired: values of the first)
+  std::int64_t second_count = 0;  // values of the second; paired: the same
   double first_mean = 0.0;
   double second_mean = 0.0;
   double difference = 0.0;          // of the means, second less first
@@ -53,6 +54,10 @@ struct RunComparison {
   // exists there only, but these are the easier fields: the columns of all trials belong beside it.
   std::vector<ColumnComparison> arrived_columns;
 };
+
+// Whether two trials have the same layout of rocks (course.trials_per_layout): they are then not
+// independent. False where the records do not tell layouts apart. Cost: n log n.
+bool SharesLayouts(const truth::RecordSchema& schema, std::span<const truth::Record> records);
 
 // Equal seed and index mean equal rocks and equal noise, so that differences have far less variance
 // than two samples. Paired intervals: success by Agresti and Min (2005), half a pair added to each

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -36,9 +37,14 @@ std::string SuccessLines(const SuccessComparison& success, bool paired) {
   return text;
 }
 
+// Of two samples the smaller one.
+std::int64_t Least(const ColumnComparison& column) {
+  return std::min(column.count, column.second_count);
+}
+
 std::string ColumnLine(const ColumnComparison& column) {
   return fmt::format("  {:<27.27} {:>5} {:>10} {:>10} {:>10} {:>13} .. {:<10}\n", column.name,
-                     column.count, Number(column.first_mean), Number(column.second_mean),
+                     Least(column), Number(column.first_mean), Number(column.second_mean),
                      Number(column.difference), Number(column.interval.low),
                      Number(column.interval.high));
 }
@@ -62,7 +68,7 @@ std::string CsvRows(std::string_view trials, std::span<const ColumnComparison> c
   std::string csv;
   for (const ColumnComparison& column : columns) {
     csv += CsvLine(std::array{std::string(trials), CsvField(column.name), CsvField(column.unit),
-                              fmt::to_string(column.count), CsvNumber(column.first_mean),
+                              fmt::to_string(Least(column)), CsvNumber(column.first_mean),
                               CsvNumber(column.second_mean), CsvNumber(column.difference),
                               CsvNumber(column.interval.low), CsvNumber(column.interval.high)});
   }

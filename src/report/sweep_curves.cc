@@ -139,6 +139,8 @@ std::vector<SweepCurve> FitCurves(const Sweep& sweep, std::span<const CellOutcom
   return curves;
 }
 
+bool Misfits(const LogisticFit& fit) { return fit.p_value < kMisfit; }
+
 std::vector<FitPoint> FittedLine(const LogisticFit& fit) {
   std::vector<FitPoint> line;
   if (fit.status != FitStatus::kFitted) return line;

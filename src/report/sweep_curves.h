@@ -24,6 +24,13 @@ std::vector<std::pair<std::string, std::vector<std::size_t>>> CellsAlong(
 std::vector<SweepCurve> FitCurves(const scenario::Sweep& sweep,
                                   std::span<const CellOutcomes> outcomes);
 
+// Goodness of fit below which a curve is said not to follow its settings.
+inline constexpr double kMisfit = 0.01;
+
+// Whether it is: by statistics::LogisticFit::p_value, with its limits. False where that is not
+// known.
+bool Misfits(const statistics::LogisticFit& fit);
+
 // A point of a fitted curve.
 struct FitPoint {
   double x = 0.0;

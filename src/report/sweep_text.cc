@@ -6,6 +6,7 @@
 
 #include "report/accounting.h"
 #include "report/line_text.h"
+#include "report/sweep_curves.h"
 #include "report/sweep_files.h"
 
 namespace rockyard::report {
@@ -21,8 +22,6 @@ constexpr std::size_t kMostDifferences = 40;
 // What has more digits does not fit its column.
 constexpr double kHuge = 1e5;
 constexpr double kLeastP = 1e-9;
-// Goodness of fit below which the text warns of a curve.
-constexpr double kMisfit = 0.01;
 
 std::string Percent(const statistics::Proportion& rate) {
   if (rate.trials == 0) return fmt::format("{:>22}", "-");
@@ -146,8 +145,6 @@ std::string Place(double x, const statistics::LogisticFit& fit) {
   if (x > fit.highest_x) return fmt::format("> {:.3g}", fit.highest_x);
   return fmt::format("{:.3g}", x);
 }
-
-bool Misfits(const statistics::LogisticFit& fit) { return fit.p_value < kMisfit; }
 
 std::string FitLine(const SweepCurve& curve, std::size_t kind) {
   const statistics::LogisticFit& fit = curve.fits[kind];

@@ -106,6 +106,18 @@ TEST(PageSweep, DrawsTheFitThatTheCsvHas) {
   EXPECT_EQ(curve["fit"][30]["high"], line[30].band.high);
 }
 
+TEST(PageSweep, AFitIsRejectedWhereTheTerminalSaysSo) {
+  const scenario::Sweep sweep = TestSweep();
+  SweepSummary summary = Summary(sweep);
+  const auto rejected = [&](double p) {
+    summary.curves[0].fits[0].p_value = p;
+    return json::parse(PageSweepJson("", "", sweep, summary, {}))["curves"][0]["fit_rejected"];
+  };
+  EXPECT_EQ(rejected(0.5 * kMisfit), true);
+  EXPECT_EQ(rejected(2.0 * kMisfit), false);
+  EXPECT_TRUE(rejected(std::nan("")).is_null());
+}
+
 TEST(PageSweep, SaysWhyThereIsNoFit) {
   const scenario::Sweep sweep = TestSweep();
   const SweepSummary summary = SummarizeSweep(
@@ -113,6 +125,7 @@ TEST(PageSweep, SaysWhyThereIsNoFit) {
   const json page = json::parse(PageSweepJson("", "", sweep, summary, {}));
   EXPECT_TRUE(page["curves"][0]["fit"].empty());
   EXPECT_EQ(page["curves"][0]["fit_status"], "every trial ended alike");
+  EXPECT_TRUE(page["curves"][0]["fit_rejected"].is_null());
 }
 
 PageComparison OfTwo(double p, double difference) {
@@ -149,6 +162,17 @@ TEST(PageComparison, HasNullForWhatIsUndefined) {
   EXPECT_TRUE(page["columns"][0]["low"].is_null());
   EXPECT_EQ(page["columns"][0]["second"], 1.5);
   EXPECT_EQ(page["settings"][0]["second"], "<i>");
+}
+
+TEST(PageComparison, TwoSamplesHaveASizeEach) {
+  PageComparison two = OfTwo(0.1, 0.25);
+  two.comparison.columns[0].count = 25;
+  two.comparison.columns[0].second_count = 30;
+  const auto column = [&] { return json::parse(PageComparisonJson(two, false))["columns"][0]; };
+  EXPECT_EQ(column()["n"], 25);
+  EXPECT_TRUE(column()["n_second"].is_null());
+  two.comparison.paired = false;
+  EXPECT_EQ(column()["n_second"], 30);
 }
 
 TEST(PageComparison, SaysWhatPairsAreMadeOf) {

@@ -52,6 +52,35 @@ TEST(PageRun, ItsSummaryIsSummaryJson) {
   EXPECT_EQ(run["replay_command"], "rockyard replay runs/sample --trial {trial}");
 }
 
+TEST(PageRun, TellsHowManyOfItsTrialsAreInTheRates) {
+  std::vector<truth::Record> records = SampleRecords();
+  EXPECT_EQ(Parsed(SamplePageRun(records))["prefix_trials"], 6);
+  records.erase(records.begin() + 2);
+  PageRun run = SamplePageRun(records);
+  run.prefix = run.records.first(2);
+  const json page = Parsed(run);
+  EXPECT_EQ(page["prefix_trials"], 2);
+  EXPECT_EQ(page["trials"]["trial"].size(), 5u);
+  EXPECT_EQ(page["cdf_steps"], 2);
+  EXPECT_EQ(page["summary"]["trials"]["completed"], 2);
+}
+
+TEST(PageRun, TellsOfSharedLayouts) {
+  std::vector<truth::Record> records = SampleRecords();
+  PageRun run = SamplePageRun(records);
+  EXPECT_EQ(Parsed(run)["shared_layouts"], false);  // not told apart
+  run.schema.back().name = "layout";
+  const auto shared = [&](const std::vector<double>& layouts) {
+    for (std::size_t i = 0; i < records.size(); ++i) {
+      if (!records[i].values.empty()) records[i].values.back() = layouts[i];
+    }
+    return Parsed(run)["shared_layouts"];
+  };
+  EXPECT_EQ(shared({0, 1, 2, 3, 4, 5}), false);
+  EXPECT_EQ(shared({0, 1, 2, 2, 3, 3}), true);
+  EXPECT_EQ(shared({0, 1, 2, 2, 2, 5}), true);  // a fault lies between the two
+}
+
 TEST(PageRun, AMeasurementHasCellsAndNoDistances) {
   const std::vector<std::string_view> names{"cell", "height_m", "scenes", "detected_single"};
   const std::vector<truth::Record> records{
@@ -165,32 +194,49 @@ TEST(PageCdf, HoldsEveryStepOfAShortRun) {
   const std::vector<truth::Record> records = Distances(7);
   const truth::RecordSchema schema{{"true_distance_m", "m", ""}};
   const auto rows = CsvRows(DistanceCdfCsv(schema, records));
-  const json cdf = json::parse(PageCdfJson(schema, records));
+  const json cdf = json::parse(PageCdfJson(DistanceSteps(schema, records)));
   ASSERT_EQ(rows.size(), 7u);
   ASSERT_EQ(cdf["ecdf"].size(), 7u);
   for (std::size_t i = 0; i < rows.size(); ++i) ExpectRow(cdf, i, rows[i]);
 }
 
-TEST(PageCdf, ThinningKeepsBothEndsAndExactSteps) {
-  const truth::RecordSchema schema{{"true_distance_m", "m", ""}};
-  for (const int count : {1000, 1001, 4321}) {
-    const std::vector<truth::Record> records = Distances(count);
-    const auto rows = CsvRows(DistanceCdfCsv(schema, records));
-    const json cdf = json::parse(PageCdfJson(schema, records));
-    ASSERT_EQ(cdf["distance_m"].size(), kMostPageSteps);
-    ExpectRow(cdf, 0, rows.front());
-    ExpectRow(cdf, kMostPageSteps - 1, rows.back());
-    const double widest = std::ceil((count - 1) / (kMostPageSteps - 1.0)) / count;
-    for (std::size_t i = 1; i < kMostPageSteps; ++i) {
-      const double step = cdf["ecdf"][i].get<double>() - cdf["ecdf"][i - 1].get<double>();
-      EXPECT_GT(step, 0.0) << i;
-      EXPECT_LE(step, widest + 1e-5) << i;
+// How far the function of the kept steps lies below that of all rows, at worst.
+double LargestGap(const json& cdf, const std::vector<std::vector<double>>& rows) {
+  double gap = 0.0;
+  std::size_t kept = 0;
+  for (const std::vector<double>& row : rows) {
+    while (kept + 1 < cdf["ecdf"].size() &&
+           cdf["distance_m"][kept + 1].get<double>() <= row[0] + 1e-9) {
+      ++kept;
     }
+    gap = std::max(gap, row[1] - cdf["ecdf"][kept].get<double>());
+  }
+  return gap;
+}
+
+TEST(PageCdf, ThinningKeepsBothEndsAndStaysClose) {
+  const truth::RecordSchema schema{{"true_distance_m", "m", ""}};
+  // In the last one a third of the trials share one distance, beside many that do not.
+  for (const auto& [count, ties] : {std::pair{1000, 0}, {1001, 0}, {4321, 0}, {2500, 1250}}) {
+    std::vector<truth::Record> records = Distances(count);
+    for (int i = 0; i < ties; ++i) {
+      records.push_back(records[1]);
+      records.back().trial = records.size() - 1;
+    }
+    const auto rows = CsvRows(DistanceCdfCsv(schema, records));
+    const json cdf = json::parse(PageCdfJson(DistanceSteps(schema, records)));
+    const std::size_t kept = cdf["distance_m"].size();
+    EXPECT_EQ(rows.size(), static_cast<std::size_t>(count));
+    EXPECT_LE(kept, kMostPageSteps);
+    EXPECT_GE(kept, 500u);
+    ExpectRow(cdf, 0, rows.front());
+    ExpectRow(cdf, kept - 1, rows.back());
+    EXPECT_LE(LargestGap(cdf, rows), 1.0 / 998.0 + 1e-5) << count;
   }
 }
 
 TEST(PageCdf, IsNullWithoutDistances) {
-  EXPECT_EQ(PageCdfJson({{"rocks", "1", ""}}, std::vector<truth::Record>{}), "null");
+  EXPECT_EQ(PageCdfJson(DistanceSteps({{"rocks", "1", ""}}, SampleRecords())), "null");
 }
 
 TEST(PageReplays, AreLinksByTrial) {

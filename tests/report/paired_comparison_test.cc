@@ -111,7 +111,8 @@ TEST(CompareRuns, DistancesOfArrivedPairsBesideThoseOfAll) {
   EXPECT_NEAR(paired.columns[0].difference, 0.5 + 4.0 * 20.0 / 50.0, 1e-12);
   // As two samples each run has its own: 38 of the first arrived, 31 of the second.
   const RunComparison samples = runs.Compare(2);
-  EXPECT_EQ(samples.arrived_columns[0].count, 31);
+  EXPECT_EQ(samples.arrived_columns[0].count, 38);
+  EXPECT_EQ(samples.arrived_columns[0].second_count, 31);
   double first_m = 0.0;
   for (int i = 0; i < 38; ++i) first_m += runs.a[static_cast<std::size_t>(i)].values[0] / 38.0;
   EXPECT_NEAR(samples.arrived_columns[0].first_mean, first_m, 1e-12);

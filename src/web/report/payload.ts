@@ -28,8 +28,14 @@ export interface Run {
   summary: Record<string, any>;
   /** Exact in trials.csv; here 6 significant digits. */
   trials: TrialTable;
-  /** distance_cdf.csv by column, thinned to at most 1000 steps; null where nothing drives. */
+  /** So many trials at the beginning of the table are in every rate, mean and curve of the run: those before the first that is not stored. */
+  prefix_trials: number;
+  /** Trials share layouts of rocks: they are not independent, and intervals that take them so are too narrow. */
+  shared_layouts: boolean;
+  /** distance_cdf.csv by column, thinned to at most 1000 steps (none lower by more than 1/998 of the trials); null where nothing drives. */
   cdf: Record<string, (number | null)[]> | null;
+  /** Steps of distance_cdf.csv: more than `cdf` has where that is thinned. */
+  cdf_steps: number;
   /** `rockyard check` against the published reference; null where it says nothing of the scenario. */
   published: PublishedTable | null;
   /** Columns that tell the cells of a measurement apart; empty for drives. */
@@ -126,6 +132,8 @@ export interface Curve {
   /** The fit with its pointwise 95 % band; empty where there is none, and then why. */
   fit: { x: number; rate: number; low: number; high: number }[];
   fit_status: string;
+  /** The settings scatter about the fit by more than chance, as the terminal's table says; null where that is not known. */
+  fit_rejected: boolean | null;
 }
 
 export interface Comparison {
@@ -149,7 +157,10 @@ export interface Comparison {
     trials: "all" | "arrived";
     name: string;
     unit: string;
+    /** Pairs, or trials of the first run where the two are not paired. */
     n: number;
+    /** Of the second run; null where paired. */
+    n_second: number | null;
     first: number | null;
     second: number | null;
     difference: number | null;
