@@ -1,12 +1,14 @@
 // Bundles each page into one HTML file with everything in it, and writes them as C++ literals too;
-// and trace_to_mcap.mjs, which node runs.
+// and trace_to_mcap.mjs, which node runs. Each carries the notices of the packages in it;
+// THIRD_PARTY.txt has those of all.
 // Usage: node build.mjs OUT    (run where node_modules lies beside this file)
 //
 // A page keeps two marks that web/page.cc fills in: where its title and its data go.
 import { createHash } from "node:crypto";
-import { mkdir, readFile, writeFile } from "node:fs/promises";
+import { appendFile, mkdir, readFile, writeFile } from "node:fs/promises";
 import path from "node:path";
 import { build } from "esbuild";
+import { notices } from "./notices.mjs";
 
 const PAGES = ["report", "replay"];
 
@@ -26,30 +28,38 @@ async function bundle(page) {
     format: "iife",
     target: ["es2022"],
     charset: "utf8",
-    legalComments: "inline",
+    legalComments: "none",  // notices() has them all
+    metafile: true,
     logLevel: "warning",
   });
   const text = (ending) =>
     result.outputFiles.filter((file) => file.path.endsWith(ending)).map((file) => file.text).join("");
-  return { script: text(".js"), style: text(".css") };
+  return { script: text(".js"), style: text(".css"), metafile: result.metafile };
 }
 
 // Nothing but the script of the page may run, and nothing may be fetched: a page stays what it was
 // when it was written, whatever the names in its data look like.
 function policy(script) {
   const hash = createHash("sha256").update(script, "utf8").digest("base64");
-  return `default-src 'none'; script-src 'sha256-${hash}'; style-src 'unsafe-inline'; img-src data: blob:`;
+  return `default-src 'none'; script-src 'sha256-${hash}'; style-src 'unsafe-inline'; img-src data: blob:; ` +
+    `base-uri 'none'; form-action 'none'`;
 }
 
 // A replacement function, because a string would be searched for $ signs.
 const fill = (text, mark, value) => text.replace(`<!-- ${mark} -->`, () => value);
 
 async function makePage(page) {
-  const { script, style } = await bundle(page);
+  const { script, style, metafile } = await bundle(page);
   let html = await readFile(`${page}/page.html`, "utf8");
   html = fill(html, "policy", `<meta http-equiv="Content-Security-Policy" content="${policy(script)}">`);
   html = fill(html, "style", `<style>${style}</style>`);
-  return fill(html, "script", `<script>${script}</script>`);
+  html = fill(html, "notices", comment(await notices([metafile])));
+  return { html: fill(html, "script", `<script>${script}</script>`), metafile };
+}
+
+function comment(text) {
+  if (text.includes("-->")) throw new Error("a licence holds the end of a comment");
+  return `<!--\n${text}\n-->`;
 }
 
 const DELIMITER = "rockyard_page";
@@ -65,7 +75,7 @@ function literal(html) {
 const REQUIRE = `import { createRequire } from "node:module"; const require = createRequire(import.meta.url);`;
 
 await mkdir(out, { recursive: true });
-await build({
+const converter = await build({
   entryPoints: ["mcap/main.ts"],
   outfile: path.join(out, "trace_to_mcap.mjs"),
   bundle: true,
@@ -73,16 +83,21 @@ await build({
   format: "esm",
   target: ["node18"],
   banner: { js: REQUIRE },
-  legalComments: "inline",
+  legalComments: "none",
+  metafile: true,
   logLevel: "warning",
 });
+const metafiles = [converter.metafile];
+await appendFile(path.join(out, "trace_to_mcap.mjs"), `/*\n${await notices(metafiles)}\n*/\n`);
 const definitions = [];
 for (const page of PAGES) {
-  const html = await makePage(page);
+  const { html, metafile } = await makePage(page);
+  metafiles.push(metafile);
   await writeFile(path.join(out, `${page}.html`), html);
   const name = `k${page[0].toUpperCase()}${page.slice(1)}Page`;
   definitions.push(`const std::string_view ${name} =\n${literal(html)};`);
 }
+await writeFile(path.join(out, "THIRD_PARTY.txt"), `${await notices(metafiles)}\n`);
 await writeFile(
   path.join(out, "bundled_pages.cc"),
   `// Written by src/web/build.mjs.\n#include "web/bundled_pages.h"\n\nnamespace rockyard::web {\n\n` +
