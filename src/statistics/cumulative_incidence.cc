@@ -11,9 +11,6 @@ namespace {
 
 // Interval of a probability on the log(-log) scale, which keeps it inside [0, 1].
 Interval LogLogBand(double probability, double standard_error, double z) {
-  if (probability <= 0.0 || probability >= 1.0 || standard_error <= 0.0) {
-    return {probability, probability};
-  }
   const double log_p = std::log(probability);
   const double spread = z * standard_error / (probability * std::abs(log_p));
   return {std::exp(log_p * std::exp(spread)), std::exp(log_p * std::exp(-spread))};
@@ -53,6 +50,18 @@ class IncidenceVariance {
   double cF_ = 0.0;
 };
 
+// Where none or all of those that were not censored have had the event there is no variance to go
+// by, but a count: its interval by Clopper and Pearson.
+Interval PointwiseBand(const IncidenceStep& step, std::int64_t followed, double confidence) {
+  constexpr double kRounding = 1e-9;  // of sums of shares
+  if (step.event > kRounding && step.event < 1.0 - kRounding) {
+    const double z = boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * confidence);
+    return LogLogBand(step.event, step.standard_error, z);
+  }
+  const std::int64_t events = step.event > 0.5 ? followed : 0;
+  return ProportionInterval(events, followed, confidence, IntervalMethod::kClopperPearson);
+}
+
 struct Ends {
   double events = 0.0;
   double competing = 0.0;
@@ -79,8 +88,8 @@ std::vector<IncidenceStep> CumulativeIncidence(std::span<const Duration> duratio
                [](const Duration& d) { return std::isfinite(d.at); });
   std::sort(sorted.begin(), sorted.end(),
             [](const Duration& a, const Duration& b) { return a.at < b.at; });
-  const double z = boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * confidence);
   std::vector<IncidenceStep> steps;
+  std::int64_t censored = 0;
   IncidenceVariance variance;
   double survival = 1.0;
   double event = 0.0;
@@ -96,9 +105,13 @@ std::vector<IncidenceStep> CumulativeIncidence(std::span<const Duration> duratio
       variance.Add(event, survival, n, ends.events, both);
       survival *= 1.0 - both / n;
       const double error = std::sqrt(variance.At(event));
-      steps.push_back({sorted[i].at, event, competing, error, LogLogBand(event, error, z),
-                       static_cast<std::int64_t>(at_risk)});
+      IncidenceStep step{sorted[i].at, event, competing,
+                         error,        {},    static_cast<std::int64_t>(at_risk)};
+      step.band =
+          PointwiseBand(step, static_cast<std::int64_t>(sorted.size()) - censored, confidence);
+      steps.push_back(step);
     }
+    censored += static_cast<std::int64_t>(ends.all) - static_cast<std::int64_t>(both);
     i += ends.all;
   }
   return steps;

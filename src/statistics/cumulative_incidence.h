@@ -27,8 +27,8 @@ struct IncidenceStep {
   double event = 0.0;           // probability to have had the event
   double competing = 0.0;       // probability to have had the competing one
   double standard_error = 0.0;  // of `event`
-  Interval band;                // pointwise, on the log(-log) scale
-  std::int64_t at_risk = 0;     // just before `at`
+  Interval band;             // pointwise, on the log(-log) scale; at 0 and 1 by Clopper and Pearson
+  std::int64_t at_risk = 0;  // just before `at`
 };
 
 // Aalen-Johansen estimate; one step per distinct distance with an event or a competing event.

@@ -85,6 +85,24 @@ TEST(CumulativeIncidence, HandWorkedWithCensoring) {
   EXPECT_TRUE(CumulativeIncidence({}).empty());
 }
 
+// 0 of n and n of n have no variance, and are no certainty either: the ends are those of
+// Clopper-Pearson, 1 - 0.025^(1/n) and 0.025^(1/n).
+TEST(CumulativeIncidence, BandWhereNoneOrAllArrived) {
+  std::vector<Duration> durations(20, {1.0, EndKind::kCompeting});
+  EXPECT_DOUBLE_EQ(CumulativeIncidence(durations).back().band.low, 0.0);
+  EXPECT_NEAR(CumulativeIncidence(durations).back().band.high, 1.0 - std::pow(0.025, 1.0 / 20.0),
+              1e-12);
+  for (std::size_t i = 0; i < durations.size(); ++i) {
+    durations[i] = {1.0 + static_cast<double>(i), EndKind::kEvent};
+  }
+  const auto all = CumulativeIncidence(durations);
+  EXPECT_NEAR(all.back().band.low, std::pow(0.025, 1.0 / 20.0), 1e-12);
+  EXPECT_DOUBLE_EQ(all.back().band.high, 1.0);
+  // Who was censored before says nothing of the rest.
+  durations[0].kind = EndKind::kCensored;
+  EXPECT_NEAR(CumulativeIncidence(durations).back().band.low, std::pow(0.025, 1.0 / 19.0), 1e-12);
+}
+
 TEST(CumulativeIncidence, WithoutCensoringItIsTheBinomialProportion) {
   const auto records = SyntheticTrials({.success_rate = 0.8}, 11, 200);
   const auto steps = CumulativeIncidence(GoalDurations(records, 0));
