@@ -110,7 +110,7 @@ export class App {
     const title = el("div", { class: "title" }, el("h1", {}, payload.title), outcomeBanner(payload));
     const tools = el("div", { class: "tools" }, button("Keys", "Keys (?)", () => help.showModal()));
     tools.append(themeSwitch(() => this.recolour()));
-    const picture = el("div", { class: "picture" }, view.element, this.cameraBar());
+    const picture = el("div", { class: "picture" }, this.cameraBar(), el("div", { class: "frame" }, view.element));
     if (view.modes.length > 1) picture.append(shareTouch(view.element));
     else picture.append(el("p", { class: "note" }, "This browser shows no WebGL: here is the plan, without the third dimension."));
     view.element.setAttribute("role", "img");

@@ -7,8 +7,8 @@ import type { CameraMode } from "./view";
 // In lengths of the rover.
 const FOLLOW_FROM = new Vector3(-2.3, -1.9, 1.6);
 // In the rover's frame and lengths of it: as from a mast, over the front edge to the ground ahead.
-const EYE_R = new Vector3(-0.4, 0, 1.15);
-const LOOK_R = new Vector3(1.5, 0, 0);
+const EYE_R = new Vector3(-0.1, 0, 1.05);
+const LOOK_R = new Vector3(1.6, 0, 0);
 const PLAN_MARGIN = 1.08;
 
 export class CameraRig {

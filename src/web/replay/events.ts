@@ -38,13 +38,23 @@ const WORDS: Record<string, string> = {
   look: "looked",
   hazard: "believes in a hazard",
   chosen: "chose",
-  turn: "turns in place",
+  turn: "begins a point turn",
   felt: "felt",
   scrape: "scraped a rock",
   stall: "is stuck",
-  reflection: "was turned at a mirror line",
+  reflection: "operators turned the rover back at a mirror line of the arena",
   end: "the trial ended",
 };
+
+/** A kind as the record of the trial names it: its "turns in place" are others, and fewer. */
+export function kindName(kind: string): string {
+  return kind === "turn" ? "point turn" : kind;
+}
+
+export function kindTitle(kind: string): string {
+  if (kind === "turn") return "turns in place; one that goes on after a look counts again";
+  return WORDS[kind] ?? kind;
+}
 
 /** An event as a person would say it. */
 export function inWords({ kind, detail }: TrialEvent): string {

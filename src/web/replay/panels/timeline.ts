@@ -1,6 +1,6 @@
 // Events over time by kind, what the rover did, and two curves; a click anywhere goes there.
 import { el, svg } from "../../shared/dom";
-import { activityRuns, inWords, kindsOf, type Run } from "../events";
+import { activityRuns, inWords, kindName, kindsOf, kindTitle, type Run } from "../events";
 import { fixed } from "../../shared/format";
 import { clock, degrees } from "../format";
 import type { ReplayPayload, TrialEvent } from "../payload";
@@ -11,7 +11,7 @@ import { curve, greatest, type Curve } from "./curves";
 import { startWalk, walk, type Mark } from "./mark_walk";
 import { markOf } from "./marks";
 
-const ROW = 20;
+const ROW = 24;
 const STRIP = 24;
 const CURVE = 46;
 const AXIS = 20;
@@ -85,9 +85,9 @@ export class Timeline {
         { class: "mark", viewBox: "-7 -7 14 14", "aria-hidden": "true" },
         svg("path", { d: look.path, style: `fill: var(${look.colour})` }),
       );
-      const name = el("span", { class: "kind" }, kind);
+      const name = el("span", { class: "kind" }, kindName(kind));
       this.labels.append(
-        el("label", { class: "row", title: `${count} of kind ${kind}` }, input, mark, name, el("span", { class: "count" }, `${count}`)),
+        el("label", { class: "row", title: `${count}: ${kindTitle(kind)}` }, input, mark, name, el("span", { class: "count" }, `${count}`)),
       );
     }
     this.labels.append(el("div", { class: "strip" }, "activity"));
