@@ -1,291 +1,199 @@
-// The report page in a browser: what it shows is what the run folders hold.
+// The report page of one run in a browser: what it shows is what the run folder holds.
 import assert from "node:assert/strict";
 import { existsSync, readFileSync } from "node:fs";
 import path from "node:path";
-import { after, before, describe, test } from "node:test";
-import { launch, openPage, rockyard, temporaryFolder } from "./harness.mjs";
+import { after, before, test } from "node:test";
+import { launch, rockyard, temporaryFolder } from "./harness.mjs";
 import { payloadOf } from "./page_payload.mjs";
+import { assertNear, csv, numbersOf, openReport, openTrials, SIX_DIGITS, values } from "./report_pages.mjs";
 
 const TRIALS = 12;
 const REPLAYS = 2;
-// Columns of trials and steps of curves hold six digits.
-const SIX_DIGITS = 1e-5;
 
 const folder = temporaryFolder();
 const at = (...names) => path.join(folder, ...names);
+const json = (...names) => JSON.parse(readFileSync(at(...names), "utf8"));
 let browser;
 
-const json = (...names) => JSON.parse(readFileSync(at(...names), "utf8"));
-
-/** A CSV file without quoted fields before the last column, as rows by column name. */
-function csv(...names) {
-  const [head, ...lines] = readFileSync(at(...names), "utf8").trim().split("\n");
-  const columns = head.split(",");
-  return lines.map((line) => Object.fromEntries(line.split(",").map((field, i) => [columns[i], field])));
-}
-
-function run(name, ...settings) {
-  rockyard(["run", "scenarios/pathfinder/nominal.json", "--trials", `${TRIALS}`, "--seed", "1", "--out", at(name),
-    "--set", "rover.fidelity=quasi_static", ...settings.flatMap((setting) => ["--set", setting])]);
-}
-
 before(async () => {
-  run("nominal");
-  run("sparse", "terrain.rocks.k_per_m2=0.002");
+  rockyard(["run", "scenarios/pathfinder/nominal.json", "--trials", `${TRIALS}`, "--seed", "1", "--out", at("nominal"),
+    "--set", "rover.fidelity=quasi_static"]);
   rockyard(["report", at("nominal"), "--out", at("one.html"), "--replays", `${REPLAYS}`,
     "--against", "results/reference/matthies1995.json"]);
-  rockyard(["report", at("nominal"), at("sparse"), "--out", at("two.html"), "--replays", "0"]);
   browser = await launch();
 });
 
 after(() => browser?.close());
 
-async function open(name, options) {
-  const opened = await openPage(browser, at(name), options);
-  await opened.page.waitForFunction(() => document.documentElement.dataset.ready);
-  return opened;
-}
+const open = (name, options) => openReport(browser, at(name), options);
 
-/** The table of trials is made when it comes near the window. */
-async function openTrials(page) {
-  await page.locator("#trials").scrollIntoViewIfNeeded();
-  await page.waitForSelector("#trials .tabulator-row");
-}
-
-/** Exact values of a table's cells, row by row. */
-const values = (locator) =>
-  locator.locator("tbody tr").evaluateAll((rows) =>
-    rows.map((row) => [...row.children].map((cell) => cell.dataset.value ?? cell.textContent)));
-
-async function numbersOf(page, figure) {
-  await page.locator(`#${figure} > details > summary`).click();
-  await page.locator(`#${figure} > details table`).first().waitFor();
-  return page.locator(`#${figure} > details table`);
-}
-
-function assertNear(actual, expected, tolerance, what) {
-  const scale = Math.max(Math.abs(expected), 1e-12);
-  assert.ok(Math.abs(Number(actual) - expected) <= tolerance * scale, `${what}: ${actual}, not ${expected}`);
-}
-
-describe("one run", () => {
-  test("opens from disk, asks for nothing else and complains of nothing", async () => {
-    const { page, requests, problems, url } = await open("one.html");
-    await openTrials(page);
-    assert.deepEqual(requests, [url]);
-    assert.deepEqual(problems, []);
-    assert.equal(await page.locator(".problem").count(), 0);
-    await page.close();
-  });
-
-  test("the headline is that of summary.json", async () => {
-    const { page } = await open("one.html");
-    const { declared_success: declared, true_success: truly, distance_m: distance } = json("nominal", "summary.json");
-    const [row] = await values(page.locator("#headline .headline-table"));
-    assert.equal(Number(row[1]), TRIALS);
-    assert.equal(Number(row[2]), declared.rate);
-    assert.equal(Number(row[4]), truly.rate);
-    assert.equal(Number(row[6]), distance.median);
-    const ends = await page.locator("#headline [data-low]").evaluateAll((all) =>
-      all.map(({ dataset }) => [Number(dataset.low), Number(dataset.high)]));
-    assert.deepEqual(ends, [declared.ci95, truly.ci95]);
-    assert.match(await page.locator("#headline").innerText(), /Wilson/);
-    await page.close();
-  });
-
-  test("the distance curve has the steps of distance_cdf.csv, in its drawing too", async () => {
-    const { page } = await open("one.html");
-    const steps = csv("nominal", "distance_cdf.csv");
-    const rows = await values((await numbersOf(page, "distance-cdf")).first());
-    assert.equal(rows.length, steps.length);
-    rows.forEach((row, i) => {
-      ["distance_m", "ecdf", "ecdf_low", "ecdf_high"].forEach((column, j) => {
-        assertNear(row[j], Number(steps[i][column]), SIX_DIGITS, `${column} of step ${i}`);
-      });
-    });
-    // Heights of the drawn line, as shares of its axis.
-    const lines = await page.locator("#distance-cdf svg g[aria-label=line] path").evaluateAll((paths) =>
-      paths.map((each) => each.getAttribute("d")));
-    assert.equal(lines.length, 1);
-    const ys = [...new Set([...lines[0].matchAll(/,(-?[\d.]+)/g)].map((match) => Number(match[1])))];
-    const [bottom, top] = [Math.max(...ys), Math.min(...ys)];
-    const drawn = ys.map((y) => (bottom - y) / (bottom - top)).sort((a, b) => a - b);
-    const expected = [0, ...steps.map((step) => Number(step.ecdf))];
-    assert.equal(drawn.length, expected.length);
-    drawn.forEach((share, i) => assert.ok(Math.abs(share - expected[i]) < 1e-3, `step ${i} is drawn at ${share}`));
-    await page.close();
-  });
-
-  test("distributions count the trials of trials.csv and state summary.json", async () => {
-    const { page } = await open("one.html");
-    const trials = csv("nominal", "trials.csv");
-    const { dead_reckoning: errors, sim_time_s, energy_wh } = json("nominal", "summary.json");
-    for (const [column, summary] of Object.entries({ ...errors, sim_time_s, energy_wh })) {
-      const tables = await numbersOf(page, `histogram-${column}`);
-      const [stated] = await values(tables.nth(0));
-      const names = ["count", "min", "p05", "median", "mean", "mode", "p95", "max", "std"];
-      names.forEach((name, i) => assert.equal(Number(stated[i + 1]), summary[name], `${name} of ${column}`));
-      const all = trials.map((trial) => Number(trial[column]));
-      let counted = 0;
-      for (const [from, to, count] of (await values(tables.nth(1))).map((row) => row.map(Number))) {
-        assert.equal(count, all.filter((value) => value >= from && value < to).length, `${column} from ${from}`);
-        counted += count;
-      }
-      assert.equal(counted, TRIALS);
-    }
-    await page.close();
-  });
-
-  test("outcomes are counted as in summary.json, and a count shows its trials", async () => {
-    const { page } = await open("one.html");
-    const expected = Object.entries(json("nominal", "summary.json").outcomes).filter(([, count]) => count > 0);
-    const shown = await page.locator("#outcomes button.count").evaluateAll((all) =>
-      all.map(({ dataset }) => [dataset.outcome, Number(dataset.value)]));
-    assert.deepEqual(new Map(shown), new Map(expected));
-    const [name, count] = expected[0];
-    await page.locator(`#outcomes button[data-outcome=${name}]`).click();
-    await page.waitForSelector("#trials .tabulator-row");
-    assert.equal(await page.locator("#trials-found").innerText(), `${count} of ${TRIALS} trials`);
-    const cells = await page.locator("#trials .tabulator-row [tabulator-field=outcome]").allInnerTexts();
-    assert.deepEqual(cells, new Array(count).fill(name.replaceAll("_", " ")));
-    await page.close();
-  });
-
-  test("trials are sorted by a header and found by words, numbers and conditions", async () => {
-    const { page } = await open("one.html");
-    await openTrials(page);
-    const trials = csv("nominal", "trials.csv");
-    const order = () => page.locator("#trials .tabulator-row [tabulator-field=trial]").allInnerTexts();
-    const byDistance = trials.map(({ trial, true_distance_m }) => [Number(true_distance_m), trial]).sort((a, b) => a[0] - b[0]);
-    const header = page.getByRole("button", { name: /true distance/i }).first();
-    await header.click();
-    assert.deepEqual(await order(), byDistance.map(([, trial]) => trial));
-    await header.press("Enter");
-    assert.deepEqual(await order(), byDistance.map(([, trial]) => trial).reverse());
-    const found = async (text) => {
-      await page.locator("#trial-search").fill(text);
-      return (await order()).map(Number).sort((a, b) => a - b);
-    };
-    const energies = trials.map(({ energy_wh }) => Number(energy_wh)).sort((a, b) => a - b);
-    const limit = (energies[3] + energies[4]) / 2;
-    const above = trials.filter(({ energy_wh }) => Number(energy_wh) > limit).map(({ trial }) => Number(trial));
-    assert.deepEqual(await found(`energy_wh>${limit}`), above);
-    const goals = trials.filter(({ outcome }) => outcome === "goal_reached").map(({ trial }) => Number(trial));
-    assert.deepEqual(await found("goal_reached"), goals);
-    assert.deepEqual(await found(`energy_wh>${limit} goal_reached`), above.filter((trial) => goals.includes(trial)));
-    assert.deepEqual(await found("no such word"), []);
-    await page.getByRole("button", { name: "Show all" }).click();
-    assert.equal((await order()).length, TRIALS);
-    await page.close();
-  });
-
-  test("columns are chosen, and a chosen one shows what trials.csv holds", async () => {
-    const { page } = await open("one.html");
-    await openTrials(page);
-    await page.locator("#trials details > summary").click();
-    await page.locator("#trials input[value=rocks]").check();
-    const cells = page.locator("#trials .tabulator-row [tabulator-field=v_rocks]");
-    assert.deepEqual(await cells.allInnerTexts(), csv("nominal", "trials.csv").map(({ rocks }) => rocks));
-    await page.locator("#trials input[value=rocks]").uncheck();
-    assert.equal(await cells.first().isVisible(), false);
-    await page.close();
-  });
-
-  test("every trial has its replay: a page that is there, or the command", async () => {
-    const { page } = await open("one.html");
-    await openTrials(page);
-    const links = page.locator("#trials .tabulator-row a");
-    const targets = await links.evaluateAll((all) => all.map((link) => link.getAttribute("href")));
-    assert.equal(targets.length, REPLAYS);
-    for (const target of targets) assert.ok(existsSync(at(target)), `${target} is missing`);
-    const button = page.locator("#trials .command-button").first();
-    const trial = await button.locator("xpath=ancestor::*[@role='row']").locator("[tabulator-field=trial]").innerText();
-    await button.click();
-    const command = await page.locator(".replay-command code").innerText();
-    assert.match(command, new RegExp(`^rockyard replay .*nominal.* --trial ${trial}$`));
-    await page.close();
-  });
-
-  test("published values stand with their verdicts", async () => {
-    const { page } = await open("one.html");
-    const { rows } = payloadOf(at("one.html")).runs[0].published;
-    const shown = await values(page.locator("#published table"));
-    assert.equal(shown.length, rows.length);
-    rows.forEach((row, i) => {
-      assert.ok(shown[i][0].startsWith(row.what), `${shown[i][0]} is not ${row.what}`);
-      assert.equal(shown[i][4], row.verdict);
-    });
-    const verdicts = new Set(rows.map((row) => row.verdict));
-    assert.equal(await page.locator("#published .meanings dd").count(), verdicts.size);
-    await page.close();
-  });
-
-  test("parameters are counted by origin and filtered", async () => {
-    const { page } = await open("one.html");
-    const { parameters } = payloadOf(at("one.html")).runs[0];
-    const rows = page.locator("#parameters .parameter-table tbody tr");
-    assert.equal(await rows.count(), parameters.length);
-    for (const origin of ["published", "calibrated", "assumed", "setting"]) {
-      const count = parameters.filter((each) => each.origin === origin).length;
-      assert.equal(await page.locator(`#parameters [data-origin=${origin}]`).getAttribute("data-value"), `${count}`);
-      await page.locator("#parameters select").selectOption(origin);
-      assert.equal(await rows.count(), count);
-    }
-    await page.locator("#parameters select").selectOption("");
-    await page.locator("#parameter-search").fill("k_per_m2");
-    const paths = await rows.locator("th code").allInnerTexts();
-    assert.ok(paths.length > 0 && paths.length < parameters.length);
-    assert.ok(paths.includes(parameters.find((each) => each.path.includes("k_per_m2")).path));
-    await page.close();
-  });
+test("opens from disk, asks for nothing else and complains of nothing", async () => {
+  const { page, requests, problems, url } = await open("one.html");
+  await openTrials(page);
+  await page.locator("#distance-cdf svg").waitFor();
+  assert.deepEqual(requests, [url]);
+  assert.deepEqual(problems, []);
+  assert.equal(await page.locator(".problem").count(), 0);
+  await page.close();
 });
 
-describe("two runs", () => {
-  test("differences are those that rockyard compare writes", async () => {
-    rockyard(["compare", at("nominal"), at("sparse"), "--csv", at("differences.csv")]);
-    const { page, problems } = await open("two.html");
-    assert.deepEqual(problems, []);
-    const expected = csv("differences.csv").filter((row) => row.trials === "all");
-    const { comparisons } = payloadOf(at("two.html"));
-    const shown = (await values(page.locator("#comparison > .section-body > .table-box table"))).filter((row) => row[1] === "all");
-    assert.ok(expected.length > 10);
-    assert.equal(shown.length, expected.length);
-    expected.forEach((row, i) => {
-      assert.equal(comparisons[0].columns[i].name, row.column);
-      assertNear(shown[i][5], Number(row.difference), SIX_DIGITS, row.column);
+test("the headline is that of summary.json", async () => {
+  const { page } = await open("one.html");
+  const { declared_success: declared, true_success: truly, distance_m: distance } = json("nominal", "summary.json");
+  const [row] = await values(page.locator("#headline .headline-table"));
+  assert.equal(Number(row[1]), TRIALS);
+  assert.equal(Number(row[2]), declared.rate);
+  assert.equal(Number(row[4]), truly.rate);
+  assert.equal(Number(row[6]), distance.median);
+  const ends = await page.locator("#headline [data-low]").evaluateAll((all) =>
+    all.map(({ dataset }) => [Number(dataset.low), Number(dataset.high)]));
+  assert.deepEqual(ends, [declared.ci95, truly.ci95]);
+  assert.match(await page.locator("#headline").innerText(), /Wilson/);
+  await page.close();
+});
+
+test("the distance curve has the steps of distance_cdf.csv, in its drawing too", async () => {
+  const { page } = await open("one.html");
+  const steps = csv(at("nominal", "distance_cdf.csv"));
+  const rows = await values((await numbersOf(page, "distance-cdf")).first());
+  assert.equal(rows.length, steps.length);
+  rows.forEach((row, i) => {
+    ["distance_m", "ecdf", "ecdf_low", "ecdf_high"].forEach((column, j) => {
+      assertNear(row[j], Number(steps[i][column]), SIX_DIGITS, `${column} of step ${i}`);
     });
-    await page.close();
   });
+  // Heights of the drawn line, as shares of its axis.
+  const lines = await page.locator("#distance-cdf svg g[aria-label=line] path").evaluateAll((paths) =>
+    paths.map((each) => each.getAttribute("d")));
+  assert.equal(lines.length, 1);
+  const ys = [...new Set([...lines[0].matchAll(/,(-?[\d.]+)/g)].map((match) => Number(match[1])))];
+  const [bottom, top] = [Math.max(...ys), Math.min(...ys)];
+  const drawn = ys.map((y) => (bottom - y) / (bottom - top)).sort((a, b) => a - b);
+  const expected = [0, ...steps.map((step) => Number(step.ecdf))];
+  assert.equal(drawn.length, expected.length);
+  drawn.forEach((share, i) => assert.ok(Math.abs(share - expected[i]) < 1e-3, `step ${i} is drawn at ${share}`));
+  await page.close();
+});
 
-  test("a run leaves the charts and comes back in its own colour", async () => {
-    const { page } = await open("two.html");
-    const lines = page.locator("#distance-cdf svg g[aria-label=line] path");
-    const strokes = () => page.locator("#distance-cdf svg g[aria-label=line]").evaluateAll((all) => all.map((each) => each.getAttribute("stroke")));
-    assert.equal(await lines.count(), 2);
-    const before = await strokes();
-    const boxes = page.locator("#runs input");
-    // Charts are drawn with the next frame.
-    await boxes.nth(0).uncheck();
-    await lines.first().waitFor();
-    assert.equal(await lines.count(), 1);
-    assert.deepEqual(await strokes(), [before[1]]);
-    await boxes.nth(0).check();
-    await lines.first().waitFor();
-    assert.deepEqual(await strokes(), before);
-    await page.close();
-  });
+test("distributions count the trials of trials.csv and state summary.json", async () => {
+  const { page } = await open("one.html");
+  const trials = csv(at("nominal", "trials.csv"));
+  const { dead_reckoning: errors, sim_time_s, energy_wh } = json("nominal", "summary.json");
+  for (const [column, summary] of Object.entries({ ...errors, sim_time_s, energy_wh })) {
+    const tables = await numbersOf(page, `histogram-${column}`);
+    const [stated] = await values(tables.nth(0));
+    const names = ["count", "min", "p05", "median", "mean", "mode", "p95", "max", "std"];
+    names.forEach((name, i) => assert.equal(Number(stated[i + 1]), summary[name], `${name} of ${column}`));
+    const all = trials.map((trial) => Number(trial[column]));
+    let counted = 0;
+    for (const [from, to, count] of (await values(tables.nth(1))).map((row) => row.map(Number))) {
+      assert.equal(count, all.filter((value) => value >= from && value < to).length, `${column} from ${from}`);
+      counted += count;
+    }
+    assert.equal(counted, TRIALS);
+  }
+  await page.close();
+});
 
-  test("a count of one run's outcome shows that run's trials alone", async () => {
-    const { page } = await open("two.html");
-    const button = page.locator("#outcomes button.count").last();
-    const { outcome, run: label, value } = await button.evaluate(({ dataset }) => ({ ...dataset }));
-    await button.click();
-    await page.waitForSelector("#trials .tabulator-row");
-    assert.equal(await page.locator("#trials-found").innerText(), `${value} of ${2 * TRIALS} trials`);
-    const runs = new Set(await page.locator("#trials .tabulator-row [tabulator-field=run]").allInnerTexts());
-    const outcomes = new Set(await page.locator("#trials .tabulator-row [tabulator-field=outcome]").allInnerTexts());
-    assert.deepEqual([...runs], [label]);
-    assert.deepEqual([...outcomes], [outcome.replaceAll("_", " ")]);
-    await page.close();
+test("outcomes are counted as in summary.json, and a count shows its trials", async () => {
+  const { page } = await open("one.html");
+  const expected = Object.entries(json("nominal", "summary.json").outcomes).filter(([, count]) => count > 0);
+  const shown = await page.locator("#outcomes button.count").evaluateAll((all) =>
+    all.map(({ dataset }) => [dataset.outcome, Number(dataset.value)]));
+  assert.deepEqual(new Map(shown), new Map(expected));
+  const [name, count] = expected[0];
+  await page.locator(`#outcomes button[data-outcome=${name}]`).click();
+  await page.waitForSelector("#trials .tabulator-row");
+  assert.equal(await page.locator("#trials-found").innerText(), `${count} of ${TRIALS} trials`);
+  const cells = await page.locator("#trials .tabulator-row [tabulator-field=outcome]").allInnerTexts();
+  assert.deepEqual(cells, new Array(count).fill(name.replaceAll("_", " ")));
+  await page.close();
+});
+
+test("trials are sorted by a header and found by words, numbers and conditions", async () => {
+  const { page } = await open("one.html");
+  await openTrials(page);
+  const trials = csv(at("nominal", "trials.csv"));
+  const order = () => page.locator("#trials .tabulator-row [tabulator-field=trial]").allInnerTexts();
+  const byDistance = trials.map(({ trial, true_distance_m }) => [Number(true_distance_m), trial]).sort((a, b) => a[0] - b[0]);
+  const header = page.getByRole("button", { name: /true distance/i }).first();
+  await header.click();
+  assert.deepEqual(await order(), byDistance.map(([, trial]) => trial));
+  await header.press("Enter");
+  assert.deepEqual(await order(), byDistance.map(([, trial]) => trial).reverse());
+  const found = async (text) => {
+    await page.locator("#trial-search").fill(text);
+    return (await order()).map(Number).sort((a, b) => a - b);
+  };
+  const energies = trials.map(({ energy_wh }) => Number(energy_wh)).sort((a, b) => a - b);
+  const limit = (energies[3] + energies[4]) / 2;
+  const above = trials.filter(({ energy_wh }) => Number(energy_wh) > limit).map(({ trial }) => Number(trial));
+  assert.deepEqual(await found(`energy_wh>${limit}`), above);
+  const goals = trials.filter(({ outcome }) => outcome === "goal_reached").map(({ trial }) => Number(trial));
+  assert.deepEqual(await found("goal_reached"), goals);
+  assert.deepEqual(await found(`energy_wh>${limit} goal_reached`), above.filter((trial) => goals.includes(trial)));
+  assert.deepEqual(await found("no such word"), []);
+  await page.getByRole("button", { name: "Show all" }).click();
+  assert.equal((await order()).length, TRIALS);
+  await page.close();
+});
+
+test("columns are chosen, and a chosen one shows what trials.csv holds", async () => {
+  const { page } = await open("one.html");
+  await openTrials(page);
+  await page.locator("#trials details > summary").click();
+  await page.locator("#trials input[value=rocks]").check();
+  const cells = page.locator("#trials .tabulator-row [tabulator-field=v_rocks]");
+  assert.deepEqual(await cells.allInnerTexts(), csv(at("nominal", "trials.csv")).map(({ rocks }) => rocks));
+  await page.locator("#trials input[value=rocks]").uncheck();
+  assert.equal(await cells.first().isVisible(), false);
+  await page.close();
+});
+
+test("every trial has its replay: a page that is there, or the command", async () => {
+  const { page } = await open("one.html");
+  await openTrials(page);
+  const links = page.locator("#trials .tabulator-row a");
+  const targets = await links.evaluateAll((all) => all.map((link) => link.getAttribute("href")));
+  assert.equal(targets.length, REPLAYS);
+  for (const target of targets) assert.ok(existsSync(at(target)), `${target} is missing`);
+  const button = page.locator("#trials .command-button").first();
+  const trial = await button.locator("xpath=ancestor::*[@role='row']").locator("[tabulator-field=trial]").innerText();
+  await button.click();
+  const command = await page.locator(".replay-command code").innerText();
+  assert.match(command, new RegExp(`^rockyard replay .*nominal.* --trial ${trial}$`));
+  await page.close();
+});
+
+test("published values stand with their verdicts", async () => {
+  const { page } = await open("one.html");
+  const { rows } = payloadOf(at("one.html")).runs[0].published;
+  const shown = await values(page.locator("#published table"));
+  assert.equal(shown.length, rows.length);
+  rows.forEach((row, i) => {
+    assert.ok(shown[i][0].startsWith(row.what), `${shown[i][0]} is not ${row.what}`);
+    assert.equal(shown[i][4], row.verdict);
   });
+  const verdicts = new Set(rows.map((row) => row.verdict));
+  assert.equal(await page.locator("#published .meanings dd").count(), verdicts.size);
+  await page.close();
+});
+
+test("parameters are counted by origin and filtered", async () => {
+  const { page } = await open("one.html");
+  const { parameters } = payloadOf(at("one.html")).runs[0];
+  const rows = page.locator("#parameters .parameter-table tbody tr");
+  assert.equal(await rows.count(), parameters.length);
+  for (const origin of ["published", "calibrated", "assumed", "setting"]) {
+    const count = parameters.filter((each) => each.origin === origin).length;
+    assert.equal(await page.locator(`#parameters [data-origin=${origin}]`).getAttribute("data-value"), `${count}`);
+    await page.locator("#parameters select").selectOption(origin);
+    assert.equal(await rows.count(), count);
+  }
+  await page.locator("#parameters select").selectOption("");
+  await page.locator("#parameter-search").fill("k_per_m2");
+  const paths = await rows.locator("th code").allInnerTexts();
+  assert.ok(paths.length > 0 && paths.length < parameters.length);
+  assert.ok(paths.includes(parameters.find((each) => each.path.includes("k_per_m2")).path));
+  await page.close();
 });

@@ -3,7 +3,9 @@ import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { after, before, test } from "node:test";
-import { launch, openPage, rockyard, sourceFolder, temporaryFolder } from "./harness.mjs";
+import { launch, rockyard, sourceFolder, temporaryFolder } from "./harness.mjs";
+import { withPayload } from "./page_payload.mjs";
+import { openReport, values } from "./report_pages.mjs";
 
 const ABUNDANCES = [0.001, 0.004, 0.012];
 
@@ -28,15 +30,7 @@ before(async () => {
 
 after(() => browser?.close());
 
-async function open(name) {
-  const opened = await openPage(browser, at(name));
-  await opened.page.waitForFunction(() => document.documentElement.dataset.ready);
-  return opened;
-}
-
-const values = (table) =>
-  table.locator("tbody tr").evaluateAll((rows) =>
-    rows.map((row) => [...row.children].map((cell) => cell.dataset.value ?? cell.textContent)));
+const open = (name) => openReport(browser, at(name));
 
 test("a curve has the rates of the sweep's cells", async () => {
   const { page, problems } = await open("sweep.html");
@@ -89,4 +83,16 @@ test("a measurement shows its cells, as a table and along a factor", async () =>
   assert.equal(await page.locator("#headline, #distance").count(), 0);
   assert.deepEqual(problems, []);
   await page.close();
+});
+
+test("whether a fit is rejected is what the program says", async () => {
+  for (const rejected of [true, false]) {
+    withPayload(at("sweep.html"), at("verdict.html"), ({ sweeps: [{ curves }] }) => {
+      for (const curve of curves) Object.assign(curve, { fit: [{ x: 0.001, rate: 0.9, low: 0.8, high: 0.95 }, { x: 0.012, rate: 0.5, low: 0.4, high: 0.6 }], fit_rejected: rejected });
+    });
+    const { page } = await open("verdict.html");
+    const text = await page.locator("#curve-0-declared .fit-notes").innerText();
+    assert.match(text, rejected ? /^fit rejected/ : /^fit not rejected/);
+    await page.close();
+  }
 });

@@ -3,8 +3,9 @@ import assert from "node:assert/strict";
 import { statSync } from "node:fs";
 import path from "node:path";
 import { after, before, describe, test } from "node:test";
-import { launch, openPage, rockyard, temporaryFolder } from "./harness.mjs";
+import { launch, rockyard, temporaryFolder } from "./harness.mjs";
 import { payloadOf, withPayload, withPayloadText } from "./page_payload.mjs";
+import { openReport, openTrials } from "./report_pages.mjs";
 
 const MARKUP = `<img src=x onerror="window.ran=1"><script>window.ran=2</script>`;
 const MANY = 10_000;
@@ -25,16 +26,7 @@ before(async () => {
 
 after(() => browser?.close());
 
-async function open(name, options) {
-  const opened = await openPage(browser, at(name), options);
-  await opened.page.waitForFunction(() => document.documentElement.dataset.ready);
-  return opened;
-}
-
-async function openTrials(page) {
-  await page.locator("#trials").scrollIntoViewIfNeeded();
-  await page.waitForSelector("#trials .tabulator-row");
-}
+const open = (name, options) => openReport(browser, at(name), options);
 
 const background = (page) => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
 

@@ -5,7 +5,6 @@ import * as Plot from "@observablehq/plot";
 import { isNumber, number } from "../../shared/format";
 import { numeric, rowHeader, table } from "../../shared/table";
 import type { ShownRun } from "../context";
-import type { Run } from "../payload";
 import { ratedTrials } from "../prefix";
 import { seriesStyle } from "../series";
 import type { Mark } from "./distribution";
@@ -21,18 +20,13 @@ export interface Bins {
   counts: number[][];
 }
 
-/** The finite values of a column, of the trials that are in the rates. */
-export function ratedValues(run: Run, name: string): number[] {
-  const column = run.trials?.columns?.find((each) => each.name === name);
-  const fault = (run.trials?.outcome_names ?? []).indexOf("simulator_fault");
-  return (column?.values ?? []).slice(0, ratedTrials(run)).filter(
-    (value, i): value is number => isNumber(value) && run.trials.outcome[i] !== fault,
-  );
-}
-
-/** The same times `factor`; null where there are none. */
+/** The finite values of a column times `factor`, of the trials that are in the rates; null where there are none. */
 export function sampleOf(shown: ShownRun, name: string, factor: number): Sample | null {
-  const values = ratedValues(shown.run, name);
+  const column = shown.run.trials?.columns?.find((each) => each.name === name);
+  const fault = (shown.run.trials?.outcome_names ?? []).indexOf("simulator_fault");
+  const values = (column?.values ?? []).slice(0, ratedTrials(shown.run)).filter(
+    (value, i): value is number => isNumber(value) && shown.run.trials.outcome[i] !== fault,
+  );
   return values.length > 0 ? { shown, values: values.map((value) => factor * value) } : null;
 }
 

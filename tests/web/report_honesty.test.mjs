@@ -1,0 +1,140 @@
+// What the report says of its own numbers: which trials they are of, and what they take for granted.
+import assert from "node:assert/strict";
+import path from "node:path";
+import { after, before, test } from "node:test";
+import { launch, rockyard, temporaryFolder } from "./harness.mjs";
+import { withPayload } from "./page_payload.mjs";
+import { numbersOf, openReport, openTrials, values } from "./report_pages.mjs";
+
+const TRIALS = 20;
+const RATED = 5;
+
+const folder = temporaryFolder();
+const at = (...names) => path.join(folder, ...names);
+let browser;
+
+before(async () => {
+  rockyard(["run", "scenarios/pathfinder/nominal.json", "--trials", `${TRIALS}`, "--seed", "2", "--out", at("nominal"),
+    "--set", "rover.fidelity=quasi_static"]);
+  rockyard(["report", at("nominal"), "--out", at("report.html"), "--replays", "0"]);
+  browser = await launch();
+});
+
+after(() => browser?.close());
+
+const open = (name, options) => openReport(browser, at(name), options);
+
+/** The first run without trial number RATED: what comes after it is in no rate. */
+function withGap({ runs: [run] }) {
+  const { trials, summary } = run;
+  for (const list of [trials.trial, trials.outcome, trials.detail, ...trials.columns.map((column) => column.values)]) list.splice(RATED, 1);
+  run.prefix_trials = RATED;
+  summary.outcomes = {};
+  for (const outcome of trials.outcome.slice(0, RATED)) {
+    const name = trials.outcome_names[outcome];
+    summary.outcomes[name] = (summary.outcomes[name] ?? 0) + 1;
+  }
+  Object.assign(summary.accounting, { completed: TRIALS - 1, pending: 1 });
+}
+
+test("beyond a gap trials are in the table and in nothing else", async () => {
+  withPayload(at("report.html"), at("gap.html"), withGap);
+  const { page, problems } = await open("gap.html");
+  assert.match(await page.locator(".page-header").innerText(), /19 of 20 completed, 1 pending, rates from the first 5/);
+  assert.match(await page.locator("#headline").innerText(), /of the first 5 trials, up to one that is still to be run/);
+  const bins = await values((await numbersOf(page, "histogram-sim_time_s")).nth(1));
+  assert.equal(bins.reduce((sum, row) => sum + Number(row[2]), 0), RATED);
+  const buttons = await page.locator("#outcomes button.count").all();
+  let shown = 0;
+  for (const button of buttons) {
+    await button.click();
+    await page.waitForSelector("#trials .tabulator-row");
+    const count = await button.getAttribute("data-value");
+    assert.equal(await page.locator("#trials-found").innerText(), `${count} of ${TRIALS - 1} trials`);
+    shown += Number(count);
+  }
+  assert.equal(shown, RATED);
+  await page.getByRole("button", { name: "Show all" }).click();
+  const marks = await page.locator("#trials .tabulator-row [tabulator-field=unrated]").allInnerTexts();
+  assert.deepEqual(marks.map((mark) => mark.trim()), Array.from({ length: TRIALS - 1 }, (_, i) => (i < RATED ? "" : "not in the rates")));
+  assert.deepEqual(problems, []);
+  await page.close();
+});
+
+test("without a gap the page does not speak of one", async () => {
+  const { page } = await open("report.html");
+  await openTrials(page);
+  assert.doesNotMatch(await page.locator("#page").innerText(), /rates from the first|in the rates/);
+  assert.equal(await page.locator("#headline .caution").count(), 0);
+  await page.close();
+});
+
+test("a run that was stopped by its rate has the interval that allows for it", async () => {
+  withPayload(at("report.html"), at("until.html"), ({ runs: [{ summary }] }) => {
+    summary.stopping = {
+      rule: "until_half_width", half_width: 0.2, max_trials: 10000, block: 20, confidence: 0.95, end: "precise", trials: 60,
+      declared_success: { count: 39, trials: 60 }, confidence_sequence: [0.441, 0.825],
+    };
+  });
+  const { page } = await open("until.html");
+  const declared = page.locator("#headline [data-low]").first();
+  assert.deepEqual(await declared.evaluate(({ dataset }) => [dataset.low, dataset.high]), ["0.441", "0.825"]);
+  const text = await page.locator("#headline").innerText();
+  assert.match(text, /44\.1 to 82\.5\s%\s+Wilson: /);
+  assert.match(text, /looked at every 20 trials.*precise enough after 60/);
+  await page.close();
+});
+
+test("trials that share layouts are said to, under the rates and both curves of distance", async () => {
+  withPayload(at("report.html"), at("shared.html"), ({ runs: [run] }) => {
+    run.shared_layouts = true;
+  });
+  for (const [name, count] of [["shared.html", 1], ["report.html", 0]]) {
+    const { page } = await open(name);
+    for (const place of ["#headline", "#distance-cdf figcaption", "#goal-incidence figcaption"]) {
+      assert.equal((await page.locator(place).innerText()).split("share layouts").length - 1, count, `${place} of ${name}`);
+    }
+    await page.close();
+  }
+});
+
+test("a curve that was thinned says so", async () => {
+  withPayload(at("report.html"), at("thinned.html"), ({ runs: [run] }) => {
+    run.cdf_steps = 10 * run.cdf.distance_m.length;
+  });
+  for (const [name, said] of [["thinned.html", true], ["report.html", false]]) {
+    const { page } = await open(name);
+    assert.equal(/distance_cdf\.csv has all/.test(await page.locator("#distance-cdf figcaption").innerText()), said, name);
+    await page.close();
+  }
+});
+
+test("the band of arrivals is where it has a width, and the trials that still drive are below", async () => {
+  withPayload(at("report.html"), at("arrivals.html"), ({ runs: [run] }) => {
+    run.cdf = {
+      distance_m: [4, 6, 8, 10], ecdf: [0.25, 0.5, 0.75, 1], ecdf_low: [0, 0, 0.2, 0.4], ecdf_high: [0.8, 1, 1, 1],
+      goal: [0, 0.25, 0.25, 0.5], goal_low: [0, 0.05, 0.05, 0.1], goal_high: [0, 0.6, 0.6, 0.8], at_risk: [4, 3, 2, 1],
+    };
+  });
+  const { page } = await open("arrivals.html");
+  const rows = await values(await numbersOf(page, "goal-incidence"));
+  assert.deepEqual(rows.map((row) => row.slice(1)), [
+    ["0", "–", "–", "4"], ["0.25", "0.05", "0.6", "3"], ["0.25", "0.05", "0.6", "2"], ["0.5", "0.1", "0.8", "1"],
+  ]);
+  const left = (mark) => page.locator(`#goal-incidence svg g[aria-label=${mark}] path`).first().evaluate((path) => path.getBBox().x);
+  assert.ok((await left("area")) > (await left("line")) + 50, "a band before the first arrival");
+  const texts = await page.locator("#goal-incidence svg g[aria-label=text] text").allTextContents();
+  assert.ok(["still driving", "4", "3", "2", "1"].every((text) => texts.includes(text)), texts.join());
+  await page.close();
+});
+
+test("on paper the page is light, whatever the switch says", async () => {
+  const { page } = await open("report.html", { scheme: "light" });
+  const ground = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  const light = await ground();
+  await page.locator(".theme-switch").click();
+  assert.notEqual(await ground(), light);
+  await page.emulateMedia({ media: "print" });
+  assert.equal(await ground(), light);
+  await page.close();
+});
