@@ -1,6 +1,7 @@
 #!/bin/sh
 # From a fresh Debian 12 to the comparison with the published trials, in one command:
-# installs what is missing, builds, runs the published Pathfinder scenarios and prints the table.
+# installs what is missing, builds, runs the published Pathfinder scenarios, prints the table and
+# writes a page for a browser.
 #
 # Usage: scripts/quickstart.sh [OPTION]...
 #   Options go to `rockyard run`, for example --trials 50 --seed 2 --threads 1 (default: 300 trials).
@@ -29,7 +30,7 @@ for word in "$@"; do
     other) take="" ;;
     *)
       case "$word" in
-        -h | --help) sed -n '2,13s/^# \{0,1\}//p' "$0"; exit 0 ;;
+        -h | --help) sed -n '2,14s/^# \{0,1\}//p' "$0"; exit 0 ;;
         --out) take=out; continue ;;
         --out=*) out=${word#--out=}; continue ;;
         --trials) trials=""; take=other ;;
@@ -82,11 +83,20 @@ case "$verdict" in
   *) exit "$verdict" ;;
 esac
 
-say "One trial as a picture"
-"$rockyard" trace "$out/nominal" --trial 0 --svg "$out/nominal_trial_0.svg" > /dev/null
+say "A page to look at"
+page="$out/report.html"
+"$rockyard" report "$out/nominal" "$out/nominal_perfect_localization" --against "$reference" \
+  --out "$page" && written=0 || written=$?
+case "$written" in
+  0) ;;
+  2) page="" ;;  # said by the program: built without npm, it has no pages
+  *) exit "$written" ;;
+esac
 
 say "Results"
 echo "The run folders are in $out: summary.json, trials.csv, distance_cdf.csv, results.sqlite."
-echo "Trial 0 in nominal terrain, seen from above: $out/nominal_trial_0.svg (open it in a browser)."
-echo "What happened in any other: $rockyard trace $out/nominal --trial 1"
+if [ -n "$page" ]; then
+  echo "With and without dead-reckoning errors, and replays of the worst trials: $page (open it in a browser)."
+fi
+echo "Any other trial as a 3-D replay: $rockyard replay $out/nominal --trial 1"
 echo "Run scripts/quickstart.sh again to go on after an interruption."

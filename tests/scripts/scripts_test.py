@@ -16,6 +16,7 @@ FAKE = """#!/bin/sh
 echo "$(basename "$0") $*" >> "$CALLS"
 case "$(basename "$0") $1" in
   "rockyard check") exit "${CHECK_CODE:-0}" ;;
+  "rockyard report") exit "${REPORT_CODE:-0}" ;;
   "rockyard run") exit "${RUN_CODE:-0}" ;;
 esac
 """
@@ -67,8 +68,15 @@ class Quickstart(ScriptTest):
         self.assertEqual(self.called("rockyard"), [
             *runs,
             f"check {folders} --against results/reference/matthies1995.json",
-            f"trace {out}/nominal --trial 0 --svg {out}/nominal_trial_0.svg"])
-        self.assertIn(out, result.stdout)
+            f"report {out}/nominal {out}/nominal_perfect_localization"
+            f" --against results/reference/matthies1995.json --out {out}/report.html"])
+        self.assertIn(f"{out}/report.html (open it", result.stdout)
+
+    def test_a_program_without_pages_still_gives_the_runs(self):
+        result = self.run_script("quickstart.sh", REPORT_CODE="2")
+        self.assertEqual(result.returncode, 0)
+        self.assertNotIn("report.html (open it", result.stdout)
+        self.assertEqual(self.run_script("quickstart.sh", REPORT_CODE="5").returncode, 5)
 
     def test_options_pass_through(self):
         self.run_script("quickstart.sh", "--trials", "50", "--seed", "2")
