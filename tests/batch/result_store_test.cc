@@ -86,6 +86,19 @@ TEST(ResultStore, KeepsIdentityAndPlan) {
   EXPECT_TRUE(read.Finished().empty());
 }
 
+TEST(ResultStore, KeepsWhatTheScenarioWasChangedBy) {
+  const TemporaryFolder folder;
+  CampaignIdentity identity = FakeIdentity();
+  identity.settings = {"name=\"two\nlines\"", "--ablate sight"};
+  { const ResultStore store = ResultStore::Create(folder.path(), identity, 3); }
+  EXPECT_EQ(ResultStore::Read(folder.path()).identity().settings, identity.settings);
+  // They decide no record: the same scenario by another way goes on.
+  EXPECT_NO_THROW(ResultStore::RequireSame(folder.path(), FakeIdentity(), BuildPolicy::kSame));
+  const TemporaryFolder older;
+  { const ResultStore store = ResultStore::Create(older.path(), FakeIdentity(), 3); }
+  EXPECT_EQ(ResultStore::Read(older.path()).identity().settings, std::nullopt);
+}
+
 TEST(ResultStore, KeepsTheFirstRecordOfATrial) {
   const TemporaryFolder folder;
   ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 3);

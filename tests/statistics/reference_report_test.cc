@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <set>
 #include <sstream>
 
 #include "core/error.h"
+#include "core/json_file.h"
 #include "core/json_text.h"
 #include "report/comparison_reference.h"
 #include "report/comparison_table.h"
@@ -121,6 +124,47 @@ TEST(ComparisonJUnit, CountsVerdictsAndEscapes) {
   EXPECT_THAT(xml, HasSubstr("tests=\"24\" failures=\"1\" skipped=\"0\""));
   EXPECT_THAT(xml, HasSubstr("a &lt; b &amp; &quot;c&quot;"));
   EXPECT_THAT(xml, HasSubstr("<testcase classname=\"nominal\" name=\"nominal.success\"/>"));
+}
+
+// A misspelt name or a moved file would take the warning away without a word.
+TEST(Reference, NamesTheFileOfEveryScenario) {
+  const std::filesystem::path folder = ROCKYARD_SOURCE_DIR "/results/reference";
+  for (const char* file :
+       {"matthies1995.json", "matthies1995_hazard_detection.json", "goldberg2002.json"}) {
+    const PublishedReference reference = LoadReference(folder / file);
+    std::set<std::string> named;
+    for (const auto& scenario : reference.scenarios) {
+      named.insert(scenario.name);
+      const core::JsonValue document = core::LoadJsonFile(folder / scenario.file);
+      ASSERT_NE(document.Find("name"), nullptr) << scenario.file;
+      EXPECT_EQ(document.Find("name")->text(), scenario.name);
+    }
+    for (const auto& value : reference.values) {
+      EXPECT_TRUE(value.scenario.empty() || named.contains(value.scenario)) << value.id;
+    }
+  }
+  EXPECT_THAT(ProblemsOf(R"({"schema_version": 1, "scenarios": [{"name": "a"}]})"),
+              HasSubstr("scenarios[0].file"));
+}
+
+// Of the scenario alone that was run with other settings.
+TEST(Comparison, OtherSettingsStandWhereRowsAreRead) {
+  const auto records = statistics::SyntheticTrials({}, 3, 300);
+  std::vector<statistics::ScenarioRun> runs = {RunOf("nominal", records),
+                                               RunOf("obstacles_0.28", records)};
+  runs[0].other_settings = {"k is 1, 2 in " + std::string(120, 'x') + " y"};
+  const ComparisonResult result = statistics::Compare(Matthies(), runs, {.replicates = 100});
+  ASSERT_NE(result.FindChanged("nominal"), nullptr);
+  EXPECT_EQ(result.FindChanged("obstacles_0.28"), nullptr);
+  EXPECT_THAT(ComparisonText(Matthies(), result), HasSubstr("nominal\n  NOT the published case"));
+  EXPECT_THAT(ComparisonJUnit(Matthies(), result), HasSubstr("<property name=\"nominal: NOT"));
+  std::istringstream lines(ComparisonCsv(result));
+  for (std::string line; std::getline(lines, line);) {
+    const bool nominal = line.starts_with("nominal.") && line.find('/') == std::string::npos;
+    const bool told = line.find("NOT the published case") != std::string::npos;
+    EXPECT_TRUE(told || !nominal) << line;
+    EXPECT_FALSE(told && line.starts_with("obstacles_")) << line;
+  }
 }
 
 TEST(Comparison, IsAPureFunctionOfItsArguments) {
