@@ -22,6 +22,9 @@ constexpr std::array kDerivedFiles = {
     "success.svg",     "summary.json",     "sweep.json",
     "traces",          "trials.csv"};
 
+// As `rockyard report` names them where it is told no other name: of the run, but written later.
+constexpr std::array kReportFiles = {"report.html", "report_replays"};
+
 fs::path FreeName(const fs::path& folder, const fs::path& name) {
   for (int number = 1;; ++number) {
     fs::path aside =
@@ -29,6 +32,18 @@ fs::path FreeName(const fs::path& folder, const fs::path& name) {
     std::error_code error;
     if (!fs::exists(fs::symlink_status(folder / aside, error))) return aside;
   }
+}
+
+void SetAside(const fs::path& folder, const fs::path& name, std::vector<std::string>& names) {
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(folder / name, error))) return;
+  const fs::path aside = FreeName(folder, name);
+  fs::rename(folder / name, folder / aside, error);
+  if (error) {
+    throw core::UserError((folder / name).string(), "cannot be set aside: " + error.message(),
+                          "check the permissions, or choose another folder with --out");
+  }
+  names.push_back(aside.string());
 }
 
 }  // namespace
@@ -40,17 +55,8 @@ bool IsRunFile(const fs::path& name) {
 
 std::vector<std::string> SetDerivedFilesAside(const fs::path& folder) {
   std::vector<std::string> names;
-  for (const fs::path name : kDerivedFiles) {
-    std::error_code error;
-    if (!fs::exists(fs::symlink_status(folder / name, error))) continue;
-    const fs::path aside = FreeName(folder, name);
-    fs::rename(folder / name, folder / aside, error);
-    if (error) {
-      throw core::UserError((folder / name).string(), "cannot be set aside: " + error.message(),
-                            "check the permissions, or choose another folder with --out");
-    }
-    names.push_back(aside.string());
-  }
+  for (const fs::path name : kDerivedFiles) SetAside(folder, name, names);
+  for (const fs::path name : kReportFiles) SetAside(folder, name, names);
   return names;
 }
 

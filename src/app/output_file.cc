@@ -1,5 +1,6 @@
 #include "app/output_file.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -26,6 +27,12 @@ void CheckOutputFile(std::string_view option, const std::string& file) {
     throw core::UserError(std::string(option), "is in a folder that cannot be written to: " + file,
                           "check its permissions, or name a file elsewhere");
   }
+}
+
+void CheckExtension(std::string_view option, const std::string& file, std::string_view extension) {
+  if (file.empty() || fs::path(file).extension() == extension) return;
+  throw core::UserError(std::string(option), fmt::format("does not end in {}: {}", extension, file),
+                        fmt::format("name a file such as report{}", extension));
 }
 
 void CheckDistinct(std::span<const NamedFile> files) {

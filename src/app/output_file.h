@@ -12,6 +12,10 @@ namespace rockyard::app {
 // passes. `option` is the one to blame, such as "--out".
 void CheckOutputFile(std::string_view option, const std::string& file);
 
+// Throws core::UserError where the name of `file` does not end in `extension` (".html"), by which
+// other programs know what is in it; an empty name passes.
+void CheckExtension(std::string_view option, const std::string& file, std::string_view extension);
+
 struct NamedFile {
   std::string option;
   std::string file;

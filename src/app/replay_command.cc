@@ -18,6 +18,7 @@
 #include "app/replay_views.h"
 #include "core/error.h"
 #include "report/atomic_file.h"
+#include "report/line_text.h"
 #include "web/page.h"
 
 namespace rockyard::app {
@@ -66,6 +67,7 @@ std::vector<AskedFile> OutputsOf(const ReplayOptions& options, const TrialSource
 // Found before the drive rather than after it.
 void CheckOutputs(const ReplayOptions& options, const std::vector<AskedFile>& outputs) {
   CheckOutputFile("--out", options.out);
+  CheckExtension("--out", options.out, ".html");
   CheckOutputFile("--svg", options.svg);
   CheckOutputFile("--data", options.data);
   std::vector<NamedFile> files;
@@ -79,7 +81,7 @@ ExitCode WriteOutputs(const std::vector<AskedFile>& outputs, const ReplayedTrial
     for (const AskedFile& output : outputs) {
       if (output.path.has_parent_path()) fs::create_directories(output.path.parent_path());
       report::WriteFileAtomically(output.path, output.text(replayed));
-      Print(fmt::format("  {} in {}\n", output.what, output.path.string()));
+      Print(fmt::format("  {} in {}\n", output.what, report::Printable(output.path.string())));
     }
   } catch (const core::UserError& failure) {
     PrintProblems(failure.problems());
@@ -98,8 +100,9 @@ ExitCode WritePage(const ReplayOptions& options) {
   CheckOutputs(options, outputs);
   const ReplayedTrial replayed = ReplayTrial(source, options.request.trial);
   const report::ReplayData& data = replayed.data;
-  Print(fmt::format("  {}: {}, {}\n", data.title, truth::Name(data.record.outcome),
-                    data.record.detail));
+  Print(fmt::format("  {}\n", report::Printable(fmt::format("{}: {}, {}", data.title,
+                                                            truth::Name(data.record.outcome),
+                                                            data.record.detail))));
   const ExitCode same = source.stored
                             ? CompareWithStore(options.request, source, data.schema, data.record)
                             : ExitCode::kDone;

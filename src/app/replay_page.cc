@@ -78,9 +78,10 @@ std::string ReplayPayload(const ReplayedTrial& replayed) {
 bool WriteReplayPage(const TrialSource& source, std::uint64_t trial,
                      const std::filesystem::path& path) {
   const ReplayedTrial replayed = ReplayTrial(source, trial);
+  if (!replayed.data.repeats_stored.value_or(true)) return false;
   report::WriteFileAtomically(
       path, web::MakePage(web::Page::kReplay, replayed.data.title, ReplayPayload(replayed)));
-  return replayed.data.repeats_stored.value_or(true);
+  return true;
 }
 
 }  // namespace rockyard::app

@@ -24,8 +24,8 @@ ReplayedTrial ReplayTrial(const TrialSource& source, std::uint64_t trial);
 // What the page is given (src/web/replay/payload.ts), as JSON.
 std::string ReplayPayload(const ReplayedTrial& replayed);
 
-// Drives the trial again and writes its page to `path`, atomically. True where the drive repeats
-// the stored record bit for bit, or where there is none; the page says so too. Throws
+// Drives the trial again and writes its page to `path`, atomically, where the drive repeats the
+// stored record bit for bit or there is none. Otherwise writes nothing and returns false. Throws
 // core::UserError: no drive, pages not built, `path` cannot be written.
 bool WriteReplayPage(const TrialSource& source, std::uint64_t trial,
                      const std::filesystem::path& path);

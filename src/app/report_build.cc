@@ -65,16 +65,15 @@ class Builder {
 
   Report Build() {
     LoadRuns();
-    const std::vector<std::string> tables = published_.Tables(plain_);
     std::size_t next = 0;
     for (const ReportInput& input : request_.inputs) {
       if (input.sweep) {
         AddSweep(input);
         continue;
       }
-      const StoredRun& run = plain_[next];
+      const StoredRun& run = plain_[next++];
       AddWorst(FindWorst(run, request_.replays), input.label);
-      AddRun(run, input.label, {}, tables[next++]);
+      AddRun(run, input.label, {});
     }
     RequirePublished();
     Compare();
@@ -90,8 +89,7 @@ class Builder {
     }
   }
 
-  void AddRun(const StoredRun& run, const std::string& label, std::optional<std::size_t> sweep,
-              std::string published) {
+  void AddRun(const StoredRun& run, const std::string& label, std::optional<std::size_t> sweep) {
     report::PageRun page{.label = label,
                          .folder = run.folder.string(),
                          .cell = run.identity.name,
@@ -101,7 +99,7 @@ class Builder {
                          .records = run.records,
                          .prefix = run.prefix(),
                          .parameters = ParametersOf(run),
-                         .published = std::move(published),
+                         .published = published_.Table(run),
                          .replay_command = ReplayCommand(run)};
     if (sweep) ShareParameters(page);
     any_published_ = any_published_ || page.published != "null";
@@ -142,7 +140,7 @@ class Builder {
       StoredRun run = reader.Load(static_cast<int>(cell));
       AddWorst(FindWorst(run, request_.replays), input.cell_labels[cell]);
       worst_ = Worst(std::move(worst_), request_.replays);
-      AddRun(run, input.cell_labels[cell], sweeps_.size(), published_.Tables({&run, 1}).front());
+      AddRun(run, input.cell_labels[cell], sweeps_.size());
       std::string name = run.identity.name;
       report::SweepCellTrials trials = SweepCellView(std::move(run));
       hashes.push_back({std::move(name), trials.trial_hash});
@@ -196,8 +194,15 @@ class Builder {
     }
   }
 
+  // Said in the terminal where there is nothing to look in, which is often the wrong folder.
+  std::string WhyNonePublished() const {
+    if (any_published_) return {};
+    if (published_.empty()) PrintNote(published_.WhyNone());
+    return published_.WhyNone();
+  }
+
   Report Finish() {
-    report_.replays = WriteReplays(request_.page, worst_, runs_.size());
+    report_.replays = WriteReplays(request_.page, worst_, runs_.size(), batch::ThreadCount({}));
     std::vector<std::string> runs;
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       runs.push_back(
@@ -210,7 +215,10 @@ class Builder {
       comparisons.push_back(report::PageComparisonJson(each, adjusted));
     }
     report_.runs = runs.size();
-    report_.json = report::PageJson({request_.title, request_.command, core::CurrentProvenance()},
+    report_.json = report::PageJson({.title = request_.title,
+                                     .command = request_.command,
+                                     .why_none_published = WhyNonePublished(),
+                                     .provenance = core::CurrentProvenance()},
                                     runs, sweeps_, comparisons);
     return std::move(report_);
   }

@@ -18,6 +18,7 @@
 #include "batch/run_folder.h"
 #include "core/error.h"
 #include "report/atomic_file.h"
+#include "report/line_text.h"
 #include "web/page.h"
 
 namespace rockyard::app {
@@ -57,22 +58,22 @@ std::string Title(const ReportOptions& options, const std::vector<ReportInput>& 
 // Before the work: what cannot be meant, or would lay a page over what a run holds.
 void CheckFile(const char* option, const std::string& file, const char* extension) {
   CheckOutputFile(option, file);
-  if (fs::path(file).extension() != extension) {
-    throw core::UserError(option, fmt::format("does not end in {}: {}", extension, file),
-                          fmt::format("name a file such as report{}", extension));
-  }
+  CheckExtension(option, file, extension);
   const fs::path folder = fs::absolute(file).parent_path();
   if (batch::HoldsStore(folder) && IsRunFile(fs::path(file).filename())) {
     throw core::UserError(option, "is a file of the run itself: " + file, "choose another name");
   }
 }
 
-void CheckFiles(const ReportOptions& options) {
+void CheckBuilt(const ReportOptions& options) {
   if (!web::PagesBuilt() && (options.data.empty() || !options.out.empty())) {
     throw core::UserError("rockyard report", "this program was built without its pages",
                           "install nodejs and npm and build it again (scripts/quickstart.sh), or "
                           "write the numbers alone with --data FILE");
   }
+}
+
+void CheckFiles(const ReportOptions& options) {
   if (web::PagesBuilt()) CheckFile("--out", PageFile(options), ".html");
   if (!options.data.empty()) CheckFile("--data", options.data, ".json");
 }
@@ -83,11 +84,12 @@ std::string Size(std::size_t bytes) {
 }
 
 void PrintPage(const std::string& file, std::size_t bytes, const Report& report) {
-  Print(fmt::format("  {} ({}): {} run{}, {} trials\n", file, Size(bytes), report.runs,
-                    report.runs == 1 ? "" : "s", report.trials));
+  Print(fmt::format("  {} ({}): {} run{}, {} trials\n", report::Printable(file), Size(bytes),
+                    report.runs, report.runs == 1 ? "" : "s", report.trials));
   if (report.replays.written > 0) {
     Print(fmt::format("  {} replay{} in {}\n", report.replays.written,
-                      report.replays.written == 1 ? "" : "s", report.replays.folder.string()));
+                      report.replays.written == 1 ? "" : "s",
+                      report::Printable(report.replays.folder.string())));
   }
   if (static_cast<double>(bytes) > kLargePage_bytes) {
     PrintNote(fmt::format(
@@ -97,16 +99,7 @@ void PrintPage(const std::string& file, std::size_t bytes, const Report& report)
   Print(fmt::format("  next: open it in a browser, for example `xdg-open {}`\n", ShellWord(file)));
 }
 
-ExitCode WriteReport(const ReportOptions& options, const std::string& command) {
-  CheckFiles(options);
-  ReportRequest request;
-  request.inputs = FindReportInputs(options.runs, options.cell);
-  request.title = Title(options, request.inputs);
-  request.command = command;
-  request.against = options.against;
-  request.replays = web::PagesBuilt() ? options.replays : 0;
-  request.page = PageFile(options);
-  const Report report = BuildReport(request);
+void WriteFiles(const ReportOptions& options, const ReportRequest& request, const Report& report) {
   if (!options.data.empty()) {
     report::WriteFileAtomically(options.data, report.json);
     Print(fmt::format("  {} ({})\n", options.data, Size(report.json.size())));
@@ -115,6 +108,30 @@ ExitCode WriteReport(const ReportOptions& options, const std::string& command) {
     const std::string page = web::MakePage(web::Page::kReport, request.title, report.json);
     report::WriteFileAtomically(request.page, page);
     PrintPage(request.page.string(), page.size(), report);
+  }
+}
+
+ExitCode WriteReport(const ReportOptions& options, const std::string& command) {
+  CheckBuilt(options);
+  ReportRequest request;
+  request.inputs = FindReportInputs(options.runs, options.cell);
+  CheckFiles(options);
+  request.title = Title(options, request.inputs);
+  request.command = command;
+  request.against = options.against;
+  request.replays = web::PagesBuilt() ? options.replays : 0;
+  request.page = PageFile(options);
+  const Report report = BuildReport(request);
+  try {
+    WriteFiles(options, request, report);
+  } catch (const core::UserError& failure) {
+    // A disk that fails after the work, not input that is wrong before it.
+    PrintProblems(failure.problems());
+    if (report.replays.written > 0) {
+      PrintNote(fmt::format("{} replays are written, in {}", report.replays.written,
+                            report.replays.folder.string()));
+    }
+    return ExitCode::kFailed;
   }
   return report.replays.exit_code;
 }

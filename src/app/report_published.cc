@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
-#include <map>
 #include <system_error>
 
 #include "app/console.h"
@@ -58,31 +58,27 @@ PublishedTables::PublishedTables(const std::string& file) {
   }
 }
 
-std::vector<std::string> PublishedTables::Tables(std::span<const StoredRun> runs) const {
-  std::vector<std::string> tables(runs.size(), "null");
+std::string PublishedTables::Table(const StoredRun& run) const {
   for (const auto& [folder, reference] : references_) {
-    // Families by how many earlier runs are of the same scenario.
-    std::vector<std::vector<std::size_t>> families;
-    std::map<std::string, std::size_t> earlier;
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      const std::string& scenario = runs[i].identity.scenario;
-      if (tables[i] != "null" || !Names(reference, scenario)) continue;
-      const std::size_t family = earlier[scenario]++;
-      families.resize(std::max(families.size(), family + 1));
-      families[family].push_back(i);
-    }
-    for (const std::vector<std::size_t>& family : families) {
-      std::vector<const StoredRun*> members;
-      members.reserve(family.size());
-      for (const std::size_t i : family) members.push_back(&runs[i]);
-      const statistics::ComparisonResult result =
-          statistics::Compare(reference, PublishedViews(reference, folder, members));
-      for (const std::size_t i : family) {
-        tables[i] = report::PublishedJson(reference, result, runs[i].identity.scenario);
-      }
-    }
+    if (!Names(reference, run.identity.scenario)) continue;
+    const std::array runs{&run};
+    return report::PublishedJson(
+        reference, statistics::Compare(reference, PublishedViews(reference, folder, runs)),
+        run.identity.scenario);
   }
-  return tables;
+  return "null";
+}
+
+std::string PublishedTables::WhyNone() const {
+  if (references_.empty()) {
+    return fmt::format(
+        "no published values stand beside the runs: {} below the working folder holds no "
+        "reference; name one with --against FILE",
+        kReferenceFolder);
+  }
+  return fmt::format(
+      "no published values stand beside the runs: no reference in {} names their scenarios",
+      kReferenceFolder);
 }
 
 }  // namespace rockyard::app

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -18,12 +17,15 @@ class PublishedTables {
   // left out). Throws core::UserError where `file` is no reference.
   explicit PublishedTables(const std::string& file);
 
-  // For each run a `PublishedTable` of src/web/report/payload.ts, or "null": of the first reference
-  // that names its scenario. Runs of different scenarios are judged together, as `rockyard check`
-  // of all of them does: they are one family for Holm's procedure. Of several runs of one scenario
-  // the first ones of each are such a family, then the second ones, and so on. Cost: some seconds a
-  // family.
-  std::vector<std::string> Tables(std::span<const StoredRun> runs) const;
+  // `PublishedTable` of src/web/report/payload.ts, or "null": of the first reference that names the
+  // scenario of the run. The values of one run are a family for Holm's procedure: what it is held
+  // to does not depend on the other runs that are named. Cost: some seconds.
+  std::string Table(const StoredRun& run) const;
+
+  // Where was looked, for a report whose tables are all "null".
+  std::string WhyNone() const;
+
+  bool empty() const { return references_.empty(); }
 
  private:
   struct Reference {

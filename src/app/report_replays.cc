@@ -3,15 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
-#include <cmath>
-#include <limits>
+#include <exception>
+#include <mutex>
+#include <set>
 #include <system_error>
+#include <utility>
 
 #include "app/console.h"
+#include "app/interrupt.h"
 #include "app/replay_page.h"
 #include "app/trial_source.h"
+#include "batch/parallel_tasks.h"
 #include "core/error.h"
+#include "report/line_text.h"
 #include "report/worst_trials.h"
 #include "statistics/drive_summary.h"
 #include "truth/measurement_record.h"
@@ -29,7 +35,7 @@ std::string FileName(const WorstTrial& worst) {
     if (byte >= 0x80 || (std::isalnum(byte) == 0 && c != '-' && c != '.' && c != '_')) c = '_';
   }
   // The number of the run keeps names apart that differ in other characters only.
-  return fmt::format("{}-{}-trial{}.html", worst.run + 1, name, worst.trial);
+  return fmt::format("{}-{}-trial{}.html", worst.run + 1, name, worst.record.trial);
 }
 
 // As a link in a page has to be written (RFC 3986).
@@ -44,35 +50,120 @@ std::string PercentEncoded(const std::string& text) {
   return link;
 }
 
-void ShowProgress(std::size_t number, std::size_t all, const WorstTrial& worst) {
-  const std::string text =
-      fmt::format("  replay {} of {}: trial {} of {}", number, all, worst.trial, worst.label);
-  if (!IsTerminal(stderr)) return PrintNote(text);
-  const std::size_t width = static_cast<std::size_t>(TerminalWidth(stderr)) - 1;
-  const std::string line =
-      fmt::format("\r\x1b[K{}{}", text.substr(0, width), number == all ? "\n" : "");
-  std::fwrite(line.data(), 1, line.size(), stderr);
-}
-
-// True where the page may be linked.
-bool WriteOne(const WorstTrial& worst, const fs::path& path, ExitCode& exit_code) {
-  try {
-    const TrialSource source = FindTrial({.source = worst.folder.string(),
-                                          .cell = worst.cell,
-                                          .trial = static_cast<std::uint32_t>(worst.trial),
-                                          .seed = {},
-                                          .overrides = {}});
-    if (WriteReplayPage(source, worst.trial, path)) return true;
-    PrintProblems({{fmt::format("{}, trial {}", worst.label, worst.trial),
-                    "driven again, its record is not the stored one",
-                    "use the program that made the run: " + source.builds.front()}});
-    exit_code = ExitCode::kDiffers;
-  } catch (const core::UserError& error) {
-    PrintProblems(error.problems());
-    if (exit_code == ExitCode::kDone) exit_code = ExitCode::kFailed;
+// One page after the other, on several threads.
+class ReplayWriter {
+ public:
+  ReplayWriter(const fs::path& page, std::span<const WorstTrial> trials, std::size_t runs)
+      : name_(page.stem().string() + "_replays"), trials_(trials), done_(trials.size(), false) {
+    replays_.links.resize(runs);
+    replays_.folder = page.parent_path() / name_;
   }
-  return false;
-}
+
+  ReportReplays Write(int threads) {
+    if (!trials_.empty()) WriteAll(threads);
+    TellLeftovers();
+    return std::move(replays_);
+  }
+
+ private:
+  void WriteAll(int threads) {
+    std::error_code error;
+    fs::create_directories(replays_.folder, error);
+    if (error) {
+      throw core::UserError(replays_.folder.string(), "cannot be made: " + error.message(),
+                            "choose another place with --out, or --replays 0");
+    }
+    std::atomic<bool> stop{false};
+    {
+      const InterruptGuard interrupt(stop, SecondSignal::kEnds);
+      batch::RunTasks(trials_.size(), threads, stop, [&](std::size_t i) { WriteOne(i); });
+    }
+    if (IsTerminal(stderr)) std::fputc('\n', stderr);
+    PrintProblems(problems_);
+    for (std::size_t i = 0; i < trials_.size(); ++i) {
+      if (done_[i]) Link(trials_[i]);
+    }
+    if (stop) {
+      PrintNote(fmt::format("interrupted: the page links the {} of {} replays that are written",
+                            replays_.written, trials_.size()));
+      replays_.exit_code = ExitCode::kInterrupted;
+    }
+  }
+
+  void Link(const WorstTrial& worst) {
+    ++replays_.written;
+    files_.insert(FileName(worst));
+    replays_.links[worst.run].push_back(
+        {worst.record.trial, PercentEncoded(name_) + "/" + PercentEncoded(FileName(worst))});
+  }
+
+  void WriteOne(std::size_t i) {
+    const WorstTrial& worst = trials_[i];
+    std::vector<core::Problem> problems;
+    ExitCode code = ExitCode::kFailed;
+    try {
+      const TrialSource source =
+          StoredTrial({.source = worst.folder.string(),
+                       .cell = worst.cell,
+                       .trial = static_cast<std::uint32_t>(worst.record.trial),
+                       .seed = {},
+                       .overrides = {}},
+                      worst.identity, worst.builds, worst.record);
+      if (!WriteReplayPage(source, worst.record.trial, replays_.folder / FileName(worst))) {
+        code = ExitCode::kDiffers;
+        problems.push_back({fmt::format("{}, trial {}", worst.label, worst.record.trial),
+                            "driven again, its record is not the stored one: it gets no replay",
+                            "use the program that made the run: " + worst.builds.front()});
+      }
+    } catch (const core::UserError& error) {
+      problems = error.problems();
+    } catch (const std::exception& error) {
+      problems.push_back({fmt::format("{}, trial {}", worst.label, worst.record.trial),
+                          fmt::format("gets no replay: {}", error.what()), ""});
+    }
+    const std::lock_guard lock(mutex_);
+    ShowProgress(worst);
+    if (problems.empty()) {
+      done_[i] = true;
+      return;
+    }
+    problems_.insert(problems_.end(), problems.begin(), problems.end());
+    if (replays_.exit_code != ExitCode::kDiffers) replays_.exit_code = code;
+  }
+
+  void ShowProgress(const WorstTrial& worst) {
+    const std::string text =
+        report::Printable(fmt::format("  replay {} of {}: trial {} of {}", ++ended_, trials_.size(),
+                                      worst.record.trial, worst.label));
+    if (!IsTerminal(stderr)) return PrintNote(text);
+    const auto width = static_cast<std::size_t>(std::max(TerminalWidth(stderr) - 1, 20));
+    const std::string line = "\r\x1b[K" + report::Cut(text, width);
+    std::fwrite(line.data(), 1, line.size(), stderr);
+  }
+
+  // They may be of other runs, and show what no longer holds.
+  void TellLeftovers() const {
+    std::size_t others = 0;
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(replays_.folder, error)) {
+      const fs::path file = entry.path().filename();
+      if (file.extension() == ".html" && !files_.contains(file.string())) ++others;
+    }
+    if (others == 0) return;
+    PrintNote(fmt::format("{} older page{} in {} {} not of this report: remove {} if not needed",
+                          others, others == 1 ? "" : "s", replays_.folder.string(),
+                          others == 1 ? "is" : "are", others == 1 ? "it" : "them"));
+  }
+
+  const std::string name_;
+  const std::span<const WorstTrial> trials_;
+  std::mutex mutex_;
+  std::vector<bool> done_;
+  std::size_t ended_ = 0;
+  std::vector<core::Problem> problems_;
+  std::set<std::string> files_;  // that are linked
+  ReportReplays replays_;
+};
 
 }  // namespace
 
@@ -84,16 +175,14 @@ std::vector<WorstTrial> FindWorst(const StoredRun& run, std::size_t most) {
     const auto at = std::lower_bound(
         run.records.begin(), run.records.end(), trial,
         [](const truth::Record& record, std::uint64_t wanted) { return record.trial < wanted; });
-    const double distance_m =
-        column ? at->values[*column] : std::numeric_limits<double>::quiet_NaN();
     worst.push_back({.folder = run.folder,
                      .cell = run.identity.name.empty() ? std::string() : std::to_string(run.cell),
+                     .identity = run.identity,
+                     .builds = run.builds,
+                     .record = *at,
                      .run = 0,
                      .label = {},
-                     .trial = trial,
-                     .goal_distance_m = std::isfinite(distance_m)
-                                            ? distance_m
-                                            : std::numeric_limits<double>::infinity()});
+                     .goal_distance_m = report::GoalDistanceOrInfinity(*at, column)});
   }
   return worst;
 }
@@ -107,28 +196,8 @@ std::vector<WorstTrial> Worst(std::vector<WorstTrial> trials, std::size_t most) 
 }
 
 ReportReplays WriteReplays(const fs::path& page, std::span<const WorstTrial> trials,
-                           std::size_t runs) {
-  ReportReplays replays;
-  replays.links.resize(runs);
-  if (trials.empty()) return replays;
-  const std::string name = page.stem().string() + "_replays";
-  replays.folder = page.parent_path() / name;
-  std::error_code error;
-  fs::create_directories(replays.folder, error);
-  if (error) {
-    throw core::UserError(replays.folder.string(), "cannot be made: " + error.message(),
-                          "choose another place with --out, or --replays 0");
-  }
-  for (std::size_t i = 0; i < trials.size(); ++i) {
-    const WorstTrial& worst = trials[i];
-    const std::string file = FileName(worst);
-    ShowProgress(i + 1, trials.size(), worst);
-    if (!WriteOne(worst, replays.folder / file, replays.exit_code)) continue;
-    ++replays.written;
-    replays.links[worst.run].push_back(
-        {worst.trial, PercentEncoded(name) + "/" + PercentEncoded(file)});
-  }
-  return replays;
+                           std::size_t runs, int threads) {
+  return ReplayWriter(page, trials, runs).Write(threads);
 }
 
 }  // namespace rockyard::app

@@ -9,17 +9,21 @@
 
 #include "app/exit_code.h"
 #include "app/run_source.h"
+#include "batch/result_store.h"
 #include "report/page_data.h"
+#include "truth/record.h"
 
 namespace rockyard::app {
 
-// A failed trial that is worth a look.
+// A failed trial that is worth a look, with what is needed to drive it again.
 struct WorstTrial {
   std::filesystem::path folder;
-  std::string cell;     // number, or "" of a run
+  std::string cell;              // number, or "" of a run
+  batch::CellIdentity identity;  // of the cell
+  std::vector<std::string> builds;
+  truth::Record record;
   std::size_t run = 0;  // position on the page
   std::string label;
-  std::uint64_t trial = 0;
   double goal_distance_m = 0.0;  // infinity where unknown
 };
 
@@ -37,10 +41,12 @@ struct ReportReplays {
 };
 
 // Drives them again and writes a page each into <stem of `page`>_replays beside it, which is made
-// where it is needed. A trial that does not repeat its stored record is reported, not linked, and
-// makes kDiffers; one that cannot be driven or written makes kFailed. A line on standard error says
-// how far it is. Cost: that of the trials.
+// where it is needed. A trial that does not repeat its stored record is reported, gets no page, and
+// makes kDiffers; one that cannot be driven or written makes kFailed. Ctrl-C ends it after the
+// trials in flight, with kInterrupted: what is written is linked. Pages of earlier reports in the
+// folder stay, and are told. A line on standard error says how far it is. Cost: that of the trials,
+// on `threads` threads; memory: the recording of one trial for each.
 ReportReplays WriteReplays(const std::filesystem::path& page, std::span<const WorstTrial> trials,
-                           std::size_t runs);
+                           std::size_t runs, int threads);
 
 }  // namespace rockyard::app

@@ -6,15 +6,29 @@
 #include <algorithm>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include "app/console.h"
 #include "app/run_source.h"
 #include "app/shell_word.h"
 #include "core/error.h"
+#include "core/json_text.h"
 #include "report/trace_view.h"
+#include "scenario/load.h"
 
 namespace rockyard::app {
 namespace {
+
+// Without the trial, which comes last.
+std::string RequestWords(const TrialRequest& request) {
+  std::string words = ShellWord(request.source);
+  if (!request.cell.empty()) words += fmt::format(" --cell {}", ShellWord(request.cell));
+  if (request.seed) words += fmt::format(" --seed {}", *request.seed);
+  for (const std::string& assignment : request.overrides) {
+    words += fmt::format(" --set {}", ShellWord(assignment));
+  }
+  return words;
+}
 
 TrialSource FromRun(const TrialRequest& request) {
   if (request.seed || !request.overrides.empty()) {
@@ -32,13 +46,7 @@ TrialSource FromRun(const TrialRequest& request) {
         fmt::format("use one of the {} finished trials, or name the scenario file instead",
                     run.records.size()));
   }
-  TrialSource source;
-  source.scenario = LoadScenarioFrom(request.source, {}, request.cell);
-  source.seed = run.identity.seed;
-  source.cell = run.identity.name;
-  source.stored = *found;
-  source.builds = run.builds;
-  return source;
+  return StoredTrial(request, run.identity, run.builds, *found);
 }
 
 TrialSource FromScenario(const TrialRequest& request) {
@@ -51,18 +59,8 @@ TrialSource FromScenario(const TrialRequest& request) {
   TrialSource source;
   source.scenario = LoadScenarioFrom(request.source, overrides);
   source.seed = static_cast<std::uint64_t>(source.scenario.seed);
+  source.request = RequestWords(request);
   return source;
-}
-
-// Without the trial, which comes last.
-std::string RequestWords(const TrialRequest& request) {
-  std::string words = ShellWord(request.source);
-  if (!request.cell.empty()) words += fmt::format(" --cell {}", ShellWord(request.cell));
-  if (request.seed) words += fmt::format(" --seed {}", *request.seed);
-  for (const std::string& assignment : request.overrides) {
-    words += fmt::format(" --set {}", ShellWord(assignment));
-  }
-  return words;
 }
 
 }  // namespace
@@ -81,9 +79,19 @@ void AddTrialOptions(CLI::App& command, TrialRequest& request) {
 
 TrialSource FindTrial(const TrialRequest& request) {
   std::error_code error;
-  TrialSource source = std::filesystem::is_directory(request.source, error) ? FromRun(request)
-                                                                            : FromScenario(request);
+  if (std::filesystem::is_directory(request.source, error)) return FromRun(request);
+  return FromScenario(request);
+}
+
+TrialSource StoredTrial(const TrialRequest& request, const batch::CellIdentity& cell,
+                        std::vector<std::string> builds, truth::Record stored) {
+  TrialSource source;
+  source.scenario = scenario::ReadScenario(core::ParseJson(cell.resolved, request.source));
+  source.seed = cell.seed;
+  source.cell = cell.name;
   source.request = RequestWords(request);
+  source.stored = std::move(stored);
+  source.builds = std::move(builds);
   return source;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/exit_code.h"
+#include "batch/result_store.h"
 #include "scenario/scenario.h"
 #include "truth/record.h"
 
@@ -39,6 +40,11 @@ struct TrialSource {
 
 // Throws core::UserError: no such scenario, run or trial, or --seed or --set with a run.
 TrialSource FindTrial(const TrialRequest& request);
+
+// The same of a run that has been read already: the trial `stored` of `cell`. `request` tells where
+// they are from. Throws core::UserError where the scenario is of another version of the program.
+TrialSource StoredTrial(const TrialRequest& request, const batch::CellIdentity& cell,
+                        std::vector<std::string> builds, truth::Record stored);
 
 // "rockyard replay ..." of that trial, as a shell reads it.
 std::string ReplayCommandLine(const TrialSource& source, std::uint64_t trial);

@@ -12,6 +12,7 @@ std::string PageJson(const PageHead& head, std::span<const std::string> runs,
       .AddInteger("version", 1)
       .AddText("title", head.title)
       .AddText("command", head.command)
+      .AddText("why_none_published", head.why_none_published)
       .Add("provenance", JsonCompact(ProvenanceJson(head.provenance)))
       .Add("runs", JsonList(runs))
       .Add("sweeps", JsonList(sweeps))

@@ -81,8 +81,8 @@ std::vector<core::ParameterInfo> OtherParameters(std::span<const core::Parameter
 
 std::string PageParametersJson(std::span<const core::ParameterInfo> parameters);
 
-// `PublishedTable`: the rows of `result` (of all runs that share Holm's family) that are about one
-// scenario. "null" where there is none.
+// `PublishedTable`: the rows of `result` that are about one scenario, "null" where there is none.
+// `result` is of that run alone, which the notes say.
 std::string PublishedJson(const statistics::PublishedReference& reference,
                           const statistics::ComparisonResult& result, std::string_view scenario);
 
@@ -116,6 +116,7 @@ std::string PageComparisonJson(const PageComparison& comparison, bool adjusted);
 struct PageHead {
   std::string title;
   std::string command;
+  std::string why_none_published = {};  // "" where some run is held against published values
   core::Provenance provenance;
 };
 

@@ -66,11 +66,15 @@ std::string PublishedJson(const statistics::PublishedReference& reference,
     if (value.published.scenario == scenario) rows.push_back(Row(value));
   }
   if (rows.empty()) return "null";
+  std::vector<std::string> notes = ComparisonNotes(result);
+  notes.emplace_back(
+      "Holm's family is that of this run alone: other runs on the page do not change it, and "
+      "`rockyard check` of several runs takes all of them as one.");
   const statistics::OtherSettings* changed = result.FindChanged(scenario);
   return JsonObject()
       .AddText("reference", reference.title)
       .AddText("citation", reference.citation)
-      .Add("notes", JsonTexts(ComparisonNotes(result)))
+      .Add("notes", JsonTexts(notes))
       .Add("settings",
            JsonTexts(changed == nullptr ? std::vector<std::string>() : changed->settings))
       .Add("rows", JsonList(rows))

@@ -1,6 +1,8 @@
 #include "report/worst_trials.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "statistics/drive_summary.h"
 
@@ -13,6 +15,13 @@ bool Failed(const truth::Record& record) {
 }
 
 }  // namespace
+
+double GoalDistanceOrInfinity(const truth::Record& record, std::optional<std::size_t> column) {
+  constexpr double kUnknown_m = std::numeric_limits<double>::infinity();
+  if (!column || *column >= record.values.size()) return kUnknown_m;
+  const double distance_m = record.values[*column];
+  return std::isfinite(distance_m) ? distance_m : kUnknown_m;
+}
 
 std::vector<std::uint64_t> FailedTrials(std::span<const truth::Record> records) {
   std::vector<std::uint64_t> trials;
@@ -33,7 +42,7 @@ std::vector<std::uint64_t> WorstTrials(const truth::RecordSchema& schema,
   std::vector<Failure> failures;
   for (const truth::Record& record : records) {
     if (!Failed(record)) continue;
-    failures.push_back({record.trial, column ? record.values.at(*column) : 0.0});
+    failures.push_back({record.trial, GoalDistanceOrInfinity(record, column)});
   }
   std::sort(failures.begin(), failures.end(), [](const Failure& a, const Failure& b) {
     return a.distance_m != b.distance_m ? a.distance_m > b.distance_m : a.trial < b.trial;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,8 +15,13 @@ namespace rockyard::report {
 // By trial number.
 std::vector<std::uint64_t> FailedTrials(std::span<const truth::Record> records);
 
+// true_goal_distance_m of the record, whose schema has it in that column; infinity where it is not
+// finite or not there: unknown is as far as can be.
+double GoalDistanceOrInfinity(const truth::Record& record, std::optional<std::size_t> column);
+
 // At most `most` failed trials, those that ended furthest from the goal (true_goal_distance_m)
-// first, ties by trial number. By trial number alone where the schema has no such column.
+// first (where that is unknown, before all others), ties by trial number. By trial number alone
+// where the schema has no such column.
 std::vector<std::uint64_t> WorstTrials(const truth::RecordSchema& schema,
                                        std::span<const truth::Record> records, std::size_t most);
 

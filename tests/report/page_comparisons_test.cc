@@ -200,10 +200,14 @@ TEST(Page, PutsItsPartsTogether) {
   core::Provenance provenance;
   provenance.version = "0.1.0";
   const std::vector<std::string> runs{R"({"label":"a"})", R"({"label":"b"})"};
-  const json page =
-      json::parse(PageJson({"<title>", "rockyard report a b", provenance}, runs, {}, {}));
+  const json page = json::parse(PageJson({.title = "<title>",
+                                          .command = "rockyard report a b",
+                                          .why_none_published = "nowhere",
+                                          .provenance = provenance},
+                                         runs, {}, {}));
   EXPECT_EQ(page["version"], 1);
   EXPECT_EQ(page["title"], "<title>");
+  EXPECT_EQ(page["why_none_published"], "nowhere");
   EXPECT_EQ(page["provenance"]["version"], "0.1.0");
   EXPECT_EQ(page["runs"][1]["label"], "b");
   EXPECT_TRUE(page["sweeps"].empty());

@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <limits>
+
 namespace rockyard::report {
 namespace {
 
@@ -28,6 +31,22 @@ TEST(WorstTrials, FurthestFromTheGoalFirstThenByNumber) {
 
 TEST(WorstTrials, NeitherSuccessNorFaultIsAFailure) {
   EXPECT_THAT(FailedTrials(Records()), ElementsAre(1, 2, 3, 5));
+}
+
+// NaN in a comparison is no order: the sort would be undefined, and would place them anywhere.
+TEST(WorstTrials, WhatIsUnknownComesFirst) {
+  std::vector<truth::Record> records;
+  for (std::uint64_t trial = 0; trial < 200; ++trial) {
+    const auto number = static_cast<double>(trial);
+    const double distance_m = trial % 3 == 0 ? std::nan("") : number;
+    records.push_back({trial, TrialOutcome::kJammed, "", {1.0, distance_m}});
+  }
+  records[9].values[1] = std::numeric_limits<double>::infinity();
+  records[10].values.clear();
+  const std::vector<std::uint64_t> worst = WorstTrials(kSchema, records, 200);
+  ASSERT_EQ(worst.size(), 200u);
+  EXPECT_THAT(std::vector(worst.begin(), worst.begin() + 5), ElementsAre(0, 3, 6, 9, 10));
+  EXPECT_THAT(std::vector(worst.begin() + 68, worst.begin() + 71), ElementsAre(199, 197, 196));
 }
 
 TEST(WorstTrials, ByNumberWithoutADistance) {

@@ -6,6 +6,8 @@ export interface ReportPayload {
   title: string;
   /** The command that made the page, and the program. */
   command: string;
+  /** Where references with published values were looked for; "" where some run is held against one. */
+  why_none_published: string;
   provenance: Record<string, unknown>;
   /** One per run folder, or per cell of a campaign. */
   runs: Run[];
