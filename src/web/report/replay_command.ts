@@ -15,6 +15,9 @@ export class ReplayCommand {
   constructor() {
     this.copy.addEventListener("click", () => void this.toClipboard());
     this.close.addEventListener("click", () => (this.element.hidden = true));
+    this.element.addEventListener("keydown", ({ key }) => {
+      if (key === "Escape") this.element.hidden = true;
+    });
   }
 
   show(command: string): void {

@@ -1,6 +1,5 @@
-// Trials of all runs as rows, and the conditions by which some are shown.
+// Trials of all runs as rows of one table.
 
-import { isNumber, words } from "../shared/format";
 import type { Run } from "./payload";
 import { ratedTrials } from "./prefix";
 
@@ -63,51 +62,4 @@ function rowsOfRun(run: Run, of: number): TrialRow[] {
 
 export function trialRows(runs: Run[]): TrialRow[] {
   return runs.flatMap((run, of) => (run.trials ? rowsOfRun(run, of) : []));
-}
-
-export interface TrialFilter {
-  text: string;
-  run: string;
-  outcome: string;
-  onlyReplays: boolean;
-  onlyRated: boolean;
-}
-
-const OPERATORS: Record<string, (a: number, b: number) => boolean> = {
-  "<": (a, b) => a < b,
-  ">": (a, b) => a > b,
-  "<=": (a, b) => a <= b,
-  ">=": (a, b) => a >= b,
-  "=": (a, b) => a === b,
-};
-
-type Condition = (row: TrialRow) => boolean;
-
-// "energy_wh>20" compares a column; any other word is looked for in the texts.
-function condition(word: string): Condition {
-  const [, name, operator, limit] = /^([a-z][a-z0-9_]*)(<=|>=|<|>|=)(-?[0-9.]+(?:e-?\d+)?)$/i.exec(word) ?? [];
-  if (name !== undefined && operator !== undefined) {
-    const field = name === "trial" ? "trial" : fieldOf(name);
-    return (row) => {
-      const value = row[field];
-      return isNumber(value) && OPERATORS[operator]!(value, Number(limit));
-    };
-  }
-  const wanted = word.toLowerCase();
-  return (row) =>
-    String(row.trial) === wanted ||
-    [row.run, row.outcome, words(row.outcome), row.unrated, row.detail].some((text) => text.toLowerCase().includes(wanted));
-}
-
-/** The rows that meet every word of the text and every choice. */
-export function matching(rows: TrialRow[], filter: TrialFilter): TrialRow[] {
-  const conditions = filter.text.trim().split(/\s+/).filter(Boolean).map(condition);
-  return rows.filter(
-    (row) =>
-      (filter.run === "" || row.run === filter.run) &&
-      (filter.outcome === "" || row.outcome === filter.outcome) &&
-      (!filter.onlyReplays || row.replay !== "") &&
-      (!filter.onlyRated || row.unrated === "") &&
-      conditions.every((holds) => holds(row)),
-  );
 }

@@ -8,7 +8,8 @@ import type { TrialQuery } from "./context";
 import type { Run } from "./payload";
 import { hasUnrated } from "./prefix";
 import { replayCell, ReplayCommand } from "./replay_command";
-import { columnsOf, fieldOf, matching, trialRows, type ColumnInfo, type TrialRow } from "./trial_rows";
+import { columnsOf, fieldOf, trialRows, type ColumnInfo, type TrialRow } from "./trial_rows";
+import { matching } from "./trial_search";
 import { columnLabel } from "./words";
 
 Tabulator.registerModule([FormatModule, PageModule, ResizeColumnsModule, SortModule]);
@@ -172,14 +173,14 @@ export class TrialTableView {
   }
 
   private refresh(): void {
-    const kept = matching(this.rows, {
+    const { rows: kept, problems } = matching(this.rows, this.columns, {
       text: this.search.value,
       run: this.run.value,
       outcome: this.outcome.value,
       onlyReplays: this.onlyReplays.checked,
       onlyRated: this.onlyRated.checked,
     });
-    this.found.textContent = `${number(kept.length)} of ${counted(this.rows.length, "trial")}`;
+    this.found.textContent = [`${number(kept.length)} of ${counted(this.rows.length, "trial")}`, ...problems].join("; ");
     if (this.built) void this.table.replaceData(kept);
   }
 }

@@ -55,7 +55,7 @@ export function drawCurves(curves: SlottedCurve[], width: number): Element {
     marginBottom: 42,
     x: {
       type: logarithmic ? "log" : "linear",
-      label: first.axis + unit,
+      label: first.axis + unit + (logarithmic ? ", logarithmic" : ""),
       labelAnchor: "center",
       labelArrow: "none",
       ticks: ticksOf(curves, logarithmic, width),

@@ -16,10 +16,10 @@ const LETTER = 7;
 // One wide interval must not press all others into a line: what goes further is cut and gets an arrow.
 const MOST_OF_MEDIAN = 6;
 
-function reach(rows: Difference[]): number {
+function reach(rows: Difference[], most: number): number {
   const ends = rows.map((row) => Math.max(Math.abs(row.low), Math.abs(row.high))).sort((a, b) => a - b);
   const median = ends[Math.floor(ends.length / 2)] ?? 1;
-  return 1.08 * (Math.min(ends[ends.length - 1] ?? 1, MOST_OF_MEDIAN * median) || 1);
+  return 1.08 * (Math.min(ends[ends.length - 1] ?? 1, MOST_OF_MEDIAN * median, most) || 1);
 }
 
 interface Arrow {
@@ -35,6 +35,13 @@ function arrows(rows: Difference[], far: number): Arrow[] {
   ]);
 }
 
+// The difference itself where its mark would lie beyond the axis.
+function beyond(rows: Difference[], far: number): Arrow[] {
+  return rows
+    .filter((row) => Math.abs(row.difference) > far)
+    .map(({ label, difference }) => ({ label, x: Math.sign(difference) * far, text: number(difference, 3) }));
+}
+
 export function forestTable(rows: Difference[], unit: string): HTMLElement {
   return table({
     caption: `Differences as drawn, ${unit}`,
@@ -46,11 +53,13 @@ export function forestTable(rows: Difference[], unit: string): HTMLElement {
   });
 }
 
-// On a narrow page the labels stand above their bars, on a wide one beside them.
-export function drawForest(rows: Difference[], xLabel: string, width: number): Element {
+/** The axis ends at `most` at the latest. On a narrow page labels stand above their bars, on a wide one beside them. */
+export function drawForest(rows: Difference[], xLabel: string, width: number, most = Infinity): Element {
   const longest = LETTER * Math.max(...rows.map((row) => row.label.length));
   const beside = longest < 0.42 * width;
-  const far = reach(rows);
+  const far = reach(rows, most);
+  const farther = beyond(rows, far);
+  const value = { x: "x", y: "label", text: "text", dy: -10, fill: "currentColor" } as const;
   const within = (value: number) => Math.min(far, Math.max(-far, value));
   const line = { y: "label", stroke: "var(--series-1)", strokeWidth: 2 } as const;
   return Plot.plot({
@@ -68,6 +77,8 @@ export function drawForest(rows: Difference[], xLabel: string, width: number): E
       Plot.tickX(rows.filter((row) => row.low >= -far), { x: "low", ...line, insetTop: 8, insetBottom: 8 }),
       Plot.tickX(rows.filter((row) => row.high <= far), { x: "high", ...line, insetTop: 8, insetBottom: 8 }),
       Plot.text(arrows(rows, far), { x: "x", y: "label", text: "text", fill: "var(--series-1)", fontSize: 16 }),
+      Plot.text(farther.filter((each) => each.x > 0), { ...value, textAnchor: "end" }),
+      Plot.text(farther.filter((each) => each.x < 0), { ...value, textAnchor: "start" }),
       Plot.dot(rows.filter((row) => Math.abs(row.difference) <= far), { x: "difference", y: "label", symbol: "square", r: 5, fill: "var(--series-1)", stroke: "var(--ground)" }),
       beside ? null : Plot.text(rows, { y: "label", text: "label", frameAnchor: "left", dy: -15, fill: "currentColor" }),
     ],

@@ -31,6 +31,8 @@ const DRAWN: Record<Column["trials"], string[]> = {
   arrived: ["path_ratio", "sim_time_s", "energy_wh"],
 };
 const MOST_DRAWN = 16;
+// One column that grew fifty times must not press the others into dots.
+const MOST_PERCENT = 100;
 
 function drawnColumns(of: Comparison): Column[] {
   const known = of.columns.filter((row) => DRAWN[row.trials]?.includes(row.name));
@@ -102,7 +104,7 @@ function columnTable(of: Comparison): HTMLElement {
 function forests(of: Comparison, at: number): HTMLElement {
   const successes = successRows(of);
   const columns = columnRows(of);
-  const read = "A square is the difference, the line its 95 % interval: where it crosses zero, the runs may be alike. An arrow: it goes on.";
+  const read = "A square is the difference, the line its 95 % interval: where it crosses zero, the runs may be alike. An arrow: it goes on; a number above it is a difference beyond the axis.";
   // The short chart has its table below it, beside the long one.
   const success = el(
     "div",
@@ -128,7 +130,7 @@ function forests(of: Comparison, at: number): HTMLElement {
         title: "Means",
         caption: `Mean of ${of.second} less that of ${of.first}, in per cent of the latter, for the columns that are looked at first; the table below has all. ${read}${notDrawn(of)}`,
         alternative: sentence(columns, "%"),
-        draw: (width) => drawForest(columns, "difference [%]", width),
+        draw: (width) => drawForest(columns, "difference [%]", width, MOST_PERCENT),
         numbers: () => [forestTable(columns, `% of ${of.first}`)],
       }),
   );

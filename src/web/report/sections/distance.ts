@@ -63,14 +63,14 @@ function distances(all: Steps[], marks: Mark[]): HTMLElement {
 function arrivals(all: Steps[]): HTMLElement {
   return chartFigure({
     id: "goal-incidence",
-    title: "Arrivals at the goal",
+    title: "Declared arrivals at the goal",
     caption:
-      "At a distance x the curve gives the share of trials that believed by then to be at the goal. Failures compete: they never " +
+      "At a distance x the curve gives the share of trials that believed by then to be at the goal, whether or not they were. Failures compete: they never " +
       "arrive, so the curve ends below 100 %. The band is a 95 % interval at each distance by itself (pointwise); where it would have no width, as before the first arrival, none is drawn. Below the axis: how many trials still drove at that distance." + remarks(all),
     alternative: `Share of trials that had arrived, by true distance. ${endsOf(all, "the share")}.`,
     key: key(all),
-    draw: (width) => drawSteps({ all, marks: [], yLabel: "share that arrived", atRisk: true }, width),
-    numbers: () => all.map((steps) => stepTable(steps, "share that arrived")),
+    draw: (width) => drawSteps({ all, marks: [], yLabel: "share that declared arrival", atRisk: true }, width),
+    numbers: () => all.map((steps) => stepTable(steps, "share that declared arrival")),
   });
 }
 

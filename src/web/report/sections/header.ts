@@ -45,8 +45,8 @@ function runFacts(run: Run): HTMLElement {
     ["Changed settings", settingsText(summary.settings)],
     ["Seed", summary.seed === undefined ? null : String(summary.seed)],
     ["Trials", trialsText(run)],
-    ["Localization", words(String(summary.localization ?? ""))],
-    ["Perfect parts", ablations.map(words).join(", ")],
+    ["Localization", run.kind === "measurement" ? null : words(String(summary.localization ?? ""))],
+    ["Simulated as perfect", ablations.map(words).join(", ")],
     ["Trial hash", el("code", {}, summary.trial_hash ?? "")],
     ["Build", [summary.provenance?.version, summary.provenance?.commit].filter(Boolean).join(" ")],
   ]);

@@ -98,6 +98,7 @@ function comparison(run: Run, titled: boolean): Child[] {
     table({
       caption: `${run.label} against ${published.reference}`,
       className: "published-table",
+      stacks: true,
       head: [
         "Number",
         { content: "Published", numeric: true },
