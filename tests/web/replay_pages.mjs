@@ -7,6 +7,9 @@ import { launch, openPage, rockyard, temporaryFolder } from "./harness.mjs";
 
 export const folder = temporaryFolder();
 
+/** What a page of a trial may have. */
+export const MOST_BYTES = 3_000_000;
+
 /** The browser of a test file: started before its tests, closed after them. */
 let browser;
 

@@ -1,0 +1,155 @@
+// What the replay page draws in three dimensions, compared with the data.
+import assert from "node:assert/strict";
+import { before, test } from "node:test";
+import { changed, difference, open, payloadOf, pixels, replayOf, seekShare } from "./replay_pages.mjs";
+
+const WHEEL_RADIUS_M = 0.065;
+
+const times = ([aw, ax, ay, az], [bw, bx, by, bz]) => [
+  aw * bw - ax * bx - ay * by - az * bz,
+  aw * bx + ax * bw + ay * bz - az * by,
+  aw * by - ax * bz + ay * bw + az * bx,
+  aw * bz + ax * by - ay * bx + az * bw,
+];
+
+const unit = (q) => q.map((value) => value / Math.hypot(...q));
+
+const rotated = (q, v) => times(times(q, [0, ...v]), [q[0], -q[1], -q[2], -q[3]]).slice(1);
+
+/** Pivots and attitudes of all links at sample i, from the definition in payload.ts. */
+function expectedLinks({ links }, motion, i) {
+  const placed = [];
+  for (const { name, parent, pivot, axis } of links) {
+    if (placed.length === 0) {
+      placed.push({ at: [motion.x[i], motion.y[i], motion.z[i]], turn: unit([motion.qw[i], motion.qx[i], motion.qy[i], motion.qz[i]]) });
+      continue;
+    }
+    const { at, turn } = placed[parent];
+    const angle = motion.joints[name][i];
+    const offset = rotated(turn, pivot);
+    const own = [Math.cos(angle / 2), ...axis.map((a) => a * Math.sin(angle / 2))];
+    placed.push({ at: at.map((value, k) => value + offset[k]), turn: times(turn, own) });
+  }
+  return placed;
+}
+
+/** Middle of the dark blue of the solar panel in a picture `width` wide. */
+function panelAt(colours, width) {
+  let [x, y, count] = [0, 0, 0];
+  colours.forEach((colour, i) => {
+    const [r, g, b] = [colour & 255, (colour >> 8) & 255, (colour >> 16) & 255];
+    if (b < r + 25 || g > 85 || r > 70) return;
+    x += i % width;
+    y += Math.floor(i / width);
+    ++count;
+  });
+  assert.ok(count > 20, "no panel is seen");
+  return { x: x / count, y: y / count };
+}
+
+let file;
+before(() => {
+  ({ file } = replayOf("pathfinder/nominal", "nominal"));
+});
+
+test("wheels stand on the ground", async () => {
+  const { page } = await open(file);
+  const { ground } = payloadOf(file);
+  const level = ground.z.reduce((sum, z) => sum + z, 0) / ground.z.length;
+  for (const share of [0, 0.3, 0.7]) {
+    await seekShare(page, share);
+    const wheels = (await page.evaluate(() => rockyardReplay.links())).filter(({ name }) => name.endsWith("_wheel"));
+    assert.equal(wheels.length, 6);
+    const gaps = wheels.map(({ z }) => z - level - WHEEL_RADIUS_M).sort((a, b) => a - b);
+    // Some wheels may stand on rocks, none may be in the ground by more than it gives way.
+    assert.ok(gaps[0] > -0.015 && gaps[2] < 0.015, `gaps of ${gaps} m`);
+    const spread = Math.max(...wheels.map((a) => Math.hypot(a.x - wheels[0].x, a.y - wheels[0].y)));
+    assert.ok(spread > 0.5 && spread < 0.8, `wheels are ${spread} m apart`);
+  }
+  await page.context().close();
+});
+
+test("every link is where the angles of its sample put it", async () => {
+  const { motion, rover } = payloadOf(file);
+  const { page } = await open(file);
+  for (const name of ["left_bogie", "right_rocker", "left_front_knuckle"]) {
+    const angles = motion.joints[name].map(Math.abs);
+    const i = angles.indexOf(Math.max(...angles));
+    assert.ok(angles[i] > 0.02, `${name} never turns`);
+    const drawn = await page.evaluate((t) => (rockyardReplay.seek(t), rockyardReplay.links()), motion.t[i]);
+    expectedLinks(rover, motion, i).forEach(({ at, turn }, k) => {
+      const { x, y, z, attitude } = drawn[k];
+      assert.equal(drawn[k].name, rover.links[k].name);
+      assert.ok(Math.hypot(x - at[0], y - at[1], z - at[2]) < 1e-6, `${drawn[k].name} while ${name} is turned`);
+      const cosine = attitude.w * turn[0] + attitude.x * turn[1] + attitude.y * turn[2] + attitude.z * turn[3];
+      assert.ok(Math.abs(cosine) > 1 - 1e-6, `${drawn[k].name} is turned otherwise`);
+    });
+  }
+  await page.context().close();
+});
+
+// Pictures from above at the start and at half time, of the page with other data.
+async function twoPictures(change) {
+  const { page } = await open(changed(file, "other.html", change));
+  await page.keyboard.press("t");
+  await seekShare(page, 0.5);
+  const half = await pixels(page);
+  await seekShare(page, 0);
+  const start = await pixels(page);
+  await page.context().close();
+  return { start, half };
+}
+
+test("pushed rocks lie where they were pushed to, and go back with time", async () => {
+  const still = await twoPictures(() => {});
+  const pushed = await twoPictures((payload) => {
+    const { t } = payload.motion;
+    const rock = payload.rocks.findIndex(({ x, y }) => x > 1 && x < 6 && Math.abs(y) < 1.5);
+    const { x, y, z } = payload.rocks[rock];
+    payload.rock_moves = [{ rock, t: t[0] + 0.3 * (t[t.length - 1] - t[0]), x: x + 0.5, y, z }];
+  });
+  assert.ok(difference(still.half, pushed.half) > 0.0005);
+  assert.equal(difference(still.start, pushed.start), 0);
+});
+
+test("the points of a scan look otherwise where there is a hazard, and are gone without a scan", async () => {
+  const pictures = [];
+  for (const hazard of [false, true]) {
+    pictures.push(await twoPictures(({ scans }) => scans.forEach((scan) => scan.hazards.fill(hazard))));
+  }
+  pictures.push(await twoPictures((payload) => (payload.scans = [])));
+  for (const [a, b] of [[0, 1], [0, 2], [1, 2]]) assert.ok(difference(pictures[a].half, pictures[b].half) > 0.0003, `${a} and ${b}`);
+});
+
+test("the plan has x to the right and y up", async () => {
+  const { motion } = payloadOf(file);
+  // Mirror lines are blue as well.
+  const { page } = await open(changed(file, "plain.html", (payload) => (payload.course.mirror_lines = [])));
+  await page.keyboard.press("t");
+  await page.keyboard.press("b");
+  const highest = motion.y.indexOf(Math.max(...motion.y));
+  const lowest = motion.y.indexOf(Math.min(...motion.y));
+  const places = [];
+  for (const i of [0, motion.t.length - 1, highest, lowest]) {
+    await page.evaluate((t) => rockyardReplay.seek(t), motion.t[i]);
+    places.push(panelAt(await pixels(page), await page.evaluate(() => Math.floor(document.querySelector(".picture canvas").width / 4))));
+  }
+  const [start, end, high, low] = places;
+  assert.ok(end.x > start.x + 50, `${end.x} is not right of ${start.x}`);
+  assert.ok(high.y < low.y - 5, `${high.y} is not above ${low.y}`);
+  await page.context().close();
+});
+
+test("mirror lines are drawn where operators turn the rover back, and named", async () => {
+  assert.deepEqual(payloadOf(file).course.mirror_lines, [-1.1, 1.1]);
+  const lines = (ys) => changed(file, "mirror.html", (payload) => (payload.course.mirror_lines = ys));
+  const pictures = [];
+  for (const [ys, named] of [[[-1.1, 1.1], 1], [[], 0], [[-0.6, 0.6], 1]]) {
+    const { page } = await open(lines(ys));
+    await page.keyboard.press("t");
+    pictures.push(await pixels(page));
+    assert.equal(await page.getByText("Mirror line").count(), named);
+    await page.context().close();
+  }
+  for (const [a, b] of [[0, 1], [0, 2], [1, 2]]) assert.ok(difference(pictures[a], pictures[b]) > 0.001, `${a} and ${b}`);
+});
