@@ -90,6 +90,12 @@ def _draw_scene(figure, axes, votes, elevations):
     axes.grid(False)
 
 
+def _signed(value):
+    """With a typographic minus, and no sign where it is zero."""
+    text = f"{value:+.2f}"
+    return "0" if float(text) == 0.0 else text.replace("-", "\u2212")
+
+
 def _draw_ranking(figure, axes, votes):
     """Three rows of votes for each direction; candidates underlined, the choice in a box."""
     import numpy  # pylint: disable=import-outside-toplevel
@@ -114,10 +120,11 @@ def _draw_ranking(figure, axes, votes):
                 axes.add_patch(Rectangle((i, bottom - 0.4), 1, len(ROWS) + 0.5, fill=False,
                                          edgecolor=style.GREEN, linewidth=2.0, zorder=5))
     arcs = votes["forward"]
-    shown = range(0, len(arcs), max(1, len(arcs) // 6))
+    middle, step = len(arcs) // 2, max(1, len(arcs) // 6)
+    shown = range(middle % step, len(arcs), step)  # with the straight one
     axes.set(yticks=ticks, yticklabels=labels, title="ranking of arcs",
              xticks=[i + 0.5 for i in shown],
-             xticklabels=[f"{arcs[i]['curvature_per_m']:+.1f}" for i in shown],
+             xticklabels=[_signed(arcs[i]["curvature_per_m"]) for i in shown],
              xlabel="curvature of the arc (1/m): left turns to the left",
              ylim=(-0.6, 2 * (len(ROWS) + 1.2) - 0.4), xlim=(-0.2, len(arcs) + 0.2))
     axes.grid(False)

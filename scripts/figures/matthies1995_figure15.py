@@ -36,6 +36,26 @@ def count_at_least(diameters, diameter_m):
     return sum(1 for each in diameters if each >= diameter_m)
 
 
+def poisson_limits(count):
+    """95 % limits of the mean of a Poisson count: exact (Garwood 1936) up to 50, above by the cubes of
+    Wilson and Hilferty 1931, which are within 0.1 % there."""
+    if count > 50:
+        def cube(n, z):
+            return n * (1.0 - 1.0 / (9.0 * n) + z / (3.0 * math.sqrt(n))) ** 3
+        return cube(count, -Z95), cube(count + 1, Z95)
+    return (_mean_where(count - 1, 0.975) if count > 0 else 0.0), _mean_where(count, 0.025)
+
+
+def _mean_where(most, share):
+    """The mean of a Poisson variable that is at most `most` with that probability, by bisection."""
+    low, high = 0.0, 200.0
+    while high - low > 1e-9 * high:
+        mean = 0.5 * (low + high)
+        at_most = sum(math.exp(k * math.log(mean) - mean - math.lgamma(k + 1)) for k in range(most + 1))
+        low, high = (mean, high) if at_most > share else (low, mean)
+    return low
+
+
 def moore_of(source):
     rocks = source.scenario["terrain"]["rocks"]
     if rocks["kind"] != "moore":
@@ -70,11 +90,16 @@ def draw(sources, options):
 
 def _draw_law(axes, law, counts, area_m2, k):
     axes.plot(DIAMETERS_M, law, color=style.INK, label=f"N = {k:g} D⁻²·⁶⁶")
-    drawn = [(d, n) for d, n in zip(DIAMETERS_M, counts) if n > 0]
-    errors = [Z95 * math.sqrt(n) / area_m2 for _, n in drawn]
-    axes.errorbar([d for d, _ in drawn], [n / area_m2 for _, n in drawn],
-                  yerr=[[min(e, 0.999 * n / area_m2) for e, (_, n) in zip(errors, drawn)], errors],
+    drawn = [(d, n / area_m2, [each / area_m2 for each in poisson_limits(n)])
+             for d, n in zip(DIAMETERS_M, counts)]
+    seen = [each for each in drawn if each[1] > 0.0]
+    axes.errorbar([d for d, _, _ in seen], [n for _, n, _ in seen],
+                  yerr=[[n - least for _, n, (least, _) in seen], [most - n for _, n, (_, most) in seen]],
                   fmt="o", markersize=3, color=style.BLUE, linewidth=0.8, label="rocks of our fields")
+    none = [each for each in drawn if each[1] == 0.0]
+    if none:  # no dot on a logarithmic axis: the upper limit, and an arrow down from it
+        axes.plot([d for d, _, _ in none], [most for _, _, (_, most) in none], "v", markersize=4,
+                  color=style.BLUE, fillstyle="none", label="none seen: 95 % upper limit")
     for diameter, density in PUBLISHED:
         axes.plot(diameter, density, "s", color=style.VERMILION, markersize=6, zorder=5,
                   label="read off in the paper" if diameter == PUBLISHED[0][0] else None)
@@ -111,8 +136,8 @@ def _caption(law_source, plan_source, options, placed, expected, area_m2, rocks)
     at_15 = law_per_m2(rocks["k_per_m2"], SMALLEST_OBSTACLE_M)
     return (f"(a) Rock sizes in the manner of Matthies 1995, figure 15: Moore's model, k = "
             f"{rocks['k_per_m2']:g} per m2 (line), against {placed} rocks in {options.fields} fields of "
-            f"{law_source.name}, seed {law_source.seed}, {area_m2:.0f} m2 (dots, 95 % of a Poisson "
-            f"count). Dashed: what the fields are made to hold ({expected:.0f} rocks were expected): sizes "
+            f"{law_source.name}, seed {law_source.seed}, {area_m2:.0f} m2 (dots with exact 95 % "
+            f"limits of a Poisson count; dots count the same large rocks and vary together). Dashed: what the fields are made to hold ({expected:.0f} rocks were expected): sizes "
             f"end at {rocks['max_diameter_m']:g} m, and no rock is within "
             f"{rocks['clear_radius_m']:g} m of start and goal. Squares: the two densities that section 7 reads off for VL-2. (b) Part "
             f"of the field of trial {options.trial} of {plan_source.name}: obstacles of at least 15 cm "

@@ -66,7 +66,7 @@ def _draw_paths(axes, drawn):
               label="dead-reckoned path", zorder=4)
     for name, colour in (("hazards_true", style.BLUE), ("hazards_believed", style.VERMILION)):
         if drawn[name]:
-            label = "obstacle detected here" if name == "hazards_true" else None
+            label = f"obstacle detected here ({'true' if name == 'hazards_true' else 'believed'} place)"
             axes.plot(*zip(*drawn[name]), "o", color=colour, markersize=4.5, label=label, zorder=5)
 
 

@@ -25,7 +25,8 @@ def draw(sources, _options):
     figure.legend(*panels[0].get_legend_handles_labels(), loc="upper center", ncols=2, fontsize=8)
     figure.set_layout_engine("constrained", rect=(0.0, 0.0, 1.0, 0.91))  # below the legend
     caption = (f"Dead-reckoning errors at the end of {len(rows)} runs of {source.name}, seed "
-               f"{source.seed} (all ends, simulator faults left out), with minimum, mode and maximum of "
+               f"{source.seed} (all ends, simulator faults left out, runs without a value too: each panel says "
+               "how many it shows), with minimum, mode and maximum of "
                "the 40 runs of Matthies 1995, table 4 (marks above the bars). A maximum grows with the "
                "number of runs: compare by `rockyard check`, which draws samples of 40.")
     return Drawn(figure, caption, drawn)
@@ -39,7 +40,7 @@ def _draw_error(axes, values, label, published):
     axes.errorbar([mode], [0.94 * top], xerr=[[mode - least], [most - mode]], fmt="D",
                   color=style.VERMILION, markersize=5, capsize=4, linewidth=1.2,
                   label="published: minimum, mode, maximum of 40 runs")
-    axes.set(xlabel=label, ylim=(0.0, top))
+    axes.set(xlabel=f"{label}, {len(values)} runs", ylim=(0.0, top))
     axes.grid(axis="x", visible=False)
 
 

@@ -117,6 +117,32 @@ class DrawnNumbers(FiguresTest):
         self.assertAlmostEqual(figure15.law_per_m2(0.013, 0.23), 0.65, places=2)
         self.assertAlmostEqual(figure15.law_per_m2(0.013, 0.15), 2.0, places=1)
 
+    def test_poisson_limits(self):
+        # scipy.stats.chi2.ppf(0.025, 2 n) / 2 and chi2.ppf(0.975, 2 n + 2) / 2
+        for count, least, most in ((0, 0.0, 3.688879), (1, 0.025318, 5.571643), (5, 1.623486, 11.668332),
+                                   (50, 37.110964, 65.918767), (51, 37.972850, 67.055581),
+                                   (1000, 938.973018, 1063.952136)):
+            for found, true in zip(figure15.poisson_limits(count), (least, most)):
+                self.assertLessEqual(abs(found - true), 1e-4 * true, count)
+
+    def test_counts_of_no_rock_have_an_upper_limit(self):
+        axes = self.draw("matthies1995-15", "nominal", fields=1).figure.axes[0]
+        limits = [line for line in axes.lines if str(line.get_label()).startswith("none seen")]
+        self.assertEqual(len(limits), 1)
+        for limit in limits[0].get_ydata():
+            self.assertAlmostEqual(limit * 26.4, 3.688879, places=4)
+
+    def test_places_that_are_believed_are_named(self):
+        legend = self.draw("matthies1995-16", "nominal", trial=1).figure.axes[0].get_legend()
+        self.assertIn("obstacle detected here (believed place)",
+                      [text.get_text() for text in legend.get_texts()])
+
+    def test_the_straight_arc_has_a_tick(self):
+        drawn = self.draw("goldberg2002-3", "gestalt", step=1)
+        ticks = [tick.get_text() for axes in drawn.figure.axes for tick in axes.get_xticklabels()]
+        self.assertIn("0", ticks)
+        self.assertNotIn("-", "".join(ticks))
+
     def test_votes_are_those_of_the_step(self):
         drawn = self.draw("goldberg2002-3", "gestalt", step=1)
         source = Source(self.root / "gestalt", ROCKYARD)
