@@ -128,6 +128,19 @@ test("the band of arrivals is where it has a width, and the trials that still dr
   await page.close();
 });
 
+test("a limit that trials came to is marked, with how many", async () => {
+  withPayload(at("report.html"), at("limits.html"), ({ runs: [run] }) => {
+    run.trials.columns.find((column) => column.name === "energy_wh").values = Array.from({ length: TRIALS }, (_, i) => (i < 3 ? 50 : 20 + i));
+    run.parameters.find((each) => each.path === "energy.battery_wh").value = "50";
+    run.trials.columns.find((column) => column.name === "sim_time_s").values = Array.from({ length: TRIALS }, (_, i) => 100 + i);
+  });
+  const { page } = await open("limits.html");
+  assert.match(await page.locator("#histogram-energy_wh figcaption").innerText(), /batteries are empty: 3 of 20 trials lie at or beyond it/);
+  assert.ok((await page.locator("#histogram-energy_wh svg text").allTextContents()).includes("batteries empty 50"));
+  assert.doesNotMatch(await page.locator("#histogram-sim_time_s figcaption").innerText(), /time limit/);
+  await page.close();
+});
+
 test("on paper the page is light, whatever the switch says", async () => {
   const { page } = await open("report.html", { scheme: "light" });
   const ground = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);

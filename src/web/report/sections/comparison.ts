@@ -66,7 +66,7 @@ function successTable(of: Comparison): HTMLElement {
   return table({
     caption: `Success of ${of.first} and ${of.second}`,
     className: "compact",
-    head: ["Success", ...[of.first, of.second, "Difference [points]", "95 % interval [points]", "p"].map((content) => ({ content, numeric: true }))],
+    head: ["Success", ...[of.first, of.second, "Difference [points]", "95 % interval", "p"].map((content) => ({ content, numeric: true }))],
     rows: of.successes.map((row) => [
       rowHeader(row.what),
       numeric(percent(row.first), row.first),

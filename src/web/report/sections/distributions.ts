@@ -1,7 +1,8 @@
 // Columns of the trials as distributions: errors of dead reckoning, time and energy.
 
 import { el } from "../../shared/dom";
-import { number } from "../../shared/format";
+import { counted, number } from "../../shared/format";
+import type { Mark } from "../charts/distribution";
 import { chartFigure } from "../charts/figure";
 import { binTable, drawHistograms, sampleOf, summaryTable, type Sample } from "../charts/histogram";
 import type { Context, ShownRun } from "../context";
@@ -18,6 +19,8 @@ interface Distribution {
   published?: string;
   /** Drawn in a unit of its own: thousandths are hard to read. */
   drawn?: { factor: number; unit: string };
+  /** The parameter that ends a trial at a value of this column, and what it is called. */
+  limit?: { path: string; label: string; where: string };
   summary: (summary: Record<string, any>) => Record<string, number | null> | undefined;
 }
 
@@ -40,8 +43,14 @@ const ERRORS: Distribution[] = [
 ];
 
 const COSTS: Distribution[] = [
-  { column: "sim_time_s", title: "Time", what: "simulated time of the whole trial", summary: (summary) => summary.sim_time_s },
-  { column: "energy_wh", title: "Energy", what: "taken from the batteries in the whole trial", summary: (summary) => summary.energy_wh },
+  {
+    column: "sim_time_s", title: "Time", what: "simulated time of the whole trial", limit: { path: "referee.time_limit_s", label: "time limit", where: "the time limit is" },
+    summary: (summary) => summary.sim_time_s,
+  },
+  {
+    column: "energy_wh", title: "Energy", what: "taken from the batteries in the whole trial", limit: { path: "energy.battery_wh", label: "batteries empty", where: "the batteries are empty" },
+    summary: (summary) => summary.energy_wh,
+  },
   {
     column: "net_rate_m_s", title: "Net rate", what: "distance gained towards the goal over the time of the trial",
     drawn: { factor: 1000, unit: "mm/s" },
@@ -66,17 +75,43 @@ function isOf(row: PublishedRow, prefix: string | undefined): boolean {
   return ["min", "mode", "mean", "max"].some((end) => row.id.endsWith(`.${prefix}.${end}`) || row.id === `${prefix}.${end}`);
 }
 
+// Of six digits, as the values are.
+const NEARLY = 1 - 1e-5;
+
+interface Reached {
+  mark: Mark;
+  /** How many trials of which run, in words. */
+  text: string;
+}
+
+/** Limits that some trials came to: those make a spike, or a hump of their own beyond. */
+function limitsReached(samples: Sample[], of: Distribution): Reached[] {
+  return samples.flatMap(({ shown, values }) => {
+    const limit = Number(shown.run.parameters?.find((each) => each.path === of.limit?.path)?.value);
+    const count = values.filter((value) => value >= NEARLY * limit).length;
+    if (!of.limit || !(limit > 0) || count === 0) return [];
+    const label = `${of.limit.label} ${number(limit)}`;
+    const run = samples.length > 1 ? `of ${shown.run.label} ` : "";
+    return [{ mark: { x: limit, label }, text: `${number(count)} of ${counted(values.length, "trial")} ${run}lie at or beyond it` }];
+  });
+}
+
 function figure(context: Context, of: Distribution): HTMLElement | null {
   const samples = context.drives().map((shown) => sampleOf(shown, of.column, of.drawn?.factor ?? 1)).filter((each): each is Sample => each !== null);
   const first = samples[0];
   if (!first) return null;
   const unit = unitOf(first.shown, of.column);
   const drawnUnit = of.drawn?.unit ?? unit;
-  const marks = publishedMarks(samples.map((each) => each.shown.run), (row) => isOf(row, of.published), "");
+  const reached = limitsReached(samples, of);
+  const marks = [
+    ...publishedMarks(samples.map((each) => each.shown.run), (row) => isOf(row, of.published), ""),
+    ...new Map(reached.map(({ mark }) => [mark.label, mark])).values(),
+  ];
+  const limits = reached.length > 0 ? ` The dashed upright is where ${of.limit!.where}: ${reached.map(({ text }) => text).join(", ")}.` : "";
   return chartFigure({
     id: `histogram-${of.column}`,
     title: of.title,
-    caption: `Share of trials by ${columnWords(of.column)}: ${of.what}.`,
+    caption: `Share of trials by ${columnWords(of.column)}: ${of.what}.${limits}`,
     alternative: alternative(samples, of, unit),
     draw: (width) => drawHistograms(samples, marks, columnLabel(of.column, drawnUnit), width),
     numbers: () => {

@@ -29,6 +29,6 @@ export const trials: Section = {
       open().show(query);
       document.getElementById("trials")?.scrollIntoView();
     };
-    return [box];
+    return [box, el("p", { class: "note print-only" }, "Every trial is in trials.csv of its run's folder.")];
   },
 };
