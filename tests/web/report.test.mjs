@@ -156,6 +156,8 @@ test("every trial has its replay: a page that is there, or the command", async (
   const links = page.locator("#trials .tabulator-row a");
   const targets = await links.evaluateAll((all) => all.map((link) => link.getAttribute("href")));
   assert.equal(targets.length, REPLAYS);
+  const named = await page.locator("#trials .replay-pages a").evaluateAll((all) => all.map((link) => link.getAttribute("href")));
+  assert.deepEqual(named, targets);
   for (const target of targets) assert.ok(existsSync(at(target)), `${target} is missing`);
   const button = page.locator("#trials .command-button").first();
   const trial = await button.locator("xpath=ancestor::*[@role='row']").locator("[tabulator-field=trial]").innerText();

@@ -1,6 +1,7 @@
 // A trial's replay: the link of its page, or the command that writes it.
 
 import { el } from "../shared/dom";
+import { words } from "../shared/format";
 import type { Run } from "./payload";
 import type { TrialRow } from "./trial_rows";
 
@@ -50,4 +51,16 @@ export function replayCell(row: TrialRow, runs: Run[], command: ReplayCommand): 
     el("span", { class: "visually-hidden" }, ` for trial ${row.trial}`));
   button.addEventListener("click", () => command.show(text.replaceAll("{trial}", String(row.trial))));
   return button;
+}
+
+const MOST_NAMED = 12;
+
+/** The replay pages that are there, above the table, whose first rows may have none; null where there is none. */
+export function replayPages(rows: TrialRow[], several: boolean): HTMLElement | null {
+  const pages = rows.filter((row) => row.replay !== "");
+  if (pages.length === 0) return null;
+  const links = pages.slice(0, MOST_NAMED).map((row) =>
+    el("li", {}, el("a", { href: row.replay }, `${several ? `${row.run}, ` : ""}trial ${row.trial}: ${words(row.outcome)}`)));
+  const more = pages.length > MOST_NAMED ? el("li", {}, `and ${pages.length - MOST_NAMED} more in the table`) : null;
+  return el("div", { class: "note replay-pages" }, "Replay pages", el("ul", {}, ...links, more));
 }

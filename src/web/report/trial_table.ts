@@ -7,7 +7,7 @@ import { counted, fixed, isNumber, number, words, type Maybe } from "../shared/f
 import type { TrialQuery } from "./context";
 import type { Run } from "./payload";
 import { hasUnrated } from "./prefix";
-import { replayCell, ReplayCommand } from "./replay_command";
+import { replayCell, ReplayCommand, replayPages } from "./replay_command";
 import { columnsOf, fieldOf, trialRows, type ColumnInfo, type TrialRow } from "./trial_rows";
 import { matching } from "./trial_search";
 import { columnLabel } from "./words";
@@ -70,7 +70,8 @@ export class TrialTableView {
     this.outcome = select([["", "all outcomes"], ...outcomes.map((name): [string, string] => [name, words(name)])]);
     const shown = columnAtFirst(this.columns);
     const place = el("div", { class: "trial-table" });
-    box.replaceChildren(this.controls(), this.columnChooser(shown), this.found, this.command.element, place);
+    const pages = replayPages(this.rows, runs.length > 1);
+    box.replaceChildren(...(pages ? [pages] : []), this.controls(), this.columnChooser(shown), this.found, this.command.element, place);
     this.table = this.makeTable(place, shown);
     this.listen();
     this.refresh();
