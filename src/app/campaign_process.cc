@@ -68,29 +68,39 @@ std::uint64_t SeedOf(const batch::ResultStore& store, int cell) {
 
 // In this process, which may be rank 0.
 ExitCode RunHere(const ContainmentOptions& options, batch::Communicator* communicator,
-                 const std::function<ExitCode(CampaignProcess&)>& body) {
+                 const CampaignPart& body) {
   batch::FlightLog log;
   const Mission mission;
   CampaignProcess process(options, mission, log, communicator);
   return Guarded([&] { return body(process); });
 }
 
-ExitCode RunSupervised(const ContainmentOptions& options,
-                       const std::function<ExitCode(CampaignProcess&)>& body) {
+ExitCode RunSupervised(const ContainmentOptions& options, const CampaignPart& body,
+                       batch::SupervisorOptions supervisor) {
   batch::FlightLog log;
   const auto work = [&](const Mission& mission) {
     CampaignProcess process(options, mission, log, nullptr);
     return static_cast<int>(Guarded([&] { return body(process); }));
   };
+  supervisor.failed_exit = static_cast<int>(ExitCode::kFailed);
+  supervisor.interrupted_exit = static_cast<int>(ExitCode::kInterrupted);
   return static_cast<ExitCode>(
-      batch::Supervise(log, work,
-                       {.failed_exit = static_cast<int>(ExitCode::kFailed),
-                        .interrupted_exit = static_cast<int>(ExitCode::kInterrupted)},
-                       [](const std::string& text) { PrintNote(text); }));
+      batch::Supervise(log, work, supervisor, [](const std::string& text) { PrintNote(text); }));
+}
+
+// `run` is called with each part that is to be run, and with what its supervisor is told.
+ExitCode RunParts(
+    const CampaignPart& body, const CampaignPart& afterwards,
+    const std::function<ExitCode(const CampaignPart&, const batch::SupervisorOptions&)>& run) {
+  const ExitCode code = run(body, {});
+  const bool all_trials = code == ExitCode::kDone || code == ExitCode::kTooManyFaults;
+  if (!all_trials || !afterwards) return code;
+  const ExitCode after = run(afterwards, {.faults_are_stored = false, .fruit = "writing a trace"});
+  return after == ExitCode::kDone ? code : after;
 }
 
 ExitCode RunOnRanks(ContainmentOptions& options, const batch::Launch& launch,
-                    const std::function<ExitCode(CampaignProcess&)>& body) {
+                    const CampaignPart& body, const CampaignPart& afterwards) {
   if (options.threads == 0) {
     options.threads = std::max(batch::ThreadCount({}) / launch.local_ranks, 1);
   }
@@ -98,7 +108,9 @@ ExitCode RunOnRanks(ContainmentOptions& options, const batch::Launch& launch,
   if (communicator->rank() != 0) {
     return ServeRankZero(*communicator, options.threads, options.trial_cpu_limit_s);
   }
-  const ExitCode code = RunHere(options, communicator.get(), body);
+  const ExitCode code = RunParts(body, afterwards, [&](const CampaignPart& part, const auto&) {
+    return RunHere(options, communicator.get(), part);
+  });
   EndRanks(*communicator, code);
   return code;
 }
@@ -150,10 +162,12 @@ batch::BatchResult CampaignProcess::RunTrials(std::span<const CellWork> work,
   return result;
 }
 
-void CampaignProcess::Afterwards(const std::function<void(const std::atomic<bool>& stop)>& work) {
+ExitCode CampaignProcess::Afterwards(
+    const std::function<ExitCode(const Mission& mission, batch::FlightLog& log)>& work) {
+  log_.SetOpened();
   const InterruptGuard interrupt(log_.stop(),
                                  alone() ? SecondSignal::kEnds : SecondSignal::kIsTheSame);
-  work(log_.stop());
+  return work(mission_, log_);
 }
 
 ExitCode CampaignProcess::DoTask(std::span<const CellWork> work, batch::ResultStore& store) {
@@ -199,12 +213,16 @@ bool CampaignProcess::TellLeftOut(const batch::ResultStore& store) const {
   return !problems.empty();
 }
 
-ExitCode RunContained(ContainmentOptions options,
-                      const std::function<ExitCode(CampaignProcess&)>& body) {
+ExitCode RunContained(ContainmentOptions options, const CampaignPart& body,
+                      const CampaignPart& afterwards) {
   if (const std::optional<batch::Launch> launch = batch::FindLaunch()) {
-    return RunOnRanks(options, *launch, body);
+    return RunOnRanks(options, *launch, body, afterwards);
   }
-  return options.supervisor ? RunSupervised(options, body) : RunHere(options, nullptr, body);
+  return RunParts(body, afterwards,
+                  [&](const CampaignPart& part, const batch::SupervisorOptions& supervisor) {
+                    return options.supervisor ? RunSupervised(options, part, supervisor)
+                                              : RunHere(options, nullptr, part);
+                  });
 }
 
 }  // namespace rockyard::app

@@ -42,9 +42,16 @@ class CampaignProcess {
                                batch::BatchOptions options,
                                const batch::ProgressReport& report = {});
 
-  // Does more work with the stored trials, in this process: until it ends, or polite signals make
-  // the flag true that it is given.
-  void Afterwards(const std::function<void(const std::atomic<bool>& stop)>& work);
+  // Does more work with the stored trials, as the mission says, in this process: until it ends, or
+  // polite signals set the log's stop flag.
+  ExitCode Afterwards(
+      const std::function<ExitCode(const batch::Mission& mission, batch::FlightLog& log)>& work);
+
+  // Whether polite signals came while trials ran.
+  bool interrupted() const { return log_.stop(); }
+  // The result is told once, whatever dies after it.
+  bool reported() const { return log_.reported(); }
+  void SetReported() { log_.SetReported(); }
 
   // The task for one trial.
   ExitCode DoTask(std::span<const batch::CellWork> work, batch::ResultStore& store);
@@ -63,12 +70,19 @@ class CampaignProcess {
   batch::Communicator* communicator_;
 };
 
+using CampaignPart = std::function<ExitCode(CampaignProcess&)>;
+
 // Runs `body` as the user asked: in a supervised worker (and again after a crash), in this process,
 // or, under mpirun, on rank 0 while the others serve it. `body` opens the store named by the
 // command line and calls either RunTrials or DoTask. Call it before the process has a second
 // thread. Returns the exit code, the same on every rank.
-ExitCode RunContained(ContainmentOptions options,
-                      const std::function<ExitCode(CampaignProcess&)>& body);
+//
+// `afterwards`, where given, calls Afterwards. It runs in the same manner once `body` has ended
+// with all trials, in a worker of its own, so that what dies there starts no trial and tells no
+// result again. It stores no faults: trials that end its process each time come back in the
+// mission as left out. Its exit code counts where it is not kDone.
+ExitCode RunContained(ContainmentOptions options, const CampaignPart& body,
+                      const CampaignPart& afterwards = {});
 
 // The command that runs the trial again. `cell` as in the store.
 std::string ReplayLine(const batch::ResultStore& store, batch::TrialId id);

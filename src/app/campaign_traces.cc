@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <exception>
 #include <mutex>
 #include <span>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "app/campaign_process.h"
 #include "app/console.h"
 #include "app/progress_line.h"
 #include "app/run_source.h"
@@ -25,6 +27,7 @@ namespace rockyard::app {
 namespace {
 
 namespace fs = std::filesystem;
+using batch::Mission;
 
 constexpr std::size_t kMostProblems = 8;  // that are told
 
@@ -44,70 +47,135 @@ void RemoveLeftovers(const fs::path& folder) {
   for (const fs::path& path : leftovers) fs::remove(path, ignored);
 }
 
+// A trial is noted in the log while this lives.
+class InFlight {
+ public:
+  InFlight(batch::FlightLog& log, batch::TrialId id) : log_(log), slot_(log.Begin(id)) {}
+  ~InFlight() { log_.End(slot_); }
+  InFlight(const InFlight&) = delete;
+  InFlight& operator=(const InFlight&) = delete;
+
+ private:
+  batch::FlightLog& log_;
+  int slot_;
+};
+
 class TraceWriter {
  public:
-  TraceWriter(fs::path folder, const TraceRequest& request, const std::atomic<bool>& stop)
-      : folder_(std::move(folder)), request_(request), stop_(stop), line_(stderr) {}
+  TraceWriter(fs::path folder, const TraceRequest& request, const Mission& mission,
+              batch::FlightLog& log)
+      : folder_(std::move(folder)),
+        request_(request),
+        mission_(mission),
+        log_(log),
+        line_(stderr) {}
 
-  void WriteCell(const StoredRun& run) {
-    const scenario::Scenario scenario = LoadScenarioFrom(folder_, {}, std::to_string(run.cell));
-    const fs::path folder = CellFolder(folder_, run);
-    fs::create_directories(folder);
-    RemoveLeftovers(folder);
-    std::vector<const truth::Record*> wanted;
-    const auto kept = KeptTrials(request_.retention, run.schema, run.records, run.identity.seed);
-    auto next = kept.begin();
-    for (const truth::Record& record : run.records) {
-      if (next == kept.end() || record.trial != *next) continue;
-      ++next;
+  // Notes which traces of a cell are to be written. Every cell comes before the first WriteCell:
+  // what is told of is a share of all.
+  void PlanCell(const StoredRun& run) {
+    std::vector<std::uint64_t>& wanted = wanted_.emplace_back();
+    for (const std::uint64_t trial :
+         KeptTrials(request_.retention, run.schema, run.records, run.identity.seed)) {
+      if (!IsAsked({run.cell, static_cast<std::int64_t>(trial)})) continue;
+      ++total_;
       std::error_code ignored;
-      if (fs::exists(folder / TraceFileName(record.trial, request_.format), ignored)) {
+      if (fs::exists(PathOf(run, trial), ignored)) {
         ++there_;
       } else {
-        wanted.push_back(&record);
+        wanted.push_back(trial);
       }
     }
-    planned_ += wanted.size();
-    batch::RunTasks(wanted.size(), request_.threads, stop_,
-                    [&](std::size_t i) { WriteTrial(scenario, run, *wanted[i], folder); });
   }
 
-  ExitCode Finish() {
-    if (!request_.quiet && planned_ > 0) line_.FinishText(Progress());
-    if (!problems_.empty()) {
-      const std::size_t more = problems_.size() - std::min(problems_.size(), kMostProblems);
-      problems_.resize(problems_.size() - more);
-      PrintProblems(problems_);
-      if (more > 0) PrintNote(fmt::format("and {} more", more));
-      return ExitCode::kFailed;
+  bool HasWork(int cell) const { return !wanted_[static_cast<std::size_t>(cell)].empty(); }
+
+  void WriteCell(const StoredRun& run) {
+    if (!MakeFolder(CellFolder(folder_, run))) return;
+    const scenario::Scenario scenario = LoadScenarioFrom(folder_, {}, std::to_string(run.cell));
+    const std::vector<std::uint64_t>& wanted = wanted_[static_cast<std::size_t>(run.cell)];
+    std::vector<const truth::Record*> records;
+    for (const truth::Record& record : run.records) {
+      if (std::binary_search(wanted.begin(), wanted.end(), record.trial)) {
+        records.push_back(&record);
+      }
     }
-    if (stop_) {
+    batch::RunTasks(records.size(), request_.threads, log_.stop(),
+                    [&](std::size_t i) { WriteTrial(scenario, run, *records[i]); });
+  }
+
+  ExitCode Finish(const batch::ResultStore& store) {
+    if (mission_.task == Mission::Task::kRunAlone) return ExitCode::kDone;
+    if (!request_.quiet && total_ > there_) line_.FinishText(Progress());
+    for (const batch::LeftOut& left : mission_.left_out) {
+      problems_.push_back({fmt::format("trial {}", left.id.trial),
+                           "has no trace: each time it was driven again its process died",
+                           fmt::format("`{}`", ReplayLine(store, left.id))});
+    }
+    if (!problems_.empty()) return TellProblems();
+    if (log_.stop()) {
       PrintNote(
           fmt::format("interrupted: {} of {} traces are written; the same command with "
                       "--resume writes the others",
-                      written_, planned_));
+                      there_ + written_, total_));
       return ExitCode::kInterrupted;
     }
-    if (!request_.quiet) {
-      PrintNote(fmt::format("{} traces written{}, in {}", written_,
-                            there_ > 0 ? fmt::format(", {} were there", there_) : "",
-                            (folder_ / "traces").string()));
-    }
+    if (!request_.quiet) PrintNote(Summary());
     return ExitCode::kDone;
   }
 
  private:
+  fs::path PathOf(const StoredRun& run, std::uint64_t trial) const {
+    return CellFolder(folder_, run) / TraceFileName(trial, request_.format);
+  }
+
+  bool IsAsked(batch::TrialId id) const {
+    if (mission_.task == Mission::Task::kRunAlone) return id == mission_.trial;
+    return std::none_of(mission_.left_out.begin(), mission_.left_out.end(),
+                        [&](const batch::LeftOut& left) { return left.id == id; });
+  }
+
+  bool MakeFolder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) {
+      problems_.push_back({folder.string(), fmt::format("cannot be made: {}", error.message()),
+                           "make room for a folder of that name"});
+      return false;
+    }
+    RemoveLeftovers(folder);
+    return true;
+  }
+
   std::string Progress() const {
-    return fmt::format("  traces: {}/{} written", written_, planned_);
+    return fmt::format("  traces: {}/{} written", there_ + written_, total_);
+  }
+
+  // After a crash nobody knows which of those that are there are of this command.
+  std::string Summary() const {
+    const std::string traces = (folder_ / "traces").string();
+    if (mission_.task == Mission::Task::kGoOn) {
+      return fmt::format("{} traces are in {}", there_ + written_, traces);
+    }
+    return fmt::format("{} traces written{}, in {}", written_,
+                       there_ > 0 ? fmt::format(", {} were there", there_) : "", traces);
+  }
+
+  ExitCode TellProblems() {
+    const std::size_t more = problems_.size() - std::min(problems_.size(), kMostProblems);
+    problems_.resize(problems_.size() - more);
+    PrintProblems(problems_);
+    if (more > 0) PrintNote(fmt::format("and {} more", more));
+    return ExitCode::kFailed;
   }
 
   // Says what is wrong with a trial, and lets the others go on.
   void WriteTrial(const scenario::Scenario& scenario, const StoredRun& run,
-                  const truth::Record& stored, const fs::path& folder) {
-    const fs::path path = folder / TraceFileName(stored.trial, request_.format);
+                  const truth::Record& stored) {
+    const fs::path path = PathOf(run, stored.trial);
     std::vector<core::Problem> problems;
     try {
-      const DriveRecording recording = RecordDrive(scenario, run.identity.seed, stored.trial);
+      const InFlight flight(log_, {run.cell, static_cast<std::int64_t>(stored.trial)});
+      const DriveRecording recording = request_.drive(scenario, run.identity.seed, stored.trial);
       const auto differences =
           report::RecordDifferences(run.schema, stored, recording.traced.record);
       if (differences.empty()) {
@@ -122,21 +190,25 @@ class TraceWriter {
       }
     } catch (const core::UserError& error) {
       problems = error.problems();
+    } catch (const std::exception& error) {
+      problems.push_back({path.string(), fmt::format("is not written: {}", error.what()), ""});
     }
     const std::lock_guard lock(mutex_);
-    if (problems.empty()) ++written_;
+    if (problems.empty()) log_.SetStored(static_cast<std::int64_t>(++written_));
     problems_.insert(problems_.end(), problems.begin(), problems.end());
     if (!request_.quiet) line_.ShowText(Progress());
   }
 
   const fs::path folder_;
   const TraceRequest& request_;
-  const std::atomic<bool>& stop_;
+  const Mission& mission_;
+  batch::FlightLog& log_;
   std::mutex mutex_;
   ProgressLine line_;
-  std::size_t planned_ = 0;
-  std::size_t written_ = 0;
+  std::vector<std::vector<std::uint64_t>> wanted_;  // of each cell, ascending
+  std::size_t total_ = 0;
   std::size_t there_ = 0;
+  std::size_t written_ = 0;
   std::vector<core::Problem> problems_;
 };
 
@@ -160,13 +232,16 @@ std::string TraceFileName(std::uint64_t trial, TraceFormat format) {
   return fmt::format("trial-{:06}.{}", trial, format == TraceFormat::kCsv ? "csv" : "npz");
 }
 
-ExitCode WriteTraces(const fs::path& folder, const TraceRequest& request,
-                     const std::atomic<bool>& stop) {
-  TraceWriter writer(folder, request, stop);
+ExitCode WriteTraces(const fs::path& folder, const TraceRequest& request, const Mission& mission,
+                     batch::FlightLog& log) {
+  TraceWriter writer(folder, request, mission, log);
   const batch::ResultStore store = batch::ResultStore::Read(folder);
   const CellReader reader(folder, store);
-  for (int cell = 0; cell < store.cells() && !stop; ++cell) writer.WriteCell(reader.Load(cell));
-  return writer.Finish();
+  for (int cell = 0; cell < store.cells(); ++cell) writer.PlanCell(reader.Load(cell));
+  for (int cell = 0; cell < store.cells() && !log.stop(); ++cell) {
+    if (writer.HasWork(cell)) writer.WriteCell(reader.Load(cell));
+  }
+  return writer.Finish(store);
 }
 
 }  // namespace rockyard::app

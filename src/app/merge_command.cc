@@ -1,8 +1,11 @@
 // rockyard merge
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "app/commands.h"
@@ -44,6 +47,19 @@ ExitCode Report(const std::filesystem::path& folder, const ReportOptions& option
   }
 }
 
+// A trace belongs to a trial, but which trials have one was decided in each shard alone.
+void TellTraces(const MergeCommandOptions& options) {
+  std::error_code ignored;
+  for (const std::filesystem::path& shard : options.shards) {
+    if (!std::filesystem::is_directory(shard / "traces", ignored)) continue;
+    PrintNote(
+        fmt::format("traces of shards are not merged: the same run or sweep with --out {}, "
+                    "--resume and --traces, and without --shard, writes those of the whole",
+                    options.out));
+    return;
+  }
+}
+
 ExitCode Merge(const MergeCommandOptions& options) {
   const batch::BuildPolicy build =
       options.any_build ? batch::BuildPolicy::kAny : batch::BuildPolicy::kSame;
@@ -51,6 +67,7 @@ ExitCode Merge(const MergeCommandOptions& options) {
   ReportOptions report;
   if (options.json) report.output = Output::kJson;
   if (options.quiet) report.output = Output::kQuiet;
+  if (!options.quiet) TellTraces(options);
   return Report(options.out, report);
 }
 

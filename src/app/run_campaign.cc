@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
 #include <memory>
 #include <string>
 #include <utility>
@@ -11,7 +10,9 @@
 #include "app/campaign_process.h"
 #include "app/campaign_traces.h"
 #include "app/console.h"
+#include "app/next_command.h"
 #include "app/progress_line.h"
+#include "batch/run_folder.h"
 #include "core/error.h"
 #include "experiments/experiment.h"
 
@@ -101,18 +102,34 @@ ExitCode Judge(const OpenedRun& run, const batch::BatchResult& result,
   return ExitCode::kTooManyFaults;
 }
 
-// Traces of the trials that the rules keep, once all are stored.
-ExitCode TraceTrials(const OpenedRun& run, const CampaignOptions& options,
+Finished WhatOf(const CampaignOptions& options, const CampaignPlan& plan) {
+  if (!options.shard().whole()) return Finished::kShard;
+  return plan.design.empty() ? Finished::kDrives : Finished::kSweep;
+}
+
+// Traces of the trials that the rules keep, once all are stored; then the next command.
+ExitCode TraceTrials(const CampaignPlan& plan, const CampaignOptions& options,
                      CampaignProcess& process) {
+  const std::filesystem::path folder = RequestOf(options, plan).folder;
   const TraceRequest request{.retention = options.traces.retention(),
                              .format = options.traces.form(),
                              .threads = batch::ThreadCount({.threads = process.threads()}),
                              .quiet = options.output() == Output::kQuiet};
-  if (!request.retention.any()) return ExitCode::kDone;
-  ExitCode code = ExitCode::kDone;
-  process.Afterwards(
-      [&](const std::atomic<bool>& stop) { code = WriteTraces(run.folder, request, stop); });
-  return code;
+  try {
+    const batch::FolderClaim claim(folder);
+    return process.Afterwards([&](const batch::Mission& mission, batch::FlightLog& log) {
+      const ExitCode code = WriteTraces(folder, request, mission, log);
+      const bool last = mission.task != batch::Mission::Task::kRunAlone;
+      if (last && options.output() == Output::kText) {
+        const bool stopped = code == ExitCode::kInterrupted;
+        Print(NextLine(folder, WhatOf(options, plan), stopped ? options.resume_command : ""));
+      }
+      return code;
+    });
+  } catch (const core::UserError& error) {
+    PrintProblems(error.problems());
+    return ExitCode::kFailed;
+  }
 }
 
 // What fails from here on is no bad input: trials have been run, and are stored.
@@ -122,12 +139,16 @@ ExitCode RunAndReport(std::span<const batch::CellWork> work, OpenedRun& run,
   try {
     if (!process.whole()) return process.DoTask(work, run.store);
     const batch::BatchResult result = RunTrials(work, run, options, process);
-    reporter(run, result);
+    if (!process.reported()) reporter(run, result);
+    process.SetReported();
     if (process.TellLeftOut(run.store)) return ExitCode::kFailed;
     const ExitCode code = Judge(run, result, options);
-    if (code == ExitCode::kInterrupted) return code;
-    const ExitCode traced = TraceTrials(run, options, process);
-    return traced == ExitCode::kDone ? code : traced;
+    // In the moment of the last trial: nothing is pending but traces.
+    if (code == ExitCode::kInterrupted || !process.interrupted() || options.traces.rules.empty()) {
+      return code;
+    }
+    PrintNote("interrupted: no trace is written; the same command with --resume writes them");
+    return ExitCode::kInterrupted;
   } catch (const core::UserError& error) {
     PrintProblems(error.problems());
     return ExitCode::kFailed;
@@ -182,6 +203,11 @@ void CheckTraces(const CampaignOptions& options, const CampaignPlan& plan,
     problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     return;
   }
+  if (options.traces.retention().worst > 0 && !options.shard().whole()) {
+    problems.push_back({"--traces",
+                        "worst:N is asked of all trials, of which a shard has only some",
+                        "leave it out, merge the shards, and ask for it there with --resume"});
+  }
   for (const CampaignCell& cell : plan.cells) {
     if (cell.scenario.experiment == scenario::ExperimentKind::kDrive) continue;
     problems.push_back(
@@ -212,8 +238,12 @@ ExitCode RunCampaign(const CampaignOptions& options, const CampaignPlanner& plan
   const ContainmentOptions containment{.supervisor = !options.no_supervisor,
                                        .trial_cpu_limit_s = options.trial_cpu_limit_s,
                                        .threads = options.threads};
-  return RunContained(containment, [&](CampaignProcess& process) {
+  const CampaignPart campaign = [&](CampaignProcess& process) {
     return RunInProcess(options, planner, reporter, process);
+  };
+  if (options.traces.rules.empty()) return RunContained(containment, campaign);
+  return RunContained(containment, campaign, [&](CampaignProcess& process) {
+    return TraceTrials(planner(), options, process);
   });
 }
 

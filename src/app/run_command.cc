@@ -67,7 +67,8 @@ ReportOptions ReportOptionsOf(const RunOptions& options, const batch::BatchResul
           .method = options.interval == "wilson" ? statistics::IntervalMethod::kWilson
                                                  : statistics::IntervalMethod::kClopperPearson,
           .threads = options.campaign.threads,
-          .resume = result.end == batch::BatchEnd::kStopped ? options.campaign.resume_command : ""};
+          .resume = result.end == batch::BatchEnd::kStopped ? options.campaign.resume_command : "",
+          .next = result.end == batch::BatchEnd::kStopped || options.campaign.traces.rules.empty()};
 }
 
 ExitCode Run(const RunOptions& options) {

@@ -28,7 +28,7 @@ void Show(const ReportOptions& options, const std::string& text, const std::stri
     case Output::kText:
       Print(text);
       Print(fmt::format("  results in {}\n", folder.string()));
-      Print(NextLine(folder, what, options.resume));
+      if (options.next) Print(NextLine(folder, what, options.resume));
       break;
     case Output::kJson:
       Print(json);

@@ -61,7 +61,8 @@ ReportOptions ReportOptionsOf(const SweepOptions& options, const batch::BatchRes
           .method = options.interval == "wilson" ? statistics::IntervalMethod::kWilson
                                                  : statistics::IntervalMethod::kClopperPearson,
           .threads = options.campaign.threads,
-          .resume = result.end == batch::BatchEnd::kStopped ? options.campaign.resume_command : ""};
+          .resume = result.end == batch::BatchEnd::kStopped ? options.campaign.resume_command : "",
+          .next = result.end == batch::BatchEnd::kStopped || options.campaign.traces.rules.empty()};
 }
 
 // On rank 0 alone.

@@ -65,7 +65,7 @@ void ReportSweepShard(const batch::ResultStore& store, const ReportOptions& opti
                     report::Cut(report::Printable(store.identity().name), 40), shard.index,
                     shard.count, report::AccountingText(total)));
   Print(fmt::format("  results in {}\n", folder.string()));
-  Print(NextLine(folder, Finished::kShard, options.resume));
+  if (options.next) Print(NextLine(folder, Finished::kShard, options.resume));
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ void ReportSweep(const batch::ResultStore& store, const scenario::Sweep& sweep,
     case Output::kText:
       Print(report::SweepText(sweep, summary, description, StyleFor(stdout)));
       Print(fmt::format("  results in {}\n", folder.string()));
-      Print(NextLine(folder, Finished::kSweep, options.resume));
+      if (options.next) Print(NextLine(folder, Finished::kSweep, options.resume));
       break;
     case Output::kJson:
       Print(report::SweepJson(sweep, summary, description));

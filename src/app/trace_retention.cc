@@ -73,9 +73,10 @@ void AddTraceOptions(CLI::App& command, TraceOptions& options) {
   CLI::Option* traces =
       command
           .add_option("--traces", options.rules,
-                      "RULE: afterwards drive chosen trials again and write their course into the "
+                      "afterwards drive chosen trials again and write their course into the "
                       "folder traces: all, failures, worst:N (failures that ended furthest from "
                       "the goal, of each cell), share:P (a random share); repeat for more")
+          ->type_name("RULE:{all,failures,worst:N,share:P}")
           ->allow_extra_args(false);
   command
       .add_option("--trace-format", options.format,

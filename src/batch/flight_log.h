@@ -55,6 +55,10 @@ class FlightLog {
   void SetOpened() { shared_->opened = true; }
   bool opened() const { return shared_->opened; }
 
+  // The user has been told the result: who goes on does not tell it again.
+  void SetReported() { shared_->reported = true; }
+  bool reported() const { return shared_->reported; }
+
   // Before another worker starts: forgets flights, count and the stop flag.
   void Clear();
 
@@ -80,6 +84,7 @@ class FlightLog {
     std::atomic<std::int64_t> stored = 0;
     std::atomic<bool> stop = false;
     std::atomic<bool> opened = false;
+    std::atomic<bool> reported = false;
     Slot slots[kSlots];
   };
 

@@ -40,9 +40,9 @@ class Supervisor {
       }
     }
     note_(
-        fmt::format("the worker process died {} times without storing a trial: giving up; "
+        fmt::format("the worker process died {} times without {}: giving up; "
                     "what was finished is stored, go on with --resume",
-                    options_.fruitless_restarts + 1));
+                    options_.fruitless_restarts + 1, options_.fruit));
     return options_.failed_exit;
   }
 
@@ -92,7 +92,7 @@ class Supervisor {
           if (!flight.overdue) NotePassed(flight.id, end);
           return;
         case Alone::kCrashed:
-          if (++crashed > 1) return StoreFault(flight.id, last);
+          if (++crashed > 1) return GiveUp(flight.id, last);
           NoteCrashed(flight.id, last);
           break;
         case Alone::kKilled:
@@ -116,6 +116,11 @@ class Supervisor {
     return end.code == kOverdueExit ? Alone::kHung : Alone::kPassed;
   }
 
+  void GiveUp(TrialId id, const ProcessEnd& end) {
+    if (!options_.faults_are_stored) return LeaveOut(id, Why::kCrashes);
+    StoreFault(id, end);
+  }
+
   // Without the entry the trial would be run, and crash, for ever.
   void Store(Mission mission) {
     const ProcessEnd end = Do(std::move(mission));
@@ -135,6 +140,7 @@ class Supervisor {
   }
 
   void NoteFault(TrialId id, std::string kind, std::string reason) {
+    if (!options_.faults_are_stored) return;
     Store({.task = Task::kStoreMachineFault,
            .trial = id,
            .kind = std::move(kind),

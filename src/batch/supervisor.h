@@ -13,7 +13,7 @@ namespace rockyard::batch {
 // A trial that stays pending, as what it needs is not there: no result, in no hash, exit code 5.
 struct LeftOut {
   TrialId id;
-  enum class Why { kHangs, kIsKilled } why = Why::kHangs;
+  enum class Why { kHangs, kIsKilled, kCrashes } why = Why::kHangs;
 };
 
 // What a worker process is to do.
@@ -38,11 +38,13 @@ using Worker = std::function<int(const Mission&)>;
 
 // How often things are tried again.
 struct SupervisorOptions {
-  int hung_retries = 2;        // of a trial that used up its CPU time
-  int killed_retries = 2;      // of a trial whose process was ended by SIGKILL, from outside
-  int fruitless_restarts = 3;  // of workers that die and store no trial
-  int failed_exit = 5;         // exit code when that is too often
-  int interrupted_exit = 130;  // exit code when a polite signal ended the worker
+  int hung_retries = 2;           // of a trial that used up its CPU time
+  int killed_retries = 2;         // of a trial whose process was ended by SIGKILL, from outside
+  int fruitless_restarts = 3;     // of workers that die and store no trial
+  int failed_exit = 5;            // exit code when that is too often
+  int interrupted_exit = 130;     // exit code when a polite signal ended the worker
+  bool faults_are_stored = true;  // false: a trial that crashes is left out as well
+  std::string fruit = "storing a trial";  // of which fruitless workers did nothing
 };
 
 // Forks the worker, waits for it, and returns its exit code. When it dies by a signal (a crash, the
@@ -51,6 +53,8 @@ struct SupervisorOptions {
 // one that passes leaves an infrastructure fault behind (the machine failed, not the trial); then
 // another worker goes on. SIGKILL comes from outside, where memory is short: such a trial is tried
 // again alone, and left out, pending, when it is killed again; no machine decides what is a fault.
+// Work that has no place for faults (faults_are_stored) is given neither of the missions that store
+// one.
 // A worker that ends with kOverdueExit (watchdog.h) left hanging trials: each is tried again alone,
 // and left out, too, when it hangs again.
 //

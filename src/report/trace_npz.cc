@@ -4,10 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <string_view>
 #include <vector>
 
 #include "report/npz_file.h"
+#include "report/npz_table.h"
 #include "report/replay_text.h"
 
 namespace rockyard::report {
@@ -19,43 +19,14 @@ using messages::MotionVote;
 constexpr int kFormatVersion = 1;
 constexpr std::int64_t kUnknown = -1;
 
-// Rows of equally many numbers.
-class Table {
- public:
-  explicit Table(std::size_t columns) : columns_(columns) {}
-
-  template <typename Values>
-  void Add(const Values& values) {
-    for (const double value : values) numbers_.push_back(value);
-  }
-  void Add(const math::Pose2& pose) { Add(std::array{pose.x_m, pose.y_m, pose.heading_rad}); }
-
-  void Write(std::string_view name, NpzFile& file) const {
-    file.AddReals(name, numbers_, {numbers_.size() / columns_, columns_});
-  }
-
- private:
-  std::size_t columns_;
-  std::vector<double> numbers_;
-};
-
-// One number for each item.
-template <typename Items, typename Value>
-void AddColumn(std::string_view name, const Items& items, const Value& value, NpzFile& file) {
-  std::vector<double> numbers;
-  numbers.reserve(items.size());
-  for (const auto& item : items) numbers.push_back(value(item));
-  file.AddReals(name, numbers, {numbers.size()});
-}
-
 void AddMoments(std::span<const ReplayPose> poses, NpzFile& file) {
-  Table position(3);
-  Table attitude(4);
-  Table rocker(2);
-  Table bogie(2);
-  Table steer(messages::kWheelCount);
-  Table wheel(messages::kWheelCount);
-  Table believed(4);
+  NpzTable position(3);
+  NpzTable attitude(4);
+  NpzTable rocker(2);
+  NpzTable bogie(2);
+  NpzTable steer(messages::kWheelCount);
+  NpzTable wheel(messages::kWheelCount);
+  NpzTable believed(4);
   std::vector<std::string> activity;
   std::vector<std::uint8_t> set_back;
   for (const ReplayPose& pose : poses) {
@@ -91,7 +62,7 @@ void AddMoments(std::span<const ReplayPose> poses, NpzFile& file) {
 }
 
 void AddEvents(const truth::Trace& trace, NpzFile& file) {
-  Table pose(3);
+  NpzTable pose(3);
   std::vector<std::string> kind;
   std::vector<std::string> detail;
   for (const truth::TraceEvent& event : trace.events) {
@@ -104,7 +75,7 @@ void AddEvents(const truth::Trace& trace, NpzFile& file) {
   pose.Write("event_pose", file);
   file.AddTexts("event_kind", kind);
   file.AddTexts("event_detail", detail);
-  Table moves(5);
+  NpzTable moves(5);
   for (const truth::RockMove& move : trace.rock_moves) {
     moves.Add(std::array{move.time_s, static_cast<double>(move.rock), move.center_W.x(),
                          move.center_W.y(), move.center_W.z()});
@@ -113,8 +84,8 @@ void AddEvents(const truth::Trace& trace, NpzFile& file) {
 }
 
 void AddScans(std::span<const ReplayScan> scans, NpzFile& file) {
-  Table pose(3);
-  Table points(6);
+  NpzTable pose(3);
+  NpzTable points(6);
   std::vector<std::uint8_t> hazards;
   for (std::size_t i = 0; i < scans.size(); ++i) {
     pose.Add(scans[i].pose);
@@ -159,12 +130,12 @@ class Votes {
 
   std::vector<std::int64_t> step_;
   std::vector<std::string> kind_;
-  Table numbers_{6};
+  NpzTable numbers_{6};
   std::vector<std::uint8_t> chosen_;
 };
 
 void AddMaps(std::span<const ReplayStep> steps, NpzFile& file) {
-  Table grid(4);
+  NpzTable grid(4);
   std::vector<double> elevation;
   std::vector<std::int64_t> goodness;
   std::vector<std::int64_t> certainty;
@@ -190,8 +161,8 @@ void AddMaps(std::span<const ReplayStep> steps, NpzFile& file) {
 }
 
 void AddSteps(std::span<const ReplayStep> steps, NpzFile& file) {
-  Table pose(3);
-  Table believed(3);
+  NpzTable pose(3);
+  NpzTable believed(3);
   std::vector<std::int64_t> number;
   std::vector<std::uint8_t> behind;
   Votes votes;

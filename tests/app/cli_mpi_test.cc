@@ -99,6 +99,38 @@ TEST_F(CliMpi, CtrlCEndsAllRanksPolitely) {
   for (const pid_t rank : ranks) EXPECT_TRUE(WaitForEnd(rank));
 }
 
+// Rank 0 writes them, while the others wait.
+TEST_F(CliMpi, TracesAreThoseOfOneProcess) {
+  const std::vector<std::string> traces{"--traces", "all"};
+  ASSERT_EQ(Run(Drives("plain", 4, traces)).exit_code, 0);
+  std::vector<std::string> words = Drives("a", 4, With(traces, {"--json"}));
+  words.erase(std::find(words.begin(), words.end(), "--quiet"));
+  const CommandResult result = RunOn(2, words);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(nlohmann::json::parse(result.out)["trials"]["completed"], 4);
+  EXPECT_THAT(result.err, HasSubstr("4 traces written, in a/traces"));
+  for (int trial = 0; trial < 4; ++trial) {
+    const std::string file = "traces/trial-00000" + std::to_string(trial) + ".npz";
+    EXPECT_FALSE(ReadFile(work() / "a" / file).empty());
+    EXPECT_EQ(ReadFile(work() / "a" / file), ReadFile(work() / "plain" / file));
+  }
+}
+
+TEST_F(CliMpi, CtrlCDuringTracesLeavesTheRestToResume) {
+  const std::vector<std::string> traces{"--traces", "all", "--trace-format", "csv"};
+  const pid_t process = StartOn(2, Drives("a", 300, traces));
+  while (!fs::exists(work() / "a/traces/trial-000002.csv") && Alive(process)) usleep(500);
+  kill(process, SIGINT);
+  EXPECT_NE(Wait(process).exit_code, 0);
+  const auto files = [&] {
+    const fs::directory_iterator folder(work() / "a/traces");
+    return std::distance(begin(folder), end(folder));
+  };
+  EXPECT_LT(files(), 300);
+  EXPECT_EQ(Run(Drives("a", 300, With(traces, {"--resume"}))).exit_code, 0);
+  EXPECT_EQ(files(), 300);
+}
+
 // One rank told to end gives its trials back; the others finish the campaign.
 TEST_F(CliMpi, OneRankMayLeave) {
   ASSERT_EQ(Run(Drives("plain", 400)).exit_code, 0);

@@ -27,6 +27,17 @@ TEST_F(CliNext, IsTheLastLineOfARun) {
   EXPECT_THAT(LastLine(run.out), HasSubstr(" a"));
 }
 
+// Also where more is told after the report, on the other stream.
+TEST_F(CliNext, IsTheLastLineAfterTraces) {
+  std::string line = std::string("exec 2>&1; ") + ROCKYARD_COMMAND;
+  for (const std::string& word : With(QuickRun("a", 2), {"--traces", "all"})) line += " " + word;
+  const CommandResult run = Wait(StartProgram({"/bin/sh", "-c", line}));
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.out, HasSubstr("2 traces written"));
+  EXPECT_THAT(LastLine(run.out), StartsWith("  next: rockyard "));
+  EXPECT_EQ(run.out.find("next:"), run.out.rfind("next:"));
+}
+
 TEST_F(CliNext, IsForPeopleOnly) {
   EXPECT_THAT(Run(With(QuickRun("a", 1), {"--json"})).out, Not(HasSubstr("next:")));
   EXPECT_EQ(Run(With(QuickRun("b", 1), {"--quiet"})).out, "");

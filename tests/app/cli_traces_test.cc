@@ -126,7 +126,7 @@ TEST_F(CliTraces, AFolderThatCannotBeWrittenFailsAfterTheCampaign) {
   WriteFile(work() / "run" / "traces", "a file");
   const CommandResult result = Run(Campaign(2, {"--resume", "--traces", "all"}));
   EXPECT_EQ(result.exit_code, 5);
-  EXPECT_THAT(result.err, HasSubstr("traces"));
+  EXPECT_THAT(result.err, HasSubstr("error: run/traces: cannot be made"));
   EXPECT_FALSE(Hash("run").empty());
 }
 

@@ -153,6 +153,34 @@ TEST_F(Containment, WithoutLimitASlowTrialIsWaitedFor) {
   EXPECT_EQ(Good().size(), static_cast<std::size_t>(kTrials));
 }
 
+// Whoever goes on after a crash does not tell the result again, nor run trials again for what comes
+// after them.
+TEST_F(Containment, TheResultIsToldOnce) {
+  const std::filesystem::path told = folder_.path() / "told";
+  const std::filesystem::path once = folder_.path() / "once";
+  const auto die_once = [&] {
+    if (std::filesystem::create_directory(once)) raise(SIGKILL);
+  };
+  const auto body = [&](CampaignProcess& process) {
+    const ExitCode code = Campaign(process, {});
+    if (process.reported()) return code;
+    if (!std::filesystem::create_directory(told)) return ExitCode::kDiffers;  // told before
+    process.SetReported();
+    die_once();
+    return code;
+  };
+  const auto afterwards = [&](CampaignProcess& process) {
+    return process.Afterwards([&](const batch::Mission& mission, batch::FlightLog&) {
+      if (mission.task == batch::Mission::Task::kGoOn) return ExitCode::kDone;
+      raise(SIGKILL);
+      return ExitCode::kFailed;
+    });
+  };
+  EXPECT_EQ(RunContained({.threads = 2}, body, afterwards), ExitCode::kDone);
+  EXPECT_TRUE(std::filesystem::exists(told));
+  EXPECT_EQ(Good().size(), static_cast<std::size_t>(kTrials));
+}
+
 // What the supervisor is for: without it the same crash ends the process.
 TEST_F(Containment, WithoutSupervisorACrashEndsTheProcess) {
   const auto run = [&](const FakeExperiment::Hook& hook) {

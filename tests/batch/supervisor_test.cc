@@ -168,6 +168,19 @@ TEST_F(SupervisorTest, EveryTrialMayCrash) {
   EXPECT_EQ(Sum(board_->faults), kTrials);
 }
 
+// Work with no place for a fault: the trial comes back as left out, and nothing is to be stored.
+TEST_F(SupervisorTest, WithoutAPlaceForFaultsCrashesAreLeftOut) {
+  const auto crash = [](int trial) {
+    if (trial == 5) Crash();
+  };
+  const Worker worker = [&](const Mission& mission) { return Work(mission, crash); };
+  EXPECT_EQ(Supervise(log_, worker, {.faults_are_stored = false}, [](const std::string&) {}), 5);
+  EXPECT_EQ(Stored(), kTrials - 1);
+  EXPECT_EQ(Sum(board_->faults) + Sum(board_->machine_faults), 0);
+  EXPECT_EQ(board_->runs[5], 2) << "once with others, once alone";
+  EXPECT_EQ(board_->why[5], LeftOut::Why::kCrashes);
+}
+
 // A trial that does not fit into this machine may fit into another one.
 TEST_F(SupervisorTest, KilledEachTimeStaysPending) {
   EXPECT_EQ(Supervised([](int trial) {

@@ -1,0 +1,171 @@
+// What goes wrong while traces are written: one document on standard output, whole files alone, the
+// trial named that is to blame, and the others there all the same.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "app/campaign_process.h"
+#include "app/campaign_traces.h"
+#include "app/watched_run.h"
+
+namespace rockyard::app {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class CliTraceFaults : public WatchedRunTest {
+ protected:
+  CliTraceFaults() : WatchedRunTest(1) {}
+
+  // Trials of some tenths of a second each, so that there is time to meddle between two of them.
+  std::vector<std::string> SlowRun(const std::vector<std::string>& more) const {
+    return With({"run", Scenario("nominal"), "--out", "run", "--trials", "12", "--traces", "all",
+                 "--threads", "1"},
+                more);
+  }
+
+  std::size_t Files() const {
+    std::size_t count = 0;
+    std::error_code none;
+    for (const auto& entry : fs::recursive_directory_iterator(work() / "run/traces", none)) {
+      count += entry.is_regular_file() ? 1 : 0;
+    }
+    return count;
+  }
+
+  bool WaitForTraces(std::size_t count, pid_t process) const {
+    while (Files() < count && Alive(process)) usleep(500);
+    return Alive(process);
+  }
+
+  // The exit code of writing all traces of `run` with drives that do `hook` first.
+  ExitCode Trace(const std::function<void(std::uint64_t trial)>& hook, int threads) {
+    TraceRequest request{.retention = {.all = true}, .threads = threads};
+    request.drive = [&](const scenario::Scenario& scenario, std::uint64_t seed,
+                        std::uint64_t trial) {
+      hook(trial);
+      return RecordDrive(scenario, seed, trial);
+    };
+    testing::internal::CaptureStderr();
+    const ExitCode code = RunContained(
+        {.threads = threads}, [](CampaignProcess&) { return ExitCode::kDone; },
+        [&](CampaignProcess& process) {
+          return process.Afterwards([&](const batch::Mission& mission, batch::FlightLog& log) {
+            return WriteTraces(work() / "run", request, mission, log);
+          });
+        });
+    said_ = testing::internal::GetCapturedStderr();
+    return code;
+  }
+
+  std::string said_;
+};
+
+TEST_F(CliTraceFaults, AKilledWorkerLeavesOneDocument) {
+  const pid_t process = Start(SlowRun({"--json"}));
+  ASSERT_TRUE(WaitForTraces(2, process));
+  const std::vector<pid_t> workers = ChildrenOf(process);
+  ASSERT_EQ(workers.size(), 1U);
+  kill(workers.front(), SIGKILL);
+  const CommandResult result = Wait(process);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(nlohmann::json::parse(result.out)["trials"]["completed"], 12);
+  EXPECT_THAT(result.err, HasSubstr("12 traces are in run/traces"));
+  EXPECT_EQ(Files(), 12U);
+}
+
+TEST_F(CliTraceFaults, CtrlCLeavesWholeFilesAndGoesOn) {
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{}, {"--no-supervisor", "--force"}}) {
+    const pid_t process = Start(SlowRun(more));
+    fs::remove_all(work() / "run/traces");
+    ASSERT_TRUE(WaitForTraces(2, process));
+    kill(process, SIGINT);
+    const CommandResult result = Wait(process);
+    EXPECT_EQ(result.exit_code, 130) << result.err;
+    EXPECT_THAT(result.err, AllOf(HasSubstr("interrupted: "), HasSubstr(" of 12 traces"),
+                                  HasSubstr("--resume")));
+    EXPECT_LT(Files(), 12U);
+    const CommandResult resumed = Run(SlowRun({"--resume"}));
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+    EXPECT_EQ(Files(), 12U);
+  }
+}
+
+// Of all cells, not of those that it has come to.
+TEST_F(CliTraceFaults, InterruptedInTheFirstCellItCountsAll) {
+  WriteFile(work() / "sweep.json",
+            "{\"name\": \"s\", \"scenario\": \"" + Scenario("nominal") +
+                "\", \"trials\": 6, \"axes\": [{\"path\": \"referee.goal_radius_m\", "
+                "\"values\": [1, 2]}]}");
+  const pid_t process =
+      Start({"sweep", "sweep.json", "--out", "run", "--traces", "all", "--threads", "1"});
+  ASSERT_TRUE(WaitForTraces(2, process));
+  kill(process, SIGTERM);
+  const CommandResult result = Wait(process);
+  EXPECT_EQ(result.exit_code, 130) << result.err;
+  EXPECT_THAT(result.err, HasSubstr(" of 12 traces are written"));
+}
+
+TEST_F(CliTraceFaults, ADriveThatCrashesIsNamedAndTheOthersGoOn) {
+  ASSERT_EQ(Run(With(QuickRun("run", 7), {"--quiet"})).exit_code, 0);
+  const auto crash = [](std::uint64_t trial) {
+    if (trial != 3) return;
+    std::signal(SIGSEGV, SIG_DFL);
+    raise(SIGSEGV);
+  };
+  for (const int threads : {1, 3}) {
+    fs::remove_all(work() / "run/traces");
+    EXPECT_EQ(Trace(crash, threads), ExitCode::kFailed);
+    EXPECT_THAT(said_, AllOf(HasSubstr("SIGSEGV"), HasSubstr("trial 3: has no trace"),
+                             HasSubstr("rockyard replay "), HasSubstr("--trial 3"),
+                             Not(HasSubstr("trial 4"))));
+    EXPECT_EQ(Files(), 6U);
+  }
+}
+
+TEST_F(CliTraceFaults, ADriveThatThrowsIsNamedAndTheOthersGoOn) {
+  ASSERT_EQ(Run(With(QuickRun("run", 5), {"--quiet"})).exit_code, 0);
+  const auto fail = [](std::uint64_t trial) {
+    if (trial == 1) throw std::bad_alloc();
+    if (trial == 2) throw std::runtime_error("has no terrain");
+  };
+  EXPECT_EQ(Trace(fail, 1), ExitCode::kFailed);
+  EXPECT_THAT(said_, AllOf(HasSubstr("trial-000001.npz: is not written: std::bad_alloc"),
+                           HasSubstr("trial-000002.npz: is not written: has no terrain")));
+  EXPECT_EQ(Files(), 3U);
+}
+
+TEST_F(CliTraceFaults, TheWorstOfAShardAreRefused) {
+  const CommandResult result =
+      Run(With(QuickRun("run", 4), {"--shard", "1/2", "--traces", "worst:1"}));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--traces: worst:N is asked of all trials"));
+  EXPECT_TRUE(NothingWritten());
+}
+
+TEST_F(CliTraceFaults, MergeSaysThatTracesStayAndTheWholeMakesThem) {
+  for (const std::string shard : {"1/2", "2/2"}) {
+    ASSERT_EQ(Run(With(QuickRun("shard" + shard.substr(0, 1), 4),
+                       {"--shard", shard, "--traces", "all", "--quiet"}))
+                  .exit_code,
+              0);
+  }
+  const CommandResult merged = Run({"merge", "shard1", "shard2", "--out", "run"});
+  EXPECT_EQ(merged.exit_code, 0) << merged.err;
+  EXPECT_THAT(merged.err, HasSubstr("traces of shards are not merged"));
+  EXPECT_FALSE(fs::exists(work() / "run/traces"));
+  const CommandResult traced =
+      Run(With(QuickRun("run", 4), {"--resume", "--traces", "worst:1", "--quiet"}));
+  EXPECT_EQ(traced.exit_code, 0) << traced.err;
+  EXPECT_EQ(Files(), 1U);
+}
+
+}  // namespace
+}  // namespace rockyard::app
