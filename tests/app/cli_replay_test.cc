@@ -103,6 +103,7 @@ TEST_F(CliReplay, ChoosesNamesByItself) {
 
 TEST_F(CliReplay, FilesThatCannotBeAreSaidBeforeTheDrive) {
   for (const std::vector<std::string>& more : {std::vector<std::string>{"--out", "none/page.html"},
+                                               {"--out", "page.pdf"},
                                                {"--svg", "none/plan.svg"},
                                                {"--out", "a.html", "--svg", "a.html"},
                                                {"--svg", "a", "--data", "./a"},

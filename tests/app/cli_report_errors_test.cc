@@ -11,11 +11,12 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::Not;
 
 using CliReportErrors = CliReportTest;
 
 TEST_F(CliReportErrors, AReplayThatDiffersIsReportedAndNotLinked) {
-  if (!HasPages()) GTEST_SKIP() << "built without npm";
+  if (!kHasPages) GTEST_SKIP() << "built without npm";
   ASSERT_EQ(Drive("a", 1, {"--set", "referee.time_limit_s=20"}).exit_code, 0);
   const pid_t python =
       StartProgram({ROCKYARD_PYTHON, "-c",
@@ -27,6 +28,36 @@ TEST_F(CliReportErrors, AReplayThatDiffersIsReportedAndNotLinked) {
   EXPECT_THAT(result.err, HasSubstr("is not the stored one"));
   EXPECT_TRUE(fs::exists(work() / "a/report.html"));
   EXPECT_TRUE(Data()["runs"][0]["replays"].empty());
+  EXPECT_FALSE(fs::exists(work() / "a/report_replays/1-a-trial0.html"));
+}
+
+TEST_F(CliReportErrors, PagesAreThereWhereTheyWereBuilt) {
+  ASSERT_EQ(Drive("a", 2).exit_code, 0);
+  const CommandResult result = Run({"report", "a", "--replays", "0"});
+  EXPECT_EQ(result.exit_code, kHasPages ? 0 : 2) << result.err;
+  EXPECT_EQ(fs::exists(work() / "a/report.html"), kHasPages);
+  EXPECT_EQ(result.err.find("built without") == std::string::npos, kHasPages);
+}
+
+TEST_F(CliReportErrors, PagesOfEarlierReportsAreTold) {
+  if (!kHasPages) GTEST_SKIP() << "built without npm";
+  ASSERT_EQ(Drive("a", 3, {"--set", "referee.time_limit_s=20"}).exit_code, 0);
+  ASSERT_EQ(Report({"a", "--out", "page.html"}, 2).exit_code, 0);
+  EXPECT_THAT(Report({"a", "--out", "page.html"}, 2).err, Not(HasSubstr("older page")));
+  EXPECT_THAT(Report({"a", "--out", "page.html"}, 1).err,
+              HasSubstr("1 older page in page_replays is not of this report"));
+  EXPECT_TRUE(fs::exists(work() / "page_replays"));
+}
+
+TEST_F(CliReportErrors, ForceSetsTheOldReportAside) {
+  ASSERT_EQ(Drive("a", 3).exit_code, 0);
+  WriteFile(work() / "a/report.html", "old");
+  fs::create_directories(work() / "a/report_replays");
+  ASSERT_EQ(Drive("a", 2, {"--force", "--seed", "9"}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(work() / "a/report.html"));
+  EXPECT_FALSE(fs::exists(work() / "a/report_replays"));
+  EXPECT_EQ(ReadFile(work() / "a/report.old-1.html"), "old");
+  EXPECT_TRUE(fs::exists(work() / "a/report_replays.old-1"));
 }
 
 TEST_F(CliReportErrors, PendingTrialsAreTold) {
@@ -48,6 +79,7 @@ TEST_F(CliReportErrors, WhatIsNoWholeRunIsRefused) {
   fs::create_directories(work() / "empty");
   ExpectRefused(Report({"empty"}), "holds no results.sqlite");
   ExpectRefused(Report({"missing"}), "missing");
+  EXPECT_THAT(Report({"missing"}).err, Not(HasSubstr("--out")));  // which nobody has named
   ASSERT_EQ(Drive("a", 3).exit_code, 0);
   ExpectRefused(Report({"a", "a/"}), "is named twice");
   fs::create_directories(work() / "cut");
@@ -73,7 +105,7 @@ TEST_F(CliReportErrors, FilesThatCannotBeMeantAreRefusedBeforeTheWork) {
   refused({"--data", "no/where/data.json"}, "--data");
   refused({"--data", "data.txt"}, "does not end in .json");
   refused({"--data", "data.json", "--replays", "-1"}, "--replays");
-  if (!HasPages()) return;
+  if (!kHasPages) return;
   refused({"--out", "a/results.sqlite"}, "does not end in .html");
   refused({"--out", "no/where/page.html"}, "--out");
   fs::create_directories(work() / "folder.html");

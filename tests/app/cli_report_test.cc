@@ -44,8 +44,25 @@ TEST_F(CliReport, HoldsTheNumbersOfSummaryJson) {
   EXPECT_TRUE(data["comparisons"].empty());
 }
 
+// As after an interrupted run, or where a trial was left out: what lies behind the gap is biased to
+// trials that end early.
+TEST_F(CliReport, TellsWhichTrialsAreInTheRates) {
+  ASSERT_EQ(Drive("a", 6, {"--set", "course.trials_per_layout=2"}).exit_code, 0);
+  const pid_t python =
+      StartProgram({ROCKYARD_PYTHON, "-c",
+                    "import sqlite3\nwith sqlite3.connect('a/results.sqlite') as store:\n"
+                    "  store.execute('delete from trials where trial = 3')"});
+  ASSERT_EQ(Wait(python).exit_code, 0);
+  ASSERT_EQ(Report({"a"}).exit_code, 0);
+  const json run = Data()["runs"][0];
+  EXPECT_EQ(run["prefix_trials"], 3);
+  EXPECT_EQ(run["trials"]["trial"], json({0, 1, 2, 4, 5}));
+  EXPECT_EQ(run["summary"]["trials"]["completed"], 3);
+  EXPECT_EQ(run["shared_layouts"], true);
+}
+
 TEST_F(CliReport, ThePageHoldsWhatDataSays) {
-  if (!HasPages()) GTEST_SKIP() << "built without npm";
+  if (!kHasPages) GTEST_SKIP() << "built without npm";
   ASSERT_EQ(Drive("a", 3).exit_code, 0);
   const CommandResult result = Report({"a", "--title", "</title><img src=x onerror=alert(1)>"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -62,7 +79,7 @@ TEST_F(CliReport, ThePageHoldsWhatDataSays) {
 }
 
 TEST_F(CliReport, TheWorstTrialsGetReplays) {
-  if (!HasPages()) GTEST_SKIP() << "built without npm";
+  if (!kHasPages) GTEST_SKIP() << "built without npm";
   // Every trial runs out of time.
   ASSERT_EQ(Drive("a <b>", 4, {"--set", "referee.time_limit_s=20"}).exit_code, 0);
   const CommandResult result = Report({"a <b>", "--out", "my page.html"}, 2);
@@ -175,6 +192,29 @@ TEST_F(CliReport, ReferencesOfTheWorkingFolderAreFound) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("broken.json is left out"));
   EXPECT_EQ(Data()["runs"][0]["published"]["reference"], "Matthies 1995");
+  EXPECT_EQ(Data()["why_none_published"], "");
+}
+
+TEST_F(CliReport, SaysWhereNoReferenceWasFound) {
+  ASSERT_EQ(Drive("a", 3).exit_code, 0);
+  EXPECT_THAT(Report({"a"}).err, HasSubstr("results/reference below the working folder"));
+  EXPECT_THAT(Data()["why_none_published"].get<std::string>(), HasSubstr("--against"));
+}
+
+TEST_F(CliReport, OtherRunsDoNotChangeWhatIsPublished) {
+  ASSERT_EQ(Drive("a", 5).exit_code, 0);
+  ASSERT_EQ(Run({"run", Scenario("obstacles_0.57"), "--out", "b", "--trials", "5", "--set",
+                 "referee.time_limit_s=1"})
+                .exit_code,
+            0);
+  const auto table = [&](const std::vector<std::string>& runs, std::size_t which) {
+    EXPECT_EQ(Report(With(runs, {"--against", Reference("matthies1995")})).exit_code, 0);
+    return Data()["runs"][which]["published"];
+  };
+  const json alone = table({"b"}, 0);
+  EXPECT_FALSE(alone.is_null());
+  EXPECT_EQ(table({"a", "b"}, 1), alone);
+  EXPECT_EQ(table({"b", "a"}, 0), alone);
 }
 
 }  // namespace
