@@ -119,7 +119,8 @@ TEST_F(CliMpi, TracesAreThoseOfOneProcess) {
 TEST_F(CliMpi, CtrlCDuringTracesLeavesTheRestToResume) {
   const std::vector<std::string> traces{"--traces", "all", "--trace-format", "csv"};
   const pid_t process = StartOn(2, Drives("a", 300, traces));
-  while (!fs::exists(work() / "a/traces/trial-000002.csv") && Alive(process)) usleep(500);
+  const fs::path third = work() / "a/traces/trial-000002.csv";
+  for (int i = 0; i < 60000 && !fs::exists(third); ++i) usleep(500);
   kill(process, SIGINT);
   EXPECT_NE(Wait(process).exit_code, 0);
   const auto files = [&] {
