@@ -151,3 +151,14 @@ test("on paper the page is light, whatever the switch says", async () => {
   assert.equal(await ground(), light);
   await page.close();
 });
+
+test("a report that compares with nothing published says why", async () => {
+  const why = "looked in <b>results/reference</b>: no file";
+  withPayload(at("report.html"), at("unpublished.html"), (payload) => {
+    for (const run of payload.runs) run.published = null;
+    payload.why_none_published = why;
+  });
+  const { page, problems } = await open("unpublished.html");
+  assert.match(await page.locator("#published").innerText(), /looked in <b>results\/reference<\/b>: no file/);
+  assert.deepEqual(problems, []);
+});

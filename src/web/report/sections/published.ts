@@ -131,6 +131,8 @@ export const published: Section = {
   short: "Published",
   render: (context: Context) => {
     const runs = context.runs.filter((run) => (run.published?.rows ?? []).length > 0);
-    return runs.length === 0 ? null : runs.flatMap((run) => comparison(run, context.runs.length > 1));
+    if (runs.length > 0) return runs.flatMap((run) => comparison(run, context.runs.length > 1));
+    const why = context.payload.why_none_published;
+    return why ? [el("p", { class: "note" }, why)] : null;
   },
 };
