@@ -103,7 +103,7 @@ TEST_F(CliTraceFaults, CtrlCLeavesWholeFilesAndGoesOn) {
 TEST_F(CliTraceFaults, InterruptedInTheFirstCellItCountsAll) {
   WriteFile(work() / "sweep.json",
             "{\"name\": \"s\", \"scenario\": \"" + Scenario("nominal") +
-                "\", \"trials\": 6, \"axes\": [{\"path\": \"referee.goal_radius_m\", "
+                "\", \"trials\": 6, \"axes\": [{\"path\": \"course.goal_radius_m\", "
                 "\"values\": [1, 2]}]}");
   const pid_t process =
       Start({"sweep", "sweep.json", "--out", "run", "--traces", "all", "--threads", "1"});
