@@ -42,15 +42,15 @@ TEST(ShellWord, IsQuotedWhereAShellWouldReadMore) {
 TEST(WorstTrials, OfSeveralCellsTheFurthestFromTheGoalComeFirst) {
   const auto trial = [](std::uint64_t number, double distance_m) {
     WorstTrial worst;
-    worst.trial = number;
+    worst.record.trial = number;
     worst.goal_distance_m = distance_m;
     return worst;
   };
   const auto worst = Worst({trial(1, 2.0), trial(2, 5.0), trial(3, 5.0), trial(4, 1.0)}, 3);
   ASSERT_EQ(worst.size(), 3u);
-  EXPECT_EQ(worst[0].trial, 2u);
-  EXPECT_EQ(worst[1].trial, 3u);
-  EXPECT_EQ(worst[2].trial, 1u);
+  EXPECT_EQ(worst[0].record.trial, 2u);
+  EXPECT_EQ(worst[1].record.trial, 3u);
+  EXPECT_EQ(worst[2].record.trial, 1u);
 }
 
 }  // namespace
