@@ -133,6 +133,9 @@ class Supervisor {
   }
 
   void StoreFault(TrialId id, const ProcessEnd& end) {
+    note_(fmt::format("trial {}{} crashed again when it ran alone, by {}: a simulator fault",
+                      id.trial, id.cell == 0 ? "" : fmt::format(" of cell {}", id.cell),
+                      SignalText(end.signal)));
     Store({.task = Task::kStoreFault,
            .trial = id,
            .reason = fmt::format("the simulator crashed by {}, again when the trial ran alone",

@@ -121,7 +121,8 @@ struct ReplayData {
   std::vector<truth::TraceEvent> events;
 };
 
-// Most steps with heights of the map and range points; where there are more, every second, or third,
+// Most steps with heights of the map and range points; where there are more, every second, or
+// third,
 // ... has them, so that a page stays small.
 inline constexpr std::size_t kMostDetailedSteps = 240;
 
