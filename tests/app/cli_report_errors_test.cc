@@ -15,38 +15,12 @@ using testing::Not;
 
 using CliReportErrors = CliReportTest;
 
-TEST_F(CliReportErrors, AReplayThatDiffersIsReportedAndNotLinked) {
-  if (!kHasPages) GTEST_SKIP() << "built without npm";
-  ASSERT_EQ(Drive("a", 1, {"--set", "referee.time_limit_s=20"}).exit_code, 0);
-  const pid_t python =
-      StartProgram({ROCKYARD_PYTHON, "-c",
-                    "import sqlite3\nwith sqlite3.connect('a/results.sqlite') as store:\n"
-                    "  store.execute('update trials set energy_wh = energy_wh + 1')"});
-  ASSERT_EQ(Wait(python).exit_code, 0);
-  const CommandResult result = Report({"a"}, 1);
-  EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err, HasSubstr("is not the stored one"));
-  EXPECT_TRUE(fs::exists(work() / "a/report.html"));
-  EXPECT_TRUE(Data()["runs"][0]["replays"].empty());
-  EXPECT_FALSE(fs::exists(work() / "a/report_replays/1-a-trial0.html"));
-}
-
 TEST_F(CliReportErrors, PagesAreThereWhereTheyWereBuilt) {
   ASSERT_EQ(Drive("a", 2).exit_code, 0);
   const CommandResult result = Run({"report", "a", "--replays", "0"});
   EXPECT_EQ(result.exit_code, kHasPages ? 0 : 2) << result.err;
   EXPECT_EQ(fs::exists(work() / "a/report.html"), kHasPages);
   EXPECT_EQ(result.err.find("built without") == std::string::npos, kHasPages);
-}
-
-TEST_F(CliReportErrors, PagesOfEarlierReportsAreTold) {
-  if (!kHasPages) GTEST_SKIP() << "built without npm";
-  ASSERT_EQ(Drive("a", 3, {"--set", "referee.time_limit_s=20"}).exit_code, 0);
-  ASSERT_EQ(Report({"a", "--out", "page.html"}, 2).exit_code, 0);
-  EXPECT_THAT(Report({"a", "--out", "page.html"}, 2).err, Not(HasSubstr("older page")));
-  EXPECT_THAT(Report({"a", "--out", "page.html"}, 1).err,
-              HasSubstr("1 older page in page_replays is not of this report"));
-  EXPECT_TRUE(fs::exists(work() / "page_replays"));
 }
 
 TEST_F(CliReportErrors, ForceSetsTheOldReportAside) {
@@ -105,11 +79,6 @@ TEST_F(CliReportErrors, FilesThatCannotBeMeantAreRefusedBeforeTheWork) {
   refused({"--data", "no/where/data.json"}, "--data");
   refused({"--data", "data.txt"}, "does not end in .json");
   refused({"--data", "data.json", "--replays", "-1"}, "--replays");
-  if (!kHasPages) return;
-  refused({"--out", "a/results.sqlite"}, "does not end in .html");
-  refused({"--out", "no/where/page.html"}, "--out");
-  fs::create_directories(work() / "folder.html");
-  refused({"--out", "folder.html"}, "is a folder");
 }
 
 }  // namespace

@@ -15,15 +15,6 @@ using testing::Not;
 
 using CliReport = CliReportTest;
 
-// What a page was given: PAGE DATA. Fails where it is another JSON than that of the file.
-constexpr const char* kSamePayload = R"(
-import base64, gzip, json, re, sys
-page = open(sys.argv[1], encoding="utf-8").read()
-found = re.search(r'id="payload"[^>]*>([^<]*)<', page)
-held = json.loads(gzip.decompress(base64.b64decode(found.group(1))))
-sys.exit(0 if held == json.load(open(sys.argv[2], encoding="utf-8")) else 1)
-)";
-
 TEST_F(CliReport, HoldsTheNumbersOfSummaryJson) {
   ASSERT_EQ(Drive("a", 5).exit_code, 0);
   const CommandResult result = Report({"a"});
@@ -59,41 +50,6 @@ TEST_F(CliReport, TellsWhichTrialsAreInTheRates) {
   EXPECT_EQ(run["trials"]["trial"], json({0, 1, 2, 4, 5}));
   EXPECT_EQ(run["summary"]["trials"]["completed"], 3);
   EXPECT_EQ(run["shared_layouts"], true);
-}
-
-TEST_F(CliReport, ThePageHoldsWhatDataSays) {
-  if (!kHasPages) GTEST_SKIP() << "built without npm";
-  ASSERT_EQ(Drive("a", 3).exit_code, 0);
-  const CommandResult result = Report({"a", "--title", "</title><img src=x onerror=alert(1)>"});
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("a/report.html"));
-  EXPECT_THAT(result.out, HasSubstr("1 run, 3 trials"));
-  EXPECT_THAT(result.out, HasSubstr("next: "));
-  EXPECT_THAT(ReadFile(work() / "a/report.html"), Not(HasSubstr("<img src=x")));
-  EXPECT_EQ(Data()["title"], "</title><img src=x onerror=alert(1)>");
-  const pid_t python =
-      StartProgram({ROCKYARD_PYTHON, "-c", kSamePayload, "a/report.html", "data.json"});
-  EXPECT_EQ(Wait(python).exit_code, 0);
-  ASSERT_EQ(Report({"a", "--out", "page.html"}).exit_code, 0);
-  EXPECT_TRUE(fs::exists(work() / "page.html"));
-}
-
-TEST_F(CliReport, TheWorstTrialsGetReplays) {
-  if (!kHasPages) GTEST_SKIP() << "built without npm";
-  // Every trial runs out of time.
-  ASSERT_EQ(Drive("a <b>", 4, {"--set", "referee.time_limit_s=20"}).exit_code, 0);
-  const CommandResult result = Report({"a <b>", "--out", "my page.html"}, 2);
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("2 replays in my page_replays"));
-  EXPECT_THAT(result.err, HasSubstr("replay 2 of 2: trial"));
-  const json run = Data()["runs"][0];
-  EXPECT_EQ(run["replay_command"], "rockyard replay 'a <b>' --trial {trial}");
-  const json& links = run["replays"];
-  ASSERT_EQ(links.size(), 2u);
-  for (const auto& [trial, link] : links.items()) {
-    EXPECT_EQ(link, "my%20page_replays/1-a__b_-trial" + trial + ".html");
-    EXPECT_TRUE(fs::exists(work() / "my page_replays" / ("1-a__b_-trial" + trial + ".html")));
-  }
 }
 
 TEST_F(CliReport, RunsAndSweepsMayBeMixed) {

@@ -2,7 +2,7 @@
 """Reads traces with NumPy and holds them against the CSV of the same drive.
 
 Usage: trace_npz_test.py ROCKYARD SCENARIOS     ROCKYARD: the command; SCENARIOS: the project's folder
-Exit code 0: the arrays are as src/report/README.md says; 1: they are not; 77: there is no NumPy.
+Exit code 0: the arrays are as src/report/README.md says; 1: they are not, or NumPy is missing.
 """
 
 import csv
@@ -16,8 +16,7 @@ from pathlib import Path
 try:
     import numpy
 except ImportError:
-    print("no NumPy: skipped")
-    sys.exit(77)
+    sys.exit("NumPy is missing: scripts/install_dependencies.sh test")
 
 ROCKYARD, SCENARIOS = Path(sys.argv[1]), Path(sys.argv[2])
 

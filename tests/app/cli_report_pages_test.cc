@@ -1,0 +1,98 @@
+// rockyard report where the program was built with its pages: CMake leaves this file out where not.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/cli_report.h"
+
+namespace rockyard::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+using CliReportPages = CliReportTest;
+
+// What a page was given: PAGE DATA. Fails where it is another JSON than that of the file.
+constexpr const char* kSamePayload = R"(
+import base64, gzip, json, re, sys
+page = open(sys.argv[1], encoding="utf-8").read()
+found = re.search(r'id="payload"[^>]*>([^<]*)<', page)
+held = json.loads(gzip.decompress(base64.b64decode(found.group(1))))
+sys.exit(0 if held == json.load(open(sys.argv[2], encoding="utf-8")) else 1)
+)";
+
+TEST_F(CliReportPages, ThePageHoldsWhatDataSays) {
+  ASSERT_EQ(Drive("a", 3).exit_code, 0);
+  const CommandResult result = Report({"a", "--title", "</title><img src=x onerror=alert(1)>"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("a/report.html"));
+  EXPECT_THAT(result.out, HasSubstr("1 run, 3 trials"));
+  EXPECT_THAT(result.out, HasSubstr("next: "));
+  EXPECT_THAT(ReadFile(work() / "a/report.html"), Not(HasSubstr("<img src=x")));
+  EXPECT_EQ(Data()["title"], "</title><img src=x onerror=alert(1)>");
+  const pid_t python =
+      StartProgram({ROCKYARD_PYTHON, "-c", kSamePayload, "a/report.html", "data.json"});
+  EXPECT_EQ(Wait(python).exit_code, 0);
+  ASSERT_EQ(Report({"a", "--out", "page.html"}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(work() / "page.html"));
+}
+
+TEST_F(CliReportPages, TheWorstTrialsGetReplays) {
+  // Every trial runs out of time.
+  ASSERT_EQ(Drive("a <b>", 4, {"--set", "referee.time_limit_s=20"}).exit_code, 0);
+  const CommandResult result = Report({"a <b>", "--out", "my page.html"}, 2);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("2 replays in my page_replays"));
+  EXPECT_THAT(result.err, HasSubstr("replay 2 of 2: trial"));
+  const json run = Data()["runs"][0];
+  EXPECT_EQ(run["replay_command"], "rockyard replay 'a <b>' --trial {trial}");
+  const json& links = run["replays"];
+  ASSERT_EQ(links.size(), 2u);
+  for (const auto& [trial, link] : links.items()) {
+    EXPECT_EQ(link, "my%20page_replays/1-a__b_-trial" + trial + ".html");
+    EXPECT_TRUE(fs::exists(work() / "my page_replays" / ("1-a__b_-trial" + trial + ".html")));
+  }
+}
+
+TEST_F(CliReportPages, AReplayThatDiffersIsReportedAndNotLinked) {
+  ASSERT_EQ(Drive("a", 1, {"--set", "referee.time_limit_s=20"}).exit_code, 0);
+  const pid_t python =
+      StartProgram({ROCKYARD_PYTHON, "-c",
+                    "import sqlite3\nwith sqlite3.connect('a/results.sqlite') as store:\n"
+                    "  store.execute('update trials set energy_wh = energy_wh + 1')"});
+  ASSERT_EQ(Wait(python).exit_code, 0);
+  const CommandResult result = Report({"a"}, 1);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("is not the stored one"));
+  EXPECT_TRUE(fs::exists(work() / "a/report.html"));
+  EXPECT_TRUE(Data()["runs"][0]["replays"].empty());
+  EXPECT_FALSE(fs::exists(work() / "a/report_replays/1-a-trial0.html"));
+}
+
+TEST_F(CliReportPages, PagesOfEarlierReportsAreTold) {
+  ASSERT_EQ(Drive("a", 3, {"--set", "referee.time_limit_s=20"}).exit_code, 0);
+  ASSERT_EQ(Report({"a", "--out", "page.html"}, 2).exit_code, 0);
+  EXPECT_THAT(Report({"a", "--out", "page.html"}, 2).err, Not(HasSubstr("older page")));
+  EXPECT_THAT(Report({"a", "--out", "page.html"}, 1).err,
+              HasSubstr("1 older page in page_replays is not of this report"));
+  EXPECT_TRUE(fs::exists(work() / "page_replays"));
+}
+
+TEST_F(CliReportPages, OutThatCannotBeMeantIsRefused) {
+  ASSERT_EQ(Drive("a", 2).exit_code, 0);
+  const auto refused = [&](const std::vector<std::string>& words, const char* why) {
+    const CommandResult result = Run(With({"report", "a"}, words));
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(why));
+  };
+  refused({"--out", "a/results.sqlite"}, "does not end in .html");
+  refused({"--out", "no/where/page.html"}, "--out");
+  fs::create_directories(work() / "folder.html");
+  refused({"--out", "folder.html"}, "is a folder");
+}
+
+}  // namespace
+}  // namespace rockyard::app
