@@ -50,7 +50,7 @@ const fill = (text, mark, value) => text.replace(`<!-- ${mark} -->`, () => value
 
 async function makePage(page) {
   const { script, style, metafile } = await bundle(page);
-  let html = await readFile(`${page}/page.html`, "utf8");
+  let html = await readFile("shared/page.html", "utf8");
   html = fill(html, "policy", `<meta http-equiv="Content-Security-Policy" content="${policy(script)}">`);
   html = fill(html, "style", `<style>${style}</style>`);
   html = fill(html, "notices", comment(await notices([metafile])));
