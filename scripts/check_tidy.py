@@ -23,7 +23,7 @@ def entries_of(build, folder):
     """The compile commands of the files of src/FOLDER."""
     commands = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
     place = (ROOT / "src" / folder).resolve()
-    return [entry for entry in commands if Path(entry["file"]).resolve().parent == place]
+    return [entry for entry in commands if Path(entry["file"]).resolve().is_relative_to(place)]
 
 
 def dependencies(entry):

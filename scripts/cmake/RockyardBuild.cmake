@@ -27,3 +27,15 @@ if(ROCKYARD_SANITIZE)
   add_compile_options(${sanitizer_flags})
   add_link_options(${sanitizer_flags})
 endif()
+
+# Sources of one target are compiled in batches of this many, because most of the time goes into the
+# headers that they share. 0: every file by itself.
+set(ROCKYARD_UNITY_BATCH 8 CACHE STRING "Sources compiled together; 0: none")
+
+function(rockyard_set_unity target)
+  get_target_property(type ${target} TYPE)
+  if(ROCKYARD_UNITY_BATCH GREATER 1 AND NOT type STREQUAL "INTERFACE_LIBRARY")
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE BATCH
+      UNITY_BUILD_BATCH_SIZE ${ROCKYARD_UNITY_BATCH})
+  endif()
+endfunction()

@@ -8,12 +8,6 @@
 #   PARAMS_OF         modules of which this one may include the *_params.h headers, nothing else
 #   PRIVATE_LIBRARIES third-party targets used in .cc files only
 #
-# rockyard_test(NAME LABELS label ... SOURCES ... [DEPENDS module ...] [LIBRARIES target ...])
-#   one GoogleTest executable; every test of it carries the labels.
-#
-# rockyard_benchmark(NAME SOURCES ... [DEPENDS module ...] [LIBRARIES target ...])
-#   one Google Benchmark executable; nothing is built when ROCKYARD_BUILD_BENCHMARKS is off.
-#
 # How a folder is kept from seeing another one: src/ itself is on no include path. Each module has
 # its own include root in the build tree that holds one link,
 #   <build>/include/NAME/NAME -> src/NAME
@@ -23,7 +17,6 @@
 # which also keeps the link graph free of cycles. Parameters may use core, math and messages.
 
 include(GNUInstallDirs)
-include(GoogleTest)
 
 set(ROCKYARD_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
     -Wnon-virtual-dtor -Woverloaded-virtual -Wold-style-cast -Wimplicit-fallthrough -Werror)
@@ -60,13 +53,14 @@ function(rockyard_link_folder NAME root)
   file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/${NAME} SYMBOLIC)
 endfunction()
 
-# The include root of NAME_params: one link per header, renewed so that none outlives its header.
+# The include root of NAME_params: one link per header, at its place below the folder, renewed so
+# that none outlives its header.
 function(rockyard_link_headers NAME root)
   file(REMOVE_RECURSE ${root})
-  file(MAKE_DIRECTORY ${root}/${NAME})
   foreach(header ${ARGN})
-    get_filename_component(file ${header} NAME)
-    file(CREATE_LINK ${header} ${root}/${NAME}/${file} SYMBOLIC)
+    cmake_path(GET header PARENT_PATH subfolder)
+    file(MAKE_DIRECTORY ${root}/${NAME}/${subfolder})
+    file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR}/${header} ${root}/${NAME}/${header} SYMBOLIC)
   endforeach()
 endfunction()
 
@@ -83,6 +77,7 @@ function(rockyard_params_module NAME)
     set(scope INTERFACE)
   endif()
   rockyard_configure_target(${target} ${NAME}_params ${root})
+  rockyard_set_unity(${target})
   target_link_libraries(${target} ${scope} ${ARG_DEPENDS})
 endfunction()
 
@@ -97,7 +92,8 @@ function(rockyard_module NAME)
     list(APPEND dependencies rockyard_${module}_params)
   endforeach()
 
-  file(GLOB params_headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_params.h)
+  file(GLOB_RECURSE params_headers CONFIGURE_DEPENDS
+    RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/*_params.h)
   if(params_headers)
     set(params_sources ${ARG_SOURCES})
     list(FILTER params_sources INCLUDE REGEX "_params\\.cc$")
@@ -121,30 +117,7 @@ function(rockyard_module NAME)
     set(scope INTERFACE)
   endif()
   rockyard_configure_target(${target} ${NAME} ${root})
+  rockyard_set_unity(${target})
   target_link_libraries(${target} ${scope} ${dependencies})
   set_property(GLOBAL APPEND PROPERTY ROCKYARD_MODULES ${NAME})
-endfunction()
-
-function(rockyard_test NAME)
-  cmake_parse_arguments(ARG "" "" "LABELS;SOURCES;DEPENDS;LIBRARIES" ${ARGN})
-  list(TRANSFORM ARG_DEPENDS PREPEND rockyard_ OUTPUT_VARIABLE dependencies)
-  add_executable(${NAME} ${ARG_SOURCES})
-  target_compile_options(${NAME} PRIVATE ${ROCKYARD_WARNINGS})
-  target_include_directories(${NAME} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-  target_compile_definitions(${NAME} PRIVATE ROCKYARD_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  target_link_libraries(${NAME} PRIVATE ${dependencies} ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
-  gtest_discover_tests(${NAME} PROPERTIES LABELS "${ARG_LABELS}" DISCOVERY_TIMEOUT 60)
-endfunction()
-
-function(rockyard_benchmark NAME)
-  if(NOT ROCKYARD_BUILD_BENCHMARKS)
-    return()
-  endif()
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LIBRARIES" ${ARGN})
-  list(TRANSFORM ARG_DEPENDS PREPEND rockyard_ OUTPUT_VARIABLE dependencies)
-  add_executable(${NAME} ${ARG_SOURCES})
-  target_compile_options(${NAME} PRIVATE ${ROCKYARD_WARNINGS})
-  target_compile_definitions(${NAME} PRIVATE ROCKYARD_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  target_link_libraries(${NAME} PRIVATE ${dependencies} ${ARG_LIBRARIES}
-    benchmark::benchmark benchmark::benchmark_main)
 endfunction()

@@ -1,6 +1,6 @@
 #include "core/check.h"
-#include "rover/quasi_static_rover.h"
-#include "rover/rocker_bogie.h"
+#include "rover/multibody/rocker_bogie.h"
+#include "rover/quasi_static/quasi_static_rover.h"
 #include "rover/rover.h"
 
 namespace rockyard::rover {

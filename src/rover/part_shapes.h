@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "math/pose.h"
-#include "rover/multibody.h"
+#include "rover/multibody/multibody.h"
 #include "rover/rover_params.h"
 #include "truth/rover_state.h"
 

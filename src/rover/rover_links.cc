@@ -3,7 +3,7 @@
 #include <array>
 #include <string_view>
 
-#include "rover/multibody.h"
+#include "rover/multibody/multibody.h"
 #include "rover/rover_geometry.h"
 
 namespace rockyard::rover {

@@ -7,7 +7,7 @@
 
 #include "core/fields.h"
 #include "math/angles.h"
-#include "rover/quasi_static_params.h"
+#include "rover/quasi_static/quasi_static_params.h"
 #include "rover/rover_geometry_params.h"
 
 namespace rockyard::rover {

@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include "core/fields.h"
-#include "navigation/gestalt_params.h"
-#include "navigation/pathfinder_params.h"
+#include "navigation/gestalt/gestalt_params.h"
+#include "navigation/pathfinder/pathfinder_params.h"
 #include "navigation/route_params.h"
 #include "navigation/wheel_driver_params.h"
 #include "perception/attitude_params.h"

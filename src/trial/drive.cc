@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "navigation/gestalt.h"
-#include "navigation/pathfinder.h"
+#include "navigation/gestalt/gestalt.h"
+#include "navigation/pathfinder/pathfinder.h"
 #include "navigation/route_follower.h"
 #include "terrain/arena.h"
 #include "trial/goal_designation.h"

@@ -14,8 +14,8 @@
 
 #include "core/hash.h"
 #include "gestalt_ground.h"
-#include "navigation/gestalt_map.h"
-#include "navigation/gestalt_votes.h"
+#include "navigation/gestalt/map.h"
+#include "navigation/gestalt/votes.h"
 
 namespace rockyard::navigation {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "core/distributions.h"
 #include "core/random.h"
-#include "navigation/gestalt_map.h"
+#include "navigation/gestalt/map.h"
 
 namespace rockyard::navigation {
 

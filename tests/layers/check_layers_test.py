@@ -37,8 +37,8 @@ FILES = {
     "terrain/terrain.h": '#pragma once\n#include "core/check.h"\n',
     "terrain/terrain_params.h": '#pragma once\n#include "core/check.h"\n',
     "rover/bullet_rover.cc": '#include "truth/state.h"\n#include <btBulletDynamicsCommon.h>\n',
-    "navigation/pathfinder.h": '#pragma once\n#include "messages/commands.h"\n',
-    "navigation/pathfinder_params.h": '#pragma once\n#include "core/check.h"\n',
+    "navigation/pathfinder/pathfinder.h": '#pragma once\n#include "messages/commands.h"\n',
+    "navigation/pathfinder/pathfinder_params.h": '#pragma once\n#include "core/check.h"\n',
     "scenario/scenario.h": '#pragma once\n#include "terrain/terrain_params.h"\n',
     "batch/store.cc": "#include <omp.h>\n#include <sqlite3.h>\n#pragma omp parallel\n",
 }
@@ -95,36 +95,36 @@ class PlantedViolations(unittest.TestCase):
         self.assertEqual(self.tree.violations(), [])
 
     def test_navigator_includes_terrain(self):
-        self.tree.add_line("navigation/pathfinder.h", '#include "terrain/terrain.h"')
-        self.assert_caught("src/navigation/pathfinder.h:3", "navigation may not include terrain")
+        self.tree.add_line("navigation/pathfinder/pathfinder.h", '#include "terrain/terrain.h"')
+        self.assert_caught("src/navigation/pathfinder/pathfinder.h:3", "navigation may not include terrain")
 
     def test_navigator_includes_truth(self):
-        self.tree.add_line("navigation/pathfinder.h", '  #  include "truth/state.h"')
-        self.assert_caught("src/navigation/pathfinder.h:3", "navigation may not include truth")
+        self.tree.add_line("navigation/pathfinder/pathfinder.h", '  #  include "truth/state.h"')
+        self.assert_caught("src/navigation/pathfinder/pathfinder.h:3", "navigation may not include truth")
 
     def test_way_around_by_parent_folder(self):
-        self.tree.add_line("navigation/pathfinder.h", '#include "../terrain/terrain.h"')
-        self.assert_caught("src/navigation/pathfinder.h:3", "never with ..")
+        self.tree.add_line("navigation/pathfinder/pathfinder.h", '#include "../terrain/terrain.h"')
+        self.assert_caught("src/navigation/pathfinder/pathfinder.h:3", "never with ..")
 
     def test_way_around_inside_an_allowed_path(self):
-        self.tree.add_line("navigation/pathfinder.h", '#include "core/../terrain/terrain.h"')
-        self.assert_caught("src/navigation/pathfinder.h:3", "never with ..")
+        self.tree.add_line("navigation/pathfinder/pathfinder.h", '#include "core/../terrain/terrain.h"')
+        self.assert_caught("src/navigation/pathfinder/pathfinder.h:3", "never with ..")
 
     def test_own_header_in_angle_brackets(self):
-        self.tree.add_line("navigation/pathfinder.h", "#include <terrain/terrain.h>")
-        self.assert_caught("src/navigation/pathfinder.h:3", 'included with "..."')
+        self.tree.add_line("navigation/pathfinder/pathfinder.h", "#include <terrain/terrain.h>")
+        self.assert_caught("src/navigation/pathfinder/pathfinder.h:3", 'included with "..."')
 
     def test_header_without_its_module(self):
-        self.tree.add_line("navigation/pathfinder.h", '#include "pathfinder_params.h"')
-        self.assert_caught("src/navigation/pathfinder.h:3", "no folder of the table")
+        self.tree.add_line("navigation/pathfinder/pathfinder.h", '#include "pathfinder_params.h"')
+        self.assert_caught("src/navigation/pathfinder/pathfinder.h:3", "no folder of the table")
 
     def test_header_that_does_not_exist(self):
-        self.tree.add_line("navigation/pathfinder.h", '#include "messages/gone.h"')
-        self.assert_caught("src/navigation/pathfinder.h:3", "no such header")
+        self.tree.add_line("navigation/pathfinder/pathfinder.h", '#include "messages/gone.h"')
+        self.assert_caught("src/navigation/pathfinder/pathfinder.h:3", "no such header")
 
     def test_include_hidden_by_has_include(self):
-        self.tree.add_line("navigation/pathfinder.h", '#if __has_include("terrain/terrain.h")')
-        self.assert_caught("src/navigation/pathfinder.h:3", "__has_include")
+        self.tree.add_line("navigation/pathfinder/pathfinder.h", '#if __has_include("terrain/terrain.h")')
+        self.assert_caught("src/navigation/pathfinder/pathfinder.h:3", "__has_include")
 
     def test_scenario_includes_more_than_parameters(self):
         self.tree.add_line("scenario/scenario.h", '#include "terrain/terrain.h"')
@@ -201,8 +201,8 @@ class NoFalseAlarm(unittest.TestCase):
         self.tree = Tree(self.folder.name)
 
     def test_includes_in_comments_do_not_count(self):
-        self.tree.add_line("navigation/pathfinder.h", '// #include "terrain/terrain.h"')
-        self.tree.add_line("navigation/pathfinder.h", '/*\n#include "truth/state.h"\n*/')
+        self.tree.add_line("navigation/pathfinder/pathfinder.h", '// #include "terrain/terrain.h"')
+        self.tree.add_line("navigation/pathfinder/pathfinder.h", '/*\n#include "truth/state.h"\n*/')
         self.assertEqual(self.tree.violations(), [])
 
     def test_file_at_the_limit(self):

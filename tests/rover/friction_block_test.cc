@@ -1,5 +1,5 @@
 // Friction of one contact against the conditions that define it.
-#include "rover/friction_block.h"
+#include "rover/multibody/friction_block.h"
 
 #include <gtest/gtest.h>
 

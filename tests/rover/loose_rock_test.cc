@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/hash.h"
-#include "rover/loose_rocks.h"
+#include "rover/multibody/loose_rocks.h"
 #include "rover_drive.h"
 #include "sensing/light_stripe.h"
 #include "soil_reference.h"

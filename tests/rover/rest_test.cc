@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 #include <numbers>
 
-#include "rover/constraint_solver.h"
+#include "rover/multibody/constraint_solver.h"
 #include "rover/wheel_soil.h"
 #include "rover_drive.h"
 #include "soil_reference.h"

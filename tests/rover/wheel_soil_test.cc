@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "rover/wheel_soil_table.h"
+#include "rover/quasi_static/wheel_soil_table.h"
 #include "soil_reference.h"
 
 namespace rockyard::rover {

@@ -1,0 +1,84 @@
+# Tests and benchmarks.
+#
+# rockyard_test(NAME [UNIT file ...] [PROPERTY file ...] [PHYSICS file ...] [DIFFERENTIAL file ...]
+#               [STATISTICAL file ...] [DETERMINISM file ...] [FUZZ file ...] [CLI file ...]
+#               [SLOW file ...] [HELPERS file ...] [DEPENDS module ...] [LIBRARIES target ...])
+#   One GoogleTest executable of a folder of tests. Every test carries two labels: its kind, from the
+#   list that its file stands in, and its tier: `full` where the file is listed under SLOW too,
+#   `fast` where not. HELPERS are compiled but hold no tests.
+#
+# rockyard_label_test(NAME KIND [SLOW])
+#   The same two labels for a test that is no GoogleTest.
+#
+# rockyard_benchmark(NAME SOURCES ... [DEPENDS module ...] [LIBRARIES target ...])
+#   one Google Benchmark executable; nothing is built when ROCKYARD_BUILD_BENCHMARKS is off.
+
+set(ROCKYARD_TEST_KINDS UNIT PROPERTY PHYSICS DIFFERENTIAL STATISTICAL DETERMINISM FUZZ CLI)
+
+function(rockyard_test NAME)
+  cmake_parse_arguments(ARG "" "" "${ROCKYARD_TEST_KINDS};SLOW;HELPERS;DEPENDS;LIBRARIES" ${ARGN})
+  if(ARG_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "rockyard_test(${NAME}): unknown arguments ${ARG_UNPARSED_ARGUMENTS}")
+  endif()
+  set(sources)
+  set(labels)
+  foreach(kind ${ROCKYARD_TEST_KINDS})
+    string(TOLOWER ${kind} label)
+    foreach(file ${ARG_${kind}})
+      list(APPEND sources ${file})
+      set(tier fast)
+      if(file IN_LIST ARG_SLOW)
+        set(tier full)
+      endif()
+      cmake_path(ABSOLUTE_PATH file NORMALIZE)
+      string(APPEND labels "${file}\t${label};${tier}\n")
+    endforeach()
+  endforeach()
+  foreach(file ${ARG_SLOW})
+    if(NOT file IN_LIST sources)
+      message(FATAL_ERROR "rockyard_test(${NAME}): SLOW ${file} is in no list of tests")
+    endif()
+  endforeach()
+  set(labels_file ${CMAKE_CURRENT_BINARY_DIR}/${NAME}_labels.txt)
+  file(CONFIGURE OUTPUT ${labels_file} CONTENT "${labels}" @ONLY)
+
+  list(TRANSFORM ARG_DEPENDS PREPEND rockyard_ OUTPUT_VARIABLE dependencies)
+  add_executable(${NAME} ${sources} ${ARG_HELPERS})
+  target_compile_options(${NAME} PRIVATE ${ROCKYARD_WARNINGS} ${ROCKYARD_TEST_OPTIMIZATION})
+  target_include_directories(${NAME} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_compile_definitions(${NAME} PRIVATE ROCKYARD_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_link_libraries(${NAME} PRIVATE ${dependencies} ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
+  rockyard_set_unity(${NAME})
+
+  # The program itself knows its tests and the file of each.
+  set(list ${CMAKE_CURRENT_BINARY_DIR}/${NAME}_tests.cmake)
+  add_custom_command(TARGET ${NAME} POST_BUILD BYPRODUCTS ${list}
+    COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/scripts/cmake/list_tests.py
+            $<TARGET_FILE:${NAME}> ${labels_file} ${list} VERBATIM)
+  set(include ${CMAKE_CURRENT_BINARY_DIR}/${NAME}_include.cmake)
+  file(WRITE ${include} "if(EXISTS \"${list}\")\n  include(\"${list}\")\nelse()\n"
+    "  add_test(${NAME}_NOT_BUILT ${NAME}_NOT_BUILT)\nendif()\n")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${include})
+endfunction()
+
+function(rockyard_label_test NAME KIND)
+  string(TOLOWER ${KIND} label)
+  set(tier fast)
+  if("${ARGN}" STREQUAL "SLOW")
+    set(tier full)
+  endif()
+  set_tests_properties(${NAME} PROPERTIES LABELS "${label};${tier}")
+endfunction()
+
+function(rockyard_benchmark NAME)
+  if(NOT ROCKYARD_BUILD_BENCHMARKS)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LIBRARIES" ${ARGN})
+  list(TRANSFORM ARG_DEPENDS PREPEND rockyard_ OUTPUT_VARIABLE dependencies)
+  add_executable(${NAME} ${ARG_SOURCES})
+  target_compile_options(${NAME} PRIVATE ${ROCKYARD_WARNINGS})
+  target_compile_definitions(${NAME} PRIVATE ROCKYARD_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_link_libraries(${NAME} PRIVATE ${dependencies} ${ARG_LIBRARIES}
+    benchmark::benchmark benchmark::benchmark_main)
+endfunction()

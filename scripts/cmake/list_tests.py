@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+"""Writes what ctest needs to run each test of a GoogleTest program by itself.
+
+Usage: list_tests.py PROGRAM LABELS OUTPUT
+LABELS has one line per source file with tests: its path, a tab, the labels separated by ";".
+OUTPUT is a CMake script of add_test() and set_tests_properties(), one pair a test.
+Exit code 0; 1: a test stands in a file that LABELS does not name, or a file of LABELS has no test.
+"""
+
+import json
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+SKIPPED = r"\\[  SKIPPED \\]"
+
+
+def read_labels(path):
+    lines = Path(path).read_text(encoding="utf-8").splitlines()
+    return dict(line.split("\t") for line in lines if line)
+
+
+def tests_of(program):
+    """Yields (full name, file) of every test, as the program lists them."""
+    with tempfile.TemporaryDirectory() as folder:
+        output = Path(folder, "tests.json")
+        subprocess.run([program, "--gtest_list_tests", f"--gtest_output=json:{output}"], check=True,
+                       stdout=subprocess.DEVNULL)
+        suites = json.loads(output.read_text(encoding="utf-8"))["testsuites"]
+    for suite in suites:
+        for test in suite["testsuite"]:
+            yield f"{suite['name']}.{test['name']}", test["file"]
+
+
+def bracket(text):
+    """A CMake argument in which no character has a meaning."""
+    level = "=" * next(n for n in range(1, 9) if f"]{'=' * n}]" not in text)
+    return f"[{level}[{text}]{level}]"
+
+
+def script(program, tests, labels):
+    for name, file in tests:
+        yield (f"add_test({bracket(name)} {bracket(program)} {bracket('--gtest_filter=' + name)} "
+               "--gtest_also_run_disabled_tests)")
+        yield (f"set_tests_properties({bracket(name)} PROPERTIES LABELS {bracket(labels[file])} "
+               f"WORKING_DIRECTORY {bracket(str(Path(program).parent))} "
+               f'SKIP_REGULAR_EXPRESSION "{SKIPPED}")')
+
+
+def main(arguments):
+    if len(arguments) != 3:
+        print(__doc__)
+        return 1
+    program, labels_file, output = arguments
+    labels = read_labels(labels_file)
+    tests = list(tests_of(program))
+    seen = {file for _, file in tests}
+    for file in sorted(seen - labels.keys()):
+        print(f"list_tests: {file} has tests, but stands in no list of rockyard_test", file=sys.stderr)
+    for file in sorted(labels.keys() - seen):
+        print(f"list_tests: {file} is listed as tests, but has none", file=sys.stderr)
+    if seen != labels.keys():
+        return 1
+    Path(output).write_text("\n".join(script(program, tests, labels)) + "\n", encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

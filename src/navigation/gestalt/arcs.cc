@@ -1,0 +1,124 @@
+#include "navigation/gestalt/arcs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/check.h"
+
+namespace rockyard::navigation {
+namespace {
+
+using messages::MotionKind;
+
+// Below this curvature an arc of any length that is judged is straight to a tenth of a micrometre.
+constexpr double kStraight_per_m = 1e-9;
+
+// The place on an arc at signed distance s (negative: driven backwards) from R's origin, which it
+// leaves along x: (sin(c s) / c, (1 - cos(c s)) / c).
+PathPoint OnArc(double curvature_per_m, double s_m) {
+  if (std::abs(curvature_per_m) < kStraight_per_m) return {s_m, 0.0};
+  const double angle_rad = curvature_per_m * s_m;
+  const double half_sine = std::sin(0.5 * angle_rad);
+  return {std::sin(angle_rad) / curvature_per_m, 2.0 * half_sine * half_sine / curvature_per_m};
+}
+
+double Weight(const GestaltPlanParams& params, double distance_m) {
+  switch (params.path_weight) {
+    case PathWeight::kLinear: {
+      const double share =
+          (distance_m - params.plan_min_dist_m) / (params.plan_max_dist_m - params.plan_min_dist_m);
+      return 1.0 - (1.0 - params.far_weight) * std::min(1.0, share);
+    }
+    case PathWeight::kInverse:
+      return 1.0 / distance_m;
+    case PathWeight::kUniform:
+      return 1.0;
+  }
+  return 1.0;
+}
+
+CandidateMotion MakeArc(double curvature_per_m, int direction, const GestaltPlanParams& plan,
+                        const PathSampling& sampling) {
+  CandidateMotion candidate;
+  candidate.motion = {MotionKind::kArc, curvature_per_m, direction};
+  for (const double s_m : sampling.distance_m) {
+    const bool turned_enough = std::abs(curvature_per_m) * s_m > plan.max_path_turn_rad;
+    if (turned_enough && !candidate.points.empty()) break;
+    candidate.points.push_back(OnArc(curvature_per_m, direction * s_m));
+  }
+  return candidate;
+}
+
+CandidateMotion MakePointTurn(double amount_rad, int direction, const PathSampling& sampling) {
+  CandidateMotion candidate;
+  candidate.motion = {MotionKind::kTurnInPlace, 0.0, direction};
+  candidate.turn_rad = direction * amount_rad;
+  for (const double s_m : sampling.distance_m) {
+    candidate.points.push_back(
+        {s_m * std::cos(candidate.turn_rad), s_m * std::sin(candidate.turn_rad)});
+  }
+  return candidate;
+}
+
+}  // namespace
+
+std::size_t PathSampling::CountWithin(double length_m) const {
+  const auto end = std::upper_bound(distance_m.begin(), distance_m.end(), length_m);
+  return std::max<std::size_t>(1, static_cast<std::size_t>(end - distance_m.begin()));
+}
+
+PathSampling SamplePaths(const GestaltPlanParams& params, double cell_m) {
+  EXPECT(cell_m > 0.0 && params.samples_per_cell > 0);
+  EXPECT(params.plan_max_dist_m > params.plan_min_dist_m);
+  const double piece_m = cell_m / static_cast<double>(params.samples_per_cell);
+  PathSampling sampling;
+  for (std::size_t k = 0;; ++k) {
+    const double s_m = params.plan_min_dist_m + (static_cast<double>(k) + 0.5) * piece_m;
+    if (k > 0 && s_m > params.plan_max_dist_m) break;
+    sampling.distance_m.push_back(s_m);
+    sampling.weight.push_back(Weight(params, s_m));
+  }
+  return sampling;
+}
+
+double ArcCurvature(std::size_t index, std::size_t count, double max_curvature_per_m) {
+  if (count < 2) return 0.0;
+  // Counted from the middle, so that mirrored arcs have exactly opposite curvatures.
+  const double twice_from_middle =
+      2.0 * static_cast<double>(index) - static_cast<double>(count - 1);
+  return max_curvature_per_m * (twice_from_middle / static_cast<double>(count - 1));
+}
+
+std::size_t NearestArc(double curvature_per_m, std::size_t count, double max_curvature_per_m) {
+  EXPECT(count > 0);
+  if (count < 2) return 0;
+  const double limited = std::clamp(curvature_per_m, -max_curvature_per_m, max_curvature_per_m);
+  const double spacing = 2.0 * max_curvature_per_m / static_cast<double>(count - 1);
+  const double middle = count % 2 == 0 ? 0.5 : 0.0;  // of the arc count / 2, in spacings from c = 0
+  const auto from_middle = std::lround(limited / spacing - middle);
+  const auto index = static_cast<std::int64_t>(count / 2) + from_middle;
+  return static_cast<std::size_t>(
+      std::clamp<std::int64_t>(index, 0, static_cast<std::int64_t>(count) - 1));
+}
+
+CandidateMotions MakeCandidates(const GestaltArcParams& arcs, const GestaltPlanParams& plan,
+                                const PathSampling& sampling) {
+  CandidateMotions motions;
+  const auto row = [&](std::int64_t number, int direction) {
+    std::vector<CandidateMotion> row_of_arcs;
+    const auto count = static_cast<std::size_t>(number);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double curvature_per_m = ArcCurvature(i, count, arcs.max_curvature_per_m);
+      row_of_arcs.push_back(MakeArc(curvature_per_m, direction, plan, sampling));
+    }
+    return row_of_arcs;
+  };
+  motions.forward = row(arcs.num_forward_arcs, +1);
+  motions.backward = row(arcs.num_backward_arcs, -1);
+  for (const int direction : {-1, +1}) {
+    motions.point_turns.push_back(MakePointTurn(arcs.point_turn_amount_rad, direction, sampling));
+  }
+  return motions;
+}
+
+}  // namespace rockyard::navigation

@@ -1,0 +1,61 @@
+// The motions among which GESTALT chooses, and the paths that they lead over.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "messages/commands.h"
+#include "navigation/gestalt/vote_params.h"
+
+namespace rockyard::navigation {
+
+struct PathPoint {
+  double x_m = 0.0;  // in the levelled rover frame R, before the motion
+  double y_m = 0.0;
+};
+
+struct CandidateMotion {
+  messages::MotionCommand motion;
+  double turn_rad = 0.0;          // of a point turn, before its straight drive; 0 for arcs
+  std::vector<PathPoint> points;  // the k-th lies PathSampling::distance_m[k] along the path
+};
+
+// Where along their paths candidates are judged, the same for all: the middles of pieces of length
+// h = cell / samples_per_cell from plan_min_dist on,
+//   s_k = plan_min_dist + (k + 1/2) h  up to plan_max_dist; s_0 always,
+// with the weight that PathWeight names. Middles, so that no point of a straight path along an axis
+// of the map lies on an edge between cells.
+struct PathSampling {
+  std::vector<double> distance_m;
+  std::vector<double> weight;
+
+  // Points up to the length; at least one.
+  std::size_t CountWithin(double length_m) const;
+};
+
+PathSampling SamplePaths(const GestaltPlanParams& params, double cell_m);
+
+// Candidates in rows, as figure 3 of Goldberg 2002 shows them: arcs by curvature from right (most
+// negative) to left, point turns right and left.
+struct CandidateMotions {
+  std::vector<CandidateMotion> forward;
+  std::vector<CandidateMotion> backward;
+  std::vector<CandidateMotion> point_turns;
+};
+
+// Curvature of arc i of n, spaced evenly:
+//   c_i = c_max (2 i / (n - 1) - 1); 0 for a single arc.
+double ArcCurvature(std::size_t index, std::size_t count, double max_curvature_per_m);
+
+// The arc of n whose curvature is nearest, after limiting it to what there is. Halfway between two
+// arcs: the tighter one of an odd number, so that mirrored curvatures give mirrored arcs; with an
+// even number and curvature 0, the right one of the two in the middle.
+std::size_t NearestArc(double curvature_per_m, std::size_t count, double max_curvature_per_m);
+
+// A point turn is a turn in place by point_turn_amount and a straight drive after it (Howard 2012,
+// "turn-in-place of different angles followed by a straight drive"). Arcs are judged no further
+// than where they have turned max_path_turn.
+CandidateMotions MakeCandidates(const GestaltArcParams& arcs, const GestaltPlanParams& plan,
+                                const PathSampling& sampling);
+
+}  // namespace rockyard::navigation

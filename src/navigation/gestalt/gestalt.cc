@@ -1,0 +1,226 @@
+#include "navigation/gestalt/gestalt.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/angles.h"
+#include "math/pose.h"
+#include "navigation/gestalt/choice.h"
+
+namespace rockyard::navigation {
+namespace {
+
+using messages::LookDirection;
+using messages::MotionCommand;
+using messages::MotionKind;
+using messages::MotionVote;
+using messages::PoseEstimate;
+
+// Angles that add up to a full turn may miss it by rounding.
+constexpr double kRounding_rad = 1e-9;
+
+NavigatorDecision Move(const MotionCommand& motion) {
+  return {NavigatorStatus::kDriving, {}, motion};
+}
+
+NavigatorDecision Finish(NavigatorStatus status) { return {status, {}, {}}; }
+
+math::Transform BelievedPose(const NavigatorInput& input) {
+  const PoseEstimate& e = input.estimate;
+  return math::MakePose({e.x_m, e.y_m, input.attitude.z_m}, e.heading_rad, input.attitude.pitch_rad,
+                        input.attitude.roll_rad);
+}
+
+// Whether something presses on the end of the vehicle that leads in the direction.
+bool Touches(const NavigatorInput& input, int direction) {
+  if (direction < 0) return input.touches_behind;
+  return input.vehicle_hazard != nullptr &&
+         input.vehicle_hazard->kind == messages::VehicleHazardKind::kContact;
+}
+
+}  // namespace
+
+GestaltNavigator::GestaltNavigator(const GestaltParams& params, const messages::Goal& goal)
+    : params_(params), goal_(goal), map_(params.map), voter_(params) {}
+
+NavigatorDecision GestaltNavigator::Decide(const NavigatorInput& input) {
+  const bool moves =
+      mode_ == Mode::kDriving || mode_ == Mode::kBackingOff || mode_ == Mode::kTurning;
+  const bool asks = !moves || params_.drive.arrival_check == ArrivalCheck::kWhileDriving;
+  if (asks && AtGoal(input.estimate)) return Finish(NavigatorStatus::kArrived);
+  if (params_.drive.time_out_s > 0.0 && input.time_s >= params_.drive.time_out_s) {
+    return Finish(NavigatorStatus::kGaveUp);
+  }
+  switch (mode_) {
+    case Mode::kStarting:
+      return BeginCycle(input);
+    case Mode::kLookingAhead:
+    case Mode::kLookingBehind:
+      return input.cloud != nullptr ? OnCloud(input) : Look(mode_);
+    case Mode::kDriving:
+      return ContinueDrive(input);
+    case Mode::kBackingOff:
+      return ContinueBackOff(input);
+    case Mode::kTurning:
+      return ContinueTurn(input);
+  }
+  return BeginCycle(input);
+}
+
+void GestaltNavigator::OnPoseUpdate(const PoseEstimate& before, const PoseEstimate& after) {
+  map_.Clear();
+  map_.BeginCycle(after.x_m, after.y_m);
+  felt_places_.Move(before, after, params_.drive.felt_radius_m, map_);
+  // The ground that a search has seen is forgotten: it is searched again.
+  searched_rad_ = 0.0;
+  // Turned angles are differences of heading: keep what was already turned.
+  anchor_.heading_rad += after.heading_rad - before.heading_rad;
+  // Progress is counted from where the rover now believes to be.
+  best_goal_distance_m_ = TowardsGoal(after, goal_).distance_m;
+  // What was seen ahead is forgotten with the map.
+  if (mode_ == Mode::kLookingBehind) mode_ = Mode::kLookingAhead;
+}
+
+const messages::NavigationView* GestaltNavigator::view() const {
+  return decisions_ > 0 ? &view_ : nullptr;
+}
+
+NavigatorDecision GestaltNavigator::BeginCycle(const NavigatorInput& input) {
+  if (AtGoal(input.estimate)) return Finish(NavigatorStatus::kArrived);
+  if (!Progresses(input.estimate)) return Finish(NavigatorStatus::kGaveUp);
+  return Look(Mode::kLookingAhead);
+}
+
+NavigatorDecision GestaltNavigator::OnCloud(const NavigatorInput& input) {
+  const bool ahead = input.cloud->direction == LookDirection::kAhead;
+  // An answer to a look that a pose update has overtaken.
+  if (!ahead && mode_ == Mode::kLookingAhead) return Look(mode_);
+  if (ahead) map_.BeginCycle(input.estimate.x_m, input.estimate.y_m);
+  map_.Add(*input.cloud, BelievedPose(input));
+  votes_ = voter_.Vote(map_.Evaluate(), input.estimate, goal_);
+  looked_behind_ = !ahead;
+  const bool looks_behind = ahead && params_.drive.rear_cameras &&
+                            BestVote(votes_.forward) < params_.votes.min_fwd_threshold;
+  return looks_behind ? Look(Mode::kLookingBehind) : Choose(input);
+}
+
+NavigatorDecision GestaltNavigator::Choose(const NavigatorInput& input) {
+  MotionVote* chosen = ChooseArc(votes_, params_);
+  const bool searched = searched_rad_ >= params_.drive.search_turn_rad - kRounding_rad;
+  MotionVote& turn = NextTurn(input.estimate);
+  const bool turns = !searched && TurnsInPlace(turn, chosen, params_);
+  if (turns) chosen = &turn;
+  if (chosen != nullptr) MarkChoice(votes_, *chosen, params_);
+  FillView(input);
+  if (chosen == nullptr) return Finish(NavigatorStatus::kGaveUp);
+  search_direction_ = turns ? turn.motion.direction : 0;
+  if (turns) return Begin(Mode::kTurning, turn.motion, 0.0, input);
+  searched_rad_ = 0.0;
+  const double left_m = TowardsGoal(input.estimate, goal_).distance_m;
+  return Begin(Mode::kDriving, chosen->motion, std::min(params_.drive.step_m, left_m), input);
+}
+
+// A search turns one way only: the other way lies what it has just seen.
+MotionVote& GestaltNavigator::NextTurn(const PoseEstimate& estimate) {
+  if (search_direction_ == 0) {
+    return *ChoosePointTurn(votes_, TowardsGoal(estimate, goal_).bearing_rad);
+  }
+  return search_direction_ < 0 ? votes_.point_turns.front() : votes_.point_turns.back();
+}
+
+NavigatorDecision GestaltNavigator::ContinueDrive(const NavigatorInput& input) {
+  const double driven_m = input.estimate.distance_m - anchor_.distance_m;
+  const bool feels = Feels(input);
+  if (!feels) felt_since_start_ = false;
+  const bool counts = !felt_since_start_ || driven_m >= params_.drive.felt_again_m;
+  if (feels && counts) return OnFelt(input);
+  if (driven_m < leg_m_ && !TimedOut(input)) return Move(motion_);
+  return BeginCycle(input);
+}
+
+NavigatorDecision GestaltNavigator::ContinueTurn(const NavigatorInput& input) {
+  const double turned_rad =
+      motion_.direction * math::WrapAngle(input.estimate.heading_rad - anchor_.heading_rad);
+  const bool feels = Feels(input);
+  if (!feels) felt_since_start_ = false;
+  const bool stops = feels && !felt_since_start_;
+  const bool turned_enough = turned_rad >= params_.arcs.point_turn_amount_rad;
+  if (!stops && !turned_enough && !TimedOut(input)) return Move(motion_);
+  searched_rad_ += std::abs(turned_rad);
+  return stops ? OnFelt(input) : BeginCycle(input);
+}
+
+NavigatorDecision GestaltNavigator::ContinueBackOff(const NavigatorInput& input) {
+  const double driven_m = input.estimate.distance_m - anchor_.distance_m;
+  const bool ends = driven_m >= leg_m_ || Touches(input, motion_.direction) || TimedOut(input);
+  return ends ? BeginCycle(input) : Move(motion_);
+}
+
+NavigatorDecision GestaltNavigator::OnFelt(const NavigatorInput& input) {
+  if (++felt_hazards_ > params_.drive.max_felt) return Finish(NavigatorStatus::kGaveUp);
+  if (mode_ == Mode::kTurning) {
+    search_direction_ = -motion_.direction;
+    return BeginCycle(input);
+  }
+  felt_places_.Feel(input, motion_.direction, params_.map.rover, params_.drive.felt_radius_m, map_);
+  const double driven_m = input.estimate.distance_m - anchor_.distance_m;
+  const double leg_m = std::min(driven_m, params_.drive.back_off_m);
+  if (leg_m <= 0.0 || Touches(input, -motion_.direction)) return BeginCycle(input);
+  const MotionCommand back{motion_.kind, motion_.curvature_per_m, -motion_.direction};
+  return Begin(Mode::kBackingOff, back, leg_m, input);
+}
+
+NavigatorDecision GestaltNavigator::Look(Mode mode) {
+  mode_ = mode;
+  const bool ahead = mode == Mode::kLookingAhead;
+  return {NavigatorStatus::kDriving, ahead ? LookDirection::kAhead : LookDirection::kBehind, {}};
+}
+
+NavigatorDecision GestaltNavigator::Begin(Mode mode, const MotionCommand& motion, double leg_m,
+                                          const NavigatorInput& input) {
+  mode_ = mode;
+  motion_ = motion;
+  leg_m_ = leg_m;
+  anchor_ = input.estimate;
+  began_s_ = input.time_s;
+  felt_since_start_ = Feels(input);
+  return Move(motion_);
+}
+
+void GestaltNavigator::FillView(const NavigatorInput& input) {
+  view_.step = decisions_++;
+  view_.estimate = input.estimate;
+  view_.goal = goal_;
+  view_.looked_behind = looked_behind_;
+  view_.map = map_.View();
+  view_.forward = votes_.forward;
+  view_.backward = votes_.backward;
+  view_.point_turns = votes_.point_turns;
+}
+
+bool GestaltNavigator::Progresses(const PoseEstimate& estimate) {
+  const double distance_m = TowardsGoal(estimate, goal_).distance_m;
+  if (distance_m <= best_goal_distance_m_ - params_.drive.progress_m) {
+    best_goal_distance_m_ = distance_m;
+    fruitless_cycles_ = 0;
+    felt_hazards_ = 0;
+    felt_places_.Forget();
+    return true;
+  }
+  return ++fruitless_cycles_ <= params_.drive.max_fruitless_cycles;
+}
+
+bool GestaltNavigator::Feels(const NavigatorInput& input) const {
+  const bool backward = motion_.kind == MotionKind::kArc && motion_.direction < 0;
+  return input.vehicle_hazard != nullptr || (backward && Touches(input, -1));
+}
+
+bool GestaltNavigator::TimedOut(const NavigatorInput& input) const {
+  return input.time_s - began_s_ >= params_.drive.step_time_out_s;
+}
+
+bool GestaltNavigator::AtGoal(const PoseEstimate& estimate) const {
+  return TowardsGoal(estimate, goal_).distance_m <= params_.waypoints.goal_tolerance_m;
+}
+
+}  // namespace rockyard::navigation

@@ -1,0 +1,92 @@
+// GESTALT, the map-based navigator of Goldberg 2002, section 4: look, map, vote, drive an arc
+// blindly, look again.
+//
+// A cycle begins at rest:
+//   1. At the goal within goal_tolerance: arrived. Out of time, or no progress for long: given up.
+//   2. Look ahead; the points go into the map, and every motion is voted on.
+//   3. Best forward vote below min_fwd_threshold: look behind, too, and vote again.
+//   4. Drive the chosen arc for min(step, distance to the goal), or turn in place and look again.
+// Nothing to choose after turning in place by search_turn: given up.
+//
+// Drives and turns end by what is measured on board. A hazard that the rover feels on the way
+// (tilt, joint angles, motor current, contact) ends a drive: the rover marks an obstacle where it
+// feels it (FeltPlaces), backs off along the arc unless it touches something at that end too, and
+// begins a cycle. The paper names these safeguards, not what follows; all of it is assumed. Draws
+// no random numbers.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "navigation/gestalt/felt.h"
+#include "navigation/gestalt/gestalt_params.h"
+#include "navigation/gestalt/map.h"
+#include "navigation/gestalt/votes.h"
+#include "navigation/navigator.h"
+
+namespace rockyard::navigation {
+
+class GestaltNavigator final : public Navigator {
+ public:
+  GestaltNavigator(const GestaltParams& params, const messages::Goal& goal);
+
+  NavigatorDecision Decide(const NavigatorInput& input) override;
+
+  // Forgets the map, which lies where the rover no longer believes to be, but for what it felt
+  // since its last progress: no look would find that again. A manoeuvre under way ends as it would
+  // have; a search begins anew.
+  void OnPoseUpdate(const messages::PoseEstimate& before,
+                    const messages::PoseEstimate& after) override;
+
+  // Of the last decision.
+  const messages::NavigationView* view() const override;
+
+ private:
+  enum class Mode { kStarting, kLookingAhead, kLookingBehind, kDriving, kBackingOff, kTurning };
+
+  NavigatorDecision BeginCycle(const NavigatorInput& input);
+  NavigatorDecision OnCloud(const NavigatorInput& input);
+  NavigatorDecision Choose(const NavigatorInput& input);
+  NavigatorDecision ContinueDrive(const NavigatorInput& input);
+  NavigatorDecision ContinueBackOff(const NavigatorInput& input);
+  NavigatorDecision ContinueTurn(const NavigatorInput& input);
+  NavigatorDecision OnFelt(const NavigatorInput& input);
+
+  NavigatorDecision Look(Mode mode);
+  NavigatorDecision Begin(Mode mode, const messages::MotionCommand& motion, double leg_m,
+                          const NavigatorInput& input);
+  messages::MotionVote& NextTurn(const messages::PoseEstimate& estimate);
+  void FillView(const NavigatorInput& input);
+
+  bool Progresses(const messages::PoseEstimate& estimate);
+  bool Feels(const NavigatorInput& input) const;
+  bool TimedOut(const NavigatorInput& input) const;
+  bool AtGoal(const messages::PoseEstimate& estimate) const;
+
+  GestaltParams params_;
+  messages::Goal goal_;
+  GestaltMap map_;
+  ArcVoter voter_;
+
+  Mode mode_ = Mode::kStarting;
+  messages::MotionCommand motion_;
+  messages::PoseEstimate anchor_;  // estimate when the running manoeuvre began
+  double began_s_ = 0.0;           // on-board clock then
+  double leg_m_ = 0.0;             // length of the running drive
+  bool felt_since_start_ = false;  // a hazard without a break since the manoeuvre began
+
+  double searched_rad_ = 0.0;  // turned in place since the last drive
+  int search_direction_ = 0;   // kept during a search; 0: none yet
+
+  double best_goal_distance_m_ = std::numeric_limits<double>::infinity();
+  std::int64_t fruitless_cycles_ = 0;
+  std::int64_t felt_hazards_ = 0;  // in a row without progress
+  FeltPlaces felt_places_;         // of these
+
+  MotionVotes votes_;  // after the last look
+  bool looked_behind_ = false;
+  std::int64_t decisions_ = 0;
+  messages::NavigationView view_;
+};
+
+}  // namespace rockyard::navigation

@@ -1,0 +1,153 @@
+#include "navigation/gestalt/gestalt_params.h"
+
+namespace rockyard::navigation {
+namespace {
+
+using core::Origin;
+
+void VisitChoices(GestaltDriveParams& p, core::FieldVisitor& v) {
+  v.Real("step_m", p.step_m,
+         {.doc = "drive along the chosen arc before looking again, as measured on board",
+          .min = 0.01,
+          .max = 5.0,
+          .origin = Origin::kPublished,
+          .source = "Goldberg 2002 sec. 4, \"e.g., 35 cm\""});
+  v.Boolean(
+      "rear_cameras", p.rear_cameras,
+      {.doc = "look behind too where the best forward vote is below min_fwd_threshold; without "
+              "backward arcs this can only show forward ones what they would turn into",
+       .origin = Origin::kPublished,
+       .source = "Goldberg 2002 sec. 5"});
+  v.Choice("backward_arcs", p.backward_arcs,
+           {.doc = "when a backward arc may be chosen",
+            .origin = Origin::kAssumed,
+            .source = "Goldberg 2002 step 7: the highest vote of all arcs, but backward ones merge "
+                      "to 200 on seen ground and would win over forward votes that are good enough "
+                      "not to look behind"});
+  v.Choice("point_turns", p.point_turns,
+           {.doc = "when turning in place is chosen over an arc",
+            .origin = Origin::kAssumed,
+            .source = "below min_vote_goodness an arc is blocked or unseen: a turn shows more"});
+  v.Real("min_drive_goodness", p.min_drive_goodness,
+         {.doc = "an arc whose hazard vote is not above is never driven",
+          .min = 0.0,
+          .max = 255.0,
+          .origin = Origin::kAssumed,
+          .source = "as min_allowed_goodness for cells: unknown ground, 11, is the last resort",
+          .study_low = 0.0,
+          .study_high = 26.0});
+  v.Choice("arrival_check", p.arrival_check,
+           {.doc = "when the rover asks whether it is at the goal",
+            .origin = Origin::kAssumed,
+            .source = "Goldberg 2002 sec. 4: \"first checks\" when invoked, between steps"});
+}
+
+void VisitEndings(GestaltDriveParams& p, core::FieldVisitor& v) {
+  v.Real("step_time_out_s", p.step_time_out_s,
+         {.doc = "time after which a drive or turn that is not measured as done ends all the same",
+          .min = 1.0,
+          .max = 1e6,
+          .origin = Origin::kAssumed,
+          .source = "twenty times the 15 s of a step (Goldberg 2002 table 2): keeps a rover that "
+                    "measures no motion from waiting for ever",
+          .study_low = 60.0,
+          .study_high = 600.0});
+  v.Angle("search_turn_deg", p.search_turn_rad,
+          {.doc = "measured turning in place, look by look, after which no more is to be seen",
+           .min = 90.0,
+           .max = 3600.0,
+           .origin = Origin::kAssumed,
+           .source = "a full turn shows all there is",
+           .study_low = 180.0,
+           .study_high = 720.0});
+  v.Integer("max_fruitless_cycles", p.max_fruitless_cycles,
+            {.doc = "cycles in a row without progress_m of progress before the rover gives up",
+             .min = 1,
+             .max = 100000,
+             .origin = Origin::kAssumed,
+             .source = "35 m of steps, twice round an obstacle of 5 m; the paper names none",
+             .study_low = 25,
+             .study_high = 400});
+  v.Real("progress_m", p.progress_m,
+         {.doc = "gain in the believed distance to the goal that counts as progress",
+          .min = 0.001,
+          .max = 10.0,
+          .origin = Origin::kAssumed,
+          .source = "most of a step",
+          .study_low = 0.1,
+          .study_high = 0.5});
+  v.Real("time_out_s", p.time_out_s,
+         {.doc = "on-board time after which the rover gives the goal up; 0 is off",
+          .min = 0.0,
+          .max = 1e7,
+          .origin = Origin::kSetting});
+}
+
+void VisitFeltHazards(GestaltDriveParams& p, core::FieldVisitor& v) {
+  v.Real("back_off_m", p.back_off_m,
+         {.doc = "after a felt hazard the rover drives back along its arc, up to this far",
+          .min = 0.0,
+          .max = 5.0,
+          .origin = Origin::kAssumed,
+          .source = "a whole step: back to where it last looked",
+          .study_low = 0.1,
+          .study_high = 0.5});
+  v.Real("felt_radius_m", p.felt_radius_m,
+         {.doc = "radius of the obstacle that a felt hazard leaves in the map, at the end of the "
+                 "vehicle that was driven into it; 0 marks one cell",
+          .min = 0.0,
+          .max = 5.0,
+          .origin = Origin::kAssumed,
+          .source = "a wheel radius: smaller rocks are climbed",
+          .study_low = 0.0,
+          .study_high = 0.4});
+  v.Real("felt_again_m", p.felt_again_m,
+         {.doc = "drive after which a hazard that was felt already when the step began counts",
+          .min = 0.0,
+          .max = 5.0,
+          .origin = Origin::kAssumed,
+          .source = "a wheel radius: the rover may have to drive to get rid of a tilt",
+          .study_low = 0.05,
+          .study_high = 0.35});
+  v.Integer(
+      "max_felt", p.max_felt,
+      {.doc = "felt hazards in a row without progress_m of progress before the rover gives up",
+       .min = 1,
+       .max = 1000,
+       .origin = Origin::kAssumed,
+       .source = "as for the behaviour controller",
+       .study_low = 2,
+       .study_high = 20});
+}
+
+}  // namespace
+
+void GestaltDriveParams::Visit(core::FieldVisitor& v) {
+  VisitChoices(*this, v);
+  VisitEndings(*this, v);
+  VisitFeltHazards(*this, v);
+}
+
+void GestaltParams::Visit(core::FieldVisitor& v) {
+  v.Group("map", map, "the local map and the traversability of its cells");
+  v.Group("arcs", arcs, "candidate motions");
+  v.Group("waypoints", waypoints, "votes for the goal, and arrival");
+  v.Group("plan", plan, "how far and how densely paths are judged");
+  v.Group("votes", votes, "thresholds of the votes");
+  v.Group("drive", drive, "the drive cycle, and what ends it");
+  v.Require("plan.plan_min_dist_m", plan.plan_min_dist_m < map.Reach_m(),
+            "is where the map ends or beyond (half of its grid, or grid_dist_timeout_m): nothing "
+            "of any path could be known",
+            "use a smaller plan_min_dist_m or a larger map");
+  v.Require("drive.step_m", drive.step_m <= plan.plan_max_dist_m,
+            "is beyond plan.plan_max_dist_m: the rover would drive blindly past what it judged",
+            "use a smaller step_m or a larger plan.plan_max_dist_m");
+  v.Require("drive.max_fruitless_cycles",
+            static_cast<double>(drive.max_fruitless_cycles) * arcs.point_turn_amount_rad >=
+                drive.search_turn_rad,
+            "ends a search before it has turned search_turn_deg: each look is one of "
+            "max_fruitless_cycles",
+            "use at least search_turn_deg / point_turn_amount_deg cycles");
+}
+
+}  // namespace rockyard::navigation

@@ -1,0 +1,44 @@
+// The seam between the map and the votes of GESTALT: goodness and certainty of every cell around
+// the rover (Goldberg 2002, section 4).
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "navigation/gestalt/cell_index.h"
+
+namespace rockyard::navigation {
+
+// How safe it is for a rover centred at the cell, and how sure that is: 8 bits each, 255 is best.
+struct CellValue {
+  std::uint8_t goodness = 0;
+  std::uint8_t certainty = 0;
+  bool known = false;  // false: not evaluated; goodness and certainty are those of unknown cells
+
+  bool operator==(const CellValue&) const = default;
+};
+
+// A window of cells, aligned with the axes of the estimated world frame. Cell (ix, iy) covers
+// [x0 + ix xstep, x0 + (ix + 1) xstep) and likewise in y.
+struct GoodnessGrid {
+  double x0_m = 0.0;
+  double y0_m = 0.0;
+  double xstep_m = 0.2;
+  double ystep_m = 0.2;
+  int nx = 0;
+  int ny = 0;
+  CellValue unknown;             // of everything outside the window
+  std::vector<CellValue> cells;  // [iy][ix]
+
+  const CellValue& Cell(int ix, int iy) const { return cells[CellIndex(ix, iy, nx)]; }
+  const CellValue& At(double x_m, double y_m) const {
+    const double column = std::floor((x_m - x0_m) / xstep_m);
+    const double row = std::floor((y_m - y0_m) / ystep_m);
+    // Written so that a coordinate that is not a number lies outside.
+    if (!(column >= 0.0 && column < nx && row >= 0.0 && row < ny)) return unknown;
+    return Cell(static_cast<int>(column), static_cast<int>(row));
+  }
+};
+
+}  // namespace rockyard::navigation

@@ -1,0 +1,184 @@
+#include "navigation/gestalt/map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "core/check.h"
+
+namespace rockyard::navigation {
+namespace {
+
+constexpr double kLargestHeight_m = 10.0;                 // of points above and below R
+constexpr std::int64_t kMostPoints = math::kExactPoints;  // of a cell
+// Estimates are taken as if they were here at most; lattice numbers stay far from overflow.
+constexpr double kFarthest_m = 1e6;
+
+double Clamped(double x_m) { return std::clamp(x_m, -kFarthest_m, kFarthest_m); }
+
+}  // namespace
+
+GestaltMap::GestaltMap(const GestaltMapParams& params)
+    : params_(params),
+      cells_(params.grid.nx(), params.grid.ny()),
+      squares_x_m2_(static_cast<std::size_t>(cells_.nx())),
+      squares_y_m2_(static_cast<std::size_t>(cells_.ny())),
+      planes_(params),
+      traversability_(params) {
+  grid_.xstep_m = params.grid.xstep_m;
+  grid_.ystep_m = params.grid.ystep_m;
+  grid_.nx = params.grid.nx();
+  grid_.ny = params.grid.ny();
+  BeginCycle(0.0, 0.0);
+  Evaluate();
+}
+
+GestaltMap::LatticeCell GestaltMap::LatticeAt(double x_m, double y_m) const {
+  const GestaltGridParams& grid = params_.grid;
+  return {static_cast<std::int64_t>(std::floor((x_m - grid.x0_m) / grid.xstep_m)),
+          static_cast<std::int64_t>(std::floor((y_m - grid.y0_m) / grid.ystep_m))};
+}
+
+double GestaltMap::CentreX_m(std::int64_t i) const {
+  return params_.grid.x0_m + (static_cast<double>(i) + 0.5) * params_.grid.xstep_m;
+}
+
+double GestaltMap::CentreY_m(std::int64_t j) const {
+  return params_.grid.y0_m + (static_cast<double>(j) + 0.5) * params_.grid.ystep_m;
+}
+
+void GestaltMap::MeasureDistances(LatticeCell first) {
+  for (std::size_t i = 0; i < squares_x_m2_.size(); ++i) {
+    const double distance = CentreX_m(first.x + static_cast<std::int64_t>(i)) - rover_x_m_;
+    squares_x_m2_[i] = distance * distance;
+  }
+  for (std::size_t j = 0; j < squares_y_m2_.size(); ++j) {
+    const double distance = CentreY_m(first.y + static_cast<std::int64_t>(j)) - rover_y_m_;
+    squares_y_m2_[j] = distance * distance;
+  }
+}
+
+bool GestaltMap::InWindow(LatticeCell cell) const {
+  return cell.x >= cells_.first_x() && cell.x < cells_.first_x() + cells_.nx() &&
+         cell.y >= cells_.first_y() && cell.y < cells_.first_y() + cells_.ny();
+}
+
+void GestaltMap::GrowBox(int ix, int iy) {
+  if (box_.empty()) {
+    box_ = {ix, ix + 1, iy, iy + 1};
+    return;
+  }
+  box_ = {std::min(box_.x, ix), std::max(box_.x_end, ix + 1), std::min(box_.y, iy),
+          std::max(box_.y_end, iy + 1)};
+}
+
+void GestaltMap::BeginCycle(double x_m, double y_m) {
+  EXPECT(std::isfinite(x_m) && std::isfinite(y_m));
+  ++cycle_;
+  rover_x_m_ = Clamped(x_m);
+  rover_y_m_ = Clamped(y_m);
+  const LatticeCell rover = LatticeAt(rover_x_m_, rover_y_m_);
+  const LatticeCell first{rover.x - cells_.nx() / 2, rover.y - cells_.ny() / 2};
+  MeasureDistances(first);
+  DropOldCells(first);
+  cells_.MoveTo(first.x, first.y);
+}
+
+void GestaltMap::DropOldCells(LatticeCell first) {
+  const CellBox old = box_;
+  box_ = {};
+  for (int iy = old.y; iy < old.y_end; ++iy) {
+    for (int ix = old.x; ix < old.x_end; ++ix) {
+      MapCell& cell = cells_.At(ix, iy);
+      if (cell.empty()) continue;
+      // Where it will be in the window.
+      const std::int64_t column = cells_.first_x() + ix - first.x;
+      const std::int64_t row = cells_.first_y() + iy - first.y;
+      const bool stays = column >= 0 && column < cells_.nx() && row >= 0 && row < cells_.ny() &&
+                         IsNear(static_cast<int>(column), static_cast<int>(row)) &&
+                         cycle_ - cell.last_cycle <= params_.max_idles;
+      if (stays) {
+        GrowBox(static_cast<int>(column), static_cast<int>(row));
+      } else {
+        cell = {};
+      }
+    }
+  }
+}
+
+void GestaltMap::AddPoint(const math::Vector3& p_WP_W) {
+  const LatticeCell at = LatticeAt(p_WP_W.x(), p_WP_W.y());
+  if (!InWindow(at)) return;
+  const int ix = static_cast<int>(at.x - cells_.first_x());
+  const int iy = static_cast<int>(at.y - cells_.first_y());
+  if (!IsNear(ix, iy)) return;
+  MapCell& cell = cells_.At(ix, iy);
+  cell.last_cycle = cycle_;
+  if (cell.moments.count() >= kMostPoints) return;
+  cell.moments.AddPoint(math::ToMomentUnits(p_WP_W.x()), math::ToMomentUnits(p_WP_W.y()),
+                        math::ToMomentUnits(p_WP_W.z()));
+  GrowBox(ix, iy);
+}
+
+void GestaltMap::Add(const messages::PointCloud& cloud, const math::Transform& X_WR) {
+  const double z_R = X_WR.translation().z();
+  for (const math::Vector3& p_RP_R : cloud.points_R) {
+    const math::Vector3 p_WP_W = X_WR * p_RP_R;
+    // Written so that coordinates that are not numbers fail.
+    const bool sound =
+        std::abs(p_WP_W.x()) <= 2.0 * kFarthest_m && std::abs(p_WP_W.y()) <= 2.0 * kFarthest_m &&
+        std::abs(p_WP_W.z() - z_R) <= kLargestHeight_m && std::abs(p_WP_W.z()) <= kFarthest_m;
+    if (sound) AddPoint(p_WP_W);
+  }
+}
+
+void GestaltMap::MarkObstacle(double x_m, double y_m, double radius_m) {
+  EXPECT(std::isfinite(x_m) && std::isfinite(y_m));
+  const LatticeCell at = LatticeAt(Clamped(x_m), Clamped(y_m));
+  for (int iy = 0; iy < cells_.ny(); ++iy) {
+    for (int ix = 0; ix < cells_.nx(); ++ix) {
+      const bool here = at.x == cells_.first_x() + ix && at.y == cells_.first_y() + iy;
+      const bool within = std::hypot(CentreX_m(cells_.first_x() + ix) - x_m,
+                                     CentreY_m(cells_.first_y() + iy) - y_m) <= radius_m;
+      if (!here && !within) continue;
+      MapCell& cell = cells_.At(ix, iy);
+      cell.marked = true;
+      cell.last_cycle = cycle_;
+      GrowBox(ix, iy);
+    }
+  }
+}
+
+void GestaltMap::Clear() {
+  for (int iy = box_.y; iy < box_.y_end; ++iy) {
+    for (int ix = box_.x; ix < box_.x_end; ++ix) cells_.At(ix, iy) = {};
+  }
+  box_ = {};
+}
+
+const GoodnessGrid& GestaltMap::Evaluate() {
+  grid_.x0_m = CentreX_m(cells_.first_x()) - 0.5 * grid_.xstep_m;
+  grid_.y0_m = CentreY_m(cells_.first_y()) - 0.5 * grid_.ystep_m;
+  planes_.Fit(cells_, box_);
+  steps_.Find(cells_, box_, planes_.reach());
+  traversability_.Assess(planes_.planes(), steps_.steps_m(), grid_);
+  return grid_;
+}
+
+messages::MapView GestaltMap::View() const {
+  messages::MapView view{grid_.x0_m, grid_.y0_m, grid_.xstep_m, grid_.ystep_m, grid_.nx,
+                         grid_.ny,   {}};
+  view.cells.reserve(grid_.cells.size());
+  for (int iy = 0; iy < grid_.ny; ++iy) {
+    for (int ix = 0; ix < grid_.nx; ++ix) {
+      const math::PointMoments& moments = cells_.At(ix, iy).moments;
+      const CellValue& value = grid_.Cell(ix, iy);
+      const bool has_data = !moments.empty();
+      view.cells.push_back({has_data, has_data ? moments.MeanZ_m() : 0.0, value.known,
+                            value.goodness, value.certainty});
+    }
+  }
+  return view;
+}
+
+}  // namespace rockyard::navigation

@@ -1,0 +1,188 @@
+#include "navigation/gestalt/planes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rockyard::navigation {
+namespace {
+
+// Against shares such as 0.56 of 25 cells that should be whole numbers.
+constexpr double kRounding = 1e-6;
+
+int Reach(double side_m, double step_m) {
+  return std::max(0, static_cast<int>(std::ceil(0.5 * (side_m - step_m) / step_m - kRounding)));
+}
+
+int AtLeast(double share, int count) {
+  return static_cast<int>(std::ceil(share * count - kRounding));
+}
+
+}  // namespace
+
+PatchReach ReachOf(const GestaltMapParams& params) {
+  return {Reach(params.PatchSide_m(), params.grid.xstep_m),
+          Reach(params.PatchSide_m(), params.grid.ystep_m)};
+}
+
+PatchPlanes::PatchPlanes(const GestaltMapParams& params)
+    : params_(params), reach_(ReachOf(params)) {
+  const int columns = 2 * reach_.x + 1;
+  const int rows = 2 * reach_.y + 1;
+  needed_cells_ = static_cast<std::uint64_t>(AtLeast(params.min_patch_share, columns * rows));
+  needed_columns_ = AtLeast(params.min_cell_coverage, columns);
+  needed_rows_ = AtLeast(params.min_cell_coverage, rows);
+}
+
+PatchPlanes::Sums& PatchPlanes::Sums::operator+=(const Sums& other) {
+  moments += other.moments;
+  filled += other.filled;
+  marked += other.marked;
+  return *this;
+}
+
+PatchPlanes::Sums& PatchPlanes::Sums::operator-=(const Sums& other) {
+  moments -= other.moments;
+  filled -= other.filled;
+  marked -= other.marked;
+  return *this;
+}
+
+PatchPlanes::Sums PatchPlanes::SumsOf(const MapCell& cell) const {
+  return {cell.moments, cell.moments.count() >= params_.min_cell_points ? 1U : 0U,
+          cell.marked ? 1U : 0U};
+}
+
+void PatchPlanes::Fit(const CellWindow& cells, const CellBox& box) {
+  width_ = cells.nx();
+  planes_.assign(CellIndex(0, cells.ny(), width_), {});
+  spreads_.clear();
+  if (box.empty()) return;
+  const CellBox out = box.Grown(reach_.x, reach_.y, cells.nx(), cells.ny());
+  FindRowsWithData(cells, box, out);
+  columns_.assign(static_cast<std::size_t>(cells.nx()), {});
+  rows_with_data_.assign(static_cast<std::size_t>(cells.nx()), 0);
+  // From above the box, where every sum is zero.
+  for (int iy = box.y - reach_.y; iy < out.y_end; ++iy) {
+    SlideDown(cells, box, out, iy);
+    if (iy >= out.y) FitRow(cells, box, out, iy);
+  }
+  FitWaiting();
+}
+
+void PatchPlanes::FindRowsWithData(const CellWindow& cells, const CellBox& box,
+                                   const CellBox& out) {
+  row_holds_data_.assign(planes_.size(), 0);
+  const auto holds = [&](int ix, int iy) {
+    return ix >= box.x && ix < box.x_end && !cells.At(ix, iy).moments.empty() ? 1 : 0;
+  };
+  for (int iy = box.y; iy < box.y_end; ++iy) {
+    int count = 0;
+    for (int ix = box.x - reach_.x; ix < out.x_end; ++ix) {
+      count += holds(ix + reach_.x, iy) - holds(ix - reach_.x - 1, iy);
+      if (ix >= out.x) row_holds_data_[CellIndex(ix, iy, width_)] = count > 0;
+    }
+  }
+}
+
+void PatchPlanes::SlideDown(const CellWindow& cells, const CellBox& box, const CellBox& out,
+                            int iy) {
+  const int in = iy + reach_.y;
+  const int gone = iy - reach_.y - 1;
+  const bool adds = in < box.y_end;
+  const bool takes = gone >= box.y && gone < box.y_end;
+  for (int ix = box.x; ix < box.x_end; ++ix) {
+    Sums& column = columns_[static_cast<std::size_t>(ix)];
+    if (adds) column += SumsOf(cells.At(ix, in));
+    if (takes) column -= SumsOf(cells.At(ix, gone));
+  }
+  for (int ix = out.x; ix < out.x_end; ++ix) {
+    std::int32_t& rows = rows_with_data_[static_cast<std::size_t>(ix)];
+    if (adds) rows += row_holds_data_[CellIndex(ix, in, width_)];
+    if (takes) rows -= row_holds_data_[CellIndex(ix, gone, width_)];
+  }
+}
+
+void PatchPlanes::FitRow(const CellWindow& cells, const CellBox& box, const CellBox& out, int iy) {
+  Sums patch;
+  int columns_with_data = 0;
+  for (int ix = box.x - reach_.x; ix < out.x_end; ++ix) {
+    const int in = ix + reach_.x;
+    const int gone = ix - reach_.x - 1;
+    if (in < box.x_end) {
+      const Sums& column = columns_[static_cast<std::size_t>(in)];
+      patch += column;
+      columns_with_data += column.moments.empty() ? 0 : 1;
+    }
+    if (gone >= box.x && gone < box.x_end) {
+      const Sums& column = columns_[static_cast<std::size_t>(gone)];
+      patch -= column;
+      columns_with_data -= column.moments.empty() ? 0 : 1;
+    }
+    if (ix >= out.x) Assess(cells, patch, columns_with_data, {ix, iy});
+  }
+}
+
+void PatchPlanes::Assess(const CellWindow& cells, const Sums& patch, int columns_with_data,
+                         Cell middle) {
+  PatchPlane& plane = planes_[CellIndex(middle.ix, middle.iy, width_)];
+  plane.marked = patch.marked > 0;
+  plane.enough = patch.filled >= needed_cells_ && !patch.moments.empty();
+  const bool covered = columns_with_data >= needed_columns_ &&
+                       rows_with_data_[static_cast<std::size_t>(middle.ix)] >= needed_rows_;
+  if (plane.enough && covered) FitPatch(cells, patch.moments, middle, plane);
+}
+
+void PatchPlanes::FitPatch(const CellWindow& cells, const math::PointMoments& moments, Cell middle,
+                           PatchPlane& plane) {
+  if (params_.outliers_per_cell > 0 || moments.count() > math::kExactPoints) {
+    Store(FitWithoutOutliers(CellsOf(cells, middle), moments, params_.outliers_per_cell), plane);
+    return;
+  }
+  const math::SymmetricMatrix3 covariance_m2 = math::Spread(moments).covariance_m2;
+  if (waiting_.plane == nullptr) {
+    waiting_ = {&plane, covariance_m2};
+    return;
+  }
+  const auto fits = math::FitPlanes(waiting_.covariance_m2, covariance_m2);
+  Store(fits[0], *waiting_.plane);
+  Store(fits[1], plane);
+  waiting_.plane = nullptr;
+}
+
+void PatchPlanes::FitWaiting() {
+  if (waiting_.plane == nullptr) return;
+  Store(math::FitPlane(waiting_.covariance_m2), *waiting_.plane);
+  waiting_.plane = nullptr;
+}
+
+void PatchPlanes::Store(const math::PlaneFit& fit, PatchPlane& plane) const {
+  plane.plane_valid = fit.eigen_ratio >= params_.eigen_ratio;
+  plane.residual_m = fit.residual_m;
+  if (params_.tests.pitch) plane.slope_rad = fit.Slope_rad();
+}
+
+void PatchPlanes::FindSpreads(const CellWindow& cells) {
+  spreads_.resize(planes_.size());
+  for (int iy = 0; iy < cells.ny(); ++iy) {
+    for (int ix = 0; ix < cells.nx(); ++ix) {
+      const math::PointMoments& moments = cells.At(ix, iy).moments;
+      if (!moments.empty()) spreads_[CellIndex(ix, iy, width_)] = math::Spread(moments);
+    }
+  }
+}
+
+std::vector<PatchCell> PatchPlanes::CellsOf(const CellWindow& cells, Cell middle) {
+  if (spreads_.empty()) FindSpreads(cells);
+  const CellBox patch = CellBox{middle.ix, middle.ix + 1, middle.iy, middle.iy + 1}.Grown(
+      reach_.x, reach_.y, cells.nx(), cells.ny());
+  std::vector<PatchCell> with_data;
+  for (int iy = patch.y; iy < patch.y_end; ++iy) {
+    for (int ix = patch.x; ix < patch.x_end; ++ix) {
+      const math::PointMoments& moments = cells.At(ix, iy).moments;
+      if (!moments.empty()) with_data.push_back({&moments, &spreads_[CellIndex(ix, iy, width_)]});
+    }
+  }
+  return with_data;
+}
+
+}  // namespace rockyard::navigation

@@ -1,0 +1,104 @@
+// Planes through vehicle-sized patches of the map (Goldberg 2002, section 4, step 3).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "math/plane_fit.h"
+#include "navigation/gestalt/cells.h"
+#include "navigation/gestalt/map_params.h"
+#include "navigation/gestalt/patch.h"
+
+namespace rockyard::navigation {
+
+// What is known of the patch around a cell.
+struct PatchPlane {
+  double residual_m = 0.0;  // where plane_valid
+  double slope_rad = 0.0;   // where plane_valid and the pitch test runs
+  bool enough = false;      // min_patch_share of the cells hold min_cell_points
+  bool plane_valid = false;
+  bool marked = false;  // holds a cell where the rover felt an obstacle
+};
+
+// Cells on either side of a patch's middle cell: as many as a square of that side touches when its
+// centre is the cell's.
+struct PatchReach {
+  int x = 0;
+  int y = 0;
+};
+PatchReach ReachOf(const GestaltMapParams& params);
+
+// Merges the moments of all patches and fits their planes. Sums of whole numbers slide over the
+// map: O(cells) whatever the size of the patch, and exact. Cells outside the window count as
+// empty. Patches of more than math::kExactPoints points are merged from the means and covariances
+// of their cells instead, where sums of whole numbers could run over.
+//
+// With outliers_per_cell each patch is searched that often for the cell whose mean lies farthest
+// from the plane, which is then left out: O(cells times cells of a patch times outliers_per_cell).
+// What is left need not have enough data and coverage by itself: those are tested before.
+class PatchPlanes {
+ public:
+  explicit PatchPlanes(const GestaltMapParams& params);
+
+  // Every cell of `cells`; `box` holds those that are not empty.
+  void Fit(const CellWindow& cells, const CellBox& box);
+
+  // Of cell (ix, iy), row by row, as of the last Fit.
+  const std::vector<PatchPlane>& planes() const { return planes_; }
+  PatchReach reach() const { return reach_; }
+
+ private:
+  // What adds up over the cells of a patch.
+  struct Sums {
+    math::PointMoments moments;
+    std::uint64_t filled = 0;  // cells with min_cell_points
+    std::uint64_t marked = 0;
+
+    Sums& operator+=(const Sums& other);
+    Sums& operator-=(const Sums& other);
+  };
+  struct Cell {
+    int ix;
+    int iy;
+  };
+  // A patch whose plane is put off.
+  struct Waiting {
+    PatchPlane* plane = nullptr;
+    math::SymmetricMatrix3 covariance_m2;
+  };
+
+  Sums SumsOf(const MapCell& cell) const;
+  void FindRowsWithData(const CellWindow& cells, const CellBox& box, const CellBox& out);
+  // Moves the sums over columns from the patches of row iy - 1 to those of row iy.
+  void SlideDown(const CellWindow& cells, const CellBox& box, const CellBox& out, int iy);
+  // Slides along row iy.
+  void FitRow(const CellWindow& cells, const CellBox& box, const CellBox& out, int iy);
+  // Tests the patch around `middle` and fits its plane. `columns_with_data` of its columns hold
+  // data.
+  void Assess(const CellWindow& cells, const Sums& patch, int columns_with_data, Cell middle);
+  // Fits the plane of the patch around `middle`, whose points have `moments`, or puts it off until
+  // there is another: planes are fitted in pairs.
+  void FitPatch(const CellWindow& cells, const math::PointMoments& moments, Cell middle,
+                PatchPlane& plane);
+  void FitWaiting();
+  void Store(const math::PlaneFit& fit, PatchPlane& plane) const;
+  void FindSpreads(const CellWindow& cells);
+  // The cells with data of the patch around `middle`. Finds the spreads of all cells when it is
+  // first called in a Fit.
+  std::vector<PatchCell> CellsOf(const CellWindow& cells, Cell middle);
+
+  GestaltMapParams params_;
+  PatchReach reach_;
+  std::uint64_t needed_cells_;
+  int needed_columns_;
+  int needed_rows_;
+  int width_ = 0;  // of planes_
+  std::vector<PatchPlane> planes_;
+  std::vector<Sums> columns_;                 // over the rows of a patch
+  std::vector<std::uint8_t> row_holds_data_;  // among the columns of the patch around a cell
+  Waiting waiting_;
+  std::vector<std::int32_t> rows_with_data_;  // of the patches of the row at hand
+  std::vector<math::PointSpread> spreads_;    // of all cells, or nothing where not needed
+};
+
+}  // namespace rockyard::navigation

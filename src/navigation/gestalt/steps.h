@@ -1,0 +1,34 @@
+// Differences of elevation within vehicle-sized patches of the map (Goldberg 2002, section 4,
+// step 3, step hazard).
+#pragma once
+
+#include <vector>
+
+#include "navigation/gestalt/cells.h"
+#include "navigation/gestalt/planes.h"
+
+namespace rockyard::navigation {
+
+// The largest difference of elevation between any two cells of each patch. The elevation of a cell
+// is the mean height of its points (the paper does not say): the ten moments hold no other, and a
+// single bad point does not make a step. Minima and maxima over windows by doubling: O(cells log
+// reach).
+class PatchSteps {
+ public:
+  // As PatchPlanes::Fit.
+  void Find(const CellWindow& cells, const CellBox& box, PatchReach reach);
+
+  // Row by row; 0 where a patch holds no points.
+  const std::vector<double>& steps_m() const { return steps_; }
+
+ private:
+  void LoadElevations(const CellWindow& cells, const CellBox& box, PatchReach reach);
+
+  int width_ = 0;  // of the padded maps below
+  int height_ = 0;
+  std::vector<double> highest_;  // padded by the reach on all sides
+  std::vector<double> lowest_;
+  std::vector<double> steps_;
+};
+
+}  // namespace rockyard::navigation

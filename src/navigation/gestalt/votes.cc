@@ -1,0 +1,169 @@
+#include "navigation/gestalt/votes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/check.h"
+#include "math/angles.h"
+
+namespace rockyard::navigation {
+namespace {
+
+using messages::MotionVote;
+using messages::PoseEstimate;
+
+// Peaks of the waypoint votes (Goldberg 2002, step 5).
+constexpr double kPeakTowards = 255.0;
+constexpr double kPeakAway = 128.0;
+
+// Keeps quotients finite for a rover that stands on its goal.
+constexpr double kLeastDistance_m = 1e-6;
+
+// A goal this near to straight behind is on the left, whatever rounding made of it.
+constexpr double kBehind_rad = 1e-9;
+
+double Rounded(double vote, bool whole_numbers) {
+  return whole_numbers ? std::floor(vote + 0.5) : vote;
+}
+
+// True if driving in the direction brings the rover nearer to the goal, at first.
+bool LeadsToGoal(const GoalDirection& goal, int direction) {
+  const bool goal_is_ahead = std::abs(goal.bearing_rad) <= 0.5 * std::numbers::pi;
+  return goal_is_ahead == (direction > 0);
+}
+
+}  // namespace
+
+HazardVote VoteOnPath(const GoodnessGrid& grid, const PoseEstimate& estimate,
+                      std::span<const PathPoint> points, std::span<const double> weights,
+                      double min_allowed_goodness) {
+  EXPECT(!points.empty() && weights.size() >= points.size());
+  const double cosine = std::cos(estimate.heading_rad);
+  const double sine = std::sin(estimate.heading_rad);
+  double weighted_goodness = 0.0;
+  double weighted_certainty = 0.0;
+  double sum_of_weights = 0.0;
+  std::uint8_t least_goodness = 255;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const PathPoint& p = points[k];
+    const CellValue& cell = grid.At(estimate.x_m + cosine * p.x_m - sine * p.y_m,
+                                    estimate.y_m + sine * p.x_m + cosine * p.y_m);
+    weighted_goodness += weights[k] * cell.goodness;
+    weighted_certainty += weights[k] * cell.certainty;
+    sum_of_weights += weights[k];
+    least_goodness = std::min(least_goodness, cell.goodness);
+  }
+  const bool allowed = least_goodness > min_allowed_goodness;
+  return {allowed ? weighted_goodness / sum_of_weights : 0.0, weighted_certainty / sum_of_weights};
+}
+
+GoalDirection TowardsGoal(const PoseEstimate& estimate, const messages::Goal& goal) {
+  const double dx_m = goal.x_m - estimate.x_m;
+  const double dy_m = goal.y_m - estimate.y_m;
+  const double bearing_rad = math::WrapAngle(std::atan2(dy_m, dx_m) - estimate.heading_rad);
+  const bool behind = bearing_rad < kBehind_rad - std::numbers::pi;
+  return {std::hypot(dx_m, dy_m), behind ? std::numbers::pi : bearing_rad};
+}
+
+double WaypointPeak(const GoalDirection& goal, int direction) {
+  return LeadsToGoal(goal, direction) ? kPeakTowards : kPeakAway;
+}
+
+double BestCurvature(const GoalDirection& goal, int direction, double step_m,
+                     const GestaltParams& params) {
+  const double limit = params.arcs.max_curvature_per_m;
+  const double distance_m = std::max(goal.distance_m, kLeastDistance_m);
+  const bool towards = LeadsToGoal(goal, direction);
+  const bool with_rear = towards && direction < 0;
+  const double turn_rad =
+      with_rear ? math::WrapAngle(goal.bearing_rad - std::numbers::pi) : goal.bearing_rad;
+  const double tight = direction * turn_rad / std::min(step_m, distance_m);
+  // The arc through a goal behind begins almost straight away from it: turn as for one abeam.
+  const double right_angle = 0.5 * std::numbers::pi;
+  const double bearing_rad =
+      direction > 0 ? std::clamp(goal.bearing_rad, -right_angle, right_angle) : goal.bearing_rad;
+  const double side = towards ? 1.0 : direction;
+  const double broad = side * 2.0 * std::sin(bearing_rad) / distance_m;
+  const double fraction = params.waypoints.tight_curve_fraction;
+  return fraction * std::clamp(tight, -limit, limit) +
+         (1.0 - fraction) * std::clamp(broad, -limit, limit);
+}
+
+double WaypointVote(double peak, double index_from_best, double vote_index_variance) {
+  return peak * std::exp(-0.5 * index_from_best * index_from_best / vote_index_variance);
+}
+
+double MergeVotes(const HazardVote& hazard, double waypoint, double waypoint_certainty,
+                  double min_vote_goodness) {
+  const double lower = std::min(hazard.goodness, waypoint);
+  const double certainties = hazard.certainty + waypoint_certainty;
+  if (lower < min_vote_goodness || certainties <= 0.0) return lower;
+  return (hazard.goodness * hazard.certainty + waypoint * waypoint_certainty) / certainties;
+}
+
+ArcVoter::ArcVoter(const GestaltParams& params)
+    : params_(params),
+      sampling_(
+          SamplePaths(params.plan, std::min(params.map.grid.xstep_m, params.map.grid.ystep_m))),
+      candidates_(MakeCandidates(params.arcs, params.plan, sampling_)) {}
+
+MotionVotes ArcVoter::Vote(const GoodnessGrid& grid, const PoseEstimate& estimate,
+                           const messages::Goal& goal) const {
+  const GoalDirection goal_R = TowardsGoal(estimate, goal);
+  MotionVotes votes;
+  votes.forward = VoteOnArcs(candidates_.forward, +1, grid, estimate, goal_R);
+  votes.backward = VoteOnArcs(candidates_.backward, -1, grid, estimate, goal_R);
+  const std::size_t count = candidates_.forward.size();
+  const double straight = 0.5 * static_cast<double>(count - 1);
+  for (const CandidateMotion& turn : candidates_.point_turns) {
+    const GoalDirection after_turn{goal_R.distance_m,
+                                   math::WrapAngle(goal_R.bearing_rad - turn.turn_rad)};
+    const double waypoint = WaypointVoteAt(straight, count, +1, after_turn);
+    votes.point_turns.push_back(VoteOn(turn, waypoint, grid, estimate, goal_R.distance_m));
+  }
+  return votes;
+}
+
+double ArcVoter::WaypointVoteAt(double index, std::size_t count, int direction,
+                                const GoalDirection& goal) const {
+  const double best_per_m = BestCurvature(goal, direction, params_.drive.step_m, params_);
+  const std::size_t best = NearestArc(best_per_m, count, params_.arcs.max_curvature_per_m);
+  return WaypointVote(WaypointPeak(goal, direction), index - static_cast<double>(best),
+                      params_.waypoints.vote_index_variance);
+}
+
+std::vector<MotionVote> ArcVoter::VoteOnArcs(const std::vector<CandidateMotion>& arcs,
+                                             int direction, const GoodnessGrid& grid,
+                                             const PoseEstimate& estimate,
+                                             const GoalDirection& goal) const {
+  std::vector<MotionVote> votes;
+  votes.reserve(arcs.size());
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    const double waypoint = WaypointVoteAt(static_cast<double>(i), arcs.size(), direction, goal);
+    votes.push_back(VoteOn(arcs[i], waypoint, grid, estimate, goal.distance_m));
+  }
+  return votes;
+}
+
+MotionVote ArcVoter::VoteOn(const CandidateMotion& candidate, double waypoint,
+                            const GoodnessGrid& grid, const PoseEstimate& estimate,
+                            double goal_distance_m) const {
+  const std::size_t count =
+      std::min(candidate.points.size(), sampling_.CountWithin(goal_distance_m));
+  HazardVote hazard = VoteOnPath(grid, estimate, std::span(candidate.points).first(count),
+                                 sampling_.weight, params_.votes.min_allowed_goodness);
+  const bool whole = params_.votes.whole_numbers;
+  hazard = {Rounded(hazard.goodness, whole), Rounded(hazard.certainty, whole)};
+  MotionVote vote;
+  vote.motion = candidate.motion;
+  vote.hazard = hazard.goodness;
+  vote.hazard_certainty = hazard.certainty;
+  vote.waypoint = Rounded(waypoint, whole);
+  vote.merged = Rounded(MergeVotes(hazard, vote.waypoint, params_.waypoints.waypoint_certainty,
+                                   params_.votes.min_vote_goodness),
+                        whole);
+  return vote;
+}
+
+}  // namespace rockyard::navigation

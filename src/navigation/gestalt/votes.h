@@ -1,0 +1,103 @@
+// The votes of GESTALT on every candidate motion: how safe it is, how well it leads to the goal,
+// and both merged (Goldberg 2002, section 4, steps 4 to 6). Votes run from 0 to 255. No state, and
+// nothing of the drive cycle, so that other navigators can use them.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "messages/estimates.h"
+#include "messages/navigation_view.h"
+#include "navigation/gestalt/arcs.h"
+#include "navigation/gestalt/gestalt_params.h"
+#include "navigation/gestalt/goodness_grid.h"
+
+namespace rockyard::navigation {
+
+struct HazardVote {
+  double goodness = 0.0;
+  double certainty = 0.0;
+};
+
+// Step 4, "a weighted sum, biased to consider nearby cells more strongly", over the cells under the
+// first points of a path, with w the weights:
+//   goodness  = sum w g / sum w, but 0 if any g <= min_allowed_goodness,
+//   certainty = sum w c / sum w.
+// Unknown cells count with their pair. `estimate` is where the path begins. Weights as many as
+// points at least; cost: one look into the grid a point.
+HazardVote VoteOnPath(const GoodnessGrid& grid, const messages::PoseEstimate& estimate,
+                      std::span<const PathPoint> points, std::span<const double> weights,
+                      double min_allowed_goodness);
+
+// The goal as the rover sees it.
+struct GoalDirection {
+  double distance_m = 0.0;
+  double bearing_rad = 0.0;  // from straight ahead, positive left, in (-pi, pi]
+};
+
+GoalDirection TowardsGoal(const messages::PoseEstimate& estimate, const messages::Goal& goal);
+
+// Step 5: the highest waypoint vote of arcs driven in the direction (+1 forward, -1 backward): 255
+// if it leads towards the goal, which forward is at bearings up to 90 deg, and 128 otherwise.
+double WaypointPeak(const GoalDirection& goal, int direction);
+
+// Curvature of the arc that "best points the rover toward the goal" (step 5), at most
+// max_curvature:
+//   c = f c_tight + (1 - f) c_broad,  f = tight_curve_fraction.
+// Tight faces the goal after one step, c_tight = direction * turn / min(step, distance), where
+// `turn` brings the front to the goal, or the rear when driving backward towards a goal behind.
+// Broad is the one arc through the goal, c_broad = 2 sin(bearing) / distance. Two cases have no
+// such arc: forward away from a goal behind the bearing counts as 90 deg, and backward away from a
+// goal ahead the arc's mirror image is meant, which turns the front to the goal. A goal exactly
+// behind, to 1e-9 rad, counts as on the left. The paper names the two ends only ("Broad (0) v.
+// Tight (1)").
+double BestCurvature(const GoalDirection& goal, int direction, double step_m,
+                     const GestaltParams& params);
+
+// Step 5, the Gaussian around the best arc: peak exp(-(index - best)^2 / (2 vote_index_variance)).
+double WaypointVote(double peak, double index_from_best, double vote_index_variance);
+
+// Step 6: the lower vote if either is below min_vote_goodness, otherwise the mean weighted by the
+// certainties. Certainties of 0 both: the lower vote.
+double MergeVotes(const HazardVote& hazard, double waypoint, double waypoint_certainty,
+                  double min_vote_goodness);
+
+struct MotionVotes {
+  std::vector<messages::MotionVote> forward;
+  std::vector<messages::MotionVote> backward;
+  std::vector<messages::MotionVote> point_turns;
+};
+
+// Holds the candidates, and votes on them. A point turn's waypoint vote is that of the straight arc
+// after the turn. Where votes are whole_numbers each is rounded, half up, as soon as it is formed.
+class ArcVoter {
+ public:
+  explicit ArcVoter(const GestaltParams& params);
+
+  // Paths are judged up to min(distance to the goal, plan_max_dist). Cost: 46 arcs at 2.7 m, two
+  // points a cell.
+  MotionVotes Vote(const GoodnessGrid& grid, const messages::PoseEstimate& estimate,
+                   const messages::Goal& goal) const;
+
+  const CandidateMotions& candidates() const { return candidates_; }
+  const PathSampling& sampling() const { return sampling_; }
+
+ private:
+  // Of the arc at `index`, between two arcs too, among `count` driven in the direction.
+  double WaypointVoteAt(double index, std::size_t count, int direction,
+                        const GoalDirection& goal) const;
+  std::vector<messages::MotionVote> VoteOnArcs(const std::vector<CandidateMotion>& arcs,
+                                               int direction, const GoodnessGrid& grid,
+                                               const messages::PoseEstimate& estimate,
+                                               const GoalDirection& goal) const;
+  messages::MotionVote VoteOn(const CandidateMotion& candidate, double waypoint,
+                              const GoodnessGrid& grid, const messages::PoseEstimate& estimate,
+                              double goal_distance_m) const;
+
+  GestaltParams params_;
+  PathSampling sampling_;
+  CandidateMotions candidates_;
+};
+
+}  // namespace rockyard::navigation

@@ -1,0 +1,215 @@
+#include "navigation/pathfinder/pathfinder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/angles.h"
+
+namespace rockyard::navigation {
+namespace {
+
+using messages::HazardReport;
+using messages::MotionCommand;
+using messages::MotionKind;
+using messages::PoseEstimate;
+
+// A turn in place cannot end more exactly than one control tick, 1.3 deg at 26 deg/s and 20 Hz.
+constexpr double kFinestAim_rad = math::DegToRad(2.0);
+
+bool OnlyOutermostStripes(const HazardReport& report) {
+  for (std::size_t i = 1; i + 1 < report.stripe_hazard.size(); ++i) {
+    if (report.stripe_hazard[i]) return false;
+  }
+  return report.stripe_hazard.front() && report.stripe_hazard.back();
+}
+
+NavigatorDecision Move(const MotionCommand& motion) {
+  return {NavigatorStatus::kDriving, {}, motion};
+}
+
+NavigatorDecision Finish(NavigatorStatus status) { return {status, {}, {}}; }
+
+}  // namespace
+
+PathfinderNavigator::PathfinderNavigator(const PathfinderParams& params, const messages::Goal& goal,
+                                         bool uses_hazard_sensor)
+    : params_(params),
+      goal_(goal),
+      uses_hazard_sensor_(uses_hazard_sensor),
+      reaction_(params.vehicle_reaction) {}
+
+NavigatorDecision PathfinderNavigator::Decide(const NavigatorInput& input) {
+  if (AtGoal(input.estimate)) return Finish(NavigatorStatus::kArrived);
+  if (params_.time_out_s > 0.0 && input.time_s >= params_.time_out_s) {
+    return Finish(NavigatorStatus::kGaveUp);
+  }
+  if (const auto reaction = reaction_.Decide(input, GoalDistance(input.estimate))) {
+    reacting_ = true;
+    return *reaction;
+  }
+  if (reacting_) return AfterReaction(input);
+  if (!started_) {
+    started_ = true;
+    odometer_at_scan_m_ = input.estimate.distance_m;
+    return ScanOrGoOn(input);
+  }
+  if (input.report != nullptr) return OnReport(input);
+  return Continue(input);
+}
+
+void PathfinderNavigator::OnPoseUpdate(const PoseEstimate& before, const PoseEstimate& after) {
+  // Turned angles are differences of heading: keep what was already turned.
+  anchor_.heading_rad += after.heading_rad - before.heading_rad;
+  reaction_.OnPoseUpdate(before, after);
+}
+
+// What was under way is forgotten: the rover stands elsewhere and faces another way.
+NavigatorDecision PathfinderNavigator::AfterReaction(const NavigatorInput& input) {
+  reacting_ = false;
+  started_ = true;
+  facing_goal_ = false;
+  avoid_direction_.reset();
+  odometer_at_scan_m_ = input.estimate.distance_m;
+  odometer_at_avoiding_m_ = input.estimate.distance_m;
+  clearing_left_m_ = params_.vehicle_reaction.straight_m;
+  return uses_hazard_sensor_ ? BeginScan() : OnClear(input);
+}
+
+NavigatorDecision PathfinderNavigator::OnReport(const NavigatorInput& input) {
+  odometer_at_scan_m_ = input.estimate.distance_m;
+  return ClassifySides(*input.report, params_).any() ? OnHazard(input) : OnClear(input);
+}
+
+NavigatorDecision PathfinderNavigator::OnHazard(const NavigatorInput& input) {
+  if (params_.threading_m > 0.0 && OnlyOutermostStripes(*input.report)) {
+    return BeginStraight(Mode::kThreading, params_.threading_m, input);
+  }
+  const bool newly_seen = !avoid_direction_.has_value();
+  if (newly_seen || params_.turn_direction == TurnDirection::kEachScan) {
+    avoid_direction_ = ChooseTurn(*input.report, GoalBearing(input.estimate), params_);
+  }
+  if (newly_seen) avoided_turn_rad_ = 0.0;
+  clearing_left_m_ = 0.0;
+  facing_goal_ = false;
+  if (avoided_turn_rad_ >= params_.turn_give_up_rad) return Finish(NavigatorStatus::kGaveUp);
+  const HazardSides sides = ClassifySides(*input.report, params_);
+  if (newly_seen && params_.back_off_m > 0.0 && sides.left && sides.right) {
+    return BeginStraight(Mode::kBackingOff, params_.back_off_m, input);
+  }
+  return BeginTurn(Mode::kAvoiding, *avoid_direction_, input);
+}
+
+NavigatorDecision PathfinderNavigator::OnClear(const NavigatorInput& input) {
+  if (avoid_direction_.has_value()) {
+    avoid_direction_.reset();
+    clearing_left_m_ = params_.clear_distance_m;
+  }
+  if (clearing_left_m_ > 0.0) return BeginStraight(Mode::kClearing, clearing_left_m_, input);
+  return BeginForward(input);
+}
+
+NavigatorDecision PathfinderNavigator::Continue(const NavigatorInput& input) {
+  switch (mode_) {
+    case Mode::kScanning:
+      return BeginScan();
+    case Mode::kAvoiding:
+    case Mode::kFacingGoal:
+      return ContinueTurn(input);
+    case Mode::kForward:
+    case Mode::kClearing:
+    case Mode::kThreading:
+    case Mode::kBackingOff:
+      return ContinueDrive(input);
+  }
+  return BeginScan();
+}
+
+NavigatorDecision PathfinderNavigator::ContinueTurn(const NavigatorInput& input) {
+  const double turned =
+      motion_.direction * math::WrapAngle(input.estimate.heading_rad - anchor_.heading_rad);
+  const bool faces_goal = mode_ == Mode::kFacingGoal && !NeedsPointTurn(input.estimate);
+  if (turned < params_.turn_increment_rad && !faces_goal) return Move(motion_);
+  if (mode_ == Mode::kAvoiding) {
+    avoided_turn_rad_ += turned;
+    odometer_at_avoiding_m_ = input.estimate.distance_m;
+  }
+  return ScanOrGoOn(input);
+}
+
+NavigatorDecision PathfinderNavigator::ContinueDrive(const NavigatorInput& input) {
+  const double driven = input.estimate.distance_m - anchor_.distance_m;
+  if (mode_ == Mode::kBackingOff) {
+    return driven < leg_m_ ? Move(motion_) : BeginTurn(Mode::kAvoiding, *avoid_direction_, input);
+  }
+  if (mode_ == Mode::kThreading && driven < leg_m_) return Move(motion_);
+  if (mode_ == Mode::kClearing) clearing_left_m_ = std::max(0.0, leg_m_ - driven);
+  const double since_scan = input.estimate.distance_m - odometer_at_scan_m_;
+  if (uses_hazard_sensor_ && since_scan >= params_.scan_interval_m) return BeginScan();
+  if (driven < leg_m_) return Move(motion_);
+  return mode_ == Mode::kThreading ? ScanOrGoOn(input) : BeginForward(input);
+}
+
+NavigatorDecision PathfinderNavigator::BeginScan() {
+  mode_ = Mode::kScanning;
+  return {NavigatorStatus::kDriving, messages::LookDirection::kAhead, {}};
+}
+
+NavigatorDecision PathfinderNavigator::ScanOrGoOn(const NavigatorInput& input) {
+  return uses_hazard_sensor_ ? BeginScan() : BeginForward(input);
+}
+
+NavigatorDecision PathfinderNavigator::BeginForward(const NavigatorInput& input) {
+  const double bearing = GoalBearing(input.estimate);
+  facing_goal_ = NeedsPointTurn(input.estimate);
+  if (facing_goal_) return BeginTurn(Mode::kFacingGoal, bearing > 0.0 ? kLeft : kRight, input);
+  mode_ = Mode::kForward;
+  anchor_ = input.estimate;
+  leg_m_ = params_.scan_interval_m;  // the bearing is looked at anew as often as the terrain
+  motion_ = {MotionKind::kArc, CurvatureToGoal(bearing, params_), +1};
+  return Move(motion_);
+}
+
+NavigatorDecision PathfinderNavigator::BeginStraight(Mode mode, double distance_m,
+                                                     const NavigatorInput& input) {
+  mode_ = mode;
+  anchor_ = input.estimate;
+  leg_m_ = distance_m;
+  motion_ = {MotionKind::kArc, 0.0, mode == Mode::kBackingOff ? -1 : +1};
+  return Move(motion_);
+}
+
+NavigatorDecision PathfinderNavigator::BeginTurn(Mode mode, int direction,
+                                                 const NavigatorInput& input) {
+  mode_ = mode;
+  anchor_ = input.estimate;
+  motion_ = {MotionKind::kTurnInPlace, 0.0, direction};
+  return Move(motion_);
+}
+
+double PathfinderNavigator::GoalBearing(const PoseEstimate& estimate) const {
+  const double direction = std::atan2(goal_.y_m - estimate.y_m, goal_.x_m - estimate.x_m);
+  return math::WrapAngle(direction - estimate.heading_rad);
+}
+
+// A turn towards the goal, once begun, goes on until the rover faces it. It begins where the goal
+// lies far behind, or inside the tightest turning circle, which the rover would drive round for
+// ever: the arc that leads to a goal at distance d and bearing b has the radius d / (2 sin b).
+bool PathfinderNavigator::NeedsPointTurn(const PoseEstimate& estimate) const {
+  const double bearing_rad = std::abs(GoalBearing(estimate));
+  if (facing_goal_) return bearing_rad > std::max(params_.heading_deadband_rad, kFinestAim_rad);
+  // Otherwise a hazard beside the goal would turn the rover away and back for ever.
+  if (estimate.distance_m - odometer_at_avoiding_m_ < params_.point_turn_after_m) return false;
+  if (bearing_rad > params_.point_turn_bearing_rad) return true;
+  return bearing_rad > params_.tight_arc_bearing_rad &&
+         GoalDistance(estimate) < 2.0 * params_.tight_arc_radius_m * std::sin(bearing_rad);
+}
+
+double PathfinderNavigator::GoalDistance(const PoseEstimate& estimate) const {
+  return std::hypot(goal_.x_m - estimate.x_m, goal_.y_m - estimate.y_m);
+}
+
+bool PathfinderNavigator::AtGoal(const PoseEstimate& estimate) const {
+  return GoalDistance(estimate) <= params_.goal_tolerance_m;
+}
+
+}  // namespace rockyard::navigation

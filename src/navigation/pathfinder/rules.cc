@@ -1,0 +1,67 @@
+#include "navigation/pathfinder/rules.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/check.h"
+
+namespace rockyard::navigation {
+namespace {
+
+using messages::HazardReport;
+
+int CountHazards(const HazardReport& report, const std::vector<std::int64_t>& stripes) {
+  return static_cast<int>(std::count_if(stripes.begin(), stripes.end(), [&](std::int64_t stripe) {
+    return report.stripe_hazard[static_cast<std::size_t>(stripe)];
+  }));
+}
+
+bool RightIsClearFor(const HazardReport& report, const PathfinderParams& params) {
+  if (params.right_is_clear == RightIsClear::kNoRightHazard) {
+    return CountHazards(report, params.right_stripes) == 0;
+  }
+  return !report.stripe_hazard.back();
+}
+
+int TurnFromBothSides(const HazardReport& report, double goal_bearing_rad,
+                      const PathfinderParams& params) {
+  switch (params.both_sides) {
+    case BothSidesReaction::kRuleOrder:
+      return kRight;
+    case BothSidesReaction::kTowardGoal:
+      return goal_bearing_rad > 0.0 ? kLeft : kRight;
+    case BothSidesReaction::kFewerHazards:
+      return CountHazards(report, params.left_stripes) < CountHazards(report, params.right_stripes)
+                 ? kLeft
+                 : kRight;
+  }
+  return kRight;
+}
+
+}  // namespace
+
+HazardSides ClassifySides(const HazardReport& report, const PathfinderParams& params) {
+  return {CountHazards(report, params.left_stripes) > 0,
+          CountHazards(report, params.centre_stripes) > 0,
+          CountHazards(report, params.right_stripes) > 0};
+}
+
+int ChooseTurn(const HazardReport& report, double goal_bearing_rad,
+               const PathfinderParams& params) {
+  const HazardSides sides = ClassifySides(report, params);
+  EXPECT(sides.any());
+  if (sides.left && sides.right) return TurnFromBothSides(report, goal_bearing_rad, params);
+  if (sides.left) return kRight;
+  if (sides.centre) return RightIsClearFor(report, params) ? kRight : kLeft;
+  return kLeft;
+}
+
+double CurvatureToGoal(double goal_bearing_rad, const PathfinderParams& params) {
+  const double size = std::abs(goal_bearing_rad);
+  if (size <= params.heading_deadband_rad) return 0.0;
+  const double radius =
+      size > params.tight_arc_bearing_rad ? params.tight_arc_radius_m : params.wide_arc_radius_m;
+  return std::copysign(1.0 / radius, goal_bearing_rad);
+}
+
+}  // namespace rockyard::navigation

@@ -1,0 +1,55 @@
+// The reaction to a hazard that the rover feels: stop, back off, turn away from its side.
+//
+// A hazard ahead is passed on the right, as one that is seen in the centre. A touch behind ends a
+// back-off and does nothing else: the rover drives away from it by going on. During a reaction the
+// hazard that started it may last. While the rover turns the reaction starts again with a touch
+// after a tick without one, and with a hazard of another kind after a tick without any. Tilts,
+// joint angles and currents of the kind that started it do not start it again, or one near its
+// threshold would with every noisy sample: what still holds when the turn has ended starts the next
+// reaction. Draws no random numbers.
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "navigation/navigator.h"
+#include "navigation/pathfinder/vehicle_reaction_params.h"
+
+namespace rockyard::navigation {
+
+class VehicleReaction {
+ public:
+  explicit VehicleReaction(const VehicleReactionParams& params) : params_(params) {}
+
+  // What the reaction asks for at this tick; nothing while there is none, and at the tick at which
+  // it has ended.
+  std::optional<NavigatorDecision> Decide(const NavigatorInput& input, double goal_distance_m);
+
+  void OnPoseUpdate(const messages::PoseEstimate& before, const messages::PoseEstimate& after);
+
+ private:
+  enum class Stage { kNone, kBackingOff, kTurning };
+
+  std::optional<NavigatorDecision> Begin(const NavigatorInput& input, double goal_distance_m);
+  std::optional<NavigatorDecision> BackOff(const NavigatorInput& input);
+  std::optional<NavigatorDecision> Turn(const NavigatorInput& input, double goal_distance_m);
+  // Whether this is new since the reaction began.
+  bool Appeared(const messages::VehicleHazard& hazard) const;
+  NavigatorDecision Start(Stage stage, const messages::MotionCommand& motion,
+                          const messages::PoseEstimate& estimate);
+  NavigatorDecision GoOn() const { return {NavigatorStatus::kDriving, {}, motion_}; }
+
+  VehicleReactionParams params_;
+  Stage stage_ = Stage::kNone;
+  messages::MotionCommand motion_;
+  messages::PoseEstimate anchor_;  // estimate when the stage began
+  int turn_direction_ = 0;
+  messages::VehicleHazardKind cause_ = messages::VehicleHazardKind::kContact;
+  bool was_clear_ = false;     // nothing felt at some tick of this reaction
+  bool was_released_ = false;  // no touch at some tick of it
+  std::int64_t repeats_ = 0;
+  double best_goal_distance_m_ = std::numeric_limits<double>::infinity();
+  double ignored_until_m_ = -std::numeric_limits<double>::infinity();  // odometer
+};
+
+}  // namespace rockyard::navigation

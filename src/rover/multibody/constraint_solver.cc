@@ -1,0 +1,247 @@
+#include "rover/multibody/constraint_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rockyard::rover {
+namespace {
+
+// Share of a position error of differential or joint stop that one step takes back.
+constexpr double kJointRecovery = 0.2;
+// Joint stops are watched from this angle before them, rad.
+constexpr double kStopWatch_rad = 0.05;
+// Contacts that free motion would bring this near within the step are solved, m: room for what the
+// other contacts change about the motion.
+constexpr double kActiveGap_m = 0.005;
+
+}  // namespace
+
+ConstraintSolver::ConstraintSolver(const RoverParams& params, const terrain::SoilParams& soil)
+    : laws_(params, soil),
+      step_s_(params.physics.step_s),
+      iterations_(params.physics.solver_iterations) {
+  differential_.J[6 + kLeftRocker] = 1.0;
+  differential_.J[6 + kRightRocker] = 1.0;
+  differential_.Unbind();
+  for (std::size_t i = 0; i < kStops; ++i) {
+    const bool rocker = i <= static_cast<std::size_t>(kRightRocker);
+    stop_angle_rad_[i] =
+        rocker ? params.geometry.rocker_limit_rad : params.geometry.bogie_limit_rad;
+  }
+  const double stall_Ns_m = params.drive.stall_torque_Nm * step_s_;
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    motors_[i].J[6 + kFirstWheel + static_cast<int>(i)] = 1.0;
+    motors_[i].low = -stall_Ns_m;
+    motors_[i].high = stall_Ns_m;
+  }
+}
+
+void ConstraintSolver::Clear() {
+  differential_.impulse = 0.0;
+  for (Row& row : stops_) row.impulse = 0.0;
+  for (Row& row : motors_) row.impulse = 0.0;
+}
+
+void ConstraintSolver::Solve(const DofMatrix& mass_inverse,
+                             const messages::PerWheel<double>& wheel_rate_rad_s,
+                             LooseRocks* loose_rocks, ContactFinder& finder, Multibody& body) {
+  const DofVector free_velocity = body.Velocity();
+  velocity_ = free_velocity;
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    spin_rad_s_[i] = free_velocity[6 + kFirstWheel + static_cast<int>(i)];
+  }
+  StartDifferential(mass_inverse, body);
+  StartStops(mass_inverse, body);
+  StartMotors(mass_inverse, wheel_rate_rad_s);
+  contact_count_ = 0;
+  MarkActive(body, finder);
+  if (loose_rocks != nullptr) loose_rocks->Start(finder.contacts());
+  for (Contact& contact : finder.contacts()) {
+    if (contact.active) {
+      LooseRock* rock = loose_rocks != nullptr ? loose_rocks->Find(contact.other) : nullptr;
+      StartContact(mass_inverse, finder.part(contact.part), body, rock, contact);
+    } else {
+      contact.Forget();
+    }
+  }
+  for (std::int64_t i = 0; i < iterations_; ++i) Sweep(loose_rocks);
+  for (std::size_t i = 0; i < contact_count_; ++i) KeepForNextStep(contacts_[i]);
+  body.AddVelocity(velocity_ - free_velocity);
+}
+
+void ConstraintSolver::Start(const DofMatrix& mass_inverse, Row& row) {
+  // Of the 16 entries of J a contact uses six and those of the joints that carry its part.
+  row.response.setZero();
+  for (int dof = 0; dof < kDof; ++dof) {
+    if (row.J[dof] != 0.0) row.response += row.J[dof] * mass_inverse.col(dof);
+  }
+  row.diagonal = row.J.dot(row.response) + row.softness;
+  if (row.rock != nullptr) {
+    row.diagonal += row.direction_W.head<2>().squaredNorm() / row.rock->mass_kg;
+  }
+  row.impulse = std::clamp(row.impulse, row.low, row.high);
+  velocity_ += row.impulse * row.response;
+  if (row.rock != nullptr) row.rock->PushBack(row.impulse * row.direction_W);
+}
+
+void ConstraintSolver::StartDifferential(const DofMatrix& mass_inverse, const Multibody& body) {
+  const double error_rad = body.JointAngle(kLeftRocker) + body.JointAngle(kRightRocker);
+  differential_.target = -kJointRecovery * error_rad / step_s_;
+  Start(mass_inverse, differential_);
+}
+
+void ConstraintSolver::StartStops(const DofMatrix& mass_inverse, const Multibody& body) {
+  for (std::size_t i = 0; i < kStops; ++i) {
+    Row& row = stops_[i];
+    const int joint = static_cast<int>(i);
+    const double angle_rad = body.JointAngle(joint);
+    const double room_rad = stop_angle_rad_[i] - std::abs(angle_rad);
+    if (room_rad > kStopWatch_rad) {
+      row.high = row.impulse = 0.0;
+      continue;
+    }
+    row.J[6 + joint] = angle_rad > 0.0 ? -1.0 : 1.0;
+    row.target = -(room_rad > 0.0 ? 1.0 : kJointRecovery) * room_rad / step_s_;
+    row.high = kUnbounded;
+    Start(mass_inverse, row);
+  }
+}
+
+void ConstraintSolver::StartMotors(const DofMatrix& mass_inverse,
+                                   const messages::PerWheel<double>& rate_rad_s) {
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    motors_[i].target = rate_rad_s[i];
+    Start(mass_inverse, motors_[i]);
+  }
+}
+
+void ConstraintSolver::MarkActive(const Multibody& body, ContactFinder& finder) const {
+  const DofVector velocity = body.Velocity();
+  DofVector J;
+  for (Contact& contact : finder.contacts()) {
+    contact.active = contact.gap_m < kActiveGap_m;
+    if (contact.active) continue;
+    body.FillJacobian(finder.part(contact.part).body, contact.p_W, contact.n_W, J);
+    contact.active = contact.gap_m + step_s_ * J.dot(velocity) < kActiveGap_m;
+  }
+}
+
+void ConstraintSolver::StartContact(const DofMatrix& mass_inverse, const Part& part,
+                                    const Multibody& body, LooseRock* rock, Contact& contact) {
+  if (contact_count_ == contacts_.size()) contacts_.emplace_back();
+  ContactRows& rows = contacts_[contact_count_++];
+  rows.contact = &contact;
+  const bool wheel = part.kind == truth::BodyPart::kWheel;
+  rows.law =
+      laws_.Of(part, contact, wheel ? spin_rad_s_[static_cast<std::size_t>(contact.part)] : 0.0);
+  rows.normal.rock = rows.along.rock = rows.across.rock = rock;
+  StartNormal(mass_inverse, part, body, rows);
+  StartFriction(mass_inverse, part, body, rows);
+  StartDrag(mass_inverse, part, body, rows);
+}
+
+// A spring and damper side by side, solved implicitly: force k (d - d0) - c v at the end of the
+// step, with the penetration d. A gap only bounds the approach.
+void ConstraintSolver::StartNormal(const DofMatrix& mass_inverse, const Part& part,
+                                   const Multibody& body, ContactRows& rows) {
+  const Contact& contact = *rows.contact;
+  const double k = rows.law.stiffness_N_m;
+  const double c = laws_.damping_Ns_m();
+  body.FillJacobian(part.body, contact.p_W, contact.n_W, rows.normal.J);
+  rows.normal.direction_W = contact.n_W;
+  rows.normal.target = contact.gap_m > 0.0
+                           ? -contact.gap_m / step_s_
+                           : -k * (rows.law.rest_depth_m + contact.gap_m) / (step_s_ * k + c);
+  rows.normal.softness = 1.0 / (step_s_ * (step_s_ * k + c));
+  rows.normal.impulse = contact.impulse_Ns[0];
+  rows.normal.high = kUnbounded;
+  Start(mass_inverse, rows.normal);
+}
+
+void ConstraintSolver::StartFriction(const DofMatrix& mass_inverse, const Part& part,
+                                     const Multibody& body, ContactRows& rows) {
+  const Contact& contact = *rows.contact;
+  body.FillJacobian(part.body, contact.p_W, contact.along_W, rows.along.J);
+  body.FillJacobian(part.body, contact.p_W, contact.across_W, rows.across.J);
+  rows.along.direction_W = contact.along_W;
+  rows.across.direction_W = contact.across_W;
+  rows.along.impulse = contact.impulse_Ns[1];
+  rows.across.impulse = contact.impulse_Ns[2];
+  for (Row* row : {&rows.along, &rows.across}) {
+    row->softness = rows.law.slip_softness_m_per_Ns;
+    row->Unbind();
+    Start(mass_inverse, *row);
+  }
+  double coupling = rows.along.J.dot(rows.across.response);
+  if (const LooseRock* rock = rows.along.rock; rock != nullptr) {
+    coupling += contact.along_W.head<2>().dot(contact.across_W.head<2>()) / rock->mass_kg;
+  }
+  rows.friction.Set(rows.along.diagonal, rows.across.diagonal, coupling);
+}
+
+// Motion resistance acts on the axle, so that the wheel has to pull it by traction.
+void ConstraintSolver::StartDrag(const DofMatrix& mass_inverse, const Part& part,
+                                 const Multibody& body, ContactRows& rows) {
+  rows.drag.impulse = rows.contact->drag_Ns;
+  if (rows.law.drag_ratio == 0.0) return;
+  body.FillJacobian(body.Parent(part.body), body.X_WB(part.body).translation(),
+                    rows.contact->along_W, rows.drag.J);
+  rows.drag.Unbind();
+  Start(mass_inverse, rows.drag);
+}
+
+void ConstraintSolver::KeepForNextStep(const ContactRows& rows) const {
+  Contact& contact = *rows.contact;
+  contact.impulse_Ns = {rows.normal.impulse, rows.along.impulse, rows.across.impulse};
+  contact.drag_Ns = rows.drag.impulse;
+  contact.slip_m_s = std::hypot(rows.along.J.dot(velocity_), rows.across.J.dot(velocity_));
+}
+
+void ConstraintSolver::Sweep(LooseRocks* loose_rocks) {
+  Relax(differential_);
+  for (Row& row : stops_) {
+    if (row.high > 0.0) Relax(row);
+  }
+  for (Row& row : motors_) Relax(row);
+  for (std::size_t i = 0; i < contact_count_; ++i) {
+    ContactRows& rows = contacts_[i];
+    Relax(rows.normal);
+    RelaxFriction(rows);
+    if (rows.law.drag_ratio > 0.0) {
+      rows.drag.high = rows.law.drag_ratio * rows.normal.impulse;
+      rows.drag.low = -rows.drag.high;
+      Relax(rows.drag);
+    }
+  }
+  if (loose_rocks != nullptr) loose_rocks->Hold();
+}
+
+double ConstraintSolver::Residual(const Row& row) const {
+  double residual = row.target - row.J.dot(velocity_) - row.softness * row.impulse;
+  if (row.rock != nullptr) residual += row.direction_W.dot(row.rock->v_W_m_s);
+  return residual;
+}
+
+void ConstraintSolver::Apply(double impulse, Row& row) {
+  velocity_ += (impulse - row.impulse) * row.response;
+  if (row.rock != nullptr) row.rock->PushBack((impulse - row.impulse) * row.direction_W);
+  row.impulse = impulse;
+}
+
+void ConstraintSolver::Relax(Row& row) {
+  Apply(std::clamp(row.impulse + Residual(row) / row.diagonal, row.low, row.high), row);
+}
+
+void ConstraintSolver::RelaxFriction(ContactRows& rows) {
+  const FrictionBlock& A = rows.friction;
+  const double along = rows.along.impulse;
+  const double across = rows.across.impulse;
+  const auto [new_along, new_across] =
+      rows.friction.Solve({Residual(rows.along) + A.a0() * along + A.a01() * across,
+                           Residual(rows.across) + A.a01() * along + A.a1() * across},
+                          rows.law.friction * rows.normal.impulse);
+  Apply(new_along, rows.along);
+  Apply(new_across, rows.across);
+}
+
+}  // namespace rockyard::rover

@@ -1,0 +1,202 @@
+#include "rover/multibody/contact_finder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace rockyard::rover {
+namespace {
+
+using math::Vector3;
+
+// The list of near rocks is renewed after this much travel, m.
+constexpr double kGatherStep_m = 0.1;
+// Pairs nearer than this are followed from step to step, m.
+constexpr double kFollowedGap_m = 0.03;
+// Alternating projections: sweeps for a followed pair and for a new one, and the movement below
+// which a sweep ends them, m.
+constexpr int kSweeps = 3;
+constexpr int kFirstSweeps = 30;
+constexpr double kConverged_m = 1e-6;
+// Sine of the wheel's tilt against ground or wall at which it stands on the edge of its rim. Below,
+// the contact moves in proportion across the rim, as soft soil bears the whole width; so does the
+// contact of its side with a wall across that side.
+constexpr double kEdgeTilt = 0.1;
+// Chassis and panel cannot touch a plane while the rover stands on its wheels; sine of the tilt
+// from which on they are tested, given the most that rockers and bogies let the chassis lean.
+constexpr double kUprightCosine = 0.9;
+
+}  // namespace
+
+ContactFinder::ContactFinder(const RoverGeometryParams& params, const terrain::Terrain& terrain)
+    : terrain_(terrain),
+      parts_(MakeParts(params)),
+      reach_m_(std::hypot(0.5 * params.length_m, 0.5 * params.width_m) + 2.0 * kFollowedGap_m) {
+  rocks_.reserve(terrain.rocks().size());
+  for (const terrain::Rock& rock : terrain.rocks()) rocks_.emplace_back(rock);
+}
+
+void ContactFinder::Clear() {
+  contacts_.clear();
+  gathered_ = false;
+}
+
+void ContactFinder::OnRockMoved(int rock) {
+  Ellipsoid& ellipsoid = rocks_[static_cast<std::size_t>(rock)];
+  const Vector3 before_W = ellipsoid.center_W();
+  ellipsoid = Ellipsoid(terrain_.rocks()[static_cast<std::size_t>(rock)]);
+  for (Contact& contact : contacts_) {
+    if (contact.other == rock) contact.near_W += ellipsoid.center_W() - before_W;
+  }
+  gathered_ = false;
+}
+
+void ContactFinder::Update(const Multibody& body) {
+  std::swap(contacts_, last_);
+  contacts_.clear();
+  next_last_ = 0;
+  GatherRocks(body.X_WR().translation());
+  const bool upright = terrain_.ground().IsPlane() && body.X_WR().linear()(2, 2) > kUprightCosine;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const Part& part = parts_[i];
+    const int index = static_cast<int>(i);
+    const math::Transform& X_WB = body.X_WB(part.body);
+    if (part.meets == Meets::kGroundAndWalls) {
+      MeetWalls(index, X_WB);
+      if (!upright) MeetGround(index, X_WB);
+      continue;
+    }
+    if (part.meets == Meets::kEverything) {
+      MeetWalls(index, X_WB);
+      MeetGround(index, X_WB);
+    }
+    const Vector3 center_W = X_WB * part.center_B;
+    for (const int rock : near_rocks_) MeetRock(index, X_WB, center_W, rock);
+  }
+}
+
+void ContactFinder::GatherRocks(const Vector3& p_WRo) {
+  if (gathered_ && (p_WRo - gathered_at_W_).head<2>().norm() < kGatherStep_m) return;
+  terrain_.RocksNear(p_WRo.x(), p_WRo.y(), reach_m_ + kGatherStep_m, near_rocks_);
+  gathered_at_W_ = p_WRo;
+  gathered_ = true;
+}
+
+Contact& ContactFinder::Add(int part, int other, bool& found) {
+  const auto key = std::tuple(part, other);
+  while (next_last_ < last_.size() &&
+         std::tuple(last_[next_last_].part, last_[next_last_].other) < key) {
+    ++next_last_;
+  }
+  found = next_last_ < last_.size() &&
+          std::tuple(last_[next_last_].part, last_[next_last_].other) == key;
+  if (found) {
+    contacts_.push_back(last_[next_last_]);
+  } else {
+    contacts_.push_back({.part = part, .other = other});
+  }
+  return contacts_.back();
+}
+
+void ContactFinder::SetTangents(const math::Transform& X_WB, Contact& contact) const {
+  // Across a wheel is its axle; where the normal is the axle (side of the wheel), any direction.
+  Vector3 along = X_WB.linear().col(1).cross(contact.n_W);
+  if (along.squaredNorm() < 1e-4) along = Vector3::UnitZ().cross(contact.n_W);
+  contact.along_W = along.normalized();
+  contact.across_W = contact.n_W.cross(contact.along_W);
+}
+
+Vector3 ContactFinder::Support(const Part& part, const math::Transform& X_WB, const Vector3& n_W) {
+  Vector3 p_W = X_WB * part.center_B;
+  if (part.core != Core::kCylinder) return p_W;
+  const Vector3 axle_W = X_WB.linear().col(1);
+  const double tilt = -n_W.dot(axle_W);
+  const Vector3 down_W = -n_W - tilt * axle_W;  // in the plane of the rim
+  const double size = down_W.norm();
+  p_W += part.b_B.y() * std::clamp(tilt / kEdgeTilt, -1.0, 1.0) * axle_W;
+  p_W += part.b_B.x() / std::max(size, kEdgeTilt) * down_W;
+  return p_W - part.margin_m * n_W;
+}
+
+void ContactFinder::MeetGround(int index, const math::Transform& X_WB) {
+  const Part& part = parts_[static_cast<std::size_t>(index)];
+  const Vector3 center_W = X_WB * part.center_B;
+  const terrain::Ground& ground = terrain_.ground();
+  const Vector3 n_W = ground.Normal(center_W.x(), center_W.y());
+  const Vector3 p_W = Support(part, X_WB, n_W);
+  const double gap_m = (p_W.z() - ground.Height(p_W.x(), p_W.y())) * n_W.z();
+  if (gap_m > kFollowedGap_m) return;
+  bool found = false;
+  Contact& contact = Add(index, kGround, found);
+  contact.gap_m = gap_m;
+  contact.p_W = p_W;
+  contact.n_W = n_W;
+  SetTangents(X_WB, contact);
+}
+
+void ContactFinder::MeetWalls(int index, const math::Transform& X_WB) {
+  const Part& part = parts_[static_cast<std::size_t>(index)];
+  const Vector3 center_W = X_WB * part.center_B;
+  const double reach_m = part.bounding_radius_m + kFollowedGap_m;
+  const auto walls = terrain_.walls();
+  for (std::size_t i = walls.size(); i-- > 0;) {
+    if (walls[i].offset_m - walls[i].normal_W.dot(center_W) > reach_m) continue;
+    const Vector3 p_W = Support(part, X_WB, -walls[i].normal_W);
+    const double gap_m = walls[i].offset_m - walls[i].normal_W.dot(p_W);
+    if (gap_m > kFollowedGap_m) continue;
+    bool found = false;
+    Contact& contact = Add(index, kFirstWall - static_cast<int>(i), found);
+    contact.gap_m = gap_m;
+    contact.p_W = p_W;
+    contact.n_W = -walls[i].normal_W;
+    SetTangents(X_WB, contact);
+  }
+}
+
+bool ContactFinder::AreApart(const Part& part, const math::Transform& X_WB,
+                             const SurfacePoint& surface) {
+  const Vector3 n_B = X_WB.linear().transpose() * surface.normal_W;
+  const double least_m =
+      LeastAlong(part, n_B) + surface.normal_W.dot(X_WB.translation() - surface.point_W);
+  return least_m - part.margin_m > kFollowedGap_m;
+}
+
+void ContactFinder::MeetRock(int index, const math::Transform& X_WB, const Vector3& center_W,
+                             int rock) {
+  const Part& part = parts_[static_cast<std::size_t>(index)];
+  const Ellipsoid& ellipsoid = rocks_[static_cast<std::size_t>(rock)];
+  const double reach_m = part.bounding_radius_m + kFollowedGap_m;
+  const double far_m = reach_m + ellipsoid.bounding_radius_m();
+  if ((center_W - ellipsoid.center_W()).squaredNorm() > far_m * far_m) return;
+  if (ellipsoid.DistanceBound(center_W) > reach_m) return;
+
+  bool found = false;
+  Contact& contact = Add(index, rock, found);
+  const Eigen::Matrix3d R_BW = X_WB.linear().transpose();
+  SurfacePoint surface{contact.near_W, contact.n_W, 0.0};
+  if (!found) surface = ellipsoid.Nearest(center_W);
+  if (!found && AreApart(part, X_WB, surface)) {
+    contacts_.pop_back();
+    return;
+  }
+  const int sweeps = found ? kSweeps : kFirstSweeps;
+  Vector3 core_W = center_W;
+  for (int i = 0; i < sweeps; ++i) {
+    core_W = X_WB * NearestOnCore(part, R_BW * (surface.point_W - X_WB.translation()));
+    const Vector3 before_W = surface.point_W;
+    surface = ellipsoid.Nearest(core_W);
+    if (AreApart(part, X_WB, surface)) break;
+    if ((surface.point_W - before_W).squaredNorm() < kConverged_m * kConverged_m) break;
+  }
+  contact.gap_m = surface.distance_m - part.margin_m;
+  if (contact.gap_m > kFollowedGap_m) {
+    contacts_.pop_back();
+    return;
+  }
+  contact.near_W = surface.point_W;
+  contact.n_W = surface.normal_W;
+  contact.p_W = core_W - part.margin_m * surface.normal_W;
+  SetTangents(X_WB, contact);
+}
+
+}  // namespace rockyard::rover

@@ -1,0 +1,87 @@
+// Finds where the rover touches, or is about to touch, the terrain.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "math/pose.h"
+#include "rover/ellipsoid.h"
+#include "rover/multibody/multibody.h"
+#include "rover/part_shapes.h"
+#include "terrain/terrain.h"
+
+namespace rockyard::rover {
+
+// What a part touches: a rock by its index >= 0, the ground, or wall i as kFirstWall - i.
+inline constexpr int kGround = -1;
+inline constexpr int kFirstWall = -2;
+
+// Contact of a part with one thing. Kept from step to step while the two stay near, so that the
+// last impulses start the next solution.
+struct Contact {
+  int part = 0;
+  int other = kGround;
+  double gap_m = 0.0;                              // negative: penetration
+  bool active = false;                             // may touch within this step
+  math::Vector3 p_W = math::Vector3::Zero();       // on the rover
+  math::Vector3 n_W = math::Vector3::UnitZ();      // from the terrain to the rover
+  math::Vector3 along_W = math::Vector3::UnitX();  // rolling direction of a wheel, tangential
+  math::Vector3 across_W = math::Vector3::UnitY();
+  math::Vector3 near_W = math::Vector3::Zero();  // nearest point of the rock
+  // Of the last step: impulses along n_W, along_W, across_W, N s, the motion resistance, and the
+  // speed at which the two slide on each other.
+  std::array<double, 3> impulse_Ns{};
+  double drag_Ns = 0.0;
+  double slip_m_s = 0.0;
+
+  bool IsSoil() const { return other == kGround; }
+  void Forget() {
+    impulse_Ns = {};
+    drag_Ns = slip_m_s = 0.0;
+  }
+};
+
+class ContactFinder {
+ public:
+  ContactFinder(const RoverGeometryParams& params, const terrain::Terrain& terrain);
+
+  // Updates contacts() for the present poses. Ordered by part, then by other.
+  void Update(const Multibody& body);
+  // Forgets everything, for a rover that was lifted.
+  void Clear();
+  // Reads the place of a rock again.
+  void OnRockMoved(int rock);
+
+  std::vector<Contact>& contacts() { return contacts_; }
+  const std::vector<Contact>& contacts() const { return contacts_; }
+  const Part& part(int index) const { return parts_[static_cast<std::size_t>(index)]; }
+  const std::vector<Part>& parts() const { return parts_; }
+
+ private:
+  void GatherRocks(const math::Vector3& p_WRo);
+  void MeetGround(int index, const math::Transform& X_WB);
+  void MeetWalls(int index, const math::Transform& X_WB);
+  void MeetRock(int index, const math::Transform& X_WB, const math::Vector3& center_W, int rock);
+  // Whether the plane that touches a rock at that point of its surface keeps the part so far away
+  // that the pair need not be followed.
+  static bool AreApart(const Part& part, const math::Transform& X_WB, const SurfacePoint& surface);
+  // Point of a part that reaches farthest against n_W.
+  static math::Vector3 Support(const Part& part, const math::Transform& X_WB,
+                               const math::Vector3& n_W);
+  // Starts a contact from the one of the last step, if there was one.
+  Contact& Add(int part, int other, bool& found);
+  void SetTangents(const math::Transform& X_WB, Contact& contact) const;
+
+  const terrain::Terrain& terrain_;
+  std::vector<Part> parts_;
+  std::vector<Ellipsoid> rocks_;
+  double reach_m_;  // of the rover about R's origin
+  std::vector<int> near_rocks_;
+  math::Vector3 gathered_at_W_ = math::Vector3::Zero();
+  bool gathered_ = false;
+  std::vector<Contact> contacts_;
+  std::vector<Contact> last_;
+  std::size_t next_last_ = 0;
+};
+
+}  // namespace rockyard::rover

@@ -1,0 +1,40 @@
+// What a contact resists with: spring, damper, friction, slip and motion resistance.
+#pragma once
+
+#include "rover/multibody/contact_finder.h"
+#include "rover/part_shapes.h"
+#include "rover/rover_params.h"
+#include "rover/wheel_soil.h"
+
+namespace rockyard::rover {
+
+// One contact's law in one step. Normal force: stiffness times the penetration beyond rest_depth_m,
+// and the damping.
+struct ContactLaw {
+  double stiffness_N_m = 0.0;
+  double rest_depth_m = 0.0;
+  double friction = 0.0;                // largest friction over load
+  double slip_softness_m_per_Ns = 0.0;  // slip speed over friction impulse
+  double drag_ratio = 0.0;              // motion resistance over load
+};
+
+class ContactLaws {
+ public:
+  ContactLaws(const RoverParams& params, const terrain::SoilParams& soil);
+
+  // Of a contact whose impulses and slip are those of the last step. spin_rad_s: rate of the wheel,
+  // without effect for other parts.
+  ContactLaw Of(const Part& part, const Contact& contact, double spin_rad_s) const;
+
+  double damping_Ns_m() const { return params_.damping_Ns_m; }
+
+ private:
+  ContactLaw OnSoil(const Contact& contact, double spin_rad_s) const;
+
+  const RoverContactParams params_;
+  const WheelSoil soil_;
+  const double wheel_radius_m_;
+  const double step_s_;
+};
+
+}  // namespace rockyard::rover

@@ -1,0 +1,57 @@
+// Rocks that slide when the rover pushes them harder than the soil holds them.
+#pragma once
+
+#include <vector>
+
+#include "rover/multibody/contact_finder.h"
+#include "terrain/rock_holding_params.h"
+#include "terrain/terrain.h"
+
+namespace rockyard::rover {
+
+// A rock that the rover touches, or that still slides: a mass that translates horizontally under
+// the contacts' impulses and the soil's, which is bounded by terrain::HoldingForce.
+struct LooseRock {
+  int index = 0;
+  double mass_kg = 0.0;
+  math::Vector3 v_W_m_s = math::Vector3::Zero();  // horizontal
+  math::Vector3 hold_Ns = math::Vector3::Zero();  // horizontal, of the soil on the rock
+  double load_Ns = 0.0;                           // downward impulse of the rover on the rock
+  bool touched = false;                           // in this step
+
+  // The rover receives this impulse, the rock its opposite; the soil takes the vertical part.
+  void PushBack(const math::Vector3& impulse_Ns);
+};
+
+// The part of the constraint solver that knows rocks as bodies. A step: Start, then in every sweep
+// the contacts (which call PushBack) and Hold, then Move.
+class LooseRocks {
+ public:
+  // The terrain must outlive this; Move moves its rocks. Draws no random numbers.
+  LooseRocks(const terrain::RockHoldingParams& params, double gravity_m_s2, double step_s,
+             terrain::Terrain& terrain);
+
+  // Forgets velocities and impulses.
+  void Clear();
+  // Takes up the rocks of the active contacts, and keeps those that still slide.
+  void Start(const std::vector<Contact>& contacts);
+  // The rock with that index; null where the contacts of Start do not touch it. Valid until the
+  // next Start.
+  LooseRock* Find(int index);
+
+  // Lets the soil take, of every rock, as much of its motion as the holding force can in one step.
+  void Hold();
+  // Moves the rocks by one step of their velocities; `finder` learns where they are.
+  void Move(ContactFinder& finder);
+
+ private:
+  void Hold(LooseRock& rock) const;
+
+  const terrain::RockHoldingParams params_;
+  const double gravity_m_s2_;
+  const double step_s_;
+  terrain::Terrain& terrain_;
+  std::vector<LooseRock> rocks_;  // in the order in which they were first touched
+};
+
+}  // namespace rockyard::rover

@@ -1,0 +1,201 @@
+#include "rover/multibody/rocker_bogie.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "core/check.h"
+#include "rover/rover_geometry.h"
+
+namespace rockyard::rover {
+namespace {
+
+using math::Vector3;
+using messages::kWheelCount;
+
+// Faster than any rover of ours falls or drives, m/s: the solution has blown up.
+constexpr double kFastest_m_s = 5.0;
+
+// Settling: each step keeps this share of the velocities, so that the rover sinks gently; it ends
+// once the rover is this slow for that many steps, or after so much time.
+constexpr double kSettleDamping = 0.8;
+constexpr double kSettled_m_s = 1e-3;
+constexpr int kSettledSteps = 5;
+constexpr double kSettleTime_s = 5.0;
+// Spacing of the points at which Place looks for what lies beneath, m.
+constexpr double kProbe_m = 0.03;
+
+// Highest rise of the terrain above the plane through p with normal n, over a rectangle in R.
+struct Footprint {
+  double x_m, y_m, half_length_m, half_width_m, clearance_m;
+};
+
+double RiseBelow(const Footprint& area, const math::Transform& X_WR,
+                 const terrain::Terrain& terrain) {
+  const Vector3 up = X_WR.linear().col(2);
+  const int nx = static_cast<int>(std::ceil(2.0 * area.half_length_m / kProbe_m));
+  const int ny = static_cast<int>(std::ceil(2.0 * area.half_width_m / kProbe_m));
+  double rise_m = 0.0;
+  for (int i = 0; i <= nx; ++i) {
+    for (int j = 0; j <= ny; ++j) {
+      const Vector3 p_R(area.x_m + area.half_length_m * (2.0 * i / nx - 1.0),
+                        area.y_m + area.half_width_m * (2.0 * j / ny - 1.0), 0.0);
+      const Vector3 p_W = X_WR * p_R;
+      const double height_m = (terrain.Height(p_W.x(), p_W.y()) - p_W.z()) * up.z();
+      rise_m = std::max(rise_m, height_m - area.clearance_m);
+    }
+  }
+  return rise_m;
+}
+
+}  // namespace
+
+RockerBogie::RockerBogie(const RoverParams& params, const terrain::Terrain& terrain)
+    : params_(params),
+      steered_(MakeRoverGeometry(params.geometry).steered),
+      terrain_(terrain),
+      body_(params),
+      finder_(params.geometry, terrain),
+      solver_(params, terrain.ground().soil()) {}
+
+RockerBogie::RockerBogie(const RoverParams& params, const terrain::RockHoldingParams& holding,
+                         terrain::Terrain& terrain)
+    : RockerBogie(params, terrain) {
+  loose_rocks_.emplace(holding, params.physics.gravity_m_s2, params.physics.step_s, terrain);
+}
+
+math::Transform RockerBogie::LiftedPose(const math::Pose2& X_WR) const {
+  const terrain::Ground& ground = terrain_.ground();
+  const Vector3 up = ground.Normal(X_WR.x_m, X_WR.y_m);
+  const Vector3 heading(std::cos(X_WR.heading_rad), std::sin(X_WR.heading_rad), 0.0);
+  // The rover's x axis keeps its heading as seen from above.
+  Vector3 forward = heading - heading.dot(up) / up.z() * Vector3::UnitZ();
+  forward.normalize();
+  math::Transform X = math::Transform::Identity();
+  X.linear() << forward, up.cross(forward), up;
+  X.translation() = Vector3(X_WR.x_m, X_WR.y_m, ground.Height(X_WR.x_m, X_WR.y_m));
+
+  const RoverGeometryParams& size = params_.geometry;
+  double rise_m = RiseBelow(
+      {0.0, 0.0, 0.5 * size.belly_length_m, 0.5 * size.belly_width_m, size.belly_clearance_m}, X,
+      terrain_);
+  for (const Vector3& wheel_R : MakeRoverGeometry(size).wheel_R) {
+    rise_m = std::max(rise_m, RiseBelow({wheel_R.x(), wheel_R.y(), size.wheel_radius_m,
+                                         0.5 * size.width_m - size.arm_y_m, 0.0},
+                                        X, terrain_));
+  }
+  X.translation() += rise_m * up;
+  return X;
+}
+
+void RockerBogie::Place(const math::Pose2& X_WR) {
+  angle_at_place_rad_ = state_.wheel_angle_rad;
+  body_.Reset(LiftedPose(X_WR));
+  for (std::size_t i = 0; i < kWheelCount; ++i) SetSteer(i, 0.0);
+  body_.UpdatePoses();
+  finder_.Clear();
+  solver_.Clear();
+  if (loose_rocks_) loose_rocks_->Clear();
+  Settle();
+  body_.StopMotion();
+  // What the wheels turned while settling is not driving: it is taken off the angle.
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    angle_at_place_rad_[i] -= body_.JointAngle(kFirstWheel + static_cast<int>(i));
+  }
+  UpdateState();
+}
+
+void RockerBogie::Settle() {
+  const messages::PerWheel<double> braked{};
+  const int steps = static_cast<int>(kSettleTime_s / params_.physics.step_s);
+  int slow_steps = 0;
+  for (int i = 0; i < steps && slow_steps < kSettledSteps; ++i) {
+    Advance(braked);
+    const DofVector velocity = body_.Velocity();
+    body_.AddVelocity((kSettleDamping - 1.0) * velocity);
+    slow_steps = velocity.head<6>().norm() < kSettled_m_s ? slow_steps + 1 : 0;
+  }
+}
+
+void RockerBogie::SetSteer(std::size_t wheel, double angle_rad) {
+  body_.SetSteer(wheel, angle_rad);
+  state_.steer_rad[wheel] = angle_rad;
+}
+
+void RockerBogie::Step(const messages::WheelCommand& command) {
+  const double most_rad = params_.drive.steer_rate_rad_s * step_s();
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    const double limit = steered_[i] ? params_.drive.max_steer_rad : 0.0;
+    const double wanted = std::clamp(command.steer_rad[i], -limit, limit);
+    const double change = std::clamp(wanted - state_.steer_rad[i], -most_rad, most_rad);
+    if (change != 0.0) SetSteer(i, state_.steer_rad[i] + change);
+  }
+  messages::PerWheel<double> rate_rad_s = command.rate_rad_s;
+  for (double& rate : rate_rad_s) rate *= params_.physics.time_scale;
+  Advance(rate_rad_s);
+  UpdateState();
+}
+
+void RockerBogie::Advance(const messages::PerWheel<double>& rate_rad_s) {
+  const double h = params_.physics.step_s;
+  body_.UpdatePoses();
+  finder_.Update(body_);
+  body_.Accelerate(params_.physics.gravity_m_s2, h, mass_inverse_);
+  solver_.Solve(mass_inverse_, rate_rad_s, loose_rocks_ ? &*loose_rocks_ : nullptr, finder_, body_);
+  CheckMotion(body_.Velocity());
+  body_.Move(h);
+  if (loose_rocks_) loose_rocks_->Move(finder_);
+}
+
+void RockerBogie::CheckMotion(const DofVector& velocity) const {
+  // Written so that a velocity that is not a number fails, too.
+  if (velocity.segment<3>(3).squaredNorm() < kFastest_m_s * kFastest_m_s && velocity.allFinite()) {
+    return;
+  }
+  throw std::runtime_error("the rover's motion blew up: velocity (" + std::to_string(velocity[3]) +
+                           ", " + std::to_string(velocity[4]) + ", " + std::to_string(velocity[5]) +
+                           ") m/s");
+}
+
+void RockerBogie::UpdateState() {
+  body_.UpdatePoses();
+  const DofVector velocity = body_.Velocity() / params_.physics.time_scale;
+  state_.X_WR = body_.X_WR();
+  state_.w_WR_rad_s = velocity.head<3>();
+  state_.v_WR_m_s = velocity.segment<3>(3) +
+                    state_.w_WR_rad_s.cross(body_.X_WR().translation() - body_.p_WComChassis());
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    state_.wheel_angle_rad[i] =
+        angle_at_place_rad_[i] + body_.JointAngle(kFirstWheel + static_cast<int>(i));
+    state_.motor_torque_Nm[i] = solver_.MotorTorque_Nm(i);
+  }
+  state_.left_rocker_rad = body_.JointAngle(kLeftRocker);
+  state_.right_rocker_rad = body_.JointAngle(kRightRocker);
+  state_.left_bogie_rad = body_.JointAngle(kLeftBogie);
+  state_.right_bogie_rad = body_.JointAngle(kRightBogie);
+  UpdateContacts(velocity);
+}
+
+void RockerBogie::UpdateContacts(const DofVector& velocity) {
+  state_.contacts.clear();
+  state_.wheel_load_N.fill(0.0);
+  const math::Transform X_RW = state_.X_WR.inverse(Eigen::Isometry);
+  for (const Contact& contact : finder_.contacts()) {
+    const double force_N = contact.impulse_Ns[0] / params_.physics.step_s;
+    if (force_N <= 0.0) continue;
+    const Part& part = finder_.part(contact.part);
+    if (part.kind == truth::BodyPart::kWheel) {
+      state_.wheel_load_N[static_cast<std::size_t>(contact.part)] += force_N;
+      continue;
+    }
+    DofVector along, across;
+    body_.FillJacobian(part.body, contact.p_W, contact.along_W, along);
+    body_.FillJacobian(part.body, contact.p_W, contact.across_W, across);
+    state_.contacts.push_back({part.kind, contact.other >= 0 ? contact.other : -1, force_N,
+                               std::hypot(along.dot(velocity), across.dot(velocity)),
+                               contact.n_W.z(), X_RW * contact.p_W});
+  }
+}
+
+}  // namespace rockyard::rover

@@ -1,0 +1,50 @@
+// The rocker-bogie rover: Bullet's articulated body under rockyard's contacts and constraints.
+#pragma once
+
+#include <optional>
+
+#include "rover/multibody/constraint_solver.h"
+#include "rover/multibody/contact_finder.h"
+#include "rover/multibody/loose_rocks.h"
+#include "rover/multibody/multibody.h"
+#include "rover/rover.h"
+
+namespace rockyard::rover {
+
+// Cost per step: see tests/rover/rover_benchmark.cc. Draws no random numbers.
+class RockerBogie final : public Rover {
+ public:
+  // On fixed rocks, and on rocks that the rover can push.
+  RockerBogie(const RoverParams& params, const terrain::Terrain& terrain);
+  RockerBogie(const RoverParams& params, const terrain::RockHoldingParams& holding,
+              terrain::Terrain& terrain);
+
+  void Place(const math::Pose2& X_WR) override;
+  // Throws std::runtime_error when the solution has blown up: a velocity that is not finite or
+  // that no rover reaches.
+  void Step(const messages::WheelCommand& command) override;
+  double step_s() const override { return params_.physics.time_scale * params_.physics.step_s; }
+  const truth::RoverState& state() const override { return state_; }
+
+ private:
+  math::Transform LiftedPose(const math::Pose2& X_WR) const;
+  void SetSteer(std::size_t wheel, double angle_rad);
+  void Advance(const messages::PerWheel<double>& rate_rad_s);
+  void Settle();
+  void UpdateState();
+  void UpdateContacts(const DofVector& velocity);
+  void CheckMotion(const DofVector& velocity) const;
+
+  const RoverParams params_;
+  const messages::PerWheel<bool> steered_;
+  const terrain::Terrain& terrain_;
+  Multibody body_;
+  ContactFinder finder_;
+  ConstraintSolver solver_;
+  std::optional<LooseRocks> loose_rocks_;
+  DofMatrix mass_inverse_ = DofMatrix::Zero();
+  messages::PerWheel<double> angle_at_place_rad_{};
+  truth::RoverState state_;
+};
+
+}  // namespace rockyard::rover

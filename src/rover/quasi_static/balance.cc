@@ -1,0 +1,288 @@
+#include "rover/quasi_static/balance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rockyard::rover {
+namespace {
+
+using math::Vector3;
+
+// Slip at which Coulomb friction has reached 0.7 of itself, in shares of the rim speed. Half of it
+// costs a fifth more iterations and changes no posture by more than that of the step.
+constexpr double kRockCreep = 0.02;
+// Same for the direction of the motion resistance.
+constexpr double kResistanceCreep = 0.1;
+// A wheel that stands, or turns slowly, is judged by this share of the fastest rim, and a rover
+// whose wheels all stand by this share of its speed.
+constexpr double kLeastReference = 0.05;
+// The last change of the rates, over the rover's speed. Newton's method leaves far less.
+constexpr double kTolerance = 1e-2;
+// Changes of the rates, over the rim speed, below which tractions are taken along their tangent;
+// above it, force over speed, which overshoots nothing.
+constexpr double kTangentRange = 0.3;
+// A step is cut where the slope at its end is more than this share of that at its start, turned.
+constexpr double kOvershoot = 0.5;
+constexpr int kMostCuts = 4;
+// Change of a load, over the mean wheel load, at which tractions follow it once more; and the
+// longest step by which they do.
+constexpr double kLoadTolerance = 0.05;
+constexpr double kLoadStep = 0.5;
+// Stands for no motion at all.
+constexpr double kHeld = 1e12;
+
+SideVector OfSide(const LinkageVector& rates, std::size_t side) {
+  SideVector result;
+  result << rates.head<7>(), rates[kFirstBogieDof + static_cast<int>(side)];
+  return result;
+}
+
+}  // namespace
+
+QuasiStaticBalance::QuasiStaticBalance(const RoverParams& params, const terrain::SoilParams& soil)
+    : contact_params_(params.contact),
+      soil_(WheelSoil(soil, params.geometry.wheel_radius_m, params.geometry.wheel_width_m),
+            params.mass.total_kg * params.physics.gravity_m_s2),
+      wheel_radius_m_(params.geometry.wheel_radius_m),
+      stall_force_N_(params.drive.stall_torque_Nm / params.geometry.wheel_radius_m),
+      stop_rad_{params.geometry.rocker_limit_rad, params.geometry.bogie_limit_rad,
+                params.geometry.bogie_limit_rad},
+      speed_m_s_(params.drive.speed_m_s),
+      mean_load_N_(params.mass.total_kg * params.physics.gravity_m_s2 / 6.0),
+      stop_stiffness_Nm_(params.contact.stiffness_N_m * params.geometry.length_m *
+                         params.geometry.length_m / 16.0) {
+  const double per_speed = 1e-3 * 6.0 * mean_load_N_ / params.drive.speed_m_s;
+  const double arm_m = 0.25 * params.geometry.length_m;
+  free_damping_.setConstant(per_speed * arm_m * arm_m);
+  free_damping_.head<3>().setConstant(per_speed);
+}
+
+void QuasiStaticBalance::MakeRow(const Linkage& linkage, const Drive& drive,
+                                 const LinkageVector& rates, const RestingContact& contact,
+                                 Row& row) const {
+  const PointJacobian J = linkage.Jacobian(contact.body, contact.p_W);
+  row.side = Linkage::SideOf(contact.body);
+  row.stiffness_N_m = contact_params_.stiffness_N_m;
+  row.rest_m = row.rim_m_s = row.arm_m = 0.0;
+  row.reference_m_s = rim_speed_m_s_;
+  row.loaded = contact.load_N > 0.0;
+  Vector3 along_W = linkage.axle_W(static_cast<std::size_t>(contact.IsWheel() ? contact.part : 0))
+                        .cross(contact.n_W);
+  if (along_W.squaredNorm() < 1e-6) along_W = contact.n_W.unitOrthogonal();
+  along_W.normalize();
+  row.normal = J.transpose() * contact.n_W;
+  row.along = J.transpose() * along_W;
+  row.across = J.transpose() * contact.n_W.cross(along_W);
+  row.gap_m = contact.gap_m - drive.lead_s * row.normal.dot(OfSide(rates, row.side));
+  if (contact.IsWheel()) MakeWheelRow(linkage, drive, contact, row);
+  if (contact.IsSoil()) {
+    row.axle =
+        linkage.Jacobian(contact.body, linkage.body(contact.body).p_WB).transpose() * along_W;
+  }
+}
+
+void QuasiStaticBalance::MakeWheelRow(const Linkage& linkage, const Drive& drive,
+                                      const RestingContact& contact, Row& row) const {
+  const auto wheel = static_cast<std::size_t>(contact.part);
+  const Vector3 axle_W = linkage.axle_W(wheel);
+  const double rate_rad_s = drive.rate_rad_s[wheel];
+  // The rim moves backwards at the contact, along -axle x arm, which is the direction `along`.
+  row.arm_m = axle_W.cross(contact.p_W - linkage.wheel_W(wheel)).norm();
+  row.rim_m_s = rate_rad_s * row.arm_m;
+  row.reference_m_s =
+      std::max(std::abs(rate_rad_s) * wheel_radius_m_, kLeastReference * rim_speed_m_s_);
+  if (!contact.IsSoil()) return;
+  // The sinkage curve in series with the contact's own spring, along its tangent at the last load.
+  const double load_N = contact.load_N > 0.0 ? contact.load_N : mean_load_N_;
+  const SoilAnswer soil = soil_.At(load_N);
+  const double k = contact_params_.stiffness_N_m;
+  row.stiffness_N_m = 1.0 / (1.0 / soil.stiffness_N_m + 1.0 / k);
+  row.rest_m = soil.sinkage_m + load_N / k - load_N / row.stiffness_N_m;
+}
+
+void QuasiStaticBalance::SetTraction(const RestingContact& contact, Row& row) const {
+  const double load_N = contact.traction_load_N;
+  row.shear_ratio = row.resistance_N = 0.0;
+  if (row.reference_m_s == 0.0) {
+    row.most_N = 0.0;
+  } else if (contact.IsSoil()) {
+    const SoilAnswer soil = soil_.At(load_N);
+    row.most_N = std::min(soil.traction_N, stall_force_N_);
+    row.shear_ratio = soil.shear_ratio;
+    row.resistance_N = soil.resistance_N;
+  } else if (contact.IsWheel() && contact.other >= 0) {
+    row.most_N = std::min(contact_params_.wheel_rock_friction * load_N, stall_force_N_);
+  } else {
+    row.most_N = contact_params_.body_rock_friction * load_N;
+  }
+}
+
+QuasiStaticBalance::Traction QuasiStaticBalance::TractionOf(const Row& row, double speed_m_s) {
+  const double slip = speed_m_s / row.reference_m_s;
+  if (row.shear_ratio > 0.0) {
+    const double u = slip * row.shear_ratio;
+    const ShearShare share = ShareOfRatio(u);
+    const double scale = row.most_N * row.shear_ratio / row.reference_m_s;
+    constexpr double kSmall = 1e-6;
+    return {scale * (u > kSmall ? share.value / u : 0.5), scale * share.slope};
+  }
+  const double root2 = slip * slip + kRockCreep * kRockCreep;
+  const double per_speed = row.most_N / (std::sqrt(root2) * row.reference_m_s);
+  return {per_speed, per_speed * kRockCreep * kRockCreep / root2};
+}
+
+void QuasiStaticBalance::AddForces(const SideVector& w, RestingContact& contact, Row& row) {
+  row.acts = false;
+  const double depth_m = -row.gap_m - step_s_ * row.normal.dot(w);
+  contact.load_N = row.stiffness_N_m * (depth_m - row.rest_m);
+  contact.sliding_speed_m_s = 0.0;
+  if (contact.load_N <= 0.0 && !(first_ && row.loaded)) {
+    contact.load_N = 0.0;
+    return;
+  }
+  if (contact.load_N > 0.0) FollowLoad(contact, row);
+  row.acts = true;
+  if (row.most_N == 0.0) {
+    equations_.AddForce(row.side, contact.load_N * row.normal);
+    return;
+  }
+  const double along = row.rim_m_s - row.along.dot(w);
+  const double across = -row.across.dot(w);
+  const double speed_m_s = std::sqrt(along * along + across * across);
+  contact.sliding_speed_m_s = speed_m_s;
+  const Traction traction = TractionOf(row, speed_m_s);
+  const double bend = tangent_ && speed_m_s > 0.0
+                          ? (traction.slope - traction.per_speed) / (speed_m_s * speed_m_s)
+                          : 0.0;
+  row.k_aa = traction.per_speed + bend * along * along;
+  row.k_ab = bend * along * across;
+  row.k_bb = traction.per_speed + bend * across * across;
+  const double F_along = traction.per_speed * along;
+  equations_.AddForce(row.side, contact.load_N * row.normal + F_along * row.along +
+                                    traction.per_speed * across * row.across);
+  if (!contact.IsWheel()) return;
+  torque_Nm_[static_cast<std::size_t>(contact.part)] += row.arm_m * F_along;
+  if (contact.IsSoil()) AddResistance(w, row);
+}
+
+// Against the axle's motion along the wheel: the wheel has to pull it by traction.
+void QuasiStaticBalance::AddResistance(const SideVector& rates, Row& row) {
+  const double v_m_s = row.axle.dot(rates);
+  const double creep_m_s = kResistanceCreep * row.reference_m_s;
+  const double root2 = v_m_s * v_m_s + creep_m_s * creep_m_s;
+  const double per_speed = row.resistance_N / std::sqrt(root2);
+  equations_.AddForce(row.side, -per_speed * v_m_s * row.axle);
+  row.k_axle = per_speed * creep_m_s * creep_m_s / root2;
+}
+
+// Minus the derivative of the contact's force at the rates of the last evaluation.
+void QuasiStaticBalance::AddStiffness(const RestingContact& contact, const Row& row) {
+  if (!row.acts) return;
+  const double k_n = step_s_ * row.stiffness_N_m;
+  if (row.most_N == 0.0) return equations_.AddStiffness(row.side, k_n, row.normal);
+  equations_.AddStiffness(row.side, k_n * row.normal, row.normal,
+                          row.k_aa * row.along + row.k_ab * row.across, row.along,
+                          row.k_ab * row.along + row.k_bb * row.across, row.across);
+  if (contact.IsSoil()) equations_.AddStiffness(row.side, row.k_axle, row.axle);
+}
+
+void QuasiStaticBalance::AddStops(const LinkageVector& rates) {
+  const std::array<double, 3> angle_rad{posture_.rocker_rad, posture_.bogie_rad[0],
+                                        posture_.bogie_rad[1]};
+  for (int i = 0; i < 3; ++i) {
+    const int dof = kRockerDof + i;
+    const double end_rad = angle_rad[static_cast<std::size_t>(i)] + step_s_ * rates[dof];
+    const double beyond_rad = std::abs(end_rad) - stop_rad_[static_cast<std::size_t>(i)];
+    if (beyond_rad <= 0.0) continue;
+    equations_.AddAt(dof, -std::copysign(stop_stiffness_Nm_ * beyond_rad, end_rad),
+                     step_s_ * stop_stiffness_Nm_);
+  }
+}
+
+void QuasiStaticBalance::Evaluate(const LinkageVector& rates,
+                                  std::vector<RestingContact>& contacts) {
+  equations_.Reset(gravity_ - damping_.cwiseProduct(rates), damping_);
+  torque_Nm_.fill(0.0);
+  traction_lags_ = false;
+  const std::array<SideVector, 2> side_rates{OfSide(rates, 0), OfSide(rates, 1)};
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    AddForces(side_rates[rows_[i].side], contacts[i], rows_[i]);
+  }
+  AddStops(rates);
+}
+
+bool QuasiStaticBalance::IsSmall(const LinkageVector& change, double speed_m_s) const {
+  return change.head<3>().squaredNorm() < speed_m_s * speed_m_s &&
+         change.tail<6>().cwiseAbs().maxCoeff() * wheel_radius_m_ < speed_m_s;
+}
+
+// Traction follows load by bounded steps: loads of a first guess can be far off.
+void QuasiStaticBalance::FollowLoad(RestingContact& contact, Row& row) {
+  const double change_N = contact.load_N - contact.traction_load_N;
+  if (std::abs(change_N) < kLoadTolerance * mean_load_N_) return;
+  const double most_N = kLoadStep * mean_load_N_;
+  contact.traction_load_N += std::clamp(change_N, -most_N, most_N);
+  SetTraction(contact, row);
+  if (std::abs(change_N) > most_N) traction_lags_ = true;
+}
+
+// A last small change moves the loads along the springs; the tractions stay.
+void QuasiStaticBalance::Finish(const LinkageVector& change,
+                                std::vector<RestingContact>& contacts) const {
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (contacts[i].load_N <= 0.0) continue;
+    const double depth_m = -step_s_ * rows_[i].normal.dot(OfSide(change, rows_[i].side));
+    contacts[i].load_N = std::max(0.0, contacts[i].load_N + rows_[i].stiffness_N_m * depth_m);
+    contacts[i].traction_load_N = contacts[i].load_N;
+  }
+}
+
+int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, const Drive& drive,
+                              std::vector<RestingContact>& contacts, LinkageVector& rates) {
+  rim_speed_m_s_ = drive.freedom == Freedom::kSettling ? 0.0 : kLeastReference * speed_m_s_;
+  for (const double rate : drive.rate_rad_s) {
+    rim_speed_m_s_ = std::max(rim_speed_m_s_, std::abs(rate) * wheel_radius_m_);
+  }
+  step_s_ = drive.step_s;
+  posture_ = posture;
+  gravity_ = linkage.Gravity();
+  damping_ = free_damping_;
+  if (drive.freedom == Freedom::kSettling) damping_[0] = damping_[1] = damping_[5] = kHeld;
+  rows_.resize(contacts.size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    RestingContact& contact = contacts[i];
+    if (contact.IsWheel() && contact.traction_load_N == 0.0) contact.traction_load_N = mean_load_N_;
+    MakeRow(linkage, drive, rates, contact, rows_[i]);
+    SetTraction(contact, rows_[i]);
+  }
+  first_ = true;
+  tangent_ = drive.lead_s > 0.0;  // the last rates are a good start
+  Evaluate(rates, contacts);
+  first_ = false;
+  for (int iteration = 1; iteration < kMostIterations; ++iteration) {
+    for (std::size_t i = 0; i < contacts.size(); ++i) AddStiffness(contacts[i], rows_[i]);
+    LinkageVector change = equations_.Solve();
+    const double drop = equations_.force().dot(change);
+    if (tangent_ && !traction_lags_ && IsSmall(change, kTolerance * speed_m_s_)) {
+      rates += change;
+      Finish(change, contacts);
+      return iteration;
+    }
+    tangent_ = IsSmall(change, kTangentRange * speed_m_s_);
+    LinkageVector next = rates + change;
+    Evaluate(next, contacts);
+    // With its tractions given, the function is convex: where its slope along the change has
+    // turned, the minimum lies before.
+    for (int cut = 0; cut < kMostCuts; ++cut) {
+      const double slope = equations_.force().dot(change);
+      if (slope >= -kOvershoot * drop) break;
+      change *= drop / (drop - slope);
+      next = rates + change;
+      Evaluate(next, contacts);
+    }
+    rates = next;
+  }
+  return kMostIterations;
+}
+
+}  // namespace rockyard::rover

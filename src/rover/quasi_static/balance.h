@@ -1,0 +1,126 @@
+// Balance of forces of a rover that moves without inertia.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "messages/wheels.h"
+#include "rover/quasi_static/contacts.h"
+#include "rover/quasi_static/linkage.h"
+#include "rover/quasi_static/linkage_equations.h"
+#include "rover/quasi_static/wheel_soil_table.h"
+#include "rover/rover_params.h"
+
+namespace rockyard::rover {
+
+// Which coordinates move: all, or only those that settle a rover held by hand at its place, on
+// wheels without traction.
+enum class Freedom { kAll, kSettling };
+
+// Finds the rates w of the linkage at which all generalized forces balance at the end of a step h:
+//
+//   0 = Q_gravity + sum_c J_c' (N_c n_c + F_c) + stops - D w,
+//   N_c = max(0, k_c (-gap_c - h n_c . J_c w - rest_c)),
+//   F_c = T_c(N_c) share(|s_c| / |omega r|) s_c / |s_c|,   s_c = omega r a_c - (J_c w)_tangential.
+//
+// So every contact is a spring along its normal at its place at the end of the step (wheels on
+// soil: the sinkage curve's tangent) and, across it, a traction along its slip velocity: Janosi and
+// Hanamoto's share on soil, see wheel_soil.h, and Coulomb's law on rock, reached within a slip of
+// kRockCreep. All that lets a rover climb, slip, slide sideways, get blocked, lift on its belly or
+// jam follows from this one balance; nothing tests for it. With T_c fixed, w minimizes a convex
+// function (power of gravity, springs and dissipation; compare Pang and Tedrake 2021), and Newton's
+// method with cuts of the step finds it; T_c follows N_c from iteration to iteration.
+//
+// D is 0.1 % of what weight and speed suggest: it says how fast a rover falls that nothing holds.
+class QuasiStaticBalance {
+ public:
+  QuasiStaticBalance(const RoverParams& params, const terrain::SoilParams& soil);
+
+  struct Drive {
+    messages::PerWheel<double> rate_rad_s{};
+    double step_s = 0.0;
+    // The linkage and its contacts are given as they are after this time at the rates that the
+    // solution starts from: half a step, so that directions are those midway.
+    double lead_s = 0.0;
+    Freedom freedom = Freedom::kAll;
+  };
+
+  // Starts from `rates`, for example those of the last step, and leaves the solution there; loads
+  // and sliding speeds in the contacts; motor torques below. Returns the number of iterations,
+  // 0.5 us each; kMostIterations means that the tolerance was not met.
+  int Solve(const Linkage& linkage, const Posture& posture, const Drive& drive,
+            std::vector<RestingContact>& contacts, LinkageVector& rates);
+
+  static constexpr int kMostIterations = 20;
+
+  double MotorTorque_Nm(std::size_t wheel) const { return torque_Nm_[wheel]; }
+
+ private:
+  // A contact as the iterations see it: directions in the space of the rates.
+  struct Row {
+    SideVector normal, along, across;
+    SideVector axle;  // wheel on soil: along, at the axle, where the motion resistance acts
+    std::size_t side = 0;
+    bool loaded = false;  // before
+    double stiffness_N_m = 0.0;
+    double gap_m = 0.0;          // at the beginning of the step
+    double rest_m = 0.0;         // penetration without load
+    double rim_m_s = 0.0;        // of the wheel against its axle, along
+    double arm_m = 0.0;          // motor torque over force along
+    double reference_m_s = 0.0;  // slip is measured in shares of this
+    // At the load that the traction is taken from.
+    double most_N = 0.0;
+    double shear_ratio = 0.0;  // 0: Coulomb
+    double resistance_N = 0.0;
+    // Of the last evaluation: stiffness across the normal and of the motion resistance, N s/m.
+    bool acts = false;
+    double k_aa = 0.0, k_ab = 0.0, k_bb = 0.0;
+    double k_axle = 0.0;
+  };
+  struct Traction {
+    double per_speed;  // force over slip speed
+    double slope;      // derivative of force by slip speed
+  };
+
+  void MakeRow(const Linkage& linkage, const Drive& drive, const LinkageVector& rates,
+               const RestingContact& contact, Row& row) const;
+  void MakeWheelRow(const Linkage& linkage, const Drive& drive, const RestingContact& contact,
+                    Row& row) const;
+  void SetTraction(const RestingContact& contact, Row& row) const;
+  static Traction TractionOf(const Row& row, double speed_m_s);
+
+  // Forces at the given rates and their derivatives.
+  void Evaluate(const LinkageVector& rates, std::vector<RestingContact>& contacts);
+  void AddForces(const SideVector& rates, RestingContact& contact, Row& row);
+  void FollowLoad(RestingContact& contact, Row& row);
+  void AddResistance(const SideVector& rates, Row& row);
+  void AddStiffness(const RestingContact& contact, const Row& row);
+  void AddStops(const LinkageVector& rates);
+  void Finish(const LinkageVector& change, std::vector<RestingContact>& contacts) const;
+  bool IsSmall(const LinkageVector& change, double speed_m_s) const;
+
+  const RoverContactParams contact_params_;
+  const WheelSoilTable soil_;
+  const double wheel_radius_m_;
+  const double stall_force_N_;
+  const std::array<double, 3> stop_rad_;  // rocker, bogies
+  const double speed_m_s_;
+  const double mean_load_N_;
+  const double stop_stiffness_Nm_;
+  LinkageVector free_damping_;
+
+  // Of the balance at hand.
+  Posture posture_;
+  double step_s_ = 0.0;
+  double rim_speed_m_s_ = 0.0;  // largest
+  LinkageVector gravity_;
+  LinkageVector damping_;
+  std::vector<Row> rows_;
+  bool first_ = false;  // evaluation: contacts that bore load before count as closed
+  bool tangent_ = false;
+  bool traction_lags_ = false;  // behind a load, in the last evaluation
+  LinkageEquations equations_;
+  messages::PerWheel<double> torque_Nm_{};
+};
+
+}  // namespace rockyard::rover

@@ -1,0 +1,253 @@
+#include "rover/quasi_static/contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rockyard::rover {
+namespace {
+
+using math::Vector3;
+
+// The list of near rocks is renewed after this much travel, m.
+constexpr double kGatherStep_m = 0.25;
+// Alternating projections of a body part: most sweeps, and the movement that ends them, m.
+constexpr int kSweeps = 20;
+constexpr double kConverged_m = 1e-4;
+// As in contact_finder.cc: sine of the tilt at which a wheel stands on the edge of its rim.
+constexpr double kEdgeTilt = 0.1;
+// As there: chassis and panel cannot touch a plane while the rover stands on its wheels.
+constexpr double kUprightCosine = 0.9;
+
+// Height of the lowest point of a part that rocks can touch.
+double LowestPoint(const Part& part, const Linkage::Frame& frame) {
+  const auto down = frame.R_WB.row(2);
+  if (part.core == Core::kBox) {
+    return frame.p_WB.z() + down * part.a_B - down.cwiseAbs() * part.b_B - part.margin_m;
+  }
+  const double a_m = down * part.a_B;
+  const double b_m = down * part.b_B;
+  return frame.p_WB.z() + std::min(a_m, b_m) - part.margin_m;
+}
+
+// How far a part extends from its centre along n.
+double Extent(const Part& part, const Linkage::Frame& frame, const Vector3& n_W) {
+  const Vector3 n_B = frame.R_WB.transpose() * n_W;
+  const double core_m = part.core == Core::kBox ? n_B.cwiseAbs().dot(part.b_B)
+                                                : 0.5 * std::abs(n_B.dot(part.b_B - part.a_B));
+  return core_m + part.margin_m;
+}
+
+// No more than the gap between a part and a rock: that along one direction.
+double Separation(const Part& part, const Linkage::Frame& frame, const Vector3& center_W,
+                  const RockSupport& rock) {
+  const Vector3 n_W = GuessNormal(center_W, rock);
+  return n_W.dot(center_W - rock.center_W) - std::sqrt(n_W.dot(rock.S_m2 * n_W)) -
+         Extent(part, frame, n_W);
+}
+
+}  // namespace
+
+QuasiStaticContacts::QuasiStaticContacts(const RoverGeometryParams& params,
+                                         const terrain::Terrain& terrain)
+    : terrain_(terrain),
+      wheel_(params),
+      parts_(MakeParts(params)),
+      reach_R_m_(std::hypot(0.5 * params.length_m, 0.5 * params.width_m)),
+      hub_radius_m_(params.hub_radius_m) {}
+
+void QuasiStaticContacts::Clear() {
+  contacts_.clear();
+  gathered_ = false;
+}
+
+void QuasiStaticContacts::Gather(const Vector3& p_WR) {
+  if (gathered_ && (p_WR - gathered_at_W_).head<2>().squaredNorm() < kGatherStep_m * kGatherStep_m)
+    return;
+  terrain_.RocksNear(p_WR.x(), p_WR.y(), reach_R_m_ + 2.0 * kGatherStep_m, near_);
+  rocks_.clear();
+  for (const int index : near_) {
+    const terrain::Rock& rock = terrain_.rocks()[static_cast<std::size_t>(index)];
+    rocks_.push_back({index, RockSupport(rock), Ellipsoid(rock), {}, {}});
+  }
+  gathered_at_W_ = p_WR;
+  gathered_ = true;
+}
+
+bool QuasiStaticContacts::MayMeetObstacle(const Vector3& p_WR, double reach_m) {
+  if (!terrain_.walls().empty()) return true;
+  Gather(p_WR);
+  return std::any_of(rocks_.begin(), rocks_.end(), [&](const NearRock& rock) {
+    const double far_m = reach_R_m_ + rock.support.bounding_radius_m + reach_m;
+    return (rock.support.center_W - p_WR).head<2>().squaredNorm() < far_m * far_m;
+  });
+}
+
+void QuasiStaticContacts::Update(const Linkage& linkage, double reach_m) {
+  std::swap(contacts_, last_);
+  contacts_.clear();
+  Gather(linkage.chassis().p_WB);
+  for (std::size_t wheel = 0; wheel < messages::kWheelCount; ++wheel) {
+    MeetGround(linkage, wheel, reach_m);
+    MeetWalls(linkage, wheel, reach_m);
+    for (NearRock& rock : rocks_) MeetRock(linkage, wheel, reach_m, rock);
+  }
+  MeetBody(linkage, reach_m);
+  MeetCorners(linkage, reach_m);
+}
+
+void QuasiStaticContacts::Add(const RestingContact& contact) {
+  contacts_.push_back(contact);
+  for (const RestingContact& before : last_) {
+    if (before.part == contact.part && before.other == contact.other) {
+      contacts_.back().load_N = before.load_N;
+      contacts_.back().traction_load_N = before.traction_load_N;
+      return;
+    }
+  }
+}
+
+// The point of the rounded cylinder that is first along -n, moved across the rim in proportion to
+// the tilt: see ContactFinder::Support.
+Vector3 QuasiStaticContacts::WheelSupport(const Linkage& linkage, std::size_t wheel,
+                                          const Vector3& n_W) const {
+  const Vector3 axle_W = linkage.axle_W(wheel);
+  const double tilt = -n_W.dot(axle_W);
+  const Vector3 down_W = -n_W - tilt * axle_W;  // in the plane of the rim
+  const double across_m = wheel_.core_half_width_m * std::clamp(tilt / kEdgeTilt, -1.0, 1.0);
+  return linkage.wheel_W(wheel) + across_m * axle_W +
+         wheel_.core_radius_m / std::max(down_W.norm(), kEdgeTilt) * down_W - wheel_.margin_m * n_W;
+}
+
+void QuasiStaticContacts::MeetGround(const Linkage& linkage, std::size_t wheel, double reach_m) {
+  const Vector3& center_W = linkage.wheel_W(wheel);
+  const terrain::Ground& ground = terrain_.ground();
+  const Vector3 n_W = ground.Normal(center_W.x(), center_W.y());
+  const Vector3 p_W = WheelSupport(linkage, wheel, n_W);
+  const double gap_m = (p_W.z() - ground.Height(p_W.x(), p_W.y())) * n_W.z();
+  if (gap_m > reach_m) return;
+  Add({.part = static_cast<int>(wheel),
+       .other = kGround,
+       .body = kFirstWheel + static_cast<int>(wheel),
+       .gap_m = gap_m,
+       .p_W = p_W,
+       .n_W = n_W});
+}
+
+void QuasiStaticContacts::MeetWalls(const Linkage& linkage, std::size_t wheel, double reach_m) {
+  const auto walls = terrain_.walls();
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const Vector3 n_W = -walls[i].normal_W;
+    const Vector3 p_W = WheelSupport(linkage, wheel, n_W);
+    const double gap_m = walls[i].offset_m + n_W.dot(p_W);
+    if (gap_m > reach_m) continue;
+    Add({.part = static_cast<int>(wheel),
+         .other = kFirstWall - static_cast<int>(i),
+         .body = kFirstWheel + static_cast<int>(wheel),
+         .gap_m = gap_m,
+         .p_W = p_W,
+         .n_W = n_W});
+  }
+}
+
+void QuasiStaticContacts::MeetRock(const Linkage& linkage, std::size_t wheel, double reach_m,
+                                   NearRock& rock) {
+  const Vector3& center_W = linkage.wheel_W(wheel);
+  const double far_m = rock.support.bounding_radius_m + parts_[wheel].bounding_radius_m + reach_m;
+  if ((center_W - rock.support.center_W).squaredNorm() > far_m * far_m) {
+    rock.known[wheel] = false;
+    return;
+  }
+  if (!rock.known[wheel]) rock.wheel_normal_W[wheel] = GuessNormal(center_W, rock.support);
+  rock.known[wheel] = true;
+  const WheelRockGap gap = FindGap(wheel_, center_W, linkage.axle_W(wheel), rock.support, reach_m,
+                                   rock.wheel_normal_W[wheel]);
+  rock.wheel_normal_W[wheel] = gap.n_W;
+  if (gap.gap_m > reach_m) return;
+  Add({.part = static_cast<int>(wheel),
+       .other = rock.index,
+       .body = kFirstWheel + static_cast<int>(wheel),
+       .gap_m = gap.gap_m,
+       .p_W = gap.p_W,
+       .n_W = gap.n_W});
+}
+
+void QuasiStaticContacts::MeetBody(const Linkage& linkage, double reach_m) {
+  const Linkage::Frame& chassis = linkage.chassis();
+  double lowest_m = chassis.p_WB.z() + 1.0;
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    lowest_m = std::min(lowest_m, linkage.wheel_W(i).z() - hub_radius_m_ - reach_m);
+  }
+  for (const NearRock& rock : rocks_) {
+    if (rock.support.top_W_m < lowest_m) continue;
+    const double far_m = reach_R_m_ + rock.support.bounding_radius_m + reach_m;
+    if ((rock.support.center_W - chassis.p_WB).head<2>().squaredNorm() > far_m * far_m) continue;
+    for (std::size_t i = messages::kWheelCount; i < parts_.size(); ++i) {
+      if (parts_[i].meets == Meets::kRocks) MeetPart(linkage, i, reach_m, rock);
+    }
+  }
+}
+
+void QuasiStaticContacts::MeetPart(const Linkage& linkage, std::size_t index, double reach_m,
+                                   const NearRock& rock) {
+  const Part& part = parts_[index];
+  const Linkage::Frame& frame = linkage.body(part.body);
+  if (LowestPoint(part, frame) - rock.support.top_W_m > reach_m) return;
+  const Vector3 center_W = frame.p_WB + frame.R_WB * part.center_B;
+  const double far_m = part.bounding_radius_m + reach_m + rock.support.bounding_radius_m;
+  if ((center_W - rock.support.center_W).squaredNorm() > far_m * far_m) return;
+  if (Separation(part, frame, center_W, rock.support) > reach_m) return;
+  SurfacePoint surface = rock.ellipsoid.Nearest(center_W);
+  Vector3 core_W = center_W;
+  for (int i = 0; i < kSweeps; ++i) {
+    const Vector3 before_W = surface.point_W;
+    core_W = frame.p_WB + frame.R_WB * NearestOnCore(part, frame.R_WB.transpose() *
+                                                               (surface.point_W - frame.p_WB));
+    surface = rock.ellipsoid.Nearest(core_W);
+    if ((surface.point_W - before_W).squaredNorm() < kConverged_m * kConverged_m) break;
+  }
+  const double gap_m = surface.distance_m - part.margin_m;
+  if (gap_m > reach_m) return;
+  Add({.part = static_cast<int>(index),
+       .other = rock.index,
+       .body = part.body,
+       .kind = part.kind,
+       .gap_m = gap_m,
+       .p_W = core_W - part.margin_m * surface.normal_W,
+       .n_W = surface.normal_W});
+}
+
+// Corners of chassis and panel against walls and, for a rover that leans far over, the ground.
+void QuasiStaticContacts::MeetCorners(const Linkage& linkage, double reach_m) {
+  const Linkage::Frame& chassis = linkage.chassis();
+  const terrain::Ground& ground = terrain_.ground();
+  const bool upright = ground.IsPlane() && chassis.R_WB(2, 2) > kUprightCosine;
+  const auto walls = terrain_.walls();
+  if (upright && walls.empty()) return;
+  for (std::size_t index = messages::kWheelCount; index < parts_.size(); ++index) {
+    const Part& part = parts_[index];
+    if (part.meets != Meets::kGroundAndWalls) continue;
+    const Vector3 p_W = chassis.p_WB + chassis.R_WB * part.a_B;
+    for (std::size_t i = 0; i < walls.size(); ++i) {
+      const double gap_m = walls[i].offset_m - walls[i].normal_W.dot(p_W);
+      if (gap_m > reach_m) continue;
+      Add({.part = static_cast<int>(index),
+           .other = kFirstWall - static_cast<int>(i),
+           .kind = part.kind,
+           .gap_m = gap_m,
+           .p_W = p_W,
+           .n_W = -walls[i].normal_W});
+    }
+    if (upright) continue;
+    const Vector3 n_W = ground.Normal(p_W.x(), p_W.y());
+    const double gap_m = (p_W.z() - ground.Height(p_W.x(), p_W.y())) * n_W.z();
+    if (gap_m > reach_m) continue;
+    Add({.part = static_cast<int>(index),
+         .other = kGround,
+         .kind = part.kind,
+         .gap_m = gap_m,
+         .p_W = p_W,
+         .n_W = n_W});
+  }
+}
+
+}  // namespace rockyard::rover

@@ -1,0 +1,84 @@
+// Where the rover of the quasi-static fidelity touches the terrain, or may touch it within its next
+// step.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "rover/ellipsoid.h"
+#include "rover/multibody/contact_finder.h"
+#include "rover/part_shapes.h"
+#include "rover/quasi_static/linkage.h"
+#include "rover/quasi_static/wheel_rock_gap.h"
+#include "terrain/terrain.h"
+
+namespace rockyard::rover {
+
+struct RestingContact {
+  int part = 0;         // index in MakeParts; wheels come first
+  int other = kGround;  // a rock, kGround or a wall, as in contact_finder.h
+  int body = kChassis;
+  truth::BodyPart kind = truth::BodyPart::kWheel;
+  double gap_m = 0.0;  // negative: penetration
+  math::Vector3 p_W = math::Vector3::Zero();
+  math::Vector3 n_W = math::Vector3::UnitZ();
+  // Of the last balance of forces; a contact that goes on starts from it.
+  double load_N = 0.0;
+  // The load that traction is taken from; follows load_N from one balance of the normals to the
+  // next.
+  double traction_load_N = 0.0;
+  double sliding_speed_m_s = 0.0;
+
+  bool IsWheel() const { return kind == truth::BodyPart::kWheel; }
+  bool IsSoil() const { return IsWheel() && other == kGround; }
+};
+
+class QuasiStaticContacts {
+ public:
+  QuasiStaticContacts(const RoverGeometryParams& params, const terrain::Terrain& terrain);
+
+  // Finds every pair nearer than reach_m. Loads of pairs that go on are kept.
+  void Update(const Linkage& linkage, double reach_m);
+  // False where no rock or wall can be nearer than reach_m to a rover at p_WR; much cheaper than
+  // Update, and may be true in vain.
+  bool MayMeetObstacle(const math::Vector3& p_WR, double reach_m);
+  // Forgets everything, for a rover that was lifted.
+  void Clear();
+
+  std::vector<RestingContact>& contacts() { return contacts_; }
+  const std::vector<RestingContact>& contacts() const { return contacts_; }
+
+ private:
+  struct NearRock {
+    int index = 0;
+    RockSupport support;
+    Ellipsoid ellipsoid;
+    messages::PerWheel<math::Vector3> wheel_normal_W;  // last one, where the wheel was near
+    messages::PerWheel<bool> known{};
+  };
+
+  void Gather(const math::Vector3& p_WR);
+  math::Vector3 WheelSupport(const Linkage& linkage, std::size_t wheel,
+                             const math::Vector3& n_W) const;
+  void MeetWalls(const Linkage& linkage, std::size_t wheel, double reach_m);
+  void MeetGround(const Linkage& linkage, std::size_t wheel, double reach_m);
+  void MeetRock(const Linkage& linkage, std::size_t wheel, double reach_m, NearRock& rock);
+  void MeetBody(const Linkage& linkage, double reach_m);
+  void MeetPart(const Linkage& linkage, std::size_t index, double reach_m, const NearRock& rock);
+  void MeetCorners(const Linkage& linkage, double reach_m);
+  void Add(const RestingContact& contact);
+
+  const terrain::Terrain& terrain_;
+  const WheelShape wheel_;
+  const std::vector<Part> parts_;
+  const double reach_R_m_;  // of the rover about R's origin
+  const double hub_radius_m_;
+  std::vector<int> near_;
+  std::vector<NearRock> rocks_;
+  math::Vector3 gathered_at_W_ = math::Vector3::Zero();
+  bool gathered_ = false;
+  std::vector<RestingContact> contacts_;
+  std::vector<RestingContact> last_;
+};
+
+}  // namespace rockyard::rover

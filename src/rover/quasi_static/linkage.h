@@ -1,0 +1,96 @@
+// Rocker-bogie linkage of the quasi-static rover: nine coordinates, poses of its bodies, velocities
+// of its points, and what gravity does.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+
+#include "math/pose.h"
+#include "messages/wheels.h"
+#include "rover/multibody/multibody.h"
+#include "rover/rover_params.h"
+
+namespace rockyard::rover {
+
+// Rates: velocity of R's origin in W (m/s), angular velocity of the chassis in W (rad/s), rate of
+// the left rocker (the differential turns the right one back by as much), rates of the left and
+// right bogie (rad/s). Generalized forces in the same order.
+inline constexpr int kLinkageDof = 9;
+inline constexpr int kRockerDof = 6;
+inline constexpr int kFirstBogieDof = 7;  // by Side
+using LinkageVector = Eigen::Matrix<double, kLinkageDof, 1>;
+
+// Velocity of a point by the rates of its own side: the six of the chassis, rocker, bogie.
+using SideVector = Eigen::Matrix<double, 8, 1>;
+using PointJacobian = Eigen::Matrix<double, 3, 8>;
+
+// Where the linkage is.
+struct Posture {
+  math::Vector3 p_WR = math::Vector3::Zero();
+  Eigen::Quaterniond q_WR = Eigen::Quaterniond::Identity();
+  double rocker_rad = 0.0;  // left; right is the negative
+  std::array<double, 2> bogie_rad{};
+};
+
+// The posture after `time_s` at constant rates.
+Posture Moved(const Posture& posture, const LinkageVector& rates, double time_s);
+
+// The posture at `share` in [0, 1] of the way: linear, the attitude along the shorter arc.
+Posture Between(const Posture& from, const Posture& to, double share);
+
+class Linkage {
+ public:
+  // A body's frame: origin at its joint, axes parallel to R when its joint is at zero.
+  struct Frame {
+    Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();
+    math::Vector3 p_WB = math::Vector3::Zero();
+  };
+
+  explicit Linkage(const RoverParams& params);
+
+  // Takes up a posture; steering angles turn the axles.
+  void Update(const Posture& posture, const messages::PerWheel<double>& steer_rad);
+
+  const Frame& chassis() const { return chassis_; }
+  const Frame& body(int index) const {  // numbered as in multibody.h, wheels without their spin
+    return index == kChassis ? chassis_ : bodies_[static_cast<std::size_t>(index)];
+  }
+  const math::Vector3& wheel_W(std::size_t wheel) const {
+    return bodies_[static_cast<std::size_t>(kFirstWheel) + wheel].p_WB;
+  }
+  math::Vector3 axle_W(std::size_t wheel) const {
+    return bodies_[static_cast<std::size_t>(kFirstWheel) + wheel].R_WB.col(1);
+  }
+
+  // Side of a body, 0 left, 1 right; chassis: 0.
+  static std::size_t SideOf(int body);
+  // J with v = J rates for a point fixed to a body; wheels do not spin. Columns: see SideVector.
+  PointJacobian Jacobian(int body, const math::Vector3& p_W) const;
+
+  // Generalized force of gravity, N and N m.
+  LinkageVector Gravity() const;
+  double weight_N() const { return weight_N_; }
+
+ private:
+  struct Lump {  // weight fixed to a body
+    int body = kChassis;
+    math::Vector3 p_B = math::Vector3::Zero();
+    double weight_N = 0.0;
+  };
+
+  bool OnBogie(int body) const;
+
+  std::array<math::Vector3, 2> rocker_pivot_R_;
+  std::array<math::Vector3, 2> bogie_from_rocker_;
+  messages::PerWheel<math::Vector3> wheel_from_pivot_;
+  messages::PerWheel<bool> on_bogie_{};
+  std::array<Lump, 5> lumps_;
+  double weight_N_;
+  messages::PerWheel<double> steer_rad_{};
+  messages::PerWheel<Eigen::Vector2d> steer_;  // cosine and sine
+  Frame chassis_;
+  std::array<Frame, kJoints> bodies_;
+};
+
+}  // namespace rockyard::rover

@@ -1,0 +1,37 @@
+// Force and its derivative in the rates of the linkage: a symmetric, positive definite system.
+#pragma once
+
+#include <array>
+
+#include "rover/quasi_static/linkage.h"
+
+namespace rockyard::rover {
+
+// Sums the force on the linkage and minus its derivative by the rates, from terms that act in the
+// space of one side's rates. Only the lower triangle is kept.
+class LinkageEquations {
+ public:
+  // Begins with a force and a diagonal.
+  void Reset(const LinkageVector& force, const LinkageVector& diagonal);
+
+  void AddForce(std::size_t side, const SideVector& f);
+  // Adds k a a'.
+  void AddStiffness(std::size_t side, double k, const SideVector& a);
+  // Adds p a' + q b' + r c', a symmetric sum.
+  void AddStiffness(std::size_t side, const SideVector& p, const SideVector& a, const SideVector& q,
+                    const SideVector& b, const SideVector& r, const SideVector& c);
+  // Adds to one coordinate.
+  void AddAt(int dof, double force, double stiffness);
+
+  const LinkageVector& force() const { return force_; }
+  // The change of the rates that the force asks for, by decomposition into L D L'. About 0.1 us.
+  LinkageVector Solve() const;
+
+ private:
+  using Rows = std::array<std::array<double, kLinkageDof>, kLinkageDof>;
+
+  LinkageVector force_;
+  Rows stiffness_{};
+};
+
+}  // namespace rockyard::rover

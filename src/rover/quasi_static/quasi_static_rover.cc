@@ -1,0 +1,327 @@
+#include "rover/quasi_static/quasi_static_rover.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace rockyard::rover {
+namespace {
+
+using math::Vector3;
+using messages::kWheelCount;
+
+// Contacts are looked for this far beyond what a wheel travels in one stretch, m.
+constexpr double kReach_m = 0.005;
+// Longest movement of R's origin and largest turn in one stretch, as multiples of what the wheels
+// would do: a rover that falls does so in several stretches.
+constexpr double kMostMove = 2.0;
+constexpr double kMostTurn_rad = 0.1;
+// A change of steering below this keeps the stretch, rad.
+constexpr double kSameSteer_rad = 0.017;
+// Slower changes than these in a stretch are none: less than a thousandth of a wheel's load.
+constexpr double kSteady_m = 2e-6;
+constexpr double kSteady_rad = 1e-5;
+// A drive that differs from the last one by less still says where the rover will be.
+constexpr double kSimilar = 0.25;
+// A rock deeper than this in the rover, half a step ahead, is met where the rover stands:
+// directions of deep contacts mean nothing.
+constexpr double kDeepest_m = 0.003;
+// Settling: most steps, longest movement in one, and the movement that ends it, m.
+constexpr int kSettleSteps = 100;
+constexpr double kSettleMove_m = 0.02;
+constexpr double kSettled_m = 1e-6;
+
+// Scales rates so that nothing moves further than allowed within the time.
+void Limit(double time_s, double most_m, double most_rad, LinkageVector& rates) {
+  const double move_m = time_s * rates.head<3>().norm();
+  const double turn_rad = time_s * rates.tail<6>().cwiseAbs().maxCoeff();
+  const double scale = std::max({1.0, move_m / most_m, turn_rad / most_rad});
+  rates /= scale;
+}
+
+// Turn rate of the rigid motion nearest to what the rims do, for wheels evenly about R's origin.
+double TurnRate(const RoverGeometry& geometry, double radius_m,
+                const messages::PerWheel<double>& rate_rad_s,
+                const messages::PerWheel<double>& steer_rad) {
+  double moment = 0.0;
+  double inertia = 0.0;
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    const Vector3& wheel_R = geometry.wheel_R[i];
+    const double rim_m_s = rate_rad_s[i] * radius_m;
+    moment +=
+        rim_m_s * (wheel_R.x() * std::sin(steer_rad[i]) - wheel_R.y() * std::cos(steer_rad[i]));
+    inertia += wheel_R.head<2>().squaredNorm();
+  }
+  return moment / inertia;
+}
+
+}  // namespace
+
+QuasiStaticRover::QuasiStaticRover(const RoverParams& params, const terrain::Terrain& terrain)
+    : params_(params),
+      geometry_(MakeRoverGeometry(params.geometry)),
+      terrain_(terrain),
+      linkage_(params),
+      contacts_(params.geometry, terrain),
+      balance_(params, terrain.ground().soil()) {}
+
+Posture QuasiStaticRover::LiftedPosture(const math::Pose2& X_WR) const {
+  const terrain::Ground& ground = terrain_.ground();
+  const Vector3 up = ground.Normal(X_WR.x_m, X_WR.y_m);
+  const Vector3 heading(std::cos(X_WR.heading_rad), std::sin(X_WR.heading_rad), 0.0);
+  const Vector3 forward = (heading - heading.dot(up) / up.z() * Vector3::UnitZ()).normalized();
+  Eigen::Matrix3d R;
+  R << forward, up.cross(forward), up;
+  double rise_m = 0.0;
+  std::vector<int> rocks;
+  const RoverGeometryParams& size = params_.geometry;
+  terrain_.RocksNear(X_WR.x_m, X_WR.y_m, std::hypot(0.5 * size.length_m, 0.5 * size.width_m),
+                     rocks);
+  for (const int index : rocks) {
+    const terrain::Rock& rock = terrain_.rocks()[static_cast<std::size_t>(index)];
+    const double ground_m = ground.Height(rock.center_W.x(), rock.center_W.y());
+    rise_m = std::max(rise_m, rock.center_W.z() + rock.semi_axes_m.z() - ground_m);
+  }
+  Posture posture;
+  posture.p_WR = Vector3(X_WR.x_m, X_WR.y_m, ground.Height(X_WR.x_m, X_WR.y_m)) + rise_m * up;
+  posture.q_WR = Eigen::Quaterniond(R);
+  return posture;
+}
+
+void QuasiStaticRover::Place(const math::Pose2& X_WR) {
+  state_.steer_rad.fill(0.0);
+  posture_ = LiftedPosture(X_WR);
+  contacts_.Clear();
+  Settle();
+  stretch_ = {};
+  met_steer_rad_ = state_.steer_rad;
+  steady_ = false;
+  UpdatePosture();
+  UpdateForces();
+  Rest();
+}
+
+void QuasiStaticRover::Settle() {
+  rates_.setZero();
+  const double time_s = params_.quasi_static.settle_distance_m / params_.drive.speed_m_s;
+  for (int i = 0; i < kSettleSteps; ++i) {
+    linkage_.Update(posture_, state_.steer_rad);
+    contacts_.Update(linkage_, kReach_m + kSettleMove_m);
+    balance_.Solve(linkage_, posture_, {{}, time_s, 0.0, Freedom::kSettling}, contacts_.contacts(),
+                   rates_);
+    Limit(time_s, kSettleMove_m, kMostTurn_rad, rates_);
+    posture_ = Moved(posture_, rates_, time_s);
+    if (time_s * rates_.cwiseAbs().maxCoeff() < kSettled_m) break;
+  }
+  rates_.setZero();
+}
+
+bool QuasiStaticRover::Steer(const messages::PerWheel<double>& wanted_rad) {
+  bool changed = false;
+  const double most_rad = params_.drive.steer_rate_rad_s * step_s();
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    const double limit = geometry_.steered[i] ? params_.drive.max_steer_rad : 0.0;
+    const double wanted = std::clamp(wanted_rad[i], -limit, limit);
+    const double change = std::clamp(wanted - state_.steer_rad[i], -most_rad, most_rad);
+    state_.steer_rad[i] += change;
+    changed |= change != 0.0;
+  }
+  return changed;
+}
+
+// A wheel that swings into a rock pushes the rover away, against its braked wheels.
+void QuasiStaticRover::SteerAtRest() {
+  double swing_rad = 0.0;
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    swing_rad = std::max(swing_rad, std::abs(state_.steer_rad[i] - met_steer_rad_[i]));
+  }
+  const double swing_m = swing_rad * params_.geometry.wheel_radius_m;
+  if (swing_m < 0.5 * params_.quasi_static.settle_distance_m) return;
+  met_steer_rad_ = state_.steer_rad;
+  linkage_.Update(posture_, state_.steer_rad);
+  contacts_.Update(linkage_, kReach_m);
+  const std::vector<RestingContact>& contacts = contacts_.contacts();
+  if (std::none_of(contacts.begin(), contacts.end(), [](const RestingContact& contact) {
+        return contact.gap_m < 0.0 && !contact.IsSoil();
+      })) {
+    return;
+  }
+  rates_.setZero();
+  Balance({{}, step_s(), 0.0, Freedom::kAll});
+  Limit(step_s(), kReach_m, kMostTurn_rad, rates_);
+  posture_ = Moved(posture_, rates_, step_s());
+  stretch_.duration_s = 0.0;
+  steady_ = false;
+  UpdatePosture();
+  UpdateForces();
+}
+
+void QuasiStaticRover::Balance(const QuasiStaticBalance::Drive& drive) {
+  ++work_.balances;
+  work_.iterations += balance_.Solve(linkage_, posture_, drive, contacts_.contacts(), rates_);
+  if (!rates_.allFinite()) throw std::runtime_error("no balance of forces with finite rates");
+}
+
+void QuasiStaticRover::Rest() {
+  state_.v_WR_m_s.setZero();
+  state_.w_WR_rad_s.setZero();
+  for (truth::BodyContact& contact : state_.contacts) contact.sliding_speed_m_s = 0.0;
+}
+
+// The stretch goes on where neither wheels nor steering have changed.
+bool QuasiStaticRover::Goes(const messages::WheelCommand& command) const {
+  if (stretch_.duration_s == 0.0 || command.rate_rad_s != stretch_.rate_rad_s) return false;
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    if (std::abs(state_.steer_rad[i] - stretch_.steer_rad[i]) > kSameSteer_rad) return false;
+  }
+  return true;
+}
+
+// True where rates and steering are those of the last stretch within a share of the fastest rate,
+// or as many radians.
+bool QuasiStaticRover::Like(const messages::PerWheel<double>& rate_rad_s, double share) const {
+  double fastest = 0.0;
+  double change = 0.0;
+  double turn = 0.0;
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    fastest = std::max(fastest, std::abs(rate_rad_s[i]));
+    change = std::max(change, std::abs(rate_rad_s[i] - stretch_.rate_rad_s[i]));
+    turn = std::max(turn, std::abs(state_.steer_rad[i] - stretch_.steer_rad[i]));
+  }
+  return change <= share * fastest && turn <= share;
+}
+
+// Finds the contacts half a step ahead, or those of now where the way there leads into a rock.
+double QuasiStaticRover::LookAhead(double lead_s) {
+  const double way_m = params_.quasi_static.settle_distance_m;
+  linkage_.Update(Moved(posture_, rates_, lead_s), state_.steer_rad);
+  contacts_.Update(linkage_, kReach_m + (lead_s > 0.0 ? 0.5 : 1.0) * way_m);
+  const std::vector<RestingContact>& contacts = contacts_.contacts();
+  if (lead_s == 0.0 ||
+      std::none_of(contacts.begin(), contacts.end(), [](const RestingContact& contact) {
+        return !contact.IsSoil() && contact.gap_m < -kDeepest_m;
+      })) {
+    return lead_s;
+  }
+  linkage_.Update(posture_, state_.steer_rad);
+  contacts_.Update(linkage_, kReach_m + way_m);
+  return 0.0;
+}
+
+double QuasiStaticRover::StretchTime_s(const messages::PerWheel<double>& rate_rad_s) const {
+  double rate = 0.0;
+  for (const double wheel_rate : rate_rad_s) rate = std::max(rate, std::abs(wheel_rate));
+  const double radius_m = params_.geometry.wheel_radius_m;
+  const double turn_rad_s = std::abs(TurnRate(geometry_, radius_m, rate_rad_s, state_.steer_rad));
+  const double way_s = params_.quasi_static.settle_distance_m / (rate * radius_m);
+  const double most_rad = params_.quasi_static.settle_turn_rad;
+  return turn_rad_s * way_s > most_rad ? most_rad / turn_rad_s : way_s;
+}
+
+void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
+  const bool same_drive = Like(rate_rad_s, 0.0);
+  const bool similar_drive = Like(rate_rad_s, kSimilar);
+  stretch_.from = posture_;
+  stretch_.duration_s = StretchTime_s(rate_rad_s);
+  stretch_.elapsed_s = 0.0;
+  stretch_.rate_rad_s = rate_rad_s;
+  stretch_.steer_rad = state_.steer_rad;
+  met_steer_rad_ = state_.steer_rad;
+  const double reach_m = kReach_m + params_.quasi_static.settle_distance_m;
+  if (same_drive && steady_ && !contacts_.MayMeetObstacle(posture_.p_WR, reach_m)) return RollOn();
+  const double lead_s = LookAhead(similar_drive ? 0.5 * stretch_.duration_s : 0.0);
+  const bool on_level_ground = OnLevelGround();
+  if (same_drive && steady_ && on_level_ground) {
+    RollOn();
+    return;
+  }
+  Balance({rate_rad_s, stretch_.duration_s, lead_s, Freedom::kAll});
+  steady_ = on_level_ground && IsSteady();
+  Limit(stretch_.duration_s, kMostMove * params_.quasi_static.settle_distance_m, kMostTurn_rad,
+        rates_);
+  stretch_.to = Moved(posture_, rates_, stretch_.duration_s);
+  state_.v_WR_m_s = rates_.head<3>();
+  state_.w_WR_rad_s = rates_.segment<3>(3);
+  UpdateForces();
+}
+
+bool QuasiStaticRover::OnLevelGround() const {
+  const std::vector<RestingContact>& contacts = contacts_.contacts();
+  if (contacts.size() != kWheelCount || !terrain_.ground().IsPlane()) return false;
+  return std::all_of(contacts.begin(), contacts.end(), [](const RestingContact& contact) {
+    return contact.IsSoil() && contact.n_W.z() == 1.0;
+  });
+}
+
+// All coordinates but the three in the plane are at rest.
+bool QuasiStaticRover::IsSteady() const {
+  return stretch_.duration_s * std::abs(rates_[2]) < kSteady_m &&
+         stretch_.duration_s * rates_.segment<2>(3).cwiseAbs().maxCoeff() < kSteady_rad &&
+         stretch_.duration_s * rates_.tail<3>().cwiseAbs().maxCoeff() < kSteady_rad;
+}
+
+// On level ground nothing has changed but the heading: the last balance holds in the rover's frame.
+void QuasiStaticRover::RollOn() {
+  const double turn_rad = stretch_.duration_s * rates_[5];
+  const double c = std::cos(turn_rad);
+  const double s = std::sin(turn_rad);
+  rates_.head<2>() = Eigen::Vector2d(c * rates_[0] - s * rates_[1], s * rates_[0] + c * rates_[1]);
+  rates_.segment<3>(2).setZero();
+  rates_.tail<3>().setZero();
+  stretch_.to = Moved(posture_, rates_, stretch_.duration_s);
+  state_.v_WR_m_s = rates_.head<3>();
+  state_.w_WR_rad_s = rates_.segment<3>(3);
+}
+
+void QuasiStaticRover::Step(const messages::WheelCommand& command) {
+  const bool steered = Steer(command.steer_rad);
+  const bool turning = std::any_of(command.rate_rad_s.begin(), command.rate_rad_s.end(),
+                                   [](double rate) { return rate != 0.0; });
+  if (!turning) {
+    if (steered) SteerAtRest();
+    return Rest();
+  }
+  if (!Goes(command)) Plan(command.rate_rad_s);
+  double left_s = step_s();
+  while (stretch_.elapsed_s + left_s >= stretch_.duration_s) {
+    left_s -= stretch_.duration_s - stretch_.elapsed_s;
+    posture_ = stretch_.to;
+    Plan(command.rate_rad_s);
+  }
+  stretch_.elapsed_s += left_s;
+  posture_ = Between(stretch_.from, stretch_.to, stretch_.elapsed_s / stretch_.duration_s);
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    state_.wheel_angle_rad[i] += step_s() * command.rate_rad_s[i];
+  }
+  UpdatePosture();
+}
+
+void QuasiStaticRover::UpdatePosture() {
+  state_.X_WR.linear() = posture_.q_WR.toRotationMatrix();
+  state_.X_WR.translation() = posture_.p_WR;
+  state_.left_rocker_rad = posture_.rocker_rad;
+  state_.right_rocker_rad = -posture_.rocker_rad;
+  state_.left_bogie_rad = posture_.bogie_rad[0];
+  state_.right_bogie_rad = posture_.bogie_rad[1];
+}
+
+void QuasiStaticRover::UpdateForces() {
+  state_.contacts.clear();
+  state_.wheel_load_N.fill(0.0);
+  const Linkage::Frame& chassis = linkage_.chassis();  // where the contacts were found
+  for (const RestingContact& contact : contacts_.contacts()) {
+    if (contact.load_N <= 0.0) continue;
+    if (contact.IsWheel()) {
+      state_.wheel_load_N[static_cast<std::size_t>(contact.part)] += contact.load_N;
+    } else {
+      state_.contacts.push_back({contact.kind, std::max(contact.other, -1), contact.load_N,
+                                 contact.sliding_speed_m_s, contact.n_W.z(),
+                                 chassis.R_WB.transpose() * (contact.p_W - chassis.p_WB)});
+    }
+  }
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    state_.motor_torque_Nm[i] = balance_.MotorTorque_Nm(i);
+  }
+}
+
+}  // namespace rockyard::rover

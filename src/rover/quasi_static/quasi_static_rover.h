@@ -1,0 +1,76 @@
+// The rover as a sequence of balances of forces: no inertia, some centimetres a step.
+#pragma once
+
+#include "rover/quasi_static/balance.h"
+#include "rover/quasi_static/contacts.h"
+#include "rover/quasi_static/linkage.h"
+#include "rover/rover.h"
+#include "rover/rover_geometry.h"
+
+namespace rockyard::rover {
+
+// Between two balances, settle_distance_m of rim travel (or settle_turn_rad of turning) apart, the
+// posture is interpolated. Draws no random numbers. Cost: tests/rover/quasi_static_benchmark.cc.
+class QuasiStaticRover final : public Rover {
+ public:
+  QuasiStaticRover(const RoverParams& params, const terrain::Terrain& terrain);
+
+  void Place(const math::Pose2& X_WR) override;
+  // Throws std::runtime_error where no balance with finite rates exists.
+  void Step(const messages::WheelCommand& command) override;
+  double step_s() const override { return params_.quasi_static.step_s; }
+  const truth::RoverState& state() const override { return state_; }
+
+  // Work done so far, for benchmarks.
+  struct Work {
+    std::int64_t balances = 0;
+    std::int64_t iterations = 0;
+  };
+  const Work& work() const { return work_; }
+
+ private:
+  // A stretch at constant rates.
+  struct Stretch {
+    Posture from;
+    Posture to;
+    double duration_s = 0.0;
+    double elapsed_s = 0.0;
+    messages::PerWheel<double> rate_rad_s{};
+    messages::PerWheel<double> steer_rad{};
+  };
+
+  // Turns the steering towards what is wanted; true where it moved.
+  bool Steer(const messages::PerWheel<double>& wanted_rad);
+  void SteerAtRest();
+  void Balance(const QuasiStaticBalance::Drive& drive);
+  void Rest();
+  bool Goes(const messages::WheelCommand& command) const;
+  void Plan(const messages::PerWheel<double>& rate_rad_s);
+  bool OnLevelGround() const;
+  bool IsSteady() const;
+  void RollOn();
+  bool Like(const messages::PerWheel<double>& rate_rad_s, double share) const;
+  // Updates linkage and contacts; returns how far ahead.
+  double LookAhead(double lead_s);
+  double StretchTime_s(const messages::PerWheel<double>& rate_rad_s) const;
+  Posture LiftedPosture(const math::Pose2& X_WR) const;
+  void Settle();
+  void UpdatePosture();
+  void UpdateForces();
+
+  const RoverParams params_;
+  const RoverGeometry geometry_;
+  const terrain::Terrain& terrain_;
+  Linkage linkage_;
+  QuasiStaticContacts contacts_;
+  QuasiStaticBalance balance_;
+  Posture posture_;
+  Stretch stretch_;
+  messages::PerWheel<double> met_steer_rad_{};  // at the last look for contacts
+  LinkageVector rates_ = LinkageVector::Zero();
+  bool steady_ = false;  // rates_ hold for as long as the ground is level and the drive the same
+  Work work_;
+  truth::RoverState state_;
+};
+
+}  // namespace rockyard::rover

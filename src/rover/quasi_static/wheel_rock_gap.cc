@@ -1,0 +1,168 @@
+#include "rover/quasi_static/wheel_rock_gap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rockyard::rover {
+namespace {
+
+using math::Vector3;
+
+constexpr int kMostIterations = 12;
+// The gap is stationary in the normal and Newton's method is quadratic: after a step of this size
+// the error of the gap is below 1e-9 m.
+constexpr double kConverged_rad = 3e-3;
+// Longest step on the sphere, rad.
+constexpr double kLongestStep_rad = 0.5;
+// Sine of the angle between normal and axle below which the disc counts as seen edge-on.
+constexpr double kLeastSine = 0.02;
+
+// The convex body that is rock plus disc: supports of both and the offset between their centres.
+struct Pair {
+  Vector3 offset_W;  // from the rock's centre to the disc's
+  Vector3 axle_W;
+  double core_radius_m;
+  double margin_m;
+  const RockSupport* rock;
+};
+
+// Flat on the rim: n = cos(a) e1 + sin(a) e2 in the plane of the disc. Returns the sideways pull,
+// the derivative of the smooth part of f along the axle.
+double AlignInPlane(const Pair& pair, Vector3& n) {
+  n -= n.dot(pair.axle_W) * pair.axle_W;
+  // Nothing is left of the normal of a side face: any direction starts as well.
+  if (n.squaredNorm() < 1e-6) n = pair.axle_W.unitOrthogonal();
+  n.normalize();
+  for (int i = 0; i < kMostIterations; ++i) {
+    const Vector3 e = pair.axle_W.cross(n);
+    const Vector3 Sn = pair.rock->S_m2 * n;
+    const double D = std::sqrt(n.dot(Sn));
+    const double eSn = e.dot(Sn);
+    const double slope = e.dot(pair.offset_W) - eSn / D;
+    const double bend =
+        n.dot(pair.offset_W) - D + e.dot(pair.rock->S_m2 * e) / D - eSn * eSn / (D * D * D);
+    const double step =
+        std::clamp(slope / std::max(bend, pair.margin_m), -kLongestStep_rad, kLongestStep_rad);
+    n += step * e;
+    n.normalize();
+    if (std::abs(step) < kConverged_rad) break;
+  }
+  const Vector3 Sn = pair.rock->S_m2 * n;
+  return pair.axle_W.dot(pair.offset_W) - pair.axle_W.dot(Sn) / std::sqrt(n.dot(Sn));
+}
+
+// True where the rock's point with the normal `face_W` of a side face lies over that face.
+bool TouchesFace(const Pair& pair, const Vector3& face_W) {
+  const Vector3 Sn = pair.rock->S_m2 * face_W;
+  const Vector3 d = pair.offset_W - Sn / std::sqrt(face_W.dot(Sn));
+  return (d - d.dot(face_W) * face_W).squaredNorm() <= pair.core_radius_m * pair.core_radius_m;
+}
+
+// On an edge of the rim: both angles of n.
+void AlignOnEdge(const Pair& pair, Vector3& n) {
+  Vector3 last = n;
+  Vector3 move = Vector3::Zero();
+  double last_f = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kMostIterations; ++i) {
+    const double t = n.dot(pair.axle_W);
+    const double sine = std::max(std::sqrt(std::max(1.0 - t * t, 0.0)), kLeastSine);
+    Vector3 b = pair.axle_W.cross(n);
+    b.normalize();
+    const Vector3 e = n.cross(b);
+    const Vector3 Sn = pair.rock->S_m2 * n;
+    const double D = std::sqrt(n.dot(Sn));
+    const Vector3 gradient =
+        pair.offset_W - Sn / D - pair.core_radius_m / sine * (n - t * pair.axle_W);
+    const double f = n.dot(gradient) - pair.margin_m;
+    if (f < last_f) {  // too far: near a side face the curvature changes quickly
+      move *= 0.5;
+      n = (last + move).normalized();
+      continue;
+    }
+    last = n;
+    last_f = f;
+    const double bSn = b.dot(Sn);
+    const double eSn = e.dot(Sn);
+    const double D3 = D * D * D;
+    const double spin = pair.margin_m + std::max(f, -0.5 * pair.margin_m);
+    const Vector3 Sb = pair.rock->S_m2 * b;
+    const double M_bb = b.dot(Sb) / D - bSn * bSn / D3 + pair.core_radius_m / sine + spin;
+    const double M_be = e.dot(Sb) / D - bSn * eSn / D3;
+    const double M_ee = e.dot(pair.rock->S_m2 * e) / D - eSn * eSn / D3 + spin;
+    const double g_b = b.dot(gradient);
+    const double g_e = e.dot(gradient);
+    const double determinant = M_bb * M_ee - M_be * M_be;
+    double step_b = (M_ee * g_b - M_be * g_e) / determinant;
+    double step_e = (M_bb * g_e - M_be * g_b) / determinant;
+    const double size = std::hypot(step_b, step_e);
+    if (size > kLongestStep_rad) {
+      step_b *= kLongestStep_rad / size;
+      step_e *= kLongestStep_rad / size;
+    }
+    move = step_b * b + step_e * e;
+    n = (last + move).normalized();
+    if (size < kConverged_rad) break;
+  }
+}
+
+double Separation(const WheelShape& wheel, const Vector3& offset_W, const Vector3& axle_W,
+                  const RockSupport& rock, const Vector3& n) {
+  const double t = n.dot(axle_W);
+  return n.dot(offset_W) - std::sqrt(n.dot(rock.S_m2 * n)) -
+         wheel.core_radius_m * std::sqrt(std::max(1.0 - t * t, 0.0)) -
+         wheel.core_half_width_m * std::abs(t) - wheel.margin_m;
+}
+
+}  // namespace
+
+WheelShape::WheelShape(const RoverGeometryParams& params)
+    : margin_m(std::min(0.25 * params.wheel_width_m, 0.5 * params.wheel_radius_m)) {
+  core_radius_m = params.wheel_radius_m - margin_m;
+  core_half_width_m = 0.5 * params.wheel_width_m - margin_m;
+}
+
+RockSupport::RockSupport(const terrain::Rock& rock)
+    : center_W(rock.center_W),
+      bounding_radius_m(rock.semi_axes_m.maxCoeff()),
+      top_W_m(rock.center_W.z() + rock.semi_axes_m.z()) {
+  const Eigen::Matrix3d R = Eigen::AngleAxisd(rock.yaw_rad, Vector3::UnitZ()).toRotationMatrix();
+  S_m2 = R * rock.semi_axes_m.cwiseAbs2().asDiagonal() * R.transpose();
+}
+
+Vector3 GuessNormal(const Vector3& center_W, const RockSupport& rock) {
+  const Vector3 d = center_W - rock.center_W;
+  const Vector3 scaled(d.x(), d.y(), d.z() * std::sqrt(rock.S_m2(0, 0) / rock.S_m2(2, 2)));
+  const double norm = scaled.norm();
+  return norm > 1e-9 ? Vector3(scaled / norm) : Vector3::UnitZ();
+}
+
+WheelRockGap FindGap(const WheelShape& wheel, const Vector3& center_W, const Vector3& axle_W,
+                     const RockSupport& rock, double reach_m, const Vector3& n_W) {
+  const Vector3 offset_W = center_W - rock.center_W;
+  WheelRockGap result;
+  result.n_W = n_W;
+  result.gap_m = Separation(wheel, offset_W, axle_W, rock, n_W);
+  if (result.gap_m > reach_m) return result;
+
+  Vector3& n = result.n_W;
+  Pair pair{offset_W, axle_W, wheel.core_radius_m, wheel.margin_m, &rock};
+  const double pull_m = AlignInPlane(pair, n);
+  if (std::abs(pull_m) > wheel.core_half_width_m) {
+    const double across_m = pull_m > 0.0 ? -wheel.core_half_width_m : wheel.core_half_width_m;
+    pair.offset_W += across_m * axle_W;
+    const Vector3 face_W = pull_m > 0.0 ? axle_W : Vector3(-axle_W);
+    const double before_m = Separation(wheel, offset_W, axle_W, rock, n);
+    if (TouchesFace(pair, face_W) && Separation(wheel, offset_W, axle_W, rock, face_W) > before_m) {
+      n = face_W;
+    } else {
+      AlignOnEdge(pair, n);
+    }
+  }
+  result.gap_m = Separation(wheel, offset_W, axle_W, rock, n);
+  const Vector3 Sn = rock.S_m2 * n;
+  result.p_W = rock.center_W + Sn / std::sqrt(n.dot(Sn)) + result.gap_m * n;
+  return result;
+}
+
+}  // namespace rockyard::rover

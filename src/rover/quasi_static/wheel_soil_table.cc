@@ -1,0 +1,43 @@
+#include "rover/quasi_static/wheel_soil_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace rockyard::rover {
+namespace {
+
+constexpr int kIntervals = 128;
+// Soil without shear deformation has all its traction from this u on.
+constexpr double kMostRatio = 1e4;
+
+}  // namespace
+
+WheelSoilTable::WheelSoilTable(const WheelSoil& soil, double most_N) : most_N_(most_N) {
+  nodes_.reserve(kIntervals + 1);
+  for (int i = 0; i <= kIntervals; ++i) {
+    // The first node stands a little above zero, where the stiffness can be infinite.
+    const double root = std::max(i, 1) / static_cast<double>(kIntervals);
+    const double load_N = root * root * most_N;
+    const Rut rut = soil.RutUnder(load_N);
+    const double scale = i == 0 ? 0.0 : 1.0;
+    nodes_.push_back({scale * rut.sinkage_m, rut.stiffness_N_m, scale * rut.largest_traction_N,
+                      scale * rut.resistance_N,
+                      std::min(soil.ShearRatioOfFullSlip(load_N), kMostRatio)});
+  }
+}
+
+SoilAnswer WheelSoilTable::At(double load_N) const {
+  if (std::isnan(load_N)) throw std::runtime_error("a wheel load is not a number");
+  const double at = kIntervals * std::sqrt(std::clamp(load_N / most_N_, 0.0, 1.0));
+  const int index = std::min(static_cast<int>(at), kIntervals - 1);
+  const double s = at - index;
+  const SoilAnswer& a = nodes_[static_cast<std::size_t>(index)];
+  const SoilAnswer& b = nodes_[static_cast<std::size_t>(index) + 1];
+  const auto mix = [s](double from, double to) { return from + s * (to - from); };
+  return {mix(a.sinkage_m, b.sinkage_m), mix(a.stiffness_N_m, b.stiffness_N_m),
+          mix(a.traction_N, b.traction_N), mix(a.resistance_N, b.resistance_N),
+          mix(a.shear_ratio, b.shear_ratio)};
+}
+
+}  // namespace rockyard::rover

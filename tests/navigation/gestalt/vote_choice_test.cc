@@ -1,0 +1,182 @@
+// Which motion is chosen (Goldberg 2002, section 4, step 7), from votes written by hand.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "navigation/gestalt/choice.h"
+
+namespace rockyard::navigation {
+namespace {
+
+using messages::MotionKind;
+using messages::MotionVote;
+
+// Arcs from right to left with these merged votes; hazard votes follow them. Waypoint votes fall
+// from arc `best` on.
+std::vector<MotionVote> Row(const std::vector<double>& merged, int direction, int best) {
+  std::vector<MotionVote> row;
+  for (std::size_t i = 0; i < merged.size(); ++i) {
+    MotionVote vote;
+    vote.motion = {MotionKind::kArc, ArcCurvature(i, merged.size(), 2.0), direction};
+    vote.hazard = merged[i];
+    vote.merged = merged[i];
+    vote.waypoint = 255.0 - 10.0 * std::abs(static_cast<int>(i) - best);
+    row.push_back(vote);
+  }
+  return row;
+}
+
+MotionVotes Votes(const std::vector<double>& forward, const std::vector<double>& backward = {},
+                  int best = 3) {
+  MotionVotes votes;
+  votes.forward = Row(forward, +1, best);
+  votes.backward = Row(backward, -1, best);
+  for (const int direction : {-1, +1}) {
+    MotionVote turn;
+    turn.motion = {MotionKind::kTurnInPlace, 0.0, direction};
+    turn.merged = 11.0;
+    votes.point_turns.push_back(turn);
+  }
+  return votes;
+}
+
+// "f3": forward arc 3, "b0": backward arc 0, "-": none.
+std::string Chosen(MotionVotes votes, const GestaltParams& params = {}) {
+  const MotionVote* arc = ChooseArc(votes, params);
+  if (arc == nullptr) return "-";
+  for (std::size_t i = 0; i < votes.forward.size(); ++i) {
+    if (arc == &votes.forward[i]) return {'f', static_cast<char>('0' + i)};
+  }
+  for (std::size_t i = 0; i < votes.backward.size(); ++i) {
+    if (arc == &votes.backward[i]) return {'b', static_cast<char>('0' + i)};
+  }
+  return "?";
+}
+
+TEST(GestaltChoice, IsTheHighestVote) {
+  EXPECT_EQ(Chosen(Votes({190, 200, 210, 205, 195, 190, 185})), "f2");
+}
+
+TEST(GestaltChoice, MiddleOfAnOddSet) {
+  EXPECT_EQ(Chosen(Votes({190, 210, 210, 210, 195, 190, 185})), "f2");
+}
+
+TEST(GestaltChoice, EvenSetGoesToTheSideOfTheWaypoint) {
+  EXPECT_EQ(Chosen(Votes({190, 210, 210, 210, 210, 190, 185}, {}, 6)), "f3");
+  EXPECT_EQ(Chosen(Votes({190, 210, 210, 210, 210, 190, 185}, {}, 0)), "f2");
+}
+
+TEST(GestaltChoice, LongestOfSeveralSetsEvenFarFromTheWaypoint) {
+  EXPECT_EQ(Chosen(Votes({210, 210, 210, 190, 210, 210, 190}, {}, 5)), "f1");
+  EXPECT_EQ(Chosen(Votes({210, 190, 210, 190, 210, 210, 210}, {}, 0)), "f5");
+}
+
+TEST(GestaltChoice, EquallyLongSetsGoToTheSideOfTheWaypoint) {
+  EXPECT_EQ(Chosen(Votes({210, 210, 210, 190, 210, 210, 210}, {}, 4)), "f5");
+  EXPECT_EQ(Chosen(Votes({210, 210, 210, 190, 210, 210, 210}, {}, 2)), "f1");
+  EXPECT_EQ(Chosen(Votes({210, 210, 210, 190, 210, 210, 210}, {}, 3)), "f1")
+      << "right of two alike";
+}
+
+TEST(GestaltChoice, SetsThatTouchTheEnds) {
+  EXPECT_EQ(Chosen(Votes({190, 190, 190, 190, 190, 210, 210}, {}, 6)), "f6");
+  EXPECT_EQ(Chosen(Votes({210, 210, 210, 210, 210, 210, 210})), "f3");
+}
+
+TEST(GestaltChoice, BackwardArcsCompeteAsNamed) {
+  const std::vector<double> backward = {150, 150, 150, 200, 150, 150, 150};
+  EXPECT_EQ(Chosen(Votes({100, 100, 100, 180, 100, 100, 100}, backward)), "f3") << "180: not below";
+  EXPECT_EQ(Chosen(Votes({100, 100, 100, 179, 100, 100, 100}, backward)), "b3");
+  GestaltParams always;
+  always.drive.backward_arcs = BackwardArcs::kAlways;
+  EXPECT_EQ(Chosen(Votes({100, 100, 100, 180, 100, 100, 100}, backward), always), "b3");
+  GestaltParams last_resort;
+  last_resort.drive.backward_arcs = BackwardArcs::kLastResort;
+  EXPECT_EQ(Chosen(Votes({0, 0, 0, 26, 0, 0, 0}, backward), last_resort), "f3") << "26: not below";
+  EXPECT_EQ(Chosen(Votes({0, 0, 0, 25, 0, 0, 0}, backward), last_resort), "b3");
+}
+
+TEST(GestaltChoice, ForwardBeforeBackwardAmongEquals) {
+  EXPECT_EQ(Chosen(Votes({0, 0, 0, 100, 0, 0, 0}, {0, 0, 0, 100, 0, 0, 0})), "f3");
+}
+
+TEST(GestaltChoice, WhatIsNotSafeEnoughIsNeverDriven) {
+  EXPECT_EQ(Chosen(Votes({0, 0, 0, 0, 0, 0, 0})), "-");
+  EXPECT_EQ(Chosen(Votes({0, 0, 0, 10, 0, 0, 0})), "-");
+  EXPECT_EQ(Chosen(Votes({0, 0, 0, 11, 0, 0, 0})), "f3") << "unknown ground is just allowed";
+  GestaltParams careful;
+  careful.drive.min_drive_goodness = 11.0;
+  EXPECT_EQ(Chosen(Votes({0, 0, 0, 11, 0, 0, 0}), careful), "-");
+  // A forbidden arc between two that share its vote parts their set.
+  MotionVotes votes = Votes({0, 200, 200, 200, 200, 0, 0}, {}, 6);
+  votes.forward[3].hazard = 5.0;
+  EXPECT_EQ(Chosen(votes), "f2") << "unparted it would be f3";
+}
+
+TEST(GestaltChoice, MirroredVotesGiveTheMirroredArc) {
+  const std::vector<std::vector<double>> rows = {{190, 200, 210, 205, 195, 190, 185},
+                                                 {210, 210, 0, 0, 210, 0, 0},
+                                                 {0, 210, 210, 210, 210, 0, 0},
+                                                 {210, 210, 210, 0, 210, 210, 0},
+                                                 {0, 0, 0, 11, 11, 11, 11}};
+  for (const auto& row : rows) {
+    for (const int best : {0, 2, 5}) {
+      const std::string chosen = Chosen(Votes(row, {}, best));
+      const std::string mirrored =
+          Chosen(Votes(std::vector<double>(row.rbegin(), row.rend()), {}, 6 - best));
+      EXPECT_EQ(chosen[1] - '0', 6 - (mirrored[1] - '0')) << best;
+    }
+  }
+}
+
+// Of the two the left turn is the one that would be made.
+bool Turns(const MotionVotes& votes, PointTurns when) {
+  GestaltParams params;
+  params.drive.point_turns = when;
+  MotionVotes copy = votes;
+  return TurnsInPlace(copy.point_turns.back(), ChooseArc(copy, params), params);
+}
+
+TEST(GestaltChoice, PointTurnsAsNamed) {
+  const MotionVotes blocked = Votes({0, 0, 0, 0, 0, 0, 0});
+  const MotionVotes unknown = Votes({0, 0, 0, 25, 0, 0, 0});
+  MotionVotes known = Votes({0, 0, 0, 26, 0, 0, 0});
+  EXPECT_FALSE(Turns(blocked, PointTurns::kNever));
+  EXPECT_TRUE(Turns(blocked, PointTurns::kNothingSafe));
+  EXPECT_FALSE(Turns(unknown, PointTurns::kNothingSafe));
+  EXPECT_TRUE(Turns(blocked, PointTurns::kBelowMinVote));
+  EXPECT_TRUE(Turns(unknown, PointTurns::kBelowMinVote));
+  EXPECT_FALSE(Turns(known, PointTurns::kBelowMinVote));
+  EXPECT_FALSE(Turns(known, PointTurns::kCandidates));
+  known.point_turns[0].merged = 27.0;
+  EXPECT_FALSE(Turns(known, PointTurns::kCandidates)) << "the other turn";
+  known.point_turns[1].merged = 27.0;
+  EXPECT_TRUE(Turns(known, PointTurns::kCandidates));
+}
+
+TEST(GestaltChoice, BetterPointTurnElseTowardsTheGoal) {
+  MotionVotes votes = Votes({0});
+  EXPECT_EQ(ChoosePointTurn(votes, -0.1)->motion.direction, -1);
+  EXPECT_EQ(ChoosePointTurn(votes, 0.1)->motion.direction, +1);
+  EXPECT_EQ(ChoosePointTurn(votes, 0.0)->motion.direction, +1);
+  votes.point_turns[0].merged = 12.0;
+  EXPECT_EQ(ChoosePointTurn(votes, 0.1)->motion.direction, -1);
+}
+
+TEST(GestaltChoice, MarksWhatSharesTheVoteAndWhatIsChosen) {
+  MotionVotes votes = Votes({100, 170, 170, 100, 170, 0, 0}, {0, 0, 0, 170, 0, 0, 0});
+  MotionVote* arc = ChooseArc(votes, {});
+  MarkChoice(votes, *arc, {});
+  const std::vector<bool> best = {false, true, true, false, true, false, false};
+  for (std::size_t i = 0; i < best.size(); ++i) {
+    EXPECT_EQ(votes.forward[i].best, best[i]) << i;
+    EXPECT_EQ(votes.forward[i].chosen, i == 2) << i;
+    EXPECT_EQ(votes.backward[i].best, i == 3) << i;
+    EXPECT_FALSE(votes.backward[i].chosen);
+  }
+  EXPECT_FALSE(votes.point_turns[0].best);
+}
+
+}  // namespace
+}  // namespace rockyard::navigation
