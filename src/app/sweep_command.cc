@@ -78,7 +78,7 @@ ExitCode DryRun(const SweepOptions& options) {
   return ExitCode::kDone;
 }
 
-ExitCode Sweep(const SweepOptions& options) {
+ExitCode RunSweep(const SweepOptions& options) {
   if (options.campaign.dry_run) return DryRun(options);
   // Read where trials are planned: on rank 0 alone, so that a mistake is told once.
   scenario::Sweep sweep;
@@ -111,7 +111,7 @@ void AddSweepCommand(CLI::App& app, ExitCode& exit_code) {
       ->capture_default_str();
   command->callback([options, command, &exit_code] {
     options->campaign.resume_command = ResumeText(*command);
-    exit_code = Sweep(*options);
+    exit_code = RunSweep(*options);
   });
 }
 

@@ -2,13 +2,15 @@
 
 #include <algorithm>
 
+#include "core/sources.h"
+
 namespace rockyard::experiments {
 namespace {
 
 using core::FieldInfo;
 using core::Origin;
 
-constexpr std::string_view kSection6 = "Matthies 1995 sec. 6";
+using core::kMatthiesSection6;
 // A table that nobody can read, and a guard against a list typed wrongly.
 constexpr double kMostCells = 2000.0;
 
@@ -73,7 +75,7 @@ void VisitApproach(HazardDetectionParams& p, core::FieldVisitor& v) {
           .min = 0.001,
           .max = 10.0,
           .origin = Origin::kPublished,
-          .source = kSection6});
+          .source = kMatthiesSection6});
   v.Real("first_scan_m", p.first_scan_m,
          {.doc = "scans start this far before a rock",
           .min = 0.0,

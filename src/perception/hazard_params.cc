@@ -1,5 +1,6 @@
 #include "perception/hazard_params.h"
 
+#include "core/sources.h"
 #include "messages/stripe_array.h"
 
 namespace rockyard::perception {
@@ -7,7 +8,7 @@ namespace {
 
 using core::Origin;
 
-constexpr std::string_view kSection6 = "Matthies 1995 sec. 6";
+using core::kMatthiesSection6;
 
 void VisitCriteria(HazardParams& p, core::FieldVisitor& v) {
   v.Real("neighbour_threshold_m", p.neighbour_threshold_m,
@@ -16,7 +17,7 @@ void VisitCriteria(HazardParams& p, core::FieldVisitor& v) {
           .min = 0.001,
           .max = 10.0,
           .origin = Origin::kPublished,
-          .source = kSection6});
+          .source = kMatthiesSection6});
   v.Real("range_threshold_m", p.range_threshold_m,
          {.doc = "difference between highest and lowest elevation of the whole array above which "
                  "there is a hazard",
@@ -36,7 +37,7 @@ void VisitCriteria(HazardParams& p, core::FieldVisitor& v) {
        .min = 1,
        .max = static_cast<double>(messages::kMaxStripes),
        .origin = Origin::kPublished,
-       .source = kSection6});
+       .source = kMatthiesSection6});
   v.Choice("neighbour_blame", p.neighbour_blame,
            {.doc = "stripes charged with a neighbour difference",
             .origin = Origin::kAssumed,
@@ -51,7 +52,7 @@ void VisitAgreement(HazardParams& p, core::FieldVisitor& v) {
   v.Choice("agreement", p.agreement,
            {.doc = "scans that have to agree before a hazard is believed",
             .origin = Origin::kPublished,
-            .source = kSection6});
+            .source = kMatthiesSection6});
   v.Real("agree_m", p.agree_m,
          {.doc = "largest difference of an elevation between two scans that agree",
           .min = 0.0,

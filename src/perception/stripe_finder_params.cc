@@ -1,11 +1,13 @@
 #include "perception/stripe_finder_params.h"
 
+#include "core/sources.h"
+
 namespace rockyard::perception {
 
 using core::Origin;
 
 namespace {
-constexpr std::string_view kSection6 = "Matthies 1995 sec. 6";
+using core::kMatthiesSection6;
 }  // namespace
 
 void StripeFinderParams::Visit(core::FieldVisitor& v) {
@@ -14,7 +16,7 @@ void StripeFinderParams::Visit(core::FieldVisitor& v) {
              .min = 1,
              .max = 15,
              .origin = Origin::kPublished,
-             .source = kSection6});
+             .source = kMatthiesSection6});
   v.Require("averaging_px", averaging_px % 2 == 1, "is even, so that no pixel is in the middle",
             "use 1, 3, 5 or 7");
   v.Real("threshold_counts", threshold_counts,

@@ -25,7 +25,7 @@ bool HasValue(const std::vector<double>& values) {
 }
 
 // Counts are most of the numbers: "3" rather than "3.0".
-Json Number(double value) {
+Json NumberOrNull(double value) {
   if (!std::isfinite(value)) return nullptr;
   const bool whole = std::abs(value) < 1e9 && value == std::trunc(value);
   return whole ? Json(std::llround(value)) : Json(value);
@@ -41,7 +41,7 @@ std::string Letters(const std::vector<truth::TrialOutcome>& outcomes) {
 
 Json Values(const statistics::BaselineMetric& metric) {
   Json values = Json::array();
-  for (const double value : metric.values) values.push_back(Number(value));
+  for (const double value : metric.values) values.push_back(NumberOrNull(value));
   return values;
 }
 
@@ -62,7 +62,7 @@ std::string CellJson(const BaselineCell& cell) {
   Json margins = Json::object();
   Json metrics = Json::object();
   for (const statistics::BaselineMetric& each : cell.metrics) {
-    margins[each.name] = Number(each.margin);
+    margins[each.name] = NumberOrNull(each.margin);
     const Metric* metric = statistics::FindMetric(each.name);
     if (metric == nullptr || metric->source != MetricSource::kOutcome) {
       metrics[each.name] = Values(each);

@@ -25,8 +25,8 @@ using messages::NavigationView;
 
 // Pixels.
 constexpr double kPanel = 380.0;
-constexpr double kGap = 24.0;
-constexpr double kTop = 70.0;
+constexpr double kMapGap = 24.0;
+constexpr double kMapTop = 70.0;
 constexpr double kVoteWidth = 14.0;
 constexpr double kVoteHeight = 20.0;
 constexpr double kVoteLabel = 62.0;
@@ -149,7 +149,7 @@ std::string ElevationPanel(const NavigationView& view, const MapPanel& panel, do
   if (range.low <= range.high) {
     title = fmt::format("elevation: dark {:.2f} m, light {:.2f} m", range.low, range.high);
   }
-  return Text(left, kTop - 8.0, title) +
+  return Text(left, kMapTop - 8.0, title) +
          panel.Cells([&](const MapCellView& cell) -> std::optional<Rgb> {
            if (!cell.has_data) return std::nullopt;
            return RampColour((cell.elevation_m - range.low) / span_m);
@@ -158,7 +158,7 @@ std::string ElevationPanel(const NavigationView& view, const MapPanel& panel, do
 
 std::string BytePanel(std::string_view title, const MapPanel& panel, double left,
                       std::uint8_t MapCellView::*value) {
-  return Text(left, kTop - 8.0, title) +
+  return Text(left, kMapTop - 8.0, title) +
          panel.Cells([&](const MapCellView& cell) -> std::optional<Rgb> {
            if (!cell.known) return std::nullopt;
            return RampColour(cell.*value / kBestVote);
@@ -211,8 +211,8 @@ std::string VoteBlock(std::string_view title, const std::vector<MotionVote>& vot
 
 std::string NavigationSvg(const NavigationPicture& picture) {
   const NavigationView& view = picture.view;
-  const auto left = [](int column) { return kGap + column * (kPanel + kGap); };
-  const double votes_top = kTop + kPanel + 50.0;
+  const auto left = [](int column) { return kMapGap + column * (kPanel + kMapGap); };
+  const double votes_top = kMapTop + kPanel + 50.0;
   const double width = left(3);
   const double height = votes_top + 3 * kVoteHeight + 40.0;
   std::string svg = fmt::format(
@@ -220,10 +220,10 @@ std::string NavigationSvg(const NavigationPicture& picture) {
       "viewBox=\"0 0 {0:.0f} {1:.0f}\">\n",
       width, height);
   svg += Box(0.0, 0.0, width, height, "fill=\"#fff\"");
-  svg += Text(kGap, 28.0, fmt::format("{}: {}", picture.title, ChosenText(view)), 17.0);
-  const MapPanel elevation(view.map, left(0), kTop);
-  const MapPanel goodness(view.map, left(1), kTop);
-  const MapPanel certainty(view.map, left(2), kTop);
+  svg += Text(kMapGap, 28.0, fmt::format("{}: {}", picture.title, ChosenText(view)), 17.0);
+  const MapPanel elevation(view.map, left(0), kMapTop);
+  const MapPanel goodness(view.map, left(1), kMapTop);
+  const MapPanel certainty(view.map, left(2), kMapTop);
   svg += ElevationPanel(view, elevation, left(0));
   svg += BytePanel("goodness: dark 0 (obstacle), light 255; grey: unknown", goodness, left(1),
                    &MapCellView::goodness);

@@ -38,7 +38,7 @@ std::string_view KindName(FieldKind kind) {
 }
 
 // Six digits tell what a person chose; conversions between units leave more behind.
-std::string Number(double value) { return fmt::format("{:.6g}", value); }
+std::string SixDigits(double value) { return fmt::format("{:.6g}", value); }
 
 std::string ValueText(const core::JsonValue& value) {
   switch (value.type()) {
@@ -49,7 +49,7 @@ std::string ValueText(const core::JsonValue& value) {
     case core::JsonValue::Type::kInteger:
       return std::to_string(value.integer());
     case core::JsonValue::Type::kReal:
-      return Number(value.number());
+      return SixDigits(value.number());
     case core::JsonValue::Type::kText:
       return value.text();
     case core::JsonValue::Type::kList: {
@@ -63,7 +63,7 @@ std::string ValueText(const core::JsonValue& value) {
   return "";
 }
 
-std::string Bound(double value) { return std::isfinite(value) ? Number(value) : ""; }
+std::string Bound(double value) { return std::isfinite(value) ? SixDigits(value) : ""; }
 
 }  // namespace
 
@@ -74,7 +74,7 @@ std::string ParameterRange(const ParameterInfo& parameter) {
     return fmt::format("{}", fmt::join(parameter.choices, ", "));
   }
   if (parameter.HasStudyRange()) {
-    return fmt::format("{} to {}", Number(parameter.study_low), Number(parameter.study_high));
+    return fmt::format("{} to {}", SixDigits(parameter.study_low), SixDigits(parameter.study_high));
   }
   return "held";
 }
@@ -104,9 +104,9 @@ std::string ParametersCsv(std::span<const ParameterInfo> parameters) {
     const bool studied = p.HasStudyRange();
     csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", p.path, KindName(p.kind),
                        CsvField(ParameterValue(p)), p.unit, core::Name(p.origin),
-                       studied ? Number(p.study_low) : "", studied ? Number(p.study_high) : "",
-                       Bound(p.min), Bound(p.max), fmt::join(p.choices, "|"), CsvField(p.source),
-                       CsvField(p.doc));
+                       studied ? SixDigits(p.study_low) : "",
+                       studied ? SixDigits(p.study_high) : "", Bound(p.min), Bound(p.max),
+                       fmt::join(p.choices, "|"), CsvField(p.source), CsvField(p.doc));
   }
   return csv;
 }

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
+#include "core/numbers.h"
 #include "report/accounting.h"
 #include "report/sweep_curves.h"
 #include "report/sweep_outcomes.h"
@@ -26,7 +26,7 @@ using statistics::Proportion;
 using truth::Record;
 
 constexpr double kConfidence = 0.95;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+using core::kNaN;
 
 // With a stopping rule the number of trials depends on what they say, so that only the sequence
 // holds the rate as often as it states; trials on one layout are no independent ones.

@@ -20,7 +20,7 @@ constexpr std::size_t kLabelWidth = 24;
 constexpr std::size_t kMostCells = 60;
 constexpr std::size_t kMostDifferences = 40;
 // What has more digits does not fit its column.
-constexpr double kHuge = 1e5;
+constexpr double kHugeCell = 1e5;
 constexpr double kLeastP = 1e-9;
 
 std::string Percent(const statistics::Proportion& rate) {
@@ -34,7 +34,7 @@ std::string Mean(const SweepCellSummary& cell, std::string_view metric) {
       cell.metrics.begin(), cell.metrics.end(),
       [&](const statistics::MetricSummary& each) { return each.metric->name == metric; });
   if (found == cell.metrics.end() || !std::isfinite(found->mean)) return "-";
-  if (std::fabs(found->mean) >= kHuge) return fmt::format("{:.0e}", found->mean);
+  if (std::fabs(found->mean) >= kHugeCell) return fmt::format("{:.0e}", found->mean);
   return fmt::format("{:.{}f}", found->mean, std::fabs(found->mean) < 100.0 ? 2 : 0);
 }
 

@@ -9,9 +9,6 @@
 namespace rockyard::scenario {
 namespace {
 
-// Lengths that are written in two places of a file agree to this.
-constexpr double kSame_m = 1e-9;
-
 // Distance from R's origin, straight ahead, up to which cameras show level ground: the end of their
 // range, or the upper edge of the image where that meets the ground before.
 double GroundReach_m(const sensing::StereoParams& stereo) {

@@ -6,6 +6,9 @@
 
 namespace rockyard::scenario {
 
+// Lengths that are written in two places of a file agree to this.
+inline constexpr double kSame_m = 1e-9;
+
 // Requires of groups that are in use, and of no others:
 // - stereo cameras are on the rover: from its rear edge to half its length ahead of its front;
 // - the elevation array that the behaviour controller takes from stereo lies on level ground that

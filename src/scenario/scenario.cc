@@ -166,7 +166,6 @@ void RequirePlanes(const Scenario& scenario, core::FieldVisitor& v) {
   const experiments::HazardDetectionParams& study = scenario.hazard_detection;
   if (study.study != experiments::HazardStudy::kPrecision) return;
   const sensing::LightStripeParams& sensor = scenario.sensors.light_stripe;
-  constexpr double kSame_m = 1e-9;
   const bool on_axis = std::abs(sensor.emitter_height_m - sensor.camera_height_m) < kSame_m &&
                        std::abs(sensor.emitter_x_m - sensor.camera_x_m) < kSame_m;
   v.Require("sensors.light_stripe.emitter_height_m", on_axis,

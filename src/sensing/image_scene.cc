@@ -5,6 +5,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "sensing/occlusion.h"
+
 namespace rockyard::sensing {
 namespace {
 
@@ -12,11 +14,8 @@ using math::Vector3;
 
 // Rays end here: far ground shows no detail.
 constexpr double kFarthest_m = 100.0;
-// Surfaces this close to a point do not hide it from an emitter, as in light_stripe.cc.
-constexpr double kOcclusionMargin_m = 0.0005;
 // Rough ground further than this towards the sun casts no shadow.
 constexpr double kGroundShadow_m = 2.0;
-constexpr double kRounding_m = 1e-9;
 
 double Reach(const terrain::Rock& rock) { return rock.semi_axes_m.maxCoeff() + kRounding_m; }
 

@@ -1,11 +1,13 @@
 #include "sensing/laser_params.h"
 
+#include "core/sources.h"
+
 namespace rockyard::sensing {
 namespace {
 
 using core::Origin;
 
-constexpr std::string_view kTable3 = "Matthies 1995 table 3";
+using core::kMatthiesTable3;
 
 void VisitBeam(LaserParams& p, core::FieldVisitor& v) {
   v.Real("beam_width_rad", p.beam_width_rad,
@@ -14,7 +16,7 @@ void VisitBeam(LaserParams& p, core::FieldVisitor& v) {
           .min = 1e-5,
           .max = 0.1,
           .origin = Origin::kPublished,
-          .source = kTable3});
+          .source = kMatthiesTable3});
   v.Choice("profile", p.profile,
            {.doc = "cross section of the beam",
             .origin = Origin::kAssumed,
@@ -45,7 +47,7 @@ void LaserParams::Visit(core::FieldVisitor& v) {
           .min = 1e-6,
           .max = 100.0,
           .origin = Origin::kPublished,
-          .source = kTable3});
+          .source = kMatthiesTable3});
   v.Real(
       "optical_efficiency", optical_efficiency,
       {.doc = "light that leaves the fan's optics over electrical power",
@@ -60,7 +62,7 @@ void LaserParams::Visit(core::FieldVisitor& v) {
           .min = 3e-7,
           .max = 1.1e-6,
           .origin = Origin::kPublished,
-          .source = kTable3});
+          .source = kMatthiesTable3});
   VisitBeam(*this, v);
 }
 

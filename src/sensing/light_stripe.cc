@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/check.h"
+#include "sensing/occlusion.h"
 #include "sensing/stripe_layout_params.h"
 #include "vision/lens.h"
 
@@ -12,9 +13,6 @@ namespace rockyard::sensing {
 namespace {
 
 using math::Vector3;
-
-// Surfaces this close to a point do not hide it: half the width of the beam (3 mrad at 0.3 m).
-constexpr double kOcclusionMargin_m = 0.0005;
 
 // Normal, in R, of the plane that a scanline sees.
 Vector3 ScanlineNormal(const messages::StripeCamera& camera, double row_angle_rad) {
@@ -30,7 +28,6 @@ double DistanceDownTo(double z_m, const Vector3& start_R, const Vector3& directi
 // meets any other.
 void RocksMeetingPlane(const terrain::Terrain& terrain, std::span<const int> rocks,
                        const Vector3& p_W, const Vector3& normal_W, std::vector<int>& out) {
-  constexpr double kRounding_m = 1e-9;
   out.clear();
   for (const int index : rocks) {
     const terrain::Rock& rock = terrain.rocks()[static_cast<std::size_t>(index)];

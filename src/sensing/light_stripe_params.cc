@@ -1,5 +1,6 @@
 #include "sensing/light_stripe_params.h"
 
+#include "core/sources.h"
 #include "sensing/stripe_detection_params.h"
 #include "sensing/stripe_layout_params.h"
 #include "sensing/stripe_view_params.h"
@@ -9,8 +10,8 @@ namespace {
 
 using core::Origin;
 
-constexpr std::string_view kTable3 = "Matthies 1995 table 3";
-constexpr std::string_view kSection6 = "Matthies 1995 sec. 6";
+using core::kMatthiesSection6;
+using core::kMatthiesTable3;
 constexpr std::string_view kFigure13 = "Matthies 1995 fig. 13 is lost; text of sec. 6";
 
 void VisitOptics(LightStripeParams& p, core::FieldVisitor& v) {
@@ -19,31 +20,31 @@ void VisitOptics(LightStripeParams& p, core::FieldVisitor& v) {
              .min = 16,
              .max = 16384,
              .origin = Origin::kPublished,
-             .source = kTable3});
+             .source = kMatthiesTable3});
   v.Integer("rows", p.rows,
             {.doc = "image rows",
              .min = 16,
              .max = 16384,
              .origin = Origin::kPublished,
-             .source = kTable3});
+             .source = kMatthiesTable3});
   v.Real("active_width_m", p.active_width_m,
          {.doc = "width of the imager's active area",
           .min = 1e-4,
           .max = 0.1,
           .origin = Origin::kPublished,
-          .source = kTable3});
+          .source = kMatthiesTable3});
   v.Real("active_height_m", p.active_height_m,
          {.doc = "height of the imager's active area",
           .min = 1e-4,
           .max = 0.1,
           .origin = Origin::kPublished,
-          .source = kTable3});
+          .source = kMatthiesTable3});
   v.Real("focal_length_m", p.focal_length_m,
          {.doc = "focal length of the f-theta lens: 4.8 mm on Rocky 3.2, 4 mm on MFEX",
           .min = 5e-4,
           .max = 0.1,
           .origin = Origin::kPublished,
-          .source = kTable3});
+          .source = kMatthiesTable3});
   v.Choice("lens", p.lens,
            {.doc = "how directions map to the image: both equidistant models have the published "
                    "field of view; equidistant_rows reads rows as planes, equidistant is the "
@@ -56,13 +57,13 @@ void VisitOptics(LightStripeParams& p, core::FieldVisitor& v) {
              .min = 1,
              .max = static_cast<double>(messages::kMaxStripes),
              .origin = Origin::kPublished,
-             .source = kSection6});
+             .source = kMatthiesSection6});
   v.Real("fan_rad", p.fan_rad,
          {.doc = "full opening of each light fan",
           .min = 0.05,
           .max = 3.0,
           .origin = Origin::kPublished,
-          .source = kTable3});
+          .source = kMatthiesTable3});
 }
 
 void VisitCameras(LightStripeParams& p, core::FieldVisitor& v) {
@@ -71,7 +72,7 @@ void VisitCameras(LightStripeParams& p, core::FieldVisitor& v) {
           .min = 0.01,
           .max = 1.0,
           .origin = Origin::kPublished,
-          .source = kTable3});
+          .source = kMatthiesTable3});
   v.Real("camera_x_m", p.camera_x_m,
          {.doc = "cameras ahead of the chassis centre",
           .min = -1.0,
@@ -175,7 +176,7 @@ void VisitArray(LightStripeParams& p, core::FieldVisitor& v) {
           .min = 0.0,
           .max = 5.0,
           .origin = Origin::kPublished,
-          .source = kSection6});
+          .source = kMatthiesSection6});
 }
 
 void VisitDensity(LightStripeParams& p, core::FieldVisitor& v) {
@@ -184,13 +185,13 @@ void VisitDensity(LightStripeParams& p, core::FieldVisitor& v) {
              .min = 1,
              .max = 2,
              .origin = Origin::kPublished,
-             .source = kSection6});
+             .source = kMatthiesSection6});
   v.Integer("stripe_subdivision", p.stripe_subdivision,
             {.doc = "1: the published five stripes; 2: one more between any two, nine in all",
              .min = 1,
              .max = 2,
              .origin = Origin::kPublished,
-             .source = kSection6});
+             .source = kMatthiesSection6});
 }
 
 }  // namespace

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "sensing/occlusion.h"
+
 namespace rockyard::sensing {
 namespace {
 
 using math::Vector3;
-
-// A surface this close to a point does not hide it, as in light_stripe.cc.
-constexpr double kOcclusionMargin_m = 0.0005;
 
 // Whole columns of a span within the image.
 struct Columns {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/sources.h"
 #include "sensing/stripe_layout_params.h"
 
 namespace rockyard::sensing {
@@ -9,7 +10,7 @@ namespace {
 
 using core::Origin;
 
-constexpr std::string_view kSection6 = "Matthies 1995 sec. 6";
+using core::kMatthiesSection6;
 
 void VisitSearch(LightStripeParams& p, core::FieldVisitor& v) {
   v.Real("search_low_m", p.search_low_m,
@@ -50,7 +51,7 @@ void VisitErrors(LightStripeParams& p, core::FieldVisitor& v) {
           .min = 0.0,
           .max = 1.0,
           .origin = Origin::kPublished,
-          .source = kSection6});
+          .source = kMatthiesSection6});
   v.Choice("wrong_place", p.wrong_place,
            {.doc = "where such a point appears (geometric level only)",
             .origin = Origin::kAssumed,
@@ -60,7 +61,7 @@ void VisitErrors(LightStripeParams& p, core::FieldVisitor& v) {
           .min = 0.0,
           .max = 1.0,
           .origin = Origin::kAssumed,
-          .source = kSection6,
+          .source = kMatthiesSection6,
           .study_low = 0.0,
           .study_high = 0.01});
   v.Reals(

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 
 #include "core/check.h"
+#include "core/numbers.h"
 #include "statistics/clustered_rate.h"
 #include "statistics/paired_counts.h"
 
@@ -87,7 +87,7 @@ Estimate Estimated(const FactorialFailures& failures, const Contrast& contrast, 
   EXPECT(contrast.weights.size() == failures.failed.size());
   const std::size_t trials = failures.failed.front().size();
   if (trials == 0) {
-    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+    using core::kNaN;
     return {kNaN, {-1.0, 1.0}};
   }
   SignedValues values{.n = static_cast<double>(trials)};

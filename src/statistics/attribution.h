@@ -62,7 +62,7 @@ Contrast Removed(std::size_t functions, Combination set);
 // trials share clusters, of as many independent values as say as much (ClusteredValues). NaN
 // without trials.
 Estimate Estimated(const FactorialFailures& failures, const Contrast& contrast,
-                   double confidence = 0.95);
+                   double confidence = kConfidence);
 
 struct FunctionShare {
   std::string function;
@@ -89,7 +89,7 @@ struct Attribution {
 
 // Everything above. Intervals are pointwise. Cost: 4^k + 2^k k trials additions; a few ms for k = 4
 // and 1000 trials. No randomness.
-Attribution Attribute(const FactorialFailures& failures, double confidence = 0.95);
+Attribution Attribute(const FactorialFailures& failures, double confidence = kConfidence);
 
 // "designation x localization"; "as flown" for none.
 std::string NameOf(Combination set, std::span<const std::string> functions,

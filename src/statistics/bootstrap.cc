@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <map>
 #include <vector>
 
 #include "core/check.h"
+#include "core/numbers.h"
 #include "core/random.h"
 #include "statistics/quantiles.h"
 
@@ -107,7 +107,7 @@ void Resample(std::uint64_t seed, std::size_t replicates, SamplesBySize& sizes) 
 Interval BootstrapInterval(std::span<const double> sample, const Statistic& statistic,
                            std::uint64_t seed, double confidence, std::size_t replicates) {
   EXPECT(confidence > 0.0 && confidence < 1.0);
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  using core::kNaN;
   const std::vector<double> values = SortedFinite(sample);
   if (values.empty()) return {kNaN, kNaN};
   std::vector<double> resample(values.size());
@@ -125,7 +125,7 @@ std::vector<Interval> BootstrapMeanIntervals(std::span<const std::vector<double>
                                              std::uint64_t seed, double confidence,
                                              std::size_t replicates) {
   EXPECT(confidence > 0.0 && confidence < 1.0);
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  using core::kNaN;
   std::vector<Interval> intervals(samples.size(), {kNaN, kNaN});
   SamplesBySize sizes;
   for (std::size_t i = 0; i < samples.size(); ++i) {

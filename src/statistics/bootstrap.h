@@ -19,7 +19,7 @@ using Statistic = std::function<double(std::span<const double>)>;
 // little low for skewed ones, and meaningless for extremes. Randomness: Philox, `seed`,
 // Purpose::kBootstrap, one substream per replicate. NaN ends when nothing is finite.
 Interval BootstrapInterval(std::span<const double> sample, const Statistic& statistic,
-                           std::uint64_t seed, double confidence = 0.95,
+                           std::uint64_t seed, double confidence = kConfidence,
                            std::size_t replicates = 2000);
 
 // What BootstrapInterval gives for the mean (of MomentsOf) of each sample, bit for bit: samples
@@ -27,7 +27,7 @@ Interval BootstrapInterval(std::span<const double> sample, const Statistic& stat
 // several resamples are summed at once, and nothing is sorted. Cost: about 1 ns per finite value
 // and replicate. Memory: a copy of the samples, and 100 bytes for each value of the longest.
 std::vector<Interval> BootstrapMeanIntervals(std::span<const std::vector<double>> samples,
-                                             std::uint64_t seed, double confidence = 0.95,
+                                             std::uint64_t seed, double confidence = kConfidence,
                                              std::size_t replicates = 2000);
 
 }  // namespace rockyard::statistics

@@ -5,11 +5,10 @@
 #include <utility>
 
 #include "statistics/multiple_testing.h"
+#include "statistics/proportions.h"
 
 namespace rockyard::statistics {
 namespace {
-
-constexpr double kConfidence = 0.95;
 
 // Positions of a rate in both summaries.
 using RatePair = std::pair<std::size_t, std::size_t>;

@@ -6,14 +6,13 @@
 #include <map>
 
 #include "core/check.h"
+#include "statistics/proportions.h"
 
 namespace rockyard::statistics {
 namespace {
 
 using truth::ColumnRole;
 using truth::MeasuredColumn;
-
-constexpr double kConfidence = 0.95;
 
 // A column of the records with its role.
 struct KnownColumn {

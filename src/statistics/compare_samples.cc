@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/numbers.h"
 #include "statistics/compare_rows.h"
 #include "statistics/drive_summary.h"
 #include "statistics/exponential_tail.h"
@@ -16,7 +17,7 @@
 namespace rockyard::statistics {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+using core::kNaN;
 // Statistics that are only shown beside the judged one take fewer replicates.
 constexpr std::size_t kSideReduction = 5;
 // Pools smaller than this many published sets give up to twice the nominal false alarms for modes.

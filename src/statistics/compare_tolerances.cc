@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 
+#include "core/numbers.h"
 #include "statistics/closed_forms.h"
 #include "statistics/clustered_rate.h"
 #include "statistics/compare_rows.h"
@@ -17,7 +17,7 @@
 namespace rockyard::statistics {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using core::kInfinity;
 
 // The values of one record that a statistic needs.
 struct Values {

@@ -23,7 +23,8 @@ namespace rockyard::statistics {
 //
 // 0 <= successes <= trials, 0 < confidence < 1. No trials: [0, 1]. Ends are exact to 1e-12. Draws
 // nothing. Cost: some 40 evaluations of M, 50 us.
-Interval ConfidenceSequence(std::int64_t successes, std::int64_t trials, double confidence = 0.95);
+Interval ConfidenceSequence(std::int64_t successes, std::int64_t trials,
+                            double confidence = kConfidence);
 
 // Logarithm of M_n(p) above for 0 < p < 1; infinite where p is too unlikely for a double.
 double LogMixtureMartingale(std::int64_t successes, std::int64_t trials, double rate);

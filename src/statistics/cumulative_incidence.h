@@ -35,7 +35,7 @@ struct IncidenceStep {
 // Variance by the delta method (Marubini and Valsecchi 1995, eq. 10.12); without censoring it is
 // the binomial one. Entries whose distance is not finite are left out. Cost: n log n.
 std::vector<IncidenceStep> CumulativeIncidence(std::span<const Duration> durations,
-                                               double confidence = 0.95);
+                                               double confidence = kConfidence);
 
 // How a trial's end counts when the event is reaching the goal: believed arrival is the event (or
 // true arrival only), a time limit censors, a simulator fault is no observation, all else competes.

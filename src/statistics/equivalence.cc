@@ -6,17 +6,17 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "core/check.h"
+#include "core/numbers.h"
 #include "statistics/moments.h"
 
 namespace rockyard::statistics {
 namespace {
 
 constexpr double kCorrection = 0.5;  // of a trial, where rates are held against a margin
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using core::kInfinity;
 
 double UpperTail(double z) {
   if (std::isinf(z)) return z > 0.0 ? 0.0 : 1.0;

@@ -36,7 +36,7 @@ MeanDifference WelchMeans(std::span<const double> first, std::span<const double>
 // small level: give it groups of one size. Where nothing is known p = 1 and the interval is
 // unbounded. Where nothing scatters the law is not Student's, and what is left is a sign test: all
 // n pairs of one sign have p = 2^(1 - n), two groups of n that are apart 2 / C(2 n, n).
-Interval DifferenceInterval(const MeanDifference& means, double confidence = 0.95);
+Interval DifferenceInterval(const MeanDifference& means, double confidence = kConfidence);
 double ChangePValue(const MeanDifference& means);  // two-sided, of no difference
 double EquivalencePValue(const MeanDifference& means, double margin);  // TOST, margin > 0
 
@@ -53,7 +53,7 @@ double SparseEquivalencePValue(std::int64_t pairs, std::int64_t differing, doubl
 // of half a pair, by which its exact size stays at or below 0.05 (tested for 10 to 100 pairs and
 // margins of 0.05 to 0.3). [-1, 1] and p = 1 without pairs. The test of no difference that goes
 // with them is McNemarExactPValue.
-Interval DifferenceInterval(const PairedCounts& counts, double confidence = 0.95);
+Interval DifferenceInterval(const PairedCounts& counts, double confidence = kConfidence);
 double EquivalencePValue(const PairedCounts& counts, double margin);
 
 // Score interval and TOST of two independent rates, success_2 less success_1 (Farrington and
@@ -61,7 +61,7 @@ double EquivalencePValue(const PairedCounts& counts, double margin);
 // Nurminen 1985 without their factor n / (n - 1)). Corrected as above, by half a trial of each
 // group: exact size at or below 0.05, tested for groups of 10 to 100. [-1, 1] and p = 1 where a
 // group is empty. The test of no difference that goes with them is FisherExactPValue.
-Interval DifferenceInterval(const ContingencyTable& table, double confidence = 0.95);
+Interval DifferenceInterval(const ContingencyTable& table, double confidence = kConfidence);
 double EquivalencePValue(const ContingencyTable& table, double margin);
 
 }  // namespace rockyard::statistics

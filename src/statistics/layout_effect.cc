@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <boost/math/distributions/beta.hpp>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "core/check.h"
+#include "core/numbers.h"
 #include "core/random.h"
 
 namespace rockyard::statistics {
@@ -97,7 +97,7 @@ LayoutEffect EstimateLayoutEffect(std::span<const LayoutCount> layouts) {
     squares += static_cast<double>(layout.trials) * static_cast<double>(layout.trials);
   }
   const double groups = static_cast<double>(layouts.size());
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  using core::kNaN;
   if (trials == 0.0) return {kNaN, kNaN};
   const double rate = successes / trials;
   if (groups < 2.0 || trials <= groups) return {rate, kNaN};

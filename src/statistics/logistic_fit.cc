@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "core/check.h"
 #include "core/distributions.h"
+#include "core/numbers.h"
 #include "statistics/goodness_of_fit.h"
 #include "statistics/logistic_likelihood.h"
 
 namespace rockyard::statistics {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using core::kInfinity;
+using core::kNaN;
 double Logit(double rate) { return std::log(rate / (1.0 - rate)); }
 
 double WeightedMean(std::span<const Dose> doses) {

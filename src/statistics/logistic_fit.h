@@ -56,7 +56,7 @@ struct LogisticFit {
   // Pointwise: Wald's interval of the logit, turned back into a rate; by Student's law with a
   // degree of freedom less than clusters, where there are some. Coverage is near nominal where the
   // settings around x have some dozens of trials.
-  Interval Band(double x, double confidence = 0.95) const;
+  Interval Band(double x, double confidence = kConfidence) const;
 };
 
 // Iteratively reweighted least squares (McCullagh and Nelder 1989, section 4.4), which is Newton's
@@ -116,6 +116,6 @@ struct FitCrossing {
 
 // 0 < rate < 1; `fit` of the same points, fitted. Cost: some hundred passes over the points.
 FitCrossing FindCrossing(const LogisticFit& fit, std::span<const DosePoint> points, double rate,
-                         double confidence = 0.95);
+                         double confidence = kConfidence);
 
 }  // namespace rockyard::statistics

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/check.h"
+#include "core/numbers.h"
 #include "statistics/drive_summary.h"
 #include "statistics/equivalence.h"
 #include "statistics/moments.h"
@@ -13,7 +13,7 @@
 namespace rockyard::statistics {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+using core::kNaN;
 
 bool Counts(const Metric& metric, const truth::Record& record) {
   if (IsFault(record)) return false;

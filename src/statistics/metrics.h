@@ -76,7 +76,7 @@ struct MetricSummary {
 };
 
 MetricSummary SummarizeMetric(const Metric& metric, std::span<const double> values,
-                              double confidence = 0.95,
+                              double confidence = kConfidence,
                               IntervalMethod method = IntervalMethod::kWilson);
 
 // Every metric whose columns the schema has. `outcome`: over trials that ended so (rates of

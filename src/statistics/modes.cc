@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "core/check.h"
+#include "core/numbers.h"
 #include "statistics/moments.h"
 #include "statistics/quantiles.h"
 
 namespace rockyard::statistics {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+using core::kNaN;
 
 std::span<const double> ShortestHalf(std::span<const double> sorted) {
   const std::size_t half = (sorted.size() + 1) / 2;

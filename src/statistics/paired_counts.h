@@ -31,6 +31,6 @@ SignedValues DifferencesOf(const PairedCounts& counts);  // second less first
 // are added (Agresti and Min 2005, Statistics in Medicine 24, pp. 729-740, section 3: half a pair
 // more in each cell). Near nominal, and no point where all values agree. Values must be
 // independent. [-1, 1] without values.
-Interval AgrestiMinInterval(const SignedValues& values, double confidence = 0.95);
+Interval AgrestiMinInterval(const SignedValues& values, double confidence = kConfidence);
 
 }  // namespace rockyard::statistics

@@ -5,6 +5,9 @@
 
 namespace rockyard::statistics {
 
+// Of every interval, unless a caller asks for another.
+inline constexpr double kConfidence = 0.95;
+
 struct Interval {
   double low = 0.0;
   double high = 0.0;
@@ -26,17 +29,18 @@ struct Proportion {
 // Two-sided interval of a binomial proportion. 0 <= count <= trials, 0 < confidence < 1.
 // For no success (or no failure) Clopper-Pearson's upper (lower) end is the exact form of the
 // "rule of three". Cost: constant.
-Interval ProportionInterval(std::int64_t count, std::int64_t trials, double confidence = 0.95,
+Interval ProportionInterval(std::int64_t count, std::int64_t trials,
+                            double confidence = kConfidence,
                             IntervalMethod method = IntervalMethod::kWilson);
 
-Proportion MakeProportion(std::int64_t count, std::int64_t trials, double confidence = 0.95,
+Proportion MakeProportion(std::int64_t count, std::int64_t trials, double confidence = kConfidence,
                           IntervalMethod method = IntervalMethod::kWilson);
 
 // Interval of the difference second less first of two independent rates: the distances of the
 // Wilson ends from the rates, added in squares (Newcombe 1998, Statistics in Medicine 17, pp.
 // 873-890, method 10). Near nominal on average; [-1, 1] where either has no trials. Cost: constant.
 Interval DifferenceInterval(const Proportion& first, const Proportion& second,
-                            double confidence = 0.95);
+                            double confidence = kConfidence);
 
 enum class Alternative { kTwoSided, kLess, kGreater };
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/check.h"
+#include "core/numbers.h"
 
 namespace rockyard::statistics {
 
@@ -30,7 +31,7 @@ double Quantile(std::span<const double> sorted, double probability) {
 
 Interval MedianInterval(std::span<const double> sorted, double confidence) {
   EXPECT(confidence > 0.0 && confidence < 1.0);
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  using core::kNaN;
   if (sorted.empty()) return {kNaN, kNaN};
   const boost::math::binomial below(static_cast<double>(sorted.size()), 0.5);
   const double tail = 0.5 * (1.0 - confidence);

@@ -18,7 +18,7 @@ double Quantile(std::span<const double> sorted, double probability);
 // Interval of the median from two order statistics, whose ranks the binomial law of the values
 // below it gives (Thompson 1936): covers with at least this confidence whatever the continuous law.
 // `sorted` ascending; NaN where so few values cannot give the confidence (below 6 at 95 %).
-Interval MedianInterval(std::span<const double> sorted, double confidence = 0.95);
+Interval MedianInterval(std::span<const double> sorted, double confidence = kConfidence);
 
 enum class BandMethod {
   kSimultaneous,  // Dvoretzky-Kiefer-Wolfowitz with Massart's constant (1990): the whole curve
@@ -34,7 +34,7 @@ struct EcdfPoint {
 };
 
 // Empirical distribution function of the finite values, one point per distinct value.
-std::vector<EcdfPoint> Ecdf(std::span<const double> values, double confidence = 0.95,
+std::vector<EcdfPoint> Ecdf(std::span<const double> values, double confidence = kConfidence,
                             BandMethod method = BandMethod::kSimultaneous);
 
 }  // namespace rockyard::statistics

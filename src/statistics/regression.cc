@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/check.h"
+#include "core/numbers.h"
 #include "statistics/moments.h"
 #include "statistics/multiple_testing.h"
 #include "statistics/quantiles.h"
@@ -17,7 +18,7 @@
 namespace rockyard::statistics {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using core::kInfinity;
 
 // Where nothing can be compared the row says what each side has on its own.
 void Describe(const RegressionSamples& samples, std::span<const double> baseline,

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <limits>
+
+#include "core/numbers.h"
 
 namespace rockyard::statistics {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+using core::kNaN;
 constexpr double kPower = 0.8;  // of trials_for_margin
 
 // Smallest shift up to `most` with this power; NaN where none has it.

@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/sources.h"
+
 namespace rockyard::navigation {
 namespace {
 
 using core::FieldInfo;
 using core::Origin;
 
-constexpr std::string_view kTable1 = "Goldberg 2002 table 1";
+using core::kGoldbergTable1;
 // Keeps the memory of a map below 10 MB, whatever is set.
 constexpr double kMostCells = 40000.0;
 // Distances of cells from planes in the search for outliers, in one evaluation: a fifth of a
@@ -22,11 +24,12 @@ int Cells(double extent_m, double step_m) {
 }
 
 FieldInfo Published(std::string_view doc, double min, double max) {
-  return {.doc = doc, .min = min, .max = max, .origin = Origin::kPublished, .source = kTable1};
+  return {
+      .doc = doc, .min = min, .max = max, .origin = Origin::kPublished, .source = kGoldbergTable1};
 }
 
 FieldInfo PublishedFlag(std::string_view doc) {
-  return {.doc = doc, .origin = Origin::kPublished, .source = kTable1};
+  return {.doc = doc, .origin = Origin::kPublished, .source = kGoldbergTable1};
 }
 
 void VisitValidity(GestaltMapParams& p, core::FieldVisitor& v) {

@@ -1,11 +1,13 @@
 #include "navigation/gestalt/vote_params.h"
 
+#include "core/sources.h"
+
 namespace rockyard::navigation {
 
 using core::Origin;
 
 namespace {
-constexpr std::string_view kTable1 = "Goldberg 2002 table 1";
+using core::kGoldbergTable1;
 }
 
 void GestaltArcParams::Visit(core::FieldVisitor& v) {
@@ -14,25 +16,25 @@ void GestaltArcParams::Visit(core::FieldVisitor& v) {
           .min = 0.01,
           .max = 20.0,
           .origin = Origin::kPublished,
-          .source = kTable1});
+          .source = kGoldbergTable1});
   v.Integer("num_forward_arcs", num_forward_arcs,
             {.doc = "forward arcs to evaluate, spaced evenly in curvature",
              .min = 1,
              .max = 201,
              .origin = Origin::kPublished,
-             .source = kTable1});
+             .source = kGoldbergTable1});
   v.Integer("num_backward_arcs", num_backward_arcs,
             {.doc = "backward arcs to evaluate, spaced evenly in curvature",
              .min = 0,
              .max = 201,
              .origin = Origin::kPublished,
-             .source = kTable1});
+             .source = kGoldbergTable1});
   v.Angle("point_turn_amount_deg", point_turn_amount_rad,
           {.doc = "how far to rotate during a point turn",
            .min = 1.0,
            .max = 170.0,
            .origin = Origin::kPublished,
-           .source = kTable1});
+           .source = kGoldbergTable1});
 }
 
 void GestaltWaypointParams::Visit(core::FieldVisitor& v) {
@@ -42,19 +44,19 @@ void GestaltWaypointParams::Visit(core::FieldVisitor& v) {
           .min = 0.0,
           .max = 1.0,
           .origin = Origin::kPublished,
-          .source = kTable1});
+          .source = kGoldbergTable1});
   v.Real("vote_index_variance", vote_index_variance,
          {.doc = "variance of the waypoint votes about the best arc, in squares of the arc index",
           .min = 0.01,
           .max = 1e6,
           .origin = Origin::kPublished,
-          .source = kTable1});
+          .source = kGoldbergTable1});
   v.Real("waypoint_certainty", waypoint_certainty,
          {.doc = "certainty of the waypoint votes, their weight beside the hazard votes",
           .min = 0.0,
           .max = 255.0,
           .origin = Origin::kPublished,
-          .source = kTable1});
+          .source = kGoldbergTable1});
   v.Real("goal_tolerance_m", goal_tolerance_m,
          {.doc = "believed distance to the goal at which the rover stops as arrived",
           .min = 0.01,
@@ -72,14 +74,14 @@ void GestaltPlanParams::Visit(core::FieldVisitor& v) {
           .min = 0.0,
           .max = 10.0,
           .origin = Origin::kPublished,
-          .source = kTable1});
+          .source = kGoldbergTable1});
   v.Real("plan_max_dist_m", plan_max_dist_m,
          {.doc = "paths are judged up to this length, or up to the distance to the goal if that is "
                  "less",
           .min = 0.05,
           .max = 20.0,
           .origin = Origin::kPublished,
-          .source = kTable1});
+          .source = kGoldbergTable1});
   v.Require("plan_max_dist_m", plan_max_dist_m > plan_min_dist_m,
             "is not larger than plan_min_dist_m", "use a larger value");
   v.Angle("max_path_turn_deg", max_path_turn_rad,
@@ -115,19 +117,19 @@ void GestaltVoteParams::Visit(core::FieldVisitor& v) {
           .min = 0.0,
           .max = 255.0,
           .origin = Origin::kPublished,
-          .source = kTable1});
+          .source = kGoldbergTable1});
   v.Real("min_fwd_threshold", min_fwd_threshold,
          {.doc = "best forward vote from which only the forward cameras are used",
           .min = 0.0,
           .max = 256.0,
           .origin = Origin::kPublished,
-          .source = kTable1});
+          .source = kGoldbergTable1});
   v.Real("min_vote_goodness", min_vote_goodness,
          {.doc = "where the hazard or the waypoint vote is below, the merged vote is the lower one",
           .min = 0.0,
           .max = 256.0,
           .origin = Origin::kPublished,
-          .source = kTable1});
+          .source = kGoldbergTable1});
   v.Boolean("whole_numbers", whole_numbers,
             {.doc = "votes are rounded to whole numbers, as the 8 bits of a cell; this makes ties",
              .origin = Origin::kAssumed,

@@ -16,9 +16,9 @@
 #include <optional>
 
 #include "navigation/navigator.h"
-#include "navigation/pathfinder_params.h"
-#include "navigation/pathfinder_rules.h"
-#include "navigation/vehicle_reaction.h"
+#include "navigation/pathfinder/pathfinder_params.h"
+#include "navigation/pathfinder/rules.h"
+#include "navigation/pathfinder/vehicle_reaction.h"
 
 namespace rockyard::navigation {
 

@@ -1,0 +1,11 @@
+// Values of double that many computations name.
+#pragma once
+
+#include <limits>
+
+namespace rockyard::core {
+
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace rockyard::core
