@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fake_rover.h"
+#include "navigation/fake_rover.h"
 
 namespace rockyard::navigation {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "drive_geometry.h"
+#include "pathfinder/drive_geometry.h"
 
 namespace rockyard::navigation {
 namespace {

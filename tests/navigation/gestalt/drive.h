@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "fake_rover.h"
+#include "navigation/fake_rover.h"
 #include "navigation/gestalt/gestalt.h"
 
 namespace rockyard::navigation {

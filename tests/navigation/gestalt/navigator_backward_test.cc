@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "gestalt_drive.h"
+#include "drive.h"
 
 namespace rockyard::navigation {
 namespace {

@@ -1,7 +1,7 @@
 // What GESTALT does where nothing is safe, and what ends it.
 #include <gtest/gtest.h>
 
-#include "gestalt_drive.h"
+#include "drive.h"
 
 namespace rockyard::navigation {
 namespace {

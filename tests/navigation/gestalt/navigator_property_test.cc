@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/random.h"
-#include "gestalt_drive.h"
+#include "drive.h"
 
 namespace rockyard::navigation {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "gestalt_drive.h"
+#include "drive.h"
 #include "navigation/gestalt/choice.h"
 
 namespace rockyard::navigation {

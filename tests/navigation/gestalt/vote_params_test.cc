@@ -10,7 +10,7 @@
 #include "core/archive.h"
 #include "core/json_text.h"
 #include "core/params_text.h"
-#include "gestalt_drive.h"
+#include "drive.h"
 
 namespace rockyard::navigation {
 namespace {

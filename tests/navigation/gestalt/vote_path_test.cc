@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/random.h"
-#include "gestalt_grids.h"
+#include "grids.h"
 #include "math/pose.h"
 #include "navigation/gestalt/votes.h"
 

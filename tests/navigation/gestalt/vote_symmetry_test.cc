@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "gestalt_grids.h"
+#include "grids.h"
 #include "navigation/gestalt/choice.h"
 
 namespace rockyard::navigation {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "gestalt_grids.h"
+#include "grids.h"
 #include "navigation/gestalt/votes.h"
 
 namespace rockyard::navigation {

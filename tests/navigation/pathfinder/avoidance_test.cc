@@ -1,7 +1,7 @@
 // Turning in place away from hazards.
 #include <gtest/gtest.h>
 
-#include "fake_rover.h"
+#include "navigation/fake_rover.h"
 
 namespace rockyard::navigation {
 namespace {

@@ -1,7 +1,7 @@
 // Driving to the goal without hazards: manoeuvres end by what is measured on board.
 #include <gtest/gtest.h>
 
-#include "fake_rover.h"
+#include "navigation/fake_rover.h"
 
 namespace rockyard::navigation {
 namespace {

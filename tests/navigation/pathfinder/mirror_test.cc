@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "fake_rover.h"
+#include "navigation/fake_rover.h"
 
 namespace rockyard::navigation {
 namespace {

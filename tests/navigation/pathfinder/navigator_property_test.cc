@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/random.h"
-#include "fake_rover.h"
+#include "navigation/fake_rover.h"
 
 namespace rockyard::navigation {
 namespace {

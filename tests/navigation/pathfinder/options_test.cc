@@ -1,7 +1,7 @@
 // Extras known from the flight rover, all off by default: time-out, back-off and threading.
 #include <gtest/gtest.h>
 
-#include "fake_rover.h"
+#include "navigation/fake_rover.h"
 
 namespace rockyard::navigation {
 namespace {

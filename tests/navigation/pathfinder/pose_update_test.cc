@@ -2,7 +2,7 @@
 // manoeuvre stays measured.
 #include <gtest/gtest.h>
 
-#include "fake_rover.h"
+#include "navigation/fake_rover.h"
 
 namespace rockyard::navigation {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "fake_rover.h"
+#include "navigation/fake_rover.h"
 
 namespace rockyard::navigation {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/hash.h"
-#include "quasi_static_fields.h"
+#include "fields.h"
 #include "rover/quasi_static/quasi_static_rover.h"
 
 namespace rockyard::rover {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "quasi_static_fields.h"
+#include "fields.h"
 
 namespace rockyard::rover {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "rover_drive.h"
+#include "rover/rover_drive.h"
 
 namespace rockyard::rover {
 

@@ -6,7 +6,7 @@
 #include "rover/ellipsoid.h"
 #include "rover/part_shapes.h"
 #include "rover/quasi_static/wheel_rock_gap.h"
-#include "rover_drive.h"
+#include "rover/rover_drive.h"
 
 namespace rockyard::rover {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "rover_drive.h"
+#include "rover/rover_drive.h"
 
 namespace rockyard::rover {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "rover/rover_drive.h"
+#include "rover/soil_reference.h"
 #include "rover/wheel_soil.h"
-#include "rover_drive.h"
-#include "soil_reference.h"
 
 namespace rockyard::rover {
 namespace {
