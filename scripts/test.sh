@@ -1,17 +1,20 @@
 #!/bin/sh
 # Everything that must hold before a change is accepted: installs what is missing, builds with
-# contracts on and every warning an error, compares trials of -O2 and -O3 builds bit for bit
-# (scripts/same_bits.sh), then runs all tests, the layer check, clang-format and clang-tidy. The last
-# lines are ctest's summary.
+# contracts on and every warning an error, then runs all tests: those of the code, the comparison of
+# trials of -O2 and -O3 builds bit for bit (scripts/same_bits.sh), the README's commands, the pages in
+# a browser, the layer check, clang-format and clang-tidy. The last lines are ctest's summary.
 #
-# Usage: scripts/test.sh [OPTION]...
-#   --quick          only tests that take no long simulation: labels unit, property and physics,
-#                    without the comparison of builds, which sanitizers leave out, too
+# Usage: scripts/test.sh [OPTION]... [FOLDER]...
+#   FOLDER...        only the tests of these folders of tests/ (navigation, trial, ...), and of the
+#                    build only what they need
+#   --fast           only the fast tier: under a minute after a build
 #   --label LABEL    only tests of that label: unit, property, statistical, physics, differential,
-#                    determinism (with the comparison of builds), regression, cli, fuzz, lint
+#                    determinism, regression, cli, fuzz, web, lint
 #   --no-lint        without clang-format and clang-tidy
 #   --preset PRESET  another build: debug, asan, tsan, release (default: test)
 #   --jobs N         compile and test N at a time (default: the number of processors)
+#   --long [NAME]... instead: the long tests of these names, or all (scripts/long_tests.py --list)
+# build/last_test then says what ran, on which commit, and how it ended.
 # Exit code: 0 if everything passes.
 set -eu
 cd "$(dirname "$0")/.."
@@ -19,15 +22,18 @@ cd "$(dirname "$0")/.."
 preset="test"
 jobs=$(nproc)
 label=""
+tier="full"
 exclude=""
+folders=""
 usage() {
   echo "test: $1 (try --help)" >&2
   exit 2
 }
 while [ $# -gt 0 ]; do
   case "$1" in
-    -h | --help) sed -n '2,16s/^# \{0,1\}//p' "$0"; exit 0 ;;
-    --quick) label='^(unit|property|physics)$'; shift ;;
+    -h | --help) sed -n '2,19s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    --long) shift; exec scripts/long_tests.py "$@" ;;
+    --fast) tier="fast"; shift ;;
     --no-lint) exclude='^lint$'; shift ;;
     --label | --preset | --jobs)
       [ $# -ge 2 ] || usage "$1 needs a value"
@@ -38,9 +44,30 @@ while [ $# -gt 0 ]; do
       esac
       shift 2
       ;;
-    *) usage "unknown option $1" ;;
+    -*) usage "unknown option $1" ;;
+    *)
+      [ -d "tests/$1" ] || usage "tests/ has no folder $1"
+      folders="$folders ${1%/}"
+      shift
+      ;;
   esac
 done
+
+# What ran goes to build/last_test, also where something fails.
+commit=$(git rev-parse HEAD 2> /dev/null || echo unknown)
+if [ -n "$(git status --porcelain 2> /dev/null)" ]; then commit="$commit with uncommitted changes"; fi
+what="preset $preset, tier $tier${label:+, label $label}${exclude:+, without $exclude}"
+what="$what${folders:+, folders$folders}"
+tell() {
+  code=$?
+  mkdir -p build
+  {
+    if [ "$code" -eq 0 ]; then echo "passed: commit $commit"; else echo "FAILED: commit $commit"; fi
+    echo "ran: $what"
+    echo "ended: $(date -u '+%Y-%m-%d %H:%M') UTC, exit code $code"
+  } > build/last_test
+}
+trap tell EXIT
 
 groups="build pages test figures"
 if [ "$preset" = tsan ]; then groups="$groups tsan"; fi
@@ -49,11 +76,20 @@ scripts/install_dependencies.sh $groups
 
 # Quickstart configures the release preset without tests.
 cmake --preset "$preset" -DROCKYARD_BUILD_TESTS=ON
-cmake --build --preset "$preset" -j "$jobs"
-case "$preset $label" in
-  "test " | "release " | "test ^determinism$") scripts/same_bits.sh --jobs "$jobs" ;;
-esac
-set -- --preset "$preset" -j "$jobs"
-if [ -n "$label" ]; then set -- "$@" -L "$label"; fi
-if [ -n "$exclude" ]; then set -- "$@" -LE "$exclude"; fi
-ctest "$@" --no-tests=error --output-on-failure
+
+run_tests() {  # [option of ctest]...
+  if [ "$tier" = fast ]; then set -- "$@" -L '^fast$'; fi
+  if [ -n "$label" ]; then set -- "$@" -L "$label"; fi
+  if [ -n "$exclude" ]; then set -- "$@" -LE "$exclude"; fi
+  ctest --preset "$preset" -j "$jobs" "$@" --no-tests=error --output-on-failure
+}
+
+if [ -z "$folders" ]; then
+  cmake --build --preset "$preset" -j "$jobs"
+  run_tests
+else
+  for folder in $folders; do
+    cmake --build --preset "$preset" -j "$jobs" --target "tests/$folder/all"
+    run_tests --test-dir "build/$preset/tests/$folder"
+  done
+fi

@@ -122,63 +122,60 @@ class Quickstart(ScriptTest):
 
 
 class SameBits(ScriptTest):
-    """With builds that say which trial hash they find."""
+    """With programs that say which hash they find."""
 
-    def build(self, level, hash_of="echo 0123456789abcdef"):
-        self.fake(f"build/same_bits/{level}/bin/rockyard").write_text(
-            f"""#!/bin/sh
-echo "rockyard {level} $*" >> "$CALLS"
-[ "$1" = run ] || exit 0
-while [ $# -gt 1 ]; do
-  case "$1" in
-    --out) out=$2 ;;
-    --threads) threads=$2 ;;
-    --set) fidelity=${{2#*=}} ;;
-  esac
-  shift
-done
-mkdir -p "$out"
-echo "  \\"trial_hash\\": \\"$({hash_of})\\"," > "$out/summary.json"
-""", encoding="utf-8")
+    MINE = "build/same_bits/tests/determinism/hash_trials"
+    OTHER = "build/test/tests/determinism/hash_trials"
+
+    def program(self, name, hash_of="echo 0123456789abcdef"):
+        """`hash_of`: shell words that see $1 scenario, $2 trials, $3 threads, $4 setting."""
+        self.fake(name).write_text(
+            f'#!/bin/sh\necho "hash_trials $*" >> "$CALLS"\n{hash_of}\n', encoding="utf-8")
 
     def test_equal_hashes_of_both_builds_threads_and_fidelities(self):
-        self.build("O2")
-        self.build("O3")
+        self.program(self.MINE)
+        self.program(self.OTHER)
         result = self.run_script("same_bits.sh", "--trials", "3", "--jobs", "2")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(result.stdout.count("0123456789abcdef  same"), 8)
-        runs = [line for line in self.called("rockyard") if " run " in line]
-        self.assertEqual(len(runs), 8)
-        for line in runs:
-            self.assertIn("run scenarios/pathfinder/nominal.json", line)
-            self.assertIn("--trials 3", line)
+        runs = self.called("hash_trials")
+        expected = [f"scenarios/pathfinder/nominal.json 3 {threads} rover.fidelity={fidelity}"
+                    for fidelity in ("multibody", "quasi_static") for threads in (1, 2, 1, 2)]
+        self.assertEqual(runs, expected)
         flags = [line for line in self.called("cmake") if line.startswith("-S")]
+        self.assertEqual(len(flags), 1)
         self.assertIn('-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG -w', flags[0])
-        self.assertIn('-DCMAKE_CXX_FLAGS_RELEASE=-O3 -DNDEBUG -w', flags[1])
 
     def test_another_level_or_number_of_threads_that_differs_fails(self):
-        for hash_of in ('[ "$fidelity" = quasi_static ] && echo 1 || echo 2',
-                        'echo "$threads"', 'echo $$'):
+        for hash_of in ('[ "$4" = rover.fidelity=quasi_static ] && echo 1 || echo 2',
+                        'echo "$3"', 'echo $$'):
             with self.subTest(hash_of=hash_of):
-                self.build("O2")
-                self.build("O3", hash_of)
+                self.program(self.MINE)
+                self.program(self.OTHER, hash_of)
                 result = self.run_script("same_bits.sh")
                 self.assertEqual(result.returncode, 1)
                 self.assertIn("DIFFERS", result.stdout)
 
     def test_fidelities_need_not_agree(self):
-        for level in ("O2", "O3"):
-            self.build(level, '[ "$fidelity" = quasi_static ] && echo 1 || echo 2')
+        for name in (self.MINE, self.OTHER):
+            self.program(name, '[ "$4" = rover.fidelity=quasi_static ] && echo 1 || echo 2')
         self.assertEqual(self.run_script("same_bits.sh").returncode, 0)
 
+    def test_the_other_program_can_be_named_and_must_be_there(self):
+        self.program(self.MINE)
+        self.assertEqual(self.run_script("same_bits.sh").returncode, 2)
+        self.program("elsewhere/hash_trials")
+        result = self.run_script("same_bits.sh", "--against", "elsewhere/hash_trials")
+        self.assertEqual(result.returncode, 0, result.stderr)
+
     def test_a_failed_run_ends_with_its_code(self):
-        self.fake("build/same_bits/O2/bin/rockyard")
-        self.fake("build/same_bits/O3/bin/rockyard")
-        self.assertEqual(self.run_script("same_bits.sh", RUN_CODE="3").returncode, 3)
+        self.program(self.MINE, "exit 3")
+        self.program(self.OTHER, "exit 3")
+        self.assertEqual(self.run_script("same_bits.sh").returncode, 3)
 
     def test_a_run_without_a_hash_is_no_agreement(self):
-        for level in ("O2", "O3"):
-            self.build(level, "true")
+        for name in (self.MINE, self.OTHER):
+            self.program(name, "true")
         self.assertEqual(self.run_script("same_bits.sh").returncode, 1)
 
     def test_unknown_option_runs_nothing(self):
@@ -189,15 +186,11 @@ echo "  \\"trial_hash\\": \\"$({hash_of})\\"," > "$out/summary.json"
 class TestScript(ScriptTest):
     def setUp(self):
         super().setUp()
-        self.fake("scripts/same_bits.sh")
+        for folder in ("navigation", "trial"):
+            (self.root / "tests" / folder).mkdir(parents=True)
 
-    def test_builds_are_compared_unless_only_other_tests_are_asked_for(self):
-        for arguments, times in (([], 1), (["--label", "determinism"], 1), (["--quick"], 0),
-                                 (["--label", "unit"], 0), (["--preset", "asan"], 0)):
-            with self.subTest(arguments=arguments):
-                self.calls.write_text("", encoding="utf-8")
-                self.run_script("test.sh", "--jobs", "2", *arguments)
-                self.assertEqual(self.called("same_bits.sh"), ["--jobs 2"] * times)
+    def last_test(self):
+        return (self.root / "build/last_test").read_text(encoding="utf-8").splitlines()
 
     def test_everything_by_default(self):
         self.assertEqual(self.run_script("test.sh", "--jobs", "2").returncode, 0)
@@ -209,15 +202,36 @@ class TestScript(ScriptTest):
         self.run_script("test.sh", "--label", "statistical", "--no-lint")
         self.assertIn("-L ^statistical$ -LE ^lint$", self.called("ctest")[0])
 
+    def test_fast_tests_of_folders_build_only_these(self):
+        self.run_script("test.sh", "--fast", "navigation", "trial/", "--jobs", "2")
+        builds = [line for line in self.called("cmake") if line.startswith("--build")]
+        self.assertEqual([line.split("--target ")[1] for line in builds],
+                         ["tests/navigation/all", "tests/trial/all"])
+        for line, folder in zip(self.called("ctest"), ("navigation", "trial"), strict=True):
+            self.assertIn(f"build/test/tests/{folder}", line)
+            self.assertIn("-L ^fast$", line)
+
+    def test_last_test_says_what_ran_and_how_it_ended(self):
+        self.run_script("test.sh")
+        self.assertTrue(self.last_test()[0].startswith("passed: commit "), self.last_test())
+        self.assertEqual(self.last_test()[1], "ran: preset test, tier full")
+        self.fake("bin/ctest").write_text("#!/bin/sh\nexit 8\n", encoding="utf-8")
+        result = self.run_script("test.sh", "--fast", "--label", "unit", "navigation")
+        self.assertEqual(result.returncode, 8)
+        self.assertTrue(self.last_test()[0].startswith("FAILED: commit "), self.last_test())
+        self.assertEqual(self.last_test()[1],
+                         "ran: preset test, tier fast, label ^unit$, folders navigation")
+
     def test_tsan_needs_its_own_packages(self):
         self.run_script("test.sh", "--preset", "tsan")
         self.assertEqual(self.called("install_dependencies.sh"), ["build pages test figures tsan"])
 
-    def test_unknown_option_runs_nothing(self):
-        for arguments in (["--fast"], ["--label"]):
+    def test_unknown_words_run_nothing(self):
+        for arguments in (["--quick"], ["--label"], ["nowhere"]):
             result = self.run_script("test.sh", *arguments)
             self.assertEqual(result.returncode, 2)
             self.assertEqual(self.calls.read_text(encoding="utf-8"), "")
+            self.assertFalse((self.root / "build/last_test").exists())
 
     def test_continuous_integration_runs_the_same(self):
         shutil.copytree(ROOT / ".ci", self.root / ".ci")
@@ -225,6 +239,41 @@ class TestScript(ScriptTest):
                      "PATH": f"{self.root / 'bin'}:{os.environ['PATH']}"}
         subprocess.run([self.root / ".ci/run"], env=variables, check=True, capture_output=True)
         self.assertEqual(len(self.called("ctest")), 1)
+
+
+class LongTests(ScriptTest):
+    """With two long tests, the second of which fails."""
+
+    def setUp(self):
+        super().setUp()
+        self.folder = self.root / "tests" / "long"
+        self.folder.mkdir(parents=True)
+        (self.folder / "tests.json").write_text(
+            """[{"name": "good", "what": "passes", "command": "echo good >> $CALLS"},
+                {"name": "bad", "what": "fails", "command": "echo bad >> $CALLS; exit 3"}]""",
+            encoding="utf-8")
+
+    def results(self):
+        lines = (self.folder / "README.md").read_text(encoding="utf-8").splitlines()
+        return {line.split(" | ")[0].strip("| "): line.split(" | ")[-1] for line in lines[6:]}
+
+    def test_each_is_noted_with_its_last_result(self):
+        self.assertEqual(self.run_script("test.sh", "--long").returncode, 1)
+        self.assertTrue(self.results()["good"].startswith("passed, 20"), self.results())
+        self.assertTrue(self.results()["bad"].startswith("FAILED with exit code 3"))
+
+    def test_one_by_name_leaves_the_results_of_others(self):
+        self.run_script("long_tests.py", "bad")
+        self.assertEqual(self.results()["good"], "not run yet |")
+        self.assertEqual(self.run_script("long_tests.py", "good").returncode, 0)
+        self.assertTrue(self.results()["bad"].startswith("FAILED"))
+        self.assertEqual(self.calls.read_text(encoding="utf-8"), "bad\ngood\n")
+
+    def test_list_and_unknown_names_run_nothing(self):
+        listed = self.run_script("long_tests.py", "--list")
+        self.assertIn("good", listed.stdout)
+        self.assertEqual(self.run_script("long_tests.py", "other").returncode, 2)
+        self.assertEqual(self.calls.read_text(encoding="utf-8"), "")
 
 
 class Studies(ScriptTest):
