@@ -5,7 +5,8 @@
 #   NAME              folder below src/, also the namespace: rockyard::NAME
 #   SOURCES           .cc files; a module without any is header-only
 #   DEPENDS           modules whose headers this one may include (the table in src/README.md)
-#   PARAMS_OF         modules of which this one may include the *_params.h headers, nothing else
+#   PARAMS_OF         modules whose *_params.h headers this one's own *_params files may include; of
+#                     a module that DEPENDS does not name, nothing else may be included anywhere
 #   PRIVATE_LIBRARIES third-party targets used in .cc files only
 #
 # How a folder is kept from seeing another one: src/ itself is on no include path. Each module has
@@ -13,8 +14,9 @@
 #   <build>/include/NAME/NAME -> src/NAME
 # and a target sees the roots of the modules that it links and no others, so that a header of any
 # other module is "No such file". Modules with *_params.h have a second target, NAME_params, that
-# holds the *_params.cc files and a root with links to those headers alone: scenario links these,
-# which also keeps the link graph free of cycles. Parameters may use core, math and messages.
+# holds the *_params.cc files and a root with links to those headers alone: whoever composes
+# parameters links these and sees no more. Parameters may use core, math, messages and the parameters
+# of the modules in PARAMS_OF.
 
 include(GNUInstallDirs)
 
@@ -88,9 +90,8 @@ function(rockyard_module NAME)
   endif()
   set(target rockyard_${NAME})
   list(TRANSFORM ARG_DEPENDS PREPEND rockyard_ OUTPUT_VARIABLE dependencies)
-  foreach(module ${ARG_PARAMS_OF})
-    list(APPEND dependencies rockyard_${module}_params)
-  endforeach()
+  list(TRANSFORM ARG_PARAMS_OF REPLACE "(.+)" "rockyard_\\1_params")
+  list(APPEND dependencies ${ARG_PARAMS_OF})
 
   file(GLOB_RECURSE params_headers CONFIGURE_DEPENDS
     RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/*_params.h)
@@ -102,7 +103,7 @@ function(rockyard_module NAME)
     list(FILTER params_depends INCLUDE REGEX "^(core|math|messages)$")
     list(TRANSFORM params_depends PREPEND rockyard_)
     rockyard_params_module(${NAME} HEADERS ${params_headers} SOURCES ${params_sources}
-      DEPENDS ${params_depends})
+      DEPENDS ${params_depends} ${ARG_PARAMS_OF})
     list(APPEND dependencies rockyard_${NAME}_params)
   endif()
 

@@ -20,12 +20,12 @@ std::vector<double> Distances(const scenario::Scenario& scenario, std::uint64_t 
   std::vector<double> distances;
   for (std::int64_t i = 0; i < fields; ++i) {
     const terrain::Field field =
-        terrain::BuildField(scenario.terrain, {seed, static_cast<std::uint32_t>(i)},
-                            trial::TerrainCourse(scenario.course));
+        terrain::BuildField(scenario.drive.terrain, {seed, static_cast<std::uint32_t>(i)},
+                            trial::TerrainCourse(scenario.drive.course));
     const std::vector<terrain::Rock> rocks(field.terrain.rocks().begin(),
                                            field.terrain.rocks().end());
     const double contact_m =
-        terrain::FirstContact_m(rocks, swath, first_x_m, scenario.course.start_y_m);
+        terrain::FirstContact_m(rocks, swath, first_x_m, scenario.drive.course.start_y_m);
     distances.push_back(contact_m - first_x_m);
   }
   std::sort(distances.begin(), distances.end());
@@ -35,23 +35,23 @@ std::vector<double> Distances(const scenario::Scenario& scenario, std::uint64_t 
 }  // namespace
 
 terrain::BlindSwath SwathOf(const scenario::Scenario& scenario) {
-  const terrain::RockFieldParams& rocks = scenario.terrain.rocks;
+  const terrain::RockFieldParams& rocks = scenario.drive.terrain.rocks;
   const double height_ratio = 0.5 * (rocks.min_height_ratio + rocks.max_height_ratio);
-  return {scenario.rover.geometry.width_m,
-          scenario.rover.geometry.belly_clearance_m / (height_ratio * (1.0 - rocks.burial_mean))};
+  return {scenario.drive.rover.geometry.width_m, scenario.drive.rover.geometry.belly_clearance_m /
+                                                     (height_ratio * (1.0 - rocks.burial_mean))};
 }
 
 std::string BlindSwathText(const scenario::Scenario& scenario, std::uint64_t seed,
                            std::int64_t fields, const terrain::BlindSwath& swath) {
-  const trial::CourseParams& course = scenario.course;
-  const double clear_m = scenario.terrain.rocks.clear_radius_m;
+  const trial::CourseParams& course = scenario.drive.course;
+  const double clear_m = scenario.drive.terrain.rocks.clear_radius_m;
   const double first_x_m = course.start_x_m + clear_m;
   const double length_m = course.goal_x_m - clear_m - first_x_m;
   if (length_m <= 0.0) {
     throw core::UserError("course.goal_x_m", "leaves no way along +x between the clear zones",
                           "use a goal farther along +x from the start");
   }
-  const double per_m = terrain::BlindContactsPerM(scenario.terrain.rocks, swath);
+  const double per_m = terrain::BlindContactsPerM(scenario.drive.terrain.rocks, swath);
   const std::vector<double> distances = Distances(scenario, seed, fields, swath, first_x_m);
   std::string text = fmt::format(
       "blind swath of {:.2f} m, rocks of {:.3f} m and more across: {:.4f} contacts per m by the "

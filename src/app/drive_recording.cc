@@ -17,17 +17,17 @@ class Recorder {
  public:
   explicit Recorder(const scenario::Scenario& scenario)
       : scenario_(scenario),
-        triangulator_(trial::OnboardStripeCalibration(scenario.sensors.light_stripe,
-                                                      scenario.perception.calibration)) {}
+        triangulator_(trial::OnboardStripeCalibration(scenario.drive.sensors.light_stripe,
+                                                      scenario.drive.perception.calibration)) {}
 
   DriveRecording Run(std::uint64_t seed, std::uint64_t trial) {
     report::TracedTrial& traced = recording_.traced;
     traced.scenario = scenario_.name;
     traced.seed = seed;
-    traced.goal = {scenario_.course.goal_x_m, scenario_.course.goal_y_m};
+    traced.goal = {scenario_.drive.course.goal_x_m, scenario_.drive.course.goal_y_m};
     traced.schema = experiments::DriveSchema();
     const experiments::DriveExperiment experiment(
-        scenario_, [this](const trial::WatchedScan& scan) { OnScan(scan); },
+        scenario_.drive, [this](const trial::WatchedScan& scan) { OnScan(scan); },
         [this](const trial::WatchedStep& step) { OnStep(step); });
     traced.record = experiment.RunTraced(seed, trial, traced.trace);
     return std::move(recording_);
@@ -84,7 +84,7 @@ class Recorder {
 
 DriveRecording RecordDrive(const scenario::Scenario& scenario, std::uint64_t seed,
                            std::uint64_t trial) {
-  if (scenario.experiment != scenario::ExperimentKind::kDrive) {
+  if (scenario.experiment.kind != experiments::ExperimentKind::kDrive) {
     throw core::UserError(scenario.name, "is no drive, and only drives have a course",
                           "use rockyard replay --list, which lists the scans of any trial");
   }
@@ -93,7 +93,7 @@ DriveRecording RecordDrive(const scenario::Scenario& scenario, std::uint64_t see
 
 std::vector<report::ReplayPose> PosesOf(const scenario::Scenario& scenario,
                                         const truth::Trace& trace) {
-  const std::vector<rover::Link> links = rover::MakeLinks(scenario.rover.geometry);
+  const std::vector<rover::Link> links = rover::MakeLinks(scenario.drive.rover.geometry);
   std::vector<report::ReplayPose> poses;
   poses.reserve(trace.samples.size() + trace.rests.size());
   const auto add = [&](const truth::TraceSample& sample, bool set_back) {

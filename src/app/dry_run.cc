@@ -57,7 +57,7 @@ ExitCode DryRun(const CampaignOptions& options, const CampaignPlan& plan) {
   CheckPlan(options, plan);
   const OpenRequest request = RequestOf(options, plan);
   const scenario::Scenario& scenario = plan.cells.front().scenario;
-  const auto experiment = experiments::MakeExperiment(scenario);
+  const auto experiment = experiments::MakeExperiment(scenario.experiment, scenario.drive);
   CheckFolder(request, IdentityOf(plan, experiment->schema(), request.shard));
   const std::int64_t stored = StoredTrials(request);
   const PlannedTrials planned = TrialsOf(request, plan);

@@ -75,7 +75,7 @@ class ReceivedWork {
       throw core::UserError("scenario", "is another one on this rank than on rank 0", "");
     }
     const auto cell = static_cast<int>(work_.size());
-    plain_.push_back(experiments::MakeExperiment(scenario));
+    plain_.push_back(experiments::MakeExperiment(scenario.experiment, scenario.drive));
     logged_.push_back(std::make_unique<batch::LoggedExperiment>(*plain_.back(), cell, log));
     work_.push_back({logged_.back().get(), seed});
   }

@@ -28,7 +28,7 @@ constexpr double kStepGrowth = 1.25;
 // Where there is terrain, and wherever the rover went.
 terrain::Rectangle SceneBounds(const scenario::Scenario& scenario, const truth::Trace& trace) {
   constexpr double kBorder_m = 1.0;
-  terrain::Rectangle bounds = terrain::DrivableBounds(scenario.terrain.arena);
+  terrain::Rectangle bounds = terrain::DrivableBounds(scenario.drive.terrain.arena);
   for (const truth::TraceSample& sample : trace.samples) {
     bounds.x_min_m = std::min(bounds.x_min_m, sample.pose.x_m - kBorder_m);
     bounds.x_max_m = std::max(bounds.x_max_m, sample.pose.x_m + kBorder_m);
@@ -48,7 +48,7 @@ messages::Goal ToldGoal(const report::TracedTrial& traced) {
 
 report::ReplayCourse CourseOf(const scenario::Scenario& scenario, const report::TracedTrial& traced,
                               const terrain::Terrain& terrain, const terrain::Rectangle& bounds) {
-  const trial::CourseParams& course = scenario.course;
+  const trial::CourseParams& course = scenario.drive.course;
   report::ReplayCourse shown{
       .start = {course.start_x_m, course.start_y_m, course.start_heading_rad},
       .goal = traced.goal,
@@ -63,7 +63,7 @@ report::ReplayCourse CourseOf(const scenario::Scenario& scenario, const report::
   for (const terrain::Wall& wall : terrain.walls()) {
     shown.walls.push_back({wall.normal_W, wall.offset_m});
   }
-  const terrain::ArenaParams& arena = scenario.terrain.arena;
+  const terrain::ArenaParams& arena = scenario.drive.terrain.arena;
   if (arena.kind == terrain::ArenaKind::kVirtualReflected) {
     shown.mirror_lines_m = {-arena.MirrorLine(), arena.MirrorLine()};
   }
@@ -135,8 +135,8 @@ void AddShape(const rover::Part& part, report::ReplayLink& link) {
 terrain::Field BuildField(const scenario::Scenario& scenario, const report::TracedTrial& traced) {
   const core::TrialKey key{traced.seed, static_cast<std::uint32_t>(traced.record.trial)};
   try {
-    return terrain::BuildField(scenario.terrain, trial::LayoutKey(scenario, key),
-                               trial::TerrainCourse(scenario.course));
+    return terrain::BuildField(scenario.drive.terrain, trial::LayoutKey(scenario.drive, key),
+                               trial::TerrainCourse(scenario.drive.course));
   } catch (const std::runtime_error& error) {
     throw core::UserError(fmt::format("trial {}", traced.record.trial),
                           fmt::format("has no terrain to show: {}", error.what()),
@@ -158,9 +158,9 @@ void AddScene(const scenario::Scenario& scenario, const report::TracedTrial& tra
 }
 
 std::vector<report::ReplayLink> LinksOf(const scenario::Scenario& scenario) {
-  const std::vector<rover::Part> parts = rover::MakeParts(scenario.rover.geometry);
+  const std::vector<rover::Part> parts = rover::MakeParts(scenario.drive.rover.geometry);
   std::vector<report::ReplayLink> shown;
-  for (const rover::Link& link : rover::MakeLinks(scenario.rover.geometry)) {
+  for (const rover::Link& link : rover::MakeLinks(scenario.drive.rover.geometry)) {
     report::ReplayLink& to = shown.emplace_back(report::ReplayLink{.name = link.name,
                                                                    .parent = link.parent,
                                                                    .pivot_P = link.pivot_P,

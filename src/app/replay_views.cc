@@ -79,7 +79,8 @@ class Replayer {
 
   Replayed Run() {
     const auto experiment = experiments::MakeExperiment(
-        source_.scenario, [this](const trial::WatchedScan& watched) { OnScan(watched); },
+        source_.scenario.experiment, source_.scenario.drive,
+        [this](const trial::WatchedScan& watched) { OnScan(watched); },
         [this](const trial::WatchedStep& watched) { OnStep(watched); });
     replayed_.schema = experiment->schema();
     replayed_.record = experiment->Run(source_.seed, options_.request.trial);

@@ -88,11 +88,11 @@ void Describe(const RoverOptions& options) {
   CheckOut(options.out);
   const scenario::Scenario scenario = LoadScenarioFrom(options.scenario, options.overrides);
   if (!options.out.empty()) {
-    report::WriteFileAtomically(options.out, rover::WriteUrdf(scenario.rover));
+    report::WriteFileAtomically(options.out, rover::WriteUrdf(scenario.drive.rover));
     return;
   }
-  Print(fmt::format("rover of {}\n", scenario.name) + Dimensions(scenario.rover) +
-        MassesAndMotors(scenario.rover) + Loads(scenario.rover));
+  Print(fmt::format("rover of {}\n", scenario.name) + Dimensions(scenario.drive.rover) +
+        MassesAndMotors(scenario.drive.rover) + Loads(scenario.drive.rover));
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ class PlannedWork {
  public:
   explicit PlannedWork(const CampaignPlan& plan) {
     for (const CampaignCell& cell : plan.cells) {
-      experiments_.push_back(experiments::MakeExperiment(cell.scenario));
+      experiments_.push_back(
+          experiments::MakeExperiment(cell.scenario.experiment, cell.scenario.drive));
       work_.push_back({experiments_.back().get(), static_cast<std::uint64_t>(cell.scenario.seed)});
     }
   }
@@ -180,15 +181,15 @@ void CheckRule(const CampaignOptions& options, const CampaignPlan& plan,
                         "leave out --shard, or say how many trials to run with --trials"});
   }
   for (const CampaignCell& cell : plan.cells) {
-    if (cell.scenario.experiment != scenario::ExperimentKind::kDrive) {
+    if (cell.scenario.experiment.kind != experiments::ExperimentKind::kDrive) {
       problems.push_back({"--until-half-width",
                           fmt::format("needs drives, and {} measures", Label(cell)),
                           "say how many trials to run with --trials"});
-    } else if (cell.scenario.course.trials_per_layout > 1) {
+    } else if (cell.scenario.drive.course.trials_per_layout > 1) {
       problems.push_back(
           {"--until-half-width",
            fmt::format("needs independent trials, and in {} {} trials share a layout of rocks",
-                       Label(cell), cell.scenario.course.trials_per_layout),
+                       Label(cell), cell.scenario.drive.course.trials_per_layout),
            "set course.trials_per_layout=1, or say how many trials to run with --trials"});
     }
   }
@@ -209,7 +210,7 @@ void CheckTraces(const CampaignOptions& options, const CampaignPlan& plan,
                         "leave it out, merge the shards, and ask for it there with --resume"});
   }
   for (const CampaignCell& cell : plan.cells) {
-    if (cell.scenario.experiment == scenario::ExperimentKind::kDrive) continue;
+    if (cell.scenario.experiment.kind == experiments::ExperimentKind::kDrive) continue;
     problems.push_back(
         {"--traces", fmt::format("needs drives, and {} measures", Label(cell)), "leave it out"});
   }

@@ -57,15 +57,14 @@ std::set<std::pair<int, int>> ExposuresOf(const messages::StripeCalibration& cal
   return exposures;
 }
 
-messages::StripeCalibration CalibrationOf(const scenario::Scenario& scenario) {
-  return trial::OnboardStripeCalibration(scenario.sensors.light_stripe,
-                                         scenario.perception.calibration);
+messages::StripeCalibration CalibrationOf(const trial::DriveParams& drive) {
+  return trial::OnboardStripeCalibration(drive.sensors.light_stripe, drive.perception.calibration);
 }
 
 // The geometry that the rover believes, and what follows from it.
 struct Believed {
-  explicit Believed(const scenario::Scenario& scenario)
-      : calibration(CalibrationOf(scenario)), triangulator(calibration), searches(calibration) {}
+  explicit Believed(const trial::DriveParams& drive)
+      : calibration(CalibrationOf(drive)), triangulator(calibration), searches(calibration) {}
 
   messages::StripeCalibration calibration;
   perception::Triangulator triangulator;
@@ -90,7 +89,7 @@ report::ShownPoint ShowPoint(const Believed& believed, const messages::StripePix
 }
 
 report::ScanView View(const trial::WatchedScan& watched) {
-  const Believed believed(watched.scenario);
+  const Believed believed(watched.drive);
   const messages::StripeArraySize size = watched.scan.pixels.size();
   report::ScanView view;
   view.calibration = believed.calibration;
@@ -101,7 +100,7 @@ report::ScanView View(const trial::WatchedScan& watched) {
     }
   }
   view.hazards = HazardsOf(watched);
-  view.rover = rover::BodyOutline(watched.scenario.rover.geometry);
+  view.rover = rover::BodyOutline(watched.drive.rover.geometry);
   view.rocks = RocksAround(watched);
   return view;
 }
@@ -122,16 +121,16 @@ std::vector<double> Difference(const messages::StripeExposure& frames, int windo
 }  // namespace
 
 messages::HazardReport HazardsOf(const trial::WatchedScan& watched) {
-  const perception::Triangulator triangulator(CalibrationOf(watched.scenario));
+  const perception::Triangulator triangulator(CalibrationOf(watched.drive));
   return perception::ReportHazards(triangulator.Elevations(watched.scan),
-                                   watched.scenario.perception.hazard);
+                                   watched.drive.perception.hazard);
 }
 
 CapturedScan Capture(const trial::WatchedScan& watched) {
-  const scenario::Scenario& scenario = watched.scenario;
-  const sensing::StripeImager imager(scenario.sensors.light_stripe, scenario.sensors.sun,
-                                     scenario.rover.geometry);
-  const auto window_px = static_cast<int>(scenario.perception.stripe_finder.averaging_px);
+  const trial::DriveParams& drive = watched.drive;
+  const sensing::StripeImager imager(drive.sensors.light_stripe, drive.sensors.sun,
+                                     drive.rover.geometry);
+  const auto window_px = static_cast<int>(drive.perception.stripe_finder.averaging_px);
   CapturedScan captured{View(watched), {}};
   for (const auto& [camera, group] : ExposuresOf(captured.view.calibration)) {
     messages::StripeExposure frames = imager.FullFrame(watched.terrain, watched.X_WR, watched.key,

@@ -17,7 +17,8 @@ std::vector<batch::PilotCost> RunPilots(const scenario::Sweep& sweep, int trials
   if (trials == 0) return pilots;
   const std::size_t stride = (sweep.cells.size() + kMostPilotCells - 1) / kMostPilotCells;
   for (std::size_t i = 0; i < sweep.cells.size(); i += stride) {
-    const auto experiment = experiments::MakeExperiment(sweep.cells[i].scenario);
+    const auto experiment = experiments::MakeExperiment(sweep.cells[i].scenario.experiment,
+                                                        sweep.cells[i].scenario.drive);
     pilots[i] = batch::RunPilots(*experiment, sweep.seed, trials);
   }
   return pilots;

@@ -73,10 +73,10 @@ void WriteTerrain(const TerrainOptions& options) {
   CheckOutputFile("--out", options.out);
   const scenario::Scenario scenario = scenario::LoadScenario(options.scenario, options.overrides);
   const std::uint64_t seed = options.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
-  const terrain::Course course = trial::TerrainCourse(scenario.course);
+  const terrain::Course course = trial::TerrainCourse(scenario.drive.course);
   const terrain::Field field = terrain::BuildField(
-      scenario.terrain, trial::LayoutKey(scenario, {seed, options.trial}), course);
-  report::WriteFileAtomically(options.out, Export(format, field, scenario.terrain, course));
+      scenario.drive.terrain, trial::LayoutKey(scenario.drive, {seed, options.trial}), course);
+  report::WriteFileAtomically(options.out, Export(format, field, scenario.drive.terrain, course));
 }
 
 void ShowBlindSwath(const TerrainOptions& options) {

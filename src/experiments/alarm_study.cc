@@ -9,13 +9,12 @@
 namespace rockyard::experiments {
 namespace {
 
-// The scenario of one cell.
-scenario::Scenario WithFactors(scenario::Scenario scenario, const CellTable& table,
-                               std::size_t cell) {
+// The drive of one cell.
+trial::DriveParams WithFactors(trial::DriveParams drive, const CellTable& table, std::size_t cell) {
   const std::vector<std::string_view> columns = table.columns();
   const std::vector<double> values = table.Values(cell);
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    sensing::LightStripeParams& sensor = scenario.sensors.light_stripe;
+    sensing::LightStripeParams& sensor = drive.sensors.light_stripe;
     if (columns[i] == "wrong_place_probability") {
       sensor.wrong_place_probability = values[i];
     } else if (columns[i] == "outlier_persistence") {
@@ -23,19 +22,20 @@ scenario::Scenario WithFactors(scenario::Scenario scenario, const CellTable& tab
     } else if (columns[i] == "laser_power_w") {
       sensor.laser.input_power_w = values[i];
     } else if (columns[i] == "sun_elevation_deg") {
-      scenario.sensors.sun.elevation_rad = math::DegToRad(values[i]);
+      drive.sensors.sun.elevation_rad = math::DegToRad(values[i]);
     }
   }
-  return scenario;
+  return drive;
 }
 
 class AlarmStudy final : public HazardStudyRunner {
  public:
-  AlarmStudy(const scenario::Scenario& scenario, const trial::ScanWatcher& watcher)
-      : scenes_(scenario.hazard_detection.scenes_per_run) {
-    const CellTable table(scenario.hazard_detection.Factors());
+  AlarmStudy(const HazardDetectionParams& params, const trial::DriveParams& drive,
+             const trial::ScanWatcher& watcher)
+      : scenes_(params.scenes_per_run) {
+    const CellTable table(params.Factors());
     for (std::size_t cell = 0; cell < table.size(); ++cell) {
-      judges_.emplace_back(WithFactors(scenario, table, cell), watcher);
+      judges_.emplace_back(WithFactors(drive, table, cell), watcher);
     }
   }
 
@@ -79,9 +79,10 @@ class AlarmStudy final : public HazardStudyRunner {
 
 }  // namespace
 
-std::unique_ptr<HazardStudyRunner> MakeAlarmStudy(const scenario::Scenario& scenario,
+std::unique_ptr<HazardStudyRunner> MakeAlarmStudy(const HazardDetectionParams& params,
+                                                  const trial::DriveParams& drive,
                                                   const trial::ScanWatcher& watcher) {
-  return std::make_unique<AlarmStudy>(scenario, watcher);
+  return std::make_unique<AlarmStudy>(params, drive, watcher);
 }
 
 }  // namespace rockyard::experiments

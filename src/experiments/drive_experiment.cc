@@ -41,9 +41,9 @@ const truth::RecordSchema& DriveSchema() {
   return kSchema;
 }
 
-DriveExperiment::DriveExperiment(scenario::Scenario scenario, trial::ScanWatcher scan_watcher,
+DriveExperiment::DriveExperiment(trial::DriveParams params, trial::ScanWatcher scan_watcher,
                                  trial::StepWatcher step_watcher)
-    : scenario_(std::move(scenario)),
+    : params_(std::move(params)),
       scan_watcher_(std::move(scan_watcher)),
       step_watcher_(std::move(step_watcher)) {}
 
@@ -65,21 +65,23 @@ truth::Record DriveExperiment::RunTrial(std::uint64_t seed, std::uint64_t index,
       throw std::out_of_range("trial indices end at 2^32 - 1, the size of their random key");
     }
     const trial::DriveResult drive = trial::RunTrial(
-        scenario_, {seed, static_cast<std::uint32_t>(index)}, trace, scan_watcher_, step_watcher_);
+        params_, {seed, static_cast<std::uint32_t>(index)}, trace, scan_watcher_, step_watcher_);
     return {index, drive.outcome, drive.detail, Values(drive.record)};
   } catch (const std::exception& error) {
     return truth::MakeFault(seed, index, error.what());
   }
 }
 
-std::unique_ptr<Experiment> MakeExperiment(const scenario::Scenario& scenario,
+std::unique_ptr<Experiment> MakeExperiment(const ExperimentParams& experiment,
+                                           const trial::DriveParams& drive,
                                            const trial::ScanWatcher& scan_watcher,
                                            const trial::StepWatcher& step_watcher) {
-  switch (scenario.experiment) {
-    case scenario::ExperimentKind::kDrive:
-      return std::make_unique<DriveExperiment>(scenario, scan_watcher, step_watcher);
-    case scenario::ExperimentKind::kHazardDetection:
-      return std::make_unique<HazardDetectionExperiment>(scenario, scan_watcher);
+  switch (experiment.kind) {
+    case ExperimentKind::kDrive:
+      return std::make_unique<DriveExperiment>(drive, scan_watcher, step_watcher);
+    case ExperimentKind::kHazardDetection:
+      return std::make_unique<HazardDetectionExperiment>(experiment.hazard_detection, drive,
+                                                         scan_watcher);
   }
   throw std::logic_error("unknown experiment");
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "experiments/experiment.h"
-#include "scenario/scenario.h"
+#include "trial/drive_params.h"
 #include "trial/scan_watcher.h"
 #include "trial/step_watcher.h"
 #include "truth/drive_record.h"
@@ -15,7 +15,7 @@ const truth::RecordSchema& DriveSchema();
 
 class DriveExperiment final : public Experiment {
  public:
-  explicit DriveExperiment(scenario::Scenario scenario, trial::ScanWatcher scan_watcher = {},
+  explicit DriveExperiment(trial::DriveParams params, trial::ScanWatcher scan_watcher = {},
                            trial::StepWatcher step_watcher = {});
 
   const truth::RecordSchema& schema() const override;
@@ -27,7 +27,7 @@ class DriveExperiment final : public Experiment {
  private:
   truth::Record RunTrial(std::uint64_t seed, std::uint64_t index, truth::Trace* trace) const;
 
-  scenario::Scenario scenario_;
+  trial::DriveParams params_;
   trial::ScanWatcher scan_watcher_;
   trial::StepWatcher step_watcher_;
 };

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "scenario/scenario.h"
+#include "experiments/experiment_params.h"
 #include "trial/scan_watcher.h"
 #include "trial/step_watcher.h"
 #include "truth/record.h"
@@ -24,11 +24,12 @@ class Experiment {
   virtual truth::Record Run(std::uint64_t seed, std::uint64_t index) const = 0;
 };
 
-// Makes the experiment that the scenario names. `scan_watcher` is called after every scan of the
-// hazard sensor, `step_watcher` after every decision of a map-based navigator that follows a look,
-// without any influence on the records; they must stand calls from several threads where Run
-// is called from several.
-std::unique_ptr<Experiment> MakeExperiment(const scenario::Scenario& scenario,
+// Makes the experiment that `experiment` names, on `drive`. `scan_watcher` is called after every
+// scan of the hazard sensor, `step_watcher` after every decision of a map-based navigator that
+// follows a look, without any influence on the records; they must stand calls from several threads
+// where Run is called from several.
+std::unique_ptr<Experiment> MakeExperiment(const ExperimentParams& experiment,
+                                           const trial::DriveParams& drive,
                                            const trial::ScanWatcher& scan_watcher = {},
                                            const trial::StepWatcher& step_watcher = {});
 

@@ -19,7 +19,7 @@ namespace rockyard::experiments {
 namespace {
 
 using math::Vector3;
-using scenario::Scenario;
+using trial::DriveParams;
 
 // A rock in the way.
 struct Hazard {
@@ -32,19 +32,20 @@ struct Hazard {
 
 class FieldStudy final : public HazardStudyRunner {
  public:
-  FieldStudy(const Scenario& scenario, const trial::ScanWatcher& watcher)
-      : scenario_(scenario),
-        params_(scenario.hazard_detection),
+  FieldStudy(const HazardDetectionParams& params, const trial::DriveParams& drive,
+             const trial::ScanWatcher& watcher)
+      : drive_(drive),
+        params_(params),
         table_(params_.Factors()),
-        judge_(scenario, watcher),
-        bare_judge_(scenario) {}
+        judge_(drive, watcher),
+        bare_judge_(drive) {}
 
   std::vector<std::string_view> columns() const override {
     return {"scenes", "path_m", "hazards", "missed_single", "missed"};
   }
 
   std::vector<double> Measure(std::size_t cell, core::TrialKey key) const override {
-    terrain::TerrainParams terrain = scenario_.terrain;
+    terrain::TerrainParams terrain = drive_.terrain;
     terrain.rocks.k_per_m2 = table_.Values(cell)[0];
     std::vector<double> sums(columns().size(), 0.0);
     for (std::int64_t scene = 0; scene < params_.scenes_per_run; ++scene) {
@@ -56,7 +57,7 @@ class FieldStudy final : public HazardStudyRunner {
  private:
   void AddDrive(const terrain::TerrainParams& terrain, core::TrialKey key,
                 std::vector<double>& sums) const {
-    const trial::CourseParams& course = scenario_.course;
+    const trial::CourseParams& course = drive_.course;
     const terrain::Field field = terrain::BuildField(terrain, key, trial::TerrainCourse(course));
     std::vector<Hazard> hazards = HazardsIn(field.terrain);
     core::RandomStream phase(key, core::Purpose::kScenePhase);
@@ -84,13 +85,13 @@ class FieldStudy final : public HazardStudyRunner {
   // At the start, where a hazard would be met before it could be scanned from first_scan_m on.
   double Unseen_m() const { return params_.first_scan_m + params_.scan_interval_m; }
 
-  double front_m() const { return scenario_.sensors.light_stripe.front_x_m; }
+  double front_m() const { return drive_.sensors.light_stripe.front_x_m; }
 
   // High enough rocks whose outline meets the path swept by the rover, far enough from the start to
   // be scanned from first_scan_m on, and met before the goal.
   std::vector<Hazard> HazardsIn(const terrain::Terrain& field) const {
-    const trial::CourseParams& course = scenario_.course;
-    const double half_m = 0.5 * scenario_.rover.geometry.width_m;
+    const trial::CourseParams& course = drive_.course;
+    const double half_m = 0.5 * drive_.rover.geometry.width_m;
     std::vector<Hazard> hazards;
     for (const terrain::Rock& rock : field.rocks()) {
       if (rock.height_m < params_.hazard_height_m) continue;
@@ -132,7 +133,7 @@ class FieldStudy final : public HazardStudyRunner {
   std::int64_t LookFrom(double x_m, const terrain::Terrain& field, core::TrialKey key,
                         std::int64_t first_scan, std::vector<Hazard>& hazards) const {
     math::Transform X_WR = math::Transform::Identity();
-    X_WR.translation() = Vector3(x_m, scenario_.course.start_y_m, 0.0);
+    X_WR.translation() = Vector3(x_m, drive_.course.start_y_m, 0.0);
     const Sight seen = judge_.Look(field, X_WR, key, first_scan);
     const Sight sand = bare_judge_.Look(sand_, X_WR, key, first_scan);
     for (Hazard& hazard : hazards) {
@@ -151,7 +152,7 @@ class FieldStudy final : public HazardStudyRunner {
     return seen.scans;
   }
 
-  Scenario scenario_;
+  DriveParams drive_;
   HazardDetectionParams params_;
   CellTable table_;
   HazardJudge judge_;
@@ -161,9 +162,10 @@ class FieldStudy final : public HazardStudyRunner {
 
 }  // namespace
 
-std::unique_ptr<HazardStudyRunner> MakeMissedStudy(const Scenario& scenario,
+std::unique_ptr<HazardStudyRunner> MakeMissedStudy(const HazardDetectionParams& params,
+                                                   const trial::DriveParams& drive,
                                                    const trial::ScanWatcher& watcher) {
-  return std::make_unique<FieldStudy>(scenario, watcher);
+  return std::make_unique<FieldStudy>(params, drive, watcher);
 }
 
 }  // namespace rockyard::experiments

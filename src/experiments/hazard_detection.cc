@@ -12,19 +12,20 @@
 namespace rockyard::experiments {
 namespace {
 
-std::unique_ptr<HazardStudyRunner> MakeStudy(const scenario::Scenario& scenario,
+std::unique_ptr<HazardStudyRunner> MakeStudy(const HazardDetectionParams& params,
+                                             const trial::DriveParams& drive,
                                              const trial::ScanWatcher& watcher) {
-  switch (scenario.hazard_detection.study) {
+  switch (params.study) {
     case HazardStudy::kDetection:
-      return MakeDetectionStudy(scenario, watcher);
+      return MakeDetectionStudy(params, drive, watcher);
     case HazardStudy::kApproach:
-      return MakeApproachStudy(scenario, watcher);
+      return MakeApproachStudy(params, drive, watcher);
     case HazardStudy::kFalseAlarm:
-      return MakeAlarmStudy(scenario, watcher);
+      return MakeAlarmStudy(params, drive, watcher);
     case HazardStudy::kMissed:
-      return MakeMissedStudy(scenario, watcher);
+      return MakeMissedStudy(params, drive, watcher);
     case HazardStudy::kPrecision:
-      return MakePrecisionStudy(scenario, watcher);
+      return MakePrecisionStudy(params, drive, watcher);
   }
   throw std::logic_error("unknown study");
 }
@@ -38,10 +39,11 @@ truth::RecordSchema MakeSchema(const CellTable& table, const HazardStudyRunner& 
 
 }  // namespace
 
-HazardDetectionExperiment::HazardDetectionExperiment(const scenario::Scenario& scenario,
+HazardDetectionExperiment::HazardDetectionExperiment(const HazardDetectionParams& params,
+                                                     const trial::DriveParams& drive,
                                                      const trial::ScanWatcher& watcher)
-    : table_(scenario.hazard_detection.Factors()),
-      study_(MakeStudy(scenario, watcher)),
+    : table_(params.Factors()),
+      study_(MakeStudy(params, drive, watcher)),
       schema_(MakeSchema(table_, *study_)) {}
 
 truth::Record HazardDetectionExperiment::Run(std::uint64_t seed, std::uint64_t index) const {

@@ -10,13 +10,14 @@
 #include "experiments/cell_table.h"
 #include "experiments/experiment.h"
 #include "experiments/hazard_study.h"
-#include "scenario/scenario.h"
+#include "trial/drive_params.h"
 
 namespace rockyard::experiments {
 
 class HazardDetectionExperiment final : public Experiment {
  public:
-  explicit HazardDetectionExperiment(const scenario::Scenario& scenario,
+  explicit HazardDetectionExperiment(const HazardDetectionParams& params,
+                                     const trial::DriveParams& drive,
                                      const trial::ScanWatcher& watcher = {});
 
   const truth::RecordSchema& schema() const override { return schema_; }

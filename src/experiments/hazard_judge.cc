@@ -8,12 +8,12 @@
 
 namespace rockyard::experiments {
 
-HazardJudge::HazardJudge(const scenario::Scenario& scenario, trial::ScanWatcher watcher)
-    : hazard_(scenario.perception.hazard),
-      scanner_(scenario, std::move(watcher)),
-      triangulator_(trial::OnboardStripeCalibration(scenario.sensors.light_stripe,
-                                                    scenario.perception.calibration)),
-      stripes_(sensing::ArraySize(scenario.sensors.light_stripe).stripes) {}
+HazardJudge::HazardJudge(const trial::DriveParams& drive, trial::ScanWatcher watcher)
+    : hazard_(drive.perception.hazard),
+      scanner_(drive, std::move(watcher)),
+      triangulator_(trial::OnboardStripeCalibration(drive.sensors.light_stripe,
+                                                    drive.perception.calibration)),
+      stripes_(sensing::ArraySize(drive.sensors.light_stripe).stripes) {}
 
 messages::ElevationScan HazardJudge::Scan(const terrain::Terrain& terrain,
                                           const math::Transform& X_WR, core::TrialKey key,

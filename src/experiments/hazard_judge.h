@@ -10,8 +10,8 @@
 #include "perception/hazard_criteria.h"
 #include "perception/hazard_params.h"
 #include "perception/triangulation.h"
-#include "scenario/scenario.h"
 #include "terrain/terrain.h"
+#include "trial/drive_params.h"
 #include "trial/hazard_scanner.h"
 #include "trial/scan_watcher.h"
 
@@ -28,7 +28,7 @@ struct Sight {
 
 class HazardJudge {
  public:
-  explicit HazardJudge(const scenario::Scenario& scenario, trial::ScanWatcher watcher = {});
+  explicit HazardJudge(const trial::DriveParams& drive, trial::ScanWatcher watcher = {});
 
   std::size_t stripes() const { return stripes_; }
 

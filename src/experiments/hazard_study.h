@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "scenario/scenario.h"
+#include "trial/drive_params.h"
 #include "trial/scan_watcher.h"
 
 namespace rockyard::experiments {
@@ -43,19 +43,24 @@ inline core::TrialKey SceneKey(core::TrialKey run, std::int64_t scenes_per_run,
 // The watcher sees the scans of the scenes, not those of bare sand that they are compared with.
 // Scan numbers begin at 0 in every scene and count on from pose to pose. rock_studies.cc: one rock,
 // seen from where the rover stands, or on the way past it.
-std::unique_ptr<HazardStudyRunner> MakeDetectionStudy(const scenario::Scenario& scenario,
+std::unique_ptr<HazardStudyRunner> MakeDetectionStudy(const HazardDetectionParams& params,
+                                                      const trial::DriveParams& drive,
                                                       const trial::ScanWatcher& watcher);
-std::unique_ptr<HazardStudyRunner> MakeApproachStudy(const scenario::Scenario& scenario,
+std::unique_ptr<HazardStudyRunner> MakeApproachStudy(const HazardDetectionParams& params,
+                                                     const trial::DriveParams& drive,
                                                      const trial::ScanWatcher& watcher);
 // alarm_study.cc: flat sand.
-std::unique_ptr<HazardStudyRunner> MakeAlarmStudy(const scenario::Scenario& scenario,
+std::unique_ptr<HazardStudyRunner> MakeAlarmStudy(const HazardDetectionParams& params,
+                                                  const trial::DriveParams& drive,
                                                   const trial::ScanWatcher& watcher);
 
 // field_study.cc: hazards in random fields.
-std::unique_ptr<HazardStudyRunner> MakeMissedStudy(const scenario::Scenario& scenario,
+std::unique_ptr<HazardStudyRunner> MakeMissedStudy(const HazardDetectionParams& params,
+                                                   const trial::DriveParams& drive,
                                                    const trial::ScanWatcher& watcher);
 // plane_study.cc: a plane at known heights.
-std::unique_ptr<HazardStudyRunner> MakePrecisionStudy(const scenario::Scenario& scenario,
+std::unique_ptr<HazardStudyRunner> MakePrecisionStudy(const HazardDetectionParams& params,
+                                                      const trial::DriveParams& drive,
                                                       const trial::ScanWatcher& watcher);
 
 }  // namespace rockyard::experiments

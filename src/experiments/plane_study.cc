@@ -19,18 +19,18 @@ namespace rockyard::experiments {
 namespace {
 
 using math::Vector3;
-using scenario::Scenario;
+using trial::DriveParams;
 
 // Published: "range resolution is approximately 2 mm at 30 cm" (Matthies 1995 sec. 6).
 constexpr double kStatedRange_m = 0.3;
 
 // All emitters but the centre one at a given baseline from the camera of their side, which has to
 // stand on the axis of the cameras.
-Scenario WithBaseline(Scenario scenario, double baseline_m) {
-  sensing::LightStripeParams& sensor = scenario.sensors.light_stripe;
+DriveParams WithBaseline(DriveParams drive, double baseline_m) {
+  sensing::LightStripeParams& sensor = drive.sensors.light_stripe;
   sensor.inner_emitter_y_m = BaselineEmitterY(sensor.camera_separation_m, baseline_m);
   sensor.outer_emitter_y_m = sensor.inner_emitter_y_m;
-  return scenario;
+  return drive;
 }
 
 // Contribution of one measured error to the mean range that a column stands for: errors uniform
@@ -92,8 +92,9 @@ class Scanline {
 
 class PlaneStudy final : public HazardStudyRunner {
  public:
-  PlaneStudy(const Scenario& scenario, const trial::ScanWatcher& watcher)
-      : scenario_(scenario), table_(scenario.hazard_detection.Factors()), watcher_(watcher) {}
+  PlaneStudy(const HazardDetectionParams& params, const trial::DriveParams& drive,
+             const trial::ScanWatcher& watcher)
+      : params_(params), drive_(drive), table_(params.Factors()), watcher_(watcher) {}
 
   std::vector<std::string_view> columns() const override {
     return {"points",
@@ -110,19 +111,17 @@ class PlaneStudy final : public HazardStudyRunner {
 
   std::vector<double> Measure(std::size_t cell, core::TrialKey key) const override {
     const std::vector<double> factors = table_.Values(cell);
-    const Scenario scenario = WithBaseline(scenario_, factors[0]);
-    const trial::HazardScanner scanner(scenario, watcher_);
-    const messages::StripeCalibration truth =
-        sensing::TrueCalibration(scenario.sensors.light_stripe);
-    const messages::StripeCalibration believed = trial::OnboardStripeCalibration(
-        scenario.sensors.light_stripe, scenario.perception.calibration);
+    const DriveParams drive = WithBaseline(drive_, factors[0]);
+    const trial::HazardScanner scanner(drive, watcher_);
+    const messages::StripeCalibration truth = sensing::TrueCalibration(drive.sensors.light_stripe);
+    const messages::StripeCalibration believed =
+        trial::OnboardStripeCalibration(drive.sensors.light_stripe, drive.perception.calibration);
     const auto row = static_cast<std::size_t>(factors[1]);
     std::vector<double> sums(columns().size(), 0.0);
-    const HazardDetectionParams& params = scenario.hazard_detection;
-    for (std::int64_t scene = 0; scene < params.scenes_per_run; ++scene) {
-      const core::TrialKey scene_key = SceneKey(key, params.scenes_per_run, scene);
+    for (std::int64_t scene = 0; scene < params_.scenes_per_run; ++scene) {
+      const core::TrialKey scene_key = SceneKey(key, params_.scenes_per_run, scene);
       core::RandomStream placement(scene_key, core::Purpose::kScenePlacement);
-      const double half_m = 0.5 * params.plane_width_m;
+      const double half_m = 0.5 * params_.plane_width_m;
       const double plane_m = factors[2] + core::SampleUniform(placement, -half_m, half_m);
       math::Transform X_WR = math::Transform::Identity();
       X_WR.translation().z() = -plane_m;
@@ -164,7 +163,8 @@ class PlaneStudy final : public HazardStudyRunner {
     for (std::size_t i = 0; i < std::size(row); ++i) sums[i + 1] += row[i];
   }
 
-  Scenario scenario_;
+  HazardDetectionParams params_;
+  DriveParams drive_;
   CellTable table_;
   trial::ScanWatcher watcher_;
   terrain::Terrain sand_{terrain::Ground(), {}, {}};
@@ -172,9 +172,10 @@ class PlaneStudy final : public HazardStudyRunner {
 
 }  // namespace
 
-std::unique_ptr<HazardStudyRunner> MakePrecisionStudy(const Scenario& scenario,
+std::unique_ptr<HazardStudyRunner> MakePrecisionStudy(const HazardDetectionParams& params,
+                                                      const trial::DriveParams& drive,
                                                       const trial::ScanWatcher& watcher) {
-  return std::make_unique<PlaneStudy>(scenario, watcher);
+  return std::make_unique<PlaneStudy>(params, drive, watcher);
 }
 
 }  // namespace rockyard::experiments

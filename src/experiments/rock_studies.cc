@@ -24,13 +24,14 @@ struct RockScene {
 
 class RockStudy : public HazardStudyRunner {
  public:
-  RockStudy(const scenario::Scenario& scenario, const trial::ScanWatcher& watcher)
-      : params_(scenario.hazard_detection),
-        law_(scenario.terrain.rocks),
-        front_x_m_(scenario.sensors.light_stripe.front_x_m),
+  RockStudy(const HazardDetectionParams& params, const trial::DriveParams& drive,
+            const trial::ScanWatcher& watcher)
+      : params_(params),
+        law_(drive.terrain.rocks),
+        front_x_m_(drive.sensors.light_stripe.front_x_m),
         table_(params_.Factors()),
-        judge_(scenario, watcher),
-        bare_judge_(scenario) {}
+        judge_(drive, watcher),
+        bare_judge_(drive) {}
 
  protected:
   const HazardDetectionParams& params() const { return params_; }
@@ -175,14 +176,16 @@ class ApproachStudy final : public RockStudy {
 
 }  // namespace
 
-std::unique_ptr<HazardStudyRunner> MakeDetectionStudy(const scenario::Scenario& scenario,
+std::unique_ptr<HazardStudyRunner> MakeDetectionStudy(const HazardDetectionParams& params,
+                                                      const trial::DriveParams& drive,
                                                       const trial::ScanWatcher& watcher) {
-  return std::make_unique<DetectionStudy>(scenario, watcher);
+  return std::make_unique<DetectionStudy>(params, drive, watcher);
 }
 
-std::unique_ptr<HazardStudyRunner> MakeApproachStudy(const scenario::Scenario& scenario,
+std::unique_ptr<HazardStudyRunner> MakeApproachStudy(const HazardDetectionParams& params,
+                                                     const trial::DriveParams& drive,
                                                      const trial::ScanWatcher& watcher) {
-  return std::make_unique<ApproachStudy>(scenario, watcher);
+  return std::make_unique<ApproachStudy>(params, drive, watcher);
 }
 
 }  // namespace rockyard::experiments

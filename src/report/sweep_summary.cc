@@ -207,7 +207,7 @@ SweepSummary SummarizeSweep(const Sweep& sweep, const SweepCellLoader& load,
   std::vector<CellOutcomes> outcomes;
   for (std::size_t i = 0; i < sweep.cells.size(); ++i) {
     const SweepCellTrials trials = load(i);
-    outcomes.emplace_back(trials.prefix, sweep.cells[i].scenario.course.trials_per_layout);
+    outcomes.emplace_back(trials.prefix, sweep.cells[i].scenario.drive.course.trials_per_layout);
     summary.cells.push_back(SummarizeCell(trials, outcomes.back(), sweep.cells.size(), method));
   }
   summary.curves = FitCurves(sweep, outcomes);

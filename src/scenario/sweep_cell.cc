@@ -60,8 +60,12 @@ void CheckScope(std::string_view path, std::vector<Problem>& problems) {
 }
 
 void CheckExperiment(const Scenario& scenario, std::vector<Problem>& problems) {
-  if (scenario.experiment == ExperimentKind::kDrive) return;
-  problems.push_back({"experiment", "is hazard_detection, whose studies have factors of their own",
+  if (scenario.experiment.kind == experiments::ExperimentKind::kDrive) return;
+  const std::string_view name =
+      core::EnumNames<experiments::ExperimentKind>::kNames[static_cast<std::size_t>(
+          scenario.experiment.kind)];
+  problems.push_back({"experiment",
+                      fmt::format("is {}, whose studies have factors of their own", name),
                       "use rockyard run, or sweep drives"});
 }
 

@@ -18,7 +18,6 @@ namespace rockyard::trial {
 namespace {
 
 using messages::MotionKind;
-using scenario::Scenario;
 
 Underside UndersideOf(const rover::RoverGeometryParams& rover) {
   return {0.0, 0.5 * rover.belly_length_m, 0.5 * rover.belly_width_m, rover.belly_clearance_m};
@@ -35,44 +34,44 @@ std::optional<ArenaBounds> Bounds(const terrain::ArenaParams& arena) {
   return ArenaBounds{bounds.x_min_m, bounds.x_max_m};
 }
 
-std::unique_ptr<navigation::Navigator> MakeNavigator(const Scenario& scenario,
+std::unique_ptr<navigation::Navigator> MakeNavigator(const DriveParams& drive,
                                                      const terrain::Terrain& terrain,
                                                      const messages::Goal& goal) {
-  switch (scenario.navigation.navigator) {
-    case scenario::NavigatorKind::kPathfinder:
+  switch (drive.navigation.navigator) {
+    case NavigatorKind::kPathfinder:
       break;
-    case scenario::NavigatorKind::kGestalt:
-      return std::make_unique<navigation::GestaltNavigator>(scenario.navigation.gestalt, goal);
-    case scenario::NavigatorKind::kRoute:
-      return std::make_unique<navigation::RouteFollower>(scenario.navigation.route,
-                                                         PlanRoute(scenario, terrain, goal));
+    case NavigatorKind::kGestalt:
+      return std::make_unique<navigation::GestaltNavigator>(drive.navigation.gestalt, goal);
+    case NavigatorKind::kRoute:
+      return std::make_unique<navigation::RouteFollower>(drive.navigation.route,
+                                                         PlanRoute(drive, terrain, goal));
   }
-  return std::make_unique<navigation::PathfinderNavigator>(scenario.navigation.pathfinder, goal,
-                                                           scenario.perception.hazard.enabled);
+  return std::make_unique<navigation::PathfinderNavigator>(drive.navigation.pathfinder, goal,
+                                                           drive.perception.hazard.enabled);
 }
 
-std::unique_ptr<rover::Rover> MakeTrialRover(const Scenario& scenario, terrain::Terrain& terrain) {
-  const terrain::RockFieldParams& rocks = scenario.terrain.rocks;
+std::unique_ptr<rover::Rover> MakeTrialRover(const DriveParams& drive, terrain::Terrain& terrain) {
+  const terrain::RockFieldParams& rocks = drive.terrain.rocks;
   if (rocks.mobility == terrain::RockMobility::kFixed) {
-    return rover::MakeRover(scenario.rover, terrain);
+    return rover::MakeRover(drive.rover, terrain);
   }
-  return rover::MakeRover(scenario.rover, rocks.holding, terrain);
+  return rover::MakeRover(drive.rover, rocks.holding, terrain);
 }
 
 // Where the sensor of a behaviour controller shows the ground.
-Zone WatchedZone(const Scenario& scenario) {
-  if (scenario.sensors.terrain_sensor == scenario::TerrainSensor::kLightStripe) {
-    return ArrayZone(scenario.sensors.light_stripe);
+Zone WatchedZone(const DriveParams& drive) {
+  if (drive.sensors.terrain_sensor == TerrainSensor::kLightStripe) {
+    return ArrayZone(drive.sensors.light_stripe);
   }
-  const perception::CloudElevationParams& array = scenario.perception.cloud_elevations;
-  return {0.5 * scenario.rover.geometry.length_m, array.far_m, -array.half_width_m,
+  const perception::CloudElevationParams& array = drive.perception.cloud_elevations;
+  return {0.5 * drive.rover.geometry.length_m, array.far_m, -array.half_width_m,
           array.half_width_m};
 }
 
 // A map-based navigator reports no hazards, so that none can be met or missed.
-double WatchedHeight(const Scenario& scenario) {
-  return scenario.navigation.navigator == scenario::NavigatorKind::kPathfinder
-             ? scenario.referee.hazard_height_m
+double WatchedHeight(const DriveParams& drive) {
+  return drive.navigation.navigator == NavigatorKind::kPathfinder
+             ? drive.referee.hazard_height_m
              : std::numeric_limits<double>::infinity();
 }
 
@@ -83,44 +82,43 @@ Activity ActivityOf(const messages::MotionCommand& motion, bool steering) {
 
 }  // namespace
 
-Drive::Drive(const Scenario& scenario, core::TrialKey key, truth::Trace* trace,
+Drive::Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
              const ScanWatcher& scan_watcher, StepWatcher step_watcher)
-    : scenario_(scenario),
+    : params_(drive),
       key_(key),
-      told_goal_(ToldGoal(scenario.course, key)),
+      told_goal_(ToldGoal(drive.course, key)),
       trace_(trace),
-      field_(terrain::BuildField(scenario.terrain, LayoutKey(scenario, key),
-                                 TerrainCourse(scenario.course))),
-      rover_(MakeTrialRover(scenario, field_.terrain)),
-      tick_(WholeSteps(1.0 / scenario.clock.control_rate_hz, rover_->step_s())),
-      stop_(WholeSteps(scenario.clock.stop_time_s, rover_->step_s())),
-      lookout_(scenario, key, scan_watcher),
-      guard_(scenario, key),
-      localizer_(scenario, StartPose(scenario.course)),
-      navigator_(MakeNavigator(scenario, field_.terrain, told_goal_)),
-      wheel_driver_(OnboardDriveCalibration(scenario.rover, scenario.perception.calibration.drive),
-                    scenario.navigation.wheel_driver),
-      ledger_(MakePowerBudget(scenario), scenario.energy.battery_wh),
-      monitor_(UndersideOf(scenario.rover.geometry), field_.terrain),
-      watch_(WatchedZone(scenario), scenario.rover.geometry, WatchedHeight(scenario),
-             field_.terrain),
-      referee_(scenario.referee, scenario.course, told_goal_, Bounds(scenario.terrain.arena)),
+      field_(
+          terrain::BuildField(drive.terrain, LayoutKey(drive, key), TerrainCourse(drive.course))),
+      rover_(MakeTrialRover(drive, field_.terrain)),
+      tick_(WholeSteps(1.0 / drive.clock.control_rate_hz, rover_->step_s())),
+      stop_(WholeSteps(drive.clock.stop_time_s, rover_->step_s())),
+      lookout_(drive, key, scan_watcher),
+      guard_(drive, key),
+      localizer_(drive, StartPose(drive.course)),
+      navigator_(MakeNavigator(drive, field_.terrain, told_goal_)),
+      wheel_driver_(OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive),
+                    drive.navigation.wheel_driver),
+      ledger_(MakePowerBudget(drive), drive.energy.battery_wh),
+      monitor_(UndersideOf(drive.rover.geometry), field_.terrain),
+      watch_(WatchedZone(drive), drive.rover.geometry, WatchedHeight(drive), field_.terrain),
+      referee_(drive.referee, drive.course, told_goal_, Bounds(drive.terrain.arena)),
       step_watcher_(std::move(step_watcher)) {
-  if (scenario.terrain.arena.kind == terrain::ArenaKind::kVirtualReflected) {
-    mirror_.emplace(scenario.terrain.arena.MirrorLine());
+  if (drive.terrain.arena.kind == terrain::ArenaKind::kVirtualReflected) {
+    mirror_.emplace(drive.terrain.arena.MirrorLine());
   }
   if (trace_ != nullptr) RecordRocks();
-  rover_->Place(StartPose(scenario.course));
-  motion_sensors_.emplace(scenario.sensors.gyro, scenario.sensors.encoders,
-                          scenario.rover.geometry.wheel_radius_m, key, rover_->state());
+  rover_->Place(StartPose(drive.course));
+  motion_sensors_.emplace(drive.sensors.gyro, drive.sensors.encoders,
+                          drive.rover.geometry.wheel_radius_m, key, rover_->state());
   monitor_.Restart(rover_->state());
   localizer_.Place(rover_->state());
   RecordRest({});
-  Rest(Activity::kComputing, StartUpTime(scenario));
+  Rest(Activity::kComputing, StartUpTime(drive));
 }
 
 DriveResult Drive::Run() {
-  TickGuard guard(scenario_.referee.time_limit_s, tick_.duration_s);
+  TickGuard guard(params_.referee.time_limit_s, tick_.duration_s);
   std::optional<Verdict> verdict;
   while (!verdict) {
     guard.Observe(ledger_.time_s());
@@ -158,7 +156,7 @@ std::optional<Verdict> Drive::Look(messages::LookDirection direction) {
     Rest(Activity::kScanning, sight_.time.scanning_s);
     Rest(Activity::kImaging, sight_.time.imaging_s);
     Rest(Activity::kComputing, sight_.time.computing_s);
-    if (scenario_.sensors.gyro.accumulates_at_rest) UpdateEstimate(sight_.time.total_s(), false);
+    if (params_.sensors.gyro.accumulates_at_rest) UpdateEstimate(sight_.time.total_s(), false);
   } while (sight_.look_again);
   RecordLook(direction);
   if (sight_.report && sight_.report->any()) {
@@ -169,11 +167,11 @@ std::optional<Verdict> Drive::Look(messages::LookDirection direction) {
 }
 
 void Drive::SpendOverhead() {
-  const double overhead_s = scenario_.clock.compute.move_overhead_s;
+  const double overhead_s = params_.clock.compute.move_overhead_s;
   if (overhead_s <= 0.0) return;
   stops_.Observe(false);
   Rest(Activity::kOverhead, overhead_s);
-  if (scenario_.sensors.gyro.accumulates_at_rest) UpdateEstimate(overhead_s, false);
+  if (params_.sensors.gyro.accumulates_at_rest) UpdateEstimate(overhead_s, false);
 }
 
 std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const Stretch& stretch) {
@@ -258,9 +256,9 @@ DriveResult Drive::Finish(const Verdict& verdict) {
   return result;
 }
 
-DriveResult RunTrial(const Scenario& scenario, core::TrialKey key, truth::Trace* trace,
+DriveResult RunTrial(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
                      const ScanWatcher& scan_watcher, const StepWatcher& step_watcher) {
-  return Drive(scenario, key, trace, scan_watcher, step_watcher).Run();
+  return Drive(drive, key, trace, scan_watcher, step_watcher).Run();
 }
 
 }  // namespace rockyard::trial

@@ -11,10 +11,10 @@
 #include "navigation/navigator.h"
 #include "navigation/wheel_driver.h"
 #include "rover/rover.h"
-#include "scenario/scenario.h"
 #include "sensing/motion_sensors.h"
 #include "terrain/field.h"
 #include "trial/drive_monitor.h"
+#include "trial/drive_params.h"
 #include "trial/hazard_watch.h"
 #include "trial/ledger.h"
 #include "trial/localizer.h"
@@ -36,7 +36,7 @@ namespace rockyard::trial {
 // estimator, and shows the truth to the monitor and the referee.
 class Drive {
  public:
-  Drive(const scenario::Scenario& scenario, core::TrialKey key, truth::Trace* trace,
+  Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
         const ScanWatcher& scan_watcher, StepWatcher step_watcher);
 
   DriveResult Run();
@@ -73,7 +73,7 @@ class Drive {
   void RecordRocks();
   truth::TraceSample Now(std::string activity) const;
 
-  const scenario::Scenario& scenario_;
+  const DriveParams& params_;
   core::TrialKey key_;
   messages::Goal told_goal_;
   truth::Trace* trace_;

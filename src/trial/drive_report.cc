@@ -9,7 +9,7 @@
 namespace rockyard::trial {
 
 void Drive::ReportGoals(truth::DriveRecord& record) const {
-  const CourseParams& course = scenario_.course;
+  const CourseParams& course = params_.course;
   const messages::PoseEstimate& estimate = localizer_.pose();
   record.straight_distance_m =
       std::hypot(course.goal_x_m - course.start_x_m, course.goal_y_m - course.start_y_m);
@@ -25,7 +25,7 @@ void Drive::ReportGoals(truth::DriveRecord& record) const {
 void Drive::ReportPoses(truth::DriveRecord& record) const {
   const math::Pose2 truth = math::ToPose2(rover_->state().X_WR);
   const messages::PoseEstimate& estimate = localizer_.pose();
-  const CourseParams& course = scenario_.course;
+  const CourseParams& course = params_.course;
   record.true_goal_distance_m =
       std::hypot(course.goal_x_m - truth.x_m, course.goal_y_m - truth.y_m);
   record.final_x_m = truth.x_m;
@@ -38,7 +38,7 @@ void Drive::ReportPoses(truth::DriveRecord& record) const {
 
 void Drive::ReportErrors(truth::DriveRecord& record) const {
   const math::Pose2 truth = math::ToPose2(rover_->state().X_WR);
-  const sensing::TrackerParams& tracker = scenario_.sensors.tracker;
+  const sensing::TrackerParams& tracker = params_.sensors.tracker;
   const math::Pose2 reference =
       tracker.enabled ? sensing::Tracker(tracker, key_).Observe(truth, 0) : truth;
   const messages::PoseEstimate& estimate = localizer_.pose();
@@ -94,7 +94,7 @@ void Drive::ReportCounts(truth::DriveRecord& record) const {
   record.first_scrape_distance_m = first_scrape_m_.value_or(record.true_distance_m);
   record.scrape_heading_rad = motion_sensors_->scrapes().total_jump_rad();
   record.reflections = static_cast<double>(reflections_);
-  record.layout = static_cast<double>(LayoutKey(scenario_, key_).trial);
+  record.layout = static_cast<double>(LayoutKey(params_, key_).trial);
   record.rocks = static_cast<double>(field_.terrain.rocks().size());
   record.rock_cover = field_.audit.outline_cover;
 }

@@ -71,7 +71,7 @@ void Drive::ShowStep() {
   const messages::NavigationView* view = navigator_->view();
   if (!sight_.cloud || view == nullptr) return;
   if (step_watcher_) {
-    step_watcher_({scenario_, field_.terrain, rover_->state().X_WR, key_, *view, *sight_.cloud});
+    step_watcher_({params_, field_.terrain, rover_->state().X_WR, key_, *view, *sight_.cloud});
   }
   if (trace_ == nullptr) return;
   for (const auto* row : {&view->forward, &view->backward, &view->point_turns}) {
@@ -117,7 +117,7 @@ void Drive::RecordRest(std::optional<Activity> activity, bool set_back) {
 }
 
 void Drive::RecordRocks() {
-  if (scenario_.terrain.rocks.mobility == terrain::RockMobility::kFixed) return;
+  if (params_.terrain.rocks.mobility == terrain::RockMobility::kFixed) return;
   const auto rocks = field_.terrain.rocks();
   const bool first = rock_centers_.empty();
   rock_centers_.resize(rocks.size());

@@ -6,18 +6,18 @@
 
 namespace rockyard::trial {
 
-HazardScanner::HazardScanner(const scenario::Scenario& scenario, ScanWatcher watcher)
+HazardScanner::HazardScanner(const DriveParams& drive, ScanWatcher watcher)
     : watcher_(std::move(watcher)) {
-  if (watcher_) watched_ = std::make_shared<const scenario::Scenario>(scenario);
-  const sensing::LightStripeParams& sensor = scenario.sensors.light_stripe;
+  if (watcher_) watched_ = std::make_shared<const DriveParams>(drive);
+  const sensing::LightStripeParams& sensor = drive.sensors.light_stripe;
   if (sensor.fidelity == sensing::Fidelity::kGeometric) {
     geometric_.emplace(sensor);
     return;
   }
   image_.emplace(ImageSensor{
-      sensing::StripeImager(sensor, scenario.sensors.sun, scenario.rover.geometry),
-      perception::StripeFinder(scenario.perception.stripe_finder,
-                               OnboardStripeCalibration(sensor, scenario.perception.calibration))});
+      sensing::StripeImager(sensor, drive.sensors.sun, drive.rover.geometry),
+      perception::StripeFinder(drive.perception.stripe_finder,
+                               OnboardStripeCalibration(sensor, drive.perception.calibration))});
 }
 
 messages::StripeScan HazardScanner::Scan(const terrain::Terrain& terrain,

@@ -9,10 +9,10 @@
 #include "math/pose.h"
 #include "messages/measurements.h"
 #include "perception/stripe_finder.h"
-#include "scenario/scenario.h"
 #include "sensing/light_stripe.h"
 #include "sensing/stripe_imager.h"
 #include "terrain/terrain.h"
+#include "trial/drive_params.h"
 #include "trial/scan_watcher.h"
 
 namespace rockyard::trial {
@@ -24,7 +24,7 @@ namespace rockyard::trial {
 class HazardScanner {
  public:
   // The watcher is called after every scan; it has no influence on it.
-  explicit HazardScanner(const scenario::Scenario& scenario, ScanWatcher watcher = {});
+  explicit HazardScanner(const DriveParams& drive, ScanWatcher watcher = {});
 
   // What the rover makes of one scan at X_WR: the columns in which stripes are found. Pure function
   // of its arguments, whatever was scanned before. `scan_number` counts every scan of the trial
@@ -42,7 +42,7 @@ class HazardScanner {
   };
 
   ScanWatcher watcher_;
-  std::shared_ptr<const scenario::Scenario> watched_;  // where there is a watcher
+  std::shared_ptr<const DriveParams> watched_;  // where there is a watcher
   // One of both.
   std::optional<sensing::LightStripe> geometric_;
   std::optional<ImageSensor> image_;

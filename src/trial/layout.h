@@ -4,14 +4,14 @@
 #include <cstdint>
 
 #include "core/random.h"
-#include "scenario/scenario.h"
 #include "terrain/course.h"
+#include "trial/drive_params.h"
 
 namespace rockyard::trial {
 
 // The key of the rock field: trials that share a layout share it.
-inline core::TrialKey LayoutKey(const scenario::Scenario& scenario, core::TrialKey key) {
-  const auto group = static_cast<std::uint32_t>(scenario.course.trials_per_layout);
+inline core::TrialKey LayoutKey(const DriveParams& drive, core::TrialKey key) {
+  const auto group = static_cast<std::uint32_t>(drive.course.trials_per_layout);
   return {key.seed, key.trial / group};
 }
 

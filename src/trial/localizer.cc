@@ -5,12 +5,11 @@
 
 namespace rockyard::trial {
 
-Localizer::Localizer(const scenario::Scenario& scenario, const math::Pose2& start)
-    : oracle_(scenario.sensors.localization == scenario::Localization::kOracle),
-      dead_reckoning_(
-          OnboardDriveCalibration(scenario.rover, scenario.perception.calibration.drive),
-          scenario.perception.dead_reckoning, start),
-      attitude_(scenario.perception.attitude),
+Localizer::Localizer(const DriveParams& drive, const math::Pose2& start)
+    : oracle_(drive.sensors.localization == Localization::kOracle),
+      dead_reckoning_(OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive),
+                      drive.perception.dead_reckoning, start),
+      attitude_(drive.perception.attitude),
       levelled_(dead_reckoning_.estimate()) {}
 
 void Localizer::Place(const truth::RoverState& state) {

@@ -7,7 +7,7 @@
 #include "messages/vehicle_state.h"
 #include "perception/attitude.h"
 #include "perception/dead_reckoning.h"
-#include "scenario/scenario.h"
+#include "trial/drive_params.h"
 #include "truth/rover_state.h"
 
 namespace rockyard::trial {
@@ -16,7 +16,7 @@ namespace rockyard::trial {
 // freedom of the true pose.
 class Localizer {
  public:
-  Localizer(const scenario::Scenario& scenario, const math::Pose2& start);
+  Localizer(const DriveParams& drive, const math::Pose2& start);
 
   // The rover is put down at the start.
   void Place(const truth::RoverState& state);

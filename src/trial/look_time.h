@@ -1,7 +1,7 @@
 // How long a look at the terrain takes, by what the rover does meanwhile.
 #pragma once
 
-#include "scenario/scenario.h"
+#include "trial/drive_params.h"
 
 namespace rockyard::trial {
 
@@ -17,9 +17,9 @@ struct LookTime {
 //   light stripe: clock.scan_time_s and its parts; with a map, navigation on top;
 //   stereo: acquisition, stereo, and navigation or the judgement of elevations.
 // Times of stereo and navigation are those of clock.compute (compute_profile.h).
-LookTime MakeLookTime(const scenario::Scenario& scenario);
+LookTime MakeLookTime(const DriveParams& drive);
 
 // Of the computer before the first look, s.
-double StartUpTime(const scenario::Scenario& scenario);
+double StartUpTime(const DriveParams& drive);
 
 }  // namespace rockyard::trial

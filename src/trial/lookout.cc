@@ -9,18 +9,18 @@ namespace rockyard::trial {
 
 using messages::LookDirection;
 
-Lookout::Lookout(const scenario::Scenario& scenario, core::TrialKey key, ScanWatcher watcher)
+Lookout::Lookout(const DriveParams& drive, core::TrialKey key, ScanWatcher watcher)
     : key_(key),
-      reads_points_(scenario.navigation.navigator == scenario::NavigatorKind::kGestalt),
-      scanner_(scenario, std::move(watcher)),
+      reads_points_(drive.navigation.navigator == NavigatorKind::kGestalt),
+      scanner_(drive, std::move(watcher)),
       triangulator_(
-          OnboardStripeCalibration(scenario.sensors.light_stripe, scenario.perception.calibration)),
-      cloud_elevations_(scenario.perception.cloud_elevations),
-      hazard_detector_(scenario.perception.hazard),
-      look_time_(MakeLookTime(scenario)) {
-  if (scenario.sensors.terrain_sensor == scenario::TerrainSensor::kStereo) {
-    const sensing::StereoParams& sensor = scenario.sensors.stereo;
-    const perception::CalibrationErrorParams& errors = scenario.perception.calibration;
+          OnboardStripeCalibration(drive.sensors.light_stripe, drive.perception.calibration)),
+      cloud_elevations_(drive.perception.cloud_elevations),
+      hazard_detector_(drive.perception.hazard),
+      look_time_(MakeLookTime(drive)) {
+  if (drive.sensors.terrain_sensor == TerrainSensor::kStereo) {
+    const sensing::StereoParams& sensor = drive.sensors.stereo;
+    const perception::CalibrationErrorParams& errors = drive.perception.calibration;
     stereo_.emplace(sensor);
     misplaced_ahead_ = StereoMisplacement(sensor, errors, LookDirection::kAhead);
     misplaced_behind_ = StereoMisplacement(sensor, errors, LookDirection::kBehind);

@@ -12,9 +12,9 @@
 #include "perception/cloud_params.h"
 #include "perception/hazard_detector.h"
 #include "perception/triangulation.h"
-#include "scenario/scenario.h"
 #include "sensing/stereo_sensor.h"
 #include "terrain/terrain.h"
+#include "trial/drive_params.h"
 #include "trial/hazard_scanner.h"
 #include "trial/look_time.h"
 #include "trial/scan_watcher.h"
@@ -36,7 +36,7 @@ struct Sight {
 //   light stripe, map: the triangulated points as a cloud; nothing is seen behind, at no cost.
 class Lookout {
  public:
-  Lookout(const scenario::Scenario& scenario, core::TrialKey key, ScanWatcher watcher);
+  Lookout(const DriveParams& drive, core::TrialKey key, ScanWatcher watcher);
 
   // The rover has stopped at a new pose.
   void Begin() { hazard_detector_.Reset(); }

@@ -31,20 +31,19 @@ double PowerBudget::Power(Activity activity) const {
   return base_W;
 }
 
-PowerBudget MakePowerBudget(const scenario::Scenario& scenario) {
-  const EnergyParams& energy = scenario.energy;
-  const sensing::LightStripeParams& sensor = scenario.sensors.light_stripe;
+PowerBudget MakePowerBudget(const DriveParams& drive) {
+  const EnergyParams& energy = drive.energy;
+  const sensing::LightStripeParams& sensor = drive.sensors.light_stripe;
   const bool cmos = sensor.imager.kind == sensing::ImagerKind::kCmos;
-  return {
-      .base_W = energy.cpu_W + energy.gyro_W,
-      .guards_W = scenario.sensors.vehicle.accelerometers.enabled ? energy.accelerometers_W : 0.0,
-      .driving_W = energy.driving_W,
-      .steering_W = energy.steering_W,
-      .imaging_W = energy.imaging_W * (cmos ? energy.cmos_imaging_share : 1.0),
-      .lasers_W =
-          EmittersAtOnce(sensor) * sensor.laser.input_power_w / energy.laser_supply_efficiency,
-      .stereo_imaging_W = energy.stereo_imaging_W,
-      .computing_W = energy.computing_W};
+  return {.base_W = energy.cpu_W + energy.gyro_W,
+          .guards_W = drive.sensors.vehicle.accelerometers.enabled ? energy.accelerometers_W : 0.0,
+          .driving_W = energy.driving_W,
+          .steering_W = energy.steering_W,
+          .imaging_W = energy.imaging_W * (cmos ? energy.cmos_imaging_share : 1.0),
+          .lasers_W =
+              EmittersAtOnce(sensor) * sensor.laser.input_power_w / energy.laser_supply_efficiency,
+          .stereo_imaging_W = energy.stereo_imaging_W,
+          .computing_W = energy.computing_W};
 }
 
 }  // namespace rockyard::trial

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "scenario/scenario.h"
+#include "trial/drive_params.h"
 
 namespace rockyard::trial {
 
@@ -46,6 +46,6 @@ struct PowerBudget {
 // The other sensors of table 1 draw their part where they are on; those that table 1 does not list
 // (joint encoders, switches, motor currents) draw nothing beyond computer and I/O. A CMOS imager
 // takes a tenth of the imaging power (section 6).
-PowerBudget MakePowerBudget(const scenario::Scenario& scenario);
+PowerBudget MakePowerBudget(const DriveParams& drive);
 
 }  // namespace rockyard::trial

@@ -21,10 +21,10 @@ struct Demand {
 };
 
 // Where the rover's centre may be.
-terrain::Rectangle CentreBounds(const scenario::Scenario& scenario, double room_m) {
-  const terrain::ArenaParams& arena = scenario.terrain.arena;
+terrain::Rectangle CentreBounds(const DriveParams& drive, double room_m) {
+  const terrain::ArenaParams& arena = drive.terrain.arena;
   terrain::Rectangle bounds = terrain::DrivableBounds(arena);
-  if (arena.kind == terrain::ArenaKind::kOpen) bounds = terrain::LayoutBounds(scenario.terrain);
+  if (arena.kind == terrain::ArenaKind::kOpen) bounds = terrain::LayoutBounds(drive.terrain);
   if (arena.kind == terrain::ArenaKind::kWalled) {
     bounds = {bounds.x_min_m + room_m, bounds.x_max_m - room_m, bounds.y_min_m + room_m,
               bounds.y_max_m - room_m};
@@ -53,18 +53,18 @@ messages::Route PullStraight(const FreeGrid& grid, const std::vector<std::size_t
   return route;
 }
 
-messages::Route Plan(const scenario::Scenario& scenario, const terrain::Terrain& terrain,
-                     const Goal& goal, const Demand& demand) {
-  const terrain::Rectangle bounds = CentreBounds(scenario, demand.room_m);
+messages::Route Plan(const DriveParams& drive, const terrain::Terrain& terrain, const Goal& goal,
+                     const Demand& demand) {
+  const terrain::Rectangle bounds = CentreBounds(drive, demand.room_m);
   const double width_m = bounds.x_max_m - bounds.x_min_m;
   const double height_m = bounds.y_max_m - bounds.y_min_m;
   if (width_m <= 0.0 || height_m <= 0.0) return {};
-  FreeGrid grid(bounds, std::max(scenario.course.oracle_route.cell_m,
+  FreeGrid grid(bounds, std::max(drive.course.oracle_route.cell_m,
                                  std::sqrt(width_m * height_m / kMostCells)));
   for (const terrain::Rock& rock : terrain.rocks()) {
     if (rock.height_m >= demand.min_height_m) grid.Block(rock, demand.room_m);
   }
-  const Goal start{scenario.course.start_x_m, scenario.course.start_y_m};
+  const Goal start{drive.course.start_x_m, drive.course.start_y_m};
   if (!grid.IsFree(start) || !grid.IsFree(goal)) return {};
   const std::vector<std::size_t> way =
       ShortestWay(grid, grid.Index(grid.Column(start.x_m), grid.Row(start.y_m)),
@@ -74,10 +74,10 @@ messages::Route Plan(const scenario::Scenario& scenario, const terrain::Terrain&
 
 }  // namespace
 
-messages::Route PlanRoute(const scenario::Scenario& scenario, const terrain::Terrain& terrain,
+messages::Route PlanRoute(const DriveParams& drive, const terrain::Terrain& terrain,
                           const Goal& goal) {
-  const rover::RoverGeometryParams& rover = scenario.rover.geometry;
-  const RoutePlanParams& params = scenario.course.oracle_route;
+  const rover::RoverGeometryParams& rover = drive.rover.geometry;
+  const RoutePlanParams& params = drive.course.oracle_route;
   const double belly_m = rover.belly_clearance_m;
   const double low_m = std::min(params.low_rock_m, belly_m);
   const double turning_m = 0.5 * std::hypot(rover.length_m, rover.width_m);
@@ -90,7 +90,7 @@ messages::Route PlanRoute(const scenario::Scenario& scenario, const terrain::Ter
                            Demand{belly_m, passing_m},
                            Demand{belly_m, squeezing_m}};
   for (const Demand& demand : demands) {
-    messages::Route route = Plan(scenario, terrain, goal, demand);
+    messages::Route route = Plan(drive, terrain, goal, demand);
     if (!route.corners.empty()) return route;
   }
   return {};

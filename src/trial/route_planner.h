@@ -3,8 +3,8 @@
 
 #include "messages/estimates.h"
 #include "messages/route.h"
-#include "scenario/scenario.h"
 #include "terrain/terrain.h"
+#include "trial/drive_params.h"
 
 namespace rockyard::trial {
 
@@ -25,7 +25,7 @@ namespace rockyard::trial {
 // has another inside the lines that is as long. Limits: rocks only, no slopes; rocks that the rover
 // pushes are taken as fixed. Deterministic, no random numbers. Cost: 1 to 3 ms for the nominal
 // arena, 10 ms among the rocks of VL-2.
-messages::Route PlanRoute(const scenario::Scenario& scenario, const terrain::Terrain& terrain,
+messages::Route PlanRoute(const DriveParams& drive, const terrain::Terrain& terrain,
                           const messages::Goal& goal);
 
 }  // namespace rockyard::trial

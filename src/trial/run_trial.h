@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/random.h"
-#include "scenario/scenario.h"
+#include "trial/drive_params.h"
 #include "trial/scan_watcher.h"
 #include "trial/step_watcher.h"
 #include "truth/drive_record.h"
@@ -19,13 +19,12 @@ struct DriveResult {
   truth::DriveRecord record;
 };
 
-// Drives the trial that `key` names: a pure function of (scenario, key). With `trace` the course of
+// Drives the trial that `key` names: a pure function of (drive, key). With `trace` the course of
 // the drive is recorded too; `scan_watcher` is called after every scan of the light stripe, and
 // `step_watcher` after every decision of a map-based navigator that follows a look; all without any
 // influence on it. Throws what the simulation throws: a contract violation, a blow-up of the
 // physics; the experiment turns that into a simulator fault.
-DriveResult RunTrial(const scenario::Scenario& scenario, core::TrialKey key,
-                     truth::Trace* trace = nullptr, const ScanWatcher& scan_watcher = {},
-                     const StepWatcher& step_watcher = {});
+DriveResult RunTrial(const DriveParams& drive, core::TrialKey key, truth::Trace* trace = nullptr,
+                     const ScanWatcher& scan_watcher = {}, const StepWatcher& step_watcher = {});
 
 }  // namespace rockyard::trial

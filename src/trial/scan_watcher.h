@@ -6,14 +6,14 @@
 #include "core/random.h"
 #include "math/pose.h"
 #include "messages/measurements.h"
-#include "scenario/scenario.h"
 #include "terrain/terrain.h"
+#include "trial/drive_params.h"
 
 namespace rockyard::trial {
 
 // A scan that was just taken, and what it was taken of. Valid during the call only.
 struct WatchedScan {
-  const scenario::Scenario& scenario;  // of the sensor: a study may vary it from cell to cell
+  const DriveParams& drive;  // of the sensor: a study may vary it from cell to cell
   const terrain::Terrain& terrain;
   const math::Transform& X_WR;
   core::TrialKey key;

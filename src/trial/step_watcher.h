@@ -7,14 +7,14 @@
 #include "math/pose.h"
 #include "messages/navigation_view.h"
 #include "messages/point_cloud.h"
-#include "scenario/scenario.h"
 #include "terrain/terrain.h"
+#include "trial/drive_params.h"
 
 namespace rockyard::trial {
 
 // A decision that followed a look, and what was seen. Valid during the call only.
 struct WatchedStep {
-  const scenario::Scenario& scenario;
+  const DriveParams& drive;
   const terrain::Terrain& terrain;
   const math::Transform& X_WR;  // true
   core::TrialKey key;

@@ -33,10 +33,10 @@ std::string Name(messages::HazardSide side) {
 
 }  // namespace
 
-VehicleGuard::VehicleGuard(const scenario::Scenario& scenario, core::TrialKey key)
-    : on_(scenario.sensors.vehicle.any()),
-      sensors_(scenario.sensors.vehicle, scenario.rover, key),
-      detector_(scenario.perception.vehicle_hazard) {}
+VehicleGuard::VehicleGuard(const DriveParams& drive, core::TrialKey key)
+    : on_(drive.sensors.vehicle.any()),
+      sensors_(drive.sensors.vehicle, drive.rover, key),
+      detector_(drive.perception.vehicle_hazard) {}
 
 std::vector<messages::VehicleHazard> VehicleGuard::Feel(const truth::RoverState& state,
                                                         const messages::WheelCommand& command,

@@ -10,8 +10,8 @@
 #include "core/random.h"
 #include "messages/commands.h"
 #include "perception/vehicle_hazards.h"
-#include "scenario/scenario.h"
 #include "sensing/vehicle_sensors.h"
+#include "trial/drive_params.h"
 #include "truth/rover_state.h"
 
 namespace rockyard::trial {
@@ -19,7 +19,7 @@ namespace rockyard::trial {
 // Costs nothing where the rover has none of these sensors.
 class VehicleGuard {
  public:
-  VehicleGuard(const scenario::Scenario& scenario, core::TrialKey key);
+  VehicleGuard(const DriveParams& drive, core::TrialKey key);
 
   // Once a physics step.
   void Observe(const truth::RoverState& state) {

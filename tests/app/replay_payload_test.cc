@@ -142,7 +142,7 @@ TEST_F(ReplayPayloadTest, LeavesOutNoMomentThatIsFurtherOffThanItSays) {
 
 // A step of the simulation ends millimetres beyond a line before operators act.
 TEST_F(ReplayPayloadTest, OperatorsReflectAtTheLinesThatItNames) {
-  const double line_m = source_.scenario.terrain.arena.MirrorLine();
+  const double line_m = source_.scenario.drive.terrain.arena.MirrorLine();
   EXPECT_THAT(payload_["course"]["mirror_lines"].get<std::vector<double>>(),
               ElementsAre(DoubleNear(-line_m, 1e-4), DoubleNear(line_m, 1e-4)));
   const auto breaks = payload_["motion"]["breaks"].get<std::vector<std::size_t>>();

@@ -183,10 +183,11 @@ class DriveCampaign : public testing::Test {
  protected:
   static constexpr std::int64_t kDrives = 8;
 
-  DriveCampaign()
-      : experiment_(experiments::MakeExperiment(scenario::LoadScenario(
-            std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/nominal.json",
-            std::vector<std::string>{"rover.fidelity=quasi_static"}))) {
+  DriveCampaign() {
+    const scenario::Scenario scenario = scenario::LoadScenario(
+        std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/nominal.json",
+        std::vector<std::string>{"rover.fidelity=quasi_static"});
+    experiment_ = experiments::MakeExperiment(scenario.experiment, scenario.drive);
     identity_ = FakeIdentity();
     identity_.schema = experiment_->schema();
   }

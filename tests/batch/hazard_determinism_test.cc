@@ -39,9 +39,10 @@ std::string HashOf(const experiments::Experiment& experiment, const BatchOptions
 
 TEST(HazardDeterminism, SameHashWhateverThreadsAndOrder) {
   for (const char* name : {"detection", "approach", "persistence", "missed", "precision"}) {
-    const auto experiment = experiments::MakeExperiment(scenario::LoadScenario(
+    const scenario::Scenario scenario = scenario::LoadScenario(
         std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/hazard_detection/" + name + ".json",
-        std::vector<std::string>{"hazard_detection.scenes_per_run=5"}));
+        std::vector<std::string>{"hazard_detection.scenes_per_run=5"});
+    const auto experiment = experiments::MakeExperiment(scenario.experiment, scenario.drive);
     const std::string expected = HashOf(*experiment, Options(1, Order::kNatural));
     EXPECT_EQ(HashOf(*experiment, Options(3, Order::kNatural)), expected) << name;
     EXPECT_EQ(HashOf(*experiment, Options(2, Order::kShuffled)), expected) << name;

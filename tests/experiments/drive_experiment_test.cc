@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/scenario_experiment.h"
 #include "scenario/load.h"
 #include "trial/run_trial.h"
 
@@ -39,7 +40,7 @@ TEST(DriveExperimentTest, SchemaListsTheColumnsInOrder) {
 TEST(DriveExperimentTest, RecordHoldsTheDriveBitForBit) {
   const scenario::Scenario scenario = Pathfinder("level_sand");
   const truth::Record record = MakeExperiment(scenario)->Run(5, 3);
-  const trial::DriveResult drive = trial::RunTrial(scenario, {5, 3});
+  const trial::DriveResult drive = trial::RunTrial(scenario.drive, {5, 3});
   EXPECT_EQ(record.trial, 3u);
   EXPECT_EQ(record.outcome, drive.outcome);
   EXPECT_EQ(record.detail, drive.detail);

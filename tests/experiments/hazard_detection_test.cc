@@ -107,7 +107,7 @@ TEST(HazardScenarioTest, PrecisionCellsWithoutPointsAreErrors) {
 // A scenario that was not checked: the run says so, and is no cell of nan.
 TEST(HazardDetectionTest, APrecisionCellWithoutPointsIsAFault) {
   scenario::Scenario scenario = HazardScenario("precision");
-  scenario.sensors.light_stripe.emitter_height_m += 0.02;
+  scenario.drive.sensors.light_stripe.emitter_height_m += 0.02;
   const truth::Record record = MakeExperiment(scenario)->Run(1, 0);
   EXPECT_EQ(record.outcome, truth::TrialOutcome::kSimulatorFault);
   EXPECT_THAT(record.detail, HasSubstr("no stripe has the baseline"));
@@ -118,7 +118,7 @@ TEST(HazardDetectionTest, ShippedTablesHaveAtMost500CellsAndWholeRounds) {
        {"detection", "approach", "height_factor", "false_alarm", "persistence", "missed",
         "precision", "detection_image", "false_alarm_image", "false_alarm_image_earth"}) {
     const scenario::Scenario scenario = HazardScenario(name);
-    const auto cells = static_cast<std::int64_t>(scenario.hazard_detection.Cells());
+    const auto cells = static_cast<std::int64_t>(scenario.experiment.hazard_detection.Cells());
     EXPECT_LE(cells, 500) << name;
     EXPECT_EQ(scenario.trials % cells, 0) << name << ": every cell gets as many runs";
   }

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/experiment.h"
 #include "experiments/hazard_scenarios.h"
 #include "trial/scan_watcher.h"
 
@@ -59,13 +58,14 @@ TEST(HazardDriveTest, ScansThroughAFieldAreNumberedOneAfterTheOther) {
   const scenario::Scenario scenario = HazardScenario(
       "missed",
       {"hazard_detection.scenes_per_run=20", "sensors.light_stripe.outlier_persistence=0.5"});
-  const double interval_m = scenario.hazard_detection.scan_interval_m;
+  const double interval_m = scenario.experiment.hazard_detection.scan_interval_m;
   const auto poses_in = [&](double way_m) { return std::llround(way_m / interval_m); };
   int scanned_next = 0;
   int skipped = 0;
   for (const auto& [scene, scans] : ScansByDrive(scenario)) {
     // The drive begins within the first interval.
-    EXPECT_EQ(scans[0].number, std::floor((scans[0].x_m - scenario.course.start_x_m) / interval_m));
+    EXPECT_EQ(scans[0].number,
+              std::floor((scans[0].x_m - scenario.drive.course.start_x_m) / interval_m));
     for (std::size_t i = 1; i < scans.size(); ++i) {
       const std::int64_t way = poses_in(scans[i].x_m - scans[i - 1].x_m);
       EXPECT_EQ(scans[i].number - scans[i - 1].number, std::max<std::int64_t>(way, 1))

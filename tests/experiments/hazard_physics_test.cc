@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/random.h"
-#include "experiments/experiment.h"
 #include "experiments/hazard_judge.h"
 #include "experiments/hazard_scenarios.h"
 #include "experiments/rock_scenes.h"
@@ -87,8 +86,8 @@ TEST(HazardPhysicsTest, DetectionGrowsWithHeight) {
 // Chance that a scan of flat sand with exactly one point in a wrong place, at a column of its
 // searched part, raises an alarm: counted over all points and columns.
 double AlarmShareOfOneWrongPoint(const scenario::Scenario& scenario) {
-  const HazardJudge judge(scenario);
-  const sensing::LightStripe sensor(scenario.sensors.light_stripe);
+  const HazardJudge judge(scenario.drive);
+  const sensing::LightStripe sensor(scenario.drive.sensors.light_stripe);
   const perception::Triangulator triangulator(sensor.calibration());
   const terrain::Terrain sand(terrain::Ground(), {}, {});
   const messages::ElevationScan clean = judge.Scan(sand, math::Transform::Identity(), {1, 0}, 0);

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "experiments/experiment.h"
 #include "experiments/hazard_scenarios.h"
 #include "sensing/stripe_layout_params.h"
 
@@ -92,8 +91,9 @@ TEST(HazardPrecisionTest, ResolutionAtThirtyCentimetres) {
       HazardScenario("precision", With(cells, {"sensors.light_stripe.focal_length_m=0.0048"}));
   for (std::uint64_t cell = 0; cell < 6; ++cell) {
     const auto ratio = [&](const scenario::Scenario& scenario) {
-      const double expected_m = MeanColumnAt30Centimetres(
-          scenario.sensors.light_stripe, rows[cell % 2], baselines_m[cell / 2], width_m, pitch_rad);
+      const double expected_m =
+          MeanColumnAt30Centimetres(scenario.drive.sensors.light_stripe, rows[cell % 2],
+                                    baselines_m[cell / 2], width_m, pitch_rad);
       return Count(scenario, "resolution_30cm_m", cell) / Count(scenario, "found", cell) /
              expected_m;
     };

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/experiment.h"
+#include "experiments/scenario_experiment.h"
 #include "scenario/load.h"
 #include "statistics/drive_summary.h"
 #include "truth/record.h"

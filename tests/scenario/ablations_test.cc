@@ -91,15 +91,15 @@ TEST(AblationsTest, PerfectSensingTakesEveryErrorOfTheSensorAway) {
                             "perception.calibration.stereo_rear.y_m=0.01",
                             "perception.calibration.drive.track_percent=2"});
   const Scenario perfect = WithAblations(rough, Names{"perfect_sensing"}).scenario;
-  EXPECT_EQ(perfect.sensors.light_stripe.column_noise_px, 0.0);
-  EXPECT_EQ(perfect.sensors.light_stripe.missed_probability, 0.0);
-  EXPECT_EQ(perfect.sensors.light_stripe.wrong_place_probability, 0.0);
-  EXPECT_EQ(perfect.sensors.light_stripe.outlier_persistence, 0.0);
-  EXPECT_EQ(perfect.sensors.stereo.fidelity, sensing::StereoFidelity::kIdeal);
-  EXPECT_EQ(perfect.perception.calibration.left_camera.pitch_rad, 0.0);
-  EXPECT_EQ(perfect.perception.calibration.stereo_rear.y_m, 0.0);
+  EXPECT_EQ(perfect.drive.sensors.light_stripe.column_noise_px, 0.0);
+  EXPECT_EQ(perfect.drive.sensors.light_stripe.missed_probability, 0.0);
+  EXPECT_EQ(perfect.drive.sensors.light_stripe.wrong_place_probability, 0.0);
+  EXPECT_EQ(perfect.drive.sensors.light_stripe.outlier_persistence, 0.0);
+  EXPECT_EQ(perfect.drive.sensors.stereo.fidelity, sensing::StereoFidelity::kIdeal);
+  EXPECT_EQ(perfect.drive.perception.calibration.left_camera.pitch_rad, 0.0);
+  EXPECT_EQ(perfect.drive.perception.calibration.stereo_rear.y_m, 0.0);
   // Wheels and steering are a matter of localization.
-  EXPECT_EQ(perfect.perception.calibration.drive.track_percent, 2.0);
+  EXPECT_EQ(perfect.drive.perception.calibration.drive.track_percent, 2.0);
 }
 
 TEST(AblationsTest, NamesWhatIsWrong) {

@@ -1,7 +1,5 @@
 // Settings that every module accepts alone and that would mislead together are refused, where the
 // groups are in use.
-#include "scenario/drive_checks.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 
 #include "core/error.h"
 #include "scenario/load.h"
+#include "trial/drive_checks_params.h"
 
 namespace rockyard::scenario {
 namespace {

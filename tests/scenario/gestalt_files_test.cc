@@ -52,25 +52,26 @@ TEST(GestaltFilesTest, EveryFileDrivesAPublishedOrNamedPair) {
     const bool behaviour = name.find("_behaviour") != std::string::npos;
     const bool light_stripe = name.ends_with("_behaviour");
     EXPECT_EQ(scenario.name, "gestalt_" + name);
-    EXPECT_EQ(scenario.navigation.navigator,
-              behaviour ? NavigatorKind::kPathfinder : NavigatorKind::kGestalt)
+    EXPECT_EQ(scenario.drive.navigation.navigator,
+              behaviour ? trial::NavigatorKind::kPathfinder : trial::NavigatorKind::kGestalt)
         << name;
-    EXPECT_EQ(scenario.sensors.terrain_sensor,
-              light_stripe ? TerrainSensor::kLightStripe : TerrainSensor::kStereo)
+    EXPECT_EQ(scenario.drive.sensors.terrain_sensor,
+              light_stripe ? trial::TerrainSensor::kLightStripe : trial::TerrainSensor::kStereo)
         << name;
-    EXPECT_EQ(scenario.rover.fidelity, rover::Fidelity::kQuasiStatic) << name;
-    EXPECT_EQ(scenario.clock.compute.computer, trial::Computer::kR3000) << name;
+    EXPECT_EQ(scenario.drive.rover.fidelity, rover::Fidelity::kQuasiStatic) << name;
+    EXPECT_EQ(scenario.drive.clock.compute.computer, trial::Computer::kR3000) << name;
   }
   EXPECT_EQ(files, 11);
 }
 
 TEST(GestaltFilesTest, RunsAreThoseOfTheFigures) {
   const Scenario vl2 = Load("viking_lander_2");
-  EXPECT_EQ(vl2.course.goal_x_m - vl2.course.start_x_m, 17.5);  // Goldberg 2002 fig. 4
-  EXPECT_EQ(vl2.terrain.rocks.k_per_m2, 0.013);                 // Matthies 1995 sec. 7
+  EXPECT_EQ(vl2.drive.course.goal_x_m - vl2.drive.course.start_x_m, 17.5);  // Goldberg 2002 fig. 4
+  EXPECT_EQ(vl2.drive.terrain.rocks.k_per_m2, 0.013);                       // Matthies 1995 sec. 7
   const Scenario narrow = Load("narrow_course");
-  EXPECT_EQ(narrow.course.goal_x_m - narrow.course.start_x_m, 5.0);  // Goldberg 2002 fig. 3
-  EXPECT_EQ(narrow.terrain.rocks.kind, terrain::RockFieldKind::kListed);
+  EXPECT_EQ(narrow.drive.course.goal_x_m - narrow.drive.course.start_x_m,
+            5.0);  // Goldberg 2002 fig. 3
+  EXPECT_EQ(narrow.drive.terrain.rocks.kind, terrain::RockFieldKind::kListed);
 }
 
 TEST(GestaltFilesTest, EveryPublishedValueHasItsScenario) {
@@ -88,15 +89,15 @@ TEST(GestaltFilesTest, TheAthenaSdmKeepsTable1) {
   const std::string published = GroupText(Scenario{}, "navigation");
   for (const char* name : {"viking_lander_2", "narrow_course", "abundance", "localization_error"}) {
     Scenario scenario = Load(name);
-    scenario.navigation.navigator = NavigatorKind::kPathfinder;  // the default
+    scenario.drive.navigation.navigator = trial::NavigatorKind::kPathfinder;  // the default
     EXPECT_EQ(GroupText(scenario, "navigation"), published) << name;
   }
 }
 
 TEST(GestaltFilesTest, Rocky32IsModelledAtItsSize) {
   const Scenario scenario = Load("abundance_rocky_3_2");
-  const navigation::GestaltRoverParams& model = scenario.navigation.gestalt.map.rover;
-  const rover::RoverGeometryParams& geometry = scenario.rover.geometry;
+  const navigation::GestaltRoverParams& model = scenario.drive.navigation.gestalt.map.rover;
+  const rover::RoverGeometryParams& geometry = scenario.drive.rover.geometry;
   EXPECT_EQ(model.length_m, geometry.length_m);
   EXPECT_EQ(model.width_m, geometry.width_m);
   EXPECT_EQ(model.wheel_radius_m, geometry.wheel_radius_m);
@@ -104,20 +105,20 @@ TEST(GestaltFilesTest, Rocky32IsModelledAtItsSize) {
   EXPECT_EQ(GroupText(scenario, "rover"),
             GroupText(Load("abundance_rocky_3_2_behaviour"), "rover"));
   Scenario plain;
-  plain.rover.fidelity = rover::Fidelity::kQuasiStatic;
+  plain.drive.rover.fidelity = rover::Fidelity::kQuasiStatic;
   EXPECT_EQ(GroupText(scenario, "rover"), GroupText(plain, "rover"));
 }
 
 // What table 2 of Goldberg 2002 leaves for a move beyond the motion of its wheels was measured with
 // GESTALT: the behaviour controller keeps the times of Matthies 1995, which leave no room for it.
 Scenario WithoutOverhead(Scenario scenario) {
-  scenario.clock.compute.move_overhead_s = 0.0;
+  scenario.drive.clock.compute.move_overhead_s = 0.0;
   return scenario;
 }
 
 TEST(GestaltFilesTest, PairsDifferInNavigatorAndSensorAlone) {
   for (const std::string name : {"abundance", "abundance_rocky_3_2"}) {
-    EXPECT_GT(Load(name).clock.compute.move_overhead_s, 0.0);
+    EXPECT_GT(Load(name).drive.clock.compute.move_overhead_s, 0.0);
     const Scenario map = WithoutOverhead(Load(name));
     const Scenario behaviour = Load(name + "_behaviour");
     for (const char* group : {"terrain", "rover", "course", "referee", "clock", "energy"}) {
@@ -140,19 +141,20 @@ TEST(GestaltFilesTest, NavigatorsAreComparedWithTheSameStereo) {
     for (const char* group : {"terrain", "rover", "course", "referee", "clock", "energy"}) {
       EXPECT_EQ(GroupText(map, group), GroupText(behaviour, group)) << name << " " << group;
     }
-    EXPECT_EQ(core::DumpJson(core::WriteParams(map.sensors.stereo)),
-              core::DumpJson(core::WriteParams(behaviour.sensors.stereo)))
+    EXPECT_EQ(core::DumpJson(core::WriteParams(map.drive.sensors.stereo)),
+              core::DumpJson(core::WriteParams(behaviour.drive.sensors.stereo)))
         << name;
-    const rover::RoverGeometryParams& rover = behaviour.rover.geometry;
-    const perception::HazardParams& hazard = behaviour.perception.hazard;
+    const rover::RoverGeometryParams& rover = behaviour.drive.rover.geometry;
+    const perception::HazardParams& hazard = behaviour.drive.perception.hazard;
     EXPECT_EQ(hazard.neighbour_threshold_m, rover.belly_clearance_m) << name;
     EXPECT_EQ(hazard.range_threshold_m, rover.belly_clearance_m) << name;
     EXPECT_EQ(hazard.agreement, perception::ScanAgreement::kSingleScan) << name;
     // One vehicle length of ground from the front on, a bin around each stripe of the array.
-    const perception::CloudElevationParams& array = behaviour.perception.cloud_elevations;
+    const perception::CloudElevationParams& array = behaviour.drive.perception.cloud_elevations;
     EXPECT_DOUBLE_EQ(array.near_m, 0.5 * rover.length_m) << name;
     EXPECT_DOUBLE_EQ(array.far_m, 1.5 * rover.length_m) << name;
-    EXPECT_DOUBLE_EQ(array.half_width_m, 2.5 * behaviour.sensors.light_stripe.inner_stripe_y_m)
+    EXPECT_DOUBLE_EQ(array.half_width_m,
+                     2.5 * behaviour.drive.sensors.light_stripe.inner_stripe_y_m)
         << name;
   }
 }
@@ -161,19 +163,20 @@ TEST(GestaltFilesTest, TheCroppedViewIsThatOfTheRoversOwnStripes) {
   for (const std::string name : {"abundance", "abundance_rocky_3_2"}) {
     const Scenario cropped = Load(name + "_behaviour_stereo_stripe");
     Scenario full = Load(name + "_behaviour_stereo");
-    EXPECT_EQ(cropped.sensors.stereo.field_of_view, sensing::StereoFieldOfView::kStripe) << name;
-    const sensing::StripeWindowParams& window = cropped.sensors.stereo.stripe_window;
-    const sensing::LightStripeParams& stripes = cropped.sensors.light_stripe;
+    EXPECT_EQ(cropped.drive.sensors.stereo.field_of_view, sensing::StereoFieldOfView::kStripe)
+        << name;
+    const sensing::StripeWindowParams& window = cropped.drive.sensors.stereo.stripe_window;
+    const sensing::LightStripeParams& stripes = cropped.drive.sensors.light_stripe;
     EXPECT_DOUBLE_EQ(window.near_m, stripes.front_x_m + stripes.row_ahead_m.front()) << name;
     EXPECT_DOUBLE_EQ(window.far_m, stripes.front_x_m + stripes.row_ahead_m.back()) << name;
     EXPECT_DOUBLE_EQ(window.half_width_m, stripes.outer_stripe_y_m) << name;
-    const perception::CloudElevationParams& array = cropped.perception.cloud_elevations;
+    const perception::CloudElevationParams& array = cropped.drive.perception.cloud_elevations;
     EXPECT_EQ(array.near_m, window.near_m) << name;
     EXPECT_EQ(array.far_m, window.far_m) << name;
     EXPECT_EQ(array.half_width_m, window.half_width_m) << name;
     // Nothing else differs from the full view.
-    full.sensors.stereo.field_of_view = sensing::StereoFieldOfView::kStripe;
-    full.perception.cloud_elevations = array;
+    full.drive.sensors.stereo.field_of_view = sensing::StereoFieldOfView::kStripe;
+    full.drive.perception.cloud_elevations = array;
     for (const char* group :
          {"terrain", "rover", "sensors", "perception", "navigation", "course"}) {
       EXPECT_EQ(GroupText(cropped, group), GroupText(full, group)) << name << " " << group;

@@ -48,20 +48,21 @@ TEST(LoadTest, ReadsEveryPart) {
   EXPECT_EQ(scenario.name, "n");
   EXPECT_EQ(scenario.trials, 12);
   EXPECT_EQ(scenario.seed, 99);
-  EXPECT_EQ(scenario.terrain.rocks.kind, terrain::RockFieldKind::kUniformCount);
-  EXPECT_EQ(scenario.terrain.rocks.count, 10);
-  EXPECT_EQ(scenario.sensors.localization, Localization::kOracle);
-  EXPECT_EQ(scenario.sensors.gyro.scale, 1.0);
-  EXPECT_EQ(scenario.navigation.pathfinder.turn_direction, navigation::TurnDirection::kEachScan);
-  EXPECT_EQ(scenario.navigation.pathfinder.turn_increment_rad, math::DegToRad(20.0));
-  EXPECT_EQ(scenario.course.goal_x_m, 5.0);
+  EXPECT_EQ(scenario.drive.terrain.rocks.kind, terrain::RockFieldKind::kUniformCount);
+  EXPECT_EQ(scenario.drive.terrain.rocks.count, 10);
+  EXPECT_EQ(scenario.drive.sensors.localization, trial::Localization::kOracle);
+  EXPECT_EQ(scenario.drive.sensors.gyro.scale, 1.0);
+  EXPECT_EQ(scenario.drive.navigation.pathfinder.turn_direction,
+            navigation::TurnDirection::kEachScan);
+  EXPECT_EQ(scenario.drive.navigation.pathfinder.turn_increment_rad, math::DegToRad(20.0));
+  EXPECT_EQ(scenario.drive.course.goal_x_m, 5.0);
 }
 
 TEST(LoadTest, OverridesComeLastAndInOrder) {
   const Scenario scenario = Parse(R"({"seed": 1, "name": "x"})",
                                   {"seed=2", "seed=3", "terrain.rocks.kind=none", "name=a name"});
   EXPECT_EQ(scenario.seed, 3);
-  EXPECT_EQ(scenario.terrain.rocks.kind, terrain::RockFieldKind::kNone);
+  EXPECT_EQ(scenario.drive.terrain.rocks.kind, terrain::RockFieldKind::kNone);
   EXPECT_EQ(scenario.name, "a name");
 }
 
@@ -186,8 +187,8 @@ TEST_F(LoadFileTest, FilesExtendFiles) {
   std::ofstream(folder_ / "top.json") << R"({"extends": "base.json", "course": {"goal_y_m": 1}})";
   const Scenario scenario = LoadScenario(folder_ / "top.json");
   EXPECT_EQ(scenario.seed, 5);
-  EXPECT_EQ(scenario.course.goal_x_m, 6.0);
-  EXPECT_EQ(scenario.course.goal_y_m, 1.0);
+  EXPECT_EQ(scenario.drive.course.goal_x_m, 6.0);
+  EXPECT_EQ(scenario.drive.course.goal_y_m, 1.0);
   // Text extends relative to a folder.
   EXPECT_EQ(ParseScenario(R"({"extends": "base.json"})", {}, folder_).seed, 5);
 }
@@ -199,8 +200,8 @@ TEST_F(LoadFileTest, GroupsExtendFiles) {
   std::ofstream(folder_ / "top.json")
       << R"({"rover": {"extends": "rovers/small.json", "mass": {"wheel_kg": 0.3}}})";
   const Scenario scenario = LoadScenario(folder_ / "top.json");
-  EXPECT_EQ(scenario.rover.mass.total_kg, 12.0);
-  EXPECT_EQ(scenario.rover.mass.wheel_kg, 0.3);
+  EXPECT_EQ(scenario.drive.rover.mass.total_kg, 12.0);
+  EXPECT_EQ(scenario.drive.rover.mass.wheel_kg, 0.3);
 }
 
 // Every object of the schema that has properties allows it, every other one does not.

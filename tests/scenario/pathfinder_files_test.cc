@@ -52,7 +52,7 @@ std::set<std::string> Differences(const Scenario& a, const Scenario& b) {
 }
 
 double ObstaclesPerM2(const Scenario& scenario) {
-  const terrain::RockFieldParams& rocks = scenario.terrain.rocks;
+  const terrain::RockFieldParams& rocks = scenario.drive.terrain.rocks;
   return static_cast<double>(rocks.count) / (rocks.count_area_length_m * rocks.count_area_width_m);
 }
 
@@ -62,7 +62,7 @@ TEST(PathfinderFilesTest, NamesAreFileNames) {
   const std::map<std::string, Scenario> scenarios = LoadAll();
   ASSERT_GE(scenarios.size(), 9u);
   for (const auto& [stem, scenario] : scenarios) {
-    const bool study = scenario.experiment == scenario::ExperimentKind::kHazardDetection;
+    const bool study = scenario.experiment.kind == experiments::ExperimentKind::kHazardDetection;
     EXPECT_EQ(scenario.name, (study ? "hazard_" : "") + stem);
     EXPECT_FALSE(scenario.description.empty()) << stem;
   }
@@ -87,23 +87,24 @@ TEST(PathfinderFilesTest, CourseIsThePublishedOneAndTheBoundThatChecksUse) {
   for (const core::JsonValue& value : reference.Find("values")->list()) {
     if (value.Find("statistic")->text() != "lower_bound") continue;
     const Scenario scenario = Load(value.Find("scenario")->text());
-    EXPECT_EQ(scenario.course.goal_x_m - scenario.course.start_x_m, value.Find("value")->number());
+    EXPECT_EQ(scenario.drive.course.goal_x_m - scenario.drive.course.start_x_m,
+              value.Find("value")->number());
   }
-  EXPECT_EQ(Load("nominal").course.goal_x_m, 7.6);     // Matthies 1995 sec. 7
-  EXPECT_EQ(Load("level_sand").course.goal_x_m, 7.0);  // sec. 5
-  EXPECT_EQ(Load("level_sand").terrain.rocks.RocksPerM2(), 0.0);
+  EXPECT_EQ(Load("nominal").drive.course.goal_x_m, 7.6);     // Matthies 1995 sec. 7
+  EXPECT_EQ(Load("level_sand").drive.course.goal_x_m, 7.0);  // sec. 5
+  EXPECT_EQ(Load("level_sand").drive.terrain.rocks.RocksPerM2(), 0.0);
 }
 
 TEST(PathfinderFilesTest, MooreConstantsArePublished) {
-  EXPECT_EQ(Load("nominal").terrain.rocks.k_per_m2, 0.00415);  // Matthies 1995 sec. 7
-  EXPECT_EQ(Load("vl2").terrain.rocks.k_per_m2, 0.013);
+  EXPECT_EQ(Load("nominal").drive.terrain.rocks.k_per_m2, 0.00415);  // Matthies 1995 sec. 7
+  EXPECT_EQ(Load("vl2").drive.terrain.rocks.k_per_m2, 0.013);
 }
 
 TEST(PathfinderFilesTest, ObstacleCountsArePublished) {
   const std::map<std::string, std::int64_t> counts = {
       {"obstacles_0.28", 5}, {"obstacles_0.57", 10}, {"obstacles_0.85", 15}};
   for (const auto& [name, count] : counts) {
-    const terrain::RockFieldParams rocks = Load(name).terrain.rocks;
+    const terrain::RockFieldParams rocks = Load(name).drive.terrain.rocks;
     EXPECT_EQ(rocks.count, count);
     EXPECT_NEAR(rocks.count_area_length_m * rocks.count_area_width_m, 17.6, 1e-9);
     EXPECT_EQ(rocks.uniform_min_diameter_m, 0.25);
@@ -123,16 +124,16 @@ TEST(PathfinderFilesTest, DensitiesAreThoseOfTheNames) {
 
 TEST(PathfinderFilesTest, TestArenaIsPublished) {
   const Scenario nominal = Load("nominal");
-  EXPECT_EQ(nominal.terrain.arena.kind, terrain::ArenaKind::kVirtualReflected);
-  EXPECT_EQ(nominal.terrain.arena.length_m, 12.0);  // Matthies 1995 sec. 3
-  EXPECT_EQ(nominal.terrain.arena.width_m, 4.0);
-  EXPECT_EQ(nominal.terrain.arena.mirror_margin_m, 0.9);              // sec. 7
-  EXPECT_NEAR(2.0 * nominal.terrain.arena.MirrorLine(), 2.2, 1e-12);  // central 2.2 m
-  EXPECT_EQ(nominal.rover.drive.speed_m_s, 0.15);                     // sec. 5
-  EXPECT_EQ(nominal.navigation.pathfinder.scan_interval_m, 0.065);    // one wheel radius
-  EXPECT_EQ(nominal.sensors.gyro.heading_variance_deg2_per_m, 0.70);  // sec. 5
-  EXPECT_EQ(nominal.sensors.encoders.distance_variance_m2_per_m, 0.0039);
-  EXPECT_EQ(nominal.sensors.gyro.scale, 0.94);  // sec. 8
+  EXPECT_EQ(nominal.drive.terrain.arena.kind, terrain::ArenaKind::kVirtualReflected);
+  EXPECT_EQ(nominal.drive.terrain.arena.length_m, 12.0);  // Matthies 1995 sec. 3
+  EXPECT_EQ(nominal.drive.terrain.arena.width_m, 4.0);
+  EXPECT_EQ(nominal.drive.terrain.arena.mirror_margin_m, 0.9);              // sec. 7
+  EXPECT_NEAR(2.0 * nominal.drive.terrain.arena.MirrorLine(), 2.2, 1e-12);  // central 2.2 m
+  EXPECT_EQ(nominal.drive.rover.drive.speed_m_s, 0.15);                     // sec. 5
+  EXPECT_EQ(nominal.drive.navigation.pathfinder.scan_interval_m, 0.065);    // one wheel radius
+  EXPECT_EQ(nominal.drive.sensors.gyro.heading_variance_deg2_per_m, 0.70);  // sec. 5
+  EXPECT_EQ(nominal.drive.sensors.encoders.distance_variance_m2_per_m, 0.0039);
+  EXPECT_EQ(nominal.drive.sensors.gyro.scale, 0.94);  // sec. 8
 }
 
 TEST(PathfinderFilesTest, ScenariosDifferInWhatTheyAreNamedAfterAlone) {

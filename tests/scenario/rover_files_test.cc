@@ -97,17 +97,17 @@ TEST(RoverFilesTest, Rocky32IsTheDefault) {
 }
 
 TEST(RoverFilesTest, PublishedValues) {
-  const rover::RoverParams mfex = WithRover("mfex").rover;
+  const rover::RoverParams mfex = WithRover("mfex").drive.rover;
   EXPECT_EQ(mfex.mass.total_kg, 11.5);  // Matthies 1995 sec. 2.1.2
   EXPECT_EQ(mfex.drive.speed_m_s, 0.0067);
   EXPECT_EQ(mfex.geometry.wheel_radius_m, 0.065);
-  const rover::RoverParams sdm = WithRover("athena_sdm").rover;
+  const rover::RoverParams sdm = WithRover("athena_sdm").drive.rover;
   EXPECT_EQ(sdm.geometry.length_m, 1.04);  // Goldberg 2002 table 1
   EXPECT_EQ(sdm.geometry.width_m, 0.84);
   EXPECT_EQ(sdm.geometry.wheel_radius_m, 0.1);
   EXPECT_GE(sdm.geometry.belly_clearance_m, 0.2);
   EXPECT_EQ(sdm.drive.speed_m_s, 0.05);  // sec. 5
-  const rover::RoverParams athena = WithRover("athena_2012").rover;
+  const rover::RoverParams athena = WithRover("athena_2012").drive.rover;
   EXPECT_EQ(athena.drive.speed_m_s, 0.07);  // Howard 2012 sec. 3
   EXPECT_EQ(athena.geometry.steered_wheels, rover::SteeredWheels::kAll);
 }
@@ -125,10 +125,11 @@ TEST(RoverFilesTest, MarsScenarioDrivesTheFlightRoverInMarsGravity) {
   const Scenario mars =
       LoadScenario(fs::path(ROCKYARD_SOURCE_DIR) / "scenarios" / "mars" / "mfex_nominal.json");
   EXPECT_EQ(ValuesOfScenario(mars), ValuesOfScenario(WithRover("mfex")));
-  EXPECT_EQ(mars.rover.physics.gravity_m_s2, 3.72);
-  EXPECT_EQ(mars.terrain.rocks.k_per_m2, 0.00415);  // nominal, Matthies 1995 sec. 7
-  EXPECT_EQ(mars.clock.scan_time_s, 20.0);          // sec. 6
-  EXPECT_EQ(mars.navigation.wheel_driver.steer_rate_rad_s, mars.rover.drive.steer_rate_rad_s);
+  EXPECT_EQ(mars.drive.rover.physics.gravity_m_s2, 3.72);
+  EXPECT_EQ(mars.drive.terrain.rocks.k_per_m2, 0.00415);  // nominal, Matthies 1995 sec. 7
+  EXPECT_EQ(mars.drive.clock.scan_time_s, 20.0);          // sec. 6
+  EXPECT_EQ(mars.drive.navigation.wheel_driver.steer_rate_rad_s,
+            mars.drive.rover.drive.steer_rate_rad_s);
   EXPECT_NE(mars.description.find("prediction"), std::string::npos);
 }
 

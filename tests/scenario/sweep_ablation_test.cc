@@ -69,10 +69,10 @@ TEST(SweepAblationTest, AblationsLieOverSettings) {
     const bool ablation_first = sweep.axes[0].name == "known";
     const Scenario& off = sweep.cells[0].scenario;  // by wheels
     const Scenario& on = sweep.cells[ablation_first ? 2 : 1].scenario;
-    EXPECT_EQ(off.sensors.localization, Localization::kDeadReckoning);
-    EXPECT_EQ(on.sensors.localization, Localization::kOracle);
-    EXPECT_EQ(sweep.cells[3].scenario.sensors.localization, Localization::kOracle);
-    EXPECT_EQ(sweep.cells[3].scenario.course.goal_x_m, 6.0);
+    EXPECT_EQ(off.drive.sensors.localization, trial::Localization::kDeadReckoning);
+    EXPECT_EQ(on.drive.sensors.localization, trial::Localization::kOracle);
+    EXPECT_EQ(sweep.cells[3].scenario.drive.sensors.localization, trial::Localization::kOracle);
+    EXPECT_EQ(sweep.cells[3].scenario.drive.course.goal_x_m, 6.0);
   }
 }
 

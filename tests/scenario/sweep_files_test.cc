@@ -30,7 +30,7 @@ TEST(SweepFilesTest, AbundanceVariesAbundanceAlone) {
   std::set<std::uint64_t> rest;
   for (const SweepCell& cell : sweep.cells) {
     Scenario scenario = cell.scenario;
-    scenario.terrain.rocks.k_per_m2 = 0.00415;
+    scenario.drive.terrain.rocks.k_per_m2 = 0.00415;
     scenario.seed = 1;
     rest.insert(Fingerprint(scenario));
   }
@@ -45,10 +45,10 @@ TEST(SweepFilesTest, NavigatorsMeetTheSameRocks) {
     const Scenario& behaviour = sweep.cells[i].scenario;
     const Scenario& gestalt = sweep.cells[i + 4].scenario;
     EXPECT_EQ(behaviour.seed, gestalt.seed);
-    EXPECT_EQ(behaviour.navigation.navigator, NavigatorKind::kPathfinder);
-    EXPECT_EQ(gestalt.navigation.navigator, NavigatorKind::kGestalt);
-    EXPECT_EQ(behaviour.terrain.rocks.k_per_m2, gestalt.terrain.rocks.k_per_m2);
-    EXPECT_EQ(behaviour.course.goal_x_m, gestalt.course.goal_x_m);
+    EXPECT_EQ(behaviour.drive.navigation.navigator, trial::NavigatorKind::kPathfinder);
+    EXPECT_EQ(gestalt.drive.navigation.navigator, trial::NavigatorKind::kGestalt);
+    EXPECT_EQ(behaviour.drive.terrain.rocks.k_per_m2, gestalt.drive.terrain.rocks.k_per_m2);
+    EXPECT_EQ(behaviour.drive.course.goal_x_m, gestalt.drive.course.goal_x_m);
   }
 }
 

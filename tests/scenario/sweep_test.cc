@@ -42,9 +42,10 @@ TEST(SweepTest, AGridHasItsLastAxisFastest) {
   EXPECT_FALSE(sweep.axes[1].numeric);
   EXPECT_EQ(sweep.fit_axis, 0u);
   const SweepCell& last = sweep.cells[3];
-  EXPECT_EQ(last.scenario.terrain.rocks.k_per_m2, 0.01);
-  EXPECT_EQ(last.scenario.rover.drive.speed_m_s, 0.1);
-  EXPECT_EQ(last.scenario.rover.drive.stall_torque_Nm, Scenario{}.rover.drive.stall_torque_Nm);
+  EXPECT_EQ(last.scenario.drive.terrain.rocks.k_per_m2, 0.01);
+  EXPECT_EQ(last.scenario.drive.rover.drive.speed_m_s, 0.1);
+  EXPECT_EQ(last.scenario.drive.rover.drive.stall_torque_Nm,
+            Scenario{}.drive.rover.drive.stall_torque_Nm);
   EXPECT_EQ(last.scenario.trials, 20);
   EXPECT_EQ(last.scenario.name, "grid k_per_m2=0.01,rover=fast");
   EXPECT_EQ(last.levels[0].number, 0.01);
@@ -64,10 +65,10 @@ TEST(SweepTest, AnObjectReplacesAGroupAsItDoesInARun) {
   const Sweep written =
       ParseSweep(scenario + R"(, "set": {"course": {"goal_radius_m": 0.9}})" + axes);
   for (const Sweep* sweep : {&given, &written}) {
-    EXPECT_EQ(sweep->cells[0].scenario.course.goal_radius_m, 0.9);
-    EXPECT_EQ(sweep->cells[0].scenario.course.goal_x_m, run.course.goal_x_m);
+    EXPECT_EQ(sweep->cells[0].scenario.drive.course.goal_radius_m, 0.9);
+    EXPECT_EQ(sweep->cells[0].scenario.drive.course.goal_x_m, run.drive.course.goal_x_m);
   }
-  EXPECT_EQ(run.course.goal_x_m, Scenario{}.course.goal_x_m);
+  EXPECT_EQ(run.drive.course.goal_x_m, Scenario{}.drive.course.goal_x_m);
 }
 
 TEST(SweepTest, RangesAreSteppedLinearlyOrByRatios) {
@@ -92,14 +93,14 @@ TEST(SweepTest, SettingsLieOverEachOtherInTheStatedOrder) {
   ASSERT_EQ(sweep.cells.size(), 2u);
   const Scenario& here = sweep.cells[0].scenario;
   const Scenario& there = sweep.cells[1].scenario;
-  EXPECT_EQ(here.course.goal_x_m, 5.0);
-  EXPECT_EQ(here.clock.control_rate_hz, 50.0);
-  EXPECT_EQ(there.course.goal_x_m, 6.0);
-  EXPECT_EQ(there.clock.control_rate_hz, Scenario{}.clock.control_rate_hz)
+  EXPECT_EQ(here.drive.course.goal_x_m, 5.0);
+  EXPECT_EQ(here.drive.clock.control_rate_hz, 50.0);
+  EXPECT_EQ(there.drive.course.goal_x_m, 6.0);
+  EXPECT_EQ(there.drive.clock.control_rate_hz, Scenario{}.drive.clock.control_rate_hz)
       << "the scenario of a level takes the place of the base";
   for (const Scenario* each : {&here, &there}) {
-    EXPECT_EQ(each->course.goal_y_m, 0.5);
-    EXPECT_EQ(each->course.goal_radius_m, 0.9);
+    EXPECT_EQ(each->drive.course.goal_y_m, 0.5);
+    EXPECT_EQ(each->drive.course.goal_radius_m, 0.9);
     EXPECT_EQ(each->trials, 3);
   }
   EXPECT_EQ(sweep.seed, 9u);
@@ -169,10 +170,11 @@ TEST(SweepTest, PointsCoverTheStudyRangesOfParameters) {
     std::vector<double> logs;
     int oracles = 0;
     for (const SweepCell& cell : sweep.cells) {
-      EXPECT_GE(cell.scenario.course.goal_radius_m, 0.3);
-      EXPECT_LE(cell.scenario.course.goal_radius_m, 1.5);
-      EXPECT_EQ(cell.levels[1].number, static_cast<double>(cell.scenario.terrain.rocks.count));
-      logs.push_back(std::log(cell.scenario.terrain.rocks.k_per_m2 / 0.001) / std::log(10.0));
+      EXPECT_GE(cell.scenario.drive.course.goal_radius_m, 0.3);
+      EXPECT_LE(cell.scenario.drive.course.goal_radius_m, 1.5);
+      EXPECT_EQ(cell.levels[1].number,
+                static_cast<double>(cell.scenario.drive.terrain.rocks.count));
+      logs.push_back(std::log(cell.scenario.drive.terrain.rocks.k_per_m2 / 0.001) / std::log(10.0));
       oracles += cell.levels[3].text == "oracle" ? 1 : 0;
     }
     EXPECT_EQ(oracles, 8);

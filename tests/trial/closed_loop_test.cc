@@ -13,12 +13,12 @@ namespace rockyard::trial {
 namespace {
 
 TEST(ClosedLoopTest, PerfectLocalizationNeverArrivesBeforeTheGoal) {
-  const scenario::Scenario scenario = Pathfinder("nominal_perfect_localization");
-  const double tick_m = scenario.rover.drive.speed_m_s / scenario.clock.control_rate_hz;
-  const double shortest_m = scenario.course.goal_x_m - scenario.course.start_x_m -
-                            scenario.navigation.pathfinder.goal_tolerance_m - tick_m;
+  const DriveParams drive = Pathfinder("nominal_perfect_localization");
+  const double tick_m = drive.rover.drive.speed_m_s / drive.clock.control_rate_hz;
+  const double shortest_m = drive.course.goal_x_m - drive.course.start_x_m -
+                            drive.navigation.pathfinder.goal_tolerance_m - tick_m;
   int arrived = 0;
-  for (const DriveResult& result : RunTrials(scenario, 40)) {
+  for (const DriveResult& result : RunTrials(drive, 40)) {
     const truth::DriveRecord& record = result.record;
     EXPECT_EQ(record.position_error_m, 0.0);
     EXPECT_EQ(record.heading_error_deg, 0.0);
@@ -27,14 +27,14 @@ TEST(ClosedLoopTest, PerfectLocalizationNeverArrivesBeforeTheGoal) {
     ++arrived;
     // A chord that a reflection cuts off is not counted.
     EXPECT_GE(record.true_distance_m, shortest_m - record.reflections * DriveMonitor::kChord_m);
-    EXPECT_LE(record.true_goal_distance_m, scenario.navigation.pathfinder.goal_tolerance_m);
+    EXPECT_LE(record.true_goal_distance_m, drive.navigation.pathfinder.goal_tolerance_m);
   }
   EXPECT_GT(arrived, 20);
 }
 
 TEST(ClosedLoopTest, OtherNavigatorsMeetTheSameRocks) {
-  const scenario::Scenario first = Pathfinder("nominal");
-  const scenario::Scenario second =
+  const DriveParams first = Pathfinder("nominal");
+  const DriveParams second =
       Pathfinder("nominal", {"navigation.pathfinder.turn_increment_deg=30",
                              "navigation.pathfinder.both_sides=toward_goal"});
   bool drove_otherwise = false;
@@ -50,9 +50,9 @@ TEST(ClosedLoopTest, OtherNavigatorsMeetTheSameRocks) {
 }
 
 TEST(ClosedLoopTest, TrialsShareLayoutsAndNothingElse) {
-  const scenario::Scenario scenario =
+  const DriveParams drive =
       Pathfinder("nominal", {"course.trials_per_layout=3", "referee.time_limit_s=500"});
-  const std::vector<DriveResult> results = RunTrials(scenario, 6);
+  const std::vector<DriveResult> results = RunTrials(drive, 6);
   for (std::size_t i = 0; i < results.size(); ++i) {
     const truth::DriveRecord& record = results[i].record;
     const truth::DriveRecord& first = results[i - i % 3].record;
@@ -105,28 +105,27 @@ double EnergyWh(const Books& books, double scan_s, double stall_s, const EnergyP
          3600.0;
 }
 
-void ExpectBooksBalance(const scenario::Scenario& scenario, const TracedTrial& trial) {
+void ExpectBooksBalance(const DriveParams& drive, const TracedTrial& trial) {
   const truth::DriveRecord& record = trial.result.record;
   const bool stuck = trial.result.outcome == truth::TrialOutcome::kJammed ||
                      trial.result.outcome == truth::TrialOutcome::kHighCentred;
   const double stall_s = stuck ? record.sim_time_s - trial.trace.samples.back().time_s : 0.0;
-  const Books books = BooksOf(trial.trace, 1.0 / scenario.clock.control_rate_hz);
+  const Books books = BooksOf(trial.trace, 1.0 / drive.clock.control_rate_hz);
   EXPECT_NEAR(record.drive_time_s, books.drive_s, 1e-6);
   EXPECT_NEAR(record.turn_time_s, books.turn_s, 1e-6);
-  EXPECT_NEAR(record.scan_time_s, record.scans * scenario.clock.scan_time_s, 1e-6);
+  EXPECT_NEAR(record.scan_time_s, record.scans * drive.clock.scan_time_s, 1e-6);
   EXPECT_NEAR(record.sim_time_s,
               books.drive_s + books.turn_s + books.steer_s + record.scan_time_s + stall_s, 1e-6);
-  EXPECT_NEAR(record.energy_wh, EnergyWh(books, record.scan_time_s, stall_s, scenario.energy),
-              1e-6);
+  EXPECT_NEAR(record.energy_wh, EnergyWh(books, record.scan_time_s, stall_s, drive.energy), 1e-6);
 }
 
 TEST(ClosedLoopTest, TimeAndEnergyAddUp) {
-  const scenario::Scenario scenario = Pathfinder("obstacles_0.57");
+  const DriveParams drive = Pathfinder("obstacles_0.57");
   for (std::uint32_t i = 0; i < 3; ++i) {
-    const TracedTrial trial = RunTraced(scenario, i);
+    const TracedTrial trial = RunTraced(drive, i);
     EXPECT_GT(trial.result.record.turn_time_s, 0.0);
     EXPECT_GT(trial.result.record.scans, 0.0);
-    ExpectBooksBalance(scenario, trial);
+    ExpectBooksBalance(drive, trial);
   }
 }
 
@@ -146,14 +145,14 @@ TEST(ClosedLoopTest, TickLastsWholeStepsForAllThatGoesByIt) {
 }
 
 TEST(ClosedLoopTest, JamSpendsTheBatteryExactly) {
-  const scenario::Scenario scenario = Pathfinder(
+  const DriveParams drive = Pathfinder(
       "level_sand", {"terrain.arena.kind=walled", "terrain.ground.soil.preset=hard_ground",
                      "course.start_y_m=1.2", "course.start_heading_deg=90"});
-  const TracedTrial trial = RunTraced(scenario, 0);
+  const TracedTrial trial = RunTraced(drive, 0);
   ASSERT_EQ(trial.result.outcome, truth::TrialOutcome::kJammed);
-  EXPECT_NEAR(trial.result.record.energy_wh, scenario.energy.battery_wh, 1e-9);
+  EXPECT_NEAR(trial.result.record.energy_wh, drive.energy.battery_wh, 1e-9);
   EXPECT_GT(trial.result.record.sim_time_s, 3600.0);
-  ExpectBooksBalance(scenario, trial);
+  ExpectBooksBalance(drive, trial);
 }
 
 TEST(ClosedLoopTest, RecordAgreesWithTheTrace) {
@@ -244,10 +243,10 @@ TEST(WallsTest, KeepTheRoverInside) {
 // Operators turn a rover whose position reaches the line (Matthies 1995 sec. 7); one that turns in
 // place near it is left alone, or it could never turn across the line's direction.
 TEST(MirrorLine, OnlyADrivingRoverIsReflected) {
-  const scenario::Scenario scenario = Pathfinder("obstacles_0.85");
+  const DriveParams drive = Pathfinder("obstacles_0.85");
   int reflections = 0;
   for (std::uint32_t index = 0; index < 12; ++index) {
-    const TracedTrial trial = RunTraced(scenario, index);
+    const TracedTrial trial = RunTraced(drive, index);
     for (const truth::TraceEvent& event : trial.trace.events) {
       if (event.kind != "reflection") continue;
       ++reflections;

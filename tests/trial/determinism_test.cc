@@ -15,13 +15,13 @@ constexpr std::uint32_t kTrials = 3;
 
 class DeterminismTest : public testing::Test {
  protected:
-  const scenario::Scenario scenario_ = Pathfinder("obstacles_0.57", {"referee.time_limit_s=2500"});
-  const std::vector<DriveResult> expected_ = RunTrials(scenario_, kTrials);
+  const DriveParams drive_ = Pathfinder("obstacles_0.57", {"referee.time_limit_s=2500"});
+  const std::vector<DriveResult> expected_ = RunTrials(drive_, kTrials);
 };
 
 TEST_F(DeterminismTest, TraceAndOrderChangeNoBit) {
   for (std::uint32_t i = kTrials; i-- > 0;) {
-    const TracedTrial traced = RunTraced(scenario_, i);
+    const TracedTrial traced = RunTraced(drive_, i);
     EXPECT_THAT(Differences(traced.result, expected_[i]), IsEmpty()) << i;
     EXPECT_FALSE(traced.trace.samples.empty());
   }
@@ -31,7 +31,7 @@ TEST_F(DeterminismTest, ThreadsAtTheSameTimeChangeNoBit) {
   std::vector<std::future<DriveResult>> results;
   for (std::uint32_t i = 0; i < kTrials; ++i) {
     results.push_back(std::async(std::launch::async, [this, i] {
-      return RunTrial(scenario_, {1, i});
+      return RunTrial(drive_, {1, i});
     }));
   }
   for (std::uint32_t i = 0; i < kTrials; ++i) {
@@ -40,7 +40,9 @@ TEST_F(DeterminismTest, ThreadsAtTheSameTimeChangeNoBit) {
 }
 
 TEST_F(DeterminismTest, ResolvedScenarioGivesTheSameTrial) {
-  const scenario::Scenario resolved = scenario::ParseScenario(scenario::ResolvedJson(scenario_));
+  scenario::Scenario scenario;
+  scenario.drive = drive_;
+  const DriveParams resolved = scenario::ParseScenario(scenario::ResolvedJson(scenario)).drive;
   EXPECT_THAT(Differences(RunTrial(resolved, {1, 1}), expected_[1]), IsEmpty());
 }
 
@@ -49,7 +51,7 @@ TEST_F(DeterminismTest, OtherIndicesAndSeedsGiveOtherTrials) {
   for (std::uint32_t i = 1; i < kTrials; ++i) {
     EXPECT_THAT(Differences(expected_[0], expected_[i]), testing::Contains("true_distance_m"));
   }
-  EXPECT_THAT(Differences(expected_[0], RunTrial(scenario_, {2, 0})),
+  EXPECT_THAT(Differences(expected_[0], RunTrial(drive_, {2, 0})),
               testing::Contains("true_distance_m"));
 }
 

@@ -16,10 +16,10 @@ namespace {
 using truth::TrialOutcome;
 
 // High rocks side by side on a circle about the start, but for a gap of that half angle ahead.
-scenario::Scenario InARing(double gap_rad) {
-  scenario::Scenario scenario = Gestalt("abundance", {"sensors.localization=oracle"});
-  scenario.terrain.rocks.kind = terrain::RockFieldKind::kListed;
-  terrain::ListedRocksParams& ring = scenario.terrain.rocks.listed;
+DriveParams InARing(double gap_rad) {
+  DriveParams drive = Gestalt("abundance", {"sensors.localization=oracle"});
+  drive.terrain.rocks.kind = terrain::RockFieldKind::kListed;
+  terrain::ListedRocksParams& ring = drive.terrain.rocks.listed;
   constexpr int kRocks = 24;
   constexpr double kRadius_m = 1.7;
   for (int i = 0; i < kRocks; ++i) {
@@ -30,7 +30,7 @@ scenario::Scenario InARing(double gap_rad) {
     ring.diameter_m.push_back(0.5);
     ring.height_m.push_back(0.5);
   }
-  return scenario;
+  return drive;
 }
 
 TEST(GestaltEndingsTest, FindsNoPathOutOfARing) {

@@ -14,7 +14,7 @@ namespace {
 using truth::TrialOutcome;
 
 // Twenty whole steps over empty sand, without errors of localization.
-scenario::Scenario TwentySteps(const Overrides& overrides = {}) {
+DriveParams TwentySteps(const Overrides& overrides = {}) {
   return Gestalt("viking_lander_2", kTrueEncoders +
                                         Overrides{"terrain.rocks.kind=none", "course.goal_x_m=7",
                                                   "sensors.localization=oracle"} +
@@ -26,17 +26,16 @@ double DrivingTime(const truth::DriveRecord& record) { return record.move_time_s
 
 // Table 2: 26.76 s a look and 15 s of driving a move. 154 looks for 105 moves are then 54 s a move.
 TEST(GestaltMoveTest, AMoveTakesTheTimeOfTable2) {
-  const scenario::Scenario scenario = TwentySteps();
-  const double look_s = MakeLookTime(scenario).total_s();
+  const DriveParams drive = TwentySteps();
+  const double look_s = MakeLookTime(drive).total_s();
   EXPECT_NEAR(look_s, 26.762, 1e-9);
-  const DriveResult result = RunTrial(scenario, {1, 0});
+  const DriveResult result = RunTrial(drive, {1, 0});
   ASSERT_EQ(result.outcome, TrialOutcome::kGoalReached) << result.detail;
   const truth::DriveRecord& record = result.record;
   EXPECT_NEAR(record.moves, 20.0, 1.0);
-  EXPECT_NEAR(
-      record.sim_time_s,
-      StartUpTime(scenario) + record.image_sets * look_s + record.moves * DrivingTime(record),
-      1e-6);
+  EXPECT_NEAR(record.sim_time_s,
+              StartUpTime(drive) + record.image_sets * look_s + record.moves * DrivingTime(record),
+              1e-6);
   EXPECT_NEAR(DrivingTime(record), kAthenaRows.back().time_s, 0.5);
   EXPECT_NEAR(look_s * kAthenaImageSets / kAthenaMoves + DrivingTime(record), 54.25, 0.5);
 }

@@ -5,9 +5,10 @@
 
 namespace rockyard::trial {
 
-inline scenario::Scenario Gestalt(const std::string& name, const Overrides& overrides = {}) {
+inline DriveParams Gestalt(const std::string& name, const Overrides& overrides = {}) {
   return scenario::LoadScenario(
-      std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/gestalt/" + name + ".json", overrides);
+             std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/gestalt/" + name + ".json", overrides)
+      .drive;
 }
 
 inline Overrides operator+(Overrides a, const Overrides& b) {

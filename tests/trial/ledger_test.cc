@@ -8,8 +8,8 @@
 namespace rockyard::trial {
 namespace {
 
-Ledger LedgerOf(const scenario::Scenario& scenario) {
-  return {MakePowerBudget(scenario), scenario.energy.battery_wh};
+Ledger LedgerOf(const DriveParams& drive) {
+  return {MakePowerBudget(drive), drive.energy.battery_wh};
 }
 
 TEST(PowerBudgetTest, PowersAreThoseOfTable1AndSection6) {
@@ -71,8 +71,8 @@ TEST(PowerBudgetTest, AccelerometersWatchMotionAlone) {
 // T = fixed + (20 - fixed) groups / 3 / speed.
 TEST(ScanTimeTest, FollowsLaserGroupsAndSpeed) {
   const auto time_s = [](const Overrides& overrides) {
-    const scenario::Scenario scenario = Pathfinder("nominal", overrides);
-    return ScanTime(scenario.clock, scenario.sensors.light_stripe);
+    const DriveParams drive = Pathfinder("nominal", overrides);
+    return ScanTime(drive.clock, drive.sensors.light_stripe);
   };
   EXPECT_DOUBLE_EQ(time_s({}), 20.0);
   EXPECT_DOUBLE_EQ(time_s({"clock.scan_fixed_s=7.3"}), 20.0);  // however it divides

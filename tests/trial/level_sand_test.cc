@@ -57,10 +57,10 @@ struct Drives {
 };
 
 Drives DriveAll(std::uint32_t runs, const Overrides& overrides) {
-  const scenario::Scenario scenario = Pathfinder("level_sand", overrides);
+  const DriveParams drive = Pathfinder("level_sand", overrides);
   Drives drives;
   for (std::uint32_t i = 0; i < runs; ++i) {
-    const TracedTrial trial = RunTraced(scenario, i);
+    const TracedTrial trial = RunTraced(drive, i);
     EXPECT_TRUE(truth::DeclaredSuccess(trial.result.outcome)) << trial.result.detail;
     const std::vector<Stretch> stretches = StretchesOf(trial.trace);
     drives.stretches.insert(drives.stretches.end(), stretches.begin(), stretches.end());

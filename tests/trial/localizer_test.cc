@@ -24,10 +24,10 @@ const messages::MotionMeasurement kTick = [] {
   return motion;
 }();
 
-scenario::Scenario With(scenario::Localization localization) {
-  scenario::Scenario scenario;
-  scenario.sensors.localization = localization;
-  return scenario;
+DriveParams With(Localization localization) {
+  DriveParams drive;
+  drive.sensors.localization = localization;
+  return drive;
 }
 
 // MakePose and TrueAttitude are inverse to each other: pitch positive nose down, roll positive left
@@ -47,7 +47,7 @@ TEST(LocalizerTest, TheOracleTellsTheAttitudeThatMakesThePose) {
 }
 
 TEST(LocalizerTest, TheOracleFollowsAllSixDegreesOfFreedom) {
-  Localizer localizer(With(scenario::Localization::kOracle), {});
+  Localizer localizer(With(Localization::kOracle), {});
   localizer.Place(StateAt({0.0, 0.0, 0.1}, 0.0, 0.0, 0.0));
   EXPECT_EQ(localizer.attitude().z_m, 0.0);
   localizer.Integrate(kTick, StateAt({0.4, 0.3, 0.25}, 0.5, -0.2, 0.1));
@@ -61,7 +61,7 @@ TEST(LocalizerTest, TheOracleFollowsAllSixDegreesOfFreedom) {
 
 // On board, slopes are felt by accelerometers alone.
 TEST(LocalizerTest, WithoutAccelerometersTheRoverIsLevel) {
-  Localizer localizer(With(scenario::Localization::kDeadReckoning), {});
+  Localizer localizer(With(Localization::kDeadReckoning), {});
   localizer.Place(StateAt({0.0, 0.0, 0.1}, 0.0, 0.0, 0.0));
   localizer.Integrate(kTick, StateAt({0.4, 0.3, 0.25}, 0.5, -0.2, 0.1));
   localizer.Level({}, 0.05);
@@ -71,7 +71,7 @@ TEST(LocalizerTest, WithoutAccelerometersTheRoverIsLevel) {
 }
 
 TEST(LocalizerTest, AccelerometersLevelTheRover) {
-  Localizer localizer(With(scenario::Localization::kDeadReckoning), {});
+  Localizer localizer(With(Localization::kDeadReckoning), {});
   messages::VehicleState felt;
   // Nose down by p: the upward force points backwards, f = g (-sin p, 0, cos p).
   felt.specific_force_R = 9.81 * math::Vector3(-std::sin(0.2), 0.0, std::cos(0.2));

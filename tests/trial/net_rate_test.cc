@@ -10,27 +10,28 @@ namespace {
 
 constexpr double kFourHours_s = 14400.0;
 
-scenario::Scenario Mars(const std::string& name, const Overrides& overrides = {}) {
+DriveParams Mars(const std::string& name, const Overrides& overrides = {}) {
   return scenario::LoadScenario(
-      std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/mars/" + name + ".json", overrides);
+             std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/mars/" + name + ".json", overrides)
+      .drive;
 }
 
 // One scan a step: v = s / (s / v0 + T + stop), with the step s rounded up to whole ticks.
-double ClosedForm(const scenario::Scenario& scenario, double scans_per_step) {
-  const double speed_m_s = scenario.rover.drive.speed_m_s;
-  const double tick_m = speed_m_s / scenario.clock.control_rate_hz;
+double ClosedForm(const DriveParams& drive, double scans_per_step) {
+  const double speed_m_s = drive.rover.drive.speed_m_s;
+  const double tick_m = speed_m_s / drive.clock.control_rate_hz;
   const double step_m =
-      std::ceil(scenario.navigation.pathfinder.scan_interval_m / tick_m - 1e-9) * tick_m;
-  return step_m / (step_m / speed_m_s + scenario.clock.stop_time_s +
-                   scans_per_step * scenario.clock.scan_time_s);
+      std::ceil(drive.navigation.pathfinder.scan_interval_m / tick_m - 1e-9) * tick_m;
+  return step_m /
+         (step_m / speed_m_s + drive.clock.stop_time_s + scans_per_step * drive.clock.scan_time_s);
 }
 
 TEST(NetRateTest, OneScanAStepIsThePublishedRate) {
-  const scenario::Scenario scenario = Mars("traverse_single_scan");
-  const DriveResult result = RunTrial(scenario, {1, 0});
+  const DriveParams drive = Mars("traverse_single_scan");
+  const DriveResult result = RunTrial(drive, {1, 0});
   EXPECT_EQ(result.outcome, truth::TrialOutcome::kTimeLimit);
   EXPECT_EQ(result.record.rescans, 0.0);
-  const double expected_m_s = ClosedForm(scenario, 1.0);
+  const double expected_m_s = ClosedForm(drive, 1.0);
   EXPECT_NEAR(expected_m_s, 0.0022, 0.00005);  // printed: 0.22 cm/s
   EXPECT_NEAR(result.record.net_rate_m_s, expected_m_s, 0.002 * expected_m_s);
   EXPECT_EQ(result.record.single_scan_rate_m_s, result.record.net_rate_m_s);
@@ -43,20 +44,20 @@ TEST(NetRateTest, OneScanAStepIsThePublishedRate) {
 // p and the rover scans until one is clear or two agree. Counted here, so that the closed form of
 // the rate holds for the drive's own n.
 TEST(NetRateTest, RescansOfTheTwoScanRuleCostATenth) {
-  const scenario::Scenario scenario = Mars("traverse_two_scans");
+  const DriveParams drive = Mars("traverse_two_scans");
   double scans = 0.0;
   double rescans = 0.0;
   double distance_m = 0.0;
   int undisturbed = 0;
   for (std::uint32_t index = 0; index < 6; ++index) {
-    const truth::DriveRecord record = RunTrial(scenario, {1, index}).record;
+    const truth::DriveRecord record = RunTrial(drive, {1, index}).record;
     const double per_step = record.scans / (record.scans - record.rescans);
-    const double expected_m_s = ClosedForm(scenario, per_step);
+    const double expected_m_s = ClosedForm(drive, per_step);
     // Five scans that disagree leave a false alarm, whose turn takes a minute more.
     const bool turned = record.turns_in_place > 0.0;
     const double tolerance = turned ? 0.01 : 0.002;
     EXPECT_NEAR(record.net_rate_m_s, expected_m_s, tolerance * expected_m_s);
-    EXPECT_NEAR(record.single_scan_rate_m_s, ClosedForm(scenario, 1.0), tolerance * expected_m_s);
+    EXPECT_NEAR(record.single_scan_rate_m_s, ClosedForm(drive, 1.0), tolerance * expected_m_s);
     undisturbed += !turned;
     scans += record.scans;
     rescans += record.rescans;
@@ -72,7 +73,7 @@ TEST(NetRateTest, RescansOfTheTwoScanRuleCostATenth) {
 
 TEST(NetRateTest, FasterSensorsDriveFarther) {
   const DriveResult published = RunTrial(Mars("traverse_single_scan"), {1, 0});
-  const scenario::Scenario faster =
+  const DriveParams faster =
       Mars("traverse_single_scan", {"sensors.light_stripe.lasers_per_image=5"});
   const DriveResult result = RunTrial(faster, {1, 0});
   // T = 2 + 18 / 3 = 8 s: 65 mm in 9.7 + 8 s.

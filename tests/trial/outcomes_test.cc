@@ -41,11 +41,10 @@ TEST(OutcomesTest, TipOverOnSlopes) {
 }
 
 TEST(OutcomesTest, TipOverOnVeryRoughGround) {
-  const scenario::Scenario scenario =
-      Pathfinder("level_sand",
-                 {"terrain.ground.roughness_rms_m=0.3", "terrain.ground.roughness_wavelength_m=1.5",
-                  "terrain.ground.soil.friction_angle_deg=56"});
-  const std::vector<DriveResult> results = RunTrials(scenario, 6);
+  const DriveParams drive = Pathfinder("level_sand", {"terrain.ground.roughness_rms_m=0.3",
+                                                      "terrain.ground.roughness_wavelength_m=1.5",
+                                                      "terrain.ground.soil.friction_angle_deg=56"});
+  const std::vector<DriveResult> results = RunTrials(drive, 6);
   EXPECT_GE(Count(results)[TrialOutcome::kTipOver], 2);
   for (const DriveResult& result : results) {
     EXPECT_EQ(result.outcome == TrialOutcome::kTipOver, result.record.max_tilt_deg > 60.0);
@@ -53,9 +52,8 @@ TEST(OutcomesTest, TipOverOnVeryRoughGround) {
 }
 
 TEST(OutcomesTest, JammedOrHighCentredWhereTheRoverDrivesBlindlyIntoRocks) {
-  const scenario::Scenario scenario =
-      Pathfinder("obstacles_2.0", {"perception.hazard.enabled=false"});
-  std::map<TrialOutcome, int> counts = Count(RunTrials(scenario, 8));
+  const DriveParams drive = Pathfinder("obstacles_2.0", {"perception.hazard.enabled=false"});
+  std::map<TrialOutcome, int> counts = Count(RunTrials(drive, 8));
   EXPECT_GE(counts[TrialOutcome::kJammed], 1);
   EXPECT_GE(counts[TrialOutcome::kHighCentred], 1);
 }

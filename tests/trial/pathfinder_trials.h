@@ -14,9 +14,11 @@ namespace rockyard::trial {
 
 using Overrides = std::vector<std::string>;  // "PATH=VALUE"
 
-inline scenario::Scenario Pathfinder(const std::string& name, const Overrides& overrides = {}) {
+inline DriveParams Pathfinder(const std::string& name, const Overrides& overrides = {}) {
   return scenario::LoadScenario(
-      std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/" + name + ".json", overrides);
+             std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/" + name + ".json",
+             overrides)
+      .drive;
 }
 
 // A trial with its course over time.
@@ -25,17 +27,17 @@ struct TracedTrial {
   truth::Trace trace;
 };
 
-inline TracedTrial RunTraced(const scenario::Scenario& scenario, std::uint32_t index,
+inline TracedTrial RunTraced(const DriveParams& drive, std::uint32_t index,
                              std::uint64_t seed = 1) {
   TracedTrial trial;
-  trial.result = RunTrial(scenario, {seed, index}, &trial.trace);
+  trial.result = RunTrial(drive, {seed, index}, &trial.trace);
   return trial;
 }
 
 // The trials 0 to count - 1 of seed 1.
-inline std::vector<DriveResult> RunTrials(const scenario::Scenario& scenario, std::uint32_t count) {
+inline std::vector<DriveResult> RunTrials(const DriveParams& drive, std::uint32_t count) {
   std::vector<DriveResult> results;
-  for (std::uint32_t i = 0; i < count; ++i) results.push_back(RunTrial(scenario, {1, i}));
+  for (std::uint32_t i = 0; i < count; ++i) results.push_back(RunTrial(drive, {1, i}));
   return results;
 }
 

@@ -25,9 +25,9 @@ terrain::Rock Rock(double x_m, double y_m, double radius_m, double height_m) {
 }
 
 messages::Route PlanAmong(std::vector<terrain::Rock> rocks) {
-  const scenario::Scenario scenario = Pathfinder("nominal");
+  const DriveParams drive = Pathfinder("nominal");
   const terrain::Terrain terrain(terrain::Ground(), std::move(rocks), {});
-  return PlanRoute(scenario, terrain, {7.6, 0.0});
+  return PlanRoute(drive, terrain, {7.6, 0.0});
 }
 
 // Distance of the route from a point.
@@ -108,12 +108,12 @@ TEST(RoutePlannerTest, NarrowGapsAreTheLastResort) {
 }
 
 TEST(RoutePlannerTest, RoutesStayBetweenTheMirrorLinesAndRepeat) {
-  const scenario::Scenario scenario = Pathfinder("vl2");
+  const DriveParams drive = Pathfinder("vl2");
   for (std::uint32_t i = 0; i < 10; ++i) {
-    const terrain::Field field = terrain::BuildField(scenario.terrain, LayoutKey(scenario, {1, i}),
-                                                     TerrainCourse(scenario.course));
-    const messages::Route route = PlanRoute(scenario, field.terrain, {7.6, 0.0});
-    const messages::Route again = PlanRoute(scenario, field.terrain, {7.6, 0.0});
+    const terrain::Field field =
+        terrain::BuildField(drive.terrain, LayoutKey(drive, {1, i}), TerrainCourse(drive.course));
+    const messages::Route route = PlanRoute(drive, field.terrain, {7.6, 0.0});
+    const messages::Route again = PlanRoute(drive, field.terrain, {7.6, 0.0});
     ASSERT_EQ(route.corners.size(), again.corners.size());
     for (std::size_t c = 0; c < route.corners.size(); ++c) {
       EXPECT_LE(std::abs(route.corners[c].y_m), 1.1);
@@ -124,10 +124,10 @@ TEST(RoutePlannerTest, RoutesStayBetweenTheMirrorLinesAndRepeat) {
 
 // With the true pose the follower keeps to the route; where there is none it gives up.
 TEST(RouteTrialTest, ArrivesWhereThereIsAWay) {
-  const scenario::Scenario scenario = Pathfinder(
+  const DriveParams drive = Pathfinder(
       "nominal",
       {"rover.fidelity=quasi_static", "sensors.localization=oracle", "navigation.navigator=route"});
-  const std::vector<DriveResult> results = RunTrials(scenario, 40);
+  const std::vector<DriveResult> results = RunTrials(drive, 40);
   const auto reached = std::count_if(results.begin(), results.end(), [](const DriveResult& each) {
     return each.outcome == truth::TrialOutcome::kGoalReached;
   });
@@ -136,24 +136,24 @@ TEST(RouteTrialTest, ArrivesWhereThereIsAWay) {
 }
 
 TEST(RouteTrialTest, GivesUpWhereThereIsNone) {
-  const scenario::Scenario scenario =
+  const DriveParams drive =
       Pathfinder("nominal", {"rover.fidelity=quasi_static", "navigation.navigator=route",
                              "terrain.rocks.kind=listed", "terrain.rocks.listed.x_m=[3,3,3,3]",
                              "terrain.rocks.listed.y_m=[-1.2,-0.4,0.4,1.2]",
                              "terrain.rocks.listed.diameter_m=[0.8,0.8,0.8,0.8]",
                              "terrain.rocks.listed.height_m=[0.5,0.5,0.5,0.5]"});
-  const DriveResult result = RunTrial(scenario, {1, 0});
+  const DriveResult result = RunTrial(drive, {1, 0});
   EXPECT_EQ(result.outcome, truth::TrialOutcome::kNoPath);
   EXPECT_EQ(result.record.true_distance_m, 0.0);
 }
 
 // The rover drives to the goal that it is told; the true one decides.
 TEST(DesignatedDriveTest, AFarGoalIsAFalseOne) {
-  const scenario::Scenario scenario =
+  const DriveParams drive =
       Pathfinder("nominal", {"rover.fidelity=quasi_static", "sensors.localization=oracle",
                              "terrain.rocks.kind=none", "course.designation.enabled=true",
                              "course.designation.pan_error_deg=6"});
-  const DriveResult result = RunTrial(scenario, {1, 0});
+  const DriveResult result = RunTrial(drive, {1, 0});
   EXPECT_EQ(result.outcome, truth::TrialOutcome::kFalseGoal);
   EXPECT_NEAR(result.record.designation_error_m, 7.6 * 6.0 * std::numbers::pi / 180.0, 0.1);
   EXPECT_LT(result.record.believed_goal_distance_m, 0.1001);

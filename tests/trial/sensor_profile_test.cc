@@ -16,10 +16,11 @@ namespace {
 
 const std::filesystem::path kScenarios = std::filesystem::path(ROCKYARD_SOURCE_DIR) / "scenarios";
 
-scenario::Scenario With(const std::string& profile) {
-  return scenario::ParseScenario(
-      R"({"extends": ["mars/mfex_nominal.json", "sensors/profile_)" + profile + R"(.json"]})", {},
-      kScenarios);
+DriveParams With(const std::string& profile) {
+  return scenario::ParseScenario(R"({"extends": ["mars/mfex_nominal.json", "sensors/profile_)" +
+                                     profile + R"(.json"]})",
+                                 {}, kScenarios)
+      .drive;
 }
 
 TEST(SensorProfileTest, ScansTakeWhatTheirPartsTake) {
@@ -36,11 +37,9 @@ TEST(SensorProfileTest, ScansTakeWhatTheirPartsTake) {
       {"three_scanline_fan", {2.0 + 18.0 / 3.0, kRest_W + 20.0 * 0.01 * kLaser_W}},
       {"dense_array", {2.0 + 18.0 * 5.0 / 3.0, 7.33}}};
   for (const auto& [profile, scan] : expected) {
-    const scenario::Scenario scenario = With(profile);
-    EXPECT_NEAR(ScanTime(scenario.clock, scenario.sensors.light_stripe), scan.time_s, 1e-12)
-        << profile;
-    EXPECT_NEAR(MakePowerBudget(scenario).Power(Activity::kScanning), scan.power_W, 1e-12)
-        << profile;
+    const DriveParams drive = With(profile);
+    EXPECT_NEAR(ScanTime(drive.clock, drive.sensors.light_stripe), scan.time_s, 1e-12) << profile;
+    EXPECT_NEAR(MakePowerBudget(drive).Power(Activity::kScanning), scan.power_W, 1e-12) << profile;
   }
 }
 

@@ -30,10 +30,10 @@ Points Seen(const Overrides& overrides, LookDirection direction) {
 std::string Error(const std::string& what) { return "perception.calibration.stereo_" + what; }
 
 TEST(StereoCalibrationTest, NoErrorLeavesTheCloudBitForBit) {
-  const scenario::Scenario scenario = Gestalt("abundance");
+  const DriveParams drive = Gestalt("abundance");
   for (const LookDirection direction : {LookDirection::kAhead, LookDirection::kBehind}) {
     const Points seen = Seen({}, direction);
-    const Points measured = sensing::StereoSensor(scenario.sensors.stereo)
+    const Points measured = sensing::StereoSensor(drive.sensors.stereo)
                                 .Look(Flat(), math::Transform::Identity(), kKey, 0, direction)
                                 .points_R;
     ASSERT_GT(seen.size(), 1000U);

@@ -46,7 +46,7 @@ sensing::LightStripeParams WithoutErrors(sensing::LightStripeParams params) {
 }
 
 Scenario AtLevel(Scenario scenario, sensing::Fidelity fidelity) {
-  scenario.sensors.light_stripe.fidelity = fidelity;
+  scenario.drive.sensors.light_stripe.fidelity = fidelity;
   return scenario;
 }
 
@@ -60,7 +60,8 @@ StripeScene MakeStripeScene(const Scenario& scenario, SceneKind kind, std::uint3
     terrain::Terrain terrain =
         kind == SceneKind::kFlat
             ? terrain::Terrain(terrain::Ground(), {}, {})
-            : terrain::BuildField(scenario.terrain, key, TerrainCourse(scenario.course)).terrain;
+            : terrain::BuildField(scenario.drive.terrain, key, TerrainCourse(scenario.drive.course))
+                  .terrain;
     core::RandomStream stream(key, core::Purpose::kTest);
     for (int i = 0; i < kTries; ++i) {
       const math::Transform X_WR = RandomPose(stream);
@@ -104,12 +105,12 @@ void PointTally::Add(const messages::StripeScan& truth, const messages::StripeSc
 }
 
 LevelOfStripes::LevelOfStripes(Scenario scenario, sensing::Fidelity fidelity)
-    : scanner_(AtLevel(std::move(scenario), fidelity)) {}
+    : scanner_(AtLevel(std::move(scenario), fidelity).drive) {}
 
 PointTally TallyPoints(const Scenario& scenario, sensing::Fidelity fidelity, SceneKind kind,
                        std::uint32_t scenes) {
   const LevelOfStripes level(scenario, fidelity);
-  const sensing::LightStripe geometry(WithoutErrors(scenario.sensors.light_stripe));
+  const sensing::LightStripe geometry(WithoutErrors(scenario.drive.sensors.light_stripe));
   PointTally tally;
   for (std::uint32_t index = 0; index < scenes; ++index) {
     const StripeScene scene = MakeStripeScene(scenario, kind, index);

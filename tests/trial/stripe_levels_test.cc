@@ -42,9 +42,9 @@ std::vector<Decision> Decisions(const Scenario& scenario, Fidelity fidelity,
                                 double inner_shift_m = 0.0, std::uint64_t draw = 0) {
   // What is on board is right, and so is the hardware but for the shift.
   const perception::Triangulator triangulator(
-      OnboardStripeCalibration(scenario.sensors.light_stripe, {}));
+      OnboardStripeCalibration(scenario.drive.sensors.light_stripe, {}));
   Scenario hardware = scenario;
-  hardware.sensors.light_stripe.inner_stripe_y_m += inner_shift_m;
+  hardware.drive.sensors.light_stripe.inner_stripe_y_m += inner_shift_m;
   const LevelOfStripes level(hardware, fidelity);
   std::vector<Decision> decisions;
   for (std::uint32_t index = 0; index < kScenes; ++index) {
@@ -53,7 +53,7 @@ std::vector<Decision> Decisions(const Scenario& scenario, Fidelity fidelity,
     scene.key.seed += draw * kOtherSeed;
     const auto scan = level.Scan(scene);
     const auto report =
-        perception::ReportHazards(triangulator.Elevations(scan), scenario.perception.hazard);
+        perception::ReportHazards(triangulator.Elevations(scan), scenario.drive.perception.hazard);
     decisions.push_back({report.stripe_hazard, report.any()});
   }
   return decisions;
@@ -147,7 +147,7 @@ TEST_P(StripeLevelsTest, MissedPointsAreAsFrequent) {
   EXPECT_GT(missed_p(scenario, image), kAlpha);
   // Negative control: half as many again, and 2 % more.
   Scenario wrong = scenario;
-  for (double& probability : wrong.sensors.light_stripe.missed_at) {
+  for (double& probability : wrong.drive.sensors.light_stripe.missed_at) {
     probability = std::min(1.0, 1.5 * probability + 0.02);
   }
   EXPECT_LT(missed_p(wrong, image), kAlpha);
@@ -197,11 +197,11 @@ class StripeColumnsTest : public testing::TestWithParam<messages::Lens> {};
 
 TEST_P(StripeColumnsTest, FlatGroundAppearsWhereTheLensProjectsIt) {
   Scenario scenario;
-  scenario.sensors.light_stripe.lens = GetParam();
-  scenario.sensors.sun.irradiance_w_m2_nm = 0.0;
+  scenario.drive.sensors.light_stripe.lens = GetParam();
+  scenario.drive.sensors.sun.irradiance_w_m2_nm = 0.0;
   const LevelOfStripes level(scenario, Fidelity::kImage);
   const auto scan = level.Scan(MakeStripeScene(scenario, SceneKind::kFlat, 0));
-  const auto calibration = OnboardStripeCalibration(scenario.sensors.light_stripe, {});
+  const auto calibration = OnboardStripeCalibration(scenario.drive.sensors.light_stripe, {});
   for (std::size_t row = 0; row < calibration.size().rows; ++row) {
     for (std::size_t stripe = 0; stripe < calibration.size().stripes; ++stripe) {
       ASSERT_TRUE(scan.pixels[row][stripe].detected) << row << " " << stripe;

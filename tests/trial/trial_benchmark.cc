@@ -27,16 +27,16 @@ void HashTrial(const DriveResult& result, core::Hasher& hash) {
 // The first `trials` trials of seed 1 make one iteration.
 void ClosedLoop(benchmark::State& state, const std::string& name, const std::string& fidelity,
                 std::uint32_t trials) {
-  const scenario::Scenario scenario = Pathfinder(name, {"rover.fidelity=" + fidelity});
+  const DriveParams drive = Pathfinder(name, {"rover.fidelity=" + fidelity});
   double ticks = 0.0;
   double scans = 0.0;
   for ([[maybe_unused]] auto _ : state) {
     core::Hasher hash;
     ticks = scans = 0.0;
-    for (const DriveResult& result : RunTrials(scenario, trials)) {
+    for (const DriveResult& result : RunTrials(drive, trials)) {
       HashTrial(result, hash);
       ticks +=
-          (result.record.drive_time_s + result.record.turn_time_s) * scenario.clock.control_rate_hz;
+          (result.record.drive_time_s + result.record.turn_time_s) * drive.clock.control_rate_hz;
       scans += result.record.scans;
     }
     state.SetLabel("hash " + core::Hex(hash.value()));
@@ -59,17 +59,17 @@ BENCHMARK_CAPTURE(ClosedLoop, obstacles_085_quasi_static, "obstacles_0.85", "qua
 BENCHMARK_CAPTURE(ClosedLoop, vl2_quasi_static, "vl2", "quasi_static", 40)
     ->Unit(benchmark::kMillisecond);
 
-terrain::Field FieldOf(const scenario::Scenario& scenario, std::uint32_t index) {
-  return terrain::BuildField(scenario.terrain, LayoutKey(scenario, {1, index}),
-                             TerrainCourse(scenario.course));
+terrain::Field FieldOf(const DriveParams& drive, std::uint32_t index) {
+  return terrain::BuildField(drive.terrain, LayoutKey(drive, {1, index}),
+                             TerrainCourse(drive.course));
 }
 
 void BuildTerrain(benchmark::State& state, const std::string& name) {
-  const scenario::Scenario scenario = Pathfinder(name);
+  const DriveParams drive = Pathfinder(name);
   std::uint32_t index = 0;
-  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(FieldOf(scenario, index++));
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(FieldOf(drive, index++));
   core::Hasher hash;
-  const terrain::Field field = FieldOf(scenario, 0);
+  const terrain::Field field = FieldOf(drive, 0);
   for (const terrain::Rock& rock : field.terrain.rocks()) {
     hash.Real(rock.center_W.x()).Real(rock.center_W.y()).Real(rock.height_m);
   }
@@ -79,15 +79,15 @@ BENCHMARK_CAPTURE(BuildTerrain, nominal, "nominal")->Unit(benchmark::kMicrosecon
 BENCHMARK_CAPTURE(BuildTerrain, vl2, "vl2")->Unit(benchmark::kMicrosecond);
 
 // Poses a scan interval apart along the true track of a trial, the rover upright.
-std::vector<math::Transform> TrackOf(const scenario::Scenario& scenario, std::uint32_t index) {
+std::vector<math::Transform> TrackOf(const DriveParams& drive, std::uint32_t index) {
   std::vector<math::Transform> poses;
   math::Pose2 last;
-  for (const truth::TraceSample& sample : RunTraced(scenario, index).trace.samples) {
+  for (const truth::TraceSample& sample : RunTraced(drive, index).trace.samples) {
     const math::Pose2& pose = sample.pose;
     const bool turned = std::abs(math::WrapAngle(pose.heading_rad - last.heading_rad)) >=
-                        scenario.navigation.pathfinder.turn_increment_rad;
+                        drive.navigation.pathfinder.turn_increment_rad;
     const bool drove = std::hypot(pose.x_m - last.x_m, pose.y_m - last.y_m) >=
-                       scenario.navigation.pathfinder.scan_interval_m;
+                       drive.navigation.pathfinder.scan_interval_m;
     if (!poses.empty() && !turned && !drove) continue;
     last = pose;
     math::Transform X_WR = math::Transform::Identity();
@@ -103,19 +103,19 @@ struct Tracks {
   std::vector<terrain::Field> fields;
   std::vector<std::pair<std::size_t, math::Transform>> poses;  // field, pose
 
-  explicit Tracks(const scenario::Scenario& scenario) {
+  explicit Tracks(const DriveParams& drive) {
     constexpr std::uint32_t kTrials = 4;
     for (std::uint32_t i = 0; i < kTrials; ++i) {
-      fields.push_back(FieldOf(scenario, i));
-      for (const math::Transform& X_WR : TrackOf(scenario, i)) poses.emplace_back(i, X_WR);
+      fields.push_back(FieldOf(drive, i));
+      for (const math::Transform& X_WR : TrackOf(drive, i)) poses.emplace_back(i, X_WR);
     }
   }
 };
 
 void Scan(benchmark::State& state, const std::string& name) {
-  const scenario::Scenario scenario = Pathfinder(name);
-  const Tracks tracks(scenario);
-  const sensing::LightStripe sensor(scenario.sensors.light_stripe);
+  const DriveParams drive = Pathfinder(name);
+  const Tracks tracks(drive);
+  const sensing::LightStripe sensor(drive.sensors.light_stripe);
   const auto scan = [&](std::size_t i) {
     const auto& [field, X_WR] = tracks.poses[i % tracks.poses.size()];
     return sensor.Scan(tracks.fields[field].terrain, X_WR, {1, 0}, static_cast<std::int64_t>(i));

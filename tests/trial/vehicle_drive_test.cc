@@ -31,7 +31,7 @@ bool Felt(const truth::TraceEvent& event) { return event.kind == "felt"; }
 // A rover that sees nothing among rocks of 25 to 35 cm.
 class BlindRover : public testing::TestWithParam<const char*> {
  protected:
-  scenario::Scenario With(const Overrides& sensors) const {
+  DriveParams With(const Overrides& sensors) const {
     return Pathfinder("obstacles_0.57", kBlind + sensors +
                                             Overrides{"terrain.arena.kind=open",
                                                       std::string("rover.fidelity=") + GetParam()});
@@ -110,11 +110,11 @@ TEST(MirrorLineTest, BackingOffDoesNotLeadAcross) {
   constexpr double kLine_m = 1.1;
   constexpr double kTick_m = 0.15 / 20.0;
   constexpr double kSlip_m = 0.02;
-  const scenario::Scenario scenario = Pathfinder(
+  const DriveParams drive = Pathfinder(
       "nominal", kQuasiStatic + kContact + kBlind + Overrides{"terrain.rocks.k_per_m2=0.013"});
   double farthest_m = 0.0;
   for (const std::uint32_t index : {7U, 29U}) {
-    for (const truth::TraceSample& sample : RunTraced(scenario, index).trace.samples) {
+    for (const truth::TraceSample& sample : RunTraced(drive, index).trace.samples) {
       farthest_m = std::max(farthest_m, std::abs(sample.pose.y_m));
     }
   }
@@ -124,8 +124,8 @@ TEST(MirrorLineTest, BackingOffDoesNotLeadAcross) {
 
 // Sensors that are off are not there, whatever their parameters say.
 TEST(VehicleSensorsTest, ParametersOfSensorsThatAreOffChangeNothing) {
-  const scenario::Scenario plain = Pathfinder("obstacles_0.85", kQuasiStatic);
-  const scenario::Scenario other =
+  const DriveParams plain = Pathfinder("obstacles_0.85", kQuasiStatic);
+  const DriveParams other =
       Pathfinder("obstacles_0.85",
                  kQuasiStatic + Overrides{"sensors.vehicle.contact.min_force_N=0",
                                           "sensors.vehicle.accelerometers.noise_m_s2=5",
@@ -149,11 +149,11 @@ TEST(VehicleSensorsTest, NothingIsFeltOnLevelSand) {
 }
 
 TEST(VehicleSensorsTest, TrialsRepeatBitForBit) {
-  const scenario::Scenario scenario = Pathfinder("obstacles_2.0", kQuasiStatic + kAll + kBlind);
+  const DriveParams drive = Pathfinder("obstacles_2.0", kQuasiStatic + kAll + kBlind);
   double felt = 0.0;
   for (std::uint32_t index = 0; index < 3; ++index) {
-    const DriveResult first = RunTrial(scenario, {1, index});
-    EXPECT_THAT(Differences(first, RunTrial(scenario, {1, index})), testing::IsEmpty());
+    const DriveResult first = RunTrial(drive, {1, index});
+    EXPECT_THAT(Differences(first, RunTrial(drive, {1, index})), testing::IsEmpty());
     const truth::DriveRecord& record = first.record;
     felt += record.contact_hazards + record.tilt_hazards + record.articulation_hazards +
             record.current_hazards;
@@ -162,8 +162,8 @@ TEST(VehicleSensorsTest, TrialsRepeatBitForBit) {
 }
 
 TEST(HazardCountsTest, MissesAreAmongTheMet) {
-  const scenario::Scenario blind = Pathfinder("obstacles_2.0", kQuasiStatic + kBlind);
-  const scenario::Scenario seeing = Pathfinder("obstacles_2.0", kQuasiStatic);
+  const DriveParams blind = Pathfinder("obstacles_2.0", kQuasiStatic + kBlind);
+  const DriveParams seeing = Pathfinder("obstacles_2.0", kQuasiStatic);
   double missed_blind = 0.0;
   double missed_seeing = 0.0;
   for (std::uint32_t index = 0; index < 10; ++index) {

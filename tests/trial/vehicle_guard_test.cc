@@ -12,15 +12,15 @@ using messages::VehicleHazardKind;
 
 constexpr double kTick_s = 0.05;
 
-scenario::Scenario Feeling(std::int64_t latency_ticks) {
-  scenario::Scenario scenario;
-  auto& sensors = scenario.sensors.vehicle;
+DriveParams Feeling(std::int64_t latency_ticks) {
+  DriveParams drive;
+  auto& sensors = drive.sensors.vehicle;
   sensors.contact.enabled = sensors.accelerometers.enabled = true;
   sensors.contact.latency_ticks = sensors.accelerometers.latency_ticks = latency_ticks;
   sensors.accelerometers.noise_m_s2 = 0.0;
-  scenario.perception.vehicle_hazard.contact_ticks = 1;
-  scenario.perception.vehicle_hazard.tilt_ticks = 3;
-  return scenario;
+  drive.perception.vehicle_hazard.contact_ticks = 1;
+  drive.perception.vehicle_hazard.tilt_ticks = 3;
+  return drive;
 }
 
 truth::RoverState Leaning(double roll_rad) {
@@ -46,9 +46,9 @@ bool Feel(VehicleGuard& guard, const truth::RoverState& state) {
 
 TEST(VehicleGuardTest, TouchesFromBeforeAHandMoveAreForgotten) {
   for (const std::int64_t latency : {0, 1, 3}) {
-    const scenario::Scenario scenario = Feeling(latency);
-    VehicleGuard guard(scenario, {1, 0});
-    const truth::RoverState touching = Touching(scenario.rover.geometry, +1.0);
+    const DriveParams drive = Feeling(latency);
+    VehicleGuard guard(drive, {1, 0});
+    const truth::RoverState touching = Touching(drive.rover.geometry, +1.0);
     EXPECT_TRUE(Feel(guard, touching));
     for (int tick = 0; tick < 4; ++tick) EXPECT_FALSE(Feel(guard, touching));
     ASSERT_NE(guard.hazard(), nullptr);
@@ -64,10 +64,10 @@ TEST(VehicleGuardTest, TouchesFromBeforeAHandMoveAreForgotten) {
 
 // Every kind is counted when it appears, also one that appears beside another.
 TEST(VehicleGuardTest, CountsEachKindWhenItAppears) {
-  const scenario::Scenario scenario = Feeling(0);
+  const DriveParams drive = Feeling(0);
   for (const double end : {+1.0, -1.0}) {  // touches ahead, behind
-    VehicleGuard guard(scenario, {1, 0});
-    truth::RoverState state = Touching(scenario.rover.geometry, end);
+    VehicleGuard guard(drive, {1, 0});
+    truth::RoverState state = Touching(drive.rover.geometry, end);
     state.X_WR.linear() = Leaning(math::DegToRad(35.0)).X_WR.linear();
     for (int tick = 0; tick < 5; ++tick) Feel(guard, state);
     EXPECT_EQ(guard.count(VehicleHazardKind::kContact), 1);

@@ -7,7 +7,8 @@
 
 int main() {
   const rockyard::scenario::Scenario scenario;
-  const auto experiment = rockyard::experiments::MakeExperiment(scenario);
+  const auto experiment =
+      rockyard::experiments::MakeExperiment(scenario.experiment, scenario.drive);
   const auto first = experiment->Run(1, 0);
   const auto again = experiment->Run(1, 0);
   const bool same = first.outcome == again.outcome && first.values.size() == again.values.size();

@@ -1,6 +1,6 @@
-#include "scenario/suite.h"
+#include "trial/suite_params.h"
 
-namespace rockyard::scenario {
+namespace rockyard::trial {
 
 using core::Origin;
 
@@ -49,4 +49,4 @@ void NavigationParams::Visit(core::FieldVisitor& v) {
   v.Group("wheel_driver", wheel_driver, "from motions to wheel and steering set points");
 }
 
-}  // namespace rockyard::scenario
+}  // namespace rockyard::trial

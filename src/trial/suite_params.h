@@ -24,7 +24,7 @@
 #include "sensing/tracker_params.h"
 #include "sensing/vehicle_sensor_params.h"
 
-namespace rockyard::scenario {
+namespace rockyard::trial {
 
 // Where the pose that the rover believes comes from.
 enum class Localization {
@@ -80,19 +80,19 @@ struct NavigationParams {
   void Visit(core::FieldVisitor& v);
 };
 
-}  // namespace rockyard::scenario
+}  // namespace rockyard::trial
 
 template <>
-struct rockyard::core::EnumNames<rockyard::scenario::Localization> {
+struct rockyard::core::EnumNames<rockyard::trial::Localization> {
   static constexpr std::array<std::string_view, 2> kNames{"dead_reckoning", "oracle"};
 };
 
 template <>
-struct rockyard::core::EnumNames<rockyard::scenario::TerrainSensor> {
+struct rockyard::core::EnumNames<rockyard::trial::TerrainSensor> {
   static constexpr std::array<std::string_view, 2> kNames{"light_stripe", "stereo"};
 };
 
 template <>
-struct rockyard::core::EnumNames<rockyard::scenario::NavigatorKind> {
+struct rockyard::core::EnumNames<rockyard::trial::NavigatorKind> {
   static constexpr std::array<std::string_view, 3> kNames{"pathfinder", "gestalt", "route"};
 };

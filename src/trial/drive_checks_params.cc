@@ -1,4 +1,4 @@
-#include "scenario/drive_checks.h"
+#include "trial/drive_checks_params.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace rockyard::scenario {
+namespace rockyard::trial {
 namespace {
 
 // Distance from R's origin, straight ahead, up to which cameras show level ground: the end of their
@@ -33,9 +33,9 @@ bool HoldsCameras(const rover::RoverGeometryParams& rover, double ahead_m) {
   return ahead_m >= -0.5 * rover.length_m && ahead_m <= rover.length_m;
 }
 
-void RequireCameras(const Scenario& scenario, core::FieldVisitor& v) {
-  const rover::RoverGeometryParams& rover = scenario.rover.geometry;
-  const sensing::StereoParams& stereo = scenario.sensors.stereo;
+void RequireCameras(const DriveParams& drive, core::FieldVisitor& v) {
+  const rover::RoverGeometryParams& rover = drive.rover.geometry;
+  const sensing::StereoParams& stereo = drive.sensors.stereo;
   constexpr std::string_view kElsewhere =
       "puts the cameras behind the rover or more than half its length beyond its end";
   constexpr std::string_view kMount =
@@ -49,9 +49,9 @@ void RequireCameras(const Scenario& scenario, core::FieldVisitor& v) {
 
 // The array that the behaviour controller judges: a stripe whose first two rows are not seen is a
 // hazard, so that an array beyond the view would stop every rover.
-void RequireArray(const Scenario& scenario, core::FieldVisitor& v) {
-  const sensing::StereoParams& stereo = scenario.sensors.stereo;
-  const perception::CloudElevationParams& array = scenario.perception.cloud_elevations;
+void RequireArray(const DriveParams& drive, core::FieldVisitor& v) {
+  const sensing::StereoParams& stereo = drive.sensors.stereo;
+  const perception::CloudElevationParams& array = drive.perception.cloud_elevations;
   v.Require("perception.cloud_elevations.far_m", array.far_m <= GroundReach_m(stereo) + kSame_m,
             "lies beyond the level ground that sensors.stereo shows (max_range_m, front)",
             "use a shorter array, a longer range, or cameras that look less far down");
@@ -85,14 +85,14 @@ bool IsFree(const terrain::ListedRocksParams& rocks, double x_m, double y_m, dou
 }
 
 // Random rocks keep away from start and goal, listed ones stand where they were put.
-void RequireFreeEnds(const Scenario& scenario, core::FieldVisitor& v) {
-  const terrain::RockFieldParams& rocks = scenario.terrain.rocks;
+void RequireFreeEnds(const DriveParams& drive, core::FieldVisitor& v) {
+  const terrain::RockFieldParams& rocks = drive.terrain.rocks;
   const terrain::ListedRocksParams& listed = rocks.listed;
   // Lists of different lengths have been refused by their own group.
   const bool complete =
       listed.y_m.size() == listed.x_m.size() && listed.diameter_m.size() == listed.x_m.size();
   if (rocks.kind != terrain::RockFieldKind::kListed || !complete) return;
-  const trial::CourseParams& course = scenario.course;
+  const CourseParams& course = drive.course;
   constexpr std::string_view kMove =
       "move the rock or the course, or use a smaller clear_radius_m where that is meant";
   v.Require("terrain.rocks.listed.x_m",
@@ -106,12 +106,12 @@ void RequireFreeEnds(const Scenario& scenario, core::FieldVisitor& v) {
 }
 
 // A goal beyond a mirror line is never reached: the rover is turned back there.
-void RequireToldGoals(const Scenario& scenario, core::FieldVisitor& v) {
-  const trial::CourseParams& course = scenario.course;
-  const terrain::ArenaParams& arena = scenario.terrain.arena;
+void RequireToldGoals(const DriveParams& drive, core::FieldVisitor& v) {
+  const CourseParams& course = drive.course;
+  const terrain::ArenaParams& arena = drive.terrain.arena;
   if (!course.designation.enabled || arena.kind != terrain::ArenaKind::kVirtualReflected) return;
   constexpr double kDeviations = 5.0;  // one trial in a million lies beyond
-  const trial::DesignationErrors errors = course.designation.ErrorsAt(course.DesignationRange_m());
+  const DesignationErrors errors = course.designation.ErrorsAt(course.DesignationRange_m());
   const double reach_m = kDeviations * std::max(errors.crossrange_sd_m, errors.downrange_sd_m) +
                          std::abs(errors.crossrange_bias_m);
   v.Require("course.designation.enabled", std::abs(course.goal_y_m) + reach_m <= arena.MirrorLine(),
@@ -124,9 +124,9 @@ bool IsLike(double believed_m, double true_m) {
   return believed_m <= 2.0 * true_m && believed_m >= 0.5 * true_m;
 }
 
-void RequireOwnSize(const Scenario& scenario, core::FieldVisitor& v) {
-  const navigation::GestaltRoverParams& believed = scenario.navigation.gestalt.map.rover;
-  const rover::RoverGeometryParams& rover = scenario.rover.geometry;
+void RequireOwnSize(const DriveParams& drive, core::FieldVisitor& v) {
+  const navigation::GestaltRoverParams& believed = drive.navigation.gestalt.map.rover;
+  const rover::RoverGeometryParams& rover = drive.rover.geometry;
   if (!believed.modelled) return;
   constexpr std::string_view kModel =
       "use the size of the rover, e.g. \"extends\": scenarios/navigation/gestalt_rocky_3_2.json in "
@@ -139,16 +139,15 @@ void RequireOwnSize(const Scenario& scenario, core::FieldVisitor& v) {
 
 }  // namespace
 
-void RequireSoundDrive(const Scenario& scenario, core::FieldVisitor& v) {
-  if (scenario.experiment != ExperimentKind::kDrive) return;
-  const bool stereo = scenario.sensors.terrain_sensor == TerrainSensor::kStereo;
-  const bool behaviour = scenario.navigation.navigator == NavigatorKind::kPathfinder;
-  const bool map = scenario.navigation.navigator == NavigatorKind::kGestalt;
-  if (stereo) RequireCameras(scenario, v);
-  if (stereo && behaviour) RequireArray(scenario, v);
-  if (map) RequireOwnSize(scenario, v);
-  RequireFreeEnds(scenario, v);
-  RequireToldGoals(scenario, v);
+void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v) {
+  const bool stereo = drive.sensors.terrain_sensor == TerrainSensor::kStereo;
+  const bool behaviour = drive.navigation.navigator == NavigatorKind::kPathfinder;
+  const bool map = drive.navigation.navigator == NavigatorKind::kGestalt;
+  if (stereo) RequireCameras(drive, v);
+  if (stereo && behaviour) RequireArray(drive, v);
+  if (map) RequireOwnSize(drive, v);
+  RequireFreeEnds(drive, v);
+  RequireToldGoals(drive, v);
 }
 
-}  // namespace rockyard::scenario
+}  // namespace rockyard::trial

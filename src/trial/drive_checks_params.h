@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/fields.h"
-#include "scenario/scenario.h"
+#include "trial/drive_params.h"
 
-namespace rockyard::scenario {
+namespace rockyard::trial {
 
 // Lengths that are written in two places of a file agree to this.
 inline constexpr double kSame_m = 1e-9;
@@ -18,6 +18,6 @@ inline constexpr double kSame_m = 1e-9;
 // - goals that a lander designates stay between the mirror lines of a virtual_reflected arena;
 // - GESTALT takes its vehicle for at most twice and at least half as long and wide as it is.
 // Each failure names the parameter, what is wrong and a remedy.
-void RequireSoundDrive(const Scenario& scenario, core::FieldVisitor& v);
+void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v);
 
-}  // namespace rockyard::scenario
+}  // namespace rockyard::trial

@@ -1,0 +1,62 @@
+// Which experiment a scenario asks for, and the parameters of each: the one list of experiments.
+//
+// A new experiment has a folder beside this file with its *_params.h and its conditions, and is
+// named here and in make_experiment.cc.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "core/fields.h"
+#include "experiments/hazard_checks_params.h"
+#include "experiments/hazard_detection_params.h"
+#include "trial/drive_checks_params.h"
+#include "trial/drive_consistency_params.h"
+#include "trial/drive_params.h"
+
+namespace rockyard::experiments {
+
+// What one run of the experiment is.
+enum class ExperimentKind {
+  kDrive,            // the closed-loop drive to a goal
+  kHazardDetection,  // what the light stripe sensor sees and misses
+};
+
+}  // namespace rockyard::experiments
+
+template <>
+struct rockyard::core::EnumNames<rockyard::experiments::ExperimentKind> {
+  static constexpr std::array<std::string_view, 2> kNames{"drive", "hazard_detection"};
+};
+
+namespace rockyard::experiments {
+
+struct ExperimentParams {
+  ExperimentKind kind = ExperimentKind::kDrive;
+  HazardDetectionParams hazard_detection;
+
+  // Lists the field "experiment", and the group of each experiment that has parameters of its own,
+  // in the group that is being visited.
+  void VisitKind(core::FieldVisitor& v) {
+    v.Choice("experiment", kind, {.doc = "what one run is", .origin = core::Origin::kSetting});
+  }
+  void VisitGroups(core::FieldVisitor& v) {
+    v.Group("hazard_detection", hazard_detection, "the experiment of that name");
+  }
+
+  // What the experiment in use asks of the drive.
+  void RequireConsistency(const trial::DriveParams& drive, core::FieldVisitor& v) const {
+    switch (kind) {
+      case ExperimentKind::kDrive:
+        trial::RequireConsistency(drive, trial::LightStripeUse::kAsTerrainSensor, v);
+        trial::RequireSoundDrive(drive, v);
+        return;
+      case ExperimentKind::kHazardDetection:
+        trial::RequireConsistency(drive, trial::LightStripeUse::kAlways, v);
+        RequireMeasurable(hazard_detection, drive, v);
+        return;
+    }
+  }
+};
+
+}  // namespace rockyard::experiments

@@ -1,0 +1,131 @@
+#include "trial/drive_consistency_params.h"
+
+#include "rover/body_boxes_params.h"
+#include "sensing/stripe_layout_params.h"
+#include "sensing/stripe_view_params.h"
+
+namespace rockyard::trial {
+namespace {
+
+// What no module can check alone.
+void RequirePossible(const DriveParams& drive, core::FieldVisitor& v) {
+  const terrain::ArenaParams& arena = drive.terrain.arena;
+  const CourseParams& course = drive.course;
+  v.Require("course.start_x_m", arena.HoldsCoursePoint(course.start_x_m, course.start_y_m),
+            "puts the start outside of terrain.arena (or of the mirror lines of a virtual arena)",
+            "move the start or enlarge the arena");
+  v.Require("course.goal_x_m", arena.HoldsCoursePoint(course.goal_x_m, course.goal_y_m),
+            "puts the goal outside of terrain.arena (or of the mirror lines of a virtual arena)",
+            "move the goal or enlarge the arena");
+  const bool multibody = drive.rover.fidelity == rover::Fidelity::kMultibody;
+  const double step_s = multibody ? drive.rover.physics.time_scale * drive.rover.physics.step_s
+                                  : drive.rover.quasi_static.step_s;
+  v.Require("clock.control_rate_hz", drive.clock.control_rate_hz * step_s <= 1.0,
+            "asks for more than one control step per rover.physics.step_s times time_scale "
+            "(multibody) or "
+            "rover.quasi_static.step_s (quasi_static)",
+            "use a lower rate or a shorter physics step");
+  v.Require("rover.fidelity",
+            multibody || drive.terrain.rocks.mobility == terrain::RockMobility::kFixed,
+            "is quasi_static, which pushes no rocks, where terrain.rocks.mobility is movable",
+            "use fidelity multibody or fixed rocks");
+}
+
+// The parameter of the navigator in use that says how near counts as arrived.
+struct ArrivalTolerance {
+  std::string_view reason;
+  double tolerance_m;
+};
+
+ArrivalTolerance ToleranceOf(const NavigationParams& navigation) {
+  switch (navigation.navigator) {
+    case NavigatorKind::kPathfinder:
+      break;
+    case NavigatorKind::kGestalt:
+      return {
+          "is below navigation.gestalt.waypoints.goal_tolerance_m, so that a rover without any "
+          "error could arrive falsely",
+          navigation.gestalt.waypoints.goal_tolerance_m};
+    case NavigatorKind::kRoute:
+      return {
+          "is below navigation.route.goal_tolerance_m, so that a rover without any error could "
+          "arrive falsely",
+          navigation.route.goal_tolerance_m};
+  }
+  return {
+      "is below navigation.pathfinder.goal_tolerance_m, so that a rover without any error could "
+      "arrive falsely",
+      navigation.pathfinder.goal_tolerance_m};
+}
+
+// What an arrival of the navigator means.
+void RequireArrival(const DriveParams& drive, core::FieldVisitor& v) {
+  const ArrivalTolerance arrival = ToleranceOf(drive.navigation);
+  v.Require("course.goal_radius_m", drive.course.goal_radius_m >= arrival.tolerance_m,
+            arrival.reason, "use a goal radius of at least the navigator's tolerance");
+}
+
+// Whether the light stripe sensor has any part in the experiment.
+bool UsesLightStripe(const DriveParams& drive, LightStripeUse use) {
+  return use == LightStripeUse::kAlways ||
+         drive.sensors.terrain_sensor == TerrainSensor::kLightStripe;
+}
+
+// What the behaviour controller takes for left, centre and right.
+void RequireStripes(const DriveParams& drive, LightStripeUse use, core::FieldVisitor& v) {
+  const NavigationParams& navigation = drive.navigation;
+  if (navigation.navigator != NavigatorKind::kPathfinder) return;
+  const bool light_stripe = UsesLightStripe(drive, use);
+  v.Require("navigation.pathfinder.left_stripes",
+            !light_stripe || navigation.pathfinder.stripe_count() ==
+                                 sensing::ArraySize(drive.sensors.light_stripe).stripes,
+            "names with centre_stripes and right_stripes another number of stripes than "
+            "sensors.light_stripe has",
+            "name every stripe of a denser array, e.g. left [0, 1, 2, 3], centre [4], right [5, 6, "
+            "7, 8]");
+  v.Require("navigation.pathfinder.left_stripes",
+            light_stripe || static_cast<std::int64_t>(navigation.pathfinder.stripe_count()) ==
+                                drive.perception.cloud_elevations.stripes,
+            "names with centre_stripes and right_stripes another number of stripes than "
+            "perception.cloud_elevations.stripes",
+            "name every stripe of the array, from left to right");
+}
+
+void RequireFinder(const DriveParams& drive, LightStripeUse use, core::FieldVisitor& v) {
+  if (!UsesLightStripe(drive, use)) return;
+  const sensing::LightStripeParams& sensor = drive.sensors.light_stripe;
+  v.Require(
+      "perception.stripe_finder.averaging_px",
+      sensor.fidelity == sensing::Fidelity::kGeometric ||
+          drive.perception.stripe_finder.averaging_px <=
+              sensor.imager.averaging_rows + 2 * sensor.imager.margin_rows,
+      "is more than the image lines that sensors.light_stripe.imager reads around a scanline, "
+      "so that no point would ever be found",
+      "use at most its averaging_rows plus twice its margin_rows");
+}
+
+// Images show the rover itself, rays do not.
+void RequireFreeView(const DriveParams& drive, LightStripeUse use, core::FieldVisitor& v) {
+  if (!UsesLightStripe(drive, use)) return;
+  const sensing::LightStripeParams& sensor = drive.sensors.light_stripe;
+  v.Require("sensors.light_stripe.fidelity",
+            sensor.fidelity == sensing::Fidelity::kGeometric ||
+                !sensing::IsHiddenBy(sensor, rover::BodyBoxes(drive.rover.geometry)),
+            "is image, where chassis or solar panel hide a point on flat ground from a camera or a "
+            "light emitter",
+            "mount both below the front edge of the panel, as camera_height_m and "
+            "emitter_height_m 0.25 do on Rocky 3.2, or ahead of it");
+}
+
+}  // namespace
+
+void RequireConsistency(const DriveParams& drive, LightStripeUse light_stripe,
+                        core::FieldVisitor& v) {
+  RequirePossible(drive, v);
+  RequireArrival(drive, v);
+  RequireStripes(drive, light_stripe, v);
+  RequireFinder(drive, light_stripe, v);
+  RequireFreeView(drive, light_stripe, v);
+}
+
+}  // namespace rockyard::trial
