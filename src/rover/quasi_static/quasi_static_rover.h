@@ -11,7 +11,7 @@ namespace rockyard::rover {
 
 // The posture is interpolated between two balances, settle_distance_m of rim travel (or
 // settle_turn_rad of turning) apart. The rover draws no random numbers.
-// tests/rover/quasi_static_benchmark.cc measures its cost.
+// tests/rover/quasi_static/benchmark.cc measures its cost.
 class QuasiStaticRover final : public Rover {
  public:
   QuasiStaticRover(const RoverParams& params, const terrain::Terrain& terrain);
