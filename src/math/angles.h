@@ -9,8 +9,8 @@ namespace rockyard::math {
 constexpr double DegToRad(double degrees) { return degrees * std::numbers::pi / 180.0; }
 constexpr double RadToDeg(double radians) { return radians * 180.0 / std::numbers::pi; }
 
-// The equivalent angle in [-pi, pi]. Angles within are their own remainder, and the usual ones:
-// they skip the division.
+// Returns the equivalent angle in [-pi, pi]. Angles within are their own remainder, and the usual
+// ones: they skip the division.
 inline double WrapAngle(double radians) {
   if (std::abs(radians) <= std::numbers::pi) return radians;
   return std::remainder(radians, 2.0 * std::numbers::pi);

@@ -27,7 +27,7 @@ struct PlaneFit {
   }
 };
 
-// From the eigenvalues of a covariance, ascending, and the axis of the smallest.
+// Returns the plane of the eigenvalues of a covariance, ascending, and the axis of the smallest.
 inline PlaneFit PlaneFrom(double smallest_m2, double middle_m2, double largest_m2,
                           const Vector3& axis) {
   // What rounding leaves of an eigenvalue of zero, of either sign.
@@ -43,7 +43,7 @@ inline PlaneFit PlaneFrom(double smallest_m2, double middle_m2, double largest_m
   return fit;
 }
 
-// The planes of two sets of points for the price of one.
+// Returns the planes of two sets of points for the price of one.
 inline std::array<PlaneFit, 2> FitPlanes(const SymmetricMatrix3& a_m2,
                                          const SymmetricMatrix3& b_m2) {
   const SymmetricEigenPair eigen = EigenOf(

@@ -17,8 +17,8 @@ namespace rockyard::math {
 // numbers add up exactly in every order.
 inline constexpr double kMomentUnitsPerMetre = 1e6;
 
-// To the nearest unit, halves away from zero: mirrored points have mirrored coordinates. The
-// coordinate must be smaller than 9e12 m.
+// Returns a coordinate to the nearest unit, halves away from zero: mirrored points have mirrored
+// coordinates. The coordinate must be smaller than 9e12 m.
 inline std::int64_t ToMomentUnits(double coordinate_m) {
   return static_cast<std::int64_t>(coordinate_m * kMomentUnitsPerMetre +
                                    std::copysign(0.5, coordinate_m));
@@ -43,7 +43,7 @@ struct PointMoments {
   std::int64_t count() const { return static_cast<std::int64_t>(sums[kCount]); }
   bool empty() const { return sums[kCount] == 0; }
 
-  // Coordinates in moment units.
+  // Takes a point, its coordinates in moment units.
   void AddPoint(std::int64_t x, std::int64_t y, std::int64_t z) {
     const auto ux = static_cast<std::uint64_t>(x);
     const auto uy = static_cast<std::uint64_t>(y);
@@ -71,7 +71,7 @@ struct PointMoments {
   }
   bool operator==(const PointMoments&) const = default;
 
-  // Mean height of the points. There must be one.
+  // Returns the mean height of the points. There must be one.
   double MeanZ_m() const {
     return static_cast<double>(static_cast<std::int64_t>(sums[kZ])) / static_cast<double>(count()) /
            kMomentUnitsPerMetre;
@@ -82,8 +82,9 @@ struct PointMoments {
 // 65536 times (23/2 m)^2, the most that their mean square distance can be, is 8.7e6 m^2.
 inline constexpr std::int64_t kExactPoints = 65536;
 
-// There must be a point. The second moments are shifted in whole numbers to the unit next to the
-// mean before anything is rounded, so that nothing cancels however far the origin is.
+// Returns mean and covariance; there must be a point. The second moments are shifted in whole
+// numbers to the unit next to the mean before anything is rounded, so that nothing cancels however
+// far the origin is.
 inline PointSpread Spread(const PointMoments& moments) {
   using M = PointMoments;
   const auto& s = moments.sums;
@@ -99,6 +100,8 @@ inline PointSpread Spread(const PointMoments& moments) {
     offset[i] = static_cast<double>(static_cast<std::int64_t>(rest[i])) * inverse_count;
   }
   const auto covariance = [&](std::size_t product, std::size_t i, std::size_t j) {
+    // sum (x_i - near_i)(x_j - near_j) = sum x_i x_j - near_i sum x_j - near_j sum (x_i - near_i),
+    // all modulo 2^64; then less the product of what the mean is off.
     const std::uint64_t about_near = s[product] - near[i] * s[M::kX + j] - near[j] * rest[i];
     const double square = static_cast<double>(static_cast<std::int64_t>(about_near));
     return (square * inverse_count - offset[i] * offset[j]) * 1e-12;
@@ -115,9 +118,10 @@ inline PointSpread Spread(const PointMoments& moments) {
   return spread;
 }
 
-// Of all points of several sets, of which there must be one, in floating point: for sets whose sum
-// is past the bound of PointMoments while each one is not. With n_i, m_i and C_i of each set and
-// d_i = m_i - mean: mean = sum n_i m_i / n, covariance = sum n_i (C_i + d_i d_i^T) / n.
+// Returns the spread of all points of several sets, of which there must be one, in floating point:
+// for sets whose sum is past the bound of PointMoments while each one is not. With n_i, m_i and C_i
+// of each set and d_i = m_i - mean: mean = sum n_i m_i / n, covariance = sum n_i (C_i + d_i d_i^T)
+// / n.
 inline PointSpread Merged(std::span<const PointSpread> sets) {
   PointSpread all;
   for (const PointSpread& set : sets) {

@@ -12,20 +12,20 @@ namespace rockyard::math {
 using Vector3 = Eigen::Vector3d;
 using Transform = Eigen::Isometry3d;
 
-// A pose in the ground plane.
+// A pose in the ground plane of W.
 struct Pose2 {
   double x_m = 0.0;
   double y_m = 0.0;
   double heading_rad = 0.0;  // from +x towards +y
 };
 
-// Heading of X_WR: direction of the rover's x axis projected on the ground.
+// Returns the heading of X_WR, rad: the direction of the rover's x axis projected on the ground.
 inline double Heading(const Transform& X_WR) {
   const Vector3 forward = X_WR.linear().col(0);
   return std::atan2(forward.y(), forward.x());
 }
 
-// Angle between the rover's z axis and the world's.
+// Returns the angle between the rover's z axis and the world's, rad.
 inline double Tilt(const Transform& X_WR) {
   return std::acos(std::fmin(1.0, std::fmax(-1.0, X_WR.linear()(2, 2))));
 }
@@ -34,8 +34,9 @@ inline Pose2 ToPose2(const Transform& X_WR) {
   return {X_WR.translation().x(), X_WR.translation().y(), Heading(X_WR)};
 }
 
-// Pose of R at p_WoRo_W with the given attitude: heading about z, then pitch about y (positive:
-// nose down), then roll about x (positive: left side up).
+// Returns the pose of R at p_WoRo_W with the given attitude: heading about z, then pitch about y
+// (positive: nose down), then roll about x (positive: left side up), R_WR = Rz(heading) Ry(pitch)
+// Rx(roll).
 inline Transform MakePose(const Vector3& p_WoRo_W, double heading_rad, double pitch_rad,
                           double roll_rad) {
   Transform X_WR = Transform::Identity();

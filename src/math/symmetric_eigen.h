@@ -46,7 +46,8 @@ inline PairVector Normalized(const PairVector& v) {
   return {v.x * inverse, v.y * inverse, v.z * inverse};
 }
 
-// The unit vector v of a matrix k v v^T, k > 0: its column with the largest diagonal element.
+// Returns the unit vector v of a matrix k v v^T, k > 0: its column with the largest diagonal
+// element.
 inline PairVector AxisOf(const SymmetricMatrixPair& m) {
   const auto use_x = (m.xx > m.zz) & (m.xx >= m.yy);
   const auto use_y = ~use_x & (m.yy > m.zz);
@@ -54,7 +55,7 @@ inline PairVector AxisOf(const SymmetricMatrixPair& m) {
                      use_x ? m.xz : (use_y ? m.yz : m.zz)});
 }
 
-// The adjugate of m - mu I.
+// Returns the adjugate of m - mu I.
 inline SymmetricMatrixPair AdjugateLess(const SymmetricMatrixPair& m, Pair mu) {
   const Pair xx = m.xx - mu;
   const Pair yy = m.yy - mu;
@@ -63,7 +64,7 @@ inline SymmetricMatrixPair AdjugateLess(const SymmetricMatrixPair& m, Pair mu) {
           m.xz * m.yz - m.xy * zz, m.xy * m.yz - m.xz * yy, m.xy * m.xz - m.yz * xx};
 }
 
-// factor m + identity I + projector v v^T.
+// Returns factor m + identity I + projector v v^T.
 inline SymmetricMatrixPair Combine(Pair factor, const SymmetricMatrixPair& m, Pair identity,
                                    Pair projector, const PairVector& v) {
   return {factor * m.xx + (identity + projector * (v.x * v.x)),
@@ -74,7 +75,7 @@ inline SymmetricMatrixPair Combine(Pair factor, const SymmetricMatrixPair& m, Pa
           factor * m.yz + projector * (v.y * v.z)};
 }
 
-// Sum of the squares of all nine elements.
+// Returns the sum of the squares of all nine elements.
 inline Pair SquareNorm(const SymmetricMatrixPair& m) {
   return ((m.xx * m.xx + m.yy * m.yy) + m.zz * m.zz) +
          2.0 * ((m.xz * m.xz + m.yz * m.yz) + m.xy * m.xy);

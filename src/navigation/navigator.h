@@ -12,6 +12,7 @@
 
 namespace rockyard::navigation {
 
+// What a navigator says of the drive.
 enum class NavigatorStatus {
   kDriving,
   kArrived,  // believes to be at the goal
@@ -23,7 +24,7 @@ struct NavigatorInput {
   double time_s = 0.0;  // on-board clock since the start
   messages::PoseEstimate estimate;
   messages::AttitudeEstimate attitude = {};
-  // What answers the last request for a look; null at every other tick. A behaviour controller
+  // These answer the last request for a look; null at every other tick. A behaviour controller
   // reads the hazard report, a map-based navigator the points.
   const messages::HazardReport* report = nullptr;
   const messages::PointCloud* cloud = nullptr;
@@ -33,29 +34,33 @@ struct NavigatorInput {
   bool touches_behind = false;  // at this tick, whatever else it feels
 };
 
+// What the navigator asks for until its next decision.
 struct NavigatorDecision {
   NavigatorStatus status = NavigatorStatus::kDriving;
-  // Stop and look: the next input carries what was seen. The motion is ignored.
+  // Where set, the rover stops and looks: the next input carries what was seen. The motion is
+  // ignored.
   std::optional<messages::LookDirection> look;
   messages::MotionCommand motion;
 
   bool looks() const { return look.has_value(); }
 };
 
+// The interface. One object drives one trial.
 class Navigator {
  public:
   virtual ~Navigator() = default;
 
-  // Called at every control tick, in order of time. Every manoeuvre ends by what `input` says was
-  // measured on board.
+  // Is called at every control tick, in order of time. Every manoeuvre ends by what `input` says
+  // was measured on board.
   virtual NavigatorDecision Decide(const NavigatorInput& input) = 0;
 
-  // Operators moved the estimate (lander update, arena reflection): anchors of running manoeuvres
-  // have to follow.
+  // Is called when operators have moved the estimate (lander update, arena reflection): anchors of
+  // running manoeuvres have to follow.
   virtual void OnPoseUpdate(const messages::PoseEstimate& before,
                             const messages::PoseEstimate& after) = 0;
 
-  // What the last answered look led to; null where a navigator keeps no map, and before the first.
+  // Returns what the last answered look led to; null where a navigator keeps no map, and before the
+  // first.
   virtual const messages::NavigationView* view() const { return nullptr; }
 };
 

@@ -22,6 +22,7 @@ NavigatorDecision RouteFollower::Decide(const NavigatorInput& input) {
   PassCorners(estimate);
   const Sight sight = SightOf(route_.corners[next_], estimate);
   const bool turning = under_way_ && motion_.kind == MotionKind::kTurnInPlace;
+  // A turn goes on until the corner is ahead, an arc for steer_interval_m of driving.
   const bool on = turning ? motion_.direction * sight.bearing_rad > params_.heading_deadband_rad
                           : under_way_ && !NeedsPointTurn(sight) &&
                                 estimate.distance_m - steered_at_m_ < params_.steer_interval_m;
@@ -39,7 +40,8 @@ RouteFollower::Sight RouteFollower::SightOf(const messages::Goal& corner,
   return {std::hypot(dx, dy), math::WrapAngle(std::atan2(dy, dx) - estimate.heading_rad)};
 }
 
-// Near it, or beyond the line through it across the leg: there is nothing to go back for.
+// Near it, or beyond the line through it across the leg, (p - corner) . (corner - leg's start) > 0:
+// there is nothing to go back for.
 bool RouteFollower::HasPassed(const messages::Goal& corner, const PoseEstimate& estimate) const {
   const double beyond = (estimate.x_m - corner.x_m) * (corner.x_m - leg_from_->x_m) +
                         (estimate.y_m - corner.y_m) * (corner.y_m - leg_from_->y_m);
@@ -69,6 +71,8 @@ NavigatorDecision RouteFollower::Steer(const Sight& sight, const PoseEstimate& e
     motion_ = {MotionKind::kTurnInPlace, 0.0, sight.bearing_rad > 0.0 ? +1 : -1};
   } else {
     const bool straight = std::abs(sight.bearing_rad) <= params_.heading_deadband_rad;
+    // The circle tangent to the heading through a point at distance d and bearing b: c = 2 sin(b) /
+    // d.
     const double curvature_per_m =
         straight ? 0.0 : 2.0 * std::sin(sight.bearing_rad) / sight.distance_m;
     motion_ = {MotionKind::kArc, curvature_per_m, +1};

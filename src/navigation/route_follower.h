@@ -11,10 +11,11 @@
 
 namespace rockyard::navigation {
 
-// From corner to corner: turns in place where the next corner lies off by more than
-// point_turn_bearing, or inside of the tightest circle; otherwise drives the arc that leads there,
-// of curvature 2 sin(bearing) / distance, worked out anew every steer_interval_m. Hazards are
-// neither looked for nor, where the rover feels any, heeded. An empty route: it gives up at once.
+// Drives from corner to corner: it turns in place where the next corner lies off by more than
+// point_turn_bearing, or inside of the tightest circle; otherwise it drives the arc that leads
+// there, of curvature 2 sin(bearing) / distance, worked out anew every steer_interval_m. Hazards
+// are neither looked for nor, where the rover feels any, heeded. It gives up an empty route at
+// once.
 class RouteFollower final : public Navigator {
  public:
   RouteFollower(const RouteParams& params, messages::Route route);
@@ -24,7 +25,7 @@ class RouteFollower final : public Navigator {
                     const messages::PoseEstimate& after) override;
 
  private:
-  // Of the next corner, as believed.
+  // Where a corner lies, as believed.
   struct Sight {
     double distance_m = 0.0;
     double bearing_rad = 0.0;

@@ -6,6 +6,7 @@
 
 namespace rockyard::navigation {
 
+// The values that RouteFollower asks for.
 struct RouteParams {
   double goal_tolerance_m = 0.10;
   double corner_tolerance_m = 0.05;

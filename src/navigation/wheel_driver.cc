@@ -21,6 +21,8 @@ struct PlanarVelocity {
   double y;
 };
 
+// Velocity of the wheel's centre (x, y) in R, v = v_R + Omega x r, up to a common scale: with v_R =
+// (1, 0) and Omega = c for an arc that is (1 - c y, c x), with Omega = 1 alone (-y, x).
 PlanarVelocity WheelVelocity(const MotionCommand& motion, double wheel_x_m, double wheel_y_m) {
   if (motion.kind == MotionKind::kTurnInPlace) {
     return {-wheel_y_m * motion.direction, wheel_x_m * motion.direction};
@@ -56,10 +58,12 @@ WheelCommand SteadyWheelCommand(const MotionCommand& motion, const DriveCalibrat
     double steer = 0.0;
     if (calibration.steered[i]) steer = Clamp(SteeringAngle(v), calibration.max_steer_rad);
     command.steer_rad[i] = steer;
+    // The part of that velocity along the wheel; what lies across it is scrubbed.
     rim[i] = v.x * std::cos(steer) + v.y * std::sin(steer);
     fastest = std::max(fastest, std::abs(rim[i]));
   }
   EXPECT(fastest > 0.0);
+  // rad/s per unit of rim: the fastest rim moves at max_wheel_speed_m_s.
   const double scale = calibration.max_wheel_speed_m_s / (fastest * calibration.wheel_radius_m);
   for (std::size_t i = 0; i < kWheelCount; ++i) {
     command.rate_rad_s[i] = rim[i] * scale / calibration.radius_ratio[i];
@@ -89,6 +93,7 @@ WheelCommand WheelDriver::Tick(const MotionCommand& motion, double duration_s) {
   for (std::size_t i = 0; i < kWheelCount; ++i) {
     const double change = command.steer_rad[i] - believed_steer_rad_[i];
     largest_change = std::max(largest_change, std::abs(change));
+    // The driver has no steering sensor: it follows the rate limit that it knows.
     believed_steer_rad_[i] += Clamp(change, params_.steer_rate_rad_s * duration_s);
   }
   // Once standing to steer, stand until the angles have arrived.
@@ -96,6 +101,7 @@ WheelCommand WheelDriver::Tick(const MotionCommand& motion, double duration_s) {
   steering_ = motion.kind != MotionKind::kStop && largest_change > allowed;
   if (steering_) command.rate_rad_s.fill(0.0);
   for (std::size_t i = 0; i < kWheelCount; ++i) {
+    // The wheel then stands the offset away from the angle that the rover believes in.
     if (calibration_.steered[i]) command.steer_rad[i] += calibration_.steering_offset_rad;
   }
   return command;

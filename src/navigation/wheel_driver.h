@@ -8,10 +8,10 @@
 
 namespace rockyard::navigation {
 
-// Steady wheel set points of a motion. Every wheel rolls about the common centre of rotation: for
-// an arc of curvature c that is (0, 1/c) in R, for a turn in place the origin. Unsteered wheels
-// take the forward component of their velocity. The fastest rim moves at max_wheel_speed_m_s.
-// Steering angles beyond max_steer_rad are clamped.
+// Returns the steady wheel set points of a motion: angles in rad, rates in rad/s. Every wheel rolls
+// about the common centre of rotation: for an arc of curvature c that is (0, 1/c) in R, for a turn
+// in place the origin. Unsteered wheels take the forward component of their velocity. The fastest
+// rim moves at max_wheel_speed_m_s. Steering angles beyond max_steer_rad are clamped.
 messages::WheelCommand SteadyWheelCommand(const messages::MotionCommand& motion,
                                           const messages::DriveCalibration& calibration);
 
@@ -22,17 +22,18 @@ class WheelDriver {
  public:
   WheelDriver(const messages::DriveCalibration& calibration, const WheelDriverParams& params);
 
-  // Set points for the next tick of duration_s.
+  // Returns the set points for the next tick of duration_s.
   messages::WheelCommand Tick(const messages::MotionCommand& motion, double duration_s);
 
-  // Operators put the rover down with straight wheels.
+  // Is called when operators have put the rover down with straight wheels.
   void Straighten() { believed_steer_rad_.fill(0.0); }
 
-  // True while the rover stands to steer.
+  // Returns whether the rover stands to steer.
   bool steering() const { return steering_; }
 
  private:
-  // SteadyWheelCommand of the motion, worked out anew only when it differs from the last one.
+  // Returns SteadyWheelCommand of the motion, worked out anew only when it differs from the last
+  // one.
   const messages::WheelCommand& Steady(const messages::MotionCommand& motion);
 
   messages::DriveCalibration calibration_;

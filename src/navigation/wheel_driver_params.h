@@ -6,6 +6,7 @@
 
 namespace rockyard::navigation {
 
+// The values that WheelDriver asks for.
 struct WheelDriverParams {
   double steer_rate_rad_s = math::DegToRad(60.0);
   double steer_while_driving_rad = math::DegToRad(10.0);

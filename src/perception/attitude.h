@@ -22,18 +22,21 @@
 
 namespace rockyard::perception {
 
-// Signed distance along the mean heading from one pose estimate to the next one, a tick later, m.
+// Returns the signed distance along the mean heading from one pose estimate to the next one, a tick
+// later, m.
 double ForwardStep(const messages::PoseEstimate& before, const messages::PoseEstimate& after);
 
+// The attitude and height that the rover believes.
 class AttitudeEstimator {
  public:
   explicit AttitudeEstimator(const AttitudeParams& params) : params_(params) {}
 
-  // One on-board tick of duration_s > 0, in which odometry drove forward_m (negative backwards).
-  // Without accelerometers in `state`, or without any force, the attitude stays what it was.
+  // Takes one on-board tick of duration_s > 0, in which odometry drove forward_m (negative
+  // backwards). Without accelerometers in `state`, or without any force, the attitude stays what it
+  // was.
   void Integrate(const messages::VehicleState& state, double forward_m, double duration_s);
 
-  // Operators moved the rover: what the filter holds is forgotten; the height stays.
+  // Forgets what the filter holds, after operators moved the rover; the height stays.
   void Resume() { force_R_.reset(); }
 
   const messages::AttitudeEstimate& estimate() const { return estimate_; }

@@ -8,11 +8,13 @@
 
 namespace rockyard::perception {
 
+// Where roll and pitch come from.
 enum class AttitudeSource {
   kLevel,           // the rover takes itself to be level
   kAccelerometers,  // where it has them; level where not
 };
 
+// Where the height above the start comes from.
 enum class HeightSource {
   kLevel,       // the ground is taken to be flat: z = 0
   kIntegrated,  // z grows by the distance driven times the sine of the climb

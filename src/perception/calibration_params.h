@@ -9,6 +9,7 @@
 
 namespace rockyard::perception {
 
+// Errors of the drive geometry.
 struct DriveCalibrationErrors {
   double wheel_radius_percent = 0.0;  // of all wheels, > 0: believed too large
   // Of the left wheels against the right ones: half of it added on the left, half taken on the
@@ -44,6 +45,7 @@ struct LaserCalibrationErrors {
   void Visit(core::FieldVisitor& v);
 };
 
+// All errors of calibration.
 struct CalibrationErrorParams {
   DriveCalibrationErrors drive;
   CameraCalibrationErrors left_camera;

@@ -9,7 +9,8 @@ namespace {
 
 using math::Vector3;
 
-// Ranks the bin's heights, which it reorders: the smallest that `quantile` of them do not exceed.
+// The smallest height that at least `quantile` of them do not exceed: rank ceil(q n). It reorders
+// the heights.
 double QuantileOf(std::vector<double>& heights_m, double quantile) {
   const auto count = static_cast<double>(heights_m.size());
   const double rank = std::max(std::ceil(quantile * count) - 1.0, 0.0);
@@ -38,6 +39,8 @@ messages::ElevationScan CloudElevations(const messages::PointCloud& cloud,
   std::vector<std::vector<double>> heights_m(rows * stripes);
   for (const Vector3& p_R : cloud.points_R) {
     const Vector3 p = level * p_R;
+    // Bins run from near to far and from the left to the right of whoever looks that way: looking
+    // behind, both axes of R turn round.
     const double row = (side * p.x() - params.near_m) * rows_per_m;
     const double stripe = (params.half_width_m - side * p.y()) * stripes_per_m;
     // Written so that a point that is not a number has no bin.

@@ -9,9 +9,9 @@
 
 namespace rockyard::perception {
 
-// An elevation array for HazardDetector from range points: the ground ahead (or behind) is divided
-// into rows x stripes equal bins, rows from near to far, stripes from the left to the right of
-// whoever looks that way. A bin's elevation is that quantile of its points' heights; it is
+// Returns an elevation array for HazardDetector from range points: the ground ahead (or behind) is
+// divided into rows x stripes equal bins, rows from near to far, stripes from the left to the right
+// of whoever looks that way. A bin's elevation is that quantile of its points' heights; it is
 // undetected with fewer than min_points. The number is the cloud's.
 //
 // The criteria were published for points 7 cm (rows) and 18 cm (stripes) apart on 20 cm of ground.
@@ -25,7 +25,7 @@ messages::ElevationScan CloudElevations(const messages::PointCloud& cloud,
                                         const messages::AttitudeEstimate& attitude,
                                         const CloudElevationParams& params);
 
-// The points that a light stripe scan found, in R: at most one for each point of its array.
+// Returns the points that a light stripe scan found, in R: at most one for each point of its array.
 messages::PointCloud StripeCloud(const messages::StripeScan& scan,
                                  const Triangulator& triangulator);
 

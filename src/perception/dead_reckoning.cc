@@ -20,6 +20,8 @@ double DeadReckoning::MeanRoll(const messages::MotionMeasurement& motion) const 
   int count = 0;
   for (std::size_t wheel = 0; wheel < messages::kWheelCount; ++wheel) {
     if (!every_wheel && calibration_.steered[wheel]) continue;
+    // A steered wheel rolls along its own heading; its forward part is the cosine of the steering
+    // angle.
     const double share = forward ? std::cos(motion.steer_rad[wheel]) : 1.0;
     sum += motion.wheel_turn_rad[wheel] * calibration_.radius_ratio[wheel] * share;
     ++count;
@@ -28,13 +30,16 @@ double DeadReckoning::MeanRoll(const messages::MotionMeasurement& motion) const 
 }
 
 void DeadReckoning::Integrate(const messages::MotionMeasurement& motion) {
+  // dr = mean wheel turn (rad) times believed radius (m) times scale.
   const double forward_m = MeanRoll(motion) * calibration_.wheel_radius_m * params_.distance_scale;
+  // Midpoint: exact to second order on an arc. The paper's equations use the heading at the start.
   const double along_rad =
       estimate_.heading_rad +
       (params_.step_heading == StepHeading::kMidpoint ? 0.5 * motion.turn_rad : 0.0);
   estimate_.x_m += forward_m * std::cos(along_rad);
   estimate_.y_m += forward_m * std::sin(along_rad);
   estimate_.heading_rad = math::WrapAngle(estimate_.heading_rad + motion.turn_rad);
+  // The odometer counts driving backwards as well.
   estimate_.distance_m += std::abs(forward_m);
 }
 
@@ -47,6 +52,7 @@ void DeadReckoning::Apply(const messages::PoseUpdate& update) {
 void DeadReckoning::Follow(const messages::PoseUpdate& update) {
   const double turn_rad = math::WrapAngle(update.heading_rad - estimate_.heading_rad);
   const double along_rad = estimate_.heading_rad + 0.5 * turn_rad;
+  // The displacement along the mean heading, as an odometer would have it.
   const double forward_m = (update.x_m - estimate_.x_m) * std::cos(along_rad) +
                            (update.y_m - estimate_.y_m) * std::sin(along_rad);
   Apply(update);

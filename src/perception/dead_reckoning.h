@@ -13,6 +13,7 @@
 
 namespace rockyard::perception {
 
+// The pose that the rover believes.
 class DeadReckoning {
  public:
   DeadReckoning(const messages::DriveCalibration& calibration, const DeadReckoningParams& params,
@@ -21,19 +22,20 @@ class DeadReckoning {
   // Adds one on-board tick. Headings stay within [-pi, pi].
   void Integrate(const messages::MotionMeasurement& motion);
 
-  // An absolute correction from outside (lander update, arena reflection). The odometer keeps.
+  // Takes an absolute correction from outside (lander update, arena reflection). The odometer
+  // keeps.
   void Apply(const messages::PoseUpdate& update);
 
   // Replaces one tick's Integrate by an outside measurement of the pose: the odometer grows by the
-  // displacement along the mean heading. For localization by an oracle.
+  // displacement along the mean heading. Localization by an oracle uses it.
   void Follow(const messages::PoseUpdate& update);
 
   const messages::PoseEstimate& estimate() const { return estimate_; }
 
  private:
-  // Mean of the wheels' turns as if all had wheel_radius_m, rad. A wheel at (x, y) that rolls along
-  // an arc about (0, R) goes forward by the turn times R - y, whatever its x: with steering taken
-  // into account the mean over both sides is the arc of the rover's origin.
+  // Returns the mean of the wheels' turns as if all had wheel_radius_m, rad. A wheel at (x, y) that
+  // rolls along an arc about (0, R) goes forward by the turn times R - y, whatever its x: with
+  // steering taken into account the mean over both sides is the arc of the rover's origin.
   double MeanRoll(const messages::MotionMeasurement& motion) const;
 
   messages::DriveCalibration calibration_;

@@ -23,6 +23,7 @@ enum class StepHeading {
   kStart,     // the heading at the start of the step, as in the equations of section 5
 };
 
+// How wheel turns become a pose.
 struct DeadReckoningParams {
   double distance_scale = 1.0;
   OdometryWheels wheels = OdometryWheels::kAll;

@@ -16,6 +16,7 @@ struct Located {
 
 using StripeFlags = messages::PerStripe<bool>;
 
+// Charges the point farther from the datum plane, both on a tie: flat ground is taken to be at 0.
 void ChargeFarther(const Located& a, const Located& b, StripeFlags& flags) {
   const double distance_a = std::abs(a.elevation_m);
   const double distance_b = std::abs(b.elevation_m);
@@ -54,12 +55,14 @@ void ChargeRange(const Located& low, const Located& high, RangeBlame blame, Stri
   }
 }
 
+// Criterion 1 (Matthies 1995, section 6): row 0 is the nearest.
 void FindMissing(const ElevationScan& scan, StripeFlags& flags) {
   for (std::size_t stripe = 0; stripe < flags.size(); ++stripe) {
     flags[stripe] = !scan.points[0][stripe].detected || !scan.points[1][stripe].detected;
   }
 }
 
+// Criterion 2: |difference| above the threshold; one that equals it is none.
 void CompareNeighbours(const Located& a, const Located& b, const HazardParams& params,
                        StripeFlags& flags) {
   if (std::abs(a.elevation_m - b.elevation_m) <= params.neighbour_threshold_m) return;
@@ -97,6 +100,7 @@ void FindNeighbours(const ElevationScan& scan, const HazardParams& params, Strip
   }
 }
 
+// Criterion 3: highest less lowest elevation of the whole array.
 void FindRange(const ElevationScan& scan, const HazardParams& params, StripeFlags& flags) {
   bool any = false;
   Located low;
@@ -135,6 +139,8 @@ messages::HazardReport ReportHazards(const ElevationScan& scan, const HazardPara
   return report;
 }
 
+// All elevations are compared, not only those that are charged: a point that is missing once only
+// disagrees.
 bool ScansAgree(const ElevationScan& a, const ElevationScan& b, double agree_m) {
   const auto agree = [agree_m](const ElevationPoint& p, const ElevationPoint& q) {
     if (p.detected != q.detected) return false;

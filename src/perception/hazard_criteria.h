@@ -7,7 +7,7 @@
 
 namespace rockyard::perception {
 
-// Stripes charged by each criterion.
+// The stripes that each criterion charges.
 struct HazardFindings {
   explicit HazardFindings(std::size_t stripes)
       : missing(stripes), neighbour(stripes), range(stripes) {}
@@ -21,14 +21,14 @@ struct HazardFindings {
   }
 };
 
-// Missing points take no part in the second and third criterion.
+// Applies the three criteria. Missing points take no part in the second and third.
 HazardFindings AssessHazards(const messages::ElevationScan& scan, const HazardParams& params);
 
-// The same as one flag per stripe.
+// Returns the same as one flag per stripe.
 messages::HazardReport ReportHazards(const messages::ElevationScan& scan,
                                      const HazardParams& params);
 
-// True if each of the points is missing in both scans, or found in both at elevations that
+// Returns whether each of the points is missing in both scans, or found in both at elevations that
 // differ by no more than agree_m.
 bool ScansAgree(const messages::ElevationScan& a, const messages::ElevationScan& b, double agree_m);
 

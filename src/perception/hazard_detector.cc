@@ -37,11 +37,13 @@ messages::HazardReport HazardDetector::Resolve(Disagreement rule, const Seen& be
 
 HazardDetector::Verdict HazardDetector::CompareAtPose(const Seen& now) {
   ++scans_here_;
+  // A scan without a detection is clear at once, also as the second: the hazard was not seen twice.
   if (!now.report.any()) return {.report = now.report};
   if (!previous_) {
     previous_ = now;
     return {.scan_again = true, .report = Clear(now.scan)};
   }
+  // The newest scan is compared with the one before, not with the first.
   const Seen before = *previous_;
   previous_ = now;
   if (ScansAgree(before.scan, now.scan, params_.agree_m)) return {.report = now.report};

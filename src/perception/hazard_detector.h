@@ -15,6 +15,7 @@
 
 namespace rockyard::perception {
 
+// The state of the two-scan rule.
 class HazardDetector {
  public:
   struct Verdict {
@@ -28,8 +29,8 @@ class HazardDetector {
   // pose.
   Verdict Process(const messages::ElevationScan& scan);
 
-  // The rover is about to scan from a new pose: a scan from the old one takes no part in
-  // kRescanSamePose any more. kConsecutiveMoving keeps it, since there the pose may differ.
+  // Is called when the rover is about to scan from a new pose: a scan from the old one takes no
+  // part in kRescanSamePose any more. kConsecutiveMoving keeps it, since there the pose may differ.
   void Reset();
 
  private:

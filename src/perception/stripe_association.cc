@@ -24,7 +24,9 @@ Score ScoreOf(const StripeSearch& search, const StripePeak& peak, PeakChoice cho
           std::abs(peak.column_px - search.datum_column)};
 }
 
-// Best assignment of the first lasers to the first peaks, for all numbers of both.
+// Best assignment of the first lasers to the first peaks, for all numbers of both. Dynamic
+// programming over pairs in order, as in the alignment of two sequences: an entry (l, p) is the
+// best of leaving peak p unused, leaving laser l unseen, and matching both.
 class BestAssignments {
  public:
   BestAssignments(std::span<const StripeSearch> searches, std::span<const StripePeak> peaks,
@@ -48,6 +50,7 @@ class BestAssignments {
 
   std::vector<std::optional<std::size_t>> Peaks(std::size_t lasers) const {
     std::vector<std::optional<std::size_t>> result(lasers);
+    // Back from the last entry along the choices that made it.
     std::size_t peak = peaks_;
     for (std::size_t laser = lasers; laser > 0 && peak > 0;) {
       const Last last = entries_[laser * (peaks_ + 1) + peak].last;

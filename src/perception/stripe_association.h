@@ -10,9 +10,9 @@
 
 namespace rockyard::perception {
 
-// For each laser (left to right, as in `searches`) the index of its peak in `peaks` (left to
-// right), or none. A peak is taken for a laser only within its searched columns, and for one laser
-// only; stripes keep their order. Among the assignments that are left, the brightest is taken
+// Returns for each laser (left to right, as in `searches`) the index of its peak in `peaks` (left
+// to right), or none. A peak is taken for a laser only within its searched columns, and for one
+// laser only; stripes keep their order. Among the assignments that are left, the brightest is taken
 // (sum of peak heights; the one nearer to the datum columns if equal), or, with kNearestToDatum,
 // among those with most peaks the one nearest to the datum columns. With one laser this is its
 // strongest or nearest peak.

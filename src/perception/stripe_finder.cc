@@ -26,6 +26,8 @@ void StripeFinder::FindIn(const messages::StripeExposure& exposure, std::size_t 
     lit.push_back(stripe);
     searches.push_back(searches_.At(exposure.camera, row, stripe));
   }
+  // All lasers of the image take part in the association; only those that this camera measures are
+  // kept.
   const std::vector<StripePeak> peaks = FindPeaks(*profile, params_);
   const auto peak_of = AssociatePeaks(searches, peaks, params_.peak);
   for (std::size_t i = 0; i < lit.size(); ++i) {

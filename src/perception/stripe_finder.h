@@ -12,21 +12,21 @@
 
 namespace rockyard::perception {
 
-// Matthies 1995, section 6: images with lasers on less images with lasers off, averaged over 5 x 5
-// pixels, thresholded; each point on the image row of its scanline. Assumed: what is no part of the
-// text, namely the threshold, that a stripe is looked for only in the columns of elevations between
-// search_low and search_high, and what happens to several peaks (StripeFinderParams) and to several
-// lasers in one image (stripe_association.h).
+// The program of Matthies 1995, section 6: images with lasers on less images with lasers off,
+// averaged over 5 x 5 pixels, thresholded; each point on the image row of its scanline. What is no
+// part of the text is assumed, namely the threshold, that a stripe is looked for only in the
+// columns of elevations between search_low and search_high, and what happens to several peaks
+// (StripeFinderParams) and to several lasers in one image (stripe_association.h).
 class StripeFinder {
  public:
   // Works with the geometry that the rover believes. Cost: that of StripeSearches.
   StripeFinder(const StripeFinderParams& params, const messages::StripeCalibration& calibration);
 
-  // Points whose exposure or image rows are not there are missing. Pure function, no random
-  // numbers. Cost: some operations a pixel.
+  // Finds the points. Those whose exposure or image rows are not there are missing. It is a pure
+  // function without random numbers. Cost: some operations a pixel.
   messages::StripeScan Find(const messages::StripeImages& images) const;
 
-  // Searched part of a point's scanline, in the camera that measures it.
+  // Returns the searched part of a point's scanline, in the camera that measures it.
   messages::ColumnRange searched(std::size_t row, std::size_t stripe) const;
 
  private:

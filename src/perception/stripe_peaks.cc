@@ -36,6 +36,7 @@ StripePeak MakePeak(const ScanlineProfile& profile, std::size_t first, std::size
     weight += profile.difference[i];
     moment += profile.difference[i] * static_cast<double>(i);
   }
+  // Centre of brightness: sum d_i i / sum d_i over the run, in columns of the camera.
   const double centroid_px = profile.first_column + moment / weight;
   peak.column_px = precision == PeakColumn::kCentroid ? centroid_px : std::round(centroid_px);
   return peak;
@@ -47,6 +48,7 @@ double ScanlineProfile::Noise() const {
   if (difference.empty()) return 0.0;
   double sum = 0.0;
   for (const double value : difference) sum += std::abs(value);
+  // E|d| = sigma sqrt(2 / pi) for a normal d of mean zero.
   return std::sqrt(0.5 * std::numbers::pi) * sum / static_cast<double>(difference.size());
 }
 
@@ -70,6 +72,8 @@ std::optional<ScanlineProfile> AverageDifference(const messages::StripeExposure&
   std::int64_t sum = 0;
   for (int i = 0; i < std::min(half, lit.columns); ++i) sum += sums[static_cast<std::size_t>(i)];
   for (int i = 0; i < lit.columns; ++i) {
+    // Running sum over columns i - half .. i + half, cut at the borders. Whole numbers: nothing
+    // gathers.
     const int enters = i + half;
     const int leaves = i - half - 1;
     if (enters < lit.columns) sum += sums[static_cast<std::size_t>(enters)];

@@ -12,29 +12,30 @@
 
 namespace rockyard::perception {
 
-// Averaged difference along one image row.
+// The averaged difference along one image row.
 struct ScanlineProfile {
   int first_column = 0;
   std::vector<double> difference;  // digital numbers
 
-  // Standard deviation of a normal variable of mean zero whose mean size is that of the
+  // Returns the standard deviation of a normal variable of mean zero whose mean size is that of the
   // differences: sqrt(pi / 2) mean |d|. Sunlight that the subtraction left counts as noise; so does
   // the stripe itself, which takes up some ten columns of several hundred.
   double Noise() const;
 };
 
-// None if no band of the exposure holds the row. At the borders of the band the average is that of
-// the pixels that there are. Integer running sums along rows and columns: cost of some operations a
-// pixel, whatever the window.
+// Averages lit less dark image around a row; none if no band of the exposure holds it. At the
+// borders of the band the average is that of the pixels that there are. Integer running sums along
+// rows and columns make the cost some operations a pixel, whatever the window.
 std::optional<ScanlineProfile> AverageDifference(const messages::StripeExposure& exposure, int row,
                                                  int window_px);
 
+// A place where a stripe may be.
 struct StripePeak {
   double column_px = 0.0;
   double height_counts = 0.0;  // highest averaged difference
 };
 
-// Runs of columns above the threshold, left to right.
+// Returns the runs of columns above the threshold, left to right.
 std::vector<StripePeak> FindPeaks(const ScanlineProfile& profile, const StripeFinderParams& params);
 
 }  // namespace rockyard::perception

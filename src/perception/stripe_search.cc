@@ -22,6 +22,7 @@ StripeSearch SearchAlong(const messages::StripeCalibration& calibration,
            point.elevation_m <= calibration.search_high_m;
   };
 
+  // Every column is tried: a lens may see the light plane behind the camera in some of them.
   int nearest = 0;
   double nearest_m = HUGE_VAL;
   for (int column = -half; column <= half; ++column) {
@@ -47,6 +48,7 @@ StripeSearches::StripeSearches(const messages::StripeCalibration& calibration)
     : size_(calibration.size()) {
   for (int camera = 0; camera < static_cast<int>(calibration.cameras.size()); ++camera) {
     messages::StripeCalibration seen_by = calibration;
+    // As if this camera measured all lasers.
     for (messages::StripeLaser& laser : seen_by.lasers) laser.camera = camera;
     const Triangulator triangulator(seen_by);
     for (std::size_t row = 0; row < size_.rows; ++row) {

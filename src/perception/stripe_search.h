@@ -8,7 +8,7 @@
 
 namespace rockyard::perception {
 
-// Part of one scanline of one camera in which one laser's stripe is looked for.
+// The part of one scanline of one camera in which one laser's stripe is looked for.
 struct StripeSearch {
   messages::ColumnRange
       columns;              // of the elevations from search_low to search_high, inside the imager
@@ -19,8 +19,8 @@ struct StripeSearch {
 // that does not measure this stripe, in whose images it appears all the same.
 class StripeSearches {
  public:
-  // Follows each scanline pixel by pixel, so that it holds for every lens. Cost: 100 ns a column,
-  // row, stripe and camera, 3 ms for the published array: build it once.
+  // Follows each scanline pixel by pixel, so that it holds for every lens. It costs 100 ns a
+  // column, row, stripe and camera, 3 ms for the published array: build it once.
   explicit StripeSearches(const messages::StripeCalibration& calibration);
 
   const StripeSearch& At(int camera, std::size_t row, std::size_t stripe) const {

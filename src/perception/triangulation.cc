@@ -33,6 +33,7 @@ Triangulator::PointGeometry Triangulator::MakeGeometry(std::size_t row, std::siz
   const Vector3 forward_R = camera.X_RC.linear() * vision::PixelRay(camera, middle);
   const Vector3 left_R = camera.X_RC.linear() * Vector3::UnitY();
   const Vector3 p_RoC_R = camera.X_RC.translation();
+  // All that the elevation needs of light plane and scanline, in R and relative to the camera.
   return {.plane_offset_m = laser.normal_R.dot(laser.p_RoE_R - p_RoC_R),
           .forward_normal = laser.normal_R.dot(forward_R),
           .left_normal = laser.normal_R.dot(left_R),
@@ -63,6 +64,9 @@ messages::ElevationPoint Triangulator::Elevation(std::size_t row, std::size_t st
     if (!p_RoP_R) return {};
     return {.detected = true, .elevation_m = p_RoP_R->z() - calibration_.datum_z_m};
   }
+  // Equidistant rows: column c looks along ray = cos(a) forward - sin(a) left, a = c pitch. It
+  // meets the light plane n . (p - e) = 0 at s = n . (e - o) / n . ray, at the height o_z + s
+  // ray_z.
   const double cosine = std::cos(column_px * at.column_pitch_rad);
   const double sine = std::sin(column_px * at.column_pitch_rad);
   const double distance_m =
@@ -81,6 +85,7 @@ std::optional<Vector3> Triangulator::Point(std::size_t row, std::size_t stripe,
       camera.X_RC.linear() *
       vision::PixelRay(camera, {column_px, static_cast<double>(calibration_.scanline_px[row])});
   const Vector3 p_RoC_R = camera.X_RC.translation();
+  // The same with the ray of any lens.
   const double distance_m = laser.normal_R.dot(laser.p_RoE_R - p_RoC_R) / laser.normal_R.dot(ray_R);
   if (!IsAhead(distance_m)) return std::nullopt;
   return p_RoC_R + distance_m * ray_R;

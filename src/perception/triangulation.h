@@ -16,19 +16,19 @@ class Triangulator {
  public:
   explicit Triangulator(const messages::StripeCalibration& calibration);
 
-  // Elevations above the datum plane of the calibration, in R.
+  // Returns the elevations above the datum plane of the calibration, along R's z, m.
   messages::ElevationScan Elevations(const messages::StripeScan& scan) const;
 
-  // Elevation of one column of one point's scanline.
+  // Returns the elevation at one column of one point's scanline.
   messages::ElevationPoint Elevation(std::size_t row, std::size_t stripe, double column_px) const;
 
-  // Where that column shows its stripe, p_RoP_R; none where Elevation is no detection.
+  // Returns where that column shows its stripe, p_RoP_R; none where Elevation is no detection.
   std::optional<math::Vector3> Point(std::size_t row, std::size_t stripe, double column_px) const;
 
  private:
-  // Scanline and light plane of one point. Where the scanline is a plane, the ray of the angle a is
-  // cos(a) forward - sin(a) left, and elevations need no more than its parts along the normal of
-  // the light plane and along z.
+  // The scanline and light plane of one point. Where the scanline is a plane, the ray of the angle
+  // a is cos(a) forward - sin(a) left, and elevations need no more than its parts along the normal
+  // of the light plane and along z.
   struct PointGeometry {
     double plane_offset_m = 0.0;  // light plane from the camera, along its normal
     double forward_normal = 0.0;

@@ -9,6 +9,7 @@ namespace {
 using messages::ContactSwitch;
 using messages::HazardSide;
 
+// Both sides at once count as ahead.
 HazardSide SideOf(bool left, bool right) {
   if (left == right) return HazardSide::kAhead;
   return left ? HazardSide::kLeft : HazardSide::kRight;
@@ -29,6 +30,7 @@ std::optional<HazardSide> Touched(const messages::ContactSwitches& closed) {
 }  // namespace
 
 double TiltOf(const math::Vector3& specific_force_R) {
+  // The angle between the specific force, which points up at rest, and the rover's z axis.
   return std::atan2(specific_force_R.head<2>().norm(), specific_force_R.z());
 }
 
@@ -42,6 +44,7 @@ std::optional<messages::VehicleHazard> HazardToAvoid(const FeltHazards& felt) {
 std::optional<HazardSide> VehicleHazardDetector::Tilted(const math::Vector3& force_R) const {
   if (TiltOf(force_R) <= params_.max_tilt_rad) return std::nullopt;
   if (std::abs(force_R.x()) >= std::abs(force_R.y())) return HazardSide::kAhead;
+  // f_y > 0: the left side is up (roll positive), so the cause is there.
   return force_R.y() > 0.0 ? HazardSide::kLeft : HazardSide::kRight;
 }
 
@@ -52,6 +55,7 @@ std::optional<HazardSide> VehicleHazardDetector::Bent(const messages::Articulati
   const double most_rad =
       std::max(std::abs(angles.left_rocker_rad), std::abs(angles.right_rocker_rad));
   if (most_rad <= params_.max_rocker_rad) return std::nullopt;
+  // Positive angles lower the front: the smaller one has its front up.
   return angles.left_rocker_rad < angles.right_rocker_rad ? HazardSide::kLeft : HazardSide::kRight;
 }
 
@@ -68,6 +72,7 @@ std::optional<HazardSide> VehicleHazardDetector::Strained(
 std::optional<messages::VehicleHazard> VehicleHazardDetector::Debounced(
     Kind kind, std::optional<HazardSide> now, std::int64_t ticks) {
   std::int64_t& held = ticks_[static_cast<std::size_t>(kind)];
+  // Ticks in a row; one tick without it begins anew.
   held = now ? held + 1 : 0;
   if (!now || held < ticks) return std::nullopt;
   return messages::VehicleHazard{kind, *now};

@@ -22,24 +22,25 @@
 
 namespace rockyard::perception {
 
-// Angle between the rover's z axis and the specific force, rad.
+// Returns the angle between the rover's z axis and the specific force, rad.
 double TiltOf(const math::Vector3& specific_force_R);
 
-// After an on-board tick.
+// What the rover feels after an on-board tick.
 struct FeltHazards {
   std::array<std::optional<messages::VehicleHazard>, messages::kVehicleHazardKindCount> by_kind;
   bool touches_behind = false;  // whatever else is touched
 };
 
-// The hazard to get away from: of several the first in the order above. A touch behind is none: the
-// rover drives away from it by going on.
+// Returns the hazard to get away from: of several the first in the order above. A touch behind is
+// none: the rover drives away from it by going on.
 std::optional<messages::VehicleHazard> HazardToAvoid(const FeltHazards& felt);
 
+// Counts the ticks for which each criterion holds.
 class VehicleHazardDetector {
  public:
   explicit VehicleHazardDetector(const VehicleHazardParams& params) : params_(params) {}
 
-  // The hazards that hold after the next on-board tick.
+  // Returns the hazards that hold after the next on-board tick.
   FeltHazards Observe(const messages::VehicleState& state);
 
   // Forgets the ticks counted so far.
@@ -48,7 +49,7 @@ class VehicleHazardDetector {
  private:
   using Kind = messages::VehicleHazardKind;
 
-  // Counts the ticks in a row of one kind; the side once there are enough.
+  // Counts the ticks in a row of one kind, and returns the hazard once there are enough.
   std::optional<messages::VehicleHazard> Debounced(Kind kind,
                                                    std::optional<messages::HazardSide> now,
                                                    std::int64_t ticks);

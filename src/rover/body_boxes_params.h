@@ -8,8 +8,8 @@
 
 namespace rockyard::rover {
 
-// In R: the chassis from belly to panel, and the solar panel on top of it, 25 mm thick as in the
-// rover's collision shapes.
+// Returns the chassis from belly to panel and, on top of it, the solar panel, both as boxes in
+// frame R, m. The panel is 25 mm thick, as in the rover's collision shapes.
 inline std::array<Eigen::AlignedBox3d, 2> BodyBoxes(const RoverGeometryParams& params) {
   constexpr double kPanelThickness_m = 0.025;
   const double panel_z_m = params.height_m - kPanelThickness_m;

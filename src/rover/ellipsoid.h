@@ -7,12 +7,14 @@
 
 namespace rockyard::rover {
 
+// A point on a rock's surface, found as the nearest one to a query point.
 struct SurfacePoint {
   math::Vector3 point_W;
   math::Vector3 normal_W;   // outward, unit
   double distance_m = 0.0;  // from the query point; negative inside
 };
 
+// The ellipsoid of a rock that stands upright and is turned by its yaw. Positions are in W, m.
 class Ellipsoid {
  public:
   explicit Ellipsoid(const terrain::Rock& rock);
@@ -20,13 +22,14 @@ class Ellipsoid {
   const math::Vector3& center_W() const { return center_W_; }
   double bounding_radius_m() const { return bounding_radius_m_; }
 
-  // No more than the distance from p to the surface, at the cost of a scaling; negative inside.
+  // Returns a lower bound of the distance from p to the surface, m, for a p outside, at the cost of
+  // a scaling. Inside, it returns a negative number.
   double DistanceBound(const math::Vector3& p_W) const;
 
-  // The nearest point of the surface. Outside, x_i = a_i^2 p_i / (a_i^2 + t) with the root t >= 0
-  // of sum (a_i p_i / (a_i^2 + t))^2 = 1 (Hart 1994, Graphics Gems IV), by Newton's method on one
-  // over the norm, to 1e-12. Inside, which contact margins make rare, the point on the ray from the
-  // centre.
+  // Returns the nearest point of the surface. Outside, x_i = a_i^2 p_i / (a_i^2 + t) with the root
+  // t >= 0 of sum (a_i p_i / (a_i^2 + t))^2 = 1 (Hart 1994, Graphics Gems IV), found by Newton's
+  // method on one over the norm, to 1e-12. Inside, which contact margins make rare, it returns the
+  // point on the ray from the centre.
   SurfacePoint Nearest(const math::Vector3& p_W) const;
 
  private:

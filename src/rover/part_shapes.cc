@@ -16,6 +16,7 @@ using truth::BodyPart;
 constexpr double kWheelRounding = 0.25;
 constexpr double kBoxRounding_m = 0.01;
 
+// A capsule of that radius about the line from a to b, in the frame of the body.
 Part Segment(BodyPart kind, int body, const Vector3& a, const Vector3& b, double radius_m) {
   return {kind,
           body,
@@ -28,6 +29,8 @@ Part Segment(BodyPart kind, int body, const Vector3& a, const Vector3& b, double
           0.5 * (b - a).norm() + radius_m};
 }
 
+// A box fixed to the chassis, with edges rounded by kBoxRounding_m: core and margin together fill
+// it.
 Part Box(BodyPart kind, const Vector3& low_R, const Vector3& high_R) {
   const Vector3 center = 0.5 * (low_R + high_R);
   const Vector3 half = 0.5 * (high_R - low_R) - Vector3::Constant(kBoxRounding_m);
@@ -36,6 +39,7 @@ Part Box(BodyPart kind, const Vector3& low_R, const Vector3& high_R) {
           kBoxRounding_m, center,   half.norm() + kBoxRounding_m};
 }
 
+// Four points at the corners of a level rectangle, in R. They stand for a box against planes.
 void AddCorners(BodyPart kind, double length_m, double width_m, double z_m,
                 std::vector<Part>& parts) {
   for (const double x : {0.5 * length_m, -0.5 * length_m}) {
@@ -47,6 +51,7 @@ void AddCorners(BodyPart kind, double length_m, double width_m, double z_m,
 }
 
 void AddWheels(const RoverGeometryParams& params, std::vector<Part>& parts) {
+  // Core and margin together have the wheel's radius and width.
   const double margin_m =
       std::min(kWheelRounding * params.wheel_width_m, 0.5 * params.wheel_radius_m);
   const double half_width_m = 0.5 * params.wheel_width_m - margin_m;
@@ -71,6 +76,8 @@ void AddArms(const RoverGeometryParams& params, std::vector<Part>& parts) {
     for (std::size_t i = 3 * side; i < 3 * side + 3; ++i) {
       const int body = geometry.on_bogie[i] ? bogie : rocker;
       const Vector3 pivot_R = geometry.on_bogie[i] ? bogie_R : rocker_R;
+      // The hub is at the wheel's height, in the plane of the arms, beside the wheel's inner face;
+      // the strut from knee to hub is vertical.
       const Vector3 hub_R(geometry.wheel_R[i].x(), pivot_R.y(), geometry.wheel_R[i].z());
       const Vector3 hub_B = hub_R - pivot_R;
       const Vector3 knee_B(hub_B.x(), 0.0, params.knee_z_m - pivot_R.z());
@@ -113,6 +120,7 @@ Vector3 NearestOnCore(const Part& part, const Vector3& p_B) {
     case Core::kCylinder: {
       const double y = std::clamp(p_B.y(), -part.b_B.y(), part.b_B.y());
       const double radius = std::hypot(p_B.x(), p_B.z());
+      // Radial and axial clamps are independent: the axis of the cylinder is y.
       const double shrink = radius > part.b_B.x() ? part.b_B.x() / radius : 1.0;
       return {shrink * p_B.x(), y, shrink * p_B.z()};
     }
@@ -129,6 +137,8 @@ double LeastAlong(const Part& part, const Vector3& n_B) {
     case Core::kSegment:
       return std::min(n_B.dot(part.a_B), n_B.dot(part.b_B));
     case Core::kCylinder:
+      // Support of a disc of radius r and half width w about the y axis: min n . x = -r sqrt(n_x^2
+      // + n_z^2) - w |n_y|.
       return -part.b_B.x() * std::sqrt(n_B.x() * n_B.x() + n_B.z() * n_B.z()) -
              part.b_B.y() * std::abs(n_B.y());
     case Core::kBox:

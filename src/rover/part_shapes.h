@@ -10,6 +10,7 @@
 
 namespace rockyard::rover {
 
+// The core of a part; a_B and b_B are its two vectors.
 enum class Core {
   kPoint,
   kSegment,   // between a and b
@@ -17,9 +18,11 @@ enum class Core {
   kBox,       // centre a, half extents b; axes of the body
 };
 
-// What a part is tested against.
+// What a part is tested against: kEverything is rocks, ground and walls.
 enum class Meets { kRocks, kEverything, kGroundAndWalls };
 
+// A part of the rover: all points within margin_m of its core. Vectors are in the frame of its
+// body.
 struct Part {
   truth::BodyPart kind;
   int body;  // see multibody.h
@@ -32,17 +35,17 @@ struct Part {
   double bounding_radius_m;
 };
 
-// Wheels first, in the order of messages::Wheel. Wheels are cylinders with rounded edges. Arms are
-// capsules along the lines pivot to pivot, pivot to knee and, as strut beside the wheel, knee to
-// hub; hubs are balls at the inner face of each wheel, the panel is a slab of the overall length
-// and width on top. Corners of chassis and panel stand for those two against
-// ground and walls.
+// Makes the parts, wheels first, in the order of messages::Wheel. Wheels are cylinders with rounded
+// edges. Arms are capsules along the lines pivot to pivot, pivot to knee and, as strut beside the
+// wheel, knee to hub; hubs are balls at the inner face of each wheel, the panel is a slab of the
+// overall length and width on top. Corners of chassis and panel stand for those two against ground
+// and walls.
 std::vector<Part> MakeParts(const RoverGeometryParams& params);
 
-// The point of the core nearest to p, both in the frame of the body.
+// Returns the point of the core nearest to p, both in the frame of the body.
 math::Vector3 NearestOnCore(const Part& part, const math::Vector3& p_B);
 
-// Smallest n . x over the points x of the core, both in the frame of the body.
+// Returns the smallest n . x over the points x of the core, both in the frame of the body, m.
 double LeastAlong(const Part& part, const math::Vector3& n_B);
 
 }  // namespace rockyard::rover

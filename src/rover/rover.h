@@ -12,6 +12,7 @@
 
 namespace rockyard::rover {
 
+// The interface of a simulated rover: every fidelity is one.
 class Rover {
  public:
   virtual ~Rover() = default;
@@ -20,11 +21,14 @@ class Rover {
   // with wheels braked and straight. Also used when operators turn the rover by hand.
   virtual void Place(const math::Pose2& X_WR) = 0;
 
-  // Advances by one step of step_s(), of real time where the motion is simulated faster, under the
-  // held set points.
+  // Advances the rover by one step of step_s() under the held set points. Where the motion is
+  // simulated faster than it happens (physics.time_scale), the step is still counted in real time.
   virtual void Step(const messages::WheelCommand& command) = 0;
 
+  // The length of one Step in real time, s.
   virtual double step_s() const = 0;
+  // The true state after the last Place or Step: pose, velocities, joint angles, loads and
+  // contacts.
   virtual const truth::RoverState& state() const = 0;
 };
 

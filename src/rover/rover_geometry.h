@@ -14,6 +14,7 @@ namespace rockyard::rover {
 
 enum class Side : std::size_t { kLeft, kRight };
 
+// Centres and pivots in R, m, by messages::Wheel and by Side.
 struct RoverGeometry {
   messages::PerWheel<math::Vector3> wheel_R;  // wheel centres, m
   messages::PerWheel<bool> steered{};
@@ -22,12 +23,13 @@ struct RoverGeometry {
   std::array<math::Vector3, 2> bogie_pivot_R;
 };
 
+// Spreads the wheels over the wheelbase and puts the bogies at the end that the parameters name.
 RoverGeometry MakeRoverGeometry(const RoverGeometryParams& params);
 
-// The true drive geometry; on-board code gets a copy.
+// Returns the true drive geometry, of which on-board code gets a copy.
 messages::DriveCalibration MakeDriveCalibration(const RoverParams& params);
 
-// Closed outlines seen from above, as (x, y) in R, counter-clockwise, m.
+// A closed outline seen from above: corners (x, y) in R, m, counter-clockwise.
 using Outline = std::vector<std::pair<double, double>>;
 Outline BodyOutline(const RoverGeometryParams& params);   // overall length by width
 Outline BellyOutline(const RoverGeometryParams& params);  // underside of the chassis

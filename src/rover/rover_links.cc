@@ -61,6 +61,8 @@ class LinkTree {
               .parent = arm,
               .body = kFirstWheel + static_cast<int>(wheel),
               .pivot_P = p_arm};
+    // A steered wheel hangs on a knuckle that turns about the vertical through the wheel's centre,
+    // so the wheel's own pivot is at the knuckle's origin.
     if (geometry_.steered[wheel]) {
       link.parent = Add({.name = name + "_knuckle",
                          .joint = LinkJoint::kSteering,

@@ -12,8 +12,10 @@
 
 namespace rockyard::rover {
 
+// How a link turns on its parent; kFixed is the chassis, which has no parent.
 enum class LinkJoint { kFixed, kRocker, kBogie, kSteering, kWheel };
 
+// One link: what turns as one piece about a joint on its parent.
 struct Link {
   std::string name;  // "chassis", "left_rocker", "left_bogie", "left_front_wheel", ...
   LinkJoint joint = LinkJoint::kFixed;
@@ -24,12 +26,12 @@ struct Link {
   math::Vector3 axis = math::Vector3::UnitY();    // unit, in both frames
 };
 
-// Chassis first, then per side rocker, bogie and the wheels from front to rear, each with a knuckle
-// before it where it steers; parents come before children. All frames are parallel to R while every
-// angle is 0; that of the chassis is R.
+// Returns the chassis first, then per side rocker, bogie and the wheels from front to rear, each
+// with a knuckle before it where it steers; parents come before children. All frames are parallel
+// to R while every angle is 0; that of the chassis is R.
 std::vector<Link> MakeLinks(const RoverGeometryParams& params);
 
-// The angle of the link's joint in a posture, rad; 0 for the chassis.
+// Returns the angle of the link's joint in a posture, rad; 0 for the chassis.
 double JointAngle(const Link& link, const truth::RoverPosture& posture);
 
 }  // namespace rockyard::rover

@@ -9,11 +9,16 @@ messages::PerWheel<double> StaticWheelLoads(const RoverParams& params) {
   const double g = params.physics.gravity_m_s2;
   const RoverMasses masses = MakeRoverMasses(params);
   const RoverGeometry geometry = MakeRoverGeometry(params.geometry);
+  // All x are in frame R, for the left side; the right side carries the same.
   const std::size_t on_rocker = geometry.on_bogie[0] ? 2 : 0;  // of the left wheels
   const std::size_t bogie_end = 2 - on_rocker;
   const double rocker_wheel_x = geometry.wheel_R[on_rocker].x();
   const double bogie_x = geometry.bogie_pivot_R[0].x();
 
+  // Free body of one side's rocker with its wheel, held up by the bogie pivot at x_b and by the
+  // ground under the rocker's wheel at x_r. The differential passes half of the chassis' weight and
+  // of its moment on to each side, so moments about the bogie pivot give
+  //   N_r (x_r - x_b) = sum_i W_i (x_i - x_b),   i = half chassis, rocker, wheel.
   const double half_chassis_N = 0.5 * masses.chassis.mass_kg * g;
   const double rocker_N = masses.rocker.mass_kg * g;
   const double wheel_N = masses.wheel.mass_kg * g;
@@ -22,6 +27,9 @@ messages::PerWheel<double> StaticWheelLoads(const RoverParams& params) {
                            rocker_N * (geometry.rocker_pivot_R[0].x() - bogie_x) +
                            wheel_N * (rocker_wheel_x - bogie_x);
   const double rocker_wheel_N = moment_Nm / (rocker_wheel_x - bogie_x);
+  // The pivot carries the rest; with the bogie's own weight, which acts at the pivot, the lever
+  // between middle and end wheel divides it:
+  //   N_m - W_wheel = B (x_b - x_e) / (x_m - x_e),   N_e - W_wheel = B - (N_m - W_wheel).
   const double bogie_N = carried_N - rocker_wheel_N + masses.bogie.mass_kg * g;
   const double middle_x = geometry.wheel_R[1].x();
   const double end_x = geometry.wheel_R[bogie_end].x();

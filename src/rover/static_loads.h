@@ -6,11 +6,11 @@
 
 namespace rockyard::rover {
 
-// Loads in N, by the law of the lever. Each side carries half of the chassis, whose moment the
-// differential passes on to both rockers alike; moments about the bogie pivot give the load of the
-// wheel on the rocker, and the bogie's wheels share the rest as their levers do. Exact where wheels
-// have no friction along the ground; with friction the loads of a rover at rest also depend on how
-// it came there. A negative load: the rover cannot stand.
+// Returns the wheel loads in N, by the law of the lever. Each side carries half of the chassis,
+// whose moment the differential passes on to both rockers alike; moments about the bogie pivot give
+// the load of the wheel on the rocker, and the bogie's wheels share the rest as their levers do.
+// This is exact where wheels have no friction along the ground; with friction the loads of a rover
+// at rest also depend on how it came there. A negative load means that the rover cannot stand.
 messages::PerWheel<double> StaticWheelLoads(const RoverParams& params);
 
 }  // namespace rockyard::rover

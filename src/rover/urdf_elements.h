@@ -13,19 +13,19 @@ class XMLElement;  // NOLINT(cppcoreguidelines-virtual-class-destructor): its do
 
 namespace rockyard::rover {
 
-// Shortest text that reads back to the same double; no minus before zero.
+// Returns the shortest text that reads back to the same double, without a minus before zero.
 std::string Number(double value);
-// "x y z"
+// Returns "x y z".
 std::string Numbers(const math::Vector3& v);
 
-// <origin> of a child frame: translation in m, then roll, pitch and yaw in rad.
+// Adds the <origin> of a child frame: translation in m, then roll, pitch and yaw in rad.
 void AddOrigin(tinyxml2::XMLElement& element, const math::Vector3& xyz, const math::Vector3& rpy);
 
-// <visual> and <collision> of a part, in the frame of its body. Corner points add nothing: they
-// belong to boxes.
+// Adds <visual> and <collision> of a part, in the frame of its body. Corner points add nothing:
+// they belong to boxes.
 void AddShape(tinyxml2::XMLElement& link, const Part& part);
 
-// <inertial> with a share of a body's mass and inertia.
+// Adds an <inertial> with a share of a body's mass and inertia.
 void AddInertial(tinyxml2::XMLElement& link, const BodyMass& body, double share);
 
 }  // namespace rockyard::rover

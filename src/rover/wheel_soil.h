@@ -21,36 +21,39 @@ namespace rockyard::rover {
 struct Rut {
   double load_N = 0.0;
   double sinkage_m = 0.0;
-  double stiffness_N_m = 0.0;  // dW / dz
+  // The slope dN / dz of the load over the sinkage.
+  double stiffness_N_m = 0.0;
   double resistance_N = 0.0;
   double contact_length_m = 0.0;
   double largest_traction_N = 0.0;
 };
 
+// One kind of wheel on one soil.
 class WheelSoil {
  public:
-  // Radius and width are positive; soil within the bounds of its Visit.
+  // Radius and width are positive, m; the soil lies within the bounds of its Visit.
   WheelSoil(const terrain::SoilParams& soil, double wheel_radius_m, double wheel_width_m);
 
-  // Load > 0. All fields but the stiffness grow with the load. About 60 ns.
+  // Returns all that the wheel meets under a load > 0. All fields but the stiffness grow with the
+  // load. A call costs about 60 ns.
   Rut RutUnder(double load_N) const;
-  // The inverse of its sinkage, for z >= 0.
+  // Returns the load at which the wheel sinks by z >= 0: the inverse of Sinkage_m.
   double Load_N(double sinkage_m) const;
 
-  // Single fields of the rut, for a load >= 0.
+  // These return single fields of the rut, for a load >= 0.
   double Sinkage_m(double load_N) const;
   double Resistance_N(double load_N) const;
   double ContactLength_m(double load_N) const;
   double LargestTraction_N(double load_N) const;
-  // l / K, the u of a slip of 1; infinite where K is 0.
+  // Returns l / K, the u at a slip of 1; infinite where K is 0.
   double ShearRatioOfFullSlip(double load_N) const;
 
-  // Slip at the share tau of the largest traction, in [0, 1]: 1 where the wheel spins on the spot.
-  // The inverse gives the share that a slip mobilizes.
+  // Slip returns the slip in [0, 1] that mobilizes the share tau of the largest traction: 1 where
+  // the wheel spins on the spot. TractionShare is its inverse: the share that a slip mobilizes.
   double Slip(double tau, double load_N) const;
   double TractionShare(double slip, double load_N) const;
 
-  // i / tau at the slip i >= 0; its limit 2 K / l at none.
+  // Returns i / tau at the slip i >= 0; its limit at i = 0 is 2 K / l.
   double SlipPerShare(double slip, const Rut& rut) const;
 
  private:
@@ -64,14 +67,16 @@ class WheelSoil {
   double shear_modulus_m_;  // K
 };
 
-// tau(u) = 1 - (1 - e^-u) / u and its derivative, for u >= 0. About 15 ns.
+// tau and its derivative by u.
 struct ShearShare {
   double value;
   double slope;
 };
+// Returns tau(u) = 1 - (1 - e^-u) / u and its derivative, for u >= 0. A call costs about 15 ns.
 ShearShare ShareOfRatio(double u);
 
-// u of the share tau in [0, 1): the inverse of tau = 1 - (1 - e^-u) / u. About 20 ns.
+// Returns u at the share tau in [0, 1): the inverse of tau = 1 - (1 - e^-u) / u. A call costs about
+// 20 ns.
 double ShearRatio(double tau);
 
 }  // namespace rockyard::rover

@@ -8,20 +8,21 @@
 
 namespace rockyard::sensing {
 
-// Both profiles carry the power 1. Gaussian: f(a) = exp(-a^2 / 2 s^2) / (s sqrt(2 pi)) with s = w /
-// 4, so that the width w lies between the points at 1/e2 of the peak (ISO 11146: 4 s); cut off at 5
-// s, which drops 6e-7 of the light. Top hat: 1 / w within w / 2.
+// How the light of a beam is spread across the light plane. Both profiles carry the power 1.
+// Gaussian: f(a) = exp(-a^2 / 2 s^2) / (s sqrt(2 pi)) with s = w / 4, so that the width w lies
+// between the points at 1/e2 of the peak (ISO 11146: 4 s); it is cut off at 5 s, which drops 6e-7
+// of the light. Top hat: 1 / w within w / 2.
 class BeamCrossSection {
  public:
   BeamCrossSection(BeamProfile profile, double width_rad)
       : profile_(profile), width_rad_(width_rad), sigma_rad_(0.25 * width_rad) {}
 
-  // Angle beyond which there is no light.
+  // Returns the angle beyond which there is no light.
   double reach_rad() const {
     return profile_ == BeamProfile::kTopHat ? 0.5 * width_rad_ : 5.0 * sigma_rad_;
   }
 
-  // f, 1/rad.
+  // Returns f at an angle, 1/rad.
   double Density(double angle_rad) const {
     if (std::abs(angle_rad) > reach_rad()) return 0.0;
     if (profile_ == BeamProfile::kTopHat) return 1.0 / width_rad_;
@@ -29,7 +30,7 @@ class BeamCrossSection {
     return std::exp(-0.5 * x * x) / (sigma_rad_ * std::sqrt(2.0 * std::numbers::pi));
   }
 
-  // Integral of f up to the angle.
+  // Returns the integral of f up to the angle, C.
   double Cumulative(double angle_rad) const {
     if (angle_rad <= -reach_rad()) return 0.0;
     if (angle_rad >= reach_rad()) return 1.0;
@@ -37,7 +38,7 @@ class BeamCrossSection {
     return 0.5 * std::erfc(-angle_rad / (sigma_rad_ * std::numbers::sqrt2));
   }
 
-  // Mean of f between two angles, 1/rad: what a pixel between them sees.
+  // Returns the mean of f between two angles, 1/rad: what a pixel between them sees.
   double Mean(double from_rad, double to_rad) const {
     constexpr double kPoint_rad = 1e-9;
     const double width_rad = to_rad - from_rad;

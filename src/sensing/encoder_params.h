@@ -5,12 +5,13 @@
 
 namespace rockyard::sensing {
 
+// The distance error of the encoders (Matthies 1995, section 5).
 struct EncoderParams {
   double distance_variance_m2_per_m = 0.0039;
   double physics_variance_m2_per_m = 0.0;
   double noise_stretch_m = 0.067;
 
-  // What the encoders add to the distance error that wheel slip already causes, m2/m.
+  // Returns what the encoders add to the distance error that wheel slip already causes, m2/m.
   double noise_variance_m2_per_m() const {
     return distance_variance_m2_per_m - physics_variance_m2_per_m;
   }

@@ -20,6 +20,8 @@ double Encoders::RollOn(double distance_m) {
   while (distance_m > 0.0) {
     if (left_in_stretch_m_ <= 0.0) {
       core::RandomStream stream(key_, core::Purpose::kEncoder, stretch_++);
+      // The stretch L is wrong by N(0, v L) with v in m2/m (Matthies 1995, section 5: 0.0039), that
+      // is by the scale error N(0, v / L).
       scale_error_ = core::SampleNormal(
           stream, 0.0, std::sqrt(params_.noise_variance_m2_per_m() / params_.noise_stretch_m));
       left_in_stretch_m_ = params_.noise_stretch_m;
@@ -37,6 +39,7 @@ messages::PerWheel<double> Encoders::Measure(const messages::PerWheel<double>& t
       std::accumulate(true_turn_rad.begin(), true_turn_rad.end(), 0.0) / messages::kWheelCount;
   EXPECT(std::isfinite(mean_rad));
   const double noise_m = RollOn(std::abs(mean_rad) * wheel_radius_m_);
+  // The noise lengthens or shortens the motion in its own direction; all wheels share it.
   const double noise_rad = (mean_rad < 0.0 ? -noise_m : noise_m) / wheel_radius_m_;
   messages::PerWheel<double> measured = true_turn_rad;
   for (double& turn_rad : measured) turn_rad += noise_rad;

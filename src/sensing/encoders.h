@@ -18,13 +18,14 @@
 
 namespace rockyard::sensing {
 
+// The encoders of the six wheels over one trial.
 class Encoders {
  public:
   // wheel_radius_m is the true radius, which turns wheel angle into travel.
   Encoders(const EncoderParams& params, double wheel_radius_m, core::TrialKey key);
 
-  // Measured increments for the next true ones, radians, positive forward. The scale error of the
-  // n-th stretch of travel comes from stream kEncoder, substream n.
+  // Returns the measured increments for the next true ones, radians, positive forward. The scale
+  // error of the n-th stretch of travel comes from stream kEncoder, substream n.
   messages::PerWheel<double> Measure(const messages::PerWheel<double>& true_turn_rad);
 
  private:

@@ -7,11 +7,12 @@
 
 namespace rockyard::sensing {
 
-// Where the loop of exposure control settles: the time at which the metered pixels, less the
-// brightest_share of them, reach target_fill of the full well without laser light,
+// Returns the time, s, at which the loop of exposure control settles: where the metered pixels,
+// less the brightest_share of them, reach target_fill of the full well without laser light,
 //   t = target_fill * full_well / (rate + dark current),
-// within the limits. It sees nothing but how bright pixels are. `rates_e_s`: photoelectrons per
-// second of the metered pixels, in any order; the longest exposure where there are none.
+// within the limits. The loop sees nothing but how bright pixels are. `rates_e_s` are the
+// photoelectrons per second of the metered pixels, in any order; where there are none, the time is
+// the longest.
 double ExposureTime(const ImagerParams& imager, std::vector<double> rates_e_s);
 
 }  // namespace rockyard::sensing

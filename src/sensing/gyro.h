@@ -15,12 +15,13 @@
 
 namespace rockyard::sensing {
 
+// The gyro of one trial.
 class Gyro {
  public:
   Gyro(const GyroParams& params, core::TrialKey key) : params_(params), key_(key) {}
 
-  // Noisy turn of tick `step`, radians, positive left. The noise depends on the key, the step and
-  // the duration alone (stream kGyro, substream step).
+  // Returns the noisy turn of tick `step`, radians, positive left. The noise depends on the key,
+  // the step and the duration alone (stream kGyro, substream step).
   double Measure(double true_turn_rad, double duration_s, bool moving, std::int64_t step) const;
 
  private:
@@ -28,8 +29,8 @@ class Gyro {
   core::TrialKey key_;
 };
 
-// Rotation about the rover's z axis between two poses a short tick apart: the z component of the
-// rotation vector. On level ground it is the change of heading.
+// Returns the rotation about the rover's z axis between two poses a short tick apart, radians: the
+// z component of the rotation vector. On level ground it is the change of heading.
 double TurnAboutOwnAxis(const math::Transform& X_WR_before, const math::Transform& X_WR_after);
 
 }  // namespace rockyard::sensing

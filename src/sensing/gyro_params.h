@@ -17,6 +17,7 @@ enum class ScrapeSign {
   kRight,
 };
 
+// What counts as a scrape, and the jump of the measured heading that it causes.
 struct ScrapeParams {
   bool enabled = true;
   double jump_rad = math::DegToRad(5.0);
@@ -86,6 +87,7 @@ struct ScrapeParams {
   }
 };
 
+// Scale, noise and scrapes of the gyro.
 struct GyroParams {
   double scale = 0.94;
   double heading_variance_deg2_per_m = 0.70;
@@ -93,7 +95,7 @@ struct GyroParams {
   bool accumulates_at_rest = false;
   ScrapeParams scrape;
 
-  // Growth of the heading's variance in time, rad2/s.
+  // Returns the growth of the heading's variance in time, rad2/s.
   double heading_variance_rad2_per_s() const {
     const double rad_per_deg = math::DegToRad(1.0);
     return heading_variance_deg2_per_m * rad_per_deg * rad_per_deg * reference_speed_m_s;

@@ -8,8 +8,8 @@
 namespace rockyard::sensing {
 
 // Spreads the light of every pixel over its neighbours on the line, with weights in proportion to
-// exp(-k^2 / 2 s^2) at k columns, s in pixels. Along the line only: stripes run across the lines.
-// Light that leaves the line is lost; sunlight goes on beyond its ends as at its ends.
+// exp(-k^2 / 2 s^2) at k columns, s in pixels. It does so along the line only: stripes run across
+// the lines. Light that leaves the line is lost; sunlight goes on beyond its ends as at its ends.
 class ImageBlur {
  public:
   explicit ImageBlur(double sigma_px);  // 0: sharp, changes nothing

@@ -13,6 +13,7 @@ ImageReadout::ImageReadout(const ImagerParams& imager, double speckle_contrast)
       speckle_contrast_(speckle_contrast),
       largest_count_((1 << detector_.adc_bits) - 1),
       black_counts_(imager.black_level * largest_count_),
+      // The black level is a share of the largest count, and a full well fills the rest.
       electrons_per_count_(detector_.full_well_e / (largest_count_ - black_counts_)) {}
 
 double ImageReadout::DarkTime(double exposure_s, core::TrialKey key, const ImageName& name) const {
@@ -47,6 +48,7 @@ std::vector<double> ImageReadout::Photoelectrons(const RenderedRow& row, int fir
     if (group_of[static_cast<std::size_t>(laser.laser)] != name.group) continue;
     const double z = speckle.At(row.row, first_column + laser.pixel);
     mean_e[static_cast<std::size_t>(laser.pixel)] +=
+        // Speckle multiplies the laser's light alone.
         laser.rate_e_s * exposure_s * std::max(0.0, 1.0 + speckle_contrast_ * z);
   }
   return mean_e;
@@ -66,9 +68,13 @@ void ImageReadout::Read(const RenderedRow& row, const PixelPattern& pattern, int
       PixelNoise(key, core::Purpose::kImageNoise, name.substream()), row.row, first_column,
       static_cast<int>(mean_e.size()), [&](int column, float z) {
         const auto i = static_cast<std::size_t>(column - first_column);
+        // Poisson variance of light and dark charge is their mean; read noise adds its own:
+        //   N = R t + D t + r R t + o + sqrt(R t + D t + s^2) z.
         const double random_e = mean_e[i] + dark_e;
         const double e = random_e + pattern.response[i] * mean_e[i] + pattern.offset_e[i] +
                          std::sqrt(random_e + read2_e2) * z;
+        // The full well cuts before the black level is added; adding 1/2 rounds, since the
+        // conversion to whole numbers cuts off.
         const double count =
             std::min(e, detector_.full_well_e) * counts_per_electron + black_counts_ + 0.5;
         counts[first + i] =

@@ -12,7 +12,7 @@
 
 namespace rockyard::sensing {
 
-// Which image of a trial is read out.
+// Names the image of a trial that is read out.
 struct ImageName {
   static constexpr std::int64_t kScans = std::int64_t{1} << 26;  // that have names of their own
 
@@ -48,12 +48,12 @@ class ImageReadout {
   int largest_count() const { return largest_count_; }
   double electrons_per_count() const { return electrons_per_count_; }
 
-  // Time of the image without lasers that goes with one of exposure_s with them: longer by the
-  // factor 1 + N(0, repeatability). Draws from (kImageExposure, name).
+  // Returns the time of the image without lasers that goes with one of exposure_s with them: longer
+  // by the factor 1 + N(0, repeatability). Draws from (kImageExposure, name).
   double DarkTime(double exposure_s, core::TrialKey key, const ImageName& name) const;
 
-  // Pattern of `columns` pixels of a line. Draws from (kPixelPattern, camera): once for the trial,
-  // whatever is read out.
+  // Returns the pattern of `columns` pixels of a line. Draws from (kPixelPattern, camera): once for
+  // the trial, whatever is read out.
   PixelPattern Pattern(int camera, int row, int first_column, int columns,
                        core::TrialKey key) const;
 

@@ -22,6 +22,8 @@ double Reach(const terrain::Rock& rock) { return rock.semi_axes_m.maxCoeff() + k
 // Whether a ball may come between another one and the sun: the distance between the centres, square
 // to the sun, and whether it lies on the sun's side.
 bool ComesBetween(const Vector3& from_ball, const Vector3& toward_sun, double reach_m) {
+  // Two balls' shadows overlap where their centres, seen along the sun's rays, are nearer than both
+  // radii: |r|^2 - (r . s)^2 <= reach^2.
   const double along = from_ball.dot(toward_sun);
   if (along < -reach_m) return false;
   return from_ball.squaredNorm() - along * along <= reach_m * reach_m;
@@ -60,6 +62,8 @@ void ImageScene::RocksNearPlane(const Vector3& eye_W, const Vector3& normal_W, d
     const terrain::Rock& rock = terrain_.rocks()[static_cast<std::size_t>(index)];
     const Vector3 away = rock.center_W - eye_W;
     const double reach_m = Reach(rock);
+    // A ball of that reach meets |n . r| <= sine |r| if its centre is within reach of it; |r| is at
+    // most |away| + reach.
     const double off_m = std::abs(normal_W.dot(away));
     if (off_m <= reach_m + sine * (away.norm() + reach_m)) out.push_back(index);
   }
@@ -149,6 +153,7 @@ bool ImageScene::InRoversShadow(const Vector3& p_W) const {
 }
 
 bool ImageScene::Sunlit(const SurfacePoint& point, std::span<const int> shading) const {
+  // A surface turned away from the sun shades itself.
   if (point.normal_W.dot(light_.toward_sun_W) <= 0.0) return false;
   for (const int i : shading) {
     // A rock is convex: where it faces the sun it does not shade itself.
@@ -164,6 +169,7 @@ bool ImageScene::Sunlit(const SurfacePoint& point, std::span<const int> shading)
 
 void ImageScene::Light(std::span<const int> shading, SurfacePoint& point) const {
   if (point.surface == SurfacePoint::kSky) {
+    // An even sky of irradiance E has the radiance E / pi in every direction.
     point.radiance_w_m2_sr = light_.sky_w_m2 * std::numbers::inv_pi;
     return;
   }

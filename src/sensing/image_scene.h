@@ -13,9 +13,9 @@
 
 namespace rockyard::sensing {
 
-// A point that a viewing ray meets first.
+// The point that a viewing ray meets first.
 struct SurfacePoint {
-  // Values of `surface` other than the index of a rock.
+  // `surface` is the index of a rock, or one of these.
   static constexpr int kGround = -1;
   static constexpr int kWall = -2;
   static constexpr int kSky = -3;
@@ -30,37 +30,42 @@ struct SurfacePoint {
   bool TakesLaserLight() const { return surface >= kWall; }
 };
 
+// A ball around some points, in W.
 struct Ball {
   math::Vector3 center_W = math::Vector3::Zero();
   double radius_m = 0.0;
 };
 
-// Rocks farther from the rover's origin than sight_m are not seen, nor is what they shade. Pure
-// queries; must not outlive the terrain.
+// What one scan of the cameras can meet. Rocks farther from the rover's origin than sight_m are not
+// seen, nor is what they shade. All members are pure queries; the scene must not outlive the
+// terrain.
 class ImageScene {
  public:
-  // sight_m: SightOf the sensor.
+  // The distance sight_m is SightOf the sensor.
   ImageScene(const terrain::Terrain& terrain, const math::Transform& X_WR, const SunLight& light,
              const SunParams& sun, const RoverBody& body, double sight_m);
 
   double sight_m() const { return sight_m_; }
   const math::Transform& X_WR() const { return X_WR_; }
 
-  // Rocks of which a part may lie where |normal_W . (p - eye)| <= sine |p - eye|: about a plane.
+  // Lists the rocks of which a part may lie where |normal_W . (p - eye)| <= sine |p - eye|: about a
+  // plane.
   void RocksNearPlane(const math::Vector3& eye_W, const math::Vector3& normal_W, double sine,
                       std::vector<int>& out) const;
-  // Of the given rocks, those whose bounding ball meets the cone from an eye about axis_W (unit).
+  // Lists, of the given rocks, those whose bounding ball meets the cone from an eye about axis_W
+  // (unit).
   void RocksInCone(const math::Vector3& eye_W, const math::Vector3& axis_W, double half_sine,
                    double half_cosine, std::span<const int> among, std::vector<int>& out) const;
-  // Rocks that reach into the sheet of width_m on both sides of a plane.
+  // Lists the rocks that reach into the sheet of width_m on both sides of a plane.
   void RocksInSheet(const math::Vector3& p_W, const math::Vector3& normal_W, double width_m,
                     std::vector<int>& out) const;
-  // Rocks that may come between the sun and a ball: for Light. Of all, or of an earlier result.
+  // Lists the rocks that may come between the sun and a ball, of all or of an earlier result: Light
+  // asks for them.
   void RocksBeforeSun(const Ball& ball, std::vector<int>& out) const;
   void RocksBeforeSun(const Ball& ball, std::span<const int> among, std::vector<int>& out) const;
 
-  // What the unit ray from an eye meets first among the ground, the walls and the given rocks, if
-  // that is nearer than body_m, where the rover's own part is. Without sunlight.
+  // Returns what the unit ray from an eye meets first among the ground, the walls and the given
+  // rocks, if that is nearer than body_m, where the rover's own part is. Its sunlight is not set.
   SurfacePoint Meet(const math::Vector3& eye_W, const math::Vector3& ray_W, double body_m,
                     std::span<const int> rocks) const;
 
@@ -68,8 +73,8 @@ class ImageScene {
   // of the ground and of the rover. Walls cast none: they stand for the bounds of the arena.
   void Light(std::span<const int> shading, SurfacePoint& point) const;
 
-  // Whether the light of an emitter reaches a point: neither the ground, the walls, the given rocks
-  // nor the rover between.
+  // Returns whether the light of an emitter reaches a point: neither the ground, the walls, the
+  // given rocks nor the rover are between.
   bool Reaches(const math::Vector3& emitter_W, const math::Vector3& p_W,
                std::span<const int> rocks) const;
 

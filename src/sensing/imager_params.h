@@ -14,7 +14,7 @@ enum class ImagerKind {
   kCmos,  // active pixel sensor, the improvement that Matthies 1995 section 6 lists
 };
 
-// One imager. Electrons are per pixel.
+// The detector of one imager. Electrons are per pixel.
 struct DetectorParams {
   double quantum_efficiency = 0.15;
   double fill_factor = 0.4;

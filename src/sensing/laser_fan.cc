@@ -32,6 +32,8 @@ LaserFan::LaserFan(const LightStripeParams& params, const messages::StripeCalibr
 }
 
 bool LaserFan::Lights(const Vector3& away_R) const {
+  // The angle within the light plane counts; how far the direction lies off the plane is
+  // OutOfPlane's.
   const Vector3 in_plane = away_R - normal_R_.dot(away_R) * normal_R_;
   const double least = half_fan_cosine_ * in_plane.norm();
   return std::any_of(axes_R_.begin(), axes_R_.end(),
@@ -44,18 +46,21 @@ LitFan::LitFan(const LaserFan& fan, const ImageScene& scene, double reach_rad)
       p_WoE_W_(scene.X_WR() * fan.p_RoE_R()),
       normal_W_(scene.X_WR().linear() * fan.normal_R()),
       offset_m_(normal_W_.dot(p_WoE_W_)),
+      // sin(a) <= a, so light within the reach lies within reach * range of the plane.
       width_m_(reach_rad * scene.sight_m()) {
   scene.RocksInSheet(p_WoE_W_, normal_W_, width_m_, rocks_);
 }
 
 double LitFan::OutOfPlane(const Vector3& p_W) const {
   const Vector3 away_W = p_W - p_WoE_W_;
+  // sin a = n . r / |r|.
   return std::asin(std::clamp(normal_W_.dot(away_W) / away_W.norm(), -1.0, 1.0));
 }
 
 double LitFan::Irradiance(const SurfacePoint& point) const {
   const Vector3 away_W = point.p_W - p_WoE_W_;
   const double range2_m2 = away_W.squaredNorm();
+  // Incidence against the outward normal; E / f(a) = P / (F r^2) cos i.
   const double cosine = -point.normal_W.dot(away_W) / std::sqrt(range2_m2);
   if (cosine <= 0.0) return 0.0;
   if (!fan_->Lights(scene_->X_WR().linear().transpose() * away_W)) return 0.0;

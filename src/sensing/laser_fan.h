@@ -28,7 +28,7 @@ class LaserFan {
   const math::Vector3& normal_R() const { return normal_R_; }
   double power_w_rad() const { return power_w_rad_; }  // P / F
 
-  // Whether a direction from the emitter, taken in the light plane, is lit.
+  // Returns whether a direction from the emitter, taken in the light plane, is lit.
   bool Lights(const math::Vector3& away_R) const;
 
  private:
@@ -39,23 +39,26 @@ class LaserFan {
   double power_w_rad_ = 0.0;
 };
 
-// The same as one scan of the terrain meets it.
+// A fan as one scan of the terrain meets it.
 class LitFan {
  public:
-  // Must not outlive any of its arguments. `reach_rad`: of the beam's cross section.
+  // The fan must not outlive any of its arguments. `reach_rad` is that of the beam's cross section.
   LitFan(const LaserFan& fan, const ImageScene& scene, double reach_rad);
 
-  // Angle of a point out of the light plane, seen from the emitter; on its normal's side positive.
+  // Returns the angle, rad, of a point out of the light plane, seen from the emitter; positive on
+  // the side of the plane's normal.
   double OutOfPlane(const math::Vector3& p_W) const;
 
-  // Whether both points lie on the same side of the plane and too far from it for any light.
+  // Returns whether both points lie on the same side of the plane and too far from it for any
+  // light.
   bool PassesBy(const math::Vector3& a_W, const math::Vector3& b_W) const {
     const double a_m = normal_W_.dot(a_W) - offset_m_;
     const double b_m = normal_W_.dot(b_W) - offset_m_;
     return (a_m > width_m_ && b_m > width_m_) || (a_m < -width_m_ && b_m < -width_m_);
   }
 
-  // E / f(a) of a point; 0 where it is out of the fan, turned away, or hidden from the emitter.
+  // Returns E / f(a) of a point, W/m2 times rad; 0 where it is out of the fan, turned away, or
+  // hidden from the emitter.
   double Irradiance(const SurfacePoint& point) const;
 
  private:

@@ -14,7 +14,8 @@ namespace {
 
 using math::Vector3;
 
-// Normal, in R, of the plane that a scanline sees.
+// Normal, in R, of the plane that a scanline sees: the camera's lateral axis lies in it, and it
+// looks an angle below the optical axis, along (cos, 0, -sin) in C.
 Vector3 ScanlineNormal(const messages::StripeCamera& camera, double row_angle_rad) {
   return camera.X_RC.linear() * Vector3(std::sin(row_angle_rad), 0.0, std::cos(row_angle_rad));
 }
@@ -89,11 +90,14 @@ LightStripe::Line LightStripe::MakeLine(std::size_t row, std::size_t stripe) con
   const double row_angle_rad = calibration_.scanline_px[row] * camera.row_pitch_rad;
   const Vector3 scanline = ScanlineNormal(camera, row_angle_rad);
   Line line;
+  // Two planes meet along the cross product of their normals; the line is followed downwards.
   line.direction_R = scanline.cross(laser.normal_R).normalized();
   if (line.direction_R.z() > 0.0) line.direction_R = -line.direction_R;
   EXPECT(line.direction_R.z() < 0.0);
 
-  // From the emitter within the light plane, square to the line, to the scanline plane.
+  // From the emitter e within the light plane, square to the line, to the scanline plane n . (p -
+  // o) = 0: p = e + g aside with g = n . (o - e) / n . aside. It vanishes where the emitter sits on
+  // the camera's lateral axis.
   const Vector3 aside = laser.normal_R.cross(line.direction_R);
   const double gap = scanline.dot(camera.X_RC.translation() - laser.p_RoE_R) / scanline.dot(aside);
   line.start_R = laser.p_RoE_R + gap * aside;
@@ -110,6 +114,8 @@ LightStripe::Line LightStripe::MakeLine(std::size_t row, std::size_t stripe) con
 void LightStripe::SetView(const messages::StripeCamera& camera, double row_angle_rad,
                           Line& line) const {
   const auto R_RC = camera.X_RC.linear();
+  // Within the scanline plane: ahead of the camera, and to its right. Both are linear along the
+  // line, which leaves the column angle atan(right / forward).
   const Vector3 forward_R = R_RC * Vector3(std::cos(row_angle_rad), 0.0, -std::sin(row_angle_rad));
   const Vector3 right_R = R_RC * -Vector3::UnitY();
   const Vector3 p_CS_R = line.start_R - camera.X_RC.translation();
@@ -118,7 +124,7 @@ void LightStripe::SetView(const messages::StripeCamera& camera, double row_angle
   line.right_m = right_R.dot(p_CS_R);
   line.right_slope = right_R.dot(line.direction_R);
 
-  // |p + t d| <= max_range.
+  // |p + t d| <= max_range: t = -p . d +- sqrt((p . d)^2 - |p|^2 + max_range^2).
   const double middle_m = -p_CS_R.dot(line.direction_R);
   const double rest_m2 =
       params_.max_range_m * params_.max_range_m - p_CS_R.squaredNorm() + middle_m * middle_m;
@@ -138,6 +144,7 @@ messages::ColumnRange LightStripe::SearchedColumns(const messages::StripeCamera&
 
 int LightStripe::ColumnAt(const Line& line, double distance_m,
                           const messages::StripeCamera& camera) {
+  // Equidistant rows: the column is the angle within the scanline plane over the pitch.
   const double angle_rad = std::atan((line.right_m + distance_m * line.right_slope) /
                                      (line.forward_m + distance_m * line.forward_slope));
   return static_cast<int>(std::lround(angle_rad / camera.column_pitch_rad));
@@ -202,6 +209,7 @@ messages::StripePixel LightStripe::FindOnCurve(const terrain::Terrain& terrain,
 messages::StripeScan LightStripe::Scan(const terrain::Terrain& terrain, const math::Transform& X_WR,
                                        core::TrialKey key, std::int64_t scan_number) const {
   EXPECT(scan_number >= 0);
+  // Every line, eye and emitter lies in this ball: no other rock can light, hide or be seen.
   const Vector3 reach_W = X_WR * reach_center_R_;
   std::vector<int> near;
   terrain.RocksNear(reach_W.x(), reach_W.y(), reach_radius_m_, near);

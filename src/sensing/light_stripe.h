@@ -34,27 +34,28 @@
 
 namespace rockyard::sensing {
 
+// The sensor at the geometric fidelity.
 class LightStripe {
  public:
   explicit LightStripe(const LightStripeParams& params);
 
-  // One scan with the rover at X_WR. Pure function of its arguments. Draws as StripeErrors does,
-  // whatever the terrain holds: the same points are misplaced on every terrain. Cost: some
-  // microseconds; one surface query and one occlusion query per point against the rocks near the
-  // footprint; a surface query for each chord with curved scanlines.
+  // Makes one scan with the rover at X_WR. It is a pure function of its arguments. It draws as
+  // StripeErrors does, whatever the terrain holds: the same points are misplaced on every terrain.
+  // Cost: some microseconds; one surface query and one occlusion query per point against the rocks
+  // near the footprint; a surface query for each chord with curved scanlines.
   messages::StripeScan Scan(const terrain::Terrain& terrain, const math::Transform& X_WR,
                             core::TrialKey key, std::int64_t scan_number) const;
 
-  // Geometry of the true sensor.
+  // Returns the geometry of the true sensor.
   const messages::StripeCalibration& calibration() const { return calibration_; }
 
-  // Searched part of a point's scanline.
+  // Returns the searched part of a point's scanline.
   messages::ColumnRange searched(std::size_t row, std::size_t stripe) const {
     return searched_[row][stripe];
   }
 
  private:
-  // Line in which a scanline plane meets a light plane, in R, and how the camera sees it.
+  // A line in which a scanline plane meets a light plane, in R, and how the camera sees it.
   struct Line {
     math::Vector3 start_R;
     math::Vector3 direction_R;  // unit, away from the sensor
@@ -66,13 +67,14 @@ class LightStripe {
     double forward_slope = 0.0;
     double right_m = 0.0;
     double right_slope = 0.0;
-    // Distances between which points are near enough to the camera and, on a light ray, lit at all;
+    // Points are near enough to the camera and, on a light ray, lit at all between these distances;
     // none where first > last or last < 0.
     double first_m = 0.0;
     double last_m = -1.0;
   };
 
-  // Rocks that the scan may meet, and those of them that reach into the light plane of one stripe.
+  // The rocks that the scan may meet, and those of them that reach into the light plane of one
+  // stripe.
   struct Candidates {
     std::span<const int> near;
     std::span<const int> lit;

@@ -27,6 +27,7 @@ messages::MotionMeasurement MotionSensors::Measure(const truth::RoverState& stat
   motion.duration_s = duration_s;
   motion.wheel_turn_rad = encoders_.Measure(wheel_turn_rad);
   motion.steer_rad = state.steer_rad;
+  // Scrapes since the last tick add their jumps once.
   motion.turn_rad = gyro_.Measure(TurnAboutOwnAxis(X_WR_, state.X_WR), duration_s, moving, tick_) +
                     std::exchange(pending_jump_rad_, 0.0);
   ++tick_;

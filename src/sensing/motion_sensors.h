@@ -11,22 +11,24 @@
 
 namespace rockyard::sensing {
 
+// Gyro, encoders and scrapes of one trial.
 class MotionSensors {
  public:
-  // Starts at `state`. wheel_radius_m is the true radius.
+  // Starts at `state`. wheel_radius_m is the true radius, m.
   MotionSensors(const GyroParams& gyro, const EncoderParams& encoders, double wheel_radius_m,
                 core::TrialKey key, const truth::RoverState& state);
 
-  // Once a physics step: watches for scrapes.
+  // Is called once a physics step and watches for scrapes.
   void Observe(const truth::RoverState& state, double time_s);
 
-  // Once an on-board tick: what was measured since the last tick. `moving`: the rover was told to
-  // move. Ticks are numbered from 0, which indexes the noise of the gyro.
+  // Is called once an on-board tick and returns what was measured since the last tick. `moving`
+  // says that the rover was told to move. Ticks are numbered from 0, which indexes the noise of the
+  // gyro.
   messages::MotionMeasurement Measure(const truth::RoverState& state, double duration_s,
                                       bool moving);
 
-  // Operators moved the rover by hand with its sensors switched off: what lies between is not
-  // measured.
+  // Starts anew at `state`, after operators moved the rover by hand with its sensors switched off:
+  // what lies between is not measured.
   void Resume(const truth::RoverState& state);
 
   const ScrapeDetector& scrapes() const { return scrapes_; }

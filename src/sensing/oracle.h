@@ -8,14 +8,15 @@
 
 namespace rockyard::sensing {
 
-// The true pose as an operator's message; perception::DeadReckoning::Follow takes one per tick.
+// Returns the true pose as an operator's message; perception::DeadReckoning::Follow takes one per
+// tick.
 inline messages::PoseUpdate TruePose(const truth::RoverState& state) {
   const math::Pose2 pose = math::ToPose2(state.X_WR);
   return {pose.x_m, pose.y_m, pose.heading_rad};
 }
 
-// The rest of it: the attitude by which math::MakePose gives back the orientation, and the height
-// above the one at which the drive began.
+// Returns what the pose in the plane leaves out: the attitude by which math::MakePose gives back
+// the orientation, and the height above the one at which the drive began.
 inline messages::AttitudeEstimate TrueAttitude(const truth::RoverState& state, double start_z_m) {
   const auto& R_WR = state.X_WR.linear();
   return {.roll_rad = std::atan2(R_WR(2, 1), R_WR(2, 2)),

@@ -22,11 +22,11 @@ class PixelNoise {
       : counter_{0, image, static_cast<std::uint32_t>(purpose), key.trial},
         key_{static_cast<std::uint32_t>(key.seed), static_cast<std::uint32_t>(key.seed >> 32)} {}
 
-  // The numbers of eight neighbouring pixels of a line: of columns 8 k .. 8 k + 7 for k =
+  // Returns the numbers of eight neighbouring pixels of a line: of columns 8 k .. 8 k + 7 for k =
   // block_column. Columns and rows may be negative, down to -2^15.
   std::array<float, kBlock> Block(int row, int block_column) const;
 
-  // That of one pixel.
+  // Returns the number of one pixel.
   float At(int row, int column) const {
     const int block = BlockOf(column);
     return Block(row, block)[static_cast<std::size_t>(column - kBlock * block)];

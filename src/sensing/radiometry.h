@@ -15,29 +15,30 @@ struct SunLight {
   double sky_w_m2 = 0.0;     // from the whole sky on a horizontal surface
 };
 
-// Beer-Lambert law for the direct light and a share of what it lost for the sky:
+// Returns the light by Beer and Lambert's law for the direct part and a share of what it lost for
+// the sky:
 //   E_direct = E0 / d^2 exp(-tau / sin h) w,
 //   E_sky    = k (E0 / d^2 w - E_direct) sin h
 // with elevation h, equivalent width w of the filter, diffuse share k. The sky is equally bright
 // everywhere, though dust makes it brightest around the sun.
 SunLight MakeSunLight(const SunParams& sun, double filter_width_m);
 
-// Radiance of a Lambert surface in that light, W/m2/sr:
+// Returns the radiance of a Lambert surface in that light, W/m2/sr:
 //   L = albedo / pi (E_direct max(0, n.s) [sunlit] + E_sky (1 + n_z) / 2).
 double SunRadiance(const SunLight& sun, double albedo, const math::Vector3& normal_W, bool sunlit);
 
-// Optical power of one emitter over the angle of its light plane that it lights, W/rad.
+// Returns the optical power of one emitter over the angle of its light plane that it lights, W/rad.
 double FanPower(const LightStripeParams& params);
 
-// Electrons per second on a pixel of the optical axis for one W/m2/sr:
+// Returns the electrons per second on a pixel of the optical axis for one W/m2/sr:
 //   pi A T eta lambda / (4 N^2 h c)
 // (camera equation E = pi L T / (4 N^2), e.g. Holst and Lomheim 2011; eta: quantum efficiency times
 // fill factor; T: lens times filter; A: area of a pixel).
 double ElectronsPerRadiance(const LightStripeParams& params);
 
-// The same off the axis, over that on the axis: solid angle of the pixel over that of the central
-// one, times the cosine by which the entrance pupil shrinks. cos^4 for a pinhole. Real wide-angle
-// lenses tilt their pupil and lose less.
+// Returns the same off the axis, over that on the axis: solid angle of the pixel over that of the
+// central one, times the cosine by which the entrance pupil shrinks. That is cos^4 for a pinhole.
+// Real wide-angle lenses tilt their pupil and lose less.
 double RelativeIllumination(const messages::StripeCamera& camera, double column_px, double row_px);
 
 }  // namespace rockyard::sensing

@@ -5,7 +5,7 @@
 
 namespace rockyard::sensing {
 
-// Photoelectrons per second.
+// The light on the pixels of one line, in photoelectrons per second.
 struct RenderedRow {
   struct LaserPixel {
     int pixel = 0;  // counts from the first column of the line

@@ -29,9 +29,12 @@ struct Inside {
       if (position < low || position > high) leave_m = -RoverBody::kFree;
       return;
     }
+    // The slab method (Kay and Kajiya 1986): distances to both planes; a convex body is the common
+    // part of its slabs, entered at the last entry and left at the first exit.
     const double a = (low - position) / direction;
     const double b = (high - position) / direction;
     Vector3 normal = Vector3::Zero();
+    // The face through which the ray enters looks against it.
     normal[axis] = direction > 0.0 ? -1.0 : 1.0;
     Clip(std::min(a, b), std::max(a, b), normal);
   }
@@ -81,7 +84,7 @@ RoverBody::Entry RoverBody::Enter(const Wheel& wheel, const Vector3& origin_R,
   const Vector3 p = origin_R - wheel.center_R;
   Inside inside;
   inside.ClipToSlab(1, p.y(), direction_R.y(), -wheel.half_width_m, wheel.half_width_m);
-  // |p + t d| = radius in the plane of the wheel.
+  // |p + t d| = radius in the wheel's plane, x and z: a t^2 + 2 b t + c = 0.
   const double a = direction_R.x() * direction_R.x() + direction_R.z() * direction_R.z();
   const double b = p.x() * direction_R.x() + p.z() * direction_R.z();
   const double c = p.x() * p.x() + p.z() * p.z() - wheel.radius_m * wheel.radius_m;
@@ -92,6 +95,7 @@ RoverBody::Entry RoverBody::Enter(const Wheel& wheel, const Vector3& origin_R,
     const double enter_m = (-b - root) / a;
     const Vector3 rim = p + enter_m * direction_R;
     inside.Clip(enter_m, (-b + root) / a, Vector3(rim.x(), 0.0, rim.z()) / wheel.radius_m);
+    // Along the axle, outside the cylinder.
   } else if (c > 0.0) {
     return {};
   }

@@ -19,14 +19,16 @@ class RoverBody {
 
   explicit RoverBody(const rover::RoverGeometryParams& params);
 
-  // Distance along the unit ray to the first part that it enters from outside; kFree where there is
-  // none. A part that holds the origin does not count: what is mounted inside looks out of it.
+  // Returns the distance along the unit ray to the first part that it enters from outside; kFree
+  // where there is none. A part that holds the origin does not count: what is mounted inside looks
+  // out of it.
   double Distance(const math::Vector3& origin_R, const math::Vector3& direction_R) const;
 
-  // Outward normal of the part that the ray enters first; against the ray where it enters none.
+  // Returns the outward normal of the part that the ray enters first; against the ray where it
+  // enters none.
   math::Vector3 Normal(const math::Vector3& origin_R, const math::Vector3& direction_R) const;
 
-  // A ball in R that holds every part.
+  // This ball in R holds every part.
   const math::Vector3& center_R() const { return center_R_; }
   double radius_m() const { return radius_m_; }
 

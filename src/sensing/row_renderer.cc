@@ -70,6 +70,7 @@ void RowRenderer::CastRays(const ViewRow& view, Job& job) {
 
 void RowRenderer::LightPoints(const ViewRow& view, Job& job) {
   const ImageScene& scene = job.lit.scene;
+  // A ball around what a run of edges meets; what may come between it and the sun is searched once.
   const auto ball_of = [&job](int first_edge, int last_edge) {
     Eigen::AlignedBox3d box;
     for (int edge = first_edge; edge <= last_edge; ++edge) {
@@ -104,10 +105,13 @@ void RowRenderer::AddLasers(const LitScene& lit, const SurfacePoint& left,
     if (std::min(a_rad, b_rad) > reach_rad || std::max(a_rad, b_rad) < -reach_rad) continue;
 
     const bool one_surface = IsOneSurface(left, right);
+    // (C(b) - C(a)) / (b - a): on one surface the angle out of the plane goes evenly from edge to
+    // edge.
     const double mean = one_surface ? beam_.Mean(a_rad, b_rad) : 0.0;
     const auto radiance = [&](const SurfacePoint& point, double angle_rad) {
       const double density = one_surface ? mean : beam_.Density(angle_rad);
       if (density == 0.0 || !point.TakesLaserLight()) return 0.0;
+      // Lambert: L = albedo / pi E, E = P / (F r^2) f cos i.
       return point.albedo * std::numbers::inv_pi * density * fan.Irradiance(point);
     };
     const double sum = radiance(left, a_rad) + radiance(right, b_rad);
@@ -125,6 +129,8 @@ void RowRenderer::SplitPixel(const Job& job, const ViewRow& view, std::span<cons
     if (part == 0) return job.points[edge];
     if (part == kParts) return job.points[edge + 1];
     const double share = static_cast<double>(part) / kParts;
+    // Rays evenly between the two edges' unit vectors: a pixel is far too small for the chord to
+    // matter.
     const Vector3 ray_R = (1.0 - share) * view.edge_R[edge] + share * view.edge_R[edge + 1];
     const Vector3 ray_W = scene.X_WR().linear() * ray_R.normalized();
     SurfacePoint point = scene.Meet(job.eye_W, ray_W, body_m, seen);
@@ -132,6 +138,7 @@ void RowRenderer::SplitPixel(const Job& job, const ViewRow& view, std::span<cons
     scene.Light(shading, point);
     return point;
   };
+  // Each part takes its share of the pixel's area.
   const double gain = view.gain[edge] * electrons_per_radiance_ / kParts;
   double radiance = 0.0;
   SurfacePoint left = point_at(0);

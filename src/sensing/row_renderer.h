@@ -17,18 +17,20 @@
 
 namespace rockyard::sensing {
 
-// A scene with its lasers. Must not outlive either.
+// A scene with its lasers. It must not outlive either.
 struct LitScene {
   const ImageScene& scene;
   std::vector<LitFan> fans;
 };
 
-// Sunlight of a pixel: mean of its two edges. Laser light of a pixel on one surface: with the
-// angles a, b of its edges out of the light plane, seen from the emitter,
+// Renders one image line. The sunlight of a pixel is the mean of its two edges. The laser light of
+// a pixel on one surface, with the angles a, b of its edges out of the light plane, seen from the
+// emitter, is
 //   E = P / (F r^2) cos(i) (C(b) - C(a)) / (b - a),
-// C cumulative cross section of the beam; P / (F r^2) cos(i) (laser_fan.h) is the mean of the two
-// edges. The pixels of a line share the edges, so that the sum over them loses no light. Pixels in
-// which the surface ends are split into kParts parts by further rays. Lambert surfaces.
+// C the cumulative cross section of the beam; P / (F r^2) cos(i) (laser_fan.h) is the mean of the
+// two edges. The pixels of a line share the edges, so that the sum over them loses no light. Pixels
+// in which the surface ends are split into kParts parts by further rays. All surfaces are
+// Lambert's.
 //
 // Deviations: a pixel is sampled along the line through its middle, so that a stripe which runs
 // across the line is as wide as it is there (those of the default layout move by 0.1 to 0.2 columns
@@ -39,9 +41,11 @@ class RowRenderer {
 
   RowRenderer(const LightStripeParams& params, const messages::StripeCalibration& calibration);
 
+  // Finds what each laser may light in the scene.
   LitScene Prepare(const ImageScene& scene) const;
 
-  // Cost: 50 to 130 us for 768 pixels over a plane with 0 to 20 rocks per square metre.
+  // Renders the line that `view` describes, seen from eye_R. Cost: 50 to 130 us for 768 pixels over
+  // a plane with 0 to 20 rocks per square metre.
   RenderedRow Render(const LitScene& lit, const math::Vector3& eye_R, const ViewRow& view) const;
 
  private:

@@ -22,9 +22,12 @@ class Curve {
   ColumnRange columns() const { return camera_.image_columns(); }
 
   // None where the viewing ray does not meet the light plane in front of the camera.
+  // The point of the curve at a column, in R.
   std::optional<Vector3> At(double column) const {
     const Vector3 ray_R = camera_.X_RC.linear() * vision::PixelRay(camera_, {column, row_px_});
     const Vector3 eye_R = camera_.X_RC.translation();
+    // Ray o + s r meets the plane n . (p - e) = 0 at s = n . (e - o) / n . r. None where that is
+    // not in front of the camera; a ray in the plane divides by zero and is not finite.
     const double distance_m =
         laser_.normal_R.dot(laser_.p_RoE_R - eye_R) / laser_.normal_R.dot(ray_R);
     if (!(distance_m > 0.0) || !std::isfinite(distance_m)) return std::nullopt;
@@ -120,6 +123,7 @@ ScanCurve::ScanCurve(const messages::StripeCalibration& calibration, std::size_t
   if (seen.last <= seen.first) return;
   CurvePoint begin = EdgeOf(curve, seen.first, -0.5);
   CurvePoint end = EdgeOf(curve, seen.last, 0.5);
+  // From the emitter's side, above, downwards: the first surface on the way is the one that is lit.
   if (begin.p_R.z() < end.p_R.z()) std::swap(begin, end);
   vertices_R_.push_back(begin.p_R);
   Divide(curve, begin, end, vertices_R_);

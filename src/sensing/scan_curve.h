@@ -24,20 +24,20 @@ class ScanCurve {
   // A tenth of what a pixel of the published sensor resolves at 30 cm.
   static constexpr double kChordError_m = 0.0002;
 
-  // Empty where no column of the camera sees the light plane above the lowest searched elevation.
-  // Cost: one viewing ray per column.
+  // The curve is empty where no column of the camera sees the light plane above the lowest searched
+  // elevation. Cost: one viewing ray per column.
   ScanCurve(const messages::StripeCalibration& calibration, std::size_t row, std::size_t stripe);
 
-  // Columns of the elevations between search_low and search_high, within the image.
+  // Returns the columns of the elevations between search_low and search_high, within the image.
   messages::ColumnRange searched() const { return searched_; }
 
-  // First surface along the chords, in W, with the rover at X_WR. None where the curve ends first.
-  // Cost: one ray query a chord.
+  // Returns the first surface along the chords, in W, with the rover at X_WR; none where the curve
+  // ends first. Cost: one ray query a chord.
   std::optional<math::Vector3> FirstHit(const terrain::Terrain& terrain,
                                         const math::Transform& X_WR,
                                         std::span<const int> rocks) const;
 
-  // Ends of the chords, in R, from the emitter's side downwards.
+  // Returns the ends of the chords, in R, from the emitter's side downwards.
   const std::vector<math::Vector3>& vertices() const { return vertices_R_; }
 
  private:

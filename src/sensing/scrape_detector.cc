@@ -26,6 +26,7 @@ bool ScrapeDetector::BeginsEpisode(int rock, double time_s, const math::Vector3&
 double ScrapeDetector::Jump() const {
   core::RandomStream stream(key_, core::Purpose::kScrapeJump,
                             static_cast<std::uint32_t>(episodes_));
+  // Both numbers are drawn for every sign, so that the choice of sign shifts no size.
   const bool left = core::SampleBernoulli(stream, 0.5);
   const double size = core::SampleNormal(stream, params_.jump_rad, params_.jump_spread_rad);
   switch (params_.sign) {

@@ -16,6 +16,7 @@
 
 namespace rockyard::sensing {
 
+// The scrapes of one trial.
 class ScrapeDetector {
  public:
   ScrapeDetector(const ScrapeParams& params, core::TrialKey key) : params_(params), key_(key) {}

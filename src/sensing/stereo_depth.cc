@@ -64,7 +64,9 @@ DepthImage StereoScene::InverseDepths() const {
   return image;
 }
 
-// On the plane n . p = k the ray eye + Z e has 1/Z = n . e / (k - n . eye).
+// On the plane n . p = k the ray eye + Z e has 1/Z = n . e / (k - n . eye), linear in the column
+// because e is. The nearest surface is the one with the largest 1/Z, so planes combine by maximum;
+// planes behind the eye have 1/Z < 0 and lose against the zero of an empty pixel.
 void StereoScene::AddPlanes(DepthImage& image) const {
   const auto add = [&](const Vector3& toward_W, double distance_m) {
     const Vector3 scaled_W = toward_W / distance_m;
@@ -81,6 +83,8 @@ void StereoScene::AddPlanes(DepthImage& image) const {
   if (!ground.IsPlane()) return;
   const Vector3& eye_W = view_W_.eye;
   const Vector3 normal_W = ground.Normal(eye_W.x(), eye_W.y());
+  // The ground's own normal points up: looked at from above, its plane lies towards -n, at the
+  // eye's height over it times the cosine of the slope.
   add(-normal_W, normal_W.z() * (eye_W.z() - ground.Height(eye_W.x(), eye_W.y())));
 }
 
@@ -96,6 +100,8 @@ void StereoScene::AddRock(const RockOutline& outline, DepthImage& image) const {
       }
       continue;
     }
+    // 1/Z = (B + sqrt(B^2 - K |e|^2)) / K, the larger of the two roots: where the ray enters the
+    // rock. B is linear in the column, the discriminant quadratic (stereo_outline.h).
     const auto c = columns_.segment(seen.first, seen.count());
     const auto discriminant = (cut.quadratic * c + 2.0 * cut.linear) * c + cut.constant;
     pixels = pixels.max((cut.approach_0 + cut.approach_1 * c + discriminant.max(0.0).sqrt()) *
@@ -103,7 +109,8 @@ void StereoScene::AddRock(const RockOutline& outline, DepthImage& image) const {
   }
 }
 
-// Distance = |e| Z.
+// The distance is |e| Z, so a surface stays where (1/Z)^2 >= |e|^2 / max_range^2; |e|^2 is
+// quadratic in the column.
 void StereoScene::DropFarther(DepthImage& image) const {
   const double nearest = 1.0 / (max_range_m_ * max_range_m_);
   const double step2 = view_W_.along_row.squaredNorm();
@@ -139,6 +146,7 @@ void StereoScene::HideFromRightEye(DepthImage& inverse_depths) const {
   for (const Candidate& rock : rocks_) {
     HideBehind({rock.shape, rock.center_W, view_W_, view_W_.right_eye}, inverse_depths);
   }
+  // d = f b / Z columns further left in the right image, whose pixels end half a column before 0.
   const double scale_px_m = view_W_.focal_px * view_W_.baseline_m;
   for (int row = 0; row < view_W_.rows; ++row) {
     auto pixels = inverse_depths.row(row).transpose();
@@ -146,7 +154,9 @@ void StereoScene::HideFromRightEye(DepthImage& inverse_depths) const {
   }
 }
 
-// The point of column c and disparity d is the rock's neighbour in the right image at c - d.
+// The left image's column c of disparity d is the right image's column c - d. A rock with the span
+// [a, b] there can therefore hide columns from a to b + f b / Z of its own nearest point: what it
+// hides is farther, with smaller d. Distances along the right eye's ray are compared, |e| Z.
 void StereoScene::HideBehind(const RockOutline& outline_right, DepthImage& image) const {
   const double scale_px_m = view_W_.focal_px * view_W_.baseline_m;
   for (int row = outline_right.first_row(); row <= outline_right.last_row(); ++row) {

@@ -15,19 +15,21 @@ namespace rockyard::sensing {
 // pixel shows nothing.
 using DepthImage = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// The terrain from one place. Pinhole pixels make one over the depth of every plane linear in
-// column and row, and that of an ellipsoid a root of a quadratic (RockOutline), so that each rock
-// costs its own pixels only. An eye below the ground, in a rock or beyond a wall sees nothing.
+// The terrain as a stereo pair meets it from one place. Pinhole pixels make one over the depth of
+// every plane linear in column and row, and that of an ellipsoid a root of a quadratic
+// (RockOutline), so that each rock costs its own pixels only. An eye below the ground, in a rock or
+// beyond a wall sees nothing.
 //
-// Cost: 128 x 128 pixels, both eyes, see src/sensing/README.md; on rough ground one ray march each.
+// src/sensing/README.md has the cost at 128 x 128 pixels with both eyes; on rough ground each pixel
+// costs a ray march.
 class StereoScene {
  public:
   // Surfaces farther than max_range_m from the left eye are not seen. The view is one in W; both
   // have to outlive the scene.
   StereoScene(const terrain::Terrain& terrain, const StereoView& view_W, double max_range_m);
 
-  // One over the depth Z of the first surface on each pixel's ray (StereoView::Ray) from the left
-  // eye. The same as Terrain::CastRay to rounding.
+  // Returns one over the depth Z of the first surface on each pixel's ray (StereoView::Ray) from
+  // the left eye, the same as Terrain::CastRay to rounding.
   DepthImage InverseDepths() const;
 
   // Sets to 0 what lies outside the right image or behind something else there, by 0.5 mm or more.

@@ -18,8 +18,9 @@ float Quantile(double probability) {
   return static_cast<float>(core::NormalQuantile(probability));
 }
 
-// Sums over `window` neighbours along rows, and then along columns, so that a square of independent
-// numbers of variance 1, divided by its side, has variance 1 again.
+// Sums over `window` neighbours along rows, and then along columns: w x w independent numbers of
+// variance 1, divided by w, have variance 1 again. Pixels (i, j) apart share (w - i)(w - j) of the
+// numbers, so they correlate by (1 - i/w)(1 - j/w).
 DepthImage MeanOfWindows(const DepthImage& numbers, Eigen::Index window) {
   const Eigen::Index rows = numbers.rows() - window + 1;
   const Eigen::Index columns = numbers.cols() - window + 1;
@@ -63,7 +64,8 @@ void StereoMatcher::AddNoise(core::TrialKey key, std::uint32_t look, DepthImage&
   seen = (seen > 0.0).select(seen + params_.disparity_noise_px * numbers, 0.0);
 }
 
-// A number below the quantile of p lies there uniformly in its share of the probability.
+// A normal number z is a mismatch where Phi(z) < p; Phi(z) / p is then uniform in [0, 1), and says
+// where in the searched range the match lies. One draw serves both.
 void StereoMatcher::Mismatch(core::TrialKey key, std::uint32_t look, DepthImage& seen) const {
   const PixelNoise noise(key, core::Purpose::kStereoMismatch, look);
   const double searched_px = params_.max_disparity_px - params_.min_disparity_px;
@@ -82,6 +84,8 @@ void StereoMatcher::FindEdges(std::span<const double> row_px,
   std::fill(beside_edge.begin(), beside_edge.end(), char{0});
   const auto reach = static_cast<std::size_t>(params_.edge_reach_px);
   for (std::size_t column = 1; column < row_px.size(); ++column) {
+    // Between columns c - 1 and c the disparity jumps: windows at c - reach .. c + reach - 1 hold
+    // both sides.
     if (std::abs(row_px[column] - row_px[column - 1]) < params_.edge_disparity_px) continue;
     const std::size_t first = column > reach ? column - reach : 0;
     const std::size_t end = std::min(column + reach, row_px.size());

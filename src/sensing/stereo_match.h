@@ -12,7 +12,7 @@
 namespace rockyard::sensing {
 
 // Turns the disparities of an image, px, into what matching makes of them: noise, rounding, wrong
-// matches, the range of disparities searched, dropouts. 0 where there is no match.
+// matches, the range of disparities searched, dropouts. A pixel is 0 where there is no match.
 class StereoMatcher {
  public:
   explicit StereoMatcher(const StereoParams& params);
@@ -27,7 +27,7 @@ class StereoMatcher {
   void Mismatch(core::TrialKey key, std::uint32_t look, DepthImage& seen) const;
   void DropOut(core::TrialKey key, std::uint32_t look, const DepthImage& all,
                DepthImage& seen) const;
-  // Which columns of a row lie beside a jump in depth.
+  // Marks the columns of a row that lie beside a jump in depth.
   void FindEdges(std::span<const double> row_px, std::vector<char>& beside_edge) const;
 
   StereoParams params_;

@@ -22,12 +22,16 @@ double RowCut::InverseDepth(double column) const {
 
 double RowCut::NearestInverseDepth() const {
   const double approach = std::max(Approach(span.first), Approach(span.last));
+  // Most of both terms over the row: the discriminant a c^2 + 2 l c + k with a < 0 has its peak k -
+  // l^2 / a, and the linear B is largest at an end of the span.
   const double peak = std::max(constant - linear * linear / quadratic, 0.0);
   return (approach + std::sqrt(peak)) * inverse_outside_1;
 }
 
 RockOutline::RockOutline(const terrain::RockShape& shape, const Vector3& center_W,
                          const StereoView& view_W, const Vector3& eye_W) {
+  // B = -q . e = b0 + c b1 + r b2, and the discriminant B^2 - K |e|^2 expands to
+  //   a c^2 + 2 (d0 + d1 r) c + f0 + 2 f1 r + f2 r^2.
   const Vector3 q = shape.Map(eye_W - center_W);
   const Vector3 e0 = shape.Map(view_W.first);
   const Vector3 e1 = shape.Map(view_W.along_row);
@@ -45,7 +49,8 @@ RockOutline::RockOutline(const terrain::RockShape& shape, const Vector3& center_
   if (!ContainsEye()) FindRows(view_W.rows);
 }
 
-// Rows in which the columns' quadratic has roots: d^2 - a f >= 0.
+// Rows r in which the columns' quadratic a c^2 + 2 l c + k, a < 0, has roots: l^2 - a k >= 0, which
+// is g2 r^2 + 2 g1 r + g0 >= 0 with g2 < 0, between its roots (-g1 +- sqrt(g1^2 - g2 g0)) / g2.
 void RockOutline::FindRows(int rows) {
   first_row_ = 0;
   last_row_ = rows - 1;
@@ -81,6 +86,7 @@ RowCut RockOutline::Row(double row) const {
   }
   const double root = cut.linear * cut.linear - a_ * cut.constant;
   const double middle = -cut.linear / a_;
+  // B <= 0: the rock lies behind the eye. The default span is empty.
   if (root < 0.0 || cut.Approach(middle) <= 0.0) return cut;
   const double half = -std::sqrt(root) / a_;
   cut.span = {middle - half, middle + half};

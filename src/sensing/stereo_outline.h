@@ -29,24 +29,25 @@ struct RowCut {
     return (quadratic * column + 2.0 * linear) * column + constant;
   }
   double Approach(double column) const { return approach_0 + approach_1 * column; }
-  // One over the depth at a column, 1/m; 0 where the ray misses.
+  // Returns one over the depth at a column, 1/m; 0 where the ray misses.
   double InverseDepth(double column) const;
-  // At least the largest InverseDepth of the row, where the span is exact.
+  // Returns at least the largest InverseDepth of the row, where the span is exact.
   double NearestInverseDepth() const;
 };
 
-// In the coordinates in which the rock is the unit sphere, with the eye at q and the pixel's ray
-// e(c, r) = e0 + c e1 + r e2, the ray meets it at depth Z where |q + Z e| = 1, so that
+// The outline of a rock in an image. In the coordinates in which the rock is the unit sphere, with
+// the eye at q and the pixel's ray e(c, r) = e0 + c e1 + r e2, the ray meets it at depth Z where |q
+// + Z e| = 1, so that
 //   1/Z = (B + sqrt(B^2 - K |e|^2)) / K,  B = -q . e, K = |q|^2 - 1 (terrain/rock_shape.h).
 // The discriminant is a quadratic form of (c, r): the outline is a conic, and where it is an
 // ellipse its rows and the columns of each row have closed forms.
 class RockOutline {
  public:
-  // The rock's centre, and the view in W from `eye_W`, which is one of its two.
+  // The view is given in W; `eye_W` is one of its two eyes.
   RockOutline(const terrain::RockShape& shape, const math::Vector3& center_W,
               const StereoView& view_W, const math::Vector3& eye_W);
 
-  // Whether the eye lies within the rock; then there is no outline.
+  // Returns whether the eye lies within the rock; then there is no outline.
   bool ContainsEye() const { return outside_1_ <= 0.0; }
 
   // Rows from first_row() to last_row(), within the image, can meet the rock.

@@ -20,6 +20,8 @@ DepthImage StereoSensor::Measure(const StereoScene& scene, core::TrialKey key,
   DepthImage seen = all;
   scene.HideFromRightEye(seen);
   const double scale_px_m = params_.focal_columns_px() * params_.baseline_m;
+  // Goldberg 2002, section 2: d = f b / Z. Noise acts on the disparity; back to depth on the same
+  // ray.
   all *= scale_px_m;
   seen *= scale_px_m;
   matcher_.Match(key, static_cast<std::uint32_t>(look_number), all, seen);
@@ -50,6 +52,7 @@ messages::PointCloud StereoSensor::Look(const terrain::Terrain& terrain,
 bool StereoSensor::InWindow(const Vector3& p_RoP_R, LookDirection direction) const {
   if (params_.field_of_view == StereoFieldOfView::kFull) return true;
   const StripeWindowParams& window = params_.stripe_window;
+  // The window lies in the looking direction, ahead or behind.
   const double ahead_m = direction == LookDirection::kAhead ? p_RoP_R.x() : -p_RoP_R.x();
   return ahead_m >= window.near_m && ahead_m <= window.far_m &&
          std::abs(p_RoP_R.y()) <= window.half_width_m;

@@ -14,9 +14,9 @@
 
 namespace rockyard::sensing {
 
-// One point for each pixel of the left image for which all of the following hold:
+// Gives one point for each pixel of the left image for which all of the following hold:
 //  - its ray meets a surface within max_range_m;
-//  - the right camera sees that point too: inside its image, nothing in between;
+//  - the right camera sees that point too: it lies inside its image, with nothing in between;
 //  - disparity d = f b / Z (Goldberg 2002, section 2), with Z the depth along the optical axis,
 //    changed by N(0, disparity_noise_px), rounded to disparity_step_px, or wrong altogether with
 //    mismatch_probability, lies between min_ and max_disparity_px. The point is put on the same ray
@@ -26,17 +26,18 @@ namespace rockyard::sensing {
 // dropped last.
 //
 // Limits: the rover's own body is not seen. By default errors are independent from pixel to pixel,
-// while matching windows make those of neighbours alike (noise_window_px) and round off edges. No
-// dependence on texture or light. Surfaces beyond max_range_m give no point, but noise may put a
-// point farther away.
+// while matching windows make those of neighbours alike (noise_window_px) and round off edges.
+// Nothing depends on texture or light. Surfaces beyond max_range_m give no point, but noise may put
+// a point farther away.
 //
 // Cost: 0.2 to 0.3 ms a look of 128 x 128 in nominal and VL-2 terrain, 36 ms on rough ground.
 class StereoSensor {
  public:
   explicit StereoSensor(const StereoParams& params);
 
-  // A pure function of its arguments. Draws from (key, kStereoDisparity, kStereoMismatch and
-  // kStereoDropout, look number), by pixel: at most 2^32 looks.
+  // Takes one look with the rover at X_WR. It is a pure function of its arguments and draws from
+  // (key, kStereoDisparity, kStereoMismatch and kStereoDropout, look number), by pixel: at most
+  // 2^32 looks.
   messages::PointCloud Look(const terrain::Terrain& terrain, const math::Transform& X_WR,
                             core::TrialKey key, std::int64_t look_number,
                             messages::LookDirection direction) const;
@@ -46,7 +47,7 @@ class StereoSensor {
   }
 
  private:
-  // One over the depths, 1/m, as they are measured; 0 where there is no point.
+  // Returns one over the depths, 1/m, as they are measured; 0 where there is no point.
   DepthImage Measure(const StereoScene& scene, core::TrialKey key, std::int64_t look_number) const;
   bool InWindow(const math::Vector3& p_RoP_R, messages::LookDirection direction) const;
 

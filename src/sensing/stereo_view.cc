@@ -23,6 +23,8 @@ StereoView MakeStereoView(const StereoParams& params, messages::LookDirection di
   const double sign = ahead ? 1.0 : -1.0;
   const double sine = std::sin(mount.pitch_rad);
   const double cosine = std::cos(mount.pitch_rad);
+  // In R, pitched down by `pitch`: optical axis, image right (R's -y when looking ahead) and image
+  // down. Looking behind is the same pair turned by 180 degrees about z.
   const Vector3 axis(sign * cosine, 0.0, -sine);
   const Vector3 right(0.0, -sign, 0.0);
   const Vector3 down(-sign * sine, 0.0, -cosine);
@@ -36,6 +38,8 @@ StereoView MakeStereoView(const StereoParams& params, messages::LookDirection di
   view.right_eye = middle + 0.5 * view.baseline_m * right;
   view.along_row = right / params.focal_columns_px();
   view.along_column = down / params.focal_rows_px();
+  // e(c, r) = axis + (c - (columns - 1)/2) right / f + (r - (rows - 1)/2) down / f: the principal
+  // point is the middle of the image, and e . axis = 1.
   view.first =
       axis - 0.5 * (view.columns - 1) * view.along_row - 0.5 * (view.rows - 1) * view.along_column;
   return view;

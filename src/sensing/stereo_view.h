@@ -9,11 +9,12 @@
 
 namespace rockyard::sensing {
 
-// Pixel (column, row), counted from the upper left one, looks along
+// How the pair looks, in R, or in W after the pose of the rover. Pixel (column, row), counted from
+// the upper left one, looks along
 //   e(column, row) = first + column along_row + row along_column,
 // scaled so that its part along the optical axis is 1: eye + Z e is the point at depth Z. The right
 // eye has parallel axes and the baseline b along its rows: the same point appears f b / Z columns
-// further left there. In R, or in W after the pose of the rover.
+// further left there.
 struct StereoView {
   int columns = 0;
   int rows = 0;
@@ -28,11 +29,11 @@ struct StereoView {
   math::Vector3 Ray(double column, double row) const {
     return first + column * along_row + row * along_column;
   }
-  // Same view in W.
+  // Returns the same view in W.
   StereoView From(const math::Transform& X_WR) const;
 };
 
-// The view in R. The ideal sensor has one eye in the middle of the pair.
+// Returns the view in R. The ideal sensor has one eye in the middle of the pair.
 StereoView MakeStereoView(const StereoParams& params, messages::LookDirection direction);
 
 }  // namespace rockyard::sensing

@@ -59,6 +59,7 @@ void StripeErrors::DrawMisplaced(core::TrialKey key, std::int64_t number, const 
                                   ? searched.points()[point]
                                   : ColumnRange{-last_column, last_column};
     if (!misplaced.points()[point] || range.empty()) continue;
+    // A whole column from first to last, all equally likely.
     place(point, std::floor(core::SampleUniform(wrong, range.first, range.last + 1.0)));
   }
 }
@@ -81,6 +82,8 @@ void StripeErrors::Misplace(core::TrialKey key, const Searched& searched,
     const std::size_t left_before = left;
     core::RandomStream kept(key, core::Purpose::kStripePersistence, Substream(number));
     for (std::size_t point = 0; point < pixels.size(); ++point) {
+      // Going back in time: a point that does not keep its lot in scan `number` had it drawn there.
+      // Scan 0 always draws. Every point draws in every scan, so no point shifts another one's lot.
       const bool keeps = core::SampleBernoulli(kept, params_.outlier_persistence) && number > 0;
       if (keeps || !older.points()[point]) continue;
       drawn_here.points()[point] = true;

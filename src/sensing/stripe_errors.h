@@ -11,7 +11,7 @@
 
 namespace rockyard::sensing {
 
-// In this order, each point on its own:
+// Disturbs a scan in this order, each point on its own:
 //   column    moved by a normal amount with deviation column_noise_px, rounded to whole pixels, and
 //             kept inside the searched part
 //   missed    not found with missed_probability, or with the point's own (missed_at)
@@ -25,13 +25,13 @@ namespace rockyard::sensing {
 // two scans must have agreed on.
 class StripeErrors {
  public:
-  // Searched part of the scanline of each point.
+  // The searched part of the scanline of each point.
   using Searched = messages::StripeArray<messages::ColumnRange>;
 
   explicit StripeErrors(const LightStripeParams& params) : params_(params) {}
 
-  // Pure function of its arguments, whatever was scanned before: a lot that is older is looked
-  // up by the number of the scan in which it was drawn. Draws from (kStripeColumnNoise,
+  // Is a pure function of its arguments, whatever was scanned before: a lot that is older is looked
+  // up by the number of the scan in which it was drawn. It draws from (kStripeColumnNoise,
   // kStripeMissed, kStripeWrongPlace; scan number) and, for persistence, (kStripePersistence; scan
   // number) back to the scan in which the last point's lot was drawn: 1 + log(points) / log(1 / r)
   // scans on average, of 0.5 us each. Errors of size zero draw nothing and cost nothing.

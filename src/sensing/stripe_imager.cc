@@ -31,6 +31,7 @@ StripeImager::StripeImager(const LightStripeParams& params, const SunParams& sun
       renderer_(params, calibration_),
       readout_(params.imager, params.laser.speckle_contrast) {
   for (const messages::StripeLaser& laser : calibration_.lasers) group_of_.push_back(laser.group);
+  // Lines read on both sides of a scanline: half of those that are averaged, and a margin.
   const auto around = static_cast<int>(params.imager.averaging_rows / 2 +  //
                                        params.imager.margin_rows);
   for (int camera = 0; camera < 2; ++camera) {
@@ -118,6 +119,7 @@ messages::StripeImages StripeImager::Expose(const terrain::Terrain& terrain,
   }
   messages::StripeImages images;
   images.number = scan_number;
+  // One exposure time for all images of the scan, from both cameras' sunlight.
   images.exposure_s = ExposureTime(params_.imager, std::move(metered_e_s));
   images.electrons_per_count = readout_.electrons_per_count();
   for (int group = 0; group < LaserGroups(params_); ++group) {

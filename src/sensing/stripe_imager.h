@@ -33,33 +33,34 @@
 
 namespace rockyard::sensing {
 
+// The sensor at the image fidelity.
 class StripeImager {
  public:
-  // Cost: 6 ms and 1.3 MB for the default bands.
+  // Making one costs 6 ms and 1.3 MB for the default bands.
   StripeImager(const LightStripeParams& params, const SunParams& sun,
                const rover::RoverGeometryParams& rover);
 
-  // One scan with the rover at X_WR: of each group of lasers and each camera that finds a stripe of
-  // that group, the image lines around each scanline (imager.averaging_rows and margin_rows), all
-  // columns. Lines beyond the image are left out; where fidelity is image, parameters allow none.
-  // Pure function of its arguments, the same on any thread. Draws from (kImageNoise,
-  // kImageExposure, kImageSpeckle; scan number) and (kPixelPattern): neighbouring scans share
-  // nothing but the pattern of the imagers. scan_number < 2^26. Cost: 3 to 6 ms on a plane, mostly
-  // rays and noise; 95 ms on rough ground, where every ray marches.
+  // Makes one scan with the rover at X_WR: for each group of lasers and each camera that finds a
+  // stripe of that group, it returns the image lines around each scanline (imager.averaging_rows
+  // and margin_rows), all columns. Lines beyond the image are left out; where fidelity is image,
+  // parameters allow none. It is a pure function of its arguments, the same on any thread. It draws
+  // from (kImageNoise, kImageExposure, kImageSpeckle; scan number) and (kPixelPattern):
+  // neighbouring scans share nothing but the pattern of the imagers. scan_number < 2^26. Cost: 3 to
+  // 6 ms on a plane, mostly rays and noise; 95 ms on rough ground, where every ray marches.
   messages::StripeImages Expose(const terrain::Terrain& terrain, const math::Transform& X_WR,
                                 core::TrialKey key, std::int64_t scan_number) const;
 
-  // The whole image of one camera with one group of lasers on, for pictures; the lines that Expose
-  // also takes are the same, bit for bit. Cost: 0.12 s.
+  // Returns the whole image of one camera with one group of lasers on, for pictures; the lines that
+  // Expose also takes are the same, bit for bit. Cost: 0.12 s.
   messages::StripeExposure FullFrame(const terrain::Terrain& terrain, const math::Transform& X_WR,
                                      core::TrialKey key, std::int64_t scan_number, int camera,
                                      int group) const;
 
-  // Geometry of the true sensor.
+  // Returns the geometry of the true sensor.
   const messages::StripeCalibration& calibration() const { return calibration_; }
 
  private:
-  // Consecutive image lines of one camera: how it sees them, and the light on them.
+  // A View is consecutive image lines of one camera as it sees them, a Light what falls on them.
   using View = std::vector<ViewRow>;
   struct Light {
     std::vector<RenderedRow> rows;

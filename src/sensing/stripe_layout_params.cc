@@ -49,12 +49,14 @@ double RowAhead(const LightStripeParams& p, std::size_t row) {
 Vector3 DatumPoint(const LightStripeParams& p, std::size_t stripe, double ahead_m) {
   const StripeAim aim = AimOf(p, stripe);
   const double x = p.front_x_m + ahead_m;
+  // Along the vertical light plane, which holds the emitter and the far point.
   const double share = (x - aim.emitter_R.x()) / (aim.far_point_R.x() - aim.emitter_R.x());
   const double y = aim.emitter_R.y() + share * (aim.far_point_R.y() - aim.emitter_R.y());
   return {x, y, p.datum_z_m};
 }
 
 Vector3 CameraPosition(const LightStripeParams& p, int camera) {
+  // Camera 0 is the left one, y > 0.
   const double side = camera == 0 ? 0.5 : -0.5;
   return {p.camera_x_m, side * p.camera_separation_m, p.camera_height_m};
 }
@@ -104,7 +106,9 @@ messages::StripeLaser LaserOf(const LightStripeParams& p, std::size_t stripe) {
   const Vector3 near = DatumPoint(p, stripe, RowAhead(p, 0)) - aim.emitter_R;
   messages::StripeLaser laser;
   laser.p_RoE_R = aim.emitter_R;
+  // Horizontal, to the left of the stripe: the light plane is vertical in R.
   laser.normal_R = Vector3(-along.y(), along.x(), 0.0).normalized();
+  // The fan's middle halves the angle between its nearest and farthest points on the datum plane.
   laser.axis_R = (near.normalized() + along.normalized()).normalized();
   laser.half_fan_rad = 0.5 * p.fan_rad;
   laser.camera = CameraOf(p, stripe);

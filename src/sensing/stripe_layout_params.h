@@ -6,32 +6,32 @@
 
 namespace rockyard::sensing {
 
-// Points of the sensor: four rows by five stripes, or more where the array is subdivided.
+// Returns the number of rows and stripes: four by five, or more where the array is subdivided.
 messages::StripeArraySize ArraySize(const LightStripeParams& params);
 
-// Images with lasers on that one scan takes of each camera.
+// Returns how many images with lasers on one scan takes with each camera.
 int LaserGroups(const LightStripeParams& params);
 
-// What a perfectly calibrated rover knows of this sensor. The depression of each scanline is
-// rounded to a whole image row, so that the points of a row land within a few millimetres of
+// Returns what a perfectly calibrated rover knows of this sensor. The depression of each scanline
+// is rounded to a whole image row, so that the points of a row land within a few millimetres of
 // row_ahead_m.
 messages::StripeCalibration TrueCalibration(const LightStripeParams& params);
 
-// Layouts for which "ahead" and "below" make sense; the other checks rely on it.
+// Returns whether "ahead" and "below" make sense for the layout; the other checks rely on it.
 bool IsLaidOut(const LightStripeParams& params);
 
-// Whether every scanline is a row of the image, and every point on the datum plane in the light and
-// near enough.
+// These return whether every scanline is a row of the image, and every point on the datum plane in
+// the light and near enough.
 bool RowsFitTheImage(const LightStripeParams& params);
 bool PointsFitTheFans(const LightStripeParams& params);
 bool PointsAreInRange(const LightStripeParams& params);
 
-// Whether the image lines that are read around each scanline lie in the image too. The imager reads
-// what of them there is; the software that averages them needs all.
+// Returns whether the image lines that are read around each scanline lie in the image too. The
+// imager reads what of them there is; the software that averages them needs all.
 bool BandsFitTheImage(const LightStripeParams& params);
 
-// Whether no camera lies in (1 cm from) the light plane of a stripe that it measures: there the
-// stripe would not move with elevation.
+// Returns whether no camera lies in (1 cm from) the light plane of a stripe that it measures: there
+// the stripe would not move with elevation.
 bool BaselinesAreLong(const LightStripeParams& params);
 
 }  // namespace rockyard::sensing

@@ -119,6 +119,8 @@ void RequireImage(LightStripeParams& p, core::FieldVisitor& v) {
 std::optional<Vector3> StripePoint(const messages::StripeCalibration& calibration,
                                    const messages::StripeLaser& laser, int row_px) {
   const messages::StripeCamera& camera = CameraOf(calibration, laser);
+  // The stripe on the datum plane runs along n x z from the foot of the emitter; bisection for the
+  // distance at which it is imaged in that row.
   const Vector3 along = laser.normal_R.cross(Vector3::UnitZ()).normalized();
   const Vector3 forward = along.dot(laser.axis_R) < 0.0 ? Vector3(-along) : along;
   const Vector3 foot(laser.p_RoE_R.x(), laser.p_RoE_R.y(), calibration.datum_z_m);

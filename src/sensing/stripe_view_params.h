@@ -12,18 +12,20 @@
 
 namespace rockyard::sensing {
 
-// Where an image row of the laser's camera meets the laser's stripe on the datum plane, in R, in
-// front of the emitter; edges of image and fan are not looked at. None where that is farther than
-// 100 m or nowhere, as for rows that a radially symmetric lens bends above the horizon.
+// Returns where an image row of the laser's camera meets the laser's stripe on the datum plane, in
+// R, in front of the emitter; edges of image and fan are not looked at. There is none where that is
+// farther than 100 m or nowhere, as for rows that a radially symmetric lens bends above the
+// horizon.
 std::optional<math::Vector3> StripePoint(const messages::StripeCalibration& calibration,
                                          const messages::StripeLaser& laser, int row_px);
 
-// Horizontal distance from the rover's origin within which images show rocks: all that max_range
-// lets the cameras see, and at least 4 m, whose shadows may fall there.
+// Returns the horizontal distance, m, from the rover's origin within which images show rocks: all
+// that max_range lets the cameras see, and at least 4 m, whose shadows may fall there.
 double SightOf(const LightStripeParams& params);
 
-// Whether one of the boxes, in R, hides a point on the datum plane from its camera or its emitter.
-// A box that holds the eye hides nothing: what is mounted inside looks out of it, as in RoverBody.
+// Returns whether one of the boxes, in R, hides a point on the datum plane from its camera or its
+// emitter. A box that holds the eye hides nothing: what is mounted inside looks out of it, as in
+// RoverBody.
 bool IsHiddenBy(const LightStripeParams& params, std::span<const Eigen::AlignedBox3d> boxes_R);
 
 // Requires lens, image, fans and baselines for which every point on the datum plane is measured.

@@ -18,8 +18,8 @@ class Tracker {
  public:
   Tracker(const TrackerParams& params, core::TrialKey key);
 
-  // What the tracker reports for the true pose; noise by sample number (stream kTracker, substream
-  // sample + 1; substream 0 holds the systematic error).
+  // Returns what the tracker reports for the true pose; noise goes by sample number (stream
+  // kTracker, substream sample + 1; substream 0 holds the systematic error).
   math::Pose2 Observe(const math::Pose2& truth, std::int64_t sample) const;
 
   const math::Pose2& systematic_error() const { return bias_; }

@@ -23,6 +23,7 @@ std::optional<ContactSwitch> PanelSwitch(const Vector3& p_R, double half_length_
   const bool near_end = std::abs(p_R.x()) >= half_length_m - edge_width_m;
   const bool near_side = std::abs(p_R.y()) >= half_width_m - edge_width_m;
   if (!near_end && !near_side) return std::nullopt;
+  // The diagonals of the panel divide it into its four edges.
   if (std::abs(p_R.x()) / half_length_m < std::abs(p_R.y()) / half_width_m) {
     return p_R.y() > 0.0 ? ContactSwitch::kLeftEdge : ContactSwitch::kRightEdge;
   }
@@ -132,6 +133,8 @@ messages::Articulation VehicleSensors::MeasureArticulation(const truth::RoverSta
 Vector3 VehicleSensors::MeasureForce(const truth::RoverState& state, double duration_s) {
   core::RandomStream noise = Noise(Purpose::kAccelerometer);
   const AccelerometerParams& params = params_.accelerometers;
+  // An accelerometer measures the specific force f = dv/dt + g z, which is g upwards at rest. dv/dt
+  // is the mean over the tick.
   const Vector3 force_W =
       (state.v_WR_m_s - last_v_WR_m_s_) / duration_s + gravity_m_s2_ * Vector3::UnitZ();
   Vector3 force_R = state.X_WR.linear().transpose() * force_W;
@@ -150,6 +153,7 @@ messages::PerWheel<double> VehicleSensors::MeasureCurrents(
     const double error_A = core::SampleNormal(noise, 0.0, params.noise_A);
     const double torque_Nm =
         steps_ > 0 ? torque_sum_Nm_[i] / static_cast<double>(steps_) : state.motor_torque_Nm[i];
+    // I = |torque| / k + I0 with k the torque per ampere; the sign of the current is not measured.
     const double true_A =
         command.rate_rad_s[i] == 0.0
             ? 0.0

@@ -27,14 +27,14 @@
 
 namespace rockyard::sensing {
 
-// The switch that a touch of the rover's body closes, if any. The panel's outline is divided by
-// which edge is nearest in proportion to its half length and half width, the front edge into
-// thirds.
+// Returns the switch that a touch of the rover's body closes, if any. The panel's outline is
+// divided by which edge is nearest in proportion to its half length and half width, the front edge
+// into thirds.
 std::optional<messages::ContactSwitch> SwitchAt(const truth::BodyContact& contact,
                                                 const rover::RoverGeometryParams& geometry,
                                                 double edge_width_m);
 
-// Hands each value back some pushes later; until then the first one.
+// Hands each value back `delay` pushes later; until then the first one.
 template <typename T>
 class DelayLine {
  public:
@@ -55,6 +55,7 @@ class DelayLine {
   std::deque<T> values_;
 };
 
+// All these sensors of one trial.
 class VehicleSensors {
  public:
   VehicleSensors(const VehicleSensorParams& params, const rover::RoverParams& rover,
@@ -62,16 +63,16 @@ class VehicleSensors {
 
   bool any() const { return params_.any(); }
 
-  // Once a physics step. Costs nothing where no sensor needs it.
+  // Is called once a physics step. It costs nothing where no sensor needs it.
   void Observe(const truth::RoverState& state);
 
-  // Once an on-board tick of duration_s > 0, with what the motors were told meanwhile. Ticks are
-  // numbered from 0.
+  // Is called once an on-board tick of duration_s > 0, with what the motors were told meanwhile.
+  // Ticks are numbered from 0.
   messages::VehicleState Measure(const truth::RoverState& state,
                                  const messages::WheelCommand& command, double duration_s);
 
-  // Operators moved the rover by hand: what it measured before is forgotten, also what is still on
-  // its way.
+  // Forgets what was measured before, also what is still on its way: operators moved the rover by
+  // hand.
   void Resume(const truth::RoverState& state);
 
  private:

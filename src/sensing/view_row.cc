@@ -15,6 +15,7 @@ constexpr int kSegmentPixels = 32;
 ViewRow::Segment MakeSegment(const ViewRow& view, int first_edge, int last_edge) {
   ViewRow::Segment segment{first_edge, last_edge};
   const auto ray = [&view](int edge) { return view.edge_R[static_cast<std::size_t>(edge)]; };
+  // The cone about the middle ray that holds all: cos of its half angle is the least dot product.
   segment.axis_R = ray((first_edge + last_edge) / 2);
   for (int edge = first_edge; edge <= last_edge; ++edge) {
     segment.half_cosine = std::min(segment.half_cosine, segment.axis_R.dot(ray(edge)));
@@ -28,6 +29,8 @@ void SetPlane(ViewRow& view) {
   view.plane_R = view.edge_R.front().cross(view.edge_R.back()).normalized();
   view.plane_sine = 0.0;
   for (const math::Vector3& ray_R : view.edge_R) {
+    // A lens that bends its rows leaves this plane; plane_sine is the sine of the largest angle off
+    // it.
     view.plane_sine = std::max(view.plane_sine, std::abs(view.plane_R.dot(ray_R)));
   }
 }

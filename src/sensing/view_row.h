@@ -9,10 +9,10 @@
 
 namespace rockyard::sensing {
 
-// Viewing rays through the edges between the pixels of an image line, halfway up the line, so that
-// neighbours share them; in R.
+// The viewing rays, in R, through the edges between the pixels of an image line, halfway up the
+// line, so that neighbours share them.
 struct ViewRow {
-  // Neighbouring edges; their rays lie within a cone.
+  // A run of neighbouring edges; their rays lie within a cone.
   struct Segment {
     int first_edge = 0;
     int last_edge = 0;  // also the first of the next one
@@ -34,7 +34,8 @@ struct ViewRow {
   int columns() const { return static_cast<int>(gain.size()); }
 };
 
-// `columns` pixels of an image line from first_column on. Cost: about 0.14 ms for 768 pixels.
+// Returns `columns` pixels of an image line from first_column on. Cost: about 0.14 ms for 768
+// pixels.
 ViewRow MakeViewRow(const messages::StripeCamera& camera, const RoverBody& body, int row,
                     int first_column, int columns);
 

@@ -57,6 +57,8 @@ Contrast ShapleyShare(std::size_t functions, std::size_t i) {
   for (Combination set = 0; set < contrast.weights.size(); ++set) {
     if ((set & Bit(i)) != 0) continue;
     const auto size = static_cast<std::size_t>(std::popcount(set));
+    // Shapley 1953: |S|! (k - |S| - 1)! / k!, of v(S + i) - v(S) = P(fail with S) - P(fail with S +
+    // i).
     const double weight = Factorial(size) * Factorial(functions - size - 1) / Factorial(functions);
     contrast.weights[set] += weight;
     contrast.weights[set | Bit(i)] -= weight;
@@ -69,6 +71,7 @@ Contrast FactorialEffect(std::size_t functions, Combination set) {
   Contrast contrast{std::vector<double>(Combinations(functions))};
   const double scale = 2.0 / static_cast<double>(Combinations(functions));
   for (Combination c = 0; c < contrast.weights.size(); ++c) {
+    // The product of signs over `set`: minus for each function of it that is as flown.
     const bool even = std::popcount(set & ~c) % 2 == 0;
     contrast.weights[c] = even ? scale : -scale;
   }
@@ -119,6 +122,7 @@ Attribution Attribute(const FactorialFailures& failures, double confidence) {
     return Estimated(failures, contrast, confidence);
   };
   for (std::size_t i = 0; i < k; ++i) {
+    // v(all) - v(all without i): what i removes as the last one.
     Contrast last = Removed(k, all);
     const Contrast others = Removed(k, all & ~Bit(i));
     for (std::size_t c = 0; c < last.weights.size(); ++c) last.weights[c] -= others.weights[c];

@@ -15,11 +15,12 @@ namespace rockyard::statistics {
 
 inline constexpr std::size_t kMostFunctions = 8;
 
-// Bit i of a combination: function i is perfect. 0: as flown.
+// A set of functions: bit i says that function i is perfect. 0 is the rover as flown.
 using Combination = std::uint32_t;
 
+// The outcomes of all 2^k combinations of equally many trials, 1 <= k <= kMostFunctions.
 // failed[combination][trial] is 1 where that trial failed; trial t has the same random numbers in
-// every combination. 2^k combinations of equally many trials, 1 <= k <= kMostFunctions.
+// every combination.
 struct FactorialFailures {
   std::vector<std::string> functions;
   std::vector<std::vector<std::uint8_t>> failed;
@@ -27,6 +28,7 @@ struct FactorialFailures {
   std::vector<std::size_t> clusters = {};
 };
 
+// A number with its interval.
 struct Estimate {
   double value = 0.0;
   Interval interval;
@@ -45,25 +47,27 @@ struct Contrast {
 // The shares sum to v(all).
 Contrast ShapleyShare(std::size_t functions, std::size_t i);
 
-// Effect of a set A of functions on the failure probability (Box, Hunter and Hunter 2005, ch. 5):
-// 2^(1 - k) times the sum over combinations of the product of signs, + where a function of A is
-// perfect and - where it is not. Of one function: the mean change of the failure probability when
-// it is made perfect, over the settings of the others. Of two: half of how much that change differs
-// with the other one perfect and as flown; and so on. 0 where functions do not interact.
+// Returns the effect of a set A of functions on the failure probability (Box, Hunter and Hunter
+// 2005, ch. 5): 2^(1 - k) times the sum over combinations of the product of signs, + where a
+// function of A is perfect and - where it is not. For one function that is the mean change of the
+// failure probability when it is made perfect, over the settings of the others; for two it is half
+// of how much that change differs with the other one perfect and as flown; and so on. It is 0 where
+// functions do not interact.
 Contrast FactorialEffect(std::size_t functions, Combination set);
 
-// What making `set` perfect removes by itself: v(set).
+// Returns what making `set` perfect removes by itself: v(set).
 Contrast Removed(std::size_t functions, Combination set);
 
-// The mean over trials of the contrast, with an interval. All contrasts here are linear in the
-// failures, so that each trial has a value of its own between -1 and +1 and pairs are kept as
+// Returns the mean over trials of the contrast, with an interval. All contrasts here are linear in
+// the failures, so that each trial has a value of its own between -1 and +1 and pairs are kept as
 // pairs. The interval is Agresti and Min's (statistics/paired_counts.h): near nominal, and no point
 // where all trials agree. A bootstrap over trials estimates the same, and has no width there. Where
-// trials share clusters, of as many independent values as say as much (ClusteredValues). NaN
-// without trials.
+// trials share clusters, it is that of as many independent values as say as much (ClusteredValues).
+// Without trials it is NaN.
 Estimate Estimated(const FactorialFailures& failures, const Contrast& contrast,
                    double confidence = kConfidence);
 
+// What one function accounts for, in three ways.
 struct FunctionShare {
   std::string function;
   Estimate share;  // Shapley
@@ -87,11 +91,11 @@ struct Attribution {
   std::vector<EffectOfSet> effects;   // main effects first, then by size of the set
 };
 
-// Everything above. Intervals are pointwise. Cost: 4^k + 2^k k trials additions; a few ms for k = 4
-// and 1000 trials. No randomness.
+// Returns everything above. Intervals are pointwise. Cost: 4^k + 2^k k trials additions; a few ms
+// for k = 4 and 1000 trials. Nothing is random.
 Attribution Attribute(const FactorialFailures& failures, double confidence = kConfidence);
 
-// "designation x localization"; "as flown" for none.
+// Returns the names of a set, "designation x localization"; "as flown" for none.
 std::string NameOf(Combination set, std::span<const std::string> functions,
                    std::string_view separator = " x ");
 

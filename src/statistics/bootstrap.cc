@@ -32,6 +32,7 @@ std::size_t Drawn(double uniform, std::size_t count) {
 
 Interval PercentileInterval(std::span<const double> statistics, double confidence) {
   const std::vector<double> sorted = SortedFinite(statistics);
+  // The quantiles of the replicates at both tails.
   const double tail = 0.5 * (1.0 - confidence);
   return {Quantile(sorted, tail), Quantile(sorted, 1.0 - tail)};
 }

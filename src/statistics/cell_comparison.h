@@ -9,6 +9,7 @@
 
 namespace rockyard::statistics {
 
+// One rate of one cell in both measurements.
 struct RateDifference {
   Proportion first;
   Proportion second;
@@ -35,22 +36,22 @@ struct CellComparison {
   double alpha = 0.05;
 
   bool Differs(const RateDifference& rate) const { return rate.tested && rate.adjusted <= alpha; }
-  // Cells in which this rate differs.
+  // Returns the number of cells in which this rate differs.
   std::size_t Differing(std::size_t rate) const;
-  // Cells in which any rate does.
+  // Returns the number of cells in which any rate does.
   std::size_t Differing() const;
 };
 
-// Cells are the same where all factors are equal in name and value, whatever their numbers: tables
-// of different size have a part in common. Rates are matched by name. Null hypothesis of each test:
-// both rates are equal. All tests, of every rate in every cell, are one family, so that the chance
-// that anything `differs` without a difference is at most alpha. The samples are taken as
-// independent: runs of one seed whose cells draw the same scenes are closer than that, which makes
-// p-values too large. Where the base of a count is not made of independent trials (hazards share
-// fields, points share scenes) p-values are somewhat too small. The tests are exact; Newcombe's
-// intervals keep their level on average over rates only, and the simultaneous ones, far out in the
-// tails, not always that. No shared cell gives no cells; other factors as well. Cost: linear in the
-// cells and in the counts.
+// Compares the cells that both have. Cells are the same where all factors are equal in name and
+// value, whatever their numbers: tables of different size have a part in common. Rates are matched
+// by name. The null hypothesis of each test is that both rates are equal. All tests, of every rate
+// in every cell, are one family, so that the chance that anything `differs` without a difference is
+// at most alpha. The samples are taken as independent: runs of one seed whose cells draw the same
+// scenes are closer than that, which makes p-values too large. Where the base of a count is not
+// made of independent trials (hazards share fields, points share scenes) p-values are somewhat too
+// small. The tests are exact; Newcombe's intervals keep their level on average over rates only, and
+// the simultaneous ones, far out in the tails, not always that. Without a shared cell, or with
+// other factors, there are no cells. Cost: linear in the cells and in the counts.
 CellComparison CompareCells(const MeasurementSummary& first, const MeasurementSummary& second,
                             double alpha = 0.05);
 

@@ -40,19 +40,20 @@ struct MeasurementSummary {
   std::vector<const truth::MeasuredColumn*> means;  // kSum and kSquares
   std::vector<Cell> cells;                          // ascending; those with a record
 
-  // Full width of the widest pointwise 95 % interval of one rate over all cells.
+  // Returns the full width of the widest pointwise 95 % interval of one rate over all cells.
   double WidestInterval(std::size_t rate) const;
-  // Position in `rates`; none: rates.size().
+  // Returns the position in `rates`, or rates.size() where there is none.
   std::size_t FindRate(std::string_view name) const;
 };
 
-// `records` must be a contiguous prefix of finished runs, of a schema that IsMeasurement; columns
-// that truth/measurement_record.h does not know are left out. `planned`: runs of the whole plan, 0
-// for those given. Scenes of a cell are independent, so counts add up to binomial counts. Where the
-// base of a count is not made of independent trials (hazards share fields), intervals are somewhat
-// too narrow. `method` is that of a cell alone. Simultaneous intervals are Clopper and Pearson's at
-// the level 1 - 0.05 / planned_cells: Wilson's keep their level on average over rates only, and far
-// out in the tails not even that. Cost: linear.
+// Pools records by cell. `records` must be a contiguous prefix of finished runs, of a schema that
+// IsMeasurement; columns that truth/measurement_record.h does not know are left out. `planned` is
+// the number of runs of the whole plan, 0 for those given. Scenes of a cell are independent, so
+// counts add up to binomial counts. Where the base of a count is not made of independent trials
+// (hazards share fields), intervals are somewhat too narrow. `method` is that of a cell alone.
+// Simultaneous intervals are Clopper and Pearson's at the level 1 - 0.05 / planned_cells: Wilson's
+// keep their level on average over rates only, and far out in the tails not even that. Cost:
+// linear.
 MeasurementSummary SummarizeCells(const truth::RecordSchema& schema,
                                   std::span<const truth::Record> records, std::int64_t planned = 0,
                                   IntervalMethod method = IntervalMethod::kWilson);

@@ -9,13 +9,17 @@
 
 namespace rockyard::statistics {
 
+// 1 - (1 - p)^n, without loss of digits where p is small.
 double AnyOf(double p, double n) { return -std::expm1(n * std::log1p(-p)); }
 
 double NetRate(double step_m, double speed_m_s, double scan_time_s) {
+  // Each step takes step / speed to drive and a scan at rest.
   return step_m / (step_m / speed_m_s + scan_time_s);
 }
 
 double RangeResolution(double pitch_rad, double range_m, double baseline_m) {
+  // R = b / (pitch n) at a disparity of n pixels, so one pixel stands for dR = pitch R^2 / b
+  // (Matthies 1995 eq. 2, differentiated).
   return pitch_rad * range_m * range_m / baseline_m;
 }
 

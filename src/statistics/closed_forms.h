@@ -7,21 +7,23 @@
 
 namespace rockyard::statistics {
 
-// Chance that at least one of n independent events of chance p happens: 1 - (1 - p)^n. With one
-// point of 20 in a hundred found in a wrong place it is Matthies 1995, section 6: one false alarm
-// in five scans.
+// Returns the chance that at least one of n independent events of chance p happens: 1 - (1 - p)^n.
+// With one point of 20 in a hundred found in a wrong place it is Matthies 1995, section 6: one
+// false alarm in five scans.
 double AnyOf(double p, double n);
 
-// Distance per time with a scan after every step: step / (step / speed + scan time).
+// Returns the distance per time with a scan after every step, m/s: step / (step / speed + scan
+// time).
 double NetRate(double step_m, double speed_m_s, double scan_time_s);
 
-// Range that one pixel stands for: pitch range^2 / baseline (Matthies 1995 eq. 2, differentiated).
+// Returns the range that one pixel stands for, m: pitch range^2 / baseline (Matthies 1995 eq. 2,
+// differentiated).
 double RangeResolution(double pitch_rad, double range_m, double baseline_m);
 
-// Numbers that a formula takes; 0: any number of them, at least one.
+// Returns how many numbers a formula takes; 0 means any number of them, at least one.
 std::size_t FormulaArity(Formula formula);
 
-// Its value. `inputs` must be as many as FormulaArity says.
+// Returns the formula's value. There must be as many `inputs` as FormulaArity says.
 double Evaluate(Formula formula, std::span<const double> inputs);
 
 }  // namespace rockyard::statistics

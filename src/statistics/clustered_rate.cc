@@ -21,7 +21,9 @@ CountOfRun SumOf(std::span<const CountOfRun> runs) {
   return sum;
 }
 
-// `scatter`: the sum of squared deviations of single values from the mean of all.
+// Variance of the ratio R = sum x / sum y over the one of independent trials: m var(x - R y) /
+// scatter, m runs, at least 1. `scatter` is the sum of squared deviations of single values from the
+// mean of all, n R (1 - R) for a rate.
 double DesignEffect(std::span<const CountOfRun> runs, const CountOfRun& sum, double scatter,
                     WithoutScatter unseen) {
   if (!(scatter > 1e-12 * sum.base)) {
@@ -52,6 +54,7 @@ Interval ClusteredRateInterval(std::span<const CountOfRun> runs, double confiden
   if (runs.size() < 2 || sum.base == 0.0) return {0.0, 1.0};
   const double rate = sum.count / sum.base;
   const double effect = DesignEffect(runs, sum, sum.base * rate * (1.0 - rate), unseen);
+  // Effective numbers: n / design effect (z/t)^2, and as many successes at the same rate.
   const double trials = std::ceil(sum.base * FewRuns(runs.size(), confidence) / effect);
   const double count = trials * rate;
   const auto exact = [&](double whole) {

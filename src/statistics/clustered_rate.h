@@ -22,10 +22,10 @@ enum class WithoutScatter {
   kOnePerRun,    // each run says as much as one trial
 };
 
-// Interval of the ratio of both sums, where runs are independent and what happens within one is not
-// (several hazards of one drive, trials on one layout). Clopper and Pearson's of effective numbers
-// (Korn and Graubard 1998, Survey Methodology 24, pp. 193-201): counts and base by the design
-// effect, which is
+// Returns the interval of the ratio of both sums, where runs are independent and what happens
+// within one is not (several hazards of one drive, trials on one layout). It is Clopper and
+// Pearson's of effective numbers (Korn and Graubard 1998, Survey Methodology 24, pp. 193-201):
+// counts and base are divided by the design effect, which is
 //   max(1, runs Var(x - R y) / (n R (1 - R))),  x and y of the runs, R and n of all,
 // and by the square of Student's over the normal quantile, for the few runs behind it. Fractions
 // are rounded outwards.
@@ -36,12 +36,12 @@ Interval ClusteredRateInterval(std::span<const CountOfRun> runs, double confiden
 // Values of trials of which some hang together, such as differences of paired successes.
 class ClusteredValues {
  public:
-  // In any order of clusters, numbered from 0.
+  // Takes one value. Clusters are numbered from 0 and come in any order.
   void Add(std::size_t cluster, double value);
 
-  // As many independent values of the same mean and scatter as say as much about the mean: by the
-  // design effect and quantiles above, and one for each cluster where all values are equal. None
-  // with fewer than two clusters.
+  // Returns as many independent values of the same mean and scatter as say as much about the mean:
+  // by the design effect and quantiles above, and one for each cluster where all values are equal.
+  // There are none with fewer than two clusters.
   SignedValues Effective(double confidence) const;
 
  private:

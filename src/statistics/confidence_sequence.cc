@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kPrior = 0.5;
 
-// M is the density of the prior over that of the posterior, both beta laws: this form has no
-// difference of large logarithms.
+// M_n(p) = B(a + s, b + f) / (B(a, b) p^s (1 - p)^f) is the density of the prior over that of the
+// posterior at p, both beta laws: this form has no difference of large logarithms.
 double LogMartingale(double successes, double failures, double rate) {
   using Beta = boost::math::beta_distribution<double>;
   const double prior = boost::math::pdf(Beta(kPrior, kPrior), rate);
@@ -28,6 +28,7 @@ double LogMartingale(double successes, double failures, double rate) {
 double LowerEnd(double successes, double failures, double alpha) {
   if (successes == 0.0) return 0.0;
   if (failures == 0.0) {
+    // f = 0: M = B(a + s, b) / (B(a, b) p^s) = 1/alpha has a closed form.
     const double evidence =
         boost::math::beta(kPrior + successes, kPrior) / boost::math::beta(kPrior, kPrior);
     return std::pow(alpha * evidence, 1.0 / successes);
@@ -37,6 +38,8 @@ double LowerEnd(double successes, double failures, double alpha) {
     return LogMartingale(successes, failures, rate) + std::log(alpha);
   };
   const double trials = successes + failures;
+  // A standard deviation of the rate, sqrt(s f / n^3), at a time downwards until M exceeds 1/alpha;
+  // then the root lies between `low` and `high`.
   const double step = std::sqrt(successes * failures / (trials * trials * trials));
   double high = successes / trials;
   double low = std::max(high - step, 0.5 * high);
@@ -65,6 +68,7 @@ Interval ConfidenceSequence(std::int64_t successes, std::int64_t trials, double 
   const double alpha = 1.0 - confidence;
   const auto s = static_cast<double>(successes);
   const auto f = static_cast<double>(trials - successes);
+  // The prior is symmetric, so successes and failures change places.
   return {LowerEnd(s, f, alpha), 1.0 - LowerEnd(f, s, alpha)};
 }
 

@@ -26,7 +26,8 @@ namespace rockyard::statistics {
 Interval ConfidenceSequence(std::int64_t successes, std::int64_t trials,
                             double confidence = kConfidence);
 
-// Logarithm of M_n(p) above for 0 < p < 1; infinite where p is too unlikely for a double.
+// Returns the logarithm of M_n(p) above for 0 < p < 1; it is infinite where p is too unlikely for a
+// double.
 double LogMixtureMartingale(std::int64_t successes, std::int64_t trials, double rate);
 
 }  // namespace rockyard::statistics

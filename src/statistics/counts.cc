@@ -14,6 +14,7 @@ double LogBeta(double a, double b) {
   return boost::math::lgamma(a) + boost::math::lgamma(b) - boost::math::lgamma(a + b);
 }
 
+// C(n, k) = 1 / ((n + 1) B(n - k + 1, k + 1)).
 double LogChoose(double n, double k) { return -std::log(n + 1.0) - LogBeta(n - k + 1.0, k + 1.0); }
 
 }  // namespace
@@ -34,6 +35,7 @@ CountLaw BetaBinomialLaw(std::int64_t trials, double a, double b) {
   CountLaw probabilities(static_cast<std::size_t>(trials) + 1);
   for (std::size_t i = 0; i < probabilities.size(); ++i) {
     const double k = static_cast<double>(i);
+    // P(k) = C(n, k) B(k + a, n - k + b) / B(a, b).
     probabilities[i] = std::exp(LogChoose(n, k) + LogBeta(k + a, n - k + b) - LogBeta(a, b));
   }
   return probabilities;
@@ -74,6 +76,7 @@ double CountPower(const CountLaw& null, const CountLaw& truth, double level) {
   EXPECT(null.size() == truth.size());
   double power = 0.0;
   for (std::size_t k = 0; k < truth.size(); ++k) {
+    // The counts that the test rejects, weighed by their probability under `truth`.
     if (TwoSided(CountTails(null, static_cast<std::int64_t>(k))) <= level) power += truth[k];
   }
   return std::min(1.0, power);

@@ -13,18 +13,19 @@
 
 namespace rockyard::statistics {
 
-// Probabilities of 0..n. They sum to 1.
+// The probabilities of the counts 0..n. They sum to 1.
 using CountLaw = std::vector<double>;
 
 CountLaw BinomialLaw(std::int64_t trials, double rate);
 
-// a, b > 0: parameters of the beta law of the rate.
+// Returns the law of a count whose rate has the beta law of a, b > 0.
 CountLaw BetaBinomialLaw(std::int64_t trials, double a, double b);
 
-// The predictive law described above: `count` of `pool` simulated runs, `trials` new ones.
+// Returns the predictive law described above, for `count` of `pool` simulated runs and `trials` new
+// ones.
 CountLaw PredictiveCountLaw(std::int64_t trials, std::int64_t count, std::int64_t pool);
 
-// Smallest count whose cumulative probability reaches `probability`.
+// Returns the smallest count whose cumulative probability reaches `probability`.
 std::int64_t CountQuantile(const CountLaw& law, double probability);
 
 // P(count <= observed) and P(count >= observed).
@@ -34,11 +35,12 @@ struct Tails {
 };
 Tails CountTails(const CountLaw& law, std::int64_t observed);
 
-// Twice the smaller tail, at most 1: the two-sided p-value that matches equal-tailed intervals.
+// Returns twice the smaller tail, at most 1: the two-sided p-value that matches equal-tailed
+// intervals.
 double TwoSided(const Tails& tails);
 
-// Probability that a count drawn from `truth` is rejected at `level` by the two-sided test of
-// `null`. Both laws over the same number of trials.
+// Returns the probability that a count drawn from `truth` is rejected at `level` by the two-sided
+// test of `null`. Both laws are over the same number of trials.
 double CountPower(const CountLaw& null, const CountLaw& truth, double level);
 
 }  // namespace rockyard::statistics

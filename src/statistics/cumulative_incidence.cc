@@ -9,7 +9,8 @@
 namespace rockyard::statistics {
 namespace {
 
-// Interval of a probability on the log(-log) scale, which keeps it inside [0, 1].
+// Interval of a probability on the log(-log) scale, which keeps it inside [0, 1]: p^exp(+-z s / (p
+// |ln p|)), s the standard error of p (delta method).
 Interval LogLogBand(double probability, double standard_error, double z) {
   const double log_p = std::log(probability);
   const double spread = z * standard_error / (probability * std::abs(log_p));
@@ -100,9 +101,12 @@ std::vector<IncidenceStep> CumulativeIncidence(std::span<const Duration> duratio
     const double n = static_cast<double>(at_risk);
     const double both = ends.events + ends.competing;
     if (both > 0.0) {
+      // Aalen and Johansen: to have survived so far, times the share of those at risk that end this
+      // way.
       event += survival * ends.events / n;
       competing += survival * ends.competing / n;
       variance.Add(event, survival, n, ends.events, both);
+      // Kaplan and Meier's factor, of both kinds of end; censored ones only leave the risk set.
       survival *= 1.0 - both / n;
       const double error = std::sqrt(variance.At(event));
       IncidenceStep step{sorted[i].at, event, competing,

@@ -10,6 +10,7 @@
 
 namespace rockyard::statistics {
 
+// How one trial's way ended.
 enum class EndKind {
   kEvent,      // reached the goal
   kCompeting,  // failed: will never reach it
@@ -21,7 +22,7 @@ struct Duration {
   EndKind kind = EndKind::kCensored;
 };
 
-// At and beyond `at` the incidences hold until the next step.
+// A step of both incidences: at and beyond `at` they hold until the next step.
 struct IncidenceStep {
   double at = 0.0;
   double event = 0.0;           // probability to have had the event
@@ -31,9 +32,10 @@ struct IncidenceStep {
   std::int64_t at_risk = 0;  // just before `at`
 };
 
-// Aalen-Johansen estimate; one step per distinct distance with an event or a competing event.
-// Variance by the delta method (Marubini and Valsecchi 1995, eq. 10.12); without censoring it is
-// the binomial one. Entries whose distance is not finite are left out. Cost: n log n.
+// Returns the Aalen-Johansen estimate, one step per distinct distance with an event or a competing
+// event. The variance is by the delta method (Marubini and Valsecchi 1995, eq. 10.12); without
+// censoring it is the binomial one. Entries whose distance is not finite are left out. Cost: n log
+// n.
 std::vector<IncidenceStep> CumulativeIncidence(std::span<const Duration> durations,
                                                double confidence = kConfidence);
 

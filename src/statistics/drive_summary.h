@@ -52,14 +52,15 @@ struct DriveSummary {
   const ColumnSummary* Find(std::string_view name) const;  // nullptr where there is none
 };
 
-// Position of a column in the schema.
+// Returns the position of a column in the schema.
 std::optional<std::size_t> ColumnIndex(const truth::RecordSchema& schema, std::string_view name);
 
-// The finite values of one column over the trials without a fault, in trial order.
+// Returns the finite values of one column over the trials without a fault, in trial order.
 std::vector<double> ColumnValues(std::span<const truth::Record> records, std::size_t column);
 
-// `records` must be the contiguous prefix of finished trials, never the order of completion:
-// failures run longer, so that completion order favours successes. `planned` 0: as many as given.
+// Summarizes drives. `records` must be the contiguous prefix of finished trials, never the order of
+// completion: failures run longer, so that completion order favours successes. `planned` is 0 where
+// as many were planned as are given.
 DriveSummary Summarize(const truth::RecordSchema& schema, std::span<const truth::Record> records,
                        std::int64_t planned = 0, IntervalMethod method = IntervalMethod::kWilson);
 

@@ -43,7 +43,9 @@ double Shortened(double distance, double correction) {
 }
 
 // Tango 1998, equations 5 and 6: the variance at the likeliest rates whose difference is `delta`.
-// `correction`: of pairs.
+// With b pairs up, c down, the likeliest rate of c is the larger root of 2 n q^2 + B q + C = 0,
+//   B = -b - c + (2 n - b + c) delta,  C = -c delta (1 - delta),
+// and z = (b - c - n delta) / sqrt(n (2 q + delta (1 - delta))). `correction`: of pairs.
 double PairedScore(const PairedCounts& counts, double delta, double correction = 0.0) {
   const auto n = static_cast<double>(counts.pairs());
   const auto up = static_cast<double>(counts.only_second);
@@ -56,8 +58,10 @@ double PairedScore(const PairedCounts& counts, double delta, double correction =
   return Score(Shortened(up - down - n * delta, correction), variance);
 }
 
-// Farrington and Manning 1990, appendix: the likeliest rates whose difference is `delta` solve a
-// cubic equation. `correction`: of trials of each group.
+// Farrington and Manning 1990, appendix: the likeliest rates q_1, q_2 = q_1 - delta solve the cubic
+// equation a q^3 + b q^2 + c q + d = 0, here by its trigonometric root q_1 = 2 u cos(w) - b/3a, and
+// z = (p_1 - p_2 - delta) / sqrt(q_1 (1 - q_1)/n_1 + q_2 (1 - q_2)/n_2). Index 1 is the second
+// group of the table. `correction`: of trials of each group.
 double UnpairedScore(const ContingencyTable& table, double delta, double correction = 0.0) {
   const auto n_1 = static_cast<double>(table.success_2 + table.failure_2);
   const auto n_2 = static_cast<double>(table.success_1 + table.failure_1);
@@ -122,6 +126,7 @@ MeanDifference PairedMeans(std::span<const double> differences) {
   EXPECT(moments.not_finite() == 0);
   const auto n = static_cast<double>(moments.count());
   if (moments.count() < 2) return {moments.mean(), 0.0, 0.0};
+  // Without scatter: n equal signs come by accident with 2^(1 - n).
   return {moments.mean(), std::sqrt(moments.variance() / n), n - 1.0, std::exp2(1.0 - n)};
 }
 
@@ -137,10 +142,12 @@ MeanDifference WelchMeans(std::span<const double> first, std::span<const double>
   const double square_b = b.variance() / n_b;
   const double square = square_a + square_b;
   if (square == 0.0) {
+    // Nothing scatters: two groups apart by accident have the chance 2 / C(n_a + n_b, n_a).
     const double ways =
         std::lgamma(n_a + n_b + 1.0) - std::lgamma(n_a + 1.0) - std::lgamma(n_b + 1.0);
     return {difference, 0.0, n_a + n_b - 2.0, std::min(1.0, 2.0 * std::exp(-ways))};
   }
+  // Welch and Satterthwaite: (s_a + s_b)^2 / (s_a^2/(n_a - 1) + s_b^2/(n_b - 1)), s = variance / n.
   const double freedom =
       square * square / (square_a * square_a / (n_a - 1.0) + square_b * square_b / (n_b - 1.0));
   return {difference, std::sqrt(square), freedom};
@@ -162,6 +169,7 @@ double ChangePValue(const MeanDifference& means) {
 double EquivalencePValue(const MeanDifference& means, double margin) {
   EXPECT(margin > 0.0);
   if (!means.known()) return 1.0;
+  // TOST: the larger p of "difference <= -margin" and "difference >= margin".
   return std::max(StudentUpperTail(means.difference + margin, means),
                   StudentUpperTail(margin - means.difference, means));
 }

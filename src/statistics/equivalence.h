@@ -25,10 +25,12 @@ struct MeanDifference {
   bool known() const { return degrees_of_freedom > 0.0; }
 };
 
-// Of pairs, from their differences (Student 1908). Values must be finite.
+// Returns the mean difference of pairs from their differences (Student 1908). Values must be
+// finite.
 MeanDifference PairedMeans(std::span<const double> differences);
 
-// Of two independent samples (Welch 1947, Biometrika 34, pp. 28-35). Values must be finite.
+// Returns that of two independent samples (Welch 1947, Biometrika 34, pp. 28-35). Values must be
+// finite.
 MeanDifference WelchMeans(std::span<const double> first, std::span<const double> second);
 
 // Limits of all of these: the means must be near normal, which some dozens of values without a
@@ -40,27 +42,29 @@ Interval DifferenceInterval(const MeanDifference& means, double confidence = kCo
 double ChangePValue(const MeanDifference& means);  // two-sided, of no difference
 double EquivalencePValue(const MeanDifference& means, double margin);  // TOST, margin > 0
 
-// Equivalence of pairs of which few differ, where a standard error says nothing of what was not
-// seen. A difference is at most `range`, so that the mean moves by the margin only if a share of
-// margin / range of all pairs differs, or more: P(Binomial(pairs, margin / range) <= differing).
-// Range 0 (all values were the same): a change in a twentieth of the pairs would have shown.
+// Returns the p-value of equivalence of pairs of which few differ, where a standard error says
+// nothing of what was not seen. A difference is at most `range`, so that the mean moves by the
+// margin only if a share of margin / range of all pairs differs, or more: P(Binomial(pairs, margin
+// / range) <= differing). With a range of 0 (all values were the same) a change in a twentieth of
+// the pairs would have shown.
 double SparseEquivalencePValue(std::int64_t pairs, std::int64_t differing, double margin,
                                double range);
 
-// Score interval of the rate of the second less that of the first (Tango 1998, Statistics in
-// Medicine 17, pp. 891-908): asymptotic, exact coverage is near nominal from some dozens of pairs
-// on, also where hardly any pair is discordant. TOST by the same score with a continuity correction
-// of half a pair, by which its exact size stays at or below 0.05 (tested for 10 to 100 pairs and
-// margins of 0.05 to 0.3). [-1, 1] and p = 1 without pairs. The test of no difference that goes
-// with them is McNemarExactPValue.
+// Returns the score interval of the rate of the second less that of the first (Tango 1998,
+// Statistics in Medicine 17, pp. 891-908): asymptotic, exact coverage is near nominal from some
+// dozens of pairs on, also where hardly any pair is discordant. The p-value is of TOST by the same
+// score with a continuity correction of half a pair, by which its exact size stays at or below 0.05
+// (tested for 10 to 100 pairs and margins of 0.05 to 0.3). Without pairs they are [-1, 1] and 1.
+// The test of no difference that goes with them is McNemarExactPValue.
 Interval DifferenceInterval(const PairedCounts& counts, double confidence = kConfidence);
 double EquivalencePValue(const PairedCounts& counts, double margin);
 
-// Score interval and TOST of two independent rates, success_2 less success_1 (Farrington and
-// Manning 1990, Statistics in Medicine 9, pp. 1447-1454; the interval is that of Miettinen and
-// Nurminen 1985 without their factor n / (n - 1)). Corrected as above, by half a trial of each
-// group: exact size at or below 0.05, tested for groups of 10 to 100. [-1, 1] and p = 1 where a
-// group is empty. The test of no difference that goes with them is FisherExactPValue.
+// Returns the score interval, and TOST, of two independent rates, success_2 less success_1
+// (Farrington and Manning 1990, Statistics in Medicine 9, pp. 1447-1454; the interval is that of
+// Miettinen and Nurminen 1985 without their factor n / (n - 1)). The test is corrected as above, by
+// half a trial of each group: exact size at or below 0.05, tested for groups of 10 to 100. Where a
+// group is empty they are [-1, 1] and 1. The test of no difference that goes with them is
+// FisherExactPValue.
 Interval DifferenceInterval(const ContingencyTable& table, double confidence = kConfidence);
 double EquivalencePValue(const ContingencyTable& table, double margin);
 

@@ -20,6 +20,7 @@ double ExponentialStatistic(std::span<const double> sorted, std::size_t skip) {
   if (!(mean > 0.0)) return 0.0;
   double statistic = 0.0;
   for (std::size_t i = 0; i < above.size(); ++i) {
+    // F = 1 - e^(-(x - offset)/mean), and D as in the one-sample test.
     const double f = -std::expm1(-(above[i] - offset) / mean);
     statistic =
         std::max({statistic, f - static_cast<double>(i) / n, static_cast<double>(i + 1) / n - f});
@@ -47,6 +48,7 @@ std::vector<double> ExponentialNullLaw(std::size_t excesses, std::size_t replica
 double BootstrapPValue(std::span<const double> ascending_null, double statistic) {
   const auto first = std::lower_bound(ascending_null.begin(), ascending_null.end(), statistic);
   const auto reached = static_cast<double>(ascending_null.end() - first);
+  // The observed statistic counts as one more replicate.
   return (1.0 + reached) / (1.0 + static_cast<double>(ascending_null.size()));
 }
 

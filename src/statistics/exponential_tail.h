@@ -10,24 +10,25 @@
 
 namespace rockyard::statistics {
 
-// Lilliefors' statistic for the exponential law (1969): largest distance between the empirical
-// distribution of the excesses over the k-th smallest value (k = skip + 1) and an exponential with
-// their mean. Offset and mean are both fitted. If values beyond the offset are exponential, the
-// excesses over an order statistic are again independent and exponential with the same mean, so the
-// null law depends on the number of excesses alone. `sorted` ascending. 0 with fewer than 3
-// excesses.
+// Returns Lilliefors' statistic for the exponential law (1969): the largest distance between the
+// empirical distribution of the excesses over the k-th smallest value (k = skip + 1) and an
+// exponential with their mean. Offset and mean are both fitted. If values beyond the offset are
+// exponential, the excesses over an order statistic are again independent and exponential with the
+// same mean, so the null law depends on the number of excesses alone. `sorted` ascends. With fewer
+// than 3 excesses the statistic is 0.
 double ExponentialStatistic(std::span<const double> sorted, std::size_t skip = 0);
 
-// Null law of the statistic by parametric bootstrap: `replicates` samples of `excesses` exponential
-// values, ascending. Philox, Purpose::kBootstrap, one substream per replicate.
+// Returns the null law of the statistic by parametric bootstrap: `replicates` samples of `excesses`
+// exponential values, ascending. Randomness: Philox, Purpose::kBootstrap, one substream per
+// replicate.
 std::vector<double> ExponentialNullLaw(std::size_t excesses, std::size_t replicates,
                                        std::uint64_t seed);
 
-// Share of the null law that reaches `statistic`, counting the statistic itself:
-// (1 + #) / (1 + replicates). Never 0; a valid p-value whatever the number of replicates.
+// Returns the share of the null law that reaches `statistic`, counting the statistic itself: (1 +
+// #) / (1 + replicates). It is never 0, and a valid p-value whatever the number of replicates.
 double BootstrapPValue(std::span<const double> ascending_null, double statistic);
 
-// Test that the values beyond the (skip + 1)-th smallest are exponential.
+// Tests that the values beyond the (skip + 1)-th smallest are exponential.
 TestResult ExponentialTailTest(std::span<const double> sample, std::uint64_t seed,
                                std::size_t skip = 0, std::size_t replicates = 9999);
 

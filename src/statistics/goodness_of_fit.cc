@@ -13,6 +13,7 @@ struct Bin {
   double expected = 0.0;
 };
 
+// Neighbouring bins together until they expect enough; what is left at the end joins the last.
 std::vector<Bin> Pool(std::span<const double> observed, std::span<const double> expected,
                       double min_expected) {
   std::vector<Bin> bins;
@@ -48,6 +49,7 @@ ChiSquareResult ChiSquareGoodnessOfFit(std::span<const double> observed,
   ChiSquareResult result;
   for (const Bin& bin : bins) {
     const double difference = bin.observed - bin.expected;
+    // Pearson: sum (O - E)^2 / E. A bin that expects and holds nothing adds nothing.
     if (difference != 0.0) result.statistic += difference * difference / bin.expected;
   }
   result.degrees_of_freedom = static_cast<int>(bins.size()) - 1 - fitted;

@@ -11,14 +11,14 @@ struct ChiSquareResult {
   double p_value = 1.0;
 };
 
-// Observed counts against expected ones (same total, same order). Neighbouring bins are pooled
-// until each expects at least `min_expected` (Cochran's rule: 5). `fitted` parameters cost one
-// degree of freedom each. p = 1 when fewer than one degree of freedom is left.
+// Tests observed counts against expected ones (same total, same order). Neighbouring bins are
+// pooled until each expects at least `min_expected` (Cochran's rule: 5). `fitted` parameters cost
+// one degree of freedom each. p = 1 when fewer than one degree of freedom is left.
 ChiSquareResult ChiSquareGoodnessOfFit(std::span<const double> observed,
                                        std::span<const double> expected, int fitted = 0,
                                        double min_expected = 5.0);
 
-// P(chi-square with `degrees_of_freedom` > statistic).
+// Returns P(chi-square with `degrees_of_freedom` > statistic).
 double ChiSquareTail(double statistic, int degrees_of_freedom);
 
 }  // namespace rockyard::statistics

@@ -38,7 +38,9 @@ ScaledMatrix Power(ScaledMatrix base, int exponent) {
   return result;
 }
 
-// Transition matrix H of Marsaglia, Tsang and Wang (2003) for n d = k - h.
+// Transition matrix H of Marsaglia, Tsang and Wang (2003) for n d = k - h: ones on and below the
+// first superdiagonal, corrected by powers of h in the first column and the last row, each entry
+// over (i - j + 1)!.
 Eigen::MatrixXd TransitionMatrix(Eigen::Index size, double h) {
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(size, size);
   for (Eigen::Index i = 0; i < size; ++i) {
@@ -57,6 +59,8 @@ Eigen::MatrixXd TransitionMatrix(Eigen::Index size, double h) {
   return H;
 }
 
+// D = max_i max(F(x_i) - (i - 1)/n, i/n - F(x_i)) over the ordered sample: the empirical function
+// jumps at each value, so both sides of the jump count.
 double OneSampleStatistic(std::span<const double> sorted,
                           const std::function<double(double)>& distribution_function) {
   const double n = static_cast<double>(sorted.size());
@@ -69,6 +73,7 @@ double OneSampleStatistic(std::span<const double> sorted,
   return statistic;
 }
 
+// D = max |F_a - F_b|. Equal values of both samples are stepped over together.
 double TwoSampleStatistic(std::span<const double> a, std::span<const double> b) {
   double statistic = 0.0;
   std::size_t i = 0;
@@ -97,6 +102,8 @@ double TwoSampleExactPValue(double statistic, std::size_t n, std::size_t m) {
       const double y = static_cast<double>(j);
       const double left = rows + columns - x - y + 1.0;  // steps still to go before this one
       double probability = i == 0 && j == 0 ? 1.0 : 0.0;
+      // All orders of n and m steps are equally likely: the next step goes along i with the chance
+      // of the steps along i that are left, over all that are left.
       if (i > 0) probability += inside[j] * (rows - x + 1.0) / left;
       if (j > 0) probability += inside[j - 1] * (columns - y + 1.0) / left;
       inside[j] = std::abs(x / rows - y / columns) < limit ? probability : 0.0;
@@ -111,6 +118,8 @@ double KolmogorovLimitPValue(double x) {
   if (x <= 0.0) return 1.0;
   constexpr double kPi = std::numbers::pi;
   double sum = 0.0;
+  // P(K >= x) = 2 sum (-1)^(k - 1) e^(-2 k^2 x^2)
+  //          = 1 - sqrt(2 pi)/x sum e^(-(2 k - 1)^2 pi^2 / (8 x^2)).
   if (x < 1.0) {  // Jacobi's other form converges fast where the first does not
     for (int k = 1; k <= 20; ++k) {
       const double odd = (2.0 * k - 1.0) * kPi / x;
@@ -129,6 +138,8 @@ double KolmogorovExactPValue(double statistic, int n) {
   const double nd = static_cast<double>(n) * statistic;
   if (nd <= 0.5) return 1.0;
   if (statistic >= 1.0) return 0.0;
+  // P(D_n < d) = n!/n^n (H^n)_kk with k = floor(n d) + 1 and h = k - n d; the power of ten goes
+  // apart.
   const int k = static_cast<int>(nd) + 1;
   const Eigen::Index size = 2 * k - 1;
   const ScaledMatrix power = Power({TransitionMatrix(size, k - nd), 0}, n);
@@ -156,6 +167,7 @@ TestResult KolmogorovSmirnov(std::span<const double> sample,
   if (sorted.size() <= kExactUpTo && root * statistic < kFarTail) {
     return {statistic, KolmogorovExactPValue(statistic, static_cast<int>(sorted.size()))};
   }
+  // Stephens 1970: the limit law at (sqrt(n) + 0.12 + 0.11/sqrt(n)) D.
   return {statistic, KolmogorovLimitPValue((root + 0.12 + 0.11 / root) * statistic)};
 }
 

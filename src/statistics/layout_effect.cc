@@ -24,6 +24,7 @@ std::vector<Point> Hull(const std::vector<Point>& points, double sign) {
     while (hull.size() >= 2) {
       const Point& a = hull[hull.size() - 2];
       const Point& b = hull.back();
+      // Cross product of a -> b and a -> p: its sign says to which side the hull bends at b.
       const double turn = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
       if (sign * turn < 0.0) break;
       hull.pop_back();
@@ -73,6 +74,8 @@ TailCurves Curves(std::int64_t trials, std::int64_t observed) {
 double MeanOnHull(const std::vector<Point>& curve, double sign, const std::vector<double>& rates) {
   const std::vector<Point> hull = Hull(curve, sign);
   double sum = 0.0;
+  // A mixture of f(q) with E q = p lies between the hulls of f at p; p itself is averaged over its
+  // posterior.
   for (const double rate : rates) sum += Interpolate(hull, rate);
   return sum / static_cast<double>(rates.size());
 }
@@ -81,6 +84,8 @@ CountLaw LawOf(std::int64_t trials, const LayoutEffect& effect) {
   constexpr double kAlmostNone = 1e-6;
   const double rho = std::clamp(effect.correlation, kAlmostNone, 1.0 - kAlmostNone);
   const double rate = std::clamp(effect.rate, kAlmostNone, 1.0 - kAlmostNone);
+  // Two trials on one layout correlate by rho = 1 / (a + b + 1) under a beta law of the rate with
+  // the mean a / (a + b).
   const double strength = (1.0 - rho) / rho;
   return BetaBinomialLaw(trials, rate * strength, (1.0 - rate) * strength);
 }
@@ -101,6 +106,8 @@ LayoutEffect EstimateLayoutEffect(std::span<const LayoutCount> layouts) {
   if (trials == 0.0) return {kNaN, kNaN};
   const double rate = successes / trials;
   if (groups < 2.0 || trials <= groups) return {rate, kNaN};
+  // Fleiss 1981: with the mean squares between and within layouts and the mean size n_0 = (N - sum
+  // n^2 / N) / (G - 1), rho = (MSB - MSW) / (MSB + (n_0 - 1) MSW).
   double between = 0.0;
   double within = 0.0;
   for (const LayoutCount& layout : layouts) {

@@ -27,17 +27,17 @@ struct LayoutEffect {
 };
 LayoutEffect EstimateLayoutEffect(std::span<const LayoutCount> layouts);
 
-// Predictive law of the successes of `trials` runs on one new layout: beta-binomial with the
-// estimated rate and correlation, averaged over 400 resamples of the layouts (`seed`,
-// Purpose::kBootstrap) so that the estimate's own uncertainty is included. Needs a finite
+// Returns the predictive law of the successes of `trials` runs on one new layout: beta-binomial
+// with the estimated rate and correlation, averaged over 400 resamples of the layouts (`seed`,
+// Purpose::kBootstrap) so that the estimate's own uncertainty is included. It needs a finite
 // correlation.
 CountLaw OneLayoutLaw(std::int64_t trials, std::span<const LayoutCount> layouts,
                       std::uint64_t seed);
 
-// Without repeats: the smallest and the largest two-sided p-value over every way in which success
-// rates can vary from layout to layout with mean rate p, averaged over the posterior Beta(K + 1/2,
-// N - K + 1/2) of p. A tail probability is then a mixture of f(q) = P(Binomial(trials, q) in tail)
-// with E q = p, hence lies between f's convex and concave hull at p.
+// Returns, without repeats, the smallest and the largest two-sided p-value over every way in which
+// success rates can vary from layout to layout with mean rate p, averaged over the posterior Beta(K
+// + 1/2, N - K + 1/2) of p. A tail probability is then a mixture of f(q) = P(Binomial(trials, q) in
+// tail) with E q = p, hence lies between f's convex and concave hull at p.
 Interval OneLayoutPValueBounds(std::int64_t trials, std::int64_t observed, std::int64_t count,
                                std::int64_t pool);
 

@@ -50,6 +50,8 @@ FitStatus StatusOf(std::span<const Dose> doses) {
   return overlap ? FitStatus::kFitted : FitStatus::kSeparated;
 }
 
+// 2 sum (O ln(O/E)) over successes and failures of every setting: twice the log-likelihood that a
+// rate of its own for every setting would gain.
 double Deviance(std::span<const Dose> doses, const LogitLine& line) {
   const auto term = [](double observed, double expected) {
     return observed > 0.0 ? observed * std::log(observed / expected) : 0.0;
@@ -63,7 +65,8 @@ double Deviance(std::span<const Dose> doses, const LogitLine& line) {
   return std::max(0.0, 2.0 * sum);  // rounding, where the curve meets every rate
 }
 
-// Inverse of the information, with the intercept moved from the centre to u = 0.
+// Inverse of the information, with the intercept moved from the centre c to u = 0, a_0 = a - b c:
+// var(a_0) = var(a) - 2 c cov(a, b) + c^2 var(b), cov(a_0, b) = cov(a, b) - c var(b).
 std::array<double, 3> Covariance(const LikelihoodSlopes& s, double centre) {
   const double determinant = s.aa * s.bb - s.ab * s.ab;
   const double aa = s.bb / determinant;
@@ -72,7 +75,7 @@ std::array<double, 3> Covariance(const LikelihoodSlopes& s, double centre) {
   return {aa - 2.0 * centre * ab + centre * centre * bb, ab - centre * bb, bb};
 }
 
-// Of the logit at u.
+// Variance of the logit at u, (1, u) V (1, u)'.
 double VarianceAt(const std::array<double, 3>& covariance, double u) {
   return std::max(0.0, covariance[0] + 2.0 * u * covariance[1] + u * u * covariance[2]);
 }
@@ -105,6 +108,8 @@ double CrossingEnd(std::span<const Dose> doses, const LogisticFit& fit, double l
   };
   constexpr int kDoublings = 60;
   constexpr int kHalvings = 60;
+  // Outwards in doubling steps until the ratio exceeds the bound, then bisection between the last
+  // two.
   double reach = 0.01 * (doses.back().u - doses.front().u);
   int doubled = 0;
   while (inside(estimate + direction * reach)) {
@@ -154,6 +159,8 @@ LogisticFit FitLogistic(std::span<const DosePoint> points, FitScale scale) {
   if (fit.degrees_of_freedom > 0) {
     fit.p_value = ChiSquareTail(fit.deviance, fit.degrees_of_freedom);
   }
+  // Likelihood ratio against the fit without a slope, chi-square with one degree of freedom
+  // (Wilks).
   fit.slope_ratio = 2.0 * std::max(0.0, fit.log_likelihood - without_slope);
   fit.slope_p_value = ChiSquareTail(fit.slope_ratio, 1);
   return fit;
@@ -199,6 +206,7 @@ LogisticFit ClusterScores::Fit(bool shared_within) const {
     const double determinant = m_aa * m_bb - m_ab * m_ba;
     const double y_a = (m_bb * score.a - m_ab * score.b) / determinant;
     const double y_b = (m_aa * score.b - m_ba * score.a) / determinant;
+    // V y, and the sum over clusters of (V y)(V y)'.
     const double a = aa * y_a + ab * y_b;
     const double b = ab * y_a + bb * y_b;
     sums[0] += a * a;
@@ -220,6 +228,7 @@ LogisticFit ClusterScores::Fit(bool shared_within) const {
   fit.slope_p_value = 1.0;
   if (fit.covariance[2] <= kRounding * fit.model_covariance[2]) return fit;
   const boost::math::students_t law(clusters - 1.0);
+  // The likelihood ratio in the units of the clusters' scatter: its root as Student's t.
   const double t = std::sqrt(fit.slope_ratio * fit.model_covariance[2] / fit.covariance[2]);
   fit.slope_p_value = 2.0 * boost::math::cdf(boost::math::complement(law, t));
   return fit;
@@ -231,6 +240,7 @@ FitCrossing FindCrossing(const LogisticFit& fit, std::span<const DosePoint> poin
   EXPECT(rate > 0.0 && rate < 1.0);
   const std::vector<Dose> doses = PoolDoses(points, fit.scale);
   const double logit = Logit(rate);
+  // intercept + slope u = logit(rate).
   const double u = (logit - fit.intercept) / fit.slope;  // not finite where the curve is level
   const double z = QuantileOf(fit, confidence);
   FitCrossing crossing{.rate = rate, .x = std::isfinite(u) ? Inverse(fit.scale, u) : kNaN};

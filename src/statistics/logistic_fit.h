@@ -59,15 +59,15 @@ struct LogisticFit {
   Interval Band(double x, double confidence = kConfidence) const;
 };
 
-// Iteratively reweighted least squares (McCullagh and Nelder 1989, section 4.4), which is Newton's
-// method on a concave function, halving steps that go too far. Trials are taken as independent,
-// within and between settings. The likelihood has a maximum only where outcomes overlap (Silvapulle
-// 1981); where they do not, this says so instead of shrinking to a finite curve (Firth 1993): the
-// steepness would then come from the penalty and not from the runs. Settings with equal x are
-// pooled. Cost: linear in the points, about ten passes.
+// Fits by iteratively reweighted least squares (McCullagh and Nelder 1989, section 4.4), which is
+// Newton's method on a concave function, halving steps that go too far. Trials are taken as
+// independent, within and between settings. The likelihood has a maximum only where outcomes
+// overlap (Silvapulle 1981); where they do not, this says so instead of shrinking to a finite curve
+// (Firth 1993): the steepness would then come from the penalty and not from the runs. Settings with
+// equal x are pooled. Cost: linear in the points, about ten passes.
 LogisticFit FitLogistic(std::span<const DosePoint> points, FitScale scale);
 
-// Gradient of the log-likelihood and Fisher information in two parameters of the line.
+// The gradient of the log-likelihood and the Fisher information in two parameters of the line.
 struct LikelihoodSlopes {
   double a = 0.0;
   double b = 0.0;
@@ -114,7 +114,8 @@ struct FitCrossing {
   bool extrapolated = false;  // x lies outside of the settings
 };
 
-// 0 < rate < 1; `fit` of the same points, fitted. Cost: some hundred passes over the points.
+// Returns the crossing of a rate, 0 < rate < 1; `fit` is of the same points, and fitted. Cost: some
+// hundred passes over the points.
 FitCrossing FindCrossing(const LogisticFit& fit, std::span<const DosePoint> points, double rate,
                          double confidence = kConfidence);
 

@@ -16,6 +16,7 @@ constexpr double kConverged = 1e-15;  // relative gain of log-likelihood
 // ln(1 + e^z) without overflow.
 double SoftPlus(double z) { return std::max(z, 0.0) + std::log1p(std::exp(-std::fabs(z))); }
 
+// log L = sum k eta - n ln(1 + e^eta), without the binomial coefficients, eta the logit.
 double LogLikelihood(std::span<const Dose> doses, const LogitLine& line) {
   double sum = 0.0;
   for (const Dose& dose : doses) {
@@ -25,6 +26,7 @@ double LogLikelihood(std::span<const Dose> doses, const LogitLine& line) {
   return sum;
 }
 
+// Newton's step: information I times step = gradient. For both parameters a 2 x 2 system.
 LogitLine StepOf(const LikelihoodSlopes& s, FreeParameters free) {
   if (free == FreeParameters::kIntercept) return {s.a / s.aa, 0.0};
   if (free == FreeParameters::kSlope) return {0.0, s.b / s.bb};
@@ -61,6 +63,7 @@ std::vector<Dose> PoolDoses(std::span<const DosePoint> points, FitScale scale) {
 LikelihoodSlopes SlopesAt(std::span<const Dose> doses, const LogitLine& line) {
   LikelihoodSlopes s;
   for (const Dose& dose : doses) {
+    // With p = expit(eta): gradient sum (k - n p)(1, v), information sum n p (1 - p) (1, v)(1, v)'.
     const double v = dose.u - line.centre;
     const double rate = Expit(line.At(dose.u));
     const double excess = dose.count - dose.trials * rate;
@@ -81,6 +84,7 @@ double MaximizeLikelihood(std::span<const Dose> doses, FreeParameters free, Logi
     double share = 1.0;
     double next = -std::numeric_limits<double>::infinity();
     LogitLine tried = line;
+    // log L is concave, so a short enough part of Newton's step never lowers it.
     for (; share > 1e-10; share *= 0.5) {
       tried.a = line.a + share * move.a;
       tried.b = line.b + share * move.b;

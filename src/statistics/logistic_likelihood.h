@@ -19,7 +19,7 @@ double Transform(FitScale scale, double x);
 double Inverse(FitScale scale, double u);
 double Expit(double logit);
 
-// Ascending, equal settings pooled, those without trials left out.
+// Returns the settings ascending, equal ones pooled, those without trials left out.
 std::vector<Dose> PoolDoses(std::span<const DosePoint> points, FitScale scale);
 
 // logit = a + b (u - centre): a and b are nearly independent where the centre is that of the runs.
@@ -36,8 +36,8 @@ LikelihoodSlopes SlopesAt(std::span<const Dose> doses, const LogitLine& line);
 // Which parameters a maximum is sought over; the others stay as they are.
 enum class FreeParameters { kBoth, kIntercept, kSlope };
 
-// Newton's method from `line`, with steps halved that go too far; returns the log-likelihood at its
-// end. Requires that there is a maximum.
+// Climbs by Newton's method from `line`, with steps halved that go too far, and returns the
+// log-likelihood at its end. There must be a maximum.
 double MaximizeLikelihood(std::span<const Dose> doses, FreeParameters free, LogitLine& line);
 
 }  // namespace rockyard::statistics

@@ -46,16 +46,17 @@ struct Metric {
   double relative_margin = 0.0;
 };
 
-// All of them, in the order of reports.
+// Returns all metrics, in the order of reports.
 std::span<const Metric> Metrics();
 const Metric* FindMetric(std::string_view name);  // nullptr where there is none
 
-// Difference below which a metric whose mean is `mean` counts as unchanged. In the metric's unit;
-// always above 0: where neither margin says anything (a mean of 0), any difference matters.
+// Returns the difference below which a metric whose mean is `mean` counts as unchanged, in the
+// metric's unit. It is always above 0: where neither margin says anything (a mean of 0), any
+// difference matters.
 double DefaultMargin(const Metric& metric, double mean);
 
-// One value for each record, in their order; NaN where the trial does not count or has no finite
-// value. nullopt where the schema lacks a column. Cost: linear.
+// Returns one value for each record, in their order; NaN where the trial does not count or has no
+// finite value. It is nullopt where the schema lacks a column. Cost: linear.
 std::optional<std::vector<double>> MetricValues(const Metric& metric,
                                                 const truth::RecordSchema& schema,
                                                 std::span<const truth::Record> records);
@@ -79,8 +80,8 @@ MetricSummary SummarizeMetric(const Metric& metric, std::span<const double> valu
                               double confidence = kConfidence,
                               IntervalMethod method = IntervalMethod::kWilson);
 
-// Every metric whose columns the schema has. `outcome`: over trials that ended so (rates of
-// outcomes are then left out).
+// Summarizes every metric whose columns the schema has. With `outcome`, it is over trials that
+// ended so (rates of outcomes are then left out).
 std::vector<MetricSummary> SummarizeMetrics(const truth::RecordSchema& schema,
                                             std::span<const truth::Record> records,
                                             IntervalMethod method = IntervalMethod::kWilson,

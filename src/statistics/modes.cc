@@ -34,7 +34,7 @@ double InterquartileRange(std::span<const double> sorted) {
 }
 
 // Position of the top of the parabola through three points one step apart, in steps from the
-// middle.
+// middle: (l - r) / (2 (l - 2 m + r)).
 double ParabolaTop(double left, double middle, double right) {
   const double curvature = left - 2.0 * middle + right;
   return curvature < 0.0 ? 0.5 * (left - right) / curvature : 0.0;
@@ -47,6 +47,7 @@ double HalfSampleMode(std::span<const double> sorted) {
   while (sorted.size() > 3) sorted = ShortestHalf(sorted);
   if (sorted.size() == 1) return sorted[0];
   if (sorted.size() == 2) return 0.5 * (sorted[0] + sorted[1]);
+  // Three are left: the middle of the closer two, or the middle one.
   const double low = sorted[1] - sorted[0];
   const double high = sorted[2] - sorted[1];
   if (low == high) return sorted[1];
@@ -59,6 +60,8 @@ double HistogramMode(std::span<const double> sorted) {
   const double range = sorted.back() - low;
   if (!(range > 0.0)) return low;
   const double n = static_cast<double>(sorted.size());
+  // Width of a bin 2 IQR n^(-1/3) (Freedman and Diaconis 1981); without an IQR, log2(n) + 1 bins
+  // (Sturges).
   const double freedman_diaconis = 2.0 * InterquartileRange(sorted) / std::cbrt(n);
   constexpr double kMaxBins = 1e5;  // keeps a sample with one far outlier affordable
   const double bins = freedman_diaconis > 0.0
@@ -79,6 +82,7 @@ double KernelMode(std::span<const double> sorted) {
   const double range = sorted.back() - low;
   if (!(range > 0.0)) return low;
   const double deviation = MomentsOf(sorted).standard_deviation();
+  // 0.9 min(s, IQR/1.34) n^(-1/5): 1.34 is the IQR of a standard normal law.
   const double robust = InterquartileRange(sorted) / 1.34;
   const double spread = robust > 0.0 ? std::min(deviation, robust) : deviation;
   const double bandwidth = 0.9 * spread * std::pow(static_cast<double>(sorted.size()), -0.2);

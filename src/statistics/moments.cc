@@ -21,6 +21,7 @@ void Moments::Add(double value) {
   min_ = count_ == 0 ? value : std::min(min_, value);
   max_ = count_ == 0 ? value : std::max(max_, value);
   ++count_;
+  // Welford 1962: m' = m + (x - m)/n, S' = S + (x - m)(x - m').
   const double before = value - mean_;
   mean_ += before / static_cast<double>(count_);
   sum_of_squares_ += before * (value - mean_);
@@ -35,6 +36,8 @@ void Moments::Merge(const Moments& other) {
     not_finite_ = not_finite;
     return;
   }
+  // Chan, Golub and LeVeque 1983: with the difference d of the means, m' = m + d n_2/(n_1 + n_2)
+  // and S' = S_1 + S_2 + d^2 n_1 n_2/(n_1 + n_2).
   const double here = static_cast<double>(count_);
   const double there = static_cast<double>(other.count_);
   const double difference = other.mean_ - mean_;
@@ -62,6 +65,7 @@ Moments MomentsOf(std::span<const double> values) {
 
 double VarianceGrowthSlope(std::span<const double> distance, std::span<const double> variance) {
   EXPECT(distance.size() == variance.size());
+  // Slope of v = a L by least squares: a = sum(L v) / sum(L^2).
   double product = 0.0;
   double square = 0.0;
   for (std::size_t i = 0; i < distance.size(); ++i) {

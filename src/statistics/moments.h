@@ -6,7 +6,7 @@
 
 namespace rockyard::statistics {
 
-// Count, mean, variance, extremes of a stream of values in one pass (Welford 1962), mergeable
+// Count, mean, variance and extremes of a stream of values in one pass (Welford 1962), mergeable
 // (Chan, Golub and LeVeque 1983). Values that are not finite are counted apart and otherwise left
 // out. Merging in a fixed order gives the same bits whatever the threads did.
 class Moments {
@@ -33,10 +33,10 @@ class Moments {
 
 Moments MomentsOf(std::span<const double> values);
 
-// Least-squares slope through the origin of a variance against distance (Matthies 1995, sec. 5,
-// fig. 5): sum(L v) / sum(L^2), in the variance's unit per unit of distance. The points of one set
-// of runs are correlated, so the plain standard error of a regression does not hold: bootstrap over
-// runs. NaN when no distance differs from zero.
+// Returns the least-squares slope through the origin of a variance against distance (Matthies 1995,
+// sec. 5, fig. 5): sum(L v) / sum(L^2), in the variance's unit per unit of distance. The points of
+// one set of runs are correlated, so the plain standard error of a regression does not hold:
+// bootstrap over runs. It is NaN when no distance differs from zero.
 double VarianceGrowthSlope(std::span<const double> distance, std::span<const double> variance);
 
 }  // namespace rockyard::statistics

@@ -8,12 +8,12 @@
 
 namespace rockyard::statistics {
 
-// Adjusted p-values, in the order given: reject where adjusted <= alpha.
+// Returns adjusted p-values, in the order given: reject where adjusted <= alpha.
 std::vector<double> HolmAdjust(std::span<const double> p_values);
 
-// The level at which each test is rejected by the procedure given the other p-values:
-// alpha / (m - r), r of the others being rejected before it. Power is computed at this level.
-// Cost: sorting them once.
+// Returns the level at which each test is rejected by the procedure given the other p-values: alpha
+// / (m - r), r of the others being rejected before it. Power is computed at this level. Cost:
+// sorting them once.
 std::vector<double> HolmLevels(std::span<const double> p_values, double alpha);
 
 }  // namespace rockyard::statistics

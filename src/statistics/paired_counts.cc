@@ -25,6 +25,8 @@ SignedValues DifferencesOf(const PairedCounts& counts) {
 Interval AgrestiMinInterval(const SignedValues& values, double confidence) {
   EXPECT(confidence > 0.0 && confidence < 1.0);
   if (!(values.n > 0.0)) return {-1.0, 1.0};
+  // Agresti and Min 2005: half a pair more in each of four cells adds 2 to n, 0 to the sum and 1 to
+  // the squares; then the normal interval of the mean.
   const double n = values.n + 2.0;
   const double centre = values.sum / n;
   const double variance = (values.squares + 1.0) / n - centre * centre;

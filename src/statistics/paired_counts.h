@@ -7,6 +7,7 @@
 
 namespace rockyard::statistics {
 
+// Counts of pairs by which side succeeded.
 struct PairedCounts {
   std::int64_t both = 0;
   std::int64_t only_first = 0;
@@ -17,8 +18,8 @@ struct PairedCounts {
   void Add(bool first, bool second);
 };
 
-// Values between -1 and +1, such as differences of paired successes. Real numbers, so that n
-// dependent values may enter as the fewer independent ones that say as much.
+// Sums over values between -1 and +1, such as differences of paired successes. They are real
+// numbers, so that n dependent values may enter as the fewer independent ones that say as much.
 struct SignedValues {
   double n = 0.0;
   double sum = 0.0;
@@ -27,10 +28,10 @@ struct SignedValues {
 
 SignedValues DifferencesOf(const PairedCounts& counts);  // second less first
 
-// Interval of their mean: that of the normal law after half a value of -1, half of +1 and one of 0
-// are added (Agresti and Min 2005, Statistics in Medicine 24, pp. 729-740, section 3: half a pair
-// more in each cell). Near nominal, and no point where all values agree. Values must be
-// independent. [-1, 1] without values.
+// Returns the interval of their mean: that of the normal law after half a value of -1, half of +1
+// and one of 0 are added (Agresti and Min 2005, Statistics in Medicine 24, pp. 729-740, section 3:
+// half a pair more in each cell). It is near nominal, and no point where all values agree. Values
+// must be independent. Without values it is [-1, 1].
 Interval AgrestiMinInterval(const SignedValues& values, double confidence = kConfidence);
 
 }  // namespace rockyard::statistics

@@ -27,8 +27,9 @@ double OuterExcess(std::span<const double> ascending, double sign) {
   return sum;
 }
 
-// Next excess of an exponential law of which `sum` over k excesses is known (prior 1/mean), cut off
-// at `room`, by inverse CDF.
+// Next excess of an exponential law of which `sum` S over k excesses is known (prior 1/mean):
+// P(excess > e) = (1 + e/S)^-k, cut off at `room` e_0, by inverse CDF: with t = 1 - u (1 - P(e_0)),
+// e = S (t^(-1/k) - 1).
 double NextExcess(double u, double sum, double k, double room) {
   if (!(sum > 0.0)) return 0.0;
   const double beyond_room = std::pow(1.0 + room / sum, -k);
@@ -74,6 +75,8 @@ void PredictiveSampler::Draw(core::RandomStream& stream, std::span<double> sampl
   const std::size_t gaps = pool_.size() + 1;
   std::vector<std::size_t> chosen(sample.size());
   for (std::size_t i = 0; i < sample.size(); ++i) {
+    // Polya's urn: gaps start with one ball each, and every value adds one to the gap that it fell
+    // into.
     const std::size_t ball = UniformIndex(stream, gaps + i);
     chosen[i] = ball < gaps ? ball : chosen[ball - gaps];
     sample[i] = InGap(stream, chosen[i]);
@@ -95,6 +98,7 @@ std::vector<double> PredictiveStatistics(const PredictiveSampler& sampler, std::
 }
 
 double PredictivePValue(std::span<const double> ascending, double value, double rounding) {
+  // All values that would round to the published one count on both sides.
   const double lower = ShareAtMost(ascending, value + 0.5 * rounding);
   const double upper = ShareAtLeast(ascending, value - 0.5 * rounding);
   return std::min(1.0, 2.0 * std::min(lower, upper));

@@ -33,7 +33,7 @@ class PredictiveSampler {
   explicit PredictiveSampler(std::span<const double> pool,
                              double lower_limit = -std::numeric_limits<double>::infinity());
 
-  // n new values in ascending order, into `sample`. Cost: n log n.
+  // Draws n new values in ascending order, into `sample`. Cost: n log n.
   void Draw(core::RandomStream& stream, std::span<double> sample) const;
 
   std::span<const double> pool() const { return pool_; }
@@ -56,14 +56,15 @@ std::vector<double> PredictiveStatistics(const PredictiveSampler& sampler, std::
                                          const SampleStatistic& statistic, std::size_t replicates,
                                          core::TrialKey key);
 
-// Two-sided p-value of a published value v that was rounded to a multiple of `rounding`: twice the
-// smaller share of replicates at or beyond it, the published set counted as one more replicate.
-// Values that would round to v count on both sides. `ascending` replicates.
+// Returns the two-sided p-value of a published value v that was rounded to a multiple of
+// `rounding`: twice the smaller share of replicates at or beyond it, the published set counted as
+// one more replicate. Values that would round to v count on both sides. `ascending` are the
+// replicates.
 double PredictivePValue(std::span<const double> ascending, double value, double rounding);
 
-// Chance that a published sample from the pool's law shifted by +shift or by -shift, whichever is
-// harder to see, is rejected at `level` by the test above, for a statistic that moves with its
-// sample.
+// Returns the chance that a published sample from the pool's law shifted by +shift or by -shift,
+// whichever is harder to see, is rejected at `level` by the test above, for a statistic that moves
+// with its sample.
 double ShiftPower(std::span<const double> ascending, double shift, double level);
 
 }  // namespace rockyard::statistics

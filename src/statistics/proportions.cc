@@ -13,6 +13,9 @@
 namespace rockyard::statistics {
 namespace {
 
+// Wilson 1927: the rates p whose score (k/n - p) / sqrt(p (1 - p) / n) is within +-z,
+//   (k/n + z^2/2n +- z sqrt(k/n (1 - k/n)/n + z^2/4n^2)) / (1 + z^2/n).
+// The ends at no and at all successes are exact, whatever rounding does.
 Interval Wilson(double count, double trials, double confidence) {
   const double z = boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * confidence);
   const double rate = count / trials;
@@ -24,6 +27,8 @@ Interval Wilson(double count, double trials, double confidence) {
           count == trials ? 1.0 : std::min(1.0, centre + half)};
 }
 
+// Clopper and Pearson 1934: ends at which a tail of the binomial law is (1 - confidence)/2, as
+// quantiles of beta laws: B(tail; k, n - k + 1) and B(1 - tail; k + 1, n - k).
 Interval ClopperPearson(double count, double trials, double confidence) {
   const double tail = 0.5 * (1.0 - confidence);
   const auto beta_quantile = [](double a, double b, double p) {
@@ -54,11 +59,12 @@ HypergeometricWeights MakeWeights(std::int64_t group_1, std::int64_t group_2,
   const double a = static_cast<double>(group_1);
   const double b = static_cast<double>(group_2);
   const double k = static_cast<double>(successes);
-  // P(x + 1) / P(x)
+  // P(x) ~ C(a, x) C(b, k - x), so P(x + 1) / P(x) = (k - x)(a - x) / ((x + 1)(b - k + x + 1)).
   const auto ratio = [&](std::int64_t at) {
     const double x = static_cast<double>(at);
     return (k - x) * (a - x) / ((x + 1.0) * (b - k + x + 1.0));
   };
+  // The mode of a hypergeometric law, rounded down.
   const auto near_mode = static_cast<std::int64_t>((k + 1.0) * (a + 1.0) / (a + b + 2.0));
   const std::int64_t mode = std::clamp(near_mode, law.lowest, highest);
   for (std::int64_t x = mode; x < highest; ++x) law.At(x + 1) = law.At(x) * ratio(x);
@@ -91,6 +97,8 @@ Interval DifferenceInterval(const Proportion& first, const Proportion& second, d
   const Interval a = ProportionInterval(first.count, first.trials, confidence);
   const Interval b = ProportionInterval(second.count, second.trials, confidence);
   const double difference = second.rate - first.rate;
+  // Newcombe 1998, method 10: d - sqrt((p_2 - l_2)^2 + (u_1 - p_1)^2) .. d + sqrt((u_2 - p_2)^2 +
+  // (p_1 - l_1)^2) with the Wilson ends l, u.
   return {difference - std::hypot(second.rate - b.low, a.high - first.rate),
           difference + std::hypot(b.high - second.rate, first.rate - a.low)};
 }
@@ -108,6 +116,7 @@ double FisherExactPValue(const ContingencyTable& table, Alternative alternative)
   double extreme = 0.0;
   for (std::int64_t x = law.lowest; x <= law.highest(); ++x) {
     const double weight = law.At(x);
+    // Two-sided: all tables no more probable than the observed one, with room for rounding.
     const bool as_extreme = alternative == Alternative::kLess      ? x <= table.success_1
                             : alternative == Alternative::kGreater ? x >= table.success_1
                                                                    : weight <= limit;
@@ -121,6 +130,7 @@ double McNemarExactPValue(std::int64_t only_first, std::int64_t only_second) {
   EXPECT(only_first >= 0 && only_second >= 0);
   const std::int64_t discordant = only_first + only_second;
   if (discordant == 0) return 1.0;
+  // Under the null a discordant pair is a fair coin: p = 2 P(Binomial(d, 1/2) <= min), at most 1.
   const boost::math::binomial law(static_cast<double>(discordant), 0.5);
   return std::min(
       1.0, 2.0 * boost::math::cdf(law, static_cast<double>(std::min(only_first, only_second))));

@@ -5,9 +5,10 @@
 
 namespace rockyard::statistics {
 
-// Of every interval, unless a caller asks for another.
+// The confidence of every interval, unless a caller asks for another.
 inline constexpr double kConfidence = 0.95;
 
+// Two ends of an interval, low <= high.
 struct Interval {
   double low = 0.0;
   double high = 0.0;
@@ -26,9 +27,9 @@ struct Proportion {
   Interval interval;
 };
 
-// Two-sided interval of a binomial proportion. 0 <= count <= trials, 0 < confidence < 1.
-// For no success (or no failure) Clopper-Pearson's upper (lower) end is the exact form of the
-// "rule of three". Cost: constant.
+// Returns the two-sided interval of a binomial proportion, with 0 <= count <= trials and 0 <
+// confidence < 1. For no success (or no failure) Clopper-Pearson's upper (lower) end is the exact
+// form of the "rule of three". Cost: constant.
 Interval ProportionInterval(std::int64_t count, std::int64_t trials,
                             double confidence = kConfidence,
                             IntervalMethod method = IntervalMethod::kWilson);
@@ -36,9 +37,10 @@ Interval ProportionInterval(std::int64_t count, std::int64_t trials,
 Proportion MakeProportion(std::int64_t count, std::int64_t trials, double confidence = kConfidence,
                           IntervalMethod method = IntervalMethod::kWilson);
 
-// Interval of the difference second less first of two independent rates: the distances of the
-// Wilson ends from the rates, added in squares (Newcombe 1998, Statistics in Medicine 17, pp.
-// 873-890, method 10). Near nominal on average; [-1, 1] where either has no trials. Cost: constant.
+// Returns the interval of the difference second less first of two independent rates: the distances
+// of the Wilson ends from the rates, added in squares (Newcombe 1998, Statistics in Medicine 17,
+// pp. 873-890, method 10). It is near nominal on average; [-1, 1] where either has no trials. Cost:
+// constant.
 Interval DifferenceInterval(const Proportion& first, const Proportion& second,
                             double confidence = kConfidence);
 
@@ -52,15 +54,16 @@ struct ContingencyTable {
   std::int64_t failure_2 = 0;
 };
 
-// Fisher's exact test given all margins. kGreater: group 1 succeeds more often than group 2.
-// Two-sided: total probability of the tables that are no more probable than the one observed
-// (relative tolerance 1e-7). An empty table gives 1. Cost: linear in the smallest margin.
+// Returns the p-value of Fisher's exact test given all margins. kGreater: group 1 succeeds more
+// often than group 2. Two-sided it is the total probability of the tables that are no more probable
+// than the one observed (relative tolerance 1e-7). An empty table gives 1. Cost: linear in the
+// smallest margin.
 double FisherExactPValue(const ContingencyTable& table,
                          Alternative alternative = Alternative::kTwoSided);
 
-// McNemar's exact test of paired runs (same seeds under two settings): the pairs in which only the
-// first, or only the second, succeeded; under the null each is a fair coin. Two-sided: twice the
-// smaller tail, at most 1.
+// Returns the p-value of McNemar's exact test of paired runs (same seeds under two settings): the
+// arguments are the pairs in which only the first, or only the second, succeeded; under the null
+// each is a fair coin. Two-sided it is twice the smaller tail, at most 1.
 double McNemarExactPValue(std::int64_t only_first, std::int64_t only_second);
 
 }  // namespace rockyard::statistics

@@ -25,12 +25,12 @@
 
 namespace rockyard::statistics {
 
-// The alternatives that power is computed against, fixed before any run.
-// Counts: a rate 0.20 lower for success; 0.20 nearer to one half for any other count; for kinds of
-// failure, a share of the commonest simulated kind 0.20 lower, spread evenly over the other kinds.
+// These are the alternatives that power is computed against, fixed before any run. For counts: a
+// rate 0.20 lower for success; 0.20 nearer to one half for any other count; for kinds of failure, a
+// share of the commonest simulated kind 0.20 lower, spread evenly over the other kinds.
 inline constexpr double kAlternativeRateShift = 0.20;
-// Minimum, maximum, mode: the published runs shifted by half a standard deviation of the simulated
-// trials, in the direction that is harder to see.
+// For minimum, maximum and mode: the published runs shifted by half a standard deviation of the
+// simulated trials, in the direction that is harder to see.
 inline constexpr double kAlternativeShiftDeviations = 0.5;
 // Below this power a value that is not rejected counts as untested.
 inline constexpr double kRequiredPower = 0.8;
@@ -45,8 +45,8 @@ struct ScenarioRun {
   // Distance to the goal at which the rover declares arrival; NaN: taken from the trials as the
   // largest true final distance of a declared success.
   double goal_tolerance_m = std::numeric_limits<double>::quiet_NaN();
-  // In which the run differs from the scenario that the reference is about, one each, for people.
-  // Not empty: what is compared is not the published case.
+  // The settings in which the run differs from the scenario that the reference is about, one each,
+  // for people. Where this is not empty, what is compared is not the published case.
   std::vector<std::string> other_settings = {};
 };
 
@@ -93,8 +93,9 @@ struct ComparedValue {
   double pool_value =
       std::numeric_limits<double>::quiet_NaN();              // over the whole pool; rate for counts
   double median = std::numeric_limits<double>::quiet_NaN();  // predictive, for the published size
-  // Predictive, 95 %, for the published size. For a number with a tolerance: confidence interval of
-  // the simulated value, all of a reference together 95 %; the ends are equal where it is computed.
+  // The predictive 95 % interval, for the published size. For a number with a tolerance it is the
+  // confidence interval of the simulated value, all of a reference together 95 %; the ends are
+  // equal where it is computed.
   Interval interval{std::numeric_limits<double>::quiet_NaN(),
                     std::numeric_limits<double>::quiet_NaN()};
   double p_value = std::numeric_limits<double>::quiet_NaN();
@@ -120,7 +121,7 @@ struct ComparisonResult {
   // Verdicts on these are as computed, and hold other settings against the published numbers.
   std::vector<OtherSettings> changed = {};
 
-  // Those of a scenario; null where it is the published case.
+  // Returns those of a scenario; null where it is the published case.
   const OtherSettings* FindChanged(std::string_view scenario) const;
 };
 
@@ -130,8 +131,8 @@ struct ComparisonResult {
 ComparisonResult Compare(const PublishedReference& reference, std::span<const ScenarioRun> runs,
                          const ComparisonOptions& options = {});
 
-// 0: all judged rows agree; 1: something differs; 4: nothing differs, but something is
-// underpowered or nothing could be judged.
+// Returns 0 where all judged rows agree, 1 where something differs, and 4 where nothing differs,
+// but something is underpowered or nothing could be judged.
 int ExitCode(const ComparisonResult& result);
 
 }  // namespace rockyard::statistics

@@ -22,6 +22,8 @@ std::vector<double> SortedFinite(std::span<const double> values) {
 double Quantile(std::span<const double> sorted, double probability) {
   EXPECT(probability >= 0.0 && probability <= 1.0);
   if (sorted.empty()) return std::numeric_limits<double>::quiet_NaN();
+  // Type 7 (Hyndman and Fan 1996): position p (n - 1), counted from 0, linear between order
+  // statistics.
   const double position = probability * static_cast<double>(sorted.size() - 1);
   const std::size_t below = static_cast<std::size_t>(position);
   const std::size_t above = std::min(below + 1, sorted.size() - 1);
@@ -47,9 +49,11 @@ std::vector<EcdfPoint> Ecdf(std::span<const double> values, double confidence, B
   EXPECT(confidence > 0.0 && confidence < 1.0);
   const std::vector<double> sorted = SortedFinite(values);
   const double n = static_cast<double>(sorted.size());
+  // Massart 1990: P(sup |F_n - F| > e) <= 2 e^(-2 n e^2), solved for e.
   const double half = std::sqrt(std::log(2.0 / (1.0 - confidence)) / (2.0 * n));
   std::vector<EcdfPoint> points;
   for (std::size_t i = 0; i < sorted.size(); ++i) {
+    // One step for equal values, at the last of them.
     if (i + 1 < sorted.size() && sorted[i + 1] == sorted[i]) continue;
     const double fraction = static_cast<double>(i + 1) / n;
     const Interval band =

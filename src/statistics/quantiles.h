@@ -8,18 +8,20 @@
 
 namespace rockyard::statistics {
 
-// The finite values in ascending order (NaN and infinities are left out).
+// Returns the finite values in ascending order (NaN and infinities are left out).
 std::vector<double> SortedFinite(std::span<const double> values);
 
-// Quantile of type 7 (Hyndman and Fan 1996): linear between order statistics, the default of R and
-// NumPy. `sorted` ascending; 0 <= probability <= 1. NaN when empty.
+// Returns the quantile of type 7 (Hyndman and Fan 1996): linear between order statistics, the
+// default of R and NumPy. `sorted` is ascending, 0 <= probability <= 1. It is NaN when empty.
 double Quantile(std::span<const double> sorted, double probability);
 
-// Interval of the median from two order statistics, whose ranks the binomial law of the values
-// below it gives (Thompson 1936): covers with at least this confidence whatever the continuous law.
-// `sorted` ascending; NaN where so few values cannot give the confidence (below 6 at 95 %).
+// Returns the interval of the median from two order statistics, whose ranks the binomial law of the
+// values below it gives (Thompson 1936): it covers with at least this confidence whatever the
+// continuous law. `sorted` is ascending; the ends are NaN where so few values cannot give the
+// confidence (below 6 at 95 %).
 Interval MedianInterval(std::span<const double> sorted, double confidence = kConfidence);
 
+// How much of the curve a band covers at once.
 enum class BandMethod {
   kSimultaneous,  // Dvoretzky-Kiefer-Wolfowitz with Massart's constant (1990): the whole curve
   kPointwise,     // Clopper-Pearson at each point on its own
@@ -33,7 +35,7 @@ struct EcdfPoint {
   Interval band;
 };
 
-// Empirical distribution function of the finite values, one point per distinct value.
+// Returns the empirical distribution function of the finite values, one point per distinct value.
 std::vector<EcdfPoint> Ecdf(std::span<const double> values, double confidence = kConfidence,
                             BandMethod method = BandMethod::kSimultaneous);
 

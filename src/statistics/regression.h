@@ -39,12 +39,13 @@ inline constexpr std::int64_t kLeastDiffering = 30;
 
 struct RegressionCell {
   std::string name;
-  // The same rocks, noise and index: trial i of both may be compared with itself.
+  // Whether both have the same rocks, noise and index: trial i of both may be compared with itself.
   bool paired = false;
-  // Its records are the baseline's to the last bit: metrics with equal values are equivalent.
+  // Whether its records are the baseline's to the last bit: metrics with equal values are
+  // equivalent.
   bool identical = false;
   std::span<const BaselineMetric> baseline;
-  // Of the run, in the order of `baseline`; empty where the run has no such metric.
+  // The values of the run, in the order of `baseline`; empty where the run has no such metric.
   std::vector<std::vector<double>> run;
 };
 
@@ -93,16 +94,18 @@ struct RegressionResult {
   std::int64_t Count(RegressionVerdict verdict) const;
 };
 
-// A metric of the baseline that the run has no value of is inconclusive. Cost: linear in trials
-// times metrics; and the power of Fisher's test for each number of trials and level, 0.1 s for
-// 2000.
+// Tests every metric of every cell. A metric of the baseline that the run has no value of is
+// inconclusive. Cost: linear in trials times metrics; and the power of Fisher's test for each
+// number of trials and level, 0.1 s for 2000.
 RegressionResult CheckRegression(std::span<const RegressionCell> cells,
                                  const RegressionOptions& options = {});
 
-// 1: something changed; else 4: something is inconclusive, or there is nothing; else 0.
+// Returns 1 where something changed, else 4 where something is inconclusive or there is nothing,
+// else 0.
 int ExitCode(const RegressionResult& result);
 
-// Values enter a baseline, and the comparison with it, with five significant digits.
+// Returns the value with five significant digits, as it enters a baseline and the comparison with
+// it.
 double RoundForBaseline(double value);
 
 }  // namespace rockyard::statistics

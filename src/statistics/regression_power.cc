@@ -35,6 +35,7 @@ double Background(const RegressionSamples& samples) {
 
 double SeenPairShift(const RegressionSamples& samples, double level, double power) {
   const double background = Background(samples);
+  // The shift comes on top of the discordance that was seen, half of it either way.
   return SmallestShift(1.0 - 2.0 * background, power, [&](double shift) {
     return McNemarPower(samples.count(), {background, background + shift}, level);
   });
@@ -50,6 +51,7 @@ RatePair Moved(const RegressionSamples& samples, double shift) {
 double SeenMeanShift(const MeanDifference& means, double level, double power) {
   if (!means.known()) return kNaN;
   const boost::math::students_t law(means.degrees_of_freedom);
+  // A true difference of (t_(1 - level/2) + t_power) standard errors is rejected with that power.
   return (boost::math::quantile(law, 1.0 - 0.5 * level) + boost::math::quantile(law, power)) *
          means.standard_error;
 }
@@ -66,11 +68,13 @@ std::int64_t TrialsForMean(const RegressionSamples& samples, const RegressionRow
                            double equivalence_alpha) {
   const double ratio = SeenMeanShift(MeansOf(samples, row.paired), row.level, kPower) / row.margin;
   if (!std::isfinite(ratio)) return 0;
+  // The standard error falls with the root of n: n (seen / margin)^2 trials see the margin.
   double needed = static_cast<double>(samples.count()) * ratio * ratio;
   const Spread spread = SpreadOf(samples);
   if (!row.paired) {
     needed = std::max(needed, static_cast<double>(kLeastValues));
   } else if (spread.differing < kLeastDiffering && row.margin < spread.range) {
+    // No differing pair among n: (1 - margin/range)^n <= alpha.
     needed = std::max(needed, std::log(equivalence_alpha) / std::log1p(-row.margin / spread.range));
   }
   return std::llround(std::min(std::ceil(needed), static_cast<double>(kMostTrials)));

@@ -39,6 +39,7 @@ double MeanEquivalence(const RegressionSamples& samples, const MeanDifference& m
   }
   const double p_value = EquivalencePValue(means, row.margin);
   if (means.standard_error > 0.0) return p_value;
+  // Nothing scatters: agreement by accident is what is left to rule out.
   return std::max(p_value, SparseEquivalencePValue(samples.count(), 0, row.margin, 0.0));
 }
 

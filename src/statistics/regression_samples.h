@@ -11,8 +11,8 @@
 
 namespace rockyard::statistics {
 
-// As many values on both sides. Where trials are paired, value i of one belongs to value i of the
-// other.
+// The values that are compared, as many on both sides. Where trials are paired, value i of one
+// belongs to value i of the other.
 struct RegressionSamples {
   std::vector<double> baseline;
   std::vector<double> run;
@@ -21,8 +21,8 @@ struct RegressionSamples {
   std::int64_t count() const { return static_cast<std::int64_t>(run.size()); }
 };
 
-// Of the trials that both sides have, those with a value: on both sides where paired; else the
-// first of each side, as many as the other has.
+// Returns, of the trials that both sides have, those with a value: on both sides where paired; else
+// the first of each side, as many as the other has.
 RegressionSamples TakeSamples(bool paired, std::span<const double> baseline,
                               std::span<const double> run);
 
@@ -30,7 +30,7 @@ MeanDifference MeansOf(const RegressionSamples& samples, bool paired);
 PairedCounts CountPairs(const RegressionSamples& samples);
 ContingencyTable CountGroups(const RegressionSamples& samples);
 
-// Pairs whose values differ, and how far apart any values of both sides are.
+// How many pairs have values that differ, and how far apart any values of both sides are.
 struct Spread {
   std::int64_t differing = 0;
   double range = 0.0;

@@ -144,6 +144,7 @@ double FisherTest::Power(const RatePair& rates) {
     const std::int64_t from = std::max(first.first, all - second.last);
     const std::int64_t to = std::min(first.last, all - second.first);
     for (std::int64_t k = from; k <= to; ++k) {
+      // The test is symmetric in groups of one size: either group's count may be the small one.
       if (k > critical && all - k > critical) continue;
       power += first_law[static_cast<std::size_t>(k - first.first)] *
                second_law[static_cast<std::size_t>(all - k - second.first)];
@@ -160,6 +161,9 @@ std::int64_t TrialsForFisherFormula(const RatePair& rates, double alpha, double 
   const double difference = std::abs(rates.second - rates.first);
   EXPECT(difference > 0.0);
   const double mean = 0.5 * (rates.first + rates.second);
+  // Casagrande, Pike and Smith 1978: with A = (z_a sqrt(2 p (1 - p)) + z_b sqrt(p_1 q_1 + p_2
+  // q_2))^2,
+  //   n = A (1 + sqrt(1 + 4 d/A))^2 / (4 d^2).
   const double root = NormalQuantile(1.0 - 0.5 * alpha) * std::sqrt(2.0 * mean * (1.0 - mean)) +
                       NormalQuantile(power) * std::sqrt(rates.first * (1.0 - rates.first) +
                                                         rates.second * (1.0 - rates.second));
@@ -186,6 +190,7 @@ double McNemarPower(std::int64_t n, const RatePair& discordant, double alpha) {
       ++critical;
     }
     if (critical < 0) continue;
+    // Given d discordant pairs, the first kind is Binomial(d, share); both tails reject.
     const double share = discordant.first / rate;
     power +=
         Probability(n, rate, d) * (AtMost(d, share, critical) + AtMost(d, 1.0 - share, critical));
@@ -204,6 +209,7 @@ double EquivalencePower(double margin, double standard_error, double degrees_of_
   EXPECT(margin > 0.0 && degrees_of_freedom > 0.0);
   if (standard_error == 0.0) return 1.0;
   const boost::math::students_t law(degrees_of_freedom);
+  // At a true difference of 0 both tests reject where |T| < margin/error - t_(1 - alpha).
   const double reach = margin / standard_error - boost::math::quantile(law, 1.0 - alpha);
   return std::max(0.0, 2.0 * boost::math::cdf(law, reach) - 1.0);
 }
@@ -214,6 +220,7 @@ std::int64_t TrialsForEquivalence(double margin, double deviation, double alpha,
   return FirstEnough(2, [&](std::int64_t trials) {
     const auto n = static_cast<double>(trials);
     const bool paired = pairing == Pairing::kPaired;
+    // Standard error of a mean of n differences, or of the difference of two means of n.
     const double error = deviation * std::sqrt((paired ? 1.0 : 2.0) / n);
     return EquivalencePower(margin, error, paired ? n - 1.0 : 2.0 * n - 2.0, alpha) >= power;
   });

@@ -15,6 +15,7 @@ Rectangle Lane(const ArenaParams& arena, double half_width_m) {
 }
 
 Rock Image(const Rock& rock, double mirror_line_m, int strip) {
+  // y_n = (-1)^n y + 2 n h; a reflection turns the yaw's sign, a shift keeps it.
   const double sign = strip % 2 == 0 ? 1.0 : -1.0;
   Rock image = rock;
   image.center_W.y() = sign * rock.center_W.y() + 2.0 * strip * mirror_line_m;
@@ -31,6 +32,7 @@ Rectangle DrivableBounds(const ArenaParams& arena) {
     case ArenaKind::kOpen:
       return Expanded(ArenaBounds(arena), arena.open_margin_m);
     case ArenaKind::kVirtualUnfolded: {
+      // The strip itself and as many on both sides.
       const double strips = 1.0 + 2.0 * static_cast<double>(arena.unfolded_strips);
       return Lane(arena, strips * arena.MirrorLine());
     }

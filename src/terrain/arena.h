@@ -9,6 +9,7 @@
 
 namespace rockyard::terrain {
 
+// A rectangle along the axes of W, m.
 struct Rectangle {
   double x_min_m = 0.0;
   double x_max_m = 0.0;
@@ -21,22 +22,22 @@ struct Rectangle {
   }
 };
 
-// The arena itself.
+// Returns the arena itself.
 Rectangle ArenaBounds(const ArenaParams& arena);
-// Where rocks exist, mirror images included: a rover that leaves it has left the arena.
+// Returns where rocks exist, mirror images included: a rover that leaves it has left the arena.
 Rectangle DrivableBounds(const ArenaParams& arena);
-// The count area of uniform_count.
+// Returns the count area of uniform_count.
 Rectangle CountArea(const RockFieldParams& rocks);
-// Where the layout is random; mirror images come on top. Its area is params.LayoutArea().
+// Returns where the layout is random; mirror images come on top. Its area is params.LayoutArea().
 Rectangle LayoutBounds(const TerrainParams& params);
 
-// Four vertical walls where the arena is walled, otherwise none.
+// Returns four vertical walls where the arena is walled, otherwise none.
 std::vector<Wall> ArenaWalls(const ArenaParams& arena);
 
-// The images of a rock of the central strip in the virtual arenas, the rock itself not included;
-// empty for other arenas. Strip n is centred on y = 2 n h for mirror lines at y = +-h and holds the
-// strip itself, reflected where n is odd: y_n = (-1)^n y + 2 n h. virtual_reflected keeps the
-// images whose centres lie in the arena.
+// Returns the images of a rock of the central strip in the virtual arenas, the rock itself not
+// included; none for other arenas. Strip n is centred on y = 2 n h for mirror lines at y = +-h and
+// holds the strip itself, reflected where n is odd: y_n = (-1)^n y + 2 n h. virtual_reflected keeps
+// the images whose centres lie in the arena.
 std::vector<Rock> MirrorImages(const ArenaParams& arena, const Rock& rock);
 
 }  // namespace rockyard::terrain

@@ -30,8 +30,8 @@ struct ArenaParams {
   }
   // The mirror lines of the virtual arenas are y = +-this.
   double MirrorLine() const { return 0.5 * width_m - mirror_margin_m; }
-  // True where a course may start or end: in the arena and, where virtual, between the mirror
-  // lines.
+  // Returns whether a course may start or end there: in the arena and, where virtual, between the
+  // mirror lines.
   bool HoldsCoursePoint(double x_m, double y_m) const {
     const double half_width_m = IsVirtual() ? MirrorLine() : 0.5 * width_m;
     return x_m >= x_min_m && x_m <= x_min_m + length_m && y_m >= -half_width_m &&

@@ -14,6 +14,7 @@
 namespace rockyard::terrain {
 namespace {
 
+// Composite Simpson rule: h/3 (f_0 + 4 f_1 + 2 f_2 + ... + 4 f_63 + f_64).
 double Simpson(double low, double high, const std::function<double(double)>& f) {
   constexpr int kIntervals = 64;
   const double step = (high - low) / kIntervals;
@@ -22,13 +23,16 @@ double Simpson(double low, double high, const std::function<double(double)>& f) 
   return sum * step / 3.0;
 }
 
-// Mean over all directions of the extent of an ellipse with axes 1 and q.
+// Mean over all directions of the extent of an ellipse with axes 1 and q, in units of its longer
+// axis: its width at an angle t is sqrt(cos^2 t + q^2 sin^2 t), and by Cauchy the mean width is
+// perimeter / pi.
 double MeanExtent(double q) {
   return 2.0 / std::numbers::pi * Simpson(0.0, 0.5 * std::numbers::pi, [q](double angle) {
            return std::hypot(std::cos(angle), q * std::sin(angle));
          });
 }
 
+// Its mean over ratios that are uniform between the field's bounds.
 double MeanExtent(const RockFieldParams& rocks) {
   const double low = rocks.min_width_ratio;
   const double high = rocks.max_width_ratio;
@@ -36,7 +40,8 @@ double MeanExtent(const RockFieldParams& rocks) {
   return Simpson(low, high, [](double q) { return MeanExtent(q); }) / (high - low);
 }
 
-// Integral of D^power over the share of the law at or above low_m.
+// Integral of D^power over the share of the law at or above low_m: (1 - Cdf(low)) times the mean of
+// the law cut there.
 double UpperMoment(const RockFieldParams& rocks, double power, double low_m) {
   RockFieldParams upper = rocks;
   double kept = 1.0;
@@ -59,6 +64,7 @@ double UpperMoment(const RockFieldParams& rocks, double power, double low_m) {
 double BlindContactsPerM(const RockFieldParams& rocks, const BlindSwath& swath) {
   const double per_m2 = rocks.RocksPerM2();
   if (per_m2 <= 0.0) return 0.0;
+  // 1 / lambda = n (W P(D >= D_min) + g E[D; D >= D_min]).
   return per_m2 * (swath.width_m * UpperMoment(rocks, 0.0, swath.min_diameter_m) +
                    MeanExtent(rocks) * UpperMoment(rocks, 1.0, swath.min_diameter_m));
 }

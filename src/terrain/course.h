@@ -3,7 +3,7 @@
 
 namespace rockyard::terrain {
 
-// In world coordinates.
+// The points are in W, m.
 struct Course {
   double start_x_m = 0.0;
   double start_y_m = 0.0;

@@ -23,9 +23,10 @@ void RequireCourseInArena(const ArenaParams& arena, const Course& course) {
                         "lines where it is virtual)");
 }
 
-// Mean share of a law's rocks that clear zones of radius r around start and goal remove from an
-// area A: a rock of diameter D is removed from within r + D/2, so the weight of D^power averages to
-// E[D^power] - 2 pi (r^2 E[D^power] + r E[D^(power+1)] + E[D^(power+2)] / 4) / A.
+// Mean of D^power over a law's rocks when those that two clear zones of radius r around start and
+// goal remove from an area A count zero: a rock of diameter D is removed from within r + D/2, that
+// is with the chance 2 pi (r + D/2)^2 / A, so the mean is
+//   E[D^power] - 2 pi (r^2 E[D^power] + r E[D^(power+1)] + E[D^(power+2)] / 4) / A.
 double MeanPowerOutsideClearZones(const RockSizeLaw& law, double power, double radius_m,
                                   double area_m2) {
   const double removed = radius_m * radius_m * law.MeanPower(power) +
@@ -45,6 +46,7 @@ void AddExpectations(const TerrainParams& params, FieldAudit& audit) {
     mean_square_m2 = MeanPowerOutsideClearZones(*law, 2.0, r, audit.layout_area_m2);
   }
   audit.expected_placed = audit.expected_drawn * placed_share;
+  // Cover per area: pi/4 E[D^2] times the number of rocks.
   audit.expected_cover =
       0.25 * std::numbers::pi * audit.expected_drawn * mean_square_m2 / audit.layout_area_m2;
 }
@@ -60,6 +62,7 @@ FieldAudit AuditLayout(const TerrainParams& params, const RockLayout& layout) {
   audit.placed = static_cast<int>(layout.rocks.size());
   for (const Rock& rock : layout.rocks) {
     const double a_m = rock.semi_axes_m.x();
+    // Discs of the drawn diameter 2 a, and the ellipses a b that they stand for.
     audit.disc_cover += std::numbers::pi * a_m * a_m / audit.layout_area_m2;
     audit.outline_cover += std::numbers::pi * a_m * rock.semi_axes_m.y() / audit.layout_area_m2;
     if (rock.height_m >= kDetectableHeight_m) audit.detectable_per_m2 += 1.0;

@@ -42,6 +42,7 @@ struct FieldAudit {
   double belly_high_per_m2 = 0.0;  // at least kBellyHeight_m above the ground
 };
 
+// A terrain with its audit.
 struct Field {
   Terrain terrain;
   FieldAudit audit;

@@ -19,6 +19,7 @@ constexpr int kOctagon = 8;
 
 // A point of the ellipsoid from its unit sphere.
 math::Vector3 OnRock(const Rock& rock, const math::Vector3& unit) {
+  // p_W = centre + Rz(yaw) diag(a, b, c) u.
   const math::Vector3 p = unit.cwiseProduct(rock.semi_axes_m);
   const double c = std::cos(rock.yaw_rad);
   const double s = std::sin(rock.yaw_rad);

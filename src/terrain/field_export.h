@@ -10,14 +10,15 @@
 
 namespace rockyard::terrain {
 
-// One line per rock: index, mirror image or not, centre, semi-axes, yaw, diameter, height.
+// Returns one line per rock: index, mirror image or not, centre, semi-axes, yaw, diameter, height.
 std::string ToCsv(const Field& field);
 
-// Ground, rocks, arena, course and audit as one JSON object.
+// Returns rocks, arena, course and audit as one JSON object. The ground is not part of it.
 std::string ToJson(const Field& field, const TerrainParams& params, const Course& course);
 
-// Wavefront OBJ: one group for the ground (a 0.1 m grid where rough, else one quadrilateral) over
-// the drivable bounds, and one group per rock, tessellated whole, buried part included.
+// Returns a Wavefront OBJ file with one group for the ground (a 0.1 m grid where rough, else one
+// quadrilateral) over the drivable bounds, and one group per rock, tessellated whole, buried part
+// included.
 std::string ToObj(const Field& field, const TerrainParams& params);
 
 // SVG elements to draw on top of a plan view, in its coordinates (x, minus y), and the area in
@@ -27,9 +28,9 @@ struct SvgOverlay {
   Rectangle area;
 };
 
-// Plan view, x to the right and y up, 1 unit = 1 m: rocks as octagons of their outlines (like
-// Matthies 1995 fig. 16), darker the higher; start and goal as crosses; arena and mirror lines. The
-// view shows the drivable bounds and what the overlay asks for.
+// Returns a plan view, x to the right and y up, 1 unit = 1 m: rocks as octagons of their outlines
+// (like Matthies 1995 fig. 16), darker the higher; start and goal as crosses; arena and mirror
+// lines. The view shows the drivable bounds and what the overlay asks for.
 std::string ToSvg(const Field& field, const TerrainParams& params, const Course& course,
                   const SvgOverlay& overlay = {});
 

@@ -22,6 +22,7 @@ double FindCrossing(const Gap& gap, double above, double gap_above, double below
                     double gap_below) {
   int kept_end = 0;  // -1 below, +1 above: the end that the last step left where it was
   for (int i = 0; i < kMostCrossingSteps && below - above > kCrossingWidth_m; ++i) {
+    // The secant's zero between the two ends.
     const double t = below - gap_below * (below - above) / (gap_below - gap_above);
     const double gap_t = gap(t);
     if (std::abs(gap_t) < kCrossingWidth_m) return t;
@@ -47,10 +48,12 @@ struct Approach {
 };
 
 // The ray stays above the ground for the t with gap - rate t - bend t^2 / 2 > 0, where the rate
-// changes by no more than `bend` per metre: Newton's step, nearly, where the gap is small.
+// changes by no more than `bend` per metre. The positive root is
+//   t = (sqrt(rate^2 + 2 bend gap) - rate) / bend:
+// Newton's step, nearly, where the gap is small.
 double SafeStep(const Approach& now, double bend_per_m) {
   const double root = std::sqrt(now.rate * now.rate + 2.0 * bend_per_m * now.gap_m);
-  // Two forms of one root, each without a difference of nearly equal numbers.
+  // Two forms of the root, each without a difference of nearly equal numbers.
   return now.rate > 0.0 ? 2.0 * now.gap_m / (now.rate + root) : (root - now.rate) / bend_per_m;
 }
 
@@ -60,6 +63,7 @@ Ground::Ground() = default;
 
 Ground::Ground(const GroundParams& params, core::TrialKey key)
     : soil_(params.soil),
+      // z = tan(slope) (x cos(direction) + y sin(direction)).
       slope_x_(std::tan(params.slope_rad) * std::cos(params.slope_direction_rad)),
       slope_y_(std::tan(params.slope_rad) * std::sin(params.slope_direction_rad)) {
   if (params.roughness_rms_m > 0.0) {
@@ -73,6 +77,7 @@ double Ground::RoughnessHeight(double x_m, double y_m) const {
 }
 
 math::Vector3 Ground::Normal(double x_m, double y_m) const {
+  // The surface z = h(x, y) has the normal (-dh/dx, -dh/dy, 1), up to its length.
   math::Vector3 normal(-slope_x_, -slope_y_, 1.0);
   if (roughness_) {
     const RoughnessSample sample = roughness_->Sample(x_m, y_m);
@@ -86,6 +91,7 @@ std::optional<double> Ground::MarchRay(const math::Vector3& origin_W,
                                        const math::Vector3& direction_W,
                                        double max_distance_m) const {
   const double horizontal = std::hypot(direction_W.x(), direction_W.y());
+  // gap(t) = z(t) - h(t) = plane_gap - t plane_rate - roughness; `rate` is minus its derivative.
   const double plane_gap = origin_W.z() - slope_x_ * origin_W.x() - slope_y_ * origin_W.y();
   const double plane_rate =
       slope_x_ * direction_W.x() + slope_y_ * direction_W.y() - direction_W.z();
@@ -101,10 +107,13 @@ std::optional<double> Ground::MarchRay(const math::Vector3& origin_W,
   double above = free_gap > 0.0 ? free_gap / plane_rate : 0.0;
   Approach now = at(above);
   if (now.gap_m <= 0.0) return above;
+  // Nowhere does the gap close faster than this per metre of ray, nor its rate change by more than
+  // bend_per_m per metre: the second derivative along the ray counts the horizontal part twice.
   const double most_rate = plane_rate + roughness_->MaxSlope() * horizontal;
   const double bend_per_m = roughness_->MaxCurvature() * horizontal * horizontal;
   if (now.gap_m > most_rate * (max_distance_m - above)) return std::nullopt;
   while (above < max_distance_m) {
+    // The longer of two steps that are both safe, and never less than a millimetre.
     const double step =
         std::max(SafeStep(now, bend_per_m), std::max(now.gap_m / most_rate, kSmallestStep_m));
     const double next = std::min(above + step, max_distance_m);

@@ -12,30 +12,30 @@ namespace rockyard::terrain {
 
 class RoughnessField;  // smooth height field, see roughness_field.h
 
-// Immutable; queries are const and thread-safe; copies share the roughness.
+// The ground is immutable; queries are const and thread-safe; copies share the roughness.
 class Ground {
  public:
   Ground();  // flat, z = 0
-  // The plane through the origin that rises by tan(slope) along the slope direction, plus roughness
-  // where its RMS is positive. Draws from Purpose::kGroundRoughness only then.
+  // Makes the plane through the origin that rises by tan(slope) along the slope direction, plus
+  // roughness where its RMS is positive. Draws from Purpose::kGroundRoughness only then.
   Ground(const GroundParams& params, core::TrialKey key);
 
-  // Height above the world's z = 0 plane, m.
+  // Returns the height above the world's z = 0 plane, m.
   double Height(double x_m, double y_m) const {
     const double plane_m = slope_x_ * x_m + slope_y_ * y_m;
     return roughness_ ? plane_m + RoughnessHeight(x_m, y_m) : plane_m;
   }
-  // Unit normal, pointing up.
+  // Returns the unit normal in W, pointing up.
   math::Vector3 Normal(double x_m, double y_m) const;
-  // True when the ground is one plane, so that contacts and rays have closed forms.
+  // Returns whether the ground is one plane, so that contacts and rays have closed forms.
   bool IsPlane() const { return roughness_ == nullptr; }
   const SoilParams& soil() const { return soil_; }
 
-  // Distance along the unit ray to the ground, at most max_distance_m; 0 where the origin lies on
-  // or below it. Closed form on a plane. On rough ground the ray advances by steps that bounds on
-  // the height, the slope and the curvature show to be safe, but never by less than 1 mm, so that a
-  // crest cut over less than 1 mm of ray can be missed; the crossing itself is bracketed to 1e-12
-  // m.
+  // Returns the distance along the unit ray to the ground, at most max_distance_m; 0 where the
+  // origin lies on or below it. It is a closed form on a plane. On rough ground the ray advances by
+  // steps that bounds on the height, the slope and the curvature show to be safe, but never by less
+  // than 1 mm, so that a crest cut over less than 1 mm of ray can be missed; the crossing itself is
+  // bracketed to 1e-12 m.
   std::optional<double> CastRay(const math::Vector3& origin_W, const math::Vector3& direction_W,
                                 double max_distance_m) const {
     if (roughness_) return MarchRay(origin_W, direction_W, max_distance_m);
@@ -52,7 +52,7 @@ class Ground {
   std::optional<double> MarchRay(const math::Vector3& origin_W, const math::Vector3& direction_W,
                                  double max_distance_m) const;
   double RoughnessHeight(double x_m, double y_m) const;
-  // Height of a point above the ground, m.
+  // Returns the height of a point above the ground, m.
   double Gap(const math::Vector3& p_W) const { return p_W.z() - Height(p_W.x(), p_W.y()); }
 
   SoilParams soil_;

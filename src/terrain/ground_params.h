@@ -6,6 +6,7 @@
 
 namespace rockyard::terrain {
 
+// The plane, its roughness and its soil.
 struct GroundParams {
   double slope_rad = 0.0;
   double slope_direction_rad = 0.0;

@@ -7,7 +7,7 @@
 
 namespace rockyard::terrain {
 
-// One entry of each list for every rock. They are round, the same in every trial, and share
+// Each list has one entry for every rock. The rocks are round, the same in every trial, and share
 // burial_mean of the field; overlap, clear zones and shape ratios do not touch them.
 struct ListedRocksParams {
   std::vector<double> x_m;  // centres, in the world frame

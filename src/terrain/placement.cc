@@ -9,6 +9,7 @@ namespace {
 constexpr double kCell_m = 0.5;
 
 bool Overlap(const Disc& a, const Disc& b) {
+  // |c_a - c_b| < r_a + r_b; discs that touch do not overlap.
   const double dx = a.x_m - b.x_m;
   const double dy = a.y_m - b.y_m;
   const double reach = a.radius_m + b.radius_m;
@@ -46,6 +47,8 @@ Placement::Cells Placement::CellsOf(const Disc& disc) const {
 bool Placement::Free(const Disc& disc) const {
   if (mirror_line_m_ && std::abs(disc.y_m) + disc.radius_m > *mirror_line_m_) return false;
   const Cells cells = CellsOf(disc);
+  // Two discs that overlap share a cell of their bounding boxes, so looking into the disc's own
+  // cells is enough.
   for (int iy = cells.first_y; iy <= cells.last_y; ++iy) {
     for (int ix = cells.first_x; ix <= cells.last_x; ++ix) {
       for (const Disc& other : cells_[static_cast<std::size_t>(iy) * nx_ + ix]) {

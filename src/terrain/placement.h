@@ -17,6 +17,7 @@ struct Disc {
   double radius_m = 0.0;
 };
 
+// The discs that are placed so far, and where the next one may go.
 class Placement {
  public:
   // With a mirror line h, discs must keep to |y| <= h. Then none overlaps its own mirror image
@@ -24,9 +25,9 @@ class Placement {
   Placement(const Rectangle& layout, const Course& course, double clear_radius_m,
             std::optional<double> mirror_line_m);
 
-  // True where the disc reaches into no clear zone around start or goal.
+  // Returns whether the disc reaches into no clear zone around start or goal.
   bool ClearOfCourse(const Disc& disc) const;
-  // True where the disc overlaps neither a placed one nor any mirror image.
+  // Returns whether the disc overlaps neither a placed one nor any mirror image.
   bool Free(const Disc& disc) const;
   void Add(const Disc& disc);
 

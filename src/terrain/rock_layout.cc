@@ -35,6 +35,8 @@ std::vector<MarkedRock> DrawMarkedField(const TerrainParams& params, core::Trial
   RandomStream counts(key, Purpose::kRockCount);
   const auto reference_count = static_cast<std::uint32_t>(
       core::SamplePoisson(counts, params.rocks.ReferenceRocksPerM2() * params.LayoutArea()));
+  // Thinning: a Poisson number with mean n A, of which each is kept with probability k / k_ref, is
+  // a Poisson number with mean n A k / k_ref.
   const double kept_share = params.rocks.k_per_m2 / params.rocks.k_reference_per_m2;
   std::vector<MarkedRock> kept;
   for (std::uint32_t i = 0; i < reference_count; ++i) {
@@ -61,6 +63,8 @@ Rock DrawRock(const RockFieldParams& params, const RockSizeLaw& law, core::Trial
                                             params.burial_mean + params.burial_spread);
   // An ellipse looks the same after half a turn.
   rock.yaw_rad = core::SampleUniform(shape, -0.5 * std::numbers::pi, 0.5 * std::numbers::pi);
+  // a = D/2 and b, c in proportion. Of the full height 2 c the buried share lies below the ground,
+  // so the top stands at h = 2 c (1 - buried) and the centre at h - c.
   const double a_m = 0.5 * rock.diameter_m;
   rock.semi_axes_m = {a_m, a_m * width_ratio, a_m * height_ratio};
   rock.height_m = 2.0 * rock.semi_axes_m.z() * (1.0 - buried);
@@ -90,6 +94,8 @@ class LayoutBuilder {
     for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
       const Disc disc = DrawPosition(stream, area, hole, 0.5 * rock.diameter_m);
       if (!placement_.ClearOfCourse(disc)) {
+        // Only where the first draw falls into a clear zone is the rock dropped: a rock that is
+        // moved for overlap was drawn outside, and has to stay in the field.
         if (!drop_in_clear_zones || attempt > 0) continue;
         ++layout_.dropped_in_clear_zones;
         return false;

@@ -10,8 +10,9 @@
 
 namespace rockyard::terrain {
 
+// The rocks of a layout, and what became of those that were drawn.
 struct RockLayout {
-  // Their centres' z is measured from the ground: the ground's own height is not added yet.
+  // The z of their centres is measured from the ground: the ground's own height is not added yet.
   std::vector<Rock> rocks;
   int drawn = 0;
   int dropped_in_clear_zones = 0;
@@ -19,9 +20,9 @@ struct RockLayout {
   int relocated = 0;
 };
 
-// Rocks in the order in which they were placed: by mark for moore, by number for uniform_count. A
-// rock's fate depends on earlier ones only, so that a field of smaller k is a prefix of one of
-// larger k under every overlap rule.
+// Returns the rocks in the order in which they were placed: by mark for moore, by number for
+// uniform_count. A rock's fate depends on earlier ones only, so that a field of smaller k is a
+// prefix of one of larger k under every overlap rule.
 RockLayout LayOutRocks(const TerrainParams& params, core::TrialKey key, const Course& course);
 
 }  // namespace rockyard::terrain

@@ -14,10 +14,11 @@ namespace rockyard::terrain {
 // 1989).
 inline constexpr double kMooreExponent = 2.66;
 
-// Number per m2 of rocks with diameters of at least diameter_m: Matthies 1995 eq. (4). k is the
-// number per m2 at 1 m (its unit is m^0.66). Zero for an infinite diameter.
+// Returns the number per m2 of rocks with diameters of at least diameter_m: Matthies 1995 eq. (4).
+// k is the number per m2 at 1 m (its unit is m^0.66). It is zero for an infinite diameter.
 double MooreNumberPerM2(double k_per_m2, double diameter_m);
 
+// Where rocks come from.
 enum class RockFieldKind {
   kNone,
   kMoore,         // Poisson counts, diameters from Moore's law between two explicit bounds
@@ -25,12 +26,14 @@ enum class RockFieldKind {
   kListed,        // those of a list, the same in every trial
 };
 
+// What happens to a rock that overlaps an earlier one.
 enum class OverlapRule {
   kAllow,     // rocks may interpenetrate: the counts follow the law, the union covers less
   kReject,    // a rock that overlaps an earlier one is left out: counts fall below the law
   kRelocate,  // it is placed again: the counts follow the law, the positions repel each other
 };
 
+// Whether the rover can push rocks.
 enum class RockMobility { kFixed, kMovable };
 
 struct RockFieldParams {
@@ -61,10 +64,10 @@ struct RockFieldParams {
   RockMobility mobility = RockMobility::kFixed;
   RockHoldingParams holding;
 
-  // Expected number of rocks per m2 of the layout area, before clear zones and overlap; 0 for
-  // listed ones, which follow no law.
+  // Returns the expected number of rocks per m2 of the layout area, before clear zones and overlap;
+  // 0 for listed ones, which follow no law.
   double RocksPerM2() const;
-  // The same for the reference field that is thinned down to k; equal for exact counts.
+  // Returns the same for the reference field that is thinned down to k; equal for exact counts.
   double ReferenceRocksPerM2() const;
 
   void Visit(core::FieldVisitor& v);

@@ -9,6 +9,7 @@
 
 namespace rockyard::terrain {
 
+// The map is q = diag(1/a, 1/b, 1/c) Rz(-yaw) (p - centre), so that |q| = 1 on the surface.
 class RockShape {
  public:
   static constexpr double kNoHit = std::numeric_limits<double>::infinity();
@@ -21,19 +22,21 @@ class RockShape {
         yy_(std::cos(rock.yaw_rad) / rock.semi_axes_m.y()),
         zz_(1.0 / rock.semi_axes_m.z()) {}
 
-  // A vector of W in the coordinates in which the rock is the unit sphere.
+  // Returns a vector of W in the coordinates in which the rock is the unit sphere.
   math::Vector3 Map(const math::Vector3& v) const {
     return {xx_ * v.x() + xy_ * v.y(), yx_ * v.x() + yy_ * v.y(), zz_ * v.z()};
   }
 
-  // Distance along the ray to the surface, which it meets from outside: the smaller root of
-  // |q + t e| = 1 for the origin q and the direction e in unit-sphere coordinates. 0 where the
-  // origin lies inside; kNoHit where the ray misses.
+  // Returns the distance along the ray to the surface, which it meets from outside: the smaller
+  // root of |q + t e| = 1 for the origin q and the direction e in unit-sphere coordinates. It is 0
+  // where the origin lies inside, kNoHit where the ray misses.
   double Distance(const math::Vector3& origin_W, const math::Vector3& direction_W) const {
     const math::Vector3 q = Map(origin_W - center_W_);
     const math::Vector3 e = Map(direction_W);
     const double outside = q.squaredNorm() - 1.0;
     if (outside <= 0.0) return 0.0;
+    // t^2 |e|^2 - 2 t B + K = 0 with B = -q . e and K = |q|^2 - 1 has t = (B - sqrt(B^2 - |e|^2 K))
+    // / |e|^2; B <= 0 leads away from the rock.
     const double approach = -q.dot(e);
     if (approach <= 0.0) return kNoHit;
     const double speed = e.squaredNorm();
@@ -42,14 +45,15 @@ class RockShape {
     return (approach - std::sqrt(discriminant)) / speed;
   }
 
-  // Outward unit normal at a point of the surface.
+  // Returns the outward unit normal at a point of the surface: the transposed map of q, the
+  // gradient of |q|^2 / 2.
   math::Vector3 Normal(const math::Vector3& p_W) const {
     const math::Vector3 q = Map(p_W - center_W_);
     return math::Vector3(xx_ * q.x() + yx_ * q.y(), xy_ * q.x() + yy_ * q.y(), zz_ * q.z())
         .normalized();
   }
 
-  // Height of the upper surface over (x, y), m; minus infinity beside the rock.
+  // Returns the height of the upper surface over (x, y), m; minus infinity beside the rock.
   double Top(double x_m, double y_m) const {
     const double dx = x_m - center_W_.x();
     const double dy = y_m - center_W_.y();

@@ -9,7 +9,8 @@
 namespace rockyard::terrain {
 namespace {
 
-// Integral of x^(power - 1) from low to high.
+// Integral of x^(power - 1) from low to high: (high^power - low^power) / power. At power 0 it is a
+// logarithm; high may be infinite where power < 0.
 double PowerIntegral(double power, double low, double high) {
   if (power == 0.0) return std::log(high / low);
   return (std::pow(high, power) - std::pow(low, power)) / power;
@@ -19,6 +20,8 @@ double PowerIntegral(double power, double low, double high) {
 
 double MooreCoveredFraction(double k_per_m2, double low_m, double high_m) {
   EXPECT(low_m > 0.0 && high_m >= low_m);
+  // -dN/dD = k m D^(-m - 1) with m = 2.66, so the integral of (pi/4) D^2 (-dN/dD) is (pi/4) k m
+  // times that of D^(1 - m): PowerIntegral of 2 - m.
   return 0.25 * std::numbers::pi * k_per_m2 * kMooreExponent *
          PowerIntegral(2.0 - kMooreExponent, low_m, high_m);
 }
@@ -32,6 +35,8 @@ MooreSizeLaw::MooreSizeLaw(double min_m, double max_m)
 }
 
 double MooreSizeLaw::Diameter(double probability) const {
+  // Cdf(D) = (N(D_0) - N(D)) / (N(D_0) - N(D_1)) with N(D) = D^-m, solved for D. Rounding may leave
+  // the range by the last digit, hence the clamp.
   const double number = number_at_min_ - probability * (number_at_min_ - number_at_max_);
   return std::clamp(std::pow(number, -1.0 / kMooreExponent), min_m_, max_m_);
 }
@@ -42,6 +47,7 @@ double MooreSizeLaw::Cdf(double diameter_m) const {
 }
 
 double MooreSizeLaw::MeanPower(double power) const {
+  // Density m D^(-m - 1) / (N_0 - N_1), times D^power.
   return kMooreExponent * PowerIntegral(power - kMooreExponent, min_m_, max_m_) /
          (number_at_min_ - number_at_max_);
 }
@@ -60,6 +66,7 @@ double UniformSizeLaw::Cdf(double diameter_m) const {
 }
 
 double UniformSizeLaw::MeanPower(double power) const {
+  // All rocks have one size; the density 1 / (max - min) does not exist.
   if (max_m_ == min_m_) return std::pow(min_m_, power);
   return PowerIntegral(power + 1.0, min_m_, max_m_) / (max_m_ - min_m_);
 }

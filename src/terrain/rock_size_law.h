@@ -7,9 +7,9 @@
 
 namespace rockyard::terrain {
 
-// Share of the ground that round rocks of Moore's law with diameters from low_m to high_m cover,
-// overlap not counted: the integral of (pi D^2 / 4) (-dN/dD), Matthies 1995 eq. (4). high_m may be
-// infinite; then k = 0.013 and 0.00415 from 0.1 m give the published 19 % and 6 %.
+// Returns the share of the ground that round rocks of Moore's law with diameters from low_m to
+// high_m cover, overlap not counted: the integral of (pi D^2 / 4) (-dN/dD), Matthies 1995 eq. (4).
+// high_m may be infinite; then k = 0.013 and 0.00415 from 0.1 m give the published 19 % and 6 %.
 double MooreCoveredFraction(double k_per_m2, double low_m, double high_m);
 
 // The distribution of one rock's diameter.
@@ -17,11 +17,12 @@ class RockSizeLaw {
  public:
   virtual ~RockSizeLaw() = default;
 
-  // Inverse distribution function, m; 0 < probability < 1.
+  // Returns the diameter, m, below which a share 0 < probability < 1 of the rocks lies: the inverse
+  // distribution function.
   virtual double Diameter(double probability) const = 0;
-  // Share of rocks with diameters up to diameter_m.
+  // Returns the share of rocks with diameters up to diameter_m.
   virtual double Cdf(double diameter_m) const = 0;
-  // Mean of D^power over rocks, m^power.
+  // Returns the mean of D^power over rocks, m^power.
   virtual double MeanPower(double power) const = 0;
 };
 
@@ -40,6 +41,7 @@ class MooreSizeLaw : public RockSizeLaw {
   double number_at_max_;
 };
 
+// Diameters are uniform between min_m and max_m.
 class UniformSizeLaw : public RockSizeLaw {
  public:
   UniformSizeLaw(double min_m, double max_m);
@@ -52,7 +54,7 @@ class UniformSizeLaw : public RockSizeLaw {
   double max_m_;
 };
 
-// The law that the parameters name; kNone and kListed have none (nullptr).
+// Returns the law that the parameters name; kNone and kListed have none (nullptr).
 std::unique_ptr<RockSizeLaw> MakeSizeLaw(const RockFieldParams& params);
 
 }  // namespace rockyard::terrain

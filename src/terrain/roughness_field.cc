@@ -18,7 +18,9 @@ constexpr int kMostOctaves = 12;
 // Integral of the squared cubic B-spline over its support.
 constexpr double kSplineMeanSquare = 151.0 / 315.0;
 
-// Weights and their derivatives of the four cubic B-splines over a cell, t in [0, 1).
+// Weights of the four uniform cubic B-splines over a cell, and their derivatives by t, t in [0, 1)
+// of the cell. With s = 1 - t they are
+//   s^3/6,  (4 - 6 t^2 + 3 t^3)/6,  (4 - 6 s^2 + 3 s^3)/6,  t^3/6,   and sum to 1.
 struct SplineWeights {
   std::array<double, 4> value;
   std::array<double, 4> slope;
@@ -32,6 +34,7 @@ SplineWeights WeightsAt(double t) {
 }
 
 int OctaveCount(double longest_wavelength_m) {
+  // Wavelengths L, L/2, L/4, ... down to the finest one.
   const double octaves = std::floor(std::log2(longest_wavelength_m / kFinestWavelength_m)) + 1.0;
   return static_cast<int>(std::clamp(octaves, 1.0, double{kMostOctaves}));
 }
@@ -43,6 +46,7 @@ RoughnessField::RoughnessField(double rms_m, double hurst, double longest_wavele
   EXPECT(rms_m > 0.0 && hurst > 0.0 && hurst <= 1.0 && longest_wavelength_m > 0.0);
   octaves_.resize(static_cast<std::size_t>(OctaveCount(longest_wavelength_m)));
   double sum_of_squares = 0.0;
+  // Octave j has RMS rms 2^(-j H) / sqrt(sum_i 2^(-2 i H)): the variances of all add up to rms^2.
   for (std::size_t j = 0; j < octaves_.size(); ++j) {
     sum_of_squares += std::exp2(-2.0 * hurst * static_cast<double>(j));
   }
@@ -54,6 +58,8 @@ RoughnessField::RoughnessField(double rms_m, double hurst, double longest_wavele
     core::RandomStream stream(key, core::Purpose::kGroundRoughness, static_cast<std::uint32_t>(j));
     octave.coefficients_m.resize(std::size_t{kNodes} * kNodes);
     for (double& coefficient : octave.coefficients_m) {
+      // Height = sum_ab w_a(x) w_b(y) c_ab with independent c of deviation s has the mean square
+      // s^2 (sum w^2)^2, averaged over a cell s^2 (151/315)^2: so s = octave RMS / (151/315).
       coefficient = core::SampleNormal(stream, 0.0, octave_rms_m / kSplineMeanSquare);
     }
     AddBounds(octave);
@@ -65,6 +71,7 @@ RoughnessField::RoughnessField(double rms_m, double hurst, double longest_wavele
 void RoughnessField::AddBounds(const Octave& octave) {
   double height = 0.0, along_x = 0.0, along_y = 0.0, bend_x = 0.0, bend_y = 0.0, twist = 0.0;
   const auto at = [&octave](int column, int row) {
+    // The lattice is periodic: the bounds of one period hold everywhere.
     const int index = row % kNodes * kNodes + column % kNodes;
     return octave.coefficients_m[static_cast<std::size_t>(index)];
   };
@@ -75,6 +82,8 @@ void RoughnessField::AddBounds(const Octave& octave) {
       const double right = at(column + 1, row);
       const double above = at(column, row + 1);
       grow(height, here);
+      // First differences bound the slope (over spacing), second differences the curvature (over
+      // its square), the mixed one the twist.
       grow(along_x, right - here);
       grow(along_y, above - here);
       grow(bend_x, at(column + 2, row) - 2.0 * right + here);
@@ -91,6 +100,8 @@ void RoughnessField::AddBounds(const Octave& octave) {
 }
 
 void RoughnessField::AddOctave(const Octave& octave, double x_m, double y_m, RoughnessSample& sum) {
+  // Position in cells; the fraction within the cell gives the weights, the whole part the
+  // coefficients. Masking with 63 wraps negative indices, too.
   const double u = x_m / octave.spacing_m;
   const double v = y_m / octave.spacing_m;
   const double column = std::floor(u);
@@ -111,6 +122,7 @@ void RoughnessField::AddOctave(const Octave& octave, double x_m, double y_m, Rou
     }
     const auto k = static_cast<std::size_t>(i);
     sum.height_m += wy.value[k] * value;
+    // d/dx = (1 / spacing) d/dt.
     sum.slope_x += wy.value[k] * slope / octave.spacing_m;
     sum.slope_y += wy.slope[k] * value / octave.spacing_m;
   }

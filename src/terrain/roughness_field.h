@@ -8,32 +8,33 @@
 
 namespace rockyard::terrain {
 
+// Height and slopes of the roughness at one point.
 struct RoughnessSample {
   double height_m = 0.0;
   double slope_x = 0.0;  // dz/dx
   double slope_y = 0.0;  // dz/dy
 };
 
-// A sum of octaves. Octave j has wavelength L 2^-j and RMS proportional to 2^(-j H), the scaling of
-// a self-affine surface with Hurst exponent H (height differences over a distance r grow as r^H).
-// Each octave is a bicubic B-spline whose coefficients are independent normals on a square lattice
-// of half its wavelength: twice continuously differentiable, so wheels do not snag. The lattice
-// repeats after 64 nodes, i.e. 32 wavelengths of the octave.
+// The roughness is a sum of octaves. Octave j has wavelength L 2^-j and RMS proportional to 2^(-j
+// H), the scaling of a self-affine surface with Hurst exponent H (height differences over a
+// distance r grow as r^H). Each octave is a bicubic B-spline whose coefficients are independent
+// normals on a square lattice of half its wavelength: twice continuously differentiable, so wheels
+// do not snag. The lattice repeats after 64 nodes, i.e. 32 wavelengths of the octave.
 //
 // The RMS is that of the ensemble: the mean square over a single period of a uniform cubic B-spline
 // with unit independent coefficients is 151/315 per axis. One realization over an area of few
 // wavelengths scatters around it.
 class RoughnessField {
  public:
-  // rms_m > 0; 0 < hurst <= 1; longest_wavelength_m > 0. Octaves go down to 0.1 m. Draws from
-  // (key, kGroundRoughness, octave).
+  // The arguments have rms_m > 0, 0 < hurst <= 1, longest_wavelength_m > 0. Octaves go down to 0.1
+  // m. The field draws from (key, kGroundRoughness, octave).
   RoughnessField(double rms_m, double hurst, double longest_wavelength_m, core::TrialKey key);
 
-  // Height and slopes at a point; about 30 ns per octave.
+  // Returns height and slopes at a point; it costs about 30 ns per octave.
   RoughnessSample Sample(double x_m, double y_m) const;
 
-  // Upper bounds of the magnitudes anywhere: of the height, m, of the slope, and of the second
-  // derivative in any direction, 1/m.
+  // These are upper bounds of the magnitudes anywhere: of the height, m, of the slope, and of the
+  // second derivative in any direction, 1/m.
   double MaxHeight() const { return max_height_m_; }
   double MaxSlope() const { return max_slope_; }
   double MaxCurvature() const { return max_curvature_per_m_; }

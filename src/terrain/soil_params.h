@@ -22,10 +22,12 @@ struct SoilParams {
   double friction_angle_rad = math::DegToRad(31.1);
   double shear_modulus_m = 0.004;
 
-  // Choosing another preset replaces the defaults of the values that follow it.
+  // Visits the preset first: choosing another one replaces the defaults of the values that follow
+  // it.
   void Visit(core::FieldVisitor& v);
 };
 
+// Returns the values of a preset.
 SoilParams MakeSoil(SoilPreset preset);
 
 }  // namespace rockyard::terrain

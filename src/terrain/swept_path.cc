@@ -6,8 +6,8 @@
 namespace rockyard::terrain {
 
 // The ellipse is (x, y) = centre + (A cos t + B sin t, C cos t + D sin t) with the semi-axes turned
-// by yaw. Its line y = const is met at two t; its least x lies at (x, y) = -(A^2 + B^2, AC + BD) /
-// sqrt(A^2 + B^2).
+// by yaw. Its line y = const is met at two t; its least x, -sqrt(A^2 + B^2), lies at y = -(A C + B
+// D) / sqrt(A^2 + B^2).
 std::optional<double> FirstContact(const Rock& rock, double y_m, double half_width_m) {
   const double cosine = std::cos(rock.yaw_rad);
   const double sine = std::sin(rock.yaw_rad);

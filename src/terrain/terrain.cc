@@ -42,6 +42,7 @@ struct AxisWalk {
 // Shrinks [enter, leave] to where a ray is within [0, extent]; false where nothing is left.
 bool ClipToSlab(double position, double direction, double extent, double& enter, double& leave) {
   if (direction == 0.0) return position >= 0.0 && position <= extent;
+  // Ray parameters at both planes of the slab.
   const double a = -position / direction;
   const double b = (extent - position) / direction;
   enter = std::max(enter, std::min(a, b));
@@ -164,6 +165,8 @@ Terrain::Nearest Terrain::MeetBackground(const math::Vector3& origin_W,
                                          double max_distance_m) const {
   Nearest nearest{max_distance_m, std::nullopt};
   for (std::size_t i = 0; i < walls_.size(); ++i) {
+    // A wall is met from inside only, n . d > 0, at the distance (offset - n . o) / (n . d). Both
+    // are compared as a product first, so that rays along a wall divide nothing by zero.
     const double speed = walls_[i].normal_W.dot(direction_W);
     const double inside = walls_[i].offset_m - walls_[i].normal_W.dot(origin_W);
     if (speed > 0.0 && inside >= 0.0 && inside <= speed * nearest.distance_m) {
@@ -198,6 +201,8 @@ void Terrain::MeetRocksOnGrid(const math::Vector3& origin_W, const math::Vector3
   AxisWalk y(py + enter * direction_W.y(), direction_W.y(), cell_m_, grid_ny_);
   while (x.cell >= 0 && x.cell < grid_nx_ && y.cell >= 0 && y.cell < grid_ny_) {
     MeetRocks(RocksOfCell(x.cell, y.cell), origin_W, direction_W, nearest);
+    // On to the neighbouring cell whose border comes first; no farther than the nearest surface so
+    // far.
     AxisWalk& axis = x.next < y.next ? x : y;
     if (enter + axis.next > std::min(nearest.distance_m, leave)) return;
     axis.Advance();

@@ -16,6 +16,7 @@ namespace rockyard::terrain {
 
 enum class Surface { kGround, kRock, kWall };
 
+// What a ray meets first.
 struct RayHit {
   double distance_m = 0.0;  // along the unit ray
   math::Vector3 point_W = math::Vector3::Zero();
@@ -31,6 +32,7 @@ struct Wall {
   double offset_m = 0.0;
 };
 
+// Positions, directions and normals are in W, m.
 class Terrain {
  public:
   Terrain(Ground ground, std::vector<Rock> rocks, std::vector<Wall> walls);
@@ -44,7 +46,7 @@ class Terrain {
   // it at its new place; indices stay. Cost: that of building the grid, once for each call.
   void MoveRock(int index, double dx_m, double dy_m);
 
-  // Height of the highest surface (ground or rock top) above (x, y), m.
+  // Returns the height of the highest surface (ground or rock top) above (x, y), m.
   double Height(double x_m, double y_m) const {
     double height = ground_.Height(x_m, y_m);
     for (const int rock : RocksAt(x_m, y_m)) {
@@ -53,28 +55,30 @@ class Terrain {
     return height;
   }
 
-  // Indices of the rocks that may reach into the disc around (x, y): a superset, ascending, no
-  // duplicates, from a uniform grid. Appends nothing elsewhere: `out` is cleared first.
+  // Lists the rocks that may reach into the disc around (x, y): indices of a superset, ascending,
+  // no duplicates, from a uniform grid. `out` is cleared first.
   void RocksNear(double x_m, double y_m, double radius_m, std::vector<int>& out) const;
 
-  // First surface that the ray from origin_W along the unit vector direction_W meets within
-  // max_distance_m. What lies below the ground is never met. A ray that starts inside a rock or
-  // below the ground meets it at distance 0, with the normal against the ray.
+  // Returns the first surface that the ray from origin_W along the unit vector direction_W meets
+  // within max_distance_m. What lies below the ground is never met. A ray that starts inside a rock
+  // or below the ground meets it at distance 0, with the normal against the ray.
   std::optional<RayHit> CastRay(const math::Vector3& origin_W, const math::Vector3& direction_W,
                                 double max_distance_m) const;
 
-  // The same against the given rocks only: gather them once with RocksNear for many short rays.
+  // Does the same against the given rocks only: gather them once with RocksNear for many short
+  // rays.
   std::optional<RayHit> CastRay(const math::Vector3& origin_W, const math::Vector3& direction_W,
                                 double max_distance_m, std::span<const int> rocks) const;
 
-  // Distance at which that ray meets its first surface, without the point and the normal: half the
-  // cost of CastRay.
+  // Returns the distance at which that ray meets its first surface, without the point and the
+  // normal: half the cost of CastRay.
   std::optional<double> RayDistance(const math::Vector3& origin_W, const math::Vector3& direction_W,
                                     double max_distance_m, std::span<const int> rocks) const;
 
-  // True if anything lies strictly between the two points (both ends shortened by margin_m).
+  // Returns whether anything lies strictly between the two points (both ends shortened by
+  // margin_m).
   bool Occluded(const math::Vector3& from_W, const math::Vector3& to_W, double margin_m) const;
-  // The same against the given rocks only.
+  // Does the same against the given rocks only.
   bool Occluded(const math::Vector3& from_W, const math::Vector3& to_W, double margin_m,
                 std::span<const int> rocks) const;
 
@@ -96,7 +100,7 @@ class Terrain {
     const int* first = cell_rocks_.data();
     return {first + cell_start_[cell], first + cell_start_[cell + 1]};
   }
-  // Rocks of the cell that holds (x, y); empty beyond the grid.
+  // Returns the rocks of the cell that holds (x, y); none beyond the grid.
   std::span<const int> RocksAt(double x_m, double y_m) const {
     const double column = (x_m - grid_x0_m_) * cells_per_m_;
     const double row = (y_m - grid_y0_m_) * cells_per_m_;
@@ -105,10 +109,10 @@ class Terrain {
     return RocksOfCell(static_cast<int>(column), static_cast<int>(row));
   }
 
-  // Nearest wall or ground within max_distance_m.
+  // Returns the nearest wall or ground within max_distance_m.
   Nearest MeetBackground(const math::Vector3& origin_W, const math::Vector3& direction_W,
                          double max_distance_m) const;
-  // Each improves `nearest`: with the given rocks, or with those of the cells along the ray.
+  // These improve `nearest`: with the given rocks, or with those of the cells along the ray.
   void MeetRocks(std::span<const int> rocks, const math::Vector3& origin_W,
                  const math::Vector3& direction_W, Nearest& nearest) const;
   void MeetRocksOnGrid(const math::Vector3& origin_W, const math::Vector3& direction_W,

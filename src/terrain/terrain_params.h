@@ -8,14 +8,15 @@
 
 namespace rockyard::terrain {
 
+// The whole of a scenario's `terrain` section.
 struct TerrainParams {
   GroundParams ground;
   RockFieldParams rocks;
   ArenaParams arena;
 
-  // Area over which the rocks are laid out at random, before mirroring, m2.
+  // Returns the area over which the rocks are laid out at random, before mirroring, m2.
   double LayoutArea() const;
-  // Expected number of rocks with all mirror images.
+  // Returns the expected number of rocks with all mirror images.
   double ExpectedRocks() const;
 
   void Visit(core::FieldVisitor& v);

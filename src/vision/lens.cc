@@ -13,9 +13,12 @@ struct LensAngles {
   double b_rad = 0.0;  // downwards
 };
 
+// What the lens makes of a direction: a to the right, b downwards, as lens.h defines them.
 std::optional<LensAngles> Angles(Lens lens, const Vector3& p) {
   const double aside_m = std::hypot(p.y(), p.z());
   switch (lens) {
+    // The row's plane holds the lateral axis: b = atan2(-z, x) is its depression, a the angle of
+    // the direction out of the vertical plane through x.
     case Lens::kEquidistantRows: {
       const double in_row_m = std::hypot(p.x(), p.z());
       if (in_row_m == 0.0) return std::nullopt;
@@ -23,6 +26,7 @@ std::optional<LensAngles> Angles(Lens lens, const Vector3& p) {
     }
     case Lens::kEquidistant: {
       if (aside_m == 0.0) return p.x() > 0.0 ? std::optional(LensAngles{}) : std::nullopt;
+      // r = f theta: the angle from the axis, divided over y and z as the direction is.
       const double share = std::atan2(aside_m, p.x()) / aside_m;
       return LensAngles{-share * p.y(), -share * p.z()};
     }
@@ -30,6 +34,7 @@ std::optional<LensAngles> Angles(Lens lens, const Vector3& p) {
       break;
   }
   if (p.x() <= 0.0) return std::nullopt;
+  // r = f tan(theta).
   return LensAngles{-p.y() / p.x(), -p.z() / p.x()};
 }
 
@@ -39,6 +44,7 @@ Vector3 PixelRay(const messages::StripeCamera& camera, const PixelPosition& pixe
   const double a_rad = pixel.column_px * camera.column_pitch_rad;
   const double b_rad = pixel.row_px * camera.row_pitch_rad;
   switch (camera.lens) {
+    // Down by b about the lateral axis, then by a out of that plane to the right.
     case Lens::kEquidistantRows:
       return {std::cos(a_rad) * std::cos(b_rad), -std::sin(a_rad),
               -std::cos(a_rad) * std::sin(b_rad)};

@@ -22,18 +22,18 @@
 
 namespace rockyard::vision {
 
-// Position in an image, in pixels from the optical axis.
+// A position in an image, in pixels from the optical axis.
 struct PixelPosition {
   double column_px = 0.0;
   double row_px = 0.0;
 };
 
-// Unit viewing ray of an image position, in C. Cost: some sines and cosines.
+// Returns the unit viewing ray of an image position, in C. Cost: some sines and cosines.
 math::Vector3 PixelRay(const messages::StripeCamera& camera, const PixelPosition& pixel);
 
-// Where the direction p_C (any length, in C) is imaged; the inverse of PixelRay. None where the
-// lens does not see it: behind a pinhole, along the lateral axis (equidistant_rows), straight
-// behind (equidistant), or of no length. The edge of the imager is not looked at.
+// Returns where the direction p_C (any length, in C) is imaged: the inverse of PixelRay. There is
+// none where the lens does not see it: behind a pinhole, along the lateral axis (equidistant_rows),
+// straight behind (equidistant), or of no length. The edge of the imager is not looked at.
 std::optional<PixelPosition> Project(const messages::StripeCamera& camera,
                                      const math::Vector3& p_C);
 

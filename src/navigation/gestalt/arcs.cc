@@ -14,7 +14,8 @@ using messages::MotionKind;
 constexpr double kStraight_per_m = 1e-9;
 
 // The place on an arc at signed distance s (negative: driven backwards) from R's origin, which it
-// leaves along x: (sin(c s) / c, (1 - cos(c s)) / c).
+// leaves along x: (sin(c s) / c, (1 - cos(c s)) / c), the latter as 2 sin^2(c s / 2) / c, which
+// keeps its digits where c s is small.
 PathPoint OnArc(double curvature_per_m, double s_m) {
   if (std::abs(curvature_per_m) < kStraight_per_m) return {s_m, 0.0};
   const double angle_rad = curvature_per_m * s_m;
@@ -25,6 +26,7 @@ PathPoint OnArc(double curvature_per_m, double s_m) {
 double Weight(const GestaltPlanParams& params, double distance_m) {
   switch (params.path_weight) {
     case PathWeight::kLinear: {
+      // w(s) = 1 - (1 - w_far) (s - s_min) / (s_max - s_min).
       const double share =
           (distance_m - params.plan_min_dist_m) / (params.plan_max_dist_m - params.plan_min_dist_m);
       return 1.0 - (1.0 - params.far_weight) * std::min(1.0, share);
@@ -42,6 +44,7 @@ CandidateMotion MakeArc(double curvature_per_m, int direction, const GestaltPlan
   CandidateMotion candidate;
   candidate.motion = {MotionKind::kArc, curvature_per_m, direction};
   for (const double s_m : sampling.distance_m) {
+    // |c| s is the angle turned so far.
     const bool turned_enough = std::abs(curvature_per_m) * s_m > plan.max_path_turn_rad;
     if (turned_enough && !candidate.points.empty()) break;
     candidate.points.push_back(OnArc(curvature_per_m, direction * s_m));
@@ -54,6 +57,7 @@ CandidateMotion MakePointTurn(double amount_rad, int direction, const PathSampli
   candidate.motion = {MotionKind::kTurnInPlace, 0.0, direction};
   candidate.turn_rad = direction * amount_rad;
   for (const double s_m : sampling.distance_m) {
+    // The straight drive after the turn, in R as it is before.
     candidate.points.push_back(
         {s_m * std::cos(candidate.turn_rad), s_m * std::sin(candidate.turn_rad)});
   }
@@ -73,6 +77,7 @@ PathSampling SamplePaths(const GestaltPlanParams& params, double cell_m) {
   const double piece_m = cell_m / static_cast<double>(params.samples_per_cell);
   PathSampling sampling;
   for (std::size_t k = 0;; ++k) {
+    // s_k = s_min + (k + 1/2) h.
     const double s_m = params.plan_min_dist_m + (static_cast<double>(k) + 0.5) * piece_m;
     if (k > 0 && s_m > params.plan_max_dist_m) break;
     sampling.distance_m.push_back(s_m);
@@ -93,6 +98,8 @@ std::size_t NearestArc(double curvature_per_m, std::size_t count, double max_cur
   EXPECT(count > 0);
   if (count < 2) return 0;
   const double limited = std::clamp(curvature_per_m, -max_curvature_per_m, max_curvature_per_m);
+  // c_i = (i - (n - 1)/2) spacing, so i = n/2 (rounded down) + c / spacing - middle. std::lround
+  // rounds halves away from zero: to the tighter arc.
   const double spacing = 2.0 * max_curvature_per_m / static_cast<double>(count - 1);
   const double middle = count % 2 == 0 ? 0.5 : 0.0;  // of the arc count / 2, in spacings from c = 0
   const auto from_middle = std::lround(limited / spacing - middle);

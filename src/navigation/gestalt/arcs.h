@@ -14,6 +14,7 @@ struct PathPoint {
   double y_m = 0.0;
 };
 
+// A motion and the path that it leads over.
 struct CandidateMotion {
   messages::MotionCommand motion;
   double turn_rad = 0.0;          // of a point turn, before its straight drive; 0 for arcs
@@ -23,13 +24,13 @@ struct CandidateMotion {
 // Where along their paths candidates are judged, the same for all: the middles of pieces of length
 // h = cell / samples_per_cell from plan_min_dist on,
 //   s_k = plan_min_dist + (k + 1/2) h  up to plan_max_dist; s_0 always,
-// with the weight that PathWeight names. Middles, so that no point of a straight path along an axis
-// of the map lies on an edge between cells.
+// with the weight that PathWeight names. They are middles, so that no point of a straight path
+// along an axis of the map lies on an edge between cells.
 struct PathSampling {
   std::vector<double> distance_m;
   std::vector<double> weight;
 
-  // Points up to the length; at least one.
+  // Returns the number of points up to the length; at least one.
   std::size_t CountWithin(double length_m) const;
 };
 
@@ -43,18 +44,18 @@ struct CandidateMotions {
   std::vector<CandidateMotion> point_turns;
 };
 
-// Curvature of arc i of n, spaced evenly:
+// Returns the curvature of arc i of n, spaced evenly:
 //   c_i = c_max (2 i / (n - 1) - 1); 0 for a single arc.
 double ArcCurvature(std::size_t index, std::size_t count, double max_curvature_per_m);
 
-// The arc of n whose curvature is nearest, after limiting it to what there is. Halfway between two
-// arcs: the tighter one of an odd number, so that mirrored curvatures give mirrored arcs; with an
-// even number and curvature 0, the right one of the two in the middle.
+// Returns the arc of n whose curvature is nearest, after limiting it to what there is. Halfway
+// between two arcs that is the tighter one of an odd number, so that mirrored curvatures give
+// mirrored arcs; with an even number and curvature 0, it is the right one of the two in the middle.
 std::size_t NearestArc(double curvature_per_m, std::size_t count, double max_curvature_per_m);
 
-// A point turn is a turn in place by point_turn_amount and a straight drive after it (Howard 2012,
-// "turn-in-place of different angles followed by a straight drive"). Arcs are judged no further
-// than where they have turned max_path_turn.
+// Returns all candidates. A point turn is a turn in place by point_turn_amount and a straight drive
+// after it (Howard 2012, "turn-in-place of different angles followed by a straight drive"). Arcs
+// are judged no further than where they have turned max_path_turn.
 CandidateMotions MakeCandidates(const GestaltArcParams& arcs, const GestaltPlanParams& plan,
                                 const PathSampling& sampling);
 

@@ -10,6 +10,7 @@
 
 namespace rockyard::navigation {
 
+// All that the map keeps of a cell.
 struct MapCell {
   math::PointMoments moments;   // of its points, in the map's frame
   std::int64_t last_cycle = 0;  // in which it got data
@@ -18,12 +19,12 @@ struct MapCell {
   bool empty() const { return moments.empty() && !marked; }
 };
 
-// Numbers of cells: columns [x, x_end) and rows [y, y_end).
+// A box of cells: columns [x, x_end) and rows [y, y_end).
 struct CellBox {
   int x = 0, x_end = 0, y = 0, y_end = 0;
 
   bool empty() const { return x >= x_end || y >= y_end; }
-  // With a margin, cut to nx by ny cells.
+  // Returns the box with a margin, cut to nx by ny cells.
   CellBox Grown(int margin_x, int margin_y, int nx, int ny) const {
     return {x > margin_x ? x - margin_x : 0, x_end + margin_x < nx ? x_end + margin_x : nx,
             y > margin_y ? y - margin_y : 0, y_end + margin_y < ny ? y_end + margin_y : ny};
@@ -38,15 +39,16 @@ class CellWindow {
 
   int nx() const { return nx_; }
   int ny() const { return ny_; }
-  // Lattice numbers of the window's first column and row.
+  // The lattice numbers of the window's first column and row.
   std::int64_t first_x() const { return first_x_; }
   std::int64_t first_y() const { return first_y_; }
 
-  // Cell in column ix and row iy of the window.
+  // Returns the cell in column ix and row iy of the window.
   MapCell& At(int ix, int iy) { return slots_[Slot(ix, iy)]; }
   const MapCell& At(int ix, int iy) const { return slots_[Slot(ix, iy)]; }
 
-  // Moves the window. Cells that come in are those that went out: the caller empties them first.
+  // Moves the window. The cells that come in are those that went out: the caller empties them
+  // first.
   void MoveTo(std::int64_t first_x, std::int64_t first_y) {
     first_x_ = first_x;
     first_y_ = first_y;

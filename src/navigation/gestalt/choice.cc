@@ -37,11 +37,13 @@ bool MayBeDriven(const MotionVote& vote, const GestaltParams& params) {
   return vote.hazard > params.drive.min_drive_goodness;
 }
 
+// Distance of an arc from the middle of its row, in arcs.
 double FromStraight(std::size_t index, std::size_t count) {
   return std::abs(static_cast<double>(index) - 0.5 * static_cast<double>(count - 1));
 }
 
-// The middle of [first, end).
+// The middle of [first, end). An even set has two; arcs run from right to left, so the first is the
+// right one.
 std::size_t Middle(std::span<const MotionVote> row, std::size_t first, std::size_t end) {
   const std::size_t right = (first + end - 1) / 2;
   const std::size_t left = (first + end) / 2;
@@ -73,6 +75,7 @@ Peak BestPeak(std::span<MotionVote> row, double highest, const GestaltParams& pa
   for (std::size_t first = 0; first < row.size(); ++first) {
     if (!shares(first)) continue;
     std::size_t end = first + 1;
+    // [first, end) is a set of adjacent arcs with the highest vote.
     while (shares(end)) ++end;
     const std::size_t middle = Middle(row, first, end);
     const Peak peak{&row[middle], end - first, FromStraight(middle, row.size())};

@@ -9,8 +9,8 @@
 
 namespace rockyard::navigation {
 
-// Of the arcs that may be driven the one with the highest merged vote; "in case of multiple peaks,
-// the middle arc of the longest adjacent set". Null if none may be driven.
+// Returns, of the arcs that may be driven, the one with the highest merged vote; "in case of
+// multiple peaks, the middle arc of the longest adjacent set". Null if none may be driven.
 //
 // An arc may be driven if its hazard vote is above min_drive_goodness, and backward arcs only as
 // BackwardArcs says. What the paper leaves open: of the two middles of an even set, and of equally
@@ -21,15 +21,15 @@ namespace rockyard::navigation {
 // The pointer is into `votes`. Cost: linear in the number of arcs.
 messages::MotionVote* ChooseArc(MotionVotes& votes, const GestaltParams& params);
 
-// Whether `turn` is to be made instead of driving `arc` (null: none), as PointTurns says.
+// Returns whether `turn` is to be made instead of driving `arc` (null: none), as PointTurns says.
 bool TurnsInPlace(const messages::MotionVote& turn, const messages::MotionVote* arc,
                   const GestaltParams& params);
 
-// The better of the point turns; on a tie towards the goal, left for a goal straight ahead or
-// behind.
+// Returns the better of the point turns; on a tie the one towards the goal, left for a goal
+// straight ahead or behind.
 messages::MotionVote* ChoosePointTurn(MotionVotes& votes, double goal_bearing_rad);
 
-// The highest merged vote of a row; 0 for an empty one.
+// Returns the highest merged vote of a row; 0 for an empty one.
 double BestVote(std::span<const messages::MotionVote> row);
 
 // Sets the marks of the view: `chosen`, and `best` on it and on all motions of its kind that could

@@ -23,6 +23,8 @@ void FeltPlaces::Feel(const NavigatorInput& input, int direction, const GestaltR
   const double cosine = std::cos(e.heading_rad);
   const double sine = std::sin(e.heading_rad);
   const auto add = [&](int end, double aside) {
+    // In R: half a vehicle to the end that leads, half a width aside; then by the believed pose
+    // into the world, p_W = p_WR + Rz(heading) p_R.
     const double x_m = 0.5 * end * rover.length_m;
     const double y_m = 0.5 * aside * rover.width_m;
     places_.push_back({e.x_m + cosine * x_m - sine * y_m, e.y_m + sine * x_m + cosine * y_m});
@@ -37,6 +39,7 @@ void FeltPlaces::Feel(const NavigatorInput& input, int direction, const GestaltR
 
 void FeltPlaces::Move(const PoseEstimate& before, const PoseEstimate& after, double radius_m,
                       GestaltMap& map) {
+  // The jump of the estimate as a rigid motion: p' = after + Rz(turn) (p - before).
   const double turn_rad = after.heading_rad - before.heading_rad;
   const double cosine = std::cos(turn_rad);
   const double sine = std::sin(turn_rad);

@@ -10,18 +10,18 @@
 
 namespace rockyard::navigation {
 
-// Places in the world as estimated on board.
+// Places in the world as estimated on board, m.
 class FeltPlaces {
  public:
-  // What the rover, `length_m` long and `width_m` wide, feels while driving in the direction (+1
-  // forward, -1 backward): a contact at the front, any other hazard at the end that leads, both
+  // Adds what the rover, `length_m` long and `width_m` wide, feels while driving in the direction
+  // (+1 forward, -1 backward): a contact at the front, any other hazard at the end that leads, both
   // half a width aside if the sensor names a side; a touch behind while driving backward at the
-  // rear. Marks them in the map, as MarkObstacle does.
+  // rear. It marks them in the map, as MarkObstacle does.
   void Feel(const NavigatorInput& input, int direction, const GestaltRoverParams& rover,
             double radius_m, GestaltMap& map);
 
-  // The estimate was moved: the places keep their distance and bearing from the rover. They are
-  // marked in the map, which must have its window around `after`.
+  // Follows a jump of the estimate: the places keep their distance and bearing from the rover. They
+  // are marked in the map, which must have its window around `after`.
   void Move(const messages::PoseEstimate& before, const messages::PoseEstimate& after,
             double radius_m, GestaltMap& map);
 

@@ -99,6 +99,7 @@ NavigatorDecision GestaltNavigator::OnCloud(const NavigatorInput& input) {
   map_.Add(*input.cloud, BelievedPose(input));
   votes_ = voter_.Vote(map_.Evaluate(), input.estimate, goal_);
   looked_behind_ = !ahead;
+  // Step 3 of the cycle in gestalt.h: forward arcs look bad, so the rear cameras are asked, too.
   const bool looks_behind = ahead && params_.drive.rear_cameras &&
                             BestVote(votes_.forward) < params_.votes.min_fwd_threshold;
   return looks_behind ? Look(Mode::kLookingBehind) : Choose(input);
@@ -106,6 +107,7 @@ NavigatorDecision GestaltNavigator::OnCloud(const NavigatorInput& input) {
 
 NavigatorDecision GestaltNavigator::Choose(const NavigatorInput& input) {
   MotionVote* chosen = ChooseArc(votes_, params_);
+  // A search that has gone all the way round turns no further.
   const bool searched = searched_rad_ >= params_.drive.search_turn_rad - kRounding_rad;
   MotionVote& turn = NextTurn(input.estimate);
   const bool turns = !searched && TurnsInPlace(turn, chosen, params_);
@@ -164,6 +166,7 @@ NavigatorDecision GestaltNavigator::OnFelt(const NavigatorInput& input) {
   }
   felt_places_.Feel(input, motion_.direction, params_.map.rover, params_.drive.felt_radius_m, map_);
   const double driven_m = input.estimate.distance_m - anchor_.distance_m;
+  // Back along the same arc, no farther than it came.
   const double leg_m = std::min(driven_m, params_.drive.back_off_m);
   if (leg_m <= 0.0 || Touches(input, -motion_.direction)) return BeginCycle(input);
   const MotionCommand back{motion_.kind, motion_.curvature_per_m, -motion_.direction};
@@ -200,6 +203,7 @@ void GestaltNavigator::FillView(const NavigatorInput& input) {
 
 bool GestaltNavigator::Progresses(const PoseEstimate& estimate) {
   const double distance_m = TowardsGoal(estimate, goal_).distance_m;
+  // A gain of progress_m on the best distance so far ends a fruitless run.
   if (distance_m <= best_goal_distance_m_ - params_.drive.progress_m) {
     best_goal_distance_m_ = distance_m;
     fruitless_cycles_ = 0;

@@ -26,6 +26,7 @@
 
 namespace rockyard::navigation {
 
+// The drive cycle; map_ and voter_ do the rest.
 class GestaltNavigator final : public Navigator {
  public:
   GestaltNavigator(const GestaltParams& params, const messages::Goal& goal);
@@ -38,7 +39,7 @@ class GestaltNavigator final : public Navigator {
   void OnPoseUpdate(const messages::PoseEstimate& before,
                     const messages::PoseEstimate& after) override;
 
-  // Of the last decision.
+  // Returns the last decision with its map and votes.
   const messages::NavigationView* view() const override;
 
  private:

@@ -35,6 +35,7 @@ GestaltMap::GestaltMap(const GestaltMapParams& params)
 
 GestaltMap::LatticeCell GestaltMap::LatticeAt(double x_m, double y_m) const {
   const GestaltGridParams& grid = params_.grid;
+  // floor((x - x0) / step): the lattice goes on beyond the bounds x0 .. xN, which give its phase.
   return {static_cast<std::int64_t>(std::floor((x_m - grid.x0_m) / grid.xstep_m)),
           static_cast<std::int64_t>(std::floor((y_m - grid.y0_m) / grid.ystep_m))};
 }
@@ -78,6 +79,7 @@ void GestaltMap::BeginCycle(double x_m, double y_m) {
   rover_x_m_ = Clamped(x_m);
   rover_y_m_ = Clamped(y_m);
   const LatticeCell rover = LatticeAt(rover_x_m_, rover_y_m_);
+  // The rover is in the middle cell of the window, the upper of two.
   const LatticeCell first{rover.x - cells_.nx() / 2, rover.y - cells_.ny() / 2};
   MeasureDistances(first);
   DropOldCells(first);
@@ -114,6 +116,7 @@ void GestaltMap::AddPoint(const math::Vector3& p_WP_W) {
   if (!IsNear(ix, iy)) return;
   MapCell& cell = cells_.At(ix, iy);
   cell.last_cycle = cycle_;
+  // Beyond this number sums could run over 2^64; the cell counts as seen all the same.
   if (cell.moments.count() >= kMostPoints) return;
   cell.moments.AddPoint(math::ToMomentUnits(p_WP_W.x()), math::ToMomentUnits(p_WP_W.y()),
                         math::ToMomentUnits(p_WP_W.z()));
@@ -123,6 +126,7 @@ void GestaltMap::AddPoint(const math::Vector3& p_WP_W) {
 void GestaltMap::Add(const messages::PointCloud& cloud, const math::Transform& X_WR) {
   const double z_R = X_WR.translation().z();
   for (const math::Vector3& p_RP_R : cloud.points_R) {
+    // The believed pose takes points from R into the map's frame, the world as estimated.
     const math::Vector3 p_WP_W = X_WR * p_RP_R;
     // Written so that coordinates that are not numbers fail.
     const bool sound =
@@ -157,6 +161,7 @@ void GestaltMap::Clear() {
 }
 
 const GoodnessGrid& GestaltMap::Evaluate() {
+  // The lower left corner of the window.
   grid_.x0_m = CentreX_m(cells_.first_x()) - 0.5 * grid_.xstep_m;
   grid_.y0_m = CentreY_m(cells_.first_y()) - 0.5 * grid_.ystep_m;
   planes_.Fit(cells_, box_);

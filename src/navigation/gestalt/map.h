@@ -29,10 +29,10 @@ class GestaltMap {
  public:
   explicit GestaltMap(const GestaltMapParams& params);
 
-  // A new navigation cycle with the rover at (x, y), which must be finite: moves the window by
+  // Begins a navigation cycle with the rover at (x, y), which must be finite: moves the window by
   // whole cells so that the rover is in its middle one (the upper of two), and throws out cells
   // that leave it, whose centre is farther than grid_dist_timeout_m, or that got no data for more
-  // than max_idles cycles. O(cells).
+  // than max_idles cycles. Cost: O(cells).
   void BeginCycle(double x_m, double y_m);
 
   // Takes the points of a cloud, seen from X_WR as estimated, in any number of clouds a cycle.
@@ -42,19 +42,19 @@ class GestaltMap {
   // 23 m of height: 20 m where R stays at its height.
   void Add(const messages::PointCloud& cloud, const math::Transform& X_WR);
 
-  // What the rover felt: every patch that holds the cell at (x, y), or one whose centre lies within
-  // `radius_m` of it, becomes a step obstacle. Marks age and are thrown out as data are; new data
-  // keep them.
+  // Marks what the rover felt: every patch that holds the cell at (x, y), or one whose centre lies
+  // within `radius_m` of it, becomes a step obstacle. Marks age and are thrown out as data are; new
+  // data keep them.
   void MarkObstacle(double x_m, double y_m, double radius_m);
 
   // Forgets everything but where the rover is.
   void Clear();
 
-  // Goodness and certainty of every cell of the window. The reference stays valid, its contents
-  // hold until the next call. O(cells), see tests/benchmarks/gestalt_benchmark.cc.
+  // Returns goodness and certainty of every cell of the window. The reference stays valid, its
+  // contents hold until the next call. Cost: O(cells), see the gestalt_benchmark.
   const GoodnessGrid& Evaluate();
 
-  // The cells as they are, with the goodness of the last Evaluate, for people.
+  // Returns the cells as they are, with the goodness of the last Evaluate, for people.
   messages::MapView View() const;
 
  private:
@@ -64,16 +64,16 @@ class GestaltMap {
   };
 
   LatticeCell LatticeAt(double x_m, double y_m) const;
-  // Centre of a column or row of the lattice.
+  // The centre of a column or row of the lattice, m.
   double CentreX_m(std::int64_t i) const;
   double CentreY_m(std::int64_t j) const;
-  // Whether the centre of a cell lies within grid_dist_timeout_m of the rover.
+  // Returns whether the centre of a cell lies within grid_dist_timeout_m of the rover.
   bool IsNear(int ix, int iy) const {
     return squares_x_m2_[static_cast<std::size_t>(ix)] +
                squares_y_m2_[static_cast<std::size_t>(iy)] <=
            params_.grid_dist_timeout_m * params_.grid_dist_timeout_m;
   }
-  // For a window whose first cell is `first`.
+  // Measures the distances for a window whose first cell is `first`.
   void MeasureDistances(LatticeCell first);
   bool InWindow(LatticeCell cell) const;
   // Empties what does not belong into a window whose first cell is `first`.

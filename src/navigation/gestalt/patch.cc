@@ -18,6 +18,7 @@ Farthest FarthestFrom(const math::Vector3& normal, const math::Vector3& mean_m,
                       const std::vector<PatchCell>& cells) {
   Farthest farthest;
   for (std::size_t i = 0; i < cells.size(); ++i) {
+    // |n . (mean of the cell - mean of the patch)|: the plane passes through the patch's mean.
     const double distance_m = std::abs(normal.dot(cells[i].spread->mean_m - mean_m));
     if (distance_m > farthest.distance_m) farthest = {i, distance_m};
   }
@@ -42,6 +43,7 @@ math::PlaneFit FitWithoutOutliers(std::vector<PatchCell> cells, math::PointMomen
     if (left_out == outliers) return fit;
     // The last cell lies in its own plane.
     const Farthest worst = FarthestFrom(fit.normal, spread.mean_m, cells);
+    // Leaving it out would change nothing but the number of points.
     if (worst.distance_m < kInPlane_m) return fit;
     sum -= *cells[worst.index].moments;
     cells.erase(cells.begin() + static_cast<std::ptrdiff_t>(worst.index));

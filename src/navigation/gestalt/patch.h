@@ -15,15 +15,15 @@ struct PatchCell {
   const math::PointSpread* spread;  // of those moments
 };
 
-// Of all points of `cells`, whose moments add up to `sum`: from the sum, which is exact, up to
-// math::kExactPoints points; merged in floating point above, where it may have run over.
-// O(1) or O(cells).
+// Returns the spread of all points of `cells`, whose moments add up to `sum`: from the sum, which
+// is exact, up to math::kExactPoints points; merged in floating point above, where it may have run
+// over. Cost: O(1) or O(cells).
 math::PointSpread SpreadOf(const std::vector<PatchCell>& cells, const math::PointMoments& sum);
 
 // Leaves out up to `outliers` cells, one after the other, each time the one whose mean lies
 // farthest from the plane of what is left (Goldberg 2002, section 4, step 3, names no rule). Of
-// equally far ones the first; none that lies within a micrometre of the plane; never the last cell.
-// O(cells times outliers).
+// equally far ones it takes the first; none that lies within a micrometre of the plane; never the
+// last cell. Cost: O(cells times outliers).
 math::PlaneFit FitWithoutOutliers(std::vector<PatchCell> cells, math::PointMoments sum,
                                   std::int64_t outliers);
 

@@ -9,6 +9,8 @@ namespace {
 // Against shares such as 0.56 of 25 cells that should be whole numbers.
 constexpr double kRounding = 1e-6;
 
+// Cells on one side of the middle cell that a square of that side touches when it is centred on it:
+// ceil((side - step) / (2 step)). A side that ends at a cell's border does not touch the next one.
 int Reach(double side_m, double step_m) {
   return std::max(0, static_cast<int>(std::ceil(0.5 * (side_m - step_m) / step_m - kRounding)));
 }
@@ -28,6 +30,7 @@ PatchPlanes::PatchPlanes(const GestaltMapParams& params)
     : params_(params), reach_(ReachOf(params)) {
   const int columns = 2 * reach_.x + 1;
   const int rows = 2 * reach_.y + 1;
+  // Shares of table 1 as numbers of cells, columns and rows of a full patch, rounded up.
   needed_cells_ = static_cast<std::uint64_t>(AtLeast(params.min_patch_share, columns * rows));
   needed_columns_ = AtLeast(params.min_cell_coverage, columns);
   needed_rows_ = AtLeast(params.min_cell_coverage, rows);
@@ -78,6 +81,7 @@ void PatchPlanes::FindRowsWithData(const CellWindow& cells, const CellBox& box,
   for (int iy = box.y; iy < box.y_end; ++iy) {
     int count = 0;
     for (int ix = box.x - reach_.x; ix < out.x_end; ++ix) {
+      // A window of 2 reach + 1 cells slides along the row: one cell enters, one leaves.
       count += holds(ix + reach_.x, iy) - holds(ix - reach_.x - 1, iy);
       if (ix >= out.x) row_holds_data_[CellIndex(ix, iy, width_)] = count > 0;
     }
@@ -86,6 +90,8 @@ void PatchPlanes::FindRowsWithData(const CellWindow& cells, const CellBox& box,
 
 void PatchPlanes::SlideDown(const CellWindow& cells, const CellBox& box, const CellBox& out,
                             int iy) {
+  // Row iy + reach enters the patches of row iy, row iy - reach - 1 leaves them. Sums are whole
+  // numbers, so taking back leaves no residue.
   const int in = iy + reach_.y;
   const int gone = iy - reach_.y - 1;
   const bool adds = in < box.y_end;
@@ -126,6 +132,8 @@ void PatchPlanes::Assess(const CellWindow& cells, const Sums& patch, int columns
                          Cell middle) {
   PatchPlane& plane = planes_[CellIndex(middle.ix, middle.iy, width_)];
   plane.marked = patch.marked > 0;
+  // "At least half the cells have more than 1 point" (Goldberg 2002, step 3): needed_cells_ of them
+  // hold min_cell_points.
   plane.enough = patch.filled >= needed_cells_ && !patch.moments.empty();
   const bool covered = columns_with_data >= needed_columns_ &&
                        rows_with_data_[static_cast<std::size_t>(middle.ix)] >= needed_rows_;
@@ -156,6 +164,7 @@ void PatchPlanes::FitWaiting() {
 }
 
 void PatchPlanes::Store(const math::PlaneFit& fit, PatchPlane& plane) const {
+  // Middle over smallest eigenvalue: whether the points lie in a plane rather than along a line.
   plane.plane_valid = fit.eigen_ratio >= params_.eigen_ratio;
   plane.residual_m = fit.residual_m;
   if (params_.tests.pitch) plane.slope_rad = fit.Slope_rad();

@@ -20,8 +20,8 @@ struct PatchPlane {
   bool marked = false;  // holds a cell where the rover felt an obstacle
 };
 
-// Cells on either side of a patch's middle cell: as many as a square of that side touches when its
-// centre is the cell's.
+// The cells on either side of a patch's middle cell: as many as a square of that side touches when
+// its centre is the cell's.
 struct PatchReach {
   int x = 0;
   int y = 0;
@@ -40,10 +40,10 @@ class PatchPlanes {
  public:
   explicit PatchPlanes(const GestaltMapParams& params);
 
-  // Every cell of `cells`; `box` holds those that are not empty.
+  // Fits the patch around every cell of `cells`; `box` holds those that are not empty.
   void Fit(const CellWindow& cells, const CellBox& box);
 
-  // Of cell (ix, iy), row by row, as of the last Fit.
+  // Returns the plane of cell (ix, iy), row by row, as of the last Fit.
   const std::vector<PatchPlane>& planes() const { return planes_; }
   PatchReach reach() const { return reach_; }
 

@@ -15,6 +15,8 @@ constexpr double kNone = std::numeric_limits<double>::infinity();
 template <typename Better>
 void SpanExtremes(std::vector<double>& values, std::size_t stride, int span, Better better) {
   int covered = 1;
+  // Each value holds the extreme of `covered` values from it on; in the last round the two spans
+  // overlap, which does an extreme no harm.
   while (covered < span) {
     const int step = std::min(covered, span - covered);
     const std::size_t ahead = stride * static_cast<std::size_t>(step);
@@ -59,6 +61,7 @@ void PatchSteps::Find(const CellWindow& cells, const CellBox& box, PatchReach re
   for (int iy = out.y; iy < out.y_end; ++iy) {
     for (int ix = out.x; ix < out.x_end; ++ix) {
       const std::size_t i = CellIndex(ix - box.x + reach.x, iy - box.y + reach.y, width_);
+      // e of step 3, m. A patch without points has -infinity here.
       const double step = highest_[i] - lowest_[i];
       steps_[CellIndex(ix, iy, cells.nx())] = step > 0.0 ? step : 0.0;
     }

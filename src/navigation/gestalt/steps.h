@@ -9,16 +9,16 @@
 
 namespace rockyard::navigation {
 
-// The largest difference of elevation between any two cells of each patch. The elevation of a cell
-// is the mean height of its points (the paper does not say): the ten moments hold no other, and a
-// single bad point does not make a step. Minima and maxima over windows by doubling: O(cells log
-// reach).
+// Finds the largest difference of elevation between any two cells of each patch. The elevation of a
+// cell is the mean height of its points (the paper does not say): the ten moments hold no other,
+// and a single bad point does not make a step. Minima and maxima over windows go by doubling. Cost:
+// O(cells log reach).
 class PatchSteps {
  public:
-  // As PatchPlanes::Fit.
+  // Works on the same cells and box as PatchPlanes::Fit.
   void Find(const CellWindow& cells, const CellBox& box, PatchReach reach);
 
-  // Row by row; 0 where a patch holds no points.
+  // Returns the differences, m, row by row; 0 where a patch holds no points.
   const std::vector<double>& steps_m() const { return steps_; }
 
  private:

@@ -34,6 +34,8 @@ CellValue Traversability::Unknown() const {
                 false);
 }
 
+// Step hazard: 127 (1 - min(1, e/h)) from e = h/3 on. A mark of what the rover felt is a step
+// obstacle.
 std::int64_t Traversability::FromSteps(const PatchPlane& plane, double step_m) const {
   const std::int64_t obstacle = params_.pairs.step_obst.goodness;
   if (plane.marked) return obstacle;
@@ -55,6 +57,7 @@ CellValue Traversability::Value(const PatchPlane& plane, double step_m) const {
   const GestaltPairParams& pairs = params_.pairs;
   const double h_m = params_.HazardHeight_m();
   GoodnessPair value{kBestGoodness, kFullCertainty};
+  // The least goodness decides; of equal ones the first, in the order step, roughness, pitch.
   const auto apply = [&value](std::int64_t goodness, const GoodnessPair& pair) {
     if (goodness < value.goodness) value = {goodness, pair.certainty};
   };
@@ -78,6 +81,7 @@ void Traversability::AddBorders(GoodnessGrid& grid) const {
   for (int iy = 0; iy < grid.ny; ++iy) {
     for (int ix = 0; ix < grid.nx; ++ix) {
       CellValue& cell = grid.cells[CellIndex(ix, iy, grid.nx)];
+      // The border's goodness counts only where it is the least.
       if (!cell.known || cell.goodness <= border.goodness) continue;
       if (!BordersUnknown(grid, ix, iy, params_.border_neighbours)) continue;
       const bool full = params_.certainty == CellCertainty::kFull;

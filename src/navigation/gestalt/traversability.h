@@ -15,7 +15,7 @@ namespace rockyard::navigation {
 //   roughness  255 (1 - min(1, f r/h))  from r = f h/3 on; see RoughnessFormula
 //   pitch      255 (1 - min(1, s/max_pitch))
 //   border     border.goodness          where a neighbour is unknown
-// and 255 where there is none (gestalt_hazards.h). A cell is unknown where its patch has not
+// and 255 where there is none (hazards.h). A cell is unknown where its patch has not
 // enough data, where no enabled test could run, and where a failed plane says so (FailedFit);
 // outside the window all is unknown. A patch with a cell where the rover felt an obstacle is a step
 // obstacle, whatever its points.
@@ -27,12 +27,12 @@ class Traversability {
   void Assess(const std::vector<PatchPlane>& planes, const std::vector<double>& steps_m,
               GoodnessGrid& grid) const;
 
-  // The value of a cell that was not evaluated.
+  // Returns the value of a cell that was not evaluated.
   CellValue Unknown() const;
 
  private:
   CellValue Value(const PatchPlane& plane, double step_m) const;
-  // Goodness for the steps of a patch and for what the rover felt there.
+  // Returns the goodness for the steps of a patch and for what the rover felt there.
   std::int64_t FromSteps(const PatchPlane& plane, double step_m) const;
   bool IsKnown(const PatchPlane& plane, bool step_hazard) const;
   void AddBorders(GoodnessGrid& grid) const;

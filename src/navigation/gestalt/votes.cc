@@ -27,7 +27,8 @@ double Rounded(double vote, bool whole_numbers) {
   return whole_numbers ? std::floor(vote + 0.5) : vote;
 }
 
-// True if driving in the direction brings the rover nearer to the goal, at first.
+// Whether driving in the direction brings the rover nearer to the goal, at first: forward for goals
+// up to 90 deg off, backward for the others.
 bool LeadsToGoal(const GoalDirection& goal, int direction) {
   const bool goal_is_ahead = std::abs(goal.bearing_rad) <= 0.5 * std::numbers::pi;
   return goal_is_ahead == (direction > 0);
@@ -47,6 +48,7 @@ HazardVote VoteOnPath(const GoodnessGrid& grid, const PoseEstimate& estimate,
   std::uint8_t least_goodness = 255;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const PathPoint& p = points[k];
+    // p_W = p_WR + Rz(heading) p_R by the believed pose.
     const CellValue& cell = grid.At(estimate.x_m + cosine * p.x_m - sine * p.y_m,
                                     estimate.y_m + sine * p.x_m + cosine * p.y_m);
     weighted_goodness += weights[k] * cell.goodness;
@@ -54,6 +56,8 @@ HazardVote VoteOnPath(const GoodnessGrid& grid, const PoseEstimate& estimate,
     sum_of_weights += weights[k];
     least_goodness = std::min(least_goodness, cell.goodness);
   }
+  // Step 4: goodness = sum w g / sum w, certainty = sum w c / sum w; one forbidden cell forbids the
+  // path.
   const bool allowed = least_goodness > min_allowed_goodness;
   return {allowed ? weighted_goodness / sum_of_weights : 0.0, weighted_certainty / sum_of_weights};
 }
@@ -78,12 +82,17 @@ double BestCurvature(const GoalDirection& goal, int direction, double step_m,
   const bool with_rear = towards && direction < 0;
   const double turn_rad =
       with_rear ? math::WrapAngle(goal.bearing_rad - std::numbers::pi) : goal.bearing_rad;
+  // Tight: turned by `turn` after one step, c = turn / step. Driving backwards with the rear
+  // towards the goal the turn is counted from straight behind, and a curvature c turns the rover by
+  // -c s.
   const double tight = direction * turn_rad / std::min(step_m, distance_m);
   // The arc through a goal behind begins almost straight away from it: turn as for one abeam.
   const double right_angle = 0.5 * std::numbers::pi;
   const double bearing_rad =
       direction > 0 ? std::clamp(goal.bearing_rad, -right_angle, right_angle) : goal.bearing_rad;
   const double side = towards ? 1.0 : direction;
+  // Broad: the circle through the origin, tangent to x, and through the goal at distance d, bearing
+  // b: c = 2 sin(b) / d.
   const double broad = side * 2.0 * std::sin(bearing_rad) / distance_m;
   const double fraction = params.waypoints.tight_curve_fraction;
   return fraction * std::clamp(tight, -limit, limit) +
@@ -91,6 +100,7 @@ double BestCurvature(const GoalDirection& goal, int direction, double step_m,
 }
 
 double WaypointVote(double peak, double index_from_best, double vote_index_variance) {
+  // peak exp(-(i - best)^2 / (2 variance)).
   return peak * std::exp(-0.5 * index_from_best * index_from_best / vote_index_variance);
 }
 
@@ -99,6 +109,7 @@ double MergeVotes(const HazardVote& hazard, double waypoint, double waypoint_cer
   const double lower = std::min(hazard.goodness, waypoint);
   const double certainties = hazard.certainty + waypoint_certainty;
   if (lower < min_vote_goodness || certainties <= 0.0) return lower;
+  // (h c_h + w c_w) / (c_h + c_w).
   return (hazard.goodness * hazard.certainty + waypoint * waypoint_certainty) / certainties;
 }
 
@@ -115,6 +126,8 @@ MotionVotes ArcVoter::Vote(const GoodnessGrid& grid, const PoseEstimate& estimat
   votes.forward = VoteOnArcs(candidates_.forward, +1, grid, estimate, goal_R);
   votes.backward = VoteOnArcs(candidates_.backward, -1, grid, estimate, goal_R);
   const std::size_t count = candidates_.forward.size();
+  // A point turn is voted on as the straight arc after it; of an even number of arcs the straight
+  // one lies between two.
   const double straight = 0.5 * static_cast<double>(count - 1);
   for (const CandidateMotion& turn : candidates_.point_turns) {
     const GoalDirection after_turn{goal_R.distance_m,

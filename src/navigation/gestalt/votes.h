@@ -15,17 +15,18 @@
 
 namespace rockyard::navigation {
 
+// How safe a path is, and how sure that is.
 struct HazardVote {
   double goodness = 0.0;
   double certainty = 0.0;
 };
 
-// Step 4, "a weighted sum, biased to consider nearby cells more strongly", over the cells under the
-// first points of a path, with w the weights:
+// Votes by step 4, "a weighted sum, biased to consider nearby cells more strongly", over the cells
+// under the first points of a path, with w the weights:
 //   goodness  = sum w g / sum w, but 0 if any g <= min_allowed_goodness,
 //   certainty = sum w c / sum w.
-// Unknown cells count with their pair. `estimate` is where the path begins. Weights as many as
-// points at least; cost: one look into the grid a point.
+// Unknown cells count with their pair. `estimate` is where the path begins. There are at least as
+// many weights as points; cost: one look into the grid a point.
 HazardVote VoteOnPath(const GoodnessGrid& grid, const messages::PoseEstimate& estimate,
                       std::span<const PathPoint> points, std::span<const double> weights,
                       double min_allowed_goodness);
@@ -38,12 +39,13 @@ struct GoalDirection {
 
 GoalDirection TowardsGoal(const messages::PoseEstimate& estimate, const messages::Goal& goal);
 
-// Step 5: the highest waypoint vote of arcs driven in the direction (+1 forward, -1 backward): 255
-// if it leads towards the goal, which forward is at bearings up to 90 deg, and 128 otherwise.
+// Returns the highest waypoint vote (step 5) of arcs driven in the direction (+1 forward, -1
+// backward): 255 if it leads towards the goal, which forward is at bearings up to 90 deg, and 128
+// otherwise.
 double WaypointPeak(const GoalDirection& goal, int direction);
 
-// Curvature of the arc that "best points the rover toward the goal" (step 5), at most
-// max_curvature:
+// Returns the curvature of the arc that "best points the rover toward the goal" (step 5), 1/m, at
+// most max_curvature:
 //   c = f c_tight + (1 - f) c_broad,  f = tight_curve_fraction.
 // Tight faces the goal after one step, c_tight = direction * turn / min(step, distance), where
 // `turn` brings the front to the goal, or the rear when driving backward towards a goal behind.
@@ -55,14 +57,16 @@ double WaypointPeak(const GoalDirection& goal, int direction);
 double BestCurvature(const GoalDirection& goal, int direction, double step_m,
                      const GestaltParams& params);
 
-// Step 5, the Gaussian around the best arc: peak exp(-(index - best)^2 / (2 vote_index_variance)).
+// Returns the Gaussian around the best arc (step 5): peak exp(-(index - best)^2 / (2
+// vote_index_variance)).
 double WaypointVote(double peak, double index_from_best, double vote_index_variance);
 
-// Step 6: the lower vote if either is below min_vote_goodness, otherwise the mean weighted by the
-// certainties. Certainties of 0 both: the lower vote.
+// Returns the merged vote (step 6): the lower vote if either is below min_vote_goodness, otherwise
+// the mean weighted by the certainties. If both certainties are 0 it is the lower vote.
 double MergeVotes(const HazardVote& hazard, double waypoint, double waypoint_certainty,
                   double min_vote_goodness);
 
+// The votes in the rows of CandidateMotions.
 struct MotionVotes {
   std::vector<messages::MotionVote> forward;
   std::vector<messages::MotionVote> backward;
@@ -84,7 +88,8 @@ class ArcVoter {
   const PathSampling& sampling() const { return sampling_; }
 
  private:
-  // Of the arc at `index`, between two arcs too, among `count` driven in the direction.
+  // Returns the vote on the arc at `index`, between two arcs too, among `count` driven in the
+  // direction.
   double WaypointVoteAt(double index, std::size_t count, int direction,
                         const GoalDirection& goal) const;
   std::vector<messages::MotionVote> VoteOnArcs(const std::vector<CandidateMotion>& arcs,

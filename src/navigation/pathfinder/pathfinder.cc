@@ -88,6 +88,7 @@ NavigatorDecision PathfinderNavigator::OnHazard(const NavigatorInput& input) {
   if (newly_seen || params_.turn_direction == TurnDirection::kEachScan) {
     avoid_direction_ = ChooseTurn(*input.report, GoalBearing(input.estimate), params_);
   }
+  // A hazard that is new: its turn is counted from here, and latched where the parameters say so.
   if (newly_seen) avoided_turn_rad_ = 0.0;
   clearing_left_m_ = 0.0;
   facing_goal_ = false;
@@ -125,6 +126,7 @@ NavigatorDecision PathfinderNavigator::Continue(const NavigatorInput& input) {
 }
 
 NavigatorDecision PathfinderNavigator::ContinueTurn(const NavigatorInput& input) {
+  // Positive along the turn; WrapAngle, since headings stay within [-pi, pi].
   const double turned =
       motion_.direction * math::WrapAngle(input.estimate.heading_rad - anchor_.heading_rad);
   const bool faces_goal = mode_ == Mode::kFacingGoal && !NeedsPointTurn(input.estimate);
@@ -142,6 +144,7 @@ NavigatorDecision PathfinderNavigator::ContinueDrive(const NavigatorInput& input
     return driven < leg_m_ ? Move(motion_) : BeginTurn(Mode::kAvoiding, *avoid_direction_, input);
   }
   if (mode_ == Mode::kThreading && driven < leg_m_) return Move(motion_);
+  // A scan may interrupt the straight drive; what is left of it is driven afterwards.
   if (mode_ == Mode::kClearing) clearing_left_m_ = std::max(0.0, leg_m_ - driven);
   const double since_scan = input.estimate.distance_m - odometer_at_scan_m_;
   if (uses_hazard_sensor_ && since_scan >= params_.scan_interval_m) return BeginScan();

@@ -22,6 +22,7 @@
 
 namespace rockyard::navigation {
 
+// The controller of one drive. It draws no random numbers.
 class PathfinderNavigator final : public Navigator {
  public:
   // With `uses_hazard_sensor` false the rover drives blind: it never asks for a scan.

@@ -16,6 +16,7 @@ int CountHazards(const HazardReport& report, const std::vector<std::int64_t>& st
   }));
 }
 
+// Stripes run from left to right: the last one is the outermost on the right.
 bool RightIsClearFor(const HazardReport& report, const PathfinderParams& params) {
   if (params.right_is_clear == RightIsClear::kNoRightHazard) {
     return CountHazards(report, params.right_stripes) == 0;
@@ -46,11 +47,13 @@ HazardSides ClassifySides(const HazardReport& report, const PathfinderParams& pa
           CountHazards(report, params.right_stripes) > 0};
 }
 
+// The rules in the order in which Matthies 1995, section 7, prints them.
 int ChooseTurn(const HazardReport& report, double goal_bearing_rad,
                const PathfinderParams& params) {
   const HazardSides sides = ClassifySides(report, params);
   EXPECT(sides.any());
   if (sides.left && sides.right) return TurnFromBothSides(report, goal_bearing_rad, params);
+  // "IF hazard on the left: turn in place to the right".
   if (sides.left) return kRight;
   if (sides.centre) return RightIsClearFor(report, params) ? kRight : kLeft;
   return kLeft;
@@ -61,6 +64,7 @@ double CurvatureToGoal(double goal_bearing_rad, const PathfinderParams& params) 
   if (size <= params.heading_deadband_rad) return 0.0;
   const double radius =
       size > params.tight_arc_bearing_rad ? params.tight_arc_radius_m : params.wide_arc_radius_m;
+  // Positive to the left, as the bearing.
   return std::copysign(1.0 / radius, goal_bearing_rad);
 }
 

@@ -11,7 +11,7 @@ namespace rockyard::navigation {
 inline constexpr int kLeft = +1;
 inline constexpr int kRight = -1;
 
-// Sides on which a report shows hazards.
+// The sides on which a report shows hazards.
 struct HazardSides {
   bool left = false;
   bool centre = false;
@@ -22,12 +22,12 @@ struct HazardSides {
 
 HazardSides ClassifySides(const messages::HazardReport& report, const PathfinderParams& params);
 
-// Turn direction (+1 left, -1 right) that the rules choose. `goal_bearing_rad` is positive when the
-// goal lies to the left. Requires a report with a hazard.
+// Returns the turn direction (+1 left, -1 right) that the rules choose. `goal_bearing_rad` is
+// positive when the goal lies to the left. The report must show a hazard.
 int ChooseTurn(const messages::HazardReport& report, double goal_bearing_rad,
                const PathfinderParams& params);
 
-// Curvature (1/m, positive left) that leads towards a goal at the given bearing.
+// Returns the curvature (1/m, positive left) that leads towards a goal at the given bearing.
 double CurvatureToGoal(double goal_bearing_rad, const PathfinderParams& params);
 
 }  // namespace rockyard::navigation

@@ -36,6 +36,7 @@ std::optional<NavigatorDecision> VehicleReaction::Begin(const NavigatorInput& in
   const messages::VehicleHazard* hazard = input.vehicle_hazard;
   if (hazard == nullptr) return std::nullopt;
   if (input.estimate.distance_m < ignored_until_m_) return std::nullopt;
+  // Reactions count from the last gain of progress_m towards the goal.
   if (goal_distance_m <= best_goal_distance_m_ - params_.progress_m) {
     best_goal_distance_m_ = goal_distance_m;
     repeats_ = 0;
@@ -51,6 +52,7 @@ std::optional<NavigatorDecision> VehicleReaction::Begin(const NavigatorInput& in
   cause_ = hazard->kind;
   was_clear_ = false;
   was_released_ = cause_ != VehicleHazardKind::kContact;
+  // Away from its side: left (+1) for a hazard on the right, right for all others.
   turn_direction_ = hazard->side == HazardSide::kRight ? +1 : -1;
   return Start(Stage::kBackingOff, {MotionKind::kArc, 0.0, -1}, input.estimate);
 }

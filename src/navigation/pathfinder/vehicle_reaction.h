@@ -17,12 +17,13 @@
 
 namespace rockyard::navigation {
 
+// The reaction under way, if any.
 class VehicleReaction {
  public:
   explicit VehicleReaction(const VehicleReactionParams& params) : params_(params) {}
 
-  // What the reaction asks for at this tick; nothing while there is none, and at the tick at which
-  // it has ended.
+  // Returns what the reaction asks for at this tick; nothing while there is none, and at the tick
+  // at which it has ended.
   std::optional<NavigatorDecision> Decide(const NavigatorInput& input, double goal_distance_m);
 
   void OnPoseUpdate(const messages::PoseEstimate& before, const messages::PoseEstimate& after);
@@ -33,7 +34,7 @@ class VehicleReaction {
   std::optional<NavigatorDecision> Begin(const NavigatorInput& input, double goal_distance_m);
   std::optional<NavigatorDecision> BackOff(const NavigatorInput& input);
   std::optional<NavigatorDecision> Turn(const NavigatorInput& input, double goal_distance_m);
-  // Whether this is new since the reaction began.
+  // Returns whether this is new since the reaction began.
   bool Appeared(const messages::VehicleHazard& hazard) const;
   NavigatorDecision Start(Stage stage, const messages::MotionCommand& motion,
                           const messages::PoseEstimate& estimate);

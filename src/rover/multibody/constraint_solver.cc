@@ -20,6 +20,7 @@ ConstraintSolver::ConstraintSolver(const RoverParams& params, const terrain::Soi
     : laws_(params, soil),
       step_s_(params.physics.step_s),
       iterations_(params.physics.solver_iterations) {
+  // The differential bar turns one rocker back by what the other turns: sum of the rates 0.
   differential_.J[6 + kLeftRocker] = 1.0;
   differential_.J[6 + kRightRocker] = 1.0;
   differential_.Unbind();
@@ -70,16 +71,20 @@ void ConstraintSolver::Solve(const DofMatrix& mass_inverse,
 }
 
 void ConstraintSolver::Start(const DofMatrix& mass_inverse, Row& row) {
-  // Of the 16 entries of J a contact uses six and those of the joints that carry its part.
+  // response = M^-1 J', the velocity change per unit impulse. Of the 16 entries of J a contact uses
+  // six and those of the joints that carry its part.
   row.response.setZero();
   for (int dof = 0; dof < kDof; ++dof) {
     if (row.J[dof] != 0.0) row.response += row.J[dof] * mass_inverse.col(dof);
   }
+  // d(J v + c p)/dp = J M^-1 J' + c, and e . e / m more for a rock of mass m that yields
+  // horizontally along e.
   row.diagonal = row.J.dot(row.response) + row.softness;
   if (row.rock != nullptr) {
     row.diagonal += row.direction_W.head<2>().squaredNorm() / row.rock->mass_kg;
   }
   row.impulse = std::clamp(row.impulse, row.low, row.high);
+  // Warm start: the impulse of the last step acts at once.
   velocity_ += row.impulse * row.response;
   if (row.rock != nullptr) row.rock->PushBack(row.impulse * row.direction_W);
 }
@@ -100,6 +105,8 @@ void ConstraintSolver::StartStops(const DofMatrix& mass_inverse, const Multibody
       row.high = row.impulse = 0.0;
       continue;
     }
+    // J v is the rate away from the stop. It must not use up the room within the step: J v >= -room
+    // / h; beyond the stop (room < 0) a fifth of the error is taken back.
     row.J[6 + joint] = angle_rad > 0.0 ? -1.0 : 1.0;
     row.target = -(room_rad > 0.0 ? 1.0 : kJointRecovery) * room_rad / step_s_;
     row.high = kUnbounded;
@@ -122,6 +129,7 @@ void ConstraintSolver::MarkActive(const Multibody& body, ContactFinder& finder) 
     contact.active = contact.gap_m < kActiveGap_m;
     if (contact.active) continue;
     body.FillJacobian(finder.part(contact.part).body, contact.p_W, contact.n_W, J);
+    // Gap at the end of the step if the motion went on without contacts.
     contact.active = contact.gap_m + step_s_ * J.dot(velocity) < kActiveGap_m;
   }
 }
@@ -140,8 +148,11 @@ void ConstraintSolver::StartContact(const DofMatrix& mass_inverse, const Part& p
   StartDrag(mass_inverse, part, body, rows);
 }
 
-// A spring and damper side by side, solved implicitly: force k (d - d0) - c v at the end of the
-// step, with the penetration d. A gap only bounds the approach.
+// A spring and damper side by side, solved implicitly: with the separating speed v at the end of
+// the step h, penetration d - h v and force F = k (d - h v - d_0) - c v. With F = p / h this is the
+// row
+//   v + p / (h (h k + c)) = k (d - d_0) / (h k + c),   p >= 0.
+// A contact with a gap g > 0 only bounds the approach, v >= -g / h, with the same softness.
 void ConstraintSolver::StartNormal(const DofMatrix& mass_inverse, const Part& part,
                                    const Multibody& body, ContactRows& rows) {
   const Contact& contact = *rows.contact;
@@ -172,6 +183,7 @@ void ConstraintSolver::StartFriction(const DofMatrix& mass_inverse, const Part& 
     row->Unbind();
     Start(mass_inverse, *row);
   }
+  // Off-diagonal of the 2 x 2 block: velocity along per unit impulse across.
   double coupling = rows.along.J.dot(rows.across.response);
   if (const LooseRock* rock = rows.along.rock; rock != nullptr) {
     coupling += contact.along_W.head<2>().dot(contact.across_W.head<2>()) / rock->mass_kg;
@@ -194,6 +206,8 @@ void ConstraintSolver::KeepForNextStep(const ContactRows& rows) const {
   Contact& contact = *rows.contact;
   contact.impulse_Ns = {rows.normal.impulse, rows.along.impulse, rows.across.impulse};
   contact.drag_Ns = rows.drag.impulse;
+  // Speed of the contact point, spin included, over fixed terrain. That a rock may move is left
+  // out: only contacts with soil ask for the slip.
   contact.slip_m_s = std::hypot(rows.along.J.dot(velocity_), rows.across.J.dot(velocity_));
 }
 
@@ -208,6 +222,7 @@ void ConstraintSolver::Sweep(LooseRocks* loose_rocks) {
     Relax(rows.normal);
     RelaxFriction(rows);
     if (rows.law.drag_ratio > 0.0) {
+      // |p_drag| <= (R / N) p_n.
       rows.drag.high = rows.law.drag_ratio * rows.normal.impulse;
       rows.drag.low = -rows.drag.high;
       Relax(rows.drag);
@@ -216,6 +231,7 @@ void ConstraintSolver::Sweep(LooseRocks* loose_rocks) {
   if (loose_rocks != nullptr) loose_rocks->Hold();
 }
 
+// b - J v - c p, plus e . u for a rock that moves with u: the row sees the motion against the rock.
 double ConstraintSolver::Residual(const Row& row) const {
   double residual = row.target - row.J.dot(velocity_) - row.softness * row.impulse;
   if (row.rock != nullptr) residual += row.direction_W.dot(row.rock->v_W_m_s);
@@ -229,10 +245,13 @@ void ConstraintSolver::Apply(double impulse, Row& row) {
 }
 
 void ConstraintSolver::Relax(Row& row) {
+  // Gauss-Seidel: the impulse that makes this row exact with all others as they are, then its
+  // bounds.
   Apply(std::clamp(row.impulse + Residual(row) / row.diagonal, row.low, row.high), row);
 }
 
 void ConstraintSolver::RelaxFriction(ContactRows& rows) {
+  // The pair's right side is what remains without its own impulses: b = residual + A p.
   const FrictionBlock& A = rows.friction;
   const double along = rows.along.impulse;
   const double across = rows.across.impulse;

@@ -17,6 +17,8 @@
 
 namespace rockyard::rover {
 
+// Solves all constraints of one step together, after Bullet has accelerated the free rover. The
+// table in src/rover/README.md lists the rows.
 class ConstraintSolver {
  public:
   ConstraintSolver(const RoverParams& params, const terrain::SoilParams& soil);
@@ -30,6 +32,7 @@ class ConstraintSolver {
   void Solve(const DofMatrix& mass_inverse, const messages::PerWheel<double>& wheel_rate_rad_s,
              LooseRocks* loose_rocks, ContactFinder& finder, Multibody& body);
 
+  // The mean torque of a wheel's motor over the last step.
   double MotorTorque_Nm(std::size_t wheel) const { return motors_[wheel].impulse / step_s_; }
 
  private:
@@ -52,6 +55,7 @@ class ConstraintSolver {
       high = kUnbounded;
     }
   };
+  // The rows of one contact.
   struct ContactRows {
     Contact* contact = nullptr;
     ContactLaw law;
@@ -78,9 +82,11 @@ class ConstraintSolver {
   void KeepForNextStep(const ContactRows& rows) const;
 
   void Sweep(LooseRocks* loose_rocks);
-  // What the row's left side lacks to its target.
+  // Returns what the row's left side lacks to its target.
   double Residual(const Row& row) const;
+  // Sets the row's impulse and lets the change act on rover and rock.
   void Apply(double impulse, Row& row);
+  // Gives the row the impulse that satisfies it, within its bounds, with all others as they are.
   void Relax(Row& row);
   void RelaxFriction(ContactRows& rows);
 

@@ -22,7 +22,7 @@ constexpr double kConverged_m = 1e-6;
 // the contact moves in proportion across the rim, as soft soil bears the whole width; so does the
 // contact of its side with a wall across that side.
 constexpr double kEdgeTilt = 0.1;
-// Chassis and panel cannot touch a plane while the rover stands on its wheels; sine of the tilt
+// Chassis and panel cannot touch a plane while the rover stands on its wheels; cosine of the tilt
 // from which on they are tested, given the most that rockers and bogies let the chassis lean.
 constexpr double kUprightCosine = 0.9;
 
@@ -56,6 +56,7 @@ void ContactFinder::Update(const Multibody& body) {
   contacts_.clear();
   next_last_ = 0;
   GatherRocks(body.X_WR().translation());
+  // R's z axis against the vertical, cosine of the rover's tilt.
   const bool upright = terrain_.ground().IsPlane() && body.X_WR().linear()(2, 2) > kUprightCosine;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const Part& part = parts_[i];
@@ -83,6 +84,8 @@ void ContactFinder::GatherRocks(const Vector3& p_WRo) {
 }
 
 Contact& ContactFinder::Add(int part, int other, bool& found) {
+  // Both lists are ordered by (part, other), so one pass through the last one finds every pair
+  // again.
   const auto key = std::tuple(part, other);
   while (next_last_ < last_.size() &&
          std::tuple(last_[next_last_].part, last_[next_last_].other) < key) {
@@ -110,10 +113,13 @@ Vector3 ContactFinder::Support(const Part& part, const math::Transform& X_WB, co
   Vector3 p_W = X_WB * part.center_B;
   if (part.core != Core::kCylinder) return p_W;
   const Vector3 axle_W = X_WB.linear().col(1);
+  // Sine of the angle by which the axle dips towards the plane.
   const double tilt = -n_W.dot(axle_W);
   const Vector3 down_W = -n_W - tilt * axle_W;  // in the plane of the rim
   const double size = down_W.norm();
   p_W += part.b_B.y() * std::clamp(tilt / kEdgeTilt, -1.0, 1.0) * axle_W;
+  // Down the rim by the core's radius; where wheel and plane are parallel the direction is
+  // undefined, and the bound lets it fade.
   p_W += part.b_B.x() / std::max(size, kEdgeTilt) * down_W;
   return p_W - part.margin_m * n_W;
 }
@@ -124,6 +130,8 @@ void ContactFinder::MeetGround(int index, const math::Transform& X_WB) {
   const terrain::Ground& ground = terrain_.ground();
   const Vector3 n_W = ground.Normal(center_W.x(), center_W.y());
   const Vector3 p_W = Support(part, X_WB, n_W);
+  // Height over the ground times the cosine of the slope: the distance from the tangent plane
+  // there.
   const double gap_m = (p_W.z() - ground.Height(p_W.x(), p_W.y())) * n_W.z();
   if (gap_m > kFollowedGap_m) return;
   bool found = false;
@@ -139,6 +147,7 @@ void ContactFinder::MeetWalls(int index, const math::Transform& X_WB) {
   const Vector3 center_W = X_WB * part.center_B;
   const double reach_m = part.bounding_radius_m + kFollowedGap_m;
   const auto walls = terrain_.walls();
+  // Wall i is kFirstWall - i, so counting down keeps contacts ordered by `other`.
   for (std::size_t i = walls.size(); i-- > 0;) {
     if (walls[i].offset_m - walls[i].normal_W.dot(center_W) > reach_m) continue;
     const Vector3 p_W = Support(part, X_WB, -walls[i].normal_W);
@@ -155,6 +164,8 @@ void ContactFinder::MeetWalls(int index, const math::Transform& X_WB) {
 
 bool ContactFinder::AreApart(const Part& part, const math::Transform& X_WB,
                              const SurfacePoint& surface) {
+  // The tangent plane of the rock at that point separates the two if the whole part lies beyond it:
+  // min n . (x - p) over the core, less the margin.
   const Vector3 n_B = X_WB.linear().transpose() * surface.normal_W;
   const double least_m =
       LeastAlong(part, n_B) + surface.normal_W.dot(X_WB.translation() - surface.point_W);
@@ -168,6 +179,7 @@ void ContactFinder::MeetRock(int index, const math::Transform& X_WB, const Vecto
   const double reach_m = part.bounding_radius_m + kFollowedGap_m;
   const double far_m = reach_m + ellipsoid.bounding_radius_m();
   if ((center_W - ellipsoid.center_W()).squaredNorm() > far_m * far_m) return;
+  // Cheap test before the nearest point, which needs a root.
   if (ellipsoid.DistanceBound(center_W) > reach_m) return;
 
   bool found = false;
@@ -182,6 +194,8 @@ void ContactFinder::MeetRock(int index, const math::Transform& X_WB, const Vecto
   const int sweeps = found ? kSweeps : kFirstSweeps;
   Vector3 core_W = center_W;
   for (int i = 0; i < sweeps; ++i) {
+    // Alternating projections onto two convex sets, core and rock: the distance falls with every
+    // sweep.
     core_W = X_WB * NearestOnCore(part, R_BW * (surface.point_W - X_WB.translation()));
     const Vector3 before_W = surface.point_W;
     surface = ellipsoid.Nearest(core_W);

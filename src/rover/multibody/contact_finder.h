@@ -12,12 +12,12 @@
 
 namespace rockyard::rover {
 
-// What a part touches: a rock by its index >= 0, the ground, or wall i as kFirstWall - i.
+// What a part touches is a rock by its index >= 0, the ground, or wall i as kFirstWall - i.
 inline constexpr int kGround = -1;
 inline constexpr int kFirstWall = -2;
 
-// Contact of a part with one thing. Kept from step to step while the two stay near, so that the
-// last impulses start the next solution.
+// A contact of a part with one thing. It is kept from step to step while the two stay near, so that
+// the last impulses start the next solution.
 struct Contact {
   int part = 0;
   int other = kGround;
@@ -28,8 +28,8 @@ struct Contact {
   math::Vector3 along_W = math::Vector3::UnitX();  // rolling direction of a wheel, tangential
   math::Vector3 across_W = math::Vector3::UnitY();
   math::Vector3 near_W = math::Vector3::Zero();  // nearest point of the rock
-  // Of the last step: impulses along n_W, along_W, across_W, N s, the motion resistance, and the
-  // speed at which the two slide on each other.
+  // These three are of the last step: the impulses along n_W, along_W and across_W, N s, the motion
+  // resistance, and the speed at which the two slide on each other.
   std::array<double, 3> impulse_Ns{};
   double drag_Ns = 0.0;
   double slip_m_s = 0.0;
@@ -41,6 +41,7 @@ struct Contact {
   }
 };
 
+// Keeps the list of contacts. Draws no random numbers.
 class ContactFinder {
  public:
   ContactFinder(const RoverGeometryParams& params, const terrain::Terrain& terrain);
@@ -62,13 +63,13 @@ class ContactFinder {
   void MeetGround(int index, const math::Transform& X_WB);
   void MeetWalls(int index, const math::Transform& X_WB);
   void MeetRock(int index, const math::Transform& X_WB, const math::Vector3& center_W, int rock);
-  // Whether the plane that touches a rock at that point of its surface keeps the part so far away
-  // that the pair need not be followed.
+  // Returns whether the plane that touches a rock at that point of its surface keeps the part so
+  // far away that the pair need not be followed.
   static bool AreApart(const Part& part, const math::Transform& X_WB, const SurfacePoint& surface);
-  // Point of a part that reaches farthest against n_W.
+  // Returns the point of a part that reaches farthest against n_W.
   static math::Vector3 Support(const Part& part, const math::Transform& X_WB,
                                const math::Vector3& n_W);
-  // Starts a contact from the one of the last step, if there was one.
+  // Starts a contact from the one of the last step, if there was one; `found` says so.
   Contact& Add(int part, int other, bool& found);
   void SetTangents(const math::Transform& X_WB, Contact& contact) const;
 

@@ -8,8 +8,8 @@
 
 namespace rockyard::rover {
 
-// One contact's law in one step. Normal force: stiffness times the penetration beyond rest_depth_m,
-// and the damping.
+// The law of one contact in one step. Its normal force is the stiffness times the penetration
+// beyond rest_depth_m, less the damping.
 struct ContactLaw {
   double stiffness_N_m = 0.0;
   double rest_depth_m = 0.0;
@@ -18,14 +18,16 @@ struct ContactLaw {
   double drag_ratio = 0.0;              // motion resistance over load
 };
 
+// Finds the law of a contact from the rover's parameters and the soil.
 class ContactLaws {
  public:
   ContactLaws(const RoverParams& params, const terrain::SoilParams& soil);
 
-  // Of a contact whose impulses and slip are those of the last step. spin_rad_s: rate of the wheel,
-  // without effect for other parts.
+  // Returns the law of a contact whose impulses and slip are those of the last step. spin_rad_s is
+  // the rate of the wheel; it has no effect for other parts.
   ContactLaw Of(const Part& part, const Contact& contact, double spin_rad_s) const;
 
+  // The damping of every contact.
   double damping_Ns_m() const { return params_.damping_Ns_m; }
 
  private:

@@ -13,11 +13,13 @@ namespace rockyard::rover {
 class FrictionBlock {
  public:
   // A = [a0 a01; a01 a1].
+  // Sets A = [a0 a01; a01 a1] and forgets s.
   void Set(double a0, double a1, double a01);
 
-  // Bounded: (A + s I) p = b for the s >= 0 that gives |p| = most, by Newton's method on the
-  // length of p (More and Sorensen 1983 sec. 3), which approaches s from below without overshoot.
-  // Starts from the s of the last call: one or two iterations within the sweeps of one step.
+  // Returns p. Bounded, (A + s I) p = b holds for the s >= 0 that gives |p| = most, found by
+  // Newton's method on the length of p (More and Sorensen 1983 sec. 3), which approaches s from
+  // below without overshoot. It starts from the s of the last call: one or two iterations within
+  // the sweeps of one step.
   std::array<double, 2> Solve(const std::array<double, 2>& b, double most);
 
   double a0() const { return a0_; }

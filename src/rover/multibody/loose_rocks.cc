@@ -9,6 +9,7 @@ namespace rockyard::rover {
 using math::Vector3;
 
 void LooseRock::PushBack(const Vector3& impulse_Ns) {
+  // Newton's third law: du = -p / m in the plane. What lifts the rover, p_z > 0, loads the rock.
   v_W_m_s.head<2>() -= impulse_Ns.head<2>() / mass_kg;
   load_Ns += impulse_Ns.z();
 }
@@ -51,6 +52,9 @@ void LooseRocks::Hold() {
 }
 
 void LooseRocks::Hold(LooseRock& rock) const {
+  // hold_Ns is already in the velocity, so the impulse that stops the rock is hold - m u. The soil
+  // gives at most h F along it, F for a rock that slides the other way: Coulomb's law, in one
+  // projection.
   const Vector3 wanted_Ns = rock.hold_Ns - rock.mass_kg * rock.v_W_m_s;
   const auto& shape = terrain_.rocks()[static_cast<std::size_t>(rock.index)];
   const double most_Ns = step_s_ * terrain::HoldingForce(shape, params_, gravity_m_s2_,

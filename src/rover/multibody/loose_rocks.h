@@ -19,7 +19,8 @@ struct LooseRock {
   double load_Ns = 0.0;                           // downward impulse of the rover on the rock
   bool touched = false;                           // in this step
 
-  // The rover receives this impulse, the rock its opposite; the soil takes the vertical part.
+  // Gives the rock the opposite of the impulse that the rover receives; the soil takes the vertical
+  // part.
   void PushBack(const math::Vector3& impulse_Ns);
 };
 
@@ -35,8 +36,8 @@ class LooseRocks {
   void Clear();
   // Takes up the rocks of the active contacts, and keeps those that still slide.
   void Start(const std::vector<Contact>& contacts);
-  // The rock with that index; null where the contacts of Start do not touch it. Valid until the
-  // next Start.
+  // Returns the rock with that index, or null where the contacts of Start do not touch it. It is
+  // valid until the next Start.
   LooseRock* Find(int index);
 
   // Lets the soil take, of every rock, as much of its motion as the holding force can in one step.

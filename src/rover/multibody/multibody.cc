@@ -10,6 +10,7 @@ namespace {
 
 using math::Vector3;
 
+// Bullet's vectors hold doubles here (btScalar is double): nothing is rounded.
 btVector3 ToBullet(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
 Vector3 FromBullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -53,6 +54,9 @@ void Multibody::BuildLinks(const RoverParams& params) {
   const RoverGeometry geometry = MakeRoverGeometry(params.geometry);
   const RoverMasses masses = MakeRoverMasses(params);
   std::array<Vector3, kJoints> pivot_R;
+  // A link hangs on its parent by a revolute joint about +y at its own frame's origin; Bullet asks
+  // for the vector from the parent's centre of mass, which is the joint of all parents but the
+  // chassis.
   const auto add = [&](int joint, int parent, const BodyMass& body, const Vector3& p_R) {
     const Vector3 from = parent == kChassis ? p_RCom_ : pivot_R[static_cast<std::size_t>(parent)];
     pivot_R[static_cast<std::size_t>(joint)] = p_R;
@@ -79,6 +83,8 @@ void Multibody::BuildLinks(const RoverParams& params) {
 void Multibody::Reset(const math::Transform& X_WR) {
   btMultiBody& body = bullet_->body;
   const Eigen::Quaterniond q(X_WR.linear());
+  // Bullet's base frame stands at the chassis' centre of mass, with R's axes; its rotation is W to
+  // base.
   body.setBasePos(ToBullet(X_WR * p_RCom_));
   body.setWorldToBaseRot(btQuaternion(q.x(), q.y(), q.z(), q.w()).inverse());
   for (int joint = 0; joint < kJoints; ++joint) body.setJointPos(joint, 0.0);
@@ -93,6 +99,8 @@ void Multibody::StopMotion() {
 
 void Multibody::SetSteer(std::size_t wheel, double angle_rad) {
   btMultibodyLink& link = bullet_->body.getLink(kFirstWheel + static_cast<int>(wheel));
+  // Bullet stores the rotation from parent to link, the inverse of that which turns the axle by
+  // +angle.
   link.m_zeroRotParentToThis = btQuaternion(btVector3(0, 0, 1), -angle_rad);
   link.updateCacheMultiDof();
 }
@@ -102,6 +110,7 @@ void Multibody::UpdatePoses() {
   body.forwardKinematics(bullet_->rotations, bullet_->vectors);
   X_WR_ = FromBullet(body.getBaseWorldTransform());
   p_WCom_ = X_WR_.translation();
+  // From the centre of mass back to R's origin: p_WR = p_WCom - R_WR p_RCom.
   X_WR_.translation() -= X_WR_.linear() * p_RCom_;
   for (int joint = 0; joint < kJoints; ++joint) {
     X_WB_[static_cast<std::size_t>(joint)] = FromBullet(body.getLink(joint).m_cachedWorldTransform);
@@ -123,6 +132,8 @@ void Multibody::Accelerate(double gravity_m_s2, double step_s, DofMatrix& mass_i
   body.computeAccelerationsArticulatedBodyAlgorithmMultiDof(
       step_s, bullet_->scalars, bullet_->vectors, bullet_->matrices, false, false, false);
   body.clearForcesAndTorques();
+  // M^-1 column by column: the acceleration by a unit generalized force, without gravity and
+  // inertia.
   DofVector force = DofVector::Zero();
   for (int dof = 0; dof < kDof; ++dof) {
     force[dof] = 1.0;
@@ -141,6 +152,8 @@ void Multibody::Move(double step_s) { bullet_->body.stepPositionsMultiDof(step_s
 void Multibody::FillJacobian(int body, const Vector3& p_W, const Vector3& n_W,
                              DofVector& row) const {
   row.setZero();
+  // n . v for v = v_com + w x r + sum of joints rate y_B x (p - o_B): n . (w x r) = w . (r x n),
+  // and likewise for each joint from the body up to the chassis.
   row.head<3>() = (p_W - p_WCom_).cross(n_W);
   row.segment<3>(3) = n_W;
   for (int joint = body; joint != kChassis; joint = Parent(joint)) {

@@ -11,8 +11,8 @@
 
 namespace rockyard::rover {
 
-// Joints, all revolute about the lateral axis, in this order. A body has the number of the joint
-// that carries it; the chassis is kChassis.
+// The joints are all revolute about the lateral axis, in this order. A body has the number of the
+// joint that carries it; the chassis is kChassis.
 inline constexpr int kChassis = -1;
 inline constexpr int kLeftRocker = 0;
 inline constexpr int kRightRocker = 1;
@@ -22,11 +22,12 @@ inline constexpr int kFirstWheel = 4;  // wheels in the order of messages::Wheel
 inline constexpr int kJoints = 10;
 inline constexpr int kDof = 6 + kJoints;
 
-// Generalized velocities: angular then linear velocity of the chassis' centre of mass in W, then
-// joint rates, positive about +y (a wheel rolls forward).
+// Generalized velocities are the angular, then the linear velocity of the chassis' centre of mass
+// in W, then joint rates, positive about +y (a wheel rolls forward).
 using DofVector = Eigen::Matrix<double, kDof, 1>;
 using DofMatrix = Eigen::Matrix<double, kDof, kDof>;
 
+// The articulated body without contacts and constraints; ConstraintSolver adds those.
 class Multibody {
  public:
   explicit Multibody(const RoverParams& params);
@@ -43,8 +44,8 @@ class Multibody {
   // Refreshes what the queries below return from the joint angles and the chassis pose.
   void UpdatePoses();
   const math::Transform& X_WR() const { return X_WR_; }
-  // Frame of a body: origin at its joint (chassis: X_WR), axes parallel to R when its joint is at
-  // zero. Indices from kChassis.
+  // Returns the frame of a body, with indices from kChassis: origin at its joint (chassis: X_WR),
+  // axes parallel to R when its joint is at zero.
   const math::Transform& X_WB(int body) const {
     return body == kChassis ? X_WR_ : X_WB_[static_cast<std::size_t>(body)];
   }
@@ -60,7 +61,8 @@ class Multibody {
   // Moves the positions by one step.
   void Move(double step_s);
 
-  // Row of the Jacobian for the velocity, along unit vector n, of the point p fixed to a body.
+  // Fills the row of the Jacobian for the velocity, along unit vector n, of the point p fixed to a
+  // body.
   void FillJacobian(int body, const math::Vector3& p_W, const math::Vector3& n_W,
                     DofVector& row) const;
 

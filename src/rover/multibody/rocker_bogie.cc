@@ -42,6 +42,7 @@ double RiseBelow(const Footprint& area, const math::Transform& X_WR,
       const Vector3 p_R(area.x_m + area.half_length_m * (2.0 * i / nx - 1.0),
                         area.y_m + area.half_width_m * (2.0 * j / ny - 1.0), 0.0);
       const Vector3 p_W = X_WR * p_R;
+      // Rise over the plane along its normal, to first order in the slope.
       const double height_m = (terrain.Height(p_W.x(), p_W.y()) - p_W.z()) * up.z();
       rise_m = std::max(rise_m, height_m - area.clearance_m);
     }
@@ -69,7 +70,7 @@ math::Transform RockerBogie::LiftedPose(const math::Pose2& X_WR) const {
   const terrain::Ground& ground = terrain_.ground();
   const Vector3 up = ground.Normal(X_WR.x_m, X_WR.y_m);
   const Vector3 heading(std::cos(X_WR.heading_rad), std::sin(X_WR.heading_rad), 0.0);
-  // The rover's x axis keeps its heading as seen from above.
+  // Lies in the plane, forward . up = 0, and keeps its heading as seen from above.
   Vector3 forward = heading - heading.dot(up) / up.z() * Vector3::UnitZ();
   forward.normalize();
   math::Transform X = math::Transform::Identity();
@@ -113,6 +114,7 @@ void RockerBogie::Settle() {
   for (int i = 0; i < steps && slow_steps < kSettledSteps; ++i) {
     Advance(braked);
     const DofVector velocity = body_.Velocity();
+    // v <- 0.8 v.
     body_.AddVelocity((kSettleDamping - 1.0) * velocity);
     slow_steps = velocity.head<6>().norm() < kSettled_m_s ? slow_steps + 1 : 0;
   }
@@ -132,6 +134,8 @@ void RockerBogie::Step(const messages::WheelCommand& command) {
     if (change != 0.0) SetSteer(i, state_.steer_rad[i] + change);
   }
   messages::PerWheel<double> rate_rad_s = command.rate_rad_s;
+  // One physics step stands for time_scale steps of real time: rates are as many times faster
+  // inside.
   for (double& rate : rate_rad_s) rate *= params_.physics.time_scale;
   Advance(rate_rad_s);
   UpdateState();
@@ -163,6 +167,8 @@ void RockerBogie::UpdateState() {
   const DofVector velocity = body_.Velocity() / params_.physics.time_scale;
   state_.X_WR = body_.X_WR();
   state_.w_WR_rad_s = velocity.head<3>();
+  // From the chassis' centre of mass C to R's origin: v_R = v_C + w x (p_R - p_C), all in W.
+  // Velocities are reported in real time.
   state_.v_WR_m_s = velocity.segment<3>(3) +
                     state_.w_WR_rad_s.cross(body_.X_WR().translation() - body_.p_WComChassis());
   for (std::size_t i = 0; i < kWheelCount; ++i) {

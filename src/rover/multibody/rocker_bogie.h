@@ -11,10 +11,11 @@
 
 namespace rockyard::rover {
 
-// Cost per step: see tests/rover/rover_benchmark.cc. Draws no random numbers.
+// The rover with inertia. It draws no random numbers; tests/rover/rover_benchmark.cc measures its
+// cost.
 class RockerBogie final : public Rover {
  public:
-  // On fixed rocks, and on rocks that the rover can push.
+  // The first puts the rover on fixed rocks, the second on rocks that it can push.
   RockerBogie(const RoverParams& params, const terrain::Terrain& terrain);
   RockerBogie(const RoverParams& params, const terrain::RockHoldingParams& holding,
               terrain::Terrain& terrain);

@@ -31,6 +31,7 @@ constexpr double kLoadStep = 0.5;
 // Stands for no motion at all.
 constexpr double kHeld = 1e12;
 
+// The rates that move one side: the six of the chassis, the rocker, and that side's bogie.
 SideVector OfSide(const LinkageVector& rates, std::size_t side) {
   SideVector result;
   result << rates.head<7>(), rates[kFirstBogieDof + static_cast<int>(side)];
@@ -51,6 +52,8 @@ QuasiStaticBalance::QuasiStaticBalance(const RoverParams& params, const terrain:
       mean_load_N_(params.mass.total_kg * params.physics.gravity_m_s2 / 6.0),
       stop_stiffness_Nm_(params.contact.stiffness_N_m * params.geometry.length_m *
                          params.geometry.length_m / 16.0) {
+  // D: at full speed the damping takes 0.1 % of the weight; about an axis, of the weight at an arm
+  // of a quarter of the rover's length.
   const double per_speed = 1e-3 * 6.0 * mean_load_N_ / params.drive.speed_m_s;
   const double arm_m = 0.25 * params.geometry.length_m;
   free_damping_.setConstant(per_speed * arm_m * arm_m);
@@ -68,11 +71,16 @@ void QuasiStaticBalance::MakeRow(const Linkage& linkage, const Drive& drive,
   row.loaded = contact.load_N > 0.0;
   Vector3 along_W = linkage.axle_W(static_cast<std::size_t>(contact.IsWheel() ? contact.part : 0))
                         .cross(contact.n_W);
+  // axle x normal is the rolling direction; a wheel met at its side face has none.
   if (along_W.squaredNorm() < 1e-6) along_W = contact.n_W.unitOrthogonal();
   along_W.normalize();
+  // Rows in the space of the rates: row . w is the velocity of the contact point along that
+  // direction.
   row.normal = J.transpose() * contact.n_W;
   row.along = J.transpose() * along_W;
   row.across = J.transpose() * contact.n_W.cross(along_W);
+  // The contact was found lead_s ahead at these rates; its gap changes at the rate n . J w, so this
+  // is the gap at the beginning of the step.
   row.gap_m = contact.gap_m - drive.lead_s * row.normal.dot(OfSide(rates, row.side));
   if (contact.IsWheel()) MakeWheelRow(linkage, drive, contact, row);
   if (contact.IsSoil()) {
@@ -86,7 +94,8 @@ void QuasiStaticBalance::MakeWheelRow(const Linkage& linkage, const Drive& drive
   const auto wheel = static_cast<std::size_t>(contact.part);
   const Vector3 axle_W = linkage.axle_W(wheel);
   const double rate_rad_s = drive.rate_rad_s[wheel];
-  // The rim moves backwards at the contact, along -axle x arm, which is the direction `along`.
+  // The rim's velocity against the axle at the contact is omega axle x arm: backwards, against
+  // `along`, for a wheel that rolls forward. The motor feels a force along it by the same arm.
   row.arm_m = axle_W.cross(contact.p_W - linkage.wheel_W(wheel)).norm();
   row.rim_m_s = rate_rad_s * row.arm_m;
   row.reference_m_s =
@@ -97,16 +106,21 @@ void QuasiStaticBalance::MakeWheelRow(const Linkage& linkage, const Drive& drive
   const SoilAnswer soil = soil_.At(load_N);
   const double k = contact_params_.stiffness_N_m;
   row.stiffness_N_m = 1.0 / (1.0 / soil.stiffness_N_m + 1.0 / k);
+  // Tangent at the load N_0: N = N_0 + k_row (depth - z(N_0) - N_0 / k), which has N = 0 at the
+  // depth
+  //   rest = z(N_0) + N_0 / k - N_0 / k_row.
   row.rest_m = soil.sinkage_m + load_N / k - load_N / row.stiffness_N_m;
 }
 
 void QuasiStaticBalance::SetTraction(const RestingContact& contact, Row& row) const {
   const double load_N = contact.traction_load_N;
   row.shear_ratio = row.resistance_N = 0.0;
+  // Settling: no rim turns, and contacts are without traction.
   if (row.reference_m_s == 0.0) {
     row.most_N = 0.0;
   } else if (contact.IsSoil()) {
     const SoilAnswer soil = soil_.At(load_N);
+    // What the motor can hold at the rim bounds the traction as well.
     row.most_N = std::min(soil.traction_N, stall_force_N_);
     row.shear_ratio = soil.shear_ratio;
     row.resistance_N = soil.resistance_N;
@@ -120,12 +134,18 @@ void QuasiStaticBalance::SetTraction(const RestingContact& contact, Row& row) co
 QuasiStaticBalance::Traction QuasiStaticBalance::TractionOf(const Row& row, double speed_m_s) {
   const double slip = speed_m_s / row.reference_m_s;
   if (row.shear_ratio > 0.0) {
+    // Soil, with the slip i = v / v_ref and u = i l / K:
+    //   F = T_max tau(u),  F / v = T_max (l / K) / v_ref tau / u,  dF/dv = T_max (l / K) / v_ref
+    //   tau'.
+    // tau / u tends to 1/2 at u = 0.
     const double u = slip * row.shear_ratio;
     const ShearShare share = ShareOfRatio(u);
     const double scale = row.most_N * row.shear_ratio / row.reference_m_s;
     constexpr double kSmall = 1e-6;
     return {scale * (u > kSmall ? share.value / u : 0.5), scale * share.slope};
   }
+  // Rock, Coulomb's law made smooth:
+  //   F = mu N i / sqrt(i^2 + i_c^2),  dF/dv = F / v i_c^2 / (i^2 + i_c^2).
   const double root2 = slip * slip + kRockCreep * kRockCreep;
   const double per_speed = row.most_N / (std::sqrt(root2) * row.reference_m_s);
   return {per_speed, per_speed * kRockCreep * kRockCreep / root2};
@@ -133,9 +153,12 @@ QuasiStaticBalance::Traction QuasiStaticBalance::TractionOf(const Row& row, doub
 
 void QuasiStaticBalance::AddForces(const SideVector& w, RestingContact& contact, Row& row) {
   row.acts = false;
+  // Penetration at the end of the step; N = k (depth - rest).
   const double depth_m = -row.gap_m - step_s_ * row.normal.dot(w);
   contact.load_N = row.stiffness_N_m * (depth_m - row.rest_m);
   contact.sliding_speed_m_s = 0.0;
+  // An open contact has no force. In the first evaluation one that bore load before keeps its
+  // spring all the same: a far-off start would else open contacts that the solution has closed.
   if (contact.load_N <= 0.0 && !(first_ && row.loaded)) {
     contact.load_N = 0.0;
     return;
@@ -146,11 +169,16 @@ void QuasiStaticBalance::AddForces(const SideVector& w, RestingContact& contact,
     equations_.AddForce(row.side, contact.load_N * row.normal);
     return;
   }
+  // Slip velocity s: the rim's minus that of the axle's point over the ground. The force on the
+  // rover is along s.
   const double along = row.rim_m_s - row.along.dot(w);
   const double across = -row.across.dot(w);
   const double speed_m_s = std::sqrt(along * along + across * across);
   contact.sliding_speed_m_s = speed_m_s;
   const Traction traction = TractionOf(row, speed_m_s);
+  // F = f(|s|) s / |s| has the derivative (f/|s|) I + (f' - f/|s|) s s' / |s|^2. Away from the
+  // solution only the first term is kept, the chord: it is never less than the tangent, so the step
+  // is safe.
   const double bend = tangent_ && speed_m_s > 0.0
                           ? (traction.slope - traction.per_speed) / (speed_m_s * speed_m_s)
                           : 0.0;
@@ -169,13 +197,15 @@ void QuasiStaticBalance::AddForces(const SideVector& w, RestingContact& contact,
 void QuasiStaticBalance::AddResistance(const SideVector& rates, Row& row) {
   const double v_m_s = row.axle.dot(rates);
   const double creep_m_s = kResistanceCreep * row.reference_m_s;
+  // R v / sqrt(v^2 + v_c^2), the smooth sign of v, and its derivative as in TractionOf.
   const double root2 = v_m_s * v_m_s + creep_m_s * creep_m_s;
   const double per_speed = row.resistance_N / std::sqrt(root2);
   equations_.AddForce(row.side, -per_speed * v_m_s * row.axle);
   row.k_axle = per_speed * creep_m_s * creep_m_s / root2;
 }
 
-// Minus the derivative of the contact's force at the rates of the last evaluation.
+// Minus the derivative of the contact's force by the rates, at the last evaluation: h k n n' across
+// the spring, and K_t in the tangent plane.
 void QuasiStaticBalance::AddStiffness(const RestingContact& contact, const Row& row) {
   if (!row.acts) return;
   const double k_n = step_s_ * row.stiffness_N_m;
@@ -192,6 +222,7 @@ void QuasiStaticBalance::AddStops(const LinkageVector& rates) {
   for (int i = 0; i < 3; ++i) {
     const int dof = kRockerDof + i;
     const double end_rad = angle_rad[static_cast<std::size_t>(i)] + step_s_ * rates[dof];
+    // Beyond a stop a spring turns the joint back: torque -k (|angle| - stop) sign(angle).
     const double beyond_rad = std::abs(end_rad) - stop_rad_[static_cast<std::size_t>(i)];
     if (beyond_rad <= 0.0) continue;
     equations_.AddAt(dof, -std::copysign(stop_stiffness_Nm_ * beyond_rad, end_rad),
@@ -211,6 +242,7 @@ void QuasiStaticBalance::Evaluate(const LinkageVector& rates,
   AddStops(rates);
 }
 
+// The linear velocity counts as it is, the six angular rates by the rim speed they would cause.
 bool QuasiStaticBalance::IsSmall(const LinkageVector& change, double speed_m_s) const {
   return change.head<3>().squaredNorm() < speed_m_s * speed_m_s &&
          change.tail<6>().cwiseAbs().maxCoeff() * wheel_radius_m_ < speed_m_s;
@@ -239,6 +271,8 @@ void QuasiStaticBalance::Finish(const LinkageVector& change,
 
 int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, const Drive& drive,
                               std::vector<RestingContact>& contacts, LinkageVector& rates) {
+  // The fastest rim. Where none turns, a share of the top speed stands for it, so that slip stays
+  // defined.
   rim_speed_m_s_ = drive.freedom == Freedom::kSettling ? 0.0 : kLeastReference * speed_m_s_;
   for (const double rate : drive.rate_rad_s) {
     rim_speed_m_s_ = std::max(rim_speed_m_s_, std::abs(rate) * wheel_radius_m_);
@@ -247,6 +281,7 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
   posture_ = posture;
   gravity_ = linkage.Gravity();
   damping_ = free_damping_;
+  // Held by hand: x, y and the rotation about W's z do not move.
   if (drive.freedom == Freedom::kSettling) damping_[0] = damping_[1] = damping_[5] = kHeld;
   rows_.resize(contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -259,6 +294,8 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
   tangent_ = drive.lead_s > 0.0;  // the last rates are a good start
   Evaluate(rates, contacts);
   first_ = false;
+  // Newton's method: (D - dF/dw) change = F, until the change is small and no traction waits for
+  // its load.
   for (int iteration = 1; iteration < kMostIterations; ++iteration) {
     for (std::size_t i = 0; i < contacts.size(); ++i) AddStiffness(contacts[i], rows_[i]);
     LinkageVector change = equations_.Solve();
@@ -271,8 +308,8 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
     tangent_ = IsSmall(change, kTangentRange * speed_m_s_);
     LinkageVector next = rates + change;
     Evaluate(next, contacts);
-    // With its tractions given, the function is convex: where its slope along the change has
-    // turned, the minimum lies before.
+    // With its tractions given, the function is convex and F is minus its gradient: where F .
+    // change has turned its sign, the minimum lies before. The secant of F . change says where.
     for (int cut = 0; cut < kMostCuts; ++cut) {
       const double slope = equations_.force().dot(change);
       if (slope >= -kOvershoot * drop) break;

@@ -34,8 +34,10 @@ enum class Freedom { kAll, kSettling };
 // D is 0.1 % of what weight and speed suggest: it says how fast a rover falls that nothing holds.
 class QuasiStaticBalance {
  public:
+  // The soil is that under all wheels; its table of answers is made here, up to the rover's weight.
   QuasiStaticBalance(const RoverParams& params, const terrain::SoilParams& soil);
 
+  // What is asked of the rover in one step.
   struct Drive {
     messages::PerWheel<double> rate_rad_s{};
     double step_s = 0.0;
@@ -45,14 +47,16 @@ class QuasiStaticBalance {
     Freedom freedom = Freedom::kAll;
   };
 
-  // Starts from `rates`, for example those of the last step, and leaves the solution there; loads
-  // and sliding speeds in the contacts; motor torques below. Returns the number of iterations,
-  // 0.5 us each; kMostIterations means that the tolerance was not met.
+  // Starts from `rates`, for example those of the last step, and leaves the solution there; it
+  // leaves loads and sliding speeds in the contacts, and motor torques for MotorTorque_Nm. Returns
+  // the number of iterations, which cost 0.5 us each; kMostIterations means that the tolerance was
+  // not met.
   int Solve(const Linkage& linkage, const Posture& posture, const Drive& drive,
             std::vector<RestingContact>& contacts, LinkageVector& rates);
 
   static constexpr int kMostIterations = 20;
 
+  // The motor's torque about the axle in the last solution, positive where it drives forward.
   double MotorTorque_Nm(std::size_t wheel) const { return torque_Nm_[wheel]; }
 
  private:

@@ -14,6 +14,7 @@
 
 namespace rockyard::rover {
 
+// A contact of a part with one thing, as one balance of forces sees it.
 struct RestingContact {
   int part = 0;         // index in MakeParts; wheels come first
   int other = kGround;  // a rock, kGround or a wall, as in contact_finder.h
@@ -22,9 +23,9 @@ struct RestingContact {
   double gap_m = 0.0;  // negative: penetration
   math::Vector3 p_W = math::Vector3::Zero();
   math::Vector3 n_W = math::Vector3::UnitZ();
-  // Of the last balance of forces; a contact that goes on starts from it.
+  // The load in the last balance of forces; a contact that goes on starts from it.
   double load_N = 0.0;
-  // The load that traction is taken from; follows load_N from one balance of the normals to the
+  // The load that traction is taken from; it follows load_N from one balance of the normals to the
   // next.
   double traction_load_N = 0.0;
   double sliding_speed_m_s = 0.0;
@@ -33,14 +34,15 @@ struct RestingContact {
   bool IsSoil() const { return IsWheel() && other == kGround; }
 };
 
+// Finds the contacts of a rover in one posture. Draws no random numbers.
 class QuasiStaticContacts {
  public:
   QuasiStaticContacts(const RoverGeometryParams& params, const terrain::Terrain& terrain);
 
   // Finds every pair nearer than reach_m. Loads of pairs that go on are kept.
   void Update(const Linkage& linkage, double reach_m);
-  // False where no rock or wall can be nearer than reach_m to a rover at p_WR; much cheaper than
-  // Update, and may be true in vain.
+  // Returns false where no rock or wall can be nearer than reach_m to a rover at p_WR. It is much
+  // cheaper than Update, and may return true in vain.
   bool MayMeetObstacle(const math::Vector3& p_WR, double reach_m);
   // Forgets everything, for a rover that was lifted.
   void Clear();

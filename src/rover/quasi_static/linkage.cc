@@ -9,9 +9,10 @@ namespace {
 
 using math::Vector3;
 
+// The differential: the right rocker turns back by what the left one turns.
 double RockerSign(std::size_t side) { return side == 0 ? 1.0 : -1.0; }
 
-// Rotates a frame's axes about its own y axis.
+// R Ry(a): turns a frame's axes about its own y axis. Positive angles lower the front.
 Eigen::Matrix3d Pitched(const Eigen::Matrix3d& R, double angle_rad) {
   const double c = std::cos(angle_rad);
   const double s = std::sin(angle_rad);
@@ -27,7 +28,8 @@ Eigen::Matrix3d Pitched(const Eigen::Matrix3d& R, double angle_rad) {
 Posture Moved(const Posture& posture, const LinkageVector& rates, double time_s) {
   Posture next = posture;
   next.p_WR += time_s * rates.head<3>();
-  // Steps turn by a few degrees: tan(x) = x to 1e-5 of the turn, and the norm is restored.
+  // q(t) = exp(t w / 2) q with w in W, to first order (1, t w / 2). Steps turn by a few degrees:
+  // tan(x) = x to 1e-5 of the turn, and the norm is restored.
   const Vector3 half = 0.5 * time_s * rates.segment<3>(3);
   next.q_WR = (Eigen::Quaterniond(1.0, half.x(), half.y(), half.z()) * posture.q_WR).normalized();
   next.rocker_rad += time_s * rates[kRockerDof];
@@ -40,6 +42,7 @@ Posture Moved(const Posture& posture, const LinkageVector& rates, double time_s)
 Posture Between(const Posture& from, const Posture& to, double share) {
   Posture result;
   result.p_WR = from.p_WR + share * (to.p_WR - from.p_WR);
+  // q and -q are the same attitude; the nearer of the two gives the shorter arc.
   const double sign = from.q_WR.dot(to.q_WR) < 0.0 ? -1.0 : 1.0;
   result.q_WR.coeffs() =
       ((1.0 - share) * from.q_WR.coeffs() + sign * share * to.q_WR.coeffs()).normalized();
@@ -82,6 +85,8 @@ Linkage::Linkage(const RoverParams& params) {
       (on_bogie_[i] ? bogie : rocker) += mass.wheel_kg * wheel_from_pivot_[i];
       bogie_wheels += on_bogie_[i] ? 1 : 0;
     }
+    // Centre of mass of a lump: sum m_i p_i / sum m_i, in the frame of the body. Bogie and rocker
+    // themselves weigh on their pivots, at the origin of that frame, and add nothing to the sum.
     const double bogie_kg = mass.bogie_kg + bogie_wheels * mass.wheel_kg;
     const double rocker_kg = (3 - bogie_wheels) * mass.wheel_kg;
     const int index = static_cast<int>(side);
@@ -98,6 +103,8 @@ void Linkage::Update(const Posture& posture, const messages::PerWheel<double>& s
     const double rocker_rad = RockerSign(side) * posture.rocker_rad;
     Frame& rocker = bodies_[kLeftRocker + side];
     Frame& bogie = bodies_[kLeftBogie + side];
+    // Forward kinematics: chassis, rocker pivot, bogie pivot, wheel centre. Bogie angles are
+    // against the rocker.
     rocker = {Pitched(chassis_.R_WB, rocker_rad),
               chassis_.p_WB + chassis_.R_WB * rocker_pivot_R_[side]};
     bogie = {Pitched(chassis_.R_WB, rocker_rad + posture.bogie_rad[side]),
@@ -110,6 +117,7 @@ void Linkage::Update(const Posture& posture, const messages::PerWheel<double>& s
         steer_rad_[i] = steer_rad[i];
         steer_[i] = Eigen::Vector2d(std::cos(steer_rad[i]), std::sin(steer_rad[i]));
       }
+      // Steering turns the axle about the carrier's z axis: R_WB = R_carrier Rz(delta).
       wheel.R_WB.col(0) = steer_[i].x() * carrier.R_WB.col(0) + steer_[i].y() * carrier.R_WB.col(1);
       wheel.R_WB.col(1) = steer_[i].x() * carrier.R_WB.col(1) - steer_[i].y() * carrier.R_WB.col(0);
       wheel.R_WB.col(2) = carrier.R_WB.col(2);
@@ -119,6 +127,7 @@ void Linkage::Update(const Posture& posture, const messages::PerWheel<double>& s
 
 std::size_t Linkage::SideOf(int body) {
   if (body == kChassis) return 0;
+  // Rockers and bogies are numbered left, right, left, right.
   if (body < kFirstWheel) return static_cast<std::size_t>(body % 2);
   return body < kFirstWheel + 3 ? 0 : 1;
 }
@@ -129,6 +138,8 @@ bool Linkage::OnBogie(int body) const {
 }
 
 PointJacobian Linkage::Jacobian(int body, const Vector3& p_W) const {
+  // v = v_R + w x r + rates of rocker and bogie times y x (lever from that pivot), all in W. All
+  // pivots are about the chassis' y axis, whatever their angles.
   const Vector3 r = p_W - chassis_.p_WB;
   PointJacobian J;
   J << 1, 0, 0, 0, r.z(), -r.y(), 0, 0,  //
@@ -146,6 +157,8 @@ LinkageVector Linkage::Gravity() const {
   LinkageVector force = LinkageVector::Zero();
   for (const Lump& lump : lumps_) {
     const Frame& frame = body(lump.body);
+    // Principle of virtual work: Q = J' (0, 0, -weight), that is minus the weight times the row of
+    // v_z.
     const SideVector f =
         -lump.weight_N * Jacobian(lump.body, frame.p_WB + frame.R_WB * lump.p_B).row(2).transpose();
     force.head<7>() += f.head<7>();

@@ -13,19 +13,19 @@
 
 namespace rockyard::rover {
 
-// Rates: velocity of R's origin in W (m/s), angular velocity of the chassis in W (rad/s), rate of
-// the left rocker (the differential turns the right one back by as much), rates of the left and
-// right bogie (rad/s). Generalized forces in the same order.
+// The nine rates are the velocity of R's origin in W (m/s), the angular velocity of the chassis in
+// W (rad/s), the rate of the left rocker (the differential turns the right one back by as much) and
+// the rates of left and right bogie (rad/s). Generalized forces stand in the same order, N and N m.
 inline constexpr int kLinkageDof = 9;
 inline constexpr int kRockerDof = 6;
 inline constexpr int kFirstBogieDof = 7;  // by Side
 using LinkageVector = Eigen::Matrix<double, kLinkageDof, 1>;
 
-// Velocity of a point by the rates of its own side: the six of the chassis, rocker, bogie.
+// The eight rates that move the points of one side: the six of the chassis, the rocker, the bogie.
 using SideVector = Eigen::Matrix<double, 8, 1>;
 using PointJacobian = Eigen::Matrix<double, 3, 8>;
 
-// Where the linkage is.
+// Where the linkage is: nine coordinates.
 struct Posture {
   math::Vector3 p_WR = math::Vector3::Zero();
   Eigen::Quaterniond q_WR = Eigen::Quaterniond::Identity();
@@ -33,15 +33,16 @@ struct Posture {
   std::array<double, 2> bogie_rad{};
 };
 
-// The posture after `time_s` at constant rates.
+// Returns the posture after `time_s` at constant rates.
 Posture Moved(const Posture& posture, const LinkageVector& rates, double time_s);
 
-// The posture at `share` in [0, 1] of the way: linear, the attitude along the shorter arc.
+// Returns the posture at `share` in [0, 1] of the way: linear, the attitude along the shorter arc.
 Posture Between(const Posture& from, const Posture& to, double share);
 
+// The linkage in one posture.
 class Linkage {
  public:
-  // A body's frame: origin at its joint, axes parallel to R when its joint is at zero.
+  // The frame of a body: origin at its joint, axes parallel to R when its joint is at zero.
   struct Frame {
     Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();
     math::Vector3 p_WB = math::Vector3::Zero();
@@ -49,7 +50,7 @@ class Linkage {
 
   explicit Linkage(const RoverParams& params);
 
-  // Takes up a posture; steering angles turn the axles.
+  // Takes up a posture; the steering angles turn the axles.
   void Update(const Posture& posture, const messages::PerWheel<double>& steer_rad);
 
   const Frame& chassis() const { return chassis_; }
@@ -63,12 +64,13 @@ class Linkage {
     return bodies_[static_cast<std::size_t>(kFirstWheel) + wheel].R_WB.col(1);
   }
 
-  // Side of a body, 0 left, 1 right; chassis: 0.
+  // Returns the side of a body, 0 left, 1 right; 0 for the chassis.
   static std::size_t SideOf(int body);
-  // J with v = J rates for a point fixed to a body; wheels do not spin. Columns: see SideVector.
+  // Returns J with v = J rates for a point fixed to a body, all in W; wheels do not spin.
+  // SideVector names the columns.
   PointJacobian Jacobian(int body, const math::Vector3& p_W) const;
 
-  // Generalized force of gravity, N and N m.
+  // Returns the generalized force of gravity, N and N m.
   LinkageVector Gravity() const;
   double weight_N() const { return weight_N_; }
 

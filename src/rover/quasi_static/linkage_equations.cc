@@ -21,6 +21,8 @@ void LinkageEquations::AddForce(std::size_t side, const SideVector& f) {
 }
 
 void LinkageEquations::AddStiffness(std::size_t side, double k, const SideVector& a) {
+  // Row 7 of a side's vectors is its bogie, which stands in row 7 (left) or 8 (right) of the
+  // system. The two bogies share no term, so entry (8, 7) stays zero.
   for (int i = 0; i < kShared; ++i) {
     for (int j = 0; j <= i; ++j) stiffness_[i][j] += k * a[i] * a[j];
   }
@@ -53,6 +55,8 @@ LinkageVector LinkageEquations::Solve() const {
   LinkageVector x = force_;
   std::array<double, kLinkageDof> column{};
   std::array<double, kLinkageDof> inverse{};
+  // Forward: column j of L is column j of the remainder over its diagonal d_j; the remainder loses
+  // L_j d_j L_j', and the right side goes along, x = L^-1 f.
   for (int j = 0; j < kLinkageDof; ++j) {
     inverse[j] = 1.0 / L[j][j];
     for (int i = j + 1; i < kLinkageDof; ++i) {
@@ -64,6 +68,7 @@ LinkageVector LinkageEquations::Solve() const {
       for (int k = j + 1; k <= i; ++k) L[i][k] -= L[i][j] * column[k];
     }
   }
+  // Then D^-1, then L'^-1 from the last row up.
   for (int j = 0; j < kLinkageDof; ++j) x[j] *= inverse[j];
   for (int j = kLinkageDof - 1; j >= 0; --j) {
     for (int i = 0; i < j; ++i) x[i] -= L[j][i] * x[j];

@@ -11,20 +11,22 @@ namespace rockyard::rover {
 // space of one side's rates. Only the lower triangle is kept.
 class LinkageEquations {
  public:
-  // Begins with a force and a diagonal.
+  // Begins with a force and with a diagonal as minus its derivative.
   void Reset(const LinkageVector& force, const LinkageVector& diagonal);
 
+  // Adds a force that acts on one side's rates.
   void AddForce(std::size_t side, const SideVector& f);
   // Adds k a a'.
   void AddStiffness(std::size_t side, double k, const SideVector& a);
   // Adds p a' + q b' + r c', a symmetric sum.
   void AddStiffness(std::size_t side, const SideVector& p, const SideVector& a, const SideVector& q,
                     const SideVector& b, const SideVector& r, const SideVector& c);
-  // Adds to one coordinate.
+  // Adds a force and its stiffness to one coordinate.
   void AddAt(int dof, double force, double stiffness);
 
   const LinkageVector& force() const { return force_; }
-  // The change of the rates that the force asks for, by decomposition into L D L'. About 0.1 us.
+  // Returns the change of the rates at which the linearized force vanishes, by decomposition into L
+  // D L'. A call costs about 0.1 us.
   LinkageVector Solve() const;
 
  private:

@@ -6,6 +6,7 @@
 
 namespace rockyard::rover {
 
+// The step at which the state is reported, and how far the wheels travel between two balances.
 struct QuasiStaticParams {
   double step_s = 0.05;
   double settle_distance_m = 0.02;

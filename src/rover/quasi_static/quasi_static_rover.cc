@@ -39,7 +39,9 @@ void Limit(double time_s, double most_m, double most_rad, LinkageVector& rates) 
   rates /= scale;
 }
 
-// Turn rate of the rigid motion nearest to what the rims do, for wheels evenly about R's origin.
+// Turn rate, rad/s, of the rigid motion nearest to what the rims do, for wheels evenly about R's
+// origin. Least squares of v_i = Omega x r_i over the wheels:
+//   Omega = sum (r_i x v_i)_z / sum r_i^2,   v_i = omega_i r (cos delta_i, sin delta_i) in R.
 double TurnRate(const RoverGeometry& geometry, double radius_m,
                 const messages::PerWheel<double>& rate_rad_s,
                 const messages::PerWheel<double>& steer_rad) {
@@ -69,6 +71,7 @@ Posture QuasiStaticRover::LiftedPosture(const math::Pose2& X_WR) const {
   const terrain::Ground& ground = terrain_.ground();
   const Vector3 up = ground.Normal(X_WR.x_m, X_WR.y_m);
   const Vector3 heading(std::cos(X_WR.heading_rad), std::sin(X_WR.heading_rad), 0.0);
+  // The x axis lies in the ground's tangent plane and keeps its heading as seen from above.
   const Vector3 forward = (heading - heading.dot(up) / up.z() * Vector3::UnitZ()).normalized();
   Eigen::Matrix3d R;
   R << forward, up.cross(forward), up;
@@ -103,10 +106,12 @@ void QuasiStaticRover::Place(const math::Pose2& X_WR) {
 
 void QuasiStaticRover::Settle() {
   rates_.setZero();
+  // Wheels stand still: this time only turns rates into movements.
   const double time_s = params_.quasi_static.settle_distance_m / params_.drive.speed_m_s;
   for (int i = 0; i < kSettleSteps; ++i) {
     linkage_.Update(posture_, state_.steer_rad);
     contacts_.Update(linkage_, kReach_m + kSettleMove_m);
+    // Contacts open and close while the rover sinks: balances are repeated until nothing moves.
     balance_.Solve(linkage_, posture_, {{}, time_s, 0.0, Freedom::kSettling}, contacts_.contacts(),
                    rates_);
     Limit(time_s, kSettleMove_m, kMostTurn_rad, rates_);
@@ -135,6 +140,7 @@ void QuasiStaticRover::SteerAtRest() {
   for (std::size_t i = 0; i < kWheelCount; ++i) {
     swing_rad = std::max(swing_rad, std::abs(state_.steer_rad[i] - met_steer_rad_[i]));
   }
+  // The rim, a wheel's radius from the steering axis, has swung by this much since the last look.
   const double swing_m = swing_rad * params_.geometry.wheel_radius_m;
   if (swing_m < 0.5 * params_.quasi_static.settle_distance_m) return;
   met_steer_rad_ = state_.steer_rad;
@@ -212,6 +218,8 @@ double QuasiStaticRover::StretchTime_s(const messages::PerWheel<double>& rate_ra
   double rate = 0.0;
   for (const double wheel_rate : rate_rad_s) rate = std::max(rate, std::abs(wheel_rate));
   const double radius_m = params_.geometry.wheel_radius_m;
+  // The stretch ends at the rim travel or at the turn that the parameters allow, whichever is
+  // first.
   const double turn_rad_s = std::abs(TurnRate(geometry_, radius_m, rate_rad_s, state_.steer_rad));
   const double way_s = params_.quasi_static.settle_distance_m / (rate * radius_m);
   const double most_rad = params_.quasi_static.settle_turn_rad;
@@ -283,6 +291,7 @@ void QuasiStaticRover::Step(const messages::WheelCommand& command) {
   }
   if (!Goes(command)) Plan(command.rate_rad_s);
   double left_s = step_s();
+  // A step may end this stretch and use up others; the rest of it lies within the last one.
   while (stretch_.elapsed_s + left_s >= stretch_.duration_s) {
     left_s -= stretch_.duration_s - stretch_.elapsed_s;
     posture_ = stretch_.to;

@@ -9,8 +9,9 @@
 
 namespace rockyard::rover {
 
-// Between two balances, settle_distance_m of rim travel (or settle_turn_rad of turning) apart, the
-// posture is interpolated. Draws no random numbers. Cost: tests/rover/quasi_static_benchmark.cc.
+// The posture is interpolated between two balances, settle_distance_m of rim travel (or
+// settle_turn_rad of turning) apart. The rover draws no random numbers.
+// tests/rover/quasi_static/benchmark.cc measures its cost.
 class QuasiStaticRover final : public Rover {
  public:
   QuasiStaticRover(const RoverParams& params, const terrain::Terrain& terrain);
@@ -29,7 +30,7 @@ class QuasiStaticRover final : public Rover {
   const Work& work() const { return work_; }
 
  private:
-  // A stretch at constant rates.
+  // The way between two balances, at constant rates.
   struct Stretch {
     Posture from;
     Posture to;
@@ -39,7 +40,7 @@ class QuasiStaticRover final : public Rover {
     messages::PerWheel<double> steer_rad{};
   };
 
-  // Turns the steering towards what is wanted; true where it moved.
+  // Turns the steering towards what is wanted; returns whether it moved.
   bool Steer(const messages::PerWheel<double>& wanted_rad);
   void SteerAtRest();
   void Balance(const QuasiStaticBalance::Drive& drive);
@@ -50,7 +51,7 @@ class QuasiStaticRover final : public Rover {
   bool IsSteady() const;
   void RollOn();
   bool Like(const messages::PerWheel<double>& rate_rad_s, double share) const;
-  // Updates linkage and contacts; returns how far ahead.
+  // Updates linkage and contacts, lead_s ahead if that can be; returns how far ahead they are, s.
   double LookAhead(double lead_s);
   double StretchTime_s(const messages::PerWheel<double>& rate_rad_s) const;
   Posture LiftedPosture(const math::Pose2& X_WR) const;

@@ -7,6 +7,8 @@
 namespace rockyard::rover {
 namespace {
 
+// Nodes are even in the root of the load because the sinkage of a power law bends most at small
+// loads.
 constexpr int kIntervals = 128;
 // Soil without shear deformation has all its traction from this u on.
 constexpr double kMostRatio = 1e4;

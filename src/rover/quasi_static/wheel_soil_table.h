@@ -16,8 +16,9 @@ struct SoilAnswer {
   double shear_ratio;  // contact length over shear modulus; u of a slip of 1
 };
 
-// Linear between nodes that lie evenly in the root of the load. Within 1 % from a hundredth of
-// most_N on; loads beyond are taken as most_N. Cost: 10 ns.
+// The table is linear between nodes that lie evenly in the root of the load. It is within 1 % of
+// WheelSoil from a hundredth of most_N on; loads beyond most_N are taken as most_N. A call costs 10
+// ns.
 class WheelSoilTable {
  public:
   WheelSoilTable(const WheelSoil& soil, double most_N);
