@@ -333,6 +333,8 @@ class NoFalseAlarm(unittest.TestCase):
         self.assertEqual(len(self.tree.violations()), 1)
         self.tree.write("../scripts/cmake/Pages.cmake", "set(pages no_pages.cc)\n")
         self.assertEqual(self.tree.violations(), [])
+        self.tree.replace("web/CMakeLists.txt", "    ${pages}\n", "")
+        self.assertEqual(len(self.tree.violations()), 1, "nothing holds what the function names")
 
     def test_posix_and_standard_headers(self):
         self.tree.write_source("batch/signals.cc", "#include <csignal>\n#include <unistd.h>\n")
@@ -349,8 +351,8 @@ class Rules(unittest.TestCase):
             layer_rules.read_table(README.replace("| truth | messages |", "| truth | mesages |"))
 
     def test_two_rows_of_a_folder_are_an_error(self):
-        with self.assertRaises(layer_rules.RulesError):
-            layer_rules.read_table(README.replace("| truth | messages |", "| messages | |"))
+        with self.assertRaisesRegex(layer_rules.RulesError, "two rows for truth"):
+            layer_rules.read_table(README.replace("| batch |", "| truth | messages |\n| batch |"))
 
     def test_missing_second_rule_is_an_error(self):
         with self.assertRaises(layer_rules.RulesError):

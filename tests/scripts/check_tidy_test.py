@@ -93,6 +93,8 @@ class Project(unittest.TestCase):
         ".clang-tidy": "Checks: '*'\n",
     }
 
+    BATCH = ["src/plant/one.cc", "src/plant/room/two.cc", "src/plant/room/three.cc"]
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -100,7 +102,7 @@ class Project(unittest.TestCase):
         self.build = self.root / "build"
         for name, text in self.FILES.items():
             self.write(name, text)
-        self.write_database(["src/plant/one.cc", "src/plant/room/two.cc", "src/plant/room/three.cc"])
+        self.write_database(self.BATCH)
         for name, value in (("ROOT", self.root), ("CLANG_TIDY", check_tidy.CLANG_TIDY)):
             self.addCleanup(setattr, check_tidy, name, getattr(check_tidy, name))
             setattr(check_tidy, name, value)
@@ -111,7 +113,7 @@ class Project(unittest.TestCase):
         path.write_text(text, encoding="utf-8")
         check_tidy.read.cache_clear()
 
-    def write_database(self, batch):
+    def write_database(self, batch, options="-std=c++20 -Wall"):
         unity = "build/src/plant/CMakeFiles/rockyard_plant.dir/Unity/unity_0_cxx.cxx"
         self.write(unity, "".join(f'#include "{self.root / name}"\n\n' for name in batch))
         include = self.build / "include" / "plant"
@@ -119,7 +121,7 @@ class Project(unittest.TestCase):
         if not (include / "plant").is_symlink():
             (include / "plant").symlink_to(self.root / "src" / "plant")
         entries = [{"directory": str(self.build), "file": str(self.root / file),
-                    "command": f"{program} -I{include} -std=c++20 -Wall -o x.o -c {self.root / file}"}
+                    "command": f"{program} -I{include} {options} -o x.o -c {self.root / file}"}
                    for program, file in (("c++", unity), ("/usr/bin/ccache c++", "src/app/main.cc"))]
         self.write("build/compile_commands.json", json.dumps(entries))
 
@@ -167,6 +169,12 @@ class Runs(Project):
         self.assertEqual(self.calls.read_text(encoding="utf-8").split(" -- ")[1],
                          f"-I{self.build / 'include' / 'plant'} -std=c++20 -Wall\n")
 
+    def test_what_is_not_below_src_is_not_checked(self):
+        self.write("build/generated.cc", "int BAD;\n")
+        self.write_database(["build/generated.cc", "src/plant/one.cc"])
+        self.assertEqual(self.check("plant")[0], 0)
+        self.assertEqual(self.runs(), ["one.cc"])
+
     def test_findings_are_told_by_the_place_in_the_real_file(self):
         self.write("src/plant/room/two.cc", '#include "plant/plant.h"\nint two;\nint BAD;\n')
         self.write("src/plant/room/three.cc", "int BAD;")
@@ -193,6 +201,9 @@ class Runs(Project):
         self.set_variable("VERSION", "2")
         self.check("plant")
         self.assertEqual(len(self.runs()), 1, "version")
+        self.write_database(self.BATCH, "-std=c++20")
+        self.check("plant")
+        self.assertEqual(len(self.runs()), 1, "options")
         self.write_database(["src/plant/one.cc"])
         self.check("plant")
         self.assertEqual(self.runs(), ["one.cc"], "other batches")
