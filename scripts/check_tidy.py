@@ -1,88 +1,241 @@
 #!/usr/bin/env python3
-"""Runs clang-tidy on the .cc files of folders of src/ that changed since they last passed.
+"""Runs clang-tidy on the .cc files of folders of src/, or on what changed.
 
-Usage: scripts/check_tidy.py BUILD_DIR FOLDER...      BUILD_DIR holds compile_commands.json
+Usage: scripts/check_tidy.py BUILD_DIR FOLDER...            all files of these folders of src/
+       scripts/check_tidy.py BUILD_DIR --changed [BASE]     files that differ from the commit BASE
 
-A file passes again without running if nothing that it is made of changed: its text, the headers of
-this project that it includes, the compiler command, .clang-tidy and the version of clang-tidy.
+BUILD_DIR holds compile_commands.json. BASE is where the branch left its upstream or main; where it
+has not left, the commit before this one. What is not committed counts as changed.
+
+Folders: files that are compiled in one batch (ROCKYARD_UNITY_BATCH) are checked in one run, as
+their texts one after the other in one file, which takes the time of one or two of them by
+itself. Findings are told by the place in the real file. A batch that includes its files would be as
+fast, but some checks (misc-unused-alias-decls, unused constants) judge only the main file. Nothing
+is known to be lost against a run for each file: a planted violation of every check that found one was
+found both ways (tests/scripts/check_tidy_test.py plants some). What a batch cannot see is a file that
+does not compile by itself, and, as with any error of the compiler, a file with an error keeps
+warnings of unused functions in its batch back until it is mended.
+
+Changed: each file by itself; a changed header by the source of its name, or by one that includes it.
+
+A batch or file passes again without running if nothing that it is made of changed: its text, the
+headers of this project that it includes, the options of the compiler, .clang-tidy and the version of
+clang-tidy.
 Exit code 0: no finding; 1: findings, printed; 2: wrong use.
 """
 
+import functools
 import hashlib
 import json
+import re
 import shlex
 import subprocess
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 CLANG_TIDY = "clang-tidy"
 
-
-def entries_of(build, folder):
-    """The compile commands of the files of src/FOLDER."""
-    commands = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
-    place = (ROOT / "src" / folder).resolve()
-    return [entry for entry in commands if Path(entry["file"]).resolve().is_relative_to(place)]
+INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.M)
+# Between two files of a batch: readability-duplicate-include forgets what was included before a
+# macro, and would take a header that both include for included twice.
+BOUNDARY = "#define ROCKYARD_NEXT_FILE\n#undef ROCKYARD_NEXT_FILE\n"
 
 
-def dependencies(entry):
-    """The file and the headers that it includes, system headers left out."""
-    arguments = shlex.split(entry["command"])
-    if Path(arguments[0]).name == "ccache":
-        del arguments[0]
-    start = arguments.index("-o")
-    del arguments[start:start + 2]
-    arguments = [word for word in arguments if word not in ("-c", "-MD")]
-    for option in ("-MT", "-MF"):
-        if option in arguments:
-            start = arguments.index(option)
-            del arguments[start:start + 2]
-    rule = subprocess.run([*arguments, "-MM"], cwd=entry["directory"], text=True,
-                          capture_output=True, check=True).stdout
-    return sorted(rule.replace("\\\n", " ").split(":", 1)[1].split())
+class UseError(Exception):
+    """The arguments ask for what is not there."""
 
 
-def fingerprint(entry, version):
+@dataclass
+class Batch:
+    """Files that are checked in one run."""
+
+    name: str
+    place: Path     # where the compiler runs
+    options: list   # of the compiler
+    files: list
+
+
+def options_of(entry):
+    """The compiler's options, without programs, input and output."""
+    words = list(entry["arguments"]) if "arguments" in entry else shlex.split(entry["command"])
+    del words[:2 if Path(words[0]).name == "ccache" else 1]
+    options, skip = [], False
+    for word in words:
+        if skip:
+            skip = False
+        elif word in ("-o", "-c", "-MT", "-MF"):
+            skip = True
+        elif word not in ("-MD", entry["file"]):
+            options.append(word)
+    return options
+
+
+def read_batches(build):
+    """Every batch of files below src/, in the order of compile_commands.json."""
+    database = build / "compile_commands.json"
+    if not database.is_file():
+        raise UseError(f"{database} is not there: configure the build first")
+    batches = []
+    for entry in json.loads(database.read_text(encoding="utf-8")):
+        file = Path(entry["directory"], entry["file"]).resolve()
+        files, name = [file], file.stem
+        if file.parent.name == "Unity":
+            texts = INCLUDE.findall(file.read_text(encoding="utf-8"))
+            files = [Path(entry["directory"], text).resolve() for text in texts]
+            name = f"{file.parent.parent.stem}_{file.stem}"
+        files = [path for path in files if path.is_relative_to(ROOT / "src")]
+        if files:
+            batches.append(Batch(name, Path(entry["directory"]), options_of(entry), files))
+    return batches
+
+
+@functools.lru_cache(maxsize=None)
+def read(path):
+    return path.read_text(encoding="utf-8")
+
+
+def dependencies(batch):
+    """The files of the batch and the headers that they include, system headers left out."""
+    roots = [batch.place / word[2:] for word in batch.options if word.startswith("-I")]
+    found, todo = set(), list(batch.files)
+    while todo:
+        path = todo.pop()
+        if path not in found:
+            found.add(path)
+            for target in INCLUDE.findall(read(path)):
+                places = (root / target for root in [path.parent, *roots])
+                todo += [place.resolve() for place in places if place.is_file()][:1]
+    return sorted(found)
+
+
+def fingerprint(batch, version):
     """A hash over everything that the outcome depends on."""
     digest = hashlib.sha256()
-    for text in (version, (ROOT / ".clang-tidy").read_text(encoding="utf-8"), entry["command"]):
-        digest.update(text.encode())
-    for name in dependencies(entry):
-        digest.update(Path(entry["directory"], name).read_bytes())
+    for text in (version, read(ROOT / ".clang-tidy"), *batch.options, *map(str, batch.files)):
+        digest.update(text.encode() + b"\0")
+    for path in dependencies(batch):
+        digest.update(read(path).encode() + b"\0")
     return digest.hexdigest()
 
 
-def passes(build, entry, version):
+def join(files):
+    """(text, starts): the files one after the other, and the line that each begins after."""
+    text, starts = "", []
+    for path in files:
+        starts.append(text.count("\n"))
+        text += read(path).rstrip("\n") + "\n" + BOUNDARY
+    return text, starts
+
+
+def real_places(output, joined, files, starts):
+    """Output of clang-tidy with lines of the joined file told as those of the real ones."""
+    def place(match):
+        line = int(match.group(1))
+        number = max(n for n, start in enumerate(starts) if start < line)
+        return f"{files[number]}:{line - starts[number]}"
+    return re.sub(re.escape(str(joined)) + r":(\d+)", place, output)
+
+
+def passes(build, batch, version):
     """True without findings; prints them otherwise."""
     cache = build / "clang-tidy"
     cache.mkdir(exist_ok=True)
-    try:
-        stamp = cache / fingerprint(entry, version)
-    except subprocess.CalledProcessError as error:
-        print(f"{entry['file']}: does not compile\n{error.stderr}")
-        return False
+    stamp = cache / fingerprint(batch, version)
     if stamp.exists():
         return True
-    result = subprocess.run([CLANG_TIDY, "-p", str(build), "--quiet", entry["file"]], text=True,
-                            capture_output=True, check=False)
+    text, starts = join(batch.files)
+    file = batch.files[0]
+    if len(batch.files) > 1:
+        file = cache / f"{batch.name}.cc"
+        file.write_text(text, encoding="utf-8")
+    result = subprocess.run([CLANG_TIDY, "--quiet", f"--config-file={ROOT / '.clang-tidy'}", str(file),
+                             "--", *batch.options], cwd=batch.place, text=True, capture_output=True,
+                            check=False)
     if result.returncode != 0:
-        print(result.stdout or result.stderr)
+        output = result.stdout or result.stderr
+        print(output if file == batch.files[0] else real_places(output, file, batch.files, starts))
         return False
     stamp.touch()
     return True
 
 
+def git(*arguments):
+    """The lines that git prints, or None where it fails."""
+    result = subprocess.run(["git", "-C", str(ROOT), *arguments], text=True, capture_output=True,
+                            check=False)
+    return result.stdout.splitlines() if result.returncode == 0 else None
+
+
+def default_base():
+    """Where this branch left its upstream or main; the last commit but one where it has not left."""
+    head = git("rev-parse", "HEAD")
+    for branch in ("@{upstream}", "origin/main", "main"):
+        base = git("merge-base", "HEAD", branch)
+        if base and base != head:
+            return base[0]
+    return "HEAD~1"
+
+
+def changed_files(base):
+    """The C++ files of src/ that differ from the commit, and those that git does not know yet."""
+    known = git("diff", "--name-only", "--diff-filter=d", base, "--", "src")
+    if known is None:
+        raise UseError(f"git knows no commit '{base}'")
+    unknown = git("ls-files", "--others", "--exclude-standard", "--", "src")
+    return [ROOT / name for name in sorted({*known, *unknown}) if name.endswith((".h", ".cc"))]
+
+
+def batches_of_changes(batches, base):
+    """A batch of one file for every changed file, or for a source that shows a changed header."""
+    by_file = {path: batch for batch in batches for path in batch.files}
+    wanted = []
+    for path in changed_files(base):
+        source = path.with_suffix(".cc")
+        if path.suffix == ".h" and source not in by_file:
+            target = path.relative_to(ROOT / "src").as_posix()
+            source = next((file for file in sorted(by_file) if target in INCLUDE.findall(read(file))),
+                          path)
+        if source not in by_file:
+            print(f"{path}: not compiled in this build, so not checked")
+        elif source not in wanted:
+            wanted.append(source)
+    return [Batch(path.stem, by_file[path].place, by_file[path].options, [path]) for path in wanted]
+
+
+def batches_of_folders(batches, folders):
+    """The batches of src/FOLDER for each folder; a folder without any is an error."""
+    chosen = []
+    for folder in folders:
+        place = (ROOT / "src" / folder).resolve()
+        found = [batch for batch in batches if batch.files[0].is_relative_to(place)]
+        if not found:
+            raise UseError(f"the build compiles nothing of src/{folder}")
+        chosen += found
+    return chosen
+
+
 def main(arguments):
-    if len(arguments) < 2 or arguments[0] in ("-h", "--help"):
+    changed = arguments[1:2] == ["--changed"]
+    if len(arguments) < 2 or arguments[0] in ("-h", "--help") or (changed and len(arguments) > 3):
         print(__doc__)
         return 2
-    build, folders = Path(arguments[0]).resolve(), arguments[1:]
+    build = Path(arguments[0]).resolve()
+    try:
+        batches = read_batches(build)
+        if changed:
+            batches = batches_of_changes(batches, arguments[2] if arguments[2:] else default_base())
+        else:
+            batches = batches_of_folders(batches, arguments[1:])
+    except UseError as error:
+        print(f"check_tidy: {error}", file=sys.stderr)
+        return 2
     version = subprocess.run([CLANG_TIDY, "--version"], text=True, capture_output=True,
                              check=True).stdout
-    entries = [entry for folder in folders for entry in entries_of(build, folder)]
-    failed = [entry["file"] for entry in entries if not passes(build, entry, version)]
-    print(f"check_tidy: {len(entries)} files, {len(failed)} with findings")
+    failed = [batch for batch in batches if not passes(build, batch, version)]
+    count = sum(len(batch.files) for batch in batches)
+    print(f"check_tidy: {count} files in {len(batches)} runs, {len(failed)} runs with findings")
     return 1 if failed else 0
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "scripts"))
 import check_layers  # noqa: E402  (the path comes first)
+from layers import rules as layer_rules  # noqa: E402
 
 README = """# Map
 
@@ -22,6 +23,7 @@ README = """# Map
 | navigation | messages |
 | scenario | terrain, navigation (only their `*_params.h`) |
 | batch | scenario |
+| web | |
 
 2. **Heavy libraries stay in the `.cc` files of one folder**: Bullet in rover, OpenMP and SQLite in
    batch, nlohmann-json in core's archive.
@@ -36,11 +38,22 @@ FILES = {
     "truth/state.h": '#pragma once\n#include "messages/commands.h"\n',
     "terrain/terrain.h": '#pragma once\n#include "core/check.h"\n',
     "terrain/terrain_params.h": '#pragma once\n#include "core/check.h"\n',
-    "rover/bullet_rover.cc": '#include "truth/state.h"\n#include <btBulletDynamicsCommon.h>\n',
+    "rover/bullet_rover.cc": '#include "truth/state.h"\n#include "rover/part_shapes.h"\n'
+                             "#include <btBulletDynamicsCommon.h>\n",
+    "rover/part_shapes.h": '#pragma once\n#include "terrain/terrain.h"\n',
+    "rover/multibody/wheel.h": '#pragma once\n#include "rover/part_shapes.h"\n',
+    "rover/multibody/wheel.cc": '#include "rover/multibody/wheel.h"\n',
+    "rover/quasi_static/balance.h": '#pragma once\n#include "rover/multibody/wheel.h"\n',
     "navigation/pathfinder/pathfinder.h": '#pragma once\n#include "messages/commands.h"\n',
     "navigation/pathfinder/pathfinder_params.h": '#pragma once\n#include "core/check.h"\n',
-    "scenario/scenario.h": '#pragma once\n#include "terrain/terrain_params.h"\n',
-    "batch/store.cc": "#include <omp.h>\n#include <sqlite3.h>\n#pragma omp parallel\n",
+    "scenario/scenario.h": '#pragma once\n#include "terrain/terrain_params.h"\n'
+                           '#include "navigation/pathfinder/pathfinder_params.h"\n#include "core/check.h"\n',
+    "batch/store.cc": '#include "scenario/scenario.h"\n#include <omp.h>\n#include <sqlite3.h>\n'
+                      "#pragma omp parallel\n",
+    "web/page.cc": "#include <string>\n",
+    "web/shared/dom.ts": "export type Child = Node | string;\n",
+    "web/report/main.ts": 'import { type Child } from "../shared/dom";\nimport * as Plot from "plot";\n'
+                          'import "./report.css";\n',
 }
 
 LINKS = {
@@ -67,12 +80,28 @@ class Tree:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
 
+    def write_source(self, name, text):
+        """Writes a .cc file and lists it."""
+        self.write(name, text)
+        folder = name.split("/")[0]
+        self.link(folder, LINKS.get(folder, ""))
+
     def add_line(self, name, line):
         path = self.root / "src" / name
         path.write_text(path.read_text(encoding="utf-8") + line + "\n", encoding="utf-8")
 
     def link(self, folder, arguments):
-        self.write(f"{folder}/CMakeLists.txt", f"rockyard_module({folder}\n  {arguments})\n")
+        """Writes the CMakeLists.txt of a module with all of its sources."""
+        place = self.root / "src" / folder
+        sources = sorted(path.relative_to(place).as_posix() for path in place.rglob("*.cc"))
+        lines = "".join(f"    {source}\n" for source in sources)
+        self.write(f"{folder}/CMakeLists.txt",
+                   f"rockyard_module({folder}\n  SOURCES\n{lines}  {arguments})\n")
+
+    def replace(self, name, old, new):
+        text = (self.root / "src" / name).read_text(encoding="utf-8")
+        assert old in text, f"{name} has no {old}"
+        self.write(name, text.replace(old, new))
 
     def violations(self):
         return check_layers.check_tree(self.root)[0]
@@ -128,30 +157,30 @@ class PlantedViolations(unittest.TestCase):
 
     def test_scenario_includes_more_than_parameters(self):
         self.tree.add_line("scenario/scenario.h", '#include "terrain/terrain.h"')
-        self.assert_caught("src/scenario/scenario.h:3", "only *_params.h of terrain")
+        self.assert_caught("src/scenario/scenario.h:5", "only *_params.h of terrain")
 
     def test_heavy_library_in_a_header_of_its_folder(self):
         self.tree.write("rover/bullet_rover.h", "#pragma once\n#include <btBulletDynamicsCommon.h>\n")
         self.assert_caught("src/rover/bullet_rover.h:2", "Bullet stays in .cc files")
 
     def test_heavy_library_in_another_folder(self):
-        self.tree.write("terrain/mesh.cc", "#include <bullet/LinearMath/btVector3.h>\n")
+        self.tree.write_source("terrain/mesh.cc", "#include <bullet/LinearMath/btVector3.h>\n")
         self.assert_caught("src/terrain/mesh.cc:1", "Bullet belongs to rover")
 
     def test_second_library_of_a_pair(self):
-        self.tree.write("core/cache.cc", "#include <sqlite3.h>\n")
+        self.tree.write_source("core/cache.cc", "#include <sqlite3.h>\n")
         self.assert_caught("src/core/cache.cc:1", "SQLite belongs to batch")
 
     def test_heavy_library_without_a_folder(self):
-        self.tree.write("terrain/rays.cc", "#include <embree3/rtcore.h>\n")
+        self.tree.write_source("terrain/rays.cc", "#include <embree3/rtcore.h>\n")
         self.assert_caught("src/terrain/rays.cc:1", "gives Embree to no folder")
 
     def test_library_that_nobody_announced(self):
-        self.tree.write("terrain/image.cc", "#include <opencv2/core.hpp>\n")
+        self.tree.write_source("terrain/image.cc", "#include <opencv2/core.hpp>\n")
         self.assert_caught("src/terrain/image.cc:1", "does not list")
 
     def test_openmp_pragma_outside_its_folder(self):
-        self.tree.write("terrain/loop.cc", "#pragma omp parallel for\n")
+        self.tree.write_source("terrain/loop.cc", "#pragma omp parallel for\n")
         self.assert_caught("src/terrain/loop.cc:1", "OpenMP belongs to batch")
 
     def test_link_beyond_the_table(self):
@@ -185,8 +214,84 @@ class PlantedViolations(unittest.TestCase):
         self.assert_caught("src/main.cc", "belong to a folder")
 
     def test_file_over_the_limit(self):
-        self.tree.write("terrain/long.cc", "\n" * (check_layers.MAX_LINES + 1))
+        self.tree.write_source("terrain/long.cc", "\n" * (check_layers.MAX_LINES + 1))
         self.assert_caught("src/terrain/long.cc", "601 lines")
+
+    def assert_one(self, where, why):
+        """Among the violations there is exactly one of this kind at this place."""
+        found = [line for line in self.tree.violations() if where in line and why in line]
+        self.assertEqual(len(found), 1, self.tree.violations())
+
+    def test_row_with_an_arrow_up(self):
+        self.tree.replace("README.md", "| terrain | |", "| terrain | truth, rover |")
+        self.tree.add_line("terrain/terrain.h", '#include "truth/state.h"')
+        self.assert_caught("src/README.md", "terrain may include rover, whose row stands above")
+
+    def test_math_of_the_first_row_may_not_include_core(self):
+        self.tree.replace("README.md", "| core | |\n| math | |", "| math | |\n| core | |")
+        self.assertEqual(self.tree.violations(), [])
+        self.tree.add_line("math/pose.h", '#include "core/check.h"')
+        self.assert_caught("src/math/pose.h:3", "math may not include core")
+
+    def test_row_that_allows_too_much(self):
+        self.tree.replace("README.md", "| navigation | messages |", "| navigation | messages, truth |")
+        self.assert_caught("src/README.md", "navigation may include truth, which nothing there includes")
+
+    def test_row_of_no_folder(self):
+        self.tree.replace("README.md", "| batch |", "| rendering | |\n| batch |")
+        self.assert_caught("src/README.md", "a row for rendering, which is no folder")
+
+    def test_circle_of_modules(self):
+        self.tree.replace("README.md", "| messages | |", "| messages | truth |")
+        self.tree.write("messages/seen.h", '#pragma once\n#include "truth/state.h"\n')
+        self.assert_one("src/README.md", "messages may include truth, whose row stands above")
+        self.assert_one("src/messages/seen.h", "circle of modules messages -> truth -> messages")
+        self.assertEqual(len(self.tree.violations()), 2)
+
+    def test_circle_of_rooms(self):
+        self.tree.write("rover/multibody/solver.h",
+                        '#pragma once\n#include "rover/quasi_static/ground.h"\n')
+        self.tree.write("rover/quasi_static/ground.h", "#pragma once\n")
+        self.assert_caught("src/rover/multibody/solver.h",
+                           "circle of rooms rover/multibody -> rover/quasi_static -> rover/multibody")
+
+    def test_circle_of_typescript_by_types_alone(self):
+        self.tree.add_line("web/shared/dom.ts", 'export type { Page } from "../report/page";')
+        self.tree.write("web/report/page.ts", 'import type { X } from "./parts";\n')
+        self.tree.write("web/report/parts/index.ts", 'const x = await import("../../shared/dom");\n')
+        self.assert_caught("src/web/report/page.ts", "import cycle web/report/page.ts -> "
+                           "web/report/parts/index.ts -> web/shared/dom.ts -> web/report/page.ts")
+
+    def test_source_that_is_not_compiled(self):
+        self.tree.write("navigation/pathfinder/turn.cc", "#include <cmath>\n")
+        self.assert_caught("src/navigation/CMakeLists.txt", "pathfinder/turn.cc is in no list")
+
+    def test_source_of_a_room_listed_without_its_room(self):
+        self.tree.replace("rover/CMakeLists.txt", "multibody/wheel.cc", "wheel.cc")
+        self.assert_one("src/rover/CMakeLists.txt", "lists wheel.cc, which is no file")
+        self.assert_one("src/rover/CMakeLists.txt", "multibody/wheel.cc is in no list")
+
+    def test_source_in_a_comment_is_not_listed(self):
+        self.tree.replace("rover/CMakeLists.txt", "multibody/wheel.cc", "# multibody/wheel.cc")
+        self.assert_caught("src/rover/CMakeLists.txt", "multibody/wheel.cc is in no list")
+
+    def test_source_listed_twice(self):
+        self.tree.add_line("core/CMakeLists.txt", "add_executable(tool archive.cc)")
+        self.assert_caught("src/core/CMakeLists.txt", "lists archive.cc 2 times")
+
+    def test_two_sources_on_a_line(self):
+        self.tree.replace("rover/CMakeLists.txt", "bullet_rover.cc\n", "bullet_rover.cc")
+        self.assert_one("src/rover/CMakeLists.txt", "SOURCES bullet_rover.cc: one file a line")
+        self.assert_one("src/rover/CMakeLists.txt", "SOURCES multibody/wheel.cc: one file a line")
+
+    def test_link_that_no_include_needs(self):
+        self.tree.link("terrain", "DEPENDS core math")
+        self.assert_caught("src/terrain/CMakeLists.txt", "DEPENDS math: nothing in terrain includes it")
+
+    def test_parameters_that_no_include_needs(self):
+        self.tree.replace("scenario/scenario.h", "navigation/pathfinder/pathfinder_params.h", "core/check.h")
+        self.assert_one("src/README.md", "scenario may include navigation, which nothing there includes")
+        self.assert_one("src/scenario/CMakeLists.txt", "PARAMS_OF navigation: nothing in scenario includes")
 
     def test_cycle_of_three_headers(self):
         for name, other in (("a", "b"), ("b", "c"), ("c", "a")):
@@ -206,34 +311,60 @@ class NoFalseAlarm(unittest.TestCase):
         self.assertEqual(self.tree.violations(), [])
 
     def test_file_at_the_limit(self):
-        self.tree.write("terrain/long.cc", "\n" * check_layers.MAX_LINES)
+        self.tree.write_source("terrain/long.cc", "\n" * check_layers.MAX_LINES)
         self.assertEqual(self.tree.violations(), [])
 
+    def test_rooms_may_include_each_other_in_one_direction(self):
+        self.tree.write_source("rover/quasi_static/balance.cc", '#include "rover/quasi_static/balance.h"\n'
+                               '#include "rover/multibody/wheel.h"\n')
+        self.assertEqual(self.tree.violations(), [])
+
+    def test_files_beside_rooms_may_know_them(self):
+        self.tree.add_line("rover/bullet_rover.cc", '#include "rover/multibody/wheel.h"')
+        self.assertEqual(self.tree.violations(), [])
+
+    def test_import_in_a_comment(self):
+        self.tree.add_line("web/shared/dom.ts", '// import { page } from "../report/main";')
+        self.assertEqual(self.tree.violations(), [])
+
+    def test_source_that_a_function_of_cmake_names(self):
+        self.tree.replace("web/CMakeLists.txt", "page.cc\n", "page.cc\n    ${pages}\n")
+        self.tree.write("web/no_pages.cc", "#include <string>\n")
+        self.assertEqual(len(self.tree.violations()), 1)
+        self.tree.write("../scripts/cmake/Pages.cmake", "set(pages no_pages.cc)\n")
+        self.assertEqual(self.tree.violations(), [])
+        self.tree.replace("web/CMakeLists.txt", "    ${pages}\n", "")
+        self.assertEqual(len(self.tree.violations()), 1, "nothing holds what the function names")
+
     def test_posix_and_standard_headers(self):
-        self.tree.write("batch/signals.cc", "#include <csignal>\n#include <unistd.h>\n")
+        self.tree.write_source("batch/signals.cc", "#include <csignal>\n#include <unistd.h>\n")
         self.assertEqual(self.tree.violations(), [])
 
 
 class Rules(unittest.TestCase):
     def test_missing_table_is_an_error(self):
-        with self.assertRaises(check_layers.RulesError):
-            check_layers.read_table("# Map\n")
+        with self.assertRaises(layer_rules.RulesError):
+            layer_rules.read_table("# Map\n")
 
     def test_unknown_folder_in_the_table_is_an_error(self):
-        with self.assertRaises(check_layers.RulesError):
-            check_layers.read_table(README.replace("| truth | messages |", "| truth | mesages |"))
+        with self.assertRaises(layer_rules.RulesError):
+            layer_rules.read_table(README.replace("| truth | messages |", "| truth | mesages |"))
+
+    def test_two_rows_of_a_folder_are_an_error(self):
+        with self.assertRaisesRegex(layer_rules.RulesError, "two rows for truth"):
+            layer_rules.read_table(README.replace("| batch |", "| truth | messages |\n| batch |"))
 
     def test_missing_second_rule_is_an_error(self):
-        with self.assertRaises(check_layers.RulesError):
-            check_layers.read_heavy(README.split("2. **")[0], ["rover"])
+        with self.assertRaises(layer_rules.RulesError):
+            layer_rules.read_heavy(README.split("2. **")[0], ["rover"])
 
     def test_libraries_and_folders_of_the_second_rule(self):
-        rules = check_layers.read_heavy(README, ["rover", "batch", "core"])
+        rules = layer_rules.read_heavy(README, ["rover", "batch", "core"])
         self.assertEqual(rules, {"Bullet": {"rover"}, "OpenMP": {"batch"}, "SQLite": {"batch"},
                                  "nlohmann-json": {"core"}})
 
     def test_the_project_forbids_truth_and_terrain_on_board(self):
-        rules = check_layers.read_rules(ROOT / "src" / "README.md")
+        rules = layer_rules.read_rules(ROOT / "src" / "README.md")
         for module in ("navigation", "perception"):
             self.assertFalse(rules.allowed[module] & {"truth", "terrain", "rover", "sensing"})
 

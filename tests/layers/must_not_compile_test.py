@@ -13,7 +13,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 sys.path.insert(0, str(ROOT / "scripts"))
-import check_layers  # noqa: E402  (the path comes first)
+from layers.rules import read_rules  # noqa: E402  (the path comes first)
 
 COMPILER = ""
 INCLUDE_PATHS = {}
@@ -123,7 +123,7 @@ class Reach(unittest.TestCase):
         return {header for header in headers if f"sees {header}" in result.stderr}
 
     def test_no_module_sees_beyond_the_table(self):
-        rules = check_layers.read_rules(ROOT / "src" / "README.md")
+        rules = read_rules(ROOT / "src" / "README.md")
         modules = [folder for folder in rules.allowed if (ROOT / "src" / folder).is_dir()]
         for module in INCLUDE_PATHS:
             allowed = reachable(rules, module)
@@ -144,7 +144,7 @@ class Reach(unittest.TestCase):
                 self.assertEqual(self.visible(module, wanted), set(wanted))
 
     def test_on_board_modules_reach_messages_and_images_only(self):
-        rules = check_layers.read_rules(ROOT / "src" / "README.md")
+        rules = read_rules(ROOT / "src" / "README.md")
         common = {"messages", "core", "math"}
         self.assertEqual(reachable(rules, "vision"), common | {"vision"})
         for module, more in (("navigation", set()), ("perception", {"vision"})):

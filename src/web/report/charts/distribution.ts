@@ -6,7 +6,7 @@ import { isNumber, number, percent } from "../../shared/format";
 import { numeric, table } from "../../shared/table";
 import type { ShownRun } from "../context";
 import { seriesStyle } from "../series";
-import { niceStep } from "./histogram";
+import { niceStep, type Mark } from "./axis";
 
 export interface Steps {
   shown: ShownRun;
@@ -25,11 +25,6 @@ export interface Step {
   y: number;
   low: number | null;
   high: number | null;
-}
-
-export interface Mark {
-  x: number;
-  label: string;
 }
 
 /** Columns of distance_cdf.csv as steps: `name`, `name`_low and _high. Rows with a missing number are left out. */

@@ -7,7 +7,7 @@ import { numeric, rowHeader, table } from "../../shared/table";
 import type { ShownRun } from "../context";
 import { ratedTrials } from "../prefix";
 import { seriesStyle } from "../series";
-import type { Mark } from "./distribution";
+import { niceStep, type Mark } from "./axis";
 
 export interface Sample {
   shown: ShownRun;
@@ -28,13 +28,6 @@ export function sampleOf(shown: ShownRun, name: string, factor: number): Sample 
     (value, i): value is number => isNumber(value) && shown.run.trials.outcome[i] !== fault,
   );
   return values.length > 0 ? { shown, values: values.map((value) => factor * value) } : null;
-}
-
-// The nearest step that is 1, 2 or 5 times a power of ten.
-export function niceStep(raw: number): number {
-  const power = 10 ** Math.floor(Math.log10(raw));
-  const lead = raw / power;
-  return power * (lead < 1.4 ? 1 : lead < 3.2 ? 2 : lead < 7 ? 5 : 10);
 }
 
 function range(samples: Sample[]): [number, number] {

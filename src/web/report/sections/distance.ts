@@ -2,7 +2,8 @@
 
 import { el } from "../../shared/dom";
 import { number } from "../../shared/format";
-import { drawSteps, stepsOf, stepTable, type Mark, type Steps } from "../charts/distribution";
+import type { Mark } from "../charts/axis";
+import { drawSteps, stepsOf, stepTable, type Steps } from "../charts/distribution";
 import { chartFigure } from "../charts/figure";
 import type { Context } from "../context";
 import type { PublishedRow, Run } from "../payload";

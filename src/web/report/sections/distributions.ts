@@ -2,7 +2,7 @@
 
 import { el } from "../../shared/dom";
 import { counted, number } from "../../shared/format";
-import type { Mark } from "../charts/distribution";
+import type { Mark } from "../charts/axis";
 import { chartFigure } from "../charts/figure";
 import { binTable, drawHistograms, sampleOf, summaryTable, type Sample } from "../charts/histogram";
 import type { Context, ShownRun } from "../context";

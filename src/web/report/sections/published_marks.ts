@@ -1,7 +1,7 @@
 // Published values as marks in charts.
 
 import { isNumber } from "../../shared/format";
-import type { Mark } from "../charts/distribution";
+import type { Mark } from "../charts/axis";
 import type { PublishedRow, Run } from "../payload";
 
 const STATISTICS: Record<string, string> = { min: "minimum", max: "maximum" };
