@@ -110,8 +110,8 @@ class Reach(unittest.TestCase):
     """Every module sees the headers that the table of src/README.md allows, and no other.
 
     A header that may be included brings what it includes itself, so this is the closure of the
-    table (of what scenario composes, the parameters); for navigation and perception the closure is
-    the table. scripts/check_layers.py checks the table itself.
+    table (behind scenario, of the parameters alone); for navigation and perception the closure is the
+    table. scripts/check_layers.py checks the table itself.
     """
 
     def visible(self, module, headers):
@@ -127,7 +127,8 @@ class Reach(unittest.TestCase):
         modules = [folder for folder in rules.allowed if (ROOT / "src" / folder).is_dir()]
         for module in INCLUDE_PATHS:
             allowed = reachable(rules, module)
-            brought = {other for gate in allowed & rules.params_only for other in rules.allowed[gate]}
+            # Parameters are composed of others', and bring these.
+            brought = {other for gate in allowed & rules.params_only for other in reachable(rules, gate)}
             forbidden = [header for other in modules if other not in allowed
                          for header in headers_of(other)
                          if other not in brought or not header.endswith("_params.h")]
