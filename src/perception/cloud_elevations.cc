@@ -53,6 +53,7 @@ messages::ElevationScan CloudElevations(const messages::PointCloud& cloud,
   messages::ElevationScan scan{cloud.number,
                                messages::StripeArray<messages::ElevationPoint>({rows, stripes})};
   for (std::size_t bin = 0; bin < heights_m.size(); ++bin) {
+    // Too few points: the bin counts as a point that was not found.
     if (heights_m[bin].size() < static_cast<std::size_t>(params.min_points)) continue;
     scan.points.points()[bin] = {.detected = true,
                                  .elevation_m = QuantileOf(heights_m[bin], params.quantile)};

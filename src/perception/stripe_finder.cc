@@ -13,6 +13,7 @@ messages::ColumnRange StripeFinder::searched(std::size_t row, std::size_t stripe
   return searches_.At(calibration_.lasers[stripe].camera, row, stripe).columns;
 }
 
+// One scanline in one exposure: average, threshold, peaks, and which peak is which laser.
 void StripeFinder::FindIn(const messages::StripeExposure& exposure, std::size_t row,
                           messages::StripeScan& scan) const {
   const auto profile = AverageDifference(exposure, calibration_.scanline_px[row],

@@ -38,6 +38,7 @@ struct Inside {
     normal[axis] = direction > 0.0 ? -1.0 : 1.0;
     Clip(std::min(a, b), std::max(a, b), normal);
   }
+  // The ray enters ahead of its origin, and before it leaves.
   bool IsEntered() const { return enter_m > 0.0 && enter_m < leave_m; }
 };
 
@@ -60,6 +61,7 @@ RoverBody::RoverBody(const rover::RoverGeometryParams& params) {
   radius_m_ = 0.5 * (bounds_.high_R - bounds_.low_R).norm();
 }
 
+// The box around all parts, which most rays miss.
 bool RoverBody::PassesBy(const Vector3& origin_R, const Vector3& direction_R) const {
   Inside inside;
   for (int axis = 0; axis < 3; ++axis) {
@@ -120,6 +122,7 @@ double RoverBody::Distance(const Vector3& origin_R, const Vector3& direction_R) 
 
 Vector3 RoverBody::Normal(const Vector3& origin_R, const Vector3& direction_R) const {
   const Entry first = First(origin_R, direction_R);
+  // A ray that meets nothing has no normal: one that looks back along it stands for it.
   return first.distance_m < kFree ? first.normal_R : Vector3(-direction_R);
 }
 

@@ -47,6 +47,8 @@ LitScene RowRenderer::Prepare(const ImageScene& scene) const {
   return lit;
 }
 
+// One ray for each edge between pixels: neighbours share it. Rocks are sifted for the line, then
+// for each of its segments.
 void RowRenderer::CastRays(const ViewRow& view, Job& job) {
   const ImageScene& scene = job.lit.scene;
   const auto R_WR = scene.X_WR().linear();
@@ -68,6 +70,7 @@ void RowRenderer::CastRays(const ViewRow& view, Job& job) {
   }
 }
 
+// Sunlight at each edge; an edge that two segments share is lit twice, with the same result.
 void RowRenderer::LightPoints(const ViewRow& view, Job& job) {
   const ImageScene& scene = job.lit.scene;
   // A ball around what a run of edges meets; what may come between it and the sun is searched once.
@@ -92,6 +95,7 @@ void RowRenderer::LightPoints(const ViewRow& view, Job& job) {
   }
 }
 
+// What each laser adds to a pixel between two edges.
 void RowRenderer::AddLasers(const LitScene& lit, const SurfacePoint& left,
                             const SurfacePoint& right, int pixel, double gain,
                             RenderedRow& row) const {
@@ -102,6 +106,7 @@ void RowRenderer::AddLasers(const LitScene& lit, const SurfacePoint& left,
     if (fan.PassesBy(left.p_W, right.p_W)) continue;
     const double a_rad = fan.OutOfPlane(left.p_W);
     const double b_rad = fan.OutOfPlane(right.p_W);
+    // The beam passes the pixel on one side.
     if (std::min(a_rad, b_rad) > reach_rad || std::max(a_rad, b_rad) < -reach_rad) continue;
 
     const bool one_surface = IsOneSurface(left, right);
@@ -119,6 +124,8 @@ void RowRenderer::AddLasers(const LitScene& lit, const SurfacePoint& left,
   }
 }
 
+// A pixel in which a surface ends: kParts smaller ones, each with rays, shadows and lasers of its
+// own.
 void RowRenderer::SplitPixel(const Job& job, const ViewRow& view, std::span<const int> seen,
                              int pixel, RenderedRow& row) const {
   const auto edge = static_cast<std::size_t>(pixel);
@@ -170,6 +177,7 @@ RenderedRow RowRenderer::Render(const LitScene& lit, const Vector3& eye_R,
         continue;
       }
       const double gain = view.gain[e] * electrons_per_radiance_;
+      // Trapezoid rule between the two edges.
       row.sun_e_s[e] = 0.5 * gain * (left.radiance_w_m2_sr + right.radiance_w_m2_sr);
       AddLasers(lit, left, right, pixel, gain, row);
     }

@@ -40,6 +40,7 @@ void AddExpectations(const TerrainParams& params, FieldAudit& audit) {
   audit.expected_drawn = params.rocks.RocksPerM2() * audit.layout_area_m2;
   double placed_share = 1.0;
   double mean_square_m2 = law->MeanPower(2.0);
+  // Only Moore rocks are dropped in clear zones; exact counts are drawn again elsewhere.
   if (params.rocks.kind == RockFieldKind::kMoore) {
     const double r = params.rocks.clear_radius_m;
     placed_share = MeanPowerOutsideClearZones(*law, 0.0, r, audit.layout_area_m2);
@@ -88,6 +89,7 @@ Field BuildField(const TerrainParams& params, core::TrialKey key, const Course& 
 
   Ground ground(params.ground, key);
   for (Rock& rock : rocks) {
+    // Layouts know heights above the ground; mirror images get that of their own place.
     rock.center_W.z() += ground.Height(rock.center_W.x(), rock.center_W.y());
   }
   return {Terrain(std::move(ground), std::move(rocks), ArenaWalls(params.arena)), audit};

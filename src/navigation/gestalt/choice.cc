@@ -33,6 +33,8 @@ Rows CompetingRows(MotionVotes& votes, const GestaltParams& params) {
   return rows;
 }
 
+// A merged vote can be high on ground that must not be driven: the hazard vote has a bound of its
+// own.
 bool MayBeDriven(const MotionVote& vote, const GestaltParams& params) {
   return vote.hazard > params.drive.min_drive_goodness;
 }
@@ -67,6 +69,7 @@ struct Peak {
   }
 };
 
+// The longest set of adjacent arcs with the highest vote; an arc that may not be driven ends a set.
 Peak BestPeak(std::span<MotionVote> row, double highest, const GestaltParams& params) {
   const auto shares = [&](std::size_t i) {
     return i < row.size() && row[i].merged == highest && MayBeDriven(row[i], params);
@@ -103,6 +106,7 @@ MotionVote* ChooseArc(MotionVotes& votes, const GestaltParams& params) {
   return best.middle;
 }
 
+// When a point turn is preferred, by the reading that the parameters choose.
 bool TurnsInPlace(const MotionVote& turn, const MotionVote* arc, const GestaltParams& params) {
   switch (params.drive.point_turns) {
     case PointTurns::kNever:
@@ -121,6 +125,7 @@ MotionVote* ChoosePointTurn(MotionVotes& votes, double goal_bearing_rad) {
   EXPECT(votes.point_turns.size() == 2);
   MotionVote& right = votes.point_turns.front();
   MotionVote& left = votes.point_turns.back();
+  // The better vote; on a tie the side of the goal.
   if (right.merged != left.merged) return right.merged > left.merged ? &right : &left;
   return goal_bearing_rad < 0.0 ? &right : &left;
 }

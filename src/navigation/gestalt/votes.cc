@@ -23,6 +23,7 @@ constexpr double kLeastDistance_m = 1e-6;
 // A goal this near to straight behind is on the left, whatever rounding made of it.
 constexpr double kBehind_rad = 1e-9;
 
+// Halves up, where votes are whole numbers.
 double Rounded(double vote, bool whole_numbers) {
   return whole_numbers ? std::floor(vote + 0.5) : vote;
 }

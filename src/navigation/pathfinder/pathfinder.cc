@@ -80,7 +80,10 @@ NavigatorDecision PathfinderNavigator::OnReport(const NavigatorInput& input) {
   return ClassifySides(*input.report, params_).any() ? OnHazard(input) : OnClear(input);
 }
 
+// Rules 2 and 3: turn in place until no hazard is detected, with the extras that parameters switch
+// on.
 NavigatorDecision PathfinderNavigator::OnHazard(const NavigatorInput& input) {
+  // Hazards on the outermost stripes alone leave a gap between them.
   if (params_.threading_m > 0.0 && OnlyOutermostStripes(*input.report)) {
     return BeginStraight(Mode::kThreading, params_.threading_m, input);
   }
@@ -100,6 +103,7 @@ NavigatorDecision PathfinderNavigator::OnHazard(const NavigatorInput& input) {
   return BeginTurn(Mode::kAvoiding, *avoid_direction_, input);
 }
 
+// Rule 1, after the straight drive that follows a turn.
 NavigatorDecision PathfinderNavigator::OnClear(const NavigatorInput& input) {
   if (avoid_direction_.has_value()) {
     avoid_direction_.reset();
@@ -125,6 +129,7 @@ NavigatorDecision PathfinderNavigator::Continue(const NavigatorInput& input) {
   return BeginScan();
 }
 
+// A turn goes on for turn_increment, or until the rover faces the goal, and ends with a scan.
 NavigatorDecision PathfinderNavigator::ContinueTurn(const NavigatorInput& input) {
   // Positive along the turn; WrapAngle, since headings stay within [-pi, pi].
   const double turned =
@@ -138,6 +143,7 @@ NavigatorDecision PathfinderNavigator::ContinueTurn(const NavigatorInput& input)
   return ScanOrGoOn(input);
 }
 
+// A drive goes on until its length or the scan interval is reached.
 NavigatorDecision PathfinderNavigator::ContinueDrive(const NavigatorInput& input) {
   const double driven = input.estimate.distance_m - anchor_.distance_m;
   if (mode_ == Mode::kBackingOff) {

@@ -40,9 +40,12 @@ ConstraintSolver::ConstraintSolver(const RoverParams& params, const terrain::Soi
 void ConstraintSolver::Clear() {
   differential_.impulse = 0.0;
   for (Row& row : stops_) row.impulse = 0.0;
+  // The contacts' impulses are forgotten with the contacts.
   for (Row& row : motors_) row.impulse = 0.0;
 }
 
+// Projected Gauss-Seidel on the velocities: every row starts from its last impulse, then the sweeps
+// go through joints, motors and contacts in a fixed order, so that equal inputs give equal bits.
 void ConstraintSolver::Solve(const DofMatrix& mass_inverse,
                              const messages::PerWheel<double>& wheel_rate_rad_s,
                              LooseRocks* loose_rocks, ContactFinder& finder, Multibody& body) {
@@ -213,6 +216,7 @@ void ConstraintSolver::KeepForNextStep(const ContactRows& rows) const {
 
 void ConstraintSolver::Sweep(LooseRocks* loose_rocks) {
   Relax(differential_);
+  // A stop that is not watched has the upper bound 0.
   for (Row& row : stops_) {
     if (row.high > 0.0) Relax(row);
   }
