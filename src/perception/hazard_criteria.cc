@@ -85,6 +85,7 @@ void FindNeighbours(const ElevationScan& scan, const HazardParams& params, Strip
   const auto reach = static_cast<std::size_t>(params.neighbour_reach);
   const auto [rows, stripes] = scan.points.size();
   for (std::size_t row = 0; row < rows; ++row) {
+    // Down to later rows only, so that each pair is met once.
     const std::size_t end_row = Around(row, reach, rows).end;
     for (std::size_t stripe = 0; stripe < stripes; ++stripe) {
       const ElevationPoint& a = scan.points[row][stripe];

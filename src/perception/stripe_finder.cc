@@ -32,6 +32,7 @@ void StripeFinder::FindIn(const messages::StripeExposure& exposure, std::size_t 
   const std::vector<StripePeak> peaks = FindPeaks(*profile, params_);
   const auto peak_of = AssociatePeaks(searches, peaks, params_.peak);
   for (std::size_t i = 0; i < lit.size(); ++i) {
+    // Peaks of the other camera's lasers are explained, and not kept.
     if (!peak_of[i] || calibration_.lasers[lit[i]].camera != exposure.camera) continue;
     scan.pixels[row][lit[i]] = {.detected = true, .column_px = peaks[*peak_of[i]].column_px};
   }

@@ -30,6 +30,7 @@ std::optional<ContactSwitch> PanelSwitch(const Vector3& p_R, double half_length_
     return p_R.y() > 0.0 ? ContactSwitch::kLeftEdge : ContactSwitch::kRightEdge;
   }
   if (p_R.x() < 0.0) return ContactSwitch::kRearEdge;
+  // The front edge has three switches.
   const double third_m = half_width_m / 3.0;
   if (p_R.y() > third_m) return ContactSwitch::kFrontLeft;
   return p_R.y() < -third_m ? ContactSwitch::kFrontRight : ContactSwitch::kFrontCentre;
@@ -173,6 +174,7 @@ messages::ContactSwitches VehicleSensors::MeasureContacts() const {
   messages::ContactSwitches measured = pressed_;
   if (params_.contact.false_probability > 0.0) {
     core::RandomStream noise = Noise(Purpose::kContactSwitch);
+    // A switch that closes without a touch.
     for (bool& pressed : measured) {
       pressed |= core::SampleBernoulli(noise, params_.contact.false_probability);
     }

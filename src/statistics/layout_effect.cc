@@ -49,6 +49,7 @@ std::vector<double> PosteriorRates(std::int64_t count, std::int64_t pool) {
                                                          static_cast<double>(pool - count) + 0.5);
   std::vector<double> rates(kRates);
   for (int i = 0; i < kRates; ++i) {
+    // Middles of equally likely parts of the posterior Beta(K + 1/2, N - K + 1/2).
     rates[static_cast<std::size_t>(i)] = boost::math::quantile(posterior, (i + 0.5) / kRates);
   }
   return rates;
@@ -105,6 +106,7 @@ LayoutEffect EstimateLayoutEffect(std::span<const LayoutCount> layouts) {
   using core::kNaN;
   if (trials == 0.0) return {kNaN, kNaN};
   const double rate = successes / trials;
+  // No layout has two trials, or there is only one: nothing to tell layouts from chance by.
   if (groups < 2.0 || trials <= groups) return {rate, kNaN};
   // Fleiss 1981: with the mean squares between and within layouts and the mean size n_0 = (N - sum
   // n^2 / N) / (G - 1), rho = (MSB - MSW) / (MSB + (n_0 - 1) MSW).

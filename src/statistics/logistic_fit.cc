@@ -45,7 +45,10 @@ FitStatus StatusOf(std::span<const Dose> doses) {
       last_failure = dose.u;
     }
   }
+  // Nothing but failures, or nothing but successes.
   if (first_success > last_success || first_failure > last_failure) return FitStatus::kNoContrast;
+  // A maximum exists only if neither outcome lies wholly on one side of the other (Silvapulle
+  // 1981).
   const bool overlap = first_success < last_failure && first_failure < last_success;
   return overlap ? FitStatus::kFitted : FitStatus::kSeparated;
 }
@@ -96,6 +99,7 @@ double ExcessAt(const LogisticFit& fit, double u) {
 
 // How much less likely the runs are if the curve has the rate of `logit` at u0: likelihood ratio.
 double RatioAt(std::span<const Dose> doses, double best, double logit, double u0) {
+  // The curve through (u0, logit): its intercept at the centre u0 is fixed, its slope free.
   LogitLine line{logit, 0.0, u0};
   return 2.0 * (best - MaximizeLikelihood(doses, FreeParameters::kSlope, line));
 }
@@ -196,6 +200,7 @@ LogisticFit ClusterScores::Fit(bool shared_within) const {
   double clusters = 0.0;
   std::array<double, 3> sums{};
   for (const LikelihoodSlopes& score : scores_) {
+    // A number without trials is no cluster.
     if (score.aa <= 0.0) continue;
     clusters += 1.0;
     // (I - A V) y = s.

@@ -44,6 +44,7 @@ double ParabolaTop(double left, double middle, double right) {
 
 double HalfSampleMode(std::span<const double> sorted) {
   if (sorted.empty()) return kNaN;
+  // Each round keeps ceil(n/2) neighbouring values.
   while (sorted.size() > 3) sorted = ShortestHalf(sorted);
   if (sorted.size() == 1) return sorted[0];
   if (sorted.size() == 2) return 0.5 * (sorted[0] + sorted[1]);

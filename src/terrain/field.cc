@@ -37,6 +37,7 @@ double MeanPowerOutsideClearZones(const RockSizeLaw& law, double power, double r
 void AddExpectations(const TerrainParams& params, FieldAudit& audit) {
   const std::unique_ptr<RockSizeLaw> law = MakeSizeLaw(params.rocks);
   if (!law) return;
+  // Mean number: density times area.
   audit.expected_drawn = params.rocks.RocksPerM2() * audit.layout_area_m2;
   double placed_share = 1.0;
   double mean_square_m2 = law->MeanPower(2.0);

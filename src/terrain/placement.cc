@@ -61,6 +61,7 @@ bool Placement::Free(const Disc& disc) const {
   return true;
 }
 
+// In every cell that its bounding box touches.
 void Placement::Add(const Disc& disc) {
   const Cells cells = CellsOf(disc);
   for (int iy = cells.first_y; iy <= cells.last_y; ++iy) {

@@ -61,6 +61,7 @@ double UniformSizeLaw::Diameter(double probability) const {
 }
 
 double UniformSizeLaw::Cdf(double diameter_m) const {
+  // A single size: a step.
   if (max_m_ == min_m_) return diameter_m < min_m_ ? 0.0 : 1.0;
   return std::clamp((diameter_m - min_m_) / (max_m_ - min_m_), 0.0, 1.0);
 }

@@ -45,6 +45,7 @@ math::PlaneFit FitWithoutOutliers(std::vector<PatchCell> cells, math::PointMomen
     const Farthest worst = FarthestFrom(fit.normal, spread.mean_m, cells);
     // Leaving it out would change nothing but the number of points.
     if (worst.distance_m < kInPlane_m) return fit;
+    // Whole numbers: taking a cell back is exact.
     sum -= *cells[worst.index].moments;
     cells.erase(cells.begin() + static_cast<std::ptrdiff_t>(worst.index));
   }

@@ -186,6 +186,8 @@ void PatchPlanes::FindSpreads(const CellWindow& cells) {
   }
 }
 
+// Only patches with outliers to leave out, or with too many points for exact sums, ask for their
+// cells.
 std::vector<PatchCell> PatchPlanes::CellsOf(const CellWindow& cells, Cell middle) {
   if (spreads_.empty()) FindSpreads(cells);
   const CellBox patch = CellBox{middle.ix, middle.ix + 1, middle.iy, middle.iy + 1}.Grown(

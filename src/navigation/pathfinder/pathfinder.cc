@@ -97,6 +97,7 @@ NavigatorDecision PathfinderNavigator::OnHazard(const NavigatorInput& input) {
   facing_goal_ = false;
   if (avoided_turn_rad_ >= params_.turn_give_up_rad) return Finish(NavigatorStatus::kGaveUp);
   const HazardSides sides = ClassifySides(*input.report, params_);
+  // Enclosed on both sides: back off before turning, where the parameters ask for it.
   if (newly_seen && params_.back_off_m > 0.0 && sides.left && sides.right) {
     return BeginStraight(Mode::kBackingOff, params_.back_off_m, input);
   }

@@ -143,6 +143,7 @@ void Multibody::Accelerate(double gravity_m_s2, double step_s, DofMatrix& mass_i
   }
 }
 
+// Generalized velocities have Bullet's order: chassis angular, linear, then the joints.
 void Multibody::AddVelocity(const DofVector& change) {
   bullet_->body.applyDeltaVeeMultiDof(change.data(), 1.0);
 }
