@@ -63,6 +63,7 @@ messages::ElevationScan CloudElevations(const messages::PointCloud& cloud,
 
 messages::PointCloud StripeCloud(const messages::StripeScan& scan,
                                  const Triangulator& triangulator) {
+  // Light stripes as a map takes them: points in R, without those that were not found.
   messages::PointCloud cloud{.number = scan.number, .points_R = {}};
   cloud.points_R.reserve(scan.pixels.points().size());
   for (std::size_t row = 0; row < scan.pixels.rows(); ++row) {

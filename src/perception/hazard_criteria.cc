@@ -129,6 +129,7 @@ void FindRange(const ElevationScan& scan, const HazardParams& params, StripeFlag
 
 HazardFindings AssessHazards(const ElevationScan& scan, const HazardParams& params) {
   HazardFindings findings(scan.points.stripes());
+  // The three criteria do not see one another: what each charges stays apart.
   FindMissing(scan, findings.missing);
   FindNeighbours(scan, params, findings.neighbour);
   FindRange(scan, params, findings.range);

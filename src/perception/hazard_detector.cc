@@ -24,6 +24,7 @@ messages::HazardReport Union(const messages::HazardReport& before,
 
 messages::HazardReport HazardDetector::Resolve(Disagreement rule, const Seen& before,
                                                const Seen& now) {
+  // What is believed when two scans disagree and no further one is taken.
   switch (rule) {
     case Disagreement::kTrustLast:
       return now.report;

@@ -21,6 +21,7 @@ Triangulator::Triangulator(const messages::StripeCalibration& calibration)
   geometry_ = messages::StripeArray<PointGeometry>(calibration_.size());
   for (std::size_t row = 0; row < geometry_.rows(); ++row) {
     for (std::size_t stripe = 0; stripe < geometry_.stripes(); ++stripe) {
+      // Worked out once: it depends on the calibration alone.
       geometry_[row][stripe] = MakeGeometry(row, stripe);
     }
   }

@@ -91,6 +91,7 @@ void ImageScene::RocksInSheet(const Vector3& p_W, const Vector3& normal_W, doubl
   out.clear();
   for (const int index : near_) {
     const terrain::Rock& rock = terrain_.rocks()[static_cast<std::size_t>(index)];
+    // The sheet lies between two parallel planes: the distance of the centre against both widths.
     if (std::abs(normal_W.dot(rock.center_W - p_W)) <= width_m + Reach(rock)) out.push_back(index);
   }
 }
@@ -107,6 +108,7 @@ void ImageScene::RocksBeforeSun(const Ball& ball, std::span<const int> among,
   for (const int i : among) {
     const auto index = static_cast<std::size_t>(before_sun_[static_cast<std::size_t>(i)]);
     const terrain::Rock& rock = terrain_.rocks()[index];
+    // Both balls seen along the sun's rays, see ComesBetween.
     const double reach_m = ball.radius_m + Reach(rock);
     if (ComesBetween(rock.center_W - ball.center_W, light_.toward_sun_W, reach_m)) {
       out.push_back(i);

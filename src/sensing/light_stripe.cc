@@ -58,6 +58,7 @@ LightStripe::LightStripe(const LightStripeParams& params)
   } else {
     AddCurves(reach_R);
   }
+  // Whatever a scan can meet lies near this ball: its rocks are gathered once.
   reach_center_R_ = 0.5 * (reach_R.min() + reach_R.max());
   reach_radius_m_ = 0.5 * (reach_R.max() - reach_R.min()).norm();
 }
@@ -202,6 +203,7 @@ messages::StripePixel LightStripe::FindOnCurve(const terrain::Terrain& terrain,
   const Vector3 point_R = X_WR.inverse() * *point_W;
   const Vector3 point_C = camera.X_RC.inverse() * point_R;
   if (point_C.norm() > params_.max_range_m || !InFan(point_R, stripe)) return {};
+  // The chord was at most kChordError_m off the curve: the column is that of the point itself.
   const auto seen = vision::Project(camera, point_C);
   if (!seen) return {};
   const double column_px = std::round(seen->column_px);

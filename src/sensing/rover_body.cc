@@ -50,6 +50,7 @@ RoverBody::RoverBody(const rover::RoverGeometryParams& params) {
   for (const Vector3& wheel_R : rover::MakeRoverGeometry(params).wheel_R) {
     wheels_.push_back({wheel_R, params.wheel_radius_m, 0.5 * params.wheel_width_m});
   }
+  // One box, and one ball, around chassis, panel and wheels.
   bounds_ = {boxes_[0].low_R.cwiseMin(boxes_[1].low_R),
              boxes_[0].high_R.cwiseMax(boxes_[1].high_R)};
   for (const Wheel& wheel : wheels_) {
@@ -109,6 +110,7 @@ RoverBody::Entry RoverBody::First(const Vector3& origin_R, const Vector3& direct
   Entry first;
   if (PassesBy(origin_R, direction_R)) return first;
   const auto consider = [&first](const Entry& entry) {
+    // Parts are few: the nearest entry of all.
     if (entry.distance_m < first.distance_m) first = entry;
   };
   for (const Box& box : boxes_) consider(Enter(box, origin_R, direction_R));

@@ -37,6 +37,7 @@ RowRenderer::RowRenderer(const LightStripeParams& params,
       blur_(params.imager.blur_px),
       electrons_per_radiance_(ElectronsPerRadiance(params)) {
   for (const messages::StripeLaser& laser : calibration.lasers) {
+    // All lasers are rendered at once; the read-out takes those of one group.
     fans_.emplace_back(params, calibration, laser);
   }
 }

@@ -32,6 +32,7 @@ StereoScene::StereoScene(const terrain::Terrain& terrain, const StereoView& view
       max_range_m_(max_range_m),
       columns_(Eigen::ArrayXd::LinSpaced(view_W.columns, 0.0, view_W.columns - 1.0)) {
   std::vector<int> near;
+  // Both eyes are served by the rocks around the left one.
   terrain.RocksNear(view_W.eye.x(), view_W.eye.y(), max_range_m, near);
   rocks_.reserve(near.size());
   for (const int index : near) {
@@ -60,6 +61,7 @@ DepthImage StereoScene::InverseDepths() const {
   for (const Candidate& rock : rocks_) {
     AddRock({rock.shape, rock.center_W, view_W_, view_W_.eye}, image);
   }
+  // Rough ground is marched no farther than what is met by then.
   DropFarther(image);
   if (!terrain_.ground().IsPlane()) AddRoughGround(image);
   return image;

@@ -79,6 +79,7 @@ messages::ImageBand StripeImager::Read(const Light& light, double exposure_s, co
   band.first_column = eye.image_columns().first;
   band.rows = static_cast<int>(light.rows.size());
   band.columns = eye.columns;
+  // Lines in the order of rows, each with all columns.
   band.counts.reserve(light.rows.size() * static_cast<std::size_t>(eye.columns));
   for (std::size_t i = 0; i < light.rows.size(); ++i) {
     readout_.Read(light.rows[i], light.patterns[i], band.first_column, exposure_s, key, name,
@@ -154,6 +155,7 @@ messages::StripeExposure StripeImager::FullFrame(const terrain::Terrain& terrain
       Meter(renderer_.Render(lit, EyeOf(i), view[view.size() / 2]), metered_e_s);
     }
   }
+  // The exposure of the bands that Expose would read: the picture shows what the rover would see.
   const double exposure_s = ExposureTime(params_.imager, std::move(metered_e_s));
   const messages::StripeCamera& eye = calibration_.cameras[static_cast<std::size_t>(camera)];
   const Light frame = Render(lit, camera, MakeView(camera, eye.first_row(), eye.last_row()), key);

@@ -92,6 +92,7 @@ messages::VehicleState VehicleSensors::Measure(const truth::RoverState& state,
   EXPECT(duration_s > 0.0);
   messages::VehicleState measured;
   if (params_.articulation.enabled) {
+    // Every value is measured now and handed out latency_ticks later.
     measured.articulation = articulation_.Push(MeasureArticulation(state));
   }
   if (params_.accelerometers.enabled) {
@@ -108,6 +109,7 @@ messages::VehicleState VehicleSensors::Measure(const truth::RoverState& state,
 
 void VehicleSensors::Resume(const truth::RoverState& state) {
   BeginTick(state);
+  // Nothing that was measured elsewhere arrives any more.
   articulation_.Clear();
   force_.Clear();
   currents_.Clear();

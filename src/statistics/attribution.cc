@@ -104,6 +104,7 @@ Estimate Estimated(const FactorialFailures& failures, const Contrast& contrast, 
     if (!failures.clusters.empty()) clustered.Add(failures.clusters[t], value);
   }
   return {values.sum / values.n,
+          // Dependent trials enter as the fewer independent ones that say as much.
           AgrestiMinInterval(failures.clusters.empty() ? values : clustered.Effective(confidence),
                              confidence)};
 }

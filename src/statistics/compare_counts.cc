@@ -218,6 +218,8 @@ Row CompareNegativeCount(const PublishedValue& published, const ScenarioRun& run
   return CountRow(published, simulated, TowardsHalf(simulated.rate()));
 }
 
+// Kinds of failure given how many runs failed: p is the total probability of the divisions no
+// likelier than the published one.
 Row CompareFailureKinds(const PublishedValue& published, const ScenarioRun& run) {
   const std::vector<std::int64_t> simulated = FailuresByKind(published, run);
   std::vector<std::int64_t> observed;

@@ -244,6 +244,7 @@ Row CompareMedianOffset(const PublishedValue& published, const ScenarioRun& run,
   ComparedValue& value = row.value;
   value.published = published;
   value.pool = static_cast<std::int64_t>(pool.size());
+  // A statement without a size: the prediction is shown and not judged.
   value.pool_value = Median(first.pool()) - Median(second.pool());
   std::vector<double> offsets = Offsets(first, n, second, m, Median, replicates, key);
   std::sort(offsets.begin(), offsets.end());

@@ -69,6 +69,7 @@ struct Ends {
   std::size_t all = 0;  // censored ones included
 };
 
+// All that ends at one distance, by kind.
 Ends EndsAt(std::span<const Duration> sorted, std::size_t first) {
   Ends ends;
   for (std::size_t i = first; i < sorted.size() && sorted[i].at == sorted[first].at; ++i) {

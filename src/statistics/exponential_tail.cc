@@ -59,6 +59,7 @@ TestResult ExponentialTailTest(std::span<const double> sample, std::uint64_t see
   const std::vector<double> sorted = SortedFinite(sample);
   if (sorted.size() <= skip + 1) return {};
   const double statistic = ExponentialStatistic(sorted, skip);
+  // The null law depends on the number of excesses alone.
   const std::vector<double> null = ExponentialNullLaw(sorted.size() - skip - 1, replicates, seed);
   return {statistic, BootstrapPValue(null, statistic)};
 }

@@ -85,6 +85,7 @@ double VarianceAt(const std::array<double, 3>& covariance, double u) {
 
 double QuantileOf(const LogisticFit& fit, double confidence) {
   const double tail = 0.5 + 0.5 * confidence;
+  // Wald's normal law, or Student's with a degree of freedom less than clusters.
   if (fit.clusters == 0) return core::NormalQuantile(tail);
   if (fit.clusters < 3) return kInfinity;
   return boost::math::quantile(boost::math::students_t(static_cast<double>(fit.clusters) - 1.0),
@@ -176,6 +177,7 @@ Interval LogisticFit::Band(double x, double confidence) const {
   const double u = Transform(scale, x);
   const double logit = intercept + slope * u;
   if (clusters > 0 && clusters < 3) return {0.0, 1.0};
+  // logit +- z sqrt((1, u) V (1, u)'), turned back into rates.
   const double half = QuantileOf(*this, confidence) * std::sqrt(VarianceAt(covariance, u));
   return {Expit(logit - half), Expit(logit + half)};
 }

@@ -21,6 +21,7 @@ std::span<const double> ShortestHalf(std::span<const double> sorted) {
   double best_width = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i + half <= sorted.size(); ++i) {
     const double width = sorted[i + half - 1] - sorted[i];
+    // Of equally short halves the lowest stays.
     if (width < best_width) {
       best_width = width;
       best = i;

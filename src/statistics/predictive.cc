@@ -59,6 +59,7 @@ double ShareAtLeast(std::span<const double> ascending, double value) {
 PredictiveSampler::PredictiveSampler(std::span<const double> pool, double lower_limit)
     : pool_(SortedFinite(pool)) {
   EXPECT(pool_.size() >= 2);
+  // Room for values below the pool, down to the limit of the support.
   lower_room_ = std::max(0.0, pool_.front() - lower_limit);
   lower_excess_ = OuterExcess(pool_, -1.0);
   upper_excess_ = OuterExcess(pool_, 1.0);

@@ -16,6 +16,7 @@ constexpr double kPower = 0.8;  // of trials_for_margin
 template <typename PowerOf>
 double SmallestShift(double most, double power, const PowerOf& power_of) {
   constexpr double kPrecision = 1e-4;
+  // Power grows with the shift: bisection.
   if (most <= 0.0 || power_of(most) < power) return kNaN;
   double low = 0.0;
   double high = most;

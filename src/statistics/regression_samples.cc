@@ -49,6 +49,7 @@ double MeanEquivalence(const RegressionSamples& samples, const MeanDifference& m
 void TestMean(const RegressionSamples& samples, RegressionRow& row) {
   const MeanDifference means = MeansOf(samples, row.paired);
   row.interval = DifferenceInterval(means, 0.95);
+  // Too few values for Welch's test: the row stays inconclusive.
   if (!row.paired && samples.count() < kLeastValues) return;
   row.p_value = ChangePValue(means);
   row.equivalence_p_value = MeanEquivalence(samples, means, row);

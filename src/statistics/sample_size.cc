@@ -110,6 +110,7 @@ std::int64_t TrialsForSequence(double rate, double half_width, double confidence
   const std::int64_t n = FirstEnough(1, [&](std::int64_t trials) {
     return HalfWidth(ConfidenceSequence(CountNear(rate, trials), trials, confidence)) <= half_width;
   });
+  // Campaigns look at the ends of blocks only.
   return (n + block - 1) / block * block;
 }
 

@@ -84,6 +84,7 @@ Field BuildField(const TerrainParams& params, core::TrialKey key, const Course& 
 
   std::vector<Rock> rocks = layout.rocks;
   for (const Rock& rock : layout.rocks) {
+    // Images follow all rocks of the strip, so that the strip's own come first in every list.
     for (const Rock& image : MirrorImages(params.arena, rock)) rocks.push_back(image);
   }
   audit.mirror_images = static_cast<int>(rocks.size() - layout.rocks.size());

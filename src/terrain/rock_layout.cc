@@ -141,6 +141,7 @@ class LayoutBuilder {
 RockLayout LayOutMoore(const TerrainParams& params, core::TrialKey key, const Course& course) {
   LayoutBuilder builder(params, key, course);
   const Rectangle area = LayoutBounds(params);
+  // Each rock is placed by its own streams and by those before it alone: fields of growing k nest.
   for (const MarkedRock& marked : DrawMarkedField(params, key)) {
     builder.Place(marked.substream, area, nullptr, true);
   }

@@ -29,6 +29,7 @@ double MooreCoveredFraction(double k_per_m2, double low_m, double high_m) {
 MooreSizeLaw::MooreSizeLaw(double min_m, double max_m)
     : min_m_(min_m),
       max_m_(max_m),
+      // N(D) of the law with k = 1 at both bounds: k cancels in the distribution of sizes.
       number_at_min_(MooreNumberPerM2(1.0, min_m)),
       number_at_max_(MooreNumberPerM2(1.0, max_m)) {
   EXPECT(min_m > 0.0 && max_m > min_m);

@@ -75,6 +75,7 @@ Terrain::Terrain(Ground ground, std::vector<Rock> rocks, std::vector<Wall> walls
   shapes_.reserve(rocks_.size());
   for (const Rock& rock : rocks_) {
     EXPECT(rock.semi_axes_m.minCoeff() > 0.0);
+    // The map of each ellipsoid onto the unit sphere is worked out once.
     shapes_.emplace_back(rock);
   }
   BuildGrid();
@@ -190,6 +191,7 @@ void Terrain::MeetRocks(std::span<const int> rocks, const math::Vector3& origin_
                         const math::Vector3& direction_W, Nearest& nearest) const {
   for (const int rock : rocks) {
     const double distance = shapes_[static_cast<std::size_t>(rock)].Distance(origin_W, direction_W);
+    // Of equally near rocks the first stays.
     if (distance < nearest.distance_m) nearest = {distance, Surface::kRock, rock};
   }
 }

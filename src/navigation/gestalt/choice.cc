@@ -16,6 +16,8 @@ using messages::MotionVote;
 using Rows = std::vector<std::span<MotionVote>>;
 
 bool BackwardArcsCompete(const MotionVotes& votes, const GestaltParams& params) {
+  // Step 7 names the highest vote of all arcs; min-fwd-threshold of table 1 suggests that forward
+  // ones go first.
   switch (params.drive.backward_arcs) {
     case BackwardArcs::kBelowThreshold:
       return BestVote(votes.forward) < params.votes.min_fwd_threshold;
@@ -95,6 +97,7 @@ MotionVote* ChooseArc(MotionVotes& votes, const GestaltParams& params) {
   double highest = -1.0;
   for (const auto row : rows) {
     for (const MotionVote& vote : row) {
+      // Step 7: the highest merged vote of the arcs that compete and may be driven.
       if (MayBeDriven(vote, params)) highest = std::max(highest, vote.merged);
     }
   }
@@ -142,6 +145,7 @@ void MarkChoice(MotionVotes& votes, MotionVote& chosen, const GestaltParams& par
   if (arc) rows = CompetingRows(votes, params);
   for (const auto row : rows) {
     for (MotionVote& vote : row) {
+      // For the view: figure 3 of the paper underlines all candidates of the highest vote.
       vote.best = vote.merged == chosen.merged && (!arc || MayBeDriven(vote, params));
     }
   }

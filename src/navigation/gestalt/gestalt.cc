@@ -46,6 +46,7 @@ GestaltNavigator::GestaltNavigator(const GestaltParams& params, const messages::
 NavigatorDecision GestaltNavigator::Decide(const NavigatorInput& input) {
   const bool moves =
       mode_ == Mode::kDriving || mode_ == Mode::kBackingOff || mode_ == Mode::kTurning;
+  // The goal is asked for between steps, or at every tick where the parameters say so.
   const bool asks = !moves || params_.drive.arrival_check == ArrivalCheck::kWhileDriving;
   if (asks && AtGoal(input.estimate)) return Finish(NavigatorStatus::kArrived);
   if (params_.drive.time_out_s > 0.0 && input.time_s >= params_.drive.time_out_s) {
@@ -150,6 +151,7 @@ NavigatorDecision GestaltNavigator::ContinueTurn(const NavigatorInput& input) {
       motion_.direction * math::WrapAngle(input.estimate.heading_rad - anchor_.heading_rad);
   const bool feels = Feels(input);
   if (!feels) felt_since_start_ = false;
+  // What was felt before the turn began does not stop it.
   const bool stops = feels && !felt_since_start_;
   const bool turned_enough = turned_rad >= params_.arcs.point_turn_amount_rad;
   if (!stops && !turned_enough && !TimedOut(input)) return Move(motion_);
@@ -193,6 +195,7 @@ NavigatorDecision GestaltNavigator::Begin(Mode mode, const MotionCommand& motion
   leg_m_ = leg_m;
   anchor_ = input.estimate;
   began_s_ = input.time_s;
+  // A hazard that lasts from before counts as old until it has gone once.
   felt_since_start_ = Feels(input);
   return Move(motion_);
 }

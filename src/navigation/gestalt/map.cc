@@ -186,6 +186,7 @@ messages::MapView GestaltMap::View() const {
       const math::PointMoments& moments = cells_.At(ix, iy).moments;
       const CellValue& value = grid_.Cell(ix, iy);
       const bool has_data = !moments.empty();
+      // Heights are those of the data, not of the patch.
       view.cells.push_back({has_data, has_data ? moments.MeanZ_m() : 0.0, value.known,
                             value.goodness, value.certainty});
     }

@@ -28,6 +28,7 @@ Farthest FarthestFrom(const math::Vector3& normal, const math::Vector3& mean_m,
 }  // namespace
 
 math::PointSpread SpreadOf(const std::vector<PatchCell>& cells, const math::PointMoments& sum) {
+  // Exact sums where they cannot have run over, else cell by cell in floating point.
   if (sum.count() <= math::kExactPoints) return math::Spread(sum);
   std::vector<math::PointSpread> spreads;
   spreads.reserve(cells.size());

@@ -43,6 +43,7 @@ NavigatorDecision PathfinderNavigator::Decide(const NavigatorInput& input) {
   if (params_.time_out_s > 0.0 && input.time_s >= params_.time_out_s) {
     return Finish(NavigatorStatus::kGaveUp);
   }
+  // What the rover feels goes before what it sees.
   if (const auto reaction = reaction_.Decide(input, GoalDistance(input.estimate))) {
     reacting_ = true;
     return *reaction;
@@ -53,6 +54,7 @@ NavigatorDecision PathfinderNavigator::Decide(const NavigatorInput& input) {
     odometer_at_scan_m_ = input.estimate.distance_m;
     return ScanOrGoOn(input);
   }
+  // A report answers a scan, so that the rover stands.
   if (input.report != nullptr) return OnReport(input);
   return Continue(input);
 }

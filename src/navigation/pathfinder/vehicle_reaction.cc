@@ -18,6 +18,7 @@ std::optional<NavigatorDecision> VehicleReaction::Decide(const NavigatorInput& i
   EXPECT(input.vehicle_hazard == nullptr || input.vehicle_hazard->side != HazardSide::kBehind);
   const bool touches =
       input.vehicle_hazard != nullptr && input.vehicle_hazard->kind == VehicleHazardKind::kContact;
+  // What had gone for a tick may come again as something new, see Appeared.
   if (input.vehicle_hazard == nullptr) was_clear_ = true;
   if (!touches) was_released_ = true;
   switch (stage_) {

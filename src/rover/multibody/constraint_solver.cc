@@ -120,6 +120,7 @@ void ConstraintSolver::StartStops(const DofMatrix& mass_inverse, const Multibody
 void ConstraintSolver::StartMotors(const DofMatrix& mass_inverse,
                                    const messages::PerWheel<double>& rate_rad_s) {
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    // A motor holds its rate up to the stall torque: |p| <= torque h.
     motors_[i].target = rate_rad_s[i];
     Start(mass_inverse, motors_[i]);
   }
@@ -144,6 +145,7 @@ void ConstraintSolver::StartContact(const DofMatrix& mass_inverse, const Part& p
   rows.contact = &contact;
   const bool wheel = part.kind == truth::BodyPart::kWheel;
   rows.law =
+      // Laws are those at the loads and slips of the last step, fixed within this one.
       laws_.Of(part, contact, wheel ? spin_rad_s_[static_cast<std::size_t>(contact.part)] : 0.0);
   rows.normal.rock = rows.along.rock = rows.across.rock = rock;
   StartNormal(mass_inverse, part, body, rows);

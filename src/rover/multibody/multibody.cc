@@ -43,6 +43,7 @@ Multibody::Multibody(const RoverParams& params) : p_RCom_(MakeRoverMasses(params
   BuildLinks(params);
   btMultiBody& body = bullet_->body;
   body.finalizeMultiDof();
+  // Bullet damps by default; all losses here are those of the contacts.
   body.setLinearDamping(0.0);
   body.setAngularDamping(0.0);
   Reset(math::Transform::Identity());

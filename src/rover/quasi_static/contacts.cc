@@ -87,6 +87,7 @@ bool QuasiStaticContacts::MayMeetObstacle(const Vector3& p_WR, double reach_m) {
 }
 
 void QuasiStaticContacts::Update(const Linkage& linkage, double reach_m) {
+  // The last contacts stay at hand: Add looks a pair's load up in them.
   std::swap(contacts_, last_);
   contacts_.clear();
   Gather(linkage.chassis().p_WB);

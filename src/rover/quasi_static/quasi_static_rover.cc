@@ -97,6 +97,7 @@ void QuasiStaticRover::Place(const math::Pose2& X_WR) {
   posture_ = LiftedPosture(X_WR);
   contacts_.Clear();
   Settle();
+  // A rover that was lifted begins a new stretch.
   stretch_ = {};
   met_steer_rad_ = state_.steer_rad;
   steady_ = false;
@@ -260,6 +261,7 @@ void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
 
 bool QuasiStaticRover::OnLevelGround() const {
   const std::vector<RestingContact>& contacts = contacts_.contacts();
+  // Six wheels on a level plane, and nothing else near: no rock, wall or body contact in reach.
   if (contacts.size() != kWheelCount || !terrain_.ground().IsPlane()) return false;
   return std::all_of(contacts.begin(), contacts.end(), [](const RestingContact& contact) {
     return contact.IsSoil() && contact.n_W.z() == 1.0;
