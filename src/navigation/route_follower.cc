@@ -49,6 +49,7 @@ bool RouteFollower::HasPassed(const messages::Goal& corner, const PoseEstimate& 
 }
 
 void RouteFollower::PassCorners(const PoseEstimate& estimate) {
+  // The first leg begins where the rover stands when it first decides.
   if (!leg_from_) leg_from_ = messages::Goal{estimate.x_m, estimate.y_m};
   while (next_ + 1 < route_.corners.size() && HasPassed(route_.corners[next_], estimate)) {
     leg_from_ = route_.corners[next_];

@@ -77,6 +77,7 @@ WheelDriver::WheelDriver(const DriveCalibration& calibration, const WheelDriverP
       steady_(SteadyWheelCommand(last_motion_, calibration)) {}
 
 const WheelCommand& WheelDriver::Steady(const MotionCommand& motion) {
+  // Set points change only with the motion.
   if (!Same(motion, last_motion_)) {
     last_motion_ = motion;
     steady_ = SteadyWheelCommand(motion, calibration_);

@@ -16,6 +16,7 @@ double ForwardStep(const messages::PoseEstimate& before, const messages::PoseEst
 }
 
 void AttitudeEstimator::Filter(const math::Vector3& force_R, double duration_s) {
+  // The first measurement, or no filter: taken as it is.
   if (!force_R_ || params_.filter_s <= 0.0) {
     force_R_ = force_R;
     return;

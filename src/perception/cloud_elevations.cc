@@ -53,6 +53,7 @@ messages::ElevationScan CloudElevations(const messages::PointCloud& cloud,
   messages::ElevationScan scan{cloud.number,
                                messages::StripeArray<messages::ElevationPoint>({rows, stripes})};
   for (std::size_t bin = 0; bin < heights_m.size(); ++bin) {
+    // Too few points: the bin counts as a point that was not found.
     if (heights_m[bin].size() < static_cast<std::size_t>(params.min_points)) continue;
     scan.points.points()[bin] = {.detected = true,
                                  .elevation_m = QuantileOf(heights_m[bin], params.quantile)};
@@ -62,6 +63,7 @@ messages::ElevationScan CloudElevations(const messages::PointCloud& cloud,
 
 messages::PointCloud StripeCloud(const messages::StripeScan& scan,
                                  const Triangulator& triangulator) {
+  // Light stripes as a map takes them: points in R, without those that were not found.
   messages::PointCloud cloud{.number = scan.number, .points_R = {}};
   cloud.points_R.reserve(scan.pixels.points().size());
   for (std::size_t row = 0; row < scan.pixels.rows(); ++row) {

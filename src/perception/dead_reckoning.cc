@@ -19,6 +19,7 @@ double DeadReckoning::MeanRoll(const messages::MotionMeasurement& motion) const 
   double sum = 0.0;
   int count = 0;
   for (std::size_t wheel = 0; wheel < messages::kWheelCount; ++wheel) {
+    // kUnsteered: wheels that do not steer roll the rover's own way on an arc.
     if (!every_wheel && calibration_.steered[wheel]) continue;
     // A steered wheel rolls along its own heading; its forward part is the cosine of the steering
     // angle.

@@ -24,6 +24,7 @@ void ChargeFarther(const Located& a, const Located& b, StripeFlags& flags) {
   if (distance_b >= distance_a) flags[b.stripe] = true;
 }
 
+// Whom a difference of neighbours is charged to: the paper says that there is a hazard, not where.
 void ChargeNeighbours(const Located& a, const Located& b, NeighbourBlame blame,
                       StripeFlags& flags) {
   switch (blame) {
@@ -40,6 +41,7 @@ void ChargeNeighbours(const Located& a, const Located& b, NeighbourBlame blame,
   }
 }
 
+// The same for the range of the whole array.
 void ChargeRange(const Located& low, const Located& high, RangeBlame blame, StripeFlags& flags) {
   switch (blame) {
     case RangeBlame::kFartherFromDatum:
@@ -78,10 +80,12 @@ Reach Around(std::size_t at, std::size_t reach, std::size_t size) {
   return {at > reach ? at - reach : 0, std::min(at + reach + 1, size)};
 }
 
+// Criterion 2 over all pairs up to `reach` rows and stripes apart, diagonals included.
 void FindNeighbours(const ElevationScan& scan, const HazardParams& params, StripeFlags& flags) {
   const auto reach = static_cast<std::size_t>(params.neighbour_reach);
   const auto [rows, stripes] = scan.points.size();
   for (std::size_t row = 0; row < rows; ++row) {
+    // Down to later rows only, so that each pair is met once.
     const std::size_t end_row = Around(row, reach, rows).end;
     for (std::size_t stripe = 0; stripe < stripes; ++stripe) {
       const ElevationPoint& a = scan.points[row][stripe];
@@ -110,6 +114,7 @@ void FindRange(const ElevationScan& scan, const HazardParams& params, StripeFlag
     for (std::size_t stripe = 0; stripe < stripes; ++stripe) {
       const ElevationPoint& at = scan.points[row][stripe];
       if (!at.detected) continue;
+      // Of equal extremes the first met counts: nearest row, leftmost stripe.
       const Located point{at.elevation_m, stripe};
       if (!any || point.elevation_m < low.elevation_m) low = point;
       if (!any || point.elevation_m > high.elevation_m) high = point;
@@ -124,6 +129,7 @@ void FindRange(const ElevationScan& scan, const HazardParams& params, StripeFlag
 
 HazardFindings AssessHazards(const ElevationScan& scan, const HazardParams& params) {
   HazardFindings findings(scan.points.stripes());
+  // The three criteria do not see one another: what each charges stays apart.
   FindMissing(scan, findings.missing);
   FindNeighbours(scan, params, findings.neighbour);
   FindRange(scan, params, findings.range);

@@ -10,6 +10,7 @@ messages::HazardReport Clear(const messages::ElevationScan& scan) {
   return {scan.number, messages::PerStripe<bool>(scan.points.stripes())};
 }
 
+// A stripe is a hazard where either scan says so.
 messages::HazardReport Union(const messages::HazardReport& before,
                              const messages::HazardReport& now) {
   messages::HazardReport both = now;
@@ -23,6 +24,7 @@ messages::HazardReport Union(const messages::HazardReport& before,
 
 messages::HazardReport HazardDetector::Resolve(Disagreement rule, const Seen& before,
                                                const Seen& now) {
+  // What is believed when two scans disagree and no further one is taken.
   switch (rule) {
     case Disagreement::kTrustLast:
       return now.report;
@@ -35,6 +37,7 @@ messages::HazardReport HazardDetector::Resolve(Disagreement rule, const Seen& be
   return Clear(now.scan);
 }
 
+// Rescans at rest: undecided until two scans in a row agree, one is clear, or max_scans are taken.
 HazardDetector::Verdict HazardDetector::CompareAtPose(const Seen& now) {
   ++scans_here_;
   // A scan without a detection is clear at once, also as the second: the hazard was not seen twice.
@@ -54,6 +57,7 @@ HazardDetector::Verdict HazardDetector::CompareAtPose(const Seen& now) {
   return {.report = Resolve(params_.on_exhausted, before, now)};
 }
 
+// Scans of a moving rover: each is held against the one before.
 HazardDetector::Verdict HazardDetector::CompareOnTheWay(const Seen& now) {
   const std::optional<Seen> before = previous_;
   previous_ = now;
@@ -72,6 +76,7 @@ HazardDetector::Verdict HazardDetector::Process(const messages::ElevationScan& s
       return {.report = now.report};
     case ScanAgreement::kRescanSamePose: {
       const Verdict verdict = CompareAtPose(now);
+      // Decided: the next scan is the first of its pose.
       if (!verdict.scan_again) Reset();
       return verdict;
     }

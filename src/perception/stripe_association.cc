@@ -20,6 +20,7 @@ struct Score {
 };
 
 Score ScoreOf(const StripeSearch& search, const StripePeak& peak, PeakChoice choice) {
+  // kStrongest adds brightnesses; kNearestToDatum counts peaks, so that most of them are explained.
   return {choice == PeakChoice::kStrongest ? peak.height_counts : 1.0,
           std::abs(peak.column_px - search.datum_column)};
 }
@@ -40,6 +41,7 @@ class BestAssignments {
         if (At(laser - 1, peak).score.Beats(best.score)) {
           best = {At(laser - 1, peak).score, Last::kLaserUnseen};
         }
+        // The laser's stripe cannot be there.
         if (!search.columns.Contains(peaks[peak - 1].column_px)) continue;
         const Score matched =
             At(laser - 1, peak - 1).score + ScoreOf(search, peaks[peak - 1], choice);

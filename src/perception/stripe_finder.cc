@@ -13,6 +13,7 @@ messages::ColumnRange StripeFinder::searched(std::size_t row, std::size_t stripe
   return searches_.At(calibration_.lasers[stripe].camera, row, stripe).columns;
 }
 
+// One scanline in one exposure: average, threshold, peaks, and which peak is which laser.
 void StripeFinder::FindIn(const messages::StripeExposure& exposure, std::size_t row,
                           messages::StripeScan& scan) const {
   const auto profile = AverageDifference(exposure, calibration_.scanline_px[row],
@@ -31,6 +32,7 @@ void StripeFinder::FindIn(const messages::StripeExposure& exposure, std::size_t 
   const std::vector<StripePeak> peaks = FindPeaks(*profile, params_);
   const auto peak_of = AssociatePeaks(searches, peaks, params_.peak);
   for (std::size_t i = 0; i < lit.size(); ++i) {
+    // Peaks of the other camera's lasers are explained, and not kept.
     if (!peak_of[i] || calibration_.lasers[lit[i]].camera != exposure.camera) continue;
     scan.pixels[row][lit[i]] = {.detected = true, .column_px = peaks[*peak_of[i]].column_px};
   }

@@ -52,6 +52,7 @@ double ScanlineProfile::Noise() const {
   return std::sqrt(0.5 * std::numbers::pi) * sum / static_cast<double>(difference.size());
 }
 
+// Mean of lit less dark over a window around each pixel of a row, cut at the borders of the band.
 std::optional<ScanlineProfile> AverageDifference(const messages::StripeExposure& exposure, int row,
                                                  int window_px) {
   const auto holds_row = [row](const ImageBand& band) {
@@ -87,11 +88,13 @@ std::optional<ScanlineProfile> AverageDifference(const messages::StripeExposure&
 
 std::vector<StripePeak> FindPeaks(const ScanlineProfile& profile,
                                   const StripeFinderParams& params) {
+  // The larger of a fixed threshold and a multiple of the noise, in counts.
   const double threshold =
       std::max(params.threshold_counts, params.noise_multiple * profile.Noise());
   std::vector<StripePeak> peaks;
   const std::size_t columns = profile.difference.size();
   for (std::size_t first = 0; first < columns; ++first) {
+    // A peak runs as long as columns exceed the threshold.
     if (profile.difference[first] <= threshold) continue;
     std::size_t last = first;
     while (last + 1 < columns && profile.difference[last + 1] > threshold) ++last;

@@ -33,6 +33,7 @@ StripeSearch SearchAlong(const messages::StripeCalibration& calibration,
   }
   StripeSearch search;
   search.datum_column = nearest;
+  // No column sees the light plane, or none within the searched elevations.
   if (nearest_m == HUGE_VAL || !searched(nearest)) return search;
   search.columns = {nearest, nearest};
   while (search.columns.first > -half && searched(search.columns.first - 1)) {

@@ -11,6 +11,7 @@ using math::Vector3;
 namespace {
 
 // Whether a ray meets the light plane before the camera.
+// A ray in the light plane divides by zero: its distance is not finite.
 bool IsAhead(double distance_m) { return distance_m > 0.0 && std::isfinite(distance_m); }
 
 }  // namespace
@@ -20,6 +21,7 @@ Triangulator::Triangulator(const messages::StripeCalibration& calibration)
   geometry_ = messages::StripeArray<PointGeometry>(calibration_.size());
   for (std::size_t row = 0; row < geometry_.rows(); ++row) {
     for (std::size_t stripe = 0; stripe < geometry_.stripes(); ++stripe) {
+      // Worked out once: it depends on the calibration alone.
       geometry_[row][stripe] = MakeGeometry(row, stripe);
     }
   }
@@ -59,6 +61,7 @@ messages::ElevationScan Triangulator::Elevations(const messages::StripeScan& sca
 messages::ElevationPoint Triangulator::Elevation(std::size_t row, std::size_t stripe,
                                                  double column_px) const {
   const PointGeometry& at = geometry_[row][stripe];
+  // Rows that the lens bends have no such closed form.
   if (!at.is_planar) {
     const std::optional<Vector3> p_RoP_R = Point(row, stripe, column_px);
     if (!p_RoP_R) return {};

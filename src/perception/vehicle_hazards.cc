@@ -15,6 +15,7 @@ HazardSide SideOf(bool left, bool right) {
   return left ? HazardSide::kLeft : HazardSide::kRight;
 }
 
+// Sides count before the front, and the rear only where nothing else is touched.
 std::optional<HazardSide> Touched(const messages::ContactSwitches& closed) {
   const auto is_closed = [&](ContactSwitch contact) { return closed[messages::Index(contact)]; };
   const bool left = is_closed(ContactSwitch::kFrontLeft) || is_closed(ContactSwitch::kLeftEdge);
@@ -63,6 +64,7 @@ std::optional<HazardSide> VehicleHazardDetector::Strained(
     const messages::PerWheel<double>& current_A) const {
   const auto middle = current_A.begin() + messages::kWheelCount / 2;  // left wheels come first
   const auto above = [&](double amperes) { return amperes > params_.max_current_A; };
+  // Wheels of the left side come first.
   const bool left = std::any_of(current_A.begin(), middle, above);
   const bool right = std::any_of(middle, current_A.end(), above);
   if (!left && !right) return std::nullopt;
@@ -84,6 +86,7 @@ FeltHazards VehicleHazardDetector::Observe(const messages::VehicleState& state) 
   if (state.specific_force_R) tilted = Tilted(*state.specific_force_R);
   if (state.articulation) bent = Bent(*state.articulation);
   if (state.motor_current_A) strained = Strained(*state.motor_current_A);
+  // A touch behind is counted beside all others.
   const bool behind = state.contact && (*state.contact)[messages::Index(ContactSwitch::kRearEdge)];
   ticks_behind_ = behind ? ticks_behind_ + 1 : 0;
   return {{Debounced(Kind::kContact, touched, params_.contact_ticks),

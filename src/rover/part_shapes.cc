@@ -124,6 +124,7 @@ Vector3 NearestOnCore(const Part& part, const Vector3& p_B) {
       const double shrink = radius > part.b_B.x() ? part.b_B.x() / radius : 1.0;
       return {shrink * p_B.x(), y, shrink * p_B.z()};
     }
+    // Clamping each coordinate on its own is the nearest point of a box.
     case Core::kBox:
       return part.a_B + (p_B - part.a_B).cwiseMax(-part.b_B).cwiseMin(part.b_B);
   }

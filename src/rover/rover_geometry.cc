@@ -18,6 +18,7 @@ Outline Rectangle(double x_m, double y_m, double length_m, double width_m) {
 RoverGeometry MakeRoverGeometry(const RoverGeometryParams& params) {
   RoverGeometry geometry;
   const double outer_x = 0.5 * params.wheelbase_m;
+  // The overall width runs from outer face to outer face.
   const double wheel_y = 0.5 * (params.width_m - params.wheel_width_m);
   const bool bogie_in_front = params.bogie_end == BogieEnd::kFront;
   // The parameters give x of the middle wheels and pivots for a bogie at the rear; in front is its
@@ -30,6 +31,7 @@ RoverGeometry MakeRoverGeometry(const RoverGeometryParams& params) {
     const std::size_t axle = i % 3;
     const double y = i < 3 ? wheel_y : -wheel_y;
     geometry.wheel_R[i] = Vector3(x[axle], y, params.wheel_radius_m);
+    // The middle wheels (axle 1) steer where all do.
     geometry.steered[i] = axle != 1 || params.steered_wheels == SteeredWheels::kAll;
     geometry.on_bogie[i] = on_bogie[axle];
   }

@@ -24,6 +24,7 @@ class LinkTree {
   }
 
  private:
+  // Returns the index of the link, for those that it carries.
   int Add(Link link) {
     links_.push_back(std::move(link));
     return static_cast<int>(links_.size()) - 1;
@@ -45,6 +46,8 @@ class LinkTree {
                            .index = side,
                            .parent = rocker,
                            .body = kLeftBogie + offset,
+                           // Frames are parallel at zero angles, so differences of positions in R
+                           // are vectors of the parent.
                            .pivot_P = bogie_R - rocker_R});
     for (std::size_t axle = 0; axle < kAxles.size(); ++axle) {
       const std::size_t wheel = kAxles.size() * side + axle;

@@ -36,6 +36,7 @@ messages::PerWheel<double> StaticWheelLoads(const RoverParams& params) {
   const double middle_share = (bogie_x - end_x) / (middle_x - end_x);
 
   messages::PerWheel<double> load_N{};
+  // Wheels of the left side begin at 0, those of the right at 3.
   for (const std::size_t side : {0, 3}) {
     load_N[side + on_rocker] = rocker_wheel_N;
     load_N[side + 1] = middle_share * bogie_N + wheel_N;

@@ -16,6 +16,8 @@ Encoders::Encoders(const EncoderParams& params, double wheel_radius_m, core::Tri
 }
 
 double Encoders::RollOn(double distance_m) {
+  // Travel within one stretch shares its scale error; a long way is divided at the ends of
+  // stretches, so that the tick length does not matter.
   double noise_m = 0.0;
   while (distance_m > 0.0) {
     if (left_in_stretch_m_ <= 0.0) {

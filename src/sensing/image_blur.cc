@@ -27,12 +27,14 @@ void ImageBlur::Apply(RenderedRow& row) const {
   row.sun_e_s.assign(sharp.size(), 0.0);
   for (int pixel = 0; pixel < columns; ++pixel) {
     for (int k = -reach; k <= reach; ++k) {
+      // Sunlight beyond the ends of the line is that at its ends.
       const auto from = static_cast<std::size_t>(std::clamp(pixel + k, 0, columns - 1));
       row.sun_e_s[static_cast<std::size_t>(pixel)] += weight(k) * sharp[from];
     }
   }
   const std::vector<RenderedRow::LaserPixel> stripes = std::move(row.lasers);
   row.lasers.clear();
+  // Laser light is spread from where it is; what leaves the line is lost.
   for (const RenderedRow::LaserPixel& light : stripes) {
     for (int k = -reach; k <= reach; ++k) {
       const int pixel = light.pixel + k;

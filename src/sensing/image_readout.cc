@@ -18,12 +18,14 @@ ImageReadout::ImageReadout(const ImagerParams& imager, double speckle_contrast)
 
 double ImageReadout::DarkTime(double exposure_s, core::TrialKey key, const ImageName& name) const {
   core::RandomStream stream(key, core::Purpose::kImageExposure, name.substream());
+  // t' = t (1 + N(0, repeatability)).
   return exposure_s * std::max(0.0, 1.0 + core::SampleNormal(stream, 0.0, repeatability_));
 }
 
 PixelPattern ImageReadout::Pattern(int camera, int row, int first_column, int columns,
                                    core::TrialKey key) const {
   const auto draw = [&](std::uint32_t kind, double deviation) {
+    // Response and offset have an image of noise each, for each camera.
     const auto image = 2 * static_cast<std::uint32_t>(camera) + kind;
     std::vector<double> values(static_cast<std::size_t>(columns));
     ForEachPixelNoise(PixelNoise(key, core::Purpose::kPixelPattern, image), row, first_column,

@@ -45,6 +45,7 @@ ImageScene::ImageScene(const terrain::Terrain& terrain, const math::Transform& X
       body_center_W_(X_WR * body.center_R()) {
   const Vector3 origin_W = X_WR.translation();
   terrain.RocksNear(origin_W.x(), origin_W.y(), sight_m_, near_);
+  // Without direct light nothing casts a shadow.
   if (light.direct_w_m2 <= 0.0) return;
   const auto rocks = terrain.rocks();
   for (std::size_t i = 0; i < rocks.size(); ++i) {
@@ -90,6 +91,7 @@ void ImageScene::RocksInSheet(const Vector3& p_W, const Vector3& normal_W, doubl
   out.clear();
   for (const int index : near_) {
     const terrain::Rock& rock = terrain_.rocks()[static_cast<std::size_t>(index)];
+    // The sheet lies between two parallel planes: the distance of the centre against both widths.
     if (std::abs(normal_W.dot(rock.center_W - p_W)) <= width_m + Reach(rock)) out.push_back(index);
   }
 }
@@ -106,6 +108,7 @@ void ImageScene::RocksBeforeSun(const Ball& ball, std::span<const int> among,
   for (const int i : among) {
     const auto index = static_cast<std::size_t>(before_sun_[static_cast<std::size_t>(i)]);
     const terrain::Rock& rock = terrain_.rocks()[index];
+    // Both balls seen along the sun's rays, see ComesBetween.
     const double reach_m = ball.radius_m + Reach(rock);
     if (ComesBetween(rock.center_W - ball.center_W, light_.toward_sun_W, reach_m)) {
       out.push_back(i);
@@ -113,6 +116,7 @@ void ImageScene::RocksBeforeSun(const Ball& ball, std::span<const int> among,
   }
 }
 
+// body_m along the ray lies the rover's own part.
 SurfacePoint ImageScene::MeetRover(const Vector3& eye_W, const Vector3& ray_W,
                                    double body_m) const {
   SurfacePoint point;
@@ -142,6 +146,7 @@ SurfacePoint ImageScene::Meet(const Vector3& eye_W, const Vector3& ray_W, double
       point.surface = hit->rock;
       break;
   }
+  // Walls are as bright as rocks.
   const bool is_ground = hit->surface == terrain::Surface::kGround;
   point.albedo = is_ground ? sun_.ground_albedo : sun_.rock_albedo;
   return point;
@@ -163,6 +168,7 @@ bool ImageScene::Sunlit(const SurfacePoint& point, std::span<const int> shading)
   }
   if (InRoversShadow(point.p_W)) return false;
   if (terrain_.ground().IsPlane()) return true;
+  // Off the surface by the margin, so that the march does not meet the point's own ground.
   const Vector3 above_W = point.p_W + kOcclusionMargin_m * point.normal_W;
   return !terrain_.ground().CastRay(above_W, light_.toward_sun_W, kGroundShadow_m);
 }
@@ -182,6 +188,7 @@ bool ImageScene::Reaches(const Vector3& emitter_W, const Vector3& p_W,
   const Vector3 away = p_W - emitter_W;
   const double distance_m = away.norm();
   const Vector3 ray_R = X_RW_.linear() * away / distance_m;
+  // Parts that hold the emitter do not count: it looks out of them.
   if (body_.Distance(X_RW_ * emitter_W, ray_R) < distance_m) return false;
   return !terrain_.Occluded(emitter_W, p_W, kOcclusionMargin_m, rocks);
 }

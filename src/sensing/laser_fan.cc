@@ -24,6 +24,7 @@ LaserFan::LaserFan(const LightStripeParams& params, const messages::StripeCalibr
     half_fan_cosine_ = std::cos(laser.half_fan_rad);
     return;
   }
+  // Thin beams: one around each measured point of flat ground.
   for (const int row_px : calibration.scanline_px) {
     const auto point_R = StripePoint(calibration, laser, row_px);
     if (point_R) axes_R_.emplace_back((*point_R - p_RoE_R_).normalized());

@@ -58,10 +58,13 @@ LightStripe::LightStripe(const LightStripeParams& params)
   } else {
     AddCurves(reach_R);
   }
+  // Whatever a scan can meet lies near this ball: its rocks are gathered once.
   reach_center_R_ = 0.5 * (reach_R.min() + reach_R.max());
   reach_radius_m_ = 0.5 * (reach_R.max() - reach_R.min()).norm();
 }
 
+// Lenses that see rows as planes: each point is searched along a straight line, which is worked out
+// once.
 void LightStripe::AddLines(Eigen::AlignedBox3d& reach_R) {
   for (std::size_t row = 0; row < searched_.rows(); ++row) {
     for (std::size_t stripe = 0; stripe < searched_.stripes(); ++stripe) {
@@ -74,6 +77,7 @@ void LightStripe::AddLines(Eigen::AlignedBox3d& reach_R) {
   }
 }
 
+// Other lenses: along a curve that chords follow.
 void LightStripe::AddCurves(Eigen::AlignedBox3d& reach_R) {
   for (std::size_t row = 0; row < searched_.rows(); ++row) {
     for (std::size_t stripe = 0; stripe < searched_.stripes(); ++stripe) {
@@ -104,9 +108,11 @@ LightStripe::Line LightStripe::MakeLine(std::size_t row, std::size_t stripe) con
   constexpr double kOnAxis_m = 1e-9;
   line.is_light_ray = std::abs(gap) < kOnAxis_m;
 
+  // Down to the lowest searched elevation above the datum plane.
   line.length_m =
       DistanceDownTo(params_.search_low_m + params_.datum_z_m, line.start_R, line.direction_R);
   SetView(camera, row_angle_rad, line);
+  // The whole line is one ray of the emitter: lit everywhere or nowhere.
   if (line.is_light_ray && !InFan(line.start_R + line.direction_R, stripe)) line.last_m = -1.0;
   return line;
 }
@@ -137,6 +143,8 @@ messages::ColumnRange LightStripe::SearchedColumns(const messages::StripeCamera&
                                                    const Line& line) const {
   const double nearest_m =
       DistanceDownTo(params_.search_high_m + params_.datum_z_m, line.start_R, line.direction_R);
+  // The column is monotonic along the line, so that the ends of the searched elevations are those
+  // of the searched columns.
   const int a = ColumnAt(line, nearest_m, camera);
   const int b = ColumnAt(line, line.length_m, camera);
   return {std::max(std::min(a, b), -last_column_), std::min(std::max(a, b), last_column_)};
@@ -153,6 +161,7 @@ int LightStripe::ColumnAt(const Line& line, double distance_m,
 bool LightStripe::InFan(const Vector3& p_R, std::size_t stripe) const {
   const messages::StripeLaser& laser = calibration_.lasers[stripe];
   const Vector3 ray = p_R - laser.p_RoE_R;
+  // cos(angle to the fan's middle) >= cos(half fan).
   return laser.axis_R.dot(ray) >= half_fan_cosine_[stripe] * ray.norm();
 }
 
@@ -162,6 +171,7 @@ messages::StripePixel LightStripe::FindOnLine(const terrain::Terrain& terrain,
   const Line& line = lines_[PointIndex(row, stripe)];
   const Vector3 start_W = X_WR * line.start_R;
   const Vector3 direction_W = X_WR.linear() * line.direction_R;
+  // First surface from the emitter's side: what is beyond lies in its shadow.
   const auto distance_m = terrain.RayDistance(start_W, direction_W, line.length_m, rocks.lit);
   if (!distance_m) return {};
 
@@ -193,6 +203,7 @@ messages::StripePixel LightStripe::FindOnCurve(const terrain::Terrain& terrain,
   const Vector3 point_R = X_WR.inverse() * *point_W;
   const Vector3 point_C = camera.X_RC.inverse() * point_R;
   if (point_C.norm() > params_.max_range_m || !InFan(point_R, stripe)) return {};
+  // The chord was at most kChordError_m off the curve: the column is that of the point itself.
   const auto seen = vision::Project(camera, point_C);
   if (!seen) return {};
   const double column_px = std::round(seen->column_px);
@@ -220,6 +231,7 @@ messages::StripeScan LightStripe::Scan(const terrain::Terrain& terrain, const ma
   lit.reserve(near.size());
   for (std::size_t stripe = 0; stripe < size.stripes; ++stripe) {
     const messages::StripeLaser& laser = calibration_.lasers[stripe];
+    // All points of a stripe lie in one light plane.
     RocksMeetingPlane(terrain, near, X_WR * laser.p_RoE_R, X_WR.linear() * laser.normal_R, lit);
     for (std::size_t row = 0; row < size.rows; ++row) {
       scan.pixels[row][stripe] = curves_.empty()

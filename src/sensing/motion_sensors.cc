@@ -14,6 +14,7 @@ MotionSensors::MotionSensors(const GyroParams& gyro, const EncoderParams& encode
       wheel_angle_rad_(state.wheel_angle_rad) {}
 
 void MotionSensors::Observe(const truth::RoverState& state, double time_s) {
+  // Scrapes happen between ticks; the gyro reports them with the next one.
   pending_jump_rad_ += scrapes_.Observe(state, time_s);
 }
 

@@ -39,6 +39,7 @@ std::array<float, PixelNoise::kBlock> PixelNoise::Block(int row, int block_colum
   const std::vector<float>& table = Table();
   std::array<float, kBlock> numbers{};
   for (std::size_t i = 0; i < bits.size(); ++i) {
+    // Two numbers of 16 bits from each of the block's four words.
     numbers[2 * i] = table[bits[i] & 0xFFFFU];
     numbers[2 * i + 1] = table[bits[i] >> 16];
   }

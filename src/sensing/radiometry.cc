@@ -43,6 +43,7 @@ double SunRadiance(const SunLight& sun, double albedo, const Vector3& normal_W, 
 
 double FanPower(const LightStripeParams& params) {
   const LaserParams& laser = params.laser;
+  // F: the fan, or three row pitches (Matthies 1995, section 6).
   const double lit_rad =
       laser.fan == BeamFan::kFull ? params.fan_rad : kScanlinesOfThinBeam * params.row_pitch_rad();
   return laser.input_power_w * laser.optical_efficiency / lit_rad;

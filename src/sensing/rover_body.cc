@@ -38,6 +38,7 @@ struct Inside {
     normal[axis] = direction > 0.0 ? -1.0 : 1.0;
     Clip(std::min(a, b), std::max(a, b), normal);
   }
+  // The ray enters ahead of its origin, and before it leaves.
   bool IsEntered() const { return enter_m > 0.0 && enter_m < leave_m; }
 };
 
@@ -49,6 +50,7 @@ RoverBody::RoverBody(const rover::RoverGeometryParams& params) {
   for (const Vector3& wheel_R : rover::MakeRoverGeometry(params).wheel_R) {
     wheels_.push_back({wheel_R, params.wheel_radius_m, 0.5 * params.wheel_width_m});
   }
+  // One box, and one ball, around chassis, panel and wheels.
   bounds_ = {boxes_[0].low_R.cwiseMin(boxes_[1].low_R),
              boxes_[0].high_R.cwiseMax(boxes_[1].high_R)};
   for (const Wheel& wheel : wheels_) {
@@ -60,6 +62,7 @@ RoverBody::RoverBody(const rover::RoverGeometryParams& params) {
   radius_m_ = 0.5 * (bounds_.high_R - bounds_.low_R).norm();
 }
 
+// The box around all parts, which most rays miss.
 bool RoverBody::PassesBy(const Vector3& origin_R, const Vector3& direction_R) const {
   Inside inside;
   for (int axis = 0; axis < 3; ++axis) {
@@ -107,6 +110,7 @@ RoverBody::Entry RoverBody::First(const Vector3& origin_R, const Vector3& direct
   Entry first;
   if (PassesBy(origin_R, direction_R)) return first;
   const auto consider = [&first](const Entry& entry) {
+    // Parts are few: the nearest entry of all.
     if (entry.distance_m < first.distance_m) first = entry;
   };
   for (const Box& box : boxes_) consider(Enter(box, origin_R, direction_R));
@@ -120,6 +124,7 @@ double RoverBody::Distance(const Vector3& origin_R, const Vector3& direction_R) 
 
 Vector3 RoverBody::Normal(const Vector3& origin_R, const Vector3& direction_R) const {
   const Entry first = First(origin_R, direction_R);
+  // A ray that meets nothing has no normal: one that looks back along it stands for it.
   return first.distance_m < kFree ? first.normal_R : Vector3(-direction_R);
 }
 

@@ -37,6 +37,7 @@ RowRenderer::RowRenderer(const LightStripeParams& params,
       blur_(params.imager.blur_px),
       electrons_per_radiance_(ElectronsPerRadiance(params)) {
   for (const messages::StripeLaser& laser : calibration.lasers) {
+    // All lasers are rendered at once; the read-out takes those of one group.
     fans_.emplace_back(params, calibration, laser);
   }
 }
@@ -47,6 +48,8 @@ LitScene RowRenderer::Prepare(const ImageScene& scene) const {
   return lit;
 }
 
+// One ray for each edge between pixels: neighbours share it. Rocks are sifted for the line, then
+// for each of its segments.
 void RowRenderer::CastRays(const ViewRow& view, Job& job) {
   const ImageScene& scene = job.lit.scene;
   const auto R_WR = scene.X_WR().linear();
@@ -68,6 +71,7 @@ void RowRenderer::CastRays(const ViewRow& view, Job& job) {
   }
 }
 
+// Sunlight at each edge; an edge that two segments share is lit twice, with the same result.
 void RowRenderer::LightPoints(const ViewRow& view, Job& job) {
   const ImageScene& scene = job.lit.scene;
   // A ball around what a run of edges meets; what may come between it and the sun is searched once.
@@ -92,6 +96,7 @@ void RowRenderer::LightPoints(const ViewRow& view, Job& job) {
   }
 }
 
+// What each laser adds to a pixel between two edges.
 void RowRenderer::AddLasers(const LitScene& lit, const SurfacePoint& left,
                             const SurfacePoint& right, int pixel, double gain,
                             RenderedRow& row) const {
@@ -102,6 +107,7 @@ void RowRenderer::AddLasers(const LitScene& lit, const SurfacePoint& left,
     if (fan.PassesBy(left.p_W, right.p_W)) continue;
     const double a_rad = fan.OutOfPlane(left.p_W);
     const double b_rad = fan.OutOfPlane(right.p_W);
+    // The beam passes the pixel on one side.
     if (std::min(a_rad, b_rad) > reach_rad || std::max(a_rad, b_rad) < -reach_rad) continue;
 
     const bool one_surface = IsOneSurface(left, right);
@@ -119,6 +125,8 @@ void RowRenderer::AddLasers(const LitScene& lit, const SurfacePoint& left,
   }
 }
 
+// A pixel in which a surface ends: kParts smaller ones, each with rays, shadows and lasers of its
+// own.
 void RowRenderer::SplitPixel(const Job& job, const ViewRow& view, std::span<const int> seen,
                              int pixel, RenderedRow& row) const {
   const auto edge = static_cast<std::size_t>(pixel);
@@ -170,6 +178,7 @@ RenderedRow RowRenderer::Render(const LitScene& lit, const Vector3& eye_R,
         continue;
       }
       const double gain = view.gain[e] * electrons_per_radiance_;
+      // Trapezoid rule between the two edges.
       row.sun_e_s[e] = 0.5 * gain * (left.radiance_w_m2_sr + right.radiance_w_m2_sr);
       AddLasers(lit, left, right, pixel, gain, row);
     }

@@ -133,6 +133,7 @@ std::optional<Vector3> ScanCurve::FirstHit(const terrain::Terrain& terrain,
                                            const math::Transform& X_WR,
                                            std::span<const int> rocks) const {
   for (std::size_t i = 0; i + 1 < vertices_R_.size(); ++i) {
+    // Chord after chord from the emitter's side: the first surface on the way is the lit one.
     const Vector3 start_W = X_WR * vertices_R_[i];
     const Vector3 chord_W = X_WR.linear() * (vertices_R_[i + 1] - vertices_R_[i]);
     const double length_m = chord_W.norm();

@@ -13,6 +13,7 @@ bool ScrapeDetector::IsScrape(const truth::BodyContact& contact) const {
 bool ScrapeDetector::BeginsEpisode(int rock, double time_s, const math::Vector3& position_W) {
   for (Episode& episode : known_) {
     if (episode.rock != rock) continue;
+    // Both a pause and a way: rocking on one rock is one episode.
     const bool over = time_s - episode.last_time_s >= params_.episode_gap_s &&
                       (position_W - episode.last_position_W).norm() >= params_.episode_gap_m;
     episode.last_time_s = time_s;
@@ -45,6 +46,7 @@ double ScrapeDetector::Observe(const truth::RoverState& state, double time_s) {
   for (const truth::BodyContact& contact : state.contacts) {
     if (!IsScrape(contact)) continue;
     if (!BeginsEpisode(contact.rock, time_s, state.X_WR.translation())) continue;
+    // Episodes are counted also where nothing jumps.
     if (params_.enabled) jump_rad += Jump();
     ++episodes_;
   }

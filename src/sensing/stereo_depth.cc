@@ -32,6 +32,7 @@ StereoScene::StereoScene(const terrain::Terrain& terrain, const StereoView& view
       max_range_m_(max_range_m),
       columns_(Eigen::ArrayXd::LinSpaced(view_W.columns, 0.0, view_W.columns - 1.0)) {
   std::vector<int> near;
+  // Both eyes are served by the rocks around the left one.
   terrain.RocksNear(view_W.eye.x(), view_W.eye.y(), max_range_m, near);
   rocks_.reserve(near.size());
   for (const int index : near) {
@@ -40,6 +41,7 @@ StereoScene::StereoScene(const terrain::Terrain& terrain, const StereoView& view
   }
 }
 
+// An eye that is buried, in a rock or beyond a wall.
 bool StereoScene::SeesNothing(const Vector3& eye_W) const {
   if (eye_W.z() <= terrain_.ground().Height(eye_W.x(), eye_W.y())) return true;
   const auto beyond = [&eye_W](const terrain::Wall& wall) {
@@ -59,6 +61,7 @@ DepthImage StereoScene::InverseDepths() const {
   for (const Candidate& rock : rocks_) {
     AddRock({rock.shape, rock.center_W, view_W_, view_W_.eye}, image);
   }
+  // Rough ground is marched no farther than what is met by then.
   DropFarther(image);
   if (!terrain_.ground().IsPlane()) AddRoughGround(image);
   return image;
@@ -94,6 +97,7 @@ void StereoScene::AddRock(const RockOutline& outline, DepthImage& image) const {
     const Columns seen(cut.span, view_W_.columns);
     if (seen.count() == 0) continue;
     auto pixels = image.row(row).segment(seen.first, seen.count()).transpose();
+    // The outline is no ellipse in this row, and its span no bound: pixel by pixel.
     if (!cut.exact) {
       for (int i = 0; i < seen.count(); ++i) {
         pixels[i] = std::max(pixels[i], cut.InverseDepth(seen.first + i));
@@ -124,6 +128,7 @@ void StereoScene::DropFarther(DepthImage& image) const {
   }
 }
 
+// A march for each ray, no farther than what it meets otherwise.
 void StereoScene::AddRoughGround(DepthImage& image) const {
   for (int row = 0; row < view_W_.rows; ++row) {
     for (int column = 0; column < view_W_.columns; ++column) {
@@ -170,6 +175,7 @@ void StereoScene::HideBehind(const RockOutline& outline_right, DepthImage& image
       const double rock = cut.InverseDepth(column_right);
       if (rock <= pixel) continue;
       const double length = view_W_.Ray(column_right, row).norm();
+      // 1/Z of the rock against that of the point, as distances along the ray.
       if (length / rock <= length / pixel - kOcclusionMargin_m) pixel = 0.0;
     }
   }

@@ -39,6 +39,8 @@ StereoMatcher::StereoMatcher(const StereoParams& params)
       dropout_quantile_(Quantile(params.dropout_probability)),
       edge_dropout_quantile_(Quantile(params.edge_dropout_probability)) {}
 
+// In the order of stereo_sensor.h: noise, rounding, wrong matches, the searched range, dropouts. 0
+// stays 0.
 void StereoMatcher::Match(core::TrialKey key, std::uint32_t look, const DepthImage& all,
                           DepthImage& seen) const {
   AddNoise(key, look, seen);
@@ -55,6 +57,7 @@ void StereoMatcher::AddNoise(core::TrialKey key, std::uint32_t look, DepthImage&
   if (params_.disparity_noise_px <= 0.0) return;
   const PixelNoise noise(key, core::Purpose::kStereoDisparity, look);
   const auto beyond = static_cast<int>(params_.noise_window_px) - 1;
+  // w - 1 more numbers on each axis, so that every pixel has a full window.
   DepthImage numbers(seen.rows() + beyond, seen.cols() + beyond);
   for (int row = 0; row < numbers.rows(); ++row) {
     ForEachPixelNoise(noise, row, 0, static_cast<int>(numbers.cols()),
@@ -93,6 +96,7 @@ void StereoMatcher::FindEdges(std::span<const double> row_px,
   }
 }
 
+// Jumps are taken from what the left camera sees (`all`), whether the right one sees it or not.
 void StereoMatcher::DropOut(core::TrialKey key, std::uint32_t look, const DepthImage& all,
                             DepthImage& seen) const {
   const PixelNoise noise(key, core::Purpose::kStereoDropout, look);

@@ -79,6 +79,7 @@ RowCut RockOutline::Row(double row) const {
              .inverse_outside_1 = 1.0 / outside_1_,
              .span = {},
              .exact = true};
+  // The quadratic opens upwards: the columns that meet the rock have no two ends.
   if (a_ >= 0.0) {
     cut.span = {-kEverywhere, kEverywhere};
     cut.exact = false;

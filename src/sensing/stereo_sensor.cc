@@ -16,6 +16,7 @@ StereoSensor::StereoSensor(const StereoParams& params)
 DepthImage StereoSensor::Measure(const StereoScene& scene, core::TrialKey key,
                                  std::int64_t look_number) const {
   DepthImage all = scene.InverseDepths();
+  // The ideal sensor stops here: one eye, no matching.
   if (params_.fidelity == StereoFidelity::kIdeal) return all;
   DepthImage seen = all;
   scene.HideFromRightEye(seen);
@@ -42,6 +43,7 @@ messages::PointCloud StereoSensor::Look(const terrain::Terrain& terrain,
     for (int column = 0; column < view_R.columns; ++column) {
       const double inverse_depth = inverse_depths(row, column);
       if (inverse_depth <= 0.0) continue;
+      // Pixel (c, r) at depth Z: eye + Z e(c, r), in R.
       const Vector3 p_RoP_R = view_R.eye + view_R.Ray(column, row) / inverse_depth;
       if (InWindow(p_RoP_R, direction)) cloud.points_R.push_back(p_RoP_R);
     }

@@ -32,6 +32,7 @@ StereoView MakeStereoView(const StereoParams& params, messages::LookDirection di
   view.columns = static_cast<int>(params.columns);
   view.rows = static_cast<int>(params.rows);
   view.focal_px = params.focal_columns_px();
+  // The ideal sensor has both eyes in the middle.
   view.baseline_m = params.fidelity == StereoFidelity::kIdeal ? 0.0 : params.baseline_m;
   const Vector3 middle(sign * mount.ahead_m, 0.0, mount.height_m);
   view.eye = middle - 0.5 * view.baseline_m * right;

@@ -27,6 +27,7 @@ void StripeErrors::MoveColumns(core::TrialKey key, const Searched& searched,
   core::RandomStream stream(key, core::Purpose::kStripeColumnNoise, Substream(scan.number));
   const auto pixels = scan.pixels.points();
   for (std::size_t point = 0; point < pixels.size(); ++point) {
+    // Drawn for every point, found or not: what a scan sees shifts no other point's noise.
     const double shift = std::round(core::SampleNormal(stream, 0.0, params_.column_noise_px));
     if (!pixels[point].detected || searched.points()[point].empty()) continue;
     pixels[point].column_px = std::clamp(pixels[point].column_px + shift,
@@ -35,6 +36,7 @@ void StripeErrors::MoveColumns(core::TrialKey key, const Searched& searched,
   }
 }
 
+// Found points are dropped; the draw does not depend on what was found.
 void StripeErrors::Miss(core::TrialKey key, messages::StripeScan& scan) const {
   core::RandomStream missed(key, core::Purpose::kStripeMissed, Substream(scan.number));
   const auto pixels = scan.pixels.points();
@@ -51,6 +53,7 @@ void StripeErrors::DrawMisplaced(core::TrialKey key, std::int64_t number, const 
   const int last_column = static_cast<int>(params_.columns / 2);
   core::RandomStream wrong(key, core::Purpose::kStripeWrongPlace, Substream(number));
   messages::StripeArray<bool> misplaced(searched.size());
+  // All lots first, then the columns of those that are misplaced.
   for (bool& point : misplaced.points()) {
     point = core::SampleBernoulli(wrong, params_.wrong_place_probability);
   }

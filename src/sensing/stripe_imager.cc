@@ -13,6 +13,7 @@ namespace {
 // One in so many pixels of the middle line of each band is metered.
 constexpr std::size_t kMeteredPixels = 8;
 
+// Exposure control looks at sunlight alone: the image without lasers.
 void Meter(const RenderedRow& row, std::vector<double>& rates_e_s) {
   for (std::size_t pixel = 0; pixel < row.sun_e_s.size(); pixel += kMeteredPixels) {
     rates_e_s.push_back(row.sun_e_s[pixel]);
@@ -42,6 +43,7 @@ StripeImager::StripeImager(const LightStripeParams& params, const SunParams& sun
   }
 }
 
+// The lines that the image has of those that are asked for.
 StripeImager::View StripeImager::MakeView(int camera, int first_row, int last_row) const {
   const messages::StripeCamera& eye = calibration_.cameras[static_cast<std::size_t>(camera)];
   View view;
@@ -57,6 +59,7 @@ math::Vector3 StripeImager::EyeOf(int camera) const {
   return calibration_.cameras[static_cast<std::size_t>(camera)].X_RC.translation();
 }
 
+// Light on each line, and the pattern of its pixels, which stays for the trial.
 StripeImager::Light StripeImager::Render(const LitScene& lit, int camera, const View& view,
                                          core::TrialKey key) const {
   Light light;
@@ -76,6 +79,7 @@ messages::ImageBand StripeImager::Read(const Light& light, double exposure_s, co
   band.first_column = eye.image_columns().first;
   band.rows = static_cast<int>(light.rows.size());
   band.columns = eye.columns;
+  // Lines in the order of rows, each with all columns.
   band.counts.reserve(light.rows.size() * static_cast<std::size_t>(eye.columns));
   for (std::size_t i = 0; i < light.rows.size(); ++i) {
     readout_.Read(light.rows[i], light.patterns[i], band.first_column, exposure_s, key, name,
@@ -84,6 +88,8 @@ messages::ImageBand StripeImager::Read(const Light& light, double exposure_s, co
   return band;
 }
 
+// The same light twice: with the lasers of one group, and without any for a time that repeats the
+// first one nearly.
 messages::StripeExposure StripeImager::ReadPair(std::span<const Light> bands, double exposure_s,
                                                 core::TrialKey key, ImageName name) const {
   messages::StripeExposure exposure{name.camera, name.group, {}, {}};
@@ -95,6 +101,7 @@ messages::StripeExposure StripeImager::ReadPair(std::span<const Light> bands, do
   return exposure;
 }
 
+// A camera is read for a group only if it measures one of its stripes.
 bool StripeImager::FindsStripe(int camera, int group) const {
   return std::any_of(calibration_.lasers.begin(), calibration_.lasers.end(),
                      [=](const messages::StripeLaser& laser) {
@@ -114,6 +121,7 @@ messages::StripeImages StripeImager::Expose(const terrain::Terrain& terrain,
     const auto c = static_cast<std::size_t>(camera);
     for (const View& view : views_[c]) {
       bands[c].push_back(Render(lit, camera, view, key));
+      // The scanline itself is the middle line of its band.
       Meter(bands[c].back().rows[view.size() / 2], metered_e_s);
     }
   }
@@ -147,6 +155,7 @@ messages::StripeExposure StripeImager::FullFrame(const terrain::Terrain& terrain
       Meter(renderer_.Render(lit, EyeOf(i), view[view.size() / 2]), metered_e_s);
     }
   }
+  // The exposure of the bands that Expose would read: the picture shows what the rover would see.
   const double exposure_s = ExposureTime(params_.imager, std::move(metered_e_s));
   const messages::StripeCamera& eye = calibration_.cameras[static_cast<std::size_t>(camera)];
   const Light frame = Render(lit, camera, MakeView(camera, eye.first_row(), eye.last_row()), key);

@@ -9,6 +9,7 @@
 namespace rockyard::sensing {
 
 Tracker::Tracker(const TrackerParams& params, core::TrialKey key) : params_(params), key_(key) {
+  // Drawn once a trial: substream 0.
   core::RandomStream stream(key, core::Purpose::kTracker, 0);
   // Uniform in a disc: the radius is R sqrt(u), the direction uniform.
   const double radius_m = params.systematic_position_m * std::sqrt(stream.Uniform());

@@ -18,6 +18,8 @@ double Quantized(double value, double resolution) {
   return resolution > 0.0 ? resolution * std::round(value / resolution) : value;
 }
 
+// Which strip of the panel's edge holds a point, in R; none where it lies farther in than the strip
+// is wide.
 std::optional<ContactSwitch> PanelSwitch(const Vector3& p_R, double half_length_m,
                                          double half_width_m, double edge_width_m) {
   const bool near_end = std::abs(p_R.x()) >= half_length_m - edge_width_m;
@@ -28,6 +30,7 @@ std::optional<ContactSwitch> PanelSwitch(const Vector3& p_R, double half_length_
     return p_R.y() > 0.0 ? ContactSwitch::kLeftEdge : ContactSwitch::kRightEdge;
   }
   if (p_R.x() < 0.0) return ContactSwitch::kRearEdge;
+  // The front edge has three switches.
   const double third_m = half_width_m / 3.0;
   if (p_R.y() > third_m) return ContactSwitch::kFrontLeft;
   return p_R.y() < -third_m ? ContactSwitch::kFrontRight : ContactSwitch::kFrontCentre;
@@ -43,6 +46,7 @@ std::optional<ContactSwitch> SwitchAt(const truth::BodyContact& contact,
       return PanelSwitch(contact.p_RoC_R, 0.5 * geometry.length_m, 0.5 * geometry.width_m,
                          edge_width_m);
     case truth::BodyPart::kBelly:
+      // The undercarriage has its switch along the front edge.
       if (contact.p_RoC_R.x() < 0.5 * geometry.belly_length_m - edge_width_m) return std::nullopt;
       return ContactSwitch::kUndercarriage;
     case truth::BodyPart::kRocker:
@@ -70,6 +74,7 @@ core::RandomStream VehicleSensors::Noise(Purpose purpose) const {
 
 void VehicleSensors::Observe(const truth::RoverState& state) {
   if (params_.motor_current.enabled) {
+    // Motors and wires filter: what is measured is the mean over the tick.
     for (std::size_t i = 0; i < kWheelCount; ++i) torque_sum_Nm_[i] += state.motor_torque_Nm[i];
     ++steps_;
   }
@@ -87,6 +92,7 @@ messages::VehicleState VehicleSensors::Measure(const truth::RoverState& state,
   EXPECT(duration_s > 0.0);
   messages::VehicleState measured;
   if (params_.articulation.enabled) {
+    // Every value is measured now and handed out latency_ticks later.
     measured.articulation = articulation_.Push(MeasureArticulation(state));
   }
   if (params_.accelerometers.enabled) {
@@ -103,6 +109,7 @@ messages::VehicleState VehicleSensors::Measure(const truth::RoverState& state,
 
 void VehicleSensors::Resume(const truth::RoverState& state) {
   BeginTick(state);
+  // Nothing that was measured elsewhere arrives any more.
   articulation_.Clear();
   force_.Clear();
   currents_.Clear();
@@ -117,6 +124,7 @@ void VehicleSensors::BeginTick(const truth::RoverState& state) {
 }
 
 messages::Articulation VehicleSensors::MeasureArticulation(const truth::RoverState& state) const {
+  // Numbers are drawn in a fixed order, one for each joint.
   core::RandomStream noise = Noise(Purpose::kArticulation);
   const ArticulationSensorParams& params = params_.articulation;
   const auto measure = [&](double true_rad) {
@@ -150,6 +158,7 @@ messages::PerWheel<double> VehicleSensors::MeasureCurrents(
   const MotorCurrentSensorParams& params = params_.motor_current;
   messages::PerWheel<double> measured{};
   for (std::size_t i = 0; i < kWheelCount; ++i) {
+    // Drawn also for a motor at rest, so that no command shifts the noise of the next wheel.
     const double error_A = core::SampleNormal(noise, 0.0, params.noise_A);
     const double torque_Nm =
         steps_ > 0 ? torque_sum_Nm_[i] / static_cast<double>(steps_) : state.motor_torque_Nm[i];
@@ -167,6 +176,7 @@ messages::ContactSwitches VehicleSensors::MeasureContacts() const {
   messages::ContactSwitches measured = pressed_;
   if (params_.contact.false_probability > 0.0) {
     core::RandomStream noise = Noise(Purpose::kContactSwitch);
+    // A switch that closes without a touch.
     for (bool& pressed : measured) {
       pressed |= core::SampleBernoulli(noise, params_.contact.false_probability);
     }

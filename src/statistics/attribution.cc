@@ -24,6 +24,7 @@ std::int64_t Count(const std::vector<std::uint8_t>& failed) {
   return std::count(failed.begin(), failed.end(), std::uint8_t{1});
 }
 
+// One trial's value of a contrast: the sum of the weights of the combinations in which it failed.
 double ValueOf(const FactorialFailures& failures, const Contrast& contrast, std::size_t trial) {
   double value = 0.0;
   for (std::size_t c = 0; c < contrast.weights.size(); ++c) {
@@ -81,6 +82,7 @@ Contrast FactorialEffect(std::size_t functions, Combination set) {
 Contrast Removed(std::size_t functions, Combination set) {
   EXPECT(set < Combinations(functions) && functions <= kMostFunctions);
   Contrast contrast{std::vector<double>(Combinations(functions))};
+  // P(fail as flown) less P(fail with `set` perfect).
   contrast.weights[0] += 1.0;
   contrast.weights[set] -= 1.0;
   return contrast;
@@ -102,6 +104,7 @@ Estimate Estimated(const FactorialFailures& failures, const Contrast& contrast, 
     if (!failures.clusters.empty()) clustered.Add(failures.clusters[t], value);
   }
   return {values.sum / values.n,
+          // Dependent trials enter as the fewer independent ones that say as much.
           AgrestiMinInterval(failures.clusters.empty() ? values : clustered.Effective(confidence),
                              confidence)};
 }

@@ -52,6 +52,7 @@ void PlacePositions(const Uniforms& uniforms, std::size_t count, Positions& posi
   positions.resize(count);
   std::vector<std::uint32_t> times(count);
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    // How often each value is drawn; written out in order that gives the sorted resample.
     std::fill(times.begin(), times.end(), 0U);
     for (std::size_t i = 0; i < count; ++i) ++times[Drawn(uniforms[lane][i], count)];
     std::size_t next = 0;
@@ -86,6 +87,7 @@ using SamplesBySize = std::map<std::size_t, std::vector<MeanSample>>;
 
 void AddMeans(const Positions& positions, std::size_t replicates, MeanSample& sample) {
   for (const double mean : MeansOf(sample.values, positions)) {
+    // The last block of lanes may reach beyond the replicates.
     if (sample.means.size() < replicates) sample.means.push_back(mean);
   }
 }

@@ -27,6 +27,8 @@ CountOfRun SumOf(std::span<const CountOfRun> runs) {
 double DesignEffect(std::span<const CountOfRun> runs, const CountOfRun& sum, double scatter,
                     WithoutScatter unseen) {
   if (!(scatter > 1e-12 * sum.base)) {
+    // No scatter at all: dependence cannot be seen and is assumed; base / runs makes each run count
+    // as one trial.
     return unseen == WithoutScatter::kIndependent ? 1.0
                                                   : sum.base / static_cast<double>(runs.size());
   }
@@ -77,6 +79,7 @@ SignedValues ClusteredValues::Effective(double confidence) const {
                [](const CountOfRun& cluster) { return cluster.base > 0.0; });
   if (met.size() < 2) return {};
   const CountOfRun sum = SumOf(met);
+  // sum (x - mean)^2 = sum x^2 - (sum x)^2 / n.
   const double scatter = squares_ - sum.count * sum.count / sum.base;
   const double effect = DesignEffect(met, sum, scatter, WithoutScatter::kOnePerRun);
   const double share = FewRuns(met.size(), confidence) / effect;

@@ -22,6 +22,8 @@ struct PoolCount {
   double rate() const { return static_cast<double>(count) / static_cast<double>(pool); }
 };
 
+// A count against the predictive law of the pool; power is that against a binomial law of the
+// alternative rate.
 Row CountRow(const PublishedValue& published, const PoolCount& simulated, double alternative) {
   Row row;
   const std::int64_t n = published.sample_size;
@@ -39,6 +41,7 @@ Row CountRow(const PublishedValue& published, const PoolCount& simulated, double
   return row;
 }
 
+// The alternative for counts other than success, see kAlternativeRateShift.
 double TowardsHalf(double rate) {
   return rate < 0.5 ? rate + kAlternativeRateShift : rate - kAlternativeRateShift;
 }
@@ -60,6 +63,8 @@ std::vector<LayoutCount> Layouts(const PublishedValue& published, const Scenario
   return counts;
 }
 
+// If all runs of the set met one layout: by repeated trials on layouts where there are some, else
+// bounds over all that is possible.
 OneLayout CompareOnOneLayout(const PublishedValue& published, const ScenarioRun& run,
                              const PoolCount& simulated, std::uint64_t seed) {
   const std::int64_t n = published.sample_size;
@@ -78,6 +83,7 @@ struct Division {
   double probability = 0.0;
 };
 
+// Appends all ways to divide what is left among the remaining kinds; the last kind takes the rest.
 void Divide(std::int64_t left, std::size_t kinds, std::vector<std::int64_t>& counts,
             std::vector<Division>& divisions) {
   if (counts.size() + 1 == kinds) {
@@ -109,6 +115,8 @@ double PredictiveProbability(const std::vector<std::int64_t>& counts,
   double weight = 0.0;
   std::int64_t n = 0;
   for (std::size_t i = 0; i < counts.size(); ++i) {
+    // P(k) = n!/prod k_i! Gamma(A)/Gamma(A + n) prod Gamma(a_i + k_i)/Gamma(a_i), a_i = simulated
+    // count + 1/2, A their sum.
     const double prior = static_cast<double>(simulated[i]) + 0.5;
     log_probability += boost::math::lgamma(prior + static_cast<double>(counts[i])) -
                        boost::math::lgamma(prior) - LogFactorial(counts[i]);
@@ -126,6 +134,7 @@ double MultinomialProbability(const std::vector<std::int64_t>& counts,
   std::int64_t n = 0;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     n += counts[i];
+    // n! prod s_i^k_i / k_i!.
     probability *=
         std::pow(shares[i], static_cast<double>(counts[i])) / std::exp(LogFactorial(counts[i]));
   }
@@ -209,6 +218,8 @@ Row CompareNegativeCount(const PublishedValue& published, const ScenarioRun& run
   return CountRow(published, simulated, TowardsHalf(simulated.rate()));
 }
 
+// Kinds of failure given how many runs failed: p is the total probability of the divisions no
+// likelier than the published one.
 Row CompareFailureKinds(const PublishedValue& published, const ScenarioRun& run) {
   const std::vector<std::int64_t> simulated = FailuresByKind(published, run);
   std::vector<std::int64_t> observed;

@@ -97,6 +97,7 @@ std::vector<double> Offsets(const PredictiveSampler& first, std::size_t n_first,
                             const PredictiveSampler& second, std::size_t n_second,
                             const SampleStatistic& statistic, std::size_t replicates,
                             core::TrialKey key) {
+  // Both samples are independent: streams of their own.
   const core::TrialKey other_key{.seed = key.seed, .trial = key.trial + 1};
   std::vector<double> offsets = PredictiveStatistics(first, n_first, statistic, replicates, key);
   const std::vector<double> other =
@@ -136,6 +137,7 @@ Row CompareSampleStatistic(const PublishedValue& published, const ScenarioRun& r
   value.pool_value = statistic(sampler.pool());
   SetPrediction(value, drawn);
   value.p_value = PredictivePValue(drawn, published.value, published.rounding);
+  // The verdict stands; the remark says how far to trust it.
   if (pool.size() < kSetsInAGoodPool * n) {
     value.remark =
         fmt::format("only {} simulated trials: use {} or more", pool.size(), kSetsInAGoodPool * n);
@@ -158,6 +160,7 @@ Row CompareExponentialTail(const PublishedValue& published, const ScenarioRun& r
   if (pool.size() < 2) return NotJudged(published, TooFew(published, run));
   const PredictiveSampler sampler(pool);
   const auto n = static_cast<std::size_t>(published.sample_size);
+  // n values have n - 1 excesses over their minimum.
   const std::vector<double> null = ExponentialNullLaw(n - 1, options.replicates, options.seed);
   std::vector<double> p_values = PredictiveStatistics(
       sampler, n,
@@ -174,6 +177,7 @@ Row CompareExponentialTail(const PublishedValue& published, const ScenarioRun& r
   value.pool = static_cast<std::int64_t>(pool.size());
   SetPrediction(value, p_values);
   const double draws = static_cast<double>(p_values.size());
+  // Share of sets that look exponential, the published one counted as one more.
   value.p_value = (1.0 + draws - static_cast<double>(inconsistent)) / (1.0 + draws);
   const double consistent = 1.0 - static_cast<double>(inconsistent) / draws;
   const std::size_t side = options.replicates / kSideReduction;
@@ -203,6 +207,7 @@ Row CompareLowerBound(const PublishedValue& published, const ScenarioRun& run,
   const bool given = std::isfinite(run.goal_tolerance_m);
   const double tolerance = given ? run.goal_tolerance_m : EffectiveTolerance(run);
   if (!std::isfinite(tolerance)) return NotJudged(published, "the goal tolerance is not known");
+  // Straight distance less tolerance.
   const double bound = published.value - tolerance;
   const PredictiveSampler sampler(pool, bound);
   std::vector<double> drawn =
@@ -239,6 +244,7 @@ Row CompareMedianOffset(const PublishedValue& published, const ScenarioRun& run,
   ComparedValue& value = row.value;
   value.published = published;
   value.pool = static_cast<std::int64_t>(pool.size());
+  // A statement without a size: the prediction is shown and not judged.
   value.pool_value = Median(first.pool()) - Median(second.pool());
   std::vector<double> offsets = Offsets(first, n, second, m, Median, replicates, key);
   std::sort(offsets.begin(), offsets.end());

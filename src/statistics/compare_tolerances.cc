@@ -96,6 +96,7 @@ Interval MeanInterval(double mean, const std::vector<double>& residuals, double 
   const auto n = static_cast<double>(moments.count());
   if (n < 2.0) return {-kInfinity, kInfinity};
   const double t = boost::math::quantile(boost::math::students_t(n - 1.0), 0.5 + 0.5 * confidence);
+  // t s / sqrt(n), in the published unit.
   const double half = t * std::abs(scale) * moments.standard_deviation() / std::sqrt(n);
   return {mean - half, mean + half};
 }
@@ -116,6 +117,8 @@ void SetRatio(const PublishedValue& published, const std::vector<Values>& values
   std::vector<double> residuals;
   residuals.reserve(values.size());
   for (const Values& each : values) residuals.push_back(each.of_column - ratio * each.base);
+  // Var(R) is near var(x - R y) / (n mean(y)^2): residuals over the mean of y, 1/mean(y) = n / sum
+  // y.
   const double scale = published.factor * static_cast<double>(values.size()) / sum.base;
   const double mean = published.factor * ratio;
   row.value.pool_value = mean;
@@ -127,6 +130,7 @@ void SetRatio(const PublishedValue& published, const std::vector<Values>& values
 // First abscissa, by linear interpolation, at which a curve passes a level upwards.
 double Crossing(const std::vector<std::pair<double, double>>& curve, double level) {
   for (std::size_t i = 0; i < curve.size(); ++i) {
+    // -infinity where the first rate is above the level already, infinity where none is.
     if (curve[i].second < level) continue;
     if (i == 0) return -kInfinity;
     const auto& [x0, y0] = curve[i - 1];
@@ -146,6 +150,7 @@ Interval CrossingInterval(const RateCurve& rates, const PublishedValue& publishe
   std::vector<std::pair<double, double>> lower;
   for (const auto& [x, values] : rates) {
     const Interval interval =
+        // Each end is taken at half of the error.
         RateInterval(values, Independent(published), 1.0 - 0.5 * (1.0 - confidence));
     upper.emplace_back(x, interval.high);
     lower.emplace_back(x, interval.low);

@@ -43,6 +43,7 @@ CountLaw BetaBinomialLaw(std::int64_t trials, double a, double b) {
 
 CountLaw PredictiveCountLaw(std::int64_t trials, std::int64_t count, std::int64_t pool) {
   EXPECT(count >= 0 && count <= pool);
+  // Posterior of a rate after K of N under Jeffreys' prior: Beta(K + 1/2, N - K + 1/2).
   constexpr double kJeffreys = 0.5;
   return BetaBinomialLaw(trials, static_cast<double>(count) + kJeffreys,
                          static_cast<double>(pool - count) + kJeffreys);
@@ -62,6 +63,7 @@ Tails CountTails(const CountLaw& law, std::int64_t observed) {
   EXPECT(observed >= 0 && observed < static_cast<std::int64_t>(law.size()));
   Tails tails{0.0, 0.0};
   for (std::size_t k = 0; k < law.size(); ++k) {
+    // The observed count belongs to both tails.
     if (static_cast<std::int64_t>(k) <= observed) tails.lower += law[k];
     if (static_cast<std::int64_t>(k) >= observed) tails.upper += law[k];
   }

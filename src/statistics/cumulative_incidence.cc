@@ -69,6 +69,7 @@ struct Ends {
   std::size_t all = 0;  // censored ones included
 };
 
+// All that ends at one distance, by kind.
 Ends EndsAt(std::span<const Duration> sorted, std::size_t first) {
   Ends ends;
   for (std::size_t i = first; i < sorted.size() && sorted[i].at == sorted[first].at; ++i) {
@@ -100,6 +101,7 @@ std::vector<IncidenceStep> CumulativeIncidence(std::span<const Duration> duratio
     const std::size_t at_risk = sorted.size() - i;
     const double n = static_cast<double>(at_risk);
     const double both = ends.events + ends.competing;
+    // A step at every distance at which something ended; censored ones only leave.
     if (both > 0.0) {
       // Aalen and Johansen: to have survived so far, times the share of those at risk that end this
       // way.
@@ -129,6 +131,7 @@ std::vector<Duration> GoalDurations(std::span<const truth::Record> records, std:
     if (record.outcome == TrialOutcome::kSimulatorFault || column >= record.values.size()) continue;
     const bool reached = success == Success::kTrue ? record.outcome == TrialOutcome::kGoalReached
                                                    : truth::DeclaredSuccess(record.outcome);
+    // The time limit is the administrator's; all other ends but the goal compete with it.
     const EndKind kind = reached                                      ? EndKind::kEvent
                          : record.outcome == TrialOutcome::kTimeLimit ? EndKind::kCensored
                                                                       : EndKind::kCompeting;

@@ -98,6 +98,7 @@ Interval ScoreInterval(const ScoreOf& score, double observed, double confidence)
   };
   constexpr double kEdge = 1.0 - 1e-12;
   Interval interval{-1.0, 1.0};
+  // Bisection for the differences at which the score is +z and -z.
   if (observed > -kEdge && score(-kEdge) > z) interval.low = solve(z, -kEdge, observed);
   if (observed < kEdge && score(kEdge) < -z) interval.high = solve(-z, observed, kEdge);
   return interval;
@@ -141,6 +142,7 @@ MeanDifference WelchMeans(std::span<const double> first, std::span<const double>
   const double square_a = a.variance() / n_a;
   const double square_b = b.variance() / n_b;
   const double square = square_a + square_b;
+  // Both groups are constant: Student's law does not apply.
   if (square == 0.0) {
     // Nothing scatters: two groups apart by accident have the chance 2 / C(n_a + n_b, n_a).
     const double ways =
@@ -179,6 +181,7 @@ double SparseEquivalencePValue(std::int64_t pairs, std::int64_t differing, doubl
   EXPECT(margin > 0.0 && range >= 0.0 && differing >= 0 && differing <= pairs);
   if (pairs == 0 || differing == pairs) return 1.0;
   constexpr double kShareThatShows = 0.05;
+  // The share of pairs that must differ, each by `range` at most, to move the mean by the margin.
   const double share = range > 0.0 ? margin / range : kShareThatShows;
   if (share >= 1.0) return 0.0;
   const boost::math::binomial law(static_cast<double>(pairs), share);

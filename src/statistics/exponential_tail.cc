@@ -35,6 +35,8 @@ std::vector<double> ExponentialNullLaw(std::size_t excesses, std::size_t replica
   for (std::size_t b = 0; b < replicates; ++b) {
     core::RandomStream stream({.seed = seed, .trial = 0}, core::Purpose::kBootstrap,
                               static_cast<std::uint32_t>(b));
+    // The offset is an order statistic: excesses over it are exponential again, so it may be 0 and
+    // the mean 1 without loss.
     sample[0] = 0.0;
     for (std::size_t i = 1; i < sample.size(); ++i)
       sample[i] = core::SampleExponential(stream, 1.0);
@@ -57,6 +59,7 @@ TestResult ExponentialTailTest(std::span<const double> sample, std::uint64_t see
   const std::vector<double> sorted = SortedFinite(sample);
   if (sorted.size() <= skip + 1) return {};
   const double statistic = ExponentialStatistic(sorted, skip);
+  // The null law depends on the number of excesses alone.
   const std::vector<double> null = ExponentialNullLaw(sorted.size() - skip - 1, replicates, seed);
   return {statistic, BootstrapPValue(null, statistic)};
 }

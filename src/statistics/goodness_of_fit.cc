@@ -52,6 +52,7 @@ ChiSquareResult ChiSquareGoodnessOfFit(std::span<const double> observed,
     // Pearson: sum (O - E)^2 / E. A bin that expects and holds nothing adds nothing.
     if (difference != 0.0) result.statistic += difference * difference / bin.expected;
   }
+  // Bins less one for the common total, less one for each fitted parameter.
   result.degrees_of_freedom = static_cast<int>(bins.size()) - 1 - fitted;
   if (result.degrees_of_freedom >= 1) {
     result.p_value = ChiSquareTail(result.statistic, result.degrees_of_freedom);

@@ -22,6 +22,7 @@ ScaledMatrix Multiply(const ScaledMatrix& a, const ScaledMatrix& b) {
   ScaledMatrix product{a.matrix * b.matrix, a.exponent + b.exponent};
   const Eigen::Index middle = product.matrix.rows() / 2;
   constexpr int kShift = 140;
+  // The middle element stands for the size of all, as in the authors' program.
   if (product.matrix(middle, middle) > 1e140) {
     product.matrix *= std::pow(10.0, -kShift);
     product.exponent += kShift;
@@ -31,6 +32,7 @@ ScaledMatrix Multiply(const ScaledMatrix& a, const ScaledMatrix& b) {
 
 ScaledMatrix Power(ScaledMatrix base, int exponent) {
   ScaledMatrix result{Eigen::MatrixXd::Identity(base.matrix.rows(), base.matrix.cols()), 0};
+  // Square and multiply.
   for (; exponent > 0; exponent /= 2) {
     if (exponent % 2 == 1) result = Multiply(result, base);
     base = Multiply(base, base);
@@ -182,6 +184,7 @@ TestResult KolmogorovSmirnov(std::span<const double> sample_1, std::span<const d
   }
   const double n = static_cast<double>(a.size());
   const double m = static_cast<double>(b.size());
+  // D of two samples behaves as that of one of n m / (n + m) values.
   return {statistic, KolmogorovLimitPValue(std::sqrt(n * m / (n + m)) * statistic)};
 }
 

@@ -35,6 +35,7 @@ std::vector<Point> Hull(const std::vector<Point>& points, double sign) {
 }
 
 double Interpolate(const std::vector<Point>& line, double x) {
+  // The two neighbours of x on a line of ascending points.
   const auto right = std::lower_bound(line.begin() + 1, line.end() - 1, x,
                                       [](const Point& p, double at) { return p.x < at; });
   const Point& a = *(right - 1);
@@ -49,6 +50,7 @@ std::vector<double> PosteriorRates(std::int64_t count, std::int64_t pool) {
                                                          static_cast<double>(pool - count) + 0.5);
   std::vector<double> rates(kRates);
   for (int i = 0; i < kRates; ++i) {
+    // Middles of equally likely parts of the posterior Beta(K + 1/2, N - K + 1/2).
     rates[static_cast<std::size_t>(i)] = boost::math::quantile(posterior, (i + 0.5) / kRates);
   }
   return rates;
@@ -64,6 +66,7 @@ TailCurves Curves(std::int64_t trials, std::int64_t observed) {
   TailCurves curves;
   for (int i = 0; i <= kSteps; ++i) {
     const double q = static_cast<double>(i) / kSteps;
+    // f(q) on a grid, from which the hulls are taken.
     const Tails tails = CountTails(BinomialLaw(trials, q), observed);
     curves.lower.push_back({q, tails.lower});
     curves.upper.push_back({q, tails.upper});
@@ -105,6 +108,7 @@ LayoutEffect EstimateLayoutEffect(std::span<const LayoutCount> layouts) {
   using core::kNaN;
   if (trials == 0.0) return {kNaN, kNaN};
   const double rate = successes / trials;
+  // No layout has two trials, or there is only one: nothing to tell layouts from chance by.
   if (groups < 2.0 || trials <= groups) return {rate, kNaN};
   // Fleiss 1981: with the mean squares between and within layouts and the mean size n_0 = (N - sum
   // n^2 / N) / (G - 1), rho = (MSB - MSW) / (MSB + (n_0 - 1) MSW).
@@ -135,6 +139,7 @@ CountLaw OneLayoutLaw(std::int64_t trials, std::span<const LayoutCount> layouts,
     core::RandomStream stream({.seed = seed, .trial = 0}, core::Purpose::kBootstrap, b);
     for (LayoutCount& layout : resample) {
       const double u = stream.Uniform() * static_cast<double>(layouts.size());
+      // Layouts are resampled, not trials: they are what is independent.
       layout = layouts[static_cast<std::size_t>(u)];
     }
     const CountLaw law = LawOf(trials, EstimateLayoutEffect(resample));
@@ -150,6 +155,7 @@ Interval OneLayoutPValueBounds(std::int64_t trials, std::int64_t observed, std::
   const auto two_sided = [&](double sign) {
     return TwoSided({MeanOnHull(curves.lower, sign, rates), MeanOnHull(curves.upper, sign, rates)});
   };
+  // Lower hulls give the smallest p-value, upper hulls the largest.
   return {two_sided(-1.0), two_sided(1.0)};
 }
 

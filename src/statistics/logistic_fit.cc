@@ -45,7 +45,10 @@ FitStatus StatusOf(std::span<const Dose> doses) {
       last_failure = dose.u;
     }
   }
+  // Nothing but failures, or nothing but successes.
   if (first_success > last_success || first_failure > last_failure) return FitStatus::kNoContrast;
+  // A maximum exists only if neither outcome lies wholly on one side of the other (Silvapulle
+  // 1981).
   const bool overlap = first_success < last_failure && first_failure < last_success;
   return overlap ? FitStatus::kFitted : FitStatus::kSeparated;
 }
@@ -82,6 +85,7 @@ double VarianceAt(const std::array<double, 3>& covariance, double u) {
 
 double QuantileOf(const LogisticFit& fit, double confidence) {
   const double tail = 0.5 + 0.5 * confidence;
+  // Wald's normal law, or Student's with a degree of freedom less than clusters.
   if (fit.clusters == 0) return core::NormalQuantile(tail);
   if (fit.clusters < 3) return kInfinity;
   return boost::math::quantile(boost::math::students_t(static_cast<double>(fit.clusters) - 1.0),
@@ -96,6 +100,7 @@ double ExcessAt(const LogisticFit& fit, double u) {
 
 // How much less likely the runs are if the curve has the rate of `logit` at u0: likelihood ratio.
 double RatioAt(std::span<const Dose> doses, double best, double logit, double u0) {
+  // The curve through (u0, logit): its intercept at the centre u0 is fixed, its slope free.
   LogitLine line{logit, 0.0, u0};
   return 2.0 * (best - MaximizeLikelihood(doses, FreeParameters::kSlope, line));
 }
@@ -172,6 +177,7 @@ Interval LogisticFit::Band(double x, double confidence) const {
   const double u = Transform(scale, x);
   const double logit = intercept + slope * u;
   if (clusters > 0 && clusters < 3) return {0.0, 1.0};
+  // logit +- z sqrt((1, u) V (1, u)'), turned back into rates.
   const double half = QuantileOf(*this, confidence) * std::sqrt(VarianceAt(covariance, u));
   return {Expit(logit - half), Expit(logit + half)};
 }
@@ -196,6 +202,7 @@ LogisticFit ClusterScores::Fit(bool shared_within) const {
   double clusters = 0.0;
   std::array<double, 3> sums{};
   for (const LikelihoodSlopes& score : scores_) {
+    // A number without trials is no cluster.
     if (score.aa <= 0.0) continue;
     clusters += 1.0;
     // (I - A V) y = s.

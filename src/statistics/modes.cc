@@ -21,6 +21,7 @@ std::span<const double> ShortestHalf(std::span<const double> sorted) {
   double best_width = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i + half <= sorted.size(); ++i) {
     const double width = sorted[i + half - 1] - sorted[i];
+    // Of equally short halves the lowest stays.
     if (width < best_width) {
       best_width = width;
       best = i;
@@ -44,6 +45,7 @@ double ParabolaTop(double left, double middle, double right) {
 
 double HalfSampleMode(std::span<const double> sorted) {
   if (sorted.empty()) return kNaN;
+  // Each round keeps ceil(n/2) neighbouring values.
   while (sorted.size() > 3) sorted = ShortestHalf(sorted);
   if (sorted.size() == 1) return sorted[0];
   if (sorted.size() == 2) return 0.5 * (sorted[0] + sorted[1]);

@@ -23,6 +23,8 @@ std::vector<double> HolmAdjust(std::span<const double> p_values) {
   std::vector<double> adjusted(p_values.size());
   double largest = 0.0;
   for (std::size_t rank = 0; rank < order.size(); ++rank) {
+    // Holm 1979: the p-value of rank r (from 0) of m counts (m - r) times, and never less than
+    // those before it.
     const double factor = static_cast<double>(order.size() - rank);
     largest = std::max(largest, std::min(1.0, factor * p_values[order[rank]]));
     adjusted[order[rank]] = largest;

@@ -17,6 +17,7 @@ constexpr std::size_t kOutermost = 10;
 // Sum of the distances of the outermost values from the next one inwards; sign +1: upper end.
 double OuterExcess(std::span<const double> ascending, double sign) {
   const std::size_t n = ascending.size();
+  // Excesses of the ten outermost values over the eleventh.
   const std::size_t outer = std::min(n - 1, kOutermost);
   const double threshold = sign > 0.0 ? ascending[n - 1 - outer] : ascending[outer];
   double sum = 0.0;
@@ -58,6 +59,7 @@ double ShareAtLeast(std::span<const double> ascending, double value) {
 PredictiveSampler::PredictiveSampler(std::span<const double> pool, double lower_limit)
     : pool_(SortedFinite(pool)) {
   EXPECT(pool_.size() >= 2);
+  // Room for values below the pool, down to the limit of the support.
   lower_room_ = std::max(0.0, pool_.front() - lower_limit);
   lower_excess_ = OuterExcess(pool_, -1.0);
   upper_excess_ = OuterExcess(pool_, 1.0);
@@ -66,6 +68,7 @@ PredictiveSampler::PredictiveSampler(std::span<const double> pool, double lower_
 double PredictiveSampler::InGap(core::RandomStream& stream, std::size_t gap) const {
   const double u = stream.Uniform();
   const double k = static_cast<double>(std::min(pool_.size() - 1, kOutermost));
+  // Below the smallest, above the largest, or evenly between two neighbours.
   if (gap == 0) return pool_.front() - NextExcess(u, lower_excess_, k, lower_room_);
   if (gap == pool_.size()) return pool_.back() + NextExcess(u, upper_excess_, k, kUnlimited);
   return pool_[gap - 1] + u * (pool_[gap] - pool_[gap - 1]);
@@ -108,6 +111,7 @@ double ShiftPower(std::span<const double> ascending, double shift, double level)
   double up = 0.0;
   double down = 0.0;
   const double n = static_cast<double>(ascending.size());
+  // Every replicate in turn is the published value, shifted either way.
   for (const double s : ascending) {
     up += PredictivePValue(ascending, s + shift, 0.0) <= level ? 1.0 / n : 0.0;
     down += PredictivePValue(ascending, s - shift, 0.0) <= level ? 1.0 / n : 0.0;

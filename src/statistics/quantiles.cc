@@ -41,6 +41,7 @@ Interval MedianInterval(std::span<const double> sorted, double confidence) {
   // Boost's quantile is that number or next to it.
   auto out = static_cast<std::size_t>(std::max(0.0, boost::math::quantile(below, tail) - 1.0));
   while (boost::math::cdf(below, static_cast<double>(out)) <= tail) ++out;
+  // So few values that even the extremes do not cover the median with this confidence.
   if (out == 0) return {kNaN, kNaN};
   return {sorted[out - 1], sorted[sorted.size() - out]};
 }

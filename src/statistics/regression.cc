@@ -54,6 +54,7 @@ RegressionRow MakeRow(const RegressionCell& cell, std::size_t index, const Metri
 }
 
 void Judge(const RegressionOptions& options, RegressionRow& row) {
+  // A change that is shown stays a change, however small.
   if (row.holm_p_value <= options.alpha) {
     row.verdict = RegressionVerdict::kChanged;
   } else if (row.equivalence_p_value <= options.equivalence_alpha) {

@@ -16,6 +16,7 @@ constexpr double kPower = 0.8;  // of trials_for_margin
 template <typename PowerOf>
 double SmallestShift(double most, double power, const PowerOf& power_of) {
   constexpr double kPrecision = 1e-4;
+  // Power grows with the shift: bisection.
   if (most <= 0.0 || power_of(most) < power) return kNaN;
   double low = 0.0;
   double high = most;
@@ -33,6 +34,7 @@ double Background(const RegressionSamples& samples) {
          static_cast<double>(counts.pairs());
 }
 
+// The smallest shift of paired rates that McNemar's test would have seen.
 double SeenPairShift(const RegressionSamples& samples, double level, double power) {
   const double background = Background(samples);
   // The shift comes on top of the discordance that was seen, half of it either way.
@@ -48,6 +50,7 @@ RatePair Moved(const RegressionSamples& samples, double shift) {
   return {rate, std::clamp(rate > 0.5 ? rate - shift : rate + shift, 0.0, 1.0)};
 }
 
+// The smallest shift of a mean that Student's test would have seen, with the scatter at hand.
 double SeenMeanShift(const MeanDifference& means, double level, double power) {
   if (!means.known()) return kNaN;
   const boost::math::students_t law(means.degrees_of_freedom);
@@ -82,6 +85,7 @@ std::int64_t TrialsForMean(const RegressionSamples& samples, const RegressionRow
 
 }  // namespace
 
+// The same for two groups by Fisher's test; large groups by its normal formula.
 double RegressionPower::SeenGroupShift(const RegressionSamples& samples, double level,
                                        double power) {
   if (samples.count() > kMostExactFisher) {

@@ -15,6 +15,7 @@ std::vector<double> Finite(std::span<const double> values) {
   return finite;
 }
 
+// Each pair of tests: a change (exact), and equivalence within the margin (score).
 void TestRate(const RegressionSamples& samples, RegressionRow& row) {
   if (row.paired) {
     const PairedCounts counts = CountPairs(samples);
@@ -29,6 +30,8 @@ void TestRate(const RegressionSamples& samples, RegressionRow& row) {
   }
 }
 
+// TOST by Student's law; where few pairs differ the standard error says too little, and their
+// number decides.
 double MeanEquivalence(const RegressionSamples& samples, const MeanDifference& means,
                        const RegressionRow& row) {
   if (row.paired) {
@@ -46,6 +49,7 @@ double MeanEquivalence(const RegressionSamples& samples, const MeanDifference& m
 void TestMean(const RegressionSamples& samples, RegressionRow& row) {
   const MeanDifference means = MeansOf(samples, row.paired);
   row.interval = DifferenceInterval(means, 0.95);
+  // Too few values for Welch's test: the row stays inconclusive.
   if (!row.paired && samples.count() < kLeastValues) return;
   row.p_value = ChangePValue(means);
   row.equivalence_p_value = MeanEquivalence(samples, means, row);
@@ -58,6 +62,7 @@ RegressionSamples TakeSamples(bool paired, std::span<const double> baseline,
   const std::size_t trials = std::min(baseline.size(), run.size());
   RegressionSamples samples;
   if (!paired) {
+    // As many values from both sides: Welch's test keeps its level for skewed values only so.
     samples = {Finite(baseline.first(trials)), Finite(run.first(trials))};
     const std::size_t count = std::min(samples.baseline.size(), samples.run.size());
     samples.baseline.resize(count);

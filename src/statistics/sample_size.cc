@@ -38,6 +38,7 @@ std::int64_t CountNear(double rate, std::int64_t trials) {
   return std::llround(rate * static_cast<double>(trials));
 }
 
+// Intervals are not symmetric; half of their width is what users ask for.
 double HalfWidth(const Interval& interval) { return 0.5 * (interval.high - interval.low); }
 
 double NormalQuantile(double p) { return boost::math::quantile(boost::math::normal(), p); }
@@ -97,6 +98,7 @@ std::int64_t FisherCritical(std::int64_t n, std::int64_t successes, double alpha
 std::int64_t TrialsForHalfWidth(double rate, double half_width, double confidence,
                                 IntervalMethod method) {
   EXPECT(rate >= 0.0 && rate <= 1.0 && half_width > 0.0);
+  // The count nearest to the rate stands for the run.
   return FirstEnough(1, [&](std::int64_t n) {
     return HalfWidth(ProportionInterval(CountNear(rate, n), n, confidence, method)) <= half_width;
   });
@@ -108,6 +110,7 @@ std::int64_t TrialsForSequence(double rate, double half_width, double confidence
   const std::int64_t n = FirstEnough(1, [&](std::int64_t trials) {
     return HalfWidth(ConfidenceSequence(CountNear(rate, trials), trials, confidence)) <= half_width;
   });
+  // Campaigns look at the ends of blocks only.
   return (n + block - 1) / block * block;
 }
 
@@ -129,6 +132,7 @@ FisherTest::FisherTest(std::int64_t n, double alpha)
 
 std::int64_t FisherTest::Critical(std::int64_t successes) {
   std::int64_t& critical = critical_[static_cast<std::size_t>(successes)];
+  // Looked for once for each number of successes.
   if (critical == kUnknown) critical = FisherCritical(n_, successes, alpha_);
   return critical;
 }
@@ -186,6 +190,7 @@ double McNemarPower(std::int64_t n, const RatePair& discordant, double alpha) {
   double power = 0.0;
   std::int64_t critical = -1;  // grows with the discordant pairs
   for (std::int64_t d = likely.first; d <= likely.last; ++d) {
+    // Largest count of the rarer kind that the test still rejects among d pairs.
     while (2 * (critical + 1) < d && McNemarExactPValue(critical + 1, d - critical - 1) <= alpha) {
       ++critical;
     }

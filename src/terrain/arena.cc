@@ -51,6 +51,7 @@ Rectangle CountArea(const RockFieldParams& rocks) {
 
 Rectangle LayoutBounds(const TerrainParams& params) {
   if (!params.arena.IsVirtual()) return DrivableBounds(params.arena);
+  // Virtual arenas: only the strip between the mirror lines is laid out, or the count area in it.
   if (params.rocks.kind == RockFieldKind::kUniformCount) return CountArea(params.rocks);
   return Lane(params.arena, params.arena.MirrorLine());
 }
@@ -58,6 +59,7 @@ Rectangle LayoutBounds(const TerrainParams& params) {
 std::vector<Wall> ArenaWalls(const ArenaParams& arena) {
   if (arena.kind != ArenaKind::kWalled) return {};
   const Rectangle bounds = ArenaBounds(arena);
+  // Walls as half spaces normal . p < offset.
   return {{math::Vector3::UnitX(), bounds.x_max_m},
           {-math::Vector3::UnitX(), -bounds.x_min_m},
           {math::Vector3::UnitY(), bounds.y_max_m},
@@ -72,6 +74,7 @@ std::vector<Rock> MirrorImages(const ArenaParams& arena, const Rock& rock) {
   for (int strip = -strips; strip <= strips; ++strip) {
     if (strip == 0) continue;
     Rock image = Image(rock, arena.MirrorLine(), strip);
+    // virtual_reflected ends at the edges of the arena.
     if (unfolded || std::abs(image.center_W.y()) <= 0.5 * arena.width_m) {
       images.push_back(image);
     }

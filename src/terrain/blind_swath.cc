@@ -46,6 +46,7 @@ double UpperMoment(const RockFieldParams& rocks, double power, double low_m) {
   RockFieldParams upper = rocks;
   double kept = 1.0;
   if (rocks.kind == RockFieldKind::kMoore) {
+    // No rock of the law is so large.
     if (low_m >= rocks.max_diameter_m) return 0.0;
     kept = 1.0 - MakeSizeLaw(rocks)->Cdf(low_m);
     upper.min_diameter_m = std::max(low_m, rocks.min_diameter_m);
@@ -73,6 +74,7 @@ double FirstContact_m(const std::vector<Rock>& rocks, const BlindSwath& swath, d
                       double y_m) {
   double first_m = std::numeric_limits<double>::infinity();
   for (const Rock& rock : rocks) {
+    // Too small to be an obstacle, whatever its height.
     if (rock.diameter_m < swath.min_diameter_m) continue;
     const std::optional<double> x_m = FirstContact(rock, y_m, 0.5 * swath.width_m);
     if (x_m && *x_m >= x0_m) first_m = std::min(first_m, *x_m);

@@ -37,9 +37,11 @@ double MeanPowerOutsideClearZones(const RockSizeLaw& law, double power, double r
 void AddExpectations(const TerrainParams& params, FieldAudit& audit) {
   const std::unique_ptr<RockSizeLaw> law = MakeSizeLaw(params.rocks);
   if (!law) return;
+  // Mean number: density times area.
   audit.expected_drawn = params.rocks.RocksPerM2() * audit.layout_area_m2;
   double placed_share = 1.0;
   double mean_square_m2 = law->MeanPower(2.0);
+  // Only Moore rocks are dropped in clear zones; exact counts are drawn again elsewhere.
   if (params.rocks.kind == RockFieldKind::kMoore) {
     const double r = params.rocks.clear_radius_m;
     placed_share = MeanPowerOutsideClearZones(*law, 0.0, r, audit.layout_area_m2);
@@ -82,12 +84,14 @@ Field BuildField(const TerrainParams& params, core::TrialKey key, const Course& 
 
   std::vector<Rock> rocks = layout.rocks;
   for (const Rock& rock : layout.rocks) {
+    // Images follow all rocks of the strip, so that the strip's own come first in every list.
     for (const Rock& image : MirrorImages(params.arena, rock)) rocks.push_back(image);
   }
   audit.mirror_images = static_cast<int>(rocks.size() - layout.rocks.size());
 
   Ground ground(params.ground, key);
   for (Rock& rock : rocks) {
+    // Layouts know heights above the ground; mirror images get that of their own place.
     rock.center_W.z() += ground.Height(rock.center_W.x(), rock.center_W.y());
   }
   return {Terrain(std::move(ground), std::move(rocks), ArenaWalls(params.arena)), audit};

@@ -69,6 +69,7 @@ void WriteGround(const Ground& ground, const Rectangle& area, ObjWriter& obj) {
   for (int iy = 0; iy < ny; ++iy) {
     for (int ix = 0; ix < nx; ++ix) {
       const int corner = first + iy * (nx + 1) + ix;
+      // Counter-clockwise as seen from above: faces look up.
       obj.Quad(corner, corner + 1, corner + nx + 2, corner + nx + 1);
     }
   }
@@ -77,6 +78,7 @@ void WriteGround(const Ground& ground, const Rectangle& area, ObjWriter& obj) {
 void WriteRock(const Rock& rock, int index, ObjWriter& obj) {
   obj.Group(fmt::format("rock_{}", index));
   const int bottom = obj.Vertex(OnRock(rock, -math::Vector3::UnitZ()));
+  // Parallels from the south pole up, each with kMeridians points; fans close the poles.
   for (int i = 1; i < kParallels; ++i) {
     const double latitude = std::numbers::pi * (static_cast<double>(i) / kParallels - 0.5);
     for (int j = 0; j < kMeridians; ++j) {
@@ -131,6 +133,7 @@ void DrawRock(const Rock& rock, int index, std::string& svg) {
   for (int i = 0; i < kOctagon; ++i) {
     const double angle = 2.0 * std::numbers::pi * (i + 0.5) / kOctagon;
     const math::Vector3 p = OnRock(rock, {std::cos(angle), std::sin(angle), 0.0});
+    // SVG's y axis points down.
     fmt::format_to(std::back_inserter(svg), "{:.3f},{:.3f} ", p.x(), -p.y());
   }
   const int grey = Grey(rock);

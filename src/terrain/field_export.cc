@@ -92,6 +92,7 @@ std::string ToJson(const Field& field, const TerrainParams& params, const Course
   json.Append("audit", AuditJson(field.audit));
   JsonValue::List rocks;
   for (const Rock& rock : field.terrain.rocks()) {
+    // Mirror images follow the placed rocks.
     const bool mirror_image = rocks.size() >= static_cast<std::size_t>(field.audit.placed);
     rocks.push_back(RockJson(rock, mirror_image));
   }

@@ -28,6 +28,7 @@ Placement::Placement(const Rectangle& layout, const Course& course, double clear
       ny_(static_cast<int>((layout.y_max_m - layout.y_min_m) / kCell_m) + 1),
       cells_(static_cast<std::size_t>(nx_) * ny_) {}
 
+// Clear zones are discs around start and goal, and rocks keep out with their whole outline.
 bool Placement::ClearOfCourse(const Disc& disc) const {
   return !Overlap(disc, {course_.start_x_m, course_.start_y_m, clear_radius_m_}) &&
          !Overlap(disc, {course_.goal_x_m, course_.goal_y_m, clear_radius_m_});
@@ -45,6 +46,7 @@ Placement::Cells Placement::CellsOf(const Disc& disc) const {
 }
 
 bool Placement::Free(const Disc& disc) const {
+  // A disc across the mirror line would meet its own image.
   if (mirror_line_m_ && std::abs(disc.y_m) + disc.radius_m > *mirror_line_m_) return false;
   const Cells cells = CellsOf(disc);
   // Two discs that overlap share a cell of their bounding boxes, so looking into the disc's own
@@ -59,6 +61,7 @@ bool Placement::Free(const Disc& disc) const {
   return true;
 }
 
+// In every cell that its bounding box touches.
 void Placement::Add(const Disc& disc) {
   const Cells cells = CellsOf(disc);
   for (int iy = cells.first_y; iy <= cells.last_y; ++iy) {

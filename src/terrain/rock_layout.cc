@@ -43,6 +43,8 @@ std::vector<MarkedRock> DrawMarkedField(const TerrainParams& params, core::Trial
     const double mark = RandomStream(key, Purpose::kRockMark, i).Uniform();
     if (mark < kept_share) kept.push_back({mark, i});
   }
+  // In the order of the marks: the field of a smaller k is then a prefix of that of a larger one,
+  // whatever the overlap rule drops or moves.
   std::sort(kept.begin(), kept.end(),
             [](const MarkedRock& a, const MarkedRock& b) { return a.mark < b.mark; });
   return kept;
@@ -101,6 +103,7 @@ class LayoutBuilder {
         return false;
       }
       if (params_.overlap != OverlapRule::kAllow && !placement_.Free(disc)) {
+        // kReject drops the rock, kRelocate draws another place.
         if (params_.overlap == OverlapRule::kReject) break;
         continue;
       }
@@ -117,6 +120,7 @@ class LayoutBuilder {
   RockLayout Take() { return std::move(layout_); }
 
  private:
+  // Uniform in the area less the hole, by rejection.
   static Disc DrawPosition(RandomStream& stream, const Rectangle& area, const Rectangle* hole,
                            double radius_m) {
     Disc disc{0.0, 0.0, radius_m};
@@ -137,6 +141,7 @@ class LayoutBuilder {
 RockLayout LayOutMoore(const TerrainParams& params, core::TrialKey key, const Course& course) {
   LayoutBuilder builder(params, key, course);
   const Rectangle area = LayoutBounds(params);
+  // Each rock is placed by its own streams and by those before it alone: fields of growing k nest.
   for (const MarkedRock& marked : DrawMarkedField(params, key)) {
     builder.Place(marked.substream, area, nullptr, true);
   }
@@ -149,6 +154,7 @@ RockLayout LayOutExactCount(const TerrainParams& params, core::TrialKey key, con
   LayoutBuilder builder(params, key, course);
   const Rectangle inside = CountArea(params.rocks);
   const Rectangle all = LayoutBounds(params);
+  // The rest of the layout area gets the count area's density, rounded to a whole number of rocks.
   const double outside_m2 = std::max(all.Area() - inside.Area(), 0.0);
   const auto inside_count = static_cast<std::uint32_t>(params.rocks.count);
   const auto outside_count =

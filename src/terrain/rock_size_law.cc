@@ -29,6 +29,7 @@ double MooreCoveredFraction(double k_per_m2, double low_m, double high_m) {
 MooreSizeLaw::MooreSizeLaw(double min_m, double max_m)
     : min_m_(min_m),
       max_m_(max_m),
+      // N(D) of the law with k = 1 at both bounds: k cancels in the distribution of sizes.
       number_at_min_(MooreNumberPerM2(1.0, min_m)),
       number_at_max_(MooreNumberPerM2(1.0, max_m)) {
   EXPECT(min_m > 0.0 && max_m > min_m);
@@ -61,6 +62,7 @@ double UniformSizeLaw::Diameter(double probability) const {
 }
 
 double UniformSizeLaw::Cdf(double diameter_m) const {
+  // A single size: a step.
   if (max_m_ == min_m_) return diameter_m < min_m_ ? 0.0 : 1.0;
   return std::clamp((diameter_m - min_m_) / (max_m_ - min_m_), 0.0, 1.0);
 }

@@ -14,6 +14,7 @@ constexpr double kSmallestCell_m = 0.25;
 // Bounds the grid's memory for wide, sparse fields: the cells grow instead.
 constexpr double kMostCells = 250000.0;
 
+// Radius of the circle around the outline seen from above.
 double FootprintRadius(const Rock& rock) {
   return std::max(rock.semi_axes_m.x(), rock.semi_axes_m.y());
 }
@@ -56,6 +57,7 @@ struct Segment {
   math::Vector3 direction_W;
   double length_m;
 
+  // Whatever touches either end within the margin does not count as between them.
   static std::optional<Segment> Between(const math::Vector3& from_W, const math::Vector3& to_W,
                                         double margin_m) {
     const double distance_m = (to_W - from_W).norm();
@@ -73,6 +75,7 @@ Terrain::Terrain(Ground ground, std::vector<Rock> rocks, std::vector<Wall> walls
   shapes_.reserve(rocks_.size());
   for (const Rock& rock : rocks_) {
     EXPECT(rock.semi_axes_m.minCoeff() > 0.0);
+    // The map of each ellipsoid onto the unit sphere is worked out once.
     shapes_.emplace_back(rock);
   }
   BuildGrid();
@@ -84,6 +87,7 @@ void Terrain::MoveRock(int index, double dx_m, double dy_m) {
   math::Vector3& p_W = rock.center_W;
   const double above_ground_m = p_W.z() - ground_.Height(p_W.x(), p_W.y());
   p_W.head<2>() += Eigen::Vector2d(dx_m, dy_m);
+  // The centre keeps its height over the ground beneath it: constant burial.
   p_W.z() = ground_.Height(p_W.x(), p_W.y()) + above_ground_m;
   shapes_[static_cast<std::size_t>(index)] = RockShape(rock);
   BuildGrid();
@@ -99,6 +103,7 @@ void Terrain::BuildGrid() {
     high = high.max(center + FootprintRadius(rock));
   }
   const Eigen::Array2d extent = high - low;
+  // Square cells; fields that would need more than kMostCells get larger ones.
   cell_m_ = std::max(kSmallestCell_m, std::sqrt(extent.prod() / kMostCells));
   cells_per_m_ = 1.0 / cell_m_;
   grid_x0_m_ = low.x();
@@ -151,15 +156,18 @@ void Terrain::RocksNear(double x_m, double y_m, double radius_m, std::vector<int
         const Rock& rock = rocks_[static_cast<std::size_t>(index)];
         const double dx = rock.center_W.x() - x_m;
         const double dy = rock.center_W.y() - y_m;
+        // Both discs meet: a superset, since outlines are ellipses.
         const double reach = radius_m + FootprintRadius(rock);
         if (dx * dx + dy * dy <= reach * reach) out.push_back(index);
       }
     }
   }
   std::sort(out.begin(), out.end());
+  // A rock stands in every cell that its box touches, so it can be found more than once.
   out.erase(std::unique(out.begin(), out.end()), out.end());
 }
 
+// Walls first, then the ground no farther than the nearest wall.
 Terrain::Nearest Terrain::MeetBackground(const math::Vector3& origin_W,
                                          const math::Vector3& direction_W,
                                          double max_distance_m) const {
@@ -183,6 +191,7 @@ void Terrain::MeetRocks(std::span<const int> rocks, const math::Vector3& origin_
                         const math::Vector3& direction_W, Nearest& nearest) const {
   for (const int rock : rocks) {
     const double distance = shapes_[static_cast<std::size_t>(rock)].Distance(origin_W, direction_W);
+    // Of equally near rocks the first stays.
     if (distance < nearest.distance_m) nearest = {distance, Surface::kRock, rock};
   }
 }
@@ -192,6 +201,7 @@ void Terrain::MeetRocksOnGrid(const math::Vector3& origin_W, const math::Vector3
   const double px = origin_W.x() - grid_x0_m_;
   const double py = origin_W.y() - grid_y0_m_;
   double enter = 0.0;
+  // Ray parameters between which the ray is over the grid.
   double leave = nearest.distance_m;
   if (grid_nx_ == 0 || !ClipToSlab(px, direction_W.x(), grid_nx_ * cell_m_, enter, leave) ||
       !ClipToSlab(py, direction_W.y(), grid_ny_ * cell_m_, enter, leave)) {
@@ -219,6 +229,7 @@ std::optional<RayHit> Terrain::MakeHit(const math::Vector3& origin_W,
   hit.surface = *nearest.surface;
   const auto index = static_cast<std::size_t>(nearest.index);
   if (hit.surface == Surface::kRock) hit.rock = nearest.index;
+  // The ray starts inside a rock or below the ground, where there is no surface to have a normal.
   if (hit.distance_m == 0.0) {
     hit.normal_W = -direction_W;
   } else if (hit.surface == Surface::kRock) {
@@ -264,6 +275,7 @@ bool Terrain::Occluded(const math::Vector3& from_W, const math::Vector3& to_W,
   const std::optional<Segment> segment = Segment::Between(from_W, to_W, margin_m);
   if (!segment) return false;
   Nearest nearest = MeetBackground(segment->origin_W, segment->direction_W, segment->length_m);
+  // One surface is enough: rocks are asked only where walls and ground hide nothing.
   if (!nearest.surface) MeetRocksOnGrid(segment->origin_W, segment->direction_W, nearest);
   return nearest.surface.has_value();
 }

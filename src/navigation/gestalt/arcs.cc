@@ -67,6 +67,7 @@ CandidateMotion MakePointTurn(double amount_rad, int direction, const PathSampli
 }  // namespace
 
 std::size_t PathSampling::CountWithin(double length_m) const {
+  // Distances ascend, the same for all candidates.
   const auto end = std::upper_bound(distance_m.begin(), distance_m.end(), length_m);
   return std::max<std::size_t>(1, static_cast<std::size_t>(end - distance_m.begin()));
 }
@@ -121,6 +122,7 @@ CandidateMotions MakeCandidates(const GestaltArcParams& arcs, const GestaltPlanP
     return row_of_arcs;
   };
   motions.forward = row(arcs.num_forward_arcs, +1);
+  // Backward arcs are driven with the same curvatures, from right to left.
   motions.backward = row(arcs.num_backward_arcs, -1);
   for (const int direction : {-1, +1}) {
     motions.point_turns.push_back(MakePointTurn(arcs.point_turn_amount_rad, direction, sampling));

@@ -16,6 +16,8 @@ using messages::MotionVote;
 using Rows = std::vector<std::span<MotionVote>>;
 
 bool BackwardArcsCompete(const MotionVotes& votes, const GestaltParams& params) {
+  // Step 7 names the highest vote of all arcs; min-fwd-threshold of table 1 suggests that forward
+  // ones go first.
   switch (params.drive.backward_arcs) {
     case BackwardArcs::kBelowThreshold:
       return BestVote(votes.forward) < params.votes.min_fwd_threshold;
@@ -33,6 +35,8 @@ Rows CompetingRows(MotionVotes& votes, const GestaltParams& params) {
   return rows;
 }
 
+// A merged vote can be high on ground that must not be driven: the hazard vote has a bound of its
+// own.
 bool MayBeDriven(const MotionVote& vote, const GestaltParams& params) {
   return vote.hazard > params.drive.min_drive_goodness;
 }
@@ -67,6 +71,7 @@ struct Peak {
   }
 };
 
+// The longest set of adjacent arcs with the highest vote; an arc that may not be driven ends a set.
 Peak BestPeak(std::span<MotionVote> row, double highest, const GestaltParams& params) {
   const auto shares = [&](std::size_t i) {
     return i < row.size() && row[i].merged == highest && MayBeDriven(row[i], params);
@@ -92,6 +97,7 @@ MotionVote* ChooseArc(MotionVotes& votes, const GestaltParams& params) {
   double highest = -1.0;
   for (const auto row : rows) {
     for (const MotionVote& vote : row) {
+      // Step 7: the highest merged vote of the arcs that compete and may be driven.
       if (MayBeDriven(vote, params)) highest = std::max(highest, vote.merged);
     }
   }
@@ -103,6 +109,7 @@ MotionVote* ChooseArc(MotionVotes& votes, const GestaltParams& params) {
   return best.middle;
 }
 
+// When a point turn is preferred, by the reading that the parameters choose.
 bool TurnsInPlace(const MotionVote& turn, const MotionVote* arc, const GestaltParams& params) {
   switch (params.drive.point_turns) {
     case PointTurns::kNever:
@@ -121,6 +128,7 @@ MotionVote* ChoosePointTurn(MotionVotes& votes, double goal_bearing_rad) {
   EXPECT(votes.point_turns.size() == 2);
   MotionVote& right = votes.point_turns.front();
   MotionVote& left = votes.point_turns.back();
+  // The better vote; on a tie the side of the goal.
   if (right.merged != left.merged) return right.merged > left.merged ? &right : &left;
   return goal_bearing_rad < 0.0 ? &right : &left;
 }
@@ -137,6 +145,7 @@ void MarkChoice(MotionVotes& votes, MotionVote& chosen, const GestaltParams& par
   if (arc) rows = CompetingRows(votes, params);
   for (const auto row : rows) {
     for (MotionVote& vote : row) {
+      // For the view: figure 3 of the paper underlines all candidates of the highest vote.
       vote.best = vote.merged == chosen.merged && (!arc || MayBeDriven(vote, params));
     }
   }

@@ -10,6 +10,7 @@ using messages::PoseEstimate;
 using messages::VehicleHazard;
 using messages::VehicleHazardKind;
 
+// Which side a hazard lies on: +1 left, -1 right, 0 ahead.
 double Aside(const VehicleHazard& hazard) {
   if (hazard.side == HazardSide::kLeft) return 1.0;
   return hazard.side == HazardSide::kRight ? -1.0 : 0.0;

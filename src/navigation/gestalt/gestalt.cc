@@ -46,6 +46,7 @@ GestaltNavigator::GestaltNavigator(const GestaltParams& params, const messages::
 NavigatorDecision GestaltNavigator::Decide(const NavigatorInput& input) {
   const bool moves =
       mode_ == Mode::kDriving || mode_ == Mode::kBackingOff || mode_ == Mode::kTurning;
+  // The goal is asked for between steps, or at every tick where the parameters say so.
   const bool asks = !moves || params_.drive.arrival_check == ArrivalCheck::kWhileDriving;
   if (asks && AtGoal(input.estimate)) return Finish(NavigatorStatus::kArrived);
   if (params_.drive.time_out_s > 0.0 && input.time_s >= params_.drive.time_out_s) {
@@ -91,6 +92,7 @@ NavigatorDecision GestaltNavigator::BeginCycle(const NavigatorInput& input) {
   return Look(Mode::kLookingAhead);
 }
 
+// A look has answered: points into the map, votes, and either a look behind or a choice.
 NavigatorDecision GestaltNavigator::OnCloud(const NavigatorInput& input) {
   const bool ahead = input.cloud->direction == LookDirection::kAhead;
   // An answer to a look that a pose update has overtaken.
@@ -105,6 +107,8 @@ NavigatorDecision GestaltNavigator::OnCloud(const NavigatorInput& input) {
   return looks_behind ? Look(Mode::kLookingBehind) : Choose(input);
 }
 
+// Step 7 and what the paper leaves open: an arc, a point turn, or giving up after a search all
+// round.
 NavigatorDecision GestaltNavigator::Choose(const NavigatorInput& input) {
   MotionVote* chosen = ChooseArc(votes_, params_);
   // A search that has gone all the way round turns no further.
@@ -130,10 +134,12 @@ MotionVote& GestaltNavigator::NextTurn(const PoseEstimate& estimate) {
   return search_direction_ < 0 ? votes_.point_turns.front() : votes_.point_turns.back();
 }
 
+// Blind driving along the arc; only its length, a felt hazard or its time limit ends it.
 NavigatorDecision GestaltNavigator::ContinueDrive(const NavigatorInput& input) {
   const double driven_m = input.estimate.distance_m - anchor_.distance_m;
   const bool feels = Feels(input);
   if (!feels) felt_since_start_ = false;
+  // What was felt before the drive began counts again only after some way.
   const bool counts = !felt_since_start_ || driven_m >= params_.drive.felt_again_m;
   if (feels && counts) return OnFelt(input);
   if (driven_m < leg_m_ && !TimedOut(input)) return Move(motion_);
@@ -145,6 +151,7 @@ NavigatorDecision GestaltNavigator::ContinueTurn(const NavigatorInput& input) {
       motion_.direction * math::WrapAngle(input.estimate.heading_rad - anchor_.heading_rad);
   const bool feels = Feels(input);
   if (!feels) felt_since_start_ = false;
+  // What was felt before the turn began does not stop it.
   const bool stops = feels && !felt_since_start_;
   const bool turned_enough = turned_rad >= params_.arcs.point_turn_amount_rad;
   if (!stops && !turned_enough && !TimedOut(input)) return Move(motion_);
@@ -158,9 +165,11 @@ NavigatorDecision GestaltNavigator::ContinueBackOff(const NavigatorInput& input)
   return ends ? BeginCycle(input) : Move(motion_);
 }
 
+// A felt hazard: mark it, back off by what was driven, look again.
 NavigatorDecision GestaltNavigator::OnFelt(const NavigatorInput& input) {
   if (++felt_hazards_ > params_.drive.max_felt) return Finish(NavigatorStatus::kGaveUp);
   if (mode_ == Mode::kTurning) {
+    // Something blocks the turn: the search goes on the other way round.
     search_direction_ = -motion_.direction;
     return BeginCycle(input);
   }
@@ -186,6 +195,7 @@ NavigatorDecision GestaltNavigator::Begin(Mode mode, const MotionCommand& motion
   leg_m_ = leg_m;
   anchor_ = input.estimate;
   began_s_ = input.time_s;
+  // A hazard that lasts from before counts as old until it has gone once.
   felt_since_start_ = Feels(input);
   return Move(motion_);
 }
@@ -201,6 +211,7 @@ void GestaltNavigator::FillView(const NavigatorInput& input) {
   view_.point_turns = votes_.point_turns;
 }
 
+// Counts cycles without progress; too many of them end the drive.
 bool GestaltNavigator::Progresses(const PoseEstimate& estimate) {
   const double distance_m = TowardsGoal(estimate, goal_).distance_m;
   // A gain of progress_m on the best distance so far ends a fruitless run.

@@ -18,6 +18,7 @@ double Clamped(double x_m) { return std::clamp(x_m, -kFarthest_m, kFarthest_m); 
 
 }  // namespace
 
+// A map begins with an empty cycle around the origin, so that Evaluate always has a grid.
 GestaltMap::GestaltMap(const GestaltMapParams& params)
     : params_(params),
       cells_(params.grid.nx(), params.grid.ny()),
@@ -48,6 +49,7 @@ double GestaltMap::CentreY_m(std::int64_t j) const {
   return params_.grid.y0_m + (static_cast<double>(j) + 0.5) * params_.grid.ystep_m;
 }
 
+// Squared distances of columns and rows; their sum is that of a cell.
 void GestaltMap::MeasureDistances(LatticeCell first) {
   for (std::size_t i = 0; i < squares_x_m2_.size(); ++i) {
     const double distance = CentreX_m(first.x + static_cast<std::int64_t>(i)) - rover_x_m_;
@@ -64,6 +66,7 @@ bool GestaltMap::InWindow(LatticeCell cell) const {
          cell.y >= cells_.first_y() && cell.y < cells_.first_y() + cells_.ny();
 }
 
+// The box of cells that may hold something: loops need not visit the rest of the window.
 void GestaltMap::GrowBox(int ix, int iy) {
   if (box_.empty()) {
     box_ = {ix, ix + 1, iy, iy + 1};
@@ -86,6 +89,7 @@ void GestaltMap::BeginCycle(double x_m, double y_m) {
   cells_.MoveTo(first.x, first.y);
 }
 
+// Step "cells are zeroed": those that leave the window, lie too far away, or got no data for long.
 void GestaltMap::DropOldCells(LatticeCell first) {
   const CellBox old = box_;
   box_ = {};
@@ -131,6 +135,7 @@ void GestaltMap::Add(const messages::PointCloud& cloud, const math::Transform& X
     // Written so that coordinates that are not numbers fail.
     const bool sound =
         std::abs(p_WP_W.x()) <= 2.0 * kFarthest_m && std::abs(p_WP_W.y()) <= 2.0 * kFarthest_m &&
+        // Heights are bounded so that the exact sums of a cell cannot run over.
         std::abs(p_WP_W.z() - z_R) <= kLargestHeight_m && std::abs(p_WP_W.z()) <= kFarthest_m;
     if (sound) AddPoint(p_WP_W);
   }
@@ -141,6 +146,7 @@ void GestaltMap::MarkObstacle(double x_m, double y_m, double radius_m) {
   const LatticeCell at = LatticeAt(Clamped(x_m), Clamped(y_m));
   for (int iy = 0; iy < cells_.ny(); ++iy) {
     for (int ix = 0; ix < cells_.nx(); ++ix) {
+      // The cell itself is marked, however small the radius.
       const bool here = at.x == cells_.first_x() + ix && at.y == cells_.first_y() + iy;
       const bool within = std::hypot(CentreX_m(cells_.first_x() + ix) - x_m,
                                      CentreY_m(cells_.first_y() + iy) - y_m) <= radius_m;
@@ -160,6 +166,7 @@ void GestaltMap::Clear() {
   box_ = {};
 }
 
+// Step 3 of Goldberg 2002: planes, steps, goodness.
 const GoodnessGrid& GestaltMap::Evaluate() {
   // The lower left corner of the window.
   grid_.x0_m = CentreX_m(cells_.first_x()) - 0.5 * grid_.xstep_m;
@@ -179,6 +186,7 @@ messages::MapView GestaltMap::View() const {
       const math::PointMoments& moments = cells_.At(ix, iy).moments;
       const CellValue& value = grid_.Cell(ix, iy);
       const bool has_data = !moments.empty();
+      // Heights are those of the data, not of the patch.
       view.cells.push_back({has_data, has_data ? moments.MeanZ_m() : 0.0, value.known,
                             value.goodness, value.certainty});
     }

@@ -28,6 +28,7 @@ Farthest FarthestFrom(const math::Vector3& normal, const math::Vector3& mean_m,
 }  // namespace
 
 math::PointSpread SpreadOf(const std::vector<PatchCell>& cells, const math::PointMoments& sum) {
+  // Exact sums where they cannot have run over, else cell by cell in floating point.
   if (sum.count() <= math::kExactPoints) return math::Spread(sum);
   std::vector<math::PointSpread> spreads;
   spreads.reserve(cells.size());
@@ -45,6 +46,7 @@ math::PlaneFit FitWithoutOutliers(std::vector<PatchCell> cells, math::PointMomen
     const Farthest worst = FarthestFrom(fit.normal, spread.mean_m, cells);
     // Leaving it out would change nothing but the number of points.
     if (worst.distance_m < kInPlane_m) return fit;
+    // Whole numbers: taking a cell back is exact.
     sum -= *cells[worst.index].moments;
     cells.erase(cells.begin() + static_cast<std::ptrdiff_t>(worst.index));
   }

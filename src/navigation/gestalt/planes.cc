@@ -108,6 +108,7 @@ void PatchPlanes::SlideDown(const CellWindow& cells, const CellBox& box, const C
   }
 }
 
+// Along row iy: the sums of a patch gain a column and lose one.
 void PatchPlanes::FitRow(const CellWindow& cells, const CellBox& box, const CellBox& out, int iy) {
   Sums patch;
   int columns_with_data = 0;
@@ -128,6 +129,7 @@ void PatchPlanes::FitRow(const CellWindow& cells, const CellBox& box, const Cell
   }
 }
 
+// Preliminary tests of step 3, before a plane is fitted.
 void PatchPlanes::Assess(const CellWindow& cells, const Sums& patch, int columns_with_data,
                          Cell middle) {
   PatchPlane& plane = planes_[CellIndex(middle.ix, middle.iy, width_)];
@@ -135,11 +137,14 @@ void PatchPlanes::Assess(const CellWindow& cells, const Sums& patch, int columns
   // "At least half the cells have more than 1 point" (Goldberg 2002, step 3): needed_cells_ of them
   // hold min_cell_points.
   plane.enough = patch.filled >= needed_cells_ && !patch.moments.empty();
+  // min-cell-coverage of table 1: data in enough columns and in enough rows.
   const bool covered = columns_with_data >= needed_columns_ &&
                        rows_with_data_[static_cast<std::size_t>(middle.ix)] >= needed_rows_;
   if (plane.enough && covered) FitPatch(cells, patch.moments, middle, plane);
 }
 
+// Planes are fitted in pairs, which cost as much as one (math/pair.h); a patch waits for its
+// partner.
 void PatchPlanes::FitPatch(const CellWindow& cells, const math::PointMoments& moments, Cell middle,
                            PatchPlane& plane) {
   if (params_.outliers_per_cell > 0 || moments.count() > math::kExactPoints) {
@@ -166,6 +171,7 @@ void PatchPlanes::FitWaiting() {
 void PatchPlanes::Store(const math::PlaneFit& fit, PatchPlane& plane) const {
   // Middle over smallest eigenvalue: whether the points lie in a plane rather than along a line.
   plane.plane_valid = fit.eigen_ratio >= params_.eigen_ratio;
+  // r of the roughness hazard, m.
   plane.residual_m = fit.residual_m;
   if (params_.tests.pitch) plane.slope_rad = fit.Slope_rad();
 }
@@ -180,6 +186,8 @@ void PatchPlanes::FindSpreads(const CellWindow& cells) {
   }
 }
 
+// Only patches with outliers to leave out, or with too many points for exact sums, ask for their
+// cells.
 std::vector<PatchCell> PatchPlanes::CellsOf(const CellWindow& cells, Cell middle) {
   if (spreads_.empty()) FindSpreads(cells);
   const CellBox patch = CellBox{middle.ix, middle.ix + 1, middle.iy, middle.iy + 1}.Grown(

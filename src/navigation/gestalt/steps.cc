@@ -30,6 +30,7 @@ void SpanExtremes(std::vector<double>& values, std::size_t stride, int span, Bet
 }  // namespace
 
 void PatchSteps::LoadElevations(const CellWindow& cells, const CellBox& box, PatchReach reach) {
+  // Padded by twice the reach: patches of cells around the box reach in, and spans look ahead only.
   width_ = box.x_end - box.x + 4 * reach.x;
   height_ = box.y_end - box.y + 4 * reach.y;
   const std::size_t size = CellIndex(0, height_, width_);

@@ -43,6 +43,8 @@ std::int64_t Traversability::FromSteps(const PatchPlane& plane, double step_m) c
   return StepGoodness(step_m, params_.HazardHeight_m(), obstacle);
 }
 
+// Whether anything could be said of the patch: enough data, and a plane or what FailedFit allows
+// instead.
 bool Traversability::IsKnown(const PatchPlane& plane, bool step_hazard) const {
   if (plane.marked) return true;
   if (!plane.enough) return false;
@@ -53,6 +55,7 @@ bool Traversability::IsKnown(const PatchPlane& plane, bool step_hazard) const {
   return params_.tests.step || !plane_tests;
 }
 
+// The least goodness of all hazards of the patch, with that hazard's certainty or full certainty.
 CellValue Traversability::Value(const PatchPlane& plane, double step_m) const {
   const GestaltPairParams& pairs = params_.pairs;
   const double h_m = params_.HazardHeight_m();
@@ -95,6 +98,7 @@ void Traversability::Assess(const std::vector<PatchPlane>& planes,
   grid.unknown = Unknown();
   grid.cells.resize(planes.size());
   for (std::size_t i = 0; i < planes.size(); ++i) {
+    // Without a model of the rover nothing can be judged (table 1's unknown-rovers pair).
     grid.cells[i] = params_.rover.modelled ? Value(planes[i], steps_m[i]) : grid.unknown;
   }
   if (params_.tests.border) AddBorders(grid);

@@ -23,6 +23,7 @@ constexpr double kLeastDistance_m = 1e-6;
 // A goal this near to straight behind is on the left, whatever rounding made of it.
 constexpr double kBehind_rad = 1e-9;
 
+// Halves up, where votes are whole numbers.
 double Rounded(double vote, bool whole_numbers) {
   return whole_numbers ? std::floor(vote + 0.5) : vote;
 }
@@ -65,6 +66,7 @@ HazardVote VoteOnPath(const GoodnessGrid& grid, const PoseEstimate& estimate,
 GoalDirection TowardsGoal(const PoseEstimate& estimate, const messages::Goal& goal) {
   const double dx_m = goal.x_m - estimate.x_m;
   const double dy_m = goal.y_m - estimate.y_m;
+  // Positive to the left of straight ahead.
   const double bearing_rad = math::WrapAngle(std::atan2(dy_m, dx_m) - estimate.heading_rad);
   const bool behind = bearing_rad < kBehind_rad - std::numbers::pi;
   return {std::hypot(dx_m, dy_m), behind ? std::numbers::pi : bearing_rad};
@@ -163,6 +165,7 @@ MotionVote ArcVoter::VoteOn(const CandidateMotion& candidate, double waypoint,
                             const GoodnessGrid& grid, const PoseEstimate& estimate,
                             double goal_distance_m) const {
   const std::size_t count =
+      // "Out to min(dist to goal, default length)" (step 4).
       std::min(candidate.points.size(), sampling_.CountWithin(goal_distance_m));
   HazardVote hazard = VoteOnPath(grid, estimate, std::span(candidate.points).first(count),
                                  sampling_.weight, params_.votes.min_allowed_goodness);

@@ -43,6 +43,7 @@ NavigatorDecision PathfinderNavigator::Decide(const NavigatorInput& input) {
   if (params_.time_out_s > 0.0 && input.time_s >= params_.time_out_s) {
     return Finish(NavigatorStatus::kGaveUp);
   }
+  // What the rover feels goes before what it sees.
   if (const auto reaction = reaction_.Decide(input, GoalDistance(input.estimate))) {
     reacting_ = true;
     return *reaction;
@@ -53,6 +54,7 @@ NavigatorDecision PathfinderNavigator::Decide(const NavigatorInput& input) {
     odometer_at_scan_m_ = input.estimate.distance_m;
     return ScanOrGoOn(input);
   }
+  // A report answers a scan, so that the rover stands.
   if (input.report != nullptr) return OnReport(input);
   return Continue(input);
 }
@@ -80,7 +82,10 @@ NavigatorDecision PathfinderNavigator::OnReport(const NavigatorInput& input) {
   return ClassifySides(*input.report, params_).any() ? OnHazard(input) : OnClear(input);
 }
 
+// Rules 2 and 3: turn in place until no hazard is detected, with the extras that parameters switch
+// on.
 NavigatorDecision PathfinderNavigator::OnHazard(const NavigatorInput& input) {
+  // Hazards on the outermost stripes alone leave a gap between them.
   if (params_.threading_m > 0.0 && OnlyOutermostStripes(*input.report)) {
     return BeginStraight(Mode::kThreading, params_.threading_m, input);
   }
@@ -94,12 +99,14 @@ NavigatorDecision PathfinderNavigator::OnHazard(const NavigatorInput& input) {
   facing_goal_ = false;
   if (avoided_turn_rad_ >= params_.turn_give_up_rad) return Finish(NavigatorStatus::kGaveUp);
   const HazardSides sides = ClassifySides(*input.report, params_);
+  // Enclosed on both sides: back off before turning, where the parameters ask for it.
   if (newly_seen && params_.back_off_m > 0.0 && sides.left && sides.right) {
     return BeginStraight(Mode::kBackingOff, params_.back_off_m, input);
   }
   return BeginTurn(Mode::kAvoiding, *avoid_direction_, input);
 }
 
+// Rule 1, after the straight drive that follows a turn.
 NavigatorDecision PathfinderNavigator::OnClear(const NavigatorInput& input) {
   if (avoid_direction_.has_value()) {
     avoid_direction_.reset();
@@ -125,6 +132,7 @@ NavigatorDecision PathfinderNavigator::Continue(const NavigatorInput& input) {
   return BeginScan();
 }
 
+// A turn goes on for turn_increment, or until the rover faces the goal, and ends with a scan.
 NavigatorDecision PathfinderNavigator::ContinueTurn(const NavigatorInput& input) {
   // Positive along the turn; WrapAngle, since headings stay within [-pi, pi].
   const double turned =
@@ -138,6 +146,7 @@ NavigatorDecision PathfinderNavigator::ContinueTurn(const NavigatorInput& input)
   return ScanOrGoOn(input);
 }
 
+// A drive goes on until its length or the scan interval is reached.
 NavigatorDecision PathfinderNavigator::ContinueDrive(const NavigatorInput& input) {
   const double driven = input.estimate.distance_m - anchor_.distance_m;
   if (mode_ == Mode::kBackingOff) {

@@ -24,6 +24,8 @@ bool RightIsClearFor(const HazardReport& report, const PathfinderParams& params)
   return !report.stripe_hazard.back();
 }
 
+// Hazards on both sides: the printed order of the rules turns right, the other choices are
+// assumptions.
 int TurnFromBothSides(const HazardReport& report, double goal_bearing_rad,
                       const PathfinderParams& params) {
   switch (params.both_sides) {

@@ -18,6 +18,7 @@ std::optional<NavigatorDecision> VehicleReaction::Decide(const NavigatorInput& i
   EXPECT(input.vehicle_hazard == nullptr || input.vehicle_hazard->side != HazardSide::kBehind);
   const bool touches =
       input.vehicle_hazard != nullptr && input.vehicle_hazard->kind == VehicleHazardKind::kContact;
+  // What had gone for a tick may come again as something new, see Appeared.
   if (input.vehicle_hazard == nullptr) was_clear_ = true;
   if (!touches) was_released_ = true;
   switch (stage_) {
@@ -57,12 +58,14 @@ std::optional<NavigatorDecision> VehicleReaction::Begin(const NavigatorInput& in
   return Start(Stage::kBackingOff, {MotionKind::kArc, 0.0, -1}, input.estimate);
 }
 
+// Straight back by back_off_m, or until something is touched there.
 std::optional<NavigatorDecision> VehicleReaction::BackOff(const NavigatorInput& input) {
   const double driven_m = input.estimate.distance_m - anchor_.distance_m;
   if (driven_m < params_.back_off_m && !input.touches_behind) return GoOn();
   return Start(Stage::kTurning, {MotionKind::kTurnInPlace, 0.0, turn_direction_}, input.estimate);
 }
 
+// Turns in place by turn_rad; what appears meanwhile starts the reaction again.
 std::optional<NavigatorDecision> VehicleReaction::Turn(const NavigatorInput& input,
                                                        double goal_distance_m) {
   const double turned_rad =
@@ -88,6 +91,7 @@ NavigatorDecision VehicleReaction::Start(Stage stage, const MotionCommand& motio
 
 void VehicleReaction::OnPoseUpdate(const messages::PoseEstimate& before,
                                    const messages::PoseEstimate& after) {
+  // Turned angles are differences of heading: what has been turned stays turned.
   anchor_.heading_rad += after.heading_rad - before.heading_rad;
 }
 

@@ -40,9 +40,12 @@ ConstraintSolver::ConstraintSolver(const RoverParams& params, const terrain::Soi
 void ConstraintSolver::Clear() {
   differential_.impulse = 0.0;
   for (Row& row : stops_) row.impulse = 0.0;
+  // The contacts' impulses are forgotten with the contacts.
   for (Row& row : motors_) row.impulse = 0.0;
 }
 
+// Projected Gauss-Seidel on the velocities: every row starts from its last impulse, then the sweeps
+// go through joints, motors and contacts in a fixed order, so that equal inputs give equal bits.
 void ConstraintSolver::Solve(const DofMatrix& mass_inverse,
                              const messages::PerWheel<double>& wheel_rate_rad_s,
                              LooseRocks* loose_rocks, ContactFinder& finder, Multibody& body) {
@@ -117,6 +120,7 @@ void ConstraintSolver::StartStops(const DofMatrix& mass_inverse, const Multibody
 void ConstraintSolver::StartMotors(const DofMatrix& mass_inverse,
                                    const messages::PerWheel<double>& rate_rad_s) {
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    // A motor holds its rate up to the stall torque: |p| <= torque h.
     motors_[i].target = rate_rad_s[i];
     Start(mass_inverse, motors_[i]);
   }
@@ -141,6 +145,7 @@ void ConstraintSolver::StartContact(const DofMatrix& mass_inverse, const Part& p
   rows.contact = &contact;
   const bool wheel = part.kind == truth::BodyPart::kWheel;
   rows.law =
+      // Laws are those at the loads and slips of the last step, fixed within this one.
       laws_.Of(part, contact, wheel ? spin_rad_s_[static_cast<std::size_t>(contact.part)] : 0.0);
   rows.normal.rock = rows.along.rock = rows.across.rock = rock;
   StartNormal(mass_inverse, part, body, rows);
@@ -213,6 +218,7 @@ void ConstraintSolver::KeepForNextStep(const ContactRows& rows) const {
 
 void ConstraintSolver::Sweep(LooseRocks* loose_rocks) {
   Relax(differential_);
+  // A stop that is not watched has the upper bound 0.
   for (Row& row : stops_) {
     if (row.high > 0.0) Relax(row);
   }

@@ -44,6 +44,7 @@ void ContactFinder::Clear() {
 void ContactFinder::OnRockMoved(int rock) {
   Ellipsoid& ellipsoid = rocks_[static_cast<std::size_t>(rock)];
   const Vector3 before_W = ellipsoid.center_W();
+  // The nearest point moves along with its rock, as a start for the next search.
   ellipsoid = Ellipsoid(terrain_.rocks()[static_cast<std::size_t>(rock)]);
   for (Contact& contact : contacts_) {
     if (contact.other == rock) contact.near_W += ellipsoid.center_W() - before_W;
@@ -111,6 +112,7 @@ void ContactFinder::SetTangents(const math::Transform& X_WB, Contact& contact) c
 
 Vector3 ContactFinder::Support(const Part& part, const math::Transform& X_WB, const Vector3& n_W) {
   Vector3 p_W = X_WB * part.center_B;
+  // Of the parts that meet planes only wheels have an extent; corners are points.
   if (part.core != Core::kCylinder) return p_W;
   const Vector3 axle_W = X_WB.linear().col(1);
   // Sine of the angle by which the axle dips towards the plane.
@@ -176,6 +178,7 @@ void ContactFinder::MeetRock(int index, const math::Transform& X_WB, const Vecto
                              int rock) {
   const Part& part = parts_[static_cast<std::size_t>(index)];
   const Ellipsoid& ellipsoid = rocks_[static_cast<std::size_t>(rock)];
+  // Bounding balls first.
   const double reach_m = part.bounding_radius_m + kFollowedGap_m;
   const double far_m = reach_m + ellipsoid.bounding_radius_m();
   if ((center_W - ellipsoid.center_W()).squaredNorm() > far_m * far_m) return;

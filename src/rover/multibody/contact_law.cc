@@ -21,6 +21,7 @@ ContactLaws::ContactLaws(const RoverParams& params, const terrain::SoilParams& s
 ContactLaw ContactLaws::Of(const Part& part, const Contact& contact, double spin_rad_s) const {
   const bool wheel = part.kind == truth::BodyPart::kWheel;
   if (wheel && contact.IsSoil()) return OnSoil(contact, spin_rad_s);
+  // Rocks and walls, and the body on anything: a spring with Coulomb friction.
   return {.stiffness_N_m = params_.stiffness_N_m,
           .friction = wheel && contact.other >= 0 ? params_.wheel_rock_friction
                                                   : params_.body_rock_friction};

@@ -36,6 +36,7 @@ void LooseRocks::Start(const std::vector<Contact>& contacts) {
     LooseRock* rock = Find(contact.other);
     if (rock == nullptr) {
       const auto& shape = terrain_.rocks()[static_cast<std::size_t>(contact.other)];
+      // A rock that is touched for the first time starts at rest, with no impulse of the soil.
       rocks_.push_back({.index = contact.other,
                         .mass_kg = terrain::RockMass(shape, params_.rock_density_kg_m3)});
       rock = &rocks_.back();
@@ -57,6 +58,8 @@ void LooseRocks::Hold(LooseRock& rock) const {
   // projection.
   const Vector3 wanted_Ns = rock.hold_Ns - rock.mass_kg * rock.v_W_m_s;
   const auto& shape = terrain_.rocks()[static_cast<std::size_t>(rock.index)];
+  // The soil pushes along wanted_Ns, so the rock is pushed the other way; the load is that of this
+  // sweep.
   const double most_Ns = step_s_ * terrain::HoldingForce(shape, params_, gravity_m_s2_,
                                                          rock.load_Ns / step_s_, -wanted_Ns);
   const double size_Ns = wanted_Ns.norm();

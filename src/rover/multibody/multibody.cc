@@ -43,6 +43,7 @@ Multibody::Multibody(const RoverParams& params) : p_RCom_(MakeRoverMasses(params
   BuildLinks(params);
   btMultiBody& body = bullet_->body;
   body.finalizeMultiDof();
+  // Bullet damps by default; all losses here are those of the contacts.
   body.setLinearDamping(0.0);
   body.setAngularDamping(0.0);
   Reset(math::Transform::Identity());
@@ -143,6 +144,7 @@ void Multibody::Accelerate(double gravity_m_s2, double step_s, DofMatrix& mass_i
   }
 }
 
+// Generalized velocities have Bullet's order: chassis angular, linear, then the joints.
 void Multibody::AddVelocity(const DofVector& change) {
   bullet_->body.applyDeltaVeeMultiDof(change.data(), 1.0);
 }

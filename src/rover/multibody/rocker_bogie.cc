@@ -34,6 +34,7 @@ struct Footprint {
 double RiseBelow(const Footprint& area, const math::Transform& X_WR,
                  const terrain::Terrain& terrain) {
   const Vector3 up = X_WR.linear().col(2);
+  // A grid of points no farther apart than kProbe_m, borders included.
   const int nx = static_cast<int>(std::ceil(2.0 * area.half_length_m / kProbe_m));
   const int ny = static_cast<int>(std::ceil(2.0 * area.half_width_m / kProbe_m));
   double rise_m = 0.0;
@@ -107,6 +108,8 @@ void RockerBogie::Place(const math::Pose2& X_WR) {
   UpdateState();
 }
 
+// Wheels braked, the rover sinks onto its contacts; velocities are damped from step to step, which
+// leaves the loads as they are at rest.
 void RockerBogie::Settle() {
   const messages::PerWheel<double> braked{};
   const int steps = static_cast<int>(kSettleTime_s / params_.physics.step_s);
@@ -126,6 +129,7 @@ void RockerBogie::SetSteer(std::size_t wheel, double angle_rad) {
 }
 
 void RockerBogie::Step(const messages::WheelCommand& command) {
+  // Steering follows at its rate limit, without torque.
   const double most_rad = params_.drive.steer_rate_rad_s * step_s();
   for (std::size_t i = 0; i < kWheelCount; ++i) {
     const double limit = steered_[i] ? params_.drive.max_steer_rad : 0.0;
@@ -141,6 +145,8 @@ void RockerBogie::Step(const messages::WheelCommand& command) {
   UpdateState();
 }
 
+// v* = v + h M^-1 f, impulses of all constraints on v*, positions with the new v (semi-implicit
+// Euler).
 void RockerBogie::Advance(const messages::PerWheel<double>& rate_rad_s) {
   const double h = params_.physics.step_s;
   body_.UpdatePoses();
@@ -188,6 +194,7 @@ void RockerBogie::UpdateContacts(const DofVector& velocity) {
   state_.wheel_load_N.fill(0.0);
   const math::Transform X_RW = state_.X_WR.inverse(Eigen::Isometry);
   for (const Contact& contact : finder_.contacts()) {
+    // Mean force over the step: impulse over h.
     const double force_N = contact.impulse_Ns[0] / params_.physics.step_s;
     if (force_N <= 0.0) continue;
     const Part& part = finder_.part(contact.part);

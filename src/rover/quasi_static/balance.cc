@@ -232,6 +232,7 @@ void QuasiStaticBalance::AddStops(const LinkageVector& rates) {
 
 void QuasiStaticBalance::Evaluate(const LinkageVector& rates,
                                   std::vector<RestingContact>& contacts) {
+  // F(w) = Q_gravity - D w + contacts + stops; D is the start of minus its derivative.
   equations_.Reset(gravity_ - damping_.cwiseProduct(rates), damping_);
   torque_Nm_.fill(0.0);
   traction_lags_ = false;

@@ -38,6 +38,8 @@ double Extent(const Part& part, const Linkage::Frame& frame, const Vector3& n_W)
 }
 
 // No more than the gap between a part and a rock: that along one direction.
+// f(n) = n . (c_part - c_rock) - sqrt(n' S n) - extent of the part along n is no more than the gap
+// for any unit n: a cheap way out before the projections.
 double Separation(const Part& part, const Linkage::Frame& frame, const Vector3& center_W,
                   const RockSupport& rock) {
   const Vector3 n_W = GuessNormal(center_W, rock);
@@ -60,6 +62,8 @@ void QuasiStaticContacts::Clear() {
   gathered_ = false;
 }
 
+// Rocks near the rover, kept while it stays within kGatherStep_m: the radius has room for that way
+// twice.
 void QuasiStaticContacts::Gather(const Vector3& p_WR) {
   if (gathered_ && (p_WR - gathered_at_W_).head<2>().squaredNorm() < kGatherStep_m * kGatherStep_m)
     return;
@@ -83,6 +87,7 @@ bool QuasiStaticContacts::MayMeetObstacle(const Vector3& p_WR, double reach_m) {
 }
 
 void QuasiStaticContacts::Update(const Linkage& linkage, double reach_m) {
+  // The last contacts stay at hand: Add looks a pair's load up in them.
   std::swap(contacts_, last_);
   contacts_.clear();
   Gather(linkage.chassis().p_WB);
@@ -95,6 +100,8 @@ void QuasiStaticContacts::Update(const Linkage& linkage, double reach_m) {
   MeetCorners(linkage, reach_m);
 }
 
+// A pair that goes on starts from its last load, which decides stiffness and traction of its first
+// balance.
 void QuasiStaticContacts::Add(const RestingContact& contact) {
   contacts_.push_back(contact);
   for (const RestingContact& before : last_) {
@@ -123,6 +130,8 @@ void QuasiStaticContacts::MeetGround(const Linkage& linkage, std::size_t wheel, 
   const terrain::Ground& ground = terrain_.ground();
   const Vector3 n_W = ground.Normal(center_W.x(), center_W.y());
   const Vector3 p_W = WheelSupport(linkage, wheel, n_W);
+  // Height over the ground times the cosine of the slope: the distance from the tangent plane
+  // there.
   const double gap_m = (p_W.z() - ground.Height(p_W.x(), p_W.y())) * n_W.z();
   if (gap_m > reach_m) return;
   Add({.part = static_cast<int>(wheel),
@@ -138,6 +147,7 @@ void QuasiStaticContacts::MeetWalls(const Linkage& linkage, std::size_t wheel, d
   for (std::size_t i = 0; i < walls.size(); ++i) {
     const Vector3 n_W = -walls[i].normal_W;
     const Vector3 p_W = WheelSupport(linkage, wheel, n_W);
+    // n_W points into the arena, against the wall's own normal: gap = offset - normal . p.
     const double gap_m = walls[i].offset_m + n_W.dot(p_W);
     if (gap_m > reach_m) continue;
     Add({.part = static_cast<int>(wheel),
@@ -161,6 +171,7 @@ void QuasiStaticContacts::MeetRock(const Linkage& linkage, std::size_t wheel, do
   rock.known[wheel] = true;
   const WheelRockGap gap = FindGap(wheel_, center_W, linkage.axle_W(wheel), rock.support, reach_m,
                                    rock.wheel_normal_W[wheel]);
+  // The normal starts the search of the next balance, a few centimetres on.
   rock.wheel_normal_W[wheel] = gap.n_W;
   if (gap.gap_m > reach_m) return;
   Add({.part = static_cast<int>(wheel),
@@ -173,6 +184,7 @@ void QuasiStaticContacts::MeetRock(const Linkage& linkage, std::size_t wheel, do
 
 void QuasiStaticContacts::MeetBody(const Linkage& linkage, double reach_m) {
   const Linkage::Frame& chassis = linkage.chassis();
+  // Hubs are the lowest parts of the body beside the wheels: lower rocks meet wheels only.
   double lowest_m = chassis.p_WB.z() + 1.0;
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
     lowest_m = std::min(lowest_m, linkage.wheel_W(i).z() - hub_radius_m_ - reach_m);
@@ -198,6 +210,7 @@ void QuasiStaticContacts::MeetPart(const Linkage& linkage, std::size_t index, do
   if (Separation(part, frame, center_W, rock.support) > reach_m) return;
   SurfacePoint surface = rock.ellipsoid.Nearest(center_W);
   Vector3 core_W = center_W;
+  // Alternating projections onto core and rock, see ContactFinder::MeetRock.
   for (int i = 0; i < kSweeps; ++i) {
     const Vector3 before_W = surface.point_W;
     core_W = frame.p_WB + frame.R_WB * NearestOnCore(part, frame.R_WB.transpose() *
@@ -228,6 +241,7 @@ void QuasiStaticContacts::MeetCorners(const Linkage& linkage, double reach_m) {
     if (part.meets != Meets::kGroundAndWalls) continue;
     const Vector3 p_W = chassis.p_WB + chassis.R_WB * part.a_B;
     for (std::size_t i = 0; i < walls.size(); ++i) {
+      // A corner is a point without extent.
       const double gap_m = walls[i].offset_m - walls[i].normal_W.dot(p_W);
       if (gap_m > reach_m) continue;
       Add({.part = static_cast<int>(index),

@@ -69,6 +69,7 @@ Linkage::Linkage(const RoverParams& params) {
   // Rockers weigh on their pivots, which the chassis carries; a bogie and its wheels are one lump.
   const double chassis_kg =
       mass.total_kg - 6.0 * mass.wheel_kg - 2.0 * (mass.rocker_kg + mass.bogie_kg);
+  // Chassis and rockers as one lump, at their common centre of mass.
   const double carried_kg = chassis_kg + 2.0 * mass.rocker_kg;
   const Vector3 com_R(mass.chassis_com_x_m, 0.0, mass.chassis_com_z_m);
   lumps_[0] = {kChassis,

@@ -27,6 +27,7 @@ void LinkageEquations::AddStiffness(std::size_t side, double k, const SideVector
     for (int j = 0; j <= i; ++j) stiffness_[i][j] += k * a[i] * a[j];
   }
   const std::size_t bogie = kFirstBogieDof + side;
+  // The bogie's row of k a a'.
   for (int j = 0; j < kShared; ++j) stiffness_[bogie][j] += k * a[kShared] * a[j];
   stiffness_[bogie][bogie] += k * a[kShared] * a[kShared];
 }

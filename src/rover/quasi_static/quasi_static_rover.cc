@@ -67,6 +67,7 @@ QuasiStaticRover::QuasiStaticRover(const RoverParams& params, const terrain::Ter
       contacts_(params.geometry, terrain),
       balance_(params, terrain.ground().soil()) {}
 
+// Above every rock beneath, so that settling only lowers the rover onto them.
 Posture QuasiStaticRover::LiftedPosture(const math::Pose2& X_WR) const {
   const terrain::Ground& ground = terrain_.ground();
   const Vector3 up = ground.Normal(X_WR.x_m, X_WR.y_m);
@@ -96,6 +97,7 @@ void QuasiStaticRover::Place(const math::Pose2& X_WR) {
   posture_ = LiftedPosture(X_WR);
   contacts_.Clear();
   Settle();
+  // A rover that was lifted begins a new stretch.
   stretch_ = {};
   met_steer_rad_ = state_.steer_rad;
   steady_ = false;
@@ -226,6 +228,8 @@ double QuasiStaticRover::StretchTime_s(const messages::PerWheel<double>& rate_ra
   return turn_rad_s * way_s > most_rad ? most_rad / turn_rad_s : way_s;
 }
 
+// One stretch: contacts half a stretch ahead at the last rates, one balance there, and the rates
+// from that balance for the whole stretch (a midpoint rule).
 void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
   const bool same_drive = Like(rate_rad_s, 0.0);
   const bool similar_drive = Like(rate_rad_s, kSimilar);
@@ -244,9 +248,11 @@ void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
     return;
   }
   Balance({rate_rad_s, stretch_.duration_s, lead_s, Freedom::kAll});
+  // From here on RollOn may repeat this balance, which is the same in the rover's frame.
   steady_ = on_level_ground && IsSteady();
   Limit(stretch_.duration_s, kMostMove * params_.quasi_static.settle_distance_m, kMostTurn_rad,
         rates_);
+  // A fall may be longer than a stretch allows: Limit lets the rover fall in several.
   stretch_.to = Moved(posture_, rates_, stretch_.duration_s);
   state_.v_WR_m_s = rates_.head<3>();
   state_.w_WR_rad_s = rates_.segment<3>(3);
@@ -255,6 +261,7 @@ void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
 
 bool QuasiStaticRover::OnLevelGround() const {
   const std::vector<RestingContact>& contacts = contacts_.contacts();
+  // Six wheels on a level plane, and nothing else near: no rock, wall or body contact in reach.
   if (contacts.size() != kWheelCount || !terrain_.ground().IsPlane()) return false;
   return std::all_of(contacts.begin(), contacts.end(), [](const RestingContact& contact) {
     return contact.IsSoil() && contact.n_W.z() == 1.0;
@@ -298,8 +305,10 @@ void QuasiStaticRover::Step(const messages::WheelCommand& command) {
     Plan(command.rate_rad_s);
   }
   stretch_.elapsed_s += left_s;
+  // State between two balances: linear in position, the shorter arc in attitude.
   posture_ = Between(stretch_.from, stretch_.to, stretch_.elapsed_s / stretch_.duration_s);
   for (std::size_t i = 0; i < kWheelCount; ++i) {
+    // Motors hold their rates in this fidelity: the balance takes them as given.
     state_.wheel_angle_rad[i] += step_s() * command.rate_rad_s[i];
   }
   UpdatePosture();

@@ -31,6 +31,7 @@ WheelSoilTable::WheelSoilTable(const WheelSoil& soil, double most_N) : most_N_(m
 
 SoilAnswer WheelSoilTable::At(double load_N) const {
   if (std::isnan(load_N)) throw std::runtime_error("a wheel load is not a number");
+  // Position among the nodes; loads beyond most_N are taken as most_N.
   const double at = kIntervals * std::sqrt(std::clamp(load_N / most_N_, 0.0, 1.0));
   const int index = std::min(static_cast<int>(at), kIntervals - 1);
   const double s = at - index;
