@@ -21,7 +21,7 @@ struct PlaneFit {
   // 1 where all points lie in a line, or in one place.
   double eigen_ratio = 1.0;
 
-  // Angle between the plane and the level, in [0, pi/2].
+  // Returns the angle between the plane and the level, in [0, pi/2].
   double Slope_rad() const {
     return std::atan2(std::sqrt(normal.x() * normal.x() + normal.y() * normal.y()), normal.z());
   }

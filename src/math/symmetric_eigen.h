@@ -81,9 +81,10 @@ inline Pair SquareNorm(const SymmetricMatrixPair& m) {
          2.0 * ((m.xz * m.xz + m.yz * m.yz) + m.xy * m.xy);
 }
 
-// Of `m` with the eigenvalues mu > 0 (axis v) and -mu/2 +- half: the axis of the smallest.
-// half (I - v v^T) - across projects on it. Rounding tilts it towards v where the two others are
-// close, so that part is taken out; where they are equal but for rounding any axis across v serves.
+// Returns, for `m` with the eigenvalues mu > 0 (axis v) and -mu/2 +- half, the axis of the
+// smallest. half (I - v v^T) - across projects on it. Rounding tilts it towards v where the two
+// others are close, so that part is taken out; where they are equal but for rounding any axis
+// across v serves.
 inline PairVector SmallestAcross(const SymmetricMatrixPair& across, Pair half,
                                  const PairVector& v) {
   const auto equal = ~(half > 4e-15);
@@ -93,7 +94,7 @@ inline PairVector SmallestAcross(const SymmetricMatrixPair& across, Pair half,
   return Normalized({axis.x - along * v.x, axis.y - along * v.y, axis.z - along * v.z});
 }
 
-// Of matrices with trace 0 and square norm 6: their eigenvalues are 2 cos(phi + 2 k pi/3) with
+// Solves matrices with trace 0 and square norm 6: their eigenvalues are 2 cos(phi + 2 k pi/3) with
 // cos(3 phi) = det/2. One of them, mu, lies at least 1.7 from both others, is well conditioned, and
 // has the adjugate of m - mu I as projector on its axis v. What m does across v, less its mean
 // there, has the eigenvalues +-half: found as a norm, so that close eigenvalues stay accurate.
@@ -119,12 +120,12 @@ inline SymmetricEigenPair NormalizedEigen(const SymmetricMatrixPair& m) {
 
 }  // namespace internal
 
-// Eigenvalues, each to about 4e-15 of the largest magnitude among the elements, and the axis of the
-// smallest. Elements must be finite and below 1e300; matrices below 1e-300 count as zero. Where the
-// smallest eigenvalue is not simple the axis is one of many: z for a multiple of the identity.
-// Swapping x and y swaps the result bit for bit but where two directions are equally good. About
-// 150 flops and three roots a matrix, about 200 and five where the largest eigenvalue is the one
-// apart.
+// Returns the eigenvalues, each to about 4e-15 of the largest magnitude among the elements, and the
+// axis of the smallest. Elements must be finite and below 1e300; matrices below 1e-300 count as
+// zero. Where the smallest eigenvalue is not simple the axis is one of many: z for a multiple of
+// the identity. Swapping x and y swaps the result bit for bit but where two directions are equally
+// good. Cost: about 150 flops and three roots a matrix, about 200 and five where the largest
+// eigenvalue is the one apart.
 inline SymmetricEigenPair EigenOf(const SymmetricMatrixPair& m) {
   const Pair scale =
       Max(Max(Max(Abs(m.xx), Abs(m.yy)), Max(Abs(m.zz), Abs(m.xy))), Max(Abs(m.xz), Abs(m.yz)));

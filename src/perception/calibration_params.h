@@ -12,12 +12,12 @@ namespace rockyard::perception {
 // Errors of the drive geometry.
 struct DriveCalibrationErrors {
   double wheel_radius_percent = 0.0;  // of all wheels, > 0: believed too large
-  // Of the left wheels against the right ones: half of it added on the left, half taken on the
-  // right.
+  // The error of the left wheels against the right ones: half of it is added on the left, half
+  // taken on the right.
   double wheel_radius_left_right_percent = 0.0;
   double track_percent = 0.0;      // > 0: believed too wide
   double wheelbase_percent = 0.0;  // > 0: believed too long
-  // Of every steered wheel: what is true less what the rover believes.
+  // The offset of every steered wheel: what is true less what the rover believes.
   double steering_offset_rad = 0.0;
 
   void Visit(core::FieldVisitor& v);

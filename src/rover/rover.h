@@ -36,8 +36,8 @@ class Rover {
 // arguments give bit-for-bit equal motion. Rocks are fixed.
 std::unique_ptr<Rover> MakeRover(const RoverParams& params, const terrain::Terrain& terrain);
 
-// The same with rocks that slide when the rover pushes them harder than the soil holds them (see
-// README.md of this folder): Place and Step then move rocks of `terrain`.
+// Makes the same with rocks that slide when the rover pushes them harder than the soil holds them
+// (see README.md of this folder): Place and Step then move rocks of `terrain`.
 std::unique_ptr<Rover> MakeRover(const RoverParams& params,
                                  const terrain::RockHoldingParams& holding,
                                  terrain::Terrain& terrain);

@@ -41,13 +41,13 @@ class LinkTree {
                             .parent = 0,
                             .body = kLeftRocker + offset,
                             .pivot_P = rocker_R});
+    // Frames are parallel at zero angles, so differences of positions in R are vectors of the
+    // parent.
     const int bogie = Add({.name = name + "_bogie",
                            .joint = LinkJoint::kBogie,
                            .index = side,
                            .parent = rocker,
                            .body = kLeftBogie + offset,
-                           // Frames are parallel at zero angles, so differences of positions in R
-                           // are vectors of the parent.
                            .pivot_P = bogie_R - rocker_R});
     for (std::size_t axle = 0; axle < kAxles.size(); ++axle) {
       const std::size_t wheel = kAxles.size() * side + axle;

@@ -49,8 +49,8 @@ std::vector<double> ImageReadout::Photoelectrons(const RenderedRow& row, int fir
   for (const RenderedRow::LaserPixel& laser : row.lasers) {
     if (group_of[static_cast<std::size_t>(laser.laser)] != name.group) continue;
     const double z = speckle.At(row.row, first_column + laser.pixel);
+    // Speckle multiplies the laser's light alone.
     mean_e[static_cast<std::size_t>(laser.pixel)] +=
-        // Speckle multiplies the laser's light alone.
         laser.rate_e_s * exposure_s * std::max(0.0, 1.0 + speckle_contrast_ * z);
   }
   return mean_e;

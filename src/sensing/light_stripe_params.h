@@ -75,7 +75,8 @@ struct LightStripeParams {
   double outlier_persistence = 0.0;
   double column_noise_px = 0.0;
 
-  // From light to images; the geometric fidelity does not look at them.
+  // The image fidelity goes from light to images by these; the geometric fidelity does not look at
+  // them.
   LaserParams laser;
   ImagerParams imager;
 

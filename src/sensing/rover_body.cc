@@ -98,8 +98,7 @@ RoverBody::Entry RoverBody::Enter(const Wheel& wheel, const Vector3& origin_R,
     const double enter_m = (-b - root) / a;
     const Vector3 rim = p + enter_m * direction_R;
     inside.Clip(enter_m, (-b + root) / a, Vector3(rim.x(), 0.0, rim.z()) / wheel.radius_m);
-    // Along the axle, outside the cylinder.
-  } else if (c > 0.0) {
+  } else if (c > 0.0) {  // along the axle, outside the cylinder
     return {};
   }
   if (!inside.IsEntered()) return {};

@@ -7,7 +7,7 @@
 
 namespace rockyard::sensing {
 
-// Columns of an image row, as real numbers; empty where first > last.
+// A span of columns of an image row, as real numbers; empty where first > last.
 struct ColumnSpan {
   double first = 1.0;
   double last = 0.0;

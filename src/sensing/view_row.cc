@@ -44,8 +44,8 @@ ViewRow MakeViewRow(const messages::StripeCamera& camera, const RoverBody& body,
   view.first_column = first_column;
   const math::Vector3 eye_R = camera.X_RC.translation();
   for (int edge = 0; edge <= columns; ++edge) {
+    // Columns count from pixel middles: edges lie half a column beside.
     const math::Vector3 ray_C =
-        // Columns count from pixel middles: edges lie half a column beside.
         vision::PixelRay(camera, {first_column + edge - 0.5, static_cast<double>(row)});
     view.edge_R.emplace_back(camera.X_RC.linear() * ray_C);
     view.body_m.push_back(body.Distance(eye_R, view.edge_R.back()));

@@ -103,8 +103,8 @@ Estimate Estimated(const FactorialFailures& failures, const Contrast& contrast, 
     values.squares += value * value;
     if (!failures.clusters.empty()) clustered.Add(failures.clusters[t], value);
   }
+  // Dependent trials enter as the fewer independent ones that say as much.
   return {values.sum / values.n,
-          // Dependent trials enter as the fewer independent ones that say as much.
           AgrestiMinInterval(failures.clusters.empty() ? values : clustered.Effective(confidence),
                              confidence)};
 }

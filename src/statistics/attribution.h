@@ -24,7 +24,8 @@ using Combination = std::uint32_t;
 struct FactorialFailures {
   std::vector<std::string> functions;
   std::vector<std::vector<std::uint8_t>> failed;
-  // By trial: those of one cluster share a rock field. Empty: all trials are independent.
+  // The cluster of each trial: those of one cluster share a rock field. Where this is empty, all
+  // trials are independent.
   std::vector<std::size_t> clusters = {};
 };
 

@@ -10,10 +10,10 @@ namespace rockyard::statistics {
 
 struct Row {
   ComparedValue value;
-  // Power at a level; empty for a row that is decided (or left open) without a p-value.
+  // The power at a level; empty for a row that is decided (or left open) without a p-value.
   std::function<double(double)> power;
-  // Two-sided interval of the simulated value at a confidence; empty for a row that is not judged
-  // by a tolerance.
+  // The two-sided interval of the simulated value at a confidence; empty for a row that is not
+  // judged by a tolerance.
   std::function<Interval(double)> interval;
 };
 

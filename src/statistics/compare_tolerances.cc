@@ -149,8 +149,8 @@ Interval CrossingInterval(const RateCurve& rates, const PublishedValue& publishe
   std::vector<std::pair<double, double>> upper;
   std::vector<std::pair<double, double>> lower;
   for (const auto& [x, values] : rates) {
+    // Each end is taken at half of the error.
     const Interval interval =
-        // Each end is taken at half of the error.
         RateInterval(values, Independent(published), 1.0 - 0.5 * (1.0 - confidence));
     upper.emplace_back(x, interval.high);
     lower.emplace_back(x, interval.low);

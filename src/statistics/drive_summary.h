@@ -43,7 +43,7 @@ struct DriveSummary {
   // "path_ratio", last, is over declared successes only, whether the schema has it or not.
   std::vector<ColumnSummary> columns;
   std::vector<MetricSummary> metrics;  // over all trials
-  // The same over the trials that ended in one way each; empty where none did.
+  // The same metrics over the trials that ended in one way each; empty where none did.
   std::array<std::vector<MetricSummary>, truth::kTrialOutcomeNames.size()> metrics_by_outcome;
 
   std::int64_t outcome(truth::TrialOutcome kind) const {

@@ -19,7 +19,7 @@ struct MeanDifference {
   double difference = 0.0;  // second less first; NaN where either is empty
   double standard_error = 0.0;
   double degrees_of_freedom = 0.0;  // 0: one value or none, so that nothing can be said
-  // Chance of values that agree so well by accident, where nothing scatters (standard_error 0).
+  // The chance of values that agree so well by accident, where nothing scatters (standard_error 0).
   double accident = 1.0;
 
   bool known() const { return degrees_of_freedom > 0.0; }

@@ -18,9 +18,9 @@ struct LayoutCount {
   std::int64_t trials = 0;
 };
 
-// Mean rate, and the correlation of two trials on one layout (0: layouts do not matter; 1: the
+// The mean rate, and the correlation of two trials on one layout (0: layouts do not matter; 1: the
 // layout decides), by the analysis-of-variance estimator (Fleiss 1981), the latter clamped to [0,
-// 1]. NaN correlation when no layout has two trials or there is only one layout.
+// 1]. The correlation is NaN when no layout has two trials or there is only one layout.
 struct LayoutEffect {
   double rate = 0.0;
   double correlation = 0.0;

@@ -35,7 +35,7 @@ struct LogisticFit {
   double intercept = 0.0;
   double slope = 0.0;
   std::array<double, 3> covariance{};  // var(intercept), cov(intercept, slope), var(slope)
-  // The same if trials were independent: the inverse of the information.
+  // The same covariance if trials were independent: the inverse of the information.
   std::array<double, 3> model_covariance{};
   std::int64_t clusters = 0;    // 0: trials are independent, and both covariances are equal
   double log_likelihood = 0.0;  // without the binomial coefficients

@@ -20,8 +20,8 @@ struct Disc {
 // The discs that are placed so far, and where the next one may go.
 class Placement {
  public:
-  // With a mirror line h, discs must keep to |y| <= h. Then none overlaps its own mirror image
-  // about y = +-h, and so no image of another one either.
+  // Where there is a mirror line h, discs must keep to |y| <= h. Then none overlaps its own mirror
+  // image about y = +-h, and so no image of another one either.
   Placement(const Rectangle& layout, const Course& course, double clear_radius_m,
             std::optional<double> mirror_line_m);
 

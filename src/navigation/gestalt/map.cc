@@ -133,9 +133,9 @@ void GestaltMap::Add(const messages::PointCloud& cloud, const math::Transform& X
     // The believed pose takes points from R into the map's frame, the world as estimated.
     const math::Vector3 p_WP_W = X_WR * p_RP_R;
     // Written so that coordinates that are not numbers fail.
+    // Heights are bounded so that the exact sums of a cell cannot run over.
     const bool sound =
         std::abs(p_WP_W.x()) <= 2.0 * kFarthest_m && std::abs(p_WP_W.y()) <= 2.0 * kFarthest_m &&
-        // Heights are bounded so that the exact sums of a cell cannot run over.
         std::abs(p_WP_W.z() - z_R) <= kLargestHeight_m && std::abs(p_WP_W.z()) <= kFarthest_m;
     if (sound) AddPoint(p_WP_W);
   }

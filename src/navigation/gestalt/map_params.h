@@ -130,7 +130,7 @@ struct GestaltMapParams {
   double HazardHeight_m() const;
   // Side of the square that stands for the vehicle.
   double PatchSide_m() const;
-  // Distance from the rover beyond which nothing is known in some direction.
+  // Returns the distance from the rover, m, beyond which nothing is known in some direction.
   double Reach_m() const;
 
   void Visit(core::FieldVisitor& v);

@@ -164,8 +164,8 @@ std::vector<MotionVote> ArcVoter::VoteOnArcs(const std::vector<CandidateMotion>&
 MotionVote ArcVoter::VoteOn(const CandidateMotion& candidate, double waypoint,
                             const GoodnessGrid& grid, const PoseEstimate& estimate,
                             double goal_distance_m) const {
+  // "Out to min(dist to goal, default length)" (step 4).
   const std::size_t count =
-      // "Out to min(dist to goal, default length)" (step 4).
       std::min(candidate.points.size(), sampling_.CountWithin(goal_distance_m));
   HazardVote hazard = VoteOnPath(grid, estimate, std::span(candidate.points).first(count),
                                  sampling_.weight, params_.votes.min_allowed_goodness);

@@ -144,8 +144,8 @@ void ConstraintSolver::StartContact(const DofMatrix& mass_inverse, const Part& p
   ContactRows& rows = contacts_[contact_count_++];
   rows.contact = &contact;
   const bool wheel = part.kind == truth::BodyPart::kWheel;
+  // Laws are those at the loads and slips of the last step, fixed within this one.
   rows.law =
-      // Laws are those at the loads and slips of the last step, fixed within this one.
       laws_.Of(part, contact, wheel ? spin_rad_s_[static_cast<std::size_t>(contact.part)] : 0.0);
   rows.normal.rock = rows.along.rock = rows.across.rock = rock;
   StartNormal(mass_inverse, part, body, rows);

@@ -76,7 +76,8 @@ class QuasiStaticBalance {
     double most_N = 0.0;
     double shear_ratio = 0.0;  // 0: Coulomb
     double resistance_N = 0.0;
-    // Of the last evaluation: stiffness across the normal and of the motion resistance, N s/m.
+    // These are of the last evaluation: stiffness across the normal and of the motion resistance, N
+    // s/m.
     bool acts = false;
     double k_aa = 0.0, k_ab = 0.0, k_bb = 0.0;
     double k_axle = 0.0;
@@ -113,7 +114,7 @@ class QuasiStaticBalance {
   const double stop_stiffness_Nm_;
   LinkageVector free_damping_;
 
-  // Of the balance at hand.
+  // These are of the balance at hand.
   Posture posture_;
   double step_s_ = 0.0;
   double rim_speed_m_s_ = 0.0;  // largest
