@@ -18,9 +18,10 @@
 #include "batch/parallel_tasks.h"
 #include "batch/trial_hash.h"
 #include "core/error.h"
+#include "replay/trace_npz.h"
 #include "report/atomic_file.h"
 #include "report/trace_csv.h"
-#include "report/trace_npz.h"
+#include "report/trace_view.h"
 #include "scenario/sweep.h"
 
 namespace rockyard::app {
@@ -216,10 +217,10 @@ class TraceWriter {
 
 std::string TraceBytes(const scenario::Scenario& scenario, const std::string& cell,
                        const DriveRecording& recording, TraceFormat format) {
-  const report::TracedTrial& traced = recording.traced;
+  const truth::TracedTrial& traced = recording.traced;
   if (format == TraceFormat::kCsv) return report::TraceCsv(traced.trace);
-  const std::vector<report::ReplayPose> poses = PosesOf(scenario, traced.trace);
-  return report::TraceNpz({.traced = traced,
+  const std::vector<replay::ReplayPose> poses = PosesOf(scenario, traced.trace);
+  return replay::TraceNpz({.traced = traced,
                            .poses = poses,
                            .scans = recording.scans,
                            .steps = recording.steps,

@@ -21,7 +21,7 @@ class Recorder {
                                                       scenario.drive.perception.calibration)) {}
 
   DriveRecording Run(std::uint64_t seed, std::uint64_t trial) {
-    report::TracedTrial& traced = recording_.traced;
+    truth::TracedTrial& traced = recording_.traced;
     traced.scenario = scenario_.name;
     traced.seed = seed;
     traced.goal = {scenario_.drive.course.goal_x_m, scenario_.drive.course.goal_y_m};
@@ -38,7 +38,7 @@ class Recorder {
   double now_s() const { return recording_.traced.trace.now_s(); }
 
   void OnScan(const trial::WatchedScan& watched) {
-    report::ReplayScan scan{.time_s = now_s(),
+    replay::ReplayScan scan{.time_s = now_s(),
                             .pose = math::ToPose2(watched.X_WR),
                             .points = {},
                             .hazards = HazardsOf(watched).stripe_hazard};
@@ -52,7 +52,7 @@ class Recorder {
   }
 
   void AddPoint(const trial::WatchedScan& watched, std::size_t row, std::size_t stripe,
-                report::ReplayScan& scan) const {
+                replay::ReplayScan& scan) const {
     const messages::StripePixel& pixel = watched.scan.pixels[row][stripe];
     if (!pixel.detected) return;
     const auto p_RoP_R = triangulator_.Point(row, stripe, pixel.column_px);
@@ -62,7 +62,7 @@ class Recorder {
   }
 
   void OnStep(const trial::WatchedStep& watched) {
-    report::ReplayStep step{.time_s = now_s(),
+    replay::ReplayStep step{.time_s = now_s(),
                             .pose = math::ToPose2(watched.X_WR),
                             .view = watched.view,
                             .points_W = {}};
@@ -91,13 +91,13 @@ DriveRecording RecordDrive(const scenario::Scenario& scenario, std::uint64_t see
   return Recorder(scenario).Run(seed, trial);
 }
 
-std::vector<report::ReplayPose> PosesOf(const scenario::Scenario& scenario,
+std::vector<replay::ReplayPose> PosesOf(const scenario::Scenario& scenario,
                                         const truth::Trace& trace) {
   const std::vector<rover::Link> links = rover::MakeLinks(scenario.drive.rover.geometry);
-  std::vector<report::ReplayPose> poses;
+  std::vector<replay::ReplayPose> poses;
   poses.reserve(trace.samples.size() + trace.rests.size());
   const auto add = [&](const truth::TraceSample& sample, bool set_back) {
-    report::ReplayPose pose{sample, {}, set_back};
+    replay::ReplayPose pose{sample, {}, set_back};
     for (const rover::Link& link : links) {
       if (link.parent >= 0) pose.joint_rad.push_back(rover::JointAngle(link, sample.posture));
     }

@@ -4,17 +4,17 @@
 #include <cstdint>
 #include <vector>
 
-#include "report/replay_data.h"
-#include "report/trace_view.h"
+#include "replay/data.h"
 #include "scenario/scenario.h"
+#include "truth/traced_trial.h"
 
 namespace rockyard::app {
 
 // The course of one drive, and what the rover saw and chose on the way.
 struct DriveRecording {
-  report::TracedTrial traced;
-  std::vector<report::ReplayScan> scans;
-  std::vector<report::ReplayStep> steps;
+  truth::TracedTrial traced;
+  std::vector<replay::ReplayScan> scans;
+  std::vector<replay::ReplayStep> steps;
 };
 
 // Most points of one step that are kept, evenly spread over those that the look gave.
@@ -27,7 +27,7 @@ DriveRecording RecordDrive(const scenario::Scenario& scenario, std::uint64_t see
                            std::uint64_t trial);
 
 // Every moment of the recording in the order of time, with the angles of the rover's links.
-std::vector<report::ReplayPose> PosesOf(const scenario::Scenario& scenario,
+std::vector<replay::ReplayPose> PosesOf(const scenario::Scenario& scenario,
                                         const truth::Trace& trace);
 
 }  // namespace rockyard::app

@@ -8,7 +8,7 @@
 
 namespace rockyard::app {
 
-std::string PlanView(const scenario::Scenario& scenario, const report::TracedTrial& traced) {
+std::string PlanView(const scenario::Scenario& scenario, const truth::TracedTrial& traced) {
   const terrain::Rectangle all = terrain::DrivableBounds(scenario.drive.terrain.arena);
   const report::TraceDrawing drawing =
       report::DrawTrace(traced, {all.x_min_m, all.x_max_m, all.y_min_m, all.y_max_m});

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "report/trace_view.h"
 #include "scenario/scenario.h"
+#include "truth/traced_trial.h"
 
 namespace rockyard::app {
 
@@ -12,6 +12,6 @@ namespace rockyard::app {
 // of rocks, true path solid, dead-reckoned path dotted, filled circles on both where obstacles were
 // detected, an x at start and goal. Rocks lie where they lay at the start. Cost: that of building
 // the terrain.
-std::string PlanView(const scenario::Scenario& scenario, const report::TracedTrial& traced);
+std::string PlanView(const scenario::Scenario& scenario, const truth::TracedTrial& traced);
 
 }  // namespace rockyard::app

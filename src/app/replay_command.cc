@@ -99,7 +99,7 @@ ExitCode WritePage(const ReplayOptions& options) {
   const std::vector<AskedFile> outputs = OutputsOf(options, source);
   CheckOutputs(options, outputs);
   const ReplayedTrial replayed = ReplayTrial(source, options.request.trial);
-  const report::ReplayData& data = replayed.data;
+  const replay::ReplayData& data = replayed.data;
   Print(fmt::format("  {}\n", report::Printable(fmt::format("{}: {}, {}", data.title,
                                                             truth::Name(data.record.outcome),
                                                             data.record.detail))));

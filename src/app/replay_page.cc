@@ -19,12 +19,12 @@ namespace {
 
 // What the motion tells beyond the events of the trace: where turns in place and stalls begin, and
 // a simulator fault, which the drive does not live to tell.
-std::vector<truth::TraceEvent> EventsOf(const report::TracedTrial& traced,
-                                        const std::vector<report::ReplayPose>& poses) {
+std::vector<truth::TraceEvent> EventsOf(const truth::TracedTrial& traced,
+                                        const std::vector<replay::ReplayPose>& poses) {
   std::vector<truth::TraceEvent> events = traced.trace.events;
   std::string before;
   double since_s = 0.0;  // the end of the stretch before
-  for (const report::ReplayPose& pose : poses) {
+  for (const replay::ReplayPose& pose : poses) {
     const std::string& activity = pose.sample.activity;
     if (activity != before && (activity == "turn" || activity == "stall")) {
       events.push_back({since_s, pose.sample.pose, activity, ""});
@@ -44,9 +44,9 @@ std::vector<truth::TraceEvent> EventsOf(const report::TracedTrial& traced,
 
 ReplayedTrial ReplayTrial(const TrialSource& source, std::uint64_t trial) {
   DriveRecording recording = RecordDrive(source.scenario, source.seed, trial);
-  const report::TracedTrial& traced = recording.traced;
+  const truth::TracedTrial& traced = recording.traced;
   ReplayedTrial replayed;
-  report::ReplayData& data = replayed.data;
+  replay::ReplayData& data = replayed.data;
   data.title = fmt::format("{}, seed {}, trial {}", source.scenario.name, source.seed, trial);
   data.scenario = source.scenario.name;
   data.cell = source.cell;
@@ -72,7 +72,7 @@ ReplayedTrial ReplayTrial(const TrialSource& source, std::uint64_t trial) {
 }
 
 std::string ReplayPayload(const ReplayedTrial& replayed) {
-  return report::ReplayJson(replayed.data);
+  return replay::ReplayJson(replayed.data);
 }
 
 bool WriteReplayPage(const TrialSource& source, std::uint64_t trial,

@@ -6,13 +6,13 @@
 #include <string>
 
 #include "app/trial_source.h"
-#include "report/replay_data.h"
+#include "replay/data.h"
 
 namespace rockyard::app {
 
 // A trial that was driven again: all that can be shown of it.
 struct ReplayedTrial {
-  report::ReplayData data;
+  replay::ReplayData data;
   std::string plan_svg;  // plan view in the manner of Matthies 1995, figure 16
 };
 

@@ -18,8 +18,8 @@
 namespace rockyard::app {
 namespace {
 
-using report::ReplayShape;
-using report::ShapeKind;
+using replay::ReplayShape;
+using replay::ShapeKind;
 
 constexpr double kFinestStep_m = 0.1;
 constexpr double kPlaneStep_m = 0.5;
@@ -39,17 +39,17 @@ terrain::Rectangle SceneBounds(const scenario::Scenario& scenario, const truth::
 }
 
 // The goal that the rover was told, which a fault's record does not hold.
-messages::Goal ToldGoal(const report::TracedTrial& traced) {
+messages::Goal ToldGoal(const truth::TracedTrial& traced) {
   const auto x = statistics::ColumnIndex(traced.schema, "told_goal_x_m");
   const auto y = statistics::ColumnIndex(traced.schema, "told_goal_y_m");
   if (!x || !y || traced.record.values.empty()) return traced.goal;
   return {traced.record.values.at(*x), traced.record.values.at(*y)};
 }
 
-report::ReplayCourse CourseOf(const scenario::Scenario& scenario, const report::TracedTrial& traced,
+replay::ReplayCourse CourseOf(const scenario::Scenario& scenario, const truth::TracedTrial& traced,
                               const terrain::Terrain& terrain, const terrain::Rectangle& bounds) {
   const trial::CourseParams& course = scenario.drive.course;
-  report::ReplayCourse shown{
+  replay::ReplayCourse shown{
       .start = {course.start_x_m, course.start_y_m, course.start_heading_rad},
       .goal = traced.goal,
       .goal_radius_m = course.goal_radius_m,
@@ -70,10 +70,10 @@ report::ReplayCourse CourseOf(const scenario::Scenario& scenario, const report::
   return shown;
 }
 
-report::ReplayGround GroundOf(const terrain::Ground& ground, const terrain::Rectangle& bounds) {
+replay::ReplayGround GroundOf(const terrain::Ground& ground, const terrain::Rectangle& bounds) {
   const double width_m = bounds.x_max_m - bounds.x_min_m;
   const double depth_m = bounds.y_max_m - bounds.y_min_m;
-  report::ReplayGround grid{.x0_m = bounds.x_min_m, .y0_m = bounds.y_min_m, .z_m = {}};
+  replay::ReplayGround grid{.x0_m = bounds.x_min_m, .y0_m = bounds.y_min_m, .z_m = {}};
   const auto points = [&](double extent_m) {
     return static_cast<std::size_t>(std::ceil(extent_m / grid.step_m)) + 1;
   };
@@ -108,7 +108,7 @@ std::string_view NameOf(truth::BodyPart part) {
 }
 
 // Nothing for corners, which belong to boxes.
-void AddShape(const rover::Part& part, report::ReplayLink& link) {
+void AddShape(const rover::Part& part, replay::ReplayLink& link) {
   ReplayShape shape{.part = std::string(NameOf(part.kind)), .a_m = part.a_B};
   const math::Vector3 margin = math::Vector3::Constant(part.margin_m);
   switch (part.core) {
@@ -132,7 +132,7 @@ void AddShape(const rover::Part& part, report::ReplayLink& link) {
   link.shapes.push_back(std::move(shape));
 }
 
-terrain::Field BuildField(const scenario::Scenario& scenario, const report::TracedTrial& traced) {
+terrain::Field BuildField(const scenario::Scenario& scenario, const truth::TracedTrial& traced) {
   const core::TrialKey key{traced.seed, static_cast<std::uint32_t>(traced.record.trial)};
   try {
     return terrain::BuildField(scenario.drive.terrain, trial::LayoutKey(scenario.drive, key),
@@ -146,8 +146,8 @@ terrain::Field BuildField(const scenario::Scenario& scenario, const report::Trac
 
 }  // namespace
 
-void AddScene(const scenario::Scenario& scenario, const report::TracedTrial& traced,
-              report::ReplayData& data) {
+void AddScene(const scenario::Scenario& scenario, const truth::TracedTrial& traced,
+              replay::ReplayData& data) {
   const terrain::Field field = BuildField(scenario, traced);
   const terrain::Rectangle bounds = SceneBounds(scenario, traced.trace);
   data.course = CourseOf(scenario, traced, field.terrain, bounds);
@@ -157,11 +157,11 @@ void AddScene(const scenario::Scenario& scenario, const report::TracedTrial& tra
   }
 }
 
-std::vector<report::ReplayLink> LinksOf(const scenario::Scenario& scenario) {
+std::vector<replay::ReplayLink> LinksOf(const scenario::Scenario& scenario) {
   const std::vector<rover::Part> parts = rover::MakeParts(scenario.drive.rover.geometry);
-  std::vector<report::ReplayLink> shown;
+  std::vector<replay::ReplayLink> shown;
   for (const rover::Link& link : rover::MakeLinks(scenario.drive.rover.geometry)) {
-    report::ReplayLink& to = shown.emplace_back(report::ReplayLink{.name = link.name,
+    replay::ReplayLink& to = shown.emplace_back(replay::ReplayLink{.name = link.name,
                                                                    .parent = link.parent,
                                                                    .pivot_P = link.pivot_P,
                                                                    .axis = link.axis,

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/drive_recording.h"
-#include "report/replay_data.h"
+#include "replay/data.h"
 #include "scenario/scenario.h"
 
 namespace rockyard::app {
@@ -12,10 +12,10 @@ inline constexpr std::size_t kMostHeights = 40000;
 
 // Fills course, ground and rocks as they lay at the start. Throws core::UserError where the terrain
 // cannot be built, which is a simulator fault of the trial.
-void AddScene(const scenario::Scenario& scenario, const report::TracedTrial& traced,
-              report::ReplayData& data);
+void AddScene(const scenario::Scenario& scenario, const truth::TracedTrial& traced,
+              replay::ReplayData& data);
 
 // The links of the scenario's rover with the shapes that the simulation collides.
-std::vector<report::ReplayLink> LinksOf(const scenario::Scenario& scenario);
+std::vector<replay::ReplayLink> LinksOf(const scenario::Scenario& scenario);
 
 }  // namespace rockyard::app

@@ -15,6 +15,7 @@
 #include "batch/scenario_difference.h"
 #include "batch/trial_hash.h"
 #include "core/error.h"
+#include "core/json_pieces.h"
 #include "core/provenance.h"
 #include "report/page_data.h"
 #include "scenario/load.h"
@@ -226,7 +227,7 @@ class Builder {
   const ReportRequest& request_;
   PublishedTables published_;
   std::vector<StoredRun> plain_;  // that are no cells of a sweep
-  std::vector<report::JsonObject> runs_;
+  std::vector<core::JsonObject> runs_;
   std::vector<std::string> sweeps_;
   std::vector<report::PageComparison> comparisons_;
   std::vector<WorstTrial> worst_;

@@ -40,7 +40,7 @@ void CheckOutputs(const StoryOptions& options) {
 
 void WriteOutputs(const StoryOptions& options, const TrialSource& source,
                   const DriveRecording& recording) {
-  const report::TracedTrial& traced = recording.traced;
+  const truth::TracedTrial& traced = recording.traced;
   if (!options.csv.empty()) {
     report::WriteFileAtomically(options.csv, report::TraceCsv(traced.trace));
     Print(fmt::format("  samples and events in {}\n", options.csv));
@@ -60,7 +60,7 @@ ExitCode Trace(const StoryOptions& options) {
   CheckOutputs(options);
   const TrialSource source = FindTrial(options.request);
   const DriveRecording recording = RecordDrive(source.scenario, source.seed, options.request.trial);
-  const report::TracedTrial& traced = recording.traced;
+  const truth::TracedTrial& traced = recording.traced;
   Print(report::TraceStory(traced,
                            options.all ? report::StoryLength::kAll : report::StoryLength::kFolded));
   const ExitCode exit_code =

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 #include "core/check.h"
 #include "core/json_text.h"
@@ -13,8 +14,10 @@ namespace {
 
 using Type = JsonValue::Type;
 
-std::string Quote(const std::string& text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+// Most texts are: they need no library.
+bool StandsAsItIs(std::string_view text) {
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; });
 }
 
 // Reals keep a point or an exponent, so that they read back as reals.
@@ -34,7 +37,7 @@ std::string PlainText(const JsonValue& value) {
     case Type::kReal:
       return RealText(value.number());
     case Type::kText:
-      return Quote(value.text());
+      return QuoteJson(value.text());
     default:
       return "null";
   }
@@ -42,49 +45,106 @@ std::string PlainText(const JsonValue& value) {
 
 bool IsPlain(const JsonValue& value) { return !value.Is(Type::kList) && !value.Is(Type::kObject); }
 
-void Append(const JsonValue& value, int depth, std::string& out);
+// What stands between the values of a list or an object.
+enum class Gap { kNothing, kBlank, kLine };
 
-void AppendList(const JsonValue::List& list, int depth, std::string& out) {
-  const bool one_line = std::all_of(list.begin(), list.end(), IsPlain);
-  out += '[';
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    if (i > 0) out += one_line ? ", " : ",";
-    if (!one_line) out += '\n' + std::string(2 * (depth + 1), ' ');
-    Append(list[i], depth + 1, out);
+// One list or object: its brackets and gaps.
+class Level {
+ public:
+  Level(char open, char close, int depth, Gap gap, std::string& out)
+      : close_(close), depth_(depth), gap_(gap), out_(out) {
+    out_ += open;
   }
-  if (!one_line) out += '\n' + std::string(2 * depth, ' ');
-  out += ']';
-}
 
-void AppendObject(const JsonValue::Members& members, int depth, std::string& out) {
-  if (members.empty()) {
-    out += "{}";
-    return;
+  void BeginValue() {
+    if (!empty_) out_ += gap_ == Gap::kBlank ? ", " : ",";
+    empty_ = false;
+    if (gap_ == Gap::kLine) BreakLine(depth_ + 1);
   }
-  out += '{';
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    if (i > 0) out += ',';
-    out += '\n' + std::string(2 * (depth + 1), ' ') + Quote(members[i].key) + ": ";
-    Append(members[i].value, depth + 1, out);
-  }
-  out += '\n' + std::string(2 * depth, ' ') + '}';
-}
 
-void Append(const JsonValue& value, int depth, std::string& out) {
-  if (value.Is(Type::kList)) {
-    AppendList(value.list(), depth, out);
-  } else if (value.Is(Type::kObject)) {
-    AppendObject(value.members(), depth, out);
-  } else {
-    out += PlainText(value);
+  void End() {
+    if (gap_ == Gap::kLine && !empty_) BreakLine(depth_);
+    out_ += close_;
   }
-}
+
+ private:
+  void BreakLine(int depth) {
+    out_ += '\n';
+    out_.append(2 * static_cast<std::size_t>(depth), ' ');
+  }
+
+  char close_;
+  int depth_;
+  Gap gap_;
+  std::string& out_;
+  bool empty_ = true;
+};
+
+// What a text is for, which decides on plain lists and on the digits of reals.
+enum class TextUse { kReading, kResults };
+
+class TextWriter {
+ public:
+  TextWriter(TextUse use, int levels, std::string& out) : use_(use), levels_(levels), out_(out) {}
+
+  void Append(const JsonValue& value, int depth = 0) {
+    if (value.Is(Type::kList)) {
+      AppendList(value.list(), depth);
+    } else if (value.Is(Type::kObject)) {
+      AppendObject(value.members(), depth);
+    } else if (value.Is(Type::kReal) && use_ == TextUse::kResults) {
+      out_ += nlohmann::json(value.number()).dump();
+    } else {
+      out_ += PlainText(value);
+    }
+  }
+
+ private:
+  Gap GapAt(int depth) const { return depth < levels_ ? Gap::kLine : Gap::kNothing; }
+
+  void AppendList(const JsonValue::List& list, int depth) {
+    const bool one_line =
+        use_ == TextUse::kReading && std::all_of(list.begin(), list.end(), IsPlain);
+    Level level('[', ']', depth, one_line ? Gap::kBlank : GapAt(depth), out_);
+    for (const JsonValue& value : list) {
+      level.BeginValue();
+      Append(value, depth + 1);
+    }
+    level.End();
+  }
+
+  void AppendObject(const JsonValue::Members& members, int depth) {
+    Level level('{', '}', depth, GapAt(depth), out_);
+    for (const JsonMember& member : members) {
+      level.BeginValue();
+      out_ += QuoteJson(member.key);
+      out_ += GapAt(depth) == Gap::kLine ? ": " : ":";
+      Append(member.value, depth + 1);
+    }
+    level.End();
+  }
+
+  TextUse use_;
+  int levels_;
+  std::string& out_;
+};
 
 }  // namespace
 
+std::string QuoteJson(std::string_view text) {
+  if (StandsAsItIs(text)) return fmt::format("\"{}\"", text);
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string SpreadJson(const JsonValue& value, int levels) {
+  std::string out;
+  TextWriter(TextUse::kResults, levels, out).Append(value);
+  return out;
+}
+
 std::string DumpJson(const JsonValue& value) {
   std::string out;
-  Append(value, 0, out);
+  TextWriter(TextUse::kReading, kAllLevels, out).Append(value);
   out += '\n';
   return out;
 }
@@ -93,7 +153,7 @@ std::string Abbreviate(const JsonValue& value) {
   constexpr std::size_t kLongest = 60;
   if (!IsPlain(value)) return std::string(Describe(value.type()));
   if (value.Is(Type::kText) && value.text().size() > kLongest) {
-    return Quote(value.text().substr(0, kLongest) + "...");
+    return QuoteJson(value.text().substr(0, kLongest) + "...");
   }
   return PlainText(value);
 }

@@ -1,7 +1,9 @@
-// JSON text to values and back.
+// JSON text to values and back. Documents that are too large for a tree of values are written with
+// json_pieces.h.
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -24,6 +26,19 @@ JsonValue ParseJson(std::string_view text, std::string_view source_name,
 // Pretty text, members in their order, lists of plain values on one line, doubles as the shortest
 // decimal that reads back to the same bits. Numbers must be finite. Ends with a newline.
 std::string DumpJson(const JsonValue& value);
+
+// A text as JSON, with its quotes. What is no UTF-8 becomes U+FFFD, one for each bad byte or
+// sequence.
+std::string QuoteJson(std::string_view text);
+
+inline constexpr int kAllLevels = std::numeric_limits<int>::max();
+
+// Text for result files: the outer `levels` of lists and objects have a line for each value, what
+// lies deeper stands without blanks. Reals read back to the same bits; they keep the digits that
+// result files have always had (Grisu2), of which 1 number in 2500 has one more than the shortest
+// decimal. What is not finite becomes null. No newline at the end.
+std::string SpreadJson(const JsonValue& value, int levels = kAllLevels);
+inline std::string CompactJson(const JsonValue& value) { return SpreadJson(value, 0); }
 
 // One line for messages, cut to about 60 characters.
 std::string Abbreviate(const JsonValue& value);

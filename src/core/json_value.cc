@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace rockyard::core {
 
 JsonValue::JsonValue(bool value) : data_(value) {}
-JsonValue::JsonValue(std::int64_t value) : data_(value) {}
 JsonValue::JsonValue(double value) : data_(value) {}
 JsonValue::JsonValue(std::string value) : data_(std::move(value)) {}
 JsonValue::JsonValue(std::string_view value) : data_(std::string(value)) {}
@@ -17,6 +17,12 @@ JsonValue::JsonValue(List values) : data_(std::move(values)) {}
 JsonValue JsonValue::Object() {
   JsonValue value;
   value.data_ = Members();
+  return value;
+}
+
+JsonValue JsonValue::Object(std::initializer_list<JsonMember> members) {
+  JsonValue value;
+  value.data_ = Members(members);
   return value;
 }
 
@@ -44,12 +50,16 @@ JsonValue& JsonValue::Set(std::string_view key, JsonValue value) {
   }
   if (!Is(Type::kObject)) data_ = Members();
   auto& members = std::get<Members>(data_);
-  members.push_back({std::string(key), std::move(value)});
+  members.emplace_back(std::string(key), std::move(value));
   return members.back().value;
 }
 
 void JsonValue::Append(std::string key, JsonValue value) {
-  std::get<Members>(data_).push_back({std::move(key), std::move(value)});
+  std::get<Members>(data_).emplace_back(std::move(key), std::move(value));
+}
+
+void JsonValue::Update(JsonValue object) {
+  for (JsonMember& member : object.members()) Set(member.key, std::move(member.value));
 }
 
 void JsonValue::Erase(std::string_view key) {
@@ -70,6 +80,10 @@ void JsonValue::Merge(const JsonValue& over) {
       Set(member.key, member.value);
     }
   }
+}
+
+JsonValue NumberOrNull(double value) {
+  return std::isfinite(value) ? JsonValue(value) : JsonValue();
 }
 
 std::optional<std::vector<std::string>> TextsIn(const JsonValue& list) {

@@ -1,7 +1,9 @@
 // A JSON value in memory: what the archive reads from and writes to.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,14 +26,20 @@ class JsonValue {
 
   JsonValue() = default;
   explicit JsonValue(bool value);
-  explicit JsonValue(std::int64_t value);
   explicit JsonValue(double value);
   explicit JsonValue(std::string value);
   explicit JsonValue(std::string_view value);
   explicit JsonValue(const char* value);
   explicit JsonValue(List values);
+  // Up to the largest std::int64_t.
+  template <std::integral Integer>
+  requires(!std::same_as<Integer, bool>) explicit JsonValue(Integer value)
+      : data_(static_cast<std::int64_t>(value)) {}
 
   static JsonValue Object();
+  // Of members in their order; no two may have the same key. They are copied: large values are
+  // better moved in with Set.
+  static JsonValue Object(std::initializer_list<JsonMember> members);
 
   Type type() const { return static_cast<Type>(data_.index()); }
   bool Is(Type wanted) const { return type() == wanted; }
@@ -58,6 +66,9 @@ class JsonValue {
   // Appends a member whose key is known to be new.
   void Append(std::string key, JsonValue value);
 
+  // Sets every member of another object.
+  void Update(JsonValue object);
+
   // Removes a member if it is there.
   void Erase(std::string_view key);
 
@@ -69,6 +80,10 @@ class JsonValue {
 };
 
 struct JsonMember {
+  template <typename Value>
+  requires std::constructible_from<JsonValue, Value> JsonMember(std::string name, Value&& content)
+      : key(std::move(name)), value(std::forward<Value>(content)) {}
+
   std::string key;
   JsonValue value;
 };
@@ -81,6 +96,18 @@ JsonValue ListOf(const Values& values) {
   for (const auto& value : values) list.push_back(JsonValue(value));
   return JsonValue(std::move(list));
 }
+
+// A list of to_json(value) of each value.
+template <typename Values, typename ToJson>
+JsonValue ListOf(const Values& values, const ToJson& to_json) {
+  JsonValue::List list;
+  list.reserve(values.size());
+  for (const auto& value : values) list.push_back(to_json(value));
+  return JsonValue(std::move(list));
+}
+
+// null where it is not finite, which JSON has no number for.
+JsonValue NumberOrNull(double value);
 
 // Nothing where it is no list of texts.
 std::optional<std::vector<std::string>> TextsIn(const JsonValue& list);

@@ -3,47 +3,47 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <nlohmann/json.hpp>
+#include <utility>
 
+#include "core/json_text.h"
+#include "report/json_values.h"
 #include "report/line_text.h"
 
 namespace rockyard::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using core::JsonValue;
+using core::NumberOrNull;
 
 constexpr const char* kShardNote =
     "a shard tells no rates: put all shards together with rockyard merge";
 
-Json Stopping(const StoppingReport& stopping) {
-  Json json = {{"rule", "until_half_width"},        {"half_width", stopping.half_width},
-               {"max_trials", stopping.max_trials}, {"block", stopping.block},
-               {"confidence", stopping.confidence}, {"allocation", stopping.allocation}};
-  json["budget"] = stopping.budget > 0 ? Json(stopping.budget) : Json(nullptr);
-  json["end"] = stopping.end;
-  json["trials"] = stopping.trials;
-  json["declared_success"] = {{"count", stopping.successes}, {"trials", stopping.drives}};
-  json["confidence_sequence"] = Json::array({stopping.low, stopping.high});
+JsonValue Stopping(const StoppingReport& stopping) {
+  JsonValue json = JsonValue::Object({{"rule", "until_half_width"},
+                                      {"half_width", NumberOrNull(stopping.half_width)},
+                                      {"max_trials", stopping.max_trials},
+                                      {"block", stopping.block},
+                                      {"confidence", NumberOrNull(stopping.confidence)},
+                                      {"allocation", stopping.allocation}});
+  json.Set("budget", stopping.budget > 0 ? JsonValue(stopping.budget) : JsonValue());
+  json.Set("end", JsonValue(stopping.end));
+  json.Set("trials", JsonValue(stopping.trials));
+  json.Set("declared_success",
+           JsonValue::Object({{"count", stopping.successes}, {"trials", stopping.drives}}));
+  json.Set("confidence_sequence", EndsOf({stopping.low, stopping.high}));
   return json;
 }
 
-Json Parts(const Accounting& a, const std::optional<StoppingReport>& stopping) {
-  Json json;
-  json["accounting"] = {{"planned", a.planned},
-                        {"completed", a.completed},
-                        {"faulted", a.faulted},
-                        {"pending", a.pending},
-                        {"infrastructure_faults", a.infrastructure_faults}};
-  if (stopping) json["stopping"] = Stopping(*stopping);
-  return json;
+JsonValue Counts(const Accounting& a) {
+  return JsonValue::Object({{"planned", a.planned},
+                            {"completed", a.completed},
+                            {"faulted", a.faulted},
+                            {"pending", a.pending},
+                            {"infrastructure_faults", a.infrastructure_faults}});
 }
 
-Json Parts(const RunDescription& run) {
-  Json json = Parts(run.accounting, run.stopping);
-  if (run.shard_count > 1) {
-    json["shard"] = {{"index", run.shard_index}, {"count", run.shard_count}};
-  }
-  return json;
+JsonValue ShardOf(int index, int count) {
+  return JsonValue::Object({{"index", index}, {"count", count}});
 }
 
 std::string Why(const StoppingReport& stopping) {
@@ -64,11 +64,17 @@ std::string StoppingText(const StoppingReport& stopping) {
 
 }  // namespace
 
-std::string AccountingJson(const RunDescription& run) { return Parts(run).dump(); }
+JsonValue AccountingJson(const RunDescription& run) {
+  JsonValue json = AccountingJson(run.accounting, run.stopping);
+  if (run.shard_count > 1) json.Set("shard", ShardOf(run.shard_index, run.shard_count));
+  return json;
+}
 
-std::string AccountingJson(const Accounting& accounting,
-                           const std::optional<StoppingReport>& stopping) {
-  return Parts(accounting, stopping).dump();
+JsonValue AccountingJson(const Accounting& accounting,
+                         const std::optional<StoppingReport>& stopping) {
+  JsonValue json = JsonValue::Object({{"accounting", Counts(accounting)}});
+  if (stopping) json.Set("stopping", Stopping(*stopping));
+  return json;
 }
 
 std::string AccountingText(const Accounting& a) {
@@ -109,31 +115,31 @@ std::string StoppingPhrase(const StoppingReport& stopping) {
 std::string ShardCampaignJson(const std::string& name, int index, int count,
                               const std::vector<ShardCell>& cells) {
   Accounting total;
-  Json parts = Json::array();
+  JsonValue::List parts;
   for (const ShardCell& cell : cells) {
     total = Sum(total, cell.accounting);
-    Json part = {{"name", cell.name}};
-    part.update(Parts(cell.accounting, std::nullopt));
-    parts.push_back(part);
+    JsonValue& part = parts.emplace_back(JsonValue::Object({{"name", cell.name}}));
+    part.Update(AccountingJson(cell.accounting, std::nullopt));
   }
-  Json json = {{"schema_version", 1}, {"kind", "sweep_shard"}, {"name", name}};
-  json.update(Parts(total, std::nullopt));
-  json["shard"] = {{"index", index}, {"count", count}};
-  json["cells"] = parts;
-  json["note"] = kShardNote;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  JsonValue json = JsonValue::Object(
+      {{"schema_version", kSchemaVersion}, {"kind", "sweep_shard"}, {"name", name}});
+  json.Update(AccountingJson(total, std::nullopt));
+  json.Set("shard", ShardOf(index, count));
+  json.Set("cells", JsonValue(std::move(parts)));
+  json.Set("note", JsonValue(kShardNote));
+  return core::SpreadJson(json) + "\n";
 }
 
 std::string ShardJson(const RunDescription& run) {
-  Json json = {{"schema_version", 1},
-               {"scenario", run.scenario},
-               {"seed", run.seed},
-               {"fingerprint", run.fingerprint}};
-  json.update(Parts(run));
-  json["note"] = kShardNote;
-  json["shard_hash"] = run.trial_hash;
-  json["builds"] = run.builds;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  JsonValue json = JsonValue::Object({{"schema_version", kSchemaVersion},
+                                      {"scenario", run.scenario},
+                                      {"seed", run.seed},
+                                      {"fingerprint", run.fingerprint}});
+  json.Update(AccountingJson(run));
+  json.Set("note", JsonValue(kShardNote));
+  json.Set("shard_hash", JsonValue(run.trial_hash));
+  json.Set("builds", core::ListOf(run.builds));
+  return core::SpreadJson(json) + "\n";
 }
 
 std::string ShardText(const RunDescription& run) {

@@ -5,17 +5,18 @@
 #include <string>
 #include <vector>
 
+#include "core/json_value.h"
 #include "report/run_description.h"
 
 namespace rockyard::report {
 
 // {"accounting": {planned, completed, faulted, pending, infrastructure_faults}} and, where the run
 // has them, "stopping" (the rule, where it ended, the confidence sequence there) and "shard".
-std::string AccountingJson(const RunDescription& run);
+core::JsonValue AccountingJson(const RunDescription& run);
 
 // The same of a cell.
-std::string AccountingJson(const Accounting& accounting,
-                           const std::optional<StoppingReport>& stopping);
+core::JsonValue AccountingJson(const Accounting& accounting,
+                               const std::optional<StoppingReport>& stopping);
 
 // A line for the terminal that adds up, and one for failures of the machine.
 std::string AccountingText(const Accounting& accounting);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/json_value.h"
 #include "report/sweep_outcomes.h"
 #include "scenario/sweep.h"
 #include "statistics/attribution.h"
@@ -36,6 +37,6 @@ std::string AttributionText(std::span<const SweepAttribution> attributions);
 std::string AttributionCsv(std::span<const SweepAttribution> attributions);
 
 // A JSON list with the same.
-std::string AttributionJson(std::span<const SweepAttribution> attributions);
+core::JsonValue AttributionJson(std::span<const SweepAttribution> attributions);
 
 }  // namespace rockyard::report

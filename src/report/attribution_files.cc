@@ -1,19 +1,20 @@
-#include <cmath>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string_view>
+#include <utility>
 
 #include "report/attribution.h"
 #include "report/csv.h"
+#include "report/json_values.h"
 #include "report/sweep_summary.h"
 
 namespace rockyard::report {
 namespace {
 
+using core::JsonValue;
+using core::NumberOrNull;
 using statistics::Attribution;
 using statistics::Estimate;
 using statistics::NameOf;
-using Json = nlohmann::ordered_json;
 
 // Calls row(kind, functions, estimate) for everything that an attribution says.
 void ForEachRow(
@@ -35,8 +36,6 @@ void ForEachRow(
     row("effect", NameOf(each.set, result.functions), each.effect);
   }
 }
-
-Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 }  // namespace
 
@@ -61,28 +60,29 @@ std::string AttributionCsv(std::span<const SweepAttribution> attributions) {
   return csv;
 }
 
-std::string AttributionJson(std::span<const SweepAttribution> attributions) {
-  Json list = Json::array();
+JsonValue AttributionJson(std::span<const SweepAttribution> attributions) {
+  JsonValue::List list;
   for (const SweepAttribution& attribution : attributions) {
     for (std::size_t kind = 0; kind < kSuccessNames.size(); ++kind) {
       const Attribution& result = attribution.by_success[kind];
-      Json rows = Json::array();
+      JsonValue::List rows;
       ForEachRow(result, [&](std::string_view what, const std::string& functions,
                              const Estimate& estimate) {
-        rows.push_back({{"kind", what},
-                        {"functions", functions},
-                        {"value", Number(estimate.value)},
-                        {"interval", {estimate.interval.low, estimate.interval.high}}});
+        rows.push_back(JsonValue::Object({{"kind", what},
+                                          {"functions", functions},
+                                          {"value", NumberOrNull(estimate.value)},
+                                          {"interval", EndsOf(estimate.interval)}}));
       });
-      list.push_back({{"at", attribution.at},
-                      {"success", kSuccessNames[kind]},
-                      {"trials", result.trials},
-                      {"left_out", attribution.left_out},
-                      {"sum_of_alone", Number(result.sum_of_firsts)},
-                      {"rows", rows}});
+      JsonValue& json = list.emplace_back(
+          JsonValue::Object({{"at", attribution.at},
+                             {"success", kSuccessNames[kind]},
+                             {"trials", result.trials},
+                             {"left_out", attribution.left_out},
+                             {"sum_of_alone", NumberOrNull(result.sum_of_firsts)}}));
+      json.Set("rows", JsonValue(std::move(rows)));
     }
   }
-  return list.dump(2, ' ', false, Json::error_handler_t::replace);
+  return JsonValue(std::move(list));
 }
 
 }  // namespace rockyard::report

@@ -1,11 +1,10 @@
 #include "report/baseline.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
-#include <nlohmann/json.hpp>
-#include <string_view>
+#include <string>
+#include <utility>
 
+#include "core/json_text.h"
 #include "report/baseline_letters.h"
 #include "statistics/metrics.h"
 #include "statistics/moments.h"
@@ -13,9 +12,14 @@
 namespace rockyard::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using core::JsonValue;
+using core::NumberOrNull;
 using statistics::Metric;
 using statistics::MetricSource;
+
+// The document, its cells, each cell, and its margins, metrics and resolved scenario: one member of
+// these on a line, so that a version control system shows what changed.
+constexpr int kSpreadLevels = 4;
 
 bool HasValue(const std::vector<double>& values) {
   for (const double value : values) {
@@ -25,10 +29,9 @@ bool HasValue(const std::vector<double>& values) {
 }
 
 // Counts are most of the numbers: "3" rather than "3.0".
-Json NumberOrNull(double value) {
-  if (!std::isfinite(value)) return nullptr;
+JsonValue ShortNumber(double value) {
   const bool whole = std::abs(value) < 1e9 && value == std::trunc(value);
-  return whole ? Json(std::llround(value)) : Json(value);
+  return whole ? JsonValue(std::llround(value)) : NumberOrNull(value);
 }
 
 std::string Letters(const std::vector<truth::TrialOutcome>& outcomes) {
@@ -39,50 +42,26 @@ std::string Letters(const std::vector<truth::TrialOutcome>& outcomes) {
   return letters;
 }
 
-Json Values(const statistics::BaselineMetric& metric) {
-  Json values = Json::array();
-  for (const double value : metric.values) values.push_back(NumberOrNull(value));
-  return values;
-}
-
-std::string Quoted(std::string_view text) { return Json(text).dump(); }
-
-// One member per line, so that a version control system shows what changed.
-std::string Lines(const Json& object, std::string_view indent) {
-  std::string text = "{";
-  std::string_view separator = "\n";
-  for (const auto& [key, value] : object.items()) {
-    text += fmt::format("{}{}  {}: {}", separator, indent, Quoted(key), value.dump());
-    separator = ",\n";
-  }
-  return text + fmt::format("\n{}}}", indent);
-}
-
-std::string CellJson(const BaselineCell& cell) {
-  Json margins = Json::object();
-  Json metrics = Json::object();
+JsonValue CellJson(const BaselineCell& cell) {
+  JsonValue margins = JsonValue::Object();
+  JsonValue metrics = JsonValue::Object();
   for (const statistics::BaselineMetric& each : cell.metrics) {
-    margins[each.name] = NumberOrNull(each.margin);
+    margins.Set(each.name, ShortNumber(each.margin));
     const Metric* metric = statistics::FindMetric(each.name);
     if (metric == nullptr || metric->source != MetricSource::kOutcome) {
-      metrics[each.name] = Values(each);
+      metrics.Set(each.name, core::ListOf(each.values, ShortNumber));
     }
   }
-  std::string text = "    {\n";
-  const auto add = [&](std::string_view key, std::string_view value) {
-    text += fmt::format("      {}: {},\n", Quoted(key), value);
-  };
-  add("name", Quoted(cell.name));
-  add("scenario", Quoted(cell.scenario));
-  add("fingerprint", Quoted(cell.fingerprint));
-  add("seed", Quoted(std::to_string(cell.seed)));
-  add("trial_hash", Quoted(cell.trial_hash));
-  add("outcomes", Quoted(Letters(cell.outcomes)));
-  add("margins", Lines(margins, "      "));
-  add("metrics", Lines(metrics, "      "));
-  text +=
-      fmt::format("      \"resolved\": {}\n    }}", Lines(Json::parse(cell.resolved), "      "));
-  return text;
+  JsonValue json = JsonValue::Object({{"name", cell.name},
+                                      {"scenario", cell.scenario},
+                                      {"fingerprint", cell.fingerprint},
+                                      {"seed", std::to_string(cell.seed)},
+                                      {"trial_hash", cell.trial_hash},
+                                      {"outcomes", Letters(cell.outcomes)},
+                                      {"margins", margins}});
+  json.Set("metrics", std::move(metrics));
+  json.Set("resolved", core::ParseJson(cell.resolved, "resolved scenario"));
+  return json;
 }
 
 }  // namespace
@@ -101,17 +80,13 @@ void FillBaselineCell(const truth::RecordSchema& schema, std::span<const truth::
 }
 
 std::string BaselineJson(const Baseline& baseline) {
-  std::string text = fmt::format(
-      "{{\n  \"kind\": \"{}\",\n  \"schema_version\": 1,\n  \"name\": {},\n  \"reason\": {},\n"
-      "  \"build\": {},\n  \"cells\": [",
-      kBaselineKind, Quoted(baseline.name), Quoted(baseline.reason), Quoted(baseline.build));
-  std::string_view separator = "\n";
-  for (const BaselineCell& cell : baseline.cells) {
-    text += separator;
-    text += CellJson(cell);
-    separator = ",\n";
-  }
-  return text + "\n  ]\n}\n";
+  JsonValue json = JsonValue::Object({{"kind", kBaselineKind},
+                                      {"schema_version", 1},
+                                      {"name", baseline.name},
+                                      {"reason", baseline.reason},
+                                      {"build", baseline.build}});
+  json.Set("cells", core::ListOf(baseline.cells, CellJson));
+  return core::SpreadJson(json, kSpreadLevels) + "\n";
 }
 
 }  // namespace rockyard::report

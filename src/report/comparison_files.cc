@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "report/comparison_format.h"
@@ -18,6 +20,8 @@ using statistics::PublishedReference;
 using statistics::PublishedValue;
 using statistics::Verdict;
 
+constexpr std::size_t kComparisonColumns = 22;
+
 // Fields that may hold any text, joined.
 std::string Line(std::vector<std::string> fields) {
   for (std::string& field : fields) field = CsvField(field);
@@ -28,6 +32,55 @@ std::string Line(std::vector<std::string> fields) {
 std::string Remark(const ComparisonResult& result, const ComparedValue& value) {
   if (result.FindChanged(value.published.scenario) == nullptr) return value.remark;
   return fmt::format("{}{}{}", kNotPublishedCase, value.remark.empty() ? "" : "; ", value.remark);
+}
+
+std::string ValueLine(const ComparedValue& v, const std::string& remark) {
+  const PublishedValue& p = v.published;
+  const bool layout = v.one_layout.has_value();
+  const char* measured = !layout ? "" : (v.one_layout->measured ? "1" : "0");
+  return Line({p.id,
+               p.scenario,
+               p.what,
+               p.place,
+               std::string(RoleName(p.role)),
+               p.unit,
+               CsvNumber(p.value),
+               fmt::format("{}", p.sample_size),
+               fmt::format("{}", v.pool),
+               CsvNumber(v.pool_value),
+               CsvNumber(v.median),
+               CsvNumber(v.interval.low),
+               CsvNumber(v.interval.high),
+               CsvNumber(v.p_value),
+               CsvNumber(v.holm_p_value),
+               CsvNumber(v.level),
+               CsvNumber(v.power),
+               statistics::Name(v.verdict),
+               layout ? CsvNumber(v.one_layout->p_value.low) : "",
+               layout ? CsvNumber(v.one_layout->p_value.high) : "",
+               measured,
+               remark});
+}
+
+// Another reading of the same value: the columns that it has, the others empty.
+std::string SideLine(const ComparedValue& v, const statistics::SideStatistic& side) {
+  const PublishedValue& p = v.published;
+  std::vector<std::string> fields{p.id + "/" + side.name,
+                                  p.scenario,
+                                  side.name,
+                                  p.place,
+                                  std::string(RoleName(p.role)),
+                                  p.unit,
+                                  CsvNumber(p.value),
+                                  fmt::format("{}", p.sample_size),
+                                  fmt::format("{}", v.pool),
+                                  "",
+                                  CsvNumber(side.median),
+                                  CsvNumber(side.interval.low),
+                                  CsvNumber(side.interval.high),
+                                  CsvNumber(side.p_value)};
+  fields.resize(kComparisonColumns);
+  return Line(std::move(fields));
 }
 
 // Test cases that pass hold no message, so that the suite says it.
@@ -51,57 +104,9 @@ std::string ComparisonCsv(const ComparisonResult& result) {
       "id,scenario,what,place,role,unit,published,published_runs,simulated_runs,simulated,"
       "predicted_median,predicted_low,predicted_high,p_value,p_holm,level,power,verdict,"
       "one_layout_p_low,one_layout_p_high,one_layout_measured,remark\n";
-  for (const ComparedValue& v : result.values) {
-    const PublishedValue& p = v.published;
-    const bool layout = v.one_layout.has_value();
-    csv += Line({p.id,
-                 p.scenario,
-                 p.what,
-                 p.place,
-                 std::string(RoleName(p.role)),
-                 p.unit,
-                 CsvNumber(p.value),
-                 fmt::format("{}", p.sample_size),
-                 fmt::format("{}", v.pool),
-                 CsvNumber(v.pool_value),
-                 CsvNumber(v.median),
-                 CsvNumber(v.interval.low),
-                 CsvNumber(v.interval.high),
-                 CsvNumber(v.p_value),
-                 CsvNumber(v.holm_p_value),
-                 CsvNumber(v.level),
-                 CsvNumber(v.power),
-                 statistics::Name(v.verdict),
-                 layout ? CsvNumber(v.one_layout->p_value.low) : "",
-                 layout ? CsvNumber(v.one_layout->p_value.high) : "",
-                 !layout                  ? ""
-                 : v.one_layout->measured ? "1"
-                                          : "0",
-                 Remark(result, v)});
-    for (const auto& side : v.beside) {
-      csv += Line({p.id + "/" + side.name,
-                   p.scenario,
-                   side.name,
-                   p.place,
-                   std::string(RoleName(p.role)),
-                   p.unit,
-                   CsvNumber(p.value),
-                   fmt::format("{}", p.sample_size),
-                   fmt::format("{}", v.pool),
-                   "",
-                   CsvNumber(side.median),
-                   CsvNumber(side.interval.low),
-                   CsvNumber(side.interval.high),
-                   CsvNumber(side.p_value),
-                   "",
-                   "",
-                   "",
-                   "",
-                   "",
-                   "",
-                   "",
-                   ""});
-    }
+  for (const ComparedValue& value : result.values) {
+    csv += ValueLine(value, Remark(result, value));
+    for (const statistics::SideStatistic& side : value.beside) csv += SideLine(value, side);
   }
   return csv;
 }

@@ -1,6 +1,9 @@
 #include "report/line_text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 namespace rockyard::report {
 namespace {
@@ -49,6 +52,10 @@ std::string Cut(std::string_view text, std::size_t columns) {
     if (BeginsCodePoint(text[end]) && ++kept > columns - 3) break;
   }
   return std::string(text.substr(0, end)) + "...";
+}
+
+std::string FourDigits(double value) {
+  return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-";
 }
 
 std::string Wrapped(std::string_view text) {

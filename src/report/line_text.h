@@ -17,6 +17,9 @@ std::size_t Columns(std::string_view text);
 // At most that many columns, at least 3; what is longer ends with "...", never inside a code point.
 std::string Cut(std::string_view text, std::size_t columns);
 
+// A number with four significant digits; "-" where it is not finite.
+std::string FourDigits(double value);
+
 // Text of one or more lines, each broken between words where it has more than 100 bytes; what is
 // broken off is indented by four more than its line.
 std::string Wrapped(std::string_view text);

@@ -1,12 +1,16 @@
 #include <cmath>
 #include <string>
 
+#include "core/json_pieces.h"
 #include "report/page_data.h"
-#include "report/page_json.h"
 #include "statistics/multiple_testing.h"
 
 namespace rockyard::report {
 namespace {
+
+using core::JsonList;
+using core::JsonObject;
+using core::JsonTexts;
 
 std::string Success(const SuccessComparison& success) {
   return JsonObject()

@@ -1,6 +1,7 @@
 #include "report/page_data.h"
 
-#include "report/page_json.h"
+#include "core/json_pieces.h"
+#include "core/json_text.h"
 #include "report/summary_json.h"
 
 namespace rockyard::report {
@@ -8,15 +9,15 @@ namespace rockyard::report {
 std::string PageJson(const PageHead& head, std::span<const std::string> runs,
                      std::span<const std::string> sweeps,
                      std::span<const std::string> comparisons) {
-  return JsonObject()
+  return core::JsonObject()
       .AddInteger("version", 1)
       .AddText("title", head.title)
       .AddText("command", head.command)
       .AddText("why_none_published", head.why_none_published)
-      .Add("provenance", JsonCompact(ProvenanceJson(head.provenance)))
-      .Add("runs", JsonList(runs))
-      .Add("sweeps", JsonList(sweeps))
-      .Add("comparisons", JsonList(comparisons))
+      .Add("provenance", core::CompactJson(ProvenanceJson(head.provenance)))
+      .Add("runs", core::JsonList(runs))
+      .Add("sweeps", core::JsonList(sweeps))
+      .Add("comparisons", core::JsonList(comparisons))
       .Text();
 }
 

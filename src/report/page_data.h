@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "core/field_table.h"
+#include "core/json_pieces.h"
 #include "core/provenance.h"
 #include "report/distance_steps.h"
-#include "report/page_json.h"
 #include "report/paired_comparison.h"
 #include "report/run_description.h"
 #include "report/sweep_files.h"
@@ -57,7 +57,7 @@ struct PageRun {
 
 // `Run` of payload.ts but for its replays, which are told when all runs are known. Its summary is
 // SummaryJson (or MeasurementJson) of the prefix: the run's summary.json.
-JsonObject PageRunMembers(const PageRun& run, statistics::IntervalMethod method);
+core::JsonObject PageRunMembers(const PageRun& run, statistics::IntervalMethod method);
 
 // Member "replays" of a run.
 std::string PageReplaysJson(std::span<const PageLink> links);

@@ -3,13 +3,17 @@
 #include <string>
 #include <vector>
 
+#include "core/json_pieces.h"
 #include "report/comparison_format.h"
 #include "report/comparison_table.h"
 #include "report/page_data.h"
-#include "report/page_json.h"
 
 namespace rockyard::report {
 namespace {
+
+using core::JsonList;
+using core::JsonObject;
+using core::JsonTexts;
 
 using statistics::ComparedValue;
 using statistics::PublishedValue;

@@ -2,8 +2,9 @@
 #include <array>
 #include <functional>
 
+#include "core/json_pieces.h"
+#include "core/json_text.h"
 #include "report/page_data.h"
-#include "report/page_json.h"
 #include "report/paired_comparison.h"
 #include "report/parameter_table.h"
 #include "report/summary_json.h"
@@ -14,15 +15,20 @@
 namespace rockyard::report {
 namespace {
 
-std::string Summary(const PageRun& run, statistics::IntervalMethod method) {
+using core::JsonList;
+using core::JsonObject;
+using core::JsonSixDigits;
+using core::JsonTexts;
+
+core::JsonValue Summary(const PageRun& run, statistics::IntervalMethod method) {
   const std::int64_t planned = run.description.planned;
   if (truth::IsMeasurement(run.schema)) {
-    return MeasurementJson(run.description,
-                           statistics::SummarizeCells(run.schema, run.prefix, planned, method),
-                           method);
+    return MeasurementValue(run.description,
+                            statistics::SummarizeCells(run.schema, run.prefix, planned, method),
+                            method);
   }
-  return SummaryJson(run.description,
-                     statistics::Summarize(run.schema, run.prefix, planned, method), method);
+  return SummaryValue(run.description,
+                      statistics::Summarize(run.schema, run.prefix, planned, method), method);
 }
 
 std::string Index(const std::optional<std::size_t>& index) {
@@ -129,7 +135,7 @@ JsonObject PageRunMembers(const PageRun& run, statistics::IntervalMethod method)
       .AddText("cell", run.cell)
       .Add("sweep", Index(run.sweep))
       .AddText("kind", measures ? "measurement" : "drive")
-      .Add("summary", JsonCompact(Summary(run, method)))
+      .Add("summary", core::CompactJson(Summary(run, method)))
       .Add("trials", PageTrialsJson(run.schema, run.records))
       .AddInteger("prefix_trials", static_cast<std::int64_t>(run.prefix.size()))
       .AddFlag("shared_layouts", SharesLayouts(run.schema, run.prefix))

@@ -1,11 +1,15 @@
 #include <cmath>
 
+#include "core/json_pieces.h"
+#include "core/json_text.h"
 #include "report/page_data.h"
-#include "report/page_json.h"
 #include "report/sweep_curves.h"
 
 namespace rockyard::report {
 namespace {
+
+using core::JsonList;
+using core::JsonObject;
 
 using statistics::LogisticFit;
 
@@ -95,7 +99,7 @@ std::string PageSweepJson(std::string_view label, std::string_view folder,
   return JsonObject()
       .AddText("label", label)
       .AddText("folder", folder)
-      .Add("summary", JsonCompact(SweepJson(sweep, summary, description)))
+      .Add("summary", core::CompactJson(SweepValue(sweep, summary, description)))
       .Add("curves", JsonList(curves))
       .Text();
 }

@@ -3,11 +3,16 @@
 #include <iterator>
 #include <map>
 
+#include "core/json_pieces.h"
 #include "report/page_data.h"
-#include "report/page_json.h"
 
 namespace rockyard::report {
 namespace {
+
+using core::JsonList;
+using core::JsonObject;
+using core::JsonSixDigits;
+using core::JsonTexts;
 
 using truth::Record;
 
@@ -26,28 +31,17 @@ class TextTable {
   std::vector<std::string> texts_;
 };
 
-// [a,b,...] of one value for each record.
-template <typename Value>
-std::string PerRecord(std::span<const Record> records, const Value& value) {
-  std::string list(1, '[');
-  for (const Record& record : records) {
-    if (list.size() > 1) list += ',';
-    list += value(record);
-  }
-  return list + ']';
-}
-
 std::string Column(const truth::ValueInfo& info, std::size_t index,
                    std::span<const Record> records) {
   return JsonObject()
       .AddText("name", info.name)
       .AddText("unit", info.unit)
-      .Add("values", PerRecord(records,
-                               [&](const Record& record) {
-                                 return index < record.values.size()
-                                            ? JsonSixDigits(record.values[index])
-                                            : std::string("null");
-                               }))
+      .Add("values", JsonList(records,
+                              [&](const Record& record) {
+                                return index < record.values.size()
+                                           ? JsonSixDigits(record.values[index])
+                                           : std::string("null");
+                              }))
       .Text();
 }
 
@@ -57,12 +51,12 @@ std::string PageTrialsJson(const truth::RecordSchema& schema, std::span<const Re
   TextTable outcomes;
   TextTable details;
   JsonObject json;
-  json.Add("trial", PerRecord(records, [](const Record& r) { return std::to_string(r.trial); }));
-  json.Add("outcome", PerRecord(records, [&](const Record& r) {
+  json.Add("trial", JsonList(records, [](const Record& r) { return std::to_string(r.trial); }));
+  json.Add("outcome", JsonList(records, [&](const Record& r) {
              return std::to_string(outcomes.Number(std::string(truth::Name(r.outcome))));
            }));
   json.Add("outcome_names", JsonTexts(outcomes.texts()));
-  json.Add("detail", PerRecord(records, [&](const Record& r) {
+  json.Add("detail", JsonList(records, [&](const Record& r) {
              return std::to_string(details.Number(r.detail));
            }));
   json.Add("detail_texts", JsonTexts(details.texts()));

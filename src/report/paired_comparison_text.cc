@@ -2,20 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "report/csv.h"
+#include "report/line_text.h"
 #include "report/paired_comparison.h"
 
 namespace rockyard::report {
 namespace {
-
-std::string Number(double value) {
-  return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("-");
-}
 
 std::string Percent(const statistics::Proportion& rate) {
   return fmt::format("{} of {} ({:.1f} %)", rate.count, rate.trials, 100.0 * rate.rate);
@@ -44,9 +40,9 @@ std::int64_t Least(const ColumnComparison& column) {
 
 std::string ColumnLine(const ColumnComparison& column) {
   return fmt::format("  {:<27.27} {:>5} {:>10} {:>10} {:>10} {:>13} .. {:<10}\n", column.name,
-                     Least(column), Number(column.first_mean), Number(column.second_mean),
-                     Number(column.difference), Number(column.interval.low),
-                     Number(column.interval.high));
+                     Least(column), FourDigits(column.first_mean), FourDigits(column.second_mean),
+                     FourDigits(column.difference), FourDigits(column.interval.low),
+                     FourDigits(column.interval.high));
 }
 
 std::string ColumnTable(std::string_view title, std::span<const ColumnComparison> columns) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "report/csv.h"
+#include "report/line_text.h"
 #include "report/regression_format.h"
 #include "report/regression_report.h"
 #include "report/xml_text.h"
@@ -25,10 +26,6 @@ std::string_view Name(RegressionVerdict verdict) {
   return "inconclusive";
 }
 
-std::string Short(double value) {
-  return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-";
-}
-
 std::string Signed(double value) {
   return std::isfinite(value) ? fmt::format("{:+.4g}", value) : "-";
 }
@@ -45,13 +42,13 @@ std::string Label(const RegressionRow& row) {
 std::string Sentence(const RegressionRow& row) {
   std::string moved = fmt::format(
       "{} {} by {} {}, from {} to {} (95 % {} to {}, Holm p {}{})", Label(row),
-      row.difference < 0.0 ? "fell" : "rose", Short(std::abs(row.difference)), row.metric->unit,
-      Short(row.baseline_mean), Short(row.run_mean), Signed(row.interval.low),
-      Signed(row.interval.high), Probability(row.holm_p_value),
+      row.difference < 0.0 ? "fell" : "rose", FourDigits(std::abs(row.difference)),
+      row.metric->unit, FourDigits(row.baseline_mean), FourDigits(row.run_mean),
+      Signed(row.interval.low), Signed(row.interval.high), Probability(row.holm_p_value),
       std::abs(row.difference) < row.margin ? "; less than its margin" : "");
   if (row.verdict == RegressionVerdict::kChanged) return moved;
   if (row.verdict == RegressionVerdict::kEquivalent) {
-    return fmt::format("{}: less than {} {} apart", Label(row), Short(row.margin),
+    return fmt::format("{}: less than {} {} apart", Label(row), FourDigits(row.margin),
                        row.metric->unit);
   }
   if (row.run_count == 0) {
@@ -64,7 +61,7 @@ std::string Sentence(const RegressionRow& row) {
   }
   return fmt::format(
       "{}: {} apart; the run would have seen {} with 80 %, the margin is {}: about {} trials tell",
-      Label(row), Signed(row.difference), Short(row.seen_80), Short(row.margin),
+      Label(row), Signed(row.difference), FourDigits(row.seen_80), FourDigits(row.margin),
       row.trials_for_margin);
 }
 

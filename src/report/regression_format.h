@@ -10,8 +10,7 @@
 namespace rockyard::report {
 
 std::string_view Name(statistics::RegressionVerdict verdict);
-std::string Short(double value);   // four significant digits; "-" where it is not finite
-std::string Signed(double value);  // the same with its sign
+std::string Signed(double value);  // FourDigits with its sign
 std::string Probability(double p);
 std::string Label(const statistics::RegressionRow& row);  // "cell: metric"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "report/line_text.h"
 #include "report/regression_format.h"
 #include "report/regression_report.h"
 
@@ -37,9 +38,9 @@ std::string TableHead() {
 
 std::string TableRow(const RegressionRow& row) {
   return fmt::format("  {:<13}{:<25}{:>10}{:>10}{:>11}{:>10}{:>9}{:>10}\n", Name(row.verdict),
-                     row.metric->name, Short(row.baseline_mean), Short(row.run_mean),
-                     Signed(row.difference), Short(row.margin), Probability(row.holm_p_value),
-                     Short(row.seen_80));
+                     row.metric->name, FourDigits(row.baseline_mean), FourDigits(row.run_mean),
+                     Signed(row.difference), FourDigits(row.margin), Probability(row.holm_p_value),
+                     FourDigits(row.seen_80));
 }
 
 std::string Table(const RegressionReport& report, ReportedRows rows) {

@@ -3,12 +3,16 @@
 #include <string_view>
 #include <vector>
 
+#include "core/json_pieces.h"
 #include "report/comparison_format.h"
-#include "report/page_json.h"
 #include "report/regression_format.h"
 
 namespace rockyard::report {
 namespace {
+
+using core::JsonList;
+using core::JsonObject;
+using core::JsonTexts;
 
 JsonObject Begin(std::string_view kind) {
   return JsonObject().AddInteger("schema_version", 1).AddText("kind", kind);

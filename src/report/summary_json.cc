@@ -1,65 +1,49 @@
 #include "report/summary_json.h"
 
-#include <cmath>
-#include <nlohmann/json.hpp>
 #include <string_view>
+#include <utility>
 
+#include "core/json_text.h"
 #include "report/accounting.h"
+#include "report/json_values.h"
 
 namespace rockyard::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using core::JsonValue;
+using core::NumberOrNull;
 using statistics::ColumnSummary;
 using statistics::DriveSummary;
 
-constexpr int kSchemaVersion = 1;
-
-Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json Column(const ColumnSummary* column) {
-  if (column == nullptr) return nullptr;
-  return {{"count", column->count},       {"min", Number(column->min)},
-          {"p05", Number(column->p05)},   {"median", Number(column->median)},
-          {"mean", Number(column->mean)}, {"mode", Number(column->mode)},
-          {"p95", Number(column->p95)},   {"max", Number(column->max)},
-          {"std", Number(column->std)}};
-}
-
-Json Rate(const statistics::Proportion& rate, statistics::IntervalMethod method) {
+JsonValue Rate(const statistics::Proportion& rate, statistics::IntervalMethod method) {
   const bool wilson = method == statistics::IntervalMethod::kWilson;
-  return {{"count", rate.count},
-          {"trials", rate.trials},
-          {"rate", Number(rate.rate)},
-          {"ci95", Json::array({rate.interval.low, rate.interval.high})},
-          {"ci_method", wilson ? "wilson" : "clopper_pearson"}};
+  return JsonValue::Object({{"count", rate.count},
+                            {"trials", rate.trials},
+                            {"rate", NumberOrNull(rate.rate)},
+                            {"ci95", EndsOf(rate.interval)},
+                            {"ci_method", wilson ? "wilson" : "clopper_pearson"}});
 }
 
-Json Outcomes(const DriveSummary& summary) {
-  Json outcomes = Json::object();
+JsonValue Column(const ColumnSummary* column) {
+  if (column == nullptr) return JsonValue();
+  return JsonValue::Object({{"count", column->count},
+                            {"min", NumberOrNull(column->min)},
+                            {"p05", NumberOrNull(column->p05)},
+                            {"median", NumberOrNull(column->median)},
+                            {"mean", NumberOrNull(column->mean)},
+                            {"mode", NumberOrNull(column->mode)},
+                            {"p95", NumberOrNull(column->p95)},
+                            {"max", NumberOrNull(column->max)},
+                            {"std", NumberOrNull(column->std)}});
+}
+
+JsonValue Outcomes(const DriveSummary& summary) {
+  JsonValue outcomes = JsonValue::Object();
   for (std::size_t i = 0; i < truth::kTrialOutcomeNames.size(); ++i) {
     if (static_cast<truth::TrialOutcome>(i) == truth::TrialOutcome::kMeasured) continue;
-    outcomes[std::string(truth::kTrialOutcomeNames[i])] = summary.outcomes[i];
+    outcomes.Set(truth::kTrialOutcomeNames[i], JsonValue(summary.outcomes[i]));
   }
   return outcomes;
-}
-
-Json Program(const core::Provenance& p) {
-  return {{"version", p.version},     {"commit", p.commit},         {"compiler", p.compiler},
-          {"flags", p.flags},         {"build_type", p.build_type}, {"host", p.host},
-          {"cpu_model", p.cpu_model}, {"cpu_level", p.cpu_level},   {"cpu_threads", p.cpu_threads}};
-}
-
-Json Provenance(const RunDescription& run) {
-  Json json = Program(run.provenance);
-  json["threads"] = run.threads;
-  json["ranks"] = 1;
-  json["builds"] = run.builds;
-  return json;
-}
-
-std::string Text(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 // Members of their own in the layout; every other column stands under "columns".
@@ -84,141 +68,176 @@ bool HasOwnMember(std::string_view column) {
   return false;
 }
 
-void AddColumns(Json& json, const DriveSummary& summary) {
+void AddColumns(const DriveSummary& summary, JsonValue& json) {
   for (const NamedColumn& named : kTopColumns) {
-    json[std::string(named.member)] = Column(summary.Find(named.column));
+    json.Set(named.member, Column(summary.Find(named.column)));
   }
-  Json errors = Json::object();
+  JsonValue errors = JsonValue::Object();
   for (const std::string_view name : kDeadReckoning) {
-    errors[std::string(name)] = Column(summary.Find(name));
+    errors.Set(name, Column(summary.Find(name)));
   }
-  json["dead_reckoning"] = std::move(errors);
-  Json others = Json::object();
+  json.Set("dead_reckoning", std::move(errors));
+  JsonValue others = JsonValue::Object();
   for (const ColumnSummary& column : summary.columns) {
-    if (!HasOwnMember(column.name)) others[column.name] = Column(&column);
+    if (!HasOwnMember(column.name)) others.Set(column.name, Column(&column));
   }
-  json["columns"] = std::move(others);
+  json.Set("columns", std::move(others));
 }
 
-Json Ends(const statistics::Interval& interval) {
-  return Json::array({Number(interval.low), Number(interval.high)});
-}
-
-Json MetricJson(const statistics::MetricSummary& summary) {
-  Json json = {
-      {"count", summary.count}, {"mean", Number(summary.mean)}, {"ci95", Ends(summary.interval)}};
+JsonValue MetricJson(const statistics::MetricSummary& summary) {
+  JsonValue json = JsonValue::Object({{"count", summary.count},
+                                      {"mean", NumberOrNull(summary.mean)},
+                                      {"ci95", EndsOf(summary.interval)}});
   if (summary.metric->kind == statistics::MetricKind::kRate) return json;
-  json["median"] = Number(summary.median);
-  json["median_ci95"] = Ends(summary.median_interval);
-  json["min"] = Number(summary.min);
-  json["max"] = Number(summary.max);
-  json["std"] = Number(summary.deviation);
+  json.Set("median", NumberOrNull(summary.median));
+  json.Set("median_ci95", EndsOf(summary.median_interval));
+  json.Set("min", NumberOrNull(summary.min));
+  json.Set("max", NumberOrNull(summary.max));
+  json.Set("std", NumberOrNull(summary.deviation));
   return json;
 }
 
-Json MetricsJson(const std::vector<statistics::MetricSummary>& metrics) {
-  Json json = Json::object();
+JsonValue MetricsJson(const std::vector<statistics::MetricSummary>& metrics) {
+  JsonValue json = JsonValue::Object();
   for (const statistics::MetricSummary& summary : metrics) {
-    if (summary.count > 0) json[std::string(summary.metric->name)] = MetricJson(summary);
+    if (summary.count > 0) json.Set(summary.metric->name, MetricJson(summary));
   }
   return json;
 }
 
-Json MetricsByOutcome(const DriveSummary& summary) {
-  Json json = Json::object();
+JsonValue MetricsByOutcome(const DriveSummary& summary) {
+  JsonValue json = JsonValue::Object();
   for (std::size_t i = 0; i < summary.metrics_by_outcome.size(); ++i) {
     if (summary.metrics_by_outcome[i].empty()) continue;
-    json[std::string(truth::kTrialOutcomeNames[i])] = MetricsJson(summary.metrics_by_outcome[i]);
+    json.Set(truth::kTrialOutcomeNames[i], MetricsJson(summary.metrics_by_outcome[i]));
   }
   return json;
 }
 
-Json CellJson(const statistics::MeasurementSummary& summary, const statistics::Cell& cell,
-              statistics::IntervalMethod method) {
-  Json json = {{"cell", cell.number}, {"runs", cell.runs}};
+JsonValue CellRate(const statistics::CellRate& rate, statistics::IntervalMethod method) {
+  JsonValue json = Rate(rate.rate, method);
+  json.Set("ci95_all_cells", EndsOf(rate.simultaneous));
+  return json;
+}
+
+JsonValue CellJson(const statistics::MeasurementSummary& summary, const statistics::Cell& cell,
+                   statistics::IntervalMethod method) {
+  JsonValue json = JsonValue::Object({{"cell", cell.number}, {"runs", cell.runs}});
   for (std::size_t i = 0; i < cell.factors.size(); ++i) {
-    json[std::string(summary.factors[i]->name)] = Number(cell.factors[i]);
+    json.Set(summary.factors[i]->name, NumberOrNull(cell.factors[i]));
   }
   for (std::size_t i = 0; i < cell.bases.size(); ++i) {
-    json[std::string(summary.bases[i]->name)] = Number(cell.bases[i]);
+    json.Set(summary.bases[i]->name, NumberOrNull(cell.bases[i]));
   }
   for (std::size_t i = 0; i < cell.rates.size(); ++i) {
-    Json rate = Rate(cell.rates[i].rate, method);
-    const statistics::Interval& all = cell.rates[i].simultaneous;
-    rate["ci95_all_cells"] = Json::array({all.low, all.high});
-    json[std::string(summary.rates[i]->name)] = std::move(rate);
+    json.Set(summary.rates[i]->name, CellRate(cell.rates[i], method));
   }
   for (std::size_t i = 0; i < cell.means.size(); ++i) {
     const bool squares = summary.means[i]->role == truth::ColumnRole::kSquares;
-    json[(squares ? "rms_" : "mean_") + std::string(summary.means[i]->name)] =
-        Number(cell.means[i]);
+    json.Set((squares ? "rms_" : "mean_") + std::string(summary.means[i]->name),
+             NumberOrNull(cell.means[i]));
   }
   return json;
 }
 
-Json Settings(const RunDescription& run) { return run.settings ? Json(*run.settings) : Json(); }
-
-Json Head(const RunDescription& run, std::int64_t completed, std::int64_t faults) {
-  Json json = {{"schema_version", kSchemaVersion},
-               {"scenario", run.scenario},
-               {"seed", run.seed},
-               {"fingerprint", run.fingerprint},
-               {"settings", Settings(run)},
-               {"localization", run.localization},
-               {"ablations", run.ablations}};
-  json["trials"] = {{"planned", run.planned},
-                    {"stored", run.stored},
-                    {"completed", completed},
-                    {"faults", faults}};
-  // Text, because JSON types stay inside one file.
-  json.update(Json::parse(AccountingJson(run)));
+JsonValue RunProvenance(const RunDescription& run) {
+  JsonValue json = ProvenanceJson(run.provenance);
+  json.Set("threads", JsonValue(run.threads));
+  json.Set("ranks", JsonValue(1));
+  json.Set("builds", core::ListOf(run.builds));
   return json;
+}
+
+JsonValue Settings(const RunDescription& run) {
+  return run.settings ? core::ListOf(*run.settings) : JsonValue();
+}
+
+// What runs of drives and of measurements tell alike, before and after what they found.
+JsonValue Head(const RunDescription& run, std::int64_t completed, std::int64_t faults) {
+  JsonValue json = JsonValue::Object({{"schema_version", kSchemaVersion},
+                                      {"scenario", run.scenario},
+                                      {"seed", run.seed},
+                                      {"fingerprint", run.fingerprint},
+                                      {"settings", Settings(run)},
+                                      {"localization", run.localization},
+                                      {"ablations", core::ListOf(run.ablations)}});
+  json.Set("trials", JsonValue::Object({{"planned", run.planned},
+                                        {"stored", run.stored},
+                                        {"completed", completed},
+                                        {"faults", faults}}));
+  json.Update(AccountingJson(run));
+  return json;
+}
+
+void AddTail(const RunDescription& run, JsonValue& json) {
+  json.Set("trial_hash", JsonValue(run.trial_hash));
+  json.Set("provenance", RunProvenance(run));
 }
 
 }  // namespace
 
+JsonValue ProvenanceJson(const core::Provenance& p) {
+  return JsonValue::Object({{"version", p.version},
+                            {"commit", p.commit},
+                            {"compiler", p.compiler},
+                            {"flags", p.flags},
+                            {"build_type", p.build_type},
+                            {"host", p.host},
+                            {"cpu_model", p.cpu_model},
+                            {"cpu_level", p.cpu_level},
+                            {"cpu_threads", p.cpu_threads}});
+}
+
+JsonValue MeasurementValue(const RunDescription& run, const statistics::MeasurementSummary& summary,
+                           statistics::IntervalMethod method) {
+  JsonValue json = Head(run, summary.completed, summary.faults);
+  JsonValue widest = JsonValue::Object();
+  for (std::size_t i = 0; i < summary.rates.size(); ++i) {
+    widest.Set(summary.rates[i]->name, NumberOrNull(summary.WidestInterval(i)));
+  }
+  json.Set("widest_ci95", std::move(widest));
+  json.Set("simultaneous",
+           JsonValue("ci95_all_cells: Clopper-Pearson at level 1 - 0.05 / planned_cells, all cells "
+                     "at once"));
+  json.Set("planned_cells", JsonValue(summary.planned_cells));
+  json.Set("cells", core::ListOf(summary.cells, [&](const statistics::Cell& cell) {
+             return CellJson(summary, cell, method);
+           }));
+  AddTail(run, json);
+  return json;
+}
+
+JsonValue SummaryValue(const RunDescription& run, const DriveSummary& summary,
+                       statistics::IntervalMethod method) {
+  JsonValue json = Head(run, summary.completed, summary.faults);
+  json.Set("declared_success", Rate(summary.declared_success, method));
+  json.Set("true_success", Rate(summary.true_success, method));
+  json.Set("outcomes", Outcomes(summary));
+  AddColumns(summary, json);
+  json.Set("metrics", MetricsJson(summary.metrics));
+  json.Set("metrics_by_outcome", MetricsByOutcome(summary));
+  AddTail(run, json);
+  return json;
+}
+
 std::string MeasurementJson(const RunDescription& run,
                             const statistics::MeasurementSummary& summary,
                             statistics::IntervalMethod method) {
-  Json json = Head(run, summary.completed, summary.faults);
-  Json widest = Json::object();
-  for (std::size_t i = 0; i < summary.rates.size(); ++i) {
-    widest[std::string(summary.rates[i]->name)] = summary.WidestInterval(i);
-  }
-  json["widest_ci95"] = std::move(widest);
-  json["simultaneous"] =
-      "ci95_all_cells: Clopper-Pearson at level 1 - 0.05 / planned_cells, all cells at once";
-  json["planned_cells"] = summary.planned_cells;
-  json["cells"] = Json::array();
-  for (const statistics::Cell& cell : summary.cells) {
-    json["cells"].push_back(CellJson(summary, cell, method));
-  }
-  json["trial_hash"] = run.trial_hash;
-  json["provenance"] = Provenance(run);
-  return Text(json);
+  return core::SpreadJson(MeasurementValue(run, summary, method)) + "\n";
 }
 
 std::string SummaryJson(const RunDescription& run, const DriveSummary& summary,
                         statistics::IntervalMethod method) {
-  Json json = Head(run, summary.completed, summary.faults);
-  json["declared_success"] = Rate(summary.declared_success, method);
-  json["true_success"] = Rate(summary.true_success, method);
-  json["outcomes"] = Outcomes(summary);
-  AddColumns(json, summary);
-  json["metrics"] = MetricsJson(summary.metrics);
-  json["metrics_by_outcome"] = MetricsByOutcome(summary);
-  json["trial_hash"] = run.trial_hash;
-  json["provenance"] = Provenance(run);
-  return Text(json);
+  return core::SpreadJson(SummaryValue(run, summary, method)) + "\n";
 }
 
-std::string ProvenanceJson(const core::Provenance& provenance) { return Text(Program(provenance)); }
-
 std::string ResolvedScenarioJson(const RunDescription& run) {
-  return Text({{"scenario", Json::parse(run.resolved)},
-               {"fingerprint", run.fingerprint},
-               {"settings", Settings(run)},
-               {"provenance", Provenance(run)}});
+  JsonValue json = JsonValue::Object();
+  json.Set("scenario", core::ParseJson(run.resolved, "resolved scenario"));
+  json.Set("fingerprint", JsonValue(run.fingerprint));
+  json.Set("settings", Settings(run));
+  json.Set("provenance", RunProvenance(run));
+  return core::SpreadJson(json) + "\n";
 }
 
 }  // namespace rockyard::report

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/json_value.h"
 #include "core/provenance.h"
 #include "report/run_description.h"
 #include "statistics/cell_summary.h"
@@ -18,6 +19,8 @@ namespace rockyard::report {
 // median, mean, mode, p95, max, std}; a metric (statistics/metrics.h) {count, mean, ci95} and,
 // where it is no rate, {median, median_ci95, min, max, std}; metrics without a value are left out.
 // What is undefined is null.
+core::JsonValue SummaryValue(const RunDescription& run, const statistics::DriveSummary& summary,
+                             statistics::IntervalMethod method);
 std::string SummaryJson(const RunDescription& run, const statistics::DriveSummary& summary,
                         statistics::IntervalMethod method);
 
@@ -25,13 +28,16 @@ std::string SummaryJson(const RunDescription& run, const statistics::DriveSummar
 // widest_ci95 (by rate), simultaneous (how the intervals of all cells at once are made), cells (one
 // object per cell: cell, runs, factors, bases, rates with ci95 and ci95_all_cells, means),
 // trial_hash, provenance. No success rates: nothing drives.
+core::JsonValue MeasurementValue(const RunDescription& run,
+                                 const statistics::MeasurementSummary& summary,
+                                 statistics::IntervalMethod method);
 std::string MeasurementJson(const RunDescription& run,
                             const statistics::MeasurementSummary& summary,
                             statistics::IntervalMethod method);
 
 // The program and the machine: version, commit, compiler, flags, build_type, host, cpu_model,
 // cpu_level, cpu_threads.
-std::string ProvenanceJson(const core::Provenance& provenance);
+core::JsonValue ProvenanceJson(const core::Provenance& provenance);
 
 // scenario.resolved.json: {"scenario": every effective value, "fingerprint", "provenance"}. The
 // command line reads it wherever it reads a scenario.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/json_value.h"
 #include "core/provenance.h"
 #include "report/summary_text.h"
 #include "report/sweep_summary.h"
@@ -57,6 +58,8 @@ std::string SweepText(const scenario::Sweep& sweep, const SweepSummary& summary,
 // axes, trials (planned, stored, completed, faults), accounting, cells (with the rule and where it
 // ended each), fits, differences, attribution, notes,
 // trial_hash, provenance. What is undefined or infinite is null.
+core::JsonValue SweepValue(const scenario::Sweep& sweep, const SweepSummary& summary,
+                           const SweepDescription& description);
 std::string SweepJson(const scenario::Sweep& sweep, const SweepSummary& summary,
                       const SweepDescription& description);
 

@@ -1,164 +1,178 @@
-#include <cmath>
-#include <nlohmann/json.hpp>
-#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "core/json_text.h"
 #include "report/accounting.h"
 #include "report/atomic_file.h"
+#include "report/json_values.h"
 #include "report/sweep_files.h"
 
 namespace rockyard::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using core::JsonValue;
+using core::NumberOrNull;
 using scenario::Sweep;
 
-constexpr int kSchemaVersion = 1;
-
-Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json Pair(const statistics::Interval& interval) {
-  return Json::array({Number(interval.low), Number(interval.high)});
+JsonValue Trials(const SweepCellSummary& cell) {
+  return JsonValue::Object({{"planned", cell.planned},
+                            {"stored", cell.stored},
+                            {"completed", cell.completed},
+                            {"faults", cell.faults}});
 }
 
-Json Rate(const SweepRate& rate) {
-  return {{"count", rate.rate.count},
-          {"trials", rate.rate.trials},
-          {"rate", Number(rate.rate.rate)},
-          {"ci95", Pair(rate.rate.interval)},
-          {"ci95_all_cells", Pair(rate.simultaneous)}};
+JsonValue Rate(const SweepRate& rate) {
+  return JsonValue::Object({{"count", rate.rate.count},
+                            {"trials", rate.rate.trials},
+                            {"rate", NumberOrNull(rate.rate.rate)},
+                            {"ci95", EndsOf(rate.rate.interval)},
+                            {"ci95_all_cells", EndsOf(rate.simultaneous)}});
 }
 
-Json Cell(const Sweep& sweep, std::size_t index, const SweepCellSummary& cell) {
-  Json levels = Json::object();
+JsonValue Levels(const Sweep& sweep, const scenario::SweepCell& cell) {
+  JsonValue levels = JsonValue::Object();
   for (std::size_t i = 0; i < sweep.axes.size(); ++i) {
-    const scenario::SweepLevel& level = sweep.cells[index].levels[i];
-    levels[sweep.axes[i].name] = level.number ? Json(*level.number) : Json(level.text);
+    const scenario::SweepLevel& level = cell.levels[i];
+    levels.Set(sweep.axes[i].name,
+               level.number ? NumberOrNull(*level.number) : JsonValue(level.text));
   }
-  Json outcomes = Json::object();
+  return levels;
+}
+
+JsonValue Outcomes(const SweepCellSummary& cell) {
+  JsonValue outcomes = JsonValue::Object();
   for (std::size_t i = 0; i < cell.outcomes.size(); ++i) {
-    outcomes[std::string(truth::kTrialOutcomeNames[i])] = cell.outcomes[i];
+    outcomes.Set(truth::kTrialOutcomeNames[i], JsonValue(cell.outcomes[i]));
   }
-  Json metrics = Json::object();
+  return outcomes;
+}
+
+JsonValue Metrics(const SweepCellSummary& cell) {
+  JsonValue metrics = JsonValue::Object();
   for (const statistics::MetricSummary& metric : cell.metrics) {
-    metrics[std::string(metric.metric->name)] = {
-        {"count", metric.count}, {"mean", Number(metric.mean)}, {"ci95", Pair(metric.interval)}};
+    metrics.Set(metric.metric->name, JsonValue::Object({{"count", metric.count},
+                                                        {"mean", NumberOrNull(metric.mean)},
+                                                        {"ci95", EndsOf(metric.interval)}}));
   }
-  Json json = {{"cell", index},
-               {"name", sweep.cells[index].name},
-               {"levels", levels},
-               {"seed", sweep.cells[index].scenario.seed},
-               {"trials",
-                {{"planned", cell.planned},
-                 {"stored", cell.stored},
-                 {"completed", cell.completed},
-                 {"faults", cell.faults}}},
-               {"declared_success", Rate(cell.declared_success)},
-               {"true_success", Rate(cell.true_success)},
-               {"outcomes", outcomes},
-               {"metrics", metrics},
-               {"trial_hash", cell.trial_hash}};
-  json.update(Json::parse(AccountingJson(cell.accounting, cell.stopping)));
+  return metrics;
+}
+
+JsonValue Cell(const Sweep& sweep, std::size_t index, const SweepCellSummary& cell) {
+  JsonValue json = JsonValue::Object({{"cell", index},
+                                      {"name", sweep.cells[index].name},
+                                      {"levels", Levels(sweep, sweep.cells[index])},
+                                      {"seed", sweep.cells[index].scenario.seed},
+                                      {"trials", Trials(cell)},
+                                      {"declared_success", Rate(cell.declared_success)},
+                                      {"true_success", Rate(cell.true_success)},
+                                      {"outcomes", Outcomes(cell)}});
+  json.Set("metrics", Metrics(cell));
+  json.Set("trial_hash", JsonValue(cell.trial_hash));
+  json.Update(AccountingJson(cell.accounting, cell.stopping));
   return json;
 }
 
-Json Fit(const SweepCurve& curve, std::size_t kind) {
+JsonValue Crossing(const statistics::FitCrossing& crossing) {
+  return JsonValue::Object({{"rate", NumberOrNull(crossing.rate)},
+                            {"x", NumberOrNull(crossing.x)},
+                            {"ci95", EndsOf(crossing.interval)},
+                            {"outside_of_data", crossing.extrapolated}});
+}
+
+JsonValue Fit(const SweepCurve& curve, std::size_t kind) {
   const statistics::LogisticFit& fit = curve.fits[kind];
-  Json crossings = Json::array();
-  for (const statistics::FitCrossing& crossing : curve.crossings[kind]) {
-    crossings.push_back({{"rate", crossing.rate},
-                         {"x", Number(crossing.x)},
-                         {"ci95", Pair(crossing.interval)},
-                         {"outside_of_data", crossing.extrapolated}});
-  }
-  return {{"curve", curve.label},
-          {"success", kSuccessNames[kind]},
-          {"fitted", fit.status == statistics::FitStatus::kFitted},
-          {"logarithmic", fit.scale == statistics::FitScale::kLog},
-          {"intercept", Number(fit.intercept)},
-          {"slope", Number(fit.slope)},
-          {"deviance", Number(fit.deviance)},
-          {"degrees_of_freedom", fit.degrees_of_freedom},
-          {"p_value", Number(fit.p_value)},
-          {"clusters", fit.clusters},
-          {"crossings", crossings}};
+  return JsonValue::Object({{"curve", curve.label},
+                            {"success", kSuccessNames[kind]},
+                            {"fitted", fit.status == statistics::FitStatus::kFitted},
+                            {"logarithmic", fit.scale == statistics::FitScale::kLog},
+                            {"intercept", NumberOrNull(fit.intercept)},
+                            {"slope", NumberOrNull(fit.slope)},
+                            {"deviance", NumberOrNull(fit.deviance)},
+                            {"degrees_of_freedom", fit.degrees_of_freedom},
+                            {"p_value", NumberOrNull(fit.p_value)},
+                            {"clusters", fit.clusters},
+                            {"crossings", core::ListOf(curve.crossings[kind], Crossing)}});
 }
 
-Json Difference(const SweepDifference& each) {
-  return {{"axis", each.axis},
-          {"first", each.first},
-          {"second", each.second},
-          {"at", each.at},
-          {"success", each.success.what},
-          {"paired", each.paired},
-          {"difference", Number(each.success.difference)},
-          {"ci95", Pair(each.success.interval)},
-          {"p_value", Number(each.success.p_value)},
-          {"holm_p_value", Number(each.adjusted_p)}};
+JsonValue Difference(const SweepDifference& each) {
+  return JsonValue::Object({{"axis", each.axis},
+                            {"first", each.first},
+                            {"second", each.second},
+                            {"at", each.at},
+                            {"success", each.success.what},
+                            {"paired", each.paired},
+                            {"difference", NumberOrNull(each.success.difference)},
+                            {"ci95", EndsOf(each.success.interval)},
+                            {"p_value", NumberOrNull(each.success.p_value)},
+                            {"holm_p_value", NumberOrNull(each.adjusted_p)}});
 }
 
-Json Axes(const Sweep& sweep) {
-  Json axes = Json::array();
-  for (const scenario::SweepAxis& axis : sweep.axes) {
-    axes.push_back({{"name", axis.name}, {"unit", axis.unit}, {"numeric", axis.numeric}});
-  }
-  return axes;
+JsonValue Axis(const scenario::SweepAxis& axis) {
+  return JsonValue::Object({{"name", axis.name}, {"unit", axis.unit}, {"numeric", axis.numeric}});
 }
 
-Json Totals(const SweepSummary& summary) {
-  std::int64_t planned = 0;
-  std::int64_t stored = 0;
-  std::int64_t completed = 0;
-  std::int64_t faults = 0;
+JsonValue Totals(const SweepSummary& summary) {
+  SweepCellSummary total;
   for (const SweepCellSummary& cell : summary.cells) {
-    planned += cell.planned;
-    stored += cell.stored;
-    completed += cell.completed;
-    faults += cell.faults;
+    total.planned += cell.planned;
+    total.stored += cell.stored;
+    total.completed += cell.completed;
+    total.faults += cell.faults;
   }
-  return {{"planned", planned}, {"stored", stored}, {"completed", completed}, {"faults", faults}};
+  return Trials(total);
 }
 
-Json Accounted(const SweepSummary& summary) {
-  return Json::parse(AccountingJson(TotalAccounting(summary), std::nullopt))["accounting"];
-}
-
-}  // namespace
-
-std::string SweepJson(const Sweep& sweep, const SweepSummary& summary,
-                      const SweepDescription& description) {
-  Json cells = Json::array();
+JsonValue Cells(const Sweep& sweep, const SweepSummary& summary) {
+  JsonValue::List cells;
   for (std::size_t i = 0; i < summary.cells.size(); ++i) {
     cells.push_back(Cell(sweep, i, summary.cells[i]));
   }
-  Json fits = Json::array();
-  for (const SweepCurve& curve : summary.curves) {
+  return JsonValue(std::move(cells));
+}
+
+JsonValue Fits(const std::vector<SweepCurve>& curves) {
+  JsonValue::List fits;
+  for (const SweepCurve& curve : curves) {
     for (std::size_t kind = 0; kind < kSuccessNames.size(); ++kind) {
       fits.push_back(Fit(curve, kind));
     }
   }
-  Json differences = Json::array();
-  for (const SweepDifference& each : summary.differences) differences.push_back(Difference(each));
-  const Json json = {{"schema_version", kSchemaVersion},
-                     {"kind", "sweep"},
-                     {"name", sweep.name},
-                     {"seed", sweep.seed},
-                     {"common_random_numbers", sweep.common_random_numbers},
-                     {"axes", Axes(sweep)},
-                     {"trials", Totals(summary)},
-                     {"accounting", Accounted(summary)},
-                     {"cells", cells},
-                     {"fits", fits},
-                     {"differences", differences},
-                     {"attribution", Json::parse(AttributionJson(summary.attributions))},
-                     {"notes", summary.notes},
-                     {"trial_hash", description.trial_hash},
-                     {"provenance",
-                      {{"version", description.provenance.version},
-                       {"commit", description.provenance.commit},
-                       {"host", description.provenance.host},
-                       {"threads", description.threads},
-                       {"builds", description.builds}}}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return JsonValue(std::move(fits));
+}
+
+JsonValue Provenance(const SweepDescription& description) {
+  return JsonValue::Object({{"version", description.provenance.version},
+                            {"commit", description.provenance.commit},
+                            {"host", description.provenance.host},
+                            {"threads", description.threads},
+                            {"builds", core::ListOf(description.builds)}});
+}
+
+}  // namespace
+
+JsonValue SweepValue(const Sweep& sweep, const SweepSummary& summary,
+                     const SweepDescription& description) {
+  JsonValue json = JsonValue::Object({{"schema_version", kSchemaVersion},
+                                      {"kind", "sweep"},
+                                      {"name", sweep.name},
+                                      {"seed", sweep.seed},
+                                      {"common_random_numbers", sweep.common_random_numbers},
+                                      {"axes", core::ListOf(sweep.axes, Axis)},
+                                      {"trials", Totals(summary)}});
+  json.Update(AccountingJson(TotalAccounting(summary), std::nullopt));
+  json.Set("cells", Cells(sweep, summary));
+  json.Set("fits", Fits(summary.curves));
+  json.Set("differences", core::ListOf(summary.differences, Difference));
+  json.Set("attribution", AttributionJson(summary.attributions));
+  json.Set("notes", core::ListOf(summary.notes));
+  json.Set("trial_hash", JsonValue(description.trial_hash));
+  json.Set("provenance", Provenance(description));
+  return json;
+}
+
+std::string SweepJson(const Sweep& sweep, const SweepSummary& summary,
+                      const SweepDescription& description) {
+  return core::SpreadJson(SweepValue(sweep, summary, description)) + "\n";
 }
 
 void WriteSweepFiles(const std::filesystem::path& folder, const Sweep& sweep,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "math/angles.h"
+#include "report/trace_view.h"
 #include "report/xml_text.h"
 
 namespace rockyard::report {
@@ -169,7 +170,7 @@ void DrawMarks(const truth::Trace& trace, std::string_view kind, Canvas& canvas)
   }
 }
 
-void DrawFooter(const TracedTrial& trial, Canvas& canvas) {
+void DrawFooter(const truth::TracedTrial& trial, Canvas& canvas) {
   const double left_m = canvas.area().x_min_m;
   const double top_m = canvas.area().y_min_m;
   const double keys_y_m = top_m - 0.25;
@@ -192,7 +193,7 @@ void DrawFooter(const TracedTrial& trial, Canvas& canvas) {
 
 }  // namespace
 
-TraceDrawing DrawTrace(const TracedTrial& trial, const DrawnArea& plan) {
+TraceDrawing DrawTrace(const truth::TracedTrial& trial, const DrawnArea& plan) {
   const truth::Trace& trace = trial.trace;
   Canvas canvas(plan);
   canvas.DrawPath(Thinned(PathOf(trace, BelievedPose)), "dead-reckoned path", kBelievedStyle);

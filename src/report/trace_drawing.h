@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "report/trace_view.h"
+#include "truth/traced_trial.h"
 
 namespace rockyard::report {
 
@@ -29,6 +29,6 @@ inline constexpr std::size_t kMostDrawnPoints = 2000;
 // both ends of the drive, and below the plan (`plan`) a scale, a key and a title. Paths are
 // interrupted where operators reflected the rover. Marks within 2 cm of the one before are left
 // out, and paths are thinned to kMostDrawnPoints.
-TraceDrawing DrawTrace(const TracedTrial& trial, const DrawnArea& plan);
+TraceDrawing DrawTrace(const truth::TracedTrial& trial, const DrawnArea& plan);
 
 }  // namespace rockyard::report

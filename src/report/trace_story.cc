@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "math/angles.h"
+#include "report/trace_view.h"
 #include "statistics/drive_summary.h"
 
 namespace rockyard::report {
@@ -176,7 +177,7 @@ std::string PoseText(double x_m, double y_m, double heading_rad) {
                      Rounded(RadToDeg(heading_rad), 1.0));
 }
 
-std::string Line(const TracedTrial& trial, double time_s, const math::Pose2& pose,
+std::string Line(const truth::TracedTrial& trial, double time_s, const math::Pose2& pose,
                  const TraceSample* sample, const std::string& what) {
   std::string believed(20, ' ');
   std::string to_goal(6, ' ');
@@ -189,7 +190,7 @@ std::string Line(const TracedTrial& trial, double time_s, const math::Pose2& pos
                      PoseText(pose.x_m, pose.y_m, pose.heading_rad), believed, to_goal, what);
 }
 
-std::string EventLines(const TracedTrial& trial, StoryLength length) {
+std::string EventLines(const truth::TracedTrial& trial, StoryLength length) {
   const Trace& trace = trial.trace;
   const std::vector<Fold> folds = FoldsOf(trace, length);
   std::string text = fmt::format(
@@ -213,7 +214,7 @@ std::string EventLines(const TracedTrial& trial, StoryLength length) {
   return text;
 }
 
-std::string KeyFigures(const TracedTrial& trial) {
+std::string KeyFigures(const truth::TracedTrial& trial) {
   const auto value = [&trial](std::string_view name) {
     const auto column = statistics::ColumnIndex(trial.schema, name);
     return column && *column < trial.record.values.size() ? trial.record.values[*column]
@@ -254,7 +255,7 @@ std::string KeyFigures(const TracedTrial& trial) {
 
 }  // namespace
 
-std::string TraceStory(const TracedTrial& trial, StoryLength length) {
+std::string TraceStory(const truth::TracedTrial& trial, StoryLength length) {
   std::string text =
       fmt::format("{}, seed {}, trial {}: {} ({})\n", trial.scenario, trial.seed,
                   trial.record.trial, truth::Name(trial.record.outcome), trial.record.detail);

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "report/trace_view.h"
+#include "truth/traced_trial.h"
 
 namespace rockyard::report {
 
@@ -19,6 +19,6 @@ inline constexpr int kMostStoryLines = 60;
 // drove until the next line. Lengths in m, angles in degrees. Folded, events that follow each other
 // within a short drive share a line, e.g. "12 hazard scans ..#.. to .#..., turned right 141 deg";
 // the drive is the shortest one that keeps the limit. Lines have up to some 170 columns.
-std::string TraceStory(const TracedTrial& trial, StoryLength length);
+std::string TraceStory(const truth::TracedTrial& trial, StoryLength length);
 
 }  // namespace rockyard::report

@@ -1,25 +1,14 @@
-// One traced trial, as story, CSV and drawing see it.
+// What story, CSV and drawing of a trial look up in its trace, and in what way two records differ.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "messages/estimates.h"
 #include "truth/record.h"
 #include "truth/trace.h"
 
 namespace rockyard::report {
-
-struct TracedTrial {
-  std::string scenario;
-  std::uint64_t seed = 1;
-  messages::Goal goal;
-  truth::RecordSchema schema;
-  truth::Record record;
-  truth::Trace trace;
-};
 
 // The last sample at or before `time_s`: what the rover believed when an event happened. Null where
 // there is none. Samples are in the order of time.

@@ -55,9 +55,9 @@ TEST(ReplayPayload, StepsOfAMapBasedNavigator) {
 // Of many steps only some keep what takes room. Steps of a real drive, over and over.
 TEST(ReplayPayload, ManyStepsStaySmall) {
   ReplayedTrial replayed = ReplayTrial(SourceOf("gestalt/narrow_course"), 0);
-  std::vector<report::ReplayStep>& steps = replayed.data.steps;
-  const std::vector<report::ReplayStep> few = steps;
-  while (steps.size() <= 2 * report::kMostDetailedSteps) {
+  std::vector<replay::ReplayStep>& steps = replayed.data.steps;
+  const std::vector<replay::ReplayStep> few = steps;
+  while (steps.size() <= 2 * replay::kMostDetailedSteps) {
     steps.insert(steps.end(), few.begin(), few.end());
   }
   const Json payload = Json::parse(ReplayPayload(replayed));

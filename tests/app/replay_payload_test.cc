@@ -8,7 +8,7 @@
 
 #include "app/drive_recording.h"
 #include "app/replay_payloads.h"
-#include "report/replay_motion.h"
+#include "replay/motion.h"
 
 namespace rockyard::app {
 namespace {
@@ -124,7 +124,7 @@ TEST_F(ReplayPayloadTest, ScansStandInTheRecordAndShowTheGround) {
 TEST_F(ReplayPayloadTest, LeavesOutNoMomentThatIsFurtherOffThanItSays) {
   const DriveRecording recording = RecordDrive(source_.scenario, source_.seed, 7);
   const auto poses = PosesOf(source_.scenario, recording.traced.trace);
-  const report::ThinnedMotion motion = report::ThinMotion(poses);
+  const replay::ThinnedMotion motion = replay::ThinMotion(poses);
   EXPECT_EQ(motion.kept.size(), Channel(payload_, "t").size());
   EXPECT_LT(motion.kept.size(), poses.size() / 2);
   EXPECT_EQ(motion.tolerance.position_m, payload_["motion"]["position_tolerance"]);
@@ -133,7 +133,7 @@ TEST_F(ReplayPayloadTest, LeavesOutNoMomentThatIsFurtherOffThanItSays) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     while (motion.kept[after] < i) ++after;
     if (motion.kept[after] == i) continue;
-    EXPECT_LE(report::ShownError(poses[motion.kept[after - 1]], poses[motion.kept[after]], poses[i],
+    EXPECT_LE(replay::ShownError(poses[motion.kept[after - 1]], poses[motion.kept[after]], poses[i],
                                  motion.tolerance),
               1.0)
         << i;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/json_text.h"
 #include "report/sweep_files.h"
 #include "report/sweep_summary.h"
 
@@ -21,7 +22,7 @@ using testing::Not;
 using testing::SizeIs;
 using truth::TrialOutcome;
 
-constexpr std::size_t kTrials = 100;
+constexpr std::size_t kTrialsEach = 100;
 constexpr std::size_t kTrue = static_cast<std::size_t>(SuccessKind::kTrue);
 constexpr std::size_t kDeclared = static_cast<std::size_t>(SuccessKind::kDeclared);
 
@@ -32,9 +33,9 @@ std::string TwoAblations(const std::string& first = "sight", const std::string& 
             {"name": "slip", "ablation": "no_slip"}]})";
 }
 
-std::vector<truth::Record> Trials(const std::function<TrialOutcome(std::size_t)>& outcome) {
+std::vector<truth::Record> TrialsThat(const std::function<TrialOutcome(std::size_t)>& outcome) {
   std::vector<truth::Record> trials;
-  for (std::size_t t = 0; t < kTrials; ++t) {
+  for (std::size_t t = 0; t < kTrialsEach; ++t) {
     trials.push_back({.trial = t, .outcome = outcome(t), .detail = "", .values = {}});
   }
   return trials;
@@ -43,7 +44,7 @@ std::vector<truth::Record> Trials(const std::function<TrialOutcome(std::size_t)>
 // Trials 0..19 fail for want of sight, 20..29 for slip, 30..34 for either alone. Trials 90..99
 // always end at a wrong place, which the rover takes for the goal.
 std::vector<truth::Record> Cell(bool sight, bool slip) {
-  return Trials([=](std::size_t t) {
+  return TrialsThat([=](std::size_t t) {
     if (t >= 90) return TrialOutcome::kFalseGoal;
     const bool fails = (t < 20 && !sight) || (t >= 20 && t < 30 && !slip) ||
                        (t >= 30 && t < 35 && !(sight && slip));
@@ -115,7 +116,7 @@ TEST(AttributionReportTest, EachSettingOfOtherAxesHasItsOwn) {
       TwoAblations("sight", R"({"path": "course.goal_x_m", "values": [5, 6]},)"));
   std::vector<std::vector<truth::Record>> cells = FourCells();
   const auto perfect = [] {
-    return Trials([](std::size_t) { return TrialOutcome::kGoalReached; });
+    return TrialsThat([](std::size_t) { return TrialOutcome::kGoalReached; });
   };
   for (int i = 0; i < 4; ++i) cells.push_back(perfect());
   const auto attributions = Attributed(sweep, cells);
@@ -173,7 +174,7 @@ TEST(AttributionReportTest, WithoutTrialsThereIsNoTable) {
   EXPECT_THAT(AttributionText(attributions), HasSubstr("0 paired trials"));
   EXPECT_THAT(AttributionText(attributions), Not(HasSubstr("nan")));
   EXPECT_THAT(AttributionCsv(attributions), Not(HasSubstr("nan")));
-  EXPECT_FALSE(json::parse(AttributionJson(attributions)).empty());
+  EXPECT_FALSE(json::parse(core::SpreadJson(AttributionJson(attributions))).empty());
 }
 
 TEST(AttributionReportTest, TheCsvHasARowForEverything) {
@@ -201,10 +202,10 @@ TEST(AttributionReportTest, NamesAreTextInEveryFile) {
   const auto attributions = Attributed(sweep, FourCells());
   EXPECT_THAT(AttributionCsv(attributions),
               HasSubstr(",share,\"\"\"quoted\"\", <b>&amp; \xc3\xa4=1\",0.2"));
-  const json list = json::parse(AttributionJson(attributions));
+  const json list = json::parse(core::SpreadJson(AttributionJson(attributions)));
   ASSERT_THAT(list, SizeIs(2));
   EXPECT_EQ(list[0]["success"], "declared success");
-  EXPECT_EQ(list[0]["trials"], kTrials);
+  EXPECT_EQ(list[0]["trials"], kTrialsEach);
   EXPECT_EQ(list[0]["left_out"], 0);
   EXPECT_NEAR(double(list[0]["sum_of_alone"]), 0.3, 1e-12);
   const auto share = std::find_if(list[0]["rows"].begin(), list[0]["rows"].end(),
@@ -224,13 +225,14 @@ TEST(AttributionReportTest, TheSummaryOfASweepHoldsIt) {
       [&](std::size_t cell) {
         return SweepCellTrials{.schema = {},
                                .prefix = cells[cell],
-                               .planned = kTrials,
-                               .stored = kTrials,
+                               .planned = kTrialsEach,
+                               .stored = kTrialsEach,
                                .trial_hash = std::to_string(cell)};
       },
       statistics::IntervalMethod::kWilson);
   const json written = json::parse(SweepJson(sweep, summary, {.trial_hash = "feed"}));
-  EXPECT_EQ(written["attribution"], json::parse(AttributionJson(summary.attributions)));
+  EXPECT_EQ(written["attribution"],
+            json::parse(core::SpreadJson(AttributionJson(summary.attributions))));
   EXPECT_THAT(written["attribution"], SizeIs(2));
   EXPECT_THAT(SweepText(sweep, summary, {}, TextStyle::kPlain),
               HasSubstr(AttributionText(summary.attributions)));

@@ -2,7 +2,7 @@
 // a scrape, 0.5 m south by hand of the operators, the end.
 #pragma once
 
-#include "report/trace_view.h"
+#include "truth/traced_trial.h"
 
 namespace rockyard::report {
 
@@ -11,8 +11,8 @@ inline truth::TraceSample SampleOf(double time_s, double x_m, double y_m, double
   return {time_s, {x_m, y_m, heading_rad}, 0.1, {x_m + 0.5, y_m, heading_rad, x_m}, activity};
 }
 
-inline TracedTrial SampleTrial() {
-  TracedTrial trial;
+inline truth::TracedTrial SampleTrial() {
+  truth::TracedTrial trial;
   trial.scenario = "sample<&>";
   trial.seed = 7;
   trial.goal = {3.5, 0.0};

@@ -16,13 +16,13 @@ using nlohmann::json;
 using statistics::IntervalMethod;
 using testing::HasSubstr;
 
-statistics::DriveSummary Summary(IntervalMethod method = IntervalMethod::kWilson) {
+statistics::DriveSummary SampleSummary(IntervalMethod method = IntervalMethod::kWilson) {
   return statistics::Summarize(SampleSchema(), SampleRecords(), 8, method);
 }
 
 TEST(SummaryJson, HasEveryMemberOfTheLayout) {
   const json summary =
-      json::parse(SummaryJson(SampleDescription(), Summary(), IntervalMethod::kWilson));
+      json::parse(SummaryJson(SampleDescription(), SampleSummary(), IntervalMethod::kWilson));
   EXPECT_EQ(summary["schema_version"], 1);
   EXPECT_EQ(summary["scenario"], "sample");
   EXPECT_EQ(summary["seed"], 9000000000000000001ULL);
@@ -42,7 +42,7 @@ TEST(SummaryJson, HasEveryMemberOfTheLayout) {
 
 TEST(SummaryJson, RatesLeaveFaultsOut) {
   const json summary =
-      json::parse(SummaryJson(SampleDescription(), Summary(), IntervalMethod::kWilson));
+      json::parse(SummaryJson(SampleDescription(), SampleSummary(), IntervalMethod::kWilson));
   EXPECT_EQ(summary["declared_success"]["count"], 3);
   EXPECT_EQ(summary["declared_success"]["trials"], 5);
   EXPECT_DOUBLE_EQ(summary["declared_success"]["rate"], 0.6);
@@ -54,7 +54,7 @@ TEST(SummaryJson, RatesLeaveFaultsOut) {
 
 TEST(SummaryJson, ClopperPearsonOnRequest) {
   const auto method = IntervalMethod::kClopperPearson;
-  const json summary = json::parse(SummaryJson(SampleDescription(), Summary(method), method));
+  const json summary = json::parse(SummaryJson(SampleDescription(), SampleSummary(method), method));
   EXPECT_EQ(summary["declared_success"]["ci_method"], "clopper_pearson");
   EXPECT_NEAR(summary["declared_success"]["ci95"][0].get<double>(), 0.14663, 1e-5);
   EXPECT_NEAR(summary["declared_success"]["ci95"][1].get<double>(), 0.94726, 1e-5);
@@ -62,7 +62,7 @@ TEST(SummaryJson, ClopperPearsonOnRequest) {
 
 TEST(SummaryJson, ColumnsByHand) {
   const json summary =
-      json::parse(SummaryJson(SampleDescription(), Summary(), IntervalMethod::kWilson));
+      json::parse(SummaryJson(SampleDescription(), SampleSummary(), IntervalMethod::kWilson));
   EXPECT_EQ(summary["distance_m"]["count"], 5);
   EXPECT_EQ(summary["distance_m"]["min"], 4.0);
   EXPECT_EQ(summary["distance_m"]["median"], 8.0);
@@ -95,7 +95,7 @@ TEST(ResolvedScenarioJson, HoldsScenarioAndProvenance) {
 TEST(SummaryText, FitsAndColoursOnRequestOnly) {
   RunDescription run = SampleDescription();
   run.scenario = std::string(300, 'n');
-  const std::string text = SummaryText(run, Summary());
+  const std::string text = SummaryText(run, SampleSummary());
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
   EXPECT_THAT(text, HasSubstr("3 of 5"));
@@ -104,7 +104,7 @@ TEST(SummaryText, FitsAndColoursOnRequestOnly) {
   EXPECT_THAT(text, HasSubstr("1 more finished trials"));
   EXPECT_THAT(text, HasSubstr("0123456789abcdef"));
   EXPECT_EQ(text.find('\x1b'), std::string::npos);
-  EXPECT_NE(SummaryText(run, Summary(), TextStyle::kColour).find('\x1b'), std::string::npos);
+  EXPECT_NE(SummaryText(run, SampleSummary(), TextStyle::kColour).find('\x1b'), std::string::npos);
 }
 
 // Numbers as large as any run's, and a name that could break the line or the terminal.
@@ -129,7 +129,7 @@ TEST(SummaryText, FitsWhateverTheNumbersAre) {
                                 .successes = kMost,
                                 .low = 0.0,
                                 .high = 1.0};
-  statistics::DriveSummary summary = Summary();
+  statistics::DriveSummary summary = SampleSummary();
   summary.completed = kMost;
   summary.faults = kMost;
   summary.declared_success = {kMost, kMost, 1.0, {1.0, 1.0}};
@@ -148,9 +148,9 @@ TEST(SummaryText, FitsWhateverTheNumbersAre) {
 
 TEST(SummaryText, FlagsPerfectLocalization) {
   RunDescription run = SampleDescription();
-  EXPECT_EQ(SummaryText(run, Summary()).find("perfect"), std::string::npos);
+  EXPECT_EQ(SummaryText(run, SampleSummary()).find("perfect"), std::string::npos);
   run.localization = "oracle";
-  EXPECT_THAT(SummaryText(run, Summary()), HasSubstr("perfect localization"));
+  EXPECT_THAT(SummaryText(run, SampleSummary()), HasSubstr("perfect localization"));
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ std::size_t CountOf(const std::string& text, const std::string& part) {
 }
 
 TEST(TraceCsv, SamplesAndEventsInOrderOfTime) {
-  const TracedTrial trial = SampleTrial();
+  const truth::TracedTrial trial = SampleTrial();
   std::istringstream lines(TraceCsv(trial.trace));
   std::string line;
   std::getline(lines, line);
@@ -55,7 +55,7 @@ TEST(TraceDrawing, PathsBreakAtReflectionsAndMarksLieOnBoth) {
 }
 
 TEST(TraceDrawing, LongPathsAreThinnedAndKeepTheirEnds) {
-  TracedTrial trial = SampleTrial();
+  truth::TracedTrial trial = SampleTrial();
   trial.trace.samples.clear();
   for (int i = 0; i <= 40000; ++i) {
     trial.trace.samples.push_back(

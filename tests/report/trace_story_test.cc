@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/trace_view.h"
 #include "sample_trace.h"
 
 namespace rockyard::report {
@@ -30,7 +31,7 @@ TEST(TraceStory, TellsTurnsAndDrivesBetweenFoldedEvents) {
 }
 
 TEST(TraceStory, FoldsLooksChoicesAndFeltHazards) {
-  TracedTrial trial = SampleTrial();
+  truth::TracedTrial trial = SampleTrial();
   trial.trace.events = {{1.0, {}, "look", "ahead, 900 points"},
                         {1.0, {}, "chosen", "forward left 0.55/m: vote 200"},
                         {1.1, {}, "felt", "tilt ahead"},
@@ -46,7 +47,7 @@ TEST(TraceStory, FoldsLooksChoicesAndFeltHazards) {
 }
 
 TEST(TraceStory, EveryEventOnALineOfItsOwn) {
-  const TracedTrial trial = SampleTrial();
+  const truth::TracedTrial trial = SampleTrial();
   const std::string all = TraceStory(trial, StoryLength::kAll);
   EXPECT_THAT(all, HasSubstr("hazard ..#.., turned right 10 deg\n"));
   EXPECT_THAT(all, Not(HasSubstr("hazard scans ")));
@@ -54,7 +55,7 @@ TEST(TraceStory, EveryEventOnALineOfItsOwn) {
 }
 
 TEST(TraceStory, StaysShortHoweverMuchHappens) {
-  TracedTrial trial = SampleTrial();
+  truth::TracedTrial trial = SampleTrial();
   trial.trace = {};
   for (int i = 0; i < 3000; ++i) {
     trial.trace.samples.push_back(SampleOf(i, 0.02 * i, 0.0, 0.0, "drive"));
@@ -66,7 +67,7 @@ TEST(TraceStory, StaysShortHoweverMuchHappens) {
 }
 
 TEST(TraceStory, AFaultBeforeTheFirstTickHasNoFigures) {
-  TracedTrial trial;
+  truth::TracedTrial trial;
   trial.record.detail = "blew up";
   const std::string story = TraceStory(trial, StoryLength::kFolded);
   EXPECT_THAT(story, HasSubstr("simulator_fault (blew up)"));
@@ -74,7 +75,7 @@ TEST(TraceStory, AFaultBeforeTheFirstTickHasNoFigures) {
 }
 
 TEST(RecordDifferences, ComparesBits) {
-  const TracedTrial trial = SampleTrial();
+  const truth::TracedTrial trial = SampleTrial();
   EXPECT_TRUE(RecordDifferences(trial.schema, trial.record, trial.record).empty());
   truth::Record other = trial.record;
   other.values[1] = std::nextafter(other.values[1], 100.0);

@@ -1,4 +1,4 @@
-// What `rockyard replay` writes into its page (report/replay_data.h). SI units; W is the world
+// What `rockyard replay` writes into its page (replay/data.h). SI units; W is the world
 // (x from start to goal, z up), R the rover (x forward, y left, z up, origin on the ground under the
 // chassis while it stands on level ground). Angles in rad. What is undefined is null.
 

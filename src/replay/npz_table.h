@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "math/pose.h"
-#include "report/npz_file.h"
+#include "replay/npz_file.h"
 
-namespace rockyard::report {
+namespace rockyard::replay {
 
 // Rows of equally many numbers.
 class NpzTable {
@@ -40,4 +40,4 @@ void AddColumn(std::string_view name, const Items& items, const Value& value, Np
   file.AddReals(name, numbers, {numbers.size()});
 }
 
-}  // namespace rockyard::report
+}  // namespace rockyard::replay

@@ -4,10 +4,13 @@
 #include <string_view>
 #include <vector>
 
-#include "report/replay_text.h"
+#include "replay/payload_text.h"
 
-namespace rockyard::report {
+namespace rockyard::replay {
 namespace {
+
+using core::JsonList;
+using core::JsonObject;
 
 using messages::MapCellView;
 using messages::MotionVote;
@@ -29,7 +32,7 @@ std::string StripePointText(const StripePoint& point) {
 // Without heights all of them are null, which takes next to no room.
 std::string MapText(const messages::MapView& map, bool heights) {
   const auto byte = [&](std::uint8_t MapCellView::*member) {
-    return List(map.cells, [member](const MapCellView& cell) {
+    return JsonList(map.cells, [member](const MapCellView& cell) {
       return std::to_string(cell.known ? int{cell.*member} : kUnknown);
     });
   };
@@ -42,12 +45,12 @@ std::string MapText(const messages::MapView& map, bool heights) {
       .AddInteger("ny", map.ny)
       .Add("goodness", byte(&MapCellView::goodness))
       .Add("certainty", byte(&MapCellView::certainty))
-      .Add("elevation", List(map.cells,
-                             [heights](const MapCellView& cell) {
-                               return heights && cell.has_data
-                                          ? Rounded(cell.elevation_m, kCoarseDigits)
-                                          : std::string("null");
-                             }))
+      .Add("elevation", JsonList(map.cells,
+                                 [heights](const MapCellView& cell) {
+                                   return heights && cell.has_data
+                                              ? Rounded(cell.elevation_m, kCoarseDigits)
+                                              : std::string("null");
+                                 }))
       .Text();
 }
 
@@ -88,19 +91,20 @@ std::string StepText(const ReplayStep& step, bool detailed) {
       .AddFlag("behind", step.view.looked_behind)
       .Add("map", MapText(step.view.map, detailed))
       .Add("votes", VotesText(step.view))
-      .Add("points", detailed ? List(step.points_W, RangePointText) : "[]")
+      .Add("points", detailed ? JsonList(step.points_W, RangePointText) : "[]")
       .Text();
 }
 
 }  // namespace
 
 std::string ScansJson(std::span<const ReplayScan> scans) {
-  return List(scans, [](const ReplayScan& scan) {
+  return JsonList(scans, [](const ReplayScan& scan) {
     JsonObject object;
     object.Add("t", Length(scan.time_s));
     return AddPose(object, scan.pose)
-        .Add("points", List(scan.points, StripePointText))
-        .Add("hazards", List(scan.hazards, [](bool hazard) { return hazard ? "true" : "false"; }))
+        .Add("points", JsonList(scan.points, StripePointText))
+        .Add("hazards",
+             JsonList(scan.hazards, [](bool hazard) { return hazard ? "true" : "false"; }))
         .Text();
   });
 }
@@ -108,11 +112,12 @@ std::string ScansJson(std::span<const ReplayScan> scans) {
 std::string StepsJson(std::span<const ReplayStep> steps) {
   const std::size_t every = (steps.size() + kMostDetailedSteps - 1) / kMostDetailedSteps;
   std::size_t number = 0;
-  return List(steps, [&](const ReplayStep& step) { return StepText(step, number++ % every == 0); });
+  return JsonList(steps,
+                  [&](const ReplayStep& step) { return StepText(step, number++ % every == 0); });
 }
 
 std::string EventsJson(std::span<const truth::TraceEvent> events) {
-  return List(events, [](const truth::TraceEvent& event) {
+  return JsonList(events, [](const truth::TraceEvent& event) {
     JsonObject object;
     object.Add("t", Length(event.time_s))
         .AddText("kind", event.kind)
@@ -121,4 +126,4 @@ std::string EventsJson(std::span<const truth::TraceEvent> events) {
   });
 }
 
-}  // namespace rockyard::report
+}  // namespace rockyard::replay

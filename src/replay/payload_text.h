@@ -4,11 +4,11 @@
 #include <span>
 #include <string>
 
+#include "core/json_pieces.h"
 #include "math/pose.h"
-#include "report/page_json.h"
-#include "report/replay_data.h"
+#include "replay/data.h"
 
-namespace rockyard::report {
+namespace rockyard::replay {
 
 // The multiple of 1 / digits that is nearest; no "-0".
 std::string Rounded(double value, double digits);
@@ -19,22 +19,11 @@ std::string Angle(double value_rad);
 // [x, y, z] to 0.1 mm.
 std::string Point(const math::Vector3& p);
 // Members x, y and heading.
-JsonObject& AddPose(JsonObject& object, const math::Pose2& pose);
+core::JsonObject& AddPose(core::JsonObject& object, const math::Pose2& pose);
 std::string PoseText(const math::Pose2& pose);
 
 // Of the program that made it, and the machine.
 std::string ProvenanceText(const core::Provenance& provenance);
-
-// [text(item), ...]
-template <typename Items, typename Text>
-std::string List(const Items& items, const Text& text) {
-  std::string list = "[";
-  for (const auto& item : items) {
-    if (list.size() > 1) list += ',';
-    list += text(item);
-  }
-  return list + ']';
-}
 
 // As payload.ts names them.
 std::string MotionJson(std::span<const ReplayLink> links, std::span<const ReplayPose> poses);
@@ -42,4 +31,4 @@ std::string ScansJson(std::span<const ReplayScan> scans);
 std::string StepsJson(std::span<const ReplayStep> steps);
 std::string EventsJson(std::span<const truth::TraceEvent> events);
 
-}  // namespace rockyard::report
+}  // namespace rockyard::replay

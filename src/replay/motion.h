@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "report/replay_data.h"
+#include "replay/data.h"
 
-namespace rockyard::report {
+namespace rockyard::replay {
 
 // How far what is shown between two moments that are kept may be from the truth, where positions
 // and angles are interpolated linearly in time and attitudes along the shortest turn (slerp).
@@ -41,4 +41,4 @@ ThinnedMotion ThinMotion(std::span<const ReplayPose> poses, std::size_t most = k
 double ShownError(const ReplayPose& before, const ReplayPose& after, const ReplayPose& pose,
                   const MotionTolerance& tolerance);
 
-}  // namespace rockyard::report
+}  // namespace rockyard::replay

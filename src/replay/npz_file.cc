@@ -1,4 +1,4 @@
-#include "report/npz_file.h"
+#include "replay/npz_file.h"
 
 #include <fmt/format.h>
 #include <zip.h>
@@ -14,7 +14,7 @@
 
 #include "core/check.h"
 
-namespace rockyard::report {
+namespace rockyard::replay {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "arrays are written as they lie");
@@ -186,4 +186,4 @@ std::string NpzFile::Bytes() const {
   return ReadAll(*buffer);
 }
 
-}  // namespace rockyard::report
+}  // namespace rockyard::replay

@@ -14,7 +14,7 @@
 #include "truth/record.h"
 #include "truth/trace.h"
 
-namespace rockyard::report {
+namespace rockyard::replay {
 
 struct ReplayWall {
   math::Vector3 normal_W = math::Vector3::UnitY();  // horizontal
@@ -121,13 +121,12 @@ struct ReplayData {
   std::vector<truth::TraceEvent> events;
 };
 
-// Most steps with heights of the map and range points; where there are more, every second, or
-// third,
-// ... has them, so that a page stays small.
+// Most steps with heights of the map and range points; where there are more, only every second has
+// them, or every third, ..., so that a page stays small.
 inline constexpr std::size_t kMostDetailedSteps = 240;
 
 // As src/web/replay/payload.ts says, on one line. Moments of little change are left out (see
-// replay_motion.h), lengths have 0.1 mm, but the last moment has every digit of its pose.
+// motion.h), lengths have 0.1 mm, but the last moment has every digit of its pose.
 std::string ReplayJson(const ReplayData& data);
 
-}  // namespace rockyard::report
+}  // namespace rockyard::replay

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace rockyard::report {
+namespace rockyard::replay {
 
 // Collects arrays, and writes them in the order in which they came. numpy.load reads them without
 // pickle. Row-major, little endian: float64 (<f8), int64 (<i8), bool (|b1), texts (<U: UTF-32 of
@@ -41,4 +41,4 @@ class NpzFile {
   std::vector<Entry> entries_;
 };
 
-}  // namespace rockyard::report
+}  // namespace rockyard::replay

@@ -1,5 +1,5 @@
-// JSON text for the pages, written piece by piece: a page of ten thousand trials holds a million
-// numbers, for which a tree in memory would be many times the text.
+// JSON text written piece by piece, on one line: a page of ten thousand trials holds a million
+// numbers, for which a tree of JsonValue would be many times the text.
 #pragma once
 
 #include <cstdint>
@@ -7,12 +7,10 @@
 #include <string>
 #include <string_view>
 
-namespace rockyard::report {
+namespace rockyard::core {
 
-// A quoted JSON string. What is no UTF-8 becomes U+FFFD, one for each bad byte or sequence.
-std::string JsonText(std::string_view text);
-
-// The shortest decimal that reads back to the same bits; null where it is not finite.
+// The shortest decimal that reads back to the same bits, whole numbers without a point; null where
+// it is not finite.
 std::string JsonNumber(double value);
 
 // The same with at most six significant digits.
@@ -21,10 +19,18 @@ std::string JsonSixDigits(double value);
 // [first,second,...] of values that are JSON already.
 std::string JsonList(std::span<const std::string> values);
 
-std::string JsonTexts(std::span<const std::string> texts);
+// The same of text(item) of each item.
+template <typename Items, typename Text>
+std::string JsonList(const Items& items, const Text& text) {
+  std::string list(1, '[');
+  for (const auto& item : items) {
+    if (list.size() > 1) list += ',';
+    list += text(item);
+  }
+  return list + ']';
+}
 
-// The same JSON without blanks between its values.
-std::string JsonCompact(std::string_view json);
+std::string JsonTexts(std::span<const std::string> texts);
 
 // An object, member by member.
 class JsonObject {
@@ -42,4 +48,4 @@ class JsonObject {
   std::string text_ = "{";
 };
 
-}  // namespace rockyard::report
+}  // namespace rockyard::core

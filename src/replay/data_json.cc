@@ -3,27 +3,30 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "report/page_json.h"
-#include "report/replay_data.h"
-#include "report/replay_text.h"
+#include "core/json_pieces.h"
+#include "replay/data.h"
+#include "replay/payload_text.h"
 
-namespace rockyard::report {
+namespace rockyard::replay {
 namespace {
+
+using core::JsonList;
+using core::JsonObject;
 
 constexpr std::uint64_t kMostExactInteger = std::uint64_t{1} << 53;
 
 std::string RecordText(const ReplayData& data) {
-  std::string list = "[";
+  std::vector<std::string> columns;
   for (std::size_t i = 0; i < std::min(data.schema.size(), data.record.values.size()); ++i) {
-    if (i > 0) list += ',';
-    list += JsonObject()
-                .AddText("name", data.schema[i].name)
-                .AddText("unit", data.schema[i].unit)
-                .AddNumber("value", data.record.values[i])
-                .Text();
+    columns.push_back(JsonObject()
+                          .AddText("name", data.schema[i].name)
+                          .AddText("unit", data.schema[i].unit)
+                          .AddNumber("value", data.record.values[i])
+                          .Text());
   }
-  return list + ']';
+  return JsonList(columns);
 }
 
 std::string CourseText(const ReplayCourse& course) {
@@ -44,15 +47,15 @@ std::string CourseText(const ReplayCourse& course) {
                          .Add("y_min", Length(course.y_min_m))
                          .Add("y_max", Length(course.y_max_m))
                          .Text())
-      .Add("walls", List(course.walls,
-                         [](const ReplayWall& wall) {
-                           return JsonObject()
-                               .Add("nx", Angle(wall.normal_W.x()))
-                               .Add("ny", Angle(wall.normal_W.y()))
-                               .Add("offset", Length(wall.offset_m))
-                               .Text();
-                         }))
-      .Add("mirror_lines", List(course.mirror_lines_m, Length))
+      .Add("walls", JsonList(course.walls,
+                             [](const ReplayWall& wall) {
+                               return JsonObject()
+                                   .Add("nx", Angle(wall.normal_W.x()))
+                                   .Add("ny", Angle(wall.normal_W.y()))
+                                   .Add("offset", Length(wall.offset_m))
+                                   .Text();
+                             }))
+      .Add("mirror_lines", JsonList(course.mirror_lines_m, Length))
       .Text();
 }
 
@@ -63,7 +66,7 @@ std::string GroundText(const ReplayGround& ground) {
       .AddNumber("step", ground.step_m)
       .AddInteger("nx", static_cast<std::int64_t>(ground.nx))
       .AddInteger("ny", static_cast<std::int64_t>(ground.ny))
-      .Add("z", List(ground.z_m, Length))
+      .Add("z", JsonList(ground.z_m, Length))
       .Text();
 }
 
@@ -120,7 +123,7 @@ std::string LinkText(const ReplayLink& link) {
       .AddInteger("parent", link.parent)
       .Add("pivot", Point(link.pivot_P))
       .Add("axis", Point(link.axis))
-      .Add("shapes", List(link.shapes, ShapeText))
+      .Add("shapes", JsonList(link.shapes, ShapeText))
       .Text();
 }
 
@@ -148,9 +151,9 @@ std::string ReplayJson(const ReplayData& data) {
       .Add("record", RecordText(data))
       .Add("course", CourseText(data.course))
       .Add("ground", GroundText(data.ground))
-      .Add("rocks", List(data.rocks, RockText))
-      .Add("rock_moves", List(data.rock_moves, MoveText))
-      .Add("rover", JsonObject().Add("links", List(data.links, LinkText)).Text())
+      .Add("rocks", JsonList(data.rocks, RockText))
+      .Add("rock_moves", JsonList(data.rock_moves, MoveText))
+      .Add("rover", JsonObject().Add("links", JsonList(data.links, LinkText)).Text())
       .Add("motion", MotionJson(data.links, data.poses))
       .Add("scans", ScansJson(data.scans))
       .Add("steps", StepsJson(data.steps))
@@ -158,4 +161,4 @@ std::string ReplayJson(const ReplayData& data) {
   return object.Text();
 }
 
-}  // namespace rockyard::report
+}  // namespace rockyard::replay

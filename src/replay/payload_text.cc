@@ -1,10 +1,14 @@
-#include "report/replay_text.h"
+#include "replay/payload_text.h"
 
 #include <array>
 #include <cmath>
 
-namespace rockyard::report {
+namespace rockyard::replay {
 namespace {
+
+using core::JsonList;
+using core::JsonNumber;
+using core::JsonObject;
 
 constexpr double kLengthDigits = 1e4;
 constexpr double kAngleDigits = 1e5;
@@ -46,4 +50,4 @@ std::string ProvenanceText(const core::Provenance& p) {
       .Text();
 }
 
-}  // namespace rockyard::report
+}  // namespace rockyard::replay

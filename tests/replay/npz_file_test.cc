@@ -1,5 +1,5 @@
 // Arrays as NumPy files. trace_npz_test.py reads whole traces with NumPy itself.
-#include "report/npz_file.h"
+#include "replay/npz_file.h"
 
 #include <gmock/gmock.h>
 #include <zip.h>
@@ -13,7 +13,7 @@
 
 #include "core/check.h"
 
-namespace rockyard::report {
+namespace rockyard::replay {
 namespace {
 
 using testing::ElementsAre;
@@ -89,4 +89,4 @@ TEST(NpzFile, AShapeThatDoesNotFitOrANameTwiceIsADefect) {
 #endif
 
 }  // namespace
-}  // namespace rockyard::report
+}  // namespace rockyard::replay

@@ -1,4 +1,4 @@
-#include "report/trace_npz.h"
+#include "replay/trace_npz.h"
 
 #include <algorithm>
 #include <array>
@@ -6,18 +6,20 @@
 #include <limits>
 #include <vector>
 
-#include "report/npz_file.h"
-#include "report/npz_table.h"
-#include "report/replay_text.h"
+#include "replay/npz_file.h"
+#include "replay/npz_table.h"
+#include "replay/payload_text.h"
 
-namespace rockyard::report {
+namespace rockyard::replay {
 namespace {
+
+using core::JsonObject;
 
 using messages::MapCellView;
 using messages::MotionVote;
 
 constexpr int kFormatVersion = 1;
-constexpr std::int64_t kUnknown = -1;
+constexpr std::int64_t kUnknownCell = -1;
 
 void AddMoments(std::span<const ReplayPose> poses, NpzFile& file) {
   NpzTable position(3);
@@ -145,8 +147,8 @@ void AddMaps(std::span<const ReplayStep> steps, NpzFile& file) {
     for (const MapCellView& cell : map.cells) {
       elevation.push_back(cell.has_data ? cell.elevation_m
                                         : std::numeric_limits<double>::quiet_NaN());
-      goodness.push_back(cell.known ? std::int64_t{cell.goodness} : kUnknown);
-      certainty.push_back(cell.known ? std::int64_t{cell.certainty} : kUnknown);
+      goodness.push_back(cell.known ? std::int64_t{cell.goodness} : kUnknownCell);
+      certainty.push_back(cell.known ? std::int64_t{cell.certainty} : kUnknownCell);
     }
   }
   NpzFile::Shape shape{steps.size(), 0, 0};
@@ -184,7 +186,7 @@ void AddSteps(std::span<const ReplayStep> steps, NpzFile& file) {
   AddMaps(steps, file);
 }
 
-void AddRecord(const TracedTrial& traced, NpzFile& file) {
+void AddRecord(const truth::TracedTrial& traced, NpzFile& file) {
   const std::size_t columns = std::min(traced.schema.size(), traced.record.values.size());
   std::vector<std::string> names;
   for (std::size_t i = 0; i < columns; ++i) names.push_back(traced.schema[i].name);
@@ -193,7 +195,7 @@ void AddRecord(const TracedTrial& traced, NpzFile& file) {
 }
 
 std::string MetaText(const TraceArrays& arrays) {
-  const TracedTrial& traced = arrays.traced;
+  const truth::TracedTrial& traced = arrays.traced;
   return JsonObject()
       .AddText("format", "rockyard trace")
       .AddInteger("version", kFormatVersion)
@@ -221,4 +223,4 @@ std::string TraceNpz(const TraceArrays& arrays) {
   return file.Bytes();
 }
 
-}  // namespace rockyard::report
+}  // namespace rockyard::replay

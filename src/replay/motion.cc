@@ -1,4 +1,4 @@
-#include "report/replay_motion.h"
+#include "replay/motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "math/angles.h"
 
-namespace rockyard::report {
+namespace rockyard::replay {
 namespace {
 
 constexpr double kGrowth = 1.5;
@@ -111,4 +111,4 @@ ThinnedMotion ThinMotion(std::span<const ReplayPose> poses, std::size_t most) {
   }
 }
 
-}  // namespace rockyard::report
+}  // namespace rockyard::replay

@@ -1,4 +1,4 @@
-#include "report/replay_motion.h"
+#include "replay/motion.h"
 
 #include <gmock/gmock.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-namespace rockyard::report {
+namespace rockyard::replay {
 namespace {
 
 using testing::ElementsAre;
@@ -110,4 +110,4 @@ TEST(ReplayMotion, NothingAndOneMoment) {
 }
 
 }  // namespace
-}  // namespace rockyard::report
+}  // namespace rockyard::replay

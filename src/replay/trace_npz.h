@@ -4,14 +4,14 @@
 #include <span>
 #include <string>
 
-#include "report/replay_data.h"
-#include "report/trace_view.h"
+#include "replay/data.h"
+#include "truth/traced_trial.h"
 
-namespace rockyard::report {
+namespace rockyard::replay {
 
 // Everything that a trace file holds.
 struct TraceArrays {
-  const TracedTrial& traced;
+  const truth::TracedTrial& traced;
   std::span<const ReplayPose> poses;  // of the trace, every moment
   std::span<const ReplayScan> scans;
   std::span<const ReplayStep> steps;
@@ -24,4 +24,4 @@ struct TraceArrays {
 // the same build gives the same bytes, except for the name of the machine in `meta`.
 std::string TraceNpz(const TraceArrays& arrays);
 
-}  // namespace rockyard::report
+}  // namespace rockyard::replay

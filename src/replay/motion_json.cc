@@ -5,11 +5,17 @@
 #include <string_view>
 #include <vector>
 
-#include "report/replay_motion.h"
-#include "report/replay_text.h"
+#include "core/json_pieces.h"
+#include "core/json_text.h"
+#include "replay/motion.h"
+#include "replay/payload_text.h"
 
-namespace rockyard::report {
+namespace rockyard::replay {
 namespace {
+
+using core::JsonList;
+using core::JsonNumber;
+using core::JsonObject;
 
 // In the order of the indices that a page holds.
 constexpr std::array<std::string_view, 8> kActivities{"drive", "turn",  "steer",   "scan",
@@ -31,7 +37,7 @@ std::vector<Eigen::Quaterniond> Attitudes(std::span<const ReplayPose> poses,
 // A moment without an activity of its own belongs to what went before; the start to what follows.
 std::string ActivityText(std::span<const ReplayPose> poses, std::span<const std::size_t> kept) {
   std::size_t now = 0;
-  return List(kept, [&](std::size_t i) {
+  return JsonList(kept, [&](std::size_t i) {
     const auto found = std::find(kActivities.begin(), kActivities.end(), poses[i].sample.activity);
     if (found != kActivities.end()) now = static_cast<std::size_t>(found - kActivities.begin());
     return std::to_string(now);
@@ -43,7 +49,7 @@ std::string BreaksText(std::span<const ReplayPose> poses, std::span<const std::s
   for (std::size_t k = 0; k < kept.size(); ++k) {
     if (poses[kept[k]].set_back) breaks.push_back(k);
   }
-  return List(breaks, [](std::size_t k) { return std::to_string(k); });
+  return JsonList(breaks, [](std::size_t k) { return std::to_string(k); });
 }
 
 // One list of numbers over the kept moments; the last one has every digit.
@@ -55,7 +61,7 @@ class Channels {
   template <typename Value, typename Text>
   std::string Of(const Value& value, const Text& text) const {
     std::size_t left = kept_.size();
-    return List(kept_, [&](std::size_t i) {
+    return JsonList(kept_, [&](std::size_t i) {
       const double number = value(poses_[i]);
       return --left == 0 ? JsonNumber(number) : text(number);
     });
@@ -89,7 +95,7 @@ void AddTruePose(const Channels& channels, JsonObject& object) {
 void AddAttitudes(const std::vector<Eigen::Quaterniond>& attitudes, JsonObject& object) {
   const auto part = [&](const auto& value) {
     std::size_t left = attitudes.size();
-    return List(attitudes, [&](const Eigen::Quaterniond& q) {
+    return JsonList(attitudes, [&](const Eigen::Quaterniond& q) {
       return --left == 0 ? JsonNumber(value(q)) : Angle(value(q));
     });
   };
@@ -121,12 +127,11 @@ std::string MotionJson(std::span<const ReplayLink> links, std::span<const Replay
   object.Add("joints", JointsText(links, channels));
   AddBelief(channels, object);
   object.Add("activity", ActivityText(poses, motion.kept))
-      .Add("activity_names",
-           List(kActivities, [](std::string_view name) { return JsonText(name); }))
+      .Add("activity_names", JsonList(kActivities, core::QuoteJson))
       .Add("breaks", BreaksText(poses, motion.kept))
       .AddNumber("position_tolerance", motion.tolerance.position_m)
       .AddNumber("angle_tolerance", motion.tolerance.angle_rad);
   return object.Text();
 }
 
-}  // namespace rockyard::report
+}  // namespace rockyard::replay

@@ -1,25 +1,17 @@
-#include "report/page_json.h"
+#include "core/json_pieces.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
-#include <vector>
 
-namespace rockyard::report {
+#include "core/json_text.h"
+
+namespace rockyard::core {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kNull = "null";
 
-std::string Compact(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 }  // namespace
-
-std::string JsonText(std::string_view text) { return Compact(Json(text)); }
 
 std::string JsonNumber(double value) {
   return std::isfinite(value) ? fmt::format("{}", value) : kNull;
@@ -30,33 +22,21 @@ std::string JsonSixDigits(double value) {
 }
 
 std::string JsonList(std::span<const std::string> values) {
-  std::string list(1, '[');
-  for (const std::string& value : values) {
-    if (list.size() > 1) list += ',';
-    list += value;
-  }
-  return list + ']';
+  return JsonList(values, [](const std::string& value) -> const std::string& { return value; });
 }
 
-std::string JsonTexts(std::span<const std::string> texts) {
-  std::vector<std::string> values;
-  values.reserve(texts.size());
-  for (const std::string& text : texts) values.push_back(JsonText(text));
-  return JsonList(values);
-}
-
-std::string JsonCompact(std::string_view json) { return Compact(Json::parse(json)); }
+std::string JsonTexts(std::span<const std::string> texts) { return JsonList(texts, QuoteJson); }
 
 JsonObject& JsonObject::Add(std::string_view key, std::string_view json) {
   if (text_.size() > 1) text_ += ',';
-  text_ += JsonText(key);
+  text_ += QuoteJson(key);
   text_ += ':';
   text_ += json;
   return *this;
 }
 
 JsonObject& JsonObject::AddText(std::string_view key, std::string_view text) {
-  return Add(key, JsonText(text));
+  return Add(key, QuoteJson(text));
 }
 
 JsonObject& JsonObject::AddNumber(std::string_view key, double value) {
@@ -71,4 +51,4 @@ JsonObject& JsonObject::AddFlag(std::string_view key, bool value) {
   return Add(key, value ? "true" : "false");
 }
 
-}  // namespace rockyard::report
+}  // namespace rockyard::core
