@@ -93,7 +93,7 @@ template <typename Values>
 JsonValue ListOf(const Values& values) {
   JsonValue::List list;
   list.reserve(values.size());
-  for (const auto& value : values) list.push_back(JsonValue(value));
+  for (const auto& value : values) list.emplace_back(value);
   return JsonValue(std::move(list));
 }
 
