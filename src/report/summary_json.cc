@@ -137,21 +137,20 @@ Json CellJson(const statistics::MeasurementSummary& summary, const statistics::C
               statistics::IntervalMethod method) {
   Json json = {{"cell", cell.number}, {"runs", cell.runs}};
   for (std::size_t i = 0; i < cell.factors.size(); ++i) {
-    json[std::string(summary.factors[i]->name)] = Number(cell.factors[i]);
+    json[summary.factors[i].name] = Number(cell.factors[i]);
   }
   for (std::size_t i = 0; i < cell.bases.size(); ++i) {
-    json[std::string(summary.bases[i]->name)] = Number(cell.bases[i]);
+    json[summary.bases[i].name] = Number(cell.bases[i]);
   }
   for (std::size_t i = 0; i < cell.rates.size(); ++i) {
     Json rate = Rate(cell.rates[i].rate, method);
     const statistics::Interval& all = cell.rates[i].simultaneous;
     rate["ci95_all_cells"] = Json::array({all.low, all.high});
-    json[std::string(summary.rates[i]->name)] = std::move(rate);
+    json[summary.rates[i].name] = std::move(rate);
   }
   for (std::size_t i = 0; i < cell.means.size(); ++i) {
-    const bool squares = summary.means[i]->role == truth::ColumnRole::kSquares;
-    json[(squares ? "rms_" : "mean_") + std::string(summary.means[i]->name)] =
-        Number(cell.means[i]);
+    const bool squares = summary.means[i].role == truth::ColumnRole::kSquares;
+    json[(squares ? "rms_" : "mean_") + summary.means[i].name] = Number(cell.means[i]);
   }
   return json;
 }
@@ -183,7 +182,7 @@ std::string MeasurementJson(const RunDescription& run,
   Json json = Head(run, summary.completed, summary.faults);
   Json widest = Json::object();
   for (std::size_t i = 0; i < summary.rates.size(); ++i) {
-    widest[std::string(summary.rates[i]->name)] = summary.WidestInterval(i);
+    widest[summary.rates[i].name] = summary.WidestInterval(i);
   }
   json["widest_ci95"] = std::move(widest);
   json["simultaneous"] =
