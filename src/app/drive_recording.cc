@@ -5,7 +5,7 @@
 
 #include "app/scan_capture.h"
 #include "core/error.h"
-#include "experiments/drive_experiment.h"
+#include "experiments/drive/drive_experiment.h"
 #include "perception/triangulation.h"
 #include "rover/rover_links.h"
 #include "trial/onboard_calibration.h"

@@ -4,9 +4,11 @@
 
 #include <charconv>
 #include <system_error>
+#include <utility>
 
 #include "batch/store_error.h"
 #include "core/json_text.h"
+#include "experiments/experiment.h"
 
 namespace rockyard::batch {
 namespace {
@@ -193,11 +195,13 @@ StoreHead ReadStoreHead(const SqliteDatabase& database) {
   head.identity.design = GetMeta(database, "design");
   head.identity.shard = ReadShard(database);
   head.identity.settings = ReadSettings(database);
+  truth::RecordSchema stored;
   SqliteStatement columns =
       database.Prepare("SELECT name, unit, meaning FROM columns ORDER BY position");
   while (columns.Step()) {
-    head.identity.schema.push_back({columns.Text(0), columns.Text(1), columns.Text(2)});
+    stored.push_back({columns.Text(0), columns.Text(1), columns.Text(2)});
   }
+  head.identity.schema = experiments::WithRoles(std::move(stored));
   ReadCells(database, head);
   head.rule = ReadRule(database);
   const std::vector<std::string> builds = ReadBuilds(database);

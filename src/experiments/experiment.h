@@ -33,4 +33,9 @@ std::unique_ptr<Experiment> MakeExperiment(const ExperimentParams& experiment,
                                            const trial::ScanWatcher& scan_watcher = {},
                                            const trial::StepWatcher& step_watcher = {});
 
+// The schema of a store, which keeps names and no roles, with the roles of its columns: those of
+// the experiment that knows the most of the names. A column that it does not know (any more) stays
+// a value, which cells do not add up.
+truth::RecordSchema WithRoles(truth::RecordSchema stored);
+
 }  // namespace rockyard::experiments

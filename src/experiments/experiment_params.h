@@ -1,15 +1,15 @@
 // Which experiment a scenario asks for, and the parameters of each: the one list of experiments.
 //
-// A new experiment has a folder beside this file with its *_params.h and its conditions, and is
-// named here and in make_experiment.cc.
+// A new experiment has a folder beside this file with its parameters, columns and conditions; of
+// the files that there are, it is named in this one and in make_experiment.cc.
 #pragma once
 
 #include <array>
 #include <string_view>
 
 #include "core/fields.h"
-#include "experiments/hazard_checks_params.h"
-#include "experiments/hazard_detection_params.h"
+#include "experiments/hazard_detection/checks_params.h"
+#include "experiments/hazard_detection/hazard_detection_params.h"
 #include "trial/drive_checks_params.h"
 #include "trial/drive_consistency_params.h"
 #include "trial/drive_params.h"

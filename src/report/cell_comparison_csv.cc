@@ -7,7 +7,7 @@ namespace rockyard::report {
 
 std::string CellComparisonCsv(const statistics::CellComparison& comparison) {
   std::vector<std::string> fields{"rate"};
-  for (const auto* factor : comparison.factors) fields.emplace_back(factor->name);
+  for (const truth::ValueInfo& factor : comparison.factors) fields.push_back(factor.name);
   for (const char* name :
        {"a_count", "a_trials", "a_rate", "b_count", "b_trials", "b_rate", "difference", "low",
         "high", "all_low", "all_high", "p_value", "p_holm", "differs"}) {
@@ -16,7 +16,7 @@ std::string CellComparisonCsv(const statistics::CellComparison& comparison) {
   std::string csv = CsvLine(fields);
   for (std::size_t i = 0; i < comparison.rates.size(); ++i) {
     for (const statistics::ComparedCell& cell : comparison.cells) {
-      fields = {std::string(comparison.rates[i]->name)};
+      fields = {comparison.rates[i].name};
       for (const double factor : cell.factors) fields.push_back(CsvNumber(factor));
       const statistics::RateDifference& rate = cell.rates[i];
       for (const statistics::Proportion* run : {&rate.first, &rate.second}) {

@@ -55,7 +55,7 @@ std::string RateLines(const CellComparison& comparison) {
         std::min_element(comparison.cells.begin(), comparison.cells.end(), less_likely)->rates[i];
     text += fmt::format(
         "  {:<20.20} {:>7.4f} {:.4f} {:+.4f} {:+.4f} {:+.4f} {:>7.2g} {:>5.2g} {:>11}\n",
-        comparison.rates[i]->name, r.first.rate, r.second.rate, r.difference, r.simultaneous.low,
+        comparison.rates[i].name, r.first.rate, r.second.rate, r.difference, r.simultaneous.low,
         r.simultaneous.high, r.p_value, r.adjusted, comparison.Differing(i));
   }
   return text;
@@ -95,7 +95,7 @@ std::vector<const ComparedCell*> Shown(const CellComparison& comparison, std::si
 std::string CellLines(const CellComparison& comparison, std::size_t rate, bool main) {
   const std::vector<const ComparedCell*> shown = Shown(comparison, rate, main);
   if (shown.empty()) return "";
-  std::string text = fmt::format("\n  {}, {}", comparison.rates[rate]->name,
+  std::string text = fmt::format("\n  {}, {}", comparison.rates[rate].name,
                                  main ? "every cell" : "the cells that differ");
   const std::size_t all = main ? comparison.cells.size() : comparison.Differing(rate);
   if (shown.size() < all) text += fmt::format(": the {} of smallest p", shown.size());
@@ -113,7 +113,7 @@ std::string FactorNames(const CellComparison& comparison) {
   std::string text = "\n ";
   const std::size_t factors = std::min(kMostFactors, comparison.factors.size());
   for (std::size_t i = 0; i < factors; ++i) {
-    text += fmt::format(" ({}) {}", i + 1, comparison.factors[i]->name);
+    text += fmt::format(" ({}) {}", i + 1, comparison.factors[i].name);
   }
   return text + "\n";
 }

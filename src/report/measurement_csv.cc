@@ -8,16 +8,16 @@ namespace rockyard::report {
 
 std::string CellsCsv(const statistics::MeasurementSummary& summary) {
   std::vector<std::string> fields{"cell", "runs"};
-  for (const auto* factor : summary.factors) fields.emplace_back(factor->name);
-  for (const auto* base : summary.bases) fields.emplace_back(base->name);
-  for (const auto* rate : summary.rates) {
+  for (const truth::ValueInfo& factor : summary.factors) fields.push_back(factor.name);
+  for (const truth::ValueInfo& base : summary.bases) fields.push_back(base.name);
+  for (const truth::ValueInfo& rate : summary.rates) {
     for (const char* suffix : {"", "_low", "_high", "_all_low", "_all_high"}) {
-      fields.push_back(std::string(rate->name) + suffix);
+      fields.push_back(rate.name + suffix);
     }
   }
-  for (const auto* mean : summary.means) {
-    const bool squares = mean->role == truth::ColumnRole::kSquares;
-    fields.push_back((squares ? "rms_" : "mean_") + std::string(mean->name));
+  for (const truth::ValueInfo& mean : summary.means) {
+    const bool squares = mean.role == truth::ColumnRole::kSquares;
+    fields.push_back((squares ? "rms_" : "mean_") + mean.name);
   }
   std::string csv = CsvLine(fields);
   for (const statistics::Cell& cell : summary.cells) {

@@ -60,7 +60,7 @@ class Drawing {
         "font-family=\"sans-serif\" font-size=\"11\">\n"
         "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
         "<text x=\"12\" y=\"20\" font-size=\"14\">{}: {} against {}, bands of 95 %</text>\n",
-        width, height, EscapeXml(title), summary_.rates[rate_]->name, summary_.factors[0]->name);
+        width, height, EscapeXml(title), summary_.rates[rate_].name, summary_.factors[0].name);
     svg += Legend(curves);
     for (std::size_t row = 0; row < rows.size(); ++row) {
       for (std::size_t column = 0; column < columns.size(); ++column) {
@@ -82,7 +82,7 @@ class Drawing {
 
   std::string Label(std::size_t factor, double value) const {
     return factor < summary_.factors.size()
-               ? fmt::format("{} {:.4g}", summary_.factors[factor]->name, value)
+               ? fmt::format("{} {:.4g}", summary_.factors[factor].name, value)
                : std::string();
   }
 

@@ -49,7 +49,7 @@ std::string Bases(const MeasurementSummary& summary) {
       low = std::min(low, cell.bases[i]);
       high = std::max(high, cell.bases[i]);
     }
-    text += fmt::format("  {} a cell: {:.6g}", summary.bases[i]->name, low);
+    text += fmt::format("  {} a cell: {:.6g}", summary.bases[i].name, low);
     text += high > low ? fmt::format(" .. {:.6g}\n", high) : "\n";
   }
   return text;
@@ -58,7 +58,7 @@ std::string Bases(const MeasurementSummary& summary) {
 std::string Widest(const MeasurementSummary& summary) {
   std::string text;
   for (std::size_t i = 0; i < summary.rates.size(); ++i) {
-    text += fmt::format("  widest 95 % interval of {}: {:.4f}\n", summary.rates[i]->name,
+    text += fmt::format("  widest 95 % interval of {}: {:.4f}\n", summary.rates[i].name,
                         summary.WidestInterval(i));
   }
   return text;
@@ -91,16 +91,16 @@ std::string EveryCell(const MeasurementSummary& summary) {
     header += fmt::format(" {:>{}}", letter++, width);
   };
   for (std::size_t i = 0; i < std::min(kMostFactors, summary.factors.size()); ++i) {
-    add(summary.factors[i]->name, 8);
+    add(summary.factors[i].name, 8);
   }
   std::size_t room = kMostColumns;
   for (const auto* list : {&summary.rates, &summary.means}) {
-    for (const truth::MeasuredColumn* column : *list) {
+    for (const truth::ValueInfo& column : *list) {
       if (room == 0) break;
       --room;
-      const bool mean = column->role == truth::ColumnRole::kSum;
-      const bool squares = column->role == truth::ColumnRole::kSquares;
-      add(fmt::format("{}{}", mean ? "mean " : squares ? "rms " : "", column->name), 9);
+      const bool mean = column.role == truth::ColumnRole::kSum;
+      const bool squares = column.role == truth::ColumnRole::kSquares;
+      add(fmt::format("{}{}", mean ? "mean " : squares ? "rms " : "", column.name), 9);
     }
   }
   std::string text = legend + header + "\n";
@@ -126,8 +126,8 @@ std::string Pooled(const MeasurementSummary& summary, std::size_t rate) {
   }
   columns.resize(std::min<std::size_t>(columns.size(), 9));
   std::string text = fmt::format("  {} by {} (down) and {} (across), all other factors together\n",
-                                 summary.rates[rate]->name, summary.factors[0]->name,
-                                 summary.factors.size() > 1 ? summary.factors[1]->name : "-");
+                                 summary.rates[rate].name, summary.factors[0].name,
+                                 summary.factors.size() > 1 ? summary.factors[1].name : "-");
   text += fmt::format("  {:>9}", "");
   for (const double column : columns) text += fmt::format(" {:>8.4g}", column);
   text += "\n";
@@ -144,13 +144,11 @@ std::string Pooled(const MeasurementSummary& summary, std::size_t rate) {
 
 }  // namespace
 
-std::size_t MainRate(std::span<const truth::MeasuredColumn* const> rates) {
-  for (const std::string_view name : {"detected_double", "alarm_single", "missed"}) {
-    for (std::size_t rate = 0; rate < rates.size(); ++rate) {
-      if (rates[rate]->name == name) return rate;
-    }
-  }
-  return rates.size();
+std::size_t MainRate(const truth::RecordSchema& rates) {
+  const auto main = std::find_if(rates.begin(), rates.end(), [](const truth::ValueInfo& rate) {
+    return rate.role == truth::ColumnRole::kMainCount;
+  });
+  return static_cast<std::size_t>(main - rates.begin());
 }
 
 std::string MeasurementText(const RunDescription& run, const MeasurementSummary& summary,

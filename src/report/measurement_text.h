@@ -1,7 +1,6 @@
 // The cells of a measurement for people.
 #pragma once
 
-#include <span>
 #include <string>
 
 #include "report/run_description.h"
@@ -16,8 +15,8 @@ std::string MeasurementText(const RunDescription& run,
                             const statistics::MeasurementSummary& summary,
                             TextStyle style = TextStyle::kPlain);
 
-// The one of `rates` that text and drawing show where there is room for one; rates.size() where
-// none is measured.
-std::size_t MainRate(std::span<const truth::MeasuredColumn* const> rates);
+// The first of `rates` that the experiment calls its main one, which text and drawing show where
+// there is room for one; rates.size() where there is none.
+std::size_t MainRate(const truth::RecordSchema& rates);
 
 }  // namespace rockyard::report

@@ -39,9 +39,7 @@ std::string Index(const std::optional<std::size_t>& index) {
 std::vector<std::string> Factors(const truth::RecordSchema& schema) {
   std::vector<std::string> names;
   for (const truth::ValueInfo& info : schema) {
-    const truth::MeasuredColumn* column = truth::FindMeasuredColumn(info.name);
-    const bool factor = column != nullptr && column->role == truth::ColumnRole::kFactor;
-    if (factor && info.name != truth::kCellColumn) names.push_back(info.name);
+    if (info.role == truth::ColumnRole::kFactor) names.push_back(info.name);
   }
   return names;
 }

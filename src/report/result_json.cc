@@ -102,11 +102,11 @@ std::string ComparedRate(std::string_view name, const statistics::RateDifference
 std::string Cell(const statistics::CellComparison& all, const statistics::ComparedCell& cell) {
   JsonObject factors;
   for (std::size_t i = 0; i < all.factors.size(); ++i) {
-    factors.AddNumber(all.factors[i]->name, cell.factors[i]);
+    factors.AddNumber(all.factors[i].name, cell.factors[i]);
   }
   std::vector<std::string> rates;
   for (std::size_t i = 0; i < all.rates.size(); ++i) {
-    rates.push_back(ComparedRate(all.rates[i]->name, cell.rates[i], all.Differs(cell.rates[i])));
+    rates.push_back(ComparedRate(all.rates[i].name, cell.rates[i], all.Differs(cell.rates[i])));
   }
   return JsonObject().Add("factors", factors.Text()).Add("rates", JsonList(rates)).Text();
 }

@@ -124,18 +124,17 @@ JsonValue CellJson(const statistics::MeasurementSummary& summary, const statisti
                    statistics::IntervalMethod method) {
   JsonValue json = JsonValue::Object({{"cell", cell.number}, {"runs", cell.runs}});
   for (std::size_t i = 0; i < cell.factors.size(); ++i) {
-    json.Set(summary.factors[i]->name, NumberOrNull(cell.factors[i]));
+    json.Set(summary.factors[i].name, NumberOrNull(cell.factors[i]));
   }
   for (std::size_t i = 0; i < cell.bases.size(); ++i) {
-    json.Set(summary.bases[i]->name, NumberOrNull(cell.bases[i]));
+    json.Set(summary.bases[i].name, NumberOrNull(cell.bases[i]));
   }
   for (std::size_t i = 0; i < cell.rates.size(); ++i) {
-    json.Set(summary.rates[i]->name, CellRate(cell.rates[i], method));
+    json.Set(summary.rates[i].name, CellRate(cell.rates[i], method));
   }
   for (std::size_t i = 0; i < cell.means.size(); ++i) {
-    const bool squares = summary.means[i]->role == truth::ColumnRole::kSquares;
-    json.Set((squares ? "rms_" : "mean_") + std::string(summary.means[i]->name),
-             NumberOrNull(cell.means[i]));
+    const bool squares = summary.means[i].role == truth::ColumnRole::kSquares;
+    json.Set((squares ? "rms_" : "mean_") + summary.means[i].name, NumberOrNull(cell.means[i]));
   }
   return json;
 }
@@ -193,7 +192,7 @@ JsonValue MeasurementValue(const RunDescription& run, const statistics::Measurem
   JsonValue json = Head(run, summary.completed, summary.faults);
   JsonValue widest = JsonValue::Object();
   for (std::size_t i = 0; i < summary.rates.size(); ++i) {
-    widest.Set(summary.rates[i]->name, NumberOrNull(summary.WidestInterval(i)));
+    widest.Set(summary.rates[i].name, NumberOrNull(summary.WidestInterval(i)));
   }
   json.Set("widest_ci95", std::move(widest));
   json.Set("simultaneous",

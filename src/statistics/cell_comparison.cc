@@ -17,10 +17,16 @@ std::vector<RatePair> SharedRates(const MeasurementSummary& first,
                                   const MeasurementSummary& second) {
   std::vector<RatePair> shared;
   for (std::size_t i = 0; i < first.rates.size(); ++i) {
-    const std::size_t other = second.FindRate(first.rates[i]->name);
+    const std::size_t other = second.FindRate(first.rates[i].name);
     if (other < second.rates.size()) shared.emplace_back(i, other);
   }
   return shared;
+}
+
+bool SameNames(const truth::RecordSchema& first, const truth::RecordSchema& second) {
+  return std::equal(
+      first.begin(), first.end(), second.begin(), second.end(),
+      [](const truth::ValueInfo& a, const truth::ValueInfo& b) { return a.name == b.name; });
 }
 
 RateDifference Compare(const Proportion& first, const Proportion& second) {
@@ -83,7 +89,7 @@ CellComparison CompareCells(const MeasurementSummary& first, const MeasurementSu
   const std::vector<RatePair> rates = SharedRates(first, second);
   for (const RatePair& pair : rates) result.rates.push_back(first.rates[pair.first]);
   std::map<std::vector<double>, const Cell*> others;
-  if (first.factors == second.factors) {
+  if (SameNames(first.factors, second.factors)) {
     for (const Cell& cell : second.cells) others.emplace(cell.factors, &cell);
   }
   for (const Cell& cell : first.cells) {

@@ -27,8 +27,8 @@ struct ComparedCell {
 };
 
 struct CellComparison {
-  std::vector<const truth::MeasuredColumn*> factors;
-  std::vector<const truth::MeasuredColumn*> rates;
+  truth::RecordSchema factors;
+  truth::RecordSchema rates;
   std::vector<ComparedCell> cells;  // in both, in the order of the first
   std::size_t only_first = 0;       // cells
   std::size_t only_second = 0;

@@ -12,11 +12,11 @@ namespace rockyard::statistics {
 namespace {
 
 using truth::ColumnRole;
-using truth::MeasuredColumn;
+using truth::ValueInfo;
 
-// A column of the records with its role.
+// A column of the records that has a role in a cell.
 struct KnownColumn {
-  const MeasuredColumn* what;
+  const ValueInfo* what;
   std::size_t index;
 };
 
@@ -28,8 +28,7 @@ struct Sums {
 std::vector<KnownColumn> KnownColumns(const truth::RecordSchema& schema) {
   std::vector<KnownColumn> columns;
   for (std::size_t i = 1; i < schema.size(); ++i) {
-    const MeasuredColumn* what = truth::FindMeasuredColumn(schema[i].name);
-    if (what != nullptr) columns.push_back({what, i});
+    if (schema[i].role != ColumnRole::kValue) columns.push_back({&schema[i], i});
   }
   return columns;
 }
@@ -52,7 +51,7 @@ std::map<std::int64_t, Sums> Pool(std::span<const truth::Record> records,
 }
 
 double BaseOf(const std::vector<KnownColumn>& columns, const Sums& sums,
-              const MeasuredColumn& of_column) {
+              const ValueInfo& of_column) {
   for (const KnownColumn& column : columns) {
     if (column.what->name == of_column.of) return sums.values[column.index];
   }
@@ -91,18 +90,22 @@ double MakeMean(ColumnRole role, double sum, double base) {
 void NameColumns(const std::vector<KnownColumn>& columns, MeasurementSummary& summary) {
   for (const KnownColumn& column : columns) {
     switch (column.what->role) {
-      case ColumnRole::kFactor:
-        summary.factors.push_back(column.what);
+      case ColumnRole::kValue:
         break;
+      case ColumnRole::kFactor:
+        summary.factors.push_back(*column.what);
+        break;
+      case ColumnRole::kTrials:
       case ColumnRole::kBase:
-        summary.bases.push_back(column.what);
+        summary.bases.push_back(*column.what);
         break;
       case ColumnRole::kCount:
-        summary.rates.push_back(column.what);
+      case ColumnRole::kMainCount:
+        summary.rates.push_back(*column.what);
         break;
       case ColumnRole::kSum:
       case ColumnRole::kSquares:
-        summary.means.push_back(column.what);
+        summary.means.push_back(*column.what);
         break;
     }
   }
@@ -117,13 +120,17 @@ Cell MakeCell(std::int64_t number, const Sums& sums, const std::vector<KnownColu
     const double value = sums.values[column.index];
     const double base = BaseOf(columns, sums, *column.what);
     switch (column.what->role) {
+      case ColumnRole::kValue:
+        break;
       case ColumnRole::kFactor:
         cell.factors.push_back(value);
         break;
+      case ColumnRole::kTrials:
       case ColumnRole::kBase:
         cell.bases.push_back(value);
         break;
       case ColumnRole::kCount:
+      case ColumnRole::kMainCount:
         cell.rates.push_back(MakeRate(value, base, intervals));
         break;
       case ColumnRole::kSum:
@@ -148,7 +155,7 @@ double MeasurementSummary::WidestInterval(std::size_t rate) const {
 
 std::size_t MeasurementSummary::FindRate(std::string_view name) const {
   const auto found = std::find_if(rates.begin(), rates.end(),
-                                  [&](const MeasuredColumn* rate) { return rate->name == name; });
+                                  [&](const ValueInfo& rate) { return rate.name == name; });
   return static_cast<std::size_t>(found - rates.begin());
 }
 

@@ -1,4 +1,4 @@
-// Records of measurements (truth/measurement_record.h) pooled by cell.
+// Records of measurements (truth/measurement_record.h) pooled by cell, each column by its role.
 #pragma once
 
 #include <cstdint>
@@ -34,11 +34,11 @@ struct MeasurementSummary {
   // Cells whose intervals hold at once: those of the whole run. While no cell has had two runs,
   // every run to come is counted as one, so that it is too large rather than too small.
   std::int64_t planned_cells = 0;
-  std::vector<const truth::MeasuredColumn*> factors;
-  std::vector<const truth::MeasuredColumn*> bases;
-  std::vector<const truth::MeasuredColumn*> rates;
-  std::vector<const truth::MeasuredColumn*> means;  // kSum and kSquares
-  std::vector<Cell> cells;                          // ascending; those with a record
+  truth::RecordSchema factors;
+  truth::RecordSchema bases;
+  truth::RecordSchema rates;
+  truth::RecordSchema means;  // kSum and kSquares
+  std::vector<Cell> cells;    // ascending; those with a record
 
   // Returns the full width of the widest pointwise 95 % interval of one rate over all cells.
   double WidestInterval(std::size_t rate) const;
@@ -47,7 +47,7 @@ struct MeasurementSummary {
 };
 
 // Pools records by cell. `records` must be a contiguous prefix of finished runs, of a schema that
-// IsMeasurement; columns that truth/measurement_record.h does not know are left out. `planned` is
+// IsMeasurement; columns without a role in a cell (kValue) are left out. `planned` is
 // the number of runs of the whole plan, 0 for those given. Scenes of a cell are independent, so
 // counts add up to binomial counts. Where the base of a count is not made of independent trials
 // (hazards share fields), intervals are somewhat too narrow. `method` is that of a cell alone.

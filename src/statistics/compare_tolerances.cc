@@ -13,6 +13,7 @@
 #include "statistics/compare_rows.h"
 #include "statistics/drive_summary.h"
 #include "statistics/moments.h"
+#include "truth/measurement_record.h"
 
 namespace rockyard::statistics {
 namespace {
@@ -72,8 +73,12 @@ Values SumOf(const std::vector<Values>& values) {
   return sum;
 }
 
-// Scenes are independent (truth/measurement_record.h); no other base promises that.
-bool Independent(const PublishedValue& published) { return published.of == "scenes"; }
+// Whether the base is one of independent trials (truth::ColumnRole::kTrials); no other promises
+// that.
+bool Independent(const PublishedValue& published, const ScenarioRun& run) {
+  const truth::ValueInfo* base = truth::FindColumn(run.schema, published.of);
+  return base != nullptr && base->role == truth::ColumnRole::kTrials;
+}
 
 // The exact interval keeps its promise for rare events too.
 Interval RateInterval(const std::vector<Values>& values, bool independent, double confidence) {
@@ -101,11 +106,10 @@ Interval MeanInterval(double mean, const std::vector<double>& residuals, double 
   return {mean - half, mean + half};
 }
 
-void SetRate(const PublishedValue& published, const std::vector<Values>& values, const Values& sum,
-             Row& row) {
+void SetRate(bool independent, const std::vector<Values>& values, const Values& sum, Row& row) {
   row.value.pool = std::llround(sum.base);
   row.value.pool_value = sum.of_column / sum.base;
-  row.interval = [values, independent = Independent(published)](double confidence) {
+  row.interval = [values, independent](double confidence) {
     return RateInterval(values, independent, confidence);
   };
 }
@@ -144,14 +148,13 @@ using RateCurve = std::map<double, std::vector<Values>>;
 
 // The crossings of the upper and of the lower ends of the rates' intervals. A crossing lies between
 // two rates, so each takes half of the error. Interpolation between them is not part of it.
-Interval CrossingInterval(const RateCurve& rates, const PublishedValue& published,
+Interval CrossingInterval(const RateCurve& rates, const PublishedValue& published, bool independent,
                           double confidence) {
   std::vector<std::pair<double, double>> upper;
   std::vector<std::pair<double, double>> lower;
   for (const auto& [x, values] : rates) {
     // Each end is taken at half of the error.
-    const Interval interval =
-        RateInterval(values, Independent(published), 1.0 - 0.5 * (1.0 - confidence));
+    const Interval interval = RateInterval(values, independent, 1.0 - 0.5 * (1.0 - confidence));
     upper.emplace_back(x, interval.high);
     lower.emplace_back(x, interval.low);
   }
@@ -159,7 +162,8 @@ Interval CrossingInterval(const RateCurve& rates, const PublishedValue& publishe
           published.factor * Crossing(lower, published.level)};
 }
 
-void SetCrossing(const PublishedValue& published, const std::vector<Values>& values, Row& row) {
+void SetCrossing(const PublishedValue& published, bool independent,
+                 const std::vector<Values>& values, Row& row) {
   RateCurve rates;
   for (const Values& each : values) rates[each.abscissa].push_back(each);
   std::vector<std::pair<double, double>> curve;
@@ -168,8 +172,8 @@ void SetCrossing(const PublishedValue& published, const std::vector<Values>& val
     curve.emplace_back(x, sum.of_column / sum.base);
   }
   row.value.pool_value = published.factor * Crossing(curve, published.level);
-  row.interval = [rates, published](double confidence) {
-    return CrossingInterval(rates, published, confidence);
+  row.interval = [rates, published, independent](double confidence) {
+    return CrossingInterval(rates, published, independent, confidence);
   };
 }
 
@@ -202,7 +206,7 @@ Row CompareTolerance(const PublishedValue& published, const ScenarioRun& run) {
   row.value.remark = ToleranceRemark(published);
   switch (published.statistic) {
     case StatisticKind::kRate:
-      SetRate(published, values, sum, row);
+      SetRate(Independent(published, run), values, sum, row);
       break;
     case StatisticKind::kRatio:
       SetRatio(published, values, sum, row);
@@ -211,7 +215,7 @@ Row CompareTolerance(const PublishedValue& published, const ScenarioRun& run) {
       SetMean(published, values, row);
       break;
     default:
-      SetCrossing(published, values, row);
+      SetCrossing(published, Independent(published, run), values, row);
       break;
   }
   row.value.median = row.value.pool_value;

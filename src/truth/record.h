@@ -37,11 +37,25 @@ constexpr bool DeclaredSuccess(TrialOutcome outcome) {
   return outcome == TrialOutcome::kGoalReached || outcome == TrialOutcome::kFalseGoal;
 }
 
+// What a column is within a cell, where records of one cell add up (measurement_record.h).
+enum class ColumnRole {
+  kValue,      // of one trial: nothing adds it up
+  kFactor,     // constant within a cell
+  kTrials,     // a base: how many independent trials there were
+  kBase,       // how often something could have happened, in trials that depend on each other
+  kCount,      // how often it did: a rate of the base `of`
+  kMainCount,  // the same, and the one to show where there is room for one
+  kSum,        // adds up to a mean per `of`
+  kSquares,    // squares add up to a root mean square per `of`
+};
+
 // One column of a record.
 struct ValueInfo {
   std::string name;  // with unit suffix, e.g. "true_distance_m"
   std::string unit;  // "m", "s", "1", ...
   std::string meaning;
+  ColumnRole role = ColumnRole::kValue;
+  std::string of = {};  // name of the base, or of the count, that a count or a sum refers to
 };
 
 // Names, in order, of the values of every record of one experiment.

@@ -1,4 +1,4 @@
-#include "experiments/drive_experiment.h"
+#include "experiments/drive/drive_experiment.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "experiments/hazard_detection.h"
+#include "experiments/hazard_detection/hazard_detection.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

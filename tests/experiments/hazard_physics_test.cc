@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/random.h"
-#include "experiments/hazard_judge.h"
+#include "experiments/hazard_detection/hazard_judge.h"
+#include "experiments/hazard_detection/rock_scenes.h"
 #include "experiments/hazard_scenarios.h"
-#include "experiments/rock_scenes.h"
 #include "math/angles.h"
 #include "sensing/light_stripe.h"
 #include "statistics/proportions.h"

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "report/cell_comparison_text.h"
+#include "truth/measured_schema.h"
 
 namespace rockyard::report {
 namespace {
@@ -31,9 +32,9 @@ struct SeenRun {
   }
   ComparedRun View(const char* name) const { return {name, 1, schema, records}; }
 
-  static constexpr std::string_view kNames[] = {"cell", "height_m", "scenes", "detected_single",
+  static constexpr std::string_view kNames[] = {"height_m", "scenes", "detected_single",
                                                 "detected_double"};
-  truth::RecordSchema schema = truth::MeasurementSchema(kNames);
+  truth::RecordSchema schema = truth::MeasuredSchema(kNames);
   std::vector<truth::Record> records;
 };
 

@@ -12,6 +12,7 @@
 #include "report/sample_run.h"
 #include "report/summary_json.h"
 #include "statistics/cell_summary.h"
+#include "truth/measured_schema.h"
 
 namespace rockyard::report {
 namespace {
@@ -25,8 +26,8 @@ using truth::TrialOutcome;
 
 // Heights by diameters, `runs` runs each; the rate grows with the cell.
 MeasurementSummary Sample(int heights, int diameters) {
-  constexpr std::string_view kNames[] = {"cell",  "height_m",        "diameter_m",     "scenes",
-                                         "scans", "detected_single", "detected_double"};
+  constexpr std::string_view kNames[] = {"height_m", "diameter_m",      "scenes",
+                                         "scans",    "detected_single", "detected_double"};
   std::vector<truth::Record> records;
   for (int h = 0; h < heights; ++h) {
     for (int d = 0; d < diameters; ++d) {
@@ -37,7 +38,7 @@ MeasurementSummary Sample(int heights, int diameters) {
                          {cell, 0.05 * h, 0.1 * d, 100.0, 120.0, 5.0 * h, 4.0 * h}});
     }
   }
-  return statistics::SummarizeCells(truth::MeasurementSchema(kNames), records, 100);
+  return statistics::SummarizeCells(truth::MeasuredSchema(kNames), records, 100);
 }
 
 TEST(MeasurementReport, NothingSpeaksOfSuccess) {

@@ -12,7 +12,7 @@
 #include "report/summary_json.h"
 #include "sample_run.h"
 #include "statistics/drive_summary.h"
-#include "truth/measurement_record.h"
+#include "truth/measured_schema.h"
 
 namespace rockyard::report {
 namespace {
@@ -82,12 +82,12 @@ TEST(PageRun, TellsOfSharedLayouts) {
 }
 
 TEST(PageRun, AMeasurementHasCellsAndNoDistances) {
-  const std::vector<std::string_view> names{"cell", "height_m", "scenes", "detected_single"};
+  const std::vector<std::string_view> names{"height_m", "scenes", "detected_single"};
   const std::vector<truth::Record> records{
       {0, truth::TrialOutcome::kMeasured, "", {0.0, 0.1, 20.0, 15.0}},
       {1, truth::TrialOutcome::kMeasured, "", {1.0, 0.2, 20.0, 20.0}}};
   PageRun page = SamplePageRun(records);
-  page.schema = truth::MeasurementSchema(names);
+  page.schema = truth::MeasuredSchema(names);
   const json run = Parsed(page);
   EXPECT_EQ(run["kind"], "measurement");
   EXPECT_TRUE(run["cdf"].is_null());

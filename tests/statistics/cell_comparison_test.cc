@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "truth/measured_schema.h"
+
 namespace rockyard::statistics {
 namespace {
 
@@ -23,8 +25,8 @@ struct Scenes {
 };
 
 MeasurementSummary Summary(const std::vector<Scenes>& cells) {
-  constexpr std::string_view kNames[] = {"cell",   "height_m",        "distance_m",
-                                         "scenes", "detected_single", "detected_double"};
+  constexpr std::string_view kNames[] = {"height_m", "distance_m", "scenes", "detected_single",
+                                         "detected_double"};
   std::vector<Record> records;
   for (const Scenes& c : cells) {
     records.push_back({records.size(),
@@ -32,7 +34,7 @@ MeasurementSummary Summary(const std::vector<Scenes>& cells) {
                        "",
                        {c.cell, c.height_m, c.distance_m, c.scenes, c.single, c.believed}});
   }
-  return SummarizeCells(truth::MeasurementSchema(kNames), records);
+  return SummarizeCells(truth::MeasuredSchema(kNames), records);
 }
 
 TEST(CompareCells, MatchesByFactorsNotByNumber) {
@@ -84,10 +86,9 @@ TEST(CompareCells, CellsWithoutTrialsAreNotTested) {
 }
 
 TEST(CompareCells, OtherFactorsShareNothing) {
-  constexpr std::string_view kNames[] = {"cell", "height_m", "diameter_m", "scenes",
-                                         "detected_single"};
+  constexpr std::string_view kNames[] = {"height_m", "diameter_m", "scenes", "detected_single"};
   const std::vector<Record> records{{0, TrialOutcome::kMeasured, "", {0, 0.1, 0.1, 10, 5}}};
-  const MeasurementSummary other = SummarizeCells(truth::MeasurementSchema(kNames), records);
+  const MeasurementSummary other = SummarizeCells(truth::MeasuredSchema(kNames), records);
   const CellComparison result = CompareCells(Summary({{0, 0.1, 0.1, 10, 5, 5}}), other);
   EXPECT_TRUE(result.cells.empty());
   EXPECT_EQ(result.tests, 0u);

@@ -9,6 +9,7 @@
 #include "core/distributions.h"
 #include "core/random.h"
 #include "statistics/cell_comparison.h"
+#include "truth/measured_schema.h"
 
 namespace rockyard::statistics {
 namespace {
@@ -18,7 +19,7 @@ constexpr int kReplicates = 300;
 
 // Every cell with `scenes` scenes; rates from 0.1 to 0.9, that of cell 7 is `shift` higher.
 MeasurementSummary Sample(std::uint32_t replicate, std::uint64_t seed, int scenes, double shift) {
-  constexpr std::string_view kNames[] = {"cell", "height_m", "scenes", "detected_single"};
+  constexpr std::string_view kNames[] = {"height_m", "scenes", "detected_single"};
   core::RandomStream stream({.seed = seed, .trial = replicate}, core::Purpose::kTest);
   std::vector<truth::Record> records;
   for (int cell = 0; cell < kCells; ++cell) {
@@ -31,7 +32,7 @@ MeasurementSummary Sample(std::uint32_t replicate, std::uint64_t seed, int scene
          "",
          {static_cast<double>(cell), 0.01 * cell, static_cast<double>(scenes), seen}});
   }
-  return SummarizeCells(truth::MeasurementSchema(kNames), records);
+  return SummarizeCells(truth::MeasuredSchema(kNames), records);
 }
 
 struct Tally {

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "truth/measured_schema.h"
+
 namespace rockyard::statistics {
 namespace {
 
@@ -15,8 +17,8 @@ using truth::Record;
 using truth::TrialOutcome;
 
 truth::RecordSchema Schema() {
-  constexpr std::string_view kNames[] = {"cell", "height_m", "scenes", "scans", "detected_single"};
-  return truth::MeasurementSchema(kNames);
+  constexpr std::string_view kNames[] = {"height_m", "scenes", "scans", "detected_single"};
+  return truth::MeasuredSchema(kNames);
 }
 
 // Two cells, the first with two runs; one fault.
@@ -105,24 +107,24 @@ TEST(CellSummary, ARunThatJustBeganCorrectsForTheCellsToCome) {
 }
 
 TEST(CellSummary, SquaresBecomeARootMeanSquareAndNoBaseNoMean) {
-  constexpr std::string_view kNames[] = {"cell", "points", "found", "range_error_m"};
+  constexpr std::string_view kNames[] = {"points", "found", "range_error_m"};
   const std::vector<Record> records{{0, TrialOutcome::kMeasured, "", {0, 9, 4, 16.0}},
                                     {1, TrialOutcome::kMeasured, "", {1, 9, 0, 0.0}}};
-  const MeasurementSummary summary = SummarizeCells(truth::MeasurementSchema(kNames), records);
+  const MeasurementSummary summary = SummarizeCells(truth::MeasuredSchema(kNames), records);
   EXPECT_DOUBLE_EQ(summary.cells[0].means[0], 2.0);
   EXPECT_TRUE(std::isnan(summary.cells[1].means[0]));
 }
 
-TEST(CellSummary, EveryBaseIsAColumn) {
-  for (const truth::MeasuredColumn& column : truth::kMeasuredColumns) {
-    if (column.of.empty()) {
-      EXPECT_TRUE(column.role == truth::ColumnRole::kFactor ||
-                  column.role == truth::ColumnRole::kBase)
-          << column.name;
-    } else {
-      EXPECT_NE(truth::FindMeasuredColumn(column.of), nullptr) << column.name;
-    }
-  }
+TEST(CellSummary, AColumnWithoutARoleIsLeftOut) {
+  constexpr std::string_view kNames[] = {"height_m", "scenes", "detected_single"};
+  truth::RecordSchema schema = truth::MeasuredSchema(kNames);
+  schema.push_back({"sim_time_s", "s", "of one trial"});
+  const std::vector<Record> records{{0, TrialOutcome::kMeasured, "", {0, 0.1, 9, 4, 20.0}}};
+  const MeasurementSummary summary = SummarizeCells(schema, records);
+  EXPECT_EQ(summary.factors.size(), 1U);
+  EXPECT_EQ(summary.bases.size(), 1U);
+  EXPECT_EQ(summary.rates.size(), 1U);
+  EXPECT_TRUE(summary.means.empty());
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include "core/random.h"
 #include "statistics/closed_forms.h"
 #include "statistics/published_comparison.h"
-#include "truth/measurement_record.h"
+#include "truth/measured_schema.h"
 
 namespace rockyard::statistics {
 namespace {
@@ -42,8 +42,8 @@ PublishedValue Value(StatisticKind statistic, double low, double high) {
 }
 
 truth::RecordSchema Schema() {
-  constexpr std::string_view kNames[] = {"cell", "height_m", "scenes", "alarm_single"};
-  return truth::MeasurementSchema(kNames);
+  constexpr std::string_view kNames[] = {"height_m", "scenes", "alarm_single"};
+  return truth::MeasuredSchema(kNames);
 }
 
 // One run a cell, of the given number of scenes, alarms as the rates say on average.
@@ -109,12 +109,12 @@ std::vector<Record> Drives(bool clustered, double rate, std::uint32_t seed) {
 }
 
 ComparedValue Missed(const std::vector<Record>& records) {
-  constexpr std::string_view kNames[] = {"cell", "hazards", "missed"};
+  constexpr std::string_view kNames[] = {"hazards", "missed"};
   PublishedReference reference;
   reference.values.push_back(Value(StatisticKind::kRate, 0.0, 1.0));
   reference.values.front().column = "missed";
   reference.values.front().of = "hazards";
-  const ScenarioRun run{"run", truth::MeasurementSchema(kNames), records};
+  const ScenarioRun run{"run", truth::MeasuredSchema(kNames), records};
   return Compare(reference, {&run, 1}).values.front();
 }
 

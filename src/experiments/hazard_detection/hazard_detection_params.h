@@ -28,7 +28,7 @@ enum class RockProportions {
 
 // One list of the scenario whose values name cells.
 struct CellFactor {
-  std::string_view column;  // of the record, see truth/measurement_record.h
+  std::string_view column;  // of the record, see columns.h
   std::vector<double> values;
 };
 

@@ -1,4 +1,4 @@
-#include "experiments/hazard_detection.h"
+#include "experiments/hazard_detection/hazard_detection.h"
 
 #include <cstdint>
 #include <exception>
@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "experiments/hazard_detection/columns.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::experiments {
@@ -31,10 +32,9 @@ std::unique_ptr<HazardStudyRunner> MakeStudy(const HazardDetectionParams& params
 }
 
 truth::RecordSchema MakeSchema(const CellTable& table, const HazardStudyRunner& study) {
-  std::vector<std::string_view> names{truth::kCellColumn};
-  for (const std::string_view name : table.columns()) names.push_back(name);
+  std::vector<std::string_view> names = table.columns();
   for (const std::string_view name : study.columns()) names.push_back(name);
-  return truth::MeasurementSchema(names);
+  return truth::MeasurementSchema(HazardColumns(), names);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "core/random.h"
-#include "experiments/hazard_detection_params.h"
+#include "experiments/hazard_detection/hazard_detection_params.h"
 #include "math/pose.h"
 #include "terrain/rock.h"
 #include "terrain/rock_params.h"

@@ -1,9 +1,9 @@
 // Study "false_alarm": flat sand, no rock.
 #include <cstdint>
 
-#include "experiments/cell_table.h"
-#include "experiments/hazard_judge.h"
-#include "experiments/hazard_study.h"
+#include "experiments/hazard_detection/cell_table.h"
+#include "experiments/hazard_detection/hazard_judge.h"
+#include "experiments/hazard_detection/hazard_study.h"
 #include "perception/hazard_criteria.h"
 
 namespace rockyard::experiments {

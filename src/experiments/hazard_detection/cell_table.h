@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/hazard_detection_params.h"
+#include "experiments/hazard_detection/hazard_detection_params.h"
 
 namespace rockyard::experiments {
 

@@ -18,7 +18,7 @@ class HazardStudyRunner {
  public:
   virtual ~HazardStudyRunner() = default;
 
-  // Columns of truth/measurement_record.h that follow those of the factors.
+  // Names of those columns of columns.h that follow those of the factors.
   virtual std::vector<std::string_view> columns() const = 0;
 
   // Their values, summed over hazard_detection.scenes_per_run scenes of one cell. A pure function

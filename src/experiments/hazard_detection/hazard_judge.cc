@@ -1,4 +1,4 @@
-#include "experiments/hazard_judge.h"
+#include "experiments/hazard_detection/hazard_judge.h"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "experiments/hazard_detection_params.h"
+#include "experiments/hazard_detection/hazard_detection_params.h"
 
 #include <algorithm>
 

@@ -4,10 +4,10 @@
 #include <cstdint>
 
 #include "core/distributions.h"
-#include "experiments/cell_table.h"
-#include "experiments/hazard_judge.h"
-#include "experiments/hazard_study.h"
-#include "experiments/rock_scenes.h"
+#include "experiments/hazard_detection/cell_table.h"
+#include "experiments/hazard_detection/hazard_judge.h"
+#include "experiments/hazard_detection/hazard_study.h"
+#include "experiments/hazard_detection/rock_scenes.h"
 
 namespace rockyard::experiments {
 namespace {

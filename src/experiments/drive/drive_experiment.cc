@@ -1,4 +1,4 @@
-#include "experiments/drive_experiment.h"
+#include "experiments/drive/drive_experiment.h"
 
 #include <cmath>
 #include <cstdint>
@@ -8,7 +8,6 @@
 #include <string>
 #include <utility>
 
-#include "experiments/hazard_detection.h"
 #include "trial/run_trial.h"
 
 namespace rockyard::experiments {
@@ -70,20 +69,6 @@ truth::Record DriveExperiment::RunTrial(std::uint64_t seed, std::uint64_t index,
   } catch (const std::exception& error) {
     return truth::MakeFault(seed, index, error.what());
   }
-}
-
-std::unique_ptr<Experiment> MakeExperiment(const ExperimentParams& experiment,
-                                           const trial::DriveParams& drive,
-                                           const trial::ScanWatcher& scan_watcher,
-                                           const trial::StepWatcher& step_watcher) {
-  switch (experiment.kind) {
-    case ExperimentKind::kDrive:
-      return std::make_unique<DriveExperiment>(drive, scan_watcher, step_watcher);
-    case ExperimentKind::kHazardDetection:
-      return std::make_unique<HazardDetectionExperiment>(experiment.hazard_detection, drive,
-                                                         scan_watcher);
-  }
-  throw std::logic_error("unknown experiment");
 }
 
 }  // namespace rockyard::experiments

@@ -1,4 +1,4 @@
-#include "experiments/rock_scenes.h"
+#include "experiments/hazard_detection/rock_scenes.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "experiments/hazard_checks_params.h"
+#include "experiments/hazard_detection/checks_params.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/fields.h"
-#include "experiments/hazard_detection_params.h"
+#include "experiments/hazard_detection/hazard_detection_params.h"
 #include "trial/drive_params.h"
 
 namespace rockyard::experiments {

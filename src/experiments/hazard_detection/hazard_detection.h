@@ -2,14 +2,14 @@
 //
 // One run is a block of independent scenes of one cell; run i belongs to cell i modulo their
 // number, so that every prefix of the runs covers the cells evenly. Its record holds the cell's
-// factors, then counts and sums (truth/measurement_record.h); its outcome is `measured`.
+// factors, then counts and sums (columns.h); its outcome is `measured`.
 #pragma once
 
 #include <memory>
 
-#include "experiments/cell_table.h"
 #include "experiments/experiment.h"
-#include "experiments/hazard_study.h"
+#include "experiments/hazard_detection/cell_table.h"
+#include "experiments/hazard_detection/hazard_study.h"
 #include "trial/drive_params.h"
 
 namespace rockyard::experiments {

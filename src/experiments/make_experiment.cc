@@ -1,0 +1,50 @@
+// The registry of experiments: how each is made, and the columns by which a store knows its
+// records.
+#include <algorithm>
+#include <cstddef>
+#include <stdexcept>
+#include <utility>
+
+#include "experiments/drive/drive_experiment.h"
+#include "experiments/experiment.h"
+#include "experiments/hazard_detection/columns.h"
+#include "experiments/hazard_detection/hazard_detection.h"
+#include "truth/measurement_record.h"
+
+namespace rockyard::experiments {
+
+std::unique_ptr<Experiment> MakeExperiment(const ExperimentParams& experiment,
+                                           const trial::DriveParams& drive,
+                                           const trial::ScanWatcher& scan_watcher,
+                                           const trial::StepWatcher& step_watcher) {
+  switch (experiment.kind) {
+    case ExperimentKind::kDrive:
+      return std::make_unique<DriveExperiment>(drive, scan_watcher, step_watcher);
+    case ExperimentKind::kHazardDetection:
+      return std::make_unique<HazardDetectionExperiment>(experiment.hazard_detection, drive,
+                                                         scan_watcher);
+  }
+  throw std::logic_error("unknown experiment");
+}
+
+truth::RecordSchema WithRoles(truth::RecordSchema stored) {
+  const truth::RecordSchema* best = nullptr;
+  std::ptrdiff_t most = 0;
+  for (const truth::RecordSchema* columns : {&DriveSchema(), &HazardColumns()}) {
+    const auto known = std::count_if(
+        stored.begin(), stored.end(),
+        [&](const truth::ValueInfo& column) { return truth::FindColumn(*columns, column.name); });
+    if (known > most) best = columns;
+    most = std::max(most, known);
+  }
+  if (best == nullptr) return stored;
+  for (truth::ValueInfo& column : stored) {
+    const truth::ValueInfo* known = truth::FindColumn(*best, column.name);
+    if (known == nullptr) continue;
+    column.role = known->role;
+    column.of = known->of;
+  }
+  return stored;
+}
+
+}  // namespace rockyard::experiments
