@@ -8,6 +8,7 @@
 namespace rockyard::core {
 
 JsonValue::JsonValue(bool value) : data_(value) {}
+JsonValue::JsonValue(std::int64_t value) : data_(value) {}
 JsonValue::JsonValue(double value) : data_(value) {}
 JsonValue::JsonValue(std::string value) : data_(std::move(value)) {}
 JsonValue::JsonValue(std::string_view value) : data_(std::string(value)) {}

@@ -26,6 +26,7 @@ class JsonValue {
 
   JsonValue() = default;
   explicit JsonValue(bool value);
+  explicit JsonValue(std::int64_t value);
   explicit JsonValue(double value);
   explicit JsonValue(std::string value);
   explicit JsonValue(std::string_view value);
