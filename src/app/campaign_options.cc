@@ -11,7 +11,7 @@
 namespace rockyard::app {
 namespace {
 
-constexpr int kMostShards = 1'000'000;
+constexpr int kMaxShards = 1'000'000;
 
 bool ParseNumber(std::string_view text, int& number) {
   const char* end = text.data() + text.size();
@@ -119,7 +119,7 @@ batch::Shard CampaignOptions::shard() const {
   const bool numbers = slash != std::string::npos &&
                        ParseNumber(text.substr(0, slash), shard.index) &&
                        ParseNumber(text.substr(slash + 1), shard.count);
-  if (!numbers || shard.index < 1 || shard.index > shard.count || shard.count > kMostShards) {
+  if (!numbers || shard.index < 1 || shard.index > shard.count || shard.count > kMaxShards) {
     throw core::UserError("--shard", fmt::format("\"{}\" is no part of a campaign", shard_text),
                           "use I/N with 1 <= I <= N, e.g. 1/4");
   }

@@ -30,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 using batch::Mission;
 
-constexpr std::size_t kMostProblems = 8;  // that are told
+constexpr std::size_t kMaxProblems = 8;  // that are told
 
 fs::path CellFolder(const fs::path& folder, const StoredRun& run) {
   fs::path traces = folder / "traces";
@@ -162,7 +162,7 @@ class TraceWriter {
   }
 
   ExitCode TellProblems() {
-    const std::size_t more = problems_.size() - std::min(problems_.size(), kMostProblems);
+    const std::size_t more = problems_.size() - std::min(problems_.size(), kMaxProblems);
     problems_.resize(problems_.size() - more);
     PrintProblems(problems_);
     if (more > 0) PrintNote(fmt::format("and {} more", more));

@@ -67,7 +67,7 @@ class Recorder {
                             .view = watched.view,
                             .points_W = {}};
     const std::vector<math::Vector3>& points_R = watched.cloud.points_R;
-    const std::size_t kept = std::min(points_R.size(), kMostStepPoints);
+    const std::size_t kept = std::min(points_R.size(), kMaxStepPoints);
     step.points_W.reserve(kept);
     for (std::size_t i = 0; i < kept; ++i) {
       step.points_W.push_back(watched.X_WR * points_R[i * points_R.size() / kept]);

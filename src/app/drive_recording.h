@@ -18,7 +18,7 @@ struct DriveRecording {
 };
 
 // Most points of one step that are kept, evenly spread over those that the look gave.
-inline constexpr std::size_t kMostStepPoints = 120;
+inline constexpr std::size_t kMaxStepPoints = 120;
 
 // Drives the trial: a pure function of its arguments, with the record of the campaign, bit for bit.
 // A simulator fault ends the recording where it happens. Throws core::UserError where the scenario

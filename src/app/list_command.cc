@@ -24,7 +24,7 @@ namespace {
 
 using core::JsonValue;
 
-constexpr std::size_t kLeastWidth = 40;
+constexpr std::size_t kMinWidth = 40;
 
 struct ListOptions {
   std::string folder = "scenarios";
@@ -39,7 +39,7 @@ std::string Bold(const std::string& text) {
 }
 
 std::size_t LineWidth() {
-  return std::max(static_cast<std::size_t>(std::max(TerminalWidth(stdout), 0)), kLeastWidth);
+  return std::max(static_cast<std::size_t>(std::max(TerminalWidth(stdout), 0)), kMinWidth);
 }
 
 // The files of one folder below its name, so that there is room for what they are.

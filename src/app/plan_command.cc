@@ -27,12 +27,12 @@ struct PlanOptions {
   bool json = false;
 };
 
-constexpr double kLeastConfidence = 0.5;
-constexpr double kMostConfidence = 0.999999;
+constexpr double kMinConfidence = 0.5;
+constexpr double kMaxConfidence = 0.999999;
 
 void AddConfidence(CLI::App& command, PlanOptions& options) {
   command.add_option("--confidence", options.confidence, "of the interval or the claim")
-      ->check(CLI::Range(kLeastConfidence, kMostConfidence))
+      ->check(CLI::Range(kMinConfidence, kMaxConfidence))
       ->capture_default_str();
 }
 
@@ -165,7 +165,7 @@ void PlanDifference(const DifferenceQuestion& q) {
   const statistics::RatePair rates{q.first, q.second};
   const std::int64_t group = statistics::TrialsForFisher(rates, o.alpha, o.power);
   report.Add("fisher", "of each of two groups with other seeds, Fisher's exact test", group);
-  if (group <= statistics::kMostExactFisher) {
+  if (group <= statistics::kMaxExactFisher) {
     report.Add("fisher_power", "    its exact power",
                statistics::FisherPower(group, rates, o.alpha));
   }

@@ -9,7 +9,7 @@
 
 namespace rockyard::app {
 
-bool IsCutOff(std::int64_t trials) { return trials >= statistics::kMostTrials; }
+bool IsCutOff(std::int64_t trials) { return trials >= statistics::kMaxTrials; }
 
 void PlanReport::Add(std::string key, std::string what, std::int64_t trials) {
   const bool cut_off = IsCutOff(trials);

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Settings = std::vector<std::string>;
 
-constexpr std::size_t kMostShown = 12;
+constexpr std::size_t kMaxShown = 12;
 
 // Nothing where the file cannot be read.
 std::optional<Settings> DifferencesFrom(const fs::path& file, const StoredRun& run) {
@@ -27,8 +27,8 @@ std::optional<Settings> DifferencesFrom(const fs::path& file, const StoredRun& r
     const BaselineScenario compared = CompareWithBaseline(run.identity.resolved, published);
     Settings settings;
     for (const batch::ScenarioDifference& each : compared.differences) {
-      if (settings.size() == kMostShown) {
-        settings.push_back(fmt::format("and {} more", compared.differences.size() - kMostShown));
+      if (settings.size() == kMaxShown) {
+        settings.push_back(fmt::format("and {} more", compared.differences.size() - kMaxShown));
         break;
       }
       settings.push_back(

@@ -38,8 +38,8 @@ terrain::Rectangle SceneBounds(const scenario::Scenario& scenario, const truth::
   return bounds;
 }
 
-// The goal that the rover was told, which a fault's record does not hold.
-messages::Goal ToldGoal(const truth::TracedTrial& traced) {
+// The designated goal, which a fault's record does not hold.
+messages::Goal DesignatedGoal(const truth::TracedTrial& traced) {
   const auto x = statistics::ColumnIndex(traced.schema, "told_goal_x_m");
   const auto y = statistics::ColumnIndex(traced.schema, "told_goal_y_m");
   if (!x || !y || traced.record.values.empty()) return traced.goal;
@@ -53,7 +53,7 @@ replay::ReplayCourse CourseOf(const scenario::Scenario& scenario, const truth::T
       .start = {course.start_x_m, course.start_y_m, course.start_heading_rad},
       .goal = traced.goal,
       .goal_radius_m = course.goal_radius_m,
-      .told_goal = ToldGoal(traced),
+      .told_goal = DesignatedGoal(traced),
       .x_min_m = bounds.x_min_m,
       .x_max_m = bounds.x_max_m,
       .y_min_m = bounds.y_min_m,
@@ -78,7 +78,7 @@ replay::ReplayGround GroundOf(const terrain::Ground& ground, const terrain::Rect
     return static_cast<std::size_t>(std::ceil(extent_m / grid.step_m)) + 1;
   };
   grid.step_m = ground.IsPlane() ? kPlaneStep_m : kFinestStep_m;
-  while (points(width_m) * points(depth_m) > kMostHeights) grid.step_m *= kStepGrowth;
+  while (points(width_m) * points(depth_m) > kMaxHeights) grid.step_m *= kStepGrowth;
   grid.nx = points(width_m);
   grid.ny = points(depth_m);
   grid.z_m.reserve(grid.nx * grid.ny);

@@ -8,7 +8,7 @@
 namespace rockyard::app {
 
 // Most heights of the drawn ground: rough ground of a wide arena is drawn more coarsely than 10 cm.
-inline constexpr std::size_t kMostHeights = 40000;
+inline constexpr std::size_t kMaxHeights = 40000;
 
 // Fills course, ground and rocks as they lay at the start. Throws core::UserError where the terrain
 // cannot be built, which is a simulator fault of the trial.

@@ -25,7 +25,7 @@
 namespace rockyard::app {
 namespace {
 
-constexpr std::size_t kMostCompared = 6;
+constexpr std::size_t kMaxCompared = 6;
 constexpr auto kMethod = statistics::IntervalMethod::kWilson;
 
 // None where the scenario is of another version of the program.
@@ -173,9 +173,9 @@ class Builder {
       if (truth::IsMeasurement(run.schema) || run.prefix().empty()) continue;
       drives.emplace_back(&run, input.label);
     }
-    if (drives.size() > kMostCompared) {
+    if (drives.size() > kMaxCompared) {
       PrintNote(fmt::format("{} runs are too many to compare with the first: name up to {}",
-                            drives.size(), kMostCompared));
+                            drives.size(), kMaxCompared));
       return;
     }
     if (drives.size() < 2) return;

@@ -8,14 +8,14 @@
 namespace rockyard::app {
 namespace {
 
-constexpr std::size_t kMostPilotCells = 100;
+constexpr std::size_t kMaxPilotCells = 100;
 
 }  // namespace
 
 std::vector<batch::PilotCost> RunPilots(const scenario::Sweep& sweep, int trials) {
   std::vector<batch::PilotCost> pilots(sweep.cells.size());
   if (trials == 0) return pilots;
-  const std::size_t stride = (sweep.cells.size() + kMostPilotCells - 1) / kMostPilotCells;
+  const std::size_t stride = (sweep.cells.size() + kMaxPilotCells - 1) / kMaxPilotCells;
   for (std::size_t i = 0; i < sweep.cells.size(); i += stride) {
     const auto experiment = experiments::MakeExperiment(sweep.cells[i].scenario.experiment,
                                                         sweep.cells[i].scenario.drive);

@@ -32,7 +32,7 @@ constexpr const char* kPlanFile = "plan.json";
 constexpr const char* kTableFile = "plan.csv";
 constexpr const char* kCellFolder = "cells";
 constexpr std::array<int, 4> kThreadCounts{1, 2, 4, 16};
-constexpr int kLeastToCompare = 2;  // one pilot may be equal by chance
+constexpr int kMinToCompare = 2;  // one pilot may be equal by chance
 
 fs::path FolderOf(const Sweep& sweep, const SweepPlanOptions& options) {
   if (!options.folder.empty()) return options.folder;
@@ -179,7 +179,7 @@ std::vector<std::string> EqualPilots(const Sweep& sweep,
   std::vector<std::string> notes;
   std::map<std::string, std::size_t> known;
   for (std::size_t i = 0; i < pilots.size(); ++i) {
-    if (pilots[i].trials < kLeastToCompare) continue;
+    if (pilots[i].trials < kMinToCompare) continue;
     const auto [at, fresh] = known.try_emplace(pilots[i].hash, i);
     if (fresh) continue;
     notes.push_back(fmt::format(

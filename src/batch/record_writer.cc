@@ -22,10 +22,10 @@ RecordWriter::~RecordWriter() {
 void RecordWriter::Push(CellRecord record) {
   std::unique_lock lock(mutex_);
   taken_.wait(lock, [this] {
-    return queue_.size() < kMostWaiting || failed_ || stopping_ || !thread_.joinable();
+    return queue_.size() < kMaxWaiting || failed_ || stopping_ || !thread_.joinable();
   });
   queue_.push_back(std::move(record));
-  if (queue_.size() >= kMostWaiting) wake_.notify_one();
+  if (queue_.size() >= kMaxWaiting) wake_.notify_one();
 }
 
 void RecordWriter::Close() {
@@ -48,7 +48,7 @@ void RecordWriter::Loop() {
   std::unique_lock lock(mutex_);
   while (!stopping_) {
     wake_.wait_for(lock, interval_,
-                   [this] { return stopping_ || (queue_.size() >= kMostWaiting && !failed_); });
+                   [this] { return stopping_ || (queue_.size() >= kMaxWaiting && !failed_); });
     if (stopping_) return;
     lock.unlock();
     // After a failure the rest is tried once more, when the trials in flight have ended.

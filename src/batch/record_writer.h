@@ -29,10 +29,10 @@ class RecordWriter {
   RecordWriter(const RecordWriter&) = delete;
   RecordWriter& operator=(const RecordWriter&) = delete;
 
-  // Any thread. Blocks while kMostWaiting records wait for a store that is slower than the trials,
+  // Any thread. Blocks while kMaxWaiting records wait for a store that is slower than the trials,
   // so that memory stays bounded; not after a failure, nor without the thread.
   void Push(CellRecord record);
-  static constexpr std::size_t kMostWaiting = 20000;
+  static constexpr std::size_t kMaxWaiting = 20000;
 
   // Records that have been brought to the store.
   std::int64_t stored() const { return stored_; }

@@ -17,7 +17,7 @@ namespace {
 
 using Type = JsonValue::Type;
 
-constexpr std::size_t kMostProblems = 100;
+constexpr std::size_t kMaxProblems = 100;
 constexpr std::size_t kLongestList = 1000;
 constexpr std::size_t kLongestText = 10000;
 // Reals up to here are exact integers.
@@ -70,7 +70,7 @@ std::string FieldReader::Path(std::string_view name) const {
 
 void FieldReader::Add(std::string path, std::string reason, std::string suggestion) {
   ++problem_count_;
-  if (problems_.size() < kMostProblems) {
+  if (problems_.size() < kMaxProblems) {
     problems_.push_back({std::move(path), std::move(reason), std::move(suggestion)});
   }
 }

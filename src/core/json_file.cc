@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestChain = 16;
 // Files that each name several others multiply: bounds the memory of a mistaken or hostile input.
-constexpr std::size_t kMostFiles = 64;
+constexpr std::size_t kMaxFiles = 64;
 constexpr std::string_view kExtends = "extends";
 
 std::string ReadText(const fs::path& path) {
@@ -119,8 +119,8 @@ class ExtendsLoader {
           fmt::format("more than {} files extend each other: {}", kLongestChain, Chain(path)),
           "merge some of them");
     }
-    if (++files_ > kMostFiles) {
-      throw UserError(Join(at, kExtends), fmt::format("more than {} files are read", kMostFiles),
+    if (++files_ > kMaxFiles) {
+      throw UserError(Join(at, kExtends), fmt::format("more than {} files are read", kMaxFiles),
                       "merge some of them");
     }
   }

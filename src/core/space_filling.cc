@@ -31,7 +31,7 @@ double Fraction(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0
 }  // namespace
 
 UnitPoints LatinHypercube(std::size_t points, std::size_t dimensions, std::uint64_t seed) {
-  EXPECT(dimensions >= 1 && dimensions <= kMostDesignDimensions);
+  EXPECT(dimensions >= 1 && dimensions <= kMaxDesignDimensions);
   UnitPoints design(points, std::vector<double>(dimensions));
   for (std::size_t d = 0; d < dimensions; ++d) {
     RandomStream stream = DesignStream(seed, d);
@@ -45,10 +45,10 @@ UnitPoints LatinHypercube(std::size_t points, std::size_t dimensions, std::uint6
 }
 
 UnitPoints SobolPoints(std::size_t points, std::size_t dimensions, std::uint64_t seed) {
-  EXPECT(dimensions >= 1 && dimensions <= kMostDesignDimensions);
+  EXPECT(dimensions >= 1 && dimensions <= kMaxDesignDimensions);
   std::vector<std::uint64_t> shifts(dimensions);
   for (std::size_t d = 0; d < dimensions; ++d) {
-    shifts[d] = DesignStream(seed, kMostDesignDimensions + d).NextU64();
+    shifts[d] = DesignStream(seed, kMaxDesignDimensions + d).NextU64();
   }
   UnitPoints design(points, std::vector<double>(dimensions));
   boost::random::sobol sequence(dimensions);

@@ -10,12 +10,12 @@ namespace rockyard::core {
 // One point of [0, 1)^dimensions per element.
 using UnitPoints = std::vector<std::vector<double>>;
 
-inline constexpr std::size_t kMostDesignDimensions = 100;
+inline constexpr std::size_t kMaxDesignDimensions = 100;
 
 // Latin hypercube (McKay, Beckman and Conover 1979): every axis is cut into `points` slices of
 // equal width, and each slice of each axis holds exactly one point, uniform within it. Another
 // number of points gives another design. Randomness: Philox, `seed`, Purpose::kDesign, one
-// substream per dimension. Cost: points times dimensions. 1 <= dimensions <= kMostDesignDimensions.
+// substream per dimension. Cost: points times dimensions. 1 <= dimensions <= kMaxDesignDimensions.
 UnitPoints LatinHypercube(std::size_t points, std::size_t dimensions, std::uint64_t seed);
 
 // The first points of the Sobol sequence (Sobol 1967, directions of Joe and Kuo 2008 as in
@@ -23,7 +23,7 @@ UnitPoints LatinHypercube(std::size_t points, std::size_t dimensions, std::uint6
 // base 2: every coordinate's bits are flipped by one random word per dimension), which keeps the
 // net property: of 2^m points, each of 2^m equal slices of an axis holds exactly one. More points
 // go on with the same sequence. Best with powers of 2. Randomness: Philox, `seed`,
-// Purpose::kDesign, substreams from kMostDesignDimensions on. Cost and limits as above.
+// Purpose::kDesign, substreams from kMaxDesignDimensions on. Cost and limits as above.
 UnitPoints SobolPoints(std::size_t points, std::size_t dimensions, std::uint64_t seed);
 
 }  // namespace rockyard::core

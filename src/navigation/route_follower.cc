@@ -16,25 +16,25 @@ RouteFollower::RouteFollower(const RouteParams& params, messages::Route route)
 NavigatorDecision RouteFollower::Decide(const NavigatorInput& input) {
   const PoseEstimate& estimate = input.estimate;
   if (route_.corners.empty()) return {NavigatorStatus::kGaveUp, {}, {}};
-  if (SightOf(route_.corners.back(), estimate).distance_m <= params_.goal_tolerance_m) {
+  if (BearingTo(route_.corners.back(), estimate).distance_m <= params_.goal_tolerance_m) {
     return {NavigatorStatus::kArrived, {}, {}};
   }
   PassCorners(estimate);
-  const Sight sight = SightOf(route_.corners[next_], estimate);
+  const Bearing bearing = BearingTo(route_.corners[next_], estimate);
   const bool turning = under_way_ && motion_.kind == MotionKind::kTurnInPlace;
   // A turn goes on until the corner is ahead, an arc for steer_interval_m of driving.
-  const bool on = turning ? motion_.direction * sight.bearing_rad > params_.heading_deadband_rad
-                          : under_way_ && !NeedsPointTurn(sight) &&
+  const bool on = turning ? motion_.direction * bearing.angle_rad > params_.heading_deadband_rad
+                          : under_way_ && !NeedsPointTurn(bearing) &&
                                 estimate.distance_m - steered_at_m_ < params_.steer_interval_m;
   if (on) return {NavigatorStatus::kDriving, {}, motion_};
-  return Steer(sight, estimate);
+  return Steer(bearing, estimate);
 }
 
 // What was under way is worked out anew from where the rover now stands.
 void RouteFollower::OnPoseUpdate(const PoseEstimate&, const PoseEstimate&) { under_way_ = false; }
 
-RouteFollower::Sight RouteFollower::SightOf(const messages::Goal& corner,
-                                            const PoseEstimate& estimate) const {
+RouteFollower::Bearing RouteFollower::BearingTo(const messages::Goal& corner,
+                                                const PoseEstimate& estimate) const {
   const double dx = corner.x_m - estimate.x_m;
   const double dy = corner.y_m - estimate.y_m;
   return {std::hypot(dx, dy), math::WrapAngle(std::atan2(dy, dx) - estimate.heading_rad)};
@@ -45,7 +45,7 @@ RouteFollower::Sight RouteFollower::SightOf(const messages::Goal& corner,
 bool RouteFollower::HasPassed(const messages::Goal& corner, const PoseEstimate& estimate) const {
   const double beyond = (estimate.x_m - corner.x_m) * (corner.x_m - leg_from_->x_m) +
                         (estimate.y_m - corner.y_m) * (corner.y_m - leg_from_->y_m);
-  return beyond > 0.0 || SightOf(corner, estimate).distance_m <= params_.corner_tolerance_m;
+  return beyond > 0.0 || BearingTo(corner, estimate).distance_m <= params_.corner_tolerance_m;
 }
 
 void RouteFollower::PassCorners(const PoseEstimate& estimate) {
@@ -58,24 +58,24 @@ void RouteFollower::PassCorners(const PoseEstimate& estimate) {
 }
 
 // The arc that leads to a corner at distance d and bearing b has the radius d / (2 sin b).
-bool RouteFollower::NeedsPointTurn(const Sight& sight) const {
-  const double bearing_rad = std::abs(sight.bearing_rad);
+bool RouteFollower::NeedsPointTurn(const Bearing& bearing) const {
+  const double bearing_rad = std::abs(bearing.angle_rad);
   if (bearing_rad <= params_.heading_deadband_rad) return false;
   return bearing_rad > params_.point_turn_bearing_rad ||
-         sight.distance_m < 2.0 * params_.tight_arc_radius_m * std::sin(bearing_rad);
+         bearing.distance_m < 2.0 * params_.tight_arc_radius_m * std::sin(bearing_rad);
 }
 
-NavigatorDecision RouteFollower::Steer(const Sight& sight, const PoseEstimate& estimate) {
+NavigatorDecision RouteFollower::Steer(const Bearing& bearing, const PoseEstimate& estimate) {
   under_way_ = true;
   steered_at_m_ = estimate.distance_m;
-  if (NeedsPointTurn(sight)) {
-    motion_ = {MotionKind::kTurnInPlace, 0.0, sight.bearing_rad > 0.0 ? +1 : -1};
+  if (NeedsPointTurn(bearing)) {
+    motion_ = {MotionKind::kTurnInPlace, 0.0, bearing.angle_rad > 0.0 ? +1 : -1};
   } else {
-    const bool straight = std::abs(sight.bearing_rad) <= params_.heading_deadband_rad;
+    const bool straight = std::abs(bearing.angle_rad) <= params_.heading_deadband_rad;
     // The circle tangent to the heading through a point at distance d and bearing b: c = 2 sin(b) /
     // d.
     const double curvature_per_m =
-        straight ? 0.0 : 2.0 * std::sin(sight.bearing_rad) / sight.distance_m;
+        straight ? 0.0 : 2.0 * std::sin(bearing.angle_rad) / bearing.distance_m;
     motion_ = {MotionKind::kArc, curvature_per_m, +1};
   }
   return {NavigatorStatus::kDriving, {}, motion_};

@@ -26,16 +26,16 @@ class RouteFollower final : public Navigator {
 
  private:
   // Where a corner lies, as believed.
-  struct Sight {
+  struct Bearing {
     double distance_m = 0.0;
-    double bearing_rad = 0.0;
+    double angle_rad = 0.0;
   };
 
-  Sight SightOf(const messages::Goal& corner, const messages::PoseEstimate& estimate) const;
+  Bearing BearingTo(const messages::Goal& corner, const messages::PoseEstimate& estimate) const;
   bool HasPassed(const messages::Goal& corner, const messages::PoseEstimate& estimate) const;
   void PassCorners(const messages::PoseEstimate& estimate);
-  bool NeedsPointTurn(const Sight& sight) const;
-  NavigatorDecision Steer(const Sight& sight, const messages::PoseEstimate& estimate);
+  bool NeedsPointTurn(const Bearing& bearing) const;
+  NavigatorDecision Steer(const Bearing& bearing, const messages::PoseEstimate& estimate);
 
   RouteParams params_;
   messages::Route route_;

@@ -53,9 +53,9 @@ std::optional<HazardSide> VehicleHazardDetector::Bent(const messages::Articulati
   const bool left = std::abs(angles.left_bogie_rad) > params_.max_bogie_rad;
   const bool right = std::abs(angles.right_bogie_rad) > params_.max_bogie_rad;
   if (left || right) return SideOf(left, right);
-  const double most_rad =
+  const double max_rad =
       std::max(std::abs(angles.left_rocker_rad), std::abs(angles.right_rocker_rad));
-  if (most_rad <= params_.max_rocker_rad) return std::nullopt;
+  if (max_rad <= params_.max_rocker_rad) return std::nullopt;
   // Positive angles lower the front: the smaller one has its front up.
   return angles.left_rocker_rad < angles.right_rocker_rad ? HazardSide::kLeft : HazardSide::kRight;
 }

@@ -123,7 +123,7 @@ struct ReplayData {
 
 // Most steps with heights of the map and range points; where there are more, only every second has
 // them, or every third, ..., so that a page stays small.
-inline constexpr std::size_t kMostDetailedSteps = 240;
+inline constexpr std::size_t kMaxDetailedSteps = 240;
 
 // As src/web/replay/payload.ts says, on one line. Moments of little change are left out (see
 // motion.h), lengths have 0.1 mm, but the last moment has every digit of its pose.

@@ -15,7 +15,7 @@ namespace {
 using core::JsonList;
 using core::JsonObject;
 
-constexpr std::uint64_t kMostExactInteger = std::uint64_t{1} << 53;
+constexpr std::uint64_t kMaxExactInteger = std::uint64_t{1} << 53;
 
 std::string RecordText(const ReplayData& data) {
   std::vector<std::string> columns;
@@ -135,7 +135,7 @@ std::string ReplayJson(const ReplayData& data) {
       .AddText("title", data.title)
       .AddText("scenario", data.scenario)
       .AddText("cell", data.cell);
-  if (data.seed < kMostExactInteger) {
+  if (data.seed < kMaxExactInteger) {
     object.AddInteger("seed", static_cast<std::int64_t>(data.seed));
   } else {
     object.AddText("seed", std::to_string(data.seed));

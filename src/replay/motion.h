@@ -26,14 +26,14 @@ struct ThinnedMotion {
 };
 
 // Most moments of a motion that a page holds.
-inline constexpr std::size_t kMostMoments = 8000;
+inline constexpr std::size_t kMaxMoments = 8000;
 
 // Keeps first and last moment, those at both sides of a setting back, the last one of every stretch
 // of one activity, and between them as many as the tolerance asks for (Ramer 1972, Douglas and
 // Peucker 1973: the moment that is furthest off is kept, then both parts are looked at). Where that
 // is more than `most`, the tolerance grows by half until it is not, or until nothing more can be
 // left out. Poses are in the order of time. Cost: some n log n of n poses.
-ThinnedMotion ThinMotion(std::span<const ReplayPose> poses, std::size_t most = kMostMoments);
+ThinnedMotion ThinMotion(std::span<const ReplayPose> poses, std::size_t most = kMaxMoments);
 
 // How far the pose is from what is shown at its time between two others, as a share of the
 // tolerance: at most 1 where it may be left out. The largest of position, attitude, believed pose

@@ -58,7 +58,7 @@ Decoded DecodeFront(std::string_view text) {
   const unsigned char first = byte(0);
   if (first < 0x80) return {first, 1};
   const std::size_t length = first >= 0xf0 ? 4 : (first >= 0xe0 ? 3 : 2);
-  constexpr std::array<char32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};
+  constexpr std::array<char32_t, 5> kMin{0, 0, 0x80, 0x800, 0x10000};
   if (first < 0xc2 || first > 0xf4 || text.size() < length) return {};
   char32_t character = first & (0x7fU >> length);
   for (std::size_t i = 1; i < length; ++i) {
@@ -66,7 +66,7 @@ Decoded DecodeFront(std::string_view text) {
     character = character << 6 | (byte(i) & 0x3fU);
   }
   const bool surrogate = character >= 0xd800 && character < 0xe000;
-  if (character < kLeast[length] || character > 0x10ffff || surrogate) return {};
+  if (character < kMin[length] || character > 0x10ffff || surrogate) return {};
   return {character, length};
 }
 

@@ -101,7 +101,7 @@ std::vector<SweepAttribution> AttributeSweep(const Sweep& sweep,
                                              std::span<const CellOutcomes> outcomes) {
   const std::vector<std::size_t> axes = AblationAxes(sweep);
   if (sweep.design != scenario::DesignKind::kGrid || !sweep.common_random_numbers || axes.empty() ||
-      axes.size() > statistics::kMostFunctions) {
+      axes.size() > statistics::kMaxFunctions) {
     return {};
   }
   std::vector<std::string> functions;

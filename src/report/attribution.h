@@ -23,7 +23,7 @@ struct SweepAttribution {
 };
 
 // One attribution for each setting of the axes that are no ablations. Nothing for sweeps that are
-// no grid, have no axis of ablations or more than statistics::kMostFunctions, or no common random
+// no grid, have no axis of ablations or more than statistics::kMaxFunctions, or no common random
 // numbers: trials are compared in pairs. Uses the trials that every cell of a setting has.
 // `outcomes` of each cell, by trial from 0 on. Intervals allow for trials that share layouts.
 std::vector<SweepAttribution> AttributeSweep(const scenario::Sweep& sweep,

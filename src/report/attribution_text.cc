@@ -13,7 +13,7 @@ using statistics::Estimate;
 constexpr std::size_t kNameWidth = 23;  // three intervals beside it fit 100 columns
 constexpr std::size_t kPlaceWidth = 30;
 // Longer tables are for files.
-constexpr std::size_t kMostEffects = 15;
+constexpr std::size_t kMaxEffects = 15;
 
 std::string Percent(const Estimate& estimate) {
   return fmt::format("{:6.1f} ({:6.1f} ..{:6.1f})", 100.0 * estimate.value,
@@ -46,7 +46,7 @@ std::string Effects(const Attribution& result) {
   std::string text =
       "  effects on the failure probability, points of per cent (interactions: halved "
       "differences)\n";
-  for (std::size_t i = 0; i < result.effects.size() && i < kMostEffects; ++i) {
+  for (std::size_t i = 0; i < result.effects.size() && i < kMaxEffects; ++i) {
     const statistics::EffectOfSet& row = result.effects[i];
     text += fmt::format("    {}  {}\n", Percent(row.effect),
                         statistics::NameOf(row.set, result.functions).substr(0, 70));
@@ -56,7 +56,7 @@ std::string Effects(const Attribution& result) {
 
 std::string Combinations(const Attribution& result) {
   std::string text = "  failures with these perfect, %\n";
-  for (std::size_t c = 0; c < result.failures.size() && c <= kMostEffects; ++c) {
+  for (std::size_t c = 0; c < result.failures.size() && c <= kMaxEffects; ++c) {
     const auto set = static_cast<statistics::Combination>(c);
     const std::string name = statistics::NameOf(set, result.functions, " + ");
     text += fmt::format("    {}  {}\n", Percent(result.failures[c]), name.substr(0, 70));

@@ -16,8 +16,8 @@ using statistics::ComparedCell;
 using statistics::RateDifference;
 
 // More cells than this are shown by their smallest p-values.
-constexpr std::size_t kMostLines = 40;
-constexpr std::size_t kMostFactors = 4;
+constexpr std::size_t kMaxLines = 40;
+constexpr std::size_t kMaxFactors = 4;
 
 std::string Head(const ComparedRun& first, const ComparedRun& second,
                  const CellComparison& comparison) {
@@ -63,7 +63,7 @@ std::string RateLines(const CellComparison& comparison) {
 
 std::string CellLine(const CellComparison& comparison, const ComparedCell& cell, std::size_t rate) {
   std::string line = " ";
-  for (std::size_t i = 0; i < std::min(kMostFactors, cell.factors.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(kMaxFactors, cell.factors.size()); ++i) {
     line += fmt::format(" {:>6.4g}", cell.factors[i]);
   }
   const RateDifference& r = cell.rates[rate];
@@ -83,11 +83,11 @@ std::vector<const ComparedCell*> Shown(const CellComparison& comparison, std::si
   for (const ComparedCell& cell : comparison.cells) {
     if (main || comparison.Differs(cell.rates[rate])) shown.push_back(&cell);
   }
-  if (shown.size() <= kMostLines) return shown;
+  if (shown.size() <= kMaxLines) return shown;
   std::stable_sort(shown.begin(), shown.end(), [&](const ComparedCell* a, const ComparedCell* b) {
     return a->rates[rate].p_value < b->rates[rate].p_value;
   });
-  shown.resize(kMostLines);
+  shown.resize(kMaxLines);
   std::sort(shown.begin(), shown.end());  // they lie in one vector
   return shown;
 }
@@ -100,7 +100,7 @@ std::string CellLines(const CellComparison& comparison, std::size_t rate, bool m
   const std::size_t all = main ? comparison.cells.size() : comparison.Differing(rate);
   if (shown.size() < all) text += fmt::format(": the {} of smallest p", shown.size());
   text += "\n ";
-  const std::size_t factors = std::min(kMostFactors, comparison.factors.size());
+  const std::size_t factors = std::min(kMaxFactors, comparison.factors.size());
   for (std::size_t i = 0; i < factors; ++i)
     text += fmt::format(" {:>6}", fmt::format("({})", i + 1));
   text += fmt::format(" {:>6} {:>6} {:>7} {:>15} {:>15} {:>7} {:>5}\n", "A", "B", "B - A", "alone",
@@ -111,7 +111,7 @@ std::string CellLines(const CellComparison& comparison, std::size_t rate, bool m
 
 std::string FactorNames(const CellComparison& comparison) {
   std::string text = "\n ";
-  const std::size_t factors = std::min(kMostFactors, comparison.factors.size());
+  const std::size_t factors = std::min(kMaxFactors, comparison.factors.size());
   for (std::size_t i = 0; i < factors; ++i) {
     text += fmt::format(" ({}) {}", i + 1, comparison.factors[i].name);
   }

@@ -26,7 +26,7 @@ using statistics::StatisticKind;
 using Type = core::JsonValue::Type;
 
 // Counts of runs so small that every division into kinds can be listed.
-constexpr std::int64_t kMostFailures = 50;
+constexpr std::int64_t kMaxFailures = 50;
 
 class Parser {
  public:
@@ -203,7 +203,7 @@ class Parser {
     if (!has_kinds) return;
     std::int64_t failures = 0;
     for (const FailureKind& kind : value.kinds) failures += kind.count;
-    Require(failures == value.sample_size && failures <= kMostFailures, path + "kinds",
+    Require(failures == value.sample_size && failures <= kMaxFailures, path + "kinds",
             "has counts that do not add up to sample_size, or more than 50 failures",
             "make the counts add up to the number of published failures");
   }

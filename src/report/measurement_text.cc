@@ -18,10 +18,10 @@ using statistics::Cell;
 using statistics::MeasurementSummary;
 
 // More cells than this are pooled.
-constexpr std::size_t kMostLines = 40;
+constexpr std::size_t kMaxLines = 40;
 // Columns of numbers that fit into 100 characters.
-constexpr std::size_t kMostColumns = 7;
-constexpr std::size_t kMostFactors = 4;
+constexpr std::size_t kMaxColumns = 7;
+constexpr std::size_t kMaxFactors = 4;
 
 std::string Head(const RunDescription& run, const MeasurementSummary& summary, TextStyle style) {
   const std::string name = Cut(Printable(run.scenario), 40);
@@ -66,10 +66,10 @@ std::string Widest(const MeasurementSummary& summary) {
 
 std::string CellLine(const Cell& cell) {
   std::string line = " ";
-  for (std::size_t i = 0; i < std::min(kMostFactors, cell.factors.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(kMaxFactors, cell.factors.size()); ++i) {
     line += fmt::format(" {:>8.4g}", cell.factors[i]);
   }
-  std::size_t room = kMostColumns;
+  std::size_t room = kMaxColumns;
   for (const statistics::CellRate& rate : cell.rates) {
     if (room-- == 0) return line + "\n";
     line += fmt::format(" {:>9.4f}", rate.rate.rate);
@@ -90,10 +90,10 @@ std::string EveryCell(const MeasurementSummary& summary) {
     legend += fmt::format("  {} {}\n", letter, name);
     header += fmt::format(" {:>{}}", letter++, width);
   };
-  for (std::size_t i = 0; i < std::min(kMostFactors, summary.factors.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(kMaxFactors, summary.factors.size()); ++i) {
     add(summary.factors[i].name, 8);
   }
-  std::size_t room = kMostColumns;
+  std::size_t room = kMaxColumns;
   for (const auto* list : {&summary.rates, &summary.means}) {
     for (const truth::ValueInfo& column : *list) {
       if (room == 0) break;
@@ -157,7 +157,7 @@ std::string MeasurementText(const RunDescription& run, const MeasurementSummary&
   if (!summary.cells.empty()) {
     text += Bases(summary) + Widest(summary);
     const std::size_t rate = MainRate(summary.rates);
-    const bool pool = summary.cells.size() > kMostLines && rate < summary.rates.size();
+    const bool pool = summary.cells.size() > kMaxLines && rate < summary.rates.size();
     text += pool ? Pooled(summary, rate) : EveryCell(summary);
     text += "  intervals of every cell, and of all cells at once, in cells.csv\n";
   }

@@ -31,7 +31,7 @@
 namespace rockyard::report {
 
 // Steps of a distribution function that a page holds at most.
-inline constexpr std::size_t kMostPageSteps = 1000;
+inline constexpr std::size_t kMaxPageSteps = 1000;
 
 // A link to the replay of a trial, relative to the page.
 struct PageLink {
@@ -66,7 +66,7 @@ std::string PageReplaysJson(std::span<const PageLink> links);
 std::string PageTrialsJson(const truth::RecordSchema& schema,
                            std::span<const truth::Record> records);
 
-// Members of distance_cdf.csv by column, of at most kMostPageSteps steps: all of them, or the
+// Members of distance_cdf.csv by column, of at most kMaxPageSteps steps: all of them, or the
 // first, the last, and each at which the distribution function has grown by more than 1/998 since
 // the one before. What is kept is exact. Drawn as steps from it, the function is nowhere above that
 // of all steps and nowhere below it by more than 1/998, however many trials share a distance. null

@@ -45,14 +45,14 @@ std::vector<std::string> Factors(const truth::RecordSchema& schema) {
 }
 
 // All where they are few enough. Else both ends, and every step at which the function has grown by
-// more than kLeast since the one kept before: those growths sum up to no more than 1.
+// more than kMin since the one kept before: those growths sum up to no more than 1.
 std::vector<std::size_t> KeptSteps(std::span<const DistanceStep> steps) {
-  constexpr double kLeast = 1.0 / static_cast<double>(kMostPageSteps - 2);
+  constexpr double kMin = 1.0 / static_cast<double>(kMaxPageSteps - 2);
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const bool grown =
-        kept.empty() || steps[i].all.fraction - steps[kept.back()].all.fraction > kLeast;
-    if (steps.size() <= kMostPageSteps || grown || i + 1 == steps.size()) kept.push_back(i);
+        kept.empty() || steps[i].all.fraction - steps[kept.back()].all.fraction > kMin;
+    if (steps.size() <= kMaxPageSteps || grown || i + 1 == steps.size()) kept.push_back(i);
   }
   return kept;
 }

@@ -17,11 +17,11 @@ using statistics::FitStatus;
 
 constexpr std::size_t kLabelWidth = 24;
 // Longer tables are for files.
-constexpr std::size_t kMostCells = 60;
-constexpr std::size_t kMostDifferences = 40;
+constexpr std::size_t kMaxCells = 60;
+constexpr std::size_t kMaxDifferences = 40;
 // What has more digits does not fit its column.
 constexpr double kHugeCell = 1e5;
-constexpr double kLeastP = 1e-9;
+constexpr double kMinP = 1e-9;
 
 std::string Percent(const statistics::Proportion& rate) {
   if (rate.trials == 0) return fmt::format("{:>22}", "-");
@@ -104,7 +104,7 @@ std::string CellTable(const Sweep& sweep, const SweepSummary& summary, TextStyle
       kLabelWidth, "n", "declared success [%]", "true success [%]", "path", "time", "energy");
   std::string text =
       (style == TextStyle::kColour ? fmt::format("\x1b[1m{}\x1b[0m", head) : head) + "\n";
-  for (std::size_t i = 0; i < std::min(summary.cells.size(), kMostCells); ++i) {
+  for (std::size_t i = 0; i < std::min(summary.cells.size(), kMaxCells); ++i) {
     const SweepCellSummary& cell = summary.cells[i];
     text += fmt::format("  {:<{}} {:>5} {} {} {:>6} {:>7} {:>6}\n",
                         Cut(Label(sweep, i), kLabelWidth), kLabelWidth,
@@ -112,8 +112,8 @@ std::string CellTable(const Sweep& sweep, const SweepSummary& summary, TextStyle
                         Percent(cell.true_success.rate), Mean(cell, "path_ratio"),
                         Mean(cell, "time_to_goal_s"), Mean(cell, "energy_to_goal_wh"));
   }
-  if (summary.cells.size() > kMostCells) {
-    text += fmt::format("  and {} more cells: cells.csv\n", summary.cells.size() - kMostCells);
+  if (summary.cells.size() > kMaxCells) {
+    text += fmt::format("  and {} more cells: cells.csv\n", summary.cells.size() - kMaxCells);
   }
   return text +
          "  (intervals of 95 % for a cell alone; path ratio, time [s] and energy [Wh]: means of "
@@ -131,7 +131,7 @@ std::string Stops(const Sweep& sweep, const SweepSummary& summary) {
       "at\n  every {} trials, at most {} of a cell; allocation {}\n",
       100.0 * rule.half_width, 100.0 * rule.confidence, rule.block, rule.max_trials,
       rule.allocation);
-  for (std::size_t i = 0; i < std::min(summary.cells.size(), kMostCells); ++i) {
+  for (std::size_t i = 0; i < std::min(summary.cells.size(), kMaxCells); ++i) {
     text += fmt::format("    {:<{}} {}\n", Cut(Label(sweep, i), kLabelWidth), kLabelWidth,
                         StoppingPhrase(*summary.cells[i].stopping));
   }
@@ -196,7 +196,7 @@ std::string Fits(const Sweep& sweep, const SweepSummary& summary) {
 
 std::string PText(double p) {
   if (!std::isfinite(p)) return "";
-  return p < kLeastP ? fmt::format("p < {:g}", kLeastP) : fmt::format("p = {:.2g}", p);
+  return p < kMinP ? fmt::format("p < {:g}", kMinP) : fmt::format("p = {:.2g}", p);
 }
 
 std::string Differences(const SweepSummary& summary) {
@@ -205,7 +205,7 @@ std::string Differences(const SweepSummary& summary) {
       fmt::format("\n  differences of success, {}, in points; p by Holm over all {}\n",
                   summary.differences.front().paired ? "trial by trial" : "as two samples",
                   summary.differences.size());
-  for (std::size_t i = 0; i < std::min(summary.differences.size(), kMostDifferences); ++i) {
+  for (std::size_t i = 0; i < std::min(summary.differences.size(), kMaxDifferences); ++i) {
     const SweepDifference& each = summary.differences[i];
     const SuccessComparison& success = each.success;
     text += fmt::format("  {:<31} {:<18} {:<8} {:+6.1f} ({:+6.1f} ..{:+7.1f})  {}\n",
@@ -214,9 +214,9 @@ std::string Differences(const SweepSummary& summary) {
                         100.0 * success.interval.low, 100.0 * success.interval.high,
                         PText(each.adjusted_p));
   }
-  if (summary.differences.size() > kMostDifferences) {
+  if (summary.differences.size() > kMaxDifferences) {
     text += fmt::format("  and {} more: differences.csv\n",
-                        summary.differences.size() - kMostDifferences);
+                        summary.differences.size() - kMaxDifferences);
   }
   return text;
 }

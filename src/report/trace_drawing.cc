@@ -70,7 +70,7 @@ Path Thinned(const Path& path) {
       thinned.push_back(Thinned(piece, spacing_m));
       points += thinned.back().size();
     }
-    if (points <= kMostDrawnPoints || spacing_m > kCoarsestSpacing_m) return thinned;
+    if (points <= kMaxDrawnPoints || spacing_m > kCoarsestSpacing_m) return thinned;
   }
 }
 

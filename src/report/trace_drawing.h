@@ -22,13 +22,13 @@ struct TraceDrawing {
 };
 
 // Most points of one drawn path.
-inline constexpr std::size_t kMostDrawnPoints = 2000;
+inline constexpr std::size_t kMaxDrawnPoints = 2000;
 
 // In the manner of Matthies 1995 fig. 16: true path solid, dead-reckoned path dotted, filled
 // circles on both where hazards were believed; beyond it orange crosses at scrapes, arrow heads at
 // both ends of the drive, and below the plan (`plan`) a scale, a key and a title. Paths are
 // interrupted where operators reflected the rover. Marks within 2 cm of the one before are left
-// out, and paths are thinned to kMostDrawnPoints.
+// out, and paths are thinned to kMaxDrawnPoints.
 TraceDrawing DrawTrace(const truth::TracedTrial& trial, const DrawnArea& plan);
 
 }  // namespace rockyard::report

@@ -113,7 +113,7 @@ std::vector<Fold> FoldsOf(const Trace& trace, StoryLength length) {
   }
   for (const double distance_m : kFoldDistances_m) {
     folds = FoldEvents(trace, distance_m);
-    if (folds.size() + kKeyLines + 2 <= kMostStoryLines) break;
+    if (folds.size() + kKeyLines + 2 <= kMaxStoryLines) break;
   }
   return folds;
 }

@@ -8,11 +8,11 @@
 namespace rockyard::report {
 
 enum class StoryLength {
-  kFolded,  // at most kMostStoryLines lines
+  kFolded,  // at most kMaxStoryLines lines
   kAll,     // every event on a line of its own
 };
 
-inline constexpr int kMostStoryLines = 60;
+inline constexpr int kMaxStoryLines = 60;
 
 // Outcome and detail, key figures of the record, then the events in the order of time: time, true
 // pose, believed pose, believed distance to the goal, kind and detail, and how the rover turned and

@@ -59,16 +59,16 @@ class CellProblems {
       if (cells_[i] == 1) continue;
       problems_[i].reason += fmt::format(" (and so in {} more cells)", cells_[i] - 1);
     }
-    if (problems_.size() > kMostShown) {
-      const std::size_t more = problems_.size() - kMostShown;
-      problems_.resize(kMostShown);
+    if (problems_.size() > kMaxShown) {
+      const std::size_t more = problems_.size() - kMaxShown;
+      problems_.resize(kMaxShown);
       problems_.push_back({"(more)", fmt::format("{} more problems", more), "correct these first"});
     }
     throw core::UserError(std::move(problems_));
   }
 
  private:
-  static constexpr std::size_t kMostShown = 100;
+  static constexpr std::size_t kMaxShown = 100;
   std::map<std::pair<std::string, std::string>, std::size_t> found_;
   std::vector<Problem> problems_;
   std::vector<std::int64_t> cells_;

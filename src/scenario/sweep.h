@@ -66,7 +66,7 @@ struct SweepChanges {
   std::optional<std::int64_t> seed;
 };
 
-inline constexpr std::size_t kMostSweepCells = 10'000;
+inline constexpr std::size_t kMaxSweepCells = 10'000;
 
 // Whether a document is a sweep rather than a scenario.
 bool IsSweep(const core::JsonValue& document);
@@ -83,7 +83,7 @@ bool IsSweep(const core::JsonValue& document);
 // Every value that was asked for is read back from the resolved scenario and must be there.
 // Throws core::UserError with everything that is wrong: unknown keys, cells that are no valid
 // scenarios, settings that are not there in the end (another one lies over them), cells that are
-// equal, more than kMostSweepCells. Randomness: core/space_filling.h, with the seed of the
+// equal, more than kMaxSweepCells. Randomness: core/space_filling.h, with the seed of the
 // campaign. Cost: about a millisecond per cell.
 Sweep LoadSweep(const std::filesystem::path& path, const SweepChanges& changes = {});
 

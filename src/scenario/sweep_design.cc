@@ -63,9 +63,9 @@ void RefuseTooMany(const SweepSpec& spec) {
   double cells = 1.0;
   for (const AxisSpec& axis : spec.axes) cells *= static_cast<double>(axis.levels.size());
   if (spec.params.design.kind == DesignKind::kList) cells = static_cast<double>(spec.cells.size());
-  if (cells <= static_cast<double>(kMostSweepCells)) return;
+  if (cells <= static_cast<double>(kMaxSweepCells)) return;
   throw core::UserError("axes",
-                        fmt::format("make {:.0f} cells, more than {}", cells, kMostSweepCells),
+                        fmt::format("make {:.0f} cells, more than {}", cells, kMaxSweepCells),
                         "use fewer levels, or design sobol with \"points\"");
 }
 
@@ -140,9 +140,9 @@ void CheckDesign(const SweepSpec& spec, std::vector<core::Problem>& problems) {
            "remove it, or change design.kind"});
     }
   }
-  if (spec.axes.size() > core::kMostDesignDimensions) {
+  if (spec.axes.size() > core::kMaxDesignDimensions) {
     problems.push_back({"axes", fmt::format("has {} axes", spec.axes.size()),
-                        fmt::format("use at most {}", core::kMostDesignDimensions)});
+                        fmt::format("use at most {}", core::kMaxDesignDimensions)});
   }
   CheckAxes(spec, problems);
   CheckFit(spec, problems);

@@ -26,7 +26,7 @@ void DesignParams::Visit(core::FieldVisitor& v) {
   v.Integer("points", points,
             {.doc = "cells of latin_hypercube and sobol; best a power of 2 for sobol",
              .min = 1,
-             .max = static_cast<double>(kMostSweepCells),
+             .max = static_cast<double>(kMaxSweepCells),
              .origin = Origin::kSetting});
 }
 
@@ -75,7 +75,7 @@ void AxisParams::Visit(core::FieldVisitor& v) {
   v.Integer("steps", steps,
             {.doc = "number of values from first to last",
              .min = 2,
-             .max = static_cast<double>(kMostSweepCells),
+             .max = static_cast<double>(kMaxSweepCells),
              .origin = Origin::kSetting});
   v.Choice(
       "scale", scale,

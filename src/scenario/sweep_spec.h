@@ -54,7 +54,7 @@ SweepSpec ReadSweepSpec(core::JsonValue document, const std::filesystem::path& f
 void CheckDesign(const SweepSpec& spec, std::vector<core::Problem>& problems);
 
 // Which levels each cell has, one per axis, in the order of the design: a grid with its last axis
-// fastest. Throws core::UserError where there are more than kMostSweepCells.
+// fastest. Throws core::UserError where there are more than kMaxSweepCells.
 std::vector<std::vector<LevelSpec>> DesignCells(const SweepSpec& spec);
 
 }  // namespace rockyard::scenario

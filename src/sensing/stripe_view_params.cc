@@ -96,8 +96,8 @@ bool LensReachesTheCorners(const LightStripeParams& p) {
 
 // What a whole image takes to simulate: about 40 bytes a pixel.
 bool ImageIsNotTooLarge(const LightStripeParams& p) {
-  constexpr std::int64_t kMostPixels = 16'777'216;
-  return p.columns <= kMostPixels / std::max<std::int64_t>(p.rows, 1);
+  constexpr std::int64_t kMaxPixels = 16'777'216;
+  return p.columns <= kMaxPixels / std::max<std::int64_t>(p.rows, 1);
 }
 
 void RequireImage(LightStripeParams& p, core::FieldVisitor& v) {

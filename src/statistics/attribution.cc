@@ -53,7 +53,7 @@ Proportion RateOf(const std::vector<std::uint8_t>& failed, std::span<const std::
 }  // namespace
 
 Contrast ShapleyShare(std::size_t functions, std::size_t i) {
-  EXPECT(i < functions && functions <= kMostFunctions);
+  EXPECT(i < functions && functions <= kMaxFunctions);
   Contrast contrast{std::vector<double>(Combinations(functions))};
   for (Combination set = 0; set < contrast.weights.size(); ++set) {
     if ((set & Bit(i)) != 0) continue;
@@ -68,7 +68,7 @@ Contrast ShapleyShare(std::size_t functions, std::size_t i) {
 }
 
 Contrast FactorialEffect(std::size_t functions, Combination set) {
-  EXPECT(set > 0 && set < Combinations(functions) && functions <= kMostFunctions);
+  EXPECT(set > 0 && set < Combinations(functions) && functions <= kMaxFunctions);
   Contrast contrast{std::vector<double>(Combinations(functions))};
   const double scale = 2.0 / static_cast<double>(Combinations(functions));
   for (Combination c = 0; c < contrast.weights.size(); ++c) {
@@ -80,7 +80,7 @@ Contrast FactorialEffect(std::size_t functions, Combination set) {
 }
 
 Contrast Removed(std::size_t functions, Combination set) {
-  EXPECT(set < Combinations(functions) && functions <= kMostFunctions);
+  EXPECT(set < Combinations(functions) && functions <= kMaxFunctions);
   Contrast contrast{std::vector<double>(Combinations(functions))};
   // P(fail as flown) less P(fail with `set` perfect).
   contrast.weights[0] += 1.0;
@@ -111,7 +111,7 @@ Estimate Estimated(const FactorialFailures& failures, const Contrast& contrast, 
 
 Attribution Attribute(const FactorialFailures& failures, double confidence) {
   const std::size_t k = failures.functions.size();
-  EXPECT(k >= 1 && k <= kMostFunctions && failures.failed.size() == Combinations(k));
+  EXPECT(k >= 1 && k <= kMaxFunctions && failures.failed.size() == Combinations(k));
   const auto all = static_cast<Combination>(Combinations(k) - 1);
   Attribution result;
   result.functions = failures.functions;

@@ -13,12 +13,12 @@
 
 namespace rockyard::statistics {
 
-inline constexpr std::size_t kMostFunctions = 8;
+inline constexpr std::size_t kMaxFunctions = 8;
 
 // A set of functions: bit i says that function i is perfect. 0 is the rover as flown.
 using Combination = std::uint32_t;
 
-// The outcomes of all 2^k combinations of equally many trials, 1 <= k <= kMostFunctions.
+// The outcomes of all 2^k combinations of equally many trials, 1 <= k <= kMaxFunctions.
 // failed[combination][trial] is 1 where that trial failed; trial t has the same random numbers in
 // every combination.
 struct FactorialFailures {

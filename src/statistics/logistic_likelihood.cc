@@ -10,7 +10,7 @@
 namespace rockyard::statistics {
 namespace {
 
-constexpr int kMostSteps = 200;
+constexpr int kMaxSteps = 200;
 constexpr double kConverged = 1e-15;  // relative gain of log-likelihood
 
 // ln(1 + e^z) without overflow.
@@ -79,7 +79,7 @@ LikelihoodSlopes SlopesAt(std::span<const Dose> doses, const LogitLine& line) {
 
 double MaximizeLikelihood(std::span<const Dose> doses, FreeParameters free, LogitLine& line) {
   double best = LogLikelihood(doses, line);
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const LogitLine move = StepOf(SlopesAt(doses, line), free);
     double share = 1.0;
     double next = -std::numeric_limits<double>::infinity();

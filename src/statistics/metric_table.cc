@@ -89,7 +89,7 @@ constexpr std::array kMetrics = {
     Arrived("true_goal_distance_m", "m", "true_goal_distance_m", 0.1, 0.1,
             "true final position to the goal"),
     Arrived("believed_goal_distance_m", "m", "believed_goal_distance_m", 0.05, 0.1,
-            "believed final position to the goal that the rover was told"),
+            "believed final position to the designated goal"),
     All("true_distance_m", "m", "true_distance_m", 0.0, 0.1, "true path length"),
     All("active_time_s", "s", "active_time_s", 0.0, 0.1,
         "simulated time less what a rover found stuck waits for its batteries to empty"),

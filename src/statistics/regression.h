@@ -32,10 +32,10 @@ struct BaselineMetric {
 };
 
 // Two samples with fewer values than this are inconclusive.
-inline constexpr std::int64_t kLeastValues = 20;
+inline constexpr std::int64_t kMinValues = 20;
 // Pairs that differ, below which equivalence rests on their number (SparseEquivalencePValue) and
 // not on their scatter.
-inline constexpr std::int64_t kLeastDiffering = 30;
+inline constexpr std::int64_t kMinDiffering = 30;
 
 struct RegressionCell {
   std::string name;

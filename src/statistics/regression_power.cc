@@ -75,12 +75,12 @@ std::int64_t TrialsForMean(const RegressionSamples& samples, const RegressionRow
   double needed = static_cast<double>(samples.count()) * ratio * ratio;
   const Spread spread = SpreadOf(samples);
   if (!row.paired) {
-    needed = std::max(needed, static_cast<double>(kLeastValues));
-  } else if (spread.differing < kLeastDiffering && row.margin < spread.range) {
+    needed = std::max(needed, static_cast<double>(kMinValues));
+  } else if (spread.differing < kMinDiffering && row.margin < spread.range) {
     // No differing pair among n: (1 - margin/range)^n <= alpha.
     needed = std::max(needed, std::log(equivalence_alpha) / std::log1p(-row.margin / spread.range));
   }
-  return std::llround(std::min(std::ceil(needed), static_cast<double>(kMostTrials)));
+  return std::llround(std::min(std::ceil(needed), static_cast<double>(kMaxTrials)));
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ std::int64_t TrialsForMean(const RegressionSamples& samples, const RegressionRow
 // The same for two groups by Fisher's test; large groups by its normal formula.
 double RegressionPower::SeenGroupShift(const RegressionSamples& samples, double level,
                                        double power) {
-  if (samples.count() > kMostExactFisher) {
+  if (samples.count() > kMaxExactFisher) {
     return SmallestShift(1.0, power, [&](double shift) {
       const std::int64_t needed = TrialsForFisherFormula(Moved(samples, shift), level, power);
       return needed <= samples.count() ? 1.0 : 0.0;
@@ -118,7 +118,7 @@ void RegressionPower::Fill(const RegressionSamples& samples, double equivalence_
     return;
   }
   row.trials_for_margin = TrialsForMean(samples, row, equivalence_alpha);
-  if (!row.paired && samples.count() < kLeastValues) return;
+  if (!row.paired && samples.count() < kMinValues) return;
   const MeanDifference means = MeansOf(samples, row.paired);
   row.seen_80 = SeenMeanShift(means, row.level, 0.8);
   row.seen_90 = SeenMeanShift(means, row.level, 0.9);

@@ -36,7 +36,7 @@ double MeanEquivalence(const RegressionSamples& samples, const MeanDifference& m
                        const RegressionRow& row) {
   if (row.paired) {
     const Spread spread = SpreadOf(samples);
-    if (spread.differing < kLeastDiffering) {
+    if (spread.differing < kMinDiffering) {
       return SparseEquivalencePValue(samples.count(), spread.differing, row.margin, spread.range);
     }
   }
@@ -50,7 +50,7 @@ void TestMean(const RegressionSamples& samples, RegressionRow& row) {
   const MeanDifference means = MeansOf(samples, row.paired);
   row.interval = DifferenceInterval(means, 0.95);
   // Too few values for Welch's test: the row stays inconclusive.
-  if (!row.paired && samples.count() < kLeastValues) return;
+  if (!row.paired && samples.count() < kMinValues) return;
   row.p_value = ChangePValue(means);
   row.equivalence_p_value = MeanEquivalence(samples, means, row);
 }

@@ -23,9 +23,9 @@ std::int64_t FirstEnough(std::int64_t least, const IsEnough& is_enough) {
   std::int64_t low = least - 1;  // not enough, or none
   std::int64_t high = least;
   while (!is_enough(high)) {
-    if (high >= kMostTrials) return kMostTrials;
+    if (high >= kMaxTrials) return kMaxTrials;
     low = high;
-    high = std::min(kMostTrials, 2 * high);
+    high = std::min(kMaxTrials, 2 * high);
   }
   while (high - low > 1) {
     const std::int64_t middle = low + (high - low) / 2;
@@ -173,13 +173,13 @@ std::int64_t TrialsForFisherFormula(const RatePair& rates, double alpha, double 
                                                         rates.second * (1.0 - rates.second));
   const double corrected = 1.0 + std::sqrt(1.0 + 4.0 * difference / (root * root));
   const double n = 0.25 * root * root / (difference * difference) * corrected * corrected;
-  return n >= static_cast<double>(kMostTrials) ? kMostTrials
-                                               : static_cast<std::int64_t>(std::ceil(n));
+  return n >= static_cast<double>(kMaxTrials) ? kMaxTrials
+                                              : static_cast<std::int64_t>(std::ceil(n));
 }
 
 std::int64_t TrialsForFisher(const RatePair& rates, double alpha, double power) {
   const std::int64_t formula = TrialsForFisherFormula(rates, alpha, power);
-  if (formula > kMostExactFisher) return formula;
+  if (formula > kMaxExactFisher) return formula;
   return FirstEnough(1, [&](std::int64_t n) { return FisherPower(n, rates, alpha) >= power; });
 }
 

@@ -9,7 +9,7 @@
 namespace rockyard::statistics {
 
 // The most trials that are looked for; what needs more gives this number.
-inline constexpr std::int64_t kMostTrials = 1'000'000'000;
+inline constexpr std::int64_t kMaxTrials = 1'000'000'000;
 
 // Returns the number of trials whose interval, at the count nearest to `rate`, has at most this
 // half-width; one trial less has more. 0 <= rate <= 1, 0 < half_width < 0.5. Cost: some dozens of
@@ -68,8 +68,8 @@ std::int64_t TrialsForFisherFormula(const RatePair& rates, double alpha, double 
 
 // TrialsForFisher returns the same by exact power, which is reached and is not with one trial less
 // (exact powers saw: some smaller number may reach it as well), where the formula gives up to
-// kMostExactFisher trials; else it returns the formula's. Cost: up to a second.
-inline constexpr std::int64_t kMostExactFisher = 3000;
+// kMaxExactFisher trials; else it returns the formula's. Cost: up to a second.
+inline constexpr std::int64_t kMaxExactFisher = 3000;
 std::int64_t TrialsForFisher(const RatePair& rates, double alpha, double power);
 
 // Returns the power of McNemar's exact test of n pairs; `discordant` are the rates of the pairs in

@@ -12,7 +12,7 @@ namespace {
 constexpr double kSmallestStep_m = 1e-3;
 // Width at which a bracketed crossing is as exact as contacts and pixels will ever need, m.
 constexpr double kCrossingWidth_m = 1e-12;
-constexpr int kMostCrossingSteps = 100;
+constexpr int kMaxCrossingSteps = 100;
 
 // A zero of `gap` between `above`, where it is positive, and `below`, where it is not: false
 // position with the Illinois rule (Dowell and Jarratt 1971), which halves the value at an end that
@@ -21,7 +21,7 @@ template <typename Gap>
 double FindCrossing(const Gap& gap, double above, double gap_above, double below,
                     double gap_below) {
   int kept_end = 0;  // -1 below, +1 above: the end that the last step left where it was
-  for (int i = 0; i < kMostCrossingSteps && below - above > kCrossingWidth_m; ++i) {
+  for (int i = 0; i < kMaxCrossingSteps && below - above > kCrossingWidth_m; ++i) {
     // The secant's zero between the two ends.
     const double t = below - gap_below * (below - above) / (gap_below - gap_above);
     const double gap_t = gap(t);
@@ -109,13 +109,13 @@ std::optional<double> Ground::MarchRay(const math::Vector3& origin_W,
   if (now.gap_m <= 0.0) return above;
   // Nowhere does the gap close faster than this per metre of ray, nor its rate change by more than
   // bend_per_m per metre: the second derivative along the ray counts the horizontal part twice.
-  const double most_rate = plane_rate + roughness_->MaxSlope() * horizontal;
+  const double max_rate = plane_rate + roughness_->MaxSlope() * horizontal;
   const double bend_per_m = roughness_->MaxCurvature() * horizontal * horizontal;
-  if (now.gap_m > most_rate * (max_distance_m - above)) return std::nullopt;
+  if (now.gap_m > max_rate * (max_distance_m - above)) return std::nullopt;
   while (above < max_distance_m) {
     // The longer of two steps that are both safe, and never less than a millimetre.
     const double step =
-        std::max(SafeStep(now, bend_per_m), std::max(now.gap_m / most_rate, kSmallestStep_m));
+        std::max(SafeStep(now, bend_per_m), std::max(now.gap_m / max_rate, kSmallestStep_m));
     const double next = std::min(above + step, max_distance_m);
     const Approach then = at(next);
     if (then.gap_m <= 0.0) {

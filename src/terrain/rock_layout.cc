@@ -20,7 +20,7 @@ using core::Purpose;
 using core::RandomStream;
 
 // Attempts to place one rock before it is given up.
-constexpr int kMostAttempts = 1000;
+constexpr int kMaxAttempts = 1000;
 // Substream of the first rock outside the count area, so that the rocks inside keep their streams
 // when the count changes.
 constexpr std::uint32_t kFirstOutsideCount = 1u << 20;
@@ -93,7 +93,7 @@ class LayoutBuilder {
     ++layout_.drawn;
     Rock rock = DrawRock(params_, *law_, key_, substream);
     RandomStream stream(key_, Purpose::kRockPlacement, substream);
-    for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+    for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
       const Disc disc = DrawPosition(stream, area, hole, 0.5 * rock.diameter_m);
       if (!placement_.ClearOfCourse(disc)) {
         // Only where the first draw falls into a clear zone is the rock dropped: a rock that is

@@ -14,7 +14,7 @@ namespace {
 // Finest wavelength, m: roughness shorter than the contact patch of a 13 cm wheel is averaged by
 // it.
 constexpr double kFinestWavelength_m = 0.1;
-constexpr int kMostOctaves = 12;
+constexpr int kMaxOctaves = 12;
 // Integral of the squared cubic B-spline over its support.
 constexpr double kSplineMeanSquare = 151.0 / 315.0;
 
@@ -36,7 +36,7 @@ SplineWeights WeightsAt(double t) {
 int OctaveCount(double longest_wavelength_m) {
   // Wavelengths L, L/2, L/4, ... down to the finest one.
   const double octaves = std::floor(std::log2(longest_wavelength_m / kFinestWavelength_m)) + 1.0;
-  return static_cast<int>(std::clamp(octaves, 1.0, double{kMostOctaves}));
+  return static_cast<int>(std::clamp(octaves, 1.0, double{kMaxOctaves}));
 }
 
 }  // namespace

@@ -4,8 +4,8 @@ namespace rockyard::terrain {
 namespace {
 
 // Bounds on the work of one field: rocks kept, and rocks drawn before thinning.
-constexpr double kMostRocks = 50000.0;
-constexpr double kMostReferenceRocks = 1e6;
+constexpr double kMaxRocks = 50000.0;
+constexpr double kMaxReferenceRocks = 1e6;
 
 bool CountAreaFits(const RockFieldParams& rocks, const ArenaParams& arena) {
   const double width_m = arena.IsVirtual() ? 2.0 * arena.MirrorLine() : arena.width_m;
@@ -55,11 +55,11 @@ void TerrainParams::Visit(core::FieldVisitor& v) {
             "puts the count area outside the arena, or outside the strip between the mirror lines",
             "keep count_area_x_m, count_area_length_m and count_area_width_m within the arena");
   // Written so that what is no number fails too.
-  v.Require("rocks.min_diameter_m", ExpectedRocks() <= kMostRocks,
+  v.Require("rocks.min_diameter_m", ExpectedRocks() <= kMaxRocks,
             "asks for more than 50000 rocks with the present arena",
             "use a larger min_diameter_m, a smaller k_per_m2 or a smaller arena");
   v.Require(
-      "rocks.k_reference_per_m2", rocks.ReferenceRocksPerM2() * LayoutArea() <= kMostReferenceRocks,
+      "rocks.k_reference_per_m2", rocks.ReferenceRocksPerM2() * LayoutArea() <= kMaxReferenceRocks,
       "asks for more than a million rocks before thinning",
       "use a k_reference_per_m2 nearer to k_per_m2, a larger min_diameter_m or a smaller arena");
 }

@@ -86,23 +86,23 @@ Drive::Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
              const ScanWatcher& scan_watcher, StepWatcher step_watcher)
     : params_(drive),
       key_(key),
-      told_goal_(ToldGoal(drive.course, key)),
+      designated_goal_(DesignatedGoal(drive.course, key)),
       trace_(trace),
       field_(
           terrain::BuildField(drive.terrain, LayoutKey(drive, key), TerrainCourse(drive.course))),
       rover_(MakeTrialRover(drive, field_.terrain)),
       tick_(WholeSteps(1.0 / drive.clock.control_rate_hz, rover_->step_s())),
       stop_(WholeSteps(drive.clock.stop_time_s, rover_->step_s())),
-      lookout_(drive, key, scan_watcher),
+      terrain_sensing_(drive, key, scan_watcher),
       guard_(drive, key),
       localizer_(drive, StartPose(drive.course)),
-      navigator_(MakeNavigator(drive, field_.terrain, told_goal_)),
+      navigator_(MakeNavigator(drive, field_.terrain, designated_goal_)),
       wheel_driver_(OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive),
                     drive.navigation.wheel_driver),
       ledger_(MakePowerBudget(drive), drive.energy.battery_wh),
       monitor_(UndersideOf(drive.rover.geometry), field_.terrain),
       watch_(WatchedZone(drive), drive.rover.geometry, WatchedHeight(drive), field_.terrain),
-      referee_(drive.referee, drive.course, told_goal_, Bounds(drive.terrain.arena)),
+      referee_(drive.referee, drive.course, designated_goal_, Bounds(drive.terrain.arena)),
       step_watcher_(std::move(step_watcher)) {
   if (drive.terrain.arena.kind == terrain::ArenaKind::kVirtualReflected) {
     mirror_.emplace(drive.terrain.arena.MirrorLine());
@@ -132,12 +132,12 @@ std::optional<Verdict> Drive::Tick() {
       navigator_->Decide({.time_s = ledger_.time_s(),
                           .estimate = localizer_.pose(),
                           .attitude = localizer_.attitude(),
-                          .report = sight_.report ? &*sight_.report : nullptr,
-                          .cloud = sight_.cloud ? &*sight_.cloud : nullptr,
+                          .report = percept_.report ? &*percept_.report : nullptr,
+                          .cloud = percept_.cloud ? &*percept_.cloud : nullptr,
                           .vehicle_hazard = guard_.hazard(),
                           .touches_behind = guard_.touches_behind()});
   if (!decision.looks()) ShowStep();
-  sight_ = {};
+  percept_ = {};
   if (decision.status != navigation::NavigatorStatus::kDriving) {
     return referee_.OnNavigatorStop(decision.status, rover_->state());
   }
@@ -150,20 +150,21 @@ std::optional<Verdict> Drive::Tick() {
 std::optional<Verdict> Drive::Look(messages::LookDirection direction) {
   moves_.OnLook();
   if (auto verdict = Move({}, stop_)) return verdict;
-  lookout_.Begin();
+  terrain_sensing_.Begin();
   do {
-    sight_ = lookout_.Look(direction, field_.terrain, rover_->state().X_WR, localizer_.attitude());
-    Rest(Activity::kScanning, sight_.time.scanning_s);
-    Rest(Activity::kImaging, sight_.time.imaging_s);
-    Rest(Activity::kComputing, sight_.time.computing_s);
-    if (params_.sensors.gyro.accumulates_at_rest) UpdateEstimate(sight_.time.total_s(), false);
-  } while (sight_.look_again);
+    percept_ = terrain_sensing_.Look(direction, field_.terrain, rover_->state().X_WR,
+                                     localizer_.attitude());
+    Rest(Activity::kScanning, percept_.time.scanning_s);
+    Rest(Activity::kImaging, percept_.time.imaging_s);
+    Rest(Activity::kComputing, percept_.time.computing_s);
+    if (params_.sensors.gyro.accumulates_at_rest) UpdateEstimate(percept_.time.total_s(), false);
+  } while (percept_.look_again);
   RecordLook(direction);
-  if (sight_.report && sight_.report->any()) {
+  if (percept_.report && percept_.report->any()) {
     ++hazards_;
     watch_.OnBelieved(rover_->state().X_WR);
   }
-  return AskReferee(Activity::kScanning, 0, sight_.time.total_s());
+  return AskReferee(Activity::kScanning, 0, percept_.time.total_s());
 }
 
 void Drive::SpendOverhead() {

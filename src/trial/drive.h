@@ -18,7 +18,6 @@
 #include "trial/hazard_watch.h"
 #include "trial/ledger.h"
 #include "trial/localizer.h"
-#include "trial/lookout.h"
 #include "trial/mirror_arena.h"
 #include "trial/move_counter.h"
 #include "trial/referee.h"
@@ -26,6 +25,7 @@
 #include "trial/step_watcher.h"
 #include "trial/stop_counter.h"
 #include "trial/stretch.h"
+#include "trial/terrain_sensing.h"
 #include "trial/turn_counter.h"
 #include "trial/vehicle_guard.h"
 
@@ -75,7 +75,7 @@ class Drive {
 
   const DriveParams& params_;
   core::TrialKey key_;
-  messages::Goal told_goal_;
+  messages::Goal designated_goal_;
   truth::Trace* trace_;
 
   terrain::Field field_;
@@ -85,7 +85,7 @@ class Drive {
   Stretch stop_;  // before a scan
   std::optional<MirrorArena> mirror_;
 
-  Lookout lookout_;
+  TerrainSensing terrain_sensing_;
   std::optional<sensing::MotionSensors> motion_sensors_;
   VehicleGuard guard_;
 
@@ -100,7 +100,7 @@ class Drive {
   Referee referee_;
 
   StepWatcher step_watcher_;
-  Sight sight_;  // of the last tick, where it was a look
+  Percept percept_;  // of the last tick, where it was a look
   std::int64_t hazards_ = 0;
   TurnCounter turns_;
   MoveCounter moves_;

@@ -14,12 +14,12 @@ void Drive::ReportGoals(truth::DriveRecord& record) const {
   record.straight_distance_m =
       std::hypot(course.goal_x_m - course.start_x_m, course.goal_y_m - course.start_y_m);
   record.path_ratio = record.true_distance_m / record.straight_distance_m;
-  record.told_goal_x_m = told_goal_.x_m;
-  record.told_goal_y_m = told_goal_.y_m;
+  record.told_goal_x_m = designated_goal_.x_m;
+  record.told_goal_y_m = designated_goal_.y_m;
   record.designation_error_m =
-      std::hypot(told_goal_.x_m - course.goal_x_m, told_goal_.y_m - course.goal_y_m);
+      std::hypot(designated_goal_.x_m - course.goal_x_m, designated_goal_.y_m - course.goal_y_m);
   record.believed_goal_distance_m =
-      std::hypot(told_goal_.x_m - estimate.x_m, told_goal_.y_m - estimate.y_m);
+      std::hypot(designated_goal_.x_m - estimate.x_m, designated_goal_.y_m - estimate.y_m);
 }
 
 void Drive::ReportPoses(truth::DriveRecord& record) const {
@@ -74,16 +74,17 @@ void Drive::ReportLedger(truth::DriveRecord& record) const {
   record.active_time_s = ledger_.time_s() - record.stall_time_s;
   record.active_energy_wh = ledger_.energy_wh() - ledger_.energy_wh(Activity::kStalled);
   if (ledger_.time_s() <= 0.0) return;
-  const double again_s = static_cast<double>(lookout_.rescans()) * lookout_.look_time().total_s();
+  const double again_s =
+      static_cast<double>(terrain_sensing_.rescans()) * terrain_sensing_.look_time().total_s();
   record.net_rate_m_s = record.true_distance_m / ledger_.time_s();
   record.single_scan_rate_m_s = record.true_distance_m / (ledger_.time_s() - again_s);
 }
 
 void Drive::ReportCounts(truth::DriveRecord& record) const {
-  record.scans = static_cast<double>(lookout_.scans());
-  record.rescans = static_cast<double>(lookout_.rescans());
-  record.image_sets = static_cast<double>(lookout_.image_sets());
-  record.rear_image_sets = static_cast<double>(lookout_.rear_image_sets());
+  record.scans = static_cast<double>(terrain_sensing_.scans());
+  record.rescans = static_cast<double>(terrain_sensing_.rescans());
+  record.image_sets = static_cast<double>(terrain_sensing_.image_sets());
+  record.rear_image_sets = static_cast<double>(terrain_sensing_.rear_image_sets());
   record.moves = static_cast<double>(moves_.moves());
   record.point_turns = static_cast<double>(moves_.point_turns());
   record.reversals = static_cast<double>(moves_.reversals());

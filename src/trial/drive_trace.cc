@@ -60,18 +60,18 @@ std::string Describe(const messages::MotionVote& vote) {
 // Reports of hazards that are believed, and every look that shows points.
 void Drive::RecordLook(messages::LookDirection direction) {
   if (trace_ == nullptr) return;
-  if (sight_.report && sight_.report->any()) Record("hazard", Pattern(*sight_.report));
-  if (!sight_.cloud) return;
+  if (percept_.report && percept_.report->any()) Record("hazard", Pattern(*percept_.report));
+  if (!percept_.cloud) return;
   const bool ahead = direction == messages::LookDirection::kAhead;
   Record("look",
-         fmt::format("{}, {} points", ahead ? "ahead" : "behind", sight_.cloud->points_R.size()));
+         fmt::format("{}, {} points", ahead ? "ahead" : "behind", percept_.cloud->points_R.size()));
 }
 
 void Drive::ShowStep() {
   const messages::NavigationView* view = navigator_->view();
-  if (!sight_.cloud || view == nullptr) return;
+  if (!percept_.cloud || view == nullptr) return;
   if (step_watcher_) {
-    step_watcher_({params_, field_.terrain, rover_->state().X_WR, key_, *view, *sight_.cloud});
+    step_watcher_({params_, field_.terrain, rover_->state().X_WR, key_, *view, *percept_.cloud});
   }
   if (trace_ == nullptr) return;
   for (const auto* row : {&view->forward, &view->backward, &view->point_turns}) {

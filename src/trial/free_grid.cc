@@ -96,7 +96,7 @@ bool FreeGrid::IsClear(const messages::Goal& from, const messages::Goal& to) con
   return true;
 }
 
-std::vector<std::size_t> ShortestWay(const FreeGrid& grid, std::size_t from, std::size_t to) {
+std::vector<std::size_t> ShortestPath(const FreeGrid& grid, std::size_t from, std::size_t to) {
   const auto columns = static_cast<std::size_t>(grid.nx());
   const int goal_x = static_cast<int>(to % columns);
   const int goal_y = static_cast<int>(to / columns);

@@ -49,9 +49,9 @@ class FreeGrid {
   std::vector<std::uint8_t> blocked_;
 };
 
-// The cells of a shortest way between free cells, both ends included; empty where there is none.
+// The cells of a shortest path between free cells, both ends included; empty where there is none.
 // Moves lead to the eight neighbours, across a corner only where both cells beside it are free. Of
 // equally short ways always the same one.
-std::vector<std::size_t> ShortestWay(const FreeGrid& grid, std::size_t from, std::size_t to);
+std::vector<std::size_t> ShortestPath(const FreeGrid& grid, std::size_t from, std::size_t to);
 
 }  // namespace rockyard::trial

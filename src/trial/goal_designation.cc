@@ -29,7 +29,7 @@ LineOfSight ToGoal(const CourseParams& course) {
 
 }  // namespace
 
-messages::Goal ToldGoal(const CourseParams& course, core::TrialKey key) {
+messages::Goal DesignatedGoal(const CourseParams& course, core::TrialKey key) {
   const messages::Goal truth{course.goal_x_m, course.goal_y_m};
   if (!course.designation.enabled) return truth;
   const LineOfSight sight = ToGoal(course);

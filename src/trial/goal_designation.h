@@ -12,6 +12,6 @@ namespace rockyard::trial {
 // where designation is off or the lander stands on it. Randomness: Purpose::kGoalDesignation,
 // always three numbers (crossrange, downrange, pan), so that changing one error shifts no other.
 // Cost: below 1 us.
-messages::Goal ToldGoal(const CourseParams& course, core::TrialKey key);
+messages::Goal DesignatedGoal(const CourseParams& course, core::TrialKey key);
 
 }  // namespace rockyard::trial

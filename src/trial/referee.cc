@@ -13,12 +13,12 @@ double Between(double x0_m, double y0_m, double x1_m, double y1_m) {
 }
 
 // A rock that bears the belly; one that the chassis runs into pushes back rather than up.
-constexpr double kLeastLiftShare = 0.7071;  // within 45 deg of the vertical
+constexpr double kMinLiftShare = 0.7071;  // within 45 deg of the vertical
 
 bool RestsOnBelly(const truth::RoverState& state) {
   return std::any_of(state.contacts.begin(), state.contacts.end(), [](const auto& contact) {
     return contact.part == truth::BodyPart::kBelly && contact.rock >= 0 &&
-           contact.normal_force_N > 0.0 && contact.lift_share > kLeastLiftShare;
+           contact.normal_force_N > 0.0 && contact.lift_share > kMinLiftShare;
   });
 }
 
@@ -29,14 +29,15 @@ bool IsMotion(Activity activity) {
 }  // namespace
 
 Referee::Referee(const RefereeParams& params, const CourseParams& course,
-                 const messages::Goal& told_goal, std::optional<ArenaBounds> bounds)
+                 const messages::Goal& designated_goal, std::optional<ArenaBounds> bounds)
     : params_(params),
       course_(course),
-      told_goal_(told_goal),
+      designated_goal_(designated_goal),
       bounds_(bounds),
       tip_over_cosine_(std::cos(params.tip_over_rad)),
-      progress_{Between(course.start_x_m, course.start_y_m, told_goal.x_m, told_goal.y_m),
-                course.start_x_m, course.start_y_m} {}
+      progress_{
+          Between(course.start_x_m, course.start_y_m, designated_goal.x_m, designated_goal.y_m),
+          course.start_x_m, course.start_y_m} {}
 
 std::optional<Verdict> Referee::Observe(const Observation& observation, const Ledger& ledger) {
   const truth::RoverState& state = observation.state;
@@ -132,8 +133,8 @@ std::optional<Verdict> Referee::CheckNoPath(const Observation& observation, doub
 
 // The rover believes to be nearer than ever and has truly moved: spinning wheels are no progress.
 bool Referee::MadeProgress(const Observation& observation) {
-  const double goal_distance_m =
-      Between(observation.estimate.x_m, observation.estimate.y_m, told_goal_.x_m, told_goal_.y_m);
+  const double goal_distance_m = Between(observation.estimate.x_m, observation.estimate.y_m,
+                                         designated_goal_.x_m, designated_goal_.y_m);
   const auto p = observation.state.X_WR.translation();
   if (goal_distance_m > progress_.goal_distance_m - params_.no_path_progress_m ||
       Between(progress_.x_m, progress_.y_m, p.x(), p.y()) < params_.no_path_progress_m) {

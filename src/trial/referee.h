@@ -41,8 +41,8 @@ class Referee {
  public:
   // Arrival is judged at the true goal of `course`; progress is what brings the rover nearer to the
   // goal that it was told.
-  Referee(const RefereeParams& params, const CourseParams& course, const messages::Goal& told_goal,
-          std::optional<ArenaBounds> bounds);
+  Referee(const RefereeParams& params, const CourseParams& course,
+          const messages::Goal& designated_goal, std::optional<ArenaBounds> bounds);
 
   // The verdict after a tick, if the trial is over for another reason than the navigator's own.
   std::optional<Verdict> Observe(const Observation& observation, const Ledger& ledger);
@@ -83,7 +83,7 @@ class Referee {
 
   RefereeParams params_;
   CourseParams course_;
-  messages::Goal told_goal_;
+  messages::Goal designated_goal_;
   std::optional<ArenaBounds> bounds_;
   double tip_over_cosine_;
   std::optional<Window> window_;

@@ -12,7 +12,7 @@ namespace {
 
 using messages::Goal;
 
-constexpr double kMostCells = 1e6;
+constexpr double kMaxCells = 1e6;
 
 // What a way keeps clear of, and by how much.
 struct Demand {
@@ -60,15 +60,15 @@ messages::Route Plan(const DriveParams& drive, const terrain::Terrain& terrain, 
   const double height_m = bounds.y_max_m - bounds.y_min_m;
   if (width_m <= 0.0 || height_m <= 0.0) return {};
   FreeGrid grid(bounds, std::max(drive.course.oracle_route.cell_m,
-                                 std::sqrt(width_m * height_m / kMostCells)));
+                                 std::sqrt(width_m * height_m / kMaxCells)));
   for (const terrain::Rock& rock : terrain.rocks()) {
     if (rock.height_m >= demand.min_height_m) grid.Block(rock, demand.room_m);
   }
   const Goal start{drive.course.start_x_m, drive.course.start_y_m};
   if (!grid.IsFree(start) || !grid.IsFree(goal)) return {};
   const std::vector<std::size_t> way =
-      ShortestWay(grid, grid.Index(grid.Column(start.x_m), grid.Row(start.y_m)),
-                  grid.Index(grid.Column(goal.x_m), grid.Row(goal.y_m)));
+      ShortestPath(grid, grid.Index(grid.Column(start.x_m), grid.Row(start.y_m)),
+                   grid.Index(grid.Column(goal.x_m), grid.Row(goal.y_m)));
   return way.empty() ? messages::Route() : PullStraight(grid, way, start, goal);
 }
 

@@ -8,7 +8,7 @@
 
 namespace rockyard::trial {
 
-// The shortest way from the start of the course to `goal` on a grid (A*, eight neighbours; Hart,
+// The shortest path from the start of the course to `goal` on a grid (A*, eight neighbours; Hart,
 // Nilsson and Raphael 1968), its corners pulled straight. The first of these that there is:
 //
 //   |   | rocks that it keeps clear of | by, from the rover's centre                           |

@@ -14,12 +14,12 @@ class TickGuard {
  public:
   // Per control tick up to the time limit: one move and one look, and as much again.
   static constexpr double kTicksPerStep = 4.0;
-  static constexpr std::int64_t kLeast = 100'000;  // for short limits
+  static constexpr std::int64_t kMin = 100'000;  // for short limits
   // Decisions in a row that take no simulated time.
-  static constexpr std::int64_t kMostWithoutTime = 10'000;
+  static constexpr std::int64_t kMaxWithoutTime = 10'000;
 
   TickGuard(double time_limit_s, double tick_s)
-      : left_(kLeast + static_cast<std::int64_t>(kTicksPerStep * time_limit_s / tick_s)) {}
+      : left_(kMin + static_cast<std::int64_t>(kTicksPerStep * time_limit_s / tick_s)) {}
 
   // Before each decision. Throws std::runtime_error, which becomes the fault.
   void Observe(double time_s) {
@@ -27,7 +27,7 @@ class TickGuard {
     if (time_s > last_s_) {
       without_time_ = 0;
       last_s_ = time_s;
-    } else if (++without_time_ > kMostWithoutTime) {
+    } else if (++without_time_ > kMaxWithoutTime) {
       throw std::runtime_error("the drive makes decisions that take no time, without an end");
     }
   }

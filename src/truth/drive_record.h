@@ -68,10 +68,10 @@ struct DriveRecord {
   double reversals = 0.0;         // arcs driven the other way than the last arc before
   double height_error_m = 0.0;    // believed - true height above the start, where there is a map
   double move_time_s = 0.0;       // driving, turning in place, steering, and at rest about moves
-  double told_goal_x_m = 0.0;     // the goal that the rover was told
+  double told_goal_x_m = 0.0;     // the designated goal
   double told_goal_y_m = 0.0;
-  double designation_error_m = 0.0;       // told goal to true goal
-  double believed_goal_distance_m = 0.0;  // believed final position to the told goal
+  double designation_error_m = 0.0;       // designated goal to true goal
+  double believed_goal_distance_m = 0.0;  // believed final position to the designated goal
   double path_ratio = 0.0;                // true path over start to goal
   double stops = 0.0;                     // times that the rover came to rest
   double max_rocker_deg = 0.0;
@@ -201,14 +201,12 @@ inline constexpr std::array kDriveColumns = {
                 "simulated time of moves: driving, turning in place, steering, and "
                 "move_overhead_time_s",
                 &DriveRecord::move_time_s},
-    DriveColumn{"told_goal_x_m", "m", "x of the goal that the rover was told",
-                &DriveRecord::told_goal_x_m},
-    DriveColumn{"told_goal_y_m", "m", "y of the goal that the rover was told",
-                &DriveRecord::told_goal_y_m},
-    DriveColumn{"designation_error_m", "m", "told goal to true goal",
+    DriveColumn{"told_goal_x_m", "m", "x of the designated goal", &DriveRecord::told_goal_x_m},
+    DriveColumn{"told_goal_y_m", "m", "y of the designated goal", &DriveRecord::told_goal_y_m},
+    DriveColumn{"designation_error_m", "m", "designated goal to true goal",
                 &DriveRecord::designation_error_m},
     DriveColumn{"believed_goal_distance_m", "m",
-                "believed final position to the told goal; beside true_goal_distance_m",
+                "believed final position to the designated goal; beside true_goal_distance_m",
                 &DriveRecord::believed_goal_distance_m},
     DriveColumn{"path_ratio", "1",
                 "true path length over the straight way from start to goal; at least about 1 only "

@@ -50,11 +50,11 @@ class Deflater {
 }  // namespace
 
 std::string Gzip(std::string_view bytes) {
-  constexpr std::size_t kMost = std::numeric_limits<uInt>::max();  // that zlib takes at once
+  constexpr std::size_t kMax = std::numeric_limits<uInt>::max();  // that zlib takes at once
   Deflater deflater;
   std::string out;
   do {
-    const std::string_view part = bytes.substr(0, std::min(bytes.size(), kMost));
+    const std::string_view part = bytes.substr(0, std::min(bytes.size(), kMax));
     bytes.remove_prefix(part.size());
     deflater.Add(part, bytes.empty(), out);
   } while (!bytes.empty());

@@ -48,7 +48,7 @@ TEST(ReplayPayload, StepsOfAMapBasedNavigator) {
     EXPECT_EQ(std::count_if(step["votes"].begin(), step["votes"].end(),
                             [](const Json& vote) { return vote["chosen"] == true; }),
               1);
-    EXPECT_THAT(step["points"], SizeIs(kMostStepPoints));
+    EXPECT_THAT(step["points"], SizeIs(kMaxStepPoints));
   }
 }
 
@@ -57,7 +57,7 @@ TEST(ReplayPayload, ManyStepsStaySmall) {
   ReplayedTrial replayed = ReplayTrial(SourceOf("gestalt/narrow_course"), 0);
   std::vector<replay::ReplayStep>& steps = replayed.data.steps;
   const std::vector<replay::ReplayStep> few = steps;
-  while (steps.size() <= 2 * replay::kMostDetailedSteps) {
+  while (steps.size() <= 2 * replay::kMaxDetailedSteps) {
     steps.insert(steps.end(), few.begin(), few.end());
   }
   const Json payload = Json::parse(ReplayPayload(replayed));

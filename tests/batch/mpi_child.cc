@@ -17,7 +17,7 @@ namespace {
 using rockyard::batch::Communicator;
 using rockyard::batch::Message;
 
-constexpr unsigned kMost_s = 60;  // a hang must end the test, not wait for ever
+constexpr unsigned kMax_s = 60;  // a hang must end the test, not wait for ever
 
 std::string Text(int from, int number, std::size_t size) {
   std::string text(size, static_cast<char>('a' + from));
@@ -49,7 +49,7 @@ bool Exchange(Communicator& communicator, std::size_t size, int messages) {
 
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
-  alarm(kMost_s);
+  alarm(kMax_s);
   const auto communicator = rockyard::batch::StartMpi();
   const auto size = static_cast<std::size_t>(std::atol(argv[1]));
   return Exchange(*communicator, size, std::atoi(argv[2])) ? 0 : 1;

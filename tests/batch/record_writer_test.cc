@@ -41,10 +41,10 @@ class Gate {
 
 class RecordWriterTest : public testing::Test {
  protected:
-  static constexpr auto kMost = static_cast<std::int64_t>(RecordWriter::kMostWaiting);
+  static constexpr auto kMax = static_cast<std::int64_t>(RecordWriter::kMaxWaiting);
 
   TemporaryFolder folder_;
-  ResultStore store_ = ResultStore::Create(folder_.path(), FakeIdentity(), 4 * kMost);
+  ResultStore store_ = ResultStore::Create(folder_.path(), FakeIdentity(), 4 * kMax);
   Gate gate_;
 };
 
@@ -55,39 +55,39 @@ TEST_F(RecordWriterTest, FullQueueHoldsThoseWhoPush) {
   gate_.WaitUntilHeld();
   std::atomic<std::int64_t> pushed = 0;
   std::thread pusher([&] {
-    for (std::int64_t trial = 0; trial < kMost + 50; ++trial) {
+    for (std::int64_t trial = 0; trial < kMax + 50; ++trial) {
       writer.Push({0, FakeRecord(1, static_cast<std::uint64_t>(trial))});
       ++pushed;
     }
   });
-  while (pushed < kMost) std::this_thread::yield();
+  while (pushed < kMax) std::this_thread::yield();
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  EXPECT_EQ(pushed, kMost);
+  EXPECT_EQ(pushed, kMax);
   gate_.Open();
   pusher.join();
   writer.Close();
-  EXPECT_EQ(writer.stored(), kMost + 50);
-  EXPECT_EQ(store_.Finished().size(), static_cast<std::size_t>(kMost) + 50);
+  EXPECT_EQ(writer.stored(), kMax + 50);
+  EXPECT_EQ(store_.Finished().size(), static_cast<std::size_t>(kMax) + 50);
 }
 
 // A full queue is written at once, not when the interval is over.
 TEST_F(RecordWriterTest, FullQueueIsWrittenAtOnce) {
   RecordWriter writer(store_, std::chrono::hours(1), {});
   writer.Start();
-  for (std::int64_t trial = 0; trial < 2 * kMost + 1; ++trial) {
+  for (std::int64_t trial = 0; trial < 2 * kMax + 1; ++trial) {
     writer.Push({0, FakeRecord(1, static_cast<std::uint64_t>(trial))});
   }
   writer.Close();
-  EXPECT_EQ(store_.Finished().size(), 2U * RecordWriter::kMostWaiting + 1);
+  EXPECT_EQ(store_.Finished().size(), 2U * RecordWriter::kMaxWaiting + 1);
 }
 
 TEST_F(RecordWriterTest, WithoutAThreadNobodyWaits) {
   RecordWriter writer(store_, std::chrono::hours(1), {});
-  for (std::int64_t trial = 0; trial < kMost + 1; ++trial) {
+  for (std::int64_t trial = 0; trial < kMax + 1; ++trial) {
     writer.Push({0, FakeRecord(1, static_cast<std::uint64_t>(trial))});
   }
   writer.Close();
-  EXPECT_EQ(writer.stored(), kMost + 1);
+  EXPECT_EQ(writer.stored(), kMax + 1);
 }
 
 }  // namespace

@@ -108,8 +108,8 @@ TEST(SpaceFillingTest, SeedsDecideTheDesign) {
 }
 
 TEST(SpaceFillingTest, AHundredDimensionsCanBeFilled) {
-  EXPECT_TRUE(OnePerSlice(SobolPoints(64, kMostDesignDimensions, 1)));
-  EXPECT_TRUE(OnePerSlice(LatinHypercube(64, kMostDesignDimensions, 1)));
+  EXPECT_TRUE(OnePerSlice(SobolPoints(64, kMaxDesignDimensions, 1)));
+  EXPECT_TRUE(OnePerSlice(LatinHypercube(64, kMaxDesignDimensions, 1)));
 }
 
 }  // namespace

@@ -227,7 +227,7 @@ TEST(PageCdf, ThinningKeepsBothEndsAndStaysClose) {
     const json cdf = json::parse(PageCdfJson(DistanceSteps(schema, records)));
     const std::size_t kept = cdf["distance_m"].size();
     EXPECT_EQ(rows.size(), static_cast<std::size_t>(count));
-    EXPECT_LE(kept, kMostPageSteps);
+    EXPECT_LE(kept, kMaxPageSteps);
     EXPECT_GE(kept, 500u);
     ExpectRow(cdf, 0, rows.front());
     ExpectRow(cdf, kept - 1, rows.back());

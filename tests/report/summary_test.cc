@@ -109,31 +109,31 @@ TEST(SummaryText, FitsAndColoursOnRequestOnly) {
 
 // Numbers as large as any run's, and a name that could break the line or the terminal.
 TEST(SummaryText, FitsWhateverTheNumbersAre) {
-  constexpr std::int64_t kMost = 1'000'000'000;
+  constexpr std::int64_t kMax = 1'000'000'000;
   RunDescription run = SampleDescription();
   run.scenario = "odd\n\x1b[31m name with " + std::string(300, 'n');
   run.localization = "oracle";
-  run.planned = kMost;
-  run.stored = kMost;
+  run.planned = kMax;
+  run.stored = kMax;
   run.ablations = {std::string(90, 'a'), std::string(90, 'b')};
-  run.accounting = {kMost, kMost, kMost, kMost, kMost};
+  run.accounting = {kMax, kMax, kMax, kMax, kMax};
   run.stopping = StoppingReport{.half_width = 0.49,
-                                .max_trials = kMost,
+                                .max_trials = kMax,
                                 .block = 1000000,
                                 .confidence = 0.95,
                                 .allocation = "adaptive",
                                 .budget = 0,
                                 .end = "max_trials",
-                                .trials = kMost,
-                                .drives = kMost,
-                                .successes = kMost,
+                                .trials = kMax,
+                                .drives = kMax,
+                                .successes = kMax,
                                 .low = 0.0,
                                 .high = 1.0};
   statistics::DriveSummary summary = SampleSummary();
-  summary.completed = kMost;
-  summary.faults = kMost;
-  summary.declared_success = {kMost, kMost, 1.0, {1.0, 1.0}};
-  summary.outcomes.fill(kMost);
+  summary.completed = kMax;
+  summary.faults = kMax;
+  summary.declared_success = {kMax, kMax, 1.0, {1.0, 1.0}};
+  summary.outcomes.fill(kMax);
   for (statistics::ColumnSummary& column : summary.columns) {
     column.mean = column.max = column.p95 = -1.2345e300;
     column.min = -0.0001;

@@ -112,25 +112,25 @@ TEST(SweepFilesTest, TheTableFitsTheTerminal) {
 }
 
 TEST(SweepFilesTest, TheTableFitsWhateverTheNumbersAre) {
-  constexpr std::int64_t kMost = 1'000'000'000;
+  constexpr std::int64_t kMax = 1'000'000'000;
   scenario::Sweep sweep = TestSweep();
   sweep.name = "odd\n\x1b[31m" + std::string(300, 'n');
   sweep.seed = 9'000'000'000'000'000'000U;
   SweepSummary summary = Summary(sweep);
   summary.notes = {"a note\nof many words: " + std::string(90, 'n') + " " + std::string(90, 'm')};
   for (SweepCellSummary& cell : summary.cells) {
-    cell.completed = cell.planned = kMost;
-    cell.accounting = {kMost, kMost, kMost, kMost, kMost};
+    cell.completed = cell.planned = kMax;
+    cell.accounting = {kMax, kMax, kMax, kMax, kMax};
     cell.stopping = StoppingReport{.half_width = 0.49,
-                                   .max_trials = kMost,
+                                   .max_trials = kMax,
                                    .block = 1000000,
                                    .confidence = 0.95,
                                    .allocation = "adaptive",
                                    .budget = 0,
                                    .end = "max_trials",
-                                   .trials = kMost,
-                                   .drives = kMost,
-                                   .successes = kMost,
+                                   .trials = kMax,
+                                   .drives = kMax,
+                                   .successes = kMax,
                                    .low = 0.0,
                                    .high = 1.0};
     for (statistics::MetricSummary& metric : cell.metrics) metric.mean = 1.5e200;

@@ -64,8 +64,8 @@ TEST(TraceDrawing, LongPathsAreThinnedAndKeepTheirEnds) {
   trial.trace.events.clear();
   const TraceDrawing drawing = DrawTrace(trial, kPlan);
   const std::size_t points = CountOf(drawing.elements, ",") - 2;  // two in the title
-  EXPECT_LE(points, 2 * kMostDrawnPoints);
-  EXPECT_GT(points, kMostDrawnPoints);
+  EXPECT_LE(points, 2 * kMaxDrawnPoints);
+  EXPECT_GT(points, kMaxDrawnPoints);
   EXPECT_THAT(drawing.elements, HasSubstr("points=\"0.000,-0.000 "));
   EXPECT_THAT(drawing.elements, HasSubstr("12.500,"));
   EXPECT_DOUBLE_EQ(drawing.area.x_max_m, 13.0);  // the believed path is 0.5 m ahead

@@ -63,7 +63,7 @@ TEST(TraceStory, StaysShortHoweverMuchHappens) {
         {i + 0.5, {0.02 * i, 0.0, 0.0}, i % 3 == 0 ? "reflection" : "hazard", ""});
   }
   EXPECT_GT(LinesOf(TraceStory(trial, StoryLength::kAll)), 3000);
-  EXPECT_LE(LinesOf(TraceStory(trial, StoryLength::kFolded)), kMostStoryLines);
+  EXPECT_LE(LinesOf(TraceStory(trial, StoryLength::kFolded)), kMaxStoryLines);
 }
 
 TEST(TraceStory, AFaultBeforeTheFirstTickHasNoFigures) {

@@ -16,7 +16,7 @@ struct Story {
   truth::RoverState end;
   std::array<double, 5> largest_force_N{};      // by BodyPart
   std::array<double, 5> largest_sliding_m_s{};  // where it scrapes
-  double most_turn_rad = 0.0;
+  double max_turn_rad = 0.0;
 
   double Force_N(BodyPart part) const { return largest_force_N[static_cast<std::size_t>(part)]; }
   double Sliding_m_s(BodyPart part) const {
@@ -39,7 +39,7 @@ Story DriveAhead(const terrain::Terrain& terrain, double time_s, const RoverPara
           std::max(story.largest_sliding_m_s[part], contact.sliding_speed_m_s);
     }
     const double turn_rad = math::WrapAngle(math::Heading(rover->state().X_WR) - X_WR.heading_rad);
-    story.most_turn_rad = std::max(story.most_turn_rad, std::abs(turn_rad));
+    story.max_turn_rad = std::max(story.max_turn_rad, std::abs(turn_rad));
   }
   story.end = rover->state();
   return story;
@@ -67,7 +67,7 @@ TEST(Rock, TallOneStopsThePanelEdge) {
 // A wheel that rubs along a steep rock turns the rover away from it.
 TEST(Rock, GlancingBlowDeflects) {
   const Story story = DriveAhead(FlatTerrain({MakeRock(0.8, 0.35, 0.0, 0.15, 0.15, 0.4)}), 6.0);
-  EXPECT_GT(story.most_turn_rad, math::DegToRad(2.0));
+  EXPECT_GT(story.max_turn_rad, math::DegToRad(2.0));
 }
 
 TEST(Rock, TallerThanTheBellyBlocksIt) {

@@ -37,7 +37,7 @@ void Rocks(benchmark::State& bench) {
     bench.counters["x_m"] = X_WR.translation().x();
     bench.counters["y_m"] = X_WR.translation().y();
     bench.counters["heading_deg"] = math::RadToDeg(math::Heading(X_WR));
-    bench.counters["most_tilt_deg"] = math::RadToDeg(tilt_rad);
+    bench.counters["max_tilt_deg"] = math::RadToDeg(tilt_rad);
   }
 }
 

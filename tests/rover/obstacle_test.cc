@@ -59,7 +59,7 @@ TEST(Rock, DifferentialHalvesThePitchOfOneSide) {
   const auto rover = MakeRover(params, terrain);
   rover->Place({});
   const messages::WheelCommand command = Drive(params, 0.15, 0.0);
-  double most_rad = 0.0;
+  double max_rad = 0.0;
   for (int i = 0; i < 600; ++i) {
     rover->Step(command);
     const truth::RoverState& s = rover->state();
@@ -68,9 +68,9 @@ TEST(Rock, DifferentialHalvesThePitchOfOneSide) {
     const double chassis = Pitch(s.X_WR);
     // Where the right side stands level, its rocker takes back what the chassis leans.
     EXPECT_NEAR(chassis + s.right_rocker_rad, 0.0, math::DegToRad(1.5) + 0.1 * std::abs(roll));
-    most_rad = std::max(most_rad, std::abs(s.left_rocker_rad));
+    max_rad = std::max(max_rad, std::abs(s.left_rocker_rad));
   }
-  EXPECT_GT(most_rad, math::DegToRad(2.0));
+  EXPECT_GT(max_rad, math::DegToRad(2.0));
 }
 
 TEST(Rock, LowerThanTheBellyPassesBetweenTheWheels) {

@@ -78,12 +78,12 @@ void ExpectSameCourse(const RoverParams& at_real_time, const RoverParams& faster
   const std::vector<Sample> scaled = DriveFor(400.0, faster, scale, terrain);
   ASSERT_EQ(real.size(), scaled.size());
   EXPECT_GT(real.back().p_WR.x(), 1.5);
-  double pitch2 = 0.0, largest_rad = 0.0, roll2 = 0.0, most_pitch = 0.0, apart_m = 0.0;
+  double pitch2 = 0.0, largest_rad = 0.0, roll2 = 0.0, max_pitch = 0.0, apart_m = 0.0;
   for (std::size_t i = 0; i < real.size(); ++i) {
     largest_rad = std::max(largest_rad, std::abs(real[i].pitch_rad - scaled[i].pitch_rad));
     pitch2 += std::pow(real[i].pitch_rad - scaled[i].pitch_rad, 2.0);
     roll2 += std::pow(real[i].roll_rad - scaled[i].roll_rad, 2.0);
-    most_pitch = std::max(most_pitch, std::abs(real[i].pitch_rad));
+    max_pitch = std::max(max_pitch, std::abs(real[i].pitch_rad));
     apart_m = std::max(apart_m, (real[i].p_WR - scaled[i].p_WR).norm());
   }
   const double count = static_cast<double>(real.size());
@@ -93,7 +93,7 @@ void ExpectSameCourse(const RoverParams& at_real_time, const RoverParams& faster
   testing::Test::RecordProperty("pitch_largest_deg", std::to_string(math::RadToDeg(largest_rad)));
   testing::Test::RecordProperty("roll_rms_deg", std::to_string(roll_deg));
   testing::Test::RecordProperty("apart_m", std::to_string(apart_m));
-  EXPECT_GT(most_pitch, math::DegToRad(3.0));  // there is something to compare
+  EXPECT_GT(max_pitch, math::DegToRad(3.0));  // there is something to compare
   EXPECT_LT(pitch_deg, 0.3);
   EXPECT_LT(roll_deg, 0.3);
   EXPECT_LT(apart_m, 0.03);

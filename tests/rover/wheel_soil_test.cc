@@ -153,11 +153,11 @@ TEST(ShearRatio, AgreesWithBisection) {
 
 // The table against the laws it interpolates, from a hundredth of its range on.
 TEST(WheelSoilTable, IsWithinAPerCentOfTheLaws) {
-  constexpr double kMost_N = 300.0;
+  constexpr double kMax_N = 300.0;
   for (const terrain::SoilParams& params : Presets()) {
     const WheelSoil soil(params, kRadius_m, kWidth_m);
-    const WheelSoilTable table(soil, kMost_N);
-    for (double load_N = 0.01 * kMost_N; load_N < kMost_N; load_N *= 1.013) {
+    const WheelSoilTable table(soil, kMax_N);
+    for (double load_N = 0.01 * kMax_N; load_N < kMax_N; load_N *= 1.013) {
       const SoilAnswer answer = table.At(load_N);
       const Rut rut = soil.RutUnder(load_N);
       EXPECT_NEAR(answer.sinkage_m, rut.sinkage_m, 0.01 * rut.sinkage_m) << load_N;

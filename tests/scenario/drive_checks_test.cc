@@ -98,7 +98,7 @@ TEST(DriveChecksTest, GroupsThatDoNothingMayHoldAnything) {
       ProblemsOf("narrow_course", {"course.start_y_m=1.4", "terrain.rocks.kind=none"}).empty());
 }
 
-std::vector<core::Problem> ToldGoals(const Overrides& overrides) {
+std::vector<core::Problem> DesignatedGoals(const Overrides& overrides) {
   Overrides all{"course.designation.enabled=true"};
   all.insert(all.end(), overrides.begin(), overrides.end());
   return ProblemsOf("nominal", all, "pathfinder");
@@ -107,9 +107,9 @@ std::vector<core::Problem> ToldGoals(const Overrides& overrides) {
 // By the paper's errors at 7.6 m: sigma_downrange = 0.0001 (7.6 m)^2 / 0.15 m = 0.0385 m, one
 // degree of pan is 0.1326 m. Five deviations and the pan reach 0.325 m, of 1.1 m up to the mirror
 // line.
-TEST(ToldGoalsTest, AreRefusedWhereTheyMayLieBeyondAMirrorLine) {
-  EXPECT_TRUE(ToldGoals({}).empty());
-  EXPECT_TRUE(ToldGoals({"course.goal_y_m=0.77"}).empty());
+TEST(DesignatedGoalsTest, AreRefusedWhereTheyMayLieBeyondAMirrorLine) {
+  EXPECT_TRUE(DesignatedGoals({}).empty());
+  EXPECT_TRUE(DesignatedGoals({"course.goal_y_m=0.77"}).empty());
   for (const Overrides& beyond :
        {Overrides{"course.goal_y_m=0.78"}, Overrides{"course.goal_y_m=-0.78"},
         Overrides{"course.designation.lander_ahead_m=-25"},
@@ -117,7 +117,7 @@ TEST(ToldGoalsTest, AreRefusedWhereTheyMayLieBeyondAMirrorLine) {
         Overrides{"course.designation.pan_error_deg=8", "course.designation.pan_kind=uniform"},
         Overrides{"course.designation.disparity_sd_px=1"}}) {
     SCOPED_TRACE(beyond.front());
-    const std::vector<core::Problem> problems = ToldGoals(beyond);
+    const std::vector<core::Problem> problems = DesignatedGoals(beyond);
     ASSERT_EQ(problems.size(), 1u);
     EXPECT_EQ(problems[0].path, "course.designation.enabled");
     EXPECT_NE(problems[0].reason.find("mirror lines"), std::string::npos);
@@ -125,12 +125,12 @@ TEST(ToldGoalsTest, AreRefusedWhereTheyMayLieBeyondAMirrorLine) {
   }
 }
 
-TEST(ToldGoalsTest, MayLieAnywhereWithoutMirrorLinesOrErrors) {
+TEST(DesignatedGoalsTest, MayLieAnywhereWithoutMirrorLinesOrErrors) {
   const std::string far = "course.designation.lander_ahead_m=-100";
-  EXPECT_FALSE(ToldGoals({far}).empty());
-  EXPECT_TRUE(ToldGoals({far, "terrain.arena.kind=open"}).empty());
-  EXPECT_TRUE(ToldGoals({far, "terrain.arena.kind=virtual_unfolded"}).empty());
-  EXPECT_TRUE(ToldGoals({far, "course.designation.enabled=false"}).empty());
+  EXPECT_FALSE(DesignatedGoals({far}).empty());
+  EXPECT_TRUE(DesignatedGoals({far, "terrain.arena.kind=open"}).empty());
+  EXPECT_TRUE(DesignatedGoals({far, "terrain.arena.kind=virtual_unfolded"}).empty());
+  EXPECT_TRUE(DesignatedGoals({far, "course.designation.enabled=false"}).empty());
 }
 
 }  // namespace

@@ -77,19 +77,19 @@ TEST_F(DriveMonitorTest, KeepsTheLargestTilt) {
 // Nine points of the belly against the terrain's height, the plain way.
 TEST_F(DriveMonitorTest, ClearanceIsTheLeastOfNinePoints) {
   monitor_.Restart(At(0.0, 0.0));
-  double least_m = kUnderside.height_m;
+  double min_m = kUnderside.height_m;
   for (int i = 0; i <= 200; ++i) {
     const truth::RoverState state = At(0.01 * i, 0.03, 0.002 * i, 0.001 * i);
     monitor_.Observe(state, false);
     for (const double x : {-0.2, 0.0, 0.2}) {
       for (const double y : {-0.1, 0.0, 0.1}) {
         const math::Vector3 p_W = state.X_WR * math::Vector3(x, y, kUnderside.height_m);
-        least_m = std::min(least_m, p_W.z() - terrain_.Height(p_W.x(), p_W.y()));
+        min_m = std::min(min_m, p_W.z() - terrain_.Height(p_W.x(), p_W.y()));
       }
     }
-    EXPECT_EQ(Report().min_clearance_m, least_m) << i;
+    EXPECT_EQ(Report().min_clearance_m, min_m) << i;
   }
-  EXPECT_LT(least_m, 0.06);  // it drove over the rock
+  EXPECT_LT(min_m, 0.06);  // it drove over the rock
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ double NormalCdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 TEST(GoalDesignationTest, OffTellsTheTrueGoal) {
   CourseParams course = Course(7.6);
   course.designation.enabled = false;
-  const messages::Goal goal = ToldGoal(course, {1, 2});
+  const messages::Goal goal = DesignatedGoal(course, {1, 2});
   EXPECT_EQ(goal.x_m, 7.6);
   EXPECT_EQ(goal.y_m, 0.0);
 }
@@ -49,7 +49,7 @@ TEST(GoalDesignationTest, SpreadIsTheClosedForm) {
   std::vector<double> downrange;
   std::vector<double> crossrange;
   for (std::uint32_t trial = 0; trial < 4000; ++trial) {
-    const messages::Goal goal = ToldGoal(course, {3, trial});
+    const messages::Goal goal = DesignatedGoal(course, {3, trial});
     downrange.push_back((goal.x_m - 20.0) / errors.downrange_sd_m);
     crossrange.push_back((goal.y_m - errors.crossrange_bias_m) / errors.crossrange_sd_m);
   }
@@ -67,7 +67,7 @@ TEST(GoalDesignationTest, UniformPanErrorFillsItsBound) {
   const double bound_m = course.designation.ErrorsAt(20.0).crossrange_bias_m;
   std::vector<double> left;
   for (std::uint32_t trial = 0; trial < 2000; ++trial) {
-    left.push_back(ToldGoal(course, {3, trial}).y_m);
+    left.push_back(DesignatedGoal(course, {3, trial}).y_m);
   }
   const auto cdf = [&](double y_m) { return (y_m / bound_m + 1.0) / 2.0; };
   EXPECT_GT(core::KolmogorovP(left, cdf), 0.001);
@@ -81,17 +81,17 @@ TEST(GoalDesignationTest, ErrorsLieAlongTheLineOfSight) {
   course.designation.pixel_sd_px = 0.0;
   EXPECT_NEAR(course.DesignationRange_m(), 5.0, 1e-12);
   // Seen from there the goal lies to the right (-y): the pan error, to the left, goes to +x.
-  const messages::Goal goal = ToldGoal(course, {3, 1});
+  const messages::Goal goal = DesignatedGoal(course, {3, 1});
   EXPECT_NEAR(goal.x_m, 20.0 + 5.0 * course.designation.pan_error_rad, 1e-9);
   EXPECT_NE(goal.y_m, 0.0);
 }
 
 TEST(GoalDesignationTest, OneErrorShiftsNoOther) {
   CourseParams course = Course(20.0);
-  const messages::Goal before = ToldGoal(course, {3, 1});
+  const messages::Goal before = DesignatedGoal(course, {3, 1});
   course.designation.pixel_sd_px = 0.0;
   course.designation.pan_kind = PanError::kUniform;
-  EXPECT_EQ(ToldGoal(course, {3, 1}).x_m, before.x_m);
+  EXPECT_EQ(DesignatedGoal(course, {3, 1}).x_m, before.x_m);
 }
 
 }  // namespace

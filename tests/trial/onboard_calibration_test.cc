@@ -100,7 +100,7 @@ TEST(OnboardCalibrationTest, PitchedCameraRaisesFlatGroundByTheClosedForm) {
 TEST(OnboardCalibrationTest, CameraBelievedTooHighRaisesEverythingItSees) {
   perception::CalibrationErrorParams errors;
   errors.right_camera.z_m = 0.01;
-  // The right camera sees the two stripes on the right; lines of sight are parallel to the truth.
+  // The right camera sees the two stripes on the right; lines of percept are parallel to the truth.
   for (std::size_t row = 0; row < kStripeRows; ++row) {
     EXPECT_EQ(Raised(errors, row, 0), 0.0);
     EXPECT_NEAR(Raised(errors, row, kStripes - 1), 0.01, 1e-9);

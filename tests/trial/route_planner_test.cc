@@ -33,28 +33,28 @@ messages::Route PlanAmong(std::vector<terrain::Rock> rocks) {
 // Distance of the route from a point.
 double Clearance(const messages::Route& route, double x_m, double y_m) {
   messages::Goal from{0.0, 0.0};
-  double least_m = 1e9;
+  double min_m = 1e9;
   for (const messages::Goal& to : route.corners) {
     for (int i = 0; i <= 1000; ++i) {
       const double share = i / 1000.0;
-      least_m = std::min(least_m, std::hypot(from.x_m + share * (to.x_m - from.x_m) - x_m,
-                                             from.y_m + share * (to.y_m - from.y_m) - y_m));
+      min_m = std::min(min_m, std::hypot(from.x_m + share * (to.x_m - from.x_m) - x_m,
+                                         from.y_m + share * (to.y_m - from.y_m) - y_m));
     }
     from = to;
   }
-  return least_m;
+  return min_m;
 }
 
-TEST(FreeGridTest, ShortestWayGoesRoundAWall) {
+TEST(FreeGridTest, ShortestPathGoesRoundAWall) {
   FreeGrid grid({0.0, 5.0, 0.0, 5.0}, 1.0);
   for (int iy = 0; iy < 4; ++iy) grid.Block(Rock(2.5, iy + 0.5, 0.1, 1.0), 0.3);
   EXPECT_FALSE(grid.IsFree(2, 3));
-  const std::vector<std::size_t> way = ShortestWay(grid, grid.Index(0, 0), grid.Index(4, 0));
+  const std::vector<std::size_t> way = ShortestPath(grid, grid.Index(0, 0), grid.Index(4, 0));
   ASSERT_FALSE(way.empty());
   EXPECT_NE(std::find(way.begin(), way.end(), grid.Index(2, 4)), way.end());
   EXPECT_FALSE(grid.IsClear(grid.Centre(grid.Index(0, 0)), grid.Centre(grid.Index(4, 0))));
   grid.Block(Rock(2.5, 4.5, 0.1, 1.0), 0.3);
-  EXPECT_TRUE(ShortestWay(grid, grid.Index(0, 0), grid.Index(4, 0)).empty());
+  EXPECT_TRUE(ShortestPath(grid, grid.Index(0, 0), grid.Index(4, 0)).empty());
 }
 
 // Routes lead over centres, so that these must keep the room to the walls that the bounds stand

@@ -7,7 +7,7 @@
 #include "math/angles.h"
 #include "sensing/stereo_sensor.h"
 #include "trial/gestalt_trials.h"
-#include "trial/lookout.h"
+#include "trial/terrain_sensing.h"
 
 namespace rockyard::trial {
 namespace {
@@ -22,9 +22,9 @@ terrain::Terrain Flat() { return {terrain::Ground(), {}, {}}; }
 
 // What the navigator gets of a first look over flat ground, from a level rover.
 Points Seen(const Overrides& overrides, LookDirection direction) {
-  Lookout lookout(Gestalt("abundance", overrides), kKey, {});
-  const Sight sight = lookout.Look(direction, Flat(), math::Transform::Identity(), {});
-  return sight.cloud ? sight.cloud->points_R : Points{};
+  TerrainSensing terrain_sensing(Gestalt("abundance", overrides), kKey, {});
+  const Percept percept = terrain_sensing.Look(direction, Flat(), math::Transform::Identity(), {});
+  return percept.cloud ? percept.cloud->points_R : Points{};
 }
 
 std::string Error(const std::string& what) { return "perception.calibration.stereo_" + what; }

@@ -28,7 +28,7 @@ enum class SceneKind { kFlat, kRocks };
 StripeScene MakeStripeScene(const scenario::Scenario& scenario, SceneKind kind,
                             std::uint32_t index);
 
-// What became of the points that geometry alone (lines of sight without errors) shows or hides.
+// What became of the points that geometry alone (lines of percept without errors) shows or hides.
 struct PointTally {
   static constexpr int kRight_px = 2;  // a column this near is right
 

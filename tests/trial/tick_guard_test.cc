@@ -27,8 +27,8 @@ TEST(TickGuard, EndsADriveThatIsNeverJudged) {
 }
 
 TEST(TickGuard, EndsDecisionsWithoutTime) {
-  EXPECT_EQ(Decisions({14400.0, 0.05}, 0.0, TickGuard::kMostWithoutTime), 10'000);
-  EXPECT_EQ(Decisions({14400.0, 0.05}, 0.0, TickGuard::kMostWithoutTime + 2), -1);
+  EXPECT_EQ(Decisions({14400.0, 0.05}, 0.0, TickGuard::kMaxWithoutTime), 10'000);
+  EXPECT_EQ(Decisions({14400.0, 0.05}, 0.0, TickGuard::kMaxWithoutTime + 2), -1);
 }
 
 }  // namespace

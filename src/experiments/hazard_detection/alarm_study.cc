@@ -62,14 +62,14 @@ class AlarmStudy final : public HazardStudyRunner {
       return;
     }
     const messages::ElevationScan second = judge.Scan(sand_, X_WR, key, 1);
-    const Sight sight = judge.Look(sand_, X_WR, key, 0);
-    sums[1] += static_cast<double>(sight.scans);
+    const Percept percept = judge.Look(sand_, X_WR, key, 0);
+    sums[1] += static_cast<double>(percept.scans);
     sums[2] += 1.0;
     if (perception::ReportHazards(second, judge.hazard()).any() &&
         perception::ScansAgree(first, second, judge.hazard().agree_m)) {
       sums[3] += 1.0;
     }
-    if (Any(sight.believed)) sums[4] += 1.0;
+    if (Any(percept.believed)) sums[4] += 1.0;
   }
 
   std::int64_t scenes_;

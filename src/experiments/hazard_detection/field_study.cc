@@ -134,12 +134,12 @@ class FieldStudy final : public HazardStudyRunner {
                         std::int64_t first_scan, std::vector<Hazard>& hazards) const {
     math::Transform X_WR = math::Transform::Identity();
     X_WR.translation() = Vector3(x_m, drive_.course.start_y_m, 0.0);
-    const Sight seen = judge_.Look(field, X_WR, key, first_scan);
-    const Sight sand = bare_judge_.Look(sand_, X_WR, key, first_scan);
+    const Percept seen = judge_.Look(field, X_WR, key, first_scan);
+    const Percept sand = bare_judge_.Look(sand_, X_WR, key, first_scan);
     for (Hazard& hazard : hazards) {
       if (!Near(hazard, x_m) || (hazard.seen_single && hazard.seen_double)) continue;
-      const Sight without = bare_judge_.Look(hazard.without, X_WR, key, first_scan);
-      const Sight alone = bare_judge_.Look(hazard.alone, X_WR, key, first_scan);
+      const Percept without = bare_judge_.Look(hazard.without, X_WR, key, first_scan);
+      const Percept alone = bare_judge_.Look(hazard.alone, X_WR, key, first_scan);
       for (std::size_t stripe = 0; stripe < judge_.stripes(); ++stripe) {
         hazard.seen_single |= seen.first.Charges(stripe) &&
                               IsDueTo(without.first.Charges(stripe), alone.first.Charges(stripe),

@@ -12,10 +12,10 @@ using core::Origin;
 
 using core::kMatthiesSection6;
 // A table that nobody can read, and a guard against a list typed wrongly.
-constexpr double kMostCells = 2000.0;
+constexpr double kMaxCells = 2000.0;
 
 // Nearer emitters are looked at by the camera of the other side (sensing/stripe_layout_params.h).
-constexpr double kLeastBaseline_m = 0.05;
+constexpr double kMinBaseline_m = 0.05;
 
 bool AtLeast(const std::vector<double>& values, double low) {
   return std::all_of(values.begin(), values.end(), [&](double value) { return value >= low; });
@@ -131,7 +131,7 @@ void VisitFields(HazardDetectionParams& p, core::FieldVisitor& v) {
 void VisitPlanes(HazardDetectionParams& p, core::FieldVisitor& v) {
   VisitList(v, "baselines_m", p.baselines_m,
             {.doc = "camera-to-emitter baselines to which the emitters are moved; study precision",
-             .min = kLeastBaseline_m,
+             .min = kMinBaseline_m,
              .max = 1.0,
              .origin = Origin::kPublished,
              .source = "Matthies 1995 table 3: 5 to 10 cm; cameras 12 cm apart"});
@@ -206,7 +206,7 @@ void HazardDetectionParams::Visit(core::FieldVisitor& v) {
   VisitAlarms(*this, v);
   VisitFields(*this, v);
   VisitPlanes(*this, v);
-  v.Require("study", Cells() <= kMostCells, "spans more than 2000 cells",
+  v.Require("study", Cells() <= kMaxCells, "spans more than 2000 cells",
             "shorten the lists of this study");
 }
 

@@ -21,19 +21,19 @@ messages::ElevationScan HazardJudge::Scan(const terrain::Terrain& terrain,
   return triangulator_.Elevations(scanner_.Scan(terrain, X_WR, key, scan_number));
 }
 
-Sight HazardJudge::Look(const terrain::Terrain& terrain, const math::Transform& X_WR,
-                        core::TrialKey key, std::int64_t first_scan) const {
+Percept HazardJudge::Look(const terrain::Terrain& terrain, const math::Transform& X_WR,
+                          core::TrialKey key, std::int64_t first_scan) const {
   perception::HazardDetector detector(hazard_);
-  Sight sight(stripes_);
+  Percept percept(stripes_);
   perception::HazardDetector::Verdict verdict{true, {}};
   while (verdict.scan_again) {
-    const messages::ElevationScan scan = Scan(terrain, X_WR, key, first_scan + sight.scans);
-    if (sight.scans == 0) sight.first = perception::AssessHazards(scan, hazard_);
-    ++sight.scans;
+    const messages::ElevationScan scan = Scan(terrain, X_WR, key, first_scan + percept.scans);
+    if (percept.scans == 0) percept.first = perception::AssessHazards(scan, hazard_);
+    ++percept.scans;
     verdict = detector.Process(scan);
   }
-  sight.believed = verdict.report.stripe_hazard;
-  return sight;
+  percept.believed = verdict.report.stripe_hazard;
+  return percept;
 }
 
 }  // namespace rockyard::experiments

@@ -18,8 +18,8 @@
 namespace rockyard::experiments {
 
 // What the rover makes of one pose.
-struct Sight {
-  explicit Sight(std::size_t stripes) : first(stripes), believed(stripes) {}
+struct Percept {
+  explicit Percept(std::size_t stripes) : first(stripes), believed(stripes) {}
 
   std::int64_t scans = 0;
   perception::HazardFindings first;    // of the first scan alone
@@ -37,8 +37,8 @@ class HazardJudge {
 
   // Scans numbered from `first_scan` at one pose until the rule is decided. Draws the sensor's
   // noise for these numbers only: the same noise on every terrain.
-  Sight Look(const terrain::Terrain& terrain, const math::Transform& X_WR, core::TrialKey key,
-             std::int64_t first_scan) const;
+  Percept Look(const terrain::Terrain& terrain, const math::Transform& X_WR, core::TrialKey key,
+               std::int64_t first_scan) const;
 
   const perception::HazardParams& hazard() const { return hazard_; }
 

@@ -63,10 +63,10 @@ class RockStudy : public HazardStudyRunner {
   }
 
   // Charges that the rock caused: those that bare sand does not draw under the same noise.
-  Sight CausedByRock(const Sight& seen, const math::Transform& X_WR, core::TrialKey key,
-                     std::int64_t first_scan) const {
-    const Sight bare = bare_judge_.Look(bare_, X_WR, key, first_scan);
-    Sight caused(judge_.stripes());
+  Percept CausedByRock(const Percept& seen, const math::Transform& X_WR, core::TrialKey key,
+                       std::int64_t first_scan) const {
+    const Percept bare = bare_judge_.Look(bare_, X_WR, key, first_scan);
+    Percept caused(judge_.stripes());
     caused.scans = seen.scans;
     caused.first.missing = ChargedOnlyIn(seen.first.missing, bare.first.missing);
     caused.first.neighbour = ChargedOnlyIn(seen.first.neighbour, bare.first.neighbour);
@@ -75,9 +75,9 @@ class RockStudy : public HazardStudyRunner {
     return caused;
   }
 
-  Sight LookAt(const terrain::Terrain& terrain, const math::Transform& X_WR, core::TrialKey key,
-               std::int64_t first_scan) const {
-    Sight seen = judge_.Look(terrain, X_WR, key, first_scan);
+  Percept LookAt(const terrain::Terrain& terrain, const math::Transform& X_WR, core::TrialKey key,
+                 std::int64_t first_scan) const {
+    Percept seen = judge_.Look(terrain, X_WR, key, first_scan);
     const bool charged = Any(seen.first.missing) || Any(seen.first.neighbour) ||
                          Any(seen.first.range) || Any(seen.believed);
     return charged ? CausedByRock(seen, X_WR, key, first_scan) : seen;
@@ -111,14 +111,14 @@ class DetectionStudy final : public RockStudy {
       const core::TrialKey scene_key = SceneKey(key, params().scenes_per_run, scene);
       const RockScene drawn = DrawScene(rock, scene_key);
       const math::Transform X_WR = Pose(LastOf(cell) + drawn.distance_shift_m, drawn.heading_rad);
-      const Sight sight = LookAt(drawn.terrain, X_WR, scene_key, 0);
-      const bool missing = Any(sight.first.missing);
-      const bool neighbour = Any(sight.first.neighbour);
-      const bool range = Any(sight.first.range);
+      const Percept percept = LookAt(drawn.terrain, X_WR, scene_key, 0);
+      const bool missing = Any(percept.first.missing);
+      const bool neighbour = Any(percept.first.neighbour);
+      const bool range = Any(percept.first.range);
       const double row[] = {1.0,
-                            static_cast<double>(sight.scans),
+                            static_cast<double>(percept.scans),
                             Flag(missing || neighbour || range),
-                            Flag(Any(sight.believed)),
+                            Flag(Any(percept.believed)),
                             Flag(missing),
                             Flag(neighbour),
                             Flag(range)};
@@ -162,10 +162,11 @@ class ApproachStudy final : public RockStudy {
       // Scans of a drive are numbered one after the other, as in the closed loop: what a point
       // keeps from scan to scan passes from pose to pose, and later noise depends on earlier
       // rescans.
-      const Sight sight = LookAt(drawn.terrain, Pose(gap_m, drawn.heading_rad), key, scans);
-      scans += sight.scans;
-      single |= Any(sight.first.missing) || Any(sight.first.neighbour) || Any(sight.first.range);
-      believed |= Any(sight.believed);
+      const Percept percept = LookAt(drawn.terrain, Pose(gap_m, drawn.heading_rad), key, scans);
+      scans += percept.scans;
+      single |=
+          Any(percept.first.missing) || Any(percept.first.neighbour) || Any(percept.first.range);
+      believed |= Any(percept.believed);
     }
     sums[0] += 1.0;
     sums[1] += static_cast<double>(scans);

@@ -9,8 +9,8 @@
 namespace rockyard::navigation {
 namespace {
 
-constexpr double kLargestHeight_m = 10.0;                 // of points above and below R
-constexpr std::int64_t kMostPoints = math::kExactPoints;  // of a cell
+constexpr double kLargestHeight_m = 10.0;                // of points above and below R
+constexpr std::int64_t kMaxPoints = math::kExactPoints;  // of a cell
 // Estimates are taken as if they were here at most; lattice numbers stay far from overflow.
 constexpr double kFarthest_m = 1e6;
 
@@ -121,7 +121,7 @@ void GestaltMap::AddPoint(const math::Vector3& p_WP_W) {
   MapCell& cell = cells_.At(ix, iy);
   cell.last_cycle = cycle_;
   // Beyond this number sums could run over 2^64; the cell counts as seen all the same.
-  if (cell.moments.count() >= kMostPoints) return;
+  if (cell.moments.count() >= kMaxPoints) return;
   cell.moments.AddPoint(math::ToMomentUnits(p_WP_W.x()), math::ToMomentUnits(p_WP_W.y()),
                         math::ToMomentUnits(p_WP_W.z()));
   GrowBox(ix, iy);

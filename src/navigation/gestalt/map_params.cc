@@ -13,10 +13,10 @@ using core::Origin;
 
 using core::kGoldbergTable1;
 // Keeps the memory of a map below 10 MB, whatever is set.
-constexpr double kMostCells = 40000.0;
+constexpr double kMaxCells = 40000.0;
 // Distances of cells from planes in the search for outliers, in one evaluation: a fifth of a
 // second.
-constexpr double kMostDistances = 2e7;
+constexpr double kMaxDistances = 2e7;
 
 // Cells that cover `extent_m`; a hair of tolerance for extents such as 9 m in steps of 0.1 m.
 int Cells(double extent_m, double step_m) {
@@ -81,7 +81,7 @@ void RequireUse(GestaltMapParams& p, core::FieldVisitor& v) {
       (grid.xN_m - grid.x0_m) / grid.xstep_m * ((grid.yN_m - grid.y0_m) / grid.ystep_m);
   v.Require(
       "outliers_per_cell",
-      cells * MostPatchCells(p) * static_cast<double>(p.outliers_per_cell) <= kMostDistances,
+      cells * MostPatchCells(p) * static_cast<double>(p.outliers_per_cell) <= kMaxDistances,
       "makes more than 2e7 distances of cells from planes, cells times cells of a patch times "
       "outliers_per_cell: seconds for every look",
       "use fewer outliers, larger cells or closer bounds");
@@ -150,7 +150,7 @@ void GestaltGridParams::Visit(core::FieldVisitor& v) {
   const double rows = (yN_m - y0_m) / ystep_m;
   v.Require("xN_m", columns >= 2.0, "leaves less than two cells in x", "enlarge xN_m - x0_m");
   v.Require("yN_m", rows >= 2.0, "leaves less than two cells in y", "enlarge yN_m - y0_m");
-  v.Require("xstep_m", !(columns > 0.0 && rows > 0.0 && columns * rows > kMostCells),
+  v.Require("xstep_m", !(columns > 0.0 && rows > 0.0 && columns * rows > kMaxCells),
             "makes more than 40000 cells", "use larger cells or closer bounds");
 }
 

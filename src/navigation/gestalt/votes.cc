@@ -18,7 +18,7 @@ constexpr double kPeakTowards = 255.0;
 constexpr double kPeakAway = 128.0;
 
 // Keeps quotients finite for a rover that stands on its goal.
-constexpr double kLeastDistance_m = 1e-6;
+constexpr double kMinDistance_m = 1e-6;
 
 // A goal this near to straight behind is on the left, whatever rounding made of it.
 constexpr double kBehind_rad = 1e-9;
@@ -46,7 +46,7 @@ HazardVote VoteOnPath(const GoodnessGrid& grid, const PoseEstimate& estimate,
   double weighted_goodness = 0.0;
   double weighted_certainty = 0.0;
   double sum_of_weights = 0.0;
-  std::uint8_t least_goodness = 255;
+  std::uint8_t min_goodness = 255;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const PathPoint& p = points[k];
     // p_W = p_WR + Rz(heading) p_R by the believed pose.
@@ -55,11 +55,11 @@ HazardVote VoteOnPath(const GoodnessGrid& grid, const PoseEstimate& estimate,
     weighted_goodness += weights[k] * cell.goodness;
     weighted_certainty += weights[k] * cell.certainty;
     sum_of_weights += weights[k];
-    least_goodness = std::min(least_goodness, cell.goodness);
+    min_goodness = std::min(min_goodness, cell.goodness);
   }
   // Step 4: goodness = sum w g / sum w, certainty = sum w c / sum w; one forbidden cell forbids the
   // path.
-  const bool allowed = least_goodness > min_allowed_goodness;
+  const bool allowed = min_goodness > min_allowed_goodness;
   return {allowed ? weighted_goodness / sum_of_weights : 0.0, weighted_certainty / sum_of_weights};
 }
 
@@ -79,7 +79,7 @@ double WaypointPeak(const GoalDirection& goal, int direction) {
 double BestCurvature(const GoalDirection& goal, int direction, double step_m,
                      const GestaltParams& params) {
   const double limit = params.arcs.max_curvature_per_m;
-  const double distance_m = std::max(goal.distance_m, kLeastDistance_m);
+  const double distance_m = std::max(goal.distance_m, kMinDistance_m);
   const bool towards = LeadsToGoal(goal, direction);
   const bool with_rear = towards && direction < 0;
   const double turn_rad =

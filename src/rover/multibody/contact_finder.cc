@@ -169,9 +169,9 @@ bool ContactFinder::AreApart(const Part& part, const math::Transform& X_WB,
   // The tangent plane of the rock at that point separates the two if the whole part lies beyond it:
   // min n . (x - p) over the core, less the margin.
   const Vector3 n_B = X_WB.linear().transpose() * surface.normal_W;
-  const double least_m =
+  const double min_m =
       LeastAlong(part, n_B) + surface.normal_W.dot(X_WB.translation() - surface.point_W);
-  return least_m - part.margin_m > kFollowedGap_m;
+  return min_m - part.margin_m > kFollowedGap_m;
 }
 
 void ContactFinder::MeetRock(int index, const math::Transform& X_WB, const Vector3& center_W,

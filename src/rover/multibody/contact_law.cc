@@ -8,7 +8,7 @@ namespace {
 
 // Loads below this are taken as this where the soil's answer is looked up, N: a wheel that has just
 // touched has none, and all of it vanishes with the load.
-constexpr double kLeastLoad_N = 0.1;
+constexpr double kMinLoad_N = 0.1;
 
 }  // namespace
 
@@ -28,7 +28,7 @@ ContactLaw ContactLaws::Of(const Part& part, const Contact& contact, double spin
 }
 
 ContactLaw ContactLaws::OnSoil(const Contact& contact, double spin_rad_s) const {
-  const double load_N = std::max(contact.impulse_Ns[0] / step_s_, kLeastLoad_N);
+  const double load_N = std::max(contact.impulse_Ns[0] / step_s_, kMinLoad_N);
   const Rut rut = soil_.RutUnder(load_N);
   ContactLaw law;
   // The soil's sinkage z(N) in series with the contact's own spring k_c, along the tangent at this

@@ -60,15 +60,15 @@ void LooseRocks::Hold(LooseRock& rock) const {
   const auto& shape = terrain_.rocks()[static_cast<std::size_t>(rock.index)];
   // The soil pushes along wanted_Ns, so the rock is pushed the other way; the load is that of this
   // sweep.
-  const double most_Ns = step_s_ * terrain::HoldingForce(shape, params_, gravity_m_s2_,
-                                                         rock.load_Ns / step_s_, -wanted_Ns);
+  const double max_Ns = step_s_ * terrain::HoldingForce(shape, params_, gravity_m_s2_,
+                                                        rock.load_Ns / step_s_, -wanted_Ns);
   const double size_Ns = wanted_Ns.norm();
-  if (size_Ns <= most_Ns) {
+  if (size_Ns <= max_Ns) {
     rock.hold_Ns = wanted_Ns;
     rock.v_W_m_s.setZero();
     return;
   }
-  const Vector3 hold_Ns = most_Ns / size_Ns * wanted_Ns;
+  const Vector3 hold_Ns = max_Ns / size_Ns * wanted_Ns;
   rock.v_W_m_s += (hold_Ns - rock.hold_Ns) / rock.mass_kg;
   rock.hold_Ns = hold_Ns;
 }

@@ -130,11 +130,11 @@ void RockerBogie::SetSteer(std::size_t wheel, double angle_rad) {
 
 void RockerBogie::Step(const messages::WheelCommand& command) {
   // Steering follows at its rate limit, without torque.
-  const double most_rad = params_.drive.steer_rate_rad_s * step_s();
+  const double max_rad = params_.drive.steer_rate_rad_s * step_s();
   for (std::size_t i = 0; i < kWheelCount; ++i) {
     const double limit = steered_[i] ? params_.drive.max_steer_rad : 0.0;
     const double wanted = std::clamp(command.steer_rad[i], -limit, limit);
-    const double change = std::clamp(wanted - state_.steer_rad[i], -most_rad, most_rad);
+    const double change = std::clamp(wanted - state_.steer_rad[i], -max_rad, max_rad);
     if (change != 0.0) SetSteer(i, state_.steer_rad[i] + change);
   }
   messages::PerWheel<double> rate_rad_s = command.rate_rad_s;

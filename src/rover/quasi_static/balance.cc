@@ -15,7 +15,7 @@ constexpr double kRockCreep = 0.02;
 constexpr double kResistanceCreep = 0.1;
 // A wheel that stands, or turns slowly, is judged by this share of the fastest rim, and a rover
 // whose wheels all stand by this share of its speed.
-constexpr double kLeastReference = 0.05;
+constexpr double kMinReference = 0.05;
 // The last change of the rates, over the rover's speed. Newton's method leaves far less.
 constexpr double kTolerance = 1e-2;
 // Changes of the rates, over the rim speed, below which tractions are taken along their tangent;
@@ -23,7 +23,7 @@ constexpr double kTolerance = 1e-2;
 constexpr double kTangentRange = 0.3;
 // A step is cut where the slope at its end is more than this share of that at its start, turned.
 constexpr double kOvershoot = 0.5;
-constexpr int kMostCuts = 4;
+constexpr int kMaxCuts = 4;
 // Change of a load, over the mean wheel load, at which tractions follow it once more; and the
 // longest step by which they do.
 constexpr double kLoadTolerance = 0.05;
@@ -99,7 +99,7 @@ void QuasiStaticBalance::MakeWheelRow(const Linkage& linkage, const Drive& drive
   row.arm_m = axle_W.cross(contact.p_W - linkage.wheel_W(wheel)).norm();
   row.rim_m_s = rate_rad_s * row.arm_m;
   row.reference_m_s =
-      std::max(std::abs(rate_rad_s) * wheel_radius_m_, kLeastReference * rim_speed_m_s_);
+      std::max(std::abs(rate_rad_s) * wheel_radius_m_, kMinReference * rim_speed_m_s_);
   if (!contact.IsSoil()) return;
   // The sinkage curve in series with the contact's own spring, along its tangent at the last load.
   const double load_N = contact.load_N > 0.0 ? contact.load_N : mean_load_N_;
@@ -117,17 +117,17 @@ void QuasiStaticBalance::SetTraction(const RestingContact& contact, Row& row) co
   row.shear_ratio = row.resistance_N = 0.0;
   // Settling: no rim turns, and contacts are without traction.
   if (row.reference_m_s == 0.0) {
-    row.most_N = 0.0;
+    row.max_N = 0.0;
   } else if (contact.IsSoil()) {
     const SoilAnswer soil = soil_.At(load_N);
     // What the motor can hold at the rim bounds the traction as well.
-    row.most_N = std::min(soil.traction_N, stall_force_N_);
+    row.max_N = std::min(soil.traction_N, stall_force_N_);
     row.shear_ratio = soil.shear_ratio;
     row.resistance_N = soil.resistance_N;
   } else if (contact.IsWheel() && contact.other >= 0) {
-    row.most_N = std::min(contact_params_.wheel_rock_friction * load_N, stall_force_N_);
+    row.max_N = std::min(contact_params_.wheel_rock_friction * load_N, stall_force_N_);
   } else {
-    row.most_N = contact_params_.body_rock_friction * load_N;
+    row.max_N = contact_params_.body_rock_friction * load_N;
   }
 }
 
@@ -140,14 +140,14 @@ QuasiStaticBalance::Traction QuasiStaticBalance::TractionOf(const Row& row, doub
     // tau / u tends to 1/2 at u = 0.
     const double u = slip * row.shear_ratio;
     const ShearShare share = ShareOfRatio(u);
-    const double scale = row.most_N * row.shear_ratio / row.reference_m_s;
+    const double scale = row.max_N * row.shear_ratio / row.reference_m_s;
     constexpr double kSmall = 1e-6;
     return {scale * (u > kSmall ? share.value / u : 0.5), scale * share.slope};
   }
   // Rock, Coulomb's law made smooth:
   //   F = mu N i / sqrt(i^2 + i_c^2),  dF/dv = F / v i_c^2 / (i^2 + i_c^2).
   const double root2 = slip * slip + kRockCreep * kRockCreep;
-  const double per_speed = row.most_N / (std::sqrt(root2) * row.reference_m_s);
+  const double per_speed = row.max_N / (std::sqrt(root2) * row.reference_m_s);
   return {per_speed, per_speed * kRockCreep * kRockCreep / root2};
 }
 
@@ -165,7 +165,7 @@ void QuasiStaticBalance::AddForces(const SideVector& w, RestingContact& contact,
   }
   if (contact.load_N > 0.0) FollowLoad(contact, row);
   row.acts = true;
-  if (row.most_N == 0.0) {
+  if (row.max_N == 0.0) {
     equations_.AddForce(row.side, contact.load_N * row.normal);
     return;
   }
@@ -209,7 +209,7 @@ void QuasiStaticBalance::AddResistance(const SideVector& rates, Row& row) {
 void QuasiStaticBalance::AddStiffness(const RestingContact& contact, const Row& row) {
   if (!row.acts) return;
   const double k_n = step_s_ * row.stiffness_N_m;
-  if (row.most_N == 0.0) return equations_.AddStiffness(row.side, k_n, row.normal);
+  if (row.max_N == 0.0) return equations_.AddStiffness(row.side, k_n, row.normal);
   equations_.AddStiffness(row.side, k_n * row.normal, row.normal,
                           row.k_aa * row.along + row.k_ab * row.across, row.along,
                           row.k_ab * row.along + row.k_bb * row.across, row.across);
@@ -253,10 +253,10 @@ bool QuasiStaticBalance::IsSmall(const LinkageVector& change, double speed_m_s) 
 void QuasiStaticBalance::FollowLoad(RestingContact& contact, Row& row) {
   const double change_N = contact.load_N - contact.traction_load_N;
   if (std::abs(change_N) < kLoadTolerance * mean_load_N_) return;
-  const double most_N = kLoadStep * mean_load_N_;
-  contact.traction_load_N += std::clamp(change_N, -most_N, most_N);
+  const double max_N = kLoadStep * mean_load_N_;
+  contact.traction_load_N += std::clamp(change_N, -max_N, max_N);
   SetTraction(contact, row);
-  if (std::abs(change_N) > most_N) traction_lags_ = true;
+  if (std::abs(change_N) > max_N) traction_lags_ = true;
 }
 
 // A last small change moves the loads along the springs; the tractions stay.
@@ -274,7 +274,7 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
                               std::vector<RestingContact>& contacts, LinkageVector& rates) {
   // The fastest rim. Where none turns, a share of the top speed stands for it, so that slip stays
   // defined.
-  rim_speed_m_s_ = drive.freedom == Freedom::kSettling ? 0.0 : kLeastReference * speed_m_s_;
+  rim_speed_m_s_ = drive.freedom == Freedom::kSettling ? 0.0 : kMinReference * speed_m_s_;
   for (const double rate : drive.rate_rad_s) {
     rim_speed_m_s_ = std::max(rim_speed_m_s_, std::abs(rate) * wheel_radius_m_);
   }
@@ -297,7 +297,7 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
   first_ = false;
   // Newton's method: (D - dF/dw) change = F, until the change is small and no traction waits for
   // its load.
-  for (int iteration = 1; iteration < kMostIterations; ++iteration) {
+  for (int iteration = 1; iteration < kMaxIterations; ++iteration) {
     for (std::size_t i = 0; i < contacts.size(); ++i) AddStiffness(contacts[i], rows_[i]);
     LinkageVector change = equations_.Solve();
     const double drop = equations_.force().dot(change);
@@ -311,7 +311,7 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
     Evaluate(next, contacts);
     // With its tractions given, the function is convex and F is minus its gradient: where F .
     // change has turned its sign, the minimum lies before. The secant of F . change says where.
-    for (int cut = 0; cut < kMostCuts; ++cut) {
+    for (int cut = 0; cut < kMaxCuts; ++cut) {
       const double slope = equations_.force().dot(change);
       if (slope >= -kOvershoot * drop) break;
       change *= drop / (drop - slope);
@@ -320,7 +320,7 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
     }
     rates = next;
   }
-  return kMostIterations;
+  return kMaxIterations;
 }
 
 }  // namespace rockyard::rover

@@ -49,12 +49,12 @@ class QuasiStaticBalance {
 
   // Starts from `rates`, for example those of the last step, and leaves the solution there; it
   // leaves loads and sliding speeds in the contacts, and motor torques for MotorTorque_Nm. Returns
-  // the number of iterations, which cost 0.5 us each; kMostIterations means that the tolerance was
+  // the number of iterations, which cost 0.5 us each; kMaxIterations means that the tolerance was
   // not met.
   int Solve(const Linkage& linkage, const Posture& posture, const Drive& drive,
             std::vector<RestingContact>& contacts, LinkageVector& rates);
 
-  static constexpr int kMostIterations = 20;
+  static constexpr int kMaxIterations = 20;
 
   // The motor's torque about the axle in the last solution, positive where it drives forward.
   double MotorTorque_Nm(std::size_t wheel) const { return torque_Nm_[wheel]; }
@@ -73,7 +73,7 @@ class QuasiStaticBalance {
     double arm_m = 0.0;          // motor torque over force along
     double reference_m_s = 0.0;  // slip is measured in shares of this
     // At the load that the traction is taken from.
-    double most_N = 0.0;
+    double max_N = 0.0;
     double shear_ratio = 0.0;  // 0: Coulomb
     double resistance_N = 0.0;
     // These are of the last evaluation: stiffness across the normal and of the motion resistance, N

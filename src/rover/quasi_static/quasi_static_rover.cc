@@ -14,8 +14,8 @@ using messages::kWheelCount;
 constexpr double kReach_m = 0.005;
 // Longest movement of R's origin and largest turn in one stretch, as multiples of what the wheels
 // would do: a rover that falls does so in several stretches.
-constexpr double kMostMove = 2.0;
-constexpr double kMostTurn_rad = 0.1;
+constexpr double kMaxMove = 2.0;
+constexpr double kMaxTurn_rad = 0.1;
 // A change of steering below this keeps the stretch, rad.
 constexpr double kSameSteer_rad = 0.017;
 // Slower changes than these in a stretch are none: less than a thousandth of a wheel's load.
@@ -32,10 +32,10 @@ constexpr double kSettleMove_m = 0.02;
 constexpr double kSettled_m = 1e-6;
 
 // Scales rates so that nothing moves further than allowed within the time.
-void Limit(double time_s, double most_m, double most_rad, LinkageVector& rates) {
+void Limit(double time_s, double max_m, double max_rad, LinkageVector& rates) {
   const double move_m = time_s * rates.head<3>().norm();
   const double turn_rad = time_s * rates.tail<6>().cwiseAbs().maxCoeff();
-  const double scale = std::max({1.0, move_m / most_m, turn_rad / most_rad});
+  const double scale = std::max({1.0, move_m / max_m, turn_rad / max_rad});
   rates /= scale;
 }
 
@@ -116,7 +116,7 @@ void QuasiStaticRover::Settle() {
     // Contacts open and close while the rover sinks: balances are repeated until nothing moves.
     balance_.Solve(linkage_, posture_, {{}, time_s, 0.0, Freedom::kSettling}, contacts_.contacts(),
                    rates_);
-    Limit(time_s, kSettleMove_m, kMostTurn_rad, rates_);
+    Limit(time_s, kSettleMove_m, kMaxTurn_rad, rates_);
     posture_ = Moved(posture_, rates_, time_s);
     if (time_s * rates_.cwiseAbs().maxCoeff() < kSettled_m) break;
   }
@@ -125,11 +125,11 @@ void QuasiStaticRover::Settle() {
 
 bool QuasiStaticRover::Steer(const messages::PerWheel<double>& wanted_rad) {
   bool changed = false;
-  const double most_rad = params_.drive.steer_rate_rad_s * step_s();
+  const double max_rad = params_.drive.steer_rate_rad_s * step_s();
   for (std::size_t i = 0; i < kWheelCount; ++i) {
     const double limit = geometry_.steered[i] ? params_.drive.max_steer_rad : 0.0;
     const double wanted = std::clamp(wanted_rad[i], -limit, limit);
-    const double change = std::clamp(wanted - state_.steer_rad[i], -most_rad, most_rad);
+    const double change = std::clamp(wanted - state_.steer_rad[i], -max_rad, max_rad);
     state_.steer_rad[i] += change;
     changed |= change != 0.0;
   }
@@ -156,7 +156,7 @@ void QuasiStaticRover::SteerAtRest() {
   }
   rates_.setZero();
   Balance({{}, step_s(), 0.0, Freedom::kAll});
-  Limit(step_s(), kReach_m, kMostTurn_rad, rates_);
+  Limit(step_s(), kReach_m, kMaxTurn_rad, rates_);
   posture_ = Moved(posture_, rates_, step_s());
   stretch_.duration_s = 0.0;
   steady_ = false;
@@ -224,8 +224,8 @@ double QuasiStaticRover::StretchTime_s(const messages::PerWheel<double>& rate_ra
   // first.
   const double turn_rad_s = std::abs(TurnRate(geometry_, radius_m, rate_rad_s, state_.steer_rad));
   const double way_s = params_.quasi_static.settle_distance_m / (rate * radius_m);
-  const double most_rad = params_.quasi_static.settle_turn_rad;
-  return turn_rad_s * way_s > most_rad ? most_rad / turn_rad_s : way_s;
+  const double max_rad = params_.quasi_static.settle_turn_rad;
+  return turn_rad_s * way_s > max_rad ? max_rad / turn_rad_s : way_s;
 }
 
 // One stretch: contacts half a stretch ahead at the last rates, one balance there, and the rates
@@ -250,7 +250,7 @@ void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
   Balance({rate_rad_s, stretch_.duration_s, lead_s, Freedom::kAll});
   // From here on RollOn may repeat this balance, which is the same in the rover's frame.
   steady_ = on_level_ground && IsSteady();
-  Limit(stretch_.duration_s, kMostMove * params_.quasi_static.settle_distance_m, kMostTurn_rad,
+  Limit(stretch_.duration_s, kMaxMove * params_.quasi_static.settle_distance_m, kMaxTurn_rad,
         rates_);
   // A fall may be longer than a stretch allows: Limit lets the rover fall in several.
   stretch_.to = Moved(posture_, rates_, stretch_.duration_s);

@@ -9,14 +9,14 @@ namespace {
 
 using math::Vector3;
 
-constexpr int kMostIterations = 12;
+constexpr int kMaxIterations = 12;
 // The gap is stationary in the normal and Newton's method is quadratic: after a step of this size
 // the error of the gap is below 1e-9 m.
 constexpr double kConverged_rad = 3e-3;
 // Longest step on the sphere, rad.
 constexpr double kLongestStep_rad = 0.5;
 // Sine of the angle between normal and axle below which the disc counts as seen edge-on.
-constexpr double kLeastSine = 0.02;
+constexpr double kMinSine = 0.02;
 
 // The convex body that is rock plus disc: supports of both and the offset between their centres.
 struct Pair {
@@ -34,7 +34,7 @@ double AlignInPlane(const Pair& pair, Vector3& n) {
   // Nothing is left of the normal of a side face: any direction starts as well.
   if (n.squaredNorm() < 1e-6) n = pair.axle_W.unitOrthogonal();
   n.normalize();
-  for (int i = 0; i < kMostIterations; ++i) {
+  for (int i = 0; i < kMaxIterations; ++i) {
     // With n' = e and n'' = -n along the circle, D = sqrt(n' S n):
     //   f'  = e . d - e . S n / D,
     //   -f'' = n . d - D + e . S e / D - (e . S n)^2 / D^3   (d: offset of the centres),
@@ -71,11 +71,11 @@ void AlignOnEdge(const Pair& pair, Vector3& n) {
   Vector3 last = n;
   Vector3 move = Vector3::Zero();
   double last_f = -std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kMostIterations; ++i) {
+  for (int i = 0; i < kMaxIterations; ++i) {
     // Orthonormal b, e, n: b across the axle and the normal, e from the rim's plane towards the
     // axle.
     const double t = n.dot(pair.axle_W);
-    const double sine = std::max(std::sqrt(std::max(1.0 - t * t, 0.0)), kLeastSine);
+    const double sine = std::max(std::sqrt(std::max(1.0 - t * t, 0.0)), kMinSine);
     Vector3 b = pair.axle_W.cross(n);
     b.normalize();
     const Vector3 e = n.cross(b);

@@ -11,28 +11,28 @@ namespace {
 // loads.
 constexpr int kIntervals = 128;
 // Soil without shear deformation has all its traction from this u on.
-constexpr double kMostRatio = 1e4;
+constexpr double kMaxRatio = 1e4;
 
 }  // namespace
 
-WheelSoilTable::WheelSoilTable(const WheelSoil& soil, double most_N) : most_N_(most_N) {
+WheelSoilTable::WheelSoilTable(const WheelSoil& soil, double max_N) : max_N_(max_N) {
   nodes_.reserve(kIntervals + 1);
   for (int i = 0; i <= kIntervals; ++i) {
     // The first node stands a little above zero, where the stiffness can be infinite.
     const double root = std::max(i, 1) / static_cast<double>(kIntervals);
-    const double load_N = root * root * most_N;
+    const double load_N = root * root * max_N;
     const Rut rut = soil.RutUnder(load_N);
     const double scale = i == 0 ? 0.0 : 1.0;
     nodes_.push_back({scale * rut.sinkage_m, rut.stiffness_N_m, scale * rut.largest_traction_N,
                       scale * rut.resistance_N,
-                      std::min(soil.ShearRatioOfFullSlip(load_N), kMostRatio)});
+                      std::min(soil.ShearRatioOfFullSlip(load_N), kMaxRatio)});
   }
 }
 
 SoilAnswer WheelSoilTable::At(double load_N) const {
   if (std::isnan(load_N)) throw std::runtime_error("a wheel load is not a number");
-  // Position among the nodes; loads beyond most_N are taken as most_N.
-  const double at = kIntervals * std::sqrt(std::clamp(load_N / most_N_, 0.0, 1.0));
+  // Position among the nodes; loads beyond max_N are taken as max_N.
+  const double at = kIntervals * std::sqrt(std::clamp(load_N / max_N_, 0.0, 1.0));
   const int index = std::min(static_cast<int>(at), kIntervals - 1);
   const double s = at - index;
   const SoilAnswer& a = nodes_[static_cast<std::size_t>(index)];

@@ -17,17 +17,17 @@ struct SoilAnswer {
 };
 
 // The table is linear between nodes that lie evenly in the root of the load. It is within 1 % of
-// WheelSoil from a hundredth of most_N on; loads beyond most_N are taken as most_N. A call costs 10
+// WheelSoil from a hundredth of max_N on; loads beyond max_N are taken as max_N. A call costs 10
 // ns.
 class WheelSoilTable {
  public:
-  WheelSoilTable(const WheelSoil& soil, double most_N);
+  WheelSoilTable(const WheelSoil& soil, double max_N);
 
   // Throws std::runtime_error where the load is not a number.
   SoilAnswer At(double load_N) const;
 
  private:
-  double most_N_;
+  double max_N_;
   std::vector<SoilAnswer> nodes_;
 };
 

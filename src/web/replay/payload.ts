@@ -34,7 +34,7 @@ export interface ReplayPayload {
 export interface Course {
   start: { x: number; y: number; heading: number };
   goal: { x: number; y: number; radius: number };
-  /** The goal that the rover was told, where it was designated with errors. */
+  /** The designated goal, where it was designated with errors. */
   told_goal: { x: number; y: number };
   /** Corners of the area that holds terrain. */
   bounds: { x_min: number; x_max: number; y_min: number; y_max: number };

@@ -10,9 +10,9 @@
 
 namespace rockyard::rover {
 
-// Rocks of N(>=D) = k D^-2.66 per m2 from 0.1 m to most_m, half buried, at low-discrepancy places:
+// Rocks of N(>=D) = k D^-2.66 per m2 from 0.1 m to max_m, half buried, at low-discrepancy places:
 // fixed fields, numbered from 0.
-inline terrain::Terrain ScatteredRocks(double k, double most_m, int number) {
+inline terrain::Terrain ScatteredRocks(double k, double max_m, int number) {
   constexpr double kExponent = 2.66;
   constexpr double kSmallest_m = 0.1;
   constexpr double kArea_m2 = 14.0 * 6.0;
@@ -26,7 +26,7 @@ inline terrain::Terrain ScatteredRocks(double k, double most_m, int number) {
     const double y = -3.0 + 6.0 * scatter(i, 0.5698402909980532);
     const double tail = 1.0 - scatter(i, 0.6180339887498949) * (1.0 - std::pow(10.0, -kExponent));
     const double a = 0.5 * kSmallest_m * std::pow(tail, -1.0 / kExponent);
-    if (2.0 * a > most_m || std::hypot(x, y) < 0.6 + a) continue;
+    if (2.0 * a > max_m || std::hypot(x, y) < 0.6 + a) continue;
     rocks.push_back(MakeRock(x, y, 0.0, a, 0.85 * a, 0.7 * a));
     rocks.back().yaw_rad = 2.0 * std::numbers::pi * scatter(i, 0.3247179572447461);
   }

@@ -56,7 +56,7 @@ export function layersPanel(payload: ReplayPayload, layers: Layers, changed: () 
     panel.append(key);
   }
   add("grid", "Grid in metres");
-  if (toldElsewhere(payload.course)) panel.append(el("p", { class: "key" }, "Goal as told to the rover", swatch("told")));
+  if (toldElsewhere(payload.course)) panel.append(el("p", { class: "key" }, "Designated goal", swatch("told")));
   if (payload.course.mirror_lines.length > 0) {
     panel.append(el("p", { class: "key" }, "Mirror line: operators turn the rover back", swatch("mirror")));
   }

@@ -72,7 +72,7 @@ export function makeCourse(course: Course, heights: GroundHeights, palette: Pale
   sign("goal", goal.x, goal.y, 0.5, palette.goal, [1.08, 0]);
   if (toldElsewhere(course)) {
     line(ring(told.x, told.y, goal.radius, heights), palette["told-goal"], [0.08, 0.06]);
-    sign("goal as told", told.x, told.y, 0.25, palette["told-goal"], [-0.08, 0]);
+    sign("designated goal", told.x, told.y, 0.25, palette["told-goal"], [-0.08, 0]);
   }
   return group;
 }

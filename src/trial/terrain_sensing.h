@@ -22,7 +22,7 @@
 namespace rockyard::trial {
 
 // What one look shows: a report or points, as the navigator reads them.
-struct Sight {
+struct Percept {
   bool look_again = false;  // undecided: another look at this pose has to follow
   LookTime time = {};       // that the look took
   std::optional<messages::HazardReport> report = {};
@@ -34,17 +34,17 @@ struct Sight {
 //   stereo, behaviour controller: the highest points of a cloud as elevations, then the same;
 //   stereo, map: the cloud;
 //   light stripe, map: the triangulated points as a cloud; nothing is seen behind, at no cost.
-class Lookout {
+class TerrainSensing {
  public:
-  Lookout(const DriveParams& drive, core::TrialKey key, ScanWatcher watcher);
+  TerrainSensing(const DriveParams& drive, core::TrialKey key, ScanWatcher watcher);
 
   // The rover has stopped at a new pose.
   void Begin() { hazard_detector_.Reset(); }
 
   // Looks from X_WR; `attitude` is how the rover believes to stand. Noise is indexed by the number
   // of the look, counted over the trial.
-  Sight Look(messages::LookDirection direction, const terrain::Terrain& terrain,
-             const math::Transform& X_WR, const messages::AttitudeEstimate& attitude);
+  Percept Look(messages::LookDirection direction, const terrain::Terrain& terrain,
+               const math::Transform& X_WR, const messages::AttitudeEstimate& attitude);
 
   std::int64_t scans() const { return scans_; }      // with the light stripe
   std::int64_t rescans() const { return rescans_; }  // looks again at one pose, of either sensor
@@ -53,11 +53,11 @@ class Lookout {
   const LookTime& look_time() const { return look_time_; }
 
  private:
-  Sight Scan(messages::LookDirection direction, const terrain::Terrain& terrain,
-             const math::Transform& X_WR);
-  Sight TakeImages(messages::LookDirection direction, const terrain::Terrain& terrain,
-                   const math::Transform& X_WR, const messages::AttitudeEstimate& attitude);
-  Sight Judge(const messages::ElevationScan& elevations);
+  Percept Scan(messages::LookDirection direction, const terrain::Terrain& terrain,
+               const math::Transform& X_WR);
+  Percept TakeImages(messages::LookDirection direction, const terrain::Terrain& terrain,
+                     const math::Transform& X_WR, const messages::AttitudeEstimate& attitude);
+  Percept Judge(const messages::ElevationScan& elevations);
 
   core::TrialKey key_;
   bool reads_points_;  // the navigator

@@ -110,7 +110,7 @@ std::string ScansJson(std::span<const ReplayScan> scans) {
 }
 
 std::string StepsJson(std::span<const ReplayStep> steps) {
-  const std::size_t every = (steps.size() + kMostDetailedSteps - 1) / kMostDetailedSteps;
+  const std::size_t every = (steps.size() + kMaxDetailedSteps - 1) / kMaxDetailedSteps;
   std::size_t number = 0;
   return JsonList(steps,
                   [&](const ReplayStep& step) { return StepText(step, number++ % every == 0); });

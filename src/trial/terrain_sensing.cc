@@ -1,4 +1,4 @@
-#include "trial/lookout.h"
+#include "trial/terrain_sensing.h"
 
 #include <utility>
 
@@ -9,7 +9,7 @@ namespace rockyard::trial {
 
 using messages::LookDirection;
 
-Lookout::Lookout(const DriveParams& drive, core::TrialKey key, ScanWatcher watcher)
+TerrainSensing::TerrainSensing(const DriveParams& drive, core::TrialKey key, ScanWatcher watcher)
     : key_(key),
       reads_points_(drive.navigation.navigator == NavigatorKind::kGestalt),
       scanner_(drive, std::move(watcher)),
@@ -27,17 +27,18 @@ Lookout::Lookout(const DriveParams& drive, core::TrialKey key, ScanWatcher watch
   }
 }
 
-Sight Lookout::Look(LookDirection direction, const terrain::Terrain& terrain,
-                    const math::Transform& X_WR, const messages::AttitudeEstimate& attitude) {
+Percept TerrainSensing::Look(LookDirection direction, const terrain::Terrain& terrain,
+                             const math::Transform& X_WR,
+                             const messages::AttitudeEstimate& attitude) {
   if (looks_again_) ++rescans_;
-  Sight sight =
+  Percept percept =
       stereo_ ? TakeImages(direction, terrain, X_WR, attitude) : Scan(direction, terrain, X_WR);
-  looks_again_ = sight.look_again;
-  return sight;
+  looks_again_ = percept.look_again;
+  return percept;
 }
 
-Sight Lookout::Scan(LookDirection direction, const terrain::Terrain& terrain,
-                    const math::Transform& X_WR) {
+Percept TerrainSensing::Scan(LookDirection direction, const terrain::Terrain& terrain,
+                             const math::Transform& X_WR) {
   if (direction == LookDirection::kBehind) {
     return {.cloud = messages::PointCloud{scans_, direction, {}}};
   }
@@ -48,8 +49,9 @@ Sight Lookout::Scan(LookDirection direction, const terrain::Terrain& terrain,
   return Judge(triangulator_.Elevations(scan));
 }
 
-Sight Lookout::TakeImages(LookDirection direction, const terrain::Terrain& terrain,
-                          const math::Transform& X_WR, const messages::AttitudeEstimate& attitude) {
+Percept TerrainSensing::TakeImages(LookDirection direction, const terrain::Terrain& terrain,
+                                   const math::Transform& X_WR,
+                                   const messages::AttitudeEstimate& attitude) {
   messages::PointCloud cloud = stereo_->Look(terrain, X_WR, key_, image_sets_, direction);
   const auto& misplaced = direction == LookDirection::kAhead ? misplaced_ahead_ : misplaced_behind_;
   if (misplaced) {
@@ -61,7 +63,7 @@ Sight Lookout::TakeImages(LookDirection direction, const terrain::Terrain& terra
   return Judge(perception::CloudElevations(cloud, attitude, cloud_elevations_));
 }
 
-Sight Lookout::Judge(const messages::ElevationScan& elevations) {
+Percept TerrainSensing::Judge(const messages::ElevationScan& elevations) {
   const perception::HazardDetector::Verdict verdict = hazard_detector_.Process(elevations);
   return {.look_again = verdict.scan_again, .time = look_time_, .report = verdict.report};
 }
