@@ -10,13 +10,13 @@
 #include <system_error>
 #include <vector>
 
-#include "app/baseline_scenario.h"
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/output_file.h"
-#include "app/run_source.h"
 #include "batch/run_folder.h"
 #include "batch/trial_hash.h"
+#include "campaign/baseline_scenario.h"
+#include "campaign/output_file.h"
+#include "campaign/run_source.h"
 #include "core/error.h"
 #include "report/atomic_file.h"
 #include "report/baseline.h"
@@ -40,7 +40,7 @@ std::string Joined(const std::set<std::string>& builds) {
 }
 
 // What would make a bad baseline.
-std::vector<core::Problem> ProblemsOf(const StoredRun& run) {
+std::vector<core::Problem> ProblemsOf(const campaign::StoredRun& run) {
   if (truth::IsMeasurement(run.schema)) {
     return {{run.Label(), "drives nothing, so that no metric is defined", "name runs of drives"}};
   }
@@ -50,11 +50,11 @@ std::vector<core::Problem> ProblemsOf(const StoredRun& run) {
              fmt::format("is unfinished: {} of {} trials", run.prefix().size(), run.planned),
              "finish it with rockyard run --resume"}};
   }
-  return SharedLayoutProblems(run.Label(), run.identity.resolved);
+  return campaign::SharedLayoutProblems(run.Label(), run.identity.resolved);
 }
 
-report::BaselineCell CellOf(const StoredRun& run) {
-  report::BaselineCell cell{.name = CellName(run),
+report::BaselineCell CellOf(const campaign::StoredRun& run) {
+  report::BaselineCell cell{.name = campaign::CellName(run),
                             .scenario = run.identity.scenario,
                             .fingerprint = run.identity.fingerprint,
                             .resolved = run.identity.resolved,
@@ -73,8 +73,8 @@ report::Baseline ReadBaseline(const BaselineOptions& options) {
   std::vector<core::Problem> problems;
   for (const std::string& path : options.runs) {
     for (const fs::path& folder : batch::FindRuns(path)) {
-      for (const StoredRun& run : ReadCampaign(folder)) {
-        RequireWhole(run);
+      for (const campaign::StoredRun& run : campaign::ReadCampaign(folder)) {
+        campaign::RequireWhole(run);
         for (core::Problem& problem : ProblemsOf(run)) problems.push_back(std::move(problem));
         builds.insert(run.builds.begin(), run.builds.end());
         baseline.cells.push_back(CellOf(run));
@@ -107,7 +107,7 @@ void WriteBaseline(const BaselineOptions& options) {
   const std::string name = NameOf(options);
   const std::string out =
       options.out.empty() ? fmt::format("results/baselines/{}.json", name) : options.out;
-  CheckOutputFile("--out", out);
+  campaign::CheckOutputFile("--out", out);
   report::Baseline baseline = ReadBaseline(options);
   baseline.name = name;
   const std::string text = report::BaselineJson(baseline);

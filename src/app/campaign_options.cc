@@ -70,6 +70,24 @@ void AddFolderOptions(CLI::App& command, CampaignOptions& options) {
                    "say what would be done and what it would cost; run and write nothing else");
 }
 
+// `options` must outlive the command.
+void AddTraceOptions(CLI::App& command, campaign::TraceOptions& options) {
+  CLI::Option* traces =
+      command
+          .add_option("--traces", options.rules,
+                      "afterwards drive chosen trials again and write their course into the "
+                      "folder traces: all, failures, worst:N (failures that ended furthest from "
+                      "the goal, of each cell), share:P (a random share); repeat for more")
+          ->type_name("RULE:{all,failures,worst:N,share:P}")
+          ->allow_extra_args(false);
+  command
+      .add_option("--trace-format", options.format,
+                  "of these files: npz (arrays for NumPy) or csv (samples and events)")
+      ->check(CLI::IsMember({"npz", "csv"}))
+      ->capture_default_str()
+      ->needs(traces);
+}
+
 void AddProcessOptions(CLI::App& command, CampaignOptions& options) {
   command.add_option("--threads", options.threads, "threads (default: all of the machine)")
       ->check(CLI::Range(1, 4096));
@@ -97,9 +115,10 @@ Output CampaignOptions::output() const {
   return quiet ? Output::kQuiet : Output::kText;
 }
 
-ExistingRun CampaignOptions::existing() const {
-  if (resume) return force ? ExistingRun::kResumeOrSetAside : ExistingRun::kResume;
-  return force ? ExistingRun::kSetAside : ExistingRun::kRefuse;
+campaign::ExistingRun CampaignOptions::existing() const {
+  if (resume)
+    return force ? campaign::ExistingRun::kResumeOrSetAside : campaign::ExistingRun::kResume;
+  return force ? campaign::ExistingRun::kSetAside : campaign::ExistingRun::kRefuse;
 }
 
 std::optional<batch::StoppingRule> CampaignOptions::stopping_rule() const {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "app/open_run.h"
-#include "app/trace_retention.h"
 #include "batch/campaign.h"
 #include "batch/stopping_rule.h"
+#include "campaign/open_run.h"
+#include "campaign/trace_retention.h"
 
 namespace CLI {
 class App;
@@ -37,12 +37,12 @@ struct CampaignOptions {
   std::string shard_text;            // "I/N"; empty: the whole campaign
   double until_half_width = 0.0;     // 0: no stopping rule
   std::string allocate = "uniform";
-  TraceOptions traces;
+  campaign::TraceOptions traces;
   std::string resume_command;  // as ResumeText gives it
   batch::StoppingRule rule;    // where until_half_width is given; its half-width is that one
 
   Output output() const;
-  ExistingRun existing() const;
+  campaign::ExistingRun existing() const;
   std::optional<batch::StoppingRule> stopping_rule() const;
   // Throws core::UserError where the text is none of 1/N ... N/N, or does not go with the rule.
   batch::Shard shard() const;

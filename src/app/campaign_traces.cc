@@ -14,9 +14,9 @@
 #include "app/campaign_process.h"
 #include "app/console.h"
 #include "app/progress_line.h"
-#include "app/run_source.h"
 #include "batch/parallel_tasks.h"
 #include "batch/trial_hash.h"
+#include "campaign/run_source.h"
 #include "core/error.h"
 #include "report/atomic_file.h"
 #include "report/trace_csv.h"
@@ -31,7 +31,7 @@ using batch::Mission;
 
 constexpr std::size_t kMostProblems = 8;  // that are told
 
-fs::path CellFolder(const fs::path& folder, const StoredRun& run) {
+fs::path CellFolder(const fs::path& folder, const campaign::StoredRun& run) {
   fs::path traces = folder / "traces";
   if (run.identity.name.empty()) return traces;
   return traces / scenario::CellFileName(static_cast<std::size_t>(run.cell), run.identity.name);
@@ -72,10 +72,10 @@ class TraceWriter {
 
   // Notes which traces of a cell are to be written. Every cell comes before the first WriteCell:
   // what is told of is a share of all.
-  void PlanCell(const StoredRun& run) {
+  void PlanCell(const campaign::StoredRun& run) {
     std::vector<std::uint64_t>& wanted = wanted_.emplace_back();
     for (const std::uint64_t trial :
-         KeptTrials(request_.retention, run.schema, run.records, run.identity.seed)) {
+         campaign::KeptTrials(request_.retention, run.schema, run.records, run.identity.seed)) {
       if (!IsAsked({run.cell, static_cast<std::int64_t>(trial)})) continue;
       ++total_;
       std::error_code ignored;
@@ -89,9 +89,10 @@ class TraceWriter {
 
   bool HasWork(int cell) const { return !wanted_[static_cast<std::size_t>(cell)].empty(); }
 
-  void WriteCell(const StoredRun& run) {
+  void WriteCell(const campaign::StoredRun& run) {
     if (!MakeFolder(CellFolder(folder_, run))) return;
-    const scenario::Scenario scenario = LoadScenarioFrom(folder_, {}, std::to_string(run.cell));
+    const scenario::Scenario scenario =
+        campaign::LoadScenarioFrom(folder_, {}, std::to_string(run.cell));
     const std::vector<std::uint64_t>& wanted = wanted_[static_cast<std::size_t>(run.cell)];
     std::vector<const truth::Record*> records;
     for (const truth::Record& record : run.records) {
@@ -124,7 +125,7 @@ class TraceWriter {
   }
 
  private:
-  fs::path PathOf(const StoredRun& run, std::uint64_t trial) const {
+  fs::path PathOf(const campaign::StoredRun& run, std::uint64_t trial) const {
     return CellFolder(folder_, run) / TraceFileName(trial, request_.format);
   }
 
@@ -169,13 +170,14 @@ class TraceWriter {
   }
 
   // Says what is wrong with a trial, and lets the others go on.
-  void WriteTrial(const scenario::Scenario& scenario, const StoredRun& run,
+  void WriteTrial(const scenario::Scenario& scenario, const campaign::StoredRun& run,
                   const truth::Record& stored) {
     const fs::path path = PathOf(run, stored.trial);
     std::vector<core::Problem> problems;
     try {
       const InFlight flight(log_, {run.cell, static_cast<std::int64_t>(stored.trial)});
-      const DriveRecording recording = request_.drive(scenario, run.identity.seed, stored.trial);
+      const campaign::DriveRecording recording =
+          request_.drive(scenario, run.identity.seed, stored.trial);
       const auto differences =
           report::RecordDifferences(run.schema, stored, recording.traced.record);
       if (differences.empty()) {
@@ -215,10 +217,10 @@ class TraceWriter {
 }  // namespace
 
 std::string TraceBytes(const scenario::Scenario& scenario, const std::string& cell,
-                       const DriveRecording& recording, TraceFormat format) {
+                       const campaign::DriveRecording& recording, campaign::TraceFormat format) {
   const report::TracedTrial& traced = recording.traced;
-  if (format == TraceFormat::kCsv) return report::TraceCsv(traced.trace);
-  const std::vector<report::ReplayPose> poses = PosesOf(scenario, traced.trace);
+  if (format == campaign::TraceFormat::kCsv) return report::TraceCsv(traced.trace);
+  const std::vector<report::ReplayPose> poses = campaign::PosesOf(scenario, traced.trace);
   return report::TraceNpz({.traced = traced,
                            .poses = poses,
                            .scans = recording.scans,
@@ -228,15 +230,16 @@ std::string TraceBytes(const scenario::Scenario& scenario, const std::string& ce
                            .provenance = core::CurrentProvenance()});
 }
 
-std::string TraceFileName(std::uint64_t trial, TraceFormat format) {
-  return fmt::format("trial-{:06}.{}", trial, format == TraceFormat::kCsv ? "csv" : "npz");
+std::string TraceFileName(std::uint64_t trial, campaign::TraceFormat format) {
+  return fmt::format("trial-{:06}.{}", trial,
+                     format == campaign::TraceFormat::kCsv ? "csv" : "npz");
 }
 
 ExitCode WriteTraces(const fs::path& folder, const TraceRequest& request, const Mission& mission,
                      batch::FlightLog& log) {
   TraceWriter writer(folder, request, mission, log);
   const batch::ResultStore store = batch::ResultStore::Read(folder);
-  const CellReader reader(folder, store);
+  const campaign::CellReader reader(folder, store);
   for (int cell = 0; cell < store.cells(); ++cell) writer.PlanCell(reader.Load(cell));
   for (int cell = 0; cell < store.cells() && !log.stop(); ++cell) {
     if (writer.HasWork(cell)) writer.WriteCell(reader.Load(cell));

@@ -6,33 +6,33 @@
 #include <functional>
 #include <string>
 
-#include "app/drive_recording.h"
 #include "app/exit_code.h"
-#include "app/trace_retention.h"
 #include "batch/flight_log.h"
 #include "batch/supervisor.h"
+#include "campaign/drive_recording.h"
+#include "campaign/trace_retention.h"
 #include "scenario/scenario.h"
 
 namespace rockyard::app {
 
 // As RecordDrive.
-using TraceDriver = std::function<DriveRecording(const scenario::Scenario& scenario,
-                                                 std::uint64_t seed, std::uint64_t trial)>;
+using TraceDriver = std::function<campaign::DriveRecording(
+    const scenario::Scenario& scenario, std::uint64_t seed, std::uint64_t trial)>;
 
 struct TraceRequest {
-  TraceRetention retention;
-  TraceFormat format = TraceFormat::kNpz;
+  campaign::TraceRetention retention;
+  campaign::TraceFormat format = campaign::TraceFormat::kNpz;
   int threads = 1;
   bool quiet = false;  // print errors only
-  TraceDriver drive = RecordDrive;
+  TraceDriver drive = campaign::RecordDrive;
 };
 
 // The bytes of a trace file.
 std::string TraceBytes(const scenario::Scenario& scenario, const std::string& cell,
-                       const DriveRecording& recording, TraceFormat format);
+                       const campaign::DriveRecording& recording, campaign::TraceFormat format);
 
 // "trial-000123.npz"
-std::string TraceFileName(std::uint64_t trial, TraceFormat format);
+std::string TraceFileName(std::uint64_t trial, campaign::TraceFormat format);
 
 // Drives the chosen trials of every cell of the run in `folder` again, on several threads, and
 // writes each trace that is not there yet, whole or not at all: traces/trial-000123.npz, of a sweep

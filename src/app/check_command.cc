@@ -10,11 +10,11 @@
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/output_file.h"
 #include "app/published_settings.h"
 #include "app/regression_check.h"
-#include "app/run_source.h"
 #include "batch/run_folder.h"
+#include "campaign/output_file.h"
+#include "campaign/run_source.h"
 #include "core/error.h"
 #include "core/json_file.h"
 #include "report/atomic_file.h"
@@ -38,14 +38,15 @@ struct CheckOptions {
   statistics::ComparisonOptions comparison;
 };
 
-std::vector<StoredRun> ReadRuns(const std::vector<std::string>& paths, const std::string& cell) {
-  std::vector<StoredRun> runs;
+std::vector<campaign::StoredRun> ReadRuns(const std::vector<std::string>& paths,
+                                          const std::string& cell) {
+  std::vector<campaign::StoredRun> runs;
   std::map<std::string, std::string> folders;  // by scenario
   std::vector<core::Problem> problems;
   for (const std::string& path : paths) {
     for (const auto& folder : batch::FindRuns(path)) {
-      runs.push_back(ReadRun(folder, cell));
-      RequireWhole(runs.back());
+      runs.push_back(campaign::ReadRun(folder, cell));
+      campaign::RequireWhole(runs.back());
       const std::string& scenario = runs.back().identity.scenario;
       const auto [at, is_new] = folders.emplace(scenario, folder.string());
       if (!is_new) {
@@ -59,7 +60,7 @@ std::vector<StoredRun> ReadRuns(const std::vector<std::string>& paths, const std
   return runs;
 }
 
-void NoteUnfinished(const StoredRun& run) {
+void NoteUnfinished(const campaign::StoredRun& run) {
   const auto usable = static_cast<std::int64_t>(run.prefix().size());
   if (usable < run.planned) {
     PrintNote(fmt::format("{}: unfinished, {} of {} trials are used", run.folder.string(), usable,
@@ -95,14 +96,14 @@ void AddRegressionOptions(CLI::App& command, CheckOptions& options) {
 }
 
 ExitCode Check(const CheckOptions& options) {
-  CheckOutputFile("--junit", options.junit);
-  CheckOutputFile("--csv", options.csv);
+  campaign::CheckOutputFile("--junit", options.junit);
+  campaign::CheckOutputFile("--csv", options.csv);
   const core::JsonValue document = core::LoadJsonFile(options.reference);
   if (report::IsBaseline(document)) return CheckAgainstBaseline(document, Regression(options));
   const statistics::PublishedReference reference = report::ParseReference(document);
-  const std::vector<StoredRun> stored = ReadRuns(options.runs, options.cell);
-  std::vector<const StoredRun*> runs;
-  for (const StoredRun& run : stored) {
+  const std::vector<campaign::StoredRun> stored = ReadRuns(options.runs, options.cell);
+  std::vector<const campaign::StoredRun*> runs;
+  for (const campaign::StoredRun& run : stored) {
     NoteUnfinished(run);
     runs.push_back(&run);
   }

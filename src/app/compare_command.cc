@@ -10,10 +10,10 @@
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/output_file.h"
-#include "app/run_source.h"
-#include "app/run_views.h"
 #include "batch/scenario_difference.h"
+#include "campaign/output_file.h"
+#include "campaign/run_source.h"
+#include "campaign/run_views.h"
 #include "core/error.h"
 #include "core/json_text.h"
 #include "report/atomic_file.h"
@@ -41,7 +41,7 @@ std::string TextAt(const core::JsonValue* value) {
 }
 
 // What a run is of, as its scenario says.
-std::string ExperimentOf(const StoredRun& run) {
+std::string ExperimentOf(const campaign::StoredRun& run) {
   const core::JsonValue document = core::ParseJson(run.identity.resolved, "resolved scenario");
   const std::string experiment = TextAt(document.Find("experiment"));
   if (!truth::IsMeasurement(run.schema)) return "experiment " + experiment;
@@ -50,7 +50,7 @@ std::string ExperimentOf(const StoredRun& run) {
   return "study " + TextAt(study) + " of experiment " + experiment;
 }
 
-void RequireSameExperiment(const StoredRun& first, const StoredRun& second) {
+void RequireSameExperiment(const campaign::StoredRun& first, const campaign::StoredRun& second) {
   const std::string a = ExperimentOf(first);
   const std::string b = ExperimentOf(second);
   if (a == b) return;
@@ -59,11 +59,11 @@ void RequireSameExperiment(const StoredRun& first, const StoredRun& second) {
                         "compare two runs of the same experiment and study");
 }
 
-ExitCode CompareMeasurements(const StoredRun& first, const StoredRun& second,
+ExitCode CompareMeasurements(const campaign::StoredRun& first, const campaign::StoredRun& second,
                              const CompareOptions& options) {
   RequireSameExperiment(first, second);
-  const report::ComparedRun a = ComparedView(first);
-  const report::ComparedRun b = ComparedView(second);
+  const report::ComparedRun a = campaign::ComparedView(first);
+  const report::ComparedRun b = campaign::ComparedView(second);
   const statistics::CellComparison cells =
       statistics::CompareCells(statistics::SummarizeCells(a.schema, a.records),
                                statistics::SummarizeCells(b.schema, b.records));
@@ -81,7 +81,7 @@ ExitCode CompareMeasurements(const StoredRun& first, const StoredRun& second,
 }
 
 // The settings in which two runs differ, one per line.
-std::string SettingsText(const StoredRun& first, const StoredRun& second) {
+std::string SettingsText(const campaign::StoredRun& first, const campaign::StoredRun& second) {
   constexpr std::size_t kShown = 12;
   const std::vector<batch::ScenarioDifference> differences =
       batch::FindScenarioDifferences(first.identity.resolved, second.identity.resolved);
@@ -98,7 +98,7 @@ std::string SettingsText(const StoredRun& first, const StoredRun& second) {
   return text;
 }
 
-std::string DriveJson(const StoredRun& first, const StoredRun& second,
+std::string DriveJson(const campaign::StoredRun& first, const campaign::StoredRun& second,
                       const report::RunComparison& comparison) {
   report::PageComparison told{first.Label(), second.Label(), comparison, {}};
   for (const batch::ScenarioDifference& each :
@@ -108,10 +108,10 @@ std::string DriveJson(const StoredRun& first, const StoredRun& second,
   return report::DriveComparisonJson(told);
 }
 
-ExitCode CompareDrives(const StoredRun& first, const StoredRun& second,
+ExitCode CompareDrives(const campaign::StoredRun& first, const campaign::StoredRun& second,
                        const CompareOptions& options) {
-  const report::ComparedRun a = ComparedView(first);
-  const report::ComparedRun b = ComparedView(second);
+  const report::ComparedRun a = campaign::ComparedView(first);
+  const report::ComparedRun b = campaign::ComparedView(second);
   const report::RunComparison comparison = report::CompareRuns(a, b);
   if (!options.csv.empty()) {
     report::WriteFileAtomically(options.csv, report::RunComparisonCsv(comparison));
@@ -122,12 +122,12 @@ ExitCode CompareDrives(const StoredRun& first, const StoredRun& second,
 }
 
 ExitCode Compare(const CompareOptions& options) {
-  CheckOutputFile("--csv", options.csv);
-  const StoredRun first = ReadRun(options.first, options.cell);
-  const StoredRun second =
-      ReadRun(options.second, options.second_cell.empty() ? options.cell : options.second_cell);
-  RequireWhole(first);
-  RequireWhole(second);
+  campaign::CheckOutputFile("--csv", options.csv);
+  const campaign::StoredRun first = campaign::ReadRun(options.first, options.cell);
+  const campaign::StoredRun second = campaign::ReadRun(
+      options.second, options.second_cell.empty() ? options.cell : options.second_cell);
+  campaign::RequireWhole(first);
+  campaign::RequireWhole(second);
   const bool drive = !truth::IsMeasurement(first.schema) && !truth::IsMeasurement(second.schema);
   return drive ? CompareDrives(first, second, options)
                : CompareMeasurements(first, second, options);

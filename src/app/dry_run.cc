@@ -8,12 +8,12 @@
 #include <string_view>
 
 #include "app/console.h"
-#include "app/planned_trials.h"
 #include "app/run_campaign.h"
 #include "batch/executor.h"
 #include "batch/pilot.h"
 #include "batch/result_store.h"
 #include "batch/run_folder.h"
+#include "campaign/planned_trials.h"
 #include "experiments/experiment.h"
 
 namespace rockyard::app {
@@ -22,9 +22,9 @@ namespace {
 constexpr int kPilots = 3;
 
 // Stored trials of the run in the folder that would go on; none where it would not.
-std::int64_t StoredTrials(const OpenRequest& request) {
-  const bool goes_on = request.existing == ExistingRun::kResume ||
-                       request.existing == ExistingRun::kResumeOrSetAside;
+std::int64_t StoredTrials(const campaign::OpenRequest& request) {
+  const bool goes_on = request.existing == campaign::ExistingRun::kResume ||
+                       request.existing == campaign::ExistingRun::kResumeOrSetAside;
   if (!goes_on || !batch::HoldsStore(request.folder)) return 0;
   return static_cast<std::int64_t>(batch::ResultStore::Read(request.folder).Finished().size());
 }
@@ -45,22 +45,22 @@ std::string CostText(const batch::PilotCost& pilot, std::int64_t pending, std::s
 
 // Empty where none are asked for. Which trials fail is not known before.
 std::string TracesText(const CampaignOptions& options, std::int64_t trials) {
-  const TraceRetention retention = options.traces.retention();
+  const campaign::TraceRetention retention = options.traces.retention();
   if (!retention.any()) return "";
   return fmt::format("  traces of {} (of at most {} trials), which are driven twice\n",
-                     RetentionText(retention), trials);
+                     campaign::RetentionText(retention), trials);
 }
 
 }  // namespace
 
-ExitCode DryRun(const CampaignOptions& options, const CampaignPlan& plan) {
+ExitCode DryRun(const CampaignOptions& options, const campaign::CampaignPlan& plan) {
   CheckPlan(options, plan);
-  const OpenRequest request = RequestOf(options, plan);
+  const campaign::OpenRequest request = RequestOf(options, plan);
   const scenario::Scenario& scenario = plan.cells.front().scenario;
   const auto experiment = experiments::MakeExperiment(scenario);
-  CheckFolder(request, IdentityOf(plan, experiment->schema(), request.shard));
+  campaign::CheckFolder(request, campaign::IdentityOf(plan, experiment->schema(), request.shard));
   const std::int64_t stored = StoredTrials(request);
-  const PlannedTrials planned = TrialsOf(request, plan);
+  const campaign::PlannedTrials planned = campaign::TrialsOf(request, plan);
   const std::int64_t pending = std::max<std::int64_t>(planned.total - stored, 0);
   const batch::PilotCost pilot =
       batch::RunPilots(*experiment, static_cast<std::uint64_t>(scenario.seed), kPilots);

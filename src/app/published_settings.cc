@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "app/baseline_scenario.h"
 #include "app/console.h"
-#include "app/run_views.h"
+#include "campaign/baseline_scenario.h"
+#include "campaign/run_views.h"
 #include "core/error.h"
 #include "scenario/load.h"
 
@@ -20,11 +20,12 @@ using Settings = std::vector<std::string>;
 constexpr std::size_t kMostShown = 12;
 
 // Nothing where the file cannot be read.
-std::optional<Settings> DifferencesFrom(const fs::path& file, const StoredRun& run) {
+std::optional<Settings> DifferencesFrom(const fs::path& file, const campaign::StoredRun& run) {
   try {
-    const std::string published = scenario::ResolvedJson(LoadScenarioFrom(file));
+    const std::string published = scenario::ResolvedJson(campaign::LoadScenarioFrom(file));
     // The run may be of an older program, which had fewer settings.
-    const BaselineScenario compared = CompareWithBaseline(run.identity.resolved, published);
+    const campaign::BaselineScenario compared =
+        campaign::CompareWithBaseline(run.identity.resolved, published);
     Settings settings;
     for (const batch::ScenarioDifference& each : compared.differences) {
       if (settings.size() == kMostShown) {
@@ -44,7 +45,7 @@ std::optional<Settings> DifferencesFrom(const fs::path& file, const StoredRun& r
 }
 
 Settings OtherSettings(const statistics::PublishedReference& reference, const fs::path& folder,
-                       const StoredRun& run) {
+                       const campaign::StoredRun& run) {
   const auto found =
       std::find_if(reference.scenarios.begin(), reference.scenarios.end(),
                    [&](const auto& scenario) { return scenario.name == run.identity.scenario; });
@@ -57,13 +58,13 @@ Settings OtherSettings(const statistics::PublishedReference& reference, const fs
 
 }  // namespace
 
-std::vector<statistics::ScenarioRun> PublishedViews(const statistics::PublishedReference& reference,
-                                                    const fs::path& folder,
-                                                    std::span<const StoredRun* const> runs) {
+std::vector<statistics::ScenarioRun> PublishedViews(
+    const statistics::PublishedReference& reference, const fs::path& folder,
+    std::span<const campaign::StoredRun* const> runs) {
   std::vector<statistics::ScenarioRun> views;
   views.reserve(runs.size());
-  for (const StoredRun* run : runs) {
-    views.push_back(ScenarioView(*run));
+  for (const campaign::StoredRun* run : runs) {
+    views.push_back(campaign::ScenarioView(*run));
     views.back().other_settings = OtherSettings(reference, folder, *run);
   }
   return views;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/run_source.h"
+#include "campaign/run_source.h"
 #include "statistics/published_comparison.h"
 #include "statistics/published_values.h"
 
@@ -16,8 +16,8 @@ namespace rockyard::app {
 // that the reference in `folder` names for it: "PATH is VALUE, VALUE in FILE", the seed left out.
 // Where it names none, or the file cannot be read (which is noted), what the run was told by --set
 // and --ablate. `runs` must outlive the views.
-std::vector<statistics::ScenarioRun> PublishedViews(const statistics::PublishedReference& reference,
-                                                    const std::filesystem::path& folder,
-                                                    std::span<const StoredRun* const> runs);
+std::vector<statistics::ScenarioRun> PublishedViews(
+    const statistics::PublishedReference& reference, const std::filesystem::path& folder,
+    std::span<const campaign::StoredRun* const> runs);
 
 }  // namespace rockyard::app

@@ -12,12 +12,12 @@
 
 #include "app/console.h"
 #include "app/interrupt.h"
-#include "app/run_source.h"
 #include "batch/distributed.h"
 #include "batch/flight_log.h"
 #include "batch/logged_experiment.h"
 #include "batch/packet.h"
 #include "batch/watchdog.h"
+#include "campaign/run_source.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/json_text.h"
@@ -61,9 +61,10 @@ class ReceivedWork {
 
  private:
   static void CheckBuild(const std::string& build) {
-    if (build == BuildName()) return;
+    if (build == campaign::BuildName()) return;
     throw core::UserError(
-        "build", fmt::format("is \"{}\" on this rank and \"{}\" on rank 0", BuildName(), build),
+        "build",
+        fmt::format("is \"{}\" on this rank and \"{}\" on rank 0", campaign::BuildName(), build),
         "start the same program on machines of the same CPU level");
   }
 

@@ -7,12 +7,12 @@
 #include <string_view>
 #include <utility>
 
-#include "app/baseline_cells.h"
-#include "app/baseline_scenario.h"
 #include "app/console.h"
-#include "app/run_source.h"
 #include "batch/scenario_difference.h"
 #include "batch/trial_hash.h"
+#include "campaign/baseline_cells.h"
+#include "campaign/baseline_scenario.h"
+#include "campaign/run_source.h"
 #include "core/error.h"
 #include "report/atomic_file.h"
 #include "report/baseline.h"
@@ -33,8 +33,8 @@ class Check {
   Check(report::Baseline baseline, const RegressionRequest& request)
       : baseline_(std::move(baseline)),
         request_(request),
-        runs_(ReadCells(request.runs, request.cell)) {
-    if (!request.cell.empty()) KeepCellsOf(runs_, baseline_);
+        runs_(campaign::ReadCells(request.runs, request.cell)) {
+    if (!request.cell.empty()) campaign::KeepCellsOf(runs_, baseline_);
     report_.baseline = baseline_.name;
     report_.reason = baseline_.reason;
     report_.baseline_build = baseline_.build;
@@ -43,7 +43,7 @@ class Check {
   report::RegressionReport Run() {
     std::vector<statistics::RegressionCell> cells;
     for (const BaselineCell& cell : baseline_.cells) {
-      const StoredRun* run = Find(cell);
+      const campaign::StoredRun* run = Find(cell);
       if (run != nullptr) cells.push_back(Compare(cell, *run));
     }
     if (!problems_.empty()) throw core::UserError(std::move(problems_));
@@ -53,11 +53,11 @@ class Check {
   }
 
  private:
-  const StoredRun* Find(const BaselineCell& cell) {
+  const campaign::StoredRun* Find(const BaselineCell& cell) {
     if (baseline_.cells.size() == 1 && runs_.size() == 1) return &runs_.front();
-    const StoredRun* found = nullptr;
-    for (const StoredRun& run : runs_) {
-      if (CellName(run) != cell.name) continue;
+    const campaign::StoredRun* found = nullptr;
+    for (const campaign::StoredRun& run : runs_) {
+      if (campaign::CellName(run) != cell.name) continue;
       if (found != nullptr) {
         problems_.push_back({run.Label(),
                              fmt::format("is cell {}, and so is {}", cell.name, found->Label()),
@@ -74,11 +74,12 @@ class Check {
 
   std::string Names() const {
     std::string names;
-    for (const StoredRun& run : runs_) names += (names.empty() ? "" : ", ") + CellName(run);
+    for (const campaign::StoredRun& run : runs_)
+      names += (names.empty() ? "" : ", ") + campaign::CellName(run);
     return names;
   }
 
-  statistics::RegressionCell Compare(const BaselineCell& cell, const StoredRun& run) {
+  statistics::RegressionCell Compare(const BaselineCell& cell, const campaign::StoredRun& run) {
     const std::span<const truth::Record> records = UsedRecords(cell, run);
     CheckedCell checked{.name = cell.name,
                         .baseline_seed = cell.seed,
@@ -101,13 +102,14 @@ class Check {
             fmt::format("{}: the run has no column for {}", cell.name, metric.name));
       }
     }
-    if (checked.paired) checked.same_pairs = SamePairs(cell, records, compared.run);
+    if (checked.paired) checked.same_pairs = campaign::SamePairs(cell, records, compared.run);
     report_.cells.push_back(std::move(checked));
     return compared;
   }
 
   // As many as the baseline has.
-  std::span<const truth::Record> UsedRecords(const BaselineCell& cell, const StoredRun& run) {
+  std::span<const truth::Record> UsedRecords(const BaselineCell& cell,
+                                             const campaign::StoredRun& run) {
     const std::span<const truth::Record> records = run.prefix();
     if (records.empty()) {
       problems_.push_back({run.Label(), "holds no finished trials", "run some first"});
@@ -116,7 +118,7 @@ class Check {
                                           records.size(), run.planned));
     }
     for (const std::string& resolved : {cell.resolved, run.identity.resolved}) {
-      std::vector<core::Problem> shared = SharedLayoutProblems(run.Label(), resolved);
+      std::vector<core::Problem> shared = campaign::SharedLayoutProblems(run.Label(), resolved);
       if (shared.empty()) continue;
       problems_.push_back(std::move(shared.front()));
       break;
@@ -134,7 +136,7 @@ class Check {
 
   // The exact tier: the same build, seeds and settings give the same records. A build from changed
   // files goes by the name of the last commit, so that its name proves nothing.
-  void Compare(const BaselineCell& cell, const StoredRun& run,
+  void Compare(const BaselineCell& cell, const campaign::StoredRun& run,
                std::span<const truth::Record> records, CheckedCell& checked) const {
     if (!checked.paired || checked.baseline_trials != checked.run_trials) return;
     checked.identical = batch::TrialHash(records) == cell.trial_hash;
@@ -154,9 +156,10 @@ class Check {
   }
 
   // Whether the settings that decide rocks, start and goal are the same.
-  bool CompareScenarios(const BaselineCell& cell, const StoredRun& run) {
+  bool CompareScenarios(const BaselineCell& cell, const campaign::StoredRun& run) {
     if (cell.fingerprint == run.identity.fingerprint) return true;
-    const BaselineScenario compared = CompareWithBaseline(cell.resolved, run.identity.resolved);
+    const campaign::BaselineScenario compared =
+        campaign::CompareWithBaseline(cell.resolved, run.identity.resolved);
     if (!compared.younger.empty()) {
       report_.notes.push_back(fmt::format("{}: younger than the baseline, at their defaults: {}",
                                           cell.name, fmt::join(compared.younger, ", ")));
@@ -192,7 +195,7 @@ class Check {
 
   report::Baseline baseline_;
   const RegressionRequest& request_;
-  std::vector<StoredRun> runs_;
+  std::vector<campaign::StoredRun> runs_;
   report::RegressionReport report_;
   std::vector<core::Problem> problems_;
 };

@@ -11,11 +11,12 @@
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/open_run.h"
-#include "app/output_file.h"
 #include "app/replay_options.h"
-#include "app/replay_page.h"
 #include "app/replay_views.h"
+#include "app/trial_options.h"
+#include "campaign/open_run.h"
+#include "campaign/output_file.h"
+#include "campaign/replay_page.h"
 #include "core/error.h"
 #include "report/atomic_file.h"
 #include "report/line_text.h"
@@ -31,18 +32,19 @@ struct AskedFile {
   std::string option;  // that names it
   std::string what;
   fs::path path;
-  std::function<std::string(const ReplayedTrial&)> text;
+  std::function<std::string(const campaign::ReplayedTrial&)> text;
 };
 
-std::string DefaultStem(const TrialSource& source, std::uint32_t trial) {
+std::string DefaultStem(const campaign::TrialSource& source, std::uint32_t trial) {
   const std::string cell = source.cell.empty() ? "" : fmt::format("-{}", source.cell);
   const fs::path folder =
-      DefaultFolder(source.scenario.name + cell, static_cast<std::int64_t>(source.seed));
+      campaign::DefaultFolder(source.scenario.name + cell, static_cast<std::int64_t>(source.seed));
   return fmt::format("{}-trial{}", folder.string(), trial);
 }
 
 // Without pages there are the plan and the data.
-std::vector<AskedFile> OutputsOf(const ReplayOptions& options, const TrialSource& source) {
+std::vector<AskedFile> OutputsOf(const ReplayOptions& options,
+                                 const campaign::TrialSource& source) {
   const std::string stem = options.out.empty() ? DefaultStem(source, options.request.trial)
                                                : fs::path(options.out).replace_extension().string();
   const bool pages = web::PagesBuilt();
@@ -51,32 +53,35 @@ std::vector<AskedFile> OutputsOf(const ReplayOptions& options, const TrialSource
   };
   std::vector<AskedFile> outputs;
   if (pages) {
-    outputs.push_back(
-        {"--out", "3-D replay", path(options.out, ".html"), [](const ReplayedTrial& replayed) {
-           return web::MakePage(web::Page::kReplay, replayed.data.title, ReplayPayload(replayed));
-         }});
+    outputs.push_back({"--out", "3-D replay", path(options.out, ".html"),
+                       [](const campaign::ReplayedTrial& replayed) {
+                         return web::MakePage(web::Page::kReplay, replayed.data.title,
+                                              campaign::ReplayPayload(replayed));
+                       }});
   }
   outputs.push_back({"--svg", "plan view", path(options.svg, ".svg"),
-                     [](const ReplayedTrial& replayed) { return replayed.plan_svg; }});
+                     [](const campaign::ReplayedTrial& replayed) { return replayed.plan_svg; }});
   if (!pages || !options.data.empty()) {
-    outputs.push_back({"--data", "data of the page", path(options.data, ".json"), ReplayPayload});
+    outputs.push_back(
+        {"--data", "data of the page", path(options.data, ".json"), campaign::ReplayPayload});
   }
   return outputs;
 }
 
 // Found before the drive rather than after it.
 void CheckOutputs(const ReplayOptions& options, const std::vector<AskedFile>& outputs) {
-  CheckOutputFile("--out", options.out);
-  CheckExtension("--out", options.out, ".html");
-  CheckOutputFile("--svg", options.svg);
-  CheckOutputFile("--data", options.data);
-  std::vector<NamedFile> files;
+  campaign::CheckOutputFile("--out", options.out);
+  campaign::CheckExtension("--out", options.out, ".html");
+  campaign::CheckOutputFile("--svg", options.svg);
+  campaign::CheckOutputFile("--data", options.data);
+  std::vector<campaign::NamedFile> files;
   files.reserve(outputs.size());
   for (const AskedFile& output : outputs) files.push_back({output.option, output.path.string()});
-  CheckDistinct(files);
+  campaign::CheckDistinct(files);
 }
 
-ExitCode WriteOutputs(const std::vector<AskedFile>& outputs, const ReplayedTrial& replayed) {
+ExitCode WriteOutputs(const std::vector<AskedFile>& outputs,
+                      const campaign::ReplayedTrial& replayed) {
   try {
     for (const AskedFile& output : outputs) {
       if (output.path.has_parent_path()) fs::create_directories(output.path.parent_path());
@@ -95,17 +100,17 @@ ExitCode WriteOutputs(const std::vector<AskedFile>& outputs, const ReplayedTrial
 }
 
 ExitCode WritePage(const ReplayOptions& options) {
-  const TrialSource source = FindTrial(options.request);
+  const campaign::TrialSource source = campaign::FindTrial(options.request);
   const std::vector<AskedFile> outputs = OutputsOf(options, source);
   CheckOutputs(options, outputs);
-  const ReplayedTrial replayed = ReplayTrial(source, options.request.trial);
+  const campaign::ReplayedTrial replayed = campaign::ReplayTrial(source, options.request.trial);
   const report::ReplayData& data = replayed.data;
   Print(fmt::format("  {}\n", report::Printable(fmt::format("{}: {}, {}", data.title,
                                                             truth::Name(data.record.outcome),
                                                             data.record.detail))));
-  const ExitCode same = source.stored
-                            ? CompareWithStore(options.request, source, data.schema, data.record)
-                            : ExitCode::kDone;
+  const ExitCode same = source.stored ? TellRepetition(campaign::CompareWithStore(
+                                            options.request, source, data.schema, data.record))
+                                      : ExitCode::kDone;
   if (!web::PagesBuilt()) {
     PrintNote(
         "this build has no pages, so the 3-D replay is left out: install nodejs and npm, and build "

@@ -6,12 +6,12 @@
 #include <string>
 #include <string_view>
 
-#include "app/trial_source.h"
+#include "campaign/trial_source.h"
 
 namespace rockyard::app {
 
 struct ReplayOptions {
-  TrialRequest request;
+  campaign::TrialRequest request;
   std::optional<std::int64_t> scan;
   std::optional<std::int64_t> step;
   bool list = false;

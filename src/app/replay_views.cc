@@ -13,9 +13,10 @@
 #include <utility>
 
 #include "app/console.h"
-#include "app/replay_files.h"
-#include "app/scan_capture.h"
-#include "app/trial_source.h"
+#include "app/trial_options.h"
+#include "campaign/replay_files.h"
+#include "campaign/scan_capture.h"
+#include "campaign/trial_source.h"
 #include "core/error.h"
 #include "experiments/experiment.h"
 #include "report/scan_drawing.h"
@@ -31,12 +32,12 @@ struct Replayed {
   truth::Record record;
   std::int64_t scans = 0;
   std::int64_t steps = 0;
-  std::optional<CapturedScan> scan;
-  std::optional<CapturedStep> step;
+  std::optional<campaign::CapturedScan> scan;
+  std::optional<campaign::CapturedStep> step;
   std::string failure;  // why what was asked for cannot be shown
 };
 
-fs::path FolderOf(const ReplayOptions& options, const TrialSource& source) {
+fs::path FolderOf(const ReplayOptions& options, const campaign::TrialSource& source) {
   if (!options.out.empty()) return options.out;
   return fs::path("results") / "runs" /
          fmt::format("{}-seed{}-trial{}-{}{}", source.scenario.name, source.seed,
@@ -62,7 +63,8 @@ std::string Line(std::string_view what, std::int64_t number, const math::Transfo
 // Where the rover stood, and what the scan shows by itself.
 std::string ScanLine(std::int64_t number, const trial::WatchedScan& watched) {
   std::string stripes;
-  for (const bool hazard : HazardsOf(watched).stripe_hazard) stripes += hazard ? '#' : '.';
+  for (const bool hazard : campaign::HazardsOf(watched).stripe_hazard)
+    stripes += hazard ? '#' : '.';
   return Line("scan", number, watched.X_WR, stripes);
 }
 
@@ -74,7 +76,7 @@ std::string StepLine(const trial::WatchedStep& watched) {
 
 class Replayer {
  public:
-  Replayer(const ReplayOptions& options, const TrialSource& source)
+  Replayer(const ReplayOptions& options, const campaign::TrialSource& source)
       : options_(options), source_(source) {}
 
   Replayed Run() {
@@ -98,7 +100,7 @@ class Replayer {
     if (options_.scan != number) return;
     // A picture that fails must not become a fault of the trial.
     try {
-      replayed_.scan = Capture(watched);
+      replayed_.scan = campaign::Capture(watched);
       replayed_.scan->view.title = Title("scan", number);
     } catch (const std::exception& error) {
       replayed_.failure = error.what();
@@ -113,7 +115,7 @@ class Replayer {
   }
 
   const ReplayOptions& options_;
-  const TrialSource& source_;
+  const campaign::TrialSource& source_;
   Replayed replayed_;
 };
 
@@ -130,16 +132,16 @@ bool Write(const fs::path& folder, const std::function<void()>& write) {
   return false;
 }
 
-ExitCode WriteOutputs(const ReplayOptions& options, const TrialSource& source,
+ExitCode WriteOutputs(const ReplayOptions& options, const campaign::TrialSource& source,
                       const Replayed& replayed) {
   const fs::path folder = FolderOf(options, source);
   if (replayed.scan) {
-    const auto write = [&] { WriteScanFiles(folder, source.scenario, *replayed.scan); };
+    const auto write = [&] { campaign::WriteScanFiles(folder, source.scenario, *replayed.scan); };
     if (!Write(folder, write)) return ExitCode::kFailed;
     Print(report::ScanText(replayed.scan->view));
     Print(fmt::format("  images, array.svg and points.csv in {}\n", folder.string()));
   } else {
-    const auto write = [&] { WriteStepFiles(folder, source.scenario, *replayed.step); };
+    const auto write = [&] { campaign::WriteStepFiles(folder, source.scenario, *replayed.step); };
     if (!Write(folder, write)) return ExitCode::kFailed;
     Print(fmt::format("  {}\n  step.svg, map.csv, votes.csv and points.csv in {}\n",
                       report::ChosenText(replayed.step->picture.view), folder.string()));
@@ -171,13 +173,14 @@ core::UserError Missing(const ReplayOptions& options, const Replayed& replayed) 
 }  // namespace
 
 ExitCode ShowViews(const ReplayOptions& options) {
-  const TrialSource source = FindTrial(options.request);
+  const campaign::TrialSource source = campaign::FindTrial(options.request);
   if (options.draws()) CheckFolder(FolderOf(options, source));
   const Replayed replayed = Replayer(options, source).Run();
   if (truth::IsFault(replayed.record)) PrintNote("simulator fault: " + replayed.record.detail);
-  const ExitCode same =
-      source.stored ? CompareWithStore(options.request, source, replayed.schema, replayed.record)
-                    : ExitCode::kDone;
+  const ExitCode same = source.stored
+                            ? TellRepetition(campaign::CompareWithStore(
+                                  options.request, source, replayed.schema, replayed.record))
+                            : ExitCode::kDone;
   if (!options.draws()) {
     Print(Counted(replayed));
     return same;

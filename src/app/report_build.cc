@@ -7,13 +7,13 @@
 
 #include "app/console.h"
 #include "app/report_published.h"
-#include "app/run_source.h"
-#include "app/run_views.h"
-#include "app/shell_word.h"
 #include "batch/executor.h"
 #include "batch/result_store.h"
 #include "batch/scenario_difference.h"
 #include "batch/trial_hash.h"
+#include "campaign/run_source.h"
+#include "campaign/run_views.h"
+#include "campaign/shell_word.h"
 #include "core/error.h"
 #include "core/provenance.h"
 #include "report/page_data.h"
@@ -28,7 +28,7 @@ constexpr std::size_t kMostCompared = 6;
 constexpr auto kMethod = statistics::IntervalMethod::kWilson;
 
 // None where the scenario is of another version of the program.
-std::vector<core::ParameterInfo> ParametersOf(const StoredRun& run) {
+std::vector<core::ParameterInfo> ParametersOf(const campaign::StoredRun& run) {
   try {
     return scenario::ListParameters(scenario::ParseScenario(run.identity.resolved));
   } catch (const core::UserError&) {
@@ -36,9 +36,9 @@ std::vector<core::ParameterInfo> ParametersOf(const StoredRun& run) {
   }
 }
 
-std::string ReplayCommand(const StoredRun& run) {
-  std::string command = "rockyard replay " + ShellWord(run.folder.string());
-  if (!run.identity.name.empty()) command += " --cell " + ShellWord(run.identity.name);
+std::string ReplayCommand(const campaign::StoredRun& run) {
+  std::string command = "rockyard replay " + campaign::ShellWord(run.folder.string());
+  if (!run.identity.name.empty()) command += " --cell " + campaign::ShellWord(run.identity.name);
   return command + " --trial {trial}";
 }
 
@@ -66,12 +66,12 @@ class Builder {
   Report Build() {
     LoadRuns();
     std::size_t next = 0;
-    for (const ReportInput& input : request_.inputs) {
+    for (const campaign::ReportInput& input : request_.inputs) {
       if (input.sweep) {
         AddSweep(input);
         continue;
       }
-      const StoredRun& run = plain_[next++];
+      const campaign::StoredRun& run = plain_[next++];
       AddWorst(FindWorst(run, request_.replays), input.label);
       AddRun(run, input.label, {});
     }
@@ -82,19 +82,20 @@ class Builder {
 
  private:
   void LoadRuns() {
-    for (const ReportInput& input : request_.inputs) {
+    for (const campaign::ReportInput& input : request_.inputs) {
       if (input.sweep) continue;
-      plain_.push_back(ReadRun(input.folder, input.cell));
+      plain_.push_back(campaign::ReadRun(input.folder, input.cell));
       if (plain_.back().records.empty()) FailEmpty(input.folder);
     }
   }
 
-  void AddRun(const StoredRun& run, const std::string& label, std::optional<std::size_t> sweep) {
+  void AddRun(const campaign::StoredRun& run, const std::string& label,
+              std::optional<std::size_t> sweep) {
     report::PageRun page{.label = label,
                          .folder = run.folder.string(),
                          .cell = run.identity.name,
                          .sweep = sweep,
-                         .description = Describe(run, batch::ThreadCount({})),
+                         .description = campaign::Describe(run, batch::ThreadCount({})),
                          .schema = run.schema,
                          .records = run.records,
                          .prefix = run.prefix(),
@@ -128,21 +129,21 @@ class Builder {
     }
   }
 
-  void AddSweep(const ReportInput& input) {
+  void AddSweep(const campaign::ReportInput& input) {
     const batch::ResultStore store = batch::ResultStore::Read(input.folder);
     const scenario::Sweep sweep = SweepOf(store, input.folder);
-    const CellReader reader(input.folder, store);
+    const campaign::CellReader reader(input.folder, store);
     std::vector<batch::CellHash> hashes;
     std::vector<WorstTrial> others = std::exchange(worst_, {});
     const std::size_t before = report_.trials;
     first_cell_parameters_.clear();
     const auto load = [&](std::size_t cell) {
-      StoredRun run = reader.Load(static_cast<int>(cell));
+      campaign::StoredRun run = reader.Load(static_cast<int>(cell));
       AddWorst(FindWorst(run, request_.replays), input.cell_labels[cell]);
       worst_ = Worst(std::move(worst_), request_.replays);
       AddRun(run, input.cell_labels[cell], sweeps_.size());
       std::string name = run.identity.name;
-      report::SweepCellTrials trials = SweepCellView(std::move(run));
+      report::SweepCellTrials trials = campaign::SweepCellView(std::move(run));
       hashes.push_back({std::move(name), trials.trial_hash});
       return trials;
     };
@@ -164,11 +165,11 @@ class Builder {
 
   // Each drive that was named against the first one.
   void Compare() {
-    std::vector<std::pair<const StoredRun*, std::string>> drives;
+    std::vector<std::pair<const campaign::StoredRun*, std::string>> drives;
     std::size_t next = 0;
-    for (const ReportInput& input : request_.inputs) {
+    for (const campaign::ReportInput& input : request_.inputs) {
       if (input.sweep) continue;
-      const StoredRun& run = plain_[next++];
+      const campaign::StoredRun& run = plain_[next++];
       if (truth::IsMeasurement(run.schema) || run.prefix().empty()) continue;
       drives.emplace_back(&run, input.label);
     }
@@ -184,7 +185,8 @@ class Builder {
       report::PageComparison comparison{
           .first = first_label,
           .second = label,
-          .comparison = report::CompareRuns(ComparedView(*first), ComparedView(*second)),
+          .comparison =
+              report::CompareRuns(campaign::ComparedView(*first), campaign::ComparedView(*second)),
           .settings = {}};
       for (const batch::ScenarioDifference& each :
            batch::FindScenarioDifferences(first->identity.resolved, second->identity.resolved)) {
@@ -225,7 +227,7 @@ class Builder {
 
   const ReportRequest& request_;
   PublishedTables published_;
-  std::vector<StoredRun> plain_;  // that are no cells of a sweep
+  std::vector<campaign::StoredRun> plain_;  // that are no cells of a sweep
   std::vector<report::JsonObject> runs_;
   std::vector<std::string> sweeps_;
   std::vector<report::PageComparison> comparisons_;

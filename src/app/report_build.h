@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "app/report_inputs.h"
 #include "app/report_replays.h"
+#include "campaign/report_inputs.h"
 
 namespace rockyard::app {
 
 struct ReportRequest {
-  std::vector<ReportInput> inputs;
+  std::vector<campaign::ReportInput> inputs;
   std::string title;
   std::string command;
   std::string against;         // reference file; "" for those of results/reference

@@ -11,11 +11,11 @@
 #include "app/command_text.h"
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/derived_files.h"
-#include "app/output_file.h"
 #include "app/report_build.h"
-#include "app/shell_word.h"
 #include "batch/run_folder.h"
+#include "campaign/derived_files.h"
+#include "campaign/output_file.h"
+#include "campaign/shell_word.h"
 #include "core/error.h"
 #include "report/atomic_file.h"
 #include "report/line_text.h"
@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 constexpr double kLargePage_bytes = 5e6;
 
-struct ReportOptions {
+struct PageOptions {
   std::vector<std::string> runs;
   std::string out;
   std::size_t replays = 5;
@@ -39,12 +39,12 @@ struct ReportOptions {
 };
 
 // "report.html" in the folder that was named first.
-std::string PageFile(const ReportOptions& options) {
+std::string PageFile(const PageOptions& options) {
   return options.out.empty() ? (fs::path(options.runs.front()) / "report.html").string()
                              : options.out;
 }
 
-std::string Title(const ReportOptions& options, const std::vector<ReportInput>& inputs) {
+std::string Title(const PageOptions& options, const std::vector<campaign::ReportInput>& inputs) {
   constexpr std::size_t kNamed = 3;
   if (!options.title.empty()) return options.title;
   std::string title;
@@ -57,15 +57,15 @@ std::string Title(const ReportOptions& options, const std::vector<ReportInput>& 
 
 // Before the work: what cannot be meant, or would lay a page over what a run holds.
 void CheckFile(const char* option, const std::string& file, const char* extension) {
-  CheckOutputFile(option, file);
-  CheckExtension(option, file, extension);
+  campaign::CheckOutputFile(option, file);
+  campaign::CheckExtension(option, file, extension);
   const fs::path folder = fs::absolute(file).parent_path();
-  if (batch::HoldsStore(folder) && IsRunFile(fs::path(file).filename())) {
+  if (batch::HoldsStore(folder) && campaign::IsRunFile(fs::path(file).filename())) {
     throw core::UserError(option, "is a file of the run itself: " + file, "choose another name");
   }
 }
 
-void CheckBuilt(const ReportOptions& options) {
+void CheckBuilt(const PageOptions& options) {
   if (!web::PagesBuilt() && (options.data.empty() || !options.out.empty())) {
     throw core::UserError("rockyard report", "this program was built without its pages",
                           "install nodejs and npm and build it again (scripts/quickstart.sh), or "
@@ -73,7 +73,7 @@ void CheckBuilt(const ReportOptions& options) {
   }
 }
 
-void CheckFiles(const ReportOptions& options) {
+void CheckFiles(const PageOptions& options) {
   if (web::PagesBuilt()) CheckFile("--out", PageFile(options), ".html");
   if (!options.data.empty()) CheckFile("--data", options.data, ".json");
 }
@@ -96,10 +96,11 @@ void PrintPage(const std::string& file, std::size_t bytes, const Report& report)
         "the page has {}, and may open slowly: name fewer runs, or one cell with --cell",
         Size(bytes)));
   }
-  Print(fmt::format("  next: open it in a browser, for example `xdg-open {}`\n", ShellWord(file)));
+  Print(fmt::format("  next: open it in a browser, for example `xdg-open {}`\n",
+                    campaign::ShellWord(file)));
 }
 
-void WriteFiles(const ReportOptions& options, const ReportRequest& request, const Report& report) {
+void WriteFiles(const PageOptions& options, const ReportRequest& request, const Report& report) {
   if (!options.data.empty()) {
     report::WriteFileAtomically(options.data, report.json);
     Print(fmt::format("  {} ({})\n", options.data, Size(report.json.size())));
@@ -111,10 +112,10 @@ void WriteFiles(const ReportOptions& options, const ReportRequest& request, cons
   }
 }
 
-ExitCode WriteReport(const ReportOptions& options, const std::string& command) {
+ExitCode WriteReport(const PageOptions& options, const std::string& command) {
   CheckBuilt(options);
   ReportRequest request;
-  request.inputs = FindReportInputs(options.runs, options.cell);
+  request.inputs = campaign::FindReportInputs(options.runs, options.cell);
   CheckFiles(options);
   request.title = Title(options, request.inputs);
   request.command = command;
@@ -139,7 +140,7 @@ ExitCode WriteReport(const ReportOptions& options, const std::string& command) {
 }  // namespace
 
 void AddReportCommand(CLI::App& app, ExitCode& exit_code) {
-  auto options = std::make_shared<ReportOptions>();
+  auto options = std::make_shared<PageOptions>();
   CLI::App* command = app.add_subcommand(
       "report", "Writes a page for a browser: what runs and sweeps say, and replays of failures");
   command

@@ -58,7 +58,7 @@ PublishedTables::PublishedTables(const std::string& file) {
   }
 }
 
-std::string PublishedTables::Table(const StoredRun& run) const {
+std::string PublishedTables::Table(const campaign::StoredRun& run) const {
   for (const auto& [folder, reference] : references_) {
     if (!Names(reference, run.identity.scenario)) continue;
     const std::array runs{&run};

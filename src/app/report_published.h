@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/run_source.h"
+#include "campaign/run_source.h"
 #include "statistics/published_values.h"
 
 namespace rockyard::app {
@@ -20,7 +20,7 @@ class PublishedTables {
   // `PublishedTable` of src/web/report/payload.ts, or "null": of the first reference that names the
   // scenario of the run. The values of one run are a family for Holm's procedure: what it is held
   // to does not depend on the other runs that are named. Cost: some seconds.
-  std::string Table(const StoredRun& run) const;
+  std::string Table(const campaign::StoredRun& run) const;
 
   // Where was looked, for a report whose tables are all "null".
   std::string WhyNone() const;

@@ -13,9 +13,9 @@
 
 #include "app/console.h"
 #include "app/interrupt.h"
-#include "app/replay_page.h"
-#include "app/trial_source.h"
 #include "batch/parallel_tasks.h"
+#include "campaign/replay_page.h"
+#include "campaign/trial_source.h"
 #include "core/error.h"
 #include "report/line_text.h"
 #include "report/worst_trials.h"
@@ -102,14 +102,15 @@ class ReplayWriter {
     std::vector<core::Problem> problems;
     ExitCode code = ExitCode::kFailed;
     try {
-      const TrialSource source =
-          StoredTrial({.source = worst.folder.string(),
-                       .cell = worst.cell,
-                       .trial = static_cast<std::uint32_t>(worst.record.trial),
-                       .seed = {},
-                       .overrides = {}},
-                      worst.identity, worst.builds, worst.record);
-      if (!WriteReplayPage(source, worst.record.trial, replays_.folder / FileName(worst))) {
+      const campaign::TrialSource source =
+          campaign::StoredTrial({.source = worst.folder.string(),
+                                 .cell = worst.cell,
+                                 .trial = static_cast<std::uint32_t>(worst.record.trial),
+                                 .seed = {},
+                                 .overrides = {}},
+                                worst.identity, worst.builds, worst.record);
+      if (!campaign::WriteReplayPage(source, worst.record.trial,
+                                     replays_.folder / FileName(worst))) {
         code = ExitCode::kDiffers;
         problems.push_back({fmt::format("{}, trial {}", worst.label, worst.record.trial),
                             "driven again, its record is not the stored one: it gets no replay",
@@ -167,7 +168,7 @@ class ReplayWriter {
 
 }  // namespace
 
-std::vector<WorstTrial> FindWorst(const StoredRun& run, std::size_t most) {
+std::vector<WorstTrial> FindWorst(const campaign::StoredRun& run, std::size_t most) {
   std::vector<WorstTrial> worst;
   if (truth::IsMeasurement(run.schema)) return worst;
   const auto column = statistics::ColumnIndex(run.schema, "true_goal_distance_m");

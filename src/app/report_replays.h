@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "app/exit_code.h"
-#include "app/run_source.h"
 #include "batch/result_store.h"
+#include "campaign/run_source.h"
 #include "report/page_data.h"
 #include "truth/record.h"
 
@@ -28,7 +28,7 @@ struct WorstTrial {
 };
 
 // The worst failed trials of a run (report/worst_trials.h); none of one that measures.
-std::vector<WorstTrial> FindWorst(const StoredRun& run, std::size_t most);
+std::vector<WorstTrial> FindWorst(const campaign::StoredRun& run, std::size_t most);
 
 // The worst of several cells together: furthest from the goal first, at most `most`.
 std::vector<WorstTrial> Worst(std::vector<WorstTrial> trials, std::size_t most);

@@ -22,8 +22,8 @@ namespace {
 // The experiments of a plan, one per cell.
 class PlannedWork {
  public:
-  explicit PlannedWork(const CampaignPlan& plan) {
-    for (const CampaignCell& cell : plan.cells) {
+  explicit PlannedWork(const campaign::CampaignPlan& plan) {
+    for (const campaign::CampaignCell& cell : plan.cells) {
       experiments_.push_back(experiments::MakeExperiment(cell.scenario));
       work_.push_back({experiments_.back().get(), static_cast<std::uint64_t>(cell.scenario.seed)});
     }
@@ -45,11 +45,11 @@ bool SameColumns(const truth::RecordSchema& first, const truth::RecordSchema& se
   return true;
 }
 
-std::string Label(const CampaignCell& cell) {
+std::string Label(const campaign::CampaignCell& cell) {
   return cell.name.empty() ? "scenario" : fmt::format("cell {}", cell.name);
 }
 
-void CheckColumns(const CampaignPlan& plan, const PlannedWork& work) {
+void CheckColumns(const campaign::CampaignPlan& plan, const PlannedWork& work) {
   for (std::size_t i = 1; i < plan.cells.size(); ++i) {
     if (SameColumns(work.work()[i].experiment->schema(), work.schema())) continue;
     throw core::UserError(Label(plan.cells[i]),
@@ -58,7 +58,7 @@ void CheckColumns(const CampaignPlan& plan, const PlannedWork& work) {
   }
 }
 
-batch::BatchResult RunTrials(std::span<const batch::CellWork> work, OpenedRun& run,
+batch::BatchResult RunTrials(std::span<const batch::CellWork> work, campaign::OpenedRun& run,
                              const CampaignOptions& options, CampaignProcess& process) {
   batch::BatchOptions batch;
   batch.max_fault_fraction = options.max_fault_fraction;
@@ -72,7 +72,7 @@ batch::BatchResult RunTrials(std::span<const batch::CellWork> work, OpenedRun& r
 }
 
 // One broken cell among many is named, however few its trials are of all.
-void TellFaults(const OpenedRun& run, const batch::BatchResult& result, double most) {
+void TellFaults(const campaign::OpenedRun& run, const batch::BatchResult& result, double most) {
   std::string cells;
   for (const int cell : result.faulty_cells) {
     const std::string& name = run.store.identity().cells[static_cast<std::size_t>(cell)].name;
@@ -88,7 +88,7 @@ void TellFaults(const OpenedRun& run, const batch::BatchResult& result, double m
             : "`detail` in the table trials of results.sqlite names the reason of each"}});
 }
 
-ExitCode Judge(const OpenedRun& run, const batch::BatchResult& result,
+ExitCode Judge(const campaign::OpenedRun& run, const batch::BatchResult& result,
                const CampaignOptions& options) {
   const batch::Progress& progress = result.progress;
   if (result.end == batch::BatchEnd::kStopped) {
@@ -102,13 +102,13 @@ ExitCode Judge(const OpenedRun& run, const batch::BatchResult& result,
   return ExitCode::kTooManyFaults;
 }
 
-Finished WhatOf(const CampaignOptions& options, const CampaignPlan& plan) {
+Finished WhatOf(const CampaignOptions& options, const campaign::CampaignPlan& plan) {
   if (!options.shard().whole()) return Finished::kShard;
   return plan.design.empty() ? Finished::kDrives : Finished::kSweep;
 }
 
 // Traces of the trials that the rules keep, once all are stored; then the next command.
-ExitCode TraceTrials(const CampaignPlan& plan, const CampaignOptions& options,
+ExitCode TraceTrials(const campaign::CampaignPlan& plan, const CampaignOptions& options,
                      CampaignProcess& process) {
   const std::filesystem::path folder = RequestOf(options, plan).folder;
   const TraceRequest request{.retention = options.traces.retention(),
@@ -133,7 +133,7 @@ ExitCode TraceTrials(const CampaignPlan& plan, const CampaignOptions& options,
 }
 
 // What fails from here on is no bad input: trials have been run, and are stored.
-ExitCode RunAndReport(std::span<const batch::CellWork> work, OpenedRun& run,
+ExitCode RunAndReport(std::span<const batch::CellWork> work, campaign::OpenedRun& run,
                       const CampaignOptions& options, CampaignProcess& process,
                       const CampaignReporter& reporter) {
   try {
@@ -157,13 +157,13 @@ ExitCode RunAndReport(std::span<const batch::CellWork> work, OpenedRun& run,
 
 ExitCode RunInProcess(const CampaignOptions& options, const CampaignPlanner& planner,
                       const CampaignReporter& reporter, CampaignProcess& process) {
-  const CampaignPlan plan = planner();
+  const campaign::CampaignPlan plan = planner();
   CheckPlan(options, plan);
   const PlannedWork work(plan);
   CheckColumns(plan, work);
-  OpenRequest request = RequestOf(options, plan);
-  if (!process.begins()) request.existing = ExistingRun::kResume;
-  OpenedRun run = OpenRun(request, plan, work.schema());
+  campaign::OpenRequest request = RequestOf(options, plan);
+  if (!process.begins()) request.existing = campaign::ExistingRun::kResume;
+  campaign::OpenedRun run = campaign::OpenRun(request, plan, work.schema());
   if (options.output() != Output::kQuiet && process.begins()) {
     for (const std::string& note : run.notes) PrintNote(note);
   }
@@ -171,7 +171,7 @@ ExitCode RunInProcess(const CampaignOptions& options, const CampaignPlanner& pla
 }
 
 // What a stopping rule asks of the cells.
-void CheckRule(const CampaignOptions& options, const CampaignPlan& plan,
+void CheckRule(const CampaignOptions& options, const campaign::CampaignPlan& plan,
                std::vector<core::Problem>& problems) {
   if (!options.stopping_rule()) return;
   if (!options.shard().whole()) {
@@ -179,7 +179,7 @@ void CheckRule(const CampaignOptions& options, const CampaignPlan& plan,
                         "looks at trials 0, 1, 2, ... of a cell, of which a shard has only some",
                         "leave out --shard, or say how many trials to run with --trials"});
   }
-  for (const CampaignCell& cell : plan.cells) {
+  for (const campaign::CampaignCell& cell : plan.cells) {
     if (cell.scenario.experiment != scenario::ExperimentKind::kDrive) {
       problems.push_back({"--until-half-width",
                           fmt::format("needs drives, and {} measures", Label(cell)),
@@ -195,7 +195,7 @@ void CheckRule(const CampaignOptions& options, const CampaignPlan& plan,
 }
 
 // What traces ask of the cells.
-void CheckTraces(const CampaignOptions& options, const CampaignPlan& plan,
+void CheckTraces(const CampaignOptions& options, const campaign::CampaignPlan& plan,
                  std::vector<core::Problem>& problems) {
   try {
     if (!options.traces.retention().any()) return;
@@ -208,7 +208,7 @@ void CheckTraces(const CampaignOptions& options, const CampaignPlan& plan,
                         "worst:N is asked of all trials, of which a shard has only some",
                         "leave it out, merge the shards, and ask for it there with --resume"});
   }
-  for (const CampaignCell& cell : plan.cells) {
+  for (const campaign::CampaignCell& cell : plan.cells) {
     if (cell.scenario.experiment == scenario::ExperimentKind::kDrive) continue;
     problems.push_back(
         {"--traces", fmt::format("needs drives, and {} measures", Label(cell)), "leave it out"});
@@ -217,14 +217,15 @@ void CheckTraces(const CampaignOptions& options, const CampaignPlan& plan,
 
 }  // namespace
 
-void CheckPlan(const CampaignOptions& options, const CampaignPlan& plan) {
+void CheckPlan(const CampaignOptions& options, const campaign::CampaignPlan& plan) {
   std::vector<core::Problem> problems;
   CheckRule(options, plan, problems);
   CheckTraces(options, plan, problems);
   if (!problems.empty()) throw core::UserError(std::move(problems));
 }
 
-OpenRequest RequestOf(const CampaignOptions& options, const CampaignPlan& plan) {
+campaign::OpenRequest RequestOf(const CampaignOptions& options,
+                                const campaign::CampaignPlan& plan) {
   return {.folder = options.out.empty() ? plan.folder : std::filesystem::path(options.out),
           .existing = options.existing(),
           .build = options.any_build ? batch::BuildPolicy::kAny : batch::BuildPolicy::kSame,

@@ -15,7 +15,7 @@
 #include "app/dry_run.h"
 #include "app/run_campaign.h"
 #include "app/run_report.h"
-#include "app/run_source.h"
+#include "campaign/run_source.h"
 #include "scenario/ablations.h"
 
 namespace rockyard::app {
@@ -33,22 +33,23 @@ void AddSettings(const RunOptions& options, std::vector<std::string>& settings) 
   for (const std::string& name : options.ablations) settings.push_back("--ablate " + name);
 }
 
-CampaignPlan PlanOf(const RunOptions& options) {
+campaign::CampaignPlan PlanOf(const RunOptions& options) {
   std::vector<std::string> overrides = options.campaign.overrides;
   if (options.campaign.trials) {
     overrides.push_back(fmt::format("trials={}", *options.campaign.trials));
   }
   if (options.campaign.seed) overrides.push_back(fmt::format("seed={}", *options.campaign.seed));
   const scenario::Scenario scenario =
-      scenario::WithAblations(LoadScenarioFrom(options.scenario, overrides), options.ablations)
+      scenario::WithAblations(campaign::LoadScenarioFrom(options.scenario, overrides),
+                              options.ablations)
           .scenario;
   std::string folder = scenario.name;
   for (const std::string& ablation : options.ablations) folder += fmt::format("-{}", ablation);
-  std::optional<std::vector<std::string>> settings = SettingsOf(options.scenario);
+  std::optional<std::vector<std::string>> settings = campaign::SettingsOf(options.scenario);
   if (settings) AddSettings(options, *settings);
   return {.name = scenario.name,
           .design = "",
-          .folder = DefaultFolder(folder, scenario.seed),
+          .folder = campaign::DefaultFolder(folder, scenario.seed),
           .cells = {{.name = "", .scenario = scenario}},
           .settings = std::move(settings)};
 }
@@ -56,7 +57,8 @@ CampaignPlan PlanOf(const RunOptions& options) {
 // An ablation that changes nothing may be a mistake: nothing of that kind is in the scenario.
 void TellIdleAblations(const RunOptions& options) {
   if (options.ablations.empty() || options.campaign.quiet) return;
-  const scenario::Scenario base = LoadScenarioFrom(options.scenario, options.campaign.overrides);
+  const scenario::Scenario base =
+      campaign::LoadScenarioFrom(options.scenario, options.campaign.overrides);
   for (const std::string& name : scenario::WithAblations(base, options.ablations).idle) {
     PrintNote(fmt::format("--ablate {} changes nothing in this scenario", name));
   }
@@ -77,7 +79,7 @@ ExitCode Run(const RunOptions& options) {
   if (options.campaign.dry_run) return DryRun(options.campaign, PlanOf(options));
   return RunCampaign(
       options.campaign, [&] { return PlanOf(options); },
-      [&](const OpenedRun& run, const batch::BatchResult& result) {
+      [&](const campaign::OpenedRun& run, const batch::BatchResult& result) {
         ReportRun(run.folder, ReportOptionsOf(options, result));
       });
 }

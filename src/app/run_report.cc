@@ -7,8 +7,8 @@
 
 #include "app/console.h"
 #include "app/next_command.h"
-#include "app/run_source.h"
 #include "batch/executor.h"
+#include "campaign/run_source.h"
 #include "report/accounting.h"
 #include "report/atomic_file.h"
 #include "report/measurement_text.h"
@@ -38,7 +38,7 @@ void Show(const ReportOptions& options, const std::string& text, const std::stri
   }
 }
 
-void ReportShard(const StoredRun& run, const report::RunDescription& description,
+void ReportShard(const campaign::StoredRun& run, const report::RunDescription& description,
                  const ReportOptions& options) {
   const std::string json = report::ShardJson(description);
   report::WriteFileAtomically(run.folder / "scenario.resolved.json",
@@ -49,7 +49,7 @@ void ReportShard(const StoredRun& run, const report::RunDescription& description
   Show(options, report::ShardText(description), json, run.folder, Finished::kShard);
 }
 
-void ReportMeasurement(const StoredRun& run, const report::RunDescription& description,
+void ReportMeasurement(const campaign::StoredRun& run, const report::RunDescription& description,
                        const ReportOptions& options) {
   const statistics::MeasurementSummary summary = report::WriteMeasurementFiles(
       run.folder, description, run.schema, run.records, run.prefix(), options.method);
@@ -58,7 +58,7 @@ void ReportMeasurement(const StoredRun& run, const report::RunDescription& descr
        Finished::kMeasurement);
 }
 
-void ReportDrives(const StoredRun& run, const report::RunDescription& description,
+void ReportDrives(const campaign::StoredRun& run, const report::RunDescription& description,
                   const ReportOptions& options) {
   const statistics::DriveSummary summary = report::WriteRunFiles(
       run.folder, description, run.schema, run.records, run.prefix(), options.method);
@@ -69,12 +69,12 @@ void ReportDrives(const StoredRun& run, const report::RunDescription& descriptio
 }  // namespace
 
 void ReportRun(const std::filesystem::path& folder, const ReportOptions& options) {
-  const StoredRun run = ReadRun(folder);
+  const campaign::StoredRun run = campaign::ReadRun(folder);
   report::RunDescription description =
-      Describe(run, batch::ThreadCount({.threads = options.threads}));
+      campaign::Describe(run, batch::ThreadCount({.threads = options.threads}));
   // With the trials that are planned now; the run may have been extended.
   description.resolved = scenario::ResolvedJson(
-      LoadScenarioFrom(folder, std::vector{fmt::format("trials={}", run.planned)}));
+      campaign::LoadScenarioFrom(folder, std::vector{fmt::format("trials={}", run.planned)}));
   if (!run.shard.whole()) {
     ReportShard(run, description, options);
   } else if (truth::IsMeasurement(run.schema)) {

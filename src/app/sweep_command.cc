@@ -11,10 +11,10 @@
 #include "app/command_text.h"
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/planned_trials.h"
 #include "app/run_campaign.h"
 #include "app/sweep_plan.h"
 #include "app/sweep_report.h"
+#include "campaign/planned_trials.h"
 #include "core/error.h"
 #include "scenario/sweep.h"
 
@@ -44,12 +44,13 @@ scenario::Sweep SweepOf(const SweepOptions& options) {
   }
 }
 
-CampaignPlan PlanOf(const SweepOptions& options, const scenario::Sweep& sweep) {
-  CampaignPlan plan{.name = sweep.name,
-                    .design = sweep.document,
-                    .folder = DefaultFolder(sweep.name, static_cast<std::int64_t>(sweep.seed)),
-                    .cells = {},
-                    .settings = options.campaign.overrides};
+campaign::CampaignPlan PlanOf(const SweepOptions& options, const scenario::Sweep& sweep) {
+  campaign::CampaignPlan plan{
+      .name = sweep.name,
+      .design = sweep.document,
+      .folder = campaign::DefaultFolder(sweep.name, static_cast<std::int64_t>(sweep.seed)),
+      .cells = {},
+      .settings = options.campaign.overrides};
   for (const scenario::SweepCell& cell : sweep.cells) {
     plan.cells.push_back({.name = cell.name, .scenario = cell.scenario});
   }
@@ -69,10 +70,10 @@ ReportOptions ReportOptionsOf(const SweepOptions& options, const batch::BatchRes
 ExitCode DryRun(const SweepOptions& options) {
   if (!IsFirstRank()) return ExitCode::kDone;
   const scenario::Sweep sweep = SweepOf(options);
-  const CampaignPlan plan = PlanOf(options, sweep);
+  const campaign::CampaignPlan plan = PlanOf(options, sweep);
   CheckPlan(options.campaign, plan);
   WriteSweepPlan(sweep, {.folder = options.campaign.out,
-                         .trials = TrialsOf(RequestOf(options.campaign, plan), plan),
+                         .trials = campaign::TrialsOf(RequestOf(options.campaign, plan), plan),
                          .pilots = options.pilots,
                          .output = options.campaign.output()});
   return ExitCode::kDone;
@@ -88,7 +89,7 @@ ExitCode RunSweep(const SweepOptions& options) {
         sweep = SweepOf(options);
         return PlanOf(options, sweep);
       },
-      [&](const OpenedRun& run, const batch::BatchResult& result) {
+      [&](const campaign::OpenedRun& run, const batch::BatchResult& result) {
         ReportSweep(run.store, sweep, ReportOptionsOf(options, result));
       });
 }

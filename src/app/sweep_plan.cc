@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "app/console.h"
-#include "app/open_run.h"
-#include "app/sweep_pilot.h"
+#include "campaign/open_run.h"
+#include "campaign/sweep_pilot.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/json_text.h"
@@ -36,7 +36,7 @@ constexpr int kLeastToCompare = 2;  // one pilot may be equal by chance
 
 fs::path FolderOf(const Sweep& sweep, const SweepPlanOptions& options) {
   if (!options.folder.empty()) return options.folder;
-  fs::path folder = DefaultFolder(sweep.name, static_cast<std::int64_t>(sweep.seed));
+  fs::path folder = campaign::DefaultFolder(sweep.name, static_cast<std::int64_t>(sweep.seed));
   folder += "-plan";
   return folder;
 }
@@ -94,7 +94,7 @@ JsonValue CellPlan(const Sweep& sweep, std::size_t index, std::int64_t trials,
   return plan;
 }
 
-JsonValue CostOf(const CampaignCost& cost) {
+JsonValue CostOf(const campaign::CampaignCost& cost) {
   JsonValue json = JsonValue::Object();
   json.Set("pilots", JsonValue(cost.pilots));
   json.Set("cpu_s", JsonValue(cost.total_s));
@@ -104,8 +104,9 @@ JsonValue CostOf(const CampaignCost& cost) {
   return json;
 }
 
-std::string PlanJson(const Sweep& sweep, const PlannedTrials& trials,
-                     const std::vector<batch::PilotCost>& pilots, const CampaignCost& cost) {
+std::string PlanJson(const Sweep& sweep, const campaign::PlannedTrials& trials,
+                     const std::vector<batch::PilotCost>& pilots,
+                     const campaign::CampaignCost& cost) {
   JsonValue::List cells;
   for (std::size_t i = 0; i < sweep.cells.size(); ++i) {
     cells.push_back(CellPlan(sweep, i, trials.cells[i], pilots[i]));
@@ -122,7 +123,7 @@ std::string PlanJson(const Sweep& sweep, const PlannedTrials& trials,
   return core::DumpJson(plan);
 }
 
-std::string PlanCsv(const Sweep& sweep, const PlannedTrials& trials,
+std::string PlanCsv(const Sweep& sweep, const campaign::PlannedTrials& trials,
                     const std::vector<batch::PilotCost>& pilots) {
   std::vector<std::string> fields{"cell", "name"};
   for (const scenario::SweepAxis& axis : sweep.axes) fields.push_back(report::CsvField(axis.name));
@@ -157,7 +158,7 @@ std::string Duration(double seconds) {
   return fmt::format("{:.3g} h", seconds / 3600.0);
 }
 
-std::string CostText(const CampaignCost& cost, const PlannedTrials& trials) {
+std::string CostText(const campaign::CampaignCost& cost, const campaign::PlannedTrials& trials) {
   if (cost.pilots == 0) return "  no pilots, no cost\n";
   const std::string error = cost.standard_error_s
                                 ? "standard error " + Duration(*cost.standard_error_s)
@@ -195,8 +196,8 @@ std::vector<std::string> EqualPilots(const Sweep& sweep,
 void WriteSweepPlan(const Sweep& sweep, const SweepPlanOptions& options) {
   const fs::path folder = FolderOf(sweep, options);
   CheckPlanFolder(folder);
-  const std::vector<batch::PilotCost> pilots = RunPilots(sweep, options.pilots);
-  const CampaignCost cost = ExpectedCost(options.trials, pilots);
+  const std::vector<batch::PilotCost> pilots = campaign::RunPilots(sweep, options.pilots);
+  const campaign::CampaignCost cost = campaign::ExpectedCost(options.trials, pilots);
   const std::string json = PlanJson(sweep, options.trials, pilots, cost);
   MakeFolder(folder);
   for (std::size_t i = 0; i < sweep.cells.size(); ++i) {

@@ -4,15 +4,15 @@
 #include <filesystem>
 
 #include "app/campaign_options.h"
-#include "app/planned_trials.h"
+#include "campaign/planned_trials.h"
 #include "scenario/sweep.h"
 
 namespace rockyard::app {
 
 struct SweepPlanOptions {
-  std::filesystem::path folder;  // empty: results/runs/<name>-seed<seed>-plan
-  PlannedTrials trials;          // of the cells of the sweep
-  int pilots = 3;                // trials of each cell that are run for their cost; 0: none
+  std::filesystem::path folder;    // empty: results/runs/<name>-seed<seed>-plan
+  campaign::PlannedTrials trials;  // of the cells of the sweep
+  int pilots = 3;                  // trials of each cell that are run for their cost; 0: none
   Output output = Output::kText;
 };
 

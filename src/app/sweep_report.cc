@@ -10,10 +10,10 @@
 
 #include "app/console.h"
 #include "app/next_command.h"
-#include "app/run_source.h"
-#include "app/run_views.h"
 #include "batch/executor.h"
 #include "batch/trial_hash.h"
+#include "campaign/run_source.h"
+#include "campaign/run_views.h"
 #include "core/provenance.h"
 #include "report/accounting.h"
 #include "report/atomic_file.h"
@@ -30,9 +30,9 @@ class StoredCells {
       : reader_(store.path().parent_path(), store) {}
 
   report::SweepCellTrials Load(std::size_t index) {
-    StoredRun run = reader_.Load(static_cast<int>(index));
+    campaign::StoredRun run = reader_.Load(static_cast<int>(index));
     std::string name = run.identity.name;
-    report::SweepCellTrials trials = SweepCellView(std::move(run));
+    report::SweepCellTrials trials = campaign::SweepCellView(std::move(run));
     hashes_.push_back({std::move(name), trials.trial_hash});
     return trials;
   }
@@ -40,7 +40,7 @@ class StoredCells {
   std::string CampaignHash() const { return batch::CampaignHash(hashes_); }
 
  private:
-  CellReader reader_;
+  campaign::CellReader reader_;
   std::vector<batch::CellHash> hashes_;
 };
 
@@ -48,12 +48,12 @@ class StoredCells {
 void ReportSweepShard(const batch::ResultStore& store, const ReportOptions& options) {
   const batch::Shard shard = store.identity().shard;
   const std::filesystem::path folder = store.path().parent_path();
-  const CellReader reader(folder, store);
+  const campaign::CellReader reader(folder, store);
   std::vector<report::ShardCell> cells;
   report::Accounting total;
   for (int cell = 0; cell < store.cells(); ++cell) {
-    const StoredRun run = reader.Load(cell);
-    cells.push_back({run.identity.name, AccountingOf(run)});
+    const campaign::StoredRun run = reader.Load(cell);
+    cells.push_back({run.identity.name, campaign::AccountingOf(run)});
     total = report::Sum(total, cells.back().accounting);
   }
   const std::string json =

@@ -51,7 +51,7 @@ class CliTraceFaults : public WatchedRunTest {
     request.drive = [&](const scenario::Scenario& scenario, std::uint64_t seed,
                         std::uint64_t trial) {
       hook(trial);
-      return RecordDrive(scenario, seed, trial);
+      return campaign::RecordDrive(scenario, seed, trial);
     };
     testing::internal::CaptureStderr();
     const ExitCode code = RunContained(

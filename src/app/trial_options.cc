@@ -1,0 +1,30 @@
+#include "app/trial_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "app/console.h"
+
+namespace rockyard::app {
+
+void AddTrialOptions(CLI::App& command, campaign::TrialRequest& request) {
+  command
+      .add_option("SCENARIO_OR_RUN", request.source,
+                  "scenario file, scenario.resolved.json, or the folder of a run")
+      ->required();
+  command.add_option("--trial", request.trial, "trial index, from 0")->required();
+  command.add_option("--cell", request.cell, "cell of a campaign: its name, or number from 0");
+  command.add_option("--seed", request.seed, "seed of every random stream");
+  command.add_option("--set", request.overrides, "PATH=VALUE: changes the scenario; repeat")
+      ->allow_extra_args(false);
+}
+
+ExitCode TellRepetition(const std::vector<core::Problem>& differences) {
+  if (differences.empty()) {
+    Print("  same as the stored record, bit for bit\n");
+    return ExitCode::kDone;
+  }
+  PrintProblems(differences);
+  return ExitCode::kDiffers;
+}
+
+}  // namespace rockyard::app
