@@ -75,7 +75,7 @@ class ReplayWriter {
     }
     std::atomic<bool> stop{false};
     {
-      const InterruptGuard interrupt(stop, SecondSignal::kEnds);
+      const InterruptGuard interrupt(stop, campaign::SecondWish::kEnds);
       batch::RunTasks(trials_.size(), threads, stop, [&](std::size_t i) { WriteOne(i); });
     }
     if (IsTerminal(stderr)) std::fputc('\n', stderr);

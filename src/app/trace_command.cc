@@ -6,10 +6,10 @@
 #include <memory>
 #include <string>
 
-#include "app/campaign_traces.h"
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/trial_options.h"
+#include "campaign/campaign_traces.h"
 #include "campaign/drive_recording.h"
 #include "campaign/output_file.h"
 #include "campaign/plan_view.h"
@@ -51,8 +51,9 @@ void WriteOutputs(const StoryOptions& options, const campaign::TrialSource& sour
     Print(fmt::format("  plan view in {}\n", options.svg));
   }
   if (!options.npz.empty()) {
-    report::WriteFileAtomically(options.npz, TraceBytes(source.scenario, source.cell, recording,
-                                                        campaign::TraceFormat::kNpz));
+    report::WriteFileAtomically(
+        options.npz,
+        campaign::TraceBytes(source.scenario, source.cell, recording, campaign::TraceFormat::kNpz));
     Print(fmt::format("  arrays for NumPy in {}\n", options.npz));
   }
 }

@@ -30,6 +30,9 @@ enum class ExistingRun {
 struct CampaignCell {
   std::string name;  // "" in a run of one scenario
   scenario::Scenario scenario;
+
+  // For people.
+  std::string Label() const { return name.empty() ? "scenario" : "cell " + name; }
 };
 
 // What is to be run.

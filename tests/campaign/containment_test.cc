@@ -4,14 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <iostream>
 #include <set>
 
-#include "app/campaign_process.h"
 #include "batch/fake_experiment.h"
 #include "batch/run_folder.h"
 #include "batch/trial_hash.h"
+#include "campaign/campaign_process.h"
 
-namespace rockyard::app {
+namespace rockyard::campaign {
 namespace {
 
 using batch::FakeExperiment;
@@ -22,17 +23,27 @@ constexpr std::int64_t kTrials = 40;
 
 class Containment : public testing::Test {
  protected:
-  // The exit code of a campaign whose trials run `hook` first. Nothing of it runs in this process,
+  // The outcome of a campaign whose trials run `hook` first. Nothing of it runs in this process,
   // which stays fit to fork.
-  ExitCode Run(const FakeExperiment::Hook& hook, const ContainmentOptions& options) {
-    testing::internal::CaptureStderr();
-    const ExitCode code =
-        RunContained(options, [&](CampaignProcess& process) { return Campaign(process, hook); });
-    said_ = testing::internal::GetCapturedStderr();
-    return code;
+  Outcome Run(const FakeExperiment::Hook& hook, const ContainmentOptions& options) {
+    const WorkResult result =
+        RunParts(options, [&](CampaignProcess& process) { return Campaign(process, hook); }, {});
+    said_.clear();
+    for (const Note& note : result.notes) said_ += note.text + "\n";
+    for (const core::Problem& problem : result.problems) {
+      said_ += problem.path + ": " + problem.reason + "\n  " + problem.suggestion + "\n";
+    }
+    return result.outcome;
   }
 
-  ExitCode Campaign(CampaignProcess& process, const FakeExperiment::Hook& hook) {
+  static WorkResult RunParts(const ContainmentOptions& options, const CampaignPart& body,
+                             const CampaignPart& afterwards, const Observer& observer = {}) {
+    return Recorded(observer, [&](Journal& journal) {
+      return RunContained(options, {journal, Stop()}, body, afterwards);
+    });
+  }
+
+  Outcome Campaign(CampaignProcess& process, const FakeExperiment::Hook& hook) {
     const batch::FolderClaim claim(folder_.path());
     ResultStore store = batch::HoldsStore(folder_.path())
                             ? ResultStore::Resume(folder_.path(), batch::FakeIdentity())
@@ -42,8 +53,8 @@ class Containment : public testing::Test {
     if (!process.whole()) return process.DoTask({&work, 1}, store);
     const batch::BatchResult result =
         process.RunTrials({&work, 1}, store, {.interval = std::chrono::milliseconds(20)});
-    if (process.TellLeftOut(store)) return ExitCode::kFailed;
-    return result.end == batch::BatchEnd::kFinished ? ExitCode::kDone : ExitCode::kInterrupted;
+    if (process.TellLeftOut(store)) return Outcome::kFailed;
+    return result.end == batch::BatchEnd::kFinished ? Outcome::kDone : Outcome::kInterrupted;
   }
 
   std::vector<truth::Record> Records() const { return ResultStore::Read(folder_.path()).Load(); }
@@ -92,7 +103,7 @@ TEST_P(Threads, CrashingTrialsBecomeFaultsWithAReplayLine) {
     CrashAt(8, index, SIGABRT);
     CrashAt(39, index, SIGFPE);
   };
-  EXPECT_EQ(Run(hook, {.threads = GetParam()}), ExitCode::kDone);
+  EXPECT_EQ(Run(hook, {.threads = GetParam()}), Outcome::kDone);
   const std::vector<truth::Record> records = Records();
   ASSERT_EQ(records.size(), static_cast<std::size_t>(kTrials)) << "planned = completed + faulted";
   for (const auto& [trial, signal] :
@@ -124,7 +135,7 @@ TEST_F(Containment, KilledFromOutsideChangesNoRecord) {
   const auto hook = [&](std::uint64_t index) {
     if (index == 20 && std::filesystem::create_directory(once)) raise(SIGKILL);
   };
-  EXPECT_EQ(Run(hook, {.threads = 2}), ExitCode::kDone);
+  EXPECT_EQ(Run(hook, {.threads = 2}), Outcome::kDone);
   EXPECT_EQ(Good().size(), static_cast<std::size_t>(kTrials));
   EXPECT_TRUE(WithMachineFault("killed").contains(20));
 }
@@ -134,13 +145,13 @@ TEST_F(Containment, HangingTrialIsLeftPendingAndResumed) {
     if (index == 3) Spin();
   };
   const ContainmentOptions options{.trial_cpu_limit_s = 0.3, .threads = 2};
-  EXPECT_EQ(Run(hang, options), ExitCode::kFailed);
+  EXPECT_EQ(Run(hang, options), Outcome::kFailed);
   EXPECT_EQ(Good().size(), static_cast<std::size_t>(kTrials) - 1);
   EXPECT_FALSE(Good().contains(3));
   EXPECT_EQ(WithMachineFault("cpu_time_limit"), std::set<std::int64_t>{3});
   EXPECT_THAT(said_, HasSubstr("trial 3: is pending"));
   EXPECT_THAT(said_, HasSubstr("rockyard replay " + folder_.path().string() + " --trial 3"));
-  EXPECT_EQ(Run({}, options), ExitCode::kDone);
+  EXPECT_EQ(Run({}, options), Outcome::kDone);
   EXPECT_EQ(Good().size(), static_cast<std::size_t>(kTrials));
 }
 
@@ -149,7 +160,7 @@ TEST_F(Containment, WithoutLimitASlowTrialIsWaitedFor) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(900);
     while (index == 3 && std::chrono::steady_clock::now() < end) continue;
   };
-  EXPECT_EQ(Run(slow, {.trial_cpu_limit_s = 0.0, .threads = 2}), ExitCode::kDone);
+  EXPECT_EQ(Run(slow, {.trial_cpu_limit_s = 0.0, .threads = 2}), Outcome::kDone);
   EXPECT_EQ(Good().size(), static_cast<std::size_t>(kTrials));
 }
 
@@ -162,21 +173,21 @@ TEST_F(Containment, TheResultIsToldOnce) {
     if (std::filesystem::create_directory(once)) raise(SIGKILL);
   };
   const auto body = [&](CampaignProcess& process) {
-    const ExitCode code = Campaign(process, {});
+    const Outcome code = Campaign(process, {});
     if (process.reported()) return code;
-    if (!std::filesystem::create_directory(told)) return ExitCode::kDiffers;  // told before
+    if (!std::filesystem::create_directory(told)) return Outcome::kDiffers;  // told before
     process.SetReported();
     die_once();
     return code;
   };
   const auto afterwards = [&](CampaignProcess& process) {
     return process.Afterwards([&](const batch::Mission& mission, batch::FlightLog&) {
-      if (mission.task == batch::Mission::Task::kGoOn) return ExitCode::kDone;
+      if (mission.task == batch::Mission::Task::kGoOn) return Outcome::kDone;
       raise(SIGKILL);
-      return ExitCode::kFailed;
+      return Outcome::kFailed;
     });
   };
-  EXPECT_EQ(RunContained({.threads = 2}, body, afterwards), ExitCode::kDone);
+  EXPECT_EQ(RunParts({.threads = 2}, body, afterwards).outcome, Outcome::kDone);
   EXPECT_TRUE(std::filesystem::exists(told));
   EXPECT_EQ(Good().size(), static_cast<std::size_t>(kTrials));
 }
@@ -185,8 +196,13 @@ TEST_F(Containment, TheResultIsToldOnce) {
 TEST_F(Containment, WithoutSupervisorACrashEndsTheProcess) {
   const auto run = [&](const FakeExperiment::Hook& hook) {
     const ContainmentOptions options{.supervisor = false, .trial_cpu_limit_s = 0.2, .threads = 1};
-    return static_cast<int>(
-        RunContained(options, [&](CampaignProcess& process) { return Campaign(process, hook); }));
+    const Observer console{.problems = [](const std::vector<core::Problem>& problems) {
+      for (const core::Problem& problem : problems) {
+        std::cerr << problem.path << ": " << problem.reason << "\n";
+      }
+    }};
+    const CampaignPart body = [&](CampaignProcess& process) { return Campaign(process, hook); };
+    return static_cast<int>(RunParts(options, body, {}, console).outcome);
   };
   const auto crash = [](std::uint64_t index) { CrashAt(30, index, SIGSEGV); };
   EXPECT_EXIT(run(crash), testing::KilledBySignal(SIGSEGV), "");
@@ -197,4 +213,4 @@ TEST_F(Containment, WithoutSupervisorACrashEndsTheProcess) {
 }
 
 }  // namespace
-}  // namespace rockyard::app
+}  // namespace rockyard::campaign

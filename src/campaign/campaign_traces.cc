@@ -1,4 +1,4 @@
-#include "app/campaign_traces.h"
+#include "campaign/campaign_traces.h"
 
 #include <fmt/format.h>
 
@@ -11,11 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "app/campaign_process.h"
-#include "app/console.h"
-#include "app/progress_line.h"
 #include "batch/parallel_tasks.h"
 #include "batch/trial_hash.h"
+#include "campaign/campaign_process.h"
 #include "campaign/run_source.h"
 #include "core/error.h"
 #include "report/atomic_file.h"
@@ -23,7 +21,7 @@
 #include "report/trace_npz.h"
 #include "scenario/sweep.h"
 
-namespace rockyard::app {
+namespace rockyard::campaign {
 namespace {
 
 namespace fs = std::filesystem;
@@ -31,7 +29,7 @@ using batch::Mission;
 
 constexpr std::size_t kMostProblems = 8;  // that are told
 
-fs::path CellFolder(const fs::path& folder, const campaign::StoredRun& run) {
+fs::path CellFolder(const fs::path& folder, const StoredRun& run) {
   fs::path traces = folder / "traces";
   if (run.identity.name.empty()) return traces;
   return traces / scenario::CellFileName(static_cast<std::size_t>(run.cell), run.identity.name);
@@ -63,19 +61,19 @@ class InFlight {
 class TraceWriter {
  public:
   TraceWriter(fs::path folder, const TraceRequest& request, const Mission& mission,
-              batch::FlightLog& log)
+              batch::FlightLog& log, Journal& journal)
       : folder_(std::move(folder)),
         request_(request),
         mission_(mission),
         log_(log),
-        line_(stderr) {}
+        journal_(journal) {}
 
   // Notes which traces of a cell are to be written. Every cell comes before the first WriteCell:
   // what is told of is a share of all.
-  void PlanCell(const campaign::StoredRun& run) {
+  void PlanCell(const StoredRun& run) {
     std::vector<std::uint64_t>& wanted = wanted_.emplace_back();
     for (const std::uint64_t trial :
-         campaign::KeptTrials(request_.retention, run.schema, run.records, run.identity.seed)) {
+         KeptTrials(request_.retention, run.schema, run.records, run.identity.seed)) {
       if (!IsAsked({run.cell, static_cast<std::int64_t>(trial)})) continue;
       ++total_;
       std::error_code ignored;
@@ -89,10 +87,9 @@ class TraceWriter {
 
   bool HasWork(int cell) const { return !wanted_[static_cast<std::size_t>(cell)].empty(); }
 
-  void WriteCell(const campaign::StoredRun& run) {
+  void WriteCell(const StoredRun& run) {
     if (!MakeFolder(CellFolder(folder_, run))) return;
-    const scenario::Scenario scenario =
-        campaign::LoadScenarioFrom(folder_, {}, std::to_string(run.cell));
+    const scenario::Scenario scenario = LoadScenarioFrom(folder_, {}, std::to_string(run.cell));
     const std::vector<std::uint64_t>& wanted = wanted_[static_cast<std::size_t>(run.cell)];
     std::vector<const truth::Record*> records;
     for (const truth::Record& record : run.records) {
@@ -104,9 +101,9 @@ class TraceWriter {
                     [&](std::size_t i) { WriteTrial(scenario, run, *records[i]); });
   }
 
-  ExitCode Finish(const batch::ResultStore& store) {
-    if (mission_.task == Mission::Task::kRunAlone) return ExitCode::kDone;
-    if (!request_.quiet && total_ > there_) line_.FinishText(Progress());
+  Outcome Finish(const batch::ResultStore& store) {
+    if (mission_.task == Mission::Task::kRunAlone) return Outcome::kDone;
+    if (total_ > there_) Tell(Moment::kEnd);
     for (const batch::LeftOut& left : mission_.left_out) {
       problems_.push_back({fmt::format("trial {}", left.id.trial),
                            "has no trace: each time it was driven again its process died",
@@ -114,18 +111,18 @@ class TraceWriter {
     }
     if (!problems_.empty()) return TellProblems();
     if (log_.stop()) {
-      PrintNote(
+      journal_.Warn(
           fmt::format("interrupted: {} of {} traces are written; the same command with "
                       "--resume writes the others",
                       there_ + written_, total_));
-      return ExitCode::kInterrupted;
+      return Outcome::kInterrupted;
     }
-    if (!request_.quiet) PrintNote(Summary());
-    return ExitCode::kDone;
+    journal_.Remark(Summary());
+    return Outcome::kDone;
   }
 
  private:
-  fs::path PathOf(const campaign::StoredRun& run, std::uint64_t trial) const {
+  fs::path PathOf(const StoredRun& run, std::uint64_t trial) const {
     return CellFolder(folder_, run) / TraceFileName(trial, request_.format);
   }
 
@@ -147,8 +144,8 @@ class TraceWriter {
     return true;
   }
 
-  std::string Progress() const {
-    return fmt::format("  traces: {}/{} written", there_ + written_, total_);
+  void Tell(Moment moment) const {
+    if (request_.progress) request_.progress({there_ + written_, total_}, moment);
   }
 
   // After a crash nobody knows which of those that are there are of this command.
@@ -161,23 +158,22 @@ class TraceWriter {
                        there_ > 0 ? fmt::format(", {} were there", there_) : "", traces);
   }
 
-  ExitCode TellProblems() {
+  Outcome TellProblems() {
     const std::size_t more = problems_.size() - std::min(problems_.size(), kMostProblems);
     problems_.resize(problems_.size() - more);
-    PrintProblems(problems_);
-    if (more > 0) PrintNote(fmt::format("and {} more", more));
-    return ExitCode::kFailed;
+    journal_.Fail(problems_);
+    if (more > 0) journal_.Warn(fmt::format("and {} more", more));
+    return Outcome::kFailed;
   }
 
   // Says what is wrong with a trial, and lets the others go on.
-  void WriteTrial(const scenario::Scenario& scenario, const campaign::StoredRun& run,
+  void WriteTrial(const scenario::Scenario& scenario, const StoredRun& run,
                   const truth::Record& stored) {
     const fs::path path = PathOf(run, stored.trial);
     std::vector<core::Problem> problems;
     try {
       const InFlight flight(log_, {run.cell, static_cast<std::int64_t>(stored.trial)});
-      const campaign::DriveRecording recording =
-          request_.drive(scenario, run.identity.seed, stored.trial);
+      const DriveRecording recording = request_.drive(scenario, run.identity.seed, stored.trial);
       const auto differences =
           report::RecordDifferences(run.schema, stored, recording.traced.record);
       if (differences.empty()) {
@@ -198,15 +194,15 @@ class TraceWriter {
     const std::lock_guard lock(mutex_);
     if (problems.empty()) log_.SetStored(static_cast<std::int64_t>(++written_));
     problems_.insert(problems_.end(), problems.begin(), problems.end());
-    if (!request_.quiet) line_.ShowText(Progress());
+    Tell(Moment::kUnderWay);
   }
 
   const fs::path folder_;
   const TraceRequest& request_;
   const Mission& mission_;
   batch::FlightLog& log_;
+  Journal& journal_;
   std::mutex mutex_;
-  ProgressLine line_;
   std::vector<std::vector<std::uint64_t>> wanted_;  // of each cell, ascending
   std::size_t total_ = 0;
   std::size_t there_ = 0;
@@ -217,10 +213,10 @@ class TraceWriter {
 }  // namespace
 
 std::string TraceBytes(const scenario::Scenario& scenario, const std::string& cell,
-                       const campaign::DriveRecording& recording, campaign::TraceFormat format) {
+                       const DriveRecording& recording, TraceFormat format) {
   const report::TracedTrial& traced = recording.traced;
-  if (format == campaign::TraceFormat::kCsv) return report::TraceCsv(traced.trace);
-  const std::vector<report::ReplayPose> poses = campaign::PosesOf(scenario, traced.trace);
+  if (format == TraceFormat::kCsv) return report::TraceCsv(traced.trace);
+  const std::vector<report::ReplayPose> poses = PosesOf(scenario, traced.trace);
   return report::TraceNpz({.traced = traced,
                            .poses = poses,
                            .scans = recording.scans,
@@ -230,16 +226,15 @@ std::string TraceBytes(const scenario::Scenario& scenario, const std::string& ce
                            .provenance = core::CurrentProvenance()});
 }
 
-std::string TraceFileName(std::uint64_t trial, campaign::TraceFormat format) {
-  return fmt::format("trial-{:06}.{}", trial,
-                     format == campaign::TraceFormat::kCsv ? "csv" : "npz");
+std::string TraceFileName(std::uint64_t trial, TraceFormat format) {
+  return fmt::format("trial-{:06}.{}", trial, format == TraceFormat::kCsv ? "csv" : "npz");
 }
 
-ExitCode WriteTraces(const fs::path& folder, const TraceRequest& request, const Mission& mission,
-                     batch::FlightLog& log) {
-  TraceWriter writer(folder, request, mission, log);
+Outcome WriteTraces(const fs::path& folder, const TraceRequest& request, const Mission& mission,
+                    batch::FlightLog& log, Journal& journal) {
+  TraceWriter writer(folder, request, mission, log, journal);
   const batch::ResultStore store = batch::ResultStore::Read(folder);
-  const campaign::CellReader reader(folder, store);
+  const CellReader reader(folder, store);
   for (int cell = 0; cell < store.cells(); ++cell) writer.PlanCell(reader.Load(cell));
   for (int cell = 0; cell < store.cells() && !log.stop(); ++cell) {
     if (writer.HasWork(cell)) writer.WriteCell(reader.Load(cell));
@@ -247,4 +242,4 @@ ExitCode WriteTraces(const fs::path& folder, const TraceRequest& request, const 
   return writer.Finish(store);
 }
 
-}  // namespace rockyard::app
+}  // namespace rockyard::campaign

@@ -1,4 +1,4 @@
-#include "app/rank_service.h"
+#include "campaign/rank_service.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -10,8 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "app/console.h"
-#include "app/interrupt.h"
 #include "batch/distributed.h"
 #include "batch/flight_log.h"
 #include "batch/logged_experiment.h"
@@ -24,12 +22,12 @@
 #include "experiments/experiment.h"
 #include "scenario/load.h"
 
-namespace rockyard::app {
+namespace rockyard::campaign {
 namespace {
 
 // Beside those of batch/distributed.cc.
 constexpr int kCampaign = 10;  // build, then of each cell: fingerprint, resolved scenario, seed
-constexpr int kEnd = 11;       // exit code
+constexpr int kEnd = 11;       // outcome
 
 constexpr std::chrono::milliseconds kPause{2};
 
@@ -61,10 +59,9 @@ class ReceivedWork {
 
  private:
   static void CheckBuild(const std::string& build) {
-    if (build == campaign::BuildName()) return;
+    if (build == BuildName()) return;
     throw core::UserError(
-        "build",
-        fmt::format("is \"{}\" on this rank and \"{}\" on rank 0", campaign::BuildName(), build),
+        "build", fmt::format("is \"{}\" on this rank and \"{}\" on rank 0", BuildName(), build),
         "start the same program on machines of the same CPU level");
   }
 
@@ -87,12 +84,12 @@ class ReceivedWork {
 };
 
 // MPI ends the other ranks as soon as one ends without saying so.
-[[noreturn]] void EndJob(const std::vector<core::Problem>& problems) {
-  PrintProblems(problems);
-  _exit(static_cast<int>(ExitCode::kFailed));
+[[noreturn]] void EndJob(Journal& journal, const std::vector<core::Problem>& problems) {
+  journal.Fail(problems);
+  _exit(static_cast<int>(Outcome::kFailed));
 }
 
-void EndOverdue(const std::vector<batch::Flight>& overdue) {
+void EndLate(Journal& journal, const std::vector<batch::Flight>& overdue) {
   std::vector<core::Problem> problems;
   problems.reserve(overdue.size());
   for (const batch::Flight& flight : overdue) {
@@ -100,16 +97,18 @@ void EndOverdue(const std::vector<batch::Flight>& overdue) {
                         "used more CPU time than --trial-cpu-limit, and is pending",
                         "go on with --resume and without mpirun, which tries it again alone"});
   }
-  EndJob(problems);
+  EndJob(journal, problems);
 }
 
-void Serve(batch::Communicator& communicator, const std::string& campaign, int threads,
-           double trial_cpu_limit_s) {
+void Serve(batch::Communicator& communicator, const std::string& campaign,
+           const ContainmentOptions& options, const Contact& contact) {
   batch::FlightLog log;
   const ReceivedWork received(campaign, log);
-  const batch::Watchdog watchdog(log, {.cpu_limit_s = trial_cpu_limit_s}, EndOverdue);
-  const InterruptGuard interrupt(log.stop(), SecondSignal::kIsTheSame);
-  batch::ServeBatch(communicator, received.work(), threads, log.stop());
+  const batch::Watchdog watchdog(
+      log, {.cpu_limit_s = options.trial_cpu_limit_s},
+      [&](const std::vector<batch::Flight>& overdue) { EndLate(contact.journal, overdue); });
+  const std::shared_ptr<void> watch = contact.stop.Watch(log.stop(), SecondWish::kIsTheSame);
+  batch::ServeBatch(communicator, received.work(), options.threads, log.stop());
 }
 
 }  // namespace
@@ -124,25 +123,26 @@ void StartRanks(batch::Communicator& communicator, const batch::CampaignIdentity
   SendToAll(communicator, kCampaign, packet.bytes());
 }
 
-void EndRanks(batch::Communicator& communicator, ExitCode code) {
+void EndRanks(batch::Communicator& communicator, Outcome outcome) {
   SendToAll(communicator, kEnd,
-            batch::PacketWriter().Integer(static_cast<std::int64_t>(code)).bytes());
+            batch::PacketWriter().Integer(static_cast<std::int64_t>(outcome)).bytes());
 }
 
-ExitCode ServeRankZero(batch::Communicator& communicator, int threads, double trial_cpu_limit_s) {
+Outcome ServeRankZero(batch::Communicator& communicator, const ContainmentOptions& options,
+                      const Contact& contact) {
   try {
     for (;;) {
       const batch::Message message = WaitForMessage(communicator);
       if (message.tag == kEnd) {
-        return static_cast<ExitCode>(batch::PacketReader(message.bytes).Integer());
+        return static_cast<Outcome>(batch::PacketReader(message.bytes).Integer());
       }
-      Serve(communicator, message.bytes, threads, trial_cpu_limit_s);
+      Serve(communicator, message.bytes, options, contact);
     }
   } catch (const core::UserError& error) {
-    EndJob(error.problems());
+    EndJob(contact.journal, error.problems());
   } catch (const std::exception& error) {
-    EndJob({{"rockyard", error.what(), ""}});
+    EndJob(contact.journal, {{"rockyard", error.what(), ""}});
   }
 }
 
-}  // namespace rockyard::app
+}  // namespace rockyard::campaign

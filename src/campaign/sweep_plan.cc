@@ -1,17 +1,14 @@
-#include "app/sweep_plan.h"
+#include "campaign/sweep_plan.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <map>
 #include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
 
-#include "app/console.h"
 #include "campaign/open_run.h"
 #include "campaign/sweep_pilot.h"
 #include "core/error.h"
@@ -21,7 +18,7 @@
 #include "report/csv.h"
 #include "scenario/load.h"
 
-namespace rockyard::app {
+namespace rockyard::campaign {
 namespace {
 
 namespace fs = std::filesystem;
@@ -31,12 +28,11 @@ using scenario::Sweep;
 constexpr const char* kPlanFile = "plan.json";
 constexpr const char* kTableFile = "plan.csv";
 constexpr const char* kCellFolder = "cells";
-constexpr std::array<int, 4> kThreadCounts{1, 2, 4, 16};
 constexpr int kLeastToCompare = 2;  // one pilot may be equal by chance
 
 fs::path FolderOf(const Sweep& sweep, const SweepPlanOptions& options) {
   if (!options.folder.empty()) return options.folder;
-  fs::path folder = campaign::DefaultFolder(sweep.name, static_cast<std::int64_t>(sweep.seed));
+  fs::path folder = DefaultFolder(sweep.name, static_cast<std::int64_t>(sweep.seed));
   folder += "-plan";
   return folder;
 }
@@ -94,7 +90,7 @@ JsonValue CellPlan(const Sweep& sweep, std::size_t index, std::int64_t trials,
   return plan;
 }
 
-JsonValue CostOf(const campaign::CampaignCost& cost) {
+JsonValue CostOf(const CampaignCost& cost) {
   JsonValue json = JsonValue::Object();
   json.Set("pilots", JsonValue(cost.pilots));
   json.Set("cpu_s", JsonValue(cost.total_s));
@@ -104,9 +100,8 @@ JsonValue CostOf(const campaign::CampaignCost& cost) {
   return json;
 }
 
-std::string PlanJson(const Sweep& sweep, const campaign::PlannedTrials& trials,
-                     const std::vector<batch::PilotCost>& pilots,
-                     const campaign::CampaignCost& cost) {
+std::string PlanJson(const Sweep& sweep, const PlannedTrials& trials,
+                     const std::vector<batch::PilotCost>& pilots, const CampaignCost& cost) {
   JsonValue::List cells;
   for (std::size_t i = 0; i < sweep.cells.size(); ++i) {
     cells.push_back(CellPlan(sweep, i, trials.cells[i], pilots[i]));
@@ -123,7 +118,7 @@ std::string PlanJson(const Sweep& sweep, const campaign::PlannedTrials& trials,
   return core::DumpJson(plan);
 }
 
-std::string PlanCsv(const Sweep& sweep, const campaign::PlannedTrials& trials,
+std::string PlanCsv(const Sweep& sweep, const PlannedTrials& trials,
                     const std::vector<batch::PilotCost>& pilots) {
   std::vector<std::string> fields{"cell", "name"};
   for (const scenario::SweepAxis& axis : sweep.axes) fields.push_back(report::CsvField(axis.name));
@@ -152,28 +147,6 @@ std::string PlanCsv(const Sweep& sweep, const campaign::PlannedTrials& trials,
   return csv;
 }
 
-std::string Duration(double seconds) {
-  if (seconds < 120.0) return fmt::format("{:.3g} s", seconds);
-  if (seconds < 7200.0) return fmt::format("{:.3g} min", seconds / 60.0);
-  return fmt::format("{:.3g} h", seconds / 3600.0);
-}
-
-std::string CostText(const campaign::CampaignCost& cost, const campaign::PlannedTrials& trials) {
-  if (cost.pilots == 0) return "  no pilots, no cost\n";
-  const std::string error = cost.standard_error_s
-                                ? "standard error " + Duration(*cost.standard_error_s)
-                                : "standard error unknown";
-  std::string text =
-      fmt::format("  expected cost, from {} pilot trials: {}{} of CPU time ({})\n    ", cost.pilots,
-                  trials.at_most ? "at most " : "", Duration(cost.total_s), error);
-  for (const int threads : kThreadCounts) {
-    text += fmt::format("{} with {} thread{}{}", Duration(cost.total_s / threads), threads,
-                        threads == 1 ? "" : "s", threads == kThreadCounts.back() ? "\n" : ", ");
-  }
-  return text + fmt::format("    (as many cores as threads; the slowest pilot took {})\n",
-                            Duration(cost.slowest_s));
-}
-
 // Cells whose pilots are equal differ by a setting that changed no trial.
 std::vector<std::string> EqualPilots(const Sweep& sweep,
                                      const std::vector<batch::PilotCost>& pilots) {
@@ -193,12 +166,12 @@ std::vector<std::string> EqualPilots(const Sweep& sweep,
 
 }  // namespace
 
-void WriteSweepPlan(const Sweep& sweep, const SweepPlanOptions& options) {
+SweepPlan WriteSweepPlan(const Sweep& sweep, const SweepPlanOptions& options) {
   const fs::path folder = FolderOf(sweep, options);
   CheckPlanFolder(folder);
-  const std::vector<batch::PilotCost> pilots = campaign::RunPilots(sweep, options.pilots);
-  const campaign::CampaignCost cost = campaign::ExpectedCost(options.trials, pilots);
-  const std::string json = PlanJson(sweep, options.trials, pilots, cost);
+  const std::vector<batch::PilotCost> pilots = RunPilots(sweep, options.pilots);
+  CampaignCost cost = ExpectedCost(options.trials, pilots);
+  std::string json = PlanJson(sweep, options.trials, pilots, cost);
   MakeFolder(folder);
   for (std::size_t i = 0; i < sweep.cells.size(); ++i) {
     const scenario::SweepCell& cell = sweep.cells[i];
@@ -207,13 +180,7 @@ void WriteSweepPlan(const Sweep& sweep, const SweepPlanOptions& options) {
   }
   report::WriteFileAtomically(folder / kTableFile, PlanCsv(sweep, options.trials, pilots));
   report::WriteFileAtomically(folder / kPlanFile, json);
-  for (const std::string& note : EqualPilots(sweep, pilots)) PrintNote(note);
-  if (options.output == Output::kJson) Print(json);
-  if (options.output != Output::kText) return;
-  Print(Wrapped(fmt::format("{}: {} cells, {}, seed {}\n", sweep.name, sweep.cells.size(),
-                            options.trials.text(), sweep.seed)));
-  Print(Wrapped(CostText(cost, options.trials)));
-  Print(fmt::format("  plan, and every cell's scenario, in {}\n", folder.string()));
+  return {folder, std::move(json), cost, EqualPilots(sweep, pilots)};
 }
 
-}  // namespace rockyard::app
+}  // namespace rockyard::campaign

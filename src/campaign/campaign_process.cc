@@ -1,4 +1,4 @@
-#include "app/campaign_process.h"
+#include "campaign/campaign_process.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -8,17 +8,14 @@
 #include <string>
 #include <utility>
 
-#include "app/console.h"
-#include "app/guard.h"
-#include "app/interrupt.h"
-#include "app/rank_service.h"
 #include "batch/batch_session.h"
 #include "batch/distributed.h"
 #include "batch/leaving_out.h"
 #include "batch/logged_experiment.h"
 #include "batch/watchdog.h"
+#include "campaign/rank_service.h"
 
-namespace rockyard::app {
+namespace rockyard::campaign {
 namespace {
 
 using batch::CellWork;
@@ -26,13 +23,38 @@ using batch::Flight;
 using batch::Mission;
 using Task = Mission::Task;
 
-// Experiments that note their trials in the log.
+void AskToStop(const Stop& stop, batch::FlightLog& log) {
+  if (stop.IsWanted()) log.stop() = true;
+}
+
+// Asks after every trial whether it was the last.
+class StoppedExperiment final : public experiments::Experiment {
+ public:
+  StoppedExperiment(const experiments::Experiment& experiment, const Stop& stop,
+                    batch::FlightLog& log)
+      : experiment_(experiment), stop_(stop), log_(log) {}
+
+  const truth::RecordSchema& schema() const override { return experiment_.schema(); }
+
+  truth::Record Run(std::uint64_t seed, std::uint64_t index) const override {
+    truth::Record record = experiment_.Run(seed, index);
+    AskToStop(stop_, log_);
+    return record;
+  }
+
+ private:
+  const experiments::Experiment& experiment_;
+  const Stop& stop_;
+  batch::FlightLog& log_;
+};
+
+// Experiments that note their trials in the log, and heed the caller's wish to stop.
 class LoggedWork {
  public:
-  LoggedWork(std::span<const CellWork> work, batch::FlightLog& log) {
+  LoggedWork(std::span<const CellWork> work, batch::FlightLog& log, const Stop& stop) {
     for (const CellWork& cell : work) {
-      const auto& logged =
-          experiments_.emplace_back(*cell.experiment, static_cast<int>(work_.size()), log);
+      const auto& stopped = stopped_.emplace_back(*cell.experiment, stop, log);
+      const auto& logged = logged_.emplace_back(stopped, static_cast<int>(work_.size()), log);
       work_.push_back({&logged, cell.seed});
     }
   }
@@ -40,7 +62,8 @@ class LoggedWork {
   std::span<const CellWork> work() const { return work_; }
 
  private:
-  std::deque<batch::LoggedExperiment> experiments_;
+  std::deque<StoppedExperiment> stopped_;
+  std::deque<batch::LoggedExperiment> logged_;
   std::vector<CellWork> work_;
 };
 
@@ -54,7 +77,8 @@ std::uint64_t SeedOf(const batch::ResultStore& store, int cell) {
 }
 
 // Without a supervisor that would try again.
-[[noreturn]] void EndOverdue(const batch::ResultStore& store, const std::vector<Flight>& overdue) {
+[[noreturn]] void EndOverdue(const batch::ResultStore& store, const std::vector<Flight>& overdue,
+                             Journal& journal) {
   std::vector<core::Problem> problems;
   problems.reserve(overdue.size());
   for (const Flight& flight : overdue) {
@@ -62,54 +86,54 @@ std::uint64_t SeedOf(const batch::ResultStore& store, int cell) {
                         "used more CPU time than --trial-cpu-limit, and is pending",
                         ReplayLine(store, flight.id)});
   }
-  PrintProblems(problems);
-  _exit(static_cast<int>(ExitCode::kFailed));
+  journal.Fail(problems);
+  _exit(static_cast<int>(Outcome::kFailed));
 }
 
 // In this process, which may be rank 0.
-ExitCode RunHere(const ContainmentOptions& options, batch::Communicator* communicator,
-                 const CampaignPart& body) {
+Outcome RunHere(const ContainmentOptions& options, batch::Communicator* communicator,
+                const Contact& contact, const CampaignPart& body) {
   batch::FlightLog log;
   const Mission mission;
-  CampaignProcess process(options, mission, log, communicator);
-  return Guarded([&] { return body(process); });
+  CampaignProcess process(options, mission, log, communicator, contact);
+  return Guarded(contact.journal, [&] { return body(process); });
 }
 
-ExitCode RunSupervised(const ContainmentOptions& options, const CampaignPart& body,
-                       batch::SupervisorOptions supervisor) {
+Outcome RunSupervised(const ContainmentOptions& options, const Contact& contact,
+                      const CampaignPart& body, batch::SupervisorOptions supervisor) {
   batch::FlightLog log;
   const auto work = [&](const Mission& mission) {
-    CampaignProcess process(options, mission, log, nullptr);
-    return static_cast<int>(Guarded([&] { return body(process); }));
+    CampaignProcess process(options, mission, log, nullptr, contact);
+    return static_cast<int>(Guarded(contact.journal, [&] { return body(process); }));
   };
-  supervisor.failed_exit = static_cast<int>(ExitCode::kFailed);
-  supervisor.interrupted_exit = static_cast<int>(ExitCode::kInterrupted);
-  return static_cast<ExitCode>(
-      batch::Supervise(log, work, supervisor, [](const std::string& text) { PrintNote(text); }));
+  supervisor.failed_exit = static_cast<int>(Outcome::kFailed);
+  supervisor.interrupted_exit = static_cast<int>(Outcome::kInterrupted);
+  return static_cast<Outcome>(batch::Supervise(
+      log, work, supervisor, [&](const std::string& text) { contact.journal.Warn(text); }));
 }
 
 // `run` is called with each part that is to be run, and with what its supervisor is told.
-ExitCode RunParts(
+Outcome RunParts(
     const CampaignPart& body, const CampaignPart& afterwards,
-    const std::function<ExitCode(const CampaignPart&, const batch::SupervisorOptions&)>& run) {
-  const ExitCode code = run(body, {});
-  const bool all_trials = code == ExitCode::kDone || code == ExitCode::kTooManyFaults;
+    const std::function<Outcome(const CampaignPart&, const batch::SupervisorOptions&)>& run) {
+  const Outcome code = run(body, {});
+  const bool all_trials = code == Outcome::kDone || code == Outcome::kTooManyFaults;
   if (!all_trials || !afterwards) return code;
-  const ExitCode after = run(afterwards, {.faults_are_stored = false, .fruit = "writing a trace"});
-  return after == ExitCode::kDone ? code : after;
+  const Outcome after = run(afterwards, {.faults_are_stored = false, .fruit = "writing a trace"});
+  return after == Outcome::kDone ? code : after;
 }
 
-ExitCode RunOnRanks(ContainmentOptions& options, const batch::Launch& launch,
-                    const CampaignPart& body, const CampaignPart& afterwards) {
+Outcome RunOnRanks(ContainmentOptions& options, const batch::Launch& launch, const Contact& contact,
+                   const CampaignPart& body, const CampaignPart& afterwards) {
   if (options.threads == 0) {
     options.threads = std::max(batch::ThreadCount({}) / launch.local_ranks, 1);
   }
   const std::unique_ptr<batch::Communicator> communicator = batch::StartMpi();
   if (communicator->rank() != 0) {
-    return ServeRankZero(*communicator, options.threads, options.trial_cpu_limit_s);
+    return ServeRankZero(*communicator, options, contact);
   }
-  const ExitCode code = RunParts(body, afterwards, [&](const CampaignPart& part, const auto&) {
-    return RunHere(options, communicator.get(), part);
+  const Outcome code = RunParts(body, afterwards, [&](const CampaignPart& part, const auto&) {
+    return RunHere(options, communicator.get(), contact, part);
   });
   EndRanks(*communicator, code);
   return code;
@@ -117,14 +141,24 @@ ExitCode RunOnRanks(ContainmentOptions& options, const batch::Launch& launch,
 
 }  // namespace
 
+bool IsFirstRank() {
+  const std::optional<batch::Launch> launch = batch::FindLaunch();
+  return !launch || launch->rank == 0;
+}
+
 std::string ReplayLine(const batch::ResultStore& store, batch::TrialId id) {
   return fmt::format("rockyard replay {}{} --trial {}", store.path().parent_path().string(),
                      CellPart(store, id.cell), id.trial);
 }
 
 CampaignProcess::CampaignProcess(const ContainmentOptions& options, const Mission& mission,
-                                 batch::FlightLog& log, batch::Communicator* communicator)
-    : options_(options), mission_(mission), log_(log), communicator_(communicator) {}
+                                 batch::FlightLog& log, batch::Communicator* communicator,
+                                 const Contact& contact)
+    : options_(options),
+      mission_(mission),
+      log_(log),
+      communicator_(communicator),
+      contact_(contact) {}
 
 batch::BatchResult CampaignProcess::RunTrials(std::span<const CellWork> work,
                                               batch::ResultStore& store,
@@ -132,19 +166,21 @@ batch::BatchResult CampaignProcess::RunTrials(std::span<const CellWork> work,
                                               const batch::ProgressReport& report) {
   options.threads = options_.threads;
   log_.SetOpened();
-  const LoggedWork logged(work, log_);
+  const LoggedWork logged(work, log_, contact_.stop);
   const bool supervised = options_.supervisor && communicator_ == nullptr;
   const batch::Watchdog watchdog(log_, {.cpu_limit_s = options_.trial_cpu_limit_s},
                                  [&](const std::vector<Flight>& overdue) {
                                    if (supervised) _exit(batch::kOverdueExit);
-                                   EndOverdue(store, overdue);
+                                   EndOverdue(store, overdue, contact_.journal);
                                  });
-  const InterruptGuard interrupt(log_.stop(),
-                                 alone() ? SecondSignal::kEnds : SecondSignal::kIsTheSame);
+  const std::shared_ptr<void> watch =
+      contact_.stop.Watch(log_.stop(), alone() ? SecondWish::kEnds : SecondWish::kIsTheSame);
   const auto note = [&](const batch::Progress& progress) {
     log_.SetStored(progress.stored);
+    AskToStop(contact_.stop, log_);
     if (report) report(progress);
   };
+  AskToStop(contact_.stop, log_);
   batch::BatchSession session(store, options, log_.stop(), note);
   const int threads = batch::ThreadCount(options);
   if (communicator_ != nullptr) {
@@ -162,26 +198,26 @@ batch::BatchResult CampaignProcess::RunTrials(std::span<const CellWork> work,
   return result;
 }
 
-ExitCode CampaignProcess::Afterwards(
-    const std::function<ExitCode(const Mission& mission, batch::FlightLog& log)>& work) {
+Outcome CampaignProcess::Afterwards(
+    const std::function<Outcome(const Mission& mission, batch::FlightLog& log)>& work) {
   log_.SetOpened();
-  const InterruptGuard interrupt(log_.stop(),
-                                 alone() ? SecondSignal::kEnds : SecondSignal::kIsTheSame);
+  const std::shared_ptr<void> watch =
+      contact_.stop.Watch(log_.stop(), alone() ? SecondWish::kEnds : SecondWish::kIsTheSame);
   return work(mission_, log_);
 }
 
-ExitCode CampaignProcess::DoTask(std::span<const CellWork> work, batch::ResultStore& store) {
+Outcome CampaignProcess::DoTask(std::span<const CellWork> work, batch::ResultStore& store) {
   const batch::TrialId id = mission_.trial;
   if (mission_.task == Task::kStoreMachineFault) {
     store.AddInfrastructureFault({id, mission_.kind, mission_.reason});
-    return ExitCode::kDone;
+    return Outcome::kDone;
   }
   batch::CellRecord record{id.cell, {}};
   if (mission_.task == Task::kStoreFault) {
     const std::string reason = fmt::format("{}; see `{}`", mission_.reason, ReplayLine(store, id));
     record.record = truth::MakeFault(SeedOf(store, id.cell), id.trial, reason);
   } else {
-    const LoggedWork logged(work, log_);
+    const LoggedWork logged(work, log_, contact_.stop);
     // No other trial is to be stored meanwhile.
     const batch::WatchdogOptions limits{.cpu_limit_s = options_.trial_cpu_limit_s,
                                         .grace = std::chrono::milliseconds(0)};
@@ -189,7 +225,7 @@ ExitCode CampaignProcess::DoTask(std::span<const CellWork> work, batch::ResultSt
     record = batch::RunTrial(logged.work(), id);
   }
   store.Append(std::span(&record, 1));
-  return ExitCode::kDone;
+  return Outcome::kDone;
 }
 
 bool CampaignProcess::TellLeftOut(const batch::ResultStore& store) const {
@@ -209,20 +245,20 @@ bool CampaignProcess::TellLeftOut(const batch::ResultStore& store) const {
                      options_.trial_cpu_limit_s),
          fmt::format("`{}`, or --resume with a larger --trial-cpu-limit", ReplayLine(store, id))});
   }
-  PrintProblems(problems);
+  contact_.journal.Fail(problems);
   return !problems.empty();
 }
 
-ExitCode RunContained(ContainmentOptions options, const CampaignPart& body,
-                      const CampaignPart& afterwards) {
+Outcome RunContained(ContainmentOptions options, const Contact& contact, const CampaignPart& body,
+                     const CampaignPart& afterwards) {
   if (const std::optional<batch::Launch> launch = batch::FindLaunch()) {
-    return RunOnRanks(options, *launch, body, afterwards);
+    return RunOnRanks(options, *launch, contact, body, afterwards);
   }
   return RunParts(body, afterwards,
                   [&](const CampaignPart& part, const batch::SupervisorOptions& supervisor) {
-                    return options.supervisor ? RunSupervised(options, part, supervisor)
-                                              : RunHere(options, nullptr, part);
+                    return options.supervisor ? RunSupervised(options, contact, part, supervisor)
+                                              : RunHere(options, nullptr, contact, part);
                   });
 }
 
-}  // namespace rockyard::app
+}  // namespace rockyard::campaign

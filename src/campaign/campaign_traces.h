@@ -1,38 +1,47 @@
 // Traces of chosen trials of a campaign, written once its trials are stored.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
 
-#include "app/exit_code.h"
 #include "batch/flight_log.h"
 #include "batch/supervisor.h"
 #include "campaign/drive_recording.h"
+#include "campaign/journal.h"
+#include "campaign/observer.h"
+#include "campaign/outcome.h"
 #include "campaign/trace_retention.h"
 #include "scenario/scenario.h"
 
-namespace rockyard::app {
+namespace rockyard::campaign {
 
 // As RecordDrive.
-using TraceDriver = std::function<campaign::DriveRecording(
-    const scenario::Scenario& scenario, std::uint64_t seed, std::uint64_t trial)>;
+using TraceDriver = std::function<DriveRecording(const scenario::Scenario& scenario,
+                                                 std::uint64_t seed, std::uint64_t trial)>;
+
+struct TraceProgress {
+  std::size_t written = 0;  // with those that were there before
+  std::size_t total = 0;
+};
 
 struct TraceRequest {
-  campaign::TraceRetention retention;
-  campaign::TraceFormat format = campaign::TraceFormat::kNpz;
+  TraceRetention retention;
+  TraceFormat format = TraceFormat::kNpz;
   int threads = 1;
-  bool quiet = false;  // print errors only
-  TraceDriver drive = campaign::RecordDrive;
+  // By one thread at a time; at the end where any were to be written.
+  std::function<void(const TraceProgress& progress, Moment moment)> progress = {};
+  TraceDriver drive = RecordDrive;
 };
 
 // The bytes of a trace file.
 std::string TraceBytes(const scenario::Scenario& scenario, const std::string& cell,
-                       const campaign::DriveRecording& recording, campaign::TraceFormat format);
+                       const DriveRecording& recording, TraceFormat format);
 
 // "trial-000123.npz"
-std::string TraceFileName(std::uint64_t trial, campaign::TraceFormat format);
+std::string TraceFileName(std::uint64_t trial, TraceFormat format);
 
 // Drives the chosen trials of every cell of the run in `folder` again, on several threads, and
 // writes each trace that is not there yet, whole or not at all: traces/trial-000123.npz, of a sweep
@@ -44,7 +53,7 @@ std::string TraceFileName(std::uint64_t trial, campaign::TraceFormat format);
 // is done. The log is told of every trial in flight and of how many traces are written. Records are
 // only read. Throws core::UserError where the run cannot be read. Cost: that of the trials; memory:
 // one recording per thread, and the records of one cell.
-ExitCode WriteTraces(const std::filesystem::path& folder, const TraceRequest& request,
-                     const batch::Mission& mission, batch::FlightLog& log);
+Outcome WriteTraces(const std::filesystem::path& folder, const TraceRequest& request,
+                    const batch::Mission& mission, batch::FlightLog& log, Journal& journal);
 
-}  // namespace rockyard::app
+}  // namespace rockyard::campaign
