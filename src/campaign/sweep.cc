@@ -14,7 +14,7 @@ namespace rockyard::campaign {
 namespace {
 
 // Problems name the file, of which a cluster job may have many.
-scenario::Sweep SweepOf(const SweepRequest& request) {
+scenario::Sweep RequestedSweep(const SweepRequest& request) {
   const std::string file = request.file.string();
   try {
     return scenario::LoadSweep(file, {.overrides = request.campaign.overrides,
@@ -53,7 +53,7 @@ WorkResult RunSweep(const SweepRequest& request, const RunObserver& observer, co
     return RunCampaign(
         campaign,
         [&] {
-          sweep = SweepOf(request);
+          sweep = RequestedSweep(request);
           return PlanOfCells(request, sweep);
         },
         [&](const OpenedRun& run) { return ReportSweep(run.store, sweep, settings); }, observer,
@@ -63,7 +63,7 @@ WorkResult RunSweep(const SweepRequest& request, const RunObserver& observer, co
 
 core::Result<SweepRehearsal> RehearseSweep(const SweepRequest& request, int pilots) {
   return core::Attempt([&] {
-    SweepRehearsal told{.sweep = SweepOf(request), .trials = {}, .plan = {}};
+    SweepRehearsal told{.sweep = RequestedSweep(request), .trials = {}, .plan = {}};
     const CampaignPlan plan = PlanOfCells(request, told.sweep);
     CheckPlan(request.campaign, plan);
     told.trials = TrialsOf(OpeningOf(request.campaign, plan), plan);

@@ -5,39 +5,39 @@
 #include <set>
 #include <string>
 
-#include "app/report_replays.h"
+#include "campaign/report_replays.h"
 #include "campaign/shell_word.h"
 
-namespace rockyard::app {
+namespace rockyard::campaign {
 namespace {
 
 using testing::ElementsAre;
 
 TEST(UniqueLabels, AreAsShortAsTheyCanBe) {
-  EXPECT_THAT(campaign::UniqueLabels({{"a", "x/a"}, {"b", "x/b"}}), ElementsAre("a", "b"));
-  EXPECT_THAT(campaign::UniqueLabels({{"a", "x/a"}, {"a", "y/a"}, {"b", "y/b"}}),
+  EXPECT_THAT(UniqueLabels({{"a", "x/a"}, {"b", "x/b"}}), ElementsAre("a", "b"));
+  EXPECT_THAT(UniqueLabels({{"a", "x/a"}, {"a", "y/a"}, {"b", "y/b"}}),
               ElementsAre("x/a", "y/a", "b"));
 }
 
 TEST(UniqueLabels, GetANumberWhereNothingElseTellsThemApart) {
-  EXPECT_THAT(campaign::UniqueLabels({{"a"}, {"a"}, {"a (2)"}}),
+  EXPECT_THAT(UniqueLabels({{"a"}, {"a"}, {"a (2)"}}),
               ElementsAre("a", "a (2)", "a (2) (2)"));
-  EXPECT_TRUE(campaign::UniqueLabels({}).empty());
+  EXPECT_TRUE(UniqueLabels({}).empty());
 }
 
 // The longer name of one may be the short name of another.
 TEST(UniqueLabels, DifferWhateverTheNames) {
-  const auto labels = campaign::UniqueLabels({{"a", "b"}, {"a", "c"}, {"b", "d"}});
+  const auto labels = UniqueLabels({{"a", "b"}, {"a", "c"}, {"b", "d"}});
   EXPECT_EQ(std::set<std::string>(labels.begin(), labels.end()).size(), 3u);
 }
 
 TEST(ShellWord, IsQuotedWhereAShellWouldReadMore) {
-  EXPECT_EQ(campaign::ShellWord("results/runs/a-1_b.json"), "results/runs/a-1_b.json");
-  EXPECT_EQ(campaign::ShellWord("k=0.004,n=a"), "k=0.004,n=a");
-  EXPECT_EQ(campaign::ShellWord("my run"), "'my run'");
-  EXPECT_EQ(campaign::ShellWord("it's"), "'it'\\''s'");
-  EXPECT_EQ(campaign::ShellWord("$(rm -r x)"), "'$(rm -r x)'");
-  EXPECT_EQ(campaign::ShellWord(""), "''");
+  EXPECT_EQ(ShellWord("results/runs/a-1_b.json"), "results/runs/a-1_b.json");
+  EXPECT_EQ(ShellWord("k=0.004,n=a"), "k=0.004,n=a");
+  EXPECT_EQ(ShellWord("my run"), "'my run'");
+  EXPECT_EQ(ShellWord("it's"), "'it'\\''s'");
+  EXPECT_EQ(ShellWord("$(rm -r x)"), "'$(rm -r x)'");
+  EXPECT_EQ(ShellWord(""), "''");
 }
 
 TEST(WorstTrials, OfSeveralCellsTheFurthestFromTheGoalComeFirst) {
@@ -55,4 +55,4 @@ TEST(WorstTrials, OfSeveralCellsTheFurthestFromTheGoalComeFirst) {
 }
 
 }  // namespace
-}  // namespace rockyard::app
+}  // namespace rockyard::campaign

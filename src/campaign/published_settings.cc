@@ -1,17 +1,16 @@
-#include "app/published_settings.h"
+#include "campaign/published_settings.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
 
-#include "app/console.h"
 #include "campaign/baseline_scenario.h"
 #include "campaign/run_views.h"
 #include "core/error.h"
 #include "scenario/load.h"
 
-namespace rockyard::app {
+namespace rockyard::campaign {
 namespace {
 
 namespace fs = std::filesystem;
@@ -20,12 +19,12 @@ using Settings = std::vector<std::string>;
 constexpr std::size_t kMostShown = 12;
 
 // Nothing where the file cannot be read.
-std::optional<Settings> DifferencesFrom(const fs::path& file, const campaign::StoredRun& run) {
+std::optional<Settings> DifferencesFrom(const fs::path& file, const StoredRun& run,
+                                        Journal& journal) {
   try {
-    const std::string published = scenario::ResolvedJson(campaign::LoadScenarioFrom(file));
+    const std::string published = scenario::ResolvedJson(LoadScenarioFrom(file));
     // The run may be of an older program, which had fewer settings.
-    const campaign::BaselineScenario compared =
-        campaign::CompareWithBaseline(run.identity.resolved, published);
+    const BaselineScenario compared = CompareWithBaseline(run.identity.resolved, published);
     Settings settings;
     for (const batch::ScenarioDifference& each : compared.differences) {
       if (settings.size() == kMostShown) {
@@ -38,36 +37,37 @@ std::optional<Settings> DifferencesFrom(const fs::path& file, const campaign::St
     return settings;
   } catch (const core::UserError& error) {
     const core::Problem& problem = error.problems().front();
-    PrintNote(fmt::format("whether {} is the published case is not known: {} {}", run.Label(),
-                          problem.path, problem.reason));
+    journal.Warn(fmt::format("whether {} is the published case is not known: {} {}", run.Label(),
+                             problem.path, problem.reason));
     return std::nullopt;
   }
 }
 
 Settings OtherSettings(const statistics::PublishedReference& reference, const fs::path& folder,
-                       const campaign::StoredRun& run) {
+                       const StoredRun& run, Journal& journal) {
   const auto found =
       std::find_if(reference.scenarios.begin(), reference.scenarios.end(),
                    [&](const auto& scenario) { return scenario.name == run.identity.scenario; });
   if (found != reference.scenarios.end()) {
     const fs::path file = (folder / found->file).lexically_normal();
-    if (std::optional<Settings> settings = DifferencesFrom(file, run)) return *settings;
+    if (std::optional<Settings> settings = DifferencesFrom(file, run, journal)) return *settings;
   }
   return run.settings.value_or(Settings());
 }
 
 }  // namespace
 
-std::vector<statistics::ScenarioRun> PublishedViews(
-    const statistics::PublishedReference& reference, const fs::path& folder,
-    std::span<const campaign::StoredRun* const> runs) {
+std::vector<statistics::ScenarioRun> PublishedViews(const statistics::PublishedReference& reference,
+                                                    const fs::path& folder,
+                                                    std::span<const StoredRun* const> runs,
+                                                    Journal& journal) {
   std::vector<statistics::ScenarioRun> views;
   views.reserve(runs.size());
-  for (const campaign::StoredRun* run : runs) {
-    views.push_back(campaign::ScenarioView(*run));
-    views.back().other_settings = OtherSettings(reference, folder, *run);
+  for (const StoredRun* run : runs) {
+    views.push_back(ScenarioView(*run));
+    views.back().other_settings = OtherSettings(reference, folder, *run, journal);
   }
   return views;
 }
 
-}  // namespace rockyard::app
+}  // namespace rockyard::campaign

@@ -1,4 +1,4 @@
-#include "app/report_replays.h"
+#include "campaign/report_replays.h"
 
 #include <fmt/format.h>
 
@@ -6,23 +6,21 @@
 #include <atomic>
 #include <cctype>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <system_error>
 #include <utility>
 
-#include "app/console.h"
-#include "app/interrupt.h"
 #include "batch/parallel_tasks.h"
 #include "campaign/replay_page.h"
 #include "campaign/trial_source.h"
 #include "core/error.h"
-#include "report/line_text.h"
 #include "report/worst_trials.h"
 #include "statistics/drive_summary.h"
 #include "truth/measurement_record.h"
 
-namespace rockyard::app {
+namespace rockyard::campaign {
 namespace {
 
 namespace fs = std::filesystem;
@@ -53,8 +51,13 @@ std::string PercentEncoded(const std::string& text) {
 // One page after the other, on several threads.
 class ReplayWriter {
  public:
-  ReplayWriter(const fs::path& page, std::span<const WorstTrial> trials, std::size_t runs)
-      : name_(page.stem().string() + "_replays"), trials_(trials), done_(trials.size(), false) {
+  ReplayWriter(const fs::path& page, std::span<const WorstTrial> trials, std::size_t runs,
+               const Contact& contact, const ReplayReport& progress)
+      : name_(page.stem().string() + "_replays"),
+        trials_(trials),
+        contact_(contact),
+        progress_(progress),
+        done_(trials.size(), false) {
     replays_.links.resize(runs);
     replays_.folder = page.parent_path() / name_;
   }
@@ -73,20 +76,24 @@ class ReplayWriter {
       throw core::UserError(replays_.folder.string(), "cannot be made: " + error.message(),
                             "choose another place with --out, or --replays 0");
     }
-    std::atomic<bool> stop{false};
+    std::atomic<bool> stop{contact_.stop.IsWanted()};
     {
-      const InterruptGuard interrupt(stop, campaign::SecondWish::kEnds);
-      batch::RunTasks(trials_.size(), threads, stop, [&](std::size_t i) { WriteOne(i); });
+      const std::shared_ptr<void> watch = contact_.stop.Watch(stop, SecondWish::kEnds);
+      batch::RunTasks(trials_.size(), threads, stop, [&](std::size_t i) {
+        WriteOne(i);
+        if (contact_.stop.IsWanted()) stop = true;
+      });
     }
-    if (IsTerminal(stderr)) std::fputc('\n', stderr);
-    PrintProblems(problems_);
+    if (progress_) progress_({ended_, trials_.size(), 0, ""}, Moment::kEnd);
+    contact_.journal.Fail(problems_);
     for (std::size_t i = 0; i < trials_.size(); ++i) {
       if (done_[i]) Link(trials_[i]);
     }
     if (stop) {
-      PrintNote(fmt::format("interrupted: the page links the {} of {} replays that are written",
-                            replays_.written, trials_.size()));
-      replays_.exit_code = ExitCode::kInterrupted;
+      contact_.journal.Warn(
+          fmt::format("interrupted: the page links the {} of {} replays that are written",
+                      replays_.written, trials_.size()));
+      replays_.outcome = Outcome::kInterrupted;
     }
   }
 
@@ -100,18 +107,17 @@ class ReplayWriter {
   void WriteOne(std::size_t i) {
     const WorstTrial& worst = trials_[i];
     std::vector<core::Problem> problems;
-    ExitCode code = ExitCode::kFailed;
+    Outcome outcome = Outcome::kFailed;
     try {
-      const campaign::TrialSource source =
-          campaign::StoredTrial({.source = worst.folder.string(),
-                                 .cell = worst.cell,
-                                 .trial = static_cast<std::uint32_t>(worst.record.trial),
-                                 .seed = {},
-                                 .overrides = {}},
-                                worst.identity, worst.builds, worst.record);
-      if (!campaign::WriteReplayPage(source, worst.record.trial,
-                                     replays_.folder / FileName(worst))) {
-        code = ExitCode::kDiffers;
+      const TrialSource source =
+          StoredTrial({.source = worst.folder.string(),
+                       .cell = worst.cell,
+                       .trial = static_cast<std::uint32_t>(worst.record.trial),
+                       .seed = {},
+                       .overrides = {}},
+                      worst.identity, worst.builds, worst.record);
+      if (!WriteReplayPage(source, worst.record.trial, replays_.folder / FileName(worst))) {
+        outcome = Outcome::kDiffers;
         problems.push_back({fmt::format("{}, trial {}", worst.label, worst.record.trial),
                             "driven again, its record is not the stored one: it gets no replay",
                             "use the program that made the run: " + worst.builds.front()});
@@ -123,23 +129,16 @@ class ReplayWriter {
                           fmt::format("gets no replay: {}", error.what()), ""});
     }
     const std::lock_guard lock(mutex_);
-    ShowProgress(worst);
+    ++ended_;
+    if (progress_) {
+      progress_({ended_, trials_.size(), worst.record.trial, worst.label}, Moment::kUnderWay);
+    }
     if (problems.empty()) {
       done_[i] = true;
       return;
     }
     problems_.insert(problems_.end(), problems.begin(), problems.end());
-    if (replays_.exit_code != ExitCode::kDiffers) replays_.exit_code = code;
-  }
-
-  void ShowProgress(const WorstTrial& worst) {
-    const std::string text =
-        report::Printable(fmt::format("  replay {} of {}: trial {} of {}", ++ended_, trials_.size(),
-                                      worst.record.trial, worst.label));
-    if (!IsTerminal(stderr)) return PrintNote(text);
-    const auto width = static_cast<std::size_t>(std::max(TerminalWidth(stderr) - 1, 20));
-    const std::string line = "\r\x1b[K" + report::Cut(text, width);
-    std::fwrite(line.data(), 1, line.size(), stderr);
+    if (replays_.outcome != Outcome::kDiffers) replays_.outcome = outcome;
   }
 
   // They may be of other runs, and show what no longer holds.
@@ -151,13 +150,16 @@ class ReplayWriter {
       if (file.extension() == ".html" && !files_.contains(file.string())) ++others;
     }
     if (others == 0) return;
-    PrintNote(fmt::format("{} older page{} in {} {} not of this report: remove {} if not needed",
-                          others, others == 1 ? "" : "s", replays_.folder.string(),
-                          others == 1 ? "is" : "are", others == 1 ? "it" : "them"));
+    contact_.journal.Warn(
+        fmt::format("{} older page{} in {} {} not of this report: remove {} if not needed", others,
+                    others == 1 ? "" : "s", replays_.folder.string(), others == 1 ? "is" : "are",
+                    others == 1 ? "it" : "them"));
   }
 
   const std::string name_;
   const std::span<const WorstTrial> trials_;
+  const Contact& contact_;
+  const ReplayReport& progress_;
   std::mutex mutex_;
   std::vector<bool> done_;
   std::size_t ended_ = 0;
@@ -168,7 +170,7 @@ class ReplayWriter {
 
 }  // namespace
 
-std::vector<WorstTrial> FindWorst(const campaign::StoredRun& run, std::size_t most) {
+std::vector<WorstTrial> FindWorst(const StoredRun& run, std::size_t most) {
   std::vector<WorstTrial> worst;
   if (truth::IsMeasurement(run.schema)) return worst;
   const auto column = statistics::ColumnIndex(run.schema, "true_goal_distance_m");
@@ -197,8 +199,9 @@ std::vector<WorstTrial> Worst(std::vector<WorstTrial> trials, std::size_t most) 
 }
 
 ReportReplays WriteReplays(const fs::path& page, std::span<const WorstTrial> trials,
-                           std::size_t runs, int threads) {
-  return ReplayWriter(page, trials, runs).Write(threads);
+                           std::size_t runs, int threads, const Contact& contact,
+                           const ReplayReport& progress) {
+  return ReplayWriter(page, trials, runs, contact, progress).Write(threads);
 }
 
-}  // namespace rockyard::app
+}  // namespace rockyard::campaign

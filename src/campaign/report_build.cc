@@ -1,16 +1,15 @@
-#include "app/report_build.h"
+#include "campaign/report_build.h"
 
 #include <fmt/format.h>
 
 #include <optional>
 #include <utility>
 
-#include "app/console.h"
-#include "app/report_published.h"
 #include "batch/executor.h"
 #include "batch/result_store.h"
 #include "batch/scenario_difference.h"
 #include "batch/trial_hash.h"
+#include "campaign/report_published.h"
 #include "campaign/run_source.h"
 #include "campaign/run_views.h"
 #include "campaign/shell_word.h"
@@ -21,14 +20,14 @@
 #include "scenario/sweep.h"
 #include "truth/measurement_record.h"
 
-namespace rockyard::app {
+namespace rockyard::campaign {
 namespace {
 
 constexpr std::size_t kMostCompared = 6;
 constexpr auto kMethod = statistics::IntervalMethod::kWilson;
 
 // None where the scenario is of another version of the program.
-std::vector<core::ParameterInfo> ParametersOf(const campaign::StoredRun& run) {
+std::vector<core::ParameterInfo> ParametersOf(const StoredRun& run) {
   try {
     return scenario::ListParameters(scenario::ParseScenario(run.identity.resolved));
   } catch (const core::UserError&) {
@@ -36,9 +35,9 @@ std::vector<core::ParameterInfo> ParametersOf(const campaign::StoredRun& run) {
   }
 }
 
-std::string ReplayCommand(const campaign::StoredRun& run) {
-  std::string command = "rockyard replay " + campaign::ShellWord(run.folder.string());
-  if (!run.identity.name.empty()) command += " --cell " + campaign::ShellWord(run.identity.name);
+std::string ReplayCommand(const StoredRun& run) {
+  std::string command = "rockyard replay " + ShellWord(run.folder.string());
+  if (!run.identity.name.empty()) command += " --cell " + ShellWord(run.identity.name);
   return command + " --trial {trial}";
 }
 
@@ -61,17 +60,18 @@ scenario::Sweep SweepOf(const batch::ResultStore& store, const std::filesystem::
 
 class Builder {
  public:
-  explicit Builder(const ReportRequest& request) : request_(request), published_(request.against) {}
+  Builder(const PageRequest& request, const Contact& contact)
+      : request_(request), contact_(contact), published_(request.against, contact.journal) {}
 
   Report Build() {
     LoadRuns();
     std::size_t next = 0;
-    for (const campaign::ReportInput& input : request_.inputs) {
+    for (const ReportInput& input : request_.inputs) {
       if (input.sweep) {
         AddSweep(input);
         continue;
       }
-      const campaign::StoredRun& run = plain_[next++];
+      const StoredRun& run = plain_[next++];
       AddWorst(FindWorst(run, request_.replays), input.label);
       AddRun(run, input.label, {});
     }
@@ -82,20 +82,19 @@ class Builder {
 
  private:
   void LoadRuns() {
-    for (const campaign::ReportInput& input : request_.inputs) {
+    for (const ReportInput& input : request_.inputs) {
       if (input.sweep) continue;
-      plain_.push_back(campaign::ReadRun(input.folder, input.cell));
+      plain_.push_back(ReadRun(input.folder, input.cell));
       if (plain_.back().records.empty()) FailEmpty(input.folder);
     }
   }
 
-  void AddRun(const campaign::StoredRun& run, const std::string& label,
-              std::optional<std::size_t> sweep) {
+  void AddRun(const StoredRun& run, const std::string& label, std::optional<std::size_t> sweep) {
     report::PageRun page{.label = label,
                          .folder = run.folder.string(),
                          .cell = run.identity.name,
                          .sweep = sweep,
-                         .description = campaign::Describe(run, batch::ThreadCount({})),
+                         .description = Describe(run, batch::ThreadCount({})),
                          .schema = run.schema,
                          .records = run.records,
                          .prefix = run.prefix(),
@@ -129,21 +128,21 @@ class Builder {
     }
   }
 
-  void AddSweep(const campaign::ReportInput& input) {
+  void AddSweep(const ReportInput& input) {
     const batch::ResultStore store = batch::ResultStore::Read(input.folder);
     const scenario::Sweep sweep = SweepOf(store, input.folder);
-    const campaign::CellReader reader(input.folder, store);
+    const CellReader reader(input.folder, store);
     std::vector<batch::CellHash> hashes;
     std::vector<WorstTrial> others = std::exchange(worst_, {});
     const std::size_t before = report_.trials;
     first_cell_parameters_.clear();
     const auto load = [&](std::size_t cell) {
-      campaign::StoredRun run = reader.Load(static_cast<int>(cell));
+      StoredRun run = reader.Load(static_cast<int>(cell));
       AddWorst(FindWorst(run, request_.replays), input.cell_labels[cell]);
       worst_ = Worst(std::move(worst_), request_.replays);
       AddRun(run, input.cell_labels[cell], sweeps_.size());
       std::string name = run.identity.name;
-      report::SweepCellTrials trials = campaign::SweepCellView(std::move(run));
+      report::SweepCellTrials trials = SweepCellView(std::move(run));
       hashes.push_back({std::move(name), trials.trial_hash});
       return trials;
     };
@@ -165,17 +164,18 @@ class Builder {
 
   // Each drive that was named against the first one.
   void Compare() {
-    std::vector<std::pair<const campaign::StoredRun*, std::string>> drives;
+    std::vector<std::pair<const StoredRun*, std::string>> drives;
     std::size_t next = 0;
-    for (const campaign::ReportInput& input : request_.inputs) {
+    for (const ReportInput& input : request_.inputs) {
       if (input.sweep) continue;
-      const campaign::StoredRun& run = plain_[next++];
+      const StoredRun& run = plain_[next++];
       if (truth::IsMeasurement(run.schema) || run.prefix().empty()) continue;
       drives.emplace_back(&run, input.label);
     }
     if (drives.size() > kMostCompared) {
-      PrintNote(fmt::format("{} runs are too many to compare with the first: name up to {}",
-                            drives.size(), kMostCompared));
+      contact_.journal.Warn(
+          fmt::format("{} runs are too many to compare with the first: name up to {}",
+                      drives.size(), kMostCompared));
       return;
     }
     if (drives.size() < 2) return;
@@ -185,8 +185,7 @@ class Builder {
       report::PageComparison comparison{
           .first = first_label,
           .second = label,
-          .comparison =
-              report::CompareRuns(campaign::ComparedView(*first), campaign::ComparedView(*second)),
+          .comparison = report::CompareRuns(ComparedView(*first), ComparedView(*second)),
           .settings = {}};
       for (const batch::ScenarioDifference& each :
            batch::FindScenarioDifferences(first->identity.resolved, second->identity.resolved)) {
@@ -199,12 +198,13 @@ class Builder {
   // Said in the terminal where there is nothing to look in, which is often the wrong folder.
   std::string WhyNonePublished() const {
     if (any_published_) return {};
-    if (published_.empty()) PrintNote(published_.WhyNone());
+    if (published_.empty()) contact_.journal.Warn(published_.WhyNone());
     return published_.WhyNone();
   }
 
   Report Finish() {
-    report_.replays = WriteReplays(request_.page, worst_, runs_.size(), batch::ThreadCount({}));
+    report_.replays = WriteReplays(request_.page, worst_, runs_.size(), batch::ThreadCount({}),
+                                   contact_, request_.progress);
     std::vector<std::string> runs;
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       runs.push_back(
@@ -225,9 +225,10 @@ class Builder {
     return std::move(report_);
   }
 
-  const ReportRequest& request_;
+  const PageRequest& request_;
+  const Contact& contact_;
   PublishedTables published_;
-  std::vector<campaign::StoredRun> plain_;  // that are no cells of a sweep
+  std::vector<StoredRun> plain_;  // that are no cells of a sweep
   std::vector<report::JsonObject> runs_;
   std::vector<std::string> sweeps_;
   std::vector<report::PageComparison> comparisons_;
@@ -240,6 +241,8 @@ class Builder {
 
 }  // namespace
 
-Report BuildReport(const ReportRequest& request) { return Builder(request).Build(); }
+Report BuildReport(const PageRequest& request, const Contact& contact) {
+  return Builder(request, contact).Build();
+}
 
-}  // namespace rockyard::app
+}  // namespace rockyard::campaign

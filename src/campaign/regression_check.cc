@@ -1,4 +1,4 @@
-#include "app/regression_check.h"
+#include "campaign/regression_check.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,19 +7,15 @@
 #include <string_view>
 #include <utility>
 
-#include "app/console.h"
 #include "batch/scenario_difference.h"
 #include "batch/trial_hash.h"
 #include "campaign/baseline_cells.h"
 #include "campaign/baseline_scenario.h"
 #include "campaign/run_source.h"
 #include "core/error.h"
-#include "report/atomic_file.h"
 #include "report/baseline.h"
-#include "report/regression_report.h"
-#include "report/result_json.h"
 
-namespace rockyard::app {
+namespace rockyard::campaign {
 namespace {
 
 using batch::ScenarioDifference;
@@ -28,13 +24,13 @@ using report::CheckedCell;
 
 constexpr std::size_t kShownDifferences = 12;
 
-class Check {
+class BaselineComparison {
  public:
-  Check(report::Baseline baseline, const RegressionRequest& request)
+  BaselineComparison(report::Baseline baseline, const RegressionRequest& request)
       : baseline_(std::move(baseline)),
         request_(request),
-        runs_(campaign::ReadCells(request.runs, request.cell)) {
-    if (!request.cell.empty()) campaign::KeepCellsOf(runs_, baseline_);
+        runs_(ReadCells(request.runs, request.cell)) {
+    if (!request.cell.empty()) KeepCellsOf(runs_, baseline_);
     report_.baseline = baseline_.name;
     report_.reason = baseline_.reason;
     report_.baseline_build = baseline_.build;
@@ -43,7 +39,7 @@ class Check {
   report::RegressionReport Run() {
     std::vector<statistics::RegressionCell> cells;
     for (const BaselineCell& cell : baseline_.cells) {
-      const campaign::StoredRun* run = Find(cell);
+      const StoredRun* run = Find(cell);
       if (run != nullptr) cells.push_back(Compare(cell, *run));
     }
     if (!problems_.empty()) throw core::UserError(std::move(problems_));
@@ -53,11 +49,11 @@ class Check {
   }
 
  private:
-  const campaign::StoredRun* Find(const BaselineCell& cell) {
+  const StoredRun* Find(const BaselineCell& cell) {
     if (baseline_.cells.size() == 1 && runs_.size() == 1) return &runs_.front();
-    const campaign::StoredRun* found = nullptr;
-    for (const campaign::StoredRun& run : runs_) {
-      if (campaign::CellName(run) != cell.name) continue;
+    const StoredRun* found = nullptr;
+    for (const StoredRun& run : runs_) {
+      if (CellName(run) != cell.name) continue;
       if (found != nullptr) {
         problems_.push_back({run.Label(),
                              fmt::format("is cell {}, and so is {}", cell.name, found->Label()),
@@ -74,12 +70,11 @@ class Check {
 
   std::string Names() const {
     std::string names;
-    for (const campaign::StoredRun& run : runs_)
-      names += (names.empty() ? "" : ", ") + campaign::CellName(run);
+    for (const StoredRun& run : runs_) names += (names.empty() ? "" : ", ") + CellName(run);
     return names;
   }
 
-  statistics::RegressionCell Compare(const BaselineCell& cell, const campaign::StoredRun& run) {
+  statistics::RegressionCell Compare(const BaselineCell& cell, const StoredRun& run) {
     const std::span<const truth::Record> records = UsedRecords(cell, run);
     CheckedCell checked{.name = cell.name,
                         .baseline_seed = cell.seed,
@@ -102,14 +97,13 @@ class Check {
             fmt::format("{}: the run has no column for {}", cell.name, metric.name));
       }
     }
-    if (checked.paired) checked.same_pairs = campaign::SamePairs(cell, records, compared.run);
+    if (checked.paired) checked.same_pairs = SamePairs(cell, records, compared.run);
     report_.cells.push_back(std::move(checked));
     return compared;
   }
 
   // As many as the baseline has.
-  std::span<const truth::Record> UsedRecords(const BaselineCell& cell,
-                                             const campaign::StoredRun& run) {
+  std::span<const truth::Record> UsedRecords(const BaselineCell& cell, const StoredRun& run) {
     const std::span<const truth::Record> records = run.prefix();
     if (records.empty()) {
       problems_.push_back({run.Label(), "holds no finished trials", "run some first"});
@@ -118,7 +112,7 @@ class Check {
                                           records.size(), run.planned));
     }
     for (const std::string& resolved : {cell.resolved, run.identity.resolved}) {
-      std::vector<core::Problem> shared = campaign::SharedLayoutProblems(run.Label(), resolved);
+      std::vector<core::Problem> shared = SharedLayoutProblems(run.Label(), resolved);
       if (shared.empty()) continue;
       problems_.push_back(std::move(shared.front()));
       break;
@@ -136,7 +130,7 @@ class Check {
 
   // The exact tier: the same build, seeds and settings give the same records. A build from changed
   // files goes by the name of the last commit, so that its name proves nothing.
-  void Compare(const BaselineCell& cell, const campaign::StoredRun& run,
+  void Compare(const BaselineCell& cell, const StoredRun& run,
                std::span<const truth::Record> records, CheckedCell& checked) const {
     if (!checked.paired || checked.baseline_trials != checked.run_trials) return;
     checked.identical = batch::TrialHash(records) == cell.trial_hash;
@@ -156,10 +150,9 @@ class Check {
   }
 
   // Whether the settings that decide rocks, start and goal are the same.
-  bool CompareScenarios(const BaselineCell& cell, const campaign::StoredRun& run) {
+  bool CompareScenarios(const BaselineCell& cell, const StoredRun& run) {
     if (cell.fingerprint == run.identity.fingerprint) return true;
-    const campaign::BaselineScenario compared =
-        campaign::CompareWithBaseline(cell.resolved, run.identity.resolved);
+    const BaselineScenario compared = CompareWithBaseline(cell.resolved, run.identity.resolved);
     if (!compared.younger.empty()) {
       report_.notes.push_back(fmt::format("{}: younger than the baseline, at their defaults: {}",
                                           cell.name, fmt::join(compared.younger, ", ")));
@@ -195,38 +188,31 @@ class Check {
 
   report::Baseline baseline_;
   const RegressionRequest& request_;
-  std::vector<campaign::StoredRun> runs_;
+  std::vector<StoredRun> runs_;
   report::RegressionReport report_;
   std::vector<core::Problem> problems_;
 };
 
 // `unknown`: whether the baseline has metrics that this program does not know.
-ExitCode CodeOf(const report::RegressionReport& report, bool unknown) {
-  if (report::BrokenDeterminism(report)) return ExitCode::kDiffers;
-  const auto code = static_cast<ExitCode>(statistics::ExitCode(report.result));
-  return code == ExitCode::kDone && unknown ? ExitCode::kInconclusive : code;
+Outcome OutcomeOf(const report::RegressionReport& report, bool unknown) {
+  if (report::BrokenDeterminism(report)) return Outcome::kDiffers;
+  const auto outcome = static_cast<Outcome>(statistics::ExitCode(report.result));
+  return outcome == Outcome::kDone && unknown ? Outcome::kInconclusive : outcome;
 }
 
 }  // namespace
 
-ExitCode CheckAgainstBaseline(const core::JsonValue& baseline, const RegressionRequest& request) {
+BaselineCheck CheckAgainstBaseline(const core::JsonValue& baseline,
+                                   const RegressionRequest& request) {
   std::vector<std::string> unknown;
-  Check check(report::ParseBaseline(baseline, &unknown), request);
-  report::RegressionReport report = check.Run();
+  BaselineComparison comparison(report::ParseBaseline(baseline, &unknown), request);
+  BaselineCheck check{comparison.Run()};
   if (!unknown.empty()) {
-    report.notes.push_back(fmt::format(
+    check.report.notes.push_back(fmt::format(
         "metrics of the baseline that are unknown to this program: {}", fmt::join(unknown, ", ")));
   }
-  if (!request.junit.empty()) {
-    report::WriteFileAtomically(request.junit, report::RegressionJUnit(report));
-  }
-  if (!request.csv.empty()) report::WriteFileAtomically(request.csv, report::RegressionCsv(report));
-  const ExitCode code = CodeOf(report, !unknown.empty());
-  Print(request.json ? report::BaselineCheckJson(report, static_cast<int>(code))
-                     : Wrapped(report::RegressionText(
-                           report, request.all_rows ? report::ReportedRows::kAll
-                                                    : report::ReportedRows::kNotEquivalent)));
-  return code;
+  check.outcome = OutcomeOf(check.report, !unknown.empty());
+  return check;
 }
 
-}  // namespace rockyard::app
+}  // namespace rockyard::campaign

@@ -1,4 +1,4 @@
-#include "app/report_published.h"
+#include "campaign/report_published.h"
 
 #include <fmt/format.h>
 
@@ -7,14 +7,13 @@
 #include <filesystem>
 #include <system_error>
 
-#include "app/console.h"
-#include "app/published_settings.h"
+#include "campaign/published_settings.h"
 #include "core/error.h"
 #include "report/comparison_reference.h"
 #include "report/page_data.h"
 #include "statistics/published_comparison.h"
 
-namespace rockyard::app {
+namespace rockyard::campaign {
 namespace {
 
 namespace fs = std::filesystem;
@@ -43,7 +42,7 @@ void PublishedTables::Load(const fs::path& file) {
   references_.push_back({file.parent_path(), report::LoadReference(file)});
 }
 
-PublishedTables::PublishedTables(const std::string& file) {
+PublishedTables::PublishedTables(const std::string& file, Journal& journal) : journal_(journal) {
   if (!file.empty()) {
     Load(file);
     return;
@@ -52,18 +51,19 @@ PublishedTables::PublishedTables(const std::string& file) {
     try {
       Load(each);
     } catch (const core::UserError& error) {
-      PrintNote(fmt::format("{} is left out: {} {}", each.string(), error.problems().front().path,
-                            error.problems().front().reason));
+      journal.Warn(fmt::format("{} is left out: {} {}", each.string(),
+                               error.problems().front().path, error.problems().front().reason));
     }
   }
 }
 
-std::string PublishedTables::Table(const campaign::StoredRun& run) const {
+std::string PublishedTables::Table(const StoredRun& run) const {
   for (const auto& [folder, reference] : references_) {
     if (!Names(reference, run.identity.scenario)) continue;
     const std::array runs{&run};
     return report::PublishedJson(
-        reference, statistics::Compare(reference, PublishedViews(reference, folder, runs)),
+        reference,
+        statistics::Compare(reference, PublishedViews(reference, folder, runs, journal_)),
         run.identity.scenario);
   }
   return "null";
@@ -81,4 +81,4 @@ std::string PublishedTables::WhyNone() const {
       kReferenceFolder);
 }
 
-}  // namespace rockyard::app
+}  // namespace rockyard::campaign

@@ -6,18 +6,19 @@
 #include <string>
 #include <vector>
 
-#include "app/report_replays.h"
 #include "campaign/report_inputs.h"
+#include "campaign/report_replays.h"
 
-namespace rockyard::app {
+namespace rockyard::campaign {
 
-struct ReportRequest {
-  std::vector<campaign::ReportInput> inputs;
+struct PageRequest {
+  std::vector<ReportInput> inputs;
   std::string title;
   std::string command;
   std::string against;         // reference file; "" for those of results/reference
   std::size_t replays = 0;     // of each run, and of each sweep in all
   std::filesystem::path page;  // whose replays are written beside it
+  ReplayReport progress;       // of these
 };
 
 struct Report {
@@ -32,6 +33,6 @@ struct Report {
 // sweep, those of one cell at a time, and twice the text. Cost: linear in the trials; the
 // comparison with published values takes some seconds, that of each pair of runs 2000 resamplings
 // of every column.
-Report BuildReport(const ReportRequest& request);
+Report BuildReport(const PageRequest& request, const Contact& contact);
 
-}  // namespace rockyard::app
+}  // namespace rockyard::campaign
