@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "campaign/trial_source.h"
 
@@ -20,9 +19,6 @@ struct ReplayOptions {
   std::string data;  // what the page is given
 
   bool draws() const { return scan || step; }
-  std::string_view option() const { return scan ? "--scan" : "--step"; }
-  std::string_view what() const { return scan ? "scan" : "step"; }
-  std::int64_t number() const { return scan ? *scan : step.value_or(0); }
 };
 
 }  // namespace rockyard::app

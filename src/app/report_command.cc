@@ -25,7 +25,7 @@ std::string Size(std::size_t bytes) {
                          : fmt::format("{:.1f} MB", 1e-6 * static_cast<double>(bytes));
 }
 
-void ShowProgress(const campaign::ReplayProgress& progress, campaign::Moment moment) {
+void ShowReplayProgress(const campaign::ReplayProgress& progress, campaign::Moment moment) {
   if (moment == campaign::Moment::kEnd) {
     if (IsTerminal(stderr)) std::fputc('\n', stderr);
     return;
@@ -61,7 +61,7 @@ void PrintPage(const campaign::ReportResult& result) {
 ExitCode WritePage(const campaign::ReportRequest& request) {
   campaign::ReportObserver observer;
   static_cast<campaign::Observer&>(observer) = MessagesToConsole(Output::kText);
-  observer.replays = ShowProgress;
+  observer.replays = ShowReplayProgress;
   const campaign::ReportResult result = campaign::WriteReport(request, observer, StopBySignal());
   if (result.data_bytes > 0) {
     Print(fmt::format("  {} ({})\n", request.data, Size(result.data_bytes)));

@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/console.h"
@@ -66,17 +67,19 @@ ExitCode Trace(const StoryOptions& options) {
   const report::TracedTrial& traced = recording.traced;
   Print(report::TraceStory(traced,
                            options.all ? report::StoryLength::kAll : report::StoryLength::kFolded));
-  const ExitCode exit_code = source.stored
-                                 ? TellRepetition(campaign::CompareWithStore(
-                                       options.request, source, traced.schema, traced.record))
-                                 : ExitCode::kDone;
+  std::vector<core::Problem> differences;
+  if (source.stored) {
+    differences = campaign::CompareWithStore(options.request, source, traced.schema, traced.record);
+    PrintRepetition(differences.empty());
+    PrintProblems(differences);
+  }
   try {
     WriteOutputs(options, source, recording);
   } catch (const core::UserError& failure) {
     PrintProblems(failure.problems());
     return ExitCode::kFailed;
   }
-  return exit_code;
+  return differences.empty() ? ExitCode::kDone : ExitCode::kDiffers;
 }
 
 }  // namespace

@@ -18,13 +18,8 @@ void AddTrialOptions(CLI::App& command, campaign::TrialRequest& request) {
       ->allow_extra_args(false);
 }
 
-ExitCode TellRepetition(const std::vector<core::Problem>& differences) {
-  if (differences.empty()) {
-    Print("  same as the stored record, bit for bit\n");
-    return ExitCode::kDone;
-  }
-  PrintProblems(differences);
-  return ExitCode::kDiffers;
+void PrintRepetition(std::optional<bool> repeats_stored) {
+  if (repeats_stored.value_or(false)) Print("  same as the stored record, bit for bit\n");
 }
 
 }  // namespace rockyard::app

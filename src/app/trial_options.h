@@ -2,11 +2,9 @@
 // record.
 #pragma once
 
-#include <vector>
+#include <optional>
 
-#include "app/exit_code.h"
 #include "campaign/trial_source.h"
-#include "core/error.h"
 
 namespace CLI {
 class App;
@@ -17,8 +15,7 @@ namespace rockyard::app {
 // Adds SCENARIO_OR_RUN, --trial, --cell, --seed and --set to a command. `request` must outlive it.
 void AddTrialOptions(CLI::App& command, campaign::TrialRequest& request);
 
-// Says whether a trial repeats its stored record: kDone, or kDiffers where there are differences
-// (CompareWithStore).
-ExitCode TellRepetition(const std::vector<core::Problem>& differences);
+// Says that a trial repeats its stored record, where it does.
+void PrintRepetition(std::optional<bool> repeats_stored);
 
 }  // namespace rockyard::app

@@ -4,15 +4,14 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <deque>
 #include <string>
 #include <utility>
 
 #include "batch/batch_session.h"
 #include "batch/distributed.h"
 #include "batch/leaving_out.h"
-#include "batch/logged_experiment.h"
 #include "batch/watchdog.h"
+#include "campaign/heeded_work.h"
 #include "campaign/rank_service.h"
 
 namespace rockyard::campaign {
@@ -22,50 +21,6 @@ using batch::CellWork;
 using batch::Flight;
 using batch::Mission;
 using Task = Mission::Task;
-
-void AskToStop(const Stop& stop, batch::FlightLog& log) {
-  if (stop.IsWanted()) log.stop() = true;
-}
-
-// Asks after every trial whether it was the last.
-class StoppedExperiment final : public experiments::Experiment {
- public:
-  StoppedExperiment(const experiments::Experiment& experiment, const Stop& stop,
-                    batch::FlightLog& log)
-      : experiment_(experiment), stop_(stop), log_(log) {}
-
-  const truth::RecordSchema& schema() const override { return experiment_.schema(); }
-
-  truth::Record Run(std::uint64_t seed, std::uint64_t index) const override {
-    truth::Record record = experiment_.Run(seed, index);
-    AskToStop(stop_, log_);
-    return record;
-  }
-
- private:
-  const experiments::Experiment& experiment_;
-  const Stop& stop_;
-  batch::FlightLog& log_;
-};
-
-// Experiments that note their trials in the log, and heed the caller's wish to stop.
-class LoggedWork {
- public:
-  LoggedWork(std::span<const CellWork> work, batch::FlightLog& log, const Stop& stop) {
-    for (const CellWork& cell : work) {
-      const auto& stopped = stopped_.emplace_back(*cell.experiment, stop, log);
-      const auto& logged = logged_.emplace_back(stopped, static_cast<int>(work_.size()), log);
-      work_.push_back({&logged, cell.seed});
-    }
-  }
-
-  std::span<const CellWork> work() const { return work_; }
-
- private:
-  std::deque<StoppedExperiment> stopped_;
-  std::deque<batch::LoggedExperiment> logged_;
-  std::vector<CellWork> work_;
-};
 
 std::string CellPart(const batch::ResultStore& store, int cell) {
   const std::string& name = store.identity().cells[static_cast<std::size_t>(cell)].name;
@@ -166,7 +121,7 @@ batch::BatchResult CampaignProcess::RunTrials(std::span<const CellWork> work,
                                               const batch::ProgressReport& report) {
   options.threads = options_.threads;
   log_.SetOpened();
-  const LoggedWork logged(work, log_, contact_.stop);
+  const HeededWork logged(work, log_, contact_.stop);
   const bool supervised = options_.supervisor && communicator_ == nullptr;
   const batch::Watchdog watchdog(log_, {.cpu_limit_s = options_.trial_cpu_limit_s},
                                  [&](const std::vector<Flight>& overdue) {
@@ -217,7 +172,7 @@ Outcome CampaignProcess::DoTask(std::span<const CellWork> work, batch::ResultSto
     const std::string reason = fmt::format("{}; see `{}`", mission_.reason, ReplayLine(store, id));
     record.record = truth::MakeFault(SeedOf(store, id.cell), id.trial, reason);
   } else {
-    const LoggedWork logged(work, log_, contact_.stop);
+    const HeededWork logged(work, log_, contact_.stop);
     // No other trial is to be stored meanwhile.
     const batch::WatchdogOptions limits{.cpu_limit_s = options_.trial_cpu_limit_s,
                                         .grace = std::chrono::milliseconds(0)};
