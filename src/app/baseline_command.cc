@@ -1,26 +1,19 @@
 // rockyard baseline
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
-#include <set>
 #include <string>
-#include <system_error>
 #include <vector>
 
-#include "app/baseline_scenario.h"
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/output_file.h"
-#include "app/run_source.h"
-#include "batch/run_folder.h"
-#include "batch/trial_hash.h"
+#include "campaign/make_baseline.h"
+#include "campaign/output_file.h"
 #include "core/error.h"
 #include "report/atomic_file.h"
 #include "report/baseline.h"
-#include "truth/measurement_record.h"
 
 namespace rockyard::app {
 namespace {
@@ -33,65 +26,6 @@ struct BaselineOptions {
   std::string name;
   std::string out;
 };
-
-// Every build that wrote trials of the runs: one, if an exact comparison is to be possible.
-std::string Joined(const std::set<std::string>& builds) {
-  return fmt::format("{}", fmt::join(builds, "; "));
-}
-
-// What would make a bad baseline.
-std::vector<core::Problem> ProblemsOf(const StoredRun& run) {
-  if (truth::IsMeasurement(run.schema)) {
-    return {{run.Label(), "drives nothing, so that no metric is defined", "name runs of drives"}};
-  }
-  if (run.prefix().empty()) return {{run.Label(), "holds no finished trials", "run some first"}};
-  if (static_cast<std::int64_t>(run.prefix().size()) < run.planned) {
-    return {{run.Label(),
-             fmt::format("is unfinished: {} of {} trials", run.prefix().size(), run.planned),
-             "finish it with rockyard run --resume"}};
-  }
-  return SharedLayoutProblems(run.Label(), run.identity.resolved);
-}
-
-report::BaselineCell CellOf(const StoredRun& run) {
-  report::BaselineCell cell{.name = CellName(run),
-                            .scenario = run.identity.scenario,
-                            .fingerprint = run.identity.fingerprint,
-                            .resolved = run.identity.resolved,
-                            .seed = run.identity.seed,
-                            .trial_hash = batch::TrialHash(run.prefix()),
-                            .outcomes = {},
-                            .metrics = {}};
-  report::FillBaselineCell(run.schema, run.prefix(), cell);
-  return cell;
-}
-
-report::Baseline ReadBaseline(const BaselineOptions& options) {
-  report::Baseline baseline;
-  baseline.reason = options.reason;
-  std::set<std::string> builds;
-  std::vector<core::Problem> problems;
-  for (const std::string& path : options.runs) {
-    for (const fs::path& folder : batch::FindRuns(path)) {
-      for (const StoredRun& run : ReadCampaign(folder)) {
-        RequireWhole(run);
-        for (core::Problem& problem : ProblemsOf(run)) problems.push_back(std::move(problem));
-        builds.insert(run.builds.begin(), run.builds.end());
-        baseline.cells.push_back(CellOf(run));
-      }
-    }
-  }
-  for (std::size_t i = 0; i < baseline.cells.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (baseline.cells[i].name != baseline.cells[j].name) continue;
-      problems.push_back(
-          {baseline.cells[i].name, "is the name of two cells", "name runs of different scenarios"});
-    }
-  }
-  if (!problems.empty()) throw core::UserError(std::move(problems));
-  baseline.build = Joined(builds);
-  return baseline;
-}
 
 // Of the file, else of the folder of the first run.
 std::string NameOf(const BaselineOptions& options) {
@@ -107,9 +41,10 @@ void WriteBaseline(const BaselineOptions& options) {
   const std::string name = NameOf(options);
   const std::string out =
       options.out.empty() ? fmt::format("results/baselines/{}.json", name) : options.out;
-  CheckOutputFile("--out", out);
-  report::Baseline baseline = ReadBaseline(options);
-  baseline.name = name;
+  campaign::CheckOutputFile("--out", out);
+  const report::Baseline baseline =
+      campaign::MakeBaseline({.runs = options.runs, .name = name, .reason = options.reason})
+          .OrThrow();
   const std::string text = report::BaselineJson(baseline);
   report::WriteFileAtomically(out, text);
   Print(fmt::format("{}: {} cells, {} bytes\n", out, baseline.cells.size(), text.size()));

@@ -1,27 +1,13 @@
 #include "app/campaign_options.h"
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
-#include <charconv>
-#include <string_view>
-
-#include "core/error.h"
 
 namespace rockyard::app {
 namespace {
 
-constexpr int kMaxShards = 1'000'000;
-
-bool ParseNumber(std::string_view text, int& number) {
-  const char* end = text.data() + text.size();
-  const std::from_chars_result result = std::from_chars(text.data(), end, number);
-  return result.ec == std::errc{} && result.ptr == end;
-}
-
 void AddPlanOptions(CLI::App& command, CampaignOptions& options) {
   CLI::Option* trials = command.add_option(
-      "--trials", options.trials, "number of trials (of each cell), those stored included");
+      "--trials", options.request.trials, "number of trials (of each cell), those stored included");
   CLI::Option* until =
       command
           .add_option("--until-half-width", options.until_half_width,
@@ -49,11 +35,12 @@ void AddPlanOptions(CLI::App& command, CampaignOptions& options) {
                   "most trials of all cells together (default: no limit)")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000'000}))
       ->needs(until);
-  command.add_option("--shard", options.shard_text,
+  command.add_option("--shard", options.request.shard,
                      "I/N: only the I-th of N parts of the trials; `rockyard merge` puts the parts "
                      "together");
-  command.add_option("--seed", options.seed, "seed of every random stream");
-  command.add_option("--set", options.overrides, "PATH=VALUE: changes the scenario; repeat")
+  command.add_option("--seed", options.request.seed, "seed of every random stream");
+  command
+      .add_option("--set", options.request.overrides, "PATH=VALUE: changes the scenario; repeat")
       ->allow_extra_args(false);
 }
 
@@ -70,18 +57,38 @@ void AddFolderOptions(CLI::App& command, CampaignOptions& options) {
                    "say what would be done and what it would cost; run and write nothing else");
 }
 
+// `options` must outlive the command.
+void AddTraceOptions(CLI::App& command, campaign::TraceOptions& options) {
+  CLI::Option* traces =
+      command
+          .add_option("--traces", options.rules,
+                      "afterwards drive chosen trials again and write their course into the "
+                      "folder traces: all, failures, worst:N (failures that ended furthest from "
+                      "the goal, of each cell), share:P (a random share); repeat for more")
+          ->type_name("RULE:{all,failures,worst:N,share:P}")
+          ->allow_extra_args(false);
+  command
+      .add_option("--trace-format", options.format,
+                  "of these files: npz (arrays for NumPy) or csv (samples and events)")
+      ->check(CLI::IsMember({"npz", "csv"}))
+      ->capture_default_str()
+      ->needs(traces);
+}
+
 void AddProcessOptions(CLI::App& command, CampaignOptions& options) {
-  command.add_option("--threads", options.threads, "threads (default: all of the machine)")
+  command
+      .add_option("--threads", options.request.containment.threads,
+                  "threads (default: all of the machine)")
       ->check(CLI::Range(1, 4096));
   command
-      .add_option("--max-faults", options.max_fault_fraction,
+      .add_option("--max-faults", options.request.max_fault_fraction,
                   "fraction of simulator faults above which the run fails")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command.add_flag("--no-supervisor", options.no_supervisor,
                    "one process: a crash of the simulator ends the run");
   command
-      .add_option("--trial-cpu-limit", options.trial_cpu_limit_s,
+      .add_option("--trial-cpu-limit", options.request.containment.trial_cpu_limit_s,
                   "CPU seconds after which a trial is taken to hang; 0: none")
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
@@ -97,40 +104,39 @@ Output CampaignOptions::output() const {
   return quiet ? Output::kQuiet : Output::kText;
 }
 
-ExistingRun CampaignOptions::existing() const {
-  if (resume) return force ? ExistingRun::kResumeOrSetAside : ExistingRun::kResume;
-  return force ? ExistingRun::kSetAside : ExistingRun::kRefuse;
-}
-
-std::optional<batch::StoppingRule> CampaignOptions::stopping_rule() const {
-  if (until_half_width <= 0.0) return std::nullopt;
-  batch::StoppingRule wanted = rule;
-  wanted.half_width = until_half_width;
-  wanted.allocation =
-      allocate == "adaptive" ? batch::Allocation::kAdaptive : batch::Allocation::kUniform;
-  return wanted;
-}
-
-batch::Shard CampaignOptions::shard() const {
-  if (shard_text.empty()) return {};
-  const std::size_t slash = shard_text.find('/');
-  const std::string_view text = shard_text;
-  batch::Shard shard;
-  const bool numbers = slash != std::string::npos &&
-                       ParseNumber(text.substr(0, slash), shard.index) &&
-                       ParseNumber(text.substr(slash + 1), shard.count);
-  if (!numbers || shard.index < 1 || shard.index > shard.count || shard.count > kMaxShards) {
-    throw core::UserError("--shard", fmt::format("\"{}\" is no part of a campaign", shard_text),
-                          "use I/N with 1 <= I <= N, e.g. 1/4");
+campaign::CampaignRequest CampaignOptions::Request() const {
+  using campaign::ExistingRun;
+  campaign::CampaignRequest wanted = request;
+  wanted.folder = out;
+  if (resume) {
+    wanted.existing = force ? ExistingRun::kResumeOrSetAside : ExistingRun::kResume;
+  } else {
+    wanted.existing = force ? ExistingRun::kSetAside : ExistingRun::kRefuse;
   }
-  return shard;
+  wanted.build = any_build ? batch::BuildPolicy::kAny : batch::BuildPolicy::kSame;
+  if (until_half_width > 0.0) {
+    wanted.rule = rule;
+    wanted.rule->half_width = until_half_width;
+    wanted.rule->allocation =
+        allocate == "adaptive" ? batch::Allocation::kAdaptive : batch::Allocation::kUniform;
+  }
+  wanted.method = interval == "wilson" ? statistics::IntervalMethod::kWilson
+                                       : statistics::IntervalMethod::kClopperPearson;
+  wanted.containment.supervisor = !no_supervisor;
+  return wanted;
 }
 
 void AddCampaignOptions(CLI::App& command, CampaignOptions& options) {
   AddPlanOptions(command, options);
   AddFolderOptions(command, options);
-  AddTraceOptions(command, options.traces);
+  AddTraceOptions(command, options.request.traces);
   AddProcessOptions(command, options);
+}
+
+void AddIntervalOption(CLI::App& command, CampaignOptions& options) {
+  command.add_option("--interval", options.interval, "of rates: wilson or clopper-pearson")
+      ->check(CLI::IsMember({"wilson", "clopper-pearson"}))
+      ->capture_default_str();
 }
 
 }  // namespace rockyard::app

@@ -1,15 +1,10 @@
 // The options that `rockyard run` and `rockyard sweep` share.
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "app/open_run.h"
-#include "app/trace_retention.h"
-#include "batch/campaign.h"
 #include "batch/stopping_rule.h"
+#include "campaign/campaign_request.h"
 
 namespace CLI {
 class App;
@@ -20,12 +15,8 @@ namespace rockyard::app {
 enum class Output { kText, kJson, kQuiet };
 
 struct CampaignOptions {
-  std::optional<std::int64_t> trials;  // absent: the scenario's, or those planned before
-  std::optional<std::int64_t> seed;    // absent: the scenario's
-  std::vector<std::string> overrides;  // "PATH=VALUE"
-  std::string out;                     // empty: the command chooses
-  int threads = 0;                     // 0: as many as the machine runs at once
-  double max_fault_fraction = 0.01;
+  campaign::CampaignRequest request = {
+      .containment = {.supervisor = true, .trial_cpu_limit_s = 600.0, .threads = 0}};
   bool resume = false;
   bool force = false;
   bool any_build = false;
@@ -33,23 +24,23 @@ struct CampaignOptions {
   bool quiet = false;
   bool dry_run = false;
   bool no_supervisor = false;
-  double trial_cpu_limit_s = 600.0;  // 0: none
-  std::string shard_text;            // "I/N"; empty: the whole campaign
-  double until_half_width = 0.0;     // 0: no stopping rule
+  std::string out;
+  double until_half_width = 0.0;  // 0: no stopping rule
   std::string allocate = "uniform";
-  TraceOptions traces;
-  std::string resume_command;  // as ResumeText gives it
+  std::string interval = "wilson";
   batch::StoppingRule rule;    // where until_half_width is given; its half-width is that one
+  std::string resume_command;  // as ResumeText gives it
 
   Output output() const;
-  ExistingRun existing() const;
-  std::optional<batch::StoppingRule> stopping_rule() const;
-  // Throws core::UserError where the text is none of 1/N ... N/N, or does not go with the rule.
-  batch::Shard shard() const;
+  // What all of them ask for.
+  campaign::CampaignRequest Request() const;
 };
 
 // Adds them to a command, --dry-run included, which the command itself must obey. `options` must
 // outlive it.
 void AddCampaignOptions(CLI::App& command, CampaignOptions& options);
+
+// Adds --interval, which comes after the command's own options.
+void AddIntervalOption(CLI::App& command, CampaignOptions& options);
 
 }  // namespace rockyard::app

@@ -1,124 +1,82 @@
 // rockyard check
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
-#include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
-#include <vector>
+#include <variant>
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/output_file.h"
-#include "app/published_settings.h"
-#include "app/regression_check.h"
-#include "app/run_source.h"
-#include "batch/run_folder.h"
-#include "core/error.h"
-#include "core/json_file.h"
+#include "app/run_display.h"
+#include "campaign/check.h"
+#include "campaign/output_file.h"
 #include "report/atomic_file.h"
-#include "report/baseline.h"
-#include "report/comparison_reference.h"
 #include "report/comparison_table.h"
+#include "report/regression_report.h"
 #include "report/result_json.h"
-#include "statistics/published_comparison.h"
 
 namespace rockyard::app {
 namespace {
 
 struct CheckOptions {
-  RegressionRequest regression;  // without runs and files
+  campaign::CheckRequest request;
   bool allow_scenario_change = false;
-  std::vector<std::string> runs;
+  bool all_rows = false;
+  bool json = false;  // for programs; else text
   std::string reference;
-  std::string cell;
   std::string junit;
   std::string csv;
-  statistics::ComparisonOptions comparison;
 };
-
-std::vector<StoredRun> ReadRuns(const std::vector<std::string>& paths, const std::string& cell) {
-  std::vector<StoredRun> runs;
-  std::map<std::string, std::string> folders;  // by scenario
-  std::vector<core::Problem> problems;
-  for (const std::string& path : paths) {
-    for (const auto& folder : batch::FindRuns(path)) {
-      runs.push_back(ReadRun(folder, cell));
-      RequireWhole(runs.back());
-      const std::string& scenario = runs.back().identity.scenario;
-      const auto [at, is_new] = folders.emplace(scenario, folder.string());
-      if (!is_new) {
-        problems.push_back({folder.string(),
-                            fmt::format("is a run of {}, and so is {}", scenario, at->second),
-                            "name one run of each scenario"});
-      }
-    }
-  }
-  if (!problems.empty()) throw core::UserError(std::move(problems));
-  return runs;
-}
-
-void NoteUnfinished(const StoredRun& run) {
-  const auto usable = static_cast<std::int64_t>(run.prefix().size());
-  if (usable < run.planned) {
-    PrintNote(fmt::format("{}: unfinished, {} of {} trials are used", run.folder.string(), usable,
-                          run.planned));
-  }
-}
-
-RegressionRequest Regression(const CheckOptions& options) {
-  RegressionRequest request = options.regression;
-  request.runs = options.runs;
-  request.cell = options.cell;
-  request.junit = options.junit;
-  request.csv = options.csv;
-  if (options.allow_scenario_change) request.scenario_change = ScenarioChange::kAllow;
-  return request;
-}
 
 // Of the options for a baseline.
 void AddRegressionOptions(CLI::App& command, CheckOptions& options) {
   command.add_flag("--allow-scenario-change", options.allow_scenario_change,
                    "baseline: compare although settings differ");
-  command.add_flag("--all", options.regression.all_rows, "baseline: show equivalent metrics too");
+  command.add_flag("--all", options.all_rows, "baseline: show equivalent metrics too");
   command
-      .add_option("--alpha", options.regression.options.alpha,
+      .add_option("--alpha", options.request.regression.alpha,
                   "baseline: chance of any false alarm in an unchanged build")
       ->check(CLI::Range(1e-6, 0.2))
       ->capture_default_str();
   command
-      .add_option("--equivalence-alpha", options.regression.options.equivalence_alpha,
+      .add_option("--equivalence-alpha", options.request.regression.equivalence_alpha,
                   "baseline: chance to call a metric equivalent that moved by its margin")
       ->check(CLI::Range(1e-6, 0.2))
       ->capture_default_str();
 }
 
+void WriteFiles(const CheckOptions& options, const std::string& junit, const std::string& csv) {
+  if (!options.junit.empty()) report::WriteFileAtomically(options.junit, junit);
+  if (!options.csv.empty()) report::WriteFileAtomically(options.csv, csv);
+}
+
+ExitCode Show(const campaign::BaselineCheck& check, const CheckOptions& options) {
+  const report::RegressionReport& found = check.report;
+  WriteFiles(options, report::RegressionJUnit(found), report::RegressionCsv(found));
+  const auto rows =
+      options.all_rows ? report::ReportedRows::kAll : report::ReportedRows::kNotEquivalent;
+  Print(options.json ? report::BaselineCheckJson(found, static_cast<int>(check.outcome))
+                     : Wrapped(report::RegressionText(found, rows)));
+  return check.outcome;
+}
+
+ExitCode Show(const campaign::PublishedCheck& check, const CheckOptions& options) {
+  WriteFiles(options, report::ComparisonJUnit(check.reference, check.result),
+             report::ComparisonCsv(check.result));
+  Print(options.json ? report::PublishedCheckJson(check.reference, check.result,
+                                                  static_cast<int>(check.outcome))
+                     : report::ComparisonText(check.reference, check.result));
+  return check.outcome;
+}
+
 ExitCode Check(const CheckOptions& options) {
-  CheckOutputFile("--junit", options.junit);
-  CheckOutputFile("--csv", options.csv);
-  const core::JsonValue document = core::LoadJsonFile(options.reference);
-  if (report::IsBaseline(document)) return CheckAgainstBaseline(document, Regression(options));
-  const statistics::PublishedReference reference = report::ParseReference(document);
-  const std::vector<StoredRun> stored = ReadRuns(options.runs, options.cell);
-  std::vector<const StoredRun*> runs;
-  for (const StoredRun& run : stored) {
-    NoteUnfinished(run);
-    runs.push_back(&run);
-  }
-  const std::filesystem::path folder = std::filesystem::path(options.reference).parent_path();
-  const statistics::ComparisonResult result =
-      statistics::Compare(reference, PublishedViews(reference, folder, runs), options.comparison);
-  if (!options.junit.empty()) {
-    report::WriteFileAtomically(options.junit, report::ComparisonJUnit(reference, result));
-  }
-  if (!options.csv.empty()) {
-    report::WriteFileAtomically(options.csv, report::ComparisonCsv(result));
-  }
-  const int code = statistics::ExitCode(result);
-  Print(options.regression.json ? report::PublishedCheckJson(reference, result, code)
-                                : report::ComparisonText(reference, result));
-  return static_cast<ExitCode>(code);
+  campaign::CheckOutputFile("--junit", options.junit);
+  campaign::CheckOutputFile("--csv", options.csv);
+  campaign::CheckRequest request = options.request;
+  request.reference = options.reference;
+  if (options.allow_scenario_change) request.scenario_change = campaign::ScenarioChange::kAllow;
+  const campaign::CheckResult result =
+      campaign::Check(request, MessagesToConsole(Output::kText)).OrThrow();
+  return std::visit([&](const auto& check) { return Show(check, options); }, result);
 }
 
 }  // namespace
@@ -127,16 +85,19 @@ void AddCheckCommand(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<CheckOptions>();
   CLI::App* command = app.add_subcommand(
       "check", "Compares runs with published values or a baseline; exit code 0, 1 or 4");
-  command->add_option("RUN", options->runs, "folders of runs, or a folder of such folders")
+  command->add_option("RUN", options->request.runs, "folders of runs, or a folder of such folders")
       ->required();
   command->add_option("--against", options->reference, "reference or baseline file")->required();
-  command->add_option("--cell", options->cell, "cell of a campaign: its name, or number from 0");
+  command->add_option("--cell", options->request.cell,
+                      "cell of a campaign: its name, or number from 0");
   command->add_option("--junit", options->junit, "write a JUnit report to this file");
   command->add_option("--csv", options->csv, "write the table as CSV to this file");
-  command->add_flag("--json", options->regression.json, "print JSON instead of the table");
-  command->add_option("--seed", options->comparison.seed, "seed of the resampling")
+  command->add_flag("--json", options->json, "print JSON instead of the table");
+  command->add_option("--seed", options->request.comparison.seed, "seed of the resampling")
       ->capture_default_str();
-  command->add_option("--replicates", options->comparison.replicates, "samples for each number")
+  command
+      ->add_option("--replicates", options->request.comparison.replicates,
+                   "samples for each number")
       ->check(CLI::Range(100, 1000000))
       ->capture_default_str();
   AddRegressionOptions(*command, *options);

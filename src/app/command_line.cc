@@ -12,6 +12,7 @@
 #include "app/examples.h"
 #include "app/guard.h"
 #include "app/option_checks.h"
+#include "campaign/campaign_process.h"
 #include "core/error.h"
 #include "core/provenance.h"
 #include "core/spelling.h"
@@ -86,7 +87,7 @@ core::Problem Explain(const CLI::App& app, const CLI::ParseError& error, std::st
 
 // Every rank that mpirun started reads the same command line; one message is enough.
 void PrintOnce(const std::vector<core::Problem>& problems) {
-  if (IsFirstRank()) PrintProblems(problems);
+  if (campaign::IsFirstRank()) PrintProblems(problems);
 }
 
 // Ranks share the trials of a campaign; anything else is done once.
@@ -135,7 +136,7 @@ void AddCommands(CLI::App& app, ExitCode& exit_code) {
 }
 
 int RunCommandLine(int argc, const char* const* argv) {
-  if (!IsFirstRank() && !(argc > 1 && IsForAllRanks(argv[1]))) {
+  if (!campaign::IsFirstRank() && !(argc > 1 && IsForAllRanks(argv[1]))) {
     return static_cast<int>(ExitCode::kDone);
   }
   CLI::App app("Monte Carlo performance evaluation of planetary rovers", "rockyard");

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/shell_word.h"
+#include "campaign/shell_word.h"
 
 namespace rockyard::app {
 namespace {
@@ -22,12 +22,12 @@ std::string Text(const CLI::App& command, bool resume) {
     const std::string name = option->get_name();
     if (option->count() == 0 || (resume && (name == kResume || name == kForce))) continue;
     if (option->get_positional()) {
-      for (const std::string& word : option->results()) words += " " + ShellWord(word);
+      for (const std::string& word : option->results()) words += " " + campaign::ShellWord(word);
     } else if (IsFlag(*option)) {
       options += " " + name;
     } else {
       for (const std::string& word : option->results()) {
-        options += " " + name + " " + ShellWord(word);
+        options += " " + name + " " + campaign::ShellWord(word);
       }
     }
   }

@@ -6,22 +6,18 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/output_file.h"
-#include "app/run_source.h"
-#include "app/run_views.h"
-#include "batch/scenario_difference.h"
-#include "core/error.h"
-#include "core/json_text.h"
+#include "campaign/compare.h"
+#include "campaign/output_file.h"
+#include "campaign/run_views.h"
 #include "report/atomic_file.h"
 #include "report/cell_comparison_text.h"
 #include "report/paired_comparison.h"
 #include "report/result_json.h"
-#include "statistics/cell_comparison.h"
-#include "truth/measurement_record.h"
 
 namespace rockyard::app {
 namespace {
@@ -35,56 +31,13 @@ struct CompareOptions {
   bool json = false;
 };
 
-std::string TextAt(const core::JsonValue* value) {
-  const bool text = value != nullptr && value->Is(core::JsonValue::Type::kText);
-  return text ? value->text() : std::string("unknown");
-}
-
-// What a run is of, as its scenario says.
-std::string ExperimentOf(const StoredRun& run) {
-  const core::JsonValue document = core::ParseJson(run.identity.resolved, "resolved scenario");
-  const std::string experiment = TextAt(document.Find("experiment"));
-  if (!truth::IsMeasurement(run.schema)) return "experiment " + experiment;
-  const core::JsonValue* group = document.Find(experiment);
-  const core::JsonValue* study = group == nullptr ? nullptr : group->Find("study");
-  return "study " + TextAt(study) + " of experiment " + experiment;
-}
-
-void RequireSameExperiment(const StoredRun& first, const StoredRun& second) {
-  const std::string a = ExperimentOf(first);
-  const std::string b = ExperimentOf(second);
-  if (a == b) return;
-  throw core::UserError(second.Label(),
-                        fmt::format("is a run of {}, but {} is one of {}", b, first.Label(), a),
-                        "compare two runs of the same experiment and study");
-}
-
-ExitCode CompareMeasurements(const StoredRun& first, const StoredRun& second,
-                             const CompareOptions& options) {
-  RequireSameExperiment(first, second);
-  const report::ComparedRun a = ComparedView(first);
-  const report::ComparedRun b = ComparedView(second);
-  const statistics::CellComparison cells =
-      statistics::CompareCells(statistics::SummarizeCells(a.schema, a.records),
-                               statistics::SummarizeCells(b.schema, b.records));
-  if (cells.tests == 0) {
-    throw core::UserError(second.Label(), "shares no cell with trials with " + first.Label(),
-                          "compare runs whose lists of factors have values in common");
-  }
-  if (!options.csv.empty()) {
-    report::WriteFileAtomically(options.csv, report::CellComparisonCsv(cells));
-  }
-  const ExitCode code = cells.Differing() > 0 ? ExitCode::kDiffers : ExitCode::kDone;
-  Print(options.json ? report::CellComparisonJson(a, b, cells, static_cast<int>(code))
-                     : report::CellComparisonText(a, b, cells));
-  return code;
+void WriteCsv(const CompareOptions& options, const std::string& csv) {
+  if (!options.csv.empty()) report::WriteFileAtomically(options.csv, csv);
 }
 
 // The settings in which two runs differ, one per line.
-std::string SettingsText(const StoredRun& first, const StoredRun& second) {
+std::string SettingsText(const std::vector<batch::ScenarioDifference>& differences) {
   constexpr std::size_t kShown = 12;
-  const std::vector<batch::ScenarioDifference> differences =
-      batch::FindScenarioDifferences(first.identity.resolved, second.identity.resolved);
   if (differences.empty()) return "\nno setting differs\n";
   std::string text = "\nsettings that differ (A, B)\n";
   for (const batch::ScenarioDifference& each :
@@ -98,39 +51,38 @@ std::string SettingsText(const StoredRun& first, const StoredRun& second) {
   return text;
 }
 
-std::string DriveJson(const StoredRun& first, const StoredRun& second,
-                      const report::RunComparison& comparison) {
-  report::PageComparison told{first.Label(), second.Label(), comparison, {}};
-  for (const batch::ScenarioDifference& each :
-       batch::FindScenarioDifferences(first.identity.resolved, second.identity.resolved)) {
-    told.settings.push_back({each.path, each.first, each.second});
+std::string DriveJson(const campaign::Comparison& told, const report::RunComparison& drives) {
+  report::PageComparison page{told.first.Label(), told.second.Label(), drives, {}};
+  for (const batch::ScenarioDifference& each : told.settings) {
+    page.settings.push_back({each.path, each.first, each.second});
   }
-  return report::DriveComparisonJson(told);
+  return report::DriveComparisonJson(page);
 }
 
-ExitCode CompareDrives(const StoredRun& first, const StoredRun& second,
-                       const CompareOptions& options) {
-  const report::ComparedRun a = ComparedView(first);
-  const report::ComparedRun b = ComparedView(second);
-  const report::RunComparison comparison = report::CompareRuns(a, b);
-  if (!options.csv.empty()) {
-    report::WriteFileAtomically(options.csv, report::RunComparisonCsv(comparison));
+void Show(const campaign::Comparison& told, const CompareOptions& options) {
+  const report::ComparedRun a = campaign::ComparedView(told.first);
+  const report::ComparedRun b = campaign::ComparedView(told.second);
+  if (const auto* drives = std::get_if<report::RunComparison>(&told.found)) {
+    WriteCsv(options, report::RunComparisonCsv(*drives));
+    Print(options.json ? DriveJson(told, *drives)
+                       : report::RunComparisonText(a, b, *drives) + SettingsText(told.settings));
+    return;
   }
-  Print(options.json ? DriveJson(first, second, comparison)
-                     : report::RunComparisonText(a, b, comparison) + SettingsText(first, second));
-  return ExitCode::kDone;
+  const auto& cells = std::get<statistics::CellComparison>(told.found);
+  WriteCsv(options, report::CellComparisonCsv(cells));
+  Print(options.json ? report::CellComparisonJson(a, b, cells, static_cast<int>(told.outcome))
+                     : report::CellComparisonText(a, b, cells));
 }
 
 ExitCode Compare(const CompareOptions& options) {
-  CheckOutputFile("--csv", options.csv);
-  const StoredRun first = ReadRun(options.first, options.cell);
-  const StoredRun second =
-      ReadRun(options.second, options.second_cell.empty() ? options.cell : options.second_cell);
-  RequireWhole(first);
-  RequireWhole(second);
-  const bool drive = !truth::IsMeasurement(first.schema) && !truth::IsMeasurement(second.schema);
-  return drive ? CompareDrives(first, second, options)
-               : CompareMeasurements(first, second, options);
+  campaign::CheckOutputFile("--csv", options.csv);
+  const campaign::Comparison told = campaign::Compare({.first = options.first,
+                                                       .second = options.second,
+                                                       .cell = options.cell,
+                                                       .second_cell = options.second_cell})
+                                        .OrThrow();
+  Show(told, options);
+  return told.outcome;
 }
 
 }  // namespace

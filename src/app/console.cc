@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <optional>
 #include <string>
 
 #include "batch/communicator.h"
@@ -29,11 +28,6 @@ std::string_view Variable(const char* name) {
 
 bool IsTerminal(std::FILE* stream) {
   return isatty(fileno(stream)) == 1 && !batch::FindLaunch().has_value();
-}
-
-bool IsFirstRank() {
-  const std::optional<batch::Launch> launch = batch::FindLaunch();
-  return !launch || launch->rank == 0;
 }
 
 int TerminalWidth(std::FILE* stream) {

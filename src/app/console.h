@@ -16,9 +16,6 @@ namespace rockyard::app {
 // output goes.
 bool IsTerminal(std::FILE* stream);
 
-// Whether this process is rank 0 of those that mpirun started, or was started alone.
-bool IsFirstRank();
-
 // Columns of the terminal on `stream`; 100 where it is none or does not tell.
 int TerminalWidth(std::FILE* stream);
 

@@ -1,16 +1,11 @@
-// What the command tells the shell.
+// What the command tells the shell: 0 done, 1 a comparison differs, 2 bad input, 3 too many
+// simulator faults, 4 inconclusive, 5 failed while running, 130 interrupted.
 #pragma once
+
+#include "campaign/outcome.h"
 
 namespace rockyard::app {
 
-enum class ExitCode {
-  kDone = 0,
-  kDiffers = 1,        // a comparison differs
-  kBadInput = 2,       // nothing written
-  kTooManyFaults = 3,  // simulator faults above the stated fraction
-  kInconclusive = 4,   // nothing differs, but something is underpowered
-  kFailed = 5,         // a disk or the machine failed while running; what was finished is stored
-  kInterrupted = 130,  // by Ctrl-C or another polite signal; what was finished is stored
-};
+using ExitCode = campaign::Outcome;
 
 }  // namespace rockyard::app

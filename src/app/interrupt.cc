@@ -26,9 +26,9 @@ void SetFlagOnce(int signal) {
 
 }  // namespace
 
-InterruptGuard::InterruptGuard(std::atomic<bool>& requested, SecondSignal second) {
+InterruptGuard::InterruptGuard(std::atomic<bool>& requested, campaign::SecondWish second) {
   requested_flag = &requested;
-  const auto handler = second == SecondSignal::kEnds ? SetFlagOnce : SetFlag;
+  const auto handler = second == campaign::SecondWish::kEnds ? SetFlagOnce : SetFlag;
   for (const int signal : kPolite) {
     // What the caller told to ignore (nohup, background jobs of a script) stays ignored.
     if (std::signal(signal, handler) == SIG_IGN) std::signal(signal, SIG_IGN);

@@ -3,13 +3,9 @@
 
 #include <atomic>
 
-namespace rockyard::app {
+#include "campaign/stop.h"
 
-// What the second polite signal does.
-enum class SecondSignal {
-  kEnds,      // the process at once, which loses no stored trial
-  kIsTheSame  // nothing more: somebody else (a supervisor, mpirun) decides when patience ends
-};
+namespace rockyard::app {
 
 // While this lives, the first SIGINT, SIGTERM, SIGHUP or SIGUSR1 sets the flag. Writing to a closed
 // pipe or beyond a file size limit becomes an error instead of a signal. One at a time; the former
@@ -17,7 +13,7 @@ enum class SecondSignal {
 class InterruptGuard {
  public:
   // `requested` must outlive this; it may be shared with others who may ask for an end.
-  InterruptGuard(std::atomic<bool>& requested, SecondSignal second);
+  InterruptGuard(std::atomic<bool>& requested, campaign::SecondWish second);
   ~InterruptGuard();
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;

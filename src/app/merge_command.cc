@@ -1,21 +1,14 @@
 // rockyard merge
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "app/commands.h"
-#include "app/console.h"
-#include "app/run_report.h"
-#include "app/sweep_report.h"
-#include "batch/merge_shards.h"
-#include "batch/result_store.h"
-#include "core/error.h"
-#include "scenario/sweep.h"
+#include "app/run_display.h"
+#include "app/show_report.h"
+#include "campaign/merge.h"
 
 namespace rockyard::app {
 namespace {
@@ -29,46 +22,23 @@ struct MergeCommandOptions {
   bool quiet = false;
 };
 
-// What is merged stays, whatever becomes of the report.
-ExitCode Report(const std::filesystem::path& folder, const ReportOptions& options) {
-  try {
-    const batch::ResultStore store = batch::ResultStore::Read(folder);
-    const std::string& design = store.identity().design;
-    if (design.empty()) {
-      ReportRun(folder, options);
-    } else {
-      ReportSweep(store, scenario::ParseSweep(design), options);
-    }
-    return ExitCode::kDone;
-  } catch (const core::UserError& error) {
-    PrintNote("the shards are together in " + folder.string() + ", but not all that follows");
-    PrintProblems(error.problems());
-    return ExitCode::kFailed;
-  }
-}
-
-// A trace belongs to a trial, but which trials have one was decided in each shard alone.
-void TellTraces(const MergeCommandOptions& options) {
-  std::error_code ignored;
-  for (const std::filesystem::path& shard : options.shards) {
-    if (!std::filesystem::is_directory(shard / "traces", ignored)) continue;
-    PrintNote(
-        fmt::format("traces of shards are not merged: the same run or sweep with --out {}, "
-                    "--resume and --traces, and without --shard, writes those of the whole",
-                    options.out));
-    return;
-  }
-}
-
 ExitCode Merge(const MergeCommandOptions& options) {
+  Output output = Output::kText;
+  if (options.json) output = Output::kJson;
+  if (options.quiet) output = Output::kQuiet;
+  campaign::MergeObserver observer;
+  static_cast<campaign::Observer&>(observer) = MessagesToConsole(output);
+  observer.reported = [&](const campaign::FolderReport& report) {
+    ShowReport(report, {.output = output, .resume = "", .next = true});
+  };
   const batch::BuildPolicy build =
       options.any_build ? batch::BuildPolicy::kAny : batch::BuildPolicy::kSame;
-  batch::MergeShards(options.shards, options.out, {.build = build, .partial = options.partial});
-  ReportOptions report;
-  if (options.json) report.output = Output::kJson;
-  if (options.quiet) report.output = Output::kQuiet;
-  if (!options.quiet) TellTraces(options);
-  return Report(options.out, report);
+  return campaign::Merge({.shards = options.shards,
+                          .folder = options.out,
+                          .build = build,
+                          .partial = options.partial},
+                         observer)
+      .outcome;
 }
 
 }  // namespace

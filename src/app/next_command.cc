@@ -2,14 +2,14 @@
 
 #include <fmt/format.h>
 
-#include "app/shell_word.h"
 #include "batch/communicator.h"
+#include "campaign/shell_word.h"
 #include "web/page.h"
 
 namespace rockyard::app {
 
 std::string NextCommand(const std::filesystem::path& folder, Finished what) {
-  const std::string word = ShellWord(folder.string());
+  const std::string word = campaign::ShellWord(folder.string());
   if (what == Finished::kShard) return "rockyard merge SHARD... --out FOLDER";
   if (web::PagesBuilt()) return "rockyard report " + word;
   switch (what) {

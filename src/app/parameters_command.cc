@@ -7,7 +7,7 @@
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/run_source.h"
+#include "campaign/run_source.h"
 #include "report/parameter_table.h"
 #include "scenario/load.h"
 
@@ -22,9 +22,9 @@ struct ParametersOptions {
 };
 
 void ListParameters(const ParametersOptions& options) {
-  const scenario::Scenario scenario = options.scenario.empty()
-                                          ? scenario::Scenario{}
-                                          : LoadScenarioFrom(options.scenario, options.overrides);
+  const scenario::Scenario scenario =
+      options.scenario.empty() ? scenario::Scenario{}
+                               : campaign::LoadScenarioFrom(options.scenario, options.overrides);
   const auto parameters =
       report::SelectParameters(scenario::ListParameters(scenario), options.origin);
   Print(options.csv ? report::ParametersCsv(parameters) : report::ParametersMarkdown(parameters));

@@ -2,117 +2,35 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
-#include <utility>
-#include <vector>
+#include <tuple>
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/open_run.h"
-#include "app/output_file.h"
 #include "app/replay_options.h"
-#include "app/replay_page.h"
 #include "app/replay_views.h"
-#include "core/error.h"
-#include "report/atomic_file.h"
+#include "app/run_display.h"
+#include "app/trial_options.h"
+#include "campaign/replay.h"
 #include "report/line_text.h"
-#include "web/page.h"
 
 namespace rockyard::app {
 namespace {
 
-namespace fs = std::filesystem;
-
-// One file that is asked for.
-struct AskedFile {
-  std::string option;  // that names it
-  std::string what;
-  fs::path path;
-  std::function<std::string(const ReplayedTrial&)> text;
-};
-
-std::string DefaultStem(const TrialSource& source, std::uint32_t trial) {
-  const std::string cell = source.cell.empty() ? "" : fmt::format("-{}", source.cell);
-  const fs::path folder =
-      DefaultFolder(source.scenario.name + cell, static_cast<std::int64_t>(source.seed));
-  return fmt::format("{}-trial{}", folder.string(), trial);
-}
-
-// Without pages there are the plan and the data.
-std::vector<AskedFile> OutputsOf(const ReplayOptions& options, const TrialSource& source) {
-  const std::string stem = options.out.empty() ? DefaultStem(source, options.request.trial)
-                                               : fs::path(options.out).replace_extension().string();
-  const bool pages = web::PagesBuilt();
-  const auto path = [&](const std::string& asked, const char* extension) {
-    return asked.empty() ? fs::path(stem + extension) : fs::path(asked);
-  };
-  std::vector<AskedFile> outputs;
-  if (pages) {
-    outputs.push_back(
-        {"--out", "3-D replay", path(options.out, ".html"), [](const ReplayedTrial& replayed) {
-           return web::MakePage(web::Page::kReplay, replayed.data.title, ReplayPayload(replayed));
-         }});
+ExitCode WriteReplay(const ReplayOptions& options) {
+  const campaign::ReplayResult result = campaign::Replay(
+      {.trial = options.request, .page = options.out, .plan = options.svg, .data = options.data},
+      MessagesToConsole(Output::kText));
+  if (result.title.empty()) return result.outcome;
+  Print(fmt::format("  {}\n", report::Printable(fmt::format("{}: {}, {}", result.title,
+                                                            truth::Name(result.record.outcome),
+                                                            result.record.detail))));
+  PrintRepetition(result.repeats_stored);
+  for (const campaign::ReplayFile& file : result.files) {
+    Print(fmt::format("  {} in {}\n", file.what, report::Printable(file.path.string())));
   }
-  outputs.push_back({"--svg", "plan view", path(options.svg, ".svg"),
-                     [](const ReplayedTrial& replayed) { return replayed.plan_svg; }});
-  if (!pages || !options.data.empty()) {
-    outputs.push_back({"--data", "data of the page", path(options.data, ".json"), ReplayPayload});
-  }
-  return outputs;
-}
-
-// Found before the drive rather than after it.
-void CheckOutputs(const ReplayOptions& options, const std::vector<AskedFile>& outputs) {
-  CheckOutputFile("--out", options.out);
-  CheckExtension("--out", options.out, ".html");
-  CheckOutputFile("--svg", options.svg);
-  CheckOutputFile("--data", options.data);
-  std::vector<NamedFile> files;
-  files.reserve(outputs.size());
-  for (const AskedFile& output : outputs) files.push_back({output.option, output.path.string()});
-  CheckDistinct(files);
-}
-
-ExitCode WriteOutputs(const std::vector<AskedFile>& outputs, const ReplayedTrial& replayed) {
-  try {
-    for (const AskedFile& output : outputs) {
-      if (output.path.has_parent_path()) fs::create_directories(output.path.parent_path());
-      report::WriteFileAtomically(output.path, output.text(replayed));
-      Print(fmt::format("  {} in {}\n", output.what, report::Printable(output.path.string())));
-    }
-  } catch (const core::UserError& failure) {
-    PrintProblems(failure.problems());
-    return ExitCode::kFailed;
-  } catch (const fs::filesystem_error& failure) {
-    PrintProblems(
-        {{failure.path1().string(), failure.code().message(), "name another file with --out"}});
-    return ExitCode::kFailed;
-  }
-  return ExitCode::kDone;
-}
-
-ExitCode WritePage(const ReplayOptions& options) {
-  const TrialSource source = FindTrial(options.request);
-  const std::vector<AskedFile> outputs = OutputsOf(options, source);
-  CheckOutputs(options, outputs);
-  const ReplayedTrial replayed = ReplayTrial(source, options.request.trial);
-  const replay::ReplayData& data = replayed.data;
-  Print(fmt::format("  {}\n", report::Printable(fmt::format("{}: {}, {}", data.title,
-                                                            truth::Name(data.record.outcome),
-                                                            data.record.detail))));
-  const ExitCode same = source.stored
-                            ? CompareWithStore(options.request, source, data.schema, data.record)
-                            : ExitCode::kDone;
-  if (!web::PagesBuilt()) {
-    PrintNote(
-        "this build has no pages, so the 3-D replay is left out: install nodejs and npm, and build "
-        "again");
-  }
-  const ExitCode written = WriteOutputs(outputs, replayed);
-  return written == ExitCode::kDone ? same : written;
+  return result.outcome;
 }
 
 void AddOptions(CLI::App& command, ReplayOptions& options) {
@@ -155,7 +73,7 @@ void AddReplayCommand(CLI::App& app, ExitCode& exit_code) {
   AddTrialOptions(*command, options->request);
   AddOptions(*command, *options);
   command->callback([options, &exit_code] {
-    exit_code = options->list || options->draws() ? ShowViews(*options) : WritePage(*options);
+    exit_code = options->list || options->draws() ? ShowViews(*options) : WriteReplay(*options);
   });
 }
 

@@ -4,14 +4,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 
-#include "app/trial_source.h"
+#include "campaign/trial_source.h"
 
 namespace rockyard::app {
 
 struct ReplayOptions {
-  TrialRequest request;
+  campaign::TrialRequest request;
   std::optional<std::int64_t> scan;
   std::optional<std::int64_t> step;
   bool list = false;
@@ -20,9 +19,6 @@ struct ReplayOptions {
   std::string data;  // what the page is given
 
   bool draws() const { return scan || step; }
-  std::string_view option() const { return scan ? "--scan" : "--step"; }
-  std::string_view what() const { return scan ? "scan" : "step"; }
-  std::int64_t number() const { return scan ? *scan : step.value_or(0); }
 };
 
 }  // namespace rockyard::app

@@ -11,8 +11,8 @@
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/output_file.h"
-#include "app/run_source.h"
+#include "campaign/output_file.h"
+#include "campaign/run_source.h"
 #include "core/error.h"
 #include "math/angles.h"
 #include "report/atomic_file.h"
@@ -35,7 +35,7 @@ void CheckOut(const std::string& out) {
   if (std::filesystem::path(out).extension() != ".urdf") {
     throw core::UserError("--out", "does not end in .urdf: " + out, "name a URDF file");
   }
-  CheckOutputFile("--out", out);
+  campaign::CheckOutputFile("--out", out);
 }
 
 std::string Line(std::string_view what, const std::string& text) {
@@ -84,9 +84,10 @@ std::string Loads(const rover::RoverParams& params) {
               fmt::format("on level ground at {:g} m/s2, by levers", params.physics.gravity_m_s2));
 }
 
-void Describe(const RoverOptions& options) {
+void DescribeRover(const RoverOptions& options) {
   CheckOut(options.out);
-  const scenario::Scenario scenario = LoadScenarioFrom(options.scenario, options.overrides);
+  const scenario::Scenario scenario =
+      campaign::LoadScenarioFrom(options.scenario, options.overrides);
   if (!options.out.empty()) {
     report::WriteFileAtomically(options.out, rover::WriteUrdf(scenario.drive.rover));
     return;
@@ -107,7 +108,7 @@ void AddRoverCommand(CLI::App& app) {
   command->add_option("--set", options->overrides, "PATH=VALUE: changes the scenario; repeat")
       ->allow_extra_args(false);
   command->add_option("--out", options->out, "URDF file to write instead of the description");
-  command->callback([options] { Describe(*options); });
+  command->callback([options] { DescribeRover(*options); });
 }
 
 }  // namespace rockyard::app

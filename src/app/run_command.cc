@@ -3,19 +3,16 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "app/campaign_options.h"
 #include "app/command_text.h"
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/dry_run.h"
-#include "app/run_campaign.h"
-#include "app/run_report.h"
-#include "app/run_source.h"
+#include "app/rehearsal_text.h"
+#include "app/run_display.h"
+#include "campaign/run.h"
 #include "scenario/ablations.h"
 
 namespace rockyard::app {
@@ -24,62 +21,21 @@ namespace {
 struct RunOptions {
   CampaignOptions campaign;
   std::string scenario;
-  std::string interval = "wilson";
   std::vector<std::string> ablations;
 };
 
-void AddSettings(const RunOptions& options, std::vector<std::string>& settings) {
-  for (const std::string& setting : options.campaign.overrides) settings.push_back(setting);
-  for (const std::string& name : options.ablations) settings.push_back("--ablate " + name);
-}
-
-CampaignPlan PlanOf(const RunOptions& options) {
-  std::vector<std::string> overrides = options.campaign.overrides;
-  if (options.campaign.trials) {
-    overrides.push_back(fmt::format("trials={}", *options.campaign.trials));
-  }
-  if (options.campaign.seed) overrides.push_back(fmt::format("seed={}", *options.campaign.seed));
-  const scenario::Scenario scenario =
-      scenario::WithAblations(LoadScenarioFrom(options.scenario, overrides), options.ablations)
-          .scenario;
-  std::string folder = scenario.name;
-  for (const std::string& ablation : options.ablations) folder += fmt::format("-{}", ablation);
-  std::optional<std::vector<std::string>> settings = SettingsOf(options.scenario);
-  if (settings) AddSettings(options, *settings);
-  return {.name = scenario.name,
-          .design = "",
-          .folder = DefaultFolder(folder, scenario.seed),
-          .cells = {{.name = "", .scenario = scenario}},
-          .settings = std::move(settings)};
-}
-
-// An ablation that changes nothing may be a mistake: nothing of that kind is in the scenario.
-void TellIdleAblations(const RunOptions& options) {
-  if (options.ablations.empty() || options.campaign.quiet) return;
-  const scenario::Scenario base = LoadScenarioFrom(options.scenario, options.campaign.overrides);
-  for (const std::string& name : scenario::WithAblations(base, options.ablations).idle) {
-    PrintNote(fmt::format("--ablate {} changes nothing in this scenario", name));
-  }
-}
-
-ReportOptions ReportOptionsOf(const RunOptions& options, const batch::BatchResult& result) {
-  return {.output = options.campaign.output(),
-          .method = options.interval == "wilson" ? statistics::IntervalMethod::kWilson
-                                                 : statistics::IntervalMethod::kClopperPearson,
-          .threads = options.campaign.threads,
-          .resume = result.end == batch::BatchEnd::kStopped ? options.campaign.resume_command : "",
-          .next = result.end == batch::BatchEnd::kStopped || options.campaign.traces.rules.empty()};
-}
-
 ExitCode Run(const RunOptions& options) {
-  if (IsFirstRank()) TellIdleAblations(options);
-  if (options.campaign.dry_run && !IsFirstRank()) return ExitCode::kDone;
-  if (options.campaign.dry_run) return DryRun(options.campaign, PlanOf(options));
-  return RunCampaign(
-      options.campaign, [&] { return PlanOf(options); },
-      [&](const OpenedRun& run, const batch::BatchResult& result) {
-        ReportRun(run.folder, ReportOptionsOf(options, result));
-      });
+  const campaign::RunRequest request{.source = options.scenario,
+                                     .ablations = options.ablations,
+                                     .campaign = options.campaign.Request()};
+  if (options.campaign.dry_run) {
+    if (!campaign::IsFirstRank()) return ExitCode::kDone;
+    const campaign::Observer messages = MessagesToConsole(options.campaign.output());
+    Print(RehearsalText(campaign::Rehearse(request, messages).OrThrow()));
+    return ExitCode::kDone;
+  }
+  return campaign::Run(request, ShowRun(options.campaign, Finished::kDrives), StopBySignal())
+      .outcome;
 }
 
 std::string AblationNames() {
@@ -100,9 +56,7 @@ void AddOptions(CLI::App& command, RunOptions& options) {
       .add_option("--ablate", options.ablations,
                   fmt::format("take one cause of failure away; repeat: {}", AblationNames()))
       ->allow_extra_args(false);
-  command.add_option("--interval", options.interval, "of rates: wilson or clopper-pearson")
-      ->check(CLI::IsMember({"wilson", "clopper-pearson"}))
-      ->capture_default_str();
+  AddIntervalOption(command, options.campaign);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "app/blind_swath.h"
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/output_file.h"
+#include "campaign/output_file.h"
 #include "core/error.h"
 #include "report/atomic_file.h"
 #include "scenario/load.h"
@@ -70,7 +70,7 @@ void WriteTerrain(const TerrainOptions& options) {
                           "name a file to write, or ask for --blind-swath");
   }
   const Format format = FormatOf(options.out);
-  CheckOutputFile("--out", options.out);
+  campaign::CheckOutputFile("--out", options.out);
   const scenario::Scenario scenario = scenario::LoadScenario(options.scenario, options.overrides);
   const std::uint64_t seed = options.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
   const terrain::Course course = trial::TerrainCourse(scenario.drive.course);

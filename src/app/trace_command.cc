@@ -5,15 +5,17 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <vector>
 
-#include "app/campaign_traces.h"
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/drive_recording.h"
-#include "app/output_file.h"
-#include "app/plan_view.h"
-#include "app/trace_retention.h"
-#include "app/trial_source.h"
+#include "app/trial_options.h"
+#include "campaign/campaign_traces.h"
+#include "campaign/drive_recording.h"
+#include "campaign/output_file.h"
+#include "campaign/plan_view.h"
+#include "campaign/trace_retention.h"
+#include "campaign/trial_source.h"
 #include "core/error.h"
 #include "report/atomic_file.h"
 #include "report/trace_csv.h"
@@ -23,7 +25,7 @@ namespace rockyard::app {
 namespace {
 
 struct StoryOptions {
-  TrialRequest request;
+  campaign::TrialRequest request;
   std::string csv;
   std::string svg;
   std::string npz;
@@ -32,47 +34,52 @@ struct StoryOptions {
 
 // Found before the drive rather than after it.
 void CheckOutputs(const StoryOptions& options) {
-  const std::array<NamedFile, 3> files{
+  const std::array<campaign::NamedFile, 3> files{
       {{"--csv", options.csv}, {"--svg", options.svg}, {"--npz", options.npz}}};
-  for (const NamedFile& file : files) CheckOutputFile(file.option, file.file);
-  CheckDistinct(files);
+  for (const campaign::NamedFile& file : files) campaign::CheckOutputFile(file.option, file.file);
+  campaign::CheckDistinct(files);
 }
 
-void WriteOutputs(const StoryOptions& options, const TrialSource& source,
-                  const DriveRecording& recording) {
+void WriteOutputs(const StoryOptions& options, const campaign::TrialSource& source,
+                  const campaign::DriveRecording& recording) {
   const truth::TracedTrial& traced = recording.traced;
   if (!options.csv.empty()) {
     report::WriteFileAtomically(options.csv, report::TraceCsv(traced.trace));
     Print(fmt::format("  samples and events in {}\n", options.csv));
   }
   if (!options.svg.empty()) {
-    report::WriteFileAtomically(options.svg, PlanView(source.scenario, traced));
+    report::WriteFileAtomically(options.svg, campaign::PlanView(source.scenario, traced));
     Print(fmt::format("  plan view in {}\n", options.svg));
   }
   if (!options.npz.empty()) {
     report::WriteFileAtomically(
-        options.npz, TraceBytes(source.scenario, source.cell, recording, TraceFormat::kNpz));
+        options.npz,
+        campaign::TraceBytes(source.scenario, source.cell, recording, campaign::TraceFormat::kNpz));
     Print(fmt::format("  arrays for NumPy in {}\n", options.npz));
   }
 }
 
 ExitCode Trace(const StoryOptions& options) {
   CheckOutputs(options);
-  const TrialSource source = FindTrial(options.request);
-  const DriveRecording recording = RecordDrive(source.scenario, source.seed, options.request.trial);
+  const campaign::TrialSource source = campaign::FindTrial(options.request);
+  const campaign::DriveRecording recording =
+      campaign::RecordDrive(source.scenario, source.seed, options.request.trial);
   const truth::TracedTrial& traced = recording.traced;
   Print(report::TraceStory(traced,
                            options.all ? report::StoryLength::kAll : report::StoryLength::kFolded));
-  const ExitCode exit_code =
-      source.stored ? CompareWithStore(options.request, source, traced.schema, traced.record)
-                    : ExitCode::kDone;
+  std::vector<core::Problem> differences;
+  if (source.stored) {
+    differences = campaign::CompareWithStore(options.request, source, traced.schema, traced.record);
+    PrintRepetition(differences.empty());
+    PrintProblems(differences);
+  }
   try {
     WriteOutputs(options, source, recording);
   } catch (const core::UserError& failure) {
     PrintProblems(failure.problems());
     return ExitCode::kFailed;
   }
-  return exit_code;
+  return differences.empty() ? ExitCode::kDone : ExitCode::kDiffers;
 }
 
 }  // namespace

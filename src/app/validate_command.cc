@@ -10,7 +10,7 @@
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/run_source.h"
+#include "campaign/run_source.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/json_file.h"
@@ -38,7 +38,8 @@ std::string Check(const std::string& path, const std::vector<std::string>& overr
         scenario::LoadSweep(path, {.overrides = overrides, .trials = {}, .seed = {}});
     return fmt::format("a sweep of {} cells", sweep.cells.size());
   }
-  return "fingerprint " + core::Hex(scenario::Fingerprint(LoadScenarioFrom(path, overrides)));
+  return "fingerprint " +
+         core::Hex(scenario::Fingerprint(campaign::LoadScenarioFrom(path, overrides)));
 }
 
 // Every problem of every file, not of the first alone.

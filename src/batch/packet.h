@@ -32,6 +32,8 @@ class PacketReader {
  public:
   explicit PacketReader(const std::string& bytes) : bytes_(bytes) {}
 
+  bool AtEnd() const { return at_ == bytes_.size(); }
+
   std::int64_t Integer();
   double Real();
   std::string Text();

@@ -7,9 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "app/campaign_process.h"
-#include "app/campaign_traces.h"
+#include "app/exit_code.h"
+#include "app/run_display.h"
 #include "app/watched_run.h"
+#include "campaign/campaign_process.h"
+#include "campaign/campaign_traces.h"
 
 namespace rockyard::app {
 namespace {
@@ -47,22 +49,28 @@ class CliTraceFaults : public WatchedRunTest {
 
   // The exit code of writing all traces of `run` with drives that do `hook` first.
   ExitCode Trace(const std::function<void(std::uint64_t trial)>& hook, int threads) {
-    TraceRequest request{.retention = {.all = true}, .threads = threads};
+    campaign::TraceRequest request{.retention = {.all = true}, .threads = threads};
     request.drive = [&](const scenario::Scenario& scenario, std::uint64_t seed,
                         std::uint64_t trial) {
       hook(trial);
-      return RecordDrive(scenario, seed, trial);
+      return campaign::RecordDrive(scenario, seed, trial);
     };
     testing::internal::CaptureStderr();
-    const ExitCode code = RunContained(
-        {.threads = threads}, [](CampaignProcess&) { return ExitCode::kDone; },
-        [&](CampaignProcess& process) {
-          return process.Afterwards([&](const batch::Mission& mission, batch::FlightLog& log) {
-            return WriteTraces(work() / "run", request, mission, log);
-          });
+    const campaign::Observer console = MessagesToConsole(Output::kText);
+    const campaign::WorkResult result =
+        campaign::Recorded(console, [&](campaign::Journal& journal) {
+          return campaign::RunContained(
+              {.threads = threads}, {journal, campaign::Stop()},
+              [](campaign::CampaignProcess&) { return ExitCode::kDone; },
+              [&](campaign::CampaignProcess& process) {
+                return process.Afterwards(
+                    [&](const batch::Mission& mission, batch::FlightLog& log) {
+                      return campaign::WriteTraces(work() / "run", request, mission, log, journal);
+                    });
+              });
         });
     said_ = testing::internal::GetCapturedStderr();
-    return code;
+    return result.outcome;
   }
 
   std::string said_;

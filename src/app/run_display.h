@@ -1,0 +1,23 @@
+// What people see of a campaign while it runs, and how they end it.
+#pragma once
+
+#include "app/campaign_options.h"
+#include "app/next_command.h"
+#include "campaign/observer.h"
+#include "campaign/run_campaign.h"
+#include "campaign/stop.h"
+
+namespace rockyard::app {
+
+// Warnings and problems to standard error, remarks too but for kQuiet.
+campaign::Observer MessagesToConsole(Output output);
+
+// Beside these messages: progress on standard error, the report on standard output, and the line
+// that names the next command, at the end of all. `whole`: what the folder holds that is no shard.
+// `options` must outlive it.
+campaign::RunObserver ShowRun(const CampaignOptions& options, Finished whole);
+
+// Ctrl-C and the other polite signals.
+campaign::Stop StopBySignal();
+
+}  // namespace rockyard::app

@@ -1,0 +1,20 @@
+// What the folder of a campaign says, on standard output.
+#pragma once
+
+#include <string>
+
+#include "app/campaign_options.h"
+#include "campaign/folder_report.h"
+
+namespace rockyard::app {
+
+struct ShowOptions {
+  Output output = Output::kText;
+  std::string resume;  // the command that goes on with a campaign that stopped; empty: none did
+  bool next = true;    // false: more is told after the report, and then the next command
+};
+
+// A table and the next command, or summary.json, or nothing.
+void ShowReport(const campaign::FolderReport& report, const ShowOptions& options);
+
+}  // namespace rockyard::app

@@ -1,0 +1,25 @@
+#include "app/trial_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "app/console.h"
+
+namespace rockyard::app {
+
+void AddTrialOptions(CLI::App& command, campaign::TrialRequest& request) {
+  command
+      .add_option("SCENARIO_OR_RUN", request.source,
+                  "scenario file, scenario.resolved.json, or the folder of a run")
+      ->required();
+  command.add_option("--trial", request.trial, "trial index, from 0")->required();
+  command.add_option("--cell", request.cell, "cell of a campaign: its name, or number from 0");
+  command.add_option("--seed", request.seed, "seed of every random stream");
+  command.add_option("--set", request.overrides, "PATH=VALUE: changes the scenario; repeat")
+      ->allow_extra_args(false);
+}
+
+void PrintRepetition(std::optional<bool> repeats_stored) {
+  if (repeats_stored.value_or(false)) Print("  same as the stored record, bit for bit\n");
+}
+
+}  // namespace rockyard::app

@@ -1,0 +1,21 @@
+// What `rockyard trace` and `rockyard replay` share: which trial, and whether it repeats its
+// record.
+#pragma once
+
+#include <optional>
+
+#include "campaign/trial_source.h"
+
+namespace CLI {
+class App;
+}
+
+namespace rockyard::app {
+
+// Adds SCENARIO_OR_RUN, --trial, --cell, --seed and --set to a command. `request` must outlive it.
+void AddTrialOptions(CLI::App& command, campaign::TrialRequest& request);
+
+// Says that a trial repeats its stored record, where it does.
+void PrintRepetition(std::optional<bool> repeats_stored);
+
+}  // namespace rockyard::app

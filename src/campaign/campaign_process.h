@@ -1,0 +1,106 @@
+// The processes of a campaign: a supervised worker, or the ranks that mpirun started.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "batch/communicator.h"
+#include "batch/executor.h"
+#include "batch/flight_log.h"
+#include "batch/result_store.h"
+#include "batch/supervisor.h"
+#include "campaign/journal.h"
+#include "campaign/outcome.h"
+#include "campaign/stop.h"
+
+namespace rockyard::campaign {
+
+// Whether this process is rank 0 of those that mpirun started, or was started alone.
+bool IsFirstRank();
+
+struct ContainmentOptions {
+  bool supervisor = true;            // not under mpirun
+  double trial_cpu_limit_s = 600.0;  // 0: none
+  int threads = 0;                   // of this process; 0: as many as the machine runs at once
+};
+
+// How a piece of work speaks with whoever asked for it.
+struct Contact {
+  Journal& journal;
+  const Stop& stop;
+};
+
+// What running a scenario or a sweep does is done in a process that is told by this which part of
+// it is wanted.
+class CampaignProcess {
+ public:
+  CampaignProcess(const ContainmentOptions& options, const batch::Mission& mission,
+                  batch::FlightLog& log, batch::Communicator* communicator, const Contact& contact);
+
+  // False: another process was here before and died: open the store to go on, whatever the user
+  // said of an existing one, and say nothing of it.
+  bool begins() const { return mission_.task == batch::Mission::Task::kBegin; }
+  // False: after opening, DoTask and nothing else: no trials, no report.
+  bool whole() const { return begins() || mission_.task == batch::Mission::Task::kGoOn; }
+  int threads() const { return options_.threads; }
+  int ranks() const { return communicator_ == nullptr ? 1 : communicator_->size(); }
+
+  // Runs the trials that the store lacks, on all ranks, under a watchdog; ends early where the
+  // caller wishes it. As batch::RunBatch, whose `threads` is taken from here.
+  batch::BatchResult RunTrials(std::span<const batch::CellWork> work, batch::ResultStore& store,
+                               batch::BatchOptions options,
+                               const batch::ProgressReport& report = {});
+
+  // Does more work with the stored trials, as the mission says, in this process: until it ends, or
+  // the caller's wish sets the log's stop flag.
+  Outcome Afterwards(
+      const std::function<Outcome(const batch::Mission& mission, batch::FlightLog& log)>& work);
+
+  // Whether the caller wished for an end while trials ran.
+  bool interrupted() const { return log_.stop(); }
+  // The result is told once, whatever dies after it.
+  bool reported() const { return log_.reported(); }
+  void SetReported() { log_.SetReported(); }
+
+  // The task for one trial.
+  Outcome DoTask(std::span<const batch::CellWork> work, batch::ResultStore& store);
+
+  // Tells of every trial that was left out, pending, as it hangs or is killed; true where there is
+  // one.
+  bool TellLeftOut(const batch::ResultStore& store) const;
+
+ private:
+  // Neither a supervisor nor mpirun decides when patience ends.
+  bool alone() const { return !options_.supervisor && communicator_ == nullptr; }
+
+  const ContainmentOptions& options_;
+  const batch::Mission& mission_;
+  batch::FlightLog& log_;
+  batch::Communicator* communicator_;
+  const Contact& contact_;
+};
+
+using CampaignPart = std::function<Outcome(CampaignProcess&)>;
+
+// Runs `body` as the options ask: in a supervised worker (and again after a crash), in this
+// process, or, under mpirun, on rank 0 while the others serve it. `body` opens the store named by
+// the request and calls either RunTrials or DoTask; an exception out of it becomes an outcome
+// (Guarded). With a supervisor call it before the process has a second thread. Returns the outcome,
+// the same on every rank.
+//
+// `afterwards`, where given, calls Afterwards. It runs in the same manner once `body` has ended
+// with all trials, in a worker of its own, so that what dies there starts no trial and tells no
+// result again. It stores no faults: trials that end its process each time come back in the
+// mission as left out. Its outcome counts where it is not kDone.
+//
+// A process that nobody watches over (no supervisor, or a rank) ends with kFailed where a trial has
+// used up its CPU time: a thread cannot be stopped from outside.
+Outcome RunContained(ContainmentOptions options, const Contact& contact, const CampaignPart& body,
+                     const CampaignPart& afterwards = {});
+
+// The command that runs the trial again. `cell` as in the store.
+std::string ReplayLine(const batch::ResultStore& store, batch::TrialId id);
+
+}  // namespace rockyard::campaign

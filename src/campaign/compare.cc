@@ -1,0 +1,81 @@
+#include "campaign/compare.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "campaign/run_views.h"
+#include "core/error.h"
+#include "core/json_text.h"
+#include "truth/measurement_record.h"
+
+namespace rockyard::campaign {
+namespace {
+
+std::string TextAt(const core::JsonValue* value) {
+  const bool text = value != nullptr && value->Is(core::JsonValue::Type::kText);
+  return text ? value->text() : std::string("unknown");
+}
+
+// What a run is of, as its scenario says.
+std::string ExperimentOf(const StoredRun& run) {
+  const core::JsonValue document = core::ParseJson(run.identity.resolved, "resolved scenario");
+  const std::string experiment = TextAt(document.Find("experiment"));
+  if (!truth::IsMeasurement(run.schema)) return "experiment " + experiment;
+  const core::JsonValue* group = document.Find(experiment);
+  const core::JsonValue* study = group == nullptr ? nullptr : group->Find("study");
+  return "study " + TextAt(study) + " of experiment " + experiment;
+}
+
+void RequireSameExperiment(const StoredRun& first, const StoredRun& second) {
+  const std::string a = ExperimentOf(first);
+  const std::string b = ExperimentOf(second);
+  if (a == b) return;
+  throw core::UserError(second.Label(),
+                        fmt::format("is a run of {}, but {} is one of {}", b, first.Label(), a),
+                        "compare two runs of the same experiment and study");
+}
+
+statistics::CellComparison CompareMeasurements(const StoredRun& first, const StoredRun& second) {
+  RequireSameExperiment(first, second);
+  const report::ComparedRun a = ComparedView(first);
+  const report::ComparedRun b = ComparedView(second);
+  statistics::CellComparison cells =
+      statistics::CompareCells(statistics::SummarizeCells(a.schema, a.records),
+                               statistics::SummarizeCells(b.schema, b.records));
+  if (cells.tests == 0) {
+    throw core::UserError(second.Label(), "shares no cell with trials with " + first.Label(),
+                          "compare runs whose lists of factors have values in common");
+  }
+  return cells;
+}
+
+Comparison CompareStored(StoredRun first, StoredRun second) {
+  RequireWhole(first);
+  RequireWhole(second);
+  Comparison comparison;
+  if (truth::IsMeasurement(first.schema) || truth::IsMeasurement(second.schema)) {
+    statistics::CellComparison cells = CompareMeasurements(first, second);
+    if (cells.Differing() > 0) comparison.outcome = Outcome::kDiffers;
+    comparison.found = std::move(cells);
+  } else {
+    comparison.found = report::CompareRuns(ComparedView(first), ComparedView(second));
+  }
+  comparison.settings =
+      batch::FindScenarioDifferences(first.identity.resolved, second.identity.resolved);
+  comparison.first = std::move(first);
+  comparison.second = std::move(second);
+  return comparison;
+}
+
+}  // namespace
+
+core::Result<Comparison> Compare(const CompareRequest& request) {
+  return core::Attempt([&] {
+    const std::string& other = request.second_cell.empty() ? request.cell : request.second_cell;
+    StoredRun first = ReadRun(request.first, request.cell);
+    return CompareStored(std::move(first), ReadRun(request.second, other));
+  });
+}
+
+}  // namespace rockyard::campaign

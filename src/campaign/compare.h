@@ -1,0 +1,37 @@
+// Two runs, compared.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "batch/scenario_difference.h"
+#include "campaign/outcome.h"
+#include "campaign/run_source.h"
+#include "core/result.h"
+#include "report/paired_comparison.h"
+#include "statistics/cell_comparison.h"
+
+namespace rockyard::campaign {
+
+struct CompareRequest {
+  std::filesystem::path first;
+  std::filesystem::path second;
+  std::string cell = {};         // of a campaign: its name or number
+  std::string second_cell = {};  // where it is another one
+};
+
+// Drives are compared trial by trial where their seeds are the same, measurements cell by cell.
+struct Comparison {
+  StoredRun first;
+  StoredRun second;
+  std::variant<report::RunComparison, statistics::CellComparison> found;
+  std::vector<batch::ScenarioDifference> settings;  // in which they differ
+  Outcome outcome = Outcome::kDone;  // kDiffers where a rate of a cell does; drives describe
+};
+
+// Memory: the records of both runs.
+core::Result<Comparison> Compare(const CompareRequest& request);
+
+}  // namespace rockyard::campaign

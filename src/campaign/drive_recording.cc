@@ -1,0 +1,120 @@
+#include "campaign/drive_recording.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "campaign/scan_capture.h"
+#include "core/error.h"
+#include "experiments/drive/drive_experiment.h"
+#include "perception/triangulation.h"
+#include "rover/rover_links.h"
+#include "trial/onboard_calibration.h"
+
+namespace rockyard::campaign {
+namespace {
+
+class Recorder {
+ public:
+  explicit Recorder(const scenario::Scenario& scenario)
+      : scenario_(scenario),
+        triangulator_(trial::OnboardStripeCalibration(scenario.drive.sensors.light_stripe,
+                                                      scenario.drive.perception.calibration)) {}
+
+  DriveRecording Run(std::uint64_t seed, std::uint64_t trial) {
+    truth::TracedTrial& traced = recording_.traced;
+    traced.scenario = scenario_.name;
+    traced.seed = seed;
+    traced.goal = {scenario_.drive.course.goal_x_m, scenario_.drive.course.goal_y_m};
+    traced.schema = experiments::DriveSchema();
+    const experiments::DriveExperiment experiment(
+        scenario_.drive, [this](const trial::WatchedScan& scan) { OnScan(scan); },
+        [this](const trial::WatchedStep& step) { OnStep(step); });
+    traced.record = experiment.RunTraced(seed, trial, traced.trace);
+    return std::move(recording_);
+  }
+
+ private:
+  // The trace grows while the trial runs: its end is the present.
+  double now_s() const { return recording_.traced.trace.now_s(); }
+
+  void OnScan(const trial::WatchedScan& watched) {
+    replay::ReplayScan scan{.time_s = now_s(),
+                            .pose = math::ToPose2(watched.X_WR),
+                            .points = {},
+                            .hazards = HazardsOf(watched).stripe_hazard};
+    const messages::StripeArraySize size = watched.scan.pixels.size();
+    for (std::size_t row = 0; row < size.rows; ++row) {
+      for (std::size_t stripe = 0; stripe < size.stripes; ++stripe) {
+        AddPoint(watched, row, stripe, scan);
+      }
+    }
+    recording_.scans.push_back(std::move(scan));
+  }
+
+  void AddPoint(const trial::WatchedScan& watched, std::size_t row, std::size_t stripe,
+                replay::ReplayScan& scan) const {
+    const messages::StripePixel& pixel = watched.scan.pixels[row][stripe];
+    if (!pixel.detected) return;
+    const auto p_RoP_R = triangulator_.Point(row, stripe, pixel.column_px);
+    if (!p_RoP_R) return;
+    const double height_m = triangulator_.Elevation(row, stripe, pixel.column_px).elevation_m;
+    scan.points.push_back({watched.X_WR * *p_RoP_R, stripe, height_m});
+  }
+
+  void OnStep(const trial::WatchedStep& watched) {
+    replay::ReplayStep step{.time_s = now_s(),
+                            .pose = math::ToPose2(watched.X_WR),
+                            .view = watched.view,
+                            .points_W = {}};
+    const std::vector<math::Vector3>& points_R = watched.cloud.points_R;
+    const std::size_t kept = std::min(points_R.size(), kMaxStepPoints);
+    step.points_W.reserve(kept);
+    for (std::size_t i = 0; i < kept; ++i) {
+      step.points_W.push_back(watched.X_WR * points_R[i * points_R.size() / kept]);
+    }
+    recording_.steps.push_back(std::move(step));
+  }
+
+  const scenario::Scenario& scenario_;
+  const perception::Triangulator triangulator_;
+  DriveRecording recording_;
+};
+
+}  // namespace
+
+DriveRecording RecordDrive(const scenario::Scenario& scenario, std::uint64_t seed,
+                           std::uint64_t trial) {
+  if (scenario.experiment.kind != experiments::ExperimentKind::kDrive) {
+    throw core::UserError(scenario.name, "is no drive, and only drives have a course",
+                          "use rockyard replay --list, which lists the scans of any trial");
+  }
+  return Recorder(scenario).Run(seed, trial);
+}
+
+std::vector<replay::ReplayPose> PosesOf(const scenario::Scenario& scenario,
+                                        const truth::Trace& trace) {
+  const std::vector<rover::Link> links = rover::MakeLinks(scenario.drive.rover.geometry);
+  std::vector<replay::ReplayPose> poses;
+  poses.reserve(trace.samples.size() + trace.rests.size());
+  const auto add = [&](const truth::TraceSample& sample, bool set_back) {
+    replay::ReplayPose pose{sample, {}, set_back};
+    for (const rover::Link& link : links) {
+      if (link.parent >= 0) pose.joint_rad.push_back(rover::JointAngle(link, sample.posture));
+    }
+    poses.push_back(std::move(pose));
+  };
+  auto rest = trace.rests.begin();
+  const auto rests_before = [&](std::size_t samples) {
+    for (; rest != trace.rests.end() && rest->samples_before <= samples; ++rest) {
+      add(rest->sample, rest->set_back);
+    }
+  };
+  for (std::size_t i = 0; i < trace.samples.size(); ++i) {
+    rests_before(i);
+    add(trace.samples[i], false);
+  }
+  rests_before(trace.samples.size());
+  return poses;
+}
+
+}  // namespace rockyard::campaign

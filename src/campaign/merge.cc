@@ -1,0 +1,59 @@
+#include "campaign/merge.h"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <system_error>
+
+#include "batch/merge_shards.h"
+#include "batch/result_store.h"
+#include "campaign/run_report.h"
+#include "campaign/sweep_report.h"
+#include "core/error.h"
+#include "scenario/sweep.h"
+
+namespace rockyard::campaign {
+namespace {
+
+FolderReport ReportMerged(const std::filesystem::path& folder) {
+  const batch::ResultStore store = batch::ResultStore::Read(folder);
+  const std::string& design = store.identity().design;
+  if (design.empty()) return ReportRun(folder, {});
+  return ReportSweep(store, scenario::ParseSweep(design), {});
+}
+
+// A trace belongs to a trial, but which trials have one was decided in each shard alone.
+void RemarkTraces(const MergeRequest& request, Journal& journal) {
+  std::error_code ignored;
+  for (const std::filesystem::path& shard : request.shards) {
+    if (!std::filesystem::is_directory(shard / "traces", ignored)) continue;
+    journal.Remark(
+        fmt::format("traces of shards are not merged: the same run or sweep with --out {}, "
+                    "--resume and --traces, and without --shard, writes those of the whole",
+                    request.folder.string()));
+    return;
+  }
+}
+
+}  // namespace
+
+WorkResult Merge(const MergeRequest& request, const MergeObserver& observer) {
+  return Recorded(observer, [&](Journal& journal) {
+    batch::MergeShards(request.shards, request.folder,
+                       {.build = request.build, .partial = request.partial});
+    journal.SetFolder(request.folder);
+    RemarkTraces(request, journal);
+    try {
+      const FolderReport report = ReportMerged(request.folder);
+      if (observer.reported) observer.reported(report);
+      return Outcome::kDone;
+    } catch (const core::UserError& error) {
+      journal.Warn("the shards are together in " + request.folder.string() +
+                   ", but not all that follows");
+      journal.Fail(error.problems());
+      return Outcome::kFailed;
+    }
+  });
+}
+
+}  // namespace rockyard::campaign

@@ -1,0 +1,213 @@
+#include "campaign/open_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "batch/store_error.h"
+#include "campaign/derived_files.h"
+#include "campaign/run_source.h"
+#include "core/hash.h"
+#include "scenario/load.h"
+
+namespace rockyard::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+using batch::StoreError;
+using batch::StoreProblem;
+
+std::string FileName(const std::string& name) {
+  constexpr std::string_view kKept = "-._";
+  std::string safe = name.substr(0, 100);
+  for (char& c : safe) {
+    const bool keep = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+                      kKept.find(c) != std::string_view::npos;
+    if (!keep) c = '_';
+  }
+  return safe;
+}
+
+// Removes the folder again, where it is empty, unless all went well.
+class NewFolderGuard {
+ public:
+  explicit NewFolderGuard(const fs::path& folder) : folder_(folder) {}
+  ~NewFolderGuard() {
+    std::error_code ignored;
+    if (!folder_.empty()) fs::remove(folder_, ignored);
+  }
+  NewFolderGuard(const NewFolderGuard&) = delete;
+  NewFolderGuard& operator=(const NewFolderGuard&) = delete;
+
+  void Keep() { folder_.clear(); }
+
+ private:
+  fs::path folder_;
+};
+
+bool MayResume(const OpenRequest& request) {
+  return request.existing == ExistingRun::kResume ||
+         request.existing == ExistingRun::kResumeOrSetAside;
+}
+
+bool MaySetAside(const OpenRequest& request) {
+  return request.existing == ExistingRun::kSetAside ||
+         request.existing == ExistingRun::kResumeOrSetAside;
+}
+
+// Before anything is made or claimed: a folder that no run made is not written into by accident.
+void RefuseForeignFolder(const OpenRequest& request) {
+  const fs::path& folder = request.folder;
+  std::error_code error;
+  const bool empty =
+      !fs::exists(folder, error) || !fs::is_directory(folder, error) || fs::is_empty(folder, error);
+  if (empty || MaySetAside(request)) return;
+  if (!batch::HoldsStore(folder)) {
+    throw StoreError(StoreProblem::kExists, folder.string(), "is not empty and holds no run",
+                     "choose another folder with --out, or write into it with --force, which "
+                     "renames files of the names it needs");
+  }
+  if (!MayResume(request)) {
+    throw StoreError(StoreProblem::kExists, folder.string(), "holds a run already",
+                     "go on with it by --resume, set it aside by --force (nothing is "
+                     "deleted), or choose another folder with --out");
+  }
+}
+
+class Opener {
+ public:
+  Opener(const OpenRequest& request, const CampaignPlan& plan, const truth::RecordSchema& schema)
+      : request_(request),
+        plan_(plan),
+        folder_(request.folder),
+        identity_(IdentityOf(plan, schema, request.shard)) {}
+
+  OpenedRun Open() {
+    RefuseForeignFolder(request_);
+    std::error_code error;
+    const bool there = fs::exists(folder_, error);
+    auto claim = std::make_unique<batch::FolderClaim>(folder_);
+    // Not before the claim: the folder of a run that came first is its own.
+    NewFolderGuard guard(there ? fs::path() : folder_);
+    batch::ResultStore store = OpenStore();
+    PlanTrials(store);
+    guard.Keep();
+    return {folder_, std::move(claim), std::move(store), std::move(notes_)};
+  }
+
+ private:
+  batch::ResultStore OpenStore() {
+    if (batch::HoldsStore(folder_) && MayResume(request_)) {
+      try {
+        batch::ResultStore store = batch::ResultStore::Resume(folder_, identity_, request_.build);
+        resumed_ = true;
+        return store;
+      } catch (const StoreError& error) {
+        const bool useless =
+            error.problem() == StoreProblem::kMismatch || error.problem() == StoreProblem::kDamaged;
+        if (!useless || !MaySetAside(request_)) throw;
+        notes_.push_back("cannot go on with the run in the folder: " + FirstReason(error));
+      }
+    }
+    if (batch::HoldsStore(folder_)) {
+      const fs::path aside = batch::SetStoreAside(folder_);
+      notes_.push_back("the former results are kept as " + aside.string());
+    }
+    SetFilesAside();
+    return batch::ResultStore::Create(folder_, identity_, WantedTrials());
+  }
+
+  // Only where all that is in the folder may be set aside is there anything.
+  void SetFilesAside() {
+    std::string names;
+    for (const std::string& name : SetDerivedFilesAside(folder_)) {
+      names += (names.empty() ? "" : ", ") + name;
+    }
+    if (!names.empty()) notes_.push_back("files that were there are kept as " + names);
+  }
+
+  static std::string FirstReason(const StoreError& error) {
+    const core::Problem& problem = error.problems().at(error.problems().size() > 1 ? 1 : 0);
+    return problem.path + " " + problem.reason;
+  }
+
+  std::vector<std::int64_t> WantedTrials() const {
+    std::vector<std::int64_t> trials;
+    for (const CampaignCell& cell : plan_.cells) trials.push_back(cell.scenario.trials);
+    return trials;
+  }
+
+  // A resumed run keeps its plan and its rule unless the user says otherwise; what is stored stays
+  // planned.
+  void PlanTrials(batch::ResultStore& store) {
+    const std::vector<batch::FinishedTrial> finished = store.Finished();
+    std::vector<std::int64_t> ends(plan_.cells.size(), 0);
+    for (const batch::FinishedTrial& trial : finished) {
+      ends[static_cast<std::size_t>(trial.id.cell)] = trial.id.trial + 1;
+    }
+    std::optional<batch::StoppingRule> rule = request_.rule;
+    if (!rule && resumed_ && !request_.trials_given) rule = store.rule();
+    if (rule != store.rule()) store.SetRule(rule);
+    std::int64_t planned = 0;
+    for (int cell = 0; cell < store.cells(); ++cell) {
+      const auto i = static_cast<std::size_t>(cell);
+      const bool kept = resumed_ && !request_.trials_given;
+      std::int64_t wanted = kept ? store.planned(cell) : plan_.cells[i].scenario.trials;
+      if (rule) wanted = rule->max_trials;
+      wanted = std::max(wanted, ends[i]);
+      if (wanted != store.planned(cell)) store.SetPlanned(cell, wanted);
+      planned += store.identity().shard.Share(wanted);
+    }
+    if (finished.empty()) return;
+    notes_.push_back(fmt::format("going on with {}: {} of {}{} trials are there", folder_.string(),
+                                 finished.size(), rule ? "at most " : "", planned));
+  }
+
+  const OpenRequest& request_;
+  const CampaignPlan& plan_;
+  fs::path folder_;
+  batch::CampaignIdentity identity_;
+  std::vector<std::string> notes_;
+  bool resumed_ = false;
+};
+
+}  // namespace
+
+fs::path DefaultFolder(const std::string& name, std::int64_t seed) {
+  return fs::path("results") / "runs" / fmt::format("{}-seed{}", FileName(name), seed);
+}
+
+batch::CampaignIdentity IdentityOf(const CampaignPlan& plan, const truth::RecordSchema& schema,
+                                   batch::Shard shard) {
+  batch::CampaignIdentity identity{.name = plan.name,
+                                   .design = plan.design,
+                                   .build = BuildName(),
+                                   .schema = schema,
+                                   .cells = {},
+                                   .shard = shard,
+                                   .settings = plan.settings};
+  for (const CampaignCell& cell : plan.cells) {
+    identity.cells.push_back({.name = cell.name,
+                              .scenario = cell.scenario.name,
+                              .fingerprint = core::Hex(scenario::Fingerprint(cell.scenario)),
+                              .resolved = scenario::ResolvedJson(cell.scenario),
+                              .seed = static_cast<std::uint64_t>(cell.scenario.seed)});
+  }
+  return identity;
+}
+
+void CheckFolder(const OpenRequest& request, const batch::CampaignIdentity& identity) {
+  RefuseForeignFolder(request);
+  if (request.existing == ExistingRun::kResume && batch::HoldsStore(request.folder)) {
+    batch::ResultStore::RequireSame(request.folder, identity, request.build);
+  }
+}
+
+OpenedRun OpenRun(const OpenRequest& request, const CampaignPlan& plan,
+                  const truth::RecordSchema& schema) {
+  return Opener(request, plan, schema).Open();
+}
+
+}  // namespace rockyard::campaign

@@ -1,0 +1,120 @@
+#include "campaign/replay.h"
+
+#include <fmt/format.h>
+
+#include <functional>
+
+#include "campaign/open_run.h"
+#include "campaign/output_file.h"
+#include "campaign/replay_page.h"
+#include "core/error.h"
+#include "report/atomic_file.h"
+#include "web/page.h"
+
+namespace rockyard::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+// One file that is asked for.
+struct AskedFile {
+  std::string option;  // that names it
+  std::string what;
+  fs::path path;
+  std::function<std::string(const ReplayedTrial&)> text;
+};
+
+std::string DefaultStem(const TrialSource& source, std::uint32_t trial) {
+  const std::string cell = source.cell.empty() ? "" : fmt::format("-{}", source.cell);
+  const fs::path folder =
+      DefaultFolder(source.scenario.name + cell, static_cast<std::int64_t>(source.seed));
+  return fmt::format("{}-trial{}", folder.string(), trial);
+}
+
+// Without pages there are the plan and the data.
+std::vector<AskedFile> OutputsOf(const ReplayRequest& request, const TrialSource& source) {
+  const std::string stem = request.page.empty()
+                               ? DefaultStem(source, request.trial.trial)
+                               : fs::path(request.page).replace_extension().string();
+  const bool pages = web::PagesBuilt();
+  const auto path = [&](const std::string& asked, const char* extension) {
+    return asked.empty() ? fs::path(stem + extension) : fs::path(asked);
+  };
+  std::vector<AskedFile> outputs;
+  if (pages) {
+    outputs.push_back(
+        {"--out", "3-D replay", path(request.page, ".html"), [](const ReplayedTrial& replayed) {
+           return web::MakePage(web::Page::kReplay, replayed.data.title, ReplayPayload(replayed));
+         }});
+  }
+  outputs.push_back({"--svg", "plan view", path(request.plan, ".svg"),
+                     [](const ReplayedTrial& replayed) { return replayed.plan_svg; }});
+  if (!pages || !request.data.empty()) {
+    outputs.push_back({"--data", "data of the page", path(request.data, ".json"), ReplayPayload});
+  }
+  return outputs;
+}
+
+// Found before the drive rather than after it.
+void CheckOutputs(const ReplayRequest& request, const std::vector<AskedFile>& outputs) {
+  CheckOutputFile("--out", request.page);
+  CheckExtension("--out", request.page, ".html");
+  CheckOutputFile("--svg", request.plan);
+  CheckOutputFile("--data", request.data);
+  std::vector<NamedFile> files;
+  files.reserve(outputs.size());
+  for (const AskedFile& output : outputs) files.push_back({output.option, output.path.string()});
+  CheckDistinct(files);
+}
+
+// False where one cannot be written.
+bool WriteOutputs(const std::vector<AskedFile>& outputs, const ReplayedTrial& replayed,
+                  Journal& journal, std::vector<ReplayFile>& files) {
+  try {
+    for (const AskedFile& output : outputs) {
+      if (output.path.has_parent_path()) fs::create_directories(output.path.parent_path());
+      report::WriteFileAtomically(output.path, output.text(replayed));
+      files.push_back({output.what, output.path});
+    }
+    return true;
+  } catch (const core::UserError& failure) {
+    journal.Fail(failure.problems());
+  } catch (const fs::filesystem_error& failure) {
+    journal.Fail(
+        {{failure.path1().string(), failure.code().message(), "name another file with --out"}});
+  }
+  return false;
+}
+
+Outcome DriveAndWrite(const ReplayRequest& request, Journal& journal, ReplayResult& result) {
+  const TrialSource source = FindTrial(request.trial);
+  const std::vector<AskedFile> outputs = OutputsOf(request, source);
+  CheckOutputs(request, outputs);
+  const ReplayedTrial replayed = ReplayTrial(source, request.trial.trial);
+  const replay::ReplayData& data = replayed.data;
+  result.title = data.title;
+  result.record = data.record;
+  if (source.stored) {
+    const auto differences = CompareWithStore(request.trial, source, data.schema, data.record);
+    result.repeats_stored = differences.empty();
+    journal.Fail(differences);
+  }
+  if (!web::PagesBuilt()) {
+    journal.Warn(
+        "this build has no pages, so the 3-D replay is left out: install nodejs and npm, and build "
+        "again");
+  }
+  if (!WriteOutputs(outputs, replayed, journal, result.files)) return Outcome::kFailed;
+  return result.repeats_stored.value_or(true) ? Outcome::kDone : Outcome::kDiffers;
+}
+
+}  // namespace
+
+ReplayResult Replay(const ReplayRequest& request, const Observer& observer) {
+  ReplayResult result;
+  static_cast<WorkResult&>(result) =
+      Recorded(observer, [&](Journal& journal) { return DriveAndWrite(request, journal, result); });
+  return result;
+}
+
+}  // namespace rockyard::campaign

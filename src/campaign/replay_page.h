@@ -1,0 +1,33 @@
+// The 3-D replay of one trial as a page for a browser, and its plan view.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "campaign/trial_source.h"
+#include "replay/data.h"
+
+namespace rockyard::campaign {
+
+// A trial that was driven again: all that can be shown of it.
+struct ReplayedTrial {
+  replay::ReplayData data;
+  std::string plan_svg;  // plan view in the manner of Matthies 1995, figure 16
+};
+
+// Drives the trial again and takes down its course. A trial that ends in a simulator fault is shown
+// up to the fault. Throws core::UserError where the scenario is no drive. Cost: that of the trial,
+// and less than as much again.
+ReplayedTrial ReplayTrial(const TrialSource& source, std::uint64_t trial);
+
+// What the page is given (src/web/replay/payload.ts), as JSON.
+std::string ReplayPayload(const ReplayedTrial& replayed);
+
+// Drives the trial again and writes its page to `path`, atomically, where the drive repeats the
+// stored record bit for bit or there is none. Otherwise writes nothing and returns false. Throws
+// core::UserError: no drive, pages not built, `path` cannot be written.
+bool WriteReplayPage(const TrialSource& source, std::uint64_t trial,
+                     const std::filesystem::path& path);
+
+}  // namespace rockyard::campaign

@@ -1,0 +1,117 @@
+#include "campaign/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "batch/run_folder.h"
+#include "campaign/campaign_process.h"
+#include "campaign/derived_files.h"
+#include "campaign/output_file.h"
+#include "campaign/report_build.h"
+#include "campaign/report_inputs.h"
+#include "core/error.h"
+#include "report/atomic_file.h"
+#include "web/page.h"
+
+namespace rockyard::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+// "report.html" in the folder that was named first.
+std::string PageFile(const ReportRequest& request) {
+  return request.page.empty() ? (fs::path(request.runs.front()) / "report.html").string()
+                              : request.page;
+}
+
+std::string Title(const ReportRequest& request, const std::vector<ReportInput>& inputs) {
+  constexpr std::size_t kNamed = 3;
+  if (!request.title.empty()) return request.title;
+  std::string title;
+  for (std::size_t i = 0; i < std::min(inputs.size(), kNamed); ++i) {
+    title += (i == 0 ? "" : ", ") + inputs[i].label;
+  }
+  if (inputs.size() > kNamed) title += fmt::format(" and {} more", inputs.size() - kNamed);
+  return title;
+}
+
+// Before the work: what cannot be meant, or would lay a page over what a run holds.
+void CheckFile(const char* option, const std::string& file, const char* extension) {
+  CheckOutputFile(option, file);
+  CheckExtension(option, file, extension);
+  const fs::path folder = fs::absolute(file).parent_path();
+  if (batch::HoldsStore(folder) && IsRunFile(fs::path(file).filename())) {
+    throw core::UserError(option, "is a file of the run itself: " + file, "choose another name");
+  }
+}
+
+void CheckBuilt(const ReportRequest& request) {
+  if (!web::PagesBuilt() && (request.data.empty() || !request.page.empty())) {
+    throw core::UserError("rockyard report", "this program was built without its pages",
+                          "install nodejs and npm and build it again (scripts/quickstart.sh), or "
+                          "write the numbers alone with --data FILE");
+  }
+}
+
+void CheckFiles(const ReportRequest& request) {
+  if (web::PagesBuilt()) CheckFile("--out", PageFile(request), ".html");
+  if (!request.data.empty()) CheckFile("--data", request.data, ".json");
+}
+
+void WritePage(const ReportRequest& request, const PageRequest& page, const Report& report,
+               ReportResult& result) {
+  if (!request.data.empty()) {
+    report::WriteFileAtomically(request.data, report.json);
+    result.data_bytes = report.json.size();
+  }
+  if (web::PagesBuilt()) {
+    const std::string html = web::MakePage(web::Page::kReport, page.title, report.json);
+    report::WriteFileAtomically(page.page, html);
+    result.page_bytes = html.size();
+  }
+}
+
+Outcome Write(const ReportRequest& request, const ReportObserver& observer, const Contact& contact,
+              ReportResult& result) {
+  CheckBuilt(request);
+  PageRequest page{.inputs = FindReportInputs(request.runs, request.cell),
+                   .title = {},
+                   .command = request.command,
+                   .against = request.against,
+                   .replays = web::PagesBuilt() ? request.replays : 0,
+                   .page = PageFile(request),
+                   .progress = observer.replays};
+  CheckFiles(request);
+  page.title = Title(request, page.inputs);
+  result.page = page.page;
+  const Report report = BuildReport(page, contact);
+  result.runs = report.runs;
+  result.trials = report.trials;
+  result.replays = report.replays;
+  try {
+    WritePage(request, page, report, result);
+  } catch (const core::UserError& failure) {
+    // A disk that fails after the work, not input that is wrong before it.
+    contact.journal.Fail(failure.problems());
+    if (report.replays.written > 0) {
+      contact.journal.Warn(fmt::format("{} replays are written, in {}", report.replays.written,
+                                       report.replays.folder.string()));
+    }
+    return Outcome::kFailed;
+  }
+  return report.replays.outcome;
+}
+
+}  // namespace
+
+ReportResult WriteReport(const ReportRequest& request, const ReportObserver& observer,
+                         const Stop& stop) {
+  ReportResult result;
+  static_cast<WorkResult&>(result) = Recorded(observer, [&](Journal& journal) {
+    return Write(request, observer, {journal, stop}, result);
+  });
+  return result;
+}
+
+}  // namespace rockyard::campaign

@@ -1,0 +1,249 @@
+#include "campaign/report_build.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+#include "batch/executor.h"
+#include "batch/result_store.h"
+#include "batch/scenario_difference.h"
+#include "batch/trial_hash.h"
+#include "campaign/report_published.h"
+#include "campaign/run_source.h"
+#include "campaign/run_views.h"
+#include "campaign/shell_word.h"
+#include "core/error.h"
+#include "core/json_pieces.h"
+#include "core/provenance.h"
+#include "report/page_data.h"
+#include "scenario/load.h"
+#include "scenario/sweep.h"
+#include "truth/measurement_record.h"
+
+namespace rockyard::campaign {
+namespace {
+
+constexpr std::size_t kMaxCompared = 6;
+constexpr auto kMethod = statistics::IntervalMethod::kWilson;
+
+// None where the scenario is of another version of the program.
+std::vector<core::ParameterInfo> ParametersOf(const StoredRun& run) {
+  try {
+    return scenario::ListParameters(scenario::ParseScenario(run.identity.resolved));
+  } catch (const core::UserError&) {
+    return {};
+  }
+}
+
+std::string ReplayCommand(const StoredRun& run) {
+  std::string command = "rockyard replay " + ShellWord(run.folder.string());
+  if (!run.identity.name.empty()) command += " --cell " + ShellWord(run.identity.name);
+  return command + " --trial {trial}";
+}
+
+[[noreturn]] void FailEmpty(const std::filesystem::path& folder) {
+  throw core::UserError(folder.string(), "holds no finished trials to report",
+                        "let it run: the same `rockyard run` or `rockyard sweep` with --resume");
+}
+
+scenario::Sweep SweepOf(const batch::ResultStore& store, const std::filesystem::path& folder) {
+  try {
+    scenario::Sweep sweep = scenario::ParseSweep(store.identity().design);
+    if (sweep.cells.size() == static_cast<std::size_t>(store.cells())) return sweep;
+  } catch (const core::UserError&) {
+    // Said below: its problems are about a file that the user has not got.
+  }
+  throw core::UserError(folder.string(),
+                        "holds a sweep that this version of the program reads differently",
+                        "use the program that made it: " + store.Builds().front());
+}
+
+class Builder {
+ public:
+  Builder(const PageRequest& request, const Contact& contact)
+      : request_(request), contact_(contact), published_(request.against, contact.journal) {}
+
+  Report Build() {
+    LoadRuns();
+    std::size_t next = 0;
+    for (const ReportInput& input : request_.inputs) {
+      if (input.sweep) {
+        AddSweep(input);
+        continue;
+      }
+      const StoredRun& run = plain_[next++];
+      AddWorst(FindWorst(run, request_.replays), input.label);
+      AddRun(run, input.label, {});
+    }
+    RequirePublished();
+    Compare();
+    return Finish();
+  }
+
+ private:
+  void LoadRuns() {
+    for (const ReportInput& input : request_.inputs) {
+      if (input.sweep) continue;
+      plain_.push_back(ReadRun(input.folder, input.cell));
+      if (plain_.back().records.empty()) FailEmpty(input.folder);
+    }
+  }
+
+  void AddRun(const StoredRun& run, const std::string& label, std::optional<std::size_t> sweep) {
+    report::PageRun page{.label = label,
+                         .folder = run.folder.string(),
+                         .cell = run.identity.name,
+                         .sweep = sweep,
+                         .description = Describe(run, batch::ThreadCount({})),
+                         .schema = run.schema,
+                         .records = run.records,
+                         .prefix = run.prefix(),
+                         .parameters = ParametersOf(run),
+                         .published = published_.Table(run),
+                         .replay_command = ReplayCommand(run)};
+    if (sweep) ShareParameters(page);
+    any_published_ = any_published_ || page.published != "null";
+    report_.trials += run.records.size();
+    runs_.push_back(report::PageRunMembers(page, kMethod));
+  }
+
+  // The first cell of a sweep has all of them, the others refer to it.
+  void ShareParameters(report::PageRun& page) {
+    if (first_cell_parameters_.empty()) {
+      first_cell_ = runs_.size();
+      first_cell_parameters_ = page.parameters;
+      return;
+    }
+    auto others = report::OtherParameters(page.parameters, first_cell_parameters_);
+    if (others.size() == page.parameters.size()) return;
+    page.parameters = std::move(others);
+    page.parameters_as = first_cell_;
+  }
+
+  void AddWorst(std::vector<WorstTrial> worst, const std::string& label) {
+    for (WorstTrial& each : worst) {
+      each.run = runs_.size();
+      each.label = label;
+      worst_.push_back(std::move(each));
+    }
+  }
+
+  void AddSweep(const ReportInput& input) {
+    const batch::ResultStore store = batch::ResultStore::Read(input.folder);
+    const scenario::Sweep sweep = SweepOf(store, input.folder);
+    const CellReader reader(input.folder, store);
+    std::vector<batch::CellHash> hashes;
+    std::vector<WorstTrial> others = std::exchange(worst_, {});
+    const std::size_t before = report_.trials;
+    first_cell_parameters_.clear();
+    const auto load = [&](std::size_t cell) {
+      StoredRun run = reader.Load(static_cast<int>(cell));
+      AddWorst(FindWorst(run, request_.replays), input.cell_labels[cell]);
+      worst_ = Worst(std::move(worst_), request_.replays);
+      AddRun(run, input.cell_labels[cell], sweeps_.size());
+      std::string name = run.identity.name;
+      report::SweepCellTrials trials = SweepCellView(std::move(run));
+      hashes.push_back({std::move(name), trials.trial_hash});
+      return trials;
+    };
+    const report::SweepSummary summary = report::SummarizeSweep(sweep, load, kMethod);
+    if (report_.trials == before) FailEmpty(input.folder);
+    worst_.insert(worst_.begin(), others.begin(), others.end());
+    sweeps_.push_back(report::PageSweepJson(input.label, input.folder.string(), sweep, summary,
+                                            {.trial_hash = batch::CampaignHash(hashes),
+                                             .provenance = core::CurrentProvenance(),
+                                             .builds = store.Builds(),
+                                             .threads = batch::ThreadCount({})}));
+  }
+
+  void RequirePublished() const {
+    if (request_.against.empty() || any_published_) return;
+    throw core::UserError("--against", request_.against + " names the scenario of none of the runs",
+                          "name the reference that their scenarios are in, or leave it out");
+  }
+
+  // Each drive that was named against the first one.
+  void Compare() {
+    std::vector<std::pair<const StoredRun*, std::string>> drives;
+    std::size_t next = 0;
+    for (const ReportInput& input : request_.inputs) {
+      if (input.sweep) continue;
+      const StoredRun& run = plain_[next++];
+      if (truth::IsMeasurement(run.schema) || run.prefix().empty()) continue;
+      drives.emplace_back(&run, input.label);
+    }
+    if (drives.size() > kMaxCompared) {
+      contact_.journal.Warn(
+          fmt::format("{} runs are too many to compare with the first: name up to {}",
+                      drives.size(), kMaxCompared));
+      return;
+    }
+    if (drives.size() < 2) return;
+    const auto& [first, first_label] = drives.front();
+    for (std::size_t i = 1; i < drives.size(); ++i) {
+      const auto& [second, label] = drives[i];
+      report::PageComparison comparison{
+          .first = first_label,
+          .second = label,
+          .comparison = report::CompareRuns(ComparedView(*first), ComparedView(*second)),
+          .settings = {}};
+      for (const batch::ScenarioDifference& each :
+           batch::FindScenarioDifferences(first->identity.resolved, second->identity.resolved)) {
+        comparison.settings.push_back({each.path, each.first, each.second});
+      }
+      comparisons_.push_back(std::move(comparison));
+    }
+  }
+
+  // Said in the terminal where there is nothing to look in, which is often the wrong folder.
+  std::string WhyNonePublished() const {
+    if (any_published_) return {};
+    if (published_.empty()) contact_.journal.Warn(published_.WhyNone());
+    return published_.WhyNone();
+  }
+
+  Report Finish() {
+    report_.replays = WriteReplays(request_.page, worst_, runs_.size(), batch::ThreadCount({}),
+                                   contact_, request_.progress);
+    std::vector<std::string> runs;
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      runs.push_back(
+          runs_[i].Add("replays", report::PageReplaysJson(report_.replays.links[i])).Text());
+    }
+    const bool adjusted = comparisons_.size() > 1;
+    if (adjusted) report::AdjustSuccesses(comparisons_);
+    std::vector<std::string> comparisons;
+    for (const report::PageComparison& each : comparisons_) {
+      comparisons.push_back(report::PageComparisonJson(each, adjusted));
+    }
+    report_.runs = runs.size();
+    report_.json = report::PageJson({.title = request_.title,
+                                     .command = request_.command,
+                                     .why_none_published = WhyNonePublished(),
+                                     .provenance = core::CurrentProvenance()},
+                                    runs, sweeps_, comparisons);
+    return std::move(report_);
+  }
+
+  const PageRequest& request_;
+  const Contact& contact_;
+  PublishedTables published_;
+  std::vector<StoredRun> plain_;  // that are no cells of a sweep
+  std::vector<core::JsonObject> runs_;
+  std::vector<std::string> sweeps_;
+  std::vector<report::PageComparison> comparisons_;
+  std::vector<WorstTrial> worst_;
+  std::size_t first_cell_ = 0;  // of the sweep that is being added
+  std::vector<core::ParameterInfo> first_cell_parameters_;
+  bool any_published_ = false;
+  Report report_;
+};
+
+}  // namespace
+
+Report BuildReport(const PageRequest& request, const Contact& contact) {
+  return Builder(request, contact).Build();
+}
+
+}  // namespace rockyard::campaign

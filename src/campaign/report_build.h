@@ -1,0 +1,38 @@
+// Puts a report together: from stores to the data of a page.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "campaign/report_inputs.h"
+#include "campaign/report_replays.h"
+
+namespace rockyard::campaign {
+
+struct PageRequest {
+  std::vector<ReportInput> inputs;
+  std::string title;
+  std::string command;
+  std::string against;         // reference file; "" for those of results/reference
+  std::size_t replays = 0;     // of each run, and of each sweep in all
+  std::filesystem::path page;  // whose replays are written beside it
+  ReplayReport progress;       // of these
+};
+
+struct Report {
+  std::string json;  // ReportPayload of src/web/report/payload.ts
+  std::size_t runs = 0;
+  std::size_t trials = 0;
+  ReportReplays replays;
+};
+
+// Throws core::UserError: a run without finished trials, a sweep that this program cannot read, a
+// reference that fits none of the runs. Memory: the records of all runs that are no cells of a
+// sweep, those of one cell at a time, and twice the text. Cost: linear in the trials; the
+// comparison with published values takes some seconds, that of each pair of runs 2000 resamplings
+// of every column.
+Report BuildReport(const PageRequest& request, const Contact& contact);
+
+}  // namespace rockyard::campaign

@@ -1,0 +1,207 @@
+#include "campaign/report_replays.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cctype>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "batch/parallel_tasks.h"
+#include "campaign/replay_page.h"
+#include "campaign/trial_source.h"
+#include "core/error.h"
+#include "report/worst_trials.h"
+#include "statistics/drive_summary.h"
+#include "truth/measurement_record.h"
+
+namespace rockyard::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What a file name can hold anywhere.
+std::string FileName(const WorstTrial& worst) {
+  std::string name = worst.label.substr(0, 60);
+  for (char& c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x80 || (std::isalnum(byte) == 0 && c != '-' && c != '.' && c != '_')) c = '_';
+  }
+  // The number of the run keeps names apart that differ in other characters only.
+  return fmt::format("{}-{}-trial{}.html", worst.run + 1, name, worst.record.trial);
+}
+
+// As a link in a page has to be written (RFC 3986).
+std::string PercentEncoded(const std::string& text) {
+  std::string link;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain =
+        byte < 0x80 && (std::isalnum(byte) != 0 || c == '-' || c == '.' || c == '_' || c == '~');
+    link += plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
+  }
+  return link;
+}
+
+// One page after the other, on several threads.
+class ReplayWriter {
+ public:
+  ReplayWriter(const fs::path& page, std::span<const WorstTrial> trials, std::size_t runs,
+               const Contact& contact, const ReplayReport& progress)
+      : name_(page.stem().string() + "_replays"),
+        trials_(trials),
+        contact_(contact),
+        progress_(progress),
+        done_(trials.size(), false) {
+    replays_.links.resize(runs);
+    replays_.folder = page.parent_path() / name_;
+  }
+
+  ReportReplays Write(int threads) {
+    if (!trials_.empty()) WriteAll(threads);
+    TellLeftovers();
+    return std::move(replays_);
+  }
+
+ private:
+  void WriteAll(int threads) {
+    std::error_code error;
+    fs::create_directories(replays_.folder, error);
+    if (error) {
+      throw core::UserError(replays_.folder.string(), "cannot be made: " + error.message(),
+                            "choose another place with --out, or --replays 0");
+    }
+    std::atomic<bool> stop{contact_.stop.IsWanted()};
+    {
+      const std::shared_ptr<void> watch = contact_.stop.Watch(stop, SecondWish::kEnds);
+      batch::RunTasks(trials_.size(), threads, stop, [&](std::size_t i) {
+        WriteOne(i);
+        if (contact_.stop.IsWanted()) stop = true;
+      });
+    }
+    if (progress_) progress_({ended_, trials_.size(), 0, ""}, Moment::kEnd);
+    contact_.journal.Fail(problems_);
+    for (std::size_t i = 0; i < trials_.size(); ++i) {
+      if (done_[i]) Link(trials_[i]);
+    }
+    if (stop) {
+      contact_.journal.Warn(
+          fmt::format("interrupted: the page links the {} of {} replays that are written",
+                      replays_.written, trials_.size()));
+      replays_.outcome = Outcome::kInterrupted;
+    }
+  }
+
+  void Link(const WorstTrial& worst) {
+    ++replays_.written;
+    files_.insert(FileName(worst));
+    replays_.links[worst.run].push_back(
+        {worst.record.trial, PercentEncoded(name_) + "/" + PercentEncoded(FileName(worst))});
+  }
+
+  void WriteOne(std::size_t i) {
+    const WorstTrial& worst = trials_[i];
+    std::vector<core::Problem> problems;
+    Outcome outcome = Outcome::kFailed;
+    try {
+      const TrialSource source =
+          StoredTrial({.source = worst.folder.string(),
+                       .cell = worst.cell,
+                       .trial = static_cast<std::uint32_t>(worst.record.trial),
+                       .seed = {},
+                       .overrides = {}},
+                      worst.identity, worst.builds, worst.record);
+      if (!WriteReplayPage(source, worst.record.trial, replays_.folder / FileName(worst))) {
+        outcome = Outcome::kDiffers;
+        problems.push_back({fmt::format("{}, trial {}", worst.label, worst.record.trial),
+                            "driven again, its record is not the stored one: it gets no replay",
+                            "use the program that made the run: " + worst.builds.front()});
+      }
+    } catch (const core::UserError& error) {
+      problems = error.problems();
+    } catch (const std::exception& error) {
+      problems.push_back({fmt::format("{}, trial {}", worst.label, worst.record.trial),
+                          fmt::format("gets no replay: {}", error.what()), ""});
+    }
+    const std::lock_guard lock(mutex_);
+    ++ended_;
+    if (progress_) {
+      progress_({ended_, trials_.size(), worst.record.trial, worst.label}, Moment::kUnderWay);
+    }
+    if (problems.empty()) {
+      done_[i] = true;
+      return;
+    }
+    problems_.insert(problems_.end(), problems.begin(), problems.end());
+    if (replays_.outcome != Outcome::kDiffers) replays_.outcome = outcome;
+  }
+
+  // They may be of other runs, and show what no longer holds.
+  void TellLeftovers() const {
+    std::size_t others = 0;
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(replays_.folder, error)) {
+      const fs::path file = entry.path().filename();
+      if (file.extension() == ".html" && !files_.contains(file.string())) ++others;
+    }
+    if (others == 0) return;
+    contact_.journal.Warn(
+        fmt::format("{} older page{} in {} {} not of this report: remove {} if not needed", others,
+                    others == 1 ? "" : "s", replays_.folder.string(), others == 1 ? "is" : "are",
+                    others == 1 ? "it" : "them"));
+  }
+
+  const std::string name_;
+  const std::span<const WorstTrial> trials_;
+  const Contact& contact_;
+  const ReplayReport& progress_;
+  std::mutex mutex_;
+  std::vector<bool> done_;
+  std::size_t ended_ = 0;
+  std::vector<core::Problem> problems_;
+  std::set<std::string> files_;  // that are linked
+  ReportReplays replays_;
+};
+
+}  // namespace
+
+std::vector<WorstTrial> FindWorst(const StoredRun& run, std::size_t most) {
+  std::vector<WorstTrial> worst;
+  if (truth::IsMeasurement(run.schema)) return worst;
+  const auto column = statistics::ColumnIndex(run.schema, "true_goal_distance_m");
+  for (const std::uint64_t trial : report::WorstTrials(run.schema, run.records, most)) {
+    const auto at = std::lower_bound(
+        run.records.begin(), run.records.end(), trial,
+        [](const truth::Record& record, std::uint64_t wanted) { return record.trial < wanted; });
+    worst.push_back({.folder = run.folder,
+                     .cell = run.identity.name.empty() ? std::string() : std::to_string(run.cell),
+                     .identity = run.identity,
+                     .builds = run.builds,
+                     .record = *at,
+                     .run = 0,
+                     .label = {},
+                     .goal_distance_m = report::GoalDistanceOrInfinity(*at, column)});
+  }
+  return worst;
+}
+
+std::vector<WorstTrial> Worst(std::vector<WorstTrial> trials, std::size_t most) {
+  std::stable_sort(trials.begin(), trials.end(), [](const WorstTrial& a, const WorstTrial& b) {
+    return a.goal_distance_m > b.goal_distance_m;
+  });
+  if (trials.size() > most) trials.resize(most);
+  return trials;
+}
+
+ReportReplays WriteReplays(const fs::path& page, std::span<const WorstTrial> trials,
+                           std::size_t runs, int threads, const Contact& contact,
+                           const ReplayReport& progress) {
+  return ReplayWriter(page, trials, runs, contact, progress).Write(threads);
+}
+
+}  // namespace rockyard::campaign

@@ -1,0 +1,66 @@
+// The replay pages that are written with a report.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "batch/result_store.h"
+#include "campaign/campaign_process.h"
+#include "campaign/observer.h"
+#include "campaign/outcome.h"
+#include "campaign/run_source.h"
+#include "report/page_data.h"
+#include "truth/record.h"
+
+namespace rockyard::campaign {
+
+// A failed trial that is worth a look, with what is needed to drive it again.
+struct WorstTrial {
+  std::filesystem::path folder;
+  std::string cell;              // number, or "" of a run
+  batch::CellIdentity identity;  // of the cell
+  std::vector<std::string> builds;
+  truth::Record record;
+  std::size_t run = 0;  // position on the page
+  std::string label;
+  double goal_distance_m = 0.0;  // infinity where unknown
+};
+
+// The worst failed trials of a run (report/worst_trials.h); none of one that measures.
+std::vector<WorstTrial> FindWorst(const StoredRun& run, std::size_t most);
+
+// The worst of several cells together: furthest from the goal first, at most `most`.
+std::vector<WorstTrial> Worst(std::vector<WorstTrial> trials, std::size_t most);
+
+struct ReportReplays {
+  std::vector<std::vector<report::PageLink>> links;  // by run of the page
+  std::size_t written = 0;
+  std::filesystem::path folder;
+  Outcome outcome = Outcome::kDone;
+};
+
+struct ReplayProgress {
+  std::size_t ended = 0;
+  std::size_t total = 0;
+  std::uint64_t trial = 0;  // that ended last
+  std::string label;        // of its run
+};
+// By one thread at a time.
+using ReplayReport = std::function<void(const ReplayProgress& progress, Moment moment)>;
+
+// Drives them again and writes a page each into <stem of `page`>_replays beside it, which is made
+// where it is needed. A trial that does not repeat its stored record is reported, gets no page, and
+// makes kDiffers; one that cannot be driven or written makes kFailed. A wish to
+// stop ends it after the trials in flight, with kInterrupted: what is written is linked. Pages of
+// earlier reports in the folder stay, and are told. Cost: that of the trials,
+// on `threads` threads; memory: the recording of one trial for each.
+ReportReplays WriteReplays(const std::filesystem::path& page, std::span<const WorstTrial> trials,
+                           std::size_t runs, int threads, const Contact& contact,
+                           const ReplayReport& progress = {});
+
+}  // namespace rockyard::campaign

@@ -1,0 +1,71 @@
+#include "campaign/run.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+#include "campaign/run_report.h"
+#include "campaign/run_source.h"
+#include "scenario/ablations.h"
+
+namespace rockyard::campaign {
+namespace {
+
+void AddSettings(const RunRequest& request, std::vector<std::string>& settings) {
+  for (const std::string& setting : request.campaign.overrides) settings.push_back(setting);
+  for (const std::string& name : request.ablations) settings.push_back("--ablate " + name);
+}
+
+CampaignPlan PlanOf(const RunRequest& request) {
+  std::vector<std::string> overrides = request.campaign.overrides;
+  if (request.campaign.trials) {
+    overrides.push_back(fmt::format("trials={}", *request.campaign.trials));
+  }
+  if (request.campaign.seed) overrides.push_back(fmt::format("seed={}", *request.campaign.seed));
+  const scenario::Scenario scenario =
+      scenario::WithAblations(LoadScenarioFrom(request.source, overrides), request.ablations)
+          .scenario;
+  std::string folder = scenario.name;
+  for (const std::string& ablation : request.ablations) folder += fmt::format("-{}", ablation);
+  std::optional<std::vector<std::string>> settings = SettingsOf(request.source);
+  if (settings) AddSettings(request, *settings);
+  return {.name = scenario.name,
+          .design = "",
+          .folder = DefaultFolder(folder, scenario.seed),
+          .cells = {{.name = "", .scenario = scenario}},
+          .settings = std::move(settings)};
+}
+
+// An ablation that changes nothing may be a mistake: nothing of that kind is in the scenario.
+void RemarkIdleAblations(const RunRequest& request, Journal& journal) {
+  if (request.ablations.empty() || !IsFirstRank()) return;
+  const scenario::Scenario base = LoadScenarioFrom(request.source, request.campaign.overrides);
+  for (const std::string& name : scenario::WithAblations(base, request.ablations).idle) {
+    journal.Remark(fmt::format("--ablate {} changes nothing in this scenario", name));
+  }
+}
+
+}  // namespace
+
+WorkResult Run(const RunRequest& request, const RunObserver& observer, const Stop& stop) {
+  const CampaignRequest& campaign = request.campaign;
+  const ReportSettings settings{.method = campaign.method, .threads = campaign.containment.threads};
+  return Recorded(observer, [&](Journal& journal) {
+    RemarkIdleAblations(request, journal);
+    return RunCampaign(
+        campaign, [&] { return PlanOf(request); },
+        [&](const OpenedRun& run) { return ReportRun(run.folder, settings); }, observer,
+        {journal, stop});
+  });
+}
+
+core::Result<DryRun> Rehearse(const RunRequest& request, const Observer& observer) {
+  return core::Attempt([&] {
+    Journal journal(observer);
+    RemarkIdleAblations(request, journal);
+    return Rehearse(request.campaign, PlanOf(request));
+  });
+}
+
+}  // namespace rockyard::campaign

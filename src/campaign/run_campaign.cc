@@ -1,0 +1,203 @@
+#include "campaign/run_campaign.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "batch/run_folder.h"
+#include "campaign/plan_checks.h"
+#include "core/error.h"
+#include "experiments/experiment.h"
+
+namespace rockyard::campaign {
+namespace {
+
+// The experiments of a plan, one per cell.
+class PlannedWork {
+ public:
+  explicit PlannedWork(const CampaignPlan& plan) {
+    for (const CampaignCell& cell : plan.cells) {
+      experiments_.push_back(experiments::MakeExperiment(cell.scenario));
+      work_.push_back({experiments_.back().get(), static_cast<std::uint64_t>(cell.scenario.seed)});
+    }
+  }
+
+  std::span<const batch::CellWork> work() const { return work_; }
+  const truth::RecordSchema& schema() const { return experiments_.front()->schema(); }
+
+ private:
+  std::vector<std::unique_ptr<experiments::Experiment>> experiments_;
+  std::vector<batch::CellWork> work_;
+};
+
+bool SameColumns(const truth::RecordSchema& first, const truth::RecordSchema& second) {
+  if (first.size() != second.size()) return false;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (first[i].name != second[i].name) return false;
+  }
+  return true;
+}
+
+void CheckColumns(const CampaignPlan& plan, const PlannedWork& work) {
+  for (std::size_t i = 1; i < plan.cells.size(); ++i) {
+    if (SameColumns(work.work()[i].experiment->schema(), work.schema())) continue;
+    throw core::UserError(plan.cells[i].Label(),
+                          fmt::format("measures other things than {}", plan.cells[0].Label()),
+                          "make a campaign of one experiment and study");
+  }
+}
+
+// One broken cell among many is named, however few its trials are of all.
+std::vector<core::Problem> FaultProblems(const OpenedRun& run, const batch::BatchResult& result,
+                                         double most) {
+  std::string cells;
+  for (const int cell : result.faulty_cells) {
+    const std::string& name = run.store.identity().cells[static_cast<std::size_t>(cell)].name;
+    if (!name.empty()) cells += fmt::format("{}{}", cells.empty() ? "; in cells " : ", ", name);
+  }
+  return {{run.folder.string(),
+           fmt::format("{} of {} trials ended in a simulator fault, more than {} %{}",
+                       result.progress.faults, result.progress.finished, 100.0 * most,
+                       cells.empty() ? "" : fmt::format(" of all, or of a cell{}", cells)),
+           cells.empty()
+               ? "trials.csv names seed and trial of each: look there for the reason"
+               : "`detail` in the table trials of results.sqlite names the reason of each"}};
+}
+
+// One campaign, in one of its processes.
+class Campaign {
+ public:
+  Campaign(const CampaignRequest& request, const CampaignPlanner& planner,
+           const CampaignReporter& reporter, const RunObserver& observer, Journal& journal)
+      : request_(request),
+        planner_(planner),
+        reporter_(reporter),
+        observer_(observer),
+        journal_(journal) {}
+
+  Outcome Run(CampaignProcess& process) const {
+    const CampaignPlan plan = planner_();
+    CheckPlan(request_, plan);
+    const PlannedWork work(plan);
+    CheckColumns(plan, work);
+    OpenRequest opening = OpeningOf(request_, plan);
+    if (!process.begins()) opening.existing = ExistingRun::kResume;
+    OpenedRun run = OpenRun(opening, plan, work.schema());
+    if (process.begins()) {
+      journal_.SetFolder(run.folder);
+      for (const std::string& note : run.notes) journal_.Remark(note);
+    }
+    return RunAndReport(work.work(), run, process);
+  }
+
+  // Traces of the trials that the rules keep, once all are stored.
+  Outcome Trace(CampaignProcess& process) const {
+    const std::filesystem::path folder = OpeningOf(request_, planner_()).folder;
+    const TraceRequest traces{.retention = request_.traces.retention(),
+                              .format = request_.traces.form(),
+                              .threads = batch::ThreadCount({.threads = process.threads()}),
+                              .progress = observer_.traces};
+    try {
+      const batch::FolderClaim claim(folder);
+      return process.Afterwards([&](const batch::Mission& mission, batch::FlightLog& log) {
+        const Outcome outcome = WriteTraces(folder, traces, mission, log, journal_);
+        const bool last = mission.task != batch::Mission::Task::kRunAlone;
+        if (last && observer_.traced) observer_.traced(folder, outcome);
+        return outcome;
+      });
+    } catch (const core::UserError& error) {
+      journal_.Fail(error.problems());
+      return Outcome::kFailed;
+    }
+  }
+
+ private:
+  // What fails from here on is no bad input: trials have been run, and are stored.
+  Outcome RunAndReport(std::span<const batch::CellWork> work, OpenedRun& run,
+                       CampaignProcess& process) const {
+    try {
+      if (!process.whole()) return process.DoTask(work, run.store);
+      const batch::BatchResult result = RunTrials(work, run, process);
+      if (!process.reported()) {
+        const FolderReport report = reporter_(run);
+        if (observer_.reported) observer_.reported(report, result.end);
+      }
+      process.SetReported();
+      if (process.TellLeftOut(run.store)) return Outcome::kFailed;
+      const Outcome outcome = Judge(run, result);
+      // In the moment of the last trial: nothing is pending but traces.
+      if (outcome == Outcome::kInterrupted || !process.interrupted() ||
+          request_.traces.rules.empty()) {
+        return outcome;
+      }
+      journal_.Warn("interrupted: no trace is written; the same command with --resume writes them");
+      return Outcome::kInterrupted;
+    } catch (const core::UserError& error) {
+      journal_.Fail(error.problems());
+      return Outcome::kFailed;
+    }
+  }
+
+  batch::BatchResult RunTrials(std::span<const batch::CellWork> work, OpenedRun& run,
+                               CampaignProcess& process) const {
+    const auto tell = [&](const batch::Progress& progress, Moment moment) {
+      if (observer_.trials) observer_.trials(progress, moment);
+    };
+    batch::BatchOptions batch;
+    batch.max_fault_fraction = request_.max_fault_fraction;
+    batch.rule = run.store.rule();
+    batch::BatchResult result = process.RunTrials(
+        work, run.store, batch,
+        [&](const batch::Progress& progress) { tell(progress, Moment::kUnderWay); });
+    tell(result.progress, Moment::kEnd);
+    journal_.SetTrials({.planned = result.progress.planned,
+                        .finished = result.progress.finished,
+                        .faults = result.progress.faults});
+    return result;
+  }
+
+  Outcome Judge(const OpenedRun& run, const batch::BatchResult& result) const {
+    const batch::Progress& progress = result.progress;
+    if (result.end == batch::BatchEnd::kStopped) {
+      journal_.Warn(fmt::format(
+          "interrupted: {} of {} trials are stored; go on with the same command and --resume",
+          progress.finished, progress.planned));
+      return Outcome::kInterrupted;
+    }
+    if (!result.too_many_faults) return Outcome::kDone;
+    journal_.Fail(FaultProblems(run, result, request_.max_fault_fraction));
+    return Outcome::kTooManyFaults;
+  }
+
+  const CampaignRequest& request_;
+  const CampaignPlanner& planner_;
+  const CampaignReporter& reporter_;
+  const RunObserver& observer_;
+  Journal& journal_;
+};
+
+}  // namespace
+
+OpenRequest OpeningOf(const CampaignRequest& request, const CampaignPlan& plan) {
+  return {.folder = request.folder.empty() ? plan.folder : request.folder,
+          .existing = request.existing,
+          .build = request.build,
+          .trials_given = request.trials.has_value(),
+          .rule = request.rule,
+          .shard = request.ParseShard()};
+}
+
+Outcome RunCampaign(const CampaignRequest& request, const CampaignPlanner& planner,
+                    const CampaignReporter& reporter, const RunObserver& observer,
+                    const Contact& contact) {
+  const Campaign campaign(request, planner, reporter, observer, contact.journal);
+  const CampaignPart run = [&](CampaignProcess& process) { return campaign.Run(process); };
+  if (request.traces.rules.empty()) return RunContained(request.containment, contact, run);
+  return RunContained(request.containment, contact, run,
+                      [&](CampaignProcess& process) { return campaign.Trace(process); });
+}
+
+}  // namespace rockyard::campaign

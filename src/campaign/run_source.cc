@@ -1,0 +1,220 @@
+#include "campaign/run_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <system_error>
+#include <utility>
+
+#include "batch/run_folder.h"
+#include "batch/stored_ends.h"
+#include "batch/trial_hash.h"
+#include "core/check.h"
+#include "core/json_file.h"
+#include "core/json_text.h"
+#include "scenario/ablations.h"
+#include "scenario/load.h"
+#include "scenario/sweep.h"
+
+namespace rockyard::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+// "0 (k=0.004), 1 (k=0.013), ...": what --cell takes.
+std::string CellList(const std::vector<batch::CellIdentity>& cells) {
+  constexpr std::size_t kShown = 8;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(cells.size(), kShown); ++i) {
+    text += fmt::format("{}{} ({})", i == 0 ? "" : ", ", i, cells[i].name);
+  }
+  if (cells.size() > kShown) text += fmt::format(", ... {}", cells.size() - 1);
+  return text;
+}
+
+int FindCell(const fs::path& folder, const std::vector<batch::CellIdentity>& cells,
+             const std::string& wanted) {
+  if (wanted.empty() && cells.size() == 1) return 0;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const bool named = !wanted.empty() && cells[i].name == wanted;
+    if (named || std::to_string(i) == wanted) return static_cast<int>(i);
+  }
+  if (wanted.empty()) {
+    throw core::UserError(folder.string(),
+                          fmt::format("holds a campaign of {} cells", cells.size()),
+                          "choose one of them with --cell: " + CellList(cells));
+  }
+  throw core::UserError("--cell", fmt::format("\"{}\" is no cell of {}", wanted, folder.string()),
+                        "use one of " + CellList(cells));
+}
+
+// As in scenario.resolved.json.
+bool IsResolved(const core::JsonValue& document) {
+  return document.Find("scenario") != nullptr && document.Find("provenance") != nullptr;
+}
+
+core::JsonValue LoadDocument(const fs::path& path, const std::string& cell) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) {
+    const batch::ResultStore store = batch::ResultStore::Read(path);
+    const std::vector<batch::CellIdentity>& cells = store.identity().cells;
+    const int index = FindCell(path, cells, cell);
+    return core::ParseJson(cells[static_cast<std::size_t>(index)].resolved, path.string());
+  }
+  core::JsonValue document = core::LoadJsonFile(path);
+  if (scenario::IsSweep(document)) {
+    throw core::UserError(path.string(), "is a sweep, not a scenario", "use rockyard sweep");
+  }
+  return IsResolved(document) ? core::JsonValue(*document.Find("scenario")) : document;
+}
+
+// Absent where the scenario is of another version of the program.
+std::string Localization(const std::string& resolved) {
+  const core::JsonValue document = core::ParseJson(resolved, "resolved scenario");
+  const core::JsonValue* sensors = document.Find("sensors");
+  const core::JsonValue* found = sensors == nullptr ? nullptr : sensors->Find("localization");
+  const bool text = found != nullptr && found->Is(core::JsonValue::Type::kText);
+  return text ? found->text() : std::string();
+}
+
+// None where the scenario is of another version of the program.
+std::vector<std::string> AblationsIn(const std::string& resolved) {
+  try {
+    return scenario::AblationsInForce(scenario::ParseScenario(resolved));
+  } catch (const core::UserError&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+scenario::Scenario LoadScenarioFrom(const fs::path& path, std::span<const std::string> overrides,
+                                    const std::string& cell) {
+  core::JsonValue document = LoadDocument(path, cell);
+  for (const std::string& assignment : overrides) core::ApplyOverride(document, assignment);
+  return scenario::ReadScenario(document);
+}
+
+std::optional<std::vector<std::string>> SettingsOf(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) return batch::ResultStore::Read(path).identity().settings;
+  const core::JsonValue document = core::LoadJsonFile(path);
+  if (!IsResolved(document)) return std::vector<std::string>();
+  const core::JsonValue* list = document.Find("settings");
+  return list == nullptr ? std::nullopt : core::TextsIn(*list);
+}
+
+CellReader::CellReader(fs::path folder, const batch::ResultStore& store)
+    : folder_(std::move(folder)),
+      store_(store),
+      ends_(batch::StoredEnds(store)),
+      faults_(static_cast<std::size_t>(store.cells()), 0) {
+  for (const batch::InfrastructureFault& fault : store.InfrastructureFaults()) {
+    ++faults_.at(static_cast<std::size_t>(fault.id.cell));
+  }
+}
+
+StoredRun CellReader::Load(int cell) const {
+  const auto index = static_cast<std::size_t>(cell);
+  return {.folder = folder_,
+          .cell = cell,
+          .identity = store_.identity().cells.at(index),
+          .schema = store_.identity().schema,
+          .shard = store_.identity().shard,
+          .settings = store_.identity().settings,
+          .planned = store_.planned(cell),
+          .builds = store_.Builds(),
+          .records = store_.Load(cell),
+          .infrastructure_faults = faults_[index],
+          .rule = store_.rule(),
+          .state = ends_[index]};
+}
+
+report::Accounting AccountingOf(const StoredRun& run) {
+  report::Accounting accounting;
+  accounting.planned = run.shard.Share(run.planned);
+  accounting.faulted = std::count_if(run.records.begin(), run.records.end(), truth::IsFault);
+  const auto stored = static_cast<std::int64_t>(run.records.size());
+  accounting.completed = stored - accounting.faulted;
+  accounting.pending = accounting.planned - stored;
+  accounting.infrastructure_faults = run.infrastructure_faults;
+  ENSURE(accounting.pending >= 0);
+  return accounting;
+}
+
+std::optional<report::StoppingReport> StoppingOf(const StoredRun& run) {
+  if (!run.rule) return std::nullopt;
+  constexpr std::array kEnds = {"open", "max_trials", "precise", "budget"};
+  const bool adaptive = run.rule->allocation == batch::Allocation::kAdaptive;
+  return report::StoppingReport{.half_width = run.rule->half_width,
+                                .max_trials = run.rule->max_trials,
+                                .block = run.rule->block,
+                                .confidence = run.rule->confidence,
+                                .allocation = adaptive ? "adaptive" : "uniform",
+                                .budget = run.rule->budget,
+                                .end = kEnds[static_cast<std::size_t>(run.state.end)],
+                                .trials = run.state.counts.trials,
+                                .drives = run.state.counts.drives(),
+                                .successes = run.state.counts.declared_successes,
+                                .low = run.state.sequence.low,
+                                .high = run.state.sequence.high};
+}
+
+std::string StoredRun::Label() const {
+  return identity.name.empty() ? folder.string()
+                               : fmt::format("{}, cell {}", folder.string(), identity.name);
+}
+
+StoredRun ReadRun(const fs::path& folder, const std::string& cell) {
+  const batch::ResultStore store = batch::ResultStore::Read(folder);
+  return CellReader(folder, store).Load(FindCell(folder, store.identity().cells, cell));
+}
+
+std::vector<StoredRun> ReadCampaign(const fs::path& folder) {
+  const batch::ResultStore store = batch::ResultStore::Read(folder);
+  const CellReader loader(folder, store);
+  std::vector<StoredRun> runs;
+  runs.reserve(static_cast<std::size_t>(store.cells()));
+  for (int cell = 0; cell < store.cells(); ++cell) runs.push_back(loader.Load(cell));
+  return runs;
+}
+
+std::string CellName(const StoredRun& run) {
+  return run.identity.name.empty() ? run.identity.scenario : run.identity.name;
+}
+
+void RequireWhole(const StoredRun& run) {
+  if (run.shard.whole()) return;
+  throw core::UserError(
+      run.folder.string(),
+      fmt::format("holds shard {}/{} of a campaign", run.shard.index, run.shard.count),
+      "put all shards together first: rockyard merge SHARD... --out DIR");
+}
+
+std::string BuildName() {
+  const core::Provenance p = core::CurrentProvenance();
+  return fmt::format("{} {}, {}, {}, {}", p.version, p.commit, p.compiler, p.flags, p.cpu_level);
+}
+
+report::RunDescription Describe(const StoredRun& run, int threads) {
+  return {.scenario = run.identity.scenario,
+          .fingerprint = run.identity.fingerprint,
+          .resolved = run.identity.resolved,
+          .settings = run.settings,
+          .ablations = AblationsIn(run.identity.resolved),
+          .localization = Localization(run.identity.resolved),
+          .seed = run.identity.seed,
+          .planned = run.planned,
+          .stored = static_cast<std::int64_t>(run.records.size()),
+          .trial_hash = batch::TrialHash(run.prefix()),
+          .provenance = core::CurrentProvenance(),
+          .builds = run.builds,
+          .threads = threads,
+          .accounting = AccountingOf(run),
+          .stopping = StoppingOf(run),
+          .shard_index = run.shard.index,
+          .shard_count = run.shard.count};
+}
+
+}  // namespace rockyard::campaign

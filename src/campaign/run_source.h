@@ -1,0 +1,87 @@
+// Where scenarios and finished runs come from.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "batch/result_store.h"
+#include "batch/work_plan.h"
+#include "report/run_description.h"
+#include "scenario/scenario.h"
+#include "truth/record.h"
+
+namespace rockyard::campaign {
+
+// The scenario in a scenario file, in a scenario.resolved.json, or of the run (and its cell, as
+// ReadRun takes it) in a folder, with "PATH=VALUE" overrides. Throws core::UserError.
+scenario::Scenario LoadScenarioFrom(const std::filesystem::path& path,
+                                    std::span<const std::string> overrides = {},
+                                    const std::string& cell = "");
+
+// What the scenario of that source was changed by before: of a run its settings
+// (CampaignIdentity::settings), of a scenario file nothing. Throws core::UserError.
+std::optional<std::vector<std::string>> SettingsOf(const std::filesystem::path& path);
+
+// One cell of a campaign, read back from its folder; of a run, the only one.
+struct StoredRun {
+  std::filesystem::path folder;
+  int cell = 0;
+  batch::CellIdentity identity;
+  truth::RecordSchema schema;
+  batch::Shard shard;
+  std::optional<std::vector<std::string>> settings;  // CampaignIdentity::settings
+  std::int64_t planned = 0;
+  std::vector<std::string> builds;
+  std::vector<truth::Record> records;  // by trial index
+  std::int64_t infrastructure_faults = 0;
+  std::optional<batch::StoppingRule> rule;
+  batch::CellState state;  // where the rule ended it
+
+  std::span<const truth::Record> prefix() const { return batch::ContiguousPrefix(records); }
+  // For people: the folder, and the cell where it has a name.
+  std::string Label() const;
+};
+
+// Reads cells of one store, one after the other. The store must outlive it.
+class CellReader {
+ public:
+  CellReader(std::filesystem::path folder, const batch::ResultStore& store);
+  StoredRun Load(int cell) const;
+
+ private:
+  std::filesystem::path folder_;
+  const batch::ResultStore& store_;
+  std::vector<batch::CellState> ends_;
+  std::vector<std::int64_t> faults_;
+};
+
+// planned = completed + faulted + pending, which is checked.
+report::Accounting AccountingOf(const StoredRun& run);
+
+// Where the rule ended the cell; nothing without a rule.
+std::optional<report::StoppingReport> StoppingOf(const StoredRun& run);
+
+// `cell`: the name of a cell, or its number from 0; may be left out where the store has only one.
+// Throws core::UserError, which lists the cells where it must not be left out or is none of them.
+StoredRun ReadRun(const std::filesystem::path& folder, const std::string& cell = "");
+
+// Every cell. Memory: all records of the campaign.
+std::vector<StoredRun> ReadCampaign(const std::filesystem::path& folder);
+
+// What the cell goes by in a campaign: its name, or that of its scenario where it has none.
+std::string CellName(const StoredRun& run);
+
+// Throws core::UserError where the run is one shard of a campaign, whose trials are no contiguous
+// prefix: no rate can be told from it alone.
+void RequireWhole(const StoredRun& run);
+
+// The program, its compiler and the CPU level that records may depend on.
+std::string BuildName();
+
+// What a report says of a run, with the provenance of this program.
+report::RunDescription Describe(const StoredRun& run, int threads);
+
+}  // namespace rockyard::campaign

@@ -1,0 +1,144 @@
+#include "campaign/scan_capture.h"
+
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include "perception/hazard_criteria.h"
+#include "perception/stripe_peaks.h"
+#include "perception/stripe_search.h"
+#include "perception/triangulation.h"
+#include "rover/rover_geometry.h"
+#include "sensing/stripe_imager.h"
+#include "trial/onboard_calibration.h"
+
+namespace rockyard::campaign {
+namespace {
+
+constexpr double kShownAround_m = 1.5;
+constexpr int kOutlineCorners = 24;
+
+// Seen from above, in R: the horizontal axes of the ellipsoid, as the plans of the terrain do.
+report::GroundOutline RockOutline(const terrain::Rock& rock, const math::Transform& X_RW) {
+  report::GroundOutline outline;
+  for (int corner = 0; corner < kOutlineCorners; ++corner) {
+    const double angle_rad = 2.0 * std::numbers::pi * corner / kOutlineCorners;
+    const math::Vector3 on_axes(rock.semi_axes_m.x() * std::cos(angle_rad),
+                                rock.semi_axes_m.y() * std::sin(angle_rad), 0.0);
+    const math::Vector3 p_R =
+        X_RW *
+        (rock.center_W +
+         Eigen::AngleAxisd(rock.yaw_rad, math::Vector3::UnitZ()).toRotationMatrix() * on_axes);
+    outline.emplace_back(p_R.x(), p_R.y());
+  }
+  return outline;
+}
+
+std::vector<report::GroundOutline> RocksAround(const trial::WatchedScan& watched) {
+  const math::Vector3 p_WR = watched.X_WR.translation();
+  std::vector<int> near;
+  watched.terrain.RocksNear(p_WR.x(), p_WR.y(), kShownAround_m, near);
+  std::vector<report::GroundOutline> outlines;
+  outlines.reserve(near.size());
+  for (const int index : near) {
+    outlines.push_back(RockOutline(watched.terrain.rocks()[static_cast<std::size_t>(index)],
+                                   watched.X_WR.inverse()));
+  }
+  return outlines;
+}
+
+// Cameras and groups of lasers that find a stripe.
+std::set<std::pair<int, int>> ExposuresOf(const messages::StripeCalibration& calibration) {
+  std::set<std::pair<int, int>> exposures;
+  for (const messages::StripeLaser& laser : calibration.lasers) {
+    exposures.emplace(laser.camera, laser.group);
+  }
+  return exposures;
+}
+
+messages::StripeCalibration CalibrationOf(const trial::DriveParams& drive) {
+  return trial::OnboardStripeCalibration(drive.sensors.light_stripe, drive.perception.calibration);
+}
+
+// The geometry that the rover believes, and what follows from it.
+struct Believed {
+  explicit Believed(const trial::DriveParams& drive)
+      : calibration(CalibrationOf(drive)), triangulator(calibration), searches(calibration) {}
+
+  messages::StripeCalibration calibration;
+  perception::Triangulator triangulator;
+  perception::StripeSearches searches;
+};
+
+report::ShownPoint ShowPoint(const Believed& believed, const messages::StripePixel& pixel,
+                             std::size_t row, std::size_t stripe) {
+  const perception::StripeSearch& search =
+      believed.searches.At(believed.calibration.lasers[stripe].camera, row, stripe);
+  const perception::Triangulator& triangulator = believed.triangulator;
+  report::ShownPoint point;
+  point.pixel = pixel;
+  point.searched_first_px = search.columns.first;
+  point.searched_last_px = search.columns.last;
+  point.expected_R =
+      triangulator.Point(row, stripe, search.datum_column).value_or(math::Vector3::Zero());
+  if (!pixel.detected) return point;
+  point.elevation = triangulator.Elevation(row, stripe, pixel.column_px);
+  point.p_RoP_R = triangulator.Point(row, stripe, pixel.column_px).value_or(math::Vector3::Zero());
+  return point;
+}
+
+report::ScanView View(const trial::WatchedScan& watched) {
+  const Believed believed(watched.drive);
+  const messages::StripeArraySize size = watched.scan.pixels.size();
+  report::ScanView view;
+  view.calibration = believed.calibration;
+  view.points = messages::StripeArray<report::ShownPoint>(size);
+  for (std::size_t row = 0; row < size.rows; ++row) {
+    for (std::size_t stripe = 0; stripe < size.stripes; ++stripe) {
+      view.points[row][stripe] = ShowPoint(believed, watched.scan.pixels[row][stripe], row, stripe);
+    }
+  }
+  view.hazards = HazardsOf(watched);
+  view.rover = rover::BodyOutline(watched.drive.rover.geometry);
+  view.rocks = RocksAround(watched);
+  return view;
+}
+
+// The averaged difference of whole images, line by line, as the stripe finder sees it.
+std::vector<double> Difference(const messages::StripeExposure& frames, int window_px) {
+  const messages::ImageBand& lit = frames.lit.front();
+  std::vector<double> difference;
+  difference.reserve(lit.counts.size());
+  for (int row = lit.first_row; row < lit.first_row + lit.rows; ++row) {
+    const auto profile = perception::AverageDifference(frames, row, window_px);
+    const std::vector<double>& values = profile.value().difference;
+    difference.insert(difference.end(), values.begin(), values.end());
+  }
+  return difference;
+}
+
+}  // namespace
+
+messages::HazardReport HazardsOf(const trial::WatchedScan& watched) {
+  const perception::Triangulator triangulator(CalibrationOf(watched.drive));
+  return perception::ReportHazards(triangulator.Elevations(watched.scan),
+                                   watched.drive.perception.hazard);
+}
+
+CapturedScan Capture(const trial::WatchedScan& watched) {
+  const trial::DriveParams& drive = watched.drive;
+  const sensing::StripeImager imager(drive.sensors.light_stripe, drive.sensors.sun,
+                                     drive.rover.geometry);
+  const auto window_px = static_cast<int>(drive.perception.stripe_finder.averaging_px);
+  CapturedScan captured{View(watched), {}};
+  for (const auto& [camera, group] : ExposuresOf(captured.view.calibration)) {
+    messages::StripeExposure frames = imager.FullFrame(watched.terrain, watched.X_WR, watched.key,
+                                                       watched.scan.number, camera, group);
+    std::vector<double> difference = Difference(frames, window_px);
+    captured.exposures.push_back({std::move(frames), std::move(difference)});
+  }
+  return captured;
+}
+
+}  // namespace rockyard::campaign

@@ -1,0 +1,31 @@
+// Everything that can be shown of one scan, taken at the moment when it happens.
+#pragma once
+
+#include <vector>
+
+#include "messages/estimates.h"
+#include "messages/stripe_images.h"
+#include "report/scan_view.h"
+#include "trial/scan_watcher.h"
+
+namespace rockyard::campaign {
+
+// One exposure with what the rover makes of it before it looks for stripes.
+struct CapturedExposure {
+  messages::StripeExposure frames;  // whole images, one band each
+  std::vector<double> difference;   // averaged, row-major, counts
+};
+
+struct CapturedScan {
+  report::ScanView view;
+  std::vector<CapturedExposure> exposures;
+};
+
+// What the rover makes of a scan by itself, without a second one.
+messages::HazardReport HazardsOf(const trial::WatchedScan& watched);
+
+// Whole images of every camera and group of lasers are rendered also where the scan came from the
+// geometric model. Cost: some seconds.
+CapturedScan Capture(const trial::WatchedScan& watched);
+
+}  // namespace rockyard::campaign

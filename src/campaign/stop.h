@@ -1,0 +1,31 @@
+// How a caller asks for an early end of work that takes long.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+
+namespace rockyard::campaign {
+
+// What the second wish to stop does.
+enum class SecondWish {
+  kEnds,      // the process at once, which loses no stored trial
+  kIsTheSame  // nothing more: somebody else (a supervisor, mpirun) decides when patience ends
+};
+
+// What is in flight ends and is stored; nothing more begins.
+struct Stop {
+  // Asked before the first and after every trial, by several threads at once; true: stop. Of a
+  // supervised campaign in its worker process, which has a copy of the caller's memory.
+  std::function<bool()> wanted = {};
+  // For a program that turns signals into wishes: called where work begins, in the process that
+  // does it. Whoever is asked there sets `flag`; what is returned is released when the work ends.
+  std::function<std::shared_ptr<void>(std::atomic<bool>& flag, SecondWish second)> watch = {};
+
+  bool IsWanted() const { return wanted && wanted(); }
+  std::shared_ptr<void> Watch(std::atomic<bool>& flag, SecondWish second) const {
+    return watch ? watch(flag, second) : nullptr;
+  }
+};
+
+}  // namespace rockyard::campaign

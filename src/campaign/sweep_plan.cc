@@ -1,0 +1,186 @@
+#include "campaign/sweep_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "campaign/open_run.h"
+#include "campaign/sweep_pilot.h"
+#include "core/error.h"
+#include "core/hash.h"
+#include "core/json_text.h"
+#include "report/atomic_file.h"
+#include "report/csv.h"
+#include "scenario/load.h"
+
+namespace rockyard::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+using core::JsonValue;
+using scenario::Sweep;
+
+constexpr const char* kPlanFile = "plan.json";
+constexpr const char* kTableFile = "plan.csv";
+constexpr const char* kCellFolder = "cells";
+constexpr int kMinToCompare = 2;  // one pilot may be equal by chance
+
+fs::path FolderOf(const Sweep& sweep, const SweepPlanOptions& options) {
+  if (!options.folder.empty()) return options.folder;
+  fs::path folder = DefaultFolder(sweep.name, static_cast<std::int64_t>(sweep.seed));
+  folder += "-plan";
+  return folder;
+}
+
+// The mark of a plan is not asked for: a dry run may be interrupted before it is written.
+bool IsPartOfPlan(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return name == kCellFolder || name.starts_with(kPlanFile) || name.starts_with(kTableFile);
+}
+
+// A plan replaces a plan, and nothing else.
+void CheckPlanFolder(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder, error)) return;
+  bool free = fs::is_directory(folder, error);
+  if (free) {
+    const fs::directory_iterator entries(folder, error);
+    free = std::all_of(begin(entries), end(entries),
+                       [](const auto& entry) { return IsPartOfPlan(entry.path()); });
+  }
+  if (free && !error) return;
+  throw core::UserError(folder.string(), "holds something else than a plan",
+                        "choose another folder with --out");
+}
+
+void MakeFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder / kCellFolder, error);
+  if (error) {
+    throw core::UserError(folder.string(), "cannot be made: " + error.message(),
+                          "check the path and its permissions");
+  }
+}
+
+JsonValue CellPlan(const Sweep& sweep, std::size_t index, std::int64_t trials,
+                   const batch::PilotCost& cost) {
+  const scenario::SweepCell& cell = sweep.cells[index];
+  JsonValue levels = JsonValue::Object();
+  for (std::size_t i = 0; i < sweep.axes.size(); ++i) {
+    const scenario::SweepLevel& level = cell.levels[i];
+    levels.Set(sweep.axes[i].name, level.number ? JsonValue(*level.number) : JsonValue(level.text));
+  }
+  JsonValue plan = JsonValue::Object();
+  plan.Set("name", JsonValue(cell.name));
+  plan.Set("file", JsonValue(fmt::format("{}/{}.json", kCellFolder,
+                                         scenario::CellFileName(index, cell.name))));
+  plan.Set("levels", std::move(levels));
+  plan.Set("seed", JsonValue(cell.scenario.seed));
+  plan.Set("trials", JsonValue(trials));
+  plan.Set("fingerprint", JsonValue(core::Hex(scenario::Fingerprint(cell.scenario))));
+  if (cost.trials == 0) return plan;
+  plan.Set("pilots", JsonValue(cost.trials));
+  plan.Set("cpu_s_per_trial", JsonValue(cost.mean_s));
+  plan.Set("slowest_pilot_s", JsonValue(cost.slowest_s));
+  return plan;
+}
+
+JsonValue CostOf(const CampaignCost& cost) {
+  JsonValue json = JsonValue::Object();
+  json.Set("pilots", JsonValue(cost.pilots));
+  json.Set("cpu_s", JsonValue(cost.total_s));
+  if (cost.standard_error_s) {
+    json.Set("cpu_s_standard_error", JsonValue(*cost.standard_error_s));
+  }
+  return json;
+}
+
+std::string PlanJson(const Sweep& sweep, const PlannedTrials& trials,
+                     const std::vector<batch::PilotCost>& pilots, const CampaignCost& cost) {
+  JsonValue::List cells;
+  for (std::size_t i = 0; i < sweep.cells.size(); ++i) {
+    cells.push_back(CellPlan(sweep, i, trials.cells[i], pilots[i]));
+  }
+  JsonValue plan = JsonValue::Object();
+  plan.Set("schema_version", JsonValue(std::int64_t{1}));
+  plan.Set("name", JsonValue(sweep.name));
+  plan.Set("seed", JsonValue(static_cast<std::int64_t>(sweep.seed)));
+  plan.Set("common_random_numbers", JsonValue(sweep.common_random_numbers));
+  plan.Set("trials", JsonValue(trials.total));
+  plan.Set("at_most", JsonValue(trials.at_most));
+  if (cost.pilots > 0) plan.Set("cost", CostOf(cost));
+  plan.Set("cells", JsonValue(std::move(cells)));
+  return core::DumpJson(plan);
+}
+
+std::string PlanCsv(const Sweep& sweep, const PlannedTrials& trials,
+                    const std::vector<batch::PilotCost>& pilots) {
+  std::vector<std::string> fields{"cell", "name"};
+  for (const scenario::SweepAxis& axis : sweep.axes) fields.push_back(report::CsvField(axis.name));
+  for (const char* name : {"seed", "trials", "fingerprint", "pilots", "cpu_s_per_trial",
+                           "slowest_pilot_s", "expected_cpu_s"}) {
+    fields.emplace_back(name);
+  }
+  std::string csv = report::CsvLine(fields);
+  for (std::size_t i = 0; i < sweep.cells.size(); ++i) {
+    const scenario::SweepCell& cell = sweep.cells[i];
+    const batch::PilotCost& pilot = pilots[i];
+    fields = {std::to_string(i), report::CsvField(cell.name)};
+    for (const scenario::SweepLevel& level : cell.levels) {
+      fields.push_back(report::CsvField(level.text));
+    }
+    fields.push_back(std::to_string(cell.scenario.seed));
+    fields.push_back(std::to_string(trials.cells[i]));
+    fields.push_back(core::Hex(scenario::Fingerprint(cell.scenario)));
+    fields.push_back(std::to_string(pilot.trials));
+    const double expected_s = pilot.mean_s * static_cast<double>(trials.cells[i]);
+    for (const double number : {pilot.mean_s, pilot.slowest_s, expected_s}) {
+      fields.push_back(pilot.trials == 0 ? std::string() : report::CsvNumber(number));
+    }
+    csv += report::CsvLine(fields);
+  }
+  return csv;
+}
+
+// Cells whose pilots are equal differ by a setting that changed no trial.
+std::vector<std::string> EqualPilots(const Sweep& sweep,
+                                     const std::vector<batch::PilotCost>& pilots) {
+  std::vector<std::string> notes;
+  std::map<std::string, std::size_t> known;
+  for (std::size_t i = 0; i < pilots.size(); ++i) {
+    if (pilots[i].trials < kMinToCompare) continue;
+    const auto [at, fresh] = known.try_emplace(pilots[i].hash, i);
+    if (fresh) continue;
+    notes.push_back(fmt::format(
+        "the {} pilots of cell {} are equal to those of cell {}: what they differ in may have no "
+        "effect",
+        pilots[i].trials, sweep.cells[i].name, sweep.cells[at->second].name));
+  }
+  return notes;
+}
+
+}  // namespace
+
+SweepPlan WriteSweepPlan(const Sweep& sweep, const SweepPlanOptions& options) {
+  const fs::path folder = FolderOf(sweep, options);
+  CheckPlanFolder(folder);
+  const std::vector<batch::PilotCost> pilots = RunPilots(sweep, options.pilots);
+  CampaignCost cost = ExpectedCost(options.trials, pilots);
+  std::string json = PlanJson(sweep, options.trials, pilots, cost);
+  MakeFolder(folder);
+  for (std::size_t i = 0; i < sweep.cells.size(); ++i) {
+    const scenario::SweepCell& cell = sweep.cells[i];
+    const std::string name = scenario::CellFileName(i, cell.name) + ".json";
+    report::WriteFileAtomically(folder / kCellFolder / name, scenario::ResolvedJson(cell.scenario));
+  }
+  report::WriteFileAtomically(folder / kTableFile, PlanCsv(sweep, options.trials, pilots));
+  report::WriteFileAtomically(folder / kPlanFile, json);
+  return {folder, std::move(json), cost, EqualPilots(sweep, pilots)};
+}
+
+}  // namespace rockyard::campaign

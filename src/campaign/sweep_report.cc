@@ -1,0 +1,78 @@
+#include "campaign/sweep_report.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "batch/executor.h"
+#include "batch/trial_hash.h"
+#include "campaign/run_source.h"
+#include "campaign/run_views.h"
+#include "core/provenance.h"
+#include "report/accounting.h"
+#include "report/atomic_file.h"
+#include "report/sweep_files.h"
+
+namespace rockyard::campaign {
+namespace {
+
+// Loads one cell after the other, and keeps their hashes for that of the campaign.
+class StoredCells {
+ public:
+  explicit StoredCells(const batch::ResultStore& store)
+      : reader_(store.path().parent_path(), store) {}
+
+  report::SweepCellTrials Load(std::size_t index) {
+    StoredRun run = reader_.Load(static_cast<int>(index));
+    std::string name = run.identity.name;
+    report::SweepCellTrials trials = SweepCellView(std::move(run));
+    hashes_.push_back({std::move(name), trials.trial_hash});
+    return trials;
+  }
+
+  std::string CampaignHash() const { return batch::CampaignHash(hashes_); }
+
+ private:
+  CellReader reader_;
+  std::vector<batch::CellHash> hashes_;
+};
+
+// A shard holds no contiguous prefix of any cell: counts, and no rates.
+SweepShardReport ReportSweepShard(const batch::ResultStore& store) {
+  const batch::Shard shard = store.identity().shard;
+  const std::filesystem::path folder = store.path().parent_path();
+  const CellReader reader(folder, store);
+  std::vector<report::ShardCell> cells;
+  report::Accounting total;
+  for (int cell = 0; cell < store.cells(); ++cell) {
+    const StoredRun run = reader.Load(cell);
+    cells.push_back({run.identity.name, AccountingOf(run)});
+    total = report::Sum(total, cells.back().accounting);
+  }
+  const std::string& name = store.identity().name;
+  std::string json = report::ShardCampaignJson(name, shard.index, shard.count, cells);
+  report::WriteFileAtomically(folder / "summary.json", json);
+  return {folder, name, shard, total, std::move(json)};
+}
+
+}  // namespace
+
+FolderReport ReportSweep(const batch::ResultStore& store, const scenario::Sweep& sweep,
+                         const ReportSettings& settings) {
+  if (!store.identity().shard.whole()) return ReportSweepShard(store);
+  const std::filesystem::path folder = store.path().parent_path();
+  StoredCells cells(store);
+  report::SweepSummary summary = report::SummarizeSweep(
+      sweep, [&](std::size_t index) { return cells.Load(index); }, settings.method);
+  report::SweepDescription description{
+      .trial_hash = cells.CampaignHash(),
+      .provenance = core::CurrentProvenance(),
+      .builds = store.Builds(),
+      .threads = batch::ThreadCount({.threads = settings.threads})};
+  report::WriteSweepFiles(folder, sweep, summary, description);
+  return SweepReport{folder, sweep, std::move(summary), std::move(description)};
+}
+
+}  // namespace rockyard::campaign

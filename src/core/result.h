@@ -1,0 +1,52 @@
+// Errors as values.
+#pragma once
+
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "core/check.h"
+#include "core/error.h"
+
+namespace rockyard::core {
+
+// A value, or everything that was wrong with what it was to be made of.
+template <typename Value>
+class Result {
+ public:
+  Result(Value value) : value_(std::move(value)) {}
+  Result(std::vector<Problem> problems) : problems_(std::move(problems)) {
+    EXPECT(!problems_.empty());
+  }
+
+  bool ok() const { return value_.has_value(); }
+  // Empty where there is a value.
+  const std::vector<Problem>& problems() const { return problems_; }
+
+  // Both require ok().
+  const Value& operator*() const { return value_.value(); }
+  const Value* operator->() const { return &value_.value(); }
+
+  // The value; throws UserError where there is none.
+  Value OrThrow() && {
+    if (!ok()) throw UserError(std::move(problems_));
+    return *std::move(value_);
+  }
+
+ private:
+  std::optional<Value> value_;
+  std::vector<Problem> problems_;
+};
+
+// What `action` returns, or the problems of the UserError that it throws.
+template <typename Action>
+auto Attempt(Action&& action) -> Result<std::invoke_result_t<Action>> {
+  try {
+    return std::forward<Action>(action)();
+  } catch (const UserError& error) {
+    return error.problems();
+  }
+}
+
+}  // namespace rockyard::core

@@ -1,0 +1,143 @@
+// What the replay page is given of trials that are unusual in one way or another.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "campaign/drive_recording.h"
+#include "campaign/replay_payloads.h"
+#include "core/error.h"
+
+namespace rockyard::campaign {
+namespace {
+
+using testing::HasSubstr;
+using testing::SizeIs;
+
+TEST(ReplayPayload, SaysWhetherTheStoredRecordIsRepeated) {
+  TrialSource source = SourceOf("pathfinder/nominal", {"referee.time_limit_s=60"});
+  EXPECT_TRUE(PayloadOf(source, 1)["repeats_stored"].is_null());
+  source.stored = ReplayTrial(source, 1).data.record;
+  EXPECT_EQ(PayloadOf(source, 1)["repeats_stored"], true);
+  source.stored->values[0] += 1e-12;
+  EXPECT_EQ(PayloadOf(source, 1)["repeats_stored"], false);
+}
+
+TEST(ReplayPayload, RocksThatThePushedRoverMoves) {
+  const Json payload =
+      PayloadOf(SourceOf("pathfinder/nominal", {"terrain.rocks.mobility=movable"}), 10);
+  ASSERT_FALSE(payload["rock_moves"].empty());
+  for (const Json& move : payload["rock_moves"]) {
+    const Json& rock = payload["rocks"][move["rock"].get<std::size_t>()];
+    const double moved_m = std::hypot(move["x"].get<double>() - rock["x"].get<double>(),
+                                      move["y"].get<double>() - rock["y"].get<double>());
+    EXPECT_LT(moved_m, 1.0);
+  }
+}
+
+TEST(ReplayPayload, StepsOfAMapBasedNavigator) {
+  const Json payload = PayloadOf(SourceOf("gestalt/narrow_course"), 0);
+  ASSERT_FALSE(payload["steps"].empty());
+  for (const Json& step : payload["steps"]) {
+    const Json& map = step["map"];
+    const std::size_t cells = map["nx"].get<std::size_t>() * map["ny"].get<std::size_t>();
+    EXPECT_THAT(map["goodness"], SizeIs(cells));
+    EXPECT_THAT(map["elevation"], SizeIs(cells));
+    EXPECT_EQ(std::count_if(step["votes"].begin(), step["votes"].end(),
+                            [](const Json& vote) { return vote["chosen"] == true; }),
+              1);
+    EXPECT_THAT(step["points"], SizeIs(kMaxStepPoints));
+  }
+}
+
+// Of many steps only some keep what takes room. Steps of a real drive, over and over.
+TEST(ReplayPayload, ManyStepsStaySmall) {
+  ReplayedTrial replayed = ReplayTrial(SourceOf("gestalt/narrow_course"), 0);
+  std::vector<replay::ReplayStep>& steps = replayed.data.steps;
+  const std::vector<replay::ReplayStep> few = steps;
+  while (steps.size() <= 2 * replay::kMaxDetailedSteps) {
+    steps.insert(steps.end(), few.begin(), few.end());
+  }
+  const Json payload = Json::parse(ReplayPayload(replayed));
+  std::size_t detailed = 0;
+  for (const Json& step : payload["steps"]) {
+    const Json& heights = step["map"]["elevation"];
+    const bool any = std::any_of(heights.begin(), heights.end(),
+                                 [](const Json& height) { return !height.is_null(); });
+    EXPECT_EQ(any, !step["points"].empty());
+    detailed += any;
+  }
+  EXPECT_EQ(detailed, (steps.size() + 2) / 3);
+}
+
+// Four hours of simulated time, and rough ground in the arena.
+TEST(ReplayPayload, TheLongestTrialStaysSmall) {
+  const std::string text = ReplayPayload(
+      ReplayTrial(SourceOf("pathfinder/obstacles_2.0",
+                           {"terrain.ground.roughness_rms_m=0.02", "terrain.ground.slope_deg=3"}),
+                  1));
+  // Compressed and in base64 a fifth of it; the page itself has some 0.8 MB.
+  EXPECT_LT(text.size(), 6'000'000U);
+}
+
+// A rover that slides until its speed leaves the model's range.
+TEST(ReplayPayload, ASimulatorFaultIsShownUpToWhereItHappens) {
+  const Json payload =
+      PayloadOf(SourceOf("pathfinder/level_sand",
+                         {"terrain.ground.slope_deg=40", "terrain.ground.slope_direction_deg=90",
+                          "terrain.ground.soil.friction_angle_deg=5"}),
+                0);
+  EXPECT_EQ(payload["outcome"], "simulator_fault");
+  EXPECT_TRUE(payload["record"].empty());
+  EXPECT_LT(Channel(payload, "y").back(), -1.0);
+  EXPECT_EQ(payload["events"].back()["kind"], "end");
+  EXPECT_NEAR(payload["events"].back()["t"].get<double>(), Channel(payload, "t").back(), 1e-4);
+  EXPECT_EQ(payload["events"].back()["detail"], payload["detail"]);
+}
+
+// No place for every rock of an exact count.
+TEST(ReplayPayload, ATrialWithoutATerrainIsSaid) {
+  const TrialSource source = SourceOf(
+      "pathfinder/obstacles_0.85", {"terrain.rocks.clear_radius_m=3.3", "referee.time_limit_s=1"});
+  int told = 0;
+  for (std::uint64_t trial = 0; trial < 8; ++trial) {
+    try {
+      ReplayTrial(source, trial);
+    } catch (const core::UserError& error) {
+      EXPECT_THAT(error.problems().front().reason, HasSubstr("has no terrain to show"));
+      ++told;
+    }
+  }
+  EXPECT_GE(told, 1);
+}
+
+TEST(ReplayPayload, AMeasurementHasNoCourse) {
+  try {
+    ReplayTrial(SourceOf("hazard_detection/false_alarm"), 0);
+    FAIL();
+  } catch (const core::UserError& error) {
+    EXPECT_THAT(error.problems().front().suggestion, HasSubstr("--list"));
+  }
+}
+
+TEST(ReplayPayload, NamesAreTextWhateverTheyHold) {
+  TrialSource source = SourceOf("pathfinder/nominal", {"referee.time_limit_s=1"});
+  source.scenario.name = "</script><b>\"\\\n\xff";
+  const Json payload = PayloadOf(source, 0);
+  EXPECT_EQ(payload["scenario"], "</script><b>\"\\\n\xef\xbf\xbd");
+}
+
+TEST(ReplayPayload, OnlyAReflectedArenaHasMirrorLines) {
+  for (const char* kind : {"virtual_unfolded", "open", "walled"}) {
+    const Json payload =
+        PayloadOf(SourceOf("pathfinder/nominal",
+                           {"referee.time_limit_s=1", std::string("terrain.arena.kind=") + kind}),
+                  0);
+    EXPECT_EQ(payload["course"]["mirror_lines"], Json::array()) << kind;
+  }
+}
+
+}  // namespace
+}  // namespace rockyard::campaign

@@ -1,0 +1,155 @@
+// What the replay page is given, held against the drive itself.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "campaign/drive_recording.h"
+#include "campaign/replay_payloads.h"
+#include "replay/motion.h"
+
+namespace rockyard::campaign {
+namespace {
+
+using testing::DoubleNear;
+using testing::Each;
+using testing::ElementsAre;
+using testing::Ge;
+using testing::SizeIs;
+
+// Trial 7 of nominal: 388 scans, three settings back, no path.
+class ReplayPayloadTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    source_ = SourceOf("pathfinder/nominal");
+    payload_ = PayloadOf(source_, 7);
+  }
+
+  static inline TrialSource source_;
+  static inline Json payload_;
+};
+
+TEST_F(ReplayPayloadTest, EndsWhereTheRecordDoes) {
+  EXPECT_EQ(payload_["outcome"], "no_path");
+  EXPECT_EQ(Channel(payload_, "x").back(), ValueOf(payload_, "final_x_m"));
+  EXPECT_EQ(Channel(payload_, "y").back(), ValueOf(payload_, "final_y_m"));
+  EXPECT_EQ(Channel(payload_, "t").back(), ValueOf(payload_, "sim_time_s"));
+  EXPECT_EQ(Channel(payload_, "believed_x").back(), ValueOf(payload_, "believed_x_m"));
+  EXPECT_EQ(Channel(payload_, "believed_heading").back(),
+            ValueOf(payload_, "believed_heading_rad"));
+  const Eigen::Quaterniond q(Channel(payload_, "qw").back(), Channel(payload_, "qx").back(),
+                             Channel(payload_, "qy").back(), Channel(payload_, "qz").back());
+  const math::Vector3 forward = q.toRotationMatrix().col(0);
+  EXPECT_NEAR(std::atan2(forward.y(), forward.x()), ValueOf(payload_, "final_heading_rad"), 1e-12);
+}
+
+TEST_F(ReplayPayloadTest, ChannelsHaveOneLengthAndTimesAscend) {
+  const Json& motion = payload_["motion"];
+  const std::vector<double> times = Channel(payload_, "t");
+  EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
+  EXPECT_EQ(times.front(), 0.0);
+  for (const auto& [name, channel] : motion.items()) {
+    if (!channel.is_array() || name == "activity_names" || name == "breaks") continue;
+    EXPECT_THAT(channel, SizeIs(times.size())) << name;
+  }
+  for (const auto& [name, channel] : motion["joints"].items()) {
+    EXPECT_THAT(channel, SizeIs(times.size())) << name;
+  }
+  EXPECT_THAT(motion["activity"].get<std::vector<int>>(),
+              Each(testing::AllOf(Ge(0), testing::Lt(int(motion["activity_names"].size())))));
+}
+
+TEST_F(ReplayPayloadTest, JointsAreThoseOfTheLinks) {
+  std::vector<std::string> links;
+  for (const Json& link : payload_["rover"]["links"]) {
+    EXPECT_LT(link["parent"].get<int>(), static_cast<int>(links.size()));
+    links.push_back(link["name"]);
+  }
+  EXPECT_EQ(links.front(), "chassis");
+  std::vector<std::string> joints;
+  for (const auto& [name, channel] : payload_["motion"]["joints"].items()) joints.push_back(name);
+  links.erase(links.begin());
+  EXPECT_THAT(joints, testing::UnorderedElementsAreArray(links));
+}
+
+TEST_F(ReplayPayloadTest, AttitudesAreUnitQuaternionsThatTurnTheShortWay) {
+  const auto w = Channel(payload_, "qw");
+  const auto x = Channel(payload_, "qx");
+  const auto y = Channel(payload_, "qy");
+  const auto z = Channel(payload_, "qz");
+  for (std::size_t i = 0; i < w.size(); ++i) {
+    EXPECT_NEAR(w[i] * w[i] + x[i] * x[i] + y[i] * y[i] + z[i] * z[i], 1.0, 5e-5) << i;
+    if (i == 0) continue;
+    EXPECT_GE(w[i] * w[i - 1] + x[i] * x[i - 1] + y[i] * y[i - 1] + z[i] * z[i - 1], 0.0) << i;
+  }
+}
+
+TEST_F(ReplayPayloadTest, BreaksWhereOperatorsSetTheRoverBack) {
+  const auto breaks = payload_["motion"]["breaks"].get<std::vector<std::size_t>>();
+  ASSERT_EQ(breaks.size(), ValueOf(payload_, "reflections"));
+  ASSERT_THAT(breaks, SizeIs(3));
+  std::vector<double> reflected;
+  for (const Json& event : payload_["events"]) {
+    if (event["kind"] == "reflection") reflected.push_back(event["t"]);
+  }
+  const auto times = Channel(payload_, "t");
+  const auto headings = Channel(payload_, "believed_heading");
+  for (std::size_t i = 0; i < breaks.size(); ++i) {
+    EXPECT_EQ(times[breaks[i]], reflected[i]);
+    EXPECT_EQ(times[breaks[i]], times[breaks[i] - 1]);
+    EXPECT_NE(headings[breaks[i]], headings[breaks[i] - 1]);
+  }
+}
+
+TEST_F(ReplayPayloadTest, ScansStandInTheRecordAndShowTheGround) {
+  const Json& scans = payload_["scans"];
+  EXPECT_EQ(scans.size(), ValueOf(payload_, "scans"));
+  double last_s = -1.0;
+  for (const Json& scan : scans) {
+    EXPECT_GT(scan["t"].get<double>(), last_s);
+    last_s = scan["t"];
+    EXPECT_THAT(scan["hazards"], SizeIs(5));
+    for (const Json& point : scan["points"]) {
+      const double ahead_m = std::hypot(point["x"].get<double>() - scan["x"].get<double>(),
+                                        point["y"].get<double>() - scan["y"].get<double>());
+      EXPECT_LT(ahead_m, 1.5);
+      EXPECT_LT(std::abs(point["z"].get<double>()), 0.6);
+    }
+  }
+}
+
+// The whole course, not thinned, against what the page shows between its moments.
+TEST_F(ReplayPayloadTest, LeavesOutNoMomentThatIsFurtherOffThanItSays) {
+  const DriveRecording recording = RecordDrive(source_.scenario, source_.seed, 7);
+  const auto poses = PosesOf(source_.scenario, recording.traced.trace);
+  const replay::ThinnedMotion motion = replay::ThinMotion(poses);
+  EXPECT_EQ(motion.kept.size(), Channel(payload_, "t").size());
+  EXPECT_LT(motion.kept.size(), poses.size() / 2);
+  EXPECT_EQ(motion.tolerance.position_m, payload_["motion"]["position_tolerance"]);
+  EXPECT_EQ(motion.tolerance.position_m, 0.002);
+  std::size_t after = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    while (motion.kept[after] < i) ++after;
+    if (motion.kept[after] == i) continue;
+    EXPECT_LE(replay::ShownError(poses[motion.kept[after - 1]], poses[motion.kept[after]], poses[i],
+                                 motion.tolerance),
+              1.0)
+        << i;
+  }
+}
+
+// A step of the simulation ends millimetres beyond a line before operators act.
+TEST_F(ReplayPayloadTest, OperatorsReflectAtTheLinesThatItNames) {
+  const double line_m = source_.scenario.drive.terrain.arena.MirrorLine();
+  EXPECT_THAT(payload_["course"]["mirror_lines"].get<std::vector<double>>(),
+              ElementsAre(DoubleNear(-line_m, 1e-4), DoubleNear(line_m, 1e-4)));
+  const auto breaks = payload_["motion"]["breaks"].get<std::vector<std::size_t>>();
+  ASSERT_FALSE(breaks.empty());
+  const auto y = Channel(payload_, "y");
+  for (const std::size_t i : breaks) EXPECT_NEAR(std::abs(y[i]), line_m, 0.01) << i;
+}
+
+}  // namespace
+}  // namespace rockyard::campaign
