@@ -30,7 +30,7 @@ DryRun Rehearse(const CampaignRequest& request, const CampaignPlan& plan) {
   CheckPlan(request, plan);
   const OpenRequest opening = OpeningOf(request, plan);
   const scenario::Scenario& scenario = plan.cells.front().scenario;
-  const auto experiment = experiments::MakeExperiment(scenario);
+  const auto experiment = experiments::MakeExperiment(scenario.experiment, scenario.drive);
   CheckFolder(opening, IdentityOf(plan, experiment->schema(), opening.shard));
   DryRun told{.name = plan.name,
               .seed = scenario.seed,

@@ -20,7 +20,7 @@ void CheckRule(const CampaignRequest& request, const CampaignPlan& plan,
                         "leave out --shard, or say how many trials to run with --trials"});
   }
   for (const CampaignCell& cell : plan.cells) {
-    if (cell.scenario.experiment != scenario::ExperimentKind::kDrive) {
+    if (cell.scenario.experiment.kind != experiments::ExperimentKind::kDrive) {
       problems.push_back({"--until-half-width",
                           fmt::format("needs drives, and {} measures", cell.Label()),
                           "say how many trials to run with --trials"});
@@ -49,7 +49,7 @@ void CheckTraces(const CampaignRequest& request, const CampaignPlan& plan,
                         "leave it out, merge the shards, and ask for it there with --resume"});
   }
   for (const CampaignCell& cell : plan.cells) {
-    if (cell.scenario.experiment == scenario::ExperimentKind::kDrive) continue;
+    if (cell.scenario.experiment.kind == experiments::ExperimentKind::kDrive) continue;
     problems.push_back(
         {"--traces", fmt::format("needs drives, and {} measures", cell.Label()), "leave it out"});
   }

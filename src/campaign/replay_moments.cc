@@ -60,7 +60,8 @@ class MomentReplayer {
 
   MomentTrial Run() {
     const auto experiment = experiments::MakeExperiment(
-        source_.scenario, [this](const trial::WatchedScan& watched) { OnScan(watched); },
+        source_.scenario.experiment, source_.scenario.drive,
+        [this](const trial::WatchedScan& watched) { OnScan(watched); },
         [this](const trial::WatchedStep& watched) { OnStep(watched); });
     replayed_.schema = experiment->schema();
     replayed_.record = experiment->Run(source_.seed, request_.trial.trial);

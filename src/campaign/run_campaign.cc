@@ -20,7 +20,8 @@ class PlannedWork {
  public:
   explicit PlannedWork(const CampaignPlan& plan) {
     for (const CampaignCell& cell : plan.cells) {
-      experiments_.push_back(experiments::MakeExperiment(cell.scenario));
+      experiments_.push_back(
+          experiments::MakeExperiment(cell.scenario.experiment, cell.scenario.drive));
       work_.push_back({experiments_.back().get(), static_cast<std::uint64_t>(cell.scenario.seed)});
     }
   }
