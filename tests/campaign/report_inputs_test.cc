@@ -20,8 +20,7 @@ TEST(UniqueLabels, AreAsShortAsTheyCanBe) {
 }
 
 TEST(UniqueLabels, GetANumberWhereNothingElseTellsThemApart) {
-  EXPECT_THAT(UniqueLabels({{"a"}, {"a"}, {"a (2)"}}),
-              ElementsAre("a", "a (2)", "a (2) (2)"));
+  EXPECT_THAT(UniqueLabels({{"a"}, {"a"}, {"a (2)"}}), ElementsAre("a", "a (2)", "a (2) (2)"));
   EXPECT_TRUE(UniqueLabels({}).empty());
 }
 

@@ -9,7 +9,7 @@
 namespace rockyard::core {
 namespace {
 
-constexpr double kAlpha = 1e-4;
+constexpr double kIndependenceAlpha = 1e-4;
 constexpr int kPairs = 100000;
 constexpr std::size_t kSide = 16;
 
@@ -31,15 +31,15 @@ double JointOf(RandomStream a, RandomStream b) {
 
 TEST(IndependenceTest, StreamsThatDifferInOnePartOfTheirName) {
   const RandomStream stream({1, 1}, Purpose::kGyro, 1);
-  EXPECT_GT(JointOf(stream, RandomStream({2, 1}, Purpose::kGyro, 1)), kAlpha);
-  EXPECT_GT(JointOf(stream, RandomStream({1, 2}, Purpose::kGyro, 1)), kAlpha);
-  EXPECT_GT(JointOf(stream, RandomStream({1, 1}, Purpose::kEncoder, 1)), kAlpha);
-  EXPECT_GT(JointOf(stream, RandomStream({1, 1}, Purpose::kGyro, 2)), kAlpha);
+  EXPECT_GT(JointOf(stream, RandomStream({2, 1}, Purpose::kGyro, 1)), kIndependenceAlpha);
+  EXPECT_GT(JointOf(stream, RandomStream({1, 2}, Purpose::kGyro, 1)), kIndependenceAlpha);
+  EXPECT_GT(JointOf(stream, RandomStream({1, 1}, Purpose::kEncoder, 1)), kIndependenceAlpha);
+  EXPECT_GT(JointOf(stream, RandomStream({1, 1}, Purpose::kGyro, 2)), kIndependenceAlpha);
 }
 
 TEST(IndependenceTest, NegativeControlAStreamDependsOnItself) {
   const RandomStream stream({1, 1}, Purpose::kGyro, 1);
-  EXPECT_LT(JointOf(stream, stream), kAlpha);
+  EXPECT_LT(JointOf(stream, stream), kIndependenceAlpha);
 }
 
 // How noise is used: one short stream per scan.
@@ -49,7 +49,7 @@ TEST(IndependenceTest, FirstNumbersOfNeighbouringSubstreams) {
               RandomStream b({3, 0}, Purpose::kStripeMissed, 2 * i + 1);
               return std::pair(a.Uniform(), b.Uniform());
             }),
-            kAlpha);
+            kIndependenceAlpha);
 }
 
 // Negative control: numbers that grow with the name's number instead of being scrambled by it.
@@ -60,7 +60,7 @@ TEST(IndependenceTest, NegativeControlWeylSequence) {
               const double b = std::fmod((2.0 * i + 1.0) * kGoldenRatio, 1.0);
               return std::pair(a, b);
             }),
-            kAlpha);
+            kIndependenceAlpha);
 }
 
 TEST(IndependenceTest, FirstNumbersOfNeighbouringTrials) {
@@ -69,7 +69,7 @@ TEST(IndependenceTest, FirstNumbersOfNeighbouringTrials) {
               RandomStream b({3, 2 * i + 1}, Purpose::kRockCount);
               return std::pair(a.Uniform(), b.Uniform());
             }),
-            kAlpha);
+            kIndependenceAlpha);
 }
 
 TEST(IndependenceTest, ConsecutiveNumbersOfOneStream) {
@@ -78,7 +78,7 @@ TEST(IndependenceTest, ConsecutiveNumbersOfOneStream) {
               const double first = stream.Uniform();
               return std::pair(first, stream.Uniform());
             }),
-            kAlpha);
+            kIndependenceAlpha);
 }
 
 }  // namespace
