@@ -36,7 +36,7 @@ class CliReportTest : public CommandTest {
       "axes": [{"path": "terrain.rocks.k_per_m2", "values": [0.001, 0.004]}]})");
     return Run({"sweep", "two.json", "--out", out});
   }
-  CommandResult campaign::Report(const std::vector<std::string>& words, int replays = 0) const {
+  CommandResult Report(const std::vector<std::string>& words, int replays = 0) const {
     return Run(
         With({"report", "--replays", std::to_string(replays), "--data", "data.json"}, words));
   }

@@ -41,30 +41,29 @@ TEST_F(CliReportErrors, PendingTrialsAreTold) {
                 .exit_code,
             0);
   ASSERT_EQ(Run({"merge", "b", "--out", "half", "--partial"}).exit_code, 0);
-  ASSERT_EQ(campaign::Report({"half"}).exit_code, 0);
+  ASSERT_EQ(Report({"half"}).exit_code, 0);
   const json run = Data()["runs"][0];
   EXPECT_EQ(run["summary"]["accounting"]["pending"], 3);
   EXPECT_EQ(run["trials"]["trial"], json({0, 2, 4}));
   fs::remove(work() / "data.json");
-  ExpectRefused(campaign::Report({"b"}), "holds shard 1/2 of a campaign");
+  ExpectRefused(Report({"b"}), "holds shard 1/2 of a campaign");
 }
 
 TEST_F(CliReportErrors, WhatIsNoWholeRunIsRefused) {
   fs::create_directories(work() / "empty");
-  ExpectRefused(campaign::Report({"empty"}), "holds no results.sqlite");
-  ExpectRefused(campaign::Report({"missing"}), "missing");
-  EXPECT_THAT(campaign::Report({"missing"}).err,
-              Not(HasSubstr("--out")));  // which nobody has named
+  ExpectRefused(Report({"empty"}), "holds no results.sqlite");
+  ExpectRefused(Report({"missing"}), "missing");
+  EXPECT_THAT(Report({"missing"}).err, Not(HasSubstr("--out")));  // which nobody has named
   ASSERT_EQ(Drive("a", 3).exit_code, 0);
-  ExpectRefused(campaign::Report({"a", "a/"}), "is named twice");
+  ExpectRefused(Report({"a", "a/"}), "is named twice");
   fs::create_directories(work() / "cut");
   const std::string store = ReadFile(work() / "a/results.sqlite");
   for (const std::size_t size : {std::size_t{0}, std::size_t{100}, store.size() / 2}) {
     WriteFile(work() / "cut/results.sqlite", store.substr(0, size));
-    ExpectRefused(campaign::Report({"a", "cut"}), "cut/results.sqlite");
+    ExpectRefused(Report({"a", "cut"}), "cut/results.sqlite");
   }
   WriteFile(work() / "cut/results.sqlite", "this is no database, whatever its name may say");
-  const CommandResult both = campaign::Report({"cut", "missing"});
+  const CommandResult both = Report({"cut", "missing"});
   ExpectRefused(both, "cut/results.sqlite");
   EXPECT_THAT(both.err, HasSubstr("missing"));  // all that is wrong, at once
 }

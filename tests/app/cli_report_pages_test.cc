@@ -26,8 +26,7 @@ sys.exit(0 if held == json.load(open(sys.argv[2], encoding="utf-8")) else 1)
 
 TEST_F(CliReportPages, ThePageHoldsWhatDataSays) {
   ASSERT_EQ(Drive("a", 3).exit_code, 0);
-  const CommandResult result =
-      campaign::Report({"a", "--title", "</title><img src=x onerror=alert(1)>"});
+  const CommandResult result = Report({"a", "--title", "</title><img src=x onerror=alert(1)>"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("a/report.html"));
   EXPECT_THAT(result.out, HasSubstr("1 run, 3 trials"));
@@ -37,14 +36,14 @@ TEST_F(CliReportPages, ThePageHoldsWhatDataSays) {
   const pid_t python =
       StartProgram({ROCKYARD_PYTHON, "-c", kSamePayload, "a/report.html", "data.json"});
   EXPECT_EQ(Wait(python).exit_code, 0);
-  ASSERT_EQ(campaign::Report({"a", "--out", "page.html"}).exit_code, 0);
+  ASSERT_EQ(Report({"a", "--out", "page.html"}).exit_code, 0);
   EXPECT_TRUE(fs::exists(work() / "page.html"));
 }
 
 TEST_F(CliReportPages, TheWorstTrialsGetReplays) {
   // Every trial runs out of time.
   ASSERT_EQ(Drive("a <b>", 4, {"--set", "referee.time_limit_s=20"}).exit_code, 0);
-  const CommandResult result = campaign::Report({"a <b>", "--out", "my page.html"}, 2);
+  const CommandResult result = Report({"a <b>", "--out", "my page.html"}, 2);
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("2 replays in my page_replays"));
   EXPECT_THAT(result.err, HasSubstr("replay 2 of 2: trial"));
@@ -65,7 +64,7 @@ TEST_F(CliReportPages, AReplayThatDiffersIsReportedAndNotLinked) {
                     "import sqlite3\nwith sqlite3.connect('a/results.sqlite') as store:\n"
                     "  store.execute('update trials set energy_wh = energy_wh + 1')"});
   ASSERT_EQ(Wait(python).exit_code, 0);
-  const CommandResult result = campaign::Report({"a"}, 1);
+  const CommandResult result = Report({"a"}, 1);
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("is not the stored one"));
   EXPECT_TRUE(fs::exists(work() / "a/report.html"));
@@ -75,9 +74,9 @@ TEST_F(CliReportPages, AReplayThatDiffersIsReportedAndNotLinked) {
 
 TEST_F(CliReportPages, PagesOfEarlierReportsAreTold) {
   ASSERT_EQ(Drive("a", 3, {"--set", "referee.time_limit_s=20"}).exit_code, 0);
-  ASSERT_EQ(campaign::Report({"a", "--out", "page.html"}, 2).exit_code, 0);
-  EXPECT_THAT(campaign::Report({"a", "--out", "page.html"}, 2).err, Not(HasSubstr("older page")));
-  EXPECT_THAT(campaign::Report({"a", "--out", "page.html"}, 1).err,
+  ASSERT_EQ(Report({"a", "--out", "page.html"}, 2).exit_code, 0);
+  EXPECT_THAT(Report({"a", "--out", "page.html"}, 2).err, Not(HasSubstr("older page")));
+  EXPECT_THAT(Report({"a", "--out", "page.html"}, 1).err,
               HasSubstr("1 older page in page_replays is not of this report"));
   EXPECT_TRUE(fs::exists(work() / "page_replays"));
 }

@@ -16,7 +16,7 @@ using CliReport = CliReportTest;
 
 TEST_F(CliReport, HoldsTheNumbersOfSummaryJson) {
   ASSERT_EQ(Drive("a", 5).exit_code, 0);
-  const CommandResult result = campaign::Report({"a"});
+  const CommandResult result = Report({"a"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json data = Data();
   ASSERT_EQ(data["runs"].size(), 1u);
@@ -43,7 +43,7 @@ TEST_F(CliReport, TellsWhichTrialsAreInTheRates) {
                     "import sqlite3\nwith sqlite3.connect('a/results.sqlite') as store:\n"
                     "  store.execute('delete from trials where trial = 3')"});
   ASSERT_EQ(Wait(python).exit_code, 0);
-  ASSERT_EQ(campaign::Report({"a"}).exit_code, 0);
+  ASSERT_EQ(Report({"a"}).exit_code, 0);
   const json run = Data()["runs"][0];
   EXPECT_EQ(run["prefix_trials"], 3);
   EXPECT_EQ(run["trials"]["trial"], json({0, 1, 2, 4, 5}));
@@ -54,7 +54,7 @@ TEST_F(CliReport, TellsWhichTrialsAreInTheRates) {
 TEST_F(CliReport, RunsAndSweepsMayBeMixed) {
   ASSERT_EQ(Drive("a", 4).exit_code, 0);
   ASSERT_EQ(Sweep("s").exit_code, 0);
-  ASSERT_EQ(campaign::Report({"a", "s"}).exit_code, 0);
+  ASSERT_EQ(Report({"a", "s"}).exit_code, 0);
   const json data = Data();
   ASSERT_EQ(data["runs"].size(), 3u);
   ASSERT_EQ(data["sweeps"].size(), 1u);
@@ -77,21 +77,21 @@ TEST_F(CliReport, RunsAndSweepsMayBeMixed) {
 
 TEST_F(CliReport, OneCellAlone) {
   ASSERT_EQ(Sweep("s").exit_code, 0);
-  ASSERT_EQ(campaign::Report({"s", "--cell", "1"}).exit_code, 0);
+  ASSERT_EQ(Report({"s", "--cell", "1"}).exit_code, 0);
   const json data = Data();
   ASSERT_EQ(data["runs"].size(), 1u);
   EXPECT_EQ(data["runs"][0]["cell"], "k_per_m2=0.004");
   EXPECT_EQ(data["runs"][0]["label"], "s: k_per_m2=0.004");
   EXPECT_TRUE(data["sweeps"].empty());
   fs::remove(work() / "data.json");
-  ExpectRefused(campaign::Report({"s", "--cell", "nine"}), "is no cell of s");
+  ExpectRefused(Report({"s", "--cell", "nine"}), "is no cell of s");
 }
 
 TEST_F(CliReport, RunsAreComparedWithTheFirst) {
   ASSERT_EQ(Drive("a", 6).exit_code, 0);
   ASSERT_EQ(Drive("b", 6, {"--set", "referee.time_limit_s=200"}).exit_code, 0);
   ASSERT_EQ(Drive("c", 6, {"--seed", "9"}).exit_code, 0);
-  ASSERT_EQ(campaign::Report({"a", "b", "c"}).exit_code, 0);
+  ASSERT_EQ(Report({"a", "b", "c"}).exit_code, 0);
   const json comparisons = Data()["comparisons"];
   ASSERT_EQ(comparisons.size(), 2u);
   EXPECT_EQ(comparisons[0]["first"], "a");
@@ -108,7 +108,7 @@ TEST_F(CliReport, LabelsOfEqualFolderNamesDiffer) {
     fs::create_directories(work() / fs::path(folder).parent_path());
     ASSERT_EQ(Drive(folder, 2).exit_code, 0);
   }
-  ASSERT_EQ(campaign::Report({"x/run", "y/run"}).exit_code, 0);
+  ASSERT_EQ(Report({"x/run", "y/run"}).exit_code, 0);
   EXPECT_EQ(Data()["runs"][0]["label"], "x/run");
   EXPECT_EQ(Data()["runs"][1]["label"], "y/run");
 }
@@ -117,7 +117,7 @@ TEST_F(CliReport, AMeasurementHasItsCells) {
   const std::string scenario =
       std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/hazard_detection/approach.json";
   ASSERT_EQ(Run({"run", scenario, "--trials", "40", "--out", "m"}).exit_code, 0);
-  ASSERT_EQ(campaign::Report({"m"}).exit_code, 0);
+  ASSERT_EQ(Report({"m"}).exit_code, 0);
   const json run = Data()["runs"][0];
   EXPECT_EQ(run["kind"], "measurement");
   EXPECT_TRUE(run["cdf"].is_null());
@@ -126,7 +126,7 @@ TEST_F(CliReport, AMeasurementHasItsCells) {
 
 TEST_F(CliReport, PublishedValuesStandBesideTheRun) {
   ASSERT_EQ(Drive("a", 5).exit_code, 0);
-  ASSERT_EQ(campaign::Report({"a", "--against", Reference("matthies1995")}).exit_code, 0);
+  ASSERT_EQ(Report({"a", "--against", Reference("matthies1995")}).exit_code, 0);
   const json table = Data()["runs"][0]["published"];
   EXPECT_EQ(table["reference"], "Matthies 1995");
   ASSERT_FALSE(table["rows"].empty());
@@ -134,7 +134,7 @@ TEST_F(CliReport, PublishedValuesStandBesideTheRun) {
     EXPECT_THAT(row["id"].get<std::string>(), testing::StartsWith("nominal."));
   }
   fs::remove(work() / "data.json");
-  ExpectRefused(campaign::Report({"a", "--against", Reference("goldberg2002")}),
+  ExpectRefused(Report({"a", "--against", Reference("goldberg2002")}),
                 "names the scenario of none of the runs");
 }
 
@@ -143,7 +143,7 @@ TEST_F(CliReport, ReferencesOfTheWorkingFolderAreFound) {
   fs::create_directories(work() / "results/reference");
   fs::copy_file(Reference("matthies1995"), work() / "results/reference/m.json");
   WriteFile(work() / "results/reference/broken.json", "{");
-  const CommandResult result = campaign::Report({"a"});
+  const CommandResult result = Report({"a"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("broken.json is left out"));
   EXPECT_EQ(Data()["runs"][0]["published"]["reference"], "Matthies 1995");
@@ -152,7 +152,7 @@ TEST_F(CliReport, ReferencesOfTheWorkingFolderAreFound) {
 
 TEST_F(CliReport, SaysWhereNoReferenceWasFound) {
   ASSERT_EQ(Drive("a", 3).exit_code, 0);
-  EXPECT_THAT(campaign::Report({"a"}).err, HasSubstr("results/reference below the working folder"));
+  EXPECT_THAT(Report({"a"}).err, HasSubstr("results/reference below the working folder"));
   EXPECT_THAT(Data()["why_none_published"].get<std::string>(), HasSubstr("--against"));
 }
 
@@ -163,7 +163,7 @@ TEST_F(CliReport, OtherRunsDoNotChangeWhatIsPublished) {
                 .exit_code,
             0);
   const auto table = [&](const std::vector<std::string>& runs, std::size_t which) {
-    EXPECT_EQ(campaign::Report(With(runs, {"--against", Reference("matthies1995")})).exit_code, 0);
+    EXPECT_EQ(Report(With(runs, {"--against", Reference("matthies1995")})).exit_code, 0);
     return Data()["runs"][which]["published"];
   };
   const json alone = table({"b"}, 0);

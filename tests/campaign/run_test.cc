@@ -1,0 +1,140 @@
+// Campaigns of real trials, run as a program would that has no command line.
+#include "campaign/run.h"
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <variant>
+
+#include "batch/run_folder.h"
+#include "campaign/small_runs.h"
+
+namespace rockyard::campaign {
+namespace {
+
+using testing::Contains;
+using testing::Field;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+TEST_F(SmallRuns, ARunTellsAndReturnsWhatHappened) {
+  int looks = 0;
+  int ends = 0;
+  std::vector<FolderReport> reports;
+  RunObserver observer;
+  observer.trials = [&](const batch::Progress& progress, Moment moment) {
+    ++(moment == Moment::kEnd ? ends : looks);
+    EXPECT_LE(progress.finished, 6);
+  };
+  observer.reported = [&](const FolderReport& report, batch::BatchEnd end) {
+    EXPECT_EQ(end, batch::BatchEnd::kFinished);
+    reports.push_back(report);
+  };
+  const WorkResult result = campaign::Run(Request("a", 6), observer);
+  EXPECT_EQ(result.outcome, Outcome::kDone);
+  EXPECT_THAT(result.problems, IsEmpty());
+  EXPECT_EQ(result.folder, Path("a"));
+  EXPECT_EQ(result.trials.planned, 6);
+  EXPECT_EQ(result.trials.finished, 6);
+  EXPECT_EQ(result.trials.faults, 0);
+  EXPECT_GE(looks, 1);
+  EXPECT_EQ(ends, 1);
+  ASSERT_THAT(reports, SizeIs(1));
+  const auto& drives =
+      std::get<statistics::DriveSummary>(std::get<RunReport>(reports.front()).summary);
+  EXPECT_EQ(drives.completed, 6);
+  EXPECT_TRUE(std::filesystem::exists(Path("a") / "summary.json"));
+}
+
+TEST_F(SmallRuns, StoppedAndResumedIsTheUninterruptedRun) {
+  ASSERT_EQ(campaign::Run(Request("whole", 8)).outcome, Outcome::kDone);
+  // The first time before any trial, then after each.
+  std::atomic<int> asked = 0;
+  const Stop stop{.wanted = [&] { return ++asked > 3; }};
+  const WorkResult stopped = campaign::Run(Request("parts", 8), {}, stop);
+  EXPECT_EQ(stopped.outcome, Outcome::kInterrupted);
+  EXPECT_GE(stopped.trials.finished, 1);
+  EXPECT_LE(stopped.trials.finished, 3);
+  EXPECT_THAT(stopped.notes, Contains(Field(&Note::text, HasSubstr("of 8 trials are stored"))));
+
+  RunRequest rest = Request("parts", 8);
+  rest.campaign.existing = ExistingRun::kResume;
+  const WorkResult resumed = campaign::Run(rest);
+  EXPECT_EQ(resumed.outcome, Outcome::kDone);
+  EXPECT_THAT(resumed.notes, Contains(Field(&Note::text, HasSubstr("going on with"))));
+  EXPECT_EQ(Hash("parts"), Hash("whole"));
+}
+
+// What a worker process tells comes back to the one that asked for it.
+TEST_F(SmallRuns, ASupervisedRunIsTheSame) {
+  RunRequest request = Request("supervised", 5);
+  request.campaign.containment.supervisor = true;
+  const WorkResult result = campaign::Run(request);
+  EXPECT_EQ(result.outcome, Outcome::kDone);
+  EXPECT_EQ(result.folder, Path("supervised"));
+  EXPECT_EQ(result.trials.finished, 5);
+  const WorkResult again = campaign::Run(request);
+  EXPECT_EQ(again.outcome, Outcome::kBadInput);
+  ASSERT_THAT(again.problems, SizeIs(1));
+  EXPECT_EQ(again.problems.front().reason, "holds a run already");
+  ASSERT_EQ(campaign::Run(Request("plain", 5)).outcome, Outcome::kDone);
+  EXPECT_EQ(Hash("supervised"), Hash("plain"));
+}
+
+TEST_F(SmallRuns, WhatIsWrongWithARequestIsAValue) {
+  RunRequest missing = Request("a", 2);
+  missing.source = Path("nowhere.json");
+  RunRequest mistyped = Request("a", 2);
+  mistyped.campaign.overrides = {"rover.fidelity=none", "referee.time_limit=1"};
+  RunRequest shard = Part("a", 2, "3/2");
+  for (const RunRequest& request : {missing, mistyped, shard}) {
+    std::vector<core::Problem> told;
+    RunObserver observer;
+    observer.problems = [&](const std::vector<core::Problem>& problems) { told = problems; };
+    const WorkResult result = campaign::Run(request, observer);
+    EXPECT_EQ(result.outcome, Outcome::kBadInput);
+    EXPECT_THAT(result.problems, Not(IsEmpty()));
+    EXPECT_EQ(told.size(), result.problems.size());
+    EXPECT_FALSE(std::filesystem::exists(Path("a")));
+    EXPECT_FALSE(Rehearse(request).ok());
+  }
+}
+
+TEST_F(SmallRuns, AFolderInUseIsRefused) {
+  std::filesystem::create_directories(Path("a"));
+  const batch::FolderClaim claim(Path("a"));
+  const WorkResult result = campaign::Run(Request("a", 2));
+  EXPECT_EQ(result.outcome, Outcome::kBadInput);
+  ASSERT_THAT(result.problems, Not(IsEmpty()));
+  EXPECT_THAT(result.problems.front().path, HasSubstr(Path("a").string()));
+}
+
+TEST_F(SmallRuns, ARehearsalWritesNothing) {
+  RunRequest request = Request("a", 40);
+  request.campaign.traces.rules = {"failures"};
+  const core::Result<DryRun> told = Rehearse(request);
+  ASSERT_TRUE(told.ok());
+  EXPECT_EQ(told->planned.total, 40);
+  EXPECT_EQ(told->pending, 40);
+  EXPECT_EQ(told->pilot.trials, 3);
+  EXPECT_TRUE(told->traces.failures);
+  EXPECT_FALSE(std::filesystem::exists(Path("a")));
+}
+
+TEST_F(SmallRuns, TracesAreToldOf) {
+  RunRequest request = Request("a", 2);
+  request.campaign.traces = {.rules = {"all"}, .format = "csv"};
+  std::size_t written = 0;
+  Outcome outcome = Outcome::kFailed;
+  RunObserver observer;
+  observer.traces = [&](const TraceProgress& progress, Moment) { written = progress.written; };
+  observer.traced = [&](const std::filesystem::path&, Outcome ended) { outcome = ended; };
+  EXPECT_EQ(campaign::Run(request, observer).outcome, Outcome::kDone);
+  EXPECT_EQ(written, 2U);
+  EXPECT_EQ(outcome, Outcome::kDone);
+  EXPECT_TRUE(std::filesystem::exists(Path("a") / "traces" / "trial-000001.csv"));
+}
+
+}  // namespace
+}  // namespace rockyard::campaign
