@@ -140,7 +140,7 @@ class Opener {
   }
 
   // A resumed run keeps its plan and its rule unless the user says otherwise; what is stored stays
-  // planned.
+  // planned, under a rule until the run ends (BatchSession::StoreEnds).
   void PlanTrials(batch::ResultStore& store) {
     const std::vector<batch::FinishedTrial> finished = store.Finished();
     std::vector<std::int64_t> ends(plan_.cells.size(), 0);

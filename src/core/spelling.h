@@ -9,10 +9,12 @@
 namespace rockyard::core {
 
 // Damerau-Levenshtein distance with adjacent transpositions (optimal string alignment): insertions,
-// deletions, replacements and swaps of neighbours that turn one text into the other. Cost a b.
+// deletions, replacements and swaps of neighbours that turn one text into the other. Time: a.size()
+// * b.size().
 std::size_t EditDistance(std::string_view a, std::string_view b);
 
-// The candidate nearest to `word`; empty where none is within a third of its length (at least 2).
+// The candidate nearest to `word`; empty where none is within a third of its length (at least 2),
+// for words over 80 characters, and for a candidate that is no longer than its distance.
 std::string_view Nearest(std::string_view word, std::span<const std::string_view> candidates);
 
 // `did you mean "x"?` where there is a near candidate, then `one of: a, b, c` where there are more.

@@ -37,7 +37,7 @@ class AttitudeEstimator {
   void Integrate(const messages::VehicleState& state, double forward_m, double duration_s);
 
   // Forgets what the filter holds, after operators moved the rover; the height stays.
-  void Resume() { force_R_.reset(); }
+  void Restart() { force_R_.reset(); }
 
   const messages::AttitudeEstimate& estimate() const { return estimate_; }
 

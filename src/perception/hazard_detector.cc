@@ -1,6 +1,5 @@
 #include "perception/hazard_detector.h"
 
-#include "core/check.h"
 #include "perception/hazard_criteria.h"
 
 namespace rockyard::perception {

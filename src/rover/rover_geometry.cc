@@ -1,7 +1,5 @@
 #include "rover/rover_geometry.h"
 
-#include <algorithm>
-
 namespace rockyard::rover {
 namespace {
 
@@ -22,7 +20,7 @@ RoverGeometry MakeRoverGeometry(const RoverGeometryParams& params) {
   const double wheel_y = 0.5 * (params.width_m - params.wheel_width_m);
   const bool bogie_in_front = params.bogie_end == BogieEnd::kFront;
   // The parameters give x of the middle wheels and pivots for a bogie at the rear; in front is its
-  // mirror image in the lateral plane.
+  // mirror image in the plane x = 0 of R.
   const double mirror = bogie_in_front ? -1.0 : 1.0;
   const std::array<double, 3> x{outer_x, mirror * params.middle_wheel_x_m, -outer_x};
   const std::array<bool, 3> on_bogie{bogie_in_front, true, !bogie_in_front};

@@ -32,11 +32,11 @@ messages::MotionMeasurement MotionSensors::Measure(const truth::RoverState& stat
   motion.turn_rad = gyro_.Measure(TurnAboutOwnAxis(X_WR_, state.X_WR), duration_s, moving, tick_) +
                     std::exchange(pending_jump_rad_, 0.0);
   ++tick_;
-  Resume(state);
+  Restart(state);
   return motion;
 }
 
-void MotionSensors::Resume(const truth::RoverState& state) {
+void MotionSensors::Restart(const truth::RoverState& state) {
   X_WR_ = state.X_WR;
   wheel_angle_rad_ = state.wheel_angle_rad;
 }

@@ -29,7 +29,7 @@ class MotionSensors {
 
   // Starts anew at `state`, after operators moved the rover by hand with its sensors switched off:
   // what lies between is not measured.
-  void Resume(const truth::RoverState& state);
+  void Restart(const truth::RoverState& state);
 
   const ScrapeDetector& scrapes() const { return scrapes_; }
 

@@ -107,7 +107,7 @@ messages::VehicleState VehicleSensors::Measure(const truth::RoverState& state,
   return measured;
 }
 
-void VehicleSensors::Resume(const truth::RoverState& state) {
+void VehicleSensors::Restart(const truth::RoverState& state) {
   BeginTick(state);
   // Nothing that was measured elsewhere arrives any more.
   articulation_.Clear();

@@ -73,7 +73,7 @@ class VehicleSensors {
 
   // Forgets what was measured before, also what is still on its way: operators moved the rover by
   // hand.
-  void Resume(const truth::RoverState& state);
+  void Restart(const truth::RoverState& state);
 
  private:
   // Sums and switches of the next tick begin at this state.

@@ -226,8 +226,8 @@ void Drive::ReflectAtMirrorLine(int direction) {
   rover_->Place(reflection->pose);
   wheel_driver_.Straighten();
   localizer_.Apply(reflection->update);
-  motion_sensors_->Resume(rover_->state());
-  guard_.Resume(rover_->state());
+  motion_sensors_->Restart(rover_->state());
+  guard_.Restart(rover_->state());
   monitor_.Restart(rover_->state());
   navigator_->OnPoseUpdate(before, localizer_.pose());
   RecordRest({}, true);

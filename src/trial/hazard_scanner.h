@@ -1,4 +1,5 @@
-// The light stripe sensor of a rover as the closed loop uses it: a pose in, a scan out.
+// The light stripe sensor of a rover as the closed loop uses it: a pose in, a scan out. What in a
+// scan is a hazard is decided by perception::HazardDetector.
 #pragma once
 
 #include <cstdint>

@@ -38,7 +38,7 @@ double Localizer::HeightError(const truth::RoverState& state) const {
 
 void Localizer::Apply(const messages::PoseUpdate& update) {
   dead_reckoning_.Apply(update);
-  attitude_.Resume();
+  attitude_.Restart();
   levelled_ = pose();
 }
 

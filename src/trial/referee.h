@@ -74,6 +74,7 @@ class Referee {
     double turned_rad = 0.0;
   };
 
+  // Stuck is high-centred where the belly rested on a rock, and jammed otherwise.
   std::optional<Verdict> CheckStuck(const Observation& observation);
   void OpenWindow(const Observation& observation);
   static void AddObeyed(const Observation& observation, Window& window);

@@ -57,8 +57,8 @@ std::vector<messages::VehicleHazard> VehicleGuard::Feel(const truth::RoverState&
   return appeared;
 }
 
-void VehicleGuard::Resume(const truth::RoverState& state) {
-  if (on_) sensors_.Resume(state);
+void VehicleGuard::Restart(const truth::RoverState& state) {
+  if (on_) sensors_.Restart(state);
   detector_.Reset();
   felt_ = {};
   hazard_.reset();

@@ -33,7 +33,7 @@ class VehicleGuard {
 
   // Operators moved the rover by hand: nothing is felt, and nothing of what was felt before counts
   // towards a hazard.
-  void Resume(const truth::RoverState& state);
+  void Restart(const truth::RoverState& state);
 
   // Of the last tick: what the rover has to get away from, null where there is nothing.
   const messages::VehicleHazard* hazard() const { return hazard_ ? &*hazard_ : nullptr; }

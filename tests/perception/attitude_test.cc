@@ -86,7 +86,7 @@ TEST(AttitudeTest, LowPassFollowsAStepExponentially) {
     const double z = left + (1.0 - left) * std::cos(0.3);
     EXPECT_NEAR(estimator.estimate().pitch_rad, std::atan2(x, z), 1e-12);
   }
-  estimator.Resume();
+  estimator.Restart();
   estimator.Integrate(AtRest(level, 1.0), 0.0, kTick_s);
   EXPECT_EQ(estimator.estimate().pitch_rad, 0.0);
 }

@@ -186,7 +186,7 @@ TEST(MotionSensorsTest, MeasuresBetweenTicks) {
 
   // Turned by hand: not measured.
   state.X_WR = Turned(1.0);
-  sensors.Resume(state);
+  sensors.Restart(state);
   EXPECT_EQ(sensors.Measure(state, 0.25, true).turn_rad, 0.0);
 }
 

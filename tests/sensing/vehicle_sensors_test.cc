@@ -92,7 +92,7 @@ TEST(AccelerometerTest, ReportsWhatChangesTheVelocity) {
   EXPECT_NEAR(sensors.Measure(state, {}, kTick_s).specific_force_R->x(), 0.0, 1e-12);
   // A rover that was put down elsewhere was not accelerated.
   state.v_WR_m_s = Vector3(0.0, 0.1, 0.0);
-  sensors.Resume(state);
+  sensors.Restart(state);
   EXPECT_NEAR(sensors.Measure(state, {}, kTick_s).specific_force_R->norm(), 3.72, 1e-12);
 }
 
@@ -186,7 +186,7 @@ TEST(LatencyTest, NothingFromBeforeAHandMoveArrivesAfterIt) {
     }
     sensors.Observe(before);
     const truth::RoverState after;
-    sensors.Resume(after);
+    sensors.Restart(after);
     for (int tick = 0; tick < 5; ++tick) {
       sensors.Observe(after);
       const messages::VehicleState seen = sensors.Measure(after, Rolling(), kTick_s);

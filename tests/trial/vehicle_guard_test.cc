@@ -52,7 +52,7 @@ TEST(VehicleGuardTest, TouchesFromBeforeAHandMoveAreForgotten) {
     EXPECT_TRUE(Feel(guard, touching));
     for (int tick = 0; tick < 4; ++tick) EXPECT_FALSE(Feel(guard, touching));
     ASSERT_NE(guard.hazard(), nullptr);
-    guard.Resume({});
+    guard.Restart({});
     EXPECT_EQ(guard.hazard(), nullptr);
     for (int tick = 0; tick < 6; ++tick) {
       EXPECT_FALSE(Feel(guard, {})) << latency;
@@ -87,7 +87,7 @@ TEST(VehicleGuardTest, TicksFromBeforeAHandMoveDoNotCount) {
   const truth::RoverState steep = Leaning(math::DegToRad(35.0));
   EXPECT_FALSE(Feel(guard, steep));
   EXPECT_FALSE(Feel(guard, steep));
-  guard.Resume(steep);
+  guard.Restart(steep);
   EXPECT_FALSE(Feel(guard, steep));
   EXPECT_FALSE(Feel(guard, steep));
   EXPECT_TRUE(Feel(guard, steep));  // the third in a row, as tilt_ticks asks
