@@ -29,7 +29,7 @@ class RoverDescription : public testing::TestWithParam<Described> {
                                   R"(.json", "physics": {"gravity_m_s2": )" +
                                   std::to_string(GetParam().gravity_m_s2) + "}}}",
                               {}, std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/rovers")
-          .rover;
+          .drive.rover;
   const double speed_m_s_ = params_.drive.speed_m_s;
   const terrain::Terrain flat_ = FlatTerrain();
   std::unique_ptr<Rover> rover_;

@@ -33,7 +33,7 @@ class RoverLinks : public testing::TestWithParam<const char*> {
  protected:
   RoverGeometryParams Geometry() const {
     return scenario::LoadScenario(std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/" + GetParam())
-        .rover.geometry;
+        .drive.rover.geometry;
   }
 };
 

@@ -66,7 +66,7 @@ class Urdf : public testing::TestWithParam<const char*> {
       scenario::ParseScenario(
           R"({"rover": {"extends": ")" + std::string(GetParam()) + R"(.json"}})", {},
           std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/rovers")
-          .rover;
+          .drive.rover;
   const RoverGeometry geometry_ = MakeRoverGeometry(params_.geometry);
   const urdf::ModelInterfaceSharedPtr model_ = urdf::parseURDF(WriteUrdf(params_));
 };
