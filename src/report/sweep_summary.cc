@@ -22,10 +22,10 @@ namespace {
 using scenario::Sweep;
 using scenario::SweepCell;
 using statistics::Interval;
+using statistics::kConfidence;
 using statistics::Proportion;
 using truth::Record;
 
-constexpr double kConfidence = 0.95;
 using core::kNaN;
 
 // With a stopping rule the number of trials depends on what they say, so that only the sequence

@@ -27,7 +27,7 @@ void Localizer::Integrate(const messages::MotionMeasurement& motion,
   true_attitude_ = sensing::TrueAttitude(state, start_z_m_);
 }
 
-void Localizer::Level(const messages::VehicleState& felt, double duration_s) {
+void Localizer::UpdateAttitude(const messages::VehicleState& felt, double duration_s) {
   attitude_.Integrate(felt, perception::ForwardStep(levelled_, pose()), duration_s);
   levelled_ = pose();
 }
