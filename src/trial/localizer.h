@@ -42,7 +42,7 @@ class Localizer {
   bool oracle_;
   perception::DeadReckoning dead_reckoning_;
   perception::AttitudeEstimator attitude_;
-  messages::PoseEstimate levelled_;  // pose at the last UpdateAttitude
+  messages::PoseEstimate last_pose_;  // pose at the last UpdateAttitude
   messages::AttitudeEstimate true_attitude_;
   double start_z_m_ = 0.0;
 };
