@@ -61,6 +61,7 @@ std::string NearestOption(const CLI::App& command, std::string_view word) {
 core::Problem ExplainOption(const CLI::App& app, const CLI::App& command,
                             const std::string& unknown, const CLI::ParseError& error) {
   const std::string text = error.what();
+  // The two options exclude each other; CLI11 names both and says no more.
   if (text.find("--trials") != std::string::npos &&
       text.find("--until-half-width") != std::string::npos) {
     return {"command line", text, "--max-trials bounds the trials of --until-half-width"};

@@ -24,6 +24,8 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
     before_last.swap(last);
     last.swap(row);
     row[0] = i;
+    // d(i, j) = min(d(i-1, j) + 1, d(i, j-1) + 1, d(i-1, j-1) + [a_i != b_j], and d(i-2, j-2) + 1
+    // where two neighbours are swapped). The rows i-2, i-1 and i are before_last, last and row.
     for (std::size_t j = 1; j < columns; ++j) {
       const std::size_t replaced = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
       row[j] = std::min({last[j] + 1, row[j - 1] + 1, replaced});

@@ -11,11 +11,13 @@
 
 namespace rockyard::report {
 
-// summary.json. Members: schema_version, scenario, seed, fingerprint, localization, ablations (in
-// force), trials (planned, stored, completed: the contiguous prefix that all else is about,
-// faults), declared_success and true_success (count, trials, rate, ci95, ci_method), outcomes
-// (every kind), distance_m, path_ratio, dead_reckoning, sim_time_s, energy_wh, columns (all
-// others), metrics and metrics_by_outcome, trial_hash, provenance. A column is {count, min, p05,
+// summary.json. Members: schema_version, scenario, seed, fingerprint, settings (what was changed on
+// the way from the file; null where that is not known), localization, ablations (in force), trials
+// (planned, stored, completed: the contiguous prefix that all else is about, faults), accounting
+// and, where the run has them, stopping and shard (accounting.h), declared_success and true_success
+// (count, trials, rate, ci95, ci_method), outcomes (every kind), distance_m, path_ratio,
+// dead_reckoning, sim_time_s, energy_wh, columns (all others), metrics and metrics_by_outcome,
+// trial_hash, provenance (as below, with threads, ranks, builds). A column is {count, min, p05,
 // median, mean, mode, p95, max, std}; a metric (statistics/metrics.h) {count, mean, ci95} and,
 // where it is no rate, {median, median_ci95, min, max, std}; metrics without a value are left out.
 // What is undefined is null.
@@ -24,10 +26,11 @@ core::JsonValue SummaryValue(const RunDescription& run, const statistics::DriveS
 std::string SummaryJson(const RunDescription& run, const statistics::DriveSummary& summary,
                         statistics::IntervalMethod method);
 
-// summary.json of an experiment that measures: schema_version, scenario, seed, fingerprint, trials,
-// widest_ci95 (by rate), simultaneous (how the intervals of all cells at once are made), cells (one
-// object per cell: cell, runs, factors, bases, rates with ci95 and ci95_all_cells, means),
-// trial_hash, provenance. No success rates: nothing drives.
+// summary.json of an experiment that measures: the same members up to accounting, stopping and
+// shard, then widest_ci95 (by rate), simultaneous (how the intervals of all cells at once are
+// made), planned_cells (how many these are), cells (one object per cell: cell, runs, factors,
+// bases, rates with ci95 and ci95_all_cells, means), trial_hash, provenance. No success rates:
+// nothing drives.
 core::JsonValue MeasurementValue(const RunDescription& run,
                                  const statistics::MeasurementSummary& summary,
                                  statistics::IntervalMethod method);

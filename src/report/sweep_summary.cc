@@ -19,14 +19,13 @@
 namespace rockyard::report {
 namespace {
 
+using core::kNaN;
 using scenario::Sweep;
 using scenario::SweepCell;
 using statistics::Interval;
+using statistics::kConfidence;
 using statistics::Proportion;
 using truth::Record;
-
-constexpr double kConfidence = 0.95;
-using core::kNaN;
 
 // With a stopping rule the number of trials depends on what they say, so that only the sequence
 // holds the rate as often as it states; trials on one layout are no independent ones.

@@ -85,12 +85,14 @@ class UrdfWriter {
     mimic.SetAttribute("offset", "0");
   }
 
-  // left_rocker_joint; of a knuckle left_front_steering_joint.
+  // Returns the name of the joint above a link: left_rocker_joint of left_rocker, but
+  // left_front_steering_joint of a knuckle.
   static std::string JointName(const Link& link) {
     if (link.joint != LinkJoint::kSteering) return link.name + "_joint";
     return link.name.substr(0, link.name.rfind('_')) + "_steering_joint";
   }
 
+  // Returns the mass of the simulated body that the link is, or is a part of.
   const BodyMass& MassOf(const Link& link) const {
     switch (link.joint) {
       case LinkJoint::kFixed:
@@ -106,7 +108,7 @@ class UrdfWriter {
     return masses_.wheel;
   }
 
-  // Of that mass.
+  // Returns the share of that mass that the link has: knuckle and steered wheel divide one.
   double ShareOf(const Link& link) const {
     if (link.joint == LinkJoint::kSteering) return kKnuckleShare;
     const bool steered = link.joint == LinkJoint::kWheel && geometry_.steered[link.index];

@@ -75,8 +75,8 @@ DriveSummary Summarize(const truth::RecordSchema& schema, std::span<const truth:
   const std::int64_t counted = summary.completed - summary.faults;
   const std::int64_t reached = summary.outcome(truth::TrialOutcome::kGoalReached);
   const std::int64_t believed = summary.outcome(truth::TrialOutcome::kFalseGoal);
-  summary.declared_success = MakeProportion(reached + believed, counted, 0.95, method);
-  summary.true_success = MakeProportion(reached, counted, 0.95, method);
+  summary.declared_success = MakeProportion(reached + believed, counted, kConfidence, method);
+  summary.true_success = MakeProportion(reached, counted, kConfidence, method);
   for (std::size_t i = 0; i < schema.size(); ++i) {
     if (schema[i].name == kPathRatio) continue;
     summary.columns.push_back(

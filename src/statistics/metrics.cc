@@ -104,7 +104,7 @@ std::vector<MetricSummary> SummarizeMetrics(const truth::RecordSchema& schema,
     for (std::size_t i = 0; outcome && i < records.size(); ++i) {
       if (records[i].outcome != *outcome) (*values)[i] = kNaN;
     }
-    summaries.push_back(SummarizeMetric(metric, *values, 0.95, method));
+    summaries.push_back(SummarizeMetric(metric, *values, kConfidence, method));
   }
   return summaries;
 }

@@ -186,7 +186,7 @@ std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const 
   for (const auto& hazard : guard_.Feel(rover_->state(), command, stretch.duration_s)) {
     Record("felt", Describe(hazard));
   }
-  localizer_.Level(guard_.measured(), stretch.duration_s);
+  localizer_.UpdateAttitude(guard_.measured(), stretch.duration_s);
   monitor_.Observe(rover_->state(), activity == Activity::kTurning);
   watch_.Observe(rover_->state().X_WR);
   Sample(activity);

@@ -33,7 +33,7 @@ namespace rockyard::trial {
 
 // One drive from the start to its end. Every control tick the navigator decides from what is
 // measured; the drive applies wheel commands for a few physics steps, hands the measurements to the
-// estimator, and shows the truth to the monitor and the referee.
+// localizer, and shows the truth to the monitor and the referee.
 class Drive {
  public:
   Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
@@ -52,6 +52,7 @@ class Drive {
 
   // Holds the command for so many physics steps.
   void ApplyCommand(const messages::WheelCommand& command, std::int64_t steps);
+  // The pose that the rover believes takes one stretch of encoders and gyro (localizer.h).
   void UpdateEstimate(double duration_s, bool moving);
   void ReflectAtMirrorLine(int direction);
   std::optional<Verdict> AskReferee(Activity activity, int direction, double duration_s);

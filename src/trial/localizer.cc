@@ -10,7 +10,7 @@ Localizer::Localizer(const DriveParams& drive, const math::Pose2& start)
       dead_reckoning_(OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive),
                       drive.perception.dead_reckoning, start),
       attitude_(drive.perception.attitude),
-      levelled_(dead_reckoning_.estimate()) {}
+      last_pose_(dead_reckoning_.estimate()) {}
 
 void Localizer::Place(const truth::RoverState& state) {
   start_z_m_ = state.X_WR.translation().z();
@@ -27,9 +27,9 @@ void Localizer::Integrate(const messages::MotionMeasurement& motion,
   true_attitude_ = sensing::TrueAttitude(state, start_z_m_);
 }
 
-void Localizer::Level(const messages::VehicleState& felt, double duration_s) {
-  attitude_.Integrate(felt, perception::ForwardStep(levelled_, pose()), duration_s);
-  levelled_ = pose();
+void Localizer::UpdateAttitude(const messages::VehicleState& felt, double duration_s) {
+  attitude_.Integrate(felt, perception::ForwardStep(last_pose_, pose()), duration_s);
+  last_pose_ = pose();
 }
 
 double Localizer::HeightError(const truth::RoverState& state) const {
@@ -39,7 +39,7 @@ double Localizer::HeightError(const truth::RoverState& state) const {
 void Localizer::Apply(const messages::PoseUpdate& update) {
   dead_reckoning_.Apply(update);
   attitude_.Restart();
-  levelled_ = pose();
+  last_pose_ = pose();
 }
 
 }  // namespace rockyard::trial

@@ -25,7 +25,7 @@ class Localizer {
   void Integrate(const messages::MotionMeasurement& motion, const truth::RoverState& state);
 
   // What the rover felt over the last `duration_s` > 0, after Integrate.
-  void Level(const messages::VehicleState& felt, double duration_s);
+  void UpdateAttitude(const messages::VehicleState& felt, double duration_s);
 
   // Operators moved the rover by hand.
   void Apply(const messages::PoseUpdate& update);
@@ -42,7 +42,7 @@ class Localizer {
   bool oracle_;
   perception::DeadReckoning dead_reckoning_;
   perception::AttitudeEstimator attitude_;
-  messages::PoseEstimate levelled_;  // pose at the last Level
+  messages::PoseEstimate last_pose_;  // pose at the last UpdateAttitude
   messages::AttitudeEstimate true_attitude_;
   double start_z_m_ = 0.0;
 };

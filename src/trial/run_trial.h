@@ -1,4 +1,4 @@
-// One closed-loop drive: terrain, rover, sensors, estimator, navigator, referee.
+// One closed-loop drive: terrain, rover, sensors, localizer, navigator, referee.
 #pragma once
 
 #include <string>

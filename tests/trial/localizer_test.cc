@@ -64,7 +64,7 @@ TEST(LocalizerTest, WithoutAccelerometersTheRoverIsLevel) {
   Localizer localizer(With(Localization::kDeadReckoning), {});
   localizer.Place(StateAt({0.0, 0.0, 0.1}, 0.0, 0.0, 0.0));
   localizer.Integrate(kTick, StateAt({0.4, 0.3, 0.25}, 0.5, -0.2, 0.1));
-  localizer.Level({}, 0.05);
+  localizer.UpdateAttitude({}, 0.05);
   EXPECT_EQ(localizer.pose().x_m, 0.0);  // no wheel turned
   EXPECT_EQ(localizer.attitude().pitch_rad, 0.0);
   EXPECT_EQ(localizer.attitude().z_m, 0.0);
@@ -75,7 +75,7 @@ TEST(LocalizerTest, AccelerometersLevelTheRover) {
   messages::VehicleState felt;
   // Nose down by p: the upward force points backwards, f = g (-sin p, 0, cos p).
   felt.specific_force_R = 9.81 * math::Vector3(-std::sin(0.2), 0.0, std::cos(0.2));
-  localizer.Level(felt, 0.05);
+  localizer.UpdateAttitude(felt, 0.05);
   EXPECT_NEAR(localizer.attitude().pitch_rad, 0.2, 1e-12);
   EXPECT_NEAR(localizer.attitude().roll_rad, 0.0, 1e-12);
 }
