@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "batch/run_folder.h"
+#include "campaign/heeded_work.h"
 #include "campaign/plan_checks.h"
 #include "core/error.h"
 #include "experiments/experiment.h"
@@ -72,12 +73,13 @@ std::vector<core::Problem> FaultProblems(const OpenedRun& run, const batch::Batc
 class Campaign {
  public:
   Campaign(const CampaignRequest& request, const CampaignPlanner& planner,
-           const CampaignReporter& reporter, const RunObserver& observer, Journal& journal)
+           const CampaignReporter& reporter, const RunObserver& observer, const Contact& contact)
       : request_(request),
         planner_(planner),
         reporter_(reporter),
         observer_(observer),
-        journal_(journal) {}
+        contact_(contact),
+        journal_(contact.journal) {}
 
   Outcome Run(CampaignProcess& process) const {
     const CampaignPlan plan = planner_();
@@ -97,13 +99,17 @@ class Campaign {
   // Traces of the trials that the rules keep, once all are stored.
   Outcome Trace(CampaignProcess& process) const {
     const std::filesystem::path folder = OpeningOf(request_, planner_()).folder;
-    const TraceRequest traces{.retention = request_.traces.retention(),
-                              .format = request_.traces.form(),
-                              .threads = batch::ThreadCount({.threads = process.threads()}),
-                              .progress = observer_.traces};
+    TraceRequest traces{.retention = request_.traces.retention(),
+                        .format = request_.traces.form(),
+                        .threads = batch::ThreadCount({.threads = process.threads()})};
     try {
       const batch::FolderClaim claim(folder);
       return process.Afterwards([&](const batch::Mission& mission, batch::FlightLog& log) {
+        traces.progress = [&](const TraceProgress& progress, Moment moment) {
+          if (observer_.traces) observer_.traces(progress, moment);
+          AskToStop(contact_.stop, log);
+        };
+        AskToStop(contact_.stop, log);
         const Outcome outcome = WriteTraces(folder, traces, mission, log, journal_);
         const bool last = mission.task != batch::Mission::Task::kRunAlone;
         if (last && observer_.traced) observer_.traced(folder, outcome);
@@ -177,6 +183,7 @@ class Campaign {
   const CampaignPlanner& planner_;
   const CampaignReporter& reporter_;
   const RunObserver& observer_;
+  const Contact& contact_;
   Journal& journal_;
 };
 
@@ -194,7 +201,7 @@ OpenRequest OpeningOf(const CampaignRequest& request, const CampaignPlan& plan) 
 Outcome RunCampaign(const CampaignRequest& request, const CampaignPlanner& planner,
                     const CampaignReporter& reporter, const RunObserver& observer,
                     const Contact& contact) {
-  const Campaign campaign(request, planner, reporter, observer, contact.journal);
+  const Campaign campaign(request, planner, reporter, observer, contact);
   const CampaignPart run = [&](CampaignProcess& process) { return campaign.Run(process); };
   if (request.traces.rules.empty()) return RunContained(request.containment, contact, run);
   return RunContained(request.containment, contact, run,

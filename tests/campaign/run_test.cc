@@ -136,5 +136,21 @@ TEST_F(SmallRuns, TracesAreToldOf) {
   EXPECT_TRUE(std::filesystem::exists(Path("a") / "traces" / "trial-000001.csv"));
 }
 
+TEST_F(SmallRuns, TracesStopAndGoOn) {
+  RunRequest request = Request("a", 4);
+  request.campaign.traces = {.rules = {"all"}, .format = "csv"};
+  std::size_t written = 0;
+  RunObserver observer;
+  observer.traces = [&](const TraceProgress& progress, Moment) { written = progress.written; };
+  const Stop stop{.wanted = [&] { return written >= 2; }};
+  const WorkResult stopped = campaign::Run(request, observer, stop);
+  EXPECT_EQ(stopped.outcome, Outcome::kInterrupted);
+  EXPECT_EQ(stopped.trials.finished, 4);
+  EXPECT_EQ(written, 2U);
+  request.campaign.existing = ExistingRun::kResume;
+  EXPECT_EQ(campaign::Run(request, observer).outcome, Outcome::kDone);
+  EXPECT_EQ(written, 4U);
+}
+
 }  // namespace
 }  // namespace rockyard::campaign
