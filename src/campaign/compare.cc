@@ -17,13 +17,13 @@ std::string TextAt(const core::JsonValue* value) {
   return text ? value->text() : std::string("unknown");
 }
 
-// What a run is of, as its scenario says.
+// What a run is of, as its scenario says: an experiment, or that study of it where it has several.
 std::string ExperimentOf(const StoredRun& run) {
   const core::JsonValue document = core::ParseJson(run.identity.resolved, "resolved scenario");
   const std::string experiment = TextAt(document.Find("experiment"));
-  if (!truth::IsMeasurement(run.schema)) return "experiment " + experiment;
   const core::JsonValue* group = document.Find(experiment);
   const core::JsonValue* study = group == nullptr ? nullptr : group->Find("study");
+  if (study == nullptr) return "experiment " + experiment;
   return "study " + TextAt(study) + " of experiment " + experiment;
 }
 

@@ -48,6 +48,7 @@ enum class Purpose : std::uint32_t {
   kStereoDropout = 34,
   kStereoMismatch = 35,
   kGoalDesignation = 39,
+  kExperiment = 40,  // what an experiment draws for itself: it numbers its own substreams
 };
 
 // Raw Philox 4x32-10 bijection of one counter under one key.

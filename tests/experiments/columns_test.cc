@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <string_view>
 
+#include "core/json_file.h"
+#include "core/json_value.h"
 #include "experiments/drive/drive_experiment.h"
 #include "experiments/experiment.h"
 #include "experiments/hazard_scenarios.h"
+#include "scenario/load.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::experiments {
@@ -30,21 +34,35 @@ truth::RecordSchema WithoutRoles(truth::RecordSchema schema) {
   return schema;
 }
 
+void ExpectRolesBack(const scenario::Scenario& scenario) {
+  const auto experiment = MakeExperiment(scenario);
+  const truth::RecordSchema& schema = experiment->schema();
+  const truth::RecordSchema stored = WithRoles(WithoutRoles(schema));
+  ASSERT_EQ(stored.size(), schema.size());
+  for (std::size_t i = 0; i < schema.size(); ++i) {
+    EXPECT_EQ(stored[i].name, schema[i].name);
+    EXPECT_EQ(stored[i].role, schema[i].role) << scenario.name << " " << schema[i].name;
+    EXPECT_EQ(stored[i].of, schema[i].of) << scenario.name << " " << schema[i].name;
+  }
+}
+
 // Drives and measurements both count "scans", which only the latter add up.
 TEST(WithRolesTest, GivesAStoredSchemaTheRolesOfItsExperiment) {
   for (const char* name : {"detection", "approach", "false_alarm", "missed", "precision"}) {
-    const auto experiment = MakeExperiment(HazardScenario(name));
-    const truth::RecordSchema& schema = experiment->schema();
-    const truth::RecordSchema stored = WithRoles(WithoutRoles(schema));
-    ASSERT_EQ(stored.size(), schema.size());
-    for (std::size_t i = 0; i < schema.size(); ++i) {
-      EXPECT_EQ(stored[i].name, schema[i].name);
-      EXPECT_EQ(stored[i].role, schema[i].role) << name << " " << schema[i].name;
-      EXPECT_EQ(stored[i].of, schema[i].of) << name << " " << schema[i].name;
-    }
+    ExpectRolesBack(HazardScenario(name));
   }
   for (const truth::ValueInfo& column : WithRoles(DriveSchema())) {
     EXPECT_EQ(column.role, truth::ColumnRole::kValue) << column.name;
+  }
+}
+
+// A new experiment whose columns were left out would lose its rates when a run is resumed.
+TEST(WithRolesTest, KnowsTheColumnsOfEveryExperiment) {
+  for (const std::string_view name : core::EnumNames<ExperimentKind>::kNames) {
+    core::JsonValue document = core::JsonValue::Object();
+    core::SetPath(document, "name", core::JsonValue(name));
+    core::SetPath(document, "experiment", core::JsonValue(name));
+    ExpectRolesBack(scenario::ReadScenario(document));
   }
 }
 
