@@ -4,6 +4,7 @@
 // Usage: hash_trials SCENARIO TRIALS THREADS [PATH=VALUE]...
 // Exit code 0; 2: bad usage or scenario.
 #include <atomic>
+#include <cstdint>
 #include <cstdlib>
 #include <iostream>
 #include <memory>
@@ -29,7 +30,7 @@ class CountedTrials final : public WorkSource {
   std::optional<TrialId> Take() override {
     const std::size_t next = next_++;
     if (next >= records_.size()) return std::nullopt;
-    return TrialId{.cell = 0, .trial = next};
+    return TrialId{.cell = 0, .trial = static_cast<std::int64_t>(next)};
   }
 
   void Finish(CellRecord record) override {
@@ -47,7 +48,7 @@ class CountedTrials final : public WorkSource {
 };
 
 std::string HashOfTrials(const scenario::Scenario& scenario, std::int64_t trials, int threads) {
-  const auto experiment = experiments::MakeExperiment(scenario);
+  const auto experiment = experiments::MakeExperiment(scenario.experiment, scenario.drive);
   const std::vector<CellWork> work{{experiment.get(), static_cast<std::uint64_t>(scenario.seed)}};
   CountedTrials source(trials);
   RunTrials(work, source, threads);
