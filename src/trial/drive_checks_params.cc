@@ -106,7 +106,7 @@ void RequireFreeEnds(const DriveParams& drive, core::FieldVisitor& v) {
 }
 
 // A goal beyond a mirror line is never reached: the rover is turned back there.
-void RequireToldGoals(const DriveParams& drive, core::FieldVisitor& v) {
+void RequireDesignatedGoals(const DriveParams& drive, core::FieldVisitor& v) {
   const CourseParams& course = drive.course;
   const terrain::ArenaParams& arena = drive.terrain.arena;
   if (!course.designation.enabled || arena.kind != terrain::ArenaKind::kVirtualReflected) return;
@@ -147,7 +147,7 @@ void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v) {
   if (stereo && behaviour) RequireArray(drive, v);
   if (map) RequireOwnSize(drive, v);
   RequireFreeEnds(drive, v);
-  RequireToldGoals(drive, v);
+  RequireDesignatedGoals(drive, v);
 }
 
 }  // namespace rockyard::trial
