@@ -10,6 +10,9 @@
 # rockyard_label_test(NAME KIND [SLOW])
 #   The same two labels for a test that is no GoogleTest.
 #
+# rockyard_tests_need_command()
+#   The command is built with the tests of this folder.
+#
 # rockyard_benchmark(NAME SOURCES ... [DEPENDS module ...] [LIBRARIES target ...])
 #   one Google Benchmark executable; nothing is built when ROCKYARD_BUILD_BENCHMARKS is off.
 
@@ -71,6 +74,12 @@ function(rockyard_label_test NAME KIND)
     set(tier full)
   endif()
   set_tests_properties(${NAME} PROPERTIES LABELS "${label};${tier}")
+endfunction()
+
+function(rockyard_tests_need_command)
+  cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME folder)
+  add_custom_target(${folder}_tests_need_command ALL)
+  add_dependencies(${folder}_tests_need_command rockyard)
 endfunction()
 
 function(rockyard_benchmark NAME)
