@@ -34,8 +34,7 @@ class JsonValue {
   explicit JsonValue(List values);
   // Up to the largest std::int64_t.
   template <std::integral Integer>
-  requires(!std::same_as<Integer, bool>) explicit JsonValue(Integer value)
-      : data_(static_cast<std::int64_t>(value)) {}
+  requires(!std::same_as<Integer, bool>) explicit JsonValue(Integer value);
 
   static JsonValue Object();
   // Of members in their order; no two may have the same key. They are copied: large values are
@@ -88,6 +87,10 @@ struct JsonMember {
   std::string key;
   JsonValue value;
 };
+
+template <std::integral Integer>
+requires(!std::same_as<Integer, bool>) JsonValue::JsonValue(Integer value)
+    : JsonValue(static_cast<std::int64_t>(value)) {}
 
 // A list of plain values.
 template <typename Values>

@@ -15,8 +15,11 @@ namespace rockyard::core {
 template <typename Value>
 class Result {
  public:
-  Result(Value value) : value_(std::move(value)) {}
-  Result(std::vector<Problem> problems) : problems_(std::move(problems)) {
+  // Implicit, so that a function returns either in plain words.
+  Result(Value value)  // NOLINT(google-explicit-constructor): see above
+      : value_(std::move(value)) {}
+  Result(std::vector<Problem> problems)  // NOLINT(google-explicit-constructor): see above
+      : problems_(std::move(problems)) {
     EXPECT(!problems_.empty());
   }
 
