@@ -47,19 +47,6 @@ void ReadEntry(batch::PacketReader& packet, Account& account) {
   }
 }
 
-// What is told counts; an account that the machine has no memory for is only shorter.
-void AppendTo(int file, const std::string& bytes) {
-  const char* at = bytes.data();
-  std::size_t left = bytes.size();
-  while (left > 0) {
-    const ssize_t written = write(file, at, left);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return;
-    at += written;
-    left -= static_cast<std::size_t>(written);
-  }
-}
-
 }  // namespace
 
 Journal::Journal(const Observer& observer)
@@ -75,18 +62,18 @@ void Journal::Fail(const std::vector<core::Problem>& problems) {
   for (const core::Problem& problem : problems) {
     packet.Integer(kProblem).Text(problem.path).Text(problem.reason).Text(problem.suggestion);
   }
-  AppendTo(file_, packet.bytes());
+  Append(packet.bytes());
   if (observer_.problems) observer_.problems(problems);
 }
 
 void Journal::SetFolder(const std::filesystem::path& folder) {
-  AppendTo(file_, batch::PacketWriter().Integer(kFolder).Text(folder.string()).bytes());
+  Append(batch::PacketWriter().Integer(kFolder).Text(folder.string()).bytes());
 }
 
 void Journal::SetTrials(const TrialCounts& trials) {
   batch::PacketWriter packet;
   packet.Integer(kTrials).Integer(trials.planned).Integer(trials.finished).Integer(trials.faults);
-  AppendTo(file_, packet.bytes());
+  Append(packet.bytes());
 }
 
 Account Journal::Read() const {
@@ -104,10 +91,23 @@ Account Journal::Read() const {
   return account;
 }
 
+// What is told counts; an account that the machine has no memory for is only shorter.
+void Journal::Append(const std::string& bytes) {
+  const char* at = bytes.data();
+  std::size_t left = bytes.size();
+  while (left > 0) {
+    const ssize_t written = write(file_, at, left);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return;
+    at += written;
+    left -= static_cast<std::size_t>(written);
+  }
+}
+
 void Journal::Write(const Note& note) {
   batch::PacketWriter packet;
   packet.Integer(kNote).Integer(static_cast<std::int64_t>(note.kind)).Text(note.text);
-  AppendTo(file_, packet.bytes());
+  Append(packet.bytes());
   if (observer_.note) observer_.note(note);
 }
 

@@ -49,6 +49,7 @@ class Journal {
 
  private:
   void Write(const Note& note);
+  void Append(const std::string& bytes);
 
   const Observer& observer_;
   int file_;
