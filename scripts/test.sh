@@ -77,19 +77,18 @@ scripts/install_dependencies.sh $groups
 # Quickstart configures the release preset without tests.
 cmake --preset "$preset" -DROCKYARD_BUILD_TESTS=ON
 
-run_tests() {  # [option of ctest]...
-  if [ "$tier" = fast ]; then set -- "$@" -L '^fast$'; fi
-  if [ -n "$label" ]; then set -- "$@" -L "$label"; fi
-  if [ -n "$exclude" ]; then set -- "$@" -LE "$exclude"; fi
-  ctest --preset "$preset" -j "$jobs" "$@" --no-tests=error --output-on-failure
-}
+targets=""
+wanted=""  # tests/navigation|tests/trial: labels of folders
+for folder in $folders; do
+  targets="$targets tests/$folder/all"
+  wanted="${wanted:+$wanted|}tests/$folder"
+done
+# shellcheck disable=SC2086  # a list of words
+cmake --build --preset "$preset" -j "$jobs" ${targets:+--target $targets}
 
-if [ -z "$folders" ]; then
-  cmake --build --preset "$preset" -j "$jobs"
-  run_tests
-else
-  for folder in $folders; do
-    cmake --build --preset "$preset" -j "$jobs" --target "tests/$folder/all"
-    run_tests --test-dir "build/$preset/tests/$folder"
-  done
-fi
+set -- --preset "$preset" -j "$jobs"
+if [ -n "$wanted" ]; then set -- "$@" -L "^($wanted)\$"; fi
+if [ "$tier" = fast ]; then set -- "$@" -L '^fast$'; fi
+if [ -n "$label" ]; then set -- "$@" -L "$label"; fi
+if [ -n "$exclude" ]; then set -- "$@" -LE "$exclude"; fi
+ctest "$@" --no-tests=error --output-on-failure

@@ -3,12 +3,12 @@
 # rockyard_test(NAME [UNIT file ...] [PROPERTY file ...] [PHYSICS file ...] [DIFFERENTIAL file ...]
 #               [STATISTICAL file ...] [DETERMINISM file ...] [FUZZ file ...] [CLI file ...]
 #               [SLOW file ...] [HELPERS file ...] [DEPENDS module ...] [LIBRARIES target ...])
-#   One GoogleTest executable of a folder of tests. Every test carries two labels: its kind, from the
-#   list that its file stands in, and its tier: `full` where the file is listed under SLOW too,
-#   `fast` where not. HELPERS are compiled but hold no tests.
+#   One GoogleTest executable of a folder of tests. Every test carries three labels: its kind, from the
+#   list that its file stands in; its tier, `full` where the file is listed under SLOW too, `fast`
+#   where not; and its folder, as in tests/navigation. HELPERS are compiled but hold no tests.
 #
 # rockyard_label_test(NAME KIND [SLOW])
-#   The same two labels for a test that is no GoogleTest.
+#   The same labels for a test that is no GoogleTest.
 #
 # rockyard_tests_need_command()
 #   The command is built with the tests of this folder.
@@ -22,11 +22,18 @@ set(ROCKYARD_TEST_OPTIMIZATION $<$<CONFIG:Release>:-O1>)
 
 set(ROCKYARD_TEST_KINDS UNIT PROPERTY PHYSICS DIFFERENTIAL STATISTICAL DETERMINISM FUZZ CLI)
 
+# Sets VARIABLE to "tests/<folder>" of the folder that is being read.
+function(rockyard_folder_label VARIABLE)
+  cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME folder)
+  set(${VARIABLE} tests/${folder} PARENT_SCOPE)
+endfunction()
+
 function(rockyard_test NAME)
   cmake_parse_arguments(ARG "" "" "${ROCKYARD_TEST_KINDS};SLOW;HELPERS;DEPENDS;LIBRARIES" ${ARGN})
   if(ARG_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "rockyard_test(${NAME}): unknown arguments ${ARG_UNPARSED_ARGUMENTS}")
   endif()
+  rockyard_folder_label(folder)
   set(sources)
   set(labels)
   foreach(kind ${ROCKYARD_TEST_KINDS})
@@ -38,7 +45,7 @@ function(rockyard_test NAME)
         set(tier full)
       endif()
       cmake_path(ABSOLUTE_PATH file NORMALIZE)
-      string(APPEND labels "${file}\t${label};${tier}\n")
+      string(APPEND labels "${file}\t${label};${tier};${folder}\n")
     endforeach()
   endforeach()
   foreach(file ${ARG_SLOW})
@@ -58,6 +65,7 @@ function(rockyard_test NAME)
 
   # The program itself knows its tests and the file of each.
   set(list ${CMAKE_CURRENT_BINARY_DIR}/${NAME}_tests.cmake)
+  set_property(TARGET ${NAME} APPEND PROPERTY LINK_DEPENDS ${labels_file})
   add_custom_command(TARGET ${NAME} POST_BUILD BYPRODUCTS ${list}
     COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/scripts/cmake/list_tests.py
             $<TARGET_FILE:${NAME}> ${labels_file} ${list} VERBATIM)
@@ -73,7 +81,8 @@ function(rockyard_label_test NAME KIND)
   if("${ARGN}" STREQUAL "SLOW")
     set(tier full)
   endif()
-  set_tests_properties(${NAME} PROPERTIES LABELS "${label};${tier}")
+  rockyard_folder_label(folder)
+  set_tests_properties(${NAME} PROPERTIES LABELS "${label};${tier};${folder}")
 endfunction()
 
 function(rockyard_tests_need_command)

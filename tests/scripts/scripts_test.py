@@ -206,10 +206,9 @@ class TestScript(ScriptTest):
         self.run_script("test.sh", "--fast", "navigation", "trial/", "--jobs", "2")
         builds = [line for line in self.called("cmake") if line.startswith("--build")]
         self.assertEqual([line.split("--target ")[1] for line in builds],
-                         ["tests/navigation/all", "tests/trial/all"])
-        for line, folder in zip(self.called("ctest"), ("navigation", "trial"), strict=True):
-            self.assertIn(f"build/test/tests/{folder}", line)
-            self.assertIn("-L ^fast$", line)
+                         ["tests/navigation/all tests/trial/all"])
+        self.assertEqual(len(self.called("ctest")), 1)
+        self.assertIn("-L ^(tests/navigation|tests/trial)$ -L ^fast$", self.called("ctest")[0])
 
     def test_last_test_says_what_ran_and_how_it_ended(self):
         self.run_script("test.sh")
