@@ -9,6 +9,7 @@
 #include <ctime>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <numeric>
 #include <stdexcept>
 
@@ -95,6 +96,15 @@ Source NewBuffer() {
   return buffer;
 }
 
+// Archives are opened one at a time: libzip before 1.9 looks up in unguarded static variables,
+// which the first call fills, whether it may write (github.com/nih-at/libzip/issues/289), and a
+// second thread could be told "Read-only archive".
+Archive OpenToWrite(zip_source_t& buffer, zip_error_t& error) {
+  static std::mutex opening;
+  const std::lock_guard lock(opening);
+  return {zip_open_from_source(&buffer, ZIP_TRUNCATE, &error), &zip_discard};
+}
+
 void AddFile(zip_t& archive, const std::string& name, const std::string& bytes) {
   zip_source_t* source = zip_source_buffer(&archive, bytes.data(), bytes.size(), 0);
   if (source == nullptr) Fail(name, zip_strerror(&archive));
@@ -175,7 +185,7 @@ std::string NpzFile::Bytes() const {
   zip_error_init(&error);
   // The archive frees a source of its own at its end: keep ours beyond that.
   zip_source_keep(buffer.get());
-  Archive archive(zip_open_from_source(buffer.get(), ZIP_TRUNCATE, &error), &zip_discard);
+  Archive archive = OpenToWrite(*buffer, error);
   if (!archive) {
     zip_source_free(buffer.get());
     Fail("zip", zip_error_strerror(&error));
