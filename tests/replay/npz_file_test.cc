@@ -4,12 +4,10 @@
 #include <gmock/gmock.h>
 #include <zip.h>
 
-#include <barrier>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -18,7 +16,6 @@
 namespace rockyard::replay {
 namespace {
 
-using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -81,22 +78,6 @@ TEST(NpzFile, NumbersLieAsTheyAre) {
 }
 
 TEST(NpzFile, EqualArraysGiveEqualBytes) { EXPECT_EQ(Sample().Bytes(), Sample().Bytes()); }
-
-// The first archives of a process were refused now and then where threads opened them together.
-TEST(NpzFile, ThreadsMakeTheFirstArchivesTogether) {
-  constexpr std::size_t kThreads = 8;
-  std::barrier start(kThreads);
-  std::vector<std::string> bytes(kThreads);
-  const auto make = [&](std::size_t i) {
-    const NpzFile file = Sample();
-    start.arrive_and_wait();
-    bytes[i] = file.Bytes();
-  };
-  std::vector<std::jthread> threads;
-  for (std::size_t i = 0; i < kThreads; ++i) threads.emplace_back(make, i);
-  threads.clear();
-  EXPECT_THAT(bytes, Each(Sample().Bytes()));
-}
 
 #ifdef ROCKYARD_CONTRACTS
 TEST(NpzFile, AShapeThatDoesNotFitOrANameTwiceIsADefect) {
