@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <string>
@@ -18,9 +19,7 @@ using testing::HasSubstr;
 class JsonFileTest : public testing::Test {
  protected:
   JsonFileTest()
-      : folder_(fs::path(testing::TempDir()) /
-                ("json_file_" +
-                 std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
+      : folder_(fs::path(testing::TempDir()) / ("json_file_" + std::to_string(getpid()))) {
     fs::create_directories(folder_ / "sub");
   }
   void TearDown() override { fs::remove_all(folder_); }

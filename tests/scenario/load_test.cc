@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -174,7 +175,8 @@ TEST(LoadTest, FingerprintSeesWhatDecidesATrialAndNothingElse) {
 
 class LoadFileTest : public testing::Test {
  protected:
-  LoadFileTest() : folder_(fs::path(testing::TempDir()) / "scenario_load_test") {
+  LoadFileTest()
+      : folder_(fs::path(testing::TempDir()) / ("scenario_load_test-" + std::to_string(getpid()))) {
     fs::create_directories(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }
