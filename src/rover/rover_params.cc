@@ -97,6 +97,17 @@ void RoverDriveParams::Visit(core::FieldVisitor& v) {
           .max = 1.0,
           .origin = Origin::kPublished,
           .source = "Matthies 1995 sec. 5"});
+  v.Real("ramp_s", ramp_s,
+         {.doc = "time in which the drive motors come from rest to speed_m_s, or from it to rest, "
+                 "at constant acceleration; 0: at once",
+          .min = 0.0,
+          .max = 10.0,
+          .origin = Origin::kAssumed,
+          .source = "not known of Rocky 3.2: between motors that are switched on and off, as "
+                    "MFEX's are, and the gentle profiles of later research rovers; the middle of "
+                    "the range",
+          .study_low = 0.0,
+          .study_high = 0.2});
   v.Real("stall_torque_Nm", stall_torque_Nm,
          {.doc = "largest torque of a drive motor at the wheel",
           .min = 0.01,

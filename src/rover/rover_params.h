@@ -28,6 +28,7 @@ struct RoverMassParams {
 
 struct RoverDriveParams {
   double speed_m_s = 0.15;
+  double ramp_s = 0.1;
   double stall_torque_Nm = 4.0;
   double steer_rate_rad_s = math::DegToRad(60.0);
   double max_steer_rad = math::DegToRad(60.0);

@@ -50,14 +50,17 @@ struct ClockParams {
          .source = "0.75 cm of driving and 1.3 deg of turning in place a tick",
          .study_low = 10.0,
          .study_high = 60.0});
-    v.Real("stop_time_s", stop_time_s,
-           {.doc = "time with braked wheels before a scan, in whole steps of the rover",
-            .min = 0.0,
-            .max = 10.0,
-            .origin = Origin::kAssumed,
-            .source = "one control tick; motors hold at once",
-            .study_low = 0.05,
-            .study_high = 0.5});
+    v.Real(
+        "stop_time_s", stop_time_s,
+        {.doc =
+             "time before a scan, beyond rover.drive.ramp_s in which the motors come to rest, in "
+             "whole steps of the rover",
+         .min = 0.0,
+         .max = 10.0,
+         .origin = Origin::kAssumed,
+         .source = "one control tick, in which the body comes to rest behind its wheels",
+         .study_low = 0.05,
+         .study_high = 0.5});
     v.Group("compute", compute, "what stereo and navigation take");
   }
 };

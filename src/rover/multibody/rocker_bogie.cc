@@ -59,7 +59,8 @@ RockerBogie::RockerBogie(const RoverParams& params, const terrain::Terrain& terr
       terrain_(terrain),
       body_(params),
       finder_(params.geometry, terrain),
-      solver_(params, terrain.ground().soil()) {}
+      solver_(params, terrain.ground().soil()),
+      motors_(params) {}
 
 RockerBogie::RockerBogie(const RoverParams& params, const terrain::RockHoldingParams& holding,
                          terrain::Terrain& terrain)
@@ -99,6 +100,7 @@ void RockerBogie::Place(const math::Pose2& X_WR) {
   finder_.Clear();
   solver_.Clear();
   if (loose_rocks_) loose_rocks_->Clear();
+  motors_.Reset();
   Settle();
   body_.StopMotion();
   // What the wheels turned while settling is not driving: it is taken off the angle.
@@ -111,7 +113,7 @@ void RockerBogie::Place(const math::Pose2& X_WR) {
 // Wheels braked, the rover sinks onto its contacts; velocities are damped from step to step, which
 // leaves the loads as they are at rest.
 void RockerBogie::Settle() {
-  const messages::PerWheel<double> braked{};
+  const MotorRates braked{};
   const int steps = static_cast<int>(kSettleTime_s / params_.physics.step_s);
   int slow_steps = 0;
   for (int i = 0; i < steps && slow_steps < kSettledSteps; ++i) {
@@ -137,22 +139,23 @@ void RockerBogie::Step(const messages::WheelCommand& command) {
     const double change = std::clamp(wanted - state_.steer_rad[i], -max_rad, max_rad);
     if (change != 0.0) SetSteer(i, state_.steer_rad[i] + change);
   }
-  messages::PerWheel<double> rate_rad_s = command.rate_rad_s;
+  MotorRates rates = motors_.Advance(command.rate_rad_s, step_s());
   // One physics step stands for time_scale steps of real time: rates are as many times faster
   // inside.
-  for (double& rate : rate_rad_s) rate *= params_.physics.time_scale;
-  Advance(rate_rad_s);
+  for (double& rate : rates.from) rate *= params_.physics.time_scale;
+  for (double& rate : rates.to) rate *= params_.physics.time_scale;
+  Advance(rates);
   UpdateState();
 }
 
 // v* = v + h M^-1 f, impulses of all constraints on v*, positions with the new v (semi-implicit
 // Euler).
-void RockerBogie::Advance(const messages::PerWheel<double>& rate_rad_s) {
+void RockerBogie::Advance(const MotorRates& rates) {
   const double h = params_.physics.step_s;
   body_.UpdatePoses();
   finder_.Update(body_);
   body_.Accelerate(params_.physics.gravity_m_s2, h, mass_inverse_);
-  solver_.Solve(mass_inverse_, rate_rad_s, loose_rocks_ ? &*loose_rocks_ : nullptr, finder_, body_);
+  solver_.Solve(mass_inverse_, rates.to, loose_rocks_ ? &*loose_rocks_ : nullptr, finder_, body_);
   CheckMotion(body_.Velocity());
   body_.Move(h);
   if (loose_rocks_) loose_rocks_->Move(finder_);

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "rover/motor_ramp.h"
 #include "rover/multibody/constraint_solver.h"
 #include "rover/multibody/contact_finder.h"
 #include "rover/multibody/loose_rocks.h"
@@ -30,7 +31,7 @@ class RockerBogie final : public Rover {
  private:
   math::Transform LiftedPose(const math::Pose2& X_WR) const;
   void SetSteer(std::size_t wheel, double angle_rad);
-  void Advance(const messages::PerWheel<double>& rate_rad_s);
+  void Advance(const MotorRates& rates);
   void Settle();
   void UpdateState();
   void UpdateContacts(const DofVector& velocity);
@@ -42,6 +43,7 @@ class RockerBogie final : public Rover {
   Multibody body_;
   ContactFinder finder_;
   ConstraintSolver solver_;
+  MotorRamp motors_;
   std::optional<LooseRocks> loose_rocks_;
   DofMatrix mass_inverse_ = DofMatrix::Zero();
   messages::PerWheel<double> angle_at_place_rad_{};

@@ -1,0 +1,37 @@
+// How the drive motors come from one set point to the next.
+#pragma once
+
+#include "messages/wheels.h"
+#include "rover/rover_params.h"
+
+namespace rockyard::rover {
+
+// The rates, rad/s, at which the motors are driven within one step: linear from `from` to `to`.
+// Where a ramp ends within the step, `from` is what gives the same mean rate: a jump begins at
+// `to`.
+struct MotorRates {
+  messages::PerWheel<double> from{};
+  messages::PerWheel<double> to{};
+};
+
+// The rates that the motors are driven at: they follow the commanded ones with a bounded
+// acceleration, so that a wheel comes from rest to the top speed, or back, in drive.ramp_s. All
+// wheels arrive together: the one with the farthest to go takes the full acceleration, and the
+// others keep their ratio to it, so that a rover that starts turns about the same centre as one
+// that drives on. With a ramp of 0 the rates jump.
+class MotorRamp {
+ public:
+  explicit MotorRamp(const RoverParams& params);
+
+  // The motors stand.
+  void Reset() { rate_rad_s_.fill(0.0); }
+
+  // Returns the rates of the next step of `step_s` of real time.
+  MotorRates Advance(const messages::PerWheel<double>& commanded_rad_s, double step_s);
+
+ private:
+  double acceleration_rad_s2_;  // infinite without a ramp
+  messages::PerWheel<double> rate_rad_s_{};
+};
+
+}  // namespace rockyard::rover
