@@ -58,6 +58,7 @@ RockerBogie::RockerBogie(const RoverParams& params, const terrain::Terrain& terr
       steered_(MakeRoverGeometry(params.geometry).steered),
       terrain_(terrain),
       body_(params),
+      inertia_(params),
       finder_(params.geometry, terrain),
       solver_(params, terrain.ground().soil()),
       motors_(params) {}
@@ -154,8 +155,10 @@ void RockerBogie::Advance(const MotorRates& rates) {
   const double h = params_.physics.step_s;
   body_.UpdatePoses();
   finder_.Update(body_);
-  body_.Accelerate(params_.physics.gravity_m_s2, h, mass_inverse_);
-  solver_.Solve(mass_inverse_, rates.to, loose_rocks_ ? &*loose_rocks_ : nullptr, finder_, body_);
+  body_.Accelerate(params_.physics.gravity_m_s2, h);
+  inertia_.Update(body_);
+  solver_.Solve(inertia_.inverse(), rates.to, loose_rocks_ ? &*loose_rocks_ : nullptr, finder_,
+                body_);
   CheckMotion(body_.Velocity());
   body_.Move(h);
   if (loose_rocks_) loose_rocks_->Move(finder_);
