@@ -27,6 +27,10 @@ class Rover {
 
   // The length of one Step in real time, s.
   virtual double step_s() const = 0;
+  // The time in which the motors come from rest to the top speed, or back, s. Where the motion is
+  // simulated faster than it happens, ramps are as long inside as drive.ramp_s says, so that
+  // inertia does not tell, and so many times longer in real time.
+  virtual double ramp_s() const = 0;
   // The true state after the last Place or Step: pose, velocities, joint angles, loads and
   // contacts.
   virtual const truth::RoverState& state() const = 0;

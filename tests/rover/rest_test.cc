@@ -31,9 +31,11 @@ class BrakedBody {
   void Step() {
     body_.UpdatePoses();
     finder_.Update(body_);
+    const DofVector before = body_.Velocity();
     body_.Accelerate(params_.physics.gravity_m_s2, params_.physics.step_s);
     inertia_.Update(body_);
-    solver_.Solve(inertia_.inverse(), {}, nullptr, finder_, body_);
+    solver_.Solve({inertia_.inverse(), before, {}, params_.physics.step_s}, nullptr, finder_,
+                  body_);
     body_.Move(params_.physics.step_s);
   }
 

@@ -56,7 +56,8 @@ TEST_P(RoverDescription, StandsOnLevelGround) {
 TEST_P(RoverDescription, DrivesStraight) {
   StartOn(flat_);
   const double time_s = 0.3 / speed_m_s_;
-  RunFor(*rover_, Drive(params_, speed_m_s_, 0.0), time_s);
+  // Coming to speed takes half the ramp's time of the way.
+  RunFor(*rover_, Drive(params_, speed_m_s_, 0.0), time_s + 0.5 * rover_->ramp_s());
   EXPECT_GT(x(), 0.9 * 0.3);
   EXPECT_LT(x(), 1.005 * 0.3);
   EXPECT_NEAR(state().X_WR.translation().y(), 0.0, 2e-3);
@@ -74,7 +75,7 @@ TEST_P(RoverDescription, TurnsInPlace) {
   RunFor(*rover_, SteerOnly(command),
          1.1 * params_.drive.max_steer_rad / params_.drive.steer_rate_rad_s);
   const double turn_rad = math::DegToRad(20.0);
-  RunFor(*rover_, command, turn_rad / rate_rad_s);
+  RunFor(*rover_, command, turn_rad / rate_rad_s + 0.5 * rover_->ramp_s());
   EXPECT_LT(math::Heading(state().X_WR), 1.005 * turn_rad);
   EXPECT_GT(math::Heading(state().X_WR), 0.9 * turn_rad);
   EXPECT_LT(state().X_WR.translation().head<2>().norm(), 0.02);

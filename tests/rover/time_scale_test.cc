@@ -111,20 +111,26 @@ TEST(TimeScale, SameCourseOfTheFlightRoverOnMarsAtTenTimesTheSpeed) {
 TEST(TimeScale, ReportsRealTimesAndVelocities) {
   const terrain::Terrain terrain = FlatTerrain();
   truth::RoverState state[2];
+  double ramp_s[2] = {};
   const double scales[] = {1.0, 22.0};
   for (int i = 0; i < 2; ++i) {
     const RoverParams params = SlowRover(scales[i]);
     const auto rover = MakeRover(params, terrain);
     rover->Place({});
     EXPECT_DOUBLE_EQ(rover->step_s(), scales[i] / 60.0);
+    EXPECT_DOUBLE_EQ(rover->ramp_s(), scales[i] * params.drive.ramp_s);
+    ramp_s[i] = rover->ramp_s();
     RunFor(*rover, Drive(params, kMfexSpeed_m_s, 0.0), 44.0);
     state[i] = rover->state();
   }
   EXPECT_NEAR(state[1].v_WR_m_s.x(), state[0].v_WR_m_s.x(), 0.01 * kMfexSpeed_m_s);
-  // Getting under way takes a part of one step.
-  EXPECT_NEAR(state[1].X_WR.translation().x(), state[0].X_WR.translation().x(),
+  // A ramp that is so many times longer costs half of that time of the way; beyond it, getting
+  // under way takes a part of one step.
+  const double late_m = 0.5 * (ramp_s[1] - ramp_s[0]) * kMfexSpeed_m_s;
+  EXPECT_NEAR(state[1].X_WR.translation().x(), state[0].X_WR.translation().x() - late_m,
               22.0 / 60.0 * kMfexSpeed_m_s);
-  EXPECT_NEAR(state[1].wheel_angle_rad[0], state[0].wheel_angle_rad[0], 0.02);
+  EXPECT_NEAR(state[1].wheel_angle_rad[0],
+              state[0].wheel_angle_rad[0] - late_m / SlowRover(1.0).geometry.wheel_radius_m, 0.02);
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
     EXPECT_NEAR(state[1].wheel_load_N[i], state[0].wheel_load_N[i], 0.2);
   }

@@ -18,8 +18,10 @@ constexpr double kActiveGap_m = 0.005;
 
 ConstraintSolver::ConstraintSolver(const RoverParams& params, const terrain::SoilParams& soil)
     : laws_(params, soil),
-      step_s_(params.physics.step_s),
-      iterations_(params.physics.solver_iterations) {
+      stall_torque_Nm_(params.drive.stall_torque_Nm),
+      iterations_(params.physics.solver_iterations),
+      wheel_radius_m_(params.geometry.wheel_radius_m),
+      step_s_(params.physics.step_s) {
   // The differential bar turns one rocker back by what the other turns: sum of the rates 0.
   differential_.J[6 + kLeftRocker] = 1.0;
   differential_.J[6 + kRightRocker] = 1.0;
@@ -29,11 +31,10 @@ ConstraintSolver::ConstraintSolver(const RoverParams& params, const terrain::Soi
     stop_angle_rad_[i] =
         rocker ? params.geometry.rocker_limit_rad : params.geometry.bogie_limit_rad;
   }
-  const double stall_Ns_m = params.drive.stall_torque_Nm * step_s_;
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
     motors_[i].J[6 + kFirstWheel + static_cast<int>(i)] = 1.0;
-    motors_[i].low = -stall_Ns_m;
-    motors_[i].high = stall_Ns_m;
+    motors_[i].high = stall_torque_Nm_ * step_s_;
+    motors_[i].low = -motors_[i].high;
   }
 }
 
@@ -46,17 +47,24 @@ void ConstraintSolver::Clear() {
 
 // Projected Gauss-Seidel on the velocities: every row starts from its last impulse, then the sweeps
 // go through joints, motors and contacts in a fixed order, so that equal inputs give equal bits.
-void ConstraintSolver::Solve(const DofMatrix& mass_inverse,
-                             const messages::PerWheel<double>& wheel_rate_rad_s,
-                             LooseRocks* loose_rocks, ContactFinder& finder, Multibody& body) {
+void ConstraintSolver::Solve(const Step& step, LooseRocks* loose_rocks, ContactFinder& finder,
+                             Multibody& body) {
+  const DofMatrix& mass_inverse = step.mass_inverse;
+  if (step.duration_s != step_s_) SetStep(step.duration_s, loose_rocks, finder);
   const DofVector free_velocity = body.Velocity();
   velocity_ = free_velocity;
+  before_ = step.before;
+  // A motor that held its rate begins the step at the rate that its ramp says; a stalled one where
+  // it is.
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
-    spin_rad_s_[i] = free_velocity[6 + kFirstWheel + static_cast<int>(i)];
+    const Row& motor = motors_[i];
+    if (motor.low < motor.impulse && motor.impulse < motor.high) {
+      before_[6 + kFirstWheel + static_cast<int>(i)] = step.rates.from[i];
+    }
   }
   StartDifferential(mass_inverse, body);
   StartStops(mass_inverse, body);
-  StartMotors(mass_inverse, wheel_rate_rad_s);
+  StartMotors(mass_inverse, step.rates.to);
   contact_count_ = 0;
   MarkActive(body, finder);
   if (loose_rocks != nullptr) loose_rocks->Start(finder.contacts());
@@ -71,6 +79,20 @@ void ConstraintSolver::Solve(const DofMatrix& mass_inverse,
   for (std::int64_t i = 0; i < iterations_; ++i) Sweep(loose_rocks);
   for (std::size_t i = 0; i < contact_count_; ++i) KeepForNextStep(contacts_[i]);
   body.AddVelocity(velocity_ - free_velocity);
+}
+
+void ConstraintSolver::SetStep(double step_s, LooseRocks* loose_rocks, ContactFinder& finder) {
+  const double ratio = step_s / step_s_;
+  step_s_ = step_s;
+  differential_.impulse *= ratio;
+  for (Row& row : stops_) row.impulse *= ratio;
+  for (Row& row : motors_) {
+    row.impulse *= ratio;
+    row.high = stall_torque_Nm_ * step_s;
+    row.low = -row.high;
+  }
+  finder.ScaleImpulses(ratio);
+  if (loose_rocks != nullptr) loose_rocks->SetStep(step_s);
 }
 
 void ConstraintSolver::Start(const DofMatrix& mass_inverse, Row& row) {
@@ -143,13 +165,13 @@ void ConstraintSolver::StartContact(const DofMatrix& mass_inverse, const Part& p
   if (contact_count_ == contacts_.size()) contacts_.emplace_back();
   ContactRows& rows = contacts_[contact_count_++];
   rows.contact = &contact;
-  const bool wheel = part.kind == truth::BodyPart::kWheel;
-  // Laws are those at the loads and slips of the last step, fixed within this one.
-  rows.law =
-      laws_.Of(part, contact, wheel ? spin_rad_s_[static_cast<std::size_t>(contact.part)] : 0.0);
+  // Laws are those at the loads of the last step, fixed within this one.
+  rows.law = laws_.Of(part, contact, step_s_);
   rows.normal.rock = rows.along.rock = rows.across.rock = rock;
   StartNormal(mass_inverse, part, body, rows);
   StartFriction(mass_inverse, part, body, rows);
+  rows.motor = nullptr;
+  if (part.kind == truth::BodyPart::kWheel) StartDriven(rows);
   StartDrag(mass_inverse, part, body, rows);
 }
 
@@ -184,7 +206,8 @@ void ConstraintSolver::StartFriction(const DofMatrix& mass_inverse, const Part& 
   rows.along.impulse = contact.impulse_Ns[1];
   rows.across.impulse = contact.impulse_Ns[2];
   for (Row* row : {&rows.along, &rows.across}) {
-    row->softness = rows.law.slip_softness_m_per_Ns;
+    // Contacts that do not slip hold; FollowSlip sets what soil does.
+    row->target = row->softness = 0.0;
     row->Unbind();
     Start(mass_inverse, *row);
   }
@@ -194,6 +217,20 @@ void ConstraintSolver::StartFriction(const DofMatrix& mass_inverse, const Part& 
     coupling += contact.along_W.head<2>().dot(contact.across_W.head<2>()) / rock->mass_kg;
   }
   rows.friction.Set(rows.along.diagonal, rows.across.diagonal, coupling);
+}
+
+// The motor's row and the friction's, as far as one is felt in the other.
+void ConstraintSolver::StartDriven(ContactRows& rows) {
+  rows.motor = &motors_[static_cast<std::size_t>(rows.contact->part)];
+  const double g0 = rows.along.J.dot(rows.motor->response);
+  const double g1 = rows.across.J.dot(rows.motor->response);
+  rows.motor_coupling = {g0, g1};
+  // While the motor holds, its impulse undoes what friction does to the wheel's rate: A - g g' / d.
+  const double d = rows.motor->diagonal;
+  const FrictionBlock& A = rows.friction;
+  rows.driven_friction.Set(A.a0() - g0 * g0 / d, A.a1() - g1 * g1 / d, A.a01() - g0 * g1 / d);
+  rows.slip = {};
+  if (rows.law.slips) rows.slip_from = SlipAt(rows, before_);
 }
 
 // Motion resistance acts on the axle, so that the wheel has to pull it by traction.
@@ -211,9 +248,6 @@ void ConstraintSolver::KeepForNextStep(const ContactRows& rows) const {
   Contact& contact = *rows.contact;
   contact.impulse_Ns = {rows.normal.impulse, rows.along.impulse, rows.across.impulse};
   contact.drag_Ns = rows.drag.impulse;
-  // Speed of the contact point, spin included, over fixed terrain. That a rock may move is left
-  // out: only contacts with soil ask for the slip.
-  contact.slip_m_s = std::hypot(rows.along.J.dot(velocity_), rows.across.J.dot(velocity_));
 }
 
 void ConstraintSolver::Sweep(LooseRocks* loose_rocks) {
@@ -256,17 +290,71 @@ void ConstraintSolver::Relax(Row& row) {
   Apply(std::clamp(row.impulse + Residual(row) / row.diagonal, row.low, row.high), row);
 }
 
-void ConstraintSolver::RelaxFriction(ContactRows& rows) {
-  // The pair's right side is what remains without its own impulses: b = residual + A p.
-  const FrictionBlock& A = rows.friction;
+WheelSlip ConstraintSolver::SlipAt(const ContactRows& rows, const DofVector& velocity) const {
+  const double spin_rad_s = velocity[6 + kFirstWheel + rows.contact->part];
+  return {std::abs(spin_rad_s) * wheel_radius_m_,
+          {rows.along.J.dot(velocity), rows.across.J.dot(velocity)}};
+}
+
+// theta v_1 + (1 - theta) v_0 + c p = 0, divided by theta, is a row for v_1.
+void ConstraintSolver::FollowSlip(ContactRows& rows) const {
+  rows.slip = laws_.StepOfSlip(rows.law, {rows.slip_from, SlipAt(rows, velocity_), step_s_},
+                               rows.slip.theta);
+  const double theta = rows.slip.theta;
+  const Eigen::Vector2d target_m_s = -(1.0 - theta) / theta * rows.slip_from.v_m_s;
+  rows.along.target = target_m_s.x();
+  rows.across.target = target_m_s.y();
+  rows.along.softness = rows.across.softness = rows.slip.softness_m_per_Ns / theta;
+}
+
+// What remains without the pair's own impulses: b = lack + (A + c I) p.
+std::array<double, 2> ConstraintSolver::RightSide(const ContactRows& rows,
+                                                  const FrictionBlock& block,
+                                                  const std::array<double, 2>& lack) {
   const double along = rows.along.impulse;
   const double across = rows.across.impulse;
-  const auto [new_along, new_across] =
-      rows.friction.Solve({Residual(rows.along) + A.a0() * along + A.a01() * across,
-                           Residual(rows.across) + A.a01() * along + A.a1() * across},
-                          rows.law.friction * rows.normal.impulse);
-  Apply(new_along, rows.along);
-  Apply(new_across, rows.across);
+  const double c = rows.along.softness;
+  return {lack[0] + (block.a0() + c) * along + block.a01() * across,
+          lack[1] + block.a01() * along + (block.a1() + c) * across};
+}
+
+void ConstraintSolver::RelaxFriction(ContactRows& rows) {
+  if (rows.law.slips) FollowSlip(rows);
+  if (rows.motor != nullptr) return RelaxDrivenFriction(rows);
+  const auto [along, across] = rows.friction.Solve(
+      RightSide(rows, rows.friction, {Residual(rows.along), Residual(rows.across)}),
+      rows.along.softness, rows.law.friction * rows.normal.impulse);
+  Apply(along, rows.along);
+  Apply(across, rows.across);
+}
+
+// The motor of a wheel and the friction at its contact, solved together. One after the other, each
+// would undo what the other did to the light wheel, and the heavy rover between them would take
+// some hundred sweeps to move.
+void ConstraintSolver::RelaxDrivenFriction(ContactRows& rows) {
+  Row& motor = *rows.motor;
+  const std::array<double, 2>& g = rows.motor_coupling;
+  const double most_Ns = rows.law.friction * rows.normal.impulse;
+  const std::array<double, 2> lack{Residual(rows.along), Residual(rows.across)};
+  // The motor holds its rate: its impulse changes by dq = (lack of its row - g . dp) / d.
+  const double hold_Ns = Residual(motor) / motor.diagonal;
+  auto p = rows.driven_friction.Solve(
+      RightSide(rows, rows.driven_friction, {lack[0] - g[0] * hold_Ns, lack[1] - g[1] * hold_Ns}),
+      rows.along.softness, most_Ns);
+  double q =
+      motor.impulse + hold_Ns -
+      (g[0] * (p[0] - rows.along.impulse) + g[1] * (p[1] - rows.across.impulse)) / motor.diagonal;
+  if (q < motor.low || q > motor.high) {
+    // It stalls: its torque is given, and friction alone decides how the wheel turns.
+    q = std::clamp(q, motor.low, motor.high);
+    const double dq = q - motor.impulse;
+    p = rows.friction.Solve(
+        RightSide(rows, rows.friction, {lack[0] - g[0] * dq, lack[1] - g[1] * dq}),
+        rows.along.softness, most_Ns);
+  }
+  Apply(q, motor);
+  Apply(p[0], rows.along);
+  Apply(p[1], rows.across);
 }
 
 }  // namespace rockyard::rover

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "messages/wheels.h"
+#include "rover/motor_ramp.h"
 #include "rover/multibody/contact_finder.h"
 #include "rover/multibody/contact_law.h"
 #include "rover/multibody/friction_block.h"
@@ -26,12 +27,21 @@ class ConstraintSolver {
   // Forgets the impulses of the last step.
   void Clear();
 
-  // Changes the velocities of `body`, already accelerated by gravity, so that they keep all
-  // constraints; wheels are driven towards wheel_rate_rad_s. Leaves the impulses in the contacts.
-  // Rocks yield where loose_rocks is given; null: they are fixed.
-  void Solve(const DofMatrix& mass_inverse, const messages::PerWheel<double>& wheel_rate_rad_s,
-             LooseRocks* loose_rocks, ContactFinder& finder, Multibody& body);
+  // What a step begins with.
+  struct Step {
+    const DofMatrix& mass_inverse;
+    const DofVector& before;  // velocities, before gravity accelerated the body
+    const MotorRates& rates;  // of the wheels
+    double duration_s;
+  };
 
+  // Changes the velocities of `body`, already accelerated by gravity, so that they keep all
+  // constraints. Leaves the impulses in the contacts. Rocks yield where loose_rocks is given; null:
+  // they are fixed.
+  void Solve(const Step& step, LooseRocks* loose_rocks, ContactFinder& finder, Multibody& body);
+
+  // The length of the last step.
+  double step_s() const { return step_s_; }
   // The mean torque of a wheel's motor over the last step.
   double MotorTorque_Nm(std::size_t wheel) const { return motors_[wheel].impulse / step_s_; }
 
@@ -60,11 +70,20 @@ class ConstraintSolver {
     Contact* contact = nullptr;
     ContactLaw law;
     Row normal, along, across, drag;
-    FrictionBlock friction;  // of along and across
+    FrictionBlock friction;  // of along and across, without the softness of the slip
+    SlipStep slip;           // in the last sweep
+    WheelSlip slip_from;     // at the beginning of the step
+    // Of a wheel: the row of its motor, null for other parts, what a unit impulse of the motor does
+    // to the velocity of the contact, and the friction's block while the motor holds its rate.
+    Row* motor = nullptr;
+    std::array<double, 2> motor_coupling{};
+    FrictionBlock driven_friction;
   };
   static constexpr double kUnbounded = std::numeric_limits<double>::infinity();
   static constexpr std::size_t kStops = 4;  // rockers and bogies
 
+  // Impulses of a step of another length start this one.
+  void SetStep(double step_s, LooseRocks* loose_rocks, ContactFinder& finder);
   // Completes a row of given J, target, softness and impulse, and applies the impulse.
   void Start(const DofMatrix& mass_inverse, Row& row);
   void StartDifferential(const DofMatrix& mass_inverse, const Multibody& body);
@@ -89,14 +108,24 @@ class ConstraintSolver {
   // Gives the row the impulse that satisfies it, within its bounds, with all others as they are.
   void Relax(Row& row);
   void RelaxFriction(ContactRows& rows);
+  void RelaxDrivenFriction(ContactRows& rows);
+  // Brings the slip law to the slip of the moment.
+  void FollowSlip(ContactRows& rows) const;
+  WheelSlip SlipAt(const ContactRows& rows, const DofVector& velocity) const;
+  void StartDriven(ContactRows& rows);
+  // Returns the friction's block's right side b for a change of the contact's velocity.
+  static std::array<double, 2> RightSide(const ContactRows& rows, const FrictionBlock& block,
+                                         const std::array<double, 2>& lack);
 
   const ContactLaws laws_;
-  const double step_s_;
+  const double stall_torque_Nm_;
   const std::int64_t iterations_;
+  const double wheel_radius_m_;
 
+  double step_s_;
   std::array<double, kStops> stop_angle_rad_{};
   DofVector velocity_ = DofVector::Zero();
-  messages::PerWheel<double> spin_rad_s_{};  // before the solution
+  DofVector before_ = DofVector::Zero();  // at the beginning of the step
   Row differential_;
   std::array<Row, kStops> stops_;
   messages::PerWheel<Row> motors_;

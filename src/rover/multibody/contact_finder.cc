@@ -41,6 +41,13 @@ void ContactFinder::Clear() {
   gathered_ = false;
 }
 
+void ContactFinder::ScaleImpulses(double ratio) {
+  for (Contact& contact : contacts_) {
+    for (double& impulse_Ns : contact.impulse_Ns) impulse_Ns *= ratio;
+    contact.drag_Ns *= ratio;
+  }
+}
+
 void ContactFinder::OnRockMoved(int rock) {
   Ellipsoid& ellipsoid = rocks_[static_cast<std::size_t>(rock)];
   const Vector3 before_W = ellipsoid.center_W();

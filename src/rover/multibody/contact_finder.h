@@ -28,16 +28,14 @@ struct Contact {
   math::Vector3 along_W = math::Vector3::UnitX();  // rolling direction of a wheel, tangential
   math::Vector3 across_W = math::Vector3::UnitY();
   math::Vector3 near_W = math::Vector3::Zero();  // nearest point of the rock
-  // These three are of the last step: the impulses along n_W, along_W and across_W, N s, the motion
-  // resistance, and the speed at which the two slide on each other.
+  // Of the last step: the impulses along n_W, along_W and across_W, and of the motion resistance.
   std::array<double, 3> impulse_Ns{};
   double drag_Ns = 0.0;
-  double slip_m_s = 0.0;
 
   bool IsSoil() const { return other == kGround; }
   void Forget() {
     impulse_Ns = {};
-    drag_Ns = slip_m_s = 0.0;
+    drag_Ns = 0.0;
   }
 };
 
@@ -50,6 +48,8 @@ class ContactFinder {
   void Update(const Multibody& body);
   // Forgets everything, for a rover that was lifted.
   void Clear();
+  // Multiplies the impulses of all contacts, for a step of another length than the last one.
+  void ScaleImpulses(double ratio);
   // Reads the place of a rock again.
   void OnRockMoved(int rock);
 

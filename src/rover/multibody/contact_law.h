@@ -1,6 +1,8 @@
 // What a contact resists with: spring, damper, friction, slip and motion resistance.
 #pragma once
 
+#include <Eigen/Core>
+
 #include "rover/multibody/contact_finder.h"
 #include "rover/part_shapes.h"
 #include "rover/rover_params.h"
@@ -13,9 +15,32 @@ namespace rockyard::rover {
 struct ContactLaw {
   double stiffness_N_m = 0.0;
   double rest_depth_m = 0.0;
-  double friction = 0.0;                // largest friction over load
-  double slip_softness_m_per_Ns = 0.0;  // slip speed over friction impulse
-  double drag_ratio = 0.0;              // motion resistance over load
+  double friction = 0.0;    // largest friction over load
+  double drag_ratio = 0.0;  // motion resistance over load
+  bool slips = false;       // a wheel on soil: friction comes with slip
+  Rut rut{};                // of such a wheel, at the load of the last step
+};
+
+// Rim speed of a wheel, m/s, and the velocity of its contact over the soil, along and across, m/s.
+struct WheelSlip {
+  double rim_m_s = 0.0;
+  Eigen::Vector2d v_m_s = Eigen::Vector2d::Zero();
+};
+
+// The slip of a wheel at the beginning and at the end of a step.
+struct SlipChange {
+  WheelSlip from;
+  WheelSlip to;
+  double duration_s = 0.0;
+};
+
+// What slip does within one step: the friction impulse p answers to the slip velocity at one moment
+// of the step,
+//   theta v_1 + (1 - theta) v_0 = -c p,
+// with v_0 and v_1 at its beginning and end.
+struct SlipStep {
+  double softness_m_per_Ns = 0.0;  // c
+  double theta = 1.0;
 };
 
 // Finds the law of a contact from the rover's parameters and the soil.
@@ -23,20 +48,30 @@ class ContactLaws {
  public:
   ContactLaws(const RoverParams& params, const terrain::SoilParams& soil);
 
-  // Returns the law of a contact whose impulses and slip are those of the last step. spin_rad_s is
-  // the rate of the wheel; it has no effect for other parts.
-  ContactLaw Of(const Part& part, const Contact& contact, double spin_rad_s) const;
+  // Returns the law of a contact whose impulses are those of a step of that length.
+  ContactLaw Of(const Part& part, const Contact& contact, double step_s) const;
+
+  // Returns what the slip of a wheel on soil does in one step; `theta` is that of the last call for
+  // this step, 1 at the first.
+  //
+  // Traction answers to slip the faster the slower the rim turns: its time constant is
+  //   T = m |omega r| (i / tau) / T_max
+  // for the mass m that the wheel carries, 16 ms at 15 cm/s on landscaping sand and next to nothing
+  // for a wheel that has just begun to turn. theta = (z + 3) / (z + 6), z = h / T, makes what
+  // remains of a disturbance after one step the Pade approximant (6 - 2 z) / (6 + 4 z + z^2) of
+  // e^-z: of third order, and without ringing however short T is. With theta = 1 (backward Euler) a
+  // rover that stops every 6.5 cm would lose a third of a millimetre more each time at 60 Hz.
+  SlipStep StepOfSlip(const ContactLaw& law, const SlipChange& change, double theta) const;
 
   // The damping of every contact.
   double damping_Ns_m() const { return params_.damping_Ns_m; }
 
  private:
-  ContactLaw OnSoil(const Contact& contact, double spin_rad_s) const;
+  ContactLaw OnSoil(double load_N) const;
 
   const RoverContactParams params_;
   const WheelSoil soil_;
-  const double wheel_radius_m_;
-  const double step_s_;
+  const double gravity_m_s2_;
 };
 
 }  // namespace rockyard::rover

@@ -31,20 +31,22 @@ std::array<double, 2> FrictionBlock::SolveShifted(const std::array<double, 2>& b
   return {inverse * (a1 * b[0] - a01_ * b[1]), inverse * (a0 * b[1] - a01_ * b[0])};
 }
 
-std::array<double, 2> FrictionBlock::Solve(const std::array<double, 2>& b, double most) {
+std::array<double, 2> FrictionBlock::Solve(const std::array<double, 2>& b, double softness,
+                                           double most) {
   if (most <= 0.0) return {0.0, 0.0};
+  shift_ = std::max(shift_, softness);
   std::array<double, 2> p = SolveShifted(b);
   for (int i = 0; i < kMaxIterations; ++i) {
-    // |p| falls as s grows. Within the bound at s = 0 the contact sticks; otherwise s is the root
-    // of |p(s)| = most, where A p - b = -s p: what slides on is opposite to the friction.
+    // |p| falls as s grows. Within the bound at s = c the contact holds; otherwise s is the root of
+    // |p(s)| = most, where A p - b = -s p: what slides on is opposite to the friction.
     const double size = Length(p);
-    const bool free = shift_ == 0.0 && size <= most;
-    if (free || std::abs(size - most) <= kTolerance * most) return p;
+    const bool holds = shift_ == softness && size <= most;
+    if (holds || std::abs(size - most) <= kTolerance * most) return p;
     // dp/ds = -(A + s I)^-1 p = -q, so d|p|/ds = -p . q / |p|. Newton's method on 1/|p| = 1/most,
     // nearly linear in s: ds = (|p| / most - 1) |p| / slope.
     const std::array<double, 2> q = SolveShifted(p);
     const double slope = (p[0] * q[0] + p[1] * q[1]) / size;  // -d|p| / ds
-    shift_ = std::max(0.0, shift_ + (size / most - 1.0) * size / slope);
+    shift_ = std::max(softness, shift_ + (size / most - 1.0) * size / slope);
     p = SolveShifted(b);
   }
   return p;

@@ -20,6 +20,11 @@ LooseRocks::LooseRocks(const terrain::RockHoldingParams& params, double gravity_
 
 void LooseRocks::Clear() { rocks_.clear(); }
 
+void LooseRocks::SetStep(double step_s) {
+  for (LooseRock& rock : rocks_) rock.hold_Ns *= step_s / step_s_;
+  step_s_ = step_s;
+}
+
 LooseRock* LooseRocks::Find(int index) {
   const auto found = std::find_if(rocks_.begin(), rocks_.end(),
                                   [index](const LooseRock& r) { return r.index == index; });

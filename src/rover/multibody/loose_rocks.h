@@ -34,6 +34,8 @@ class LooseRocks {
 
   // Forgets velocities and impulses.
   void Clear();
+  // The next steps have another length.
+  void SetStep(double step_s);
   // Takes up the rocks of the active contacts, and keeps those that still slide.
   void Start(const std::vector<Contact>& contacts);
   // Returns the rock with that index, or null where the contacts of Start do not touch it. It is
@@ -50,7 +52,7 @@ class LooseRocks {
 
   const terrain::RockHoldingParams params_;
   const double gravity_m_s2_;
-  const double step_s_;
+  double step_s_;
   terrain::Terrain& terrain_;
   std::vector<LooseRock> rocks_;  // in the order in which they were first touched
 };

@@ -102,6 +102,8 @@ void RockerBogie::Place(const math::Pose2& X_WR) {
   solver_.Clear();
   if (loose_rocks_) loose_rocks_->Clear();
   motors_.Reset();
+  commanded_rad_s_.fill(0.0);
+  short_steps_left_ = 0;
   Settle();
   body_.StopMotion();
   // What the wheels turned while settling is not driving: it is taken off the angle.
@@ -114,11 +116,11 @@ void RockerBogie::Place(const math::Pose2& X_WR) {
 // Wheels braked, the rover sinks onto its contacts; velocities are damped from step to step, which
 // leaves the loads as they are at rest.
 void RockerBogie::Settle() {
-  const MotorRates braked{};
+  const messages::PerWheel<double> braked{};
   const int steps = static_cast<int>(kSettleTime_s / params_.physics.step_s);
   int slow_steps = 0;
   for (int i = 0; i < steps && slow_steps < kSettledSteps; ++i) {
-    Advance(braked);
+    Advance(braked, 1);
     const DofVector velocity = body_.Velocity();
     // v <- 0.8 v.
     body_.AddVelocity((kSettleDamping - 1.0) * velocity);
@@ -140,25 +142,45 @@ void RockerBogie::Step(const messages::WheelCommand& command) {
     const double change = std::clamp(wanted - state_.steer_rad[i], -max_rad, max_rad);
     if (change != 0.0) SetSteer(i, state_.steer_rad[i] + change);
   }
-  MotorRates rates = motors_.Advance(command.rate_rad_s, step_s());
+  const int substeps = Substeps(command.rate_rad_s);
+  for (int i = 0; i < substeps; ++i) Advance(command.rate_rad_s, substeps);
+  UpdateState();
+}
+
+// Motors that accelerate harder than this share of gravity make wheels slide, and what a rover
+// loses by that hangs on when within a step the sliding ends. Gentler ramps need no shorter steps:
+// see the table of stops and starts in README.md of src/rover.
+int RockerBogie::Substeps(const messages::PerWheel<double>& commanded_rad_s) {
+  constexpr double kGentle = 0.25;
+  constexpr int kSubsteps = 16;
+  const double speed_m_s = params_.drive.speed_m_s * params_.physics.time_scale;
+  const double gentle_m_s2 = kGentle * params_.physics.gravity_m_s2;
+  if (speed_m_s <= gentle_m_s2 * params_.drive.ramp_s) return 1;
+  // The body comes to the speed of its wheels no later than a gentle ramp would.
+  if (commanded_rad_s != commanded_rad_s_) {
+    short_steps_left_ = static_cast<int>(
+        std::ceil((speed_m_s / gentle_m_s2 + params_.drive.ramp_s) / params_.physics.step_s));
+  }
+  commanded_rad_s_ = commanded_rad_s;
+  return --short_steps_left_ >= 0 ? kSubsteps : 1;
+}
+
+// v* = v + h M^-1 f, impulses of all constraints on v*, positions with the new v (semi-implicit
+// Euler), for one part of a step.
+void RockerBogie::Advance(const messages::PerWheel<double>& commanded_rad_s, int parts) {
+  const double h = params_.physics.step_s / parts;
+  MotorRates rates = motors_.Advance(commanded_rad_s, h);
   // One physics step stands for time_scale steps of real time: rates are as many times faster
   // inside.
   for (double& rate : rates.from) rate *= params_.physics.time_scale;
   for (double& rate : rates.to) rate *= params_.physics.time_scale;
-  Advance(rates);
-  UpdateState();
-}
-
-// v* = v + h M^-1 f, impulses of all constraints on v*, positions with the new v (semi-implicit
-// Euler).
-void RockerBogie::Advance(const MotorRates& rates) {
-  const double h = params_.physics.step_s;
   body_.UpdatePoses();
   finder_.Update(body_);
+  const DofVector before = body_.Velocity();
   body_.Accelerate(params_.physics.gravity_m_s2, h);
   inertia_.Update(body_);
-  solver_.Solve(inertia_.inverse(), rates.to, loose_rocks_ ? &*loose_rocks_ : nullptr, finder_,
-                body_);
+  solver_.Solve({inertia_.inverse(), before, rates, h}, loose_rocks_ ? &*loose_rocks_ : nullptr,
+                finder_, body_);
   CheckMotion(body_.Velocity());
   body_.Move(h);
   if (loose_rocks_) loose_rocks_->Move(finder_);
@@ -201,7 +223,7 @@ void RockerBogie::UpdateContacts(const DofVector& velocity) {
   const math::Transform X_RW = state_.X_WR.inverse(Eigen::Isometry);
   for (const Contact& contact : finder_.contacts()) {
     // Mean force over the step: impulse over h.
-    const double force_N = contact.impulse_Ns[0] / params_.physics.step_s;
+    const double force_N = contact.impulse_Ns[0] / solver_.step_s();
     if (force_N <= 0.0) continue;
     const Part& part = finder_.part(contact.part);
     if (part.kind == truth::BodyPart::kWheel) {

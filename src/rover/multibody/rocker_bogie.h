@@ -27,12 +27,15 @@ class RockerBogie final : public Rover {
   // that no rover reaches.
   void Step(const messages::WheelCommand& command) override;
   double step_s() const override { return params_.physics.time_scale * params_.physics.step_s; }
+  double ramp_s() const override { return params_.physics.time_scale * params_.drive.ramp_s; }
   const truth::RoverState& state() const override { return state_; }
 
  private:
   math::Transform LiftedPose(const math::Pose2& X_WR) const;
   void SetSteer(std::size_t wheel, double angle_rad);
-  void Advance(const MotorRates& rates);
+  // How many parts the next step is made in.
+  int Substeps(const messages::PerWheel<double>& commanded_rad_s);
+  void Advance(const messages::PerWheel<double>& commanded_rad_s, int parts);
   void Settle();
   void UpdateState();
   void UpdateContacts(const DofVector& velocity);
@@ -46,6 +49,8 @@ class RockerBogie final : public Rover {
   ContactFinder finder_;
   ConstraintSolver solver_;
   MotorRamp motors_;
+  messages::PerWheel<double> commanded_rad_s_{};  // by the last step
+  int short_steps_left_ = 0;
   std::optional<LooseRocks> loose_rocks_;
   messages::PerWheel<double> angle_at_place_rad_{};
   truth::RoverState state_;

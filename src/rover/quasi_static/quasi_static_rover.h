@@ -20,6 +20,7 @@ class QuasiStaticRover final : public Rover {
   // Throws std::runtime_error where no balance with finite rates exists.
   void Step(const messages::WheelCommand& command) override;
   double step_s() const override { return params_.quasi_static.step_s; }
+  double ramp_s() const override { return params_.drive.ramp_s; }
   const truth::RoverState& state() const override { return state_; }
 
   // Work done so far, for benchmarks.
