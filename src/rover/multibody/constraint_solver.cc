@@ -13,6 +13,9 @@ constexpr double kStopWatch_rad = 0.05;
 // Contacts that free motion would bring this near within the step are solved, m: room for what the
 // other contacts change about the motion.
 constexpr double kActiveGap_m = 0.005;
+// Sweeps end where no impulse of a contact has changed by more than this share of what a wheel
+// bears on average.
+constexpr double kConverged = 1e-3;
 
 }  // namespace
 
@@ -21,6 +24,7 @@ ConstraintSolver::ConstraintSolver(const RoverParams& params, const terrain::Soi
       stall_torque_Nm_(params.drive.stall_torque_Nm),
       iterations_(params.physics.solver_iterations),
       wheel_radius_m_(params.geometry.wheel_radius_m),
+      mean_load_N_(params.mass.total_kg * params.physics.gravity_m_s2 / messages::kWheelCount),
       step_s_(params.physics.step_s) {
   // The differential bar turns one rocker back by what the other turns: sum of the rates 0.
   differential_.J[6 + kLeftRocker] = 1.0;
@@ -76,7 +80,10 @@ void ConstraintSolver::Solve(const Step& step, LooseRocks* loose_rocks, ContactF
       contact.Forget();
     }
   }
-  for (std::int64_t i = 0; i < iterations_; ++i) Sweep(loose_rocks);
+  const double enough_Ns = kConverged * mean_load_N_ * step_s_;
+  for (std::int64_t i = 0; i < iterations_; ++i) {
+    if (Sweep(loose_rocks) < enough_Ns) break;
+  }
   for (std::size_t i = 0; i < contact_count_; ++i) KeepForNextStep(contacts_[i]);
   body.AddVelocity(velocity_ - free_velocity);
 }
@@ -230,7 +237,7 @@ void ConstraintSolver::StartDriven(ContactRows& rows) {
   const FrictionBlock& A = rows.friction;
   rows.driven_friction.Set(A.a0() - g0 * g0 / d, A.a1() - g1 * g1 / d, A.a01() - g0 * g1 / d);
   rows.slip = {};
-  if (rows.law.slips) rows.slip_from = SlipAt(rows, before_);
+  if (rows.law.slips) rows.slip_from = {RimSpeed(rows, before_), ContactVelocity(rows, before_)};
 }
 
 // Motion resistance acts on the axle, so that the wheel has to pull it by traction.
@@ -250,7 +257,8 @@ void ConstraintSolver::KeepForNextStep(const ContactRows& rows) const {
   contact.drag_Ns = rows.drag.impulse;
 }
 
-void ConstraintSolver::Sweep(LooseRocks* loose_rocks) {
+double ConstraintSolver::Sweep(LooseRocks* loose_rocks) {
+  largest_change_Ns_ = 0.0;
   Relax(differential_);
   // A stop that is not watched has the upper bound 0.
   for (Row& row : stops_) {
@@ -269,6 +277,7 @@ void ConstraintSolver::Sweep(LooseRocks* loose_rocks) {
     }
   }
   if (loose_rocks != nullptr) loose_rocks->Hold();
+  return largest_change_Ns_;
 }
 
 // b - J v - c p, plus e . u for a rock that moves with u: the row sees the motion against the rock.
@@ -279,9 +288,12 @@ double ConstraintSolver::Residual(const Row& row) const {
 }
 
 void ConstraintSolver::Apply(double impulse, Row& row) {
-  velocity_ += (impulse - row.impulse) * row.response;
-  if (row.rock != nullptr) row.rock->PushBack((impulse - row.impulse) * row.direction_W);
+  const double change_Ns = impulse - row.impulse;
+  if (change_Ns == 0.0) return;
+  velocity_ += change_Ns * row.response;
+  if (row.rock != nullptr) row.rock->PushBack(change_Ns * row.direction_W);
   row.impulse = impulse;
+  largest_change_Ns_ = std::max(largest_change_Ns_, std::abs(change_Ns));
 }
 
 void ConstraintSolver::Relax(Row& row) {
@@ -290,16 +302,19 @@ void ConstraintSolver::Relax(Row& row) {
   Apply(std::clamp(row.impulse + Residual(row) / row.diagonal, row.low, row.high), row);
 }
 
-WheelSlip ConstraintSolver::SlipAt(const ContactRows& rows, const DofVector& velocity) const {
-  const double spin_rad_s = velocity[6 + kFirstWheel + rows.contact->part];
-  return {std::abs(spin_rad_s) * wheel_radius_m_,
-          {rows.along.J.dot(velocity), rows.across.J.dot(velocity)}};
+double ConstraintSolver::RimSpeed(const ContactRows& rows, const DofVector& velocity) const {
+  return std::abs(velocity[6 + kFirstWheel + rows.contact->part]) * wheel_radius_m_;
+}
+
+Eigen::Vector2d ConstraintSolver::ContactVelocity(const ContactRows& rows,
+                                                  const DofVector& velocity) {
+  return {rows.along.J.dot(velocity), rows.across.J.dot(velocity)};
 }
 
 // theta v_1 + (1 - theta) v_0 + c p = 0, divided by theta, is a row for v_1.
-void ConstraintSolver::FollowSlip(ContactRows& rows) const {
-  rows.slip = laws_.StepOfSlip(rows.law, {rows.slip_from, SlipAt(rows, velocity_), step_s_},
-                               rows.slip.theta);
+void ConstraintSolver::FollowSlip(const Eigen::Vector2d& v_m_s, ContactRows& rows) const {
+  const WheelSlip slip{RimSpeed(rows, velocity_), v_m_s};
+  rows.slip = laws_.StepOfSlip(rows.law, {rows.slip_from, slip, step_s_}, rows.slip.theta);
   const double theta = rows.slip.theta;
   const Eigen::Vector2d target_m_s = -(1.0 - theta) / theta * rows.slip_from.v_m_s;
   rows.along.target = target_m_s.x();
@@ -307,23 +322,30 @@ void ConstraintSolver::FollowSlip(ContactRows& rows) const {
   rows.along.softness = rows.across.softness = rows.slip.softness_m_per_Ns / theta;
 }
 
-// What remains without the pair's own impulses: b = lack + (A + c I) p.
+// Right side of the pair's block: what remains without its own impulses. `lack` is what its rows
+// lack to their targets but for the softness, so that b = lack + A p.
 std::array<double, 2> ConstraintSolver::RightSide(const ContactRows& rows,
                                                   const FrictionBlock& block,
-                                                  const std::array<double, 2>& lack) {
+                                                  const Eigen::Vector2d& lack) {
   const double along = rows.along.impulse;
   const double across = rows.across.impulse;
-  const double c = rows.along.softness;
-  return {lack[0] + (block.a0() + c) * along + block.a01() * across,
-          lack[1] + block.a01() * along + (block.a1() + c) * across};
+  return {lack[0] + block.a0() * along + block.a01() * across,
+          lack[1] + block.a01() * along + block.a1() * across};
 }
 
 void ConstraintSolver::RelaxFriction(ContactRows& rows) {
-  if (rows.law.slips) FollowSlip(rows);
-  if (rows.motor != nullptr) return RelaxDrivenFriction(rows);
-  const auto [along, across] = rows.friction.Solve(
-      RightSide(rows, rows.friction, {Residual(rows.along), Residual(rows.across)}),
-      rows.along.softness, rows.law.friction * rows.normal.impulse);
+  Eigen::Vector2d v_m_s = ContactVelocity(rows, velocity_);
+  if (rows.law.slips) FollowSlip(v_m_s, rows);
+  if (const LooseRock* rock = rows.along.rock; rock != nullptr) {
+    // A row sees the motion against the rock.
+    v_m_s.x() -= rows.along.direction_W.dot(rock->v_W_m_s);
+    v_m_s.y() -= rows.across.direction_W.dot(rock->v_W_m_s);
+  }
+  const Eigen::Vector2d lack_m_s = Eigen::Vector2d(rows.along.target, rows.across.target) - v_m_s;
+  if (rows.motor != nullptr) return RelaxDrivenFriction(lack_m_s, rows);
+  const auto [along, across] =
+      rows.friction.Solve(RightSide(rows, rows.friction, lack_m_s), rows.along.softness,
+                          rows.law.friction * rows.normal.impulse);
   Apply(along, rows.along);
   Apply(across, rows.across);
 }
@@ -331,26 +353,23 @@ void ConstraintSolver::RelaxFriction(ContactRows& rows) {
 // The motor of a wheel and the friction at its contact, solved together. One after the other, each
 // would undo what the other did to the light wheel, and the heavy rover between them would take
 // some hundred sweeps to move.
-void ConstraintSolver::RelaxDrivenFriction(ContactRows& rows) {
+void ConstraintSolver::RelaxDrivenFriction(const Eigen::Vector2d& lack_m_s, ContactRows& rows) {
   Row& motor = *rows.motor;
-  const std::array<double, 2>& g = rows.motor_coupling;
+  const Eigen::Vector2d& g = rows.motor_coupling;
   const double most_Ns = rows.law.friction * rows.normal.impulse;
-  const std::array<double, 2> lack{Residual(rows.along), Residual(rows.across)};
   // The motor holds its rate: its impulse changes by dq = (lack of its row - g . dp) / d.
   const double hold_Ns = Residual(motor) / motor.diagonal;
   auto p = rows.driven_friction.Solve(
-      RightSide(rows, rows.driven_friction, {lack[0] - g[0] * hold_Ns, lack[1] - g[1] * hold_Ns}),
-      rows.along.softness, most_Ns);
-  double q =
-      motor.impulse + hold_Ns -
-      (g[0] * (p[0] - rows.along.impulse) + g[1] * (p[1] - rows.across.impulse)) / motor.diagonal;
+      RightSide(rows, rows.driven_friction, lack_m_s - hold_Ns * g), rows.along.softness, most_Ns);
+  double q = motor.impulse + hold_Ns -
+             (g[0] * (p[0] - rows.along.impulse) + g[1] * (p[1] - rows.across.impulse)) /
+                 motor.diagonal;
   if (q < motor.low || q > motor.high) {
     // It stalls: its torque is given, and friction alone decides how the wheel turns.
     q = std::clamp(q, motor.low, motor.high);
-    const double dq = q - motor.impulse;
     p = rows.friction.Solve(
-        RightSide(rows, rows.friction, {lack[0] - g[0] * dq, lack[1] - g[1] * dq}),
-        rows.along.softness, most_Ns);
+        RightSide(rows, rows.friction, lack_m_s - (q - motor.impulse) * g), rows.along.softness,
+        most_Ns);
   }
   Apply(q, motor);
   Apply(p[0], rows.along);

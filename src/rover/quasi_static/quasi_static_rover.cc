@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "rover/mass_properties.h"
+
 namespace rockyard::rover {
 namespace {
 
@@ -21,6 +23,13 @@ constexpr double kSameSteer_rad = 0.017;
 // Slower changes than these in a stretch are none: less than a thousandth of a wheel's load.
 constexpr double kSteady_m = 2e-6;
 constexpr double kSteady_rad = 1e-5;
+// Rates that differ by no more than this share are the same.
+constexpr double kSameRate = 1e-9;
+// Contacts whose normals are this near to the vertical hold whatever they bear: 20 deg, a friction
+// of 0.36.
+constexpr double kEasyCosine = 0.94;
+// Standing rovers that a balance lets move faster than this slide, m/s.
+constexpr double kStands_m_s = 1e-3;
 // A drive that differs from the last one by less still says where the rover will be.
 constexpr double kSimilar = 0.25;
 // A rock deeper than this in the rover, half a step ahead, is met where the rover stands:
@@ -57,6 +66,20 @@ double TurnRate(const RoverGeometry& geometry, double radius_m,
   return moment / inertia;
 }
 
+// Moment of inertia about R's z axis.
+double YawInertia(const RoverParams& params) {
+  const RoverGeometry geometry = MakeRoverGeometry(params.geometry);
+  const RoverMasses masses = MakeRoverMasses(params);
+  const auto of = [](const BodyMass& body, const Vector3& p_R) {
+    return body.inertia_kg_m2.z() + body.mass_kg * p_R.head<2>().squaredNorm();
+  };
+  double sum = of(masses.chassis, masses.chassis.com_B);
+  for (const Vector3& pivot_R : geometry.rocker_pivot_R) sum += of(masses.rocker, pivot_R);
+  for (const Vector3& pivot_R : geometry.bogie_pivot_R) sum += of(masses.bogie, pivot_R);
+  for (const Vector3& wheel_R : geometry.wheel_R) sum += of(masses.wheel, wheel_R);
+  return sum;
+}
+
 }  // namespace
 
 QuasiStaticRover::QuasiStaticRover(const RoverParams& params, const terrain::Terrain& terrain)
@@ -65,7 +88,9 @@ QuasiStaticRover::QuasiStaticRover(const RoverParams& params, const terrain::Ter
       terrain_(terrain),
       linkage_(params),
       contacts_(params.geometry, terrain),
-      balance_(params, terrain.ground().soil()) {}
+      balance_(params, terrain.ground().soil()),
+      motors_(params),
+      yaw_inertia_kg_m2_(YawInertia(params)) {}
 
 // Above every rock beneath, so that settling only lowers the rover onto them.
 Posture QuasiStaticRover::LiftedPosture(const math::Pose2& X_WR) const {
@@ -101,9 +126,10 @@ void QuasiStaticRover::Place(const math::Pose2& X_WR) {
   stretch_ = {};
   met_steer_rad_ = state_.steer_rad;
   steady_ = false;
+  motors_.Reset();
+  progress_.Stop();
   UpdatePosture();
-  UpdateForces();
-  Rest();
+  Stand();
 }
 
 void QuasiStaticRover::Settle() {
@@ -164,10 +190,14 @@ void QuasiStaticRover::SteerAtRest() {
   UpdateForces();
 }
 
-void QuasiStaticRover::Balance(const QuasiStaticBalance::Drive& drive) {
+bool QuasiStaticRover::Balance(const QuasiStaticBalance::Drive& drive) {
+  const int iterations = balance_.Solve(linkage_, posture_, drive, contacts_.contacts(), rates_);
+  const bool found = iterations < QuasiStaticBalance::kMaxIterations;
   ++work_.balances;
-  work_.iterations += balance_.Solve(linkage_, posture_, drive, contacts_.contacts(), rates_);
+  work_.iterations += iterations;
+  if (!found) ++work_.not_converged;
   if (!rates_.allFinite()) throw std::runtime_error("no balance of forces with finite rates");
+  return found;
 }
 
 void QuasiStaticRover::Rest() {
@@ -176,13 +206,21 @@ void QuasiStaticRover::Rest() {
   for (truth::BodyContact& contact : state_.contacts) contact.sliding_speed_m_s = 0.0;
 }
 
-// The stretch goes on where neither wheels nor steering have changed.
-bool QuasiStaticRover::Goes(const messages::WheelCommand& command) const {
-  if (stretch_.duration_s == 0.0 || command.rate_rad_s != stretch_.rate_rad_s) return false;
+std::optional<double> QuasiStaticRover::ShareOfStretch(
+    const messages::PerWheel<double>& rate_rad_s) const {
+  if (stretch_.duration_s == 0.0) return std::nullopt;
+  std::size_t fastest = 0;
   for (std::size_t i = 0; i < kWheelCount; ++i) {
-    if (std::abs(state_.steer_rad[i] - stretch_.steer_rad[i]) > kSameSteer_rad) return false;
+    if (std::abs(state_.steer_rad[i] - stretch_.steer_rad[i]) > kSameSteer_rad) return std::nullopt;
+    if (std::abs(stretch_.rate_rad_s[i]) > std::abs(stretch_.rate_rad_s[fastest])) fastest = i;
   }
-  return true;
+  const double share = rate_rad_s[fastest] / stretch_.rate_rad_s[fastest];
+  if (share < 0.0) return std::nullopt;
+  const double most_rad_s = kSameRate * std::abs(stretch_.rate_rad_s[fastest]);
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    if (std::abs(rate_rad_s[i] - share * stretch_.rate_rad_s[i]) > most_rad_s) return std::nullopt;
+  }
+  return share;
 }
 
 // True where rates and steering are those of the last stretch within a share of the fastest rate,
@@ -254,9 +292,11 @@ void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
         rates_);
   // A fall may be longer than a stretch allows: Limit lets the rover fall in several.
   stretch_.to = Moved(posture_, rates_, stretch_.duration_s);
-  state_.v_WR_m_s = rates_.head<3>();
-  state_.w_WR_rad_s = rates_.segment<3>(3);
   UpdateForces();
+  SteadyDrive steady = balance_.Steady(contacts_.contacts(), rates_);
+  steady.inertia_J = params_.mass.total_kg * rates_.head<3>().squaredNorm() +
+                     yaw_inertia_kg_m2_ * rates_[5] * rates_[5];
+  progress_.Begin(steady);
 }
 
 bool QuasiStaticRover::OnLevelGround() const {
@@ -284,34 +324,88 @@ void QuasiStaticRover::RollOn() {
   rates_.segment<3>(2).setZero();
   rates_.tail<3>().setZero();
   stretch_.to = Moved(posture_, rates_, stretch_.duration_s);
-  state_.v_WR_m_s = rates_.head<3>();
-  state_.w_WR_rad_s = rates_.segment<3>(3);
 }
 
 void QuasiStaticRover::Step(const messages::WheelCommand& command) {
   const bool steered = Steer(command.steer_rad);
-  const bool turning = std::any_of(command.rate_rad_s.begin(), command.rate_rad_s.end(),
-                                   [](double rate) { return rate != 0.0; });
-  if (!turning) {
+  const MotorRates rates = motors_.Advance(command.rate_rad_s, step_s());
+  const auto turns = [](double rate) { return rate != 0.0; };
+  const bool rolls = std::any_of(rates.from.begin(), rates.from.end(), turns) ||
+                     std::any_of(rates.to.begin(), rates.to.end(), turns);
+  if (!rolls && progress_.speed() == 0.0) {
+    if (!standing_) Stand();
     if (steered) SteerAtRest();
     return Rest();
   }
-  if (!Goes(command)) Plan(command.rate_rad_s);
-  double left_s = step_s();
-  // A step may end this stretch and use up others; the rest of it lies within the last one.
-  while (stretch_.elapsed_s + left_s >= stretch_.duration_s) {
-    left_s -= stretch_.duration_s - stretch_.elapsed_s;
-    posture_ = stretch_.to;
+  standing_ = false;
+  std::optional<double> from = ShareOfStretch(rates.from);
+  std::optional<double> to = ShareOfStretch(rates.to);
+  if (!from || !to) {
+    // Another motion begins. From rest its ramp keeps the ratio of the commanded rates; on the way
+    // from one motion to another the rates of this step are a motion of their own.
     Plan(command.rate_rad_s);
+    from = ShareOfStretch(rates.from);
+    to = ShareOfStretch(rates.to);
+    if (!from || !to) {
+      messages::PerWheel<double> mean_rad_s{};
+      for (std::size_t i = 0; i < kWheelCount; ++i) {
+        mean_rad_s[i] = 0.5 * (rates.from[i] + rates.to[i]);
+      }
+      Plan(mean_rad_s);
+      from = to = 1.0;
+    }
   }
-  stretch_.elapsed_s += left_s;
-  // State between two balances: linear in position, the shorter arc in attitude.
-  posture_ = Between(stretch_.from, stretch_.to, stretch_.elapsed_s / stretch_.duration_s);
   for (std::size_t i = 0; i < kWheelCount; ++i) {
     // Motors hold their rates in this fidelity: the balance takes them as given.
-    state_.wheel_angle_rad[i] += step_s() * command.rate_rad_s[i];
+    state_.wheel_angle_rad[i] += 0.5 * step_s() * (rates.from[i] + rates.to[i]);
   }
+  Follow(progress_.Advance(*from, *to, step_s()));
+}
+
+void QuasiStaticRover::Follow(double way_s) {
+  // A step may end this stretch and use up others; the rest of it lies within the last one.
+  while (stretch_.elapsed_s + way_s >= stretch_.duration_s) {
+    way_s -= stretch_.duration_s - stretch_.elapsed_s;
+    posture_ = stretch_.to;
+    Plan(messages::PerWheel<double>(stretch_.rate_rad_s));
+  }
+  stretch_.elapsed_s += way_s;
+  // State between two balances: linear in position, the shorter arc in attitude.
+  posture_ = Between(stretch_.from, stretch_.to, stretch_.elapsed_s / stretch_.duration_s);
+  state_.v_WR_m_s = progress_.speed() * rates_.head<3>();
+  state_.w_WR_rad_s = progress_.speed() * rates_.segment<3>(3);
   UpdatePosture();
+}
+
+// True where every contact that bears the rover could carry its load straight down: its normal is
+// nearer to the vertical than friction lets it slide. Then braked wheels hold.
+bool QuasiStaticRover::HoldsEasily() const {
+  const std::vector<RestingContact>& contacts = contacts_.contacts();
+  return std::all_of(contacts.begin(), contacts.end(), [](const RestingContact& contact) {
+    return contact.load_N <= 0.0 || contact.n_W.z() > kEasyCosine;
+  });
+}
+
+// Brakes on: the balance with wheels that do not turn gives the loads of a rover at rest, and says
+// whether it slides. It falls or slides on by what the balance lets it in one step.
+void QuasiStaticRover::Stand() {
+  const LinkageVector driving = rates_;
+  linkage_.Update(posture_, state_.steer_rad);
+  contacts_.Update(linkage_, kReach_m);
+  rates_.setZero();
+  const bool found = Balance({{}, step_s(), 0.0, Freedom::kAll});
+  standing_ = !found || rates_.head<3>().norm() < kStands_m_s;
+  if (!standing_) {
+    Limit(step_s(), params_.quasi_static.settle_distance_m, kMaxTurn_rad, rates_);
+    posture_ = Moved(posture_, rates_, step_s());
+    stretch_.duration_s = 0.0;
+    steady_ = false;
+    UpdatePosture();
+  }
+  UpdateForces();
+  // What it did while it drove starts the next balance.
+  rates_ = driving;
+  Rest();
 }
 
 void QuasiStaticRover::UpdatePosture() {

@@ -1,6 +1,7 @@
 // The rover as a sequence of balances of forces: no inertia, some centimetres a step.
 #pragma once
 
+#include "rover/motor_ramp.h"
 #include "rover/quasi_static/balance.h"
 #include "rover/quasi_static/contacts.h"
 #include "rover/quasi_static/linkage.h"
@@ -27,11 +28,13 @@ class QuasiStaticRover final : public Rover {
   struct Work {
     std::int64_t balances = 0;
     std::int64_t iterations = 0;
+    std::int64_t not_converged = 0;  // of the balances
   };
   const Work& work() const { return work_; }
 
  private:
-  // The way between two balances, at constant rates.
+  // The way between two balances, at constant rates. Its times are those of a rover that drives at
+  // these rates; one that starts or stops takes longer.
   struct Stretch {
     Posture from;
     Posture to;
@@ -44,9 +47,16 @@ class QuasiStaticRover final : public Rover {
   // Turns the steering towards what is wanted; returns whether it moved.
   bool Steer(const messages::PerWheel<double>& wanted_rad);
   void SteerAtRest();
-  void Balance(const QuasiStaticBalance::Drive& drive);
+  // Returns whether the balance met its tolerance.
+  bool Balance(const QuasiStaticBalance::Drive& drive);
   void Rest();
-  bool Goes(const messages::WheelCommand& command) const;
+  // The share of the stretch's rates at which these rates turn the wheels; nothing where they are no
+  // share of them, or the steering has changed.
+  std::optional<double> ShareOfStretch(const messages::PerWheel<double>& rate_rad_s) const;
+  // Lets the motion go on for so much time of the stretches.
+  void Follow(double way_s);
+  void Stand();
+  bool HoldsEasily() const;
   void Plan(const messages::PerWheel<double>& rate_rad_s);
   bool OnLevelGround() const;
   bool IsSteady() const;
@@ -66,10 +76,14 @@ class QuasiStaticRover final : public Rover {
   Linkage linkage_;
   QuasiStaticContacts contacts_;
   QuasiStaticBalance balance_;
+  MotorRamp motors_;
+  Progress progress_;
+  const double yaw_inertia_kg_m2_;
   Posture posture_;
   Stretch stretch_;
   messages::PerWheel<double> met_steer_rad_{};  // at the last look for contacts
   LinkageVector rates_ = LinkageVector::Zero();
+  bool standing_ = true;  // and known to hold
   bool steady_ = false;  // rates_ hold for as long as the ground is level and the drive the same
   Work work_;
   truth::RoverState state_;

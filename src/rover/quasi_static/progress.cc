@@ -1,0 +1,117 @@
+#include "rover/quasi_static/progress.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rover/wheel_soil.h"
+
+namespace rockyard::rover {
+namespace {
+
+// Longest step of the integration, s: about the time in which traction answers to slip at 15 cm/s.
+constexpr double kStep_s = 1.0 / 80.0;
+// From this near to the rims' speed on, the motion is steady.
+constexpr double kSteady = 1e-3;
+// A rover that gets on by less than this share of its rims' speed has no speed to gain.
+constexpr double kStuck = 0.02;
+// The speed of a step is known to this, and found in so many iterations.
+constexpr double kExact = 1e-4;
+constexpr int kIterations = 12;
+// A rover that is drawn downhill does not run this many times faster than steadily.
+constexpr double kFastest = 3.0;
+// Slip at which friction on rock acts in full, over the rim's speed.
+constexpr double kRockSlip = 0.005;
+
+// Power of one lump and its derivative by the speed q.
+struct Power {
+  double value_W = 0.0;
+  double slope_W = 0.0;
+};
+
+Power PowerOf(const WheelLump& lump, double speed, double rim) {
+  if (lump.traction_N == 0.0) return {};
+  const double along = rim * lump.rim_m_s - speed * lump.along_m_s;
+  const double across = -speed * lump.across_m_s;
+  const double slip_m_s = std::hypot(along, across);
+  if (slip_m_s == 0.0) return {};
+  // A braked wheel has all its traction at any slip.
+  const double u = rim > 0.0 ? lump.shear_ratio * slip_m_s / (rim * lump.rim_m_s) : 1e9;
+  const ShearShare share = ShareOfRatio(u);
+  const double toward = along * lump.along_m_s + across * lump.across_m_s;
+  // F . v = T tau (s . v) / |s|; by q, s changes by -v and |s| by -(s . v) / |s|.
+  const double cosine = toward / slip_m_s;
+  const double v2 = lump.along_m_s * lump.along_m_s + lump.across_m_s * lump.across_m_s;
+  const double stiffening = share.slope * u / slip_m_s;  // d tau / d|s|
+  return {lump.traction_N * share.value * cosine,
+          -lump.traction_N * (stiffening * cosine * cosine +
+                              share.value * (v2 - cosine * cosine) / slip_m_s)};
+}
+
+// Of the moment of a step of z times the decay at which forces are taken.
+double Theta(double z) { return std::isfinite(z) ? (z + 3.0) / (z + 6.0) : 1.0; }
+
+}  // namespace
+
+void Progress::Begin(const SteadyDrive& drive) {
+  drive_ = drive;
+  drive_.rock.shear_ratio = 1.0 / kRockSlip;
+  const Power soil = PowerOf(drive_.soil, 1.0, 1.0);
+  const Power rock = PowerOf(drive_.rock, 1.0, 1.0);
+  balance_W_ = soil.value_W + rock.value_W;
+  decay_s_ = -drive_.inertia_J / (soil.slope_W + rock.slope_W);
+}
+
+Progress::Rate Progress::RateAt(double speed, double rim) const {
+  const Power soil = PowerOf(drive_.soil, speed, rim);
+  const Power rock = PowerOf(drive_.rock, speed, rim);
+  return {(soil.value_W + rock.value_W - balance_W_) / drive_.inertia_J,
+          (soil.slope_W + rock.slope_W) / drive_.inertia_J};
+}
+
+// q_1 = q_0 + h dq/dt at theta q_1 + (1 - theta) q_0 and the rims of that moment, with the theta of
+// the multibody's slip (contact_law.h). The right side falls with q_1: Newton's method within what
+// is left of the bracket.
+double Progress::Step(double rim_from, double rim_to, double time_s) {
+  const double before = speed_;
+  const double mean_rim = 0.5 * (rim_from + rim_to);
+  // Traction answers the faster the slower the rims turn.
+  const double theta = mean_rim > 0.0 ? Theta(time_s / (mean_rim * decay_s_)) : 1.0;
+  const double rim = theta * rim_to + (1.0 - theta) * rim_from;
+  double low = 0.0;
+  double high = std::max({before, rim_from, rim_to}) * kFastest + kSteady;
+  double next = std::clamp(before + rim_to - rim_from, low, high);
+  for (int i = 0; i < kIterations; ++i) {
+    const Rate rate = RateAt(theta * next + (1.0 - theta) * before, rim);
+    const double lack = before + time_s * rate.value - next;
+    (lack > 0.0 ? low : high) = next;
+    if (std::abs(lack) < kExact) break;
+    const double newton = next + lack / (1.0 - theta * time_s * rate.slope);
+    next = newton > low && newton < high ? newton : 0.5 * (low + high);
+    if (high - low < kExact) break;
+  }
+  speed_ = next < kExact ? 0.0 : next;
+  if (speed_ > 0.0 || before == 0.0) return 0.5 * (before + speed_) * time_s;
+  // It comes to rest within the step: half of what speed it had, for the time that this took.
+  const double slowing = -RateAt(0.5 * before, rim).value;
+  return 0.5 * before * std::min(time_s, before / slowing);
+}
+
+double Progress::Advance(double rim_from, double rim_to, double time_s) {
+  const double mean = 0.5 * (rim_from + rim_to);
+  const WheelLump& lump = drive_.soil.traction_N > 0.0 ? drive_.soil : drive_.rock;
+  const bool stuck = std::abs(lump.along_m_s) < kStuck * lump.rim_m_s;
+  const bool steady = rim_from == rim_to && std::abs(speed_ - rim_to) < kSteady;
+  if (stuck || steady || drive_.inertia_J <= 0.0) {
+    speed_ = rim_to;
+    return mean * time_s;
+  }
+  const int steps = static_cast<int>(std::ceil(time_s / kStep_s));
+  double way_s = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    const double change = (rim_to - rim_from) / steps;
+    way_s += Step(rim_from + i * change, rim_from + (i + 1) * change, time_s / steps);
+  }
+  return way_s;
+}
+
+}  // namespace rockyard::rover
