@@ -1,10 +1,10 @@
 // A braked rover: it comes to rest, does not creep, and never gains energy.
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <numbers>
 
 #include "rover/multibody/constraint_solver.h"
+#include "rover/multibody/joint_space_inertia.h"
 #include "rover/wheel_soil.h"
 #include "rover_drive.h"
 #include "soil_reference.h"
@@ -22,6 +22,7 @@ class BrakedBody {
               params.geometry.wheel_width_m),
         soil_exponent_(terrain.ground().soil().sinkage_exponent),
         body_(params),
+        inertia_(params),
         finder_(params.geometry, terrain),
         solver_(params, terrain.ground().soil()) {}
 
@@ -30,8 +31,9 @@ class BrakedBody {
   void Step() {
     body_.UpdatePoses();
     finder_.Update(body_);
-    body_.Accelerate(params_.physics.gravity_m_s2, params_.physics.step_s, mass_inverse_);
-    solver_.Solve(mass_inverse_, {}, nullptr, finder_, body_);
+    body_.Accelerate(params_.physics.gravity_m_s2, params_.physics.step_s);
+    inertia_.Update(body_);
+    solver_.Solve(inertia_.inverse(), {}, nullptr, finder_, body_);
     body_.Move(params_.physics.step_s);
   }
 
@@ -40,10 +42,9 @@ class BrakedBody {
   double Energy_J() {
     body_.UpdatePoses();
     finder_.Update(body_);
-    // The mass matrix of the present configuration; no time passes.
-    body_.Accelerate(0.0, 1e-15, mass_inverse_);
+    inertia_.Update(body_);
     const DofVector v = body_.Velocity();
-    double energy_J = 0.5 * v.dot(mass_inverse_.inverse() * v);
+    double energy_J = 0.5 * v.dot(inertia_.mass() * v);
     energy_J += weights_.chassis_N * body_.p_WComChassis().z();
     for (int joint = 0; joint < kJoints; ++joint) {
       const double weight_N = joint <= kRightRocker ? weights_.rocker_N
@@ -77,9 +78,9 @@ class BrakedBody {
   const WheelSoil soil_;
   const double soil_exponent_;
   Multibody body_;
+  JointSpaceInertia inertia_;
   ContactFinder finder_;
   ConstraintSolver solver_;
-  DofMatrix mass_inverse_ = DofMatrix::Zero();
 };
 
 math::Transform Lifted(double height_m, double roll_rad, double pitch_rad) {

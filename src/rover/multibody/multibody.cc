@@ -124,7 +124,7 @@ DofVector Multibody::Velocity() const {
   return Eigen::Map<const DofVector>(bullet_->body.getVelocityVector());
 }
 
-void Multibody::Accelerate(double gravity_m_s2, double step_s, DofMatrix& mass_inverse) {
+void Multibody::Accelerate(double gravity_m_s2, double step_s) {
   btMultiBody& body = bullet_->body;
   body.addBaseForce(btVector3(0, 0, -gravity_m_s2 * body.getBaseMass()));
   for (int joint = 0; joint < kJoints; ++joint) {
@@ -133,15 +133,6 @@ void Multibody::Accelerate(double gravity_m_s2, double step_s, DofMatrix& mass_i
   body.computeAccelerationsArticulatedBodyAlgorithmMultiDof(
       step_s, bullet_->scalars, bullet_->vectors, bullet_->matrices, false, false, false);
   body.clearForcesAndTorques();
-  // M^-1 column by column: the acceleration by a unit generalized force, without gravity and
-  // inertia.
-  DofVector force = DofVector::Zero();
-  for (int dof = 0; dof < kDof; ++dof) {
-    force[dof] = 1.0;
-    body.calcAccelerationDeltasMultiDof(force.data(), mass_inverse.col(dof).data(),
-                                        bullet_->scalars, bullet_->vectors);
-    force[dof] = 0.0;
-  }
 }
 
 // Generalized velocities have Bullet's order: chassis angular, linear, then the joints.

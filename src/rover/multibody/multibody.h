@@ -54,9 +54,8 @@ class Multibody {
   DofVector Velocity() const;
   math::Vector3 p_WComChassis() const { return p_WCom_; }
 
-  // Adds to the velocities what gravity and inertial forces do in one step without contacts, and
-  // returns the inverse of the joint-space mass matrix at the present configuration.
-  void Accelerate(double gravity_m_s2, double step_s, DofMatrix& mass_inverse);
+  // Adds to the velocities what gravity and inertial forces do in one step without contacts.
+  void Accelerate(double gravity_m_s2, double step_s);
   void AddVelocity(const DofVector& change);
   // Moves the positions by one step.
   void Move(double step_s);

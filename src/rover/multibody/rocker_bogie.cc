@@ -58,6 +58,7 @@ RockerBogie::RockerBogie(const RoverParams& params, const terrain::Terrain& terr
       steered_(MakeRoverGeometry(params.geometry).steered),
       terrain_(terrain),
       body_(params),
+      inertia_(params),
       finder_(params.geometry, terrain),
       solver_(params, terrain.ground().soil()) {}
 
@@ -151,8 +152,10 @@ void RockerBogie::Advance(const messages::PerWheel<double>& rate_rad_s) {
   const double h = params_.physics.step_s;
   body_.UpdatePoses();
   finder_.Update(body_);
-  body_.Accelerate(params_.physics.gravity_m_s2, h, mass_inverse_);
-  solver_.Solve(mass_inverse_, rate_rad_s, loose_rocks_ ? &*loose_rocks_ : nullptr, finder_, body_);
+  body_.Accelerate(params_.physics.gravity_m_s2, h);
+  inertia_.Update(body_);
+  solver_.Solve(inertia_.inverse(), rate_rad_s, loose_rocks_ ? &*loose_rocks_ : nullptr, finder_,
+                body_);
   CheckMotion(body_.Velocity());
   body_.Move(h);
   if (loose_rocks_) loose_rocks_->Move(finder_);

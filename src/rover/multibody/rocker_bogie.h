@@ -5,6 +5,7 @@
 
 #include "rover/multibody/constraint_solver.h"
 #include "rover/multibody/contact_finder.h"
+#include "rover/multibody/joint_space_inertia.h"
 #include "rover/multibody/loose_rocks.h"
 #include "rover/multibody/multibody.h"
 #include "rover/rover.h"
@@ -40,10 +41,10 @@ class RockerBogie final : public Rover {
   const messages::PerWheel<bool> steered_;
   const terrain::Terrain& terrain_;
   Multibody body_;
+  JointSpaceInertia inertia_;
   ContactFinder finder_;
   ConstraintSolver solver_;
   std::optional<LooseRocks> loose_rocks_;
-  DofMatrix mass_inverse_ = DofMatrix::Zero();
   messages::PerWheel<double> angle_at_place_rad_{};
   truth::RoverState state_;
 };

@@ -1,0 +1,262 @@
+// Mass matrix and inverse against Bullet's articulated bodies and against energies of points.
+#include "rover/multibody/joint_space_inertia.h"
+
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "core/random.h"
+#include "rover/rover_geometry.h"
+
+namespace rockyard::rover {
+namespace {
+
+using math::Vector3;
+
+struct Configuration {
+  math::Transform X_WR = math::Transform::Identity();
+  std::array<double, kJoints> joint_rad{};
+  messages::PerWheel<double> steer_rad{};
+};
+
+// Numbers for the test with one index, uniform on (-1, 1).
+class Numbers {
+ public:
+  explicit Numbers(std::uint32_t index)
+      : stream_({.seed = 11, .trial = index}, core::Purpose::kExperiment) {}
+  double Next() { return 2.0 * stream_.Uniform() - 1.0; }
+
+ private:
+  core::RandomStream stream_;
+};
+
+// Any attitude, joints and steering beyond what their stops allow.
+Configuration RandomConfiguration(Numbers& numbers) {
+  Configuration c;
+  const Eigen::Vector4d q(numbers.Next(), numbers.Next(), numbers.Next(), numbers.Next());
+  c.X_WR.linear() = Eigen::Quaterniond(q.normalized()).toRotationMatrix();
+  c.X_WR.translation() = 5.0 * Vector3(numbers.Next(), numbers.Next(), numbers.Next());
+  for (double& angle : c.joint_rad) angle = 1.5 * numbers.Next();
+  for (double& angle : c.steer_rad) angle = 1.5 * numbers.Next();
+  return c;
+}
+
+DofVector RandomVelocity(Numbers& numbers) {
+  DofVector v;
+  for (double& value : v) value = numbers.Next();
+  return v;
+}
+
+void SetConfiguration(const Configuration& c, Multibody& body) {
+  body.Reset(c.X_WR);
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) body.SetSteer(i, c.steer_rad[i]);
+  // Joints turn to their angles at constant rates within a second.
+  DofVector rates = DofVector::Zero();
+  for (int joint = 0; joint < kJoints; ++joint) {
+    rates[6 + joint] = c.joint_rad[static_cast<std::size_t>(joint)];
+  }
+  body.AddVelocity(rates);
+  body.Move(1.0);
+  body.StopMotion();
+  body.UpdatePoses();
+}
+
+// Masses that differ in everything, with bogies at either end and the middle wheels off the middle.
+RoverParams Uneven(BogieEnd end) {
+  RoverParams params;
+  params.geometry.bogie_end = end;
+  params.geometry.middle_wheel_x_m = 0.01;
+  params.mass = {.total_kg = 17.0,
+                 .wheel_kg = 0.7,
+                 .rocker_kg = 1.3,
+                 .bogie_kg = 0.4,
+                 .chassis_com_x_m = 0.023,
+                 .chassis_com_z_m = 0.21};
+  return params;
+}
+
+// The rover once more as Bullet's body, to be asked for accelerations by unit forces.
+class UnitForces {
+ public:
+  UnitForces(const RoverParams& params, const Configuration& c) {
+    const RoverMasses masses = MakeRoverMasses(params);
+    const RoverGeometry geometry = MakeRoverGeometry(params.geometry);
+    const Vector3 com_R = masses.chassis.com_B;
+    body_ = std::make_unique<btMultiBody>(kJoints, masses.chassis.mass_kg,
+                                          ToBullet(masses.chassis.inertia_kg_m2), false, false);
+    for (const int side : {0, 1}) {
+      const auto i = static_cast<std::size_t>(side);
+      const Vector3 rocker_R = geometry.rocker_pivot_R[i];
+      const Vector3 bogie_R = geometry.bogie_pivot_R[i];
+      Add(kLeftRocker + side, kChassis, masses.rocker, rocker_R - com_R, 0.0);
+      Add(kLeftBogie + side, kLeftRocker + side, masses.bogie, bogie_R - rocker_R, 0.0);
+      for (std::size_t w = 3 * i; w < 3 * i + 3; ++w) {
+        const bool on_bogie = geometry.on_bogie[w];
+        Add(kFirstWheel + static_cast<int>(w), (on_bogie ? kLeftBogie : kLeftRocker) + side,
+            masses.wheel, geometry.wheel_R[w] - (on_bogie ? bogie_R : rocker_R), c.steer_rad[w]);
+      }
+    }
+    body_->finalizeMultiDof();
+    const Eigen::Quaterniond q(c.X_WR.linear());
+    body_->setBasePos(ToBullet(c.X_WR * com_R));
+    body_->setWorldToBaseRot(btQuaternion(q.x(), q.y(), q.z(), q.w()).inverse());
+    for (int joint = 0; joint < kJoints; ++joint) {
+      body_->setJointPos(joint, c.joint_rad[static_cast<std::size_t>(joint)]);
+    }
+    body_->clearVelocities();
+    body_->clearForcesAndTorques();
+  }
+
+  DofMatrix Inverse() {
+    btAlignedObjectArray<btScalar> scalars;
+    btAlignedObjectArray<btVector3> vectors;
+    btAlignedObjectArray<btMatrix3x3> matrices;
+    // Fills in the articulated inertias, of which the unit forces make use.
+    body_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(1e-3, scalars, vectors, matrices,
+                                                                false, false, false);
+    DofMatrix inverse;
+    for (int dof = 0; dof < kDof; ++dof) {
+      const DofVector force = DofVector::Unit(dof);
+      body_->calcAccelerationDeltasMultiDof(force.data(), inverse.col(dof).data(), scalars,
+                                            vectors);
+    }
+    return inverse;
+  }
+
+ private:
+  static btVector3 ToBullet(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+  void Add(int joint, int parent, const BodyMass& mass, const Vector3& from_parent,
+           double steer_rad) {
+    body_->setupRevolute(joint, mass.mass_kg, ToBullet(mass.inertia_kg_m2), parent,
+                         btQuaternion(btVector3(0, 0, 1), -steer_rad), btVector3(0, 1, 0),
+                         ToBullet(from_parent), btVector3(0, 0, 0));
+  }
+
+  std::unique_ptr<btMultiBody> body_;
+};
+
+// Kinetic energy body by body, 1/2 m v^2 + 1/2 w . I w, with the velocities of each joint's origin
+// and body from those of its parent.
+double KineticEnergy_J(const RoverParams& params, const Multibody& body, const DofVector& v) {
+  const RoverMasses masses = MakeRoverMasses(params);
+  const auto energy_J = [](const BodyMass& mass, const Vector3& w_B, const Vector3& v_m_s) {
+    return 0.5 * mass.mass_kg * v_m_s.squaredNorm() +
+           0.5 * w_B.dot(mass.inertia_kg_m2.asDiagonal() * w_B);
+  };
+  const Vector3 w_chassis = v.head<3>();
+  const Vector3 v_chassis = v.segment<3>(3);
+  double sum_J = energy_J(masses.chassis, body.X_WR().linear().transpose() * w_chassis, v_chassis);
+  std::array<Vector3, kJoints> w_W;
+  std::array<Vector3, kJoints> v_W;
+  for (int joint = 0; joint < kJoints; ++joint) {
+    const auto i = static_cast<std::size_t>(joint);
+    const math::Transform& X = body.X_WB(joint);
+    const int parent = body.Parent(joint);
+    const bool on_chassis = parent == kChassis;
+    const auto p = static_cast<std::size_t>(on_chassis ? 0 : parent);
+    const Vector3 w = on_chassis ? w_chassis : w_W[p];
+    const Vector3 from =
+        X.translation() - (on_chassis ? body.p_WComChassis() : body.X_WB(parent).translation());
+    v_W[i] = (on_chassis ? v_chassis : v_W[p]) + w.cross(from);
+    w_W[i] = w + v[6 + joint] * X.linear().col(1);
+    const BodyMass& mass = joint <= kRightRocker ? masses.rocker
+                           : joint < kFirstWheel ? masses.bogie
+                                                 : masses.wheel;
+    sum_J += energy_J(mass, X.linear().transpose() * w_W[i], v_W[i]);
+  }
+  return sum_J;
+}
+
+class JointSpaceInertiaOf : public testing::TestWithParam<BogieEnd> {};
+
+INSTANTIATE_TEST_SUITE_P(Ends, JointSpaceInertiaOf,
+                         testing::Values(BogieEnd::kFront, BogieEnd::kRear), [](const auto& end) {
+                           return end.param == BogieEnd::kFront ? "BogiesInFront" : "BogiesBehind";
+                         });
+
+// Entries of the inverse differ in size by their units, 1/kg beside 1/(kg m2): each is compared
+// with the geometric mean of the two on the diagonal, the most that it can be.
+TEST_P(JointSpaceInertiaOf, RoverHasTheInverseThatUnitForcesShow) {
+  const RoverParams params = Uneven(GetParam());
+  Multibody body(params);
+  JointSpaceInertia inertia(params);
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    Numbers numbers(i);
+    const Configuration c = RandomConfiguration(numbers);
+    SetConfiguration(c, body);
+    inertia.Update(body);
+    const DofMatrix expected = UnitForces(params, c).Inverse();
+    const DofVector scale = expected.diagonal().cwiseSqrt();
+    const DofMatrix difference = (inertia.inverse() - expected).cwiseAbs();
+    EXPECT_LT(difference.cwiseQuotient(scale * scale.transpose()).maxCoeff(), 1e-9) << i;
+  }
+}
+
+TEST_P(JointSpaceInertiaOf, RoverHasTheEnergyOfItsBodies) {
+  const RoverParams params = Uneven(GetParam());
+  Multibody body(params);
+  JointSpaceInertia inertia(params);
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    Numbers numbers(1000 + i);
+    SetConfiguration(RandomConfiguration(numbers), body);
+    inertia.Update(body);
+    const DofVector v = RandomVelocity(numbers);
+    const double energy_J = KineticEnergy_J(params, body, v);
+    EXPECT_NEAR(0.5 * v.dot(inertia.mass() * v), energy_J, 1e-12 * energy_J) << i;
+  }
+}
+
+TEST_P(JointSpaceInertiaOf, RoverIsSymmetricPositiveAndInverse) {
+  const RoverParams params = Uneven(GetParam());
+  Multibody body(params);
+  JointSpaceInertia inertia(params);
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    Numbers numbers(2000 + i);
+    SetConfiguration(RandomConfiguration(numbers), body);
+    inertia.Update(body);
+    const DofMatrix& mass = inertia.mass();
+    const DofMatrix& inverse = inertia.inverse();
+    EXPECT_LT((mass - mass.transpose()).cwiseAbs().maxCoeff(), 1e-14) << i;
+    EXPECT_LT((inverse - inverse.transpose()).cwiseAbs().maxCoeff(),
+              1e-12 * inverse.cwiseAbs().maxCoeff())
+        << i;
+    EXPECT_LT((mass * inverse - DofMatrix::Identity()).cwiseAbs().maxCoeff(), 1e-9) << i;
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<DofMatrix>(mass).eigenvalues().minCoeff(), 0.0) << i;
+  }
+}
+
+// A rover that stands level with straight wheels, by hand: its total mass and moment, a wheel's
+// spin against its ancestors, and no coupling between the sides or among wheels.
+TEST(JointSpaceInertia, LevelRoverHasTheEntriesOfLeversAndSpins) {
+  const RoverParams params;
+  const RoverMasses masses = MakeRoverMasses(params);
+  Multibody body(params);
+  JointSpaceInertia inertia(params);
+  inertia.Update(body);
+  const DofMatrix& mass = inertia.mass();
+  const double spin_kg_m2 = masses.wheel.inertia_kg_m2.y();
+  EXPECT_NEAR(mass(3, 3), params.mass.total_kg, 1e-12);
+  for (int wheel = kFirstWheel; wheel < kJoints; ++wheel) {
+    EXPECT_NEAR(mass(6 + wheel, 6 + wheel), spin_kg_m2, 1e-15);
+    EXPECT_NEAR(mass(1, 6 + wheel), spin_kg_m2, 1e-15);
+    EXPECT_NEAR(mass(6 + body.Parent(wheel), 6 + wheel), spin_kg_m2, 1e-15);
+    EXPECT_EQ(mass.block(3, 6 + wheel, 3, 1).norm(), 0.0);
+    const int other_side = wheel < kFirstWheel + 3 ? kRightRocker : kLeftRocker;
+    EXPECT_EQ(mass(6 + other_side, 6 + wheel), 0.0);
+    for (int other = kFirstWheel; other < wheel; ++other) {
+      EXPECT_EQ(mass(6 + other, 6 + wheel), 0.0);
+    }
+  }
+  EXPECT_EQ(mass.block(6 + kLeftRocker, 6 + kRightRocker, 1, 1).norm(), 0.0);
+  EXPECT_EQ(mass.block(6 + kLeftBogie, 6 + kRightBogie, 1, 1).norm(), 0.0);
+}
+
+}  // namespace
+}  // namespace rockyard::rover
