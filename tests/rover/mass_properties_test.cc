@@ -1,10 +1,10 @@
-#include "rover/mass_properties.h"
+#include "rover/mass_properties_params.h"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 
-#include "rover/static_loads.h"
+#include "rover/static_loads_params.h"
 #include "rover_drive.h"
 
 namespace rockyard::rover {

@@ -1,7 +1,7 @@
-#include "rover/static_loads.h"
+#include "rover/static_loads_params.h"
 
-#include "rover/mass_properties.h"
-#include "rover/rover_geometry.h"
+#include "rover/mass_properties_params.h"
+#include "rover/rover_layout_params.h"
 
 namespace rockyard::rover {
 
