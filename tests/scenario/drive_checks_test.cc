@@ -87,6 +87,42 @@ INSTANTIATE_TEST_SUITE_P(
               kSize + ".width_m"}),
     [](const auto& tested) { return tested.param.label; });
 
+// Moments about the bogie pivots at x = 0.13 m, one side: half the chassis of 7.2 kg at x, rocker
+// 0.8 kg at 0.015 m, rear wheel 0.5 kg at -0.26 m, whose load is L kg:
+//   L (-0.39) = 7.2 (x - 0.13) + 0.8 (-0.115) + 0.5 (-0.39).
+// Nothing on the rear wheel, L = 0, gives x = 0.1699 m; nothing on the other two, where it carries
+// the whole side of 10 kg, x = -0.3718 m.
+TEST(CentreOfMassTest, IsRefusedWhereWheelsWouldHaveToHoldTheRoverDown) {
+  const std::string path = "rover.mass.chassis_com_x_m";
+  for (const std::string within : {"-0.371", "0", "0.169"}) {
+    EXPECT_TRUE(ProblemsOf("nominal", {path + "=" + within}, "pathfinder").empty()) << within;
+  }
+  for (const std::string beyond : {"-0.372", "0.170", "0.5"}) {
+    SCOPED_TRACE(beyond);
+    const std::vector<core::Problem> problems =
+        ProblemsOf("nominal", {path + "=" + beyond}, "pathfinder");
+    ASSERT_EQ(problems.size(), 1u);
+    EXPECT_EQ(problems[0].path, path);
+    EXPECT_EQ(problems[0].reason,
+              "tips the rover over: on level ground some wheels would have to hold it down");
+    EXPECT_EQ(problems[0].suggestion,
+              "use a value from -0.371 to 0.169, with which all six wheels carry a part");
+  }
+}
+
+// A rover as high as a lamp post stands as well, if in unstable balance.
+TEST(CentreOfMassTest, MayBeAsHighAsItsOwnBounds) {
+  EXPECT_TRUE(ProblemsOf("nominal", {"rover.mass.chassis_com_z_m=2"}, "pathfinder").empty());
+}
+
+// A rover lighter than its parts has no chassis whose place could matter: one problem, not two.
+TEST(CentreOfMassTest, IsNotAskedForWithoutAChassis) {
+  const std::vector<core::Problem> problems =
+      ProblemsOf("nominal", {"rover.mass.total_kg=5"}, "pathfinder");
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].path, "rover.mass.total_kg");
+}
+
 TEST(DriveChecksTest, GroupsThatDoNothingMayHoldAnything) {
   const Overrides odd = {"sensors.stereo.front.ahead_m=-2", kArray + ".far_m=15",
                          kArray + ".min_points=90000"};
