@@ -123,6 +123,34 @@ TEST(CentreOfMassTest, IsNotAskedForWithoutAChassis) {
   EXPECT_EQ(problems[0].path, "rover.mass.total_kg");
 }
 
+// Sand under a wheel's mean load at 33 deg, 27.4 N: T_max / N = 0.653 = tan 33.15 deg.
+TEST(SteepGroundTest, IsRefusedWhereTheSoilDoesNotHoldTheRover) {
+  const std::string slope = "terrain.ground.slope_deg=";
+  EXPECT_TRUE(ProblemsOf("nominal", {slope + "33.1"}, "pathfinder").empty());
+  for (const std::string steep : {"33.2", "45"}) {
+    const std::vector<core::Problem> problems =
+        ProblemsOf("nominal", {slope + steep}, "pathfinder");
+    ASSERT_EQ(problems.size(), 1u);
+    EXPECT_EQ(problems[0].path, "terrain.ground.slope_deg");
+    EXPECT_EQ(problems[0].reason,
+              "is steeper than the 33.1 deg up to which this soil holds this rover, braked");
+    EXPECT_EQ(problems[0].suggestion,
+              "use at most 33.1 deg, or a soil of more friction or cohesion");
+  }
+  const std::string hard = "terrain.ground.soil.preset=hard_ground";
+  EXPECT_TRUE(ProblemsOf("nominal", {slope + "38", hard}, "pathfinder").empty());
+  const std::string drift = "terrain.ground.soil.preset=mars_drift";
+  EXPECT_FALSE(ProblemsOf("nominal", {slope + "30", drift}, "pathfinder").empty());
+}
+
+// A measurement moves no rover over the ground; other conditions may ask for level ground.
+TEST(SteepGroundTest, IsNoMatterWhereTheRoverDoesNotDrive) {
+  for (const core::Problem& problem :
+       ProblemsOf("detection", {"terrain.ground.slope_deg=45"}, "hazard_detection")) {
+    EXPECT_EQ(problem.reason.find("holds"), std::string::npos);
+  }
+}
+
 TEST(DriveChecksTest, GroupsThatDoNothingMayHoldAnything) {
   const Overrides odd = {"sensors.stereo.front.ahead_m=-2", kArray + ".far_m=15",
                          kArray + ".min_points=90000"};
