@@ -41,6 +41,7 @@ class Placement {
   Course course_;
   double clear_radius_m_;
   std::optional<double> mirror_line_m_;
+  double cell_m_;
   int nx_;
   int ny_;
   std::vector<std::vector<Disc>> cells_;  // each disc in every cell that its bounding box meets
