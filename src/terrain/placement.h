@@ -31,6 +31,10 @@ class Placement {
   bool Free(const Disc& disc) const;
   void Add(const Disc& disc);
 
+  // Returns the placed discs by cells: memory goes with their number, the work of Free with the
+  // discs of one.
+  const std::vector<std::vector<Disc>>& cells() const { return cells_; }
+
  private:
   struct Cells {
     int first_x, last_x, first_y, last_y;
