@@ -16,9 +16,9 @@
 #include "core/error.h"
 #include "math/angles.h"
 #include "report/atomic_file.h"
-#include "rover/mass_properties.h"
+#include "rover/mass_properties_params.h"
 #include "rover/rover_geometry.h"
-#include "rover/static_loads.h"
+#include "rover/static_loads_params.h"
 #include "rover/urdf.h"
 
 namespace rockyard::app {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "rover/mass_properties.h"
+#include "rover/mass_properties_params.h"
 #include "rover/part_shapes.h"
 #include "rover/rover_geometry.h"
 #include "rover/rover_links.h"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "math/pose.h"
-#include "rover/mass_properties.h"
+#include "rover/mass_properties_params.h"
 #include "rover/part_shapes.h"
 
 namespace tinyxml2 {

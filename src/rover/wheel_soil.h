@@ -1,50 +1,23 @@
-// A rigid wheel on soil: sinkage, motion resistance, traction and slip as functions of its load.
+// A rigid wheel on soil: its rut and traction at a slip, as functions of its load.
 //
-// Sinkage (Bekker 1969; Wong 2008 sec. 2.5): plates sink under the pressure p = k z^n with
-// k = k_c / b + k_phi, and a wheel of diameter D and width b carries
-//   W(z) = (3 - n) / 3 * b k sqrt(D) z^(n + 1/2).
-// Resistance, by the work of compacting a rut: R = b k z^(n + 1) / (n + 1).
-// Largest traction (Mohr and Coulomb): T_max = b l c + W tan(phi), with the contact length
-// l = (D / 2) acos(1 - 2 z / D) of a wheel in its rut.
+// Sinkage, resistance and largest traction T_max are those of wheel_rut_params.h.
 // Slip (Janosi and Hanamoto 1961, uniform pressure along l): T = tau T_max with
 //   tau = 1 - (1 - e^-u) / u,   u = i l / K,   i = 1 - v / (omega r).
 //
-// Limits: steady state; level cut through the rut, no bulldozing wave ahead of it, no ruts left by
-// wheels ahead, no sinkage by slip; z well below D (the formula's own limit is about D / 6).
+// Limits: those of the rut, and no sinkage by slip.
 #pragma once
 
+#include "rover/wheel_rut_params.h"
 #include "terrain/soil_params.h"
 
 namespace rockyard::rover {
 
-// What a wheel meets under one load.
-struct Rut {
-  double load_N = 0.0;
-  double sinkage_m = 0.0;
-  // The slope dN / dz of the load over the sinkage.
-  double stiffness_N_m = 0.0;
-  double resistance_N = 0.0;
-  double contact_length_m = 0.0;
-  double largest_traction_N = 0.0;
-};
-
 // One kind of wheel on one soil.
-class WheelSoil {
+class WheelSoil : public WheelRut {
  public:
   // Radius and width are positive, m; the soil lies within the bounds of its Visit.
   WheelSoil(const terrain::SoilParams& soil, double wheel_radius_m, double wheel_width_m);
 
-  // Returns all that the wheel meets under a load > 0. All fields but the stiffness grow with the
-  // load. A call costs about 60 ns.
-  Rut RutUnder(double load_N) const;
-  // Returns the load at which the wheel sinks by z >= 0: the inverse of Sinkage_m.
-  double Load_N(double sinkage_m) const;
-
-  // These return single fields of the rut, for a load >= 0.
-  double Sinkage_m(double load_N) const;
-  double Resistance_N(double load_N) const;
-  double ContactLength_m(double load_N) const;
-  double LargestTraction_N(double load_N) const;
   // Returns l / K, the u at a slip of 1; infinite where K is 0.
   double ShearRatioOfFullSlip(double load_N) const;
 
@@ -57,13 +30,6 @@ class WheelSoil {
   double SlipPerShare(double slip, const Rut& rut) const;
 
  private:
-  double width_m_;
-  double diameter_m_;
-  double exponent_;         // n
-  double modulus_;          // b k, N/m^(n+1)
-  double load_factor_;      // W(z) / z^(n + 1/2)
-  double cohesion_Pa_;      // c
-  double tan_friction_;     // tan(phi)
   double shear_modulus_m_;  // K
 };
 

@@ -22,13 +22,13 @@ void ArenaParams::Visit(core::FieldVisitor& v) {
   v.Real("length_m", length_m,
          {.doc = "extent along the course",
           .min = 1.0,
-          .max = 200.0,
+          .max = 1000.0,
           .origin = Origin::kPublished,
           .source = "Matthies 1995 sec. 3"});
   v.Real("width_m", width_m,
          {.doc = "extent across the course",
           .min = 1.0,
-          .max = 200.0,
+          .max = 1000.0,
           .origin = Origin::kPublished,
           .source = "Matthies 1995 sec. 3"});
   v.Real("mirror_margin_m", mirror_margin_m,

@@ -6,7 +6,9 @@
 namespace rockyard::terrain {
 namespace {
 
-constexpr double kCell_m = 0.5;
+constexpr double kSmallestCell_m = 0.5;
+// Bounds the memory for wide, sparse fields: the cells grow instead.
+constexpr double kMaxCells = 250000.0;
 
 bool Overlap(const Disc& a, const Disc& b) {
   // |c_a - c_b| < r_a + r_b; discs that touch do not overlap.
@@ -24,8 +26,9 @@ Placement::Placement(const Rectangle& layout, const Course& course, double clear
       course_(course),
       clear_radius_m_(clear_radius_m),
       mirror_line_m_(mirror_line_m),
-      nx_(static_cast<int>((layout.x_max_m - layout.x_min_m) / kCell_m) + 1),
-      ny_(static_cast<int>((layout.y_max_m - layout.y_min_m) / kCell_m) + 1),
+      cell_m_(std::max(kSmallestCell_m, std::sqrt(layout.Area() / kMaxCells))),
+      nx_(static_cast<int>((layout.x_max_m - layout.x_min_m) / cell_m_) + 1),
+      ny_(static_cast<int>((layout.y_max_m - layout.y_min_m) / cell_m_) + 1),
       cells_(static_cast<std::size_t>(nx_) * ny_) {}
 
 // Clear zones are discs around start and goal, and rocks keep out with their whole outline.
@@ -36,8 +39,8 @@ bool Placement::ClearOfCourse(const Disc& disc) const {
 
 // Discs beyond the layout go to its border cells, both when added and when asked for.
 Placement::Cells Placement::CellsOf(const Disc& disc) const {
-  const auto index = [](double offset_m, int cells) {
-    return std::clamp(static_cast<int>(std::floor(offset_m / kCell_m)), 0, cells - 1);
+  const auto index = [this](double offset_m, int cells) {
+    return std::clamp(static_cast<int>(std::floor(offset_m / cell_m_)), 0, cells - 1);
   };
   const double dx = disc.x_m - layout_.x_min_m;
   const double dy = disc.y_m - layout_.y_min_m;

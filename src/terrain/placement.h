@@ -31,6 +31,10 @@ class Placement {
   bool Free(const Disc& disc) const;
   void Add(const Disc& disc);
 
+  // Returns the placed discs by cells: memory goes with their number, the work of Free with the
+  // discs of one.
+  const std::vector<std::vector<Disc>>& cells() const { return cells_; }
+
  private:
   struct Cells {
     int first_x, last_x, first_y, last_y;
@@ -41,6 +45,7 @@ class Placement {
   Course course_;
   double clear_radius_m_;
   std::optional<double> mirror_line_m_;
+  double cell_m_;
   int nx_;
   int ny_;
   std::vector<std::vector<Disc>> cells_;  // each disc in every cell that its bounding box meets

@@ -79,13 +79,13 @@ void VisitUniform(RockFieldParams& p, core::FieldVisitor& v) {
   v.Real("count_area_length_m", p.count_area_length_m,
          {.doc = "uniform_count: length of the count area along the course",
           .min = 0.5,
-          .max = 200.0,
+          .max = 1000.0,
           .origin = Origin::kAssumed,
           .source = "17.6 m2 (Matthies 1995 sec. 7) over the strip's width of 2.2 m"});
   v.Real("count_area_width_m", p.count_area_width_m,
          {.doc = "uniform_count: width of the count area, centred on y = 0",
           .min = 0.5,
-          .max = 200.0,
+          .max = 1000.0,
           .origin = Origin::kPublished,
           .source = "Matthies 1995 sec. 7: central 2.2 m"});
   const double largest_m2 =

@@ -1,5 +1,5 @@
 // What the soil between the rocks does to a wheel: the quantities of Bekker, Wong, and Janosi and
-// Hanamoto. rover/wheel_soil.h has the equations.
+// Hanamoto. rover/wheel_rut_params.h and wheel_soil.h have the equations.
 #pragma once
 
 #include <array>

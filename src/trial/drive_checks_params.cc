@@ -1,10 +1,15 @@
 #include "trial/drive_checks_params.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numbers>
+
+#include "math/angles.h"
+#include "rover/steepest_slope_params.h"
 
 namespace rockyard::trial {
 namespace {
@@ -137,6 +142,20 @@ void RequireOwnSize(const DriveParams& drive, core::FieldVisitor& v) {
             "is more than a factor of two from rover.geometry.width_m", kModel);
 }
 
+// Where the soil does not hold it, a rover that waits slides off, ever faster.
+void RequireHold(const DriveParams& drive, core::FieldVisitor& v) {
+  const terrain::GroundParams& ground = drive.terrain.ground;
+  const double held_rad = rover::SteepestHeldSlope_rad(drive.rover, ground.soil);
+  // Rounded down, to tenths.
+  const double held_deg = std::floor(10.0 * math::RadToDeg(held_rad)) / 10.0;
+  v.Require(
+      "terrain.ground.slope_deg", ground.slope_rad <= held_rad,
+      fmt::format("is steeper than the {:.1f} deg up to which this soil holds this rover, "
+                  "braked",
+                  held_deg),
+      fmt::format("use at most {:.1f} deg, or a soil of more friction or cohesion", held_deg));
+}
+
 }  // namespace
 
 void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v) {
@@ -146,6 +165,7 @@ void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v) {
   if (stereo) RequireCameras(drive, v);
   if (stereo && behaviour) RequireArray(drive, v);
   if (map) RequireOwnSize(drive, v);
+  RequireHold(drive, v);
   RequireFreeEnds(drive, v);
   RequireDesignatedGoals(drive, v);
 }

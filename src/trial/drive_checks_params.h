@@ -14,6 +14,7 @@ inline constexpr double kSame_m = 1e-9;
 // - the elevation array that the behaviour controller takes from stereo lies on level ground that
 //   the cameras ahead can show (bounds that no view exceeds; the view may be narrower), and asks
 //   for no more points than an image has pixels;
+// - the soil holds the braked rover on the slope of the ground;
 // - listed rocks leave start and goal of a drive free by terrain.rocks.clear_radius_m;
 // - goals that a lander designates stay between the mirror lines of a virtual_reflected arena;
 // - GESTALT takes its vehicle for at most twice and at least half as long and wide as it is.

@@ -1,6 +1,11 @@
 #include "trial/drive_consistency_params.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "rover/body_boxes_params.h"
+#include "rover/static_loads_params.h"
 #include "sensing/stripe_layout_params.h"
 #include "sensing/stripe_view_params.h"
 
@@ -29,6 +34,24 @@ void RequirePossible(const DriveParams& drive, core::FieldVisitor& v) {
             multibody || drive.terrain.rocks.mobility == terrain::RockMobility::kFixed,
             "is quasi_static, which pushes no rocks, where terrain.rocks.mobility is movable",
             "use fidelity multibody or fixed rocks");
+}
+
+// The parts of the rover weigh less than the whole, or that has been refused by their own group.
+bool HasChassis(const rover::RoverMassParams& mass) {
+  return mass.total_kg > 6.0 * mass.wheel_kg + 2.0 * (mass.rocker_kg + mass.bogie_kg);
+}
+
+// A rover with its centre of mass beyond its wheels falls over before it drives.
+void RequireStanding(const rover::RoverParams& rover, core::FieldVisitor& v) {
+  if (!HasChassis(rover.mass)) return;
+  const rover::ComRange range = rover::StandingComRange(rover);
+  const double com_x_m = rover.mass.chassis_com_x_m;
+  v.Require("rover.mass.chassis_com_x_m", com_x_m > range.min_m && com_x_m < range.max_m,
+            "tips the rover over: on level ground some wheels would have to hold it down",
+            // Rounded inwards, to millimetres.
+            fmt::format("use a value from {:.3f} to {:.3f}, with which all six wheels carry a part",
+                        std::ceil(1000.0 * range.min_m) / 1000.0,
+                        std::floor(1000.0 * range.max_m) / 1000.0));
 }
 
 // The parameter of the navigator in use that says how near counts as arrived.
@@ -122,6 +145,7 @@ void RequireFreeView(const DriveParams& drive, LightStripeUse use, core::FieldVi
 void RequireConsistency(const DriveParams& drive, LightStripeUse light_stripe,
                         core::FieldVisitor& v) {
   RequirePossible(drive, v);
+  RequireStanding(drive.rover, v);
   RequireArrival(drive, v);
   RequireStripes(drive, light_stripe, v);
   RequireFinder(drive, light_stripe, v);

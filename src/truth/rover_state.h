@@ -26,6 +26,9 @@ struct RoverState {
   math::Vector3 w_WR_rad_s = math::Vector3::Zero();
   messages::PerWheel<double> wheel_angle_rad{};  // accumulated, positive forward
   messages::PerWheel<double> wheel_load_N{};     // normal force on each wheel
+  // Depth of each wheel's lowest point below the soil's surface beneath it; 0 where it stands on
+  // rock or on nothing.
+  messages::PerWheel<double> wheel_sinkage_m{};
   messages::PerWheel<double> motor_torque_Nm{};
   messages::PerWheel<double> steer_rad{};
   double left_rocker_rad = 0.0;

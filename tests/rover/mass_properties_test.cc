@@ -1,10 +1,11 @@
-#include "rover/mass_properties.h"
-
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
-#include "rover/static_loads.h"
+#include "rover/mass_properties_params.h"
+#include "rover/static_loads_params.h"
 #include "rover_drive.h"
 
 namespace rockyard::rover {
@@ -60,6 +61,49 @@ TEST(StaticLoads, CarryTheRoverAndItsMoment) {
     const std::size_t bogie_outer = end == BogieEnd::kFront ? 0 : 2;
     EXPECT_NEAR(load_N[bogie_outer], load_N[1], 1e-9);
   }
+}
+
+// With the chassis' centre of mass on either end of the range some wheels carry nothing, and
+// within it all carry something.
+TEST(StaticLoads, AllWheelsCarryWithinTheRange) {
+  for (const BogieEnd end : {BogieEnd::kFront, BogieEnd::kRear}) {
+    RoverParams params;
+    params.geometry.bogie_end = end;
+    params.mass.chassis_com_x_m = 0.5;  // does not matter
+    const ComRange range = StandingComRange(params);
+    const auto least_N = [&params](double com_x_m) {
+      params.mass.chassis_com_x_m = com_x_m;
+      const messages::PerWheel<double> load_N = StaticWheelLoads(params);
+      return *std::min_element(load_N.begin(), load_N.end());
+    };
+    for (const double limit_m : {range.min_m, range.max_m}) {
+      EXPECT_NEAR(least_N(limit_m), 0.0, 1e-9);
+      EXPECT_LT(std::abs(limit_m), params.geometry.length_m);
+    }
+    EXPECT_LT(least_N(range.min_m - 1e-3), 0.0);
+    EXPECT_GT(least_N(range.min_m + 1e-3), 0.0);
+    EXPECT_GT(least_N(range.max_m - 1e-3), 0.0);
+    EXPECT_LT(least_N(range.max_m + 1e-3), 0.0);
+  }
+}
+
+// A rover put down braked stays level just within the range and falls over just beyond it.
+TEST(StaticLoads, RoverFallsOverBeyondTheRange) {
+  RoverParams params;
+  const ComRange range = StandingComRange(params);
+  const auto tilt_rad = [&params](double com_x_m) {
+    params.mass.chassis_com_x_m = com_x_m;
+    const terrain::Terrain terrain = FlatTerrain();
+    const auto rover = MakeRover(params, terrain);
+    rover->Place({});
+    RunFor(*rover, kBraked, 5.0);
+    return math::Tilt(rover->state().X_WR);
+  };
+  constexpr double kMargin_m = 0.02;
+  EXPECT_LT(tilt_rad(range.min_m + kMargin_m), math::DegToRad(2.0));
+  EXPECT_LT(tilt_rad(range.max_m - kMargin_m), math::DegToRad(2.0));
+  EXPECT_GT(tilt_rad(range.min_m - kMargin_m), math::DegToRad(10.0));
+  EXPECT_GT(tilt_rad(range.max_m + kMargin_m), math::DegToRad(10.0));
 }
 
 // Against the simulation on ground without friction, which would make loads indeterminate.

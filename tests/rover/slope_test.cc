@@ -3,7 +3,9 @@
 
 #include <numbers>
 
+#include "rover/steepest_slope_params.h"
 #include "rover_drive.h"
+#include "soil_reference.h"
 
 namespace rockyard::rover {
 namespace {
@@ -39,6 +41,47 @@ TEST(Slope, BrakedRoverSlidesBeyondTheFrictionAngle) {
         const double expected_m = SlideLength(slope, 0.5, gravity_m_s2, 1.5);
         EXPECT_NEAR(Moved(from, rover->state()), expected_m, 0.05 * expected_m + 1e-4)
             << "gravity " << gravity_m_s2 << ", direction " << direction << ", " << excess_deg;
+      }
+    }
+  }
+}
+
+// The closed form with the plain laws of the rut, and its limits: friction alone, and soil that
+// holds nothing.
+TEST(Slope, SoilHoldsUpToItsLargestTraction) {
+  const RoverParams params;
+  for (const terrain::SoilPreset preset :
+       {terrain::SoilPreset::kLandscapingSand, terrain::SoilPreset::kMarsDrift,
+        terrain::SoilPreset::kHardGround}) {
+    const terrain::SoilParams soil = terrain::MakeSoil(preset);
+    const SoilReference reference{soil};
+    const double held = SteepestHeldSlope_rad(params, soil);
+    const double load_N = Weights(params).total_N * std::cos(held) / 6.0;
+    EXPECT_NEAR(std::tan(held), reference.LargestTraction(load_N) / load_N, 1e-9);
+  }
+  EXPECT_NEAR(SteepestHeldSlope_rad(params, RigidGround(0.7)), std::atan(0.7), 1e-9);
+  EXPECT_EQ(SteepestHeldSlope_rad(params, RigidGround(0.0)), 0.0);
+}
+
+// Across the slope the braked rover stays where it is just below, and slides just above.
+TEST(Slope, BrakedRoverStaysUpToWhatTheSoilHolds) {
+  for (const terrain::SoilPreset preset :
+       {terrain::SoilPreset::kLandscapingSand, terrain::SoilPreset::kMarsDrift}) {
+    const terrain::SoilParams soil = terrain::MakeSoil(preset);
+    const double held = SteepestHeldSlope_rad({}, soil);
+    for (const double excess_deg : {-1.0, 1.0}) {
+      const terrain::Terrain terrain =
+          SlopeTerrain(held + math::DegToRad(excess_deg), kLeftUp, soil);
+      const auto rover = MakeRover({}, terrain);
+      rover->Place({});
+      RunFor(*rover, kBraked, 1.0);
+      const math::Vector3 from = rover->state().X_WR.translation();
+      RunFor(*rover, kBraked, 2.0);
+      const double moved_m = Moved(from, rover->state());
+      if (excess_deg < 0.0) {
+        EXPECT_LT(moved_m, 1e-3);
+      } else {
+        EXPECT_GT(moved_m, 0.1);
       }
     }
   }

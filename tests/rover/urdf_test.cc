@@ -11,7 +11,7 @@
 #include <string>
 
 #include "math/pose.h"
-#include "rover/mass_properties.h"
+#include "rover/mass_properties_params.h"
 #include "rover/rover_geometry.h"
 #include "scenario/load.h"
 

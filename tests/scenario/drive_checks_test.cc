@@ -87,6 +87,70 @@ INSTANTIATE_TEST_SUITE_P(
               kSize + ".width_m"}),
     [](const auto& tested) { return tested.param.label; });
 
+// Moments about the bogie pivots at x = 0.13 m, one side: half the chassis of 7.2 kg at x, rocker
+// 0.8 kg at 0.015 m, rear wheel 0.5 kg at -0.26 m, whose load is L kg:
+//   L (-0.39) = 7.2 (x - 0.13) + 0.8 (-0.115) + 0.5 (-0.39).
+// Nothing on the rear wheel, L = 0, gives x = 0.1699 m; nothing on the other two, where it carries
+// the whole side of 10 kg, x = -0.3718 m.
+TEST(CentreOfMassTest, IsRefusedWhereWheelsWouldHaveToHoldTheRoverDown) {
+  const std::string path = "rover.mass.chassis_com_x_m";
+  for (const std::string within : {"-0.371", "0", "0.169"}) {
+    EXPECT_TRUE(ProblemsOf("nominal", {path + "=" + within}, "pathfinder").empty()) << within;
+  }
+  for (const std::string beyond : {"-0.372", "0.170", "0.5"}) {
+    SCOPED_TRACE(beyond);
+    const std::vector<core::Problem> problems =
+        ProblemsOf("nominal", {path + "=" + beyond}, "pathfinder");
+    ASSERT_EQ(problems.size(), 1u);
+    EXPECT_EQ(problems[0].path, path);
+    EXPECT_EQ(problems[0].reason,
+              "tips the rover over: on level ground some wheels would have to hold it down");
+    EXPECT_EQ(problems[0].suggestion,
+              "use a value from -0.371 to 0.169, with which all six wheels carry a part");
+  }
+}
+
+// A rover as high as a lamp post stands as well, if in unstable balance.
+TEST(CentreOfMassTest, MayBeAsHighAsItsOwnBounds) {
+  EXPECT_TRUE(ProblemsOf("nominal", {"rover.mass.chassis_com_z_m=2"}, "pathfinder").empty());
+}
+
+// A rover lighter than its parts has no chassis whose place could matter: one problem, not two.
+TEST(CentreOfMassTest, IsNotAskedForWithoutAChassis) {
+  const std::vector<core::Problem> problems =
+      ProblemsOf("nominal", {"rover.mass.total_kg=5"}, "pathfinder");
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].path, "rover.mass.total_kg");
+}
+
+// Sand under a wheel's mean load at 33 deg, 27.4 N: T_max / N = 0.653 = tan 33.15 deg.
+TEST(SteepGroundTest, IsRefusedWhereTheSoilDoesNotHoldTheRover) {
+  const std::string slope = "terrain.ground.slope_deg=";
+  EXPECT_TRUE(ProblemsOf("nominal", {slope + "33.1"}, "pathfinder").empty());
+  for (const std::string steep : {"33.2", "45"}) {
+    const std::vector<core::Problem> problems =
+        ProblemsOf("nominal", {slope + steep}, "pathfinder");
+    ASSERT_EQ(problems.size(), 1u);
+    EXPECT_EQ(problems[0].path, "terrain.ground.slope_deg");
+    EXPECT_EQ(problems[0].reason,
+              "is steeper than the 33.1 deg up to which this soil holds this rover, braked");
+    EXPECT_EQ(problems[0].suggestion,
+              "use at most 33.1 deg, or a soil of more friction or cohesion");
+  }
+  const std::string hard = "terrain.ground.soil.preset=hard_ground";
+  EXPECT_TRUE(ProblemsOf("nominal", {slope + "38", hard}, "pathfinder").empty());
+  const std::string drift = "terrain.ground.soil.preset=mars_drift";
+  EXPECT_FALSE(ProblemsOf("nominal", {slope + "30", drift}, "pathfinder").empty());
+}
+
+// A measurement moves no rover over the ground; other conditions may ask for level ground.
+TEST(SteepGroundTest, IsNoMatterWhereTheRoverDoesNotDrive) {
+  for (const core::Problem& problem :
+       ProblemsOf("detection", {"terrain.ground.slope_deg=45"}, "hazard_detection")) {
+    EXPECT_EQ(problem.reason.find("holds"), std::string::npos);
+  }
+}
+
 TEST(DriveChecksTest, GroupsThatDoNothingMayHoldAnything) {
   const Overrides odd = {"sensors.stereo.front.ahead_m=-2", kArray + ".far_m=15",
                          kArray + ".min_points=90000"};

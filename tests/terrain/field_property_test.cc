@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -70,6 +71,71 @@ TEST(StreamTest, OneParameterShiftsNoOther) {
     EXPECT_EQ(before[i].yaw_rad, after[i].yaw_rad);
     EXPECT_NE(before[i].height_m, after[i].height_m);
   }
+}
+
+// One rock after another finds its place as easily as in a short field, at the density of the law
+// all along, and queries far from the origin find what is there.
+TEST(KilometreTest, IsTheSameFieldAllAlong) {
+  TerrainParams params = PlainMoore(kNominalK);
+  params.rocks.overlap = OverlapRule::kRelocate;
+  params.arena.length_m = 1000.0;
+  const Field field = BuildField(params, {33, 0}, {0.0, 0.0, 900.0, 0.0});
+  // Poisson: five deviations.
+  EXPECT_NEAR(field.audit.placed, field.audit.expected_placed,
+              5.0 * std::sqrt(field.audit.expected_placed));
+  EXPECT_LT(field.audit.relocated, 0.1 * field.audit.placed);
+  constexpr std::size_t kParts = 10;
+  std::array<int, kParts> in_part{};
+  for (const Rock& rock : field.terrain.rocks()) {
+    const double share = (rock.center_W.x() - params.arena.x_min_m) / params.arena.length_m;
+    ASSERT_TRUE(share >= 0.0 && share < 1.0);
+    ++in_part[static_cast<std::size_t>(share * kParts)];
+  }
+  const double expected = field.audit.expected_placed / kParts;
+  for (const int count : in_part) EXPECT_NEAR(count, expected, 5.0 * std::sqrt(expected));
+  std::vector<int> found;
+  for (const double x_m : {0.0, 450.0, 997.0}) {
+    field.terrain.RocksNear(x_m, 0.0, 2.0, found);
+    std::vector<int> meeting;
+    for (std::size_t i = 0; i < field.terrain.rocks().size(); ++i) {
+      const Rock& rock = field.terrain.rocks()[i];
+      const double reach_m = 2.0 + rock.semi_axes_m.x();
+      if (std::hypot(rock.center_W.x() - x_m, rock.center_W.y()) <= reach_m) {
+        meeting.push_back(static_cast<int>(i));
+      }
+    }
+    EXPECT_EQ(found, meeting);
+    EXPECT_GT(found.size(), 5u);
+  }
+}
+
+// Pairs of rocks whose round outlines of the drawn diameter overlap.
+int Overlaps(const Field& field) {
+  const auto rocks = field.terrain.rocks();
+  int overlaps = 0;
+  for (std::size_t i = 0; i < rocks.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double reach_m = 0.5 * (rocks[i].diameter_m + rocks[j].diameter_m);
+      const double distance_m = (rocks[i].center_W - rocks[j].center_W).head<2>().norm();
+      if (distance_m < reach_m) ++overlaps;
+    }
+  }
+  return overlaps;
+}
+
+// A square kilometre of large rocks; where they may overlap, some do.
+TEST(KilometreTest, WideFieldsKeepTheirRocksApart) {
+  TerrainParams params = PlainMoore(kNominalK);
+  params.arena.length_m = 1000.0;
+  params.arena.width_m = 1000.0;
+  params.rocks.min_diameter_m = 1.0;
+  params.rocks.max_diameter_m = 2.0;
+  EXPECT_GT(Overlaps(BuildField(params, {34, 0}, {})), 0);
+  params.rocks.overlap = OverlapRule::kRelocate;
+  const Field field = BuildField(params, {34, 0}, {});
+  EXPECT_GT(field.audit.placed, 3000);
+  EXPECT_GT(field.audit.relocated, 0);
+  EXPECT_EQ(Overlaps(field), 0);
 }
 
 class MirrorTest : public testing::TestWithParam<OverlapRule> {};

@@ -76,6 +76,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{R"({"rocks": {"min_diameter_m": 0.02}, "arena": {"kind": "open",
                      "length_m": 200, "width_m": 200}})",
                  "rocks.min_diameter_m", "more than 50000 rocks"},
+        BadInput{R"({"arena": {"kind": "open", "length_m": 1000, "width_m": 1000}})",
+                 "rocks.min_diameter_m", "more than 50000 rocks"},
+        BadInput{R"({"arena": {"length_m": 1001}})", "arena.length_m", "1000"},
+        BadInput{R"({"arena": {"width_m": 1001}})", "arena.width_m", "1000"},
         BadInput{R"({"rocks": {"min_diameter_m": 0.02, "k_per_m2": 1e-6, "k_reference_per_m2": 0.1},
                      "arena": {"kind": "walled", "length_m": 100, "width_m": 100}})",
                  "rocks.k_reference_per_m2", "million"},
@@ -93,6 +97,17 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{R"({"arena": {"mirror_margin_m": 1.9}})", "arena.mirror_margin_m", "0.5 m"},
         BadInput{R"({"arena": {"mirror_margin_m": 1.5}})", "arena.mirror_margin_m", "wider"},
         BadInput{R"({"ground": {"slope_deg": 46}})", "ground.slope_deg", "45"}));
+
+TEST(TerrainParamsTest, KilometresAreValidWhereTheirRocksAreNotTooMany) {
+  EXPECT_EQ(Problems(R"({"arena": {"kind": "open", "length_m": 1000}})"), "");
+  EXPECT_EQ(Problems(R"({"arena": {"kind": "walled", "length_m": 1000, "width_m": 1000},
+                         "rocks": {"min_diameter_m": 0.5, "max_diameter_m": 2.0}})"),
+            "");
+  EXPECT_EQ(Problems(R"({"arena": {"length_m": 1000},
+                         "rocks": {"kind": "uniform_count", "count": 1000, "count_area_x_m": 0,
+                                   "count_area_length_m": 900}})"),
+            "");
+}
 
 TEST(TerrainParamsTest, UnusedCountAreaDoesNotHinderMooreFields) {
   EXPECT_EQ(Problems(R"({"arena": {"length_m": 9.7, "x_min_m": -1}})"), "");

@@ -2,7 +2,7 @@
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 
-#include "rover/mass_properties.h"
+#include "rover/mass_properties_params.h"
 #include "rover/rover_geometry.h"
 
 namespace rockyard::rover {

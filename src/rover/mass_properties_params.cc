@@ -1,4 +1,4 @@
-#include "rover/mass_properties.h"
+#include "rover/mass_properties_params.h"
 
 namespace rockyard::rover {
 namespace {

@@ -1,7 +1,10 @@
-#include "rover/static_loads.h"
+#include "rover/static_loads_params.h"
 
-#include "rover/mass_properties.h"
-#include "rover/rover_geometry.h"
+#include <algorithm>
+#include <limits>
+
+#include "rover/mass_properties_params.h"
+#include "rover/rover_layout_params.h"
 
 namespace rockyard::rover {
 
@@ -43,6 +46,26 @@ messages::PerWheel<double> StaticWheelLoads(const RoverParams& params) {
     load_N[side + bogie_end] = (1.0 - middle_share) * bogie_N + wheel_N;
   }
   return load_N;
+}
+
+// Loads are linear in the position, so that each wheel's is zero at x = N(0) / (N(0) - N(1 m)).
+ComRange StandingComRange(const RoverParams& params) {
+  const auto loads_at = [&params](double com_x_m) {
+    RoverParams moved = params;
+    moved.mass.chassis_com_x_m = com_x_m;
+    return StaticWheelLoads(moved);
+  };
+  const messages::PerWheel<double> at_origin_N = loads_at(0.0);
+  const messages::PerWheel<double> at_metre_N = loads_at(1.0);
+  constexpr double kFar_m = std::numeric_limits<double>::infinity();
+  ComRange range{-kFar_m, kFar_m};
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    const double gain_N = at_metre_N[i] - at_origin_N[i];
+    const double zero_m = -at_origin_N[i] / gain_N;
+    if (gain_N > 0.0) range.min_m = std::max(range.min_m, zero_m);
+    if (gain_N < 0.0) range.max_m = std::min(range.max_m, zero_m);
+  }
+  return range;
 }
 
 }  // namespace rockyard::rover

@@ -1,0 +1,39 @@
+#include "rover/rover_layout_params.h"
+
+namespace rockyard::rover {
+
+using math::Vector3;
+
+RoverGeometry MakeRoverGeometry(const RoverGeometryParams& params) {
+  RoverGeometry geometry;
+  const double outer_x = 0.5 * params.wheelbase_m;
+  // The overall width runs from outer face to outer face.
+  const double wheel_y = 0.5 * (params.width_m - params.wheel_width_m);
+  const bool bogie_in_front = params.bogie_end == BogieEnd::kFront;
+  // The parameters give x of the middle wheels and pivots for a bogie at the rear; in front is its
+  // mirror image in the plane x = 0 of R.
+  const double mirror = bogie_in_front ? -1.0 : 1.0;
+  const std::array<double, 3> x{outer_x, mirror * params.middle_wheel_x_m, -outer_x};
+  const std::array<bool, 3> on_bogie{bogie_in_front, true, !bogie_in_front};
+  // messages::Wheel runs front, middle, rear on the left (+y), then the same on the right.
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    const std::size_t axle = i % 3;
+    const double y = i < 3 ? wheel_y : -wheel_y;
+    geometry.wheel_R[i] = Vector3(x[axle], y, params.wheel_radius_m);
+    // The middle wheels (axle 1) steer where all do.
+    geometry.steered[i] = axle != 1 || params.steered_wheels == SteeredWheels::kAll;
+    geometry.on_bogie[i] = on_bogie[axle];
+  }
+  // The bogie's pivot stands midway between the bogie's two wheels, the middle one and the outer
+  // one at -outer_x (before mirroring).
+  const double bogie_x = 0.5 * (params.middle_wheel_x_m - outer_x);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const double y = side == 0 ? params.arm_y_m : -params.arm_y_m;
+    geometry.rocker_pivot_R[side] =
+        Vector3(mirror * params.rocker_pivot_x_m, y, params.rocker_pivot_z_m);
+    geometry.bogie_pivot_R[side] = Vector3(mirror * bogie_x, y, params.bogie_pivot_z_m);
+  }
+  return geometry;
+}
+
+}  // namespace rockyard::rover

@@ -1,0 +1,57 @@
+// The rut of a rigid wheel in soil: sinkage, motion resistance and largest traction by its load.
+//
+// Sinkage (Bekker 1969; Wong 2008 sec. 2.5): plates sink under the pressure p = k z^n with
+// k = k_c / b + k_phi, and a wheel of diameter D and width b carries
+//   W(z) = (3 - n) / 3 * b k sqrt(D) z^(n + 1/2).
+// Resistance, by the work of compacting a rut: R = b k z^(n + 1) / (n + 1).
+// Largest traction (Mohr and Coulomb): T_max = b l c + W tan(phi), with the contact length
+// l = (D / 2) acos(1 - 2 z / D) of a wheel in its rut.
+//
+// Limits: steady state; level cut through the rut, no bulldozing wave ahead of it, no ruts left by
+// wheels ahead; z well below D (the formula's own limit is about D / 6).
+#pragma once
+
+#include "terrain/soil_params.h"
+
+namespace rockyard::rover {
+
+// What a wheel meets under one load.
+struct Rut {
+  double load_N = 0.0;
+  double sinkage_m = 0.0;
+  // The slope dN / dz of the load over the sinkage.
+  double stiffness_N_m = 0.0;
+  double resistance_N = 0.0;
+  double contact_length_m = 0.0;
+  double largest_traction_N = 0.0;
+};
+
+// The law of the rut for one kind of wheel in one soil.
+class WheelRut {
+ public:
+  // Radius and width are positive, m; the soil lies within the bounds of its Visit.
+  WheelRut(const terrain::SoilParams& soil, double wheel_radius_m, double wheel_width_m);
+
+  // Returns all that the wheel meets under a load > 0. All fields but the stiffness grow with the
+  // load. A call costs about 60 ns.
+  Rut RutUnder(double load_N) const;
+  // Returns the load at which the wheel sinks by z >= 0: the inverse of Sinkage_m.
+  double Load_N(double sinkage_m) const;
+
+  // These return single fields of the rut, for a load >= 0.
+  double Sinkage_m(double load_N) const;
+  double Resistance_N(double load_N) const;
+  double ContactLength_m(double load_N) const;
+  double LargestTraction_N(double load_N) const;
+
+ private:
+  double width_m_;
+  double diameter_m_;
+  double exponent_;      // n
+  double modulus_;       // b k, N/m^(n+1)
+  double load_factor_;   // W(z) / z^(n + 1/2)
+  double cohesion_Pa_;   // c
+  double tan_friction_;  // tan(phi)
+};
+
+}  // namespace rockyard::rover
