@@ -359,17 +359,16 @@ void ConstraintSolver::RelaxDrivenFriction(const Eigen::Vector2d& lack_m_s, Cont
   const double most_Ns = rows.law.friction * rows.normal.impulse;
   // The motor holds its rate: its impulse changes by dq = (lack of its row - g . dp) / d.
   const double hold_Ns = Residual(motor) / motor.diagonal;
-  auto p = rows.driven_friction.Solve(
-      RightSide(rows, rows.driven_friction, lack_m_s - hold_Ns * g), rows.along.softness, most_Ns);
-  double q = motor.impulse + hold_Ns -
-             (g[0] * (p[0] - rows.along.impulse) + g[1] * (p[1] - rows.across.impulse)) /
-                 motor.diagonal;
+  auto p = rows.driven_friction.Solve(RightSide(rows, rows.driven_friction, lack_m_s - hold_Ns * g),
+                                      rows.along.softness, most_Ns);
+  double q =
+      motor.impulse + hold_Ns -
+      (g[0] * (p[0] - rows.along.impulse) + g[1] * (p[1] - rows.across.impulse)) / motor.diagonal;
   if (q < motor.low || q > motor.high) {
     // It stalls: its torque is given, and friction alone decides how the wheel turns.
     q = std::clamp(q, motor.low, motor.high);
-    p = rows.friction.Solve(
-        RightSide(rows, rows.friction, lack_m_s - (q - motor.impulse) * g), rows.along.softness,
-        most_Ns);
+    p = rows.friction.Solve(RightSide(rows, rows.friction, lack_m_s - (q - motor.impulse) * g),
+                            rows.along.softness, most_Ns);
   }
   Apply(q, motor);
   Apply(p[0], rows.along);

@@ -128,7 +128,7 @@ class ConstraintSolver {
   double step_s_;
   std::array<double, kStops> stop_angle_rad_{};
   DofVector velocity_ = DofVector::Zero();
-  double largest_change_Ns_ = 0.0;  // of the impulse of a contact, in the present sweep
+  double largest_change_Ns_ = 0.0;        // of the impulse of a contact, in the present sweep
   DofVector before_ = DofVector::Zero();  // at the beginning of the step
   Row differential_;
   std::array<Row, kStops> stops_;

@@ -70,7 +70,7 @@ class Multibody {
   void BuildLinks(const RoverParams& params);
 
   std::unique_ptr<Bullet> bullet_;
-  bool moved_ = true;  // since the last UpdatePoses
+  bool moved_ = true;     // since the last UpdatePoses
   math::Vector3 p_RCom_;  // of the chassis
   math::Vector3 p_WCom_ = math::Vector3::Zero();
   math::Transform X_WR_ = math::Transform::Identity();

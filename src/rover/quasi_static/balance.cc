@@ -10,9 +10,9 @@ using math::Vector3;
 
 // Slip at which Coulomb friction has reached 0.7 of itself, in shares of the rim speed. Half of it
 // costs a fifth more iterations and changes no posture by more than that of the step.
-static double kRockCreep = getenv("RC") ? atof(getenv("RC")) : 0.02;
+constexpr double kRockCreep = 0.002;
 // Same for the direction of the motion resistance.
-static double kResistanceCreep = getenv("XC") ? atof(getenv("XC")) : 0.1;
+constexpr double kResistanceCreep = 0.003;
 // A wheel that stands, or turns slowly, is judged by this share of the fastest rim, and a rover
 // whose wheels all stand by this share of its speed.
 constexpr double kMinReference = 0.05;
@@ -23,7 +23,7 @@ constexpr double kTolerance = 1e-2;
 constexpr double kTangentRange = 0.3;
 // A step is cut where the slope at its end is more than this share of that at its start, turned.
 constexpr double kOvershoot = 0.5;
-constexpr int kMaxCuts = 4;
+constexpr int kMaxCuts = 6;
 // Change of a load, over the mean wheel load, at which tractions follow it once more; and the
 // longest step by which they do.
 constexpr double kLoadTolerance = 0.05;
@@ -131,7 +131,8 @@ void QuasiStaticBalance::SetTraction(const RestingContact& contact, Row& row) co
   }
 }
 
-QuasiStaticBalance::Traction QuasiStaticBalance::TractionOf(const Row& row, double speed_m_s) {
+QuasiStaticBalance::Traction QuasiStaticBalance::TractionOf(const Row& row,
+                                                            double speed_m_s) const {
   const double slip = speed_m_s / row.reference_m_s;
   if (row.shear_ratio > 0.0) {
     // Soil, with the slip i = v / v_ref and u = i l / K:
@@ -139,7 +140,7 @@ QuasiStaticBalance::Traction QuasiStaticBalance::TractionOf(const Row& row, doub
     //   tau'.
     // tau / u tends to 1/2 at u = 0.
     const double u = slip * row.shear_ratio;
-    const ShearShare share = ShareOfRatio(u);
+    const ShearShare share = share_.At(u);
     const double scale = row.max_N * row.shear_ratio / row.reference_m_s;
     constexpr double kSmall = 1e-6;
     return {scale * (u > kSmall ? share.value / u : 0.5), scale * share.slope};
@@ -309,14 +310,27 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
     tangent_ = IsSmall(change, kTangentRange * speed_m_s_);
     LinkageVector next = rates + change;
     Evaluate(next, contacts);
-    // With its tractions given, the function is convex and F is minus its gradient: where F .
-    // change has turned its sign, the minimum lies before. The secant of F . change says where.
-    for (int cut = 0; cut < kMaxCuts; ++cut) {
-      const double slope = equations_.force().dot(change);
-      if (slope >= -kOvershoot * drop) break;
-      change *= drop / (drop - slope);
-      next = rates + change;
-      Evaluate(next, contacts);
+    // With its tractions given, the function is convex and F is minus its gradient, so F . change
+    // falls along the way. Where it has turned its sign, the minimum lies before, and a secant
+    // through the bracket says where (Illinois: an end that stays counts half).
+    double low = 0.0, high = 1.0, slope_low = drop, slope_high = equations_.force().dot(change);
+    if (slope_high < -kOvershoot * drop) {
+      for (int cut = 0; cut < kMaxCuts; ++cut) {
+        const double share = low + (high - low) * slope_low / (slope_low - slope_high);
+        next = rates + share * change;
+        Evaluate(next, contacts);
+        const double slope = equations_.force().dot(change);
+        if (std::abs(slope) <= kOvershoot * drop) break;
+        if (slope > 0.0) {
+          low = share;
+          slope_low = slope;
+          slope_high *= 0.5;
+        } else {
+          high = share;
+          slope_high = slope;
+          slope_low *= 0.5;
+        }
+      }
     }
     rates = next;
   }

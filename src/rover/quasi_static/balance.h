@@ -57,8 +57,8 @@ class QuasiStaticBalance {
 
   static constexpr int kMaxIterations = 20;
 
-  // What the wheels do in the last solution, with the contacts and rates that it left. The inertia is
-  // left to the caller.
+  // What the wheels do in the last solution, with the contacts and rates that it left. The inertia
+  // is left to the caller.
   SteadyDrive Steady(const std::vector<RestingContact>& contacts, const LinkageVector& rates) const;
 
   // The motor's torque about the axle in the last solution, positive where it drives forward.
@@ -97,7 +97,7 @@ class QuasiStaticBalance {
   void MakeWheelRow(const Linkage& linkage, const Drive& drive, const RestingContact& contact,
                     Row& row) const;
   void SetTraction(const RestingContact& contact, Row& row) const;
-  static Traction TractionOf(const Row& row, double speed_m_s);
+  Traction TractionOf(const Row& row, double speed_m_s) const;
 
   // Forces at the given rates and their derivatives.
   void Evaluate(const LinkageVector& rates, std::vector<RestingContact>& contacts);
@@ -111,6 +111,7 @@ class QuasiStaticBalance {
 
   const RoverContactParams contact_params_;
   const WheelSoilTable soil_;
+  const ShareTable share_;
   const double wheel_radius_m_;
   const double stall_force_N_;
   const std::array<double, 3> stop_rad_;  // rocker, bogies

@@ -98,7 +98,16 @@ Linkage::Linkage(const RoverParams& params) {
   Update({}, {});
 }
 
+void Linkage::Steer(const messages::PerWheel<double>& steer_rad) {
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    if (steer_rad[i] == steer_rad_[i]) continue;
+    steer_rad_[i] = steer_rad[i];
+    steer_[i] = Eigen::Vector2d(std::cos(steer_rad[i]), std::sin(steer_rad[i]));
+  }
+}
+
 void Linkage::Update(const Posture& posture, const messages::PerWheel<double>& steer_rad) {
+  Steer(steer_rad);
   chassis_ = {posture.q_WR.toRotationMatrix(), posture.p_WR};
   for (std::size_t side = 0; side < 2; ++side) {
     const double rocker_rad = RockerSign(side) * posture.rocker_rad;
@@ -114,10 +123,6 @@ void Linkage::Update(const Posture& posture, const messages::PerWheel<double>& s
       const Frame& carrier = on_bogie_[i] ? bogie : rocker;
       Frame& wheel = bodies_[kFirstWheel + i];
       wheel.p_WB = carrier.p_WB + carrier.R_WB * wheel_from_pivot_[i];
-      if (steer_rad[i] != steer_rad_[i]) {
-        steer_rad_[i] = steer_rad[i];
-        steer_[i] = Eigen::Vector2d(std::cos(steer_rad[i]), std::sin(steer_rad[i]));
-      }
       // Steering turns the axle about the carrier's z axis: R_WB = R_carrier Rz(delta).
       wheel.R_WB.col(0) = steer_[i].x() * carrier.R_WB.col(0) + steer_[i].y() * carrier.R_WB.col(1);
       wheel.R_WB.col(1) = steer_[i].x() * carrier.R_WB.col(1) - steer_[i].y() * carrier.R_WB.col(0);

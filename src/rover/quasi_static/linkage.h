@@ -50,6 +50,10 @@ class Linkage {
 
   explicit Linkage(const RoverParams& params);
 
+  // Takes up steering angles, which the next Update turns the axles by.
+  void Steer(const messages::PerWheel<double>& steer_rad);
+  // Cosine and sine of a wheel's steering angle.
+  const Eigen::Vector2d& steer(std::size_t wheel) const { return steer_[wheel]; }
   // Takes up a posture; the steering angles turn the axles.
   void Update(const Posture& posture, const messages::PerWheel<double>& steer_rad);
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rover/wheel_soil.h"
-
 namespace rockyard::rover {
 namespace {
 
@@ -22,35 +20,29 @@ constexpr double kFastest = 3.0;
 // Slip at which friction on rock acts in full, over the rim's speed.
 constexpr double kRockSlip = 0.005;
 
-// Power of one lump and its derivative by the speed q.
-struct Power {
-  double value_W = 0.0;
-  double slope_W = 0.0;
-};
+// Of the moment of a step of z times the decay at which forces are taken.
+double Theta(double z) { return std::isfinite(z) ? (z + 3.0) / (z + 6.0) : 1.0; }
 
-Power PowerOf(const WheelLump& lump, double speed, double rim) {
+}  // namespace
+
+Progress::Power Progress::PowerOf(const WheelLump& lump, double speed, double rim) const {
   if (lump.traction_N == 0.0) return {};
   const double along = rim * lump.rim_m_s - speed * lump.along_m_s;
   const double across = -speed * lump.across_m_s;
-  const double slip_m_s = std::hypot(along, across);
+  const double slip_m_s = std::sqrt(along * along + across * across);
   if (slip_m_s == 0.0) return {};
   // A braked wheel has all its traction at any slip.
   const double u = rim > 0.0 ? lump.shear_ratio * slip_m_s / (rim * lump.rim_m_s) : 1e9;
-  const ShearShare share = ShareOfRatio(u);
+  const ShearShare share = share_.At(u);
   const double toward = along * lump.along_m_s + across * lump.across_m_s;
   // F . v = T tau (s . v) / |s|; by q, s changes by -v and |s| by -(s . v) / |s|.
   const double cosine = toward / slip_m_s;
   const double v2 = lump.along_m_s * lump.along_m_s + lump.across_m_s * lump.across_m_s;
   const double stiffening = share.slope * u / slip_m_s;  // d tau / d|s|
   return {lump.traction_N * share.value * cosine,
-          -lump.traction_N * (stiffening * cosine * cosine +
-                              share.value * (v2 - cosine * cosine) / slip_m_s)};
+          -lump.traction_N *
+              (stiffening * cosine * cosine + share.value * (v2 - cosine * cosine) / slip_m_s)};
 }
-
-// Of the moment of a step of z times the decay at which forces are taken.
-double Theta(double z) { return std::isfinite(z) ? (z + 3.0) / (z + 6.0) : 1.0; }
-
-}  // namespace
 
 void Progress::Begin(const SteadyDrive& drive) {
   drive_ = drive;

@@ -1,11 +1,13 @@
 // How far a rover with mass gets along the way of its wheels while these start and stop.
 #pragma once
 
+#include "rover/quasi_static/wheel_soil_table.h"
+
 namespace rockyard::rover {
 
-// The wheels of a rover as one: what they do to the power of its motion. Lengths of way are those of
-// one steady second, in which the rover moves at the rates of a balance and its rims as fast as the
-// drive asks: the same balance holds at every speed, as friction and soil know no time.
+// The wheels of a rover as one: what they do to the power of its motion. Lengths of way are those
+// of one steady second, in which the rover moves at the rates of a balance and its rims as fast as
+// the drive asks: the same balance holds at every speed, as friction and soil know no time.
 struct WheelLump {
   double traction_N = 0.0;   // largest, of all wheels together
   double rim_m_s = 0.0;      // mean over the traction, as the rest
@@ -23,14 +25,15 @@ struct SteadyDrive {
   double inertia_J = 0.0;  // twice the kinetic energy at full speed
 };
 
-// The speed of the rover along its way, q, while its rims turn at the share rho of their full speed:
+// The speed of the rover along its way, q, while its rims turn at the share rho of their full
+// speed:
 //
 //   I dq/dt = P(q, rho) - P(1, 1),   P = sum of F . v over the wheels,
 //
 // with F = T tau(u), u = (l / K) |s| / (rho r omega) along the slip velocity s = rho r omega - q v.
-// and v of the steady motion. It is the balance that the multibody makes in every step, for the one coordinate that starts and
-// stops; posture and loads are those of the steady motion. Steady motion has q = rho = 1 and needs
-// none of this.
+// and v of the steady motion. It is the balance that the multibody makes in every step, for the one
+// coordinate that starts and stops; posture and loads are those of the steady motion. Steady motion
+// has q = rho = 1 and needs none of this.
 class Progress {
  public:
   // The rover stands.
@@ -45,14 +48,21 @@ class Progress {
   double speed() const { return speed_; }
 
  private:
+  // Power of one lump and its derivative by the speed q.
+  struct Power {
+    double value_W = 0.0;
+    double slope_W = 0.0;
+  };
   // dq/dt and its derivative by q.
   struct Rate {
     double value;
     double slope;
   };
+  Power PowerOf(const WheelLump& lump, double speed, double rim) const;
   Rate RateAt(double speed, double rim) const;
   double Step(double rim_from, double rim_to, double time_s);
 
+  const ShareTable share_;
   SteadyDrive drive_;
   double balance_W_ = 0.0;  // P(1, 1): what the steady motion takes otherwise
   double decay_s_ = 0.0;    // in which slip of a rover at full speed decays

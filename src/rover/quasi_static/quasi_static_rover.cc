@@ -48,22 +48,29 @@ void Limit(double time_s, double max_m, double max_rad, LinkageVector& rates) {
   rates /= scale;
 }
 
-// Turn rate, rad/s, of the rigid motion nearest to what the rims do, for wheels evenly about R's
-// origin. Least squares of v_i = Omega x r_i over the wheels:
-//   Omega = sum (r_i x v_i)_z / sum r_i^2,   v_i = omega_i r (cos delta_i, sin delta_i) in R.
-double TurnRate(const RoverGeometry& geometry, double radius_m,
-                const messages::PerWheel<double>& rate_rad_s,
-                const messages::PerWheel<double>& steer_rad) {
-  double moment = 0.0;
-  double inertia = 0.0;
+// The share of `shape` that `rate_rad_s` is, at least 0; nothing where the ratios of the wheels
+// differ.
+std::optional<double> ShareOf(const messages::PerWheel<double>& rate_rad_s,
+                              const messages::PerWheel<double>& shape) {
+  std::size_t fastest = 0;
   for (std::size_t i = 0; i < kWheelCount; ++i) {
-    const Vector3& wheel_R = geometry.wheel_R[i];
-    const double rim_m_s = rate_rad_s[i] * radius_m;
-    moment +=
-        rim_m_s * (wheel_R.x() * std::sin(steer_rad[i]) - wheel_R.y() * std::cos(steer_rad[i]));
-    inertia += wheel_R.head<2>().squaredNorm();
+    if (std::abs(shape[i]) > std::abs(shape[fastest])) fastest = i;
   }
-  return moment / inertia;
+  if (shape[fastest] == 0.0) return std::nullopt;
+  const double share = rate_rad_s[fastest] / shape[fastest];
+  if (share < 0.0) return std::nullopt;
+  const double most_rad_s = kSameRate * std::abs(shape[fastest]);
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    if (std::abs(rate_rad_s[i] - share * shape[i]) > most_rad_s) return std::nullopt;
+  }
+  return share;
+}
+
+std::optional<RimShares> Shares(const MotorRates& rates, const messages::PerWheel<double>& shape) {
+  const auto from = ShareOf(rates.from, shape);
+  const auto to = ShareOf(rates.to, shape);
+  if (!from || !to) return std::nullopt;
+  return RimShares{*from, *to};
 }
 
 // Moment of inertia about R's z axis.
@@ -206,21 +213,11 @@ void QuasiStaticRover::Rest() {
   for (truth::BodyContact& contact : state_.contacts) contact.sliding_speed_m_s = 0.0;
 }
 
-std::optional<double> QuasiStaticRover::ShareOfStretch(
-    const messages::PerWheel<double>& rate_rad_s) const {
-  if (stretch_.duration_s == 0.0) return std::nullopt;
-  std::size_t fastest = 0;
+bool QuasiStaticRover::SteersAsPlanned() const {
   for (std::size_t i = 0; i < kWheelCount; ++i) {
-    if (std::abs(state_.steer_rad[i] - stretch_.steer_rad[i]) > kSameSteer_rad) return std::nullopt;
-    if (std::abs(stretch_.rate_rad_s[i]) > std::abs(stretch_.rate_rad_s[fastest])) fastest = i;
+    if (std::abs(state_.steer_rad[i] - stretch_.steer_rad[i]) > kSameSteer_rad) return false;
   }
-  const double share = rate_rad_s[fastest] / stretch_.rate_rad_s[fastest];
-  if (share < 0.0) return std::nullopt;
-  const double most_rad_s = kSameRate * std::abs(stretch_.rate_rad_s[fastest]);
-  for (std::size_t i = 0; i < kWheelCount; ++i) {
-    if (std::abs(rate_rad_s[i] - share * stretch_.rate_rad_s[i]) > most_rad_s) return std::nullopt;
-  }
-  return share;
+  return true;
 }
 
 // True where rates and steering are those of the last stretch within a share of the fastest rate,
@@ -254,13 +251,29 @@ double QuasiStaticRover::LookAhead(double lead_s) {
   return 0.0;
 }
 
+// Turn rate, rad/s, of the rigid motion nearest to what the rims do, for wheels evenly about R's
+// origin. Least squares of v_i = Omega x r_i over the wheels:
+//   Omega = sum (r_i x v_i)_z / sum r_i^2,   v_i = omega_i r (cos delta_i, sin delta_i) in R.
+double QuasiStaticRover::TurnRate(const messages::PerWheel<double>& rate_rad_s) const {
+  double moment = 0.0;
+  double inertia = 0.0;
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    const Vector3& wheel_R = geometry_.wheel_R[i];
+    const double rim_m_s = rate_rad_s[i] * params_.geometry.wheel_radius_m;
+    const Eigen::Vector2d& steer = linkage_.steer(i);
+    moment += rim_m_s * (wheel_R.x() * steer.y() - wheel_R.y() * steer.x());
+    inertia += wheel_R.head<2>().squaredNorm();
+  }
+  return moment / inertia;
+}
+
 double QuasiStaticRover::StretchTime_s(const messages::PerWheel<double>& rate_rad_s) const {
   double rate = 0.0;
   for (const double wheel_rate : rate_rad_s) rate = std::max(rate, std::abs(wheel_rate));
   const double radius_m = params_.geometry.wheel_radius_m;
   // The stretch ends at the rim travel or at the turn that the parameters allow, whichever is
   // first.
-  const double turn_rad_s = std::abs(TurnRate(geometry_, radius_m, rate_rad_s, state_.steer_rad));
+  const double turn_rad_s = std::abs(TurnRate(rate_rad_s));
   const double way_s = params_.quasi_static.settle_distance_m / (rate * radius_m);
   const double max_rad = params_.quasi_static.settle_turn_rad;
   return turn_rad_s * way_s > max_rad ? max_rad / turn_rad_s : way_s;
@@ -272,6 +285,7 @@ void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
   const bool same_drive = Like(rate_rad_s, 0.0);
   const bool similar_drive = Like(rate_rad_s, kSimilar);
   stretch_.from = posture_;
+  linkage_.Steer(state_.steer_rad);
   stretch_.duration_s = StretchTime_s(rate_rad_s);
   stretch_.elapsed_s = 0.0;
   stretch_.rate_rad_s = rate_rad_s;
@@ -338,31 +352,34 @@ void QuasiStaticRover::Step(const messages::WheelCommand& command) {
     return Rest();
   }
   standing_ = false;
-  std::optional<double> from = ShareOfStretch(rates.from);
-  std::optional<double> to = ShareOfStretch(rates.to);
-  if (!from || !to) {
-    // Another motion begins. From rest its ramp keeps the ratio of the commanded rates; on the way
-    // from one motion to another the rates of this step are a motion of their own.
-    Plan(command.rate_rad_s);
-    from = ShareOfStretch(rates.from);
-    to = ShareOfStretch(rates.to);
-    if (!from || !to) {
-      messages::PerWheel<double> mean_rad_s{};
-      for (std::size_t i = 0; i < kWheelCount; ++i) {
-        mean_rad_s[i] = 0.5 * (rates.from[i] + rates.to[i]);
-      }
-      Plan(mean_rad_s);
-      from = to = 1.0;
-    }
-  }
   for (std::size_t i = 0; i < kWheelCount; ++i) {
     // Motors hold their rates in this fidelity: the balance takes them as given.
     state_.wheel_angle_rad[i] += 0.5 * step_s() * (rates.from[i] + rates.to[i]);
   }
-  Follow(progress_.Advance(*from, *to, step_s()));
+  const auto shares = Shares(rates, stretch_.rate_rad_s);
+  if (stretch_.duration_s > 0.0 && shares && SteersAsPlanned()) return Follow(*shares);
+  // Another motion begins, or the wheels have been steered.
+  if (shares) {
+    Plan(messages::PerWheel<double>(stretch_.rate_rad_s));
+    return Follow(*shares);
+  }
+  // From rest a ramp keeps the ratio of the commanded rates.
+  if (const auto of_command = Shares(rates, command.rate_rad_s)) {
+    Plan(command.rate_rad_s);
+    return Follow(*of_command);
+  }
+  // On the way from one motion to another the mean rates of this step are a motion of their own.
+  messages::PerWheel<double> mean_rad_s{};
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    mean_rad_s[i] = 0.5 * (rates.from[i] + rates.to[i]);
+  }
+  if (std::none_of(mean_rad_s.begin(), mean_rad_s.end(), turns)) return;
+  Plan(mean_rad_s);
+  Follow({1.0, 1.0});
 }
 
-void QuasiStaticRover::Follow(double way_s) {
+void QuasiStaticRover::Follow(const RimShares& rims) {
+  double way_s = progress_.Advance(rims.from, rims.to, step_s());
   // A step may end this stretch and use up others; the rest of it lies within the last one.
   while (stretch_.elapsed_s + way_s >= stretch_.duration_s) {
     way_s -= stretch_.duration_s - stretch_.elapsed_s;

@@ -1,4 +1,5 @@
-// The rover as a sequence of balances of forces: no inertia, some centimetres a step.
+// The rover as a sequence of balances of forces, some centimetres apart. Inertia counts where it
+// starts and stops (progress.h).
 #pragma once
 
 #include "rover/motor_ramp.h"
@@ -9,6 +10,12 @@
 #include "rover/rover_geometry.h"
 
 namespace rockyard::rover {
+
+// At the beginning and end of a step, what share of a motion's rates the wheels turn at.
+struct RimShares {
+  double from = 0.0;
+  double to = 0.0;
+};
 
 // The posture is interpolated between two balances, settle_distance_m of rim travel (or
 // settle_turn_rad of turning) apart. The rover draws no random numbers.
@@ -50,11 +57,10 @@ class QuasiStaticRover final : public Rover {
   // Returns whether the balance met its tolerance.
   bool Balance(const QuasiStaticBalance::Drive& drive);
   void Rest();
-  // The share of the stretch's rates at which these rates turn the wheels; nothing where they are no
-  // share of them, or the steering has changed.
-  std::optional<double> ShareOfStretch(const messages::PerWheel<double>& rate_rad_s) const;
-  // Lets the motion go on for so much time of the stretches.
-  void Follow(double way_s);
+  bool SteersAsPlanned() const;
+  // Lets the motion of the stretch go on for one step, while the rims turn at these shares of its
+  // rates.
+  void Follow(const RimShares& rims);
   void Stand();
   bool HoldsEasily() const;
   void Plan(const messages::PerWheel<double>& rate_rad_s);
@@ -64,6 +70,7 @@ class QuasiStaticRover final : public Rover {
   bool Like(const messages::PerWheel<double>& rate_rad_s, double share) const;
   // Updates linkage and contacts, lead_s ahead if that can be; returns how far ahead they are, s.
   double LookAhead(double lead_s);
+  double TurnRate(const messages::PerWheel<double>& rate_rad_s) const;
   double StretchTime_s(const messages::PerWheel<double>& rate_rad_s) const;
   Posture LiftedPosture(const math::Pose2& X_WR) const;
   void Settle();
@@ -84,7 +91,7 @@ class QuasiStaticRover final : public Rover {
   messages::PerWheel<double> met_steer_rad_{};  // at the last look for contacts
   LinkageVector rates_ = LinkageVector::Zero();
   bool standing_ = true;  // and known to hold
-  bool steady_ = false;  // rates_ hold for as long as the ground is level and the drive the same
+  bool steady_ = false;   // rates_ hold for as long as the ground is level and the drive the same
   Work work_;
   truth::RoverState state_;
 };
