@@ -239,11 +239,19 @@ std::optional<Verdict> Drive::AskReferee(Activity activity, int direction, doubl
                           ledger_);
 }
 
+void Drive::Strand() {
+  stall_ = ledger_.StallUntilEmpty();
+  if (params_.referee.stuck_rover == StuckRover::kEnd) return RecordRest({});
+  ledger_.Spend(Activity::kStalled, stall_.time_s);
+  RecordRest(Activity::kStalled);
+}
+
 DriveResult Drive::Finish(const Verdict& verdict) {
-  const bool stuck = verdict.outcome == truth::TrialOutcome::kJammed ||
-                     verdict.outcome == truth::TrialOutcome::kHighCentred;
-  if (stuck) ledger_.SpendRestStalled();
-  RecordRest(stuck ? std::optional(Activity::kStalled) : std::nullopt);
+  if (truth::IsStuck(verdict.outcome)) {
+    Strand();
+  } else {
+    RecordRest({});
+  }
   Record("end", verdict.detail);
 
   DriveResult result{verdict.outcome, verdict.detail, {}};

@@ -57,6 +57,8 @@ class Drive {
   void ReflectAtMirrorLine(int direction);
   std::optional<Verdict> AskReferee(Activity activity, int direction, double duration_s);
   DriveResult Finish(const Verdict& verdict);
+  // What a stuck rover would still take, and with referee.stuck_rover run_on takes.
+  void Strand();
   void ReportGoals(truth::DriveRecord& record) const;
   void ReportPoses(truth::DriveRecord& record) const;
   void ReportErrors(truth::DriveRecord& record) const;
@@ -96,6 +98,7 @@ class Drive {
   navigation::WheelDriver wheel_driver_;
 
   Ledger ledger_;
+  Stall stall_;  // of a rover that was found stuck
   DriveMonitor monitor_;
   HazardWatch watch_;
   Referee referee_;
