@@ -96,6 +96,7 @@ void Drive::ReportCounts(truth::DriveRecord& record) const {
   record.first_scrape_distance_m = first_scrape_m_.value_or(record.true_distance_m);
   record.scrape_heading_rad = motion_sensors_->scrapes().total_jump_rad();
   record.reflections = static_cast<double>(reflections_);
+  record.stuck_noticed = static_cast<double>(stuck_noticed_);
   record.layout = static_cast<double>(LayoutKey(params_, key_).trial);
   record.rocks = static_cast<double>(field_.terrain.rocks().size());
   record.rock_cover = field_.audit.outline_cover;

@@ -81,6 +81,7 @@ struct DriveRecord {
   double max_pitch_deg = 0.0;
   double first_scrape_distance_m = 0.0;  // true path up to the first scrape, or all of it
   double stall_energy_wh = 0.0;          // of stall_time_s
+  double stuck_noticed = 0.0;            // times that the rover noticed that it is stuck
 };
 
 struct DriveColumn {
@@ -238,6 +239,10 @@ inline constexpr std::array kDriveColumns = {
     DriveColumn{"stall_energy_wh", "Wh",
                 "energy of stall_time_s: what the batteries of a rover found stuck still hold",
                 &DriveRecord::stall_energy_wh},
+    DriveColumn{"stuck_noticed", "1",
+                "times that the rover noticed by its own measurements that it is stuck, rightly or "
+                "not; 0 where it does not look for it (navigation.on_board_stuck.reaction)",
+                &DriveRecord::stuck_noticed},
 };
 
 }  // namespace rockyard::truth

@@ -249,6 +249,12 @@ TEST_F(RefereeTest, ProgressResetsThePatience) {
   }));
 }
 
+TEST_F(RefereeTest, ARoverThatNoticesThatItIsStuckFindsNoPath) {
+  const Verdict verdict = referee_.OnNavigatorStop(NavigatorStatus::kStuck, state_);
+  EXPECT_EQ(verdict.outcome, TrialOutcome::kNoPath);
+  EXPECT_EQ(verdict.detail, "the rover noticed that it is stuck");
+}
+
 TEST_F(RefereeTest, ArrivalIsTrueOnlyNearTheTrueGoal) {
   MoveTo(7.6 - 0.6, 0.0);
   EXPECT_EQ(referee_.OnNavigatorStop(NavigatorStatus::kArrived, state_).outcome,

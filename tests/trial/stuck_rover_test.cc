@@ -1,4 +1,4 @@
-// What becomes of a rover that is stuck: by the referee's verdict.
+// What becomes of a rover that is stuck: by the referee's verdict, and where it notices it itself.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -83,6 +83,95 @@ TEST(FreeRoverTest, WhatIsNotStuckHasNoStall) {
     EXPECT_EQ(result.record.stall_energy_wh, 0.0);
     EXPECT_EQ(result.record.active_time_s, result.record.sim_time_s);
   }
+}
+
+constexpr const char* kNoticed = "the rover noticed that it is stuck";
+
+// Starts across the way to its goal, so that every navigator tells it to turn.
+class NoticingRoverTest : public testing::TestWithParam<const char*> {
+ protected:
+  static DriveResult Drive(const std::string& reaction, const Overrides& overrides) {
+    Overrides all{"course.start_heading_deg=90", std::string("navigation.navigator=") + GetParam(),
+                  "navigation.on_board_stuck.reaction=" + reaction};
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    return RunTrial(Pathfinder("level_sand", all), {1, 0});
+  }
+};
+
+// Its motors cannot turn its wheels.
+TEST_P(NoticingRoverTest, GivesUpBeforeTheRefereeCallsItJammed) {
+  const Overrides weak{"rover.drive.stall_torque_Nm=0.05"};
+  const DriveResult off = Drive("off", weak);
+  EXPECT_EQ(off.outcome, TrialOutcome::kJammed) << off.detail;
+  EXPECT_EQ(off.record.stuck_noticed, 0.0);
+  const DriveResult give_up = Drive("give_up", weak);
+  EXPECT_EQ(give_up.outcome, TrialOutcome::kNoPath);
+  EXPECT_EQ(give_up.detail, kNoticed);
+  EXPECT_EQ(give_up.record.stuck_noticed, 1.0);
+  EXPECT_EQ(give_up.record.stall_time_s, 0.0);
+  EXPECT_LT(give_up.record.sim_time_s, off.record.sim_time_s);
+}
+
+// Negative control, which also shows that looking for it changes nothing else.
+TEST_P(NoticingRoverTest, ARoverThatGetsOnNoticesNothing) {
+  const DriveResult off = Drive("off", {});
+  for (const std::string reaction : {"give_up", "back_off"}) {
+    const DriveResult looking = Drive(reaction, {});
+    EXPECT_EQ(looking.record.stuck_noticed, 0.0);
+    EXPECT_THAT(Differences(off, looking), testing::IsEmpty());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Navigators, NoticingRoverTest,
+                         testing::Values("pathfinder", "gestalt", "route"),
+                         [](const auto& navigator) { return std::string(navigator.param); });
+
+TEST(StuckReactionTest, BacksOffOnceAndThenGivesUp) {
+  const TracedTrial trial = RunTraced(AtAWall({"navigation.on_board_stuck.reaction=back_off"}), 0);
+  EXPECT_EQ(trial.result.outcome, TrialOutcome::kNoPath);
+  EXPECT_EQ(trial.result.detail, kNoticed);
+  EXPECT_EQ(trial.result.record.stuck_noticed, 2.0);
+  EXPECT_GE(trial.result.record.reversals, 1.0);
+  const auto noticed = [](const truth::TraceEvent& event) {
+    return event.kind == "felt" && event.detail == "stuck: no turn";
+  };
+  EXPECT_EQ(std::count_if(trial.trace.events.begin(), trial.trace.events.end(), noticed), 2);
+}
+
+// Operators who turn it at a mirror line end the window: a rover that always takes itself for
+// strained notices it a whole window later.
+TEST(StuckReactionTest, AMoveByHandBeginsAWindow) {
+  const DriveParams drive = Pathfinder(
+      "level_sand", {"terrain.arena.kind=virtual_reflected", "course.start_y_m=0.8",
+                     "course.start_heading_deg=60", "navigation.on_board_stuck.reaction=give_up",
+                     "sensors.vehicle.motor_current.enabled=true",
+                     "perception.stuck_detector.strain_current_A=0.01"});
+  const TracedTrial trial = RunTraced(drive, 0);
+  const auto time_s = [&](const std::string& kind) {
+    const auto found =
+        std::find_if(trial.trace.events.begin(), trial.trace.events.end(),
+                     [&](const truth::TraceEvent& event) { return event.kind == kind; });
+    return found == trial.trace.events.end() ? -1.0 : found->time_s;
+  };
+  const double window_s = drive.perception.stuck_detector.window_s;
+  ASSERT_GT(time_s("reflection"), 0.5);
+  ASSERT_LT(time_s("reflection"), window_s);
+  EXPECT_GT(time_s("felt"), time_s("reflection") + window_s - 0.1);
+}
+
+// A straight drive shows in the motor currents alone.
+TEST(StuckReactionTest, StrainedMotorsAreNoticedOnAStraightDrive) {
+  const auto drive = [](const std::string& sensor, const std::string& strain_A) {
+    return RunTrial(
+        Pathfinder("level_sand", {"navigation.on_board_stuck.reaction=give_up",
+                                  "sensors.vehicle.motor_current.enabled=" + sensor,
+                                  "perception.stuck_detector.strain_current_A=" + strain_A}),
+        {1, 0});
+  };
+  // Rolling over level sand takes 0.02 to 0.03 A.
+  EXPECT_EQ(drive("true", "0.01").detail, kNoticed);
+  EXPECT_EQ(drive("true", "0.05").record.stuck_noticed, 0.0);
+  EXPECT_EQ(drive("false", "0.01").record.stuck_noticed, 0.0);
 }
 
 }  // namespace
