@@ -41,8 +41,8 @@ PAIRS = [MAIN, ("behaviour, stereo", "GESTALT, stereo"),
          ("GESTALT, stereo of the stripe's view", "GESTALT, stereo"),
          ("behaviour, light stripe", "behaviour, stereo of the stripe's view")]
 FEWEST_PAIRS = 5  # for an interval by the bootstrap
-# Columns compared in pairs: name, digits, scale. Time and energy without the stall that ends a trial,
-# whose length is the referee's.
+# Columns compared in pairs: name, digits, scale. Time and energy up to the verdict on a stuck rover,
+# whether or not it runs on (referee.stuck_rover).
 MEANS = {"true_distance_m": ("distance (m)", 2, 1.0),
          "active_time_s": ("time (min)", 1, 1.0 / 60.0), "active_energy_wh": ("energy (Wh)", 2, 1.0)}
 

@@ -17,16 +17,28 @@
 namespace rockyard::campaign {
 namespace {
 
-// What the motion tells beyond the events of the trace: where turns in place and stalls begin, and
-// a simulator fault, which the drive does not live to tell.
+// The moment at which the rover was found stuck: the last one, or the one before a stall that runs
+// on (referee.stuck_rover).
+const truth::TraceSample& StuckMoment(const std::vector<replay::ReplayPose>& poses) {
+  const bool runs_on = poses.size() > 1 && poses.back().sample.activity == "stall";
+  return poses[poses.size() - (runs_on ? 2 : 1)].sample;
+}
+
+// What motion and record tell beyond the events of the trace: where turns in place begin, where the
+// rover was found stuck, and a simulator fault, which the drive does not live to tell.
 std::vector<truth::TraceEvent> EventsOf(const truth::TracedTrial& traced,
                                         const std::vector<replay::ReplayPose>& poses) {
-  std::vector<truth::TraceEvent> events = traced.trace.events;
+  std::vector<truth::TraceEvent> events;
+  if (truth::IsStuck(traced.record.outcome) && !poses.empty()) {
+    const truth::TraceSample& stuck = StuckMoment(poses);
+    events.push_back({stuck.time_s, stuck.pose, "stall", ""});
+  }
+  events.insert(events.end(), traced.trace.events.begin(), traced.trace.events.end());
   std::string before;
   double since_s = 0.0;  // the end of the stretch before
   for (const replay::ReplayPose& pose : poses) {
     const std::string& activity = pose.sample.activity;
-    if (activity != before && (activity == "turn" || activity == "stall")) {
+    if (activity != before && activity == "turn") {
       events.push_back({since_s, pose.sample.pose, activity, ""});
     }
     if (!activity.empty()) before = activity;

@@ -17,6 +17,7 @@ enum class NavigatorStatus {
   kDriving,
   kArrived,  // believes to be at the goal
   kGaveUp,   // found no way
+  kStuck,    // noticed that the rover does not get on
 };
 
 // What the navigator knows when it decides.
@@ -32,6 +33,7 @@ struct NavigatorInput {
   // feels no such hazard.
   const messages::VehicleHazard* vehicle_hazard = nullptr;
   bool touches_behind = false;  // at this tick, whatever else it feels
+  bool notices_stuck = false;   // at this tick, by what it measures; never where it looks
 };
 
 // What the navigator asks for until its next decision.

@@ -7,6 +7,7 @@
 #include "navigation/gestalt/gestalt.h"
 #include "navigation/pathfinder/pathfinder.h"
 #include "navigation/route_follower.h"
+#include "navigation/stuck_reaction.h"
 #include "terrain/arena.h"
 #include "trial/goal_designation.h"
 #include "trial/layout.h"
@@ -34,9 +35,9 @@ std::optional<ArenaBounds> Bounds(const terrain::ArenaParams& arena) {
   return ArenaBounds{bounds.x_min_m, bounds.x_max_m};
 }
 
-std::unique_ptr<navigation::Navigator> MakeNavigator(const DriveParams& drive,
-                                                     const terrain::Terrain& terrain,
-                                                     const messages::Goal& goal) {
+std::unique_ptr<navigation::Navigator> MakePathSelection(const DriveParams& drive,
+                                                         const terrain::Terrain& terrain,
+                                                         const messages::Goal& goal) {
   switch (drive.navigation.navigator) {
     case NavigatorKind::kPathfinder:
       break;
@@ -48,6 +49,23 @@ std::unique_ptr<navigation::Navigator> MakeNavigator(const DriveParams& drive,
   }
   return std::make_unique<navigation::PathfinderNavigator>(drive.navigation.pathfinder, goal,
                                                            drive.perception.hazard.enabled);
+}
+
+bool LooksForStuck(const DriveParams& drive) {
+  return drive.navigation.on_board_stuck.reaction != navigation::StuckResponse::kOff;
+}
+
+std::unique_ptr<navigation::Navigator> MakeNavigator(const DriveParams& drive,
+                                                     const terrain::Terrain& terrain,
+                                                     const messages::Goal& goal) {
+  std::unique_ptr<navigation::Navigator> navigator = MakePathSelection(drive, terrain, goal);
+  if (!LooksForStuck(drive)) return navigator;
+  return std::make_unique<navigation::StuckReaction>(drive.navigation.on_board_stuck,
+                                                     std::move(navigator));
+}
+
+std::string Describe(perception::StuckSign sign) {
+  return sign == perception::StuckSign::kNoTurn ? "stuck: no turn" : "stuck: strained motors";
 }
 
 std::unique_ptr<rover::Rover> MakeTrialRover(const DriveParams& drive, terrain::Terrain& terrain) {
@@ -111,6 +129,11 @@ Drive::Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
   rover_->Place(StartPose(drive.course));
   motion_sensors_.emplace(drive.sensors.gyro, drive.sensors.encoders,
                           drive.rover.geometry.wheel_radius_m, key, rover_->state());
+  if (LooksForStuck(drive)) {
+    stuck_detector_.emplace(
+        drive.perception.stuck_detector,
+        OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive));
+  }
   monitor_.Restart(rover_->state());
   localizer_.Place(rover_->state());
   RecordRest({});
@@ -135,7 +158,8 @@ std::optional<Verdict> Drive::Tick() {
                           .report = percept_.report ? &*percept_.report : nullptr,
                           .cloud = percept_.cloud ? &*percept_.cloud : nullptr,
                           .vehicle_hazard = guard_.hazard(),
-                          .touches_behind = guard_.touches_behind()});
+                          .touches_behind = guard_.touches_behind(),
+                          .notices_stuck = notices_stuck_});
   if (!decision.looks()) ShowStep();
   percept_ = {};
   if (decision.status != navigation::NavigatorStatus::kDriving) {
@@ -181,11 +205,12 @@ std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const 
   const bool moving = motion.kind != MotionKind::kStop && !wheel_driver_.steering();
   stops_.Observe(moving);
   ApplyCommand(command, stretch.steps);
-  UpdateEstimate(stretch.duration_s, moving);
+  const messages::MotionMeasurement measured = UpdateEstimate(stretch.duration_s, moving);
   ledger_.Spend(activity, stretch.duration_s);
   for (const auto& hazard : guard_.Feel(rover_->state(), command, stretch.duration_s)) {
     Record("felt", Describe(hazard));
   }
+  NoticeStuck(command, measured);
   localizer_.UpdateAttitude(guard_.measured(), stretch.duration_s);
   monitor_.Observe(rover_->state(), activity == Activity::kTurning);
   watch_.Observe(rover_->state().X_WR);
@@ -211,9 +236,21 @@ void Drive::ApplyCommand(const messages::WheelCommand& command, std::int64_t ste
   }
 }
 
-void Drive::UpdateEstimate(double duration_s, bool moving) {
-  localizer_.Integrate(motion_sensors_->Measure(rover_->state(), duration_s, moving),
-                       rover_->state());
+messages::MotionMeasurement Drive::UpdateEstimate(double duration_s, bool moving) {
+  const messages::MotionMeasurement motion =
+      motion_sensors_->Measure(rover_->state(), duration_s, moving);
+  localizer_.Integrate(motion, rover_->state());
+  return motion;
+}
+
+void Drive::NoticeStuck(const messages::WheelCommand& command,
+                        const messages::MotionMeasurement& motion) {
+  if (!stuck_detector_) return;
+  const auto sign = stuck_detector_->Observe(command, motion, guard_.measured());
+  notices_stuck_ = sign.has_value();
+  if (!sign) return;
+  ++stuck_noticed_;
+  Record("felt", Describe(*sign));
 }
 
 void Drive::ReflectAtMirrorLine(int direction) {
@@ -228,6 +265,8 @@ void Drive::ReflectAtMirrorLine(int direction) {
   localizer_.Apply(reflection->update);
   motion_sensors_->Restart(rover_->state());
   guard_.Restart(rover_->state());
+  if (stuck_detector_) stuck_detector_->Restart();
+  notices_stuck_ = false;
   monitor_.Restart(rover_->state());
   navigator_->OnPoseUpdate(before, localizer_.pose());
   RecordRest({}, true);
@@ -239,11 +278,19 @@ std::optional<Verdict> Drive::AskReferee(Activity activity, int direction, doubl
                           ledger_);
 }
 
+void Drive::Strand() {
+  stall_ = ledger_.StallUntilEmpty();
+  if (params_.referee.stuck_rover == StuckRover::kEnd) return RecordRest({});
+  ledger_.Spend(Activity::kStalled, stall_.time_s);
+  RecordRest(Activity::kStalled);
+}
+
 DriveResult Drive::Finish(const Verdict& verdict) {
-  const bool stuck = verdict.outcome == truth::TrialOutcome::kJammed ||
-                     verdict.outcome == truth::TrialOutcome::kHighCentred;
-  if (stuck) ledger_.SpendRestStalled();
-  RecordRest(stuck ? std::optional(Activity::kStalled) : std::nullopt);
+  if (truth::IsStuck(verdict.outcome)) {
+    Strand();
+  } else {
+    RecordRest({});
+  }
   Record("end", verdict.detail);
 
   DriveResult result{verdict.outcome, verdict.detail, {}};

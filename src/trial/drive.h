@@ -10,6 +10,7 @@
 #include "core/random.h"
 #include "navigation/navigator.h"
 #include "navigation/wheel_driver.h"
+#include "perception/stuck_detector.h"
 #include "rover/rover.h"
 #include "sensing/motion_sensors.h"
 #include "terrain/field.h"
@@ -53,10 +54,15 @@ class Drive {
   // Holds the command for so many physics steps.
   void ApplyCommand(const messages::WheelCommand& command, std::int64_t steps);
   // The pose that the rover believes takes one stretch of encoders and gyro (localizer.h).
-  void UpdateEstimate(double duration_s, bool moving);
+  messages::MotionMeasurement UpdateEstimate(double duration_s, bool moving);
+  // Asks whether the rover gets on, where it looks for that.
+  void NoticeStuck(const messages::WheelCommand& command,
+                   const messages::MotionMeasurement& motion);
   void ReflectAtMirrorLine(int direction);
   std::optional<Verdict> AskReferee(Activity activity, int direction, double duration_s);
   DriveResult Finish(const Verdict& verdict);
+  // What a stuck rover would still take, and with referee.stuck_rover run_on takes.
+  void Strand();
   void ReportGoals(truth::DriveRecord& record) const;
   void ReportPoses(truth::DriveRecord& record) const;
   void ReportErrors(truth::DriveRecord& record) const;
@@ -89,6 +95,8 @@ class Drive {
   TerrainSensing terrain_sensing_;
   std::optional<sensing::MotionSensors> motion_sensors_;
   VehicleGuard guard_;
+  std::optional<perception::StuckDetector> stuck_detector_;
+  bool notices_stuck_ = false;  // at the last tick
 
   Localizer localizer_;
 
@@ -96,6 +104,7 @@ class Drive {
   navigation::WheelDriver wheel_driver_;
 
   Ledger ledger_;
+  Stall stall_;  // of a rover that was found stuck
   DriveMonitor monitor_;
   HazardWatch watch_;
   Referee referee_;
@@ -108,6 +117,7 @@ class Drive {
   StopCounter stops_;
   std::optional<double> first_scrape_m_;  // true path length
   std::int64_t reflections_ = 0;
+  std::int64_t stuck_noticed_ = 0;
 };
 
 }  // namespace rockyard::trial

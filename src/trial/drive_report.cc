@@ -70,8 +70,9 @@ void Drive::ReportLedger(truth::DriveRecord& record) const {
   record.move_overhead_time_s = ledger_.time_s(Activity::kOverhead);
   record.move_time_s =
       record.drive_time_s + record.turn_time_s + record.steer_time_s + record.move_overhead_time_s;
-  record.stall_time_s = ledger_.time_s(Activity::kStalled);
-  record.active_time_s = ledger_.time_s() - record.stall_time_s;
+  record.stall_time_s = stall_.time_s;
+  record.stall_energy_wh = stall_.energy_wh;
+  record.active_time_s = ledger_.time_s() - ledger_.time_s(Activity::kStalled);
   record.active_energy_wh = ledger_.energy_wh() - ledger_.energy_wh(Activity::kStalled);
   if (ledger_.time_s() <= 0.0) return;
   const double again_s =
@@ -95,6 +96,7 @@ void Drive::ReportCounts(truth::DriveRecord& record) const {
   record.first_scrape_distance_m = first_scrape_m_.value_or(record.true_distance_m);
   record.scrape_heading_rad = motion_sensors_->scrapes().total_jump_rad();
   record.reflections = static_cast<double>(reflections_);
+  record.stuck_noticed = static_cast<double>(stuck_noticed_);
   record.layout = static_cast<double>(LayoutKey(params_, key_).trial);
   record.rocks = static_cast<double>(field_.terrain.rocks().size());
   record.rock_cover = field_.audit.outline_cover;

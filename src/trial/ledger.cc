@@ -13,9 +13,9 @@ void Ledger::Spend(Activity activity, double duration_s) {
   energy_J_ += budget_.Power(activity) * duration_s;
 }
 
-void Ledger::SpendRestStalled() {
-  const double rest_J = battery_wh_ * kJoulesPerWattHour - energy_J_;
-  Spend(Activity::kStalled, std::max(0.0, rest_J) / budget_.Power(Activity::kStalled));
+Stall Ledger::StallUntilEmpty() const {
+  const double rest_J = std::max(0.0, battery_wh_ * kJoulesPerWattHour - energy_J_);
+  return {rest_J / budget_.Power(Activity::kStalled), rest_J / kJoulesPerWattHour};
 }
 
 }  // namespace rockyard::trial

@@ -7,14 +7,21 @@
 
 namespace rockyard::trial {
 
+// What a rover that spins its wheels in vain still takes.
+struct Stall {
+  double time_s = 0.0;
+  double energy_wh = 0.0;
+};
+
 class Ledger {
  public:
   Ledger(const PowerBudget& budget, double battery_wh) : budget_(budget), battery_wh_(battery_wh) {}
 
   void Spend(Activity activity, double duration_s);
 
-  // Closed form of a stall that nobody ends: spends what is left in the batteries at stall power.
-  void SpendRestStalled();
+  // Closed form of a stall that nobody ends: what is left in the batteries, at stall power. Spends
+  // nothing.
+  Stall StallUntilEmpty() const;
 
   double time_s() const { return time_s_; }
   double time_s(Activity activity) const {

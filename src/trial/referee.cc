@@ -151,6 +151,9 @@ Verdict Referee::OnNavigatorStop(navigation::NavigatorStatus status,
   if (status == navigation::NavigatorStatus::kGaveUp) {
     return {TrialOutcome::kNoPath, "the navigator gave up"};
   }
+  if (status == navigation::NavigatorStatus::kStuck) {
+    return {TrialOutcome::kNoPath, "the rover noticed that it is stuck"};
+  }
   const auto p = state.X_WR.translation();
   const double off_m = Between(p.x(), p.y(), course_.goal_x_m, course_.goal_y_m);
   if (off_m <= course_.goal_radius_m) {

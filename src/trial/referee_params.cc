@@ -6,6 +6,12 @@ namespace {
 using core::Origin;
 
 void VisitStuck(RefereeParams& p, core::FieldVisitor& v) {
+  v.Choice("stuck_rover", p.stuck_rover,
+           {.doc = "what becomes of a rover that is found stuck: its run ends, or it drains its "
+                   "batteries and the time and energy of that count, in closed form",
+            .origin = Origin::kAssumed,
+            .source = "operators see a rover that stands still; one run of Matthies 1995 sec. 7, "
+                      "jammed between two rocks, went on until its batteries were empty"});
   v.Choice("spinning_wheels", p.spinning_wheels,
            {.doc = "whether wheels that spin without moving the rover count as motion",
             .origin = Origin::kAssumed,

@@ -15,8 +15,15 @@ enum class SpinningWheels {
   kDriveOn,  // it carries on until it believes to have arrived or an other rule ends the run
 };
 
+// What becomes of a rover that the referee has found stuck.
+enum class StuckRover {
+  kEnd,    // the run is over: its time and energy are those up to the verdict
+  kRunOn,  // it spins its wheels until its batteries are empty: that time and energy count as well
+};
+
 struct RefereeParams {
   double tip_over_rad = math::DegToRad(60.0);
+  StuckRover stuck_rover = StuckRover::kEnd;
   SpinningWheels spinning_wheels = SpinningWheels::kStuck;
   double stall_window_s = 10.0;
   double stall_distance_m = 0.02;
@@ -33,6 +40,11 @@ struct RefereeParams {
 };
 
 }  // namespace rockyard::trial
+
+template <>
+struct rockyard::core::EnumNames<rockyard::trial::StuckRover> {
+  static constexpr std::array<std::string_view, 2> kNames{"end", "run_on"};
+};
 
 template <>
 struct rockyard::core::EnumNames<rockyard::trial::SpinningWheels> {

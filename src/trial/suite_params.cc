@@ -29,6 +29,8 @@ void PerceptionParams::Visit(core::FieldVisitor& v) {
       "light stripes found in images; where the light stripe sensor is simulated down to images");
   v.Group("hazard", hazard, "hazard criteria and the two-scan rule");
   v.Group("vehicle_hazard", vehicle_hazard, "hazards that the rover feels (sensors.vehicle)");
+  v.Group("stuck_detector", stuck_detector,
+          "when the rover takes itself for stuck (navigation.on_board_stuck)");
   v.Group("dead_reckoning", dead_reckoning, "pose from wheel encoders and gyro");
   v.Group("calibration", calibration,
           "how wrong the rover is about its own geometry: believed less true");
@@ -46,6 +48,8 @@ void NavigationParams::Visit(core::FieldVisitor& v) {
   v.Group(
       "route", route,
       "follower of the route that an oracle plans (course.oracle_route): perfect path selection");
+  v.Group("on_board_stuck", on_board_stuck,
+          "what a rover does that notices that it is stuck, whichever its navigator");
   v.Group("wheel_driver", wheel_driver, "from motions to wheel and steering set points");
 }
 

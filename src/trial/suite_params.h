@@ -8,6 +8,7 @@
 #include "navigation/gestalt/gestalt_params.h"
 #include "navigation/pathfinder/pathfinder_params.h"
 #include "navigation/route_params.h"
+#include "navigation/stuck_reaction_params.h"
 #include "navigation/wheel_driver_params.h"
 #include "perception/attitude_params.h"
 #include "perception/calibration_params.h"
@@ -15,6 +16,7 @@
 #include "perception/dead_reckoning_params.h"
 #include "perception/hazard_params.h"
 #include "perception/stripe_finder_params.h"
+#include "perception/stuck_detector_params.h"
 #include "perception/vehicle_hazard_params.h"
 #include "sensing/encoder_params.h"
 #include "sensing/gyro_params.h"
@@ -62,6 +64,7 @@ struct PerceptionParams {
   perception::StripeFinderParams stripe_finder;
   perception::HazardParams hazard;
   perception::VehicleHazardParams vehicle_hazard;
+  perception::StuckDetectorParams stuck_detector;
   perception::DeadReckoningParams dead_reckoning;
   perception::CalibrationErrorParams calibration;
   perception::AttitudeParams attitude;
@@ -75,6 +78,7 @@ struct NavigationParams {
   navigation::PathfinderParams pathfinder;
   navigation::GestaltParams gestalt;
   navigation::RouteParams route;
+  navigation::StuckReactionParams on_board_stuck;
   navigation::WheelDriverParams wheel_driver;
 
   void Visit(core::FieldVisitor& v);

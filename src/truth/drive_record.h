@@ -62,9 +62,11 @@ struct DriveRecord {
   double compute_energy_wh = 0.0;
   double steer_time_s = 0.0;          // wheels steering at rest
   double move_overhead_time_s = 0.0;  // at rest about moves
-  double stall_time_s = 0.0;      // after a verdict of being stuck, until the batteries are empty
-  double active_time_s = 0.0;     // simulated time less that of the stall
-  double active_energy_wh = 0.0;  // energy less that of the stall
+  // From the verdict of being stuck until the batteries are empty. Not in sim_time_s and energy_wh,
+  // unless the rover runs on (referee.stuck_rover).
+  double stall_time_s = 0.0;
+  double active_time_s = 0.0;     // simulated time up to the verdict, whatever a stuck rover does
+  double active_energy_wh = 0.0;  // energy up to the verdict
   double reversals = 0.0;         // arcs driven the other way than the last arc before
   double height_error_m = 0.0;    // believed - true height above the start, where there is a map
   double move_time_s = 0.0;       // driving, turning in place, steering, and at rest about moves
@@ -78,6 +80,8 @@ struct DriveRecord {
   double max_roll_deg = 0.0;  // absolute, as the two below
   double max_pitch_deg = 0.0;
   double first_scrape_distance_m = 0.0;  // true path up to the first scrape, or all of it
+  double stall_energy_wh = 0.0;          // of stall_time_s
+  double stuck_noticed = 0.0;            // times that the rover noticed that it is stuck
 };
 
 struct DriveColumn {
@@ -182,12 +186,16 @@ inline constexpr std::array kDriveColumns = {
                 "simulated time at rest about moves (clock.compute.move_overhead_s)",
                 &DriveRecord::move_overhead_time_s},
     DriveColumn{"stall_time_s", "s",
-                "simulated time of a rover found stuck, until its batteries are empty; 0 where a "
-                "trial ends otherwise",
+                "from the verdict on a rover found stuck until its batteries are empty, in closed "
+                "form; 0 where a trial ends otherwise. Counts in sim_time_s only where "
+                "referee.stuck_rover is run_on",
                 &DriveRecord::stall_time_s},
-    DriveColumn{"active_time_s", "s", "simulated time less stall_time_s",
+    DriveColumn{"active_time_s", "s",
+                "simulated time up to the verdict; sim_time_s, unless a stuck rover runs on "
+                "(referee.stuck_rover)",
                 &DriveRecord::active_time_s},
-    DriveColumn{"active_energy_wh", "Wh", "energy drawn less that of stall_time_s",
+    DriveColumn{"active_energy_wh", "Wh",
+                "energy drawn up to the verdict; energy_wh, unless a stuck rover runs on",
                 &DriveRecord::active_energy_wh},
     DriveColumn{"reversals", "1",
                 "arcs driven the other way, forward or backward, than the last arc before, looks "
@@ -228,6 +236,13 @@ inline constexpr std::array kDriveColumns = {
                 "true path length at the first scrape, to a control tick; where scrapes is 0 all "
                 "of it, a lower bound (censored)",
                 &DriveRecord::first_scrape_distance_m},
+    DriveColumn{"stall_energy_wh", "Wh",
+                "energy of stall_time_s: what the batteries of a rover found stuck still hold",
+                &DriveRecord::stall_energy_wh},
+    DriveColumn{"stuck_noticed", "1",
+                "times that the rover noticed by its own measurements that it is stuck, rightly or "
+                "not; 0 where it does not look for it (navigation.on_board_stuck.reaction)",
+                &DriveRecord::stuck_noticed},
 };
 
 }  // namespace rockyard::truth

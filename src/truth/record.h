@@ -37,6 +37,11 @@ constexpr bool DeclaredSuccess(TrialOutcome outcome) {
   return outcome == TrialOutcome::kGoalReached || outcome == TrialOutcome::kFalseGoal;
 }
 
+// The rover was found unable to move.
+constexpr bool IsStuck(TrialOutcome outcome) {
+  return outcome == TrialOutcome::kJammed || outcome == TrialOutcome::kHighCentred;
+}
+
 // What a column is within a cell, where records of one cell add up (measurement_record.h).
 enum class ColumnRole {
   kValue,      // of one trial: nothing adds it up

@@ -52,6 +52,27 @@ TEST(ReplayPayload, StepsOfAMapBasedNavigator) {
   }
 }
 
+// The rover is found stuck before the drive ends, whether or not it runs on.
+TEST(ReplayPayload, AStuckRoverIsMarkedWhereItIsFound) {
+  for (const std::string stuck_rover : {"end", "run_on"}) {
+    const Json payload =
+        PayloadOf(SourceOf("pathfinder/level_sand",
+                           {"terrain.arena.kind=walled", "terrain.ground.soil.preset=hard_ground",
+                            "course.start_y_m=1.2", "course.start_heading_deg=90",
+                            "referee.stuck_rover=" + stuck_rover}),
+                  0);
+    const Json& events = payload["events"];
+    const auto stall = std::find_if(events.begin(), events.end(),
+                                    [](const Json& event) { return event["kind"] == "stall"; });
+    ASSERT_NE(stall, events.end()) << stuck_rover;
+    EXPECT_NEAR((*stall)["t"].get<double>(), ValueOf(payload, "active_time_s"), 1e-6);
+    EXPECT_EQ(events.back()["kind"], "end") << stuck_rover;
+    EXPECT_EQ(std::count_if(events.begin(), events.end(),
+                            [](const Json& event) { return event["kind"] == "stall"; }),
+              1);
+  }
+}
+
 // Of many steps only some keep what takes room. Steps of a real drive, over and over.
 TEST(ReplayPayload, ManyStepsStaySmall) {
   ReplayedTrial replayed = ReplayTrial(SourceOf("gestalt/narrow_course"), 0);

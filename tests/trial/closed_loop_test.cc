@@ -144,15 +144,24 @@ TEST(ClosedLoopTest, TickLastsWholeStepsForAllThatGoesByIt) {
   EXPECT_NEAR(asked_25.result.record.turn_time_s, books.turn_s, 1e-6);
 }
 
-TEST(ClosedLoopTest, JamSpendsTheBatteryExactly) {
-  const DriveParams drive = Pathfinder(
-      "level_sand", {"terrain.arena.kind=walled", "terrain.ground.soil.preset=hard_ground",
-                     "course.start_y_m=1.2", "course.start_heading_deg=90"});
-  const TracedTrial trial = RunTraced(drive, 0);
-  ASSERT_EQ(trial.result.outcome, truth::TrialOutcome::kJammed);
-  EXPECT_NEAR(trial.result.record.energy_wh, drive.energy.battery_wh, 1e-9);
-  EXPECT_GT(trial.result.record.sim_time_s, 3600.0);
-  ExpectBooksBalance(drive, trial);
+TEST(ClosedLoopTest, BooksBalanceOfARoverThatJams) {
+  for (const std::string stuck_rover : {"end", "run_on"}) {
+    const DriveParams drive = Pathfinder(
+        "level_sand", {"terrain.arena.kind=walled", "terrain.ground.soil.preset=hard_ground",
+                       "course.start_y_m=1.2", "course.start_heading_deg=90",
+                       "referee.stuck_rover=" + stuck_rover});
+    const TracedTrial trial = RunTraced(drive, 0);
+    ASSERT_EQ(trial.result.outcome, truth::TrialOutcome::kJammed);
+    const truth::DriveRecord& record = trial.result.record;
+    if (stuck_rover == "run_on") {
+      EXPECT_NEAR(record.energy_wh, drive.energy.battery_wh, 1e-9);
+      EXPECT_GT(record.sim_time_s, 3600.0);
+    } else {
+      EXPECT_NEAR(record.energy_wh + record.stall_energy_wh, drive.energy.battery_wh, 1e-9);
+      EXPECT_LT(record.sim_time_s, 3600.0);
+    }
+    ExpectBooksBalance(drive, trial);
+  }
 }
 
 TEST(ClosedLoopTest, RecordAgreesWithTheTrace) {

@@ -104,15 +104,25 @@ TEST(LedgerTest, NetRateOfMfexFollowsFromTheClock) {
   EXPECT_NEAR(rate_m_s * 4 * 3600.0, 30.0, 2.0);
 }
 
-TEST(LedgerTest, StallSpendsExactlyTheRestOfTheBatteries) {
+TEST(LedgerTest, AStallTakesExactlyTheRestOfTheBatteries) {
   Ledger ledger(MakePowerBudget({}), 10.0);
   ledger.Spend(Activity::kDriving, 600.0);
   const double before_wh = ledger.energy_wh();
   EXPECT_FALSE(ledger.empty());
-  ledger.SpendRestStalled();
+  const Stall stall = ledger.StallUntilEmpty();
+  EXPECT_EQ(ledger.energy_wh(), before_wh);  // nothing is spent by asking
+  EXPECT_EQ(ledger.time_s(), 600.0);
+  EXPECT_NEAR(stall.energy_wh, 10.0 - before_wh, 1e-12);
+  EXPECT_NEAR(stall.time_s, (10.0 - before_wh) * 3600.0 / (3.77 + 0.80 + 8.28), 1e-9);
+  ledger.Spend(Activity::kStalled, stall.time_s);
   EXPECT_NEAR(ledger.energy_wh(), 10.0, 1e-12);
-  const double expected_s = (10.0 - before_wh) * 3600.0 / (3.77 + 0.80 + 8.28);
-  EXPECT_NEAR(ledger.time_s(Activity::kStalled), expected_s, 1e-9);
+}
+
+TEST(LedgerTest, EmptyBatteriesLeaveNothingToAStall) {
+  Ledger ledger(MakePowerBudget({}), 1.0);
+  ledger.Spend(Activity::kDriving, 3600.0);
+  EXPECT_EQ(ledger.StallUntilEmpty().time_s, 0.0);
+  EXPECT_EQ(ledger.StallUntilEmpty().energy_wh, 0.0);
 }
 
 }  // namespace

@@ -80,5 +80,28 @@ TEST(LocalizerTest, AccelerometersLevelTheRover) {
   EXPECT_NEAR(localizer.attitude().roll_rad, 0.0, 1e-12);
 }
 
+// Operators set the pose; the rover has not climbed there.
+TEST(LocalizerTest, APoseUpdateLeavesTheBelievedHeight) {
+  Localizer localizer(With(Localization::kDeadReckoning), {});
+  messages::VehicleState nose_down;
+  nose_down.specific_force_R = 9.81 * math::Vector3(-std::sin(0.2), 0.0, std::cos(0.2));
+  localizer.UpdateAttitude(nose_down, 0.05);
+  messages::MotionMeasurement rolling = kTick;
+  rolling.wheel_turn_rad.fill(1.0);
+  localizer.Integrate(rolling, {});
+  localizer.UpdateAttitude(nose_down, 0.05);
+  const double before_m = localizer.attitude().z_m;
+  ASSERT_LT(before_m, -0.01);
+  localizer.Apply({3.0, -1.0, 0.5});
+  EXPECT_EQ(localizer.attitude().z_m, before_m);
+  localizer.Integrate(kTick, {});
+  localizer.UpdateAttitude(nose_down, 0.05);
+  EXPECT_NEAR(localizer.attitude().z_m, before_m, 1e-12);
+  // From here on as before: one roll more is the same step down.
+  localizer.Integrate(rolling, {});
+  localizer.UpdateAttitude(nose_down, 0.05);
+  EXPECT_NEAR(localizer.attitude().z_m, 2.0 * before_m, 1e-12);
+}
+
 }  // namespace
 }  // namespace rockyard::trial

@@ -249,6 +249,38 @@ TEST_F(RefereeTest, ProgressResetsThePatience) {
   }));
 }
 
+// Wheels that spin bring the rover nearer as it believes, and not truly: the operator who lets them
+// spin still waits no longer than for a rover that stands.
+TEST_F(RefereeTest, SpinningWheelsAreNoProgress) {
+  params_.spinning_wheels = SpinningWheels::kDriveOn;
+  params_.no_path_time_s = 60.0;
+  referee_ = Referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0});
+  const auto verdict = Run(300.0, [&] { estimate_.x_m += 0.02 * kTick_s; });
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->outcome, TrialOutcome::kNoPath);
+  EXPECT_NEAR(ledger_.time_s(), params_.no_path_time_s, 2.0 * kTick_s);
+}
+
+// Nor does true motion alone count: the operator sees what the rover believes.
+TEST_F(RefereeTest, MotionThatIsNotBelievedIsNoProgress) {
+  params_.no_path_time_s = 60.0;
+  referee_ = Referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0});
+  double x_m = 0.0;
+  const auto verdict = Run(300.0, [&] {
+    x_m += 0.02 * kTick_s;
+    MoveTo(x_m, 0.0);
+  });
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->outcome, TrialOutcome::kNoPath);
+  EXPECT_NEAR(ledger_.time_s(), params_.no_path_time_s, 2.0 * kTick_s);
+}
+
+TEST_F(RefereeTest, ARoverThatNoticesThatItIsStuckFindsNoPath) {
+  const Verdict verdict = referee_.OnNavigatorStop(NavigatorStatus::kStuck, state_);
+  EXPECT_EQ(verdict.outcome, TrialOutcome::kNoPath);
+  EXPECT_EQ(verdict.detail, "the rover noticed that it is stuck");
+}
+
 TEST_F(RefereeTest, ArrivalIsTrueOnlyNearTheTrueGoal) {
   MoveTo(7.6 - 0.6, 0.0);
   EXPECT_EQ(referee_.OnNavigatorStop(NavigatorStatus::kArrived, state_).outcome,

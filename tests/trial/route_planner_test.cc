@@ -57,6 +57,22 @@ TEST(FreeGridTest, ShortestPathGoesRoundAWall) {
   EXPECT_TRUE(ShortestPath(grid, grid.Index(0, 0), grid.Index(4, 0)).empty());
 }
 
+// Across a corner only where both cells beside it are free: a rover on the way between two blocked
+// cells that touch would drive through both, and past one through that.
+TEST(FreeGridTest, NoPathCutsACorner) {
+  FreeGrid one({0.0, 3.0, 0.0, 3.0}, 1.0);
+  one.Block(Rock(1.5, 0.5, 0.1, 1.0), 0.3);
+  const std::vector<std::size_t> round = ShortestPath(one, one.Index(0, 0), one.Index(1, 1));
+  EXPECT_EQ(round, (std::vector<std::size_t>{one.Index(0, 0), one.Index(0, 1), one.Index(1, 1)}));
+
+  FreeGrid both = one;  // a corner that two blocked cells shut in
+  both.Block(Rock(0.5, 1.5, 0.1, 1.0), 0.3);
+  EXPECT_TRUE(ShortestPath(both, both.Index(0, 0), both.Index(1, 1)).empty());
+
+  const FreeGrid none({0.0, 3.0, 0.0, 3.0}, 1.0);
+  EXPECT_EQ(ShortestPath(none, none.Index(0, 0), none.Index(1, 1)).size(), 2U);
+}
+
 // Routes lead over centres, so that these must keep the room to the walls that the bounds stand
 // for.
 TEST(FreeGridTest, CentresLieWithinTheBoundsAndTheBoundsWithinTheCells) {

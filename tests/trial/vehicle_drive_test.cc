@@ -122,6 +122,19 @@ TEST(MirrorLineTest, BackingOffDoesNotLeadAcross) {
   EXPECT_LT(farthest_m, kLine_m + kTick_m + kSlip_m);
 }
 
+// A blind rover that backs off from rocks that it touches believes in none that it met.
+TEST(FeltHazardTest, IsNoHazardThatWasBelieved) {
+  const DriveParams drive = Pathfinder(
+      "obstacles_0.57", kQuasiStatic + kContact + kBlind + Overrides{"terrain.arena.kind=open"});
+  for (const std::uint32_t index : {3U, 7U, 19U, 22U}) {
+    const truth::DriveRecord record = RunTrial(drive, {1, index}).record;
+    EXPECT_GE(record.safeguard_stops, 1.0);
+    EXPECT_GE(record.turns_in_place, 1.0);
+    EXPECT_EQ(record.hazards_believed, 0.0);
+    EXPECT_GE(record.hazards_met, 1.0);
+  }
+}
+
 // Sensors that are off are not there, whatever their parameters say.
 TEST(VehicleSensorsTest, ParametersOfSensorsThatAreOffChangeNothing) {
   const DriveParams plain = Pathfinder("obstacles_0.85", kQuasiStatic);

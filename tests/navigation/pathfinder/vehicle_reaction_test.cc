@@ -111,6 +111,24 @@ TEST(VehicleReactionTest, BlindRoverGoesStraightOnAfterTheTurn) {
   EXPECT_EQ(log.back().decision.status, NavigatorStatus::kArrived);
 }
 
+// What was felt has been avoided as what was seen: the rover does not turn in place back to its
+// goal before it has driven point_turn_after_m from there.
+TEST(VehicleReactionTest, AReactionHoldsTurnsTowardsTheGoalBack) {
+  DriveSetup setup;
+  setup.params.vehicle_reaction.turn_rad = math::DegToRad(170.0);  // faces away from the goal
+  setup.params.vehicle_reaction.straight_m = 0.0;
+  const Reaction reaction = TouchOnce(HazardSide::kLeft, setup);
+  const auto& log = reaction.log;
+  ASSERT_LT(reaction.scans, log.size());
+  EXPECT_TRUE(log[reaction.scans + 1].drives());
+  const std::size_t turns_back = Find(log, reaction.scans, Turns);
+  const std::size_t arrives = log.size() - 1;
+  const double driven_m =
+      MotionBetween(log, reaction.scans, std::min(turns_back, arrives)).driven_m;
+  EXPECT_GE(driven_m, setup.params.point_turn_after_m - 1e-12);
+  EXPECT_EQ(log.back().decision.status, NavigatorStatus::kArrived);
+}
+
 TEST(VehicleReactionTest, TouchBehindEndsTheBackOffAndNothingElse) {
   DriveSetup setup;
   bool touched = false;

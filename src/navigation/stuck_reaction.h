@@ -1,0 +1,42 @@
+// Any navigator, and what the rover does where it notices that it is stuck: it gives up, or drives
+// back along its last arc once in a drive and gives up the next time. The navigator below is not
+// asked while the rover backs off; it goes on with what was under way from where the rover believes
+// to be afterwards. Draws no random numbers.
+//
+// Limits: backing off is blind, and by wheel odometry: wheels that spin back end it as well. A
+// touch at the end that leads ends it, where the rover has contact switches.
+#pragma once
+
+#include <memory>
+
+#include "navigation/navigator.h"
+#include "navigation/stuck_reaction_params.h"
+
+namespace rockyard::navigation {
+
+class StuckReaction final : public Navigator {
+ public:
+  // `reaction` of `params` is not kOff, and `navigator` not null.
+  StuckReaction(const StuckReactionParams& params, std::unique_ptr<Navigator> navigator);
+
+  NavigatorDecision Decide(const NavigatorInput& input) override;
+  void OnPoseUpdate(const messages::PoseEstimate& before,
+                    const messages::PoseEstimate& after) override;
+  const messages::NavigationView* view() const override { return navigator_->view(); }
+
+ private:
+  enum class Stage { kNavigating, kBackingOff, kBackedOff };
+
+  void BeginBackOff(const messages::PoseEstimate& estimate);
+  // Whether the back-off is over after this tick.
+  bool HasBackedOff(const NavigatorInput& input) const;
+
+  StuckReactionParams params_;
+  std::unique_ptr<Navigator> navigator_;
+  Stage stage_ = Stage::kNavigating;
+  messages::MotionCommand last_arc_{messages::MotionKind::kArc, 0.0, +1};  // of the navigator
+  messages::MotionCommand back_off_;
+  double odometer_at_back_off_m_ = 0.0;
+};
+
+}  // namespace rockyard::navigation
