@@ -160,12 +160,25 @@ std::string MetricLines(const DriveSummary& summary) {
   return text.empty() ? text : "  means\n" + text;
 }
 
+// What a reader of the numbers above must know of the soil.
+std::string SoilLine(const DriveSummary& summary) {
+  const auto found =
+      std::find_if(summary.metrics.begin(), summary.metrics.end(),
+                   [](const auto& m) { return m.metric->name == "beyond_soil_law"; });
+  if (found == summary.metrics.end() || found->count == 0 || found->mean == 0.0) return "";
+  return fmt::format(
+      "  note: in {:.1f} % of the trials a wheel sank deeper than a sixth of its diameter, to "
+      "where "
+      "the law of sinkage holds\n",
+      100.0 * found->mean);
+}
+
 }  // namespace
 
 std::string SummaryText(const RunDescription& run, const DriveSummary& summary, TextStyle style) {
   return Head(run, summary, style) + RateLine("declared success", summary.declared_success) +
          RateLine("true success", summary.true_success) + OutcomeLines(summary, style) +
-         ColumnTable(summary, style) + MetricLines(summary) +
+         ColumnTable(summary, style) + MetricLines(summary) + SoilLine(summary) +
          fmt::format("  trial hash {}\n", run.trial_hash);
 }
 

@@ -1,6 +1,7 @@
 // A simulated rover on a terrain: truth moves in answer to wheel commands.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "math/pose.h"
@@ -31,6 +32,8 @@ class Rover {
   // simulated faster than it happens, ramps are as long inside as drive.ramp_s says, so that
   // inertia does not tell, and so many times longer in real time.
   virtual double ramp_s() const = 0;
+  // How often forces were used that had not been found to the tolerance, since the rover was made.
+  virtual std::int64_t unconverged_balances() const { return 0; }
   // The true state after the last Place or Step: pose, velocities, joint angles, loads and
   // contacts.
   virtual const truth::RoverState& state() const = 0;

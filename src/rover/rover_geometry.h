@@ -15,6 +15,12 @@ namespace rockyard::rover {
 // Returns the true drive geometry, of which on-board code gets a copy.
 messages::DriveCalibration MakeDriveCalibration(const RoverParams& params);
 
+// Returns the sinkage up to which the law of the rut holds, m: a sixth of the wheel's diameter
+// (Wong 2008 sec. 2.5).
+inline double LargestLawfulSinkage(const RoverGeometryParams& params) {
+  return params.wheel_radius_m / 3.0;
+}
+
 // A closed outline seen from above: corners (x, y) in R, m, counter-clockwise.
 using Outline = std::vector<std::pair<double, double>>;
 Outline BodyOutline(const RoverGeometryParams& params);   // overall length by width

@@ -21,6 +21,17 @@ double FastestScaled(const RoverParams& params) {
                                 kGravityTimesRadius_m2_s2);
 }
 
+// Refuses a quasi-static rover that drives so fast that inertia tells.
+void RequireSlowBalances(const RoverParams& params, core::FieldVisitor& v) {
+  const double fastest_m_s = FastestScaled(params);
+  v.Require("drive.speed_m_s",
+            params.fidelity == Fidelity::kMultibody || params.drive.speed_m_s <= fastest_m_s,
+            fmt::format("is faster than {:.3g} m/s, from where on inertia, which fidelity "
+                        "quasi_static leaves out, begins to tell in this gravity on these wheels",
+                        fastest_m_s),
+            "use fidelity multibody, or a slower rover");
+}
+
 // Refuses a physics.time_scale with which inertia would tell.
 void RequireSlowMotion(const RoverParams& params, core::FieldVisitor& v) {
   const double fastest_m_s = FastestScaled(params);
@@ -204,6 +215,7 @@ void RoverParams::Visit(core::FieldVisitor& v) {
   v.Group("contact", contact, "wheels and body against soil and rock");
   v.Group("physics", physics, "gravity and numerical solution");
   RequireSlowMotion(*this, v);
+  RequireSlowBalances(*this, v);
   v.Group("quasi_static", quasi_static, "fidelity quasi_static: step and resolution");
 }
 

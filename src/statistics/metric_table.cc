@@ -111,6 +111,8 @@ constexpr std::array kMetrics = {
     All("hazards_believed", "1", "hazards_believed", 0.5, 0.15,
         "scans whose hazard the navigator believed"),
     All("stops", "1", "stops", 0.5, 0.1, "times that the rover came to rest"),
+    ShareWith("beyond_soil_law", "beyond_soil_law",
+              "share of trials in which a wheel sank deeper than the law of sinkage holds"),
     All("distance_error_percent", "%", "distance_error_percent", 1.0, 0.0,
         "100 (dead-reckoned less true path length) over the true one"),
     All("heading_error_deg", "deg", "heading_error_deg", 2.0, 0.15,

@@ -120,7 +120,8 @@ Drive::Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
       ledger_(MakePowerBudget(drive), drive.energy.battery_wh),
       monitor_(UndersideOf(drive.rover.geometry), field_.terrain),
       watch_(WatchedZone(drive), drive.rover.geometry, WatchedHeight(drive), field_.terrain),
-      referee_(drive.referee, drive.course, designated_goal_, Bounds(drive.terrain.arena)),
+      referee_(drive.referee, drive.course, designated_goal_, Bounds(drive.terrain.arena),
+               drive.rover.geometry.wheel_radius_m),
       step_watcher_(std::move(step_watcher)) {
   if (drive.terrain.arena.kind == terrain::ArenaKind::kVirtualReflected) {
     mirror_.emplace(drive.terrain.arena.MirrorLine());

@@ -57,6 +57,9 @@ void DriveMonitor::Observe(const truth::RoverState& state, bool turning) {
       {max_rocker_rad_, std::abs(state.left_rocker_rad), std::abs(state.right_rocker_rad)});
   max_pitch_sine_ = std::max(max_pitch_sine_, std::abs(state.X_WR.linear()(2, 0)));
   max_roll_sine_ = std::max(max_roll_sine_, std::abs(state.X_WR.linear()(2, 1)));
+  for (const double sinkage_m : state.wheel_sinkage_m) {
+    max_sinkage_m_ = std::max(max_sinkage_m_, sinkage_m);
+  }
   ObserveClearance(state.X_WR);
 }
 
@@ -76,6 +79,7 @@ void DriveMonitor::Report(truth::DriveRecord& record) const {
   record.max_roll_deg = math::RadToDeg(std::asin(std::min(1.0, max_roll_sine_)));
   record.max_pitch_deg = math::RadToDeg(std::asin(std::min(1.0, max_pitch_sine_)));
   record.min_clearance_m = min_clearance_m_;
+  record.max_sinkage_m = max_sinkage_m_;
 }
 
 }  // namespace rockyard::trial

@@ -35,6 +35,7 @@ class DriveMonitor {
 
   double distance_m() const { return distance_m_; }
   double turned_in_place_rad() const { return turned_rad_; }
+  double max_sinkage_m() const { return max_sinkage_m_; }
 
   // Fills the true path, tilt, articulation and clearance of the record.
   void Report(truth::DriveRecord& record) const;
@@ -57,6 +58,7 @@ class DriveMonitor {
   double max_roll_sine_ = 0.0;
   double max_pitch_sine_ = 0.0;
   double min_clearance_m_;
+  double max_sinkage_m_ = 0.0;
 };
 
 }  // namespace rockyard::trial

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "math/angles.h"
+#include "rover/rover_geometry.h"
 #include "sensing/tracker.h"
 #include "trial/drive.h"
 #include "trial/layout.h"
@@ -97,6 +98,9 @@ void Drive::ReportCounts(truth::DriveRecord& record) const {
   record.scrape_heading_rad = motion_sensors_->scrapes().total_jump_rad();
   record.reflections = static_cast<double>(reflections_);
   record.stuck_noticed = static_cast<double>(stuck_noticed_);
+  record.beyond_soil_law =
+      monitor_.max_sinkage_m() > rover::LargestLawfulSinkage(params_.rover.geometry) ? 1.0 : 0.0;
+  record.unconverged_balances = static_cast<double>(rover_->unconverged_balances());
   record.layout = static_cast<double>(LayoutKey(params_, key_).trial);
   record.rocks = static_cast<double>(field_.terrain.rocks().size());
   record.rock_cover = field_.audit.outline_cover;

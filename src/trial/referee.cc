@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace rockyard::trial {
 namespace {
@@ -22,6 +23,14 @@ bool RestsOnBelly(const truth::RoverState& state) {
   });
 }
 
+// A rover whose wheels stand deeper than their axles on average rests on more than wheels.
+bool IsEmbedded(const truth::RoverState& state, double wheel_radius_m) {
+  const auto& depth_m = state.wheel_sinkage_m;
+  const double mean_m =
+      std::accumulate(depth_m.begin(), depth_m.end(), 0.0) / static_cast<double>(depth_m.size());
+  return mean_m > wheel_radius_m;
+}
+
 bool IsMotion(Activity activity) {
   return activity == Activity::kDriving || activity == Activity::kTurning;
 }
@@ -29,11 +38,13 @@ bool IsMotion(Activity activity) {
 }  // namespace
 
 Referee::Referee(const RefereeParams& params, const CourseParams& course,
-                 const messages::Goal& designated_goal, std::optional<ArenaBounds> bounds)
+                 const messages::Goal& designated_goal, std::optional<ArenaBounds> bounds,
+                 double wheel_radius_m)
     : params_(params),
       course_(course),
       designated_goal_(designated_goal),
       bounds_(bounds),
+      wheel_radius_m_(wheel_radius_m),
       tip_over_cosine_(std::cos(params.tip_over_rad)),
       progress_{
           Between(course.start_x_m, course.start_y_m, designated_goal.x_m, designated_goal.y_m),
@@ -51,6 +62,9 @@ std::optional<Verdict> Referee::Observe(const Observation& observation, const Le
   if (ledger.empty()) return Verdict{TrialOutcome::kEnergyDepleted, "batteries empty"};
   if (ledger.time_s() >= params_.time_limit_s) {
     return Verdict{TrialOutcome::kTimeLimit, "simulated time reached time_limit_s"};
+  }
+  if (IsEmbedded(state, wheel_radius_m_)) {
+    return Verdict{TrialOutcome::kJammed, "embedded: the wheels sank in beyond their axles"};
   }
   if (auto stuck = CheckStuck(observation)) return stuck;
   return CheckNoPath(observation, ledger.time_s());

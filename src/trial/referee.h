@@ -42,7 +42,8 @@ class Referee {
   // Arrival is judged at the true goal of `course`; progress is what brings the rover nearer to the
   // goal that it was told.
   Referee(const RefereeParams& params, const CourseParams& course,
-          const messages::Goal& designated_goal, std::optional<ArenaBounds> bounds);
+          const messages::Goal& designated_goal, std::optional<ArenaBounds> bounds,
+          double wheel_radius_m);
 
   // The verdict after a tick, if the trial is over for another reason than the navigator's own.
   std::optional<Verdict> Observe(const Observation& observation, const Ledger& ledger);
@@ -86,6 +87,7 @@ class Referee {
   CourseParams course_;
   messages::Goal designated_goal_;
   std::optional<ArenaBounds> bounds_;
+  double wheel_radius_m_;
   double tip_over_cosine_;
   std::optional<Window> window_;
   Progress progress_;

@@ -82,6 +82,9 @@ struct DriveRecord {
   double first_scrape_distance_m = 0.0;  // true path up to the first scrape, or all of it
   double stall_energy_wh = 0.0;          // of stall_time_s
   double stuck_noticed = 0.0;            // times that the rover noticed that it is stuck
+  double max_sinkage_m = 0.0;            // deepest that a wheel went below the ground
+  double beyond_soil_law = 0.0;          // 1: deeper than the sinkage law holds, D / 6
+  double unconverged_balances = 0.0;     // quasi_static: of the rover's motion
 };
 
 struct DriveColumn {
@@ -243,6 +246,16 @@ inline constexpr std::array kDriveColumns = {
                 "times that the rover noticed by its own measurements that it is stuck, rightly or "
                 "not; 0 where it does not look for it (navigation.on_board_stuck.reaction)",
                 &DriveRecord::stuck_noticed},
+    DriveColumn{"max_sinkage_m", "m", "deepest that a wheel went below the ground",
+                &DriveRecord::max_sinkage_m},
+    DriveColumn{"beyond_soil_law", "1",
+                "1 where a wheel sank deeper than a sixth of its diameter, to where the law of "
+                "sinkage holds; else 0",
+                &DriveRecord::beyond_soil_law},
+    DriveColumn{"unconverged_balances", "1",
+                "balances of forces that were used without having met their tolerance; 0 for the "
+                "multibody, which has none",
+                &DriveRecord::unconverged_balances},
 };
 
 }  // namespace rockyard::truth

@@ -14,6 +14,8 @@ using truth::TrialOutcome;
 constexpr PowerBudget kPower{.base_W = 4.57, .driving_W = 8.28};
 constexpr messages::Goal kGoal{7.6, 0.0};  // as in CourseParams
 
+constexpr double kWheelRadius_m = 0.065;
+
 class RefereeTest : public testing::Test {
  protected:
   static constexpr double kTick_s = 0.05;
@@ -49,7 +51,7 @@ class RefereeTest : public testing::Test {
   double turned_rad_ = 0.0;
   int direction_ = 1;
   Ledger ledger_{kPower, energy_.battery_wh};
-  Referee referee_{params_, course_, kGoal, ArenaBounds{-2.0, 10.0}};
+  Referee referee_{params_, course_, kGoal, ArenaBounds{-2.0, 10.0}, kWheelRadius_m};
 };
 
 TEST_F(RefereeTest, SteadyDriveHasNoVerdict) {
@@ -185,11 +187,25 @@ TEST_F(RefereeTest, BellyOnARockMakesItHighCentred) {
   EXPECT_EQ(verdict->outcome, TrialOutcome::kHighCentred);
 }
 
+TEST_F(RefereeTest, WheelsDeeperThanTheirAxlesAreEmbedded) {
+  state_.wheel_sinkage_m.fill(0.99 * kWheelRadius_m);
+  EXPECT_FALSE(Run(1.0, [] {}));
+  // One wheel in a hole is not all of the rover.
+  state_.wheel_sinkage_m.fill(0.0);
+  state_.wheel_sinkage_m[2] = 3.0 * kWheelRadius_m;
+  EXPECT_FALSE(Run(1.0, [] {}));
+  state_.wheel_sinkage_m.fill(1.01 * kWheelRadius_m);
+  const auto verdict = Run(1.0, [] {});
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->outcome, TrialOutcome::kJammed);
+  EXPECT_NE(verdict->detail.find("embedded"), std::string::npos);
+}
+
 TEST_F(RefereeTest, ARockOrWallBeforeTheChassisJamsIt) {
   for (const truth::BodyContact& contact :
        {truth::BodyContact{truth::BodyPart::kBelly, 3, 40.0, 0.0, 0.1},
         truth::BodyContact{truth::BodyPart::kBelly, -1, 40.0, 0.0, 0.0}}) {
-    referee_ = Referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0});
+    referee_ = Referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0}, kWheelRadius_m);
     state_.contacts = {contact};
     const auto verdict = Run(20.0, [] {});
     ASSERT_TRUE(verdict);
@@ -204,7 +220,7 @@ TEST_F(RefereeTest, SpinningWheelsAreStuckByDefaultAndDriveOnByChoice) {
   EXPECT_EQ(verdict->outcome, TrialOutcome::kJammed);
 
   params_.spinning_wheels = SpinningWheels::kDriveOn;
-  referee_ = Referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0});
+  referee_ = Referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0}, kWheelRadius_m);
   estimate_ = {};
   EXPECT_FALSE(Run(40.0, spin));
 }
@@ -254,7 +270,7 @@ TEST_F(RefereeTest, ProgressResetsThePatience) {
 TEST_F(RefereeTest, SpinningWheelsAreNoProgress) {
   params_.spinning_wheels = SpinningWheels::kDriveOn;
   params_.no_path_time_s = 60.0;
-  referee_ = Referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0});
+  referee_ = Referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0}, kWheelRadius_m);
   const auto verdict = Run(300.0, [&] { estimate_.x_m += 0.02 * kTick_s; });
   ASSERT_TRUE(verdict);
   EXPECT_EQ(verdict->outcome, TrialOutcome::kNoPath);
@@ -264,7 +280,7 @@ TEST_F(RefereeTest, SpinningWheelsAreNoProgress) {
 // Nor does true motion alone count: the operator sees what the rover believes.
 TEST_F(RefereeTest, MotionThatIsNotBelievedIsNoProgress) {
   params_.no_path_time_s = 60.0;
-  referee_ = Referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0});
+  referee_ = Referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0}, kWheelRadius_m);
   double x_m = 0.0;
   const auto verdict = Run(300.0, [&] {
     x_m += 0.02 * kTick_s;

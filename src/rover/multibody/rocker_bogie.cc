@@ -220,6 +220,7 @@ void RockerBogie::UpdateState() {
 void RockerBogie::UpdateContacts(const DofVector& velocity) {
   state_.contacts.clear();
   state_.wheel_load_N.fill(0.0);
+  state_.wheel_sinkage_m.fill(0.0);
   const math::Transform X_RW = state_.X_WR.inverse(Eigen::Isometry);
   for (const Contact& contact : finder_.contacts()) {
     // Mean force over the step: impulse over h.
@@ -227,7 +228,9 @@ void RockerBogie::UpdateContacts(const DofVector& velocity) {
     if (force_N <= 0.0) continue;
     const Part& part = finder_.part(contact.part);
     if (part.kind == truth::BodyPart::kWheel) {
-      state_.wheel_load_N[static_cast<std::size_t>(contact.part)] += force_N;
+      const auto wheel = static_cast<std::size_t>(contact.part);
+      state_.wheel_load_N[wheel] += force_N;
+      if (contact.IsSoil()) state_.wheel_sinkage_m[wheel] = std::max(0.0, -contact.gap_m);
       continue;
     }
     DofVector along, across;

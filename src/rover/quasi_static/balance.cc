@@ -52,9 +52,9 @@ QuasiStaticBalance::QuasiStaticBalance(const RoverParams& params, const terrain:
       mean_load_N_(params.mass.total_kg * params.physics.gravity_m_s2 / 6.0),
       stop_stiffness_Nm_(params.contact.stiffness_N_m * params.geometry.length_m *
                          params.geometry.length_m / 16.0) {
-  // D: at full speed the damping takes 0.1 % of the weight; about an axis, of the weight at an arm
+  // D: at full speed the damping takes 0.03 % of the weight; about an axis, of the weight at an arm
   // of a quarter of the rover's length.
-  const double per_speed = 1e-3 * 6.0 * mean_load_N_ / params.drive.speed_m_s;
+  const double per_speed = 3e-4 * 6.0 * mean_load_N_ / params.drive.speed_m_s;
   const double arm_m = 0.25 * params.geometry.length_m;
   free_damping_.setConstant(per_speed * arm_m * arm_m);
   free_damping_.head<3>().setConstant(per_speed);

@@ -32,7 +32,7 @@ enum class Freedom { kAll, kSettling };
 // function (power of gravity, springs and dissipation; compare Pang and Tedrake 2021), and Newton's
 // method with cuts of the step finds it; T_c follows N_c from iteration to iteration.
 //
-// D is 0.1 % of what weight and speed suggest: it says how fast a rover falls that nothing holds.
+// D is 0.03 % of what weight and speed suggest: it says how fast a rover falls that nothing holds.
 class QuasiStaticBalance {
  public:
   // The soil is that under all wheels; its table of answers is made here, up to the rover's weight.

@@ -28,6 +28,8 @@ constexpr double kSameRate = 1e-9;
 // Contacts whose normals are this near to the vertical hold whatever they bear: 20 deg, a friction
 // of 0.36.
 constexpr double kEasyCosine = 0.94;
+// A rover that moves so many times faster than its rims falls.
+constexpr double kFalls = 1.5;
 // Standing rovers that a balance lets move faster than this slide, m/s.
 constexpr double kStands_m_s = 1e-3;
 // A drive that differs from the last one by less still says where the rover will be.
@@ -307,10 +309,23 @@ void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
   // A fall may be longer than a stretch allows: Limit lets the rover fall in several.
   stretch_.to = Moved(posture_, rates_, stretch_.duration_s);
   UpdateForces();
-  SteadyDrive steady = balance_.Steady(contacts_.contacts(), rates_);
-  steady.inertia_J = params_.mass.total_kg * rates_.head<3>().squaredNorm() +
-                     yaw_inertia_kg_m2_ * rates_[5] * rates_[5];
-  progress_.Begin(steady);
+  BeginProgress(rate_rad_s);
+}
+
+void QuasiStaticRover::BeginProgress(const messages::PerWheel<double>& rate_rad_s) {
+  SteadyDrive drive = balance_.Steady(contacts_.contacts(), rates_);
+  double rim_m_s = 0.0;
+  for (const double rate : rate_rad_s) {
+    rim_m_s = std::max(rim_m_s, std::abs(rate) * params_.geometry.wheel_radius_m);
+  }
+  const double speed2_m2_s2 = rates_.head<3>().squaredNorm();
+  const bool falls = speed2_m2_s2 > kFalls * kFalls * rim_m_s * rim_m_s;
+  // A fall is no motion that wheels start or stop.
+  if (!falls) {
+    drive.inertia_J =
+        params_.mass.total_kg * speed2_m2_s2 + yaw_inertia_kg_m2_ * rates_[5] * rates_[5];
+  }
+  progress_.Begin(drive);
 }
 
 bool QuasiStaticRover::OnLevelGround() const {
@@ -437,11 +452,14 @@ void QuasiStaticRover::UpdatePosture() {
 void QuasiStaticRover::UpdateForces() {
   state_.contacts.clear();
   state_.wheel_load_N.fill(0.0);
+  state_.wheel_sinkage_m.fill(0.0);
   const Linkage::Frame& chassis = linkage_.chassis();  // where the contacts were found
   for (const RestingContact& contact : contacts_.contacts()) {
     if (contact.load_N <= 0.0) continue;
     if (contact.IsWheel()) {
-      state_.wheel_load_N[static_cast<std::size_t>(contact.part)] += contact.load_N;
+      const auto wheel = static_cast<std::size_t>(contact.part);
+      state_.wheel_load_N[wheel] += contact.load_N;
+      if (contact.IsSoil()) state_.wheel_sinkage_m[wheel] = std::max(0.0, -contact.gap_m);
     } else {
       state_.contacts.push_back({contact.kind, std::max(contact.other, -1), contact.load_N,
                                  contact.sliding_speed_m_s, contact.n_W.z(),

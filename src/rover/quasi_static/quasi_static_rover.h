@@ -29,6 +29,7 @@ class QuasiStaticRover final : public Rover {
   void Step(const messages::WheelCommand& command) override;
   double step_s() const override { return params_.quasi_static.step_s; }
   double ramp_s() const override { return params_.drive.ramp_s; }
+  std::int64_t unconverged_balances() const override { return work_.not_converged; }
   const truth::RoverState& state() const override { return state_; }
 
   // Work done so far, for benchmarks.
@@ -63,6 +64,7 @@ class QuasiStaticRover final : public Rover {
   void Follow(const RimShares& rims);
   void Stand();
   bool HoldsEasily() const;
+  void BeginProgress(const messages::PerWheel<double>& rate_rad_s);
   void Plan(const messages::PerWheel<double>& rate_rad_s);
   bool OnLevelGround() const;
   bool IsSteady() const;
