@@ -6,6 +6,12 @@
 #include "core/check.h"
 
 namespace rockyard::perception {
+namespace {
+
+// Commanded turn rates below this are straight driving with rounding, rad/s.
+constexpr double kStraight_rad_s = 1e-3;
+
+}  // namespace
 
 double ToldTurnRate(const messages::WheelCommand& command,
                     const messages::DriveCalibration& calibration) {
@@ -33,7 +39,10 @@ std::optional<StuckSign> StuckDetector::Observe(const messages::WheelCommand& co
   const double told_rad = ToldTurnRate(command, calibration_) * motion.duration_s;
   window_.duration_s += motion.duration_s;
   window_.told_rad += std::abs(told_rad);
-  window_.obeyed_rad += std::copysign(1.0, told_rad) * motion.turn_rad;
+  // Told to go straight, the rover turns neither the told way nor the other.
+  if (std::abs(told_rad) > kStraight_rad_s * motion.duration_s) {
+    window_.obeyed_rad += std::copysign(1.0, told_rad) * motion.turn_rad;
+  }
   for (std::size_t i = 0; felt.motor_current_A && i < messages::kWheelCount; ++i) {
     if ((*felt.motor_current_A)[i] < params_.strain_current_A) continue;
     window_.strained_s[i] += motion.duration_s;

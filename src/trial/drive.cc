@@ -195,6 +195,8 @@ std::optional<Verdict> Drive::Look(messages::LookDirection direction) {
 void Drive::SpendOverhead() {
   const double overhead_s = params_.clock.compute.move_overhead_s;
   if (overhead_s <= 0.0) return;
+  // A rover that comes from another move brakes first.
+  if (rolling_) Move({}, stop_);
   stops_.Observe(false);
   Rest(Activity::kOverhead, overhead_s);
   if (params_.sensors.gyro.accumulates_at_rest) UpdateEstimate(overhead_s, false);
@@ -204,6 +206,7 @@ std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const 
   const messages::WheelCommand command = wheel_driver_.Tick(motion, stretch.duration_s);
   const Activity activity = ActivityOf(motion, wheel_driver_.steering());
   const bool moving = motion.kind != MotionKind::kStop && !wheel_driver_.steering();
+  rolling_ = moving;
   stops_.Observe(moving);
   ApplyCommand(command, stretch.steps);
   const messages::MotionMeasurement measured = UpdateEstimate(stretch.duration_s, moving);

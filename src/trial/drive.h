@@ -110,7 +110,8 @@ class Drive {
   Referee referee_;
 
   StepWatcher step_watcher_;
-  Percept percept_;  // of the last tick, where it was a look
+  Percept percept_;       // of the last tick, where it was a look
+  bool rolling_ = false;  // in the last stretch
   std::int64_t hazards_ = 0;
   TurnCounter turns_;
   MoveCounter moves_;

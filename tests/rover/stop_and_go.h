@@ -12,8 +12,8 @@ inline constexpr double kLegRest_s = 0.05;  // beyond the ramp of the motors
 
 // What a rover made of the way that its wheels rolled.
 struct LegResult {
-  double along = 0.0;  // way along its heading over the way of the rims
-  double down = 0.0;   // the same down the fall line, for a rover on a cross slope
+  double along = 0.0;   // way along its heading over the way of the rims
+  double across = 0.0;  // and across it
 };
 
 // Drives `legs` legs, after two that are not counted, and compares the way with that of the rims.

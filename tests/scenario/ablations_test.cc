@@ -72,7 +72,7 @@ TEST(AblationsTest, ChangesResolvedDocumentsAndOthersAlike) {
     core::JsonValue resolved = WriteScenario(Nominal());
     core::JsonValue written = core::ParseJson(
         R"({"terrain": {"rocks": {"k_per_m2": 0.00415}}, "course": {"goal_x_m": 7.6},
-            "sensors": {"encoders": {"physics_variance_m2_per_m": 4.1e-06}},
+            "sensors": {"encoders": {"physics_variance_m2_per_m": 1.9e-06}},
             "perception": {"dead_reckoning": {"distance_scale": 0.9201}}})",
         "test");
     ApplyAblation(resolved, ablation.name);

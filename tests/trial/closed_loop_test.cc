@@ -91,10 +91,15 @@ struct Books {
   double steer_s = 0.0;
 };
 
-Books BooksOf(const truth::Trace& trace, double tick_s) {
-  std::map<std::string, int> ticks;
-  for (const truth::TraceSample& sample : trace.samples) ++ticks[sample.activity];
-  return {ticks["drive"] * tick_s, ticks["turn"] * tick_s, ticks["steer"] * tick_s};
+Books BooksOf(const truth::Trace& trace) {
+  // A sample ends the stretch of its activity: a control tick, or the stop before a look.
+  std::map<std::string, double> spent_s;
+  double last_s = 0.0;
+  for (const truth::TraceSample& sample : trace.samples) {
+    spent_s[sample.activity] += sample.time_s - last_s;
+    last_s = sample.time_s;
+  }
+  return {spent_s["drive"], spent_s["turn"], spent_s["steer"]};
 }
 
 double EnergyWh(const Books& books, double scan_s, double stall_s, const EnergyParams& energy) {
@@ -110,7 +115,7 @@ void ExpectBooksBalance(const DriveParams& drive, const TracedTrial& trial) {
   const bool stuck = trial.result.outcome == truth::TrialOutcome::kJammed ||
                      trial.result.outcome == truth::TrialOutcome::kHighCentred;
   const double stall_s = stuck ? record.sim_time_s - trial.trace.samples.back().time_s : 0.0;
-  const Books books = BooksOf(trial.trace, 1.0 / drive.clock.control_rate_hz);
+  const Books books = BooksOf(trial.trace);
   EXPECT_NEAR(record.drive_time_s, books.drive_s, 1e-6);
   EXPECT_NEAR(record.turn_time_s, books.turn_s, 1e-6);
   EXPECT_NEAR(record.scan_time_s, record.scans * drive.clock.scan_time_s, 1e-6);
@@ -139,7 +144,7 @@ TEST(ClosedLoopTest, TickLastsWholeStepsForAllThatGoesByIt) {
   const TracedTrial asked_25 = drive("25");
   EXPECT_THAT(Differences(asked_25.result, drive("30").result), testing::IsEmpty());
   EXPECT_THAT(Differences(asked_25.result, drive("20").result), testing::Not(testing::IsEmpty()));
-  const Books books = BooksOf(asked_25.trace, 2.0 / 60.0);
+  const Books books = BooksOf(asked_25.trace);
   EXPECT_NEAR(asked_25.result.record.drive_time_s, books.drive_s, 1e-6);
   EXPECT_NEAR(asked_25.result.record.turn_time_s, books.turn_s, 1e-6);
 }

@@ -54,6 +54,8 @@ SlipStep ContactLaws::StepOfSlip(const ContactLaw& law, const SlipChange& change
   const double rim_m_s = theta * to.rim_m_s + (1.0 - theta) * from.rim_m_s;
   // A wheel that stands does not creep.
   if (rim_m_s == 0.0) return {};
+  // Soil without strength has no traction to build up.
+  if (law.rut.largest_traction_N <= 0.0) return {};
   const double v_m_s = (theta * to.v_m_s + (1.0 - theta) * from.v_m_s).norm();
   // Slip speed v = |omega r| i is to come with the friction tau T_max (Janosi and Hanamoto 1961):
   //   c = v / (tau T_max h) = |omega r| (i / tau) / (T_max h).

@@ -156,13 +156,17 @@ int RockerBogie::Substeps(const messages::PerWheel<double>& commanded_rad_s) {
   const double speed_m_s = params_.drive.speed_m_s * params_.physics.time_scale;
   const double gentle_m_s2 = kGentle * params_.physics.gravity_m_s2;
   if (speed_m_s <= gentle_m_s2 * params_.drive.ramp_s) return 1;
-  // The body comes to the speed of its wheels no later than a gentle ramp would.
+  // Where wheels slip much, the body takes a few times as long as a gentle ramp would to come to
+  // their speed.
+  constexpr double kLongest = 3.0;
   if (commanded_rad_s != commanded_rad_s_) {
-    short_steps_left_ = static_cast<int>(
-        std::ceil((speed_m_s / gentle_m_s2 + params_.drive.ramp_s) / params_.physics.step_s));
+    const double time_s = kLongest * speed_m_s / gentle_m_s2 + params_.drive.ramp_s;
+    short_steps_left_ = static_cast<int>(std::ceil(time_s / params_.physics.step_s));
   }
   commanded_rad_s_ = commanded_rad_s;
-  return --short_steps_left_ >= 0 ? kSubsteps : 1;
+  if (short_steps_left_ == 0) return 1;
+  --short_steps_left_;
+  return kSubsteps;
 }
 
 // v* = v + h M^-1 f, impulses of all constraints on v*, positions with the new v (semi-implicit

@@ -8,16 +8,15 @@ namespace {
 
 using math::Vector3;
 
-// Slip at which Coulomb friction has reached 0.7 of itself, in shares of the rim speed. Half of it
-// costs a fifth more iterations and changes no posture by more than that of the step.
-constexpr double kRockCreep = 0.002;
-// Same for the direction of the motion resistance.
+// Speed at which motion resistance has reached 0.7 of itself, in shares of the rim speed.
 constexpr double kResistanceCreep = 0.003;
 // A wheel that stands, or turns slowly, is judged by this share of the fastest rim, and a rover
 // whose wheels all stand by this share of its speed.
 constexpr double kMinReference = 0.05;
 // The last change of the rates, over the rover's speed. Newton's method leaves far less.
 constexpr double kTolerance = 1e-2;
+// Force that a rover at rest may be left with, over its weight.
+constexpr double kBalanced = 0.01;
 // Changes of the rates, over the rim speed, below which tractions are taken along their tangent;
 // above it, force over speed, which overshoots nothing.
 constexpr double kTangentRange = 0.3;
@@ -122,7 +121,8 @@ void QuasiStaticBalance::SetTraction(const RestingContact& contact, Row& row) co
     const SoilAnswer soil = soil_.At(load_N);
     // What the motor can hold at the rim bounds the traction as well.
     row.max_N = std::min(soil.traction_N, stall_force_N_);
-    row.shear_ratio = soil.shear_ratio;
+    // A braked wheel holds up to its traction, without the creep of one that turns.
+    row.shear_ratio = row.rim_m_s != 0.0 ? soil.shear_ratio : 0.0;
     row.resistance_N = soil.resistance_N;
   } else if (contact.IsWheel() && contact.other >= 0) {
     row.max_N = std::min(contact_params_.wheel_rock_friction * load_N, stall_force_N_);
@@ -250,6 +250,11 @@ bool QuasiStaticBalance::IsSmall(const LinkageVector& change, double speed_m_s) 
          change.tail<6>().cwiseAbs().maxCoeff() * wheel_radius_m_ < speed_m_s;
 }
 
+// Rates of a rover at rest are so small that no change of theirs says whether forces balance.
+bool QuasiStaticBalance::IsBalanced() const {
+  return equations_.force().head<3>().norm() < kBalanced * messages::kWheelCount * mean_load_N_;
+}
+
 // Traction follows load by bounded steps: loads of a first guess can be far off.
 void QuasiStaticBalance::FollowLoad(RestingContact& contact, Row& row) {
   const double change_N = contact.load_N - contact.traction_load_N;
@@ -276,7 +281,9 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
   // The fastest rim. Where none turns, a share of the top speed stands for it, so that slip stays
   // defined.
   rim_speed_m_s_ = drive.freedom == Freedom::kSettling ? 0.0 : kMinReference * speed_m_s_;
+  rims_turn_ = false;
   for (const double rate : drive.rate_rad_s) {
+    rims_turn_ |= rate != 0.0;
     rim_speed_m_s_ = std::max(rim_speed_m_s_, std::abs(rate) * wheel_radius_m_);
   }
   step_s_ = drive.step_s;
@@ -302,7 +309,8 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
     for (std::size_t i = 0; i < contacts.size(); ++i) AddStiffness(contacts[i], rows_[i]);
     LinkageVector change = equations_.Solve();
     const double drop = equations_.force().dot(change);
-    if (tangent_ && !traction_lags_ && IsSmall(change, kTolerance * speed_m_s_)) {
+    if (tangent_ && !traction_lags_ && IsSmall(change, kTolerance * speed_m_s_) &&
+        (rims_turn_ || IsBalanced())) {
       rates += change;
       Finish(change, contacts);
       return iteration;
@@ -337,11 +345,15 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
   return kMaxIterations;
 }
 
-SteadyDrive QuasiStaticBalance::Steady(const std::vector<RestingContact>& contacts,
-                                       const LinkageVector& rates) const {
+double QuasiStaticBalance::FrictionOf(const RestingContact& contact) const {
+  if (contact.IsSoil()) return soil_.At(contact.load_N).traction_N / contact.load_N;
+  return contact.IsWheel() && contact.other >= 0 ? contact_params_.wheel_rock_friction
+                                                 : contact_params_.body_rock_friction;
+}
+
+SteadyDrive QuasiStaticBalance::Steady(const LinkageVector& rates) const {
   SteadyDrive drive;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const Row& row = rows_[i];
+  for (const Row& row : rows_) {
     if (!row.acts || row.rim_m_s == 0.0) continue;
     const SideVector w = OfSide(rates, row.side);
     WheelLump& lump = row.shear_ratio > 0.0 ? drive.soil : drive.rock;

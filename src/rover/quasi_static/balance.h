@@ -26,11 +26,11 @@ enum class Freedom { kAll, kSettling };
 //
 // So every contact is a spring along its normal at its place at the end of the step (wheels on
 // soil: the sinkage curve's tangent) and, across it, a traction along its slip velocity: Janosi and
-// Hanamoto's share on soil, see wheel_soil.h, and Coulomb's law on rock, reached within a slip of
-// kRockCreep. All that lets a rover climb, slip, slide sideways, get blocked, lift on its belly or
-// jam follows from this one balance; nothing tests for it. With T_c fixed, w minimizes a convex
-// function (power of gravity, springs and dissipation; compare Pang and Tedrake 2021), and Newton's
-// method with cuts of the step finds it; T_c follows N_c from iteration to iteration.
+// Hanamoto's share on soil, see wheel_soil.h, and Coulomb's law on rock, reached at slips
+// beyond kRockCreep. All that lets a rover climb, slip, slide sideways, get blocked, lift on its
+// belly or jam follows from this one balance; nothing tests for it. With T_c fixed, w minimizes a
+// convex function (power of gravity, springs and dissipation; compare Pang and Tedrake 2021), and
+// Newton's method with cuts of the step finds it; T_c follows N_c from iteration to iteration.
 //
 // D is 0.03 % of what weight and speed suggest: it says how fast a rover falls that nothing holds.
 class QuasiStaticBalance {
@@ -57,9 +57,12 @@ class QuasiStaticBalance {
 
   static constexpr int kMaxIterations = 20;
 
-  // What the wheels do in the last solution, with the contacts and rates that it left. The inertia
-  // is left to the caller.
-  SteadyDrive Steady(const std::vector<RestingContact>& contacts, const LinkageVector& rates) const;
+  // Returns what the wheels do in the last solution, whose rates are given. The inertia is left to
+  // the caller.
+  SteadyDrive Steady(const LinkageVector& rates) const;
+
+  // Returns the largest friction of a contact over its load > 0.
+  double FrictionOf(const RestingContact& contact) const;
 
   // The motor's torque about the axle in the last solution, positive where it drives forward.
   double MotorTorque_Nm(std::size_t wheel) const { return torque_Nm_[wheel]; }
@@ -108,6 +111,7 @@ class QuasiStaticBalance {
   void AddStops(const LinkageVector& rates);
   void Finish(const LinkageVector& change, std::vector<RestingContact>& contacts) const;
   bool IsSmall(const LinkageVector& change, double speed_m_s) const;
+  bool IsBalanced() const;
 
   const RoverContactParams contact_params_;
   const WheelSoilTable soil_;
@@ -124,6 +128,7 @@ class QuasiStaticBalance {
   Posture posture_;
   double step_s_ = 0.0;
   double rim_speed_m_s_ = 0.0;  // largest
+  bool rims_turn_ = false;
   LinkageVector gravity_;
   LinkageVector damping_;
   std::vector<Row> rows_;

@@ -17,13 +17,24 @@ constexpr double kExact = 1e-4;
 constexpr int kIterations = 12;
 // A rover that is drawn downhill does not run this many times faster than steadily.
 constexpr double kFastest = 3.0;
-// Slip at which friction on rock acts in full, over the rim's speed.
-constexpr double kRockSlip = 0.005;
 
 // Of the moment of a step of z times the decay at which forces are taken.
 double Theta(double z) { return std::isfinite(z) ? (z + 3.0) / (z + 6.0) : 1.0; }
 
 }  // namespace
+
+// tau at a slip speed and its derivative by that speed, s/m: the laws of balance.h.
+ShearShare Progress::ShareAt(const WheelLump& lump, double slip_m_s, double rim_m_s) const {
+  // A braked wheel has all its traction at any slip.
+  if (rim_m_s <= 0.0) return {1.0, 0.0};
+  if (lump.shear_ratio > 0.0) {
+    const ShearShare share = share_.At(lump.shear_ratio * slip_m_s / rim_m_s);
+    return {share.value, share.slope * lump.shear_ratio / rim_m_s};
+  }
+  const double creep_m_s = kRockCreep * rim_m_s;
+  const double root = std::sqrt(slip_m_s * slip_m_s + creep_m_s * creep_m_s);
+  return {slip_m_s / root, creep_m_s * creep_m_s / (root * root * root)};
+}
 
 Progress::Power Progress::PowerOf(const WheelLump& lump, double speed, double rim) const {
   if (lump.traction_N == 0.0) return {};
@@ -31,22 +42,19 @@ Progress::Power Progress::PowerOf(const WheelLump& lump, double speed, double ri
   const double across = -speed * lump.across_m_s;
   const double slip_m_s = std::sqrt(along * along + across * across);
   if (slip_m_s == 0.0) return {};
-  // A braked wheel has all its traction at any slip.
-  const double u = rim > 0.0 ? lump.shear_ratio * slip_m_s / (rim * lump.rim_m_s) : 1e9;
-  const ShearShare share = share_.At(u);
+  const ShearShare share = ShareAt(lump, slip_m_s, rim * lump.rim_m_s);
   const double toward = along * lump.along_m_s + across * lump.across_m_s;
   // F . v = T tau (s . v) / |s|; by q, s changes by -v and |s| by -(s . v) / |s|.
   const double cosine = toward / slip_m_s;
   const double v2 = lump.along_m_s * lump.along_m_s + lump.across_m_s * lump.across_m_s;
-  const double stiffening = share.slope * u / slip_m_s;  // d tau / d|s|
   return {lump.traction_N * share.value * cosine,
           -lump.traction_N *
-              (stiffening * cosine * cosine + share.value * (v2 - cosine * cosine) / slip_m_s)};
+              (share.slope * cosine * cosine + share.value * (v2 - cosine * cosine) / slip_m_s)};
 }
 
-void Progress::Begin(const SteadyDrive& drive) {
+void Progress::Begin(const SteadyDrive& drive, double kept) {
   drive_ = drive;
-  drive_.rock.shear_ratio = 1.0 / kRockSlip;
+  speed_ *= kept;
   const Power soil = PowerOf(drive_.soil, 1.0, 1.0);
   const Power rock = PowerOf(drive_.rock, 1.0, 1.0);
   balance_W_ = soil.value_W + rock.value_W;
@@ -85,22 +93,26 @@ double Progress::Step(double rim_from, double rim_to, double time_s) {
   if (speed_ > 0.0 || before == 0.0) return 0.5 * (before + speed_) * time_s;
   // It comes to rest within the step: half of what speed it had, for the time that this took.
   const double slowing = -RateAt(0.5 * before, rim).value;
-  return 0.5 * before * std::min(time_s, before / slowing);
+  return 0.5 * before * (slowing * time_s > before ? before / slowing : time_s);
 }
 
 double Progress::Advance(double rim_from, double rim_to, double time_s) {
   const double mean = 0.5 * (rim_from + rim_to);
-  const WheelLump& lump = drive_.soil.traction_N > 0.0 ? drive_.soil : drive_.rock;
-  const bool stuck = std::abs(lump.along_m_s) < kStuck * lump.rim_m_s;
+  const WheelLump& soil = drive_.soil;
+  const WheelLump& rock = drive_.rock;
+  // Means over the traction of all wheels, times that traction.
+  const double along = soil.traction_N * soil.along_m_s + rock.traction_N * rock.along_m_s;
+  const double rims = soil.traction_N * soil.rim_m_s + rock.traction_N * rock.rim_m_s;
+  const bool stuck = std::abs(along) <= kStuck * rims;
   const bool steady = rim_from == rim_to && std::abs(speed_ - rim_to) < kSteady;
   if (stuck || steady || drive_.inertia_J <= 0.0) {
     speed_ = rim_to;
     return mean * time_s;
   }
   const int steps = static_cast<int>(std::ceil(time_s / kStep_s));
+  const double change = (rim_to - rim_from) / steps;
   double way_s = 0.0;
   for (int i = 0; i < steps; ++i) {
-    const double change = (rim_to - rim_from) / steps;
     way_s += Step(rim_from + i * change, rim_from + (i + 1) * change, time_s / steps);
   }
   return way_s;

@@ -5,6 +5,10 @@
 
 namespace rockyard::rover {
 
+// Slip at which Coulomb friction has reached 0.7 of itself, in shares of the rim speed: what stands
+// for a contact that holds.
+inline constexpr double kRockCreep = 0.002;
+
 // The wheels of a rover as one: what they do to the power of its motion. Lengths of way are those
 // of one steady second, in which the rover moves at the rates of a balance and its rims as fast as
 // the drive asks: the same balance holds at every speed, as friction and soil know no time.
@@ -13,7 +17,7 @@ struct WheelLump {
   double rim_m_s = 0.0;      // mean over the traction, as the rest
   double along_m_s = 0.0;    // of the rover over the ground, along the wheels
   double across_m_s = 0.0;   // and across
-  double shear_ratio = 0.0;  // u at a slip of 1 (wheel_soil.h)
+  double shear_ratio = 0.0;  // u at a slip of 1 (wheel_soil.h); 0: Coulomb friction
 };
 
 // Of a steady motion: what wheels on soil and on rock pull, and how heavy the motion is. What they
@@ -30,16 +34,16 @@ struct SteadyDrive {
 //
 //   I dq/dt = P(q, rho) - P(1, 1),   P = sum of F . v over the wheels,
 //
-// with F = T tau(u), u = (l / K) |s| / (rho r omega) along the slip velocity s = rho r omega - q v.
-// and v of the steady motion. It is the balance that the multibody makes in every step, for the one
-// coordinate that starts and stops; posture and loads are those of the steady motion. Steady motion
-// has q = rho = 1 and needs none of this.
+// with F = T tau(u), u = (l / K) |s| / (rho r omega), along the slip velocity s = rho r omega - q
+// v, and v of the steady motion. It is the balance that the multibody makes in every step, for the
+// one coordinate that starts and stops; posture and loads are those of the steady motion. Steady
+// motion has q = rho = 1 and needs none of this.
 class Progress {
  public:
   // The rover stands.
   void Stop() { speed_ = 0.0; }
-  // The motion that goes on from here.
-  void Begin(const SteadyDrive& drive);
+  // The motion that goes on from here. Of the speed so far it keeps that share.
+  void Begin(const SteadyDrive& drive, double kept);
 
   // Returns the way in the next `time_s`, in seconds at full speed, while the rims go from the one
   // share of their full speed to the other.
@@ -58,6 +62,7 @@ class Progress {
     double value;
     double slope;
   };
+  ShearShare ShareAt(const WheelLump& lump, double slip_m_s, double rim_m_s) const;
   Power PowerOf(const WheelLump& lump, double speed, double rim) const;
   Rate RateAt(double speed, double rim) const;
   double Step(double rim_from, double rim_to, double time_s);

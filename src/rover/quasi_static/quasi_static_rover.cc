@@ -25,13 +25,14 @@ constexpr double kSteady_m = 2e-6;
 constexpr double kSteady_rad = 1e-5;
 // Rates that differ by no more than this share are the same.
 constexpr double kSameRate = 1e-9;
-// Contacts whose normals are this near to the vertical hold whatever they bear: 20 deg, a friction
-// of 0.36.
-constexpr double kEasyCosine = 0.94;
+// Share of the friction, and of the weight, that a rover which holds without a closer look may
+// need.
+constexpr double kSureFriction = 0.9;
 // A rover that moves so many times faster than its rims falls.
 constexpr double kFalls = 1.5;
-// Standing rovers that a balance lets move faster than this slide, m/s.
-constexpr double kStands_m_s = 1e-3;
+// Standing rovers that a balance lets move faster than this share of their top speed slide: ten
+// thousand times what braked wheels creep by.
+constexpr double kStands = 5e-3;
 // A drive that differs from the last one by less still says where the rover will be.
 constexpr double kSimilar = 0.25;
 // A rock deeper than this in the rover, half a step ahead, is met where the rover stands:
@@ -60,12 +61,12 @@ std::optional<double> ShareOf(const messages::PerWheel<double>& rate_rad_s,
   }
   if (shape[fastest] == 0.0) return std::nullopt;
   const double share = rate_rad_s[fastest] / shape[fastest];
-  if (share < 0.0) return std::nullopt;
+  if (share < -kSameRate) return std::nullopt;
   const double most_rad_s = kSameRate * std::abs(shape[fastest]);
   for (std::size_t i = 0; i < kWheelCount; ++i) {
     if (std::abs(rate_rad_s[i] - share * shape[i]) > most_rad_s) return std::nullopt;
   }
-  return share;
+  return std::max(0.0, share);
 }
 
 std::optional<RimShares> Shares(const MotorRates& rates, const messages::PerWheel<double>& shape) {
@@ -194,19 +195,17 @@ void QuasiStaticRover::SteerAtRest() {
   Limit(step_s(), kReach_m, kMaxTurn_rad, rates_);
   posture_ = Moved(posture_, rates_, step_s());
   stretch_.duration_s = 0.0;
-  steady_ = false;
+  steady_ = standing_ = false;
   UpdatePosture();
   UpdateForces();
 }
 
-bool QuasiStaticRover::Balance(const QuasiStaticBalance::Drive& drive) {
+void QuasiStaticRover::Balance(const QuasiStaticBalance::Drive& drive) {
   const int iterations = balance_.Solve(linkage_, posture_, drive, contacts_.contacts(), rates_);
-  const bool found = iterations < QuasiStaticBalance::kMaxIterations;
   ++work_.balances;
   work_.iterations += iterations;
-  if (!found) ++work_.not_converged;
+  if (iterations == QuasiStaticBalance::kMaxIterations) ++work_.not_converged;
   if (!rates_.allFinite()) throw std::runtime_error("no balance of forces with finite rates");
-  return found;
 }
 
 void QuasiStaticRover::Rest() {
@@ -309,23 +308,31 @@ void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
   // A fall may be longer than a stretch allows: Limit lets the rover fall in several.
   stretch_.to = Moved(posture_, rates_, stretch_.duration_s);
   UpdateForces();
-  BeginProgress(rate_rad_s);
+  BeginProgress(rate_rad_s, same_drive);
 }
 
-void QuasiStaticRover::BeginProgress(const messages::PerWheel<double>& rate_rad_s) {
-  SteadyDrive drive = balance_.Steady(contacts_.contacts(), rates_);
+// Twice the kinetic energy of the rates a, or what motion a has of motion b.
+double QuasiStaticRover::Inertia(const LinkageVector& a, const LinkageVector& b) const {
+  return params_.mass.total_kg * a.head<3>().dot(b.head<3>()) + yaw_inertia_kg_m2_ * a[5] * b[5];
+}
+
+void QuasiStaticRover::BeginProgress(const messages::PerWheel<double>& rate_rad_s,
+                                     bool same_drive) {
+  SteadyDrive drive = balance_.Steady(rates_);
   double rim_m_s = 0.0;
   for (const double rate : rate_rad_s) {
     rim_m_s = std::max(rim_m_s, std::abs(rate) * params_.geometry.wheel_radius_m);
   }
-  const double speed2_m2_s2 = rates_.head<3>().squaredNorm();
-  const bool falls = speed2_m2_s2 > kFalls * kFalls * rim_m_s * rim_m_s;
   // A fall is no motion that wheels start or stop.
-  if (!falls) {
-    drive.inertia_J =
-        params_.mass.total_kg * speed2_m2_s2 + yaw_inertia_kg_m2_ * rates_[5] * rates_[5];
+  if (rates_.head<3>().norm() <= kFalls * rim_m_s) drive.inertia_J = Inertia(rates_, rates_);
+  // Another motion keeps what the old one has of it; the same at other rates goes on as it was.
+  double kept = 1.0;
+  if (!same_drive) {
+    kept = drive.inertia_J > 0.0 ? std::max(0.0, Inertia(carried_rates_, rates_) / drive.inertia_J)
+                                 : 0.0;
   }
-  progress_.Begin(drive);
+  progress_.Begin(drive, kept);
+  carried_rates_ = rates_;
 }
 
 bool QuasiStaticRover::OnLevelGround() const {
@@ -362,7 +369,8 @@ void QuasiStaticRover::Step(const messages::WheelCommand& command) {
   const bool rolls = std::any_of(rates.from.begin(), rates.from.end(), turns) ||
                      std::any_of(rates.to.begin(), rates.to.end(), turns);
   if (!rolls && progress_.speed() == 0.0) {
-    if (!standing_) Stand();
+    if (!standing_ && !HoldsEasily()) Stand();
+    standing_ = standing_ || HoldsEasily();
     if (steered) SteerAtRest();
     return Rest();
   }
@@ -388,7 +396,13 @@ void QuasiStaticRover::Step(const messages::WheelCommand& command) {
   for (std::size_t i = 0; i < kWheelCount; ++i) {
     mean_rad_s[i] = 0.5 * (rates.from[i] + rates.to[i]);
   }
-  if (std::none_of(mean_rad_s.begin(), mean_rad_s.end(), turns)) return;
+  const double least_rad_s = kSameRate * params_.drive.speed_m_s / params_.geometry.wheel_radius_m;
+  if (std::none_of(mean_rad_s.begin(), mean_rad_s.end(),
+                   [&](double rate) { return std::abs(rate) > least_rad_s; })) {
+    // It goes through rest from one way to the other.
+    progress_.Stop();
+    return Rest();
+  }
   Plan(mean_rad_s);
   Follow({1.0, 1.0});
 }
@@ -412,10 +426,16 @@ void QuasiStaticRover::Follow(const RimShares& rims) {
 // True where every contact that bears the rover could carry its load straight down: its normal is
 // nearer to the vertical than friction lets it slide. Then braked wheels hold.
 bool QuasiStaticRover::HoldsEasily() const {
-  const std::vector<RestingContact>& contacts = contacts_.contacts();
-  return std::all_of(contacts.begin(), contacts.end(), [](const RestingContact& contact) {
-    return contact.load_N <= 0.0 || contact.n_W.z() > kEasyCosine;
-  });
+  double borne_N = 0.0;
+  for (const RestingContact& contact : contacts_.contacts()) {
+    if (contact.load_N <= 0.0) continue;
+    const double friction = kSureFriction * balance_.FrictionOf(contact);
+    const double z = contact.n_W.z();
+    // tan of the normal's angle against the vertical: sqrt(1 - z^2) / z.
+    if (z <= 0.0 || 1.0 - z * z > friction * friction * z * z) return false;
+    borne_N += contact.load_N * z;
+  }
+  return borne_N > kSureFriction * linkage_.weight_N();
 }
 
 // Brakes on: the balance with wheels that do not turn gives the loads of a rover at rest, and says
@@ -425,8 +445,8 @@ void QuasiStaticRover::Stand() {
   linkage_.Update(posture_, state_.steer_rad);
   contacts_.Update(linkage_, kReach_m);
   rates_.setZero();
-  const bool found = Balance({{}, step_s(), 0.0, Freedom::kAll});
-  standing_ = !found || rates_.head<3>().norm() < kStands_m_s;
+  Balance({{}, step_s(), 0.0, Freedom::kAll});
+  standing_ = rates_.head<3>().norm() < kStands * params_.drive.speed_m_s;
   if (!standing_) {
     Limit(step_s(), params_.quasi_static.settle_distance_m, kMaxTurn_rad, rates_);
     posture_ = Moved(posture_, rates_, step_s());

@@ -55,8 +55,7 @@ class QuasiStaticRover final : public Rover {
   // Turns the steering towards what is wanted; returns whether it moved.
   bool Steer(const messages::PerWheel<double>& wanted_rad);
   void SteerAtRest();
-  // Returns whether the balance met its tolerance.
-  bool Balance(const QuasiStaticBalance::Drive& drive);
+  void Balance(const QuasiStaticBalance::Drive& drive);
   void Rest();
   bool SteersAsPlanned() const;
   // Lets the motion of the stretch go on for one step, while the rims turn at these shares of its
@@ -64,7 +63,8 @@ class QuasiStaticRover final : public Rover {
   void Follow(const RimShares& rims);
   void Stand();
   bool HoldsEasily() const;
-  void BeginProgress(const messages::PerWheel<double>& rate_rad_s);
+  double Inertia(const LinkageVector& a, const LinkageVector& b) const;
+  void BeginProgress(const messages::PerWheel<double>& rate_rad_s, bool same_drive);
   void Plan(const messages::PerWheel<double>& rate_rad_s);
   bool OnLevelGround() const;
   bool IsSteady() const;
@@ -92,8 +92,9 @@ class QuasiStaticRover final : public Rover {
   Stretch stretch_;
   messages::PerWheel<double> met_steer_rad_{};  // at the last look for contacts
   LinkageVector rates_ = LinkageVector::Zero();
-  bool standing_ = true;  // and known to hold
-  bool steady_ = false;   // rates_ hold for as long as the ground is level and the drive the same
+  LinkageVector carried_rates_ = LinkageVector::Zero();  // of the motion that progress_ counts
+  bool standing_ = true;                                 // and known to hold
+  bool steady_ = false;  // rates_ hold for as long as the ground is level and the drive the same
   Work work_;
   truth::RoverState state_;
 };

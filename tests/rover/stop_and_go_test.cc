@@ -1,0 +1,199 @@
+// Stops and starts, where trials live: what the step makes of them, and what they cost.
+#include "stop_and_go.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "soil_reference.h"
+
+namespace rockyard::rover {
+namespace {
+
+struct Ground {
+  const char* name;
+  terrain::SoilPreset soil;
+  double slope_deg;  // to which the rover gets uphill
+};
+// The rover spins on drift from 8 deg on.
+constexpr Ground kGrounds[] = {{"landscaping_sand", terrain::SoilPreset::kLandscapingSand, 15.0},
+                               {"mars_drift", terrain::SoilPreset::kMarsDrift, 6.0},
+                               {"hard_ground", terrain::SoilPreset::kHardGround, 15.0}};
+constexpr double kUphill = 0.0;
+constexpr double kAcross = 0.5 * std::numbers::pi;
+constexpr double kDownhill = std::numbers::pi;
+
+RoverParams AtRate(double rate_Hz, double ramp_s) {
+  RoverParams params;
+  params.physics.step_s = 1.0 / rate_Hz;
+  params.drive.ramp_s = ramp_s;
+  return params;
+}
+
+// The way of a rover that starts and stops is that of a step sixteen times finer, on three soils,
+// level, up, down and across, whether its motors jump, ramp, or ramp gently.
+TEST(StopAndGo, WayAt60HzIsThatAt960Hz) {
+  for (const Ground& ground : kGrounds) {
+    const terrain::SoilParams soil = terrain::MakeSoil(ground.soil);
+    for (const double ramp_s : {0.0, 0.1, 0.2}) {
+      for (const double direction : {-1.0, kUphill, kAcross, kDownhill}) {
+        const double slope = direction < 0.0 ? 0.0 : math::DegToRad(ground.slope_deg);
+        const terrain::Terrain terrain = SlopeTerrain(slope, std::max(direction, 0.0), soil);
+        const LegResult coarse = DriveLegs(AtRate(60.0, ramp_s), terrain, 4);
+        const LegResult fine = DriveLegs(AtRate(960.0, ramp_s), terrain, 4);
+        EXPECT_NEAR(coarse.along, fine.along, 0.005 * fine.along)
+            << ground.name << ", ramp " << ramp_s << ", direction " << direction;
+        EXPECT_NEAR(coarse.across, fine.across, 0.005)
+            << ground.name << ", ramp " << ramp_s << ", direction " << direction;
+      }
+    }
+  }
+}
+
+// A point mass under the same soil, by midpoint steps of 20 us: velocity v of the rover, rim speed
+// u.
+//   m dv/dt = sign(u - v) T_max tau(|u - v| / u) - R sign(v),   a braked wheel with tau = 1.
+double PointMassWay(double ramp_s) {
+  const SoilReference soil;
+  const double mass_kg = 20.0 / 6.0;
+  const double load_N = mass_kg * 9.81;
+  const double most_N = soil.LargestTraction(load_N);
+  const double drag_N = soil.Resistance(load_N);
+  const double ratio = soil.ContactLength(load_N) / soil.soil.shear_modulus_m;
+  const double top_m_s = 0.15;
+  const auto rim = [&](double t) {
+    if (ramp_s == 0.0) return t < kLegDrive_s ? top_m_s : 0.0;
+    const double up = top_m_s * t / ramp_s;
+    const double down = top_m_s * (1.0 - (t - kLegDrive_s) / ramp_s);
+    return std::clamp(std::min(up, down), 0.0, top_m_s);
+  };
+  const auto force = [&](double v, double u) {
+    const double slip = u > 0.0 ? std::min(std::abs(u - v) / u, 1.0) : 1.0;
+    const double x = slip * ratio;
+    const double share = u > 0.0 ? (x > 1e-9 ? 1.0 - (1.0 - std::exp(-x)) / x : 0.0) : 1.0;
+    return std::copysign(most_N * share, u - v) - drag_N;
+  };
+  constexpr double kStep_s = 2e-5;
+  double v = 0.0;
+  double way_m = 0.0;
+  double rolled_m = 0.0;
+  const int steps = static_cast<int>((kLegDrive_s + ramp_s + kLegRest_s) / kStep_s);
+  for (int i = 0; i < steps; ++i) {
+    const double t = (i + 0.5) * kStep_s;
+    const double half = v + 0.5 * kStep_s * force(v, rim(t)) / mass_kg;
+    const double next = v + kStep_s * force(half, rim(t)) / mass_kg;
+    way_m += 0.5 * kStep_s * (v + std::max(next, 0.0));
+    v = std::max(next, 0.0);  // brakes and drag stop, they do not push back
+    rolled_m += kStep_s * rim(t);
+  }
+  return way_m / rolled_m;
+}
+
+// A third opinion beside two levels that could share an error. The rover loses a little more than a
+// point: it pitches, and its wheels carry unequal loads meanwhile.
+TEST(StopAndGo, CostsWhatItCostsAPointMass) {
+  const terrain::Terrain terrain = FlatTerrain();
+  for (const auto& [ramp_s, margin] :
+       {std::pair{0.0, 0.015}, {0.05, 0.008}, {0.1, 0.005}, {0.2, 0.005}}) {
+    const double point = PointMassWay(ramp_s);
+    RoverParams params = AtRate(60.0, ramp_s);
+    EXPECT_NEAR(DriveLegs(params, terrain, 4).along, point, margin) << ramp_s;
+    params.fidelity = Fidelity::kQuasiStatic;
+    EXPECT_NEAR(DriveLegs(params, terrain, 4).along, point, margin) << ramp_s;
+  }
+}
+
+// Both levels, at the steps that trials take.
+TEST(StopAndGo, BothLevelsLoseTheSame) {
+  for (const Ground& ground : kGrounds) {
+    const terrain::SoilParams soil = terrain::MakeSoil(ground.soil);
+    for (const double ramp_s : {0.0, 0.1, 0.2}) {
+      for (const double direction : {-1.0, kUphill, kAcross, kDownhill}) {
+        const double slope = direction < 0.0 ? 0.0 : math::DegToRad(ground.slope_deg);
+        const terrain::Terrain terrain = SlopeTerrain(slope, std::max(direction, 0.0), soil);
+        RoverParams params = AtRate(60.0, ramp_s);
+        const LegResult multibody = DriveLegs(params, terrain, 4);
+        params.fidelity = Fidelity::kQuasiStatic;
+        const LegResult quasi_static = DriveLegs(params, terrain, 4);
+        // Without a ramp the rover pitches, which only the multibody knows.
+        const double margin = ramp_s == 0.0 ? 0.02 : 0.01;
+        EXPECT_NEAR(quasi_static.along, multibody.along, margin)
+            << ground.name << ", ramp " << ramp_s << ", direction " << direction;
+        EXPECT_NEAR(quasi_static.across, multibody.across, 2.0 * margin)
+            << ground.name << ", ramp " << ramp_s << ", direction " << direction;
+      }
+    }
+  }
+}
+
+TEST(StopAndGo, SweepsDecideNothing) {
+  const terrain::Terrain terrain = FlatTerrain();
+  RoverParams params = AtRate(60.0, 0.0);
+  const double few = DriveLegs(params, terrain, 4).along;
+  params.physics.solver_iterations = 80;
+  EXPECT_NEAR(few, DriveLegs(params, terrain, 4).along, 1e-3);
+}
+
+TEST(StopAndGo, BrakingDoesNotBounce) {
+  const terrain::Terrain terrain = FlatTerrain();
+  for (const double ramp_s : {0.0, 0.1}) {
+    const RoverParams params = AtRate(60.0, ramp_s);
+    const auto rover = MakeRover(params, terrain);
+    rover->Place({});
+    RunFor(*rover, Drive(params, 0.15, 0.0), 1.0);
+    double slowest_m_s = 1.0;
+    for (int i = 0; i < 30; ++i) {
+      rover->Step(kBraked);
+      slowest_m_s = std::min(slowest_m_s, rover->state().v_WR_m_s.x());
+    }
+    // R's origin swings with the chassis that nods; a tenth of what it did when motor and friction
+    // were solved apart.
+    EXPECT_GT(slowest_m_s, -2e-3) << ramp_s;
+  }
+}
+
+// Wheels that stall hold the rover on a slope: their torque bears the weight downhill, but not the
+// motion resistance on top. They creep neither up nor down.
+TEST(StopAndGo, AStalledRoverHoldsOn20Degrees) {
+  const double slope = math::DegToRad(20.0);
+  RoverParams params = AtRate(60.0, 0.1);
+  const double pull_N = Weights(params).total_N * std::sin(slope) / messages::kWheelCount;
+  params.drive.stall_torque_Nm = 1.1 * pull_N * params.geometry.wheel_radius_m;
+  const terrain::Terrain terrain = SlopeTerrain(slope, kUphill);
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  const messages::WheelCommand command = Drive(params, 0.15, 0.0);
+  RunFor(*rover, command, 2.0);
+  const math::Vector3 from = rover->state().X_WR.translation();
+  RunFor(*rover, command, 10.0);
+  // The light front wheels spin on the spot, the others stall.
+  const messages::PerWheel<double>& torque_Nm = rover->state().motor_torque_Nm;
+  EXPECT_NEAR(*std::max_element(torque_Nm.begin(), torque_Nm.end()), params.drive.stall_torque_Nm,
+              1e-6);
+  EXPECT_LT((rover->state().X_WR.translation() - from).norm(), 1e-3);
+}
+
+// With a ramp that wheels follow without sliding, steps need no parts; without one they get them,
+// and the rover is as far as with steps that are short throughout.
+TEST(StopAndGo, TurnsInPlaceLikeFineSteps) {
+  for (const double ramp_s : {0.0, 0.1}) {
+    const auto heading = [&](double rate_Hz) {
+      const RoverParams params = AtRate(rate_Hz, ramp_s);
+      const terrain::Terrain terrain = FlatTerrain();
+      const auto rover = MakeRover(params, terrain);
+      rover->Place({});
+      const messages::WheelCommand turn = Drive(params, 0.0, 0.4);
+      RunFor(*rover, SteerOnly(turn), 1.0);
+      for (int i = 0; i < 4; ++i) {
+        RunFor(*rover, turn, kLegDrive_s);
+        RunFor(*rover, SteerOnly(turn), params.drive.ramp_s + kLegRest_s);
+      }
+      return math::Heading(rover->state().X_WR);
+    };
+    EXPECT_NEAR(heading(60.0), heading(960.0), 0.005 * heading(960.0)) << ramp_s;
+  }
+}
+
+}  // namespace
+}  // namespace rockyard::rover
