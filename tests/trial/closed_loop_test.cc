@@ -92,12 +92,17 @@ struct Books {
 };
 
 Books BooksOf(const truth::Trace& trace) {
-  // A sample ends the stretch of its activity: a control tick, or the stop before a look.
+  // A sample ends the stretch of its activity: a control tick, or the stop before a look. It begins
+  // where the last one ended, or the rest between them.
   std::map<std::string, double> spent_s;
   double last_s = 0.0;
-  for (const truth::TraceSample& sample : trace.samples) {
-    spent_s[sample.activity] += sample.time_s - last_s;
-    last_s = sample.time_s;
+  auto rest = trace.rests.begin();
+  for (std::size_t i = 0; i < trace.samples.size(); ++i) {
+    for (; rest != trace.rests.end() && rest->samples_before == i; ++rest) {
+      last_s = rest->sample.time_s;
+    }
+    spent_s[trace.samples[i].activity] += trace.samples[i].time_s - last_s;
+    last_s = trace.samples[i].time_s;
   }
   return {spent_s["drive"], spent_s["turn"], spent_s["steer"]};
 }
@@ -166,6 +171,33 @@ TEST(ClosedLoopTest, BooksBalanceOfARoverThatJams) {
       EXPECT_LT(record.sim_time_s, 3600.0);
     }
     ExpectBooksBalance(drive, trial);
+  }
+}
+
+// Where the soil swallows the rover, the trial says so instead of driving on with its belly below
+// the ground; where wheels sink deeper than the law of the rut holds, the record does.
+TEST(ClosedLoopTest, SoilThatBearsNothingEmbedsTheRover) {
+  for (const std::string fidelity : {"multibody", "quasi_static"}) {
+    const auto run = [&](const std::string& modulus) {
+      return RunTrial(
+          Pathfinder("level_sand",
+                     {"rover.fidelity=" + fidelity, "terrain.ground.soil.sinkage_exponent=1",
+                      "terrain.ground.soil.cohesive_modulus_N_per_mn1=0",
+                      "terrain.ground.soil.frictional_modulus_N_per_mn2=" + modulus,
+                      "referee.time_limit_s=60"}),
+          {1, 0});
+    };
+    // 33 N on a wheel of 8 x 13 cm: by N = 2/3 b k sqrt(D) z^1.5, 1.5 cm, 3.5 cm and 14 cm.
+    const DriveResult firm = run("9.3e5");
+    EXPECT_EQ(firm.record.beyond_soil_law, 0.0) << fidelity;
+    EXPECT_NEAR(firm.record.max_sinkage_m, 0.015, 0.004) << fidelity;
+    const DriveResult soft = run("2.6e5");
+    EXPECT_EQ(soft.record.beyond_soil_law, 1.0) << fidelity;
+    EXPECT_GT(soft.record.max_sinkage_m, 0.065 / 3.0) << fidelity;
+    EXPECT_EQ(soft.detail.find("embedded"), std::string::npos) << fidelity;
+    const DriveResult liquid = run("3.2e4");
+    EXPECT_EQ(liquid.outcome, TrialOutcome::kJammed) << fidelity;
+    EXPECT_NE(liquid.detail.find("embedded"), std::string::npos) << fidelity;
   }
 }
 

@@ -65,7 +65,7 @@ TEST(GestaltDriveTest, TimeAndEnergyAddUp) {
       Gestalt("abundance", {"energy.computing_W=2.5", "energy.stereo_imaging_W=1.25"});
   const ComputeTimes times = MakeComputeTimes(drive.clock.compute, {});
   bool looked_behind = false;
-  for (std::uint32_t index = 0; index < 12; ++index) {
+  for (std::uint32_t index = 0; index < 12 || (!looked_behind && index < 60); ++index) {
     const TracedTrial trial = RunTraced(drive, index);
     const truth::DriveRecord& record = trial.result.record;
     if (trial.result.outcome != TrialOutcome::kGoalReached) continue;  // a stall takes more

@@ -13,7 +13,7 @@ constexpr double kStopWatch_rad = 0.05;
 // Contacts that free motion would bring this near within the step are solved, m: room for what the
 // other contacts change about the motion.
 constexpr double kActiveGap_m = 0.005;
-// Sweeps end where no impulse of a contact has changed by more than this share of what a wheel
+// Sweeps end where no impulse, N s or N m s, has changed by more than this share of what a wheel
 // bears on average.
 constexpr double kConverged = 2e-4;
 
