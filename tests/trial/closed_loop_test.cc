@@ -196,7 +196,7 @@ TEST(ClosedLoopTest, SoilThatBearsNothingEmbedsTheRover) {
     EXPECT_GT(soft.record.max_sinkage_m, 0.065 / 3.0) << fidelity;
     EXPECT_EQ(soft.detail.find("embedded"), std::string::npos) << fidelity;
     const DriveResult liquid = run("3.2e4");
-    EXPECT_EQ(liquid.outcome, TrialOutcome::kJammed) << fidelity;
+    EXPECT_EQ(liquid.outcome, truth::TrialOutcome::kJammed) << fidelity;
     EXPECT_NE(liquid.detail.find("embedded"), std::string::npos) << fidelity;
   }
 }
