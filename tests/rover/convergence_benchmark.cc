@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <numbers>
+#include <string>
 
 #include "rover_drive.h"
+#include "stop_and_go.h"
 
 namespace rockyard::rover {
 namespace {
@@ -58,13 +60,27 @@ void Slope(benchmark::State& bench) {
   }
 }
 
+// Legs of a trial on level sand: way over rim way, at ramps of 0, 0.1 and 0.2 s.
+void StopAndGo(benchmark::State& bench) {
+  const terrain::Terrain terrain = FlatTerrain();
+  for (auto _ : bench) {
+    for (const double ramp_s : {0.0, 0.1, 0.2}) {
+      RoverParams params = ParamsOf(bench);
+      params.drive.ramp_s = ramp_s;
+      const double way = DriveLegs(params, terrain, 8).along;
+      bench.counters["ramp_" + std::to_string(static_cast<int>(1000.0 * ramp_s)) + "_ms"] = way;
+    }
+  }
+}
+
 void Grid(benchmark::internal::Benchmark* b) {
-  for (const int rate : {60, 120, 240, 480}) b->Args({rate, 10});
+  for (const int rate : {60, 120, 240, 480, 960}) b->Args({rate, 10});
   for (const int sweeps : {5, 20, 40}) b->Args({60, sweeps});
   b->Iterations(1)->Unit(benchmark::kMillisecond);
 }
 BENCHMARK(Rocks)->Apply(Grid);
 BENCHMARK(Slope)->Apply(Grid);
+BENCHMARK(StopAndGo)->Apply(Grid);
 
 }  // namespace
 }  // namespace rockyard::rover
