@@ -276,6 +276,37 @@ void QuasiStaticBalance::Finish(const LinkageVector& change,
   }
 }
 
+// With its tractions given, the function is convex and F is minus its gradient, so F . change falls
+// along the way. Where it has turned its sign, the minimum lies before, and a secant through the
+// bracket says where (an end that stays counts half, as in the Illinois rule).
+LinkageVector QuasiStaticBalance::Search(const LinkageVector& rates, const LinkageVector& change,
+                                         double drop, std::vector<RestingContact>& contacts) {
+  LinkageVector next = rates + change;
+  Evaluate(next, contacts);
+  double low = 0.0;
+  double high = 1.0;
+  double slope_low = drop;
+  double slope_high = equations_.force().dot(change);
+  if (slope_high >= -kOvershoot * drop) return next;
+  for (int cut = 0; cut < kMaxCuts; ++cut) {
+    const double share = low + (high - low) * slope_low / (slope_low - slope_high);
+    next = rates + share * change;
+    Evaluate(next, contacts);
+    const double slope = equations_.force().dot(change);
+    if (std::abs(slope) <= kOvershoot * drop) break;
+    if (slope > 0.0) {
+      low = share;
+      slope_low = slope;
+      slope_high *= 0.5;
+    } else {
+      high = share;
+      slope_high = slope;
+      slope_low *= 0.5;
+    }
+  }
+  return next;
+}
+
 int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, const Drive& drive,
                               std::vector<RestingContact>& contacts, LinkageVector& rates) {
   // The fastest rim. Where none turns, a share of the top speed stands for it, so that slip stays
@@ -307,7 +338,7 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
   // its load.
   for (int iteration = 1; iteration < kMaxIterations; ++iteration) {
     for (std::size_t i = 0; i < contacts.size(); ++i) AddStiffness(contacts[i], rows_[i]);
-    LinkageVector change = equations_.Solve();
+    const LinkageVector change = equations_.Solve();
     const double drop = equations_.force().dot(change);
     if (tangent_ && !traction_lags_ && IsSmall(change, kTolerance * speed_m_s_) &&
         (rims_turn_ || IsBalanced())) {
@@ -316,31 +347,7 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
       return iteration;
     }
     tangent_ = IsSmall(change, kTangentRange * speed_m_s_);
-    LinkageVector next = rates + change;
-    Evaluate(next, contacts);
-    // With its tractions given, the function is convex and F is minus its gradient, so F . change
-    // falls along the way. Where it has turned its sign, the minimum lies before, and a secant
-    // through the bracket says where (Illinois: an end that stays counts half).
-    double low = 0.0, high = 1.0, slope_low = drop, slope_high = equations_.force().dot(change);
-    if (slope_high < -kOvershoot * drop) {
-      for (int cut = 0; cut < kMaxCuts; ++cut) {
-        const double share = low + (high - low) * slope_low / (slope_low - slope_high);
-        next = rates + share * change;
-        Evaluate(next, contacts);
-        const double slope = equations_.force().dot(change);
-        if (std::abs(slope) <= kOvershoot * drop) break;
-        if (slope > 0.0) {
-          low = share;
-          slope_low = slope;
-          slope_high *= 0.5;
-        } else {
-          high = share;
-          slope_high = slope;
-          slope_low *= 0.5;
-        }
-      }
-    }
-    rates = next;
+    rates = Search(rates, change, drop, contacts);
   }
   return kMaxIterations;
 }

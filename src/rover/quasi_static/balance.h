@@ -109,6 +109,10 @@ class QuasiStaticBalance {
   void AddResistance(const SideVector& rates, Row& row);
   void AddStiffness(const RestingContact& contact, const Row& row);
   void AddStops(const LinkageVector& rates);
+  // Returns the rates on the way from `rates` by `change` where the forces balance along it, near
+  // enough, with all forces evaluated there. `drop` is F . change at its beginning.
+  LinkageVector Search(const LinkageVector& rates, const LinkageVector& change, double drop,
+                       std::vector<RestingContact>& contacts);
   void Finish(const LinkageVector& change, std::vector<RestingContact>& contacts) const;
   bool IsSmall(const LinkageVector& change, double speed_m_s) const;
   bool IsBalanced() const;

@@ -368,12 +368,15 @@ void QuasiStaticRover::Step(const messages::WheelCommand& command) {
   const auto turns = [](double rate) { return rate != 0.0; };
   const bool rolls = std::any_of(rates.from.begin(), rates.from.end(), turns) ||
                      std::any_of(rates.to.begin(), rates.to.end(), turns);
-  if (!rolls && progress_.speed() == 0.0) {
-    if (!standing_ && !HoldsEasily()) Stand();
-    standing_ = standing_ || HoldsEasily();
-    if (steered) SteerAtRest();
-    return Rest();
-  }
+  if (rolls || progress_.speed() != 0.0) return Roll(rates, command.rate_rad_s);
+  if (!standing_ && !HoldsEasily()) Stand();
+  standing_ = standing_ || HoldsEasily();
+  if (steered) SteerAtRest();
+  Rest();
+}
+
+void QuasiStaticRover::Roll(const MotorRates& rates,
+                            const messages::PerWheel<double>& commanded_rad_s) {
   standing_ = false;
   for (std::size_t i = 0; i < kWheelCount; ++i) {
     // Motors hold their rates in this fidelity: the balance takes them as given.
@@ -387,11 +390,15 @@ void QuasiStaticRover::Step(const messages::WheelCommand& command) {
     return Follow(*shares);
   }
   // From rest a ramp keeps the ratio of the commanded rates.
-  if (const auto of_command = Shares(rates, command.rate_rad_s)) {
-    Plan(command.rate_rad_s);
+  if (const auto of_command = Shares(rates, commanded_rad_s)) {
+    Plan(commanded_rad_s);
     return Follow(*of_command);
   }
-  // On the way from one motion to another the mean rates of this step are a motion of their own.
+  RollBetween(rates);
+}
+
+// On the way from one motion to another the mean rates of a step are a motion of their own.
+void QuasiStaticRover::RollBetween(const MotorRates& rates) {
   messages::PerWheel<double> mean_rad_s{};
   for (std::size_t i = 0; i < kWheelCount; ++i) {
     mean_rad_s[i] = 0.5 * (rates.from[i] + rates.to[i]);

@@ -61,6 +61,9 @@ class QuasiStaticRover final : public Rover {
   // Lets the motion of the stretch go on for one step, while the rims turn at these shares of its
   // rates.
   void Follow(const RimShares& rims);
+  // One step of wheels that turn, or of a rover that has not come to rest yet.
+  void Roll(const MotorRates& rates, const messages::PerWheel<double>& commanded_rad_s);
+  void RollBetween(const MotorRates& rates);
   void Stand();
   bool HoldsEasily() const;
   double Inertia(const LinkageVector& a, const LinkageVector& b) const;
