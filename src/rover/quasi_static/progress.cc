@@ -13,7 +13,7 @@ constexpr double kSteady = 1e-3;
 // A rover that gets on by less than this share of its rims' speed has no speed to gain.
 constexpr double kStuck = 0.02;
 // The speed of a step is known to this, and found in so many iterations.
-constexpr double kExact = 1e-4;
+constexpr double kExact = 1e-5;
 constexpr int kIterations = 12;
 // A rover that is drawn downhill does not run this many times faster than steadily.
 constexpr double kFastest = 3.0;
@@ -41,12 +41,13 @@ Progress::Power Progress::PowerOf(const WheelLump& lump, double speed, double ri
   const double along = rim * lump.rim_m_s - speed * lump.along_m_s;
   const double across = -speed * lump.across_m_s;
   const double slip_m_s = std::sqrt(along * along + across * across);
-  if (slip_m_s == 0.0) return {};
   const ShearShare share = ShareAt(lump, slip_m_s, rim * lump.rim_m_s);
-  const double toward = along * lump.along_m_s + across * lump.across_m_s;
-  // F . v = T tau (s . v) / |s|; by q, s changes by -v and |s| by -(s . v) / |s|.
-  const double cosine = toward / slip_m_s;
   const double v2 = lump.along_m_s * lump.along_m_s + lump.across_m_s * lump.across_m_s;
+  // Without slip F = T tau'(0) s.
+  if (slip_m_s == 0.0) return {0.0, -lump.traction_N * share.slope * v2};
+  // F . v = T tau (s . v) / |s|; by q, s changes by -v and |s| by -(s . v) / |s|.
+  const double toward = along * lump.along_m_s + across * lump.across_m_s;
+  const double cosine = toward / slip_m_s;
   return {lump.traction_N * share.value * cosine,
           -lump.traction_N *
               (share.slope * cosine * cosine + share.value * (v2 - cosine * cosine) / slip_m_s)};

@@ -274,6 +274,38 @@ TEST(QuasiStaticDrive, FollowsTheArcOfItsSteering) {
   EXPECT_NEAR(radius_m, 1.0, 0.02);
 }
 
+// Put down anew while it drives, the rover stands with straight wheels and motors at rest.
+TEST(QuasiStaticDrive, StandsWhereItIsPutWhileItDrives) {
+  const RoverParams params = QuasiStatic();
+  const terrain::Terrain terrain = FlatTerrain();
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  RunFor(*rover, Drive(params, 0.15, 0.0), 2.0);
+  rover->Place({3.0, 0.0, 0.0});
+  RunFor(*rover, kBraked, 1.0);
+  EXPECT_NEAR(rover->state().X_WR.translation().x(), 3.0, 1e-9);
+  EXPECT_EQ(rover->state().v_WR_m_s.norm(), 0.0);
+}
+
+// Wheels sink as the soil says at their load, on soil alone; half a stretch ahead on level ground
+// is the same place.
+TEST(QuasiStaticDrive, StatesTheSinkageOfItsWheels) {
+  for (const Fidelity fidelity : {Fidelity::kMultibody, Fidelity::kQuasiStatic}) {
+    RoverParams params;
+    params.fidelity = fidelity;
+    const terrain::Terrain terrain = FlatTerrain();
+    const auto rover = MakeRover(params, terrain);
+    rover->Place({});
+    RunFor(*rover, Drive(params, 0.15, 0.0), 2.0);
+    const SoilReference soil{terrain.ground().soil()};
+    for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+      const double load_N = rover->state().wheel_load_N[i];
+      EXPECT_NEAR(rover->state().wheel_sinkage_m[i],
+                  soil.Sinkage(load_N) + load_N / params.contact.stiffness_N_m, 1e-4);
+    }
+  }
+}
+
 // A wheel steered while the brakes are on, or commanded the other way before it has come to rest,
 // leaves finite rates and no jump.
 TEST(QuasiStaticDrive, ChangesOfMindGiveNoJumps) {
