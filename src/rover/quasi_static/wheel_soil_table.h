@@ -44,7 +44,7 @@ class ShareTable {
  private:
   static constexpr int kIntervals = 256;
   static constexpr double kLast = 16.0;  // from here on e^-u is nothing
-  std::array<ShearShare, kIntervals + 1> nodes_;
+  std::array<ShearShare, kIntervals + 1> nodes_{};
 };
 
 }  // namespace rockyard::rover
