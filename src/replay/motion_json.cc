@@ -21,6 +21,9 @@ using core::JsonObject;
 constexpr std::array<std::string_view, 8> kActivities{"drive", "turn",  "steer",   "scan",
                                                       "stall", "image", "compute", "overhead"};
 
+// More than a rounded time is off, s.
+constexpr double kNearEnd_s = 1e-3;
+
 // Unit quaternions of which none is the negative of what the one before leads to.
 std::vector<Eigen::Quaterniond> Attitudes(std::span<const ReplayPose> poses,
                                           std::span<const std::size_t> kept) {
@@ -58,6 +61,8 @@ class Channels {
   Channels(std::span<const ReplayPose> poses, std::span<const std::size_t> kept)
       : poses_(poses), kept_(kept) {}
 
+  const ReplayPose& last() const { return poses_[kept_.back()]; }
+
   template <typename Value, typename Text>
   std::string Of(const Value& value, const Text& text) const {
     std::size_t left = kept_.size();
@@ -86,7 +91,12 @@ void AddTruePose(const Channels& channels, JsonObject& object) {
     return channels.Of(
         [axis](const ReplayPose& p) { return p.sample.posture.X_WR.translation()[axis]; }, Length);
   };
-  object.Add("t", channels.Of([](const ReplayPose& p) { return p.sample.time_s; }, Length))
+  // A rounded time never lies beyond the last one, which has every digit: near it all have.
+  const double last_s = channels.last().sample.time_s;
+  const auto time = [last_s](double time_s) {
+    return time_s > last_s - kNearEnd_s ? JsonNumber(time_s) : Length(time_s);
+  };
+  object.Add("t", channels.Of([](const ReplayPose& p) { return p.sample.time_s; }, time))
       .Add("x", position(0))
       .Add("y", position(1))
       .Add("z", position(2));

@@ -44,7 +44,7 @@ class StripeTrace(unittest.TestCase):
         self.assertEqual((self.meta["format"], self.meta["version"]), ("rockyard trace", 1))
         self.assertEqual((self.meta["trial"], self.meta["seed"]), (2, "1"))
         self.assertEqual(len(self.meta["record_hash"]), 16)
-        self.assertEqual(self.meta["outcome"], "false_goal")
+        self.assertEqual(self.meta["outcome"], "goal_reached")
 
     def test_last_moment_is_that_of_the_record(self):
         self.assertEqual(self.arrays["time_s"][-1], self.record["sim_time_s"])
