@@ -61,7 +61,8 @@ class Channels {
   Channels(std::span<const ReplayPose> poses, std::span<const std::size_t> kept)
       : poses_(poses), kept_(kept) {}
 
-  const ReplayPose& last() const { return poses_[kept_.back()]; }
+  // Time of the last moment, s; 0 where a fault came before the first one.
+  double last_s() const { return kept_.empty() ? 0.0 : poses_[kept_.back()].sample.time_s; }
 
   template <typename Value, typename Text>
   std::string Of(const Value& value, const Text& text) const {
@@ -92,7 +93,7 @@ void AddTruePose(const Channels& channels, JsonObject& object) {
         [axis](const ReplayPose& p) { return p.sample.posture.X_WR.translation()[axis]; }, Length);
   };
   // A rounded time never lies beyond the last one, which has every digit: near it all have.
-  const double last_s = channels.last().sample.time_s;
+  const double last_s = channels.last_s();
   const auto time = [last_s](double time_s) {
     return time_s > last_s - kNearEnd_s ? JsonNumber(time_s) : Length(time_s);
   };
