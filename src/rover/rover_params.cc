@@ -26,8 +26,9 @@ void RequireSlowBalances(const RoverParams& params, core::FieldVisitor& v) {
   const double fastest_m_s = FastestScaled(params);
   v.Require("drive.speed_m_s",
             params.fidelity == Fidelity::kMultibody || params.drive.speed_m_s <= fastest_m_s,
-            fmt::format("is faster than {:.3g} m/s, from where on inertia, which fidelity "
-                        "quasi_static leaves out, begins to tell in this gravity on these wheels",
+            fmt::format("is faster than {:.3g} m/s, from where on inertia, of which fidelity "
+                        "quasi_static knows only starts and stops, begins to tell in this gravity "
+                        "on these wheels",
                         fastest_m_s),
             "use fidelity multibody, or a slower rover");
 }
@@ -207,7 +208,7 @@ void RoverParams::Visit(core::FieldVisitor& v) {
   v.Choice(
       "fidelity", fidelity,
       {.doc = "multibody: articulated dynamics in steps of physics.step_s; quasi_static: poses "
-              "at rest along the way, some twenty times cheaper",
+              "at rest along the way, some fifteen times cheaper",
        .origin = Origin::kSetting});
   v.Group("geometry", geometry, "dimensions");
   v.Group("mass", mass, "masses");

@@ -143,6 +143,18 @@ TEST(SteepGroundTest, IsRefusedWhereTheSoilDoesNotHoldTheRover) {
   EXPECT_FALSE(ProblemsOf("nominal", {slope + "30", drift}, "pathfinder").empty());
 }
 
+// Inertia tells from 0.2 m/s on for wheels of 65 mm on Earth; only the multibody has all of it.
+TEST(FastRoverTest, IsRefusedWhereInertiaIsLeftOut) {
+  const auto problems = [](const std::string& fidelity, const std::string& speed) {
+    return ProblemsOf("nominal", {"rover.fidelity=" + fidelity, "rover.drive.speed_m_s=" + speed},
+                      "pathfinder");
+  };
+  EXPECT_TRUE(problems("quasi_static", "0.199").empty());
+  EXPECT_TRUE(problems("multibody", "0.5").empty());
+  ASSERT_EQ(problems("quasi_static", "0.201").size(), 1u);
+  EXPECT_EQ(problems("quasi_static", "0.201")[0].path, "rover.drive.speed_m_s");
+}
+
 // A measurement moves no rover over the ground; other conditions may ask for level ground.
 TEST(SteepGroundTest, IsNoMatterWhereTheRoverDoesNotDrive) {
   for (const core::Problem& problem :
