@@ -1,0 +1,144 @@
+// What slip does to a wheel within one step, for one wheel with the mass that it carries.
+#include "rover/multibody/contact_law.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "soil_reference.h"
+
+namespace rockyard::rover {
+namespace {
+
+constexpr double kEarth_m_s2 = 9.81;
+constexpr double kMars_m_s2 = 3.72;
+constexpr double kLoad_N = 33.0;
+constexpr double kRim_m_s = 0.15;
+
+ContactLaws LawsOf(const terrain::SoilParams& soil, double gravity_m_s2 = kEarth_m_s2) {
+  RoverParams params;
+  params.physics.gravity_m_s2 = gravity_m_s2;
+  return ContactLaws(params, soil);
+}
+
+// A wheel that has borne the load in the last step.
+ContactLaw UnderLoad(const ContactLaws& laws, double step_s) {
+  Part part{};
+  part.kind = truth::BodyPart::kWheel;
+  Contact contact;
+  contact.impulse_Ns[0] = kLoad_N * step_s;
+  return laws.Of(part, contact, step_s);
+}
+
+WheelSlip SlipOf(double rim_m_s, double v_m_s) { return {rim_m_s, {v_m_s, 0.0}}; }
+
+// The step with the theta that belongs to it.
+SlipStep StepOf(const ContactLaws& laws, const SlipChange& change) {
+  const ContactLaw law = UnderLoad(laws, change.duration_s);
+  SlipStep step;
+  for (int i = 0; i < 30; ++i) step = laws.StepOfSlip(law, change, step.theta);
+  return step;
+}
+
+// The share of a small slip that is left after one step of a mass that only this friction acts on:
+//   theta v_1 + (1 - theta) v_0 = -c p,   p = m (v_1 - v_0).
+double Remains(const SlipStep& step, double mass_kg) {
+  const double inertia = mass_kg * step.softness_m_per_Ns;
+  return (inertia - (1.0 - step.theta)) / (inertia + step.theta);
+}
+
+// While slip is small traction is proportional to it, T = (l / 2 K) T_max |v| / |omega r|, so that
+// slip decays as e^(-t / T): the more mass there is under a load, the slower, so on Mars.
+TEST(SlipStep, SmallSlipDecaysAsTheSoilSays) {
+  const SoilReference soil;
+  const double traction_per_slip_N = soil.LargestTraction(kLoad_N) * soil.ContactLength(kLoad_N) /
+                                     (2.0 * soil.soil.shear_modulus_m);
+  for (const double gravity_m_s2 : {kEarth_m_s2, kMars_m_s2}) {
+    const double mass_kg = kLoad_N / gravity_m_s2;
+    const double decay_s = mass_kg * kRim_m_s / traction_per_slip_N;
+    const ContactLaws laws = LawsOf(soil.soil, gravity_m_s2);
+    for (const double z : {0.01, 0.1, 0.3, 0.6, 1.0}) {
+      const WheelSlip slip = SlipOf(kRim_m_s, 1e-6);
+      const SlipStep step = StepOf(laws, {slip, slip, z * decay_s});
+      EXPECT_NEAR(Remains(step, mass_kg), std::exp(-z), 0.01 * z * z * z + 1e-4 * z)
+          << z << ", gravity " << gravity_m_s2;
+    }
+  }
+}
+
+// However much faster than the step traction answers, slip neither grows nor swings: nothing is
+// left of it in the end.
+TEST(SlipStep, StiffSlipDiesWithoutRinging) {
+  const SoilReference soil;
+  const ContactLaws laws = LawsOf(soil.soil);
+  const double mass_kg = kLoad_N / kEarth_m_s2;
+  for (const double rim_m_s : {0.1, 0.03, 0.01, 1e-3, 1e-5}) {
+    const WheelSlip slip = SlipOf(rim_m_s, 1e-3 * rim_m_s);
+    const SlipStep step = StepOf(laws, {slip, slip, 1.0 / 15.0});
+    EXPECT_LT(std::abs(Remains(step, mass_kg)), 0.1) << rim_m_s;
+  }
+}
+
+// A step that is short against the decay takes forces halfway, one that is long at its end.
+TEST(SlipStep, TakesForcesHalfwayInShortStepsAndLastInLongOnes) {
+  const ContactLaws laws = LawsOf({});
+  const WheelSlip fast = SlipOf(kRim_m_s, 0.02);
+  EXPECT_NEAR(StepOf(laws, {fast, fast, 1e-6}).theta, 0.5, 1e-3);
+  const WheelSlip slow = SlipOf(1e-6, 1e-7);
+  EXPECT_NEAR(StepOf(laws, {slow, slow, 1.0 / 60.0}).theta, 1.0, 1e-3);
+}
+
+// A steady slip comes with the traction of the curve, whatever the step; beyond a slip of 1 force
+// over speed is that of slip 1.
+TEST(SlipStep, SteadySlipHasTheTractionOfTheCurve) {
+  const SoilReference soil;
+  const ContactLaws laws = LawsOf(soil.soil);
+  for (const double duration_s : {1.0 / 60.0, 1.0 / 960.0}) {
+    for (const double slip : {0.01, 0.1, 0.5, 1.0, 2.0}) {
+      const WheelSlip steady = SlipOf(kRim_m_s, -slip * kRim_m_s);
+      const SlipStep step = StepOf(laws, {steady, steady, duration_s});
+      const double force_N = slip * kRim_m_s / (step.softness_m_per_Ns * duration_s);
+      const double expected_N = soil.LargestTraction(kLoad_N) *
+                                soil.Share(std::min(slip, 1.0), kLoad_N) * std::max(slip, 1.0);
+      EXPECT_NEAR(force_N, expected_N, 1e-3 * expected_N) << slip << ", " << duration_s << " s";
+    }
+  }
+}
+
+// A wheel that comes to speed has the traction of its mean slip and rim speed, in a step so short
+// that its middle counts.
+TEST(SlipStep, AChangingSlipCountsHalfway) {
+  const ContactLaws laws = LawsOf({});
+  constexpr double kDuration_s = 1e-7;
+  const SlipChange change{SlipOf(0.05, 0.04), SlipOf(0.15, 0.02), kDuration_s};
+  const WheelSlip mean = SlipOf(0.1, 0.03);
+  const double softness = StepOf(laws, change).softness_m_per_Ns;
+  EXPECT_NEAR(softness, StepOf(laws, {mean, mean, kDuration_s}).softness_m_per_Ns, 1e-3 * softness);
+}
+
+// Soil that shears without deformation (K = 0), a wheel that stands, and soil without strength have
+// no slip that friction could answer to: it holds within its bound, as Coulomb's does.
+TEST(SlipStep, HoldsWhereSlipMeansNothing) {
+  terrain::SoilParams rigid;
+  rigid.shear_modulus_m = 0.0;
+  terrain::SoilParams weak;
+  weak.cohesion_Pa = 0.0;
+  weak.friction_angle_rad = 0.0;
+  struct Case {
+    const char* name;
+    terrain::SoilParams soil;
+    WheelSlip slip;
+  };
+  for (const Case& c : {Case{"K = 0", rigid, SlipOf(kRim_m_s, 0.03)},
+                        {"K = 0, no slip", rigid, SlipOf(0.1, 0.0)},
+                        {"stands", {}, SlipOf(0.0, 0.0)},
+                        {"stands and slides", {}, SlipOf(0.0, 0.02)},
+                        {"no strength", weak, SlipOf(kRim_m_s, 0.03)}}) {
+    const SlipStep step = StepOf(LawsOf(c.soil), {c.slip, c.slip, 1.0 / 60.0});
+    EXPECT_EQ(step.softness_m_per_Ns, 0.0) << c.name;
+    EXPECT_EQ(step.theta, 1.0) << c.name;
+  }
+}
+
+}  // namespace
+}  // namespace rockyard::rover
