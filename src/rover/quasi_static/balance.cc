@@ -13,6 +13,7 @@ constexpr double kResistanceCreep = 0.003;
 // A wheel that stands, or turns slowly, is judged by this share of the fastest rim, and a rover
 // whose wheels all stand by this share of its speed.
 constexpr double kMinReference = 0.05;
+constexpr double kStandingReference = 0.08;
 // The last change of the rates, over the rover's speed. Newton's method leaves far less.
 constexpr double kTolerance = 1e-2;
 // Force that a rover at rest may be left with, over its weight.
@@ -21,7 +22,7 @@ constexpr double kBalanced = 0.01;
 // above it, force over speed, which overshoots nothing.
 constexpr double kTangentRange = 0.3;
 // A step is cut where the slope at its end is more than this share of that at its start, turned.
-constexpr double kOvershoot = 0.5;
+constexpr double kOvershoot = 0.3;
 constexpr int kMaxCuts = 6;
 // Change of a load, over the mean wheel load, at which tractions follow it once more; and the
 // longest step by which they do.
@@ -98,7 +99,7 @@ void QuasiStaticBalance::MakeWheelRow(const Linkage& linkage, const Drive& drive
   row.arm_m = axle_W.cross(contact.p_W - linkage.wheel_W(wheel)).norm();
   row.rim_m_s = rate_rad_s * row.arm_m;
   row.reference_m_s =
-      std::max(std::abs(rate_rad_s) * wheel_radius_m_, kMinReference * rim_speed_m_s_);
+      std::max(std::abs(rate_rad_s) * wheel_radius_m_, (rims_turn_?kMinReference:1.0) * rim_speed_m_s_);
   if (!contact.IsSoil()) return;
   // The sinkage curve in series with the contact's own spring, along its tangent at the last load.
   const double load_N = contact.load_N > 0.0 ? contact.load_N : mean_load_N_;
@@ -164,7 +165,7 @@ void QuasiStaticBalance::AddForces(const SideVector& w, RestingContact& contact,
     contact.load_N = 0.0;
     return;
   }
-  if (contact.load_N > 0.0) FollowLoad(contact, row);
+  if (contact.load_N > 0.0 && !first_) FollowLoad(contact, row);
   row.acts = true;
   if (row.max_N == 0.0) {
     equations_.AddForce(row.side, contact.load_N * row.normal);
@@ -311,7 +312,7 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
                               std::vector<RestingContact>& contacts, LinkageVector& rates) {
   // The fastest rim. Where none turns, a share of the top speed stands for it, so that slip stays
   // defined.
-  rim_speed_m_s_ = drive.freedom == Freedom::kSettling ? 0.0 : kMinReference * speed_m_s_;
+  rim_speed_m_s_ = drive.freedom == Freedom::kSettling ? 0.0 : kStandingReference * speed_m_s_;
   rims_turn_ = false;
   for (const double rate : drive.rate_rad_s) {
     rims_turn_ |= rate != 0.0;

@@ -189,24 +189,37 @@ void QuasiStaticContacts::MeetBody(const Linkage& linkage, double reach_m) {
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
     lowest_m = std::min(lowest_m, linkage.wheel_W(i).z() - hub_radius_m_ - reach_m);
   }
+  bool placed = false;
   for (const NearRock& rock : rocks_) {
     if (rock.support.top_W_m < lowest_m) continue;
     const double far_m = reach_R_m_ + rock.support.bounding_radius_m + reach_m;
     if ((rock.support.center_W - chassis.p_WB).head<2>().squaredNorm() > far_m * far_m) continue;
-    for (std::size_t i = messages::kWheelCount; i < parts_.size(); ++i) {
-      if (parts_[i].meets == Meets::kRocks) MeetPart(linkage, i, reach_m, rock);
-    }
+    if (!placed) PlaceParts(linkage);
+    placed = true;
+    for (const PlacedPart& part : placed_parts_) MeetPart(linkage, part, reach_m, rock);
   }
 }
 
-void QuasiStaticContacts::MeetPart(const Linkage& linkage, std::size_t index, double reach_m,
+// Where the parts are that rocks can touch, beside the wheels: the same for all rocks.
+void QuasiStaticContacts::PlaceParts(const Linkage& linkage) {
+  placed_parts_.clear();
+  for (std::size_t i = messages::kWheelCount; i < parts_.size(); ++i) {
+    const Part& part = parts_[i];
+    if (part.meets != Meets::kRocks) continue;
+    const Linkage::Frame& frame = linkage.body(part.body);
+    placed_parts_.push_back(
+        {i, frame.p_WB + frame.R_WB * part.center_B, LowestPoint(part, frame)});
+  }
+}
+
+void QuasiStaticContacts::MeetPart(const Linkage& linkage, const PlacedPart& placed, double reach_m,
                                    const NearRock& rock) {
-  const Part& part = parts_[index];
-  const Linkage::Frame& frame = linkage.body(part.body);
-  if (LowestPoint(part, frame) - rock.support.top_W_m > reach_m) return;
-  const Vector3 center_W = frame.p_WB + frame.R_WB * part.center_B;
+  if (placed.lowest_m - rock.support.top_W_m > reach_m) return;
+  const Part& part = parts_[placed.index];
+  const Vector3& center_W = placed.center_W;
   const double far_m = part.bounding_radius_m + reach_m + rock.support.bounding_radius_m;
   if ((center_W - rock.support.center_W).squaredNorm() > far_m * far_m) return;
+  const Linkage::Frame& frame = linkage.body(part.body);
   if (Separation(part, frame, center_W, rock.support) > reach_m) return;
   SurfacePoint surface = rock.ellipsoid.Nearest(center_W);
   Vector3 core_W = center_W;
@@ -220,7 +233,7 @@ void QuasiStaticContacts::MeetPart(const Linkage& linkage, std::size_t index, do
   }
   const double gap_m = surface.distance_m - part.margin_m;
   if (gap_m > reach_m) return;
-  Add({.part = static_cast<int>(index),
+  Add({.part = static_cast<int>(placed.index),
        .other = rock.index,
        .body = part.body,
        .kind = part.kind,

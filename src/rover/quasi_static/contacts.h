@@ -59,6 +59,13 @@ class QuasiStaticContacts {
     messages::PerWheel<bool> known{};
   };
 
+  // A part of the body in the posture at hand.
+  struct PlacedPart {
+    std::size_t index = 0;
+    math::Vector3 center_W;
+    double lowest_m = 0.0;  // z in W
+  };
+
   void Gather(const math::Vector3& p_WR);
   math::Vector3 WheelSupport(const Linkage& linkage, std::size_t wheel,
                              const math::Vector3& n_W) const;
@@ -66,7 +73,9 @@ class QuasiStaticContacts {
   void MeetGround(const Linkage& linkage, std::size_t wheel, double reach_m);
   void MeetRock(const Linkage& linkage, std::size_t wheel, double reach_m, NearRock& rock);
   void MeetBody(const Linkage& linkage, double reach_m);
-  void MeetPart(const Linkage& linkage, std::size_t index, double reach_m, const NearRock& rock);
+  void PlaceParts(const Linkage& linkage);
+  void MeetPart(const Linkage& linkage, const PlacedPart& placed, double reach_m,
+                const NearRock& rock);
   void MeetCorners(const Linkage& linkage, double reach_m);
   void Add(const RestingContact& contact);
 
@@ -77,6 +86,7 @@ class QuasiStaticContacts {
   const double hub_radius_m_;
   std::vector<int> near_;
   std::vector<NearRock> rocks_;
+  std::vector<PlacedPart> placed_parts_;
   math::Vector3 gathered_at_W_ = math::Vector3::Zero();
   bool gathered_ = false;
   std::vector<RestingContact> contacts_;

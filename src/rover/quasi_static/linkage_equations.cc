@@ -9,10 +9,8 @@ constexpr int kShared = 7;  // the coordinates that both sides have
 
 void LinkageEquations::Reset(const LinkageVector& force, const LinkageVector& diagonal) {
   force_ = force;
-  for (std::size_t i = 0; i < stiffness_.size(); ++i) {
-    stiffness_[i].fill(0.0);
-    stiffness_[i][i] = diagonal[static_cast<int>(i)];
-  }
+  diagonal_ = diagonal;
+  for (SideMatrix& stiffness : side_stiffness_) stiffness.setZero();
 }
 
 void LinkageEquations::AddForce(std::size_t side, const SideVector& f) {
@@ -21,58 +19,56 @@ void LinkageEquations::AddForce(std::size_t side, const SideVector& f) {
 }
 
 void LinkageEquations::AddStiffness(std::size_t side, double k, const SideVector& a) {
-  // Row 7 of a side's vectors is its bogie, which stands in row 7 (left) or 8 (right) of the
-  // system. The two bogies share no term, so entry (8, 7) stays zero.
-  for (int i = 0; i < kShared; ++i) {
-    for (int j = 0; j <= i; ++j) stiffness_[i][j] += k * a[i] * a[j];
-  }
-  const std::size_t bogie = kFirstBogieDof + side;
-  // The bogie's row of k a a'.
-  for (int j = 0; j < kShared; ++j) stiffness_[bogie][j] += k * a[kShared] * a[j];
-  stiffness_[bogie][bogie] += k * a[kShared] * a[kShared];
+  side_stiffness_[side] += (k * a).lazyProduct(a.transpose());
 }
 
 void LinkageEquations::AddStiffness(std::size_t side, const SideVector& p, const SideVector& a,
                                     const SideVector& q, const SideVector& b, const SideVector& r,
                                     const SideVector& c) {
-  const auto term = [&](int i, int j) { return p[i] * a[j] + q[i] * b[j] + r[i] * c[j]; };
-  for (int i = 0; i < kShared; ++i) {
-    for (int j = 0; j <= i; ++j) stiffness_[i][j] += term(i, j);
-  }
-  const std::size_t bogie = kFirstBogieDof + side;
-  for (int j = 0; j < kShared; ++j) stiffness_[bogie][j] += term(kShared, j);
-  stiffness_[bogie][bogie] += term(kShared, kShared);
+  // Whole columns, not the lower triangle alone: the processor takes two rows at a time.
+  SideMatrix& stiffness = side_stiffness_[side];
+  for (int j = 0; j < stiffness.cols(); ++j) stiffness.col(j) += a[j] * p + b[j] * q + c[j] * r;
 }
 
 void LinkageEquations::AddAt(int dof, double force, double stiffness) {
   force_[dof] += force;
-  stiffness_[static_cast<std::size_t>(dof)][static_cast<std::size_t>(dof)] += stiffness;
+  diagonal_[dof] += stiffness;
 }
 
-// L D L' without roots, column by column, each taken off the rows below at once: the inner loop has
-// no reduction.
-LinkageVector LinkageEquations::Solve() const {
-  Rows L = stiffness_;
-  LinkageVector x = force_;
-  std::array<double, kLinkageDof> column{};
-  std::array<double, kLinkageDof> inverse{};
-  // Forward: column j of L is column j of the remainder over its diagonal d_j; the remainder loses
-  // L_j d_j L_j', and the right side goes along, x = L^-1 f.
-  for (int j = 0; j < kLinkageDof; ++j) {
-    inverse[j] = 1.0 / L[j][j];
-    for (int i = j + 1; i < kLinkageDof; ++i) {
-      column[i] = L[i][j];
-      L[i][j] *= inverse[j];
-      x[i] -= L[i][j] * x[j];
-    }
-    for (int i = j + 1; i < kLinkageDof; ++i) {
-      for (int k = j + 1; k <= i; ++k) L[i][k] -= L[i][j] * column[k];
-    }
+// Row 7 of a side is its bogie, which stands in row 7 (left) or 8 (right) of the system. The two
+// bogies share no term, so entry (8, 7) is zero. The force is the last entry of each row.
+LinkageEquations::Rows LinkageEquations::Augmented() const {
+  const auto& [left, right] = side_stiffness_;
+  constexpr int kLeft = kFirstBogieDof;
+  constexpr int kRight = kFirstBogieDof + 1;
+  Rows rows;
+  for (int i = 0; i < kShared; ++i) {
+    rows[i].head<kShared>() = left.col(i).head<kShared>() + right.col(i).head<kShared>();
+    rows[i].tail<3>() << left(kShared, i), right(kShared, i), force_[i];
   }
-  // Then D^-1, then L'^-1 from the last row up.
-  for (int j = 0; j < kLinkageDof; ++j) x[j] *= inverse[j];
+  rows[kLeft].head<kShared>() = left.col(kShared).head<kShared>();
+  rows[kLeft].tail<3>() << left(kShared, kShared), 0.0, force_[kLeft];
+  rows[kRight].head<kShared>() = right.col(kShared).head<kShared>();
+  rows[kRight].tail<3>() << 0.0, right(kShared, kShared), force_[kRight];
+  for (int i = 0; i < kLinkageDof; ++i) rows[i][i] += diagonal_[i];
+  return rows;
+}
+
+// Gauss's elimination, which needs no pivots as the matrix is positive definite. Whole rows are
+// subtracted, zeros as well: loops of one length are faster than half the work in loops of many.
+LinkageVector LinkageEquations::Solve() const {
+  Rows rows = Augmented();
+  LinkageVector inverse;
+  for (int j = 0; j < kLinkageDof; ++j) {
+    inverse[j] = 1.0 / rows[j][j];
+    for (int i = j + 1; i < kLinkageDof; ++i) rows[i] -= rows[i][j] * inverse[j] * rows[j];
+  }
+  // From the last row up: x_j = (f_j - sum over k > j of U_jk x_k) / U_jj.
+  LinkageVector x;
   for (int j = kLinkageDof - 1; j >= 0; --j) {
-    for (int i = 0; i < j; ++i) x[i] -= L[j][i] * x[j];
+    double rest = rows[j][kLinkageDof];
+    for (int k = j + 1; k < kLinkageDof; ++k) rest -= rows[j][k] * x[k];
+    x[j] = rest * inverse[j];
   }
   return x;
 }

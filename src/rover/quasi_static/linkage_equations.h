@@ -8,7 +8,7 @@
 namespace rockyard::rover {
 
 // Sums the force on the linkage and minus its derivative by the rates, from terms that act in the
-// space of one side's rates. Only the lower triangle is kept.
+// space of one side's rates.
 class LinkageEquations {
  public:
   // Begins with a force and with a diagonal as minus its derivative.
@@ -25,15 +25,19 @@ class LinkageEquations {
   void AddAt(int dof, double force, double stiffness);
 
   const LinkageVector& force() const { return force_; }
-  // Returns the change of the rates at which the linearized force vanishes, by decomposition into L
-  // D L'. A call costs about 0.1 us.
+  // Returns the change of the rates at which the linearized force vanishes, by elimination.
+  // A call costs about 0.1 us.
   LinkageVector Solve() const;
 
  private:
-  using Rows = std::array<std::array<double, kLinkageDof>, kLinkageDof>;
+  using SideMatrix = Eigen::Matrix<double, 8, 8>;
+  using Rows = std::array<Eigen::Matrix<double, kLinkageDof + 1, 1>, kLinkageDof>;
+
+  Rows Augmented() const;
 
   LinkageVector force_;
-  Rows stiffness_{};
+  LinkageVector diagonal_;
+  std::array<SideMatrix, 2> side_stiffness_;
 };
 
 }  // namespace rockyard::rover

@@ -9,7 +9,7 @@ namespace {
 // Longest step of the integration, s: about the time in which traction answers to slip at 15 cm/s.
 constexpr double kStep_s = 1.0 / 80.0;
 // From this near to the rims' speed on, the motion is steady.
-constexpr double kSteady = 1e-3;
+constexpr double kSteady = 3e-3;
 // A rover that gets on by less than this share of its rims' speed has no speed to gain.
 constexpr double kStuck = 0.02;
 // The speed of a step is known to this, and found in so many iterations.

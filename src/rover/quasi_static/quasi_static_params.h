@@ -9,7 +9,7 @@ namespace rockyard::rover {
 // The step at which the state is reported, and how far the wheels travel between two balances.
 struct QuasiStaticParams {
   double step_s = 0.05;
-  double settle_distance_m = 0.01;
+  double settle_distance_m = 0.02;
   double settle_turn_rad = math::DegToRad(3.0);
 
   void Visit(core::FieldVisitor& v);

@@ -29,11 +29,12 @@ constexpr double kSameRate = 1e-9;
 // need.
 constexpr double kSureFriction = 0.9;
 // A rover that moves so many times faster than its rims falls.
-constexpr double kFalls = 1.5;
+constexpr double kFalls = 3.0;
 // Standing rovers that a balance lets move faster than this share of their top speed slide: ten
 // thousand times what braked wheels creep by.
-constexpr double kStands = 5e-3;
+constexpr double kStands = 1.6e-3;
 // A drive that differs from the last one by less still says where the rover will be.
+constexpr double kExt = 0.15;
 constexpr double kSimilar = 0.25;
 // A rock deeper than this in the rover, half a step ahead, is met where the rover stands:
 // directions of deep contacts mean nothing.
@@ -136,6 +137,7 @@ void QuasiStaticRover::Place(const math::Pose2& X_WR) {
   stretch_ = {};
   met_steer_rad_ = state_.steer_rad;
   steady_ = false;
+  held_rates_.setZero();
   motors_.Reset();
   progress_.Stop();
   UpdatePosture();
@@ -182,6 +184,7 @@ void QuasiStaticRover::SteerAtRest() {
   const double swing_m = swing_rad * params_.geometry.wheel_radius_m;
   if (swing_m < 0.5 * params_.quasi_static.settle_distance_m) return;
   met_steer_rad_ = state_.steer_rad;
+  if (!contacts_.MayMeetObstacle(posture_.p_WR, kReach_m)) return;
   linkage_.Update(posture_, state_.steer_rad);
   contacts_.Update(linkage_, kReach_m);
   const std::vector<RestingContact>& contacts = contacts_.contacts();
@@ -190,14 +193,7 @@ void QuasiStaticRover::SteerAtRest() {
       })) {
     return;
   }
-  rates_.setZero();
-  Balance({{}, step_s(), 0.0, Freedom::kAll});
-  Limit(step_s(), kReach_m, kMaxTurn_rad, rates_);
-  posture_ = Moved(posture_, rates_, step_s());
-  stretch_.duration_s = 0.0;
-  steady_ = standing_ = false;
-  UpdatePosture();
-  UpdateForces();
+  Hold();
 }
 
 void QuasiStaticRover::Balance(const QuasiStaticBalance::Drive& drive) {
@@ -294,10 +290,14 @@ void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
   met_steer_rad_ = state_.steer_rad;
   const double reach_m = kReach_m + params_.quasi_static.settle_distance_m;
   if (same_drive && steady_ && !contacts_.MayMeetObstacle(posture_.p_WR, reach_m)) return RollOn();
+  LinkageVector start = rates_;
+  const bool ext = same_drive && (rates_ - before_).head<3>().norm() < kExt * params_.drive.speed_m_s && (rates_ - before_).tail<6>().cwiseAbs().maxCoeff() * params_.geometry.wheel_radius_m < kExt * params_.drive.speed_m_s;
+  if (ext) rates_ += rates_ - before_;
+  before_ = start;
   const double lead_s = LookAhead(similar_drive ? 0.5 * stretch_.duration_s : 0.0);
   const bool on_level_ground = OnLevelGround();
   if (same_drive && steady_ && on_level_ground) {
-    RollOn();
+    rates_ = start;RollOn();
     return;
   }
   Balance({rate_rad_s, stretch_.duration_s, lead_s, Freedom::kAll});
@@ -445,13 +445,19 @@ bool QuasiStaticRover::HoldsEasily() const {
   return borne_N > kSureFriction * linkage_.weight_N();
 }
 
-// Brakes on: the balance with wheels that do not turn gives the loads of a rover at rest, and says
-// whether it slides. It falls or slides on by what the balance lets it in one step.
 void QuasiStaticRover::Stand() {
-  const LinkageVector driving = rates_;
   linkage_.Update(posture_, state_.steer_rad);
   contacts_.Update(linkage_, kReach_m);
-  rates_.setZero();
+  Hold();
+  Rest();
+}
+
+// Brakes on: the balance with wheels that do not turn gives the loads of a rover at rest, and says
+// whether it slides. It falls or slides on by what the balance lets it in one step.
+void QuasiStaticRover::Hold() {
+  // What it did while it drove starts the next balance of a drive, and what it did at the last look
+  // that of a rover at rest.
+  std::swap(rates_, held_rates_);
   Balance({{}, step_s(), 0.0, Freedom::kAll});
   standing_ = rates_.head<3>().norm() < kStands * params_.drive.speed_m_s;
   if (!standing_) {
@@ -462,9 +468,7 @@ void QuasiStaticRover::Stand() {
     UpdatePosture();
   }
   UpdateForces();
-  // What it did while it drove starts the next balance.
-  rates_ = driving;
-  Rest();
+  std::swap(rates_, held_rates_);
 }
 
 void QuasiStaticRover::UpdatePosture() {

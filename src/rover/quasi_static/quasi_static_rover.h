@@ -65,6 +65,7 @@ class QuasiStaticRover final : public Rover {
   void Roll(const MotorRates& rates, const messages::PerWheel<double>& commanded_rad_s);
   void RollBetween(const MotorRates& rates);
   void Stand();
+  void Hold();
   bool HoldsEasily() const;
   double Inertia(const LinkageVector& a, const LinkageVector& b) const;
   void BeginProgress(const messages::PerWheel<double>& rate_rad_s, bool same_drive);
@@ -95,6 +96,8 @@ class QuasiStaticRover final : public Rover {
   Stretch stretch_;
   messages::PerWheel<double> met_steer_rad_{};  // at the last look for contacts
   LinkageVector rates_ = LinkageVector::Zero();
+  LinkageVector before_ = LinkageVector::Zero();
+  LinkageVector held_rates_ = LinkageVector::Zero();     // of the last balance at rest
   LinkageVector carried_rates_ = LinkageVector::Zero();  // of the motion that progress_ counts
   bool standing_ = true;                                 // and known to hold
   bool steady_ = false;  // rates_ hold for as long as the ground is level and the drive the same
