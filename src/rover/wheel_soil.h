@@ -7,6 +7,7 @@
 // Limits: those of the rut, and no sinkage by slip.
 #pragma once
 
+#include "rover/shear_curve.h"
 #include "rover/wheel_rut_params.h"
 #include "terrain/soil_params.h"
 
@@ -26,23 +27,11 @@ class WheelSoil : public WheelRut {
   double Slip(double tau, double load_N) const;
   double TractionShare(double slip, double load_N) const;
 
-  // Returns i / tau at the slip i >= 0; its limit at i = 0 is 2 K / l.
-  double SlipPerShare(double slip, const Rut& rut) const;
+  // Returns i / tau at the slip i >= 0, with tau from the table; its limit at i = 0 is 2 K / l.
+  double SlipPerShare(double slip, const Rut& rut, const ShareTable& shares) const;
 
  private:
   double shear_modulus_m_;  // K
 };
-
-// tau and its derivative by u.
-struct ShearShare {
-  double value;
-  double slope;
-};
-// Returns tau(u) = 1 - (1 - e^-u) / u and its derivative, for u >= 0. A call costs about 15 ns.
-ShearShare ShareOfRatio(double u);
-
-// Returns u at the share tau in [0, 1): the inverse of tau = 1 - (1 - e^-u) / u. A call costs about
-// 20 ns.
-double ShearRatio(double tau);
 
 }  // namespace rockyard::rover

@@ -154,6 +154,7 @@ void ConstraintSolver::StartMotors(const DofMatrix& mass_inverse,
   for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
     // A motor holds its rate up to the stall torque: |p| <= torque h.
     motors_[i].target = rate_rad_s[i];
+    touches_[i] = false;
     Start(mass_inverse, motors_[i]);
   }
 }
@@ -231,7 +232,9 @@ void ConstraintSolver::StartFriction(const DofMatrix& mass_inverse, const Part& 
 
 // The motor's row and the friction's, as far as one is felt in the other.
 void ConstraintSolver::StartDriven(ContactRows& rows) {
-  rows.motor = &motors_[static_cast<std::size_t>(rows.contact->part)];
+  const auto wheel = static_cast<std::size_t>(rows.contact->part);
+  touches_[wheel] = true;
+  rows.motor = &motors_[wheel];
   const double g0 = rows.along.J.dot(rows.motor->response);
   const double g1 = rows.across.J.dot(rows.motor->response);
   rows.motor_coupling = {g0, g1};
@@ -267,7 +270,10 @@ double ConstraintSolver::Sweep(LooseRocks* loose_rocks) {
   for (Row& row : stops_) {
     if (row.high > 0.0) Relax(row);
   }
-  for (Row& row : motors_) Relax(row);
+  // The motor of a wheel that touches something is solved with its friction.
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    if (!touches_[i]) Relax(motors_[i]);
+  }
   for (std::size_t i = 0; i < contact_count_; ++i) {
     ContactRows& rows = contacts_[i];
     Relax(rows.normal);

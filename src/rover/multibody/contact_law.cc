@@ -63,7 +63,7 @@ SlipStep ContactLaws::StepOfSlip(const ContactLaw& law, const SlipChange& change
   // ratio at the traction of the last sweep would make wheels that share a slip take turns in
   // pulling.
   const double slip = std::min(v_m_s / rim_m_s, 1.0);
-  const double softness = rim_m_s * soil_.SlipPerShare(slip, law.rut) /
+  const double softness = rim_m_s * soil_.SlipPerShare(slip, law.rut, shares_) /
                           (law.rut.largest_traction_N * change.duration_s);
   // z = h / T = 1 / (c m); soil without shear deformation answers at once.
   const double softness_times_mass = softness * law.rut.load_N / gravity_m_s2_;

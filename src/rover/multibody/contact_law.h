@@ -71,6 +71,7 @@ class ContactLaws {
 
   const RoverContactParams params_;
   const WheelSoil soil_;
+  const ShareTable shares_;
   const double gravity_m_s2_;
 };
 

@@ -113,6 +113,7 @@ void QuasiStaticBalance::MakeWheelRow(const Linkage& linkage, const Drive& drive
 }
 
 void QuasiStaticBalance::SetTraction(const RestingContact& contact, Row& row) const {
+  row.creep_m_s = kRockCreep * row.reference_m_s;
   const double load_N = contact.traction_load_N;
   row.shear_ratio = row.resistance_N = 0.0;
   // Settling: no rim turns, and contacts are without traction.
@@ -124,6 +125,7 @@ void QuasiStaticBalance::SetTraction(const RestingContact& contact, Row& row) co
     row.max_N = std::min(soil.traction_N, stall_force_N_);
     // A braked wheel holds up to its traction, without the creep of one that turns.
     row.shear_ratio = row.rim_m_s != 0.0 ? soil.shear_ratio : 0.0;
+    row.u_per_speed_s_m = row.shear_ratio / row.reference_m_s;
     row.resistance_N = soil.resistance_N;
   } else if (contact.IsWheel() && contact.other >= 0) {
     row.max_N = std::min(contact_params_.wheel_rock_friction * load_N, stall_force_N_);
@@ -134,23 +136,23 @@ void QuasiStaticBalance::SetTraction(const RestingContact& contact, Row& row) co
 
 QuasiStaticBalance::Traction QuasiStaticBalance::TractionOf(const Row& row,
                                                             double speed_m_s) const {
-  const double slip = speed_m_s / row.reference_m_s;
   if (row.shear_ratio > 0.0) {
     // Soil, with the slip i = v / v_ref and u = i l / K:
     //   F = T_max tau(u),  F / v = T_max (l / K) / v_ref tau / u,  dF/dv = T_max (l / K) / v_ref
     //   tau'.
     // tau / u tends to 1/2 at u = 0.
-    const double u = slip * row.shear_ratio;
+    const double u = speed_m_s * row.u_per_speed_s_m;
     const ShearShare share = share_.At(u);
-    const double scale = row.max_N * row.shear_ratio / row.reference_m_s;
+    const double scale = row.max_N * row.u_per_speed_s_m;
     constexpr double kSmall = 1e-6;
     return {scale * (u > kSmall ? share.value / u : 0.5), scale * share.slope};
   }
   // Rock, Coulomb's law made smooth:
-  //   F = mu N i / sqrt(i^2 + i_c^2),  dF/dv = F / v i_c^2 / (i^2 + i_c^2).
-  const double root2 = slip * slip + kRockCreep * kRockCreep;
-  const double per_speed = row.max_N / (std::sqrt(root2) * row.reference_m_s);
-  return {per_speed, per_speed * kRockCreep * kRockCreep / root2};
+  //   F = mu N v / sqrt(v^2 + v_c^2),  dF/dv = F / v v_c^2 / (v^2 + v_c^2),  v_c = i_c v_ref.
+  const double creep2 = row.creep_m_s * row.creep_m_s;
+  const double root2 = speed_m_s * speed_m_s + creep2;
+  const double per_speed = row.max_N / std::sqrt(root2);
+  return {per_speed, per_speed * creep2 / root2};
 }
 
 void QuasiStaticBalance::AddForces(const SideVector& w, RestingContact& contact, Row& row) {
@@ -332,7 +334,8 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
     SetTraction(contact, rows_[i]);
   }
   first_ = true;
-  tangent_ = drive.lead_s > 0.0;  // the last rates are a good start
+  // The last rates of a drive that goes on, or of a rover at rest, are a good start.
+  tangent_ = drive.lead_s > 0.0 || (!rims_turn_ && drive.freedom == Freedom::kAll);
   Evaluate(rates, contacts);
   first_ = false;
   // Newton's method: (D - dF/dw) change = F, until the change is small and no traction waits for

@@ -11,6 +11,7 @@
 #include "rover/quasi_static/progress.h"
 #include "rover/quasi_static/wheel_soil_table.h"
 #include "rover/rover_params.h"
+#include "rover/shear_curve.h"
 
 namespace rockyard::rover {
 
@@ -82,7 +83,9 @@ class QuasiStaticBalance {
     double reference_m_s = 0.0;  // slip is measured in shares of this
     // At the load that the traction is taken from.
     double max_N = 0.0;
-    double shear_ratio = 0.0;  // 0: Coulomb
+    double shear_ratio = 0.0;      // 0: Coulomb
+    double u_per_speed_s_m = 0.0;  // of the slip speed, where the shear ratio is not 0
+    double creep_m_s = 0.0;        // slip speed at 0.7 of Coulomb's friction
     double resistance_N = 0.0;
     // These are of the last evaluation: stiffness across the normal and of the motion resistance, N
     // s/m.

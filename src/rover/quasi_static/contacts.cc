@@ -200,15 +200,13 @@ void QuasiStaticContacts::MeetBody(const Linkage& linkage, double reach_m) {
   }
 }
 
-// Where the parts are that rocks can touch, beside the wheels: the same for all rocks.
+// How low the parts are that rocks can touch, beside the wheels: the same for all rocks.
 void QuasiStaticContacts::PlaceParts(const Linkage& linkage) {
   placed_parts_.clear();
   for (std::size_t i = messages::kWheelCount; i < parts_.size(); ++i) {
     const Part& part = parts_[i];
     if (part.meets != Meets::kRocks) continue;
-    const Linkage::Frame& frame = linkage.body(part.body);
-    placed_parts_.push_back(
-        {i, frame.p_WB + frame.R_WB * part.center_B, LowestPoint(part, frame)});
+    placed_parts_.push_back({i, LowestPoint(part, linkage.body(part.body))});
   }
 }
 
@@ -216,10 +214,10 @@ void QuasiStaticContacts::MeetPart(const Linkage& linkage, const PlacedPart& pla
                                    const NearRock& rock) {
   if (placed.lowest_m - rock.support.top_W_m > reach_m) return;
   const Part& part = parts_[placed.index];
-  const Vector3& center_W = placed.center_W;
+  const Linkage::Frame& frame = linkage.body(part.body);
+  const Vector3 center_W = frame.p_WB + frame.R_WB * part.center_B;
   const double far_m = part.bounding_radius_m + reach_m + rock.support.bounding_radius_m;
   if ((center_W - rock.support.center_W).squaredNorm() > far_m * far_m) return;
-  const Linkage::Frame& frame = linkage.body(part.body);
   if (Separation(part, frame, center_W, rock.support) > reach_m) return;
   SurfacePoint surface = rock.ellipsoid.Nearest(center_W);
   Vector3 core_W = center_W;

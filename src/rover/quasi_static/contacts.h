@@ -62,7 +62,6 @@ class QuasiStaticContacts {
   // A part of the body in the posture at hand.
   struct PlacedPart {
     std::size_t index = 0;
-    math::Vector3 center_W;
     double lowest_m = 0.0;  // z in W
   };
 

@@ -9,11 +9,14 @@ namespace {
 // Longest step of the integration, s: about the time in which traction answers to slip at 15 cm/s.
 constexpr double kStep_s = 1.0 / 80.0;
 // From this near to the rims' speed on, the motion is steady.
-constexpr double kSteady = 3e-3;
+constexpr double kSteady = 1e-3;
+// From this near on, slip decays as in the linear law.
+constexpr double kNearlySteady = 0.03;
 // A rover that gets on by less than this share of its rims' speed has no speed to gain.
 constexpr double kStuck = 0.02;
 // The speed of a step is known to this, and found in so many iterations.
 constexpr double kExact = 1e-5;
+constexpr double kLastChange = 2e-3;
 constexpr int kIterations = 12;
 // A rover that is drawn downhill does not run this many times faster than steadily.
 constexpr double kFastest = 3.0;
@@ -85,16 +88,28 @@ double Progress::Step(double rim_from, double rim_to, double time_s) {
     const Rate rate = RateAt(theta * next + (1.0 - theta) * before, rim);
     const double lack = before + time_s * rate.value - next;
     (lack > 0.0 ? low : high) = next;
-    if (std::abs(lack) < kExact) break;
     const double newton = next + lack / (1.0 - theta * time_s * rate.slope);
-    next = newton > low && newton < high ? newton : 0.5 * (low + high);
-    if (high - low < kExact) break;
+    const bool inside = newton > low && newton < high;
+    const double change = inside ? std::abs(newton - next) : high - low;
+    next = inside ? newton : 0.5 * (low + high);
+    // What Newton's method leaves is the square of its last change.
+    if (change < (inside ? kLastChange : kExact)) break;
   }
   speed_ = next < kExact ? 0.0 : next;
   if (speed_ > 0.0 || before == 0.0) return 0.5 * (before + speed_) * time_s;
   // It comes to rest within the step: half of what speed it had, for the time that this took.
   const double slowing = -RateAt(0.5 * before, rim).value;
   return 0.5 * before * (slowing * time_s > before ? before / slowing : time_s);
+}
+
+// q = rho + (q_0 - rho) e^(-t/T), whose integral is the way. Slip answers the faster the slower the
+// rims turn.
+double Progress::Settle(double rim, double time_s) {
+  const double decay_s = rim * decay_s_;
+  const double before = speed_ - rim;
+  const double after = before * std::exp(-time_s / decay_s);
+  speed_ = rim + after;
+  return rim * time_s + decay_s * (before - after);
 }
 
 double Progress::Advance(double rim_from, double rim_to, double time_s) {
@@ -109,6 +124,9 @@ double Progress::Advance(double rim_from, double rim_to, double time_s) {
   if (stuck || steady || drive_.inertia_J <= 0.0) {
     speed_ = rim_to;
     return mean * time_s;
+  }
+  if (rim_from == rim_to && std::abs(speed_ - rim_to) < kNearlySteady * rim_to) {
+    return Settle(rim_to, time_s);
   }
   const int steps = static_cast<int>(std::ceil(time_s / kStep_s));
   const double change = (rim_to - rim_from) / steps;

@@ -1,7 +1,7 @@
 // How far a rover with mass gets along the way of its wheels while these start and stop.
 #pragma once
 
-#include "rover/quasi_static/wheel_soil_table.h"
+#include "rover/shear_curve.h"
 
 namespace rockyard::rover {
 
@@ -66,6 +66,7 @@ class Progress {
   Power PowerOf(const WheelLump& lump, double speed, double rim) const;
   Rate RateAt(double speed, double rim) const;
   double Step(double rim_from, double rim_to, double time_s);
+  double Settle(double rim, double time_s);
 
   const ShareTable share_;
   SteadyDrive drive_;

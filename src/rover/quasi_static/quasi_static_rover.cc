@@ -31,11 +31,13 @@ constexpr double kSureFriction = 0.9;
 // A rover that moves so many times faster than its rims falls.
 constexpr double kFalls = 3.0;
 // Standing rovers that a balance lets move faster than this share of their top speed slide: ten
-// thousand times what braked wheels creep by.
+// times as fast as friction lets braked wheels creep.
 constexpr double kStands = 1.6e-3;
 // A drive that differs from the last one by less still says where the rover will be.
-constexpr double kExt = 0.15;
 constexpr double kSimilar = 0.25;
+// Rates that change by less than this share of the top speed from one stretch to the next do so
+// smoothly.
+constexpr double kSmooth = 0.15;
 // A rock deeper than this in the rover, half a step ahead, is met where the rover stands:
 // directions of deep contacts mean nothing.
 constexpr double kDeepest_m = 0.003;
@@ -72,7 +74,7 @@ std::optional<double> ShareOf(const messages::PerWheel<double>& rate_rad_s,
 
 std::optional<RimShares> Shares(const MotorRates& rates, const messages::PerWheel<double>& shape) {
   const auto from = ShareOf(rates.from, shape);
-  const auto to = ShareOf(rates.to, shape);
+  const auto to = rates.to == rates.from ? from : ShareOf(rates.to, shape);
   if (!from || !to) return std::nullopt;
   return RimShares{*from, *to};
 }
@@ -290,19 +292,18 @@ void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
   met_steer_rad_ = state_.steer_rad;
   const double reach_m = kReach_m + params_.quasi_static.settle_distance_m;
   if (same_drive && steady_ && !contacts_.MayMeetObstacle(posture_.p_WR, reach_m)) return RollOn();
-  LinkageVector start = rates_;
-  const bool ext = same_drive && (rates_ - before_).head<3>().norm() < kExt * params_.drive.speed_m_s && (rates_ - before_).tail<6>().cwiseAbs().maxCoeff() * params_.geometry.wheel_radius_m < kExt * params_.drive.speed_m_s;
-  if (ext) rates_ += rates_ - before_;
-  before_ = start;
+  const LinkageVector last_rates = rates_;
+  if (same_drive) rates_ = ExpectedRates();
+  last_rates_ = last_rates;
   const double lead_s = LookAhead(similar_drive ? 0.5 * stretch_.duration_s : 0.0);
-  const bool on_level_ground = OnLevelGround();
-  if (same_drive && steady_ && on_level_ground) {
-    rates_ = start;RollOn();
-    return;
+  const bool stands_level = StandsLevel();
+  if (same_drive && steady_ && stands_level && MeetsNothing(last_rates, lead_s)) {
+    rates_ = last_rates;
+    return RollOn();
   }
   Balance({rate_rad_s, stretch_.duration_s, lead_s, Freedom::kAll});
   // From here on RollOn may repeat this balance, which is the same in the rover's frame.
-  steady_ = on_level_ground && IsSteady();
+  steady_ = stands_level && MeetsNothing(rates_, lead_s) && IsSteady();
   Limit(stretch_.duration_s, kMaxMove * params_.quasi_static.settle_distance_m, kMaxTurn_rad,
         rates_);
   // A fall may be longer than a stretch allows: Limit lets the rover fall in several.
@@ -335,12 +336,36 @@ void QuasiStaticRover::BeginProgress(const messages::PerWheel<double>& rate_rad_
   carried_rates_ = rates_;
 }
 
-bool QuasiStaticRover::OnLevelGround() const {
+// Rates that change little from one stretch to the next go on changing: a wheel that climbs over a
+// rock turns its way by the same angle in each.
+LinkageVector QuasiStaticRover::ExpectedRates() const {
+  const LinkageVector change = rates_ - last_rates_;
+  const double most_m_s = kSmooth * params_.drive.speed_m_s;
+  const bool smooth =
+      change.head<3>().norm() < most_m_s &&
+      change.tail<6>().cwiseAbs().maxCoeff() * params_.geometry.wheel_radius_m < most_m_s;
+  return smooth ? LinkageVector(rates_ + change) : rates_;
+}
+
+// Six wheels on a level plane.
+bool QuasiStaticRover::StandsLevel() const {
   const std::vector<RestingContact>& contacts = contacts_.contacts();
-  // Six wheels on a level plane, and nothing else near: no rock, wall or body contact in reach.
-  if (contacts.size() != kWheelCount || !terrain_.ground().IsPlane()) return false;
-  return std::all_of(contacts.begin(), contacts.end(), [](const RestingContact& contact) {
-    return contact.IsSoil() && contact.n_W.z() == 1.0;
+  if (!terrain_.ground().IsPlane()) return false;
+  return std::count_if(contacts.begin(), contacts.end(), [](const RestingContact& contact) {
+           return contact.IsSoil() && contact.n_W.z() == 1.0;
+         }) == static_cast<std::ptrdiff_t>(kWheelCount);
+}
+
+// True where a rover that moves like a rigid body at these rates touches nothing but soil until the
+// stretch ends; its contacts were found lead_s after the beginning.
+bool QuasiStaticRover::MeetsNothing(const LinkageVector& rates, double lead_s) const {
+  const std::vector<RestingContact>& contacts = contacts_.contacts();
+  const double rest_s = stretch_.duration_s - lead_s;
+  return std::all_of(contacts.begin(), contacts.end(), [&](const RestingContact& contact) {
+    if (contact.IsSoil()) return true;
+    const Vector3 v_m_s =
+        rates.head<3>() + rates.segment<3>(3).cross(contact.p_W - linkage_.chassis().p_WB);
+    return contact.gap_m + rest_s * contact.n_W.dot(v_m_s) > 0.0;
   });
 }
 
@@ -353,6 +378,7 @@ bool QuasiStaticRover::IsSteady() const {
 
 // On level ground nothing has changed but the heading: the last balance holds in the rover's frame.
 void QuasiStaticRover::RollOn() {
+  last_rates_ = rates_;
   const double turn_rad = stretch_.duration_s * rates_[5];
   const double c = std::cos(turn_rad);
   const double s = std::sin(turn_rad);

@@ -70,7 +70,9 @@ class QuasiStaticRover final : public Rover {
   double Inertia(const LinkageVector& a, const LinkageVector& b) const;
   void BeginProgress(const messages::PerWheel<double>& rate_rad_s, bool same_drive);
   void Plan(const messages::PerWheel<double>& rate_rad_s);
-  bool OnLevelGround() const;
+  LinkageVector ExpectedRates() const;
+  bool StandsLevel() const;
+  bool MeetsNothing(const LinkageVector& rates, double lead_s) const;
   bool IsSteady() const;
   void RollOn();
   bool Like(const messages::PerWheel<double>& rate_rad_s, double share) const;
@@ -96,7 +98,7 @@ class QuasiStaticRover final : public Rover {
   Stretch stretch_;
   messages::PerWheel<double> met_steer_rad_{};  // at the last look for contacts
   LinkageVector rates_ = LinkageVector::Zero();
-  LinkageVector before_ = LinkageVector::Zero();
+  LinkageVector last_rates_ = LinkageVector::Zero();     // of the stretch before
   LinkageVector held_rates_ = LinkageVector::Zero();     // of the last balance at rest
   LinkageVector carried_rates_ = LinkageVector::Zero();  // of the motion that progress_ counts
   bool standing_ = true;                                 // and known to hold

@@ -44,31 +44,4 @@ SoilAnswer WheelSoilTable::At(double load_N) const {
           mix(a.shear_ratio, b.shear_ratio)};
 }
 
-ShareTable::ShareTable() {
-  for (int i = 0; i <= kIntervals; ++i) {
-    nodes_[static_cast<std::size_t>(i)] = ShareOfRatio(kLast * i / kIntervals);
-  }
-}
-
-ShearShare ShareTable::At(double u) const {
-  // tau = 1 - (1 - e^-u) / u, without e^-u.
-  if (u >= kLast) return {1.0 - 1.0 / u, 1.0 / (u * u)};
-  constexpr double kWidth = kLast / kIntervals;
-  const double at = u / kWidth;
-  const auto index = static_cast<std::size_t>(at);
-  const double s = at - static_cast<double>(index);
-  const ShearShare& a = nodes_[index];
-  const ShearShare& b = nodes_[index + 1];
-  // Hermite's cubic through both values and slopes, and its derivative: with the chord's rise d and
-  // what the slopes differ from it, p and q,
-  //   f = a + s (d + (1 - s) ((1 - s) p - s q)).
-  const double d = b.value - a.value;
-  const double p = kWidth * a.slope - d;
-  const double q = kWidth * b.slope - d;
-  const double r = 1.0 - s;
-  const double value = a.value + s * (d + r * (r * p - s * q));
-  const double slope = d + r * (r * p - s * q) + s * (-(r * p - s * q) - r * (p + q));
-  return {value, slope / kWidth};
-}
-
 }  // namespace rockyard::rover

@@ -1,7 +1,6 @@
 // WheelSoil by interpolation, for callers that ask for every wheel many times.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "rover/wheel_soil.h"
@@ -30,21 +29,6 @@ class WheelSoilTable {
  private:
   double max_N_;
   std::vector<SoilAnswer> nodes_;
-};
-
-// ShareOfRatio by cubic interpolation of value and slope: within 1e-7 of it, in a tenth of its
-// time.
-class ShareTable {
- public:
-  ShareTable();
-
-  // Returns tau(u) and its derivative, for u >= 0.
-  ShearShare At(double u) const;
-
- private:
-  static constexpr int kIntervals = 256;
-  static constexpr double kLast = 16.0;  // from here on e^-u is nothing
-  std::array<ShearShare, kIntervals + 1> nodes_{};
 };
 
 }  // namespace rockyard::rover
