@@ -1,5 +1,5 @@
-// The curve of shear, tau(u) = 1 - (1 - e^-u) / u: the share of its traction that soil gives under a
-// wheel that slips (Janosi and Hanamoto 1961, uniform pressure), with u = i l / K as in
+// The curve of shear, tau(u) = 1 - (1 - e^-u) / u: the share of its traction that soil gives under
+// a wheel that slips (Janosi and Hanamoto 1961, uniform pressure), with u = i l / K as in
 // wheel_soil.h.
 #pragma once
 

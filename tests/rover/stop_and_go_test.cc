@@ -51,14 +51,14 @@ TEST(StopAndGo, WayAt60HzIsThatAt960Hz) {
   }
 }
 
-// Also on slopes of drift where it does not get uphill any more: there, a thousandth of the rims' way.
+// Also on slopes of drift where it does not get uphill any more: there, a thousandth of the rims'
+// way.
 TEST(StopAndGo, WayOnSteepDriftAt60HzIsThatAt960Hz) {
   const terrain::SoilParams soil = terrain::MakeSoil(terrain::SoilPreset::kMarsDrift);
   for (const double slope_deg : {8.0, 15.0}) {
     for (const double ramp_s : {0.0, 0.1, 0.2}) {
       for (const double direction : {kUphill, kAcross, kDownhill}) {
-        const terrain::Terrain terrain =
-            SlopeTerrain(math::DegToRad(slope_deg), direction, soil);
+        const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(slope_deg), direction, soil);
         const LegResult coarse = DriveLegs(AtRate(60.0, ramp_s), terrain, 4);
         const LegResult fine = DriveLegs(AtRate(960.0, ramp_s), terrain, 4);
         EXPECT_NEAR(coarse.along, fine.along, std::max(0.005 * fine.along, 0.001))

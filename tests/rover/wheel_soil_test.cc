@@ -125,8 +125,8 @@ TEST(WheelSoil, Limits) {
     EXPECT_LE(soil.ContactLength_m(1e9), std::numbers::pi * kRadius_m + 1e-12);
     // Small slip: tau = u / 2.
     const Rut rut = soil.RutUnder(30.0);
-    EXPECT_NEAR(soil.SlipPerShare(0.0, rut, ShareTable()), 2.0 * params.shear_modulus_m / rut.contact_length_m,
-                1e-12);
+    EXPECT_NEAR(soil.SlipPerShare(0.0, rut, ShareTable()),
+                2.0 * params.shear_modulus_m / rut.contact_length_m, 1e-12);
   }
 }
 

@@ -53,10 +53,12 @@ void ExpectBacksOff(const truth::Trace& trace) {
   EXPECT_NEAR(ahead_m, -0.20, 0.05);  // navigation.pathfinder.vehicle_reaction.back_off_m
 }
 
+// Fields in which it meets rocks head on and gets stuck. One may go another way where the numerics
+// of the rover change.
 TEST_P(BlindRover, BacksOffFromARockThatItTouchesAndTurnsAway) {
   int stuck = 0;
   int arrived = 0;
-  for (const std::uint32_t index : {3U, 7U, 19U, 22U}) {
+  for (const std::uint32_t index : {4U, 19U, 22U, 24U, 26U, 36U}) {
     const DriveResult without = RunTrial(With({}), {1, index});
     stuck += !truth::DeclaredSuccess(without.outcome);
     EXPECT_EQ(without.record.contact_hazards, 0.0);
@@ -66,8 +68,8 @@ TEST_P(BlindRover, BacksOffFromARockThatItTouchesAndTurnsAway) {
     EXPECT_GE(feeling.result.record.contact_hazards, 1.0) << index;
     ExpectBacksOff(feeling.trace);
   }
-  EXPECT_GE(stuck, 3);
-  EXPECT_GE(arrived, 3);
+  EXPECT_GE(stuck, 5);
+  EXPECT_GE(arrived, 4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Fidelities, BlindRover, testing::Values("multibody", "quasi_static"));
@@ -81,7 +83,7 @@ TEST(TiltSensorTest, KeepsTheRoverFromTippingOver) {
                                                    "referee.tip_over_deg=40"};
   int saved = 0;
   int lost = 0;
-  for (std::uint32_t index = 0; index < 40; ++index) {
+  for (std::uint32_t index = 0; index < 60; ++index) {
     const auto tips = [&](const Overrides& overrides) {
       return RunTrial(Pathfinder("level_sand", overrides), {1, index}).outcome ==
              TrialOutcome::kTipOver;
@@ -131,7 +133,7 @@ TEST(MirrorLineTest, BackingOffDoesNotLeadAcross) {
 TEST(FeltHazardTest, IsNoHazardThatWasBelieved) {
   const DriveParams drive = Pathfinder(
       "obstacles_0.57", kQuasiStatic + kContact + kBlind + Overrides{"terrain.arena.kind=open"});
-  for (const std::uint32_t index : {3U, 7U, 19U, 22U}) {
+  for (const std::uint32_t index : {4U, 19U, 22U, 24U, 26U, 36U}) {
     const truth::DriveRecord record = RunTrial(drive, {1, index}).record;
     EXPECT_GE(record.safeguard_stops, 1.0);
     EXPECT_GE(record.turns_in_place, 1.0);

@@ -134,7 +134,7 @@ class ConstraintSolver {
   std::array<Row, kStops> stops_;
   messages::PerWheel<Row> motors_;
   messages::PerWheel<bool> touches_{};  // wheels that have a contact in this step
-  std::vector<ContactRows> contacts_;  // capacity; the first contact_count_ are in use
+  std::vector<ContactRows> contacts_;   // capacity; the first contact_count_ are in use
   std::size_t contact_count_ = 0;
 };
 

@@ -98,8 +98,8 @@ void QuasiStaticBalance::MakeWheelRow(const Linkage& linkage, const Drive& drive
   // `along`, for a wheel that rolls forward. The motor feels a force along it by the same arm.
   row.arm_m = axle_W.cross(contact.p_W - linkage.wheel_W(wheel)).norm();
   row.rim_m_s = rate_rad_s * row.arm_m;
-  row.reference_m_s =
-      std::max(std::abs(rate_rad_s) * wheel_radius_m_, (rims_turn_?kMinReference:1.0) * rim_speed_m_s_);
+  row.reference_m_s = std::max(std::abs(rate_rad_s) * wheel_radius_m_,
+                               (rims_turn_ ? kMinReference : 1.0) * rim_speed_m_s_);
   if (!contact.IsSoil()) return;
   // The sinkage curve in series with the contact's own spring, along its tangent at the last load.
   const double load_N = contact.load_N > 0.0 ? contact.load_N : mean_load_N_;

@@ -55,7 +55,21 @@ QuasiStaticContacts::QuasiStaticContacts(const RoverGeometryParams& params,
       wheel_(params),
       parts_(MakeParts(params)),
       reach_R_m_(std::hypot(0.5 * params.length_m, 0.5 * params.width_m)),
-      hub_radius_m_(params.hub_radius_m) {}
+      hub_radius_m_(params.hub_radius_m) {
+  for (std::size_t i = messages::kWheelCount; i < parts_.size(); ++i) {
+    const Part& part = parts_[i];
+    if (part.meets != Meets::kRocks) continue;
+    if (bodies_.empty() || bodies_.back().body != part.body) {
+      bodies_.push_back({part.body, placed_parts_.size(), placed_parts_.size(), part.center_B});
+    }
+    placed_parts_.push_back({i});
+    BodyParts& body = bodies_.back();
+    body.last = placed_parts_.size();
+    // About the first part of a body, a ball that holds all of them.
+    body.radius_m =
+        std::max(body.radius_m, (part.center_B - body.center_B).norm() + part.bounding_radius_m);
+  }
+}
 
 void QuasiStaticContacts::Clear() {
   contacts_.clear();
@@ -196,17 +210,26 @@ void QuasiStaticContacts::MeetBody(const Linkage& linkage, double reach_m) {
     if ((rock.support.center_W - chassis.p_WB).head<2>().squaredNorm() > far_m * far_m) continue;
     if (!placed) PlaceParts(linkage);
     placed = true;
-    for (const PlacedPart& part : placed_parts_) MeetPart(linkage, part, reach_m, rock);
+    for (const BodyParts& body : bodies_) {
+      const double near_m = body.radius_m + rock.support.bounding_radius_m + reach_m;
+      if ((rock.support.center_W - body.center_W).squaredNorm() > near_m * near_m) continue;
+      for (std::size_t i = body.first; i < body.last; ++i) {
+        MeetPart(linkage, placed_parts_[i], reach_m, rock);
+      }
+    }
   }
 }
 
-// How low the parts are that rocks can touch, beside the wheels: the same for all rocks.
+// How low the parts are that rocks can touch, beside the wheels, and where their bodies are: the
+// same for all rocks.
 void QuasiStaticContacts::PlaceParts(const Linkage& linkage) {
-  placed_parts_.clear();
-  for (std::size_t i = messages::kWheelCount; i < parts_.size(); ++i) {
-    const Part& part = parts_[i];
-    if (part.meets != Meets::kRocks) continue;
-    placed_parts_.push_back({i, LowestPoint(part, linkage.body(part.body))});
+  for (PlacedPart& placed : placed_parts_) {
+    const Part& part = parts_[placed.index];
+    placed.lowest_m = LowestPoint(part, linkage.body(part.body));
+  }
+  for (BodyParts& body : bodies_) {
+    const Linkage::Frame& frame = linkage.body(body.body);
+    body.center_W = frame.p_WB + frame.R_WB * body.center_B;
   }
 }
 

@@ -64,6 +64,15 @@ class QuasiStaticContacts {
     std::size_t index = 0;
     double lowest_m = 0.0;  // z in W
   };
+  // The placed parts first to last - 1 belong to one body and lie in a ball.
+  struct BodyParts {
+    int body = kChassis;
+    std::size_t first = 0;
+    std::size_t last = 0;
+    math::Vector3 center_B;
+    double radius_m = 0.0;
+    math::Vector3 center_W = math::Vector3::Zero();  // in the posture at hand
+  };
 
   void Gather(const math::Vector3& p_WR);
   math::Vector3 WheelSupport(const Linkage& linkage, std::size_t wheel,
@@ -86,6 +95,7 @@ class QuasiStaticContacts {
   std::vector<int> near_;
   std::vector<NearRock> rocks_;
   std::vector<PlacedPart> placed_parts_;
+  std::vector<BodyParts> bodies_;
   math::Vector3 gathered_at_W_ = math::Vector3::Zero();
   bool gathered_ = false;
   std::vector<RestingContact> contacts_;

@@ -18,7 +18,8 @@ RoverParams QuasiStatic(double ramp_s) {
   return params;
 }
 
-// Slippery ground: brakes hold on slopes up to the angle of friction, and not half a degree beyond it.
+// Slippery ground: brakes hold on slopes up to the angle of friction, and not half a degree beyond
+// it.
 TEST(QuasiStaticStanding, SlidesOffSlipperyGroundBeyondItsAngleOfFriction) {
   for (const double friction : {0.1, 0.2}) {
     for (const double excess_deg : {-1.0, -0.2, 0.5, 1.0}) {
