@@ -43,6 +43,8 @@ void DriveMonitor::Observe(const truth::RoverState& state, bool turning) {
   if (turning) {
     turned_rad_ += std::abs(math::WrapAngle(math::Heading(state.X_WR) - math::Heading(last_X_WR_)));
   }
+  // A rover that stands, to look or to steer, keeps its clearance.
+  if (state.X_WR.matrix() != last_X_WR_.matrix()) ObserveClearance(state.X_WR);
   last_X_WR_ = state.X_WR;
   const double chord_m = OpenChord();
   if (chord_m >= kChord_m) {
@@ -60,7 +62,6 @@ void DriveMonitor::Observe(const truth::RoverState& state, bool turning) {
   for (const double sinkage_m : state.wheel_sinkage_m) {
     max_sinkage_m_ = std::max(max_sinkage_m_, sinkage_m);
   }
-  ObserveClearance(state.X_WR);
 }
 
 void DriveMonitor::ObserveClearance(const math::Transform& X_WR) {

@@ -356,12 +356,6 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
   return kMaxIterations;
 }
 
-double QuasiStaticBalance::FrictionOf(const RestingContact& contact) const {
-  if (contact.IsSoil()) return soil_.At(contact.load_N).traction_N / contact.load_N;
-  return contact.IsWheel() && contact.other >= 0 ? contact_params_.wheel_rock_friction
-                                                 : contact_params_.body_rock_friction;
-}
-
 SteadyDrive QuasiStaticBalance::Steady(const LinkageVector& rates) const {
   SteadyDrive drive;
   for (const Row& row : rows_) {

@@ -62,9 +62,6 @@ class QuasiStaticBalance {
   // the caller.
   SteadyDrive Steady(const LinkageVector& rates) const;
 
-  // Returns the largest friction of a contact over its load > 0.
-  double FrictionOf(const RestingContact& contact) const;
-
   // The motor's torque about the axle in the last solution, positive where it drives forward.
   double MotorTorque_Nm(std::size_t wheel) const { return torque_Nm_[wheel]; }
 

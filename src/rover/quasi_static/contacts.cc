@@ -100,6 +100,23 @@ bool QuasiStaticContacts::MayMeetObstacle(const Vector3& p_WR, double reach_m) {
   });
 }
 
+bool QuasiStaticContacts::WheelMayMeetObstacle(const Linkage& linkage, double reach_m) {
+  if (!terrain_.walls().empty()) return true;
+  Gather(linkage.chassis().p_WB);
+  return std::any_of(rocks_.begin(), rocks_.end(), [&](const NearRock& rock) {
+    for (std::size_t wheel = 0; wheel < messages::kWheelCount; ++wheel) {
+      if (IsNear(linkage.wheel_W(wheel), wheel, reach_m, rock)) return true;
+    }
+    return false;
+  });
+}
+
+bool QuasiStaticContacts::IsNear(const Vector3& center_W, std::size_t wheel, double reach_m,
+                                 const NearRock& rock) const {
+  const double far_m = rock.support.bounding_radius_m + parts_[wheel].bounding_radius_m + reach_m;
+  return (center_W - rock.support.center_W).squaredNorm() <= far_m * far_m;
+}
+
 void QuasiStaticContacts::Update(const Linkage& linkage, double reach_m) {
   // The last contacts stay at hand: Add looks a pair's load up in them.
   std::swap(contacts_, last_);
@@ -176,8 +193,7 @@ void QuasiStaticContacts::MeetWalls(const Linkage& linkage, std::size_t wheel, d
 void QuasiStaticContacts::MeetRock(const Linkage& linkage, std::size_t wheel, double reach_m,
                                    NearRock& rock) {
   const Vector3& center_W = linkage.wheel_W(wheel);
-  const double far_m = rock.support.bounding_radius_m + parts_[wheel].bounding_radius_m + reach_m;
-  if ((center_W - rock.support.center_W).squaredNorm() > far_m * far_m) {
+  if (!IsNear(center_W, wheel, reach_m, rock)) {
     rock.known[wheel] = false;
     return;
   }

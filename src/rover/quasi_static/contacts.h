@@ -44,6 +44,8 @@ class QuasiStaticContacts {
   // Returns false where no rock or wall can be nearer than reach_m to a rover at p_WR. It is much
   // cheaper than Update, and may return true in vain.
   bool MayMeetObstacle(const math::Vector3& p_WR, double reach_m);
+  // The same of its wheels, and closer.
+  bool WheelMayMeetObstacle(const Linkage& linkage, double reach_m);
   // Forgets everything, for a rover that was lifted.
   void Clear();
 
@@ -75,6 +77,8 @@ class QuasiStaticContacts {
   };
 
   void Gather(const math::Vector3& p_WR);
+  bool IsNear(const math::Vector3& center_W, std::size_t wheel, double reach_m,
+              const NearRock& rock) const;
   math::Vector3 WheelSupport(const Linkage& linkage, std::size_t wheel,
                              const math::Vector3& n_W) const;
   void MeetWalls(const Linkage& linkage, std::size_t wheel, double reach_m);

@@ -25,14 +25,13 @@ constexpr double kSteady_m = 2e-6;
 constexpr double kSteady_rad = 1e-5;
 // Rates that differ by no more than this share are the same.
 constexpr double kSameRate = 1e-9;
-// Share of the friction, and of the weight, that a rover which holds without a closer look may
-// need.
-constexpr double kSureFriction = 0.9;
 // A rover that moves so many times faster than its rims falls.
 constexpr double kFalls = 3.0;
 // Standing rovers that a balance lets move faster than this share of their top speed slide: ten
-// times as fast as friction lets braked wheels creep.
+// times as fast as friction lets braked wheels creep. Beyond the larger share they do not settle
+// but slide down a slope.
 constexpr double kStands = 1.6e-3;
+constexpr double kSlides = 0.1;
 // A drive that differs from the last one by less still says where the rover will be.
 constexpr double kSimilar = 0.25;
 // Rates that change by less than this share of the top speed from one stretch to the next do so
@@ -188,6 +187,7 @@ void QuasiStaticRover::SteerAtRest() {
   met_steer_rad_ = state_.steer_rad;
   if (!contacts_.MayMeetObstacle(posture_.p_WR, kReach_m)) return;
   linkage_.Update(posture_, state_.steer_rad);
+  if (!contacts_.WheelMayMeetObstacle(linkage_, kReach_m)) return;
   contacts_.Update(linkage_, kReach_m);
   const std::vector<RestingContact>& contacts = contacts_.contacts();
   if (std::none_of(contacts.begin(), contacts.end(), [](const RestingContact& contact) {
@@ -202,7 +202,8 @@ void QuasiStaticRover::Balance(const QuasiStaticBalance::Drive& drive) {
   const int iterations = balance_.Solve(linkage_, posture_, drive, contacts_.contacts(), rates_);
   ++work_.balances;
   work_.iterations += iterations;
-  if (iterations == QuasiStaticBalance::kMaxIterations) ++work_.not_converged;
+  in_balance_ = iterations < QuasiStaticBalance::kMaxIterations;
+  if (!in_balance_) ++work_.not_converged;
   if (!rates_.allFinite()) throw std::runtime_error("no balance of forces with finite rates");
 }
 
@@ -324,8 +325,10 @@ void QuasiStaticRover::BeginProgress(const messages::PerWheel<double>& rate_rad_
   for (const double rate : rate_rad_s) {
     rim_m_s = std::max(rim_m_s, std::abs(rate) * params_.geometry.wheel_radius_m);
   }
-  // A fall is no motion that wheels start or stop.
-  if (rates_.head<3>().norm() <= kFalls * rim_m_s) drive.inertia_J = Inertia(rates_, rates_);
+  // A fall is no motion that wheels start or stop: only the damping bears what nothing holds.
+  const bool falls = rates_.head<3>().norm() > kFalls * rim_m_s;
+  in_balance_ = in_balance_ && !falls;
+  if (!falls) drive.inertia_J = Inertia(rates_, rates_);
   // Another motion keeps what the old one has of it; the same at other rates goes on as it was.
   double kept = 1.0;
   if (!same_drive) {
@@ -395,8 +398,10 @@ void QuasiStaticRover::Step(const messages::WheelCommand& command) {
   const bool rolls = std::any_of(rates.from.begin(), rates.from.end(), turns) ||
                      std::any_of(rates.to.begin(), rates.to.end(), turns);
   if (rolls || progress_.speed() != 0.0) return Roll(rates, command.rate_rad_s);
-  if (!standing_ && !HoldsEasily()) Stand();
-  standing_ = standing_ || HoldsEasily();
+  // The forces of a drive in balance, each within its friction, hold the rover as well when it
+  // brakes. While wheels swing, a push that they gave may take its time: the next one comes soon.
+  if (!standing_ && !in_balance_ && (!steered || slides_)) Stand();
+  standing_ = standing_ || in_balance_;
   if (steered) SteerAtRest();
   Rest();
 }
@@ -456,21 +461,6 @@ void QuasiStaticRover::Follow(const RimShares& rims) {
   UpdatePosture();
 }
 
-// True where every contact that bears the rover could carry its load straight down: its normal is
-// nearer to the vertical than friction lets it slide. Then braked wheels hold.
-bool QuasiStaticRover::HoldsEasily() const {
-  double borne_N = 0.0;
-  for (const RestingContact& contact : contacts_.contacts()) {
-    if (contact.load_N <= 0.0) continue;
-    const double friction = kSureFriction * balance_.FrictionOf(contact);
-    const double z = contact.n_W.z();
-    // tan of the normal's angle against the vertical: sqrt(1 - z^2) / z.
-    if (z <= 0.0 || 1.0 - z * z > friction * friction * z * z) return false;
-    borne_N += contact.load_N * z;
-  }
-  return borne_N > kSureFriction * linkage_.weight_N();
-}
-
 void QuasiStaticRover::Stand() {
   linkage_.Update(posture_, state_.steer_rad);
   contacts_.Update(linkage_, kReach_m);
@@ -485,7 +475,10 @@ void QuasiStaticRover::Hold() {
   // that of a rover at rest.
   std::swap(rates_, held_rates_);
   Balance({{}, step_s(), 0.0, Freedom::kAll});
-  standing_ = rates_.head<3>().norm() < kStands * params_.drive.speed_m_s;
+  const double speed_m_s = rates_.head<3>().norm();
+  standing_ = speed_m_s < kStands * params_.drive.speed_m_s;
+  slides_ = speed_m_s > kSlides * params_.drive.speed_m_s;
+  in_balance_ = in_balance_ && standing_;
   if (!standing_) {
     Limit(step_s(), params_.quasi_static.settle_distance_m, kMaxTurn_rad, rates_);
     posture_ = Moved(posture_, rates_, step_s());

@@ -66,7 +66,6 @@ class QuasiStaticRover final : public Rover {
   void RollBetween(const MotorRates& rates);
   void Stand();
   void Hold();
-  bool HoldsEasily() const;
   double Inertia(const LinkageVector& a, const LinkageVector& b) const;
   void BeginProgress(const messages::PerWheel<double>& rate_rad_s, bool same_drive);
   void Plan(const messages::PerWheel<double>& rate_rad_s);
@@ -102,6 +101,8 @@ class QuasiStaticRover final : public Rover {
   LinkageVector held_rates_ = LinkageVector::Zero();     // of the last balance at rest
   LinkageVector carried_rates_ = LinkageVector::Zero();  // of the motion that progress_ counts
   bool standing_ = true;                                 // and known to hold
+  bool slides_ = false;                                  // in the last balance at rest
+  bool in_balance_ = false;  // are the forces of the last balance, and nothing falls
   bool steady_ = false;  // rates_ hold for as long as the ground is level and the drive the same
   Work work_;
   truth::RoverState state_;
