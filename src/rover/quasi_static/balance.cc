@@ -10,9 +10,11 @@ using math::Vector3;
 
 // Speed at which motion resistance has reached 0.7 of itself, in shares of the rim speed.
 constexpr double kResistanceCreep = 0.003;
-// A wheel that stands, or turns slowly, is judged by this share of the fastest rim, and a rover
-// whose wheels all stand by this share of its speed.
+// A wheel that stands, or turns slowly, while others turn is judged by this share of the fastest
+// rim.
 constexpr double kMinReference = 0.05;
+// Where all stand, by this share of the top speed: friction then lets them creep by 24 um/s at
+// 0.15 m/s, which no balance at rest lasts long enough to show.
 constexpr double kStandingReference = 0.08;
 // The last change of the rates, over the rover's speed. Newton's method leaves far less.
 constexpr double kTolerance = 1e-2;
@@ -167,6 +169,7 @@ void QuasiStaticBalance::AddForces(const SideVector& w, RestingContact& contact,
     contact.load_N = 0.0;
     return;
   }
+  // Loads of the first evaluation are those of rates that are only guessed.
   if (contact.load_N > 0.0 && !first_) FollowLoad(contact, row);
   row.acts = true;
   if (row.max_N == 0.0) {
