@@ -18,10 +18,11 @@ Runs that are there already are resumed. --markdown writes the tables between <!
 """
 
 import argparse
-import json
 import sys
+from functools import partial
 from pathlib import Path
 
+import calibrate_profile
 import study
 from readme_tables import write_table
 
@@ -48,10 +49,15 @@ READINGS = {
 BLIND = ["perception.hazard.enabled=false"]
 
 
-def low_rocks(path):
-    """The low reading of the heights with the pointedness that belongs to it, from a file."""
-    return [f"{key}={value}" for key, value in
-            json.loads(Path(path).read_text(encoding="utf-8"))["settings"].items()]
+LOW_HEIGHTS = ["terrain.rocks.min_height_ratio=0.4", "terrain.rocks.max_height_ratio=0.9"]
+
+
+def low_rocks(rockyard):
+    """The low reading of the heights, with the pointedness that single rocks of it ask for."""
+    pointedness = calibrate_profile.calibrate(
+        partial(calibrate_profile.seen_from, rockyard, settings=LOW_HEIGHTS),
+        calibrate_profile.TARGET_M)
+    return [*LOW_HEIGHTS, f"{calibrate_profile.POINTEDNESS}={pointedness:.4f}"]
 
 
 class Runs:
@@ -119,7 +125,7 @@ def readings(runs):
 
 
 def heights(runs):
-    low = low_rocks(PATHFINDER / "low_rocks.json")
+    low = low_rocks(runs.args.rockyard)
     rows = []
     for scenario in PUBLISHED:
         for name, settings in (("upright", []), ("low", low)):
@@ -129,8 +135,9 @@ def heights(runs):
             metres = sum(study.trial_columns(runs.folder(folder, scenario))["true_distance_m"])
             begun = sum(study.trial_columns(runs.folder(folder, scenario))["hazards_begun"])
             rows.append([scenario, name, *rates(seeing), *rates(blind), f"{begun / metres:.2f}"])
-    return study.table(["scenario", "rocks", "declared (%)", "true (%)", "blind: declared (%)",
+    text = study.table(["scenario", "rocks", "declared (%)", "true (%)", "blind: declared (%)",
                         "blind: true (%)", "avoidances begun a metre"], rows)
+    return f"{text}\n\nlow: {', '.join(low)}"
 
 
 TABLES = {f.__name__: f for f in (revision, readings, heights)}
