@@ -122,8 +122,10 @@ TEST(ReplayPayload, ASimulatorFaultIsShownUpToWhereItHappens) {
 
 // No place for every rock of an exact count.
 TEST(ReplayPayload, ATrialWithoutATerrainIsSaid) {
-  const TrialSource source = SourceOf(
-      "pathfinder/obstacles_0.85", {"terrain.rocks.clear_radius_m=3.3", "referee.time_limit_s=1"});
+  const TrialSource source =
+      SourceOf("pathfinder/obstacles_0.85",
+               {"terrain.rocks.clear_radius_m=3.3", "terrain.rocks.mirror_line=keep_off",
+                "referee.time_limit_s=1"});
   int told = 0;
   for (std::uint64_t trial = 0; trial < 8; ++trial) {
     try {

@@ -24,7 +24,8 @@ scenario::Scenario Pathfinder(const std::string& name, std::vector<std::string> 
 // Clear zones about start and goal that leave room for all fifteen rocks in some layouts only.
 scenario::Scenario CrowdedScenario() {
   return Pathfinder("obstacles_0.85",
-                    {"terrain.rocks.clear_radius_m=3.3", "referee.time_limit_s=100"});
+                    {"terrain.rocks.clear_radius_m=3.3", "terrain.rocks.mirror_line=keep_off",
+                     "referee.time_limit_s=100"});
 }
 
 TEST(DriveExperimentTest, SchemaListsTheColumnsInOrder) {
