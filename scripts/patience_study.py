@@ -20,8 +20,9 @@ import study
 
 SCENARIOS = [study.ROOT / f"scenarios/pathfinder/{name}.json"
              for name in ("nominal", "obstacles_0.85")]
-# What ends a rover that goes round for ever, and nothing else: more than a hundred courses, or turns.
-NONE_M, NONE_DEG = 1000.0, 36000.0
+# None: what ends a rover that goes round for ever. Six courses, or thirty full turns, more than the
+# longest patience; one that goes on can drive along a mirror line, reflected at every tick.
+NONE_M, NONE_DEG = 50.0, 10800.0
 WITHOUT = [f"referee.no_path_distance_m={NONE_M:g}", f"referee.no_path_turn_deg={NONE_DEG:g}"]
 DISTANCES_M = (2.0, 3.0, 4.0, 6.0, 8.0, 10.0, math.inf)
 TURNS_DEG = (720.0, 1080.0, 2160.0, math.inf)
@@ -106,7 +107,8 @@ def main():
         rows += rows_of(scenario.stem, study.trial_columns(folder))
     study.write_csv(args.out / "patience.csv", rows)
     text = table_of(rows)
-    text += (f"\n\n{args.trials} trials a scenario, seed {args.seed}, Wilson's 95 % intervals; held: "
+    text += (f"\n\n{args.trials} trials a scenario, seed {args.seed}, simulator faults left out, Wilson's "
+             "95 % intervals; held: "
              f"{', '.join(held)}; none: {NONE_M:g} m, {NONE_DEG:g} deg; made by rockyard "
              f"{', '.join(sorted(programs))}.\n")
     (args.out / "patience.md").write_text(text, encoding="utf-8")

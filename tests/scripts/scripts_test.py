@@ -293,7 +293,7 @@ scan_energy_wh,contact_hazards,tilt_hazards,articulation_hazards,current_hazards
 no_progress_distance_m,no_progress_turn_deg
 0,goal_reached,,8,1,4,1,600,10,5,1,0,0,0,3.5,900
 1,simulator_fault,,,,,,,,,,,,,,
-2,no_path,,6,3,4,1,1200,12,6,0,0,0,2,1000.1,400
+2,no_path,,6,3,4,1,1200,12,6,0,0,0,2,50.1,400
 3,jammed,,4,2,2,0,1800,14,7,0,0,1,0,6.5,100
 END
 """, encoding="utf-8")
@@ -345,7 +345,7 @@ END
         self.assertEqual(len(runs), 1)
         self.assertIn("scenarios/pathfinder/vl2.json --trials 7 --seed 1", runs[0])
         self.assertIn("--set rover.fidelity=quasi_static --set clock.stop_time_s=1 "
-                      "--set referee.no_path_distance_m=1000 --set referee.no_path_turn_deg=36000",
+                      "--set referee.no_path_distance_m=50 --set referee.no_path_turn_deg=10800",
                       runs[0])
         # One of three arrived, after 3.5 m and 900 deg without progress; one had a simulator fault.
         table = [line.split(" | ")[1:] for line in self.lines("patience/patience.md")[2:13]]
