@@ -123,6 +123,17 @@ def exact_interval(count, trials):
             quantile(count + 1.0, trials - count, 0.975) if count < trials else 1.0)
 
 
+def wilson_interval(count, trials):
+    """Wilson's 95 % interval of a share (1927)."""
+    share, square = count / trials, Z95 ** 2 / trials
+    middle = share + 0.5 * square
+    half = math.sqrt(square * (share * (1.0 - share) + 0.25 * square))
+    # Exact at the ends, where rounding is not.
+    low = (middle - half) / (1.0 + square) if count > 0 else 0.0
+    high = (middle + half) / (1.0 + square) if count < trials else 1.0
+    return low, high
+
+
 def ratio_interval(parts, wholes):
     """sum(parts) / sum(wholes) over trials, parts no larger than wholes, with its 95 % interval.
 

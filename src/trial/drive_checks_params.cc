@@ -156,6 +156,14 @@ void RequireHold(const DriveParams& drive, core::FieldVisitor& v) {
       fmt::format("use at most {:.1f} deg, or a soil of more friction or cohesion", held_deg));
 }
 
+// A stuck rover that runs on does so until its batteries are empty.
+void RequireEndOfStall(const DriveParams& drive, core::FieldVisitor& v) {
+  v.Require("referee.stuck_rover",
+            drive.referee.stuck_rover == StuckRover::kEnd || drive.energy.battery_wh > 0.0,
+            "is run_on where energy.battery_wh is 0, so that a stuck rover would run on for ever",
+            "use end, or batteries that can be empty");
+}
+
 }  // namespace
 
 void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v) {
@@ -166,6 +174,7 @@ void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v) {
   if (stereo && behaviour) RequireArray(drive, v);
   if (map) RequireOwnSize(drive, v);
   RequireHold(drive, v);
+  RequireEndOfStall(drive, v);
   RequireFreeEnds(drive, v);
   RequireDesignatedGoals(drive, v);
 }

@@ -88,13 +88,12 @@ void EnergyParams::Visit(core::FieldVisitor& v) {
   VisitLooks(*this, v);
   VisitMotors(*this, v);
   v.Real("battery_wh", battery_wh,
-         {.doc = "energy in the batteries at the start",
-          .min = 0.01,
+         {.doc = "energy in the batteries at the start; 0: they are never empty",
+          .min = 0.0,
           .max = 1e5,
-          .origin = Origin::kAssumed,
-          .source = "ten times what a nominal run draws; capacity of Rocky 3.2 is not published",
-          .study_low = 25.0,
-          .study_high = 150.0});
+          .origin = Origin::kSetting,
+          .source = "whether batteries end runs; by default ten times what a nominal run draws, as "
+                    "the capacity of Rocky 3.2 is not published"});
 }
 
 }  // namespace rockyard::trial

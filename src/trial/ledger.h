@@ -15,12 +15,13 @@ struct Stall {
 
 class Ledger {
  public:
+  // Batteries of 0 Wh are never empty.
   Ledger(const PowerBudget& budget, double battery_wh) : budget_(budget), battery_wh_(battery_wh) {}
 
   void Spend(Activity activity, double duration_s);
 
   // Closed form of a stall that nobody ends: what is left in the batteries, at stall power. Spends
-  // nothing.
+  // nothing. Zero where the batteries are never empty.
   Stall StallUntilEmpty() const;
 
   double time_s() const { return time_s_; }
@@ -31,10 +32,12 @@ class Ledger {
   double energy_wh(Activity activity) const {
     return budget_.Power(activity) * time_s(activity) / kJoulesPerWattHour;
   }
-  bool empty() const { return energy_wh() >= battery_wh_; }
+  bool empty() const { return has_end() && energy_wh() >= battery_wh_; }
 
  private:
   static constexpr double kJoulesPerWattHour = 3600.0;
+
+  bool has_end() const { return battery_wh_ > 0.0; }
 
   PowerBudget budget_;
   double battery_wh_;

@@ -31,6 +31,9 @@ bool IsEmbedded(const truth::RoverState& state, double wheel_radius_m) {
   return mean_m > wheel_radius_m;
 }
 
+// Whether so much is more than an operator bears. A limit of 0 is none.
+bool IsBeyond(double value, double limit) { return limit > 0.0 && value > limit; }
+
 bool IsMotion(Activity activity) {
   return activity == Activity::kDriving || activity == Activity::kTurning;
 }
@@ -60,7 +63,7 @@ std::optional<Verdict> Referee::Observe(const Observation& observation, const Le
     return Verdict{TrialOutcome::kLeftArena, "drove past an end of the arena"};
   }
   if (ledger.empty()) return Verdict{TrialOutcome::kEnergyDepleted, "batteries empty"};
-  if (ledger.time_s() >= params_.time_limit_s) {
+  if (params_.time_limit_s > 0.0 && ledger.time_s() >= params_.time_limit_s) {
     return Verdict{TrialOutcome::kTimeLimit, "simulated time reached time_limit_s"};
   }
   if (IsEmbedded(state, wheel_radius_m_)) {
@@ -137,13 +140,13 @@ std::optional<Verdict> Referee::CheckNoPath(const Observation& observation, doub
   const double turn_rad = observation.turned_in_place_rad - progress_.turned_rad;
   no_progress_distance_m_ = std::max(no_progress_distance_m_, distance_m);
   no_progress_turn_rad_ = std::max(no_progress_turn_rad_, turn_rad);
-  if (distance_m > params_.no_path_distance_m) {
+  if (IsBeyond(distance_m, params_.no_path_distance_m)) {
     return Verdict{TrialOutcome::kNoPath, "drove no_path_distance_m without coming nearer"};
   }
-  if (turn_rad > params_.no_path_turn_rad) {
+  if (IsBeyond(turn_rad, params_.no_path_turn_rad)) {
     return Verdict{TrialOutcome::kNoPath, "turned no_path_turn_deg without coming nearer"};
   }
-  if (time_s - progress_.time_s > params_.no_path_time_s) {
+  if (IsBeyond(time_s - progress_.time_s, params_.no_path_time_s)) {
     return Verdict{TrialOutcome::kNoPath, "spent no_path_time_s without coming nearer"};
   }
   return std::nullopt;

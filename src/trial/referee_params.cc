@@ -66,29 +66,31 @@ void VisitPatience(RefereeParams& p, core::FieldVisitor& v) {
           .study_low = 0.1,
           .study_high = 0.5});
   v.Real("no_path_distance_m", p.no_path_distance_m,
-         {.doc = "true distance driven without progress after which the operator ends the run",
-          .min = 0.1,
+         {.doc = "true distance driven without progress after which the operator ends the run; 0: "
+                 "however far",
+          .min = 0.0,
           .max = 1e5,
           .origin = Origin::kAssumed,
           .source = "half of the course once more without coming nearer",
           .study_low = 2.0,
           .study_high = 10.0});
   v.Angle("no_path_turn_deg", p.no_path_turn_rad,
-          {.doc = "turning in place without progress after which the operator ends the run",
-           .min = 90.0,
+          {.doc = "turning in place without progress after which the operator ends the run; 0: "
+                  "however much",
+           .min = 0.0,
            .max = 1e5,
            .origin = Origin::kAssumed,
            .source = "three full turns",
            .study_low = 720.0,
            .study_high = 2160.0});
   v.Real("no_path_time_s", p.no_path_time_s,
-         {.doc = "simulated time without progress after which the operator ends the run",
-          .min = 1.0,
+         {.doc = "simulated time without progress after which the operator ends the run; 0: "
+                 "however long",
+          .min = 0.0,
           .max = 1e7,
-          .origin = Origin::kAssumed,
-          .source = "180 scans without coming nearer by half a vehicle width",
-          .study_low = 1800.0,
-          .study_high = 7200.0});
+          .origin = Origin::kSetting,
+          .source = "whether a clock ends runs; by default 180 scans without coming nearer by half "
+                    "a vehicle width"});
 }
 
 }  // namespace
@@ -109,13 +111,12 @@ void RefereeParams::Visit(core::FieldVisitor& v) {
   VisitStuck(*this, v);
   VisitPatience(*this, v);
   v.Real("time_limit_s", time_limit_s,
-         {.doc = "simulated time after which the run is stopped; the four hours of a rover day",
-          .min = 1.0,
+         {.doc = "simulated time after which the run is stopped; 0: never",
+          .min = 0.0,
           .max = 1e7,
-          .origin = Origin::kAssumed,
-          .source = "the four hours of a rover day, Matthies 1995 sec. 2.1.2",
-          .study_low = 7200.0,
-          .study_high = 28800.0});
+          .origin = Origin::kSetting,
+          .source = "whether a clock ends runs; by default the four hours of a day of the MFEX "
+                    "rover, Matthies 1995 sec. 2.1.2"});
   v.Real("hazard_height_m", hazard_height_m,
          {.doc = "height from which a rock counts in hazards_met and hazards_missed; decides "
                  "nothing in the drive",

@@ -9,17 +9,24 @@ namespace rockyard::trial {
 // Counts the decisions of a drive, not seconds of a clock, so that it ends the same drives on every
 // machine. The referee ends a drive in simulated time; but a navigator that always stands still is
 // never judged, and looks that take no time never bring time_limit_s nearer. Both would be faults
-// of the program, and become simulator faults.
+// of the program, and become simulator faults. So does a drive without limit of time or patience
+// that goes on for ever.
 class TickGuard {
  public:
+  // Where there is no time limit. At 20 Hz over a day of motion, 15 km at 0.15 m/s, and more than a
+  // limit of four hours allows; simulated in minutes, before trials are taken to hang.
+  static constexpr std::int64_t kUnlimited = 2'000'000;
   // Per control tick up to the time limit: one move and one look, and as much again.
   static constexpr double kTicksPerStep = 4.0;
   static constexpr std::int64_t kMin = 100'000;  // for short limits
   // Decisions in a row that take no simulated time.
   static constexpr std::int64_t kMaxWithoutTime = 10'000;
 
+  // `time_limit_s` 0: none.
   TickGuard(double time_limit_s, double tick_s)
-      : left_(kMin + static_cast<std::int64_t>(kTicksPerStep * time_limit_s / tick_s)) {}
+      : left_(time_limit_s > 0.0
+                  ? kMin + static_cast<std::int64_t>(kTicksPerStep * time_limit_s / tick_s)
+                  : kUnlimited) {}
 
   // Before each decision. Throws std::runtime_error, which becomes the fault.
   void Observe(double time_s) {

@@ -197,8 +197,8 @@ inline constexpr std::array kDriveColumns = {
                 &DriveRecord::move_overhead_time_s},
     DriveColumn{"stall_time_s", "s",
                 "from the verdict on a rover found stuck until its batteries are empty, in closed "
-                "form; 0 where a trial ends otherwise. Counts in sim_time_s only where "
-                "referee.stuck_rover is run_on",
+                "form; 0 where a trial ends otherwise or batteries are never empty. Counts in "
+                "sim_time_s only where referee.stuck_rover is run_on",
                 &DriveRecord::stall_time_s},
     DriveColumn{"active_time_s", "s",
                 "simulated time up to the verdict; sim_time_s, unless a stuck rover runs on "

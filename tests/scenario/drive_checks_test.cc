@@ -87,6 +87,17 @@ INSTANTIATE_TEST_SUITE_P(
               kSize + ".width_m"}),
     [](const auto& tested) { return tested.param.label; });
 
+TEST(StallTest, OfBatteriesThatAreNeverEmptyIsRefusedToRunOn) {
+  const std::string run_on = "referee.stuck_rover=run_on";
+  const std::string endless = "energy.battery_wh=0";
+  EXPECT_TRUE(ProblemsOf("level_sand", {endless}, "pathfinder").empty());
+  EXPECT_TRUE(ProblemsOf("level_sand", {run_on, "energy.battery_wh=50"}, "pathfinder").empty());
+  const std::vector<core::Problem> problems =
+      ProblemsOf("level_sand", {run_on, endless}, "pathfinder");
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].path, "referee.stuck_rover");
+}
+
 // Moments about the bogie pivots at x = 0.13 m, one side: half the chassis of 7.2 kg at x, rocker
 // 0.8 kg at 0.015 m, rear wheel 0.5 kg at -0.26 m, whose load is L kg:
 //   L (-0.39) = 7.2 (x - 0.13) + 0.8 (-0.115) + 0.5 (-0.39).

@@ -289,11 +289,12 @@ made='"provenance": {"version": "0.1.0", "commit": "abc"}'
 echo "{\\"declared_success\\": $rate, \\"true_success\\": $rate, $made}" > "$out/summary.json"
 cat > "$out/trials.csv" << END
 trial,outcome,detail,true_distance_m,scrapes,hazards_met,hazards_missed,sim_time_s,energy_wh,\
-scan_energy_wh,contact_hazards,tilt_hazards,articulation_hazards,current_hazards
-0,goal_reached,,8,1,4,1,600,10,5,1,0,0,0
-1,simulator_fault,,,,,,,,,,,,
-2,no_path,,6,3,4,1,1200,12,6,0,0,0,2
-3,jammed,,4,2,2,0,1800,14,7,0,0,1,0
+scan_energy_wh,contact_hazards,tilt_hazards,articulation_hazards,current_hazards,\
+no_progress_distance_m,no_progress_turn_deg
+0,goal_reached,,8,1,4,1,600,10,5,1,0,0,0,3.5,900
+1,simulator_fault,,,,,,,,,,,,,,
+2,no_path,,6,3,4,1,1200,12,6,0,0,0,2,50.1,400
+3,jammed,,4,2,2,0,1800,14,7,0,0,1,0,6.5,100
 END
 """, encoding="utf-8")
 
@@ -335,6 +336,32 @@ END
         table = self.lines("sensor_suite/sensor_suite.md")
         self.assertTrue(table[2].startswith("| mfex_nominal | none |"), table[2])
         self.assertTrue(table[2].endswith("| 33 | 33 |"), table[2])  # jammed, no path
+
+    def test_patience_study_tells_every_patience_from_one_run(self):
+        result = self.run_script("patience_study.py", "--trials", "7", "--set", "clock.stop_time_s=1",
+                                 "scenarios/pathfinder/vl2.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        runs = self.called("rockyard")
+        self.assertEqual(len(runs), 1)
+        self.assertIn("scenarios/pathfinder/vl2.json --trials 7 --seed 1", runs[0])
+        self.assertIn("--set rover.fidelity=quasi_static --set clock.stop_time_s=1 "
+                      "--set referee.no_path_distance_m=50 --set referee.no_path_turn_deg=10800",
+                      runs[0])
+        # One of three arrived, after 3.5 m and 900 deg without progress; one had a simulator fault.
+        table = [line.split(" | ")[1:] for line in self.lines("patience/patience.md")[2:13]]
+        rates = {(row[0], row[1]): [cell.split()[0] for cell in row[2:]] for row in table}
+        arrived, ended = ["33.3", "33.3", "33.3"], ["0.0", "0.0", "100.0"]
+        self.assertEqual(rates, {
+            ("4 m", "1080 deg"): ["33.3", "33.3", "66.7"], ("2 m", "none"): ["0.0", "0.0", "100.0"],
+            ("3 m", "none"): ended, ("4 m", "none"): ["33.3", "33.3", "66.7"],
+            ("6 m", "none"): ["33.3", "33.3", "66.7"], ("8 m", "none"): arrived,
+            ("10 m", "none"): arrived, ("none", "none"): arrived,
+            ("none", "720 deg"): ["0.0", "0.0", "66.7"], ("none", "1080 deg"): arrived,
+            ("none", "2160 deg"): arrived})
+        self.assertIn("33.3 (6.1..79.2)", "\n".join(self.lines("patience/patience.md")))
+        for name in ("distance", "turn"):
+            svg = "\n".join(self.lines(f"patience/patience_{name}.svg"))
+            self.assertEqual(svg.count("<polyline"), 2)
 
     def test_runs_that_are_there_are_resumed(self):
         for times in (1, 2):

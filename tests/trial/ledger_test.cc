@@ -125,5 +125,14 @@ TEST(LedgerTest, EmptyBatteriesLeaveNothingToAStall) {
   EXPECT_EQ(ledger.StallUntilEmpty().energy_wh, 0.0);
 }
 
+TEST(LedgerTest, BatteriesOfNoCapacityAreNeverEmpty) {
+  Ledger ledger(MakePowerBudget({}), 0.0);
+  EXPECT_FALSE(ledger.empty());
+  ledger.Spend(Activity::kDriving, 1e9);
+  EXPECT_FALSE(ledger.empty());
+  EXPECT_EQ(ledger.StallUntilEmpty().time_s, 0.0);
+  EXPECT_EQ(ledger.StallUntilEmpty().energy_wh, 0.0);
+}
+
 }  // namespace
 }  // namespace rockyard::trial

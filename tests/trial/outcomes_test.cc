@@ -92,6 +92,22 @@ TEST(OutcomesTest, TimeLimit) {
   EXPECT_NEAR(result.record.sim_time_s, 20.0, 0.05 + 1e-9);
 }
 
+// Scans of an hour each, and batteries that seven of them empty.
+TEST(OutcomesTest, ClocksThatAreOffEndNothing) {
+  const auto drive = [](const Overrides& more) {
+    Overrides all{"perception.hazard.enabled=true", "clock.scan_time_s=3600",
+                  "referee.no_path_time_s=0", "referee.time_limit_s=0", "energy.battery_wh=0"};
+    all.insert(all.end(), more.begin(), more.end());
+    return RunTrial(Pathfinder("level_sand", all), {1, 0});
+  };
+  const DriveResult off = drive({});
+  EXPECT_TRUE(truth::DeclaredSuccess(off.outcome));
+  EXPECT_GT(off.record.sim_time_s, 50 * 3600.0);
+  EXPECT_EQ(drive({"referee.no_path_time_s=3600"}).outcome, TrialOutcome::kNoPath);
+  EXPECT_EQ(drive({"referee.time_limit_s=14400"}).outcome, TrialOutcome::kTimeLimit);
+  EXPECT_EQ(drive({"energy.battery_wh=50"}).outcome, TrialOutcome::kEnergyDepleted);
+}
+
 TEST(OutcomesTest, LeftArenaWhereTheOdometerIsBehind) {
   const Overrides overshoot = {"perception.dead_reckoning.distance_scale=0.6"};
   Overrides with_ends = overshoot;

@@ -364,5 +364,72 @@ TEST_F(RefereeTest, EmptyBatteriesAndTimeLimit) {
   EXPECT_EQ(verdict->outcome, TrialOutcome::kTimeLimit);
 }
 
+// What each rule would end at a limit of any size, it leaves alone where the limit is 0.
+class NoLimitTest : public RefereeTest {
+ protected:
+  void Restart() {
+    referee_ = Referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0}, kWheelRadius_m);
+    ledger_ = Ledger(kPower, energy_.battery_wh);
+  }
+};
+
+TEST_F(NoLimitTest, TimeWithoutProgress) {
+  params_.no_path_time_s = params_.time_limit_s = energy_.battery_wh = 0.0;
+  Restart();
+  for (int scan = 0; scan < 100; ++scan) {
+    ledger_.Spend(Activity::kScanning, 1e5);
+    ASSERT_FALSE(Tick(Activity::kScanning));
+  }
+  params_.no_path_time_s = 3600.0;
+  Restart();
+  ledger_.Spend(Activity::kScanning, 1e5);
+  EXPECT_EQ(Tick(Activity::kScanning)->detail, "spent no_path_time_s without coming nearer");
+}
+
+TEST_F(NoLimitTest, TimeOfTheRun) {
+  params_.no_path_time_s = params_.time_limit_s = energy_.battery_wh = 0.0;
+  Restart();
+  ledger_.Spend(Activity::kScanning, 1e7);
+  EXPECT_FALSE(Tick(Activity::kScanning));
+  params_.time_limit_s = 14400.0;
+  Restart();
+  ledger_.Spend(Activity::kScanning, 1e7);
+  EXPECT_EQ(Tick(Activity::kScanning)->outcome, TrialOutcome::kTimeLimit);
+}
+
+TEST_F(NoLimitTest, Batteries) {
+  params_.no_path_time_s = params_.time_limit_s = energy_.battery_wh = 0.0;
+  Restart();
+  EXPECT_FALSE(Tick());  // not even at the start
+  ledger_.Spend(Activity::kDriving, 1e9);
+  EXPECT_FALSE(Tick());
+  energy_.battery_wh = 1e5;
+  Restart();
+  ledger_.Spend(Activity::kDriving, 1e9);
+  EXPECT_EQ(Tick()->outcome, TrialOutcome::kEnergyDepleted);
+}
+
+TEST_F(NoLimitTest, Distance) {
+  params_.no_path_distance_m = 0.0;
+  Restart();
+  distance_m_ = 1e6;
+  EXPECT_FALSE(Tick(Activity::kScanning));
+  EXPECT_EQ(referee_.no_progress_distance_m(), 1e6);
+  params_.no_path_distance_m = 1e5;
+  Restart();
+  EXPECT_EQ(Tick(Activity::kScanning)->detail, "drove no_path_distance_m without coming nearer");
+}
+
+TEST_F(NoLimitTest, Turns) {
+  params_.no_path_turn_rad = 0.0;
+  Restart();
+  turned_rad_ = 1e6;
+  EXPECT_FALSE(Tick(Activity::kScanning));
+  EXPECT_EQ(referee_.no_progress_turn_rad(), 1e6);
+  params_.no_path_turn_rad = 1e5;
+  Restart();
+  EXPECT_EQ(Tick(Activity::kScanning)->detail, "turned no_path_turn_deg without coming nearer");
+}
+
 }  // namespace
 }  // namespace rockyard::trial

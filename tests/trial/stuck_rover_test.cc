@@ -74,6 +74,16 @@ TEST_F(StuckRoverTest, TracesEndWithTheirRecords) {
   EXPECT_EQ(ran_on_.trace.samples.size(), ended_.trace.samples.size());
 }
 
+TEST(EndlessBatteriesTest, AStallThatNothingEndsIsNotToldOf) {
+  const DriveResult endless = RunTrial(AtAWall({"energy.battery_wh=0"}), {1, 0});
+  ASSERT_EQ(endless.outcome, TrialOutcome::kJammed);
+  EXPECT_EQ(endless.record.stall_time_s, 0.0);
+  EXPECT_EQ(endless.record.stall_energy_wh, 0.0);
+  const DriveResult ending = RunTrial(AtAWall({"energy.battery_wh=50"}), {1, 0});
+  EXPECT_THAT(Differences(ending, endless),
+              testing::UnorderedElementsAre("stall_time_s", "stall_energy_wh"));
+}
+
 TEST(FreeRoverTest, WhatIsNotStuckHasNoStall) {
   for (const std::string option : {"end", "run_on"}) {
     const DriveResult result =
