@@ -88,6 +88,31 @@ TEST(Reference, FailureKindsMustAddUp) {
   EXPECT_THAT(ProblemsOf(text), HasSubstr("values[0].kinds"));
 }
 
+TEST(Reference, ArrivalsBelongToSetsThatCanBeSplit) {
+  const std::string head = R"({"schema_version": 1, "values": [{"id": "a", "scenario": "s",
+    "sample_size": 6, "value": 4, )";
+  const std::string mode = head + R"("statistic": "mode", "column": "x", "arrived": )";
+  EXPECT_EQ(ProblemsOf((mode + "5}]}").c_str()), "");
+  EXPECT_THAT(ProblemsOf((mode + "7}]}").c_str()), HasSubstr("values[0].arrived"));
+  const std::string count = head + R"("statistic": "outcome_count", "outcomes": ["jammed"],
+    "arrived": 5}]})";
+  EXPECT_THAT(ProblemsOf(count.c_str()), HasSubstr("values[0].arrived"));
+}
+
+// Every number of table 4 and figure 17 was printed for 40 runs of which 39 arrived.
+TEST(Reference, TheFortyRunsOfNominalTerrainHaveTheirArrivals) {
+  int split = 0;
+  for (const auto& value : Matthies().values) {
+    const bool of_forty = value.scenario == "nominal" && value.sample_size == 40 &&
+                          statistics::SplitsByArrival(value.statistic);
+    EXPECT_EQ(value.arrived, of_forty ? 39 : 0) << value.id;
+    split += of_forty ? 1 : 0;
+  }
+  EXPECT_EQ(split, 13);
+  const std::string text = ComparisonText(Matthies(), CompareSynthetic());
+  EXPECT_THAT(text, HasSubstr("      39 arrivals of 40"));
+}
+
 TEST(ComparisonText, FitsAHundredColumnsAndNamesEveryValue) {
   const PublishedReference reference = Matthies();
   const std::string text = ComparisonText(reference, CompareSynthetic());

@@ -69,6 +69,7 @@ TEST(HazardReference, MistakesAreNamed) {
   EXPECT_THAT(ProblemsOf(rate), HasSubstr("are no tolerance"));
   EXPECT_THAT(ProblemsOf(rate + R"(, "low": 2, "high": 1)"), HasSubstr("are no tolerance"));
   EXPECT_THAT(ProblemsOf(rate + R"(, "low": 0, "sample_size": 3)"), HasSubstr("sample_size"));
+  EXPECT_THAT(ProblemsOf(rate + R"(, "low": 0, "arrived": 3)"), HasSubstr("has no sample"));
   EXPECT_THAT(ProblemsOf(rate + R"(, "low": 0, "along": "height_m")"),
               HasSubstr("abscissa of a crossing"));
   EXPECT_THAT(ProblemsOf(rate + R"(, "low": 0, "formula": "sum")"), HasSubstr("is simulated"));
@@ -77,6 +78,10 @@ TEST(HazardReference, MistakesAreNamed) {
   EXPECT_THAT(
       ProblemsOf(R"("statistic": "computed", "formula": "any_of", "inputs": [1], "low": 0)"),
       HasSubstr("are not as many as the formula takes"));
+  EXPECT_THAT(
+      ProblemsOf(
+          R"("statistic": "computed", "formula": "power_law_cover", "inputs": [1, 1, 2], "low": 0)"),
+      HasSubstr("outside of what the formula holds for"));
   EXPECT_THAT(ProblemsOf(R"("statistic": "computed", "inputs": [1], "low": 0)"),
               HasSubstr("name a closed form"));
   EXPECT_THAT(ProblemsOf(R"("statistic": "mode", "scenario": "s", "column": "c", "sample_size": 9,)"
