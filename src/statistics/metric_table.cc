@@ -110,6 +110,8 @@ constexpr std::array kMetrics = {
     All("image_sets", "1", "image_sets", 0.5, 0.1, "pairs of stereo images"),
     All("hazards_believed", "1", "hazards_believed", 0.5, 0.15,
         "scans whose hazard the navigator believed"),
+    All("hazards_begun", "1", "hazards_begun", 0.5, 0.15,
+        "of these, those after a scan without: times that the rover began to avoid"),
     All("stops", "1", "stops", 0.5, 0.1, "times that the rover came to rest"),
     ShareWith("beyond_soil_law", "beyond_soil_law",
               "share of trials in which a wheel sank deeper than the law of sinkage holds"),

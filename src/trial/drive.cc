@@ -185,10 +185,9 @@ std::optional<Verdict> Drive::Look(messages::LookDirection direction) {
     if (params_.sensors.gyro.accumulates_at_rest) UpdateEstimate(percept_.time.total_s(), false);
   } while (percept_.look_again);
   RecordLook(direction);
-  if (percept_.report && percept_.report->any()) {
-    ++hazards_;
-    watch_.OnBelieved(rover_->state().X_WR);
-  }
+  const bool believed = percept_.report && percept_.report->any();
+  hazards_.Observe(believed);
+  if (believed) watch_.OnBelieved(rover_->state().X_WR);
   return AskReferee(Activity::kScanning, 0, percept_.time.total_s());
 }
 
@@ -217,6 +216,7 @@ std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const 
   NoticeStuck(command, measured);
   localizer_.UpdateAttitude(guard_.measured(), stretch.duration_s);
   monitor_.Observe(rover_->state(), activity == Activity::kTurning);
+  ObserveErrors();
   watch_.Observe(rover_->state().X_WR);
   Sample(activity);
   // Operators turn a rover whose position reaches the line; one that turns in place stays its own
@@ -255,6 +255,15 @@ void Drive::NoticeStuck(const messages::WheelCommand& command,
   if (!sign) return;
   ++stuck_noticed_;
   Record("felt", Describe(*sign));
+}
+
+void Drive::ObserveErrors() {
+  const messages::PoseEstimate& estimate = localizer_.pose();
+  const double heading_rad = math::Heading(rover_->state().X_WR);
+  const double distance_m = monitor_.distance_m();
+  heading_growth_.Observe(distance_m,
+                          math::RadToDeg(math::WrapAngle(estimate.heading_rad - heading_rad)));
+  distance_growth_.Observe(distance_m, estimate.distance_m - distance_m);
 }
 
 void Drive::ReflectAtMirrorLine(int direction) {

@@ -16,6 +16,8 @@
 #include "terrain/field.h"
 #include "trial/drive_monitor.h"
 #include "trial/drive_params.h"
+#include "trial/error_growth.h"
+#include "trial/hazard_counter.h"
 #include "trial/hazard_watch.h"
 #include "trial/ledger.h"
 #include "trial/localizer.h"
@@ -58,6 +60,8 @@ class Drive {
   // Asks whether the rover gets on, where it looks for that.
   void NoticeStuck(const messages::WheelCommand& command,
                    const messages::MotionMeasurement& motion);
+  // What the rover believes, against what the monitor saw.
+  void ObserveErrors();
   void ReflectAtMirrorLine(int direction);
   std::optional<Verdict> AskReferee(Activity activity, int direction, double duration_s);
   DriveResult Finish(const Verdict& verdict);
@@ -106,13 +110,15 @@ class Drive {
   Ledger ledger_;
   Stall stall_;  // of a rover that was found stuck
   DriveMonitor monitor_;
+  ErrorGrowth heading_growth_;   // deg
+  ErrorGrowth distance_growth_;  // m
   HazardWatch watch_;
   Referee referee_;
 
   StepWatcher step_watcher_;
   Percept percept_;       // of the last tick, where it was a look
   bool rolling_ = false;  // in the last stretch
-  std::int64_t hazards_ = 0;
+  HazardCounter hazards_;
   TurnCounter turns_;
   MoveCounter moves_;
   StopCounter stops_;

@@ -51,6 +51,8 @@ void Drive::ReportErrors(truth::DriveRecord& record) const {
   record.heading_error_deg =
       math::RadToDeg(std::abs(math::WrapAngle(estimate.heading_rad - reference.heading_rad)));
   record.position_error_m = std::hypot(estimate.x_m - reference.x_m, estimate.y_m - reference.y_m);
+  record.heading_growth_deg2_per_m = heading_growth_.per_m();
+  record.distance_growth_m2_per_m = distance_growth_.per_m();
   if (navigator_->view() != nullptr) {
     record.height_error_m = localizer_.HeightError(rover_->state());
   }
@@ -90,7 +92,8 @@ void Drive::ReportCounts(truth::DriveRecord& record) const {
   record.moves = static_cast<double>(moves_.moves());
   record.point_turns = static_cast<double>(moves_.point_turns());
   record.reversals = static_cast<double>(moves_.reversals());
-  record.hazards_believed = static_cast<double>(hazards_);
+  record.hazards_believed = static_cast<double>(hazards_.believed());
+  record.hazards_begun = static_cast<double>(hazards_.begun());
   record.turns_in_place = static_cast<double>(turns_.turns());
   record.scrapes = static_cast<double>(motion_sensors_->scrapes().episodes());
   record.stops = static_cast<double>(stops_.stops());
@@ -101,6 +104,8 @@ void Drive::ReportCounts(truth::DriveRecord& record) const {
   record.beyond_soil_law =
       monitor_.max_sinkage_m() > rover::LargestLawfulSinkage(params_.rover.geometry) ? 1.0 : 0.0;
   record.unconverged_balances = static_cast<double>(rover_->unconverged_balances());
+  record.no_progress_distance_m = referee_.no_progress_distance_m();
+  record.no_progress_turn_deg = math::RadToDeg(referee_.no_progress_turn_rad());
   record.layout = static_cast<double>(LayoutKey(params_, key_).trial);
   record.rocks = static_cast<double>(field_.terrain.rocks().size());
   record.rock_cover = field_.audit.outline_cover;

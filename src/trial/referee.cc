@@ -133,10 +133,14 @@ std::optional<Verdict> Referee::CheckNoPath(const Observation& observation, doub
     progress_.turned_rad = observation.turned_in_place_rad;
     return std::nullopt;
   }
-  if (observation.true_distance_m - progress_.distance_m > params_.no_path_distance_m) {
+  const double distance_m = observation.true_distance_m - progress_.distance_m;
+  const double turn_rad = observation.turned_in_place_rad - progress_.turned_rad;
+  no_progress_distance_m_ = std::max(no_progress_distance_m_, distance_m);
+  no_progress_turn_rad_ = std::max(no_progress_turn_rad_, turn_rad);
+  if (distance_m > params_.no_path_distance_m) {
     return Verdict{TrialOutcome::kNoPath, "drove no_path_distance_m without coming nearer"};
   }
-  if (observation.turned_in_place_rad - progress_.turned_rad > params_.no_path_turn_rad) {
+  if (turn_rad > params_.no_path_turn_rad) {
     return Verdict{TrialOutcome::kNoPath, "turned no_path_turn_deg without coming nearer"};
   }
   if (time_s - progress_.time_s > params_.no_path_time_s) {

@@ -51,6 +51,12 @@ class Referee {
   // The verdict on a navigator that stopped by itself.
   Verdict OnNavigatorStop(navigation::NavigatorStatus status, const truth::RoverState& state) const;
 
+  // The most that was driven, and turned in place, since a progress towards the goal and before the
+  // next one. Nothing before a verdict depends on the patience, so a trial that had none ends with
+  // less of it as no path where one of the two is more, and as it did where neither is.
+  double no_progress_distance_m() const { return no_progress_distance_m_; }
+  double no_progress_turn_rad() const { return no_progress_turn_rad_; }
+
  private:
   // A stretch of commanded motion, scans left out.
   struct Window {
@@ -91,6 +97,8 @@ class Referee {
   double tip_over_cosine_;
   std::optional<Window> window_;
   Progress progress_;
+  double no_progress_distance_m_ = 0.0;
+  double no_progress_turn_rad_ = 0.0;
 };
 
 }  // namespace rockyard::trial

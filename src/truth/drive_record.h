@@ -85,6 +85,13 @@ struct DriveRecord {
   double max_sinkage_m = 0.0;            // deepest that a wheel went below the ground
   double beyond_soil_law = 0.0;          // 1: deeper than the sinkage law holds, D / 6
   double unconverged_balances = 0.0;     // quasi_static: of the rover's motion
+  // The most between two progresses towards the goal (trial/referee.h), or since the last one.
+  double no_progress_distance_m = 0.0;  // driven, true
+  double no_progress_turn_deg = 0.0;    // turned in place, true
+  // Slopes of squared errors against the true distance along the run (trial/error_growth.h).
+  double heading_growth_deg2_per_m = 0.0;
+  double distance_growth_m2_per_m = 0.0;
+  double hazards_begun = 0.0;  // of hazards_believed, those that the scan before did not see
 };
 
 struct DriveColumn {
@@ -256,6 +263,24 @@ inline constexpr std::array kDriveColumns = {
                 "balances of forces that were used without having met their tolerance; 0 for the "
                 "multibody, which has none",
                 &DriveRecord::unconverged_balances},
+    DriveColumn{
+        "no_progress_distance_m", "m",
+        "most true distance driven without progress (referee.no_path_progress_m); under less "
+        "patience than that the trial would have ended as no_path",
+        &DriveRecord::no_progress_distance_m},
+    DriveColumn{"no_progress_turn_deg", "deg", "most turning in place without progress, as above",
+                &DriveRecord::no_progress_turn_deg},
+    DriveColumn{"heading_growth_deg2_per_m", "deg2/m",
+                "slope of the squared heading error against true distance along the run, by least "
+                "squares through the origin",
+                &DriveRecord::heading_growth_deg2_per_m},
+    DriveColumn{"distance_growth_m2_per_m", "m2/m",
+                "the same of the error of the dead-reckoned distance",
+                &DriveRecord::distance_growth_m2_per_m},
+    DriveColumn{"hazards_begun", "1",
+                "scans whose hazard was believed after one without: once for each avoidance; 0 "
+                "with a navigator that reports no hazards (a map)",
+                &DriveRecord::hazards_begun},
 };
 
 }  // namespace rockyard::truth

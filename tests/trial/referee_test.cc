@@ -265,6 +265,48 @@ TEST_F(RefereeTest, ProgressResetsThePatience) {
   }));
 }
 
+// Drives and turns between gains of 0.25 m: the largest of each of these pauses is kept.
+TEST_F(RefereeTest, KeepsTheMostWithoutProgress) {
+  EXPECT_EQ(referee_.no_progress_distance_m(), 0.0);
+  EXPECT_EQ(referee_.no_progress_turn_rad(), 0.0);
+  double x_m = 0.0;
+  double heading_rad = 0.0;
+  const auto pause = [&](double distance_m, double turn_rad) {
+    distance_m_ += distance_m;
+    turned_rad_ += turn_rad;
+    TurnTo(heading_rad += turn_rad);
+    ASSERT_FALSE(Tick(Activity::kTurning));
+  };
+  const auto gain = [&] {
+    x_m += 0.25;
+    distance_m_ += 10.0;  // a tick that gains counts for neither
+    turned_rad_ += 100.0;
+    MoveTo(x_m, 0.0);
+    estimate_.x_m = x_m;
+    ASSERT_FALSE(Tick(Activity::kDriving));
+  };
+  pause(1.0, 0.5);
+  pause(0.5, 2.0);
+  gain();
+  EXPECT_NEAR(referee_.no_progress_distance_m(), 1.5, 1e-12);
+  EXPECT_NEAR(referee_.no_progress_turn_rad(), 2.5, 1e-12);
+  pause(2.25, 0.25);
+  gain();
+  pause(1.0, 3.0);
+  EXPECT_NEAR(referee_.no_progress_distance_m(), 2.25, 1e-12);
+  EXPECT_NEAR(referee_.no_progress_turn_rad(), 3.0, 1e-12);
+}
+
+// The tick that ends a run counts, so that a run driven without patience tells what it would have
+// been with some.
+TEST_F(RefereeTest, TheTickOfNoPathIsKept) {
+  distance_m_ = params_.no_path_distance_m + 0.01;
+  const auto verdict = Tick();
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->outcome, TrialOutcome::kNoPath);
+  EXPECT_GT(referee_.no_progress_distance_m(), params_.no_path_distance_m);
+}
+
 // Wheels that spin bring the rover nearer as it believes, and not truly: the operator who lets them
 // spin still waits no longer than for a rover that stands.
 TEST_F(RefereeTest, SpinningWheelsAreNoProgress) {
