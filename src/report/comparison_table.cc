@@ -119,6 +119,15 @@ std::vector<std::string> Scenarios(const ComparisonResult& result) {
   return names;
 }
 
+// Arithmetic that agrees with a publication says nothing about the simulation.
+std::string ComputedAmongThem(const ComparisonResult& result) {
+  const auto computed =
+      std::count_if(result.values.begin(), result.values.end(), [](const ComparedValue& value) {
+        return value.published.statistic == statistics::StatisticKind::kComputed;
+      });
+  return computed == 0 ? "" : fmt::format("; {} of them computed, not simulated", computed);
+}
+
 }  // namespace
 
 std::vector<std::string> ComparisonNotes(const ComparisonResult& result) {
@@ -158,10 +167,10 @@ std::string ComparisonText(const PublishedReference& reference, const Comparison
       if (value.published.scenario == scenario) text += Row(value);
     }
   }
-  text +=
-      fmt::format("\n{} agree, {} differ, {} underpowered, {} not judged\n\n",
-                  CountOf(result, Verdict::kAgrees), CountOf(result, Verdict::kDiffers),
-                  CountOf(result, Verdict::kUnderpowered), CountOf(result, Verdict::kNotJudged));
+  text += fmt::format("\n{} agree, {} differ, {} underpowered, {} not judged{}\n\n",
+                      CountOf(result, Verdict::kAgrees), CountOf(result, Verdict::kDiffers),
+                      CountOf(result, Verdict::kUnderpowered), CountOf(result, Verdict::kNotJudged),
+                      ComputedAmongThem(result));
   for (const statistics::OtherSettings& changed : result.changed) {
     text += Wrap(fmt::format("{} is {}", changed.scenario, kNotPublishedCase), 0) + "\n";
   }

@@ -40,7 +40,7 @@ ComparisonResult CompareSynthetic(std::size_t replicates = 500) {
 
 TEST(Reference, TheCommittedFileParses) {
   const PublishedReference reference = Matthies();
-  EXPECT_EQ(reference.values.size(), 24u);
+  EXPECT_EQ(reference.values.size(), 29u);
   EXPECT_FALSE(reference.misprints.empty());
   const auto& success = reference.values[4];
   EXPECT_EQ(success.id, "nominal.success");
@@ -146,7 +146,7 @@ TEST(ComparisonJUnit, CountsVerdictsAndEscapes) {
     result.values[i].verdict = Verdict::kAgrees;
   }
   const std::string xml = ComparisonJUnit(Matthies(), result);
-  EXPECT_THAT(xml, HasSubstr("tests=\"24\" failures=\"1\" skipped=\"0\""));
+  EXPECT_THAT(xml, HasSubstr("tests=\"29\" failures=\"1\" skipped=\"0\""));
   EXPECT_THAT(xml, HasSubstr("a &lt; b &amp; &quot;c&quot;"));
   EXPECT_THAT(xml, HasSubstr("<testcase classname=\"nominal\" name=\"nominal.success\"/>"));
 }
@@ -154,8 +154,8 @@ TEST(ComparisonJUnit, CountsVerdictsAndEscapes) {
 // A misspelt name or a moved file would take the warning away without a word.
 TEST(Reference, NamesTheFileOfEveryScenario) {
   const std::filesystem::path folder = ROCKYARD_SOURCE_DIR "/results/reference";
-  for (const char* file :
-       {"matthies1995.json", "matthies1995_hazard_detection.json", "goldberg2002.json"}) {
+  for (const char* file : {"matthies1995.json", "matthies1995_hazard_detection.json",
+                           "matthies1995_mission.json", "goldberg2002.json"}) {
     const PublishedReference reference = LoadReference(folder / file);
     std::set<std::string> named;
     for (const auto& scenario : reference.scenarios) {
