@@ -164,21 +164,21 @@ TEST(ByArrival, RatiosAndMeansOfArrivalsAlone) {
   EXPECT_TRUE(CompareOne(value, records).beside.empty());
 }
 
-// Absolute values of a normal law.
-std::vector<Record> AbsoluteErrors() {
+// Absolute values of a normal law, in a unit of choice.
+std::vector<Record> AbsoluteErrors(double unit = 1.0) {
   std::vector<Record> records;
   core::RandomStream stream({6, 1}, core::Purpose::kTest);
   for (std::uint32_t i = 0; i < 300; ++i) {
-    const double x = std::abs(core::SampleNormal(stream, 0.0, 1.0));
+    const double x = std::abs(core::SampleNormal(stream, 0.0, 1.0)) / unit;
     records.push_back({i, TrialOutcome::kGoalReached, "", {x}});
   }
   return records;
 }
 
-double PowerWith(StatisticKind statistic, double limit) {
+double PowerWith(StatisticKind statistic, double limit, double unit = 1.0) {
   PublishedValue value = Value(statistic, 0, 1.0);
   value.lower_limit = limit;
-  return CompareOne(value, AbsoluteErrors()).power;
+  return CompareOne(value, AbsoluteErrors(unit)).power;
 }
 
 // Forty errors say next to nothing about a scale by their minimum, while a shift by half a
@@ -196,6 +196,20 @@ TEST(PowerWithALimit, IsNeverAboveThatOfAShift) {
     EXPECT_LE(PowerWith(statistic, 0.0), PowerWith(statistic, nowhere));
   }
   EXPECT_EQ(PowerWith(kMaximum, 0.0), PowerWith(kMaximum, nowhere)) << "a shift is harder to see";
+}
+
+TEST(PowerWithALimit, DoesNotDependOnTheUnit) {
+  EXPECT_EQ(PowerWith(StatisticKind::kMinimum, 0.0, 0.0078125),
+            PowerWith(StatisticKind::kMinimum, 0.0));
+}
+
+// A statistic that is uniform from .9 to 1.1: times 1.15 it lies above 1.1 in 72 % of cases,
+// divided by 1.15 below .9 in 67 %.
+TEST(PowerWithALimit, TheDirectionThatIsHarderToSeeCounts) {
+  std::vector<double> even;
+  for (int i = 0; i <= 2000; ++i) even.push_back(0.9 + 0.0001 * i);
+  EXPECT_NEAR(ScalePower(even, 0.0, 1.15, 0.002), (0.9 - 0.9 / 1.15) / (0.2 / 1.15), 0.005);
+  EXPECT_EQ(ScalePower(even, 0.0, 1.15, 0.002), ScalePower(even, 0.0, 1.0 / 1.15, 0.002));
 }
 
 double MeanOf(std::span<const double> sample) { return MomentsOf(sample).mean(); }

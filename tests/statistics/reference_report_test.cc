@@ -111,6 +111,8 @@ TEST(Reference, TheFortyRunsOfNominalTerrainHaveTheirArrivals) {
   EXPECT_EQ(split, 13);
   const std::string text = ComparisonText(Matthies(), CompareSynthetic());
   EXPECT_THAT(text, HasSubstr("      39 arrivals of 40"));
+  EXPECT_THAT(text, testing::ContainsRegex("39 arrivals of 40 +[0-9]+ \\([0-9]+ \\.\\. [0-9]+\\)"))
+      << "counts are whole";
 }
 
 TEST(ComparisonText, FitsAHundredColumnsAndNamesEveryValue) {
