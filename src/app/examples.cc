@@ -40,6 +40,8 @@ constexpr CommandExample kExamples[] = {
      "a picture of one trial's rocks"},
     {"terrain", "rockyard terrain scenarios/pathfinder/vl2.json --blind-swath",
      "how far a rover that sees nothing gets"},
+    {"terrain", "rockyard terrain scenarios/pathfinder/nominal.json --density",
+     "rocks along the course against the law"},
     {"trace", "rockyard trace results/runs/first --trial 0 --svg trial.svg",
      "what happened in a trial, and a plan view"},
     {"trace", "rockyard trace scenarios/pathfinder/nominal.json --trial 7 --csv trial.csv",

@@ -12,6 +12,7 @@
 #include "app/blind_swath.h"
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/corridor_density.h"
 #include "campaign/output_file.h"
 #include "core/error.h"
 #include "report/atomic_file.h"
@@ -32,6 +33,7 @@ struct TerrainOptions {
   std::vector<std::string> overrides;
   std::string out;
   bool blind_swath = false;
+  bool density = false;
   std::optional<double> width_m;
   std::optional<double> min_diameter_m;
   std::int64_t fields = 1000;
@@ -67,7 +69,7 @@ std::string Export(Format format, const terrain::Field& field, const terrain::Te
 void WriteTerrain(const TerrainOptions& options) {
   if (options.out.empty()) {
     throw core::UserError("--out", "is not given",
-                          "name a file to write, or ask for --blind-swath");
+                          "name a file to write, or ask for --blind-swath or --density");
   }
   const Format format = FormatOf(options.out);
   campaign::CheckOutputFile("--out", options.out);
@@ -88,7 +90,13 @@ void ShowBlindSwath(const TerrainOptions& options) {
   Print(BlindSwathText(scenario, seed, options.fields, swath));
 }
 
-void AddSwathOptions(CLI::App& command, TerrainOptions& options, CLI::Option* out) {
+void ShowDensity(const TerrainOptions& options) {
+  const scenario::Scenario scenario = scenario::LoadScenario(options.scenario, options.overrides);
+  const std::uint64_t seed = options.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
+  Print(CorridorDensityText(scenario, seed, options.fields));
+}
+
+void AddTableOptions(CLI::App& command, TerrainOptions& options, CLI::Option* out) {
   CLI::Option* blind = command.add_flag(
       "--blind-swath", options.blind_swath,
       "Print how far a straight blind swath gets before it meets a rock; writes no file");
@@ -101,10 +109,15 @@ void AddSwathOptions(CLI::App& command, TerrainOptions& options, CLI::Option* ou
                   "of rocks that count, m; by default those of mean shape that reach the belly")
       ->check(CLI::Range(0.0, 100.0))
       ->needs(blind);
+  CLI::Option* density =
+      command.add_flag("--density", options.density,
+                       "Print how many rocks lie along the course, by size and placement rule, "
+                       "against the law; writes no file");
+  density->excludes(out)->excludes(blind);
   command.add_option("--fields", options.fields, "number of fields")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str()
-      ->needs(blind);
+      ->excludes(out);
 }
 
 }  // namespace
@@ -114,7 +127,7 @@ void AddTerrainCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "terrain",
       "Writes the terrain of one trial as JSON, CSV, OBJ or SVG, by the file's extension, or "
-      "tells how far a blind swath gets");
+      "tells how far a blind swath gets or how densely rocks lie along the course");
   command->add_option("scenario", options->scenario, "Scenario file")->required();
   command->add_option("--seed", options->seed, "Campaign seed; the scenario's by default");
   command->add_option("--trial", options->trial, "Trial index, from 0")->capture_default_str();
@@ -122,10 +135,12 @@ void AddTerrainCommand(CLI::App& app) {
       ->allow_extra_args(false);
   CLI::Option* out =
       command->add_option("--out", options->out, "File to write: .json, .csv, .obj or .svg");
-  AddSwathOptions(*command, *options, out);
+  AddTableOptions(*command, *options, out);
   command->callback([options] {
     if (options->blind_swath) {
       ShowBlindSwath(*options);
+    } else if (options->density) {
+      ShowDensity(*options);
     } else {
       WriteTerrain(*options);
     }

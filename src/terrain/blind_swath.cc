@@ -2,32 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
 
+#include "math/simpson.h"
 #include "terrain/rock_size_law.h"
 #include "terrain/swept_path.h"
 
 namespace rockyard::terrain {
 namespace {
 
-// Composite Simpson rule: h/3 (f_0 + 4 f_1 + 2 f_2 + ... + 4 f_63 + f_64).
-double Simpson(double low, double high, const std::function<double(double)>& f) {
-  constexpr int kIntervals = 64;
-  const double step = (high - low) / kIntervals;
-  double sum = f(low) + f(high);
-  for (int i = 1; i < kIntervals; ++i) sum += (i % 2 == 1 ? 4.0 : 2.0) * f(low + i * step);
-  return sum * step / 3.0;
-}
-
 // Mean over all directions of the extent of an ellipse with axes 1 and q, in units of its longer
 // axis: its width at an angle t is sqrt(cos^2 t + q^2 sin^2 t), and by Cauchy the mean width is
 // perimeter / pi.
 double MeanExtent(double q) {
-  return 2.0 / std::numbers::pi * Simpson(0.0, 0.5 * std::numbers::pi, [q](double angle) {
+  return 2.0 / std::numbers::pi * math::Simpson(0.0, 0.5 * std::numbers::pi, [q](double angle) {
            return std::hypot(std::cos(angle), q * std::sin(angle));
          });
 }
@@ -37,7 +28,7 @@ double MeanExtent(const RockFieldParams& rocks) {
   const double low = rocks.min_width_ratio;
   const double high = rocks.max_width_ratio;
   if (high - low < 1e-9) return MeanExtent(low);
-  return Simpson(low, high, [](double q) { return MeanExtent(q); }) / (high - low);
+  return math::Simpson(low, high, [](double q) { return MeanExtent(q); }) / (high - low);
 }
 
 // Integral of D^power over the share of the law at or above low_m: (1 - Cdf(low)) times the mean of

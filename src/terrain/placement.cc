@@ -21,11 +21,11 @@ bool Overlap(const Disc& a, const Disc& b) {
 }  // namespace
 
 Placement::Placement(const Rectangle& layout, const Course& course, double clear_radius_m,
-                     std::optional<double> mirror_line_m)
+                     std::optional<double> line_to_keep_off_m)
     : layout_(layout),
       course_(course),
       clear_radius_m_(clear_radius_m),
-      mirror_line_m_(mirror_line_m),
+      line_to_keep_off_m_(line_to_keep_off_m),
       cell_m_(std::max(kSmallestCell_m, std::sqrt(layout.Area() / kMaxCells))),
       nx_(static_cast<int>((layout.x_max_m - layout.x_min_m) / cell_m_) + 1),
       ny_(static_cast<int>((layout.y_max_m - layout.y_min_m) / cell_m_) + 1),
@@ -49,8 +49,9 @@ Placement::Cells Placement::CellsOf(const Disc& disc) const {
 }
 
 bool Placement::Free(const Disc& disc) const {
-  // A disc across the mirror line would meet its own image.
-  if (mirror_line_m_ && std::abs(disc.y_m) + disc.radius_m > *mirror_line_m_) return false;
+  if (line_to_keep_off_m_ && std::abs(disc.y_m) + disc.radius_m > *line_to_keep_off_m_) {
+    return false;
+  }
   const Cells cells = CellsOf(disc);
   // Two discs that overlap share a cell of their bounding boxes, so looking into the disc's own
   // cells is enough.

@@ -20,14 +20,16 @@ struct Disc {
 // The discs that are placed so far, and where the next one may go.
 class Placement {
  public:
-  // Where there is a mirror line h, discs must keep to |y| <= h. Then none overlaps its own mirror
-  // image about y = +-h, and so no image of another one either.
+  // Where discs keep off a mirror line h, their |y| + radius stays below it, and none overlaps its
+  // own image about y = +-h. Images of other discs need no look under either rule: with distances
+  // d1 and d2 of two centres from a line, both on the same side, the one is dx^2 + (d1 + d2)^2 away
+  // (squared) from the other's image and dx^2 + (d1 - d2)^2 from the other itself, which is less.
   Placement(const Rectangle& layout, const Course& course, double clear_radius_m,
-            std::optional<double> mirror_line_m);
+            std::optional<double> line_to_keep_off_m);
 
   // Returns whether the disc reaches into no clear zone around start or goal.
   bool ClearOfCourse(const Disc& disc) const;
-  // Returns whether the disc overlaps neither a placed one nor any mirror image.
+  // Returns whether the disc overlaps no placed one and crosses no line that discs keep off.
   bool Free(const Disc& disc) const;
   void Add(const Disc& disc);
 
@@ -44,7 +46,7 @@ class Placement {
   Rectangle layout_;
   Course course_;
   double clear_radius_m_;
-  std::optional<double> mirror_line_m_;
+  std::optional<double> line_to_keep_off_m_;
   double cell_m_;
   int nx_;
   int ny_;

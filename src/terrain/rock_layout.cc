@@ -74,15 +74,20 @@ Rock DrawRock(const RockFieldParams& params, const RockSizeLaw& law, core::Trial
   return rock;
 }
 
+// The mirror line that rocks keep off, if any.
+std::optional<double> LineToKeepOff(const TerrainParams& params) {
+  if (!params.arena.IsVirtual() || params.rocks.mirror_line == LineRule::kMerge) return {};
+  return params.arena.MirrorLine();
+}
+
 class LayoutBuilder {
  public:
   LayoutBuilder(const TerrainParams& params, core::TrialKey key, const Course& course)
       : params_(params.rocks),
         key_(key),
         law_(MakeSizeLaw(params.rocks)),
-        placement_(
-            LayoutBounds(params), course, params.rocks.clear_radius_m,
-            params.arena.IsVirtual() ? std::optional(params.arena.MirrorLine()) : std::nullopt) {}
+        placement_(LayoutBounds(params), course, params.rocks.clear_radius_m,
+                   LineToKeepOff(params)) {}
 
   // Places rock `substream` at random in `area`, outside `hole` if there is one. Where
   // `drop_in_clear_zones`, a rock that is first drawn into a clear zone is dropped, which leaves

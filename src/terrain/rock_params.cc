@@ -198,6 +198,12 @@ void RockFieldParams::Visit(core::FieldVisitor& v) {
   v.Require("overlap", kind != RockFieldKind::kUniformCount || overlap != OverlapRule::kReject,
             "leaves rocks out, which contradicts the exact count of uniform_count",
             "use relocate or allow");
+  v.Choice("mirror_line", mirror_line,
+           {.doc = "virtual arenas: what happens to a rock that crosses a mirror line: merge makes "
+                   "it one with its image, keep_off treats it as overlapping one placed before it",
+            .origin = Origin::kPublished,
+            .source = "Matthies 1995 sec. 7: random across the central 2.2 m of the course width, "
+                      "and mirror-image periodic beyond that"});
   v.Real("clear_radius_m", clear_radius_m,
          {.doc = "no rock reaches nearer than this to the start or the goal",
           .min = 0.0,

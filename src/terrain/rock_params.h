@@ -33,6 +33,12 @@ enum class OverlapRule {
   kRelocate,  // it is placed again: the counts follow the law, the positions repel each other
 };
 
+// What happens to a rock that crosses a mirror line of a virtual arena.
+enum class LineRule {
+  kMerge,    // it is one with its image: centres are as dense at the lines as anywhere
+  kKeepOff,  // as by OverlapRule if it overlapped a rock: the corridor between the lines gets more
+};
+
 // Whether the rover can push rocks.
 enum class RockMobility { kFixed, kMovable };
 
@@ -59,6 +65,7 @@ struct RockFieldParams {
   double burial_spread = 0.1;
 
   OverlapRule overlap = OverlapRule::kRelocate;
+  LineRule mirror_line = LineRule::kMerge;
   ListedRocksParams listed;
   double clear_radius_m = 0.5;
   RockMobility mobility = RockMobility::kFixed;
@@ -83,6 +90,10 @@ struct rockyard::core::EnumNames<rockyard::terrain::RockFieldKind> {
 template <>
 struct rockyard::core::EnumNames<rockyard::terrain::OverlapRule> {
   static constexpr std::array<std::string_view, 3> kNames{"allow", "reject", "relocate"};
+};
+template <>
+struct rockyard::core::EnumNames<rockyard::terrain::LineRule> {
+  static constexpr std::array<std::string_view, 2> kNames{"merge", "keep_off"};
 };
 template <>
 struct rockyard::core::EnumNames<rockyard::terrain::RockMobility> {

@@ -203,6 +203,37 @@ TEST_F(CliAblation, BlindSwathTakesTheRoverByDefault) {
   EXPECT_NE(Run(Swath(Scenario("nominal"), {"--fields", "10", "--seed", "9"})).out, rover.out);
 }
 
+// The closed forms are tests/terrain/corridor_test's; here: every rule has its rows, and a
+// scenario's own rule does not hide the others.
+TEST_F(CliAblation, DensityShowsEveryPlacementRule) {
+  const CommandResult result = Run({"terrain", Scenario("nominal"), "--density", "--fields", "50",
+                                    "--set", "terrain.rocks.mirror_line=keep_off"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("within 0.5 m of the course, 50 fields"));
+  for (const char* row : {"merge       relocate     0.10 .. 0.20", "merge       allow        0.50",
+                          "merge       reject       0.30", "keep_off    relocate     0.20",
+                          "keep_off    reject       0.10"}) {
+    EXPECT_THAT(result.out, HasSubstr(row));
+  }
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 2 + 5 * 4);
+  const CommandResult counts = Run({"terrain", Scenario("obstacles_0.57"), "--density"});
+  EXPECT_THAT(counts.out, HasSubstr("1000 fields"));
+  EXPECT_THAT(counts.out, Not(HasSubstr("reject")));
+  const CommandResult open = Run({"terrain", Scenario("nominal"), "--density", "--fields", "2",
+                                  "--set", "terrain.arena.kind=open"});
+  EXPECT_THAT(open.out, HasSubstr("none        relocate"));
+  EXPECT_TRUE(NothingWritten());
+}
+
+TEST_F(CliAblation, DensityRefusesBadOptions) {
+  const std::string nominal = Scenario("nominal");
+  ExpectRefused({"terrain", nominal, "--density", "--blind-swath"}, "--blind-swath");
+  ExpectRefused({"terrain", nominal, "--density", "--out", "a.svg"}, "--out");
+  ExpectRefused({"terrain", nominal, "--fields", "5", "--out", "a.svg"}, "--out");
+  ExpectRefused({"terrain", nominal, "--density", "--fields", "0"}, "--fields");
+  ExpectRefused({"terrain", nominal, "--density", "--set", "course.goal_y_m=0.4"}, "terrain");
+}
+
 TEST_F(CliAblation, BlindSwathRefusesBadOptions) {
   const std::string nominal = Scenario("nominal");
   ExpectRefused({"terrain", nominal}, "--out");

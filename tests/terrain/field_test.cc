@@ -64,10 +64,11 @@ TEST(ExactCountTest, OpenFieldGoesOn) {
 
 class FieldRuleTest : public testing::TestWithParam<ArenaKind> {
  protected:
-  TerrainParams Params(OverlapRule overlap) const {
+  TerrainParams Params(OverlapRule overlap, LineRule line = LineRule::kMerge) const {
     TerrainParams params;
     params.rocks.k_per_m2 = kVikingLander2K;
     params.rocks.overlap = overlap;
+    params.rocks.mirror_line = line;
     params.arena.kind = GetParam();
     return params;
   }
@@ -78,25 +79,49 @@ INSTANTIATE_TEST_SUITE_P(Arenas, FieldRuleTest,
                                          ArenaKind::kVirtualUnfolded,
                                          ArenaKind::kVirtualReflected));
 
-bool AnyOverlap(const Terrain& terrain) {
+// Whether two rocks are one rock and its image about a mirror line at y = +-1.1 m.
+bool AreImages(const Rock& a, const Rock& b) {
+  const double middle_m = 0.5 * std::abs(a.center_W.y() + b.center_W.y());
+  // Lines of unfolded strips lie at odd multiples of 1.1 m. A picometre for rounding.
+  return a.center_W.x() == b.center_W.x() && a.diameter_m == b.diameter_m &&
+         std::abs(std::remainder(middle_m - 1.1, 2.2)) < 1e-12;
+}
+
+struct Overlaps {
+  int with_own_image = 0;
+  int with_others = 0;
+};
+
+Overlaps CountOverlaps(const Terrain& terrain) {
+  Overlaps overlaps;
   const auto rocks = terrain.rocks();
   for (std::size_t i = 0; i < rocks.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const double distance = (rocks[i].center_W.head<2>() - rocks[j].center_W.head<2>()).norm();
-      // A picometre for the rounding of mirrored positions.
-      if (distance < rocks[i].semi_axes_m.x() + rocks[j].semi_axes_m.x() - 1e-12) return true;
+      if (distance >= rocks[i].semi_axes_m.x() + rocks[j].semi_axes_m.x() - 1e-12) continue;
+      ++(AreImages(rocks[i], rocks[j]) ? overlaps.with_own_image : overlaps.with_others);
     }
   }
-  return false;
+  return overlaps;
 }
 
+// Rocks across a mirror line overlap their own image, and nothing else does, whatever image.
 TEST_P(FieldRuleTest, RejectAndRelocateLeaveNoOverlapEvenWithImages) {
+  const bool lines =
+      GetParam() == ArenaKind::kVirtualUnfolded || GetParam() == ArenaKind::kVirtualReflected;
   for (std::uint32_t trial = 0; trial < 5; ++trial) {
     for (const OverlapRule rule : {OverlapRule::kReject, OverlapRule::kRelocate}) {
-      EXPECT_FALSE(AnyOverlap(BuildField(Params(rule), {5, trial}, {}).terrain));
+      const Overlaps merged = CountOverlaps(BuildField(Params(rule), {5, trial}, {}).terrain);
+      EXPECT_EQ(merged.with_others, 0);
+      EXPECT_EQ(merged.with_own_image > 0, lines);
+      const Overlaps kept_off =
+          CountOverlaps(BuildField(Params(rule, LineRule::kKeepOff), {5, trial}, {}).terrain);
+      EXPECT_EQ(kept_off.with_others + kept_off.with_own_image, 0);
     }
     // The check itself can fail.
-    EXPECT_TRUE(AnyOverlap(BuildField(Params(OverlapRule::kAllow), {5, trial}, {}).terrain));
+    EXPECT_GT(
+        CountOverlaps(BuildField(Params(OverlapRule::kAllow), {5, trial}, {}).terrain).with_others,
+        0);
   }
 }
 

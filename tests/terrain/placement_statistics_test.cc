@@ -67,6 +67,31 @@ TEST(PlacementTest, PositionsAreUniformOverTheLayoutArea) {
   EXPECT_LT(core::ChiSquareP(observed, tilted), kRejects);
 }
 
+// Across the strip between the mirror lines, up to the lines; they leave bands without centres
+// where rocks keep off them.
+TEST(PlacementTest, PositionsAreUniformUpToTheMirrorLines) {
+  constexpr int kStrips = 11;
+  const auto p_value = [](LineRule line) {
+    TerrainParams params = PlainMoore(kNominalK);
+    params.arena.kind = ArenaKind::kVirtualReflected;
+    params.rocks.overlap = OverlapRule::kRelocate;
+    params.rocks.mirror_line = line;
+    std::vector<double> observed(kStrips, 0.0);
+    double total = 0.0;
+    for (std::uint32_t i = 0; i < 400; ++i) {
+      const Field field = BuildField(params, {75, i}, {});
+      for (int j = 0; j < field.audit.placed; ++j) {
+        const double y_m = field.terrain.rocks()[static_cast<std::size_t>(j)].center_W.y();
+        observed[static_cast<std::size_t>((y_m + 1.1) / 2.2 * kStrips)] += 1.0;
+        total += 1.0;
+      }
+    }
+    return core::ChiSquareP(observed, std::vector<double>(kStrips, total / kStrips));
+  };
+  EXPECT_GT(p_value(LineRule::kMerge), kAlpha);
+  EXPECT_LT(p_value(LineRule::kKeepOff), kRejects);
+}
+
 // Without an overlap rule, clear zones thin the field by exactly what their area says.
 TEST(PlacementTest, ClearZonesRemoveTheirShare) {
   for (const ArenaKind kind : {ArenaKind::kVirtualReflected, ArenaKind::kOpen}) {
