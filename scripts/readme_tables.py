@@ -25,6 +25,7 @@ from study import ROOT, compare, table, trial_columns
 
 REFERENCE = ROOT / "results/reference/matthies1995.json"
 HAZARD_REFERENCE = ROOT / "results/reference/matthies1995_hazard_detection.json"
+MISSION_REFERENCE = ROOT / "results/reference/matthies1995_mission.json"
 SCENARIOS = ROOT / "scenarios"
 PUBLISHED = ["obstacles_0.28", "obstacles_0.57", "obstacles_0.85", "nominal",
              "nominal_perfect_localization", "level_sand"]
@@ -76,6 +77,7 @@ GESTALT_NAMES = {
 }
 MEANS = ("mean_a", "mean_b", "difference", "ci95_low", "ci95_high")
 QUASI_STATIC = ["rover.fidelity=quasi_static"]
+VERDICTS = ("agrees", "differs", "underpowered", "not judged")
 
 
 class Study:
@@ -174,11 +176,52 @@ def comparison_excerpt(study):
 
 
 def hazards(study):
+    text = study.tool("check", hazard_runs(study), "--against", HAZARD_REFERENCE)
+    return f"```\n{text.strip()}\n```"
+
+
+def hazard_runs(study):
+    """Folder of the runs that the reference of hazard detection needs."""
     values = json.loads(HAZARD_REFERENCE.read_text(encoding="utf-8"))["values"]
     for name in sorted({value["scenario"] for value in values if value.get("scenario")}):
         study.run("hazards", name)
-    text = study.tool("check", study.out / "hazards", "--against", HAZARD_REFERENCE)
-    return f"```\n{text.strip()}\n```"
+    return study.out / "hazards"
+
+
+def checked(study, runs, reference_file):
+    """Rows of a comparison with published values, without what is only shown beside them."""
+    path = study.out / f"{reference_file.stem}.csv"
+    study.tool("check", runs, "--against", reference_file, "--csv", path)
+    with open(path, encoding="utf-8", newline="") as file:
+        return [row for row in csv.DictReader(file) if row["verdict"]]
+
+
+def mission(study):
+    """Arithmetic of the paper; the run is there because the command wants one, and says nothing."""
+    study.run("hazards", "traverse_one_hour")
+    rows = [[row["what"], row["place"], f"{float(row['published']):.4g}",
+             f"{float(row['simulated']):.4g}", "" if row["unit"] == "1" else row["unit"],
+             row["verdict"]]
+            for row in checked(study, study.folder("hazards", "traverse_one_hour"),
+                               MISSION_REFERENCE)]
+    return table(["computed, not simulated", "place", "published", "computed", "unit", "verdict"],
+                 rows)
+
+
+def verdicts(study):
+    """How many rows of each verdict there are, by what the row can say of the simulation."""
+    study.published()
+    rows = []
+    for runs, file, title in (
+            (study.out / "published", REFERENCE, "trials"),
+            (hazard_runs(study), HAZARD_REFERENCE, "hazard detection"),
+            (study.folder("hazards", "traverse_one_hour"), MISSION_REFERENCE, "mission")):
+        counts = {}
+        for row in checked(study, runs, file):
+            kind = row["role"] if row["scenario"] else "computed, not simulated"
+            counts.setdefault(kind, dict.fromkeys(VERDICTS, 0))[row["verdict"]] += 1
+        rows += [[f"{title}, {kind}", *map(str, found.values())] for kind, found in counts.items()]
+    return table(["numbers of Matthies 1995", *VERDICTS], rows)
 
 
 def reference(scenario, column, statistic):
@@ -408,10 +451,10 @@ def scaling(study):
     return result.stdout.strip()
 
 
-TABLES = {f.__name__: f for f in (comparison, comparison_excerpt, hazards, errors, envelope,
-                                 corridor, unmeasured, causes, fidelity, speed, gestalt, navigators,
-                                 navigator_speed, abundance_sweep, navigator_sweep, attribution,
-                                 scaling)}
+TABLES = {f.__name__: f for f in (comparison, comparison_excerpt, hazards, mission, verdicts,
+                                 errors, envelope, corridor, unmeasured, causes, fidelity, speed,
+                                 gestalt, navigators, navigator_speed, abundance_sweep,
+                                 navigator_sweep, attribution, scaling)}
 
 
 def write_table(pages, name, content):

@@ -80,6 +80,14 @@ std::string Prediction(const ComparedValue& value) {
                      value.interval.high);
 }
 
+std::string Prediction(const ComparedValue& value, const statistics::SideStatistic& beside) {
+  if (!statistics::HasTolerance(value.published.statistic)) {
+    return Prediction(beside.median, beside.interval, IsCount(value.published));
+  }
+  return fmt::format("{:.3g} ({:.3g} .. {:.3g})", beside.median, beside.interval.low,
+                     beside.interval.high);
+}
+
 std::vector<std::string> Remarks(const ComparedValue& value) {
   std::vector<std::string> remarks;
   for (const statistics::KindPrediction& kind : value.kinds) {

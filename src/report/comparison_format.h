@@ -33,6 +33,10 @@ std::string Prediction(double median, const statistics::Interval& interval, bool
 // The same for a compared value, in the digits of its kind.
 std::string Prediction(const statistics::ComparedValue& value);
 
+// The same for a statistic that is shown beside it.
+std::string Prediction(const statistics::ComparedValue& value,
+                       const statistics::SideStatistic& beside);
+
 // What else is to be said of a value: kinds of failure, one layout for all runs, a remark.
 std::vector<std::string> Remarks(const statistics::ComparedValue& value);
 

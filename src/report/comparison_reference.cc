@@ -162,6 +162,10 @@ class Parser {
     Require(!value.scenario.empty(), path + "scenario", "is missing", "name the scenario");
     Require(value.sample_size >= 1, path + "sample_size", "is missing or 0",
             "give the number of published runs");
+    Require(value.arrived == 0 || (statistics::SplitsByArrival(value.statistic) &&
+                                   value.arrived <= value.sample_size),
+            path + "arrived", "is more than sample_size, or the statistic takes no account of it",
+            "give it with negative_count, minimum, maximum, mode or exponential_tail");
     CheckNumber(value, path);
     CheckKinds(value, path);
     const bool counts_outcomes = value.statistic == StatisticKind::kOutcomeCount;

@@ -28,7 +28,8 @@ constexpr std::size_t kRemarkIndent = 6;
 // What the columns show by marks and indents.
 constexpr const char* kMarks =
     "c: conditional on error sizes that the publication states as inputs. k: the simulation was "
-    "calibrated with these runs or their like. Indented: other readings, shown and not judged.";
+    "calibrated with these runs or their like. Indented: other readings, shown and not judged, "
+    "among them sets of which as many runs arrived as of the published ones.";
 
 char RoleMark(ValueRole role) {
   switch (role) {
@@ -77,8 +78,8 @@ std::string Line(char mark, const std::string& what, const std::string& publishe
 std::string Details(const ComparedValue& value) {
   std::string text;
   for (const auto& side : value.beside) {
-    text += Line(' ', "    " + side.name, "", Prediction(side.median, side.interval, false),
-                 PValue(side.p_value), "", "", "");
+    text += Line(' ', "    " + side.name, "", Prediction(value, side), PValue(side.p_value), "", "",
+                 "");
   }
   for (const std::string& remark : Remarks(value)) text += Wrap(remark, kRemarkIndent);
   return text;
@@ -118,6 +119,15 @@ std::vector<std::string> Scenarios(const ComparisonResult& result) {
   return names;
 }
 
+// Arithmetic that agrees with a publication says nothing about the simulation.
+std::string ComputedAmongThem(const ComparisonResult& result) {
+  const auto computed =
+      std::count_if(result.values.begin(), result.values.end(), [](const ComparedValue& value) {
+        return value.published.statistic == statistics::StatisticKind::kComputed;
+      });
+  return computed == 0 ? "" : fmt::format("; {} of them computed, not simulated", computed);
+}
+
 }  // namespace
 
 std::vector<std::string> ComparisonNotes(const ComparisonResult& result) {
@@ -127,8 +137,9 @@ std::vector<std::string> ComparisonNotes(const ComparisonResult& result) {
       "for a new set of the published size, the simulation's own uncertainty included.",
       "p: two-sided, that the published and the simulated runs follow one law. Holm: adjusted for "
       "the family. power: chance to see a success rate 0.20 lower (other counts: 0.20 nearer to "
-      "one half; other numbers: a shift by half a standard deviation) at the level that Holm "
-      "grants.",
+      "one half; other numbers: a shift by half a standard deviation, and where a number has a "
+      "lower limit a change of scale as large, whichever is hardest to see) at the level that "
+      "Holm grants.",
       "agrees: not rejected, and power 0.8 or more. differs: Holm at or below alpha. "
       "underpowered: not rejected, but too few published runs to tell. not judged: no number, or "
       "no simulated trials."};
@@ -156,10 +167,10 @@ std::string ComparisonText(const PublishedReference& reference, const Comparison
       if (value.published.scenario == scenario) text += Row(value);
     }
   }
-  text +=
-      fmt::format("\n{} agree, {} differ, {} underpowered, {} not judged\n\n",
-                  CountOf(result, Verdict::kAgrees), CountOf(result, Verdict::kDiffers),
-                  CountOf(result, Verdict::kUnderpowered), CountOf(result, Verdict::kNotJudged));
+  text += fmt::format("\n{} agree, {} differ, {} underpowered, {} not judged{}\n\n",
+                      CountOf(result, Verdict::kAgrees), CountOf(result, Verdict::kDiffers),
+                      CountOf(result, Verdict::kUnderpowered), CountOf(result, Verdict::kNotJudged),
+                      ComputedAmongThem(result));
   for (const statistics::OtherSettings& changed : result.changed) {
     text += Wrap(fmt::format("{} is {}", changed.scenario, kNotPublishedCase), 0) + "\n";
   }

@@ -27,9 +27,8 @@ double Share(double value, const PublishedValue& published) {
 std::vector<std::string> AllRemarks(const ComparedValue& value) {
   std::vector<std::string> remarks = Remarks(value);
   for (const statistics::SideStatistic& side : value.beside) {
-    remarks.push_back(fmt::format("{}: {}, p {}", side.name,
-                                  Prediction(side.median, side.interval, false),
-                                  PValue(side.p_value)));
+    remarks.push_back(
+        fmt::format("{}: {}, p {}", side.name, Prediction(value, side), PValue(side.p_value)));
   }
   return remarks;
 }

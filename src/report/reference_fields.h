@@ -18,8 +18,10 @@ struct rockyard::core::EnumNames<rockyard::statistics::StatisticKind> {
 
 template <>
 struct rockyard::core::EnumNames<rockyard::statistics::Formula> {
-  static constexpr std::array<std::string_view, 7> kNames{
-      "none", "any_of", "sum", "product", "quotient", "net_rate", "range_resolution"};
+  static constexpr std::array<std::string_view, 11> kNames{
+      "none",        "any_of",           "sum",       "product",         "quotient",
+      "net_rate",    "range_resolution", "power_law", "power_law_cover", "drift_along",
+      "drift_across"};
 };
 
 template <>
@@ -45,6 +47,7 @@ struct ValueFields {
     v.Choice("statistic", value.statistic, kReferenceText);
     v.Choice("role", value.role, kReferenceText);
     v.Integer("sample_size", value.sample_size, kReferenceCount);
+    v.Integer("arrived", value.arrived, kReferenceCount);
     v.Real("value", value.value, kReferenceText);
     v.Real("rounding", value.rounding,
            {.doc = "step of the last printed digit", .min = 0.0, .max = 1e9});

@@ -42,7 +42,15 @@ void CheckComputed(const PublishedValue& value, Checker& check) {
   check.Require(!value.inputs.empty() && (arity == 0 || value.inputs.size() == arity), "inputs",
                 "are not as many as the formula takes",
                 "any_of takes chance and number; net_rate step, speed and scan time; "
-                "range_resolution pitch, range and baseline");
+                "range_resolution pitch, range and baseline; power_law and power_law_cover k, "
+                "size and exponent; drift_along and drift_across step, distance, and variances of "
+                "distance and heading a metre");
+  if (arity == value.inputs.size()) {
+    check.Require(statistics::InDomain(value.formula, value.inputs), "inputs",
+                  "are outside of what the formula holds for",
+                  "power_law_cover needs a size above 0 and an exponent above 2; a drift a step "
+                  "and a distance above 0, of at most 10000 steps");
+  }
   check.Require(value.column.empty() && value.of.empty() && value.along.empty(), "column",
                 "of or along is given, but nothing is simulated", "leave them out");
 }
@@ -73,6 +81,8 @@ std::vector<Problem> ToleranceProblems(const PublishedValue& value, const std::s
   }
   check.Require(value.low <= value.high && (std::isfinite(value.low) || std::isfinite(value.high)),
                 "low", "and high are no tolerance", "give one or both, the smaller one as low");
+  check.Require(value.arrived == 0, "arrived", "is given, but the number has no sample",
+                "leave it out");
   check.Require(value.sample_size == 0, "sample_size",
                 "is given, but the number has a tolerance and no sample", "leave it out");
   if (value.statistic == StatisticKind::kComputed) {

@@ -20,10 +20,37 @@ double NetRate(double step_m, double speed_m_s, double scan_time_s);
 // differentiated).
 double RangeResolution(double pitch_rad, double range_m, double baseline_m);
 
+// Returns how many things of size d and larger there are where their number is k d^-m: of rocks,
+// Matthies 1995 eq. 4, per m2 for d in m.
+double PowerLaw(double k, double size, double exponent);
+
+// Returns the share of the ground under circles of diameter d and larger, up to any size, where
+// there are k d^-m of them per unit area: pi/4 k m / (m - 2) d^(2 - m). Needs m > 2.
+double PowerLawCover(double k, double diameter, double exponent);
+
+// The dead-reckoning error of a drive in a straight line by the state equations of Matthies 1995,
+// section 5: steps of `step_m`, each with an error of its length and one of the heading before the
+// next, all independent and normal.
+struct StraightDrift {
+  double step_m = 0.0;
+  double distance_m = 0.0;  // whole steps: the nearest number of them
+  double distance_variance_m2_per_m = 0.0;
+  double heading_variance_deg2_per_m = 0.0;
+};
+struct DriftDeviation {
+  double along_m = 0.0;
+  double across_m = 0.0;
+};
+// Returns the exact standard deviations of the position at the end. Cost: steps squared.
+DriftDeviation DeviationOf(const StraightDrift& drift);
+
 // Returns how many numbers a formula takes; 0 means any number of them, at least one.
 std::size_t FormulaArity(Formula formula);
 
-// Returns the formula's value. There must be as many `inputs` as FormulaArity says.
+// Whether a formula has a value for as many inputs as it takes.
+bool InDomain(Formula formula, std::span<const double> inputs);
+
+// Returns the formula's value. There must be as many `inputs` as FormulaArity says, InDomain.
 double Evaluate(Formula formula, std::span<const double> inputs);
 
 }  // namespace rockyard::statistics

@@ -215,7 +215,15 @@ Row CompareNegativeCount(const PublishedValue& published, const ScenarioRun& run
   const PoolCount simulated{
       std::count_if(values.begin(), values.end(), [](double x) { return x < 0.0; }),
       static_cast<std::int64_t>(values.size())};
-  return CountRow(published, simulated, TowardsHalf(simulated.rate()));
+  Row row = CountRow(published, simulated, TowardsHalf(simulated.rate()));
+  if (const auto law = NegativesByArrival(published, run)) {
+    row.value.beside.push_back({ArrivalsName(published),
+                                static_cast<double>(CountQuantile(*law, 0.5)),
+                                {static_cast<double>(CountQuantile(*law, 0.025)),
+                                 static_cast<double>(CountQuantile(*law, 0.975))},
+                                TwoSided(CountTails(*law, std::llround(published.value)))});
+  }
+  return row;
 }
 
 // Kinds of failure given how many runs failed: p is the total probability of the divisions no

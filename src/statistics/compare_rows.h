@@ -2,8 +2,14 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
+#include "core/random.h"
+#include "statistics/counts.h"
+#include "statistics/predictive.h"
 #include "statistics/published_comparison.h"
 
 namespace rockyard::statistics {
@@ -32,6 +38,18 @@ Row CompareLowerBound(const PublishedValue& published, const ScenarioRun& run,
                       const ComparisonOptions& options);
 Row CompareMedianOffset(const PublishedValue& published, const ScenarioRun& run,
                         const ScenarioRun& other, const ComparisonOptions& options);
+
+// Sets of which exactly PublishedValue::arrived runs arrived and the others did not, as the
+// simulation predicts them: the statistic of each (none of them), and the law of the count of
+// negative values (no law), where the publication does not say how many arrived, or where fewer
+// than two simulated runs ended that way. compare_arrivals.cc
+std::vector<double> StatisticsByArrival(const PublishedValue& published, const ScenarioRun& run,
+                                        const SampleStatistic& statistic, std::size_t replicates,
+                                        core::TrialKey key);
+std::optional<CountLaw> NegativesByArrival(const PublishedValue& published, const ScenarioRun& run);
+
+// "39 arrivals of 40".
+std::string ArrivalsName(const PublishedValue& published);
 
 // A row that says why there is nothing to judge.
 Row NotJudged(const PublishedValue& published, std::string remark);

@@ -92,6 +92,40 @@ std::vector<SideStatistic> OtherModes(const PublishedValue& published,
   return beside;
 }
 
+// The same statistic of sets of which the published number of runs arrived, ascending; none where
+// StatisticsByArrival has none.
+std::vector<double> ByArrival(const PublishedValue& published, const ScenarioRun& run,
+                              const SampleStatistic& statistic, const ComparisonOptions& options) {
+  std::vector<double> drawn =
+      StatisticsByArrival(published, run, statistic, options.replicates / kSideReduction,
+                          KeyOf(published.id + ".arrived", options.seed));
+  std::sort(drawn.begin(), drawn.end());
+  return drawn;
+}
+
+// Share of sets whose p-values, ascending, call them consistent with an exponential law, `others`
+// more that are consistent counted in.
+double ConsistentShare(std::span<const double> p_values, double others) {
+  const auto inconsistent =
+      std::upper_bound(p_values.begin(), p_values.end(), kExponentialLevel) - p_values.begin();
+  const double all = others + static_cast<double>(p_values.size());
+  return (all - static_cast<double>(inconsistent)) / all;
+}
+
+// Power against the alternatives of kAlternativeShiftDeviations: the least of them counts.
+std::function<double(double)> PowerOf(const PublishedValue& published, const Moments& pool,
+                                      const std::vector<double>& drawn) {
+  const double shift = kAlternativeShiftDeviations * pool.standard_deviation();
+  const double limit = published.lower_limit;
+  const double excess = pool.mean() - limit;  // infinite without a limit
+  if (!std::isfinite(excess) || !(excess > 0.0)) {
+    return [drawn, shift](double level) { return ShiftPower(drawn, shift, level); };
+  }
+  return [drawn, shift, limit, factor = 1.0 + shift / excess](double level) {
+    return std::min(ShiftPower(drawn, shift, level), ScalePower(drawn, limit, factor, level));
+  };
+}
+
 // Differences of a statistic between samples of the two published sizes.
 std::vector<double> Offsets(const PredictiveSampler& first, std::size_t n_first,
                             const PredictiveSampler& second, std::size_t n_second,
@@ -145,8 +179,12 @@ Row CompareSampleStatistic(const PublishedValue& published, const ScenarioRun& r
   if (published.statistic == StatisticKind::kMode) {
     value.beside = OtherModes(published, sampler, options.replicates / kSideReduction, key);
   }
-  const double shift = kAlternativeShiftDeviations * MomentsOf(pool).standard_deviation();
-  row.power = [drawn, shift](double level) { return ShiftPower(drawn, shift, level); };
+  std::vector<double> by_arrival = ByArrival(published, run, statistic, options);
+  if (!by_arrival.empty()) {
+    value.beside.push_back(Beside(ArrivalsName(published), std::move(by_arrival), published.value,
+                                  published.rounding));
+  }
+  row.power = PowerOf(published, MomentsOf(pool), drawn);
   return row;
 }
 
@@ -162,24 +200,20 @@ Row CompareExponentialTail(const PublishedValue& published, const ScenarioRun& r
   const auto n = static_cast<std::size_t>(published.sample_size);
   // n values have n - 1 excesses over their minimum.
   const std::vector<double> null = ExponentialNullLaw(n - 1, options.replicates, options.seed);
-  std::vector<double> p_values = PredictiveStatistics(
-      sampler, n,
-      [&](std::span<const double> sample) {
-        return BootstrapPValue(null, ExponentialStatistic(sample));
-      },
-      options.replicates, KeyOf(published.id, options.seed));
+  const SampleStatistic p_of = [&](std::span<const double> sample) {
+    return BootstrapPValue(null, ExponentialStatistic(sample));
+  };
+  std::vector<double> p_values =
+      PredictiveStatistics(sampler, n, p_of, options.replicates, KeyOf(published.id, options.seed));
   std::sort(p_values.begin(), p_values.end());
-  const auto inconsistent =
-      std::upper_bound(p_values.begin(), p_values.end(), kExponentialLevel) - p_values.begin();
   Row row;
   ComparedValue& value = row.value;
   value.published = published;
   value.pool = static_cast<std::int64_t>(pool.size());
   SetPrediction(value, p_values);
-  const double draws = static_cast<double>(p_values.size());
-  // Share of sets that look exponential, the published one counted as one more.
-  value.p_value = (1.0 + draws - static_cast<double>(inconsistent)) / (1.0 + draws);
-  const double consistent = 1.0 - static_cast<double>(inconsistent) / draws;
+  // The published set is counted as one more that looks exponential.
+  value.p_value = ConsistentShare(p_values, 1.0);
+  const double consistent = ConsistentShare(p_values, 0.0);
   const std::size_t side = options.replicates / kSideReduction;
   const TestResult all = ExponentialTailTest(pool, options.seed, 0, side);
   const TestResult beyond = ExponentialTailTest(pool, options.seed, pool.size() / 2, side);
@@ -188,6 +222,12 @@ Row CompareExponentialTail(const PublishedValue& published, const ScenarioRun& r
       "{:.0f} % of simulated sets of {} are consistent at {:.2g}; all {} together: p {:.2g}, "
       "beyond their median: p {:.2g}",
       100.0 * consistent, n, kExponentialLevel, pool.size(), all.p_value, beyond.p_value);
+  const std::vector<double> by_arrival = ByArrival(published, run, p_of, options);
+  if (!by_arrival.empty()) {
+    SideStatistic beside = Beside(ArrivalsName(published), by_arrival, kNaN, 0.0);
+    beside.p_value = ConsistentShare(by_arrival, 1.0);
+    value.beside.push_back(std::move(beside));
+  }
   const double p_value = value.p_value;
   row.power = [p_value](double level) { return p_value <= level ? 1.0 - kExponentialLevel : 0.0; };
   return row;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 
@@ -19,6 +20,7 @@ namespace rockyard::statistics {
 namespace {
 
 using core::kInfinity;
+using core::kNaN;
 
 // The values of one record that a statistic needs.
 struct Values {
@@ -188,6 +190,30 @@ void SetMean(const PublishedValue& published, const std::vector<Values>& values,
   };
 }
 
+// Of the interval of a reading beside a row, by itself.
+constexpr double kSideConfidence = 0.95;
+
+// The same ratio or mean over the simulated runs that arrived, where some did and some did not.
+std::optional<SideStatistic> ArrivalsAlone(const PublishedValue& published,
+                                           const ScenarioRun& run) {
+  std::vector<truth::Record> arrivals;
+  std::copy_if(run.records.begin(), run.records.end(), std::back_inserter(arrivals),
+               [](const truth::Record& r) { return truth::DeclaredSuccess(r.outcome); });
+  ScenarioRun arrived = run;
+  arrived.records = arrivals;
+  const std::vector<Values> values = ValuesOf(published, arrived);
+  if (values.empty() || values.size() == ValuesOf(published, run).size()) return std::nullopt;
+  const Values sum = SumOf(values);
+  if (!(sum.base > 0.0)) return std::nullopt;
+  Row row;
+  if (published.statistic == StatisticKind::kRatio) {
+    SetRatio(published, values, sum, row);
+  } else {
+    SetMean(published, values, row);
+  }
+  return SideStatistic{"arrivals alone", row.value.pool_value, row.interval(kSideConfidence), kNaN};
+}
+
 std::string ToleranceRemark(const PublishedValue& published) {
   return fmt::format("tolerance {:.6g} .. {:.6g}", published.low, published.high);
 }
@@ -219,6 +245,9 @@ Row CompareTolerance(const PublishedValue& published, const ScenarioRun& run) {
       break;
   }
   row.value.median = row.value.pool_value;
+  if (published.statistic == StatisticKind::kRatio || published.statistic == StatisticKind::kMean) {
+    if (const auto side = ArrivalsAlone(published, run)) row.value.beside.push_back(*side);
+  }
   return row;
 }
 

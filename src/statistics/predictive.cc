@@ -54,6 +54,17 @@ double ShareAtLeast(std::span<const double> ascending, double value) {
          (1.0 + static_cast<double>(ascending.size()));
 }
 
+// Share of replicates that are rejected where every one in turn, moved, is the published value.
+template <typename Move>
+double PowerWhereMoved(std::span<const double> ascending, double level, Move move) {
+  double power = 0.0;
+  const double n = static_cast<double>(ascending.size());
+  for (const double s : ascending) {
+    power += PredictivePValue(ascending, move(s), 0.0) <= level ? 1.0 / n : 0.0;
+  }
+  return power;
+}
+
 }  // namespace
 
 PredictiveSampler::PredictiveSampler(std::span<const double> pool, double lower_limit)
@@ -87,17 +98,31 @@ void PredictiveSampler::Draw(core::RandomStream& stream, std::span<double> sampl
   std::sort(sample.begin(), sample.end());
 }
 
-std::vector<double> PredictiveStatistics(const PredictiveSampler& sampler, std::size_t n,
+std::vector<double> PredictiveStatistics(std::span<const SamplePart> parts,
                                          const SampleStatistic& statistic, std::size_t replicates,
                                          core::TrialKey key) {
+  std::size_t n = 0;
+  for (const SamplePart& part : parts) n += part.n;
   std::vector<double> statistics(replicates);
   std::vector<double> sample(n);
   for (std::size_t b = 0; b < replicates; ++b) {
     core::RandomStream stream(key, core::Purpose::kBootstrap, static_cast<std::uint32_t>(b));
-    sampler.Draw(stream, sample);
+    std::span<double> rest = sample;
+    for (const SamplePart& part : parts) {
+      part.sampler->Draw(stream, rest.first(part.n));
+      rest = rest.subspan(part.n);
+    }
+    std::sort(sample.begin(), sample.end());
     statistics[b] = statistic(sample);
   }
   return statistics;
+}
+
+std::vector<double> PredictiveStatistics(const PredictiveSampler& sampler, std::size_t n,
+                                         const SampleStatistic& statistic, std::size_t replicates,
+                                         core::TrialKey key) {
+  const SamplePart whole{&sampler, n};
+  return PredictiveStatistics({&whole, 1}, statistic, replicates, key);
 }
 
 double PredictivePValue(std::span<const double> ascending, double value, double rounding) {
@@ -108,15 +133,15 @@ double PredictivePValue(std::span<const double> ascending, double value, double 
 }
 
 double ShiftPower(std::span<const double> ascending, double shift, double level) {
-  double up = 0.0;
-  double down = 0.0;
-  const double n = static_cast<double>(ascending.size());
-  // Every replicate in turn is the published value, shifted either way.
-  for (const double s : ascending) {
-    up += PredictivePValue(ascending, s + shift, 0.0) <= level ? 1.0 / n : 0.0;
-    down += PredictivePValue(ascending, s - shift, 0.0) <= level ? 1.0 / n : 0.0;
-  }
-  return std::min(up, down);
+  return std::min(PowerWhereMoved(ascending, level, [&](double s) { return s + shift; }),
+                  PowerWhereMoved(ascending, level, [&](double s) { return s - shift; }));
+}
+
+double ScalePower(std::span<const double> ascending, double limit, double factor, double level) {
+  const auto scaled = [&](double by) {
+    return PowerWhereMoved(ascending, level, [&](double s) { return limit + (s - limit) * by; });
+  };
+  return std::min(scaled(factor), scaled(1.0 / factor));
 }
 
 }  // namespace rockyard::statistics

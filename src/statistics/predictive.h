@@ -56,6 +56,18 @@ std::vector<double> PredictiveStatistics(const PredictiveSampler& sampler, std::
                                          const SampleStatistic& statistic, std::size_t replicates,
                                          core::TrialKey key);
 
+// A part of a sample: n values of one sampler, which must outlive it.
+struct SamplePart {
+  const PredictiveSampler* sampler = nullptr;
+  std::size_t n = 0;
+};
+
+// The same for samples that are put together from parts of fixed sizes, e.g. of runs that arrived
+// and of runs that did not. The statistic sees all parts together, in ascending order.
+std::vector<double> PredictiveStatistics(std::span<const SamplePart> parts,
+                                         const SampleStatistic& statistic, std::size_t replicates,
+                                         core::TrialKey key);
+
 // Returns the two-sided p-value of a published value v that was rounded to a multiple of
 // `rounding`: twice the smaller share of replicates at or beyond it, the published set counted as
 // one more replicate. Values that would round to v count on both sides. `ascending` are the
@@ -66,5 +78,9 @@ double PredictivePValue(std::span<const double> ascending, double value, double 
 // whichever is harder to see, is rejected at `level` by the test above, for a statistic that moves
 // with its sample.
 double ShiftPower(std::span<const double> ascending, double shift, double level);
+
+// The same for a sample whose distances from `limit`, a limit of the support, are multiplied or
+// divided by `factor`, whichever is harder to see, for a statistic that moves with them.
+double ScalePower(std::span<const double> ascending, double limit, double factor, double level);
 
 }  // namespace rockyard::statistics

@@ -30,7 +30,11 @@ namespace rockyard::statistics {
 // share of the commonest simulated kind 0.20 lower, spread evenly over the other kinds.
 inline constexpr double kAlternativeRateShift = 0.20;
 // For minimum, maximum and mode: the published runs shifted by half a standard deviation of the
-// simulated trials, in the direction that is harder to see.
+// simulated trials, up or down. Where the column has a lower limit (absolute errors, distances)
+// also moved by scale, so that the mean moves by as much: distances from the limit times
+// 1 + 0.5 deviation / mean, or divided by it. Of all these the one that is hardest to see counts. A
+// shift alone would move a minimum near its limit by many times what it scatters, so that it could
+// never be called underpowered, although no change of the law's spread could be seen in it.
 inline constexpr double kAlternativeShiftDeviations = 0.5;
 // Below this power a value that is not rejected counts as untested.
 inline constexpr double kRequiredPower = 0.8;
@@ -64,7 +68,9 @@ enum class Verdict {
 };
 const char* Name(Verdict verdict);
 
-// The prediction for another statistic of the same published set, shown beside and not judged.
+// The prediction for another statistic of the same published set, or for a set of which as many
+// runs arrived as the publication says, or over the simulated arrivals alone. Shown beside and not
+// judged: which runs fail is part of the prediction, so that rows are judged over all runs.
 struct SideStatistic {
   std::string name;
   double median = 0.0;

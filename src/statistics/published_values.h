@@ -34,8 +34,26 @@ enum class StatisticKind {
 // Whether a value is judged by its tolerance, see StatisticKind.
 constexpr bool HasTolerance(StatisticKind kind) { return kind >= StatisticKind::kRate; }
 
+// Whether the published set behind a value can be told apart by how many of its runs arrived, see
+// PublishedValue::arrived.
+constexpr bool SplitsByArrival(StatisticKind kind) {
+  return kind >= StatisticKind::kNegativeCount && kind <= StatisticKind::kExponentialTail;
+}
+
 // Closed forms, see closed_forms.h.
-enum class Formula { kNone, kAnyOf, kSum, kProduct, kQuotient, kNetRate, kRangeResolution };
+enum class Formula {
+  kNone,
+  kAnyOf,
+  kSum,
+  kProduct,
+  kQuotient,
+  kNetRate,
+  kRangeResolution,
+  kPowerLaw,
+  kPowerLawCover,
+  kDriftAlong,
+  kDriftAcross
+};
 
 // Records whose `column` lies within low .. high.
 struct ColumnRange {
@@ -65,7 +83,10 @@ struct PublishedValue {
   std::string scenario;  // whose trials it is compared with
   StatisticKind statistic = StatisticKind::kOutcomeCount;
   ValueRole role = ValueRole::kPrediction;
-  std::int64_t sample_size = 0;                             // published runs behind it
+  std::int64_t sample_size = 0;  // published runs behind it
+  // How many of them arrived, where the publication says so; 0 where not. Such sets are shown
+  // beside the row, which is judged over all runs: SplitsByArrival.
+  std::int64_t arrived = 0;
   double value = std::numeric_limits<double>::quiet_NaN();  // NaN for statements
   double rounding = 0.0;                                    // step of the last printed digit
   std::string unit = "1";

@@ -20,6 +20,7 @@ sys.path.insert(0, str(ROOT / "scripts"))
 # pylint: disable=wrong-import-position
 import figures
 from figures import goldberg2002_figure3 as gestalt
+from figures import matthies1995_figure13 as figure13
 from figures import matthies1995_figure15 as figure15
 from figures import matthies1995_figure16 as figure16
 from figures.source import Source
@@ -171,6 +172,42 @@ class DrawnNumbers(FiguresTest):
         for column in ("distance_error_percent", "heading_error_deg", "position_error_m"):
             self.assertEqual(drawn.numbers[column], [float(row[column]) for row in table])
 
+    def test_stripes_reach_as_far_as_published(self):
+        drawn = self.draw("matthies1995-13", "nominal")
+        points = drawn.numbers["points"]
+        self.assertEqual(len(points), 20)
+        self.assertAlmostEqual(points[17][0] - 0.65 / 2, 0.30)  # the middle stripe, ahead of the rover
+        self.assertAlmostEqual(points[15][1] - 0.48 / 2, 0.13)  # the left one, beyond its side
+        # The light plane from (0.27, 0.14) to (0.625, 0.37), by hand, at 0.425.
+        self.assertAlmostEqual(points[0][0], 0.425)
+        self.assertAlmostEqual(points[0][1], 0.14 + 0.23 * 0.155 / 0.355)
+        for (x, y), (mirror_x, mirror_y) in zip(points[5:10], reversed(points[5:10])):
+            self.assertAlmostEqual(x, mirror_x)
+            self.assertAlmostEqual(y, -mirror_y)
+        marks = {line.get_label(): len(line.get_xdata()) for line in drawn.figure.axes[0].get_lines()}
+        self.assertEqual(marks["measured points: place published"], 3)
+        self.assertEqual(marks["measured points: place assumed"], 17)
+
+    def test_stripes_are_lit_and_seen_where_they_are_measured(self):
+        numbers = self.draw("matthies1995-13", "nominal").numbers
+        for i, (x, _) in enumerate(numbers["points"]):
+            near, far = numbers["lit"][i % 5]
+            self.assertTrue(near < x < far, i)
+        # 0.25 m above the ground, 45 deg down, half a view of 0.0066 / 0.0048 / 2 rad: from 84 deg on.
+        for outline in numbers["seen"]:
+            nearest = 0.27 + 0.25 / math.tan(math.pi / 4 + 0.0066 / 0.0048 / 2)
+            self.assertAlmostEqual(min(x for x, _ in outline), nearest)
+        self.assertAlmostEqual(max(y for _, y in numbers["seen"][0]),
+                               -min(y for _, y in numbers["seen"][1]))
+
+    def test_rays_of_lenses(self):
+        for lens in ("equidistant_rows", "equidistant", "pinhole"):
+            self.assertEqual(figure13.ray(lens, 0.0, 0.0), (1.0, 0.0, 0.0))
+        for got, true in zip(figure13.ray("equidistant_rows", math.pi / 2, 0.3), (0.0, -1.0, 0.0)):
+            self.assertAlmostEqual(got, true)
+        for got, true in zip(figure13.ray("equidistant", 0.0, math.pi / 2), (0.0, 0.0, -1.0)):
+            self.assertAlmostEqual(got, true)
+
     def test_paths_keep_their_ends(self):
         samples = [{"true_x_m": str(x), "true_y_m": "0"} for x in (0.0, 0.004, 0.02, 0.021)]
         self.assertEqual(figure16.path_of(samples, "true"), [(0.0, 0.0), (0.02, 0.0), (0.021, 0.0)])
@@ -179,17 +216,17 @@ class DrawnNumbers(FiguresTest):
 class CommandLine(FiguresTest):
     def test_every_figure_is_listed_with_its_runs(self):
         text = self.script("--list")
-        for name in ("matthies1995-15", "matthies1995-16", "matthies1995-17", "matthies1995-table4",
+        for name in ("matthies1995-13", "matthies1995-15", "matthies1995-16", "matthies1995-17", "matthies1995-table4",
                      "goldberg2002-3"):
             self.assertIn(name, text)
 
     def test_the_same_runs_give_the_same_bytes(self):
         for out in ("first", "second"):
             for name, run in (("matthies1995-17", "nominal"), ("goldberg2002-3", "gestalt"),
-                              ("matthies1995-16", "nominal")):
+                              ("matthies1995-16", "nominal"), ("matthies1995-13", "nominal")):
                 self.script(name, run, "--out", out)
         files = sorted(path.name for path in (self.root / "first").iterdir())
-        self.assertEqual(len(files), 9)  # SVG, PNG and caption of each
+        self.assertEqual(len(files), 12)  # SVG, PNG and caption of each
         for name in files:
             first, second = ((self.root / out / name).read_bytes() for out in ("first", "second"))
             self.assertEqual(first, second, name)
@@ -224,7 +261,9 @@ class CommandLine(FiguresTest):
                               (["matthies1995-16", "nominal", "--trial", "-1"], "at least 0"),
                               (["goldberg2002-3", "gestalt", "--step", "999"], "step 999"),
                               (["goldberg2002-3", "nominal"], "step"),
-                              (["matthies1995-15", "gestalt"], "Moore's model")):
+                              (["matthies1995-15", "gestalt"], "Moore's model"),
+                              (["matthies1995-13", "gestalt"], "looks with stereo"),
+                              (["matthies1995-13", "scan"], "no run of drives")):
             with self.subTest(words=words):
                 text = self.script(*words, "--out", "none", code=2)
                 self.assertIn("error: ", text)

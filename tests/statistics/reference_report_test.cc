@@ -40,7 +40,7 @@ ComparisonResult CompareSynthetic(std::size_t replicates = 500) {
 
 TEST(Reference, TheCommittedFileParses) {
   const PublishedReference reference = Matthies();
-  EXPECT_EQ(reference.values.size(), 24u);
+  EXPECT_EQ(reference.values.size(), 29u);
   EXPECT_FALSE(reference.misprints.empty());
   const auto& success = reference.values[4];
   EXPECT_EQ(success.id, "nominal.success");
@@ -88,6 +88,33 @@ TEST(Reference, FailureKindsMustAddUp) {
   EXPECT_THAT(ProblemsOf(text), HasSubstr("values[0].kinds"));
 }
 
+TEST(Reference, ArrivalsBelongToSetsThatCanBeSplit) {
+  const std::string head = R"({"schema_version": 1, "values": [{"id": "a", "scenario": "s",
+    "sample_size": 6, "value": 4, )";
+  const std::string mode = head + R"("statistic": "mode", "column": "x", "arrived": )";
+  EXPECT_EQ(ProblemsOf((mode + "5}]}").c_str()), "");
+  EXPECT_THAT(ProblemsOf((mode + "7}]}").c_str()), HasSubstr("values[0].arrived"));
+  const std::string count = head + R"("statistic": "outcome_count", "outcomes": ["jammed"],
+    "arrived": 5}]})";
+  EXPECT_THAT(ProblemsOf(count.c_str()), HasSubstr("values[0].arrived"));
+}
+
+// Every number of table 4 and figure 17 was printed for 40 runs of which 39 arrived.
+TEST(Reference, TheFortyRunsOfNominalTerrainHaveTheirArrivals) {
+  int split = 0;
+  for (const auto& value : Matthies().values) {
+    const bool of_forty = value.scenario == "nominal" && value.sample_size == 40 &&
+                          statistics::SplitsByArrival(value.statistic);
+    EXPECT_EQ(value.arrived, of_forty ? 39 : 0) << value.id;
+    split += of_forty ? 1 : 0;
+  }
+  EXPECT_EQ(split, 13);
+  const std::string text = ComparisonText(Matthies(), CompareSynthetic());
+  EXPECT_THAT(text, HasSubstr("      39 arrivals of 40"));
+  EXPECT_THAT(text, testing::ContainsRegex("39 arrivals of 40 +[0-9]+ \\([0-9]+ \\.\\. [0-9]+\\)"))
+      << "counts are whole";
+}
+
 TEST(ComparisonText, FitsAHundredColumnsAndNamesEveryValue) {
   const PublishedReference reference = Matthies();
   const std::string text = ComparisonText(reference, CompareSynthetic());
@@ -121,7 +148,7 @@ TEST(ComparisonJUnit, CountsVerdictsAndEscapes) {
     result.values[i].verdict = Verdict::kAgrees;
   }
   const std::string xml = ComparisonJUnit(Matthies(), result);
-  EXPECT_THAT(xml, HasSubstr("tests=\"24\" failures=\"1\" skipped=\"0\""));
+  EXPECT_THAT(xml, HasSubstr("tests=\"29\" failures=\"1\" skipped=\"0\""));
   EXPECT_THAT(xml, HasSubstr("a &lt; b &amp; &quot;c&quot;"));
   EXPECT_THAT(xml, HasSubstr("<testcase classname=\"nominal\" name=\"nominal.success\"/>"));
 }
@@ -129,8 +156,8 @@ TEST(ComparisonJUnit, CountsVerdictsAndEscapes) {
 // A misspelt name or a moved file would take the warning away without a word.
 TEST(Reference, NamesTheFileOfEveryScenario) {
   const std::filesystem::path folder = ROCKYARD_SOURCE_DIR "/results/reference";
-  for (const char* file :
-       {"matthies1995.json", "matthies1995_hazard_detection.json", "goldberg2002.json"}) {
+  for (const char* file : {"matthies1995.json", "matthies1995_hazard_detection.json",
+                           "matthies1995_mission.json", "goldberg2002.json"}) {
     const PublishedReference reference = LoadReference(folder / file);
     std::set<std::string> named;
     for (const auto& scenario : reference.scenarios) {

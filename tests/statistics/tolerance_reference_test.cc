@@ -41,6 +41,23 @@ TEST(HazardReference, ItsArithmeticAgrees) {
   EXPECT_THAT(ComparisonText(HazardDetection(), result), HasSubstr("underpowered: across an end"));
 }
 
+// What a reference of arithmetic alone says of the simulation is nothing, and its foot says so.
+TEST(MissionReference, ItsArithmeticAgreesButForTheContradictionOfThePaper) {
+  const statistics::PublishedReference reference =
+      LoadReference(ROCKYARD_SOURCE_DIR "/results/reference/matthies1995_mission.json");
+  const statistics::ComparisonResult result = statistics::Compare(reference, {});
+  for (const statistics::ComparedValue& value : result.values) {
+    EXPECT_EQ(value.published.statistic, StatisticKind::kComputed) << value.published.id;
+    const bool contradicts_itself = value.published.id == "power.table1_lasers";
+    EXPECT_EQ(value.verdict, contradicts_itself ? Verdict::kDiffers : Verdict::kAgrees)
+        << value.published.id;
+    // A tolerance that holds the published number itself.
+    EXPECT_GE(value.published.value, value.published.low) << value.published.id;
+    EXPECT_LE(value.published.value, value.published.high) << value.published.id;
+  }
+  EXPECT_THAT(ComparisonText(reference, result), HasSubstr("; 28 of them computed, not simulated"));
+}
+
 TEST(HazardReference, TheTraverseIsJudgedByTheGivenTolerance) {
   const statistics::PublishedReference reference = HazardDetection();
   const auto traverse = std::find_if(reference.values.begin(), reference.values.end(),
@@ -69,6 +86,7 @@ TEST(HazardReference, MistakesAreNamed) {
   EXPECT_THAT(ProblemsOf(rate), HasSubstr("are no tolerance"));
   EXPECT_THAT(ProblemsOf(rate + R"(, "low": 2, "high": 1)"), HasSubstr("are no tolerance"));
   EXPECT_THAT(ProblemsOf(rate + R"(, "low": 0, "sample_size": 3)"), HasSubstr("sample_size"));
+  EXPECT_THAT(ProblemsOf(rate + R"(, "low": 0, "arrived": 3)"), HasSubstr("has no sample"));
   EXPECT_THAT(ProblemsOf(rate + R"(, "low": 0, "along": "height_m")"),
               HasSubstr("abscissa of a crossing"));
   EXPECT_THAT(ProblemsOf(rate + R"(, "low": 0, "formula": "sum")"), HasSubstr("is simulated"));
@@ -77,6 +95,10 @@ TEST(HazardReference, MistakesAreNamed) {
   EXPECT_THAT(
       ProblemsOf(R"("statistic": "computed", "formula": "any_of", "inputs": [1], "low": 0)"),
       HasSubstr("are not as many as the formula takes"));
+  EXPECT_THAT(
+      ProblemsOf(
+          R"("statistic": "computed", "formula": "power_law_cover", "inputs": [1, 1, 2], "low": 0)"),
+      HasSubstr("outside of what the formula holds for"));
   EXPECT_THAT(ProblemsOf(R"("statistic": "computed", "inputs": [1], "low": 0)"),
               HasSubstr("name a closed form"));
   EXPECT_THAT(ProblemsOf(R"("statistic": "mode", "scenario": "s", "column": "c", "sample_size": 9,)"

@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/distributions.h"
+#include "core/json_file.h"
 #include "core/random.h"
 #include "statistics/closed_forms.h"
 #include "statistics/published_comparison.h"
@@ -27,6 +29,48 @@ TEST(ClosedForms, AgreeWithThePublishedArithmetic) {
   const double energy[] = {7.33, 20.0};
   EXPECT_NEAR(Evaluate(Formula::kProduct, energy), 146.6, 1e-9);
   EXPECT_NEAR(Evaluate(Formula::kQuotient, energy), 0.3665, 1e-12);
+}
+
+// Numbers and cover of Moore's law, computed independently.
+TEST(ClosedForms, PowerLaws) {
+  const core::JsonValue oracles =
+      core::LoadJsonFile(ROCKYARD_SOURCE_DIR "/tests/data/moore_oracles.json");
+  for (const char* terrain : {"vl2", "nominal"}) {
+    const core::JsonValue& oracle = *oracles.Find(terrain);
+    const double k = oracle.Find("k")->number();
+    for (const core::JsonValue& row : oracle.Find("number_per_m2")->list()) {
+      const double inputs[] = {k, row.Find("diameter_m")->number(), 2.66};
+      const double number = row.Find("number")->number();
+      EXPECT_NEAR(Evaluate(Formula::kPowerLaw, inputs), number, 1e-12 * number);
+    }
+    const double cover = oracle.Find("cover_from_0.1_m_to_infinity")->number();
+    const double inputs[] = {k, 0.1, 2.66};
+    EXPECT_NEAR(Evaluate(Formula::kPowerLawCover, inputs), cover, 1e-12);
+    const double other[] = {k, 0.1, 2.7};
+    EXPECT_GT(std::abs(Evaluate(Formula::kPowerLawCover, other) - cover), 0.04 * cover);
+  }
+  const double endless[] = {0.013, 0.1, 2.0};
+  EXPECT_FALSE(InDomain(Formula::kPowerLawCover, endless)) << "the integral does not converge";
+}
+
+// Exact moments of the state equations by double sums of another program.
+TEST(ClosedForms, DriftOfAStraightDrive) {
+  const core::JsonValue oracles =
+      core::LoadJsonFile(ROCKYARD_SOURCE_DIR "/tests/data/drift/drift_exact.json");
+  for (const double distance_m : {5.0, 7.0, 10.0, 15.0, 20.0, 40.0}) {
+    const core::JsonValue* exact =
+        oracles.Find("rocky32_0.70@" + std::to_string(std::lround(distance_m)) + "m");
+    ASSERT_NE(exact, nullptr);
+    const double inputs[] = {0.067, distance_m, 0.0039, 0.70};
+    EXPECT_NEAR(Evaluate(Formula::kDriftAlong, inputs), exact->Find("sd_x")->number(), 1e-9);
+    EXPECT_NEAR(Evaluate(Formula::kDriftAcross, inputs), exact->Find("sd_y")->number(), 1e-9);
+    const double other[] = {0.067, distance_m, 0.0039, 0.77};
+    EXPECT_GT(Evaluate(Formula::kDriftAcross, other), 1.04 * exact->Find("sd_y")->number());
+  }
+  const double no_step[] = {0.0, 10.0, 0.0039, 0.70};
+  EXPECT_FALSE(InDomain(Formula::kDriftAlong, no_step));
+  const double endless[] = {0.067, 1e6, 0.0039, 0.70};
+  EXPECT_FALSE(InDomain(Formula::kDriftAcross, endless));
 }
 
 PublishedValue Value(StatisticKind statistic, double low, double high) {
