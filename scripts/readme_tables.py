@@ -443,16 +443,46 @@ def attribution(study):
     return "```\n" + text.split("  every trial of cell")[0].rstrip() + "\n```"
 
 
+def script(study, name, *arguments):
+    """What a study of its own prints."""
+    result = subprocess.run([sys.executable, ROOT / "scripts" / name, "--rockyard", study.rockyard,
+                             "--out", study.out / Path(name).stem, *map(str, arguments)],
+                            capture_output=True, text=True, check=False)
+    return result.stdout.strip() if result.returncode == 0 else sys.exit(result.stderr)
+
+
+def patience(study):
+    """Success against the operator's patience; the drawing goes to results/studies."""
+    text = script(study, "patience_study.py", "--trials", 1000)
+    shutil.copy(study.out / "patience_study/patience_distance.svg",
+                ROOT / "results/studies/patience.svg")
+    return text
+
+
+def odometer_sign(study):
+    return script(study, "odometer_sign_study.py", "--trials", 300)
+
+
+def revision(study):
+    return script(study, "revision_study.py", "--tables", "revision").split("\n\n", 1)[1]
+
+
+def readings(study):
+    return script(study, "revision_study.py", "--tables", "readings").split("\n\n", 1)[1]
+
+
+def heights(study):
+    return script(study, "revision_study.py", "--tables", "heights").split("\n\n", 1)[1]
+
+
 def scaling(study):
     """On a machine that does nothing else."""
-    result = subprocess.run([sys.executable, ROOT / "scripts/scaling_study.py", "--rockyard",
-                             study.rockyard, "--out", study.out / "scaling"],
-                            capture_output=True, text=True, check=True)
-    return result.stdout.strip()
+    return script(study, "scaling_study.py")
 
 
 TABLES = {f.__name__: f for f in (comparison, comparison_excerpt, hazards, mission, verdicts,
-                                 errors, envelope, corridor, unmeasured, causes, fidelity, speed,
+                                 errors, envelope, corridor, revision, readings,
+                                 heights, patience, odometer_sign, unmeasured, causes, fidelity, speed,
                                  gestalt, navigators, navigator_speed, abundance_sweep,
                                  navigator_sweep, attribution, scaling)}
 

@@ -123,8 +123,9 @@ void VisitShape(RockFieldParams& p, core::FieldVisitor& v) {
           .min = 0.1,
           .max = 3.0,
           .origin = Origin::kAssumed,
-          .source = "mean 1.0 is implied by Matthies 1995 sec. 7: 15 cm of height from 23 cm of "
-                    "diameter, a third buried",
+          .source = "with a third buried, 15 cm of height go with 23 cm of diameter (Matthies 1995 "
+                    "sec. 7) only if rocks are as high as wide: a heuristic about Mars that turns "
+                    "clearance into diameter, nothing about the rocks of the arena",
           .study_low = 0.4,
           .study_high = 0.9});
   v.Real("max_height_ratio", p.max_height_ratio,
