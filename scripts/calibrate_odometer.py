@@ -25,6 +25,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+import study
+
 ROOT = Path(__file__).resolve().parent.parent
 LEVEL_SAND = ROOT / "scenarios/pathfinder/level_sand.json"
 SCALE = "perception.dead_reckoning.distance_scale"
@@ -42,17 +44,13 @@ ROUNDS = 2
 
 
 def drive(rockyard, settings, trials, seed):
-    """Columns of level sand runs as numbers. Raises CalledProcessError where the run fails."""
+    """Columns of level sand runs. Raises CalledProcessError where the run fails."""
     with tempfile.TemporaryDirectory() as folder:
         command = [rockyard, "run", LEVEL_SAND, "--trials", trials, "--seed", seed, "--out",
                    f"{folder}/run", "--quiet"]
         command += [part for setting in settings for part in ("--set", setting)]
         subprocess.run([str(part) for part in command], check=True, stdout=subprocess.DEVNULL)
-        with open(f"{folder}/run/trials.csv", encoding="utf-8", newline="") as file:
-            rows = list(csv.DictReader(file))
-    return {name: [float(row[name]) for row in rows]
-            for name in ("true_distance_m", "dead_reckoned_distance_m", "heading_error_deg",
-                         "heading_growth_deg2_per_m")}
+        return study.trial_columns(f"{folder}/run")
 
 
 def odometer(rockyard, settings, trials, seed):
