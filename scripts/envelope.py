@@ -4,7 +4,8 @@
 Draws a Latin hypercube over every assumed parameter that has a study range, and a balanced random
 choice for every assumed option, runs each scenario at each point, and prints the spread of each
 prediction over the points. Runs that are there already are resumed, so that it can be stopped and
-started again. At each point the odometer is calibrated anew on level sand, as the rover's own was.
+started again. At each point odometer and gyro are calibrated anew on level sand, as the rover's own
+were.
 
     scripts/envelope.py --points 50 --trials 40 --set rover.fidelity=quasi_static \\
         --set terrain.rocks.mobility=fixed scenarios/pathfinder/nominal.json ...
@@ -22,7 +23,7 @@ import sys
 from pathlib import Path
 
 import study
-from calibrate_odometer import SCALE, calibrate
+from calibrate_odometer import calibrate
 from study import ROOT, run
 
 # Where each prediction stands in summary.json.
@@ -128,25 +129,26 @@ def spread(values):
             for name, share in at.items()}
 
 
-def calibrated_scales(args, points):
-    """Distance scale for the soil and wheels of each point: as calibrated on level sand."""
-    stored = args.out / "scales.json"
-    scales = json.loads(stored.read_text(encoding="utf-8")) if stored.exists() else []
-    for point in points[len(scales):]:
+def calibrations(args, points):
+    """Calibrated values, by path, for the soil and wheels of each point: as found on level sand."""
+    stored = args.out / "calibrations.json"
+    found = json.loads(stored.read_text(encoding="utf-8")) if stored.exists() else []
+    for point in points[len(found):]:
         values = [f"{path}={value}" for path, value in point.items()]
-        scales.append(calibrate(args.rockyard, values, trials=20, seed=args.seed)[SCALE])
-        stored.write_text(json.dumps(scales) + "\n", encoding="utf-8")
-    return scales
+        found.append(calibrate(args.rockyard, values, trials=20, seed=args.seed,
+                               gyro_trials=1000)[0])
+        stored.write_text(json.dumps(found) + "\n", encoding="utf-8")
+    return found
 
 
-def run_points(args, scenario, points, scales, rows, rng):
+def run_points(args, scenario, points, calibrated, rows, rng):
     """summary.json of the scenario at every point."""
     summaries = []
-    for index, (point, scale) in enumerate(zip(points, scales)):
+    for index, (point, own) in enumerate(zip(points, calibrated)):
         valid = dict(point)  # a value may contradict this scenario and no other
         repaired(valid, rows, args.rockyard, scenario, rng)
         folder = args.out / scenario.stem / f"{index:03d}"
-        assignments = [f"{path}={value}" for path, value in {**valid, SCALE: scale}.items()]
+        assignments = [f"{path}={value}" for path, value in {**valid, **own}.items()]
         summaries.append(study.run_scenario(args, scenario, folder, assignments))
         print(f"\r{scenario.stem}: {index + 1}/{len(points)}", end="", file=sys.stderr)
     print(file=sys.stderr)
@@ -164,13 +166,13 @@ def main():
                for path in repaired(point, rows, args.rockyard, args.scenarios[0], rng)]
     args.out.mkdir(parents=True, exist_ok=True)
     (args.out / "design.json").write_text(json.dumps(points, indent=1) + "\n", encoding="utf-8")
-    scales = calibrated_scales(args, points)
+    calibrated = calibrations(args, points)
     print(f"{len(points)} points over {len(rows)} assumed parameters, {args.trials} trials each; "
           f"{len(redrawn)} values drawn again because they contradicted others")
     result = {"points": len(points), "parameters": len(rows), "trials": args.trials,
               "held": args.set, "scenarios": {}}
     for scenario in args.scenarios:
-        summaries = run_points(args, scenario, points, scales, rows, rng)
+        summaries = run_points(args, scenario, points, calibrated, rows, rng)
         print(f"\n{scenario.stem:<28} {'min':>9} {'p05':>9} {'median':>9} {'p95':>9} {'max':>9}")
         metrics = result["scenarios"].setdefault(scenario.stem, {})
         for name, path in METRICS.items():

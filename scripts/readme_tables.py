@@ -20,7 +20,7 @@ import time
 from pathlib import Path
 
 import navigator_study
-from calibrate_odometer import SCALE, calibrate
+from calibrate_odometer import calibrate
 from study import ROOT, compare, table, trial_columns
 
 REFERENCE = ROOT / "results/reference/matthies1995.json"
@@ -290,7 +290,8 @@ def causes(study):
     rows = [["as chosen (300 trials)", *(rate(published[scenario]) for scenario in BOTH)]]
     for name, text, settings, scenarios in CAUSES:
         if name in SOILS:
-            settings = settings + [f"{SCALE}={calibrate(study.rockyard, settings)[SCALE]}"]
+            found, _ = calibrate(study.rockyard, settings)
+            settings = settings + [f"{path}={value}" for path, value in found.items()]
         rows.append([text, *(rate(study.run(name, scenario, 100, settings))
                              if scenario in scenarios else "-" for scenario in BOTH)])
     return table(["change", "nominal", "0.85 per m2"], rows)

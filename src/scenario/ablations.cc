@@ -39,11 +39,14 @@ constexpr std::array<Settings, 6> kNoAvoidance{"navigation.navigator=pathfinder"
                                                "sensors.vehicle.contact.enabled=false"};
 
 // Without slip nothing is left of what the odometer's scale is calibrated for, nor of the scatter
-// of distance on level sand that encoder noise stands for.
-constexpr std::array<Settings, 4> kNoSlip{
+// of distance on level sand that encoder noise stands for, nor of what slip adds to noise.
+constexpr std::array<Settings, 6> kNoSlip{
     R"(terrain.ground.soil={"preset": "hard_ground", "friction_angle_deg": 60})",
-    "perception.dead_reckoning.distance_scale=1", "sensors.encoders.distance_variance_m2_per_m=0",
-    "sensors.encoders.physics_variance_m2_per_m=0"};
+    "perception.dead_reckoning.distance_scale=1",
+    "sensors.encoders.distance_variance_m2_per_m=0",
+    "sensors.encoders.physics_variance_m2_per_m=0",
+    "sensors.encoders.level_sand_gain=1",
+    "sensors.gyro.level_sand_gain=1"};
 
 constexpr std::array kAblations{
     Ablation{"perfect_designation", "the rover is told the true goal", kPerfectDesignation},

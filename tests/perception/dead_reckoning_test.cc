@@ -108,20 +108,48 @@ TEST(DeadReckoningTest, CornerWheelsLengthenArcs) {
   EXPECT_NEAR(middle.estimate().distance_m, 0.75 * turn, 1e-12);
 }
 
-// All six wheels of the Athena SDM (x = +-0.42 and 0, y = +-0.36) roll about (0, R), and steer for
-// it.
-MotionMeasurement SixSteeredWheels(double radius_m, double turn_rad) {
+// Six wheels at x = +-half_length and 0, y = +-half_track roll about (0, R), and steer for it.
+MotionMeasurement SteeredWheels(double half_length_m, double half_track_m, double radius_m,
+                                double turn_rad) {
   MotionMeasurement motion;
   motion.turn_rad = turn_rad;
-  const double x_m[] = {0.42, 0.0, -0.42, 0.42, 0.0, -0.42};
+  const double x_m[] = {half_length_m, 0.0, -half_length_m, half_length_m, 0.0, -half_length_m};
   for (std::size_t wheel = 0; wheel < messages::kWheelCount; ++wheel) {
-    const double y_m = wheel < 3 ? 0.36 : -0.36;
+    const double y_m = wheel < 3 ? half_track_m : -half_track_m;
     const double ahead_m = radius_m - y_m;
     const double sign = ahead_m < 0.0 ? -1.0 : 1.0;  // a wheel rolls backwards beyond the centre
     motion.steer_rad[wheel] = std::atan2(sign * x_m[wheel], sign * ahead_m);
     motion.wheel_turn_rad[wheel] = sign * std::hypot(ahead_m, x_m[wheel]) * turn_rad / kRadius_m;
   }
   return motion;
+}
+
+// All six wheels of the Athena SDM.
+MotionMeasurement SixSteeredWheels(double radius_m, double turn_rad) {
+  return SteeredWheels(0.42, 0.36, radius_m, turn_rad);
+}
+
+// What an odometer reads too much on an arc, in per cent, with the wheels of Rocky 3.2.
+double OverCountPercent(OdometryWheels wheels, double radius_m) {
+  constexpr double kTurn_rad = 0.01;
+  DeadReckoningParams params;
+  params.wheels = wheels;
+  auto dead_reckoning = Make(params);
+  dead_reckoning.Integrate(SteeredWheels(0.26, 0.20, radius_m, kTurn_rad));
+  return 100.0 * (dead_reckoning.estimate().distance_m / (radius_m * kTurn_rad) - 1.0);
+}
+
+// By hand: the mean of hypot(0.26, R +- 0.20) twice and of R +- 0.20 once, over R.
+TEST(DeadReckoningTest, OverCountOnTheArcsOfRocky32) {
+  EXPECT_NEAR(OverCountPercent(OdometryWheels::kAll, 3.0), 0.25, 0.005);
+  EXPECT_NEAR(OverCountPercent(OdometryWheels::kAll, 1.5), 1.01, 0.005);
+  EXPECT_NEAR(OverCountPercent(OdometryWheels::kAll, 1.0), 2.30, 0.005);
+  EXPECT_NEAR(OverCountPercent(OdometryWheels::kAll, 0.75), 4.15, 0.005);
+  EXPECT_NEAR(OverCountPercent(OdometryWheels::kAll, 0.5), 9.58, 0.005);
+  for (const double radius_m : {3.0, 1.5, 1.0, 0.75, 0.5}) {
+    EXPECT_NEAR(OverCountPercent(OdometryWheels::kForward, radius_m), 0.0, 1e-9);
+    EXPECT_NEAR(OverCountPercent(OdometryWheels::kUnsteered, radius_m), 0.0, 1e-9);
+  }
 }
 
 TEST(DeadReckoningTest, SteeringTakenIntoAccountIsExactOnArcs) {

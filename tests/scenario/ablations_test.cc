@@ -102,6 +102,21 @@ TEST(AblationsTest, PerfectSensingTakesEveryErrorOfTheSensorAway) {
   EXPECT_EQ(perfect.drive.perception.calibration.drive.track_percent, 2.0);
 }
 
+// Neither scale nor variance nor gain of level sand is left.
+TEST(AblationsTest, NoSlipLeavesNothingOfTheCalibration) {
+  const Scenario rough =
+      Nominal({"sensors.gyro.level_sand_gain=1.3", "sensors.encoders.level_sand_gain=0.92",
+               "sensors.encoders.physics_variance_m2_per_m=1e-6",
+               "perception.dead_reckoning.distance_scale=0.92"});
+  const trial::DriveParams drive = WithAblations(rough, Names{"no_slip"}).scenario.drive;
+  EXPECT_EQ(drive.sensors.gyro.level_sand_gain, 1.0);
+  EXPECT_EQ(drive.sensors.encoders.level_sand_gain, 1.0);
+  EXPECT_EQ(drive.sensors.encoders.physics_variance_m2_per_m, 0.0);
+  EXPECT_EQ(drive.perception.dead_reckoning.distance_scale, 1.0);
+  EXPECT_EQ(drive.sensors.gyro.heading_variance_rad2_per_s(),
+            sensing::GyroParams{}.heading_variance_rad2_per_s());
+}
+
 TEST(AblationsTest, NamesWhatIsWrong) {
   EXPECT_NE(ReasonOf(Nominal(), {"perfect_localisation"}).find("perfect_localization"),
             std::string::npos);

@@ -400,6 +400,60 @@ END
                       "\n".join(self.lines("sensor_suite/sensor_suite.md")))
 
 
+class OdometerSign(ScriptTest):
+    """With a rockyard of three trials, one of which reads too little."""
+
+    def setUp(self):
+        super().setUp()
+        self.fake("build/release/bin/rockyard").write_text("""#!/bin/sh
+echo "rockyard $*" >> "$CALLS"
+while [ $# -gt 1 ]; do [ "$1" = --out ] && out=$2; shift; done
+mkdir -p "$out"
+echo '{"provenance": {"version": "0.1.0", "commit": "abc"}}' > "$out/summary.json"
+cat > "$out/trials.csv" << END
+trial,outcome,detail,true_distance_m,dead_reckoned_distance_m,heading_error_deg,\
+heading_growth_deg2_per_m,distance_error_percent
+0,goal_reached,,8,10,3,1.4,4
+1,simulator_fault,,,,,,
+2,no_path,,4,5,-2,1.4,-1
+3,false_goal,,6,7.5,2,1.4,9
+END
+""", encoding="utf-8")
+        self.level_sand = "scenarios/pathfinder/level_sand.json"
+
+    def lines(self, name):
+        return (self.root / "results/runs" / name).read_text(encoding="utf-8").splitlines()
+
+    def test_every_cell_meets_the_same_trials(self):
+        result = self.run_script("odometer_sign_study.py", "--trials", "3")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        runs = [line for line in self.called("rockyard") if self.level_sand not in line]
+        self.assertEqual(len(runs), 27)
+        self.assertEqual(len({line.split("--set", 1)[1] for line in runs}), 27)
+        for line in runs:
+            self.assertIn("scenarios/pathfinder/nominal.json --trials 3 --seed 1", line)
+            self.assertIn("--set rover.fidelity=quasi_static", line)
+            # 4 m for 5 rolled; the slope of 1.4 deg2/m at a gain of 2, over 0.7.
+            self.assertIn("--set perception.dead_reckoning.distance_scale=0.8", line)
+            self.assertIn("--set sensors.encoders.level_sand_gain=0.8", line)
+            self.assertIn("--set sensors.gyro.level_sand_gain=4.0", line)
+        for setting, count in (("wheels=forward", 9), ("wide_arc_radius_m=3.0", 9),
+                               ("tight_arc_radius_m=0.5", 9), ("min_diameter_m=0.14", 9)):
+            self.assertEqual(sum(setting in line for line in runs), count, setting)
+
+    def test_the_table_says_how_many_read_too_little(self):
+        self.run_script("odometer_sign_study.py", "--trials", "3")
+        table = self.lines("odometer_sign/odometer_sign.md")
+        self.assertEqual(len([line for line in table if line.startswith("| ")]), 29)
+        cells = [cell.strip() for cell in table[2].strip("|").split("|")]
+        self.assertEqual(cells[:3], ["all", "3, 1", "0.05"])
+        self.assertEqual(cells[3], "33.3 (6.1..79.2)")
+        self.assertEqual(cells[4], "4.0")
+        self.assertTrue(cells[5].startswith("4.0 ("), cells[5])
+        self.assertEqual(cells[6], "66.7 (20.8..93.9)")
+        self.assertEqual(len(self.lines("odometer_sign/odometer_sign.csv")), 28)
+
+
 class NavigatorStudy(ScriptTest):
     """With a rockyard whose GESTALT gains two of three pairs, whatever the rocks."""
 

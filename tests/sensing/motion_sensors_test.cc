@@ -57,6 +57,17 @@ TEST(GyroTest, DriftPerMetreGrowsInverselyWithSpeed) {
   EXPECT_NEAR(deg2_per_s / 0.0067, 15.67, 0.005);
 }
 
+// Level sand shows the published variance where the noise has that much less of it.
+TEST(GyroTest, TheGainOfLevelSandTakesItFromTheNoise) {
+  GyroParams params;
+  const double without = params.heading_variance_rad2_per_s();
+  params.level_sand_gain = 1.25;
+  EXPECT_DOUBLE_EQ(params.heading_variance_rad2_per_s(), 0.8 * without);
+  params.level_sand_gain = 4.0;
+  EXPECT_DOUBLE_EQ(Gyro(params, {1, 0}).Measure(0.0, 1.0, true, 3),
+                   0.5 * Gyro({}, {1, 0}).Measure(0.0, 1.0, true, 3));
+}
+
 TEST(GyroTest, MeasuresTurnsAboutTheRoversOwnAxis) {
   EXPECT_NEAR(TurnAboutOwnAxis(Turned(3.1), Turned(-3.1)), 2.0 * M_PI - 6.2, 1e-12);
   EXPECT_NEAR(TurnAboutOwnAxis(Turned(0.2), Turned(0.1)), -0.1, 1e-12);
@@ -113,6 +124,16 @@ TEST(EncodersTest, PhysicsTakesItsShareOfTheVariance) {
   core::JsonValue json = core::WriteParams(params);
   json.Set("physics_variance_m2_per_m", core::JsonValue(0.005));
   EXPECT_THROW(core::ReadParams(json, params), core::UserError);
+}
+
+// An odometer of scale s, on a rover that gets 1 m on for 1 / s rolled: of noise v / s a metre
+// rolled it shows s^2 (v / s) / s = v a metre driven.
+TEST(EncodersTest, TheGainOfLevelSandIsTheScaleOfTheOdometer) {
+  EncoderParams params;
+  params.physics_variance_m2_per_m = 0.0009;
+  params.level_sand_gain = 0.92;
+  const double scale = 0.92;
+  EXPECT_NEAR(scale * scale * params.noise_variance_m2_per_m() / scale, 0.0030, 1e-15);
 }
 
 truth::RoverState Scraping(int rock, double x_m, truth::BodyPart part = truth::BodyPart::kHub,
