@@ -72,7 +72,9 @@ TEST(AblationsTest, ChangesResolvedDocumentsAndOthersAlike) {
     core::JsonValue resolved = WriteScenario(Nominal());
     core::JsonValue written = core::ParseJson(
         R"({"terrain": {"rocks": {"k_per_m2": 0.00415}}, "course": {"goal_x_m": 7.6},
-            "sensors": {"encoders": {"physics_variance_m2_per_m": 1.9e-06}},
+            "sensors": {"gyro": {"level_sand_gain": 1.25},
+                        "encoders": {"physics_variance_m2_per_m": 1.9e-06,
+                                     "level_sand_gain": 0.9201}},
             "perception": {"dead_reckoning": {"distance_scale": 0.9201}}})",
         "test");
     ApplyAblation(resolved, ablation.name);

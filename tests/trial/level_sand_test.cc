@@ -5,6 +5,9 @@
 // the distance: what they gain over disjoint stretches of 1 m is independent with variance q times
 // the length. So with n stretches sum((e - mean)^2 / L) / q is chi-square with n - 1 degrees of
 // freedom. Each test has alpha = 1e-3; its negative control goes through the same function.
+//
+// The slope that figure 5 fits to the squared errors along the runs is the published value itself:
+// to 4 standard errors of the mean over many quasi-static runs (alpha = 6e-5 each).
 #include <gtest/gtest.h>
 
 #include <boost/math/distributions/chi_squared.hpp>
@@ -124,6 +127,58 @@ TEST(LevelSandTest, NoiseHalfAsStrongAgainIsRejected) {
                                          "sensors.encoders.distance_variance_m2_per_m=0.00585"});
   EXPECT_FALSE(GrowsBy(kHeadingVariance_deg2_per_m, &Stretch::heading_error_deg, drives));
   EXPECT_FALSE(GrowsBy(kDistanceVariance_m2_per_m, &Stretch::distance_error_m, drives));
+}
+
+constexpr std::uint32_t kSlopeRuns = 600;
+constexpr double kStandardErrors = 4.0;
+
+std::vector<double> SlopesOf(double truth::DriveRecord::*column, const Overrides& overrides) {
+  Overrides all{"rover.fidelity=quasi_static"};
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  std::vector<double> slopes;
+  for (const DriveResult& result : RunTrials(Pathfinder("level_sand", all), kSlopeRuns)) {
+    slopes.push_back(result.record.*column);
+  }
+  return slopes;
+}
+
+// Whether the mean slope agrees with the published one.
+testing::AssertionResult MeanIs(double published, const std::vector<double>& slopes) {
+  const auto n = static_cast<double>(slopes.size());
+  const double standard_error = std::sqrt(SumOfSquares(slopes) / (n - 1.0) / n);
+  const bool agrees = std::abs(Mean(slopes) - published) <= kStandardErrors * standard_error;
+  return (agrees ? testing::AssertionSuccess() : testing::AssertionFailure())
+         << "slope " << Mean(slopes) << " +- " << standard_error << ", held against " << published;
+}
+
+TEST(LevelSandSlopeTest, OfHeadingErrorsIsThePublishedOne) {
+  EXPECT_TRUE(MeanIs(kHeadingVariance_deg2_per_m,
+                     SlopesOf(&truth::DriveRecord::heading_growth_deg2_per_m, {})));
+}
+
+TEST(LevelSandSlopeTest, OfDistanceErrorsIsThePublishedOne) {
+  EXPECT_TRUE(MeanIs(kDistanceVariance_m2_per_m,
+                     SlopesOf(&truth::DriveRecord::distance_growth_m2_per_m, {})));
+}
+
+// Negative controls: the published value taken for the noise alone, and a gain as far off the
+// other way.
+TEST(LevelSandSlopeTest, OtherGainsOfTheGyroAreRejected) {
+  for (const std::string gain : {"1", "1.69"}) {
+    EXPECT_FALSE(
+        MeanIs(kHeadingVariance_deg2_per_m, SlopesOf(&truth::DriveRecord::heading_growth_deg2_per_m,
+                                                     {"sensors.gyro.level_sand_gain=" + gain})))
+        << gain;
+  }
+}
+
+TEST(LevelSandSlopeTest, OtherGainsOfTheEncodersAreRejected) {
+  for (const std::string gain : {"0.6", "1.4"}) {
+    EXPECT_FALSE(
+        MeanIs(kDistanceVariance_m2_per_m, SlopesOf(&truth::DriveRecord::distance_growth_m2_per_m,
+                                                    {"sensors.encoders.level_sand_gain=" + gain})))
+        << gain;
+  }
 }
 
 // Encoders without noise leave the slip of the wheels alone, so that the mean error is known to a
