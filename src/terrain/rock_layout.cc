@@ -11,6 +11,7 @@
 #include "core/distributions.h"
 #include "terrain/arena.h"
 #include "terrain/placement.h"
+#include "terrain/rock_profile.h"
 #include "terrain/rock_size_law.h"
 
 namespace rockyard::terrain {
@@ -55,22 +56,20 @@ Rock DrawRock(const RockFieldParams& params, const RockSizeLaw& law, core::Trial
               std::uint32_t substream) {
   RandomStream size(key, Purpose::kRockSize, substream);
   RandomStream shape(key, Purpose::kRockShape, substream);
-  Rock rock;
-  rock.diameter_m = law.Diameter(size.Uniform());
-  const double width_ratio =
-      core::SampleUniform(shape, params.min_width_ratio, params.max_width_ratio);
+  RockOutline outline;
+  outline.diameter_m = law.Diameter(size.Uniform());
+  outline.width_ratio = core::SampleUniform(shape, params.min_width_ratio, params.max_width_ratio);
   const double height_ratio =
       core::SampleUniform(shape, params.min_height_ratio, params.max_height_ratio);
   const double buried = core::SampleUniform(shape, params.burial_mean - params.burial_spread,
                                             params.burial_mean + params.burial_spread);
+  // c in proportion to a = D/2. Of the full height 2 c the buried share lies below the ground, so
+  // the top stands at h = 2 c (1 - buried).
+  outline.half_height_m = 0.5 * outline.diameter_m * height_ratio;
+  outline.height_m = 2.0 * outline.half_height_m * (1.0 - buried);
+  Rock rock = ShapeRock(outline, params.pointedness);
   // An ellipse looks the same after half a turn.
   rock.yaw_rad = core::SampleUniform(shape, -0.5 * std::numbers::pi, 0.5 * std::numbers::pi);
-  // a = D/2 and b, c in proportion. Of the full height 2 c the buried share lies below the ground,
-  // so the top stands at h = 2 c (1 - buried) and the centre at h - c.
-  const double a_m = 0.5 * rock.diameter_m;
-  rock.semi_axes_m = {a_m, a_m * width_ratio, a_m * height_ratio};
-  rock.height_m = 2.0 * rock.semi_axes_m.z() * (1.0 - buried);
-  rock.center_W.z() = rock.height_m - rock.semi_axes_m.z();
   return rock;
 }
 
@@ -177,18 +176,17 @@ RockLayout LayOutExactCount(const TerrainParams& params, core::TrialKey key, con
   return builder.Take();
 }
 
-// Ellipsoids of revolution with the given outline on the ground they stand on: of the full height
-// 2 c the buried share is below, h = 2 c (1 - burial).
+// Bodies of revolution with the given outline on the ground they stand on: of the full height 2 c
+// the buried share is below, h = 2 c (1 - burial).
 RockLayout LayOutList(const RockFieldParams& params) {
   const ListedRocksParams& list = params.listed;
   RockLayout layout;
   for (std::size_t i = 0; i < list.x_m.size(); ++i) {
-    Rock rock;
-    rock.diameter_m = list.diameter_m[i];
-    rock.height_m = list.height_m[i];
-    const double c_m = 0.5 * rock.height_m / (1.0 - params.burial_mean);
-    rock.semi_axes_m = {0.5 * rock.diameter_m, 0.5 * rock.diameter_m, c_m};
-    rock.center_W = {list.x_m[i], list.y_m[i], rock.height_m - c_m};
+    const RockOutline outline{.diameter_m = list.diameter_m[i],
+                              .half_height_m = 0.5 * list.height_m[i] / (1.0 - params.burial_mean),
+                              .height_m = list.height_m[i]};
+    Rock rock = ShapeRock(outline, params.pointedness);
+    rock.center_W.head<2>() << list.x_m[i], list.y_m[i];
     layout.rocks.push_back(rock);
   }
   layout.drawn = static_cast<int>(layout.rocks.size());

@@ -155,6 +155,21 @@ void VisitShape(RockFieldParams& p, core::FieldVisitor& v) {
   v.Require("burial_spread",
             p.burial_mean - p.burial_spread >= 0.0 && p.burial_mean + p.burial_spread <= 0.95,
             "takes the buried fraction out of 0 to 0.95", "use a smaller burial_spread");
+  v.Real("pointedness", p.pointedness,
+         {.doc = "profile at the same height and outline: 0 ellipsoids, about 0.6 paraboloids, "
+                 "towards 1 cones; 0.87 lets the light stripe sensor see half of the rocks of 7 to "
+                 "7.5 cm",
+          .min = 0.0,
+          .max = 0.99,
+          .origin = Origin::kCalibrated,
+          .source = "Matthies 1995 sec. 6: rocks typically seen are 7 to 8 cm or more high; "
+                    "scripts/calibrate_profile.py",
+          .study_low = 0.8,
+          .study_high = 0.91});
+  // Deeper ellipsoids are narrower on the ground than their outline, which caps keep there.
+  v.Require("pointedness", p.pointedness == 0.0 || p.burial_mean + p.burial_spread <= 0.5,
+            "is above 0 where more than half of a rock may be buried",
+            "use burial_mean plus burial_spread of at most 0.5, or 0");
 }
 
 }  // namespace

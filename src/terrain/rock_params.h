@@ -63,6 +63,7 @@ struct RockFieldParams {
   double max_height_ratio = 1.2;
   double burial_mean = 1.0 / 3.0;
   double burial_spread = 0.1;
+  double pointedness = 0.0;
 
   OverlapRule overlap = OverlapRule::kRelocate;
   LineRule mirror_line = LineRule::kMerge;

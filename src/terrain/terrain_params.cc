@@ -17,6 +17,19 @@ bool CountAreaFits(const RockFieldParams& rocks, const ArenaParams& arena) {
          rocks.count_area_width_m <= width_m + kTolerance_m;
 }
 
+// Caps end on level ground and are held by nothing below it.
+void RequireGroundOfCaps(const TerrainParams& p, core::FieldVisitor& v) {
+  const bool caps = p.rocks.kind != RockFieldKind::kNone && p.rocks.pointedness > 0.0;
+  v.Require("rocks.pointedness",
+            !caps || (p.ground.slope_rad == 0.0 && p.ground.roughness_rms_m == 0.0),
+            "is above 0 on ground that is not level: pointed rocks have a flat base, under which a "
+            "gap would open",
+            "use 0, or ground.slope_deg 0 and ground.roughness_rms_m 0");
+  v.Require("rocks.pointedness", !caps || p.rocks.mobility == RockMobility::kFixed,
+            "is above 0 with movable rocks: the soil's hold is known for ellipsoids only",
+            "use 0, or rocks.mobility fixed");
+}
+
 }  // namespace
 
 double TerrainParams::LayoutArea() const {
@@ -50,6 +63,7 @@ void TerrainParams::Visit(core::FieldVisitor& v) {
   v.Group("ground", ground, "the surface between the rocks");
   v.Group("rocks", rocks, "sizes, counts, shapes and placement");
   v.Group("arena", arena, "extent and edges");
+  RequireGroundOfCaps(*this, v);
   v.Require("rocks.count_area_length_m",
             rocks.kind != RockFieldKind::kUniformCount || CountAreaFits(rocks, arena),
             "puts the count area outside the arena, or outside the strip between the mirror lines",

@@ -127,6 +127,16 @@ void RequireFinder(const DriveParams& drive, LightStripeUse use, core::FieldVisi
       "use at most its averaging_rows plus twice its margin_rows");
 }
 
+// The outlines of rocks in stereo images are worked out for ellipsoids.
+void RequireRoundRocks(const DriveParams& drive, LightStripeUse use, core::FieldVisitor& v) {
+  const terrain::RockFieldParams& rocks = drive.terrain.rocks;
+  v.Require("terrain.rocks.pointedness",
+            UsesLightStripe(drive, use) || rocks.kind == terrain::RockFieldKind::kNone ||
+                rocks.pointedness == 0.0,
+            "is above 0 where sensors.terrain_sensor is stereo, which sees ellipsoids only",
+            "use 0, or terrain_sensor light_stripe");
+}
+
 // Images show the rover itself, rays do not.
 void RequireFreeView(const DriveParams& drive, LightStripeUse use, core::FieldVisitor& v) {
   if (!UsesLightStripe(drive, use)) return;
@@ -150,6 +160,7 @@ void RequireConsistency(const DriveParams& drive, LightStripeUse light_stripe,
   RequireStripes(drive, light_stripe, v);
   RequireFinder(drive, light_stripe, v);
   RequireFreeView(drive, light_stripe, v);
+  RequireRoundRocks(drive, light_stripe, v);
 }
 
 }  // namespace rockyard::trial

@@ -2,6 +2,7 @@
 // against one that solves every rock.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -26,8 +27,11 @@ struct Ray {
 // Implicit function of a rock: negative inside.
 double InsideOut(const Rock& rock, const Vector3& p_W) {
   const Eigen::AngleAxisd turn(-rock.yaw_rad, Vector3::UnitZ());
-  const Vector3 p = turn * (p_W - rock.center_W);
-  return p.cwiseQuotient(rock.semi_axes_m).squaredNorm() - 1.0;
+  const Vector3 p = (turn * (p_W - rock.center_W)).cwiseQuotient(rock.semi_axes_m);
+  if (rock.cap_growth == 0.0) return p.squaredNorm() - 1.0;
+  const double s = 1.0 - p.z();
+  const double width2 = (rock.cap_growth + (1.0 - rock.cap_growth) * s) * s;
+  return s < 0.0 || s > 1.0 ? 1.0 : p.head<2>().squaredNorm() - width2;
 }
 
 // Rocks within a ray's reach.
@@ -71,13 +75,17 @@ Ray RandomRay(core::RandomStream& stream) {
           SampleUniform(stream, 0.2, 4.0)};
 }
 
-Terrain DenseTerrain(std::uint32_t trial) {
+// From ellipsoids to nearly cones.
+constexpr std::array kPointedness = {0.0, 0.3, 0.62, 0.63, 0.87, 0.99};
+
+Terrain DenseTerrain(std::uint32_t trial, double pointedness = 0.0) {
   TerrainParams params;
   params.rocks.k_per_m2 = kVikingLander2K;
   params.rocks.overlap = trial % 2 == 0 ? OverlapRule::kAllow : OverlapRule::kRelocate;
   params.arena.kind = trial % 2 == 0 ? ArenaKind::kWalled : ArenaKind::kVirtualUnfolded;
   params.ground.slope_rad = 0.1 * trial;
   params.ground.slope_direction_rad = 1.0;
+  params.rocks.pointedness = pointedness;
   return BuildField(params, {11, trial}, {}).terrain;
 }
 
@@ -91,10 +99,10 @@ double PlainDistance(const Terrain& terrain, const Ray& ray) {
 
 TEST(RayDifferentialTest, GridAgreesWithTestingEveryRock) {
   int hits = 0;
-  for (std::uint32_t trial = 0; trial < 4; ++trial) {
-    const Terrain terrain = DenseTerrain(trial);
+  for (std::uint32_t trial = 0; trial < 2 * kPointedness.size(); ++trial) {
+    const Terrain terrain = DenseTerrain(trial % 4, kPointedness[trial / 2]);
     core::RandomStream stream({12, trial}, core::Purpose::kTest);
-    for (int i = 0; i < 20000; ++i) {
+    for (int i = 0; i < 10000; ++i) {
       const Ray ray = RandomRay(stream);
       const auto hit = terrain.CastRay(ray.origin_W, ray.direction_W, ray.max_distance_m);
       const double plain = PlainDistance(terrain, ray);
@@ -110,8 +118,12 @@ TEST(RayDifferentialTest, GridAgreesWithTestingEveryRock) {
   EXPECT_GT(hits, 4000);
 }
 
-TEST(RayDifferentialTest, CandidatesAroundTheRayAreEnough) {
-  const Terrain terrain = DenseTerrain(1);
+class CandidatesTest : public testing::TestWithParam<double> {};
+
+INSTANTIATE_TEST_SUITE_P(Pointedness, CandidatesTest, testing::Values(0.0, 0.87));
+
+TEST_P(CandidatesTest, AroundTheRayAreEnough) {
+  const Terrain terrain = DenseTerrain(1, GetParam());
   core::RandomStream stream({13, 0}, core::Purpose::kTest);
   std::vector<int> near;
   for (int i = 0; i < 20000; ++i) {
@@ -135,11 +147,11 @@ TEST(RayDifferentialTest, CandidatesAroundTheRayAreEnough) {
 
 TEST(RayDifferentialTest, AgreesWithMarchingThroughTheImplicitSurfaces) {
   constexpr double kStep_m = 2e-4;
-  for (std::uint32_t trial = 0; trial < 2; ++trial) {
-    const Terrain terrain = DenseTerrain(trial);
+  for (std::uint32_t trial = 0; trial < kPointedness.size(); ++trial) {
+    const Terrain terrain = DenseTerrain(trial % 2, kPointedness[trial]);
     core::RandomStream stream({14, trial}, core::Purpose::kTest);
     int missed_by_march = 0;
-    for (int i = 0; i < 150; ++i) {
+    for (int i = 0; i < 100; ++i) {
       Ray ray = RandomRay(stream);
       ray.max_distance_m = 1.0;
       // One-sided walls are defined for rays from inside only.

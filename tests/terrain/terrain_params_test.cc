@@ -94,6 +94,15 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{R"({"rocks": {"min_width_ratio": 0.9, "max_width_ratio": 0.8}})",
                  "rocks.max_width_ratio", "smaller"},
         BadInput{R"({"rocks": {"min_height_ratio": 1.3}})", "rocks.max_height_ratio", "smaller"},
+        BadInput{R"({"rocks": {"pointedness": 1.0}})", "rocks.pointedness", "0.99"},
+        BadInput{R"({"rocks": {"pointedness": 0.5, "burial_mean": 0.45}})", "rocks.pointedness",
+                 "more than half of a rock"},
+        BadInput{R"({"rocks": {"pointedness": 0.01}, "ground": {"slope_deg": 1}})",
+                 "rocks.pointedness", "not level"},
+        BadInput{R"({"rocks": {"pointedness": 0.01}, "ground": {"roughness_rms_m": 0.01}})",
+                 "rocks.pointedness", "not level"},
+        BadInput{R"({"rocks": {"pointedness": 0.01, "mobility": "movable"}})", "rocks.pointedness",
+                 "movable"},
         BadInput{R"({"arena": {"mirror_margin_m": 1.9}})", "arena.mirror_margin_m", "0.5 m"},
         BadInput{R"({"arena": {"mirror_margin_m": 1.5}})", "arena.mirror_margin_m", "wider"},
         BadInput{R"({"ground": {"slope_deg": 46}})", "ground.slope_deg", "45"}));
@@ -107,6 +116,14 @@ TEST(TerrainParamsTest, KilometresAreValidWhereTheirRocksAreNotTooMany) {
                          "rocks": {"kind": "uniform_count", "count": 1000, "count_area_x_m": 0,
                                    "count_area_length_m": 900}})"),
             "");
+}
+
+TEST(TerrainParamsTest, PointedRocksNeedLevelGroundAndFixedRocksOnlyWhereTheyStand) {
+  EXPECT_EQ(Problems(R"({"rocks": {"pointedness": 0.87}})"), "");
+  EXPECT_EQ(Problems(R"({"rocks": {"pointedness": 0.87, "kind": "none", "mobility": "movable"},
+                         "ground": {"slope_deg": 10, "roughness_rms_m": 0.01}})"),
+            "");
+  EXPECT_EQ(Problems(R"({"rocks": {"mobility": "movable"}, "ground": {"slope_deg": 10}})"), "");
 }
 
 TEST(TerrainParamsTest, UnusedCountAreaDoesNotHinderMooreFields) {

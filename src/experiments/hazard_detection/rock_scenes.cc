@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/distributions.h"
+#include "terrain/rock_profile.h"
 
 namespace rockyard::experiments {
 
@@ -18,16 +19,17 @@ terrain::Rock DrawSceneRock(const RockCell& cell, RockProportions proportions,
       core::SampleUniform(stream, law.min_height_ratio, law.max_height_ratio);
   const double buried = core::SampleUniform(stream, law.burial_mean - law.burial_spread,
                                             law.burial_mean + law.burial_spread);
-  terrain::Rock rock;
-  // An ellipse looks the same after half a turn.
-  rock.yaw_rad = core::SampleUniform(stream, -0.5 * std::numbers::pi, 0.5 * std::numbers::pi);
-  rock.height_m = cell.height_m;
   const double c_m = 0.5 * cell.height_m / (1.0 - buried);
   const bool natural = proportions == RockProportions::kNatural;
-  rock.diameter_m = natural ? 2.0 * c_m / height_ratio : cell.diameter_m;
-  const double a_m = 0.5 * rock.diameter_m;
-  rock.semi_axes_m = {a_m, a_m * width_ratio, c_m};
-  rock.center_W = {a_m, lateral_m, cell.height_m - c_m};
+  const terrain::RockOutline outline{
+      .diameter_m = natural ? 2.0 * c_m / height_ratio : cell.diameter_m,
+      .width_ratio = width_ratio,
+      .half_height_m = c_m,
+      .height_m = cell.height_m};
+  terrain::Rock rock = terrain::ShapeRock(outline, law.pointedness);
+  // An ellipse looks the same after half a turn.
+  rock.yaw_rad = core::SampleUniform(stream, -0.5 * std::numbers::pi, 0.5 * std::numbers::pi);
+  rock.center_W.head<2>() << rock.semi_axes_m.x(), lateral_m;
   return rock;
 }
 

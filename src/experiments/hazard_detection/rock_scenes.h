@@ -22,9 +22,9 @@ struct RockCell {
   double lateral_offset_m = 0.0;
 };
 
-// A rock of the given height above the ground, its nearest end at x = 0. Width, burial and yaw
-// follow the laws of the terrain's rocks; the ellipsoid's vertical axis is c = h / (2 (1 -
-// burial)), and for natural proportions its diameter is 2 c / height ratio. Draws four numbers.
+// A rock of the given height above the ground, its nearest end at x = 0. Width, burial, yaw and
+// profile follow the laws of the terrain's rocks; half its full height is c = h / (2 (1 - burial)),
+// and for natural proportions its diameter is 2 c / height ratio. Draws four numbers.
 terrain::Rock DrawSceneRock(const RockCell& cell, RockProportions proportions,
                             const terrain::RockFieldParams& law, double lateral_m,
                             core::RandomStream& stream);

@@ -49,12 +49,12 @@ void ContactFinder::ScaleImpulses(double ratio) {
 }
 
 void ContactFinder::OnRockMoved(int rock) {
-  Ellipsoid& ellipsoid = rocks_[static_cast<std::size_t>(rock)];
-  const Vector3 before_W = ellipsoid.center_W();
+  RockBody& body = rocks_[static_cast<std::size_t>(rock)];
+  const Vector3 before_W = body.center_W();
   // The nearest point moves along with its rock, as a start for the next search.
-  ellipsoid = Ellipsoid(terrain_.rocks()[static_cast<std::size_t>(rock)]);
+  body = RockBody(terrain_.rocks()[static_cast<std::size_t>(rock)]);
   for (Contact& contact : contacts_) {
-    if (contact.other == rock) contact.near_W += ellipsoid.center_W() - before_W;
+    if (contact.other == rock) contact.near_W += body.center_W() - before_W;
   }
   gathered_ = false;
 }
@@ -184,19 +184,19 @@ bool ContactFinder::AreApart(const Part& part, const math::Transform& X_WB,
 void ContactFinder::MeetRock(int index, const math::Transform& X_WB, const Vector3& center_W,
                              int rock) {
   const Part& part = parts_[static_cast<std::size_t>(index)];
-  const Ellipsoid& ellipsoid = rocks_[static_cast<std::size_t>(rock)];
+  const RockBody& body = rocks_[static_cast<std::size_t>(rock)];
   // Bounding balls first.
   const double reach_m = part.bounding_radius_m + kFollowedGap_m;
-  const double far_m = reach_m + ellipsoid.bounding_radius_m();
-  if ((center_W - ellipsoid.center_W()).squaredNorm() > far_m * far_m) return;
+  const double far_m = reach_m + body.bounding_radius_m();
+  if ((center_W - body.center_W()).squaredNorm() > far_m * far_m) return;
   // Cheap test before the nearest point, which needs a root.
-  if (ellipsoid.DistanceBound(center_W) > reach_m) return;
+  if (body.DistanceBound(center_W) > reach_m) return;
 
   bool found = false;
   Contact& contact = Add(index, rock, found);
   const Eigen::Matrix3d R_BW = X_WB.linear().transpose();
   SurfacePoint surface{contact.near_W, contact.n_W, 0.0};
-  if (!found) surface = ellipsoid.Nearest(center_W);
+  if (!found) surface = body.Nearest(center_W);
   if (!found && AreApart(part, X_WB, surface)) {
     contacts_.pop_back();
     return;
@@ -208,7 +208,7 @@ void ContactFinder::MeetRock(int index, const math::Transform& X_WB, const Vecto
     // sweep.
     core_W = X_WB * NearestOnCore(part, R_BW * (surface.point_W - X_WB.translation()));
     const Vector3 before_W = surface.point_W;
-    surface = ellipsoid.Nearest(core_W);
+    surface = body.Nearest(core_W);
     if (AreApart(part, X_WB, surface)) break;
     if ((surface.point_W - before_W).squaredNorm() < kConverged_m * kConverged_m) break;
   }

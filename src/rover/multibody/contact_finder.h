@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "math/pose.h"
-#include "rover/ellipsoid.h"
+#include "rover/rock_body.h"
 #include "rover/multibody/multibody.h"
 #include "rover/part_shapes.h"
 #include "terrain/terrain.h"
@@ -75,7 +75,7 @@ class ContactFinder {
 
   const terrain::Terrain& terrain_;
   std::vector<Part> parts_;
-  std::vector<Ellipsoid> rocks_;
+  std::vector<RockBody> rocks_;
   double reach_m_;  // of the rover about R's origin
   std::vector<int> near_rocks_;
   math::Vector3 gathered_at_W_ = math::Vector3::Zero();

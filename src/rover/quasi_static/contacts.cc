@@ -38,13 +38,12 @@ double Extent(const Part& part, const Linkage::Frame& frame, const Vector3& n_W)
 }
 
 // No more than the gap between a part and a rock: that along one direction.
-// f(n) = n . (c_part - c_rock) - sqrt(n' S n) - extent of the part along n is no more than the gap
+// f(n) = n . (c_part - c_rock) - D(n) - extent of the part along n is no more than the gap
 // for any unit n: a cheap way out before the projections.
 double Separation(const Part& part, const Linkage::Frame& frame, const Vector3& center_W,
                   const RockSupport& rock) {
-  const Vector3 n_W = GuessNormal(center_W, rock);
-  return n_W.dot(center_W - rock.center_W) - std::sqrt(n_W.dot(rock.S_m2 * n_W)) -
-         Extent(part, frame, n_W);
+  const Vector3 n_W = rock.GuessNormal(center_W);
+  return n_W.dot(center_W - rock.center_W()) - rock.Along(n_W) - Extent(part, frame, n_W);
 }
 
 }  // namespace
@@ -85,7 +84,7 @@ void QuasiStaticContacts::Gather(const Vector3& p_WR) {
   rocks_.clear();
   for (const int index : near_) {
     const terrain::Rock& rock = terrain_.rocks()[static_cast<std::size_t>(index)];
-    rocks_.push_back({index, RockSupport(rock), Ellipsoid(rock), {}, {}});
+    rocks_.push_back({index, RockSupport(rock), RockBody(rock), {}, {}});
   }
   gathered_at_W_ = p_WR;
   gathered_ = true;
@@ -95,8 +94,8 @@ bool QuasiStaticContacts::MayMeetObstacle(const Vector3& p_WR, double reach_m) {
   if (!terrain_.walls().empty()) return true;
   Gather(p_WR);
   return std::any_of(rocks_.begin(), rocks_.end(), [&](const NearRock& rock) {
-    const double far_m = reach_R_m_ + rock.support.bounding_radius_m + reach_m;
-    return (rock.support.center_W - p_WR).head<2>().squaredNorm() < far_m * far_m;
+    const double far_m = reach_R_m_ + rock.support.bounding_radius_m() + reach_m;
+    return (rock.support.center_W() - p_WR).head<2>().squaredNorm() < far_m * far_m;
   });
 }
 
@@ -113,8 +112,8 @@ bool QuasiStaticContacts::WheelMayMeetObstacle(const Linkage& linkage, double re
 
 bool QuasiStaticContacts::IsNear(const Vector3& center_W, std::size_t wheel, double reach_m,
                                  const NearRock& rock) const {
-  const double far_m = rock.support.bounding_radius_m + parts_[wheel].bounding_radius_m + reach_m;
-  return (center_W - rock.support.center_W).squaredNorm() <= far_m * far_m;
+  const double far_m = rock.support.bounding_radius_m() + parts_[wheel].bounding_radius_m + reach_m;
+  return (center_W - rock.support.center_W()).squaredNorm() <= far_m * far_m;
 }
 
 void QuasiStaticContacts::Update(const Linkage& linkage, double reach_m) {
@@ -197,7 +196,7 @@ void QuasiStaticContacts::MeetRock(const Linkage& linkage, std::size_t wheel, do
     rock.known[wheel] = false;
     return;
   }
-  if (!rock.known[wheel]) rock.wheel_normal_W[wheel] = GuessNormal(center_W, rock.support);
+  if (!rock.known[wheel]) rock.wheel_normal_W[wheel] = rock.support.GuessNormal(center_W);
   rock.known[wheel] = true;
   const WheelRockGap gap = FindGap(wheel_, center_W, linkage.axle_W(wheel), rock.support, reach_m,
                                    rock.wheel_normal_W[wheel]);
@@ -221,14 +220,14 @@ void QuasiStaticContacts::MeetBody(const Linkage& linkage, double reach_m) {
   }
   bool placed = false;
   for (const NearRock& rock : rocks_) {
-    if (rock.support.top_W_m < lowest_m) continue;
-    const double far_m = reach_R_m_ + rock.support.bounding_radius_m + reach_m;
-    if ((rock.support.center_W - chassis.p_WB).head<2>().squaredNorm() > far_m * far_m) continue;
+    if (rock.support.top_W_m() < lowest_m) continue;
+    const double far_m = reach_R_m_ + rock.support.bounding_radius_m() + reach_m;
+    if ((rock.support.center_W() - chassis.p_WB).head<2>().squaredNorm() > far_m * far_m) continue;
     if (!placed) PlaceParts(linkage);
     placed = true;
     for (const BodyParts& body : bodies_) {
-      const double near_m = body.radius_m + rock.support.bounding_radius_m + reach_m;
-      if ((rock.support.center_W - body.center_W).squaredNorm() > near_m * near_m) continue;
+      const double near_m = body.radius_m + rock.support.bounding_radius_m() + reach_m;
+      if ((rock.support.center_W() - body.center_W).squaredNorm() > near_m * near_m) continue;
       for (std::size_t i = body.first; i < body.last; ++i) {
         MeetPart(linkage, placed_parts_[i], reach_m, rock);
       }
@@ -251,21 +250,21 @@ void QuasiStaticContacts::PlaceParts(const Linkage& linkage) {
 
 void QuasiStaticContacts::MeetPart(const Linkage& linkage, const PlacedPart& placed, double reach_m,
                                    const NearRock& rock) {
-  if (placed.lowest_m - rock.support.top_W_m > reach_m) return;
+  if (placed.lowest_m - rock.support.top_W_m() > reach_m) return;
   const Part& part = parts_[placed.index];
   const Linkage::Frame& frame = linkage.body(part.body);
   const Vector3 center_W = frame.p_WB + frame.R_WB * part.center_B;
-  const double far_m = part.bounding_radius_m + reach_m + rock.support.bounding_radius_m;
-  if ((center_W - rock.support.center_W).squaredNorm() > far_m * far_m) return;
+  const double far_m = part.bounding_radius_m + reach_m + rock.support.bounding_radius_m();
+  if ((center_W - rock.support.center_W()).squaredNorm() > far_m * far_m) return;
   if (Separation(part, frame, center_W, rock.support) > reach_m) return;
-  SurfacePoint surface = rock.ellipsoid.Nearest(center_W);
+  SurfacePoint surface = rock.body.Nearest(center_W);
   Vector3 core_W = center_W;
   // Alternating projections onto core and rock, see ContactFinder::MeetRock.
   for (int i = 0; i < kSweeps; ++i) {
     const Vector3 before_W = surface.point_W;
     core_W = frame.p_WB + frame.R_WB * NearestOnCore(part, frame.R_WB.transpose() *
                                                                (surface.point_W - frame.p_WB));
-    surface = rock.ellipsoid.Nearest(core_W);
+    surface = rock.body.Nearest(core_W);
     if ((surface.point_W - before_W).squaredNorm() < kConverged_m * kConverged_m) break;
   }
   const double gap_m = surface.distance_m - part.margin_m;

@@ -5,11 +5,11 @@
 #include <array>
 #include <vector>
 
-#include "rover/ellipsoid.h"
 #include "rover/multibody/contact_finder.h"
 #include "rover/part_shapes.h"
 #include "rover/quasi_static/linkage.h"
 #include "rover/quasi_static/wheel_rock_gap.h"
+#include "rover/rock_body.h"
 #include "terrain/terrain.h"
 
 namespace rockyard::rover {
@@ -56,7 +56,7 @@ class QuasiStaticContacts {
   struct NearRock {
     int index = 0;
     RockSupport support;
-    Ellipsoid ellipsoid;
+    RockBody body;
     messages::PerWheel<math::Vector3> wheel_normal_W;  // last one, where the wheel was near
     messages::PerWheel<bool> known{};
   };

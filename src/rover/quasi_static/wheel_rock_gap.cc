@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace rockyard::rover {
 namespace {
@@ -13,8 +14,18 @@ constexpr int kMaxIterations = 12;
 // The gap is stationary in the normal and Newton's method is quadratic: after a step of this size
 // the error of the gap is below 1e-9 m.
 constexpr double kConverged_rad = 3e-3;
+// The same for caps, whose points move far with their normals.
+constexpr int kMaxCapIterations = 40;
+constexpr double kCapConverged_rad = 1e-5;
+// A paraboloid, B = 0, is the limit of quadrics with a centre far away; nearer to 0 than this B is
+// set to it, which moves no point of the surface by more than a millionth of its height.
+constexpr double kLeastBend = 1e-6;
+// Keeps a base met from straight below from dividing by nothing.
+constexpr double kLeastSquare_m2 = 1e-18;
 // Longest step on the sphere, rad.
 constexpr double kLongestStep_rad = 0.5;
+// Steps on caps grow by one over this at most.
+constexpr double kLeastShare = 0.1;
 // Sine of the angle between normal and axle below which the disc counts as seen edge-on.
 constexpr double kMinSine = 0.02;
 
@@ -25,6 +36,63 @@ struct Pair {
   double core_radius_m;
   double margin_m;
   const RockSupport* rock;
+
+  int MaxIterations() const { return rock->IsCap() ? kMaxCapIterations : kMaxIterations; }
+  double Converged_rad() const { return rock->IsCap() ? kCapConverged_rad : kConverged_rad; }
+};
+
+// A piece of the rock's support function along n: with the offset of the disc from the piece's own
+// centre, sqrt(n' S n) and S n.
+struct Support {
+  const RockSupport::Piece& piece;
+  Vector3 offset_W;
+  Vector3 Sn;
+  double D;
+
+  Support(const RockSupport& rock, const Vector3& offset_from_rock_W, const Vector3& n)
+      : piece(rock.PieceAt(n)),
+        offset_W(offset_from_rock_W.x(), offset_from_rock_W.y(),
+                 offset_from_rock_W.z() - piece.above_center_m),
+        Sn(piece.S_m2 * n),
+        D(std::sqrt(std::max(n.dot(Sn), kLeastSquare_m2))) {}
+
+  // Of the rock's point with that normal, from the piece's centre.
+  Vector3 Point() const { return piece.sign * Sn / D; }
+};
+
+// Where Newton's step from n, orthogonal to it, leads on a cap.
+Vector3 CapStep(const RockSupport& rock, const Support& support, const Vector3& n,
+                const Vector3& step) {
+  if (support.piece.is_rim) {
+    // A rim bends in one direction only, so that the step is too long for the flank behind the
+    // border: it ends there. By secant, which ends beyond since the distance is concave.
+    const double before_m = rock.FromBorder_m(n);
+    const double after_m = rock.FromBorder_m(n + step);
+    return after_m > 0.0 ? Vector3(before_m / (before_m - after_m) * step) : step;
+  }
+  // The point x = sign S n / D has a normal along S^-1 x. With K the Hessian of D, x + K step has
+  // its own along n (1 - q) + step, q = n . S step / D^2: the same step to first order, and the
+  // point moves along a line. The bound holds for points beyond the quadric's centre.
+  const double q = support.Sn.dot(step) / (support.D * support.D);
+  return step / std::max(1.0 - q, kLeastShare);
+}
+
+// The arc of a circle that holds the maximum of a function, by the signs of its slope. Its ends are
+// less than half a turn apart.
+class Bracket {
+ public:
+  // Takes the slope at n about the axis, and returns `next`, or the middle of the arc where that
+  // lies outside of it.
+  Vector3 Hold(const Vector3& axis, const Vector3& n, double slope, const Vector3& next) {
+    (slope > 0.0 ? low_ : high_) = n;
+    const bool above = !low_ || axis.dot(low_->cross(next)) > 0.0;
+    const bool below = !high_ || axis.dot(next.cross(*high_)) > 0.0;
+    return above && below ? next : (*low_ + *high_).normalized();
+  }
+
+ private:
+  std::optional<Vector3> low_;
+  std::optional<Vector3> high_;
 };
 
 // Flat on the rim: n = cos(a) e1 + sin(a) e2 in the plane of the disc. Returns the sideways pull,
@@ -34,35 +102,42 @@ double AlignInPlane(const Pair& pair, Vector3& n) {
   // Nothing is left of the normal of a side face: any direction starts as well.
   if (n.squaredNorm() < 1e-6) n = pair.axle_W.unitOrthogonal();
   n.normalize();
-  for (int i = 0; i < kMaxIterations; ++i) {
+  const int max_iterations = pair.MaxIterations();
+  const double converged_rad = pair.Converged_rad();
+  Bracket bracket;
+  for (int i = 0; i < max_iterations; ++i) {
     // With n' = e and n'' = -n along the circle, D = sqrt(n' S n):
     //   f'  = e . d - e . S n / D,
     //   -f'' = n . d - D + e . S e / D - (e . S n)^2 / D^3   (d: offset of the centres),
     // and the step is f' / -f''. The margin bounds -f'' away from zero, so that the step goes
     // uphill.
     const Vector3 e = pair.axle_W.cross(n);
-    const Vector3 Sn = pair.rock->S_m2 * n;
-    const double D = std::sqrt(n.dot(Sn));
-    const double eSn = e.dot(Sn);
-    const double slope = e.dot(pair.offset_W) - eSn / D;
-    const double bend =
-        n.dot(pair.offset_W) - D + e.dot(pair.rock->S_m2 * e) / D - eSn * eSn / (D * D * D);
+    const Support support(*pair.rock, pair.offset_W, n);
+    const double D = support.D;
+    const double sign = support.piece.sign;
+    const double eSn = e.dot(support.Sn);
+    const double slope = e.dot(support.offset_W) - sign * eSn / D;
+    const double bend = n.dot(support.offset_W) - sign * D +
+                        sign * e.dot(support.piece.S_m2 * e) / D - sign * eSn * eSn / (D * D * D);
     const double step =
         std::clamp(slope / std::max(bend, pair.margin_m), -kLongestStep_rad, kLongestStep_rad);
-    n += step * e;
+    const Vector3 last = n;
+    n += pair.rock->IsCap() ? CapStep(*pair.rock, support, n, step * e) : Vector3(step * e);
     n.normalize();
-    if (std::abs(step) < kConverged_rad) break;
+    if (pair.rock->IsCap()) n = bracket.Hold(pair.axle_W, last, slope, n);
+    if (std::abs(step) < converged_rad) break;
   }
   // Along the axle the terms -r sqrt(1 - t^2) and -w |t| have slope 0 and -w sign(t) at t = 0, so t
   // = 0 is the maximum as long as this pull of the smooth part stays within w.
-  const Vector3 Sn = pair.rock->S_m2 * n;
-  return pair.axle_W.dot(pair.offset_W) - pair.axle_W.dot(Sn) / std::sqrt(n.dot(Sn));
+  const Support support(*pair.rock, pair.offset_W, n);
+  return pair.axle_W.dot(support.offset_W) -
+         support.piece.sign * pair.axle_W.dot(support.Sn) / support.D;
 }
 
 // True where the rock's point with the normal `face_W` of a side face lies over that face.
 bool TouchesFace(const Pair& pair, const Vector3& face_W) {
-  const Vector3 Sn = pair.rock->S_m2 * face_W;
-  const Vector3 d = pair.offset_W - Sn / std::sqrt(face_W.dot(Sn));
+  const Support support(*pair.rock, pair.offset_W, face_W);
+  const Vector3 d = support.offset_W - support.Point();
   return (d - d.dot(face_W) * face_W).squaredNorm() <= pair.core_radius_m * pair.core_radius_m;
 }
 
@@ -71,7 +146,9 @@ void AlignOnEdge(const Pair& pair, Vector3& n) {
   Vector3 last = n;
   Vector3 move = Vector3::Zero();
   double last_f = -std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kMaxIterations; ++i) {
+  const int max_iterations = pair.MaxIterations();
+  const double converged_rad = pair.Converged_rad();
+  for (int i = 0; i < max_iterations; ++i) {
     // Orthonormal b, e, n: b across the axle and the normal, e from the rim's plane towards the
     // axle.
     const double t = n.dot(pair.axle_W);
@@ -79,12 +156,13 @@ void AlignOnEdge(const Pair& pair, Vector3& n) {
     Vector3 b = pair.axle_W.cross(n);
     b.normalize();
     const Vector3 e = n.cross(b);
-    const Vector3 Sn = pair.rock->S_m2 * n;
-    const double D = std::sqrt(n.dot(Sn));
+    const Support support(*pair.rock, pair.offset_W, n);
+    const double D = support.D;
+    const double sign = support.piece.sign;
     // The offset is that of the rim's circle on the nearer side, so w |t| is part of it. f + m is
     // homogeneous of degree 1 in n, so n . gradient = f + m.
     const Vector3 gradient =
-        pair.offset_W - Sn / D - pair.core_radius_m / sine * (n - t * pair.axle_W);
+        support.offset_W - support.Point() - pair.core_radius_m / sine * (n - t * pair.axle_W);
     const double f = n.dot(gradient) - pair.margin_m;
     if (f < last_f) {  // too far: near a side face the curvature changes quickly
       move *= 0.5;
@@ -93,18 +171,19 @@ void AlignOnEdge(const Pair& pair, Vector3& n) {
     }
     last = n;
     last_f = f;
-    const double bSn = b.dot(Sn);
-    const double eSn = e.dot(Sn);
+    const double bSn = b.dot(support.Sn);
+    const double eSn = e.dot(support.Sn);
     const double D3 = D * D * D;
     // -Hessian on the sphere: that of the ambient function, plus n . gradient = f + m on the
     // diagonal for the sphere's own curvature, kept at m / 2 or more in deep penetration. The disc,
     // r sqrt(|n|^2 - t^2), bends by r / sqrt(1 - t^2) about the axle (b) and not at all towards it
     // (e).
     const double spin = pair.margin_m + std::max(f, -0.5 * pair.margin_m);
-    const Vector3 Sb = pair.rock->S_m2 * b;
-    const double M_bb = b.dot(Sb) / D - bSn * bSn / D3 + pair.core_radius_m / sine + spin;
-    const double M_be = e.dot(Sb) / D - bSn * eSn / D3;
-    const double M_ee = e.dot(pair.rock->S_m2 * e) / D - eSn * eSn / D3 + spin;
+    const Vector3 Sb = support.piece.S_m2 * b;
+    const double M_bb =
+        sign * b.dot(Sb) / D - sign * bSn * bSn / D3 + pair.core_radius_m / sine + spin;
+    const double M_be = sign * e.dot(Sb) / D - sign * bSn * eSn / D3;
+    const double M_ee = sign * e.dot(support.piece.S_m2 * e) / D - sign * eSn * eSn / D3 + spin;
     const double g_b = b.dot(gradient);
     const double g_e = e.dot(gradient);
     const double determinant = M_bb * M_ee - M_be * M_be;
@@ -117,8 +196,9 @@ void AlignOnEdge(const Pair& pair, Vector3& n) {
       step_e *= kLongestStep_rad / size;
     }
     move = step_b * b + step_e * e;
+    if (pair.rock->IsCap()) move = CapStep(*pair.rock, support, n, move);
     n = (last + move).normalized();
-    if (size < kConverged_rad) break;
+    if (size < converged_rad) break;
   }
 }
 
@@ -126,7 +206,7 @@ void AlignOnEdge(const Pair& pair, Vector3& n) {
 double Separation(const WheelShape& wheel, const Vector3& offset_W, const Vector3& axle_W,
                   const RockSupport& rock, const Vector3& n) {
   const double t = n.dot(axle_W);
-  return n.dot(offset_W) - std::sqrt(n.dot(rock.S_m2 * n)) -
+  return n.dot(offset_W) - rock.Along(n) -
          wheel.core_radius_m * std::sqrt(std::max(1.0 - t * t, 0.0)) -
          wheel.core_half_width_m * std::abs(t) - wheel.margin_m;
 }
@@ -140,26 +220,65 @@ WheelShape::WheelShape(const RoverGeometryParams& params)
 }
 
 RockSupport::RockSupport(const terrain::Rock& rock)
-    : center_W(rock.center_W),
-      bounding_radius_m(rock.semi_axes_m.maxCoeff()),
-      top_W_m(rock.center_W.z() + rock.semi_axes_m.z()) {
+    : center_W_(rock.center_W),
+      bounding_radius_m_(rock.semi_axes_m.maxCoeff()),
+      top_W_m_(rock.center_W.z() + rock.semi_axes_m.z()),
+      growth_(rock.cap_growth),
+      height_m_(rock.semi_axes_m.z()) {
   const Eigen::Matrix3d R = Eigen::AngleAxisd(rock.yaw_rad, Vector3::UnitZ()).toRotationMatrix();
-  // The ellipsoid's support function is sqrt(n' R diag(a^2) R' n) = sqrt(n' S n).
-  S_m2 = R * rock.semi_axes_m.cwiseAbs2().asDiagonal() * R.transpose();
+  const Vector3 squares = rock.semi_axes_m.cwiseAbs2();
+  if (!IsCap()) {
+    // The ellipsoid's support function is sqrt(n' R diag(a^2) R' n) = sqrt(n' S n).
+    pieces_[0].S_m2 = R * squares.asDiagonal() * R.transpose();
+    return;
+  }
+  const double exact = 1.0 - growth_;
+  const double B = std::abs(exact) < kLeastBend ? std::copysign(kLeastBend, exact) : exact;
+  const double ratio = 0.5 * growth_ / B;
+  const Vector3 quadric = ratio * ratio * Vector3(-B * squares.x(), -B * squares.y(), squares.z());
+  pieces_[0] = {R * quadric.asDiagonal() * R.transpose(), B > 0.0 ? -1.0 : 1.0,
+                height_m_ + ratio * height_m_};
+  const Vector3 rim(squares.x(), squares.y(), 0.0);
+  pieces_[1] = {R * rim.asDiagonal() * R.transpose(), 1.0, 0.0, true};
 }
 
-Vector3 GuessNormal(const Vector3& center_W, const RockSupport& rock) {
-  const Vector3 d = center_W - rock.center_W;
-  // Stretches the direction in z by a_x / a_z: flat rocks are mostly met from above. S_xx is a_x^2
-  // up to yaw, S_zz is a_z^2.
-  const Vector3 scaled(d.x(), d.y(), d.z() * std::sqrt(rock.S_m2(0, 0) / rock.S_m2(2, 2)));
+double RockSupport::FromBorder_m(const Vector3& n_W) const {
+  return height_m_ * n_W.z() -
+         (1.0 - 0.5 * growth_) * std::sqrt(std::max(n_W.dot(pieces_[1].S_m2 * n_W), 0.0));
+}
+
+double RockSupport::Along(const Vector3& n_W) const {
+  const Piece& piece = PieceAt(n_W);
+  return n_W.z() * piece.above_center_m + piece.sign * std::sqrt(n_W.dot(piece.S_m2 * n_W));
+}
+
+Vector3 RockSupport::GuessNormal(const Vector3& center_W) const {
+  const Vector3 d = center_W - center_W_;
+  Vector3 scaled;
+  if (IsCap()) {
+    // The normal where the line from the centre of the base to the other's leaves a round cap, as
+    // in RockBody's points from inside. S_xx of the rim is a^2 up to yaw.
+    const double a2_m2 = pieces_[1].S_m2(0, 0);
+    const double zeta = std::max(d.z(), 0.0) / height_m_;
+    const double rho2 = d.head<2>().squaredNorm() / a2_m2;
+    const double scale = 2.0 / std::max(zeta * (2.0 - growth_) +
+                                            std::sqrt(growth_ * growth_ * zeta * zeta + 4.0 * rho2),
+                                        1e-9);
+    const double slope = 0.5 * growth_ + (1.0 - growth_) * (1.0 - scale * zeta);
+    scaled = Vector3(scale * d.x() / a2_m2, scale * d.y() / a2_m2, slope / height_m_);
+  } else {
+    // Stretches the direction in z by a_x / a_z: flat rocks are mostly met from above. S_xx is
+    // a_x^2 up to yaw, S_zz is a_z^2.
+    const Eigen::Matrix3d& S_m2 = pieces_[0].S_m2;
+    scaled = Vector3(d.x(), d.y(), d.z() * std::sqrt(S_m2(0, 0) / S_m2(2, 2)));
+  }
   const double norm = scaled.norm();
   return norm > 1e-9 ? Vector3(scaled / norm) : Vector3::UnitZ();
 }
 
 WheelRockGap FindGap(const WheelShape& wheel, const Vector3& center_W, const Vector3& axle_W,
                      const RockSupport& rock, double reach_m, const Vector3& n_W) {
-  const Vector3 offset_W = center_W - rock.center_W;
+  const Vector3 offset_W = center_W - rock.center_W();
   WheelRockGap result;
   result.n_W = n_W;
   result.gap_m = Separation(wheel, offset_W, axle_W, rock, n_W);
@@ -183,9 +302,10 @@ WheelRockGap FindGap(const WheelShape& wheel, const Vector3& center_W, const Vec
     }
   }
   result.gap_m = Separation(wheel, offset_W, axle_W, rock, n);
-  const Vector3 Sn = rock.S_m2 * n;
-  // The rock's support point S n / D, moved along n by the gap, lies on the wheel.
-  result.p_W = rock.center_W + Sn / std::sqrt(n.dot(Sn)) + result.gap_m * n;
+  const Support support(rock, offset_W, n);
+  // The rock's support point, moved along n by the gap, lies on the wheel.
+  result.p_W = rock.center_W() + support.piece.above_center_m * Vector3::UnitZ() + support.Point() +
+               result.gap_m * n;
   return result;
 }
 

@@ -1,8 +1,9 @@
 // Signed distance of a wheel from a rock: the wheel that part_shapes.h describes (a disc grown to a
-// rounded cylinder) against the ellipsoid, exactly and without sampling.
+// rounded cylinder) against the rock, exactly and without sampling.
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "math/pose.h"
 #include "rover/rover_geometry_params.h"
@@ -20,14 +21,49 @@ struct WheelShape {
   explicit WheelShape(const RoverGeometryParams& params);
 };
 
-// A rock by its support function D(n) = sqrt(n' S n) about its centre.
-struct RockSupport {
-  math::Vector3 center_W;
-  Eigen::Matrix3d S_m2;
-  double bounding_radius_m;
-  double top_W_m;
+// A rock by its support function D(n) = n . o + sign sqrt(n' S n) about its centre, for unit n.
+//
+// An ellipsoid has one piece: S = diag(a^2, b^2, c^2) in its own frame, sign 1, o = 0. A cap has
+// two. With m = (a n_x)^2 + (b n_y)^2 they meet where h n_z = (1 - A/2) sqrt(m), the normal at its
+// base: above, the quadric (A/2B)^2 diag(-B a^2, -B b^2, h^2) about its own centre, A h / 2B over
+// the top, with the sign of -B (B = 1 - A); below, the base's rim, diag(a^2, b^2, 0). D is once
+// differentiable there.
+class RockSupport {
+ public:
+  struct Piece {
+    Eigen::Matrix3d S_m2;
+    double sign = 1.0;
+    double above_center_m = 0.0;  // o, along z
+    bool is_rim = false;
+  };
 
   explicit RockSupport(const terrain::Rock& rock);
+
+  const math::Vector3& center_W() const { return center_W_; }
+  double bounding_radius_m() const { return bounding_radius_m_; }
+  double top_W_m() const { return top_W_m_; }
+  bool IsCap() const { return growth_ > 0.0; }
+
+  const Piece& PieceAt(const math::Vector3& n_W) const {
+    return IsCap() && FromBorder_m(n_W) < 0.0 ? pieces_[1] : pieces_[0];
+  }
+  // How far n, of any length, lies on the quadric's side of the border between a cap's pieces:
+  // h n_z - (1 - A/2) sqrt(m), a concave function.
+  double FromBorder_m(const math::Vector3& n_W) const;
+  // D(n), the farthest that the rock reaches from its centre along n, m.
+  double Along(const math::Vector3& n_W) const;
+
+  // Returns a first normal of a pair: from the rock towards the other's centre, bent by the rock's
+  // axes.
+  math::Vector3 GuessNormal(const math::Vector3& center_W) const;
+
+ private:
+  math::Vector3 center_W_;
+  double bounding_radius_m_;
+  double top_W_m_;
+  double growth_;    // A of a cap, 0 for an ellipsoid
+  double height_m_;  // of a cap
+  std::array<Piece, 2> pieces_;
 };
 
 // What FindGap returns, in W.
@@ -42,7 +78,9 @@ struct WheelRockGap {
 // for core radius r, half width w, margin m (the difference of both support functions). Where the
 // rim lies flat on the rock, t = 0 and n has one angle; elsewhere n has two. Newton's method on the
 // circle or sphere starts from `n_W`, the normal of a pose nearby or GuessNormal for a new pair,
-// and ends within some micrometres. Penetration may reach about the margin.
+// and ends within some micrometres. Penetration may reach about the margin. A cap's flank has
+// nearly one normal, across which D bends hundreds of times as much as beside it; there steps move
+// the rock's point instead of its normal, which is nearly linear.
 //
 // Every unit n bounds the gap from below. If that says that the gap exceeds reach_m, FindGap
 // returns that bound at once with an unfinished normal. It costs 20 ns for such a bound, 0.1 us
@@ -50,8 +88,5 @@ struct WheelRockGap {
 WheelRockGap FindGap(const WheelShape& wheel, const math::Vector3& center_W,
                      const math::Vector3& axle_W, const RockSupport& rock, double reach_m,
                      const math::Vector3& n_W);
-
-// Returns a first normal: from the rock's centre to the wheel's, scaled by the rock's axes.
-math::Vector3 GuessNormal(const math::Vector3& center_W, const RockSupport& rock);
 
 }  // namespace rockyard::rover

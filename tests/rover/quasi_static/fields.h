@@ -7,12 +7,14 @@
 #include <vector>
 
 #include "rover/rover_drive.h"
+#include "terrain/rock_profile.h"
 
 namespace rockyard::rover {
 
 // Rocks of N(>=D) = k D^-2.66 per m2 from 0.1 m to max_m, half buried, at low-discrepancy places:
-// fixed fields, numbered from 0.
-inline terrain::Terrain ScatteredRocks(double k, double max_m, int number) {
+// fixed fields, numbered from 0, of any profile.
+inline terrain::Terrain ScatteredRocks(double k, double max_m, int number,
+                                       double pointedness = 0.0) {
   constexpr double kExponent = 2.66;
   constexpr double kSmallest_m = 0.1;
   constexpr double kArea_m2 = 14.0 * 6.0;
@@ -27,7 +29,10 @@ inline terrain::Terrain ScatteredRocks(double k, double max_m, int number) {
     const double tail = 1.0 - scatter(i, 0.6180339887498949) * (1.0 - std::pow(10.0, -kExponent));
     const double a = 0.5 * kSmallest_m * std::pow(tail, -1.0 / kExponent);
     if (2.0 * a > max_m || std::hypot(x, y) < 0.6 + a) continue;
-    rocks.push_back(MakeRock(x, y, 0.0, a, 0.85 * a, 0.7 * a));
+    rocks.push_back(terrain::ShapeRock(
+        {.diameter_m = 2.0 * a, .width_ratio = 0.85, .half_height_m = 0.7 * a, .height_m = 0.7 * a},
+        pointedness));
+    rocks.back().center_W.head<2>() << x, y;
     rocks.back().yaw_rad = 2.0 * std::numbers::pi * scatter(i, 0.3247179572447461);
   }
   return FlatTerrain(std::move(rocks));
