@@ -13,6 +13,7 @@ were.
 
 import argparse
 import csv
+import functools
 import io
 import json
 import os
@@ -22,6 +23,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import calibrate_profile
 import study
 from calibrate_odometer import calibrate
 from study import ROOT, run
@@ -129,14 +131,32 @@ def spread(values):
             for name, share in at.items()}
 
 
-def calibrations(args, points):
-    """Calibrated values, by path, for the soil and wheels of each point: as found on level sand."""
+def pointedness(args, point, rows, rng):
+    """What single rocks ask for at a point; the nearer end where they ask for none."""
+    valid = dict(point)
+    repaired(valid, rows, args.rockyard, calibrate_profile.HEIGHT_FACTOR, rng)
+    values = [f"{path}={value}" for path, value in valid.items()]
+
+    @functools.cache
+    def height_at(value):
+        return calibrate_profile.seen_from(args.rockyard, value, values, trials=64, seed=args.seed)
+
+    found = calibrate_profile.calibrate(height_at, calibrate_profile.TARGET_M)
+    if found is not None:
+        return found
+    return 0.0 if height_at(0.0) > calibrate_profile.TARGET_M else calibrate_profile.MOST_POINTED
+
+
+def calibrations(args, points, rows):
+    """Calibrated values by path for each point, as found on level sand and on single rocks."""
     stored = args.out / "calibrations.json"
     found = json.loads(stored.read_text(encoding="utf-8")) if stored.exists() else []
-    for point in points[len(found):]:
+    for index, point in enumerate(points[len(found):], len(found)):
         values = [f"{path}={value}" for path, value in point.items()]
-        found.append(calibrate(args.rockyard, values, trials=20, seed=args.seed,
-                               gyro_trials=1000)[0])
+        own = calibrate(args.rockyard, values, trials=20, seed=args.seed, gyro_trials=1000)[0]
+        own[calibrate_profile.POINTEDNESS] = pointedness(
+            args, point, rows, random.Random(f"{args.seed} {index}"))
+        found.append(own)
         stored.write_text(json.dumps(found) + "\n", encoding="utf-8")
     return found
 
@@ -166,7 +186,7 @@ def main():
                for path in repaired(point, rows, args.rockyard, args.scenarios[0], rng)]
     args.out.mkdir(parents=True, exist_ok=True)
     (args.out / "design.json").write_text(json.dumps(points, indent=1) + "\n", encoding="utf-8")
-    calibrated = calibrations(args, points)
+    calibrated = calibrations(args, points, rows)
     print(f"{len(points)} points over {len(rows)} assumed parameters, {args.trials} trials each; "
           f"{len(redrawn)} values drawn again because they contradicted others")
     result = {"points": len(points), "parameters": len(rows), "trials": args.trials,

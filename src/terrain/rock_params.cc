@@ -167,9 +167,9 @@ void VisitShape(RockFieldParams& p, core::FieldVisitor& v) {
           .study_low = 0.8,
           .study_high = 0.91});
   // Deeper ellipsoids are narrower on the ground than their outline, which caps keep there.
-  v.Require("pointedness", p.pointedness == 0.0 || p.burial_mean + p.burial_spread <= 0.5,
-            "is above 0 where more than half of a rock may be buried",
-            "use burial_mean plus burial_spread of at most 0.5, or 0");
+  v.Require("burial_spread", p.pointedness == 0.0 || p.burial_mean + p.burial_spread <= 0.5,
+            "buries more than half of some rocks, of which pointed ones have no shape",
+            "use burial_mean plus burial_spread of at most 0.5, or a pointedness of 0");
 }
 
 }  // namespace
