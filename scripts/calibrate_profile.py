@@ -22,9 +22,8 @@ import tempfile
 from collections import defaultdict
 from pathlib import Path
 
-from calibrate_odometer import value_at
+from study import ROOT, value_at
 
-ROOT = Path(__file__).resolve().parent.parent
 HEIGHT_FACTOR = ROOT / "scenarios/hazard_detection/height_factor.json"
 POINTEDNESS = "terrain.rocks.pointedness"
 HEIGHT_RATIOS = ("terrain.rocks.min_height_ratio", "terrain.rocks.max_height_ratio")

@@ -97,7 +97,8 @@ def settings(point):
 def repaired(point, rows, rockyard, scenario, rng):
     """Draws anew what contradicts other values of the point (its ranges taken one by one overlap).
 
-    Returns the names of the parameters that were drawn again.
+    Where the program blames a parameter that the design does not vary, what it varies in the same group
+    is drawn anew. Returns the names of the parameters that were drawn again.
     """
     by_path = {row["path"]: row for row in rows}
     redrawn = []
@@ -107,9 +108,12 @@ def repaired(point, rows, rockyard, scenario, rng):
         if result.returncode == 0:
             return redrawn
         blamed = re.findall(r"^error: ([a-z_A-Z0-9.]+):", result.stderr, flags=re.MULTILINE)
-        if not blamed or any(path not in by_path for path in blamed):
+        group = lambda path: path.rpartition(".")[0]
+        wrong = [path for path in by_path
+                 if path in blamed or group(path) in map(group, set(blamed) - set(by_path))]
+        if not wrong:
             sys.exit(result.stderr)
-        for path in blamed:
+        for path in wrong:
             point[path] = column(by_path[path], 1, rng)[0]
             redrawn.append(path)
     sys.exit(f"found no valid values for {', '.join(sorted(set(redrawn)))}")

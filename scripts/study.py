@@ -45,6 +45,12 @@ def run_scenario(args, scenario, folder, settings):
     return json.loads((Path(folder) / "summary.json").read_text(encoding="utf-8"))
 
 
+def value_at(rockyard, scenario, path):
+    """The effective value of a parameter in a scenario."""
+    rows = csv.DictReader(run([rockyard, "parameters", scenario, "--csv"]).splitlines())
+    return next(float(row["value"]) for row in rows if row["path"] == path)
+
+
 def compare(rockyard, first, second):
     """What `rockyard compare` says of two run folders.
 
