@@ -14,7 +14,6 @@ void Ledger::Spend(Activity activity, double duration_s) {
 }
 
 Stall Ledger::StallUntilEmpty() const {
-  if (!has_end()) return {};
   const double rest_J = std::max(0.0, battery_wh_ * kJoulesPerWattHour - energy_J_);
   return {rest_J / budget_.Power(Activity::kStalled), rest_J / kJoulesPerWattHour};
 }

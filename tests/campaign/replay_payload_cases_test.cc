@@ -60,7 +60,7 @@ TEST(ReplayPayload, AStuckRoverIsMarkedWhereItIsFound) {
         PayloadOf(SourceOf("pathfinder/level_sand",
                            {"terrain.arena.kind=walled", "terrain.ground.soil.preset=hard_ground",
                             "course.start_y_m=1.2", "course.start_heading_deg=90",
-                            "referee.stuck_rover=" + stuck_rover}),
+                            "energy.battery_wh=50", "referee.stuck_rover=" + stuck_rover}),
                   0);
     const Json& events = payload["events"];
     const auto stall = std::find_if(events.begin(), events.end(),

@@ -159,7 +159,7 @@ TEST(ClosedLoopTest, BooksBalanceOfARoverThatJams) {
     const DriveParams drive = Pathfinder(
         "level_sand", {"terrain.arena.kind=walled", "terrain.ground.soil.preset=hard_ground",
                        "course.start_y_m=1.2", "course.start_heading_deg=90",
-                       "referee.stuck_rover=" + stuck_rover});
+                       "energy.battery_wh=50", "referee.stuck_rover=" + stuck_rover});
     const TracedTrial trial = RunTraced(drive, 0);
     ASSERT_EQ(trial.result.outcome, truth::TrialOutcome::kJammed);
     const truth::DriveRecord& record = trial.result.record;

@@ -13,10 +13,12 @@ using truth::TrialOutcome;
 
 constexpr double kStall_W = 3.77 + 0.80 + 8.28;  // Matthies 1995, table 1
 
+constexpr const char* kBatteries = "energy.battery_wh=50";
+
 // Drives against a wall, on ground that is too hard for its steered wheels to push it off.
 DriveParams AtAWall(const Overrides& overrides) {
   Overrides all{"terrain.arena.kind=walled", "terrain.ground.soil.preset=hard_ground",
-                "course.start_y_m=1.2", "course.start_heading_deg=90"};
+                "course.start_y_m=1.2", "course.start_heading_deg=90", kBatteries};
   all.insert(all.end(), overrides.begin(), overrides.end());
   return Pathfinder("level_sand", all);
 }
@@ -79,7 +81,7 @@ TEST(EndlessBatteriesTest, AStallThatNothingEndsIsNotToldOf) {
   ASSERT_EQ(endless.outcome, TrialOutcome::kJammed);
   EXPECT_EQ(endless.record.stall_time_s, 0.0);
   EXPECT_EQ(endless.record.stall_energy_wh, 0.0);
-  const DriveResult ending = RunTrial(AtAWall({"energy.battery_wh=50"}), {1, 0});
+  const DriveResult ending = RunTrial(AtAWall({}), {1, 0});
   EXPECT_THAT(Differences(ending, endless),
               testing::UnorderedElementsAre("stall_time_s", "stall_energy_wh"));
 }
@@ -87,7 +89,7 @@ TEST(EndlessBatteriesTest, AStallThatNothingEndsIsNotToldOf) {
 TEST(FreeRoverTest, WhatIsNotStuckHasNoStall) {
   for (const std::string option : {"end", "run_on"}) {
     const DriveResult result =
-        RunTrial(Pathfinder("level_sand", {"referee.stuck_rover=" + option}), {1, 0});
+        RunTrial(Pathfinder("level_sand", {kBatteries, "referee.stuck_rover=" + option}), {1, 0});
     ASSERT_EQ(result.outcome, TrialOutcome::kGoalReached);
     EXPECT_EQ(result.record.stall_time_s, 0.0);
     EXPECT_EQ(result.record.stall_energy_wh, 0.0);
