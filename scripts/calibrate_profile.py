@@ -68,12 +68,12 @@ def seen_from(rockyard, pointedness, settings=(), trials=640, seed=1):
     return crossing([(height, seen[height] / scenes[height]) for height in sorted(scenes)])
 
 
-def calibrate(height_at, target):
+def calibrate(height_at, target, tolerance=TOLERANCE):
     """The pointedness at which the rising function height_at gives the target; None where none."""
     low, high = 0.0, MOST_POINTED
     if height_at(low) > target or height_at(high) < target:
         return None
-    while high - low > TOLERANCE:
+    while high - low > tolerance:
         middle = 0.5 * (low + high)
         if height_at(middle) < target:
             low = middle

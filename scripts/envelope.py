@@ -28,6 +28,9 @@ import study
 from calibrate_odometer import calibrate
 from study import ROOT, run
 
+# Of a point's pointedness: a quarter of a millimetre in the height from which rocks are seen.
+PROFILE_TOLERANCE = 0.005
+
 # Where each prediction stands in summary.json.
 METRICS = {
     "declared success rate": ("declared_success", "rate"),
@@ -145,7 +148,7 @@ def pointedness(args, point, rows, rng):
     def height_at(value):
         return calibrate_profile.seen_from(args.rockyard, value, values, trials=64, seed=args.seed)
 
-    found = calibrate_profile.calibrate(height_at, calibrate_profile.TARGET_M)
+    found = calibrate_profile.calibrate(height_at, calibrate_profile.TARGET_M, PROFILE_TOLERANCE)
     if found is not None:
         return found
     return 0.0 if height_at(0.0) > calibrate_profile.TARGET_M else calibrate_profile.MOST_POINTED
@@ -204,7 +207,9 @@ def main():
             metrics[name] = {"path": path, **values}
             print(f"  {name:<26} " + " ".join(f"{value:9.3f}" for value in values.values()))
         sys.stdout.flush()
-    (args.out / "envelope.json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+        # After each scenario, so that a run that is stopped leaves those it has.
+        (args.out / "envelope.json").write_text(json.dumps(result, indent=1) + "\n",
+                                                encoding="utf-8")
     return os.EX_OK
 
 

@@ -57,6 +57,9 @@ def low_rocks(rockyard):
     pointedness = calibrate_profile.calibrate(
         partial(calibrate_profile.seen_from, rockyard, settings=LOW_HEIGHTS),
         calibrate_profile.TARGET_M)
+    if pointedness is None:
+        sys.exit("no pointedness lets half of the low rocks of "
+                 f"{100 * calibrate_profile.TARGET_M} cm be seen")
     return [*LOW_HEIGHTS, f"{calibrate_profile.POINTEDNESS}={pointedness:.4f}"]
 
 

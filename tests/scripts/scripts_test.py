@@ -2,6 +2,7 @@
 
 import math
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -452,6 +453,74 @@ END
         self.assertTrue(cells[5].startswith("4.0 ("), cells[5])
         self.assertEqual(cells[6], "66.7 (20.8..93.9)")
         self.assertEqual(len(self.lines("odometer_sign/odometer_sign.csv")), 28)
+
+
+class RevisionStudy(ScriptTest):
+    """With a rockyard that gains two of three pairs, whatever is compared."""
+
+    CHANGES = ("terrain.rocks.mirror_line=keep_off", "terrain.rocks.pointedness=0",
+               "referee.time_limit_s=14400", "sensors.gyro.level_sand_gain=1")
+
+    def setUp(self):
+        super().setUp()
+        self.fake("build/release/bin/rockyard").write_text("""#!/bin/sh
+echo "rockyard $*" >> "$CALLS"
+if [ "$1" = compare ]; then
+  echo "                    B - A +66.7 points (95 % interval +7.7 .. +92.3)"
+  echo "                    both 1, only A 0, only B 2, neither 0; McNemar, exact: p = 0.5"
+  echo "                    B - A +0.0 points (95 % interval -42.0 .. +42.0)"
+  echo "                    both 1, only A 0, only B 0, neither 2; McNemar, exact: p = 1"
+  echo trials,column > "$5"
+  exit 0
+fi
+case "$*" in *pointedness=0.0*) seen=0.0945 ;; *) seen=0.0955 ;; esac
+while [ $# -gt 1 ]; do [ "$1" = --out ] && out=$2; shift; done
+mkdir -p "$out"
+rate='{"rate": 0.5, "ci95": [0.25, 0.75]}'
+made='"provenance": {"version": "0.1.0", "commit": "abc"}'
+echo "{\\"declared_success\\": $rate, \\"true_success\\": $rate, $made}" > "$out/summary.json"
+cat > "$out/trials.csv" << END
+trial,outcome,detail,true_distance_m,hazards_begun,height_m,scenes,detected_double
+0,goal_reached,,8,10,0.05,100,0
+1,no_path,,2,5,$seen,100,100
+END
+""", encoding="utf-8")
+
+    def settings_of_runs(self):
+        """Which changes each run among rocks undoes."""
+        runs = [line for line in self.called("rockyard") if line.startswith("run ")]
+        return [tuple(change in line for change in self.CHANGES) for line in runs]
+
+    def test_every_change_stands_alone_and_is_left_out(self):
+        result = self.run_script("revision_study.py", "--tables", "revision", "--trials", "3")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        alone = [tuple(other != change for other in range(4)) for change in range(4)]
+        without = [tuple(other == change for other in range(4)) for change in range(4)]
+        both = [undone for pair in zip(alone, without) for undone in pair]
+        self.assertEqual(self.settings_of_runs(), 2 * [(True,) * 4, (False,) * 4, *both])
+        compared = [[Path(word).parent.name for word in line.split()[1:3]]
+                    for line in self.called("rockyard") if line.startswith("compare ")]
+        self.assertEqual(compared[:2], [["before", "alone_rocks_on_the_mirror_lines"],
+                                        ["without_rocks_on_the_mirror_lines", "revised"]])
+        self.assertEqual(compared[8], ["before", "revised"])
+        self.assertEqual(result.stdout.count("66.7 (7.7..92.3) | 0.0 (-42.0..42.0)"), 18)
+        self.assertIn("3 trials each, seed 1; quasi-static; made by rockyard 0.1.0 abc.",
+                      result.stdout)
+
+    def test_low_rocks_get_a_profile_of_their_own(self):
+        result = self.run_script("revision_study.py", "--tables", "heights")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        # Half are seen from 7.225 cm on below a pointedness of 0.1, from 7.275 cm on above it.
+        low = r"--set terrain.rocks.max_height_ratio=0.9 --set terrain.rocks.pointedness=0.(09|10)"
+        runs = [line for line in self.called("rockyard") if "height_factor" not in line]
+        self.assertEqual(sum(bool(re.search(low, line)) for line in runs), 8)
+        self.assertEqual(sum("perception.hazard.enabled=false" in line for line in runs), 8)
+        self.assertIn("| nominal | low | 50.0 (25.0..75.0) |", result.stdout)
+        self.assertIn("| 1.50 |", result.stdout)
+
+    def test_unknown_tables_run_nothing(self):
+        self.assertEqual(self.run_script("revision_study.py", "--tables", "other").returncode, 2)
+        self.assertEqual(self.called("rockyard"), [])
 
 
 class NavigatorStudy(ScriptTest):
