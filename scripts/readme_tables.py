@@ -454,7 +454,7 @@ def script(study, name, *arguments):
 
 def patience(study):
     """Success against the operator's patience; the drawing goes to results/studies."""
-    text = script(study, "patience_study.py", "--trials", 1000)
+    text = script(study, "patience_study.py", "--trials", 600)
     shutil.copy(study.out / "patience_study/patience_distance.svg",
                 ROOT / "results/studies/patience.svg")
     return text
@@ -464,16 +464,23 @@ def odometer_sign(study):
     return script(study, "odometer_sign_study.py", "--trials", 300)
 
 
+def revision_table(study, name, trials):
+    """A table of the study of the revision; 1000 trials tell changes of 3 points, 300 of 6."""
+    out = study.out / f"revision_{trials}"
+    text = script(study, "revision_study.py", "--tables", name, "--trials", trials, "--out", out)
+    return text.split("\n\n", 1)[1]
+
+
 def revision(study):
-    return script(study, "revision_study.py", "--tables", "revision").split("\n\n", 1)[1]
+    return revision_table(study, "revision", 1000)
 
 
 def readings(study):
-    return script(study, "revision_study.py", "--tables", "readings").split("\n\n", 1)[1]
+    return revision_table(study, "readings", 300)
 
 
 def heights(study):
-    return script(study, "revision_study.py", "--tables", "heights").split("\n\n", 1)[1]
+    return revision_table(study, "heights", 300)
 
 
 def scaling(study):
