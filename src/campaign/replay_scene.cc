@@ -153,7 +153,8 @@ void AddScene(const scenario::Scenario& scenario, const truth::TracedTrial& trac
   data.course = CourseOf(scenario, traced, field.terrain, bounds);
   data.ground = GroundOf(field.terrain.ground(), bounds);
   for (const terrain::Rock& rock : field.terrain.rocks()) {
-    data.rocks.push_back({rock.center_W, rock.semi_axes_m, rock.yaw_rad, rock.height_m});
+    data.rocks.push_back(
+        {rock.center_W, rock.semi_axes_m, rock.yaw_rad, rock.height_m, rock.cap_growth});
   }
 }
 

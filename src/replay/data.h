@@ -50,6 +50,7 @@ struct ReplayRock {
   math::Vector3 semi_axes_m = math::Vector3::Ones();
   double yaw_rad = 0.0;
   double height_m = 0.0;
+  double cap_growth = 0.0;  // as in terrain/rock.h
 };
 
 enum class ShapeKind { kBox, kWheel, kCapsule, kSphere };

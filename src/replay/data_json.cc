@@ -71,16 +71,17 @@ std::string GroundText(const ReplayGround& ground) {
 }
 
 std::string RockText(const ReplayRock& rock) {
-  return JsonObject()
-      .Add("x", Length(rock.center_W.x()))
+  JsonObject object;
+  object.Add("x", Length(rock.center_W.x()))
       .Add("y", Length(rock.center_W.y()))
       .Add("z", Length(rock.center_W.z()))
       .Add("a", Length(rock.semi_axes_m.x()))
       .Add("b", Length(rock.semi_axes_m.y()))
       .Add("c", Length(rock.semi_axes_m.z()))
       .Add("yaw", Angle(rock.yaw_rad))
-      .Add("height", Length(rock.height_m))
-      .Text();
+      .Add("height", Length(rock.height_m));
+  if (rock.cap_growth > 0.0) object.AddNumber("growth", rock.cap_growth);
+  return object.Text();
 }
 
 std::string MoveText(const truth::RockMove& move) {

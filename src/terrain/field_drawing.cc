@@ -17,7 +17,7 @@ constexpr int kMeridians = 16;
 constexpr int kParallels = 8;  // intervals from pole to pole
 constexpr int kOctagon = 8;
 
-// A point of the ellipsoid from its unit sphere.
+// A point of the rock from the coordinates in which its semi-axes are 1.
 math::Vector3 OnRock(const Rock& rock, const math::Vector3& unit) {
   // p_W = centre + Rz(yaw) diag(a, b, c) u.
   const math::Vector3 p = unit.cwiseProduct(rock.semi_axes_m);
@@ -75,16 +75,38 @@ void WriteGround(const Ground& ground, const Rectangle& area, ObjWriter& obj) {
   }
 }
 
+// A circle around the vertical axis, where the semi-axes are 1.
+struct Parallel {
+  double radius;
+  double height;
+};
+
+// From the south pole, 0, to the north pole, kParallels.
+Parallel SphereParallel(int number) {
+  const double latitude = std::numbers::pi * (static_cast<double>(number) / kParallels - 0.5);
+  return {std::cos(latitude), std::sin(latitude)};
+}
+
+// From the base, 1, to the top, kParallels: denser towards the top, where a cap bends.
+Parallel CapParallel(double growth, int number) {
+  const double share = static_cast<double>(kParallels - number) / (kParallels - 1);
+  // rho^2 = A s + (1 - A) s^2 at the share s of the height below the top.
+  const double s = share * share;
+  return {std::sqrt((growth + (1.0 - growth) * s) * s), 1.0 - s};
+}
+
 void WriteRock(const Rock& rock, int index, ObjWriter& obj) {
   obj.Group(fmt::format("rock_{}", index));
-  const int bottom = obj.Vertex(OnRock(rock, -math::Vector3::UnitZ()));
-  // Parallels from the south pole up, each with kMeridians points; fans close the poles.
+  const bool cap = rock.cap_growth > 0.0;
+  const int bottom = obj.Vertex(
+      OnRock(rock, cap ? math::Vector3::Zero() : math::Vector3(-math::Vector3::UnitZ())));
+  // Parallels from the lowest one up, each with kMeridians points; fans close both ends.
   for (int i = 1; i < kParallels; ++i) {
-    const double latitude = std::numbers::pi * (static_cast<double>(i) / kParallels - 0.5);
+    const Parallel parallel = cap ? CapParallel(rock.cap_growth, i) : SphereParallel(i);
     for (int j = 0; j < kMeridians; ++j) {
       const double longitude = 2.0 * std::numbers::pi * j / kMeridians;
-      obj.Vertex(OnRock(rock, {std::cos(latitude) * std::cos(longitude),
-                               std::cos(latitude) * std::sin(longitude), std::sin(latitude)}));
+      obj.Vertex(OnRock(rock, {parallel.radius * std::cos(longitude),
+                               parallel.radius * std::sin(longitude), parallel.height}));
     }
   }
   const int top = obj.Vertex(OnRock(rock, math::Vector3::UnitZ()));

@@ -26,6 +26,7 @@ JsonValue RockJson(const Rock& rock, bool mirror_image) {
   json.Append("yaw_deg", JsonValue(math::RadToDeg(rock.yaw_rad)));
   json.Append("diameter_m", JsonValue(rock.diameter_m));
   json.Append("height_m", JsonValue(rock.height_m));
+  json.Append("cap_growth", JsonValue(rock.cap_growth));
   return json;
 }
 
@@ -65,14 +66,14 @@ JsonValue PointJson(double x_m, double y_m) {
 std::string ToCsv(const Field& field) {
   std::string text =
       "rock,mirror_image,center_x_m,center_y_m,center_z_m,semi_axis_x_m,semi_axis_y_m,"
-      "semi_axis_z_m,yaw_deg,diameter_m,height_m\n";
+      "semi_axis_z_m,yaw_deg,diameter_m,height_m,cap_growth\n";
   int index = 0;
   for (const Rock& rock : field.terrain.rocks()) {
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{}\n", index,
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{},{}\n", index,
                    index >= field.audit.placed ? 1 : 0, rock.center_W.x(), rock.center_W.y(),
                    rock.center_W.z(), rock.semi_axes_m.x(), rock.semi_axes_m.y(),
                    rock.semi_axes_m.z(), math::RadToDeg(rock.yaw_rad), rock.diameter_m,
-                   rock.height_m);
+                   rock.height_m, rock.cap_growth);
     ++index;
   }
   return text;

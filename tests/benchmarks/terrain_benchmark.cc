@@ -1,7 +1,10 @@
 // Cost of building fields and of asking them. Each benchmark prints a hash of what it computed.
 #include <benchmark/benchmark.h>
 
+#include <array>
 #include <cmath>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/distributions.h"
@@ -15,14 +18,18 @@ namespace {
 
 using math::Vector3;
 
+// Nominal, Viking Lander 2, and that with pointed rocks.
+constexpr std::array<std::string_view, 3> kFields = {"nominal ", "vl2 ", "vl2 pointed "};
+
 TerrainParams Params(const benchmark::State& state) {
   TerrainParams params;
   params.rocks.k_per_m2 = state.range(0) == 0 ? kNominalK : kVikingLander2K;
+  params.rocks.pointedness = state.range(0) == 2 ? 0.87 : 0.0;
   return params;
 }
 
 void Label(benchmark::State& state, std::uint64_t hash) {
-  state.SetLabel((state.range(0) == 0 ? "nominal " : "vl2 ") + core::Hex(hash));
+  state.SetLabel(std::string(kFields[static_cast<std::size_t>(state.range(0))]) + core::Hex(hash));
 }
 
 void BM_BuildField(benchmark::State& state) {
@@ -74,8 +81,8 @@ void Scan(benchmark::State& state, bool local) {
 }
 void BM_ScanOnGrid(benchmark::State& state) { Scan(state, false); }
 void BM_ScanAmongCandidates(benchmark::State& state) { Scan(state, true); }
-BENCHMARK(BM_ScanOnGrid)->Arg(0)->Arg(1);
-BENCHMARK(BM_ScanAmongCandidates)->Arg(0)->Arg(1);
+BENCHMARK(BM_ScanOnGrid)->Arg(0)->Arg(1)->Arg(2);
+BENCHMARK(BM_ScanAmongCandidates)->Arg(0)->Arg(1)->Arg(2);
 
 void BM_Height(benchmark::State& state) {
   const Terrain terrain = BuildField(Params(state), {1, 0}, {}).terrain;
@@ -88,7 +95,7 @@ void BM_Height(benchmark::State& state) {
   for (int i = 0; i < 700; ++i) hasher.Real(terrain.Height(0.01 * i, 0.3));
   Label(state, hasher.value());
 }
-BENCHMARK(BM_Height)->Arg(0)->Arg(1);
+BENCHMARK(BM_Height)->Arg(0)->Arg(1)->Arg(2);
 
 void BM_RoughRay(benchmark::State& state) {
   GroundParams params;

@@ -11,6 +11,7 @@
 
 #include "core/hash.h"
 #include "rover_drive.h"
+#include "terrain/rock_profile.h"
 
 namespace rockyard::rover {
 namespace {
@@ -20,7 +21,7 @@ constexpr int kStepsPerTrial = 3600;
 // Low-discrepancy numbers: the benchmark needs a fixed field, not a random one.
 double Scatter(int index, double stride) { return std::fmod(0.5 + stride * index, 1.0); }
 
-terrain::Terrain RockField(double k) {
+terrain::Terrain RockField(double k, double pointedness = 0.0) {
   constexpr double kExponent = 2.66;
   constexpr double kSmallest_m = 0.1;
   constexpr double kArea_m2 = 14.0 * 6.0;
@@ -32,7 +33,10 @@ terrain::Terrain RockField(double k) {
     const double tail = 1.0 - Scatter(i, 0.6180339887498949) * (1.0 - std::pow(10.0, -kExponent));
     const double a = 0.5 * kSmallest_m * std::pow(tail, -1.0 / kExponent);
     if (std::hypot(x, y) < 0.6 + a) continue;
-    rocks.push_back(MakeRock(x, y, 0.0, a, 0.85 * a, 0.7 * a));
+    rocks.push_back(terrain::ShapeRock(
+        {.diameter_m = 2.0 * a, .width_ratio = 0.85, .half_height_m = 0.7 * a, .height_m = 0.7 * a},
+        pointedness));
+    rocks.back().center_W.head<2>() << x, y;
     rocks.back().yaw_rad = 2.0 * std::numbers::pi * Scatter(i, 0.3247179572447461);
   }
   return FlatTerrain(std::move(rocks));
@@ -61,9 +65,9 @@ const messages::WheelCommand& Pattern(int step,
   return commands[second < 7 ? 0 : second < 8 ? 1 : 2];
 }
 
-void Minute(benchmark::State& bench, double k) {
+void Minute(benchmark::State& bench, double k, double pointedness = 0.0) {
   const RoverParams params;
-  const terrain::Terrain terrain = RockField(k);
+  const terrain::Terrain terrain = RockField(k, pointedness);
   const std::array<messages::WheelCommand, 3> commands{
       Drive(params, 0.15, 0.0), Drive(params, -0.15, 0.0), Drive(params, 0.0, 0.5)};
   std::string hash;
@@ -79,6 +83,7 @@ void Minute(benchmark::State& bench, double k) {
 BENCHMARK_CAPTURE(Minute, Level, 0.0)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Minute, Nominal, 0.00415)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Minute, VikingLander2, 0.013)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Minute, NominalPointed, 0.00415, 0.87)->Unit(benchmark::kMillisecond);
 
 // The published course of 7.6 m (Matthies 1995 sec. 5), rims running straight all the way in a
 // fresh world; where rocks stop the rover, its wheels go on.

@@ -9,12 +9,14 @@
 #include "core/distributions.h"
 #include "core/hash.h"
 #include "stripe_scene.h"
+#include "terrain/rock_profile.h"
 
 namespace rockyard::sensing {
 namespace {
 
-// Rocks of 10 to 60 cm at `per_m2` in a square of 8 m; sizes after N ~ D^-2.66.
-terrain::Terrain RandomField(double per_m2) {
+// Rocks of 10 to 60 cm at `per_m2` in a square of 8 m; sizes after N ~ D^-2.66. Ellipsoids, or caps
+// of the same height and outline.
+terrain::Terrain RandomField(double per_m2, double pointedness) {
   core::RandomStream stream({7, 0}, core::Purpose::kTest, 1);
   std::vector<terrain::Rock> rocks;
   constexpr double kSide_m = 8.0;
@@ -24,13 +26,19 @@ terrain::Terrain RandomField(double per_m2) {
     const double x = core::SampleUniform(stream, 0.0, kSide_m);
     const double y = core::SampleUniform(stream, -0.5 * kSide_m, 0.5 * kSide_m);
     const double yaw = core::SampleUniform(stream, 0.0, 3.0);
-    rocks.push_back(EllipsoidRock(x, y, 0.2 * radius, radius, 0.8 * radius, 0.6 * radius, yaw));
+    rocks.push_back(terrain::ShapeRock({.diameter_m = 2.0 * radius,
+                                        .width_ratio = 0.8,
+                                        .half_height_m = 0.6 * radius,
+                                        .height_m = 0.8 * radius},
+                                       pointedness));
+    rocks.back().center_W.head<2>() << x, y;
+    rocks.back().yaw_rad = yaw;
   }
   return FlatWith(std::move(rocks));
 }
 
-void Scan(benchmark::State& state, const LightStripeParams& params) {
-  const terrain::Terrain terrain = RandomField(static_cast<double>(state.range(0)));
+void Scan(benchmark::State& state, const LightStripeParams& params, double pointedness = 0.0) {
+  const terrain::Terrain terrain = RandomField(static_cast<double>(state.range(0)), pointedness);
   const LightStripe sensor(params);
   core::Hasher hash;
   constexpr int kHashedScans = 1000;
@@ -54,6 +62,9 @@ void Scan(benchmark::State& state, const LightStripeParams& params) {
 
 void BM_Scan(benchmark::State& state) { Scan(state, {}); }
 BENCHMARK(BM_Scan)->ArgName("rocks_per_m2")->Arg(0)->Arg(2)->Arg(6)->Arg(20);
+
+void BM_ScanPointedRocks(benchmark::State& state) { Scan(state, {}, 0.87); }
+BENCHMARK(BM_ScanPointedRocks)->ArgName("rocks_per_m2")->Arg(6)->Arg(20);
 
 // Curved scanlines.
 void BM_ScanRadialLens(benchmark::State& state) {

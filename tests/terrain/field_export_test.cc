@@ -42,13 +42,14 @@ TEST_F(FieldExportTest, CsvReadsBackToTheSameBits) {
     std::vector<double> numbers;
     std::istringstream line(lines[i + 1]);
     for (std::string cell; std::getline(line, cell, ',');) numbers.push_back(std::stod(cell));
-    ASSERT_EQ(numbers.size(), 11u);
+    ASSERT_EQ(numbers.size(), 12u);
     EXPECT_EQ(numbers[0], static_cast<double>(i));
     EXPECT_EQ(numbers[1], static_cast<int>(i) < field_.audit.placed ? 0.0 : 1.0);
     EXPECT_EQ(numbers[2], rock.center_W.x());
     EXPECT_EQ(numbers[7], rock.semi_axes_m.z());
     EXPECT_EQ(numbers[8], math::RadToDeg(rock.yaw_rad));
     EXPECT_EQ(numbers[10], rock.height_m);
+    EXPECT_EQ(numbers[11], rock.cap_growth);
   }
 }
 
@@ -62,12 +63,12 @@ TEST_F(FieldExportTest, JsonHoldsRocksAndAudit) {
   EXPECT_NEAR(json.Find("mirror_lines_y_m")->list()[1].number(), 1.1, 1e-12);
 }
 
-// Every tessellated rock is a closed surface, oriented outwards: its volume by the divergence
-// theorem is positive and near, but below, that of the ellipsoid.
-TEST_F(FieldExportTest, ObjRocksAreClosedAndOrientedOutwards) {
+// The volume of each group of an OBJ file by the divergence theorem, positive where its faces look
+// outwards.
+std::vector<double> VolumesOf(const std::string& obj) {
   std::vector<math::Vector3> vertices;
   std::vector<double> volumes;
-  for (const std::string& line : Lines(ToObj(field_, params_))) {
+  for (const std::string& line : Lines(obj)) {
     std::istringstream words(line);
     std::string kind;
     words >> kind;
@@ -87,11 +88,35 @@ TEST_F(FieldExportTest, ObjRocksAreClosedAndOrientedOutwards) {
       }
     }
   }
+  return volumes;
+}
+
+// Every tessellated rock is a closed surface, oriented outwards: its volume is near, but below,
+// that of the ellipsoid.
+TEST_F(FieldExportTest, ObjRocksAreClosedAndOrientedOutwards) {
+  const std::vector<double> volumes = VolumesOf(ToObj(field_, params_));
   ASSERT_EQ(volumes.size(), field_.terrain.rocks().size() + 1);
   for (std::size_t i = 0; i < field_.terrain.rocks().size(); ++i) {
     const double ellipsoid = 4.0 / 3.0 * M_PI * field_.terrain.rocks()[i].semi_axes_m.prod();
     EXPECT_LT(volumes[i + 1], ellipsoid);
     EXPECT_GT(volumes[i + 1], 0.9 * ellipsoid);
+  }
+}
+
+// The same for caps: pi a b h times the mean of rho^2 = A s + (1 - A) s^2, (2 + A) / 6.
+TEST_F(FieldExportTest, PointedRocksAreExportedAsCaps) {
+  TerrainParams params = params_;
+  params.rocks.pointedness = 0.87;
+  const Field field = BuildField(params, {21, 0}, course_);
+  const std::vector<double> volumes = VolumesOf(ToObj(field, params));
+  ASSERT_EQ(volumes.size(), field.terrain.rocks().size() + 1);
+  const core::JsonValue json = core::ParseJson(ToJson(field, params, course_), "field");
+  for (std::size_t i = 0; i < field.terrain.rocks().size(); ++i) {
+    const Rock& rock = field.terrain.rocks()[i];
+    const double cap = M_PI * rock.semi_axes_m.prod() * (2.0 + rock.cap_growth) / 6.0;
+    EXPECT_LT(volumes[i + 1], cap);
+    EXPECT_GT(volumes[i + 1], 0.9 * cap);
+    EXPECT_EQ(json.Find("rocks")->list()[i].Find("cap_growth")->number(), rock.cap_growth);
   }
 }
 

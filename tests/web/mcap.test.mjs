@@ -226,6 +226,30 @@ test("the rover's shapes are in the frames of its links, wheels across, struts f
   });
 });
 
+test("pointed rocks are stacks of frusta from base to top", async () => {
+  const growth = 0.4;
+  const data = changed(stripe.data, "pointed.json", (replay) => {
+    replay.rocks[0].growth = growth;
+  });
+  const trace = await open(converted(data, inFolder("pointed.mcap")));
+  const { spheres, cylinders } = trace.of("/scene/rocks")[0].content.entities[0];
+  const { rocks } = stripe.replay;
+  assert.equal(spheres.length, rocks.length - 1);
+  const { x, y, z, a, b, c } = rocks[0];
+  // The top first: each frustum begins where the one above it ends, as wide as it.
+  let above = { z: z + c, width: 0 };
+  for (const { pose, size, bottom_scale, top_scale } of cylinders) {
+    assert.deepEqual([pose.position.x, pose.position.y, bottom_scale], [x, y, 1]);
+    assert.ok(Math.abs(pose.position.z + 0.5 * size.z - above.z) < 1e-9);
+    assert.ok(Math.abs(top_scale * size.x - above.width) < 1e-9);
+    assert.ok(Math.abs(size.y / size.x - b / a) < 1e-9);
+    above = { z: pose.position.z - 0.5 * size.z, width: size.x };
+    const s = 1 - (above.z - z) / c;
+    assert.ok(Math.abs(above.width - 2 * a * Math.sqrt(growth * s + (1 - growth) * s * s)) < 1e-9);
+  }
+  assert.ok(Math.abs(above.z - z) < 1e-9 && Math.abs(above.width - 2 * a) < 1e-9);
+});
+
 test("rocks, pushes, walls and settings back are in the scene", async () => {
   const end = stripe.replay.motion.t.at(-1);
   const data = changed(stripe.data, "pushed.json", (replay) => {

@@ -24,8 +24,6 @@ constexpr double kLeastBend = 1e-6;
 constexpr double kLeastSquare_m2 = 1e-18;
 // Longest step on the sphere, rad.
 constexpr double kLongestStep_rad = 0.5;
-// Steps on caps grow by one over this at most.
-constexpr double kLeastShare = 0.1;
 // Sine of the angle between normal and axle below which the disc counts as seen edge-on.
 constexpr double kMinSine = 0.02;
 
@@ -60,21 +58,16 @@ struct Support {
   Vector3 Point() const { return piece.sign * Sn / D; }
 };
 
-// Where Newton's step from n, orthogonal to it, leads on a cap.
-Vector3 CapStep(const RockSupport& rock, const Support& support, const Vector3& n,
-                const Vector3& step) {
-  if (support.piece.is_rim) {
-    // A rim bends in one direction only, so that the step is too long for the flank behind the
-    // border: it ends there. By secant, which ends beyond since the distance is concave.
-    const double before_m = rock.FromBorder_m(n);
-    const double after_m = rock.FromBorder_m(n + step);
-    return after_m > 0.0 ? Vector3(before_m / (before_m - after_m) * step) : step;
-  }
-  // The point x = sign S n / D has a normal along S^-1 x. With K the Hessian of D, x + K step has
-  // its own along n (1 - q) + step, q = n . S step / D^2: the same step to first order, and the
-  // point moves along a line. The bound holds for points beyond the quadric's centre.
-  const double q = support.Sn.dot(step) / (support.D * support.D);
-  return step / std::max(1.0 - q, kLeastShare);
+// Newton's step from n, no farther than the border to a cap's quadric. The rim bends in one
+// direction only, so that steps from its side are too long for the flank, which bends most of all
+// right behind the border.
+Vector3 UpToBorder(const RockSupport& rock, const Support& support, const Vector3& n,
+                   const Vector3& step) {
+  if (!support.piece.is_rim) return step;
+  const double before_m = rock.FromBorder_m(n);
+  const double after_m = rock.FromBorder_m(n + step);
+  // By secant, which ends beyond the border since the distance from it is concave.
+  return after_m > 0.0 ? Vector3(before_m / (before_m - after_m) * step) : step;
 }
 
 // The arc of a circle that holds the maximum of a function, by the signs of its slope. Its ends are
@@ -122,7 +115,7 @@ double AlignInPlane(const Pair& pair, Vector3& n) {
     const double step =
         std::clamp(slope / std::max(bend, pair.margin_m), -kLongestStep_rad, kLongestStep_rad);
     const Vector3 last = n;
-    n += pair.rock->IsCap() ? CapStep(*pair.rock, support, n, step * e) : Vector3(step * e);
+    n += UpToBorder(*pair.rock, support, n, step * e);
     n.normalize();
     if (pair.rock->IsCap()) n = bracket.Hold(pair.axle_W, last, slope, n);
     if (std::abs(step) < converged_rad) break;
@@ -196,7 +189,7 @@ void AlignOnEdge(const Pair& pair, Vector3& n) {
       step_e *= kLongestStep_rad / size;
     }
     move = step_b * b + step_e * e;
-    if (pair.rock->IsCap()) move = CapStep(*pair.rock, support, n, move);
+    move = UpToBorder(*pair.rock, support, n, move);
     n = (last + move).normalized();
     if (size < converged_rad) break;
   }

@@ -79,8 +79,8 @@ struct WheelRockGap {
 // rim lies flat on the rock, t = 0 and n has one angle; elsewhere n has two. Newton's method on the
 // circle or sphere starts from `n_W`, the normal of a pose nearby or GuessNormal for a new pair,
 // and ends within some micrometres. Penetration may reach about the margin. A cap's flank has
-// nearly one normal, across which D bends hundreds of times as much as beside it; there steps move
-// the rock's point instead of its normal, which is nearly linear.
+// nearly one normal, across which D bends hundreds of times as much as beside it: steps from the
+// rim's piece end at the border, and those that go too far are halved.
 //
 // Every unit n bounds the gap from below. If that says that the gap exceeds reach_m, FindGap
 // returns that bound at once with an unfinished normal. It costs 20 ns for such a bound, 0.1 us

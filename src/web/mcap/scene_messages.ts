@@ -1,5 +1,5 @@
 // Ground, course, rocks, rover and paths as entities of a 3-D scene.
-import { LineType, type LinePrimitive, type SceneEntity, type SceneUpdate, type SpherePrimitive } from "@foxglove/schemas";
+import { type CylinderPrimitive, LineType, type LinePrimitive, type SceneEntity, type SceneUpdate, type SpherePrimitive } from "@foxglove/schemas";
 import { extentOf, GroundHeights, WALL_HEIGHT_M, wallWithin } from "../replay/scene/ground";
 import type { ReplayPayload, Rock } from "../replay/payload";
 import { colour, NO_TURN, pose, timestamp, vector, yaw } from "./geometry";
@@ -104,15 +104,40 @@ const ellipsoid = ({ x, y, z, a, b, c, yaw: angle }: Rock): SpherePrimitive => (
   color: ROCK,
 });
 
+// A cap by frusta. There are no messages for quadrics beside spheres.
+const CAP_LAYERS = 6;
+
+function cap({ x, y, z, a, b, c, yaw: angle }: Rock, growth: number): CylinderPrimitive[] {
+  // Denser towards the top, where it bends.
+  const shares = Array.from({ length: CAP_LAYERS + 1 }, (_, i) => (i / CAP_LAYERS) ** 2);
+  const radius = (s: number): number => Math.sqrt((growth + (1 - growth) * s) * s);
+  return shares.slice(1).map((below, i) => {
+    const above = shares[i]!;
+    const r = radius(below);
+    return {
+      pose: pose(vector(x, y, z + c * (1 - 0.5 * (below + above))), yaw(angle)),
+      size: vector(2 * a * r, 2 * b * r, c * (below - above)),
+      bottom_scale: 1,
+      top_scale: radius(above) / r,
+      color: ROCK,
+    };
+  });
+}
+
+const shapes = (rocks: Rock[]): Parts => ({
+  spheres: rocks.filter(({ growth }) => !growth).map(ellipsoid),
+  cylinders: rocks.flatMap((rock) => (rock.growth ? cap(rock, rock.growth) : [])),
+});
+
 // Those that lie still are written once. The others are few, and are written whole at every push.
 function rocks(replay: ReplayPayload, t: number): Message[] {
   const now = replay.rocks.map((rock) => ({ ...rock }));
   const pushed = [...new Set(replay.rock_moves.map(({ rock }) => rock))];
   const still = now.filter((_, i) => !pushed.includes(i));
-  const messages = [update("/scene/rocks", t, [entity(t, WORLD, "rocks", { spheres: still.map(ellipsoid) })])];
+  const messages = [update("/scene/rocks", t, [entity(t, WORLD, "rocks", shapes(still))])];
   const tell = (time: number): void => {
-    const spheres = pushed.map((i) => ellipsoid(now[i]!));
-    messages.push(update("/scene/pushed_rocks", time, [entity(time, WORLD, "pushed_rocks", { spheres })]));
+    const parts = shapes(pushed.map((i) => now[i]!));
+    messages.push(update("/scene/pushed_rocks", time, [entity(time, WORLD, "pushed_rocks", parts)]));
   };
   if (pushed.length > 0) tell(t);
   for (const { rock, t: time, ...place } of replay.rock_moves) {

@@ -66,6 +66,11 @@ export interface Rock {
   yaw: number;
   /** Of its top above the ground. */
   height: number;
+  /**
+   * A of a cap that stands on its centre, as wide as sqrt(A s + (1 - A) s^2) times its base at the
+   * share s of its height c below its top; absent for ellipsoids.
+   */
+  growth?: number;
 }
 
 export interface RockMove {

@@ -28,10 +28,10 @@ const messages::WheelCommand& Pattern(int step,
   return commands[second < 7 ? 0 : second < 8 ? 1 : 2];
 }
 
-void Trial(benchmark::State& bench, double k) {
+void Trial(benchmark::State& bench, double k, double pointedness = 0.0) {
   RoverParams params;
   params.fidelity = Fidelity::kQuasiStatic;
-  const terrain::Terrain terrain = ScatteredRocks(k, 1.0, 0);
+  const terrain::Terrain terrain = ScatteredRocks(k, 1.0, 0, pointedness);
   const std::array<messages::WheelCommand, 3> commands{
       Drive(params, 0.15, 0.0), Drive(params, -0.15, 0.0), Drive(params, 0.0, 0.5)};
   std::string hash;
@@ -55,6 +55,7 @@ void Trial(benchmark::State& bench, double k) {
 BENCHMARK_CAPTURE(Trial, Level, 0.0)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Trial, Nominal, 0.00415)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Trial, VikingLander2, 0.013)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Trial, NominalPointed, 0.00415, 0.87)->Unit(benchmark::kMillisecond);
 
 void Place(benchmark::State& bench) {
   RoverParams params;

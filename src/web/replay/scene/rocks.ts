@@ -1,14 +1,17 @@
-// Rocks as ellipsoids, where they lie at a time.
+// Rocks as ellipsoids and caps, where they lie at a time.
 import {
+  type BufferGeometry,
   Color,
   Euler,
   FrontSide,
   Group,
   IcosahedronGeometry,
   InstancedMesh,
+  LatheGeometry,
   Matrix4,
   MeshLambertMaterial,
   Quaternion,
+  Vector2,
   Vector3,
 } from "three";
 import type { Palette } from "../palette";
@@ -18,6 +21,13 @@ import type { ReplayPayload, Rock } from "../payload";
 const MANY_ROCKS = 500;
 const SMALL_M = 0.12;
 const FACES = { fine: 3, coarse: 1 };
+// Points of a cap's profile, and sides around it.
+const CAP_RINGS = { fine: 16, coarse: 6 };
+const CAP_SIDES = { fine: 40, coarse: 12 };
+// Caps of nearly the same growth share a geometry.
+const GROWTH_STEP = 0.05;
+
+type Detail = keyof typeof FACES;
 
 interface Place {
   mesh: InstancedMesh;
@@ -32,14 +42,19 @@ export class Rocks {
   constructor(private readonly payload: ReplayPayload) {
     const { rocks } = payload;
     const coarse = (rock: Rock): boolean => rocks.length > MANY_ROCKS && Math.max(rock.a, rock.b, rock.c) < SMALL_M;
-    const small = rocks.filter(coarse).length;
-    const meshes = { fine: makeMesh(FACES.fine, rocks.length - small, true), coarse: makeMesh(FACES.coarse, small, false) };
-    this.group.add(meshes.fine, meshes.coarse);
+    const kindOf = (rock: Rock): string => `${coarse(rock) ? "coarse" : "fine"} ${growthClass(rock)}`;
+    const counts = new Map<string, number>();
+    for (const rock of rocks) counts.set(kindOf(rock), (counts.get(kindOf(rock)) ?? 0) + 1);
+    const meshes = new Map<string, InstancedMesh>();
     rocks.forEach((rock, i) => {
-      const mesh = coarse(rock) ? meshes.coarse : meshes.fine;
+      const kind = kindOf(rock);
+      const detail = coarse(rock) ? "coarse" : "fine";
+      const mesh = meshes.get(kind) ?? makeMesh(geometryOf(growthClass(rock), detail), counts.get(kind)!, detail === "fine");
+      meshes.set(kind, mesh);
       this.places.push({ mesh, slot: mesh.count++ });
       this.place(i, rock);
     });
+    for (const mesh of meshes.values()) this.group.add(mesh);
   }
 
   recolour(palette: Palette): void {
@@ -80,10 +95,28 @@ export class Rocks {
   }
 }
 
-function makeMesh(faces: number, most: number, shadow: boolean): InstancedMesh {
+/** The growth that a rock is drawn with, 0 for an ellipsoid. */
+function growthClass({ growth }: Rock): number {
+  return growth ? Math.max(0.5, Math.round(growth / GROWTH_STEP)) * GROWTH_STEP : 0;
+}
+
+/** A rock whose semi-axes are 1. */
+function geometryOf(growth: number, detail: Detail): BufferGeometry {
+  if (growth === 0) return new IcosahedronGeometry(1, FACES[detail]);
+  const rings = CAP_RINGS[detail];
+  const profile = Array.from({ length: rings + 1 }, (_, i) => {
+    // From the base up, denser towards the top, where it bends.
+    const s = (1 - i / rings) ** 2;
+    return new Vector2(Math.sqrt((growth + (1 - growth) * s) * s), 1 - s);
+  });
+  // A lathe turns about y.
+  return new LatheGeometry(profile, CAP_SIDES[detail]).rotateX(Math.PI / 2);
+}
+
+function makeMesh(geometry: BufferGeometry, most: number, shadow: boolean): InstancedMesh {
   // Their far sides lie in the ground and would cast shadows around them.
   const material = new MeshLambertMaterial({ shadowSide: FrontSide });
-  const mesh = new InstancedMesh(new IcosahedronGeometry(1, faces), material, Math.max(1, most));
+  const mesh = new InstancedMesh(geometry, material, most);
   mesh.count = 0;
   mesh.castShadow = shadow;
   mesh.receiveShadow = true;
