@@ -45,7 +45,9 @@ CELLS = {
                  "obstacles_0.85": ("obstacles_0.85", 1000, []),
                  "k_0.006": ("nominal", 1000, ["terrain.rocks.k_per_m2=0.006"]),
                  "k_0.0085": ("nominal", 1000, ["terrain.rocks.k_per_m2=0.0085"]),
-                 "slope_10": ("nominal", 1000, ["terrain.ground.slope_deg=10"])}}
+                 # Pointed rocks stand on level ground.
+                 "slope_10": ("nominal", 1000, ["terrain.ground.slope_deg=10",
+                                                "terrain.rocks.pointedness=0"])}}
 # Folders that hold one and the same run.
 SAME_RUN = [("step/nominal_60", "fidelity/nominal_multibody")]
 
