@@ -23,14 +23,14 @@ double RockShape::DistanceToCap(const Vector3& origin_W, const Vector3& directio
   const double k = q.x() * e.x() + q.y() * e.y() + slope(s) * e.z();
   const double w = e.x() * e.x() + e.y() * e.y() - bend_ * e.z() * e.z();
   const double discriminant = k * k - w * outside;
-  // A downward ray reaches the base, q.z = 0, at t = -q.z / e.z. Where F is above zero there, e.z^2
-  // F, it has met nothing unless F was lower in between: most rays meet the surface below its base
-  // only. What can be known without a root makes one condition, which nearly always holds.
+  // The ray's line crosses the plane of the base, q.z = 0, at t = -q.z / e.z, where F is `at_base`
+  // over e.z^2. Where that is above zero, a ray from above meets the cap only if F was lower in
+  // between: most rays meet the surface below the base. What can be known without a root makes one
+  // condition, which nearly always holds.
   const double slope_at_base = w * q.z() - k * e.z();
   const double at_base = outside * e.z() * e.z() + (slope_at_base - k * e.z()) * q.z();
   const bool rises = std::min(k, w) >= 0.0;
-  const bool passes =
-      std::min({-e.z(), outside, at_base}) > 0.0 && std::min(w, slope_at_base) <= 0.0;
+  const bool passes = at_base > 0.0 && std::min(w, slope_at_base) <= 0.0;
   if (rises || passes || discriminant < 0.0) return kNoHit;
   const double root = std::sqrt(discriminant);
   // The same root in the form in which nothing cancels.

@@ -160,6 +160,24 @@ TEST(RockProfileTest, RaysFromStraightAboveTheTopMeetIt) {
   }
 }
 
+// A = 1/2: the second sheet begins at its height over the top, where F is 0 as on the rock itself.
+TEST(RockProfileTest, RaysFromTheSecondSheetItselfMeetTheTop) {
+  const RockShape shape(
+      ShapeRock({.diameter_m = 0.2, .half_height_m = 0.125, .height_m = 0.125}, 0.75));
+  EXPECT_NEAR(shape.Distance({0.0, 0.0, 0.25}, -Vector3::UnitZ()), 0.125, 1e-12);
+}
+
+TEST(RockProfileTest, NothingLiesBelowTheBase) {
+  const RockShape shape(
+      ShapeRock({.diameter_m = 0.2, .half_height_m = 0.1, .height_m = 0.13}, 0.87));
+  // To the cone's continuation below the ground, and level through it.
+  const Vector3 direction_W = Vector3(0.3, 0.0, -0.2).normalized();
+  EXPECT_EQ(shape.Distance({-0.3, 0.0, 0.1}, direction_W), RockShape::kNoHit);
+  EXPECT_EQ(shape.Distance({-0.3, 0.0, -0.01}, Vector3::UnitX()), RockShape::kNoHit);
+  EXPECT_EQ(shape.Distance({0.0, 0.0, -0.01}, Vector3::UnitX()), RockShape::kNoHit);
+  EXPECT_LT(shape.Distance({-0.3, 0.0, 0.01}, Vector3::UnitX()), 0.3);
+}
+
 TEST(RockProfileTest, TopIsWhereTheSurfaceBegins) {
   core::RandomStream stream({52, 0}, core::Purpose::kTest);
   for (const double pointedness : kPointedness) {

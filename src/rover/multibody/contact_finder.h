@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "math/pose.h"
-#include "rover/rock_body.h"
 #include "rover/multibody/multibody.h"
 #include "rover/part_shapes.h"
+#include "rover/rock_body.h"
 #include "terrain/terrain.h"
 
 namespace rockyard::rover {
