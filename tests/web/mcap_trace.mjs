@@ -64,9 +64,10 @@ export async function open(file) {
 }
 
 /** A trial of a scenario: its replay data, and its trace as a file. */
-export function trial(scenario, name) {
+export function trial(scenario, name, settings = []) {
   const run = inFolder(name);
-  rockyard(["run", `scenarios/${scenario}.json`, "--trials", "1", "--seed", "1", "--threads", "1", "--out", run]);
+  const changes = settings.flatMap((setting) => ["--set", setting]);
+  rockyard(["run", `scenarios/${scenario}.json`, "--trials", "1", "--seed", "1", "--threads", "1", "--out", run, ...changes]);
   const data = inFolder(`${name}.json`);
   const pages = ["--out", inFolder(`${name}.html`), "--svg", inFolder(`${name}.svg`)];
   rockyard(["replay", run, "--trial", "0", "--data", data, ...pages]);

@@ -10,7 +10,7 @@ namespace {
 
 using math::Vector3;
 
-constexpr int kMaxIterations = 12;
+constexpr int kMaxEllipsoidIterations = 12;
 // The gap is stationary in the normal and Newton's method is quadratic: after a step of this size
 // the error of the gap is below 1e-9 m.
 constexpr double kConverged_rad = 3e-3;
@@ -35,7 +35,7 @@ struct Pair {
   double margin_m;
   const RockSupport* rock;
 
-  int MaxIterations() const { return rock->IsCap() ? kMaxCapIterations : kMaxIterations; }
+  int MaxIterations() const { return rock->IsCap() ? kMaxCapIterations : kMaxEllipsoidIterations; }
   double Converged_rad() const { return rock->IsCap() ? kCapConverged_rad : kConverged_rad; }
 };
 
