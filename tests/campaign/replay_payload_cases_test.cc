@@ -27,8 +27,9 @@ TEST(ReplayPayload, SaysWhetherTheStoredRecordIsRepeated) {
 }
 
 TEST(ReplayPayload, RocksThatThePushedRoverMoves) {
-  const Json payload =
-      PayloadOf(SourceOf("pathfinder/nominal", {"terrain.rocks.mobility=movable"}), 10);
+  const Json payload = PayloadOf(SourceOf("pathfinder/nominal", {"terrain.rocks.mobility=movable",
+                                                                 "terrain.rocks.pointedness=0"}),
+                                 10);
   ASSERT_FALSE(payload["rock_moves"].empty());
   for (const Json& move : payload["rock_moves"]) {
     const Json& rock = payload["rocks"][move["rock"].get<std::size_t>()];
@@ -98,7 +99,8 @@ TEST(ReplayPayload, ManyStepsStaySmall) {
 TEST(ReplayPayload, TheLongestTrialStaysSmall) {
   const std::string text = ReplayPayload(
       ReplayTrial(SourceOf("pathfinder/obstacles_2.0",
-                           {"terrain.ground.roughness_rms_m=0.02", "terrain.ground.slope_deg=3"}),
+                           {"terrain.ground.roughness_rms_m=0.02", "terrain.ground.slope_deg=3",
+                            "terrain.rocks.pointedness=0"}),
                   1));
   // Compressed and in base64 a fifth of it; the page itself has some 0.8 MB.
   EXPECT_LT(text.size(), 6'000'000U);

@@ -47,7 +47,8 @@ TEST(HazardScenarioTest, BadScenariosSayWhatIsWrong) {
       ProblemsOf({"hazard_detection.study=false_alarm", "sensors.light_stripe.fidelity=image",
                   "hazard_detection.wrong_place_probabilities=[0.01]"}),
       HasSubstr("points go wrong by themselves"));
-  EXPECT_THAT(ProblemsOf({"terrain.ground.slope_deg=5"}), HasSubstr("flat sand"));
+  EXPECT_THAT(ProblemsOf({"terrain.ground.slope_deg=5", "terrain.rocks.pointedness=0"}),
+              HasSubstr("flat sand"));
   EXPECT_THAT(ProblemsOf({"perception.hazard.agreement=consecutive_moving"}),
               HasSubstr("judges every pose on its own"));
   EXPECT_THAT(ProblemsOf({"hazard_detection.study=detecting"}), HasSubstr("detection"));

@@ -71,7 +71,9 @@ TEST(AblationsTest, ChangesResolvedDocumentsAndOthersAlike) {
   for (const Ablation& ablation : Ablations()) {
     core::JsonValue resolved = WriteScenario(Nominal());
     core::JsonValue written = core::ParseJson(
-        R"({"terrain": {"rocks": {"k_per_m2": 0.00415}}, "course": {"goal_x_m": 7.6},
+        R"({"terrain": {"rocks": {"k_per_m2": 0.00415, "pointedness": 0.8675}},
+            "course": {"goal_x_m": 7.6},
+            "referee": {"no_path_time_s": 0, "time_limit_s": 0}, "energy": {"battery_wh": 0},
             "sensors": {"gyro": {"level_sand_gain": 1.25},
                         "encoders": {"physics_variance_m2_per_m": 1.9e-06,
                                      "level_sand_gain": 0.9201}},
