@@ -9,8 +9,8 @@ const foxglove = requirePackage("@foxglove/schemas/jsonschema");
 let stripe;
 let mapped;
 before(async () => {
-  // Round rocks; one of them is made pointed below.
-  stripe = trial("pathfinder/nominal", "stripe", ["terrain.rocks.pointedness=0"]);
+  // Round rocks, of which one is made pointed below, and a trial that does not arrive.
+  stripe = trial("pathfinder/nominal", "stripe", ["terrain.rocks.pointedness=0", "referee.time_limit_s=2000"]);
   stripe.trace = await open(stripe.file);
   mapped = trial("gestalt/narrow_course", "mapped");
   mapped.trace = await open(mapped.file);
@@ -117,7 +117,7 @@ test("events are told as the data has them, troubles above the others", () => {
   }
   const levels = (trace, kind) => trace.of("/events").filter((m) => m.content.name === kind).map((m) => m.content.level);
   assert.ok(levels(stripe.trace, "hazard").every((level) => level === 3));
-  // The one arrived, the other only believes so.
+  // The one arrived, the other ran out of time.
   assert.equal(mapped.replay.outcome, "goal_reached");
   assert.deepEqual(levels(mapped.trace, "end"), [2]);
   assert.notEqual(stripe.replay.outcome, "goal_reached");
