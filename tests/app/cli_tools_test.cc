@@ -58,7 +58,7 @@ TEST_F(CliTools, ParametersAsTableAndCsv) {
       Run({"parameters", Scenario("nominal"), "--csv", "--origin", "assumed"});
   EXPECT_EQ(csv.exit_code, 0) << csv.err;
   EXPECT_THAT(csv.out, StartsWith("path,kind,value"));
-  EXPECT_THAT(csv.out, HasSubstr("referee.time_limit_s"));
+  EXPECT_THAT(csv.out, HasSubstr("referee.no_path_distance_m"));
   EXPECT_EQ(Run({"parameters", "--origin", "guessed"}).exit_code, 2);
   EXPECT_THAT(Run({"parameters"}).out, HasSubstr("| "));
 }
