@@ -41,7 +41,6 @@ class CliTraceFaults : public WatchedRunTest {
     return count;
   }
 
-  // Not by Alive: while a process starts its program it has no command line.
   bool WaitForTraces(std::size_t count) const {
     for (int i = 0; i < 60000 && Files() < count; ++i) usleep(500);
     return Files() >= count;

@@ -141,6 +141,7 @@ TEST_F(CliTraces, GoOnAfterTheyWereKilled) {
   while (!fs::exists(second) && Alive(process)) usleep(500);
   kill(process, SIGKILL);
   Wait(process);
+  ASSERT_TRUE(fs::exists(second)) << "ended before its second trace";
   const std::vector<std::string> before = Files();
   const CommandResult result = Run(With(words, {"--resume"}));
   EXPECT_EQ(result.exit_code, 0) << result.err;
