@@ -77,7 +77,7 @@ GESTALT_NAMES = {
 }
 MEANS = ("mean_a", "mean_b", "difference", "ci95_low", "ci95_high")
 QUASI_STATIC = ["rover.fidelity=quasi_static"]
-VERDICTS = ("agrees", "differs", "underpowered", "not judged")
+VERDICTS = ("agrees", "holds", "differs", "underpowered", "not judged")
 
 
 class Study:

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Holds this build against the committed baseline of the regression campaign.
 #   scripts/ci/regression.sh BUILD/bin/rockyard [FOLDER]
-# Exit code of rockyard check: 0 identical or equivalent, 1 changed, 4 inconclusive, 2 another
+# Exit code of rockyard check: 0 no change, 1 changed, 4 inconclusive, 2 another
 # scenario. FOLDER (default: a temporary one) gets the run, regression.xml (JUnit) and regression.csv.
 set -eu
 program=$1

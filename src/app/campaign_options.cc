@@ -11,8 +11,8 @@ void AddPlanOptions(CLI::App& command, CampaignOptions& options) {
   CLI::Option* until =
       command
           .add_option("--until-half-width", options.until_half_width,
-                      "run until the confidence sequence (95 %, valid at any time) of declared "
-                      "success is that narrow, e.g. 0.02")
+                      "run until the 95 % interval of declared success has this half-width, "
+                      "e.g. 0.02")
           ->check(CLI::Range(0.0005, 0.49))
           ->excludes(trials);
   command.add_option("--max-trials", options.rule.max_trials, "most trials (of each cell) of that")
@@ -26,7 +26,7 @@ void AddPlanOptions(CLI::App& command, CampaignOptions& options) {
   command
       .add_option("--allocate", options.allocate,
                   "which cells get the next blocks of that: all (uniform), or the half of them "
-                  "with the widest sequences (adaptive)")
+                  "with the widest intervals (adaptive)")
       ->check(CLI::IsMember({"uniform", "adaptive"}))
       ->capture_default_str()
       ->needs(until);

@@ -20,6 +20,7 @@ namespace {
 struct CheckOptions {
   campaign::CheckRequest request;
   bool allow_scenario_change = false;
+  bool same_records = false;
   bool all_rows = false;
   bool json = false;  // for programs; else text
   std::string reference;
@@ -31,7 +32,9 @@ struct CheckOptions {
 void AddRegressionOptions(CLI::App& command, CheckOptions& options) {
   command.add_flag("--allow-scenario-change", options.allow_scenario_change,
                    "baseline: compare although settings differ");
-  command.add_flag("--all", options.all_rows, "baseline: show equivalent metrics too");
+  command.add_flag("--same-records", options.same_records,
+                   "baseline: exit code 1 also where any record changed");
+  command.add_flag("--all", options.all_rows, "baseline: show every metric");
   command
       .add_option("--alpha", options.request.regression.alpha,
                   "baseline: chance of any false alarm in an unchanged build")
@@ -53,7 +56,7 @@ ExitCode Show(const campaign::BaselineCheck& check, const CheckOptions& options)
   const report::RegressionReport& found = check.report;
   WriteFiles(options, report::RegressionJUnit(found), report::RegressionCsv(found));
   const auto rows =
-      options.all_rows ? report::ReportedRows::kAll : report::ReportedRows::kNotEquivalent;
+      options.all_rows ? report::ReportedRows::kAll : report::ReportedRows::kThatMatter;
   Print(options.json ? report::BaselineCheckJson(found, static_cast<int>(check.outcome))
                      : Wrapped(report::RegressionText(found, rows)));
   return check.outcome;
@@ -74,6 +77,7 @@ ExitCode Check(const CheckOptions& options) {
   campaign::CheckRequest request = options.request;
   request.reference = options.reference;
   if (options.allow_scenario_change) request.scenario_change = campaign::ScenarioChange::kAllow;
+  if (options.same_records) request.record_change = campaign::RecordChange::kRefuse;
   const campaign::CheckResult result =
       campaign::Check(request, MessagesToConsole(Output::kText)).OrThrow();
   return std::visit([&](const auto& check) { return Show(check, options); }, result);

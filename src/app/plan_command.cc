@@ -11,6 +11,7 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/plan_report.h"
+#include "batch/stopping_rule.h"
 #include "core/error.h"
 #include "statistics/sample_size.h"
 
@@ -57,7 +58,7 @@ struct HalfWidthQuestion {
   PlanOptions options;
   double rate = 0.5;
   double half_width = 0.0;
-  std::int64_t block = 100;
+  std::int64_t block = batch::StoppingRule{}.block;  // as of a run
 };
 
 void PlanHalfWidth(const HalfWidthQuestion& q) {
@@ -71,8 +72,8 @@ void PlanHalfWidth(const HalfWidthQuestion& q) {
   report.Add("clopper_pearson", "Clopper-Pearson, number fixed beforehand",
              statistics::TrialsForHalfWidth(q.rate, q.half_width, confidence,
                                             IntervalMethod::kClopperPearson));
-  report.Add("sequence", fmt::format("--until-half-width, about, in blocks of {}", q.block),
-             statistics::TrialsForSequence(q.rate, q.half_width, confidence, q.block));
+  report.Add("stopped", fmt::format("--until-half-width, about, in blocks of {}", q.block),
+             statistics::TrialsForStopping(q.rate, q.half_width, confidence, q.block));
   Show(report, q.options);
 }
 
@@ -107,8 +108,10 @@ void PlanClaim(const ClaimQuestion& q) {
              fmt::format("with {:g} confidence, if no more than {} fail", q.options.confidence,
                          q.failures),
              trials);
-  report.Add("rule_of_three", "rule of three (95 %, no failure): 3 over the rate",
-             std::int64_t{std::llround(std::ceil(3.0 / q.below))});
+  if (q.failures == 0) {
+    report.Add("rule_of_three", "rule of three (95 %, no failure): 3 over the rate",
+               std::int64_t{std::llround(std::ceil(3.0 / q.below))});
+  }
   for (const double part : {2.0, 5.0, 10.0}) {
     if (IsCutOff(trials)) break;
     report.Add(fmt::format("chance_at_{:g}th", part),

@@ -139,6 +139,12 @@ std::vector<truth::Record> ResultStore::Load(int cell) const {
   return Load(cell, 0, planned(cell));
 }
 
+std::vector<truth::Record> ResultStore::Load(int cell, const truth::RecordSchema& columns) const {
+  EXPECT(cell >= 0 && cell < cells());
+  return SelectRecords(*database_, columns, {.cell = cell, .from = 0, .to = planned(cell)},
+                       Sentences::kLeftOut);
+}
+
 std::vector<truth::Record> ResultStore::Load(int cell, std::int64_t from, std::int64_t to) const {
   EXPECT(cell >= 0 && cell < cells());
   return SelectRecords(*database_, identity_.schema, {.cell = cell, .from = from, .to = to});

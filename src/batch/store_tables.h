@@ -45,10 +45,14 @@ struct TrialRange {
   std::int64_t to = 0;
 };
 
-// The records there are of those, by trial index. kDamaged.
+// Whether records come with the sentence that says why they ended.
+enum class Sentences { kKept, kLeftOut };
+
+// The records there are of those, by trial index, with the values of these columns. kDamaged.
 std::vector<truth::Record> SelectRecords(const SqliteDatabase& database,
-                                         const truth::RecordSchema& schema,
-                                         const TrialRange& range);
+                                         const truth::RecordSchema& columns,
+                                         const TrialRange& range,
+                                         Sentences sentences = Sentences::kKept);
 
 // Every stored trial by cell and trial index. kDamaged.
 std::vector<FinishedTrial> SelectFinished(const SqliteDatabase& database, int cells);

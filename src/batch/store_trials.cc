@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "batch/store_error.h"
@@ -41,6 +42,19 @@ truth::TrialOutcome OutcomeOf(const SqliteDatabase& database, std::int64_t trial
               fmt::format("has the unknown outcome \"{}\" at trial {}", name, trial));
 }
 
+void ReadValues(const SqliteDatabase& database, const truth::RecordSchema& schema,
+                const SqliteStatement& row, std::span<double> values) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < schema.size(); ++i) {
+    const int column = kFixedColumns + static_cast<int>(i);
+    if (!row.IsNull(column) && !row.IsReal(column)) {
+      FailDamaged(database.path(),
+                  fmt::format("has no number in {} of trial {}", schema[i].name, row.Integer(1)));
+    }
+    values[i] = row.IsNull(column) ? kNan : row.Real(column);
+  }
+}
+
 }  // namespace
 
 void InsertRecords(SqliteDatabase& database, const truth::RecordSchema& schema,
@@ -69,27 +83,23 @@ void InsertRecords(SqliteDatabase& database, const truth::RecordSchema& schema,
 }
 
 std::vector<truth::Record> SelectRecords(const SqliteDatabase& database,
-                                         const truth::RecordSchema& schema,
-                                         const TrialRange& range) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+                                         const truth::RecordSchema& columns,
+                                         const TrialRange& range, Sentences sentences) {
   std::vector<truth::Record> records;
-  SqliteStatement select = database.Prepare(SelectSql(schema));
+  const auto values = std::make_shared<truth::ValueTable>(columns.size());
+  std::vector<double> row(columns.size());
+  SqliteStatement select = database.Prepare(SelectSql(columns));
   select.Bind(0, static_cast<std::int64_t>(range.cell)).Bind(1, range.from).Bind(2, range.to);
   while (select.Step()) {
     truth::Record record;
     const std::int64_t trial = CheckedTrial(database, select.Integer(1));
     record.trial = static_cast<std::uint64_t>(trial);
     record.outcome = OutcomeOf(database, trial, select.Text(2));
-    record.detail = select.Text(3);
-    const std::size_t values = truth::IsFault(record) ? 0 : schema.size();
-    record.values.reserve(values);
-    for (std::size_t i = 0; i < values; ++i) {
-      const int column = kFixedColumns + static_cast<int>(i);
-      if (!select.IsNull(column) && !select.IsReal(column)) {
-        FailDamaged(database.path(),
-                    fmt::format("has no number in {} of trial {}", schema[i].name, trial));
-      }
-      record.values.push_back(select.IsNull(column) ? kNan : select.Real(column));
+    if (sentences == Sentences::kKept) record.detail = select.Text(3);
+    if (!truth::IsFault(record)) {
+      ReadValues(database, columns, select, row);
+      record.values = {values, values->rows()};
+      values->Append(row);
     }
     records.push_back(std::move(record));
   }

@@ -5,7 +5,7 @@
 
 #include "core/check.h"
 #include "core/random.h"
-#include "statistics/confidence_sequence.h"
+#include "statistics/proportions.h"
 
 namespace rockyard::batch {
 namespace {
@@ -91,8 +91,9 @@ void WorkPlan::BeginRound() {
 void WorkPlan::Decide(Cell& cell) const {
   CellState& state = cell.state;
   state.counts += cell.counter.Count(state.counts.trials, state.asked);
-  state.sequence = statistics::ConfidenceSequence(state.counts.declared_successes,
-                                                  state.counts.drives(), options_.rule->confidence);
+  state.interval = statistics::ProportionInterval(state.counts.declared_successes,
+                                                  state.counts.drives(), options_.rule->confidence,
+                                                  statistics::IntervalMethod::kStopped);
   if (state.half_width() <= options_.rule->half_width) {
     state.end = CellEnd::kPrecise;
   } else if (state.asked == cell.planned) {

@@ -35,8 +35,8 @@ struct CellState {
   CellEnd end = CellEnd::kOpen;
   std::int64_t asked = 0;                   // trials 0 .. asked-1 are to run
   PrefixCounts counts;                      // of those at the last decision; with a rule
-  statistics::Interval sequence{0.0, 1.0};  // with a rule
-  double half_width() const { return (sequence.high - sequence.low) / 2.0; }
+  statistics::Interval interval{0.0, 1.0};  // of declared success; with a rule
+  double half_width() const { return (interval.high - interval.low) / 2.0; }
 };
 
 // The work of a campaign in rounds. A round is decided from the outcomes of the rounds before it

@@ -42,17 +42,34 @@ void KeepCellsOf(const std::vector<StoredRun>& runs, report::Baseline& baseline)
   if (!kept.empty()) baseline.cells = std::move(kept);
 }
 
-std::int64_t SamePairs(const report::BaselineCell& cell, std::span<const truth::Record> records,
-                       const std::vector<std::vector<double>>& values) {
-  std::int64_t same_pairs = 0;
-  for (std::size_t trial = 0; trial < std::min(records.size(), cell.outcomes.size()); ++trial) {
-    bool same = records[trial].outcome == cell.outcomes[trial];
-    for (std::size_t i = 0; same && i < cell.metrics.size(); ++i) {
-      same = !values[i].empty() && IsSame(cell.metrics[i].values.at(trial), values[i].at(trial));
-    }
-    same_pairs += same ? 1 : 0;
+report::RecordChanges CompareRecords(const report::BaselineCell& cell,
+                                     std::span<const truth::Record> records,
+                                     const std::vector<std::vector<double>>& values) {
+  report::RecordChanges changes;
+  changes.columns = {{"outcome"}};
+  for (const statistics::BaselineMetric& metric : cell.metrics) {
+    changes.columns.push_back({metric.name});
   }
-  return same_pairs;
+  const std::size_t pairs = std::min(records.size(), cell.outcomes.size());
+  changes.pairs = static_cast<std::int64_t>(pairs);
+  for (std::size_t trial = 0; trial < pairs; ++trial) {
+    bool same = true;
+    const auto compare = [&](std::size_t column, bool is_same) {
+      if (is_same) return;
+      same = false;
+      ++changes.columns[column].trials;
+    };
+    compare(0, records[trial].outcome == cell.outcomes[trial]);
+    for (std::size_t i = 0; i < cell.metrics.size(); ++i) {
+      compare(i + 1,
+              !values[i].empty() && IsSame(cell.metrics[i].values.at(trial), values[i].at(trial)));
+    }
+    changes.trials += same ? 0 : 1;
+  }
+  std::erase_if(changes.columns, [](const auto& column) { return column.trials == 0; });
+  std::stable_sort(changes.columns.begin(), changes.columns.end(),
+                   [](const auto& a, const auto& b) { return a.trials > b.trials; });
+  return changes;
 }
 
 }  // namespace rockyard::campaign

@@ -1,13 +1,13 @@
 // Cells of runs beside those of a baseline.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "campaign/run_source.h"
 #include "report/baseline.h"
+#include "report/regression_report.h"
 #include "truth/record.h"
 
 namespace rockyard::campaign {
@@ -19,10 +19,11 @@ std::vector<StoredRun> ReadCells(const std::vector<std::string>& paths, const st
 // Leaves those cells in the baseline that one of the runs is; all of them where none is.
 void KeepCellsOf(const std::vector<StoredRun>& runs, report::Baseline& baseline);
 
-// Trials with the same outcome and the same value of every metric, rounded as the baseline keeps
-// it; `values` are the run's, by metric of the baseline, and empty where it has none. A metric
-// without a value in both is the same.
-std::int64_t SamePairs(const report::BaselineCell& cell, std::span<const truth::Record> records,
-                       const std::vector<std::vector<double>>& values);
+// Compares trial by trial outcomes and values of metrics, rounded as the baseline keeps them;
+// `values` are the run's, by metric of the baseline, and empty where it has none. A metric without
+// a value in both is the same. Leaves `only_hash` as it is.
+report::RecordChanges CompareRecords(const report::BaselineCell& cell,
+                                     std::span<const truth::Record> records,
+                                     const std::vector<std::vector<double>>& values);
 
 }  // namespace rockyard::campaign

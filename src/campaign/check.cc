@@ -74,6 +74,7 @@ core::Result<CheckResult> Check(const CheckRequest& request, const Observer& obs
     return CheckAgainstBaseline(document, {.runs = request.runs,
                                            .cell = request.cell,
                                            .scenario_change = request.scenario_change,
+                                           .record_change = request.record_change,
                                            .options = request.regression});
   });
 }

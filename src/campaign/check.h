@@ -24,6 +24,7 @@ struct CheckRequest {
   // Of a baseline.
   statistics::RegressionOptions regression = {};
   ScenarioChange scenario_change = ScenarioChange::kRefuse;
+  RecordChange record_change = RecordChange::kTell;
 };
 
 struct PublishedCheck {

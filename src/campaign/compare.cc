@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "campaign/drive_comparison.h"
 #include "campaign/run_views.h"
 #include "core/error.h"
 #include "core/json_text.h"
@@ -36,6 +37,10 @@ void RequireSameExperiment(const StoredRun& first, const StoredRun& second) {
                         "compare two runs of the same experiment and study");
 }
 
+const std::string& SecondCell(const CompareRequest& request) {
+  return request.second_cell.empty() ? request.cell : request.second_cell;
+}
+
 statistics::CellComparison CompareMeasurements(const StoredRun& first, const StoredRun& second) {
   RequireSameExperiment(first, second);
   const report::ComparedRun a = ComparedView(first);
@@ -50,16 +55,24 @@ statistics::CellComparison CompareMeasurements(const StoredRun& first, const Sto
   return cells;
 }
 
-Comparison CompareStored(StoredRun first, StoredRun second) {
+// Of runs that are read whole.
+statistics::CellComparison CompareMeasurements(const CompareRequest& request) {
+  return CompareMeasurements(ReadRun(request.first, request.cell),
+                             ReadRun(request.second, SecondCell(request)));
+}
+
+Comparison CompareStored(const CompareRequest& request) {
+  StoredRun first = ReadRun(request.first, request.cell, StoredValues::kNone);
+  StoredRun second = ReadRun(request.second, SecondCell(request), StoredValues::kNone);
   RequireWhole(first);
   RequireWhole(second);
   Comparison comparison;
   if (truth::IsMeasurement(first.schema) || truth::IsMeasurement(second.schema)) {
-    statistics::CellComparison cells = CompareMeasurements(first, second);
+    statistics::CellComparison cells = CompareMeasurements(request);
     if (cells.Differing() > 0) comparison.outcome = Outcome::kDiffers;
     comparison.found = std::move(cells);
   } else {
-    comparison.found = report::CompareRuns(ComparedView(first), ComparedView(second));
+    comparison.found = CompareDrives(first, second);
   }
   comparison.settings =
       batch::FindScenarioDifferences(first.identity.resolved, second.identity.resolved);
@@ -71,11 +84,7 @@ Comparison CompareStored(StoredRun first, StoredRun second) {
 }  // namespace
 
 core::Result<Comparison> Compare(const CompareRequest& request) {
-  return core::Attempt([&] {
-    const std::string& other = request.second_cell.empty() ? request.cell : request.second_cell;
-    StoredRun first = ReadRun(request.first, request.cell);
-    return CompareStored(std::move(first), ReadRun(request.second, other));
-  });
+  return core::Attempt([&] { return CompareStored(request); });
 }
 
 }  // namespace rockyard::campaign

@@ -24,14 +24,15 @@ struct CompareRequest {
 
 // Drives are compared trial by trial where their seeds are the same, measurements cell by cell.
 struct Comparison {
-  StoredRun first;
+  StoredRun first;  // both without the values of their records
   StoredRun second;
   std::variant<report::RunComparison, statistics::CellComparison> found;
   std::vector<batch::ScenarioDifference> settings;  // in which they differ
   Outcome outcome = Outcome::kDone;  // kDiffers where a rate of a cell does; drives describe
 };
 
-// Memory: the records of both runs.
+// Memory: of drives, 200 bytes a trial of each and some columns (drive_comparison.h); of
+// measurements the records of both runs.
 core::Result<Comparison> Compare(const CompareRequest& request);
 
 }  // namespace rockyard::campaign

@@ -97,7 +97,11 @@ class BaselineComparison {
             fmt::format("{}: the run has no column for {}", cell.name, metric.name));
       }
     }
-    if (checked.paired) checked.same_pairs = SamePairs(cell, records, compared.run);
+    if (checked.paired) {
+      checked.records = CompareRecords(cell, records, compared.run);
+      checked.records.only_hash = checked.records.trials == 0 && !checked.identical &&
+                                  checked.baseline_trials == checked.run_trials;
+    }
     report_.cells.push_back(std::move(checked));
     return compared;
   }
@@ -194,10 +198,16 @@ class BaselineComparison {
 };
 
 // `unknown`: whether the baseline has metrics that this program does not know.
-Outcome OutcomeOf(const report::RegressionReport& report, bool unknown) {
+Outcome OutcomeOf(const report::RegressionReport& report, RecordChange record_change,
+                  bool unknown) {
   if (report::BrokenDeterminism(report)) return Outcome::kDiffers;
   const auto outcome = static_cast<Outcome>(statistics::ExitCode(report.result));
-  return outcome == Outcome::kDone && unknown ? Outcome::kInconclusive : outcome;
+  const report::RecordFinding records = report::FindingOfRecords(report);
+  const bool refuses = record_change == RecordChange::kRefuse;
+  if (refuses && records == report::RecordFinding::kChanged) return Outcome::kDiffers;
+  if (outcome != Outcome::kDone) return outcome;
+  const bool apart = refuses && records == report::RecordFinding::kNotComparable;
+  return unknown || apart ? Outcome::kInconclusive : outcome;
 }
 
 }  // namespace
@@ -211,7 +221,7 @@ BaselineCheck CheckAgainstBaseline(const core::JsonValue& baseline,
     check.report.notes.push_back(fmt::format(
         "metrics of the baseline that are unknown to this program: {}", fmt::join(unknown, ", ")));
   }
-  check.outcome = OutcomeOf(check.report, !unknown.empty());
+  check.outcome = OutcomeOf(check.report, request.record_change, !unknown.empty());
   return check;
 }
 

@@ -17,10 +17,17 @@ enum class ScenarioChange {
   kAllow,   // what is to be examined: noted
 };
 
+// What changed records are, apart from what they say.
+enum class RecordChange {
+  kTell,    // a finding, which decides nothing
+  kRefuse,  // a difference; and where trials are no pairs, nothing that could be decided
+};
+
 struct RegressionRequest {
   std::vector<std::string> runs;
   std::string cell;  // of each run only that one, by name or number; empty: all
   ScenarioChange scenario_change = ScenarioChange::kRefuse;
+  RecordChange record_change = RecordChange::kTell;
   statistics::RegressionOptions options;
 };
 
@@ -31,8 +38,9 @@ struct BaselineCheck {
 
 // Each cell of the baseline needs one of the runs, found by
 // its name (a run of one scenario goes by the scenario's; where both are one cell, by nothing).
-// kDiffers where a metric changed, or where the baseline's own build gave other records;
-// kInconclusive where something is inconclusive, lacking or unknown; else kDone.
+// kDiffers where a metric changed, or where the baseline's own build gave other records, or any
+// build where records may not change; kInconclusive where a primary metric is inconclusive, or a
+// metric is lacking or unknown, or records may not change and cannot be compared; else kDone.
 // Throws core::UserError: a cell is missing, a setting that the baseline knows differs, or a
 // younger one is not at its default (all of them are named), trials share rocks, nothing is
 // finished.

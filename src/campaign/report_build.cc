@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "batch/result_store.h"
 #include "batch/scenario_difference.h"
 #include "batch/trial_hash.h"
+#include "campaign/drive_comparison.h"
 #include "campaign/report_published.h"
 #include "campaign/run_source.h"
 #include "campaign/run_views.h"
@@ -42,6 +44,15 @@ std::string ReplayCommand(const StoredRun& run) {
   return command + " --trial {trial}";
 }
 
+// Ascending.
+std::vector<std::uint64_t> TrialsOf(const std::vector<WorstTrial>& worst) {
+  std::vector<std::uint64_t> trials;
+  trials.reserve(worst.size());
+  for (const WorstTrial& each : worst) trials.push_back(each.record.trial);
+  std::sort(trials.begin(), trials.end());
+  return trials;
+}
+
 [[noreturn]] void FailEmpty(const std::filesystem::path& folder) {
   throw core::UserError(folder.string(), "holds no finished trials to report",
                         "let it run: the same `rockyard run` or `rockyard sweep` with --resume");
@@ -65,16 +76,12 @@ class Builder {
       : request_(request), contact_(contact), published_(request.against, contact.journal) {}
 
   Report Build() {
-    LoadRuns();
-    std::size_t next = 0;
     for (const ReportInput& input : request_.inputs) {
       if (input.sweep) {
         AddSweep(input);
-        continue;
+      } else {
+        AddPlain(input);
       }
-      const StoredRun& run = plain_[next++];
-      AddWorst(FindWorst(run, request_.replays), input.label);
-      AddRun(run, input.label, {});
     }
     RequirePublished();
     Compare();
@@ -82,15 +89,18 @@ class Builder {
   }
 
  private:
-  void LoadRuns() {
-    for (const ReportInput& input : request_.inputs) {
-      if (input.sweep) continue;
-      plain_.push_back(ReadRun(input.folder, input.cell));
-      if (plain_.back().records.empty()) FailEmpty(input.folder);
-    }
+  // A run, whose values are let go afterwards.
+  void AddPlain(const ReportInput& input) {
+    StoredRun run = ReadRun(input.folder, input.cell);
+    if (run.records.empty()) FailEmpty(input.folder);
+    AddRun(run, input.label, {}, FindWorst(run, request_.replays));
+    if (truth::IsMeasurement(run.schema) || run.prefix().empty()) return;
+    for (truth::Record& record : run.records) record.values.clear();
+    drives_.emplace_back(std::move(run), input.label);
   }
 
-  void AddRun(const StoredRun& run, const std::string& label, std::optional<std::size_t> sweep) {
+  void AddRun(const StoredRun& run, const std::string& label, std::optional<std::size_t> sweep,
+              std::vector<WorstTrial> worst) {
     report::PageRun page{.label = label,
                          .folder = run.folder.string(),
                          .cell = run.identity.name,
@@ -100,12 +110,15 @@ class Builder {
                          .records = run.records,
                          .prefix = run.prefix(),
                          .parameters = ParametersOf(run),
+                         .named = TrialsOf(worst),
                          .published = published_.Table(run),
                          .replay_command = ReplayCommand(run)};
     if (sweep) ShareParameters(page);
     any_published_ = any_published_ || page.published != "null";
     report_.trials += run.records.size();
-    runs_.push_back(report::PageRunMembers(page, kMethod));
+    AddWorst(std::move(worst), label);
+    runs_.push_back(
+        report::PageRunMembers(page, run.rule ? statistics::IntervalMethod::kStopped : kMethod));
   }
 
   // The first cell of a sweep has all of them, the others refer to it.
@@ -139,9 +152,8 @@ class Builder {
     first_cell_parameters_.clear();
     const auto load = [&](std::size_t cell) {
       StoredRun run = reader.Load(static_cast<int>(cell));
-      AddWorst(FindWorst(run, request_.replays), input.cell_labels[cell]);
+      AddRun(run, input.cell_labels[cell], sweeps_.size(), FindWorst(run, request_.replays));
       worst_ = Worst(std::move(worst_), request_.replays);
-      AddRun(run, input.cell_labels[cell], sweeps_.size());
       std::string name = run.identity.name;
       report::SweepCellTrials trials = SweepCellView(std::move(run));
       hashes.push_back({std::move(name), trials.trial_hash});
@@ -165,31 +177,22 @@ class Builder {
 
   // Each drive that was named against the first one.
   void Compare() {
-    std::vector<std::pair<const StoredRun*, std::string>> drives;
-    std::size_t next = 0;
-    for (const ReportInput& input : request_.inputs) {
-      if (input.sweep) continue;
-      const StoredRun& run = plain_[next++];
-      if (truth::IsMeasurement(run.schema) || run.prefix().empty()) continue;
-      drives.emplace_back(&run, input.label);
-    }
-    if (drives.size() > kMaxCompared) {
+    if (drives_.size() > kMaxCompared) {
       contact_.journal.Warn(
           fmt::format("{} runs are too many to compare with the first: name up to {}",
-                      drives.size(), kMaxCompared));
+                      drives_.size(), kMaxCompared));
       return;
     }
-    if (drives.size() < 2) return;
-    const auto& [first, first_label] = drives.front();
-    for (std::size_t i = 1; i < drives.size(); ++i) {
-      const auto& [second, label] = drives[i];
-      report::PageComparison comparison{
-          .first = first_label,
-          .second = label,
-          .comparison = report::CompareRuns(ComparedView(*first), ComparedView(*second)),
-          .settings = {}};
+    if (drives_.size() < 2) return;
+    const auto& [first, first_label] = drives_.front();
+    for (std::size_t i = 1; i < drives_.size(); ++i) {
+      const auto& [second, label] = drives_[i];
+      report::PageComparison comparison{.first = first_label,
+                                        .second = label,
+                                        .comparison = CompareDrives(first, second),
+                                        .settings = {}};
       for (const batch::ScenarioDifference& each :
-           batch::FindScenarioDifferences(first->identity.resolved, second->identity.resolved)) {
+           batch::FindScenarioDifferences(first.identity.resolved, second.identity.resolved)) {
         comparison.settings.push_back({each.path, each.first, each.second});
       }
       comparisons_.push_back(std::move(comparison));
@@ -229,7 +232,8 @@ class Builder {
   const PageRequest& request_;
   const Contact& contact_;
   PublishedTables published_;
-  std::vector<StoredRun> plain_;  // that are no cells of a sweep
+  // To compare: no cells of a sweep, without the values of their records; and their labels.
+  std::vector<std::pair<StoredRun, std::string>> drives_;
   std::vector<core::JsonObject> runs_;
   std::vector<std::string> sweeps_;
   std::vector<report::PageComparison> comparisons_;

@@ -29,10 +29,9 @@ struct Report {
 };
 
 // Throws core::UserError: a run without finished trials, a sweep that this program cannot read, a
-// reference that fits none of the runs. Memory: the records of all runs that are no cells of a
-// sweep, those of one cell at a time, and twice the text. Cost: linear in the trials; the
-// comparison with published values takes some seconds, that of each pair of runs 2000 resamplings
-// of every column.
+// reference that fits none of the runs. Memory: the records of one run or cell at a time, 100 bytes
+// for each trial of runs that are compared, and three times the text. Cost: linear in the trials;
+// the comparison with published values takes some seconds.
 Report BuildReport(const PageRequest& request, const Contact& contact);
 
 }  // namespace rockyard::campaign

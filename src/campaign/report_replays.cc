@@ -178,11 +178,13 @@ std::vector<WorstTrial> FindWorst(const StoredRun& run, std::size_t most) {
     const auto at = std::lower_bound(
         run.records.begin(), run.records.end(), trial,
         [](const truth::Record& record, std::uint64_t wanted) { return record.trial < wanted; });
+    truth::Record record = *at;
+    record.values.Detach();
     worst.push_back({.folder = run.folder,
                      .cell = run.identity.name.empty() ? std::string() : std::to_string(run.cell),
                      .identity = run.identity,
                      .builds = run.builds,
-                     .record = *at,
+                     .record = std::move(record),
                      .run = 0,
                      .label = {},
                      .goal_distance_m = report::GoalDistanceOrInfinity(*at, column)});

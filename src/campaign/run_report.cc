@@ -9,7 +9,6 @@
 #include "campaign/run_source.h"
 #include "report/accounting.h"
 #include "report/atomic_file.h"
-#include "report/run_csv.h"
 #include "report/run_files.h"
 #include "report/summary_json.h"
 #include "scenario/load.h"
@@ -21,8 +20,7 @@ namespace {
 void WriteShardFiles(const StoredRun& run, const report::RunDescription& description) {
   report::WriteFileAtomically(run.folder / "scenario.resolved.json",
                               report::ResolvedScenarioJson(description));
-  report::WriteFileAtomically(run.folder / "trials.csv",
-                              report::TrialsCsv(run.schema, run.records));
+  report::WriteTrialsCsv(run.folder, run.schema, run.records);
   report::WriteFileAtomically(run.folder / "summary.json", report::ShardJson(description));
 }
 
@@ -33,7 +31,7 @@ RunReport ReportRun(const std::filesystem::path& folder, const ReportSettings& s
   RunReport told{.folder = run.folder,
                  .description = Describe(run, batch::ThreadCount({.threads = settings.threads})),
                  .summary = {},
-                 .method = settings.method};
+                 .method = run.rule ? statistics::IntervalMethod::kStopped : settings.method};
   // With the trials that are planned now; the run may have been extended.
   told.description.resolved = scenario::ResolvedJson(
       LoadScenarioFrom(folder, std::vector{fmt::format("trials={}", run.planned)}));
@@ -41,10 +39,10 @@ RunReport ReportRun(const std::filesystem::path& folder, const ReportSettings& s
     WriteShardFiles(run, told.description);
   } else if (truth::IsMeasurement(run.schema)) {
     told.summary = report::WriteMeasurementFiles(run.folder, told.description, run.schema,
-                                                 run.records, run.prefix(), settings.method);
+                                                 run.records, run.prefix(), told.method);
   } else {
     told.summary = report::WriteRunFiles(run.folder, told.description, run.schema, run.records,
-                                         run.prefix(), settings.method);
+                                         run.prefix(), told.method);
   }
   return told;
 }

@@ -115,8 +115,9 @@ CellReader::CellReader(fs::path folder, const batch::ResultStore& store)
   }
 }
 
-StoredRun CellReader::Load(int cell) const {
+StoredRun CellReader::Load(int cell, StoredValues values) const {
   const auto index = static_cast<std::size_t>(cell);
+  const bool all = values == StoredValues::kAll;
   return {.folder = folder_,
           .cell = cell,
           .identity = store_.identity().cells.at(index),
@@ -125,7 +126,7 @@ StoredRun CellReader::Load(int cell) const {
           .settings = store_.identity().settings,
           .planned = store_.planned(cell),
           .builds = store_.Builds(),
-          .records = store_.Load(cell),
+          .records = all ? store_.Load(cell) : store_.Load(cell, truth::RecordSchema()),
           .infrastructure_faults = faults_[index],
           .rule = store_.rule(),
           .state = ends_[index]};
@@ -157,8 +158,8 @@ std::optional<report::StoppingReport> StoppingOf(const StoredRun& run) {
                                 .trials = run.state.counts.trials,
                                 .drives = run.state.counts.drives(),
                                 .successes = run.state.counts.declared_successes,
-                                .low = run.state.sequence.low,
-                                .high = run.state.sequence.high};
+                                .low = run.state.interval.low,
+                                .high = run.state.interval.high};
 }
 
 std::string StoredRun::Label() const {
@@ -166,9 +167,9 @@ std::string StoredRun::Label() const {
                                : fmt::format("{}, cell {}", folder.string(), identity.name);
 }
 
-StoredRun ReadRun(const fs::path& folder, const std::string& cell) {
+StoredRun ReadRun(const fs::path& folder, const std::string& cell, StoredValues values) {
   const batch::ResultStore store = batch::ResultStore::Read(folder);
-  return CellReader(folder, store).Load(FindCell(folder, store.identity().cells, cell));
+  return CellReader(folder, store).Load(FindCell(folder, store.identity().cells, cell), values);
 }
 
 std::vector<StoredRun> ReadCampaign(const fs::path& folder) {

@@ -25,6 +25,12 @@ scenario::Scenario LoadScenarioFrom(const std::filesystem::path& path,
 // (CampaignIdentity::settings), of a scenario file nothing. Throws core::UserError.
 std::optional<std::vector<std::string>> SettingsOf(const std::filesystem::path& path);
 
+// What of the records of a run is read.
+enum class StoredValues {
+  kAll,
+  kNone,  // outcomes alone: 96 bytes a trial instead of 500
+};
+
 // One cell of a campaign, read back from its folder; of a run, the only one.
 struct StoredRun {
   std::filesystem::path folder;
@@ -49,7 +55,7 @@ struct StoredRun {
 class CellReader {
  public:
   CellReader(std::filesystem::path folder, const batch::ResultStore& store);
-  StoredRun Load(int cell) const;
+  StoredRun Load(int cell, StoredValues values = StoredValues::kAll) const;
 
  private:
   std::filesystem::path folder_;
@@ -66,7 +72,8 @@ std::optional<report::StoppingReport> StoppingOf(const StoredRun& run);
 
 // `cell`: the name of a cell, or its number from 0; may be left out where the store has only one.
 // Throws core::UserError, which lists the cells where it must not be left out or is none of them.
-StoredRun ReadRun(const std::filesystem::path& folder, const std::string& cell = "");
+StoredRun ReadRun(const std::filesystem::path& folder, const std::string& cell = "",
+                  StoredValues values = StoredValues::kAll);
 
 // Every cell. Memory: all records of the campaign.
 std::vector<StoredRun> ReadCampaign(const std::filesystem::path& folder);

@@ -191,7 +191,8 @@ void AddRecord(const truth::TracedTrial& traced, NpzFile& file) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < columns; ++i) names.push_back(traced.schema[i].name);
   file.AddTexts("record_names", names);
-  file.AddReals("record", std::span(traced.record.values).first(columns), {columns});
+  const std::vector<double> values(traced.record.values.begin(), traced.record.values.end());
+  file.AddReals("record", std::span(values).first(columns), {columns});
 }
 
 std::string MetaText(const TraceArrays& arrays) {

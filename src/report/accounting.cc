@@ -30,7 +30,7 @@ JsonValue Stopping(const StoppingReport& stopping) {
   json.Set("trials", JsonValue(stopping.trials));
   json.Set("declared_success",
            JsonValue::Object({{"count", stopping.successes}, {"trials", stopping.drives}}));
-  json.Set("confidence_sequence", EndsOf({stopping.low, stopping.high}));
+  json.Set("interval", EndsOf({stopping.low, stopping.high}));
   return json;
 }
 
@@ -54,12 +54,9 @@ std::string Why(const StoppingReport& stopping) {
 }
 
 std::string StoppingText(const StoppingReport& stopping) {
-  return Wrapped(fmt::format(
-      "  {} after {} trials: half-width {:.2f} % for {:.2f} % wanted, looked at every {} trials\n"
-      "  declared success at that look {} of {}: {:.1f} .. {:.1f} % ({:g} %, valid at any time)\n",
-      Why(stopping), stopping.trials, 50.0 * (stopping.high - stopping.low),
-      100.0 * stopping.half_width, stopping.block, stopping.successes, stopping.drives,
-      100.0 * stopping.low, 100.0 * stopping.high, 100.0 * stopping.confidence));
+  return Wrapped(
+      fmt::format("  {}, looked at every {} trials; intervals of rates allow for this rule\n",
+                  StoppingPhrase(stopping), stopping.block));
 }
 
 }  // namespace
@@ -108,8 +105,9 @@ Accounting Sum(const Accounting& first, const Accounting& second) {
 }
 
 std::string StoppingPhrase(const StoppingReport& stopping) {
-  return fmt::format("{} after {} trials, {:.1f} .. {:.1f} %", Why(stopping), stopping.trials,
-                     100.0 * stopping.low, 100.0 * stopping.high);
+  return fmt::format("{} after {} trials: half-width {:.2f} % for {:.2f} % wanted", Why(stopping),
+                     stopping.trials, 50.0 * (stopping.high - stopping.low),
+                     100.0 * stopping.half_width);
 }
 
 std::string ShardCampaignJson(const std::string& name, int index, int count,

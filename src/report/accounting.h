@@ -11,7 +11,7 @@
 namespace rockyard::report {
 
 // {"accounting": {planned, completed, faulted, pending, infrastructure_faults}} and, where the run
-// has them, "stopping" (the rule, where it ended, the confidence sequence there) and "shard".
+// has them, "stopping" (the rule, where it ended, the interval there) and "shard".
 core::JsonValue AccountingJson(const RunDescription& run);
 
 // The same of a cell.

@@ -6,16 +6,12 @@
 
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "core/error.h"
 
 namespace rockyard::report {
 namespace {
-
-[[noreturn]] void Fail(const std::filesystem::path& path, int reason) {
-  throw core::UserError(path.string(), fmt::format("cannot be written: {}", std::strerror(reason)),
-                        "check the free space and the permissions of its folder");
-}
 
 // Errno of the first failure, or 0.
 int WriteAll(int descriptor, std::string_view text) {
@@ -25,21 +21,62 @@ int WriteAll(int descriptor, std::string_view text) {
     if (written < 0) return errno;
     text.remove_prefix(static_cast<std::size_t>(written));
   }
-  return fsync(descriptor) == 0 ? 0 : errno;
+  return 0;
 }
 
 }  // namespace
 
-void WriteFileAtomically(const std::filesystem::path& path, std::string_view text) {
-  const std::string temporary = fmt::format("{}.tmp-{}", path.string(), getpid());
-  const int descriptor = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (descriptor < 0) Fail(path, errno);
-  int reason = WriteAll(descriptor, text);
-  if (close(descriptor) != 0 && reason == 0) reason = errno;
-  if (reason == 0 && rename(temporary.c_str(), path.c_str()) != 0) reason = errno;
+AtomicFile::AtomicFile(std::filesystem::path path)
+    : path_(std::move(path)),
+      temporary_(fmt::format("{}.tmp-{}", path_.string(), getpid())),
+      descriptor_(open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)) {
+  if (descriptor_ < 0) Fail(errno);
+}
+
+AtomicFile::~AtomicFile() {
+  if (descriptor_ < 0) return;
+  close(descriptor_);
+  unlink(temporary_.c_str());
+}
+
+void AtomicFile::Write(std::string_view text) {
+  constexpr std::size_t kAtOnce = 1 << 20;
+  waiting_ += text;
+  if (waiting_.size() >= kAtOnce) Flush();
+}
+
+void AtomicFile::Flush() {
+  if (const int reason = WriteAll(descriptor_, waiting_); reason != 0) Fail(reason);
+  waiting_.clear();
+}
+
+void AtomicFile::Commit() {
+  Flush();
+  int reason = fsync(descriptor_) == 0 ? 0 : errno;
+  if (close(descriptor_) != 0 && reason == 0) reason = errno;
+  descriptor_ = -1;
+  if (reason == 0 && rename(temporary_.c_str(), path_.c_str()) != 0) reason = errno;
   if (reason == 0) return;
-  unlink(temporary.c_str());
-  Fail(path, reason);
+  unlink(temporary_.c_str());
+  Fail(reason);
+}
+
+void AtomicFile::Fail(int reason) {
+  throw core::UserError(path_.string(), fmt::format("cannot be written: {}", std::strerror(reason)),
+                        "check the free space and the permissions of its folder");
+}
+
+void WriteFileAtomically(const std::filesystem::path& path, std::string_view text) {
+  AtomicFile file(path);
+  file.Write(text);
+  file.Commit();
+}
+
+void WriteFileAtomically(const std::filesystem::path& path,
+                         const std::function<void(const TextSink&)>& make) {
+  AtomicFile file(path);
+  make([&](std::string_view text) { file.Write(text); });
+  file.Commit();
 }
 
 }  // namespace rockyard::report

@@ -2,13 +2,43 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <string>
 #include <string_view>
 
 namespace rockyard::report {
 
-// Writes to a temporary file beside `path`, brings it to the disk and renames it. A reader sees the
-// old text or the new one; a failure leaves the old file and no temporary one. Throws
-// core::UserError: no permission, no space.
+// A file that is written piece by piece to a temporary one beside `path`, brought to the disk and
+// renamed by Commit. A reader sees the old text or the new one; a failure, or no Commit, leaves the
+// old file and no temporary one. The constructor, Write and Commit throw core::UserError: no
+// permission, no space.
+class AtomicFile {
+ public:
+  explicit AtomicFile(std::filesystem::path path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  void Write(std::string_view text);
+  // Once, after the last Write.
+  void Commit();
+
+ private:
+  [[noreturn]] void Fail(int reason);
+  void Flush();
+
+  std::filesystem::path path_;
+  std::string temporary_;
+  std::string waiting_;  // to be written, some lines at once
+  int descriptor_;       // -1: closed
+};
+
+// Writes all of a file at once.
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view text);
+
+// Where a text goes that is made piece by piece, so that it need not be held as a whole.
+using TextSink = std::function<void(std::string_view)>;
+void WriteFileAtomically(const std::filesystem::path& path,
+                         const std::function<void(const TextSink&)>& make);
 
 }  // namespace rockyard::report

@@ -129,6 +129,7 @@ std::string ComparisonJUnit(const PublishedReference& reference, const Compariso
                        EscapeXml(value.published.scenario), EscapeXml(value.published.id));
     switch (value.verdict) {
       case Verdict::kAgrees:
+      case Verdict::kHolds:
         xml += "/>\n";
         break;
       case Verdict::kDiffers:

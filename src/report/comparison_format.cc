@@ -8,6 +8,13 @@
 namespace rockyard::report {
 namespace {
 
+// Whether dependence through the layout alone could have made the difference: the p-value under it
+// may lie above the level that the row was judged at.
+bool DiffersByLayoutsAlone(const statistics::ComparedValue& value) {
+  return value.verdict == statistics::Verdict::kDiffers && value.one_layout &&
+         value.one_layout->p_value.high > value.level;
+}
+
 std::string OneLayoutRemark(const statistics::OneLayout& layout) {
   const std::string low = PValue(layout.p_value.low);
   const std::string high = PValue(layout.p_value.high);
@@ -95,6 +102,11 @@ std::vector<std::string> Remarks(const ComparedValue& value) {
                                   kind.published, kind.simulated, value.pool));
   }
   if (value.one_layout) remarks.push_back(OneLayoutRemark(*value.one_layout));
+  if (DiffersByLayoutsAlone(value)) {
+    remarks.emplace_back(
+        "differs if the runs of the set met layouts of their own; if they all met one, this says "
+        "nothing against the simulation");
+  }
   if (!value.remark.empty()) remarks.push_back(value.remark);
   return remarks;
 }

@@ -140,16 +140,18 @@ std::vector<std::string> ComparisonNotes(const ComparisonResult& result) {
       "one half; other numbers: a shift by half a standard deviation, and where a number has a "
       "lower limit a change of scale as large, whichever is hardest to see) at the level that "
       "Holm grants.",
-      "agrees: not rejected, and power 0.8 or more. differs: Holm at or below alpha. "
-      "underpowered: not rejected, but too few published runs to tell. not judged: no number, or "
-      "no simulated trials."};
+      "agrees: not rejected, and power 0.8 or more. holds: a bound or arithmetic that any "
+      "simulation "
+      "meets. differs: Holm at or below alpha; of counts, for runs on rock layouts that are "
+      "independent. underpowered: not rejected, but too few published runs to tell. not judged: no "
+      "number, or no simulated trials."};
   if (std::any_of(result.values.begin(), result.values.end(), [](const ComparedValue& value) {
         return statistics::HasTolerance(value.published.statistic);
       })) {
     notes.emplace_back(
         "Numbers with a tolerance: the simulated value and its interval, all such intervals "
         "together 95 % (Bonferroni). agrees: inside of the tolerance. differs: apart from it. "
-        "underpowered: across an end of it.");
+        "underpowered: across an end of it. Computed numbers are points: they hold or differ.");
   }
   notes.push_back(
       fmt::format("{} p-values in Holm's family, alpha {}, {} samples for each, seed {}. A bound "
@@ -167,10 +169,10 @@ std::string ComparisonText(const PublishedReference& reference, const Comparison
       if (value.published.scenario == scenario) text += Row(value);
     }
   }
-  text += fmt::format("\n{} agree, {} differ, {} underpowered, {} not judged{}\n\n",
-                      CountOf(result, Verdict::kAgrees), CountOf(result, Verdict::kDiffers),
-                      CountOf(result, Verdict::kUnderpowered), CountOf(result, Verdict::kNotJudged),
-                      ComputedAmongThem(result));
+  text += fmt::format("\n{} agree, {} hold, {} differ, {} underpowered, {} not judged{}\n\n",
+                      CountOf(result, Verdict::kAgrees), CountOf(result, Verdict::kHolds),
+                      CountOf(result, Verdict::kDiffers), CountOf(result, Verdict::kUnderpowered),
+                      CountOf(result, Verdict::kNotJudged), ComputedAmongThem(result));
   for (const statistics::OtherSettings& changed : result.changed) {
     text += Wrap(fmt::format("{} is {}", changed.scenario, kNotPublishedCase), 0) + "\n";
   }

@@ -7,7 +7,7 @@
 namespace rockyard::report {
 
 // Of summary.json and its like.
-inline constexpr int kSchemaVersion = 1;
+inline constexpr int kSchemaVersion = 2;
 
 // [low, high], null where there is none.
 inline core::JsonValue EndsOf(const statistics::Interval& interval) {

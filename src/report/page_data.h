@@ -4,7 +4,7 @@
 // What is undefined is null. Texts may be anything: what is no UTF-8 is replaced. Nothing here
 // draws random numbers but the bootstrap of the comparisons that it is given. Cost: linear in the
 // values of the records, about 0.3 us each. Memory: the text, about 7 bytes for each value of each
-// trial.
+// trial of a run, but no more than 15 MB a run (kMaxPageTrials).
 #pragma once
 
 #include <cstddef>
@@ -33,6 +33,11 @@ namespace rockyard::report {
 // Steps of a distribution function that a page holds at most.
 inline constexpr std::size_t kMaxPageSteps = 1000;
 
+// Trials of a run whose values a page holds at most, but for the few that are named. Of more it
+// holds every k-th from trial 0 on, for the least k that does; what is known of a trial before it
+// runs is its number alone, so that these are a random sample of all.
+inline constexpr std::size_t kMaxPageTrials = 20000;
+
 // A link to the replay of a trial, relative to the page.
 struct PageLink {
   std::uint64_t trial = 0;
@@ -51,6 +56,7 @@ struct PageRun {
   std::span<const truth::Record> prefix;          // those that rates may be computed from
   std::vector<core::ParameterInfo> parameters;    // none where another version made the run
   std::optional<std::size_t> parameters_as = {};  // run of the page that has all others
+  std::vector<std::uint64_t> named = {};          // trials that must be there; ascending
   std::string published = "null";                 // PublishedJson
   std::string replay_command;                     // with {trial} for the number
 };
@@ -62,9 +68,14 @@ core::JsonObject PageRunMembers(const PageRun& run, statistics::IntervalMethod m
 // Member "replays" of a run.
 std::string PageReplaysJson(std::span<const PageLink> links);
 
-// `TrialTable`: every record, values with six significant digits.
+// The places of the records that the page of a run holds, ascending; all where they are few.
+std::vector<std::size_t> PageTrials(std::span<const truth::Record> records,
+                                    std::span<const std::uint64_t> named);
+
+// `TrialTable`: the records at these places, values with six significant digits.
 std::string PageTrialsJson(const truth::RecordSchema& schema,
-                           std::span<const truth::Record> records);
+                           std::span<const truth::Record> records,
+                           std::span<const std::size_t> places);
 
 // Members of distance_cdf.csv by column, of at most kMaxPageSteps steps: all of them, or the
 // first, the last, and each at which the distribution function has grown by more than 1/998 since

@@ -127,6 +127,7 @@ JsonObject PageRunMembers(const PageRun& run, statistics::IntervalMethod method)
   const bool measures = truth::IsMeasurement(run.schema);
   std::vector<DistanceStep> steps;
   if (!measures) steps = DistanceSteps(run.schema, run.prefix);
+  const std::vector<std::size_t> places = PageTrials(run.records, run.named);
   JsonObject json;
   json.AddText("label", run.label)
       .AddText("folder", run.folder)
@@ -134,7 +135,8 @@ JsonObject PageRunMembers(const PageRun& run, statistics::IntervalMethod method)
       .Add("sweep", Index(run.sweep))
       .AddText("kind", measures ? "measurement" : "drive")
       .Add("summary", core::CompactJson(Summary(run, method)))
-      .Add("trials", PageTrialsJson(run.schema, run.records))
+      .Add("trials", PageTrialsJson(run.schema, run.records, places))
+      .AddInteger("stored_trials", static_cast<std::int64_t>(run.records.size()))
       .AddInteger("prefix_trials", static_cast<std::int64_t>(run.prefix.size()))
       .AddFlag("shared_layouts", SharesLayouts(run.schema, run.prefix))
       .Add("cdf", PageCdfJson(steps))

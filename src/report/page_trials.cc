@@ -1,5 +1,4 @@
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <iterator>
 #include <map>
 
@@ -31,37 +30,52 @@ class TextTable {
   std::vector<std::string> texts_;
 };
 
-std::string Column(const truth::ValueInfo& info, std::size_t index,
-                   std::span<const Record> records) {
-  return JsonObject()
-      .AddText("name", info.name)
-      .AddText("unit", info.unit)
-      .Add("values", JsonList(records,
-                              [&](const Record& record) {
-                                return index < record.values.size()
-                                           ? JsonSixDigits(record.values[index])
-                                           : std::string("null");
-                              }))
-      .Text();
+// One element for each of the places.
+template <typename Element>
+std::string ListAt(std::span<const Record> records, std::span<const std::size_t> places,
+                   const Element& element) {
+  return JsonList(places, [&](std::size_t place) { return element(records[place]); });
 }
 
 }  // namespace
 
-std::string PageTrialsJson(const truth::RecordSchema& schema, std::span<const Record> records) {
+std::vector<std::size_t> PageTrials(std::span<const Record> records,
+                                    std::span<const std::uint64_t> named) {
+  const std::size_t step = (records.size() + kMaxPageTrials - 1) / kMaxPageTrials;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    if (i % step == 0 || std::binary_search(named.begin(), named.end(), records[i].trial)) {
+      places.push_back(i);
+    }
+  }
+  return places;
+}
+
+std::string PageTrialsJson(const truth::RecordSchema& schema, std::span<const Record> records,
+                           std::span<const std::size_t> places) {
   TextTable outcomes;
   TextTable details;
+  const auto list = [&](const auto& element) { return ListAt(records, places, element); };
   JsonObject json;
-  json.Add("trial", JsonList(records, [](const Record& r) { return std::to_string(r.trial); }));
-  json.Add("outcome", JsonList(records, [&](const Record& r) {
+  json.Add("trial", list([](const Record& r) { return std::to_string(r.trial); }));
+  json.Add("outcome", list([&](const Record& r) {
              return std::to_string(outcomes.Number(std::string(truth::Name(r.outcome))));
            }));
   json.Add("outcome_names", JsonTexts(outcomes.texts()));
-  json.Add("detail", JsonList(records, [&](const Record& r) {
-             return std::to_string(details.Number(r.detail));
-           }));
+  json.Add("detail",
+           list([&](const Record& r) { return std::to_string(details.Number(r.detail)); }));
   json.Add("detail_texts", JsonTexts(details.texts()));
   std::vector<std::string> columns;
-  for (std::size_t i = 0; i < schema.size(); ++i) columns.push_back(Column(schema[i], i, records));
+  for (std::size_t i = 0; i < schema.size(); ++i) {
+    columns.push_back(JsonObject()
+                          .AddText("name", schema[i].name)
+                          .AddText("unit", schema[i].unit)
+                          .Add("values", list([&](const Record& r) {
+                                 return i < r.values.size() ? JsonSixDigits(r.values[i])
+                                                            : std::string("null");
+                               }))
+                          .Text());
+  }
   json.Add("columns", JsonList(columns));
   return json.Text();
 }

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <utility>
 
-#include "statistics/bootstrap.h"
 #include "statistics/drive_summary.h"
 #include "statistics/equivalence.h"
+#include "statistics/mean_interval.h"
+#include "statistics/metrics.h"
 #include "statistics/moments.h"
 #include "statistics/quantiles.h"
 #include "truth/measurement_record.h"
@@ -16,12 +16,9 @@
 namespace rockyard::report {
 namespace {
 
-using statistics::Interval;
 using statistics::Proportion;
 using truth::Record;
 using truth::TrialOutcome;
-
-constexpr std::uint64_t kBootstrapSeed = 1;
 
 using Pair = std::pair<const Record*, const Record*>;
 using Succeeded = std::function<bool(TrialOutcome)>;
@@ -50,7 +47,7 @@ SuccessComparison ComparePaired(const std::vector<Pair>& pairs, std::string what
   result.first = statistics::MakeProportion(result.counts.both + result.counts.only_first, n);
   result.second = statistics::MakeProportion(result.counts.both + result.counts.only_second, n);
   result.difference = result.second.rate - result.first.rate;
-  result.interval = statistics::AgrestiMinInterval(statistics::DifferencesOf(result.counts));
+  result.interval = statistics::DifferenceInterval(result.counts);
   result.p_value =
       statistics::McNemarExactPValue(result.counts.only_first, result.counts.only_second);
   return result;
@@ -83,9 +80,9 @@ SuccessComparison CompareUnpaired(const ComparedRun& first, const ComparedRun& s
 
 double Mean(std::span<const double> values) { return statistics::MomentsOf(values).mean(); }
 
-// All but the interval, which is that of the mean of the differences returned.
-std::vector<double> ComparePairedColumn(const std::vector<Pair>& pairs, std::size_t in_first,
-                                        std::size_t in_second, ColumnComparison& result) {
+// The interval is that of the mean of the differences; unknown where it has none.
+void ComparePairedColumn(const std::vector<Pair>& pairs, std::size_t in_first,
+                         std::size_t in_second, ColumnComparison& result) {
   std::vector<double> first;
   std::vector<double> second;
   std::vector<double> differences;
@@ -102,23 +99,25 @@ std::vector<double> ComparePairedColumn(const std::vector<Pair>& pairs, std::siz
   result.first_mean = Mean(first);
   result.second_mean = Mean(second);
   result.difference = Mean(differences);
-  return differences;
+  result.interval = statistics::EstimateMean(statistics::SortedFinite(differences),
+                                             statistics::FewestForMean(result.name))
+                        .interval;
 }
 
-// Welch's interval; unknown where either side has fewer than two values.
+// Unknown where the mean of either side has no interval.
 void CompareUnpairedColumn(const std::vector<double>& first, const std::vector<double>& second,
                            ColumnComparison& result) {
   const std::vector<double> a = statistics::SortedFinite(first);
   const std::vector<double> b = statistics::SortedFinite(second);
-  const statistics::MeanDifference means = statistics::WelchMeans(a, b);
+  const std::int64_t fewest = statistics::FewestForMean(result.name);
   result.count = static_cast<std::int64_t>(a.size());
   result.second_count = static_cast<std::int64_t>(b.size());
   result.first_mean = Mean(a);
   result.second_mean = Mean(b);
-  result.difference = means.difference;
-  result.interval = {std::numeric_limits<double>::quiet_NaN(),
-                     std::numeric_limits<double>::quiet_NaN()};
-  if (means.known()) result.interval = statistics::DifferenceInterval(means);
+  result.difference = result.second_mean - result.first_mean;
+  result.interval = statistics::MeanDifferenceInterval(
+      result.first_mean, statistics::EstimateMean(a, fewest).interval, result.second_mean,
+      statistics::EstimateMean(b, fewest).interval);
 }
 
 // Every column that both schemas have; `compare` gets its index in each and fills the rest.
@@ -138,15 +137,9 @@ std::vector<ColumnComparison> CommonColumns(const ComparedRun& first, const Comp
 
 std::vector<ColumnComparison> PairedColumns(const ComparedRun& first, const ComparedRun& second,
                                             const std::vector<Pair>& pairs) {
-  std::vector<std::vector<double>> differences;
-  std::vector<ColumnComparison> columns =
-      CommonColumns(first, second, [&](std::size_t a, std::size_t b, ColumnComparison& column) {
-        differences.push_back(ComparePairedColumn(pairs, a, b, column));
-      });
-  const std::vector<Interval> intervals =
-      statistics::BootstrapMeanIntervals(differences, kBootstrapSeed);
-  for (std::size_t i = 0; i < columns.size(); ++i) columns[i].interval = intervals[i];
-  return columns;
+  return CommonColumns(first, second, [&](std::size_t a, std::size_t b, ColumnComparison& column) {
+    ComparePairedColumn(pairs, a, b, column);
+  });
 }
 
 std::vector<ColumnComparison> UnpairedColumns(const ComparedRun& first, const ComparedRun& second) {

@@ -60,12 +60,11 @@ struct RunComparison {
 bool SharesLayouts(const truth::RecordSchema& schema, std::span<const truth::Record> records);
 
 // Equal seed and index mean equal rocks and equal noise, so that differences have far less variance
-// than two samples. Paired intervals: success by Agresti and Min (2005), half a pair added to each
-// of the four cells; columns by the percentile bootstrap of the mean difference (seed 1). Not
-// paired: success by Newcombe (1998), method 10, from the Wilson intervals; columns by
-// Welch's t interval of the difference of the means (NaN where either side has fewer than two
-// values). No correction for the number of columns:
-// they describe.
+// than two samples. Paired intervals: success by the score (Tango 1998); columns as any mean, of
+// the differences. Not paired: success by Newcombe (1998), method 10, from the Wilson intervals;
+// columns in the same way from the intervals of both means. A mean difference has no interval where
+// a mean of as many values has none (statistics/mean_interval.h). No correction for the number of
+// columns: they describe.
 RunComparison CompareRuns(const ComparedRun& first, const ComparedRun& second);
 
 // At most 100 columns wide.

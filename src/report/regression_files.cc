@@ -20,6 +20,8 @@ std::string_view Name(RegressionVerdict verdict) {
       return "changed";
     case RegressionVerdict::kEquivalent:
       return "equivalent";
+    case RegressionVerdict::kNoneSeen:
+      return "none_seen";
     case RegressionVerdict::kInconclusive:
       break;
   }
@@ -51,6 +53,11 @@ std::string Sentence(const RegressionRow& row) {
     return fmt::format("{}: less than {} {} apart", Label(row), FourDigits(row.margin),
                        row.metric->unit);
   }
+  if (row.verdict == RegressionVerdict::kNoneSeen) {
+    return fmt::format("{}: {} apart; the run would have seen {} with 80 %, and {} matters",
+                       Label(row), Signed(row.difference), FourDigits(row.seen_80),
+                       FourDigits(row.to_see));
+  }
   if (row.run_count == 0) {
     return fmt::format("{}: the run has no value of it, the baseline has {}", Label(row),
                        row.baseline_count);
@@ -63,6 +70,54 @@ std::string Sentence(const RegressionRow& row) {
       "{}: {} apart; the run would have seen {} with 80 %, the margin is {}: about {} trials tell",
       Label(row), Signed(row.difference), FourDigits(row.seen_80), FourDigits(row.margin),
       row.trials_for_margin);
+}
+
+std::string Columns(const RecordChanges& changes) {
+  constexpr std::size_t kShown = 4;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kShown, changes.columns.size()); ++i) {
+    text += fmt::format("{}{} {}", i == 0 ? "" : ", ", changes.columns[i].name,
+                        changes.columns[i].trials);
+  }
+  if (changes.columns.size() > kShown) {
+    text += fmt::format(" and {} more", changes.columns.size() - kShown);
+  }
+  return text;
+}
+
+RecordFinding FindingOfRecords(const RegressionReport& report) {
+  const auto any = [&](auto holds) {
+    return std::any_of(report.cells.begin(), report.cells.end(), holds);
+  };
+  if (any([](const CheckedCell& cell) { return cell.records.any(); })) {
+    return RecordFinding::kChanged;
+  }
+  const bool apart =
+      report.cells.empty() || any([](const CheckedCell& cell) { return cell.records.pairs == 0; });
+  return apart ? RecordFinding::kNotComparable : RecordFinding::kSame;
+}
+
+std::string_view Name(RecordFinding finding) {
+  switch (finding) {
+    case RecordFinding::kSame:
+      return "same";
+    case RecordFinding::kChanged:
+      return "changed";
+    case RecordFinding::kNotComparable:
+      break;
+  }
+  return "not_comparable";
+}
+
+std::string_view DistributionName(const statistics::RegressionResult& result) {
+  switch (statistics::ExitCode(result)) {
+    case 0:
+      return "no change";
+    case 1:
+      return "changed";
+    default:
+      return "inconclusive";
+  }
 }
 
 std::string NotDeterministic(const CheckedCell& cell) {
@@ -79,7 +134,7 @@ std::string RegressionCsv(const RegressionReport& report) {
   std::string csv =
       "cell,metric,unit,verdict,paired,baseline_count,run_count,baseline_mean,run_mean,difference,"
       "difference_low,difference_high,margin,p_value,p_holm,level,p_equivalence,seen_80,seen_90,"
-      "trials_for_margin\n";
+      "trials_for_margin,family,to_see\n";
   for (const RegressionRow& row : report.result.rows) {
     const std::vector<std::string> fields = {CsvField(row.cell),
                                              std::string(row.metric->name),
@@ -100,7 +155,9 @@ std::string RegressionCsv(const RegressionReport& report) {
                                              CsvNumber(row.equivalence_p_value),
                                              CsvNumber(row.seen_80),
                                              CsvNumber(row.seen_90),
-                                             std::to_string(row.trials_for_margin)};
+                                             std::to_string(row.trials_for_margin),
+                                             row.primary ? "primary" : "secondary",
+                                             CsvNumber(row.to_see)};
     csv += CsvLine(fields);
   }
   return csv;
@@ -130,7 +187,8 @@ std::string RegressionJUnit(const RegressionReport& report) {
     const std::string cell = row.cell.empty() ? report.baseline : row.cell;
     xml += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", EscapeXml(cell),
                        EscapeXml(row.metric->name));
-    if (row.verdict == RegressionVerdict::kEquivalent) {
+    if (row.verdict == RegressionVerdict::kEquivalent ||
+        row.verdict == RegressionVerdict::kNoneSeen) {
       xml += "/>\n";
       continue;
     }

@@ -14,6 +14,13 @@ std::string Signed(double value);  // FourDigits with its sign
 std::string Probability(double p);
 std::string Label(const statistics::RegressionRow& row);  // "cell: metric"
 
+// "outcome 34, scans 31, ...": the columns that differ in most trials.
+std::string Columns(const RecordChanges& changes);
+
+// Both findings in a word each.
+std::string_view Name(RecordFinding finding);
+std::string_view DistributionName(const statistics::RegressionResult& result);
+
 // That the build of the baseline gave this cell other records.
 std::string NotDeterministic(const CheckedCell& cell);
 

@@ -9,6 +9,24 @@
 
 namespace rockyard::report {
 
+// Whether the records themselves are other ones: a question of bits, which no metric answers. It
+// can be asked of pairs only.
+struct RecordChanges {
+  // A metric, or "outcome", and in how many pairs it differs.
+  struct Column {
+    std::string name;
+    std::int64_t trials = 0;
+  };
+  std::int64_t pairs = 0;       // compared; 0 where the trials are no pairs
+  std::int64_t trials = 0;      // of these with another outcome or value, as the baseline keeps it
+  std::vector<Column> columns;  // that differ, most trials first
+  // The same trials, the same values, and yet another hash: last digits, or columns that the
+  // baseline does not keep.
+  bool only_hash = false;
+
+  bool any() const { return trials > 0 || only_hash; }
+};
+
 // How one cell was compared.
 struct CheckedCell {
   std::string name;
@@ -20,8 +38,8 @@ struct CheckedCell {
   std::uint64_t run_seed = 1;
   std::int64_t baseline_trials = 0;
   std::int64_t run_trials = 0;
-  std::int64_t same_pairs = 0;  // same outcome, same value of every metric as the baseline keeps it
-  bool same_fields = true;      // scenario settings that decide rocks, start and goal
+  RecordChanges records = {};
+  bool same_fields = true;  // scenario settings that decide rocks, start and goal
 };
 
 struct RegressionReport {
@@ -37,18 +55,28 @@ struct RegressionReport {
 // In any cell: itself a difference, whatever the metrics say.
 bool BrokenDeterminism(const RegressionReport& report);
 
-// At most 100 columns: how each cell was compared, every metric that is not equivalent (all of them
-// with `all_rows`), what moved and by how much, what could not be told and how many trials would
-// tell it, the declared error rates.
-enum class ReportedRows { kNotEquivalent, kAll };
+// The two findings, of all cells together. Neither stands for the other: a rewritten sum changes
+// every record and no distribution, and with other seeds a changed distribution shows in no record.
+enum class RecordFinding {
+  kSame,           // every bit; of fewer trials, outcomes and the values that the baseline keeps
+  kChanged,        // of at least one cell
+  kNotComparable,  // other seeds or fields: of at least one cell, and no change in the others
+};
+RecordFinding FindingOfRecords(const RegressionReport& report);
+
+// kThatMatter: primary metrics that are not equivalent, and secondary ones that changed.
+enum class ReportedRows { kThatMatter, kAll };
+// At most 100 columns: how each cell was compared, a table of metrics, what moved and by how much,
+// what could not be told and how many trials would tell it, both findings, the declared error
+// rates.
 std::string RegressionText(const RegressionReport& report,
-                           ReportedRows rows = ReportedRows::kNotEquivalent);
+                           ReportedRows rows = ReportedRows::kThatMatter);
 
 // One line per metric and cell.
 std::string RegressionCsv(const RegressionReport& report);
 
-// A test case per metric and cell: failed where changed, skipped where inconclusive; and a failed
-// one per cell that is not deterministic.
+// A test case per metric and cell: failed where changed, skipped where inconclusive, else passed;
+// and a failed one per cell that is not deterministic.
 std::string RegressionJUnit(const RegressionReport& report);
 
 }  // namespace rockyard::report

@@ -20,15 +20,55 @@ std::string CellLine(const CheckedCell& cell) {
   if (cell.identical) {
     how = fmt::format("identical: {} trials, every bit", cell.run_trials);
   } else if (cell.paired) {
-    how = fmt::format("{} pairs with the baseline's trials (seed {}), {} of them the same",
-                      std::min(cell.run_trials, cell.baseline_trials), cell.run_seed,
-                      cell.same_pairs);
+    how = fmt::format("{} pairs with the baseline's trials (seed {})", cell.records.pairs,
+                      cell.run_seed);
   } else {
     how = fmt::format("{} trials (seed {}) against {} (seed {}){}", cell.run_trials, cell.run_seed,
                       cell.baseline_trials, cell.baseline_seed,
                       cell.same_fields ? "" : ", other fields");
   }
   return fmt::format("  {:<30} {}\n", name, how);
+}
+
+// The first finding: bits.
+std::string Records(const RegressionReport& report) {
+  const RecordFinding finding = FindingOfRecords(report);
+  if (finding == RecordFinding::kSame) {
+    const bool every_bit = std::all_of(report.cells.begin(), report.cells.end(),
+                                       [](const CheckedCell& cell) { return cell.identical; });
+    return every_bit ? "\nrecords: the same in every bit\n"
+                     : "\nrecords: the same, as far as the baseline keeps them\n";
+  }
+  if (finding == RecordFinding::kNotComparable) {
+    return "\nrecords: not comparable, since other seeds or fields meet other trials\n";
+  }
+  std::string text = "\nrecords: changed\n";
+  for (const CheckedCell& cell : report.cells) {
+    if (!cell.records.any()) continue;
+    text +=
+        fmt::format("  {}: {}\n", cell.name.empty() ? "the run" : cell.name,
+                    cell.records.only_hash
+                        ? "another hash; last digits, or columns that the baseline does not keep"
+                        : fmt::format("{} of {} trials: {}", cell.records.trials,
+                                      cell.records.pairs, Columns(cell.records)));
+  }
+  return text;
+}
+
+std::string Counted(const statistics::RegressionResult& result, bool primary) {
+  const auto count = [&](RegressionVerdict verdict) { return result.Count(verdict, primary); };
+  return fmt::format("{} changed, {} equivalent, {} none seen, {} inconclusive",
+                     count(RegressionVerdict::kChanged), count(RegressionVerdict::kEquivalent),
+                     count(RegressionVerdict::kNoneSeen), count(RegressionVerdict::kInconclusive));
+}
+
+// The second finding: what the trials say.
+std::string Distribution(const statistics::RegressionResult& result) {
+  return fmt::format(
+      "\ndistribution: {}\n"
+      "  primary (success, distance, time, errors)  {}\n"
+      "  secondary (all other metrics)              {}\n",
+      DistributionName(result), Counted(result, true), Counted(result, false));
 }
 
 std::string TableHead() {
@@ -43,14 +83,20 @@ std::string TableRow(const RegressionRow& row) {
                      FourDigits(row.seen_80));
 }
 
+// What is undecided in the secondary family decides nothing, and is counted only.
+bool Matters(const RegressionRow& row) {
+  return row.primary ? row.verdict != RegressionVerdict::kEquivalent
+                     : row.verdict == RegressionVerdict::kChanged;
+}
+
 std::string Table(const RegressionReport& report, ReportedRows rows) {
   std::string text;
   for (const CheckedCell& cell : report.cells) {
     std::string lines;
     for (const RegressionRow& row : report.result.rows) {
-      const bool shown =
-          rows == ReportedRows::kAll || row.verdict != RegressionVerdict::kEquivalent;
-      if (row.cell == cell.name && shown) lines += TableRow(row);
+      if (row.cell == cell.name && (rows == ReportedRows::kAll || Matters(row))) {
+        lines += TableRow(row);
+      }
     }
     if (lines.empty()) continue;
     text += TableHead() + (cell.name.empty() ? "" : fmt::format("  {}\n", cell.name)) + lines;
@@ -76,8 +122,11 @@ std::string Moved(const RegressionReport& report) {
 std::string Unsure(const RegressionReport& report) {
   std::int64_t most = 0;
   std::int64_t unsure = 0;
+  std::int64_t primary = 0;
   const RegressionRow* worst = nullptr;
   for (const RegressionRow& row : report.result.rows) {
+    if (!row.primary) continue;
+    ++primary;
     if (row.verdict != RegressionVerdict::kInconclusive) continue;
     ++unsure;
     if (row.trials_for_margin > most) {
@@ -87,8 +136,10 @@ std::string Unsure(const RegressionReport& report) {
   }
   if (unsure == 0) return "";
   std::string text = fmt::format(
-      "\n{} of {} metrics are inconclusive: no change is shown, nor that it is below the margin.\n",
-      unsure, report.result.rows.size());
+      "\n{} of {} primary metrics are inconclusive: no change is shown, nor would one that "
+      "matters\n"
+      "have been seen.\n",
+      unsure, primary);
   if (worst != nullptr) {
     text += fmt::format(
         "  The hardest, {},\n  needs about {} trials with a value to see a shift of its margin.\n",
@@ -97,16 +148,18 @@ std::string Unsure(const RegressionReport& report) {
   return text;
 }
 
-std::string Rates(const RegressionReport& report) {
-  const statistics::RegressionResult& result = report.result;
+std::string Rates(const statistics::RegressionOptions& options) {
   return fmt::format(
-      "\n{} changed, {} equivalent, {} inconclusive of {} metrics in {} cells\n"
-      "false alarm in an unchanged build: at most {} for all metrics together (Holm)\n"
-      "equivalent although moved by its margin: at most {} for each rate, about that for values\n"
-      "seen 80 %: shift that such a run would have called changed with 80 %\n",
-      result.Count(RegressionVerdict::kChanged), result.Count(RegressionVerdict::kEquivalent),
-      result.Count(RegressionVerdict::kInconclusive), result.rows.size(), report.cells.size(),
-      result.options.alpha, result.options.equivalence_alpha);
+      "  false alarm in an unchanged build: at most {:g} for all metrics together (Holm within "
+      "each\n"
+      "  family), {:g} of it primary\n"
+      "  equivalent although moved by its margin: at most {:g} for each rate, about that for "
+      "values\n"
+      "  none seen: a shift of the margin (of a mean, of {:g} standard deviations where that is "
+      "more)\n"
+      "  would have been called changed with 80 %\n",
+      options.alpha, options.FamilyAlpha(true), options.equivalence_alpha,
+      statistics::kShiftThatMatters);
 }
 
 std::string Determinism(const RegressionReport& report) {
@@ -125,7 +178,8 @@ std::string RegressionText(const RegressionReport& report, ReportedRows rows) {
   text += fmt::format("against baseline {}: {}\n", report.baseline, report.reason);
   for (const std::string& note : report.notes) text += "  note: " + note + "\n";
   for (const CheckedCell& cell : report.cells) text += CellLine(cell);
-  return text + Table(report, rows) + Moved(report) + Unsure(report) + Rates(report);
+  return text + Table(report, rows) + Moved(report) + Unsure(report) + Records(report) +
+         Distribution(report.result) + Rates(report.result.options);
 }
 
 }  // namespace rockyard::report

@@ -44,6 +44,20 @@ std::string Value(const statistics::ComparedValue& value) {
       .Text();
 }
 
+std::string Records(const RecordChanges& changes) {
+  std::vector<std::string> columns;
+  for (const RecordChanges::Column& column : changes.columns) {
+    columns.push_back(
+        JsonObject().AddText("column", column.name).AddInteger("trials", column.trials).Text());
+  }
+  return JsonObject()
+      .AddInteger("pairs", changes.pairs)
+      .AddInteger("changed", changes.trials)
+      .AddFlag("only_hash", changes.only_hash)
+      .Add("columns", JsonList(columns))
+      .Text();
+}
+
 std::string Cell(const CheckedCell& cell) {
   return JsonObject()
       .AddText("name", cell.name)
@@ -53,6 +67,7 @@ std::string Cell(const CheckedCell& cell) {
       .AddFlag("same_fields", cell.same_fields)
       .AddInteger("baseline_trials", cell.baseline_trials)
       .AddInteger("run_trials", cell.run_trials)
+      .Add("records", Records(cell.records))
       .Text();
 }
 
@@ -74,6 +89,9 @@ std::string Metric(const statistics::RegressionRow& row) {
       .AddNumber("p_holm", row.holm_p_value)
       .AddNumber("p_equivalence", row.equivalence_p_value)
       .AddInteger("trials_for_margin", row.trials_for_margin)
+      .AddText("family", row.primary ? "primary" : "secondary")
+      .AddNumber("seen_80", row.seen_80)
+      .AddNumber("to_see", row.to_see)
       .Text();
 }
 
@@ -143,6 +161,9 @@ std::string BaselineCheckJson(const RegressionReport& report, int exit_code) {
                   .AddText("run_build", report.run_build)
                   .AddInteger("exit_code", exit_code)
                   .AddNumber("alpha", report.result.options.alpha)
+                  .AddNumber("primary_alpha", report.result.options.FamilyAlpha(true))
+                  .AddText("records", Name(FindingOfRecords(report)))
+                  .AddText("distribution", DistributionName(report.result))
                   .Add("cells", JsonList(cells))
                   .Add("metrics", JsonList(metrics))
                   .Add("notes", JsonTexts(report.notes)));

@@ -1,5 +1,6 @@
 #include "report/run_csv.h"
 
+#include <string>
 #include <vector>
 
 #include "report/csv.h"
@@ -13,33 +14,32 @@ constexpr const char* kCdfHeader =
 
 }  // namespace
 
-std::string TrialsCsv(const truth::RecordSchema& schema, std::span<const truth::Record> records) {
+void TrialsCsv(const truth::RecordSchema& schema, std::span<const truth::Record> records,
+               const TextSink& out) {
   std::vector<std::string> fields = {"trial", "outcome"};
   for (const truth::ValueInfo& value : schema) fields.push_back(CsvField(value.name));
   fields.emplace_back("detail");
-  std::string csv = CsvLine(fields);
+  out(CsvLine(fields));
   for (const truth::Record& record : records) {
     fields = {std::to_string(record.trial), std::string(truth::Name(record.outcome))};
     for (std::size_t i = 0; i < schema.size(); ++i) {
       fields.push_back(i < record.values.size() ? CsvNumber(record.values[i]) : std::string());
     }
     fields.push_back(CsvField(record.detail));
-    csv += CsvLine(fields);
+    out(CsvLine(fields));
   }
-  return csv;
 }
 
-std::string DistanceCdfCsv(const truth::RecordSchema& schema,
-                           std::span<const truth::Record> records) {
-  std::string csv = kCdfHeader;
+void DistanceCdfCsv(const truth::RecordSchema& schema, std::span<const truth::Record> records,
+                    const TextSink& out) {
+  out(kCdfHeader);
   for (const DistanceStep& step : DistanceSteps(schema, records)) {
-    csv += CsvLine(std::vector<std::string>{
+    out(CsvLine(std::vector<std::string>{
         CsvNumber(step.all.value), CsvNumber(step.all.fraction), CsvNumber(step.all.band.low),
         CsvNumber(step.all.band.high), CsvNumber(step.goal.event), CsvNumber(step.goal.band.low),
         CsvNumber(step.goal.band.high), CsvNumber(step.goal.competing),
-        std::to_string(step.at_risk)});
+        std::to_string(step.at_risk)}));
   }
-  return csv;
 }
 
 }  // namespace rockyard::report

@@ -2,26 +2,29 @@
 #pragma once
 
 #include <span>
-#include <string>
 
+#include "report/atomic_file.h"
 #include "truth/record.h"
 
 namespace rockyard::report {
 
 // trials.csv: one line per record, trial, outcome, every value (the names carry the units; empty
-// where undefined), and the sentence that says why it ended.
-std::string TrialsCsv(const truth::RecordSchema& schema, std::span<const truth::Record> records);
+// where undefined), and the sentence that says why it ended. Memory: a line.
+void TrialsCsv(const truth::RecordSchema& schema, std::span<const truth::Record> records,
+               const TextSink& out);
 
 // distance_cdf.csv: one line per distinct true distance, over all trials without a simulator fault.
 //   distance_m
 //   ecdf, ecdf_low, ecdf_high    plain empirical distribution function of the distance of all runs,
 //                                however they ended, with a simultaneous 95 % band
-//   goal, goal_low, goal_high    cumulative incidence of declared arrival, failures competing, with
-//                                a pointwise 95 % band (only the time limit censors)
+//   goal, goal_low, goal_high    cumulative incidence of declared arrival, all other ends
+//   competing,
+//                                with a pointwise 95 % band; its end is the success rate
 //   failure                      cumulative incidence of failure
 //   at_risk                      runs still under way just before this distance
 // `records` must be a contiguous prefix. Only the header where there is no column true_distance_m.
-std::string DistanceCdfCsv(const truth::RecordSchema& schema,
-                           std::span<const truth::Record> records);
+// Memory: 250 bytes a record.
+void DistanceCdfCsv(const truth::RecordSchema& schema, std::span<const truth::Record> records,
+                    const TextSink& out);
 
 }  // namespace rockyard::report

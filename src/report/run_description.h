@@ -30,7 +30,7 @@ struct StoppingReport {
   // "open", "precise" (the half-width is reached), "max_trials" or "budget".
   std::string end;
   // At the last decision, over trials 0 .. trials-1: declared successes of those without a fault,
-  // and the confidence sequence, which holds the rate whenever it is looked at.
+  // and the interval whose half-width the rule is about.
   std::int64_t trials = 0;
   std::int64_t drives = 0;
   std::int64_t successes = 0;

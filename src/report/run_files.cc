@@ -8,6 +8,12 @@
 
 namespace rockyard::report {
 
+void WriteTrialsCsv(const std::filesystem::path& folder, const truth::RecordSchema& schema,
+                    std::span<const truth::Record> records) {
+  WriteFileAtomically(folder / "trials.csv",
+                      [&](const TextSink& out) { TrialsCsv(schema, records, out); });
+}
+
 statistics::DriveSummary WriteRunFiles(const std::filesystem::path& folder,
                                        const RunDescription& run, const truth::RecordSchema& schema,
                                        std::span<const truth::Record> records,
@@ -15,8 +21,9 @@ statistics::DriveSummary WriteRunFiles(const std::filesystem::path& folder,
                                        statistics::IntervalMethod method) {
   statistics::DriveSummary summary = statistics::Summarize(schema, prefix, run.planned, method);
   WriteFileAtomically(folder / "scenario.resolved.json", ResolvedScenarioJson(run));
-  WriteFileAtomically(folder / "trials.csv", TrialsCsv(schema, records));
-  WriteFileAtomically(folder / "distance_cdf.csv", DistanceCdfCsv(schema, prefix));
+  WriteTrialsCsv(folder, schema, records);
+  WriteFileAtomically(folder / "distance_cdf.csv",
+                      [&](const TextSink& out) { DistanceCdfCsv(schema, prefix, out); });
   WriteFileAtomically(folder / "summary.json", SummaryJson(run, summary, method));
   return summary;
 }
@@ -30,7 +37,7 @@ statistics::MeasurementSummary WriteMeasurementFiles(const std::filesystem::path
   statistics::MeasurementSummary summary =
       statistics::SummarizeCells(schema, prefix, run.planned, method);
   WriteFileAtomically(folder / "scenario.resolved.json", ResolvedScenarioJson(run));
-  WriteFileAtomically(folder / "trials.csv", TrialsCsv(schema, records));
+  WriteTrialsCsv(folder, schema, records);
   WriteFileAtomically(folder / "cells.csv", CellsCsv(summary));
   const std::string drawing = CellsSvg(summary, run.scenario);
   if (!drawing.empty()) WriteFileAtomically(folder / "cells.svg", drawing);

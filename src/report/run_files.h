@@ -11,6 +11,10 @@
 
 namespace rockyard::report {
 
+// Writes trials.csv, whole or not at all. Throws core::UserError.
+void WriteTrialsCsv(const std::filesystem::path& folder, const truth::RecordSchema& schema,
+                    std::span<const truth::Record> records);
+
 // Writes summary.json, trials.csv, distance_cdf.csv and scenario.resolved.json, each whole or not
 // at all. `records`: every stored record by trial index; `prefix`: those that rates may be computed
 // from. Returns the summary. Throws core::UserError where a file cannot be written.

@@ -6,6 +6,7 @@
 #include "core/json_text.h"
 #include "report/accounting.h"
 #include "report/json_values.h"
+#include "report/mean_words.h"
 
 namespace rockyard::report {
 namespace {
@@ -15,13 +16,15 @@ using core::NumberOrNull;
 using statistics::ColumnSummary;
 using statistics::DriveSummary;
 
+constexpr const char* kModeMethod = "half-sample mode; range by subsampling, no coverage claimed";
+
 JsonValue Rate(const statistics::Proportion& rate, statistics::IntervalMethod method) {
-  const bool wilson = method == statistics::IntervalMethod::kWilson;
   return JsonValue::Object({{"count", rate.count},
                             {"trials", rate.trials},
                             {"rate", NumberOrNull(rate.rate)},
                             {"ci95", EndsOf(rate.interval)},
-                            {"ci_method", wilson ? "wilson" : "clopper_pearson"}});
+                            {"ci_method", std::string(MethodName(statistics::RateMethod(
+                                              rate.count, rate.trials, method)))}});
 }
 
 JsonValue Column(const ColumnSummary* column) {
@@ -32,6 +35,8 @@ JsonValue Column(const ColumnSummary* column) {
                             {"median", NumberOrNull(column->median)},
                             {"mean", NumberOrNull(column->mean)},
                             {"mode", NumberOrNull(column->mode)},
+                            {"mode_range", EndsOf(column->mode_range)},
+                            {"mode_method", kModeMethod},
                             {"p95", NumberOrNull(column->p95)},
                             {"max", NumberOrNull(column->max)},
                             {"std", NumberOrNull(column->std)}});
@@ -82,19 +87,6 @@ void AddColumns(const DriveSummary& summary, JsonValue& json) {
     if (!HasOwnMember(column.name)) others.Set(column.name, Column(&column));
   }
   json.Set("columns", std::move(others));
-}
-
-JsonValue MetricJson(const statistics::MetricSummary& summary) {
-  JsonValue json = JsonValue::Object({{"count", summary.count},
-                                      {"mean", NumberOrNull(summary.mean)},
-                                      {"ci95", EndsOf(summary.interval)}});
-  if (summary.metric->kind == statistics::MetricKind::kRate) return json;
-  json.Set("median", NumberOrNull(summary.median));
-  json.Set("median_ci95", EndsOf(summary.median_interval));
-  json.Set("min", NumberOrNull(summary.min));
-  json.Set("max", NumberOrNull(summary.max));
-  json.Set("std", NumberOrNull(summary.deviation));
-  return json;
 }
 
 JsonValue MetricsJson(const std::vector<statistics::MetricSummary>& metrics) {

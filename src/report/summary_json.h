@@ -18,9 +18,10 @@ namespace rockyard::report {
 // (count, trials, rate, ci95, ci_method), outcomes (every kind), distance_m, path_ratio,
 // dead_reckoning, sim_time_s, energy_wh, columns (all others), metrics and metrics_by_outcome,
 // trial_hash, provenance (as below, with threads, ranks, builds). A column is {count, min, p05,
-// median, mean, mode, p95, max, std}; a metric (statistics/metrics.h) {count, mean, ci95} and,
-// where it is no rate, {median, median_ci95, min, max, std}; metrics without a value are left out.
-// What is undefined is null.
+// median, mean, mode, mode_range, mode_method, p95, max, std}, where mode_range is no interval of
+// any confidence; a metric (statistics/metrics.h) is as MetricJson says (mean_words.h); metrics
+// without a value are left out. What is undefined is null, as both ends of ci95 are where a mean
+// has none.
 core::JsonValue SummaryValue(const RunDescription& run, const statistics::DriveSummary& summary,
                              statistics::IntervalMethod method);
 std::string SummaryJson(const RunDescription& run, const statistics::DriveSummary& summary,

@@ -9,6 +9,7 @@
 
 #include "report/accounting.h"
 #include "report/line_text.h"
+#include "report/mean_words.h"
 
 namespace rockyard::report {
 namespace {
@@ -135,11 +136,39 @@ std::string ColumnTable(const DriveSummary& summary, TextStyle style) {
   if (text.empty()) return text;
   return Coloured(style, kBold,
                   fmt::format("  {:<24} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}", "", "min",
-                              "5 %", "median", "mean", "mode", "95 %", "max")) +
-         "\n" + text;
+                              "5 %", "median", "mean", "mode*", "95 %", "max")) +
+         "\n" + text +
+         "  * half-sample mode: unsteady, no coverage claimed (its range by subsampling: "
+         "summary.json)\n";
 }
 
-// Means with their intervals, of what the table above has not.
+// Below the line of a metric, where its mean has no interval or most trials have the same value.
+std::string ApartLine(const statistics::MetricSummary& metric) {
+  const statistics::MeanEstimate& estimate = metric.estimate;
+  std::string text = ReasonOf(estimate);
+  if (!text.empty()) text = fmt::format("    no interval of the mean: {}\n", text);
+  if (2 * estimate.apart.count >= estimate.apart.trials) return text;
+  return text + fmt::format("    {} of {} trials differ from {}, {:.1f} .. {:.1f} % (exact)\n",
+                            estimate.apart.count, estimate.apart.trials, FourDigits(estimate.usual),
+                            100.0 * estimate.apart.interval.low,
+                            100.0 * estimate.apart.interval.high);
+}
+
+std::string Ends(const statistics::Interval& interval, double scale) {
+  if (!std::isfinite(interval.low)) return fmt::format("{:>22}", "-");
+  return fmt::format("{:>9} .. {:<9}", Value(scale * interval.low), Value(scale * interval.high));
+}
+
+std::string MetricLine(const TableRow& row, const statistics::MetricSummary& metric) {
+  std::string line =
+      fmt::format("  {:<24} {:>9} {} {:>9} {}", row.label, Value(row.scale * metric.mean),
+                  Ends(metric.interval, row.scale), Value(row.scale * metric.median),
+                  Ends(metric.median_interval, row.scale));
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line + "\n" + ApartLine(metric);
+}
+
+// Means and medians with their intervals, of what the table above has not.
 std::string MetricLines(const DriveSummary& summary) {
   const TableRow rows[] = {{"time_to_goal_s", "time to goal [s]"},
                            {"energy_to_goal_wh", "energy to goal [Wh]"},
@@ -153,11 +182,12 @@ std::string MetricLines(const DriveSummary& summary) {
     const auto found = std::find_if(summary.metrics.begin(), summary.metrics.end(),
                                     [&](const auto& m) { return m.metric->name == row.column; });
     if (found == summary.metrics.end() || found->count < 2) continue;
-    text += fmt::format("  {:<24} {:>9}   95 % interval {} .. {}\n", row.label,
-                        Value(row.scale * found->mean), Value(row.scale * found->interval.low),
-                        Value(row.scale * found->interval.high));
+    text += MetricLine(row, *found);
   }
-  return text.empty() ? text : "  means\n" + text;
+  if (text.empty()) return text;
+  return fmt::format("  {:<24} {:>9} {:>22} {:>9} {:>22}\n", "", "mean", "95 % interval", "median",
+                     "95 % interval") +
+         text;
 }
 
 // What a reader of the numbers above must know of the soil.

@@ -105,7 +105,7 @@ std::string SweepCellsCsv(const Sweep& sweep, const SweepSummary& summary) {
     }
   }
   for (const char* name : {"trial_hash", "pending", "infrastructure_faults", "stopped",
-                           "stopped_at", "sequence_low", "sequence_high"}) {
+                           "stopped_at", "stop_low", "stop_high"}) {
     head.emplace_back(name);
   }
   std::string csv = CsvLine(head);

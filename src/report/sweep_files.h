@@ -25,7 +25,7 @@ struct SweepDescription {
 // every outcome, for declared and true success: rate, 95 % interval, and the interval that holds
 // for all cells at once; hash; pending trials and failures of the machine; and with a stopping rule
 // where it ended the cell ("precise", "max_trials", "budget", "open"), after how many trials, and
-// the confidence sequence of declared success there.
+// the interval of declared success there.
 std::string SweepCellsCsv(const scenario::Sweep& sweep, const SweepSummary& summary);
 
 // curves.csv: one line per cell and metric (statistics/metrics.h): cell, the axes, metric, unit, n,

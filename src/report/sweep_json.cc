@@ -5,6 +5,7 @@
 #include "report/accounting.h"
 #include "report/atomic_file.h"
 #include "report/json_values.h"
+#include "report/mean_words.h"
 #include "report/sweep_files.h"
 
 namespace rockyard::report {
@@ -50,9 +51,7 @@ JsonValue Outcomes(const SweepCellSummary& cell) {
 JsonValue Metrics(const SweepCellSummary& cell) {
   JsonValue metrics = JsonValue::Object();
   for (const statistics::MetricSummary& metric : cell.metrics) {
-    metrics.Set(metric.metric->name, JsonValue::Object({{"count", metric.count},
-                                                        {"mean", NumberOrNull(metric.mean)},
-                                                        {"ci95", EndsOf(metric.interval)}}));
+    metrics.Set(metric.metric->name, MetricJson(metric));
   }
   return metrics;
 }

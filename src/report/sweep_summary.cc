@@ -12,7 +12,6 @@
 #include "report/sweep_curves.h"
 #include "report/sweep_outcomes.h"
 #include "statistics/clustered_rate.h"
-#include "statistics/confidence_sequence.h"
 #include "statistics/drive_summary.h"
 #include "statistics/multiple_testing.h"
 
@@ -27,12 +26,13 @@ using statistics::kConfidence;
 using statistics::Proportion;
 using truth::Record;
 
-// With a stopping rule the number of trials depends on what they say, so that only the sequence
-// holds the rate as often as it states; trials on one layout are no independent ones.
+// With a stopping rule the number of trials depends on what they say, which its interval allows
+// for; trials on one layout are no independent ones.
 Interval IntervalOf(const SweepCellTrials& trials, const CellOutcomes& outcomes, SuccessKind kind,
                     const Proportion& rate, double confidence) {
   if (trials.stopping) {
-    return statistics::ConfidenceSequence(rate.count, rate.trials, confidence);
+    return statistics::ProportionInterval(rate.count, rate.trials, confidence,
+                                          statistics::IntervalMethod::kStopped);
   }
   if (outcomes.SharesLayouts()) {
     return statistics::ClusteredRateInterval(outcomes.ByLayout(kind), confidence,
@@ -177,9 +177,7 @@ void AddCautions(std::span<const SweepCellSummary> cells, std::span<const CellOu
                  std::vector<std::string>& notes) {
   if (std::any_of(cells.begin(), cells.end(),
                   [](const SweepCellSummary& cell) { return cell.stopping.has_value(); })) {
-    notes.emplace_back(
-        "a rule ended cells: intervals of their rates are confidence sequences, which allow for "
-        "it;");
+    notes.emplace_back("a rule ended cells: intervals of their rates allow for it;");
     notes.emplace_back(
         "fits, differences, shares and means take the numbers of trials as if they were planned");
   }

@@ -36,8 +36,8 @@ struct SweepCellTrials {
 using SweepCellLoader = std::function<SweepCellTrials(std::size_t)>;
 
 // A rate with its own 95 % interval, and one that holds for all cells of the sweep at once with 95
-// % (Bonferroni, by Clopper and Pearson, as for the cells of a measurement). Both are the
-// confidence sequence (statistics/confidence_sequence.h) where a rule ended the cell, and by
+// % (Bonferroni, by Clopper and Pearson, as for the cells of a measurement). Both
+// allow for the rule where one ended the cell (statistics::IntervalMethod::kStopped), and are by
 // layouts (statistics/clustered_rate.h) where trials share them.
 struct SweepRate {
   statistics::Proportion rate;

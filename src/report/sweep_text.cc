@@ -120,15 +120,14 @@ std::string CellTable(const Sweep& sweep, const SweepSummary& summary, TextStyle
          "arrivals)\n";
 }
 
-// Where the rule ended each cell. The intervals of the table are for numbers of trials that do not
-// depend on outcomes; the confidence sequences here allow for that.
+// Where the rule ended each cell.
 std::string Stops(const Sweep& sweep, const SweepSummary& summary) {
   if (summary.cells.empty() || !summary.cells.front().stopping) return "";
   const StoppingReport& rule = *summary.cells.front().stopping;
   std::string text = fmt::format(
-      "  stopping rule: half-width {:.2f} % of declared success ({:g} %, valid at any time), "
-      "looked "
-      "at\n  every {} trials, at most {} of a cell; allocation {}\n",
+      "  stopping rule: half-width {:.2f} % of declared success ({:g} %), looked at every {} "
+      "trials,\n"
+      "  at most {} of a cell; allocation {}\n",
       100.0 * rule.half_width, 100.0 * rule.confidence, rule.block, rule.max_trials,
       rule.allocation);
   for (std::size_t i = 0; i < std::min(summary.cells.size(), kMaxCells); ++i) {

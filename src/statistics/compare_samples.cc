@@ -20,7 +20,7 @@ namespace {
 using core::kNaN;
 // Statistics that are only shown beside the judged one take fewer replicates.
 constexpr std::size_t kSideReduction = 5;
-// Pools smaller than this many published sets give up to twice the nominal false alarms for modes.
+// Pools smaller than this many published sets give more than the nominal false alarms.
 constexpr std::size_t kSetsInAGoodPool = 5;
 
 double Smallest(std::span<const double> sorted) { return sorted.front(); }
@@ -90,6 +90,16 @@ std::vector<SideStatistic> OtherModes(const PublishedValue& published,
                             published.value, published.rounding));
   }
   return beside;
+}
+
+// What scatters as much as the mode of some hundred values says neither that two laws agree nor
+// that they differ.
+std::string ModeRemark(std::span<const double> pool) {
+  const Interval range = HalfSampleModeRange(pool);
+  return fmt::format(
+      "a mode is too unsteady to judge by; that of all {}: {:.3g} .. {:.3g} by subsampling, no "
+      "coverage claimed",
+      pool.size(), range.low, range.high);
 }
 
 // The same statistic of sets of which the published number of runs arrived, ascending; none where
@@ -170,21 +180,25 @@ Row CompareSampleStatistic(const PublishedValue& published, const ScenarioRun& r
   value.pool = static_cast<std::int64_t>(pool.size());
   value.pool_value = statistic(sampler.pool());
   SetPrediction(value, drawn);
-  value.p_value = PredictivePValue(drawn, published.value, published.rounding);
+  const bool mode = published.statistic == StatisticKind::kMode;
+  if (mode) {
+    value.remark = ModeRemark(pool);
+    value.beside = OtherModes(published, sampler, options.replicates / kSideReduction, key);
+  } else {
+    value.p_value = PredictivePValue(drawn, published.value, published.rounding);
+  }
   // The verdict stands; the remark says how far to trust it.
-  if (pool.size() < kSetsInAGoodPool * n) {
+  if (!mode && pool.size() < kSetsInAGoodPool * n) {
     value.remark =
         fmt::format("only {} simulated trials: use {} or more", pool.size(), kSetsInAGoodPool * n);
-  }
-  if (published.statistic == StatisticKind::kMode) {
-    value.beside = OtherModes(published, sampler, options.replicates / kSideReduction, key);
   }
   std::vector<double> by_arrival = ByArrival(published, run, statistic, options);
   if (!by_arrival.empty()) {
     value.beside.push_back(Beside(ArrivalsName(published), std::move(by_arrival), published.value,
                                   published.rounding));
   }
-  row.power = PowerOf(published, MomentsOf(pool), drawn);
+  // Without power a row is in no family and has no verdict.
+  if (!mode) row.power = PowerOf(published, MomentsOf(pool), drawn);
   return row;
 }
 
@@ -261,7 +275,7 @@ Row CompareLowerBound(const PublishedValue& published, const ScenarioRun& run,
   value.pool_value = sampler.pool().front();
   SetPrediction(value, drawn);
   constexpr double kRounding = 1e-6;
-  value.verdict = value.pool_value >= bound - kRounding ? Verdict::kAgrees : Verdict::kDiffers;
+  value.verdict = value.pool_value >= bound - kRounding ? Verdict::kHolds : Verdict::kDiffers;
   value.remark = fmt::format("bound {:.3g} less tolerance {:.3g}{}: {:.3f}; smallest of {}: {:.3f}",
                              published.value, tolerance, given ? "" : " (from the trials)", bound,
                              pool.size(), value.pool_value);

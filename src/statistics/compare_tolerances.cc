@@ -259,7 +259,7 @@ Row CompareComputed(const PublishedValue& published) {
   value.median = value.pool_value;
   value.interval = {value.pool_value, value.pool_value};
   value.verdict = value.pool_value >= published.low && value.pool_value <= published.high
-                      ? Verdict::kAgrees
+                      ? Verdict::kHolds
                       : Verdict::kDiffers;
   value.remark = ToleranceRemark(published) + "; computed, not simulated";
   return row;

@@ -53,7 +53,7 @@ class IncidenceVariance {
 
 // Where none or all of those that were not censored have had the event there is no variance to go
 // by, but a count: its interval by Clopper and Pearson.
-Interval PointwiseBand(const IncidenceStep& step, std::int64_t followed, double confidence) {
+Interval CensoredBand(const IncidenceStep& step, std::int64_t followed, double confidence) {
   constexpr double kRounding = 1e-9;  // of sums of shares
   if (step.event > kRounding && step.event < 1.0 - kRounding) {
     const double z = boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * confidence);
@@ -80,6 +80,30 @@ Ends EndsAt(std::span<const Duration> sorted, std::size_t first) {
   return ends;
 }
 
+// What has ended so far.
+struct EndCounts {
+  std::int64_t all = 0;
+  std::int64_t events = 0;
+  std::int64_t competing = 0;
+  std::int64_t censored = 0;
+};
+
+// Without censoring so far both incidences are shares of all, and what sums of shares lose by
+// rounding is put right.
+void CompleteStep(const EndCounts& counts, double confidence, IncidenceStep& step) {
+  if (counts.censored > 0) {
+    step.band = CensoredBand(step, counts.all - counts.censored, confidence);
+    return;
+  }
+  const Proportion share =
+      MakeProportion(counts.events, counts.all, confidence, IntervalMethod::kClopperPearson);
+  step.event = share.rate;
+  step.competing = static_cast<double>(counts.competing) / static_cast<double>(counts.all);
+  step.standard_error =
+      std::sqrt(share.rate * (1.0 - share.rate) / static_cast<double>(counts.all));
+  step.band = share.interval;
+}
+
 }  // namespace
 
 std::vector<IncidenceStep> CumulativeIncidence(std::span<const Duration> durations,
@@ -91,7 +115,7 @@ std::vector<IncidenceStep> CumulativeIncidence(std::span<const Duration> duratio
   std::sort(sorted.begin(), sorted.end(),
             [](const Duration& a, const Duration& b) { return a.at < b.at; });
   std::vector<IncidenceStep> steps;
-  std::int64_t censored = 0;
+  EndCounts counts{.all = static_cast<std::int64_t>(sorted.size())};
   IncidenceVariance variance;
   double survival = 1.0;
   double event = 0.0;
@@ -101,6 +125,8 @@ std::vector<IncidenceStep> CumulativeIncidence(std::span<const Duration> duratio
     const std::size_t at_risk = sorted.size() - i;
     const double n = static_cast<double>(at_risk);
     const double both = ends.events + ends.competing;
+    counts.events += static_cast<std::int64_t>(ends.events);
+    counts.competing += static_cast<std::int64_t>(ends.competing);
     // A step at every distance at which something ended; censored ones only leave.
     if (both > 0.0) {
       // Aalen and Johansen: to have survived so far, times the share of those at risk that end this
@@ -110,14 +136,16 @@ std::vector<IncidenceStep> CumulativeIncidence(std::span<const Duration> duratio
       variance.Add(event, survival, n, ends.events, both);
       // Kaplan and Meier's factor, of both kinds of end; censored ones only leave the risk set.
       survival *= 1.0 - both / n;
-      const double error = std::sqrt(variance.At(event));
-      IncidenceStep step{sorted[i].at, event, competing,
-                         error,        {},    static_cast<std::int64_t>(at_risk)};
-      step.band =
-          PointwiseBand(step, static_cast<std::int64_t>(sorted.size()) - censored, confidence);
-      steps.push_back(step);
+      steps.push_back({sorted[i].at,
+                       event,
+                       competing,
+                       std::sqrt(variance.At(event)),
+                       {},
+                       static_cast<std::int64_t>(at_risk)});
+      CompleteStep(counts, confidence, steps.back());
     }
-    censored += static_cast<std::int64_t>(ends.all) - static_cast<std::int64_t>(both);
+    // Those that are censored at the distance of an end leave after it.
+    counts.censored += static_cast<std::int64_t>(ends.all) - static_cast<std::int64_t>(both);
     i += ends.all;
   }
   return steps;
@@ -131,11 +159,7 @@ std::vector<Duration> GoalDurations(std::span<const truth::Record> records, std:
     if (record.outcome == TrialOutcome::kSimulatorFault || column >= record.values.size()) continue;
     const bool reached = success == Success::kTrue ? record.outcome == TrialOutcome::kGoalReached
                                                    : truth::DeclaredSuccess(record.outcome);
-    // The time limit is the administrator's; all other ends but the goal compete with it.
-    const EndKind kind = reached                                      ? EndKind::kEvent
-                         : record.outcome == TrialOutcome::kTimeLimit ? EndKind::kCensored
-                                                                      : EndKind::kCompeting;
-    durations.push_back({record.values[column], kind});
+    durations.push_back({record.values[column], reached ? EndKind::kEvent : EndKind::kCompeting});
   }
   return durations;
 }

@@ -36,6 +36,7 @@ ColumnSummary SummarizeColumn(std::string name, std::string unit, std::span<cons
           .median = Quantile(sorted, 0.5),
           .mean = moments.mean(),
           .mode = HalfSampleMode(sorted),
+          .mode_range = HalfSampleModeRange(values),
           .p95 = Quantile(sorted, 0.95),
           .max = moments.max(),
           .std = moments.standard_deviation()};

@@ -24,12 +24,14 @@ struct ColumnSummary {
   double p05 = 0.0;
   double median = 0.0;
   double mean = 0.0;
-  double mode = 0.0;  // half-sample mode
+  double mode = 0.0;      // half-sample mode
+  Interval mode_range{};  // by subsampling, no coverage claimed (modes.h)
   double p95 = 0.0;
   double max = 0.0;
   double std = 0.0;  // unbiased
 };
 
+// The values stand in the order of the trials.
 ColumnSummary SummarizeColumn(std::string name, std::string unit, std::span<const double> values);
 
 struct DriveSummary {
@@ -40,7 +42,7 @@ struct DriveSummary {
   Proportion true_success;      // goal_reached
   std::array<std::int64_t, truth::kTrialOutcomeNames.size()> outcomes{};
   // Every column of the schema over all trials without a fault, in the schema's order; but
-  // "path_ratio", last, is over declared successes only, whether the schema has it or not.
+  // "path_ratio", last, is that metric's (over declared successes), whatever the schema has.
   std::vector<ColumnSummary> columns;
   std::vector<MetricSummary> metrics;  // over all trials
   // The same metrics over the trials that ended in one way each; empty where none did.

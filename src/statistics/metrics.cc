@@ -6,7 +6,6 @@
 #include "core/check.h"
 #include "core/numbers.h"
 #include "statistics/drive_summary.h"
-#include "statistics/equivalence.h"
 #include "statistics/moments.h"
 #include "statistics/quantiles.h"
 
@@ -37,17 +36,24 @@ double ValueOf(const Metric& metric, const truth::Record& record, std::size_t fi
   return std::isfinite(quotient) ? quotient : kNaN;
 }
 
-Interval MeanInterval(const std::vector<double>& values, double confidence) {
-  const MeanDifference mean = PairedMeans(values);
-  return mean.known() ? DifferenceInterval(mean, confidence) : Interval{kNaN, kNaN};
-}
-
 }  // namespace
 
 double DefaultMargin(const Metric& metric, double mean) {
   constexpr double kAnyDifference = 1e-9;  // where a mean of 0 gives no scale
   const double relative = std::isfinite(mean) ? metric.relative_margin * std::abs(mean) : 0.0;
   return std::max({metric.margin, relative, kAnyDifference});
+}
+
+std::int64_t FewestForMean(std::string_view column) {
+  std::int64_t fewest = kFewestForMean;
+  for (const Metric& metric : Metrics()) {
+    if (metric.kind != MetricKind::kMean) continue;
+    const bool same = metric.source == MetricSource::kColumn && metric.columns[0] == column;
+    if (!same && metric.name != column) continue;
+    if (metric.fewest_for_mean == kNeverForMean) return kNeverForMean;
+    fewest = std::max(fewest, metric.fewest_for_mean);
+  }
+  return fewest;
 }
 
 std::optional<std::vector<double>> MetricValues(const Metric& metric,
@@ -77,16 +83,20 @@ MetricSummary SummarizeMetric(const Metric& metric, std::span<const double> valu
                         .mean = moments.mean(),
                         .deviation = moments.standard_deviation(),
                         .interval = {},
+                        .method = method,
+                        .estimate = {},
                         .median = kNaN,
                         .median_interval = {kNaN, kNaN},
                         .min = moments.min(),
                         .max = moments.max()};
   if (metric.kind == MetricKind::kRate) {
     const auto ones = std::count(sorted.begin(), sorted.end(), 1.0);
-    summary.interval = ProportionInterval(ones, summary.count, confidence, method);
+    summary.method = RateMethod(ones, summary.count, method);
+    summary.interval = ProportionInterval(ones, summary.count, confidence, summary.method);
     return summary;
   }
-  summary.interval = MeanInterval(sorted, confidence);
+  summary.estimate = EstimateMean(sorted, metric.fewest_for_mean, confidence);
+  summary.interval = summary.estimate.interval;
   summary.median = Quantile(sorted, 0.5);
   summary.median_interval = MedianInterval(sorted, confidence);
   return summary;

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "statistics/mean_interval.h"
 #include "statistics/proportions.h"
 #include "truth/record.h"
 
@@ -44,6 +45,8 @@ struct Metric {
   // otherwise: default of the equivalence tests, a convention and no result.
   double margin = 0.0;
   double relative_margin = 0.0;
+  // Values from which on the mean gets an interval (mean_interval.h).
+  std::int64_t fewest_for_mean = kFewestForMean;
 };
 
 // Returns all metrics, in the order of reports.
@@ -54,6 +57,10 @@ const Metric* FindMetric(std::string_view name);  // nullptr where there is none
 // metric's unit. It is always above 0: where neither margin says anything (a mean of 0), any
 // difference matters.
 double DefaultMargin(const Metric& metric, double mean);
+
+// Returns the values of a column of records from which on their mean, or a mean difference of it,
+// gets an interval: the most that a metric of this column needs, kNeverForMean if one has it.
+std::int64_t FewestForMean(std::string_view column);
 
 // Returns one value for each record, in their order; NaN where the trial does not count or has no
 // finite value. It is nullopt where the schema lacks a column. Cost: linear.
@@ -67,10 +74,11 @@ struct MetricSummary {
   std::int64_t count = 0;  // trials with a value
   double mean = 0.0;       // the rate, of a rate
   double deviation = 0.0;  // unbiased standard deviation
-  // Rates: as asked for. Means: Student's interval, which needs some dozens of values without a
-  // heavy tail (its coverage for skewed laws stands in README.md); unknown below two values.
+  // Rates: as asked for, exact where events are few (RateMethod). Means: that of `estimate`.
   Interval interval;
-  double median = 0.0;       // NaN of a rate
+  IntervalMethod method = IntervalMethod::kWilson;  // by which that of a rate was made
+  MeanEstimate estimate;                            // why a mean has no interval; of a rate nothing
+  double median = 0.0;                              // NaN of a rate
   Interval median_interval;  // of order statistics, exact for any law; NaN below six values
   double min = 0.0;
   double max = 0.0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -54,6 +55,34 @@ double HalfSampleMode(std::span<const double> sorted) {
   const double high = sorted[2] - sorted[1];
   if (low == high) return sorted[1];
   return low < high ? 0.5 * (sorted[0] + sorted[1]) : 0.5 * (sorted[1] + sorted[2]);
+}
+
+Interval HalfSampleModeRange(std::span<const double> values, double confidence) {
+  EXPECT(confidence > 0.0 && confidence < 1.0);
+  constexpr std::size_t kFewest = 30;
+  constexpr std::size_t kMostBlocks = 100;
+  constexpr double kLongestBlock = 1000.0;
+  std::vector<double> finite;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(finite),
+               [](double x) { return std::isfinite(x); });
+  if (finite.size() < kFewest) return {kNaN, kNaN};
+  const double n = static_cast<double>(finite.size());
+  const double length = std::min(kLongestBlock, std::ceil(std::cbrt(n * n)));
+  const double mode = HalfSampleMode(SortedFinite(finite));
+  const std::size_t last = finite.size() - static_cast<std::size_t>(length);
+  const std::size_t blocks = std::min(kMostBlocks, last + 1);
+  std::vector<double> offsets;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    // Spread evenly, the first at the start and the last at the end.
+    const std::size_t first = blocks == 1 ? 0 : b * last / (blocks - 1);
+    const auto block = std::span(finite).subspan(first, static_cast<std::size_t>(length));
+    offsets.push_back(HalfSampleMode(SortedFinite(block)) - mode);
+  }
+  std::sort(offsets.begin(), offsets.end());
+  // The law of mode - true mode is that of the offsets times (length / n)^(1/3).
+  const double shrink = std::cbrt(length / n);
+  const double tail = 0.5 * (1.0 - confidence);
+  return {mode - shrink * Quantile(offsets, 1.0 - tail), mode - shrink * Quantile(offsets, tail)};
 }
 
 double HistogramMode(std::span<const double> sorted) {

@@ -27,6 +27,9 @@ Interval Wilson(double count, double trials, double confidence) {
           count == trials ? 1.0 : std::min(1.0, centre + half)};
 }
 
+// Of the chance to miss, where the half-width ends the trials (proportions.h).
+constexpr double kStoppedShare = 0.8;
+
 // Clopper and Pearson 1934: ends at which a tail of the binomial law is (1 - confidence)/2, as
 // quantiles of beta laws: B(tail; k, n - k + 1) and B(1 - tail; k + 1, n - k).
 Interval ClopperPearson(double count, double trials, double confidence) {
@@ -81,15 +84,41 @@ Interval ProportionInterval(std::int64_t count, std::int64_t trials, double conf
   if (trials == 0) return {0.0, 1.0};
   const double k = static_cast<double>(count);
   const double n = static_cast<double>(trials);
-  return method == IntervalMethod::kWilson ? Wilson(k, n, confidence)
-                                           : ClopperPearson(k, n, confidence);
+  switch (method) {
+    case IntervalMethod::kWilson:
+      return Wilson(k, n, confidence);
+    case IntervalMethod::kClopperPearson:
+      return ClopperPearson(k, n, confidence);
+    case IntervalMethod::kStopped:
+      break;
+  }
+  return ClopperPearson(k, n, 1.0 - kStoppedShare * (1.0 - confidence));
+}
+
+std::string_view MethodName(IntervalMethod method) {
+  switch (method) {
+    case IntervalMethod::kWilson:
+      return "wilson";
+    case IntervalMethod::kClopperPearson:
+      return "clopper_pearson";
+    case IntervalMethod::kStopped:
+      break;
+  }
+  return "clopper_pearson_stopped";
+}
+
+IntervalMethod RateMethod(std::int64_t count, std::int64_t trials, IntervalMethod method) {
+  constexpr std::int64_t kFew = 5;
+  const bool few = std::min(count, trials - count) < kFew;
+  return few && method == IntervalMethod::kWilson ? IntervalMethod::kClopperPearson : method;
 }
 
 Proportion MakeProportion(std::int64_t count, std::int64_t trials, double confidence,
                           IntervalMethod method) {
   const double rate = trials == 0 ? std::numeric_limits<double>::quiet_NaN()
                                   : static_cast<double>(count) / static_cast<double>(trials);
-  return {count, trials, rate, ProportionInterval(count, trials, confidence, method)};
+  return {count, trials, rate,
+          ProportionInterval(count, trials, confidence, RateMethod(count, trials, method))};
 }
 
 Interval DifferenceInterval(const Proportion& first, const Proportion& second, double confidence) {

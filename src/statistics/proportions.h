@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 namespace rockyard::statistics {
 
@@ -17,7 +18,17 @@ struct Interval {
 enum class IntervalMethod {
   kWilson,          // score interval (Wilson 1927): coverage near nominal on average
   kClopperPearson,  // exact (Clopper and Pearson 1934): coverage at least nominal, always
+  kStopped,  // Clopper and Pearson's, for trials that end once their interval is narrow enough
 };
+
+// As in summary.json: "wilson", "clopper_pearson", "clopper_pearson_stopped".
+std::string_view MethodName(IntervalMethod method);
+
+// Returns how the interval of a rate is made that is asked for by `method`: in Wilson's place
+// exactly where there are fewer than five trials of either kind. Wilson's covers rare events in as
+// few as 84 % of samples, whatever the number of trials, and so mended in no fewer than 92 % (exact
+// sums at 20 to 1000 trials; tests/statistics/proportions_test.cc).
+IntervalMethod RateMethod(std::int64_t count, std::int64_t trials, IntervalMethod method);
 
 // A rate with its interval. With no trials the rate is NaN and the interval [0, 1].
 struct Proportion {
@@ -30,10 +41,18 @@ struct Proportion {
 // Returns the two-sided interval of a binomial proportion, with 0 <= count <= trials and 0 <
 // confidence < 1. For no success (or no failure) Clopper-Pearson's upper (lower) end is the exact
 // form of the "rule of three". Cost: constant.
+//
+// kStopped: where trials go on until the interval has some half-width, their number depends on what
+// they say, and Clopper and Pearson's interval misses a little more often than stated. It is taken
+// at 0.8 of the chance to miss, which costs a tenth more trials: by enumeration of all paths its
+// coverage is at least 0.945 for 0.95 (half-widths 0.03 to 0.15, looks at each to each 100th trial,
+// rates 0.01 to 0.99; without the factor 0.940). That is for a stop at a half-width or at a largest
+// number of trials, not for whoever stops because the rate pleases.
 Interval ProportionInterval(std::int64_t count, std::int64_t trials,
                             double confidence = kConfidence,
                             IntervalMethod method = IntervalMethod::kWilson);
 
+// The same with the rate, by RateMethod.
 Proportion MakeProportion(std::int64_t count, std::int64_t trials, double confidence = kConfidence,
                           IntervalMethod method = IntervalMethod::kWilson);
 

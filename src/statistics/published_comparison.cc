@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "core/numbers.h"
 #include "statistics/compare_rows.h"
 #include "statistics/multiple_testing.h"
 
@@ -74,6 +75,14 @@ void Judge(std::vector<Row>& rows, double alpha) {
   }
 }
 
+// A rate cannot leave [0, 1].
+Verdict InsideVerdict(const PublishedValue& published) {
+  const bool rate = published.statistic == StatisticKind::kRate;
+  const bool all = published.low <= (rate ? 0.0 : -core::kInfinity) &&
+                   published.high >= (rate ? 1.0 : core::kInfinity);
+  return all ? Verdict::kHolds : Verdict::kAgrees;
+}
+
 // Bonferroni: all intervals hold together with 1 - alpha, whatever their dependence.
 void JudgeTolerances(std::vector<Row>& rows, double alpha) {
   const auto family = std::count_if(rows.begin(), rows.end(),
@@ -87,7 +96,9 @@ void JudgeTolerances(std::vector<Row>& rows, double alpha) {
     const double high = value.published.high;
     const bool inside = value.interval.low >= low && value.interval.high <= high;
     const bool apart = value.interval.high < low || value.interval.low > high;
-    value.verdict = inside ? Verdict::kAgrees : apart ? Verdict::kDiffers : Verdict::kUnderpowered;
+    value.verdict = apart     ? Verdict::kDiffers
+                    : !inside ? Verdict::kUnderpowered
+                              : InsideVerdict(value.published);
   }
 }
 
@@ -104,6 +115,8 @@ const char* Name(Verdict verdict) {
   switch (verdict) {
     case Verdict::kAgrees:
       return "agrees";
+    case Verdict::kHolds:
+      return "holds";
     case Verdict::kDiffers:
       return "differs";
     case Verdict::kUnderpowered:
@@ -150,7 +163,8 @@ int ExitCode(const ComparisonResult& result) {
                        [&](const ComparedValue& value) { return value.verdict == verdict; });
   };
   if (has(Verdict::kDiffers)) return kSomethingDiffers;
-  return has(Verdict::kUnderpowered) || !has(Verdict::kAgrees) ? kInconclusive : kAllAgree;
+  const bool judged = has(Verdict::kAgrees) || has(Verdict::kHolds);
+  return has(Verdict::kUnderpowered) || !judged ? kInconclusive : kAllAgree;
 }
 
 }  // namespace rockyard::statistics

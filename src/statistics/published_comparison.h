@@ -5,9 +5,10 @@
 // Holm's procedure over all judged rows keeps the chance of any false `differs` at or below alpha.
 //
 // Numbers that are published without a sample, but with a tolerance, are judged by an interval of
-// the simulated value: `agrees` inside of the tolerance, `differs` apart from it, `underpowered`
-// across its ends. The intervals of all such rows hold together with 1 - alpha (Bonferroni). What
-// is computed from published numbers is a point.
+// the simulated value: `agrees` inside of the tolerance (`holds` where nothing lies outside of it),
+// `differs` apart from it, `underpowered` across its ends. The intervals of all such rows hold
+// together with 1 - alpha (Bonferroni). What is computed from published numbers is a point: it
+// `holds` or `differs`.
 #pragma once
 
 #include <cstddef>
@@ -62,6 +63,7 @@ struct ComparisonOptions {
 
 enum class Verdict {
   kAgrees,        // not rejected, and the alternative would have been with power 0.8 or more
+  kHolds,         // a bound or arithmetic: true, but of any simulation, so that it tells none apart
   kDiffers,       // rejected after Holm
   kUnderpowered,  // not rejected, but the published runs are too few to tell
   kNotJudged,     // no number to judge by, or no simulated trials
@@ -137,8 +139,8 @@ struct ComparisonResult {
 ComparisonResult Compare(const PublishedReference& reference, std::span<const ScenarioRun> runs,
                          const ComparisonOptions& options = {});
 
-// Returns 0 where all judged rows agree, 1 where something differs, and 4 where nothing differs,
-// but something is underpowered or nothing could be judged.
+// Returns 0 where all judged rows agree or hold, 1 where something differs, and 4 where nothing
+// differs, but something is underpowered or nothing could be judged.
 int ExitCode(const ComparisonResult& result);
 
 }  // namespace rockyard::statistics

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <string_view>
 
 #include "core/check.h"
 #include "core/numbers.h"
@@ -19,6 +21,11 @@ namespace rockyard::statistics {
 namespace {
 
 using core::kInfinity;
+
+// "distance" and "time" of every trial, arrived or not.
+constexpr std::array<std::string_view, 7> kPrimary = {
+    "declared_success",       "true_success",      "true_distance_m", "active_time_s",
+    "distance_error_percent", "heading_error_deg", "position_error_m"};
 
 // Where nothing can be compared the row says what each side has on its own.
 void Describe(const RegressionSamples& samples, std::span<const double> baseline,
@@ -42,7 +49,8 @@ bool Identical(const RegressionCell& cell, const RegressionSamples& samples) {
 RegressionRow MakeRow(const RegressionCell& cell, std::size_t index, const Metric& metric,
                       const RegressionSamples& samples) {
   const BaselineMetric& baseline = cell.baseline[index];
-  RegressionRow row{.cell = cell.name, .metric = &metric, .paired = cell.paired};
+  RegressionRow row{
+      .cell = cell.name, .metric = &metric, .primary = IsPrimary(metric), .paired = cell.paired};
   row.margin = baseline.margin;
   Describe(samples, baseline.values, cell.run[index], row);
   TestSamples(samples, row);
@@ -55,11 +63,34 @@ RegressionRow MakeRow(const RegressionCell& cell, std::size_t index, const Metri
 
 void Judge(const RegressionOptions& options, RegressionRow& row) {
   // A change that is shown stays a change, however small.
-  if (row.holm_p_value <= options.alpha) {
+  if (row.holm_p_value <= options.FamilyAlpha(row.primary)) {
     row.verdict = RegressionVerdict::kChanged;
   } else if (row.equivalence_p_value <= options.equivalence_alpha) {
     row.verdict = RegressionVerdict::kEquivalent;
+  } else if (row.sees_enough) {
+    row.verdict = RegressionVerdict::kNoneSeen;
   }
+}
+
+// Holm's procedure over the rows of one family.
+void SetLevels(const RegressionOptions& options, bool primary, std::vector<RegressionRow>& rows) {
+  std::vector<RegressionRow*> family;
+  std::vector<double> p_values;
+  for (RegressionRow& row : rows) {
+    if (row.primary != primary) continue;
+    family.push_back(&row);
+    p_values.push_back(row.p_value);
+  }
+  const std::vector<double> adjusted = HolmAdjust(p_values);
+  const std::vector<double> levels = HolmLevels(p_values, options.FamilyAlpha(primary));
+  for (std::size_t i = 0; i < family.size(); ++i) {
+    family[i]->holm_p_value = adjusted[i];
+    family[i]->level = levels[i];
+  }
+}
+
+bool OnOneSideOnly(const RegressionRow& row) {
+  return (row.baseline_count == 0) != (row.run_count == 0);
 }
 
 bool HasValue(std::span<const double> values) {
@@ -68,9 +99,18 @@ bool HasValue(std::span<const double> values) {
 
 }  // namespace
 
+bool IsPrimary(const Metric& metric) {
+  return std::find(kPrimary.begin(), kPrimary.end(), metric.name) != kPrimary.end();
+}
+
 std::int64_t RegressionResult::Count(RegressionVerdict verdict) const {
-  return std::count_if(rows.begin(), rows.end(),
-                       [&](const RegressionRow& row) { return row.verdict == verdict; });
+  return Count(verdict, true) + Count(verdict, false);
+}
+
+std::int64_t RegressionResult::Count(RegressionVerdict verdict, bool primary) const {
+  return std::count_if(rows.begin(), rows.end(), [&](const RegressionRow& row) {
+    return row.verdict == verdict && row.primary == primary;
+  });
 }
 
 RegressionResult CheckRegression(std::span<const RegressionCell> cells,
@@ -87,14 +127,9 @@ RegressionResult CheckRegression(std::span<const RegressionCell> cells,
       result.rows.push_back(MakeRow(cell, i, *metric, samples.back()));
     }
   }
-  std::vector<double> p_values;
-  for (const RegressionRow& row : result.rows) p_values.push_back(row.p_value);
-  const std::vector<double> adjusted = HolmAdjust(p_values);
-  const std::vector<double> levels = HolmLevels(p_values, options.alpha);
+  for (const bool primary : {true, false}) SetLevels(options, primary, result.rows);
   RegressionPower power;
   for (std::size_t i = 0; i < result.rows.size(); ++i) {
-    result.rows[i].holm_p_value = adjusted[i];
-    result.rows[i].level = levels[i];
     power.Fill(samples[i], options.equivalence_alpha, result.rows[i]);
     Judge(options, result.rows[i]);
   }
@@ -103,7 +138,9 @@ RegressionResult CheckRegression(std::span<const RegressionCell> cells,
 
 int ExitCode(const RegressionResult& result) {
   if (result.Count(RegressionVerdict::kChanged) > 0) return 1;
-  const bool unsure = result.rows.empty() || result.Count(RegressionVerdict::kInconclusive) > 0;
+  const bool unsure = result.rows.empty() ||
+                      result.Count(RegressionVerdict::kInconclusive, true) > 0 ||
+                      std::any_of(result.rows.begin(), result.rows.end(), OnOneSideOnly);
   return unsure ? 4 : 0;
 }
 

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "core/numbers.h"
+#include "statistics/moments.h"
 
 namespace rockyard::statistics {
 namespace {
 
 using core::kNaN;
-constexpr double kPower = 0.8;  // of trials_for_margin
 
 // Smallest shift up to `most` with this power; NaN where none has it.
 template <typename PowerOf>
@@ -61,15 +61,17 @@ double SeenMeanShift(const MeanDifference& means, double level, double power) {
 
 std::int64_t TrialsForRate(const RegressionSamples& samples, const RegressionRow& row) {
   if (row.margin >= 1.0) return 1;
-  if (!row.paired) return TrialsForFisherFormula(Moved(samples, row.margin), row.level, kPower);
+  if (!row.paired)
+    return TrialsForFisherFormula(Moved(samples, row.margin), row.level, kNeededPower);
   const double background = std::min(Background(samples), 0.5 * (1.0 - row.margin));
-  return TrialsForMcNemar({background, background + row.margin}, row.level, kPower);
+  return TrialsForMcNemar({background, background + row.margin}, row.level, kNeededPower);
 }
 
 // Also those without which pairs that hardly differ show nothing.
 std::int64_t TrialsForMean(const RegressionSamples& samples, const RegressionRow& row,
                            double equivalence_alpha) {
-  const double ratio = SeenMeanShift(MeansOf(samples, row.paired), row.level, kPower) / row.margin;
+  const double ratio =
+      SeenMeanShift(MeansOf(samples, row.paired), row.level, kNeededPower) / row.margin;
   if (!std::isfinite(ratio)) return 0;
   // The standard error falls with the root of n: n (seen / margin)^2 trials see the margin.
   double needed = static_cast<double>(samples.count()) * ratio * ratio;
@@ -81,6 +83,31 @@ std::int64_t TrialsForMean(const RegressionSamples& samples, const RegressionRow
     needed = std::max(needed, std::log(equivalence_alpha) / std::log1p(-row.margin / spread.range));
   }
   return std::llround(std::min(std::ceil(needed), static_cast<double>(kMaxTrials)));
+}
+
+// Standard deviation between trials, of both sides: root of the mean of their variances.
+double PooledDeviation(const RegressionSamples& samples) {
+  return std::sqrt(0.5 *
+                   (MomentsOf(samples.baseline).variance() + MomentsOf(samples.run).variance()));
+}
+
+void FillMean(const RegressionSamples& samples, double equivalence_alpha, RegressionRow& row) {
+  row.trials_for_margin = TrialsForMean(samples, row, equivalence_alpha);
+  if (!row.paired && samples.count() < kMinValues) return;
+  row.to_see = std::max(row.margin, kShiftThatMatters * PooledDeviation(samples));
+  const Spread spread = SpreadOf(samples);
+  if (row.paired && spread.differing < kMinDiffering) {
+    // Student's law says nothing of so few differences.
+    row.sees_enough = SparseEquivalencePValue(samples.count(), spread.differing, row.to_see,
+                                              spread.range) <= equivalence_alpha;
+    return;
+  }
+  const MeanDifference means = MeansOf(samples, row.paired);
+  // Without scatter the law of the difference is unknown: nothing can be said to be seen.
+  if (means.standard_error == 0.0) return;
+  row.seen_80 = SeenMeanShift(means, row.level, kNeededPower);
+  row.seen_90 = SeenMeanShift(means, row.level, 0.9);
+  row.sees_enough = row.seen_80 <= row.to_see;
 }
 
 }  // namespace
@@ -111,17 +138,16 @@ void RegressionPower::Fill(const RegressionSamples& samples, double equivalence_
                            RegressionRow& row) {
   row.seen_80 = row.seen_90 = kNaN;
   if (samples.empty()) return;
-  if (row.metric->kind == MetricKind::kRate) {
-    row.seen_80 = SeenRateShift(samples, row, 0.8);
-    row.seen_90 = SeenRateShift(samples, row, 0.9);
-    row.trials_for_margin = TrialsForRate(samples, row);
-    return;
-  }
-  row.trials_for_margin = TrialsForMean(samples, row, equivalence_alpha);
-  if (!row.paired && samples.count() < kMinValues) return;
-  const MeanDifference means = MeansOf(samples, row.paired);
-  row.seen_80 = SeenMeanShift(means, row.level, 0.8);
-  row.seen_90 = SeenMeanShift(means, row.level, 0.9);
+  row.metric->kind == MetricKind::kRate ? FillRate(samples, row)
+                                        : FillMean(samples, equivalence_alpha, row);
+}
+
+void RegressionPower::FillRate(const RegressionSamples& samples, RegressionRow& row) {
+  row.to_see = row.margin;
+  row.seen_80 = SeenRateShift(samples, row, kNeededPower);
+  row.seen_90 = SeenRateShift(samples, row, 0.9);
+  row.sees_enough = row.seen_80 <= row.to_see;
+  row.trials_for_margin = TrialsForRate(samples, row);
 }
 
 }  // namespace rockyard::statistics

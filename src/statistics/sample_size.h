@@ -17,10 +17,9 @@ inline constexpr std::int64_t kMaxTrials = 1'000'000'000;
 std::int64_t TrialsForHalfWidth(double rate, double half_width, double confidence,
                                 IntervalMethod method);
 
-// Returns the same where the confidence sequence is looked at every `block` trials and stops: the
-// block end at which its half-width, at the count nearest to `rate`, is small enough. Single
-// campaigns stop some blocks sooner or later.
-std::int64_t TrialsForSequence(double rate, double half_width, double confidence,
+// Returns the same where the half-width ends the trials (IntervalMethod::kStopped), looked at every
+// `block` of them: a block end. Single campaigns stop some blocks sooner or later.
+std::int64_t TrialsForStopping(double rate, double half_width, double confidence,
                                std::int64_t block);
 
 // Returns the number of trials after which at most `failures` failures show, with this confidence,

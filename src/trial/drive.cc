@@ -206,6 +206,7 @@ std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const 
   const Activity activity = ActivityOf(motion, wheel_driver_.steering());
   const bool moving = motion.kind != MotionKind::kStop && !wheel_driver_.steering();
   rolling_ = moving;
+  has_rolled_ = has_rolled_ || moving;
   stops_.Observe(moving);
   ApplyCommand(command, stretch.steps);
   const messages::MotionMeasurement measured = UpdateEstimate(stretch.duration_s, moving);
@@ -267,10 +268,11 @@ void Drive::ObserveErrors() {
 }
 
 void Drive::ReflectAtMirrorLine(int direction) {
-  if (!mirror_ || !mirror_->Reaches(rover_->state().X_WR.translation().y())) return;
+  if (!mirror_ || !has_rolled_ || !mirror_->Reaches(rover_->state().X_WR.translation().y())) return;
   const messages::PoseEstimate before = localizer_.pose();
   const auto reflection = mirror_->Reflect(math::ToPose2(rover_->state().X_WR), direction, before);
   if (!reflection) return;
+  has_rolled_ = false;
   ++reflections_;
   Record("reflection", "");
   rover_->Place(reflection->pose);
@@ -281,6 +283,7 @@ void Drive::ReflectAtMirrorLine(int direction) {
   if (stuck_detector_) stuck_detector_->Restart();
   notices_stuck_ = false;
   monitor_.Restart(rover_->state());
+  referee_.OnReflection(rover_->state(), reflection->line_m);
   navigator_->OnPoseUpdate(before, localizer_.pose());
   RecordRest({}, true);
 }
@@ -308,6 +311,9 @@ DriveResult Drive::Finish(const Verdict& verdict) {
 
   DriveResult result{verdict.outcome, verdict.detail, {}};
   monitor_.Report(result.record);
+  if (truth::DeclaredSuccess(verdict.outcome) && result.record.displacement_m > 0.0) {
+    result.record.path_ratio = result.record.true_distance_m / result.record.displacement_m;
+  }
   ReportGoals(result.record);
   ReportPoses(result.record);
   ReportErrors(result.record);

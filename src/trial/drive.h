@@ -118,6 +118,8 @@ class Drive {
   StepWatcher step_watcher_;
   Percept percept_;       // of the last tick, where it was a look
   bool rolling_ = false;  // in the last stretch
+  // Since operators turned it: they let a rover drive before they turn it again.
+  bool has_rolled_ = true;
   HazardCounter hazards_;
   TurnCounter turns_;
   MoveCounter moves_;

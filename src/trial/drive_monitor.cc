@@ -31,6 +31,7 @@ void DriveMonitor::Restart(const truth::RoverState& state) {
   last_X_WR_ = state.X_WR;
   chord_x_m_ = state.X_WR.translation().x();
   chord_y_m_ = state.X_WR.translation().y();
+  if (!start_m_) start_m_ = {chord_x_m_, chord_y_m_};
   ObserveClearance(state.X_WR);
 }
 
@@ -73,6 +74,11 @@ void DriveMonitor::ObserveClearance(const math::Transform& X_WR) {
 
 void DriveMonitor::Report(truth::DriveRecord& record) const {
   record.true_distance_m = distance_m_ + OpenChord();
+  // Never above the path, whose chords lead from one to the other: a mirror line turns the rover
+  // and leaves it where it is.
+  const auto end = last_X_WR_.translation();
+  const auto [start_x_m, start_y_m] = start_m_.value_or(std::pair(end.x(), end.y()));
+  record.displacement_m = std::hypot(end.x() - start_x_m, end.y() - start_y_m);
   record.turned_in_place_rad = turned_rad_;
   record.max_tilt_deg = math::RadToDeg(std::acos(std::max(-1.0, min_tilt_cosine_)));
   record.max_bogie_deg = math::RadToDeg(max_bogie_rad_);

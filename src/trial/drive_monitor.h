@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <utility>
 
 #include "math/pose.h"
 #include "terrain/terrain.h"
@@ -37,7 +39,7 @@ class DriveMonitor {
   double turned_in_place_rad() const { return turned_rad_; }
   double max_sinkage_m() const { return max_sinkage_m_; }
 
-  // Fills the true path, tilt, articulation and clearance of the record.
+  // Fills the true path and how far it led, tilt, articulation and clearance of the record.
   void Report(truth::DriveRecord& record) const;
 
  private:
@@ -48,6 +50,7 @@ class DriveMonitor {
   std::array<math::Vector3, 9> belly_R_;
   const terrain::Terrain& terrain_;
   math::Transform last_X_WR_ = math::Transform::Identity();
+  std::optional<std::pair<double, double>> start_m_;  // x, y
   double chord_x_m_ = 0.0;
   double chord_y_m_ = 0.0;
   double distance_m_ = 0.0;

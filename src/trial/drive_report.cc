@@ -14,7 +14,6 @@ void Drive::ReportGoals(truth::DriveRecord& record) const {
   const messages::PoseEstimate& estimate = localizer_.pose();
   record.straight_distance_m =
       std::hypot(course.goal_x_m - course.start_x_m, course.goal_y_m - course.start_y_m);
-  record.path_ratio = record.true_distance_m / record.straight_distance_m;
   record.told_goal_x_m = designated_goal_.x_m;
   record.told_goal_y_m = designated_goal_.y_m;
   record.designation_error_m =

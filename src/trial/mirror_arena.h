@@ -14,6 +14,7 @@ namespace rockyard::trial {
 struct Reflection {
   math::Pose2 pose;             // true pose after the operators turned the rover
   messages::PoseUpdate update;  // estimate after its reflection
+  double line_m = 0.0;          // y of the mirror line
 };
 
 class MirrorArena {

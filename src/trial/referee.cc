@@ -95,6 +95,14 @@ void Referee::OpenWindow(const Observation& observation) {
                    .last_X_WR = observation.state.X_WR};
 }
 
+void Referee::OnReflection(const truth::RoverState& state, double line_m) {
+  if (!window_) return;
+  window_->estimate.y_m = 2.0 * line_m - window_->estimate.y_m;
+  window_->pose.heading_rad = -window_->pose.heading_rad;
+  window_->estimate.heading_rad = -window_->estimate.heading_rad;
+  window_->last_X_WR = state.X_WR;
+}
+
 void Referee::AddObeyed(const Observation& observation, Window& window) {
   const math::Transform& X_WR = observation.state.X_WR;
   const math::Vector3 before_W = window.last_X_WR.linear().col(0);

@@ -48,6 +48,11 @@ class Referee {
   // The verdict after a tick, if the trial is over for another reason than the navigator's own.
   std::optional<Verdict> Observe(const Observation& observation, const Ledger& ledger);
 
+  // Operators have turned the rover where it stands and reflected its estimate about the mirror
+  // line y = line_m; `state` is the one after. What they did is no motion of the rover's own:
+  // headings and the estimate of the open window go with it.
+  void OnReflection(const truth::RoverState& state, double line_m);
+
   // The verdict on a navigator that stopped by itself.
   Verdict OnNavigatorStop(navigation::NavigatorStatus status, const truth::RoverState& state) const;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <string_view>
 
 #include "truth/record.h"
@@ -74,8 +75,9 @@ struct DriveRecord {
   double told_goal_y_m = 0.0;
   double designation_error_m = 0.0;       // designated goal to true goal
   double believed_goal_distance_m = 0.0;  // believed final position to the designated goal
-  double path_ratio = 0.0;                // true path over start to goal
-  double stops = 0.0;                     // times that the rover came to rest
+  // True path over displacement_m, of arrivals; NaN of other ends.
+  double path_ratio = std::numeric_limits<double>::quiet_NaN();
+  double stops = 0.0;  // times that the rover came to rest
   double max_rocker_deg = 0.0;
   double max_roll_deg = 0.0;  // absolute, as the two below
   double max_pitch_deg = 0.0;
@@ -91,7 +93,8 @@ struct DriveRecord {
   // Slopes of squared errors against the true distance along the run (trial/error_growth.h).
   double heading_growth_deg2_per_m = 0.0;
   double distance_growth_m2_per_m = 0.0;
-  double hazards_begun = 0.0;  // of hazards_believed, those that the scan before did not see
+  double hazards_begun = 0.0;   // of hazards_believed, those that the scan before did not see
+  double displacement_m = 0.0;  // start to end, true and straight
 };
 
 struct DriveColumn {
@@ -226,10 +229,11 @@ inline constexpr std::array kDriveColumns = {
     DriveColumn{"believed_goal_distance_m", "m",
                 "believed final position to the designated goal; beside true_goal_distance_m",
                 &DriveRecord::believed_goal_distance_m},
-    DriveColumn{"path_ratio", "1",
-                "true path length over the straight way from start to goal; at least about 1 only "
-                "where the goal was reached",
-                &DriveRecord::path_ratio},
+    DriveColumn{
+        "path_ratio", "1",
+        "true path length over displacement_m; 1 or more, and undefined where the rover did "
+        "not declare arrival",
+        &DriveRecord::path_ratio},
     DriveColumn{"stops", "1",
                 "times that the rover came to rest: for a look, to steer at rest, for the overhead "
                 "of a move, or at the end",
@@ -281,6 +285,8 @@ inline constexpr std::array kDriveColumns = {
                 "scans whose hazard was believed after one without: once for each avoidance; 0 "
                 "with a navigator that reports no hazards (a map)",
                 &DriveRecord::hazards_begun},
+    DriveColumn{"displacement_m", "m", "straight distance from the start to the true end",
+                &DriveRecord::displacement_m},
 };
 
 }  // namespace rockyard::truth

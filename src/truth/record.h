@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "truth/record_values.h"
+
 namespace rockyard::truth {
 
 // How a trial ended. Stored by name; append only.
@@ -69,8 +71,8 @@ using RecordSchema = std::vector<ValueInfo>;
 struct Record {
   std::uint64_t trial = 0;
   TrialOutcome outcome = TrialOutcome::kSimulatorFault;
-  std::string detail;          // a sentence for people: why it ended
-  std::vector<double> values;  // as RecordSchema; NaN where undefined; empty for simulator faults
+  std::string detail;   // a sentence for people: why it ended
+  RecordValues values;  // as RecordSchema; NaN where undefined; empty for simulator faults
 };
 
 // The simulator failed, not the rover.

@@ -74,8 +74,12 @@ TEST_F(CliCampaign, StopsByPrecisionAndGoesOnWithTheSameRule) {
   const json stopping = Summary("a")["stopping"];
   EXPECT_EQ(stopping["end"], "precise");
   EXPECT_EQ(stopping["trials"], Summary("a")["accounting"]["planned"]);
-  EXPECT_EQ(stopping["confidence_sequence"][0], 0.0);
-  EXPECT_LE(stopping["confidence_sequence"][1], 0.2);
+  EXPECT_EQ(stopping["interval"][0], 0.0);
+  EXPECT_LE(stopping["interval"][1], 0.2);
+  // One interval for one rate.
+  EXPECT_EQ(Summary("a")["declared_success"]["ci95"], stopping["interval"]);
+  EXPECT_EQ(Summary("a")["declared_success"]["ci_method"], "clopper_pearson_stopped");
+  EXPECT_EQ(Summary("a")["true_success"]["ci_method"], "clopper_pearson_stopped");
   const std::string hash = Summary("a")["trial_hash"];
   EXPECT_EQ(Run(With(words, {"--resume"})).exit_code, 0);
   EXPECT_EQ(Summary("a")["trial_hash"], hash) << "the rule of the store still holds";

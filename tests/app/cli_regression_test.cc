@@ -29,6 +29,12 @@ TEST_F(CliRegression, PlanAnswersInTextAndJson) {
   const CommandResult claim = Run({"plan", "claim", "--below", "0.001", "--json"});
   EXPECT_EQ(claim.exit_code, 0);
   EXPECT_EQ(json::parse(claim.out)["trials"], 2995);
+  EXPECT_EQ(json::parse(claim.out)["rule_of_three"], 3000);
+  // The rule is that of no failure; two of them ask for more than 3 over the rate.
+  const json two =
+      json::parse(Run({"plan", "claim", "--below", "0.001", "--failures", "2", "--json"}).out);
+  EXPECT_GT(two["trials"], 6000);
+  EXPECT_FALSE(two.contains("rule_of_three"));
   const CommandResult difference = Run(
       {"plan", "difference", "--from", "0.85", "--to", "0.75", "--discordant", "0.2", "--json"});
   EXPECT_GE(json::parse(difference.out)["fisher_power"], 0.8);
@@ -77,6 +83,47 @@ TEST_F(CliRegression, AnotherHashOfTheSameBuildIsADifference) {
   baseline["build"] = "another";
   Write(baseline);
   EXPECT_EQ(Run(CheckOf("a")).exit_code, 4) << "four trials of another build tell nothing";
+}
+
+// Records and distribution are two findings: bits may change where nothing else does.
+TEST_F(CliRegression, ChangedRecordsAreAFindingOfTheirOwn) {
+  MakeBaseline(4);
+  const auto told = [&] { return json::parse(Run(With(CheckOf("a"), {"--json"})).out); };
+  EXPECT_EQ(told()["records"], "same");
+  EXPECT_EQ(Run(With(CheckOf("a"), {"--same-records"})).exit_code, 0);
+
+  json baseline = Baseline();
+  baseline["build"] = "another";
+  json& cell = baseline["cells"][0];
+  cell["trial_hash"] = "0000000000000000";
+  Write(baseline);
+  EXPECT_EQ(told()["records"], "changed");
+  EXPECT_EQ(told()["cells"][0]["records"],
+            json::parse(R"({"pairs": 4, "changed": 0, "only_hash": true, "columns": []})"));
+  EXPECT_THAT(Run(CheckOf("a")).out, HasSubstr("another hash"));
+
+  cell["metrics"]["scans"][2] = cell["metrics"]["scans"][2].get<double>() + 1.0;
+  cell["metrics"]["scans"][3] = cell["metrics"]["scans"][3].get<double>() + 1.0;
+  cell["metrics"]["stops"][3] = cell["metrics"]["stops"][3].get<double>() + 1.0;
+  Write(baseline);
+  EXPECT_EQ(told()["cells"][0]["records"],
+            json::parse(R"({"pairs": 4, "changed": 2, "only_hash": false,
+                            "columns": [{"column": "scans", "trials": 2},
+                                        {"column": "stops", "trials": 1}]})"));
+  const CommandResult result = Run(CheckOf("a"));
+  EXPECT_EQ(result.exit_code, 4) << "four trials tell nothing of the distribution";
+  EXPECT_THAT(result.out,
+              AllOf(HasSubstr("records: changed"), HasSubstr("2 of 4 trials: scans 2, stops 1"),
+                    HasSubstr("distribution: inconclusive")));
+  EXPECT_EQ(Run(With(CheckOf("a"), {"--same-records"})).exit_code, 1);
+}
+
+TEST_F(CliRegression, RecordsOfOtherSeedsAreNotComparable) {
+  MakeBaseline(4);
+  ASSERT_EQ(Run(With(QuickRun("other", 4), {"--seed", "77"})).exit_code, 0);
+  const CommandResult result = Run(With(CheckOf("other"), {"--same-records"}));
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_THAT(result.out, HasSubstr("records: not comparable"));
 }
 
 TEST_F(CliRegression, UnknownMetricsAreNotPassedOver) {
@@ -145,7 +192,7 @@ TEST_F(CliRegression, AChangedBuildIsCaught) {
   const std::string root = ROCKYARD_SOURCE_DIR;
   const CommandResult run =
       Run({"sweep", root + "/scenarios/sweeps/regression.json", "--out", "changed", "--quiet",
-           "--set", "sensors.light_stripe.missed_probability=0.05"});
+           "--trials", "100", "--set", "sensors.light_stripe.missed_probability=0.05"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const CommandResult result =
       Run({"check", "changed", "--against", root + "/results/baselines/regression.json",

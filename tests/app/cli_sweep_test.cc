@@ -86,7 +86,7 @@ TEST_F(CliSweep, SaysWhereEachCellStoppedAndWhy) {
     EXPECT_EQ(cell["stopping"]["end"], "precise");
     EXPECT_EQ(cell["stopping"]["trials"], cell["accounting"]["planned"]);
     EXPECT_EQ(cell["accounting"]["pending"], 0);
-    EXPECT_LE(cell["stopping"]["confidence_sequence"][1], 0.3);
+    EXPECT_LE(cell["stopping"]["interval"][1], 0.3);
     planned += cell["accounting"]["planned"].get<std::int64_t>();
   }
   EXPECT_EQ(summary["accounting"]["planned"], planned);

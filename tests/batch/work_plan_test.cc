@@ -7,7 +7,7 @@
 #include <set>
 
 #include "core/random.h"
-#include "statistics/confidence_sequence.h"
+#include "statistics/proportions.h"
 
 namespace rockyard::batch {
 namespace {
@@ -115,7 +115,7 @@ class RulePlan : public testing::TestWithParam<Allocation> {
     options.order = order;
     return options;
   }
-  const std::vector<std::int64_t> planned_{2000, 2000, 2000, 2000, 120};
+  const std::vector<std::int64_t> planned_{2000, 2000, 2000, 2000, 80};
 };
 
 // The same trials run, whoever finishes when.
@@ -129,7 +129,7 @@ TEST_P(RulePlan, DecidesTheSameWhateverTheOrder) {
       EXPECT_EQ(RunPlan(plan, 3 * order, order), expected) << budget << " " << order;
       for (int cell = 0; cell < plan.cells(); ++cell) {
         EXPECT_EQ(plan.state(cell).end, plain.state(cell).end);
-        EXPECT_EQ(plan.state(cell).sequence.low, plain.state(cell).sequence.low);
+        EXPECT_EQ(plan.state(cell).interval.low, plain.state(cell).interval.low);
       }
     }
   }
@@ -182,8 +182,8 @@ TEST_P(RulePlan, DecidesTheSameWhateverIsStoredBeyond) {
     EXPECT_EQ(state.end, plain.state(cell).end);
     EXPECT_EQ(state.asked, plain.state(cell).asked);
     EXPECT_EQ(state.counts.trials, plain.state(cell).counts.trials);
-    EXPECT_EQ(state.sequence.low, plain.state(cell).sequence.low);
-    EXPECT_EQ(state.sequence.high, plain.state(cell).sequence.high);
+    EXPECT_EQ(state.interval.low, plain.state(cell).interval.low);
+    EXPECT_EQ(state.interval.high, plain.state(cell).interval.high);
     EXPECT_EQ(plan.planned(cell), state.asked);
     EXPECT_EQ(plan.finished(cell).trials, state.asked);
     EXPECT_EQ(plan.finished(cell).faults, plain.finished(cell).faults);
@@ -202,7 +202,8 @@ TEST_P(RulePlan, EndsAtTheFirstBlockThatMeetsTheRule) {
     std::int64_t drives = 0;
     for (std::int64_t trial = 0; trial < asked; ++trial) {
       if (trial > 0 && trial % kRule.block == 0) {
-        const auto earlier = statistics::ConfidenceSequence(successes, drives, kRule.confidence);
+        const auto earlier = statistics::ProportionInterval(successes, drives, kRule.confidence,
+                                                            statistics::IntervalMethod::kStopped);
         EXPECT_GT(earlier.high - earlier.low, 2.0 * kRule.half_width) << cell << " " << trial;
       }
       const TrialOutcome outcome = OutcomeOf({cell, trial});
@@ -217,7 +218,7 @@ TEST_P(RulePlan, EndsAtTheFirstBlockThatMeetsTheRule) {
                                         : CellEnd::kPrecise);
   }
   EXPECT_EQ(plan.state(4).end, CellEnd::kPlanned);
-  EXPECT_EQ(plan.state(4).asked, 120) << "the last block is short";
+  EXPECT_EQ(plan.state(4).asked, 80) << "the last block is short";
 }
 
 TEST_P(RulePlan, KeepsTheBudget) {

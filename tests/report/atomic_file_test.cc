@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <stdexcept>
+#include <string>
 
 #include "core/error.h"
 
@@ -12,13 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class AtomicFile : public testing::Test {
+class AtomicFileTest : public testing::Test {
  protected:
-  AtomicFile()
+  AtomicFileTest()
       : folder_(fs::temp_directory_path() / ("rockyard-atomic-" + std::to_string(getpid()))) {
     fs::create_directories(folder_);
   }
-  ~AtomicFile() override { fs::remove_all(folder_); }
+  ~AtomicFileTest() override { fs::remove_all(folder_); }
 
   static std::string Read(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
@@ -31,7 +33,7 @@ class AtomicFile : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(AtomicFile, WritesAndReplaces) {
+TEST_F(AtomicFileTest, WritesAndReplaces) {
   const std::string large(3'000'000, 'x');
   WriteFileAtomically(folder_ / "a", large);
   EXPECT_EQ(Read(folder_ / "a"), large);
@@ -40,7 +42,29 @@ TEST_F(AtomicFile, WritesAndReplaces) {
   EXPECT_EQ(Files(), 1) << "no temporary file stays";
 }
 
-TEST_F(AtomicFile, FailsWithTheNameAndLeavesNothing) {
+// Pieces of a line each, more than are held at once; without Commit, as after an exception, the old
+// file stays.
+TEST_F(AtomicFileTest, WritesPieceByPiece) {
+  const std::string line(999, 'x');
+  std::string all;
+  WriteFileAtomically(folder_ / "a", [&](const TextSink& out) {
+    for (int i = 0; i < 3000; ++i) {
+      out(line + "\n");
+      all += line + "\n";
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "a"));
+  });
+  EXPECT_EQ(Read(folder_ / "a"), all);
+  const auto fails = [&](const TextSink& out) {
+    out(all);
+    throw std::runtime_error("half way");
+  };
+  EXPECT_THROW(WriteFileAtomically(folder_ / "a", fails), std::runtime_error);
+  EXPECT_EQ(Read(folder_ / "a"), all);
+  EXPECT_EQ(Files(), 1) << "no temporary file stays";
+}
+
+TEST_F(AtomicFileTest, FailsWithTheNameAndLeavesNothing) {
   fs::create_directories(folder_ / "taken" / "inside");
   try {
     WriteFileAtomically(folder_ / "taken", "text");

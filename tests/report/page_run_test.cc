@@ -120,10 +120,45 @@ TEST(PageRun, TextsAreTextsWhateverTheyHold) {
   EXPECT_EQ(run["trials"]["columns"][0]["name"], replaced);
 }
 
+std::vector<truth::Record> Plain(std::size_t trials) {
+  std::vector<truth::Record> records(trials);
+  for (std::size_t i = 0; i < trials; ++i) {
+    records[i].trial = 3 * i;  // numbers are no places
+    records[i].outcome = truth::TrialOutcome::kGoalReached;
+    records[i].values = {static_cast<double>(i)};
+  }
+  return records;
+}
+
+// Every k-th for the least k that keeps to the limit, and those that have a name.
+TEST(PageTrials, AreThinnedByPlaceAlone) {
+  EXPECT_EQ(PageTrials(Plain(kMaxPageTrials), {}).size(), kMaxPageTrials);
+  const std::vector<truth::Record> records = Plain(2 * kMaxPageTrials + 1);
+  const std::vector<std::uint64_t> named{3, 9};
+  const std::vector<std::size_t> places = PageTrials(records, named);
+  EXPECT_EQ(places.size(), (2 * kMaxPageTrials + 1 + 2) / 3 + 1) << "place 3 is there already";
+  EXPECT_THAT(std::vector<std::size_t>(places.begin(), places.begin() + 4),
+              ElementsAre(0, 1, 3, 6));
+  EXPECT_TRUE(PageTrials({}, named).empty());
+}
+
+TEST(PageTrials, TheRunTellsHowManyThereAre) {
+  const std::vector<truth::Record> records = Plain(2 * kMaxPageTrials);
+  PageRun run = SamplePageRun(records);
+  run.schema = {{"x", "1", ""}};
+  run.prefix = std::span(records).first(7);
+  const json page = Parsed(run);
+  EXPECT_EQ(page["stored_trials"], 2 * kMaxPageTrials);
+  EXPECT_EQ(page["trials"]["trial"].size(), kMaxPageTrials);
+  EXPECT_EQ(page["prefix_trials"], 7);
+  EXPECT_EQ(page["trials"]["columns"][0]["values"][1], 2.0);
+  EXPECT_EQ(page["summary"]["trials"]["completed"], 7) << "numbers are of all trials";
+}
+
 TEST(PageTrials, AreColumnsOfNumbersWithNullForWhatIsUndefined) {
   std::vector<truth::Record> records = SampleRecords();
   records[1].values[0] = std::numeric_limits<double>::infinity();
-  const json trials = json::parse(PageTrialsJson(SampleSchema(), records));
+  const json trials = json::parse(PageTrialsJson(SampleSchema(), records, PageTrials(records, {})));
   EXPECT_THAT(trials["trial"], ElementsAre(0, 1, 2, 3, 4, 5));
   EXPECT_THAT(trials["outcome_names"], ElementsAre("goal_reached", "false_goal", "no_path",
                                                    "simulator_fault", "time_limit"));
@@ -144,7 +179,8 @@ TEST(PageTrials, NumbersHaveSixSignificantDigits) {
   for (const double value : values) {
     records.push_back({records.size(), truth::TrialOutcome::kNoPath, "", {value}});
   }
-  const json trials = json::parse(PageTrialsJson({{"x", "1", ""}}, records));
+  const json trials =
+      json::parse(PageTrialsJson({{"x", "1", ""}}, records, PageTrials(records, {})));
   const json& read = trials["columns"][0]["values"];
   EXPECT_EQ(read[0], 123457);
   EXPECT_EQ(read[1], -0.333333);
@@ -193,7 +229,7 @@ void ExpectRow(const json& cdf, std::size_t at, const std::vector<double>& row) 
 TEST(PageCdf, HoldsEveryStepOfAShortRun) {
   const std::vector<truth::Record> records = Distances(7);
   const truth::RecordSchema schema{{"true_distance_m", "m", ""}};
-  const auto rows = CsvRows(DistanceCdfCsv(schema, records));
+  const auto rows = CsvRows(WrittenBy(DistanceCdfCsv, schema, records));
   const json cdf = json::parse(PageCdfJson(DistanceSteps(schema, records)));
   ASSERT_EQ(rows.size(), 7u);
   ASSERT_EQ(cdf["ecdf"].size(), 7u);
@@ -223,7 +259,7 @@ TEST(PageCdf, ThinningKeepsBothEndsAndStaysClose) {
       records.push_back(records[1]);
       records.back().trial = records.size() - 1;
     }
-    const auto rows = CsvRows(DistanceCdfCsv(schema, records));
+    const auto rows = CsvRows(WrittenBy(DistanceCdfCsv, schema, records));
     const json cdf = json::parse(PageCdfJson(DistanceSteps(schema, records)));
     const std::size_t kept = cdf["distance_m"].size();
     EXPECT_EQ(rows.size(), static_cast<std::size_t>(count));

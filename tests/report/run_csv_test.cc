@@ -50,7 +50,7 @@ TEST(TrialsCsv, ReadsBackToTheSameRecords) {
   std::vector<truth::Record> records = SampleRecords();
   records[0].values[0] = 0.1 + 0.2;
   records[0].detail = "a, \"b\"\nc";
-  const auto rows = Parse(TrialsCsv(SampleSchema(), records));
+  const auto rows = Parse(WrittenBy(TrialsCsv, SampleSchema(), records));
   ASSERT_EQ(rows.size(), records.size() + 1);
   EXPECT_EQ(rows[0].front(), "trial");
   EXPECT_EQ(rows[0].back(), "detail");
@@ -72,13 +72,13 @@ TEST(TrialsCsv, ReadsBackToTheSameRecords) {
 
 // Ends at 4 (no path), 6 (time limit), 8 and 8 (goal), 9 (believed goal); the fault is left out.
 TEST(DistanceCdfCsv, ByHand) {
-  const auto rows = Parse(DistanceCdfCsv(SampleSchema(), SampleRecords()));
+  const auto rows = Parse(WrittenBy(DistanceCdfCsv, SampleSchema(), SampleRecords()));
   ASSERT_EQ(rows.size(), 5U);
   const double distance[] = {4.0, 6.0, 8.0, 9.0};
   const double ecdf[] = {0.2, 0.4, 0.8, 1.0};
-  // One competing event of five; one of four censored; then two of three, and the last.
-  const double goal[] = {0.0, 0.0, 0.8 * 2.0 / 3.0, 0.8};
-  const double failure[] = {0.2, 0.2, 0.2, 0.2};
+  // Of five: no path and the time limit compete, two arrive, and the last.
+  const double goal[] = {0.0, 0.0, 0.4, 0.6};
+  const double failure[] = {0.2, 0.4, 0.4, 0.4};
   const char* at_risk[] = {"5", "4", "3", "1"};
   for (std::size_t i = 0; i < 4; ++i) {
     const Row& row = rows[i + 1];
@@ -93,8 +93,8 @@ TEST(DistanceCdfCsv, ByHand) {
 }
 
 TEST(DistanceCdfCsv, WithoutDistancesOnlyTheHeader) {
-  EXPECT_EQ(Parse(DistanceCdfCsv({{"speed", "m/s", ""}}, {})).size(), 1U);
-  EXPECT_EQ(Parse(DistanceCdfCsv(SampleSchema(), {})).size(), 1U);
+  EXPECT_EQ(Parse(WrittenBy(DistanceCdfCsv, {{"speed", "m/s", ""}}, {})).size(), 1U);
+  EXPECT_EQ(Parse(WrittenBy(DistanceCdfCsv, SampleSchema(), {})).size(), 1U);
 }
 
 }  // namespace

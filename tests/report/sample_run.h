@@ -2,8 +2,12 @@
 #pragma once
 
 #include <cmath>
+#include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
+#include "report/atomic_file.h"
 #include "report/run_description.h"
 #include "truth/record.h"
 
@@ -11,7 +15,7 @@ namespace rockyard::report {
 
 inline truth::RecordSchema SampleSchema() {
   return {{"true_distance_m", "m", "path"},
-          {"straight_distance_m", "m", "start to goal"},
+          {"displacement_m", "m", "start to end"},
           {"distance_error_percent", "%", "odometer"},
           {"heading_error_deg", "deg", "heading"},
           {"position_error_m", "m", "position"},
@@ -29,6 +33,16 @@ inline std::vector<truth::Record> SampleRecords() {
           {3, TrialOutcome::kSimulatorFault, "blew up", {}},
           {4, TrialOutcome::kTimeLimit, "too long", {6.0, 7.6, 5.0, 6.0, 0.7, 400.0, 4.0, 7.0}},
           {5, TrialOutcome::kGoalReached, "arrived", {8.0, 7.6, 4.0, 3.0, 0.2, 500.0, 5.0, 8.0}}};
+}
+
+// What a writer of pieces wrote.
+inline std::string WrittenBy(void (*write)(const truth::RecordSchema&,
+                                           std::span<const truth::Record>, const TextSink&),
+                             const truth::RecordSchema& schema,
+                             const std::vector<truth::Record>& records) {
+  std::string text;
+  write(schema, records, [&](std::string_view piece) { text += piece; });
+  return text;
 }
 
 inline RunDescription SampleDescription() {

@@ -27,7 +27,7 @@ inline scenario::Sweep TestSweep(std::string_view extra = R"("common_random_numb
 // stuck.
 inline SweepCellTrials Trials(std::int64_t arrived, double distance_m) {
   SweepCellTrials trials;
-  trials.schema = {{"true_distance_m", "m", ""}, {"straight_distance_m", "m", ""}};
+  trials.schema = {{"true_distance_m", "m", ""}, {"displacement_m", "m", ""}};
   trials.planned = kTrials;
   trials.stored = kTrials;
   for (std::int64_t i = 0; i < kTrials; ++i) {

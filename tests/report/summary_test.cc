@@ -8,6 +8,7 @@
 #include "report/summary_text.h"
 #include "sample_run.h"
 #include "statistics/drive_summary.h"
+#include "statistics/metrics.h"
 
 namespace rockyard::report {
 namespace {
@@ -23,7 +24,7 @@ statistics::DriveSummary SampleSummary(IntervalMethod method = IntervalMethod::k
 TEST(SummaryJson, HasEveryMemberOfTheLayout) {
   const json summary =
       json::parse(SummaryJson(SampleDescription(), SampleSummary(), IntervalMethod::kWilson));
-  EXPECT_EQ(summary["schema_version"], 1);
+  EXPECT_EQ(summary["schema_version"], 2);
   EXPECT_EQ(summary["scenario"], "sample");
   EXPECT_EQ(summary["seed"], 9000000000000000001ULL);
   EXPECT_EQ(summary["trials"],
@@ -46,18 +47,60 @@ TEST(SummaryJson, RatesLeaveFaultsOut) {
   EXPECT_EQ(summary["declared_success"]["count"], 3);
   EXPECT_EQ(summary["declared_success"]["trials"], 5);
   EXPECT_DOUBLE_EQ(summary["declared_success"]["rate"], 0.6);
-  // Wilson, 3 of 5, z = 1.95996: (0.6 + z2/10 -+ z sqrt(0.24/5 + z2/100)) / (1 + z2/5).
-  EXPECT_NEAR(summary["declared_success"]["ci95"][0].get<double>(), 0.23072, 1e-5);
-  EXPECT_NEAR(summary["declared_success"]["ci95"][1].get<double>(), 0.88238, 1e-5);
-  EXPECT_EQ(summary["true_success"]["count"], 2);
-}
-
-TEST(SummaryJson, ClopperPearsonOnRequest) {
-  const auto method = IntervalMethod::kClopperPearson;
-  const json summary = json::parse(SummaryJson(SampleDescription(), SampleSummary(method), method));
+  // Few of either kind: exact, whatever is asked for.
   EXPECT_EQ(summary["declared_success"]["ci_method"], "clopper_pearson");
   EXPECT_NEAR(summary["declared_success"]["ci95"][0].get<double>(), 0.14663, 1e-5);
   EXPECT_NEAR(summary["declared_success"]["ci95"][1].get<double>(), 0.94726, 1e-5);
+  EXPECT_EQ(summary["true_success"]["count"], 2);
+}
+
+std::vector<truth::Record> Repeated(int times) {
+  std::vector<truth::Record> records;
+  for (int i = 0; i < times; ++i) {
+    const std::vector<truth::Record> sample = SampleRecords();
+    records.insert(records.end(), sample.begin(), sample.end());
+  }
+  return records;
+}
+
+json SummaryOf(const std::vector<truth::Record>& records, IntervalMethod method) {
+  const auto summary = statistics::Summarize(SampleSchema(), records, 0, method);
+  return json::parse(SummaryJson(SampleDescription(), summary, method));
+}
+
+TEST(SummaryJson, RatesSayHowTheirIntervalsAreMade) {
+  const json wilson = SummaryOf(Repeated(4), IntervalMethod::kWilson);
+  EXPECT_EQ(wilson["declared_success"]["ci_method"], "wilson");
+  EXPECT_EQ(wilson["metrics"]["declared_success"]["ci_method"], "wilson");
+  // Wilson, 12 of 20, z = 1.95996: (0.6 + z2/40 -+ z sqrt(0.24/20 + z2/1600)) / (1 + z2/20).
+  EXPECT_NEAR(wilson["declared_success"]["ci95"][0].get<double>(), 0.38658, 1e-5);
+  EXPECT_NEAR(wilson["declared_success"]["ci95"][1].get<double>(), 0.78119, 1e-5);
+  EXPECT_EQ(wilson["metrics"]["tip_over"]["ci_method"], "clopper_pearson") << "none of 20";
+  const json exact = SummaryOf(Repeated(4), IntervalMethod::kClopperPearson);
+  EXPECT_EQ(exact["declared_success"]["ci_method"], "clopper_pearson");
+  EXPECT_EQ(exact["metrics"]["declared_success"]["ci_method"], "clopper_pearson");
+}
+
+TEST(SummaryJson, MeansHaveAnIntervalOrAReason) {
+  const json few =
+      SummaryOf(SampleRecords(), IntervalMethod::kWilson)["metrics"]["true_distance_m"];
+  EXPECT_EQ(few["ci95"], json({nullptr, nullptr}));
+  EXPECT_TRUE(few["ci_method"].is_null());
+  EXPECT_EQ(few["ci_reason"], "5 trials, needs 30");
+  const json many = SummaryOf(Repeated(8), IntervalMethod::kWilson)["metrics"]["true_distance_m"];
+  EXPECT_EQ(many["ci_method"], "skewed_t");
+  EXPECT_FALSE(many.contains("ci_reason"));
+  EXPECT_LT(many["ci95"][0].get<double>(), many["mean"].get<double>());
+  EXPECT_GT(many["ci95"][1].get<double>(), many["mean"].get<double>());
+  EXPECT_TRUE(many["median_ci95"][0].is_number());
+  EXPECT_EQ(many["share_apart"]["count"], 24);
+  EXPECT_TRUE(many["share_apart"]["ci95"][1].is_number());
+}
+
+TEST(SummaryJson, ModesHaveARangeThatClaimsNothing) {
+  const json many = SummaryOf(Repeated(8), IntervalMethod::kWilson)["distance_m"];
+  EXPECT_THAT(many["mode_method"].get<std::string>(), HasSubstr("no coverage claimed"));
+  EXPECT_TRUE(many["mode_range"][0].is_number());
 }
 
 TEST(SummaryJson, ColumnsByHand) {
@@ -99,12 +142,45 @@ TEST(SummaryText, FitsAndColoursOnRequestOnly) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
   EXPECT_THAT(text, HasSubstr("3 of 5"));
-  EXPECT_THAT(text, HasSubstr("23.1 .. 88.2 %"));
+  EXPECT_THAT(text, HasSubstr("14.7 .. 94.7 %"));
   EXPECT_THAT(text, HasSubstr("1 simulator faults"));
   EXPECT_THAT(text, HasSubstr("1 more finished trials"));
   EXPECT_THAT(text, HasSubstr("0123456789abcdef"));
   EXPECT_EQ(text.find('\x1b'), std::string::npos);
   EXPECT_NE(SummaryText(run, SampleSummary(), TextStyle::kColour).find('\x1b'), std::string::npos);
+}
+
+statistics::MetricSummary Summary(std::string_view metric, const std::vector<double>& values) {
+  return statistics::SummarizeMetric(*statistics::FindMetric(metric), values);
+}
+
+std::string TextOf(const statistics::MetricSummary& metric) {
+  statistics::DriveSummary summary = SampleSummary();
+  summary.metrics = {metric};
+  return SummaryText(SampleDescription(), summary);
+}
+
+TEST(SummaryText, WithoutAnEventThereIsAShareAndNoIntervalOfTheMean) {
+  std::vector<double> scrapes(40, 0.0);
+  const std::string none = TextOf(Summary("scrapes", scrapes));
+  EXPECT_THAT(none,
+              HasSubstr("scrapes                       0.00                      -      0.00"));
+  EXPECT_THAT(none, HasSubstr("no interval of the mean: all are 0\n"));
+  // 1 - 0.025^(1/40).
+  EXPECT_THAT(none, HasSubstr("0 of 40 trials differ from 0, 0.0 .. 8.8 % (exact)"));
+  scrapes[7] = 3.0;
+  EXPECT_THAT(TextOf(Summary("scrapes", scrapes)),
+              HasSubstr("no interval of the mean: 1 trials differ from 0, needs 10"));
+  for (std::size_t i = 0; i < 30; ++i) scrapes[i] = static_cast<double>(i % 7 + 1);
+  const std::string many = TextOf(Summary("scrapes", scrapes));
+  EXPECT_EQ(many.find("no interval"), std::string::npos);
+  EXPECT_EQ(many.find("differ from"), std::string::npos) << "they are no exception";
+  EXPECT_THAT(many, HasSubstr("median"));
+}
+
+TEST(SummaryText, SaysThatModesAreUnsteady) {
+  EXPECT_THAT(SummaryText(SampleDescription(), SampleSummary()),
+              HasSubstr("* half-sample mode: unsteady, no coverage claimed"));
 }
 
 // Numbers as large as any run's, and a name that could break the line or the terminal.

@@ -276,6 +276,56 @@ class LongTests(ScriptTest):
         self.assertEqual(self.calls.read_text(encoding="utf-8"), "")
 
 
+class RegressionStudy(ScriptTest):
+    """With a rockyard whose checks find a change where a setting was changed, and one resampling."""
+
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(ROOT / "scenarios/sweeps", self.root / "scenarios/sweeps")
+        self.fake("build/release/bin/rockyard").write_text("""#!/bin/sh
+echo "rockyard $*" >> "$CALLS"
+case "$*" in
+  sweep*--set*) touch "$(dirname "$CALLS")/changed" ;;
+  sweep*) rm -f "$(dirname "$CALLS")/changed" ;;
+  check*)
+    code=0; verdict=equivalent
+    if [ -e "$(dirname "$CALLS")/changed" ]; then code=1; verdict=changed; fi
+    echo '{"cells": [{"records": {"pairs": 750, "changed": 3}}], "metrics": [{"cell": "cell=nominal",
+      "metric": "true_success", "unit": "1", "family": "primary", "difference": -0.25, "margin": 0.1,
+      "verdict": "'$verdict'"}]}'
+    exit $code ;;
+esac
+""", encoding="utf-8")
+        self.fake("build/release/tests/report/regression_study").write_text("""#!/bin/sh
+echo "study $*" >> "$CALLS"
+cat << END
+study,cell,metric,discordance,campaigns,alarms,alarms_low,alarms_high,found,found_low,found_high,\
+primary_alarms,secondary_alarms,inconclusive
+unchanged: other seeds,,,0,2000,13,0.0035,0.0111,0,0,0.002,9,4,93
+success 0.10 lower,nominal,true_success,0.3,2000,1900,0.94,0.96,1880,0.93,0.95,1890,0,2
+END
+""".replace("\\\n", ""), encoding="utf-8")
+
+    def test_page_says_what_was_found(self):
+        page = self.root / "page.md"
+        result = self.run_script("regression_study.py", "--markdown", page, "--reruns", "2",
+                                 "--repeats", "1", "--pool", "40")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        study = self.called("study")
+        self.assertEqual(len(study), 1)
+        self.assertTrue(study[0].startswith("750 2000 1 "), study)
+        text = page.read_text(encoding="utf-8")
+        self.assertIn("| unchanged | the same | 1 | 1, 0, 0 | 3 of 750 | 0 | 0 |  |", text)
+        self.assertIn("| unchanged | others | 2 | 2, 0, 0 |", text)
+        self.assertIn("| hazard threshold 5 to 6 cm | the same | 1 | 0, 1, 0 | 3 of 750 | 1 | 0 "
+                      "| nominal: true_success -0.25 1 |", text)
+        self.assertIn("| other seeds | 2000 | 0.7 (0.4 .. 1.1) | 9 | 4 | 93 |", text)
+        self.assertIn("| nominal | true_success | 0.3 | 2000 | 94.0 (93.0 .. 95.0) |", text)
+        sweeps = [line for line in self.called("rockyard") if line.startswith("sweep")]
+        self.assertEqual(len(sweeps), 3 + 6 * 2)
+        self.assertIn("--set perception.hazard.neighbour_threshold_m=0.06", "".join(sweeps))
+
+
 class Studies(ScriptTest):
     """With a rockyard that leaves the same three trials in every run folder."""
 

@@ -11,7 +11,7 @@
 #include <numeric>
 
 #include "core/random.h"
-#include "statistics/bootstrap.h"
+#include "percentile_bootstrap.h"
 
 namespace rockyard::statistics {
 namespace {

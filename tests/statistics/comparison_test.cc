@@ -114,6 +114,22 @@ ComparedValue CompareOneValue(const PublishedValue& value, const std::vector<Sce
   return Compare(reference, runs, {.seed = 1, .replicates = 2000}).values[0];
 }
 
+// A mode far from any simulated one is shown, and in no family.
+TEST(Verdicts, ModesAreNotJudged) {
+  const auto trials = SyntheticTrials({}, 5, 300);
+  const std::vector<ScenarioRun> runs = {RunOf("nominal", trials)};
+  PublishedReference reference;
+  reference.values = {Value("mode", StatisticKind::kMode, 40, 99.0, "true_distance_m")};
+  const ComparisonResult result = Compare(reference, runs, {.seed = 1, .replicates = 100});
+  const ComparedValue& mode = result.values[0];
+  EXPECT_EQ(mode.verdict, Verdict::kNotJudged);
+  EXPECT_EQ(result.family, 0U);
+  EXPECT_TRUE(std::isnan(mode.p_value));
+  EXPECT_LT(mode.interval.low, mode.interval.high);
+  EXPECT_NE(mode.remark.find("no coverage claimed"), std::string::npos);
+  EXPECT_EQ(ExitCode(result), 4);
+}
+
 TEST(Rows, MissingRunsColumnsAndTrialsAreNotJudged) {
   const std::vector<truth::Record> none;
   const auto trials = SyntheticTrials({}, 5, 10);
@@ -176,11 +192,11 @@ TEST(Rows, LowerBoundIsGeometry) {
       Value("bound", StatisticKind::kLowerBound, 300, 7.6, "true_distance_m");
   const auto possible = SyntheticTrials({.shortest_m = 7.5}, 5, 300);
   const auto impossible = SyntheticTrials({.shortest_m = 7.3}, 5, 300);
-  EXPECT_EQ(CompareOneValue(value, {RunOf("nominal", possible)}).verdict, Verdict::kAgrees);
+  EXPECT_EQ(CompareOneValue(value, {RunOf("nominal", possible)}).verdict, Verdict::kHolds);
   EXPECT_EQ(CompareOneValue(value, {RunOf("nominal", impossible)}).verdict, Verdict::kDiffers);
   ScenarioRun wide = RunOf("nominal", impossible);
   wide.goal_tolerance_m = 0.5;
-  EXPECT_EQ(CompareOneValue(value, {wide}).verdict, Verdict::kAgrees);
+  EXPECT_EQ(CompareOneValue(value, {wide}).verdict, Verdict::kHolds);
   EXPECT_TRUE(std::isnan(CompareOneValue(value, {wide}).p_value));
 }
 
@@ -227,6 +243,8 @@ TEST(ExitCode, FollowsTheVerdicts) {
   };
   EXPECT_EQ(with({Verdict::kAgrees, Verdict::kNotJudged}), 0);
   EXPECT_EQ(with({Verdict::kAgrees, Verdict::kUnderpowered}), 4);
+  EXPECT_EQ(with({Verdict::kHolds, Verdict::kNotJudged}), 0);
+  EXPECT_EQ(with({Verdict::kHolds, Verdict::kDiffers}), 1);
   EXPECT_EQ(with({Verdict::kUnderpowered, Verdict::kDiffers}), 1);
   EXPECT_EQ(with({Verdict::kNotJudged}), 4);
 }

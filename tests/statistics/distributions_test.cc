@@ -172,6 +172,49 @@ TEST(Modes, FindThePeakAndSurviveSmallSamples) {
   EXPECT_DOUBLE_EQ(HalfSampleMode(std::vector{1.0, 2.0, 3.0}), 2.0);
 }
 
+// Two peaks: blocks of 100 of 1000 values (1000^(2/3)) find one or the other.
+TEST(Modes, RangeBySubsamplingSpansWhereTheModeJumps) {
+  std::vector<double> two_peaks;
+  std::vector<double> one_peak;
+  for (int i = 0; i < 1000; ++i) {
+    const double fraction = std::fmod(i * 0.6180339887498949, 1.0);
+    one_peak.push_back(fraction * fraction * fraction);
+    two_peaks.push_back((i / 100 % 2 == 0 ? 0.0 : 10.0) + 0.1 * fraction * fraction);
+  }
+  const Interval narrow = HalfSampleModeRange(one_peak);
+  EXPECT_LT(narrow.high - narrow.low, 0.1);
+  const Interval wide = HalfSampleModeRange(two_peaks);
+  // A jump of 10 at a tenth of the values, shrunk by 0.1^(1/3).
+  EXPECT_NEAR(wide.high - wide.low, 10.0 * std::cbrt(0.1), 0.5);
+  std::vector<double> few(29, 1.0);
+  EXPECT_TRUE(std::isnan(HalfSampleModeRange(few).low));
+  few.push_back(1.0);
+  EXPECT_EQ(HalfSampleModeRange(few).low, 1.0);
+  EXPECT_EQ(HalfSampleModeRange(few).high, 1.0);
+}
+
+// The last tenth of 100000 values has another mode: only blocks that reach the end can know, and
+// only blocks of no more than 1000 leave one in ten to say so.
+TEST(Modes, RangeBySubsamplingLooksAtAllOfTheValues) {
+  std::vector<double> values;
+  for (int i = 0; i < 100000; ++i) {
+    const double fraction = std::fmod(i * 0.6180339887498949, 1.0);
+    values.push_back((i < 90000 ? 0.0 : 10.0) + 0.1 * fraction * fraction);
+  }
+  const Interval range = HalfSampleModeRange(values);
+  // Below by the jump of 10, shrunk by (1000 / 100000)^(1/3).
+  EXPECT_NEAR(range.low, -10.0 * std::cbrt(0.01), 0.1);
+}
+
+// Values that grow far out on one side: a mode of blocks above that of all puts the law's below.
+TEST(Modes, RangeBySubsamplingMirrorsTheOffsets) {
+  std::vector<double> values(90, 0.0);
+  for (std::size_t i = 0; i < 40; ++i) values[50 + i] = 8.0;
+  const Interval range = HalfSampleModeRange(values);
+  EXPECT_LT(range.low, -4.0);
+  EXPECT_NEAR(range.high, 0.0, 1e-9);
+}
+
 TEST(Holm, HandWorked) {
   const std::vector<double> p = {0.01, 0.04, 0.03, 0.005};
   const std::vector<double> expected = {0.03, 0.06, 0.06, 0.02};

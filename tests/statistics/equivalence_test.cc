@@ -143,6 +143,56 @@ TEST(PairedRates, EquivalenceKeepsItsLevel) {
   EXPECT_GT(ExactPairedSize(100, 0.1, 0.2), 0.03) << "the test rejects at all";
 }
 
+// Which setting is called the second one changes the sign of the difference and nothing else: both
+// margins are held with the same correction.
+TEST(PairedRates, BothMarginsAreHeldAlike) {
+  for (const double margin : {0.05, 0.1, 0.3}) {
+    for (std::int64_t first = 0; first <= 12; ++first) {
+      for (std::int64_t second = 0; second < first; ++second) {
+        const std::int64_t rest = 42 - first - second;
+        const PairedCounts down{.both = rest, .only_first = first, .only_second = second};
+        const PairedCounts up{.both = rest, .only_first = second, .only_second = first};
+        EXPECT_NEAR(EquivalencePValue(down, margin), EquivalencePValue(up, margin), 1e-12)
+            << first << ' ' << second << ' ' << margin;
+      }
+    }
+  }
+}
+
+TEST(UnpairedRates, BothMarginsAreHeldAlike) {
+  for (const double margin : {0.05, 0.1, 0.3}) {
+    for (std::int64_t i = 0; i <= 30; i += 3) {
+      for (std::int64_t j = 0; j <= 40; j += 4) {
+        const ContingencyTable table{i, 30 - i, j, 40 - j};
+        const ContingencyTable swapped{j, 40 - j, i, 30 - i};
+        EXPECT_NEAR(EquivalencePValue(table, margin), EquivalencePValue(swapped, margin), 1e-9)
+            << i << ' ' << j << ' ' << margin;
+      }
+    }
+  }
+}
+
+// With no discordant pair of n the variance at either margin m is n m (1 - m), and the score is
+// (n m - 1/2) over its root: half a pair less than without the correction.
+TEST(PairedRates, CorrectionIsHalfAPairInClosedForm) {
+  for (const double margin : {0.05, 0.1, 0.2}) {
+    const double n = 40.0;
+    const double score = (n * margin - 0.5) / std::sqrt(n * margin * (1.0 - margin));
+    const PairedCounts counts{.both = 25, .neither = 15};
+    EXPECT_NEAR(EquivalencePValue(counts, margin), 0.5 * std::erfc(score / std::sqrt(2.0)), 1e-12);
+  }
+}
+
+// Both groups without a failure have likeliest rates 1 and 1 - m: the score is m less the
+// correction of half a trial of each group, (1 / n_1 + 1 / n_2) / 4, over sqrt(m (1 - m) / n).
+TEST(UnpairedRates, CorrectionIsHalfATrialOfEachGroupInClosedForm) {
+  const double n = 60.0;
+  const double margin = 0.1;
+  const double score = (margin - 0.25 * (2.0 / n)) / std::sqrt(margin * (1.0 - margin) / n);
+  EXPECT_NEAR(EquivalencePValue(ContingencyTable{60, 0, 60, 0}, margin),
+              0.5 * std::erfc(score / std::sqrt(2.0)), 1e-9);
+}
+
 // P(Binomial(n, margin / range) <= differing), by hand.
 TEST(SparseEquivalence, IsABinomialTail) {
   EXPECT_NEAR(SparseEquivalencePValue(10, 0, 1.0, 4.0), std::pow(0.75, 10), 1e-12);
@@ -199,7 +249,7 @@ TEST(SampleSize, OneTrialLessIsNotEnough) {
   EXPECT_LE(half(n), 0.02);
   EXPECT_GT(half(n - 1), 0.02);
   EXPECT_NEAR(static_cast<double>(n), 2401.0, 5.0);
-  EXPECT_EQ(TrialsForSequence(0.5, 0.02, 0.95, 100) % 100, 0);
+  EXPECT_EQ(TrialsForStopping(0.5, 0.02, 0.95, 100) % 100, 0);
 }
 
 TEST(SampleSize, PowersAreReached) {

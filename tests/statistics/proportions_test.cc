@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "oracles.h"
@@ -71,6 +72,34 @@ TEST(ProportionInterval, ExactCoverage) {
   EXPECT_GT(lowest, 0.83);
   // Wilson is no exact interval: somewhere it covers less than it says.
   EXPECT_LT(lowest, 0.95);
+}
+
+// By exact sums, at rates beside the ends of the intervals, where coverage is least.
+TEST(RateMethod, MendsWilsonsIntervalOfRareEvents) {
+  EXPECT_EQ(RateMethod(4, 40, IntervalMethod::kWilson), IntervalMethod::kClopperPearson);
+  EXPECT_EQ(RateMethod(5, 40, IntervalMethod::kWilson), IntervalMethod::kWilson);
+  EXPECT_EQ(RateMethod(36, 40, IntervalMethod::kWilson), IntervalMethod::kClopperPearson);
+  EXPECT_EQ(RateMethod(35, 40, IntervalMethod::kClopperPearson), IntervalMethod::kClopperPearson);
+  for (const std::int64_t n : {20, 40, 100, 300}) {
+    double lowest = 1.0;
+    double wilson = 1.0;
+    for (std::int64_t k = 1; k <= n / 2; ++k) {
+      const double rate = MakeProportion(k, n).interval.low - 1e-9;
+      const CountLaw law = BinomialLaw(n, rate);
+      double covered = 0.0;
+      for (std::int64_t j = 0; j <= n; ++j) {
+        const Interval interval = MakeProportion(j, n).interval;
+        if (interval.low <= rate && rate <= interval.high) {
+          covered += law[static_cast<std::size_t>(j)];
+        }
+      }
+      lowest = std::min(lowest, covered);
+      const double beside = ProportionInterval(k, n).low - 1e-9;
+      wilson = std::min(wilson, Coverage(n, beside, IntervalMethod::kWilson));
+    }
+    EXPECT_GT(lowest, 0.92) << n;
+    EXPECT_LT(wilson, 0.85) << n;
+  }
 }
 
 // Newcombe 1998 (Statistics in Medicine 17, pp. 873-890), table II, method 10, contrasts (a) to

@@ -126,6 +126,25 @@ TEST(ComparisonText, FitsAHundredColumnsAndNamesEveryValue) {
   EXPECT_THAT(text, HasSubstr("no run of level_sand"));
 }
 
+// A difference that one layout for all runs of the set could make is none for certain.
+TEST(ComparisonText, SaysWhereADifferenceRestsOnIndependentLayouts) {
+  const auto text = [](statistics::Verdict verdict, double highest) {
+    ComparisonResult result = CompareSynthetic();
+    result.values[0].verdict = verdict;
+    result.values[0].level = 0.01;
+    result.values[0].one_layout = {{2e-4, highest}, false};
+    // Without the ends of lines.
+    std::istringstream words(ComparisonText(Matthies(), result));
+    std::string line;
+    for (std::string word; words >> word;) line += word + " ";
+    return line;
+  };
+  const auto said = HasSubstr("if they all met one, this says nothing");
+  EXPECT_THAT(text(Verdict::kDiffers, 1.0), said);
+  EXPECT_THAT(text(Verdict::kDiffers, 0.009), testing::Not(said));
+  EXPECT_THAT(text(Verdict::kUnderpowered, 1.0), testing::Not(said));
+}
+
 TEST(ComparisonCsv, HasTheSameNumberOfFieldsInEveryLine) {
   std::istringstream lines(ComparisonCsv(CompareSynthetic()));
   std::string line;

@@ -29,7 +29,7 @@ RegressionRow RateRow(bool paired, const std::vector<double>& baseline,
                       const std::vector<double>& run) {
   const std::vector<BaselineMetric> metrics = {{"declared_success", 0.1, baseline}};
   const RegressionCell cell{.name = "", .paired = paired, .baseline = metrics, .run = {run}};
-  return CheckRegression(std::span(&cell, 1), {.alpha = 0.01 / 34}).rows[0];
+  return CheckRegression(std::span(&cell, 1), {.alpha = 0.01 / 34, .primary_share = 1.0}).rows[0];
 }
 
 // Builds of which a share of the trials, of `seen_80`, flips: caught 80 times of 100, give or take

@@ -102,7 +102,7 @@ TEST(Regression, BothSidesEnterWithEquallyManyValues) {
 }
 
 TEST(Regression, IdenticalRunsAreEquivalentHoweverFew) {
-  const std::vector<BaselineMetric> baseline = {{"max_tilt_deg", 0.5, Normals(1, 5, 5.0)},
+  const std::vector<BaselineMetric> baseline = {{"heading_error_deg", 0.5, Normals(1, 5, 5.0)},
                                                 {"declared_success", 0.1, Coins(1, 5, 0.8)}};
   RegressionCell cell{.name = "",
                       .paired = true,
@@ -132,7 +132,7 @@ TEST(Regression, WhatTheRunLacksIsNotPassedOver) {
   std::vector<double> first = Normals(1, 50, 5.0);
   std::vector<double> second = Normals(1, 50, 5.0);
   for (std::size_t i = 0; i < 50; ++i) (i < 25 ? first : second)[i] = kNaN;
-  EXPECT_EQ(ExitCode(Check(true, {{{"max_tilt_deg", 0.5, first}}}, {second})), 4);
+  EXPECT_EQ(ExitCode(Check(true, {{{"heading_error_deg", 0.5, first}}}, {second})), 4);
 }
 
 // A change that tilts one trial in twenty by 45 degrees moves the mean by more than the margin. It
@@ -166,12 +166,12 @@ TEST(Regression, FewValuesWithoutScatterAreNoChange) {
       Check(false, {{{"max_tilt_deg", 0.5, Ones(30, 30)}}}, {Ones(0, 30)});
   EXPECT_EQ(many.rows[0].verdict, RegressionVerdict::kChanged);
   // All zero, of both: shown only where a change in a twentieth of the trials would have been seen.
-  EXPECT_EQ(ExitCode(Check(false, {{{"scrapes", 0.5, Ones(0, 40)}}}, {Ones(0, 40)})), 4);
-  EXPECT_EQ(ExitCode(Check(false, {{{"scrapes", 0.5, Ones(0, 60)}}}, {Ones(0, 60)})), 0);
+  EXPECT_EQ(ExitCode(Check(false, {{{"heading_error_deg", 0.5, Ones(0, 40)}}}, {Ones(0, 40)})), 4);
+  EXPECT_EQ(ExitCode(Check(false, {{{"heading_error_deg", 0.5, Ones(0, 60)}}}, {Ones(0, 60)})), 0);
 }
 
 TEST(Regression, FewTrialsAreInconclusiveWithExitCodeFour) {
-  const std::vector<BaselineMetric> baseline = {{"max_tilt_deg", 0.5, Normals(1, 5, 5.0)}};
+  const std::vector<BaselineMetric> baseline = {{"heading_error_deg", 0.5, Normals(1, 5, 5.0)}};
   const RegressionResult result = Check(false, baseline, {Normals(2, 5, 5.0)});
   ASSERT_EQ(result.rows.size(), 1u);
   EXPECT_EQ(result.rows[0].verdict, RegressionVerdict::kInconclusive);
@@ -195,6 +195,94 @@ TEST(Regression, PairsNeedAValueOnBothSides) {
   const RegressionResult result = Check(true, baseline, {{1.5, 2.0, kNaN, 4.5, 9.0}});
   EXPECT_EQ(result.rows[0].baseline_count, 2);
   EXPECT_EQ(result.rows[0].run_count, 2);
+}
+
+// The primary family is a list of metrics that exist.
+TEST(RegressionFamilies, ThePrimaryOneHasSuccessDistanceTimeAndErrors) {
+  std::vector<std::string_view> primary;
+  for (const Metric& metric : Metrics()) {
+    if (IsPrimary(metric)) primary.push_back(metric.name);
+  }
+  EXPECT_EQ(primary, (std::vector<std::string_view>{
+                         "declared_success", "true_success", "true_distance_m", "active_time_s",
+                         "distance_error_percent", "heading_error_deg", "position_error_m"}));
+}
+
+// A primary metric beside 19 secondary ones is held against the primary part of alpha, whatever the
+// others say, and a secondary one against a nineteenth of its family's part.
+TEST(RegressionFamilies, EachHasItsOwnLevel) {
+  std::vector<BaselineMetric> baseline = {{"declared_success", 0.1, Ones(50, 100)}};
+  std::vector<std::vector<double>> run = {Ones(50, 100)};
+  for (const Metric& metric : Metrics()) {
+    if (IsPrimary(metric) || metric.kind != MetricKind::kMean || run.size() > 19) continue;
+    baseline.push_back({std::string(metric.name), 0.8, Normals(7, 100, 5.0)});
+    run.push_back(Normals(8, 100, 5.0));
+  }
+  ASSERT_EQ(run.size(), 20u);
+  const RegressionResult result = Check(false, baseline, run);
+  for (const RegressionRow& row : result.rows) {
+    EXPECT_DOUBLE_EQ(row.level, row.primary ? 0.008 : 0.002 / 19) << row.metric->name;
+  }
+  // Without families success would be one of 20.
+  EXPECT_GT(result.rows[0].level, 0.01 / 20);
+}
+
+// What is undecided in the secondary family leaves the check decided; a change there does not.
+TEST(RegressionFamilies, SecondaryMetricsDecideByAChangeOnly) {
+  const std::vector<double> few = Normals(1, 100, 5.0);
+  const auto check = [&](double moved, const char* name) {
+    std::vector<double> run = Normals(2, 100, 5.0 + moved);
+    return Check(false, {{name, 1e-3, few}, {"declared_success", 0.3, Ones(50, 100)}},
+                 {run, Ones(50, 100)});
+  };
+  const RegressionResult wide = check(0.3, "max_tilt_deg");
+  EXPECT_EQ(wide.rows[0].verdict, RegressionVerdict::kInconclusive);
+  EXPECT_EQ(wide.Count(RegressionVerdict::kInconclusive, false), 1);
+  EXPECT_EQ(ExitCode(wide), 0);
+  EXPECT_EQ(ExitCode(check(0.3, "heading_error_deg")), 4) << "the control";
+  EXPECT_EQ(ExitCode(check(3.0, "max_tilt_deg")), 1);
+}
+
+// 100 coins against 100 are not shown to be equivalent within 0.3, but a shift of 0.3 would have
+// been seen; one of 0.2 would not.
+TEST(RegressionFamilies, NoneSeenIsForWhatWouldHaveBeenSeen) {
+  const auto verdict = [](double margin) {
+    const RegressionResult result =
+        Check(false, {{"declared_success", margin, Ones(50, 100)}}, {Ones(33, 100)});
+    EXPECT_EQ(result.rows[0].to_see, margin);
+    EXPECT_EQ(result.rows[0].verdict == RegressionVerdict::kNoneSeen,
+              result.rows[0].seen_80 <= margin)
+        << result.rows[0].seen_80;
+    return result.rows[0].verdict;
+  };
+  EXPECT_EQ(verdict(0.27), RegressionVerdict::kNoneSeen);
+  EXPECT_EQ(verdict(0.2), RegressionVerdict::kInconclusive);
+}
+
+// Of a mean what matters is its margin, and half a standard deviation where that is more.
+TEST(RegressionFamilies, AMeanIsHeldAgainstItsScatter) {
+  const auto row = [](std::size_t n, double margin) {
+    return Check(false, {{"heading_error_deg", margin, Normals(1, n, 5.0)}}, {Normals(2, n, 5.0)})
+        .rows[0];
+  };
+  EXPECT_NEAR(row(200, 0.01).to_see, 0.5, 0.06);
+  EXPECT_EQ(row(200, 0.01).verdict, RegressionVerdict::kNoneSeen);
+  EXPECT_EQ(row(60, 0.01).verdict, RegressionVerdict::kInconclusive) << "the control";
+  EXPECT_EQ(row(200, 0.9).to_see, 0.9);
+}
+
+// Of 400 pairs 10 differ: Student's law says nothing of them, but so few cannot hide half a
+// standard deviation. Of 40 pairs 1 could.
+TEST(RegressionFamilies, FewDifferingPairsAreNoneSeenWhereTheirNumberExcludesAChange) {
+  const auto row = [](std::size_t n) {
+    const std::vector<double> baseline = Normals(1, n, 5.0);
+    std::vector<double> run = baseline;
+    for (std::size_t i = 0; i < n; i += 40) run[i] += i % 80 == 0 ? 0.5 : -0.5;
+    return Check(true, {{"heading_error_deg", 1e-3, baseline}}, {run}).rows[0];
+  };
+  EXPECT_EQ(row(400).verdict, RegressionVerdict::kNoneSeen);
+  EXPECT_TRUE(std::isnan(row(400).seen_80));
+  EXPECT_EQ(row(40).verdict, RegressionVerdict::kInconclusive) << "the control";
 }
 
 TEST(Regression, NothingToCompareIsInconclusive) {

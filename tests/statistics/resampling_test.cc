@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -10,7 +9,6 @@
 
 #include "core/distributions.h"
 #include "core/random.h"
-#include "statistics/bootstrap.h"
 #include "statistics/exponential_tail.h"
 #include "statistics/kolmogorov.h"
 #include "statistics/modes.h"
@@ -36,62 +34,6 @@ std::vector<double> Normals(std::uint32_t set, std::size_t n, double mean) {
 }
 
 double MeanOf(std::span<const double> x) { return MomentsOf(x).mean(); }
-
-TEST(Bootstrap, IntervalOfTheMeanIsCalibrated) {
-  constexpr int kSets = 500;
-  int covered = 0;
-  int wrong_covered = 0;
-  for (std::uint32_t set = 0; set < kSets; ++set) {
-    const Interval i = BootstrapInterval(Normals(set, 50, 0.0), MeanOf, set, 0.95, 400);
-    covered += i.low <= 0.0 && 0.0 <= i.high ? 1 : 0;
-    wrong_covered += i.low <= 0.5 && 0.5 <= i.high ? 1 : 0;
-  }
-  // 95 % less the known shortfall of percentile intervals at n = 50, give or take 4 sigma.
-  EXPECT_GT(covered, 0.90 * kSets);
-  EXPECT_LT(covered, 0.98 * kSets);
-  EXPECT_LT(wrong_covered, 0.2 * kSets);
-}
-
-TEST(Bootstrap, IsReproducibleAndEmptySafe) {
-  const auto sample = Normals(0, 30, 0.0);
-  const Interval a = BootstrapInterval(sample, MeanOf, 5);
-  const Interval b = BootstrapInterval(sample, MeanOf, 5);
-  EXPECT_EQ(a.low, b.low);
-  EXPECT_NE(a.low, BootstrapInterval(sample, MeanOf, 6).low);
-  EXPECT_TRUE(std::isnan(BootstrapInterval({}, MeanOf, 5).low));
-}
-
-// The plain way is the reference: equal bits, whatever shares the draws. Number of replicates that
-// leaves a block unfilled.
-TEST(Bootstrap, MeansOfManySamplesAreThoseOfEachAlone) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> with_gaps = Normals(4, 61, 1.0);
-  with_gaps[7] = kNaN;
-  with_gaps[20] = std::numeric_limits<double>::infinity();
-  std::vector<double> mostly_zero(60, 0.0);
-  mostly_zero[59] = -2.5;
-  const std::vector<std::vector<double>> samples = {Normals(1, 60, 0.0),
-                                                    Exponentials(2, 60, 3.0),
-                                                    {},
-                                                    with_gaps,
-                                                    mostly_zero,
-                                                    Normals(3, 7, 0.0),
-                                                    {-0.0, 0.0},
-                                                    std::vector<double>(9, 0.1),
-                                                    {kNaN},
-                                                    {4.0}};
-  const std::vector<Interval> all = BootstrapMeanIntervals(samples, 5, 0.9, 203);
-  ASSERT_EQ(all.size(), samples.size());
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const Interval alone = BootstrapInterval(samples[i], MeanOf, 5, 0.9, 203);
-    EXPECT_EQ(std::bit_cast<std::uint64_t>(all[i].low), std::bit_cast<std::uint64_t>(alone.low))
-        << i << ": " << all[i].low << " is not " << alone.low;
-    EXPECT_EQ(std::bit_cast<std::uint64_t>(all[i].high), std::bit_cast<std::uint64_t>(alone.high))
-        << i << ": " << all[i].high << " is not " << alone.high;
-  }
-  EXPECT_LT(all[0].low, all[0].high);
-  EXPECT_NE(all[0].low, BootstrapMeanIntervals(samples, 6, 0.9, 203)[0].low);
-}
 
 // Uniform p-values under the null: Kolmogorov test at alpha = 0.01 over the p-values.
 TEST(ExponentialTail, PValuesAreUniformForShiftedExponentialsOfAnyScale) {

@@ -28,7 +28,7 @@ TEST(HazardReference, ItsArithmeticAgrees) {
   std::set<std::string> computed;
   for (const statistics::ComparedValue& value : result.values) {
     if (value.published.statistic == StatisticKind::kComputed) {
-      EXPECT_EQ(value.verdict, Verdict::kAgrees) << value.published.id;
+      EXPECT_EQ(value.verdict, Verdict::kHolds) << value.published.id;
       computed.insert(value.published.id);
     } else {
       EXPECT_EQ(value.verdict, Verdict::kNotJudged) << value.published.id;
@@ -49,7 +49,7 @@ TEST(MissionReference, ItsArithmeticAgreesButForTheContradictionOfThePaper) {
   for (const statistics::ComparedValue& value : result.values) {
     EXPECT_EQ(value.published.statistic, StatisticKind::kComputed) << value.published.id;
     const bool contradicts_itself = value.published.id == "power.table1_lasers";
-    EXPECT_EQ(value.verdict, contradicts_itself ? Verdict::kDiffers : Verdict::kAgrees)
+    EXPECT_EQ(value.verdict, contradicts_itself ? Verdict::kDiffers : Verdict::kHolds)
         << value.published.id;
     // A tolerance that holds the published number itself.
     EXPECT_GE(value.published.value, value.published.low) << value.published.id;

@@ -22,8 +22,7 @@ truth::Record MakeRecord(TrialOutcome outcome, std::vector<double> values) {
   return record;
 }
 
-const truth::RecordSchema kSchema = {{"true_distance_m", "m", ""},
-                                     {"straight_distance_m", "m", ""}};
+const truth::RecordSchema kSchema = {{"true_distance_m", "m", ""}, {"displacement_m", "m", ""}};
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(DriveSummary, HandWorked) {
@@ -148,7 +147,26 @@ TEST(CumulativeIncidence, BandCoversTheTruthUnderCensoringAndNaiveCountingDoesNo
   EXPECT_LT(naive_covered / static_cast<double>(kSets), 0.5);
 }
 
-TEST(GoalDurations, OnlyAdministrativeStopsAreCensored) {
+// A time limit ends who has not arrived: left out of those at risk, it would lift the curve above
+// the success rate.
+TEST(CumulativeIncidence, EndsAtTheSuccessRateWhereTimeLimitsEndTrials) {
+  std::vector<truth::Record> records = SyntheticTrials({.success_rate = 0.8}, 12, 150);
+  for (std::size_t i = 0; i < records.size(); i += 4) records[i].outcome = TrialOutcome::kTimeLimit;
+  const DriveSummary summary = Summarize(SyntheticSchema(), records);
+  std::vector<Duration> durations = GoalDurations(records, 0);
+  const IncidenceStep end = CumulativeIncidence(durations).back();
+  EXPECT_EQ(end.event, summary.declared_success.rate);
+  EXPECT_EQ(end.event + end.competing, 1.0);
+  const Interval exact = ProportionInterval(summary.declared_success.count, 150, kConfidence,
+                                            IntervalMethod::kClopperPearson);
+  EXPECT_EQ(end.band.low, exact.low);
+  EXPECT_EQ(end.band.high, exact.high);
+  EXPECT_NEAR(end.standard_error, std::sqrt(end.event * end.competing / 150.0), 1e-12);
+  for (std::size_t i = 0; i < records.size(); i += 4) durations[i].kind = EndKind::kCensored;
+  EXPECT_GT(CumulativeIncidence(durations).back().event, end.event + 0.1);
+}
+
+TEST(GoalDurations, WhatDoesNotArriveCompetes) {
   const std::vector<truth::Record> records = {
       MakeRecord(TrialOutcome::kGoalReached, {8.0}), MakeRecord(TrialOutcome::kFalseGoal, {7.0}),
       MakeRecord(TrialOutcome::kTimeLimit, {30.0}), MakeRecord(TrialOutcome::kJammed, {2.0}),
@@ -156,7 +174,7 @@ TEST(GoalDurations, OnlyAdministrativeStopsAreCensored) {
   const auto declared = GoalDurations(records, 0);
   ASSERT_EQ(declared.size(), 4u);
   EXPECT_EQ(declared[1].kind, EndKind::kEvent);
-  EXPECT_EQ(declared[2].kind, EndKind::kCensored);
+  EXPECT_EQ(declared[2].kind, EndKind::kCompeting);
   EXPECT_EQ(declared[3].kind, EndKind::kCompeting);
   EXPECT_EQ(GoalDurations(records, 0, Success::kTrue)[1].kind, EndKind::kCompeting);
 }

@@ -32,6 +32,29 @@ TEST(ClosedLoopTest, PerfectLocalizationNeverArrivesBeforeTheGoal) {
   EXPECT_GT(arrived, 20);
 }
 
+// However short of the goal a rover stops that believes to be there, and however often it was
+// turned at a mirror line: a path is no shorter than the straight way to its end.
+TEST(ClosedLoopTest, PathRatioOfArrivalsIsAtLeastOne) {
+  int short_of_goal = 0;
+  int reflected = 0;
+  for (const DriveResult& result :
+       RunTrials(Pathfinder("nominal", {"rover.fidelity=quasi_static"}), 60)) {
+    const truth::DriveRecord& record = result.record;
+    EXPECT_GE(record.true_distance_m, record.displacement_m - 1e-9);
+    EXPECT_NEAR(record.displacement_m, std::hypot(record.final_x_m, record.final_y_m), 0.01);
+    if (!truth::DeclaredSuccess(result.outcome)) {
+      EXPECT_TRUE(std::isnan(record.path_ratio));
+      continue;
+    }
+    EXPECT_EQ(record.path_ratio, record.true_distance_m / record.displacement_m);
+    EXPECT_GE(record.path_ratio, 1.0 - 1e-9);
+    short_of_goal += record.true_distance_m < record.straight_distance_m ? 1 : 0;
+    reflected += record.reflections > 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(short_of_goal, 3) << "the ratio to the goal was below 1";
+  EXPECT_GT(reflected, 3);
+}
+
 TEST(ClosedLoopTest, OtherNavigatorsMeetTheSameRocks) {
   const DriveParams first = Pathfinder("nominal");
   const DriveParams second =
@@ -304,6 +327,31 @@ TEST(MirrorLine, OnlyADrivingRoverIsReflected) {
     }
   }
   EXPECT_GT(reflections, 0);
+}
+
+// In this trial the rover comes to rest on a rock at the line, steers, and slides back to the
+// heading from which it was turned. Turned at every tick it could never finish steering, nor the
+// trial end.
+TEST(MirrorLine, ARoverThatWasTurnedDrivesBeforeItIsTurnedAgain) {
+  const auto [result, trace] =
+      RunTraced(Pathfinder("vl2", {"rover.fidelity=quasi_static"}), 1, 778);
+  EXPECT_EQ(result.outcome, truth::TrialOutcome::kNoPath);
+  std::optional<double> last_s;
+  int pairs = 0;
+  for (const truth::TraceEvent& event : trace.events) {
+    if (event.kind != "reflection") continue;
+    if (last_s) {
+      ++pairs;
+      EXPECT_TRUE(std::any_of(trace.samples.begin(), trace.samples.end(),
+                              [&](const auto& sample) {
+                                return sample.activity == "drive" && sample.time_s > *last_s &&
+                                       sample.time_s <= event.time_s;
+                              }))
+          << "between " << *last_s << " s and " << event.time_s << " s";
+    }
+    last_s = event.time_s;
+  }
+  EXPECT_GT(pairs, 10);
 }
 
 }  // namespace

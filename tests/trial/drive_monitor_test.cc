@@ -60,6 +60,17 @@ TEST_F(DriveMonitorTest, JitterIsNoTravelAndAHandIsNone) {
   EXPECT_NEAR(Report().true_distance_m, 0.0, 1e-12);
 }
 
+// Two legs of 3 and 4 m lead 5 m away; a hand that turns the rover on the way changes nothing.
+TEST_F(DriveMonitorTest, DisplacementIsStraightFromTheFirstStart) {
+  monitor_.Restart(At(1.0, 1.0));
+  EXPECT_EQ(Report().displacement_m, 0.0);
+  for (int i = 1; i <= 300; ++i) monitor_.Observe(At(1.0 + 0.01 * i, 1.0), false);
+  monitor_.Restart(At(4.0, 1.0, 1.5));
+  for (int i = 1; i <= 400; ++i) monitor_.Observe(At(4.0, 1.0 + 0.01 * i), false);
+  EXPECT_NEAR(Report().displacement_m, 5.0, 1e-12);
+  EXPECT_NEAR(Report().true_distance_m, 7.0, 1e-9);
+}
+
 TEST_F(DriveMonitorTest, CountsTurnsInPlaceOnlyAndBothWays) {
   monitor_.Restart(At(0.0, 0.0, 3.1));
   monitor_.Observe(At(0.0, 0.0, 3.2), true);  // across half a turn

@@ -35,9 +35,11 @@ TEST(MirrorArenaTest, DrivingBackwardsIsOutwardByTheTail) {
   const auto left = kArena.Reflect({3.0, 1.12, -0.4}, -1, {});
   ASSERT_TRUE(left.has_value());
   EXPECT_DOUBLE_EQ(left->pose.heading_rad, 0.4);
+  EXPECT_DOUBLE_EQ(left->line_m, 1.1);
   const auto right = kArena.Reflect({3.0, -1.12, 0.4}, -1, {});
   ASSERT_TRUE(right.has_value());
   EXPECT_DOUBLE_EQ(right->pose.heading_rad, -0.4);
+  EXPECT_DOUBLE_EQ(right->line_m, -1.1);
 }
 
 // The reflection turns an error into its mirror image: it neither hides nor adds any.

@@ -175,6 +175,39 @@ TEST_F(RefereeTest, PatienceNearTheGoalIsThatOfAnyPlace) {
   EXPECT_GT(distance_m_ - before_m, params_.no_path_distance_m - params_.no_path_progress_m - 0.01);
 }
 
+// A rover that stands at a mirror line, told to drive out over it, and turned by hand every 3 s.
+class TurnedByHandTest : public RefereeTest {
+ protected:
+  std::optional<Verdict> Stand(bool tells) {
+    constexpr double kLine_m = 1.1;
+    params_.spinning_wheels = SpinningWheels::kDriveOn;
+    referee_ = Referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0}, kWheelRadius_m);
+    MoveTo(3.0, kLine_m + 0.01);
+    estimate_ = {3.2, 1.4, 0.6};
+    double heading_rad = 0.5;
+    int ticks = 0;
+    return Run(15.0, [&] {
+      TurnTo(heading_rad);
+      if (++ticks % 60 != 0) return;
+      heading_rad = -heading_rad;
+      TurnTo(heading_rad);
+      estimate_.y_m = 2.0 * kLine_m - estimate_.y_m;
+      estimate_.heading_rad = -estimate_.heading_rad;
+      if (tells) referee_.OnReflection(state_, kLine_m);
+    });
+  }
+};
+
+TEST_F(TurnedByHandTest, HasNotMovedByItself) {
+  const auto verdict = Stand(true);
+  ASSERT_TRUE(verdict.has_value());
+  EXPECT_EQ(verdict->outcome, TrialOutcome::kJammed);
+}
+
+TEST_F(TurnedByHandTest, AndLooksMovedToARefereeWhoIsNotTold) {
+  EXPECT_FALSE(Stand(false).has_value());
+}
+
 TEST_F(RefereeTest, ScanningIsNotStandingStill) {
   EXPECT_FALSE(Run(
       600.0, [] {}, Activity::kScanning));

@@ -48,7 +48,8 @@ test("the headline is that of summary.json", async () => {
   const ends = await page.locator("#headline [data-low]").evaluateAll((all) =>
     all.map(({ dataset }) => [Number(dataset.low), Number(dataset.high)]));
   assert.deepEqual(ends, [declared.ci95, truly.ci95]);
-  assert.match(await page.locator("#headline").innerText(), /Wilson/);
+  const method = { wilson: /Wilson/, clopper_pearson: /Clopper-Pearson/ }[declared.ci_method];
+  assert.match(await page.locator("#headline").innerText(), method);
   await page.close();
 });
 

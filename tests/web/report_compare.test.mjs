@@ -95,10 +95,19 @@ test("two samples that are not in pairs are not called pairs, and have both numb
   await paired.page.close();
 });
 
+test("means without intervals are not drawn, and it says so", async () => {
+  const { page } = await open("two.html");
+  assert.equal(await page.locator("#forest-columns-0").count(), 0);
+  assert.match(await page.locator("#comparison").innerText(), /No difference of means is drawn.*too few for one/);
+  await page.close();
+});
+
 test("differences of rates are points, and a column that was zero at first is named", async () => {
   withPayload(at("two.html"), at("zero.html"), ({ comparisons: [of] }) => {
     Object.assign(of.successes[0], { first: 0.625, second: 0.975, difference: 0.35, low: 0.1, high: 0.6 });
     const scrapes = of.columns.find((row) => row.name === "scrapes" && row.trials === "all");
+    // So few pairs give no mean an interval, and without one nothing is drawn.
+    of.columns.forEach((row) => Object.assign(row, { low: row.difference - 1, high: row.difference + 1 }));
     Object.assign(scrapes, { first: 0, second: 3, difference: 3, low: 2, high: 4 });
   });
   const { page } = await open("zero.html");

@@ -73,14 +73,17 @@ test("a run that was stopped by its rate has the interval that allows for it", a
   withPayload(at("report.html"), at("until.html"), ({ runs: [{ summary }] }) => {
     summary.stopping = {
       rule: "until_half_width", half_width: 0.2, max_trials: 10000, block: 20, confidence: 0.95, end: "precise", trials: 60,
-      declared_success: { count: 39, trials: 60 }, confidence_sequence: [0.441, 0.825],
+      declared_success: { count: 39, trials: 60 }, interval: [0.441, 0.825],
     };
+    summary.declared_success.ci95 = [0.441, 0.825];
+    summary.declared_success.ci_method = "clopper_pearson_stopped";
   });
   const { page } = await open("until.html");
   const declared = page.locator("#headline [data-low]").first();
   assert.deepEqual(await declared.evaluate(({ dataset }) => [dataset.low, dataset.high]), ["0.441", "0.825"]);
   const text = await page.locator("#headline").innerText();
-  assert.match(text, /44\.1 to 82\.5\s%\s+Wilson: /);
+  assert.equal(text.match(/\d to \d+\.\d\s%/g).length, 2, "one interval for each of the two rates");
+  assert.match(text, /Clopper-Pearson, for trials that their half-width ends/);
   assert.match(text, /looked at every 20 trials.*precise enough after 60/);
   await page.close();
 });

@@ -28,9 +28,11 @@ export interface Run {
   kind: "drive" | "measurement";
   /** summary.json, as it is. */
   summary: Record<string, any>;
-  /** Exact in trials.csv; here 6 significant digits. */
+  /** Exact in trials.csv; here 6 significant digits, and of more than 20 000 trials every k-th and those with a replay. */
   trials: TrialTable;
-  /** So many trials at the beginning of the table are in every rate, mean and curve of the run: those before the first that is not stored. */
+  /** Finished trials: more than `trials` has where that is thinned. All of them are in summary, cdf and published. */
+  stored_trials: number;
+  /** The trials below this number are in every rate, mean and curve of the run: those before the first that is not stored. */
   prefix_trials: number;
   /** Trials share layouts of rocks: they are not independent, and intervals that take them so are too narrow. */
   shared_layouts: boolean;

@@ -1,6 +1,6 @@
 // Runs that were ended by looking at their rate: rule, end and the interval that allows for it.
 
-import { number, percent, percentInterval } from "../shared/format";
+import { number, percent } from "../shared/format";
 import type { Run } from "./payload";
 
 /** As in summary.json. */
@@ -12,8 +12,8 @@ export interface Stopping {
   end: string;
   trials: number;
   declared_success: { count: number; trials: number };
-  /** Of declared success at the last look, valid at any look (Howard et al. 2021). */
-  confidence_sequence: [number, number];
+  /** Of declared success at the last look. */
+  interval: [number, number];
 }
 
 const ENDS: Record<string, string> = {
@@ -31,8 +31,8 @@ export function stoppingText(of: Stopping): string {
   const { count, trials } = of.declared_success;
   return (
     `Run until the interval of declared success was as narrow as ± ${percent(of.half_width)}, looked at every ${number(of.block)} trials, ` +
-    `${number(of.max_trials)} at most: ${ENDS[of.end] ?? "not yet precise enough"} after ${number(of.trials)}. At the last look ` +
-    `${number(count)} of ${number(trials)} were successful: ${percentInterval(...of.confidence_sequence)} (${percent(of.confidence, 0)}, valid at any look). ` +
-    "All other intervals on this page take the number of trials as fixed beforehand, which it was not."
+    `${number(of.max_trials)} at most: ${ENDS[of.end] ?? "not yet precise enough"} after ${number(of.trials)}, of which ` +
+    `${number(count)} of ${number(trials)} were successful. Intervals of both success rates allow for that rule; ` +
+    "all others on this page take the number of trials as fixed beforehand, which it was not."
   );
 }

@@ -1,7 +1,7 @@
 // Trials of all runs as rows of one table.
 
 import type { Run } from "./payload";
-import { ratedTrials } from "./prefix";
+import { ratedRows } from "./prefix";
 
 export interface TrialRow {
   run: string;
@@ -44,7 +44,7 @@ const NOT_IN_RATES = "not in the rates";
 
 function rowsOfRun(run: Run, of: number): TrialRow[] {
   const { trial, outcome, outcome_names, detail, detail_texts, columns } = run.trials;
-  const rated = ratedTrials(run);
+  const rated = ratedRows(run);
   return trial.map((number, i) => {
     const row: TrialRow = {
       run: run.label,

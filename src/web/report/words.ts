@@ -36,6 +36,7 @@ export function unitText(unit: string): string {
 const METHODS: Record<string, string> = {
   wilson: "Wilson",
   clopper_pearson: "Clopper-Pearson",
+  clopper_pearson_stopped: "Clopper-Pearson, for trials that their half-width ends",
 };
 
 export function methodName(method: unknown): string {
@@ -54,7 +55,8 @@ export interface VerdictWords {
 
 const VERDICTS: Record<string, VerdictWords> = {
   agrees: { mark: "✓", tone: "good", meaning: "not rejected, and enough published runs to have noticed a difference" },
-  differs: { mark: "✗", tone: "bad", meaning: "the simulation and the published runs do not follow one law" },
+  holds: { mark: "=", tone: "none", meaning: "a bound or arithmetic that any simulation meets: it says nothing of this one" },
+  differs: { mark: "✗", tone: "bad", meaning: "the simulation and the published runs do not follow one law; of counts, if their rock layouts are independent" },
   underpowered: { mark: "?", tone: "unsure", meaning: "not rejected, but too few published runs to tell" },
   "not judged": { mark: "·", tone: "none", meaning: "no number to judge by, or no simulated trials" },
 };
@@ -62,7 +64,7 @@ const VERDICTS: Record<string, VerdictWords> = {
 // Measured numbers are judged by a tolerance, not by a test.
 const BY_TOLERANCE: Record<string, string> = {
   agrees: "the interval of the simulated value lies inside of the tolerance of the published one",
-  differs: "the interval lies apart from the tolerance",
+  differs: "the simulated or computed value lies apart from the tolerance",
   underpowered: "the interval lies across an end of the tolerance: too few trials to tell",
 };
 

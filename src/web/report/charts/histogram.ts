@@ -5,7 +5,7 @@ import * as Plot from "@observablehq/plot";
 import { isNumber, number } from "../../shared/format";
 import { numeric, rowHeader, table } from "../../shared/table";
 import type { ShownRun } from "../context";
-import { ratedTrials } from "../prefix";
+import { ratedRows } from "../prefix";
 import { seriesStyle } from "../series";
 import { niceStep, type Mark } from "./axis";
 
@@ -24,7 +24,7 @@ export interface Bins {
 export function sampleOf(shown: ShownRun, name: string, factor: number): Sample | null {
   const column = shown.run.trials?.columns?.find((each) => each.name === name);
   const fault = (shown.run.trials?.outcome_names ?? []).indexOf("simulator_fault");
-  const values = (column?.values ?? []).slice(0, ratedTrials(shown.run)).filter(
+  const values = (column?.values ?? []).slice(0, ratedRows(shown.run)).filter(
     (value, i): value is number => isNumber(value) && shown.run.trials.outcome[i] !== fault,
   );
   return values.length > 0 ? { shown, values: values.map((value) => factor * value) } : null;
@@ -197,7 +197,7 @@ export function binTable(samples: Sample[], label: string): HTMLElement {
 
 const STATISTICS = ["count", "min", "p05", "median", "mean", "mode", "p95", "max", "std"] as const;
 
-const STATISTIC_WORDS: Record<string, string> = { p05: "5 %", p95: "95 %", std: "standard deviation", count: "trials" };
+const STATISTIC_WORDS: Record<string, string> = { mode: "half-sample mode (no coverage claimed)", p05: "5 %", p95: "95 %", std: "standard deviation", count: "trials" };
 
 /** A column of summary.json, exactly as it stands there. */
 export function summaryTable(rows: { label: string; summary: Record<string, number | null> }[], what: string): HTMLElement {

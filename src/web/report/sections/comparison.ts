@@ -124,15 +124,16 @@ function forests(of: Comparison, at: number): HTMLElement {
     "div",
     { class: "chart-grid" },
     success,
-    columns.length > 0 &&
-      chartFigure({
-        id: `forest-columns-${at}`,
-        title: "Means",
-        caption: `Mean of ${of.second} less that of ${of.first}, in per cent of the latter, for the columns that are looked at first; the table below has all. ${read}${notDrawn(of)}`,
-        alternative: sentence(columns, "%"),
-        draw: (width) => drawForest(columns, "difference [%]", width, MOST_PERCENT),
-        numbers: () => [forestTable(columns, `% of ${of.first}`)],
-      }),
+    columns.length === 0
+      ? el("p", { class: "note" }, "No difference of means is drawn, since none has an interval: so few trials are too few for one.")
+      : chartFigure({
+          id: `forest-columns-${at}`,
+          title: "Means",
+          caption: `Mean of ${of.second} less that of ${of.first}, in per cent of the latter, for the columns that are looked at first; the table below has all. ${read}${notDrawn(of)}`,
+          alternative: sentence(columns, "%"),
+          draw: (width) => drawForest(columns, "difference [%]", width, MOST_PERCENT),
+          numbers: () => [forestTable(columns, `% of ${of.first}`)],
+        }),
   );
 }
 

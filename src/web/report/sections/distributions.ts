@@ -7,6 +7,7 @@ import { chartFigure } from "../charts/figure";
 import { binTable, drawHistograms, sampleOf, summaryTable, type Sample } from "../charts/histogram";
 import type { Context, ShownRun } from "../context";
 import type { PublishedRow } from "../payload";
+import { partOfTrials } from "../prefix";
 import { columnLabel, columnWords, unitText } from "../words";
 import { publishedMarks } from "./published_marks";
 import type { Section } from "./section";
@@ -137,7 +138,8 @@ function section(id: string, title: string, short: string, distributions: Distri
     render: (context) => {
       const figures = distributions.map((each) => figure(context, each));
       if (figures.every((each) => each === null)) return null;
-      return [el("p", { class: "note" }, HOW_TO_READ + (id === "dead-reckoning" ? PUBLISHED : "")), el("div", { class: "chart-grid three" }, ...figures)];
+      const part = partOfTrials(context.drives().map(({ run }) => run), " Bars are of");
+      return [el("p", { class: "note" }, HOW_TO_READ + (id === "dead-reckoning" ? PUBLISHED : "") + part), el("div", { class: "chart-grid three" }, ...figures)];
     },
   };
 }

@@ -8,7 +8,7 @@ import type { Context } from "../context";
 import type { Run } from "../payload";
 import { methodName, SHARED_LAYOUTS } from "../words";
 import { hasUnrated, ratedTrials } from "../prefix";
-import { stoppingOf, stoppingText, type Stopping } from "../stopping";
+import { stoppingOf, stoppingText } from "../stopping";
 import { accounting } from "./header";
 import type { Section } from "./section";
 
@@ -20,11 +20,9 @@ interface Rate {
   ci_method?: string;
 }
 
-// A run that was ended by looking at the rate has this interval, which is valid at any look, and
-// Wilson's beside it: that one takes the number of trials as fixed.
-function rateCells(rate: Rate | undefined, stopping?: Stopping): Cell[] {
+function rateCells(rate: Rate | undefined): Cell[] {
   if (!rate) return [{ content: MISSING }, { content: "" }];
-  const [low, high] = stopping?.confidence_sequence ?? rate.ci95 ?? [null, null];
+  const [low, high] = rate.ci95 ?? [null, null];
   const text = el(
     "div",
     { class: "rate" },
@@ -36,7 +34,6 @@ function rateCells(rate: Rate | undefined, stopping?: Stopping): Cell[] {
     { class: "rate-drawn" },
     rateBar(rate.rate, low, high),
     el("span", { class: "of", "data-low": low, "data-high": high }, percentInterval(low, high)),
-    stopping ? el("span", { class: "of" }, `${methodName(rate.ci_method)}: ${percentInterval(rate.ci95?.[0], rate.ci95?.[1])}`) : null,
   );
   return [{ content: text, numeric: true, value: rate.rate }, { content: bar }];
 }
@@ -63,7 +60,7 @@ function row(run: Run): (Child | Cell)[] {
   return [
     rowHeader(breakable(run.label)),
     trialsCell(run),
-    ...rateCells(run.summary?.declared_success, stoppingOf(run)),
+    ...rateCells(run.summary?.declared_success),
     ...rateCells(run.summary?.true_success),
     numeric(number(distance, 3), distance),
     commonest(run),

@@ -9,7 +9,7 @@ import type { PublishedRow, Run } from "../payload";
 import { unitText, verdictWords } from "../words";
 import type { Section } from "./section";
 
-const VERDICTS_IN_ORDER = ["agrees", "differs", "underpowered", "not judged"];
+const VERDICTS_IN_ORDER = ["agrees", "holds", "differs", "underpowered", "not judged"];
 // Units of counts and of p-values say nothing more.
 const NO_UNITS = ["", "1", "p", "runs"];
 

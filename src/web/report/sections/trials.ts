@@ -2,6 +2,7 @@
 
 import { el } from "../../shared/dom";
 import type { Context, TrialQuery } from "../context";
+import { partOfTrials } from "../prefix";
 import { TrialTableView } from "../trial_table";
 import type { Section } from "./section";
 
@@ -29,6 +30,7 @@ export const trials: Section = {
       open().show(query);
       document.getElementById("trials")?.scrollIntoView();
     };
-    return [box, el("p", { class: "note print-only" }, "Every trial is in trials.csv of its run's folder.")];
+    const part = partOfTrials(context.runs, "The table holds");
+    return [...(part ? [el("p", { class: "note", id: "trials-part" }, part)] : []), box, el("p", { class: "note print-only" }, "Every trial is in trials.csv of its run's folder.")];
   },
 };
