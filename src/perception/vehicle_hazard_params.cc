@@ -6,14 +6,14 @@ namespace {
 using core::Origin;
 
 void Ticks(core::FieldVisitor& v, std::string_view name, std::int64_t& ticks,
-           std::string_view reason, double study_high) {
+           std::string_view reason, double study_low, double study_high) {
   v.Integer(name, ticks,
             {.doc = "control ticks in a row beyond the threshold that make a hazard",
              .min = 1,
              .max = 10000,
              .origin = Origin::kAssumed,
              .source = reason,
-             .study_low = 1,
+             .study_low = study_low,
              .study_high = study_high});
 }
 
@@ -47,18 +47,30 @@ void VehicleHazardParams::Visit(core::FieldVisitor& v) {
            .study_high = 45.0});
   v.Real(
       "max_current_A", max_current_A,
-      {.doc = "motor current above which there is a hazard",
+      {.doc = "motor current above which a wheel that hardly turns has stalled",
        .min = 1e-6,
        .max = 1000.0,
        .origin = Origin::kAssumed,
-       .source = "1 N m of torque at the wheel, less than half of the stall torque and beyond what "
-                 "rolling over rocks takes; extreme terrain takes 89 mA by Matthies 1995 table 1",
-       .study_low = 0.04,
-       .study_high = 0.13});
-  Ticks(v, "tilt_ticks", tilt_ticks, "a lurch is no slope", 10);
-  Ticks(v, "articulation_ticks", articulation_ticks, "one noisy sample is no hazard", 10);
-  Ticks(v, "current_ticks", current_ticks, "starting takes more than rolling", 10);
-  Ticks(v, "contact_ticks", contact_ticks, "a switch that closes has touched something", 3);
+       .source = "nine tenths of the current at Rocky 3.2's stall torque of 4 N m; extreme terrain "
+                 "takes 89 mA by Matthies 1995 table 1",
+       .study_low = 0.13,
+       .study_high = 0.195});
+  v.Real("max_turn_share", max_turn_share,
+         {.doc = "share of what a wheel was told to turn below which it hardly turns; from 2 on "
+                 "the current alone decides",
+          .min = 0.0,
+          .max = 2.0,
+          .origin = Origin::kAssumed,
+          .source = "a motor at its stall torque stands; a fifth leaves room for the errors of "
+                    "encoders over a tick and for wheels that creep",
+          .study_low = 0.05,
+          .study_high = 0.5});
+  Ticks(v, "tilt_ticks", tilt_ticks, "a lurch is no slope", 1, 10);
+  Ticks(v, "articulation_ticks", articulation_ticks, "one noisy sample is no hazard", 1, 10);
+  Ticks(v, "current_ticks", current_ticks,
+        "1.5 s at 20 Hz: a wheel that climbs hesitates for less, one that is stuck goes on", 20,
+        60);
+  Ticks(v, "contact_ticks", contact_ticks, "a switch that closes has touched something", 1, 3);
 }
 
 }  // namespace rockyard::perception

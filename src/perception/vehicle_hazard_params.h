@@ -14,10 +14,11 @@ struct VehicleHazardParams {
   double max_tilt_rad = math::DegToRad(25.0);
   double max_rocker_rad = math::DegToRad(15.0);
   double max_bogie_rad = math::DegToRad(30.0);
-  double max_current_A = 0.07;
+  double max_current_A = 0.18;
+  double max_turn_share = 0.2;
   std::int64_t tilt_ticks = 2;
   std::int64_t articulation_ticks = 2;
-  std::int64_t current_ticks = 3;
+  std::int64_t current_ticks = 30;
   std::int64_t contact_ticks = 1;
 
   void Visit(core::FieldVisitor& v);

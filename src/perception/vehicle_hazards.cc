@@ -60,13 +60,22 @@ std::optional<HazardSide> VehicleHazardDetector::Bent(const messages::Articulati
   return angles.left_rocker_rad < angles.right_rocker_rad ? HazardSide::kLeft : HazardSide::kRight;
 }
 
-std::optional<HazardSide> VehicleHazardDetector::Strained(
-    const messages::PerWheel<double>& current_A) const {
-  const auto middle = current_A.begin() + messages::kWheelCount / 2;  // left wheels come first
-  const auto above = [&](double amperes) { return amperes > params_.max_current_A; };
-  // Wheels of the left side come first.
-  const bool left = std::any_of(current_A.begin(), middle, above);
-  const bool right = std::any_of(middle, current_A.end(), above);
+std::optional<HazardSide> VehicleHazardDetector::Stalled(
+    const messages::PerWheel<double>& current_A, const WheelTurns& turns) {
+  for (std::size_t wheel = 0; wheel < messages::kWheelCount; ++wheel) {
+    const double told_rad = turns.told_rad[wheel];
+    // A wheel at rest says nothing: stops between legs do not hide a wheel that is stuck in each.
+    if (told_rad == 0.0) continue;
+    // The way that it was told: a wheel that is pushed back turns less than not at all.
+    const double obeyed_rad = std::copysign(1.0, told_rad) * turns.turned_rad[wheel];
+    const bool stalls = current_A[wheel] > params_.max_current_A &&
+                        obeyed_rad < params_.max_turn_share * std::abs(told_rad);
+    stalled_ticks_[wheel] = stalls ? stalled_ticks_[wheel] + 1 : 0;
+  }
+  const auto middle = stalled_ticks_.begin() + messages::kWheelCount / 2;  // left wheels come first
+  const auto long_enough = [&](std::int64_t ticks) { return ticks >= params_.current_ticks; };
+  const bool left = std::any_of(stalled_ticks_.begin(), middle, long_enough);
+  const bool right = std::any_of(middle, stalled_ticks_.end(), long_enough);
   if (!left && !right) return std::nullopt;
   return SideOf(left, right);
 }
@@ -80,24 +89,26 @@ std::optional<messages::VehicleHazard> VehicleHazardDetector::Debounced(
   return messages::VehicleHazard{kind, *now};
 }
 
-FeltHazards VehicleHazardDetector::Observe(const messages::VehicleState& state) {
-  std::optional<HazardSide> touched, tilted, bent, strained;
+FeltHazards VehicleHazardDetector::Observe(const messages::VehicleState& state,
+                                           const WheelTurns& turns) {
+  std::optional<HazardSide> touched, tilted, bent, stalled;
   if (state.contact) touched = Touched(*state.contact);
   if (state.specific_force_R) tilted = Tilted(*state.specific_force_R);
   if (state.articulation) bent = Bent(*state.articulation);
-  if (state.motor_current_A) strained = Strained(*state.motor_current_A);
+  if (state.motor_current_A) stalled = Stalled(*state.motor_current_A, turns);
   // A touch behind is counted beside all others.
   const bool behind = state.contact && (*state.contact)[messages::Index(ContactSwitch::kRearEdge)];
   ticks_behind_ = behind ? ticks_behind_ + 1 : 0;
   return {{Debounced(Kind::kContact, touched, params_.contact_ticks),
            Debounced(Kind::kTilt, tilted, params_.tilt_ticks),
            Debounced(Kind::kArticulation, bent, params_.articulation_ticks),
-           Debounced(Kind::kMotorCurrent, strained, params_.current_ticks)},
+           Debounced(Kind::kMotorCurrent, stalled, 1)},  // Stalled has counted its ticks
           behind && ticks_behind_ >= params_.contact_ticks};
 }
 
 void VehicleHazardDetector::Reset() {
   ticks_.fill(0);
+  stalled_ticks_.fill(0);
   ticks_behind_ = 0;
 }
 

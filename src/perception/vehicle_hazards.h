@@ -7,10 +7,13 @@
 //                 ahead where the rover pitches more than it rolls
 //   articulation: |bogie| > max_bogie, on its side; |rocker| > max_rocker, on the side whose front
 //                 end is higher (the differential turns the other rocker as far the other way)
-//   current:      any motor above max_current; side of the wheels above it, ahead where both
+//   stall:        a motor above max_current whose wheel turns by less than max_turn_share of what
+//                 it was told; side of the wheels that stall, ahead where both
 //
-// A criterion has to hold for its number of ticks in a row. Kinds are felt independently of each
-// other.
+// A criterion has to hold for its number of ticks in a row, that of the stall at one wheel. Kinds
+// are felt independently of each other. A current that is high is no hazard by itself: a wheel that
+// climbs takes nearly as much as one that is stuck, but it turns. Ticks at rest neither add to a
+// stall nor end it.
 #pragma once
 
 #include <array>
@@ -18,12 +21,20 @@
 #include <optional>
 
 #include "messages/vehicle_state.h"
+#include "messages/wheels.h"
 #include "perception/vehicle_hazard_params.h"
 
 namespace rockyard::perception {
 
 // Returns the angle between the rover's z axis and the specific force, rad.
 double TiltOf(const math::Vector3& specific_force_R);
+
+// How far the drive motors were told to turn over a tick, and how far their encoders say that they
+// turned, rad, positive forward.
+struct WheelTurns {
+  messages::PerWheel<double> told_rad{};
+  messages::PerWheel<double> turned_rad{};
+};
 
 // What the rover feels after an on-board tick.
 struct FeltHazards {
@@ -41,7 +52,7 @@ class VehicleHazardDetector {
   explicit VehicleHazardDetector(const VehicleHazardParams& params) : params_(params) {}
 
   // Returns the hazards that hold after the next on-board tick.
-  FeltHazards Observe(const messages::VehicleState& state);
+  FeltHazards Observe(const messages::VehicleState& state, const WheelTurns& turns);
 
   // Forgets the ticks counted so far.
   void Reset();
@@ -55,10 +66,13 @@ class VehicleHazardDetector {
                                                    std::int64_t ticks);
   std::optional<messages::HazardSide> Tilted(const math::Vector3& specific_force_R) const;
   std::optional<messages::HazardSide> Bent(const messages::Articulation& angles) const;
-  std::optional<messages::HazardSide> Strained(const messages::PerWheel<double>& current_A) const;
+  // Counts the ticks of each wheel that stalls, and returns where those with enough of them are.
+  std::optional<messages::HazardSide> Stalled(const messages::PerWheel<double>& current_A,
+                                              const WheelTurns& turns);
 
   VehicleHazardParams params_;
   std::array<std::int64_t, messages::kVehicleHazardKindCount> ticks_{};
+  messages::PerWheel<std::int64_t> stalled_ticks_{};
   std::int64_t ticks_behind_ = 0;
 };
 

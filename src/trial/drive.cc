@@ -211,7 +211,7 @@ std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const 
   ApplyCommand(command, stretch.steps);
   const messages::MotionMeasurement measured = UpdateEstimate(stretch.duration_s, moving);
   ledger_.Spend(activity, stretch.duration_s);
-  for (const auto& hazard : guard_.Feel(rover_->state(), command, stretch.duration_s)) {
+  for (const auto& hazard : guard_.Feel(rover_->state(), command, measured)) {
     Record("felt", Describe(hazard));
   }
   NoticeStuck(command, measured);

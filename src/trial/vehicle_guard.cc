@@ -31,6 +31,16 @@ std::string Name(messages::HazardSide side) {
   return "";
 }
 
+perception::WheelTurns TurnsOf(const messages::WheelCommand& command,
+                               const messages::MotionMeasurement& motion) {
+  perception::WheelTurns turns;
+  for (std::size_t wheel = 0; wheel < messages::kWheelCount; ++wheel) {
+    turns.told_rad[wheel] = command.rate_rad_s[wheel] * motion.duration_s;
+    turns.turned_rad[wheel] = motion.wheel_turn_rad[wheel];
+  }
+  return turns;
+}
+
 }  // namespace
 
 VehicleGuard::VehicleGuard(const DriveParams& drive, core::TrialKey key)
@@ -40,12 +50,12 @@ VehicleGuard::VehicleGuard(const DriveParams& drive, core::TrialKey key)
 
 std::vector<messages::VehicleHazard> VehicleGuard::Feel(const truth::RoverState& state,
                                                         const messages::WheelCommand& command,
-                                                        double duration_s) {
+                                                        const messages::MotionMeasurement& motion) {
   std::vector<messages::VehicleHazard> appeared;
   if (!on_) return appeared;
   const perception::FeltHazards before = felt_;
-  measured_ = sensors_.Measure(state, command, duration_s);
-  felt_ = detector_.Observe(measured_);
+  measured_ = sensors_.Measure(state, command, motion.duration_s);
+  felt_ = detector_.Observe(measured_, TurnsOf(command, motion));
   const bool avoided_before = hazard_.has_value();
   hazard_ = perception::HazardToAvoid(felt_);
   if (hazard_ && !avoided_before) ++stops_;

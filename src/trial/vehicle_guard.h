@@ -9,6 +9,7 @@
 
 #include "core/random.h"
 #include "messages/commands.h"
+#include "messages/measurements.h"
 #include "perception/vehicle_hazards.h"
 #include "sensing/vehicle_sensors.h"
 #include "trial/drive_params.h"
@@ -26,10 +27,11 @@ class VehicleGuard {
     if (on_) sensors_.Observe(state);
   }
 
-  // Once a control tick. The hazards of kinds that were not felt at the tick before.
+  // Once a control tick, with what the wheels were told and what was measured of their motion
+  // meanwhile. The hazards of kinds that were not felt at the tick before.
   std::vector<messages::VehicleHazard> Feel(const truth::RoverState& state,
                                             const messages::WheelCommand& command,
-                                            double duration_s);
+                                            const messages::MotionMeasurement& motion);
 
   // Operators moved the rover by hand: nothing is felt, and nothing of what was felt before counts
   // towards a hazard.

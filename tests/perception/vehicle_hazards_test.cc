@@ -22,7 +22,7 @@ VehicleHazardParams AtOnce() {
 }
 
 std::optional<messages::VehicleHazard> Felt(const VehicleState& state) {
-  return HazardToAvoid(VehicleHazardDetector(AtOnce()).Observe(state));
+  return HazardToAvoid(VehicleHazardDetector(AtOnce()).Observe(state, {}));
 }
 
 void ExpectFelt(const VehicleState& state, VehicleHazardKind kind, HazardSide side) {
@@ -79,21 +79,90 @@ TEST(ArticulationTest, IsFeltAboveTheThreshold) {
   ExpectFelt(Bent(15.1, 0, 0), VehicleHazardKind::kArticulation, HazardSide::kRight);
 }
 
-TEST(CurrentTest, IsFeltAboveTheThresholdOnTheSideOfTheWheel) {
+// Currents of all wheels at half of the limit, but for those of one.
+VehicleState Drawing(std::size_t wheel, double current_A) {
+  VehicleState state;
+  state.motor_current_A.emplace();
+  state.motor_current_A->fill(0.5 * AtOnce().max_current_A);
+  (*state.motor_current_A)[wheel] = current_A;
+  return state;
+}
+
+// All wheels are told to turn by 0.1 rad a tick and do, but for one.
+WheelTurns Turning(std::size_t wheel, double told_rad, double turned_rad) {
+  WheelTurns turns;
+  turns.told_rad.fill(0.1);
+  turns.turned_rad.fill(0.1);
+  turns.told_rad[wheel] = told_rad;
+  turns.turned_rad[wheel] = turned_rad;
+  return turns;
+}
+
+bool Stalls(const VehicleState& state, const WheelTurns& turns) {
+  return HazardToAvoid(VehicleHazardDetector(AtOnce()).Observe(state, turns)).has_value();
+}
+
+TEST(StallTest, IsCurrentNearStallOfAWheelThatHardlyTurns) {
+  const double limit_A = AtOnce().max_current_A;
+  const double share = AtOnce().max_turn_share;
   for (std::size_t wheel = 0; wheel < messages::kWheelCount; ++wheel) {
-    VehicleState state;
-    state.motor_current_A.emplace();
-    state.motor_current_A->fill(0.03);
-    (*state.motor_current_A)[wheel] = AtOnce().max_current_A - 1e-4;
-    EXPECT_FALSE(Felt(state));
-    (*state.motor_current_A)[wheel] = AtOnce().max_current_A + 1e-4;
-    ExpectFelt(state, VehicleHazardKind::kMotorCurrent,
-               wheel < 3 ? HazardSide::kLeft : HazardSide::kRight);
+    const VehicleState strained = Drawing(wheel, limit_A + 1e-4);
+    for (const double told_rad : {0.1, -0.1}) {
+      const auto turned = [&](double part) { return Turning(wheel, told_rad, part * told_rad); };
+      const auto hazard =
+          HazardToAvoid(VehicleHazardDetector(AtOnce()).Observe(strained, turned(0.9 * share)));
+      ASSERT_TRUE(hazard);
+      EXPECT_EQ(hazard->kind, VehicleHazardKind::kMotorCurrent);
+      EXPECT_EQ(hazard->side, wheel < 3 ? HazardSide::kLeft : HazardSide::kRight);
+      EXPECT_TRUE(Stalls(strained, turned(-0.5))) << "pushed back";
+      EXPECT_FALSE(Stalls(strained, turned(1.1 * share))) << "climbs";
+      EXPECT_FALSE(Stalls(Drawing(wheel, limit_A - 1e-4), turned(0.0))) << "light";
+    }
+    EXPECT_FALSE(Stalls(strained, Turning(wheel, 0.0, 0.0))) << "at rest";
   }
-  VehicleState all;
-  all.motor_current_A.emplace();
-  all.motor_current_A->fill(0.09);
-  ExpectFelt(all, VehicleHazardKind::kMotorCurrent, HazardSide::kAhead);
+}
+
+TEST(StallTest, OnBothSidesIsAhead) {
+  VehicleState state;
+  state.motor_current_A.emplace();
+  state.motor_current_A->fill(1.0);
+  const auto hazard = HazardToAvoid(
+      VehicleHazardDetector(AtOnce()).Observe(state, {.told_rad = {1, 1, 1, 1, 1, 1}}));
+  ASSERT_TRUE(hazard);
+  EXPECT_EQ(hazard->side, HazardSide::kAhead);
+}
+
+TEST(StallTest, FromTwoOnTheCurrentAloneDecides) {
+  VehicleHazardParams params = AtOnce();
+  params.max_turn_share = 2.0;
+  VehicleHazardDetector detector(params);
+  EXPECT_TRUE(HazardToAvoid(
+      detector.Observe(Drawing(1, params.max_current_A + 1e-4), Turning(1, 0.1, 0.19))));
+}
+
+// Two wheels that stall in turn are not one that does; rests between do not count.
+TEST(StallTest, HoldsAtOneWheelForTicksOfMotion) {
+  VehicleHazardParams params;
+  params.current_ticks = 3;
+  VehicleHazardDetector detector(params);
+  const auto stalls = [&](std::size_t wheel) {
+    return HazardToAvoid(detector.Observe(Drawing(wheel, 1.0), Turning(wheel, 0.1, 0.0)))
+        .has_value();
+  };
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_FALSE(stalls(0));
+    EXPECT_FALSE(stalls(4));
+  }
+  EXPECT_FALSE(stalls(4));
+  VehicleState resting;
+  resting.motor_current_A.emplace();
+  for (int i = 0; i < 9; ++i) {
+    EXPECT_FALSE(HazardToAvoid(detector.Observe(resting, {})));
+  }
+  EXPECT_TRUE(stalls(4));
+  EXPECT_TRUE(HazardToAvoid(detector.Observe(resting, {}))) << "as long as it does not turn";
+  detector.Reset();
+  EXPECT_FALSE(stalls(4));
 }
 
 VehicleState Touched(std::initializer_list<ContactSwitch> closed) {
@@ -125,19 +194,20 @@ TEST(ContactTest, TouchBehindHidesNothing) {
   VehicleState state = Leaning(30, 0);
   state.contact = Touched({ContactSwitch::kRearEdge}).contact;
   ExpectFelt(state, VehicleHazardKind::kTilt, HazardSide::kLeft);
-  const FeltHazards felt = VehicleHazardDetector(AtOnce()).Observe(state);
+  const FeltHazards felt = VehicleHazardDetector(AtOnce()).Observe(state, {});
   EXPECT_TRUE(felt.touches_behind);
   ASSERT_TRUE(felt.by_kind[0]);
   EXPECT_EQ(felt.by_kind[0]->side, HazardSide::kBehind);
 
   const FeltHazards both = VehicleHazardDetector(AtOnce()).Observe(
-      Touched({ContactSwitch::kRearEdge, ContactSwitch::kFrontLeft}));
+      Touched({ContactSwitch::kRearEdge, ContactSwitch::kFrontLeft}), {});
   EXPECT_TRUE(both.touches_behind);
   EXPECT_EQ(both.by_kind[0]->side, HazardSide::kLeft);
 
   EXPECT_FALSE(Felt(Touched({ContactSwitch::kRearEdge})));
-  EXPECT_FALSE(
-      VehicleHazardDetector(AtOnce()).Observe(Touched({ContactSwitch::kFrontLeft})).touches_behind);
+  EXPECT_FALSE(VehicleHazardDetector(AtOnce())
+                   .Observe(Touched({ContactSwitch::kFrontLeft}), {})
+                   .touches_behind);
 }
 
 TEST(ContactTest, TouchBehindHoldsForTicksInARow) {
@@ -145,10 +215,10 @@ TEST(ContactTest, TouchBehindHoldsForTicksInARow) {
   params.contact_ticks = 2;
   VehicleHazardDetector detector(params);
   const VehicleState behind = Touched({ContactSwitch::kRearEdge});
-  EXPECT_FALSE(detector.Observe(behind).touches_behind);
-  EXPECT_TRUE(detector.Observe(behind).touches_behind);
+  EXPECT_FALSE(detector.Observe(behind, {}).touches_behind);
+  EXPECT_TRUE(detector.Observe(behind, {}).touches_behind);
   detector.Reset();
-  EXPECT_FALSE(detector.Observe(behind).touches_behind);
+  EXPECT_FALSE(detector.Observe(behind, {}).touches_behind);
 }
 
 TEST(VehicleHazardDetectorTest, HoldsForTicksInARow) {
@@ -157,14 +227,14 @@ TEST(VehicleHazardDetectorTest, HoldsForTicksInARow) {
   VehicleHazardDetector detector(params);
   const VehicleState steep = Leaning(30, 0);
   const VehicleState level = Leaning(0, 0);
-  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep)));
-  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep)));
-  EXPECT_FALSE(HazardToAvoid(detector.Observe(level)));  // counts from the beginning again
-  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep)));
-  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep)));
-  EXPECT_TRUE(HazardToAvoid(detector.Observe(steep)));
-  EXPECT_TRUE(HazardToAvoid(detector.Observe(steep)));
-  EXPECT_FALSE(HazardToAvoid(detector.Observe(level)));
+  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep, {})));
+  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep, {})));
+  EXPECT_FALSE(HazardToAvoid(detector.Observe(level, {})));  // counts from the beginning again
+  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep, {})));
+  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep, {})));
+  EXPECT_TRUE(HazardToAvoid(detector.Observe(steep, {})));
+  EXPECT_TRUE(HazardToAvoid(detector.Observe(steep, {})));
+  EXPECT_FALSE(HazardToAvoid(detector.Observe(level, {})));
 }
 
 TEST(VehicleHazardDetectorTest, ResetForgetsTheTicksCounted) {
@@ -172,12 +242,12 @@ TEST(VehicleHazardDetectorTest, ResetForgetsTheTicksCounted) {
   params.tilt_ticks = 3;
   VehicleHazardDetector detector(params);
   const VehicleState steep = Leaning(30, 0);
-  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep)));
-  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep)));
+  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep, {})));
+  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep, {})));
   detector.Reset();
-  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep)));
-  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep)));
-  EXPECT_TRUE(HazardToAvoid(detector.Observe(steep)));
+  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep, {})));
+  EXPECT_FALSE(HazardToAvoid(detector.Observe(steep, {})));
+  EXPECT_TRUE(HazardToAvoid(detector.Observe(steep, {})));
 }
 
 TEST(VehicleHazardDetectorTest, TouchComesFirstAndMissingSensorsSayNothing) {

@@ -41,7 +41,7 @@ truth::RoverState Touching(const rover::RoverGeometryParams& size, double end) {
 // One control tick at a state. True where something has appeared.
 bool Feel(VehicleGuard& guard, const truth::RoverState& state) {
   guard.Observe(state);
-  return !guard.Feel(state, {}, kTick_s).empty();
+  return !guard.Feel(state, {}, {.duration_s = kTick_s}).empty();
 }
 
 TEST(VehicleGuardTest, TouchesFromBeforeAHandMoveAreForgotten) {

@@ -94,6 +94,7 @@ void QuasiStaticBalance::MakeRow(const Linkage& linkage, const Drive& drive,
 void QuasiStaticBalance::MakeWheelRow(const Linkage& linkage, const Drive& drive,
                                       const RestingContact& contact, Row& row) const {
   const auto wheel = static_cast<std::size_t>(contact.part);
+  row.wheel = wheel;
   const Vector3 axle_W = linkage.axle_W(wheel);
   const double rate_rad_s = drive.rate_rad_s[wheel];
   // The rim's velocity against the axle at the contact is omega axle x arm: backwards, against
@@ -118,19 +119,23 @@ void QuasiStaticBalance::SetTraction(const RestingContact& contact, Row& row) co
   row.creep_m_s = kRockCreep * row.reference_m_s;
   const double load_N = contact.traction_load_N;
   row.shear_ratio = row.resistance_N = 0.0;
+  row.motor_bound = false;
   // Settling: no rim turns, and contacts are without traction.
   if (row.reference_m_s == 0.0) {
     row.max_N = 0.0;
   } else if (contact.IsSoil()) {
     const SoilAnswer soil = soil_.At(load_N);
     // What the motor can hold at the rim bounds the traction as well.
+    row.motor_bound = soil.traction_N > stall_force_N_;
     row.max_N = std::min(soil.traction_N, stall_force_N_);
     // A braked wheel holds up to its traction, without the creep of one that turns.
     row.shear_ratio = row.rim_m_s != 0.0 ? soil.shear_ratio : 0.0;
     row.u_per_speed_s_m = row.shear_ratio / row.reference_m_s;
     row.resistance_N = soil.resistance_N;
   } else if (contact.IsWheel() && contact.other >= 0) {
-    row.max_N = std::min(contact_params_.wheel_rock_friction * load_N, stall_force_N_);
+    const double friction_N = contact_params_.wheel_rock_friction * load_N;
+    row.motor_bound = friction_N > stall_force_N_;
+    row.max_N = std::min(friction_N, stall_force_N_);
   } else {
     row.max_N = contact_params_.body_rock_friction * load_N;
   }
@@ -357,6 +362,18 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
     rates = Search(rates, change, drop, contacts);
   }
   return kMaxIterations;
+}
+
+messages::PerWheel<double> QuasiStaticBalance::TurnShares(const LinkageVector& rates) const {
+  messages::PerWheel<double> shares;
+  shares.fill(1.0);
+  for (const Row& row : rows_) {
+    if (!row.acts || !row.motor_bound || row.rim_m_s == 0.0) continue;
+    // The rim does not slip: its speed is that of the axle's point over the ground.
+    const double share = row.along.dot(OfSide(rates, row.side)) / row.rim_m_s;
+    shares[row.wheel] = std::min(shares[row.wheel], std::clamp(share, 0.0, 1.0));
+  }
+  return shares;
 }
 
 SteadyDrive QuasiStaticBalance::Steady(const LinkageVector& rates) const {

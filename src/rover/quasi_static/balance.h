@@ -62,6 +62,11 @@ class QuasiStaticBalance {
   // the caller.
   SteadyDrive Steady(const LinkageVector& rates) const;
 
+  // Returns the share of its commanded rate at which each wheel turns in the last solution, whose
+  // rates are given: 1 but for a motor that stalls. There the ground could hold more than the stall
+  // torque, so that the rim does not slip over it: it moves along with it, not beyond rest.
+  messages::PerWheel<double> TurnShares(const LinkageVector& rates) const;
+
   // The motor's torque about the axle in the last solution, positive where it drives forward.
   double MotorTorque_Nm(std::size_t wheel) const { return torque_Nm_[wheel]; }
 
@@ -71,7 +76,8 @@ class QuasiStaticBalance {
     SideVector normal, along, across;
     SideVector axle;  // wheel on soil: along, at the axle, where the motion resistance acts
     std::size_t side = 0;
-    bool loaded = false;  // before
+    std::size_t wheel = 0;  // where the contact is a wheel's
+    bool loaded = false;    // before
     double stiffness_N_m = 0.0;
     double gap_m = 0.0;          // at the beginning of the step
     double rest_m = 0.0;         // penetration without load
@@ -80,6 +86,7 @@ class QuasiStaticBalance {
     double reference_m_s = 0.0;  // slip is measured in shares of this
     // At the load that the traction is taken from.
     double max_N = 0.0;
+    bool motor_bound = false;      // the ground could hold more than the motor
     double shear_ratio = 0.0;      // 0: Coulomb
     double u_per_speed_s_m = 0.0;  // of the slip speed, where the shear ratio is not 0
     double creep_m_s = 0.0;        // slip speed at 0.7 of Coulomb's friction

@@ -303,6 +303,7 @@ void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
     return RollOn();
   }
   Balance({rate_rad_s, stretch_.duration_s, lead_s, Freedom::kAll});
+  turn_share_ = balance_.TurnShares(rates_);
   // From here on RollOn may repeat this balance, which is the same in the rover's frame.
   steady_ = stands_level && MeetsNothing(rates_, lead_s) && IsSteady();
   Limit(stretch_.duration_s, kMaxMove * params_.quasi_static.settle_distance_m, kMaxTurn_rad,
@@ -409,10 +410,15 @@ void QuasiStaticRover::Step(const messages::WheelCommand& command) {
 void QuasiStaticRover::Roll(const MotorRates& rates,
                             const messages::PerWheel<double>& commanded_rad_s) {
   standing_ = false;
+  GoOn(rates, commanded_rad_s);
   for (std::size_t i = 0; i < kWheelCount; ++i) {
-    // Motors hold their rates in this fidelity: the balance takes them as given.
-    state_.wheel_angle_rad[i] += 0.5 * step_s() * (rates.from[i] + rates.to[i]);
+    // Motors hold their rates, which the balance takes as given, but for those that stall.
+    state_.wheel_angle_rad[i] += 0.5 * step_s() * (rates.from[i] + rates.to[i]) * turn_share_[i];
   }
+}
+
+void QuasiStaticRover::GoOn(const MotorRates& rates,
+                            const messages::PerWheel<double>& commanded_rad_s) {
   const auto shares = Shares(rates, stretch_.rate_rad_s);
   if (stretch_.duration_s > 0.0 && shares && SteersAsPlanned()) return Follow(*shares);
   // Another motion begins, or the wheels have been steered.

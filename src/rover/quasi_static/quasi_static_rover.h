@@ -61,8 +61,10 @@ class QuasiStaticRover final : public Rover {
   // Lets the motion of the stretch go on for one step, while the rims turn at these shares of its
   // rates.
   void Follow(const RimShares& rims);
-  // One step of wheels that turn, or of a rover that has not come to rest yet.
+  // One step of wheels that turn, or of a rover that has not come to rest yet; GoOn moves the
+  // rover.
   void Roll(const MotorRates& rates, const messages::PerWheel<double>& commanded_rad_s);
+  void GoOn(const MotorRates& rates, const messages::PerWheel<double>& commanded_rad_s);
   void RollBetween(const MotorRates& rates);
   void Stand();
   void Hold();
@@ -95,6 +97,7 @@ class QuasiStaticRover final : public Rover {
   const double yaw_inertia_kg_m2_;
   Posture posture_;
   Stretch stretch_;
+  messages::PerWheel<double> turn_share_{1.0, 1.0, 1.0, 1.0, 1.0, 1.0};  // of the stretch
   messages::PerWheel<double> met_steer_rad_{};  // at the last look for contacts
   LinkageVector rates_ = LinkageVector::Zero();
   LinkageVector last_rates_ = LinkageVector::Zero();     // of the stretch before
