@@ -38,10 +38,12 @@ struct MapView {
 // A candidate motion and its votes. Votes run from 0 to 255.
 struct MotionVote {
   MotionCommand motion;
+  double turn_rad = 0.0;  // of a point turn, positive left
   double hazard = 0.0;
   double hazard_certainty = 0.0;
   double waypoint = 0.0;
   double merged = 0.0;
+  bool vetoed = false;  // a hazard was felt on it from here
   bool best = false;    // shares the highest merged vote
   bool chosen = false;  // the motion that is driven
 };

@@ -56,10 +56,18 @@ class Navigator {
   // was measured on board.
   virtual NavigatorDecision Decide(const NavigatorInput& input) = 0;
 
-  // Is called when operators have moved the estimate (lander update, arena reflection): anchors of
-  // running manoeuvres have to follow.
+  // Is called when operators have moved the rover and its estimate by hand (arena reflection):
+  // anchors of running manoeuvres have to follow.
   virtual void OnPoseUpdate(const messages::PoseEstimate& before,
                             const messages::PoseEstimate& after) = 0;
+
+  // Is called when an outside measurement has corrected the estimate of a rover that nobody moved
+  // (lander update): what it has seen of the ground keeps its place around it, and the goal moves.
+  // A navigator without a map takes it as it takes any other jump of the estimate.
+  virtual void OnCorrection(const messages::PoseEstimate& before,
+                            const messages::PoseEstimate& after) {
+    OnPoseUpdate(before, after);
+  }
 
   // Returns what the last answered look led to; null where a navigator keeps no map, and before the
   // first.

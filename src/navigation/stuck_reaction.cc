@@ -34,6 +34,11 @@ void StuckReaction::OnPoseUpdate(const messages::PoseEstimate& before,
   navigator_->OnPoseUpdate(before, after);
 }
 
+void StuckReaction::OnCorrection(const messages::PoseEstimate& before,
+                                 const messages::PoseEstimate& after) {
+  navigator_->OnCorrection(before, after);
+}
+
 void StuckReaction::BeginBackOff(const messages::PoseEstimate& estimate) {
   stage_ = Stage::kBackingOff;
   back_off_ = last_arc_;

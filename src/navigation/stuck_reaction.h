@@ -22,6 +22,8 @@ class StuckReaction final : public Navigator {
   NavigatorDecision Decide(const NavigatorInput& input) override;
   void OnPoseUpdate(const messages::PoseEstimate& before,
                     const messages::PoseEstimate& after) override;
+  void OnCorrection(const messages::PoseEstimate& before,
+                    const messages::PoseEstimate& after) override;
   const messages::NavigationView* view() const override { return navigator_->view(); }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/check.h"
 
@@ -52,16 +53,27 @@ CandidateMotion MakeArc(double curvature_per_m, int direction, const GestaltPlan
   return candidate;
 }
 
-CandidateMotion MakePointTurn(double amount_rad, int direction, const PathSampling& sampling) {
+CandidateMotion MakePointTurn(double turn_rad, const PathSampling& sampling) {
   CandidateMotion candidate;
-  candidate.motion = {MotionKind::kTurnInPlace, 0.0, direction};
-  candidate.turn_rad = direction * amount_rad;
+  candidate.motion = {MotionKind::kTurnInPlace, 0.0, turn_rad < 0.0 ? -1 : +1};
+  candidate.turn_rad = turn_rad;
   for (const double s_m : sampling.distance_m) {
     // The straight drive after the turn, in R as it is before.
     candidate.points.push_back(
         {s_m * std::cos(candidate.turn_rad), s_m * std::sin(candidate.turn_rad)});
   }
   return candidate;
+}
+
+// Angles of the point turns to one side, ascending.
+std::vector<double> PointTurnAngles(const GestaltArcParams& arcs) {
+  if (arcs.num_point_turns == 0) return {arcs.point_turn_amount_rad};
+  std::vector<double> angles;
+  for (std::int64_t i = 1; i <= arcs.num_point_turns; ++i) {
+    angles.push_back(std::numbers::pi * static_cast<double>(i) /
+                     static_cast<double>(arcs.num_point_turns));
+  }
+  return angles;
 }
 
 }  // namespace
@@ -124,8 +136,12 @@ CandidateMotions MakeCandidates(const GestaltArcParams& arcs, const GestaltPlanP
   motions.forward = row(arcs.num_forward_arcs, +1);
   // Backward arcs are driven with the same curvatures, from right to left.
   motions.backward = row(arcs.num_backward_arcs, -1);
-  for (const int direction : {-1, +1}) {
-    motions.point_turns.push_back(MakePointTurn(arcs.point_turn_amount_rad, direction, sampling));
+  const std::vector<double> angles = PointTurnAngles(arcs);
+  for (std::size_t i = angles.size(); i-- > 0;) {
+    motions.point_turns.push_back(MakePointTurn(-angles[i], sampling));
+  }
+  for (const double angle_rad : angles) {
+    motions.point_turns.push_back(MakePointTurn(angle_rad, sampling));
   }
   return motions;
 }

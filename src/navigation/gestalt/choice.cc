@@ -38,7 +38,7 @@ Rows CompetingRows(MotionVotes& votes, const GestaltParams& params) {
 // A merged vote can be high on ground that must not be driven: the hazard vote has a bound of its
 // own.
 bool MayBeDriven(const MotionVote& vote, const GestaltParams& params) {
-  return vote.hazard > params.drive.min_drive_goodness;
+  return vote.hazard > params.drive.min_drive_goodness && !vote.vetoed;
 }
 
 // Distance of an arc from the middle of its row, in arcs.
@@ -125,12 +125,28 @@ bool TurnsInPlace(const MotionVote& turn, const MotionVote* arc, const GestaltPa
 }
 
 MotionVote* ChoosePointTurn(MotionVotes& votes, double goal_bearing_rad) {
-  EXPECT(votes.point_turns.size() == 2);
-  MotionVote& right = votes.point_turns.front();
-  MotionVote& left = votes.point_turns.back();
-  // The better vote; on a tie the side of the goal.
-  if (right.merged != left.merged) return right.merged > left.merged ? &right : &left;
-  return goal_bearing_rad < 0.0 ? &right : &left;
+  EXPECT(!votes.point_turns.empty());
+  const int goal_side = goal_bearing_rad < 0.0 ? -1 : +1;
+  const auto worth = [&](const MotionVote& turn) {
+    return std::make_tuple(turn.merged, turn.motion.direction == goal_side,
+                           -std::abs(turn.turn_rad));
+  };
+  return &*std::max_element(
+      votes.point_turns.begin(), votes.point_turns.end(),
+      [&](const MotionVote& a, const MotionVote& b) { return worth(a) < worth(b); });
+}
+
+MotionVote* PointTurnTo(MotionVotes& votes, int side, double amount_rad) {
+  MotionVote* nearest = nullptr;
+  const auto misses_by = [&](const MotionVote& turn) {
+    return std::abs(side * turn.turn_rad - amount_rad);
+  };
+  for (MotionVote& turn : votes.point_turns) {
+    if (turn.motion.direction != side) continue;
+    if (nearest == nullptr || misses_by(turn) < misses_by(*nearest)) nearest = &turn;
+  }
+  EXPECT(nearest != nullptr);
+  return nearest;
 }
 
 double BestVote(std::span<const MotionVote> row) {

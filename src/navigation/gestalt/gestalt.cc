@@ -41,9 +41,15 @@ bool Touches(const NavigatorInput& input, int direction) {
 }  // namespace
 
 GestaltNavigator::GestaltNavigator(const GestaltParams& params, const messages::Goal& goal)
-    : params_(params), goal_(goal), map_(params.map), voter_(params) {}
+    : params_(params), goal_W_(goal), goal_(goal), map_(params.map), voter_(params) {}
 
 NavigatorDecision GestaltNavigator::Decide(const NavigatorInput& input) {
+  NavigatorInput input_O = input;
+  input_O.estimate = frame_.FromWorld(input.estimate);
+  return DecideInO(input_O);
+}
+
+NavigatorDecision GestaltNavigator::DecideInO(const NavigatorInput& input) {
   const bool moves =
       mode_ == Mode::kDriving || mode_ == Mode::kBackingOff || mode_ == Mode::kTurning;
   // The goal is asked for between steps, or at every tick where the parameters say so.
@@ -68,18 +74,27 @@ NavigatorDecision GestaltNavigator::Decide(const NavigatorInput& input) {
   return BeginCycle(input);
 }
 
-void GestaltNavigator::OnPoseUpdate(const PoseEstimate& before, const PoseEstimate& after) {
+void GestaltNavigator::OnPoseUpdate(const PoseEstimate& before_W, const PoseEstimate& after_W) {
+  const PoseEstimate before = frame_.FromWorld(before_W);
+  const PoseEstimate after = frame_.FromWorld(after_W);
   map_.Clear();
   map_.BeginCycle(after.x_m, after.y_m);
   felt_places_.Move(before, after, params_.drive.felt_radius_m, map_);
   // The ground that a search has seen is forgotten: it is searched again.
   searched_rad_ = 0.0;
-  // Turned angles are differences of heading: keep what was already turned.
-  anchor_.heading_rad += after.heading_rad - before.heading_rad;
+  // Turned angles are differences of heading: the jump is none of them.
+  last_heading_rad_ += after.heading_rad - before.heading_rad;
+  vetoed_.clear();
   // Progress is counted from where the rover now believes to be.
   best_goal_distance_m_ = TowardsGoal(after, goal_).distance_m;
   // What was seen ahead is forgotten with the map.
   if (mode_ == Mode::kLookingBehind) mode_ = Mode::kLookingAhead;
+}
+
+void GestaltNavigator::OnCorrection(const PoseEstimate& before, const PoseEstimate& after) {
+  frame_.Correct(before, after);
+  goal_ = frame_.FromWorld(goal_W_);
+  best_goal_distance_m_ = TowardsGoal(frame_.FromWorld(after), goal_).distance_m;
 }
 
 const messages::NavigationView* GestaltNavigator::view() const {
@@ -100,6 +115,7 @@ NavigatorDecision GestaltNavigator::OnCloud(const NavigatorInput& input) {
   if (ahead) map_.BeginCycle(input.estimate.x_m, input.estimate.y_m);
   map_.Add(*input.cloud, BelievedPose(input));
   votes_ = voter_.Vote(map_.Evaluate(), input.estimate, goal_);
+  MarkVetoes();
   looked_behind_ = !ahead;
   // Step 3 of the cycle in gestalt.h: forward arcs look bad, so the rear cameras are asked, too.
   const bool looks_behind = ahead && params_.drive.rear_cameras &&
@@ -115,23 +131,36 @@ NavigatorDecision GestaltNavigator::Choose(const NavigatorInput& input) {
   const bool searched = searched_rad_ >= params_.drive.search_turn_rad - kRounding_rad;
   MotionVote& turn = NextTurn(input.estimate);
   const bool turns = !searched && TurnsInPlace(turn, chosen, params_);
+  // A turn that leads better than every arc is a move like them; one for want of a way is a search.
+  const bool searches = chosen == nullptr || chosen->merged < params_.votes.min_vote_goodness;
   if (turns) chosen = &turn;
   if (chosen != nullptr) MarkChoice(votes_, *chosen, params_);
   FillView(input);
   if (chosen == nullptr) return Finish(NavigatorStatus::kGaveUp);
-  search_direction_ = turns ? turn.motion.direction : 0;
-  if (turns) return Begin(Mode::kTurning, turn.motion, 0.0, input);
+  search_direction_ = turns && searches ? turn.motion.direction : 0;
+  if (turns) return Begin(Mode::kTurning, turn.motion, std::abs(turn.turn_rad), input);
   searched_rad_ = 0.0;
   const double left_m = TowardsGoal(input.estimate, goal_).distance_m;
   return Begin(Mode::kDriving, chosen->motion, std::min(params_.drive.step_m, left_m), input);
 }
 
-// A search turns one way only: the other way lies what it has just seen.
+// A search turns one way only, by the amount of table 1: the other way lies what it has just seen.
 MotionVote& GestaltNavigator::NextTurn(const PoseEstimate& estimate) {
   if (search_direction_ == 0) {
     return *ChoosePointTurn(votes_, TowardsGoal(estimate, goal_).bearing_rad);
   }
-  return search_direction_ < 0 ? votes_.point_turns.front() : votes_.point_turns.back();
+  return *PointTurnTo(votes_, search_direction_, params_.arcs.point_turn_amount_rad);
+}
+
+void GestaltNavigator::MarkVetoes() {
+  for (auto* row : {&votes_.forward, &votes_.backward}) {
+    for (MotionVote& vote : *row) {
+      vote.vetoed = std::any_of(vetoed_.begin(), vetoed_.end(), [&](const MotionCommand& felt_on) {
+        return felt_on.direction == vote.motion.direction &&
+               felt_on.curvature_per_m == vote.motion.curvature_per_m;
+      });
+    }
+  }
 }
 
 // Blind driving along the arc; only its length, a felt hazard or its time limit ends it.
@@ -142,26 +171,29 @@ NavigatorDecision GestaltNavigator::ContinueDrive(const NavigatorInput& input) {
   // What was felt before the drive began counts again only after some way.
   const bool counts = !felt_since_start_ || driven_m >= params_.drive.felt_again_m;
   if (feels && counts) return OnFelt(input);
-  if (driven_m < leg_m_ && !TimedOut(input)) return Move(motion_);
+  if (driven_m < leg_ && !TimedOut(input)) return Move(motion_);
+  vetoed_.clear();
   return BeginCycle(input);
 }
 
 NavigatorDecision GestaltNavigator::ContinueTurn(const NavigatorInput& input) {
-  const double turned_rad =
-      motion_.direction * math::WrapAngle(input.estimate.heading_rad - anchor_.heading_rad);
+  turned_rad_ +=
+      motion_.direction * math::WrapAngle(input.estimate.heading_rad - last_heading_rad_);
+  last_heading_rad_ = input.estimate.heading_rad;
   const bool feels = Feels(input);
   if (!feels) felt_since_start_ = false;
   // What was felt before the turn began does not stop it.
   const bool stops = feels && !felt_since_start_;
-  const bool turned_enough = turned_rad >= params_.arcs.point_turn_amount_rad;
-  if (!stops && !turned_enough && !TimedOut(input)) return Move(motion_);
-  searched_rad_ += std::abs(turned_rad);
-  return stops ? OnFelt(input) : BeginCycle(input);
+  if (!stops && turned_rad_ < leg_ && !TimedOut(input)) return Move(motion_);
+  searched_rad_ += std::abs(turned_rad_);
+  if (stops) return OnFelt(input);
+  vetoed_.clear();
+  return BeginCycle(input);
 }
 
 NavigatorDecision GestaltNavigator::ContinueBackOff(const NavigatorInput& input) {
   const double driven_m = input.estimate.distance_m - anchor_.distance_m;
-  const bool ends = driven_m >= leg_m_ || Touches(input, motion_.direction) || TimedOut(input);
+  const bool ends = driven_m >= leg_ || Touches(input, motion_.direction) || TimedOut(input);
   return ends ? BeginCycle(input) : Move(motion_);
 }
 
@@ -173,6 +205,7 @@ NavigatorDecision GestaltNavigator::OnFelt(const NavigatorInput& input) {
     search_direction_ = -motion_.direction;
     return BeginCycle(input);
   }
+  if (params_.drive.veto_felt) vetoed_.push_back(motion_);
   felt_places_.Feel(input, motion_.direction, params_.map.rover, params_.drive.felt_radius_m, map_);
   const double driven_m = input.estimate.distance_m - anchor_.distance_m;
   // Back along the same arc, no farther than it came.
@@ -188,11 +221,13 @@ NavigatorDecision GestaltNavigator::Look(Mode mode) {
   return {NavigatorStatus::kDriving, ahead ? LookDirection::kAhead : LookDirection::kBehind, {}};
 }
 
-NavigatorDecision GestaltNavigator::Begin(Mode mode, const MotionCommand& motion, double leg_m,
+NavigatorDecision GestaltNavigator::Begin(Mode mode, const MotionCommand& motion, double leg,
                                           const NavigatorInput& input) {
   mode_ = mode;
   motion_ = motion;
-  leg_m_ = leg_m;
+  leg_ = leg;
+  turned_rad_ = 0.0;
+  last_heading_rad_ = input.estimate.heading_rad;
   anchor_ = input.estimate;
   began_s_ = input.time_s;
   // A hazard that lasts from before counts as old until it has gone once.

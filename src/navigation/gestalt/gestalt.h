@@ -13,16 +13,21 @@
 // feels it (FeltPlaces), backs off along the arc unless it touches something at that end too, and
 // begins a cycle. The paper names these safeguards, not what follows; all of it is assumed. Draws
 // no random numbers.
+//
+// All of this goes on in the frame O of odometry_frame.h, which is the world until the estimate is
+// corrected. A correction moves the goal, and neither clears nor smears the map.
 #pragma once
 
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "navigation/gestalt/felt.h"
 #include "navigation/gestalt/gestalt_params.h"
 #include "navigation/gestalt/map.h"
 #include "navigation/gestalt/votes.h"
 #include "navigation/navigator.h"
+#include "navigation/odometry_frame.h"
 
 namespace rockyard::navigation {
 
@@ -33,10 +38,14 @@ class GestaltNavigator final : public Navigator {
 
   NavigatorDecision Decide(const NavigatorInput& input) override;
 
-  // Forgets the map, which lies where the rover no longer believes to be, but for what it felt
-  // since its last progress: no look would find that again. A manoeuvre under way ends as it would
-  // have; a search begins anew.
+  // Forgets the map, which lies where the rover no longer stands, but for what it felt since its
+  // last progress: no look would find that again. A manoeuvre under way ends as it would have; a
+  // search begins anew.
   void OnPoseUpdate(const messages::PoseEstimate& before,
+                    const messages::PoseEstimate& after) override;
+
+  // Moves the goal. Progress towards it is counted from here.
+  void OnCorrection(const messages::PoseEstimate& before,
                     const messages::PoseEstimate& after) override;
 
   // Returns the last decision with its map and votes.
@@ -45,6 +54,7 @@ class GestaltNavigator final : public Navigator {
  private:
   enum class Mode { kStarting, kLookingAhead, kLookingBehind, kDriving, kBackingOff, kTurning };
 
+  NavigatorDecision DecideInO(const NavigatorInput& input);
   NavigatorDecision BeginCycle(const NavigatorInput& input);
   NavigatorDecision OnCloud(const NavigatorInput& input);
   NavigatorDecision Choose(const NavigatorInput& input);
@@ -54,9 +64,10 @@ class GestaltNavigator final : public Navigator {
   NavigatorDecision OnFelt(const NavigatorInput& input);
 
   NavigatorDecision Look(Mode mode);
-  NavigatorDecision Begin(Mode mode, const messages::MotionCommand& motion, double leg_m,
+  NavigatorDecision Begin(Mode mode, const messages::MotionCommand& motion, double leg,
                           const NavigatorInput& input);
   messages::MotionVote& NextTurn(const messages::PoseEstimate& estimate);
+  void MarkVetoes();
   void FillView(const NavigatorInput& input);
 
   bool Progresses(const messages::PoseEstimate& estimate);
@@ -65,7 +76,9 @@ class GestaltNavigator final : public Navigator {
   bool AtGoal(const messages::PoseEstimate& estimate) const;
 
   GestaltParams params_;
-  messages::Goal goal_;
+  messages::Goal goal_W_;
+  OdometryFrame frame_;
+  messages::Goal goal_;  // in O, as all that follows
   GestaltMap map_;
   ArcVoter voter_;
 
@@ -73,7 +86,9 @@ class GestaltNavigator final : public Navigator {
   messages::MotionCommand motion_;
   messages::PoseEstimate anchor_;  // estimate when the running manoeuvre began
   double began_s_ = 0.0;           // on-board clock then
-  double leg_m_ = 0.0;             // length of the running drive
+  double leg_ = 0.0;               // length of the running drive, m, or angle of the turn, rad
+  double turned_rad_ = 0.0;        // of the running turn, the way that it was told
+  double last_heading_rad_ = 0.0;  // at the last tick of it
   bool felt_since_start_ = false;  // a hazard without a break since the manoeuvre began
 
   double searched_rad_ = 0.0;  // turned in place since the last drive
@@ -81,8 +96,9 @@ class GestaltNavigator final : public Navigator {
 
   double best_goal_distance_m_ = std::numeric_limits<double>::infinity();
   std::int64_t fruitless_cycles_ = 0;
-  std::int64_t felt_hazards_ = 0;  // in a row without progress
-  FeltPlaces felt_places_;         // of these
+  std::int64_t felt_hazards_ = 0;                // in a row without progress
+  FeltPlaces felt_places_;                       // of these
+  std::vector<messages::MotionCommand> vetoed_;  // felt on since the last manoeuvre that was ended
 
   MotionVotes votes_;  // after the last look
   bool looked_behind_ = false;

@@ -109,6 +109,11 @@ void VisitFeltHazards(GestaltDriveParams& p, core::FieldVisitor& v) {
           .source = "a wheel radius: the rover may have to drive to get rid of a tilt",
           .study_low = 0.05,
           .study_high = 0.35});
+  v.Boolean("veto_felt", p.veto_felt,
+            {.doc = "an arc on which the rover felt a hazard is not chosen again until the rover "
+                    "has driven or turned as far as it meant to",
+             .origin = Origin::kAssumed,
+             .source = "it would end where it ended before; the paper has no rule"});
   v.Integer(
       "max_felt", p.max_felt,
       {.doc = "felt hazards in a row without progress_m of progress before the rover gives up",

@@ -45,6 +45,7 @@ struct GestaltDriveParams {
   double back_off_m = 0.35;
   double felt_radius_m = 0.10;
   double felt_again_m = 0.10;
+  bool veto_felt = true;
   std::int64_t max_felt = 6;
   ArrivalCheck arrival_check = ArrivalCheck::kBetweenSteps;
   double time_out_s = 0.0;

@@ -35,6 +35,16 @@ void GestaltArcParams::Visit(core::FieldVisitor& v) {
            .max = 170.0,
            .origin = Origin::kPublished,
            .source = kGoldbergTable1});
+  v.Integer("num_point_turns", num_point_turns,
+            {.doc = "point turns to either side that compete with the arcs, spaced evenly up to "
+                    "180 deg; 0: that of point_turn_amount_deg alone",
+             .min = 0,
+             .max = 36,
+             .origin = Origin::kAssumed,
+             .source = "Howard 2012 sec. 3: \"different angles followed by a straight drive\"; "
+                       "Goldberg 2002 table 1 has the one amount",
+             .study_low = 0,
+             .study_high = 12});
 }
 
 void GestaltWaypointParams::Visit(core::FieldVisitor& v) {
@@ -104,6 +114,11 @@ void GestaltPlanParams::Visit(core::FieldVisitor& v) {
           .source = "the paper names none",
           .study_low = 0.05,
           .study_high = 1.0});
+  v.Choice("unknown_cells", unknown_cells,
+           {.doc = "what unknown cells do to the hazard vote of a path: they count with their "
+                   "pair at full weight, or every cell counts by its certainty",
+            .origin = Origin::kAssumed,
+            .source = "Goldberg 2002 step 4 weighs by distance, and its step 6 by certainty"});
   v.Integer("samples_per_cell", samples_per_cell,
             {.doc = "places along a path at which the map is read, in a cell's width",
              .min = 1,

@@ -18,6 +18,7 @@ struct GestaltArcParams {
   std::int64_t num_forward_arcs = 23;
   std::int64_t num_backward_arcs = 23;
   double point_turn_amount_rad = math::DegToRad(90.0);
+  std::int64_t num_point_turns = 0;
 
   void Visit(core::FieldVisitor& v);
 };
@@ -39,12 +40,20 @@ enum class PathWeight {
   kUniform,  // 1: no bias
 };
 
+// What unknown cells do to the hazard vote of a path.
+enum class UnknownCells {
+  kFullWeight,   // they count with the goodness of their pair, 11
+  kByCertainty,  // cells count by their certainty, as votes do when they are merged: unknown ones
+                 // say nothing
+};
+
 struct GestaltPlanParams {
   double plan_min_dist_m = 0.3;
   double plan_max_dist_m = 3.0;
   double max_path_turn_rad = math::DegToRad(360.0);
   PathWeight path_weight = PathWeight::kLinear;
   double far_weight = 0.2;
+  UnknownCells unknown_cells = UnknownCells::kFullWeight;
   std::int64_t samples_per_cell = 2;
 
   void Visit(core::FieldVisitor& v);
@@ -64,4 +73,9 @@ struct GestaltVoteParams {
 template <>
 struct rockyard::core::EnumNames<rockyard::navigation::PathWeight> {
   static constexpr std::array<std::string_view, 3> kNames{"linear", "inverse", "uniform"};
+};
+
+template <>
+struct rockyard::core::EnumNames<rockyard::navigation::UnknownCells> {
+  static constexpr std::array<std::string_view, 2> kNames{"full_weight", "by_certainty"};
 };

@@ -39,10 +39,11 @@ bool LeadsToGoal(const GoalDirection& goal, int direction) {
 
 HazardVote VoteOnPath(const GoodnessGrid& grid, const PoseEstimate& estimate,
                       std::span<const PathPoint> points, std::span<const double> weights,
-                      double min_allowed_goodness) {
+                      double min_allowed_goodness, UnknownCells unknown_cells) {
   EXPECT(!points.empty() && weights.size() >= points.size());
   const double cosine = std::cos(estimate.heading_rad);
   const double sine = std::sin(estimate.heading_rad);
+  const bool by_certainty = unknown_cells == UnknownCells::kByCertainty;
   double weighted_goodness = 0.0;
   double weighted_certainty = 0.0;
   double sum_of_weights = 0.0;
@@ -52,7 +53,7 @@ HazardVote VoteOnPath(const GoodnessGrid& grid, const PoseEstimate& estimate,
     // p_W = p_WR + Rz(heading) p_R by the believed pose.
     const CellValue& cell = grid.At(estimate.x_m + cosine * p.x_m - sine * p.y_m,
                                     estimate.y_m + sine * p.x_m + cosine * p.y_m);
-    weighted_goodness += weights[k] * cell.goodness;
+    weighted_goodness += weights[k] * (by_certainty ? cell.certainty : 1.0) * cell.goodness;
     weighted_certainty += weights[k] * cell.certainty;
     sum_of_weights += weights[k];
     min_goodness = std::min(min_goodness, cell.goodness);
@@ -60,7 +61,12 @@ HazardVote VoteOnPath(const GoodnessGrid& grid, const PoseEstimate& estimate,
   // Step 4: goodness = sum w g / sum w, certainty = sum w c / sum w; one forbidden cell forbids the
   // path.
   const bool allowed = min_goodness > min_allowed_goodness;
-  return {allowed ? weighted_goodness / sum_of_weights : 0.0, weighted_certainty / sum_of_weights};
+  const double certainty = weighted_certainty / sum_of_weights;
+  if (!allowed) return {0.0, certainty};
+  if (!by_certainty) return {weighted_goodness / sum_of_weights, certainty};
+  // sum w c g / sum w c.
+  const bool blank = weighted_certainty <= 0.0;
+  return {blank ? grid.unknown.goodness : weighted_goodness / weighted_certainty, certainty};
 }
 
 GoalDirection TowardsGoal(const PoseEstimate& estimate, const messages::Goal& goal) {
@@ -167,12 +173,14 @@ MotionVote ArcVoter::VoteOn(const CandidateMotion& candidate, double waypoint,
   // "Out to min(dist to goal, default length)" (step 4).
   const std::size_t count =
       std::min(candidate.points.size(), sampling_.CountWithin(goal_distance_m));
-  HazardVote hazard = VoteOnPath(grid, estimate, std::span(candidate.points).first(count),
-                                 sampling_.weight, params_.votes.min_allowed_goodness);
+  HazardVote hazard =
+      VoteOnPath(grid, estimate, std::span(candidate.points).first(count), sampling_.weight,
+                 params_.votes.min_allowed_goodness, params_.plan.unknown_cells);
   const bool whole = params_.votes.whole_numbers;
   hazard = {Rounded(hazard.goodness, whole), Rounded(hazard.certainty, whole)};
   MotionVote vote;
   vote.motion = candidate.motion;
+  vote.turn_rad = candidate.turn_rad;
   vote.hazard = hazard.goodness;
   vote.hazard_certainty = hazard.certainty;
   vote.waypoint = Rounded(waypoint, whole);

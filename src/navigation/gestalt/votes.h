@@ -25,11 +25,12 @@ struct HazardVote {
 // under the first points of a path, with w the weights:
 //   goodness  = sum w g / sum w, but 0 if any g <= min_allowed_goodness,
 //   certainty = sum w c / sum w.
-// Unknown cells count with their pair. `estimate` is where the path begins. There are at least as
-// many weights as points; cost: one look into the grid a point.
+// Unknown cells count with their pair, or by certainty, goodness = sum w c g / sum w c; there the
+// pair's goodness is that of a path without any certainty. `estimate` is where the path begins.
+// There are at least as many weights as points; cost: one look into the grid a point.
 HazardVote VoteOnPath(const GoodnessGrid& grid, const messages::PoseEstimate& estimate,
                       std::span<const PathPoint> points, std::span<const double> weights,
-                      double min_allowed_goodness);
+                      double min_allowed_goodness, UnknownCells unknown_cells);
 
 // The goal as the rover sees it.
 struct GoalDirection {

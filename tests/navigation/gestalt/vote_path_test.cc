@@ -26,7 +26,8 @@ HazardVote StraightVote(const GoodnessGrid& grid, const std::vector<double>& at_
                         const std::vector<double>& weights) {
   std::vector<PathPoint> points;
   for (const double x_m : at_m) points.push_back({x_m, 0.1});
-  return VoteOnPath(grid, At(0.0, 0.0, 0.0), points, weights, kAllowed);
+  return VoteOnPath(grid, At(0.0, 0.0, 0.0), points, weights, kAllowed,
+                    UnknownCells::kFullWeight);
 }
 
 TEST(GestaltPathVote, IsTheWeightedMean) {
