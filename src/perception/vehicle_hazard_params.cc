@@ -42,9 +42,10 @@ void VehicleHazardParams::Visit(core::FieldVisitor& v) {
            .min = 0.5,
            .max = 90.0,
            .origin = Origin::kAssumed,
-           .source = "three fifths of the way to its stop: a front wheel 13 cm up",
-           .study_low = 20.0,
-           .study_high = 45.0});
+           .source = "halfway between the 39 deg by which a single rock of two wheel radii bends "
+                     "it, which the rover may drive over, and its stop",
+           .study_low = 40.0,
+           .study_high = 48.0});
   v.Real(
       "max_current_A", max_current_A,
       {.doc = "motor current above which a wheel that hardly turns has stalled",

@@ -13,7 +13,7 @@ namespace rockyard::perception {
 struct VehicleHazardParams {
   double max_tilt_rad = math::DegToRad(25.0);
   double max_rocker_rad = math::DegToRad(15.0);
-  double max_bogie_rad = math::DegToRad(30.0);
+  double max_bogie_rad = math::DegToRad(44.0);
   double max_current_A = 0.18;
   double max_turn_share = 0.2;
   std::int64_t tilt_ticks = 2;

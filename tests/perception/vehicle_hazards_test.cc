@@ -70,10 +70,10 @@ VehicleState Bent(double left_rocker_deg, double left_bogie_deg, double right_bo
 }
 
 TEST(ArticulationTest, IsFeltAboveTheThreshold) {
-  EXPECT_FALSE(Felt(Bent(14.9, 29.9, -29.9)));
-  ExpectFelt(Bent(0, 30.1, 0), VehicleHazardKind::kArticulation, HazardSide::kLeft);
-  ExpectFelt(Bent(0, 0, -30.1), VehicleHazardKind::kArticulation, HazardSide::kRight);
-  ExpectFelt(Bent(0, -31, -31), VehicleHazardKind::kArticulation, HazardSide::kAhead);
+  EXPECT_FALSE(Felt(Bent(14.9, 43.9, -43.9)));
+  ExpectFelt(Bent(0, 44.1, 0), VehicleHazardKind::kArticulation, HazardSide::kLeft);
+  ExpectFelt(Bent(0, 0, -44.1), VehicleHazardKind::kArticulation, HazardSide::kRight);
+  ExpectFelt(Bent(0, -45, -45), VehicleHazardKind::kArticulation, HazardSide::kAhead);
   // The side whose front end is up: a rotation about y takes the nose down.
   ExpectFelt(Bent(-15.1, 0, 0), VehicleHazardKind::kArticulation, HazardSide::kLeft);
   ExpectFelt(Bent(15.1, 0, 0), VehicleHazardKind::kArticulation, HazardSide::kRight);
@@ -252,7 +252,7 @@ TEST(VehicleHazardDetectorTest, ResetForgetsTheTicksCounted) {
 
 TEST(VehicleHazardDetectorTest, TouchComesFirstAndMissingSensorsSayNothing) {
   VehicleState state = Leaning(30, 0);
-  state.articulation = Bent(0, 40, 0).articulation;
+  state.articulation = Bent(0, 46, 0).articulation;
   ExpectFelt(state, VehicleHazardKind::kTilt, HazardSide::kLeft);
   state.contact = Touched({ContactSwitch::kFrontRight}).contact;
   ExpectFelt(state, VehicleHazardKind::kContact, HazardSide::kRight);

@@ -138,10 +138,16 @@ NavigatorDecision GestaltNavigator::Choose(const NavigatorInput& input) {
   FillView(input);
   if (chosen == nullptr) return Finish(NavigatorStatus::kGaveUp);
   search_direction_ = turns && searches ? turn.motion.direction : 0;
+  drives_after_turn_ = turns && !searches && turn.hazard > params_.drive.min_drive_goodness;
   if (turns) return Begin(Mode::kTurning, turn.motion, std::abs(turn.turn_rad), input);
+  return BeginDrive(chosen->motion, input);
+}
+
+NavigatorDecision GestaltNavigator::BeginDrive(const MotionCommand& arc,
+                                               const NavigatorInput& input) {
   searched_rad_ = 0.0;
   const double left_m = TowardsGoal(input.estimate, goal_).distance_m;
-  return Begin(Mode::kDriving, chosen->motion, std::min(params_.drive.step_m, left_m), input);
+  return Begin(Mode::kDriving, arc, std::min(params_.drive.step_m, left_m), input);
 }
 
 // A search turns one way only, by the amount of table 1: the other way lies what it has just seen.
@@ -188,6 +194,8 @@ NavigatorDecision GestaltNavigator::ContinueTurn(const NavigatorInput& input) {
   searched_rad_ += std::abs(turned_rad_);
   if (stops) return OnFelt(input);
   vetoed_.clear();
+  const bool timed_out = turned_rad_ < leg_;
+  if (drives_after_turn_ && !timed_out) return BeginDrive({MotionKind::kArc, 0.0, +1}, input);
   return BeginCycle(input);
 }
 

@@ -5,7 +5,9 @@
 //   1. At the goal within goal_tolerance: arrived. Out of time, or no progress for long: given up.
 //   2. Look ahead; the points go into the map, and every motion is voted on.
 //   3. Best forward vote below min_fwd_threshold: look behind, too, and vote again.
-//   4. Drive the chosen arc for min(step, distance to the goal), or turn in place and look again.
+//   4. Drive the chosen arc for min(step, distance to the goal), or turn in place.
+//   5. After a turn that was better than every arc: the straight drive that it was voted on with
+//      (Howard 2012). After one for want of a way: another look.
 // Nothing to choose after turning in place by search_turn: given up.
 //
 // Drives and turns end by what is measured on board. A hazard that the rover feels on the way
@@ -64,6 +66,7 @@ class GestaltNavigator final : public Navigator {
   NavigatorDecision OnFelt(const NavigatorInput& input);
 
   NavigatorDecision Look(Mode mode);
+  NavigatorDecision BeginDrive(const messages::MotionCommand& arc, const NavigatorInput& input);
   NavigatorDecision Begin(Mode mode, const messages::MotionCommand& motion, double leg,
                           const NavigatorInput& input);
   messages::MotionVote& NextTurn(const messages::PoseEstimate& estimate);
@@ -88,6 +91,7 @@ class GestaltNavigator final : public Navigator {
   double began_s_ = 0.0;           // on-board clock then
   double leg_ = 0.0;               // length of the running drive, m, or angle of the turn, rad
   double turned_rad_ = 0.0;        // of the running turn, the way that it was told
+  bool drives_after_turn_ = false;
   double last_heading_rad_ = 0.0;  // at the last tick of it
   bool felt_since_start_ = false;  // a hazard without a break since the manoeuvre began
 

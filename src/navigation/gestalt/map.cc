@@ -172,7 +172,11 @@ const GoodnessGrid& GestaltMap::Evaluate() {
   grid_.x0_m = CentreX_m(cells_.first_x()) - 0.5 * grid_.xstep_m;
   grid_.y0_m = CentreY_m(cells_.first_y()) - 0.5 * grid_.ystep_m;
   planes_.Fit(cells_, box_);
-  steps_.Find(cells_, box_, planes_.reach());
+  if (params_.step_reference == StepReference::kLevel) {
+    steps_.Find(cells_, box_, planes_.reach());
+  } else {
+    steps_.FindFromPlanes(cells_, box_, planes_.reach(), planes_.planes());
+  }
   traversability_.Assess(planes_.planes(), steps_.steps_m(), grid_);
   return grid_;
 }

@@ -92,6 +92,12 @@ void VisitFormulas(GestaltMapParams& p, core::FieldVisitor& v) {
            {.doc = "the height h of the step and roughness formulas",
             .origin = Origin::kAssumed,
             .source = "Goldberg 2002 sec. 4 says clearance, table 1 has obst-height alone"});
+  v.Choice("step_reference", p.step_reference,
+           {.doc = "what the elevations of the step test count from: the level, or the patch's "
+                   "plane; with the latter nothing but tests.pitch keeps the rover from a slope",
+            .origin = Origin::kAssumed,
+            .source = "Goldberg 2002 sec. 4 step 3 prints differences of elevation, which make an "
+                      "obstacle of a smooth slope of 14 deg; max-pitch of table 1 is 25 deg"});
   v.Choice("roughness_formula", p.roughness_formula,
            {.doc = "how the roughness fraction f enters the goodness: 255 (1 - f r/h) as printed, "
                    "or 255 (1 - r/(f h)) divided",

@@ -19,6 +19,12 @@ enum class HazardHeight {
   kWheelDiameter,  // twice rover.wheel_radius_m, which no printed formula uses
 };
 
+// From where the elevations of a patch count in the step test.
+enum class StepReference {
+  kLevel,  // as printed: a smooth slope is a step from its low end to its high one
+  kPlane,  // from the patch's own plane, where it has one: slopes are left to the pitch test
+};
+
 // The goodness of a roughness hazard, with r the residual and f the roughness fraction.
 enum class RoughnessFormula {
   kAsPrinted,  // 255 (1 - min(1, f r/h)): a smaller f means an earlier but a milder hazard
@@ -117,6 +123,7 @@ struct GestaltMapParams {
   double min_patch_share = 0.5;
   std::int64_t min_cell_points = 2;
   HazardHeight hazard_height = HazardHeight::kObstHeight;
+  StepReference step_reference = StepReference::kLevel;
   RoughnessFormula roughness_formula = RoughnessFormula::kAsPrinted;
   double roughness_fraction = 1.0;
   PatchSize patch = PatchSize::kWidth;
@@ -142,6 +149,11 @@ template <>
 struct rockyard::core::EnumNames<rockyard::navigation::HazardHeight> {
   static constexpr std::array<std::string_view, 3> kNames{"obst_height", "clearance",
                                                           "wheel_diameter"};
+};
+
+template <>
+struct rockyard::core::EnumNames<rockyard::navigation::StepReference> {
+  static constexpr std::array<std::string_view, 2> kNames{"level", "plane"};
 };
 
 template <>

@@ -9,6 +9,9 @@ namespace {
 // Against shares such as 0.56 of 25 cells that should be whole numbers.
 constexpr double kRounding = 1e-6;
 
+// Smallest upward part of a normal that a rise is divided by: planes steeper than 89 deg.
+constexpr double kOnEnd = 0.0175;
+
 // Cells on one side of the middle cell that a square of that side touches when it is centred on it:
 // ceil((side - step) / (2 step)). A side that ends at a cell's border does not touch the next one.
 int Reach(double side_m, double step_m) {
@@ -174,6 +177,11 @@ void PatchPlanes::Store(const math::PlaneFit& fit, PatchPlane& plane) const {
   // r of the roughness hazard, m.
   plane.residual_m = fit.residual_m;
   if (params_.tests.pitch) plane.slope_rad = fit.Slope_rad();
+  if (params_.step_reference == StepReference::kLevel) return;
+  // n . p = const: dz/dx = -n_x / n_z. A plane on end has no elevation to measure from.
+  const double upright = std::max(fit.normal.z(), kOnEnd);
+  plane.rise_x = -fit.normal.x() / upright;
+  plane.rise_y = -fit.normal.y() / upright;
 }
 
 void PatchPlanes::FindSpreads(const CellWindow& cells) {

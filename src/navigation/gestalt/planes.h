@@ -15,7 +15,10 @@ namespace rockyard::navigation {
 struct PatchPlane {
   double residual_m = 0.0;  // where plane_valid
   double slope_rad = 0.0;   // where plane_valid and the pitch test runs
-  bool enough = false;      // min_patch_share of the cells hold min_cell_points
+  // dz/dx and dz/dy of the plane, where plane_valid and steps are measured from it.
+  double rise_x = 0.0;
+  double rise_y = 0.0;
+  bool enough = false;  // min_patch_share of the cells hold min_cell_points
   bool plane_valid = false;
   bool marked = false;  // holds a cell where the rover felt an obstacle
 };

@@ -69,4 +69,47 @@ void PatchSteps::Find(const CellWindow& cells, const CellBox& box, PatchReach re
   }
 }
 
+double PatchSteps::StepFrom(const PatchPlane& plane, const CellBox& patch) const {
+  double highest = -kNone;
+  double lowest = kNone;
+  for (int iy = patch.y; iy < patch.y_end; ++iy) {
+    for (int ix = patch.x; ix < patch.x_end; ++ix) {
+      const std::size_t i = CellIndex(ix, iy, columns_);
+      if (!has_data_[i]) continue;
+      const math::Vector3& p = means_[i];
+      const double above = p.z() - plane.rise_x * p.x() - plane.rise_y * p.y();
+      highest = std::max(highest, above);
+      lowest = std::min(lowest, above);
+    }
+  }
+  return highest > lowest ? highest - lowest : 0.0;
+}
+
+void PatchSteps::FindFromPlanes(const CellWindow& cells, const CellBox& box, PatchReach reach,
+                                const std::vector<PatchPlane>& planes) {
+  Find(cells, box, reach);
+  columns_ = cells.nx();
+  has_data_.assign(steps_.size(), false);
+  means_.resize(steps_.size());
+  for (int iy = box.y; iy < box.y_end; ++iy) {
+    for (int ix = box.x; ix < box.x_end; ++ix) {
+      const math::PointMoments& moments = cells.At(ix, iy).moments;
+      if (moments.empty()) continue;
+      const std::size_t i = CellIndex(ix, iy, columns_);
+      has_data_[i] = true;
+      means_[i] = math::Spread(moments).mean_m;
+    }
+  }
+  const CellBox out = box.Grown(reach.x, reach.y, cells.nx(), cells.ny());
+  for (int iy = out.y; iy < out.y_end; ++iy) {
+    for (int ix = out.x; ix < out.x_end; ++ix) {
+      const std::size_t i = CellIndex(ix, iy, columns_);
+      if (!planes[i].plane_valid) continue;
+      const CellBox patch =
+          CellBox{ix, ix + 1, iy, iy + 1}.Grown(reach.x, reach.y, cells.nx(), cells.ny());
+      steps_[i] = StepFrom(planes[i], patch);
+    }
+  }
+}
+
 }  // namespace rockyard::navigation

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "math/pose.h"
 #include "navigation/gestalt/cells.h"
 #include "navigation/gestalt/planes.h"
 
@@ -18,17 +19,27 @@ class PatchSteps {
   // Works on the same cells and box as PatchPlanes::Fit.
   void Find(const CellWindow& cells, const CellBox& box, PatchReach reach);
 
+  // As Find, but elevations count from the patch's own plane where it has one:
+  //   e = max - min over the cells of  z - (dz/dx x + dz/dy y),
+  // with the means of their points. Cost: O(cells times cells of a patch).
+  void FindFromPlanes(const CellWindow& cells, const CellBox& box, PatchReach reach,
+                      const std::vector<PatchPlane>& planes);
+
   // Returns the differences, m, row by row; 0 where a patch holds no points.
   const std::vector<double>& steps_m() const { return steps_; }
 
  private:
   void LoadElevations(const CellWindow& cells, const CellBox& box, PatchReach reach);
+  double StepFrom(const PatchPlane& plane, const CellBox& patch) const;
 
   int width_ = 0;  // of the padded maps below
   int height_ = 0;
   std::vector<double> highest_;  // padded by the reach on all sides
   std::vector<double> lowest_;
   std::vector<double> steps_;
+  int columns_ = 0;                   // of means_
+  std::vector<math::Vector3> means_;  // of the points of each cell with data, m
+  std::vector<bool> has_data_;
 };
 
 }  // namespace rockyard::navigation

@@ -135,6 +135,12 @@ class GestaltDrive final : public LoggedDrive<GestaltTick> {
     navigator_.OnPoseUpdate(before, rover_.estimate());
   }
 
+  void Correct(const messages::PoseUpdate& update) {
+    const messages::PoseEstimate before = rover_.estimate();
+    rover_.SetEstimate(update);
+    navigator_.OnCorrection(before, rover_.estimate());
+  }
+
   int Looks(messages::LookDirection direction) const {
     int looks = 0;
     for (const GestaltTick& tick : log_) looks += tick.looks(direction) ? 1 : 0;

@@ -118,6 +118,7 @@ TEST(GestaltDifferentialTest, EveryChoice) {
     params.patch = static_cast<PatchSize>(pick(10, 2));
     params.roughness_formula = static_cast<RoughnessFormula>(pick(11, 2));
     params.hazard_height = static_cast<HazardHeight>(pick(12, 3));
+    params.step_reference = static_cast<StepReference>(pick(14, 2));
     params.roughness_fraction = 0.25 + 0.25 * pick(15, 4);
     params.min_cell_coverage = 0.2 * pick(17, 6);
     params.min_patch_share = 0.21 * pick(20, 4);

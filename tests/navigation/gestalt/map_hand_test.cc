@@ -237,5 +237,36 @@ TEST(GestaltHandTest, RockBetweenCells) {
   ExpectBlock(GridOf(HandParams(), rock), {7, 13, 7, 13}, Good(64), kBest);
 }
 
+// A smooth slope of 14 degrees rises by 0.2 m over the 0.8 m between the outermost cells of a
+// patch: an obstacle as printed, and nothing from its own plane.
+TEST(GestaltHandTest, SmoothSlopeIsAStepFromTheLevelAndNoneFromItsPlane) {
+  GestaltMapParams params = HandParams();
+  const auto slope = [](double x, double y) { return 0.15 * x + 0.2 * y; };
+  EXPECT_EQ(GridOf(params, slope).Cell(10, 10), Good(0));
+  params.step_reference = StepReference::kPlane;
+  EXPECT_EQ(GridOf(params, slope).Cell(10, 10), kBest);
+  // 255 (1 - atan(0.25) / 25 deg) = 111.8 with the pitch test.
+  params.tests.pitch = true;
+  EXPECT_EQ(GridOf(params, slope).Cell(10, 10), Good(112));
+}
+
+// A step in the slope that its plane cannot follow: one column 18 cm up among twenty-five cells.
+TEST(GestaltHandTest, StepInASlopeCountsFromItsPlane) {
+  GestaltMapParams params = HandParams();
+  params.tests.rough = false;
+  params.step_reference = StepReference::kPlane;
+  const auto on = [](double slope) {
+    return [slope](double x, double y) {
+      return slope * y + (In(x, y, {10, 11, 10, 11}) ? 0.18 : 0.0);
+    };
+  };
+  // In the middle of its patch a rock tilts nothing: 127 (1 - 0.18 / 0.2) = 12.7. On a slope the
+  // distances that the fit makes least are not those straight up, so that it does a little.
+  EXPECT_EQ(GridOf(params, on(0.0)).Cell(10, 10), Good(13));
+  EXPECT_NEAR(int{GridOf(params, on(0.1)).Cell(10, 10).goodness}, 13, 1);
+  params.step_reference = StepReference::kLevel;
+  EXPECT_EQ(GridOf(params, on(0.1)).Cell(10, 10), Good(0)) << "0.18 m and 4 cm of slope";
+}
+
 }  // namespace
 }  // namespace rockyard::navigation

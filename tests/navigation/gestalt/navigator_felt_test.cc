@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <vector>
 
 #include "drive.h"
 
@@ -196,6 +197,40 @@ TEST(GestaltFelt, DuringASearchTurnsTheOtherWay) {
   EXPECT_NEAR(drive.rover().X_WR().heading_rad, 0.5, 0.03);
   ASSERT_TRUE(drive.StepUntil([](const GestaltTick& t) { return t.turns(); }));
   EXPECT_EQ(drive.log().back().decision.motion.direction, -1);
+}
+
+// Something that no camera sees and that marks too little to block the way stands ahead. The arc
+// that met it is not taken again from there; without the veto it is.
+TEST(GestaltFelt, TheArcOnWhichItFeltIsNotChosenAgainFromThere) {
+  for (const bool veto : {true, false}) {
+    GestaltSetup setup;
+    setup.rover = TrueRover();
+    setup.params.drive.veto_felt = veto;
+    setup.params.drive.max_felt = 3;
+    // The mark lies nearer than paths are judged from.
+    setup.params.plan.plan_min_dist_m = 1.5;
+    setup.felt = [](const FakeRover& rover) -> std::optional<VehicleHazard> {
+      const math::Pose2& X_WR = rover.X_WR();
+      if (X_WR.x_m > 0.2 && std::abs(X_WR.y_m) < 1e-6) return kTouchAhead;
+      return std::nullopt;
+    };
+    GestaltDrive drive(setup);
+    std::vector<double> forward_per_m;
+    EXPECT_EQ(drive.Run(), veto ? NavigatorStatus::kArrived : NavigatorStatus::kGaveUp);
+    for (std::size_t i = 1; i < drive.log().size(); ++i) {
+      const GestaltTick& tick = drive.log()[i];
+      if (tick.has_cloud && tick.drives() && tick.decision.motion.direction > 0) {
+        forward_per_m.push_back(tick.decision.motion.curvature_per_m);
+      }
+    }
+    ASSERT_GE(forward_per_m.size(), 3U);
+    EXPECT_EQ(forward_per_m[0], 0.0);
+    if (veto) {
+      EXPECT_NE(forward_per_m[1], 0.0);
+    } else {
+      EXPECT_EQ(forward_per_m[1], 0.0);
+    }
+  }
 }
 
 }  // namespace

@@ -32,6 +32,10 @@ GestaltParams RandomParams(Draws& draws) {
   p.arcs.num_forward_arcs = 1 + draws.Below(30);
   p.arcs.num_backward_arcs = draws.Below(30);
   p.arcs.point_turn_amount_rad = math::DegToRad(draws.Between(1.0, 170.0));
+  p.arcs.num_point_turns = draws.Below(5);
+  p.plan.unknown_cells = static_cast<UnknownCells>(draws.Below(2));
+  p.map.step_reference = static_cast<StepReference>(draws.Below(2));
+  p.drive.veto_felt = draws.Chance(0.5);
   p.waypoints.tight_curve_fraction = draws.Between(0.0, 1.0);
   p.waypoints.vote_index_variance = draws.Between(0.01, 500.0);
   p.waypoints.waypoint_certainty = draws.Chance(0.1) ? 0.0 : draws.Between(0.0, 255.0);

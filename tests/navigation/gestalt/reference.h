@@ -49,6 +49,7 @@ class ReferenceMap {
     bool valid = false;
     double residual = 0.0;
     double slope = 0.0;
+    math::Vector3 normal = math::Vector3::UnitZ();
   };
 
   int Column(double x) const {
@@ -102,8 +103,8 @@ class ReferenceMap {
       if (left_out == p_.outliers_per_cell || cells.size() == 1 || farthest < 1e-6) {
         const bool line = values(1) <= 1e-12 * values(2);  // has no plane
         return {!line && values(1) >= p_.eigen_ratio * values(0),
-                std::sqrt(std::max(0.0, values(0))),
-                std::acos(std::min(1.0, std::abs(normal.z())))};
+                std::sqrt(std::max(0.0, values(0))), std::acos(std::min(1.0, std::abs(normal.z()))),
+                normal};
       }
       cells.erase(cells.begin() + static_cast<std::ptrdiff_t>(worst));
     }
@@ -145,6 +146,16 @@ class ReferenceMap {
     Plane plane = FitPlane(cells);
     plane.valid = plane.valid && reaches(columns.size(), p_.min_cell_coverage, 2 * rx + 1) &&
                   reaches(rows.size(), p_.min_cell_coverage, 2 * ry + 1);
+    if (plane.valid && p_.step_reference == StepReference::kPlane) {
+      low = 1e9;
+      high = -1e9;
+      for (const Points& cell : cells) {
+        // How far straight up from the plane through the origin with this normal.
+        const double above = plane.normal.dot(Mean(cell)) / plane.normal.z();
+        low = std::min(low, above);
+        high = std::max(high, above);
+      }
+    }
     return Hazards(high - low, plane);
   }
 

@@ -164,6 +164,13 @@ TEST(GestaltChoice, BetterPointTurnElseTowardsTheGoal) {
   EXPECT_EQ(ChoosePointTurn(votes, 0.1)->motion.direction, -1);
 }
 
+TEST(GestaltChoice, VetoedArcsAreNotDriven) {
+  MotionVotes votes = Votes({100, 170, 210, 180, 170, 0, 0}, {0, 0, 0, 250, 0, 0, 0});
+  EXPECT_EQ(Chosen(votes), "f2");
+  votes.forward[2].vetoed = true;
+  EXPECT_EQ(Chosen(votes), "f3");
+}
+
 TEST(GestaltChoice, MarksWhatSharesTheVoteAndWhatIsChosen) {
   MotionVotes votes = Votes({100, 170, 170, 100, 170, 0, 0}, {0, 0, 0, 170, 0, 0, 0});
   MotionVote* arc = ChooseArc(votes, {});

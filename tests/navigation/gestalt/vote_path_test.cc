@@ -26,8 +26,7 @@ HazardVote StraightVote(const GoodnessGrid& grid, const std::vector<double>& at_
                         const std::vector<double>& weights) {
   std::vector<PathPoint> points;
   for (const double x_m : at_m) points.push_back({x_m, 0.1});
-  return VoteOnPath(grid, At(0.0, 0.0, 0.0), points, weights, kAllowed,
-                    UnknownCells::kFullWeight);
+  return VoteOnPath(grid, At(0.0, 0.0, 0.0), points, weights, kAllowed, UnknownCells::kFullWeight);
 }
 
 TEST(GestaltPathVote, IsTheWeightedMean) {
@@ -51,6 +50,31 @@ TEST(GestaltPathVote, OneCellAtTheLimitBlocksOneAboveDoesNot) {
     const double expected = goodness > 10 ? (255.0 + 255.0 + 11.0) / 3.0 : 0.0;
     EXPECT_NEAR(vote.goodness, expected, kRounding) << goodness;
   }
+}
+
+// By hand: goodness 100 with certainty 255, 200 with 51 and unknown (11, 0), weights 1, 1/2, 1/4.
+TEST(GestaltPathVote, UnknownCellsAtFullWeightOrByCertainty) {
+  const GoodnessGrid grid = GridOf([](double x, double) {
+    if (x > 2.0) return kUnknownCell;
+    return x < 1.0 ? CellValue{100, 255, true} : CellValue{200, 51, true};
+  });
+  const std::vector<PathPoint> points{{0.5, 0.1}, {1.5, 0.1}, {2.5, 0.1}};
+  const std::vector<double> weights{1.0, 0.5, 0.25};
+  const auto vote = [&](UnknownCells unknown, std::size_t first) {
+    return VoteOnPath(grid, At(0.0, 0.0, 0.0), std::span(points).subspan(first),
+                      std::span(weights).subspan(first), kAllowed, unknown);
+  };
+  const double certainty = (255.0 + 25.5) / 1.75;
+  const HazardVote full = vote(UnknownCells::kFullWeight, 0);
+  EXPECT_NEAR(full.goodness, (100.0 + 100.0 + 11.0 / 4.0) / 1.75, kRounding);
+  EXPECT_NEAR(full.certainty, certainty, kRounding);
+  const HazardVote weighed = vote(UnknownCells::kByCertainty, 0);
+  EXPECT_NEAR(weighed.goodness, (100.0 * 255.0 + 200.0 * 25.5) / (255.0 + 25.5), kRounding);
+  EXPECT_NEAR(weighed.certainty, certainty, kRounding);
+  // A path of which nothing is known has what its pair says, and no certainty.
+  const HazardVote blank = vote(UnknownCells::kByCertainty, 2);
+  EXPECT_EQ(blank.goodness, 11.0);
+  EXPECT_EQ(blank.certainty, 0.0);
 }
 
 TEST(GestaltPathVote, UnknownEverywhereGivesItsPair) {

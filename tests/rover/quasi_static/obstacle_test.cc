@@ -83,5 +83,39 @@ TEST(QuasiStaticRock, SteeringAtRestLeavesNoWheelInsideARock) {
   EXPECT_GT((rover->state().X_WR.translation() - before).norm(), 0.001);
 }
 
+// How far each wheel turns in a second of what it is told, of a rover that has driven against a
+// rock as wide as itself and higher than its wheels.
+messages::PerWheel<double> TurnSharesAtAWall(Fidelity fidelity, double stall_torque_Nm) {
+  RoverParams params;
+  params.fidelity = fidelity;
+  params.drive.stall_torque_Nm = stall_torque_Nm;
+  const terrain::Terrain terrain = FlatTerrain({MakeRock(0.7, 0.0, 0.0, 0.2, 2.0, 0.6)});
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  const messages::WheelCommand command = Drive(params, 0.15, 0.0);
+  RunFor(*rover, command, 6.0);
+  const messages::PerWheel<double> before = rover->state().wheel_angle_rad;
+  RunFor(*rover, command, 1.0);
+  messages::PerWheel<double> shares{};
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    shares[i] = (rover->state().wheel_angle_rad[i] - before[i]) / command.rate_rad_s[i];
+  }
+  return shares;
+}
+
+// Strong motors spin their wheels; of weak ones those that press against the rock stand, and the
+// others spin on the sand. The multibody has motors of its own and says the same.
+TEST(QuasiStaticMotor, AWheelThatTheMotorCannotTurnStands) {
+  for (const Fidelity fidelity : {Fidelity::kQuasiStatic, Fidelity::kMultibody}) {
+    const messages::PerWheel<double> strong = TurnSharesAtAWall(fidelity, 20.0);
+    const messages::PerWheel<double> weak = TurnSharesAtAWall(fidelity, 2.0);
+    for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+      EXPECT_NEAR(strong[i], 1.0, 0.02) << "wheel " << i;
+      const bool front = i % 3 == 0;
+      EXPECT_NEAR(weak[i], front ? 0.0 : 1.0, 0.05) << "wheel " << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace rockyard::rover
