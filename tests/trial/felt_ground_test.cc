@@ -35,7 +35,7 @@ Overrides Gravel() {
   core::RandomStream random({20021109, 0}, core::Purpose::kTest, 0);
   ListedRocks rocks;
   for (int i = 0; i < 900; ++i) {
-    rocks.x_m.push_back(0.7 + 5.0 * random.Uniform());
+    rocks.x_m.push_back(1.0 + 4.5 * random.Uniform());
     rocks.y_m.push_back(-2.0 + 4.0 * random.Uniform());
     rocks.height_m.push_back(0.025 + 0.02 * random.Uniform());
     rocks.diameter_m.push_back(1.6 * rocks.height_m.back());

@@ -83,6 +83,7 @@ TEST(GestaltPointTurns, TurnsByTheAngleThatWasChosenAsTheGyroHasIt) {
     GestaltSetup setup;
     setup.params = SixTurns();
     setup.params.votes.min_fwd_threshold = 256.0;  // looks behind at every step
+    setup.range.half_angle_rad = math::DegToRad(90.0);
     setup.rover = TrueRover();
     setup.goal = {4.0 * std::cos(math::DegToRad(behind_deg)),
                   4.0 * std::sin(math::DegToRad(behind_deg))};
