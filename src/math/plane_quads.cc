@@ -1,0 +1,12 @@
+// The kernel of registers of 4 numbers.
+#include "math/plane_lanes.h"
+#include "math/plane_widths.h"
+
+namespace rockyard::math {
+
+void FitPlanesByQuads(const std::uint64_t* moments, std::size_t size, PlaneParts parts,
+                      double* planes) {
+  FitPlanesBy<Twin<Quad>>(moments, size, parts, planes);
+}
+
+}  // namespace rockyard::math
