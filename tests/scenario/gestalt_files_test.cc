@@ -213,7 +213,7 @@ TEST(GestaltChecksTest, TheHazardStudiesMeasureTheLightStripe) {
 
 TEST(GestaltChecksTest, ListedRocksNeedEveryColumn) {
   EXPECT_TRUE(
-      Complains("narrow_course", {"terrain.rocks.listed.y_m=[0.5]"}, "terrain.rocks.listed.x_m"));
+      Complains("narrow_course", {"terrain.rocks.listed.y_m=[0.5]"}, "terrain.rocks.listed.y_m"));
 }
 
 }  // namespace
