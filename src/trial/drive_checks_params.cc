@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <string>
 
 #include "math/angles.h"
 #include "rover/steepest_slope_params.h"
@@ -156,6 +157,29 @@ void RequireHold(const DriveParams& drive, core::FieldVisitor& v) {
       fmt::format("use at most {:.1f} deg, or a soil of more friction or cohesion", held_deg));
 }
 
+// A rover that is set down on an edge falls before it is told to drive.
+void RequireLevelStart(const DriveParams& drive, core::FieldVisitor& v) {
+  const terrain::GroundParams& ground = drive.terrain.ground;
+  if (!ground.ditches.IsSound() || !ground.pits.IsSound()) return;
+  const rover::RoverGeometryParams& rover = drive.rover.geometry;
+  const double reach_m = 0.5 * std::hypot(rover.length_m, rover.width_m);
+  const auto meets = [&](const terrain::Depression& one) {
+    return one.Distance_m(drive.course.start_x_m, drive.course.start_y_m) <
+           one.half_width_m + reach_m;
+  };
+  const auto depressions = terrain::ListDepressions(ground.ditches, ground.pits);
+  const auto first = std::find_if(depressions.begin(), depressions.end(), meets);
+  if (first == depressions.end()) return;
+  const auto index = static_cast<std::size_t>(first - depressions.begin());
+  const std::size_t ditches = ground.ditches.x_m.size();
+  const std::string name = index < ditches ? fmt::format("ditches.x_m[{}]", index)
+                                           : fmt::format("pits.x_m[{}]", index - ditches);
+  v.Require("terrain.ground." + name, false,
+            fmt::format("reaches under the rover at the start, {:.2f} m around ({:g}, {:g})",
+                        reach_m, drive.course.start_x_m, drive.course.start_y_m),
+            "move it, or course.start_x_m and course.start_y_m");
+}
+
 // A stuck rover that runs on does so until its batteries are empty.
 void RequireEndOfStall(const DriveParams& drive, core::FieldVisitor& v) {
   v.Require("referee.stuck_rover",
@@ -174,6 +198,7 @@ void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v) {
   if (stereo && behaviour) RequireArray(drive, v);
   if (map) RequireOwnSize(drive, v);
   RequireHold(drive, v);
+  RequireLevelStart(drive, v);
   RequireEndOfStall(drive, v);
   RequireFreeEnds(drive, v);
   RequireDesignatedGoals(drive, v);

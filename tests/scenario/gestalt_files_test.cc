@@ -61,7 +61,7 @@ TEST(GestaltFilesTest, EveryFileDrivesAPublishedOrNamedPair) {
     EXPECT_EQ(scenario.drive.rover.fidelity, rover::Fidelity::kQuasiStatic) << name;
     EXPECT_EQ(scenario.drive.clock.compute.computer, trial::Computer::kR3000) << name;
   }
-  EXPECT_EQ(files, 11);
+  EXPECT_EQ(files, 12);
 }
 
 TEST(GestaltFilesTest, RunsAreThoseOfTheFigures) {
@@ -72,6 +72,9 @@ TEST(GestaltFilesTest, RunsAreThoseOfTheFigures) {
   EXPECT_EQ(narrow.drive.course.goal_x_m - narrow.drive.course.start_x_m,
             5.0);  // Goldberg 2002 fig. 3
   EXPECT_EQ(narrow.drive.terrain.rocks.kind, terrain::RockFieldKind::kListed);
+  const Scenario ditch = Load("ditch");
+  EXPECT_EQ(ditch.drive.terrain.rocks.kind, terrain::RockFieldKind::kNone);
+  EXPECT_TRUE(ditch.drive.terrain.ground.HasDepressions());
 }
 
 TEST(GestaltFilesTest, EveryPublishedValueHasItsScenario) {
@@ -209,6 +212,12 @@ TEST(GestaltChecksTest, GroupsThatDoNothingAreNotHeldAgainstEachOther) {
 TEST(GestaltChecksTest, TheHazardStudiesMeasureTheLightStripe) {
   EXPECT_TRUE(Complains("../hazard_detection/detection", {"sensors.terrain_sensor=stereo"},
                         "sensors.terrain_sensor"));
+}
+
+TEST(GestaltChecksTest, NoDitchReachesUnderTheStart) {
+  EXPECT_FALSE(Complains("ditch", {"terrain.ground.ditches.x_m=[0.9]"}, "terrain.ground"));
+  EXPECT_TRUE(Complains("ditch", {"terrain.ground.ditches.x_m=[0.5]"},
+                        "terrain.ground.ditches.x_m[0]"));
 }
 
 TEST(GestaltChecksTest, ListedRocksNeedEveryColumn) {
