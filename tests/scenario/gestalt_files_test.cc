@@ -214,10 +214,11 @@ TEST(GestaltChecksTest, TheHazardStudiesMeasureTheLightStripe) {
                         "sensors.terrain_sensor"));
 }
 
+// Half of the ditch's 0.5 m and half of the rover's diagonal: 0.918 m.
 TEST(GestaltChecksTest, NoDitchReachesUnderTheStart) {
-  EXPECT_FALSE(Complains("ditch", {"terrain.ground.ditches.x_m=[0.9]"}, "terrain.ground"));
-  EXPECT_TRUE(Complains("ditch", {"terrain.ground.ditches.x_m=[0.5]"},
-                        "terrain.ground.ditches.x_m[0]"));
+  EXPECT_FALSE(Complains("ditch", {"terrain.ground.ditches.x_m=[0.93]"}, "terrain.ground"));
+  EXPECT_TRUE(
+      Complains("ditch", {"terrain.ground.ditches.x_m=[0.91]"}, "terrain.ground.ditches.x_m[0]"));
 }
 
 TEST(GestaltChecksTest, ListedRocksNeedEveryColumn) {
