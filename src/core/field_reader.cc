@@ -18,7 +18,6 @@ namespace {
 using Type = JsonValue::Type;
 
 constexpr std::size_t kMaxProblems = 100;
-constexpr std::size_t kLongestList = 1000;
 constexpr std::size_t kLongestText = 10000;
 // Reals up to here are exact integers.
 constexpr double kLargestExactInteger = 9007199254740992.0;
@@ -185,9 +184,9 @@ std::optional<std::vector<Element>> FieldReader::ReadElements(std::string_view n
     return std::nullopt;
   }
   const JsonValue::List& list = input->list();
-  if (list.size() > kLongestList) {
+  if (list.size() > info.max_entries) {
     Add(path, fmt::format("has {} elements", list.size()),
-        fmt::format("use at most {}", kLongestList));
+        fmt::format("use at most {}", info.max_entries));
     return std::nullopt;
   }
   std::vector<Element> read(list.size());

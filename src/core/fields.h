@@ -17,6 +17,7 @@
 // Modules know neither JSON nor their siblings; core/archive.h holds the JSON side.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -44,6 +45,8 @@ struct FieldInfo {
   // Range over which an assumed value is varied in sensitivity studies; empty when equal.
   double study_low = 0.0;
   double study_high = 0.0;
+  // Most entries of a list.
+  std::size_t max_entries = 1000;
 };
 
 // Names of an enumeration's values, in value order starting at 0. Specialize per enum:

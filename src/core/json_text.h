@@ -13,7 +13,7 @@ namespace rockyard::core {
 
 // Bounds that keep hostile or mistaken inputs from exhausting memory or the stack.
 struct JsonLimits {
-  std::size_t max_bytes = std::size_t{4} << 20;
+  std::size_t max_bytes = std::size_t{32} << 20;
   int max_depth = 32;
 };
 

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "terrain/depression_field.h"
 #include "terrain/roughness_field.h"
 
 namespace rockyard::terrain {
 namespace {
 
-// Smallest step of a ray over rough ground, m: far below the finest wavelength of the roughness.
+// Smallest step of a ray over ground that is no plane, m: far below the finest wavelength of the
+// roughness and the narrowest flank.
 constexpr double kSmallestStep_m = 1e-3;
 // Width at which a bracketed crossing is as exact as contacts and pixels will ever need, m.
 constexpr double kCrossingWidth_m = 1e-12;
@@ -70,17 +72,44 @@ Ground::Ground(const GroundParams& params, core::TrialKey key)
     roughness_ = std::make_shared<const RoughnessField>(
         params.roughness_rms_m, params.hurst_exponent, params.roughness_wavelength_m, key);
   }
+  if (params.HasDepressions()) {
+    depressions_ =
+        std::make_shared<const DepressionField>(ListDepressions(params.ditches, params.pits));
+  }
 }
 
-double Ground::RoughnessHeight(double x_m, double y_m) const {
-  return roughness_->Sample(x_m, y_m).height_m;
+ReliefSample Ground::ReliefAt(double x_m, double y_m) const {
+  ReliefSample sum = roughness_ ? roughness_->Sample(x_m, y_m) : ReliefSample{};
+  if (!depressions_) return sum;
+  const ReliefSample down = depressions_->Sample(x_m, y_m);
+  sum.height_m += down.height_m;
+  sum.slope_x += down.slope_x;
+  sum.slope_y += down.slope_y;
+  return sum;
+}
+
+bool Ground::DepressionsReach(double x_m, double y_m, double radius_m) const {
+  return depressions_->Reaches(x_m, y_m, radius_m);
+}
+
+// Depressions reach no higher than the ground around them.
+Ground::Bounds Ground::ReliefBounds() const {
+  Bounds bounds;
+  if (roughness_) {
+    bounds = {roughness_->MaxHeight(), roughness_->MaxSlope(), roughness_->MaxCurvature()};
+  }
+  if (depressions_) {
+    bounds.slope += depressions_->MaxSlope();
+    bounds.curvature_per_m += depressions_->MaxCurvature();
+  }
+  return bounds;
 }
 
 math::Vector3 Ground::Normal(double x_m, double y_m) const {
   // The surface z = h(x, y) has the normal (-dh/dx, -dh/dy, 1), up to its length.
   math::Vector3 normal(-slope_x_, -slope_y_, 1.0);
-  if (roughness_) {
-    const RoughnessSample sample = roughness_->Sample(x_m, y_m);
+  if (!IsPlane()) {
+    const ReliefSample sample = ReliefAt(x_m, y_m);
     normal.x() -= sample.slope_x;
     normal.y() -= sample.slope_y;
   }
@@ -91,26 +120,29 @@ std::optional<double> Ground::MarchRay(const math::Vector3& origin_W,
                                        const math::Vector3& direction_W,
                                        double max_distance_m) const {
   const double horizontal = std::hypot(direction_W.x(), direction_W.y());
-  // gap(t) = z(t) - h(t) = plane_gap - t plane_rate - roughness; `rate` is minus its derivative.
+  // gap(t) = z(t) - h(t) = plane_gap - t plane_rate - relief; `rate` is minus its derivative. Where
+  // depressions overlap, the gap over the deepest is no less than that over the one at hand, for
+  // which the bounds below hold.
   const double plane_gap = origin_W.z() - slope_x_ * origin_W.x() - slope_y_ * origin_W.y();
   const double plane_rate =
       slope_x_ * direction_W.x() + slope_y_ * direction_W.y() - direction_W.z();
   const auto at = [&](double t) -> Approach {
-    const RoughnessSample rough =
-        roughness_->Sample(origin_W.x() + t * direction_W.x(), origin_W.y() + t * direction_W.y());
-    return {plane_gap - t * plane_rate - rough.height_m,
-            plane_rate + rough.slope_x * direction_W.x() + rough.slope_y * direction_W.y()};
+    const ReliefSample relief =
+        ReliefAt(origin_W.x() + t * direction_W.x(), origin_W.y() + t * direction_W.y());
+    return {plane_gap - t * plane_rate - relief.height_m,
+            plane_rate + relief.slope_x * direction_W.x() + relief.slope_y * direction_W.y()};
   };
-  // Above the highest that roughness can be there is nothing to meet.
-  const double free_gap = plane_gap - roughness_->MaxHeight();
+  // Above the highest that the relief can be there is nothing to meet.
+  const Bounds bounds = ReliefBounds();
+  const double free_gap = plane_gap - bounds.height_m;
   if (free_gap > 0.0 && free_gap > plane_rate * max_distance_m) return std::nullopt;
   double above = free_gap > 0.0 ? free_gap / plane_rate : 0.0;
   Approach now = at(above);
   if (now.gap_m <= 0.0) return above;
   // Nowhere does the gap close faster than this per metre of ray, nor its rate change by more than
   // bend_per_m per metre: the second derivative along the ray counts the horizontal part twice.
-  const double max_rate = plane_rate + roughness_->MaxSlope() * horizontal;
-  const double bend_per_m = roughness_->MaxCurvature() * horizontal * horizontal;
+  const double max_rate = plane_rate + bounds.slope * horizontal;
+  const double bend_per_m = bounds.curvature_per_m * horizontal * horizontal;
   if (now.gap_m > max_rate * (max_distance_m - above)) return std::nullopt;
   while (above < max_distance_m) {
     // The longer of two steps that are both safe, and never less than a millimetre.

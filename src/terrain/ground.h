@@ -1,4 +1,5 @@
-// The ground between the rocks: a plane with a slope, optional fractal roughness, and its soil.
+// The ground between the rocks: a plane with a slope, optional fractal roughness, ditches and pits,
+// and its soil.
 #pragma once
 
 #include <memory>
@@ -7,38 +8,46 @@
 #include "core/random.h"
 #include "math/pose.h"
 #include "terrain/ground_params.h"
+#include "terrain/relief.h"
 
 namespace rockyard::terrain {
 
-class RoughnessField;  // smooth height field, see roughness_field.h
+class RoughnessField;   // smooth height field, see roughness_field.h
+class DepressionField;  // ditches and pits, see depression_field.h
 
-// The ground is immutable; queries are const and thread-safe; copies share the roughness.
+// The ground is immutable; queries are const and thread-safe; copies share roughness and
+// depressions.
 class Ground {
  public:
   Ground();  // flat, z = 0
   // Makes the plane through the origin that rises by tan(slope) along the slope direction, plus
-  // roughness where its RMS is positive. Draws from Purpose::kGroundRoughness only then.
+  // roughness where its RMS is positive, less the ditches and pits. Draws from
+  // Purpose::kGroundRoughness only then.
   Ground(const GroundParams& params, core::TrialKey key);
 
   // Returns the height above the world's z = 0 plane, m.
   double Height(double x_m, double y_m) const {
     const double plane_m = slope_x_ * x_m + slope_y_ * y_m;
-    return roughness_ ? plane_m + RoughnessHeight(x_m, y_m) : plane_m;
+    return IsPlane() ? plane_m : plane_m + ReliefAt(x_m, y_m).height_m;
   }
   // Returns the unit normal in W, pointing up.
   math::Vector3 Normal(double x_m, double y_m) const;
+  // Returns whether a ditch or a pit may reach into the disc around (x, y).
+  bool HasDepressionNear(double x_m, double y_m, double radius_m) const {
+    return depressions_ != nullptr && DepressionsReach(x_m, y_m, radius_m);
+  }
   // Returns whether the ground is one plane, so that contacts and rays have closed forms.
-  bool IsPlane() const { return roughness_ == nullptr; }
+  bool IsPlane() const { return roughness_ == nullptr && depressions_ == nullptr; }
   const SoilParams& soil() const { return soil_; }
 
   // Returns the distance along the unit ray to the ground, at most max_distance_m; 0 where the
-  // origin lies on or below it. It is a closed form on a plane. On rough ground the ray advances by
+  // origin lies on or below it. It is a closed form on a plane. On other ground the ray advances by
   // steps that bounds on the height, the slope and the curvature show to be safe, but never by less
   // than 1 mm, so that a crest cut over less than 1 mm of ray can be missed; the crossing itself is
   // bracketed to 1e-12 m.
   std::optional<double> CastRay(const math::Vector3& origin_W, const math::Vector3& direction_W,
                                 double max_distance_m) const {
-    if (roughness_) return MarchRay(origin_W, direction_W, max_distance_m);
+    if (!IsPlane()) return MarchRay(origin_W, direction_W, max_distance_m);
     const double gap_m = Gap(origin_W);
     if (gap_m <= 0.0) return 0.0;
     const double descent =
@@ -51,7 +60,16 @@ class Ground {
  private:
   std::optional<double> MarchRay(const math::Vector3& origin_W, const math::Vector3& direction_W,
                                  double max_distance_m) const;
-  double RoughnessHeight(double x_m, double y_m) const;
+  bool DepressionsReach(double x_m, double y_m, double radius_m) const;
+  // What no point of the relief exceeds.
+  struct Bounds {
+    double height_m = 0.0;
+    double slope = 0.0;
+    double curvature_per_m = 0.0;
+  };
+  Bounds ReliefBounds() const;
+  // Returns what roughness and depressions add to the plane.
+  ReliefSample ReliefAt(double x_m, double y_m) const;
   // Returns the height of a point above the ground, m.
   double Gap(const math::Vector3& p_W) const { return p_W.z() - Height(p_W.x(), p_W.y()); }
 
@@ -59,6 +77,7 @@ class Ground {
   double slope_x_ = 0.0;  // dz/dx
   double slope_y_ = 0.0;  // dz/dy
   std::shared_ptr<const RoughnessField> roughness_;
+  std::shared_ptr<const DepressionField> depressions_;
 };
 
 }  // namespace rockyard::terrain

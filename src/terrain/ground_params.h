@@ -2,18 +2,25 @@
 #pragma once
 
 #include "core/fields.h"
+#include "terrain/depression_params.h"
 #include "terrain/soil_params.h"
 
 namespace rockyard::terrain {
 
-// The plane, its roughness and its soil.
+// The plane, its roughness, ditches and pits, and its soil.
 struct GroundParams {
   double slope_rad = 0.0;
   double slope_direction_rad = 0.0;
   double roughness_rms_m = 0.0;
   double hurst_exponent = 0.8;
   double roughness_wavelength_m = 2.0;
+  DitchesParams ditches;
+  PitsParams pits;
   SoilParams soil;
+
+  bool HasDepressions() const { return !ditches.x_m.empty() || !pits.x_m.empty(); }
+  // Returns whether the ground is level everywhere.
+  bool IsLevel() const { return slope_rad == 0.0 && roughness_rms_m == 0.0 && !HasDepressions(); }
 
   void Visit(core::FieldVisitor& v) {
     v.Angle("slope_deg", slope_rad,
@@ -47,6 +54,8 @@ struct GroundParams {
             .source = "no effect at the default RMS of 0",
             .study_low = 1.0,
             .study_high = 8.0});
+    v.Group("ditches", ditches, "straight trenches with round ends, one by one");
+    v.Group("pits", pits, "round holes, one by one");
     v.Group("soil", soil, "what the ground does to wheels");
   }
 };

@@ -15,6 +15,11 @@ struct ListedRocksParams {
   std::vector<double> diameter_m;
   std::vector<double> height_m;  // above the ground
 
+  // Returns whether all lists are as long as each other.
+  bool IsSound() const {
+    return y_m.size() == x_m.size() && diameter_m.size() == x_m.size() &&
+           height_m.size() == x_m.size();
+  }
   void Visit(core::FieldVisitor& v);
 };
 

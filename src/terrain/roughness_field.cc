@@ -99,7 +99,7 @@ void RoughnessField::AddBounds(const Octave& octave) {
       std::hypot(std::hypot(bend_x, bend_y), std::numbers::sqrt2 * twist) / (spacing_m * spacing_m);
 }
 
-void RoughnessField::AddOctave(const Octave& octave, double x_m, double y_m, RoughnessSample& sum) {
+void RoughnessField::AddOctave(const Octave& octave, double x_m, double y_m, ReliefSample& sum) {
   // Position in cells; the fraction within the cell gives the weights, the whole part the
   // coefficients. Masking with 63 wraps negative indices, too.
   const double u = x_m / octave.spacing_m;
@@ -128,8 +128,8 @@ void RoughnessField::AddOctave(const Octave& octave, double x_m, double y_m, Rou
   }
 }
 
-RoughnessSample RoughnessField::Sample(double x_m, double y_m) const {
-  RoughnessSample sum;
+ReliefSample RoughnessField::Sample(double x_m, double y_m) const {
+  ReliefSample sum;
   for (const Octave& octave : octaves_) AddOctave(octave, x_m, y_m, sum);
   return sum;
 }

@@ -5,15 +5,9 @@
 #include <vector>
 
 #include "core/random.h"
+#include "terrain/relief.h"
 
 namespace rockyard::terrain {
-
-// Height and slopes of the roughness at one point.
-struct RoughnessSample {
-  double height_m = 0.0;
-  double slope_x = 0.0;  // dz/dx
-  double slope_y = 0.0;  // dz/dy
-};
 
 // The roughness is a sum of octaves. Octave j has wavelength L 2^-j and RMS proportional to 2^(-j
 // H), the scaling of a self-affine surface with Hurst exponent H (height differences over a
@@ -31,7 +25,7 @@ class RoughnessField {
   RoughnessField(double rms_m, double hurst, double longest_wavelength_m, core::TrialKey key);
 
   // Returns height and slopes at a point; it costs about 30 ns per octave.
-  RoughnessSample Sample(double x_m, double y_m) const;
+  ReliefSample Sample(double x_m, double y_m) const;
 
   // These are upper bounds of the magnitudes anywhere: of the height, m, of the slope, and of the
   // second derivative in any direction, 1/m.
@@ -47,7 +41,7 @@ class RoughnessField {
 
   static constexpr int kNodes = 64;
 
-  static void AddOctave(const Octave& octave, double x_m, double y_m, RoughnessSample& sum);
+  static void AddOctave(const Octave& octave, double x_m, double y_m, ReliefSample& sum);
   void AddBounds(const Octave& octave);
 
   std::vector<Octave> octaves_;

@@ -1,5 +1,8 @@
 #include "terrain/terrain_params.h"
 
+#include <string>
+#include <vector>
+
 namespace rockyard::terrain {
 namespace {
 
@@ -20,14 +23,39 @@ bool CountAreaFits(const RockFieldParams& rocks, const ArenaParams& arena) {
 // Caps end on level ground and are held by nothing below it.
 void RequireGroundOfCaps(const TerrainParams& p, core::FieldVisitor& v) {
   const bool caps = p.rocks.kind != RockFieldKind::kNone && p.rocks.pointedness > 0.0;
-  v.Require("rocks.pointedness",
-            !caps || (p.ground.slope_rad == 0.0 && p.ground.roughness_rms_m == 0.0),
+  v.Require("rocks.pointedness", !caps || p.ground.IsLevel(),
             "is above 0 on ground that is not level: pointed rocks have a flat base, under which a "
             "gap would open",
-            "use 0, or ground.slope_deg 0 and ground.roughness_rms_m 0");
+            "use 0, or ground.slope_deg 0, ground.roughness_rms_m 0 and no ditches or pits");
   v.Require("rocks.pointedness", !caps || p.rocks.mobility == RockMobility::kFixed,
             "is above 0 with movable rocks: the soil's hold is known for ellipsoids only",
             "use 0, or rocks.mobility fixed");
+}
+
+// A rock that stands on an edge or a flank would stand partly in the air.
+void RequireRocksBesideDepressions(const TerrainParams& p, core::FieldVisitor& v) {
+  if (p.rocks.kind != RockFieldKind::kListed || !p.ground.HasDepressions()) return;
+  const ListedRocksParams& rocks = p.rocks.listed;
+  const std::vector<Depression> depressions = ListDepressions(p.ground.ditches, p.ground.pits);
+  for (std::size_t i = 0; i < rocks.x_m.size(); ++i) {
+    for (const Depression& one : depressions) {
+      const double distance_m = one.Distance_m(rocks.x_m[i], rocks.y_m[i]);
+      const double radius_m = 0.5 * rocks.diameter_m[i];
+      if (distance_m >= one.half_width_m + radius_m ||
+          distance_m + radius_m <= one.half_width_m - one.flank_m) {
+        continue;
+      }
+      v.Require("rocks.listed.x_m[" + std::to_string(i) + "]", false,
+                "puts the rock on the flank of a ditch or pit, partly in the air",
+                "place it beside, or whole on the level floor");
+      return;
+    }
+  }
+}
+
+// Whether lists that belong together are as long as each other; where not, their groups say so.
+bool HasSoundLists(const TerrainParams& p) {
+  return p.ground.ditches.IsSound() && p.ground.pits.IsSound() && p.rocks.listed.IsSound();
 }
 
 }  // namespace
@@ -64,6 +92,7 @@ void TerrainParams::Visit(core::FieldVisitor& v) {
   v.Group("rocks", rocks, "sizes, counts, shapes and placement");
   v.Group("arena", arena, "extent and edges");
   RequireGroundOfCaps(*this, v);
+  if (HasSoundLists(*this)) RequireRocksBesideDepressions(*this, v);
   v.Require("rocks.count_area_length_m",
             rocks.kind != RockFieldKind::kUniformCount || CountAreaFits(rocks, arena),
             "puts the count area outside the arena, or outside the strip between the mirror lines",

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <string>
+#include <string_view>
 
 #include "math/angles.h"
 #include "rover/steepest_slope_params.h"
@@ -81,12 +83,18 @@ void RequireArray(const DriveParams& drive, core::FieldVisitor& v) {
             "use near_m, far_m and half_width_m of the window");
 }
 
-bool IsFree(const terrain::ListedRocksParams& rocks, double x_m, double y_m, double clear_m) {
+// Refuses listed rocks nearer than clear_m to (x, y), which the course's `place` names.
+void RequireFreePlace(const terrain::ListedRocksParams& rocks, double x_m, double y_m,
+                      double clear_m, std::string_view place, core::FieldVisitor& v) {
   for (std::size_t i = 0; i < rocks.x_m.size(); ++i) {
     const double centre_m = std::hypot(rocks.x_m[i] - x_m, rocks.y_m[i] - y_m);
-    if (centre_m < clear_m + 0.5 * rocks.diameter_m[i]) return false;
+    if (centre_m >= clear_m + 0.5 * rocks.diameter_m[i]) continue;
+    v.Require(
+        fmt::format("terrain.rocks.listed.x_m[{}]", i), false,
+        fmt::format("puts the rock nearer to course.{} than terrain.rocks.clear_radius_m", place),
+        "move the rock or the course, or use a smaller clear_radius_m where that is meant");
+    return;
   }
-  return true;
 }
 
 // Random rocks keep away from start and goal, listed ones stand where they were put.
@@ -94,20 +102,12 @@ void RequireFreeEnds(const DriveParams& drive, core::FieldVisitor& v) {
   const terrain::RockFieldParams& rocks = drive.terrain.rocks;
   const terrain::ListedRocksParams& listed = rocks.listed;
   // Lists of different lengths have been refused by their own group.
-  const bool complete =
-      listed.y_m.size() == listed.x_m.size() && listed.diameter_m.size() == listed.x_m.size();
-  if (rocks.kind != terrain::RockFieldKind::kListed || !complete) return;
+  if (rocks.kind != terrain::RockFieldKind::kListed || !listed.IsSound()) return;
   const CourseParams& course = drive.course;
-  constexpr std::string_view kMove =
-      "move the rock or the course, or use a smaller clear_radius_m where that is meant";
-  v.Require("terrain.rocks.listed.x_m",
-            IsFree(listed, course.start_x_m, course.start_y_m, rocks.clear_radius_m),
-            "puts a rock nearer to course.start_x_m, start_y_m than terrain.rocks.clear_radius_m",
-            kMove);
-  v.Require("terrain.rocks.listed.x_m",
-            IsFree(listed, course.goal_x_m, course.goal_y_m, rocks.clear_radius_m),
-            "puts a rock nearer to course.goal_x_m, goal_y_m than terrain.rocks.clear_radius_m",
-            kMove);
+  RequireFreePlace(listed, course.start_x_m, course.start_y_m, rocks.clear_radius_m,
+                   "start_x_m, start_y_m", v);
+  RequireFreePlace(listed, course.goal_x_m, course.goal_y_m, rocks.clear_radius_m,
+                   "goal_x_m, goal_y_m", v);
 }
 
 // A goal beyond a mirror line is never reached: the rover is turned back there.
@@ -156,6 +156,29 @@ void RequireHold(const DriveParams& drive, core::FieldVisitor& v) {
       fmt::format("use at most {:.1f} deg, or a soil of more friction or cohesion", held_deg));
 }
 
+// A rover that is set down on an edge falls before it is told to drive.
+void RequireLevelStart(const DriveParams& drive, core::FieldVisitor& v) {
+  const terrain::GroundParams& ground = drive.terrain.ground;
+  if (!ground.ditches.IsSound() || !ground.pits.IsSound()) return;
+  const rover::RoverGeometryParams& rover = drive.rover.geometry;
+  const double reach_m = 0.5 * std::hypot(rover.length_m, rover.width_m);
+  const auto meets = [&](const terrain::Depression& one) {
+    return one.Distance_m(drive.course.start_x_m, drive.course.start_y_m) <
+           one.half_width_m + reach_m;
+  };
+  const auto depressions = terrain::ListDepressions(ground.ditches, ground.pits);
+  const auto first = std::find_if(depressions.begin(), depressions.end(), meets);
+  if (first == depressions.end()) return;
+  const auto index = static_cast<std::size_t>(first - depressions.begin());
+  const std::size_t ditches = ground.ditches.x_m.size();
+  const std::string name = index < ditches ? fmt::format("ditches.x_m[{}]", index)
+                                           : fmt::format("pits.x_m[{}]", index - ditches);
+  v.Require("terrain.ground." + name, false,
+            fmt::format("reaches under the rover at the start, {:.2f} m around ({:g}, {:g})",
+                        reach_m, drive.course.start_x_m, drive.course.start_y_m),
+            "move it, or course.start_x_m and course.start_y_m");
+}
+
 // A stuck rover that runs on does so until its batteries are empty.
 void RequireEndOfStall(const DriveParams& drive, core::FieldVisitor& v) {
   v.Require("referee.stuck_rover",
@@ -174,6 +197,7 @@ void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v) {
   if (stereo && behaviour) RequireArray(drive, v);
   if (map) RequireOwnSize(drive, v);
   RequireHold(drive, v);
+  RequireLevelStart(drive, v);
   RequireEndOfStall(drive, v);
   RequireFreeEnds(drive, v);
   RequireDesignatedGoals(drive, v);

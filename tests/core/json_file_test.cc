@@ -147,8 +147,8 @@ TEST_F(JsonFileTest, MissingAndWrongFilesAreErrors) {
   EXPECT_THAT(ProblemOf(dangling).path, HasSubstr("none.json"));
   EXPECT_THAT(ProblemOf(Write("b.json", R"({"extends": 3})")).reason, HasSubstr("not a file name"));
   EXPECT_THAT(ProblemOf(Write("empty.json", "")).reason, HasSubstr("line 1"));
-  EXPECT_THAT(ProblemOf(Write("large.json", std::string((4 << 20) + 1, ' '))).reason,
-              HasSubstr("more than the 4194304 allowed"));
+  EXPECT_THAT(ProblemOf(Write("large.json", std::string((32 << 20) + 1, ' '))).reason,
+              HasSubstr("more than the 33554432 allowed"));
 }
 
 TEST_F(JsonFileTest, ErrorsNameTheFileThatIsWrong) {

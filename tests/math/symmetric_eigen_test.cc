@@ -118,7 +118,7 @@ TEST(SymmetricEigenTest, SwappingAxesKeepsTheBits) {
 TEST(SymmetricEigenTest, CosineOfAThirdToTheLastBits) {
   for (int i = 0; i <= 10000; ++i) {
     const double t = i / 10000.0;
-    EXPECT_NEAR(internal::CosOfThird(Both(t))[0], std::cos(std::acos(t) / 3.0), 5e-16) << t;
+    EXPECT_NEAR(internal::CosOfThird(All<Pair>(t))[0], std::cos(std::acos(t) / 3.0), 5e-16) << t;
   }
 }
 

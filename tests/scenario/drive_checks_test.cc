@@ -78,9 +78,9 @@ INSTANTIATE_TEST_SUITE_P(
         // Rocks of 0.4 m at (0.6, 1.8) and (3.8, 0.2) keep 0.8 m from the flank, 1 m from the
         // centre: y = 1.8 - sqrt(1 - 0.6^2) = 1.0 m, x = 3.8 + sqrt(1 - 0.2^2) = 4.780 m.
         Limit{"start_on_a_rock", "narrow_course", "course.start_y_m=1.01", "course.start_y_m=0.99",
-              kListed},
+              kListed + "[0]"},
         Limit{"goal_on_a_rock", "narrow_course", "course.goal_x_m=4.77", "course.goal_x_m=4.79",
-              kListed},
+              kListed + "[21]"},
         Limit{"model_too_short", "abundance", kSize + ".length_m=0.51", kSize + ".length_m=0.53",
               kSize + ".length_m"},
         Limit{"model_too_wide", "abundance", kSize + ".width_m=1.69", kSize + ".width_m=1.67",

@@ -61,7 +61,7 @@ TEST(GestaltFilesTest, EveryFileDrivesAPublishedOrNamedPair) {
     EXPECT_EQ(scenario.drive.rover.fidelity, rover::Fidelity::kQuasiStatic) << name;
     EXPECT_EQ(scenario.drive.clock.compute.computer, trial::Computer::kR3000) << name;
   }
-  EXPECT_EQ(files, 11);
+  EXPECT_EQ(files, 12);
 }
 
 TEST(GestaltFilesTest, RunsAreThoseOfTheFigures) {
@@ -72,6 +72,9 @@ TEST(GestaltFilesTest, RunsAreThoseOfTheFigures) {
   EXPECT_EQ(narrow.drive.course.goal_x_m - narrow.drive.course.start_x_m,
             5.0);  // Goldberg 2002 fig. 3
   EXPECT_EQ(narrow.drive.terrain.rocks.kind, terrain::RockFieldKind::kListed);
+  const Scenario ditch = Load("ditch");
+  EXPECT_EQ(ditch.drive.terrain.rocks.kind, terrain::RockFieldKind::kNone);
+  EXPECT_TRUE(ditch.drive.terrain.ground.HasDepressions());
 }
 
 TEST(GestaltFilesTest, EveryPublishedValueHasItsScenario) {
@@ -211,9 +214,16 @@ TEST(GestaltChecksTest, TheHazardStudiesMeasureTheLightStripe) {
                         "sensors.terrain_sensor"));
 }
 
+// Half of the ditch's 0.5 m and half of the rover's diagonal: 0.918 m.
+TEST(GestaltChecksTest, NoDitchReachesUnderTheStart) {
+  EXPECT_FALSE(Complains("ditch", {"terrain.ground.ditches.x_m=[0.93]"}, "terrain.ground"));
+  EXPECT_TRUE(
+      Complains("ditch", {"terrain.ground.ditches.x_m=[0.91]"}, "terrain.ground.ditches.x_m[0]"));
+}
+
 TEST(GestaltChecksTest, ListedRocksNeedEveryColumn) {
   EXPECT_TRUE(
-      Complains("narrow_course", {"terrain.rocks.listed.y_m=[0.5]"}, "terrain.rocks.listed.x_m"));
+      Complains("narrow_course", {"terrain.rocks.listed.y_m=[0.5]"}, "terrain.rocks.listed.y_m"));
 }
 
 }  // namespace

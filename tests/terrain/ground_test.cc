@@ -114,8 +114,8 @@ TEST(RoughnessFieldTest, BoundsHoldEverywhere) {
   for (int i = 0; i < 40000; ++i) {
     const double x = 0.0237 * (i % 200);
     const double y = 0.0229 * (i / 200);
-    const RoughnessSample at = field.Sample(x, y);
-    const RoughnessSample ahead = field.Sample(x + kStep_m, y);
+    const ReliefSample at = field.Sample(x, y);
+    const ReliefSample ahead = field.Sample(x + kStep_m, y);
     height = std::max(height, std::abs(at.height_m));
     slope = std::max(slope, std::hypot(at.slope_x, at.slope_y));
     curvature = std::max(

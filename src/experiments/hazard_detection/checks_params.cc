@@ -88,8 +88,10 @@ void RequireMeasurable(const HazardDetectionParams& study, const trial::DrivePar
             "is not light_stripe, the sensor that the experiment hazard_detection measures",
             "use light_stripe");
   const terrain::GroundParams& ground = drive.terrain.ground;
-  v.Require("terrain.ground.slope_deg", ground.slope_rad == 0.0 && ground.roughness_rms_m == 0.0,
-            "or roughness_rms_m is not 0, where the experiment measures on flat sand",
+  v.Require("terrain.ground.slope_deg", ground.IsLevel(),
+            "or roughness_rms_m is not 0, or there are ditches or pits, where the experiment "
+            "measures on flat "
+            "sand",
             "leave the ground flat");
   v.Require("perception.hazard.agreement",
             drive.perception.hazard.agreement != perception::ScanAgreement::kConsecutiveMoving,

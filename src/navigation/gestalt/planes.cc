@@ -53,9 +53,8 @@ PatchPlanes::Sums& PatchPlanes::Sums::operator-=(const Sums& other) {
   return *this;
 }
 
-PatchPlanes::Sums PatchPlanes::SumsOf(const MapCell& cell) const {
-  return {cell.moments, cell.moments.count() >= params_.min_cell_points ? 1U : 0U,
-          cell.marked ? 1U : 0U};
+std::uint64_t PatchPlanes::IsFilled(const MapCell& cell) const {
+  return cell.moments.count() >= params_.min_cell_points ? 1U : 0U;
 }
 
 void PatchPlanes::Fit(const CellWindow& cells, const CellBox& box) {
@@ -64,7 +63,8 @@ void PatchPlanes::Fit(const CellWindow& cells, const CellBox& box) {
   spreads_.clear();
   if (box.empty()) return;
   const CellBox out = box.Grown(reach_.x, reach_.y, cells.nx(), cells.ny());
-  FindRowsWithData(cells, box, out);
+  row_holds_data_.assign(planes_.size(), 0);
+  cell_holds_data_.assign(static_cast<std::size_t>(cells.nx()), 0);
   columns_.assign(static_cast<std::size_t>(cells.nx()), {});
   rows_with_data_.assign(static_cast<std::size_t>(cells.nx()), 0);
   // From above the box, where every sum is zero.
@@ -75,22 +75,6 @@ void PatchPlanes::Fit(const CellWindow& cells, const CellBox& box) {
   FitWaiting();
 }
 
-void PatchPlanes::FindRowsWithData(const CellWindow& cells, const CellBox& box,
-                                   const CellBox& out) {
-  row_holds_data_.assign(planes_.size(), 0);
-  const auto holds = [&](int ix, int iy) {
-    return ix >= box.x && ix < box.x_end && !cells.At(ix, iy).moments.empty() ? 1 : 0;
-  };
-  for (int iy = box.y; iy < box.y_end; ++iy) {
-    int count = 0;
-    for (int ix = box.x - reach_.x; ix < out.x_end; ++ix) {
-      // A window of 2 reach + 1 cells slides along the row: one cell enters, one leaves.
-      count += holds(ix + reach_.x, iy) - holds(ix - reach_.x - 1, iy);
-      if (ix >= out.x) row_holds_data_[CellIndex(ix, iy, width_)] = count > 0;
-    }
-  }
-}
-
 void PatchPlanes::SlideDown(const CellWindow& cells, const CellBox& box, const CellBox& out,
                             int iy) {
   // Row iy + reach enters the patches of row iy, row iy - reach - 1 leaves them. Sums are whole
@@ -99,15 +83,42 @@ void PatchPlanes::SlideDown(const CellWindow& cells, const CellBox& box, const C
   const int gone = iy - reach_.y - 1;
   const bool adds = in < box.y_end;
   const bool takes = gone >= box.y && gone < box.y_end;
-  for (int ix = box.x; ix < box.x_end; ++ix) {
-    Sums& column = columns_[static_cast<std::size_t>(ix)];
-    if (adds) column += SumsOf(cells.At(ix, in));
-    if (takes) column -= SumsOf(cells.At(ix, gone));
-  }
+  if (adds) AddRow(cells, box, out, in);
+  if (takes) TakeRow(cells, box, gone);
   for (int ix = out.x; ix < out.x_end; ++ix) {
     std::int32_t& rows = rows_with_data_[static_cast<std::size_t>(ix)];
     if (adds) rows += row_holds_data_[CellIndex(ix, in, width_)];
     if (takes) rows -= row_holds_data_[CellIndex(ix, gone, width_)];
+  }
+}
+
+void PatchPlanes::AddRow(const CellWindow& cells, const CellBox& box, const CellBox& out, int iy) {
+  for (int ix = box.x; ix < box.x_end; ++ix) {
+    const MapCell& cell = cells.At(ix, iy);
+    Sums& column = columns_[static_cast<std::size_t>(ix)];
+    column.moments += cell.moments;
+    column.filled += IsFilled(cell);
+    column.marked += cell.marked ? 1U : 0U;
+    cell_holds_data_[static_cast<std::size_t>(ix)] = cell.moments.empty() ? 0 : 1;
+  }
+  const auto holds = [&](int ix) {
+    return ix >= box.x && ix < box.x_end ? cell_holds_data_[static_cast<std::size_t>(ix)] : 0;
+  };
+  int count = 0;
+  for (int ix = box.x - reach_.x; ix < out.x_end; ++ix) {
+    // A window of 2 reach + 1 cells slides along the row: one cell enters, one leaves.
+    count += holds(ix + reach_.x) - holds(ix - reach_.x - 1);
+    if (ix >= out.x) row_holds_data_[CellIndex(ix, iy, width_)] = count > 0;
+  }
+}
+
+void PatchPlanes::TakeRow(const CellWindow& cells, const CellBox& box, int iy) {
+  for (int ix = box.x; ix < box.x_end; ++ix) {
+    const MapCell& cell = cells.At(ix, iy);
+    Sums& column = columns_[static_cast<std::size_t>(ix)];
+    column.moments -= cell.moments;
+    column.filled -= IsFilled(cell);
+    column.marked -= cell.marked ? 1U : 0U;
   }
 }
 
@@ -146,42 +157,47 @@ void PatchPlanes::Assess(const CellWindow& cells, const Sums& patch, int columns
   if (plane.enough && covered) FitPatch(cells, patch.moments, middle, plane);
 }
 
-// Planes are fitted in pairs, which cost as much as one (math/pair.h); a patch waits for its
-// partner.
+// Planes are fitted in batches, which cost a fraction of as many single ones (math/plane_batch.h).
 void PatchPlanes::FitPatch(const CellWindow& cells, const math::PointMoments& moments, Cell middle,
                            PatchPlane& plane) {
   if (params_.outliers_per_cell > 0 || moments.count() > math::kExactPoints) {
-    Store(FitWithoutOutliers(CellsOf(cells, middle), moments, params_.outliers_per_cell), plane);
+    const math::PlaneFit fit =
+        FitWithoutOutliers(CellsOf(cells, middle), moments, params_.outliers_per_cell);
+    Store(fit.residual_m, fit.eigen_ratio, plane);
+    StoreNormal(fit.normal, plane);
     return;
   }
-  const math::SymmetricMatrix3 covariance_m2 = math::Spread(moments).covariance_m2;
-  if (waiting_.plane == nullptr) {
-    waiting_ = {&plane, covariance_m2};
-    return;
-  }
-  const auto fits = math::FitPlanes(waiting_.covariance_m2, covariance_m2);
-  Store(fits[0], *waiting_.plane);
-  Store(fits[1], plane);
-  waiting_.plane = nullptr;
+  waiting_planes_[waiting_.size()] = &plane;
+  waiting_.Add(moments);
+  if (waiting_.full()) FitWaiting();
 }
 
 void PatchPlanes::FitWaiting() {
-  if (waiting_.plane == nullptr) return;
-  Store(math::FitPlane(waiting_.covariance_m2), *waiting_.plane);
-  waiting_.plane = nullptr;
+  // Only slopes, and steps from planes, ask for normals.
+  const bool normals = params_.tests.pitch || params_.step_reference == StepReference::kPlane;
+  waiting_.Fit(normals ? math::PlaneParts::kWithNormals : math::PlaneParts::kWithoutNormals);
+  for (std::size_t i = 0; i < waiting_.size(); ++i) {
+    PatchPlane& plane = *waiting_planes_[i];
+    Store(waiting_.Residual_m(i), waiting_.EigenRatio(i), plane);
+    if (normals) StoreNormal(waiting_.Normal(i), plane);
+  }
+  waiting_.Clear();
 }
 
-void PatchPlanes::Store(const math::PlaneFit& fit, PatchPlane& plane) const {
+void PatchPlanes::Store(double residual_m, double eigen_ratio, PatchPlane& plane) const {
   // Middle over smallest eigenvalue: whether the points lie in a plane rather than along a line.
-  plane.plane_valid = fit.eigen_ratio >= params_.eigen_ratio;
+  plane.plane_valid = eigen_ratio >= params_.eigen_ratio;
   // r of the roughness hazard, m.
-  plane.residual_m = fit.residual_m;
-  if (params_.tests.pitch) plane.slope_rad = fit.Slope_rad();
+  plane.residual_m = residual_m;
+}
+
+void PatchPlanes::StoreNormal(const math::Vector3& normal, PatchPlane& plane) const {
+  if (params_.tests.pitch) plane.slope_rad = math::Slope_rad(normal);
   if (params_.step_reference == StepReference::kLevel) return;
   // n . p = const: dz/dx = -n_x / n_z. A plane on end has no elevation to measure from.
-  const double upright = std::max(fit.normal.z(), kOnEnd);
-  plane.rise_x = -fit.normal.x() / upright;
-  plane.rise_y = -fit.normal.y() / upright;
+  const double upright = std::max(normal.z(), kOnEnd);
+  plane.rise_x = -normal.x() / upright;
+  plane.rise_y = -normal.y() / upright;
 }
 
 void PatchPlanes::FindSpreads(const CellWindow& cells) {

@@ -1,10 +1,11 @@
 // Planes through vehicle-sized patches of the map (Goldberg 2002, section 4, step 3).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
-#include "math/plane_fit.h"
+#include "math/plane_batch.h"
 #include "navigation/gestalt/cells.h"
 #include "navigation/gestalt/map_params.h"
 #include "navigation/gestalt/patch.h"
@@ -64,27 +65,28 @@ class PatchPlanes {
     int ix;
     int iy;
   };
-  // A patch whose plane is put off.
-  struct Waiting {
-    PatchPlane* plane = nullptr;
-    math::SymmetricMatrix3 covariance_m2;
-  };
 
-  Sums SumsOf(const MapCell& cell) const;
-  void FindRowsWithData(const CellWindow& cells, const CellBox& box, const CellBox& out);
+  // Returns 1 where the cell has min_cell_points, else 0.
+  std::uint64_t IsFilled(const MapCell& cell) const;
   // Moves the sums over columns from the patches of row iy - 1 to those of row iy.
   void SlideDown(const CellWindow& cells, const CellBox& box, const CellBox& out, int iy);
+  // Adds row iy of the cells to the sums over columns, and finds where it holds data.
+  void AddRow(const CellWindow& cells, const CellBox& box, const CellBox& out, int iy);
+  // Takes row iy from the sums over columns.
+  void TakeRow(const CellWindow& cells, const CellBox& box, int iy);
   // Slides along row iy.
   void FitRow(const CellWindow& cells, const CellBox& box, const CellBox& out, int iy);
   // Tests the patch around `middle` and fits its plane. `columns_with_data` of its columns hold
   // data.
   void Assess(const CellWindow& cells, const Sums& patch, int columns_with_data, Cell middle);
   // Fits the plane of the patch around `middle`, whose points have `moments`, or puts it off until
-  // there is another: planes are fitted in pairs.
+  // there are enough for a batch.
   void FitPatch(const CellWindow& cells, const math::PointMoments& moments, Cell middle,
                 PatchPlane& plane);
   void FitWaiting();
-  void Store(const math::PlaneFit& fit, PatchPlane& plane) const;
+  void Store(double residual_m, double eigen_ratio, PatchPlane& plane) const;
+  // What tests ask of the normal: slope, and rise along x and y.
+  void StoreNormal(const math::Vector3& normal, PatchPlane& plane) const;
   void FindSpreads(const CellWindow& cells);
   // The cells with data of the patch around `middle`. Finds the spreads of all cells when it is
   // first called in a Fit.
@@ -97,9 +99,11 @@ class PatchPlanes {
   int needed_rows_;
   int width_ = 0;  // of planes_
   std::vector<PatchPlane> planes_;
-  std::vector<Sums> columns_;                 // over the rows of a patch
-  std::vector<std::uint8_t> row_holds_data_;  // among the columns of the patch around a cell
-  Waiting waiting_;
+  std::vector<Sums> columns_;                  // over the rows of a patch
+  std::vector<std::uint8_t> cell_holds_data_;  // of the row that was added last
+  std::vector<std::uint8_t> row_holds_data_;   // among the columns of the patch around a cell
+  math::PlaneBatch waiting_;                   // of patches whose planes are put off
+  std::array<PatchPlane*, math::PlaneBatch::kSize> waiting_planes_{};
   std::vector<std::int32_t> rows_with_data_;  // of the patches of the row at hand
   std::vector<math::PointSpread> spreads_;    // of all cells, or nothing where not needed
 };

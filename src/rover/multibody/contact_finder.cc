@@ -76,8 +76,7 @@ void ContactFinder::Update(const Multibody& body) {
       continue;
     }
     if (part.meets == Meets::kEverything) {
-      MeetWalls(index, X_WB);
-      MeetGround(index, X_WB);
+      MeetWheelGround(index, X_WB);
     }
     const Vector3 center_W = X_WB * part.center_B;
     for (const int rock : near_rocks_) MeetRock(index, X_WB, center_W, rock);
@@ -137,17 +136,31 @@ void ContactFinder::MeetGround(int index, const math::Transform& X_WB) {
   const Part& part = parts_[static_cast<std::size_t>(index)];
   const Vector3 center_W = X_WB * part.center_B;
   const terrain::Ground& ground = terrain_.ground();
-  const Vector3 n_W = ground.Normal(center_W.x(), center_W.y());
-  const Vector3 p_W = Support(part, X_WB, n_W);
-  // Height over the ground times the cosine of the slope: the distance from the tangent plane
-  // there.
-  const double gap_m = (p_W.z() - ground.Height(p_W.x(), p_W.y())) * n_W.z();
-  if (gap_m > kFollowedGap_m) return;
+  const auto support = [&](const Vector3& n_W) { return Support(part, X_WB, n_W); };
+  AddGround(index, kGround, TouchAlong(ground, ground.Normal(center_W.x(), center_W.y()), support),
+            X_WB);
+}
+
+// In the order of what they touch: the second place, walls, the first one.
+void ContactFinder::MeetWheelGround(int index, const math::Transform& X_WB) {
+  const Part& part = parts_[static_cast<std::size_t>(index)];
+  const auto support = [&](const Vector3& n_W) { return Support(part, X_WB, n_W); };
+  const GroundTouches found =
+      FindGroundTouches(terrain_.ground(), X_WB * part.center_B, X_WB.linear().col(1),
+                        part.bounding_radius_m + kFollowedGap_m, support);
+  if (found.count == 2) AddGround(index, kGroundAhead, found.touches[1], X_WB);
+  MeetWalls(index, X_WB);
+  AddGround(index, kGround, found.touches[0], X_WB);
+}
+
+void ContactFinder::AddGround(int index, int other, const GroundTouch& touch,
+                              const math::Transform& X_WB) {
+  if (touch.gap_m > kFollowedGap_m) return;
   bool found = false;
-  Contact& contact = Add(index, kGround, found);
-  contact.gap_m = gap_m;
-  contact.p_W = p_W;
-  contact.n_W = n_W;
+  Contact& contact = Add(index, other, found);
+  contact.gap_m = touch.gap_m;
+  contact.p_W = touch.p_W;
+  contact.n_W = touch.n_W;
   SetTangents(X_WB, contact);
 }
 

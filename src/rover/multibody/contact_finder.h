@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "math/pose.h"
+#include "rover/ground_touches.h"
 #include "rover/multibody/multibody.h"
 #include "rover/part_shapes.h"
 #include "rover/rock_body.h"
@@ -12,9 +13,11 @@
 
 namespace rockyard::rover {
 
-// What a part touches is a rock by its index >= 0, the ground, or wall i as kFirstWall - i.
+// What a part touches is a rock by its index >= 0, the ground, or wall i as kFirstWall - i. A wheel
+// between the flanks of a ditch touches the ground twice.
 inline constexpr int kGround = -1;
 inline constexpr int kFirstWall = -2;
+inline constexpr int kGroundAhead = -1000;
 
 // A contact of a part with one thing. It is kept from step to step while the two stay near, so that
 // the last impulses start the next solution.
@@ -32,7 +35,7 @@ struct Contact {
   std::array<double, 3> impulse_Ns{};
   double drag_Ns = 0.0;
 
-  bool IsSoil() const { return other == kGround; }
+  bool IsSoil() const { return other == kGround || other == kGroundAhead; }
   void Forget() {
     impulse_Ns = {};
     drag_Ns = 0.0;
@@ -61,6 +64,9 @@ class ContactFinder {
  private:
   void GatherRocks(const math::Vector3& p_WRo);
   void MeetGround(int index, const math::Transform& X_WB);
+  // Walls and ground, of which a wheel may touch two places.
+  void MeetWheelGround(int index, const math::Transform& X_WB);
+  void AddGround(int index, int other, const GroundTouch& touch, const math::Transform& X_WB);
   void MeetWalls(int index, const math::Transform& X_WB);
   void MeetRock(int index, const math::Transform& X_WB, const math::Vector3& center_W, int rock);
   // Returns whether the plane that touches a rock at that point of its surface keeps the part so

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rover/ground_touches.h"
+
 namespace rockyard::rover {
 namespace {
 
@@ -156,20 +158,20 @@ Vector3 QuasiStaticContacts::WheelSupport(const Linkage& linkage, std::size_t wh
 }
 
 void QuasiStaticContacts::MeetGround(const Linkage& linkage, std::size_t wheel, double reach_m) {
-  const Vector3& center_W = linkage.wheel_W(wheel);
-  const terrain::Ground& ground = terrain_.ground();
-  const Vector3 n_W = ground.Normal(center_W.x(), center_W.y());
-  const Vector3 p_W = WheelSupport(linkage, wheel, n_W);
-  // Height over the ground times the cosine of the slope: the distance from the tangent plane
-  // there.
-  const double gap_m = (p_W.z() - ground.Height(p_W.x(), p_W.y())) * n_W.z();
-  if (gap_m > reach_m) return;
-  Add({.part = static_cast<int>(wheel),
-       .other = kGround,
-       .body = kFirstWheel + static_cast<int>(wheel),
-       .gap_m = gap_m,
-       .p_W = p_W,
-       .n_W = n_W});
+  const auto support = [&](const Vector3& n_W) { return WheelSupport(linkage, wheel, n_W); };
+  const GroundTouches found =
+      FindGroundTouches(terrain_.ground(), linkage.wheel_W(wheel), linkage.axle_W(wheel),
+                        parts_[wheel].bounding_radius_m + reach_m, support);
+  for (std::size_t i = 0; i < found.count; ++i) {
+    const GroundTouch& touch = found.touches[i];
+    if (touch.gap_m > reach_m) continue;
+    Add({.part = static_cast<int>(wheel),
+         .other = i == 0 ? kGround : kGroundAhead,
+         .body = kFirstWheel + static_cast<int>(wheel),
+         .gap_m = touch.gap_m,
+         .p_W = touch.p_W,
+         .n_W = touch.n_W});
+  }
 }
 
 void QuasiStaticContacts::MeetWalls(const Linkage& linkage, std::size_t wheel, double reach_m) {

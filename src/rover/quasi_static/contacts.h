@@ -31,7 +31,7 @@ struct RestingContact {
   double sliding_speed_m_s = 0.0;
 
   bool IsWheel() const { return kind == truth::BodyPart::kWheel; }
-  bool IsSoil() const { return IsWheel() && other == kGround; }
+  bool IsSoil() const { return IsWheel() && (other == kGround || other == kGroundAhead); }
 };
 
 // Finds the contacts of a rover in one posture. Draws no random numbers.

@@ -1,0 +1,20 @@
+// The kernels of plane_batch, by the registers that they are compiled for.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "math/plane_kernel.h"
+
+namespace rockyard::math {
+
+// Each is a FitPlaneRows; those wider than pairs are there on x86 only, and only for processors
+// that have such registers.
+void FitPlanesByPairs(const std::uint64_t* moments, std::size_t size, PlaneParts parts,
+                      double* planes);
+void FitPlanesByQuads(const std::uint64_t* moments, std::size_t size, PlaneParts parts,
+                      double* planes);
+void FitPlanesByOctets(const std::uint64_t* moments, std::size_t size, PlaneParts parts,
+                       double* planes);
+
+}  // namespace rockyard::math
