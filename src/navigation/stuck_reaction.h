@@ -22,6 +22,9 @@ class StuckReaction final : public Navigator {
   NavigatorDecision Decide(const NavigatorInput& input) override;
   void OnPoseUpdate(const messages::PoseEstimate& before,
                     const messages::PoseEstimate& after) override;
+  void SetGoal(const messages::Goal& goal, GoalChange change) override {
+    navigator_->SetGoal(goal, change);
+  }
   const messages::NavigationView* view() const override { return navigator_->view(); }
 
  private:

@@ -82,6 +82,16 @@ void GestaltNavigator::OnPoseUpdate(const PoseEstimate& before, const PoseEstima
   if (mode_ == Mode::kLookingBehind) mode_ = Mode::kLookingAhead;
 }
 
+void GestaltNavigator::SetGoal(const messages::Goal& goal, GoalChange change) {
+  goal_ = goal;
+  if (change == GoalChange::kMoved) return;
+  best_goal_distance_m_ = std::numeric_limits<double>::infinity();
+  fruitless_cycles_ = 0;
+  felt_hazards_ = 0;
+  searched_rad_ = 0.0;
+  search_direction_ = 0;
+}
+
 const messages::NavigationView* GestaltNavigator::view() const {
   return decisions_ > 0 ? &view_ : nullptr;
 }
@@ -216,8 +226,11 @@ bool GestaltNavigator::Progresses(const PoseEstimate& estimate) {
   const double distance_m = TowardsGoal(estimate, goal_).distance_m;
   // A gain of progress_m on the best distance so far ends a fruitless run.
   if (distance_m <= best_goal_distance_m_ - params_.drive.progress_m) {
+    // The first distance to a goal is what progress is counted from, and none itself.
+    const bool gained = std::isfinite(best_goal_distance_m_);
     best_goal_distance_m_ = distance_m;
     fruitless_cycles_ = 0;
+    if (!gained) return true;
     felt_hazards_ = 0;
     felt_places_.Forget();
     return true;

@@ -135,6 +135,10 @@ class GestaltDrive final : public LoggedDrive<GestaltTick> {
     navigator_.OnPoseUpdate(before, rover_.estimate());
   }
 
+  void SetGoal(const messages::Goal& goal, GoalChange change) {
+    navigator_.SetGoal(goal, change);
+  }
+
   int Looks(messages::LookDirection direction) const {
     int looks = 0;
     for (const GestaltTick& tick : log_) looks += tick.looks(direction) ? 1 : 0;
