@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "math/angles.h"
 #include "rover/steepest_slope_params.h"
@@ -108,6 +109,15 @@ void RequireFreeEnds(const DriveParams& drive, core::FieldVisitor& v) {
             IsFree(listed, course.goal_x_m, course.goal_y_m, rocks.clear_radius_m),
             "puts a rock nearer to course.goal_x_m, goal_y_m than terrain.rocks.clear_radius_m",
             kMove);
+  const std::vector<messages::Goal> waypoints = course.waypoints.Places();
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    v.Require("terrain.rocks.listed.x_m",
+              IsFree(listed, waypoints[i].x_m, waypoints[i].y_m, rocks.clear_radius_m),
+              fmt::format("puts a rock nearer to waypoint {} of course.waypoints than "
+                          "terrain.rocks.clear_radius_m",
+                          i + 1),
+              kMove);
+  }
 }
 
 // A goal beyond a mirror line is never reached: the rover is turned back there.
@@ -116,12 +126,16 @@ void RequireDesignatedGoals(const DriveParams& drive, core::FieldVisitor& v) {
   const terrain::ArenaParams& arena = drive.terrain.arena;
   if (!course.designation.enabled || arena.kind != terrain::ArenaKind::kVirtualReflected) return;
   constexpr double kDeviations = 5.0;  // one trial in a million lies beyond
-  const DesignationErrors errors = course.designation.ErrorsAt(course.DesignationRange_m());
-  const double reach_m = kDeviations * std::max(errors.crossrange_sd_m, errors.downrange_sd_m) +
-                         std::abs(errors.crossrange_bias_m);
-  v.Require("course.designation.enabled", std::abs(course.goal_y_m) + reach_m <= arena.MirrorLine(),
-            "is true where goals may be designated beyond the mirror lines of terrain.arena, where "
-            "no rover arrives",
+  const std::vector<messages::Goal> goals = course.Goals();
+  const bool within = std::all_of(goals.begin(), goals.end(), [&](const messages::Goal& goal) {
+    const DesignationErrors errors = course.designation.ErrorsAt(course.DesignationRange_m(goal));
+    const double reach_m = kDeviations * std::max(errors.crossrange_sd_m, errors.downrange_sd_m) +
+                           std::abs(errors.crossrange_bias_m);
+    return std::abs(goal.y_m) + reach_m <= arena.MirrorLine();
+  });
+  v.Require("course.designation.enabled", within,
+            "is true where goals or waypoints may be designated beyond the mirror lines of "
+            "terrain.arena, where no rover arrives",
             "use a wider arena, another kind, a nearer lander or smaller errors");
 }
 
@@ -156,6 +170,29 @@ void RequireHold(const DriveParams& drive, core::FieldVisitor& v) {
       fmt::format("use at most {:.1f} deg, or a soil of more friction or cohesion", held_deg));
 }
 
+// An oracle's route is planned once, from the start to the goal.
+void RequireOnePlan(const DriveParams& drive, core::FieldVisitor& v) {
+  const bool follows = drive.navigation.navigator == NavigatorKind::kRoute;
+  const CourseParams& course = drive.course;
+  v.Require("course.waypoints.x_m", !follows || course.waypoints.x_m.empty(),
+            "names waypoints where navigation.navigator is route, whose oracle plans one way from "
+            "the start to the goal",
+            "use navigator pathfinder or gestalt, or a course without waypoints");
+  v.Require("course.tracking.enabled", !follows || !course.tracking.enabled,
+            "is true where navigation.navigator is route, which follows a way that was planned "
+            "before",
+            "use navigator pathfinder or gestalt, or no tracking");
+}
+
+// A target that moves on crosses a mirror line, where no rover arrives.
+void RequireTargetBetweenLines(const DriveParams& drive, core::FieldVisitor& v) {
+  v.Require("course.target_speed_m_s",
+            drive.course.target_speed_m_s == 0.0 ||
+                drive.terrain.arena.kind != terrain::ArenaKind::kVirtualReflected,
+            "is above 0 in a virtual_reflected arena, whose mirror lines the target would cross",
+            "use a target that stands, or another kind of arena");
+}
+
 // A stuck rover that runs on does so until its batteries are empty.
 void RequireEndOfStall(const DriveParams& drive, core::FieldVisitor& v) {
   v.Require("referee.stuck_rover",
@@ -177,6 +214,8 @@ void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v) {
   RequireEndOfStall(drive, v);
   RequireFreeEnds(drive, v);
   RequireDesignatedGoals(drive, v);
+  RequireOnePlan(drive, v);
+  RequireTargetBetweenLines(drive, v);
 }
 
 }  // namespace rockyard::trial

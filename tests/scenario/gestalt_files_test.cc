@@ -61,7 +61,7 @@ TEST(GestaltFilesTest, EveryFileDrivesAPublishedOrNamedPair) {
     EXPECT_EQ(scenario.drive.rover.fidelity, rover::Fidelity::kQuasiStatic) << name;
     EXPECT_EQ(scenario.drive.clock.compute.computer, trial::Computer::kR3000) << name;
   }
-  EXPECT_EQ(files, 11);
+  EXPECT_EQ(files, 12);
 }
 
 TEST(GestaltFilesTest, RunsAreThoseOfTheFigures) {
@@ -72,6 +72,20 @@ TEST(GestaltFilesTest, RunsAreThoseOfTheFigures) {
   EXPECT_EQ(narrow.drive.course.goal_x_m - narrow.drive.course.start_x_m,
             5.0);  // Goldberg 2002 fig. 3
   EXPECT_EQ(narrow.drive.terrain.rocks.kind, terrain::RockFieldKind::kListed);
+}
+
+// Through the gates of the narrow course from waypoint to waypoint, and nothing else.
+TEST(GestaltFilesTest, WaypointsAreAllThatTheirFileAdds) {
+  const Scenario narrow = Load("narrow_course");
+  Scenario waypoints = Load("waypoints");
+  ASSERT_EQ(waypoints.drive.course.waypoints.Places().size(), 2u);
+  EXPECT_GT(waypoints.drive.course.waypoints.y_m[0], 0.0) << "the first gate is on the left";
+  EXPECT_LT(waypoints.drive.course.waypoints.y_m[1], 0.0);
+  waypoints.drive.course.waypoints = {};
+  for (const char* group : {"terrain", "rover", "sensors", "perception", "navigation", "course",
+                            "referee", "clock", "energy"}) {
+    EXPECT_EQ(GroupText(waypoints, group), GroupText(narrow, group)) << group;
+  }
 }
 
 TEST(GestaltFilesTest, EveryPublishedValueHasItsScenario) {
