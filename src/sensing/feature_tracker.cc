@@ -25,8 +25,7 @@ std::optional<messages::FeatureSighting> FeatureTracker::Observe(const math::Pos
   const double bearing_error_rad = core::SampleNormal(stream, 0.0, params_.bearing_sd_rad);
   const double range_factor = core::SampleNormal(stream, 1.0, params_.range_sd_fraction);
   return messages::FeatureSighting{.range_m = std::max(0.0, range_m * range_factor),
-                                   .bearing_rad =
-                                       math::WrapAngle(bearing_rad + bearing_error_rad)};
+                                   .bearing_rad = math::WrapAngle(bearing_rad + bearing_error_rad)};
 }
 
 }  // namespace rockyard::sensing

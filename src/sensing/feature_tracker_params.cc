@@ -31,7 +31,7 @@ void FeatureTrackerParams::Visit(core::FieldVisitor& v) {
            .min = 0.0,
            .max = 45.0,
            .origin = Origin::kAssumed,
-           .source = "about a pixel of an image 128 pixels and 90 deg wide",
+           .source = "a pixel of an image 128 pixels and 90 deg wide is 0.7 deg",
            .study_low = 0.1,
            .study_high = 2.0});
   v.Real("range_sd_fraction", range_sd_fraction,

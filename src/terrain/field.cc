@@ -29,7 +29,8 @@ void RequireCourseInArena(const ArenaParams& arena, const Course& course) {
 
 // Mean of D^power over a law's rocks when those that n clear zones of radius r around start,
 // waypoints and goal remove from an area A count zero: a rock of diameter D is removed from within
-// r + D/2, that is, where zones do not overlap, with the chance n pi (r + D/2)^2 / A, so the mean is
+// r + D/2, that is, where zones do not overlap, with the chance n pi (r + D/2)^2 / A, so the mean
+// is
 //   E[D^power] - n pi (r^2 E[D^power] + r E[D^(power+1)] + E[D^(power+2)] / 4) / A.
 double MeanPowerOutsideClearZones(const RockSizeLaw& law, double power, double radius_m,
                                   double zones, double area_m2) {

@@ -159,13 +159,13 @@ std::optional<Verdict> Drive::Tick() {
   const std::size_t reached = navigator_.reached();
   const navigation::NavigatorDecision decision =
       navigator_.Decide({.time_s = ledger_.time_s(),
-                          .estimate = localizer_.pose(),
-                          .attitude = localizer_.attitude(),
-                          .report = percept_.report ? &*percept_.report : nullptr,
-                          .cloud = percept_.cloud ? &*percept_.cloud : nullptr,
-                          .vehicle_hazard = guard_.hazard(),
-                          .touches_behind = guard_.touches_behind(),
-                          .notices_stuck = notices_stuck_});
+                         .estimate = localizer_.pose(),
+                         .attitude = localizer_.attitude(),
+                         .report = percept_.report ? &*percept_.report : nullptr,
+                         .cloud = percept_.cloud ? &*percept_.cloud : nullptr,
+                         .vehicle_hazard = guard_.hazard(),
+                         .touches_behind = guard_.touches_behind(),
+                         .notices_stuck = notices_stuck_});
   if (navigator_.reached() != reached) OnWaypoints(reached);
   if (!decision.looks()) ShowStep();
   percept_ = {};
@@ -317,8 +317,12 @@ void Drive::ReflectAtMirrorLine(int direction) {
 }
 
 Observation Drive::Observed(Activity activity, int direction, double duration_s) const {
-  return {activity,          direction,           duration_s,
-          rover_->state(),   localizer_.pose(),   monitor_.distance_m(),
+  return {activity,
+          direction,
+          duration_s,
+          rover_->state(),
+          localizer_.pose(),
+          monitor_.distance_m(),
           monitor_.turned_in_place_rad()};
 }
 

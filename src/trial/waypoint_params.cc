@@ -21,11 +21,9 @@ void WaypointParams::Visit(core::FieldVisitor& v) {
            .min = -1000.0,
            .max = 1000.0,
            .origin = Origin::kSetting});
-  v.Reals("y_m", y_m,
-          {.doc = "y of every waypoint",
-           .min = -1000.0,
-           .max = 1000.0,
-           .origin = Origin::kSetting});
+  v.Reals(
+      "y_m", y_m,
+      {.doc = "y of every waypoint", .min = -1000.0, .max = 1000.0, .origin = Origin::kSetting});
   v.Require("x_m", x_m.size() == y_m.size(), "names another number of waypoints than y_m",
             "give every waypoint one entry of each list");
 }

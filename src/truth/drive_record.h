@@ -93,8 +93,8 @@ struct DriveRecord {
   // Slopes of squared errors against the true distance along the run (trial/error_growth.h).
   double heading_growth_deg2_per_m = 0.0;
   double distance_growth_m2_per_m = 0.0;
-  double hazards_begun = 0.0;   // of hazards_believed, those that the scan before did not see
-  double displacement_m = 0.0;  // start to end, true and straight
+  double hazards_begun = 0.0;      // of hazards_believed, those that the scan before did not see
+  double displacement_m = 0.0;     // start to end, true and straight
   double waypoints_reached = 0.0;  // declared, before the goal
 };
 
@@ -228,7 +228,8 @@ inline constexpr std::array kDriveColumns = {
     DriveColumn{"designation_error_m", "m", "designated goal to true goal",
                 &DriveRecord::designation_error_m},
     DriveColumn{"believed_goal_distance_m", "m",
-                "believed final position to the goal as told, or as last seen where it is tracked; beside true_goal_distance_m",
+                "believed final position to the goal as told, or as last seen where it is tracked; "
+                "beside true_goal_distance_m",
                 &DriveRecord::believed_goal_distance_m},
     DriveColumn{
         "path_ratio", "1",

@@ -192,9 +192,7 @@ class Drive final : public LoggedDrive<Tick> {
     navigator_.OnPoseUpdate(before, rover_.estimate());
   }
 
-  void SetGoal(const messages::Goal& goal, GoalChange change) {
-    navigator_.SetGoal(goal, change);
-  }
+  void SetGoal(const messages::Goal& goal, GoalChange change) { navigator_.SetGoal(goal, change); }
 
   // The brakes hold: time passes, and nothing is measured.
   NavigatorDecision HeldDecision(double time_s) {

@@ -86,7 +86,8 @@ TEST_F(WaypointSequenceTest, LeadsToEveryWaypointInOrderAndToldOnce) {
   EXPECT_NEAR(arrivals_m[1], 1.9, 0.011);
   EXPECT_NEAR(arrivals_m[2], 1.6, 0.011);
   EXPECT_THAT(inner_->told_x_m, ElementsAre(2.0, 1.5, 4.0));
-  EXPECT_THAT(inner_->changes, ElementsAre(GoalChange::kNext, GoalChange::kNext, GoalChange::kNext));
+  EXPECT_THAT(inner_->changes,
+              ElementsAre(GoalChange::kNext, GoalChange::kNext, GoalChange::kNext));
   EXPECT_EQ(At(3.95).status, NavigatorStatus::kArrived);
   EXPECT_EQ(sequence_->reached(), 3U) << "the goal is no waypoint";
   EXPECT_EQ(inner_->told_x_m.size(), 3U);

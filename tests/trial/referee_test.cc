@@ -437,16 +437,20 @@ TEST_F(RefereeGoalTest, PatienceEndsBeyondAGoalThatStays) {
 
 // A next goal behind: no progress is made towards it, and patience begins where it was told.
 TEST_F(RefereeGoalTest, PatienceBeginsAnewWithTheNextGoal) {
-  EXPECT_NEAR(SecondsUntilNoPath(
-                  40.0, [&] { referee_.OnNextGoal({0.0, 0.0}, Now(), ledger_.time_s()); }),
+  EXPECT_NEAR(SecondsUntilNoPath(40.0,
+                                 [&] {
+                                   referee_.OnNextGoal({0.0, 0.0}, Now(), ledger_.time_s());
+                                 }),
               70.0, 0.1);
 }
 
 // A next goal ahead, at 10 m after 40 s: what brings the rover nearer to it is progress, though the
 // first goal had been nearer than it ever gets to this one by 100 s.
 TEST_F(RefereeGoalTest, ProgressIsTowardsTheNextGoal) {
-  EXPECT_NEAR(SecondsUntilNoPath(
-                  40.0, [&] { referee_.OnNextGoal({10.0, 0.0}, Now(), ledger_.time_s()); }),
+  EXPECT_NEAR(SecondsUntilNoPath(40.0,
+                                 [&] {
+                                   referee_.OnNextGoal({10.0, 0.0}, Now(), ledger_.time_s());
+                                 }),
               130.0, params_.no_path_progress_m / 0.1 + 0.1);
   EXPECT_LE(referee_.no_progress_distance_m(), 3.0 + params_.no_path_progress_m + 0.1);
 }

@@ -135,9 +135,7 @@ class GestaltDrive final : public LoggedDrive<GestaltTick> {
     navigator_.OnPoseUpdate(before, rover_.estimate());
   }
 
-  void SetGoal(const messages::Goal& goal, GoalChange change) {
-    navigator_.SetGoal(goal, change);
-  }
+  void SetGoal(const messages::Goal& goal, GoalChange change) { navigator_.SetGoal(goal, change); }
 
   int Looks(messages::LookDirection direction) const {
     int looks = 0;

@@ -87,6 +87,7 @@ TEST(GestaltGoal, FeltHazardsCountAnewWithTheNextGoal) {
                                      messages::HazardSide::kAhead};
     };
     setup.params.drive.max_felt = 3;
+    setup.params.drive.progress_m = 2.0;  // more than the wall allows for
     GestaltDrive drive(setup);
     int felt = 0;
     for (int i = 0; i < 50000; ++i) {
@@ -100,8 +101,8 @@ TEST(GestaltGoal, FeltHazardsCountAnewWithTheNextGoal) {
   }
 }
 
-// What it felt outlives the first cycle to the next goal: after a pose update, which clears the map,
-// the place is an obstacle still, at its distance from the rover.
+// What it felt outlives the first cycle to the next goal: after a pose update, which clears the
+// map, the place is an obstacle still, at its distance from the rover.
 TEST(GestaltGoal, FeltPlacesStay) {
   GestaltSetup setup;
   setup.rover = TrueRover();

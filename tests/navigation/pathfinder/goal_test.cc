@@ -55,8 +55,7 @@ TEST(PathfinderGoal, TurnsOnTowardsAGoalThatMovedAndAsksAnewForTheNext) {
     // 60 deg to the left of the heading, less than asks for a turn in place.
     drive.SetGoal({-2.5, 4.33}, change);
     ASSERT_TRUE(drive.StepUntil([](const Tick& t) { return t.drives(); }));
-    const double bearing_rad =
-        math::DegToRad(120.0) - drive.log().back().estimate.heading_rad;
+    const double bearing_rad = math::DegToRad(120.0) - drive.log().back().estimate.heading_rad;
     if (change == GoalChange::kMoved) {
       EXPECT_LT(std::abs(bearing_rad), math::DegToRad(6.0));
     } else {
@@ -65,8 +64,8 @@ TEST(PathfinderGoal, TurnsOnTowardsAGoalThatMovedAndAsksAnewForTheNext) {
   }
 }
 
-// Every reaction to a touch counts until the goal has come nearer. At most max_repeats in a row, and
-// as many again on the way to the next goal, though that is farther away.
+// Every reaction to a touch counts until the goal has come nearer. At most max_repeats in a row,
+// and as many again on the way to the next goal, though that is farther away.
 TEST(PathfinderGoal, ReactionsCountAnewWithTheNextGoal) {
   for (const GoalChange change : {GoalChange::kMoved, GoalChange::kNext}) {
     DriveSetup setup;
