@@ -17,7 +17,7 @@ struct Course {
   double start_y_m = 0.0;
   double goal_x_m = 7.6;
   double goal_y_m = 0.0;
-  std::vector<CoursePoint> waypoints;  // between start and goal
+  std::vector<CoursePoint> waypoints = {};  // between start and goal
 
   // Start, waypoints and goal, in the order of driving.
   std::vector<CoursePoint> Points() const {

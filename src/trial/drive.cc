@@ -187,7 +187,9 @@ void Drive::TrackGoal() {
   const messages::Goal target = params_.course.GoalAt(time_s);
   const auto sighting = feature_tracker_->Observe(math::ToPose2(rover_->state().X_WR), target.x_m,
                                                   target.y_m, number);
-  if (sighting.has_value() != sees_goal_) Record("goal", sighting ? "in view" : "out of view");
+  if (sighting.has_value() != sees_goal_) {
+    Record("tracker", sighting ? "goal in view" : "goal out of view");
+  }
   sees_goal_ = sighting.has_value();
   if (!sighting) return;
   const messages::Goal goal = perception::PlaceOf(*sighting, localizer_.pose());

@@ -136,9 +136,9 @@ TEST(TrackingDriveTest, ATrackedGoalIsReachedInSpiteOfDrift) {
       // Nobody corrects the pose: the goal is where the pose is wrong by as much.
       EXPECT_GT(record.position_error_m, 0.5) << navigator;
       EXPECT_NEAR(record.believed_goal_distance_m, record.true_goal_distance_m, 0.15) << navigator;
-      const auto seen = EventsOf(tracked.trace, "goal");
+      const auto seen = EventsOf(tracked.trace, "tracker");
       ASSERT_FALSE(seen.empty());
-      EXPECT_EQ(seen.front().detail, "in view");
+      EXPECT_EQ(seen.front().detail, "goal in view");
     }
   }
 }
@@ -161,7 +161,7 @@ TEST(TrackingDriveTest, TheLastLegAloneIsTracked) {
     EXPECT_EQ(trial.result.outcome, TrialOutcome::kGoalReached) << navigator;
     EXPECT_EQ(trial.result.record.waypoints_reached, 2.0);
     const auto reached = EventsOf(trial.trace, "waypoint");
-    const auto seen = EventsOf(trial.trace, "goal");
+    const auto seen = EventsOf(trial.trace, "tracker");
     ASSERT_EQ(reached.size(), 2U);
     ASSERT_FALSE(seen.empty());
     EXPECT_GE(seen.front().time_s, reached.back().time_s) << navigator;
