@@ -85,8 +85,8 @@ void GestaltNavigator::OnPoseUpdate(const PoseEstimate& before, const PoseEstima
 void GestaltNavigator::SetGoal(const messages::Goal& goal, GoalChange change) {
   goal_ = goal;
   if (change == GoalChange::kMoved) return;
+  // The next cycle counts from its distance on.
   best_goal_distance_m_ = std::numeric_limits<double>::infinity();
-  fruitless_cycles_ = 0;
   felt_hazards_ = 0;
   searched_rad_ = 0.0;
   search_direction_ = 0;

@@ -67,6 +67,29 @@ TEST(GestaltGoal, ProgressTowardsTheNextGoalCountsAnew) {
   EXPECT_LE(LooksInAPit(GoalChange::kMoved), 30);
 }
 
+// Turns in place before a rover that sees nothing drives into the unknown: four of 90 deg make a
+// search (GestaltEndings), and a next goal after two of them begins another.
+int TurnsBeforeTheFirstDrive(GoalChange change) {
+  GestaltSetup setup;
+  setup.rover = TrueRover();
+  setup.range.range_m = 0.2;
+  setup.goal = {4.0, 1.0};
+  GestaltDrive drive(setup);
+  int turns = 0;
+  bool turned = false;
+  for (int i = 0; i < 20000 && !drive.Step().drives(); ++i) {
+    const bool turning = drive.log().back().turns();
+    if (turned && !turning && ++turns == 2) drive.SetGoal({4.0, 1.5}, change);
+    turned = turning;
+  }
+  return turns;
+}
+
+TEST(GestaltGoal, ASearchBeginsAnewWithTheNextGoal) {
+  EXPECT_EQ(TurnsBeforeTheFirstDrive(GoalChange::kMoved), 4);
+  EXPECT_EQ(TurnsBeforeTheFirstDrive(GoalChange::kNext), 6);
+}
+
 // Whether the log ends with the first tick of a back-off: from one way to the other without a look.
 bool BeginsBackOff(const std::vector<GestaltTick>& log) {
   if (log.size() < 2) return false;
