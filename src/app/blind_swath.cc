@@ -44,6 +44,11 @@ terrain::BlindSwath SwathOf(const scenario::Scenario& scenario) {
 std::string BlindSwathText(const scenario::Scenario& scenario, std::uint64_t seed,
                            std::int64_t fields, const terrain::BlindSwath& swath) {
   const trial::CourseParams& course = scenario.drive.course;
+  if (!course.waypoints.x_m.empty()) {
+    throw core::UserError("course.waypoints.x_m",
+                          "names waypoints, whose clear zones the law of the swath does not know",
+                          "leave the waypoints out: --set course.waypoints={}");
+  }
   const double clear_m = scenario.drive.terrain.rocks.clear_radius_m;
   const double first_x_m = course.start_x_m + clear_m;
   const double length_m = course.goal_x_m - clear_m - first_x_m;

@@ -82,9 +82,10 @@ std::string CorridorDensityText(const scenario::Scenario& scenario, std::uint64_
   terrain::TerrainParams params = scenario.drive.terrain;
   const terrain::Course course = trial::TerrainCourse(scenario.drive.course);
   if (terrain::ExpectedInCorridor(params, course).empty()) {
-    throw core::UserError("terrain", "lets expect no density in a corridor along the course",
-                          "use rocks of kind moore or uniform_count, a course along x, and a "
-                          "layout at least 0.5 m wide on either side of it");
+    throw core::UserError(
+        "terrain", "lets expect no density in a corridor along the course",
+        "use rocks of kind moore or uniform_count, a course straight along x, and a "
+        "layout at least 0.5 m wide on either side of it");
   }
   std::string text = fmt::format(
       "rock centres within {:.1f} m of the course, {} fields, against the law outside the clear "

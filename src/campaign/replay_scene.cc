@@ -54,6 +54,7 @@ replay::ReplayCourse CourseOf(const scenario::Scenario& scenario, const truth::T
       .goal = traced.goal,
       .goal_radius_m = course.goal_radius_m,
       .told_goal = DesignatedGoal(traced),
+      .waypoints = course.waypoints.Places(),
       .x_min_m = bounds.x_min_m,
       .x_max_m = bounds.x_max_m,
       .y_min_m = bounds.y_min_m,

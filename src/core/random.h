@@ -49,6 +49,7 @@ enum class Purpose : std::uint32_t {
   kStereoMismatch = 35,
   kGoalDesignation = 39,
   kExperiment = 40,  // what an experiment draws for itself: it numbers its own substreams
+  kFeatureTracker = 41,
 };
 
 // Raw Philox 4x32-10 bijection of one counter under one key.

@@ -20,6 +20,12 @@ enum class NavigatorStatus {
   kStuck,    // noticed that the rover does not get on
 };
 
+// Why the goal of a navigator is another one than before.
+enum class GoalChange {
+  kNext,   // the rover was at the goal: another one follows, and progress is counted anew
+  kMoved,  // the same goal, seen elsewhere than it was believed to be: progress counts on
+};
+
 // What the navigator knows when it decides.
 struct NavigatorInput {
   double time_s = 0.0;  // on-board clock since the start
@@ -68,6 +74,10 @@ class Navigator {
                             const messages::PoseEstimate& after) {
     OnPoseUpdate(before, after);
   }
+
+  // Is called between two decisions. The manoeuvre under way ends as it would have, and what is
+  // known of hazards stays; the next manoeuvre is chosen for `goal`.
+  virtual void SetGoal(const messages::Goal& goal, GoalChange change) = 0;
 
   // Returns what the last answered look led to; null where a navigator keeps no map, and before the
   // first.

@@ -33,6 +33,10 @@ NavigatorDecision RouteFollower::Decide(const NavigatorInput& input) {
 // What was under way is worked out anew from where the rover now stands.
 void RouteFollower::OnPoseUpdate(const PoseEstimate&, const PoseEstimate&) { under_way_ = false; }
 
+void RouteFollower::SetGoal(const messages::Goal& goal, GoalChange) {
+  if (!route_.corners.empty()) route_.corners.back() = goal;
+}
+
 RouteFollower::Bearing RouteFollower::BearingTo(const messages::Goal& corner,
                                                 const PoseEstimate& estimate) const {
   const double dx = corner.x_m - estimate.x_m;

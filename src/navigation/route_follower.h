@@ -23,6 +23,8 @@ class RouteFollower final : public Navigator {
   NavigatorDecision Decide(const NavigatorInput& input) override;
   void OnPoseUpdate(const messages::PoseEstimate& before,
                     const messages::PoseEstimate& after) override;
+  // Moves the end of the route, where there is one.
+  void SetGoal(const messages::Goal& goal, GoalChange change) override;
 
  private:
   // Where a corner lies, as believed.

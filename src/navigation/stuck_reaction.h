@@ -24,6 +24,9 @@ class StuckReaction final : public Navigator {
                     const messages::PoseEstimate& after) override;
   void OnCorrection(const messages::PoseEstimate& before,
                     const messages::PoseEstimate& after) override;
+  void SetGoal(const messages::Goal& goal, GoalChange change) override {
+    navigator_->SetGoal(goal, change);
+  }
   const messages::NavigationView* view() const override { return navigator_->view(); }
 
  private:

@@ -26,7 +26,8 @@ struct ReplayCourse {
   messages::Goal goal;
   double goal_radius_m = 0.0;
   messages::Goal told_goal;
-  double x_min_m = 0.0;  // of the area that holds terrain
+  std::vector<messages::Goal> waypoints;  // true, in the order of driving
+  double x_min_m = 0.0;                   // of the area that holds terrain
   double x_max_m = 0.0;
   double y_min_m = 0.0;
   double y_max_m = 0.0;

@@ -41,6 +41,12 @@ std::string CourseText(const ReplayCourse& course) {
                             .Add("x", Length(course.told_goal.x_m))
                             .Add("y", Length(course.told_goal.y_m))
                             .Text())
+      .Add("waypoints",
+           JsonList(
+               course.waypoints,
+               [](const messages::Goal& place) {
+                 return JsonObject().Add("x", Length(place.x_m)).Add("y", Length(place.y_m)).Text();
+               }))
       .Add("bounds", JsonObject()
                          .Add("x_min", Length(course.x_min_m))
                          .Add("x_max", Length(course.x_max_m))

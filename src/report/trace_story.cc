@@ -85,8 +85,10 @@ std::string Text(const Motion& motion) {
 // Events that share a line.
 using Fold = std::span<const TraceEvent>;
 
-bool Foldable(const TraceEvent& event, bool reflections_too) {
-  return event.kind != "end" && (reflections_too || event.kind != "reflection");
+// What ends a part of a drive shares a line only where lines are short.
+bool Foldable(const TraceEvent& event, bool parts_too) {
+  const bool ends_part = event.kind == "reflection" || event.kind == "waypoint";
+  return event.kind != "end" && (parts_too || !ends_part);
 }
 
 std::vector<Fold> FoldEvents(const Trace& trace, double distance_m) {
@@ -126,7 +128,9 @@ struct EventKind {
 
 // In the order in which a folded line names them. Looks are told where nothing else happened.
 constexpr EventKind kLook{"look", "look", "looks"};
-constexpr std::array<EventKind, 5> kEventKinds{{{"chosen", "choice", "choices"},
+constexpr std::array<EventKind, 7> kEventKinds{{{"waypoint", "waypoint", "waypoints"},
+                                                {"tracker", "tracker change", "tracker changes"},
+                                                {"chosen", "choice", "choices"},
                                                 {"hazard", "hazard scan", "hazard scans"},
                                                 {"felt", "felt hazard", "felt hazards"},
                                                 {"scrape", "scrape", "scrapes"},

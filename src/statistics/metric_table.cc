@@ -97,7 +97,7 @@ constexpr std::array kMetrics = {
     Arrived("true_goal_distance_m", "m", "true_goal_distance_m", 0.1, 0.1,
             "true final position to the goal"),
     Arrived("believed_goal_distance_m", "m", "believed_goal_distance_m", 0.05, 0.1,
-            "believed final position to the designated goal"),
+            "believed final position to the goal as told, or as last seen where it is tracked"),
     All("true_distance_m", "m", "true_distance_m", 0.0, 0.1, "true path length"),
     Needing(40,
             All("active_time_s", "s", "active_time_s", 0.0, 0.1,

@@ -72,7 +72,7 @@ double AreaNear(const Rectangle& area, double x_m, double y_m, double radius_m) 
 std::vector<CorridorClass> ExpectedInCorridor(const TerrainParams& params, const Course& course) {
   const RockFieldParams& rocks = params.rocks;
   const std::unique_ptr<RockSizeLaw> law = MakeSizeLaw(rocks);
-  if (!law || course.start_y_m != course.goal_y_m) return {};
+  if (!law || course.start_y_m != course.goal_y_m || !course.waypoints.empty()) return {};
   const bool exact = rocks.kind == RockFieldKind::kUniformCount;
   const Rectangle layout = exact ? CountArea(rocks) : LayoutBounds(params);
   const Rectangle corridor = CorridorOf(course);

@@ -35,9 +35,9 @@ double AreaNear(const Rectangle& area, double x_m, double y_m, double radius_m);
 //   uniform_count:  count times the mean of (|C| - |C and Z(D)|) / (|A| - |A and Z(D)|), as they
 //   are
 //                   drawn again, in one class.
-// Good to 1e-5 of itself. Empty where there is no law, where the course does not lead along x,
-// where its clear zones meet, or where the corridor leaves the layout area (uniform_count: the
-// count area).
+// Good to 1e-5 of itself. Empty where there is no law, where the course does not lead straight
+// along x, where its clear zones meet, or where the corridor leaves the layout area (uniform_count:
+// the count area).
 std::vector<CorridorClass> ExpectedInCorridor(const TerrainParams& params, const Course& course);
 
 // Adds the rocks whose centres lie in the corridor of the course to their classes.

@@ -1,7 +1,15 @@
-// Start and goal of a trial, as far as a terrain needs to know them.
+// Start, waypoints and goal of a trial, as far as a terrain needs to know them.
 #pragma once
 
+#include <vector>
+
 namespace rockyard::terrain {
+
+// In W.
+struct CoursePoint {
+  double x_m = 0.0;
+  double y_m = 0.0;
+};
 
 // The points are in W, m.
 struct Course {
@@ -9,6 +17,15 @@ struct Course {
   double start_y_m = 0.0;
   double goal_x_m = 7.6;
   double goal_y_m = 0.0;
+  std::vector<CoursePoint> waypoints = {};  // between start and goal
+
+  // Start, waypoints and goal, in the order of driving.
+  std::vector<CoursePoint> Points() const {
+    std::vector<CoursePoint> points{{start_x_m, start_y_m}};
+    points.insert(points.end(), waypoints.begin(), waypoints.end());
+    points.push_back({goal_x_m, goal_y_m});
+    return points;
+  }
 };
 
 }  // namespace rockyard::terrain

@@ -1,5 +1,6 @@
 #include "terrain/field.h"
 
+#include <algorithm>
 #include <memory>
 #include <numbers>
 #include <utility>
@@ -14,27 +15,31 @@ namespace rockyard::terrain {
 namespace {
 
 void RequireCourseInArena(const ArenaParams& arena, const Course& course) {
-  if (arena.HoldsCoursePoint(course.start_x_m, course.start_y_m) &&
-      arena.HoldsCoursePoint(course.goal_x_m, course.goal_y_m)) {
+  const std::vector<CoursePoint> points = course.Points();
+  if (std::all_of(points.begin(), points.end(), [&](const CoursePoint& point) {
+        return arena.HoldsCoursePoint(point.x_m, point.y_m);
+      })) {
     return;
   }
-  throw core::UserError("terrain.arena", "does not hold the start and the goal of the course",
-                        "use a larger arena, or a start and a goal inside it (between the mirror "
-                        "lines where it is virtual)");
+  throw core::UserError("terrain.arena",
+                        "does not hold the start, the waypoints and the goal of the course",
+                        "use a larger arena, or a course inside it (between the mirror lines where "
+                        "it is virtual)");
 }
 
-// Mean of D^power over a law's rocks when those that two clear zones of radius r around start and
-// goal remove from an area A count zero: a rock of diameter D is removed from within r + D/2, that
-// is with the chance 2 pi (r + D/2)^2 / A, so the mean is
-//   E[D^power] - 2 pi (r^2 E[D^power] + r E[D^(power+1)] + E[D^(power+2)] / 4) / A.
+// Mean of D^power over a law's rocks when those that n clear zones of radius r around start,
+// waypoints and goal remove from an area A count zero: a rock of diameter D is removed from within
+// r + D/2, that is, where zones do not overlap, with the chance n pi (r + D/2)^2 / A, so the mean
+// is
+//   E[D^power] - n pi (r^2 E[D^power] + r E[D^(power+1)] + E[D^(power+2)] / 4) / A.
 double MeanPowerOutsideClearZones(const RockSizeLaw& law, double power, double radius_m,
-                                  double area_m2) {
+                                  double zones, double area_m2) {
   const double removed = radius_m * radius_m * law.MeanPower(power) +
                          radius_m * law.MeanPower(power + 1.0) + 0.25 * law.MeanPower(power + 2.0);
-  return law.MeanPower(power) - 2.0 * std::numbers::pi * removed / area_m2;
+  return law.MeanPower(power) - zones * std::numbers::pi * removed / area_m2;
 }
 
-void AddExpectations(const TerrainParams& params, FieldAudit& audit) {
+void AddExpectations(const TerrainParams& params, const Course& course, FieldAudit& audit) {
   const std::unique_ptr<RockSizeLaw> law = MakeSizeLaw(params.rocks);
   if (!law) return;
   // Mean number: density times area.
@@ -44,8 +49,9 @@ void AddExpectations(const TerrainParams& params, FieldAudit& audit) {
   // Only Moore rocks are dropped in clear zones; exact counts are drawn again elsewhere.
   if (params.rocks.kind == RockFieldKind::kMoore) {
     const double r = params.rocks.clear_radius_m;
-    placed_share = MeanPowerOutsideClearZones(*law, 0.0, r, audit.layout_area_m2);
-    mean_square_m2 = MeanPowerOutsideClearZones(*law, 2.0, r, audit.layout_area_m2);
+    const auto zones = static_cast<double>(course.Points().size());
+    placed_share = MeanPowerOutsideClearZones(*law, 0.0, r, zones, audit.layout_area_m2);
+    mean_square_m2 = MeanPowerOutsideClearZones(*law, 2.0, r, zones, audit.layout_area_m2);
   }
   audit.expected_placed = audit.expected_drawn * placed_share;
   // Cover per area: pi/4 E[D^2] times the number of rocks.
@@ -53,10 +59,11 @@ void AddExpectations(const TerrainParams& params, FieldAudit& audit) {
       0.25 * std::numbers::pi * audit.expected_drawn * mean_square_m2 / audit.layout_area_m2;
 }
 
-FieldAudit AuditLayout(const TerrainParams& params, const RockLayout& layout) {
+FieldAudit AuditLayout(const TerrainParams& params, const Course& course,
+                       const RockLayout& layout) {
   FieldAudit audit;
   audit.layout_area_m2 = params.LayoutArea();
-  AddExpectations(params, audit);
+  AddExpectations(params, course, audit);
   audit.drawn = layout.drawn;
   audit.dropped_in_clear_zones = layout.dropped_in_clear_zones;
   audit.dropped_for_overlap = layout.dropped_for_overlap;
@@ -80,7 +87,7 @@ FieldAudit AuditLayout(const TerrainParams& params, const RockLayout& layout) {
 Field BuildField(const TerrainParams& params, core::TrialKey key, const Course& course) {
   RequireCourseInArena(params.arena, course);
   RockLayout layout = LayOutRocks(params, key, course);
-  FieldAudit audit = AuditLayout(params, layout);
+  FieldAudit audit = AuditLayout(params, course, layout);
 
   std::vector<Rock> rocks = layout.rocks;
   for (const Rock& rock : layout.rocks) {

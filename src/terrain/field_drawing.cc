@@ -209,6 +209,9 @@ std::string ToSvg(const Field& field, const TerrainParams& params, const Course&
     }
   }
   DrawCross(course.start_x_m, course.start_y_m, "start", svg);
+  for (const CoursePoint& point : course.waypoints) {
+    DrawCross(point.x_m, point.y_m, "waypoint", svg);
+  }
   DrawCross(course.goal_x_m, course.goal_y_m, "goal", svg);
   svg += overlay.elements;
   svg += "</svg>\n";

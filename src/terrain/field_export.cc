@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <utility>
 
 #include "core/json_text.h"
 #include "core/json_value.h"
@@ -89,6 +90,11 @@ std::string ToJson(const Field& field, const TerrainParams& params, const Course
                 PointJson(-params.arena.MirrorLine(), params.arena.MirrorLine()));
   }
   json.Append("start_m", PointJson(course.start_x_m, course.start_y_m));
+  JsonValue::List waypoints;
+  for (const CoursePoint& point : course.waypoints) {
+    waypoints.push_back(PointJson(point.x_m, point.y_m));
+  }
+  if (!waypoints.empty()) json.Append("waypoints_m", JsonValue(std::move(waypoints)));
   json.Append("goal_m", PointJson(course.goal_x_m, course.goal_y_m));
   json.Append("audit", AuditJson(field.audit));
   JsonValue::List rocks;

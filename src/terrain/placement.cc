@@ -23,7 +23,7 @@ bool Overlap(const Disc& a, const Disc& b) {
 Placement::Placement(const Rectangle& layout, const Course& course, double clear_radius_m,
                      std::optional<double> line_to_keep_off_m)
     : layout_(layout),
-      course_(course),
+      points_(course.Points()),
       clear_radius_m_(clear_radius_m),
       line_to_keep_off_m_(line_to_keep_off_m),
       cell_m_(std::max(kSmallestCell_m, std::sqrt(layout.Area() / kMaxCells))),
@@ -31,10 +31,12 @@ Placement::Placement(const Rectangle& layout, const Course& course, double clear
       ny_(static_cast<int>((layout.y_max_m - layout.y_min_m) / cell_m_) + 1),
       cells_(static_cast<std::size_t>(nx_) * ny_) {}
 
-// Clear zones are discs around start and goal, and rocks keep out with their whole outline.
+// Clear zones are discs around the points of the course, and rocks keep out with their whole
+// outline.
 bool Placement::ClearOfCourse(const Disc& disc) const {
-  return !Overlap(disc, {course_.start_x_m, course_.start_y_m, clear_radius_m_}) &&
-         !Overlap(disc, {course_.goal_x_m, course_.goal_y_m, clear_radius_m_});
+  return std::none_of(points_.begin(), points_.end(), [&](const CoursePoint& point) {
+    return Overlap(disc, {point.x_m, point.y_m, clear_radius_m_});
+  });
 }
 
 // Discs beyond the layout go to its border cells, both when added and when asked for.

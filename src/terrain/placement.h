@@ -27,7 +27,7 @@ class Placement {
   Placement(const Rectangle& layout, const Course& course, double clear_radius_m,
             std::optional<double> line_to_keep_off_m);
 
-  // Returns whether the disc reaches into no clear zone around start or goal.
+  // Returns whether the disc reaches into no clear zone around start, waypoints or goal.
   bool ClearOfCourse(const Disc& disc) const;
   // Returns whether the disc overlaps no placed one and crosses no line that discs keep off.
   bool Free(const Disc& disc) const;
@@ -44,7 +44,7 @@ class Placement {
   Cells CellsOf(const Disc& disc) const;
 
   Rectangle layout_;
-  Course course_;
+  std::vector<CoursePoint> points_;  // of the course
   double clear_radius_m_;
   std::optional<double> line_to_keep_off_m_;
   double cell_m_;

@@ -8,6 +8,7 @@
 #include "navigation/pathfinder/pathfinder.h"
 #include "navigation/route_follower.h"
 #include "navigation/stuck_reaction.h"
+#include "perception/tracked_feature.h"
 #include "terrain/arena.h"
 #include "trial/goal_designation.h"
 #include "trial/layout.h"
@@ -104,7 +105,7 @@ Drive::Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
              const ScanWatcher& scan_watcher, StepWatcher step_watcher)
     : params_(drive),
       key_(key),
-      designated_goal_(DesignatedGoal(drive.course, key)),
+      designated_goals_(DesignatedGoals(drive.course, key)),
       trace_(trace),
       field_(
           terrain::BuildField(drive.terrain, LayoutKey(drive, key), TerrainCourse(drive.course))),
@@ -114,13 +115,14 @@ Drive::Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
       terrain_sensing_(drive, key, scan_watcher),
       guard_(drive, key),
       localizer_(drive, StartPose(drive.course)),
-      navigator_(MakeNavigator(drive, field_.terrain, designated_goal_)),
+      navigator_(designated_goals_,
+                 MakeNavigator(drive, field_.terrain, designated_goals_.front())),
       wheel_driver_(OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive),
                     drive.navigation.wheel_driver),
       ledger_(MakePowerBudget(drive), drive.energy.battery_wh),
       monitor_(UndersideOf(drive.rover.geometry), field_.terrain),
       watch_(WatchedZone(drive), drive.rover.geometry, WatchedHeight(drive), field_.terrain),
-      referee_(drive.referee, drive.course, designated_goal_, Bounds(drive.terrain.arena),
+      referee_(drive.referee, drive.course, designated_goals_.front(), Bounds(drive.terrain.arena),
                drive.rover.geometry.wheel_radius_m),
       step_watcher_(std::move(step_watcher)) {
   if (drive.terrain.arena.kind == terrain::ArenaKind::kVirtualReflected) {
@@ -135,6 +137,7 @@ Drive::Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
         drive.perception.stuck_detector,
         OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive));
   }
+  if (drive.course.tracking.enabled) feature_tracker_.emplace(drive.course.tracking, key);
   monitor_.Restart(rover_->state());
   localizer_.Place(rover_->state());
   RecordRest({});
@@ -152,24 +155,51 @@ DriveResult Drive::Run() {
 }
 
 std::optional<Verdict> Drive::Tick() {
+  TrackGoal();
+  const std::size_t reached = navigator_.reached();
   const navigation::NavigatorDecision decision =
-      navigator_->Decide({.time_s = ledger_.time_s(),
-                          .estimate = localizer_.pose(),
-                          .attitude = localizer_.attitude(),
-                          .report = percept_.report ? &*percept_.report : nullptr,
-                          .cloud = percept_.cloud ? &*percept_.cloud : nullptr,
-                          .vehicle_hazard = guard_.hazard(),
-                          .touches_behind = guard_.touches_behind(),
-                          .notices_stuck = notices_stuck_});
+      navigator_.Decide({.time_s = ledger_.time_s(),
+                         .estimate = localizer_.pose(),
+                         .attitude = localizer_.attitude(),
+                         .report = percept_.report ? &*percept_.report : nullptr,
+                         .cloud = percept_.cloud ? &*percept_.cloud : nullptr,
+                         .vehicle_hazard = guard_.hazard(),
+                         .touches_behind = guard_.touches_behind(),
+                         .notices_stuck = notices_stuck_});
+  if (navigator_.reached() != reached) OnWaypoints(reached);
   if (!decision.looks()) ShowStep();
   percept_ = {};
   if (decision.status != navigation::NavigatorStatus::kDriving) {
-    return referee_.OnNavigatorStop(decision.status, rover_->state());
+    return referee_.OnNavigatorStop(decision.status, rover_->state(), ledger_.time_s());
   }
   if (decision.look) return Look(*decision.look);
   turns_.Observe(decision.motion);
   if (moves_.Observe(decision.motion)) SpendOverhead();
   return Move(decision.motion, tick_);
+}
+
+void Drive::TrackGoal() {
+  if (!feature_tracker_ || !navigator_.IsOnLastLeg()) return;
+  const double time_s = ledger_.time_s();
+  const auto number = static_cast<std::int64_t>(time_s / params_.course.tracking.period_s);
+  if (number < next_sighting_) return;
+  next_sighting_ = number + 1;
+  const messages::Goal target = params_.course.GoalAt(time_s);
+  const auto sighting = feature_tracker_->Observe(math::ToPose2(rover_->state().X_WR), target.x_m,
+                                                  target.y_m, number);
+  if (sighting.has_value() != sees_goal_) {
+    Record("tracker", sighting ? "goal in view" : "goal out of view");
+  }
+  sees_goal_ = sighting.has_value();
+  if (!sighting) return;
+  const messages::Goal goal = perception::PlaceOf(*sighting, localizer_.pose());
+  navigator_.SetGoal(goal, navigation::GoalChange::kMoved);
+  referee_.OnGoalMoved(goal);
+}
+
+void Drive::OnWaypoints(std::size_t first) {
+  for (std::size_t i = first; i < navigator_.reached(); ++i) RecordWaypoint(i);
+  referee_.OnNextGoal(navigator_.goal(), Observed(Activity::kDriving, 0, 0.0), ledger_.time_s());
 }
 
 std::optional<Verdict> Drive::Look(messages::LookDirection direction) {
@@ -284,14 +314,22 @@ void Drive::ReflectAtMirrorLine(int direction) {
   notices_stuck_ = false;
   monitor_.Restart(rover_->state());
   referee_.OnReflection(rover_->state(), reflection->line_m);
-  navigator_->OnPoseUpdate(before, localizer_.pose());
+  navigator_.OnPoseUpdate(before, localizer_.pose());
   RecordRest({}, true);
 }
 
+Observation Drive::Observed(Activity activity, int direction, double duration_s) const {
+  return {activity,
+          direction,
+          duration_s,
+          rover_->state(),
+          localizer_.pose(),
+          monitor_.distance_m(),
+          monitor_.turned_in_place_rad()};
+}
+
 std::optional<Verdict> Drive::AskReferee(Activity activity, int direction, double duration_s) {
-  return referee_.Observe({activity, direction, duration_s, rover_->state(), localizer_.pose(),
-                           monitor_.distance_m(), monitor_.turned_in_place_rad()},
-                          ledger_);
+  return referee_.Observe(Observed(activity, direction, duration_s), ledger_);
 }
 
 void Drive::Strand() {

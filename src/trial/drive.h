@@ -1,6 +1,7 @@
 // The closed loop of one trial. See run_trial.h for the entry point.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -8,10 +9,11 @@
 #include <vector>
 
 #include "core/random.h"
-#include "navigation/navigator.h"
+#include "navigation/waypoint_sequence.h"
 #include "navigation/wheel_driver.h"
 #include "perception/stuck_detector.h"
 #include "rover/rover.h"
+#include "sensing/feature_tracker.h"
 #include "sensing/motion_sensors.h"
 #include "terrain/field.h"
 #include "trial/drive_monitor.h"
@@ -46,6 +48,10 @@ class Drive {
 
  private:
   std::optional<Verdict> Tick();
+  // Shows the tracked goal to the navigator, where there is one and it is in view.
+  void TrackGoal();
+  // The navigator has gone on from its goal number `first`, and perhaps from more.
+  void OnWaypoints(std::size_t first);
   std::optional<Verdict> Look(messages::LookDirection direction);
   // What the navigator made of the last look.
   void ShowStep();
@@ -63,6 +69,7 @@ class Drive {
   // What the rover believes, against what the monitor saw.
   void ObserveErrors();
   void ReflectAtMirrorLine(int direction);
+  Observation Observed(Activity activity, int direction, double duration_s) const;
   std::optional<Verdict> AskReferee(Activity activity, int direction, double duration_s);
   DriveResult Finish(const Verdict& verdict);
   // What a stuck rover would still take, and with referee.stuck_rover run_on takes.
@@ -76,6 +83,7 @@ class Drive {
 
   void Record(std::string kind, std::string detail);
   void RecordLook(messages::LookDirection direction);
+  void RecordWaypoint(std::size_t index);
   void Sample(Activity activity);
   // Spends time at rest.
   void Rest(Activity activity, double duration_s);
@@ -86,7 +94,7 @@ class Drive {
 
   const DriveParams& params_;
   core::TrialKey key_;
-  messages::Goal designated_goal_;
+  std::vector<messages::Goal> designated_goals_;  // waypoints, then the goal
   truth::Trace* trace_;
 
   terrain::Field field_;
@@ -102,9 +110,13 @@ class Drive {
   std::optional<perception::StuckDetector> stuck_detector_;
   bool notices_stuck_ = false;  // at the last tick
 
+  std::optional<sensing::FeatureTracker> feature_tracker_;
+  std::int64_t next_sighting_ = 0;  // number of its next measurement
+  bool sees_goal_ = false;          // at the last one
+
   Localizer localizer_;
 
-  std::unique_ptr<navigation::Navigator> navigator_;
+  navigation::WaypointSequence navigator_;
   navigation::WheelDriver wheel_driver_;
 
   Ledger ledger_;

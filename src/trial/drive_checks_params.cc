@@ -9,6 +9,7 @@
 #include <numbers>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "math/angles.h"
 #include "rover/steepest_slope_params.h"
@@ -108,6 +109,11 @@ void RequireFreeEnds(const DriveParams& drive, core::FieldVisitor& v) {
                    "start_x_m, start_y_m", v);
   RequireFreePlace(listed, course.goal_x_m, course.goal_y_m, rocks.clear_radius_m,
                    "goal_x_m, goal_y_m", v);
+  const std::vector<messages::Goal> waypoints = course.waypoints.Places();
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    RequireFreePlace(listed, waypoints[i].x_m, waypoints[i].y_m, rocks.clear_radius_m,
+                     fmt::format("waypoint {} of course.waypoints", i + 1), v);
+  }
 }
 
 // A goal beyond a mirror line is never reached: the rover is turned back there.
@@ -116,12 +122,16 @@ void RequireDesignatedGoals(const DriveParams& drive, core::FieldVisitor& v) {
   const terrain::ArenaParams& arena = drive.terrain.arena;
   if (!course.designation.enabled || arena.kind != terrain::ArenaKind::kVirtualReflected) return;
   constexpr double kDeviations = 5.0;  // one trial in a million lies beyond
-  const DesignationErrors errors = course.designation.ErrorsAt(course.DesignationRange_m());
-  const double reach_m = kDeviations * std::max(errors.crossrange_sd_m, errors.downrange_sd_m) +
-                         std::abs(errors.crossrange_bias_m);
-  v.Require("course.designation.enabled", std::abs(course.goal_y_m) + reach_m <= arena.MirrorLine(),
-            "is true where goals may be designated beyond the mirror lines of terrain.arena, where "
-            "no rover arrives",
+  const std::vector<messages::Goal> goals = course.Goals();
+  const bool within = std::all_of(goals.begin(), goals.end(), [&](const messages::Goal& goal) {
+    const DesignationErrors errors = course.designation.ErrorsAt(course.DesignationRange_m(goal));
+    const double reach_m = kDeviations * std::max(errors.crossrange_sd_m, errors.downrange_sd_m) +
+                           std::abs(errors.crossrange_bias_m);
+    return std::abs(goal.y_m) + reach_m <= arena.MirrorLine();
+  });
+  v.Require("course.designation.enabled", within,
+            "is true where goals or waypoints may be designated beyond the mirror lines of "
+            "terrain.arena, where no rover arrives",
             "use a wider arena, another kind, a nearer lander or smaller errors");
 }
 
@@ -179,6 +189,29 @@ void RequireLevelStart(const DriveParams& drive, core::FieldVisitor& v) {
             "move it, or course.start_x_m and course.start_y_m");
 }
 
+// An oracle's route is planned once, from the start to the goal.
+void RequireOnePlan(const DriveParams& drive, core::FieldVisitor& v) {
+  const bool follows = drive.navigation.navigator == NavigatorKind::kRoute;
+  const CourseParams& course = drive.course;
+  v.Require("course.waypoints.x_m", !follows || course.waypoints.x_m.empty(),
+            "names waypoints where navigation.navigator is route, whose oracle plans one way from "
+            "the start to the goal",
+            "use navigator pathfinder or gestalt, or a course without waypoints");
+  v.Require("course.tracking.enabled", !follows || !course.tracking.enabled,
+            "is true where navigation.navigator is route, which follows a way that was planned "
+            "before",
+            "use navigator pathfinder or gestalt, or no tracking");
+}
+
+// A target that moves on crosses a mirror line, where no rover arrives.
+void RequireTargetBetweenLines(const DriveParams& drive, core::FieldVisitor& v) {
+  v.Require("course.target_speed_m_s",
+            drive.course.target_speed_m_s == 0.0 ||
+                drive.terrain.arena.kind != terrain::ArenaKind::kVirtualReflected,
+            "is above 0 in a virtual_reflected arena, whose mirror lines the target would cross",
+            "use a target that stands, or another kind of arena");
+}
+
 // A stuck rover that runs on does so until its batteries are empty.
 void RequireEndOfStall(const DriveParams& drive, core::FieldVisitor& v) {
   v.Require("referee.stuck_rover",
@@ -201,6 +234,8 @@ void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v) {
   RequireEndOfStall(drive, v);
   RequireFreeEnds(drive, v);
   RequireDesignatedGoals(drive, v);
+  RequireOnePlan(drive, v);
+  RequireTargetBetweenLines(drive, v);
 }
 
 }  // namespace rockyard::trial

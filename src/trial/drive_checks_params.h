@@ -15,8 +15,10 @@ inline constexpr double kSame_m = 1e-9;
 //   the cameras ahead can show (bounds that no view exceeds; the view may be narrower), and asks
 //   for no more points than an image has pixels;
 // - the soil holds the braked rover on the slope of the ground;
-// - listed rocks leave start and goal of a drive free by terrain.rocks.clear_radius_m;
-// - goals that a lander designates stay between the mirror lines of a virtual_reflected arena;
+// - listed rocks leave start, waypoints and goal of a drive free by terrain.rocks.clear_radius_m;
+// - goals and waypoints that a lander designates stay between the mirror lines of a
+//   virtual_reflected arena, and so do targets: they stand;
+// - an oracle's route leads to one goal that nobody tracks;
 // - GESTALT takes its vehicle for at most twice and at least half as long and wide as it is.
 // Each failure names the parameter, what is wrong and a remedy.
 void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "rover/body_boxes_params.h"
 #include "rover/static_loads_params.h"
@@ -22,6 +24,14 @@ void RequirePossible(const DriveParams& drive, core::FieldVisitor& v) {
   v.Require("course.goal_x_m", arena.HoldsCoursePoint(course.goal_x_m, course.goal_y_m),
             "puts the goal outside of terrain.arena (or of the mirror lines of a virtual arena)",
             "move the goal or enlarge the arena");
+  const std::vector<messages::Goal> waypoints = course.waypoints.Places();
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    v.Require("course.waypoints.x_m", arena.HoldsCoursePoint(waypoints[i].x_m, waypoints[i].y_m),
+              fmt::format("puts waypoint {} outside of terrain.arena (or of the mirror lines of a "
+                          "virtual arena)",
+                          i + 1),
+              "move the waypoint or enlarge the arena");
+  }
   const bool multibody = drive.rover.fidelity == rover::Fidelity::kMultibody;
   const double step_s = multibody ? drive.rover.physics.time_scale * drive.rover.physics.step_s
                                   : drive.rover.quasi_static.step_s;

@@ -14,20 +14,21 @@ void Drive::ReportGoals(truth::DriveRecord& record) const {
   const messages::PoseEstimate& estimate = localizer_.pose();
   record.straight_distance_m =
       std::hypot(course.goal_x_m - course.start_x_m, course.goal_y_m - course.start_y_m);
-  record.told_goal_x_m = designated_goal_.x_m;
-  record.told_goal_y_m = designated_goal_.y_m;
-  record.designation_error_m =
-      std::hypot(designated_goal_.x_m - course.goal_x_m, designated_goal_.y_m - course.goal_y_m);
+  const messages::Goal& told = designated_goals_.back();
+  record.told_goal_x_m = told.x_m;
+  record.told_goal_y_m = told.y_m;
+  record.designation_error_m = std::hypot(told.x_m - course.goal_x_m, told.y_m - course.goal_y_m);
+  const messages::Goal& believed = navigator_.last_goal();
   record.believed_goal_distance_m =
-      std::hypot(designated_goal_.x_m - estimate.x_m, designated_goal_.y_m - estimate.y_m);
+      std::hypot(believed.x_m - estimate.x_m, believed.y_m - estimate.y_m);
+  record.waypoints_reached = static_cast<double>(navigator_.reached());
 }
 
 void Drive::ReportPoses(truth::DriveRecord& record) const {
   const math::Pose2 truth = math::ToPose2(rover_->state().X_WR);
   const messages::PoseEstimate& estimate = localizer_.pose();
-  const CourseParams& course = params_.course;
-  record.true_goal_distance_m =
-      std::hypot(course.goal_x_m - truth.x_m, course.goal_y_m - truth.y_m);
+  const messages::Goal goal = params_.course.GoalAt(ledger_.time_s());
+  record.true_goal_distance_m = std::hypot(goal.x_m - truth.x_m, goal.y_m - truth.y_m);
   record.final_x_m = truth.x_m;
   record.final_y_m = truth.y_m;
   record.final_heading_rad = truth.heading_rad;
@@ -52,7 +53,7 @@ void Drive::ReportErrors(truth::DriveRecord& record) const {
   record.position_error_m = std::hypot(estimate.x_m - reference.x_m, estimate.y_m - reference.y_m);
   record.heading_growth_deg2_per_m = heading_growth_.per_m();
   record.distance_growth_m2_per_m = distance_growth_.per_m();
-  if (navigator_->view() != nullptr) {
+  if (navigator_.view() != nullptr) {
     record.height_error_m = localizer_.HeightError(rover_->state());
   }
 }

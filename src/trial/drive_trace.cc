@@ -67,8 +67,18 @@ void Drive::RecordLook(messages::LookDirection direction) {
          fmt::format("{}, {} points", ahead ? "ahead" : "behind", percept_.cloud->points_R.size()));
 }
 
+// What was declared, and how far the rover truly is from there.
+void Drive::RecordWaypoint(std::size_t index) {
+  if (trace_ == nullptr) return;
+  const std::vector<messages::Goal> goals = params_.course.Goals();
+  const math::Pose2 rover = math::ToPose2(rover_->state().X_WR);
+  Record("waypoint",
+         fmt::format("{} of {}, {:.2f} m from it", index + 1, goals.size() - 1,
+                     std::hypot(goals[index].x_m - rover.x_m, goals[index].y_m - rover.y_m)));
+}
+
 void Drive::ShowStep() {
-  const messages::NavigationView* view = navigator_->view();
+  const messages::NavigationView* view = navigator_.view();
   if (!percept_.cloud || view == nullptr) return;
   if (step_watcher_) {
     step_watcher_({params_, field_.terrain, rover_->state().X_WR, key_, *view, *percept_.cloud});

@@ -1,5 +1,7 @@
-// The goal that a rover is told, as an operator designates it in the lander's stereo images.
+// The places that a rover is told, as an operator designates them in the lander's stereo images.
 #pragma once
+
+#include <vector>
 
 #include "core/random.h"
 #include "messages/estimates.h"
@@ -13,5 +15,11 @@ namespace rockyard::trial {
 // always three numbers (crossrange, downrange, pan), so that changing one error shifts no other.
 // Cost: below 1 us.
 messages::Goal DesignatedGoal(const CourseParams& course, core::TrialKey key);
+
+// Every waypoint of the course in the order of driving, then DesignatedGoal. Each waypoint is
+// designated from the same place as the goal, by its own range and with random errors of its own
+// (the same stream, substream 1, 2, ...; the goal's is 0, so that it does not depend on waypoints).
+// The pan axis is wrong by one angle in a trial, whatever is designated.
+std::vector<messages::Goal> DesignatedGoals(const CourseParams& course, core::TrialKey key);
 
 }  // namespace rockyard::trial

@@ -41,17 +41,16 @@ bool IsMotion(Activity activity) {
 }  // namespace
 
 Referee::Referee(const RefereeParams& params, const CourseParams& course,
-                 const messages::Goal& designated_goal, std::optional<ArenaBounds> bounds,
+                 const messages::Goal& told_goal, std::optional<ArenaBounds> bounds,
                  double wheel_radius_m)
     : params_(params),
       course_(course),
-      designated_goal_(designated_goal),
+      told_goal_(told_goal),
       bounds_(bounds),
       wheel_radius_m_(wheel_radius_m),
       tip_over_cosine_(std::cos(params.tip_over_rad)),
-      progress_{
-          Between(course.start_x_m, course.start_y_m, designated_goal.x_m, designated_goal.y_m),
-          course.start_x_m, course.start_y_m} {}
+      progress_{Between(course.start_x_m, course.start_y_m, told_goal.x_m, told_goal.y_m),
+                course.start_x_m, course.start_y_m} {}
 
 std::optional<Verdict> Referee::Observe(const Observation& observation, const Ledger& ledger) {
   const truth::RoverState& state = observation.state;
@@ -162,8 +161,8 @@ std::optional<Verdict> Referee::CheckNoPath(const Observation& observation, doub
 
 // The rover believes to be nearer than ever and has truly moved: spinning wheels are no progress.
 bool Referee::MadeProgress(const Observation& observation) {
-  const double goal_distance_m = Between(observation.estimate.x_m, observation.estimate.y_m,
-                                         designated_goal_.x_m, designated_goal_.y_m);
+  const double goal_distance_m =
+      Between(observation.estimate.x_m, observation.estimate.y_m, told_goal_.x_m, told_goal_.y_m);
   const auto p = observation.state.X_WR.translation();
   if (goal_distance_m > progress_.goal_distance_m - params_.no_path_progress_m ||
       Between(progress_.x_m, progress_.y_m, p.x(), p.y()) < params_.no_path_progress_m) {
@@ -175,8 +174,21 @@ bool Referee::MadeProgress(const Observation& observation) {
   return true;
 }
 
-Verdict Referee::OnNavigatorStop(navigation::NavigatorStatus status,
-                                 const truth::RoverState& state) const {
+void Referee::OnNextGoal(const messages::Goal& told_goal, const Observation& observation,
+                         double time_s) {
+  told_goal_ = told_goal;
+  const messages::PoseEstimate& estimate = observation.estimate;
+  const auto p = observation.state.X_WR.translation();
+  progress_ = {.goal_distance_m = Between(estimate.x_m, estimate.y_m, told_goal.x_m, told_goal.y_m),
+               .x_m = p.x(),
+               .y_m = p.y(),
+               .time_s = time_s,
+               .distance_m = observation.true_distance_m,
+               .turned_rad = observation.turned_in_place_rad};
+}
+
+Verdict Referee::OnNavigatorStop(navigation::NavigatorStatus status, const truth::RoverState& state,
+                                 double time_s) const {
   if (status == navigation::NavigatorStatus::kGaveUp) {
     return {TrialOutcome::kNoPath, "the navigator gave up"};
   }
@@ -184,7 +196,8 @@ Verdict Referee::OnNavigatorStop(navigation::NavigatorStatus status,
     return {TrialOutcome::kNoPath, "the rover noticed that it is stuck"};
   }
   const auto p = state.X_WR.translation();
-  const double off_m = Between(p.x(), p.y(), course_.goal_x_m, course_.goal_y_m);
+  const messages::Goal goal = course_.GoalAt(time_s);
+  const double off_m = Between(p.x(), p.y(), goal.x_m, goal.y_m);
   if (off_m <= course_.goal_radius_m) {
     return {TrialOutcome::kGoalReached, "arrived within goal_radius_m"};
   }

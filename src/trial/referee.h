@@ -40,10 +40,9 @@ struct Observation {
 class Referee {
  public:
   // Arrival is judged at the true goal of `course`; progress is what brings the rover nearer to the
-  // goal that it was told.
-  Referee(const RefereeParams& params, const CourseParams& course,
-          const messages::Goal& designated_goal, std::optional<ArenaBounds> bounds,
-          double wheel_radius_m);
+  // goal or waypoint that it drives to, first of all `told_goal`.
+  Referee(const RefereeParams& params, const CourseParams& course, const messages::Goal& told_goal,
+          std::optional<ArenaBounds> bounds, double wheel_radius_m);
 
   // The verdict after a tick, if the trial is over for another reason than the navigator's own.
   std::optional<Verdict> Observe(const Observation& observation, const Ledger& ledger);
@@ -53,8 +52,15 @@ class Referee {
   // headings and the estimate of the open window go with it.
   void OnReflection(const truth::RoverState& state, double line_m);
 
-  // The verdict on a navigator that stopped by itself.
-  Verdict OnNavigatorStop(navigation::NavigatorStatus status, const truth::RoverState& state) const;
+  // The rover declared that it is at a waypoint and drives to the next goal: patience begins anew.
+  void OnNextGoal(const messages::Goal& told_goal, const Observation& observation, double time_s);
+
+  // The goal that it drives to is believed to lie elsewhere: what it gained, it has gained.
+  void OnGoalMoved(const messages::Goal& told_goal) { told_goal_ = told_goal; }
+
+  // The verdict on a navigator that stopped by itself, at a simulated time.
+  Verdict OnNavigatorStop(navigation::NavigatorStatus status, const truth::RoverState& state,
+                          double time_s) const;
 
   // The most that was driven, and turned in place, since a progress towards the goal and before the
   // next one. Nothing before a verdict depends on the patience, so a trial that had none ends with
@@ -96,7 +102,7 @@ class Referee {
 
   RefereeParams params_;
   CourseParams course_;
-  messages::Goal designated_goal_;
+  messages::Goal told_goal_;
   std::optional<ArenaBounds> bounds_;
   double wheel_radius_m_;
   double tip_over_cosine_;

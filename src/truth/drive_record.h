@@ -74,7 +74,7 @@ struct DriveRecord {
   double told_goal_x_m = 0.0;     // the designated goal
   double told_goal_y_m = 0.0;
   double designation_error_m = 0.0;       // designated goal to true goal
-  double believed_goal_distance_m = 0.0;  // believed final position to the designated goal
+  double believed_goal_distance_m = 0.0;  // believed final position to the goal as last believed
   // True path over displacement_m, of arrivals; NaN of other ends.
   double path_ratio = std::numeric_limits<double>::quiet_NaN();
   double stops = 0.0;  // times that the rover came to rest
@@ -93,8 +93,9 @@ struct DriveRecord {
   // Slopes of squared errors against the true distance along the run (trial/error_growth.h).
   double heading_growth_deg2_per_m = 0.0;
   double distance_growth_m2_per_m = 0.0;
-  double hazards_begun = 0.0;   // of hazards_believed, those that the scan before did not see
-  double displacement_m = 0.0;  // start to end, true and straight
+  double hazards_begun = 0.0;      // of hazards_believed, those that the scan before did not see
+  double displacement_m = 0.0;     // start to end, true and straight
+  double waypoints_reached = 0.0;  // declared, before the goal
 };
 
 struct DriveColumn {
@@ -227,7 +228,8 @@ inline constexpr std::array kDriveColumns = {
     DriveColumn{"designation_error_m", "m", "designated goal to true goal",
                 &DriveRecord::designation_error_m},
     DriveColumn{"believed_goal_distance_m", "m",
-                "believed final position to the designated goal; beside true_goal_distance_m",
+                "believed final position to the goal as told, or as last seen where it is tracked; "
+                "beside true_goal_distance_m",
                 &DriveRecord::believed_goal_distance_m},
     DriveColumn{
         "path_ratio", "1",
@@ -287,6 +289,10 @@ inline constexpr std::array kDriveColumns = {
                 &DriveRecord::hazards_begun},
     DriveColumn{"displacement_m", "m", "straight distance from the start to the true end",
                 &DriveRecord::displacement_m},
+    DriveColumn{"waypoints_reached", "1",
+                "waypoints (course.waypoints) at which the rover declared to be; the goal is none "
+                "of them",
+                &DriveRecord::waypoints_reached},
 };
 
 }  // namespace rockyard::truth

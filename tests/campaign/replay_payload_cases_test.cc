@@ -39,6 +39,15 @@ TEST(ReplayPayload, RocksThatThePushedRoverMoves) {
   }
 }
 
+TEST(ReplayPayload, WaypointsInTheOrderOfDriving) {
+  const Json course = PayloadOf(SourceOf("gestalt/waypoints"), 0)["course"];
+  ASSERT_THAT(course["waypoints"], SizeIs(2));
+  EXPECT_EQ(course["waypoints"][0]["x"], 1.8);
+  EXPECT_EQ(course["waypoints"][0]["y"], 0.82);
+  EXPECT_EQ(course["waypoints"][1]["x"], 3.9);
+  EXPECT_TRUE(PayloadOf(SourceOf("gestalt/narrow_course"), 0)["course"]["waypoints"].empty());
+}
+
 TEST(ReplayPayload, StepsOfAMapBasedNavigator) {
   const Json payload = PayloadOf(SourceOf("gestalt/narrow_course"), 0);
   ASSERT_FALSE(payload["steps"].empty());

@@ -13,6 +13,7 @@ class StraightAhead final : public Navigator {
  public:
   NavigatorDecision Decide(const NavigatorInput&) override { return {}; }
   void OnPoseUpdate(const messages::PoseEstimate&, const messages::PoseEstimate&) override {}
+  void SetGoal(const messages::Goal&, GoalChange) override {}
 };
 
 }  // namespace

@@ -192,6 +192,8 @@ class Drive final : public LoggedDrive<Tick> {
     navigator_.OnPoseUpdate(before, rover_.estimate());
   }
 
+  void SetGoal(const messages::Goal& goal, GoalChange change) { navigator_.SetGoal(goal, change); }
+
   // The brakes hold: time passes, and nothing is measured.
   NavigatorDecision HeldDecision(double time_s) {
     return navigator_.Decide({.time_s = time_s, .estimate = rover_.estimate()});

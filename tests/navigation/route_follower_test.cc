@@ -51,6 +51,8 @@ class RouteDrive {
     navigator_.OnPoseUpdate(before, rover_.estimate());
   }
 
+  void SetGoal(const Goal& goal) { navigator_.SetGoal(goal, GoalChange::kMoved); }
+
   // Least distance of the believed way to a point.
   double NearestBelieved_m(const Goal& corner) const {
     double nearest_m = INFINITY;
@@ -209,6 +211,18 @@ TEST(RouteFollowerTest, SteersAnewOnTheWay) {
     steered_at_m = at_m;
   }
   EXPECT_GT(changes, 30) << "of 60 steering intervals";
+}
+
+TEST(RouteFollowerTest, AGoalThatMovesIsTheEndOfTheRoute) {
+  RouteDrive drive({{2.0, 0.0}, {4.0, 0.0}});
+  drive.Step();
+  drive.SetGoal({4.0, 1.0});
+  EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
+  EXPECT_LE(drive.NearestBelieved_m({2.0, 0.0}), RouteParams{}.corner_tolerance_m);
+  EXPECT_LE(drive.NearestBelieved_m({4.0, 1.0}), RouteParams{}.goal_tolerance_m);
+  RouteDrive nowhere({});
+  nowhere.SetGoal({1.0, 0.0});
+  EXPECT_EQ(nowhere.Step().decision.status, NavigatorStatus::kGaveUp);
 }
 
 }  // namespace

@@ -24,11 +24,17 @@ class ScriptedNavigator final : public Navigator {
   void OnPoseUpdate(const messages::PoseEstimate&, const messages::PoseEstimate& after) override {
     updated_x_m = after.x_m;
   }
+  void SetGoal(const messages::Goal& goal, GoalChange change) override {
+    goal_x_m = goal.x_m;
+    goal_change = change;
+  }
   const messages::NavigationView* view() const override { return &kept_view; }
 
   NavigatorDecision decision{NavigatorStatus::kDriving, {}, {MotionKind::kArc, 0.5, +1}};
   std::vector<double> odometers_m;  // at each question
   double updated_x_m = 0.0;
+  double goal_x_m = 0.0;
+  GoalChange goal_change = GoalChange::kNext;
   messages::NavigationView kept_view;
 };
 
@@ -76,6 +82,9 @@ TEST_F(StuckReactionTest, LeavesARoverThatGetsOnToItsNavigator) {
     EXPECT_EQ(reaction_->view(), &inner_->kept_view);
     reaction_->OnPoseUpdate({}, {.x_m = 3.0});
     EXPECT_EQ(inner_->updated_x_m, 3.0);
+    reaction_->SetGoal({.x_m = 5.0}, GoalChange::kMoved);
+    EXPECT_EQ(inner_->goal_x_m, 5.0);
+    EXPECT_EQ(inner_->goal_change, GoalChange::kMoved);
   }
 }
 

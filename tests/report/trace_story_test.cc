@@ -46,6 +46,17 @@ TEST(TraceStory, FoldsLooksChoicesAndFeltHazards) {
               HasSubstr("  2 looks ahead, 900 points to behind, 700 points"));
 }
 
+TEST(TraceStory, AWaypointHasALineOfItsOwnAndTheTrackerSharesOne) {
+  truth::TracedTrial trial = SampleTrial();
+  trial.trace.events = {{1.0, {}, "chosen", "forward straight"},
+                        {1.1, {}, "waypoint", "1 of 2, 0.31 m from it"},
+                        {1.2, {}, "tracker", "goal in view"},
+                        {1.3, {}, "tracker", "goal out of view"}};
+  const std::string story = TraceStory(trial, StoryLength::kFolded);
+  EXPECT_THAT(story, HasSubstr("  waypoint 1 of 2, 0.31 m from it"));
+  EXPECT_THAT(story, HasSubstr("  2 tracker changes goal in view to goal out of view"));
+}
+
 TEST(TraceStory, EveryEventOnALineOfItsOwn) {
   const truth::TracedTrial trial = SampleTrial();
   const std::string all = TraceStory(trial, StoryLength::kAll);

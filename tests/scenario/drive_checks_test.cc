@@ -81,6 +81,10 @@ INSTANTIATE_TEST_SUITE_P(
               kListed + "[0]"},
         Limit{"goal_on_a_rock", "narrow_course", "course.goal_x_m=4.77", "course.goal_x_m=4.79",
               kListed + "[21]"},
+        // The rock at (1.8, -0.2) keeps a waypoint out up to y = -0.2 + 1 m.
+        Limit{"waypoint_on_a_rock", "narrow_course",
+              R"(course.waypoints={"x_m": [1.8], "y_m": [0.79]})",
+              R"(course.waypoints={"x_m": [1.8], "y_m": [0.81]})", kListed + "[17]"},
         Limit{"model_too_short", "abundance", kSize + ".length_m=0.51", kSize + ".length_m=0.53",
               kSize + ".length_m"},
         Limit{"model_too_wide", "abundance", kSize + ".width_m=1.69", kSize + ".width_m=1.67",
@@ -186,6 +190,33 @@ TEST(DriveChecksTest, GroupsThatDoNothingMayHoldAnything) {
       ProblemsOf("narrow_course", {"course.start_y_m=1.4", "terrain.rocks.kind=none"}).empty());
 }
 
+// An oracle plans one way to one goal, and targets stay between mirror lines.
+TEST(CourseTest, WhatANavigatorOrAnArenaCannotDoIsRefused) {
+  const std::string waypoints = R"(course.waypoints={"x_m": [4], "y_m": [0.5]})";
+  const std::string tracking = "course.tracking.enabled=true";
+  const std::string moving = "course.target_speed_m_s=0.01";
+  const std::string route = "navigation.navigator=route";
+  const std::string unfolded = "terrain.arena.kind=virtual_unfolded";
+  EXPECT_TRUE(ProblemsOf("nominal", {waypoints, tracking}, "pathfinder").empty());
+  EXPECT_TRUE(ProblemsOf("nominal", {route}, "pathfinder").empty());
+  EXPECT_TRUE(ProblemsOf("nominal", {unfolded, moving}, "pathfinder").empty());
+  struct Case {
+    Overrides overrides;
+    std::string path, reason;
+  };
+  for (const Case& tested :
+       {Case{{route, waypoints}, "course.waypoints.x_m", "navigation.navigator is route"},
+        Case{{route, tracking}, "course.tracking.enabled", "navigation.navigator is route"},
+        Case{{moving}, "course.target_speed_m_s", "virtual_reflected"}}) {
+    const std::vector<core::Problem> problems =
+        ProblemsOf("nominal", tested.overrides, "pathfinder");
+    ASSERT_EQ(problems.size(), 1u) << tested.path;
+    EXPECT_EQ(problems[0].path, tested.path);
+    EXPECT_NE(problems[0].reason.find(tested.reason), std::string::npos) << problems[0].reason;
+    EXPECT_FALSE(problems[0].suggestion.empty());
+  }
+}
+
 std::vector<core::Problem> DesignatedGoals(const Overrides& overrides) {
   Overrides all{"course.designation.enabled=true"};
   all.insert(all.end(), overrides.begin(), overrides.end());
@@ -198,12 +229,15 @@ std::vector<core::Problem> DesignatedGoals(const Overrides& overrides) {
 TEST(DesignatedGoalsTest, AreRefusedWhereTheyMayLieBeyondAMirrorLine) {
   EXPECT_TRUE(DesignatedGoals({}).empty());
   EXPECT_TRUE(DesignatedGoals({"course.goal_y_m=0.77"}).empty());
+  EXPECT_TRUE(DesignatedGoals({R"(course.waypoints={"x_m": [3], "y_m": [-0.9]})"}).empty());
   for (const Overrides& beyond :
        {Overrides{"course.goal_y_m=0.78"}, Overrides{"course.goal_y_m=-0.78"},
         Overrides{"course.designation.lander_ahead_m=-25"},
         Overrides{"course.designation.pan_error_deg=-8"},
         Overrides{"course.designation.pan_error_deg=8", "course.designation.pan_kind=uniform"},
-        Overrides{"course.designation.disparity_sd_px=1"}}) {
+        Overrides{"course.designation.disparity_sd_px=1"},
+        Overrides{R"(course.waypoints={"x_m": [7.6], "y_m": [0.78]})"},
+        Overrides{R"(course.waypoints={"x_m": [3], "y_m": [-1.09]})"}}) {
     SCOPED_TRACE(beyond.front());
     const std::vector<core::Problem> problems = DesignatedGoals(beyond);
     ASSERT_EQ(problems.size(), 1u);

@@ -77,6 +77,20 @@ TEST(GestaltFilesTest, RunsAreThoseOfTheFigures) {
   EXPECT_TRUE(ditch.drive.terrain.ground.HasDepressions());
 }
 
+// Through the gates of the narrow course from waypoint to waypoint, and nothing else.
+TEST(GestaltFilesTest, WaypointsAreAllThatTheirFileAdds) {
+  const Scenario narrow = Load("narrow_course");
+  Scenario waypoints = Load("waypoints");
+  ASSERT_EQ(waypoints.drive.course.waypoints.Places().size(), 2u);
+  EXPECT_GT(waypoints.drive.course.waypoints.y_m[0], 0.0) << "the first gate is on the left";
+  EXPECT_LT(waypoints.drive.course.waypoints.y_m[1], 0.0);
+  waypoints.drive.course.waypoints = {};
+  for (const char* group : {"terrain", "rover", "sensors", "perception", "navigation", "course",
+                            "referee", "clock", "energy"}) {
+    EXPECT_EQ(GroupText(waypoints, group), GroupText(narrow, group)) << group;
+  }
+}
+
 TEST(GestaltFilesTest, EveryPublishedValueHasItsScenario) {
   const core::JsonValue reference = core::LoadJsonFile(
       std::filesystem::path(ROCKYARD_SOURCE_DIR) / "results" / "reference" / "goldberg2002.json");

@@ -108,6 +108,7 @@ TEST(ExpectedInCorridorTest, IsEmptyWhereThereIsNoLawOrNoCorridor) {
   TerrainParams params = Moore(kNominalK, OverlapRule::kAllow, LineRule::kMerge);
   EXPECT_EQ(ExpectedInCorridor(params, {}).size(), 4u);
   EXPECT_TRUE(ExpectedInCorridor(params, {0.0, 0.0, 7.6, 0.4}).empty());  // not along x
+  EXPECT_TRUE(ExpectedInCorridor(params, {0.0, 0.0, 7.6, 0.0, {{3.0, 0.0}}}).empty());
   EXPECT_TRUE(ExpectedInCorridor(params, {0.0, 0.7, 7.6, 0.7}).empty());  // over the line
   EXPECT_TRUE(ExpectedInCorridor(params, {0.0, 0.0, 1.9, 0.0}).empty());  // zones meet
   EXPECT_FALSE(ExpectedInCorridor(params, {0.0, 0.0, 2.1, 0.0}).empty());

@@ -61,6 +61,19 @@ TEST_F(FieldExportTest, JsonHoldsRocksAndAudit) {
   EXPECT_EQ(json.Find("audit")->Find("placed")->integer(), field_.audit.placed);
   EXPECT_EQ(json.Find("goal_m")->list()[0].number(), 7.6);
   EXPECT_NEAR(json.Find("mirror_lines_y_m")->list()[1].number(), 1.1, 1e-12);
+  EXPECT_EQ(json.Find("waypoints_m"), nullptr);
+}
+
+TEST_F(FieldExportTest, WaypointsAreExportedAndDrawn) {
+  Course course;
+  course.waypoints = {{3.0, 0.5}, {5.0, -0.25}};
+  const core::JsonValue json = core::ParseJson(ToJson(field_, params_, course), "field");
+  ASSERT_EQ(json.Find("waypoints_m")->list().size(), 2u);
+  EXPECT_EQ(json.Find("waypoints_m")->list()[1].list()[1].number(), -0.25);
+  const std::string svg = ToSvg(field_, params_, course, {});
+  const std::size_t first = svg.find("<title>waypoint</title>");
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_NE(svg.find("<title>waypoint</title>", first + 1), std::string::npos);
 }
 
 // The volume of each group of an OBJ file by the divergence theorem, positive where its faces look

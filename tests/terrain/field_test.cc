@@ -126,12 +126,15 @@ TEST_P(FieldRuleTest, RejectAndRelocateLeaveNoOverlapEvenWithImages) {
 }
 
 TEST_P(FieldRuleTest, NoRockReachesIntoTheClearZones) {
-  const Course course;
+  Course course;
+  course.waypoints = {{3.0, 0.6}, {5.0, -0.6}};
   for (std::uint32_t trial = 0; trial < 20; ++trial) {
     const Field field = BuildField(Params(OverlapRule::kRelocate), {5, trial}, course);
     for (const Rock& rock : field.terrain.rocks()) {
       const double reach = 0.5 + rock.semi_axes_m.x();
       EXPECT_GE(std::hypot(rock.center_W.x(), rock.center_W.y()), reach);
+      EXPECT_GE(std::hypot(rock.center_W.x() - 3.0, rock.center_W.y() - 0.6), reach);
+      EXPECT_GE(std::hypot(rock.center_W.x() - 5.0, rock.center_W.y() + 0.6), reach);
       EXPECT_GE(std::hypot(rock.center_W.x() - 7.6, rock.center_W.y()), reach);
     }
   }
@@ -194,6 +197,11 @@ TEST(FieldTest, CourseOutsideTheArenaIsAUserError) {
   EXPECT_THROW(BuildField({}, {1, 0}, course), core::UserError);
   course.goal_x_m = 7.6;
   course.goal_y_m = 1.2;  // beyond the mirror line
+  EXPECT_THROW(BuildField({}, {1, 0}, course), core::UserError);
+  course.goal_y_m = 0.0;
+  course.waypoints = {{3.0, 0.5}, {5.0, -0.5}};
+  EXPECT_NO_THROW(BuildField({}, {1, 0}, course));
+  course.waypoints[1].y_m = -1.2;
   EXPECT_THROW(BuildField({}, {1, 0}, course), core::UserError);
 }
 

@@ -26,10 +26,11 @@ struct Totals {
   double expected_cover = 0.0;
 };
 
-Totals Sum(const TerrainParams& params, std::uint64_t seed, int fields) {
+Totals Sum(const TerrainParams& params, std::uint64_t seed, int fields, const Course& course = {}) {
   Totals totals;
   for (int i = 0; i < fields; ++i) {
-    const FieldAudit audit = BuildField(params, {seed, static_cast<std::uint32_t>(i)}, {}).audit;
+    const FieldAudit audit =
+        BuildField(params, {seed, static_cast<std::uint32_t>(i)}, course).audit;
     totals.drawn += audit.drawn;
     totals.expected_drawn += audit.expected_drawn;
     totals.expected_placed += audit.expected_placed;
@@ -105,6 +106,20 @@ TEST(PlacementTest, ClearZonesRemoveTheirShare) {
     EXPECT_GT(std::abs(totals.placed - totals.expected_drawn), 5.0 * sigma);  // negative control
     EXPECT_NEAR(totals.disc_cover / totals.expected_cover, 1.0, 0.05);
   }
+}
+
+// The same with two clear zones more, 3.3 deviations; what start and goal alone would leave lies
+// more than 5 away.
+TEST(PlacementTest, ClearZonesOfWaypointsAreExpected) {
+  TerrainParams params = PlainMoore(kVikingLander2K);
+  params.rocks.clear_radius_m = 0.5;
+  Course course;
+  const Totals without = Sum(params, 75, 300, course);
+  course.waypoints = {{3.0, 0.5}, {5.0, -0.5}};
+  const Totals totals = Sum(params, 75, 300, course);
+  const double sigma = std::sqrt(totals.expected_placed);
+  EXPECT_NEAR(totals.placed, totals.expected_placed, 3.3 * sigma);
+  EXPECT_GT(without.expected_placed - totals.placed, 5.0 * sigma);
 }
 
 TEST(PlacementTest, RelocationKeepsTheCounts) {

@@ -79,7 +79,7 @@ TEST(GoalDesignationTest, ErrorsLieAlongTheLineOfSight) {
   course.designation.lander_ahead_m = 20.0;
   course.designation.lander_left_m = 5.0;
   course.designation.pixel_sd_px = 0.0;
-  EXPECT_NEAR(course.DesignationRange_m(), 5.0, 1e-12);
+  EXPECT_NEAR(course.DesignationRange_m({course.goal_x_m, course.goal_y_m}), 5.0, 1e-12);
   // Seen from there the goal lies to the right (-y): the pan error, to the left, goes to +x.
   const messages::Goal goal = DesignatedGoal(course, {3, 1});
   EXPECT_NEAR(goal.x_m, 20.0 + 5.0 * course.designation.pan_error_rad, 1e-9);
@@ -92,6 +92,86 @@ TEST(GoalDesignationTest, OneErrorShiftsNoOther) {
   course.designation.pixel_sd_px = 0.0;
   course.designation.pan_kind = PanError::kUniform;
   EXPECT_EQ(DesignatedGoal(course, {3, 1}).x_m, before.x_m);
+}
+
+CourseParams CourseOfThree() {
+  CourseParams course = Course(20.0);
+  course.waypoints = {.x_m = {10.0, 20.0}, .y_m = {0.0, 5.0}};
+  return course;
+}
+
+TEST(GoalDesignationTest, WaypointsAreToldInOrderAndTheGoalLast) {
+  CourseParams course = CourseOfThree();
+  course.designation.enabled = false;
+  const std::vector<messages::Goal> goals = DesignatedGoals(course, {3, 1});
+  ASSERT_EQ(goals.size(), 3U);
+  EXPECT_EQ(goals[0].x_m, 10.0);
+  EXPECT_EQ(goals[1].y_m, 5.0);
+  EXPECT_EQ(goals[2].x_m, 20.0);
+}
+
+TEST(GoalDesignationTest, WaypointsChangeNothingAboutTheGoal) {
+  for (const PanError kind : {PanError::kFixed, PanError::kUniform}) {
+    CourseParams course = CourseOfThree();
+    course.designation.pan_kind = kind;
+    const messages::Goal goal = DesignatedGoals(course, {3, 1}).back();
+    course.waypoints = {};
+    EXPECT_EQ(DesignatedGoals(course, {3, 1}).size(), 1U);
+    EXPECT_EQ(DesignatedGoals(course, {3, 1}).back().x_m, goal.x_m);
+    EXPECT_EQ(DesignatedGoal(course, {3, 1}).x_m, goal.x_m);
+    EXPECT_EQ(DesignatedGoal(course, {3, 1}).y_m, goal.y_m);
+  }
+}
+
+// Kolmogorov and Smirnov, alpha 0.001, of a waypoint at half the range: half the error across, a
+// quarter along. Errors of one trial are independent: the mean product of two standard normals has
+// the deviation 1 / sqrt(n).
+TEST(GoalDesignationTest, EveryWaypointHasErrorsOfItsOwnByItsRange) {
+  const CourseParams course = CourseOfThree();
+  const DesignationErrors errors = course.designation.ErrorsAt(10.0);
+  const DesignationErrors at_goal = course.designation.ErrorsAt(20.0);
+  std::vector<double> downrange;
+  std::vector<double> crossrange;
+  double product = 0.0;
+  constexpr std::uint32_t kTrials = 4000;
+  for (std::uint32_t trial = 0; trial < kTrials; ++trial) {
+    const std::vector<messages::Goal> goals = DesignatedGoals(course, {3, trial});
+    downrange.push_back((goals[0].x_m - 10.0) / errors.downrange_sd_m);
+    crossrange.push_back((goals[0].y_m - errors.crossrange_bias_m) / errors.crossrange_sd_m);
+    product += downrange.back() * (goals[2].x_m - 20.0) / at_goal.downrange_sd_m;
+  }
+  EXPECT_GT(core::KolmogorovP(downrange, NormalCdf), 0.001);
+  EXPECT_GT(core::KolmogorovP(crossrange, NormalCdf), 0.001);
+  EXPECT_GT(2.0 * NormalCdf(-std::abs(product) / std::sqrt(double{kTrials})), 0.001);
+}
+
+// The pan axis is wrong by one angle in a trial: across the line of sight to each place.
+TEST(GoalDesignationTest, ThePanErrorIsOneOfTheTrial) {
+  CourseParams course = CourseOfThree();
+  course.designation.pan_kind = PanError::kUniform;
+  course.designation.pixel_sd_px = 0.0;
+  course.designation.disparity_sd_px = 0.0;
+  for (std::uint32_t trial = 0; trial < 20; ++trial) {
+    const std::vector<messages::Goal> goals = DesignatedGoals(course, {3, trial});
+    const double pan_rad = goals[2].y_m / 20.0;
+    EXPECT_NEAR(goals[0].y_m, 10.0 * pan_rad, 1e-12);
+    // To the left of (20, 5) as seen from the origin: (-5, 20) times the angle.
+    EXPECT_NEAR(goals[1].x_m, 20.0 - 5.0 * pan_rad, 1e-12);
+    EXPECT_NEAR(goals[1].y_m, 5.0 + 20.0 * pan_rad, 1e-12);
+  }
+}
+
+// The lander stands 20 m ahead of the start and 5 m left of the line.
+TEST(GoalDesignationTest, RangesOfWaypointsAreTheirOwn) {
+  CourseParams course = CourseOfThree();
+  course.designation.lander_ahead_m = 20.0;
+  course.designation.lander_left_m = 5.0;
+  EXPECT_NEAR(course.DesignationRange_m({20.0, 5.0}), 0.0, 1e-12);
+  EXPECT_NEAR(course.DesignationRange_m({17.0, 1.0}), 5.0, 1e-12);
+  EXPECT_NEAR(course.DesignationRange_m({20.0, 8.0}), 3.0, 1e-12);
+  const std::vector<messages::Goal> goals = DesignatedGoals(course, {3, 1});
+  EXPECT_EQ(goals[1].x_m, 20.0) << "under the lander";
+  EXPECT_EQ(goals[1].y_m, 5.0);
 }
 
 }  // namespace

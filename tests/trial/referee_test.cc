@@ -367,20 +367,123 @@ TEST_F(RefereeTest, MotionThatIsNotBelievedIsNoProgress) {
 }
 
 TEST_F(RefereeTest, ARoverThatNoticesThatItIsStuckFindsNoPath) {
-  const Verdict verdict = referee_.OnNavigatorStop(NavigatorStatus::kStuck, state_);
+  const Verdict verdict = referee_.OnNavigatorStop(NavigatorStatus::kStuck, state_, 0.0);
   EXPECT_EQ(verdict.outcome, TrialOutcome::kNoPath);
   EXPECT_EQ(verdict.detail, "the rover noticed that it is stuck");
 }
 
 TEST_F(RefereeTest, ArrivalIsTrueOnlyNearTheTrueGoal) {
   MoveTo(7.6 - 0.6, 0.0);
-  EXPECT_EQ(referee_.OnNavigatorStop(NavigatorStatus::kArrived, state_).outcome,
+  EXPECT_EQ(referee_.OnNavigatorStop(NavigatorStatus::kArrived, state_, 0.0).outcome,
             TrialOutcome::kGoalReached);
   MoveTo(7.6 - 0.7, 0.0);
-  EXPECT_EQ(referee_.OnNavigatorStop(NavigatorStatus::kArrived, state_).outcome,
+  EXPECT_EQ(referee_.OnNavigatorStop(NavigatorStatus::kArrived, state_, 0.0).outcome,
             TrialOutcome::kFalseGoal);
-  EXPECT_EQ(referee_.OnNavigatorStop(NavigatorStatus::kGaveUp, state_).outcome,
+  EXPECT_EQ(referee_.OnNavigatorStop(NavigatorStatus::kGaveUp, state_, 0.0).outcome,
             TrialOutcome::kNoPath);
+}
+
+// A target that moves on is where it is by then.
+TEST_F(RefereeTest, ArrivalIsAtTheGoalOfThatTime) {
+  course_.target_speed_m_s = 0.1;
+  course_.target_heading_rad = math::DegToRad(90.0);
+  const Referee referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0}, kWheelRadius_m);
+  MoveTo(7.6, 0.0);
+  const auto outcome = [&](double time_s) {
+    return referee.OnNavigatorStop(NavigatorStatus::kArrived, state_, time_s).outcome;
+  };
+  EXPECT_EQ(outcome(0.0), TrialOutcome::kGoalReached);
+  EXPECT_EQ(outcome(20.0), TrialOutcome::kFalseGoal);
+  MoveTo(7.6, 2.0);
+  EXPECT_EQ(outcome(20.0), TrialOutcome::kGoalReached);
+  EXPECT_EQ(outcome(0.0), TrialOutcome::kFalseGoal);
+}
+
+// Seconds of steady driving and believing at 0.1 m/s along x until the referee's patience ends.
+// After `change_s` something happens to the goal.
+class RefereeGoalTest : public RefereeTest {
+ protected:
+  void SetUp() override {
+    params_.no_path_time_s = 30.0;
+    params_.no_path_distance_m = 1e6;
+    referee_ = Referee(params_, course_, {2.0, 0.0}, std::nullopt, kWheelRadius_m);
+  }
+
+  template <typename Change>
+  double SecondsUntilNoPath(double change_s, Change change) {
+    bool changed = false;
+    const auto verdict = Run(300.0, [&] {
+      const double x_m = state_.X_WR.translation().x() + 0.1 * kTick_s;
+      MoveTo(x_m, 0.0);
+      estimate_.x_m = x_m;
+      distance_m_ = x_m;
+      if (changed || ledger_.time_s() < change_s) return;
+      changed = true;
+      change();
+    });
+    EXPECT_TRUE(verdict && verdict->outcome == TrialOutcome::kNoPath);
+    return ledger_.time_s();
+  }
+
+  Observation Now() {
+    return {Activity::kDriving, 1, 0.0, state_, estimate_, distance_m_, turned_rad_};
+  }
+};
+
+// The goal at 2 m is passed at 20 s: 30 s later nobody waits any longer.
+TEST_F(RefereeGoalTest, PatienceEndsBeyondAGoalThatStays) {
+  EXPECT_NEAR(SecondsUntilNoPath(40.0, [] {}), 50.0, params_.no_path_progress_m / 0.1 + 0.1);
+}
+
+// A next goal behind: no progress is made towards it, and patience begins where it was told.
+TEST_F(RefereeGoalTest, PatienceBeginsAnewWithTheNextGoal) {
+  EXPECT_NEAR(SecondsUntilNoPath(40.0,
+                                 [&] {
+                                   referee_.OnNextGoal({0.0, 0.0}, Now(), ledger_.time_s());
+                                 }),
+              70.0, 0.1);
+}
+
+// A next goal ahead, at 10 m after 40 s: what brings the rover nearer to it is progress, though the
+// first goal had been nearer than it ever gets to this one by 100 s.
+TEST_F(RefereeGoalTest, ProgressIsTowardsTheNextGoal) {
+  EXPECT_NEAR(SecondsUntilNoPath(40.0,
+                                 [&] {
+                                   referee_.OnNextGoal({10.0, 0.0}, Now(), ledger_.time_s());
+                                 }),
+              130.0, params_.no_path_progress_m / 0.1 + 0.1);
+  EXPECT_LE(referee_.no_progress_distance_m(), 3.0 + params_.no_path_progress_m + 0.1);
+}
+
+// Driven and turned before count no more, either.
+TEST_F(RefereeGoalTest, WayAndTurnsBeginAnewWithTheNextGoal) {
+  params_.no_path_time_s = 0.0;
+  params_.no_path_distance_m = 4.0;
+  params_.no_path_turn_rad = 1.0;
+  referee_ = Referee(params_, course_, {0.0, 9.0}, std::nullopt, kWheelRadius_m);
+  turned_rad_ = 0.9;
+  EXPECT_NEAR(SecondsUntilNoPath(30.0,
+                                 [&] {
+                                   referee_.OnNextGoal({0.0, 5.0}, Now(), ledger_.time_s());
+                                   turned_rad_ += 0.9;
+                                 }),
+              70.0, 0.2);
+}
+
+// After 10 s the goal is 1 m away and is seen to lie 2 m farther on, at 4 m: nearer than 1 m the
+// rover is from 30 s on, and passes it at 40 s.
+TEST_F(RefereeGoalTest, AGoalThatMovedKeepsTheProgressMade) {
+  const double step_s = params_.no_path_progress_m / 0.1 + 0.1;
+  const auto move = [&] { referee_.OnGoalMoved({4.0, 0.0}); };
+  EXPECT_NEAR(SecondsUntilNoPath(10.0, move), 70.0, step_s) << "30 s of patience";
+}
+
+TEST_F(RefereeGoalTest, AGoalThatMovedGivesNoNewPatience) {
+  params_.no_path_time_s = 15.0;
+  referee_ = Referee(params_, course_, {2.0, 0.0}, std::nullopt, kWheelRadius_m);
+  const double step_s = params_.no_path_progress_m / 0.1 + 0.1;
+  const auto move = [&] { referee_.OnGoalMoved({4.0, 0.0}); };
+  EXPECT_NEAR(SecondsUntilNoPath(10.0, move), 25.0, step_s);
 }
 
 TEST_F(RefereeTest, EmptyBatteriesAndTimeLimit) {

@@ -29,6 +29,8 @@ void RequireFields(const HazardDetectionParams& study, const trial::DriveParams&
             course.goal_y_m == course.start_y_m && course.start_heading_rad == 0.0,
             "or start_heading_deg asks for another drive than straight along x",
             "use start_y_m, and a heading of 0");
+  v.Require("course.waypoints.x_m", course.waypoints.x_m.empty(),
+            "names waypoints, to which the study does not drive", "leave the waypoints out");
   v.Require("course.goal_x_m",
             course.goal_x_m - course.start_x_m > study.first_scan_m + study.scan_interval_m,
             "lies nearer to the start than hazard_detection.first_scan_m and scan_interval_m "

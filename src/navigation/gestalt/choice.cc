@@ -119,7 +119,7 @@ bool TurnsInPlace(const MotionVote& turn, const MotionVote* arc, const GestaltPa
     case PointTurns::kBelowMinVote:
       return arc == nullptr || arc->merged < params.votes.min_vote_goodness;
     case PointTurns::kCandidates:
-      return arc == nullptr || turn.merged > arc->merged;
+      return arc == nullptr || turn.merged > arc->merged + params.drive.point_turn_margin;
   }
   return false;
 }

@@ -97,6 +97,17 @@ void GestaltNavigator::OnCorrection(const PoseEstimate& before, const PoseEstima
   best_goal_distance_m_ = TowardsGoal(frame_.FromWorld(after), goal_).distance_m;
 }
 
+void GestaltNavigator::SetGoal(const messages::Goal& goal, GoalChange change) {
+  goal_W_ = goal;
+  goal_ = frame_.FromWorld(goal_W_);
+  if (change == GoalChange::kMoved) return;
+  // The next cycle counts from its distance on.
+  best_goal_distance_m_ = std::numeric_limits<double>::infinity();
+  felt_hazards_ = 0;
+  searched_rad_ = 0.0;
+  search_direction_ = 0;
+}
+
 const messages::NavigationView* GestaltNavigator::view() const {
   return decisions_ > 0 ? &view_ : nullptr;
 }
@@ -259,8 +270,11 @@ bool GestaltNavigator::Progresses(const PoseEstimate& estimate) {
   const double distance_m = TowardsGoal(estimate, goal_).distance_m;
   // A gain of progress_m on the best distance so far ends a fruitless run.
   if (distance_m <= best_goal_distance_m_ - params_.drive.progress_m) {
+    // The first distance to a goal is what progress is counted from, and none itself.
+    const bool gained = std::isfinite(best_goal_distance_m_);
     best_goal_distance_m_ = distance_m;
     fruitless_cycles_ = 0;
+    if (!gained) return true;
     felt_hazards_ = 0;
     felt_places_.Forget();
     return true;

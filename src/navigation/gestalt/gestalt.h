@@ -50,6 +50,10 @@ class GestaltNavigator final : public Navigator {
   void OnCorrection(const messages::PoseEstimate& before,
                     const messages::PoseEstimate& after) override;
 
+  // Keeps the map and what was felt. With the next goal, progress is counted and a search begun
+  // anew.
+  void SetGoal(const messages::Goal& goal, GoalChange change) override;
+
   // Returns the last decision with its map and votes.
   const messages::NavigationView* view() const override;
 

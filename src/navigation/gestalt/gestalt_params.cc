@@ -28,6 +28,16 @@ void VisitChoices(GestaltDriveParams& p, core::FieldVisitor& v) {
            {.doc = "when turning in place is chosen over an arc",
             .origin = Origin::kAssumed,
             .source = "below min_vote_goodness an arc is blocked or unseen: a turn shows more"});
+  v.Real("point_turn_margin", p.point_turn_margin,
+         {.doc = "votes by which a turn in place has to be better than every arc where point_turns "
+                 "is candidates",
+          .min = 0.0,
+          .max = 255.0,
+          .origin = Origin::kAssumed,
+          .source = "a turn takes time and brings the rover no nearer; Howard 2012 sec. 3 names no "
+                    "price of it",
+          .study_low = 0.0,
+          .study_high = 40.0});
   v.Real("min_drive_goodness", p.min_drive_goodness,
          {.doc = "an arc whose hazard vote is not above is never driven",
           .min = 0.0,

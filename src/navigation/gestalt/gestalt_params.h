@@ -37,6 +37,7 @@ struct GestaltDriveParams {
   bool rear_cameras = true;
   BackwardArcs backward_arcs = BackwardArcs::kBelowThreshold;
   PointTurns point_turns = PointTurns::kBelowMinVote;
+  double point_turn_margin = 0.0;
   double min_drive_goodness = 10.0;
   double step_time_out_s = 300.0;
   double search_turn_rad = math::DegToRad(360.0);

@@ -65,6 +65,13 @@ void PathfinderNavigator::OnPoseUpdate(const PoseEstimate& before, const PoseEst
   reaction_.OnPoseUpdate(before, after);
 }
 
+void PathfinderNavigator::SetGoal(const messages::Goal& goal, GoalChange change) {
+  goal_ = goal;
+  if (change == GoalChange::kMoved) return;
+  facing_goal_ = false;
+  reaction_.OnNextGoal();
+}
+
 // What was under way is forgotten: the rover stands elsewhere and faces another way.
 NavigatorDecision PathfinderNavigator::AfterReaction(const NavigatorInput& input) {
   reacting_ = false;

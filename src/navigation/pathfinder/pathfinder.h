@@ -32,6 +32,8 @@ class PathfinderNavigator final : public Navigator {
   NavigatorDecision Decide(const NavigatorInput& input) override;
   void OnPoseUpdate(const messages::PoseEstimate& before,
                     const messages::PoseEstimate& after) override;
+  // An avoidance under way goes on. Whether to turn in place towards the next goal is asked anew.
+  void SetGoal(const messages::Goal& goal, GoalChange change) override;
 
  private:
   enum class Mode {

@@ -95,4 +95,9 @@ void VehicleReaction::OnPoseUpdate(const messages::PoseEstimate& before,
   anchor_.heading_rad += after.heading_rad - before.heading_rad;
 }
 
+void VehicleReaction::OnNextGoal() {
+  best_goal_distance_m_ = std::numeric_limits<double>::infinity();
+  repeats_ = 0;
+}
+
 }  // namespace rockyard::navigation

@@ -28,6 +28,9 @@ class VehicleReaction {
 
   void OnPoseUpdate(const messages::PoseEstimate& before, const messages::PoseEstimate& after);
 
+  // Distances are to another goal from now on: progress, and reactions without it, count anew.
+  void OnNextGoal();
+
  private:
   enum class Stage { kNone, kBackingOff, kTurning };
 

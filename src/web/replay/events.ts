@@ -2,7 +2,20 @@
 import type { ReplayPayload, TrialEvent } from "./payload";
 
 /** The order of the rows; kinds that are not here come after. */
-const ORDER = ["scan", "look", "hazard", "chosen", "turn", "felt", "scrape", "stall", "reflection", "end"];
+const ORDER = [
+  "scan",
+  "look",
+  "hazard",
+  "chosen",
+  "turn",
+  "felt",
+  "scrape",
+  "stall",
+  "reflection",
+  "waypoint",
+  "tracker",
+  "end",
+];
 
 export function timelineEvents(payload: ReplayPayload): TrialEvent[] {
   const events = [...payload.events];

@@ -21,7 +21,7 @@ function hasWebGl(): boolean {
 
 /** What the plan shows: the drive with start and goal, within the ground. */
 function planExtent({ motion, course }: ReplayPayload): Extent {
-  const { start, goal, told_goal: told } = course;
+  const { start, goal, told_goal: told, waypoints } = course;
   const extent = { xMin: start.x, xMax: start.x, yMin: start.y, yMax: start.y };
   const hold = (x: number, y: number, reach: number): void => {
     extent.xMin = Math.min(extent.xMin, x - reach);
@@ -30,6 +30,7 @@ function planExtent({ motion, course }: ReplayPayload): Extent {
     extent.yMax = Math.max(extent.yMax, y + reach);
   };
   hold(start.x, start.y, PLAN_MARGIN_M);
+  for (const { x, y } of waypoints) hold(x, y, PLAN_MARGIN_M);
   hold(goal.x, goal.y, goal.radius + PLAN_MARGIN_M);
   hold(told.x, told.y, goal.radius + PLAN_MARGIN_M);
   motion.t.forEach((_, i) => {

@@ -36,6 +36,8 @@ export interface Course {
   goal: { x: number; y: number; radius: number };
   /** The designated goal, where it was designated with errors. */
   told_goal: { x: number; y: number };
+  /** Where the rover drives to before the goal, in that order. */
+  waypoints: { x: number; y: number }[];
   /** Corners of the area that holds terrain. */
   bounds: { x_min: number; x_max: number; y_min: number; y_max: number };
   /** Vertical planes that bound the arena: normal . p = offset. */

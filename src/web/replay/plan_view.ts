@@ -4,7 +4,7 @@ import type { Course as Drive, Moment } from "./motion";
 import { readPalette, type Palette } from "./palette";
 import type { ReplayPayload, Shape } from "./payload";
 import { drawGrid, drawMarks, drawMirrorLines, drawRocks, drawScan, drawStep } from "./plan_layers";
-import { toldElsewhere } from "./scene/course";
+import { toldElsewhere, WAYPOINT_RADIUS_M } from "./scene/course";
 import type { Extent } from "./scene/ground";
 import type { CameraMode, DrawnLink, DrawnPose, Layers, Shown, View } from "./view";
 
@@ -90,7 +90,7 @@ export class PlanView implements View {
 
   private drawCourse(pixel: number): void {
     const { context, palette, payload } = this;
-    const { start, goal, told_goal: told } = payload.course;
+    const { start, goal, told_goal: told, waypoints } = payload.course;
     const ring = (x: number, y: number, radius: number, colour: string, dash: number[]): void => {
       context.strokeStyle = colour;
       context.lineWidth = 2 * pixel;
@@ -101,6 +101,7 @@ export class PlanView implements View {
       context.setLineDash([]);
     };
     ring(start.x, start.y, 0.12, palette.label, []);
+    for (const { x, y } of waypoints) ring(x, y, WAYPOINT_RADIUS_M, palette.goal, []);
     ring(goal.x, goal.y, goal.radius, palette.goal, []);
     if (toldElsewhere(payload.course)) ring(told.x, told.y, goal.radius, palette["told-goal"], [5 * pixel, 4 * pixel]);
   }

@@ -140,6 +140,7 @@ class GestaltDrive final : public LoggedDrive<GestaltTick> {
     rover_.SetEstimate(update);
     navigator_.OnCorrection(before, rover_.estimate());
   }
+  void SetGoal(const messages::Goal& goal, GoalChange change) { navigator_.SetGoal(goal, change); }
 
   int Looks(messages::LookDirection direction) const {
     int looks = 0;

@@ -155,6 +155,19 @@ TEST(GestaltChoice, PointTurnsAsNamed) {
   EXPECT_TRUE(Turns(known, PointTurns::kCandidates));
 }
 
+TEST(GestaltChoice, ATurnHasToBeBetterByItsMargin) {
+  GestaltParams params;
+  params.drive.point_turns = PointTurns::kCandidates;
+  params.drive.point_turn_margin = 20.0;
+  MotionVotes votes = Votes({0, 0, 0, 100, 0, 0, 0});
+  votes.point_turns.back().merged = 120.0;
+  EXPECT_FALSE(TurnsInPlace(votes.point_turns.back(), ChooseArc(votes, params), params));
+  votes.point_turns.back().merged = 121.0;
+  EXPECT_TRUE(TurnsInPlace(votes.point_turns.back(), ChooseArc(votes, params), params));
+  EXPECT_TRUE(TurnsInPlace(votes.point_turns.back(), nullptr, params))
+      << "no arc to be better than";
+}
+
 TEST(GestaltChoice, BetterPointTurnElseTowardsTheGoal) {
   MotionVotes votes = Votes({0});
   EXPECT_EQ(ChoosePointTurn(votes, -0.1)->motion.direction, -1);

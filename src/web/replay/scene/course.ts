@@ -10,6 +10,7 @@ const CORNERS = 64;
 const LIFT_M = 0.008;
 const PIECE_M = 0.1;
 const SAME_GOAL_M = 0.005;
+export const WAYPOINT_RADIUS_M = 0.15;
 
 export function toldElsewhere({ goal, told_goal: told }: Course): boolean {
   return Math.hypot(goal.x - told.x, goal.y - told.y) > SAME_GOAL_M;
@@ -44,7 +45,7 @@ function acrossGround(course: Course, y: number, heights: GroundHeights): Point[
 }
 
 export function makeCourse(course: Course, heights: GroundHeights, palette: Palette): Group {
-  const { start, goal, told_goal: told } = course;
+  const { start, goal, told_goal: told, waypoints } = course;
   const group = new Group();
   const line = (points: Point[], colour: string, dash?: [number, number]): void => {
     const lines = new Lines({ width_px: 2.5, dash });
@@ -60,6 +61,10 @@ export function makeCourse(course: Course, heights: GroundHeights, palette: Pale
   for (const y of course.mirror_lines) line(acrossGround(course, y, heights), palette.mirror, [0.25, 0.12]);
   line(ring(start.x, start.y, 0.12, heights), palette.label);
   sign("start", start.x, start.y, 0.1, palette.label, [0.5, -0.7]);
+  waypoints.forEach(({ x, y }, i) => {
+    line(ring(x, y, WAYPOINT_RADIUS_M, heights), palette.goal);
+    sign(`waypoint ${i + 1}`, x, y, 0.25, palette.goal, [1.08, 0]);
+  });
   const fill = new MeshBasicMaterial({
     color: palette.goal,
     transparent: true,

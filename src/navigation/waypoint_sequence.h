@@ -1,0 +1,46 @@
+// Any navigator, driven from waypoint to waypoint: where it says that it is at one, it is given the
+// next. The last of them is the goal of the drive. Everything else that the navigator says passes
+// through. Draws no random numbers.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "messages/estimates.h"
+#include "navigation/navigator.h"
+
+namespace rockyard::navigation {
+
+class WaypointSequence final : public Navigator {
+ public:
+  // `goals`, in the world frame, are one at least, in the order of driving. `navigator` is not null
+  // and has the first of them for its goal.
+  WaypointSequence(std::vector<messages::Goal> goals, std::unique_ptr<Navigator> navigator);
+
+  // Says kArrived at the last goal only. At any other one the navigator is given the next and asked
+  // again, so that no tick is lost.
+  NavigatorDecision Decide(const NavigatorInput& input) override;
+  void OnPoseUpdate(const messages::PoseEstimate& before,
+                    const messages::PoseEstimate& after) override;
+  void OnCorrection(const messages::PoseEstimate& before,
+                    const messages::PoseEstimate& after) override;
+  // Replaces the last goal, which the navigator learns at once if it drives to it, and else where
+  // its turn comes.
+  void SetGoal(const messages::Goal& goal, GoalChange change) override;
+  const messages::NavigationView* view() const override { return navigator_->view(); }
+
+  // Waypoints at which the navigator said that it had arrived; the last goal is none of them.
+  std::size_t reached() const { return reached_; }
+  bool IsOnLastLeg() const { return reached_ + 1 == goals_.size(); }
+  // What it drives to now, and in the end.
+  const messages::Goal& goal() const { return goals_[reached_]; }
+  const messages::Goal& last_goal() const { return goals_.back(); }
+
+ private:
+  std::vector<messages::Goal> goals_;
+  std::unique_ptr<Navigator> navigator_;
+  std::size_t reached_ = 0;
+};
+
+}  // namespace rockyard::navigation

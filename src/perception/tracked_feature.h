@@ -1,0 +1,20 @@
+// Where a feature lies that the rover tracks, in the frame in which the rover believes its pose.
+#pragma once
+
+#include <cmath>
+
+#include "messages/estimates.h"
+#include "messages/feature_sighting.h"
+
+namespace rockyard::perception {
+
+// The believed pose composed with the sighting: however far the pose has drifted, the place is
+// right as seen from the rover. Sighting and estimate are of the same moment.
+inline messages::Goal PlaceOf(const messages::FeatureSighting& sighting,
+                              const messages::PoseEstimate& estimate) {
+  const double direction_rad = estimate.heading_rad + sighting.bearing_rad;
+  return {estimate.x_m + sighting.range_m * std::cos(direction_rad),
+          estimate.y_m + sighting.range_m * std::sin(direction_rad)};
+}
+
+}  // namespace rockyard::perception

@@ -1,0 +1,112 @@
+#include "trial/course_params.h"
+
+#include <cmath>
+
+namespace rockyard::trial {
+namespace {
+
+// A place that is nearer than this to the one before is no place to drive to.
+constexpr double kShortestLeg_m = 0.1;
+
+bool AreApart(const messages::Goal& a, const messages::Goal& b) {
+  return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m) > kShortestLeg_m;
+}
+
+// Whether every waypoint is apart from the place before it, and the goal from the last of them.
+bool HasLegs(const CourseParams& course) {
+  messages::Goal from{course.start_x_m, course.start_y_m};
+  for (const messages::Goal& to : course.Goals()) {
+    if (!AreApart(from, to)) return false;
+    from = to;
+  }
+  return true;
+}
+
+}  // namespace
+
+using core::Origin;
+
+std::vector<messages::Goal> CourseParams::Goals() const {
+  std::vector<messages::Goal> goals = waypoints.Places();
+  goals.push_back({goal_x_m, goal_y_m});
+  return goals;
+}
+
+messages::Goal CourseParams::GoalAt(double time_s) const {
+  const double way_m = target_speed_m_s * time_s;
+  return {goal_x_m + way_m * std::cos(target_heading_rad),
+          goal_y_m + way_m * std::sin(target_heading_rad)};
+}
+
+double CourseParams::DesignationRange_m(const messages::Goal& place) const {
+  const double dx = goal_x_m - start_x_m;
+  const double dy = goal_y_m - start_y_m;
+  const double straight_m = std::hypot(dx, dy);
+  if (straight_m <= 0.0) return 0.0;
+  // The place along the line from start to goal, and to its left.
+  const double ahead_m = ((place.x_m - start_x_m) * dx + (place.y_m - start_y_m) * dy) / straight_m;
+  const double left_m = ((place.y_m - start_y_m) * dx - (place.x_m - start_x_m) * dy) / straight_m;
+  return std::hypot(ahead_m - designation.lander_ahead_m, left_m - designation.lander_left_m);
+}
+
+void CourseParams::Visit(core::FieldVisitor& v) {
+  v.Real("start_x_m", start_x_m,
+         {.doc = "start position", .min = -1000.0, .max = 1000.0, .origin = Origin::kSetting});
+  v.Real("start_y_m", start_y_m,
+         {.doc = "start position", .min = -1000.0, .max = 1000.0, .origin = Origin::kSetting});
+  v.Angle("start_heading_deg", start_heading_rad,
+          {.doc = "start heading, from +x towards +y",
+           .min = -180.0,
+           .max = 180.0,
+           .origin = Origin::kSetting});
+  v.Real("goal_x_m", goal_x_m,
+         {.doc = "goal position",
+          .min = -1000.0,
+          .max = 1000.0,
+          .origin = Origin::kPublished,
+          .source = "Matthies 1995 sec. 7: 7.6 m from the start"});
+  v.Real("goal_y_m", goal_y_m,
+         {.doc = "goal position", .min = -1000.0, .max = 1000.0, .origin = Origin::kSetting});
+  v.Real("goal_radius_m", goal_radius_m,
+         {.doc = "true distance to the goal within which a declared arrival is true: about one "
+                 "vehicle length, from where the rover recognises its target",
+          .min = 0.01,
+          .max = 100.0,
+          .origin = Origin::kAssumed,
+          .source = "about one vehicle length, from where the rover recognises prominent rocks "
+                    "(Matthies 1995 sec. 8)",
+          .study_low = 0.3,
+          .study_high = 1.5});
+  v.Real("target_speed_m_s", target_speed_m_s,
+         {.doc = "speed at which the goal itself moves, from the start of the trial on, whatever "
+                 "stands in its way; a rover that does not track it (tracking) is told where it "
+                 "began",
+          .min = 0.0,
+          .max = 1.0,
+          .origin = Origin::kSetting});
+  v.Angle("target_heading_deg", target_heading_rad,
+          {.doc = "heading in which it moves, from +x towards +y",
+           .min = -180.0,
+           .max = 180.0,
+           .origin = Origin::kSetting});
+  v.Integer("trials_per_layout", trials_per_layout,
+            {.doc = "consecutive trials that meet the same rock field; the paper does not say "
+                    "whether the runs of a set did",
+             .min = 1,
+             .max = 1e6,
+             .origin = Origin::kSetting});
+  v.Group("waypoints", waypoints, "where the rover drives to before the goal");
+  v.Group("designation", designation, "the goal and the waypoints that the rover is told");
+  v.Group("tracking", tracking, "a sensor that follows the goal, where it is seen");
+  v.Group("oracle_route", oracle_route,
+          "how the route is planned that navigation.navigator route follows");
+  const double dx = goal_x_m - start_x_m;
+  const double dy = goal_y_m - start_y_m;
+  v.Require("goal_x_m", dx * dx + dy * dy > 0.01, "puts the goal within 0.1 m of the start",
+            "use a goal that the rover has to drive to, e.g. 7.6");
+  v.Require("waypoints.x_m", waypoints.x_m.empty() || HasLegs(*this),
+            "names a waypoint within 0.1 m of the one before, of the start or of the goal",
+            "leave it out, or move it to where the rover has to drive to");
+}
+
+}  // namespace rockyard::trial

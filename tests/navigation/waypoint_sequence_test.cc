@@ -1,0 +1,163 @@
+// A navigator that is led from waypoint to waypoint.
+#include "navigation/waypoint_sequence.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "navigation/stuck_reaction.h"
+
+namespace rockyard::navigation {
+namespace {
+
+using messages::Goal;
+using testing::ElementsAre;
+
+constexpr double kTolerance_m = 0.1;
+
+// Drives along x, arrives near its goal, and remembers what it was told and asked.
+class FakeNavigator final : public Navigator {
+ public:
+  explicit FakeNavigator(const Goal& first) : goal(first) {}
+
+  NavigatorDecision Decide(const NavigatorInput& input) override {
+    inputs.push_back(input);
+    if (said != NavigatorStatus::kDriving) return {said, {}, {}};
+    if (std::abs(input.estimate.x_m - goal.x_m) <= kTolerance_m) {
+      return {NavigatorStatus::kArrived, {}, {}};
+    }
+    if (looks) return {NavigatorStatus::kDriving, messages::LookDirection::kBehind, {}};
+    return {NavigatorStatus::kDriving, {}, {messages::MotionKind::kArc, 0.25, +1}};
+  }
+  void OnPoseUpdate(const messages::PoseEstimate& before,
+                    const messages::PoseEstimate& after) override {
+    jump_m = after.x_m - before.x_m;
+  }
+  void SetGoal(const Goal& next, GoalChange change) override {
+    goal = next;
+    told_x_m.push_back(next.x_m);
+    changes.push_back(change);
+  }
+  const messages::NavigationView* view() const override { return &kept_view; }
+
+  Goal goal;
+  std::vector<double> told_x_m;
+  std::vector<GoalChange> changes;
+  std::vector<NavigatorInput> inputs;
+  NavigatorStatus said = NavigatorStatus::kDriving;
+  bool looks = false;
+  double jump_m = 0.0;
+  messages::NavigationView kept_view;
+};
+
+class WaypointSequenceTest : public testing::Test {
+ protected:
+  void Make(const std::vector<Goal>& goals) {
+    auto fake = std::make_unique<FakeNavigator>(goals.front());
+    inner_ = fake.get();
+    sequence_ = std::make_unique<WaypointSequence>(goals, std::move(fake));
+  }
+
+  NavigatorDecision At(double x_m) { return sequence_->Decide({.estimate = {.x_m = x_m}}); }
+
+  FakeNavigator* inner_ = nullptr;
+  std::unique_ptr<WaypointSequence> sequence_;
+};
+
+TEST_F(WaypointSequenceTest, LeadsToEveryWaypointInOrderAndToldOnce) {
+  Make({{1.0, 0.0}, {2.0, 0.0}, {1.5, 0.0}, {4.0, 0.0}});
+  std::vector<double> arrivals_m;
+  for (int step = 0; step <= 400; ++step) {
+    // To the farthest waypoint but one, back, and on.
+    const double way_m = 0.01 * step;
+    const double x_m = way_m <= 2.0 ? way_m : (way_m <= 2.5 ? 4.0 - way_m : way_m - 1.0);
+    const std::size_t before = sequence_->reached();
+    const NavigatorDecision decision = At(x_m);
+    EXPECT_EQ(decision.status, NavigatorStatus::kDriving);
+    EXPECT_EQ(decision.motion.curvature_per_m, 0.25) << "no tick without a motion";
+    if (sequence_->reached() != before) arrivals_m.push_back(x_m);
+  }
+  ASSERT_EQ(arrivals_m.size(), 3U);
+  EXPECT_NEAR(arrivals_m[0], 0.9, 0.011);
+  EXPECT_NEAR(arrivals_m[1], 1.9, 0.011);
+  EXPECT_NEAR(arrivals_m[2], 1.6, 0.011);
+  EXPECT_THAT(inner_->told_x_m, ElementsAre(2.0, 1.5, 4.0));
+  EXPECT_THAT(inner_->changes,
+              ElementsAre(GoalChange::kNext, GoalChange::kNext, GoalChange::kNext));
+  EXPECT_EQ(At(3.95).status, NavigatorStatus::kArrived);
+  EXPECT_EQ(sequence_->reached(), 3U) << "the goal is no waypoint";
+  EXPECT_EQ(inner_->told_x_m.size(), 3U);
+}
+
+TEST_F(WaypointSequenceTest, AlonePassesEverythingThrough) {
+  Make({{1.0, 0.0}});
+  EXPECT_TRUE(sequence_->IsOnLastLeg());
+  EXPECT_EQ(At(0.0).motion.curvature_per_m, 0.25);
+  EXPECT_EQ(At(0.95).status, NavigatorStatus::kArrived);
+  EXPECT_EQ(inner_->inputs.size(), 2U);
+  EXPECT_TRUE(inner_->told_x_m.empty());
+  EXPECT_EQ(sequence_->reached(), 0U);
+}
+
+TEST_F(WaypointSequenceTest, PassesOnWhatIsNoArrival) {
+  Make({{1.0, 0.0}, {2.0, 0.0}});
+  inner_->looks = true;
+  ASSERT_TRUE(At(0.0).looks());
+  EXPECT_EQ(At(0.0).look, messages::LookDirection::kBehind);
+  for (const NavigatorStatus status : {NavigatorStatus::kGaveUp, NavigatorStatus::kStuck}) {
+    inner_->said = status;
+    EXPECT_EQ(At(0.5).status, status);
+    EXPECT_EQ(At(1.0).status, status);
+  }
+  EXPECT_EQ(sequence_->reached(), 0U);
+  EXPECT_TRUE(inner_->told_x_m.empty());
+  sequence_->OnPoseUpdate({.x_m = 1.0}, {.x_m = 3.5});
+  EXPECT_EQ(inner_->jump_m, 2.5);
+  EXPECT_EQ(sequence_->view(), &inner_->kept_view);
+}
+
+// Waypoints nearer to each other than the navigator's tolerance are reached at one tick.
+TEST_F(WaypointSequenceTest, GoesOnFromSeveralAtOnce) {
+  Make({{1.0, 0.0}, {1.05, 0.0}, {1.02, 0.0}});
+  EXPECT_EQ(At(1.0).status, NavigatorStatus::kArrived);
+  EXPECT_EQ(sequence_->reached(), 2U);
+  EXPECT_EQ(inner_->inputs.size(), 3U);
+}
+
+TEST_F(WaypointSequenceTest, KeepsAMovedGoalForTheLastLeg) {
+  Make({{1.0, 0.0}, {2.0, 0.0}});
+  EXPECT_FALSE(sequence_->IsOnLastLeg());
+  EXPECT_EQ(sequence_->goal().x_m, 1.0);
+  sequence_->SetGoal({3.0, 0.0}, GoalChange::kMoved);
+  EXPECT_TRUE(inner_->told_x_m.empty());
+  EXPECT_EQ(sequence_->last_goal().x_m, 3.0);
+  At(1.0);
+  EXPECT_TRUE(sequence_->IsOnLastLeg());
+  sequence_->SetGoal({3.2, 0.0}, GoalChange::kMoved);
+  EXPECT_THAT(inner_->told_x_m, ElementsAre(3.0, 3.2));
+  EXPECT_THAT(inner_->changes, ElementsAre(GoalChange::kNext, GoalChange::kMoved));
+  EXPECT_EQ(sequence_->goal().x_m, 3.2);
+}
+
+// A rover that cannot back off any further asks its navigator at once; that this was at a waypoint
+// makes it no second time of being stuck.
+TEST_F(WaypointSequenceTest, BeingStuckAtAWaypointIsNoticedOnce) {
+  const std::vector<Goal> goals{{1.0, 0.0}, {2.0, 0.0}};
+  WaypointSequence sequence(
+      goals, std::make_unique<StuckReaction>(
+                 StuckReactionParams{.reaction = StuckResponse::kBackOff, .back_off_m = 0.2},
+                 std::make_unique<FakeNavigator>(goals.front())));
+  NavigatorInput input{.estimate = {.x_m = 1.0}};
+  input.touches_behind = true;
+  input.notices_stuck = true;
+  EXPECT_EQ(sequence.Decide(input).status, NavigatorStatus::kDriving);
+  EXPECT_EQ(sequence.reached(), 1U);
+  EXPECT_EQ(sequence.Decide(input).status, NavigatorStatus::kStuck) << "the next tick";
+}
+
+}  // namespace
+}  // namespace rockyard::navigation

@@ -1,0 +1,202 @@
+// Whole drives from waypoint to waypoint, and to a goal that is tracked.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "terrain/field.h"
+#include "trial/gestalt_trials.h"
+#include "trial/layout.h"
+
+namespace rockyard::trial {
+namespace {
+
+using truth::TrialOutcome;
+
+// An L of empty sand: 2 m ahead, then 2 m to the left, with a waypoint between.
+const Overrides kL = {"terrain.rocks.kind=none",    "terrain.arena.kind=open",
+                      "course.waypoints.x_m=[2,2]", "course.waypoints.y_m=[0,1]",
+                      "course.goal_x_m=2",          "course.goal_y_m=2.5",
+                      "terrain.arena.width_m=8",    "rover.fidelity=quasi_static"};
+
+DriveParams Make(const std::string& navigator, const Overrides& overrides) {
+  return navigator == "gestalt" ? Gestalt("abundance_rocky_3_2", overrides)
+                                : Pathfinder("nominal", overrides);
+}
+
+std::vector<truth::TraceEvent> EventsOf(const truth::Trace& trace, const std::string& kind) {
+  std::vector<truth::TraceEvent> events;
+  for (const truth::TraceEvent& event : trace.events) {
+    if (event.kind == kind) events.push_back(event);
+  }
+  return events;
+}
+
+double Between(const math::Pose2& pose, const messages::Goal& goal) {
+  return std::hypot(pose.x_m - goal.x_m, pose.y_m - goal.y_m);
+}
+
+TEST(WaypointDriveTest, AnLIsDrivenFromWaypointToWaypoint) {
+  for (const char* navigator : {"gestalt", "pathfinder"}) {
+    const DriveParams drive = Make(navigator, kL + Overrides{"sensors.localization=oracle"});
+    const TracedTrial trial = RunTraced(drive, 0);
+    EXPECT_EQ(trial.result.outcome, TrialOutcome::kGoalReached) << trial.result.detail;
+    EXPECT_EQ(trial.result.record.waypoints_reached, 2.0);
+    const auto reached = EventsOf(trial.trace, "waypoint");
+    ASSERT_EQ(reached.size(), 2U) << navigator;
+    const double tolerance_m = navigator == std::string("gestalt")
+                                   ? drive.navigation.gestalt.waypoints.goal_tolerance_m
+                                   : drive.navigation.pathfinder.goal_tolerance_m;
+    const std::vector<messages::Goal> goals = drive.course.Goals();
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+      EXPECT_LE(Between(reached[i].pose, goals[i]), tolerance_m + 1e-9) << navigator;
+      EXPECT_TRUE(reached[i].detail.starts_with(std::to_string(i + 1) + " of 2")) << navigator;
+    }
+    EXPECT_LT(reached[0].time_s, reached[1].time_s);
+    // The way along the legs, less what the tolerances cut off; the diagonal is 3.2 m.
+    EXPECT_GT(trial.result.record.true_distance_m, 4.5 - 3.0 * tolerance_m) << navigator;
+  }
+}
+
+TEST(WaypointDriveTest, ARoverThatIsStoppedOnTheWayHasReachedSome) {
+  for (const char* navigator : {"gestalt", "pathfinder"}) {
+    const TracedTrial whole =
+        RunTraced(Make(navigator, kL + Overrides{"sensors.localization=oracle"}), 0);
+    const auto reached = EventsOf(whole.trace, "waypoint");
+    ASSERT_EQ(reached.size(), 2U);
+    const double between_s = 0.5 * (reached[0].time_s + reached[1].time_s);
+    const DriveResult result = RunTrial(
+        Make(navigator, kL + Overrides{"sensors.localization=oracle",
+                                       "referee.time_limit_s=" + std::to_string(between_s)}),
+        {1, 0});
+    EXPECT_EQ(result.outcome, TrialOutcome::kTimeLimit);
+    EXPECT_EQ(result.record.waypoints_reached, 1.0) << navigator;
+  }
+}
+
+// 3 m out and back again almost to the start: the last leg leads away from the first waypoint, and
+// the operator who watches for progress goes by the leg.
+TEST(WaypointDriveTest, PatienceFollowsTheLegs) {
+  for (const char* navigator : {"gestalt", "pathfinder"}) {
+    const DriveResult result =
+        RunTrial(Make(navigator, {"terrain.rocks.kind=none", "terrain.arena.kind=open",
+                                  "rover.fidelity=quasi_static", "sensors.localization=oracle",
+                                  "course.waypoints.x_m=[3]", "course.waypoints.y_m=[0]",
+                                  "course.goal_x_m=0.3", "referee.no_path_distance_m=2"}),
+                 {1, 0});
+    EXPECT_EQ(result.outcome, TrialOutcome::kGoalReached) << navigator << ": " << result.detail;
+    EXPECT_GT(result.record.true_distance_m, 4.5) << navigator;
+  }
+}
+
+TEST(WaypointDriveTest, RocksKeepAwayFromWaypoints) {
+  const Overrides dense = {"terrain.rocks.k_per_m2=0.02"};
+  const DriveParams without = Pathfinder("nominal", dense);
+  const DriveParams with = Pathfinder(
+      "nominal",
+      dense + Overrides{"course.waypoints.x_m=[3,5]", "course.waypoints.y_m=[0.4,-0.4]"});
+  const auto in_zones = [&](const DriveParams& drive) {
+    int rocks = 0;
+    for (std::uint32_t layout = 0; layout < 20; ++layout) {
+      const terrain::Field field =
+          terrain::BuildField(drive.terrain, {1, layout}, TerrainCourse(drive.course));
+      for (const terrain::Rock& rock : field.terrain.rocks()) {
+        for (const messages::Goal& place : with.course.waypoints.Places()) {
+          const double centre_m =
+              std::hypot(rock.center_W.x() - place.x_m, rock.center_W.y() - place.y_m);
+          rocks += centre_m < drive.terrain.rocks.clear_radius_m ? 1 : 0;
+        }
+      }
+    }
+    return rocks;
+  };
+  EXPECT_GT(in_zones(without), 0);
+  EXPECT_EQ(in_zones(with), 0);
+}
+
+// The gyro reads 70 % of a turn and the rover starts 60 deg off its course, so that dead reckoning
+// leads it past the goal.
+const Overrides kDrifting = {"terrain.rocks.kind=none",     "terrain.arena.kind=open",
+                             "rover.fidelity=quasi_static", "course.start_heading_deg=60",
+                             "sensors.gyro.scale=0.7",      "course.goal_x_m=5",
+                             "course.goal_radius_m=0.5"};
+const Overrides kTracking = {"course.tracking.enabled=true"};
+
+TEST(TrackingDriveTest, ATrackedGoalIsReachedInSpiteOfDrift) {
+  for (const char* navigator : {"gestalt", "pathfinder"}) {
+    for (std::uint32_t index = 0; index < 3; ++index) {
+      const DriveResult blind = RunTrial(Make(navigator, kDrifting), {1, index});
+      EXPECT_EQ(blind.outcome, TrialOutcome::kFalseGoal) << navigator << ": " << blind.detail;
+      const TracedTrial tracked = RunTraced(Make(navigator, kDrifting + kTracking), index);
+      const truth::DriveRecord& record = tracked.result.record;
+      EXPECT_EQ(tracked.result.outcome, TrialOutcome::kGoalReached)
+          << navigator << ": " << tracked.result.detail;
+      EXPECT_LT(record.true_goal_distance_m, blind.record.true_goal_distance_m);
+      // Nobody corrects the pose: the goal is where the pose is wrong by as much.
+      EXPECT_GT(record.position_error_m, 0.5) << navigator;
+      EXPECT_NEAR(record.believed_goal_distance_m, record.true_goal_distance_m, 0.15) << navigator;
+      const auto seen = EventsOf(tracked.trace, "tracker");
+      ASSERT_FALSE(seen.empty());
+      EXPECT_EQ(seen.front().detail, "goal in view");
+    }
+  }
+}
+
+// The goal stays where it was told, and nothing else changes.
+TEST(TrackingDriveTest, AGoalThatIsNeverSeenStaysWhereItWasTold) {
+  const Overrides short_sighted = kTracking + Overrides{"course.tracking.range_m=0.1"};
+  for (const char* navigator : {"gestalt", "pathfinder"}) {
+    const DriveResult blind = RunTrial(Make(navigator, kDrifting), {1, 0});
+    const DriveResult tracked = RunTrial(Make(navigator, kDrifting + short_sighted), {1, 0});
+    EXPECT_TRUE(Differences(blind, tracked).empty()) << navigator;
+  }
+}
+
+// Waypoints are designated, and the goal alone is tracked.
+TEST(TrackingDriveTest, TheLastLegAloneIsTracked) {
+  for (const char* navigator : {"gestalt", "pathfinder"}) {
+    const TracedTrial trial =
+        RunTraced(Make(navigator, kL + kTracking + Overrides{"sensors.localization=oracle"}), 0);
+    EXPECT_EQ(trial.result.outcome, TrialOutcome::kGoalReached) << navigator;
+    EXPECT_EQ(trial.result.record.waypoints_reached, 2.0);
+    const auto reached = EventsOf(trial.trace, "waypoint");
+    const auto seen = EventsOf(trial.trace, "tracker");
+    ASSERT_EQ(reached.size(), 2U);
+    ASSERT_FALSE(seen.empty());
+    EXPECT_GE(seen.front().time_s, reached.back().time_s) << navigator;
+  }
+}
+
+// 2 mm/s across the way, slower than a rover that looks and moves: one that is told where the
+// target began comes too late.
+TEST(TrackingDriveTest, ATargetThatMovesIsFollowed) {
+  const Overrides moving = {
+      "terrain.rocks.kind=none",      "terrain.arena.kind=open", "rover.fidelity=quasi_static",
+      "sensors.localization=oracle",  "course.goal_x_m=4",       "course.target_speed_m_s=0.002",
+      "course.target_heading_deg=90", "course.goal_radius_m=0.3"};
+  for (const char* navigator : {"gestalt", "pathfinder"}) {
+    const DriveResult told = RunTrial(Make(navigator, moving), {1, 0});
+    EXPECT_EQ(told.outcome, TrialOutcome::kFalseGoal) << navigator;
+    const DriveResult tracked = RunTrial(Make(navigator, moving + kTracking), {1, 0});
+    EXPECT_EQ(tracked.outcome, TrialOutcome::kGoalReached) << navigator << ": " << tracked.detail;
+    const truth::DriveRecord& record = tracked.record;
+    const double target_y_m = 0.002 * record.sim_time_s;
+    EXPECT_NEAR(record.true_goal_distance_m,
+                std::hypot(record.final_x_m - 4.0, record.final_y_m - target_y_m), 1e-9);
+    EXPECT_GT(record.final_y_m, 0.3) << navigator;
+  }
+}
+
+// Parameters that do nothing while they are off change no bit.
+TEST(TrackingDriveTest, OffItDoesNothing) {
+  const DriveResult plain = RunTrial(Pathfinder("nominal"), {1, 0});
+  const DriveResult off =
+      RunTrial(Pathfinder("nominal", {"course.tracking.range_m=9", "course.tracking.period_s=0.2",
+                                      "course.target_heading_deg=30"}),
+               {1, 0});
+  EXPECT_TRUE(Differences(plain, off).empty());
+}
+
+}  // namespace
+}  // namespace rockyard::trial
