@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rover/ground_touches.h"
 #include "rover_drive.h"
 
 namespace rockyard::rover {
@@ -75,6 +76,39 @@ TEST_P(Ditch, ACrackIsDrivenOver) {
   const Crossing crossing = DriveAcross(GetParam(), 0.06, 0.2, 0.03);
   EXPECT_GT(crossing.x_m, 2.6);
   EXPECT_GT(crossing.lowest_m, -0.02);
+}
+
+// A thin wheel of 10 cm over the middle of a ditch narrower than itself touches both flanks, the
+// one behind first, where steps of 0.01 mrad around its rim find the least heights.
+TEST(GroundTouchesTest, LieOnBothFlanksWhereTheRimIsNearest) {
+  constexpr double kRadius_m = 0.1;
+  terrain::GroundParams params;
+  params.ditches = {.x_m = {1.0},
+                    .y_m = {0.0},
+                    .direction_deg = {90.0},
+                    .length_m = {0.0},
+                    .width_m = {0.14},
+                    .depth_m = {0.2},
+                    .flank_m = {0.07}};
+  const terrain::Ground ground(params, {});
+  const math::Vector3 center_W(1.0, 0.0, 0.08);
+  const auto support = [&](const math::Vector3& n_W) -> math::Vector3 {
+    return center_W - kRadius_m * n_W;
+  };
+  const GroundTouches found =
+      FindGroundTouches(ground, center_W, math::Vector3::UnitY(), kRadius_m, support);
+  ASSERT_EQ(found.count, 2u);
+  double least_m = 1.0;
+  for (double angle_rad = 0.0; angle_rad < 1.4; angle_rad += 1e-5) {
+    const math::Vector3 p_W = support({std::sin(angle_rad), 0.0, std::cos(angle_rad)});
+    least_m = std::min(least_m, p_W.z() - ground.Height(p_W.x(), p_W.y()));
+  }
+  for (const GroundTouch& touch : found.touches) {
+    EXPECT_NEAR(touch.gap_m / touch.n_W.z(), least_m, 1e-8);
+  }
+  EXPECT_LT(found.touches[0].p_W.x(), 0.97);
+  EXPECT_GT(found.touches[1].p_W.x(), 1.03);
+  EXPECT_GT(found.touches[0].n_W.x(), 0.3);  // away from the flank behind
 }
 
 }  // namespace
