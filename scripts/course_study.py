@@ -28,12 +28,24 @@ def expectations():
         return list(csv.DictReader(file))
 
 
+def read_course(path):
+    """A course's groups; where it extends another file than the base of all, with that one's."""
+    own = json.loads(path.read_text(encoding="utf-8"))
+    base = path.parent / own["extends"]
+    if base.name == "viking_lander_2.json":
+        return own
+    merged = read_course(base)
+    for group, value in own.items():
+        merged[group] = merged[group] | value if isinstance(merged.get(group), dict) else value
+    return merged
+
+
 def scenario_of(course, navigator, out):
     """The course's own file, or its terrain, goal and referee for the behaviour controller."""
     path = COURSES / f"{course}.json"
     if navigator == "gestalt":
         return path
-    own = json.loads(path.read_text(encoding="utf-8"))
+    own = read_course(path)
     scenario = {"extends": str(BEHAVIOUR), "name": f"{own['name']}_behaviour"}
     scenario |= {group: own[group] for group in ("terrain", "course", "referee") if group in own}
     # The base is of random rocks: the course says what stands in its way.
