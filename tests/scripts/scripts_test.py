@@ -1,5 +1,6 @@
 """The command lines of the scripts: what they accept, refuse and pass on."""
 
+import json
 import math
 import os
 import re
@@ -651,6 +652,147 @@ printf 'trial,outcome,detail\\n0,goal_reached,\\n1,no_path,\\n2,no_path,\\n' > "
         for stem in navigator_study.ROVERS.values():
             for ending, _ in navigator_study.ARMS.values():
                 self.assertTrue((ROOT / f"scenarios/gestalt/{stem}{ending}.json").is_file())
+
+
+class GestaltStudy(ScriptTest):
+    """With a rockyard that gains two of three pairs, whatever is compared."""
+
+    # A setting that undoes each choice, in the order of the script.
+    UNDONE = ("max_turn_share=2", "max_bogie_deg=30", "backward_arcs=below_threshold",
+              "point_turns=below_min_vote", "step_reference=level", "veto_felt=false",
+              "distance_scale=0.9465")
+
+    def setUp(self):
+        super().setUp()
+        self.fake("build/release/bin/rockyard").write_text("""#!/bin/sh
+echo "rockyard $*" >> "$CALLS"
+if [ "$1" = compare ]; then
+  echo "                    B - A +0.0 points (95 % interval -42.0 .. +42.0)"
+  echo "                    both 1, only A 0, only B 0, neither 2; McNemar, exact: p = 1"
+  echo "                    B - A +66.7 points (95 % interval +7.7 .. +92.3)"
+  echo "                    both 1, only A 0, only B 2, neither 0; McNemar, exact: p = 0.5"
+  echo trials,column > "$5"
+  exit 0
+fi
+while [ $# -gt 1 ]; do [ "$1" = --out ] && out=$2; shift; done
+mkdir -p "$out"
+rate='{"rate": 0.5, "ci95": [0.25, 0.75]}'
+made='"provenance": {"version": "0.1.0", "commit": "abc"}, "outcomes": {"jammed": 1}'
+echo "{\\"declared_success\\": $rate, \\"true_success\\": $rate, $made}" > "$out/summary.json"
+cat > "$out/trials.csv" << END
+trial,outcome,detail,true_distance_m,dead_reckoned_distance_m,moves,rear_image_sets,reversals,safeguard_stops
+0,goal_reached,,8,9,10,2,1,0
+1,no_path,,2,2.5,10,4,3,1
+2,jammed,,2,9.5,20,0,0,2
+END
+""", encoding="utf-8")
+
+    def runs(self):
+        return [line for line in self.called("rockyard") if line.startswith("run ")]
+
+    def test_every_choice_stands_alone_and_is_left_out(self):
+        result = self.run_script("gestalt_study.py", "--tables", "changes", "--trials", "3")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        count = len(self.UNDONE)
+        alone = [tuple(other != choice for other in range(count)) for choice in range(count)]
+        without = [tuple(other == choice for other in range(count)) for choice in range(count)]
+        both = [undone for pair in zip(alone, without) for undone in pair]
+        found = [tuple(setting in line for setting in self.UNDONE) for line in self.runs()]
+        self.assertEqual(found, 4 * [(True,) * count, (False,) * count, *both])
+        self.assertEqual(sum("localization=oracle" in line for line in self.runs()), 16)
+        self.assertTrue(all("rover.fidelity=quasi_static" in line for line in self.runs()))
+        # Of the two differences that are printed the second is that of true success.
+        self.assertEqual(result.stdout.count("66.7 (7.7..92.3)"), 4 * (2 * count + 1))
+        self.assertNotIn("(-42.0..42.0)", result.stdout)
+
+    def test_dense_drives_both_readings_at_both_fidelities(self):
+        result = self.run_script("gestalt_study.py", "--tables", "dense", "--seed", "9")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        found = [("localization=oracle" in line, "multibody" in line, "veto_felt=false" in line)
+                 for line in self.runs()]
+        self.assertEqual(found, [(oracle, multibody, printed) for oracle in (False, True)
+                                 for multibody in (False, True) for printed in (True, False)])
+        self.assertTrue(all("--seed 9" in line for line in self.runs()))
+        # 40 moves of 3 trials, 6 rear looks, 4 reversals, 3 stops; 21 m by odometer for 12 m.
+        self.assertIn("| jammed 1 | 13 | 2.0 | 10 | 1.0 | +75 |", result.stdout)
+
+    def test_the_odometer_leaves_out_drives_that_got_stuck(self):
+        result = self.run_script("gestalt_study.py", "--tables", "odometer")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertTrue(all("distance_scale=1" in line for line in self.runs()))
+        # 11.5 m for 10 m.
+        self.assertEqual(result.stdout.count("| 2 | 1.1500 | 0.8696 |"), 5)
+
+    def test_unknown_tables_run_nothing(self):
+        self.assertEqual(self.run_script("gestalt_study.py", "--tables", "other").returncode, 2)
+        self.assertEqual(self.called("rockyard"), [])
+
+
+class CourseStudy(ScriptTest):
+    """With a rockyard of whose four trials three truly arrive."""
+
+    def setUp(self):
+        super().setUp()
+        for folder in ("courses", "gestalt"):
+            shutil.copytree(ROOT / "scenarios" / folder, self.root / "scenarios" / folder)
+        self.fake("build/release/bin/rockyard").write_text("""#!/bin/sh
+echo "rockyard $*" >> "$CALLS"
+while [ $# -gt 1 ]; do [ "$1" = --out ] && out=$2; shift; done
+mkdir -p "$out"
+rate='{"rate": 0.75, "ci95": [0.3, 0.95]}'
+made='"provenance": {"version": "0.1.0", "commit": "abc"}'
+echo "{\\"true_success\\": $rate, $made}" > "$out/summary.json"
+cat > "$out/trials.csv" << END
+trial,outcome,detail,path_ratio,turned_in_place_rad
+0,goal_reached,,1.2,0
+1,goal_reached,,1.5,6.2831853
+2,goal_reached,,1.1,0
+3,false_goal,,9.0,3.14159
+END
+""", encoding="utf-8")
+        self.expected = self.root / "scenarios/courses/expected.csv"
+
+    def expect(self, *rows):
+        head = "course,navigator,least_arrivals_percent,largest_path_ratio,most_turned_deg"
+        self.expected.write_text("\n".join([head, *rows]) + "\n", encoding="utf-8")
+
+    def test_a_course_is_passed_where_all_three_keep_to_what_was_expected(self):
+        self.expect("wall_3,gestalt,75,1.5,361", "wall_3,behaviour,76,1.5,361",
+                    "wall_6,gestalt,75,1.49,361", "wall_6,behaviour,75,1.5,359")
+        result = self.run_script("course_study.py")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        passed = [line.split("|")[-2].strip() for line in result.stdout.splitlines()
+                  if line.startswith("| wall")]
+        self.assertEqual(passed, ["yes", "**no**", "**no**", "**no**"])
+        self.assertIn("1 of 4 passed", result.stdout)
+        self.assertIn("| 75 (30..95) | 75 | 1.50 | 1.5 | 360 | 361 | false_goal 1 | yes |",
+                      result.stdout)
+
+    def test_both_navigators_meet_the_same_course(self):
+        result = self.run_script("course_study.py", "--courses", "ditch", "gravel")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        runs = [line for line in self.called("rockyard") if line.startswith("run ")]
+        self.assertEqual(len(runs), 4)
+        for course in ("ditch", "gravel"):
+            own = self.root / f"scenarios/courses/{course}.json"
+            self.assertEqual(sum(f"run {own} " in line for line in runs), 1)
+            composed = json.loads((self.root / f"results/runs/courses/{course}_behaviour.json")
+                                  .read_text(encoding="utf-8"))
+            self.assertTrue(composed["extends"].endswith("abundance_behaviour_stereo.json"))
+            self.assertEqual(composed["referee"]["no_path_distance_m"], 12)
+        # The ditch stands in a scenario of its own, which the course extends.
+        ditch = json.loads((self.root / "results/runs/courses/ditch_behaviour.json")
+                           .read_text(encoding="utf-8"))
+        self.assertEqual(ditch["terrain"]["ground"]["ditches"]["depth_m"], [0.3])
+        self.assertEqual(ditch["course"]["goal_x_m"], 6)
+        self.assertEqual(ditch["name"], "course_ditch_behaviour")
+
+    def test_every_course_has_an_expectation_for_each_navigator(self):
+        rows = self.expected.read_text(encoding="utf-8").splitlines()[1:]
+        found = sorted(tuple(row.split(",")[:2]) for row in rows)
+        courses = [path.stem for path in (ROOT / "scenarios/courses").glob("*.json")]
+        self.assertEqual(found, sorted((course, navigator) for course in courses
+                                       for navigator in ("gestalt", "behaviour")))
 
 
 class HazardImprovements(ScriptTest):
