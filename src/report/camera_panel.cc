@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -53,6 +54,7 @@ class GridSurface {
 
 // px. The farthest rocks of a field are thousands.
 constexpr double kSmallestRock = 4.0;
+constexpr double kFinestCorner = 1.5;
 
 class CameraImage {
  public:
@@ -108,8 +110,21 @@ class CameraImage {
       std::vector<Vector3> surface_R;
       for (const Vector3& point : rock.surface_W) surface_R.push_back(X_RW * point);
       const std::vector<ImagePoint> outline = Silhouette(camera_, surface_R);
-      if (!IsDot(outline)) Add(surface_R, outline, "fill=\"#c9bfb4\" stroke=\"#000\"");
+      if (!IsDot(outline)) Add(surface_R, Coarse(outline), "fill=\"#c9bfb4\" stroke=\"#000\"");
     }
+  }
+
+  // Leaves out corners that are nearer to the one before than kFinestCorner.
+  std::vector<ImagePoint> Coarse(const std::vector<ImagePoint>& outline) const {
+    std::vector<ImagePoint> kept;
+    for (const ImagePoint& point : outline) {
+      if (!kept.empty() && std::hypot(column_scale_ * (point.column - kept.back().column),
+                                      row_scale_ * (point.row - kept.back().row)) < kFinestCorner) {
+        continue;
+      }
+      kept.push_back(point);
+    }
+    return kept;
   }
 
   // Not as wide as kSmallestRock.

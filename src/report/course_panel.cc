@@ -23,7 +23,8 @@ constexpr std::string_view kRoverStyle =
 constexpr std::string_view kPlaceStyle = "fill=\"none\" stroke=\"#d55e00\" stroke-width=\"2\"";
 constexpr double kBorder_m = 0.3;
 constexpr std::size_t kMostPathPoints = 1000;
-constexpr double kSmallestRock = 2.5;  // px
+constexpr double kSmallestRock = 3.0;  // px
+constexpr double kSquareRock = 7.0;    // px; below it four corners of eight are as good
 
 struct Place {
   double x_m = 0.0;
@@ -59,6 +60,12 @@ std::array<Place, 4> WindowOutline(const StepScene& scene, const NavigationView&
   const double y1_m = map.y0_m + map.ny * map.ystep_m;
   return {place(map.x0_m, map.y0_m), place(x1_m, map.y0_m), place(x1_m, y1_m),
           place(map.x0_m, y1_m)};
+}
+
+std::vector<SvgPoint> EverySecond(const std::vector<SvgPoint>& points) {
+  std::vector<SvgPoint> kept;
+  for (std::size_t i = 0; i < points.size(); i += 2) kept.push_back(points[i]);
+  return kept;
 }
 
 // What the plan shows: x to the right, y up.
@@ -126,7 +133,9 @@ class Plan {
     const auto [least, most] =
         std::minmax_element(corners.begin(), corners.end(),
                             [](const SvgPoint& a, const SvgPoint& b) { return a.x < b.x; });
-    if (most->x - least->x < kSmallestRock) return "";
+    const double width = most->x - least->x;
+    if (width < kSmallestRock) return "";
+    if (width < kSquareRock) corners = EverySecond(corners);
     // Light for low rocks.
     const int grey = static_cast<int>(std::lround(205.0 - 135.0 * rock.height_share));
     return SvgPolygon(corners, fmt::format("fill=\"rgb({0},{0},{0})\"", grey));

@@ -210,6 +210,25 @@ TEST(CameraPanel, RocksStandWhereTheyTrulyAre) {
   EXPECT_EQ(CameraPanel(scene, nothing_seen, frame), before);
 }
 
+// A near rock keeps its outline; a far one, of which a field holds a thousand, takes little room.
+TEST(CameraPanel, SmallRocksHaveFewCorners) {
+  StepScene scene = SampleScene();
+  const auto corners = [&scene](double x_m) {
+    SceneRock& rock = scene.rocks.emplace_back();
+    for (int i = 0; i < 64; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / 64;
+      rock.surface_W.push_back({x_m, 0.2 + 0.1 * std::cos(angle), 0.1 + 0.1 * std::sin(angle)});
+    }
+    const std::string svg = CameraPanel(scene, NavigationView(), {0.0, 0.0, 400.0, 400.0});
+    scene.rocks.clear();
+    const std::size_t end = svg.find("#c9bfb4");
+    return Count(svg.substr(svg.rfind("<polygon", end), end - svg.rfind("<polygon", end)), ",");
+  };
+  EXPECT_EQ(corners(0.4), 64);
+  EXPECT_LT(corners(6.0), 16);
+  EXPECT_GE(corners(6.0), 4);
+}
+
 TEST(NavigationSvg, NearerRocksCoverFartherOnes) {
   StepScene scene = SampleScene();
   scene.rocks = {Cube(1.0, 0.2), Cube(3.0, 0.2), Cube(2.0, 0.2), Cube(-5.0, 0.2), Cube(90.0, 0.2)};
