@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -153,6 +154,24 @@ TEST(NavigationSvg, TheMapsWindowTurnsWithThePoseThatIsBelieved) {
   // Ahead is -y in the map: its corner (0, 0) lies 0.6 m ahead and 0.1 m to the right, as W has it.
   EXPECT_THAT(CoursePanel(scene, view, {0.0, 0.0, 582.0, 416.0}),
               HasSubstr("<polygon points=\"148.9,262.1 148.9,208.0 40.6,208.0 "));
+}
+
+// 142.0 px a metre: of 0.2 m eight corners show, of 0.04 m four.
+TEST(CoursePanel, SmallRocksHaveFourCorners) {
+  const auto corners = [](double diameter_m) {
+    StepScene scene = SampleScene();
+    SceneRock& rock = scene.rocks.emplace_back();
+    for (int i = 0; i < 8; ++i) {
+      const double angle = 0.25 * std::numbers::pi * (i + 0.5);
+      rock.outline_W.push_back({1.5 + 0.5 * diameter_m * std::cos(angle),
+                                0.3 + 0.5 * diameter_m * std::sin(angle), 0.0});
+    }
+    const std::string svg = CoursePanel(scene, Sample(), {0.0, 0.0, 582.0, 416.0});
+    const std::size_t end = svg.find("rgb(70,70,70)");
+    return Count(svg.substr(svg.rfind("points=", end), end - svg.rfind("points=", end)), ",");
+  };
+  EXPECT_EQ(corners(0.2), 8);
+  EXPECT_EQ(corners(0.04), 4);
 }
 
 TEST(NavigationSvg, DrawsTheViewWithTheGrid) {
