@@ -90,6 +90,7 @@ class CameraImage {
 
   std::string Shape(const std::vector<ImagePoint>& polygon, std::string_view style) const {
     std::vector<SvgPoint> points;
+    points.reserve(polygon.size());
     for (const ImagePoint& point : polygon) {
       points.push_back({column_scale_ * point.column, row_scale_ * point.row});
     }
@@ -108,6 +109,7 @@ class CameraImage {
     const math::Transform X_RW = scene.X_WR.inverse();
     for (const SceneRock& rock : scene.rocks) {
       std::vector<Vector3> surface_R;
+      surface_R.reserve(rock.surface_W.size());
       for (const Vector3& point : rock.surface_W) surface_R.push_back(X_RW * point);
       const std::vector<ImagePoint> outline = Silhouette(camera_, surface_R);
       if (!IsDot(outline)) Add(surface_R, Coarse(outline), "fill=\"#c9bfb4\" stroke=\"#000\"");

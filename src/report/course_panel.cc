@@ -126,6 +126,7 @@ class Plan {
   // Nothing for rocks beyond the frame, and for those that would be dots.
   std::string DrawRock(const SceneRock& rock) const {
     std::vector<SvgPoint> corners;
+    corners.reserve(rock.outline_W.size());
     for (const math::Vector3& corner : rock.outline_W)
       corners.push_back(At(corner.x(), corner.y()));
     const auto shown = [this](const SvgPoint& point) { return Shows(point); };
@@ -146,6 +147,7 @@ class Plan {
     for (const PathPiece& piece : Thinned(path, kMostPathPoints)) {
       if (piece.size() < 2) continue;
       std::vector<SvgPoint> points;
+      points.reserve(piece.size());
       for (const math::Pose2& pose : piece) points.push_back(At(pose.x_m, pose.y_m));
       svg += SvgPolyline(points, style);
     }
@@ -154,6 +156,7 @@ class Plan {
 
   std::string DrawOutline(const std::array<Place, 4>& corners, std::string_view style) const {
     std::vector<SvgPoint> points;
+    points.reserve(corners.size());
     for (const Place& corner : corners) points.push_back(At(corner.x_m, corner.y_m));
     return SvgPolygon(points, style);
   }

@@ -61,6 +61,7 @@ std::string MissingColumn(const PublishedValue& published, const ScenarioRun& ru
 std::vector<Values> ValuesOf(const PublishedValue& published, const RatioTerm& term,
                              const ScenarioRun& run) {
   std::vector<std::size_t> columns;
+  columns.reserve(term.columns.size());
   for (const std::string& name : term.columns) columns.push_back(*ColumnIndex(run.schema, name));
   const auto of = ColumnIndex(run.schema, term.of);
   const auto along = ColumnIndex(run.schema, published.along);

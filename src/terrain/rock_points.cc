@@ -30,6 +30,7 @@ double ParallelRadius(const Rock& rock, double unit_height) {
 
 std::vector<math::Vector3> PlanOutline(const Rock& rock) {
   std::vector<math::Vector3> corners;
+  corners.reserve(kPlanCorners);
   for (int i = 0; i < kPlanCorners; ++i) {
     const double angle = 2.0 * std::numbers::pi * (i + 0.5) / kPlanCorners;
     corners.push_back(OnRock(rock, {std::cos(angle), std::sin(angle), 0.0}));
@@ -43,6 +44,7 @@ std::vector<math::Vector3> PointsAbove(const Rock& rock, double ground_m) {
   const double from = std::max(lowest, ground);
   if (from >= 1.0) return {};
   std::vector<math::Vector3> points;
+  points.reserve(kRings * kRingPoints + 1);
   for (int ring = 0; ring < kRings; ++ring) {
     // Denser towards the top, where the surface bends.
     const double below_top = 1.0 - static_cast<double>(ring) / kRings;
