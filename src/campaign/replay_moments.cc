@@ -10,7 +10,9 @@
 
 #include "campaign/replay_files.h"
 #include "campaign/scan_capture.h"
+#include "campaign/step_scene.h"
 #include "core/error.h"
+#include "experiments/drive/drive_experiment.h"
 #include "experiments/experiment.h"
 
 namespace rockyard::campaign {
@@ -59,16 +61,29 @@ class MomentReplayer {
       : request_(request), source_(source), observer_(observer), result_(result) {}
 
   MomentTrial Run() {
-    const auto experiment = experiments::MakeExperiment(
-        source_.scenario.experiment, source_.scenario.drive,
-        [this](const trial::WatchedScan& watched) { OnScan(watched); },
-        [this](const trial::WatchedStep& watched) { OnStep(watched); });
-    replayed_.schema = experiment->schema();
-    replayed_.record = experiment->Run(source_.seed, request_.trial.trial);
+    const auto on_scan = [this](const trial::WatchedScan& watched) { OnScan(watched); };
+    const auto on_step = [this](const trial::WatchedStep& watched) { OnStep(watched); };
+    const scenario::Scenario& scenario = source_.scenario;
+    if (request_.step && scenario.experiment.kind == experiments::ExperimentKind::kDrive) {
+      RunTraced(experiments::DriveExperiment(scenario.drive, on_scan, on_step));
+    } else {
+      RunPlain(*experiments::MakeExperiment(scenario.experiment, scenario.drive, on_scan, on_step));
+    }
     return std::move(replayed_);
   }
 
  private:
+  // A drawn step shows the path so far.
+  void RunTraced(const experiments::DriveExperiment& drive) {
+    replayed_.schema = drive.schema();
+    replayed_.record = drive.RunTraced(source_.seed, request_.trial.trial, trace_);
+  }
+
+  void RunPlain(const experiments::Experiment& experiment) {
+    replayed_.schema = experiment.schema();
+    replayed_.record = experiment.Run(source_.seed, request_.trial.trial);
+  }
+
   std::string Title(std::string_view what, std::int64_t number) const {
     return fmt::format("{}, seed {}, trial {}, {} {}", source_.scenario.name, source_.seed,
                        request_.trial.trial, what, number);
@@ -97,7 +112,8 @@ class MomentReplayer {
       observer_.step({math::ToPose2(watched.X_WR), watched.view});
     }
     if (request_.step != watched.view.step) return;
-    replayed_.step = {{Title("step", watched.view.step), watched.view}, watched.cloud};
+    replayed_.step = {{Title("step", watched.view.step), watched.view, SceneOf(watched, trace_)},
+                      watched.cloud};
   }
 
   const MomentsRequest& request_;
@@ -105,6 +121,7 @@ class MomentReplayer {
   const MomentsObserver& observer_;
   MomentsResult& result_;
   MomentTrial replayed_;
+  truth::Trace trace_;  // of a drive of which a step is drawn, up to now
 };
 
 // False where a file cannot be written.

@@ -51,6 +51,8 @@ struct MotionVote {
 struct NavigationView {
   std::int64_t step = 0;  // counts decisions from 0
   PoseEstimate estimate;
+  AttitudeEstimate
+      attitude;  // how the rover believes to stand; the map's elevations count as its z
   Goal goal;
   bool looked_behind = false;
   MapView map;

@@ -28,4 +28,6 @@ Rgb RampColour(double share) {
   return {Mix(a.red, b.red, rest), Mix(a.green, b.green, rest), Mix(a.blue, b.blue, rest)};
 }
 
+Rgb ByteColour(std::uint8_t value) { return RampColour(value / 255.0); }
+
 }  // namespace rockyard::report

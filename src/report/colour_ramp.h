@@ -1,6 +1,8 @@
 // A sequential colour ramp that keeps its order for colour-blind readers and in grey print.
 #pragma once
 
+#include <cstdint>
+
 #include "report/png_file.h"
 
 namespace rockyard::report {
@@ -8,5 +10,8 @@ namespace rockyard::report {
 // Dark violet at 0, green-blue in the middle, yellow at 1; shares beyond are clamped. Luminance
 // grows all the way.
 Rgb RampColour(double share);
+
+// The colour of a goodness or certainty: 0 to 255.
+Rgb ByteColour(std::uint8_t value);
 
 }  // namespace rockyard::report

@@ -126,7 +126,7 @@ class Parser {
     PublishedValue value;
     ValueFields fields{value};
     const std::size_t problems_before = problems_.size();
-    Read(Without(json, {"outcomes", "kinds", "where"}), fields, path);
+    Read(Without(json, {"outcomes", "kinds", "where", "terms"}), fields, path);
     value.outcomes = ParseOutcomes(json, path);
     for (const auto& [kind_path, item] : Items(json, "kinds", path)) {
       KindFields kind{value.kinds.emplace_back()};
@@ -142,8 +142,29 @@ class Parser {
       Require(!range.range.column.empty(), range_path + "column", "is missing",
               "name a column of the trial records");
     }
+    for (const auto& [term_path, item] : Items(json, "terms", path)) {
+      value.terms.push_back(ParseTerm(*item, term_path));
+    }
     if (problems_.size() == problems_before) Check(json, value, path);
     return value;
+  }
+
+  statistics::RatioTerm ParseTerm(const JsonValue& json, const std::string& path) {
+    statistics::RatioTerm term;
+    TermFields fields{term};
+    Read(Without(json, {"columns"}), fields, path);
+    for (const auto& [item_path, item] : Items(json, "columns", path)) {
+      if (item->Is(Type::kText)) {
+        term.columns.push_back(item->text());
+      } else {
+        Add(item_path.substr(0, item_path.size() - 1), "is no text",
+            "name a column of the trial records");
+      }
+    }
+    Require(!term.columns.empty(), path + "columns", "is missing",
+            "name columns of the trial records");
+    Require(!term.of.empty(), path + "of", "is missing", "name the column of the base");
+    return term;
   }
 
   void Require(bool holds, const std::string& path, const char* reason, const char* suggestion) {

@@ -12,8 +12,10 @@
 #include <vector>
 
 #include "math/angles.h"
+#include "report/camera_panel.h"
 #include "report/colour_ramp.h"
-#include "report/xml_text.h"
+#include "report/course_panel.h"
+#include "report/svg_elements.h"
 
 namespace rockyard::report {
 namespace {
@@ -26,7 +28,9 @@ using messages::NavigationView;
 // Pixels.
 constexpr double kPanel = 380.0;
 constexpr double kMapGap = 24.0;
-constexpr double kMapTop = 70.0;
+constexpr double kSceneTop = 70.0;  // of course and camera
+constexpr double kSceneHeight = 416.0;
+constexpr double kMapTop = kSceneTop + kSceneHeight + kCourseKeyHeight + 30.0;
 constexpr double kVoteWidth = 14.0;
 constexpr double kVoteHeight = 20.0;
 constexpr double kVoteLabel = 62.0;
@@ -34,21 +38,6 @@ constexpr double kVoteLabel = 62.0;
 constexpr double kDrawnArc_m = 1.5;
 constexpr int kArcPoints = 16;
 constexpr double kBestVote = 255.0;
-
-std::string Text(double x, double y, std::string_view text, double size = 13.0) {
-  return fmt::format(
-      "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.0f}\" font-family=\"sans-serif\">{}</text>\n",
-      x, y, size, EscapeXml(text));
-}
-
-std::string Box(double x, double y, double width, double height, std::string_view style) {
-  return fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" {}/>\n", x,
-                     y, width, height, style);
-}
-
-std::string Fill(const Rgb& colour) {
-  return fmt::format("fill=\"#{:02x}{:02x}{:02x}\"", colour.red, colour.green, colour.blue);
-}
 
 // Maps of one size side by side: x to the right, y up.
 class MapPanel {
@@ -64,16 +53,16 @@ class MapPanel {
 
   // Neighbours of one colour in a row share a rectangle. What has no colour stays grey.
   std::string Cells(const std::function<std::optional<Rgb>(const MapCellView&)>& colour) const {
-    std::string svg = Box(X(map_.x0_m), top_, scale_ * map_.nx * map_.xstep_m,
-                          scale_ * map_.ny * map_.ystep_m, "fill=\"#d0d0d0\"");
+    std::string svg = SvgBox(X(map_.x0_m), top_, scale_ * map_.nx * map_.xstep_m,
+                             scale_ * map_.ny * map_.ystep_m, "fill=\"#d0d0d0\"");
     for (int iy = 0; iy < map_.ny; ++iy) {
       for (int ix = 0; ix < map_.nx;) {
         const std::optional<Rgb> here = colour(map_.Cell(ix, iy));
         int end = ix + 1;
         while (end < map_.nx && colour(map_.Cell(end, iy)) == here) ++end;
         if (here) {
-          svg += Box(X(map_.x0_m + ix * map_.xstep_m), Y(map_.y0_m + (iy + 1) * map_.ystep_m),
-                     scale_ * (end - ix) * map_.xstep_m, scale_ * map_.ystep_m, Fill(*here));
+          svg += SvgBox(X(map_.x0_m + ix * map_.xstep_m), Y(map_.y0_m + (iy + 1) * map_.ystep_m),
+                        scale_ * (end - ix) * map_.xstep_m, scale_ * map_.ystep_m, SvgFill(*here));
         }
         ix = end;
       }
@@ -149,7 +138,7 @@ std::string ElevationPanel(const NavigationView& view, const MapPanel& panel, do
   if (range.low <= range.high) {
     title = fmt::format("elevation: dark {:.2f} m, light {:.2f} m", range.low, range.high);
   }
-  return Text(left, kMapTop - 8.0, title) +
+  return SvgText(left, kMapTop - 8.0, title) +
          panel.Cells([&](const MapCellView& cell) -> std::optional<Rgb> {
            if (!cell.has_data) return std::nullopt;
            return RampColour((cell.elevation_m - range.low) / span_m);
@@ -158,10 +147,10 @@ std::string ElevationPanel(const NavigationView& view, const MapPanel& panel, do
 
 std::string BytePanel(std::string_view title, const MapPanel& panel, double left,
                       std::uint8_t MapCellView::*value) {
-  return Text(left, kMapTop - 8.0, title) +
+  return SvgText(left, kMapTop - 8.0, title) +
          panel.Cells([&](const MapCellView& cell) -> std::optional<Rgb> {
            if (!cell.known) return std::nullopt;
-           return RampColour(cell.*value / kBestVote);
+           return ByteColour(cell.*value);
          });
 }
 
@@ -183,28 +172,40 @@ std::string VoteBlock(std::string_view title, const std::vector<MotionVote>& vot
   constexpr Row kRows[] = {{"waypoint", &MotionVote::waypoint},
                            {"hazard", &MotionVote::hazard},
                            {"merged", &MotionVote::merged}};
-  std::string svg = Text(left, top - 8.0, title);
+  std::string svg = SvgText(left, top - 8.0, title);
   double y = top;
   for (const Row& row : kRows) {
-    svg += Text(left, y + 0.7 * kVoteHeight, row.name, 12.0);
+    svg += SvgText(left, y + 0.7 * kVoteHeight, row.name, 12.0);
     double x = left + kVoteLabel;
     for (const MotionVote* vote : LeftToRight(votes)) {
-      svg += Box(x, y, kVoteWidth - 1.0, kVoteHeight - 1.0,
-                 Fill(RampColour(vote->*row.value / kBestVote)));
+      svg += SvgBox(x, y, kVoteWidth - 1.0, kVoteHeight - 1.0,
+                    SvgFill(RampColour(vote->*row.value / kBestVote)));
       x += kVoteWidth;
     }
     y += kVoteHeight;
   }
   double x = left + kVoteLabel;
   for (const MotionVote* vote : LeftToRight(votes)) {
-    if (vote->best) svg += Box(x, y + 2.0, kVoteWidth - 1.0, 3.0, "fill=\"#009e73\"");
+    if (vote->best) svg += SvgBox(x, y + 2.0, kVoteWidth - 1.0, 3.0, "fill=\"#009e73\"");
     if (vote->chosen) {
-      svg += Box(x - 1.0, top - 1.0, kVoteWidth + 1.0, 3 * kVoteHeight + 1.0,
-                 "fill=\"none\" stroke=\"#009e73\" stroke-width=\"2\"");
+      svg += SvgBox(x - 1.0, top - 1.0, kVoteWidth + 1.0, 3 * kVoteHeight + 1.0,
+                    "fill=\"none\" stroke=\"#009e73\" stroke-width=\"2\"");
     }
     x += kVoteWidth;
   }
   return svg;
+}
+
+// Course and camera side by side, as wide as three maps.
+std::string ScenePanels(const StepScene& scene, const NavigationView& view, double width) {
+  const SvgFrame course{kMapGap, kSceneTop, 0.5 * (width - 3.0 * kMapGap), kSceneHeight};
+  SvgFrame camera = course;
+  camera.left += course.width + kMapGap;
+  return SvgText(course.left, kSceneTop - 8.0, "course: simulated rocks, and the path so far") +
+         CoursePanel(scene, view, course) +
+         SvgText(camera.left, kSceneTop - 8.0,
+                 "left front camera: simulated rocks, and the rover's map in colours of goodness") +
+         CameraPanel(scene, view, camera);
 }
 
 }  // namespace
@@ -219,8 +220,9 @@ std::string NavigationSvg(const NavigationPicture& picture) {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
       "viewBox=\"0 0 {0:.0f} {1:.0f}\">\n",
       width, height);
-  svg += Box(0.0, 0.0, width, height, "fill=\"#fff\"");
-  svg += Text(kMapGap, 28.0, fmt::format("{}: {}", picture.title, ChosenText(view)), 17.0);
+  svg += SvgBox(0.0, 0.0, width, height, "fill=\"#fff\"");
+  svg += SvgText(kMapGap, 28.0, fmt::format("{}: {}", picture.title, ChosenText(view)), 17.0);
+  svg += ScenePanels(picture.scene, view, width);
   const MapPanel elevation(view.map, left(0), kMapTop);
   const MapPanel goodness(view.map, left(1), kMapTop);
   const MapPanel certainty(view.map, left(2), kMapTop);

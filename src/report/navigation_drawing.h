@@ -6,18 +6,21 @@
 
 #include "messages/navigation_view.h"
 #include "messages/point_cloud.h"
+#include "report/step_scene.h"
 
 namespace rockyard::report {
 
 struct NavigationPicture {
   std::string title;
   messages::NavigationView view;
+  StepScene scene;
 };
 
-// An SVG file: maps of elevation, goodness (with the candidate arcs) and certainty, x to the right
-// and y up in the estimated world frame, and the votes of every candidate in three rows (waypoint,
-// hazard, merged). Candidates run from the leftmost to the rightmost turn; those with the best vote
-// are underlined, the chosen one is framed.
+// An SVG file: the course with the path so far (course_panel.h), the view of the front camera with
+// the grid (camera_panel.h), maps of elevation, goodness (with the candidate arcs) and certainty, x
+// to the right and y up in the estimated world frame, and the votes of every candidate in three
+// rows (waypoint, hazard, merged). Candidates run from the leftmost to the rightmost turn; those
+// with the best vote are underlined, the chosen one is framed.
 std::string NavigationSvg(const NavigationPicture& picture);
 
 // Every cell: x_m, y_m (centre), elevation_m (empty without data), goodness, certainty (empty where

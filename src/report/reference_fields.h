@@ -10,10 +10,10 @@
 
 template <>
 struct rockyard::core::EnumNames<rockyard::statistics::StatisticKind> {
-  static constexpr std::array<std::string_view, 14> kNames{
-      "outcome_count",    "failure_kinds", "negative_count", "minimum", "maximum", "mode",
-      "exponential_tail", "lower_bound",   "median_offset",  "rate",    "ratio",   "mean",
-      "crossing",         "computed"};
+  static constexpr std::array<std::string_view, 15> kNames{
+      "outcome_count", "failure_kinds",    "negative_count", "minimum",       "maximum",
+      "mode",          "exponential_tail", "lower_bound",    "median_offset", "rate",
+      "ratio",         "ratio_sum",        "mean",           "crossing",      "computed"};
 };
 
 template <>
@@ -85,6 +85,12 @@ struct RangeFields {
     v.Real("low", range.low, kReferenceText);
     v.Real("high", range.high, kReferenceText);
   }
+};
+
+struct TermFields {
+  statistics::RatioTerm& term;
+
+  void Visit(core::FieldVisitor& v) { v.Text("of", term.of, kReferenceText); }
 };
 
 struct MisprintFields {

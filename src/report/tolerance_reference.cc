@@ -31,6 +31,8 @@ void CheckUnused(const PublishedValue& value, Checker& check) {
                 "or high is given, but the statistic has no tolerance", "leave both out");
   check.Require(value.of.empty() && value.along.empty() && value.where.empty(), "of",
                 "along or where is given, but the statistic uses none of them", "leave them out");
+  check.Require(value.terms.empty(), "terms", "are given, but the statistic has none",
+                "leave them out");
   check.Require(value.formula == Formula::kNone && value.inputs.empty(), "formula",
                 "or inputs is given, but nothing is computed", "leave both out");
 }
@@ -51,15 +53,20 @@ void CheckComputed(const PublishedValue& value, Checker& check) {
                   "power_law_cover needs a size above 0 and an exponent above 2; a drift a step "
                   "and a distance above 0, of at most 10000 steps");
   }
-  check.Require(value.column.empty() && value.of.empty() && value.along.empty(), "column",
-                "of or along is given, but nothing is simulated", "leave them out");
+  check.Require(
+      value.column.empty() && value.of.empty() && value.along.empty() && value.terms.empty(),
+      "column", "of, along or terms is given, but nothing is simulated", "leave them out");
 }
 
 void CheckSimulated(const PublishedValue& value, Checker& check) {
   check.Require(!value.scenario.empty(), "scenario", "is missing", "name the scenario");
-  check.Require(!value.column.empty(), "column", "is missing",
-                "name a column of the trial records");
-  const bool needs_base = value.statistic != StatisticKind::kMean;
+  const bool has_terms = value.statistic == StatisticKind::kRatioSum;
+  check.Require(has_terms != value.terms.empty(), "terms", "belong to ratio_sum, and only there",
+                "give at least one there, leave them out elsewhere");
+  check.Require(has_terms == value.column.empty(), "column",
+                "is missing, or stands beside the columns of terms",
+                "name a column of the trial records; those of a ratio_sum in its terms");
+  const bool needs_base = value.statistic != StatisticKind::kMean && !has_terms;
   check.Require(needs_base != value.of.empty(), "of",
                 "names the base of a rate, ratio or crossing, and only there",
                 "give it there, leave it out elsewhere");

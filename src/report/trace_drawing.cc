@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "math/angles.h"
+#include "report/trace_path.h"
 #include "report/trace_view.h"
 #include "report/xml_text.h"
 
@@ -22,57 +23,7 @@ constexpr std::string_view kTrueColour = "#000";
 constexpr std::string_view kBelievedColour = "#b0005a";
 constexpr std::string_view kScrapeColour = "#e06000";
 constexpr double kMarkSpacing_m = 0.02;
-constexpr double kFinestSpacing_m = 0.005;
-constexpr double kCoarsestSpacing_m = 10.0;
 constexpr double kFooter_m = 0.75;  // below the plan: scale, key, title
-
-using Piece = std::vector<math::Pose2>;  // of a path, without interruption
-using Path = std::vector<Piece>;
-
-math::Pose2 TruePose(const TraceSample& sample) { return sample.pose; }
-math::Pose2 BelievedPose(const TraceSample& sample) {
-  return {sample.estimate.x_m, sample.estimate.y_m, sample.estimate.heading_rad};
-}
-
-double Between(const math::Pose2& a, const math::Pose2& b) {
-  return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m);
-}
-
-// The path of pose_of(sample), broken at reflections.
-template <typename PoseOf>
-Path PathOf(const truth::Trace& trace, PoseOf pose_of) {
-  Path path(1);
-  auto event = trace.events.begin();
-  for (const TraceSample& sample : trace.samples) {
-    for (; event != trace.events.end() && event->time_s < sample.time_s; ++event) {
-      if (event->kind == "reflection" && !path.back().empty()) path.emplace_back();
-    }
-    path.back().push_back(pose_of(sample));
-  }
-  return path;
-}
-
-// Keeps both ends, and between them points that are at least `spacing_m` apart.
-Piece Thinned(const Piece& piece, double spacing_m) {
-  Piece kept;
-  for (const math::Pose2& pose : piece) {
-    if (kept.empty() || Between(kept.back(), pose) >= spacing_m) kept.push_back(pose);
-  }
-  if (!piece.empty() && Between(kept.back(), piece.back()) > 0.0) kept.push_back(piece.back());
-  return kept;
-}
-
-Path Thinned(const Path& path) {
-  for (double spacing_m = kFinestSpacing_m;; spacing_m *= 1.5) {
-    Path thinned;
-    std::size_t points = 0;
-    for (const Piece& piece : path) {
-      thinned.push_back(Thinned(piece, spacing_m));
-      points += thinned.back().size();
-    }
-    if (points <= kMaxDrawnPoints || spacing_m > kCoarsestSpacing_m) return thinned;
-  }
-}
 
 void Include(double x_m, double y_m, DrawnArea& area) {
   area.x_min_m = std::min(area.x_min_m, x_m);
@@ -86,9 +37,9 @@ class Canvas {
  public:
   explicit Canvas(const DrawnArea& plan) : drawing_{{}, plan} {}
 
-  void DrawPath(const Path& path, std::string_view name, std::string_view style) {
+  void DrawPath(const TracePath& path, std::string_view name, std::string_view style) {
     Write("<g fill=\"none\" {}><title>{}</title>\n", style, name);
-    for (const Piece& piece : path) {
+    for (const PathPiece& piece : path) {
       if (piece.size() < 2) continue;
       Write("<polyline points=\"");
       for (const math::Pose2& pose : piece) {
@@ -156,7 +107,7 @@ void DrawMarks(const truth::Trace& trace, std::string_view kind, Canvas& canvas)
   const TraceEvent* drawn = nullptr;
   for (const TraceEvent& event : trace.events) {
     if (event.kind != kind) continue;
-    if (drawn != nullptr && Between(drawn->pose, event.pose) < kMarkSpacing_m) continue;
+    if (drawn != nullptr && Apart_m(drawn->pose, event.pose) < kMarkSpacing_m) continue;
     drawn = &event;
     const std::string name =
         EscapeXml(fmt::format("{} {} at {:.0f} s", event.kind, event.detail, event.time_s));
@@ -196,13 +147,14 @@ void DrawFooter(const truth::TracedTrial& trial, Canvas& canvas) {
 TraceDrawing DrawTrace(const truth::TracedTrial& trial, const DrawnArea& plan) {
   const truth::Trace& trace = trial.trace;
   Canvas canvas(plan);
-  canvas.DrawPath(Thinned(PathOf(trace, BelievedPose)), "dead-reckoned path", kBelievedStyle);
-  canvas.DrawPath(Thinned(PathOf(trace, TruePose)), "true path", kTrueStyle);
+  canvas.DrawPath(Thinned(BelievedPath(trace), kMaxDrawnPoints), "dead-reckoned path",
+                  kBelievedStyle);
+  canvas.DrawPath(Thinned(TruePath(trace), kMaxDrawnPoints), "true path", kTrueStyle);
   DrawMarks(trace, "hazard", canvas);
   DrawMarks(trace, "scrape", canvas);
   if (!trace.samples.empty()) {
     canvas.DrawArrow(BelievedPose(trace.samples.back()), kBelievedColour, "believed end");
-    canvas.DrawArrow(TruePose(trace.samples.back()), kTrueColour, "true end");
+    canvas.DrawArrow(trace.samples.back().pose, kTrueColour, "true end");
   }
   DrawFooter(trial, canvas);
   return canvas.Take();

@@ -22,18 +22,18 @@ namespace {
 using core::kInfinity;
 using core::kNaN;
 
-// The values of one record that a statistic needs.
+// The values of one record that a statistic needs, or one term of it.
 struct Values {
   double of_column = 0.0;
   double base = 0.0;
   double abscissa = 0.0;
 };
 
-struct Columns {
-  std::size_t column = 0;
-  std::optional<std::size_t> of;
-  std::optional<std::size_t> along;
-};
+// Every statistic but kRatioSum has the one term of its `column` over `of`.
+std::vector<RatioTerm> TermsOf(const PublishedValue& published) {
+  if (published.statistic == StatisticKind::kRatioSum) return published.terms;
+  return {{{published.column}, published.of}};
+}
 
 bool Counts(const PublishedValue& published, const ScenarioRun& run, const truth::Record& record) {
   if (IsFault(record) || record.values.size() != run.schema.size()) return false;
@@ -45,7 +45,11 @@ bool Counts(const PublishedValue& published, const ScenarioRun& run, const truth
 
 // Name of a column that the run lacks; empty where it has all.
 std::string MissingColumn(const PublishedValue& published, const ScenarioRun& run) {
-  std::vector<std::string> names{published.column, published.of, published.along};
+  std::vector<std::string> names{published.along};
+  for (const RatioTerm& term : TermsOf(published)) {
+    names.insert(names.end(), term.columns.begin(), term.columns.end());
+    names.push_back(term.of);
+  }
   for (const ColumnRange& range : published.where) names.push_back(range.column);
   for (const std::string& name : names) {
     if (!name.empty() && !ColumnIndex(run.schema, name)) return name;
@@ -53,17 +57,33 @@ std::string MissingColumn(const PublishedValue& published, const ScenarioRun& ru
   return "";
 }
 
-std::vector<Values> ValuesOf(const PublishedValue& published, const ScenarioRun& run) {
-  const Columns columns{*ColumnIndex(run.schema, published.column),
-                        ColumnIndex(run.schema, published.of),
-                        ColumnIndex(run.schema, published.along)};
+// Of every record that counts. A statistic without a base has the base 1.
+std::vector<Values> ValuesOf(const PublishedValue& published, const RatioTerm& term,
+                             const ScenarioRun& run) {
+  std::vector<std::size_t> columns;
+  columns.reserve(term.columns.size());
+  for (const std::string& name : term.columns) columns.push_back(*ColumnIndex(run.schema, name));
+  const auto of = ColumnIndex(run.schema, term.of);
+  const auto along = ColumnIndex(run.schema, published.along);
   std::vector<Values> values;
   for (const truth::Record& record : run.records) {
     if (!Counts(published, run, record)) continue;
-    values.push_back({record.values[columns.column], columns.of ? record.values[*columns.of] : 1.0,
-                      columns.along ? record.values[*columns.along] : 0.0});
+    Values& added = values.emplace_back();
+    for (const std::size_t column : columns) added.of_column += record.values[column];
+    added.base = of ? record.values[*of] : 1.0;
+    added.abscissa = along ? record.values[*along] : 0.0;
   }
   return values;
+}
+
+// By term.
+std::vector<std::vector<Values>> TermValues(const PublishedValue& published,
+                                            const ScenarioRun& run) {
+  std::vector<std::vector<Values>> terms;
+  for (const RatioTerm& term : TermsOf(published)) {
+    terms.push_back(ValuesOf(published, term, run));
+  }
+  return terms;
 }
 
 Values SumOf(const std::vector<Values>& values) {
@@ -73,6 +93,13 @@ Values SumOf(const std::vector<Values>& values) {
     sum.base += each.base;
   }
   return sum;
+}
+
+// Whether there are runs, and something to divide by in every term.
+bool Defined(const std::vector<std::vector<Values>>& terms) {
+  return std::all_of(terms.begin(), terms.end(), [](const std::vector<Values>& values) {
+    return !values.empty() && SumOf(values).base > 0.0;
+  });
 }
 
 // Whether the base is one of independent trials (truth::ColumnRole::kTrials); no other promises
@@ -108,7 +135,8 @@ Interval MeanInterval(double mean, const std::vector<double>& residuals, double 
   return {mean - half, mean + half};
 }
 
-void SetRate(bool independent, const std::vector<Values>& values, const Values& sum, Row& row) {
+void SetRate(bool independent, const std::vector<Values>& values, Row& row) {
+  const Values sum = SumOf(values);
   row.value.pool = std::llround(sum.base);
   row.value.pool_value = sum.of_column / sum.base;
   row.interval = [values, independent](double confidence) {
@@ -116,20 +144,26 @@ void SetRate(bool independent, const std::vector<Values>& values, const Values& 
   };
 }
 
-// Ratio of two sums over independent runs, by linearization: residuals x - R y over the mean of y.
-void SetRatio(const PublishedValue& published, const std::vector<Values>& values, const Values& sum,
-              Row& row) {
-  const double ratio = sum.of_column / sum.base;
-  std::vector<double> residuals;
-  residuals.reserve(values.size());
-  for (const Values& each : values) residuals.push_back(each.of_column - ratio * each.base);
-  // Var(R) is near var(x - R y) / (n mean(y)^2): residuals over the mean of y, 1/mean(y) = n / sum
-  // y.
-  const double scale = published.factor * static_cast<double>(values.size()) / sum.base;
-  const double mean = published.factor * ratio;
+// Ratios of two sums over independent runs, added up, by linearization: a run's residual is the sum
+// of (x - R y) over the mean of y. So terms that go together in a run are taken as such.
+void SetRatios(const PublishedValue& published, const std::vector<std::vector<Values>>& terms,
+               Row& row) {
+  double total = 0.0;
+  std::vector<double> residuals(terms.front().size(), 0.0);
+  for (const std::vector<Values>& values : terms) {
+    const Values sum = SumOf(values);
+    const double ratio = sum.of_column / sum.base;
+    const double inverse_mean = static_cast<double>(values.size()) / sum.base;
+    total += ratio;
+    for (std::size_t run = 0; run < values.size(); ++run) {
+      residuals[run] += (values[run].of_column - ratio * values[run].base) * inverse_mean;
+    }
+  }
+  const double mean = published.factor * total;
   row.value.pool_value = mean;
-  row.interval = [mean, residuals, scale](double confidence) {
-    return MeanInterval(mean, residuals, scale, confidence);
+  // Var(sum of R) is near the variance of the residuals over n.
+  row.interval = [mean, residuals, factor = published.factor](double confidence) {
+    return MeanInterval(mean, residuals, factor, confidence);
   };
 }
 
@@ -193,6 +227,10 @@ void SetMean(const PublishedValue& published, const std::vector<Values>& values,
 // Of the interval of a reading beside a row, by itself.
 constexpr double kSideConfidence = 0.95;
 
+bool IsRatio(StatisticKind kind) {
+  return kind == StatisticKind::kRatio || kind == StatisticKind::kRatioSum;
+}
+
 // The same ratio or mean over the simulated runs that arrived, where some did and some did not.
 std::optional<SideStatistic> ArrivalsAlone(const PublishedValue& published,
                                            const ScenarioRun& run) {
@@ -201,15 +239,14 @@ std::optional<SideStatistic> ArrivalsAlone(const PublishedValue& published,
                [](const truth::Record& r) { return truth::DeclaredSuccess(r.outcome); });
   ScenarioRun arrived = run;
   arrived.records = arrivals;
-  const std::vector<Values> values = ValuesOf(published, arrived);
-  if (values.empty() || values.size() == ValuesOf(published, run).size()) return std::nullopt;
-  const Values sum = SumOf(values);
-  if (!(sum.base > 0.0)) return std::nullopt;
+  const std::vector<std::vector<Values>> terms = TermValues(published, arrived);
+  const std::size_t all = TermValues(published, run).front().size();
+  if (!Defined(terms) || terms.front().size() == all) return std::nullopt;
   Row row;
-  if (published.statistic == StatisticKind::kRatio) {
-    SetRatio(published, values, sum, row);
+  if (IsRatio(published.statistic)) {
+    SetRatios(published, terms, row);
   } else {
-    SetMean(published, values, row);
+    SetMean(published, terms.front(), row);
   }
   return SideStatistic{"arrivals alone", row.value.pool_value, row.interval(kSideConfidence), kNaN};
 }
@@ -223,19 +260,20 @@ std::string ToleranceRemark(const PublishedValue& published) {
 Row CompareTolerance(const PublishedValue& published, const ScenarioRun& run) {
   const std::string missing = MissingColumn(published, run);
   if (!missing.empty()) return NotJudged(published, "the runs have no column " + missing);
-  const std::vector<Values> values = ValuesOf(published, run);
-  const Values sum = SumOf(values);
-  if (values.empty() || !(sum.base > 0.0)) return NotJudged(published, "no simulated runs");
+  const std::vector<std::vector<Values>> terms = TermValues(published, run);
+  if (!Defined(terms)) return NotJudged(published, "no simulated runs");
+  const std::vector<Values>& values = terms.front();
   Row row;
   row.value.published = published;
   row.value.pool = static_cast<std::int64_t>(values.size());
   row.value.remark = ToleranceRemark(published);
   switch (published.statistic) {
     case StatisticKind::kRate:
-      SetRate(Independent(published, run), values, sum, row);
+      SetRate(Independent(published, run), values, row);
       break;
     case StatisticKind::kRatio:
-      SetRatio(published, values, sum, row);
+    case StatisticKind::kRatioSum:
+      SetRatios(published, terms, row);
       break;
     case StatisticKind::kMean:
       SetMean(published, values, row);
@@ -245,7 +283,7 @@ Row CompareTolerance(const PublishedValue& published, const ScenarioRun& run) {
       break;
   }
   row.value.median = row.value.pool_value;
-  if (published.statistic == StatisticKind::kRatio || published.statistic == StatisticKind::kMean) {
+  if (IsRatio(published.statistic) || published.statistic == StatisticKind::kMean) {
     if (const auto side = ArrivalsAlone(published, run)) row.value.beside.push_back(*side);
   }
   return row;

@@ -44,6 +44,7 @@ Row CompareOne(const PublishedValue& published, std::span<const ScenarioRun> run
     }
     case StatisticKind::kRate:
     case StatisticKind::kRatio:
+    case StatisticKind::kRatioSum:
     case StatisticKind::kMean:
     case StatisticKind::kCrossing:
       return CompareTolerance(published, *run);

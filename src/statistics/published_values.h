@@ -25,6 +25,7 @@ enum class StatisticKind {
   kRate,      // `column` over `of`, both added up: a binomial rate of independent scenes, or one of
               // events that depend on one another within a run
   kRatio,     // the same, times `factor`, for sums that count no independent events
+  kRatioSum,  // such ratios added up: `terms`, times `factor`
   kMean,      // of `column` over the runs, times `factor`
   kCrossing,  // where the rate of `column` over `of` first passes `level` along `along`, times
               // `factor`
@@ -60,6 +61,12 @@ struct ColumnRange {
   std::string column;
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
+};
+
+// A term of kRatioSum: all of `columns` over `of`, each added up over the runs.
+struct RatioTerm {
+  std::vector<std::string> columns;
+  std::string of;
 };
 
 // How independent a comparison is of the published data.
@@ -101,9 +108,10 @@ struct PublishedValue {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   std::string of;                  // column of the base: kRate, kRatio, kCrossing
-  double factor = 1.0;             // to the published unit: kRatio, kMean, kCrossing
+  double factor = 1.0;             // to the published unit: kRatio, kRatioSum, kMean, kCrossing
   std::string along;               // column of the abscissa: kCrossing
   double level = 0.5;              // kCrossing
+  std::vector<RatioTerm> terms;    // kRatioSum
   std::vector<ColumnRange> where;  // records that count; all where empty
   Formula formula = Formula::kNone;
   std::vector<double> inputs;

@@ -8,6 +8,7 @@
 
 #include "terrain/arena.h"
 #include "terrain/field_export.h"
+#include "terrain/rock_points.h"
 
 namespace rockyard::terrain {
 namespace {
@@ -15,16 +16,6 @@ namespace {
 constexpr double kGroundGrid_m = 0.1;
 constexpr int kMeridians = 16;
 constexpr int kParallels = 8;  // intervals from pole to pole
-constexpr int kOctagon = 8;
-
-// A point of the rock from the coordinates in which its semi-axes are 1.
-math::Vector3 OnRock(const Rock& rock, const math::Vector3& unit) {
-  // p_W = centre + Rz(yaw) diag(a, b, c) u.
-  const math::Vector3 p = unit.cwiseProduct(rock.semi_axes_m);
-  const double c = std::cos(rock.yaw_rad);
-  const double s = std::sin(rock.yaw_rad);
-  return rock.center_W + math::Vector3(c * p.x() - s * p.y(), s * p.x() + c * p.y(), p.z());
-}
 
 // Writes vertices and faces and counts the vertices, which OBJ numbers from 1 over the whole file.
 class ObjWriter {
@@ -88,11 +79,10 @@ Parallel SphereParallel(int number) {
 }
 
 // From the base, 1, to the top, kParallels: denser towards the top, where a cap bends.
-Parallel CapParallel(double growth, int number) {
+Parallel CapParallel(const Rock& rock, int number) {
   const double share = static_cast<double>(kParallels - number) / (kParallels - 1);
-  // rho^2 = A s + (1 - A) s^2 at the share s of the height below the top.
-  const double s = share * share;
-  return {std::sqrt((growth + (1.0 - growth) * s) * s), 1.0 - s};
+  const double height = 1.0 - share * share;
+  return {ParallelRadius(rock, height), height};
 }
 
 void WriteRock(const Rock& rock, int index, ObjWriter& obj) {
@@ -102,7 +92,7 @@ void WriteRock(const Rock& rock, int index, ObjWriter& obj) {
       OnRock(rock, cap ? math::Vector3::Zero() : math::Vector3(-math::Vector3::UnitZ())));
   // Parallels from the lowest one up, each with kMeridians points; fans close both ends.
   for (int i = 1; i < kParallels; ++i) {
-    const Parallel parallel = cap ? CapParallel(rock.cap_growth, i) : SphereParallel(i);
+    const Parallel parallel = cap ? CapParallel(rock, i) : SphereParallel(i);
     for (int j = 0; j < kMeridians; ++j) {
       const double longitude = 2.0 * std::numbers::pi * j / kMeridians;
       obj.Vertex(OnRock(rock, {parallel.radius * std::cos(longitude),
@@ -152,9 +142,7 @@ int Grey(const Rock& rock) {
 
 void DrawRock(const Rock& rock, int index, std::string& svg) {
   svg += "<polygon points=\"";
-  for (int i = 0; i < kOctagon; ++i) {
-    const double angle = 2.0 * std::numbers::pi * (i + 0.5) / kOctagon;
-    const math::Vector3 p = OnRock(rock, {std::cos(angle), std::sin(angle), 0.0});
+  for (const math::Vector3& p : PlanOutline(rock)) {
     // SVG's y axis points down.
     fmt::format_to(std::back_inserter(svg), "{:.3f},{:.3f} ", p.x(), -p.y());
   }

@@ -1,4 +1,5 @@
-// Tables 2 and 3 of Goldberg 2002 as data: mean times of every step of a navigation cycle.
+// Tables 2 and 3 of Goldberg 2002 as data: mean times of every step of a navigation cycle. The
+// clock of a trial and the benchmark of GESTALT read them here.
 #pragma once
 
 #include <array>

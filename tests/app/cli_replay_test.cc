@@ -186,7 +186,15 @@ TEST_F(CliReplayStep, ListsTheSteps) {
 TEST_F(CliReplayStep, DrawsOneStep) {
   const CommandResult result = Run(Trial({"--step", "2", "--out", "step"}));
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(ReadFile(work() / "step" / "step.svg"), HasSubstr("trial 0, step 2: forward"));
+  const std::string svg = ReadFile(work() / "step" / "step.svg");
+  EXPECT_THAT(svg, HasSubstr("trial 0, step 2: forward"));
+  // Both paths, the outline of the rover, cells of the grid in the view ahead; of some hundred
+  // rocks.
+  EXPECT_THAT(svg, HasSubstr("stroke=\"#b0005a\""));
+  EXPECT_THAT(svg, HasSubstr("<title>goal</title>"));
+  EXPECT_THAT(svg, HasSubstr("left front camera"));
+  EXPECT_THAT(svg, HasSubstr("fill-opacity=\"0.55\""));
+  EXPECT_LT(svg.size(), 400000u);
   const std::string votes = ReadFile(work() / "step" / "votes.csv");
   EXPECT_EQ(std::count(votes.begin(), votes.end(), '\n'), 1 + 23 + 23 + 2);
   const std::string map = ReadFile(work() / "step" / "map.csv");

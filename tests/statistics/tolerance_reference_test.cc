@@ -106,5 +106,32 @@ TEST(HazardReference, MistakesAreNamed) {
               HasSubstr("has no tolerance"));
 }
 
+TEST(RatioSumReference, MistakesAreNamed) {
+  const std::string sum = R"("statistic": "ratio_sum", "scenario": "s", "value": 1, "low": 0)";
+  const auto with = [&](const std::string& terms) { return ProblemsOf(sum + ", " + terms); };
+  const std::string term = R"({"columns": ["a", "b"], "of": "c"})";
+  EXPECT_EQ(with(R"("terms": [)" + term + "]"), "");
+  EXPECT_THAT(ProblemsOf(sum), HasSubstr("belong to ratio_sum"));
+  EXPECT_THAT(with(R"("column": "d", "terms": [)" + term + "]"),
+              HasSubstr("beside the columns of terms"));
+  EXPECT_THAT(with(R"("of": "d", "terms": [)" + term + "]"), HasSubstr("base of a rate"));
+  EXPECT_THAT(with(R"("terms": [{"columns": ["a"]}])"), HasSubstr("terms[0].of"));
+  EXPECT_THAT(with(R"("terms": [{"of": "c"}])"), HasSubstr("terms[0].columns: is missing"));
+  EXPECT_THAT(with(R"("terms": [{"columns": [1], "of": "c"}])"),
+              HasSubstr("terms[0].columns[0]: is no text"));
+  EXPECT_THAT(ProblemsOf(R"("statistic": "ratio", "scenario": "s", "column": "a", "of": "b",)"
+                         R"("value": 1, "low": 0, "terms": [)" +
+                         term + "]"),
+              HasSubstr("belong to ratio_sum"));
+  EXPECT_THAT(ProblemsOf(R"("statistic": "mode", "scenario": "s", "column": "c", "sample_size": 9,)"
+                         R"("value": 1, "terms": [)" +
+                         term + "]"),
+              HasSubstr("the statistic has none"));
+  EXPECT_THAT(ProblemsOf(R"("statistic": "computed", "formula": "sum", "inputs": [1], "low": 0,)"
+                         R"("terms": [)" +
+                         term + "]"),
+              HasSubstr("nothing is simulated"));
+}
+
 }  // namespace
 }  // namespace rockyard::report

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -272,6 +273,60 @@ TEST(Tolerances, RatiosAndMeansTakeTheScatterOfTheRuns) {
   EXPECT_EQ(exact.interval.low, 500.0);
   EXPECT_EQ(exact.interval.high, 500.0);
   EXPECT_EQ(exact.verdict, Verdict::kAgrees);
+}
+
+truth::RecordSchema Named(std::initializer_list<const char*> names) {
+  truth::RecordSchema schema;
+  for (const char* name : names) schema.push_back({name, "1", "for this test"});
+  return schema;
+}
+
+// Two terms, by hand: (10 + 20 + 5 + 15) / (2 + 3) + (7 + 2) / (1 + 2) = 10 + 3, times 2.
+TEST(Tolerances, RatiosOfSumsAddUp) {
+  const std::vector<Record> records{{0, TrialOutcome::kMeasured, "", {10.0, 20.0, 2.0, 7.0, 1.0}},
+                                    {1, TrialOutcome::kMeasured, "", {5.0, 15.0, 3.0, 2.0, 2.0}}};
+  PublishedReference reference;
+  PublishedValue& value = reference.values.emplace_back();
+  value.id = "sum";
+  value.scenario = "run";
+  value.statistic = StatisticKind::kRatioSum;
+  value.terms = {{{"a", "b"}, "looks"}, {{"c"}, "moves"}};
+  value.factor = 2.0;
+  value.low = 25.0;
+  value.high = 27.0;
+  const ScenarioRun run{"run", Named({"a", "b", "looks", "c", "moves"}), records};
+  const ComparedValue sum = Compare(reference, {&run, 1}).values.front();
+  EXPECT_NEAR(sum.pool_value, 26.0, 1e-12);
+  // Residuals of both runs: (30 - 10 x 2) / 2.5 + (7 - 3 x 1) / 1.5 = 20/3, and -20/3. Their
+  // standard deviation is 20/3 sqrt(2), t of one degree of freedom at 0.975 is 12.7062.
+  EXPECT_NEAR(sum.interval.high - sum.pool_value, 2.0 * 12.7062 * 20.0 / 3.0, 1e-3);
+  EXPECT_EQ(sum.verdict, Verdict::kUnderpowered);
+
+  value.terms[1].of = "no_such_column";
+  EXPECT_EQ(Compare(reference, {&run, 1}).values.front().verdict, Verdict::kNotJudged);
+}
+
+// A run that looks longer and drives shorter scatters in each term, not in their sum.
+TEST(Tolerances, TermsThatGoTogetherInARunAreTakenTogether) {
+  std::vector<Record> records;
+  for (std::uint32_t i = 0; i < 10; ++i) {
+    const double shift = i % 2 == 0 ? 3.0 : -3.0;
+    records.push_back({i, TrialOutcome::kMeasured, "", {20.0 + shift, 1.0, 15.0 - shift, 1.0}});
+  }
+  PublishedReference reference;
+  PublishedValue& value = reference.values.emplace_back();
+  value.id = "sum";
+  value.scenario = "run";
+  value.statistic = StatisticKind::kRatioSum;
+  value.terms = {{{"a"}, "looks"}, {{"c"}, "moves"}};
+  value.low = 34.9;
+  value.high = 35.1;
+  const ScenarioRun run{"run", Named({"a", "looks", "c", "moves"}), records};
+  EXPECT_EQ(Compare(reference, {&run, 1}).values.front().verdict, Verdict::kAgrees);
+  value.terms.pop_back();
+  value.low = 19.9;
+  value.high = 20.1;
+  EXPECT_EQ(Compare(reference, {&run, 1}).values.front().verdict, Verdict::kUnderpowered);
 }
 
 TEST(Tolerances, WhatIsComputedNeedsNoRun) {

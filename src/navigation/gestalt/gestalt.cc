@@ -257,6 +257,7 @@ NavigatorDecision GestaltNavigator::Begin(Mode mode, const MotionCommand& motion
 void GestaltNavigator::FillView(const NavigatorInput& input) {
   view_.step = decisions_++;
   view_.estimate = input.estimate;
+  view_.attitude = input.attitude;
   view_.goal = goal_;
   view_.looked_behind = looked_behind_;
   view_.map = map_.View();

@@ -107,6 +107,8 @@ TEST(GestaltNavigator, MapsWhatItSeesFromTheBelievedAttitude) {
     ASSERT_NEAR(cell.elevation_m, 0.0, 2e-6) << "points are rounded to 1 um";
   }
   EXPECT_GT(seen, 100);
+  EXPECT_EQ(drive.navigator().view()->attitude.roll_rad, setup.attitude.roll_rad);
+  EXPECT_EQ(drive.navigator().view()->attitude.z_m, setup.attitude.z_m);
   EXPECT_EQ(drive.Run(), NavigatorStatus::kArrived);
 }
 
