@@ -29,8 +29,8 @@ inline void WriteFile(const std::filesystem::path& path, const std::string& text
   std::ofstream(path, std::ios::binary) << text;
 }
 
-// A process that has ended, but whom nobody has waited for, is not alive. The state is read, not the
-// command line: a process that is starting its program has none for a moment.
+// A process that has ended, but whom nobody has waited for, is not alive. The state is read, not
+// the command line: a process that is starting its program has none for a moment.
 inline bool Alive(pid_t process) {
   const std::string stat = ReadFile("/proc/" + std::to_string(process) + "/stat");
   const std::size_t name_end = stat.rfind(')');  // the state follows the name: "7 (sh) R ..."
