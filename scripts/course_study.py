@@ -41,13 +41,14 @@ def read_course(path):
 
 
 def scenario_of(course, navigator, out):
-    """The course's own file, or its terrain, goal and referee for the behaviour controller."""
+    """The course's own file, or what it says of ground, odometer, goal and referee for the other one."""
     path = COURSES / f"{course}.json"
     if navigator == "gestalt":
         return path
     own = read_course(path)
     scenario = {"extends": str(BEHAVIOUR), "name": f"{own['name']}_behaviour"}
-    scenario |= {group: own[group] for group in ("terrain", "course", "referee") if group in own}
+    scenario |= {group: own[group] for group in ("terrain", "perception", "course", "referee")
+                 if group in own}
     # The base is of random rocks: the course says what stands in its way.
     scenario["terrain"].setdefault("rocks", {"kind": "none"})
     out.mkdir(parents=True, exist_ok=True)
