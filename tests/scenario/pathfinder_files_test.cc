@@ -26,7 +26,10 @@ std::map<std::string, Scenario> LoadAll() {
     const std::string folder = entry.path().parent_path().filename().string();
     if (folder == "navigation" || folder == "rovers" || folder == "sensors") continue;  // parts
     if (folder == "sweeps") continue;  // of scenarios
-    const std::string prefix = folder == "gestalt" ? "gestalt_" : "";
+    const std::map<std::string, std::string> prefixes = {{"gestalt", "gestalt_"},
+                                                         {"courses", "course_"}};
+    const auto found = prefixes.find(folder);
+    const std::string prefix = found == prefixes.end() ? "" : found->second;
     scenarios.emplace(prefix + entry.path().stem().string(), LoadScenario(entry.path()));
   }
   return scenarios;

@@ -40,7 +40,7 @@ Overrides Gravel() {
     rocks.height_m.push_back(0.025 + 0.02 * random.Uniform());
     rocks.diameter_m.push_back(1.6 * rocks.height_m.back());
   }
-  return rocks.AsOverrides() + Overrides{"course.goal_x_m=6"};
+  return rocks.AsOverrides() + Overrides{"course.goal_x_m=6.5"};
 }
 
 TEST(FeltGround, GravelBelowAQuarterOfTheWheelRaisesNothing) {
