@@ -112,7 +112,7 @@ GroundTouches FindGroundTouches(const terrain::Ground& ground, const math::Vecto
     return {{TouchAlong(ground, below_W, support), {}}, 1};
   }
   const RimSearch<Support> rim(ground, below_W, axle_W, support);
-  std::array<double, 2 * kPlaces + 1> heights_m;
+  std::array<double, 2 * kPlaces + 1> heights_m{};
   for (int i = 0; i <= 2 * kPlaces; ++i) {
     heights_m[static_cast<std::size_t>(i)] = rim.Height_m(kStep_rad * (i - kPlaces));
   }
