@@ -30,7 +30,6 @@ import sys
 from pathlib import Path
 
 import study
-from readme_tables import write_table
 
 CONFIDENCE = 0.90
 PATHFINDER = study.ROOT / "scenarios/pathfinder"
@@ -303,7 +302,7 @@ def main():
         text = text_of(args, name, rows, programs)
         print(f"{name}\n\n{text}\n", flush=True)
         if args.markdown:
-            write_table([args.markdown], name, text)
+            study.write_table([args.markdown], name, text)
         if args.csv:
             write_rows(args.csv, rows, [name])
     return int(any(row["verdict"] == "not equivalent" for row in found))

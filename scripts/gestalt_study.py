@@ -22,10 +22,9 @@ Runs that are there already are resumed. --markdown writes the tables between <!
 
 import argparse
 import sys
-from pathlib import Path
 
 import study
-from readme_tables import failures, write_table
+from readme_tables import failures
 
 SCENARIOS = study.ROOT / "scenarios/gestalt"
 QUASI_STATIC, MULTIBODY = "rover.fidelity=quasi_static", "rover.fidelity=multibody"
@@ -183,24 +182,8 @@ TABLES = {f.__name__: f for f in (odometer, changes, readings, dense)}
 def main():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--tables", default=",".join(TABLES), help="which, joined by commas")
     study.add_run_arguments(parser, trials=200, out="gestalt_study")
-    parser.add_argument("--markdown", type=Path, metavar="PAGE",
-                        help="write the tables between the marks of this page")
-    args = parser.parse_args()
-    names = args.tables.split(",")
-    for name in names:
-        if name not in TABLES:
-            parser.error(f"{name} is no table; there are {', '.join(TABLES)}")
-    for name in names:
-        runs = Runs(args)
-        text = TABLES[name](runs)
-        held = f"held: {', '.join(args.set)}; " if args.set else ""
-        text += (f"\n\n{args.trials} trials each, seed {args.seed}; {held}made by rockyard "
-                 f"{' and '.join(sorted(runs.programs))}.")
-        print(f"{name}\n\n{text}\n", flush=True)
-        if args.markdown:
-            write_table([args.markdown], name, text)
+    study.print_tables(study.parse_with_tables(parser, TABLES), TABLES, Runs)
     return 0
 
 

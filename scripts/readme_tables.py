@@ -21,7 +21,7 @@ from pathlib import Path
 
 import navigator_study
 from calibrate_odometer import calibrate
-from study import ROOT, compare, table, trial_columns
+from study import ROOT, compare, table, trial_columns, write_table
 
 REFERENCE = ROOT / "results/reference/matthies1995.json"
 HAZARD_REFERENCE = ROOT / "results/reference/matthies1995_hazard_detection.json"
@@ -493,20 +493,6 @@ TABLES = {f.__name__: f for f in (comparison, comparison_excerpt, hazards, missi
                                  heights, patience, odometer_sign, unmeasured, causes, fidelity, speed,
                                  gestalt, navigators, navigator_speed, abundance_sweep,
                                  navigator_sweep, attribution, scaling)}
-
-
-def write_table(pages, name, content):
-    """Replaces what stands between the marks of the table, on every page that has them."""
-    pattern = rf"(<!-- begin {name} -->\n).*?(\n<!-- end {name} -->)"
-    found = False
-    for page in pages:
-        text, count = re.subn(pattern, lambda match: match[1] + content + match[2],
-                              page.read_text(encoding="utf-8"), flags=re.DOTALL)
-        if count:
-            page.write_text(text, encoding="utf-8")
-            found = True
-    if not found:
-        sys.exit(f"no page has a table {name}")
 
 
 def main():

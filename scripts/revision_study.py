@@ -20,11 +20,9 @@ Runs that are there already are resumed. --markdown writes the tables between <!
 import argparse
 import sys
 from functools import partial
-from pathlib import Path
 
 import calibrate_profile
 import study
-from readme_tables import write_table
 
 PATHFINDER = study.ROOT / "scenarios/pathfinder"
 QUASI_STATIC = "rover.fidelity=quasi_static"
@@ -146,31 +144,11 @@ def heights(runs):
 TABLES = {f.__name__: f for f in (revision, readings, heights)}
 
 
-def parse_arguments():
+def main():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--tables", default=",".join(TABLES), help="which, joined by commas")
     study.add_run_arguments(parser, trials=1000, out="revision")
-    parser.add_argument("--markdown", type=Path, metavar="PAGE",
-                        help="write the tables between the marks of this page")
-    args = parser.parse_args()
-    for name in args.tables.split(","):
-        if name not in TABLES:
-            parser.error(f"{name} is no table; there are {', '.join(TABLES)}")
-    return args
-
-
-def main():
-    args = parse_arguments()
-    for name in args.tables.split(","):
-        runs = Runs(args)
-        text = TABLES[name](runs)
-        held = f"held: {', '.join(args.set)}; " if args.set else ""
-        text += (f"\n\n{args.trials} trials each, seed {args.seed}; quasi-static; {held}made by "
-                 f"rockyard {' and '.join(sorted(runs.programs))}.")
-        print(f"{name}\n\n{text}\n", flush=True)
-        if args.markdown:
-            write_table([args.markdown], name, text)
+    study.print_tables(study.parse_with_tables(parser, TABLES), TABLES, Runs, "quasi-static; ")
     return 0
 
 

@@ -200,6 +200,48 @@ def write_csv(path, rows):
         writer.writerows(rows)
 
 
+def write_table(pages, name, content):
+    """Replaces what stands between the marks of the table, on every page that has them."""
+    pattern = rf"(<!-- begin {name} -->\n).*?(\n<!-- end {name} -->)"
+    found = False
+    for page in pages:
+        text, count = re.subn(pattern, lambda match: match[1] + content + match[2],
+                              page.read_text(encoding="utf-8"), flags=re.DOTALL)
+        if count:
+            page.write_text(text, encoding="utf-8")
+            found = True
+    if not found:
+        sys.exit(f"no page has a table {name}")
+
+
+def parse_with_tables(parser, tables):
+    """Adds --tables and --markdown to the arguments and parses them; refuses names of no table."""
+    parser.add_argument("--tables", default=",".join(tables), help="which, joined by commas")
+    parser.add_argument("--markdown", type=Path, metavar="PAGE",
+                        help="write the tables between the marks of this page")
+    args = parser.parse_args()
+    for name in args.tables.split(","):
+        if name not in tables:
+            parser.error(f"{name} is no table; there are {', '.join(tables)}")
+    return args
+
+
+def print_tables(args, tables, make_runs, note=""):
+    """Makes the tables asked for, each with what it was run with, and writes them to the page.
+
+    `tables` are functions by name of what `make_runs(args)` gives, which knows its `programs`.
+    """
+    for name in args.tables.split(","):
+        runs = make_runs(args)
+        text = tables[name](runs)
+        held = f"held: {', '.join(args.set)}; " if args.set else ""
+        text += (f"\n\n{args.trials} trials each, seed {args.seed}; {note}{held}made by rockyard "
+                 f"{' and '.join(sorted(runs.programs))}.")
+        print(f"{name}\n\n{text}\n", flush=True)
+        if args.markdown:
+            write_table([args.markdown], name, text)
+
+
 COLOURS = ("#1b6ca8", "#c0392b", "#2e8b57", "#8e5ea2")
 PANEL_W, PANEL_H, MARGIN = 300, 190, 55
 
