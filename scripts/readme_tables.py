@@ -11,7 +11,6 @@ a change of the code. The whole takes some fifteen minutes of processor time.
 import argparse
 import csv
 import json
-import re
 import resource
 import shutil
 import subprocess
