@@ -125,17 +125,15 @@ void QuasiStaticBalance::SetTraction(const RestingContact& contact, Row& row) co
     row.max_N = 0.0;
   } else if (contact.IsSoil()) {
     const SoilAnswer soil = soil_.At(load_N);
-    // What the motor can hold at the rim bounds the traction as well.
-    row.motor_bound = soil.traction_N > stall_force_N_;
-    row.max_N = std::min(soil.traction_N, stall_force_N_);
+    row.max_N = soil.traction_N;
+    row.motor_bound = row.max_N > stall_force_N_;
     // A braked wheel holds up to its traction, without the creep of one that turns.
     row.shear_ratio = row.rim_m_s != 0.0 ? soil.shear_ratio : 0.0;
     row.u_per_speed_s_m = row.shear_ratio / row.reference_m_s;
     row.resistance_N = soil.resistance_N;
   } else if (contact.IsWheel() && contact.other >= 0) {
-    const double friction_N = contact_params_.wheel_rock_friction * load_N;
-    row.motor_bound = friction_N > stall_force_N_;
-    row.max_N = std::min(friction_N, stall_force_N_);
+    row.max_N = contact_params_.wheel_rock_friction * load_N;
+    row.motor_bound = row.max_N > stall_force_N_;
   } else {
     row.max_N = contact_params_.body_rock_friction * load_N;
   }
@@ -162,6 +160,44 @@ QuasiStaticBalance::Traction QuasiStaticBalance::TractionOf(const Row& row,
   return {per_speed, per_speed * creep2 / root2};
 }
 
+// With g(v) = F(v) / v, the derivatives of F_along = g a and F_across = g b are
+//   K_aa = g + c a^2,  K_ab = c a b,  K_bb = g + c b^2,  c = (F' - g) / v^2.
+// Away from the solution only g is kept, the chord: it is never less than the tangent, so the step
+// is safe.
+void QuasiStaticBalance::AcrossTheNormal(double along_m_s, double across_m_s, Row& row) const {
+  const double v_m_s = std::sqrt(along_m_s * along_m_s + across_m_s * across_m_s);
+  const Traction traction = TractionOf(row, v_m_s);
+  const double bend =
+      tangent_ && v_m_s > 0.0 ? (traction.slope - traction.per_speed) / (v_m_s * v_m_s) : 0.0;
+  row.slip_m_s = v_m_s;
+  row.yield_m_s = 0.0;
+  row.along_N = traction.per_speed * along_m_s;
+  row.across_N = traction.per_speed * across_m_s;
+  row.k_aa = traction.per_speed + bend * along_m_s * along_m_s;
+  row.k_ab = bend * along_m_s * across_m_s;
+  row.k_bb = traction.per_speed + bend * across_m_s * across_m_s;
+}
+
+// The rim falls back until the ground asks for the stall force S along it. Its slip then is large
+// over what is left of its own speed, so that soil, too, answers with all of its traction T, and
+// what S leaves of T acts across the wheel, smooth as on rock:
+//
+//   F_across = sqrt(T^2 - S^2) b / sqrt(b^2 + v_c^2),  a' = S sqrt(b^2 + v_c^2) / sqrt(T^2 - S^2).
+void QuasiStaticBalance::GiveWay(double along_m_s, double across_m_s, Row& row) const {
+  const double creep2 = row.creep_m_s * row.creep_m_s;
+  const double root2 = across_m_s * across_m_s + creep2;
+  const double per_speed =
+      std::sqrt((row.max_N * row.max_N - stall_force_N_ * stall_force_N_) / root2);
+  const double left_m_s = std::min(std::abs(along_m_s), stall_force_N_ / per_speed);
+  row.slip_m_s = std::sqrt(left_m_s * left_m_s + across_m_s * across_m_s);
+  row.yield_m_s = along_m_s - std::copysign(left_m_s, along_m_s);
+  row.along_N = std::copysign(stall_force_N_, along_m_s);
+  row.across_N = per_speed * across_m_s;
+  row.k_aa = tangent_ ? 0.0 : stall_force_N_ / std::abs(along_m_s);
+  row.k_ab = 0.0;
+  row.k_bb = tangent_ ? per_speed * creep2 / root2 : per_speed;
+}
+
 void QuasiStaticBalance::AddForces(const SideVector& w, RestingContact& contact, Row& row) {
   row.acts = false;
   // Penetration at the end of the step; N = k (depth - rest).
@@ -185,23 +221,13 @@ void QuasiStaticBalance::AddForces(const SideVector& w, RestingContact& contact,
   // rover is along s.
   const double along = row.rim_m_s - row.along.dot(w);
   const double across = -row.across.dot(w);
-  const double speed_m_s = std::sqrt(along * along + across * across);
-  contact.sliding_speed_m_s = speed_m_s;
-  const Traction traction = TractionOf(row, speed_m_s);
-  // F = f(|s|) s / |s| has the derivative (f/|s|) I + (f' - f/|s|) s s' / |s|^2. Away from the
-  // solution only the first term is kept, the chord: it is never less than the tangent, so the step
-  // is safe.
-  const double bend = tangent_ && speed_m_s > 0.0
-                          ? (traction.slope - traction.per_speed) / (speed_m_s * speed_m_s)
-                          : 0.0;
-  row.k_aa = traction.per_speed + bend * along * along;
-  row.k_ab = bend * along * across;
-  row.k_bb = traction.per_speed + bend * across * across;
-  const double F_along = traction.per_speed * along;
-  equations_.AddForce(row.side, contact.load_N * row.normal + F_along * row.along +
-                                    traction.per_speed * across * row.across);
+  AcrossTheNormal(along, across, row);
+  if (row.motor_bound && std::abs(row.along_N) > stall_force_N_) GiveWay(along, across, row);
+  contact.sliding_speed_m_s = row.slip_m_s;
+  equations_.AddForce(
+      row.side, contact.load_N * row.normal + row.along_N * row.along + row.across_N * row.across);
   if (!contact.IsWheel()) return;
-  torque_Nm_[static_cast<std::size_t>(contact.part)] += row.arm_m * F_along;
+  torque_Nm_[static_cast<std::size_t>(contact.part)] += row.arm_m * row.along_N;
   if (contact.IsSoil()) AddResistance(w, row);
 }
 
@@ -364,13 +390,12 @@ int QuasiStaticBalance::Solve(const Linkage& linkage, const Posture& posture, co
   return kMaxIterations;
 }
 
-messages::PerWheel<double> QuasiStaticBalance::TurnShares(const LinkageVector& rates) const {
+messages::PerWheel<double> QuasiStaticBalance::TurnShares() const {
   messages::PerWheel<double> shares;
   shares.fill(1.0);
   for (const Row& row : rows_) {
-    if (!row.acts || !row.motor_bound || row.rim_m_s == 0.0) continue;
-    // The rim does not slip: its speed is that of the axle's point over the ground.
-    const double share = row.along.dot(OfSide(rates, row.side)) / row.rim_m_s;
+    if (!row.acts || row.yield_m_s == 0.0 || row.rim_m_s == 0.0) continue;
+    const double share = 1.0 - row.yield_m_s / row.rim_m_s;
     shares[row.wheel] = std::min(shares[row.wheel], std::clamp(share, 0.0, 1.0));
   }
   return shares;
@@ -382,12 +407,13 @@ SteadyDrive QuasiStaticBalance::Steady(const LinkageVector& rates) const {
     if (!row.acts || row.rim_m_s == 0.0) continue;
     const SideVector w = OfSide(rates, row.side);
     WheelLump& lump = row.shear_ratio > 0.0 ? drive.soil : drive.rock;
-    lump.traction_N += row.max_N;
+    const double max_N = row.motor_bound ? stall_force_N_ : row.max_N;
+    lump.traction_N += max_N;
     // Backwards is along, too: all speeds count the way that the rim turns.
-    lump.rim_m_s += row.max_N * std::abs(row.rim_m_s);
-    lump.along_m_s += row.max_N * std::copysign(row.along.dot(w), row.along.dot(w) * row.rim_m_s);
-    lump.across_m_s += row.max_N * std::abs(row.across.dot(w));
-    lump.shear_ratio += row.max_N * row.shear_ratio;
+    lump.rim_m_s += max_N * std::abs(row.rim_m_s);
+    lump.along_m_s += max_N * std::copysign(row.along.dot(w), row.along.dot(w) * row.rim_m_s);
+    lump.across_m_s += max_N * std::abs(row.across.dot(w));
+    lump.shear_ratio += max_N * row.shear_ratio;
   }
   for (WheelLump* lump : {&drive.soil, &drive.rock}) {
     if (lump->traction_N == 0.0) continue;

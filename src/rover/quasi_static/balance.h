@@ -33,6 +33,9 @@ enum class Freedom { kAll, kSettling };
 // convex function (power of gravity, springs and dissipation; compare Pang and Tedrake 2021), and
 // Newton's method with cuts of the step finds it; T_c follows N_c from iteration to iteration.
 //
+// Where a motor's stall force S is less than F_c . a_c, its omega falls until F_c . a_c = S; what S
+// leaves of T_c acts across the wheel.
+//
 // D is 0.03 % of what weight and speed suggest: it says how fast a rover falls that nothing holds.
 class QuasiStaticBalance {
  public:
@@ -62,10 +65,10 @@ class QuasiStaticBalance {
   // the caller.
   SteadyDrive Steady(const LinkageVector& rates) const;
 
-  // Returns the share of its commanded rate at which each wheel turns in the last solution, whose
-  // rates are given: 1 but for a motor that stalls. There the ground could hold more than the stall
-  // torque, so that the rim does not slip over it: it moves along with it, not beyond rest.
-  messages::PerWheel<double> TurnShares(const LinkageVector& rates) const;
+  // Returns the share of its commanded rate at which each wheel turns in the last solution: 1 but
+  // for a motor that gives way because the ground holds more than its stall torque. Such a rim
+  // moves along with the ground, not beyond rest.
+  messages::PerWheel<double> TurnShares() const;
 
   // The motor's torque about the axle in the last solution, positive where it drives forward.
   double MotorTorque_Nm(std::size_t wheel) const { return torque_Nm_[wheel]; }
@@ -86,14 +89,17 @@ class QuasiStaticBalance {
     double reference_m_s = 0.0;  // slip is measured in shares of this
     // At the load that the traction is taken from.
     double max_N = 0.0;
-    bool motor_bound = false;      // the ground could hold more than the motor
+    bool motor_bound = false;      // the ground can hold more than the motor
     double shear_ratio = 0.0;      // 0: Coulomb
     double u_per_speed_s_m = 0.0;  // of the slip speed, where the shear ratio is not 0
     double creep_m_s = 0.0;        // slip speed at 0.7 of Coulomb's friction
     double resistance_N = 0.0;
-    // These are of the last evaluation: stiffness across the normal and of the motion resistance, N
-    // s/m.
+    // These are of the last evaluation: slip, what the rim is slower than told, forces, and the
+    // stiffness across the normal and of the motion resistance, N s/m.
     bool acts = false;
+    double slip_m_s = 0.0;
+    double yield_m_s = 0.0;
+    double along_N = 0.0, across_N = 0.0;
     double k_aa = 0.0, k_ab = 0.0, k_bb = 0.0;
     double k_axle = 0.0;
   };
@@ -112,6 +118,10 @@ class QuasiStaticBalance {
   // Forces at the given rates and their derivatives.
   void Evaluate(const LinkageVector& rates, std::vector<RestingContact>& contacts);
   void AddForces(const SideVector& rates, RestingContact& contact, Row& row);
+  // Sets slip, forces and stiffness of a row whose rim slips at that velocity: with the rim as fast
+  // as told, and where the motor cannot hold that.
+  void AcrossTheNormal(double along_m_s, double across_m_s, Row& row) const;
+  void GiveWay(double along_m_s, double across_m_s, Row& row) const;
   void FollowLoad(RestingContact& contact, Row& row);
   void AddResistance(const SideVector& rates, Row& row);
   void AddStiffness(const RestingContact& contact, const Row& row);

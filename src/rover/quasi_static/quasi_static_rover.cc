@@ -303,7 +303,7 @@ void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
     return RollOn();
   }
   Balance({rate_rad_s, stretch_.duration_s, lead_s, Freedom::kAll});
-  turn_share_ = balance_.TurnShares(rates_);
+  turn_share_ = balance_.TurnShares();
   // From here on RollOn may repeat this balance, which is the same in the rover's frame.
   steady_ = stands_level && MeetsNothing(rates_, lead_s) && IsSteady();
   Limit(stretch_.duration_s, kMaxMove * params_.quasi_static.settle_distance_m, kMaxTurn_rad,

@@ -1,6 +1,7 @@
 // The quasi-static rover on rocks and at walls: climbing, scraping, getting stuck.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "rover/rover_drive.h"
@@ -114,6 +115,56 @@ TEST(QuasiStaticMotor, AWheelThatTheMotorCannotTurnStands) {
       EXPECT_NEAR(strong[i], 1.0, 0.02) << "wheel " << i;
       const bool rear = i % 3 == 2;
       EXPECT_NEAR(weak[i], rear ? 0.0 : 1.0, 0.05) << "wheel " << i;
+    }
+  }
+}
+
+// What the wheels do in a second, against a rock as above along a slope that falls to the right by
+// 3 deg: how far they turn of what they are told, and their mean motor torque over that of stall.
+struct AcrossASlope {
+  messages::PerWheel<double> share{}, torque{};
+};
+
+AcrossASlope AtAWallAcrossASlope(Fidelity fidelity) {
+  RoverParams params;
+  params.fidelity = fidelity;
+  params.drive.stall_torque_Nm = 2.0;
+  terrain::GroundParams ground;
+  ground.slope_rad = math::DegToRad(3.0);
+  ground.slope_direction_rad = math::DegToRad(90.0);
+  const terrain::Terrain terrain(terrain::Ground(ground, {}),
+                                 {MakeRock(0.7, 0.0, 0.0, 0.2, 2.0, 0.6)}, {});
+  const auto rover = MakeRover(params, terrain);
+  rover->Place({});
+  const messages::WheelCommand command = Drive(params, 0.15, 0.0);
+  RunFor(*rover, command, 6.0);
+  const messages::PerWheel<double> before = rover->state().wheel_angle_rad;
+  AcrossASlope result;
+  const int steps = static_cast<int>(std::lround(1.0 / rover->step_s()));
+  for (int step = 0; step < steps; ++step) {
+    rover->Step(command);
+    for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+      result.torque[i] += rover->state().motor_torque_Nm[i] / params.drive.stall_torque_Nm / steps;
+    }
+  }
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    result.share[i] = (rover->state().wheel_angle_rad[i] - before[i]) / command.rate_rad_s[i];
+  }
+  return result;
+}
+
+// The ground's force across a wheel takes nothing from its motor: a wheel that stands shows its
+// stall torque.
+TEST(QuasiStaticMotor, AStalledWheelShowsItsStallTorqueUnderASideForce) {
+  const AcrossASlope quasi_static = AtAWallAcrossASlope(Fidelity::kQuasiStatic);
+  const AcrossASlope multibody = AtAWallAcrossASlope(Fidelity::kMultibody);
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    EXPECT_NEAR(quasi_static.share[i], multibody.share[i], 0.1) << "wheel " << i;
+    EXPECT_NEAR(quasi_static.torque[i], multibody.torque[i], 0.1) << "wheel " << i;
+    const bool rear = i % 3 == 2;
+    EXPECT_EQ(quasi_static.share[i] < 0.2, rear) << "wheel " << i;
+    if (rear) {
+      EXPECT_GT(quasi_static.torque[i], 0.98) << "wheel " << i;
     }
   }
 }
