@@ -74,6 +74,13 @@ GESTALT_NAMES = {
     "error": "localization_error, 7.6 m nominal",
     "error_oracle": "the same, perfect localization",
 }
+TABLE_3_STEPS = {
+    "BM_Step<FitPlanes<false>>": "fit planes",
+    "BM_Step<FitPlanes<true>>": "fit planes, with their slopes",
+    "BM_Step<Hazards>": "traversability analysis",
+    "BM_Step<PathVotes>": "path votes",
+    "BM_Cycle": "a whole cycle of the map, 16384 points",
+}
 MEANS = ("mean_a", "mean_b", "difference", "ci95_low", "ci95_high")
 QUASI_STATIC = ["rover.fidelity=quasi_static"]
 VERDICTS = ("agrees", "holds", "differs", "underpowered", "not judged")
@@ -82,8 +89,8 @@ VERDICTS = ("agrees", "holds", "differs", "underpowered", "not judged")
 class Study:
     """Runs scenarios once each and remembers what they cost."""
 
-    def __init__(self, rockyard, out):
-        self.rockyard, self.out = rockyard, out
+    def __init__(self, rockyard, benchmark, out):
+        self.rockyard, self.benchmark, self.out = rockyard, benchmark, out
 
     def folder(self, name, scenario):
         return self.out / name / scenario
@@ -425,6 +432,23 @@ def navigator_speed(study):
                  rows)
 
 
+def table_3(study):
+    """Steps of GESTALT beside table 3 of Goldberg 2002; None where the benchmark is not built."""
+    if not study.benchmark.exists():
+        return None
+    output = subprocess.run([study.benchmark, "--benchmark_format=json"], capture_output=True,
+                            text=True, check=True).stdout
+    rows = []
+    for result in json.loads(output)["benchmarks"]:
+        step, cells = TABLE_3_STEPS[result["name"].split("/")[0]], result["label"].split(" cm ")[0]
+        growth = [f"{result[key]:.2f}" if key in result else "-"
+                  for key in ("growth", "P3_growth", "Sparc_growth", "RAD_growth")]
+        printed = f"{result['P3_ms']:.3g}" if "P3_ms" in result else "-"
+        rows.append([step, cells, f"{result['cpu_time']:.3f}", printed, *growth])
+    return table(["step", "cells (cm)", "time (ms)", "Pentium III, printed (ms)",
+                  "over the next coarser cells", "Pentium III", "Sparc", "RAD6000"], rows)
+
+
 def abundance_sweep(study):
     """Success over rock abundance with its fit; the drawing goes to results/studies."""
     text = study.swept("abundance", 1000)
@@ -490,21 +514,24 @@ def scaling(study):
 TABLES = {f.__name__: f for f in (comparison, comparison_excerpt, hazards, mission, verdicts,
                                  errors, envelope, corridor, revision, readings,
                                  heights, patience, odometer_sign, unmeasured, causes, fidelity, speed,
-                                 gestalt, navigators, navigator_speed, abundance_sweep,
-                                 navigator_sweep, attribution, scaling)}
+                                 gestalt, navigators, navigator_speed, table_3,
+                                 abundance_sweep, navigator_sweep, attribution, scaling)}
 
 
 def main():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rockyard", type=Path, default=ROOT / "build/release/bin/rockyard")
+    parser.add_argument("--benchmark", type=Path,
+                        default=ROOT / "build/release/tests/navigation/gestalt_benchmark",
+                        help="for table_3 (built with -DROCKYARD_BUILD_BENCHMARKS=ON)")
     parser.add_argument("--out", type=Path, default=ROOT / "results/runs/readme")
     parser.add_argument("--pages", type=Path, nargs="+",
                         default=[ROOT / "README.md", *sorted((ROOT / "results").glob("*.md"))],
                         help="where the tables stand (README.md and results/*.md)")
     parser.add_argument("--tables", default=",".join(TABLES), help="which, joined by commas")
     args = parser.parse_args()
-    study = Study(args.rockyard, args.out)
+    study = Study(args.rockyard, args.benchmark, args.out)
     for name in args.tables.split(","):
         if name not in TABLES:
             sys.exit(f"{name} is no table; there are {', '.join(TABLES)}")

@@ -728,6 +728,38 @@ END
         self.assertEqual(self.called("rockyard"), [])
 
 
+class Table3(ScriptTest):
+    """With a benchmark of one step at two sizes of cells."""
+
+    BENCHMARK = """#!/bin/sh
+cat << END
+{"benchmarks": [
+  {"name": "BM_Step<FitPlanes<false>>/cells:1", "label": "20 cm 01ab", "cpu_time": 0.08125,
+   "P3_ms": 140, "growth": 6.5, "P3_growth": 4.76, "Sparc_growth": 5.31, "RAD_growth": 3.01},
+  {"name": "BM_Cycle/cells:0", "label": "50 cm 02cd", "cpu_time": 0.5}]}
+END
+"""
+
+    def write(self):
+        page = self.root / "page.md"
+        page.write_text("<!-- begin table_3 -->\n\n<!-- end table_3 -->\n", encoding="utf-8")
+        result = self.run_script("readme_tables.py", "--tables", "table_3", "--pages", str(page))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return page.read_text(encoding="utf-8"), result.stderr
+
+    def test_stands_beside_what_is_printed(self):
+        self.fake("build/release/tests/navigation/gestalt_benchmark").write_text(
+            self.BENCHMARK, encoding="utf-8")
+        text, _ = self.write()
+        self.assertIn("| fit planes | 20 | 0.081 | 140 | 6.50 | 4.76 | 5.31 | 3.01 |", text)
+        self.assertIn("| a whole cycle of the map, 16384 points | 50 | 0.500 | - | - |", text)
+
+    def test_without_a_benchmark_the_page_stays(self):
+        text, said = self.write()
+        self.assertNotIn("|", text)
+        self.assertIn("table_3: not run, left as it is", said)
+
+
 class CourseStudy(ScriptTest):
     """With a rockyard of whose four trials three truly arrive."""
 
