@@ -92,6 +92,12 @@ void AddProcessOptions(CLI::App& command, CampaignOptions& options) {
                   "CPU seconds after which a trial is taken to hang; 0: none")
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
+  command
+      .add_option("--rank-silence", options.request.containment.rank_silence_s,
+                  "under mpirun: seconds without a sign of life after which a rank is given up and "
+                  "others run its trials; 0: waits for ever")
+      ->check(CLI::Range(2.0, 1e6) | CLI::IsMember({0.0}))
+      ->capture_default_str();
   CLI::Option* json =
       command.add_flag("--json", options.json, "print summary.json instead of the table");
   command.add_flag("--quiet", options.quiet, "print nothing but errors")->excludes(json);

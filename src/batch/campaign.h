@@ -1,6 +1,7 @@
 // What a campaign is: a list of cells, each one resolved scenario with its trials.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -49,7 +50,7 @@ struct TrialId {
   int cell = 0;  // index in CampaignIdentity::cells
   std::int64_t trial = 0;
 
-  bool operator==(const TrialId&) const = default;
+  auto operator<=>(const TrialId&) const = default;
 };
 
 struct CellRecord {

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace rockyard::batch {
@@ -28,6 +29,17 @@ class Communicator {
 
   // The next message, if one is there.
   virtual std::optional<Message> Poll() = 0;
+
+  // Ends this process and all other ranks at once, with that exit code: for a job with a rank that
+  // no longer answers, which an ordinary end would wait for.
+  [[noreturn]] virtual void Abort(int exit_code) = 0;
+
+  // A rank that nobody waits for any more: the job ends with Abort.
+  void GiveUp(int rank) { given_up_.insert(rank); }
+  const std::set<int>& given_up() const { return given_up_; }
+
+ private:
+  std::set<int> given_up_;
 };
 
 // Where this process stands among those that mpirun (or srun) started, as its environment says:

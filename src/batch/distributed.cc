@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <set>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -18,12 +19,14 @@ using Clock = std::chrono::steady_clock;
 
 // To rank 0.
 constexpr int kReport = 1;  // records, trials wanted, 1 where the rank wants to end
-constexpr int kBye = 2;     // records, trials that were not begun
+constexpr int kBye = 2;     // records, trials that were not begun, trials that are overdue
 // From rank 0.
 constexpr int kBlock = 3;  // trials, 1 where it is the last
 
 // Records are sent when trials are asked for, or after this.
 constexpr std::chrono::milliseconds kSendEvery{50};
+// A rank with nothing to say says so.
+constexpr std::chrono::milliseconds kSignEvery{500};
 
 // Sleeps longer the longer there is nothing to do: at most 2 ms, which 1000 trials per second and
 // thread do not notice.
@@ -66,10 +69,11 @@ class Engine {
 // Serves the other ranks from the source of rank 0.
 class Desk {
  public:
-  Desk(Communicator& communicator, LocalWorkSource& source)
+  Desk(Communicator& communicator, LocalWorkSource& source, const RankWatch& watch)
       : communicator_(communicator),
         source_(source),
-        ranks_(static_cast<std::size_t>(communicator.size())) {
+        watch_(watch),
+        ranks_(static_cast<std::size_t>(communicator.size()), Rank{.heard = Clock::now()}) {
     ranks_[0].gone = true;
   }
 
@@ -85,14 +89,18 @@ class Desk {
       busy = true;
     }
     for (std::size_t rank = 1; rank < ranks_.size(); ++rank) {
-      if (ranks_[rank].wanted > 0 && !ranks_[rank].closed)
+      if (ranks_[rank].wanted > 0 && !ranks_[rank].closed && !ranks_[rank].gone)
         busy = Answer(static_cast<int>(rank)) || busy;
     }
+    if (watch_.silence.count() > 0) GiveUpSilentRanks();
+    if (overdue_) EndWhereNothingElseIsLeft();
     return busy;
   }
 
  private:
   struct Rank {
+    Clock::time_point heard;  // the last time that it said anything
+    std::set<TrialId> has{};  // trials that were sent to it and have not come back
     std::int64_t wanted = 0;
     bool closed = false;  // has its last block: it reads no other one after that
     bool gone = false;
@@ -102,16 +110,49 @@ class Desk {
     if (message.tag != kReport && message.tag != kBye) {
       throw std::runtime_error("a rank says what it should not");
     }
+    if (communicator_.given_up().contains(message.rank)) return;  // others have its trials
     Rank& rank = ranks_.at(static_cast<std::size_t>(message.rank));
+    rank.heard = Clock::now();
     PacketReader packet(message.bytes);
-    for (CellRecord& record : packet.Records()) source_.Finish(std::move(record));
-    if (message.tag == kBye) {
-      rank.gone = true;
-      for (const TrialId& id : packet.Trials()) source_.PutBack(id);
-      return;
+    for (CellRecord& record : packet.Records()) {
+      rank.has.erase({record.cell, static_cast<std::int64_t>(record.record.trial)});
+      source_.Finish(std::move(record));
     }
+    if (message.tag == kBye) return ReceiveBye(message.rank, packet);
     rank.wanted += packet.Integer();
     if (packet.Integer() == 1 && !rank.closed) SendBlock(message.rank, {}, true);
+  }
+
+  void ReceiveBye(int rank, PacketReader& packet) {
+    ranks_[static_cast<std::size_t>(rank)].gone = true;
+    for (const TrialId& id : packet.Trials()) source_.PutBack(id);
+    const std::vector<TrialId> overdue = packet.Trials();
+    if (overdue.empty()) return;
+    overdue_ = true;
+    communicator_.GiveUp(rank);
+    if (watch_.overdue) watch_.overdue(overdue);
+  }
+
+  void GiveUpSilentRanks() {
+    const Clock::time_point now = Clock::now();
+    for (std::size_t i = 1; i < ranks_.size(); ++i) {
+      Rank& rank = ranks_[i];
+      if (rank.gone || now - rank.heard < watch_.silence) continue;
+      rank.gone = true;
+      for (const TrialId& id : rank.has) source_.PutBack(id);
+      communicator_.GiveUp(static_cast<int>(i));
+      if (watch_.silent) watch_.silent(static_cast<int>(i), rank.has.size());
+    }
+  }
+
+  // A round with a trial that stays pending never ends: nobody is to wait for it.
+  void EndWhereNothingElseIsLeft() {
+    const bool idle = std::all_of(ranks_.begin(), ranks_.end(),
+                                  [](const Rank& rank) { return rank.gone || rank.has.empty(); });
+    if (!idle) return;
+    const WorkPlan::NextStep next = source_.TryTake();
+    if (next.step == WorkPlan::Step::kTrial) return source_.PutBack(next.id);
+    source_.Close();
   }
 
   // False while a round of the plan goes on that has no trial left to hand out.
@@ -125,6 +166,7 @@ class Desk {
     }
     const bool last = next.step == WorkPlan::Step::kDone;
     if (block.empty() && !last) return false;
+    ranks_[rank].has.insert(block.begin(), block.end());
     SendBlock(rank, block, last);
     return true;
   }
@@ -137,7 +179,9 @@ class Desk {
 
   Communicator& communicator_;
   LocalWorkSource& source_;
+  const RankWatch& watch_;
   std::vector<Rank> ranks_;
+  bool overdue_ = false;  // a trial of another rank stays pending
 };
 
 // The talk of another rank with rank 0.
@@ -158,9 +202,13 @@ class Client {
     return Report() || busy;
   }
 
-  void SayBye() {
+  void SayBye(const std::vector<TrialId>& overdue) {
     communicator_.Send(0, kBye,
-                       PacketWriter().Records(source_.Collect()).Trials(source_.Untaken()).bytes());
+                       PacketWriter()
+                           .Records(source_.Collect())
+                           .Trials(source_.Untaken())
+                           .Trials(overdue)
+                           .bytes());
   }
 
  private:
@@ -174,17 +222,19 @@ class Client {
   }
 
   bool Report() {
-    if (last_) return false;
-    const bool ends = stop_ && !said_end_;
-    const std::int64_t wanted = asked_ || stop_ ? 0 : source_.Wanted();
-    if (wanted == 0 && !ends && Clock::now() < next_send_) return false;
+    const bool ends = stop_ && !said_end_ && !last_;
+    const std::int64_t wanted = asked_ || stop_ || last_ ? 0 : source_.Wanted();
+    const bool says = wanted > 0 || ends;
+    const Clock::time_point now = Clock::now();
+    if (!says && now < next_send_) return false;
     const std::vector<CellRecord> records = source_.Collect();
-    if (wanted == 0 && !ends && records.empty()) return false;
+    if (!says && records.empty() && now < next_sign_) return false;
     communicator_.Send(
         0, kReport, PacketWriter().Records(records).Integer(wanted).Integer(ends ? 1 : 0).bytes());
     asked_ = asked_ || wanted > 0;
     said_end_ = said_end_ || ends;
-    next_send_ = Clock::now() + kSendEvery;
+    next_send_ = now + kSendEvery;
+    next_sign_ = now + kSignEvery;
     return true;
   }
 
@@ -195,28 +245,51 @@ class Client {
   bool said_end_ = false;  // this rank wants to end
   bool last_ = false;      // rank 0 has no more
   Clock::time_point next_send_{};
+  Clock::time_point next_sign_{};
 };
 
 }  // namespace
 
+void OverdueTrials::Tell(std::vector<TrialId> trials) {
+  const std::lock_guard lock(mutex_);
+  trials_ = std::move(trials);
+}
+
+std::optional<std::vector<TrialId>> OverdueTrials::told() const {
+  const std::lock_guard lock(mutex_);
+  return trials_;
+}
+
 void RunTrialsOnRanks(Communicator& communicator, std::span<const CellWork> work,
-                      LocalWorkSource& source, int threads) {
+                      LocalWorkSource& source, int threads, const RankWatch& watch,
+                      const OverdueTrials& overdue,
+                      const std::function<void(const std::vector<TrialId>&)>& give_up) {
   const Engine engine(work, source, threads);
-  Desk desk(communicator, source);
+  Desk desk(communicator, source, watch);
   Idleness idleness;
-  while (!engine.done() || !desk.empty()) idleness.Rest(desk.Serve());
+  while (!engine.done() || !desk.empty()) {
+    idleness.Rest(desk.Serve());
+    if (engine.done() || !desk.empty()) continue;
+    if (const std::optional<std::vector<TrialId>> own = overdue.told()) give_up(*own);
+  }
 }
 
 void ServeBatch(Communicator& communicator, std::span<const CellWork> work, int threads,
-                const std::atomic<bool>& stop) {
+                const std::atomic<bool>& stop, const OverdueTrials& overdue) {
   RemoteWorkSource source(threads, stop);
   Client client(communicator, source, stop);
-  {
-    const Engine engine(work, source, threads);
-    Idleness idleness;
-    while (!engine.done() || !client.last()) idleness.Rest(client.Talk());
+  const Engine engine(work, source, threads);
+  Idleness idleness;
+  while (!engine.done() || !client.last()) {
+    idleness.Rest(client.Talk());
+    const std::optional<std::vector<TrialId>> hang = overdue.told();
+    if (!hang) continue;
+    client.SayBye(*hang);
+    // Nothing that comes now is meant for a rank that is given up.
+    while (!engine.done()) idleness.Rest(communicator.Poll().has_value());
+    return;
   }
-  client.SayBye();
+  client.SayBye({});
 }
 
 }  // namespace rockyard::batch

@@ -2,7 +2,12 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
+#include <functional>
+#include <mutex>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "batch/communicator.h"
 #include "batch/executor.h"
@@ -18,15 +23,44 @@ namespace rockyard::batch {
 // not depend on the number of ranks. A rank whose `stop` becomes true gives back what it has not
 // begun, and the others do it; the stop flag of rank 0 ends all. A rank that dies without a word
 // takes the others with it (MPI): what rank 0 had received is in the store within a second.
+//
+// A rank says twice a second that it is there. One that is frozen, or cut off, says nothing: after
+// the silence that the caller names, its trials are given to others, and whatever it may say later
+// counts no more. A rank with a trial that hangs hands over everything else, and is given up, too:
+// the trial stays pending.
+
+// Trials that have used up their CPU time on this rank: from its watchdog to the thread that talks.
+class OverdueTrials {
+ public:
+  // Once, when all other trials of this rank have ended.
+  void Tell(std::vector<TrialId> trials);
+  std::optional<std::vector<TrialId>> told() const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::optional<std::vector<TrialId>> trials_;
+};
+
+// How rank 0 sees the others.
+struct RankWatch {
+  std::chrono::milliseconds silence{60000};                           // 0: waits for ever
+  std::function<void(int rank, std::size_t trials)> silent{};         // its trials go to others
+  std::function<void(const std::vector<TrialId>& trials)> overdue{};  // elsewhere: stay pending
+};
 
 // On rank 0, while every other rank is in ServeBatch or on its way there: in place of RunTrials.
-// Returns when `source` has no more trials and all ranks have sent what they had.
+// Returns when `source` has no more trials and all ranks have sent what they had or are given up
+// (Communicator::given_up). Where a trial of this rank is overdue, `give_up` is called as soon as
+// the other ranks have sent what they had, and should end the process: the thread of that trial
+// cannot be stopped, and is waited for otherwise.
 void RunTrialsOnRanks(Communicator& communicator, std::span<const CellWork> work,
-                      LocalWorkSource& source, int threads);
+                      LocalWorkSource& source, int threads, const RankWatch& watch,
+                      const OverdueTrials& overdue,
+                      const std::function<void(const std::vector<TrialId>&)>& give_up);
 
 // On every other rank: returns when rank 0 has no more trials or `stop` is true, and everything
-// that was begun has been sent.
+// that was begun has been sent. A trial that is overdue is waited for: rank 0 ends the job before.
 void ServeBatch(Communicator& communicator, std::span<const CellWork> work, int threads,
-                const std::atomic<bool>& stop);
+                const std::atomic<bool>& stop, const OverdueTrials& overdue);
 
 }  // namespace rockyard::batch

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdio>
 #include <cstdlib>
 #include <list>
 #include <string_view>
@@ -95,6 +96,12 @@ class MpiCommunicator final : public Communicator {
     MPI_Recv(message.bytes.data(), size, MPI_BYTE, message.rank, message.tag, MPI_COMM_WORLD,
              MPI_STATUS_IGNORE);
     return message;
+  }
+
+  [[noreturn]] void Abort(int exit_code) override {
+    std::fflush(nullptr);
+    MPI_Abort(MPI_COMM_WORLD, exit_code);
+    std::abort();  // MPI_Abort returns only where MPI itself is broken
   }
 
  private:

@@ -121,13 +121,17 @@ class Supervisor {
     StoreFault(id, end);
   }
 
-  // Without the entry the trial would be run, and crash, for ever.
-  void Store(Mission mission) {
-    const ProcessEnd end = Do(std::move(mission));
-    if (exit_code_ || end.signal == 0) return;
+  // Without the entry the trial would be run, and crash, for ever. What ends the process once may
+  // have come from outside.
+  void Store(const Mission& mission) {
+    ProcessEnd end;
+    for (int attempt = 0; attempt < 2; ++attempt) {
+      end = Do(mission);
+      if (exit_code_ || end.signal == 0) return;
+    }
     note_(
-        fmt::format("the process that stores faults was ended by {}: giving up; what was "
-                    "finished is stored, go on with --resume",
+        fmt::format("the process that stores faults was ended twice, the second time by {}: giving "
+                    "up; what was finished is stored, go on with --resume",
                     SignalText(end.signal)));
     exit_code_ = options_.failed_exit;
   }
@@ -150,9 +154,7 @@ class Supervisor {
            .reason = std::move(reason)});
   }
 
-  void NoteOverdue(TrialId id) {
-    NoteFault(id, "cpu_time_limit", "the trial used more CPU time than --trial-cpu-limit");
-  }
+  void NoteOverdue(TrialId id) { NoteFault(id, kOverdueKind, kOverdueReason); }
 
   void NoteKilled(TrialId id) {
     NoteFault(id, "killed", "the process in which the trial ran alone was ended by SIGKILL");

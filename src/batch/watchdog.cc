@@ -12,6 +12,13 @@ bool AllOverdue(const std::vector<Flight>& flights) {
 
 }  // namespace
 
+std::vector<TrialId> TrialsOf(const std::vector<Flight>& flights) {
+  std::vector<TrialId> trials;
+  trials.reserve(flights.size());
+  for (const Flight& flight : flights) trials.push_back(flight.id);
+  return trials;
+}
+
 Watchdog::Watchdog(FlightLog& log, const WatchdogOptions& options, GiveUp give_up)
     : log_(log), options_(options), give_up_(std::move(give_up)) {
   if (options_.cpu_limit_s > 0.0) thread_ = std::thread([this] { Loop(); });

@@ -15,6 +15,12 @@ namespace rockyard::batch {
 // A worker ends with this code when a trial has used up its CPU time.
 inline constexpr int kOverdueExit = 75;
 
+// What the store says of such a trial: kind and reason of an infrastructure fault.
+inline constexpr const char* kOverdueKind = "cpu_time_limit";
+inline constexpr const char* kOverdueReason = "the trial used more CPU time than --trial-cpu-limit";
+
+std::vector<TrialId> TrialsOf(const std::vector<Flight>& flights);
+
 struct WatchdogOptions {
   double cpu_limit_s = 600.0;  // of one trial; 0: none, and no thread is started
   std::chrono::milliseconds look_every{500};

@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -32,17 +34,20 @@ std::uint64_t SeedOf(const batch::ResultStore& store, int cell) {
 }
 
 // Without a supervisor that would try again.
-[[noreturn]] void EndOverdue(const batch::ResultStore& store, const std::vector<Flight>& overdue,
-                             Journal& journal) {
+void TellOverdue(const batch::ResultStore& store, const std::vector<batch::TrialId>& overdue,
+                 Journal& journal) {
   std::vector<core::Problem> problems;
   problems.reserve(overdue.size());
-  for (const Flight& flight : overdue) {
-    problems.push_back({fmt::format("trial {}", flight.id.trial),
+  for (const batch::TrialId& id : overdue) {
+    problems.push_back({fmt::format("trial {}{}", id.trial, CellPart(store, id.cell)),
                         "used more CPU time than --trial-cpu-limit, and is pending",
-                        ReplayLine(store, flight.id)});
+                        ReplayLine(store, id)});
   }
   journal.Fail(problems);
-  _exit(static_cast<int>(Outcome::kFailed));
+}
+
+std::chrono::milliseconds Milliseconds(double time_s) {
+  return std::chrono::milliseconds(std::llround(1e3 * time_s));
 }
 
 // In this process, which may be rank 0.
@@ -90,7 +95,7 @@ Outcome RunOnRanks(ContainmentOptions& options, const batch::Launch& launch, con
   const Outcome code = RunParts(body, afterwards, [&](const CampaignPart& part, const auto&) {
     return RunHere(options, communicator.get(), contact, part);
   });
-  EndRanks(*communicator, code);
+  EndRanks(*communicator, code, Milliseconds(options.rank_silence_s), contact.journal);
   return code;
 }
 
@@ -126,7 +131,10 @@ batch::BatchResult CampaignProcess::RunTrials(std::span<const CellWork> work,
   const batch::Watchdog watchdog(log_, {.cpu_limit_s = options_.trial_cpu_limit_s},
                                  [&](const std::vector<Flight>& overdue) {
                                    if (supervised) _exit(batch::kOverdueExit);
-                                   EndOverdue(store, overdue, contact_.journal);
+                                   if (communicator_ != nullptr)
+                                     return overdue_.Tell(batch::TrialsOf(overdue));
+                                   TellOverdue(store, batch::TrialsOf(overdue), contact_.journal);
+                                   _exit(static_cast<int>(Outcome::kFailed));
                                  });
   const std::shared_ptr<void> watch =
       contact_.stop.Watch(log_.stop(), alone() ? SecondWish::kEnds : SecondWish::kIsTheSame);
@@ -139,8 +147,7 @@ batch::BatchResult CampaignProcess::RunTrials(std::span<const CellWork> work,
   batch::BatchSession session(store, options, log_.stop(), note);
   const int threads = batch::ThreadCount(options);
   if (communicator_ != nullptr) {
-    StartRanks(*communicator_, store.identity());
-    batch::RunTrialsOnRanks(*communicator_, logged.work(), session.source(), threads);
+    RunOnRanks(logged.work(), store, session, threads);
   } else {
     std::vector<batch::TrialId> left_out;
     for (const batch::LeftOut& left : mission_.left_out) left_out.push_back(left.id);
@@ -148,9 +155,43 @@ batch::BatchResult CampaignProcess::RunTrials(std::span<const CellWork> work,
     batch::RunTrials(logged.work(), source, threads);
   }
   batch::BatchResult result = session.Close();
+  NoteOverdue(store, overdue_elsewhere_);
   // The overdue trial has ended after all, and the stop was not the user's wish.
   if (watchdog.bit() && supervised) _exit(batch::kOverdueExit);
   return result;
+}
+
+void CampaignProcess::RunOnRanks(std::span<const CellWork> work, batch::ResultStore& store,
+                                 batch::BatchSession& session, int threads) {
+  StartRanks(*communicator_, store.identity());
+  const batch::RankWatch watch{
+      .silence = Milliseconds(options_.rank_silence_s),
+      .silent =
+          [&](int rank, std::size_t trials) {
+            contact_.journal.Warn(
+                fmt::format("rank {} has said nothing for {} s (--rank-silence) and is given up; "
+                            "others run its {} trials",
+                            rank, options_.rank_silence_s, trials));
+          },
+      .overdue =
+          [&](const std::vector<batch::TrialId>& trials) {
+            overdue_elsewhere_.insert(overdue_elsewhere_.end(), trials.begin(), trials.end());
+          }};
+  batch::RunTrialsOnRanks(*communicator_, work, session.source(), threads, watch, overdue_,
+                          [&](const std::vector<batch::TrialId>& trials) {
+                            session.Close();
+                            NoteOverdue(store, trials);
+                            NoteOverdue(store, overdue_elsewhere_);
+                            TellOverdue(store, trials, contact_.journal);
+                            communicator_->Abort(static_cast<int>(Outcome::kFailed));
+                          });
+}
+
+void CampaignProcess::NoteOverdue(batch::ResultStore& store,
+                                  const std::vector<batch::TrialId>& trials) {
+  for (const batch::TrialId& id : trials) {
+    store.AddInfrastructureFault({id, batch::kOverdueKind, batch::kOverdueReason});
+  }
 }
 
 Outcome CampaignProcess::Afterwards(
@@ -185,8 +226,10 @@ Outcome CampaignProcess::DoTask(std::span<const CellWork> work, batch::ResultSto
 
 bool CampaignProcess::TellLeftOut(const batch::ResultStore& store) const {
   std::vector<core::Problem> problems;
-  problems.reserve(mission_.left_out.size());
-  for (const auto& [id, why] : mission_.left_out) {
+  std::vector<batch::LeftOut> left_out = mission_.left_out;
+  for (const batch::TrialId& id : overdue_elsewhere_) left_out.push_back({id});
+  problems.reserve(left_out.size());
+  for (const auto& [id, why] : left_out) {
     const std::string trial = fmt::format("trial {}{}", id.trial, CellPart(store, id.cell));
     if (why == batch::LeftOut::Why::kIsKilled) {
       problems.push_back(

@@ -6,7 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "batch/batch_session.h"
 #include "batch/communicator.h"
+#include "batch/distributed.h"
 #include "batch/executor.h"
 #include "batch/flight_log.h"
 #include "batch/result_store.h"
@@ -23,6 +25,7 @@ bool IsFirstRank();
 struct ContainmentOptions {
   bool supervisor = true;            // not under mpirun
   double trial_cpu_limit_s = 600.0;  // 0: none
+  double rank_silence_s = 60.0;      // under mpirun; 0: waits for ever
   int threads = 0;                   // of this process; 0: as many as the machine runs at once
 };
 
@@ -67,11 +70,16 @@ class CampaignProcess {
   // The task for one trial.
   Outcome DoTask(std::span<const batch::CellWork> work, batch::ResultStore& store);
 
-  // Tells of every trial that was left out, pending, as it hangs or is killed; true where there is
-  // one.
+  // Tells of every trial that was left out, pending, as it hangs or is killed, also on another
+  // rank; true where there is one.
   bool TellLeftOut(const batch::ResultStore& store) const;
 
  private:
+  void RunOnRanks(std::span<const batch::CellWork> work, batch::ResultStore& store,
+                  batch::BatchSession& session, int threads);
+  // Another rank has trials that hang, or this one: notes an infrastructure fault of each.
+  static void NoteOverdue(batch::ResultStore& store, const std::vector<batch::TrialId>& trials);
+
   // Neither a supervisor nor mpirun decides when patience ends.
   bool alone() const { return !options_.supervisor && communicator_ == nullptr; }
 
@@ -80,6 +88,8 @@ class CampaignProcess {
   batch::FlightLog& log_;
   batch::Communicator* communicator_;
   const Contact& contact_;
+  batch::OverdueTrials overdue_;  // of this rank
+  std::vector<batch::TrialId> overdue_elsewhere_;
 };
 
 using CampaignPart = std::function<Outcome(CampaignProcess&)>;
@@ -95,8 +105,9 @@ using CampaignPart = std::function<Outcome(CampaignProcess&)>;
 // result again. It stores no faults: trials that end its process each time come back in the
 // mission as left out. Its outcome counts where it is not kDone.
 //
-// A process that nobody watches over (no supervisor, or a rank) ends with kFailed where a trial has
-// used up its CPU time: a thread cannot be stopped from outside.
+// A process that nobody watches over (no supervisor, or rank 0) ends with kFailed where a trial has
+// used up its CPU time: a thread cannot be stopped from outside. Where that happens on another rank
+// the campaign goes on without that rank and trial.
 Outcome RunContained(ContainmentOptions options, const Contact& contact, const CampaignPart& body,
                      const CampaignPart& afterwards = {});
 

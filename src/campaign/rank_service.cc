@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <memory>
+#include <set>
 #include <string>
 #include <thread>
 #include <utility>
@@ -28,11 +29,31 @@ namespace {
 // Beside those of batch/distributed.cc.
 constexpr int kCampaign = 10;  // build, then of each cell: fingerprint, resolved scenario, seed
 constexpr int kEnd = 11;       // outcome
+constexpr int kEnds = 12;      // to rank 0, in answer
 
 constexpr std::chrono::milliseconds kPause{2};
 
 void SendToAll(batch::Communicator& communicator, int tag, const std::string& bytes) {
-  for (int rank = 1; rank < communicator.size(); ++rank) communicator.Send(rank, tag, bytes);
+  for (int rank = 1; rank < communicator.size(); ++rank) {
+    if (!communicator.given_up().contains(rank)) communicator.Send(rank, tag, bytes);
+  }
+}
+
+// The ranks that have not said that they end after so much time.
+std::set<int> RanksThatStay(batch::Communicator& communicator, std::chrono::milliseconds silence) {
+  std::set<int> ranks;
+  for (int rank = 1; rank < communicator.size(); ++rank) {
+    if (!communicator.given_up().contains(rank)) ranks.insert(rank);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  while (!ranks.empty()) {
+    const std::optional<batch::Message> message = communicator.Poll();
+    if (message && message->tag == kEnds) ranks.erase(message->rank);
+    if (message) continue;
+    if (silence.count() > 0 && std::chrono::steady_clock::now() - start > silence) break;
+    std::this_thread::sleep_for(kPause);
+  }
+  return ranks;
 }
 
 batch::Message WaitForMessage(batch::Communicator& communicator) {
@@ -89,26 +110,16 @@ class ReceivedWork {
   _exit(static_cast<int>(Outcome::kFailed));
 }
 
-void EndLate(Journal& journal, const std::vector<batch::Flight>& overdue) {
-  std::vector<core::Problem> problems;
-  problems.reserve(overdue.size());
-  for (const batch::Flight& flight : overdue) {
-    problems.push_back({fmt::format("trial {} of cell {}", flight.id.trial, flight.id.cell),
-                        "used more CPU time than --trial-cpu-limit, and is pending",
-                        "go on with --resume and without mpirun, which tries it again alone"});
-  }
-  EndJob(journal, problems);
-}
-
 void Serve(batch::Communicator& communicator, const std::string& campaign,
            const ContainmentOptions& options, const Contact& contact) {
   batch::FlightLog log;
   const ReceivedWork received(campaign, log);
+  batch::OverdueTrials overdue;
   const batch::Watchdog watchdog(
       log, {.cpu_limit_s = options.trial_cpu_limit_s},
-      [&](const std::vector<batch::Flight>& overdue) { EndLate(contact.journal, overdue); });
+      [&](const std::vector<batch::Flight>& flights) { overdue.Tell(batch::TrialsOf(flights)); });
   const std::shared_ptr<void> watch = contact.stop.Watch(log.stop(), SecondWish::kIsTheSame);
-  batch::ServeBatch(communicator, received.work(), options.threads, log.stop());
+  batch::ServeBatch(communicator, received.work(), options.threads, log.stop(), overdue);
 }
 
 }  // namespace
@@ -123,9 +134,15 @@ void StartRanks(batch::Communicator& communicator, const batch::CampaignIdentity
   SendToAll(communicator, kCampaign, packet.bytes());
 }
 
-void EndRanks(batch::Communicator& communicator, Outcome outcome) {
+void EndRanks(batch::Communicator& communicator, Outcome outcome, std::chrono::milliseconds silence,
+              Journal& journal) {
   SendToAll(communicator, kEnd,
             batch::PacketWriter().Integer(static_cast<std::int64_t>(outcome)).bytes());
+  for (const int rank : RanksThatStay(communicator, silence)) {
+    journal.Warn(fmt::format("rank {} does not end and is given up", rank));
+    communicator.GiveUp(rank);
+  }
+  if (!communicator.given_up().empty()) communicator.Abort(static_cast<int>(outcome));
 }
 
 Outcome ServeRankZero(batch::Communicator& communicator, const ContainmentOptions& options,
@@ -134,6 +151,7 @@ Outcome ServeRankZero(batch::Communicator& communicator, const ContainmentOption
     for (;;) {
       const batch::Message message = WaitForMessage(communicator);
       if (message.tag == kEnd) {
+        communicator.Send(0, kEnds, {});
         return static_cast<Outcome>(batch::PacketReader(message.bytes).Integer());
       }
       Serve(communicator, message.bytes, options, contact);

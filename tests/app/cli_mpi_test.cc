@@ -145,5 +145,36 @@ TEST_F(CliMpi, OneRankMayLeave) {
   EXPECT_EQ(Hash("a"), Hash("plain"));
 }
 
+// A rank that is frozen is named, others run its trials, and the job ends with the code of a
+// campaign that is whole.
+TEST_F(CliMpi, AFrozenRankIsGivenUp) {
+  ASSERT_EQ(Run(Drives("plain", 400)).exit_code, 0);
+  const pid_t process = StartOn(3, Drives("a", 400, {"--rank-silence", "2"}));
+  ASSERT_TRUE(WaitForTrials("a", 30));
+  const std::vector<pid_t> ranks = ChildrenOf(process);
+  ASSERT_EQ(ranks.size(), 3U);
+  kill(ranks.back(), SIGSTOP);
+  const CommandResult result = Wait(process);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("rank 2 has said nothing for 2 s"));
+  EXPECT_EQ(Hash("a"), Hash("plain"));
+  EXPECT_TRUE(WaitForEnd(ranks.back()));
+}
+
+// Every trial takes too long: rank 0 and the others say so as a process alone does.
+TEST_F(CliMpi, AHangingTrialIsNotedAndStaysPending) {
+  const CommandResult result =
+      RunOn(2, Drives("a", 2,
+                      {"--trial-cpu-limit", "0.01", "--set", "rover.physics.step_s=0.0001", "--set",
+                       "rover.fidelity=multibody"}));
+  EXPECT_EQ(result.exit_code, 5) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("--trial-cpu-limit"));
+  EXPECT_THAT(result.err, HasSubstr("is pending"));
+  const batch::ResultStore store = batch::ResultStore::Read(work() / "a");
+  const std::vector<batch::InfrastructureFault> faults = store.InfrastructureFaults();
+  ASSERT_FALSE(faults.empty());
+  for (const batch::InfrastructureFault& fault : faults) EXPECT_EQ(fault.kind, "cpu_time_limit");
+}
+
 }  // namespace
 }  // namespace rockyard::app

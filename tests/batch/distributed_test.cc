@@ -7,9 +7,11 @@
 
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <deque>
 #include <map>
 #include <mutex>
+#include <set>
 #include <thread>
 
 #include "batch/batch_session.h"
@@ -48,6 +50,7 @@ class PostCommunicator final : public Communicator {
     box.pop_front();
     return message;
   }
+  [[noreturn]] void Abort(int exit_code) override { std::_Exit(exit_code); }
 
  private:
   Post& post_;
@@ -64,7 +67,10 @@ class Cluster {
  public:
   using Hook = std::function<void(int rank, std::uint64_t trial)>;
 
-  explicit Cluster(int ranks) : stops_(static_cast<std::size_t>(ranks)), post_(ranks) {}
+  explicit Cluster(int ranks)
+      : stops_(static_cast<std::size_t>(ranks)),
+        overdue_(static_cast<std::size_t>(ranks)),
+        post_(ranks) {}
 
   BatchResult Run(ResultStore& store, const BatchOptions& options, const Hook& hook) {
     std::vector<std::thread> others;
@@ -73,19 +79,30 @@ class Cluster {
         PostCommunicator communicator(post_, rank);
         const FakeExperiment experiment = Experiment(rank, hook);
         const CellWork work{&experiment, 1};
-        ServeBatch(communicator, std::span(&work, 1), options.threads, stop(rank));
+        ServeBatch(communicator, std::span(&work, 1), options.threads, stop(rank), overdue(rank));
       });
     }
     PostCommunicator communicator(post_, 0);
     const FakeExperiment experiment = Experiment(0, hook);
     const CellWork work{&experiment, 1};
     BatchSession session(store, options, stop(0), {});
-    RunTrialsOnRanks(communicator, std::span(&work, 1), session.source(), options.threads);
+    RunTrialsOnRanks(communicator, std::span(&work, 1), session.source(), options.threads, watch_,
+                     overdue(0), give_up_);
+    given_up_ = communicator.given_up();
+    ended_ = true;
     for (std::thread& other : others) other.join();
     return session.Close();
   }
 
   std::atomic<bool>& stop(int rank) { return stops_[static_cast<std::size_t>(rank)]; }
+  OverdueTrials& overdue(int rank) { return overdue_[static_cast<std::size_t>(rank)]; }
+  RankWatch& watch() { return watch_; }
+  void SetGiveUp(std::function<void(const std::vector<TrialId>&)> give_up) {
+    give_up_ = std::move(give_up);
+  }
+  const std::set<int>& given_up() const { return given_up_; }
+  // Rank 0 waits for nobody any more.
+  bool ended() const { return ended_; }
   int size() const { return static_cast<int>(stops_.size()); }
   // By rank, of trials that began there.
   std::map<int, int> begun() const { return begun_; }
@@ -111,6 +128,11 @@ class Cluster {
   }
 
   std::vector<std::atomic<bool>> stops_;
+  std::vector<OverdueTrials> overdue_;
+  RankWatch watch_;
+  std::function<void(const std::vector<TrialId>&)> give_up_;
+  std::set<int> given_up_;
+  std::atomic<bool> ended_ = false;
   Post post_;
   std::mutex mutex_;
   std::map<int, int> begun_;
@@ -128,6 +150,7 @@ class Distributed : public testing::Test {
  protected:
   TemporaryFolder folder_;
   ResultStore store_ = ResultStore::Create(folder_.path(), FakeIdentity(), kTrials);
+  const std::atomic<bool> stop_ = false;
 };
 
 class Ranks : public Distributed, public testing::WithParamInterface<std::pair<int, int>> {};
@@ -198,6 +221,120 @@ TEST_F(Distributed, StopOfRankZeroEndsAllAndAnotherNumberOfRanksGoesOn) {
   EXPECT_EQ(TrialHash(store_.Load()), PlainHash());
 }
 
+// A rank that says nothing is given up, its trials are run by others, and the campaign is whole.
+TEST_F(Distributed, TrialsOfASilentRankAreGivenToOthers) {
+  Post post(3);
+  std::atomic<bool> asked = false;
+  std::thread frozen([&] {
+    PostCommunicator other(post, 2);
+    other.Send(0, 1, PacketWriter().Records({}).Integer(5).Integer(0).bytes());
+    asked = true;
+  });
+  const FakeExperiment experiment([](std::uint64_t) { Sleep(1); });
+  const CellWork work{&experiment, 1};
+  const std::atomic<bool> never = false;
+  const OverdueTrials none;
+  std::thread other([&] {
+    PostCommunicator communicator(post, 1);
+    ServeBatch(communicator, std::span(&work, 1), 1, never, none);
+  });
+  BatchSession session(store_, Options(1), never, {});
+  PostCommunicator communicator(post, 0);
+  std::vector<std::pair<int, std::size_t>> silent;
+  const RankWatch watch{
+      .silence = std::chrono::milliseconds(2000),
+      .silent = [&](int rank, std::size_t trials) { silent.emplace_back(rank, trials); }};
+  RunTrialsOnRanks(communicator, std::span(&work, 1), session.source(), 1, watch, none, {});
+  frozen.join();
+  other.join();
+  EXPECT_EQ(session.Close().end, BatchEnd::kFinished);
+  EXPECT_THAT(silent, testing::ElementsAre(std::pair<int, std::size_t>(2, 5)));
+  EXPECT_THAT(communicator.given_up(), testing::ElementsAre(2));
+  EXPECT_EQ(TrialHash(store_.Load()), PlainHash());
+}
+
+// A long trial is no silence: the thread that talks says that the rank is there.
+TEST_F(Distributed, ALongTrialIsNoSilence) {
+  Cluster cluster(2);
+  cluster.watch().silence = std::chrono::milliseconds(1500);
+  std::atomic<bool> slept = false;
+  const BatchResult result = cluster.Run(store_, Options(1), [&](int rank, std::uint64_t) {
+    if (rank == 1 && !slept.exchange(true)) Sleep(2500);
+  });
+  EXPECT_EQ(result.end, BatchEnd::kFinished);
+  EXPECT_TRUE(slept);
+  EXPECT_TRUE(cluster.given_up().empty());
+}
+
+// What a rank says after it was given up is not counted twice, nor does it get another trial.
+TEST_F(Distributed, ARankThatComesBackIsNotHeard) {
+  Post post(2);
+  PostCommunicator other(post, 1);
+  BatchSession session(store_, Options(1), stop_, {});
+  PostCommunicator communicator(post, 0);
+  bool returned = false;
+  const RankWatch watch{.silence = std::chrono::milliseconds(50), .silent = [&](int, std::size_t) {
+                          other.Send(0, 1,
+                                     PacketWriter().Records({}).Integer(5).Integer(1).bytes());
+                          returned = true;
+                        }};
+  const FakeExperiment experiment([](std::uint64_t) { Sleep(1); });
+  const CellWork work{&experiment, 1};
+  RunTrialsOnRanks(communicator, std::span(&work, 1), session.source(), 1, watch, {}, {});
+  session.Close();
+  EXPECT_TRUE(returned);
+  EXPECT_FALSE(other.Poll());
+  EXPECT_EQ(TrialHash(store_.Load()), PlainHash());
+}
+
+// A trial that hangs on another rank stays pending, and that alone.
+TEST_F(Distributed, ATrialThatHangsElsewhereStaysPending) {
+  Cluster cluster(3);
+  std::vector<TrialId> told;
+  cluster.watch().overdue = [&](const std::vector<TrialId>& trials) { told = trials; };
+  std::atomic<std::int64_t> hangs = -1;
+  const BatchResult result = cluster.Run(store_, Options(1), [&](int rank, std::uint64_t trial) {
+    Sleep(1);
+    std::int64_t none = -1;
+    const auto id = static_cast<std::int64_t>(trial);
+    if (rank != 1 || !hangs.compare_exchange_strong(none, id)) return;
+    cluster.stop(1) = true;  // as a watchdog does
+    cluster.overdue(1).Tell({{0, id}});
+    while (!cluster.ended()) Sleep(1);
+  });
+  EXPECT_EQ(result.end, BatchEnd::kStopped);
+  EXPECT_THAT(told, testing::ElementsAre(TrialId{0, hangs}));
+  EXPECT_THAT(cluster.given_up(), testing::ElementsAre(1));
+  const std::vector<truth::Record> records = store_.Load();
+  EXPECT_EQ(records.size(), static_cast<std::size_t>(kTrials - 1));
+  for (const truth::Record& record : records) {
+    EXPECT_NE(static_cast<std::int64_t>(record.trial), hangs);
+  }
+}
+
+// Where it hangs on rank 0, everything that the others have done is stored first.
+TEST_F(Distributed, ATrialThatHangsOnRankZeroEndsTheJobInOrder) {
+  Cluster cluster(2);
+  std::atomic<std::int64_t> hangs = -1;
+  std::atomic<bool> over = false;
+  std::vector<TrialId> told;
+  cluster.SetGiveUp([&](const std::vector<TrialId>& trials) {
+    told = trials;
+    over = true;
+  });
+  cluster.Run(store_, Options(1), [&](int rank, std::uint64_t trial) {
+    Sleep(1);
+    std::int64_t none = -1;
+    const auto id = static_cast<std::int64_t>(trial);
+    if (rank != 0 || trial < 20 || !hangs.compare_exchange_strong(none, id)) return;
+    cluster.stop(0) = true;
+    cluster.overdue(0).Tell({{0, id}});
+    while (!over) Sleep(1);
+  });
+  EXPECT_THAT(told, testing::ElementsAre(TrialId{0, hangs}));
+  EXPECT_EQ(static_cast<int>(store_.Load().size()), cluster.total());
+}
+
 // A rule decides at the ends of rounds: ranks wait, and the same trials run.
 TEST_F(Distributed, RoundsOfAStoppingRule) {
   BatchOptions options = Options(2);
@@ -238,9 +375,9 @@ TEST_F(Distributed, CutOffPacketIsAnErrorNotAHang) {
   PostCommunicator communicator(post, 0);
   const FakeExperiment experiment;
   const CellWork work{&experiment, 1};
-  EXPECT_THROW(
-      RunTrialsOnRanks(communicator, std::span(&work, 1), session.source(), options.threads),
-      std::runtime_error);
+  EXPECT_THROW(RunTrialsOnRanks(communicator, std::span(&work, 1), session.source(),
+                                options.threads, {}, {}, {}),
+               std::runtime_error);
 }
 
 // A rank that asked and then wants to end, while all end: after its last block it reads what comes
@@ -261,12 +398,12 @@ TEST_F(Distributed, ARankGetsOneLastBlock) {
     send(3, 0);
     while (answers.empty()) read();
     send(0, 1);
-    other.Send(0, 2, PacketWriter().Records({}).Trials({}).bytes());
+    other.Send(0, 2, PacketWriter().Records({}).Trials({}).Trials({}).bytes());
   });
   PostCommunicator communicator(post, 0);
   const FakeExperiment experiment;
   const CellWork work{&experiment, 1};
-  RunTrialsOnRanks(communicator, std::span(&work, 1), session.source(), 1);
+  RunTrialsOnRanks(communicator, std::span(&work, 1), session.source(), 1, {}, {}, {});
   rank.join();
   while (std::optional<Message> answer = other.Poll()) answers.push_back(*std::move(answer));
   EXPECT_EQ(answers.size(), 1u);
@@ -280,7 +417,7 @@ TEST_F(Distributed, RankEndsWhereRankZeroHasGivenUp) {
   const FakeExperiment experiment;
   const CellWork work{&experiment, 1};
   const std::atomic<bool> never = false;
-  EXPECT_THROW(ServeBatch(communicator, std::span(&work, 1), 2, never), std::runtime_error);
+  EXPECT_THROW(ServeBatch(communicator, std::span(&work, 1), 2, never, {}), std::runtime_error);
 }
 
 TEST(Packet, KeepsEveryBit) {

@@ -326,8 +326,26 @@ TEST_F(SupervisorTest, CrashWhileStoringFaultsIsGivenUp) {
   const int exit_code =
       Supervise(log_, worker, {}, [&](const std::string& text) { notes_ += text; });
   EXPECT_EQ(exit_code, 5);
-  EXPECT_EQ(board_->workers, 3) << "campaign, alone, fault";
+  EXPECT_EQ(board_->workers, 4) << "campaign, alone, fault, fault again";
   EXPECT_THAT(notes_, HasSubstr("stores faults"));
+}
+
+// What ends the process that stores a fault once may come from outside.
+TEST_F(SupervisorTest, AFaultGetsASecondTryToBeStored) {
+  const Worker worker = [&](const Mission& mission) {
+    ++board_->workers;
+    if (mission.task == Task::kGoOn) return 0;
+    if (mission.task == Task::kStoreFault && ++board_->faults[3] == 2) return 0;
+    log_.SetOpened();
+    if (mission.task != Task::kStoreFault) log_.Begin({0, 3});
+    raise(mission.task == Task::kStoreFault ? SIGKILL : SIGSEGV);
+    return 0;
+  };
+  const int exit_code =
+      Supervise(log_, worker, {}, [&](const std::string& text) { notes_ += text; });
+  EXPECT_EQ(exit_code, 0);
+  EXPECT_EQ(board_->faults[3], 2);
+  EXPECT_EQ(board_->workers, 5) << "campaign, alone, fault, fault again, campaign";
 }
 
 // Polite signals reach the worker, which ends by itself and is not started again.
