@@ -30,6 +30,8 @@ constexpr int kMaxCuts = 6;
 // longest step by which they do.
 constexpr double kLoadTolerance = 0.05;
 constexpr double kLoadStep = 0.5;
+// Of the wheel radius, for arms of contacts at the axle.
+constexpr double kLeastArm = 1e-6;
 // Stands for no motion at all.
 constexpr double kHeld = 1e12;
 
@@ -47,7 +49,7 @@ QuasiStaticBalance::QuasiStaticBalance(const RoverParams& params, const terrain:
       soil_(WheelSoil(soil, params.geometry.wheel_radius_m, params.geometry.wheel_width_m),
             params.mass.total_kg * params.physics.gravity_m_s2),
       wheel_radius_m_(params.geometry.wheel_radius_m),
-      stall_force_N_(params.drive.stall_torque_Nm / params.geometry.wheel_radius_m),
+      stall_torque_Nm_(params.drive.stall_torque_Nm),
       stop_rad_{params.geometry.rocker_limit_rad, params.geometry.bogie_limit_rad,
                 params.geometry.bogie_limit_rad},
       speed_m_s_(params.drive.speed_m_s),
@@ -101,6 +103,8 @@ void QuasiStaticBalance::MakeWheelRow(const Linkage& linkage, const Drive& drive
   // `along`, for a wheel that rolls forward. The motor feels a force along it by the same arm.
   row.arm_m = axle_W.cross(contact.p_W - linkage.wheel_W(wheel)).norm();
   row.rim_m_s = rate_rad_s * row.arm_m;
+  // A contact at the axle itself asks nothing of the motor.
+  row.stall_N = stall_torque_Nm_ / std::max(row.arm_m, kLeastArm * wheel_radius_m_);
   row.reference_m_s = std::max(std::abs(rate_rad_s) * wheel_radius_m_,
                                (rims_turn_ ? kMinReference : 1.0) * rim_speed_m_s_);
   if (!contact.IsSoil()) return;
@@ -126,14 +130,14 @@ void QuasiStaticBalance::SetTraction(const RestingContact& contact, Row& row) co
   } else if (contact.IsSoil()) {
     const SoilAnswer soil = soil_.At(load_N);
     row.max_N = soil.traction_N;
-    row.motor_bound = row.max_N > stall_force_N_;
+    row.motor_bound = row.max_N > row.stall_N;
     // A braked wheel holds up to its traction, without the creep of one that turns.
     row.shear_ratio = row.rim_m_s != 0.0 ? soil.shear_ratio : 0.0;
     row.u_per_speed_s_m = row.shear_ratio / row.reference_m_s;
     row.resistance_N = soil.resistance_N;
   } else if (contact.IsWheel() && contact.other >= 0) {
     row.max_N = contact_params_.wheel_rock_friction * load_N;
-    row.motor_bound = row.max_N > stall_force_N_;
+    row.motor_bound = row.max_N > row.stall_N;
   } else {
     row.max_N = contact_params_.body_rock_friction * load_N;
   }
@@ -186,14 +190,13 @@ void QuasiStaticBalance::AcrossTheNormal(double along_m_s, double across_m_s, Ro
 void QuasiStaticBalance::GiveWay(double along_m_s, double across_m_s, Row& row) const {
   const double creep2 = row.creep_m_s * row.creep_m_s;
   const double root2 = across_m_s * across_m_s + creep2;
-  const double per_speed =
-      std::sqrt((row.max_N * row.max_N - stall_force_N_ * stall_force_N_) / root2);
-  const double left_m_s = std::min(std::abs(along_m_s), stall_force_N_ / per_speed);
+  const double per_speed = std::sqrt((row.max_N * row.max_N - row.stall_N * row.stall_N) / root2);
+  const double left_m_s = std::min(std::abs(along_m_s), row.stall_N / per_speed);
   row.slip_m_s = std::sqrt(left_m_s * left_m_s + across_m_s * across_m_s);
   row.yield_m_s = along_m_s - std::copysign(left_m_s, along_m_s);
-  row.along_N = std::copysign(stall_force_N_, along_m_s);
+  row.along_N = std::copysign(row.stall_N, along_m_s);
   row.across_N = per_speed * across_m_s;
-  row.k_aa = tangent_ ? 0.0 : stall_force_N_ / std::abs(along_m_s);
+  row.k_aa = tangent_ ? 0.0 : row.stall_N / std::abs(along_m_s);
   row.k_ab = 0.0;
   row.k_bb = tangent_ ? per_speed * creep2 / root2 : per_speed;
 }
@@ -222,7 +225,7 @@ void QuasiStaticBalance::AddForces(const SideVector& w, RestingContact& contact,
   const double along = row.rim_m_s - row.along.dot(w);
   const double across = -row.across.dot(w);
   AcrossTheNormal(along, across, row);
-  if (row.motor_bound && std::abs(row.along_N) > stall_force_N_) GiveWay(along, across, row);
+  if (row.motor_bound && std::abs(row.along_N) > row.stall_N) GiveWay(along, across, row);
   contact.sliding_speed_m_s = row.slip_m_s;
   equations_.AddForce(
       row.side, contact.load_N * row.normal + row.along_N * row.along + row.across_N * row.across);
@@ -407,7 +410,7 @@ SteadyDrive QuasiStaticBalance::Steady(const LinkageVector& rates) const {
     if (!row.acts || row.rim_m_s == 0.0) continue;
     const SideVector w = OfSide(rates, row.side);
     WheelLump& lump = row.shear_ratio > 0.0 ? drive.soil : drive.rock;
-    const double max_N = row.motor_bound ? stall_force_N_ : row.max_N;
+    const double max_N = row.motor_bound ? row.stall_N : row.max_N;
     lump.traction_N += max_N;
     // Backwards is along, too: all speeds count the way that the rim turns.
     lump.rim_m_s += max_N * std::abs(row.rim_m_s);

@@ -86,6 +86,7 @@ class QuasiStaticBalance {
     double rest_m = 0.0;         // penetration without load
     double rim_m_s = 0.0;        // of the wheel against its axle, along
     double arm_m = 0.0;          // motor torque over force along
+    double stall_N = 0.0;        // force along at the stall torque
     double reference_m_s = 0.0;  // slip is measured in shares of this
     // At the load that the traction is taken from.
     double max_N = 0.0;
@@ -138,7 +139,7 @@ class QuasiStaticBalance {
   const WheelSoilTable soil_;
   const ShareTable share_;
   const double wheel_radius_m_;
-  const double stall_force_N_;
+  const double stall_torque_Nm_;
   const std::array<double, 3> stop_rad_;  // rocker, bogies
   const double speed_m_s_;
   const double mean_load_N_;
