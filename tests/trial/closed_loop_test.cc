@@ -334,7 +334,7 @@ TEST(MirrorLine, OnlyADrivingRoverIsReflected) {
 // trial end.
 TEST(MirrorLine, ARoverThatWasTurnedDrivesBeforeItIsTurnedAgain) {
   const auto [result, trace] =
-      RunTraced(Pathfinder("vl2", {"rover.fidelity=quasi_static"}), 270, 77);
+      RunTraced(Pathfinder("vl2", {"rover.fidelity=quasi_static"}), 114, 77);
   EXPECT_EQ(result.outcome, truth::TrialOutcome::kJammed);
   std::optional<double> last_s;
   int pairs = 0;
