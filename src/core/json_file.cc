@@ -162,7 +162,7 @@ void SetPath(JsonValue& document, std::string_view path, JsonValue value) {
     const std::size_t dot = rest.find('.');
     const std::string_view key = rest.substr(0, dot);
     if (key.empty()) {
-      throw UserError(std::string(path), "is not a path",
+      throw UserError(fmt::format("\"{}\"", path), "is not a path",
                       "write keys joined by dots, such as a.b.c");
     }
     if (dot == std::string_view::npos) {
