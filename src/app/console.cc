@@ -1,7 +1,6 @@
 #include "app/console.h"
 
 #include <fmt/format.h>
-#include <stdio_ext.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -34,7 +33,6 @@ void Write(std::string_view text) {
       std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
   if (written) return;
   const int reason = errno;
-  __fpurge(stdout);  // or the end of the process would try again
   if (reason == EPIPE) return std::clearerr(stdout);
   PrintProblems({{"standard output", fmt::format("cannot be written: {}", std::strerror(reason)),
                   "check the free space of where it goes"}});
