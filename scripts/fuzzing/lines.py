@@ -148,9 +148,11 @@ def _prepare(rockyard, folder):
             raise RuntimeError(f"{words} ends with {end.code}: {end.err}")
 
 
-def _run_line(rockyard, words, folder, rng):
-    """How it ended, and what was wrong with that; some lines write into a full disk, some into nothing."""
-    where = rng.random()
+def _run_line(rockyard, words, folder, where):
+    """How it ended, and what was wrong with that.
+
+    `where` it writes: below 0.9 where it is read, up to 0.95 into a full disk, else into a pipe without a reader.
+    """
     if where < 0.9:
         end = harness.run([rockyard, *words], folder, TIMEOUT_S)
         return end, harness.problem_of(end)
@@ -183,9 +185,9 @@ def run(rockyard, first, count, findings):
             if index == first or index % LINES_A_FOLDER == 0:
                 shutil.rmtree(folder, ignore_errors=True)
                 subprocess.run(["cp", "-a", ready / "fresh", folder], check=True)
-            rng = harness.generator(findings.seed, findings.part, index)
-            words = make(known, rng)
-            end, reason = _run_line(rockyard, words, folder, rng)
+            words = make(known, harness.generator(findings.seed, findings.part, index))
+            where = harness.generator(findings.seed, "where", index).random()
+            end, reason = _run_line(rockyard, words, folder, where)
             findings.counts["lines"] += 1
             findings.counts[f"ended with {end.code}"] += 1
             if reason:
