@@ -19,7 +19,6 @@ using Type = JsonValue::Type;
 
 constexpr std::size_t kMaxProblems = 100;
 constexpr std::size_t kLongestText = 10000;
-constexpr const char* kEmptyKey = "\"\"";  // as JSON has it; nothing at all could not be seen
 // Reals up to here are exact integers.
 constexpr double kLargestExactInteger = 9007199254740992.0;
 
@@ -90,8 +89,8 @@ void FieldReader::CheckUnknownKeys() {
   if (level.object == nullptr) return;
   for (const JsonMember& member : level.object->members()) {
     if (std::find(level.keys.begin(), level.keys.end(), member.key) != level.keys.end()) continue;
-    const std::string shown = member.key.empty() ? kEmptyKey : member.key.substr(0, 60);
-    Add(Path(shown), "is not a known key", Suggest(member.key, level.keys));
+    Add(Path(ShownKey(member.key).substr(0, 60)), "is not a known key",
+        Suggest(member.key, level.keys));
   }
 }
 

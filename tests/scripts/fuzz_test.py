@@ -35,6 +35,8 @@ class Verdicts(unittest.TestCase):
                               (end(2, "error: a: [json.exception.type_error.302] type"), "not its own"),
                               (end(0, "terminate called after throwing"), "not its own"),
                               (end(2, "error: rockyard: stod"), "not its own"),
+                              (end(2, "error: : is not a known key"), "no place"),
+                              (end(2, "error: 7.json: terrain.: is not a known key"), "no place"),
                               (end(2, "error: a\x1b[2J: b"), "terminal"),
                               (end(2, "error: a\u202e: b"), "terminal")):
             self.assertIn(reason, harness.problem_of(wrong))
