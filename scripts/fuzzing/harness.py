@@ -73,7 +73,7 @@ def problem_of(end, expected=frozenset(DOCUMENTED - {FAILED})):
         return f"ends with {end.code}"
     if end.code == BAD_INPUT and "error: " not in end.err:
         return "refuses and does not say why"
-    if re.search(r"^error: (\d+\.json: )?(: |[^:\n]*\w\.: )", end.err, re.M):
+    if re.search(r"^error: (\d+\.json: )?(: |[\w.\[\]]+\.: )", end.err, re.M):
         return "names no place"
     if re.search(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]", end.err):
         return "shows what a terminal would obey"
