@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "report/atomic_file.h"
 #include "report/baseline.h"
+#include "report/line_text.h"
 
 namespace rockyard::app {
 namespace {
@@ -47,7 +48,8 @@ void WriteBaseline(const BaselineOptions& options) {
           .OrThrow();
   const std::string text = report::BaselineJson(baseline);
   report::WriteFileAtomically(out, text);
-  Print(fmt::format("{}: {} cells, {} bytes\n", out, baseline.cells.size(), text.size()));
+  Print(fmt::format("{}: {} cells, {} bytes\n", report::Printable(out), baseline.cells.size(),
+                    text.size()));
 }
 
 }  // namespace

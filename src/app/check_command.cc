@@ -57,17 +57,23 @@ ExitCode Show(const campaign::BaselineCheck& check, const CheckOptions& options)
   WriteFiles(options, report::RegressionJUnit(found), report::RegressionCsv(found));
   const auto rows =
       options.all_rows ? report::ReportedRows::kAll : report::ReportedRows::kThatMatter;
-  Print(options.json ? report::BaselineCheckJson(found, static_cast<int>(check.outcome))
-                     : Wrapped(report::RegressionText(found, rows)));
+  if (options.json) {
+    PrintJson(report::BaselineCheckJson(found, static_cast<int>(check.outcome)));
+  } else {
+    Print(Wrapped(report::RegressionText(found, rows)));
+  }
   return check.outcome;
 }
 
 ExitCode Show(const campaign::PublishedCheck& check, const CheckOptions& options) {
   WriteFiles(options, report::ComparisonJUnit(check.reference, check.result),
              report::ComparisonCsv(check.result));
-  Print(options.json ? report::PublishedCheckJson(check.reference, check.result,
-                                                  static_cast<int>(check.outcome))
-                     : report::ComparisonText(check.reference, check.result));
+  if (options.json) {
+    PrintJson(
+        report::PublishedCheckJson(check.reference, check.result, static_cast<int>(check.outcome)));
+  } else {
+    Print(report::ComparisonText(check.reference, check.result));
+  }
   return check.outcome;
 }
 

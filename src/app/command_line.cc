@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "app/examples.h"
 #include "app/guard.h"
 #include "app/option_checks.h"
+#include "app/standard_streams.h"
 #include "campaign/campaign_process.h"
 #include "core/error.h"
 #include "core/provenance.h"
@@ -99,7 +101,9 @@ ExitCode Parse(CLI::App& app, int argc, const char* const* argv, const ExitCode&
     app.parse(argc, argv);
     return exit_code;
   } catch (const CLI::Success& request) {  // --help, --version
-    app.exit(request);
+    std::ostringstream asked_for;
+    app.exit(request, asked_for, asked_for);
+    Print(asked_for.str());
     return ExitCode::kDone;
   } catch (const CLI::ParseError& error) {
     PrintOnce({Explain(app, error, argc > 1 ? argv[1] : "")});
@@ -137,13 +141,15 @@ void AddCommands(CLI::App& app, ExitCode& exit_code) {
 }
 
 int RunCommandLine(int argc, const char* const* argv) {
+  PrepareStandardStreams();
   if (!campaign::IsFirstRank() && !(argc > 1 && IsForAllRanks(argv[1]))) {
     return static_cast<int>(ExitCode::kDone);
   }
   CLI::App app("Monte Carlo performance evaluation of planetary rovers", "rockyard");
   ExitCode exit_code = ExitCode::kDone;
   AddCommands(app, exit_code);
-  return static_cast<int>(Guarded([&] { return Parse(app, argc, argv, exit_code); }));
+  const ExitCode outcome = Guarded([&] { return Parse(app, argc, argv, exit_code); });
+  return static_cast<int>(OutputFailed() ? AfterFailedOutput(outcome) : outcome);
 }
 
 }  // namespace rockyard::app

@@ -14,7 +14,8 @@ constexpr std::string_view kForce = "--force";
 
 bool IsFlag(const CLI::Option& option) { return option.get_items_expected_min() == 0; }
 
-// Positional arguments first, so that none of them is taken for the value of an option.
+// Positional arguments first, so that none of them is taken for the value of an option. All of them
+// are files or folders.
 std::string Text(const CLI::App& command, bool resume) {
   std::string words;
   std::string options;
@@ -22,7 +23,7 @@ std::string Text(const CLI::App& command, bool resume) {
     const std::string name = option->get_name();
     if (option->count() == 0 || (resume && (name == kResume || name == kForce))) continue;
     if (option->get_positional()) {
-      for (const std::string& word : option->results()) words += " " + campaign::ShellWord(word);
+      for (const std::string& word : option->results()) words += " " + campaign::ShellPath(word);
     } else if (IsFlag(*option)) {
       options += " " + name;
     } else {

@@ -16,6 +16,7 @@
 #include "campaign/run_views.h"
 #include "report/atomic_file.h"
 #include "report/cell_comparison_text.h"
+#include "report/line_text.h"
 #include "report/paired_comparison.h"
 #include "report/result_json.h"
 
@@ -42,7 +43,8 @@ std::string SettingsText(const std::vector<batch::ScenarioDifference>& differenc
   std::string text = "\nsettings that differ (A, B)\n";
   for (const batch::ScenarioDifference& each :
        std::span(differences).first(std::min(kShown, differences.size()))) {
-    text += fmt::format("  {:<56} {:>18.18} {:>20.20}\n", each.path, each.first, each.second);
+    text += fmt::format("  {:<56} {:>18.18} {:>20.20}\n", report::Printable(each.path),
+                        report::Printable(each.first), report::Printable(each.second));
   }
   if (differences.size() > kShown) {
     text += fmt::format("  and {} more: compare the files scenario.resolved.json\n",
@@ -64,14 +66,15 @@ void Show(const campaign::Comparison& told, const CompareOptions& options) {
   const report::ComparedRun b = campaign::ComparedView(told.second);
   if (const auto* drives = std::get_if<report::RunComparison>(&told.found)) {
     WriteCsv(options, report::RunComparisonCsv(*drives));
-    Print(options.json ? DriveJson(told, *drives)
-                       : report::RunComparisonText(a, b, *drives) + SettingsText(told.settings));
-    return;
+    if (options.json) return PrintJson(DriveJson(told, *drives));
+    return Print(report::RunComparisonText(a, b, *drives) + SettingsText(told.settings));
   }
   const auto& cells = std::get<statistics::CellComparison>(told.found);
   WriteCsv(options, report::CellComparisonCsv(cells));
-  Print(options.json ? report::CellComparisonJson(a, b, cells, static_cast<int>(told.outcome))
-                     : report::CellComparisonText(a, b, cells));
+  if (options.json) {
+    return PrintJson(report::CellComparisonJson(a, b, cells, static_cast<int>(told.outcome)));
+  }
+  Print(report::CellComparisonText(a, b, cells));
 }
 
 ExitCode Compare(const CompareOptions& options) {

@@ -21,7 +21,7 @@ void AddCompletionCommand(CLI::App& app) {
     const Shell known = *shell == "bash"  ? Shell::kBash
                         : *shell == "zsh" ? Shell::kZsh
                                           : Shell::kFish;
-    Print(CompletionScript(app, known));
+    PrintExact(CompletionScript(app, known));
   });
 }
 

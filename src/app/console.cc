@@ -4,8 +4,9 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <algorithm>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <string>
 
 #include "batch/communicator.h"
@@ -22,6 +23,19 @@ constexpr int kDefaultWidth = 100;
 std::string_view Variable(const char* name) {
   const char* value = std::getenv(name);
   return value == nullptr ? std::string_view() : std::string_view(value);
+}
+
+// The stream itself remembers that it failed.
+void Write(std::string_view text) {
+  if (OutputFailed()) return;
+  errno = 0;
+  const bool written =
+      std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  if (written) return;
+  const int reason = errno;
+  if (reason == EPIPE) return std::clearerr(stdout);
+  PrintProblems({{"standard output", fmt::format("cannot be written: {}", std::strerror(reason)),
+                  "check the free space of where it goes"}});
 }
 
 }  // namespace
@@ -44,9 +58,17 @@ report::TextStyle StyleFor(std::FILE* stream) {
   return IsTerminal(stream) && Variable("TERM") != "dumb" ? TextStyle::kColour : TextStyle::kPlain;
 }
 
-void Print(std::string_view text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);
-  std::fflush(stdout);
+void Print(std::string_view text) { Write(report::PrintableLines(text)); }
+
+void PrintJson(std::string_view json) { Write(report::PrintableJson(json)); }
+
+void PrintExact(std::string_view text) { Write(text); }
+
+bool OutputFailed() { return std::ferror(stdout) != 0; }
+
+ExitCode AfterFailedOutput(ExitCode outcome) {
+  const bool says_more = outcome == ExitCode::kBadInput || outcome == ExitCode::kInterrupted;
+  return says_more ? outcome : ExitCode::kFailed;
 }
 
 void PrintProblems(const std::vector<core::Problem>& problems) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/exit_code.h"
 #include "core/error.h"
 #include "report/line_text.h"
 #include "report/summary_text.h"
@@ -23,7 +24,27 @@ int TerminalWidth(std::FILE* stream);
 // else than 0; none where NO_COLOR is set (no-color.org), whatever else is.
 report::TextStyle StyleFor(std::FILE* stream);
 
-void Print(std::string_view text);  // to standard output
+// What follows goes to standard output. Where that cannot be written, PrintProblems says so once,
+// the rest is dropped and OutputFailed() from then on; the caller goes on, as what it writes
+// elsewhere is of use all the same. A pipe whose reader has gone is no failure: who asked for `|
+// head` has it.
+
+// Text for people: what a terminal would obey or hide is shown as '?' (report::PrintableLines), who
+// ever named it.
+void Print(std::string_view text);
+
+// JSON, in which it is escaped.
+void PrintJson(std::string_view json);
+
+// CSV and scripts, which are files that happen to go to standard output: every byte as it is.
+void PrintExact(std::string_view text);
+
+// That some of the above was lost.
+bool OutputFailed();
+
+// How work ended of which nobody could read what it said: kFailed, except where its input was bad
+// or somebody ended it, which say more.
+ExitCode AfterFailedOutput(ExitCode outcome);
 
 // To standard error, all at once: "error: PATH: reason" and "  try: suggestion". Control characters
 // in what the user typed are shown as '?'.

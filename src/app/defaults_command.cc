@@ -9,7 +9,7 @@ namespace rockyard::app {
 
 void AddDefaultsCommand(CLI::App& app) {
   app.add_subcommand("defaults", "Prints a scenario with every parameter at its default")
-      ->callback([] { Print(scenario::DefaultsJson()); });
+      ->callback([] { PrintJson(scenario::DefaultsJson()); });
 }
 
 }  // namespace rockyard::app

@@ -8,7 +8,6 @@ namespace {
 
 // SIGUSR1: mpirun passes it on to every rank, where it would make an end of SIGTERM by itself.
 constexpr std::array kPolite = {SIGINT, SIGTERM, SIGHUP, SIGUSR1};
-constexpr std::array kBecomeErrors = {SIGPIPE, SIGXFSZ};
 
 // A signal handler can reach nothing but static storage.
 std::atomic<std::atomic<bool>*> requested_flag = nullptr;
@@ -33,14 +32,12 @@ InterruptGuard::InterruptGuard(std::atomic<bool>& requested, campaign::SecondWis
     // What the caller told to ignore (nohup, background jobs of a script) stays ignored.
     if (std::signal(signal, handler) == SIG_IGN) std::signal(signal, SIG_IGN);
   }
-  for (const int signal : kBecomeErrors) std::signal(signal, SIG_IGN);
 }
 
 InterruptGuard::~InterruptGuard() {
   for (const int signal : kPolite) {
     if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
   }
-  for (const int signal : kBecomeErrors) std::signal(signal, SIG_DFL);
   requested_flag = nullptr;
 }
 

@@ -7,9 +7,9 @@
 
 namespace rockyard::app {
 
-// While this lives, the first SIGINT, SIGTERM, SIGHUP or SIGUSR1 sets the flag. Writing to a closed
-// pipe or beyond a file size limit becomes an error instead of a signal. One at a time; at the
-// end the default action of these signals comes back, except where the caller ignored them.
+// While this lives, the first SIGINT, SIGTERM, SIGHUP or SIGUSR1 sets the flag. One at
+// a time; at the end the default action of these signals comes back, except where the caller
+// ignored them.
 class InterruptGuard {
  public:
   // `requested` must outlive this; it may be shared with others who may ask for an end.

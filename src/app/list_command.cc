@@ -82,7 +82,7 @@ void PrintEntriesAsJson(const std::string& folder, const std::vector<ListedFile>
   json.Set("schema_version", JsonValue(std::int64_t{1}));
   json.Set("folder", JsonValue(folder));
   json.Set("files", JsonValue(std::move(entries)));
-  Print(core::DumpJson(json));
+  PrintJson(core::DumpJson(json));
 }
 
 void ListAblations() {
@@ -110,7 +110,7 @@ void ListAblationsAsJson() {
   JsonValue json = JsonValue::Object();
   json.Set("schema_version", JsonValue(std::int64_t{1}));
   json.Set("ablations", JsonValue(std::move(entries)));
-  Print(core::DumpJson(json));
+  PrintJson(core::DumpJson(json));
 }
 
 void List(const ListOptions& options) {

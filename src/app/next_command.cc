@@ -9,7 +9,7 @@
 namespace rockyard::app {
 
 std::string NextCommand(const std::filesystem::path& folder, Finished what) {
-  const std::string word = campaign::ShellWord(folder.string());
+  const std::string word = campaign::ShellPath(folder.string());
   if (what == Finished::kShard) return "rockyard merge SHARD... --out FOLDER";
   if (web::PagesBuilt()) return "rockyard report " + word;
   switch (what) {

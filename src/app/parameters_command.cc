@@ -27,7 +27,11 @@ void ListParameters(const ParametersOptions& options) {
                                : campaign::LoadScenarioFrom(options.scenario, options.overrides);
   const auto parameters =
       report::SelectParameters(scenario::ListParameters(scenario), options.origin);
-  Print(options.csv ? report::ParametersCsv(parameters) : report::ParametersMarkdown(parameters));
+  if (options.csv) {
+    PrintExact(report::ParametersCsv(parameters));
+  } else {
+    Print(report::ParametersMarkdown(parameters));
+  }
 }
 
 }  // namespace

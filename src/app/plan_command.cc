@@ -51,7 +51,8 @@ void AddJson(CLI::App& command, PlanOptions& options) {
 }
 
 void Show(const PlanReport& report, const PlanOptions& options) {
-  Print(options.json ? PlanJson(report) : Wrapped(PlanText(report)));
+  if (options.json) return PrintJson(PlanJson(report));
+  Print(Wrapped(PlanText(report)));
 }
 
 struct HalfWidthQuestion {

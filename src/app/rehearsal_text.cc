@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "app/console.h"
+#include "report/line_text.h"
 
 namespace rockyard::app {
 namespace {
@@ -60,17 +61,19 @@ std::string CostText(const campaign::CampaignCost& cost, const campaign::Planned
 
 std::string RehearsalText(const campaign::DryRun& told) {
   const std::string_view at_most = told.planned.at_most ? "at most " : "";
-  return Wrapped(fmt::format("{}, seed {}: {} planned, {} stored, {}{} to run\n", told.name,
-                             told.seed, told.planned.text(), told.stored, at_most, told.pending)) +
+  return Wrapped(fmt::format("{}, seed {}: {} planned, {} stored, {}{} to run\n",
+                             report::Printable(told.name), told.seed, told.planned.text(),
+                             told.stored, at_most, told.pending)) +
          Wrapped(CostText(told, at_most)) + Wrapped(TracesText(told)) +
-         fmt::format("  into {}; nothing was written\n", told.folder.string());
+         fmt::format("  into {}; nothing was written\n", report::Printable(told.folder.string()));
 }
 
 std::string RehearsalText(const campaign::SweepRehearsal& told) {
-  return Wrapped(fmt::format("{}: {} cells, {}, seed {}\n", told.sweep.name,
+  return Wrapped(fmt::format("{}: {} cells, {}, seed {}\n", report::Printable(told.sweep.name),
                              told.sweep.cells.size(), told.trials.text(), told.sweep.seed)) +
          Wrapped(CostText(told.plan.cost, told.trials)) +
-         fmt::format("  plan, and every cell's scenario, in {}\n", told.plan.folder.string());
+         fmt::format("  plan, and every cell's scenario, in {}\n",
+                     report::Printable(told.plan.folder.string()));
 }
 
 }  // namespace rockyard::app

@@ -10,6 +10,7 @@
 #include "app/trial_options.h"
 #include "campaign/replay_moments.h"
 #include "math/angles.h"
+#include "report/line_text.h"
 #include "report/navigation_drawing.h"
 #include "report/scan_drawing.h"
 
@@ -45,7 +46,7 @@ std::string Counted(const campaign::MomentsResult& result) {
 }
 
 void PrintDrawn(const campaign::MomentsResult& result) {
-  const std::string folder = result.folder.string();
+  const std::string folder = report::Printable(result.folder.string());
   if (result.scan) {
     Print(report::ScanText(*result.scan));
     Print(fmt::format("  images, array.svg and points.csv in {}\n", folder));

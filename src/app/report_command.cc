@@ -55,7 +55,7 @@ void PrintPage(const campaign::ReportResult& result) {
         Size(result.page_bytes)));
   }
   Print(fmt::format("  next: open it in a browser, for example `xdg-open {}`\n",
-                    campaign::ShellWord(file)));
+                    campaign::ShellPath(file)));
 }
 
 ExitCode WritePage(const campaign::ReportRequest& request) {
@@ -64,7 +64,7 @@ ExitCode WritePage(const campaign::ReportRequest& request) {
   observer.replays = ShowReplayProgress;
   const campaign::ReportResult result = campaign::WriteReport(request, observer, StopBySignal());
   if (result.data_bytes > 0) {
-    Print(fmt::format("  {} ({})\n", request.data, Size(result.data_bytes)));
+    Print(fmt::format("  {} ({})\n", report::Printable(request.data), Size(result.data_bytes)));
   }
   if (result.page_bytes > 0) PrintPage(result);
   return result.outcome;

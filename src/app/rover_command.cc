@@ -16,6 +16,7 @@
 #include "core/error.h"
 #include "math/angles.h"
 #include "report/atomic_file.h"
+#include "report/line_text.h"
 #include "rover/mass_properties_params.h"
 #include "rover/rover_geometry.h"
 #include "rover/static_loads_params.h"
@@ -92,8 +93,9 @@ void DescribeRover(const RoverOptions& options) {
     report::WriteFileAtomically(options.out, rover::WriteUrdf(scenario.drive.rover));
     return;
   }
-  Print(fmt::format("rover of {}\n", scenario.name) + Dimensions(scenario.drive.rover) +
-        MassesAndMotors(scenario.drive.rover) + Loads(scenario.drive.rover));
+  Print(fmt::format("rover of {}\n", report::Printable(scenario.name)) +
+        Dimensions(scenario.drive.rover) + MassesAndMotors(scenario.drive.rover) +
+        Loads(scenario.drive.rover));
 }
 
 }  // namespace

@@ -34,8 +34,9 @@ ExitCode Run(const RunOptions& options) {
     Print(RehearsalText(campaign::Rehearse(request, messages).OrThrow()));
     return ExitCode::kDone;
   }
-  return campaign::Run(request, ShowRun(options.campaign, Finished::kDrives), StopBySignal())
-      .outcome;
+  SharedFlag output_failed;
+  const campaign::RunObserver shown = ShowRun(options.campaign, Finished::kDrives, output_failed);
+  return ShownOutcome(campaign::Run(request, shown, StopBySignal()).outcome, output_failed);
 }
 
 std::string AblationNames() {

@@ -36,24 +36,31 @@ campaign::Observer MessagesToConsole(Output output) {
   return {.note = note, .problems = PrintProblems};
 }
 
-campaign::RunObserver ShowRun(const CampaignOptions& options, Finished whole) {
+campaign::RunObserver ShowRun(const CampaignOptions& options, Finished whole,
+                              SharedFlag& output_failed) {
   campaign::RunObserver observer;
   static_cast<campaign::Observer&>(observer) = MessagesToConsole(options.output());
   if (options.output() != Output::kQuiet) ShowProgress(observer);
-  observer.reported = [&options](const campaign::FolderReport& report, batch::BatchEnd end) {
+  observer.reported = [&](const campaign::FolderReport& report, batch::BatchEnd end) {
     const bool stopped = end == batch::BatchEnd::kStopped;
     ShowReport(report, {.output = options.output(),
                         .resume = stopped ? options.resume_command : "",
                         .next = stopped || options.request.traces.rules.empty()});
+    if (OutputFailed()) output_failed.Set();
   };
   if (options.output() == Output::kText) {
-    observer.traced = [&options, whole](const std::filesystem::path& folder, ExitCode outcome) {
+    observer.traced = [&, whole](const std::filesystem::path& folder, ExitCode outcome) {
       const bool stopped = outcome == ExitCode::kInterrupted;
       const Finished traced = options.request.ParseShard().whole() ? whole : Finished::kShard;
       Print(NextLine(folder, traced, stopped ? options.resume_command : ""));
+      if (OutputFailed()) output_failed.Set();
     };
   }
   return observer;
+}
+
+ExitCode ShownOutcome(ExitCode outcome, const SharedFlag& output_failed) {
+  return output_failed.IsSet() ? AfterFailedOutput(outcome) : outcome;
 }
 
 campaign::Stop StopBySignal() {

@@ -3,6 +3,7 @@
 
 #include "app/campaign_options.h"
 #include "app/next_command.h"
+#include "app/shared_flag.h"
 #include "campaign/observer.h"
 #include "campaign/run_campaign.h"
 #include "campaign/stop.h"
@@ -14,8 +15,13 @@ campaign::Observer MessagesToConsole(Output output);
 
 // Beside these messages: progress on standard error, the report on standard output, and the line
 // that names the next command, at the end of all. `whole`: what the folder holds that is no shard.
-// `options` must outlive it.
-campaign::RunObserver ShowRun(const CampaignOptions& options, Finished whole);
+// Sets `output_failed` where some of that could not be written, in whichever process. `options` and
+// `output_failed` must outlive it.
+campaign::RunObserver ShowRun(const CampaignOptions& options, Finished whole,
+                              SharedFlag& output_failed);
+
+// How a campaign ended that was shown like that.
+ExitCode ShownOutcome(ExitCode outcome, const SharedFlag& output_failed);
 
 // Ctrl-C and the other polite signals.
 campaign::Stop StopBySignal();

@@ -9,7 +9,7 @@ namespace rockyard::app {
 
 void AddSchemaCommand(CLI::App& app) {
   app.add_subcommand("schema", "Prints the JSON Schema of scenario files")->callback([] {
-    Print(scenario::SchemaJson());
+    PrintJson(scenario::SchemaJson());
   });
 }
 

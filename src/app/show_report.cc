@@ -72,12 +72,12 @@ struct FinishedOf {
 }  // namespace
 
 void ShowReport(const campaign::FolderReport& report, const ShowOptions& options) {
-  if (options.output == Output::kJson) Print(std::visit(JsonOf(), report));
+  if (options.output == Output::kJson) PrintJson(std::visit(JsonOf(), report));
   if (options.output != Output::kText) return;
   const std::filesystem::path folder =
       std::visit([](const auto& told) { return told.folder; }, report);
   Print(std::visit(TextOf(), report));
-  Print(fmt::format("  results in {}\n", folder.string()));
+  Print(fmt::format("  results in {}\n", report::Printable(folder.string())));
   if (options.next) Print(NextLine(folder, std::visit(FinishedOf(), report), options.resume));
 }
 

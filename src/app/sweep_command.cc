@@ -25,7 +25,7 @@ ExitCode RehearseSweep(const campaign::SweepRequest& request, const SweepOptions
   if (!campaign::IsFirstRank()) return ExitCode::kDone;
   const campaign::SweepRehearsal told = campaign::RehearseSweep(request, options.pilots).OrThrow();
   for (const std::string& note : told.plan.notes) PrintNote(note);
-  if (options.campaign.output() == Output::kJson) Print(told.plan.json);
+  if (options.campaign.output() == Output::kJson) PrintJson(told.plan.json);
   if (options.campaign.output() == Output::kText) Print(RehearsalText(told));
   return ExitCode::kDone;
 }
@@ -34,8 +34,9 @@ ExitCode RunSweep(const SweepOptions& options) {
   const campaign::SweepRequest request{.file = options.file,
                                        .campaign = options.campaign.Request()};
   if (options.campaign.dry_run) return RehearseSweep(request, options);
-  return campaign::RunSweep(request, ShowRun(options.campaign, Finished::kSweep), StopBySignal())
-      .outcome;
+  SharedFlag output_failed;
+  const campaign::RunObserver shown = ShowRun(options.campaign, Finished::kSweep, output_failed);
+  return ShownOutcome(campaign::RunSweep(request, shown, StopBySignal()).outcome, output_failed);
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "campaign/trial_source.h"
 #include "core/error.h"
 #include "report/atomic_file.h"
+#include "report/line_text.h"
 #include "report/trace_csv.h"
 #include "report/trace_story.h"
 
@@ -45,17 +46,17 @@ void WriteOutputs(const StoryOptions& options, const campaign::TrialSource& sour
   const truth::TracedTrial& traced = recording.traced;
   if (!options.csv.empty()) {
     report::WriteFileAtomically(options.csv, report::TraceCsv(traced.trace));
-    Print(fmt::format("  samples and events in {}\n", options.csv));
+    Print(fmt::format("  samples and events in {}\n", report::Printable(options.csv)));
   }
   if (!options.svg.empty()) {
     report::WriteFileAtomically(options.svg, campaign::PlanView(source.scenario, traced));
-    Print(fmt::format("  plan view in {}\n", options.svg));
+    Print(fmt::format("  plan view in {}\n", report::Printable(options.svg)));
   }
   if (!options.npz.empty()) {
     report::WriteFileAtomically(
         options.npz,
         campaign::TraceBytes(source.scenario, source.cell, recording, campaign::TraceFormat::kNpz));
-    Print(fmt::format("  arrays for NumPy in {}\n", options.npz));
+    Print(fmt::format("  arrays for NumPy in {}\n", report::Printable(options.npz)));
   }
 }
 

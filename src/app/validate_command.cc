@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/json_file.h"
+#include "report/line_text.h"
 #include "scenario/load.h"
 #include "scenario/sweep.h"
 
@@ -47,7 +48,8 @@ void Validate(const ValidateOptions& options) {
   std::vector<core::Problem> problems;
   for (const std::string& path : options.scenarios) {
     try {
-      Print(fmt::format("{}: valid, {}\n", path, Check(path, options.overrides)));
+      Print(
+          fmt::format("{}: valid, {}\n", report::Printable(path), Check(path, options.overrides)));
     } catch (const core::UserError& error) {
       for (core::Problem problem : error.problems()) {
         if (options.scenarios.size() > 1) problem.path = path + ": " + problem.path;

@@ -15,6 +15,7 @@
 #include "batch/watchdog.h"
 #include "campaign/heeded_work.h"
 #include "campaign/rank_service.h"
+#include "campaign/shell_word.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -26,7 +27,7 @@ using Task = Mission::Task;
 
 std::string CellPart(const batch::ResultStore& store, int cell) {
   const std::string& name = store.identity().cells[static_cast<std::size_t>(cell)].name;
-  return name.empty() ? std::string() : fmt::format(" --cell {}", name);
+  return name.empty() ? std::string() : fmt::format(" --cell {}", ShellWord(name));
 }
 
 std::uint64_t SeedOf(const batch::ResultStore& store, int cell) {
@@ -107,8 +108,9 @@ bool IsFirstRank() {
 }
 
 std::string ReplayLine(const batch::ResultStore& store, batch::TrialId id) {
-  return fmt::format("rockyard replay {}{} --trial {}", store.path().parent_path().string(),
-                     CellPart(store, id.cell), id.trial);
+  return fmt::format("rockyard replay {}{} --trial {}",
+                     ShellPath(store.path().parent_path().string()), CellPart(store, id.cell),
+                     id.trial);
 }
 
 CampaignProcess::CampaignProcess(const ContainmentOptions& options, const Mission& mission,

@@ -22,6 +22,11 @@ void CheckOutputFile(std::string_view option, const std::string& file) {
   if (fs::is_directory(file, error)) {
     throw core::UserError(std::string(option), "is a folder: " + file, "name a file");
   }
+  // A device or a pipe would be replaced by the file rather than written to.
+  if (fs::exists(file, error) && !fs::is_regular_file(file, error)) {
+    throw core::UserError(std::string(option), "is there and is no regular file: " + file,
+                          "name a file");
+  }
   // Files are made beside their place and renamed, so that the folder is what counts.
   if (access(fs::absolute(file, error).parent_path().c_str(), W_OK) != 0) {
     throw core::UserError(std::string(option), "is in a folder that cannot be written to: " + file,

@@ -39,7 +39,7 @@ std::vector<core::ParameterInfo> ParametersOf(const StoredRun& run) {
 }
 
 std::string ReplayCommand(const StoredRun& run) {
-  std::string command = "rockyard replay " + ShellWord(run.folder.string());
+  std::string command = "rockyard replay " + ShellPath(run.folder.string());
   if (!run.identity.name.empty()) command += " --cell " + ShellWord(run.identity.name);
   return command + " --trial {trial}";
 }

@@ -19,7 +19,7 @@ namespace {
 
 // Without the trial, which comes last.
 std::string RequestWords(const TrialRequest& request) {
-  std::string words = ShellWord(request.source);
+  std::string words = ShellPath(request.source);
   if (!request.cell.empty()) words += fmt::format(" --cell {}", ShellWord(request.cell));
   if (request.seed) words += fmt::format(" --seed {}", *request.seed);
   for (const std::string& assignment : request.overrides) {

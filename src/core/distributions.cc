@@ -39,7 +39,10 @@ double SampleUniform(RandomStream& stream, double low, double high) {
 
 double NormalQuantile(double p) {
   EXPECT(p > 0.0 && p < 1.0);
-  return std::numbers::sqrt2 * boost::math::erf_inv(2.0 * p - 1.0, InDouble());
+  const double central = 2.0 * p - 1.0;
+  // Below some 1e-17 the difference to -1 is lost. Elsewhere the other form has other last digits.
+  if (central <= -1.0) return -std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * p, InDouble());
+  return std::numbers::sqrt2 * boost::math::erf_inv(central, InDouble());
 }
 
 double SampleNormal(RandomStream& stream, double mean, double standard_deviation) {

@@ -89,8 +89,8 @@ void FieldReader::CheckUnknownKeys() {
   if (level.object == nullptr) return;
   for (const JsonMember& member : level.object->members()) {
     if (std::find(level.keys.begin(), level.keys.end(), member.key) != level.keys.end()) continue;
-    const std::string shown = member.key.substr(0, 60);
-    Add(Path(shown), "is not a known key", Suggest(member.key, level.keys));
+    Add(Path(ShownKey(member.key).substr(0, 60)), "is not a known key",
+        Suggest(member.key, level.keys));
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/json_text.h"
+#include "core/spelling.h"
 
 namespace rockyard::core {
 namespace {
@@ -47,7 +48,7 @@ std::string ReadText(const fs::path& path) {
 
 // "a" and "b" to "a.b".
 std::string Join(std::string_view at, std::string_view key) {
-  return at.empty() ? std::string(key) : fmt::format("{}.{}", at, key);
+  return at.empty() ? std::string(ShownKey(key)) : fmt::format("{}.{}", at, ShownKey(key));
 }
 
 // Problems are named by the place in the whole document where a file is asked for.
@@ -162,7 +163,7 @@ void SetPath(JsonValue& document, std::string_view path, JsonValue value) {
     const std::size_t dot = rest.find('.');
     const std::string_view key = rest.substr(0, dot);
     if (key.empty()) {
-      throw UserError(std::string(path), "is not a path",
+      throw UserError(fmt::format("\"{}\"", path), "is not a path",
                       "write keys joined by dots, such as a.b.c");
     }
     if (dot == std::string_view::npos) {

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/json_text.h"
+#include "core/spelling.h"
 
 namespace rockyard::core {
 namespace {
@@ -102,7 +103,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   bool key(string_t& name) override {
     Level& level = levels_.back();
     if (!level.keys.insert(name).second) {
-      throw UserError(fmt::format("{}: {}", source_name_, Path() + name),
+      throw UserError(fmt::format("{}: {}", source_name_, Path() + std::string(ShownKey(name))),
                       fmt::format("the key is there twice, again at {}", Place(text_, taken_)),
                       "keep one of the two");
     }
@@ -132,7 +133,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     for (std::size_t i = 0; i + 1 < levels_.size(); ++i) {
       path += levels_[i].value.Is(JsonValue::Type::kList)
                   ? fmt::format("{}.", levels_[i].value.list().size())
-                  : levels_[i].key + ".";
+                  : std::string(ShownKey(levels_[i].key)) + ".";
     }
     return path;
   }

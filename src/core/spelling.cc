@@ -14,6 +14,8 @@ constexpr std::size_t kLongestWord = 80;
 
 }  // namespace
 
+std::string_view ShownKey(std::string_view key) { return key.empty() ? "\"\"" : key; }
+
 std::size_t EditDistance(std::string_view a, std::string_view b) {
   const std::size_t columns = b.size() + 1;
   std::vector<std::size_t> before_last(columns);

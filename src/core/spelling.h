@@ -8,6 +8,10 @@
 
 namespace rockyard::core {
 
+// A key of JSON as paths in messages name it: `""` for the one that is empty, which nobody could
+// see.
+std::string_view ShownKey(std::string_view key);
+
 // Damerau-Levenshtein distance with adjacent transpositions (optimal string alignment): insertions,
 // deletions, replacements and swaps of neighbours that turn one text into the other. Time: a.size()
 // * b.size().

@@ -18,11 +18,13 @@ struct Unit {
   std::string_view text;   // for people
 };
 
-constexpr std::array<Unit, 31> kUnits = {{{"m", "m"},
+constexpr std::array<Unit, 35> kUnits = {{{"m", "m"},
                                           {"m2", "m2"},
                                           {"m3", "m3"},
                                           {"mm", "mm"},
                                           {"cm", "cm"},
+                                          {"nm", "nm"},
+                                          {"au", "au"},
                                           {"s", "s"},
                                           {"s2", "s2"},
                                           {"h", "h"},
@@ -36,6 +38,7 @@ constexpr std::array<Unit, 31> kUnits = {{{"m", "m"},
                                           {"Nm", "Nm"},
                                           {"Ns", "Ns"},
                                           {"W", "W"},
+                                          {"w", "W"},
                                           {"Wh", "Wh"},
                                           {"wh", "Wh"},
                                           {"J", "J"},
@@ -45,6 +48,7 @@ constexpr std::array<Unit, 31> kUnits = {{{"m", "m"},
                                           {"hz", "Hz"},
                                           {"Pa", "Pa"},
                                           {"px", "px"},
+                                          {"e", "e"},  // electrons
                                           {"percent", "%"},
                                           {"K", "K"},
                                           // Powers of Bekker's sinkage exponent n.

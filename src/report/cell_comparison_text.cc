@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "report/line_text.h"
 #include "report/measurement_text.h"
 
 namespace rockyard::report {
@@ -24,7 +25,7 @@ std::string Head(const ComparedRun& first, const ComparedRun& second,
   std::string text;
   char letter = 'A';
   for (const ComparedRun* run : {&first, &second}) {
-    text += fmt::format("{}: {:.60}, seed {}, {} runs\n", letter++, run->name, run->seed,
+    text += fmt::format("{}: {:.60}, seed {}, {} runs\n", letter++, Printable(run->name), run->seed,
                         run->records.size());
   }
   text += fmt::format("{} cell{} in both", comparison.cells.size(),

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "report/comparison_format.h"
+#include "report/line_text.h"
 
 namespace rockyard::report {
 namespace {
@@ -69,8 +70,8 @@ std::string Wrap(const std::string& text, std::size_t indent) {
 std::string Line(char mark, const std::string& what, const std::string& published,
                  const std::string& predicted, const std::string& p, const std::string& holm,
                  const std::string& power, const std::string& verdict) {
-  std::string line = fmt::format("{} {:<31.31} {:>9} {:>23} {:>6} {:>6} {:>5} {}", mark, what,
-                                 published, predicted, p, holm, power, verdict);
+  std::string line = fmt::format("{} {:<31.31} {:>9} {:>23} {:>6} {:>6} {:>5} {}", mark,
+                                 Printable(what), published, predicted, p, holm, power, verdict);
   line.erase(line.find_last_not_of(' ') + 1);
   return line + "\n";
 }
@@ -161,10 +162,11 @@ std::vector<std::string> ComparisonNotes(const ComparisonResult& result) {
 }
 
 std::string ComparisonText(const PublishedReference& reference, const ComparisonResult& result) {
-  std::string text = reference.title + " against simulated trials\n\n";
+  std::string text = Printable(reference.title) + " against simulated trials\n\n";
   text += Line(' ', "number", "published", "predicted (95 %)", "p", "Holm", "power", "verdict");
   for (const std::string& scenario : Scenarios(result)) {
-    text += (scenario.empty() ? "computed" : scenario) + "\n" + Changed(result, scenario);
+    text +=
+        (scenario.empty() ? "computed" : Printable(scenario)) + "\n" + Changed(result, scenario);
     for (const ComparedValue& value : result.values) {
       if (value.published.scenario == scenario) text += Row(value);
     }

@@ -7,8 +7,19 @@
 
 namespace rockyard::report {
 
-// Line breaks as spaces, other control characters (escape sequences begin with one) as '?'.
+// Names and other text that somebody may have made to deceive whoever reads a terminal: line breaks
+// as spaces; as '?' what a terminal or an editor obeys or hides instead of showing it (control
+// characters, with which escape sequences begin, those that change the direction of a line, those
+// without width) and every byte that is no UTF-8.
 std::string Printable(std::string_view text);
+
+// The same for text of several lines that this program has laid out: keeps its line breaks, and the
+// colours of summary_text.h.
+std::string PrintableLines(std::string_view text);
+
+// The same for JSON, which says the same afterwards: such characters, which can stand in its texts
+// alone, as \uXXXX.
+std::string PrintableJson(std::string_view json);
 
 // Columns of a terminal, one for each code point of UTF-8. Limit: marks that combine and letters of
 // double width are counted as one, too.

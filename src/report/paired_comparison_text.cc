@@ -75,9 +75,9 @@ std::string CsvRows(std::string_view trials, std::span<const ColumnComparison> c
 
 std::string RunComparisonText(const ComparedRun& first, const ComparedRun& second,
                               const RunComparison& comparison) {
-  std::string text =
-      fmt::format("A: {}, seed {}, {} trials\nB: {}, seed {}, {} trials\n", first.name, first.seed,
-                  first.records.size(), second.name, second.seed, second.records.size());
+  std::string text = fmt::format("A: {}, seed {}, {} trials\nB: {}, seed {}, {} trials\n",
+                                 Printable(first.name), first.seed, first.records.size(),
+                                 Printable(second.name), second.seed, second.records.size());
   text += Pairing(comparison);
   if (comparison.shared_layouts) {
     text +=

@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "report/csv.h"
+#include "report/line_text.h"
 
 namespace rockyard::report {
 namespace {
@@ -92,8 +93,8 @@ std::string ParametersMarkdown(std::span<const ParameterInfo> parameters) {
       "| parameter | value | unit | range | reason or source | meaning "
       "|\n|---|---|---|---|---|---|\n";
   for (const ParameterInfo& p : parameters) {
-    table += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", p.path, ParameterValue(p), p.unit,
-                         ParameterRange(p), p.source, p.doc);
+    table += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", p.path,
+                         Printable(ParameterValue(p)), p.unit, ParameterRange(p), p.source, p.doc);
   }
   return table;
 }

@@ -14,8 +14,11 @@ namespace {
 using statistics::RegressionRow;
 using statistics::RegressionVerdict;
 
+std::string NameOf(const CheckedCell& cell) {
+  return cell.name.empty() ? "the run" : Printable(cell.name);
+}
+
 std::string CellLine(const CheckedCell& cell) {
-  const std::string name = cell.name.empty() ? "the run" : cell.name;
   std::string how;
   if (cell.identical) {
     how = fmt::format("identical: {} trials, every bit", cell.run_trials);
@@ -27,7 +30,7 @@ std::string CellLine(const CheckedCell& cell) {
                       cell.baseline_trials, cell.baseline_seed,
                       cell.same_fields ? "" : ", other fields");
   }
-  return fmt::format("  {:<30} {}\n", name, how);
+  return fmt::format("  {:<30} {}\n", NameOf(cell), how);
 }
 
 // The first finding: bits.
@@ -46,7 +49,7 @@ std::string Records(const RegressionReport& report) {
   for (const CheckedCell& cell : report.cells) {
     if (!cell.records.any()) continue;
     text +=
-        fmt::format("  {}: {}\n", cell.name.empty() ? "the run" : cell.name,
+        fmt::format("  {}: {}\n", NameOf(cell),
                     cell.records.only_hash
                         ? "another hash; last digits, or columns that the baseline does not keep"
                         : fmt::format("{} of {} trials: {}", cell.records.trials,
@@ -99,7 +102,7 @@ std::string Table(const RegressionReport& report, ReportedRows rows) {
       }
     }
     if (lines.empty()) continue;
-    text += TableHead() + (cell.name.empty() ? "" : fmt::format("  {}\n", cell.name)) + lines;
+    text += TableHead() + (cell.name.empty() ? "" : fmt::format("  {}\n", NameOf(cell))) + lines;
   }
   return text;
 }
@@ -114,7 +117,7 @@ std::string Moved(const RegressionReport& report) {
     return std::abs(a->difference) / a->margin > std::abs(b->difference) / b->margin;
   });
   std::string text;
-  for (const RegressionRow* row : rows) text += "  " + Sentence(*row) + "\n";
+  for (const RegressionRow* row : rows) text += "  " + Printable(Sentence(*row)) + "\n";
   return text.empty() ? text : "\nchanged\n" + text;
 }
 
@@ -143,7 +146,7 @@ std::string Unsure(const RegressionReport& report) {
   if (worst != nullptr) {
     text += fmt::format(
         "  The hardest, {},\n  needs about {} trials with a value to see a shift of its margin.\n",
-        Label(*worst), most);
+        Printable(Label(*worst)), most);
   }
   return text;
 }
@@ -166,7 +169,7 @@ std::string Determinism(const RegressionReport& report) {
   std::string text;
   for (const CheckedCell& cell : report.cells) {
     if (!cell.not_deterministic) continue;
-    text += fmt::format("  {}\n", NotDeterministic(cell));
+    text += fmt::format("  {}\n", Printable(NotDeterministic(cell)));
   }
   return text.empty() ? text : "determinism is broken\n" + text + "\n";
 }
@@ -175,8 +178,9 @@ std::string Determinism(const RegressionReport& report) {
 
 std::string RegressionText(const RegressionReport& report, ReportedRows rows) {
   std::string text = Determinism(report);
-  text += fmt::format("against baseline {}: {}\n", report.baseline, report.reason);
-  for (const std::string& note : report.notes) text += "  note: " + note + "\n";
+  text += fmt::format("against baseline {}: {}\n", Printable(report.baseline),
+                      Printable(report.reason));
+  for (const std::string& note : report.notes) text += "  note: " + Printable(note) + "\n";
   for (const CheckedCell& cell : report.cells) text += CellLine(cell);
   return text + Table(report, rows) + Moved(report) + Unsure(report) + Records(report) +
          Distribution(report.result) + Rates(report.result.options);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "math/angles.h"
+#include "report/line_text.h"
 #include "report/trace_view.h"
 #include "statistics/drive_summary.h"
 
@@ -261,7 +262,7 @@ std::string KeyFigures(const truth::TracedTrial& trial) {
 
 std::string TraceStory(const truth::TracedTrial& trial, StoryLength length) {
   std::string text =
-      fmt::format("{}, seed {}, trial {}: {} ({})\n", trial.scenario, trial.seed,
+      fmt::format("{}, seed {}, trial {}: {} ({})\n", Printable(trial.scenario), trial.seed,
                   trial.record.trial, truth::Name(trial.record.outcome), trial.record.detail);
   if (!trial.record.values.empty()) text += KeyFigures(trial);
   return text + EventLines(trial, length);

@@ -62,11 +62,16 @@ class CommandTest : public testing::Test {
     return StartProgram(With({ROCKYARD_COMMAND}, words));
   }
 
-  pid_t StartProgram(std::vector<std::string> words) const {
+  // `out`: its standard output, kClosed for none, kKept for what Wait gives back.
+  static constexpr int kKept = -1;
+  static constexpr int kClosed = -2;
+  pid_t StartProgram(std::vector<std::string> words, int out = kKept) const {
     const pid_t process = fork();
     if (process != 0) return process;
     Redirect(folder_ / "out", STDOUT_FILENO);
     Redirect(folder_ / "err", STDERR_FILENO);
+    if (out >= 0) dup2(out, STDOUT_FILENO);
+    if (out == kClosed) close(STDOUT_FILENO);
     if (chdir(work().c_str()) != 0) _exit(126);
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
@@ -83,6 +88,10 @@ class CommandTest : public testing::Test {
   }
 
   CommandResult Run(const std::vector<std::string>& words) const { return Wait(Start(words)); }
+
+  CommandResult RunInto(int out, const std::vector<std::string>& words) const {
+    return Wait(StartProgram(With({ROCKYARD_COMMAND}, words), out));
+  }
 
   std::filesystem::path work() const { return folder_ / "work"; }
   bool NothingWritten() const { return std::filesystem::is_empty(work()); }

@@ -40,6 +40,14 @@ TEST_F(CommandLine, IsWhatWasTyped) {
             "rockyard run 'a b.json' --trials 30 --set a=1 --set 'name='\\''it'\\''' --quiet");
 }
 
+TEST_F(CommandLine, NamesNoFileThatLooksLikeAnOption) {
+  EXPECT_EQ(CommandText(Parsed("run", {"--quiet", "--out", "-o", "--set", "-p=1", "--", "-x"})),
+            "rockyard run ./-x --set -p=1 --out -o --quiet");
+  EXPECT_EQ(CommandText(Parsed("run", {"./-x", "--out", "-o", "--set", "-p=1", "--quiet"})),
+            "rockyard run ./-x --set -p=1 --out -o --quiet")
+      << "what was printed means the same";
+}
+
 TEST_F(CommandLine, ResumesWithoutSettingAside) {
   EXPECT_EQ(ResumeText(Parsed("sweep", {"s.json", "--force", "--out", "x"})),
             "rockyard sweep s.json --out x --resume");

@@ -17,6 +17,11 @@ TEST(NextCommand, IsThePageWhereThisBuildHasPages) {
   }
 }
 
+TEST(NextCommand, TakesNoFolderForAnOption) {
+  const std::string command = NextCommand("-x", Finished::kDrives);
+  EXPECT_NE(command.find(" ./-x"), std::string::npos) << command;
+}
+
 TEST(NextCommand, ShardsAreMerged) {
   EXPECT_EQ(NextCommand("runs/a", Finished::kShard), "rockyard merge SHARD... --out FOLDER");
 }

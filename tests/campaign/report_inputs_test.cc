@@ -37,6 +37,20 @@ TEST(ShellWord, IsQuotedWhereAShellWouldReadMore) {
   EXPECT_EQ(ShellWord("it's"), "'it'\\''s'");
   EXPECT_EQ(ShellWord("$(rm -r x)"), "'$(rm -r x)'");
   EXPECT_EQ(ShellWord(""), "''");
+  EXPECT_EQ(ShellWord("-x"), "-x");
+  EXPECT_EQ(ShellWord("caf\u00e9"), "'caf\u00e9'");
+}
+
+TEST(ShellWord, OfWhatATerminalWouldNotShowIsWrittenInNumbers) {
+  EXPECT_EQ(ShellWord("a\u202eb"), "$'a\\342\\200\\256b'");
+  EXPECT_EQ(ShellWord("\n'\\ \x7f"), "$'\\012\\047\\134 \\177'");
+}
+
+TEST(ShellPath, IsNoOption) {
+  EXPECT_EQ(ShellPath("-x"), "./-x");
+  EXPECT_EQ(ShellPath("--help me"), "'./--help me'");
+  EXPECT_EQ(ShellPath("a-x"), "a-x");
+  EXPECT_EQ(ShellPath("/-x"), "/-x");
 }
 
 TEST(WorstTrials, OfSeveralCellsTheFurthestFromTheGoalComeFirst) {

@@ -38,6 +38,20 @@ TEST(DistributionsTest, Uniform) {
   EXPECT_LT(KolmogorovP(sample, [](double x) { return (x + 2.0) / 5.1; }), kAlpha);
 }
 
+// A probability may be as small as numbers get: what never happens has its quantile, too.
+TEST(DistributionsTest, NormalQuantilesOfTheLeastProbabilities) {
+  double before = -std::numeric_limits<double>::infinity();
+  for (const double p : {1e-300, 1e-100, 1e-20, 1e-17, 1e-16, 1e-15, 1e-3}) {
+    const double x = NormalQuantile(p);
+    EXPECT_GT(x, before) << p;
+    // Near 1e-16 the distance to -1, of which the quantile is made there, has few digits.
+    const double tolerance = p < 1e-17 ? 1e-9 : 0.5;
+    EXPECT_NEAR(0.5 * std::erfc(-x / std::numbers::sqrt2) / p, 1.0, tolerance) << p;
+    before = x;
+  }
+  EXPECT_NEAR(NormalQuantile(5e-324), -38.46740561714434, 1e-6) << "of few digits itself";
+}
+
 TEST(DistributionsTest, Normal) {
   const auto sample = Draw([](RandomStream& s) { return SampleNormal(s, 1.0, 2.0); }, 2);
   const auto cdf_of = [](double mean, double deviation) {

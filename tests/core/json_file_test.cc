@@ -117,6 +117,9 @@ TEST_F(JsonFileTest, ErrorsOfPartsNameTheirPath) {
   Write("inner.json", R"({"c": {"extends": ""}})");
   EXPECT_EQ(ProblemOf(Write("in_part.json", R"({"a": {"extends": "inner.json"}})")).path,
             "a.c.extends");
+  EXPECT_EQ(ProblemOf(Write("empty_key.json", R"({"a": {"": {"extends": 3}}})")).path,
+            "a.\"\".extends");
+  EXPECT_EQ(ProblemOf(Write("empty_keys.json", R"({"": {"extends": 3}})")).path, "\"\".extends");
   problem = ProblemOf(Write("loop.json", R"({"a": {"b": {"extends": "loop.json"}}})"));
   EXPECT_EQ(problem.path, "a.b.extends");
   EXPECT_THAT(problem.reason, HasSubstr("cycle: loop.json -> loop.json"));

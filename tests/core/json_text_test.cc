@@ -74,6 +74,11 @@ TEST(JsonTextTest, MalformedTextsAreRefused) {
   }
 }
 
+TEST(JsonTextTest, AnEmptyKeyIsNamed) {
+  EXPECT_THAT(ProblemOf(R"({"": 1, "": 2})").path, testing::EndsWith(": \"\""));
+  EXPECT_THAT(ProblemOf(R"({"": {"b": 1, "b": 2}})").path, testing::EndsWith(": \"\".b"));
+}
+
 TEST(JsonTextTest, NumbersBeyondADoubleAreRefused) {
   EXPECT_THAT(ProblemOf("{\"a\": 1e999}").reason, HasSubstr("number overflow parsing '1e999'"));
   EXPECT_THAT(ProblemOf("[-1e400]").reason, HasSubstr("overflow"));

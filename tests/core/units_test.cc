@@ -18,6 +18,11 @@ TEST(UnitsTest, SuffixesNameUnits) {
   EXPECT_EQ(UnitOf("gravity_m_s2"), "m/s2");
   EXPECT_EQ(UnitOf("control_rate_hz"), "Hz");
   EXPECT_EQ(UnitOf("error_percent"), "%");
+  EXPECT_EQ(UnitOf("input_power_w"), "W");
+  EXPECT_EQ(UnitOf("irradiance_w_m2_nm"), "W/m2/nm");
+  EXPECT_EQ(UnitOf("distance_au"), "au");
+  EXPECT_EQ(UnitOf("read_noise_e"), "e");
+  EXPECT_EQ(UnitOf("dark_current_e_s"), "e/s");
 }
 
 TEST(UnitsTest, NamesWithoutUnitsHaveUnitOne) {

@@ -1,0 +1,167 @@
+// Standard output that takes nothing, and one that nobody reads.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/command.h"
+
+namespace rockyard::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+constexpr const char* kLost = "error: standard output: cannot be written: No space left on device";
+
+class OutputTest : public CommandTest {
+ protected:
+  OutputTest() : full_(open("/dev/full", O_WRONLY | O_CLOEXEC)) {
+    std::array<int, 2> ends{};
+    EXPECT_EQ(pipe2(ends.data(), O_CLOEXEC), 0);
+    close(ends[0]);
+    unread_ = ends[1];
+  }
+  ~OutputTest() override {
+    close(full_);
+    close(unread_);
+  }
+
+  // One of each kind of text on standard output, and every subcommand that needs no run.
+  static std::vector<Words> Commands() {
+    return {{"--help"},
+            {"--version"},
+            {"run", "--help"},
+            {"list", std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder"},
+            {"list", "--ablations", "--json"},
+            {"defaults"},
+            {"schema"},
+            {"parameters"},
+            {"parameters", "--csv"},
+            {"metrics"},
+            {"completion", "bash"},
+            {"plan", "claim", "--below", "0.1"},
+            {"plan", "claim", "--below", "0.1", "--json"},
+            {"validate", Scenario("nominal")},
+            {"rover", Scenario("nominal")},
+            {"terrain", Scenario("nominal"), "--density", "--fields", "1"},
+            With(QuickRun("dry", 1), {"--dry-run"})};
+  }
+
+  int full_;
+  int unread_;  // a pipe whose reader has gone
+};
+
+std::string Joined(const Words& words) {
+  std::string text;
+  for (const std::string& word : words) text += word + " ";
+  return text;
+}
+
+std::size_t Occurrences(const std::string& text, const std::string& what) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+TEST_F(OutputTest, ThatIsFullEndsEveryCommandWithFive) {
+  for (const Words& words : Commands()) {
+    const CommandResult told = RunInto(full_, words);
+    EXPECT_EQ(told.exit_code, 5) << Joined(words);
+    EXPECT_EQ(Occurrences(told.err, kLost), 1u) << Joined(words) << told.err;
+  }
+}
+
+TEST_F(OutputTest, ThatNobodyReadsIsNoFailure) {
+  for (const Words& words : Commands()) {
+    const CommandResult told = RunInto(unread_, words);
+    EXPECT_EQ(told.exit_code, 0) << Joined(words);
+    EXPECT_EQ(told.err, "") << Joined(words);
+  }
+}
+
+TEST_F(OutputTest, ThatIsClosedIsAFailureWhereSomethingIsSaid) {
+  const CommandResult told = RunInto(kClosed, {"list", "--ablations"});
+  EXPECT_EQ(told.exit_code, 5);
+  EXPECT_NE(told.err.find("standard output: cannot be written"), std::string::npos) << told.err;
+  EXPECT_EQ(RunInto(kClosed, With(QuickRun("quiet", 1), {"--quiet"})).exit_code, 0);
+}
+
+// The number of the closed stream would be that of the first file to be opened.
+TEST_F(OutputTest, ThatIsClosedGetsIntoNoFile) {
+  ASSERT_EQ(RunInto(kClosed, QuickRun("closed", 2)).exit_code, 5);
+  ASSERT_EQ(Run(QuickRun("open", 2)).exit_code, 0);
+  for (const char* name : {"trials.csv", "scenario.resolved.json", "distance_cdf.csv"}) {
+    EXPECT_EQ(ReadFile(work() / "closed" / name), ReadFile(work() / "open" / name)) << name;
+  }
+}
+
+TEST_F(OutputTest, BadInputSaysMoreThanAFullDisk) {
+  EXPECT_EQ(RunInto(full_, {"validate", Scenario("nominal"), "no-such-file.json"}).exit_code, 2);
+}
+
+TEST_F(OutputTest, ThatIsFullLosesNoTrialOfARunAndNoTrace) {
+  for (const Words& how : {Words{}, Words{"--json"}, Words{"--no-supervisor"}}) {
+    const std::string folder = "full" + Joined(how);
+    const CommandResult told =
+        RunInto(full_, With(With(QuickRun(folder, 2), {"--traces", "all"}), how));
+    EXPECT_EQ(told.exit_code, 5) << Joined(how);
+    EXPECT_NE(told.err.find(kLost), std::string::npos) << told.err;
+    EXPECT_TRUE(fs::exists(work() / folder / "summary.json")) << Joined(how);
+    EXPECT_EQ(told.err.find("crashed"), std::string::npos) << told.err;
+    const CommandResult again =
+        Run(With(With(QuickRun(folder, 2), {"--traces", "all", "--resume"}), how));
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_NE(again.err.find("0 traces written, 2 were there"), std::string::npos)
+        << "all were written the first time: " << again.err;
+  }
+}
+
+TEST_F(OutputTest, ThatNobodyReadsLosesNoTrialOfARunAndNoTrace) {
+  const CommandResult told = RunInto(unread_, With(QuickRun("run", 2), {"--traces", "all"}));
+  EXPECT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_EQ(told.err.find("error"), std::string::npos) << told.err;
+  EXPECT_TRUE(fs::exists(work() / "run" / "summary.json"));
+}
+
+TEST_F(OutputTest, OfASweepAndOfARunThatIsLookedAtAgain) {
+  WriteFile(work() / "sweep.json",
+            R"({"name": "two", "scenario": ")" + Scenario("nominal") +
+                R"(", "trials": 1, "seed": 1,)" +
+                R"( "axes": [{"path": "referee.time_limit_s", "values": [1, 2]}]})");
+  ASSERT_EQ(Run(QuickRun("run", 2)).exit_code, 0);
+  const std::vector<Words> commands = {{"trace", "run", "--trial", "0", "--csv", "trace.csv"},
+                                       {"replay", "run", "--trial", "0", "--list"},
+                                       {"compare", "run", "run"},
+                                       {"compare", "run", "run", "--json"},
+                                       {"sweep", "sweep.json", "--dry-run", "--pilots", "0"}};
+  for (const Words& words : commands) {
+    EXPECT_EQ(RunInto(full_, words).exit_code, 5) << Joined(words);
+    EXPECT_EQ(RunInto(unread_, words).exit_code, 0) << Joined(words);
+  }
+  EXPECT_TRUE(fs::exists(work() / "trace.csv")) << "what is asked for elsewhere is written";
+}
+
+TEST_F(OutputTest, BeyondALimitOnFilesIsAFailureToo) {
+  const rlimit former = [] {
+    rlimit limit{};
+    getrlimit(RLIMIT_FSIZE, &limit);
+    const rlimit small{100, limit.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+    return limit;
+  }();
+  const CommandResult told = Run({"list", "--ablations"});
+  setrlimit(RLIMIT_FSIZE, &former);
+  EXPECT_EQ(told.exit_code, 5);
+}
+
+}  // namespace
+}  // namespace rockyard::app

@@ -1,0 +1,65 @@
+#include "campaign/output_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "core/error.h"
+
+namespace rockyard::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+class OutputFile : public testing::Test {
+ protected:
+  OutputFile() { fs::create_directories(folder_); }
+  ~OutputFile() override { fs::remove_all(folder_); }
+
+  std::string At(const std::string& name) const { return (folder_ / name).string(); }
+
+  // Empty where it is accepted.
+  static std::string Reason(const std::string& file) {
+    try {
+      CheckOutputFile("--csv", file);
+    } catch (const core::UserError& error) {
+      return error.problems().at(0).path + " " + error.problems().at(0).reason;
+    }
+    return "";
+  }
+
+ private:
+  fs::path folder_ =
+      fs::temp_directory_path() / ("rockyard-output-file-" + std::to_string(getpid()));
+};
+
+TEST_F(OutputFile, MayBeNewOrThere) {
+  std::ofstream(At("old.csv")) << "1";
+  fs::create_symlink(At("old.csv"), At("link.csv"));
+  fs::create_symlink(At("none.csv"), At("dangling.csv"));
+  for (const char* name : {"new.csv", "old.csv", "link.csv", "dangling.csv"}) {
+    EXPECT_EQ(Reason(At(name)), "") << name;
+  }
+}
+
+// What is renamed onto a device takes its place: as root even that of /dev/null.
+TEST_F(OutputFile, IsNoDeviceAndNoPipe) {
+  ASSERT_EQ(mkfifo(At("pipe").c_str(), 0600), 0);
+  fs::create_symlink(At("pipe"), At("link"));
+  for (const std::string& file : {At("pipe"), At("link"), std::string("/dev/null")}) {
+    EXPECT_EQ(Reason(file), "--csv is there and is no regular file: " + file);
+  }
+}
+
+TEST_F(OutputFile, IsNoFolderAndInOneThatIsThere) {
+  EXPECT_EQ(Reason(At("")), "--csv is a folder: " + At(""));
+  EXPECT_EQ(Reason(At("none/a.csv")),
+            "--csv is in a folder that does not exist: " + At("none/a.csv"));
+}
+
+}  // namespace
+}  // namespace rockyard::campaign
