@@ -98,12 +98,13 @@ class Inspector {
   }
 
   void InspectTrials(const Part& part) {
+    // Also of parts of which some may be missing: what is there has to be whole.
+    const auto finished = static_cast<std::int64_t>(part.store.Finished().size());
     if (options_.partial) return;
     std::int64_t planned = 0;
     for (int cell = 0; cell < part.store.cells(); ++cell) {
       planned += part.store.identity().shard.Share(part.store.planned(cell));
     }
-    const auto finished = static_cast<std::int64_t>(part.store.Finished().size());
     if (finished == planned) return;
     Add(part.folder.string(), fmt::format("has {} of {} trials", finished, planned),
         "finish it with --resume, or take what there is with --partial");

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "batch/run_folder.h"
 #include "batch/sqlite_database.h"
 #include "batch/store_error.h"
+#include "batch/store_meta.h"
+#include "batch/store_rows.h"
 #include "batch/store_tables.h"
 #include "core/check.h"
 
@@ -42,7 +45,7 @@ void CheckIdentity(const fs::path& path, const CampaignIdentity& stored,
 }  // namespace
 
 ResultStore::ResultStore(fs::path path, std::unique_ptr<SqliteDatabase> database)
-    : path_(std::move(path)), database_(std::move(database)) {}
+    : path_(std::move(path)), database_(std::move(database)), checksums_(Checksums::kEachRow) {}
 ResultStore::ResultStore(ResultStore&&) noexcept = default;
 ResultStore& ResultStore::operator=(ResultStore&&) noexcept = default;
 ResultStore::~ResultStore() = default;
@@ -62,6 +65,7 @@ ResultStore ResultStore::Create(const fs::path& folder, const CampaignIdentity& 
     WriteStoreHead(*store.database_, {identity, planned, std::nullopt});
     store.identity_ = identity;
     store.planned_ = planned;
+    store.most_planned_ = planned;
     return store;
   } catch (const StoreError&) {
     // What could not even be begun leaves nothing behind that a later run would trip over.
@@ -111,28 +115,44 @@ ResultStore ResultStore::Read(const fs::path& folder) {
   store.identity_ = std::move(head.identity);
   store.planned_ = std::move(head.planned);
   store.rule_ = head.rule;
+  store.checksums_ = head.checksums;
+  store.most_planned_ = std::move(head.most_planned);
   return store;
 }
 
-std::vector<std::string> ResultStore::Builds() const { return ReadBuilds(*database_); }
+TrialTable ResultStore::Trials() const { return {identity_, most_planned_, checksums_}; }
+
+bool ResultStore::has_checksums() const { return checksums_ == Checksums::kEachRow; }
+
+std::vector<std::string> ResultStore::Builds() const {
+  const SqliteSnapshot snapshot(*database_);
+  return ReadBuilds(*database_, checksums_);
+}
 
 void ResultStore::AddBuild(std::string_view build) {
-  database_->Prepare("INSERT OR IGNORE INTO builds VALUES (?)").Bind(0, build).Step();
+  SqliteTransaction transaction(*database_);
+  batch::AddBuild(*database_, checksums_, build);
+  transaction.Commit();
 }
 
 void ResultStore::SetPlanned(int cell, std::int64_t planned) {
-  SqliteStatement update = database_->Prepare("UPDATE cells SET planned = ? WHERE cell = ?");
-  update.Bind(0, planned).Bind(1, static_cast<std::int64_t>(cell)).Step();
+  SqliteTransaction transaction(*database_);
+  WritePlanned(*database_, checksums_, cell, planned);
+  transaction.Commit();
   planned_.at(static_cast<std::size_t>(cell)) = planned;
+  std::int64_t& most = most_planned_.at(static_cast<std::size_t>(cell));
+  most = std::max(most, planned);
 }
 
 void ResultStore::SetRule(const std::optional<StoppingRule>& rule) {
-  WriteRule(*database_, rule);
+  SqliteTransaction transaction(*database_);
+  WriteRule(*database_, checksums_, rule);
+  transaction.Commit();
   rule_ = rule;
 }
 
 void ResultStore::Append(std::span<const CellRecord> records) {
-  if (!records.empty()) InsertRecords(*database_, identity_.schema, records);
+  if (!records.empty()) InsertRecords(*database_, Trials(), records);
 }
 
 std::vector<truth::Record> ResultStore::Load(int cell) const {
@@ -141,35 +161,42 @@ std::vector<truth::Record> ResultStore::Load(int cell) const {
 
 std::vector<truth::Record> ResultStore::Load(int cell, const truth::RecordSchema& columns) const {
   EXPECT(cell >= 0 && cell < cells());
-  return SelectRecords(*database_, columns, {.cell = cell, .from = 0, .to = planned(cell)},
-                       Sentences::kLeftOut);
+  return SelectColumns(*database_, Trials(), columns,
+                       {.cell = cell, .from = 0, .to = planned(cell)});
 }
 
 std::vector<truth::Record> ResultStore::Load(int cell, std::int64_t from, std::int64_t to) const {
   EXPECT(cell >= 0 && cell < cells());
-  return SelectRecords(*database_, identity_.schema, {.cell = cell, .from = from, .to = to});
+  return SelectRecords(*database_, Trials(), {.cell = cell, .from = from, .to = to});
+}
+
+void ResultStore::Check(int cell) const {
+  EXPECT(cell >= 0 && cell < cells());
+  CheckRecords(*database_, Trials(), {.cell = cell, .from = 0, .to = planned(cell)});
 }
 
 std::vector<FinishedTrial> ResultStore::Finished() const {
-  return SelectFinished(*database_, cells());
+  return SelectFinished(*database_, Trials());
 }
 
 void ResultStore::AddInfrastructureFault(const InfrastructureFault& fault) {
-  SqliteStatement insert =
-      database_->Prepare("INSERT INTO infrastructure_faults VALUES (?, ?, ?, ?)");
-  insert.Bind(0, static_cast<std::int64_t>(fault.id.cell)).Bind(1, fault.id.trial);
-  insert.Bind(2, fault.kind).Bind(3, fault.detail).Step();
+  SqliteTransaction transaction(*database_);
+  InsertFault(*database_, checksums_, fault);
+  transaction.Commit();
 }
 
 std::vector<InfrastructureFault> ResultStore::InfrastructureFaults() const {
-  std::vector<InfrastructureFault> faults;
-  SqliteStatement select = database_->Prepare(
-      "SELECT cell, trial, kind, detail FROM infrastructure_faults ORDER BY rowid");
-  while (select.Step()) {
-    faults.push_back(
-        {{static_cast<int>(select.Integer(0)), select.Integer(1)}, select.Text(2), select.Text(3)});
+  const SqliteSnapshot snapshot(*database_);
+  return ReadFaults(*database_, checksums_, cells());
+}
+
+bool HasChecksums(const fs::path& folder) {
+  try {
+    const SqliteDatabase database(StorePath(folder), Access::kRead);
+    return ReadChecksums(database) == Checksums::kEachRow;
+  } catch (const StoreError&) {
+    return true;
   }
-  return faults;
 }
 
 std::span<const truth::Record> ContiguousPrefix(std::span<const truth::Record> records) {

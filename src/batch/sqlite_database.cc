@@ -160,12 +160,17 @@ bool SqliteStatement::Step() {
 
 void SqliteStatement::Reset() { sqlite3_reset(statement_.get()); }
 
-bool SqliteStatement::IsNull(int column) const {
-  return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL;
-}
-
-bool SqliteStatement::IsReal(int column) const {
-  return sqlite3_column_type(statement_.get(), column) == SQLITE_FLOAT;
+ValueType SqliteStatement::Type(int column) const {
+  switch (sqlite3_column_type(statement_.get(), column)) {
+    case SQLITE_NULL:
+      return ValueType::kNull;
+    case SQLITE_INTEGER:
+      return ValueType::kInteger;
+    case SQLITE_FLOAT:
+      return ValueType::kReal;
+    default:
+      return ValueType::kText;
+  }
 }
 
 std::int64_t SqliteStatement::Integer(int column) const {
@@ -208,6 +213,8 @@ SqliteStatement SqliteDatabase::Prepare(std::string_view sql) const {
   return SqliteStatement(database_.get(), path_, sql);
 }
 
+std::int64_t SqliteDatabase::Changes() const { return sqlite3_changes64(database_.get()); }
+
 std::optional<std::string> SqliteDatabase::Damage() const {
   SqliteStatement check = Prepare("PRAGMA quick_check(1)");
   if (!check.Step()) return "its own check gave no answer";
@@ -231,6 +238,18 @@ SqliteTransaction::~SqliteTransaction() {
 void SqliteTransaction::Commit() {
   database_.Execute("COMMIT");
   open_ = false;
+}
+
+SqliteSnapshot::SqliteSnapshot(const SqliteDatabase& database) : database_(database) {
+  database_.Prepare("BEGIN").Step();
+}
+
+SqliteSnapshot::~SqliteSnapshot() {
+  try {
+    database_.Prepare("COMMIT").Step();
+  } catch (const StoreError&) {
+    // Nothing was written: there is nothing to lose.
+  }
 }
 
 }  // namespace rockyard::batch

@@ -19,6 +19,9 @@ enum class Access {
   kRead,    // an existing file, also on read-only media
 };
 
+// How a value lies in a row; bytes that are no text (BLOB) count as one.
+enum class ValueType { kNull, kInteger, kReal, kText };
+
 // One prepared statement. Columns and parameters count from 0.
 class SqliteStatement {
  public:
@@ -33,8 +36,7 @@ class SqliteStatement {
   bool Step();
   void Reset();
 
-  bool IsNull(int column) const;
-  bool IsReal(int column) const;
+  ValueType Type(int column) const;
   std::int64_t Integer(int column) const;
   double Real(int column) const;
   std::string Text(int column) const;
@@ -56,6 +58,9 @@ class SqliteDatabase {
 
   void Execute(const std::string& sql);
   SqliteStatement Prepare(std::string_view sql) const;
+
+  // Rows that the last statement which has ended added, changed or deleted.
+  std::int64_t Changes() const;
 
   // The first complaint of SQLite's own check of the file, or nothing.
   std::optional<std::string> Damage() const;
@@ -84,6 +89,19 @@ class SqliteTransaction {
  private:
   SqliteDatabase& database_;
   bool open_ = true;
+};
+
+// As long as it lives, everything read is of one moment, whatever a run adds meanwhile. Not within
+// a transaction.
+class SqliteSnapshot {
+ public:
+  explicit SqliteSnapshot(const SqliteDatabase& database);
+  ~SqliteSnapshot();
+  SqliteSnapshot(const SqliteSnapshot&) = delete;
+  SqliteSnapshot& operator=(const SqliteSnapshot&) = delete;
+
+ private:
+  const SqliteDatabase& database_;
 };
 
 }  // namespace rockyard::batch
