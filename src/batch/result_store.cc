@@ -90,6 +90,7 @@ ResultStore ResultStore::Resume(const fs::path& folder, const CampaignIdentity& 
                                 BuildPolicy policy) {
   ResultStore store = Read(folder);
   CheckIdentity(store.path_, store.identity_, identity, store.Builds(), policy);
+  for (int cell = 0; cell < store.cells(); ++cell) store.Check(cell);
   store.database_ = std::make_unique<SqliteDatabase>(store.path_, Access::kChange);
   PrepareToWrite(*store.database_);
   store.AddBuild(identity.build);
@@ -172,7 +173,7 @@ std::vector<truth::Record> ResultStore::Load(int cell, std::int64_t from, std::i
 
 void ResultStore::Check(int cell) const {
   EXPECT(cell >= 0 && cell < cells());
-  CheckRecords(*database_, Trials(), {.cell = cell, .from = 0, .to = planned(cell)});
+  CheckRecords(*database_, Trials(), {.cell = cell, .from = 0, .to = kMostTrials});
 }
 
 std::vector<FinishedTrial> ResultStore::Finished() const {

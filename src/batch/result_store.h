@@ -51,8 +51,8 @@ class ResultStore {
   static ResultStore Create(const std::filesystem::path& folder, const CampaignIdentity& identity,
                             std::int64_t planned);
 
-  // Opens the store to go on. kMissing, kDamaged, and kMismatch with every difference
-  // (campaign_differences.h, and the shard).
+  // Opens the store to go on, with a Check of every cell. kMissing, kDamaged, and kMismatch with
+  // every difference (campaign_differences.h, and the shard).
   static ResultStore Resume(const std::filesystem::path& folder, const CampaignIdentity& identity,
                             BuildPolicy policy = BuildPolicy::kSame);
 
@@ -103,8 +103,8 @@ class ResultStore {
   // Those with from <= trial < to, planned or not.
   std::vector<truth::Record> Load(int cell, std::int64_t from, std::int64_t to) const;
 
-  // Throws kDamaged where a record of the cell does not fit its checksum. Reads all that Load(cell)
-  // reads, and keeps nothing.
+  // Throws kDamaged where a stored record of the cell, planned or not, does not fit its checksum.
+  // Reads all that Load(cell) reads, and keeps nothing.
   void Check(int cell) const;
 
   // Every stored trial, planned or not, without its values, by cell and trial: 24 bytes for each.

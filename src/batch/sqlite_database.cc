@@ -96,7 +96,9 @@ std::string FileUri(const std::filesystem::path& path) {
 
 // A connection that can read the file, or an error code.
 int OpenConnection(const std::string& uri, int flags, sqlite3** database) {
-  const int code = sqlite3_open_v2(uri.c_str(), database, flags | SQLITE_OPEN_URI, nullptr);
+  // A connection is never used by two threads at once: without the mutex a value costs half.
+  const int code = sqlite3_open_v2(uri.c_str(), database,
+                                   flags | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX, nullptr);
   if (code != SQLITE_OK) return code;
   sqlite3_extended_result_codes(*database, 1);
   sqlite3_busy_timeout(*database, kBusyTimeoutMs);

@@ -18,6 +18,10 @@ constexpr TableShape kColumns{"columns", "position, name, unit, meaning", 4};
 constexpr TableShape kBuilds{"builds", "build", 1};
 constexpr TableShape kFaults{"infrastructure_faults", "cell, trial, kind, detail", 4};
 
+// Columns of the table of trials besides those of the values.
+constexpr std::int64_t kTrialKeys = 4;
+constexpr std::int64_t kTrialChecksums = 2;
+
 TableShape CellsOf(Checksums checksums) {
   if (checksums == Checksums::kNone) {
     return {"cells", "cell, name, scenario, fingerprint, resolved, seed, planned", 7};
@@ -87,6 +91,11 @@ truth::RecordSchema ReadColumns(const SqliteDatabase& database, Checksums checks
   CheckedRows rows(database, checksums, kColumns, "position");
   while (rows.Step()) {
     stored.push_back({rows.row().Text(1), rows.row().Text(2), rows.row().Text(3)});
+  }
+  SqliteStatement count = database.Prepare("SELECT count(*) FROM pragma_table_info('trials')");
+  const auto others = kTrialKeys + (checksums == Checksums::kEachRow ? kTrialChecksums : 0);
+  if (!count.Step() || count.Integer(0) != static_cast<std::int64_t>(stored.size()) + others) {
+    FailDamaged(database.path(), "is damaged: table columns does not list those of table trials");
   }
   return experiments::WithRoles(std::move(stored));
 }

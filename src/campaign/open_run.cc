@@ -9,6 +9,7 @@
 #include "batch/store_error.h"
 #include "campaign/derived_files.h"
 #include "campaign/run_source.h"
+#include "campaign/store_notes.h"
 #include "core/hash.h"
 #include "scenario/load.h"
 
@@ -103,6 +104,7 @@ class Opener {
       try {
         batch::ResultStore store = batch::ResultStore::Resume(folder_, identity_, request_.build);
         resumed_ = true;
+        if (!store.has_checksums()) notes_.push_back(NoChecksumsNote(folder_));
         return store;
       } catch (const StoreError& error) {
         const bool useless =
