@@ -71,7 +71,7 @@ class Study(unittest.TestCase):
                 before = copy.read_bytes()
                 damage(copy, random.Random(seed), self.bases[0])
                 changed += copy.read_bytes() != before
-            self.assertGreaterEqual(changed, 4, name)
+            self.assertGreaterEqual(changed, 2, name)  # a foreign page may be the same
 
     def test_the_same_seed_does_the_same_damage(self):
         contents = []
