@@ -91,6 +91,7 @@ ResultStore ResultStore::Resume(const fs::path& folder, const CampaignIdentity& 
   ResultStore store = Read(folder);
   CheckIdentity(store.path_, store.identity_, identity, store.Builds(), policy);
   for (int cell = 0; cell < store.cells(); ++cell) store.Check(cell);
+  static_cast<void>(store.InfrastructureFaults());
   store.database_ = std::make_unique<SqliteDatabase>(store.path_, Access::kChange);
   PrepareToWrite(*store.database_);
   store.AddBuild(identity.build);

@@ -51,8 +51,8 @@ class ResultStore {
   static ResultStore Create(const std::filesystem::path& folder, const CampaignIdentity& identity,
                             std::int64_t planned);
 
-  // Opens the store to go on, with a Check of every cell. kMissing, kDamaged, and kMismatch with
-  // every difference (campaign_differences.h, and the shard).
+  // Opens the store to go on, once all that it holds has been checked. kMissing, kDamaged, and
+  // kMismatch with every difference (campaign_differences.h, and the shard).
   static ResultStore Resume(const std::filesystem::path& folder, const CampaignIdentity& identity,
                             BuildPolicy policy = BuildPolicy::kSame);
 

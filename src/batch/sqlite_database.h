@@ -62,12 +62,16 @@ class SqliteDatabase {
   // Rows that the last statement which has ended added, changed or deleted.
   std::int64_t Changes() const;
 
-  // The first complaint of SQLite's own check of the file, or nothing.
+  // The first complaint of SQLite's own check of the file, or nothing. Leaves indexes out.
   std::optional<std::string> Damage() const;
+  // The same of one table with its indexes, by which rows are found.
+  std::optional<std::string> Damage(std::string_view table) const;
 
   const std::filesystem::path& path() const { return path_; }
 
  private:
+  std::optional<std::string> Complaint(std::string_view pragma) const;
+
   struct Close {
     void operator()(sqlite3* database) const;
   };

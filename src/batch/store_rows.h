@@ -55,7 +55,7 @@ class CheckedRows {
               std::string_view order);
 
   // True while there is a row to read. Throws kDamaged at a row that does not fit its checksum, and
-  // at the end where rows are missing or foreign.
+  // at the end where rows are missing or foreign, or where an index does not find them.
   bool Step();
   const SqliteStatement& row() const { return select_; }
 

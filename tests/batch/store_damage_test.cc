@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <optional>
 #include <string>
 #include <thread>
@@ -221,6 +222,46 @@ TEST_F(StoreDamage, ResumingChecksEveryValue) {
   Change("UPDATE trials SET sim_time_s = 1.0 WHERE campaign_cell = 1 AND trial = 25");
   EXPECT_NO_THROW(ReadAll(folder_.path()));
   EXPECT_THROW(static_cast<void>(ResultStore::Resume(folder_.path(), identity)), StoreError);
+}
+
+TEST_F(StoreDamage, ResumingChecksWhatReportsNeedLater) {
+  Change("UPDATE infrastructure_faults SET detail = 'another'");
+  EXPECT_NO_THROW(ResultStore::RequireSame(folder_.path(), TwoCells(1), BuildPolicy::kSame));
+  EXPECT_THROW(static_cast<void>(ResultStore::Resume(folder_.path(), TwoCells(1))), StoreError);
+}
+
+// By an index rows are found that a resumed run must not write once more.
+TEST_F(StoreDamage, AnIndexThatDoesNotFindItsRowsIsRefused) {
+  const fs::path whole = folder_.path() / "whole";
+  fs::copy_file(store(), whole);
+  struct Change {
+    std::string table;
+    int from_end;  // bytes of the first key that was written, at the end of its page
+    char byte;
+    const char* message;
+  };
+  const std::vector<Change> changes = {
+      {"meta", 4, '!', "schema_version"},
+      {"builds", 4, '!', "table builds"},
+      {"inventory", 4, '!', "table inventory"},
+      {"trials", 2, 9, "table trials"},  // SQLite's sign of 1, where 8 stands for trial 0
+  };
+  for (const Change& change : changes) {
+    fs::copy_file(whole, store(), fs::copy_options::overwrite_existing);
+    const std::string page = Texts(
+                                 "SELECT rootpage FROM sqlite_master WHERE name = "
+                                 "'sqlite_autoindex_" +
+                                 change.table + "_1'")
+                                 .front();
+    {
+      std::fstream file(store(), std::ios::in | std::ios::out | std::ios::binary);
+      file.seekp(std::stoll(page) * 4096 - change.from_end);
+      file.put(change.byte);
+    }
+    const std::optional<StoreError> error = ErrorOf(folder_.path());
+    ASSERT_TRUE(error.has_value()) << change.table;
+    EXPECT_THAT(std::string(error->what()), HasSubstr(change.message));
+  }
 }
 
 TEST_F(StoreDamage, AStoreCannotPassForAnOlderOne) {
