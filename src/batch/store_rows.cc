@@ -143,13 +143,16 @@ void RowInsert::Write() {
   if (checksums_ == Checksums::kEachRow) insert_.Bind(next_, checksum);
   insert_.Step();
   insert_.Reset();
-  if (database_.Changes() > 0) tally_.Add(checksum);
+  if (database_.Changes() > 0) {
+    tally_.Add(checksum);
+    added_ = true;
+  }
   checksum_.Restart();
   next_ = 0;
 }
 
 void RowInsert::Finish() {
-  if (checksums_ == Checksums::kEachRow) SetInventory(database_, table_.name, tally_);
+  if (checksums_ == Checksums::kEachRow && added_) SetInventory(database_, table_.name, tally_);
 }
 
 void SealRow(SqliteDatabase& database, Checksums checksums, const TableShape& table,

@@ -89,6 +89,7 @@ class RowInsert {
   SqliteStatement insert_;
   RowChecksum checksum_;
   TableTally tally_;
+  bool added_ = false;
   int next_ = 0;
 };
 

@@ -224,6 +224,17 @@ TEST_F(StoreDamage, ResumingChecksEveryValue) {
   EXPECT_THROW(static_cast<void>(ResultStore::Resume(folder_.path(), identity)), StoreError);
 }
 
+// A run may be killed and resumed every other moment: it must not wait for the disk each time.
+TEST_F(StoreDamage, ResumingTheSameBuildWritesNothing) {
+  const auto content = [this] {
+    std::ifstream file(store(), std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const std::string before = content();
+  { const ResultStore store = ResultStore::Resume(folder_.path(), TwoCells(1)); }
+  EXPECT_EQ(content() == before, true);
+}
+
 TEST_F(StoreDamage, ResumingChecksWhatReportsNeedLater) {
   Change("UPDATE infrastructure_faults SET detail = 'another'");
   EXPECT_NO_THROW(ResultStore::RequireSame(folder_.path(), TwoCells(1), BuildPolicy::kSame));
