@@ -232,7 +232,7 @@ TEST_F(StoreDamage, ResumingTheSameBuildWritesNothing) {
   };
   const std::string before = content();
   { const ResultStore store = ResultStore::Resume(folder_.path(), TwoCells(1)); }
-  EXPECT_EQ(content() == before, true);
+  EXPECT_TRUE(content() == before);
 }
 
 TEST_F(StoreDamage, ResumingChecksWhatReportsNeedLater) {
