@@ -20,6 +20,8 @@ struct Shard {
   bool Has(std::int64_t trial) const { return trial % count == index - 1; }
   // How many of the trials 0 .. trials-1 are its own.
   std::int64_t Share(std::int64_t trials) const { return (trials + count - index) / count; }
+  // The shard whose trial it is.
+  Shard OwnerOf(std::int64_t trial) const { return {static_cast<int>(trial % count) + 1, count}; }
   bool operator==(const Shard&) const = default;
 };
 
