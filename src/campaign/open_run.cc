@@ -190,7 +190,7 @@ batch::CampaignIdentity IdentityOf(const CampaignPlan& plan, const truth::Record
 
 void CheckFolder(const OpenRequest& request, const batch::CampaignIdentity& identity) {
   RefuseForeignFolder(request);
-  if (request.existing == ExistingRun::kResume && batch::HoldsStore(request.folder)) {
+  if (request.existing == ExistingRun::kResume && batch::ResultStore::HasBegun(request.folder)) {
     batch::ResultStore::RequireSame(request.folder, identity, request.build);
   }
 }
