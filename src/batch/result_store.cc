@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <optional>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "batch/run_folder.h"
@@ -34,9 +36,24 @@ void WriteNew(const fs::path& path, const StoreHead& head) {
   }
 }
 
+// Waits for whoever reads or writes the file with another tool, as a commit does: SQLite itself
+// does not wait here.
+void BeginLog(SqliteDatabase& database) {
+  constexpr int kAttempts = 40;
+  constexpr std::chrono::milliseconds kPause{50};
+  for (int attempt = 1;; ++attempt) {
+    try {
+      return database.Execute("PRAGMA journal_mode=WAL");
+    } catch (const StoreError& error) {
+      if (error.problem() != StoreProblem::kInUse || attempt == kAttempts) throw;
+    }
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
 // The last statement makes the log, from which readers know that they are not alone.
 void PrepareToWrite(SqliteDatabase& database) {
-  database.Execute("PRAGMA journal_mode=WAL");
+  BeginLog(database);
   database.Execute("PRAGMA synchronous=FULL");
   database.Execute("SELECT count(*) FROM sqlite_master");
 }
