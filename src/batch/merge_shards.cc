@@ -198,8 +198,8 @@ fs::path WithoutSlash(const fs::path& path) {
 
 }  // namespace
 
-void MergeShards(std::span<const fs::path> shards, const fs::path& out,
-                 const MergeOptions& options, const std::function<void(const fs::path&)>& finish) {
+void MergeShards(std::span<const fs::path> shards, const fs::path& out, const MergeOptions& options,
+                 const std::function<void(const fs::path&)>& finish) {
   const fs::path target = WithoutSlash(out);
   std::error_code error;
   if (fs::exists(fs::symlink_status(target, error))) FailExists(out);

@@ -20,12 +20,12 @@ bool HoldsNoRunYet(const std::filesystem::path& folder);
 // Whether there is a log by the name of the store's: of the store, or of one that is gone.
 bool HoldsLog(const std::filesystem::path& folder);
 
-// Makes the folder and those that it is in, where they do not exist. Returns what had to be made, the
-// innermost first. Throws StoreError, with nothing made.
+// Makes the folder and those that it is in, where they do not exist. Returns what had to be made,
+// the innermost first. Throws StoreError, with nothing made.
 std::vector<std::filesystem::path> MakeFolders(const std::filesystem::path& folder);
 
-// At its end removes those of the folders, in this order, that are empty: what was made for work that
-// failed.
+// At its end removes those of the folders, in this order, that are empty: what was made for work
+// that failed.
 class EmptyFolders {
  public:
   explicit EmptyFolders(std::vector<std::filesystem::path> folders)
@@ -40,9 +40,9 @@ class EmptyFolders {
 
 // Makes the folder where it does not exist and claims it, as long as this lives, against every
 // other run, in this process or another on the same machine. The claim ends with the process,
-// however it ends, and leaves nothing behind; what killed runs have left of stores that they had not
-// finished making is removed. Throws StoreError: kUnwritable, kFull or kOpenFiles where the folder
-// cannot be made or a file cannot be made in it, kInUse where another run has it.
+// however it ends, and leaves nothing behind; what killed runs have left of stores that they had
+// not finished making is removed. Throws StoreError: kUnwritable, kFull or kOpenFiles where the
+// folder cannot be made or a file cannot be made in it, kInUse where another run has it.
 //
 // Limit: file systems without flock() (some network mounts) give no claim; two runs of one scenario
 // would then do the same work twice, and the store keeps the first copy of each record.
@@ -62,7 +62,8 @@ class FolderClaim {
 };
 
 // Renames the store and the logs that belong to it to results.old-1.sqlite (or -2, ...); returns
-// the new path, of the store. Logs without a store, which is gone, are renamed alike. Nothing is deleted. Requires a claim of the folder.
+// the new path, of the store. Logs without a store, which is gone, are renamed alike. Nothing is
+// deleted. Requires a claim of the folder.
 std::filesystem::path SetStoreAside(const std::filesystem::path& folder);
 
 // Folders that hold a store: `path` itself, or else its direct subfolders in alphabetical order.

@@ -79,8 +79,8 @@ class RawFile {
 
   std::int64_t Size() const {
     sqlite3_int64 size = 0;
-    const bool known = file_->pMethods != nullptr &&
-                       file_->pMethods->xFileSize(file_, &size) == SQLITE_OK;
+    const bool known =
+        file_->pMethods != nullptr && file_->pMethods->xFileSize(file_, &size) == SQLITE_OK;
     return known ? size : 0;
   }
 
@@ -109,7 +109,8 @@ bool UsesLog(const fs::path& path) {
 
 class Descriptor {
  public:
-  Descriptor(const fs::path& path, int flags) : value_(open(path.c_str(), flags | O_CLOEXEC, 0600)) {}
+  Descriptor(const fs::path& path, int flags)
+      : value_(open(path.c_str(), flags | O_CLOEXEC, 0600)) {}
   ~Descriptor() {
     if (value_ >= 0) close(value_);
   }
@@ -166,9 +167,8 @@ class PrivateFolder {
     throw StoreError(
         problem, path.string(),
         fmt::format("cannot take the copy that a run is read from: {}", std::strerror(reason)),
-        problem == StoreProblem::kOpenFiles
-            ? kMoreOpenFiles
-            : "make room or set TMPDIR to a folder that has some");
+        problem == StoreProblem::kOpenFiles ? kMoreOpenFiles
+                                            : "make room or set TMPDIR to a folder that has some");
   }
 
  private:

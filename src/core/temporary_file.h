@@ -6,9 +6,9 @@
 namespace rockyard::core {
 
 // A new, empty file beside `target`, called <target>.tmp- and sixteen random hexadecimal digits. It
-// is made exclusively and follows no link, so that nobody can plant something in its place. While it
-// is open it is locked, by which RemoveLeftovers knows that its process lives. Every failure is a
-// std::system_error with the errno.
+// is made exclusively and follows no link, so that nobody can plant something in its place. While
+// it is open it is locked, by which RemoveLeftovers knows that its process lives. Every failure is
+// a std::system_error with the errno.
 class TemporaryFile {
  public:
   // Readable as the umask says.
@@ -61,9 +61,10 @@ class TemporaryFolder {
 // Whether a file or folder of that name is a temporary one for `target`, or lies beside one.
 bool IsTemporaryOf(const std::filesystem::path& target, const std::filesystem::path& name);
 
-// Removes what processes that were killed have left beside `target`: temporary files and folders for
-// it that no living process has locked. Nothing else, and no link. What cannot be removed stays; so
-// does everything on file systems that know no locks. Cost: reads the names in the folder.
+// Removes what processes that were killed have left beside `target`: temporary files and folders
+// for it that no living process has locked. Nothing else, and no link. What cannot be removed
+// stays; so does everything on file systems that know no locks. Cost: reads the names in the
+// folder.
 void RemoveLeftovers(const std::filesystem::path& target);
 
 }  // namespace rockyard::core

@@ -14,9 +14,10 @@ class TemporaryFile;
 namespace rockyard::report {
 
 // A file that is written piece by piece to a temporary one beside `path` (core/temporary_file.h),
-// brought to the disk and renamed by Commit. A reader sees the old text or the new one; a failure, or no Commit, leaves the
-// old file and no temporary one; what a killed process left is removed by the next one that writes
-// the same file. The constructor, Write and Commit throw core::UserError: no permission, no space.
+// brought to the disk and renamed by Commit. A reader sees the old text or the new one; a failure,
+// or no Commit, leaves the old file and no temporary one; what a killed process left is removed by
+// the next one that writes the same file. The constructor, Write and Commit throw core::UserError:
+// no permission, no space.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);

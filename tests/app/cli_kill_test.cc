@@ -1,5 +1,5 @@
-// A command that is killed before any one of the calls that change the disk can be repeated: it goes
-// on, to the same bytes, and leaves nothing behind.
+// A command that is killed before any one of the calls that change the disk can be repeated: it
+// goes on, to the same bytes, and leaves nothing behind.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -116,8 +116,8 @@ TEST_F(CliKill, RunAnywhere) {
                             kEveryOne);
 }
 
-// The worker is killed, and the command goes on by itself; in the plain case, where it may not go on
-// with a folder of somebody else, and in that of --force, where it may not set its own aside.
+// The worker is killed, and the command goes on by itself; in the plain case, where it may not go
+// on with a folder of somebody else, and in that of --force, where it may not set its own aside.
 TEST_F(CliKill, SupervisedRunAnywhere) {
   ASSERT_EQ(Run(Drive("whole", 2, {})).exit_code, 0);
   ExpectEveryKillIsOvercome(Drive("a", 2, {}), Drive("a", 2, {"--resume"}), kEveryOne);

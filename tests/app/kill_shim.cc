@@ -1,6 +1,6 @@
 // Preloaded into the command: ends the process by SIGKILL before its Nth durable call, one of those
-// that change what a later process finds on the disk. What is to be brought to the disk at once stays
-// in the memory of the machine, which outlives processes: that makes hundreds of runs fast.
+// that change what a later process finds on the disk. What is to be brought to the disk at once
+// stays in the memory of the machine, which outlives processes: that makes hundreds of runs fast.
 //
 // ROCKYARD_KILL_AT    N, counted from 1 over the process and those that it forks; 0: none
 // ROCKYARD_KILL_MARK  a file that is made where that many calls came

@@ -40,9 +40,7 @@ std::vector<truth::Record> FakeRecords(std::uint64_t from, std::uint64_t to) {
   return records;
 }
 
-std::string HashIn(const fs::path& folder) {
-  return TrialHash(ResultStore::Read(folder).Load());
-}
+std::string HashIn(const fs::path& folder) { return TrialHash(ResultStore::Read(folder).Load()); }
 
 std::string PlainHash() { return TrialHash(FakeRecords(0, kTrials)); }
 

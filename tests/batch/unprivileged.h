@@ -1,4 +1,5 @@
-// What a user without rights can do, also where the tests are run by root, whom no permissions bind.
+// What a user without rights can do, also where the tests are run by root, whom no permissions
+// bind.
 #pragma once
 
 #include <grp.h>
@@ -49,7 +50,9 @@ inline std::string AsNobody(const std::function<std::string()>& action) {
 // Takes from everybody the right to change what is in the folder, while this lives.
 class WriteProtected {
  public:
-  explicit WriteProtected(const std::filesystem::path& folder) : folder_(folder) { Set(0555, 0444); }
+  explicit WriteProtected(const std::filesystem::path& folder) : folder_(folder) {
+    Set(0555, 0444);
+  }
   ~WriteProtected() { Set(0755, 0644); }
   WriteProtected(const WriteProtected&) = delete;
   WriteProtected& operator=(const WriteProtected&) = delete;
