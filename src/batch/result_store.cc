@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
+#include <system_error>
+#include <thread>
 #include <utility>
 
 #include "batch/run_folder.h"
@@ -13,15 +16,49 @@
 #include "batch/store_rows.h"
 #include "batch/store_tables.h"
 #include "core/check.h"
+#include "core/temporary_file.h"
 
 namespace rockyard::batch {
 namespace {
 
 namespace fs = std::filesystem;
 
+// The store is made under another name, so that there is none or one with a head.
+void WriteNew(const fs::path& path, const StoreHead& head) {
+  try {
+    core::TemporaryFile file(path);
+    file.Close();
+    {
+      SqliteDatabase database(file.path(), Access::kCreate, path);
+      database.Execute("PRAGMA synchronous=FULL");
+      WriteStoreHead(database, head);
+    }
+    file.Commit();
+  } catch (const std::system_error& error) {
+    FailSystem(path, "cannot be made", error.code().value());
+  }
+}
+
+// Waits for whoever reads or writes the file with another tool, as a commit does: SQLite itself
+// does not wait here.
+void BeginLog(SqliteDatabase& database) {
+  constexpr int kAttempts = 40;
+  constexpr std::chrono::milliseconds kPause{50};
+  for (int attempt = 1;; ++attempt) {
+    try {
+      return database.Execute("PRAGMA journal_mode=WAL");
+    } catch (const StoreError& error) {
+      if (error.problem() != StoreProblem::kInUse || attempt == kAttempts) throw;
+    }
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
+// The last statement makes the log, from which readers know that they are not alone.
 void PrepareToWrite(SqliteDatabase& database) {
-  database.Execute("PRAGMA journal_mode=WAL");
+  BeginLog(database);
   database.Execute("PRAGMA synchronous=FULL");
+  database.Execute("SELECT count(*) FROM sqlite_master");
 }
 
 void CheckIdentity(const fs::path& path, const CampaignIdentity& stored,
@@ -59,10 +96,11 @@ ResultStore ResultStore::Create(const fs::path& folder, const CampaignIdentity& 
                      "go on with it by --resume, set it aside by --force, or choose another "
                      "folder with --out");
   }
+  if (HoldsLog(folder)) SetStoreAside(folder);  // of a store that is gone: not of this one
   try {
-    ResultStore store(path, std::make_unique<SqliteDatabase>(path, Access::kCreate));
+    WriteNew(path, {identity, planned, std::nullopt});
+    ResultStore store(path, std::make_unique<SqliteDatabase>(path, Access::kChange));
     PrepareToWrite(*store.database_);
-    WriteStoreHead(*store.database_, {identity, planned, std::nullopt});
     store.identity_ = identity;
     store.planned_ = planned;
     store.most_planned_ = planned;
@@ -70,7 +108,9 @@ ResultStore ResultStore::Create(const fs::path& folder, const CampaignIdentity& 
   } catch (const StoreError&) {
     // What could not even be begun leaves nothing behind that a later run would trip over.
     std::error_code ignored;
-    for (const char* suffix : {"", "-wal", "-shm"}) fs::remove(path.string() + suffix, ignored);
+    for (const char* suffix : {"", "-wal", "-journal", "-shm"}) {
+      fs::remove(path.string() + suffix, ignored);
+    }
     throw;
   }
 }
@@ -78,6 +118,16 @@ ResultStore ResultStore::Create(const fs::path& folder, const CampaignIdentity& 
 ResultStore ResultStore::Create(const fs::path& folder, const CampaignIdentity& identity,
                                 std::int64_t planned) {
   return Create(folder, identity, std::vector<std::int64_t>(identity.cells.size(), planned));
+}
+
+bool ResultStore::HasBegun(const fs::path& folder) {
+  std::error_code error;
+  const fs::path path = StorePath(folder);
+  if (!HoldsStore(folder)) return false;
+  if (fs::is_regular_file(path, error) && fs::file_size(path, error) == 0) return false;
+  const SqliteDatabase database(path, Access::kRead);
+  SqliteStatement tables = database.Prepare("SELECT count(*) FROM sqlite_master");
+  return tables.Step() && tables.Integer(0) > 0;
 }
 
 void ResultStore::RequireSame(const fs::path& folder, const CampaignIdentity& identity,

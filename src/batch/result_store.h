@@ -39,12 +39,13 @@ struct TrialTable;
 // Finished. Stores of version 2 have no checksums: of them only what no trial gives is refused.
 //
 // Durability: write-ahead log with a synchronous commit: what Append has returned for survives a
-// killed process and a power cut (as far as the disk keeps its promises). Every failure is a
-// StoreError. One thread at a time; one writer per folder (hold a FolderClaim).
+// killed process and a power cut (as far as the disk keeps its promises). The end of the object
+// brings the log into the file, unless somebody reads it just then. Every failure is a StoreError.
+// One thread at a time; one writer per folder (hold a FolderClaim).
 class ResultStore {
  public:
-  // Makes the store; there must be none. `planned`: trials of each cell. kExists, kUnwritable,
-  // kFull.
+  // Makes the store; there must be none. `planned`: trials of each cell. The store appears whole,
+  // with all that is told here. kExists, kUnwritable, kFull, kOpenFiles.
   static ResultStore Create(const std::filesystem::path& folder, const CampaignIdentity& identity,
                             const std::vector<std::int64_t>& planned);
   // The same number of trials for every cell.
@@ -56,11 +57,16 @@ class ResultStore {
   static ResultStore Resume(const std::filesystem::path& folder, const CampaignIdentity& identity,
                             BuildPolicy policy = BuildPolicy::kSame);
 
+  // False where there is no store, or one that holds nothing, not even what it is a store of, as
+  // earlier versions of the program left behind when they were killed early. kDamaged.
+  static bool HasBegun(const std::filesystem::path& folder);
+
   // Throws as Resume does, and changes nothing.
   static void RequireSame(const std::filesystem::path& folder, const CampaignIdentity& identity,
                           BuildPolicy policy);
 
-  // Opens the store to read, also while a run writes it. kMissing, kDamaged.
+  // Opens the store to read, also while a run writes it, and without a right to write. Leaves no
+  // files; may need room for a copy in the temporary folder (sqlite_open.h). kMissing, kDamaged.
   static ResultStore Read(const std::filesystem::path& folder);
 
   ResultStore(ResultStore&&) noexcept;

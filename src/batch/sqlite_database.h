@@ -8,15 +8,16 @@
 #include <string>
 #include <string_view>
 
-struct sqlite3;
+#include "batch/sqlite_open.h"
+
 struct sqlite3_stmt;
 
 namespace rockyard::batch {
 
 enum class Access {
-  kCreate,  // the file must not exist yet
+  kCreate,  // the file must not exist yet, or be empty
   kChange,  // an existing file
-  kRead,    // an existing file, also on read-only media
+  kRead,    // an existing file, also without a right to write (sqlite_open.h)
 };
 
 // How a value lies in a row; bytes that are no text (BLOB) count as one.
@@ -52,9 +53,15 @@ class SqliteStatement {
 };
 
 // One connection. Every failure is a StoreError that names the file. Not for two threads at once.
+// The end of one that may write brings the write-ahead log into the file, unless somebody reads it.
 class SqliteDatabase {
  public:
   SqliteDatabase(const std::filesystem::path& path, Access access);
+  // `told`: the name that errors give the file.
+  SqliteDatabase(const std::filesystem::path& path, Access access, std::filesystem::path told);
+  ~SqliteDatabase();
+  SqliteDatabase(const SqliteDatabase&) = delete;
+  SqliteDatabase& operator=(const SqliteDatabase&) = delete;
 
   void Execute(const std::string& sql);
   SqliteStatement Prepare(std::string_view sql) const;
@@ -72,12 +79,9 @@ class SqliteDatabase {
  private:
   std::optional<std::string> Complaint(std::string_view pragma) const;
 
-  struct Close {
-    void operator()(sqlite3* database) const;
-  };
-
   std::filesystem::path path_;
-  std::unique_ptr<sqlite3, Close> database_;
+  Access access_;
+  SqliteHandle database_;
 };
 
 // Rolls back unless committed.
