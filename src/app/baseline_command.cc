@@ -9,6 +9,7 @@
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/store_notes.h"
 #include "campaign/make_baseline.h"
 #include "campaign/output_file.h"
 #include "core/error.h"
@@ -43,6 +44,7 @@ void WriteBaseline(const BaselineOptions& options) {
   const std::string out =
       options.out.empty() ? fmt::format("results/baselines/{}.json", name) : options.out;
   campaign::CheckOutputFile("--out", out);
+  NoteStores(options.runs);
   const report::Baseline baseline =
       campaign::MakeBaseline({.runs = options.runs, .name = name, .reason = options.reason})
           .OrThrow();

@@ -7,6 +7,7 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/run_display.h"
+#include "app/store_notes.h"
 #include "campaign/check.h"
 #include "campaign/output_file.h"
 #include "report/atomic_file.h"
@@ -80,6 +81,7 @@ ExitCode Show(const campaign::PublishedCheck& check, const CheckOptions& options
 ExitCode Check(const CheckOptions& options) {
   campaign::CheckOutputFile("--junit", options.junit);
   campaign::CheckOutputFile("--csv", options.csv);
+  NoteStores(options.request.runs);
   campaign::CheckRequest request = options.request;
   request.reference = options.reference;
   if (options.allow_scenario_change) request.scenario_change = campaign::ScenarioChange::kAllow;

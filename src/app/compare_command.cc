@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/store_notes.h"
 #include "campaign/compare.h"
 #include "campaign/output_file.h"
 #include "campaign/run_views.h"
@@ -79,6 +81,7 @@ void Show(const campaign::Comparison& told, const CompareOptions& options) {
 
 ExitCode Compare(const CompareOptions& options) {
   campaign::CheckOutputFile("--csv", options.csv);
+  NoteStores(std::array{options.first, options.second});
   const campaign::Comparison told = campaign::Compare({.first = options.first,
                                                        .second = options.second,
                                                        .cell = options.cell,

@@ -8,13 +8,14 @@
 #include "app/commands.h"
 #include "app/run_display.h"
 #include "app/show_report.h"
+#include "app/store_notes.h"
 #include "campaign/merge.h"
 
 namespace rockyard::app {
 namespace {
 
 struct MergeCommandOptions {
-  std::vector<std::filesystem::path> shards;
+  std::vector<std::string> shards;
   std::string out;
   bool any_build = false;
   bool partial = false;
@@ -26,6 +27,7 @@ ExitCode Merge(const MergeCommandOptions& options) {
   Output output = Output::kText;
   if (options.json) output = Output::kJson;
   if (options.quiet) output = Output::kQuiet;
+  if (output != Output::kQuiet) NoteStores(options.shards);
   campaign::MergeObserver observer;
   static_cast<campaign::Observer&>(observer) = MessagesToConsole(output);
   observer.reported = [&](const campaign::FolderReport& report) {
@@ -33,7 +35,7 @@ ExitCode Merge(const MergeCommandOptions& options) {
   };
   const batch::BuildPolicy build =
       options.any_build ? batch::BuildPolicy::kAny : batch::BuildPolicy::kSame;
-  return campaign::Merge({.shards = options.shards,
+  return campaign::Merge({.shards = {options.shards.begin(), options.shards.end()},
                           .folder = options.out,
                           .build = build,
                           .partial = options.partial},

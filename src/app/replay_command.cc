@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <span>
 #include <string>
 #include <tuple>
 
@@ -11,6 +12,7 @@
 #include "app/replay_options.h"
 #include "app/replay_views.h"
 #include "app/run_display.h"
+#include "app/store_notes.h"
 #include "app/trial_options.h"
 #include "campaign/replay.h"
 #include "report/line_text.h"
@@ -73,6 +75,7 @@ void AddReplayCommand(CLI::App& app, ExitCode& exit_code) {
   AddTrialOptions(*command, options->request);
   AddOptions(*command, *options);
   command->callback([options, &exit_code] {
+    NoteStores(std::span(&options->request.source, 1));
     exit_code = options->list || options->draws() ? ShowViews(*options) : WriteReplay(*options);
   });
 }

@@ -11,6 +11,7 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/run_display.h"
+#include "app/store_notes.h"
 #include "campaign/report.h"
 #include "campaign/shell_word.h"
 #include "report/line_text.h"
@@ -59,6 +60,7 @@ void PrintPage(const campaign::ReportResult& result) {
 }
 
 ExitCode WritePage(const campaign::ReportRequest& request) {
+  NoteStores(request.runs);
   campaign::ReportObserver observer;
   static_cast<campaign::Observer&>(observer) = MessagesToConsole(Output::kText);
   observer.replays = ShowReplayProgress;

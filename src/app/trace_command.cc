@@ -4,11 +4,13 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/store_notes.h"
 #include "app/trial_options.h"
 #include "campaign/campaign_traces.h"
 #include "campaign/drive_recording.h"
@@ -62,6 +64,7 @@ void WriteOutputs(const StoryOptions& options, const campaign::TrialSource& sour
 
 ExitCode Trace(const StoryOptions& options) {
   CheckOutputs(options);
+  NoteStores(std::span(&options.request.source, 1));
   const campaign::TrialSource source = campaign::FindTrial(options.request);
   const campaign::DriveRecording recording =
       campaign::RecordDrive(source.scenario, source.seed, options.request.trial);

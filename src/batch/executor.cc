@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include <algorithm>
+#include <cmath>
 #include <exception>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -23,6 +26,15 @@ truth::Record RunOne(const experiments::Experiment& experiment, std::uint64_t se
       return truth::MakeFault(seed, trial,
                               fmt::format("the record has {} values for {} columns",
                                           record.values.size(), experiment.schema().size()));
+    }
+    const auto infinite = std::find_if(record.values.begin(), record.values.end(),
+                                       [](double value) { return std::isinf(value); });
+    if (infinite != record.values.end()) {
+      const auto column = std::distance(record.values.begin(), infinite);
+      return truth::MakeFault(
+          seed, trial,
+          fmt::format("{} is infinite",
+                      experiment.schema()[static_cast<std::size_t>(column)].name));
     }
     record.trial = trial;
     return record;

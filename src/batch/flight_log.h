@@ -51,7 +51,8 @@ class FlightLog {
   // The worker is to begin no further trial.
   std::atomic<bool>& stop() { return shared_->stop; }
 
-  // The worker has opened its store: what comes after it goes on with that store.
+  // The worker is about to make its store, or goes on with it: what comes after it goes on with
+  // that store, and makes it where it is not there yet.
   void SetOpened() { shared_->opened = true; }
   bool opened() const { return shared_->opened; }
 

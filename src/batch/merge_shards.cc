@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "batch/result_store.h"
 #include "batch/run_folder.h"
 #include "batch/store_error.h"
+#include "core/temporary_file.h"
 
 namespace rockyard::batch {
 namespace {
@@ -98,12 +101,17 @@ class Inspector {
   }
 
   void InspectTrials(const Part& part) {
+    // Also of parts of which some may be missing: what is there has to be whole.
+    const std::vector<FinishedTrial> finished_trials = part.store.Finished();
     if (options_.partial) return;
     std::int64_t planned = 0;
     for (int cell = 0; cell < part.store.cells(); ++cell) {
       planned += part.store.identity().shard.Share(part.store.planned(cell));
     }
-    const auto finished = static_cast<std::int64_t>(part.store.Finished().size());
+    const std::int64_t finished = std::count_if(
+        finished_trials.begin(), finished_trials.end(), [&](const FinishedTrial& trial) {
+          return trial.id.trial < part.store.planned(trial.id.cell);
+        });
     if (finished == planned) return;
     Add(part.folder.string(), fmt::format("has {} of {} trials", finished, planned),
         "finish it with --resume, or take what there is with --partial");
@@ -154,32 +162,42 @@ void CopyTrials(const ResultStore& from, ResultStore& to) {
   throw StoreError(StoreProblem::kExists, out.string(), "exists", "choose a new folder with --out");
 }
 
-void WriteMerged(const std::vector<Part>& parts, const fs::path& out) {
+void WriteMerged(const std::vector<Part>& parts, const fs::path& folder) {
   CampaignIdentity identity = parts.front().store.identity();
   identity.shard = {};
-  ResultStore merged = ResultStore::Create(out, identity, MostPlanned(parts));
+  ResultStore merged = ResultStore::Create(folder, identity, MostPlanned(parts));
   for (const Part& part : parts) CopyTrials(part.store, merged);
+}
+
+// "all" of "all/".
+fs::path WithoutSlash(const fs::path& path) {
+  return path.has_filename() ? path : path.parent_path();
 }
 
 }  // namespace
 
-void MergeShards(std::span<const fs::path> shards, const fs::path& out,
-                 const MergeOptions& options) {
+void MergeShards(std::span<const fs::path> shards, const fs::path& out, const MergeOptions& options,
+                 const std::function<void(const fs::path&)>& finish) {
+  const fs::path target = WithoutSlash(out);
   std::error_code error;
-  if (fs::exists(out, error)) FailExists(out);
+  if (fs::exists(fs::symlink_status(target, error))) FailExists(out);
   std::vector<Part> parts;
   for (const fs::path& folder : shards) parts.push_back({folder, ResultStore::Read(folder)});
   std::vector<Problem> problems = Inspector(parts, options).Problems();
   if (!problems.empty()) throw StoreError(StoreProblem::kMismatch, std::move(problems));
-  // Another merge may have come first while this one read: what it makes, or made, is its own.
-  const FolderClaim claim(out);
-  if (!fs::is_empty(out, error)) FailExists(out);
+  // Half of a campaign must not be taken for all of it: the folder gets its name when it is whole.
+  const EmptyFolders parents(MakeFolders(target.parent_path()));
+  core::RemoveLeftovers(target);
   try {
-    WriteMerged(parts, out);
-  } catch (...) {
-    // Half of a campaign must not be taken for all of it.
-    fs::remove_all(out, error);
-    throw;
+    core::TemporaryFolder folder(target);
+    WriteMerged(parts, folder.path());
+    if (finish) finish(folder.path());
+    folder.Commit();
+  } catch (const std::system_error& failure) {
+    const int reason = failure.code().value();
+    // Another merge may have come first while this one read or wrote.
+    if (reason == EEXIST || reason == ENOTEMPTY) FailExists(out);
+    FailSystem(out, "cannot be made", reason);
   }
 }
 

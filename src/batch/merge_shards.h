@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
 
 #include "batch/campaign_differences.h"
@@ -14,12 +15,16 @@ struct MergeOptions {
 };
 
 // Makes a store in `out` with every trial of the shards: what one machine would have written, to
-// the same hash, but for the order of the rows. Throws StoreError, with everything that is wrong
-// and nothing written: a folder that holds no shard; shards of different campaigns, or of different
-// numbers of shards or trials; builds that differ; a shard that is there twice, that is missing, or
-// that lacks trials; an `out` that exists, or that another merge makes meanwhile (kInUse, kExists).
-// Memory: some thousand records, and for a moment 24 bytes per trial of a shard.
+// the same hash, but for the order of the rows. The folder appears when it is whole: it is made
+// beside `out` under another name, in which `finish` may add files to it; a merge that is killed
+// leaves no `out`, and the next one removes what it left. Throws StoreError, with everything that
+// is wrong and nothing written: a folder that holds no shard; shards of different campaigns, or of
+// different numbers of shards or trials; builds that differ; a shard that is there twice, that is
+// missing, that lacks trials, or that holds trials of another one; an `out` that exists, or that
+// another merge has made meanwhile (kExists). What `finish` throws comes out alike. Memory: some
+// thousand records, and for a moment 24 bytes per trial of a shard.
 void MergeShards(std::span<const std::filesystem::path> shards, const std::filesystem::path& out,
-                 const MergeOptions& options = {});
+                 const MergeOptions& options = {},
+                 const std::function<void(const std::filesystem::path& folder)>& finish = {});
 
 }  // namespace rockyard::batch

@@ -2,23 +2,63 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <optional>
+#include <system_error>
+#include <thread>
 #include <utility>
 
 #include "batch/run_folder.h"
 #include "batch/sqlite_database.h"
 #include "batch/store_error.h"
+#include "batch/store_meta.h"
+#include "batch/store_rows.h"
 #include "batch/store_tables.h"
 #include "core/check.h"
+#include "core/temporary_file.h"
 
 namespace rockyard::batch {
 namespace {
 
 namespace fs = std::filesystem;
 
+// The store is made under another name, so that there is none or one with a head.
+void WriteNew(const fs::path& path, const StoreHead& head) {
+  try {
+    core::TemporaryFile file(path);
+    file.Close();
+    {
+      SqliteDatabase database(file.path(), Access::kCreate, path);
+      database.Execute("PRAGMA synchronous=FULL");
+      WriteStoreHead(database, head);
+    }
+    file.Commit();
+  } catch (const std::system_error& error) {
+    FailSystem(path, "cannot be made", error.code().value());
+  }
+}
+
+// Waits for whoever reads or writes the file with another tool, as a commit does: SQLite itself
+// does not wait here.
+void BeginLog(SqliteDatabase& database) {
+  constexpr int kAttempts = 40;
+  constexpr std::chrono::milliseconds kPause{50};
+  for (int attempt = 1;; ++attempt) {
+    try {
+      return database.Execute("PRAGMA journal_mode=WAL");
+    } catch (const StoreError& error) {
+      if (error.problem() != StoreProblem::kInUse || attempt == kAttempts) throw;
+    }
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
+// The last statement makes the log, from which readers know that they are not alone.
 void PrepareToWrite(SqliteDatabase& database) {
-  database.Execute("PRAGMA journal_mode=WAL");
+  BeginLog(database);
   database.Execute("PRAGMA synchronous=FULL");
+  database.Execute("SELECT count(*) FROM sqlite_master");
 }
 
 void CheckIdentity(const fs::path& path, const CampaignIdentity& stored,
@@ -42,7 +82,7 @@ void CheckIdentity(const fs::path& path, const CampaignIdentity& stored,
 }  // namespace
 
 ResultStore::ResultStore(fs::path path, std::unique_ptr<SqliteDatabase> database)
-    : path_(std::move(path)), database_(std::move(database)) {}
+    : path_(std::move(path)), database_(std::move(database)), checksums_(Checksums::kEachRow) {}
 ResultStore::ResultStore(ResultStore&&) noexcept = default;
 ResultStore& ResultStore::operator=(ResultStore&&) noexcept = default;
 ResultStore::~ResultStore() = default;
@@ -56,17 +96,21 @@ ResultStore ResultStore::Create(const fs::path& folder, const CampaignIdentity& 
                      "go on with it by --resume, set it aside by --force, or choose another "
                      "folder with --out");
   }
+  if (HoldsLog(folder)) SetStoreAside(folder);  // of a store that is gone: not of this one
   try {
-    ResultStore store(path, std::make_unique<SqliteDatabase>(path, Access::kCreate));
+    WriteNew(path, {identity, planned, std::nullopt});
+    ResultStore store(path, std::make_unique<SqliteDatabase>(path, Access::kChange));
     PrepareToWrite(*store.database_);
-    WriteStoreHead(*store.database_, {identity, planned, std::nullopt});
     store.identity_ = identity;
     store.planned_ = planned;
+    store.most_planned_ = planned;
     return store;
   } catch (const StoreError&) {
     // What could not even be begun leaves nothing behind that a later run would trip over.
     std::error_code ignored;
-    for (const char* suffix : {"", "-wal", "-shm"}) fs::remove(path.string() + suffix, ignored);
+    for (const char* suffix : {"", "-wal", "-journal", "-shm"}) {
+      fs::remove(path.string() + suffix, ignored);
+    }
     throw;
   }
 }
@@ -74,6 +118,16 @@ ResultStore ResultStore::Create(const fs::path& folder, const CampaignIdentity& 
 ResultStore ResultStore::Create(const fs::path& folder, const CampaignIdentity& identity,
                                 std::int64_t planned) {
   return Create(folder, identity, std::vector<std::int64_t>(identity.cells.size(), planned));
+}
+
+bool ResultStore::HasBegun(const fs::path& folder) {
+  std::error_code error;
+  const fs::path path = StorePath(folder);
+  if (!HoldsStore(folder)) return false;
+  if (fs::is_regular_file(path, error) && fs::file_size(path, error) == 0) return false;
+  const SqliteDatabase database(path, Access::kRead);
+  SqliteStatement tables = database.Prepare("SELECT count(*) FROM sqlite_master");
+  return tables.Step() && tables.Integer(0) > 0;
 }
 
 void ResultStore::RequireSame(const fs::path& folder, const CampaignIdentity& identity,
@@ -86,6 +140,8 @@ ResultStore ResultStore::Resume(const fs::path& folder, const CampaignIdentity& 
                                 BuildPolicy policy) {
   ResultStore store = Read(folder);
   CheckIdentity(store.path_, store.identity_, identity, store.Builds(), policy);
+  for (int cell = 0; cell < store.cells(); ++cell) store.Check(cell);
+  static_cast<void>(store.InfrastructureFaults());
   store.database_ = std::make_unique<SqliteDatabase>(store.path_, Access::kChange);
   PrepareToWrite(*store.database_);
   store.AddBuild(identity.build);
@@ -111,28 +167,44 @@ ResultStore ResultStore::Read(const fs::path& folder) {
   store.identity_ = std::move(head.identity);
   store.planned_ = std::move(head.planned);
   store.rule_ = head.rule;
+  store.checksums_ = head.checksums;
+  store.most_planned_ = std::move(head.most_planned);
   return store;
 }
 
-std::vector<std::string> ResultStore::Builds() const { return ReadBuilds(*database_); }
+TrialTable ResultStore::Trials() const { return {identity_, most_planned_, checksums_}; }
+
+bool ResultStore::has_checksums() const { return checksums_ == Checksums::kEachRow; }
+
+std::vector<std::string> ResultStore::Builds() const {
+  const SqliteSnapshot snapshot(*database_);
+  return ReadBuilds(*database_, checksums_);
+}
 
 void ResultStore::AddBuild(std::string_view build) {
-  database_->Prepare("INSERT OR IGNORE INTO builds VALUES (?)").Bind(0, build).Step();
+  SqliteTransaction transaction(*database_);
+  batch::AddBuild(*database_, checksums_, build);
+  transaction.Commit();
 }
 
 void ResultStore::SetPlanned(int cell, std::int64_t planned) {
-  SqliteStatement update = database_->Prepare("UPDATE cells SET planned = ? WHERE cell = ?");
-  update.Bind(0, planned).Bind(1, static_cast<std::int64_t>(cell)).Step();
+  SqliteTransaction transaction(*database_);
+  WritePlanned(*database_, checksums_, cell, planned);
+  transaction.Commit();
   planned_.at(static_cast<std::size_t>(cell)) = planned;
+  std::int64_t& most = most_planned_.at(static_cast<std::size_t>(cell));
+  most = std::max(most, planned);
 }
 
 void ResultStore::SetRule(const std::optional<StoppingRule>& rule) {
-  WriteRule(*database_, rule);
+  SqliteTransaction transaction(*database_);
+  WriteRule(*database_, checksums_, rule);
+  transaction.Commit();
   rule_ = rule;
 }
 
 void ResultStore::Append(std::span<const CellRecord> records) {
-  if (!records.empty()) InsertRecords(*database_, identity_.schema, records);
+  if (!records.empty()) InsertRecords(*database_, Trials(), records);
 }
 
 std::vector<truth::Record> ResultStore::Load(int cell) const {
@@ -141,35 +213,42 @@ std::vector<truth::Record> ResultStore::Load(int cell) const {
 
 std::vector<truth::Record> ResultStore::Load(int cell, const truth::RecordSchema& columns) const {
   EXPECT(cell >= 0 && cell < cells());
-  return SelectRecords(*database_, columns, {.cell = cell, .from = 0, .to = planned(cell)},
-                       Sentences::kLeftOut);
+  return SelectColumns(*database_, Trials(), columns,
+                       {.cell = cell, .from = 0, .to = planned(cell)});
 }
 
 std::vector<truth::Record> ResultStore::Load(int cell, std::int64_t from, std::int64_t to) const {
   EXPECT(cell >= 0 && cell < cells());
-  return SelectRecords(*database_, identity_.schema, {.cell = cell, .from = from, .to = to});
+  return SelectRecords(*database_, Trials(), {.cell = cell, .from = from, .to = to});
+}
+
+void ResultStore::Check(int cell) const {
+  EXPECT(cell >= 0 && cell < cells());
+  CheckRecords(*database_, Trials(), {.cell = cell, .from = 0, .to = kMostTrials});
 }
 
 std::vector<FinishedTrial> ResultStore::Finished() const {
-  return SelectFinished(*database_, cells());
+  return SelectFinished(*database_, Trials());
 }
 
 void ResultStore::AddInfrastructureFault(const InfrastructureFault& fault) {
-  SqliteStatement insert =
-      database_->Prepare("INSERT INTO infrastructure_faults VALUES (?, ?, ?, ?)");
-  insert.Bind(0, static_cast<std::int64_t>(fault.id.cell)).Bind(1, fault.id.trial);
-  insert.Bind(2, fault.kind).Bind(3, fault.detail).Step();
+  SqliteTransaction transaction(*database_);
+  InsertFault(*database_, checksums_, fault);
+  transaction.Commit();
 }
 
 std::vector<InfrastructureFault> ResultStore::InfrastructureFaults() const {
-  std::vector<InfrastructureFault> faults;
-  SqliteStatement select = database_->Prepare(
-      "SELECT cell, trial, kind, detail FROM infrastructure_faults ORDER BY rowid");
-  while (select.Step()) {
-    faults.push_back(
-        {{static_cast<int>(select.Integer(0)), select.Integer(1)}, select.Text(2), select.Text(3)});
+  const SqliteSnapshot snapshot(*database_);
+  return ReadFaults(*database_, checksums_, cells());
+}
+
+bool HasChecksums(const fs::path& folder) {
+  try {
+    const SqliteDatabase database(StorePath(folder), Access::kRead);
+    return ReadChecksums(database) == Checksums::kEachRow;
+  } catch (const StoreError&) {
+    return true;
   }
-  return faults;
 }
 
 std::span<const truth::Record> ContiguousPrefix(std::span<const truth::Record> records) {

@@ -6,46 +6,37 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
-#include <cstring>
 #include <system_error>
+#include <utility>
 
 #include "batch/store_error.h"
+#include "core/temporary_file.h"
 
 namespace rockyard::batch {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kOtherFolder = "check the permissions, or choose another folder with --out";
+// What SQLite keeps beside a store until its last commits are in it. The first two belong to the
+// store by name; the third is an index of the first, made anew when needed.
+constexpr std::array kLogs = {"-wal", "-journal"};
+constexpr const char* kLogIndex = "-shm";
 
-// False where it was there.
-bool MakeFolder(const fs::path& folder) {
+bool IsThere(const fs::path& path) {
   std::error_code error;
-  if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
-    throw StoreError(StoreProblem::kUnwritable, folder.string(), "is a file, not a folder",
-                     "choose another folder with --out");
-  }
-  const bool made = fs::create_directories(folder, error);
-  if (error) {
-    throw StoreError(StoreProblem::kUnwritable, folder.string(),
-                     "cannot be made: " + error.message(), kOtherFolder);
-  }
-  return made;
+  return fs::exists(fs::symlink_status(path, error));
 }
 
 // A folder can exist and still refuse files: permissions, read-only media, full disks.
 void CheckWritable(const fs::path& folder) {
-  const fs::path probe = folder / fmt::format(".write-test-{}", getpid());
-  const int descriptor = open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-  if (descriptor < 0) {
-    const int reason = errno;
-    throw StoreError(
-        reason == ENOSPC || reason == EDQUOT ? StoreProblem::kFull : StoreProblem::kUnwritable,
-        folder.string(), fmt::format("cannot be written: {}", std::strerror(reason)), kOtherFolder);
+  core::RemoveLeftovers(StorePath(folder));
+  try {
+    const core::TemporaryFile probe(StorePath(folder));
+  } catch (const std::system_error& error) {
+    FailSystem(folder, "cannot be written", error.code().value());
   }
-  close(descriptor);
-  unlink(probe.c_str());
 }
 
 fs::path WithSuffix(const fs::path& path, const char* suffix) {
@@ -61,24 +52,64 @@ bool HoldsStore(const fs::path& folder) {
   return fs::exists(StorePath(folder), error);
 }
 
-FolderClaim::FolderClaim(const fs::path& folder) {
-  const bool made = MakeFolder(folder);
-  descriptor_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor_ < 0) {
-    throw StoreError(StoreProblem::kUnwritable, folder.string(),
-                     fmt::format("cannot be opened: {}", std::strerror(errno)), kOtherFolder);
+bool HoldsNoRunYet(const fs::path& folder) {
+  std::error_code error;
+  if (HoldsStore(folder)) return false;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const fs::path name = entry.path().filename();
+    const bool log = std::any_of(kLogs.begin(), kLogs.end(), [&](const char* suffix) {
+      return name == WithSuffix(kStoreFile, suffix);
+    });
+    const bool left =
+        log || name == WithSuffix(kStoreFile, kLogIndex) || core::IsTemporaryOf(kStoreFile, name);
+    if (!left) return false;
   }
-  if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    close(descriptor_);
-    throw StoreError(StoreProblem::kInUse, folder.string(), "is in use by another run",
-                     "wait for it to end, or choose another folder with --out");
+  return !error;
+}
+
+bool HoldsLog(const fs::path& folder) {
+  return std::any_of(kLogs.begin(), kLogs.end(), [&](const char* suffix) {
+    return IsThere(WithSuffix(StorePath(folder), suffix));
+  });
+}
+
+std::vector<fs::path> MakeFolders(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
+    throw StoreError(StoreProblem::kUnwritable, folder.string(), "is a file, not a folder",
+                     "choose another folder with --out");
   }
+  std::vector<fs::path> missing;
+  for (fs::path path = folder; !path.empty() && !fs::exists(path, error);
+       path = path.parent_path()) {
+    if (path.has_filename()) missing.push_back(path);
+  }
+  std::vector<fs::path> made;
+  for (auto path = missing.rbegin(); path != missing.rend(); ++path) {
+    if (fs::create_directory(*path, error)) made.insert(made.begin(), *path);
+    if (!error) continue;
+    const EmptyFolders failed(std::move(made));
+    FailSystem(folder, "cannot be made", error.value());
+  }
+  return made;
+}
+
+EmptyFolders::~EmptyFolders() {
+  for (const fs::path& folder : folders_) rmdir(folder.c_str());
+}
+
+FolderClaim::FolderClaim(const fs::path& folder) : made_(MakeFolders(folder)) {
   try {
+    descriptor_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor_ < 0) FailSystem(folder, "cannot be opened", errno);
+    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      throw StoreError(StoreProblem::kInUse, folder.string(), "is in use by another run",
+                       "wait for it to end, or choose another folder with --out");
+    }
     CheckWritable(folder);
   } catch (...) {
-    std::error_code ignored;
-    if (made) fs::remove(folder, ignored);
-    close(descriptor_);
+    const EmptyFolders failed(std::move(made_));
+    if (descriptor_ >= 0) close(descriptor_);
     throw;
   }
 }
@@ -88,21 +119,25 @@ FolderClaim::~FolderClaim() { close(descriptor_); }
 fs::path SetStoreAside(const fs::path& folder) {
   const fs::path store = StorePath(folder);
   fs::path aside;
-  std::error_code error;
-  for (int number = 1; aside.empty() || fs::exists(aside, error); ++number) {
+  const auto taken = [&] {
+    return IsThere(aside) || std::any_of(kLogs.begin(), kLogs.end(), [&](const char* suffix) {
+             return IsThere(WithSuffix(aside, suffix));
+           });
+  };
+  for (int number = 1; aside.empty() || taken(); ++number) {
     aside = folder / fmt::format("results.old-{}.sqlite", number);
   }
-  // The log first: it belongs to the store by name, and holds trials that are not yet in it.
-  for (const char* suffix : {"-wal", ""}) {
+  // The store first: where this is cut off, a log without a store is left, which gets a number of
+  // its own; a store without its log would look whole.
+  for (const char* suffix : {"", kLogs[0], kLogs[1]}) {
     const fs::path from = WithSuffix(store, suffix);
-    if (!fs::exists(from, error)) continue;
+    std::error_code error;
+    if (!IsThere(from)) continue;
     fs::rename(from, WithSuffix(aside, suffix), error);
-    if (error) {
-      throw StoreError(StoreProblem::kUnwritable, from.string(),
-                       "cannot be set aside: " + error.message(), kOtherFolder);
-    }
+    if (error) FailSystem(from, "cannot be set aside", error.value());
   }
-  fs::remove(WithSuffix(store, "-shm"), error);  // an index of the log; made anew when needed
+  std::error_code ignored;
+  fs::remove(WithSuffix(store, kLogIndex), ignored);
   return aside;
 }
 

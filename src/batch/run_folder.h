@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rockyard::batch {
@@ -12,10 +13,36 @@ inline constexpr const char* kStoreFile = "results.sqlite";
 std::filesystem::path StorePath(const std::filesystem::path& folder);
 bool HoldsStore(const std::filesystem::path& folder);
 
+// Whether all that is in the folder, if anything, was left by a run that was killed before it had a
+// store.
+bool HoldsNoRunYet(const std::filesystem::path& folder);
+
+// Whether there is a log by the name of the store's: of the store, or of one that is gone.
+bool HoldsLog(const std::filesystem::path& folder);
+
+// Makes the folder and those that it is in, where they do not exist. Returns what had to be made,
+// the innermost first. Throws StoreError, with nothing made.
+std::vector<std::filesystem::path> MakeFolders(const std::filesystem::path& folder);
+
+// At its end removes those of the folders, in this order, that are empty: what was made for work
+// that failed.
+class EmptyFolders {
+ public:
+  explicit EmptyFolders(std::vector<std::filesystem::path> folders)
+      : folders_(std::move(folders)) {}
+  ~EmptyFolders();
+  EmptyFolders(const EmptyFolders&) = delete;
+  EmptyFolders& operator=(const EmptyFolders&) = delete;
+
+ private:
+  std::vector<std::filesystem::path> folders_;
+};
+
 // Makes the folder where it does not exist and claims it, as long as this lives, against every
 // other run, in this process or another on the same machine. The claim ends with the process,
-// however it ends, and leaves nothing behind. Throws StoreError: kUnwritable where the folder
-// cannot be made or a file cannot be made in it, kInUse where another run has it.
+// however it ends, and leaves nothing behind; what killed runs have left of stores that they had
+// not finished making is removed. Throws StoreError: kUnwritable, kFull or kOpenFiles where the
+// folder cannot be made or a file cannot be made in it, kInUse where another run has it.
 //
 // Limit: file systems without flock() (some network mounts) give no claim; two runs of one scenario
 // would then do the same work twice, and the store keeps the first copy of each record.
@@ -26,12 +53,17 @@ class FolderClaim {
   FolderClaim(const FolderClaim&) = delete;
   FolderClaim& operator=(const FolderClaim&) = delete;
 
+  // MakeFolders.
+  const std::vector<std::filesystem::path>& made() const { return made_; }
+
  private:
+  std::vector<std::filesystem::path> made_;
   int descriptor_ = -1;
 };
 
-// Renames the store and the log that belongs to it to results.old-1.sqlite (or -2, ...); returns
-// the new path. Nothing is deleted. Requires a claim of the folder.
+// Renames the store and the logs that belong to it to results.old-1.sqlite (or -2, ...); returns
+// the new path, of the store. Logs without a store, which is gone, are renamed alike. Nothing is
+// deleted. Requires a claim of the folder.
 std::filesystem::path SetStoreAside(const std::filesystem::path& folder);
 
 // Folders that hold a store: `path` itself, or else its direct subfolders in alphabetical order.

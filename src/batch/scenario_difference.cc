@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/hash.h"
 #include "core/json_text.h"
 
 namespace rockyard::batch {
@@ -79,6 +80,11 @@ std::vector<ScenarioDifference> FindScenarioDifferences(std::string_view first,
   Walk walk;
   walk.Compare("", &before, &now);
   return walk.Take();
+}
+
+std::string ResolvedFingerprint(JsonValue resolved) {
+  for (const std::string_view key : kNoInfluence) resolved.Erase(key);
+  return core::Hex(core::Hasher().Text(core::DumpJson(resolved)).value());
 }
 
 std::vector<core::Problem> ScenarioDifferences(std::string_view stored, std::string_view wanted,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/json_value.h"
 
 namespace rockyard::batch {
 
@@ -20,6 +21,9 @@ struct ScenarioDifference {
 // record depends on them. Both are JSON texts; throws core::UserError on what is none.
 std::vector<ScenarioDifference> FindScenarioDifferences(std::string_view first,
                                                         std::string_view second);
+
+// What scenario::Fingerprint gives for a resolved scenario, 16 digits, from its JSON alone.
+std::string ResolvedFingerprint(core::JsonValue resolved);
 
 // Where the two values of a difference are found, for messages.
 struct DifferenceWords {

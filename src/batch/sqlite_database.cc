@@ -3,17 +3,16 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
-#include <system_error>
+#include <chrono>
+#include <thread>
+#include <utility>
 
 #include "batch/store_error.h"
 
 namespace rockyard::batch {
 namespace {
 
-// How long a commit waits for somebody who reads or writes the file with another tool.
-constexpr int kBusyTimeoutMs = 2000;
-
-StoreProblem Kind(int code) {
+StoreProblem Kind(int code, int reason) {
   switch (code & 0xff) {
     case SQLITE_FULL:
       return StoreProblem::kFull;
@@ -24,6 +23,7 @@ StoreProblem Kind(int code) {
     case SQLITE_LOCKED:
       return StoreProblem::kInUse;
     case SQLITE_CANTOPEN:
+      return ProblemOf(reason);
     case SQLITE_READONLY:
     case SQLITE_PERM:
     case SQLITE_AUTH:
@@ -39,6 +39,8 @@ const char* Reason(StoreProblem problem) {
       return "cannot be written";
     case StoreProblem::kInUse:
       return "is locked by another program";
+    case StoreProblem::kOpenFiles:
+      return "cannot be opened: too many files are open";
     case StoreProblem::kUnwritable:
       return "cannot be opened or written";
     default:
@@ -52,6 +54,8 @@ const char* Suggestion(StoreProblem problem) {
       return "free some space on the disk (or lift the quota), then go on with --resume";
     case StoreProblem::kInUse:
       return "wait for the other program or end it, then go on with --resume";
+    case StoreProblem::kOpenFiles:
+      return kMoreOpenFiles;
     case StoreProblem::kUnwritable:
       return "check the permissions, or choose another folder with --out";
     default:
@@ -63,51 +67,36 @@ const char* Suggestion(StoreProblem problem) {
 [[noreturn]] void Fail(sqlite3* database, int code, const std::filesystem::path& path) {
   const int extended = database == nullptr ? code : sqlite3_extended_errcode(database);
   const char* text = database == nullptr ? sqlite3_errstr(code) : sqlite3_errmsg(database);
-  const StoreProblem problem = Kind((extended & 0xff) == (code & 0xff) ? extended : code);
+  const int reason = database == nullptr ? 0 : sqlite3_system_errno(database);
+  const StoreProblem problem = Kind((extended & 0xff) == (code & 0xff) ? extended : code, reason);
   throw StoreError(problem, path.string(),
                    fmt::format("{} (SQLite {}: {})", Reason(problem), extended, text),
                    Suggestion(problem));
 }
 
-int Flags(Access access) {
+OpenedSqlite OpenFor(Access access, const std::filesystem::path& path) {
   switch (access) {
     case Access::kCreate:
-      return SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+      return OpenSqlite(path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
     case Access::kChange:
-      return SQLITE_OPEN_READWRITE;
+      return OpenSqlite(path, SQLITE_OPEN_READWRITE);
     case Access::kRead:
       break;
   }
-  return SQLITE_OPEN_READONLY;
+  return OpenToRead(path);
 }
 
-// Percent-encodes what has a meaning in the URI of a file.
-std::string FileUri(const std::filesystem::path& path) {
-  std::string uri = "file:";
-  for (const char c : path.string()) {
-    if (c == '?' || c == '#' || c == '%') {
-      uri += fmt::format("%{:02x}", static_cast<unsigned>(static_cast<unsigned char>(c)));
-    } else {
-      uri += c;
-    }
+// A store that ends cleanly is one file, which anybody may read anywhere. While somebody reads it,
+// or where the disk has no room, its log stays: that costs no trial, and readers know logs.
+void FoldLog(sqlite3* database) {
+  constexpr int kAttempts = 20;
+  constexpr std::chrono::milliseconds kPause{50};
+  int code = SQLITE_BUSY;
+  for (int attempt = 0; attempt < kAttempts && (code & 0xff) == SQLITE_BUSY; ++attempt) {
+    if (attempt > 0) std::this_thread::sleep_for(kPause);
+    code = sqlite3_exec(database, "PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode=DELETE",
+                        nullptr, nullptr, nullptr);
   }
-  return uri;
-}
-
-// A connection that can read the file, or an error code.
-int OpenConnection(const std::string& uri, int flags, sqlite3** database) {
-  const int code = sqlite3_open_v2(uri.c_str(), database, flags | SQLITE_OPEN_URI, nullptr);
-  if (code != SQLITE_OK) return code;
-  sqlite3_extended_result_codes(*database, 1);
-  sqlite3_busy_timeout(*database, kBusyTimeoutMs);
-  return sqlite3_exec(*database, "SELECT count(*) FROM sqlite_master", nullptr, nullptr, nullptr);
-}
-
-// Commits that are not yet in the main file.
-bool HasLog(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(path.string() + "-wal", error);
-  return !error && size > 0;
 }
 
 }  // namespace
@@ -160,12 +149,17 @@ bool SqliteStatement::Step() {
 
 void SqliteStatement::Reset() { sqlite3_reset(statement_.get()); }
 
-bool SqliteStatement::IsNull(int column) const {
-  return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL;
-}
-
-bool SqliteStatement::IsReal(int column) const {
-  return sqlite3_column_type(statement_.get(), column) == SQLITE_FLOAT;
+ValueType SqliteStatement::Type(int column) const {
+  switch (sqlite3_column_type(statement_.get(), column)) {
+    case SQLITE_NULL:
+      return ValueType::kNull;
+    case SQLITE_INTEGER:
+      return ValueType::kInteger;
+    case SQLITE_FLOAT:
+      return ValueType::kReal;
+    default:
+      return ValueType::kText;
+  }
 }
 
 std::int64_t SqliteStatement::Integer(int column) const {
@@ -182,22 +176,20 @@ std::string SqliteStatement::Text(int column) const {
   return bytes == nullptr ? std::string() : std::string(static_cast<const char*>(bytes), size);
 }
 
-SqliteDatabase::SqliteDatabase(const std::filesystem::path& path, Access access) : path_(path) {
-  const std::string uri = FileUri(path);
-  sqlite3* database = nullptr;
-  int code = OpenConnection(uri, Flags(access), &database);
-  database_.reset(database);
-  if (access == Access::kRead && (code & 0xff) == SQLITE_CANTOPEN && !HasLog(path)) {
-    // A folder that cannot be written has no place for the shared memory of the write-ahead log. No
-    // run can be active there, so that the file may be read as it lies.
-    database = nullptr;
-    code = OpenConnection(uri + "?immutable=1", Flags(access), &database);
-    database_.reset(database);
-  }
-  if (code != SQLITE_OK) Fail(database_.get(), code, path_);
+SqliteDatabase::SqliteDatabase(const std::filesystem::path& path, Access access)
+    : SqliteDatabase(path, access, path) {}
+
+SqliteDatabase::SqliteDatabase(const std::filesystem::path& path, Access access,
+                               std::filesystem::path told)
+    : path_(std::move(told)), access_(access) {
+  OpenedSqlite opened = OpenFor(access, path);
+  database_ = std::move(opened.database);
+  if (opened.code != SQLITE_OK) Fail(database_.get(), opened.code, path_);
 }
 
-void SqliteDatabase::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
+SqliteDatabase::~SqliteDatabase() {
+  if (access_ != Access::kRead) FoldLog(database_.get());
+}
 
 void SqliteDatabase::Execute(const std::string& sql) {
   const int code = sqlite3_exec(database_.get(), sql.c_str(), nullptr, nullptr, nullptr);
@@ -208,8 +200,18 @@ SqliteStatement SqliteDatabase::Prepare(std::string_view sql) const {
   return SqliteStatement(database_.get(), path_, sql);
 }
 
+std::int64_t SqliteDatabase::Changes() const { return sqlite3_changes64(database_.get()); }
+
 std::optional<std::string> SqliteDatabase::Damage() const {
-  SqliteStatement check = Prepare("PRAGMA quick_check(1)");
+  return Complaint("PRAGMA quick_check(1)");
+}
+
+std::optional<std::string> SqliteDatabase::Damage(std::string_view table) const {
+  return Complaint(fmt::format("PRAGMA integrity_check({})", table));
+}
+
+std::optional<std::string> SqliteDatabase::Complaint(std::string_view pragma) const {
+  SqliteStatement check = Prepare(pragma);
   if (!check.Step()) return "its own check gave no answer";
   const std::string answer = check.Text(0);
   return answer == "ok" ? std::nullopt : std::optional(answer);
@@ -231,6 +233,18 @@ SqliteTransaction::~SqliteTransaction() {
 void SqliteTransaction::Commit() {
   database_.Execute("COMMIT");
   open_ = false;
+}
+
+SqliteSnapshot::SqliteSnapshot(const SqliteDatabase& database) : database_(database) {
+  database_.Prepare("BEGIN").Step();
+}
+
+SqliteSnapshot::~SqliteSnapshot() {
+  try {
+    database_.Prepare("COMMIT").Step();
+  } catch (const StoreError&) {
+    // Nothing was written: there is nothing to lose.
+  }
 }
 
 }  // namespace rockyard::batch

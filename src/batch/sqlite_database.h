@@ -8,16 +8,20 @@
 #include <string>
 #include <string_view>
 
-struct sqlite3;
+#include "batch/sqlite_open.h"
+
 struct sqlite3_stmt;
 
 namespace rockyard::batch {
 
 enum class Access {
-  kCreate,  // the file must not exist yet
+  kCreate,  // the file must not exist yet, or be empty
   kChange,  // an existing file
-  kRead,    // an existing file, also on read-only media
+  kRead,    // an existing file, also without a right to write (sqlite_open.h)
 };
+
+// How a value lies in a row; bytes that are no text (BLOB) count as one.
+enum class ValueType { kNull, kInteger, kReal, kText };
 
 // One prepared statement. Columns and parameters count from 0.
 class SqliteStatement {
@@ -33,8 +37,7 @@ class SqliteStatement {
   bool Step();
   void Reset();
 
-  bool IsNull(int column) const;
-  bool IsReal(int column) const;
+  ValueType Type(int column) const;
   std::int64_t Integer(int column) const;
   double Real(int column) const;
   std::string Text(int column) const;
@@ -50,25 +53,35 @@ class SqliteStatement {
 };
 
 // One connection. Every failure is a StoreError that names the file. Not for two threads at once.
+// The end of one that may write brings the write-ahead log into the file, unless somebody reads it.
 class SqliteDatabase {
  public:
   SqliteDatabase(const std::filesystem::path& path, Access access);
+  // `told`: the name that errors give the file.
+  SqliteDatabase(const std::filesystem::path& path, Access access, std::filesystem::path told);
+  ~SqliteDatabase();
+  SqliteDatabase(const SqliteDatabase&) = delete;
+  SqliteDatabase& operator=(const SqliteDatabase&) = delete;
 
   void Execute(const std::string& sql);
   SqliteStatement Prepare(std::string_view sql) const;
 
-  // The first complaint of SQLite's own check of the file, or nothing.
+  // Rows that the last statement which has ended added, changed or deleted.
+  std::int64_t Changes() const;
+
+  // The first complaint of SQLite's own check of the file, or nothing. Leaves indexes out.
   std::optional<std::string> Damage() const;
+  // The same of one table with its indexes, by which rows are found.
+  std::optional<std::string> Damage(std::string_view table) const;
 
   const std::filesystem::path& path() const { return path_; }
 
  private:
-  struct Close {
-    void operator()(sqlite3* database) const;
-  };
+  std::optional<std::string> Complaint(std::string_view pragma) const;
 
   std::filesystem::path path_;
-  std::unique_ptr<sqlite3, Close> database_;
+  Access access_;
+  SqliteHandle database_;
 };
 
 // Rolls back unless committed.
@@ -84,6 +97,19 @@ class SqliteTransaction {
  private:
   SqliteDatabase& database_;
   bool open_ = true;
+};
+
+// As long as it lives, everything read is of one moment, whatever a run adds meanwhile. Not within
+// a transaction.
+class SqliteSnapshot {
+ public:
+  explicit SqliteSnapshot(const SqliteDatabase& database);
+  ~SqliteSnapshot();
+  SqliteSnapshot(const SqliteSnapshot&) = delete;
+  SqliteSnapshot& operator=(const SqliteSnapshot&) = delete;
+
+ private:
+  const SqliteDatabase& database_;
 };
 
 }  // namespace rockyard::batch

@@ -1,8 +1,26 @@
 #include "batch/store_error.h"
 
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
 #include <utility>
 
 namespace rockyard::batch {
+namespace {
+
+const char* Remedy(StoreProblem problem) {
+  switch (problem) {
+    case StoreProblem::kFull:
+      return "free some space on the disk (or lift the quota), or choose another folder with --out";
+    case StoreProblem::kOpenFiles:
+      return kMoreOpenFiles;
+    default:
+      return "check the permissions, or choose another folder with --out";
+  }
+}
+
+}  // namespace
 
 StoreError::StoreError(StoreProblem problem, std::vector<core::Problem> problems)
     : core::UserError(std::move(problems)), problem_(problem) {}
@@ -11,6 +29,30 @@ StoreError::StoreError(StoreProblem problem, std::string path, std::string reaso
                        std::string suggestion)
     : core::UserError(std::move(path), std::move(reason), std::move(suggestion)),
       problem_(problem) {}
+
+bool IsOfTheMachine(StoreProblem problem) {
+  return problem == StoreProblem::kFull || problem == StoreProblem::kOpenFiles;
+}
+
+StoreProblem ProblemOf(int reason) {
+  switch (reason) {
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG:
+      return StoreProblem::kFull;
+    case EMFILE:
+    case ENFILE:
+      return StoreProblem::kOpenFiles;
+    default:
+      return StoreProblem::kUnwritable;
+  }
+}
+
+void FailSystem(const std::filesystem::path& path, std::string_view what, int reason) {
+  const StoreProblem problem = ProblemOf(reason);
+  throw StoreError(problem, path.string(), fmt::format("{}: {}", what, std::strerror(reason)),
+                   Remedy(problem));
+}
 
 void FailDamaged(const std::filesystem::path& path, const std::string& reason) {
   throw StoreError(

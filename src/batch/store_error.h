@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/error.h"
@@ -14,6 +15,7 @@ enum class StoreProblem {
   kExists,      // a store where none may be
   kUnwritable,  // the folder or a file in it cannot be made or written
   kFull,        // no space left, or a limit on file sizes or quotas
+  kOpenFiles,   // the process or the machine may open no more files
   kInUse,       // another process runs in this folder
   kDamaged,     // no database, cut off, or with contents that no version of this program wrote
   kMismatch,    // made by another scenario, seed or build
@@ -30,6 +32,19 @@ class StoreError : public core::UserError {
  private:
   StoreProblem problem_;
 };
+
+// Whether the machine failed, not the request: the same command may succeed later.
+bool IsOfTheMachine(StoreProblem problem);
+
+// What an errno means for a file or folder that is to be made, opened or written.
+StoreProblem ProblemOf(int reason);
+
+// Throws what an errno means, with what to do. `what`: "cannot be made".
+[[noreturn]] void FailSystem(const std::filesystem::path& path, std::string_view what, int reason);
+
+// What to do where the process or the machine may open no more files.
+inline constexpr const char* kMoreOpenFiles =
+    "end other programs or allow more open files (ulimit -n), then run it again";
 
 // Throws kDamaged, with what to do.
 [[noreturn]] void FailDamaged(const std::filesystem::path& path, const std::string& reason);

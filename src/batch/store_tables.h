@@ -11,6 +11,7 @@
 #include "batch/campaign.h"
 #include "batch/sqlite_database.h"
 #include "batch/stopping_rule.h"
+#include "batch/store_rows.h"
 
 namespace rockyard::batch {
 
@@ -19,9 +20,11 @@ struct StoreHead {
   CampaignIdentity identity;          // with the first of the builds
   std::vector<std::int64_t> planned;  // trials, by cell
   std::optional<StoppingRule> rule;
+  Checksums checksums = Checksums::kEachRow;
+  std::vector<std::int64_t> most_planned = {};  // ever, by cell: no trial beyond them is stored
 };
 
-// Makes every table, in one transaction.
+// Makes every table, in one transaction, with checksums and the most trials that are planned now.
 void WriteStoreHead(SqliteDatabase& database, const StoreHead& head);
 
 // kMismatch: another version; kDamaged: what no version of this program writes.
@@ -30,12 +33,27 @@ StoreHead ReadStoreHead(const SqliteDatabase& database);
 // A name as SQL writes it, in double quotes.
 std::string QuotedName(std::string_view name);
 
-void WriteRule(SqliteDatabase& database, const std::optional<StoppingRule>& rule);
+void WritePlanned(SqliteDatabase& database, Checksums checksums, int cell, std::int64_t planned);
 
-std::vector<std::string> ReadBuilds(const SqliteDatabase& database);
+std::vector<std::string> ReadBuilds(const SqliteDatabase& database, Checksums checksums);
+// One that is there already stays.
+void AddBuild(SqliteDatabase& database, Checksums checksums, std::string_view build);
 
-// Adds the records in one transaction. A trial that is already there keeps its first record.
-void InsertRecords(SqliteDatabase& database, const truth::RecordSchema& schema,
+void InsertFault(SqliteDatabase& database, Checksums checksums, const InfrastructureFault& fault);
+// Of that many cells. kDamaged.
+std::vector<InfrastructureFault> ReadFaults(const SqliteDatabase& database, Checksums checksums,
+                                            int cells);
+
+// What the table of trials is written by, and what its rows must fit. All of it outlives this.
+struct TrialTable {
+  const CampaignIdentity& identity;
+  const std::vector<std::int64_t>& most_planned;
+  Checksums checksums = Checksums::kEachRow;
+};
+
+// Adds the records in one transaction. A trial that is already there keeps its first record. No
+// value is infinite.
+void InsertRecords(SqliteDatabase& database, const TrialTable& table,
                    std::span<const CellRecord> records);
 
 // Trials from .. to-1 of a cell.
@@ -45,16 +63,22 @@ struct TrialRange {
   std::int64_t to = 0;
 };
 
-// Whether records come with the sentence that says why they ended.
-enum class Sentences { kKept, kLeftOut };
+// The records there are of those, by trial index. Throws kDamaged where a row does not fit its
+// checksum, or holds what no trial gives.
+std::vector<truth::Record> SelectRecords(const SqliteDatabase& database, const TrialTable& table,
+                                         const TrialRange& range);
 
-// The records there are of those, by trial index, with the values of these columns. kDamaged.
-std::vector<truth::Record> SelectRecords(const SqliteDatabase& database,
+// The same with the values of these columns alone and without the sentences that say why trials
+// ended. Checks the outcomes, and not the values: CheckRecords does.
+std::vector<truth::Record> SelectColumns(const SqliteDatabase& database, const TrialTable& table,
                                          const truth::RecordSchema& columns,
-                                         const TrialRange& range,
-                                         Sentences sentences = Sentences::kKept);
+                                         const TrialRange& range);
 
-// Every stored trial by cell and trial index. kDamaged.
-std::vector<FinishedTrial> SelectFinished(const SqliteDatabase& database, int cells);
+// Throws as SelectRecords does, and keeps nothing.
+void CheckRecords(const SqliteDatabase& database, const TrialTable& table, const TrialRange& range);
+
+// Every stored trial by cell and trial index, in one SqliteSnapshot of its own. Throws kDamaged
+// also where rows are missing, foreign, of another shard, or of trials that were never planned.
+std::vector<FinishedTrial> SelectFinished(const SqliteDatabase& database, const TrialTable& table);
 
 }  // namespace rockyard::batch

@@ -1,6 +1,7 @@
 // The table of trials, row by row.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -13,91 +14,242 @@ namespace rockyard::batch {
 namespace {
 
 constexpr int kFixedColumns = 4;  // campaign_cell, trial, outcome, detail
+constexpr int kOutcomeColumn = 2;
 
-std::string InsertSql(std::size_t values) {
+// What the rows of each cell begin their checksums with: its scenario and its seed, so that rows of
+// another campaign do not fit.
+std::vector<std::int64_t> RowBeginnings(const CampaignIdentity& identity) {
+  std::vector<std::int64_t> beginnings;
+  beginnings.reserve(identity.cells.size());
+  RowChecksum checksum;
+  for (const CellIdentity& cell : identity.cells) {
+    checksum.Restart();
+    checksum.Text(cell.fingerprint).Integer(static_cast<std::int64_t>(cell.seed));
+    beginnings.push_back(checksum.value());
+  }
+  return beginnings;
+}
+
+std::string InsertSql(std::size_t values, Checksums checksums) {
   std::string sql = "INSERT OR IGNORE INTO trials VALUES (?, ?, ?, ?";
   for (std::size_t i = 0; i < values; ++i) sql += ", ?";
-  return sql + ")";
+  return sql + (checksums == Checksums::kEachRow ? ", ?, ?)" : ")");
 }
 
-std::string SelectSql(const truth::RecordSchema& schema) {
-  std::string sql = "SELECT campaign_cell, trial, outcome, detail";
-  for (const truth::ValueInfo& value : schema) sql += ", " + QuotedName(value.name);
-  return sql + " FROM trials WHERE campaign_cell = ? AND trial >= ? AND trial < ? ORDER BY trial";
+// Along the index, whose order and entries SelectFinished checks.
+std::string FromSql(Checksums checksums) {
+  const std::string columns =
+      checksums == Checksums::kEachRow ? ", outcome_checksum, row_checksum" : "";
+  return columns + " FROM trials INDEXED BY sqlite_autoindex_trials_1";
 }
 
-std::int64_t CheckedTrial(const SqliteDatabase& database, std::int64_t trial) {
-  if (trial < 0) {
-    FailDamaged(database.path(), fmt::format("has a trial with the index {}", trial));
-  }
-  return trial;
+std::string SelectSql(Checksums checksums, std::string_view detail,
+                      const truth::RecordSchema& columns) {
+  std::string sql = fmt::format("SELECT campaign_cell, trial, outcome, {}", detail);
+  for (const truth::ValueInfo& value : columns) sql += ", " + QuotedName(value.name);
+  return sql + FromSql(checksums) +
+         " WHERE campaign_cell = ? AND trial >= ? AND trial < ? ORDER BY trial";
 }
 
-truth::TrialOutcome OutcomeOf(const SqliteDatabase& database, std::int64_t trial,
-                              const std::string& name) {
-  for (std::size_t i = 0; i < truth::kTrialOutcomeNames.size(); ++i) {
-    if (truth::kTrialOutcomeNames[i] == name) return static_cast<truth::TrialOutcome>(i);
-  }
-  FailDamaged(database.path(),
-              fmt::format("has the unknown outcome \"{}\" at trial {}", name, trial));
-}
+// Reads rows of the table of trials and checks each.
+class TrialReader {
+ public:
+  TrialReader(const SqliteDatabase& database, const TrialTable& table, std::string_view sql)
+      : database_(database),
+        table_(table),
+        row_(database.Prepare(sql)),
+        beginnings_(RowBeginnings(table.identity)) {}
 
-void ReadValues(const SqliteDatabase& database, const truth::RecordSchema& schema,
-                const SqliteStatement& row, std::span<double> values) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t i = 0; i < schema.size(); ++i) {
-    const int column = kFixedColumns + static_cast<int>(i);
-    if (!row.IsNull(column) && !row.IsReal(column)) {
-      FailDamaged(database.path(),
-                  fmt::format("has no number in {} of trial {}", schema[i].name, row.Integer(1)));
+  SqliteStatement& row() { return row_; }
+  TrialId id() const { return id_; }
+  truth::TrialOutcome outcome() const { return outcome_; }
+
+  // Steps to the next row. Its checksums are in the columns `sums` and `sums` + 1.
+  bool Step(int sums) {
+    if (!row_.Step()) return false;
+    CheckId();
+    outcome_text_ = row_.Text(kOutcomeColumn);
+    if (table_.checksums == Checksums::kEachRow) {
+      checksum_.Restart(beginnings_[static_cast<std::size_t>(id_.cell)]);
+      checksum_.Integer(id_.cell).Integer(id_.trial).Text(outcome_text_);
+      RequireSum(sums, "outcome_checksum");
     }
-    values[i] = row.IsNull(column) ? kNan : row.Real(column);
+    outcome_ = Outcome();
+    return true;
   }
+
+  // The values from kFixedColumns on, with the detail and the checksum of all of them.
+  void ReadRow(const truth::RecordSchema& schema, std::string_view detail,
+               std::span<double> values) {
+    checksum_.Text(detail);
+    for (std::size_t i = 0; i < schema.size(); ++i) {
+      values[i] = Value(kFixedColumns + static_cast<int>(i), schema[i]);
+      checksum_.Real(values[i]);
+    }
+    if (table_.checksums == Checksums::kEachRow) {
+      RequireSum(kFixedColumns + 1 + static_cast<int>(schema.size()), "row_checksum");
+    }
+  }
+
+  double Value(int column, const truth::ValueInfo& info) const {
+    switch (row_.Type(column)) {
+      case ValueType::kNull:
+        return std::numeric_limits<double>::quiet_NaN();
+      case ValueType::kReal:
+        break;
+      default:
+        FailRow(info.name, "no number");
+    }
+    const double value = row_.Real(column);
+    if (std::isinf(value)) FailRow(info.name, "an infinite value");
+    return value;
+  }
+
+ private:
+  [[noreturn]] void FailRow(std::string_view column, std::string_view what) const {
+    FailDamaged(database_.path(),
+                fmt::format("is damaged: table trials, cell {}, trial {}, column {}: {}",
+                            row_.Integer(0), row_.Integer(1), column, what));
+  }
+
+  void CheckId() {
+    const std::int64_t cell = row_.Integer(0);
+    const std::int64_t trial = row_.Integer(1);
+    if (cell < 0 || cell >= static_cast<std::int64_t>(beginnings_.size())) {
+      FailRow("campaign_cell", "there is no such cell");
+    }
+    const std::int64_t most = table_.most_planned[static_cast<std::size_t>(cell)];
+    if (trial < 0 || trial >= most) {
+      FailRow("trial", fmt::format("at most {} were ever planned, from 0 on", most));
+    }
+    const Shard& shard = table_.identity.shard;
+    if (!shard.Has(trial)) {
+      FailRow("trial", fmt::format("it is none of shard {}/{}", shard.index, shard.count));
+    }
+    id_ = {static_cast<int>(cell), trial};
+  }
+
+  void RequireSum(int column, std::string_view name) {
+    if (row_.Integer(column) != checksum_.value()) FailRow(name, "it does not fit the row");
+  }
+
+  truth::TrialOutcome Outcome() const {
+    for (std::size_t i = 0; i < truth::kTrialOutcomeNames.size(); ++i) {
+      if (truth::kTrialOutcomeNames[i] == outcome_text_) return static_cast<truth::TrialOutcome>(i);
+    }
+    FailRow("outcome", fmt::format("the unknown outcome \"{}\"", outcome_text_));
+  }
+
+  const SqliteDatabase& database_;
+  const TrialTable& table_;
+  SqliteStatement row_;
+  const std::vector<std::int64_t> beginnings_;
+  RowChecksum checksum_;
+  std::string outcome_text_;
+  TrialId id_;
+  truth::TrialOutcome outcome_ = truth::TrialOutcome::kSimulatorFault;
+};
+
+// Writes rows of the table of trials with their checksums.
+class TrialInsert {
+ public:
+  TrialInsert(SqliteDatabase& database, const TrialTable& table)
+      : database_(database),
+        table_(table),
+        insert_(database.Prepare(InsertSql(table.identity.schema.size(), table.checksums))),
+        beginnings_(RowBeginnings(table.identity)) {
+    if (sums()) tally_ = InventoryOf(database, kTrialsTable);
+  }
+
+  void Write(const CellRecord& each) {
+    const truth::Record& record = each.record;
+    checksum_.Restart(beginnings_.at(static_cast<std::size_t>(each.cell)));
+    Key(0, each.cell);
+    Key(1, static_cast<std::int64_t>(record.trial));
+    Text(kOutcomeColumn, truth::Name(record.outcome));
+    const std::int64_t outcome_sum = checksum_.value();
+    Text(kOutcomeColumn + 1, record.detail);
+    const int values = static_cast<int>(table_.identity.schema.size());
+    for (int i = 0; i < values; ++i) Value(kFixedColumns + i, record, static_cast<std::size_t>(i));
+    const std::int64_t sum = checksum_.value();
+    if (sums())
+      insert_.Bind(kFixedColumns + values, outcome_sum).Bind(kFixedColumns + values + 1, sum);
+    insert_.Step();
+    insert_.Reset();
+    if (database_.Changes() > 0) tally_.Add(sum);
+  }
+
+  void Finish() {
+    if (sums()) SetInventory(database_, kTrialsTable, tally_);
+  }
+
+ private:
+  bool sums() const { return table_.checksums == Checksums::kEachRow; }
+
+  void Key(int parameter, std::int64_t value) {
+    insert_.Bind(parameter, value);
+    checksum_.Integer(value);
+  }
+
+  void Text(int parameter, std::string_view value) {
+    insert_.Bind(parameter, value);
+    checksum_.Text(value);
+  }
+
+  // A fault has none.
+  void Value(int parameter, const truth::Record& record, std::size_t i) {
+    if (truth::IsFault(record)) {
+      insert_.BindNull(parameter);
+      checksum_.Null();
+      return;
+    }
+    EXPECT(!std::isinf(record.values[i]));
+    insert_.Bind(parameter, record.values[i]);
+    checksum_.Real(record.values[i]);
+  }
+
+  SqliteDatabase& database_;
+  const TrialTable& table_;
+  SqliteStatement insert_;
+  const std::vector<std::int64_t> beginnings_;
+  RowChecksum checksum_;
+  TableTally tally_;
+};
+
+void Bind(SqliteStatement& select, const TrialRange& range) {
+  select.Bind(0, static_cast<std::int64_t>(range.cell)).Bind(1, range.from).Bind(2, range.to);
 }
 
 }  // namespace
 
-void InsertRecords(SqliteDatabase& database, const truth::RecordSchema& schema,
+void InsertRecords(SqliteDatabase& database, const TrialTable& table,
                    std::span<const CellRecord> records) {
   SqliteTransaction transaction(database);
-  SqliteStatement insert = database.Prepare(InsertSql(schema.size()));
+  TrialInsert insert(database, table);
   for (const CellRecord& each : records) {
-    const truth::Record& record = each.record;
-    const bool fault = truth::IsFault(record);
-    EXPECT(fault || record.values.size() == schema.size());
-    insert.Bind(0, static_cast<std::int64_t>(each.cell));
-    insert.Bind(1, static_cast<std::int64_t>(record.trial));
-    insert.Bind(2, truth::Name(record.outcome)).Bind(3, record.detail);
-    for (std::size_t i = 0; i < schema.size(); ++i) {
-      const int parameter = kFixedColumns + static_cast<int>(i);
-      if (fault) {
-        insert.BindNull(parameter);
-      } else {
-        insert.Bind(parameter, record.values[i]);
-      }
-    }
-    insert.Step();
-    insert.Reset();
+    EXPECT(truth::IsFault(each.record) ||
+           each.record.values.size() == table.identity.schema.size());
+    insert.Write(each);
   }
+  insert.Finish();
   transaction.Commit();
 }
 
-std::vector<truth::Record> SelectRecords(const SqliteDatabase& database,
-                                         const truth::RecordSchema& columns,
-                                         const TrialRange& range, Sentences sentences) {
+std::vector<truth::Record> SelectRecords(const SqliteDatabase& database, const TrialTable& table,
+                                         const TrialRange& range) {
+  const truth::RecordSchema& schema = table.identity.schema;
   std::vector<truth::Record> records;
-  const auto values = std::make_shared<truth::ValueTable>(columns.size());
-  std::vector<double> row(columns.size());
-  SqliteStatement select = database.Prepare(SelectSql(columns));
-  select.Bind(0, static_cast<std::int64_t>(range.cell)).Bind(1, range.from).Bind(2, range.to);
-  while (select.Step()) {
+  const auto values = std::make_shared<truth::ValueTable>(schema.size());
+  std::vector<double> row(schema.size());
+  TrialReader reader(database, table, SelectSql(table.checksums, "detail", schema));
+  Bind(reader.row(), range);
+  while (reader.Step(kFixedColumns + static_cast<int>(schema.size()))) {
     truth::Record record;
-    const std::int64_t trial = CheckedTrial(database, select.Integer(1));
-    record.trial = static_cast<std::uint64_t>(trial);
-    record.outcome = OutcomeOf(database, trial, select.Text(2));
-    if (sentences == Sentences::kKept) record.detail = select.Text(3);
+    record.trial = static_cast<std::uint64_t>(reader.id().trial);
+    record.outcome = reader.outcome();
+    record.detail = reader.row().Text(kOutcomeColumn + 1);
+    reader.ReadRow(schema, record.detail, row);
     if (!truth::IsFault(record)) {
-      ReadValues(database, columns, select, row);
       record.values = {values, values->rows()};
       values->Append(row);
     }
@@ -106,19 +258,64 @@ std::vector<truth::Record> SelectRecords(const SqliteDatabase& database,
   return records;
 }
 
-std::vector<FinishedTrial> SelectFinished(const SqliteDatabase& database, int cells) {
-  std::vector<FinishedTrial> finished;
-  SqliteStatement select = database.Prepare(
-      "SELECT campaign_cell, trial, outcome FROM trials ORDER BY campaign_cell, trial");
-  while (select.Step()) {
-    const std::int64_t cell = select.Integer(0);
-    const std::int64_t trial = CheckedTrial(database, select.Integer(1));
-    if (cell < 0 || cell >= cells) {
-      FailDamaged(database.path(), fmt::format("has a trial of cell {}, which there is not", cell));
-    }
-    finished.push_back(
-        {{static_cast<int>(cell), trial}, OutcomeOf(database, trial, select.Text(2))});
+void CheckRecords(const SqliteDatabase& database, const TrialTable& table,
+                  const TrialRange& range) {
+  const truth::RecordSchema& schema = table.identity.schema;
+  std::vector<double> row(schema.size());
+  TrialReader reader(database, table, SelectSql(table.checksums, "detail", schema));
+  Bind(reader.row(), range);
+  while (reader.Step(kFixedColumns + static_cast<int>(schema.size()))) {
+    reader.ReadRow(schema, reader.row().Text(kOutcomeColumn + 1), row);
   }
+}
+
+std::vector<truth::Record> SelectColumns(const SqliteDatabase& database, const TrialTable& table,
+                                         const truth::RecordSchema& columns,
+                                         const TrialRange& range) {
+  std::vector<truth::Record> records;
+  const auto values = std::make_shared<truth::ValueTable>(columns.size());
+  std::vector<double> row(columns.size());
+  TrialReader reader(database, table, SelectSql(table.checksums, "''", columns));
+  Bind(reader.row(), range);
+  while (reader.Step(kFixedColumns + static_cast<int>(columns.size()))) {
+    truth::Record record;
+    record.trial = static_cast<std::uint64_t>(reader.id().trial);
+    record.outcome = reader.outcome();
+    if (!truth::IsFault(record)) {
+      for (std::size_t i = 0; i < columns.size(); ++i) {
+        row[i] = reader.Value(kFixedColumns + static_cast<int>(i), columns[i]);
+      }
+      record.values = {values, values->rows()};
+      values->Append(row);
+    }
+    records.push_back(std::move(record));
+  }
+  return records;
+}
+
+std::vector<FinishedTrial> SelectFinished(const SqliteDatabase& database, const TrialTable& table) {
+  const SqliteSnapshot snapshot(database);
+  std::vector<FinishedTrial> finished;
+  TableTally tally;
+  TrialReader reader(database, table,
+                     "SELECT campaign_cell, trial, outcome" + FromSql(table.checksums) +
+                         " ORDER BY campaign_cell, trial");
+  while (reader.Step(kOutcomeColumn + 1)) {
+    const TrialId id = reader.id();
+    const bool ascending =
+        finished.empty() || finished.back().id.cell < id.cell ||
+        (finished.back().id.cell == id.cell && finished.back().id.trial < id.trial);
+    if (!ascending) {
+      FailDamaged(database.path(), fmt::format("is damaged: table trials has trial {} of cell {} "
+                                               "twice or in the wrong place",
+                                               id.trial, id.cell));
+    }
+    finished.push_back({id, reader.outcome()});
+    if (table.checksums == Checksums::kEachRow) {
+      tally.Add(reader.row().Integer(kOutcomeColumn + 2));
+    }
+  }
+  if (table.checksums == Checksums::kEachRow) CheckInventory(database, kTrialsTable, tally);
   return finished;
 }
 

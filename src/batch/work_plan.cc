@@ -34,7 +34,10 @@ WorkPlan::WorkPlan(std::vector<std::int64_t> planned, const PlanOptions& options
 
 void WorkPlan::AddStored(std::span<const FinishedTrial> stored) {
   EXPECT(round_.empty());
-  for (const FinishedTrial& trial : stored) Finish(trial.id, trial.outcome);
+  for (const FinishedTrial& trial : stored) {
+    // Of what lies beyond the plan there may be single trials far out.
+    if (trial.id.trial < At(trial.id.cell).planned) Finish(trial.id, trial.outcome);
+  }
 }
 
 WorkPlan::NextStep WorkPlan::Next() {

@@ -127,7 +127,6 @@ batch::BatchResult CampaignProcess::RunTrials(std::span<const CellWork> work,
                                               batch::BatchOptions options,
                                               const batch::ProgressReport& report) {
   options.threads = options_.threads;
-  log_.SetOpened();
   const HeededWork logged(work, log_, contact_.stop);
   const bool supervised = options_.supervisor && communicator_ == nullptr;
   const batch::Watchdog watchdog(log_, {.cpu_limit_s = options_.trial_cpu_limit_s},
@@ -198,7 +197,7 @@ void CampaignProcess::NoteOverdue(batch::ResultStore& store,
 
 Outcome CampaignProcess::Afterwards(
     const std::function<Outcome(const Mission& mission, batch::FlightLog& log)>& work) {
-  log_.SetOpened();
+  SetOpened();
   const std::shared_ptr<void> watch =
       contact_.stop.Watch(log_.stop(), alone() ? SecondWish::kEnds : SecondWish::kIsTheSame);
   return work(mission_, log_);

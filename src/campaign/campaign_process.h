@@ -45,6 +45,8 @@ class CampaignProcess {
   // False: another process was here before and died: open the store to go on, whatever the user
   // said of an existing one, and say nothing of it.
   bool begins() const { return mission_.task == batch::Mission::Task::kBegin; }
+  // Whatever dies from here on, the next process finds the folder as its own.
+  void SetOpened() { log_.SetOpened(); }
   // False: after opening, DoTask and nothing else: no trials, no report.
   bool whole() const { return begins() || mission_.task == batch::Mission::Task::kGoOn; }
   int threads() const { return options_.threads; }

@@ -36,16 +36,6 @@ fs::path CellFolder(const fs::path& folder, const StoredRun& run) {
   return traces / scenario::CellFileName(static_cast<std::size_t>(run.cell), run.identity.name);
 }
 
-// Temporary files of a process that was killed while it wrote; nobody else writes here.
-void RemoveLeftovers(const fs::path& folder) {
-  std::error_code ignored;
-  std::vector<fs::path> leftovers;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-    if (entry.path().extension().string().starts_with(".tmp-")) leftovers.push_back(entry.path());
-  }
-  for (const fs::path& path : leftovers) fs::remove(path, ignored);
-}
-
 // A trial is noted in the log while this lives.
 class InFlight {
  public:
@@ -141,7 +131,6 @@ class TraceWriter {
                            "make room for a folder of that name"});
       return false;
     }
-    RemoveLeftovers(folder);
     return true;
   }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "batch/packet.h"
+#include "batch/store_error.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -115,6 +116,9 @@ void Journal::Write(const Note& note) {
 Outcome Guarded(Journal& journal, const std::function<Outcome()>& action) {
   try {
     return action();
+  } catch (const batch::StoreError& error) {
+    journal.Fail(error.problems());
+    return batch::IsOfTheMachine(error.problem()) ? Outcome::kFailed : Outcome::kBadInput;
   } catch (const core::UserError& error) {
     journal.Fail(error.problems());
     return Outcome::kBadInput;

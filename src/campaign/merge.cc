@@ -4,12 +4,15 @@
 
 #include <string>
 #include <system_error>
+#include <variant>
+#include <vector>
 
 #include "batch/merge_shards.h"
 #include "batch/result_store.h"
 #include "campaign/run_report.h"
 #include "campaign/sweep_report.h"
 #include "core/error.h"
+#include "core/result.h"
 #include "scenario/sweep.h"
 
 namespace rockyard::campaign {
@@ -35,24 +38,32 @@ void RemarkTraces(const MergeRequest& request, Journal& journal) {
   }
 }
 
+// The folder has its own name only when its files are there.
+FolderReport InFolder(FolderReport report, const std::filesystem::path& folder) {
+  std::visit([&](auto& told) { told.folder = folder; }, report);
+  return report;
+}
+
 }  // namespace
 
 WorkResult Merge(const MergeRequest& request, const MergeObserver& observer) {
   return Recorded(observer, [&](Journal& journal) {
+    core::Result<FolderReport> report = std::vector<core::Problem>{{"merge", "has not run", ""}};
     batch::MergeShards(request.shards, request.folder,
-                       {.build = request.build, .partial = request.partial});
+                       {.build = request.build, .partial = request.partial},
+                       [&](const std::filesystem::path& made) {
+                         report = core::Attempt([&] { return ReportMerged(made); });
+                       });
     journal.SetFolder(request.folder);
     RemarkTraces(request, journal);
-    try {
-      const FolderReport report = ReportMerged(request.folder);
-      if (observer.reported) observer.reported(report);
+    if (report.ok()) {
+      if (observer.reported) observer.reported(InFolder(*report, request.folder));
       return Outcome::kDone;
-    } catch (const core::UserError& error) {
-      journal.Warn("the shards are together in " + request.folder.string() +
-                   ", but not all that follows");
-      journal.Fail(error.problems());
-      return Outcome::kFailed;
     }
+    journal.Warn("the shards are together in " + request.folder.string() +
+                 ", but not all that follows");
+    journal.Fail(report.problems());
+    return Outcome::kFailed;
   });
 }
 

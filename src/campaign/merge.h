@@ -24,8 +24,8 @@ struct MergeObserver : Observer {
   std::function<void(const FolderReport& report)> reported = {};
 };
 
-// Never throws. What is merged stays, whatever becomes of the files that follow from it: kFailed
-// where one cannot be written.
+// The folder appears when it is whole. Never throws. What is merged stays, whatever becomes of the
+// files that follow from it: kFailed where one cannot be written.
 WorkResult Merge(const MergeRequest& request, const MergeObserver& observer = {});
 
 }  // namespace rockyard::campaign

@@ -9,6 +9,7 @@
 #include "batch/store_error.h"
 #include "campaign/derived_files.h"
 #include "campaign/run_source.h"
+#include "campaign/store_notes.h"
 #include "core/hash.h"
 #include "scenario/load.h"
 
@@ -30,25 +31,8 @@ std::string FileName(const std::string& name) {
   return safe;
 }
 
-// Removes the folder again, where it is empty, unless all went well.
-class NewFolderGuard {
- public:
-  explicit NewFolderGuard(const fs::path& folder) : folder_(folder) {}
-  ~NewFolderGuard() {
-    std::error_code ignored;
-    if (!folder_.empty()) fs::remove(folder_, ignored);
-  }
-  NewFolderGuard(const NewFolderGuard&) = delete;
-  NewFolderGuard& operator=(const NewFolderGuard&) = delete;
-
-  void Keep() { folder_.clear(); }
-
- private:
-  fs::path folder_;
-};
-
 bool MayResume(const OpenRequest& request) {
-  return request.existing == ExistingRun::kResume ||
+  return request.existing == ExistingRun::kResume || request.existing == ExistingRun::kOwn ||
          request.existing == ExistingRun::kResumeOrSetAside;
 }
 
@@ -61,9 +45,9 @@ bool MaySetAside(const OpenRequest& request) {
 void RefuseForeignFolder(const OpenRequest& request) {
   const fs::path& folder = request.folder;
   std::error_code error;
-  const bool empty =
-      !fs::exists(folder, error) || !fs::is_directory(folder, error) || fs::is_empty(folder, error);
-  if (empty || MaySetAside(request)) return;
+  const bool unused = !fs::exists(folder, error) || !fs::is_directory(folder, error) ||
+                      batch::HoldsNoRunYet(folder);
+  if (unused || MaySetAside(request) || request.existing == ExistingRun::kOwn) return;
   if (!batch::HoldsStore(folder)) {
     throw StoreError(StoreProblem::kExists, folder.string(), "is not empty and holds no run",
                      "choose another folder with --out, or write into it with --force, which "
@@ -86,14 +70,10 @@ class Opener {
 
   OpenedRun Open() {
     RefuseForeignFolder(request_);
-    std::error_code error;
-    const bool there = fs::exists(folder_, error);
     auto claim = std::make_unique<batch::FolderClaim>(folder_);
-    // Not before the claim: the folder of a run that came first is its own.
-    NewFolderGuard guard(there ? fs::path() : folder_);
+    const batch::EmptyFolders unused(claim->made());
     batch::ResultStore store = OpenStore();
     PlanTrials(store);
-    guard.Keep();
     return {folder_, std::move(claim), std::move(store), std::move(notes_)};
   }
 
@@ -101,9 +81,8 @@ class Opener {
   batch::ResultStore OpenStore() {
     if (batch::HoldsStore(folder_) && MayResume(request_)) {
       try {
-        batch::ResultStore store = batch::ResultStore::Resume(folder_, identity_, request_.build);
-        resumed_ = true;
-        return store;
+        if (batch::ResultStore::HasBegun(folder_)) return Resume();
+        notes_.push_back("the store in the folder holds nothing yet: the run starts anew");
       } catch (const StoreError& error) {
         const bool useless =
             error.problem() == StoreProblem::kMismatch || error.problem() == StoreProblem::kDamaged;
@@ -115,8 +94,21 @@ class Opener {
       const fs::path aside = batch::SetStoreAside(folder_);
       notes_.push_back("the former results are kept as " + aside.string());
     }
-    SetFilesAside();
+    if (MaySetAside(request_)) SetFilesAside();
+    TellItIsOwn();
     return batch::ResultStore::Create(folder_, identity_, WantedTrials());
+  }
+
+  batch::ResultStore Resume() {
+    batch::ResultStore store = batch::ResultStore::Resume(folder_, identity_, request_.build);
+    TellItIsOwn();
+    resumed_ = true;
+    if (!store.has_checksums()) notes_.push_back(NoChecksumsNote(folder_));
+    return store;
+  }
+
+  void TellItIsOwn() const {
+    if (request_.own) request_.own();
   }
 
   // Only where all that is in the folder may be set aside is there anything.
@@ -200,7 +192,7 @@ batch::CampaignIdentity IdentityOf(const CampaignPlan& plan, const truth::Record
 
 void CheckFolder(const OpenRequest& request, const batch::CampaignIdentity& identity) {
   RefuseForeignFolder(request);
-  if (request.existing == ExistingRun::kResume && batch::HoldsStore(request.folder)) {
+  if (request.existing == ExistingRun::kResume && batch::ResultStore::HasBegun(request.folder)) {
     batch::ResultStore::RequireSame(request.folder, identity, request.build);
   }
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +25,7 @@ enum class ExistingRun {
   kResume,            // go on; refuse where scenario, seed or build differ
   kSetAside,          // --force: rename its store and start anew
   kResumeOrSetAside,  // --resume --force: go on where it fits, otherwise set aside
+  kOwn,               // an earlier process of this command made it, or was about to
 };
 
 // A cell as it is to be run; its scenario says how many trials.
@@ -51,6 +53,9 @@ struct OpenRequest {
   bool trials_given = false;  // false: those planned before count, where there is a run
   std::optional<batch::StoppingRule> rule;  // none: that of a run that goes on
   batch::Shard shard;
+  // Called once the folder is ready, before its store is made or when it goes on: whoever opens it
+  // from then on for the same command does so with kOwn.
+  std::function<void()> own = {};
 };
 
 struct OpenedRun {

@@ -87,10 +87,11 @@ class Campaign {
     const PlannedWork work(plan);
     CheckColumns(plan, work);
     OpenRequest opening = OpeningOf(request_, plan);
-    if (!process.begins()) opening.existing = ExistingRun::kResume;
+    if (!process.begins()) opening.existing = ExistingRun::kOwn;
+    opening.own = [&] { process.SetOpened(); };
     OpenedRun run = OpenRun(opening, plan, work.schema());
+    journal_.SetFolder(run.folder);
     if (process.begins()) {
-      journal_.SetFolder(run.folder);
       for (const std::string& note : run.notes) journal_.Remark(note);
     }
     return RunAndReport(work.work(), run, process);
@@ -195,7 +196,8 @@ OpenRequest OpeningOf(const CampaignRequest& request, const CampaignPlan& plan) 
           .build = request.build,
           .trials_given = request.trials.has_value(),
           .rule = request.rule,
-          .shard = request.ParseShard()};
+          .shard = request.ParseShard(),
+          .own = {}};
 }
 
 Outcome RunCampaign(const CampaignRequest& request, const CampaignPlanner& planner,

@@ -118,6 +118,7 @@ CellReader::CellReader(fs::path folder, const batch::ResultStore& store)
 StoredRun CellReader::Load(int cell, StoredValues values) const {
   const auto index = static_cast<std::size_t>(cell);
   const bool all = values == StoredValues::kAll;
+  if (!all) store_.Check(cell);
   return {.folder = folder_,
           .cell = cell,
           .identity = store_.identity().cells.at(index),

@@ -28,7 +28,7 @@ std::optional<std::vector<std::string>> SettingsOf(const std::filesystem::path& 
 // What of the records of a run is read.
 enum class StoredValues {
   kAll,
-  kNone,  // outcomes alone: 96 bytes a trial instead of 500
+  kNone,  // outcomes alone: 96 bytes a trial instead of 500; the values are checked all the same
 };
 
 // One cell of a campaign, read back from its folder; of a run, the only one.

@@ -1,14 +1,15 @@
 #include "report/atomic_file.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <system_error>
 #include <utility>
 
 #include "core/error.h"
+#include "core/temporary_file.h"
 
 namespace rockyard::report {
 namespace {
@@ -24,20 +25,26 @@ int WriteAll(int descriptor, std::string_view text) {
   return 0;
 }
 
+[[noreturn]] void Fail(const std::filesystem::path& path, int reason) {
+  throw core::UserError(path.string(), fmt::format("cannot be written: {}", std::strerror(reason)),
+                        "check the free space and the permissions of its folder");
+}
+
+// What killed processes left is removed first: it may be what fills the disk.
+std::unique_ptr<core::TemporaryFile> MakeTemporary(const std::filesystem::path& path) {
+  core::RemoveLeftovers(path);
+  try {
+    return std::make_unique<core::TemporaryFile>(path);
+  } catch (const std::system_error& error) {
+    Fail(path, error.code().value());
+  }
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(std::filesystem::path path)
-    : path_(std::move(path)),
-      temporary_(fmt::format("{}.tmp-{}", path_.string(), getpid())),
-      descriptor_(open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)) {
-  if (descriptor_ < 0) Fail(errno);
-}
-
-AtomicFile::~AtomicFile() {
-  if (descriptor_ < 0) return;
-  close(descriptor_);
-  unlink(temporary_.c_str());
-}
+    : path_(std::move(path)), temporary_(MakeTemporary(path_)) {}
+AtomicFile::~AtomicFile() = default;
 
 void AtomicFile::Write(std::string_view text) {
   constexpr std::size_t kAtOnce = 1 << 20;
@@ -46,24 +53,19 @@ void AtomicFile::Write(std::string_view text) {
 }
 
 void AtomicFile::Flush() {
-  if (const int reason = WriteAll(descriptor_, waiting_); reason != 0) Fail(reason);
+  if (const int reason = WriteAll(temporary_->descriptor(), waiting_); reason != 0) {
+    Fail(path_, reason);
+  }
   waiting_.clear();
 }
 
 void AtomicFile::Commit() {
   Flush();
-  int reason = fsync(descriptor_) == 0 ? 0 : errno;
-  if (close(descriptor_) != 0 && reason == 0) reason = errno;
-  descriptor_ = -1;
-  if (reason == 0 && rename(temporary_.c_str(), path_.c_str()) != 0) reason = errno;
-  if (reason == 0) return;
-  unlink(temporary_.c_str());
-  Fail(reason);
-}
-
-void AtomicFile::Fail(int reason) {
-  throw core::UserError(path_.string(), fmt::format("cannot be written: {}", std::strerror(reason)),
-                        "check the free space and the permissions of its folder");
+  try {
+    temporary_->Commit();
+  } catch (const std::system_error& error) {
+    Fail(path_, error.code().value());
+  }
 }
 
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view text) {

@@ -3,15 +3,21 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 
+namespace rockyard::core {
+class TemporaryFile;
+}  // namespace rockyard::core
+
 namespace rockyard::report {
 
-// A file that is written piece by piece to a temporary one beside `path`, brought to the disk and
-// renamed by Commit. A reader sees the old text or the new one; a failure, or no Commit, leaves the
-// old file and no temporary one. The constructor, Write and Commit throw core::UserError: no
-// permission, no space.
+// A file that is written piece by piece to a temporary one beside `path` (core/temporary_file.h),
+// brought to the disk and renamed by Commit. A reader sees the old text or the new one; a failure,
+// or no Commit, leaves the old file and no temporary one; what a killed process left is removed by
+// the next one that writes the same file. The constructor, Write and Commit throw core::UserError:
+// no permission, no space.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);
@@ -24,13 +30,11 @@ class AtomicFile {
   void Commit();
 
  private:
-  [[noreturn]] void Fail(int reason);
   void Flush();
 
   std::filesystem::path path_;
-  std::string temporary_;
+  std::unique_ptr<core::TemporaryFile> temporary_;
   std::string waiting_;  // to be written, some lines at once
-  int descriptor_;       // -1: closed
 };
 
 // Writes all of a file at once.

@@ -205,5 +205,46 @@ TEST_F(CliFault, DiskFull) {
   EXPECT_EQ(Hash("a"), PlainHash(trials));
 }
 
+// What the machine lacks is told as such, whether a run has begun or not.
+TEST_F(CliFault, NoRoomAtAll) {
+  rlimit former{};
+  getrlimit(RLIMIT_FSIZE, &former);
+  const rlimit small{8192, former.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  const pid_t process = Start(Drives("deep/er/a", 5));
+  setrlimit(RLIMIT_FSIZE, &former);
+  const CommandResult result = Wait(process);
+  EXPECT_EQ(result.exit_code, 5) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("deep/er/a/results.sqlite: cannot be written"));
+  EXPECT_TRUE(NothingWritten());
+}
+
+TEST_F(CliFault, NoMoreOpenFiles) {
+  rlimit former{};
+  getrlimit(RLIMIT_NOFILE, &former);
+  // Standard input, output and error, and what the campaign tells its caller.
+  const rlimit small{5, former.rlim_max};
+  setrlimit(RLIMIT_NOFILE, &small);
+  const pid_t process = Start(Drives("a", 5));
+  setrlimit(RLIMIT_NOFILE, &former);
+  const CommandResult result = Wait(process);
+  EXPECT_EQ(result.exit_code, 5) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("ulimit -n"));
+  EXPECT_TRUE(NothingWritten());
+}
+
+// As earlier versions of the program left it when they were killed early.
+TEST_F(CliFault, AStoreWithoutAHeadHasNotBegun) {
+  fs::create_directories(work() / "a");
+  WriteFile(work() / "a" / "results.sqlite", "");
+  EXPECT_EQ(Run(Drives("a", 5)).exit_code, 2) << "something is there";
+  const CommandResult dry = Run(Drives("a", 5, {"--resume", "--dry-run"}));
+  EXPECT_EQ(dry.exit_code, 0) << dry.err;
+  const CommandResult result = Run(Drives("a", 5, {"--resume"}));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(Hash("a"), PlainHash(5));
+  EXPECT_TRUE(fs::exists(work() / "a" / "results.old-1.sqlite"));
+}
+
 }  // namespace
 }  // namespace rockyard::app

@@ -1,12 +1,12 @@
 // rockyard replay
 #include <gmock/gmock.h>
-#include <sqlite3.h>
 
 #include <algorithm>
 #include <string>
 #include <vector>
 
 #include "app/command.h"
+#include "batch/older_store.h"
 #include "web/page.h"
 
 namespace rockyard::app {
@@ -68,11 +68,8 @@ TEST_F(CliReplay, AStoredTrialComesOutTheSame) {
 TEST_F(CliReplay, ATrialThatComesOutOtherwiseIsSaidOnThePageToo) {
   ASSERT_EQ(
       Run(With(QuickRun("run", 2), {"--set", "referee.time_limit_s=30", "--quiet"})).exit_code, 0);
-  const std::string change = "UPDATE trials SET outcome = 'jammed' WHERE trial = 1";
-  sqlite3* database = nullptr;
-  ASSERT_EQ(sqlite3_open((work() / "run" / "results.sqlite").c_str(), &database), SQLITE_OK);
-  ASSERT_EQ(sqlite3_exec(database, change.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
-  sqlite3_close(database);
+  batch::MakeOlder(work() / "run" / "results.sqlite",
+                   "UPDATE trials SET outcome = 'jammed' WHERE trial = 1");
   const CommandResult result =
       Run({"replay", "run", "--trial", "1", "--out", "page.html", "--data", "page.json"});
   EXPECT_EQ(result.exit_code, 1);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli_report.h"
+#include "batch/older_store.h"
 
 namespace rockyard::app {
 namespace {
@@ -59,11 +60,7 @@ TEST_F(CliReportPages, TheWorstTrialsGetReplays) {
 
 TEST_F(CliReportPages, AReplayThatDiffersIsReportedAndNotLinked) {
   ASSERT_EQ(Drive("a", 1, {"--set", "referee.time_limit_s=20"}).exit_code, 0);
-  const pid_t python =
-      StartProgram({ROCKYARD_PYTHON, "-c",
-                    "import sqlite3\nwith sqlite3.connect('a/results.sqlite') as store:\n"
-                    "  store.execute('update trials set energy_wh = energy_wh + 1')"});
-  ASSERT_EQ(Wait(python).exit_code, 0);
+  batch::MakeOlder(work() / "a/results.sqlite", "UPDATE trials SET energy_wh = energy_wh + 1");
   const CommandResult result = Report({"a"}, 1);
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("is not the stored one"));

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "batch/older_store.h"
+
 namespace rockyard::app {
 namespace {
 
@@ -38,11 +40,7 @@ TEST_F(CliReport, HoldsTheNumbersOfSummaryJson) {
 // trials that end early.
 TEST_F(CliReport, TellsWhichTrialsAreInTheRates) {
   ASSERT_EQ(Drive("a", 6, {"--set", "course.trials_per_layout=2"}).exit_code, 0);
-  const pid_t python =
-      StartProgram({ROCKYARD_PYTHON, "-c",
-                    "import sqlite3\nwith sqlite3.connect('a/results.sqlite') as store:\n"
-                    "  store.execute('delete from trials where trial = 3')"});
-  ASSERT_EQ(Wait(python).exit_code, 0);
+  batch::MakeOlder(work() / "a/results.sqlite", "DELETE FROM trials WHERE trial = 3");
   ASSERT_EQ(Report({"a"}).exit_code, 0);
   const json run = Data()["runs"][0];
   EXPECT_EQ(run["prefix_trials"], 3);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/command.h"
+#include "batch/older_store.h"
 
 namespace rockyard::app {
 namespace {
@@ -41,7 +42,7 @@ TEST_F(CliTrace, AStoredTrialComesOutTheSame) {
   }
 }
 
-TEST_F(CliTrace, ADamagedRecordIsFound) {
+TEST_F(CliTrace, ADamagedScenarioIsRefused) {
   MakeRun();
   // The store says 60 s; the scenario within it now says 20 s.
   const std::string store = (work() / "run" / "results.sqlite").string();
@@ -51,6 +52,15 @@ TEST_F(CliTrace, ADamagedRecordIsFound) {
   ASSERT_NE(at, std::string::npos);
   bytes.replace(at, before.size(), "\"time_limit_s\": 20");
   WriteFile(store, bytes);
+  const CommandResult result = Run({"trace", "run", "--trial", "0"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("table cells, row 0"));
+}
+
+TEST_F(CliTrace, AnotherRecordThanTheStoredOneIsFound) {
+  MakeRun();
+  batch::MakeOlder(work() / "run" / "results.sqlite",
+                   "UPDATE trials SET sim_time_s = sim_time_s + 1.0");
   const CommandResult result = Run({"trace", "run", "--trial", "0"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("sim_time_s: stored"));

@@ -136,6 +136,27 @@ TEST(Executor, ARecordThatDoesNotFitIsAFault) {
   EXPECT_THAT(store.Load()[0].detail, HasSubstr("1 values for 3 columns"));
 }
 
+class InfiniteRecords final : public experiments::Experiment {
+ public:
+  const truth::RecordSchema& schema() const override { return schema_; }
+  truth::Record Run(std::uint64_t, std::uint64_t index) const override {
+    return {index,
+            TrialOutcome::kGoalReached,
+            "",
+            {1.0, -std::numeric_limits<double>::infinity(), 1.0}};
+  }
+
+ private:
+  truth::RecordSchema schema_ = FakeSchema();
+};
+
+TEST(Executor, AnInfiniteValueIsAFault) {
+  const TemporaryFolder folder;
+  ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), kTrials);
+  EXPECT_EQ(RunBatch(InfiniteRecords(), store, Options(2), kNeverStop).progress.faults, kTrials);
+  EXPECT_THAT(store.Load()[0].detail, HasSubstr("sim_time_s is infinite"));
+}
+
 TEST(Executor, ReportsByOneThreadAtATimeAndAtTheEnd) {
   const TemporaryFolder folder;
   ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), kTrials);

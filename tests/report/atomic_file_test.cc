@@ -64,6 +64,21 @@ TEST_F(AtomicFileTest, WritesPieceByPiece) {
   EXPECT_EQ(Files(), 1) << "no temporary file stays";
 }
 
+// Whoever may write in the folder could foresee the name that the temporary file had before.
+TEST_F(AtomicFileTest, FollowsNoPlantedLink) {
+  std::ofstream(folder_ / "victim") << "mine";
+  fs::create_symlink(folder_ / "victim", folder_ / ("a.tmp-" + std::to_string(getpid())));
+  WriteFileAtomically(folder_ / "a", "text");
+  EXPECT_EQ(Read(folder_ / "a"), "text");
+  EXPECT_EQ(Read(folder_ / "victim"), "mine");
+}
+
+TEST_F(AtomicFileTest, RemovesWhatAKilledOneLeft) {
+  std::ofstream(folder_ / "a.tmp-0123456789abcdef") << "half";
+  WriteFileAtomically(folder_ / "a", "text");
+  EXPECT_EQ(Files(), 1);
+}
+
 TEST_F(AtomicFileTest, FailsWithTheNameAndLeavesNothing) {
   fs::create_directories(folder_ / "taken" / "inside");
   try {

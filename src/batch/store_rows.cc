@@ -1,0 +1,177 @@
+#include "batch/store_rows.h"
+
+#include <fmt/format.h>
+
+#include "batch/store_error.h"
+
+namespace rockyard::batch {
+namespace {
+
+constexpr TableShape kInventory{"inventory", "table_name, rows, checksums", 3};
+
+std::string SelectSql(Checksums checksums, const TableShape& table) {
+  return fmt::format("SELECT {}{} FROM {}", table.columns,
+                     checksums == Checksums::kEachRow ? ", row_checksum" : "", table.name);
+}
+
+std::string InsertSql(Checksums checksums, const TableShape& table, OnConflict on_conflict) {
+  std::string values = "?";
+  const int count = table.count + (checksums == Checksums::kEachRow ? 1 : 0);
+  for (int i = 1; i < count; ++i) values += ", ?";
+  return fmt::format("INSERT {}INTO {} VALUES ({})",
+                     on_conflict == OnConflict::kKeepFirst ? "OR IGNORE " : "", table.name, values);
+}
+
+std::int64_t InventoryChecksum(std::string_view table, const TableTally& tally) {
+  RowChecksum checksum;
+  checksum.Text(table).Integer(tally.rows);
+  return checksum.Integer(static_cast<std::int64_t>(tally.checksums)).value();
+}
+
+// What is written later has to find what is there.
+void RequireIndex(const SqliteDatabase& database, std::string_view table) {
+  if (const std::optional<std::string> damage = database.Damage(table)) {
+    FailDamaged(database.path(), fmt::format("is damaged: table {}: {}", table, *damage));
+  }
+}
+
+}  // namespace
+
+void TableTally::Add(std::int64_t checksum) {
+  ++rows;
+  checksums += static_cast<std::uint64_t>(checksum);
+}
+
+void TableTally::Remove(std::int64_t checksum) {
+  --rows;
+  checksums -= static_cast<std::uint64_t>(checksum);
+}
+
+void CreateInventory(SqliteDatabase& database) {
+  database.Execute(
+      "CREATE TABLE inventory(table_name TEXT PRIMARY KEY, rows INTEGER NOT NULL, "
+      "checksums INTEGER NOT NULL, row_checksum INTEGER NOT NULL)");
+}
+
+TableTally InventoryOf(const SqliteDatabase& database, std::string_view table) {
+  SqliteStatement select =
+      database.Prepare(SelectSql(Checksums::kEachRow, kInventory) + " WHERE table_name = ?");
+  if (!select.Bind(0, table).Step()) {
+    FailDamaged(database.path(), fmt::format("is damaged: table inventory lacks {}", table));
+  }
+  const TableTally tally{select.Integer(1), static_cast<std::uint64_t>(select.Integer(2))};
+  if (select.Text(0) != table || select.Integer(3) != InventoryChecksum(table, tally)) {
+    FailDamaged(database.path(),
+                fmt::format("is damaged: table inventory, row {}, column row_checksum: it does not "
+                            "fit the row",
+                            table));
+  }
+  return tally;
+}
+
+void SetInventory(SqliteDatabase& database, std::string_view table, const TableTally& tally) {
+  SqliteStatement put = database.Prepare("INSERT OR REPLACE INTO inventory VALUES (?, ?, ?, ?)");
+  put.Bind(0, table).Bind(1, tally.rows).Bind(2, static_cast<std::int64_t>(tally.checksums));
+  put.Bind(3, InventoryChecksum(table, tally)).Step();
+}
+
+void CheckInventory(const SqliteDatabase& database, std::string_view table,
+                    const TableTally& found) {
+  const TableTally written = InventoryOf(database, table);
+  if (found == written) return;
+  if (found.rows != written.rows) {
+    FailDamaged(database.path(),
+                fmt::format("is damaged: table {} has {} rows where {} were written", table,
+                            found.rows, written.rows));
+  }
+  FailDamaged(
+      database.path(),
+      fmt::format("is damaged: table {} has other rows than those that were written", table));
+}
+
+CheckedRows::CheckedRows(const SqliteDatabase& database, Checksums checksums,
+                         const TableShape& table, std::string_view order)
+    : database_(database),
+      checksums_(checksums),
+      table_(table),
+      select_(database.Prepare(fmt::format("{} ORDER BY {}", SelectSql(checksums, table), order))) {
+}
+
+bool CheckedRows::Step() {
+  const bool row = select_.Step();
+  if (!row) RequireIndex(database_, table_.name);
+  if (checksums_ == Checksums::kNone) return row;
+  if (!row) {
+    CheckInventory(database_, table_.name, found_);
+    return false;
+  }
+  checksum_.Restart();
+  const std::int64_t stored = select_.Integer(table_.count);
+  if (checksum_.Columns(select_, table_.count).value() != stored) {
+    FailDamaged(database_.path(),
+                fmt::format("is damaged: table {}, row {} (of {}), column row_checksum: it does "
+                            "not fit the row",
+                            table_.name, found_.rows, select_.Text(0)));
+  }
+  found_.Add(stored);
+  return true;
+}
+
+RowInsert::RowInsert(SqliteDatabase& database, Checksums checksums, const TableShape& table,
+                     OnConflict on_conflict)
+    : database_(database),
+      checksums_(checksums),
+      table_(table),
+      insert_(database.Prepare(InsertSql(checksums, table, on_conflict))) {
+  if (checksums_ == Checksums::kEachRow) tally_ = InventoryOf(database_, table_.name);
+}
+
+RowInsert& RowInsert::Add(std::int64_t value) {
+  insert_.Bind(next_++, value);
+  checksum_.Integer(value);
+  return *this;
+}
+
+RowInsert& RowInsert::Add(std::string_view value) {
+  insert_.Bind(next_++, value);
+  checksum_.Text(value);
+  return *this;
+}
+
+void RowInsert::Write() {
+  const std::int64_t checksum = checksum_.value();
+  if (checksums_ == Checksums::kEachRow) insert_.Bind(next_, checksum);
+  insert_.Step();
+  insert_.Reset();
+  if (database_.Changes() > 0) {
+    tally_.Add(checksum);
+    added_ = true;
+  }
+  checksum_.Restart();
+  next_ = 0;
+}
+
+void RowInsert::Finish() {
+  if (checksums_ == Checksums::kEachRow && added_) SetInventory(database_, table_.name, tally_);
+}
+
+void SealRow(SqliteDatabase& database, Checksums checksums, const TableShape& table,
+             std::int64_t rowid) {
+  if (checksums == Checksums::kNone) return;
+  SqliteStatement select = database.Prepare(SelectSql(checksums, table) + " WHERE rowid = ?");
+  if (!select.Bind(0, rowid).Step()) {
+    FailDamaged(database.path(),
+                fmt::format("is damaged: table {} lacks row {}", table.name, rowid));
+  }
+  RowChecksum checksum;
+  const std::int64_t sum = checksum.Columns(select, table.count).value();
+  TableTally tally = InventoryOf(database, table.name);
+  tally.Remove(select.Integer(table.count));
+  tally.Add(sum);
+  SqliteStatement update =
+      database.Prepare(fmt::format("UPDATE {} SET row_checksum = ? WHERE rowid = ?", table.name));
+  update.Bind(0, sum).Bind(1, rowid).Step();
+  SetInventory(database, table.name, tally);
+}
+
+}  // namespace rockyard::batch

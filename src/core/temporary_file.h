@@ -1,0 +1,70 @@
+// Files and folders that take their names when they are whole.
+#pragma once
+
+#include <filesystem>
+
+namespace rockyard::core {
+
+// A new, empty file beside `target`, called <target>.tmp- and sixteen random hexadecimal digits. It
+// is made exclusively and follows no link, so that nobody can plant something in its place. While
+// it is open it is locked, by which RemoveLeftovers knows that its process lives. Every failure is
+// a std::system_error with the errno.
+class TemporaryFile {
+ public:
+  // Readable as the umask says.
+  explicit TemporaryFile(std::filesystem::path target);
+  // Removes the file, and what a library has put beside it, unless it was committed.
+  ~TemporaryFile();
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  // -1 after Close.
+  int descriptor() const { return descriptor_; }
+
+  // For a library that opens the file by its name. The lock ends: from here on the folder must be
+  // claimed against every other process that could take it for a leftover.
+  void Close();
+
+  // Brings the file to the disk, unless it is closed (whoever wrote it has done so then), and gives
+  // it the name of the target. Once.
+  void Commit();
+
+ private:
+  std::filesystem::path target_;
+  std::filesystem::path path_;
+  int descriptor_ = -1;  // -1: closed
+  bool committed_ = false;
+};
+
+// The same for a folder, named in the same way.
+class TemporaryFolder {
+ public:
+  explicit TemporaryFolder(std::filesystem::path target);
+  // Removes the folder and all that is in it, unless it was committed.
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+  // Gives it the name of the target. Once. EEXIST where something has that name by now.
+  void Commit();
+
+ private:
+  std::filesystem::path target_;
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+  bool committed_ = false;
+};
+
+// Whether a file or folder of that name is a temporary one for `target`, or lies beside one.
+bool IsTemporaryOf(const std::filesystem::path& target, const std::filesystem::path& name);
+
+// Removes what processes that were killed have left beside `target`: temporary files and folders
+// for it that no living process has locked. Nothing else, and no link. What cannot be removed
+// stays; so does everything on file systems that know no locks. Cost: reads the names in the
+// folder.
+void RemoveLeftovers(const std::filesystem::path& target);
+
+}  // namespace rockyard::core
