@@ -38,6 +38,7 @@ WHOM = ("worker", "supervisor", "group")
 THREADS = (1, 2)
 TRIALS = 6
 TIME_LIMIT = "referee.time_limit_s=60"
+RETRIED = "infrastructure_faults"
 # A command that is killed more often than this in a row does not get on.
 MOST_COMMANDS = 20
 # How often the repeated command is killed, too.
@@ -157,9 +158,20 @@ class Study:
         return f"{out}: not as undisturbed: {', '.join(names)}" if names else None
 
 
+def table_of(path):
+    """The bytes of a CSV file, less how often a trial was retried: that is told of each cell, and is
+    what a kill of a worker changes."""
+    data = path.read_bytes()
+    rows = list(csv.reader(data.decode("utf-8").splitlines()))
+    if not rows or RETRIED not in rows[0]:
+        return data
+    column = rows[0].index(RETRIED)
+    return [row[:column] + row[column + 1:] for row in rows]
+
+
 def contents(folder):
-    """Name and bytes of each CSV file, the hash of the records, and the names of the others."""
-    files = {path.name: path.read_bytes() if path.suffix == ".csv" else b""
+    """Each CSV file, the hash of the records, and the names of the other files."""
+    files = {path.name: table_of(path) if path.suffix == ".csv" else b""
              for path in folder.iterdir()}
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     files["trial_hash"] = summary.get("trial_hash")

@@ -30,6 +30,8 @@ void WriteNew(const fs::path& path, const StoreHead& head) {
     file.Close();
     {
       SqliteDatabase database(file.path(), Access::kCreate, path);
+      // A file that is half made is thrown away: there is nothing to roll back.
+      database.Execute("PRAGMA journal_mode=OFF");
       database.Execute("PRAGMA synchronous=FULL");
       WriteStoreHead(database, head);
     }

@@ -84,9 +84,10 @@ std::vector<fs::path> MakeFolders(const fs::path& folder) {
        path = path.parent_path()) {
     if (path.has_filename()) missing.push_back(path);
   }
+  std::reverse(missing.begin(), missing.end());
   std::vector<fs::path> made;
-  for (auto path = missing.rbegin(); path != missing.rend(); ++path) {
-    if (fs::create_directory(*path, error)) made.insert(made.begin(), *path);
+  for (const fs::path& path : missing) {
+    if (fs::create_directory(path, error)) made.insert(made.begin(), path);
     if (!error) continue;
     const EmptyFolders failed(std::move(made));
     FailSystem(folder, "cannot be made", error.value());

@@ -20,7 +20,7 @@ constexpr int kPilots = 3;
 std::int64_t StoredTrials(const OpenRequest& request) {
   const bool goes_on = request.existing == ExistingRun::kResume ||
                        request.existing == ExistingRun::kResumeOrSetAside;
-  if (!goes_on || !batch::HoldsStore(request.folder)) return 0;
+  if (!goes_on || !batch::ResultStore::HasBegun(request.folder)) return 0;
   return static_cast<std::int64_t>(batch::ResultStore::Read(request.folder).Finished().size());
 }
 

@@ -82,7 +82,7 @@ class Opener {
     if (batch::HoldsStore(folder_) && MayResume(request_)) {
       try {
         if (batch::ResultStore::HasBegun(folder_)) return Resume();
-        notes_.push_back("the store in the folder holds nothing yet: the run starts anew");
+        notes_.emplace_back("the store in the folder holds nothing yet: the run starts anew");
       } catch (const StoreError& error) {
         const bool useless =
             error.problem() == StoreProblem::kMismatch || error.problem() == StoreProblem::kDamaged;

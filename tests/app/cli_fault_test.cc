@@ -81,7 +81,7 @@ TEST_F(CliFault, TwentyRandomKillsAndTheSameHash) {
   std::size_t stored = 0;
   for (int kills = 0; kills < 20; ++kills) {
     const pid_t process = Start(Drives("a", kTrials, {"--resume"}));
-    usleep(20000 + below(250000));
+    usleep(20000 + below(700000));  // the first commit comes half a second after the start
     const pid_t worker = WorkerOf(process);
     const bool both = below(3) != 0;
     if (!both && worker != 0) kill(worker, SIGKILL);
@@ -210,9 +210,11 @@ TEST_F(CliFault, NoRoomAtAll) {
   rlimit former{};
   getrlimit(RLIMIT_FSIZE, &former);
   const rlimit small{8192, former.rlim_max};
+  const auto former_action = std::signal(SIGXFSZ, SIG_IGN);  // as a disk that is full: no signal
   setrlimit(RLIMIT_FSIZE, &small);
   const pid_t process = Start(Drives("deep/er/a", 5));
   setrlimit(RLIMIT_FSIZE, &former);
+  std::signal(SIGXFSZ, former_action);
   const CommandResult result = Wait(process);
   EXPECT_EQ(result.exit_code, 5) << result.err;
   EXPECT_THAT(result.err, HasSubstr("deep/er/a/results.sqlite: cannot be written"));
@@ -220,17 +222,16 @@ TEST_F(CliFault, NoRoomAtAll) {
 }
 
 TEST_F(CliFault, NoMoreOpenFiles) {
-  rlimit former{};
-  getrlimit(RLIMIT_NOFILE, &former);
-  // Standard input, output and error, and what the campaign tells its caller.
-  const rlimit small{5, former.rlim_max};
-  setrlimit(RLIMIT_NOFILE, &small);
-  const pid_t process = Start(Drives("a", 5));
-  setrlimit(RLIMIT_NOFILE, &former);
-  const CommandResult result = Wait(process);
-  EXPECT_EQ(result.exit_code, 5) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("ulimit -n"));
-  EXPECT_TRUE(NothingWritten());
+  // Enough to read the scenario and to claim the folder, and too few to make the store.
+  for (const std::string limit : {"6", "7"}) {
+    std::string line =
+        "exec 3>&- 4>&- 5>&- 6>&- 7>&- 8>&- 9>&-; ulimit -n " + limit + "; exec " ROCKYARD_COMMAND;
+    for (const std::string& word : Drives("a", 5)) line += " '" + word + "'";
+    const CommandResult result = Wait(StartProgram({"/bin/sh", "-c", line}));
+    EXPECT_EQ(result.exit_code, 5) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("ulimit -n"));
+    EXPECT_TRUE(NothingWritten());
+  }
 }
 
 // As earlier versions of the program left it when they were killed early.
