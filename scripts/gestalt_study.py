@@ -8,12 +8,13 @@ without one choice. The same trials (same seed, same index) are driven each way 
 differences are in points of true success with the 95 % interval of pairs that `rockyard compare` prints,
 one by one and not adjusted for their number.
 
-    changes    every choice, in four cells
-    readings   what else the papers allow, against the chosen settings
-    odometer   rim way over true way: what makes it long among rocks, and the scale that corrects it
-    dense      Viking Lander 2: printed and chosen, own and perfect localization, both fidelities
+    changes         every choice, in four cells
+    other_readings  what else the papers allow, against the chosen settings
+    odometer        rim way over true way: what makes it long among rocks, and the scale that corrects it
+    dense           Viking Lander 2: printed and chosen, own and perfect localization, both fidelities
 
-The choices were made on seed 1, point turns of one angle after the courses of sense had been driven; `dense` is run once on a seed that no choice has seen (--seed).
+The choices were made on seed 1, point turns of one angle after the courses of sense had been driven; `dense`
+is run once on a seed that no choice has seen (--seed).
 Runs that are there already are resumed. --markdown writes the tables between <!-- begin NAME --> and
 <!-- end NAME --> of a page.
 
@@ -128,7 +129,7 @@ def changes(runs):
                         "as chosen, and what it adds last"], rows)
 
 
-def readings(runs):
+def other_readings(runs):
     rows = []
     for cell in CELLS:
         rows.append([f"**{cell}**, chosen", rate(runs.run("chosen", cell), "true")])
@@ -176,7 +177,7 @@ def dense(runs):
                         "stops by safeguards a trial", "odometer over true way (%)"], rows)
 
 
-TABLES = {f.__name__: f for f in (odometer, changes, readings, dense)}
+TABLES = {f.__name__: f for f in (odometer, changes, other_readings, dense)}
 
 
 def main():
