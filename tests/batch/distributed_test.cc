@@ -260,6 +260,7 @@ TEST_F(Distributed, ALongTrialIsNoSilence) {
   std::atomic<bool> slept = false;
   const BatchResult result = cluster.Run(store_, Options(1), [&](int rank, std::uint64_t) {
     if (rank == 1 && !slept.exchange(true)) Sleep(2500);
+    while (!slept) Sleep(1);  // however late the other rank begins
   });
   EXPECT_EQ(result.end, BatchEnd::kFinished);
   EXPECT_TRUE(slept);
@@ -297,7 +298,10 @@ TEST_F(Distributed, ATrialThatHangsElsewhereStaysPending) {
     Sleep(1);
     std::int64_t none = -1;
     const auto id = static_cast<std::int64_t>(trial);
-    if (rank != 1 || !hangs.compare_exchange_strong(none, id)) return;
+    if (rank != 1 || !hangs.compare_exchange_strong(none, id)) {
+      while (hangs < 0) Sleep(1);  // however late that rank begins
+      return;
+    }
     cluster.stop(1) = true;  // as a watchdog does
     cluster.overdue(1).Tell({{0, id}});
     while (!cluster.ended()) Sleep(1);
@@ -326,7 +330,10 @@ TEST_F(Distributed, ATrialThatHangsOnRankZeroEndsTheJobInOrder) {
     Sleep(1);
     std::int64_t none = -1;
     const auto id = static_cast<std::int64_t>(trial);
-    if (rank != 0 || trial < 20 || !hangs.compare_exchange_strong(none, id)) return;
+    if (rank != 0 || trial < 20 || !hangs.compare_exchange_strong(none, id)) {
+      while (trial >= 20 && hangs < 0) Sleep(1);
+      return;
+    }
     cluster.stop(0) = true;
     cluster.overdue(0).Tell({{0, id}});
     while (!over) Sleep(1);
