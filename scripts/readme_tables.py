@@ -443,7 +443,7 @@ def table_3(study):
         step, cells = TABLE_3_STEPS[result["name"].split("/")[0]], result["label"].split(" cm ")[0]
         growth = [f"{result[key]:.2f}" if key in result else "-"
                   for key in ("growth", "P3_growth", "Sparc_growth", "RAD_growth")]
-        printed = f"{result['P3_ms']:.3g}" if "P3_ms" in result else "-"
+        printed = f"{result['P3_ms']:.4g}" if "P3_ms" in result else "-"
         rows.append([step, cells, f"{result['cpu_time']:.3f}", printed, *growth])
     return table(["step", "cells (cm)", "time (ms)", "Pentium III, printed (ms)",
                   "over the next coarser cells", "Pentium III", "Sparc", "RAD6000"], rows)
