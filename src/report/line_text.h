@@ -18,7 +18,7 @@ std::string Printable(std::string_view text);
 std::string PrintableLines(std::string_view text);
 
 // The same for JSON, which says the same afterwards: such characters, which can stand in its texts
-// alone, as \uXXXX.
+// alone, as JSON's escapes with four hexadecimal digits.
 std::string PrintableJson(std::string_view json);
 
 // Columns of a terminal, one for each code point of UTF-8. Limit: marks that combine and letters of
