@@ -2,6 +2,7 @@
 
 import collections
 import dataclasses
+import functools
 import os
 import random
 import re
@@ -19,7 +20,7 @@ DOCUMENTED = {DONE, DIFFERS, BAD_INPUT, TOO_MANY_FAULTS, INCONCLUSIVE, FAILED, I
 
 # Words of libraries and of the language, which no message of the project has.
 FOREIGN = re.compile(
-    r"json\.exception|std::|terminate called|basic_string|vector::|_M_[a-z]\w+|bad_\w+|\bstoi?\b|\bstod\b|"
+    r"json\.exception|std::|terminate called|basic_string|vector::|_M_[a-z]\w+|bad_\w+|\bsto(?:[idfl]|ul|u?ll|ld)\b|"
     r"filesystem error|what\(\)|error: rockyard: |Sanitizer|runtime error|SQLITE_|Assertion|core dumped|"
     r"CLI::|fmt::|boost::|invalid string position|mutex lock failed")
 
@@ -40,9 +41,19 @@ def generator(seed, part, index):
     return random.Random(f"{seed}/{part}/{index}")
 
 
+@functools.cache
+def is_sanitized(rockyard):
+    """Whether the program reserves terabytes of addresses, as sanitizers do."""
+    version = subprocess.run([rockyard, "--version"], capture_output=True, text=True, check=False)
+    return "-fsanitize" in version.stdout
+
+
 def run(command, folder, timeout_s, stdout=subprocess.PIPE):
+    limited = not is_sanitized(command[0])
+
     def limit():
-        resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
+        if limited:
+            resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
     words = [os.fsencode(word) if isinstance(word, str) else word for word in command]

@@ -63,6 +63,17 @@ void PrepareToWrite(SqliteDatabase& database) {
   database.Execute("SELECT count(*) FROM sqlite_master");
 }
 
+// What computes values where they are read, or changes them where they are written, is not ours.
+void RequireTablesAlone(const SqliteDatabase& database, const fs::path& path) {
+  SqliteStatement others = database.Prepare(
+      "SELECT type, name FROM sqlite_master WHERE type IN ('view', 'trigger') OR "
+      "sql LIKE 'CREATE VIRTUAL%' LIMIT 1");
+  if (others.Step()) {
+    FailDamaged(path, fmt::format("holds what no rockyard has made: the {} {}", others.Text(0),
+                                  others.Text(1)));
+  }
+}
+
 void CheckIdentity(const fs::path& path, const CampaignIdentity& stored,
                    const CampaignIdentity& wanted, const std::vector<std::string>& builds,
                    BuildPolicy policy) {
@@ -165,6 +176,7 @@ ResultStore ResultStore::Read(const fs::path& folder) {
   if (const std::optional<std::string> damage = store.database_->Damage()) {
     FailDamaged(path, "is damaged: " + *damage);
   }
+  RequireTablesAlone(*store.database_, path);
   StoreHead head = ReadStoreHead(*store.database_);
   store.identity_ = std::move(head.identity);
   store.planned_ = std::move(head.planned);

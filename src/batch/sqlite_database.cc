@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "batch/store_error.h"
+#include "core/machine_error.h"
 
 namespace rockyard::batch {
 namespace {
@@ -55,7 +56,7 @@ const char* Suggestion(StoreProblem problem) {
     case StoreProblem::kInUse:
       return "wait for the other program or end it, then go on with --resume";
     case StoreProblem::kOpenFiles:
-      return kMoreOpenFiles;
+      return core::kMoreOpenFiles;
     case StoreProblem::kUnwritable:
       return "check the permissions, or choose another folder with --out";
     default:

@@ -3,13 +3,13 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <sys/types.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <string_view>
@@ -18,6 +18,8 @@
 #include <utility>
 
 #include "batch/store_error.h"
+#include "core/machine_error.h"
+#include "core/temporary_file.h"
 
 namespace rockyard::batch {
 namespace {
@@ -47,6 +49,10 @@ OpenedSqlite Open(const std::string& uri, int flags) {
                                    flags | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX, nullptr);
   SqliteHandle handle(database);
   if (code != SQLITE_OK) return {std::move(handle), code};
+  // A store may come from anybody: its schema runs no functions with effects, and no statement of
+  // it changes the schema behind our back.
+  sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_extended_result_codes(database, 1);
   sqlite3_busy_timeout(database, kBusyTimeoutMs);
   return {std::move(handle), SQLITE_OK};
@@ -145,37 +151,30 @@ std::string LogMark(const fs::path& path) {
                      FirstBytes(Beside(path, "-wal"), kHeaderBytes));
 }
 
-// A folder that only this user can enter.
-class PrivateFolder {
- public:
-  PrivateFolder() {
-    std::error_code error;
-    const fs::path parent = fs::temp_directory_path(error);
-    std::string name = ((error ? fs::path("/tmp") : parent) / "rockyard-read-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) FailCopy(name, errno);
-    path_ = name;
-  }
-  ~PrivateFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  PrivateFolder(const PrivateFolder&) = delete;
-  PrivateFolder& operator=(const PrivateFolder&) = delete;
+[[noreturn]] void FailCopy(const fs::path& path, int reason) {
+  const StoreProblem problem = ProblemOf(reason);
+  throw StoreError(
+      problem, path.string(),
+      fmt::format("cannot take the copy that a run is read from: {}", std::strerror(reason)),
+      problem == StoreProblem::kOpenFiles ? core::kMoreOpenFiles
+                                          : "make room or set TMPDIR to a folder that has some");
+}
 
-  const fs::path& path() const { return path_; }
-
-  [[noreturn]] static void FailCopy(const fs::path& path, int reason) {
-    const StoreProblem problem = ProblemOf(reason);
-    throw StoreError(
-        problem, path.string(),
-        fmt::format("cannot take the copy that a run is read from: {}", std::strerror(reason)),
-        problem == StoreProblem::kOpenFiles ? kMoreOpenFiles
-                                            : "make room or set TMPDIR to a folder that has some");
+// A folder that only this user can enter. What a reader has left that was killed while it took its
+// copy is removed.
+core::TemporaryFolder PrivateFolder() {
+  constexpr mode_t kOwner = 0700;
+  std::error_code error;
+  const fs::path found = fs::temp_directory_path(error);
+  const fs::path parent = error ? fs::path("/tmp") : found;
+  const fs::path target = parent / "rockyard-read";
+  core::RemoveLeftovers(target);
+  try {
+    return core::TemporaryFolder(target, kOwner);
+  } catch (const std::system_error& failure) {
+    FailCopy(parent, failure.code().value());
   }
-
- private:
-  fs::path path_;
-};
+}
 
 constexpr std::size_t kPiece = std::size_t{1} << 20;
 
@@ -183,7 +182,7 @@ void WriteAll(const Descriptor& to, const fs::path& path, std::string_view bytes
   while (!bytes.empty()) {
     const ssize_t written = write(to.value(), bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) PrivateFolder::FailCopy(path, errno);
+    if (written < 0) FailCopy(path, errno);
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
 }
@@ -191,7 +190,7 @@ void WriteAll(const Descriptor& to, const fs::path& path, std::string_view bytes
 // False where it cannot be read.
 bool CopyStore(const RawFile& from, const fs::path& path) {
   const Descriptor to(path, O_WRONLY | O_CREAT | O_TRUNC);
-  if (to.value() < 0) PrivateFolder::FailCopy(path, errno);
+  if (to.value() < 0) FailCopy(path, errno);
   const std::int64_t size = from.Size();
   std::string bytes;
   for (std::int64_t at = 0; at < size; at += std::ssize(bytes)) {
@@ -209,7 +208,7 @@ void CopyLog(const fs::path& log, const fs::path& path) {
   fs::remove(path);  // of an earlier attempt
   if (from.value() < 0) return;
   const Descriptor to(path, O_WRONLY | O_CREAT | O_TRUNC);
-  if (to.value() < 0) PrivateFolder::FailCopy(path, errno);
+  if (to.value() < 0) FailCopy(path, errno);
   std::string bytes(kPiece, '\0');
   for (;;) {
     const ssize_t read = ::read(from.value(), bytes.data(), bytes.size());
@@ -248,7 +247,7 @@ int FoldLogs(const fs::path& copy) {
 OpenedSqlite OpenCopy(const fs::path& path) {
   OpenedSqlite original = OpenAsItLies(path);
   if (original.code != SQLITE_OK) return original;
-  const PrivateFolder folder;
+  const core::TemporaryFolder folder = PrivateFolder();
   const fs::path copy = folder.path() / "store";
   if (!CopyLastCommit(path, RawFile(original.database.get()), copy)) {
     return {std::move(original.database), SQLITE_IOERR_READ};

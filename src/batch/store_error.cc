@@ -6,6 +6,8 @@
 #include <cstring>
 #include <utility>
 
+#include "core/machine_error.h"
+
 namespace rockyard::batch {
 namespace {
 
@@ -14,7 +16,7 @@ const char* Remedy(StoreProblem problem) {
     case StoreProblem::kFull:
       return "free some space on the disk (or lift the quota), or choose another folder with --out";
     case StoreProblem::kOpenFiles:
-      return kMoreOpenFiles;
+      return core::kMoreOpenFiles;
     default:
       return "check the permissions, or choose another folder with --out";
   }

@@ -42,10 +42,6 @@ StoreProblem ProblemOf(int reason);
 // Throws what an errno means, with what to do. `what`: "cannot be made".
 [[noreturn]] void FailSystem(const std::filesystem::path& path, std::string_view what, int reason);
 
-// What to do where the process or the machine may open no more files.
-inline constexpr const char* kMoreOpenFiles =
-    "end other programs or allow more open files (ulimit -n), then run it again";
-
 // Throws kDamaged, with what to do.
 [[noreturn]] void FailDamaged(const std::filesystem::path& path, const std::string& reason);
 

@@ -11,6 +11,7 @@
 
 #include "batch/packet.h"
 #include "batch/store_error.h"
+#include "core/machine_error.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -119,6 +120,9 @@ Outcome Guarded(Journal& journal, const std::function<Outcome()>& action) {
   } catch (const batch::StoreError& error) {
     journal.Fail(error.problems());
     return batch::IsOfTheMachine(error.problem()) ? Outcome::kFailed : Outcome::kBadInput;
+  } catch (const core::MachineError& error) {
+    journal.Fail(error.problems());
+    return Outcome::kFailed;
   } catch (const core::UserError& error) {
     journal.Fail(error.problems());
     return Outcome::kBadInput;

@@ -62,8 +62,8 @@ struct WorkResult : Account {
 };
 
 // What `action` returns. An exception out of it fails in the journal: kBadInput for
-// core::UserError, kFailed for anything else, and for a batch::StoreError that is the machine's: no
-// space, no more open files.
+// core::UserError, kFailed for anything else, and where the machine failed: core::MachineError, and
+// a batch::StoreError of a full disk or too many open files.
 Outcome Guarded(Journal& journal, const std::function<Outcome()>& action);
 
 // The same with a journal of its own.

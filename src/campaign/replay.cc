@@ -62,8 +62,10 @@ void CheckOutputs(const ReplayRequest& request, const std::vector<AskedFile>& ou
   CheckOutputFile("--svg", request.plan);
   CheckOutputFile("--data", request.data);
   std::vector<NamedFile> files;
-  files.reserve(outputs.size());
+  files.reserve(outputs.size() + 1);
   for (const AskedFile& output : outputs) files.push_back({output.option, output.path.string()});
+  // A name is right or wrong in every build, also in one that writes no page.
+  if (!web::PagesBuilt() && !request.page.empty()) files.push_back({"--out", request.page});
   CheckDistinct(files);
 }
 

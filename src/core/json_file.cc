@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <optional>
 #include <system_error>
@@ -11,6 +13,7 @@
 
 #include "core/error.h"
 #include "core/json_text.h"
+#include "core/machine_error.h"
 #include "core/spelling.h"
 
 namespace rockyard::core {
@@ -22,6 +25,12 @@ constexpr std::size_t kLongestChain = 16;
 // Files that each name several others multiply: bounds the memory of a mistaken or hostile input.
 constexpr std::size_t kMaxFiles = 64;
 constexpr std::string_view kExtends = "extends";
+
+[[noreturn]] void FailToOpen(const fs::path& path, int reason) {
+  const std::string what = fmt::format("cannot be read: {}", std::strerror(reason));
+  if (reason == EMFILE || reason == ENFILE) throw MachineError(path.string(), what, kMoreOpenFiles);
+  throw UserError(path.string(), what, "check its permissions");
+}
 
 std::string ReadText(const fs::path& path) {
   std::error_code error;
@@ -40,9 +49,10 @@ std::string ReadText(const fs::path& path) {
                     "check that this is the right file");
   }
   std::ifstream file(path, std::ios::binary);
+  if (!file) FailToOpen(path, errno);
   std::string text(error ? 0 : size, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!file) throw UserError(path.string(), "cannot be read", "check its permissions");
+  if (!file) throw UserError(path.string(), "ends early", "check the disk and the file");
   return text;
 }
 

@@ -77,11 +77,6 @@ int OpenFolder(const fs::path& path) {
   return open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
 }
 
-int MakeFolder(const fs::path& path) {
-  constexpr mode_t kAll = 0777;
-  return mkdir(path.c_str(), kAll) == 0 ? OpenFolder(path) : -1;
-}
-
 int MakeFile(const fs::path& path) {
   constexpr mode_t kReadable = 0644;
   return open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kReadable);
@@ -143,8 +138,10 @@ void TemporaryFile::Commit() {
   Close();
 }
 
-TemporaryFolder::TemporaryFolder(fs::path target) : target_(std::move(target)) {
-  Made made = MakeNew(target_, MakeFolder);
+TemporaryFolder::TemporaryFolder(fs::path target, mode_t permissions) : target_(std::move(target)) {
+  Made made = MakeNew(target_, [permissions](const fs::path& path) {
+    return mkdir(path.c_str(), permissions) == 0 ? OpenFolder(path) : -1;
+  });
   path_ = std::move(made.path);
   descriptor_ = made.descriptor;
 }

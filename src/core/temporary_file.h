@@ -1,6 +1,8 @@
 // Files and folders that take their names when they are whole.
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 
 namespace rockyard::core {
@@ -40,7 +42,8 @@ class TemporaryFile {
 // The same for a folder, named in the same way.
 class TemporaryFolder {
  public:
-  explicit TemporaryFolder(std::filesystem::path target);
+  // `permissions`: of which the umask takes away.
+  explicit TemporaryFolder(std::filesystem::path target, mode_t permissions = 0777);
   // Removes the folder and all that is in it, unless it was committed.
   ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;

@@ -152,6 +152,21 @@ TEST_F(StoreDamage, ARowTooFewIsRefused) {
   }
 }
 
+// A trigger changes what --resume writes; a view computes what a report reads.
+TEST_F(StoreDamage, WhatRunsInsideOfAStoreIsRefused) {
+  const fs::path whole = folder_.path() / "whole";
+  fs::copy_file(store(), whole);
+  Change("CREATE TRIGGER t AFTER INSERT ON builds BEGIN DELETE FROM builds; END");
+  ExpectRefused(HasSubstr("trigger t"));
+  fs::copy_file(whole, store(), fs::copy_options::overwrite_existing);
+  Change("ALTER TABLE trials RENAME TO others");
+  Change("CREATE VIEW trials AS SELECT * FROM others");
+  ExpectRefused(HasSubstr("view trials"));
+  fs::copy_file(whole, store(), fs::copy_options::overwrite_existing);
+  Change("CREATE VIRTUAL TABLE words USING fts5(word)");
+  ExpectRefused(HasSubstr("table words"));
+}
+
 TEST_F(StoreDamage, NamesTableRowAndColumn) {
   Change("UPDATE trials SET sim_time_s = sim_time_s + 1 WHERE campaign_cell = 1 AND trial = 17");
   ExpectRefused(AllOf(HasSubstr("table trials"), HasSubstr("cell 1, trial 17"),

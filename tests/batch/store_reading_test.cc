@@ -15,6 +15,7 @@
 #include "batch/sqlite_database.h"
 #include "batch/store_error.h"
 #include "batch/trial_hash.h"
+#include "core/temporary_file.h"
 #include "fake_experiment.h"
 #include "unprivileged.h"
 
@@ -244,6 +245,24 @@ TEST_F(StoreReading, LeavesNothingInTheTemporaryFolder) {
   unsetenv("TMPDIR");
   EXPECT_TRUE(fs::is_empty(temporary.path())) << "also while it is open";
   EXPECT_EQ(TrialHash(store.Load()), PlainHash());
+}
+
+// What a reader left that was killed while it copied; never the copy of one that lives.
+TEST_F(StoreReading, RemovesTheCopyOfAKilledReader) {
+  WriteAndDie();
+  fs::remove(path() / "results.sqlite-shm");
+  const TemporaryFolder temporary;
+  setenv("TMPDIR", temporary.path().c_str(), 1);
+  InKilledProcess([&] {
+    const core::TemporaryFolder folder(temporary.path() / "rockyard-read", 0700);
+    std::ofstream(folder.path() / "store") << "half";
+    raise(SIGKILL);
+  });
+  EXPECT_FALSE(fs::is_empty(temporary.path()));
+  const core::TemporaryFolder living(temporary.path() / "rockyard-read", 0700);
+  EXPECT_EQ(HashIn(path()), PlainHash());
+  unsetenv("TMPDIR");
+  EXPECT_THAT(NamesIn(temporary.path()), ElementsAre(living.path().filename().string()));
 }
 
 TEST_F(StoreReading, WhoHasNoRoomForACopyIsToldSo) {

@@ -1,14 +1,20 @@
 #include "core/json_file.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
+#include <optional>
 #include <string>
 
 #include "core/error.h"
 #include "core/json_text.h"
+#include "core/machine_error.h"
 
 namespace rockyard::core {
 namespace {
@@ -152,6 +158,28 @@ TEST_F(JsonFileTest, MissingAndWrongFilesAreErrors) {
   EXPECT_THAT(ProblemOf(Write("empty.json", "")).reason, HasSubstr("line 1"));
   EXPECT_THAT(ProblemOf(Write("large.json", std::string((32 << 20) + 1, ' '))).reason,
               HasSubstr("more than the 33554432 allowed"));
+}
+
+// A failure of the machine, which the command line tells apart from a mistake in the file.
+TEST_F(JsonFileTest, TooManyOpenFilesAreNoMistakeOfTheFile) {
+  const fs::path path = Write("a.json", "{}");
+  rlimit former{};
+  getrlimit(RLIMIT_NOFILE, &former);
+  const int next = open("/dev/null", O_RDONLY | O_CLOEXEC);
+  close(next);
+  const rlimit small{static_cast<rlim_t>(next), former.rlim_max};
+  setrlimit(RLIMIT_NOFILE, &small);
+  std::optional<Problem> problem;
+  try {
+    LoadJsonFile(path);
+  } catch (const MachineError& error) {
+    problem = error.problems().front();
+  }
+  setrlimit(RLIMIT_NOFILE, &former);
+  ASSERT_TRUE(problem.has_value());
+  EXPECT_EQ(problem->path, path.string());
+  EXPECT_EQ(problem->reason, std::string("cannot be read: ") + std::strerror(EMFILE));
+  EXPECT_THAT(problem->suggestion, HasSubstr("ulimit -n"));
 }
 
 TEST_F(JsonFileTest, ErrorsNameTheFileThatIsWrong) {

@@ -146,6 +146,15 @@ TEST_F(TemporaryFileTest, AFolderTakesTheNameAtCommitAlone) {
   EXPECT_EQ(Read(Target() / "inside"), "kept");
 }
 
+TEST_F(TemporaryFileTest, AFolderHasThePermissionsAskedFor) {
+  const mode_t umask_before = umask(0);
+  const TemporaryFolder shared(Target());
+  const TemporaryFolder own(Target(), 0700);
+  umask(umask_before);
+  EXPECT_EQ(fs::status(shared.path()).permissions(), static_cast<fs::perms>(0777));
+  EXPECT_EQ(fs::status(own.path()).permissions(), static_cast<fs::perms>(0700));
+}
+
 // Not even an empty one, which a rename would take the place of.
 TEST_F(TemporaryFileTest, AFolderReplacesNothing) {
   TemporaryFolder folder(Target());
