@@ -126,9 +126,6 @@ class Study:
                 result = subprocess.run(again, capture_output=True, text=True, check=False)
                 told, code = result.stderr, result.returncode
             words = again
-            # Whoever kills a merge that has just ended repeats it in vain, and knows the reason.
-            if what == "merge" and code == 2 and told.rstrip().splitlines()[0].endswith("exists"):
-                return struck, None
         return struck, f"{' '.join(words)} never ends"
 
     def campaign(self, what, whom, threads, out):

@@ -12,6 +12,7 @@
 #include "batch/result_store.h"
 #include "batch/run_folder.h"
 #include "batch/store_error.h"
+#include "batch/trial_hash.h"
 #include "core/temporary_file.h"
 
 namespace rockyard::batch {
@@ -169,6 +170,44 @@ void WriteMerged(const std::vector<Part>& parts, const fs::path& folder) {
   for (const Part& part : parts) CopyTrials(part.store, merged);
 }
 
+// Whether the store holds in this piece what the part does, less trials of other shards.
+bool HoldsPiece(const ResultStore& merged, const Part& part, int cell, std::int64_t begin) {
+  std::vector<truth::Record> there = merged.Load(cell, begin, begin + kTrialsOfAPiece);
+  std::erase_if(there, [&](const truth::Record& record) {
+    return !part.store.identity().shard.Has(record.trial);
+  });
+  return TrialHash(there) == TrialHash(part.store.Load(cell, begin, begin + kTrialsOfAPiece));
+}
+
+bool HoldsPart(const ResultStore& merged, const Part& part) {
+  for (int cell = 0; cell < part.store.cells(); ++cell) {
+    for (std::int64_t begin = 0; begin < part.store.planned(cell); begin += kTrialsOfAPiece) {
+      if (!HoldsPiece(merged, part, cell, begin)) return false;
+    }
+  }
+  return true;
+}
+
+// Whether an earlier merge of these parts has made the store: the same campaign with their trials
+// and no others.
+bool HoldsMerge(const ResultStore& merged, const std::vector<Part>& parts, BuildPolicy policy) {
+  CampaignIdentity whole = parts.front().store.identity();
+  whole.shard = {};
+  if (!merged.identity().shard.whole() ||
+      !CampaignDifferences(whole, merged.identity(), merged.Builds(), policy).empty()) {
+    return false;
+  }
+  const std::vector<std::int64_t> planned = MostPlanned(parts);
+  std::size_t trials = 0;
+  for (const Part& part : parts) trials += part.store.Finished().size();
+  for (int cell = 0; cell < merged.cells(); ++cell) {
+    if (merged.planned(cell) != planned[static_cast<std::size_t>(cell)]) return false;
+  }
+  return merged.Finished().size() == trials &&
+         std::all_of(parts.begin(), parts.end(),
+                     [&](const Part& part) { return HoldsPart(merged, part); });
+}
+
 // "all" of "all/".
 fs::path WithoutSlash(const fs::path& path) {
   return path.has_filename() ? path : path.parent_path();
@@ -176,15 +215,24 @@ fs::path WithoutSlash(const fs::path& path) {
 
 }  // namespace
 
-void MergeShards(std::span<const fs::path> shards, const fs::path& out, const MergeOptions& options,
-                 const std::function<void(const fs::path&)>& finish) {
+Merged MergeShards(std::span<const fs::path> shards, const fs::path& out,
+                   const MergeOptions& options,
+                   const std::function<void(const fs::path&)>& finish) {
   const fs::path target = WithoutSlash(out);
   std::error_code error;
-  if (fs::exists(fs::symlink_status(target, error))) FailExists(out);
+  const bool exists = fs::exists(fs::symlink_status(target, error));
+  if (exists && !HoldsStore(target)) FailExists(out);
   std::vector<Part> parts;
   for (const fs::path& folder : shards) parts.push_back({folder, ResultStore::Read(folder)});
   std::vector<Problem> problems = Inspector(parts, options).Problems();
   if (!problems.empty()) throw StoreError(StoreProblem::kMismatch, std::move(problems));
+  const auto take_what_is_there = [&] {
+    if (!HoldsStore(target) || !HoldsMerge(ResultStore::Read(target), parts, options.build)) {
+      FailExists(out);
+    }
+    return Merged::kBefore;
+  };
+  if (exists) return take_what_is_there();
   // Half of a campaign must not be taken for all of it: the folder gets its name when it is whole.
   const EmptyFolders parents(MakeFolders(target.parent_path()));
   core::RemoveLeftovers(target);
@@ -193,10 +241,11 @@ void MergeShards(std::span<const fs::path> shards, const fs::path& out, const Me
     WriteMerged(parts, folder.path());
     if (finish) finish(folder.path());
     folder.Commit();
+    return Merged::kNow;
   } catch (const std::system_error& failure) {
     const int reason = failure.code().value();
     // Another merge may have come first while this one read or wrote.
-    if (reason == EEXIST || reason == ENOTEMPTY) FailExists(out);
+    if (reason == EEXIST || reason == ENOTEMPTY) return take_what_is_there();
     FailSystem(out, "cannot be made", reason);
   }
 }

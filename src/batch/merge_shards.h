@@ -14,6 +14,11 @@ struct MergeOptions {
   bool partial = false;  // shards may be missing, and trials of a shard, too
 };
 
+enum class Merged {
+  kNow,     // the folder was made
+  kBefore,  // it was there, and holds these trials of this campaign and no others
+};
+
 // Makes a store in `out` with every trial of the shards: what one machine would have written, to
 // the same hash, but for the order of the rows. The folder appears when it is whole: it is made
 // beside `out` under another name, in which `finish` may add files to it; a merge that is killed
@@ -21,10 +26,11 @@ struct MergeOptions {
 // is wrong and nothing written: a folder that holds no shard; shards of different campaigns, or of
 // different numbers of shards or trials; builds that differ; a shard that is there twice, that is
 // missing, that lacks trials, or that holds trials of another one; an `out` that exists, or that
-// another merge has made meanwhile (kExists). What `finish` throws comes out alike. Memory: some
-// thousand records, and for a moment 24 bytes per trial of a shard.
-void MergeShards(std::span<const std::filesystem::path> shards, const std::filesystem::path& out,
-                 const MergeOptions& options = {},
-                 const std::function<void(const std::filesystem::path& folder)>& finish = {});
+// another merge has made meanwhile (kExists), unless it holds what would be merged, as where a
+// merge is repeated that was killed at its very end: that is left as it is. What `finish` throws
+// comes out alike. Memory: some thousand records, and for a moment 24 bytes per trial of a shard.
+Merged MergeShards(std::span<const std::filesystem::path> shards, const std::filesystem::path& out,
+                   const MergeOptions& options = {},
+                   const std::function<void(const std::filesystem::path& folder)>& finish = {});
 
 }  // namespace rockyard::batch

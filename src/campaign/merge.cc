@@ -49,11 +49,15 @@ FolderReport InFolder(FolderReport report, const std::filesystem::path& folder) 
 WorkResult Merge(const MergeRequest& request, const MergeObserver& observer) {
   return Recorded(observer, [&](Journal& journal) {
     core::Result<FolderReport> report = std::vector<core::Problem>{{"merge", "has not run", ""}};
-    batch::MergeShards(request.shards, request.folder,
-                       {.build = request.build, .partial = request.partial},
-                       [&](const std::filesystem::path& made) {
-                         report = core::Attempt([&] { return ReportMerged(made); });
-                       });
+    const batch::Merged merged = batch::MergeShards(
+        request.shards, request.folder, {.build = request.build, .partial = request.partial},
+        [&](const std::filesystem::path& made) {
+          report = core::Attempt([&] { return ReportMerged(made); });
+        });
+    if (merged == batch::Merged::kBefore) {
+      journal.Remark(fmt::format("{} holds these shards already", request.folder.string()));
+      report = core::Attempt([&] { return ReportMerged(request.folder); });
+    }
     journal.SetFolder(request.folder);
     RemarkTraces(request, journal);
     if (report.ok()) {

@@ -38,6 +38,14 @@ TEST_F(CliCampaign, MergedShardsAreTheRunOfOneMachine) {
   EXPECT_EQ(Summary("merged")["trial_hash"], Summary("whole")["trial_hash"]);
   EXPECT_EQ(Summary("merged")["accounting"], Summary("whole")["accounting"]);
   EXPECT_EQ(ReadFile(work() / "merged" / "trials.csv"), ReadFile(work() / "whole" / "trials.csv"));
+
+  // As by a job that is started again, although its files were lost.
+  fs::remove(work() / "merged" / "trials.csv");
+  const CommandResult repeated = Run({"merge", "s1", "s2", "s3", "--out", "merged"});
+  EXPECT_EQ(repeated.exit_code, 0);
+  EXPECT_THAT(repeated.err, HasSubstr("merged holds these shards already"));
+  EXPECT_EQ(ReadFile(work() / "merged" / "trials.csv"), ReadFile(work() / "whole" / "trials.csv"));
+  EXPECT_EQ(Run({"merge", "s1", "s2", "--out", "merged", "--partial"}).exit_code, 2);
 }
 
 TEST_F(CliCampaign, ShardsThatAreNotAllThereAreRefused) {

@@ -113,7 +113,7 @@ TEST_F(MergeTest, KeepsBuildsAndInfrastructureFaults) {
   EXPECT_EQ(merged.InfrastructureFaults()[0].id, (TrialId{1, 7}));
 }
 
-// Tasks of a job array may all call merge at their ends: one wins, the others say why not.
+// Tasks of a job array may all call merge at their ends: one makes the folder, the others find it.
 TEST_F(MergeTest, TwoAtOnceLeaveOneWhole) {
   const std::vector<fs::path> shards = {MakeShard(1, 2), MakeShard(2, 2)};
   for (int round = 0; round < 10; ++round) {
@@ -121,14 +121,7 @@ TEST_F(MergeTest, TwoAtOnceLeaveOneWhole) {
     std::atomic<int> made = 0;
     const auto merge = [&] {
       for (++ready; ready < 3;) std::this_thread::yield();
-      try {
-        MergeShards(shards, Out());
-        ++made;
-      } catch (const StoreError& error) {
-        EXPECT_TRUE(error.problem() == StoreProblem::kInUse ||
-                    error.problem() == StoreProblem::kExists)
-            << error.what();
-      }
+      if (MergeShards(shards, Out()) == Merged::kNow) ++made;
     };
     std::thread first(merge);
     std::thread second(merge);
@@ -202,6 +195,45 @@ TEST_F(MergeTest, TheFolderAppearsWhole) {
   EXPECT_TRUE(HoldsStore(deep));
   EXPECT_TRUE(fs::exists(deep / "summary.json"));
   EXPECT_EQ(std::distance(fs::directory_iterator(deep.parent_path()), {}), 1);
+}
+
+// As where a merge is repeated that was killed when its folder had its name.
+TEST_F(MergeTest, WhatItHasMadeBeforeIsLeftAsItIs) {
+  const fs::path first = MakeShard(1, 2);
+  const fs::path second = MakeShard(2, 2);
+  const std::vector<fs::path> shards = {first, second};
+  EXPECT_EQ(MergeShards(shards, Out()), Merged::kNow);
+  const fs::file_time_type written = fs::last_write_time(StorePath(Out()));
+  EXPECT_EQ(MergeShards(std::vector<fs::path>{second, first}, Out()), Merged::kBefore);
+  EXPECT_EQ(fs::last_write_time(StorePath(Out())), written);
+  EXPECT_EQ(ResultStore::Read(Out()).Finished().size(), 2U * kTrials);
+}
+
+// One that holds anything else than the shards is in the way.
+TEST_F(MergeTest, WhatAnotherMergeHasMadeIsInTheWay) {
+  const fs::path first = MakeShard(1, 2);
+  const fs::path second = MakeShard(2, 2);
+  const std::vector<fs::path> shards = {first, second};
+  const auto is_in_the_way = [&](const std::vector<fs::path>& others, const MergeOptions& options) {
+    try {
+      MergeShards(others, Out(), options);
+    } catch (const StoreError& error) {
+      return error.problem() == StoreProblem::kExists;
+    }
+    return false;
+  };
+  // Trials of the one and of the other shard alone, of another campaign, and more of them.
+  MergeShards(std::vector<fs::path>{first}, Out(), {.partial = true});
+  EXPECT_TRUE(is_in_the_way(shards, {}));
+  EXPECT_TRUE(is_in_the_way({second}, {.partial = true}));
+  fs::remove_all(Out());
+  MergeShards(shards, Out());
+  EXPECT_TRUE(is_in_the_way({first}, {.partial = true}));
+  CampaignIdentity other = TwoCells();
+  other.cells[1] = FakeCell(3, "b");
+  EXPECT_TRUE(is_in_the_way({MakeShard(1, 2, other), MakeShard(2, 2, other)}, {}));
+  EXPECT_TRUE(
+      is_in_the_way({MakeShard(1, 2, TwoCells(), 60), MakeShard(2, 2, TwoCells(), 60)}, {}));
 }
 
 TEST_F(MergeTest, RemovesWhatAKilledOneLeft) {
