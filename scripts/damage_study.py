@@ -411,8 +411,10 @@ def run_study(args, folder):
         number, (base, damage, seed) = item
         return attempt(args.rockyard, base, damage, seed, folder / f"{number:05}")
 
+    progress = study.Progress("damaged stores", args.stores)
     with ThreadPoolExecutor(args.jobs) as pool:
         for (number, (base, damage, seed)), verdicts in zip(work, pool.map(one, work)):
+            progress.at(number, len(faults))
             faulty = False
             for name, (verdict, found) in verdicts.items():
                 kind = f"{damage} (older)" if base.name.startswith("older ") else damage

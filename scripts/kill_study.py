@@ -31,6 +31,8 @@ import tempfile
 import time
 from pathlib import Path
 
+from study import Progress
+
 ROOT = Path(__file__).resolve().parent.parent
 SCENARIO = ROOT / "scenarios/pathfinder/nominal.json"
 WHAT = ("run", "sweep", "shards", "merge")
@@ -195,7 +197,9 @@ def study(options, folder):
     campaigns = Study(options.rockyard.resolve(), folder, chance)
     done, struck = collections.Counter(), collections.Counter()
     wrong = []
+    progress = Progress("kills", options.kills)
     for number in range(options.kills):
+        progress.at(number, len(wrong))
         kind = (WHAT[number % len(WHAT)], chance.choice(WHOM), chance.choice(THREADS))
         out = folder / "disturbed"
         out.mkdir()

@@ -9,6 +9,7 @@ import tempfile
 from pathlib import Path
 
 from fuzzing import harness
+from study import Progress
 
 LINES_A_FOLDER = 250  # then it is made anew, as they write into it
 TIMEOUT_S = 60
@@ -181,7 +182,9 @@ def run(rockyard, first, count, findings):
     try:
         (ready / "fresh").mkdir()
         _prepare(rockyard, ready / "fresh")
+        progress = Progress(findings.part, count - first)
         for index in range(first, count):
+            progress.at(index - first, len(findings.failures))
             if index == first or index % LINES_A_FOLDER == 0:
                 shutil.rmtree(folder, ignore_errors=True)
                 subprocess.run(["cp", "-a", ready / "fresh", folder], check=True)

@@ -7,6 +7,7 @@ import tempfile
 from pathlib import Path
 
 from fuzzing import harness
+from study import Progress
 
 BATCH = 100  # files that one process reads
 TIMEOUT_S = 120
@@ -176,7 +177,9 @@ def run(rockyard, first, count, findings):
     everything = sources(rockyard)
     folder = tempfile.mkdtemp(prefix="rockyard-fuzz-", dir="/dev/shm" if Path("/dev/shm").is_dir() else None)
     try:
+        progress = Progress(findings.part, count - first)
         for begin in range(first, count, BATCH):
+            progress.at(begin - first, len(findings.failures))
             names = []
             for index in range(begin, min(begin + BATCH, count)):
                 data = make(everything, harness.generator(findings.seed, findings.part, index))

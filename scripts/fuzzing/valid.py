@@ -10,6 +10,7 @@ import tempfile
 from pathlib import Path
 
 from fuzzing import harness
+from study import Progress
 
 BASES = ["pathfinder/nominal", "pathfinder/vl2", "gestalt/abundance", "mars/mfex_nominal",
          "hazard_detection/height_factor", "gestalt/abundance_behaviour_stereo"]
@@ -114,7 +115,9 @@ def run(rockyard, first, count, findings):
     tables = {base: parameters(rockyard, harness.ROOT / "scenarios" / f"{base}.json") for base in BASES}
     folder = tempfile.mkdtemp(prefix="rockyard-fuzz-")
     try:
+        progress = Progress(findings.part, count - first)
         for begin in range(first, count, BATCH):
+            progress.at(begin - first, len(findings.failures))
             names = []
             for index in range(begin, min(begin + BATCH, count)):
                 document = make(tables, harness.generator(findings.seed, findings.part, index))

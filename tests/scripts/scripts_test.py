@@ -1,5 +1,7 @@
 """The command lines of the scripts: what they accept, refuse and pass on."""
 
+import contextlib
+import io
 import json
 import math
 import os
@@ -9,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -861,6 +864,21 @@ echo "{\\"provenance\\": {\\"version\\": \\"0.1.0\\", \\"commit\\": \\"abc\\"}, 
         for line in self.called("rockyard"):
             self.assertIn("--resume --force", line)
         self.assertNotIn("of these", result.stdout)
+
+
+class StudyProgress(unittest.TestCase):
+    def test_tells_what_is_done_and_left_twice_a_minute(self):
+        sys.path.insert(0, str(ROOT / "scripts"))
+        import study  # pylint: disable=import-outside-toplevel
+        times = iter([100.0, 110.0, 131.0, 140.0, 170.0])
+        told = io.StringIO()
+        with unittest.mock.patch("time.monotonic", lambda: next(times)), contextlib.redirect_stderr(told):
+            progress = study.Progress("kills", 200)
+            for done in (10, 31, 40, 50):
+                progress.at(done, 1)
+        # After 31 s and 31 of 200: 169 more take 169 s; after 70 s and 50 of 200: 150 more take 210 s.
+        self.assertEqual(told.getvalue(), "kills: 31 of 200, 1 found, about 3 min left\n"
+                                          "kills: 50 of 200, 1 found, about 4 min left\n")
 
 
 class StudyStatistics(unittest.TestCase):
