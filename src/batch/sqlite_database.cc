@@ -204,15 +204,7 @@ SqliteStatement SqliteDatabase::Prepare(std::string_view sql) const {
 std::int64_t SqliteDatabase::Changes() const { return sqlite3_changes64(database_.get()); }
 
 std::optional<std::string> SqliteDatabase::Damage() const {
-  return Complaint("PRAGMA quick_check(1)");
-}
-
-std::optional<std::string> SqliteDatabase::Damage(std::string_view table) const {
-  return Complaint(fmt::format("PRAGMA integrity_check({})", table));
-}
-
-std::optional<std::string> SqliteDatabase::Complaint(std::string_view pragma) const {
-  SqliteStatement check = Prepare(pragma);
+  SqliteStatement check = Prepare("PRAGMA integrity_check(1)");
   if (!check.Step()) return "its own check gave no answer";
   const std::string answer = check.Text(0);
   return answer == "ok" ? std::nullopt : std::optional(answer);

@@ -69,16 +69,13 @@ class SqliteDatabase {
   // Rows that the last statement which has ended added, changed or deleted.
   std::int64_t Changes() const;
 
-  // The first complaint of SQLite's own check of the file, or nothing. Leaves indexes out.
+  // The first complaint of SQLite's own check of the file, or nothing. With the indexes, by which
+  // rows are found: one that is not found is missing without a sign.
   std::optional<std::string> Damage() const;
-  // The same of one table with its indexes, by which rows are found.
-  std::optional<std::string> Damage(std::string_view table) const;
 
   const std::filesystem::path& path() const { return path_; }
 
  private:
-  std::optional<std::string> Complaint(std::string_view pragma) const;
-
   std::filesystem::path path_;
   Access access_;
   SqliteHandle database_;

@@ -28,13 +28,6 @@ std::int64_t InventoryChecksum(std::string_view table, const TableTally& tally) 
   return checksum.Integer(static_cast<std::int64_t>(tally.checksums)).value();
 }
 
-// What is written later has to find what is there.
-void RequireIndex(const SqliteDatabase& database, std::string_view table) {
-  if (const std::optional<std::string> damage = database.Damage(table)) {
-    FailDamaged(database.path(), fmt::format("is damaged: table {}: {}", table, *damage));
-  }
-}
-
 }  // namespace
 
 void TableTally::Add(std::int64_t checksum) {
@@ -99,7 +92,6 @@ CheckedRows::CheckedRows(const SqliteDatabase& database, Checksums checksums,
 
 bool CheckedRows::Step() {
   const bool row = select_.Step();
-  if (!row) RequireIndex(database_, table_.name);
   if (checksums_ == Checksums::kNone) return row;
   if (!row) {
     CheckInventory(database_, table_.name, found_);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "batch/scenario_difference.h"
@@ -135,6 +136,16 @@ void RequireOneScenario(const SqliteDatabase& database, std::size_t row, const C
                   row, column));
 }
 
+void RequireNewName(const SqliteDatabase& database, const std::vector<CellIdentity>& cells,
+                    const std::string& name) {
+  const bool taken = std::any_of(cells.begin(), cells.end(),
+                                 [&](const CellIdentity& cell) { return cell.name == name; });
+  if (taken) {
+    FailDamaged(database.path(),
+                fmt::format("is damaged: table cells has the name \"{}\" twice", name));
+  }
+}
+
 // Of a store without checksums, where the rules of earlier sessions are not known.
 std::int64_t MostPlanned(const StoreHead& head, std::int64_t planned) {
   return head.rule ? kMostTrials : planned;
@@ -147,6 +158,7 @@ void ReadCells(const SqliteDatabase& database, StoreHead& head) {
     if (row.Integer(0) != static_cast<std::int64_t>(head.identity.cells.size())) {
       FailDamaged(database.path(), "has cells that are not numbered 0, 1, 2, ...");
     }
+    RequireNewName(database, head.identity.cells, row.Text(1));
     head.identity.cells.push_back(
         {row.Text(1), row.Text(2), row.Text(3), row.Text(4),
          ParseNumber<std::uint64_t>(database.path(), "seed", row.Text(5))});

@@ -9,6 +9,7 @@
 #include "batch/store_error.h"
 #include "batch/store_tables.h"
 #include "core/check.h"
+#include "truth/measurement_record.h"
 
 namespace rockyard::batch {
 namespace {
@@ -89,6 +90,7 @@ class TrialReader {
     if (table_.checksums == Checksums::kEachRow) {
       RequireSum(kFixedColumns + 1 + static_cast<int>(schema.size()), "row_checksum");
     }
+    for (std::size_t i = 0; i < schema.size(); ++i) RequireAtMostBase(schema, values, i);
   }
 
   double Value(int column, const truth::ValueInfo& info) const {
@@ -102,10 +104,25 @@ class TrialReader {
     }
     const double value = row_.Real(column);
     if (std::isinf(value)) FailRow(info.name, "an infinite value");
+    if (value < 0.0 && (truth::IsBase(info.role) || truth::IsCount(info.role))) {
+      FailRow(info.name, fmt::format("a count of {}", value));
+    }
     return value;
   }
 
  private:
+  // Of those who could, no more can have.
+  void RequireAtMostBase(const truth::RecordSchema& schema, std::span<const double> values,
+                         std::size_t count) const {
+    if (!truth::IsCount(schema[count].role)) return;
+    const truth::ValueInfo* base = truth::FindColumn(schema, schema[count].of);
+    if (base == nullptr || base->unit != "1") return;
+    const double most = values[static_cast<std::size_t>(base - schema.data())];
+    if (values[count] > most) {
+      FailRow(schema[count].name, fmt::format("{} of {} {}", values[count], most, base->name));
+    }
+  }
+
   [[noreturn]] void FailRow(std::string_view column, std::string_view what) const {
     FailDamaged(database_.path(),
                 fmt::format("is damaged: table trials, cell {}, trial {}, column {}: {}",

@@ -5,8 +5,10 @@
 
 #include <cerrno>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "batch/packet.h"
@@ -47,6 +49,13 @@ void ReadEntry(batch::PacketReader& packet, Account& account) {
     default:
       throw std::runtime_error("no entry of a journal");
   }
+}
+
+// Whether a name cannot be used as it is, whatever the machine has room for.
+bool IsOfTheName(const std::error_code& code) {
+  return code == std::errc::filename_too_long || code == std::errc::not_a_directory ||
+         code == std::errc::no_such_file_or_directory || code == std::errc::permission_denied ||
+         code == std::errc::too_many_symbolic_link_levels;
 }
 
 }  // namespace
@@ -126,6 +135,9 @@ Outcome Guarded(Journal& journal, const std::function<Outcome()>& action) {
   } catch (const core::UserError& error) {
     journal.Fail(error.problems());
     return Outcome::kBadInput;
+  } catch (const std::filesystem::filesystem_error& error) {
+    journal.Fail({{error.path1().string(), error.code().message(), "name another file or folder"}});
+    return IsOfTheName(error.code()) ? Outcome::kBadInput : Outcome::kFailed;
   } catch (const std::bad_alloc&) {
     journal.Fail({{"memory", "is exhausted", "ask for fewer trials, threads or rocks"}});
   } catch (const std::exception& error) {

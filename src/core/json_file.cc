@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
-#include <fstream>
+#include <memory>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -25,6 +26,10 @@ constexpr std::size_t kLongestChain = 16;
 // Files that each name several others multiply: bounds the memory of a mistaken or hostile input.
 constexpr std::size_t kMaxFiles = 64;
 constexpr std::string_view kExtends = "extends";
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
 
 [[noreturn]] void FailToOpen(const fs::path& path, int reason) {
   const std::string what = fmt::format("cannot be read: {}", std::strerror(reason));
@@ -48,11 +53,13 @@ std::string ReadText(const fs::path& path) {
                     fmt::format("has {} bytes, more than the {} allowed", size, largest),
                     "check that this is the right file");
   }
-  std::ifstream file(path, std::ios::binary);
+  // With a reason where it fails, which a stream does not have.
+  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rbe"));
   if (!file) FailToOpen(path, errno);
   std::string text(error ? 0 : size, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!file) throw UserError(path.string(), "ends early", "check the disk and the file");
+  if (std::fread(text.data(), 1, text.size(), file.get()) != text.size()) {
+    throw UserError(path.string(), "ends early", "check the disk and the file");
+  }
   return text;
 }
 
@@ -167,7 +174,8 @@ void SetPath(JsonValue& document, std::string_view path, JsonValue value) {
   JsonValue* at = &document;
   std::string_view rest = path;
   if (std::count(path.begin(), path.end(), '.') >= JsonLimits().max_depth) {
-    throw UserError(std::string(path.substr(0, 60)), "has too many parts", "check the path");
+    throw UserError(fmt::format("\"{}\"", path.substr(0, 60)), "has too many parts",
+                    "check the path");
   }
   while (true) {
     const std::size_t dot = rest.find('.');

@@ -3,10 +3,13 @@
 
 #include <gmock/gmock.h>
 
+#include <cerrno>
+#include <filesystem>
 #include <functional>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include "batch/store_error.h"
 #include "core/error.h"
@@ -49,6 +52,16 @@ TEST(Guarded, AMistakeOfTheUserIsBadInput) {
                 "is wrong");
   ExpectFailure([] { throw StoreError(StoreProblem::kMissing, "a", "is missing", "b"); },
                 Outcome::kBadInput, "is missing");
+}
+
+TEST(Guarded, ANameThatCannotBeUsedIsBadInput) {
+  const auto code = [](int reason) { return std::error_code(reason, std::generic_category()); };
+  const auto fail = [&](int reason) {
+    return [=] { throw std::filesystem::filesystem_error("status", "a", code(reason)); };
+  };
+  ExpectFailure(fail(ENAMETOOLONG), Outcome::kBadInput, "File name too long");
+  ExpectFailure(fail(EACCES), Outcome::kBadInput, "Permission denied");
+  ExpectFailure(fail(ENOSPC), Outcome::kFailed, "No space left on device");
 }
 
 TEST(Guarded, AFailureOfTheMachineIsNoMistakeOfTheUser) {
