@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "core/temporary_file.h"
 
 namespace rockyard::campaign {
 
@@ -26,6 +27,9 @@ void CheckOutputFile(std::string_view option, const std::string& file) {
   if (fs::exists(file, error) && !fs::is_regular_file(file, error)) {
     throw core::UserError(std::string(option), "is there and is no regular file: " + file,
                           "name a file");
+  }
+  if (!core::HasRoomForTemporary(file)) {
+    throw core::UserError(std::string(option), "has too long a name: " + file, "shorten it");
   }
   // Files are made beside their place and renamed, so that the folder is what counts.
   if (access(fs::absolute(file, error).parent_path().c_str(), W_OK) != 0) {

@@ -157,6 +157,13 @@ void TemporaryFolder::Commit() {
   committed_ = true;
 }
 
+bool HasRoomForTemporary(const fs::path& target) {
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  const long most = pathconf(folder.c_str(), _PC_NAME_MAX);  // -1: no limit, or none known
+  const std::size_t bytes = target.filename().string().size() + kMark.size() + kDigits;
+  return most < 0 || bytes <= static_cast<std::size_t>(most);
+}
+
 bool IsTemporaryOf(const fs::path& target, const fs::path& name) {
   const std::string text = name.filename().string();
   const std::string start = target.filename().string() + std::string(kMark);

@@ -61,6 +61,10 @@ class TemporaryFolder {
   bool committed_ = false;
 };
 
+// Whether the file system of its folder has names that are long enough for a temporary file of
+// `target`.
+bool HasRoomForTemporary(const std::filesystem::path& target);
+
 // Whether a file or folder of that name is a temporary one for `target`, or lies beside one.
 bool IsTemporaryOf(const std::filesystem::path& target, const std::filesystem::path& name);
 

@@ -55,6 +55,13 @@ TEST_F(OutputFile, IsNoDeviceAndNoPipe) {
   }
 }
 
+// A file is written under a longer name first, with 21 more bytes; most file systems know 255.
+TEST_F(OutputFile, HasANameThatLeavesRoomForAnother) {
+  const std::string longest(255 - 21, 'x');
+  EXPECT_EQ(Reason(At(longest)), "");
+  EXPECT_EQ(Reason(At(longest + "x")), "--csv has too long a name: " + At(longest + "x"));
+}
+
 TEST_F(OutputFile, IsNoFolderAndInOneThatIsThere) {
   EXPECT_EQ(Reason(At("")), "--csv is a folder: " + At(""));
   EXPECT_EQ(Reason(At("none/a.csv")),
