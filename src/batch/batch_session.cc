@@ -67,7 +67,6 @@ BatchResult BatchSession::Close() {
   BatchResult result;
   result.progress = Now();
   const Progress& progress = result.progress;
-  result.end = source_.exhausted() ? BatchEnd::kFinished : BatchEnd::kStopped;
   const auto too_many = [&](std::int64_t faults, std::int64_t finished) {
     return static_cast<double>(faults) >
            options_.max_fault_fraction * static_cast<double>(finished);
@@ -79,7 +78,11 @@ BatchResult BatchSession::Close() {
   }
   result.too_many_faults =
       !result.faulty_cells.empty() || too_many(progress.faults, progress.finished);
-  if (result.end == BatchEnd::kFinished) {
+  // Whoever was asked to stop in the moment of the last trial has finished, too.
+  const bool done = source_.exhausted() || (progress.finished == progress.planned &&
+                                            plan_.Next().step == WorkPlan::Step::kDone);
+  result.end = done ? BatchEnd::kFinished : BatchEnd::kStopped;
+  if (done) {
     ENSURE(progress.finished == progress.planned);
     StoreEnds();
   }

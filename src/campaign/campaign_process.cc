@@ -159,6 +159,7 @@ batch::BatchResult CampaignProcess::RunTrials(std::span<const CellWork> work,
   NoteOverdue(store, overdue_elsewhere_);
   // The overdue trial has ended after all, and the stop was not the user's wish.
   if (watchdog.bit() && supervised) _exit(batch::kOverdueExit);
+  late_trial_ = watchdog.bit();
   return result;
 }
 

@@ -65,6 +65,9 @@ class CampaignProcess {
 
   // Whether the caller wished for an end while trials ran.
   bool interrupted() const { return log_.stop(); }
+  // Whether a trial used more CPU time than it may, and ended all the same: none was begun after
+  // it.
+  bool late_trial() const { return late_trial_; }
   // The result is told once, whatever dies after it.
   bool reported() const { return log_.reported(); }
   void SetReported() { log_.SetReported(); }
@@ -92,6 +95,7 @@ class CampaignProcess {
   const Contact& contact_;
   batch::OverdueTrials overdue_;  // of this rank
   std::vector<batch::TrialId> overdue_elsewhere_;
+  bool late_trial_ = false;
 };
 
 using CampaignPart = std::function<Outcome(CampaignProcess&)>;

@@ -135,7 +135,7 @@ class Campaign {
       }
       process.SetReported();
       if (process.TellLeftOut(run.store)) return Outcome::kFailed;
-      const Outcome outcome = Judge(run, result);
+      const Outcome outcome = Judge(run, result, process.late_trial());
       // In the moment of the last trial: nothing is pending but traces.
       if (outcome == Outcome::kInterrupted || !process.interrupted() ||
           request_.traces.rules.empty()) {
@@ -167,8 +167,16 @@ class Campaign {
     return result;
   }
 
-  Outcome Judge(const OpenedRun& run, const batch::BatchResult& result) const {
+  Outcome Judge(const OpenedRun& run, const batch::BatchResult& result, bool late_trial) const {
     const batch::Progress& progress = result.progress;
+    if (result.end == batch::BatchEnd::kStopped && late_trial) {
+      journal_.Fail({{"--trial-cpu-limit",
+                      fmt::format("was used up by a trial, which ended after all; none was begun "
+                                  "after it, and {} of {} are stored",
+                                  progress.finished, progress.planned),
+                      "go on with the same command and --resume, or with a higher limit"}});
+      return Outcome::kFailed;
+    }
     if (result.end == batch::BatchEnd::kStopped) {
       journal_.Warn(fmt::format(
           "interrupted: {} of {} trials are stored; go on with the same command and --resume",

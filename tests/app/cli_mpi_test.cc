@@ -168,7 +168,8 @@ TEST_F(CliMpi, AHangingTrialIsNotedAndStaysPending) {
   const CommandResult result =
       RunOn(2, Drives("a", 2,
                       {"--trial-cpu-limit", "0.01", "--set", "rover.physics.step_s=0.0001", "--set",
-                       "rover.fidelity=multibody"}));
+                       "rover.fidelity=multibody", "--set", "referee.time_limit_s=5000", "--set",
+                       "rover.drive.speed_m_s=0.01"}));
   EXPECT_EQ(result.exit_code, 5) << result.err;
   EXPECT_THAT(result.err, HasSubstr("--trial-cpu-limit"));
   EXPECT_THAT(result.err, HasSubstr("is pending"));

@@ -86,6 +86,19 @@ TEST(Executor, StopsOnRequestAndGoesOnToTheSameHash) {
   EXPECT_EQ(TrialHash(store.Load()), PlainHash());
 }
 
+// A watchdog or a user may ask while the last trial ends.
+TEST(Executor, ThatIsStoppedInItsLastTrialHasFinished) {
+  const TemporaryFolder folder;
+  std::atomic<bool> stop = false;
+  std::atomic<int> started = 0;
+  const FakeExperiment experiment([&](std::uint64_t) {
+    if (++started == kTrials) stop = true;
+  });
+  ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), kTrials);
+  EXPECT_EQ(RunBatch(experiment, store, Options(2), stop).end, BatchEnd::kFinished);
+  EXPECT_EQ(TrialHash(store.Load()), PlainHash());
+}
+
 TEST(Executor, ExtendsARun) {
   const TemporaryFolder folder;
   ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 50);
