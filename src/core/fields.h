@@ -83,6 +83,12 @@ class FieldVisitor {
     value = static_cast<Enum>(index);
   }
 
+  // A choice among names that are known at run time: `index` into `names`.
+  void ChoiceOf(std::string_view name, int& index, std::span<const std::string_view> names,
+                const FieldInfo& info) {
+    ChoiceIndex(name, index, names, info);
+  }
+
   // A nested parameter struct with its own Visit.
   template <typename Params>
   void Group(std::string_view name, Params& params, std::string_view doc) {

@@ -29,7 +29,7 @@ enum class GoalChange {
 // What the navigator knows when it decides.
 struct NavigatorInput {
   double time_s = 0.0;  // on-board clock since the start
-  messages::PoseEstimate estimate;
+  messages::PoseEstimate estimate = {};
   messages::AttitudeEstimate attitude = {};
   // These answer the last request for a look; null at every other tick. A behaviour controller
   // reads the hazard report, a map-based navigator the points.
@@ -47,8 +47,8 @@ struct NavigatorDecision {
   NavigatorStatus status = NavigatorStatus::kDriving;
   // Where set, the rover stops and looks: the next input carries what was seen. The motion is
   // ignored.
-  std::optional<messages::LookDirection> look;
-  messages::MotionCommand motion;
+  std::optional<messages::LookDirection> look = {};
+  messages::MotionCommand motion = {};
 
   bool looks() const { return look.has_value(); }
 };

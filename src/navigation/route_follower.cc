@@ -85,4 +85,21 @@ NavigatorDecision RouteFollower::Steer(const Bearing& bearing, const PoseEstimat
   return {NavigatorStatus::kDriving, {}, motion_};
 }
 
+NavigatorDescription<RouteParams> DescribeRouteFollower() {
+  return {.name = "route",
+          .doc =
+              "follower of the route that an oracle plans (course.oracle_route): perfect path "
+              "selection",
+          .traits = [](const RouteParams& params) -> NavigatorTraits {
+            return {.reads = LookReading::kNothing,
+                    .cost = CostOfLook{},
+                    .goal = GoalTolerance{"goal_tolerance_m", params.goal_tolerance_m},
+                    .follows_route = true};
+          },
+          .make = [](const RouteParams& params,
+                     const NavigatorSetup& setup) -> std::unique_ptr<Navigator> {
+            return std::make_unique<RouteFollower>(params, setup.route);
+          }};
+}
+
 }  // namespace rockyard::navigation

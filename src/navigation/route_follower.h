@@ -7,6 +7,7 @@
 
 #include "messages/route.h"
 #include "navigation/navigator.h"
+#include "navigation/navigator_set_params.h"
 #include "navigation/route_params.h"
 
 namespace rockyard::navigation {
@@ -47,5 +48,8 @@ class RouteFollower final : public Navigator {
   messages::MotionCommand motion_;
   double steered_at_m_ = 0.0;  // odometer
 };
+
+// For a set of navigators.
+NavigatorDescription<RouteParams> DescribeRouteFollower();
 
 }  // namespace rockyard::navigation

@@ -10,9 +10,10 @@
 namespace rockyard::scenario {
 namespace {
 
-Scenario Finish(core::JsonValue document, std::span<const std::string> overrides) {
+Scenario Finish(core::JsonValue document, std::span<const std::string> overrides,
+                const Scenario& defaults) {
   for (const std::string& assignment : overrides) core::ApplyOverride(document, assignment);
-  return ReadScenario(document);
+  return ReadScenario(document, defaults);
 }
 
 // Adds "extends" to an object's schema and to those of the groups in it.
@@ -32,17 +33,19 @@ void AllowExtends(core::JsonValue& schema) {
 
 }  // namespace
 
-Scenario LoadScenario(const std::filesystem::path& path, std::span<const std::string> overrides) {
-  return Finish(core::LoadJsonFile(path), overrides);
+Scenario LoadScenario(const std::filesystem::path& path, std::span<const std::string> overrides,
+                      const Scenario& defaults) {
+  return Finish(core::LoadJsonFile(path), overrides, defaults);
 }
 
 Scenario ParseScenario(std::string_view text, std::span<const std::string> overrides,
-                       const std::filesystem::path& folder) {
-  return Finish(core::ResolveExtends(core::ParseJson(text, "scenario"), folder), overrides);
+                       const std::filesystem::path& folder, const Scenario& defaults) {
+  return Finish(core::ResolveExtends(core::ParseJson(text, "scenario"), folder), overrides,
+                defaults);
 }
 
-Scenario ReadScenario(const core::JsonValue& document) {
-  Scenario scenario;
+Scenario ReadScenario(const core::JsonValue& document, const Scenario& defaults) {
+  Scenario scenario = defaults;
   core::ReadParams(document, scenario);
   return scenario;
 }

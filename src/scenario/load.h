@@ -16,16 +16,17 @@ namespace rockyard::scenario {
 
 // The scenario in a JSON file, any object of which may extend another file (see
 // core::LoadJsonFile), with "PATH=VALUE" overrides applied in order. Keys that are absent keep
-// their defaults. Throws core::UserError with everything that is wrong.
+// their defaults: a program with navigators of its own adds them to those of `defaults`. Throws
+// core::UserError with everything that is wrong.
 Scenario LoadScenario(const std::filesystem::path& path,
-                      std::span<const std::string> overrides = {});
+                      std::span<const std::string> overrides = {}, const Scenario& defaults = {});
 
 // The same from text; "extends" is relative to `folder`.
 Scenario ParseScenario(std::string_view text, std::span<const std::string> overrides = {},
-                       const std::filesystem::path& folder = ".");
+                       const std::filesystem::path& folder = ".", const Scenario& defaults = {});
 
 // The same from a value, for designs and sweeps that change members by core::SetPath.
-Scenario ReadScenario(const core::JsonValue& document);
+Scenario ReadScenario(const core::JsonValue& document, const Scenario& defaults = {});
 
 // Every effective value, as a scenario file that reads back to the same scenario, bit for bit.
 core::JsonValue WriteScenario(const Scenario& scenario);

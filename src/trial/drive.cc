@@ -4,9 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "navigation/gestalt/gestalt.h"
-#include "navigation/pathfinder/pathfinder.h"
-#include "navigation/route_follower.h"
 #include "navigation/stuck_reaction.h"
 #include "perception/tracked_feature.h"
 #include "terrain/arena.h"
@@ -39,17 +36,10 @@ std::optional<ArenaBounds> Bounds(const terrain::ArenaParams& arena) {
 std::unique_ptr<navigation::Navigator> MakePathSelection(const DriveParams& drive,
                                                          const terrain::Terrain& terrain,
                                                          const messages::Goal& goal) {
-  switch (drive.navigation.navigator) {
-    case NavigatorKind::kPathfinder:
-      break;
-    case NavigatorKind::kGestalt:
-      return std::make_unique<navigation::GestaltNavigator>(drive.navigation.gestalt, goal);
-    case NavigatorKind::kRoute:
-      return std::make_unique<navigation::RouteFollower>(drive.navigation.route,
-                                                         PlanRoute(drive, terrain, goal));
-  }
-  return std::make_unique<navigation::PathfinderNavigator>(drive.navigation.pathfinder, goal,
-                                                           drive.perception.hazard.enabled);
+  const navigation::NavigatorKind& chosen = drive.navigation.navigators.chosen();
+  navigation::NavigatorSetup setup{.goal = goal, .judges_hazards = drive.perception.hazard.enabled};
+  if (chosen.traits().follows_route) setup.route = PlanRoute(drive, terrain, goal);
+  return chosen.Make(setup);
 }
 
 bool LooksForStuck(const DriveParams& drive) {
@@ -87,9 +77,10 @@ Zone WatchedZone(const DriveParams& drive) {
           array.half_width_m};
 }
 
-// A map-based navigator reports no hazards, so that none can be met or missed.
+// Where a navigator reads no report, hazards can neither be met nor missed.
 double WatchedHeight(const DriveParams& drive) {
-  return drive.navigation.navigator == NavigatorKind::kPathfinder
+  return *drive.navigation.navigators.chosen().traits().reads ==
+                 navigation::LookReading::kHazardReport
              ? drive.referee.hazard_height_m
              : std::numeric_limits<double>::infinity();
 }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -140,16 +141,14 @@ bool IsLike(double believed_m, double true_m) {
 }
 
 void RequireOwnSize(const DriveParams& drive, core::FieldVisitor& v) {
-  const navigation::GestaltRoverParams& believed = drive.navigation.gestalt.map.rover;
+  const navigation::NavigatorKind& navigator = drive.navigation.navigators.chosen();
+  const std::optional<navigation::BelievedSize> believed = navigator.traits().size;
+  if (!believed) return;
   const rover::RoverGeometryParams& rover = drive.rover.geometry;
-  if (!believed.modelled) return;
-  constexpr std::string_view kModel =
-      "use the size of the rover, e.g. \"extends\": scenarios/navigation/gestalt_rocky_3_2.json in "
-      "navigation.gestalt";
-  v.Require("navigation.gestalt.map.rover.length_m", IsLike(believed.length_m, rover.length_m),
-            "is more than a factor of two from rover.geometry.length_m", kModel);
-  v.Require("navigation.gestalt.map.rover.width_m", IsLike(believed.width_m, rover.width_m),
-            "is more than a factor of two from rover.geometry.width_m", kModel);
+  v.Require(navigator.PathOf(believed->length_path), IsLike(believed->length_m, rover.length_m),
+            "is more than a factor of two from rover.geometry.length_m", believed->suggestion);
+  v.Require(navigator.PathOf(believed->width_path), IsLike(believed->width_m, rover.width_m),
+            "is more than a factor of two from rover.geometry.width_m", believed->suggestion);
 }
 
 // Where the soil does not hold it, a rover that waits slides off, ever faster.
@@ -191,15 +190,18 @@ void RequireLevelStart(const DriveParams& drive, core::FieldVisitor& v) {
 
 // An oracle's route is planned once, from the start to the goal.
 void RequireOnePlan(const DriveParams& drive, core::FieldVisitor& v) {
-  const bool follows = drive.navigation.navigator == NavigatorKind::kRoute;
+  const navigation::NavigatorKind& navigator = drive.navigation.navigators.chosen();
+  const bool follows = navigator.traits().follows_route;
   const CourseParams& course = drive.course;
   v.Require("course.waypoints.x_m", !follows || course.waypoints.x_m.empty(),
-            "names waypoints where navigation.navigator is route, whose oracle plans one way from "
-            "the start to the goal",
+            fmt::format("names waypoints where navigation.navigator is {}, whose oracle plans one "
+                        "way from the start to the goal",
+                        navigator.name()),
             "use navigator pathfinder or gestalt, or a course without waypoints");
   v.Require("course.tracking.enabled", !follows || !course.tracking.enabled,
-            "is true where navigation.navigator is route, which follows a way that was planned "
-            "before",
+            fmt::format("is true where navigation.navigator is {}, which follows a way that was "
+                        "planned before",
+                        navigator.name()),
             "use navigator pathfinder or gestalt, or no tracking");
 }
 
@@ -224,11 +226,11 @@ void RequireEndOfStall(const DriveParams& drive, core::FieldVisitor& v) {
 
 void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v) {
   const bool stereo = drive.sensors.terrain_sensor == TerrainSensor::kStereo;
-  const bool behaviour = drive.navigation.navigator == NavigatorKind::kPathfinder;
-  const bool map = drive.navigation.navigator == NavigatorKind::kGestalt;
+  const bool reads_report = *drive.navigation.navigators.chosen().traits().reads ==
+                            navigation::LookReading::kHazardReport;
   if (stereo) RequireCameras(drive, v);
-  if (stereo && behaviour) RequireArray(drive, v);
-  if (map) RequireOwnSize(drive, v);
+  if (stereo && reads_report) RequireArray(drive, v);
+  RequireOwnSize(drive, v);
   RequireHold(drive, v);
   RequireLevelStart(drive, v);
   RequireEndOfStall(drive, v);

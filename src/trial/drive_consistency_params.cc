@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "rover/body_boxes_params.h"
@@ -64,38 +65,14 @@ void RequireStanding(const rover::RoverParams& rover, core::FieldVisitor& v) {
                         std::floor(1000.0 * range.max_m) / 1000.0));
 }
 
-// The parameter of the navigator in use that says how near counts as arrived.
-struct ArrivalTolerance {
-  std::string_view reason;
-  double tolerance_m;
-};
-
-ArrivalTolerance ToleranceOf(const NavigationParams& navigation) {
-  switch (navigation.navigator) {
-    case NavigatorKind::kPathfinder:
-      break;
-    case NavigatorKind::kGestalt:
-      return {
-          "is below navigation.gestalt.waypoints.goal_tolerance_m, so that a rover without any "
-          "error could arrive falsely",
-          navigation.gestalt.waypoints.goal_tolerance_m};
-    case NavigatorKind::kRoute:
-      return {
-          "is below navigation.route.goal_tolerance_m, so that a rover without any error could "
-          "arrive falsely",
-          navigation.route.goal_tolerance_m};
-  }
-  return {
-      "is below navigation.pathfinder.goal_tolerance_m, so that a rover without any error could "
-      "arrive falsely",
-      navigation.pathfinder.goal_tolerance_m};
-}
-
 // What an arrival of the navigator means.
 void RequireArrival(const DriveParams& drive, core::FieldVisitor& v) {
-  const ArrivalTolerance arrival = ToleranceOf(drive.navigation);
+  const navigation::NavigatorKind& navigator = drive.navigation.navigators.chosen();
+  const navigation::GoalTolerance arrival = *navigator.traits().goal;
   v.Require("course.goal_radius_m", drive.course.goal_radius_m >= arrival.tolerance_m,
-            arrival.reason, "use a goal radius of at least the navigator's tolerance");
+            fmt::format("is below {}, so that a rover without any error could arrive falsely",
+                        navigator.PathOf(arrival.path)),
+            "use a goal radius of at least the navigator's tolerance");
 }
 
 // Whether the light stripe sensor has any part in the experiment.
@@ -104,23 +81,22 @@ bool UsesLightStripe(const DriveParams& drive, LightStripeUse use) {
          drive.sensors.terrain_sensor == TerrainSensor::kLightStripe;
 }
 
-// What the behaviour controller takes for left, centre and right.
+// What a behaviour controller takes for left, centre and right.
 void RequireStripes(const DriveParams& drive, LightStripeUse use, core::FieldVisitor& v) {
-  const NavigationParams& navigation = drive.navigation;
-  if (navigation.navigator != NavigatorKind::kPathfinder) return;
+  const navigation::NavigatorKind& navigator = drive.navigation.navigators.chosen();
+  const std::optional<navigation::StripeNames> named = navigator.traits().stripes;
+  if (!named) return;
   const bool light_stripe = UsesLightStripe(drive, use);
-  v.Require("navigation.pathfinder.left_stripes",
-            !light_stripe || navigation.pathfinder.stripe_count() ==
-                                 sensing::ArraySize(drive.sensors.light_stripe).stripes,
-            "names with centre_stripes and right_stripes another number of stripes than "
-            "sensors.light_stripe has",
+  v.Require(navigator.PathOf(named->path),
+            !light_stripe || named->count == sensing::ArraySize(drive.sensors.light_stripe).stripes,
+            fmt::format("{} another number of stripes than sensors.light_stripe has", named->names),
             "name every stripe of a denser array, e.g. left [0, 1, 2, 3], centre [4], right [5, 6, "
             "7, 8]");
-  v.Require("navigation.pathfinder.left_stripes",
-            light_stripe || static_cast<std::int64_t>(navigation.pathfinder.stripe_count()) ==
+  v.Require(navigator.PathOf(named->path),
+            light_stripe || static_cast<std::int64_t>(named->count) ==
                                 drive.perception.cloud_elevations.stripes,
-            "names with centre_stripes and right_stripes another number of stripes than "
-            "perception.cloud_elevations.stripes",
+            fmt::format("{} another number of stripes than perception.cloud_elevations.stripes",
+                        named->names),
             "name every stripe of the array, from left to right");
 }
 

@@ -1,6 +1,7 @@
 #include "trial/look_time.h"
 
-#include <cmath>
+#include <optional>
+#include <variant>
 
 #include "trial/compute_profile.h"
 #include "trial/scan_time.h"
@@ -8,19 +9,41 @@
 namespace rockyard::trial {
 namespace {
 
+using navigation::CostOfJudgement;
+using navigation::CostOfLook;
+using navigation::CostOfMap;
+using navigation::DecisionCost;
+
+DecisionCost CostOf(const DriveParams& drive) {
+  return *drive.navigation.navigators.chosen().traits().cost;
+}
+
+// The map that the computer sets up when it starts: the navigator's, or where that keeps none, the
+// first one of the software, which is on board whoever decides.
+GridSize GridOf(const DriveParams& drive) {
+  const auto grid_of = [](const DecisionCost& cost) -> std::optional<GridSize> {
+    const auto* map = std::get_if<CostOfMap>(&cost);
+    if (map == nullptr) return std::nullopt;
+    return GridSize{.cell_m = map->cell_m, .area_m2 = map->area_m2};
+  };
+  if (const auto own = grid_of(CostOf(drive))) return *own;
+  for (const auto& kind : drive.navigation.navigators.kinds()) {
+    if (const auto other = grid_of(*kind->traits().cost)) return *other;
+  }
+  return {};
+}
+
 ComputeTimes ComputeTimesOf(const DriveParams& drive) {
-  const navigation::GestaltGridParams& grid = drive.navigation.gestalt.map.grid;
-  return MakeComputeTimes(drive.clock.compute,
-                          {.cell_m = std::sqrt(grid.xstep_m * grid.ystep_m),
-                           .area_m2 = (grid.xN_m - grid.x0_m) * (grid.yN_m - grid.y0_m)});
+  return MakeComputeTimes(drive.clock.compute, GridOf(drive));
 }
 
 bool UsesNavigationSoftware(const DriveParams& drive) {
-  return drive.navigation.navigator == NavigatorKind::kGestalt;
+  return std::holds_alternative<CostOfMap>(CostOf(drive));
 }
 
 bool JudgesElevations(const DriveParams& drive) {
-  return drive.clock.compute.computer != Computer::kNone && !UsesNavigationSoftware(drive);
+  return drive.clock.compute.computer != Computer::kNone &&
+         std::holds_alternative<CostOfJudgement>(CostOf(drive));
 }
 
 }  // namespace
@@ -29,6 +52,8 @@ LookTime MakeLookTime(const DriveParams& drive) {
   const ComputeTimes times = ComputeTimesOf(drive);
   LookTime look;
   if (UsesNavigationSoftware(drive)) look.computing_s += times.navigation_s;
+  const DecisionCost cost = CostOf(drive);
+  if (const auto* own = std::get_if<CostOfLook>(&cost)) look.computing_s += own->time_s;
   if (drive.sensors.terrain_sensor == TerrainSensor::kLightStripe) {
     look.scanning_s = ScanTime(drive.clock, drive.sensors.light_stripe);
     return look;

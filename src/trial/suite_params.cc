@@ -40,14 +40,7 @@ void PerceptionParams::Visit(core::FieldVisitor& v) {
 }
 
 void NavigationParams::Visit(core::FieldVisitor& v) {
-  v.Choice("navigator", navigator,
-           {.doc = "what decides the motions; the groups of other navigators do nothing",
-            .origin = Origin::kSetting});
-  v.Group("pathfinder", pathfinder, "behaviour controller");
-  v.Group("gestalt", gestalt, "map-based navigator");
-  v.Group(
-      "route", route,
-      "follower of the route that an oracle plans (course.oracle_route): perfect path selection");
+  navigators.Visit(v);
   v.Group("on_board_stuck", on_board_stuck,
           "what a rover does that notices that it is stuck, whichever its navigator");
   v.Group("wheel_driver", wheel_driver, "from motions to wheel and steering set points");

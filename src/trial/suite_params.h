@@ -5,9 +5,8 @@
 #include <string_view>
 
 #include "core/fields.h"
-#include "navigation/gestalt/gestalt_params.h"
-#include "navigation/pathfinder/pathfinder_params.h"
-#include "navigation/route_params.h"
+#include "navigation/navigator_set_params.h"
+#include "navigation/standard_navigators_params.h"
 #include "navigation/stuck_reaction_params.h"
 #include "navigation/wheel_driver_params.h"
 #include "perception/attitude_params.h"
@@ -40,12 +39,6 @@ enum class TerrainSensor {
   kStereo,       // Goldberg 2002: cameras at the front and at the rear
 };
 
-enum class NavigatorKind {
-  kPathfinder,  // behaviour controller of Matthies 1995, section 7
-  kGestalt,     // map of Goldberg 2002, section 4
-  kRoute,       // an oracle: a route by true knowledge of the rocks, followed by dead reckoning
-};
-
 struct SensorParams {
   Localization localization = Localization::kDeadReckoning;
   TerrainSensor terrain_sensor = TerrainSensor::kLightStripe;
@@ -74,10 +67,7 @@ struct PerceptionParams {
 };
 
 struct NavigationParams {
-  NavigatorKind navigator = NavigatorKind::kPathfinder;
-  navigation::PathfinderParams pathfinder;
-  navigation::GestaltParams gestalt;
-  navigation::RouteParams route;
+  navigation::NavigatorSet navigators = navigation::StandardNavigators();
   navigation::StuckReactionParams on_board_stuck;
   navigation::WheelDriverParams wheel_driver;
 
@@ -94,9 +84,4 @@ struct rockyard::core::EnumNames<rockyard::trial::Localization> {
 template <>
 struct rockyard::core::EnumNames<rockyard::trial::TerrainSensor> {
   static constexpr std::array<std::string_view, 2> kNames{"light_stripe", "stereo"};
-};
-
-template <>
-struct rockyard::core::EnumNames<rockyard::trial::NavigatorKind> {
-  static constexpr std::array<std::string_view, 3> kNames{"pathfinder", "gestalt", "route"};
 };

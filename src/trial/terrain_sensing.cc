@@ -11,7 +11,8 @@ using messages::LookDirection;
 
 TerrainSensing::TerrainSensing(const DriveParams& drive, core::TrialKey key, ScanWatcher watcher)
     : key_(key),
-      reads_points_(drive.navigation.navigator == NavigatorKind::kGestalt),
+      reads_points_(*drive.navigation.navigators.chosen().traits().reads ==
+                    navigation::LookReading::kPoints),
       scanner_(drive, std::move(watcher)),
       triangulator_(
           OnboardStripeCalibration(drive.sensors.light_stripe, drive.perception.calibration)),

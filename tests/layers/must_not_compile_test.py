@@ -81,6 +81,31 @@ class CheatingNavigator(unittest.TestCase):
         self.assertRegex(result.stderr, rf"{header}.*(No such file|file not found)")
 
 
+class UnstatedTraits(unittest.TestCase):
+    """A navigator that leaves open what it reads, costs or tolerates."""
+
+    STATED = {"reads": "LookReading::kPoints", "cost": "CostOfLook{}", "goal": "GoalTolerance{}"}
+
+    def compile_traits(self, names):
+        members = ", ".join(f".{name} = {self.STATED[name]}" for name in names)
+        return compile_source("navigation", [], f"""
+            #include "navigation/navigator_traits_params.h"
+            namespace rockyard::navigation {{
+            NavigatorTraits Traits() {{ return {{{members}}}; }}
+            }}""")
+
+    def test_control_compiles(self):
+        result = self.compile_traits(self.STATED)
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_none_may_be_left_out(self):
+        for left_out in self.STATED:
+            with self.subTest(left_out=left_out):
+                result = self.compile_traits([name for name in self.STATED if name != left_out])
+                self.assertNotEqual(result.returncode, 0)
+                self.assertIn("Stated", result.stderr)
+
+
 class CheatingGestalt(unittest.TestCase):
     """The real sources of the map-based navigator, as they are and with one include more."""
 

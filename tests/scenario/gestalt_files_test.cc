@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/json_text.h"
+#include "navigation/gestalt/gestalt_params.h"
 #include "scenario/load.h"
 
 namespace rockyard::scenario {
@@ -52,8 +53,8 @@ TEST(GestaltFilesTest, EveryFileDrivesAPublishedOrNamedPair) {
     const bool behaviour = name.find("_behaviour") != std::string::npos;
     const bool light_stripe = name.ends_with("_behaviour");
     EXPECT_EQ(scenario.name, "gestalt_" + name);
-    EXPECT_EQ(scenario.drive.navigation.navigator,
-              behaviour ? trial::NavigatorKind::kPathfinder : trial::NavigatorKind::kGestalt)
+    EXPECT_EQ(scenario.drive.navigation.navigators.chosen().name(),
+              behaviour ? "pathfinder" : "gestalt")
         << name;
     EXPECT_EQ(scenario.drive.sensors.terrain_sensor,
               light_stripe ? trial::TerrainSensor::kLightStripe : trial::TerrainSensor::kStereo)
@@ -107,8 +108,9 @@ TEST(GestaltFilesTest, TheAthenaSdmKeepsTable1) {
   const std::string published = GroupText(Scenario{}, "navigation");
   for (const char* name : {"viking_lander_2", "narrow_course", "abundance", "localization_error"}) {
     Scenario scenario = Load(name);
-    scenario.drive.navigation.navigator = trial::NavigatorKind::kPathfinder;  // the default
-    navigation::GestaltParams& gestalt = scenario.drive.navigation.gestalt;
+    scenario.drive.navigation.navigators.Choose("pathfinder");  // the default
+    navigation::GestaltParams& gestalt =
+        scenario.drive.navigation.navigators.params<navigation::GestaltParams>();
     gestalt.map.step_reference = navigation::StepReference::kLevel;
     gestalt.map.tests.pitch = false;
     gestalt.drive.backward_arcs = navigation::BackwardArcs::kBelowThreshold;
@@ -119,7 +121,8 @@ TEST(GestaltFilesTest, TheAthenaSdmKeepsTable1) {
 
 TEST(GestaltFilesTest, Rocky32IsModelledAtItsSize) {
   const Scenario scenario = Load("abundance_rocky_3_2");
-  const navigation::GestaltRoverParams& model = scenario.drive.navigation.gestalt.map.rover;
+  const navigation::GestaltRoverParams& model =
+      scenario.drive.navigation.navigators.params<navigation::GestaltParams>().map.rover;
   const rover::RoverGeometryParams& geometry = scenario.drive.rover.geometry;
   EXPECT_EQ(model.length_m, geometry.length_m);
   EXPECT_EQ(model.width_m, geometry.width_m);

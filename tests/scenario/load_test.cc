@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/json_text.h"
+#include "navigation/pathfinder/pathfinder_params.h"
 
 namespace rockyard::scenario {
 namespace {
@@ -53,9 +54,12 @@ TEST(LoadTest, ReadsEveryPart) {
   EXPECT_EQ(scenario.drive.terrain.rocks.count, 10);
   EXPECT_EQ(scenario.drive.sensors.localization, trial::Localization::kOracle);
   EXPECT_EQ(scenario.drive.sensors.gyro.scale, 1.0);
-  EXPECT_EQ(scenario.drive.navigation.pathfinder.turn_direction,
-            navigation::TurnDirection::kEachScan);
-  EXPECT_EQ(scenario.drive.navigation.pathfinder.turn_increment_rad, math::DegToRad(20.0));
+  EXPECT_EQ(
+      scenario.drive.navigation.navigators.params<navigation::PathfinderParams>().turn_direction,
+      navigation::TurnDirection::kEachScan);
+  EXPECT_EQ(scenario.drive.navigation.navigators.params<navigation::PathfinderParams>()
+                .turn_increment_rad,
+            math::DegToRad(20.0));
   EXPECT_EQ(scenario.drive.course.goal_x_m, 5.0);
 }
 

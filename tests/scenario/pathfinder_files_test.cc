@@ -8,6 +8,7 @@
 
 #include "core/json_file.h"
 #include "core/json_text.h"
+#include "navigation/pathfinder/pathfinder_params.h"
 #include "scenario/load.h"
 
 namespace rockyard::scenario {
@@ -133,7 +134,9 @@ TEST(PathfinderFilesTest, TestArenaIsPublished) {
   EXPECT_EQ(nominal.drive.terrain.arena.mirror_margin_m, 0.9);              // sec. 7
   EXPECT_NEAR(2.0 * nominal.drive.terrain.arena.MirrorLine(), 2.2, 1e-12);  // central 2.2 m
   EXPECT_EQ(nominal.drive.rover.drive.speed_m_s, 0.15);                     // sec. 5
-  EXPECT_EQ(nominal.drive.navigation.pathfinder.scan_interval_m, 0.065);    // one wheel radius
+  EXPECT_EQ(
+      nominal.drive.navigation.navigators.params<navigation::PathfinderParams>().scan_interval_m,
+      0.065);                                                               // one wheel radius
   EXPECT_EQ(nominal.drive.sensors.gyro.heading_variance_deg2_per_m, 0.70);  // sec. 5
   EXPECT_EQ(nominal.drive.sensors.encoders.distance_variance_m2_per_m, 0.0039);
   EXPECT_EQ(nominal.drive.sensors.gyro.scale, 0.94);  // sec. 8

@@ -45,8 +45,8 @@ TEST(SweepFilesTest, NavigatorsMeetTheSameRocks) {
     const Scenario& behaviour = sweep.cells[i].scenario;
     const Scenario& gestalt = sweep.cells[i + 4].scenario;
     EXPECT_EQ(behaviour.seed, gestalt.seed);
-    EXPECT_EQ(behaviour.drive.navigation.navigator, trial::NavigatorKind::kPathfinder);
-    EXPECT_EQ(gestalt.drive.navigation.navigator, trial::NavigatorKind::kGestalt);
+    EXPECT_EQ(behaviour.drive.navigation.navigators.chosen().name(), "pathfinder");
+    EXPECT_EQ(gestalt.drive.navigation.navigators.chosen().name(), "gestalt");
     EXPECT_EQ(behaviour.drive.terrain.rocks.k_per_m2, gestalt.drive.terrain.rocks.k_per_m2);
     EXPECT_EQ(behaviour.drive.course.goal_x_m, gestalt.drive.course.goal_x_m);
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "navigation/pathfinder/pathfinder_params.h"
 #include "trial/drive_monitor.h"
 #include "trial/pathfinder_trials.h"
 
@@ -15,8 +16,9 @@ namespace {
 TEST(ClosedLoopTest, PerfectLocalizationNeverArrivesBeforeTheGoal) {
   const DriveParams drive = Pathfinder("nominal_perfect_localization");
   const double tick_m = drive.rover.drive.speed_m_s / drive.clock.control_rate_hz;
-  const double shortest_m = drive.course.goal_x_m - drive.course.start_x_m -
-                            drive.navigation.pathfinder.goal_tolerance_m - tick_m;
+  const double shortest_m =
+      drive.course.goal_x_m - drive.course.start_x_m -
+      drive.navigation.navigators.params<navigation::PathfinderParams>().goal_tolerance_m - tick_m;
   int arrived = 0;
   for (const DriveResult& result : RunTrials(drive, 40)) {
     const truth::DriveRecord& record = result.record;
@@ -27,7 +29,8 @@ TEST(ClosedLoopTest, PerfectLocalizationNeverArrivesBeforeTheGoal) {
     ++arrived;
     // A chord that a reflection cuts off is not counted.
     EXPECT_GE(record.true_distance_m, shortest_m - record.reflections * DriveMonitor::kChord_m);
-    EXPECT_LE(record.true_goal_distance_m, drive.navigation.pathfinder.goal_tolerance_m);
+    EXPECT_LE(record.true_goal_distance_m,
+              drive.navigation.navigators.params<navigation::PathfinderParams>().goal_tolerance_m);
   }
   EXPECT_GT(arrived, 20);
 }

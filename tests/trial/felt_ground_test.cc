@@ -6,6 +6,7 @@
 
 #include "core/distributions.h"
 #include "gestalt_trials.h"
+#include "navigation/gestalt/gestalt_params.h"
 
 namespace rockyard::trial {
 namespace {
@@ -81,7 +82,9 @@ TEST(FeltGround, ASingleRockThatMayBeDrivenOverRaisesNothing) {
           rock.scenario, one.AsOverrides() + fidelity +
                              Overrides{"course.goal_x_m=3", "navigation.navigator=pathfinder",
                                        "perception.hazard.enabled=false"});
-      EXPECT_NEAR(drive.navigation.gestalt.map.rover.obst_height_m, rock.height_m, 1e-9);
+      EXPECT_NEAR(
+          drive.navigation.navigators.params<navigation::GestaltParams>().map.rover.obst_height_m,
+          rock.height_m, 1e-9);
       const DriveResult result = RunTrial(drive, {1, 0});
       EXPECT_GT(result.record.max_bogie_deg, 30.0) << "it did drive over the rock";
       EXPECT_EQ(result.record.safeguard_stops, 0.0);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "navigation/gestalt/gestalt_params.h"
 #include "trial/compute_profile.h"
 #include "trial/gestalt_trials.h"
 #include "trial/look_time.h"
@@ -23,10 +24,13 @@ TEST(GestaltDriveTest, ArrivesOnEmptySandWithEitherRover) {
     EXPECT_EQ(result.outcome, TrialOutcome::kGoalReached) << name << ": " << result.detail;
     EXPECT_EQ(result.record.rear_image_sets, 0.0) << name;
     EXPECT_EQ(result.record.point_turns, 0.0) << name;
-    const double tolerance_m = drive.navigation.gestalt.waypoints.goal_tolerance_m;
+    const double tolerance_m =
+        drive.navigation.navigators.params<navigation::GestaltParams>().waypoints.goal_tolerance_m;
     EXPECT_NEAR(result.record.true_distance_m, 3.0 - tolerance_m, tolerance_m) << name;
     // Straight ahead: one image set for each step.
-    const double steps = std::ceil((3.0 - tolerance_m) / drive.navigation.gestalt.drive.step_m);
+    const double steps =
+        std::ceil((3.0 - tolerance_m) /
+                  drive.navigation.navigators.params<navigation::GestaltParams>().drive.step_m);
     EXPECT_NEAR(result.record.moves, steps, 1.0) << name;
     EXPECT_EQ(result.record.image_sets, result.record.moves) << name;
   }

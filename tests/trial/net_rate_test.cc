@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "navigation/pathfinder/pathfinder_params.h"
 #include "pathfinder_trials.h"
 
 namespace rockyard::trial {
@@ -21,7 +22,10 @@ double ClosedForm(const DriveParams& drive, double scans_per_step) {
   const double speed_m_s = drive.rover.drive.speed_m_s;
   const double tick_m = speed_m_s / drive.clock.control_rate_hz;
   const double step_m =
-      std::ceil(drive.navigation.pathfinder.scan_interval_m / tick_m - 1e-9) * tick_m;
+      std::ceil(drive.navigation.navigators.params<navigation::PathfinderParams>().scan_interval_m /
+                    tick_m -
+                1e-9) *
+      tick_m;
   return step_m /
          (step_m / speed_m_s + drive.clock.stop_time_s + scans_per_step * drive.clock.scan_time_s);
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/hash.h"
+#include "navigation/pathfinder/pathfinder_params.h"
 #include "pathfinder_trials.h"
 #include "sensing/light_stripe.h"
 #include "terrain/field.h"
@@ -84,10 +85,12 @@ std::vector<math::Transform> TrackOf(const DriveParams& drive, std::uint32_t ind
   math::Pose2 last;
   for (const truth::TraceSample& sample : RunTraced(drive, index).trace.samples) {
     const math::Pose2& pose = sample.pose;
-    const bool turned = std::abs(math::WrapAngle(pose.heading_rad - last.heading_rad)) >=
-                        drive.navigation.pathfinder.turn_increment_rad;
-    const bool drove = std::hypot(pose.x_m - last.x_m, pose.y_m - last.y_m) >=
-                       drive.navigation.pathfinder.scan_interval_m;
+    const bool turned =
+        std::abs(math::WrapAngle(pose.heading_rad - last.heading_rad)) >=
+        drive.navigation.navigators.params<navigation::PathfinderParams>().turn_increment_rad;
+    const bool drove =
+        std::hypot(pose.x_m - last.x_m, pose.y_m - last.y_m) >=
+        drive.navigation.navigators.params<navigation::PathfinderParams>().scan_interval_m;
     if (!poses.empty() && !turned && !drove) continue;
     last = pose;
     math::Transform X_WR = math::Transform::Identity();

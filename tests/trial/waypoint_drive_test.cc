@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "navigation/gestalt/gestalt_params.h"
+#include "navigation/pathfinder/pathfinder_params.h"
 #include "terrain/field.h"
 #include "trial/gestalt_trials.h"
 #include "trial/layout.h"
@@ -45,9 +47,11 @@ TEST(WaypointDriveTest, AnLIsDrivenFromWaypointToWaypoint) {
     EXPECT_EQ(trial.result.record.waypoints_reached, 2.0);
     const auto reached = EventsOf(trial.trace, "waypoint");
     ASSERT_EQ(reached.size(), 2U) << navigator;
-    const double tolerance_m = navigator == std::string("gestalt")
-                                   ? drive.navigation.gestalt.waypoints.goal_tolerance_m
-                                   : drive.navigation.pathfinder.goal_tolerance_m;
+    const double tolerance_m =
+        navigator == std::string("gestalt")
+            ? drive.navigation.navigators.params<navigation::GestaltParams>()
+                  .waypoints.goal_tolerance_m
+            : drive.navigation.navigators.params<navigation::PathfinderParams>().goal_tolerance_m;
     const std::vector<messages::Goal> goals = drive.course.Goals();
     for (std::size_t i = 0; i < reached.size(); ++i) {
       EXPECT_LE(Between(reached[i].pose, goals[i]), tolerance_m + 1e-9) << navigator;

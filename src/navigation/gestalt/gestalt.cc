@@ -10,6 +10,11 @@
 namespace rockyard::navigation {
 namespace {
 
+CostOfMap CostOf(const GestaltGridParams& grid) {
+  return {.cell_m = std::sqrt(grid.xstep_m * grid.ystep_m),
+          .area_m2 = (grid.xN_m - grid.x0_m) * (grid.yN_m - grid.y0_m)};
+}
+
 using messages::LookDirection;
 using messages::MotionCommand;
 using messages::MotionKind;
@@ -294,6 +299,28 @@ bool GestaltNavigator::TimedOut(const NavigatorInput& input) const {
 
 bool GestaltNavigator::AtGoal(const PoseEstimate& estimate) const {
   return TowardsGoal(estimate, goal_).distance_m <= params_.waypoints.goal_tolerance_m;
+}
+
+NavigatorDescription<GestaltParams> DescribeGestalt() {
+  return {.name = "gestalt",
+          .doc = "map-based navigator",
+          .traits = [](const GestaltParams& params) -> NavigatorTraits {
+            const GestaltRoverParams& rover = params.map.rover;
+            NavigatorTraits traits{.reads = LookReading::kPoints,
+                                   .cost = CostOf(params.map.grid),
+                                   .goal = GoalTolerance{"waypoints.goal_tolerance_m",
+                                                         params.waypoints.goal_tolerance_m}};
+            if (!rover.modelled) return traits;
+            traits.size = BelievedSize{
+                "map.rover.length_m", rover.length_m, "map.rover.width_m", rover.width_m,
+                "use the size of the rover, e.g. \"extends\": "
+                "scenarios/navigation/gestalt_rocky_3_2.json in navigation.gestalt"};
+            return traits;
+          },
+          .make = [](const GestaltParams& params,
+                     const NavigatorSetup& setup) -> std::unique_ptr<Navigator> {
+            return std::make_unique<GestaltNavigator>(params, setup.goal);
+          }};
 }
 
 }  // namespace rockyard::navigation

@@ -29,6 +29,7 @@
 #include "navigation/gestalt/map.h"
 #include "navigation/gestalt/votes.h"
 #include "navigation/navigator.h"
+#include "navigation/navigator_set_params.h"
 #include "navigation/odometry_frame.h"
 
 namespace rockyard::navigation {
@@ -113,5 +114,8 @@ class GestaltNavigator final : public Navigator {
   std::int64_t decisions_ = 0;
   messages::NavigationView view_;
 };
+
+// For a set of navigators.
+NavigatorDescription<GestaltParams> DescribeGestalt();
 
 }  // namespace rockyard::navigation

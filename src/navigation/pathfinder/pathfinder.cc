@@ -231,4 +231,21 @@ bool PathfinderNavigator::AtGoal(const PoseEstimate& estimate) const {
   return GoalDistance(estimate) <= params_.goal_tolerance_m;
 }
 
+NavigatorDescription<PathfinderParams> DescribePathfinder() {
+  return {.name = "pathfinder",
+          .doc = "behaviour controller",
+          .traits = [](const PathfinderParams& params) -> NavigatorTraits {
+            return {.reads = LookReading::kHazardReport,
+                    .cost = CostOfJudgement{},
+                    .goal = GoalTolerance{"goal_tolerance_m", params.goal_tolerance_m},
+                    .stripes =
+                        StripeNames{"left_stripes", "names with centre_stripes and right_stripes",
+                                    params.stripe_count()}};
+          },
+          .make = [](const PathfinderParams& params,
+                     const NavigatorSetup& setup) -> std::unique_ptr<Navigator> {
+            return std::make_unique<PathfinderNavigator>(params, setup.goal, setup.judges_hazards);
+          }};
+}
+
 }  // namespace rockyard::navigation

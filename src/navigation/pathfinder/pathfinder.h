@@ -16,6 +16,7 @@
 #include <optional>
 
 #include "navigation/navigator.h"
+#include "navigation/navigator_set_params.h"
 #include "navigation/pathfinder/pathfinder_params.h"
 #include "navigation/pathfinder/rules.h"
 #include "navigation/pathfinder/vehicle_reaction.h"
@@ -83,5 +84,8 @@ class PathfinderNavigator final : public Navigator {
   std::optional<int> avoid_direction_;  // latched while avoiding
   double avoided_turn_rad_ = 0.0;       // measured since the hazard appeared
 };
+
+// For a set of navigators.
+NavigatorDescription<PathfinderParams> DescribePathfinder();
 
 }  // namespace rockyard::navigation

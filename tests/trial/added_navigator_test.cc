@@ -1,0 +1,187 @@
+// A navigator that no file of rockyard knows drives a trial: all that the trial asks it are its
+// traits.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/archive.h"
+#include "core/error.h"
+#include "navigation/navigator.h"
+#include "pathfinder_trials.h"
+#include "trial/look_time.h"
+
+namespace rockyard::trial {
+namespace {
+
+using navigation::CostOfJudgement;
+using navigation::CostOfLook;
+using navigation::CostOfMap;
+using navigation::LookReading;
+using testing::HasSubstr;
+
+// What the toy is told and what it does, for one test at a time.
+struct ToyParams {
+  double goal_tolerance_m = 0.1;
+  std::int64_t looks = 2;  // before it gives up
+  LookReading reads = LookReading::kHazardReport;
+  navigation::DecisionCost cost = CostOfJudgement{};
+  std::optional<navigation::StripeNames> stripes = {};
+  std::optional<navigation::BelievedSize> size = {};
+  bool follows_route = false;
+  struct Seen {
+    int reports = 0;
+    int clouds = 0;
+    std::size_t corners = 0;
+    bool judges_hazards = false;
+  };
+  std::shared_ptr<Seen> seen = std::make_shared<Seen>();
+
+  void Visit(core::FieldVisitor& v) {
+    v.Integer("looks", looks, {.doc = "before it gives up", .min = 0, .max = 100});
+  }
+};
+
+// Stands, looks, and gives up.
+class Toy final : public navigation::Navigator {
+ public:
+  Toy(const ToyParams& params, const navigation::NavigatorSetup& setup) : params_(params) {
+    params_.seen->corners = setup.route.corners.size();
+    params_.seen->judges_hazards = setup.judges_hazards;
+  }
+
+  navigation::NavigatorDecision Decide(const navigation::NavigatorInput& input) override {
+    params_.seen->reports += input.report != nullptr ? 1 : 0;
+    params_.seen->clouds += input.cloud != nullptr ? 1 : 0;
+    if (looks_ == params_.looks) return {.status = navigation::NavigatorStatus::kGaveUp};
+    ++looks_;
+    return {.look = messages::LookDirection::kAhead};
+  }
+  void OnPoseUpdate(const messages::PoseEstimate&, const messages::PoseEstimate&) override {}
+  void SetGoal(const messages::Goal&, navigation::GoalChange) override {}
+
+ private:
+  ToyParams params_;
+  std::int64_t looks_ = 0;
+};
+
+DriveParams WithToy(const ToyParams& params, const Overrides& overrides = {}) {
+  scenario::Scenario defaults;
+  defaults.drive.navigation.navigators.Add<ToyParams>(
+      {.name = "toy",
+       .doc = "looks and gives up",
+       .traits = [](const ToyParams& p) -> navigation::NavigatorTraits {
+         return {.reads = p.reads,
+                 .cost = p.cost,
+                 .goal = navigation::GoalTolerance{"goal_tolerance_m", p.goal_tolerance_m},
+                 .stripes = p.stripes,
+                 .size = p.size,
+                 .follows_route = p.follows_route};
+       },
+       .make = [](const ToyParams& p, const navigation::NavigatorSetup& setup)
+           -> std::unique_ptr<navigation::Navigator> { return std::make_unique<Toy>(p, setup); }},
+      params);
+  Overrides all = {"navigation.navigator=toy", "rover.fidelity=quasi_static"};
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  return scenario::LoadScenario(
+             std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/nominal.json", all, defaults)
+      .drive;
+}
+
+// "PATH REASON" of the only thing that is wrong.
+std::string ProblemOf(const ToyParams& params, const Overrides& overrides = {}) {
+  try {
+    WithToy(params, overrides);
+  } catch (const core::UserError& error) {
+    EXPECT_EQ(error.problems().size(), 1U);
+    return error.problems()[0].path + " " + error.problems()[0].reason;
+  }
+  return "";
+}
+
+// A rock of 40 cm that a rover at the start has in its array.
+const Overrides kRockAhead = {"terrain.rocks.kind=listed",
+                              "terrain.rocks.listed.x_m=[1.6]",
+                              "terrain.rocks.listed.y_m=[0.0]",
+                              "terrain.rocks.listed.diameter_m=[0.4]",
+                              "terrain.rocks.listed.height_m=[0.3]",
+                              "terrain.rocks.clear_radius_m=0",
+                              "course.start_x_m=1.0"};
+
+TEST(AddedNavigator, GetsWhatItReadsAndItsKeysAreReadFromTheScenario) {
+  ToyParams params;
+  DriveResult result = RunTrial(WithToy(params, {"navigation.toy.looks=3"}), {1, 0});
+  EXPECT_EQ(result.outcome, truth::TrialOutcome::kNoPath);
+  EXPECT_EQ(params.seen->reports, 3);
+  EXPECT_EQ(params.seen->clouds, 0);
+  EXPECT_TRUE(params.seen->judges_hazards);
+  EXPECT_EQ(params.seen->corners, 0U);
+
+  ToyParams points = {.reads = LookReading::kPoints};
+  RunTrial(WithToy(points), {1, 0});
+  EXPECT_EQ(points.seen->reports, 0);
+  EXPECT_EQ(points.seen->clouds, 2);
+
+  ToyParams blind;
+  RunTrial(WithToy(blind, {"perception.hazard.enabled=false"}), {1, 0});
+  EXPECT_FALSE(blind.seen->judges_hazards);
+}
+
+// The rock is met by whoever is told of hazards, and by nobody else.
+TEST(AddedNavigator, MeetsHazardsWhereItReadsReports) {
+  ToyParams params;
+  EXPECT_EQ(RunTrial(WithToy(params, kRockAhead), {1, 0}).record.hazards_met, 1.0);
+  params.reads = LookReading::kPoints;
+  EXPECT_EQ(RunTrial(WithToy(params, kRockAhead), {1, 0}).record.hazards_met, 0.0);
+}
+
+TEST(AddedNavigator, FollowsTheRouteOfAnOracleWhereItAsksForOne) {
+  ToyParams params;
+  params.follows_route = true;
+  RunTrial(WithToy(params), {1, 0});
+  EXPECT_GE(params.seen->corners, 1U);
+  EXPECT_THAT(ProblemOf(params, {"course.waypoints.x_m=[2]", "course.waypoints.y_m=[0]"}),
+              HasSubstr("course.waypoints.x_m names waypoints where navigation.navigator is toy"));
+  EXPECT_THAT(ProblemOf(params, {"course.tracking.enabled=true"}),
+              HasSubstr("course.tracking.enabled is true where navigation.navigator is toy"));
+}
+
+// A look with stereo on the Athena SDM, with the costs that a navigator can have.
+TEST(AddedNavigator, ALookTakesWhatItsDecisionCosts) {
+  const Overrides stereo = {"sensors.terrain_sensor=stereo", "terrain.rocks.pointedness=0",
+                            "clock.compute.computer=r3000_12mhz", "clock.compute.behaviour_s=0.75"};
+  ToyParams params = {.reads = LookReading::kNothing};
+  const auto computing_s = [&](const navigation::DecisionCost& cost) {
+    params.cost = cost;
+    return MakeLookTime(WithToy(params, stereo)).computing_s;
+  };
+  const double stereo_s = computing_s(CostOfLook{});
+  EXPECT_DOUBLE_EQ(computing_s(CostOfLook{1.5}), stereo_s + 1.5);
+  EXPECT_DOUBLE_EQ(computing_s(CostOfJudgement{}), stereo_s + 0.75);
+  // Goldberg 2002, table 2: rows of cells grow with the area, path votes do not.
+  const double map_s = computing_s(CostOfMap{0.2, 100.0}) - stereo_s;
+  const double wide_s = computing_s(CostOfMap{0.2, 200.0}) - stereo_s;
+  EXPECT_GT(map_s, 0.0);
+  EXPECT_GT(wide_s, map_s);
+  EXPECT_LT(wide_s, 2.0 * map_s);
+}
+
+TEST(AddedNavigator, ItsConditionsNameItsOwnParameters) {
+  EXPECT_THAT(ProblemOf({.goal_tolerance_m = 5.0}),
+              HasSubstr("course.goal_radius_m is below navigation.toy.goal_tolerance_m"));
+  EXPECT_EQ(ProblemOf({.stripes = navigation::StripeNames{"ears", "names", 5}}), "");
+  EXPECT_EQ(ProblemOf({.stripes = navigation::StripeNames{"ears", "names", 4}}),
+            "navigation.toy.ears names another number of stripes than sensors.light_stripe has");
+  const double length_m = DriveParams{}.rover.geometry.length_m;
+  const double width_m = DriveParams{}.rover.geometry.width_m;
+  EXPECT_EQ(ProblemOf({.size = navigation::BelievedSize{"long", length_m, "wide", width_m, ""}}),
+            "");
+  EXPECT_THAT(
+      ProblemOf({.size = navigation::BelievedSize{"long", length_m, "wide", 3.0 * width_m, ""}}),
+      HasSubstr("navigation.toy.wide is more than a factor of two"));
+}
+
+}  // namespace
+}  // namespace rockyard::trial
