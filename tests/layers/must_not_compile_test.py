@@ -103,7 +103,7 @@ class UnstatedTraits(unittest.TestCase):
             with self.subTest(left_out=left_out):
                 result = self.compile_traits([name for name in self.STATED if name != left_out])
                 self.assertNotEqual(result.returncode, 0)
-                self.assertIn("Stated", result.stderr)
+                self.assertIn("NavigatorTraits", result.stderr)
 
 
 class CheatingGestalt(unittest.TestCase):

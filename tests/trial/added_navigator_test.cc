@@ -10,7 +10,7 @@
 #include "core/archive.h"
 #include "core/error.h"
 #include "navigation/navigator.h"
-#include "pathfinder_trials.h"
+#include "trial/gestalt_trials.h"
 #include "trial/look_time.h"
 
 namespace rockyard::trial {
@@ -166,6 +166,24 @@ TEST(AddedNavigator, ALookTakesWhatItsDecisionCosts) {
   EXPECT_GT(map_s, 0.0);
   EXPECT_GT(wide_s, map_s);
   EXPECT_LT(wide_s, 2.0 * map_s);
+}
+
+// The software that a computer starts has a map, whoever decides: its grid is the navigator's own,
+// else GESTALT's. Goldberg 2002, table 3: memory for the cells grows with their number.
+TEST(AddedNavigator, TheComputerStartsWithTheMapThatIsOnBoard) {
+  const Overrides stereo = {"sensors.terrain_sensor=stereo", "terrain.rocks.pointedness=0",
+                            "clock.compute.computer=pentium_3_500mhz"};
+  ToyParams params;
+  const auto start_up_s = [&](const navigation::DecisionCost& cost, const std::string& xN_m) {
+    params.cost = cost;
+    return StartUpTime(
+        WithToy(params, stereo + Overrides{"navigation.gestalt.map.grid.xN_m=" + xN_m}));
+  };
+  const double small_s = start_up_s(CostOfLook{}, "10");
+  EXPECT_GT(small_s, 0.0);
+  EXPECT_NEAR(start_up_s(CostOfLook{}, "20"), 2.0 * small_s, 1e-9);
+  EXPECT_NEAR(start_up_s(CostOfMap{0.2, 100.0}, "20"), small_s, 1e-9);
+  EXPECT_NEAR(start_up_s(CostOfMap{0.2, 300.0}, "20"), 3.0 * small_s, 1e-9);
 }
 
 TEST(AddedNavigator, ItsConditionsNameItsOwnParameters) {
