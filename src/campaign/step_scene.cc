@@ -5,6 +5,7 @@
 #include "sensing/stereo_view.h"
 #include "terrain/rock_points.h"
 #include "trial/drive_params.h"
+#include "trial/terrain_sensor_kind_params.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -55,9 +56,8 @@ report::StepScene SceneOf(const trial::WatchedStep& watched, const truth::Trace&
     scene.rocks.push_back(
         SceneRockOf(rock, watched.terrain.ground(), drive.rover.geometry.belly_clearance_m));
   }
-  if (drive.sensors.terrain_sensor == trial::TerrainSensor::kStereo) {
-    scene.camera = LeftFrontCamera(drive.sensors.stereo);
-  }
+  const auto* cameras = trial::KindOf(drive.sensors.terrain_sensor).cameras(drive);
+  if (cameras != nullptr) scene.camera = LeftFrontCamera(*cameras);
   return scene;
 }
 

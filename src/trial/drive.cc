@@ -67,16 +67,6 @@ std::unique_ptr<rover::Rover> MakeTrialRover(const DriveParams& drive, terrain::
   return rover::MakeRover(drive.rover, rocks.holding, terrain);
 }
 
-// Where the sensor of a behaviour controller shows the ground.
-Zone WatchedZone(const DriveParams& drive) {
-  if (drive.sensors.terrain_sensor == TerrainSensor::kLightStripe) {
-    return ArrayZone(drive.sensors.light_stripe);
-  }
-  const perception::CloudElevationParams& array = drive.perception.cloud_elevations;
-  return {0.5 * drive.rover.geometry.length_m, array.far_m, -array.half_width_m,
-          array.half_width_m};
-}
-
 // Where a navigator reads no report, hazards can neither be met nor missed.
 double WatchedHeight(const DriveParams& drive) {
   return *drive.navigation.navigators.chosen().traits().reads ==
@@ -112,7 +102,8 @@ Drive::Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
                     drive.navigation.wheel_driver),
       ledger_(MakePowerBudget(drive), drive.energy.battery_wh),
       monitor_(UndersideOf(drive.rover.geometry), field_.terrain),
-      watch_(WatchedZone(drive), drive.rover.geometry, WatchedHeight(drive), field_.terrain),
+      watch_(KindOf(drive.sensors.terrain_sensor).reported_zone(drive), drive.rover.geometry,
+             WatchedHeight(drive), field_.terrain),
       referee_(drive.referee, drive.course, designated_goals_.front(), Bounds(drive.terrain.arena),
                drive.rover.geometry.wheel_radius_m),
       step_watcher_(std::move(step_watcher)) {

@@ -7,10 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "rover/body_boxes_params.h"
 #include "rover/static_loads_params.h"
-#include "sensing/stripe_layout_params.h"
-#include "sensing/stripe_view_params.h"
+#include "trial/terrain_sensor_kind_params.h"
 
 namespace rockyard::trial {
 namespace {
@@ -75,65 +73,22 @@ void RequireArrival(const DriveParams& drive, core::FieldVisitor& v) {
             "use a goal radius of at least the navigator's tolerance");
 }
 
-// Whether the light stripe sensor has any part in the experiment.
-bool UsesLightStripe(const DriveParams& drive, LightStripeUse use) {
-  return use == LightStripeUse::kAlways ||
-         drive.sensors.terrain_sensor == TerrainSensor::kLightStripe;
+// The sensor whose conditions hold: the experiment's, or the one that the scenario chooses.
+TerrainSensor SensorInUse(const DriveParams& drive, LightStripeUse use) {
+  return use == LightStripeUse::kAlways ? TerrainSensor::kLightStripe
+                                        : drive.sensors.terrain_sensor;
 }
 
 // What a behaviour controller takes for left, centre and right.
-void RequireStripes(const DriveParams& drive, LightStripeUse use, core::FieldVisitor& v) {
+void RequireStripes(const DriveParams& drive, const TerrainSensorKind& sensor,
+                    core::FieldVisitor& v) {
   const navigation::NavigatorKind& navigator = drive.navigation.navigators.chosen();
   const std::optional<navigation::StripeNames> named = navigator.traits().stripes;
   if (!named) return;
-  const bool light_stripe = UsesLightStripe(drive, use);
-  v.Require(navigator.PathOf(named->path),
-            !light_stripe || named->count == sensing::ArraySize(drive.sensors.light_stripe).stripes,
-            fmt::format("{} another number of stripes than sensors.light_stripe has", named->names),
-            "name every stripe of a denser array, e.g. left [0, 1, 2, 3], centre [4], right [5, 6, "
-            "7, 8]");
-  v.Require(navigator.PathOf(named->path),
-            light_stripe || static_cast<std::int64_t>(named->count) ==
-                                drive.perception.cloud_elevations.stripes,
-            fmt::format("{} another number of stripes than perception.cloud_elevations.stripes",
-                        named->names),
-            "name every stripe of the array, from left to right");
-}
-
-void RequireFinder(const DriveParams& drive, LightStripeUse use, core::FieldVisitor& v) {
-  if (!UsesLightStripe(drive, use)) return;
-  const sensing::LightStripeParams& sensor = drive.sensors.light_stripe;
-  v.Require(
-      "perception.stripe_finder.averaging_px",
-      sensor.fidelity == sensing::Fidelity::kGeometric ||
-          drive.perception.stripe_finder.averaging_px <=
-              sensor.imager.averaging_rows + 2 * sensor.imager.margin_rows,
-      "is more than the image lines that sensors.light_stripe.imager reads around a scanline, "
-      "so that no point would ever be found",
-      "use at most its averaging_rows plus twice its margin_rows");
-}
-
-// The outlines of rocks in stereo images are worked out for ellipsoids.
-void RequireRoundRocks(const DriveParams& drive, LightStripeUse use, core::FieldVisitor& v) {
-  const terrain::RockFieldParams& rocks = drive.terrain.rocks;
-  v.Require("terrain.rocks.pointedness",
-            UsesLightStripe(drive, use) || rocks.kind == terrain::RockFieldKind::kNone ||
-                rocks.pointedness == 0.0,
-            "is above 0 where sensors.terrain_sensor is stereo, which sees ellipsoids only",
-            "use 0, or terrain_sensor light_stripe");
-}
-
-// Images show the rover itself, rays do not.
-void RequireFreeView(const DriveParams& drive, LightStripeUse use, core::FieldVisitor& v) {
-  if (!UsesLightStripe(drive, use)) return;
-  const sensing::LightStripeParams& sensor = drive.sensors.light_stripe;
-  v.Require("sensors.light_stripe.fidelity",
-            sensor.fidelity == sensing::Fidelity::kGeometric ||
-                !sensing::IsHiddenBy(sensor, rover::BodyBoxes(drive.rover.geometry)),
-            "is image, where chassis or solar panel hide a point on flat ground from a camera or a "
-            "light emitter",
-            "mount both below the front edge of the panel, as camera_height_m and "
-            "emitter_height_m 0.25 do on Rocky 3.2, or ahead of it");
+  const ReportArray array = sensor.report_array(drive);
+  v.Require(navigator.PathOf(named->path), static_cast<std::int64_t>(named->count) == array.stripes,
+            fmt::format("{} another number of stripes than {}", named->names, array.owner),
+            array.suggestion);
 }
 
 }  // namespace
@@ -143,10 +98,9 @@ void RequireConsistency(const DriveParams& drive, LightStripeUse light_stripe,
   RequirePossible(drive, v);
   RequireStanding(drive.rover, v);
   RequireArrival(drive, v);
-  RequireStripes(drive, light_stripe, v);
-  RequireFinder(drive, light_stripe, v);
-  RequireFreeView(drive, light_stripe, v);
-  RequireRoundRocks(drive, light_stripe, v);
+  const TerrainSensorKind& sensor = KindOf(SensorInUse(drive, light_stripe));
+  RequireStripes(drive, sensor, v);
+  sensor.require(drive, v);
 }
 
 }  // namespace rockyard::trial

@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "trial/compute_profile.h"
-#include "trial/scan_time.h"
+#include "trial/terrain_sensor_kind_params.h"
 
 namespace rockyard::trial {
 namespace {
@@ -54,19 +54,20 @@ LookTime MakeLookTime(const DriveParams& drive) {
   if (UsesNavigationSoftware(drive)) look.computing_s += times.navigation_s;
   const DecisionCost cost = CostOf(drive);
   if (const auto* own = std::get_if<CostOfLook>(&cost)) look.computing_s += own->time_s;
-  if (drive.sensors.terrain_sensor == TerrainSensor::kLightStripe) {
-    look.scanning_s = ScanTime(drive.clock, drive.sensors.light_stripe);
-    return look;
+  const TerrainSensorKind& sensor = KindOf(drive.sensors.terrain_sensor);
+  const LookTime sensing = sensor.look_time(drive, times);
+  look.scanning_s = sensing.scanning_s;
+  look.imaging_s = sensing.imaging_s;
+  look.computing_s += sensing.computing_s;
+  if (sensor.uses_computer && JudgesElevations(drive)) {
+    look.computing_s += drive.clock.compute.behaviour_s;
   }
-  look.imaging_s = times.acquisition_s;
-  look.computing_s += times.stereo_s;
-  if (JudgesElevations(drive)) look.computing_s += drive.clock.compute.behaviour_s;
   return look;
 }
 
 double StartUpTime(const DriveParams& drive) {
-  const bool stereo = drive.sensors.terrain_sensor == TerrainSensor::kStereo;
-  return stereo || UsesNavigationSoftware(drive) ? ComputeTimesOf(drive).start_up_s : 0.0;
+  const bool computes = KindOf(drive.sensors.terrain_sensor).uses_computer;
+  return computes || UsesNavigationSoftware(drive) ? ComputeTimesOf(drive).start_up_s : 0.0;
 }
 
 }  // namespace rockyard::trial

@@ -3,21 +3,20 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "core/random.h"
 #include "math/pose.h"
 #include "messages/estimates.h"
 #include "messages/point_cloud.h"
-#include "perception/cloud_params.h"
 #include "perception/hazard_detector.h"
-#include "perception/triangulation.h"
-#include "sensing/stereo_sensor.h"
 #include "terrain/terrain.h"
 #include "trial/drive_params.h"
-#include "trial/hazard_scanner.h"
 #include "trial/look_time.h"
 #include "trial/scan_watcher.h"
+#include "trial/terrain_sensor_kind_params.h"
+#include "trial/terrain_sensor_model.h"
 
 namespace rockyard::trial {
 
@@ -36,7 +35,7 @@ struct Percept {
 //   light stripe, map: the triangulated points as a cloud; nothing is seen behind, at no cost.
 class TerrainSensing {
  public:
-  TerrainSensing(const DriveParams& drive, core::TrialKey key, ScanWatcher watcher);
+  TerrainSensing(const DriveParams& drive, core::TrialKey key, const ScanWatcher& watcher);
 
   // The rover has stopped at a new pose.
   void Begin() { hazard_detector_.Reset(); }
@@ -46,36 +45,26 @@ class TerrainSensing {
   Percept Look(messages::LookDirection direction, const terrain::Terrain& terrain,
                const math::Transform& X_WR, const messages::AttitudeEstimate& attitude);
 
-  std::int64_t scans() const { return scans_; }      // with the light stripe
-  std::int64_t rescans() const { return rescans_; }  // looks again at one pose, of either sensor
-  std::int64_t image_sets() const { return image_sets_; }
-  std::int64_t rear_image_sets() const { return rear_image_sets_; }
+  // Looks are scans or sets of images, by the kind of the sensor.
+  std::int64_t scans() const { return kind_.takes_image_sets ? 0 : looks_; }
+  std::int64_t rescans() const { return rescans_; }  // looks again at one pose, of any sensor
+  std::int64_t image_sets() const { return kind_.takes_image_sets ? looks_ : 0; }
+  std::int64_t rear_image_sets() const { return kind_.takes_image_sets ? looks_behind_ : 0; }
   const LookTime& look_time() const { return look_time_; }
 
  private:
-  Percept Scan(messages::LookDirection direction, const terrain::Terrain& terrain,
-               const math::Transform& X_WR);
-  Percept TakeImages(messages::LookDirection direction, const terrain::Terrain& terrain,
-                     const math::Transform& X_WR, const messages::AttitudeEstimate& attitude);
   Percept Judge(const messages::ElevationScan& elevations);
 
-  core::TrialKey key_;
+  const TerrainSensorKind& kind_;
   bool reads_points_;  // the navigator
-  HazardScanner scanner_;
-  std::optional<sensing::StereoSensor> stereo_;
-  // Of the points that it sees, by a wrong calibration; none where it is right.
-  std::optional<math::Transform> misplaced_ahead_;
-  std::optional<math::Transform> misplaced_behind_;
-  perception::Triangulator triangulator_;
-  perception::CloudElevationParams cloud_elevations_;
+  std::unique_ptr<TerrainSensorModel> sensor_;
   perception::HazardDetector hazard_detector_;
   LookTime look_time_;
 
   bool looks_again_ = false;
-  std::int64_t scans_ = 0;
-  std::int64_t rescans_ = 0;
-  std::int64_t image_sets_ = 0;
-  std::int64_t rear_image_sets_ = 0;
+  std::int64_t looks_ = 0;
+  std::int64_t looks_behind_ = 0;  // of these
+  std::int64_t rescans_ = 0;       // too
 };
 
 }  // namespace rockyard::trial

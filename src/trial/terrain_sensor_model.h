@@ -1,0 +1,35 @@
+// A terrain sensor of one trial, with the on-board perception that is its own.
+#pragma once
+
+#include <cstdint>
+
+#include "math/pose.h"
+#include "messages/estimates.h"
+#include "messages/point_cloud.h"
+#include "terrain/terrain.h"
+
+namespace rockyard::trial {
+
+// One look at the ground.
+struct TerrainLook {
+  const terrain::Terrain& terrain;
+  const math::Transform& X_WR;
+  messages::LookDirection direction;
+  messages::AttitudeEstimate attitude;  // how the rover believes to stand
+  std::int64_t number;                  // of all looks of the trial, from 0: it indexes the noise
+};
+
+class TerrainSensorModel {
+ public:
+  virtual ~TerrainSensorModel() = default;
+
+  // Where it does not, a look behind shows nothing and costs nothing.
+  virtual bool LooksBehind() const = 0;
+
+  // What the rover makes of a look: elevations of the array that hazards are judged by, or points.
+  // Pure functions of the look.
+  virtual messages::ElevationScan Elevations(const TerrainLook& look) const = 0;
+  virtual messages::PointCloud Points(const TerrainLook& look) const = 0;
+};
+
+}  // namespace rockyard::trial
