@@ -1,3 +1,5 @@
+#include "trial/light_stripe_kind.h"
+
 #include <memory>
 #include <utility>
 
@@ -12,7 +14,6 @@
 #include "trial/look_time.h"
 #include "trial/onboard_calibration.h"
 #include "trial/scan_time.h"
-#include "trial/terrain_sensor_kinds.h"
 #include "trial/terrain_sensor_model.h"
 
 namespace rockyard::trial {

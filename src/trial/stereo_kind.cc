@@ -1,3 +1,5 @@
+#include "trial/stereo_kind.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,7 +16,6 @@
 #include "trial/look_time.h"
 #include "trial/onboard_calibration.h"
 #include "trial/scan_watcher.h"
-#include "trial/terrain_sensor_kinds.h"
 #include "trial/terrain_sensor_model.h"
 
 namespace rockyard::trial {

@@ -1,7 +1,9 @@
-#include "trial/terrain_sensor_kinds.h"
-
 #include <array>
 #include <cstddef>
+
+#include "trial/light_stripe_kind.h"
+#include "trial/stereo_kind.h"
+#include "trial/terrain_sensor_kind_params.h"
 
 namespace rockyard::trial {
 
