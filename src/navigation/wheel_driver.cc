@@ -41,8 +41,10 @@ double SteeringAngle(const PlanarVelocity& velocity) {
   return angle;
 }
 
+// Whether they lead to the same set points.
 bool Same(const MotionCommand& a, const MotionCommand& b) {
-  return a.kind == b.kind && a.curvature_per_m == b.curvature_per_m && a.direction == b.direction;
+  return a.kind == b.kind && a.curvature_per_m == b.curvature_per_m && a.direction == b.direction &&
+         a.speed_share == b.speed_share;
 }
 
 }  // namespace
@@ -63,8 +65,9 @@ WheelCommand SteadyWheelCommand(const MotionCommand& motion, const DriveCalibrat
     fastest = std::max(fastest, std::abs(rim[i]));
   }
   EXPECT(fastest > 0.0);
-  // rad/s per unit of rim: the fastest rim moves at max_wheel_speed_m_s.
-  const double scale = calibration.max_wheel_speed_m_s / (fastest * calibration.wheel_radius_m);
+  // rad/s per unit of rim: the fastest rim moves at its share of max_wheel_speed_m_s.
+  const double scale =
+      motion.speed_share * calibration.max_wheel_speed_m_s / (fastest * calibration.wheel_radius_m);
   for (std::size_t i = 0; i < kWheelCount; ++i) {
     command.rate_rad_s[i] = rim[i] * scale / calibration.radius_ratio[i];
   }

@@ -11,7 +11,8 @@ namespace rockyard::navigation {
 // Returns the steady wheel set points of a motion: angles in rad, rates in rad/s. Every wheel rolls
 // about the common centre of rotation: for an arc of curvature c that is (0, 1/c) in R, for a turn
 // in place the origin. Unsteered wheels take the forward component of their velocity. The fastest
-// rim moves at max_wheel_speed_m_s. Steering angles beyond max_steer_rad are clamped.
+// rim moves at speed_share times max_wheel_speed_m_s. Steering angles beyond max_steer_rad are
+// clamped.
 messages::WheelCommand SteadyWheelCommand(const messages::MotionCommand& motion,
                                           const messages::DriveCalibration& calibration);
 

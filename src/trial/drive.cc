@@ -98,6 +98,7 @@ Drive::Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
       localizer_(drive, StartPose(drive.course)),
       navigator_(designated_goals_,
                  MakeNavigator(drive, field_.terrain, designated_goals_.front())),
+      follower_(drive.rover.drive.speed_m_s, rover_->ramp_s()),
       wheel_driver_(OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive),
                     drive.navigation.wheel_driver),
       ledger_(MakePowerBudget(drive), drive.energy.battery_wh),
@@ -157,7 +158,17 @@ std::optional<Verdict> Drive::Tick() {
   if (decision.look) return Look(*decision.look);
   turns_.Observe(decision.motion);
   if (moves_.Observe(decision.motion)) SpendOverhead();
-  return Move(decision.motion, tick_);
+  return Follow(decision.motion);
+}
+
+std::optional<Verdict> Drive::Follow(const messages::MotionCommand& told) {
+  const messages::MotionCommand motion =
+      follower_.Follow(told, localizer_.pose().distance_m, tick_.duration_s);
+  if (motion.kind != MotionKind::kStop || told.kind == MotionKind::kStop) {
+    return Move(motion, tick_);
+  }
+  Move(motion, tick_);
+  return AskReferee(Activity::kOverhead, 0, tick_.duration_s);
 }
 
 void Drive::TrackGoal() {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "navigation/motion_follower.h"
 #include "navigation/waypoint_sequence.h"
 #include "navigation/wheel_driver.h"
 #include "perception/stuck_detector.h"
@@ -57,6 +58,8 @@ class Drive {
   void ShowStep();
   // What a move takes beyond the motion of wheels.
   void SpendOverhead();
+  // One tick of the motion that was told. A rover whose plan is at its end waits at rest.
+  std::optional<Verdict> Follow(const messages::MotionCommand& told);
   std::optional<Verdict> Move(const messages::MotionCommand& motion, const Stretch& stretch);
 
   // Holds the command for so many physics steps.
@@ -117,6 +120,7 @@ class Drive {
   Localizer localizer_;
 
   navigation::WaypointSequence navigator_;
+  navigation::MotionFollower follower_;
   navigation::WheelDriver wheel_driver_;
 
   Ledger ledger_;

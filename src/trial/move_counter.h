@@ -8,14 +8,13 @@
 namespace rockyard::trial {
 
 // A move is one motion command, held until another one follows or the rover looks: an arc, or a
-// turn in place.
+// turn in place. Where a navigator numbers its moves, its number tells one from the next instead:
+// looks, and curvatures that change at each tick, belong to the move under way.
 class MoveCounter {
  public:
   // Once a control tick, with what the navigator told; true where a move begins.
   bool Observe(const messages::MotionCommand& motion) {
-    const bool same = moving_ && motion.kind == last_.kind &&
-                      motion.curvature_per_m == last_.curvature_per_m &&
-                      motion.direction == last_.direction;
+    const bool same = motion.move != 0 ? motion.move == last_.move : moving_ && motion == last_;
     moving_ = motion.kind != messages::MotionKind::kStop;
     last_ = motion;
     if (same || !moving_) return false;

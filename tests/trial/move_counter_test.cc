@@ -30,6 +30,29 @@ TEST(MoveCounterTest, AMoveIsOneCommandUntilAnotherOneOrALook) {
   EXPECT_EQ(counter.point_turns(), 1);
 }
 
+TEST(MoveCounterTest, AMoveWithANumberIsWhateverHasTheNumber) {
+  MoveCounter counter;
+  MotionCommand command{.kind = MotionKind::kArc, .move = 3};
+  for (int tick = 0; tick < 200; ++tick) {
+    command.curvature_per_m = 0.001 * tick;
+    EXPECT_EQ(counter.Observe(command), tick == 0);
+  }
+  counter.OnLook();
+  EXPECT_FALSE(counter.Observe(command));
+  EXPECT_EQ(counter.moves(), 1);
+  command.move = 4;
+  EXPECT_TRUE(counter.Observe(command));
+  // Without one, each command that differs is a move, in its end and speed too.
+  command.move = 0;
+  EXPECT_TRUE(counter.Observe(command));
+  command.speed_share = 0.5;
+  EXPECT_TRUE(counter.Observe(command));
+  command.end_m = 1.0;
+  EXPECT_TRUE(counter.Observe(command));
+  EXPECT_FALSE(counter.Observe(command));
+  EXPECT_EQ(counter.moves(), 5);
+}
+
 TEST(MoveCounterTest, SaysWhereAMoveBegins) {
   constexpr MotionCommand kArc{MotionKind::kArc, 0.5, 1};
   MoveCounter counter;
