@@ -167,7 +167,7 @@ std::optional<Verdict> Drive::Follow(const messages::MotionCommand& told) {
   if (motion.kind != MotionKind::kStop || told.kind == MotionKind::kStop) {
     return Move(motion, tick_);
   }
-  Move(motion, tick_);
+  RestBetweenMoves(tick_.duration_s);
   return AskReferee(Activity::kOverhead, 0, tick_.duration_s);
 }
 
@@ -216,12 +216,15 @@ std::optional<Verdict> Drive::Look(messages::LookDirection direction) {
 
 void Drive::SpendOverhead() {
   const double overhead_s = params_.clock.compute.move_overhead_s;
-  if (overhead_s <= 0.0) return;
+  if (overhead_s > 0.0) RestBetweenMoves(overhead_s);
+}
+
+void Drive::RestBetweenMoves(double duration_s) {
   // A rover that comes from another move brakes first.
   if (rolling_) Move({}, stop_);
   stops_.Observe(false);
-  Rest(Activity::kOverhead, overhead_s);
-  if (params_.sensors.gyro.accumulates_at_rest) UpdateEstimate(overhead_s, false);
+  Rest(Activity::kOverhead, duration_s);
+  if (params_.sensors.gyro.accumulates_at_rest) UpdateEstimate(duration_s, false);
 }
 
 std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const Stretch& stretch) {

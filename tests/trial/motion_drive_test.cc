@@ -126,6 +126,11 @@ TEST(MotionDrive, StopsBeforeTheEndOfItsPlan) {
     EXPECT_LE(way_m, 1.0 + 1e-9) << ramp;
     EXPECT_GE(way_m, 1.0 - 0.02) << ramp;
     EXPECT_EQ(trial.result.record.stops, 1.0);
+    // The way at full speed, its ramps and the pause after braking; the rest of a minute it waits.
+    EXPECT_NEAR(trial.result.record.drive_time_s, 1.0 / 0.15, 3.0) << ramp;
+    EXPECT_NEAR(trial.result.record.drive_time_s + trial.result.record.move_overhead_time_s, 60.0,
+                0.2)
+        << ramp;
   }
 }
 
