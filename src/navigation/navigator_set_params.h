@@ -74,7 +74,8 @@ class NavigatorSet {
   ~NavigatorSet() = default;
 
   // Throws core::UserError where the name is taken, by a navigator or by another key of
-  // "navigation", or is no key at all (lower case, digits, underscores).
+  // "navigation", or is no key at all (lower case, digits, underscores). Needs
+  // navigation/navigator.h.
   template <typename Params>
   void Add(const NavigatorDescription<Params>& description, Params params = {}) {
     AddKind(std::make_unique<KindOf<Params>>(description, std::move(params)));
@@ -90,33 +91,41 @@ class NavigatorSet {
   // The parameters of the navigator that has such; there must be one.
   template <typename Params>
   Params& params() {
-    return Find<KindOf<Params>>(*this).params;
+    return Find<WithParams<Params>>(*this).params;
   }
   template <typename Params>
   const Params& params() const {
-    return Find<const KindOf<Params>>(*this).params;
+    return Find<const WithParams<Params>>(*this).params;
   }
 
   // Lists the choice, then a group for each navigator, in the group that is being visited.
   void Visit(core::FieldVisitor& v);
 
  private:
+  // Apart from how it is made, which needs the whole Navigator: who reads parameters sees no more
+  // of it than its name.
   template <typename Params>
-  struct KindOf final : NavigatorKind {
-    KindOf(const NavigatorDescription<Params>& of, Params values)
+  struct WithParams : NavigatorKind {
+    WithParams(const NavigatorDescription<Params>& of, Params values)
         : NavigatorKind(of.name, of.doc), description(of), params(std::move(values)) {}
 
     void Visit(core::FieldVisitor& v) override { params.Visit(v); }
     NavigatorTraits traits() const override { return description.traits(params); }
+
+    NavigatorDescription<Params> description;
+    Params params;
+  };
+
+  template <typename Params>
+  struct KindOf final : WithParams<Params> {
+    using WithParams<Params>::WithParams;
+
     std::unique_ptr<Navigator> Make(const NavigatorSetup& setup) const override {
-      return description.make(params, setup);
+      return this->description.make(this->params, setup);
     }
     std::unique_ptr<NavigatorKind> Clone() const override {
       return std::make_unique<KindOf>(*this);
     }
-
-    NavigatorDescription<Params> description;
-    Params params;
   };
 
   template <typename Kind, typename Set>

@@ -164,9 +164,7 @@ std::optional<Verdict> Drive::Tick() {
 std::optional<Verdict> Drive::Follow(const messages::MotionCommand& told) {
   const messages::MotionCommand motion =
       follower_.Follow(told, localizer_.pose().distance_m, tick_.duration_s);
-  if (motion.kind != MotionKind::kStop || told.kind == MotionKind::kStop) {
-    return Move(motion, tick_);
-  }
+  if (motion.kind != MotionKind::kStop) return Move(motion, tick_);
   RestBetweenMoves(tick_.duration_s);
   return AskReferee(Activity::kOverhead, 0, tick_.duration_s);
 }

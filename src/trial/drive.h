@@ -59,7 +59,8 @@ class Drive {
   // What a move takes beyond the motion of wheels.
   void SpendOverhead();
   void RestBetweenMoves(double duration_s);
-  // One tick of the motion that was told. A rover whose plan is at its end waits at rest.
+  // One tick of the motion that was told. A rover that is told to stop, or whose plan is at its
+  // end, waits at rest.
   std::optional<Verdict> Follow(const messages::MotionCommand& told);
   std::optional<Verdict> Move(const messages::MotionCommand& motion, const Stretch& stretch);
 

@@ -17,7 +17,6 @@ Percept TerrainSensing::Look(LookDirection direction, const terrain::Terrain& te
                              const math::Transform& X_WR,
                              const messages::AttitudeEstimate& attitude) {
   if (looks_again_) ++rescans_;
-  looks_again_ = false;
   const bool behind = direction == LookDirection::kBehind;
   const TerrainLook look{terrain, X_WR, direction, attitude, looks_};
   if (behind && !sensor_->LooksBehind()) {

@@ -137,6 +137,19 @@ TEST(AddedNavigator, MeetsHazardsWhereItReadsReports) {
   EXPECT_EQ(RunTrial(WithToy(params, kRockAhead), {1, 0}).record.hazards_met, 0.0);
 }
 
+// With stereo that is the array which its points are judged in. The rock reaches from 0.8 m ahead
+// of the rover to 1.2 m.
+TEST(AddedNavigator, MeetsHazardsWithinTheArrayOfItsSensor) {
+  const auto met = [](const std::string& far_m) {
+    const Overrides stereo = {"sensors.terrain_sensor=stereo", "terrain.rocks.pointedness=0",
+                              "terrain.rocks.listed.x_m=[2.0]",
+                              "perception.cloud_elevations.far_m=" + far_m};
+    return RunTrial(WithToy(ToyParams{}, kRockAhead + stereo), {1, 0}).record.hazards_met;
+  };
+  EXPECT_EQ(met("0.82"), 1.0);
+  EXPECT_EQ(met("0.78"), 0.0);
+}
+
 TEST(AddedNavigator, FollowsTheRouteOfAnOracleWhereItAsksForOne) {
   ToyParams params;
   params.follows_route = true;
@@ -184,6 +197,19 @@ TEST(AddedNavigator, TheComputerStartsWithTheMapThatIsOnBoard) {
   EXPECT_NEAR(start_up_s(CostOfLook{}, "20"), 2.0 * small_s, 1e-9);
   EXPECT_NEAR(start_up_s(CostOfMap{0.2, 100.0}, "20"), small_s, 1e-9);
   EXPECT_NEAR(start_up_s(CostOfMap{0.2, 300.0}, "20"), 3.0 * small_s, 1e-9);
+}
+
+// A look with light stripes takes what its scan takes, and what a map adds: the criteria of a
+// behaviour controller are part of the scan.
+TEST(AddedNavigator, OnlyAMapTakesAComputerWithLightStripes) {
+  const Overrides computer = {"clock.compute.computer=pentium_3_500mhz",
+                              "clock.compute.behaviour_s=0.75"};
+  ToyParams params;
+  EXPECT_EQ(StartUpTime(WithToy(params, computer)), 0.0);
+  EXPECT_EQ(MakeLookTime(WithToy(params, computer)).computing_s, 0.0);
+  params.cost = CostOfMap{};
+  EXPECT_GT(StartUpTime(WithToy(params, computer)), 0.0);
+  EXPECT_GT(MakeLookTime(WithToy(params, computer)).computing_s, 0.0);
 }
 
 TEST(AddedNavigator, ItsConditionsNameItsOwnParameters) {

@@ -134,12 +134,16 @@ TEST(MotionDrive, StopsBeforeTheEndOfItsPlan) {
   }
 }
 
-// One that waits for ever is ended by the clock, as any other.
+// One that waits for ever is ended by the clock, as any other, and so is one that is told to stop.
 TEST(MotionDrive, WaitsNoLongerThanTheTrialMayLast) {
   ScriptParams params;
   params.command.end_m = 0.5;
-  const TracedTrial trial = DriveScript(params, {"referee.time_limit_s=50"});
-  EXPECT_EQ(trial.result.outcome, truth::TrialOutcome::kTimeLimit);
+  const TracedTrial late = DriveScript(params, {"referee.time_limit_s=50"});
+  EXPECT_EQ(late.result.outcome, truth::TrialOutcome::kTimeLimit);
+  params.command = {};
+  const TracedTrial stopped = DriveScript(params, {"referee.time_limit_s=50"});
+  EXPECT_EQ(stopped.result.outcome, truth::TrialOutcome::kTimeLimit);
+  EXPECT_EQ(stopped.result.record.drive_time_s, 0.0);
 }
 
 }  // namespace
