@@ -27,6 +27,9 @@ if(ROCKYARD_SANITIZE)
   set(sanitizer_flags -fsanitize=${ROCKYARD_SANITIZE} -fno-sanitize=vptr
       -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_compile_options(${sanitizer_flags})
+  # The standard library checks its own preconditions too: what no optional holds lies in memory
+  # that no sanitizer minds.
+  add_compile_definitions(_GLIBCXX_ASSERTIONS)
   add_link_options(${sanitizer_flags})
 endif()
 

@@ -138,6 +138,18 @@ std::optional<StoppingRule> ReadRule(const fs::path& path, const Meta& meta) {
   return rule;
 }
 
+std::string ReadDesign(const fs::path& path, const Meta& meta) {
+  const std::string& design = GetMeta(path, meta, "design");
+  try {
+    if (design.empty() || core::ParseJson(design, "design").Is(core::JsonValue::Type::kObject)) {
+      return design;
+    }
+  } catch (const core::UserError&) {
+    // Told below.
+  }
+  FailDamaged(path, "has a design that is no object");
+}
+
 std::optional<std::vector<std::string>> ReadSettings(const fs::path& path, const Meta& meta) {
   const auto found = meta.find("settings");
   if (found == meta.end()) return std::nullopt;

@@ -41,6 +41,8 @@ const std::string& GetMeta(const std::filesystem::path& path, const Meta& meta,
                            std::string_view key);
 Shard ReadShard(const std::filesystem::path& path, const Meta& meta);
 std::optional<StoppingRule> ReadRule(const std::filesystem::path& path, const Meta& meta);
+// JSON text of an object, or nothing.
+std::string ReadDesign(const std::filesystem::path& path, const Meta& meta);
 // Nothing in the stores of older programs.
 std::optional<std::vector<std::string>> ReadSettings(const std::filesystem::path& path,
                                                      const Meta& meta);

@@ -241,7 +241,7 @@ StoreHead ReadStoreHead(const SqliteDatabase& database) {
   head.checksums = ReadChecksums(database);
   const Meta meta = ReadMeta(database, head.checksums);
   head.identity.name = GetMeta(database.path(), meta, "name");
-  head.identity.design = GetMeta(database.path(), meta, "design");
+  head.identity.design = ReadDesign(database.path(), meta);
   head.identity.shard = ReadShard(database.path(), meta);
   head.identity.settings = ReadSettings(database.path(), meta);
   head.identity.schema = ReadColumns(database, head.checksums);

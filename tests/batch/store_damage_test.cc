@@ -399,6 +399,8 @@ TEST_F(OlderStore, WhatNoTrialGivesIsRefused) {
   refused("UPDATE cells SET name = 'a'", AllOf(HasSubstr("table cells"), HasSubstr("\"a\" twice")));
   refused("DELETE FROM columns WHERE position = 2", HasSubstr("table columns"));
   refused("UPDATE meta SET value = 'sudden' WHERE key = 'rule'", HasSubstr("rule_half_width"));
+  refused("UPDATE meta SET value = '7' WHERE key = 'design'", HasSubstr("design"));
+  refused("UPDATE meta SET value = '{' WHERE key = 'design'", HasSubstr("design"));
   refused("UPDATE meta SET value = '0' WHERE key = 'shard_index'", HasSubstr("shard 0 of 1"));
   refused("UPDATE meta SET value = '2' WHERE key = 'shard_index'", HasSubstr("shard 2 of 1"));
 }

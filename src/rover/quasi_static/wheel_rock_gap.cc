@@ -75,12 +75,14 @@ Vector3 UpToBorder(const RockSupport& rock, const Support& support, const Vector
 class Bracket {
  public:
   // Takes the slope at n about the axis, and returns `next`, or the middle of the arc where that
-  // lies outside of it.
+  // lies outside of it. An arc with one end has no middle: a step too short to leave n, at the
+  // first end, is as good as any.
   Vector3 Hold(const Vector3& axis, const Vector3& n, double slope, const Vector3& next) {
     (slope > 0.0 ? low_ : high_) = n;
     const bool above = !low_ || axis.dot(low_->cross(next)) > 0.0;
     const bool below = !high_ || axis.dot(next.cross(*high_)) > 0.0;
-    return above && below ? next : (*low_ + *high_).normalized();
+    if ((above && below) || !low_ || !high_) return next;
+    return (*low_ + *high_).normalized();
   }
 
  private:

@@ -182,6 +182,24 @@ TEST_P(CapGap, EqualsAlternatingProjections) {
   EXPECT_GT(compared, 30);
 }
 
+// Straight above the top the first normal is the answer, and no step leaves it: an arc of the
+// search has one end then.
+TEST_P(CapGap, StaysAtAFirstNormalThatIsTheAnswer) {
+  const RoverGeometryParams params;
+  const WheelShape wheel(params);
+  for (int i = 0; i < 20; ++i) {
+    const terrain::Rock rock = MakeCapPlacement(i, GetParam()).rock;
+    const double top_m = rock.center_W.z() + rock.semi_axes_m.z();
+    for (const double gap_m : {-0.005, 0.0, 0.02}) {
+      const math::Vector3 center_W(0.0, 0.0, top_m + params.wheel_radius_m + gap_m);
+      const WheelRockGap gap = FindGap(wheel, center_W, math::Vector3::UnitY(), RockSupport(rock),
+                                       1.0, math::Vector3::UnitZ());
+      EXPECT_NEAR(gap.gap_m, gap_m, 1e-12) << i;
+      EXPECT_NEAR(gap.n_W.z(), 1.0, 1e-12) << i;
+    }
+  }
+}
+
 // Whatever the pose and the first normal: the distance of the rock's own point from the core is an
 // upper bound of the gap, f(n) a lower one, and both meet where the search has found its end.
 TEST_P(CapGap, BoundsMeetForRandomPoses) {
