@@ -1,29 +1,12 @@
 // What the rest of a trial has to know of a navigator beside its decisions.
 #pragma once
 
-#include <concepts>
 #include <cstddef>
 #include <optional>
 #include <string_view>
-#include <utility>
 #include <variant>
 
 namespace rockyard::navigation {
-
-// A value that has no default: traits that leave one out do not compile.
-template <typename T>
-class Stated {
- public:
-  template <typename From>
-  requires std::constructible_from<T, From>
-  constexpr Stated(From&& value) : value_(std::forward<From>(value)) {}
-
-  constexpr const T& operator*() const { return value_; }
-  constexpr const T* operator->() const { return &value_; }
-
- private:
-  T value_;
-};
 
 // What it reads of a look at the terrain.
 enum class LookReading {
@@ -66,11 +49,15 @@ struct BelievedSize {
 };
 
 struct NavigatorTraits {
-  Stated<LookReading> reads;
-  Stated<DecisionCost> cost;
-  Stated<GoalTolerance> goal;
-  std::optional<StripeNames> stripes = {};
-  std::optional<BelievedSize> size = {};
+  // What no navigator can leave open.
+  NavigatorTraits(LookReading reading, const DecisionCost& decision, const GoalTolerance& tolerance)
+      : reads(reading), cost(decision), goal(tolerance) {}
+
+  LookReading reads;
+  DecisionCost cost;
+  GoalTolerance goal;
+  std::optional<StripeNames> stripes;
+  std::optional<BelievedSize> size;
   bool follows_route = false;  // of an oracle, planned once from the start to the goal
 };
 

@@ -91,10 +91,10 @@ NavigatorDescription<RouteParams> DescribeRouteFollower() {
               "follower of the route that an oracle plans (course.oracle_route): perfect path "
               "selection",
           .traits = [](const RouteParams& params) -> NavigatorTraits {
-            return {.reads = LookReading::kNothing,
-                    .cost = CostOfLook{},
-                    .goal = GoalTolerance{"goal_tolerance_m", params.goal_tolerance_m},
-                    .follows_route = true};
+            NavigatorTraits traits(LookReading::kNothing, CostOfLook{},
+                                   {"goal_tolerance_m", params.goal_tolerance_m});
+            traits.follows_route = true;
+            return traits;
           },
           .make = [](const RouteParams& params,
                      const NavigatorSetup& setup) -> std::unique_ptr<Navigator> {

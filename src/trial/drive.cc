@@ -69,7 +69,7 @@ std::unique_ptr<rover::Rover> MakeTrialRover(const DriveParams& drive, terrain::
 
 // Where a navigator reads no report, hazards can neither be met nor missed.
 double WatchedHeight(const DriveParams& drive) {
-  return *drive.navigation.navigators.chosen().traits().reads ==
+  return drive.navigation.navigators.chosen().traits().reads ==
                  navigation::LookReading::kHazardReport
              ? drive.referee.hazard_height_m
              : std::numeric_limits<double>::infinity();

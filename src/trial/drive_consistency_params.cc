@@ -66,7 +66,7 @@ void RequireStanding(const rover::RoverParams& rover, core::FieldVisitor& v) {
 // What an arrival of the navigator means.
 void RequireArrival(const DriveParams& drive, core::FieldVisitor& v) {
   const navigation::NavigatorKind& navigator = drive.navigation.navigators.chosen();
-  const navigation::GoalTolerance arrival = *navigator.traits().goal;
+  const navigation::GoalTolerance arrival = navigator.traits().goal;
   v.Require("course.goal_radius_m", drive.course.goal_radius_m >= arrival.tolerance_m,
             fmt::format("is below {}, so that a rover without any error could arrive falsely",
                         navigator.PathOf(arrival.path)),

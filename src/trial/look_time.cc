@@ -15,7 +15,7 @@ using navigation::CostOfMap;
 using navigation::DecisionCost;
 
 DecisionCost CostOf(const DriveParams& drive) {
-  return *drive.navigation.navigators.chosen().traits().cost;
+  return drive.navigation.navigators.chosen().traits().cost;
 }
 
 // The map that the computer sets up when it starts: the navigator's, or where that keeps none, the
@@ -28,7 +28,7 @@ GridSize GridOf(const DriveParams& drive) {
   };
   if (const auto own = grid_of(CostOf(drive))) return *own;
   for (const auto& kind : drive.navigation.navigators.kinds()) {
-    if (const auto other = grid_of(*kind->traits().cost)) return *other;
+    if (const auto other = grid_of(kind->traits().cost)) return *other;
   }
   return {};
 }

@@ -137,7 +137,7 @@ void RequireArray(const DriveParams& drive, core::FieldVisitor& v) {
 }
 
 bool ReadsReports(const DriveParams& drive) {
-  return *drive.navigation.navigators.chosen().traits().reads ==
+  return drive.navigation.navigators.chosen().traits().reads ==
          navigation::LookReading::kHazardReport;
 }
 

@@ -7,7 +7,7 @@ using messages::LookDirection;
 TerrainSensing::TerrainSensing(const DriveParams& drive, core::TrialKey key,
                                const ScanWatcher& watcher)
     : kind_(KindOf(drive.sensors.terrain_sensor)),
-      reads_points_(*drive.navigation.navigators.chosen().traits().reads ==
+      reads_points_(drive.navigation.navigators.chosen().traits().reads ==
                     navigation::LookReading::kPoints),
       sensor_(kind_.make(drive, key, watcher)),
       hazard_detector_(drive.perception.hazard),

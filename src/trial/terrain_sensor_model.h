@@ -14,9 +14,9 @@ namespace rockyard::trial {
 struct TerrainLook {
   const terrain::Terrain& terrain;
   const math::Transform& X_WR;
-  messages::LookDirection direction;
+  messages::LookDirection direction = messages::LookDirection::kAhead;
   messages::AttitudeEstimate attitude;  // how the rover believes to stand
-  std::int64_t number;                  // of all looks of the trial, from 0: it indexes the noise
+  std::int64_t number = 0;              // of all looks of the trial, from 0: it indexes the noise
 };
 
 class TerrainSensorModel {

@@ -87,7 +87,7 @@ class UnstatedTraits(unittest.TestCase):
     STATED = {"reads": "LookReading::kPoints", "cost": "CostOfLook{}", "goal": "GoalTolerance{}"}
 
     def compile_traits(self, names):
-        members = ", ".join(f".{name} = {self.STATED[name]}" for name in names)
+        members = ", ".join(self.STATED[name] for name in names)
         return compile_source("navigation", [], f"""
             #include "navigation/navigator_traits_params.h"
             namespace rockyard::navigation {{

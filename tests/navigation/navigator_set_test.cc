@@ -49,9 +49,7 @@ NavigatorDescription<ToyParams> DescribeToy(std::string_view name = "toy") {
   return {.name = name,
           .doc = "gives up",
           .traits = [](const ToyParams& params) -> NavigatorTraits {
-            return {.reads = LookReading::kNothing,
-                    .cost = CostOfLook{0.5},
-                    .goal = GoalTolerance{"tolerance_m", params.tolerance_m}};
+            return {LookReading::kNothing, CostOfLook{0.5}, {"tolerance_m", params.tolerance_m}};
           },
           .make = [](const ToyParams& params, const NavigatorSetup& setup)
               -> std::unique_ptr<Navigator> { return std::make_unique<Toy>(params, setup); }};
@@ -158,13 +156,13 @@ TEST(NavigatorSet, TraitsFollowTheParameters) {
   set.params<ToyParams>().tolerance_m = 0.3;
   set.Choose("toy");
   const NavigatorTraits traits = set.chosen().traits();
-  EXPECT_EQ(traits.goal->tolerance_m, 0.3);
-  EXPECT_EQ(set.chosen().PathOf(traits.goal->path), "navigation.toy.tolerance_m");
-  EXPECT_EQ(std::get<CostOfLook>(*traits.cost).time_s, 0.5);
+  EXPECT_EQ(traits.goal.tolerance_m, 0.3);
+  EXPECT_EQ(set.chosen().PathOf(traits.goal.path), "navigation.toy.tolerance_m");
+  EXPECT_EQ(std::get<CostOfLook>(traits.cost).time_s, 0.5);
 
   set.params<GestaltParams>().map.grid = {.xN_m = 6.0, .yN_m = 5.0, .xstep_m = 0.1, .ystep_m = 0.4};
   set.Choose("gestalt");
-  const auto cost = std::get<CostOfMap>(*set.chosen().traits().cost);
+  const auto cost = std::get<CostOfMap>(set.chosen().traits().cost);
   EXPECT_DOUBLE_EQ(cost.cell_m, 0.2);
   EXPECT_DOUBLE_EQ(cost.area_m2, 30.0);
 }

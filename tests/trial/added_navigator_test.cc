@@ -73,12 +73,12 @@ DriveParams WithToy(const ToyParams& params, const Overrides& overrides = {}) {
       {.name = "toy",
        .doc = "looks and gives up",
        .traits = [](const ToyParams& p) -> navigation::NavigatorTraits {
-         return {.reads = p.reads,
-                 .cost = p.cost,
-                 .goal = navigation::GoalTolerance{"goal_tolerance_m", p.goal_tolerance_m},
-                 .stripes = p.stripes,
-                 .size = p.size,
-                 .follows_route = p.follows_route};
+         navigation::NavigatorTraits traits(p.reads, p.cost,
+                                            {"goal_tolerance_m", p.goal_tolerance_m});
+         traits.stripes = p.stripes;
+         traits.size = p.size;
+         traits.follows_route = p.follows_route;
+         return traits;
        },
        .make = [](const ToyParams& p, const navigation::NavigatorSetup& setup)
            -> std::unique_ptr<navigation::Navigator> { return std::make_unique<Toy>(p, setup); }},

@@ -54,9 +54,7 @@ TracedTrial DriveScript(const ScriptParams& params, const Overrides& overrides =
       {.name = "script",
        .doc = "drives one command",
        .traits = [](const ScriptParams&) -> navigation::NavigatorTraits {
-         return {.reads = navigation::LookReading::kNothing,
-                 .cost = navigation::CostOfLook{},
-                 .goal = navigation::GoalTolerance{}};
+         return {navigation::LookReading::kNothing, navigation::CostOfLook{}, {}};
        },
        .make = [](const ScriptParams& p, const navigation::NavigatorSetup&)
            -> std::unique_ptr<navigation::Navigator> { return std::make_unique<Script>(p); }},

@@ -302,25 +302,24 @@ bool GestaltNavigator::AtGoal(const PoseEstimate& estimate) const {
 }
 
 NavigatorDescription<GestaltParams> DescribeGestalt() {
-  return {.name = "gestalt",
-          .doc = "map-based navigator",
-          .traits = [](const GestaltParams& params) -> NavigatorTraits {
-            const GestaltRoverParams& rover = params.map.rover;
-            NavigatorTraits traits{.reads = LookReading::kPoints,
-                                   .cost = CostOf(params.map.grid),
-                                   .goal = GoalTolerance{"waypoints.goal_tolerance_m",
-                                                         params.waypoints.goal_tolerance_m}};
-            if (!rover.modelled) return traits;
-            traits.size = BelievedSize{
-                "map.rover.length_m", rover.length_m, "map.rover.width_m", rover.width_m,
-                "use the size of the rover, e.g. \"extends\": "
-                "scenarios/navigation/gestalt_rocky_3_2.json in navigation.gestalt"};
-            return traits;
-          },
-          .make = [](const GestaltParams& params,
-                     const NavigatorSetup& setup) -> std::unique_ptr<Navigator> {
-            return std::make_unique<GestaltNavigator>(params, setup.goal);
-          }};
+  return {
+      .name = "gestalt",
+      .doc = "map-based navigator",
+      .traits = [](const GestaltParams& params) -> NavigatorTraits {
+        const GestaltRoverParams& rover = params.map.rover;
+        NavigatorTraits traits(LookReading::kPoints, CostOf(params.map.grid),
+                               {"waypoints.goal_tolerance_m", params.waypoints.goal_tolerance_m});
+        if (!rover.modelled) return traits;
+        traits.size =
+            BelievedSize{"map.rover.length_m", rover.length_m, "map.rover.width_m", rover.width_m,
+                         "use the size of the rover, e.g. \"extends\": "
+                         "scenarios/navigation/gestalt_rocky_3_2.json in navigation.gestalt"};
+        return traits;
+      },
+      .make = [](const GestaltParams& params,
+                 const NavigatorSetup& setup) -> std::unique_ptr<Navigator> {
+        return std::make_unique<GestaltNavigator>(params, setup.goal);
+      }};
 }
 
 }  // namespace rockyard::navigation

@@ -235,12 +235,12 @@ NavigatorDescription<PathfinderParams> DescribePathfinder() {
   return {.name = "pathfinder",
           .doc = "behaviour controller",
           .traits = [](const PathfinderParams& params) -> NavigatorTraits {
-            return {.reads = LookReading::kHazardReport,
-                    .cost = CostOfJudgement{},
-                    .goal = GoalTolerance{"goal_tolerance_m", params.goal_tolerance_m},
-                    .stripes =
-                        StripeNames{"left_stripes", "names with centre_stripes and right_stripes",
-                                    params.stripe_count()}};
+            NavigatorTraits traits(LookReading::kHazardReport, CostOfJudgement{},
+                                   {"goal_tolerance_m", params.goal_tolerance_m});
+            traits.stripes =
+                StripeNames{"left_stripes", "names with centre_stripes and right_stripes",
+                            params.stripe_count()};
+            return traits;
           },
           .make = [](const PathfinderParams& params,
                      const NavigatorSetup& setup) -> std::unique_ptr<Navigator> {

@@ -47,9 +47,9 @@ navigation::NavigatorDescription<BeelineParams> DescribeBeeline() {
   return {.name = "beeline",
           .doc = "drives straight ahead",
           .traits = [](const BeelineParams& params) -> navigation::NavigatorTraits {
-            return {.reads = navigation::LookReading::kNothing,
-                    .cost = navigation::CostOfLook{},
-                    .goal = navigation::GoalTolerance{"tolerance_m", params.tolerance_m}};
+            return {navigation::LookReading::kNothing,
+                    navigation::CostOfLook{},
+                    {"tolerance_m", params.tolerance_m}};
           },
           .make = [](const BeelineParams& params, const navigation::NavigatorSetup& setup)
               -> std::unique_ptr<navigation::Navigator> {
