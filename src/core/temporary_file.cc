@@ -28,8 +28,9 @@ constexpr std::size_t kDigits = 16;
 // What SQLite puts beside a file that it writes.
 constexpr std::array<std::string_view, 3> kBeside = {"-journal", "-wal", "-shm"};
 
-// Names are random: to meet one that is taken twice is no chance.
-constexpr int kAttempts = 4;
+// Names are random: to meet one that is taken is no chance. But each process that looks for
+// leftovers may take away what is not locked yet, and a job array has hundreds of them.
+constexpr int kAttempts = 100;
 
 [[noreturn]] void Throw(int reason, const fs::path& path) {
   throw std::system_error(reason, std::generic_category(), path.string());
@@ -140,7 +141,11 @@ void TemporaryFile::Commit() {
 
 TemporaryFolder::TemporaryFolder(fs::path target, mode_t permissions) : target_(std::move(target)) {
   Made made = MakeNew(target_, [permissions](const fs::path& path) {
-    return mkdir(path.c_str(), permissions) == 0 ? OpenFolder(path) : -1;
+    if (mkdir(path.c_str(), permissions) != 0) return -1;
+    const int descriptor = OpenFolder(path);
+    // Somebody took it for a leftover before it could be locked: another name is as good.
+    if (descriptor < 0 && errno == ENOENT) errno = EEXIST;
+    return descriptor;
   });
   path_ = std::move(made.path);
   descriptor_ = made.descriptor;
