@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "core/test_folder.h"
+
 namespace rockyard::app {
 
 struct CommandResult {
@@ -48,15 +50,7 @@ inline bool WaitForEnd(pid_t process) {
 // A test with a folder of its own, in which the command runs.
 class CommandTest : public testing::Test {
  protected:
-  CommandTest()
-      : folder_(std::filesystem::temp_directory_path() /
-                ("rockyard-cli-" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(folder_ / "work");
-  }
-  ~CommandTest() override {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
+  CommandTest() { std::filesystem::create_directories(folder_ / "work"); }
 
   pid_t Start(const std::vector<std::string>& words) const {
     return StartProgram(With({ROCKYARD_COMMAND}, words));
@@ -118,7 +112,8 @@ class CommandTest : public testing::Test {
     dup2(file, descriptor);
   }
 
-  std::filesystem::path folder_;
+  core::TestFolder own_;
+  const std::filesystem::path& folder_ = own_.path();
 };
 
 }  // namespace rockyard::app

@@ -11,6 +11,7 @@
 #include "batch/merge_shards.h"
 #include "batch/stored_ends.h"
 #include "batch/trial_hash.h"
+#include "core/test_folder.h"
 #include "experiments/experiment.h"
 #include "fake_experiment.h"
 #include "scenario/load.h"
@@ -52,7 +53,7 @@ BatchOptions RuleOptions(int threads, Order order = Order::kNatural) {
 }
 
 std::string HashUnderRule(const BatchOptions& options, std::int64_t& trials) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   ResultStore store = ResultStore::Create(folder.path(), ThreeCells(), 1000);
   store.SetRule(options.rule);
   const FakeExperiment experiment;
@@ -85,7 +86,7 @@ TEST(Campaign, RuleEndsTheSameWhateverThreadsAndOrder) {
 TEST(Campaign, RuleGoesOnAfterAStop) {
   std::int64_t expected_trials = 0;
   const std::string expected = HashUnderRule(RuleOptions(1), expected_trials);
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   std::atomic<int> started = 0;
   std::atomic<bool> stop = false;
   const FakeExperiment experiment([&](std::uint64_t) { stop = ++started % 40 == 0; });
@@ -107,7 +108,7 @@ TEST(Campaign, RuleGoesOnAfterAStop) {
 TEST(Campaign, RuleOnAStoreWithMoreTrialsAndHoles) {
   std::int64_t expected_trials = 0;
   const std::string expected = HashUnderRule(RuleOptions(1), expected_trials);
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   ResultStore store = ResultStore::Create(folder.path(), ThreeCells(), 1000);
   for (int cell = 0; cell < 3; ++cell) {
     std::vector<CellRecord> rows;
@@ -138,7 +139,7 @@ TEST(Campaign, FaultsAreJudgedInEachCell) {
   identity.cells.clear();
   for (int i = 0; i < 50; ++i) identity.cells.push_back(FakeCell(1, fmt::format("c{}", i)));
   for (const bool broken : {false, true}) {
-    const TemporaryFolder folder;
+    const core::TestFolder folder;
     ResultStore store = ResultStore::Create(folder.path(), identity, 100);
     const FakeExperiment good;
     const FakeExperiment bad([](std::uint64_t trial) {
@@ -155,7 +156,7 @@ TEST(Campaign, FaultsAreJudgedInEachCell) {
 
 // planned = completed + faulted + pending, at every report.
 TEST(Campaign, EveryPlannedTrialIsAccountedFor) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   const FakeExperiment experiment([](std::uint64_t index) {
     if (index % 10 == 3) throw std::runtime_error("blew up");
   });
@@ -202,7 +203,7 @@ class DriveCampaign : public testing::Test {
     return HashOf(store);
   }
 
-  TemporaryFolder folder_;
+  core::TestFolder folder_;
   std::unique_ptr<experiments::Experiment> experiment_;
   CampaignIdentity identity_;
 };

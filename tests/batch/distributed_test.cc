@@ -19,6 +19,7 @@
 #include "batch/remote_work.h"
 #include "batch/store_error.h"
 #include "batch/trial_hash.h"
+#include "core/test_folder.h"
 #include "fake_experiment.h"
 
 namespace rockyard::batch {
@@ -148,7 +149,7 @@ void Sleep(int milliseconds) {
 
 class Distributed : public testing::Test {
  protected:
-  TemporaryFolder folder_;
+  core::TestFolder folder_;
   ResultStore store_ = ResultStore::Create(folder_.path(), FakeIdentity(), kTrials);
   const std::atomic<bool> stop_ = false;
 };
@@ -348,7 +349,7 @@ TEST_F(Distributed, RoundsOfAStoppingRule) {
   options.rule = StoppingRule{.half_width = 0.12, .block = 40, .confidence = 0.95};
   const BatchResult result = Cluster(3).Run(store_, options, [](int, std::uint64_t) { Sleep(1); });
   EXPECT_EQ(result.end, BatchEnd::kFinished);
-  const TemporaryFolder other;
+  const core::TestFolder other;
   ResultStore alone = ResultStore::Create(other.path(), FakeIdentity(), kTrials);
   const std::atomic<bool> never = false;
   RunBatch(FakeExperiment(), alone, options, never);

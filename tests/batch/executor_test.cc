@@ -10,6 +10,7 @@
 #include "batch/sqlite_database.h"
 #include "batch/store_error.h"
 #include "batch/trial_hash.h"
+#include "core/test_folder.h"
 #include "fake_experiment.h"
 
 namespace rockyard::batch {
@@ -32,7 +33,7 @@ std::string PlainHash() {
 }
 
 std::string HashAfter(const BatchOptions& options, std::uint64_t seed = 1) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(seed), kTrials);
   const BatchResult result = RunBatch(FakeExperiment(), store, options, kNeverStop);
   EXPECT_EQ(result.end, BatchEnd::kFinished);
@@ -53,7 +54,7 @@ TEST(Executor, SameRecordsWhateverThreadsAndOrder) {
 TEST(Executor, ShuffledOrderIsAnotherOrder) {
   std::vector<std::uint64_t> order;
   const FakeExperiment experiment([&](std::uint64_t index) { order.push_back(index); });
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), kTrials);
   RunBatch(experiment, store, Options(1, Order::kShuffled), kNeverStop);
   EXPECT_EQ(std::set(order.begin(), order.end()).size(), static_cast<std::size_t>(kTrials));
@@ -61,7 +62,7 @@ TEST(Executor, ShuffledOrderIsAnotherOrder) {
 }
 
 TEST(Executor, StopsOnRequestAndGoesOnToTheSameHash) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   std::atomic<bool> stop = false;
   std::atomic<int> started = 0;
   const FakeExperiment experiment([&](std::uint64_t) {
@@ -88,7 +89,7 @@ TEST(Executor, StopsOnRequestAndGoesOnToTheSameHash) {
 
 // A watchdog or a user may ask while the last trial ends.
 TEST(Executor, ThatIsStoppedInItsLastTrialHasFinished) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   std::atomic<bool> stop = false;
   std::atomic<int> started = 0;
   const FakeExperiment experiment([&](std::uint64_t) {
@@ -100,7 +101,7 @@ TEST(Executor, ThatIsStoppedInItsLastTrialHasFinished) {
 }
 
 TEST(Executor, ExtendsARun) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 50);
   RunBatch(FakeExperiment(), store, Options(2), kNeverStop);
   EXPECT_EQ(store.Load().size(), 50U);
@@ -111,7 +112,7 @@ TEST(Executor, ExtendsARun) {
 
 // 40 of 200: some throw, one returns a record of the wrong length.
 TEST(Executor, CountsFaultsApartAndFailsAboveTheFraction) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   const FakeExperiment experiment([](std::uint64_t index) {
     if (index % 5 == 0) throw std::runtime_error("the solver blew up");
   });
@@ -143,7 +144,7 @@ class ShortRecords final : public experiments::Experiment {
 };
 
 TEST(Executor, ARecordThatDoesNotFitIsAFault) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), kTrials);
   EXPECT_EQ(RunBatch(ShortRecords(), store, Options(2), kNeverStop).progress.faults, kTrials);
   EXPECT_THAT(store.Load()[0].detail, HasSubstr("1 values for 3 columns"));
@@ -164,14 +165,14 @@ class InfiniteRecords final : public experiments::Experiment {
 };
 
 TEST(Executor, AnInfiniteValueIsAFault) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), kTrials);
   EXPECT_EQ(RunBatch(InfiniteRecords(), store, Options(2), kNeverStop).progress.faults, kTrials);
   EXPECT_THAT(store.Load()[0].detail, HasSubstr("sim_time_s is infinite"));
 }
 
 TEST(Executor, ReportsByOneThreadAtATimeAndAtTheEnd) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), kTrials);
   const FakeExperiment slow(
       [](std::uint64_t) { std::this_thread::sleep_for(std::chrono::microseconds(300)); });
@@ -189,7 +190,7 @@ TEST(Executor, ReportsByOneThreadAtATimeAndAtTheEnd) {
 }
 
 TEST(Executor, AStoreThatFailsStopsTheRunAndLosesNothingStored) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 100000);
   // From trial 30 on the store refuses records.
   SqliteDatabase(StorePath(folder.path()), Access::kChange)

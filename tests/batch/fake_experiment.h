@@ -1,9 +1,7 @@
 // An experiment without a rover: records that follow from (seed, index) alone.
 #pragma once
 
-#include <unistd.h>
 
-#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -80,27 +78,5 @@ inline void AppendRecords(ResultStore& store, const std::vector<truth::Record>& 
   for (const truth::Record& record : records) rows.push_back({0, record});
   store.Append(rows);
 }
-
-// A folder of its own, removed in the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    static std::atomic<int> count = 0;
-    path_ = std::filesystem::temp_directory_path() /
-            ("rockyard-test-" + std::to_string(getpid()) + "-" + std::to_string(count++));
-    std::filesystem::create_directories(path_);
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace rockyard::batch

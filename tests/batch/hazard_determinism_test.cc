@@ -6,6 +6,7 @@
 
 #include "batch/executor.h"
 #include "batch/trial_hash.h"
+#include "core/test_folder.h"
 #include "experiments/experiment.h"
 #include "fake_experiment.h"
 #include "scenario/load.h"
@@ -31,7 +32,7 @@ BatchOptions Options(int threads, Order order) {
 
 std::string HashOf(const experiments::Experiment& experiment, const BatchOptions& options,
                    std::uint64_t seed = 1) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   ResultStore store = ResultStore::Create(folder.path(), IdentityOf(experiment, seed), kRuns);
   RunBatch(experiment, store, options, kNeverStop);
   return TrialHash(store.Load());

@@ -14,6 +14,7 @@
 #include "batch/run_folder.h"
 #include "batch/store_error.h"
 #include "batch/trial_hash.h"
+#include "core/test_folder.h"
 #include "fake_experiment.h"
 
 namespace rockyard::batch {
@@ -74,7 +75,7 @@ class MergeTest : public testing::Test {
 
   fs::path Out() const { return folder_.path() / "merged"; }
 
-  TemporaryFolder folder_;
+  core::TestFolder folder_;
   int made_ = 0;
 };
 

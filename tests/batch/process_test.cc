@@ -13,6 +13,7 @@
 #include "batch/run_folder.h"
 #include "batch/store_error.h"
 #include "batch/trial_hash.h"
+#include "core/test_folder.h"
 #include "fake_experiment.h"
 
 namespace rockyard::batch {
@@ -117,7 +118,7 @@ std::string HashAfterResume(const fs::path& folder, std::int64_t trials) {
 }
 
 TEST(KilledRun, GoesOnToTheSameHash) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   Child child({.folder = folder.path(), .milliseconds = 10});
   ASSERT_TRUE(WaitForTrials(folder.path(), 20));
   child.Kill();
@@ -128,7 +129,7 @@ TEST(KilledRun, GoesOnToTheSameHash) {
 }
 
 TEST(KilledRun, FinishedTrialsAreDurableWhileAnotherHangs) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   Child child({.folder = folder.path(), .trials = 50, .hang_at = 7});
   ASSERT_TRUE(WaitForTrials(folder.path(), 49)) << "all but the one that hangs";
   child.Kill();
@@ -137,7 +138,7 @@ TEST(KilledRun, FinishedTrialsAreDurableWhileAnotherHangs) {
 }
 
 TEST(KilledRun, KilledAgainAndAgain) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   std::size_t stored = 0;
   while (stored < 60) {
     Child child({.folder = folder.path(), .trials = 60, .milliseconds = 5});
@@ -151,7 +152,7 @@ TEST(KilledRun, KilledAgainAndAgain) {
 }
 
 TEST(TwoRuns, TheSecondIsRefusedAndTheFirstUnharmed) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   Child first({.folder = folder.path(), .trials = 20, .hang_at = 3});
   ASSERT_TRUE(WaitForTrials(folder.path(), 19));
   Child second({.folder = folder.path(), .trials = 20});
@@ -177,7 +178,7 @@ void ExpectGracefulFailure(const fs::path& folder, Child& child) {
 }
 
 TEST(FullDisk, FileSizeLimitLosesNoStoredTrial) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   Child child({.folder = folder.path(), .trials = 20000, .milliseconds = 1, .file_limit = 120000});
   ExpectGracefulFailure(folder.path(), child);
   EXPECT_EQ(HashAfterResume(folder.path(), 400),
@@ -186,7 +187,7 @@ TEST(FullDisk, FileSizeLimitLosesNoStoredTrial) {
 
 // A small file system of its own, where the test may mount one.
 TEST(FullDisk, RealOneLosesNoStoredTrial) {
-  const TemporaryFolder disk;
+  const core::TestFolder disk;
   if (mount("tmpfs", disk.path().c_str(), "tmpfs", 0, "size=256k") != 0) {
     GTEST_SKIP() << "mounting needs root; FileSizeLimitLosesNoStoredTrial covers the rest";
   }

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <thread>
 
+#include "core/test_folder.h"
 #include "fake_experiment.h"
 
 namespace rockyard::batch {
@@ -43,7 +44,7 @@ class RecordWriterTest : public testing::Test {
  protected:
   static constexpr auto kMax = static_cast<std::int64_t>(RecordWriter::kMaxWaiting);
 
-  TemporaryFolder folder_;
+  core::TestFolder folder_;
   ResultStore store_ = ResultStore::Create(folder_.path(), FakeIdentity(), 4 * kMax);
   Gate gate_;
 };

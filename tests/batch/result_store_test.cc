@@ -9,6 +9,7 @@
 
 #include "batch/store_error.h"
 #include "batch/trial_hash.h"
+#include "core/test_folder.h"
 #include "fake_experiment.h"
 
 namespace rockyard::batch {
@@ -20,7 +21,7 @@ using truth::TrialOutcome;
 std::uint64_t Bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
 TEST(ResultStore, KeepsEveryBitOfDoubles) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   const double values[] = {0.1,
                            -0.0,
                            0.0,
@@ -48,7 +49,7 @@ TEST(ResultStore, KeepsEveryBitOfDoubles) {
 }
 
 TEST(ResultStore, KeepsNanTextsFaultsAndOrder) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 5);
   const std::string detail = "quote ' and \" and\nline, \xc3\xa4, DROP TABLE trials;--";
   AppendRecords(store, {
@@ -67,7 +68,7 @@ TEST(ResultStore, KeepsNanTextsFaultsAndOrder) {
 }
 
 TEST(ResultStore, KeepsIdentityAndPlan) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   const CampaignIdentity identity = FakeIdentity(18446744073709551615ULL);
   ResultStore store = ResultStore::Create(folder.path(), identity, 7);
   store.SetPlanned(0, 9);
@@ -87,20 +88,20 @@ TEST(ResultStore, KeepsIdentityAndPlan) {
 }
 
 TEST(ResultStore, KeepsWhatTheScenarioWasChangedBy) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   CampaignIdentity identity = FakeIdentity();
   identity.settings = {"name=\"two\nlines\"", "--ablate sight"};
   { const ResultStore store = ResultStore::Create(folder.path(), identity, 3); }
   EXPECT_EQ(ResultStore::Read(folder.path()).identity().settings, identity.settings);
   // They decide no record: the same scenario by another way goes on.
   EXPECT_NO_THROW(ResultStore::RequireSame(folder.path(), FakeIdentity(), BuildPolicy::kSame));
-  const TemporaryFolder older;
+  const core::TestFolder older;
   { const ResultStore store = ResultStore::Create(older.path(), FakeIdentity(), 3); }
   EXPECT_EQ(ResultStore::Read(older.path()).identity().settings, std::nullopt);
 }
 
 TEST(ResultStore, KeepsTheFirstRecordOfATrial) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 3);
   AppendRecords(store, {{1, TrialOutcome::kJammed, "first", {1.0, 1.0, 1.0}}});
   AppendRecords(store, {{1, TrialOutcome::kNoPath, "second", {2.0, 2.0, 2.0}}});
@@ -110,7 +111,7 @@ TEST(ResultStore, KeepsTheFirstRecordOfATrial) {
 }
 
 TEST(ResultStore, CanBeReadWhileItIsWritten) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   ResultStore writer = ResultStore::Create(folder.path(), FakeIdentity(), 3);
   const ResultStore reader = ResultStore::Read(folder.path());
   EXPECT_TRUE(reader.Load().empty());
@@ -119,7 +120,7 @@ TEST(ResultStore, CanBeReadWhileItIsWritten) {
 }
 
 TEST(ResultStore, TakesOddFolderNames) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   const auto odd = folder.path() / "a b?c#d%20'e";
   std::filesystem::create_directories(odd);
   ResultStore store = ResultStore::Create(odd, FakeIdentity(), 1);

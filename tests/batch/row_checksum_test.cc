@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "batch/sqlite_database.h"
+#include "core/test_folder.h"
 #include "fake_experiment.h"
 
 namespace rockyard::batch {
@@ -51,7 +52,7 @@ TEST(RowChecksum, TellsTypesSignsAndLimitsOfTextsApart) {
 }
 
 TEST(RowChecksum, OfARowIsThatOfItsValues) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   const SqliteDatabase database(folder.path() / "a.sqlite", Access::kCreate);
   SqliteStatement row = database.Prepare("SELECT 7, -0.5, NULL, 'rock', 'not counted'");
   ASSERT_TRUE(row.Step());

@@ -7,6 +7,7 @@
 
 #include "batch/result_store.h"
 #include "batch/store_error.h"
+#include "core/test_folder.h"
 #include "fake_experiment.h"
 
 namespace rockyard::batch {
@@ -15,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(FolderClaim, IsExclusiveAndEnds) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   {
     const FolderClaim claim(folder.path());
     try {
@@ -31,7 +32,7 @@ TEST(FolderClaim, IsExclusiveAndEnds) {
 }
 
 TEST(FolderClaim, MakesFoldersAndSaysWhyNot) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   { const FolderClaim claim(folder.path() / "a" / "b"); }
   EXPECT_TRUE(fs::is_directory(folder.path() / "a" / "b"));
   std::ofstream(folder.path() / "file") << "x";
@@ -47,7 +48,7 @@ TEST(FolderClaim, MakesFoldersAndSaysWhyNot) {
 }
 
 TEST(FolderClaim, LeavesNoPartOfAPathThatCannotBeMade) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   const fs::path too_long = folder.path() / "a" / "b" / std::string(300, 'x');
   EXPECT_THROW(FolderClaim{too_long}, StoreError);
   EXPECT_TRUE(fs::is_empty(folder.path()));
@@ -56,7 +57,7 @@ TEST(FolderClaim, LeavesNoPartOfAPathThatCannotBeMade) {
 }
 
 TEST(FolderClaim, RemovesWhatKilledRunsLeftOfTheirStores) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   const std::string left = StorePath(folder.path()).string() + ".tmp-0123456789abcdef";
   for (const char* suffix : {"", "-journal"}) std::ofstream(left + suffix) << "x";
   EXPECT_TRUE(HoldsNoRunYet(folder.path()));
@@ -65,7 +66,7 @@ TEST(FolderClaim, RemovesWhatKilledRunsLeftOfTheirStores) {
 }
 
 TEST(HoldsNoRunYet, OnlyWhereEverythingIsALeftover) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   EXPECT_TRUE(HoldsNoRunYet(folder.path()));
   EXPECT_FALSE(HoldsNoRunYet(folder.path() / "nowhere"));
   std::ofstream(folder.path() / "results.sqlite-journal") << "x";
@@ -78,7 +79,7 @@ TEST(HoldsNoRunYet, OnlyWhereEverythingIsALeftover) {
 }
 
 TEST(SetStoreAside, TakesTheJournalWithIt) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   ResultStore::Create(folder.path(), FakeIdentity(), 1);
   std::ofstream(StorePath(folder.path()).string() + "-journal") << "hot";
   const fs::path aside = SetStoreAside(folder.path());
@@ -88,7 +89,7 @@ TEST(SetStoreAside, TakesTheJournalWithIt) {
 
 // SQLite would take it for the log of the new store.
 TEST(SetStoreAside, ALogWithoutAStoreIsNotOfTheNextStoreNorOfTheLast) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   ResultStore::Create(folder.path(), FakeIdentity(), 1);
   const fs::path first = SetStoreAside(folder.path());
   std::ofstream(StorePath(folder.path()).string() + "-wal") << "lost";
@@ -100,7 +101,7 @@ TEST(SetStoreAside, ALogWithoutAStoreIsNotOfTheNextStoreNorOfTheLast) {
 }
 
 TEST(SetStoreAside, KeepsEveryTrial) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   std::vector<fs::path> kept;
   for (int generation = 0; generation < 3; ++generation) {
     ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 5);
@@ -112,7 +113,7 @@ TEST(SetStoreAside, KeepsEveryTrial) {
     EXPECT_FALSE(HoldsStore(folder.path()));
   }
   for (std::size_t generation = 0; generation < kept.size(); ++generation) {
-    const TemporaryFolder restored;
+    const core::TestFolder restored;
     for (const char* suffix : {"", "-wal"}) {
       if (!fs::exists(kept[generation].string() + suffix)) continue;
       fs::copy(kept[generation].string() + suffix, StorePath(restored.path()).string() + suffix);
@@ -122,7 +123,7 @@ TEST(SetStoreAside, KeepsEveryTrial) {
 }
 
 TEST(FindRuns, TakesARunOrAFolderOfRuns) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   EXPECT_THROW(FindRuns(folder.path()), StoreError);
   EXPECT_THROW(FindRuns(folder.path() / "nowhere"), StoreError);
   for (const char* name : {"b", "a"}) {

@@ -17,6 +17,7 @@
 #include "batch/store_tables.h"
 #include "batch/stored_ends.h"
 #include "core/hash.h"
+#include "core/test_folder.h"
 #include "fake_experiment.h"
 #include "older_store.h"
 #include "scenario/load.h"
@@ -107,7 +108,7 @@ class StoreDamage : public testing::Test {
     return texts;
   }
 
-  TemporaryFolder folder_;
+  core::TestFolder folder_;
 };
 
 TEST_F(StoreDamage, IsReadBefore) {

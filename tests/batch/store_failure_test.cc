@@ -10,6 +10,7 @@
 #include "batch/run_folder.h"
 #include "batch/sqlite_database.h"
 #include "batch/store_error.h"
+#include "core/test_folder.h"
 #include "fake_experiment.h"
 
 namespace rockyard::batch {
@@ -70,7 +71,7 @@ class DamagedStore : public testing::Test {
     ExpectError(resume, StoreProblem::kDamaged, StorePath(folder_.path()));
   }
 
-  TemporaryFolder folder_;
+  core::TestFolder folder_;
 };
 
 TEST_F(DamagedStore, IsFineBefore) {
@@ -140,7 +141,7 @@ TEST_F(DamagedStore, NewerVersion) {
 }
 
 TEST(StoreFailure, NothingToReadAndNothingToOverwrite) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   ExpectError(ErrorOf([&] { ResultStore::Read(folder.path()); }), StoreProblem::kMissing,
               StorePath(folder.path()));
   {
@@ -153,7 +154,7 @@ TEST(StoreFailure, NothingToReadAndNothingToOverwrite) {
 }
 
 TEST(StoreFailure, AStoreThatHoldsNothingHasNotBegun) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   const fs::path path = StorePath(folder.path());
   EXPECT_FALSE(ResultStore::HasBegun(folder.path()));
   WriteFile(path, "");
@@ -175,7 +176,7 @@ TEST(StoreFailure, FolderThatTakesNoFiles) {
 }
 
 TEST(StoreFailure, LockedByAnotherProgram) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   ResultStore store = ResultStore::Create(folder.path(), FakeIdentity(), 2);
   SqliteDatabase other(StorePath(folder.path()), Access::kChange);
   SqliteTransaction transaction(other);
@@ -187,7 +188,7 @@ TEST(StoreFailure, LockedByAnotherProgram) {
 }
 
 TEST(ResumeMismatch, NamesEveryDifference) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   ResultStore::Create(folder.path(), FakeIdentity(), 2);
   CampaignIdentity wanted = FakeIdentity(5);
   wanted.cells[0].fingerprint = "1234";
@@ -203,7 +204,7 @@ TEST(ResumeMismatch, NamesEveryDifference) {
 }
 
 TEST(ResumeMismatch, AnotherBuildOnRequestOnly) {
-  const TemporaryFolder folder;
+  const core::TestFolder folder;
   ResultStore::Create(folder.path(), FakeIdentity(), 2);
   CampaignIdentity wanted = FakeIdentity();
   wanted.build = "0.2.0 def";

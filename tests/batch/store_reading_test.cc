@@ -16,6 +16,7 @@
 #include "batch/store_error.h"
 #include "batch/trial_hash.h"
 #include "core/temporary_file.h"
+#include "core/test_folder.h"
 #include "fake_experiment.h"
 #include "unprivileged.h"
 
@@ -121,7 +122,7 @@ class StoreReading : public testing::Test {
 
   fs::path path() const { return folder_.path(); }
 
-  TemporaryFolder folder_;
+  core::TestFolder folder_;
 };
 
 TEST_F(StoreReading, ACleanEndLeavesOneFile) {
@@ -210,7 +211,7 @@ TEST_F(StoreReading, NobodyReadsWhileARunWrites) {
 
 TEST_F(StoreReading, ThroughALinkWithTheLogOfTheFile) {
   WriteAndDie();
-  const TemporaryFolder other;
+  const core::TestFolder other;
   fs::create_symlink(StorePath(path()), StorePath(other.path()));
   EXPECT_EQ(HashIn(other.path()), PlainHash());
 }
@@ -239,7 +240,7 @@ TEST_F(StoreReading, NobodyAlwaysReadsACommitOfARunThatGoesOn) {
 TEST_F(StoreReading, LeavesNothingInTheTemporaryFolder) {
   WriteAndDie();
   fs::remove(path() / "results.sqlite-shm");
-  const TemporaryFolder temporary;
+  const core::TestFolder temporary;
   setenv("TMPDIR", temporary.path().c_str(), 1);
   const ResultStore store = ResultStore::Read(path());
   unsetenv("TMPDIR");
@@ -251,7 +252,7 @@ TEST_F(StoreReading, LeavesNothingInTheTemporaryFolder) {
 TEST_F(StoreReading, RemovesTheCopyOfAKilledReader) {
   WriteAndDie();
   fs::remove(path() / "results.sqlite-shm");
-  const TemporaryFolder temporary;
+  const core::TestFolder temporary;
   setenv("TMPDIR", temporary.path().c_str(), 1);
   InKilledProcess([&] {
     const core::TemporaryFolder folder(temporary.path() / "rockyard-read", 0700);

@@ -11,6 +11,7 @@
 #include "batch/run_folder.h"
 #include "batch/trial_hash.h"
 #include "campaign/campaign_process.h"
+#include "core/test_folder.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -80,7 +81,7 @@ class Containment : public testing::Test {
     return trials;
   }
 
-  batch::TemporaryFolder folder_;
+  core::TestFolder folder_;
   std::string said_;
 };
 

@@ -18,6 +18,7 @@
 #include "campaign/run_report.h"
 #include "campaign/run_source.h"
 #include "core/hash.h"
+#include "core/test_folder.h"
 #include "report/paired_comparison.h"
 #include "scenario/load.h"
 #include "truth/drive_record.h"
@@ -124,7 +125,7 @@ class Memory : public testing::Test {
   }
 
  private:
-  batch::TemporaryFolder folder_;
+  core::TestFolder folder_;
 };
 
 TEST_F(Memory, TheFilesOfARun) {

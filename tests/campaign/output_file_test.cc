@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include "core/error.h"
+#include "core/test_folder.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -17,9 +17,6 @@ namespace fs = std::filesystem;
 
 class OutputFile : public testing::Test {
  protected:
-  OutputFile() { fs::create_directories(folder_); }
-  ~OutputFile() override { fs::remove_all(folder_); }
-
   std::string At(const std::string& name) const { return (folder_ / name).string(); }
 
   // Empty where it is accepted.
@@ -33,8 +30,8 @@ class OutputFile : public testing::Test {
   }
 
  private:
-  fs::path folder_ =
-      fs::temp_directory_path() / ("rockyard-output-file-" + std::to_string(getpid()));
+  core::TestFolder own_;
+  const fs::path& folder_ = own_.path();
 };
 
 TEST_F(OutputFile, MayBeNewOrThere) {

@@ -13,6 +13,7 @@
 #include "batch/trial_hash.h"
 #include "campaign/run.h"
 #include "campaign/sweep.h"
+#include "core/test_folder.h"
 
 namespace rockyard::campaign {
 
@@ -60,7 +61,7 @@ class SmallRuns : public testing::Test {
   }
 
  private:
-  batch::TemporaryFolder folder_;
+  core::TestFolder folder_;
 };
 
 }  // namespace rockyard::campaign

@@ -15,6 +15,7 @@
 #include "core/error.h"
 #include "core/json_text.h"
 #include "core/machine_error.h"
+#include "core/test_folder.h"
 
 namespace rockyard::core {
 namespace {
@@ -24,11 +25,7 @@ using testing::HasSubstr;
 
 class JsonFileTest : public testing::Test {
  protected:
-  JsonFileTest()
-      : folder_(fs::path(testing::TempDir()) / ("json_file_" + std::to_string(getpid()))) {
-    fs::create_directories(folder_ / "sub");
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  JsonFileTest() { fs::create_directories(folder_ / "sub"); }
 
   fs::path Write(const std::string& name, std::string_view text) const {
     std::ofstream(folder_ / name) << text;
@@ -44,7 +41,8 @@ class JsonFileTest : public testing::Test {
     return {};
   }
 
-  fs::path folder_;
+  TestFolder own_;
+  const fs::path& folder_ = own_.path();
 };
 
 TEST_F(JsonFileTest, ExtendsIsRelativeToTheFileThatSaysIt) {

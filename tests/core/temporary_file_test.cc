@@ -13,6 +13,8 @@
 #include <string>
 #include <system_error>
 
+#include "core/test_folder.h"
+
 namespace rockyard::core {
 namespace {
 
@@ -20,12 +22,6 @@ namespace fs = std::filesystem;
 
 class TemporaryFileTest : public testing::Test {
  protected:
-  TemporaryFileTest()
-      : folder_(fs::temp_directory_path() / ("rockyard-temporary-" + std::to_string(getpid()))) {
-    fs::create_directories(folder_);
-  }
-  ~TemporaryFileTest() override { fs::remove_all(folder_); }
-
   fs::path Target() const { return folder_ / "name.txt"; }
   fs::path Leftover(const std::string& suffix = "") const {
     return folder_ / ("name.txt.tmp-0123456789abcdef" + suffix);
@@ -41,7 +37,8 @@ class TemporaryFileTest : public testing::Test {
     return names;
   }
 
-  fs::path folder_;
+  TestFolder own_;
+  const fs::path& folder_ = own_.path();
 };
 
 TEST_F(TemporaryFileTest, TakesTheNameAtCommitAlone) {

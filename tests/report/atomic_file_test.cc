@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/test_folder.h"
 
 namespace rockyard::report {
 namespace {
@@ -16,12 +17,6 @@ namespace fs = std::filesystem;
 
 class AtomicFileTest : public testing::Test {
  protected:
-  AtomicFileTest()
-      : folder_(fs::temp_directory_path() / ("rockyard-atomic-" + std::to_string(getpid()))) {
-    fs::create_directories(folder_);
-  }
-  ~AtomicFileTest() override { fs::remove_all(folder_); }
-
   static std::string Read(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
@@ -30,7 +25,8 @@ class AtomicFileTest : public testing::Test {
     return std::distance(fs::directory_iterator(folder_), fs::directory_iterator());
   }
 
-  fs::path folder_;
+  core::TestFolder own_;
+  const fs::path& folder_ = own_.path();
 };
 
 TEST_F(AtomicFileTest, WritesAndReplaces) {

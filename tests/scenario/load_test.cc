@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -12,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/json_text.h"
+#include "core/test_folder.h"
 #include "navigation/pathfinder/pathfinder_params.h"
 
 namespace rockyard::scenario {
@@ -214,13 +214,8 @@ TEST(LoadTest, FingerprintSeesWhatDecidesATrialAndNothingElse) {
 
 class LoadFileTest : public testing::Test {
  protected:
-  LoadFileTest()
-      : folder_(fs::path(testing::TempDir()) / ("scenario_load_test-" + std::to_string(getpid()))) {
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  fs::path folder_;
+  core::TestFolder own_;
+  const fs::path& folder_ = own_.path();
 };
 
 TEST_F(LoadFileTest, FilesExtendFiles) {
