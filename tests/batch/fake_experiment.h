@@ -1,10 +1,8 @@
 // An experiment without a rover: records that follow from (seed, index) alone.
 #pragma once
 
-
 #include <chrono>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <limits>
 #include <stdexcept>
