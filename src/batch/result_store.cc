@@ -165,7 +165,9 @@ ResultStore ResultStore::Resume(const fs::path& folder, const CampaignIdentity& 
 ResultStore ResultStore::Read(const fs::path& folder) {
   const fs::path path = StorePath(folder);
   std::error_code error;
-  if (!HoldsStore(folder)) {
+  if (!fs::exists(path, error)) {
+    // A folder that may not be entered may hold a store all the same.
+    if (error) FailSystem(path, "cannot be opened", error.value());
     throw StoreError(StoreProblem::kMissing, path.string(), "does not exist",
                      "name the folder of a run, as `rockyard run` prints it");
   }

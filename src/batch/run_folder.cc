@@ -149,6 +149,7 @@ std::vector<fs::path> FindRuns(const fs::path& path) {
   for (const fs::directory_entry& entry : fs::directory_iterator(path, error)) {
     if (HoldsStore(entry.path())) runs.push_back(entry.path());
   }
+  if (error == std::errc::permission_denied) FailSystem(path, "cannot be read", error.value());
   std::sort(runs.begin(), runs.end());
   if (runs.empty()) {
     throw StoreError(StoreProblem::kMissing, path.string(),

@@ -293,6 +293,17 @@ TEST_F(StoreReading, WhoMayNotReadIsToldSo) {
   EXPECT_THAT(AsNobody([&] { return HashIn(path()); }), HasSubstr("cannot be opened"));
 }
 
+TEST_F(StoreReading, WhoMayNotEnterTheFolderIsToldSo) {
+  WriteCleanly();
+  const fs::perms former = fs::status(path()).permissions();
+  fs::permissions(path(), fs::perms::none);
+  const std::string of_reading = AsNobody([&] { return HashIn(path()); });
+  const std::string of_finding = AsNobody([&] { return FindRuns(path()).front().string(); });
+  fs::permissions(path(), former);
+  EXPECT_THAT(of_reading, HasSubstr("cannot be opened: Permission"));
+  EXPECT_THAT(of_finding, HasSubstr("cannot be read: Permission"));
+}
+
 TEST_F(StoreReading, TooManyOpenFilesHaveWordsOfTheirOwn) {
   WriteCleanly();
   rlimit former{};

@@ -18,6 +18,9 @@ class TestFolder {
     std::string name = std::filesystem::temp_directory_path() / "rockyard-test-XXXXXX";
     if (mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category());
     path_ = name;
+    // As of a folder that a user makes: a colleague may read it.
+    constexpr auto kReadable = std::filesystem::perms(0755);
+    std::filesystem::permissions(path_, kReadable);
   }
   ~TestFolder() {
     std::error_code ignored;
