@@ -29,7 +29,7 @@ from readme_tables import failures
 
 SCENARIOS = study.ROOT / "scenarios/gestalt"
 QUASI_STATIC, MULTIBODY = "rover.fidelity=quasi_static", "rover.fidelity=multibody"
-ORACLE = ["sensors.localization=oracle"]
+ORACLE = ["localization.estimator=oracle"]
 DRIVE, MAP = "navigation.gestalt.drive", "navigation.gestalt.map"
 # Name: scenario, settings that make the cell.
 CELLS = {

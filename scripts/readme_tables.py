@@ -45,7 +45,7 @@ CAUSES = [
     ("threshold_3", "hazard threshold 3 cm", ["perception.hazard.neighbour_threshold_m=0.03"], BOTH),
     ("threshold_13", "hazard threshold 13 cm",
      ["perception.hazard.neighbour_threshold_m=0.13"], BOTH),
-    ("oracle", "perfect localization", ["sensors.localization=oracle"], BOTH),
+    ("oracle", "perfect localization", ["localization.estimator=oracle"], BOTH),
     ("no_inputs", "without the two published inputs (turn scale, scrape jumps)",
      ["sensors.gyro.scale=1", "sensors.gyro.scrape.enabled=false"], BOTH),
     ("stiff_sand", "sand twice as stiff in shear (K 2 mm), odometer calibrated on it",
@@ -63,9 +63,9 @@ FIDELITY = ["obstacles_0.28", "obstacles_0.85", "nominal", "vl2"]
 GESTALT = [
     ("narrow", "gestalt_narrow_course", []),
     ("vl2", "gestalt_viking_lander_2", []),
-    ("vl2_oracle", "gestalt_viking_lander_2", ["sensors.localization=oracle"]),
+    ("vl2_oracle", "gestalt_viking_lander_2", ["localization.estimator=oracle"]),
     ("error", "gestalt_localization_error", []),
-    ("error_oracle", "gestalt_localization_error", ["sensors.localization=oracle"]),
+    ("error_oracle", "gestalt_localization_error", ["localization.estimator=oracle"]),
 ]
 GESTALT_NAMES = {
     "narrow": "narrow_course, 5 m",

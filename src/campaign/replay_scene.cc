@@ -50,7 +50,7 @@ replay::ReplayCourse CourseOf(const scenario::Scenario& scenario, const truth::T
                               const terrain::Terrain& terrain, const terrain::Rectangle& bounds) {
   const trial::CourseParams& course = scenario.drive.course;
   replay::ReplayCourse shown{
-      .start = {course.start_x_m, course.start_y_m, course.start_heading_rad},
+      .start = course.Start(),
       .goal = traced.goal,
       .goal_radius_m = course.goal_radius_m,
       .told_goal = DesignatedGoal(traced),

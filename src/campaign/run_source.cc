@@ -14,6 +14,7 @@
 #include "core/json_file.h"
 #include "core/json_text.h"
 #include "scenario/ablations.h"
+#include "scenario/former_keys.h"
 #include "scenario/load.h"
 #include "scenario/sweep.h"
 
@@ -71,9 +72,10 @@ core::JsonValue LoadDocument(const fs::path& path, const std::string& cell) {
 
 // Absent where the scenario is of another version of the program.
 std::string Localization(const std::string& resolved) {
-  const core::JsonValue document = core::ParseJson(resolved, "resolved scenario");
-  const core::JsonValue* sensors = document.Find("sensors");
-  const core::JsonValue* found = sensors == nullptr ? nullptr : sensors->Find("localization");
+  core::JsonValue document = core::ParseJson(resolved, "resolved scenario");
+  scenario::RenameFormerKeys(document);
+  const core::JsonValue* group = document.Find("localization");
+  const core::JsonValue* found = group == nullptr ? nullptr : group->Find("estimator");
   const bool text = found != nullptr && found->Is(core::JsonValue::Type::kText);
   return text ? found->text() : std::string();
 }
@@ -92,7 +94,7 @@ std::vector<std::string> AblationsIn(const std::string& resolved) {
 scenario::Scenario LoadScenarioFrom(const fs::path& path, std::span<const std::string> overrides,
                                     const std::string& cell) {
   core::JsonValue document = LoadDocument(path, cell);
-  for (const std::string& assignment : overrides) core::ApplyOverride(document, assignment);
+  for (const std::string& assignment : overrides) scenario::Override(document, assignment);
   return scenario::ReadScenario(document);
 }
 

@@ -39,10 +39,10 @@ report::StepScene SceneOf(const trial::WatchedStep& watched, const truth::Trace&
   const trial::CourseParams& course = drive.course;
   report::StepScene scene{
       .X_WR = watched.X_WR,
-      .believed = {course.start_x_m, course.start_y_m, course.start_heading_rad},
+      .believed = course.Start(),
       .rover_length_m = drive.rover.geometry.length_m,
       .rover_width_m = drive.rover.geometry.width_m,
-      .start = {course.start_x_m, course.start_y_m, course.start_heading_rad},
+      .start = course.Start(),
       .waypoints = course.waypoints.Places(),
       .goal = course.GoalAt(trace.now_s()),
       .goal_radius_m = course.goal_radius_m,

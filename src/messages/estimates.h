@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+
+#include <Eigen/Core>
 
 #include "messages/measurements.h"
 
@@ -20,6 +23,24 @@ struct AttitudeEstimate {
   double roll_rad = 0.0;   // about x of the levelled rover frame, positive: left side up
   double pitch_rad = 0.0;  // about y, positive: nose down
   double z_m = 0.0;        // of R's origin above where the drive began
+};
+
+// The coordinates of a pose in a covariance, in this order: m and rad.
+enum class PoseCoordinate { kX, kY, kZ, kRoll, kPitch, kHeading };
+inline constexpr int kPoseCoordinates = 6;
+using PoseVector = Eigen::Matrix<double, kPoseCoordinates, 1>;
+using PoseCovariance = Eigen::Matrix<double, kPoseCoordinates, kPoseCoordinates>;
+
+// All that the rover believes of where it is, in six degrees of freedom.
+struct LocalizationEstimate {
+  // Corrected, in the world frame: what a goal is reached by. Aids make it jump.
+  PoseEstimate pose;
+  AttitudeEstimate attitude;
+  // In the frame of its own odometry, which aids leave alone: what a map and a manoeuvre go by.
+  // Both frames are one until the first correction, and again after operators moved the rover.
+  PoseEstimate odometry;
+  // Of pose and attitude; empty where the rover keeps no account of its error.
+  std::optional<PoseCovariance> covariance;
 };
 
 // An absolute correction from outside: lander update, arena reflection.

@@ -6,8 +6,8 @@
 #include <array>
 
 #include "core/error.h"
-#include "core/json_file.h"
 #include "core/spelling.h"
+#include "scenario/former_keys.h"
 #include "scenario/load.h"
 
 namespace rockyard::scenario {
@@ -17,7 +17,7 @@ using Settings = std::string_view;
 
 constexpr std::array<Settings, 1> kPerfectDesignation{"course.designation.enabled=false"};
 
-constexpr std::array<Settings, 1> kPerfectLocalization{"sensors.localization=oracle"};
+constexpr std::array<Settings, 1> kPerfectLocalization{"localization.estimator=oracle"};
 
 // Whole groups are emptied, so that their defaults hold, which are no errors.
 constexpr std::array<Settings, 13> kPerfectSensing{
@@ -107,7 +107,7 @@ const Ablation& FindAblation(std::string_view name) {
 
 void ApplyAblation(core::JsonValue& document, std::string_view name) {
   for (const std::string_view setting : FindAblation(name).settings) {
-    core::ApplyOverride(document, setting);
+    Override(document, setting);
   }
 }
 

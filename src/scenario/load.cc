@@ -6,13 +6,14 @@
 #include "core/hash.h"
 #include "core/json_file.h"
 #include "core/json_text.h"
+#include "scenario/former_keys.h"
 
 namespace rockyard::scenario {
 namespace {
 
 Scenario Finish(core::JsonValue document, std::span<const std::string> overrides,
                 const Scenario& defaults) {
-  for (const std::string& assignment : overrides) core::ApplyOverride(document, assignment);
+  for (const std::string& assignment : overrides) Override(document, assignment);
   return ReadScenario(document, defaults);
 }
 
@@ -46,7 +47,9 @@ Scenario ParseScenario(std::string_view text, std::span<const std::string> overr
 
 Scenario ReadScenario(const core::JsonValue& document, const Scenario& defaults) {
   Scenario scenario = defaults;
-  core::ReadParams(document, scenario);
+  core::JsonValue current = document;
+  RenameFormerKeys(current);
+  core::ReadParams(current, scenario);
   return scenario;
 }
 

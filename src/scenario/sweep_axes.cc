@@ -38,7 +38,7 @@ AxisSpec AxisReader::Read(JsonValue& value, const std::string& path) {
   if (!value.Is(Type::kObject)) return axis;
   axis.axis.name = params.name.empty() ? LastPart(params.path) : params.name;
   axis.axis.scale = params.scale;
-  axis.path = params.path;
+  axis.path = CurrentPath(params.path);
   ReadLevels(value, params, path, axis);
   parts_.CheckName(axis.axis.name, path + ".name");
   CheckLevels(axis, path);

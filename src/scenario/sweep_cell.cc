@@ -9,6 +9,7 @@
 #include "core/json_text.h"
 #include "math/angles.h"
 #include "scenario/ablations.h"
+#include "scenario/former_keys.h"
 #include "scenario/load.h"
 
 namespace rockyard::scenario {
@@ -26,8 +27,9 @@ bool SameNumber(double asked, double found, std::string_view path) {
 }
 
 // Compares what was asked for with what the resolved scenario holds, down to single values.
-void ReadBack(const JsonValue& asked, const JsonValue* found, const std::string& path,
+void ReadBack(const JsonValue& asked, const JsonValue& document, const std::string& path,
               std::vector<Problem>& problems) {
+  const JsonValue* found = FindPath(document, CurrentPath(path));
   if (found == nullptr) {
     problems.push_back(
         {path, "was set, but the resolved scenario has no such value", "check the path"});
@@ -35,8 +37,7 @@ void ReadBack(const JsonValue& asked, const JsonValue* found, const std::string&
   }
   if (asked.Is(Type::kObject)) {
     for (const core::JsonMember& member : asked.members()) {
-      ReadBack(member.value, found->Find(member.key), fmt::format("{}.{}", path, member.key),
-               problems);
+      ReadBack(member.value, document, fmt::format("{}.{}", path, member.key), problems);
     }
     return;
   }
@@ -99,10 +100,11 @@ const JsonValue* FindPath(const JsonValue& document, std::string_view path) {
 
 ResolvedCell ResolveCell(const SweepSpec& spec, const std::vector<LevelSpec>& levels) {
   JsonValue document = BaseOf(spec, levels);
+  RenameFormerKeys(document);
   std::vector<std::pair<std::string, JsonValue>> asked;
   const auto apply = [&](const JsonValue& settings) {
     for (const core::JsonMember& member : settings.members()) {
-      core::SetPath(document, member.key, member.value);
+      core::SetPath(document, CurrentPath(member.key), member.value);
       asked.emplace_back(member.key, member.value);
     }
   };
@@ -114,7 +116,7 @@ ResolvedCell ResolveCell(const SweepSpec& spec, const std::vector<LevelSpec>& le
   CheckExperiment(cell.scenario, cell.problems);
   for (const auto& [path, value] : asked) {
     CheckScope(path, cell.problems);
-    ReadBack(value, FindPath(cell.document, path), path, cell.problems);
+    ReadBack(value, cell.document, path, cell.problems);
   }
   const std::vector<std::string> ablations = AblationsOf(levels);
   if (ablations.empty()) return cell;

@@ -8,8 +8,7 @@
 
 namespace rockyard::sensing {
 
-// Returns the true pose as an operator's message; perception::DeadReckoning::Follow takes one per
-// tick.
+// Returns the true pose as an operator's message.
 inline messages::PoseUpdate TruePose(const truth::RoverState& state) {
   const math::Pose2 pose = math::ToPose2(state.X_WR);
   return {pose.x_m, pose.y_m, pose.heading_rad};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/fields.h"
+#include "math/pose.h"
 #include "messages/estimates.h"
 #include "sensing/feature_tracker_params.h"
 #include "trial/designation_params.h"
@@ -27,6 +28,8 @@ struct CourseParams {
   DesignationParams designation;
   sensing::FeatureTrackerParams tracking;
   RoutePlanParams oracle_route;
+
+  math::Pose2 Start() const { return {start_x_m, start_y_m, start_heading_rad}; }
 
   // The true places that the rover drives to one after the other, in W: every waypoint, then the
   // goal.

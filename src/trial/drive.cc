@@ -9,6 +9,7 @@
 #include "terrain/arena.h"
 #include "trial/goal_designation.h"
 #include "trial/layout.h"
+#include "trial/make_estimator.h"
 #include "trial/onboard_calibration.h"
 #include "trial/route_planner.h"
 #include "trial/tick_guard.h"
@@ -20,10 +21,6 @@ using messages::MotionKind;
 
 Underside UndersideOf(const rover::RoverGeometryParams& rover) {
   return {0.0, 0.5 * rover.belly_length_m, 0.5 * rover.belly_width_m, rover.belly_clearance_m};
-}
-
-math::Pose2 StartPose(const CourseParams& course) {
-  return {course.start_x_m, course.start_y_m, course.start_heading_rad};
 }
 
 // Open fields go on; every other arena ends where its layout ends.
@@ -95,7 +92,6 @@ Drive::Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
       stop_(WholeSteps(rover_->ramp_s() + drive.clock.stop_time_s, rover_->step_s())),
       terrain_sensing_(drive, key, scan_watcher),
       guard_(drive, key),
-      localizer_(drive, StartPose(drive.course)),
       navigator_(designated_goals_,
                  MakeNavigator(drive, field_.terrain, designated_goals_.front())),
       follower_(drive.rover.drive.speed_m_s, rover_->ramp_s()),
@@ -112,7 +108,7 @@ Drive::Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
     mirror_.emplace(drive.terrain.arena.MirrorLine());
   }
   if (trace_ != nullptr) RecordRocks();
-  rover_->Place(StartPose(drive.course));
+  rover_->Place(drive.course.Start());
   motion_sensors_.emplace(drive.sensors.gyro, drive.sensors.encoders,
                           drive.rover.geometry.wheel_radius_m, key, rover_->state());
   if (LooksForStuck(drive)) {
@@ -122,7 +118,8 @@ Drive::Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
   }
   if (drive.course.tracking.enabled) feature_tracker_.emplace(drive.course.tracking, key);
   monitor_.Restart(rover_->state());
-  localizer_.Place(rover_->state());
+  start_z_m_ = rover_->state().X_WR.translation().z();
+  estimator_ = MakeEstimator(drive, *rover_);
   RecordRest({});
   Rest(Activity::kComputing, StartUpTime(drive));
 }
@@ -142,8 +139,8 @@ std::optional<Verdict> Drive::Tick() {
   const std::size_t reached = navigator_.reached();
   const navigation::NavigatorDecision decision =
       navigator_.Decide({.time_s = ledger_.time_s(),
-                         .estimate = localizer_.pose(),
-                         .attitude = localizer_.attitude(),
+                         .estimate = pose(),
+                         .attitude = estimator_->estimate().attitude,
                          .report = percept_.report ? &*percept_.report : nullptr,
                          .cloud = percept_.cloud ? &*percept_.cloud : nullptr,
                          .vehicle_hazard = guard_.hazard(),
@@ -163,7 +160,7 @@ std::optional<Verdict> Drive::Tick() {
 
 std::optional<Verdict> Drive::Follow(const messages::MotionCommand& told) {
   const messages::MotionCommand motion =
-      follower_.Follow(told, localizer_.pose().distance_m, tick_.duration_s);
+      follower_.Follow(told, pose().distance_m, tick_.duration_s);
   if (motion.kind != MotionKind::kStop) return Move(motion, tick_);
   RestBetweenMoves(tick_.duration_s);
   return AskReferee(Activity::kOverhead, 0, tick_.duration_s);
@@ -183,7 +180,7 @@ void Drive::TrackGoal() {
   }
   sees_goal_ = sighting.has_value();
   if (!sighting) return;
-  const messages::Goal goal = perception::PlaceOf(*sighting, localizer_.pose());
+  const messages::Goal goal = perception::PlaceOf(*sighting, pose());
   navigator_.SetGoal(goal, navigation::GoalChange::kMoved);
   referee_.OnGoalMoved(goal);
 }
@@ -199,7 +196,7 @@ std::optional<Verdict> Drive::Look(messages::LookDirection direction) {
   terrain_sensing_.Begin();
   do {
     percept_ = terrain_sensing_.Look(direction, field_.terrain, rover_->state().X_WR,
-                                     localizer_.attitude());
+                                     estimator_->estimate().attitude);
     Rest(Activity::kScanning, percept_.time.scanning_s);
     Rest(Activity::kImaging, percept_.time.imaging_s);
     Rest(Activity::kComputing, percept_.time.computing_s);
@@ -239,7 +236,7 @@ std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const 
     Record("felt", Describe(hazard));
   }
   NoticeStuck(command, measured);
-  localizer_.UpdateAttitude(guard_.measured(), stretch.duration_s);
+  estimator_->Feel(guard_.measured(), stretch.duration_s);
   monitor_.Observe(rover_->state(), activity == Activity::kTurning);
   ObserveErrors();
   watch_.Observe(rover_->state().X_WR);
@@ -268,7 +265,7 @@ void Drive::ApplyCommand(const messages::WheelCommand& command, std::int64_t ste
 messages::MotionMeasurement Drive::UpdateEstimate(double duration_s, bool moving) {
   const messages::MotionMeasurement motion =
       motion_sensors_->Measure(rover_->state(), duration_s, moving);
-  localizer_.Integrate(motion, rover_->state());
+  estimator_->Propagate(motion);
   return motion;
 }
 
@@ -283,7 +280,7 @@ void Drive::NoticeStuck(const messages::WheelCommand& command,
 }
 
 void Drive::ObserveErrors() {
-  const messages::PoseEstimate& estimate = localizer_.pose();
+  const messages::PoseEstimate& estimate = pose();
   const double heading_rad = math::Heading(rover_->state().X_WR);
   const double distance_m = monitor_.distance_m();
   heading_growth_.Observe(distance_m,
@@ -293,7 +290,7 @@ void Drive::ObserveErrors() {
 
 void Drive::ReflectAtMirrorLine(int direction) {
   if (!mirror_ || !has_rolled_ || !mirror_->Reaches(rover_->state().X_WR.translation().y())) return;
-  const messages::PoseEstimate before = localizer_.pose();
+  const messages::PoseEstimate before = pose();
   const auto reflection = mirror_->Reflect(math::ToPose2(rover_->state().X_WR), direction, before);
   if (!reflection) return;
   has_rolled_ = false;
@@ -301,14 +298,14 @@ void Drive::ReflectAtMirrorLine(int direction) {
   Record("reflection", "");
   rover_->Place(reflection->pose);
   wheel_driver_.Straighten();
-  localizer_.Apply(reflection->update);
+  estimator_->Place(reflection->update);
   motion_sensors_->Restart(rover_->state());
   guard_.Restart(rover_->state());
   if (stuck_detector_) stuck_detector_->Restart();
   notices_stuck_ = false;
   monitor_.Restart(rover_->state());
   referee_.OnReflection(rover_->state(), reflection->line_m);
-  navigator_.OnPoseUpdate(before, localizer_.pose());
+  navigator_.OnPoseUpdate(before, pose());
   RecordRest({}, true);
 }
 
@@ -317,7 +314,7 @@ Observation Drive::Observed(Activity activity, int direction, double duration_s)
           direction,
           duration_s,
           rover_->state(),
-          localizer_.pose(),
+          pose(),
           monitor_.distance_m(),
           monitor_.turned_in_place_rad()};
 }

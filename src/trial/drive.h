@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "localization/estimator.h"
 #include "navigation/motion_follower.h"
 #include "navigation/waypoint_sequence.h"
 #include "navigation/wheel_driver.h"
@@ -23,7 +24,6 @@
 #include "trial/hazard_counter.h"
 #include "trial/hazard_watch.h"
 #include "trial/ledger.h"
-#include "trial/localizer.h"
 #include "trial/mirror_arena.h"
 #include "trial/move_counter.h"
 #include "trial/referee.h"
@@ -66,11 +66,12 @@ class Drive {
 
   // Holds the command for so many physics steps.
   void ApplyCommand(const messages::WheelCommand& command, std::int64_t steps);
-  // The pose that the rover believes takes one stretch of encoders and gyro (localizer.h).
+  // The pose that the rover believes takes one stretch of encoders and gyro.
   messages::MotionMeasurement UpdateEstimate(double duration_s, bool moving);
   // Asks whether the rover gets on, where it looks for that.
   void NoticeStuck(const messages::WheelCommand& command,
                    const messages::MotionMeasurement& motion);
+  const messages::PoseEstimate& pose() const { return estimator_->estimate().pose; }
   // What the rover believes, against what the monitor saw.
   void ObserveErrors();
   void ReflectAtMirrorLine(int direction);
@@ -119,7 +120,8 @@ class Drive {
   std::int64_t next_sighting_ = 0;  // number of its next measurement
   bool sees_goal_ = false;          // at the last one
 
-  Localizer localizer_;
+  std::unique_ptr<localization::Estimator> estimator_;
+  double start_z_m_ = 0.0;  // of the true pose
 
   navigation::WaypointSequence navigator_;
   navigation::MotionFollower follower_;

@@ -7,6 +7,7 @@ void DriveParams::Visit(core::FieldVisitor& v) {
   v.Group("rover", rover, "the vehicle");
   v.Group("sensors", sensors, "what the rover measures");
   v.Group("perception", perception, "what the rover makes of its measurements");
+  v.Group("localization", localization, "where the rover believes to be");
   v.Group("navigation", navigation, "what the rover decides");
   v.Group("course", course, "start and goal");
   v.Group("referee", referee, "when a trial is over");

@@ -17,6 +17,7 @@ struct DriveParams {
   rover::RoverParams rover;
   SensorParams sensors;
   PerceptionParams perception;
+  LocalizationParams localization;
   NavigationParams navigation;
   CourseParams course;
   RefereeParams referee;

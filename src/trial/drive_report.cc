@@ -11,7 +11,7 @@ namespace rockyard::trial {
 
 void Drive::ReportGoals(truth::DriveRecord& record) const {
   const CourseParams& course = params_.course;
-  const messages::PoseEstimate& estimate = localizer_.pose();
+  const messages::PoseEstimate& estimate = pose();
   record.straight_distance_m =
       std::hypot(course.goal_x_m - course.start_x_m, course.goal_y_m - course.start_y_m);
   const messages::Goal& told = designated_goals_.back();
@@ -26,7 +26,7 @@ void Drive::ReportGoals(truth::DriveRecord& record) const {
 
 void Drive::ReportPoses(truth::DriveRecord& record) const {
   const math::Pose2 truth = math::ToPose2(rover_->state().X_WR);
-  const messages::PoseEstimate& estimate = localizer_.pose();
+  const messages::PoseEstimate& estimate = pose();
   const messages::Goal goal = params_.course.GoalAt(ledger_.time_s());
   record.true_goal_distance_m = std::hypot(goal.x_m - truth.x_m, goal.y_m - truth.y_m);
   record.final_x_m = truth.x_m;
@@ -42,7 +42,7 @@ void Drive::ReportErrors(truth::DriveRecord& record) const {
   const sensing::TrackerParams& tracker = params_.sensors.tracker;
   const math::Pose2 reference =
       tracker.enabled ? sensing::Tracker(tracker, key_).Observe(truth, 0) : truth;
-  const messages::PoseEstimate& estimate = localizer_.pose();
+  const messages::PoseEstimate& estimate = pose();
   record.dead_reckoned_distance_m = estimate.distance_m;
   if (record.true_distance_m > 0.0) {
     record.distance_error_percent =
@@ -54,7 +54,8 @@ void Drive::ReportErrors(truth::DriveRecord& record) const {
   record.heading_growth_deg2_per_m = heading_growth_.per_m();
   record.distance_growth_m2_per_m = distance_growth_.per_m();
   if (navigator_.view() != nullptr) {
-    record.height_error_m = localizer_.HeightError(rover_->state());
+    record.height_error_m = estimator_->estimate().attitude.z_m -
+                            (rover_->state().X_WR.translation().z() - start_z_m_);
   }
 }
 

@@ -102,7 +102,7 @@ truth::TraceSample Drive::Now(std::string activity) const {
   return {ledger_.time_s(),
           math::ToPose2(state.X_WR),
           math::Tilt(state.X_WR),
-          localizer_.pose(),
+          pose(),
           std::move(activity),
           {state.X_WR, state.left_rocker_rad, state.right_rocker_rad, state.left_bogie_rad,
            state.right_bogie_rad, state.steer_rad, state.wheel_angle_rad}};

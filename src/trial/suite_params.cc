@@ -5,10 +5,6 @@ namespace rockyard::trial {
 using core::Origin;
 
 void SensorParams::Visit(core::FieldVisitor& v) {
-  v.Choice("localization", localization,
-           {.doc = "where the pose that the rover believes comes from",
-            .origin = Origin::kPublished,
-            .source = "Matthies 1995 sec. 7: dead reckoning"});
   v.Choice("terrain_sensor", terrain_sensor,
            {.doc = "what the rover looks at the terrain with; the groups of other sensors do "
                    "nothing",

@@ -5,14 +5,15 @@
 #include <string_view>
 
 #include "core/fields.h"
+#include "localization/attitude_params.h"
+#include "localization/dead_reckoning_params.h"
+#include "localization/estimator_set_params.h"
 #include "navigation/navigator_set_params.h"
 #include "navigation/standard_navigators_params.h"
 #include "navigation/stuck_reaction_params.h"
 #include "navigation/wheel_driver_params.h"
-#include "perception/attitude_params.h"
 #include "perception/calibration_params.h"
 #include "perception/cloud_params.h"
-#include "perception/dead_reckoning_params.h"
 #include "perception/hazard_params.h"
 #include "perception/stripe_finder_params.h"
 #include "perception/stuck_detector_params.h"
@@ -24,14 +25,9 @@
 #include "sensing/sun_params.h"
 #include "sensing/tracker_params.h"
 #include "sensing/vehicle_sensor_params.h"
+#include "trial/standard_estimators_params.h"
 
 namespace rockyard::trial {
-
-// Where the pose that the rover believes comes from.
-enum class Localization {
-  kDeadReckoning,  // wheel encoders and gyro
-  kOracle,         // the true pose: a sensor without noise, marked in the results
-};
 
 // What the rover looks at the terrain with.
 enum class TerrainSensor {
@@ -40,7 +36,6 @@ enum class TerrainSensor {
 };
 
 struct SensorParams {
-  Localization localization = Localization::kDeadReckoning;
   TerrainSensor terrain_sensor = TerrainSensor::kLightStripe;
   sensing::LightStripeParams light_stripe;
   sensing::StereoParams stereo;
@@ -58,12 +53,20 @@ struct PerceptionParams {
   perception::HazardParams hazard;
   perception::VehicleHazardParams vehicle_hazard;
   perception::StuckDetectorParams stuck_detector;
-  perception::DeadReckoningParams dead_reckoning;
+  localization::DeadReckoningParams dead_reckoning;
   perception::CalibrationErrorParams calibration;
-  perception::AttitudeParams attitude;
+  localization::AttitudeParams attitude;
   perception::CloudElevationParams cloud_elevations;
 
   void Visit(core::FieldVisitor& v);
+};
+
+// Which estimator it is; what all of them build on stands in `perception`: dead_reckoning,
+// attitude.
+struct LocalizationParams {
+  localization::EstimatorSet estimators = StandardEstimators();
+
+  void Visit(core::FieldVisitor& v) { estimators.Visit(v); }
 };
 
 struct NavigationParams {
@@ -75,11 +78,6 @@ struct NavigationParams {
 };
 
 }  // namespace rockyard::trial
-
-template <>
-struct rockyard::core::EnumNames<rockyard::trial::Localization> {
-  static constexpr std::array<std::string_view, 2> kNames{"dead_reckoning", "oracle"};
-};
 
 template <>
 struct rockyard::core::EnumNames<rockyard::trial::TerrainSensor> {

@@ -48,7 +48,7 @@ TEST_F(CliAblation, ListTellsEachWithItsSettings) {
                            "perfect_path_selection", "no_avoidance", "no_slip"}) {
     EXPECT_THAT(result.out, HasSubstr(std::string(name) + ": "));
   }
-  EXPECT_THAT(result.out, HasSubstr("    sensors.localization=oracle\n"));
+  EXPECT_THAT(result.out, HasSubstr("    localization.estimator=oracle\n"));
 }
 
 TEST_F(CliAblation, ChangesTheRunAndIsTold) {
@@ -58,7 +58,7 @@ TEST_F(CliAblation, ChangesTheRunAndIsTold) {
       RunAblated("ablated", {"--ablate", "perfect_localization", "--ablate", "no_slip"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(Summary("ablated")["ablations"], json({"perfect_localization", "no_slip"}));
-  EXPECT_EQ(Resolved("ablated")["sensors"]["localization"], "oracle");
+  EXPECT_EQ(Resolved("ablated")["localization"]["estimator"], "oracle");
   EXPECT_EQ(Resolved("ablated")["terrain"]["ground"]["soil"]["friction_angle_deg"], 60);
   EXPECT_NE(Summary("ablated")["trial_hash"], Summary("plain")["trial_hash"]);
   EXPECT_THAT(result.out, HasSubstr("ablations: no_slip"));
@@ -69,7 +69,7 @@ TEST_F(CliAblation, ChangesTheRunAndIsTold) {
 // A run is what its settings are, however they were asked for.
 TEST_F(CliAblation, IsTheSameAsItsSettings) {
   ASSERT_EQ(RunAblated("ablated", {"--ablate", "perfect_localization"}).exit_code, 0);
-  ASSERT_EQ(RunAblated("set", {"--set", "sensors.localization=oracle"}).exit_code, 0);
+  ASSERT_EQ(RunAblated("set", {"--set", "localization.estimator=oracle"}).exit_code, 0);
   EXPECT_EQ(Summary("set")["ablations"], json({"perfect_localization"}));
   EXPECT_EQ(Summary("set")["trial_hash"], Summary("ablated")["trial_hash"]);
 }
@@ -99,7 +99,7 @@ TEST_F(CliAblation, GoesOnWithTheSameAblationsAlone) {
   ASSERT_EQ(RunAblated("a", {"--ablate", "perfect_localization"}).exit_code, 0);
   const CommandResult other = RunAblated("a", {"--resume"});
   EXPECT_EQ(other.exit_code, 2);
-  EXPECT_THAT(other.err, HasSubstr("sensors.localization"));
+  EXPECT_THAT(other.err, HasSubstr("localization.estimator"));
   EXPECT_EQ(RunAblated("a", {"--ablate", "perfect_localization", "--resume"}).exit_code, 0);
 }
 

@@ -106,27 +106,33 @@ class UnstatedTraits(unittest.TestCase):
                 self.assertIn("NavigatorTraits", result.stderr)
 
 
-class CheatingGestalt(unittest.TestCase):
-    """The real sources of the map-based navigator, as they are and with one include more."""
+class CheatingSources(unittest.TestCase):
+    """Real sources that decide on board, as they are and with one include more."""
 
-    def setUp(self):
-        self.sources = sorted((ROOT / "src" / "navigation" / "gestalt").glob("*.cc"))
-        self.assertGreaterEqual(len(self.sources), 4, "where has GESTALT gone?")
+    # Module, and where in it.
+    PLACES = (("navigation", "gestalt"), ("localization", "."))
+    HEADERS = ("terrain/terrain.h", "truth/rover_state.h", "rover/rover.h",
+               "sensing/stereo_sensor.h", "trial/drive.h")
+
+    def sources(self):
+        for module, folder in self.PLACES:
+            found = sorted((ROOT / "src" / module / folder).glob("*.cc"))
+            self.assertGreaterEqual(len(found), 4, f"where has {module}/{folder} gone?")
+            yield from ((module, source) for source in found)
 
     def test_control_compiles(self):
-        for source in self.sources:
+        for module, source in self.sources():
             with self.subTest(source=source.name):
-                result = compile_source("navigation", [str(source)])
+                result = compile_source(module, [str(source)])
                 self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_no_source_reaches_terrain_truth_or_sensors(self):
-        headers = ("terrain/terrain.h", "truth/rover_state.h", "rover/rover.h",
-                   "sensing/stereo_sensor.h", "trial/drive.h")
-        for source in self.sources:
-            for header in headers:
-                self.assertTrue((ROOT / "src" / header).is_file(), f"{header} is gone")
+        for header in self.HEADERS:
+            self.assertTrue((ROOT / "src" / header).is_file(), f"{header} is gone")
+        for module, source in self.sources():
+            for header in self.HEADERS:
                 with self.subTest(source=source.name, header=header):
-                    result = compile_source("navigation", ["-include", header, str(source)])
+                    result = compile_source(module, ["-include", header, str(source)])
                     self.assertNotEqual(result.returncode, 0)
                     self.assertRegex(result.stderr, rf"{header}.*(No such file|file not found)")
 
@@ -173,7 +179,7 @@ class Reach(unittest.TestCase):
         rules = read_rules(ROOT / "src" / "README.md")
         common = {"messages", "core", "math"}
         self.assertEqual(reachable(rules, "vision"), common | {"vision"})
-        for module, more in (("navigation", set()), ("perception", {"vision"})):
+        for module, more in (("navigation", set()), ("localization", set()), ("perception", {"vision"})):
             self.assertIn(module, INCLUDE_PATHS)
             self.assertEqual(reachable(rules, module), common | more | {module})
 

@@ -43,7 +43,8 @@ TEST(LoadTest, ReadsEveryPart) {
   const Scenario scenario = Parse(R"({
     "name": "n", "trials": 12, "seed": 99,
     "terrain": {"rocks": {"kind": "uniform_count", "count": 10}},
-    "sensors": {"localization": "oracle", "gyro": {"scale": 1.0}},
+    "sensors": {"gyro": {"scale": 1.0}},
+    "localization": {"estimator": "oracle"},
     "perception": {"dead_reckoning": {}},
     "navigation": {"pathfinder": {"turn_direction": "each_scan", "turn_increment_deg": 20}},
     "course": {"goal_x_m": 5}})");
@@ -52,7 +53,7 @@ TEST(LoadTest, ReadsEveryPart) {
   EXPECT_EQ(scenario.seed, 99);
   EXPECT_EQ(scenario.drive.terrain.rocks.kind, terrain::RockFieldKind::kUniformCount);
   EXPECT_EQ(scenario.drive.terrain.rocks.count, 10);
-  EXPECT_EQ(scenario.drive.sensors.localization, trial::Localization::kOracle);
+  EXPECT_EQ(scenario.drive.localization.estimators.chosen().name(), "oracle");
   EXPECT_EQ(scenario.drive.sensors.gyro.scale, 1.0);
   EXPECT_EQ(
       scenario.drive.navigation.navigators.params<navigation::PathfinderParams>().turn_direction,

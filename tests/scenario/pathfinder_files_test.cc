@@ -146,7 +146,7 @@ TEST(PathfinderFilesTest, ScenariosDifferInWhatTheyAreNamedAfterAlone) {
   const Scenario nominal = Load("nominal");
   using Paths = std::set<std::string>;
   EXPECT_EQ(Differences(nominal, Load("nominal_perfect_localization")),
-            Paths{"sensors.localization"});
+            Paths{"localization.estimator"});
   EXPECT_EQ(Differences(nominal, Load("vl2")), Paths{"terrain.rocks.k_per_m2"});
   EXPECT_EQ(Differences(nominal, Load("obstacles_0.28")), Paths{"terrain.rocks.kind"});
   for (const char* name : {"obstacles_0.57", "obstacles_0.85"}) {

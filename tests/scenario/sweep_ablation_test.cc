@@ -60,7 +60,7 @@ TEST(SweepAblationTest, CellsAreTheScenariosOfTheOption) {
 TEST(SweepAblationTest, AblationsLieOverSettings) {
   const std::string ablation = R"({"name": "known", "ablation": "perfect_localization"})";
   const std::string levels = R"({"name": "by", "levels": [
-      {"name": "wheels", "set": {"sensors.localization": "dead_reckoning"}},
+      {"name": "wheels", "set": {"localization.estimator": "dead_reckoning"}},
       {"name": "far", "set": {"course.goal_x_m": 6}}]})";
   for (const std::string& axes :
        {fmt::format("{}, {}", ablation, levels), fmt::format("{}, {}", levels, ablation)}) {
@@ -69,9 +69,9 @@ TEST(SweepAblationTest, AblationsLieOverSettings) {
     const bool ablation_first = sweep.axes[0].name == "known";
     const Scenario& off = sweep.cells[0].scenario;  // by wheels
     const Scenario& on = sweep.cells[ablation_first ? 2 : 1].scenario;
-    EXPECT_EQ(off.drive.sensors.localization, trial::Localization::kDeadReckoning);
-    EXPECT_EQ(on.drive.sensors.localization, trial::Localization::kOracle);
-    EXPECT_EQ(sweep.cells[3].scenario.drive.sensors.localization, trial::Localization::kOracle);
+    EXPECT_EQ(off.drive.localization.estimators.chosen().name(), "dead_reckoning");
+    EXPECT_EQ(on.drive.localization.estimators.chosen().name(), "oracle");
+    EXPECT_EQ(sweep.cells[3].scenario.drive.localization.estimators.chosen().name(), "oracle");
     EXPECT_EQ(sweep.cells[3].scenario.drive.course.goal_x_m, 6.0);
   }
 }

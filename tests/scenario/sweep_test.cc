@@ -165,7 +165,7 @@ TEST(SweepTest, PointsCoverTheStudyRangesOfParameters) {
                                    R"("}, "axes": [{"path": "course.goal_radius_m"},
           {"path": "terrain.rocks.count", "from": 1, "to": 16},
           {"path": "terrain.rocks.k_per_m2", "from": 0.001, "to": 0.01, "scale": "log"},
-          {"path": "sensors.localization", "values": ["dead_reckoning", "oracle"]}]})");
+          {"path": "localization.estimator", "values": ["dead_reckoning", "oracle"]}]})");
     ASSERT_EQ(sweep.cells.size(), 16u);
     std::vector<double> logs;
     int oracles = 0;

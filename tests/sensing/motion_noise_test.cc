@@ -11,7 +11,7 @@
 
 #include "core/json_file.h"
 #include "core/statistical_checks.h"
-#include "perception/dead_reckoning.h"
+#include "localization/dead_reckoning.h"
 #include "sensing/motion_sensors.h"
 #include "sensing/tracker.h"
 
@@ -30,15 +30,15 @@ struct Errors {
 // Straight drives in steps, dead-reckoned with the state equations of section 5.
 Errors DriveStraight(std::uint32_t runs, int steps, double step_m, const GyroParams& gyro,
                      const EncoderParams& encoders) {
-  perception::DeadReckoningParams params;
-  params.step_heading = perception::StepHeading::kStart;
+  localization::DeadReckoningParams params;
+  params.step_heading = localization::StepHeading::kStart;
   messages::DriveCalibration calibration;
   calibration.wheel_radius_m = kRadius_m;
   Errors errors;
   for (std::uint32_t run = 0; run < runs; ++run) {
     truth::RoverState state;
     MotionSensors sensors(gyro, encoders, kRadius_m, {20260105, run}, state);
-    perception::DeadReckoning dead_reckoning(calibration, params, {});
+    localization::DeadReckoning dead_reckoning(calibration, params, {});
     for (int i = 0; i < steps; ++i) {
       for (double& angle : state.wheel_angle_rad) angle += step_m / kRadius_m;
       dead_reckoning.Integrate(sensors.Measure(state, step_m / kSpeed_m_s, true));

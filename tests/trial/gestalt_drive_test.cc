@@ -19,7 +19,7 @@ using truth::TrialOutcome;
 TEST(GestaltDriveTest, ArrivesOnEmptySandWithEitherRover) {
   for (const char* name : {"abundance", "abundance_rocky_3_2"}) {
     const DriveParams drive =
-        Gestalt(name, kShortAndEmpty + Overrides{"sensors.localization=oracle"});
+        Gestalt(name, kShortAndEmpty + Overrides{"localization.estimator=oracle"});
     const DriveResult result = RunTrial(drive, {1, 0});
     EXPECT_EQ(result.outcome, TrialOutcome::kGoalReached) << name << ": " << result.detail;
     EXPECT_EQ(result.record.rear_image_sets, 0.0) << name;

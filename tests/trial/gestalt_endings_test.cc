@@ -17,7 +17,7 @@ using truth::TrialOutcome;
 
 // High rocks side by side on a circle about the start, but for a gap of that half angle ahead.
 DriveParams InARing(double gap_rad) {
-  DriveParams drive = Gestalt("abundance", {"sensors.localization=oracle"});
+  DriveParams drive = Gestalt("abundance", {"localization.estimator=oracle"});
   drive.terrain.rocks.kind = terrain::RockFieldKind::kListed;
   terrain::ListedRocksParams& ring = drive.terrain.rocks.listed;
   constexpr int kRocks = 24;
@@ -86,7 +86,7 @@ class PairTest : public testing::TestWithParam<Pair> {
  protected:
   static std::vector<DriveResult> Run(const Pair& pair) {
     return RunTrials(Gestalt("abundance_rocky_3_2",
-                             {"terrain.rocks.k_per_m2=0.0002", "sensors.localization=oracle",
+                             {"terrain.rocks.k_per_m2=0.0002", "localization.estimator=oracle",
                               "navigation.navigator=" + pair.navigator,
                               "sensors.terrain_sensor=" + pair.sensor}),
                      5);

@@ -17,7 +17,7 @@ using truth::TrialOutcome;
 DriveParams TwentySteps(const Overrides& overrides = {}) {
   return Gestalt("viking_lander_2", kTrueEncoders +
                                         Overrides{"terrain.rocks.kind=none", "course.goal_x_m=7",
-                                                  "sensors.localization=oracle"} +
+                                                  "localization.estimator=oracle"} +
                                         overrides);
 }
 
@@ -75,7 +75,7 @@ TEST(GestaltMoveTest, HeightErrorIsBelievedLessTrueHeight) {
   EXPECT_GT(flat.final_x_m, 1.0);
   const double climb_m = std::tan(math::DegToRad(kSlope_deg)) * flat.final_x_m;
   EXPECT_NEAR(flat.height_error_m, -climb_m, 0.02 * climb_m);
-  EXPECT_EQ(drive({"sensors.localization=oracle"}).height_error_m, 0.0);
+  EXPECT_EQ(drive({"localization.estimator=oracle"}).height_error_m, 0.0);
   EXPECT_LT(std::abs(drive({}).height_error_m), 0.25 * climb_m);
   const truth::DriveRecord behaviour = RunTrial(Pathfinder("nominal", slope), {1, 0}).record;
   EXPECT_GT(behaviour.final_x_m, 1.0);

@@ -61,7 +61,7 @@ TracedTrial DriveScript(const ScriptParams& params, const Overrides& overrides =
       params);
   const Overrides empty = {"navigation.navigator=script", "rover.fidelity=quasi_static",
                            "terrain.rocks.kind=none", "terrain.arena.kind=open",
-                           "sensors.localization=oracle"};
+                           "localization.estimator=oracle"};
   const std::string file = std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/nominal.json";
   return RunTraced(scenario::LoadScenario(file, empty + overrides, defaults).drive, 0);
 }

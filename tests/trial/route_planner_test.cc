@@ -142,7 +142,7 @@ TEST(RoutePlannerTest, RoutesStayBetweenTheMirrorLinesAndRepeat) {
 TEST(RouteTrialTest, ArrivesWhereThereIsAWay) {
   const DriveParams drive = Pathfinder(
       "nominal",
-      {"rover.fidelity=quasi_static", "sensors.localization=oracle", "navigation.navigator=route"});
+      {"rover.fidelity=quasi_static", "localization.estimator=oracle", "navigation.navigator=route"});
   const std::vector<DriveResult> results = RunTrials(drive, 40);
   const auto reached = std::count_if(results.begin(), results.end(), [](const DriveResult& each) {
     return each.outcome == truth::TrialOutcome::kGoalReached;
@@ -166,7 +166,7 @@ TEST(RouteTrialTest, GivesUpWhereThereIsNone) {
 // The rover drives to the goal that it is told; the true one decides.
 TEST(DesignatedDriveTest, AFarGoalIsAFalseOne) {
   const DriveParams drive =
-      Pathfinder("nominal", {"rover.fidelity=quasi_static", "sensors.localization=oracle",
+      Pathfinder("nominal", {"rover.fidelity=quasi_static", "localization.estimator=oracle",
                              "terrain.rocks.kind=none", "course.designation.enabled=true",
                              "course.designation.pan_error_deg=6"});
   const DriveResult result = RunTrial(drive, {1, 0});

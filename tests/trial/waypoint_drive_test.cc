@@ -41,7 +41,7 @@ double Between(const math::Pose2& pose, const messages::Goal& goal) {
 
 TEST(WaypointDriveTest, AnLIsDrivenFromWaypointToWaypoint) {
   for (const char* navigator : {"gestalt", "pathfinder"}) {
-    const DriveParams drive = Make(navigator, kL + Overrides{"sensors.localization=oracle"});
+    const DriveParams drive = Make(navigator, kL + Overrides{"localization.estimator=oracle"});
     const TracedTrial trial = RunTraced(drive, 0);
     EXPECT_EQ(trial.result.outcome, TrialOutcome::kGoalReached) << trial.result.detail;
     EXPECT_EQ(trial.result.record.waypoints_reached, 2.0);
@@ -66,12 +66,12 @@ TEST(WaypointDriveTest, AnLIsDrivenFromWaypointToWaypoint) {
 TEST(WaypointDriveTest, ARoverThatIsStoppedOnTheWayHasReachedSome) {
   for (const char* navigator : {"gestalt", "pathfinder"}) {
     const TracedTrial whole =
-        RunTraced(Make(navigator, kL + Overrides{"sensors.localization=oracle"}), 0);
+        RunTraced(Make(navigator, kL + Overrides{"localization.estimator=oracle"}), 0);
     const auto reached = EventsOf(whole.trace, "waypoint");
     ASSERT_EQ(reached.size(), 2U);
     const double between_s = 0.5 * (reached[0].time_s + reached[1].time_s);
     const DriveResult result = RunTrial(
-        Make(navigator, kL + Overrides{"sensors.localization=oracle",
+        Make(navigator, kL + Overrides{"localization.estimator=oracle",
                                        "referee.time_limit_s=" + std::to_string(between_s)}),
         {1, 0});
     EXPECT_EQ(result.outcome, TrialOutcome::kTimeLimit);
@@ -85,7 +85,7 @@ TEST(WaypointDriveTest, PatienceFollowsTheLegs) {
   for (const char* navigator : {"gestalt", "pathfinder"}) {
     const DriveResult result =
         RunTrial(Make(navigator, {"terrain.rocks.kind=none", "terrain.arena.kind=open",
-                                  "rover.fidelity=quasi_static", "sensors.localization=oracle",
+                                  "rover.fidelity=quasi_static", "localization.estimator=oracle",
                                   "course.waypoints.x_m=[3]", "course.waypoints.y_m=[0]",
                                   "course.goal_x_m=0.3", "referee.no_path_distance_m=2"}),
                  {1, 0});
@@ -161,7 +161,7 @@ TEST(TrackingDriveTest, AGoalThatIsNeverSeenStaysWhereItWasTold) {
 TEST(TrackingDriveTest, TheLastLegAloneIsTracked) {
   for (const char* navigator : {"gestalt", "pathfinder"}) {
     const TracedTrial trial =
-        RunTraced(Make(navigator, kL + kTracking + Overrides{"sensors.localization=oracle"}), 0);
+        RunTraced(Make(navigator, kL + kTracking + Overrides{"localization.estimator=oracle"}), 0);
     EXPECT_EQ(trial.result.outcome, TrialOutcome::kGoalReached) << navigator;
     EXPECT_EQ(trial.result.record.waypoints_reached, 2.0);
     const auto reached = EventsOf(trial.trace, "waypoint");
@@ -177,7 +177,7 @@ TEST(TrackingDriveTest, TheLastLegAloneIsTracked) {
 TEST(TrackingDriveTest, ATargetThatMovesIsFollowed) {
   const Overrides moving = {
       "terrain.rocks.kind=none",      "terrain.arena.kind=open", "rover.fidelity=quasi_static",
-      "sensors.localization=oracle",  "course.goal_x_m=4",       "course.target_speed_m_s=0.002",
+      "localization.estimator=oracle",  "course.goal_x_m=4",       "course.target_speed_m_s=0.002",
       "course.target_heading_deg=90", "course.goal_radius_m=0.3"};
   for (const char* navigator : {"gestalt", "pathfinder"}) {
     const DriveResult told = RunTrial(Make(navigator, moving), {1, 0});

@@ -59,7 +59,7 @@ navigation::NavigatorDescription<BeelineParams> DescribeBeeline() {
 
 constexpr const char* kScenario = R"({
   "navigation": {"navigator": "beeline", "beeline": {"tolerance_m": 0.05}},
-  "sensors": {"localization": "oracle"},
+  "localization": {"estimator": "oracle"},
   "rover": {"fidelity": "quasi_static"},
   "terrain": {"rocks": {"kind": "none"}},
   "course": {"start_x_m": 1.0, "goal_x_m": 3.0}

@@ -1,11 +1,11 @@
 // Attitude and height against the poses that they describe.
-#include "perception/attitude.h"
+#include "localization/attitude.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace rockyard::perception {
+namespace rockyard::localization {
 namespace {
 
 using math::DegToRad;
@@ -130,4 +130,4 @@ TEST(AttitudeTest, ForwardStepHasTheSignOfTheDrive) {
 }
 
 }  // namespace
-}  // namespace rockyard::perception
+}  // namespace rockyard::localization

@@ -1,11 +1,11 @@
-#include "perception/dead_reckoning.h"
+#include "localization/dead_reckoning.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-namespace rockyard::perception {
+namespace rockyard::localization {
 namespace {
 
 using messages::MotionMeasurement;
@@ -187,16 +187,5 @@ TEST(DeadReckoningTest, UpdatesMoveThePoseAndKeepTheOdometer) {
   EXPECT_NEAR(dead_reckoning.estimate().distance_m, 3.0, 1e-12);
 }
 
-TEST(DeadReckoningTest, FollowingAnOracleCountsForwardMotion) {
-  auto dead_reckoning = Make();
-  dead_reckoning.Follow({0.5, 0.0, 0.0});
-  EXPECT_NEAR(dead_reckoning.estimate().distance_m, 0.5, 1e-12);
-  dead_reckoning.Follow({0.5, 0.0, 1.0});  // turns in place
-  EXPECT_NEAR(dead_reckoning.estimate().distance_m, 0.5, 1e-12);
-  dead_reckoning.Follow({0.5 - std::cos(1.0), -std::sin(1.0), 1.0});  // backs up
-  EXPECT_NEAR(dead_reckoning.estimate().distance_m, 1.5, 1e-12);
-  EXPECT_NEAR(dead_reckoning.estimate().y_m, -std::sin(1.0), 1e-12);
-}
-
 }  // namespace
-}  // namespace rockyard::perception
+}  // namespace rockyard::localization

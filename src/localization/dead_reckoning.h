@@ -9,9 +9,9 @@
 #include "messages/calibration.h"
 #include "messages/estimates.h"
 #include "messages/measurements.h"
-#include "perception/dead_reckoning_params.h"
+#include "localization/dead_reckoning_params.h"
 
-namespace rockyard::perception {
+namespace rockyard::localization {
 
 // The pose that the rover believes.
 class DeadReckoning {
@@ -26,10 +26,6 @@ class DeadReckoning {
   // keeps.
   void Apply(const messages::PoseUpdate& update);
 
-  // Replaces one tick's Integrate by an outside measurement of the pose: the odometer grows by the
-  // displacement along the mean heading. Localization by an oracle uses it.
-  void Follow(const messages::PoseUpdate& update);
-
   const messages::PoseEstimate& estimate() const { return estimate_; }
 
  private:
@@ -43,4 +39,4 @@ class DeadReckoning {
   messages::PoseEstimate estimate_;
 };
 
-}  // namespace rockyard::perception
+}  // namespace rockyard::localization

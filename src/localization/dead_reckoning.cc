@@ -1,9 +1,9 @@
-#include "perception/dead_reckoning.h"
+#include "localization/dead_reckoning.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace rockyard::perception {
+namespace rockyard::localization {
 
 DeadReckoning::DeadReckoning(const messages::DriveCalibration& calibration,
                              const DeadReckoningParams& params, const math::Pose2& initial)
@@ -50,14 +50,4 @@ void DeadReckoning::Apply(const messages::PoseUpdate& update) {
   estimate_.heading_rad = math::WrapAngle(update.heading_rad);
 }
 
-void DeadReckoning::Follow(const messages::PoseUpdate& update) {
-  const double turn_rad = math::WrapAngle(update.heading_rad - estimate_.heading_rad);
-  const double along_rad = estimate_.heading_rad + 0.5 * turn_rad;
-  // The displacement along the mean heading, as an odometer would have it.
-  const double forward_m = (update.x_m - estimate_.x_m) * std::cos(along_rad) +
-                           (update.y_m - estimate_.y_m) * std::sin(along_rad);
-  Apply(update);
-  estimate_.distance_m += std::abs(forward_m);
-}
-
-}  // namespace rockyard::perception
+}  // namespace rockyard::localization

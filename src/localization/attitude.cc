@@ -1,11 +1,11 @@
-#include "perception/attitude.h"
+#include "localization/attitude.h"
 
 #include <cmath>
 
 #include "core/check.h"
 #include "math/angles.h"
 
-namespace rockyard::perception {
+namespace rockyard::localization {
 
 double ForwardStep(const messages::PoseEstimate& before, const messages::PoseEstimate& after) {
   const double turn_rad = math::WrapAngle(after.heading_rad - before.heading_rad);
@@ -45,4 +45,4 @@ void AttitudeEstimator::Integrate(const messages::VehicleState& state, double fo
   }
 }
 
-}  // namespace rockyard::perception
+}  // namespace rockyard::localization

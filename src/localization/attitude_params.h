@@ -6,7 +6,7 @@
 
 #include "core/fields.h"
 
-namespace rockyard::perception {
+namespace rockyard::localization {
 
 // Where roll and pitch come from.
 enum class AttitudeSource {
@@ -46,14 +46,14 @@ struct AttitudeParams {
   }
 };
 
-}  // namespace rockyard::perception
+}  // namespace rockyard::localization
 
 template <>
-struct rockyard::core::EnumNames<rockyard::perception::AttitudeSource> {
+struct rockyard::core::EnumNames<rockyard::localization::AttitudeSource> {
   static constexpr std::array<std::string_view, 2> kNames{"level", "accelerometers"};
 };
 
 template <>
-struct rockyard::core::EnumNames<rockyard::perception::HeightSource> {
+struct rockyard::core::EnumNames<rockyard::localization::HeightSource> {
   static constexpr std::array<std::string_view, 2> kNames{"level", "integrated"};
 };

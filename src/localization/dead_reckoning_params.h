@@ -6,7 +6,7 @@
 
 #include "core/fields.h"
 
-namespace rockyard::perception {
+namespace rockyard::localization {
 
 // Whose encoders give the distance.
 enum class OdometryWheels {
@@ -50,14 +50,14 @@ struct DeadReckoningParams {
   }
 };
 
-}  // namespace rockyard::perception
+}  // namespace rockyard::localization
 
 template <>
-struct rockyard::core::EnumNames<rockyard::perception::OdometryWheels> {
+struct rockyard::core::EnumNames<rockyard::localization::OdometryWheels> {
   static constexpr std::array<std::string_view, 3> kNames{"all", "unsteered", "forward"};
 };
 
 template <>
-struct rockyard::core::EnumNames<rockyard::perception::StepHeading> {
+struct rockyard::core::EnumNames<rockyard::localization::StepHeading> {
   static constexpr std::array<std::string_view, 2> kNames{"midpoint", "start"};
 };

@@ -18,9 +18,9 @@
 #include "math/pose.h"
 #include "messages/estimates.h"
 #include "messages/vehicle_state.h"
-#include "perception/attitude_params.h"
+#include "localization/attitude_params.h"
 
-namespace rockyard::perception {
+namespace rockyard::localization {
 
 // Returns the signed distance along the mean heading from one pose estimate to the next one, a tick
 // later, m.
@@ -49,4 +49,4 @@ class AttitudeEstimator {
   messages::AttitudeEstimate estimate_;
 };
 
-}  // namespace rockyard::perception
+}  // namespace rockyard::localization

@@ -1,0 +1,49 @@
+// Where the rover believes to be, whatever it is worked out from.
+#pragma once
+
+#include "messages/aids.h"
+#include "messages/estimates.h"
+#include "messages/measurements.h"
+#include "messages/vehicle_state.h"
+
+namespace rockyard::localization {
+
+// What became of an aid's data.
+enum class AidUse {
+  kUsed,
+  kGatedOut,   // too far from what was believed to be true
+  kUnknown,    // of a moment that is not kept, or is kept no more
+  kNoInterest  // the estimator takes no aids
+};
+
+// An estimator of one drive. Wheels and gyro carry it on; aids correct it, perhaps late: it keeps
+// the pose of each moment at which an aid took its data until these have arrived (stochastic
+// cloning; Roumeliotis and Burdick 2002).
+class Estimator {
+ public:
+  virtual ~Estimator() = default;
+
+  // One on-board tick of wheels and gyro; a rover that stands has one too.
+  virtual void Propagate(const messages::MotionMeasurement& motion) = 0;
+
+  // What the rover felt over the last `duration_s` > 0, after Propagate.
+  virtual void Feel(const messages::VehicleState& felt, double duration_s) = 0;
+
+  // Operators moved the rover by hand, and say where it is: both frames begin anew there. What an
+  // aid took before is of no use any more.
+  virtual void Place(const messages::PoseUpdate& update) = 0;
+
+  // An aid takes its data now. `capture` is larger than every one before.
+  virtual void Capture(messages::CaptureNumber /*capture*/) {}
+  // Its data will not come.
+  virtual void Forget(messages::CaptureNumber /*capture*/) {}
+
+  // Corrects the estimate of now by what was measured then. A moment that was used is kept until
+  // Forget: a motion may begin where another one ended.
+  virtual AidUse Update(const messages::PoseFix& /*fix*/) { return AidUse::kNoInterest; }
+  virtual AidUse Update(const messages::RelativeMotion& /*motion*/) { return AidUse::kNoInterest; }
+
+  virtual const messages::LocalizationEstimate& estimate() const = 0;
+};
+
+}  // namespace rockyard::localization

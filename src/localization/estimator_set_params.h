@@ -1,0 +1,75 @@
+// The estimators that a scenario can name: each with its parameters and how it is made.
+#pragma once
+
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include "core/fields.h"
+#include "core/kind_set.h"
+#include "localization/attitude_params.h"
+#include "localization/dead_reckoning_params.h"
+#include "math/pose.h"
+#include "messages/calibration.h"
+
+namespace rockyard::localization {
+
+class Estimator;
+
+// What an estimator gets at the start of a drive, beside its parameters: how wheels, gyro and
+// accelerometers are read is the same for all of them.
+struct EstimatorSetup {
+  messages::DriveCalibration calibration;
+  DeadReckoningParams dead_reckoning;
+  AttitudeParams attitude;
+  math::Pose2 start;  // where operators put the rover down, in the world frame
+};
+
+// All that is needed to add an estimator. `Params` has `void Visit(core::FieldVisitor&)`; one
+// without parameters takes core::NoParams.
+template <typename Params>
+struct EstimatorDescription {
+  std::string_view name;  // in localization.estimator, and of the group of its parameters; a literal
+  std::string_view doc;   // of that group; a literal
+  std::unique_ptr<Estimator> (*make)(const Params&, const EstimatorSetup&) = nullptr;
+};
+
+// One of a set, whatever its parameters.
+class EstimatorKind : public core::Kind {
+ public:
+  using core::Kind::Kind;
+
+  virtual std::unique_ptr<Estimator> Make(const EstimatorSetup& setup) const = 0;
+  virtual std::unique_ptr<EstimatorKind> Clone() const = 0;
+};
+
+class EstimatorSet : public core::KindSet<EstimatorKind> {
+ public:
+  EstimatorSet();
+
+  // Throws core::UserError where the name is taken or is no key at all. Needs
+  // localization/estimator.h.
+  template <typename Params>
+  void Add(const EstimatorDescription<Params>& description, Params params = {}) {
+    AddKind(std::make_unique<KindOf<Params>>(description, std::move(params)));
+  }
+
+ private:
+  template <typename Params>
+  struct KindOf final : core::KindWithParams<EstimatorKind, Params> {
+    KindOf(const EstimatorDescription<Params>& of, Params values)
+        : core::KindWithParams<EstimatorKind, Params>(of.name, of.doc, std::move(values)),
+          description(of) {}
+
+    std::unique_ptr<Estimator> Make(const EstimatorSetup& setup) const override {
+      return description.make(this->params, setup);
+    }
+    std::unique_ptr<EstimatorKind> Clone() const override {
+      return std::make_unique<KindOf>(*this);
+    }
+
+    EstimatorDescription<Params> description;
+  };
+};
+
+}  // namespace rockyard::localization

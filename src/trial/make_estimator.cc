@@ -1,0 +1,19 @@
+#include "trial/make_estimator.h"
+
+#include "trial/onboard_calibration.h"
+#include "trial/oracle_estimator.h"
+
+namespace rockyard::trial {
+
+std::unique_ptr<localization::Estimator> MakeEstimator(const DriveParams& drive,
+                                                       const rover::Rover& rover) {
+  auto estimator = drive.localization.estimators.chosen().Make(
+      {.calibration = OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive),
+       .dead_reckoning = drive.perception.dead_reckoning,
+       .attitude = drive.perception.attitude,
+       .start = drive.course.Start()});
+  if (auto* oracle = dynamic_cast<OracleEstimator*>(estimator.get())) oracle->See(rover);
+  return estimator;
+}
+
+}  // namespace rockyard::trial

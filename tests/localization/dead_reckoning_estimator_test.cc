@@ -1,0 +1,103 @@
+#include "localization/dead_reckoning_estimator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "math/pose.h"
+
+namespace rockyard::localization {
+namespace {
+
+constexpr double kTick_s = 0.05;
+
+EstimatorSetup StartSetup() {
+  EstimatorSetup setup;
+  setup.start = {1.0, 2.0, 0.5};
+  return setup;
+}
+
+messages::MotionMeasurement Rolling(double wheel_turn_rad, double turn_rad = 0.0) {
+  messages::MotionMeasurement motion;
+  motion.duration_s = kTick_s;
+  motion.wheel_turn_rad.fill(wheel_turn_rad);
+  motion.turn_rad = turn_rad;
+  return motion;
+}
+
+// Nose down by p: the upward force points backwards, f = g (-sin p, 0, cos p).
+messages::VehicleState NoseDown(double pitch_rad) {
+  messages::VehicleState felt;
+  felt.specific_force_R = 9.81 * math::Vector3(-std::sin(pitch_rad), 0.0, std::cos(pitch_rad));
+  return felt;
+}
+
+TEST(DeadReckoningEstimator, BeginsWhereItWasPutDown) {
+  const DeadReckoningEstimator estimator(StartSetup());
+  EXPECT_EQ(estimator.estimate().pose.x_m, 1.0);
+  EXPECT_EQ(estimator.estimate().odometry.y_m, 2.0);
+  EXPECT_EQ(estimator.estimate().pose.heading_rad, 0.5);
+  EXPECT_FALSE(estimator.estimate().covariance.has_value());
+}
+
+TEST(DeadReckoningEstimator, IsTheDeadReckoningOfItsSetup) {
+  DeadReckoningEstimator estimator(StartSetup());
+  DeadReckoning alone({}, {}, {1.0, 2.0, 0.5});
+  for (int i = 0; i < 20; ++i) {
+    const messages::MotionMeasurement motion = Rolling(0.3, 0.02 * i);
+    estimator.Propagate(motion);
+    alone.Integrate(motion);
+  }
+  EXPECT_EQ(estimator.estimate().pose.x_m, alone.estimate().x_m);
+  EXPECT_EQ(estimator.estimate().pose.heading_rad, alone.estimate().heading_rad);
+  EXPECT_EQ(estimator.estimate().pose.distance_m, alone.estimate().distance_m);
+  EXPECT_EQ(estimator.estimate().odometry.x_m, alone.estimate().x_m);
+  EXPECT_EQ(estimator.estimate().odometry.distance_m, alone.estimate().distance_m);
+}
+
+TEST(DeadReckoningEstimator, WithoutAccelerometersTheRoverIsLevel) {
+  DeadReckoningEstimator estimator(StartSetup());
+  estimator.Propagate(Rolling(1.0));
+  estimator.Feel({}, kTick_s);
+  EXPECT_EQ(estimator.estimate().attitude.pitch_rad, 0.0);
+  EXPECT_EQ(estimator.estimate().attitude.z_m, 0.0);
+}
+
+TEST(DeadReckoningEstimator, AccelerometersLevelTheRover) {
+  DeadReckoningEstimator estimator(StartSetup());
+  estimator.Feel(NoseDown(0.2), kTick_s);
+  EXPECT_NEAR(estimator.estimate().attitude.pitch_rad, 0.2, 1e-12);
+  EXPECT_NEAR(estimator.estimate().attitude.roll_rad, 0.0, 1e-12);
+}
+
+// Operators set the pose; the rover has not climbed there.
+TEST(DeadReckoningEstimator, APoseUpdateLeavesTheBelievedHeight) {
+  DeadReckoningEstimator estimator(StartSetup());
+  const auto tick = [&](double wheel_turn_rad) {
+    estimator.Propagate(Rolling(wheel_turn_rad));
+    estimator.Feel(NoseDown(0.2), kTick_s);
+    return estimator.estimate().attitude.z_m;
+  };
+  const double before_m = tick(1.0);
+  ASSERT_LT(before_m, -0.01);
+  estimator.Place({3.0, -1.0, 0.5});
+  EXPECT_EQ(estimator.estimate().pose.x_m, 3.0);
+  EXPECT_EQ(estimator.estimate().odometry.x_m, 3.0);
+  EXPECT_EQ(estimator.estimate().attitude.z_m, before_m);
+  EXPECT_NEAR(tick(0.0), before_m, 1e-12);
+  // From here on as before: one roll more is the same step down.
+  EXPECT_NEAR(tick(1.0), 2.0 * before_m, 1e-12);
+}
+
+TEST(DeadReckoningEstimator, TakesNoAids) {
+  DeadReckoningEstimator estimator(StartSetup());
+  estimator.Capture(0);
+  messages::PoseFix fix;
+  fix.measured.set();
+  EXPECT_EQ(estimator.Update(fix), AidUse::kNoInterest);
+  EXPECT_EQ(estimator.Update(messages::RelativeMotion{}), AidUse::kNoInterest);
+  EXPECT_EQ(estimator.estimate().pose.x_m, 1.0);
+}
+
+}  // namespace
+}  // namespace rockyard::localization
