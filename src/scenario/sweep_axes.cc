@@ -11,6 +11,7 @@
 
 #include "core/json_text.h"
 #include "core/spelling.h"
+#include "scenario/former_keys.h"
 #include "scenario/load.h"
 
 namespace rockyard::scenario {
