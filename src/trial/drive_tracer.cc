@@ -1,11 +1,10 @@
-// What a drive tells of its course, where somebody asks for a trace.
+#include "trial/drive_tracer.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <string>
 #include <utility>
-
-#include "trial/drive.h"
 
 namespace rockyard::trial {
 namespace {
@@ -57,85 +56,80 @@ std::string Describe(const messages::MotionVote& vote) {
 
 }  // namespace
 
-// Reports of hazards that are believed, and every look that shows points.
-void Drive::RecordLook(messages::LookDirection direction) {
+DriveTracer::DriveTracer(const DriveParts& parts, truth::Trace* trace)
+    : parts_(parts), trace_(trace) {
+  if (trace_ != nullptr) Rocks();
+}
+
+void DriveTracer::Event(std::string kind, std::string detail) {
   if (trace_ == nullptr) return;
-  if (percept_.report && percept_.report->any()) Record("hazard", Pattern(*percept_.report));
-  if (!percept_.cloud) return;
+  trace_->events.push_back({parts_.ledger.time_s(), math::ToPose2(parts_.state().X_WR),
+                            std::move(kind), std::move(detail)});
+}
+
+void DriveTracer::Look(messages::LookDirection direction, const Percept& percept) {
+  if (trace_ == nullptr) return;
+  if (percept.report && percept.report->any()) Event("hazard", Pattern(*percept.report));
+  if (!percept.cloud) return;
   const bool ahead = direction == messages::LookDirection::kAhead;
-  Record("look",
-         fmt::format("{}, {} points", ahead ? "ahead" : "behind", percept_.cloud->points_R.size()));
+  Event("look",
+        fmt::format("{}, {} points", ahead ? "ahead" : "behind", percept.cloud->points_R.size()));
 }
 
-// What was declared, and how far the rover truly is from there.
-void Drive::RecordWaypoint(std::size_t index) {
+void DriveTracer::Waypoint(std::size_t index) {
   if (trace_ == nullptr) return;
-  const std::vector<messages::Goal> goals = params_.course.Goals();
-  const math::Pose2 rover = math::ToPose2(rover_->state().X_WR);
-  Record("waypoint",
-         fmt::format("{} of {}, {:.2f} m from it", index + 1, goals.size() - 1,
-                     std::hypot(goals[index].x_m - rover.x_m, goals[index].y_m - rover.y_m)));
+  const std::vector<messages::Goal> goals = parts_.params.course.Goals();
+  const math::Pose2 rover = math::ToPose2(parts_.state().X_WR);
+  Event("waypoint",
+        fmt::format("{} of {}, {:.2f} m from it", index + 1, goals.size() - 1,
+                    std::hypot(goals[index].x_m - rover.x_m, goals[index].y_m - rover.y_m)));
 }
 
-void Drive::ShowStep() {
-  const messages::NavigationView* view = navigator_.view();
-  if (!percept_.cloud || view == nullptr) return;
-  if (step_watcher_) {
-    step_watcher_({params_, field_.terrain, rover_->state().X_WR, key_, *view, *percept_.cloud});
-  }
+void DriveTracer::Votes(const messages::NavigationView& view) {
   if (trace_ == nullptr) return;
-  for (const auto* row : {&view->forward, &view->backward, &view->point_turns}) {
+  for (const auto* row : {&view.forward, &view.backward, &view.point_turns}) {
     for (const messages::MotionVote& vote : *row) {
-      if (vote.chosen) Record("chosen", Describe(vote));
+      if (vote.chosen) Event("chosen", Describe(vote));
     }
   }
 }
 
-void Drive::Record(std::string kind, std::string detail) {
-  if (trace_ == nullptr) return;
-  trace_->events.push_back(
-      {ledger_.time_s(), math::ToPose2(rover_->state().X_WR), std::move(kind), std::move(detail)});
-}
-
-truth::TraceSample Drive::Now(std::string activity) const {
-  const truth::RoverState& state = rover_->state();
-  return {ledger_.time_s(),
+truth::TraceSample DriveTracer::Now(std::string activity) const {
+  const truth::RoverState& state = parts_.state();
+  return {parts_.ledger.time_s(),
           math::ToPose2(state.X_WR),
           math::Tilt(state.X_WR),
-          pose(),
+          parts_.estimate().pose,
           std::move(activity),
           {state.X_WR, state.left_rocker_rad, state.right_rocker_rad, state.left_bogie_rad,
            state.right_bogie_rad, state.steer_rad, state.wheel_angle_rad}};
 }
 
-void Drive::Sample(Activity activity) {
+void DriveTracer::Sample(Activity activity) {
   if (trace_ == nullptr) return;
   trace_->samples.push_back(Now(Name(activity)));
-  RecordRocks();
+  Rocks();
 }
 
-void Drive::Rest(Activity activity, double duration_s) {
-  ledger_.Spend(activity, duration_s);
-  if (duration_s > 0.0) RecordRest(activity);
-}
-
-void Drive::RecordRest(std::optional<Activity> activity, bool set_back) {
+void DriveTracer::Rest(std::optional<Activity> activity, bool set_back) {
   if (trace_ == nullptr) return;
   trace_->rests.push_back(
       {trace_->samples.size(), set_back, Now(activity ? Name(*activity) : std::string())});
-  RecordRocks();
+  Rocks();
 }
 
-void Drive::RecordRocks() {
-  if (params_.terrain.rocks.mobility == terrain::RockMobility::kFixed) return;
-  const auto rocks = field_.terrain.rocks();
+void DriveTracer::Rocks() {
+  if (parts_.params.terrain.rocks.mobility == terrain::RockMobility::kFixed) return;
+  const auto rocks = parts_.field.terrain.rocks();
   const bool first = rock_centers_.empty();
   rock_centers_.resize(rocks.size());
   for (std::size_t i = 0; i < rocks.size(); ++i) {
     const math::Vector3& center_W = rocks[i].center_W;
     const bool moved = !first && center_W != rock_centers_[i];
     rock_centers_[i] = center_W;
-    if (moved) trace_->rock_moves.push_back({ledger_.time_s(), static_cast<int>(i), center_W});
+    if (moved) {
+      trace_->rock_moves.push_back({parts_.ledger.time_s(), static_cast<int>(i), center_W});
+    }
   }
 }
 

@@ -1,0 +1,59 @@
+#include "trial/drive_observer.h"
+
+#include <limits>
+
+#include "math/angles.h"
+
+namespace rockyard::trial {
+namespace {
+
+Underside UndersideOf(const rover::RoverGeometryParams& rover) {
+  return {0.0, 0.5 * rover.belly_length_m, 0.5 * rover.belly_width_m, rover.belly_clearance_m};
+}
+
+// Where a navigator reads no report, hazards can neither be met nor missed.
+double WatchedHeight(const DriveParams& drive) {
+  return drive.navigation.navigators.chosen().traits().reads ==
+                 navigation::LookReading::kHazardReport
+             ? drive.referee.hazard_height_m
+             : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+DriveObserver::DriveObserver(const DriveParts& parts)
+    : parts_(parts),
+      monitor_(UndersideOf(parts.params.rover.geometry), parts.field.terrain),
+      watch_(KindOf(parts.params.sensors.terrain_sensor).reported_zone(parts.params),
+             parts.params.rover.geometry, WatchedHeight(parts.params), parts.field.terrain) {}
+
+bool DriveObserver::OnMotion(const messages::MotionCommand& motion) {
+  turns_.Observe(motion);
+  return moves_.Observe(motion);
+}
+
+void DriveObserver::OnReport(bool hazard) {
+  hazards_.Observe(hazard);
+  if (hazard) watch_.OnBelieved(parts_.state().X_WR);
+}
+
+void DriveObserver::OnScrape() {
+  if (!first_scrape_m_) first_scrape_m_ = monitor_.distance_m();
+}
+
+void DriveObserver::OnTick(bool turning_in_place) {
+  monitor_.Observe(parts_.state(), turning_in_place);
+  ObserveErrors();
+  watch_.Observe(parts_.state().X_WR);
+}
+
+void DriveObserver::ObserveErrors() {
+  const messages::PoseEstimate& estimate = parts_.estimate().pose;
+  const double heading_rad = math::Heading(parts_.state().X_WR);
+  const double distance_m = monitor_.distance_m();
+  heading_growth_.Observe(distance_m,
+                          math::RadToDeg(math::WrapAngle(estimate.heading_rad - heading_rad)));
+  distance_growth_.Observe(distance_m, estimate.distance_m - distance_m);
+}
+
+}  // namespace rockyard::trial

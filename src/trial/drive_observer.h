@@ -1,0 +1,73 @@
+// What a drive's record tells: gathered while it goes on, reported at its end.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "messages/commands.h"
+#include "trial/drive_monitor.h"
+#include "trial/drive_parts.h"
+#include "trial/error_growth.h"
+#include "trial/hazard_counter.h"
+#include "trial/hazard_watch.h"
+#include "trial/move_counter.h"
+#include "trial/referee.h"
+#include "trial/stop_counter.h"
+#include "trial/turn_counter.h"
+#include "truth/drive_record.h"
+
+namespace rockyard::trial {
+
+// Sees the truth and changes nothing.
+class DriveObserver {
+ public:
+  // `parts` outlives it.
+  explicit DriveObserver(const DriveParts& parts);
+
+  // The rover stands at the start, or where operators have put it.
+  void OnPlaced() { monitor_.Restart(parts_.state()); }
+  void OnReflection() { ++reflections_; }
+  // The navigator told a motion. Returns whether a new move begins with it.
+  bool OnMotion(const messages::MotionCommand& motion);
+  // The rover stops for a look; what it believed of it.
+  void OnLook() { moves_.OnLook(); }
+  void OnReport(bool hazard);
+  void OnWheels(bool moving) { stops_.Observe(moving); }
+  void OnScrape();
+  void OnStuckNoticed() { ++stuck_noticed_; }
+  // Once a control tick, after the estimate.
+  void OnTick(bool turning_in_place);
+
+  // For the referee.
+  double distance_m() const { return monitor_.distance_m(); }
+  double turned_in_place_rad() const { return monitor_.turned_in_place_rad(); }
+
+  // All columns that a drive has. `stall`: of a rover that was found stuck.
+  truth::DriveRecord Report(bool declared_success, const Stall& stall) const;
+
+ private:
+  // What the rover believes, against what the monitor saw.
+  void ObserveErrors();
+
+  void ReportGoals(truth::DriveRecord& record) const;
+  void ReportPoses(truth::DriveRecord& record) const;
+  void ReportErrors(truth::DriveRecord& record) const;
+  void ReportLedger(truth::DriveRecord& record, const Stall& stall) const;
+  void ReportCounts(truth::DriveRecord& record) const;
+  void ReportHazards(truth::DriveRecord& record) const;
+
+  const DriveParts& parts_;
+  DriveMonitor monitor_;
+  ErrorGrowth heading_growth_;   // deg
+  ErrorGrowth distance_growth_;  // m
+  HazardWatch watch_;
+  HazardCounter hazards_;
+  TurnCounter turns_;
+  MoveCounter moves_;
+  StopCounter stops_;
+  std::optional<double> first_scrape_m_;  // true path length
+  std::int64_t reflections_ = 0;
+  std::int64_t stuck_noticed_ = 0;
+};
+
+}  // namespace rockyard::trial

@@ -1,0 +1,144 @@
+// What a finished drive says of itself: the columns of its record.
+#include <cmath>
+
+#include "math/angles.h"
+#include "rover/rover_geometry.h"
+#include "sensing/tracker.h"
+#include "trial/drive_observer.h"
+#include "trial/layout.h"
+
+namespace rockyard::trial {
+
+truth::DriveRecord DriveObserver::Report(bool declared_success, const Stall& stall) const {
+  truth::DriveRecord record;
+  monitor_.Report(record);
+  if (declared_success && record.displacement_m > 0.0) {
+    record.path_ratio = record.true_distance_m / record.displacement_m;
+  }
+  ReportGoals(record);
+  ReportPoses(record);
+  ReportErrors(record);
+  ReportLedger(record, stall);
+  ReportCounts(record);
+  ReportHazards(record);
+  return record;
+}
+
+void DriveObserver::ReportGoals(truth::DriveRecord& record) const {
+  const CourseParams& course = parts_.params.course;
+  const messages::PoseEstimate& estimate = parts_.estimate().pose;
+  record.straight_distance_m =
+      std::hypot(course.goal_x_m - course.start_x_m, course.goal_y_m - course.start_y_m);
+  const messages::Goal& told = parts_.designated_goals.back();
+  record.told_goal_x_m = told.x_m;
+  record.told_goal_y_m = told.y_m;
+  record.designation_error_m = std::hypot(told.x_m - course.goal_x_m, told.y_m - course.goal_y_m);
+  const messages::Goal& believed = parts_.navigator.last_goal();
+  record.believed_goal_distance_m =
+      std::hypot(believed.x_m - estimate.x_m, believed.y_m - estimate.y_m);
+  record.waypoints_reached = static_cast<double>(parts_.navigator.reached());
+}
+
+void DriveObserver::ReportPoses(truth::DriveRecord& record) const {
+  const math::Pose2 truth = math::ToPose2(parts_.state().X_WR);
+  const messages::PoseEstimate& estimate = parts_.estimate().pose;
+  const messages::Goal goal = parts_.params.course.GoalAt(parts_.ledger.time_s());
+  record.true_goal_distance_m = std::hypot(goal.x_m - truth.x_m, goal.y_m - truth.y_m);
+  record.final_x_m = truth.x_m;
+  record.final_y_m = truth.y_m;
+  record.final_heading_rad = truth.heading_rad;
+  record.believed_x_m = estimate.x_m;
+  record.believed_y_m = estimate.y_m;
+  record.believed_heading_rad = estimate.heading_rad;
+}
+
+void DriveObserver::ReportErrors(truth::DriveRecord& record) const {
+  const math::Pose2 truth = math::ToPose2(parts_.state().X_WR);
+  const sensing::TrackerParams& tracker = parts_.params.sensors.tracker;
+  const math::Pose2 reference =
+      tracker.enabled ? sensing::Tracker(tracker, parts_.key).Observe(truth, 0) : truth;
+  const messages::PoseEstimate& estimate = parts_.estimate().pose;
+  record.dead_reckoned_distance_m = estimate.distance_m;
+  if (record.true_distance_m > 0.0) {
+    record.distance_error_percent =
+        100.0 * (estimate.distance_m - record.true_distance_m) / record.true_distance_m;
+  }
+  record.heading_error_deg =
+      math::RadToDeg(std::abs(math::WrapAngle(estimate.heading_rad - reference.heading_rad)));
+  record.position_error_m = std::hypot(estimate.x_m - reference.x_m, estimate.y_m - reference.y_m);
+  record.heading_growth_deg2_per_m = heading_growth_.per_m();
+  record.distance_growth_m2_per_m = distance_growth_.per_m();
+  if (parts_.navigator.view() != nullptr) {
+    record.height_error_m =
+        parts_.estimate().attitude.z_m - (parts_.state().X_WR.translation().z() - parts_.start_z_m);
+  }
+}
+
+void DriveObserver::ReportLedger(truth::DriveRecord& record, const Stall& stall) const {
+  record.sim_time_s = parts_.ledger.time_s();
+  record.drive_time_s = parts_.ledger.time_s(Activity::kDriving);
+  record.turn_time_s = parts_.ledger.time_s(Activity::kTurning);
+  record.scan_time_s = parts_.ledger.time_s(Activity::kScanning);
+  record.energy_wh = parts_.ledger.energy_wh();
+  record.scan_energy_wh = parts_.ledger.energy_wh(Activity::kScanning);
+  record.imaging_time_s = parts_.ledger.time_s(Activity::kImaging);
+  record.compute_time_s = parts_.ledger.time_s(Activity::kComputing);
+  record.imaging_energy_wh = parts_.ledger.energy_wh(Activity::kImaging);
+  record.compute_energy_wh = parts_.ledger.energy_wh(Activity::kComputing);
+  record.steer_time_s = parts_.ledger.time_s(Activity::kSteering);
+  record.move_overhead_time_s = parts_.ledger.time_s(Activity::kOverhead);
+  record.move_time_s =
+      record.drive_time_s + record.turn_time_s + record.steer_time_s + record.move_overhead_time_s;
+  record.stall_time_s = stall.time_s;
+  record.stall_energy_wh = stall.energy_wh;
+  record.active_time_s = parts_.ledger.time_s() - parts_.ledger.time_s(Activity::kStalled);
+  record.active_energy_wh = parts_.ledger.energy_wh() - parts_.ledger.energy_wh(Activity::kStalled);
+  if (parts_.ledger.time_s() <= 0.0) return;
+  const double again_s = static_cast<double>(parts_.terrain_sensing.rescans()) *
+                         parts_.terrain_sensing.look_time().total_s();
+  record.net_rate_m_s = record.true_distance_m / parts_.ledger.time_s();
+  record.single_scan_rate_m_s = record.true_distance_m / (parts_.ledger.time_s() - again_s);
+}
+
+void DriveObserver::ReportCounts(truth::DriveRecord& record) const {
+  record.scans = static_cast<double>(parts_.terrain_sensing.scans());
+  record.rescans = static_cast<double>(parts_.terrain_sensing.rescans());
+  record.image_sets = static_cast<double>(parts_.terrain_sensing.image_sets());
+  record.rear_image_sets = static_cast<double>(parts_.terrain_sensing.rear_image_sets());
+  record.moves = static_cast<double>(moves_.moves());
+  record.point_turns = static_cast<double>(moves_.point_turns());
+  record.reversals = static_cast<double>(moves_.reversals());
+  record.hazards_believed = static_cast<double>(hazards_.believed());
+  record.hazards_begun = static_cast<double>(hazards_.begun());
+  record.turns_in_place = static_cast<double>(turns_.turns());
+  record.scrapes = static_cast<double>(parts_.motion_sensors->scrapes().episodes());
+  record.stops = static_cast<double>(stops_.stops());
+  record.first_scrape_distance_m = first_scrape_m_.value_or(record.true_distance_m);
+  record.scrape_heading_rad = parts_.motion_sensors->scrapes().total_jump_rad();
+  record.reflections = static_cast<double>(reflections_);
+  record.stuck_noticed = static_cast<double>(stuck_noticed_);
+  record.beyond_soil_law =
+      monitor_.max_sinkage_m() > rover::LargestLawfulSinkage(parts_.params.rover.geometry) ? 1.0
+                                                                                           : 0.0;
+  record.unconverged_balances = static_cast<double>(parts_.rover->unconverged_balances());
+  record.no_progress_distance_m = parts_.referee.no_progress_distance_m();
+  record.no_progress_turn_deg = math::RadToDeg(parts_.referee.no_progress_turn_rad());
+  record.layout = static_cast<double>(LayoutKey(parts_.params, parts_.key).trial);
+  record.rocks = static_cast<double>(parts_.field.terrain.rocks().size());
+  record.rock_cover = parts_.field.audit.outline_cover;
+}
+
+void DriveObserver::ReportHazards(truth::DriveRecord& record) const {
+  using messages::VehicleHazardKind;
+  record.hazards_met = static_cast<double>(watch_.met());
+  record.hazards_missed = static_cast<double>(watch_.missed());
+  record.contact_hazards = static_cast<double>(parts_.guard.count(VehicleHazardKind::kContact));
+  record.tilt_hazards = static_cast<double>(parts_.guard.count(VehicleHazardKind::kTilt));
+  record.articulation_hazards =
+      static_cast<double>(parts_.guard.count(VehicleHazardKind::kArticulation));
+  record.safeguard_stops = static_cast<double>(parts_.guard.stops());
+  record.current_hazards =
+      static_cast<double>(parts_.guard.count(VehicleHazardKind::kMotorCurrent));
+}
+
+}  // namespace rockyard::trial

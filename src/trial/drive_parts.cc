@@ -1,0 +1,93 @@
+#include "trial/drive_parts.h"
+
+#include <utility>
+
+#include "navigation/stuck_reaction.h"
+#include "terrain/arena.h"
+#include "trial/goal_designation.h"
+#include "trial/layout.h"
+#include "trial/make_estimator.h"
+#include "trial/onboard_calibration.h"
+#include "trial/route_planner.h"
+
+namespace rockyard::trial {
+namespace {
+
+// Open fields go on; every other arena ends where its layout ends.
+std::optional<ArenaBounds> Bounds(const terrain::ArenaParams& arena) {
+  if (arena.kind == terrain::ArenaKind::kOpen) return std::nullopt;
+  const terrain::Rectangle bounds = terrain::DrivableBounds(arena);
+  return ArenaBounds{bounds.x_min_m, bounds.x_max_m};
+}
+
+std::unique_ptr<navigation::Navigator> MakePathSelection(const DriveParams& drive,
+                                                         const terrain::Terrain& terrain,
+                                                         const messages::Goal& goal) {
+  const navigation::NavigatorKind& chosen = drive.navigation.navigators.chosen();
+  navigation::NavigatorSetup setup{.goal = goal, .judges_hazards = drive.perception.hazard.enabled};
+  if (chosen.traits().follows_route) setup.route = PlanRoute(drive, terrain, goal);
+  return chosen.Make(setup);
+}
+
+bool LooksForStuck(const DriveParams& drive) {
+  return drive.navigation.on_board_stuck.reaction != navigation::StuckResponse::kOff;
+}
+
+std::unique_ptr<navigation::Navigator> MakeNavigator(const DriveParams& drive,
+                                                     const terrain::Terrain& terrain,
+                                                     const messages::Goal& goal) {
+  std::unique_ptr<navigation::Navigator> navigator = MakePathSelection(drive, terrain, goal);
+  if (!LooksForStuck(drive)) return navigator;
+  return std::make_unique<navigation::StuckReaction>(drive.navigation.on_board_stuck,
+                                                     std::move(navigator));
+}
+
+std::unique_ptr<rover::Rover> MakeTrialRover(const DriveParams& drive, terrain::Terrain& terrain) {
+  const terrain::RockFieldParams& rocks = drive.terrain.rocks;
+  if (rocks.mobility == terrain::RockMobility::kFixed) {
+    return rover::MakeRover(drive.rover, terrain);
+  }
+  return rover::MakeRover(drive.rover, rocks.holding, terrain);
+}
+
+}  // namespace
+
+DriveParts::DriveParts(const DriveParams& drive, core::TrialKey trial_key,
+                       const ScanWatcher& scan_watcher)
+    : params(drive),
+      key(trial_key),
+      designated_goals(DesignatedGoals(drive.course, trial_key)),
+      field(terrain::BuildField(drive.terrain, LayoutKey(drive, trial_key),
+                                TerrainCourse(drive.course))),
+      rover(MakeTrialRover(drive, field.terrain)),
+      tick(WholeSteps(1.0 / drive.clock.control_rate_hz, rover->step_s())),
+      stop(WholeSteps(rover->ramp_s() + drive.clock.stop_time_s, rover->step_s())),
+      terrain_sensing(drive, trial_key, scan_watcher),
+      guard(drive, trial_key),
+      navigator(designated_goals, MakeNavigator(drive, field.terrain, designated_goals.front())),
+      follower(drive.rover.drive.speed_m_s, rover->ramp_s()),
+      wheel_driver(OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive),
+                   drive.navigation.wheel_driver),
+      ledger(MakePowerBudget(drive), drive.energy.battery_wh),
+      referee(drive.referee, drive.course, designated_goals.front(), Bounds(drive.terrain.arena),
+              drive.rover.geometry.wheel_radius_m) {
+  if (drive.terrain.arena.kind == terrain::ArenaKind::kVirtualReflected) {
+    mirror.emplace(drive.terrain.arena.MirrorLine());
+  }
+  if (LooksForStuck(drive)) {
+    stuck_detector.emplace(
+        drive.perception.stuck_detector,
+        OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive));
+  }
+  if (drive.course.tracking.enabled) feature_tracker.emplace(drive.course.tracking, key);
+}
+
+void DriveParts::Begin() {
+  rover->Place(params.course.Start());
+  motion_sensors.emplace(params.sensors.gyro, params.sensors.encoders,
+                         params.rover.geometry.wheel_radius_m, key, state());
+  start_z_m = state().X_WR.translation().z();
+  estimator = MakeEstimator(params, *rover);
+}
+
+}  // namespace rockyard::trial

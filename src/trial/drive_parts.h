@@ -1,0 +1,70 @@
+// Everything that takes part in a drive, as it is set up from the parameters.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/random.h"
+#include "localization/estimator.h"
+#include "messages/estimates.h"
+#include "navigation/motion_follower.h"
+#include "navigation/waypoint_sequence.h"
+#include "navigation/wheel_driver.h"
+#include "perception/stuck_detector.h"
+#include "rover/rover.h"
+#include "sensing/feature_tracker.h"
+#include "sensing/motion_sensors.h"
+#include "terrain/field.h"
+#include "trial/drive_params.h"
+#include "trial/ledger.h"
+#include "trial/mirror_arena.h"
+#include "trial/referee.h"
+#include "trial/scan_watcher.h"
+#include "trial/stretch.h"
+#include "trial/terrain_sensing.h"
+#include "trial/vehicle_guard.h"
+
+namespace rockyard::trial {
+
+// The loop (drive.h) moves them; who watches it (drive_observer.h, drive_tracer.h) reads them.
+// `drive` outlives it.
+struct DriveParts {
+  DriveParts(const DriveParams& drive, core::TrialKey trial_key, const ScanWatcher& scan_watcher);
+  DriveParts(const DriveParts&) = delete;
+  DriveParts& operator=(const DriveParts&) = delete;
+
+  // Puts the rover down at the start, where its sensors and its estimator begin.
+  void Begin();
+
+  const truth::RoverState& state() const { return rover->state(); }
+  const messages::LocalizationEstimate& estimate() const { return estimator->estimate(); }
+
+  const DriveParams& params;
+  core::TrialKey key;
+  std::vector<messages::Goal> designated_goals;  // waypoints, then the goal
+
+  terrain::Field field;
+  std::unique_ptr<rover::Rover> rover;
+  Stretch tick;  // of control
+  Stretch stop;  // before a scan
+  std::optional<MirrorArena> mirror;
+
+  TerrainSensing terrain_sensing;
+  std::optional<sensing::MotionSensors> motion_sensors;  // from Begin on
+  VehicleGuard guard;
+  std::optional<perception::StuckDetector> stuck_detector;
+  std::optional<sensing::FeatureTracker> feature_tracker;
+
+  std::unique_ptr<localization::Estimator> estimator;  // from Begin on
+  double start_z_m = 0.0;                              // true height where the drive began
+
+  navigation::WaypointSequence navigator;
+  navigation::MotionFollower follower;
+  navigation::WheelDriver wheel_driver;
+
+  Ledger ledger;
+  Referee referee;
+};
+
+}  // namespace rockyard::trial

@@ -1,0 +1,46 @@
+// What a drive tells of its course, where somebody asks for a trace.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "math/pose.h"
+#include "messages/commands.h"
+#include "messages/navigation_view.h"
+#include "trial/drive_parts.h"
+#include "trial/power_budget.h"
+#include "trial/terrain_sensing.h"
+#include "truth/trace.h"
+
+namespace rockyard::trial {
+
+class DriveTracer {
+ public:
+  // Without a trace it does nothing. `parts` outlives it.
+  DriveTracer(const DriveParts& parts, truth::Trace* trace);
+
+  void Event(std::string kind, std::string detail);
+  // Reports of hazards that are believed, and every look that shows points.
+  void Look(messages::LookDirection direction, const Percept& percept);
+  // What was declared, and how far the rover truly is from there.
+  void Waypoint(std::size_t index);
+  // What was chosen among the motions that were voted for.
+  void Votes(const messages::NavigationView& view);
+
+  // A control tick.
+  void Sample(Activity activity);
+  // A moment between control ticks; `activity`: of the rest that ends here.
+  void Rest(std::optional<Activity> activity, bool set_back = false);
+
+ private:
+  void Rocks();
+  truth::TraceSample Now(std::string activity) const;
+
+  const DriveParts& parts_;
+  truth::Trace* trace_;
+  std::vector<math::Vector3> rock_centers_;  // where the trace knows rocks that can move
+};
+
+}  // namespace rockyard::trial
