@@ -26,7 +26,13 @@ std::vector<Problem> CellDifferences(const CellIdentity& stored, const CellIdent
   std::vector<Problem> problems;
   if (stored.fingerprint != wanted.fingerprint) {
     problems = ScenarioDifferences(stored.resolved, wanted.resolved, kPathsShown, words);
-    if (problems.empty()) problems.push_back({"scenario", "has another fingerprint", ""});
+    // The checksums of its rows go by the fingerprint, which goes by the keys.
+    if (problems.empty()) {
+      problems.push_back({"scenario",
+                          fmt::format("has keys {} that have another name {}", words.first,
+                                      words.second),
+                          "go on with the version of the program that began it"});
+    }
   }
   const auto has_seed = [](const Problem& problem) { return problem.path == "seed"; };
   if (stored.seed != wanted.seed && std::none_of(problems.begin(), problems.end(), has_seed)) {

@@ -8,6 +8,7 @@
 
 #include "core/hash.h"
 #include "core/json_text.h"
+#include "scenario/former_keys.h"
 
 namespace rockyard::batch {
 namespace {
@@ -75,8 +76,10 @@ class Walk {
 
 std::vector<ScenarioDifference> FindScenarioDifferences(std::string_view first,
                                                         std::string_view second) {
-  const JsonValue before = core::ParseJson(first, "stored scenario");
-  const JsonValue now = core::ParseJson(second, "scenario");
+  JsonValue before = core::ParseJson(first, "stored scenario");
+  JsonValue now = core::ParseJson(second, "scenario");
+  scenario::RenameFormerKeys(before);
+  scenario::RenameFormerKeys(now);
   Walk walk;
   walk.Compare("", &before, &now);
   return walk.Take();

@@ -18,7 +18,8 @@ struct ScenarioDifference {
 };
 
 // In the order of the first document. Name, description and number of trials are left out: no
-// record depends on them. Both are JSON texts; throws core::UserError on what is none.
+// record depends on them. Former keys count as those of today. Both are JSON texts; throws
+// core::UserError on what is none.
 std::vector<ScenarioDifference> FindScenarioDifferences(std::string_view first,
                                                         std::string_view second);
 

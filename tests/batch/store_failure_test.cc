@@ -203,6 +203,24 @@ TEST(ResumeMismatch, NamesEveryDifference) {
   EXPECT_THAT(text, testing::Not(HasSubstr("trials: ")));
 }
 
+// The same scenario with other keys: the rows' checksums hold for those that it was stored with.
+TEST(ResumeMismatch, FormerKeysAreGoneOnWithByTheirOwnVersion) {
+  const core::TestFolder folder;
+  CampaignIdentity stored = FakeIdentity();
+  stored.cells[0].resolved = R"({"sensors": {"localization": "oracle"}})";
+  stored.cells[0].fingerprint =
+      ResolvedFingerprint(core::ParseJson(stored.cells[0].resolved, "stored"));
+  CampaignIdentity wanted = stored;
+  wanted.cells[0].resolved = R"({"sensors": {}, "localization": {"estimator": "oracle"}})";
+  wanted.cells[0].fingerprint =
+      ResolvedFingerprint(core::ParseJson(wanted.cells[0].resolved, "wanted"));
+  ResultStore::Create(folder.path(), stored, 2);
+  const auto error =
+      ErrorOf([&] { ResultStore::Resume(folder.path(), wanted, BuildPolicy::kAny); });
+  ExpectError(error, StoreProblem::kMismatch, StorePath(folder.path()));
+  EXPECT_THAT(error->what(), HasSubstr("keys in the stored run that have another name now"));
+}
+
 TEST(ResumeMismatch, AnotherBuildOnRequestOnly) {
   const core::TestFolder folder;
   ResultStore::Create(folder.path(), FakeIdentity(), 2);
