@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "math/pose.h"
 
@@ -68,6 +69,32 @@ TEST(DeadReckoningEstimator, AccelerometersLevelTheRover) {
   estimator.Feel(NoseDown(0.2), kTick_s);
   EXPECT_NEAR(estimator.estimate().attitude.pitch_rad, 0.2, 1e-12);
   EXPECT_NEAR(estimator.estimate().attitude.roll_rad, 0.0, 1e-12);
+}
+
+TEST(DeadReckoningEstimator, HeightGrowsByWhatWasDrivenSinceTheLastTick) {
+  DeadReckoningEstimator estimator(StartSetup());
+  std::vector<double> heights_m;
+  for (int i = 0; i < 3; ++i) {
+    estimator.Propagate(Rolling(1.0));
+    estimator.Feel(NoseDown(0.2), kTick_s);
+    heights_m.push_back(estimator.estimate().attitude.z_m);
+  }
+  EXPECT_NEAR(heights_m[0], -0.065 * std::sin(0.2), 1e-12);
+  EXPECT_NEAR(heights_m[1], 2.0 * heights_m[0], 1e-12);
+  EXPECT_NEAR(heights_m[2], 3.0 * heights_m[0], 1e-12);
+}
+
+// What the rover felt before says nothing of how it stands now.
+TEST(DeadReckoningEstimator, AttitudeBeginsAnewWhereOperatorsMovedTheRover) {
+  EstimatorSetup setup = StartSetup();
+  setup.attitude.filter_s = 10.0;
+  DeadReckoningEstimator estimator(setup);
+  estimator.Feel(NoseDown(0.2), kTick_s);
+  estimator.Feel(NoseDown(0.0), kTick_s);
+  EXPECT_GT(estimator.estimate().attitude.pitch_rad, 0.19);
+  estimator.Place({3.0, -1.0, 0.5});
+  estimator.Feel(NoseDown(0.0), kTick_s);
+  EXPECT_NEAR(estimator.estimate().attitude.pitch_rad, 0.0, 1e-12);
 }
 
 // Operators set the pose; the rover has not climbed there.
