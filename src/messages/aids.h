@@ -16,7 +16,7 @@ using CaptureNumber = std::int64_t;
 // that were not measured are ignored, with their rows and columns.
 struct PoseFix {
   CaptureNumber capture = 0;
-  std::bitset<kPoseCoordinates> measured;
+  std::bitset<kPoseCoordinates> measured;  // by Index of a coordinate
   PoseVector pose_W = PoseVector::Zero();
   PoseCovariance covariance = PoseCovariance::Identity();
 };

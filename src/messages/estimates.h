@@ -1,10 +1,9 @@
 // What on-board code believes, and what operators tell it.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
-
-#include <Eigen/Core>
 
 #include "messages/measurements.h"
 
@@ -25,9 +24,12 @@ struct AttitudeEstimate {
   double z_m = 0.0;        // of R's origin above where the drive began
 };
 
-// The coordinates of a pose in a covariance, in this order: m and rad.
+// The coordinates of a pose in vectors and covariances, m and rad.
 enum class PoseCoordinate { kX, kY, kZ, kRoll, kPitch, kHeading };
 inline constexpr int kPoseCoordinates = 6;
+
+constexpr int Index(PoseCoordinate coordinate) { return static_cast<int>(coordinate); }
+
 using PoseVector = Eigen::Matrix<double, kPoseCoordinates, 1>;
 using PoseCovariance = Eigen::Matrix<double, kPoseCoordinates, kPoseCoordinates>;
 

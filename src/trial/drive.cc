@@ -143,7 +143,6 @@ void Drive::SpendOverhead() {
 void Drive::RestBetweenMoves(double duration_s) {
   // A rover that comes from another move brakes first.
   if (rolling_) Move({}, parts_.stop);
-  observer_.OnWheels(false);
   Rest(Activity::kOverhead, duration_s);
   UpdateEstimateAtRest(duration_s);
 }

@@ -35,9 +35,10 @@ TEST(ScenarioDifferences, LeavesOutWhatNoRecordDependsOn) {
 // Of an earlier version of the program.
 TEST(ScenarioDifferences, TakesFormerKeysForThoseOfToday) {
   const char* former = R"({"sensors": {"localization": "oracle", "gyro": 1}})";
-  EXPECT_THAT(
-      Paths(former, R"({"sensors": {"gyro": 1}, "localization": {"estimator": "oracle"}})"),
-      IsEmpty());
+  EXPECT_THAT(Paths(former, R"({"sensors": {"gyro": 1}, "localization": {"estimator": "oracle"}})"),
+              IsEmpty());
+  EXPECT_THAT(Paths(R"({"sensors": {"gyro": 1}, "localization": {"estimator": "oracle"}})", former),
+              IsEmpty());
   EXPECT_THAT(Paths(former, R"({"sensors": {"gyro": 1}, "localization": {"estimator": "x"}})"),
               ElementsAre("localization.estimator"));
 }

@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <vector>
-
 #include <Eigen/Dense>
+#include <vector>
 
 #include "core/random.h"
 
@@ -108,8 +107,8 @@ TEST(ClonedCovariance, EqualsOneLongState) {
     H.middleCols(n, n) += first;
     H.rightCols(n) += last;
     const VectorXd expected = plain.Update(H, r, R);
-    const auto correction = clones.Update(
-        std::vector<Part>{{std::nullopt, now}, {10, first}, {10 + step, last}}, r, R);
+    const auto correction =
+        clones.Update(std::vector<Part>{{std::nullopt, now}, {10, first}, {10 + step, last}}, r, R);
     for (int i = 0; i < expected.size(); ++i) {
       EXPECT_NEAR(correction.changes(i % n, i / n), expected[i], 1e-9);
     }

@@ -65,8 +65,8 @@ TEST(EstimatorSet, MakesWhatIsNamedWithItsParameters) {
 
 // What has no parameters has no group.
 TEST(EstimatorSet, WritesWhatItReads) {
-  const std::string text =
-      core::DumpJson(core::WriteParams(Read(R"({"estimator": "toy", "toy": {"variance_m": 0.5}})")));
+  const std::string text = core::DumpJson(
+      core::WriteParams(Read(R"({"estimator": "toy", "toy": {"variance_m": 0.5}})")));
   EXPECT_EQ(core::DumpJson(core::WriteParams(Read(text))), text);
   EXPECT_THAT(text, HasSubstr("\"variance_m\": 0.5"));
   EXPECT_THAT(text, Not(HasSubstr("\"dead_reckoning\"")));

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSpeed_m_s = 0.1;
 constexpr double kTick_s = 0.1;
-constexpr double kQ = 0.01;       // m2/m
+constexpr double kQ = 0.01;         // m2/m
 constexpr double kR = 0.02 * 0.02;  // of an aid, m2
 
 EstimatorSetup StartSetup() {
@@ -32,21 +32,24 @@ class LateAid : public testing::Test {
     }
   }
 
+  static constexpr int kX = messages::Index(messages::PoseCoordinate::kX);
+
   static messages::PoseFix Fix(messages::CaptureNumber capture, double x_m) {
-    messages::PoseFix fix{.capture = capture, .measured = 1};
-    fix.pose_W[0] = x_m;
+    messages::PoseFix fix{.capture = capture};
+    fix.measured.set(kX);
+    fix.pose_W[kX] = x_m;
     fix.covariance *= kR;
     return fix;
   }
   static messages::RelativeMotion Motion(messages::CaptureNumber from, messages::CaptureNumber to,
                                          double x_m) {
     messages::RelativeMotion motion{.from = from, .to = to};
-    motion.motion_F[0] = x_m;
+    motion.motion_F[kX] = x_m;
     motion.covariance *= kR;
     return motion;
   }
   static double Variance(const Estimator& estimator) {
-    return estimator.estimate().covariance->coeff(0, 0);
+    return estimator.estimate().covariance->coeff(kX, kX);
   }
 
   ToyEstimator toy_{{.variance_m = kQ}, StartSetup()};
@@ -112,6 +115,9 @@ TEST_F(LateAid, WhatIsFarOffOrOfNoKnownMomentIsNotUsed) {
   DriveFor(2.0);
   EXPECT_EQ(toy_.Update(Fix(1, 2.5)), AidUse::kGatedOut);
   EXPECT_EQ(toy_.Update(Fix(2, 1.5)), AidUse::kUnknown);
+  messages::PoseFix of_heading = Fix(1, 1.53);
+  of_heading.measured.reset(kX);
+  EXPECT_EQ(toy_.Update(of_heading), AidUse::kNoInterest);
   EXPECT_EQ(toy_.Update(Motion(1, 2, 0.2)), AidUse::kUnknown);
   EXPECT_NEAR(toy_.estimate().pose.x_m, 1.7, 1e-12);
   toy_.Forget(1);

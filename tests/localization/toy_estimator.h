@@ -59,20 +59,23 @@ class ToyEstimator final : public Estimator {
   }
 
   AidUse Update(const messages::PoseFix& fix) override {
+    if (!fix.measured[kX]) return AidUse::kNoInterest;
     if (!errors_.Has(fix.capture)) return AidUse::kUnknown;
-    return Take({{fix.capture, One(1.0)}}, fix.pose_W[0] - kept_x_m_[fix.capture],
-                fix.covariance(0, 0));
+    return Take({{fix.capture, One(1.0)}}, fix.pose_W[kX] - kept_x_m_[fix.capture],
+                fix.covariance(kX, kX));
   }
   AidUse Update(const messages::RelativeMotion& motion) override {
     if (!errors_.Has(motion.from) || !errors_.Has(motion.to)) return AidUse::kUnknown;
     return Take({{motion.from, One(-1.0)}, {motion.to, One(1.0)}},
-                motion.motion_F[0] - (kept_x_m_[motion.to] - kept_x_m_[motion.from]),
-                motion.covariance(0, 0));
+                motion.motion_F[kX] - (kept_x_m_[motion.to] - kept_x_m_[motion.from]),
+                motion.covariance(kX, kX));
   }
 
   const messages::LocalizationEstimate& estimate() const override { return estimate_; }
 
  private:
+  static constexpr int kX = messages::Index(messages::PoseCoordinate::kX);
+
   static Eigen::MatrixXd One(double value) { return Eigen::MatrixXd::Constant(1, 1, value); }
 
   AidUse Take(const std::vector<ClonedCovariance::Part>& parts, double residual, double noise) {
@@ -92,7 +95,7 @@ class ToyEstimator final : public Estimator {
 
   void Tell() {
     estimate_.covariance = messages::PoseCovariance::Zero();
-    (*estimate_.covariance)(0, 0) = errors_.now()(0, 0);
+    (*estimate_.covariance)(kX, kX) = errors_.now()(0, 0);
   }
 
   ToyParams params_;
@@ -103,11 +106,12 @@ class ToyEstimator final : public Estimator {
 };
 
 inline EstimatorDescription<ToyParams> DescribeToy(std::string_view name = "toy") {
-  return {
-      .name = name,
-      .doc = "drives along x",
-      .make = [](const ToyParams& params, const EstimatorSetup& setup)
-          -> std::unique_ptr<Estimator> { return std::make_unique<ToyEstimator>(params, setup); }};
+  return {.name = name,
+          .doc = "drives along x",
+          .make = [](const ToyParams& params,
+                     const EstimatorSetup& setup) -> std::unique_ptr<Estimator> {
+            return std::make_unique<ToyEstimator>(params, setup);
+          }};
 }
 
 }  // namespace rockyard::localization

@@ -42,9 +42,9 @@ TEST(FormerKeys, WhatIsSetLastCounts) {
   EXPECT_EQ(EstimatorOf(R"({"localization": {"estimator": "oracle"}})",
                         {"sensors.localization=dead_reckoning"}),
             "dead_reckoning");
-  EXPECT_EQ(EstimatorOf("{}", {"localization.estimator=oracle",
-                               "sensors.localization=dead_reckoning"}),
-            "dead_reckoning");
+  EXPECT_EQ(
+      EstimatorOf("{}", {"localization.estimator=oracle", "sensors.localization=dead_reckoning"}),
+      "dead_reckoning");
 }
 
 TEST(FormerKeys, BothWithDifferentValuesAreRefused) {
@@ -87,6 +87,18 @@ TEST(FormerKeys, AreAxesAndSettingsOfSweeps) {
       R"({"set": {"sensors": {"localization": "oracle"}},
           "axes": [{"path": "course.goal_x_m", "values": [5, 6]}]})");
   EXPECT_EQ(setting.cells[0].scenario.drive.localization.estimators.chosen().name(), "oracle");
+  // Whichever name the base has, the setting lies over it.
+  for (const char* base : {R"({"sensors": {"localization": "oracle"}})",
+                           R"({"localization": {"estimator": "oracle"}})"}) {
+    for (const char* key : {"sensors.localization", "localization.estimator"}) {
+      const Sweep over = ParseSweep(
+          std::string(R"({"scenario": )") + base + R"(, "set": {")" + key +
+          R"(": "dead_reckoning"}, "axes": [{"path": "course.goal_x_m", "values": [5, 6]}]})");
+      EXPECT_EQ(over.cells[0].scenario.drive.localization.estimators.chosen().name(),
+                "dead_reckoning")
+          << base << key;
+    }
+  }
 }
 
 }  // namespace

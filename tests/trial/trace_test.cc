@@ -78,6 +78,21 @@ TEST_P(TraceTest, StretchesAddUpToTheTimesOfTheRecord) {
   EXPECT_EQ(times_s["stall"], 0.0);
 }
 
+// Activities that took no time leave no rest: light stripe takes no images apart from its scans.
+TEST_P(TraceTest, EveryRestOfAnActivityTakesTime) {
+  double last_s = 0.0;
+  std::size_t rests = 0;
+  for (const truth::TraceSample& moment : Moments(trial_.trace)) {
+    const bool scan = moment.activity == "scan";
+    rests += scan ? 1 : 0;
+    if (!moment.activity.empty()) {
+      EXPECT_GT(moment.time_s, last_s) << moment.activity;
+    }
+    last_s = moment.time_s;
+  }
+  EXPECT_GT(rests, 10U);
+}
+
 TEST_P(TraceTest, EveryReflectionSetsTheRoverBack) {
   const auto& rests = trial_.trace.rests;
   EXPECT_EQ(std::count_if(rests.begin(), rests.end(),

@@ -1,0 +1,68 @@
+#include "trial/drive_observer.h"
+
+#include <gtest/gtest.h>
+
+#include "trial/pathfinder_trials.h"
+
+namespace rockyard::trial {
+namespace {
+
+// A rock of 40 cm, 30 cm high, within reach of the array of a rover at x = 1.
+const Overrides kRockAhead = {"terrain.rocks.kind=listed",
+                              "terrain.rocks.listed.x_m=[1.6]",
+                              "terrain.rocks.listed.y_m=[0.0]",
+                              "terrain.rocks.listed.diameter_m=[0.4]",
+                              "terrain.rocks.listed.height_m=[0.3]",
+                              "terrain.rocks.clear_radius_m=0",
+                              "rover.fidelity=quasi_static"};
+
+class DriveObserverTest : public testing::Test {
+ protected:
+  DriveObserverTest() {
+    parts_.Begin();
+    observer_.OnPlaced();
+  }
+
+  // The rover goes straight to x, y = `y_m`.
+  void GoTo(double x_m, double y_m = 0.0) {
+    parts_.rover->Place({x_m, y_m, 0.0});
+    observer_.OnTick(false);
+  }
+  truth::DriveRecord Report() const { return observer_.Report(false, {}); }
+
+  const DriveParams drive_ = Pathfinder("nominal", kRockAhead);
+  DriveParts parts_{drive_, {1, 0}, {}};
+  DriveObserver observer_{parts_};
+};
+
+TEST_F(DriveObserverTest, AReportOfAHazardCreditsTheRocksWithinReach) {
+  GoTo(1.0);
+  observer_.OnReport(true);
+  GoTo(1.6);
+  EXPECT_EQ(Report().hazards_met, 1.0);
+  EXPECT_EQ(Report().hazards_missed, 0.0);
+  EXPECT_EQ(Report().hazards_believed, 1.0);
+}
+
+TEST_F(DriveObserverTest, AReportWithoutOneCreditsNone) {
+  GoTo(1.0);
+  observer_.OnReport(false);
+  GoTo(1.6);
+  EXPECT_EQ(Report().hazards_met, 1.0);
+  EXPECT_EQ(Report().hazards_missed, 1.0);
+  EXPECT_EQ(Report().hazards_believed, 0.0);
+}
+
+TEST_F(DriveObserverTest, TheFirstScrapeIsWhereItWas) {
+  const double start_m = drive_.course.start_x_m;
+  GoTo(start_m, 0.5);
+  EXPECT_NEAR(Report().first_scrape_distance_m, 0.5, 1e-9);  // none: the whole way
+  observer_.OnScrape();
+  GoTo(start_m, 1.5);
+  observer_.OnScrape();
+  EXPECT_NEAR(Report().true_distance_m, 1.5, 1e-9);
+  EXPECT_NEAR(Report().first_scrape_distance_m, 0.5, 1e-9);
+}
+
+}  // namespace
+}  // namespace rockyard::trial
