@@ -62,7 +62,7 @@ double ElectronsPerRadiance(const LightStripeParams& params) {
          imager.filter_transmission * electrons_per_j / (imager.f_number * imager.f_number);
 }
 
-double RelativeIllumination(const messages::StripeCamera& camera, double column_px, double row_px) {
+double RelativeIllumination(const messages::Camera& camera, double column_px, double row_px) {
   const auto ray = [&](double column_shift, double row_shift) {
     return vision::PixelRay(camera, {column_px + column_shift, row_px + row_shift});
   };

@@ -39,6 +39,6 @@ double ElectronsPerRadiance(const LightStripeParams& params);
 // Returns the same off the axis, over that on the axis: solid angle of the pixel over that of the
 // central one, times the cosine by which the entrance pupil shrinks. That is cos^4 for a pinhole.
 // Real wide-angle lenses tilt their pupil and lose less.
-double RelativeIllumination(const messages::StripeCamera& camera, double column_px, double row_px);
+double RelativeIllumination(const messages::Camera& camera, double column_px, double row_px);
 
 }  // namespace rockyard::sensing

@@ -45,7 +45,7 @@ StripeImager::StripeImager(const LightStripeParams& params, const SunParams& sun
 
 // The lines that the image has of those that are asked for.
 StripeImager::View StripeImager::MakeView(int camera, int first_row, int last_row) const {
-  const messages::StripeCamera& eye = calibration_.cameras[static_cast<std::size_t>(camera)];
+  const messages::Camera& eye = calibration_.cameras[static_cast<std::size_t>(camera)];
   View view;
   const int last = std::min(last_row, eye.last_row());
   for (int row = std::max(first_row, eye.first_row()); row <= last; ++row) {
@@ -73,7 +73,7 @@ StripeImager::Light StripeImager::Render(const LitScene& lit, int camera, const 
 
 messages::ImageBand StripeImager::Read(const Light& light, double exposure_s, core::TrialKey key,
                                        const ImageName& name) const {
-  const messages::StripeCamera& eye = calibration_.cameras[static_cast<std::size_t>(name.camera)];
+  const messages::Camera& eye = calibration_.cameras[static_cast<std::size_t>(name.camera)];
   messages::ImageBand band;
   band.first_row = light.rows.front().row;
   band.first_column = eye.image_columns().first;
@@ -157,7 +157,7 @@ messages::StripeExposure StripeImager::FullFrame(const terrain::Terrain& terrain
   }
   // The exposure of the bands that Expose would read: the picture shows what the rover would see.
   const double exposure_s = ExposureTime(params_.imager, std::move(metered_e_s));
-  const messages::StripeCamera& eye = calibration_.cameras[static_cast<std::size_t>(camera)];
+  const messages::Camera& eye = calibration_.cameras[static_cast<std::size_t>(camera)];
   const Light frame = Render(lit, camera, MakeView(camera, eye.first_row(), eye.last_row()), key);
   return ReadPair({&frame, 1}, exposure_s, key, {scan_number, camera, group, false});
 }

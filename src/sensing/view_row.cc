@@ -37,7 +37,7 @@ void SetPlane(ViewRow& view) {
 
 }  // namespace
 
-ViewRow MakeViewRow(const messages::StripeCamera& camera, const RoverBody& body, int row,
+ViewRow MakeViewRow(const messages::Camera& camera, const RoverBody& body, int row,
                     int first_column, int columns) {
   ViewRow view;
   view.row = row;

@@ -36,7 +36,7 @@ struct ViewRow {
 
 // Returns `columns` pixels of an image line from first_column on. Cost: about 0.14 ms for 768
 // pixels.
-ViewRow MakeViewRow(const messages::StripeCamera& camera, const RoverBody& body, int row,
+ViewRow MakeViewRow(const messages::Camera& camera, const RoverBody& body, int row,
                     int first_column, int columns);
 
 }  // namespace rockyard::sensing

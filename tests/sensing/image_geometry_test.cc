@@ -13,7 +13,7 @@ using math::Vector3;
 
 // Point of flat ground in the light plane of a laser whose image lies on a line.
 Vector3 StripeOnLine(const LineView& line, const messages::StripeLaser& fan, int row_px) {
-  const messages::StripeCamera& camera = line.Camera(fan.camera);
+  const messages::Camera& camera = line.Camera(fan.camera);
   const Vector3 along(fan.normal_R.y(), -fan.normal_R.x(), 0.0);
   double near = 0.05;
   double far = 2.0;
@@ -50,7 +50,7 @@ TEST(StripeImage, LiesWhereTheLightPlaneMeetsTheGround) {
           moment += rates[i] * (static_cast<double>(i) - 384.0);
         }
         ASSERT_GT(sum, 0.0);
-        const messages::StripeCamera& camera = line.Camera(fan.camera);
+        const messages::Camera& camera = line.Camera(fan.camera);
         const auto pixel =
             vision::Project(camera, camera.X_RC.inverse() * StripeOnLine(line, fan, row_px));
         ASSERT_TRUE(pixel.has_value());
@@ -76,7 +76,7 @@ TEST(StripeImage, ShiftsWithElevation) {
     return moment / sum;
   };
   // Depth s in the scanline plane, baseline b: the column angle is atan(b / s).
-  const messages::StripeCamera& camera = line.Camera(0);
+  const messages::Camera& camera = line.Camera(0);
   const double depression = line.params.camera_pitch_rad + row_px * camera.row_pitch_rad;
   const auto column = [&](double height) {
     return std::atan(0.06 / (height / std::sin(depression))) / camera.column_pitch_rad;

@@ -45,11 +45,11 @@ struct LineView {
   messages::StripeCalibration calibration = TrueCalibration(params);
   RoverBody body{rover::RoverGeometryParams{}};
 
-  const messages::StripeCamera& Camera(int camera) const {
+  const messages::Camera& Camera(int camera) const {
     return calibration.cameras[static_cast<std::size_t>(camera)];
   }
   ViewRow View(int camera, int row) const {
-    const messages::StripeCamera& eye = Camera(camera);
+    const messages::Camera& eye = Camera(camera);
     return MakeViewRow(eye, body, row, -eye.columns / 2, eye.columns);
   }
   RenderedRow Render(const terrain::Terrain& terrain, const math::Transform& X_WR, int camera,

@@ -68,7 +68,7 @@ TEST(Radiometry, FlatGroundInTheSun) {
 // cos(theta) = cos(a) cos(b) as large; a pinhole has cos^4.
 TEST(Radiometry, LightFallsOffTowardsTheEdge) {
   LightStripeParams params;
-  messages::StripeCamera camera = TrueCalibration(params).cameras[0];
+  messages::Camera camera = TrueCalibration(params).cameras[0];
   const double a = 300.0 * camera.column_pitch_rad;
   const double b = 100.0 * camera.row_pitch_rad;
   EXPECT_NEAR(RelativeIllumination(camera, 300.0, 100.0), std::cos(a) * std::cos(a) * std::cos(b),
@@ -141,7 +141,7 @@ TEST(Radiometry, WholeImageHoldsTheWholePower) {
   const LineView line{QuietParams(), Darkness()};
   constexpr int kLaser = 2;
   const messages::StripeLaser& fan = line.calibration.lasers[kLaser];
-  const messages::StripeCamera& camera = line.Camera(fan.camera);
+  const messages::Camera& camera = line.Camera(fan.camera);
   const Vector3 eye = camera.X_RC.translation();
   const RowRenderer renderer(line.params, line.calibration);
   const SunLight light = MakeSunLight(line.sun, line.params.imager.filter_width_m);

@@ -39,7 +39,7 @@ class ReferenceRenderer {
 
  private:
   void AddRay(int camera, double column, double row, double gain, ReferenceLight& sum) const {
-    const messages::StripeCamera& eye = line_.Camera(camera);
+    const messages::Camera& eye = line_.Camera(camera);
     const math::Vector3 eye_W = X_WR_ * eye.X_RC.translation();
     const math::Vector3 ray_R = eye.X_RC.linear() * vision::PixelRay(eye, {column, row});
     const math::Vector3 ray_W = X_WR_.linear() * ray_R;
