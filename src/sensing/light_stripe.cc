@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/check.h"
-#include "sensing/occlusion.h"
+#include "rendering/occlusion.h"
 #include "sensing/stripe_layout_params.h"
 #include "vision/lens.h"
 
@@ -32,7 +32,7 @@ void RocksMeetingPlane(const terrain::Terrain& terrain, std::span<const int> roc
   out.clear();
   for (const int index : rocks) {
     const terrain::Rock& rock = terrain.rocks()[static_cast<std::size_t>(index)];
-    const double reach_m = rock.semi_axes_m.maxCoeff() + kRounding_m;
+    const double reach_m = rock.semi_axes_m.maxCoeff() + rendering::kRounding_m;
     if (std::abs(normal_W.dot(rock.center_W - p_W)) <= reach_m) out.push_back(index);
   }
 }
@@ -184,7 +184,7 @@ messages::StripePixel LightStripe::FindOnLine(const terrain::Terrain& terrain,
 
   const Vector3 point_W = start_W + *distance_m * direction_W;
   const auto hidden_from = [&](const Vector3& eye_R) {
-    return terrain.Occluded(X_WR * eye_R, point_W, kOcclusionMargin_m, rocks.near);
+    return terrain.Occluded(X_WR * eye_R, point_W, rendering::kOcclusionMargin_m, rocks.near);
   };
   if (!line.is_light_ray && hidden_from(laser.p_RoE_R)) return {};
   if (hidden_from(camera.X_RC.translation())) return {};
@@ -208,7 +208,7 @@ messages::StripePixel LightStripe::FindOnCurve(const terrain::Terrain& terrain,
   if (!searched_[row][stripe].Contains(column_px)) return {};
 
   const auto hidden_from = [&](const Vector3& eye_R) {
-    return terrain.Occluded(X_WR * eye_R, *point_W, kOcclusionMargin_m, rocks.near);
+    return terrain.Occluded(X_WR * eye_R, *point_W, rendering::kOcclusionMargin_m, rocks.near);
   };
   if (hidden_from(calibration_.lasers[stripe].p_RoE_R)) return {};
   if (hidden_from(camera.X_RC.translation())) return {};
