@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "math/pose.h"
-#include "messages/column_range.h"
+#include "messages/camera.h"
 #include "messages/measurements.h"
 #include "messages/wheels.h"
 
@@ -25,28 +25,6 @@ struct DriveCalibration {
   double max_wheel_speed_m_s = 0.15;  // rim speed of the fastest wheel
 };
 
-// How a lens maps directions to image positions; the equations stand in vision/lens.h.
-enum class Lens {
-  kEquidistantRows,  // rows are planes through the lateral axis; angles grow with pixels
-  kEquidistant,      // f-theta, radially symmetric
-  kPinhole,          // rectilinear
-};
-
-// One camera of the light stripe sensor.
-struct StripeCamera {
-  Lens lens = Lens::kEquidistantRows;
-  math::Transform X_RC = math::Transform::Identity();  // x along the optical axis, y left, z up
-  // Angle per pixel, on the axis; columns count to the camera's right, rows downwards.
-  double column_pitch_rad = 0.0;
-  double row_pitch_rad = 0.0;
-  int columns = 0;
-  int rows = 0;
-
-  ColumnRange image_columns() const { return ImageColumns(columns); }
-  int first_row() const { return -rows / 2; }  // of an even number, one more above the axis
-  int last_row() const { return rows - rows / 2 - 1; }
-};
-
 // One laser fan: the directions from the emitter within half_fan of axis_R, in the light plane
 // n . (p - e) = 0 with the normal n and the emitter e.
 struct StripeLaser {
@@ -59,7 +37,7 @@ struct StripeLaser {
 };
 
 struct StripeCalibration {
-  std::array<StripeCamera, 2> cameras{};
+  std::array<Camera, 2> cameras{};
   std::vector<StripeLaser> lasers;  // left to right
   // Image row of each scanline, below the optical axis; nearest first.
   std::vector<int> scanline_px;

@@ -3,7 +3,7 @@
 
 namespace rockyard::messages {
 
-// First and last column, counted as in StripeCamera.
+// First and last column, counted as in Camera.
 struct ColumnRange {
   int first = 0;
   int last = -1;

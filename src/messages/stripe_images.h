@@ -7,7 +7,7 @@
 namespace rockyard::messages {
 
 // Consecutive image lines of one camera. Rows and columns count from the pixel on the optical axis,
-// rows downwards, columns to the camera's right, as in StripeCamera.
+// rows downwards, columns to the camera's right, as in Camera.
 struct ImageBand {
   int first_row = 0;
   int first_column = 0;

@@ -29,8 +29,7 @@ Triangulator::Triangulator(const messages::StripeCalibration& calibration)
 
 Triangulator::PointGeometry Triangulator::MakeGeometry(std::size_t row, std::size_t stripe) const {
   const messages::StripeLaser& laser = calibration_.lasers[stripe];
-  const messages::StripeCamera& camera =
-      calibration_.cameras[static_cast<std::size_t>(laser.camera)];
+  const messages::Camera& camera = calibration_.cameras[static_cast<std::size_t>(laser.camera)];
   const vision::PixelPosition middle{0.0, static_cast<double>(calibration_.scanline_px[row])};
   const Vector3 forward_R = camera.X_RC.linear() * vision::PixelRay(camera, middle);
   const Vector3 left_R = camera.X_RC.linear() * Vector3::UnitY();
@@ -82,8 +81,7 @@ messages::ElevationPoint Triangulator::Elevation(std::size_t row, std::size_t st
 std::optional<Vector3> Triangulator::Point(std::size_t row, std::size_t stripe,
                                            double column_px) const {
   const messages::StripeLaser& laser = calibration_.lasers[stripe];
-  const messages::StripeCamera& camera =
-      calibration_.cameras[static_cast<std::size_t>(laser.camera)];
+  const messages::Camera& camera = calibration_.cameras[static_cast<std::size_t>(laser.camera)];
   const Vector3 ray_R =
       camera.X_RC.linear() *
       vision::PixelRay(camera, {column_px, static_cast<double>(calibration_.scanline_px[row])});

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sensing/radiometry.h"
 #include "sensing/stripe_view_params.h"
 
 namespace rockyard::sensing {
@@ -11,10 +10,17 @@ namespace {
 
 using math::Vector3;
 
-// Half of the three scanlines of a thin beam.
-constexpr double kThinHalfRows = 1.5;
+constexpr double kScanlinesOfThinBeam = 3.0;  // Matthies 1995 sec. 6
 
 }  // namespace
+
+double FanPower(const LightStripeParams& params) {
+  const LaserParams& laser = params.laser;
+  // F: the fan, or three row pitches (Matthies 1995, section 6).
+  const double lit_rad =
+      laser.fan == BeamFan::kFull ? params.fan_rad : kScanlinesOfThinBeam * params.row_pitch_rad();
+  return laser.input_power_w * laser.optical_efficiency / lit_rad;
+}
 
 LaserFan::LaserFan(const LightStripeParams& params, const messages::StripeCalibration& calibration,
                    const messages::StripeLaser& laser)
@@ -29,7 +35,7 @@ LaserFan::LaserFan(const LightStripeParams& params, const messages::StripeCalibr
     const auto point_R = StripePoint(calibration, laser, row_px);
     if (point_R) axes_R_.emplace_back((*point_R - p_RoE_R_).normalized());
   }
-  half_fan_cosine_ = std::cos(kThinHalfRows * params.row_pitch_rad());
+  half_fan_cosine_ = std::cos(0.5 * kScanlinesOfThinBeam * params.row_pitch_rad());
 }
 
 bool LaserFan::Lights(const Vector3& away_R) const {
@@ -41,7 +47,7 @@ bool LaserFan::Lights(const Vector3& away_R) const {
                      [&](const Vector3& axis) { return axis.dot(in_plane) >= least; });
 }
 
-LitFan::LitFan(const LaserFan& fan, const ImageScene& scene, double reach_rad)
+LitFan::LitFan(const LaserFan& fan, const rendering::ImageScene& scene, double reach_rad)
     : fan_(&fan),
       scene_(&scene),
       p_WoE_W_(scene.X_WR() * fan.p_RoE_R()),
@@ -58,7 +64,7 @@ double LitFan::OutOfPlane(const Vector3& p_W) const {
   return std::asin(std::clamp(normal_W_.dot(away_W) / away_W.norm(), -1.0, 1.0));
 }
 
-double LitFan::Irradiance(const SurfacePoint& point) const {
+double LitFan::Irradiance(const rendering::SurfacePoint& point) const {
   const Vector3 away_W = point.p_W - p_WoE_W_;
   const double range2_m2 = away_W.squaredNorm();
   // Incidence against the outward normal; E / f(a) = P / (F r^2) cos i.

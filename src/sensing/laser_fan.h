@@ -5,11 +5,14 @@
 
 #include "math/pose.h"
 #include "messages/calibration.h"
+#include "rendering/image_scene.h"
 #include "sensing/beam_profile.h"
-#include "sensing/image_scene.h"
 #include "sensing/light_stripe_params.h"
 
 namespace rockyard::sensing {
+
+// Returns the optical power of one emitter over the angle of its light plane that it lights, W/rad.
+double FanPower(const LightStripeParams& params);
 
 // An emitter sends its power P evenly over the angle F of its fan and, across the light plane, in
 // the beam's cross section f: the irradiance of a surface at range r, incidence i and the angle a
@@ -43,7 +46,7 @@ class LaserFan {
 class LitFan {
  public:
   // The fan must not outlive any of its arguments. `reach_rad` is that of the beam's cross section.
-  LitFan(const LaserFan& fan, const ImageScene& scene, double reach_rad);
+  LitFan(const LaserFan& fan, const rendering::ImageScene& scene, double reach_rad);
 
   // Returns the angle, rad, of a point out of the light plane, seen from the emitter; positive on
   // the side of the plane's normal.
@@ -59,11 +62,11 @@ class LitFan {
 
   // Returns E / f(a) of a point, W/m2 times rad; 0 where it is out of the fan, turned away, or
   // hidden from the emitter.
-  double Irradiance(const SurfacePoint& point) const;
+  double Irradiance(const rendering::SurfacePoint& point) const;
 
  private:
   const LaserFan* fan_;
-  const ImageScene* scene_;
+  const rendering::ImageScene* scene_;
   math::Vector3 p_WoE_W_;
   math::Vector3 normal_W_;
   double offset_m_;         // normal . p of the light plane

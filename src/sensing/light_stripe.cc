@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/check.h"
-#include "sensing/occlusion.h"
+#include "rendering/occlusion.h"
 #include "sensing/stripe_layout_params.h"
 #include "vision/lens.h"
 
@@ -16,7 +16,7 @@ using math::Vector3;
 
 // Normal, in R, of the plane that a scanline sees: the camera's lateral axis lies in it, and it
 // looks an angle below the optical axis, along (cos, 0, -sin) in C.
-Vector3 ScanlineNormal(const messages::StripeCamera& camera, double row_angle_rad) {
+Vector3 ScanlineNormal(const messages::Camera& camera, double row_angle_rad) {
   return camera.X_RC.linear() * Vector3(std::sin(row_angle_rad), 0.0, std::cos(row_angle_rad));
 }
 
@@ -32,7 +32,7 @@ void RocksMeetingPlane(const terrain::Terrain& terrain, std::span<const int> roc
   out.clear();
   for (const int index : rocks) {
     const terrain::Rock& rock = terrain.rocks()[static_cast<std::size_t>(index)];
-    const double reach_m = rock.semi_axes_m.maxCoeff() + kRounding_m;
+    const double reach_m = rock.semi_axes_m.maxCoeff() + rendering::kRounding_m;
     if (std::abs(normal_W.dot(rock.center_W - p_W)) <= reach_m) out.push_back(index);
   }
 }
@@ -46,7 +46,7 @@ LightStripe::LightStripe(const LightStripeParams& params)
       last_column_(static_cast<int>(params.columns / 2)),
       searched_(calibration_.size()) {
   Eigen::AlignedBox3d reach_R;
-  for (const messages::StripeCamera& camera : calibration_.cameras) {
+  for (const messages::Camera& camera : calibration_.cameras) {
     reach_R.extend(camera.X_RC.translation());
   }
   for (const messages::StripeLaser& laser : calibration_.lasers) {
@@ -90,7 +90,7 @@ void LightStripe::AddCurves(Eigen::AlignedBox3d& reach_R) {
 
 LightStripe::Line LightStripe::MakeLine(std::size_t row, std::size_t stripe) const {
   const messages::StripeLaser& laser = calibration_.lasers[stripe];
-  const messages::StripeCamera& camera = CameraOf(stripe);
+  const messages::Camera& camera = CameraOf(stripe);
   const double row_angle_rad = calibration_.scanline_px[row] * camera.row_pitch_rad;
   const Vector3 scanline = ScanlineNormal(camera, row_angle_rad);
   Line line;
@@ -117,8 +117,7 @@ LightStripe::Line LightStripe::MakeLine(std::size_t row, std::size_t stripe) con
   return line;
 }
 
-void LightStripe::SetView(const messages::StripeCamera& camera, double row_angle_rad,
-                          Line& line) const {
+void LightStripe::SetView(const messages::Camera& camera, double row_angle_rad, Line& line) const {
   const auto R_RC = camera.X_RC.linear();
   // Within the scanline plane: ahead of the camera, and to its right. Both are linear along the
   // line, which leaves the column angle atan(right / forward).
@@ -139,7 +138,7 @@ void LightStripe::SetView(const messages::StripeCamera& camera, double row_angle
   line.last_m = middle_m + std::sqrt(rest_m2);
 }
 
-messages::ColumnRange LightStripe::SearchedColumns(const messages::StripeCamera& camera,
+messages::ColumnRange LightStripe::SearchedColumns(const messages::Camera& camera,
                                                    const Line& line) const {
   const double nearest_m =
       DistanceDownTo(params_.search_high_m + params_.datum_z_m, line.start_R, line.direction_R);
@@ -150,8 +149,7 @@ messages::ColumnRange LightStripe::SearchedColumns(const messages::StripeCamera&
   return {std::max(std::min(a, b), -last_column_), std::min(std::max(a, b), last_column_)};
 }
 
-int LightStripe::ColumnAt(const Line& line, double distance_m,
-                          const messages::StripeCamera& camera) {
+int LightStripe::ColumnAt(const Line& line, double distance_m, const messages::Camera& camera) {
   // Equidistant rows: the column is the angle within the scanline plane over the pitch.
   const double angle_rad = std::atan((line.right_m + distance_m * line.right_slope) /
                                      (line.forward_m + distance_m * line.forward_slope));
@@ -176,7 +174,7 @@ messages::StripePixel LightStripe::FindOnLine(const terrain::Terrain& terrain,
   if (!distance_m) return {};
 
   const messages::StripeLaser& laser = calibration_.lasers[stripe];
-  const messages::StripeCamera& camera = CameraOf(stripe);
+  const messages::Camera& camera = CameraOf(stripe);
   if (*distance_m < line.first_m || *distance_m > line.last_m) return {};
   if (!line.is_light_ray && !InFan(line.start_R + *distance_m * line.direction_R, stripe)) {
     return {};
@@ -186,7 +184,7 @@ messages::StripePixel LightStripe::FindOnLine(const terrain::Terrain& terrain,
 
   const Vector3 point_W = start_W + *distance_m * direction_W;
   const auto hidden_from = [&](const Vector3& eye_R) {
-    return terrain.Occluded(X_WR * eye_R, point_W, kOcclusionMargin_m, rocks.near);
+    return terrain.Occluded(X_WR * eye_R, point_W, rendering::kOcclusionMargin_m, rocks.near);
   };
   if (!line.is_light_ray && hidden_from(laser.p_RoE_R)) return {};
   if (hidden_from(camera.X_RC.translation())) return {};
@@ -199,7 +197,7 @@ messages::StripePixel LightStripe::FindOnCurve(const terrain::Terrain& terrain,
   const auto point_W = curves_[PointIndex(row, stripe)].FirstHit(terrain, X_WR, rocks.lit);
   if (!point_W) return {};
 
-  const messages::StripeCamera& camera = CameraOf(stripe);
+  const messages::Camera& camera = CameraOf(stripe);
   const Vector3 point_R = X_WR.inverse() * *point_W;
   const Vector3 point_C = camera.X_RC.inverse() * point_R;
   if (point_C.norm() > params_.max_range_m || !InFan(point_R, stripe)) return {};
@@ -210,7 +208,7 @@ messages::StripePixel LightStripe::FindOnCurve(const terrain::Terrain& terrain,
   if (!searched_[row][stripe].Contains(column_px)) return {};
 
   const auto hidden_from = [&](const Vector3& eye_R) {
-    return terrain.Occluded(X_WR * eye_R, *point_W, kOcclusionMargin_m, rocks.near);
+    return terrain.Occluded(X_WR * eye_R, *point_W, rendering::kOcclusionMargin_m, rocks.near);
   };
   if (hidden_from(calibration_.lasers[stripe].p_RoE_R)) return {};
   if (hidden_from(camera.X_RC.translation())) return {};

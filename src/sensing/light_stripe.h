@@ -83,14 +83,13 @@ class LightStripe {
   std::size_t PointIndex(std::size_t row, std::size_t stripe) const {
     return row * calibration_.lasers.size() + stripe;
   }
-  const messages::StripeCamera& CameraOf(std::size_t stripe) const {
+  const messages::Camera& CameraOf(std::size_t stripe) const {
     return calibration_.cameras[static_cast<std::size_t>(calibration_.lasers[stripe].camera)];
   }
   Line MakeLine(std::size_t row, std::size_t stripe) const;
-  void SetView(const messages::StripeCamera& camera, double row_angle_rad, Line& line) const;
-  messages::ColumnRange SearchedColumns(const messages::StripeCamera& camera,
-                                        const Line& line) const;
-  static int ColumnAt(const Line& line, double distance_m, const messages::StripeCamera& camera);
+  void SetView(const messages::Camera& camera, double row_angle_rad, Line& line) const;
+  messages::ColumnRange SearchedColumns(const messages::Camera& camera, const Line& line) const;
+  static int ColumnAt(const Line& line, double distance_m, const messages::Camera& camera);
   bool InFan(const math::Vector3& p_R, std::size_t stripe) const;
   void AddLines(Eigen::AlignedBox3d& reach_R);
   void AddCurves(Eigen::AlignedBox3d& reach_R);

@@ -14,8 +14,8 @@
 #include "core/fields.h"
 #include "math/angles.h"
 #include "messages/calibration.h"
-#include "sensing/imager_params.h"
 #include "sensing/laser_params.h"
+#include "sensing/stripe_imager_params.h"
 
 namespace rockyard::sensing {
 
@@ -78,10 +78,15 @@ struct LightStripeParams {
   // The image fidelity goes from light to images by these; the geometric fidelity does not look at
   // them.
   LaserParams laser;
-  ImagerParams imager;
+  StripeImagerParams imager;
 
   double column_pitch_rad() const {
     return active_width_m / static_cast<double>(columns) / focal_length_m;
+  }
+  // Area of a pixel.
+  double pixel_m2() const {
+    return active_width_m / static_cast<double>(columns) * active_height_m /
+           static_cast<double>(rows);
   }
   double row_pitch_rad() const {
     return active_height_m / static_cast<double>(rows) / focal_length_m;

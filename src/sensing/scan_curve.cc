@@ -36,7 +36,7 @@ class Curve {
 
  private:
   const messages::StripeLaser& laser_;
-  const messages::StripeCamera& camera_;
+  const messages::Camera& camera_;
   double row_px_;
 };
 

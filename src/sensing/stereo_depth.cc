@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sensing/occlusion.h"
+#include "rendering/occlusion.h"
 
 namespace rockyard::sensing {
 namespace {
@@ -176,7 +176,7 @@ void StereoScene::HideBehind(const RockOutline& outline_right, DepthImage& image
       if (rock <= pixel) continue;
       const double length = view_W_.Ray(column_right, row).norm();
       // 1/Z of the rock against that of the point, as distances along the ray.
-      if (length / rock <= length / pixel - kOcclusionMargin_m) pixel = 0.0;
+      if (length / rock <= length / pixel - rendering::kOcclusionMargin_m) pixel = 0.0;
     }
   }
 }
@@ -196,7 +196,7 @@ void StereoScene::HideBehindGround(DepthImage& image) const {
       leftmost_px = std::min(leftmost_px, column_right);
       if (!may_be_hidden) continue;
       const Vector3 p_W = view_W_.eye + view_W_.Ray(column, row) / pixel;
-      if (terrain_.Occluded(view_W_.right_eye, p_W, kOcclusionMargin_m, {})) pixel = 0.0;
+      if (terrain_.Occluded(view_W_.right_eye, p_W, rendering::kOcclusionMargin_m, {})) pixel = 0.0;
     }
   }
 }

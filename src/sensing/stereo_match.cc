@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/distributions.h"
-#include "sensing/pixel_noise.h"
+#include "rendering/pixel_noise.h"
 
 namespace rockyard::sensing {
 namespace {
@@ -55,13 +55,13 @@ void StereoMatcher::Match(core::TrialKey key, std::uint32_t look, const DepthIma
 
 void StereoMatcher::AddNoise(core::TrialKey key, std::uint32_t look, DepthImage& seen) const {
   if (params_.disparity_noise_px <= 0.0) return;
-  const PixelNoise noise(key, core::Purpose::kStereoDisparity, look);
+  const rendering::PixelNoise noise(key, core::Purpose::kStereoDisparity, look);
   const auto beyond = static_cast<int>(params_.noise_window_px) - 1;
   // w - 1 more numbers on each axis, so that every pixel has a full window.
   DepthImage numbers(seen.rows() + beyond, seen.cols() + beyond);
   for (int row = 0; row < numbers.rows(); ++row) {
-    ForEachPixelNoise(noise, row, 0, static_cast<int>(numbers.cols()),
-                      [&](int column, float number) { numbers(row, column) = number; });
+    rendering::ForEachPixelNoise(noise, row, 0, static_cast<int>(numbers.cols()),
+                                 [&](int column, float number) { numbers(row, column) = number; });
   }
   if (beyond > 0) numbers = MeanOfWindows(numbers, beyond + 1);
   seen = (seen > 0.0).select(seen + params_.disparity_noise_px * numbers, 0.0);
@@ -70,15 +70,16 @@ void StereoMatcher::AddNoise(core::TrialKey key, std::uint32_t look, DepthImage&
 // A normal number z is a mismatch where Phi(z) < p; Phi(z) / p is then uniform in [0, 1), and says
 // where in the searched range the match lies. One draw serves both.
 void StereoMatcher::Mismatch(core::TrialKey key, std::uint32_t look, DepthImage& seen) const {
-  const PixelNoise noise(key, core::Purpose::kStereoMismatch, look);
+  const rendering::PixelNoise noise(key, core::Purpose::kStereoMismatch, look);
   const double searched_px = params_.max_disparity_px - params_.min_disparity_px;
   for (int row = 0; row < seen.rows(); ++row) {
-    ForEachPixelNoise(noise, row, 0, static_cast<int>(seen.cols()), [&](int column, float number) {
-      if (number >= mismatch_quantile_ || seen(row, column) == 0.0) return;
-      const double share =
-          0.5 * std::erfc(-number / std::numbers::sqrt2) / params_.mismatch_probability;
-      seen(row, column) = params_.min_disparity_px + std::min(share, 1.0) * searched_px;
-    });
+    rendering::ForEachPixelNoise(
+        noise, row, 0, static_cast<int>(seen.cols()), [&](int column, float number) {
+          if (number >= mismatch_quantile_ || seen(row, column) == 0.0) return;
+          const double share =
+              0.5 * std::erfc(-number / std::numbers::sqrt2) / params_.mismatch_probability;
+          seen(row, column) = params_.min_disparity_px + std::min(share, 1.0) * searched_px;
+        });
   }
 }
 
@@ -99,16 +100,17 @@ void StereoMatcher::FindEdges(std::span<const double> row_px,
 // Jumps are taken from what the left camera sees (`all`), whether the right one sees it or not.
 void StereoMatcher::DropOut(core::TrialKey key, std::uint32_t look, const DepthImage& all,
                             DepthImage& seen) const {
-  const PixelNoise noise(key, core::Purpose::kStereoDropout, look);
+  const rendering::PixelNoise noise(key, core::Purpose::kStereoDropout, look);
   const auto columns = static_cast<std::size_t>(seen.cols());
   std::vector<char> beside_edge(columns);
   for (int row = 0; row < seen.rows(); ++row) {
     if ((seen.row(row) == 0.0).all()) continue;
     FindEdges({&all(row, 0), columns}, beside_edge);
-    ForEachPixelNoise(noise, row, 0, static_cast<int>(columns), [&](int column, float number) {
-      const bool edge = beside_edge[static_cast<std::size_t>(column)] != 0;
-      if (number < (edge ? edge_dropout_quantile_ : dropout_quantile_)) seen(row, column) = 0.0;
-    });
+    rendering::ForEachPixelNoise(
+        noise, row, 0, static_cast<int>(columns), [&](int column, float number) {
+          const bool edge = beside_edge[static_cast<std::size_t>(column)] != 0;
+          if (number < (edge ? edge_dropout_quantile_ : dropout_quantile_)) seen(row, column) = 0.0;
+        });
   }
 }
 

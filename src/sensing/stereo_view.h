@@ -12,9 +12,9 @@ namespace rockyard::sensing {
 // How the pair looks, in R, or in W after the pose of the rover. Pixel (column, row), counted from
 // the upper left one, looks along
 //   e(column, row) = first + column along_row + row along_column,
-// scaled so that its part along the optical axis is 1: eye + Z e is the point at depth Z. The right
-// eye has parallel axes and the baseline b along its rows: the same point appears f b / Z columns
-// further left there.
+// the pinhole of vision/lens.h with the principal point in the middle of the image, scaled so that
+// its part along the optical axis is 1: eye + Z e is the point at depth Z. The right eye has parallel
+// axes and the baseline b along its rows: the same point appears f b / Z columns further left there.
 struct StereoView {
   int columns = 0;
   int rows = 0;

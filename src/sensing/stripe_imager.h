@@ -4,9 +4,11 @@
 //   radiometry     sun and sky in the passband, camera equation           radiometry.h
 //   view           lens, the rover's own parts                            view_row.h, rover_body.h
 //   scene          what a ray meets, shadows                              image_scene.h
-//   light          sunlight and laser stripes on each pixel               row_renderer.h
+//   light          sunlight on each pixel                                 row_renderer.h
+//                  laser stripes on each pixel                            sensing/stripe_light.h
 //   exposure       time from the bright pixels of the image without laser exposure_control.h
 //   readout        shot, read, dark and pattern noise, saturation, counts image_readout.h
+// All but the lasers is what every camera has (src/rendering).
 // Matthies 1995, section 6: for each group of lasers an image with them on and one with all off,
 // differenced on board. Table 3 gives imager, lens and lasers; what it leaves out is assumed, so
 // that results from these images are sensitivities to those assumptions, not predictions.
@@ -21,14 +23,16 @@
 #include "math/pose.h"
 #include "messages/calibration.h"
 #include "messages/stripe_images.h"
+#include "rendering/image_readout.h"
+#include "rendering/image_scene.h"
+#include "rendering/rover_body.h"
+#include "rendering/row_renderer.h"
+#include "rendering/sun_params.h"
+#include "rendering/view_row.h"
 #include "rover/rover_geometry_params.h"
-#include "sensing/image_readout.h"
-#include "sensing/image_scene.h"
 #include "sensing/light_stripe_params.h"
-#include "sensing/rover_body.h"
-#include "sensing/row_renderer.h"
-#include "sensing/sun_params.h"
-#include "sensing/view_row.h"
+#include "sensing/stripe_image_name.h"
+#include "sensing/stripe_light.h"
 #include "terrain/terrain.h"
 
 namespace rockyard::sensing {
@@ -37,7 +41,7 @@ namespace rockyard::sensing {
 class StripeImager {
  public:
   // Making one costs 6 ms and 1.3 MB for the default bands.
-  StripeImager(const LightStripeParams& params, const SunParams& sun,
+  StripeImager(const LightStripeParams& params, const rendering::SunParams& sun,
                const rover::RoverGeometryParams& rover);
 
   // Makes one scan with the rover at X_WR: for each group of lasers and each camera that finds a
@@ -61,29 +65,31 @@ class StripeImager {
 
  private:
   // A View is consecutive image lines of one camera as it sees them, a Light what falls on them.
-  using View = std::vector<ViewRow>;
+  using View = std::vector<rendering::ViewRow>;
   struct Light {
-    std::vector<RenderedRow> rows;
-    std::vector<PixelPattern> patterns;
+    std::vector<rendering::RenderedRow> rows;
+    std::vector<rendering::PixelPattern> patterns;
   };
 
   View MakeView(int camera, int first_row, int last_row) const;
   math::Vector3 EyeOf(int camera) const;
-  Light Render(const LitScene& lit, int camera, const View& view, core::TrialKey key) const;
+  Light Render(const rendering::ImageScene& scene, const LitStripes& stripes, int camera,
+               const View& view, core::TrialKey key) const;
   messages::ImageBand Read(const Light& light, double exposure_s, core::TrialKey key,
-                           const ImageName& name) const;
+                           const StripeImageName& name) const;
   messages::StripeExposure ReadPair(std::span<const Light> bands, double exposure_s,
-                                    core::TrialKey key, ImageName name) const;
+                                    core::TrialKey key, StripeImageName name) const;
   bool FindsStripe(int camera, int group) const;
+  std::vector<bool> LasersOn(const StripeImageName& name) const;
 
   LightStripeParams params_;
-  SunParams sun_;
-  SunLight light_;
-  RoverBody body_;
+  rendering::SunParams sun_;
+  rendering::SunLight light_;
+  rendering::RoverBody body_;
   messages::StripeCalibration calibration_;
-  std::vector<int> group_of_;  // by laser
-  RowRenderer renderer_;
-  ImageReadout readout_;
+  StripeLight stripe_light_;
+  rendering::RowRenderer renderer_;
+  rendering::ImageReadout readout_;
   std::array<std::vector<View>, 2> views_;  // by camera; one for each scanline
 };
 

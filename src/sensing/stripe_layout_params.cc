@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vision/lens.h"
+
 namespace rockyard::sensing {
 namespace {
 
@@ -79,8 +81,7 @@ double RowAngle(const LightStripeParams& p, std::size_t row) {
 // 90 deg off its axis: a pinhole sees them, too.
 std::int64_t RowPixel(const LightStripeParams& p, std::size_t row) {
   const double angle_rad = RowAngle(p, row);
-  const double image = p.lens == messages::Lens::kPinhole ? std::tan(angle_rad) : angle_rad;
-  return std::lround(image / p.row_pitch_rad());
+  return std::lround(vision::ImageOfAngle(p.lens, angle_rad) / p.row_pitch_rad());
 }
 
 // Whether the image holds every scanline with so many lines above and below it.
@@ -180,7 +181,7 @@ bool BaselinesAreLong(const LightStripeParams& p) {
 messages::StripeCalibration TrueCalibration(const LightStripeParams& params) {
   messages::StripeCalibration calibration;
   for (int i = 0; i < 2; ++i) {
-    messages::StripeCamera& camera = calibration.cameras[static_cast<std::size_t>(i)];
+    messages::Camera& camera = calibration.cameras[static_cast<std::size_t>(i)];
     camera.X_RC.translation() = CameraPosition(params, i);
     camera.X_RC.linear() =
         Eigen::AngleAxisd(params.camera_pitch_rad, Vector3::UnitY()).toRotationMatrix();

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 
 #include "sensing/stripe_layout_params.h"
+#include "vision/lens.h"
 
 namespace rockyard::sensing {
 namespace {
@@ -13,34 +13,8 @@ namespace {
 using math::Vector3;
 using messages::Lens;
 
-struct ImagePosition {
-  double column_px = 0.0;
-  double row_px = 0.0;
-};
-
-// vision::Project, which parameters cannot reach (they may use core, math and messages); the tests
-// compare both.
-std::optional<ImagePosition> Imaged(const messages::StripeCamera& camera, const Vector3& p_C) {
-  double a = 0.0;
-  double b = 0.0;
-  if (camera.lens == Lens::kPinhole) {
-    if (p_C.x() <= 0.0) return std::nullopt;
-    a = -p_C.y() / p_C.x();
-    b = -p_C.z() / p_C.x();
-  } else if (camera.lens == Lens::kEquidistantRows) {
-    a = std::atan2(-p_C.y(), std::hypot(p_C.x(), p_C.z()));
-    b = std::atan2(-p_C.z(), p_C.x());
-  } else {
-    const double aside_m = std::hypot(p_C.y(), p_C.z());
-    const double share = aside_m > 0.0 ? std::atan2(aside_m, p_C.x()) / aside_m : 0.0;
-    a = -share * p_C.y();
-    b = -share * p_C.z();
-  }
-  return ImagePosition{a / camera.column_pitch_rad, b / camera.row_pitch_rad};
-}
-
-const messages::StripeCamera& CameraOf(const messages::StripeCalibration& calibration,
-                                       const messages::StripeLaser& laser) {
+const messages::Camera& CameraOf(const messages::StripeCalibration& calibration,
+                                 const messages::StripeLaser& laser) {
   return calibration.cameras[static_cast<std::size_t>(laser.camera)];
 }
 
@@ -67,31 +41,21 @@ bool ComesBetween(const Eigen::AlignedBox3d& box_R, const Vector3& eye_R, const 
 bool ColumnsFitTheImage(const LightStripeParams& p) {
   const messages::StripeCalibration calibration = TrueCalibration(p);
   for (const messages::StripeLaser& laser : calibration.lasers) {
-    const messages::StripeCamera& camera = CameraOf(calibration, laser);
+    const messages::Camera& camera = CameraOf(calibration, laser);
     for (const int row_px : calibration.scanline_px) {
       const auto point_R = StripePoint(calibration, laser, row_px);
       if (!point_R) return false;
-      const auto imaged = Imaged(camera, camera.X_RC.inverse() * *point_R);
+      const auto imaged = vision::Project(camera, camera.X_RC.inverse() * *point_R);
       if (!imaged || !camera.image_columns().Contains(std::round(imaged->column_px))) return false;
     }
   }
   return true;
 }
 
-// Whether the lens has a direction of its own for every pixel (vision/lens.h): a radially symmetric
-// image ends straight behind the camera, one with rows as planes beside, above and below it.
+// Whether the lens has a direction of its own for every pixel.
 bool LensReachesTheCorners(const LightStripeParams& p) {
-  const double half_width_rad = 0.5 * p.active_width_m / p.focal_length_m;
-  const double half_height_rad = 0.5 * p.active_height_m / p.focal_length_m;
-  switch (p.lens) {
-    case Lens::kEquidistantRows:
-      return std::max(half_width_rad, half_height_rad) <= 0.5 * std::numbers::pi;
-    case Lens::kEquidistant:
-      return std::hypot(half_width_rad, half_height_rad) < std::numbers::pi;
-    case Lens::kPinhole:
-      break;
-  }
-  return true;
+  return vision::HasDirections(p.lens, 0.5 * p.active_width_m / p.focal_length_m,
+                               0.5 * p.active_height_m / p.focal_length_m);
 }
 
 // What a whole image takes to simulate: about 40 bytes a pixel.
@@ -118,7 +82,7 @@ void RequireImage(LightStripeParams& p, core::FieldVisitor& v) {
 
 std::optional<Vector3> StripePoint(const messages::StripeCalibration& calibration,
                                    const messages::StripeLaser& laser, int row_px) {
-  const messages::StripeCamera& camera = CameraOf(calibration, laser);
+  const messages::Camera& camera = CameraOf(calibration, laser);
   // The stripe on the datum plane runs along n x z from the foot of the emitter; bisection for the
   // distance at which it is imaged in that row.
   const Vector3 along = laser.normal_R.cross(Vector3::UnitZ()).normalized();
@@ -128,12 +92,12 @@ std::optional<Vector3> StripePoint(const messages::StripeCalibration& calibratio
   constexpr double kFarthest_m = 100.0;
   double near_m = 0.0;
   double far_m = kFarthest_m;
-  std::optional<ImagePosition> imaged;
+  std::optional<vision::PixelPosition> imaged;
   // Farther points of the stripe are imaged higher up.
   constexpr int kHalvings = 55;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle_m = 0.5 * (near_m + far_m);
-    imaged = Imaged(camera, X_CR * (foot + middle_m * forward));
+    imaged = vision::Project(camera, X_CR * (foot + middle_m * forward));
     const bool is_below = !imaged || imaged->row_px > row_px;
     (is_below ? near_m : far_m) = middle_m;
   }

@@ -25,7 +25,7 @@ double SightOf(const LightStripeParams& params);
 
 // Returns whether one of the boxes, in R, hides a point on the datum plane from its camera or its
 // emitter. A box that holds the eye hides nothing: what is mounted inside looks out of it, as in
-// RoverBody.
+// rendering::RoverBody.
 bool IsHiddenBy(const LightStripeParams& params, std::span<const Eigen::AlignedBox3d> boxes_R);
 
 // Requires lens, image, fans and baselines for which every point on the datum plane is measured.

@@ -1,5 +1,6 @@
 #include "trial/power_budget.h"
 
+#include "rendering/imager_params.h"
 #include "sensing/stripe_layout_params.h"
 
 namespace rockyard::trial {
@@ -34,7 +35,7 @@ double PowerBudget::Power(Activity activity) const {
 PowerBudget MakePowerBudget(const DriveParams& drive) {
   const EnergyParams& energy = drive.energy;
   const sensing::LightStripeParams& sensor = drive.sensors.light_stripe;
-  const bool cmos = sensor.imager.kind == sensing::ImagerKind::kCmos;
+  const bool cmos = sensor.imager.kind == rendering::ImagerKind::kCmos;
   return {.base_W = energy.cpu_W + energy.gyro_W,
           .guards_W = drive.sensors.vehicle.accelerometers.enabled ? energy.accelerometers_W : 0.0,
           .driving_W = energy.driving_W,

@@ -18,11 +18,11 @@
 #include "perception/stripe_finder_params.h"
 #include "perception/stuck_detector_params.h"
 #include "perception/vehicle_hazard_params.h"
+#include "rendering/sun_params.h"
 #include "sensing/encoder_params.h"
 #include "sensing/gyro_params.h"
 #include "sensing/light_stripe_params.h"
 #include "sensing/stereo_params.h"
-#include "sensing/sun_params.h"
 #include "sensing/tracker_params.h"
 #include "sensing/vehicle_sensor_params.h"
 #include "trial/standard_estimators_params.h"
@@ -39,7 +39,7 @@ struct SensorParams {
   TerrainSensor terrain_sensor = TerrainSensor::kLightStripe;
   sensing::LightStripeParams light_stripe;
   sensing::StereoParams stereo;
-  sensing::SunParams sun;
+  rendering::SunParams sun;
   sensing::GyroParams gyro;
   sensing::EncoderParams encoders;
   sensing::TrackerParams tracker;

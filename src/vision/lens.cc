@@ -1,6 +1,8 @@
 #include "vision/lens.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace rockyard::vision {
 namespace {
@@ -40,7 +42,7 @@ std::optional<LensAngles> Angles(Lens lens, const Vector3& p) {
 
 }  // namespace
 
-Vector3 PixelRay(const messages::StripeCamera& camera, const PixelPosition& pixel) {
+Vector3 PixelRay(const messages::Camera& camera, const PixelPosition& pixel) {
   const double a_rad = pixel.column_px * camera.column_pitch_rad;
   const double b_rad = pixel.row_px * camera.row_pitch_rad;
   switch (camera.lens) {
@@ -60,11 +62,27 @@ Vector3 PixelRay(const messages::StripeCamera& camera, const PixelPosition& pixe
   return Vector3(1.0, -a_rad, -b_rad).normalized();
 }
 
-std::optional<PixelPosition> Project(const messages::StripeCamera& camera, const Vector3& p_C) {
+std::optional<PixelPosition> Project(const messages::Camera& camera, const Vector3& p_C) {
   const std::optional<LensAngles> angles = Angles(camera.lens, p_C);
   if (!angles) return std::nullopt;
   return PixelPosition{angles->a_rad / camera.column_pitch_rad,
                        angles->b_rad / camera.row_pitch_rad};
+}
+
+double ImageOfAngle(Lens lens, double angle_rad) {
+  return lens == Lens::kPinhole ? std::tan(angle_rad) : angle_rad;
+}
+
+bool HasDirections(Lens lens, double half_width_rad, double half_height_rad) {
+  switch (lens) {
+    case Lens::kEquidistantRows:
+      return std::max(half_width_rad, half_height_rad) <= 0.5 * std::numbers::pi;
+    case Lens::kEquidistant:
+      return std::hypot(half_width_rad, half_height_rad) < std::numbers::pi;
+    case Lens::kPinhole:
+      break;
+  }
+  return true;
 }
 
 }  // namespace rockyard::vision

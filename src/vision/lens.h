@@ -18,7 +18,7 @@
 #include <optional>
 
 #include "math/pose.h"
-#include "messages/calibration.h"
+#include "messages/camera.h"
 
 namespace rockyard::vision {
 
@@ -29,12 +29,20 @@ struct PixelPosition {
 };
 
 // Returns the unit viewing ray of an image position, in C. Cost: some sines and cosines.
-math::Vector3 PixelRay(const messages::StripeCamera& camera, const PixelPosition& pixel);
+math::Vector3 PixelRay(const messages::Camera& camera, const PixelPosition& pixel);
 
 // Returns where the direction p_C (any length, in C) is imaged: the inverse of PixelRay. There is
 // none where the lens does not see it: behind a pinhole, along the lateral axis (equidistant_rows),
 // straight behind (equidistant), or of no length. The edge of the imager is not looked at.
-std::optional<PixelPosition> Project(const messages::StripeCamera& camera,
-                                     const math::Vector3& p_C);
+std::optional<PixelPosition> Project(const messages::Camera& camera, const math::Vector3& p_C);
+
+// Returns a or b of a direction in the vertical or the horizontal plane through the optical axis,
+// less than 90 deg off it: the angle itself, or its tangent (pinhole).
+double ImageOfAngle(messages::Lens lens, double angle_rad);
+
+// Returns whether the lens has a direction of its own for every position of an image with |a| up to
+// half_width_rad and |b| up to half_height_rad: a radially symmetric image ends straight behind the
+// camera, one with rows as planes beside, above and below it, a pinhole's nowhere.
+bool HasDirections(messages::Lens lens, double half_width_rad, double half_height_rad);
 
 }  // namespace rockyard::vision

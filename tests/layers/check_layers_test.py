@@ -365,8 +365,9 @@ class Rules(unittest.TestCase):
 
     def test_the_project_forbids_truth_and_terrain_on_board(self):
         rules = layer_rules.read_rules(ROOT / "src" / "README.md")
-        for module in ("navigation", "perception"):
-            self.assertFalse(rules.allowed[module] & {"truth", "terrain", "rover", "sensing"})
+        for module in ("vision", "perception", "localization", "navigation"):
+            self.assertFalse(rules.allowed[module]
+                             & {"truth", "terrain", "rover", "rendering", "sensing"})
 
 
 if __name__ == "__main__":

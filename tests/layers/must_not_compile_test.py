@@ -112,7 +112,7 @@ class CheatingSources(unittest.TestCase):
     # Module, and where in it.
     PLACES = (("navigation", "gestalt"), ("localization", "."))
     HEADERS = ("terrain/terrain.h", "truth/rover_state.h", "rover/rover.h",
-               "sensing/stereo_sensor.h", "trial/drive.h")
+               "rendering/image_scene.h", "sensing/stereo_sensor.h", "trial/drive.h")
 
     def sources(self):
         for module, folder in self.PLACES:
@@ -134,6 +134,36 @@ class CheatingSources(unittest.TestCase):
                 with self.subTest(source=source.name, header=header):
                     result = compile_source(module, ["-include", header, str(source)])
                     self.assertNotEqual(result.returncode, 0)
+                    self.assertRegex(result.stderr, rf"{header}.*(No such file|file not found)")
+
+
+class CheatingEyes(unittest.TestCase):
+    """On-board code and the renderer, whose scene is the true terrain."""
+
+    HEADERS = ("rendering/image_scene.h", "rendering/row_renderer.h", "rendering/imager_params.h")
+
+    def compile_include(self, module, header):
+        return compile_source(module, [], f'#include "{header}"\n')
+
+    def test_control_sensing_may_render(self):
+        for header in self.HEADERS:
+            with self.subTest(header=header):
+                result = self.compile_include("sensing", header)
+                self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_control_on_board_code_may_include_cameras(self):
+        for module, header in (("vision", "vision/lens.h"), ("perception", "vision/lens.h"),
+                               ("navigation", "messages/camera.h")):
+            with self.subTest(module=module):
+                result = self.compile_include(module, header)
+                self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_no_on_board_code_renders(self):
+        for module in ("vision", "perception", "localization", "navigation"):
+            for header in self.HEADERS:
+                with self.subTest(module=module, header=header):
+                    result = self.compile_include(module, header)
+                    self.assertNotEqual(result.returncode, 0, f"{module} could include {header}")
                     self.assertRegex(result.stderr, rf"{header}.*(No such file|file not found)")
 
 

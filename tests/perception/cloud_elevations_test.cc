@@ -150,7 +150,7 @@ TEST(CloudElevationsTest, ParametersThatLeaveNoGroundAreRefused) {
 // Two cameras looking down at 45 degrees, as in triangulation_test.cc, and one fan straight ahead.
 messages::StripeCalibration Calibration() {
   messages::StripeCalibration calibration;
-  for (messages::StripeCamera& camera : calibration.cameras) {
+  for (messages::Camera& camera : calibration.cameras) {
     camera.X_RC = math::MakePose({0.27, 0.06, 0.25}, 0.0, math::DegToRad(45.0), 0.0);
     camera.column_pitch_rad = 0.0024;
     camera.row_pitch_rad = 0.0028;

@@ -14,7 +14,7 @@ namespace rockyard::perception {
 // left. Flat ground appears at 0.25 / sin 0.5 = 0.521 m, column -1000 atan(0.1 / 0.521) = -190.
 inline messages::StripeCalibration OneLaser() {
   messages::StripeCalibration calibration;
-  for (messages::StripeCamera& camera : calibration.cameras) {
+  for (messages::Camera& camera : calibration.cameras) {
     camera.X_RC.translation() = math::Vector3(0.0, 0.0, 0.25);
     camera.column_pitch_rad = 0.001;
     camera.row_pitch_rad = 0.0025;

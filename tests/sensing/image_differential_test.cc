@@ -43,7 +43,7 @@ Difference CompareLine(const LineView& line, const terrain::Terrain& terrain,
   const ReferenceRenderer reference(line, terrain, X_WR);
   const std::size_t lasers = line.calibration.lasers.size();
   std::vector<std::vector<double>> rates;
-  for (std::size_t i = 0; i < lasers; ++i) rates.push_back(LaserRates(row, static_cast<int>(i)));
+  for (std::size_t i = 0; i < lasers; ++i) rates.push_back(LampRates(row, static_cast<int>(i)));
   Difference difference;
   double sun = 0.0;
   double light = 0.0;
@@ -65,7 +65,7 @@ Difference CompareLine(const LineView& line, const terrain::Terrain& terrain,
 }
 
 // Along the middle of a line the closed forms stand for the rays.
-TEST(RowRenderer, AgreesWithManyRaysAlongTheLine) {
+TEST(StripeImage, AgreesWithManyRaysAlongTheLine) {
   for (const std::uint32_t seed : {1U, 2U, 3U, 4U}) {
     const terrain::Terrain terrain = RandomRocks(seed);
     for (const BeamProfile profile : {BeamProfile::kGaussian, BeamProfile::kTopHat}) {
@@ -82,7 +82,7 @@ TEST(RowRenderer, AgreesWithManyRaysAlongTheLine) {
 }
 
 // What sampling along the middle of a line alone costs: the surface and the stripe turn within it.
-TEST(RowRenderer, IsNearTheMeanOverTheWholePixel) {
+TEST(StripeImage, IsNearTheMeanOverTheWholePixel) {
   for (const std::uint32_t seed : {1U, 2U, 3U, 4U}) {
     const terrain::Terrain terrain = RandomRocks(seed);
     const LineView line = LowSun();

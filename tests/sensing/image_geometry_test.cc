@@ -13,7 +13,7 @@ using math::Vector3;
 
 // Point of flat ground in the light plane of a laser whose image lies on a line.
 Vector3 StripeOnLine(const LineView& line, const messages::StripeLaser& fan, int row_px) {
-  const messages::StripeCamera& camera = line.Camera(fan.camera);
+  const messages::Camera& camera = line.Camera(fan.camera);
   const Vector3 along(fan.normal_R.y(), -fan.normal_R.x(), 0.0);
   double near = 0.05;
   double far = 2.0;
@@ -41,8 +41,8 @@ TEST(StripeImage, LiesWhereTheLightPlaneMeetsTheGround) {
       const messages::StripeLaser& fan = line.calibration.lasers[laser];
       for (const int row_px : line.calibration.scanline_px) {
         const auto rates =
-            LaserRates(line.Render(FlatWith({}), PoseAt(2.0, -1.0, 0.0, 0.7), fan.camera, row_px),
-                       static_cast<int>(laser));
+            LampRates(line.Render(FlatWith({}), PoseAt(2.0, -1.0, 0.0, 0.7), fan.camera, row_px),
+                      static_cast<int>(laser));
         double sum = 0.0;
         double moment = 0.0;
         for (std::size_t i = 0; i < rates.size(); ++i) {
@@ -50,7 +50,7 @@ TEST(StripeImage, LiesWhereTheLightPlaneMeetsTheGround) {
           moment += rates[i] * (static_cast<double>(i) - 384.0);
         }
         ASSERT_GT(sum, 0.0);
-        const messages::StripeCamera& camera = line.Camera(fan.camera);
+        const messages::Camera& camera = line.Camera(fan.camera);
         const auto pixel =
             vision::Project(camera, camera.X_RC.inverse() * StripeOnLine(line, fan, row_px));
         ASSERT_TRUE(pixel.has_value());
@@ -66,7 +66,7 @@ TEST(StripeImage, ShiftsWithElevation) {
   const LineView line{QuietParams(), Darkness()};
   const int row_px = line.calibration.scanline_px[1];
   const auto centre = [&](double drop_m) {
-    const auto rates = LaserRates(line.Render(FlatWith({}), PoseAt(0, 0, drop_m), 0, row_px), 2);
+    const auto rates = LampRates(line.Render(FlatWith({}), PoseAt(0, 0, drop_m), 0, row_px), 2);
     double sum = 0.0;
     double moment = 0.0;
     for (std::size_t i = 0; i < rates.size(); ++i) {
@@ -76,7 +76,7 @@ TEST(StripeImage, ShiftsWithElevation) {
     return moment / sum;
   };
   // Depth s in the scanline plane, baseline b: the column angle is atan(b / s).
-  const messages::StripeCamera& camera = line.Camera(0);
+  const messages::Camera& camera = line.Camera(0);
   const double depression = line.params.camera_pitch_rad + row_px * camera.row_pitch_rad;
   const auto column = [&](double height) {
     return std::atan(0.06 / (height / std::sin(depression))) / camera.column_pitch_rad;
@@ -85,82 +85,23 @@ TEST(StripeImage, ShiftsWithElevation) {
   EXPECT_GT(centre(-0.05) - centre(0.0), 5.0);
 }
 
-// The shadow of a ball on level ground is an ellipse with semi-axes r and r / sin(h) around the
-// point h_c / tan(h) behind it.
-TEST(ImageScene, ShadowOfABallIsAnEllipse) {
-  SunParams sun;
-  sun.elevation_rad = math::DegToRad(35.0);
-  sun.azimuth_rad = math::DegToRad(120.0);
-  const SunLight light = MakeSunLight(sun, 40e-9);
-  constexpr double kRadius = 0.1;
-  constexpr double kCenter = 0.13;
-  const Vector3 ball(1.5, 0.2, kCenter);
-  const terrain::Terrain terrain =
-      FlatWith({EllipsoidRock(ball.x(), ball.y(), kCenter, kRadius, kRadius, kRadius)});
-  const RoverBody body{rover::RoverGeometryParams{}};
-  const ImageScene scene(terrain, PoseAt(0, 0, 0), light, sun, body, 4.0);
-  const Vector3 away(-std::cos(sun.azimuth_rad), -std::sin(sun.azimuth_rad), 0.0);
-  const Vector3 across(-away.y(), away.x(), 0.0);
-  const Vector3 middle =
-      Vector3(ball.x(), ball.y(), 0.0) + kCenter / std::tan(sun.elevation_rad) * away;
-  std::vector<int> shading;
-  const double bright = SunRadiance(light, sun.ground_albedo, Vector3::UnitZ(), true);
-  const double shaded = SunRadiance(light, sun.ground_albedo, Vector3::UnitZ(), false);
-  for (int i = 0; i < 48; ++i) {
-    const double turn = 2.0 * std::numbers::pi * i / 48;
-    for (const double scale : {0.99, 1.01}) {
-      const Vector3 ground = middle + scale * kRadius *
-                                          (std::cos(turn) * across +
-                                           std::sin(turn) / std::sin(sun.elevation_rad) * away);
-      const Vector3 eye = ground + Vector3(0.0, 0.0, 0.02);
-      if ((eye - ball).norm() <= kRadius) continue;  // under the ball
-      SurfacePoint point = scene.Meet(eye, -Vector3::UnitZ(), RoverBody::kFree, {});
-      scene.RocksBeforeSun({point.p_W, 0.0}, shading);
-      scene.Light(shading, point);
-      EXPECT_NEAR(point.radiance_w_m2_sr, scale < 1.0 ? shaded : bright, 1e-12) << i;
-    }
-  }
-}
-
-TEST(ImageScene, FarSideOfARockIsDarkAndWallsCastNoShadow) {
-  SunParams sun;
-  sun.elevation_rad = math::DegToRad(30.0);
-  sun.azimuth_rad = 0.0;  // in front
-  const SunLight light = MakeSunLight(sun, 40e-9);
-  const RoverBody body{rover::RoverGeometryParams{}};
-  const terrain::Terrain terrain =
-      FlatWith({EllipsoidRock(1.0, 0.0, 0.0, 0.1, 0.1, 0.1)}, {{Vector3::UnitX(), 1.5}});
-  const ImageScene scene(terrain, PoseAt(0, 0, 0), light, sun, body, 4.0);
-  const std::vector<int> rock{0};
-  SurfacePoint facing_rover =
-      scene.Meet(Vector3(0.5, 0.0, 0.05), Vector3::UnitX(), RoverBody::kFree, rock);
-  scene.Light(rock, facing_rover);
-  EXPECT_EQ(facing_rover.surface, 0);
-  EXPECT_NEAR(facing_rover.radiance_w_m2_sr,
-              SunRadiance(light, sun.rock_albedo, facing_rover.normal_W, false), 1e-12);
-  SurfacePoint ground =
-      scene.Meet(Vector3(1.4, 0.0, 0.5), -Vector3::UnitZ(), RoverBody::kFree, rock);
-  scene.Light(rock, ground);
-  EXPECT_NEAR(ground.radiance_w_m2_sr,
-              SunRadiance(light, sun.ground_albedo, Vector3::UnitZ(), true), 1e-12);
-}
-
 // With the sun behind it, the rover's shadow ends where the front edge of its panel throws it.
-TEST(ImageScene, RoverCastsAShadow) {
+TEST(RoverBody, CastsAShadow) {
   SunParams sun;
   sun.elevation_rad = math::DegToRad(60.0);
   sun.azimuth_rad = math::DegToRad(180.0);
-  const SunLight light = MakeSunLight(sun, 40e-9);
-  const RoverBody body{rover::RoverGeometryParams{}};
+  const rendering::SunLight light = rendering::MakeSunLight(sun, 40e-9);
+  const rendering::RoverBody body = MakeRoverBody(rover::RoverGeometryParams{});
   const terrain::Terrain terrain = FlatWith({});
-  const ImageScene scene(terrain, PoseAt(0, 0, 0), light, sun, body, 4.0);
+  const rendering::ImageScene scene(terrain, PoseAt(0, 0, 0), light, sun, body, 4.0);
   const double end_m = 0.325 + 0.30 / std::tan(sun.elevation_rad);
   for (const double beyond_m : {-0.005, 0.005}) {
-    SurfacePoint point =
-        scene.Meet(Vector3(end_m + beyond_m, 0.1, 0.1), -Vector3::UnitZ(), RoverBody::kFree, {});
+    rendering::SurfacePoint point = scene.Meet(Vector3(end_m + beyond_m, 0.1, 0.1),
+                                               -Vector3::UnitZ(), rendering::RoverBody::kFree, {});
     scene.Light({}, point);
     EXPECT_NEAR(point.radiance_w_m2_sr,
-                SunRadiance(light, sun.ground_albedo, Vector3::UnitZ(), beyond_m > 0.0), 1e-12);
+                rendering::SunRadiance(light, sun.ground_albedo, Vector3::UnitZ(), beyond_m > 0.0),
+                1e-12);
   }
 }
 
@@ -174,7 +115,7 @@ TEST(StripeImage, RockHidesTheEmitter) {
   const Vector3 between = fan.p_RoE_R + 0.6 * (target - fan.p_RoE_R);
   const terrain::Rock rock = EllipsoidRock(between.x(), between.y(), between.z(), 0.02, 0.02, 0.02);
   const auto lit_pixels = [&](const terrain::Terrain& terrain) {
-    const auto rates = LaserRates(line.Render(terrain, PoseAt(0, 0, 0), 0, row_px), 0);
+    const auto rates = LampRates(line.Render(terrain, PoseAt(0, 0, 0), 0, row_px), 0);
     const auto pixel = vision::Project(line.Camera(0), line.Camera(0).X_RC.inverse() * target);
     const auto middle = static_cast<std::size_t>(std::lround(pixel->column_px) + 384);
     return rates[middle - 1] + rates[middle] + rates[middle + 1];
@@ -188,16 +129,16 @@ TEST(StripeImage, RockHidesTheEmitter) {
 
 TEST(RoverBody, DistancesToItsParts) {
   const rover::RoverGeometryParams geometry;  // panel at 0.275 .. 0.30 m, wheels of 6.5 cm radius
-  const RoverBody body(geometry);
+  const rendering::RoverBody body = MakeRoverBody(geometry);
   EXPECT_NEAR(body.Distance({0.3, 0.0, 1.0}, -Vector3::UnitZ()), 0.7, 1e-12);
   EXPECT_NEAR(body.Normal({0.3, 0.0, 1.0}, -Vector3::UnitZ()).z(), 1.0, 1e-12);
   EXPECT_NEAR(body.Distance({0.3, 0.0, 0.2}, Vector3::UnitZ()), 0.075, 1e-12);
   // Front left wheel: centre at x = 0.26, y = 0.20, z = 0.065.
   EXPECT_NEAR(body.Distance({1.0, 0.2, 0.065}, -Vector3::UnitX()), 1.0 - 0.325, 1e-12);
   EXPECT_NEAR(body.Distance({0.26, 1.0, 0.065}, -Vector3::UnitY()), 0.76, 1e-12);
-  EXPECT_EQ(body.Distance({1.0, 0.0, 0.05}, Vector3::UnitX()), RoverBody::kFree);
+  EXPECT_EQ(body.Distance({1.0, 0.0, 0.05}, Vector3::UnitX()), rendering::RoverBody::kFree);
   // Out of a part that holds the origin.
-  EXPECT_EQ(body.Distance({0.3, 0.0, 0.29}, Vector3::UnitX()), RoverBody::kFree);
+  EXPECT_EQ(body.Distance({0.3, 0.0, 0.29}, Vector3::UnitX()), rendering::RoverBody::kFree);
 }
 
 // The default layout loses none of its scanlines to the rover's own parts, and no emitter is hidden
@@ -209,7 +150,7 @@ TEST(RoverBody, LeavesTheDefaultLayoutFree) {
     for (int camera = 0; camera < 2; ++camera) {
       for (const int row_px : line.calibration.scanline_px) {
         for (const double distance_m : line.View(camera, row_px).body_m) {
-          hidden += distance_m < RoverBody::kFree ? 1 : 0;
+          hidden += distance_m < rendering::RoverBody::kFree ? 1 : 0;
         }
       }
     }
@@ -225,7 +166,7 @@ TEST(RoverBody, LeavesTheDefaultLayoutFree) {
   for (const messages::StripeLaser& fan : line.calibration.lasers) {
     for (const int row_px : line.calibration.scanline_px) {
       const Vector3 away = StripeOnLine(line, fan, row_px) - fan.p_RoE_R;
-      EXPECT_EQ(line.body.Distance(fan.p_RoE_R, away.normalized()), RoverBody::kFree);
+      EXPECT_EQ(line.body.Distance(fan.p_RoE_R, away.normalized()), rendering::RoverBody::kFree);
     }
   }
 }

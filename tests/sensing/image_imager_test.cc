@@ -11,7 +11,6 @@
 #include "core/hash.h"
 #include "core/json_text.h"
 #include "image_kit.h"
-#include "sensing/exposure_control.h"
 
 namespace rockyard::sensing {
 namespace {
@@ -37,20 +36,6 @@ std::uint64_t HashOf(const messages::StripeImages& images) {
     }
   }
   return hash.value();
-}
-
-TEST(ExposureControl, BringsTheBrightPixelsToTheTarget) {
-  ImagerParams imager;  // 60000 e full well, target 0.4, 1000 e/s dark current
-  imager.exposure.brightest_share = 0.1;
-  std::vector<double> rates;
-  for (int i = 1; i <= 100; ++i) rates.push_back(1e4 * i);
-  // Ten of the hundred may be brighter than 9e5 e/s.
-  EXPECT_NEAR(ExposureTime(imager, rates), 24000.0 / 901000.0, 1e-12);
-  std::reverse(rates.begin(), rates.end());
-  EXPECT_NEAR(ExposureTime(imager, rates), 24000.0 / 901000.0, 1e-12);
-  EXPECT_EQ(ExposureTime(imager, std::vector<double>(9, 1e12)), imager.exposure.shortest_s);
-  EXPECT_EQ(ExposureTime(imager, std::vector<double>(9, 0.0)), imager.exposure.longest_s);
-  EXPECT_EQ(ExposureTime(imager, {}), imager.exposure.longest_s);
 }
 
 TEST(StripeImager, ExposesTheDarkImageToTheTarget) {
@@ -116,7 +101,7 @@ TEST(StripeImager, DarknessLeavesTheBlackLevel) {
 TEST(StripeImager, CmosImagerIsAnotherImager) {
   LightStripeParams ccd = QuietParams();
   LightStripeParams cmos = ccd;
-  cmos.imager.kind = ImagerKind::kCmos;
+  cmos.imager.kind = rendering::ImagerKind::kCmos;
   const auto a = Make(ccd).Expose(OneRock(), PoseAt(0, 0, 0), kKey, 0);
   const auto b = Make(cmos).Expose(OneRock(), PoseAt(0, 0, 0), kKey, 0);
   EXPECT_NEAR(b.electrons_per_count, 80000.0 / (255.0 * 0.98), 1e-9);
@@ -212,7 +197,7 @@ TEST(StripeImager, SeesRocksAtTheFarthestRow) {
 }
 
 // Whatever the pose: tilted, buried, in a rock, before a wall.
-TEST(RowRenderer, LightIsFiniteInAnyPose) {
+TEST(StripeImage, LightIsFiniteInAnyPose) {
   core::RandomStream stream({4, 0}, core::Purpose::kTest);
   std::vector<terrain::Rock> rocks;
   for (int i = 0; i < 40; ++i) {
@@ -240,7 +225,7 @@ TEST(RowRenderer, LightIsFiniteInAnyPose) {
     const int row_px = static_cast<int>(core::SampleUniform(stream, -242.0, 241.0));
     const RenderedRow row = line.Render(i % 4 == 0 ? hilly : flat, X_WR, i % 2, row_px);
     for (const double rate : row.sun_e_s) ASSERT_TRUE(std::isfinite(rate) && rate >= 0.0) << i;
-    for (const auto& laser : row.lasers) {
+    for (const auto& laser : row.lamps) {
       ASSERT_TRUE(std::isfinite(laser.rate_e_s) && laser.rate_e_s >= 0.0) << i;
     }
   }
@@ -267,11 +252,6 @@ TEST(ImageParams, BadDescriptionsAreRefused) {
   LightStripeParams geometric;
   core::ReadParams(core::ParseJson(R"({"imager": {"margin_rows": 200}})", "test"), geometric);
   EXPECT_EQ(geometric.imager.margin_rows, 200);
-  SunParams sun;
-  EXPECT_THROW(core::ReadParams(core::ParseJson(R"({"elevation_deg": 95})", "test"), sun),
-               core::UserError);
-  EXPECT_THROW(core::ReadParams(core::ParseJson(R"({"distance_au": 0})", "test"), sun),
-               core::UserError);
 }
 
 }  // namespace

@@ -10,7 +10,10 @@
 #include "core/archive.h"
 #include "core/error.h"
 #include "core/json_text.h"
-#include "sensing/row_renderer.h"
+#include "rendering/line_kit.h"
+#include "rendering/quiet_imager.h"
+#include "rendering/row_renderer.h"
+#include "sensing/rover_parts.h"
 #include "sensing/stripe_imager.h"
 #include "sensing/stripe_layout_params.h"
 #include "sensing/stripe_view_params.h"
@@ -18,17 +21,16 @@
 
 namespace rockyard::sensing {
 
+using rendering::LampRates;
+using rendering::RenderedRow;
+using rendering::SunParams;
+using rendering::ViewRow;
+
 // Everything that disturbs an image but the shot noise is off, and counts are fine.
 inline LightStripeParams QuietParams() {
   LightStripeParams params;
   params.laser.speckle_contrast = 0.0;
-  DetectorParams& ccd = params.imager.ccd;
-  ccd.read_noise_e = 0.0;
-  ccd.dark_current_e_s = 0.0;
-  ccd.response_nonuniformity = 0.0;
-  ccd.offset_nonuniformity_e = 0.0;
-  ccd.adc_bits = 16;
-  params.imager.exposure.repeatability = 0.0;
+  rendering::Quieten(params.imager);
   return params;
 }
 
@@ -43,33 +45,31 @@ struct LineView {
   LightStripeParams params;
   SunParams sun;
   messages::StripeCalibration calibration = TrueCalibration(params);
-  RoverBody body{rover::RoverGeometryParams{}};
+  rendering::RoverBody body = MakeRoverBody(rover::RoverGeometryParams{});
 
-  const messages::StripeCamera& Camera(int camera) const {
+  const messages::Camera& Camera(int camera) const {
     return calibration.cameras[static_cast<std::size_t>(camera)];
   }
   ViewRow View(int camera, int row) const {
-    const messages::StripeCamera& eye = Camera(camera);
-    return MakeViewRow(eye, body, row, -eye.columns / 2, eye.columns);
+    const messages::Camera& eye = Camera(camera);
+    return rendering::MakeViewRow(eye, body, row, -eye.columns / 2, eye.columns);
   }
   RenderedRow Render(const terrain::Terrain& terrain, const math::Transform& X_WR, int camera,
                      int row) const {
-    const SunLight light = MakeSunLight(sun, params.imager.filter_width_m);
-    const ImageScene scene(terrain, X_WR, light, sun, body, SightOf(params));
-    const RowRenderer renderer(params, calibration);
-    return renderer.Render(renderer.Prepare(scene), Camera(camera).X_RC.translation(),
-                           View(camera, row));
+    const rendering::SunLight light = rendering::MakeSunLight(sun, params.imager.filter_width_m);
+    const rendering::ImageScene scene(terrain, X_WR, light, sun, body, SightOf(params));
+    const StripeLight lasers(params, calibration);
+    return Renderer().Render(scene, lasers.Meet(scene), Camera(camera).X_RC.translation(),
+                             View(camera, row));
+  }
+  rendering::RowRenderer Renderer() const {
+    return {params.imager, params.pixel_m2(), params.laser.wavelength_m};
+  }
+  double ElectronsPerRadiance() const {
+    return rendering::ElectronsPerRadiance(params.imager, params.pixel_m2(),
+                                           params.laser.wavelength_m);
   }
 };
-
-// Light of one laser on each pixel of a line, electrons per second.
-inline std::vector<double> LaserRates(const RenderedRow& row, int laser) {
-  std::vector<double> rates(row.sun_e_s.size());
-  for (const RenderedRow::LaserPixel& pixel : row.lasers) {
-    if (pixel.laser == laser) rates[static_cast<std::size_t>(pixel.pixel)] += pixel.rate_e_s;
-  }
-  return rates;
-}
 
 // Every refusal names the field.
 inline void ExpectRefused(const std::string& json, const std::string& field) {

@@ -14,38 +14,6 @@ using math::Vector3;
 
 constexpr double kPi = std::numbers::pi;
 
-TEST(SunLight, FollowsBeerAndLambert) {
-  SunParams sun;
-  sun.elevation_rad = math::DegToRad(30.0);
-  sun.azimuth_rad = math::DegToRad(180.0);
-  sun.irradiance_w_m2_nm = 1.2;
-  sun.distance_au = 2.0;
-  sun.optical_depth = 0.4;
-  sun.diffuse_share = 0.5;
-  const SunLight light = MakeSunLight(sun, 20e-9);
-  // 1.2 / 4 W/m2/nm over 20 nm; the path is 1 / sin 30 = 2 atmospheres long.
-  const double direct = 6.0 * std::exp(-0.8);
-  EXPECT_NEAR(light.direct_w_m2, direct, 1e-12);
-  EXPECT_NEAR(light.sky_w_m2, 0.5 * (6.0 - direct) * 0.5, 1e-12);
-  EXPECT_NEAR(light.toward_sun_W.x(), -std::cos(math::DegToRad(30.0)), 1e-12);
-  EXPECT_NEAR(light.toward_sun_W.z(), 0.5, 1e-12);
-
-  // A wall that faces the sun sees half of the sky; one that faces away no sun at all.
-  const double facing = SunRadiance(light, 0.4, -Vector3::UnitX(), true);
-  EXPECT_NEAR(facing, 0.4 / kPi * (direct * std::cos(math::DegToRad(30.0)) + 0.5 * light.sky_w_m2),
-              1e-12);
-  EXPECT_NEAR(SunRadiance(light, 0.4, Vector3::UnitX(), true), 0.4 / kPi * 0.5 * light.sky_w_m2,
-              1e-12);
-}
-
-TEST(SunLight, IsNoneAtTheHorizon) {
-  SunParams sun;
-  sun.elevation_rad = 0.0;
-  const SunLight light = MakeSunLight(sun, 20e-9);
-  EXPECT_EQ(light.direct_w_m2, 0.0);
-  EXPECT_EQ(light.sky_w_m2, 0.0);
-}
-
 // N = pi A T eta lambda / (4 N^2 h c) times the radiance of the ground, on the axis.
 TEST(Radiometry, FlatGroundInTheSun) {
   LineView line{QuietParams(), SunParams{}};
@@ -62,24 +30,6 @@ TEST(Radiometry, FlatGroundInTheSun) {
   const double rate = kPi * radiance / (4.0 * 16.0) * pixel_m2 * 0.8 * 0.7 * 0.15 * 0.4 / photon_j;
   // Column 0 is on the axis; the camera's nadir columns fade with the lens.
   EXPECT_NEAR(row.sun_e_s[384] / rate, 1.0, 1e-5);
-}
-
-// Off the axis an equidistant_rows pixel covers cos(a) of the solid angle, and the pupil appears
-// cos(theta) = cos(a) cos(b) as large; a pinhole has cos^4.
-TEST(Radiometry, LightFallsOffTowardsTheEdge) {
-  LightStripeParams params;
-  messages::StripeCamera camera = TrueCalibration(params).cameras[0];
-  const double a = 300.0 * camera.column_pitch_rad;
-  const double b = 100.0 * camera.row_pitch_rad;
-  EXPECT_NEAR(RelativeIllumination(camera, 300.0, 100.0), std::cos(a) * std::cos(a) * std::cos(b),
-              1e-5);
-  camera.lens = messages::Lens::kEquidistant;
-  const double theta = std::hypot(a, b);
-  EXPECT_NEAR(RelativeIllumination(camera, 300.0, 100.0), std::sin(theta) / theta * std::cos(theta),
-              1e-5);
-  camera.lens = messages::Lens::kPinhole;
-  const double cosine = 1.0 / std::sqrt(1.0 + a * a + b * b);
-  EXPECT_NEAR(RelativeIllumination(camera, 300.0, 100.0), std::pow(cosine, 4), 1e-5);
 }
 
 // The beam carries the power 1, whatever its profile.
@@ -109,7 +59,7 @@ TEST(Radiometry, StripeHoldsItsShareOfThePower) {
     const messages::StripeLaser& fan = line.calibration.lasers[static_cast<std::size_t>(laser)];
     for (const int row_px : line.calibration.scanline_px) {
       const ViewRow view = line.View(fan.camera, row_px);
-      const auto rates = LaserRates(line.Render(FlatWith({}), X_WR, fan.camera, row_px), laser);
+      const auto rates = LampRates(line.Render(FlatWith({}), X_WR, fan.camera, row_px), laser);
       const Vector3 eye = line.Camera(fan.camera).X_RC.translation();
       const auto on_ground = [&](std::size_t edge) {
         return Vector3(eye - eye.z() / view.edge_R[edge].z() * view.edge_R[edge] - fan.p_RoE_R);
@@ -129,8 +79,8 @@ TEST(Radiometry, StripeHoldsItsShareOfThePower) {
         weight += rates[i];
       }
       ASSERT_GT(weight, 0.0) << laser << " " << row_px;
-      const double closed_form = 0.35 / kPi * FanPower(line.params) * expected / weight *
-                                 ElectronsPerRadiance(line.params);
+      const double closed_form =
+          0.35 / kPi * FanPower(line.params) * expected / weight * line.ElectronsPerRadiance();
       EXPECT_NEAR(power / closed_form, 1.0, 0.003) << laser << " " << row_px;
     }
   }
@@ -141,21 +91,23 @@ TEST(Radiometry, WholeImageHoldsTheWholePower) {
   const LineView line{QuietParams(), Darkness()};
   constexpr int kLaser = 2;
   const messages::StripeLaser& fan = line.calibration.lasers[kLaser];
-  const messages::StripeCamera& camera = line.Camera(fan.camera);
+  const messages::Camera& camera = line.Camera(fan.camera);
   const Vector3 eye = camera.X_RC.translation();
-  const RowRenderer renderer(line.params, line.calibration);
-  const SunLight light = MakeSunLight(line.sun, line.params.imager.filter_width_m);
+  const rendering::RowRenderer renderer = line.Renderer();
+  const rendering::SunLight light =
+      rendering::MakeSunLight(line.sun, line.params.imager.filter_width_m);
   const terrain::Terrain terrain = FlatWith({});
-  const ImageScene scene(terrain, PoseAt(0, 0, 0), light, line.sun, line.body,
-                         SightOf(line.params));
-  const LitScene lit = renderer.Prepare(scene);
+  const rendering::ImageScene scene(terrain, PoseAt(0, 0, 0), light, line.sun, line.body,
+                                    SightOf(line.params));
+  const StripeLight lasers(line.params, line.calibration);
+  const LitStripes stripes = lasers.Meet(scene);
   double power_w = 0.0;
   // These lines see the ground and neither the rover nor the end of the fan.
   constexpr int kFirst = -120;
   constexpr int kLast = 150;
   for (int row_px = kFirst; row_px <= kLast; ++row_px) {
     const ViewRow view = line.View(fan.camera, row_px);
-    const auto rates = LaserRates(renderer.Render(lit, eye, view), kLaser);
+    const auto rates = LampRates(renderer.Render(scene, stripes, eye, view), kLaser);
     for (std::size_t i = 0; i < rates.size(); ++i) {
       if (rates[i] == 0.0) continue;
       const double column = view.first_column + static_cast<double>(i);
@@ -165,7 +117,7 @@ TEST(Radiometry, WholeImageHoldsTheWholePower) {
       const double solid_angle = view.gain[i] * camera.column_pitch_rad * camera.row_pitch_rad /
                                  (camera.X_RC.linear().transpose() * ray).x();
       const double area = solid_angle * range * range / -ray.z();
-      const double radiance = rates[i] / (view.gain[i] * ElectronsPerRadiance(line.params));
+      const double radiance = rates[i] / (view.gain[i] * line.ElectronsPerRadiance());
       power_w += radiance * kPi / 0.35 * area;
     }
   }
@@ -182,34 +134,6 @@ TEST(Radiometry, WholeImageHoldsTheWholePower) {
   EXPECT_NEAR(power_w / expected_w, 1.0, 0.002);
 }
 
-// A Gaussian of 1.2 pixels: the light stays, its variance along the line grows by 1.2^2.
-TEST(ImageBlur, SpreadsLightAndKeepsIt) {
-  RenderedRow row;
-  row.sun_e_s.assign(101, 5.0);
-  row.sun_e_s[50] = 105.0;
-  row.lasers = {{40, 1, 7.0}, {41, 1, 3.0}, {2, 0, 1.0}};
-  const RenderedRow sharp = row;
-  ImageBlur(0.0).Apply(row);
-  EXPECT_EQ(row.sun_e_s, sharp.sun_e_s);
-  EXPECT_EQ(row.lasers.size(), 3U);
-  ImageBlur(1.2).Apply(row);
-  double variance = 0.0;
-  for (int i = 0; i <= 100; ++i) {
-    variance += (row.sun_e_s[static_cast<std::size_t>(i)] - 5.0) / 100.0 * (i - 50) * (i - 50);
-  }
-  EXPECT_NEAR(variance, 1.44, 0.001);
-  EXPECT_NEAR(std::accumulate(row.sun_e_s.begin(), row.sun_e_s.end(), 0.0), 605.0, 1e-9);
-  EXPECT_NEAR(row.sun_e_s[0], 5.0, 1e-12);
-  const auto stripe = LaserRates(row, 1);
-  EXPECT_NEAR(std::accumulate(stripe.begin(), stripe.end(), 0.0), 10.0, 1e-9);
-  double mean = 0.0;
-  for (std::size_t i = 0; i < stripe.size(); ++i) mean += stripe[i] * static_cast<double>(i) / 10.0;
-  EXPECT_NEAR(mean, 40.3, 1e-9);
-  // Near the edge some of it leaves the image.
-  const auto edge = LaserRates(row, 0);
-  EXPECT_LT(std::accumulate(edge.begin(), edge.end(), 0.0), 0.99);
-}
-
 // Three scanlines instead of a fan of 1 rad: the same light on 1 / 117 of the angle.
 TEST(Radiometry, ThinBeamIsAHundredTimesBrighter) {
   LineView full{QuietParams(), Darkness()};
@@ -217,8 +141,7 @@ TEST(Radiometry, ThinBeamIsAHundredTimesBrighter) {
   thin.params.laser.fan = BeamFan::kThreeScanlines;
   const auto total = [](const LineView& line, int laser, int row_px) {
     const int camera = line.calibration.lasers[static_cast<std::size_t>(laser)].camera;
-    const auto rates =
-        LaserRates(line.Render(FlatWith({}), PoseAt(0, 0, 0), camera, row_px), laser);
+    const auto rates = LampRates(line.Render(FlatWith({}), PoseAt(0, 0, 0), camera, row_px), laser);
     return std::accumulate(rates.begin(), rates.end(), 0.0);
   };
   const double gain = full.params.fan_rad / (3.0 * full.params.row_pitch_rad());

@@ -19,15 +19,15 @@ class ReferenceRenderer {
       : line_(line),
         terrain_(terrain),
         X_WR_(X_WR),
-        light_(MakeSunLight(line.sun, line.params.imager.filter_width_m)),
+        light_(rendering::MakeSunLight(line.sun, line.params.imager.filter_width_m)),
         beam_(line.params.laser.profile, line.params.laser.beam_width_rad) {}
 
   // Mean over rays_across x rays_down rays within the pixel.
   ReferenceLight Pixel(int camera, int column, int row, int rays_across, int rays_down) const {
     ReferenceLight sum;
     sum.laser_e_s.resize(line_.calibration.lasers.size());
-    const double gain = RelativeIllumination(line_.Camera(camera), column, row) *
-                        ElectronsPerRadiance(line_.params) / (rays_across * rays_down);
+    const double gain = rendering::RelativeIllumination(line_.Camera(camera), column, row) *
+                        line_.ElectronsPerRadiance() / (rays_across * rays_down);
     for (int j = 0; j < rays_down; ++j) {
       for (int i = 0; i < rays_across; ++i) {
         AddRay(camera, column + (i + 0.5) / rays_across - 0.5, row + (j + 0.5) / rays_down - 0.5,
@@ -39,7 +39,7 @@ class ReferenceRenderer {
 
  private:
   void AddRay(int camera, double column, double row, double gain, ReferenceLight& sum) const {
-    const messages::StripeCamera& eye = line_.Camera(camera);
+    const messages::Camera& eye = line_.Camera(camera);
     const math::Vector3 eye_W = X_WR_ * eye.X_RC.translation();
     const math::Vector3 ray_R = eye.X_RC.linear() * vision::PixelRay(eye, {column, row});
     const math::Vector3 ray_W = X_WR_.linear() * ray_R;
@@ -55,8 +55,8 @@ class ReferenceRenderer {
     const math::Vector3 sun_R = X_RW.linear() * light_.toward_sun_W;
     const bool sunlit = hit->normal_W.dot(light_.toward_sun_W) > 0.0 &&
                         !terrain_.CastRay(above_W, light_.toward_sun_W, 50.0) &&
-                        line_.body.Distance(X_RW * above_W, sun_R) == RoverBody::kFree;
-    sum.sun_e_s += gain * SunRadiance(light_, albedo, hit->normal_W, sunlit);
+                        line_.body.Distance(X_RW * above_W, sun_R) == rendering::RoverBody::kFree;
+    sum.sun_e_s += gain * rendering::SunRadiance(light_, albedo, hit->normal_W, sunlit);
     for (std::size_t i = 0; i < line_.calibration.lasers.size(); ++i) {
       sum.laser_e_s[i] += gain * albedo * std::numbers::inv_pi * Irradiance(i, *hit);
     }
@@ -78,7 +78,7 @@ class ReferenceRenderer {
   const LineView& line_;
   const terrain::Terrain& terrain_;
   math::Transform X_WR_;
-  SunLight light_;
+  rendering::SunLight light_;
   BeamCrossSection beam_;
 };
 

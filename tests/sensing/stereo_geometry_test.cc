@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "stereo_scene.h"
 #include "terrain/rock_shape.h"
+#include "vision/lens.h"
 
 namespace rockyard::sensing {
 namespace {
@@ -31,6 +33,29 @@ terrain::Terrain WallAt(double x_m, std::vector<terrain::Rock> rocks = {}) {
 // Depth along the axis of level cameras at the chassis centre is x.
 double DisparityOf(const StereoParams& params, double depth_m) {
   return params.focal_columns_px() * params.baseline_m / depth_m;
+}
+
+// The pair's rays are those of the one camera model, scaled to depth 1.
+TEST(StereoGeometryTest, RaysAreThoseOfAPinhole) {
+  const StereoParams params;
+  for (const LookDirection direction : {LookDirection::kAhead, LookDirection::kBehind}) {
+    const StereoView view = MakeStereoView(params, direction);
+    messages::Camera camera;
+    camera.lens = messages::Lens::kPinhole;
+    camera.column_pitch_rad = 1.0 / params.focal_columns_px();
+    camera.row_pitch_rad = 1.0 / params.focal_rows_px();
+    const auto& mount = direction == LookDirection::kAhead ? params.front : params.rear;
+    const double heading = direction == LookDirection::kAhead ? 0.0 : std::numbers::pi;
+    camera.X_RC = Eigen::AngleAxisd(heading, Vector3::UnitZ()) *
+                  Eigen::AngleAxisd(mount.pitch_rad, Vector3::UnitY());
+    for (const double row : {0.0, 40.0, 127.0}) {
+      for (const double column : {0.0, 63.5, 127.0}) {
+        const Vector3 expected_R =
+            camera.X_RC.linear() * vision::PixelRay(camera, {column - 63.5, row - 63.5});
+        EXPECT_LT((view.Ray(column, row).normalized() - expected_R).norm(), 1e-14);
+      }
+    }
+  }
 }
 
 TEST(StereoGeometryTest, IdealPointsLieOnTheSurface) {

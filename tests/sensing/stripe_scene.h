@@ -1,11 +1,9 @@
 // Scenes for the light stripe sensor and scans without noise.
 #pragma once
 
-#include <vector>
-
 #include "perception/triangulation.h"
 #include "sensing/light_stripe.h"
-#include "terrain/terrain.h"
+#include "terrain/placed_rocks.h"
 
 namespace rockyard::sensing {
 
@@ -15,21 +13,8 @@ inline LightStripeParams NoiselessParams() {
   return params;
 }
 
-inline terrain::Rock EllipsoidRock(double x_m, double y_m, double z_m, double a_m, double b_m,
-                                   double c_m, double yaw_rad = 0.0) {
-  terrain::Rock rock;
-  rock.center_W = {x_m, y_m, z_m};
-  rock.semi_axes_m = {a_m, b_m, c_m};
-  rock.yaw_rad = yaw_rad;
-  rock.diameter_m = 2.0 * a_m;
-  rock.height_m = z_m + c_m;
-  return rock;
-}
-
-inline terrain::Terrain FlatWith(std::vector<terrain::Rock> rocks,
-                                 std::vector<terrain::Wall> walls = {}) {
-  return {terrain::Ground(), std::move(rocks), std::move(walls)};
-}
+using terrain::EllipsoidRock;
+using terrain::FlatWith;
 
 inline math::Transform PoseAt(double x_m, double y_m, double z_m, double heading_rad = 0.0) {
   math::Transform X_WR = math::Transform::Identity();

@@ -28,7 +28,6 @@ std::size_t FoundOnFlatGround(const LightStripeParams& params) {
   return found;
 }
 
-// The parameters' own projection is that of vision.
 TEST(StripeViewTest, StripePointsAreImagedOnTheirRow) {
   for (const Lens lens : {Lens::kEquidistantRows, Lens::kEquidistant, Lens::kPinhole}) {
     LightStripeParams params;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace rockyard::vision {
 namespace {
@@ -13,8 +14,8 @@ using messages::Lens;
 
 constexpr std::array kLenses{Lens::kEquidistantRows, Lens::kEquidistant, Lens::kPinhole};
 
-messages::StripeCamera Camera(Lens lens) {
-  messages::StripeCamera camera;
+messages::Camera Camera(Lens lens) {
+  messages::Camera camera;
   camera.lens = lens;
   camera.column_pitch_rad = 0.0029;
   camera.row_pitch_rad = 0.0034;
@@ -52,7 +53,7 @@ TEST(Lens, EquidistantAngleFromTheAxisIsProportionalToTheImageRadius) {
 }
 
 TEST(Lens, RowsOfTheSeparableLensArePlanesThroughTheLateralAxis) {
-  const messages::StripeCamera camera = Camera(Lens::kEquidistantRows);
+  const messages::Camera camera = Camera(Lens::kEquidistantRows);
   const double depression = 150.0 * camera.row_pitch_rad;
   const Vector3 normal(std::sin(depression), 0.0, std::cos(depression));
   for (double column = -380.0; column <= 380.0; column += 20.0) {
@@ -63,13 +64,38 @@ TEST(Lens, RowsOfTheSeparableLensArePlanesThroughTheLateralAxis) {
 }
 
 TEST(Lens, PinholeKeepsStraightLinesStraight) {
-  const messages::StripeCamera camera = Camera(Lens::kPinhole);
+  const messages::Camera camera = Camera(Lens::kPinhole);
   const Vector3 a = PixelRay(camera, {-200.0, 40.0});
   const Vector3 b = PixelRay(camera, {100.0, 90.0});
   const auto between = Project(camera, 0.5 * a / a.x() + 0.5 * b / b.x());
   ASSERT_TRUE(between.has_value());
   EXPECT_NEAR(between->column_px, -50.0, 1e-9);
   EXPECT_NEAR(between->row_px, 65.0, 1e-9);
+}
+
+// Straight down the middle of the image the lens makes one number of an angle.
+TEST(Lens, ImageOfAnAngleIsWhereItsDirectionIsProjected) {
+  for (const Lens lens : kLenses) {
+    for (const double angle_rad : {-1.2, -0.3, 0.0, 0.7, 1.5}) {
+      const Vector3 down(std::cos(angle_rad), 0.0, -std::sin(angle_rad));
+      const auto pixel = Project(Camera(lens), down);
+      ASSERT_TRUE(pixel.has_value());
+      EXPECT_NEAR(ImageOfAngle(lens, angle_rad), pixel->row_px * 0.0034, 1e-12);
+    }
+  }
+  EXPECT_NEAR(ImageOfAngle(Lens::kPinhole, 0.7), std::tan(0.7), 1e-15);
+  EXPECT_EQ(ImageOfAngle(Lens::kEquidistant, 0.7), 0.7);
+}
+
+// Where an image is larger than that, two of its positions have the same direction.
+TEST(Lens, ImagesEndWithTheDirectionsOfTheLens) {
+  constexpr double kHalfTurn = std::numbers::pi;
+  EXPECT_TRUE(HasDirections(Lens::kEquidistantRows, 0.5 * kHalfTurn, 0.5 * kHalfTurn));
+  EXPECT_FALSE(HasDirections(Lens::kEquidistantRows, 0.51 * kHalfTurn, 0.1));
+  EXPECT_FALSE(HasDirections(Lens::kEquidistantRows, 0.1, 0.51 * kHalfTurn));
+  EXPECT_TRUE(HasDirections(Lens::kEquidistant, 0.6 * kHalfTurn, 0.79 * kHalfTurn));
+  EXPECT_FALSE(HasDirections(Lens::kEquidistant, 0.6 * kHalfTurn, 0.81 * kHalfTurn));
+  EXPECT_TRUE(HasDirections(Lens::kPinhole, 100.0, 100.0));
 }
 
 TEST(Lens, WhatNoLensSeesHasNoPixel) {

@@ -49,7 +49,7 @@ class Scanline {
 
   // From the camera to where the column's ray meets the light plane.
   double Range(double column_px) const {
-    const messages::StripeCamera& camera = Camera();
+    const messages::Camera& camera = Camera();
     const Vector3 ray_R =
         camera.X_RC.linear() *
         vision::PixelRay(camera, {column_px, static_cast<double>(calibration_.scanline_px[row_])});
@@ -80,7 +80,7 @@ class Scanline {
   double Pitch() const { return Camera().column_pitch_rad; }
 
  private:
-  const messages::StripeCamera& Camera() const {
+  const messages::Camera& Camera() const {
     return calibration_.cameras[static_cast<std::size_t>(calibration_.lasers[stripe_].camera)];
   }
 

@@ -1,0 +1,31 @@
+// A camera of whatever sensor: where it sits, what its lens does, how large its image is.
+#pragma once
+
+#include "math/pose.h"
+#include "messages/column_range.h"
+
+namespace rockyard::messages {
+
+// How a lens maps directions to image positions; the equations stand in vision/lens.h.
+enum class Lens {
+  kEquidistantRows,  // rows are planes through the lateral axis; angles grow with pixels
+  kEquidistant,      // f-theta, radially symmetric
+  kPinhole,          // rectilinear
+};
+
+// The parameters of every camera model in vision/lens.h.
+struct Camera {
+  Lens lens = Lens::kEquidistantRows;
+  math::Transform X_RC = math::Transform::Identity();  // x along the optical axis, y left, z up
+  // Angle per pixel, on the axis; columns count to the camera's right, rows downwards.
+  double column_pitch_rad = 0.0;
+  double row_pitch_rad = 0.0;
+  int columns = 0;
+  int rows = 0;
+
+  ColumnRange image_columns() const { return ImageColumns(columns); }
+  int first_row() const { return -rows / 2; }  // of an even number, one more above the axis
+  int last_row() const { return rows - rows / 2 - 1; }
+};
+
+}  // namespace rockyard::messages

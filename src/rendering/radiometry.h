@@ -1,0 +1,42 @@
+// From light to electrons: the sun in the passband, and the camera equation.
+#pragma once
+
+#include "math/pose.h"
+#include "messages/camera.h"
+#include "rendering/imager_params.h"
+#include "rendering/sun_params.h"
+
+namespace rockyard::rendering {
+
+// Sunlight within the passband of the filter, before the filter's transmission.
+struct SunLight {
+  math::Vector3 toward_sun_W = math::Vector3::UnitZ();
+  double direct_w_m2 = 0.0;  // on a surface that faces the sun
+  double sky_w_m2 = 0.0;     // from the whole sky on a horizontal surface
+};
+
+// Returns the light by Beer and Lambert's law for the direct part and a share of what it lost for
+// the sky:
+//   E_direct = E0 / d^2 exp(-tau / sin h) w,
+//   E_sky    = k (E0 / d^2 w - E_direct) sin h
+// with elevation h, equivalent width w of the filter, diffuse share k. The sky is equally bright
+// everywhere, though dust makes it brightest around the sun.
+SunLight MakeSunLight(const SunParams& sun, double filter_width_m);
+
+// Returns the radiance of a Lambert surface in that light, W/m2/sr:
+//   L = albedo / pi (E_direct max(0, n.s) [sunlit] + E_sky (1 + n_z) / 2).
+double SunRadiance(const SunLight& sun, double albedo, const math::Vector3& normal_W, bool sunlit);
+
+// Returns the electrons per second on a pixel of the optical axis for one W/m2/sr of light of that
+// wavelength:
+//   pi A T eta lambda / (4 N^2 h c)
+// (camera equation E = pi L T / (4 N^2), e.g. Holst and Lomheim 2011; eta: quantum efficiency times
+// fill factor; T: lens times filter; A: area of a pixel).
+double ElectronsPerRadiance(const ImagerParams& imager, double pixel_m2, double wavelength_m);
+
+// Returns the same off the axis, over that on the axis: solid angle of the pixel over that of the
+// central one, times the cosine by which the entrance pupil shrinks. That is cos^4 for a pinhole.
+// Real wide-angle lenses tilt their pupil and lose less.
+double RelativeIllumination(const messages::Camera& camera, double column_px, double row_px);
+
+}  // namespace rockyard::rendering

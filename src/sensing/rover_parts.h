@@ -1,0 +1,13 @@
+// What of a rover its own cameras see.
+#pragma once
+
+#include "rendering/rover_body.h"
+#include "rover/rover_geometry_params.h"
+
+namespace rockyard::sensing {
+
+// Returns chassis and solar panel as boxes and the wheels, where they are on level ground; the thin
+// arms are left out.
+rendering::RoverBody MakeRoverBody(const rover::RoverGeometryParams& params);
+
+}  // namespace rockyard::sensing
