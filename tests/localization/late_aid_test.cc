@@ -35,7 +35,8 @@ class LateAid : public testing::Test {
   static constexpr int kX = messages::Index(messages::PoseCoordinate::kX);
 
   static messages::PoseFix Fix(messages::CaptureNumber capture, double x_m) {
-    messages::PoseFix fix{.capture = capture};
+    messages::PoseFix fix;
+    fix.capture = capture;
     fix.measured.set(kX);
     fix.pose_W[kX] = x_m;
     fix.covariance *= kR;
