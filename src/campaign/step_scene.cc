@@ -5,7 +5,7 @@
 #include "sensing/stereo_view.h"
 #include "terrain/rock_points.h"
 #include "trial/drive_params.h"
-#include "trial/terrain_sensor_kind_params.h"
+#include "trial/terrain_sensor_set_params.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -56,7 +56,7 @@ report::StepScene SceneOf(const trial::WatchedStep& watched, const truth::Trace&
     scene.rocks.push_back(
         SceneRockOf(rock, watched.terrain.ground(), drive.rover.geometry.belly_clearance_m));
   }
-  const auto* cameras = trial::KindOf(drive.sensors.terrain_sensor).cameras(drive);
+  const auto* cameras = drive.sensors.terrain_sensors.chosen().cameras(drive);
   if (cameras != nullptr) scene.camera = LeftFrontCamera(*cameras);
   return scene;
 }

@@ -98,6 +98,10 @@ class KindSet {
 
   // Throws UserError where no kind has that name.
   void Choose(std::string_view name) { chosen_ = FindKind(words_, names_, name); }
+  // Throws UserError where no kind has that name.
+  const Base& Named(std::string_view name) const {
+    return *kinds_.at(static_cast<std::size_t>(FindKind(words_, names_, name)));
+  }
   const Base& chosen() const { return *kinds_.at(static_cast<std::size_t>(chosen_)); }
 
   // The parameters of the kind that has such; there must be one.

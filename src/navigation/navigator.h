@@ -6,6 +6,7 @@
 
 #include "messages/commands.h"
 #include "messages/estimates.h"
+#include "messages/look.h"
 #include "messages/navigation_view.h"
 #include "messages/point_cloud.h"
 #include "messages/vehicle_state.h"
@@ -31,10 +32,12 @@ struct NavigatorInput {
   double time_s = 0.0;  // on-board clock since the start
   messages::PoseEstimate estimate = {};
   messages::AttitudeEstimate attitude = {};
-  // These answer the last request for a look; null at every other tick. A behaviour controller
-  // reads the hazard report, a map-based navigator the points.
+  // These answer a request for a look, the oldest that has no answer yet, when its data are ready;
+  // null at every other tick. A behaviour controller reads the hazard report, a map-based navigator
+  // the points; both were taken at the moment of the look.
   const messages::HazardReport* report = nullptr;
   const messages::PointCloud* cloud = nullptr;
+  const messages::LookMoment* look = nullptr;
   // What the rover feels at this tick and has to get away from, never a touch behind; null where it
   // feels no such hazard.
   const messages::VehicleHazard* vehicle_hazard = nullptr;
@@ -49,8 +52,13 @@ struct NavigatorDecision {
   // ignored.
   std::optional<messages::LookDirection> look = {};
   messages::MotionCommand motion = {};
+  // With a look: the rover looks and follows the motion meanwhile, as far as it can do both
+  // (clock.overlap); a later input carries what was seen, unless something came between (operators,
+  // a reaction to being stuck). No look is taken while the cameras are at work on one: a navigator
+  // goes on asking.
+  bool looks_on_the_move = false;
 
-  bool looks() const { return look.has_value(); }
+  bool stops_to_look() const { return look.has_value() && !looks_on_the_move; }
 };
 
 // The interface. One object drives one trial.

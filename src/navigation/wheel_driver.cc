@@ -100,6 +100,7 @@ WheelCommand WheelDriver::Tick(const MotionCommand& motion, double duration_s) {
     // The driver has no steering sensor: it follows the rate limit that it knows.
     believed_steer_rad_[i] += Clamp(change, params_.steer_rate_rad_s * duration_s);
   }
+  steered_s_ = std::min(largest_change / params_.steer_rate_rad_s, duration_s);
   // Once standing to steer, stand until the angles have arrived.
   const double allowed = steering_ ? 0.0 : params_.steer_while_driving_rad;
   steering_ = motion.kind != MotionKind::kStop && largest_change > allowed;

@@ -31,6 +31,8 @@ class WheelDriver {
 
   // Returns whether the rover stands to steer.
   bool steering() const { return steering_; }
+  // Returns for how long of the last tick, s, the steering motors are believed to have run.
+  double steered_s() const { return steered_s_; }
 
  private:
   // Returns SteadyWheelCommand of the motion, worked out anew only when it differs from the last
@@ -43,6 +45,7 @@ class WheelDriver {
   messages::WheelCommand steady_;
   messages::PerWheel<double> believed_steer_rad_{};
   bool steering_ = false;
+  double steered_s_ = 0.0;
 };
 
 }  // namespace rockyard::navigation

@@ -3,6 +3,7 @@
 
 #include "core/fields.h"
 #include "trial/compute_params.h"
+#include "trial/overlap_params.h"
 
 namespace rockyard::trial {
 
@@ -13,6 +14,7 @@ struct ClockParams {
   double control_rate_hz = 20.0;
   double stop_time_s = 0.05;
   ComputeParams compute;
+  OverlapParams overlap;
 
   void Visit(core::FieldVisitor& v) {
     using core::Origin;
@@ -62,6 +64,9 @@ struct ClockParams {
          .study_low = 0.05,
          .study_high = 0.5});
     v.Group("compute", compute, "what stereo and navigation take");
+    v.Group("overlap", overlap,
+            "what goes on while the rover drives; with none of it one activity at a time "
+            "(Matthies 1995 sec. 2.1.2)");
   }
 };
 

@@ -22,6 +22,14 @@ Activity ActivityOf(const messages::MotionCommand& motion, bool steering) {
   return motion.kind == MotionKind::kTurnInPlace ? Activity::kTurning : Activity::kDriving;
 }
 
+const messages::HazardReport* ReportOf(const std::unique_ptr<SeenLook>& seen) {
+  return seen && seen->percept.report ? &*seen->percept.report : nullptr;
+}
+
+const messages::PointCloud* CloudOf(const std::unique_ptr<SeenLook>& seen) {
+  return seen && seen->percept.cloud ? &*seen->percept.cloud : nullptr;
+}
+
 }  // namespace
 
 Drive::Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
@@ -48,28 +56,34 @@ DriveResult Drive::Run() {
 
 std::optional<Verdict> Drive::Tick() {
   TrackGoal();
+  if (!seen_) seen_ = parts_.timeline.TakeReady();
   const std::size_t reached = parts_.navigator.reached();
   const navigation::NavigatorDecision decision =
       parts_.navigator.Decide({.time_s = parts_.ledger.time_s(),
                                .estimate = parts_.estimate().pose,
                                .attitude = parts_.estimate().attitude,
-                               .report = percept_.report ? &*percept_.report : nullptr,
-                               .cloud = percept_.cloud ? &*percept_.cloud : nullptr,
+                               .report = ReportOf(seen_),
+                               .cloud = CloudOf(seen_),
+                               .look = seen_ ? &seen_->moment : nullptr,
                                .vehicle_hazard = parts_.guard.hazard(),
                                .touches_behind = parts_.guard.touches_behind(),
                                .notices_stuck = notices_stuck_});
   if (parts_.navigator.reached() != reached) OnWaypoints(reached);
-  if (!decision.looks()) ShowStep();
-  percept_ = {};
+  if (!decision.stops_to_look()) ShowStep();
+  seen_.reset();
   if (decision.status != navigation::NavigatorStatus::kDriving) {
     return parts_.referee.OnNavigatorStop(decision.status, parts_.state(), parts_.ledger.time_s());
   }
-  if (decision.look) return Look(*decision.look);
+  if (decision.look) {
+    if (!LooksOnTheMove(decision)) return Look(*decision.look);
+    if (auto verdict = LookOnTheMove(*decision.look)) return verdict;
+  }
   if (observer_.OnMotion(decision.motion)) SpendOverhead();
   return Follow(decision.motion);
 }
 
 std::optional<Verdict> Drive::Follow(const messages::MotionCommand& told) {
+  if (const auto rest = parts_.timeline.MustRest()) return RestFor(*rest);
   const messages::MotionCommand motion =
       parts_.follower.Follow(told, parts_.estimate().pose.distance_m, parts_.tick.duration_s);
   if (motion.kind != MotionKind::kStop) return Move(motion, parts_.tick);
@@ -77,12 +91,18 @@ std::optional<Verdict> Drive::Follow(const messages::MotionCommand& told) {
   return AskReferee(Activity::kOverhead, 0, parts_.tick.duration_s);
 }
 
+bool Drive::LooksOnTheMove(const navigation::NavigatorDecision& decision) const {
+  const OverlapParams& overlap = parts_.params.clock.overlap;
+  return decision.looks_on_the_move && parts_.terrain_sensing.LooksOnTheMove() &&
+         (overlap.imaging || overlap.computing);
+}
+
 void Drive::ShowStep() {
   const messages::NavigationView* view = parts_.navigator.view();
-  if (!percept_.cloud || view == nullptr) return;
+  if (CloudOf(seen_) == nullptr || view == nullptr) return;
   if (step_watcher_) {
-    step_watcher_({parts_.params, parts_.field.terrain, parts_.state().X_WR, parts_.key, *view,
-                   *percept_.cloud});
+    step_watcher_({parts_.params, parts_.field.terrain, seen_->X_WR, parts_.key, *view,
+                   *seen_->percept.cloud});
   }
   tracer_.Votes(*view);
 }
@@ -113,25 +133,59 @@ void Drive::OnWaypoints(std::size_t first) {
 }
 
 std::optional<Verdict> Drive::Look(messages::LookDirection direction) {
+  // The new look is from nearer by.
+  parts_.timeline.Drop();
   observer_.OnLook();
   if (auto verdict = Move({}, parts_.stop)) return verdict;
   parts_.terrain_sensing.Begin();
   do {
-    percept_ = parts_.terrain_sensing.Look(direction, parts_.field.terrain, parts_.state().X_WR,
-                                           parts_.estimate().attitude);
-    Rest(Activity::kScanning, percept_.time.scanning_s);
-    Rest(Activity::kImaging, percept_.time.imaging_s);
-    Rest(Activity::kComputing, percept_.time.computing_s);
-    UpdateEstimateAtRest(percept_.time.total_s());
-  } while (percept_.look_again);
-  tracer_.Look(direction, percept_);
-  const bool believed = percept_.report && percept_.report->any();
-  observer_.OnReport(believed);
-  return AskReferee(Activity::kScanning, 0, percept_.time.total_s());
+    seen_ = See(direction);
+    const LookTime& time = seen_->percept.time;
+    Rest(Activity::kScanning, time.scanning_s);
+    Rest(Activity::kImaging, time.imaging_s);
+    Rest(Activity::kComputing, time.computing_s);
+    UpdateEstimateAtRest(time.total_s());
+  } while (seen_->percept.look_again);
+  tracer_.Look(direction, seen_->percept);
+  const messages::HazardReport* report = ReportOf(seen_);
+  observer_.OnReport(report != nullptr && report->any(), seen_->X_WR);
+  return AskReferee(Activity::kScanning, 0, seen_->percept.time.total_s());
+}
+
+std::optional<Verdict> Drive::LookOnTheMove(messages::LookDirection direction) {
+  if (!parts_.timeline.TakesLook()) return std::nullopt;
+  if (rolling_ && !parts_.params.clock.overlap.imaging) {
+    if (auto verdict = Move({}, parts_.stop)) return verdict;
+  }
+  parts_.terrain_sensing.Begin();
+  std::unique_ptr<SeenLook> seen = See(direction);
+  tracer_.Look(direction, seen->percept);
+  observer_.OnReport(false, seen->X_WR);  // points are no report
+  parts_.timeline.Begin(std::move(seen));
+  return std::nullopt;
+}
+
+std::unique_ptr<SeenLook> Drive::See(messages::LookDirection direction) {
+  const messages::LocalizationEstimate& believed = parts_.estimate();
+  const std::int64_t number = parts_.terrain_sensing.looks();
+  auto seen = std::make_unique<SeenLook>();
+  seen->percept = parts_.terrain_sensing.Look(direction, parts_.field.terrain,
+                                              parts_.state().X_WR, believed.attitude);
+  seen->moment = {number, parts_.ledger.time_s(), believed.pose, believed.odometry,
+                  believed.attitude};
+  seen->X_WR = parts_.state().X_WR;
+  return seen;
+}
+
+std::optional<Verdict> Drive::RestFor(const Timeline::Rest& rest) {
+  if (rolling_) Move({}, parts_.stop);
+  Rest(rest.activity, rest.duration_s);
+  UpdateEstimateAtRest(rest.duration_s);
+  return AskReferee(rest.activity, 0, rest.duration_s);
 }
 
 void Drive::Rest(Activity activity, double duration_s) {
-  parts_.ledger.Spend(activity, duration_s);
+  parts_.timeline.Pass(activity, duration_s);
   if (duration_s > 0.0) tracer_.Rest(activity);
 }
 
@@ -156,7 +210,10 @@ std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const 
   observer_.OnWheels(moving);
   ApplyCommand(command, stretch.steps);
   const messages::MotionMeasurement measured = UpdateEstimate(stretch.duration_s, moving);
-  parts_.ledger.Spend(activity, stretch.duration_s);
+  parts_.timeline.Pass(activity, stretch.duration_s);
+  if (moving && parts_.params.clock.overlap.steering) {
+    parts_.ledger.SpendBeside(Activity::kSteering, parts_.wheel_driver.steered_s());
+  }
   for (const auto& hazard : parts_.guard.Feel(parts_.state(), command, measured)) {
     tracer_.Event("felt", Describe(hazard));
   }
@@ -214,6 +271,8 @@ void Drive::ReflectAtMirrorLine(int direction) {
       parts_.mirror->Reflect(math::ToPose2(parts_.state().X_WR), direction, before);
   if (!reflection) return;
   has_rolled_ = false;
+  // What it saw lay around a rover that stood elsewhere.
+  parts_.timeline.Drop();
   observer_.OnReflection();
   tracer_.Event("reflection", "");
   parts_.rover->Place(reflection->pose);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "core/random.h"
@@ -12,15 +13,17 @@
 #include "trial/drive_tracer.h"
 #include "trial/referee.h"
 #include "trial/run_trial.h"
+#include "trial/seen_look.h"
 #include "trial/step_watcher.h"
 #include "trial/stretch.h"
-#include "trial/terrain_sensing.h"
+#include "trial/timeline.h"
 
 namespace rockyard::trial {
 
 // One drive from the start to its end. Every control tick the navigator decides from what is
 // measured; the drive applies wheel commands for a few physics steps, hands the measurements to the
-// localizer, and shows the truth to the monitor and the referee.
+// localizer, and shows the truth to the monitor and the referee. Looks may be under way meanwhile
+// (timeline.h).
 class Drive {
  public:
   Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
@@ -34,7 +37,14 @@ class Drive {
   void TrackGoal();
   // The navigator has gone on from its goal number `first`, and perhaps from more.
   void OnWaypoints(std::size_t first);
+  // Whether the rover goes on meanwhile.
+  bool LooksOnTheMove(const navigation::NavigatorDecision& decision) const;
+  // Stops and looks.
   std::optional<Verdict> Look(messages::LookDirection direction);
+  // Looks and goes on: a later tick delivers what was seen. Nothing happens where the cameras are
+  // not free.
+  std::optional<Verdict> LookOnTheMove(messages::LookDirection direction);
+  std::unique_ptr<SeenLook> See(messages::LookDirection direction);
   // What the navigator made of the last look.
   void ShowStep();
   // What a move takes beyond the motion of wheels.
@@ -43,6 +53,8 @@ class Drive {
   // One tick of the motion that was told. A rover that is told to stop, or whose plan is at its
   // end, waits at rest.
   std::optional<Verdict> Follow(const messages::MotionCommand& told);
+  // What cannot go on while the rover drives, it stops for.
+  std::optional<Verdict> RestFor(const Timeline::Rest& rest);
   std::optional<Verdict> Move(const messages::MotionCommand& motion, const Stretch& stretch);
 
   // Holds the command for so many physics steps.
@@ -68,7 +80,7 @@ class Drive {
   DriveTracer tracer_;
   StepWatcher step_watcher_;
 
-  Percept percept_;             // of the last tick, where it was a look
+  std::unique_ptr<SeenLook> seen_;  // to be told at the next tick
   bool notices_stuck_ = false;  // at the last tick
   bool rolling_ = false;        // in the last stretch
   // Since operators turned it: they let a rover drive before they turn it again.

@@ -12,7 +12,7 @@
 
 #include "math/angles.h"
 #include "rover/steepest_slope_params.h"
-#include "trial/terrain_sensor_kind_params.h"
+#include "trial/terrain_sensor_set_params.h"
 
 namespace rockyard::trial {
 namespace {
@@ -157,7 +157,7 @@ void RequireEndOfStall(const DriveParams& drive, core::FieldVisitor& v) {
 }  // namespace
 
 void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v) {
-  KindOf(drive.sensors.terrain_sensor).require_drive(drive, v);
+  drive.sensors.terrain_sensors.chosen().RequireDrive(drive, v);
   RequireOwnSize(drive, v);
   RequireHold(drive, v);
   RequireLevelStart(drive, v);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "rover/static_loads_params.h"
-#include "trial/terrain_sensor_kind_params.h"
+#include "trial/terrain_sensor_set_params.h"
 
 namespace rockyard::trial {
 namespace {
@@ -74,9 +74,9 @@ void RequireArrival(const DriveParams& drive, core::FieldVisitor& v) {
 }
 
 // The sensor whose conditions hold: the experiment's, or the one that the scenario chooses.
-TerrainSensor SensorInUse(const DriveParams& drive, LightStripeUse use) {
-  return use == LightStripeUse::kAlways ? TerrainSensor::kLightStripe
-                                        : drive.sensors.terrain_sensor;
+const TerrainSensorKind& SensorInUse(const DriveParams& drive, LightStripeUse use) {
+  const TerrainSensorSet& sensors = drive.sensors.terrain_sensors;
+  return use == LightStripeUse::kAlways ? sensors.Named("light_stripe") : sensors.chosen();
 }
 
 // What a behaviour controller takes for left, centre and right.
@@ -98,9 +98,9 @@ void RequireConsistency(const DriveParams& drive, LightStripeUse light_stripe,
   RequirePossible(drive, v);
   RequireStanding(drive.rover, v);
   RequireArrival(drive, v);
-  const TerrainSensorKind& sensor = KindOf(SensorInUse(drive, light_stripe));
+  const TerrainSensorKind& sensor = SensorInUse(drive, light_stripe);
   RequireStripes(drive, sensor, v);
-  sensor.require(drive, v);
+  sensor.Require(drive, v);
 }
 
 }  // namespace rockyard::trial

@@ -24,7 +24,7 @@ double WatchedHeight(const DriveParams& drive) {
 DriveObserver::DriveObserver(const DriveParts& parts)
     : parts_(parts),
       monitor_(UndersideOf(parts.params.rover.geometry), parts.field.terrain),
-      watch_(KindOf(parts.params.sensors.terrain_sensor).reported_zone(parts.params),
+      watch_(parts.params.sensors.terrain_sensors.chosen().reported_zone(parts.params),
              parts.params.rover.geometry, WatchedHeight(parts.params), parts.field.terrain) {}
 
 bool DriveObserver::OnMotion(const messages::MotionCommand& motion) {
@@ -32,9 +32,9 @@ bool DriveObserver::OnMotion(const messages::MotionCommand& motion) {
   return moves_.Observe(motion);
 }
 
-void DriveObserver::OnReport(bool hazard) {
+void DriveObserver::OnReport(bool hazard, const math::Transform& X_WR) {
   hazards_.Observe(hazard);
-  if (hazard) watch_.OnBelieved(parts_.state().X_WR);
+  if (hazard) watch_.OnBelieved(X_WR);
 }
 
 void DriveObserver::OnScrape() {

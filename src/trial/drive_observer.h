@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "math/pose.h"
 #include "messages/commands.h"
 #include "trial/drive_monitor.h"
 #include "trial/drive_parts.h"
@@ -31,7 +32,8 @@ class DriveObserver {
   bool OnMotion(const messages::MotionCommand& motion);
   // The rover stops for a look; what it believed of it.
   void OnLook() { moves_.OnLook(); }
-  void OnReport(bool hazard);
+  // `X_WR`: where the rover was when it looked.
+  void OnReport(bool hazard, const math::Transform& X_WR);
   void OnWheels(bool moving) { stops_.Observe(moving); }
   void OnScrape();
   void OnStuckNoticed() { ++stuck_noticed_; }

@@ -87,8 +87,9 @@ void DriveObserver::ReportLedger(truth::DriveRecord& record, const Stall& stall)
   record.compute_energy_wh = parts_.ledger.energy_wh(Activity::kComputing);
   record.steer_time_s = parts_.ledger.time_s(Activity::kSteering);
   record.move_overhead_time_s = parts_.ledger.time_s(Activity::kOverhead);
-  record.move_time_s =
-      record.drive_time_s + record.turn_time_s + record.steer_time_s + record.move_overhead_time_s;
+  record.move_time_s = record.drive_time_s + record.turn_time_s +
+                       parts_.ledger.time_alone_s(Activity::kSteering) +
+                       record.move_overhead_time_s;
   record.stall_time_s = stall.time_s;
   record.stall_energy_wh = stall.energy_wh;
   record.active_time_s = parts_.ledger.time_s() - parts_.ledger.time_s(Activity::kStalled);

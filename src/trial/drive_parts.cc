@@ -1,5 +1,6 @@
 #include "trial/drive_parts.h"
 
+#include <limits>
 #include <utility>
 
 #include "navigation/stuck_reaction.h"
@@ -42,6 +43,14 @@ std::unique_ptr<navigation::Navigator> MakeNavigator(const DriveParams& drive,
                                                      std::move(navigator));
 }
 
+navigation::WheelDriverParams WheelDriverOf(const DriveParams& drive) {
+  navigation::WheelDriverParams params = drive.navigation.wheel_driver;
+  if (drive.clock.overlap.steering) {
+    params.steer_while_driving_rad = std::numeric_limits<double>::infinity();
+  }
+  return params;
+}
+
 std::unique_ptr<rover::Rover> MakeTrialRover(const DriveParams& drive, terrain::Terrain& terrain) {
   const terrain::RockFieldParams& rocks = drive.terrain.rocks;
   if (rocks.mobility == terrain::RockMobility::kFixed) {
@@ -67,8 +76,9 @@ DriveParts::DriveParts(const DriveParams& drive, core::TrialKey trial_key,
       navigator(designated_goals, MakeNavigator(drive, field.terrain, designated_goals.front())),
       follower(drive.rover.drive.speed_m_s, rover->ramp_s()),
       wheel_driver(OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive),
-                   drive.navigation.wheel_driver),
+                   WheelDriverOf(drive)),
       ledger(MakePowerBudget(drive), drive.energy.battery_wh),
+      timeline(drive.clock.overlap, ledger),
       referee(drive.referee, drive.course, designated_goals.front(), Bounds(drive.terrain.arena),
               drive.rover.geometry.wheel_radius_m) {
   if (drive.terrain.arena.kind == terrain::ArenaKind::kVirtualReflected) {

@@ -23,6 +23,7 @@
 #include "trial/scan_watcher.h"
 #include "trial/stretch.h"
 #include "trial/terrain_sensing.h"
+#include "trial/timeline.h"
 #include "trial/vehicle_guard.h"
 
 namespace rockyard::trial {
@@ -64,6 +65,7 @@ struct DriveParts {
   navigation::WheelDriver wheel_driver;
 
   Ledger ledger;
+  Timeline timeline;
   Referee referee;
 };
 

@@ -19,24 +19,33 @@ class Ledger {
   Ledger(const PowerBudget& budget, double battery_wh) : budget_(budget), battery_wh_(battery_wh) {}
 
   void Spend(Activity activity, double duration_s);
+  // What goes on beside that: its own power, no time of the clock.
+  void SpendBeside(Activity activity, double duration_s);
 
   // Closed form of a stall that nobody ends: what is left in the batteries, at stall power. Spends
   // nothing. Zero where the batteries are never empty.
   Stall StallUntilEmpty() const;
 
   double time_s() const { return time_s_; }
-  double time_s(Activity activity) const {
+  // Alone and beside others: where some went on at once, all together are more than time_s().
+  double time_s(Activity activity) const { return time_alone_s(activity) + beside_s(activity); }
+  double time_alone_s(Activity activity) const {
     return by_activity_s_[static_cast<std::size_t>(activity)];
   }
   double energy_wh() const { return energy_J_ / kJoulesPerWattHour; }
   double energy_wh(Activity activity) const {
-    return budget_.Power(activity) * time_s(activity) / kJoulesPerWattHour;
+    return (budget_.Power(activity) * time_alone_s(activity) +
+            budget_.PowerBeside(activity) * beside_s(activity)) /
+           kJoulesPerWattHour;
   }
   bool empty() const { return has_end() && energy_wh() >= battery_wh_; }
 
  private:
   static constexpr double kJoulesPerWattHour = 3600.0;
 
+  double beside_s(Activity activity) const {
+    return beside_by_activity_s_[static_cast<std::size_t>(activity)];
+  }
   bool has_end() const { return battery_wh_ > 0.0; }
 
   PowerBudget budget_;
@@ -44,6 +53,7 @@ class Ledger {
   double time_s_ = 0.0;
   double energy_J_ = 0.0;
   std::array<double, kActivityCount> by_activity_s_{};
+  std::array<double, kActivityCount> beside_by_activity_s_{};
 };
 
 }  // namespace rockyard::trial

@@ -71,31 +71,47 @@ void RequireFreeView(const DriveParams& drive, core::FieldVisitor& v) {
             "emitter_height_m 0.25 do on Rocky 3.2, or ahead of it");
 }
 
+class Kind final : public TerrainSensorKind {
+ public:
+  Kind() : TerrainSensorKind("light_stripe", "light stripe hazard sensor") {}
+
+  std::unique_ptr<TerrainSensorKind> Clone() const override { return LightStripeKind(); }
+  bool has_params() const override { return false; }  // its group is sensors.light_stripe
+  void Visit(core::FieldVisitor& /*v*/) override {}
+
+  bool uses_computer() const override { return false; }
+  bool takes_image_sets() const override { return false; }
+
+  void Require(const DriveParams& drive, core::FieldVisitor& v) const override {
+    RequireFinder(drive, v);
+    RequireFreeView(drive, v);
+  }
+  void RequireDrive(const DriveParams& /*drive*/, core::FieldVisitor& /*v*/) const override {}
+
+  ReportArray report_array(const DriveParams& drive) const override {
+    const auto stripes = sensing::ArraySize(drive.sensors.light_stripe).stripes;
+    return {static_cast<std::int64_t>(stripes), "sensors.light_stripe has",
+            "name every stripe of a denser array, e.g. left [0, 1, 2, 3], centre [4], "
+            "right [5, 6, 7, 8]"};
+  }
+  Zone reported_zone(const DriveParams& drive) const override {
+    return ArrayZone(drive.sensors.light_stripe);
+  }
+  LookTime look_time(const DriveParams& drive, const ComputeTimes& /*times*/) const override {
+    return {.scanning_s = ScanTime(drive.clock, drive.sensors.light_stripe)};
+  }
+  const sensing::StereoParams* cameras(const DriveParams& /*drive*/) const override {
+    return nullptr;
+  }
+
+  std::unique_ptr<TerrainSensorModel> Make(const DriveParams& drive, core::TrialKey key,
+                                           const ScanWatcher& watcher) const override {
+    return std::make_unique<LightStripeModel>(drive, key, watcher);
+  }
+};
+
 }  // namespace
 
-TerrainSensorKind LightStripeKind() {
-  return {.require =
-              [](const DriveParams& drive, core::FieldVisitor& v) {
-                RequireFinder(drive, v);
-                RequireFreeView(drive, v);
-              },
-          .require_drive = [](const DriveParams&, core::FieldVisitor&) {},
-          .report_array = [](const DriveParams& drive) -> ReportArray {
-            const auto stripes = sensing::ArraySize(drive.sensors.light_stripe).stripes;
-            return {static_cast<std::int64_t>(stripes), "sensors.light_stripe has",
-                    "name every stripe of a denser array, e.g. left [0, 1, 2, 3], centre [4], "
-                    "right [5, 6, 7, 8]"};
-          },
-          .reported_zone =
-              [](const DriveParams& drive) { return ArrayZone(drive.sensors.light_stripe); },
-          .look_time = [](const DriveParams& drive, const ComputeTimes&) -> LookTime {
-            return {.scanning_s = ScanTime(drive.clock, drive.sensors.light_stripe)};
-          },
-          .cameras = [](const DriveParams&) -> const sensing::StereoParams* { return nullptr; },
-          .make = [](const DriveParams& drive, core::TrialKey key,
-                     const ScanWatcher& watcher) -> std::unique_ptr<TerrainSensorModel> {
-            return std::make_unique<LightStripeModel>(drive, key, watcher);
-          }};
-}
+std::unique_ptr<TerrainSensorKind> LightStripeKind() { return std::make_unique<Kind>(); }
 
 }  // namespace rockyard::trial

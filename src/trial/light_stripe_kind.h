@@ -1,10 +1,12 @@
 // Light stripes and cameras of Matthies 1995, section 6.
 #pragma once
 
-#include "trial/terrain_sensor_kind_params.h"
+#include <memory>
+
+#include "trial/terrain_sensor_set_params.h"
 
 namespace rockyard::trial {
 
-TerrainSensorKind LightStripeKind();
+std::unique_ptr<TerrainSensorKind> LightStripeKind();
 
 }  // namespace rockyard::trial

@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "trial/compute_profile.h"
-#include "trial/terrain_sensor_kind_params.h"
+#include "trial/terrain_sensor_set_params.h"
 
 namespace rockyard::trial {
 namespace {
@@ -54,19 +54,19 @@ LookTime MakeLookTime(const DriveParams& drive) {
   if (UsesNavigationSoftware(drive)) look.computing_s += times.navigation_s;
   const DecisionCost cost = CostOf(drive);
   if (const auto* own = std::get_if<CostOfLook>(&cost)) look.computing_s += own->time_s;
-  const TerrainSensorKind& sensor = KindOf(drive.sensors.terrain_sensor);
+  const TerrainSensorKind& sensor = drive.sensors.terrain_sensors.chosen();
   const LookTime sensing = sensor.look_time(drive, times);
   look.scanning_s = sensing.scanning_s;
   look.imaging_s = sensing.imaging_s;
   look.computing_s += sensing.computing_s;
-  if (sensor.uses_computer && JudgesElevations(drive)) {
+  if (sensor.uses_computer() && JudgesElevations(drive)) {
     look.computing_s += drive.clock.compute.behaviour_s;
   }
   return look;
 }
 
 double StartUpTime(const DriveParams& drive) {
-  const bool computes = KindOf(drive.sensors.terrain_sensor).uses_computer;
+  const bool computes = drive.sensors.terrain_sensors.chosen().uses_computer();
   return computes || UsesNavigationSoftware(drive) ? ComputeTimesOf(drive).start_up_s : 0.0;
 }
 

@@ -32,6 +32,19 @@ double PowerBudget::Power(Activity activity) const {
   return base_W;
 }
 
+double PowerBudget::PowerBeside(Activity activity) const {
+  switch (activity) {
+    case Activity::kSteering:
+      return steering_W;
+    case Activity::kImaging:
+      return stereo_imaging_W;
+    case Activity::kComputing:
+      return computing_W;
+    default:
+      return 0.0;
+  }
+}
+
 PowerBudget MakePowerBudget(const DriveParams& drive) {
   const EnergyParams& energy = drive.energy;
   const sensing::LightStripeParams& sensor = drive.sensors.light_stripe;

@@ -7,7 +7,8 @@
 
 namespace rockyard::trial {
 
-// One major function at a time (Matthies 1995 sec. 2.1.2).
+// One major function at a time (Matthies 1995 sec. 2.1.2), unless clock.overlap lets some go on
+// beside it.
 enum class Activity {
   kDriving,
   kTurning,
@@ -41,6 +42,8 @@ struct PowerBudget {
   // Accelerometers watch motion and are off while the rover scans: the published sum holds 0.80 W
   // of attitude sensors once.
   double Power(Activity activity) const;
+  // Of what an activity adds where it goes on beside another one; 0 where it never does.
+  double PowerBeside(Activity activity) const;
 };
 
 // The other sensors of table 1 draw their part where they are on; those that table 1 does not list

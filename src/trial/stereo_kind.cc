@@ -141,37 +141,49 @@ bool ReadsReports(const DriveParams& drive) {
          navigation::LookReading::kHazardReport;
 }
 
+class Kind final : public TerrainSensorKind {
+ public:
+  Kind() : TerrainSensorKind("stereo", "stereo cameras ahead and behind") {}
+
+  std::unique_ptr<TerrainSensorKind> Clone() const override { return StereoKind(); }
+  bool has_params() const override { return false; }  // its group is sensors.stereo
+  void Visit(core::FieldVisitor& /*v*/) override {}
+
+  bool uses_computer() const override { return true; }
+  bool takes_image_sets() const override { return true; }
+
+  void Require(const DriveParams& drive, core::FieldVisitor& v) const override {
+    RequireRoundRocks(drive, v);
+  }
+  void RequireDrive(const DriveParams& drive, core::FieldVisitor& v) const override {
+    RequireCameras(drive, v);
+    if (ReadsReports(drive)) RequireArray(drive, v);
+  }
+
+  ReportArray report_array(const DriveParams& drive) const override {
+    return {drive.perception.cloud_elevations.stripes, "perception.cloud_elevations.stripes",
+            "name every stripe of the array, from left to right"};
+  }
+  Zone reported_zone(const DriveParams& drive) const override {
+    const perception::CloudElevationParams& array = drive.perception.cloud_elevations;
+    return {0.5 * drive.rover.geometry.length_m, array.far_m, -array.half_width_m,
+            array.half_width_m};
+  }
+  LookTime look_time(const DriveParams& /*drive*/, const ComputeTimes& times) const override {
+    return {.imaging_s = times.acquisition_s, .computing_s = times.stereo_s};
+  }
+  const sensing::StereoParams* cameras(const DriveParams& drive) const override {
+    return &drive.sensors.stereo;
+  }
+
+  std::unique_ptr<TerrainSensorModel> Make(const DriveParams& drive, core::TrialKey key,
+                                           const ScanWatcher& /*watcher*/) const override {
+    return std::make_unique<StereoModel>(drive, key);
+  }
+};
+
 }  // namespace
 
-TerrainSensorKind StereoKind() {
-  return {.uses_computer = true,
-          .takes_image_sets = true,
-          .require = RequireRoundRocks,
-          .require_drive =
-              [](const DriveParams& drive, core::FieldVisitor& v) {
-                RequireCameras(drive, v);
-                if (ReadsReports(drive)) RequireArray(drive, v);
-              },
-          .report_array = [](const DriveParams& drive) -> ReportArray {
-            return {drive.perception.cloud_elevations.stripes,
-                    "perception.cloud_elevations.stripes",
-                    "name every stripe of the array, from left to right"};
-          },
-          .reported_zone = [](const DriveParams& drive) -> Zone {
-            const perception::CloudElevationParams& array = drive.perception.cloud_elevations;
-            return {0.5 * drive.rover.geometry.length_m, array.far_m, -array.half_width_m,
-                    array.half_width_m};
-          },
-          .look_time = [](const DriveParams&, const ComputeTimes& times) -> LookTime {
-            return {.imaging_s = times.acquisition_s, .computing_s = times.stereo_s};
-          },
-          .cameras = [](const DriveParams& drive) -> const sensing::StereoParams* {
-            return &drive.sensors.stereo;
-          },
-          .make = [](const DriveParams& drive, core::TrialKey key,
-                     const ScanWatcher&) -> std::unique_ptr<TerrainSensorModel> {
-            return std::make_unique<StereoModel>(drive, key);
-          }};
-}
+std::unique_ptr<TerrainSensorKind> StereoKind() { return std::make_unique<Kind>(); }
 
 }  // namespace rockyard::trial

@@ -1,10 +1,12 @@
 // Pairs of cameras of Goldberg 2002.
 #pragma once
 
-#include "trial/terrain_sensor_kind_params.h"
+#include <memory>
+
+#include "trial/terrain_sensor_set_params.h"
 
 namespace rockyard::trial {
 
-TerrainSensorKind StereoKind();
+std::unique_ptr<TerrainSensorKind> StereoKind();
 
 }  // namespace rockyard::trial

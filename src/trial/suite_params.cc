@@ -2,13 +2,8 @@
 
 namespace rockyard::trial {
 
-using core::Origin;
-
 void SensorParams::Visit(core::FieldVisitor& v) {
-  v.Choice("terrain_sensor", terrain_sensor,
-           {.doc = "what the rover looks at the terrain with; the groups of other sensors do "
-                   "nothing",
-            .origin = Origin::kSetting});
+  terrain_sensors.Visit(v);
   v.Group("light_stripe", light_stripe, "light stripe hazard sensor");
   v.Group("stereo", stereo, "stereo cameras ahead and behind");
   v.Group("sun", sun,

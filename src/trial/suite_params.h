@@ -1,9 +1,6 @@
 // What the rover carries: its sensors, what it makes of them, and its navigator.
 #pragma once
 
-#include <array>
-#include <string_view>
-
 #include "core/fields.h"
 #include "localization/attitude_params.h"
 #include "localization/dead_reckoning_params.h"
@@ -26,17 +23,12 @@
 #include "sensing/tracker_params.h"
 #include "sensing/vehicle_sensor_params.h"
 #include "trial/standard_estimators_params.h"
+#include "trial/terrain_sensor_set_params.h"
 
 namespace rockyard::trial {
 
-// What the rover looks at the terrain with.
-enum class TerrainSensor {
-  kLightStripe,  // Matthies 1995, section 6: ahead only
-  kStereo,       // Goldberg 2002: cameras at the front and at the rear
-};
-
 struct SensorParams {
-  TerrainSensor terrain_sensor = TerrainSensor::kLightStripe;
+  TerrainSensorSet terrain_sensors = StandardTerrainSensors();
   sensing::LightStripeParams light_stripe;
   sensing::StereoParams stereo;
   rendering::SunParams sun;
@@ -78,8 +70,3 @@ struct NavigationParams {
 };
 
 }  // namespace rockyard::trial
-
-template <>
-struct rockyard::core::EnumNames<rockyard::trial::TerrainSensor> {
-  static constexpr std::array<std::string_view, 2> kNames{"light_stripe", "stereo"};
-};

@@ -6,10 +6,10 @@ using messages::LookDirection;
 
 TerrainSensing::TerrainSensing(const DriveParams& drive, core::TrialKey key,
                                const ScanWatcher& watcher)
-    : kind_(KindOf(drive.sensors.terrain_sensor)),
+    : kind_(drive.sensors.terrain_sensors.chosen()),
       reads_points_(drive.navigation.navigators.chosen().traits().reads ==
                     navigation::LookReading::kPoints),
-      sensor_(kind_.make(drive, key, watcher)),
+      sensor_(kind_.Make(drive, key, watcher)),
       hazard_detector_(drive.perception.hazard),
       look_time_(MakeLookTime(drive)) {}
 

@@ -15,7 +15,7 @@
 #include "trial/drive_params.h"
 #include "trial/look_time.h"
 #include "trial/scan_watcher.h"
-#include "trial/terrain_sensor_kind_params.h"
+#include "trial/terrain_sensor_set_params.h"
 #include "trial/terrain_sensor_model.h"
 
 namespace rockyard::trial {
@@ -45,12 +45,17 @@ class TerrainSensing {
   Percept Look(messages::LookDirection direction, const terrain::Terrain& terrain,
                const math::Transform& X_WR, const messages::AttitudeEstimate& attitude);
 
+  std::int64_t looks() const { return looks_; }  // so far: the number of the next one
   // Looks are scans or sets of images, by the kind of the sensor.
-  std::int64_t scans() const { return kind_.takes_image_sets ? 0 : looks_; }
+  std::int64_t scans() const { return kind_.takes_image_sets() ? 0 : looks_; }
   std::int64_t rescans() const { return rescans_; }  // looks again at one pose, of any sensor
-  std::int64_t image_sets() const { return kind_.takes_image_sets ? looks_ : 0; }
-  std::int64_t rear_image_sets() const { return kind_.takes_image_sets ? looks_behind_ : 0; }
+  std::int64_t image_sets() const { return kind_.takes_image_sets() ? looks_ : 0; }
+  std::int64_t rear_image_sets() const { return kind_.takes_image_sets() ? looks_behind_ : 0; }
   const LookTime& look_time() const { return look_time_; }
+
+  // Whether a look can be taken from a rover on the move: images in one moment, for points. A light
+  // stripe scan takes its time, and hazards of a report may ask for a second look from one pose.
+  bool LooksOnTheMove() const { return reads_points_ && look_time_.scanning_s == 0.0; }
 
  private:
   Percept Judge(const messages::ElevationScan& elevations);

@@ -78,7 +78,7 @@ TEST(StepScene, TheCameraIsTheLeftOneOfTheFrontPair) {
 
 TEST(StepScene, ALightStripeIsNoCamera) {
   scenario::Scenario scenario = NarrowCourse();
-  scenario.drive.sensors.terrain_sensor = trial::TerrainSensor::kLightStripe;
+  scenario.drive.sensors.terrain_sensors.Choose("light_stripe");
   EXPECT_FALSE(WatchStep(scenario, 0).scene.camera);
 }
 

@@ -56,8 +56,8 @@ TEST(GestaltFilesTest, EveryFileDrivesAPublishedOrNamedPair) {
     EXPECT_EQ(scenario.drive.navigation.navigators.chosen().name(),
               behaviour ? "pathfinder" : "gestalt")
         << name;
-    EXPECT_EQ(scenario.drive.sensors.terrain_sensor,
-              light_stripe ? trial::TerrainSensor::kLightStripe : trial::TerrainSensor::kStereo)
+    EXPECT_EQ(scenario.drive.sensors.terrain_sensors.chosen().name(),
+              light_stripe ? "light_stripe" : "stereo")
         << name;
     EXPECT_EQ(scenario.drive.rover.fidelity, rover::Fidelity::kQuasiStatic) << name;
     EXPECT_EQ(scenario.drive.clock.compute.computer, trial::Computer::kR3000) << name;

@@ -702,7 +702,7 @@ END
         both = [undone for pair in zip(alone, without) for undone in pair]
         found = [tuple(setting in line for setting in self.UNDONE) for line in self.runs()]
         self.assertEqual(found, 4 * [(True,) * count, (False,) * count, *both])
-        self.assertEqual(sum("localization=oracle" in line for line in self.runs()), 16)
+        self.assertEqual(sum("localization.estimator=oracle" in line for line in self.runs()), 16)
         self.assertTrue(all("rover.fidelity=quasi_static" in line for line in self.runs()))
         # Of the two differences that are printed the second is that of true success.
         self.assertEqual(result.stdout.count("66.7 (7.7..92.3)"), 4 * (2 * count + 1))
@@ -711,7 +711,7 @@ END
     def test_dense_drives_both_readings_at_both_fidelities(self):
         result = self.run_script("gestalt_study.py", "--tables", "dense", "--seed", "9")
         self.assertEqual(result.returncode, 0, result.stderr)
-        found = [("localization=oracle" in line, "multibody" in line, "veto_felt=false" in line)
+        found = [("localization.estimator=oracle" in line, "multibody" in line, "veto_felt=false" in line)
                  for line in self.runs()]
         self.assertEqual(found, [(oracle, multibody, printed) for oracle in (False, True)
                                  for multibody in (False, True) for printed in (True, False)])

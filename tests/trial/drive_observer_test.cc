@@ -37,7 +37,7 @@ class DriveObserverTest : public testing::Test {
 
 TEST_F(DriveObserverTest, AReportOfAHazardCreditsTheRocksWithinReach) {
   GoTo(1.0);
-  observer_.OnReport(true);
+  observer_.OnReport(true, parts_.state().X_WR);
   GoTo(1.6);
   EXPECT_EQ(Report().hazards_met, 1.0);
   EXPECT_EQ(Report().hazards_missed, 0.0);
@@ -46,11 +46,21 @@ TEST_F(DriveObserverTest, AReportOfAHazardCreditsTheRocksWithinReach) {
 
 TEST_F(DriveObserverTest, AReportWithoutOneCreditsNone) {
   GoTo(1.0);
-  observer_.OnReport(false);
+  observer_.OnReport(false, parts_.state().X_WR);
   GoTo(1.6);
   EXPECT_EQ(Report().hazards_met, 1.0);
   EXPECT_EQ(Report().hazards_missed, 1.0);
   EXPECT_EQ(Report().hazards_believed, 0.0);
+}
+
+// Data that arrive late are of the place where they were taken.
+TEST_F(DriveObserverTest, AReportCreditsWhatWasInReachWhereItWasTaken) {
+  GoTo(0.0);
+  const math::Transform far_away = parts_.state().X_WR;
+  GoTo(1.0);
+  observer_.OnReport(true, far_away);
+  GoTo(1.6);
+  EXPECT_EQ(Report().hazards_missed, 1.0);
 }
 
 TEST_F(DriveObserverTest, TheFirstScrapeIsWhereItWas) {

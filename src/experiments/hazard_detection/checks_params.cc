@@ -86,7 +86,7 @@ void RequireMeasurable(const HazardDetectionParams& study, const trial::DrivePar
                        core::FieldVisitor& v) {
   const sensing::LightStripeParams& sensor = drive.sensors.light_stripe;
   v.Require("sensors.terrain_sensor",
-            drive.sensors.terrain_sensor == trial::TerrainSensor::kLightStripe,
+            drive.sensors.terrain_sensors.chosen().name() == "light_stripe",
             "is not light_stripe, the sensor that the experiment hazard_detection measures",
             "use light_stripe");
   const terrain::GroundParams& ground = drive.terrain.ground;

@@ -1,0 +1,16 @@
+// A look at the terrain on its way to the navigator.
+#pragma once
+
+#include "math/pose.h"
+#include "messages/look.h"
+#include "trial/terrain_sensing.h"
+
+namespace rockyard::trial {
+
+struct SeenLook {
+  Percept percept;
+  messages::LookMoment moment;
+  math::Transform X_WR = math::Transform::Identity();  // where the rover truly was
+};
+
+}  // namespace rockyard::trial

@@ -1,0 +1,14 @@
+#include "trial/light_stripe_kind.h"
+#include "trial/stereo_kind.h"
+#include "trial/terrain_sensor_set_params.h"
+
+namespace rockyard::trial {
+
+TerrainSensorSet StandardTerrainSensors() {
+  TerrainSensorSet set;
+  set.Add(LightStripeKind());
+  set.Add(StereoKind());
+  return set;
+}
+
+}  // namespace rockyard::trial

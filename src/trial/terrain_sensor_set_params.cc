@@ -1,0 +1,23 @@
+#include "trial/terrain_sensor_set_params.h"
+
+#include <array>
+
+namespace rockyard::trial {
+namespace {
+
+// The groups of light_stripe and stereo are of those kinds.
+constexpr std::array<std::string_view, 5> kOtherGroups{"sun", "gyro", "encoders", "tracker",
+                                                       "vehicle"};
+
+}  // namespace
+
+TerrainSensorSet::TerrainSensorSet()
+    : KindSet({.group = "sensors",
+               .key = "terrain_sensor",
+               .one = "a terrain sensor",
+               .others = kOtherGroups,
+               .choice = {.doc = "what the rover looks at the terrain with; the groups of other "
+                                 "sensors do nothing",
+                          .origin = core::Origin::kSetting}}) {}
+
+}  // namespace rockyard::trial

@@ -1,0 +1,274 @@
+// A navigator that steers at every tick while images are taken and computed: what happens when, what
+// it costs and where data were taken, against times that were worked out by hand.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "math/angles.h"
+#include "messages/look.h"
+#include "navigation/navigator.h"
+#include "trial/gestalt_trials.h"
+#include "trial/onboard_calibration.h"
+#include "trial/toy_terrain_sensor.h"
+
+namespace rockyard::trial {
+namespace {
+
+using messages::MotionCommand;
+using messages::MotionKind;
+
+constexpr double kTick_s = 0.05;
+constexpr double kCurvature_per_m = 0.1;
+
+struct WeaverParams {
+  double drive_s = 2.0;  // then it gives up
+  bool numbers_its_moves = true;
+  double pause_s = 0.0;  // after a look was delivered, before it asks for the next one
+  // Drives only so far beyond the pose of the last look that was delivered.
+  double judged_m = std::numeric_limits<double>::infinity();
+  struct Delivery {
+    double time_s = 0.0;
+    messages::LookMoment look;
+  };
+  struct Seen {
+    std::vector<Delivery> deliveries;
+    std::vector<double> ends_m;  // of its plans, at each tick
+    std::vector<double> odometer_m;
+  };
+  std::shared_ptr<Seen> seen = std::make_shared<Seen>();
+
+  void Visit(core::FieldVisitor&) {}
+};
+
+// Curvature 0 and kCurvature by turns, a new look whenever the cameras are free.
+class Weaver final : public navigation::Navigator {
+ public:
+  // With a limit to what was judged, nothing has been at the start.
+  explicit Weaver(const WeaverParams& params)
+      : params_(params), end_m_(std::isinf(params.judged_m) ? params.judged_m : 0.0) {}
+
+  navigation::NavigatorDecision Decide(const navigation::NavigatorInput& input) override {
+    WeaverParams::Seen& seen = *params_.seen;
+    if (input.cloud != nullptr) {
+      seen.deliveries.push_back({input.time_s, *input.look});
+      asks_s_ = input.time_s + params_.pause_s;
+      end_m_ = input.look->odometry.distance_m + params_.judged_m;
+    }
+    seen.ends_m.push_back(end_m_);
+    seen.odometer_m.push_back(input.estimate.distance_m);
+    if (input.time_s > params_.drive_s - 0.5 * kTick_s) {
+      return {.status = navigation::NavigatorStatus::kGaveUp};
+    }
+    MotionCommand motion{.kind = MotionKind::kArc};
+    motion.curvature_per_m = turns_ ? kCurvature_per_m : 0.0;
+    motion.end_m = end_m_;
+    motion.move = params_.numbers_its_moves ? 1 : 0;
+    turns_ = !turns_;
+    if (input.time_s < asks_s_) return {.motion = motion};
+    return {.look = messages::LookDirection::kAhead, .motion = motion, .looks_on_the_move = true};
+  }
+  void OnPoseUpdate(const messages::PoseEstimate&, const messages::PoseEstimate&) override {}
+  void SetGoal(const messages::Goal&, navigation::GoalChange) override {}
+
+ private:
+  WeaverParams params_;
+  bool turns_ = false;
+  double asks_s_ = 0.0;
+  double end_m_;
+};
+
+DriveParams WeaverDrive(const WeaverParams& weaver, const ToySensorParams& sensor,
+                        const Overrides& overrides) {
+  scenario::Scenario defaults = WithToySensor(sensor);
+  defaults.drive.navigation.navigators.Add<WeaverParams>(
+      {.name = "weaver",
+       .doc = "steers at each tick",
+       .traits = [](const WeaverParams&) -> navigation::NavigatorTraits {
+         return {navigation::LookReading::kPoints, navigation::CostOfLook{}, {}};
+       },
+       .make = [](const WeaverParams& p, const navigation::NavigatorSetup&)
+           -> std::unique_ptr<navigation::Navigator> { return std::make_unique<Weaver>(p); }},
+      weaver);
+  const Overrides all = {"navigation.navigator=weaver",
+                         "sensors.terrain_sensor=toy",
+                         "rover.fidelity=quasi_static",
+                         "terrain.rocks.kind=none",
+                         "terrain.arena.kind=open",
+                         "localization.estimator=oracle",
+                         "clock.control_rate_hz=20",
+                         "energy.computing_W=1.5"};
+  const std::string file = std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/nominal.json";
+  return scenario::LoadScenario(file, all + overrides, defaults).drive;
+}
+
+const Overrides kOverlap = {"clock.overlap.imaging=true", "clock.overlap.computing=true",
+                            "clock.overlap.steering=true"};
+
+// Images take 0.12 s, computing 0.2 s, a tick 0.05 s. Cameras and computer:
+//   look 0: images from 0 s, computed from 0.12 to 0.32 s, told at 0.35 s;
+//   look 1: images from 0.15 s (the first tick after 0.12), computed from 0.32 to 0.52 s, told at
+//           0.55 s;
+//   look n from 2 on: images from 0.35 + 0.2 (n - 2) s, when the computer has taken those before;
+//           computed from 0.12 + 0.2 n on, told at 0.35 + 0.2 n.
+TEST(OverlapDrive, LooksArriveWhenTheyAreReadyAndSayWhereTheyWereTaken) {
+  const WeaverParams weaver;
+  const ToySensorParams sensor;
+  const TracedTrial trial = RunTraced(WeaverDrive(weaver, sensor, kOverlap), 0);
+  const auto& deliveries = weaver.seen->deliveries;
+  ASSERT_EQ(deliveries.size(), 9U);  // 0.35 + 0.2 n < 2
+  for (std::size_t n = 0; n < deliveries.size(); ++n) {
+    const auto& [time_s, look] = deliveries[n];
+    const auto number = static_cast<double>(n);
+    EXPECT_EQ(look.number, static_cast<std::int64_t>(n));
+    EXPECT_NEAR(time_s, 0.35 + 0.2 * number, 1e-9);
+    const double taken_s = n == 0 ? 0.0 : n == 1 ? 0.15 : 0.35 + 0.2 * (number - 2.0);
+    EXPECT_NEAR(look.time_s, taken_s, 1e-9);
+    // The oracle believes the truth: the pose of the moment is the one that the sensor saw from,
+    // and the trace's of that tick.
+    const math::Pose2 truly = math::ToPose2(sensor.poses->at(n));
+    EXPECT_EQ(look.estimate.x_m, truly.x_m);
+    EXPECT_EQ(look.estimate.y_m, truly.y_m);
+    EXPECT_EQ(look.odometry.x_m, truly.x_m);
+    if (n == 0) continue;
+    const auto tick = static_cast<std::size_t>(std::lround(taken_s / kTick_s));
+    EXPECT_EQ(trial.trace.samples.at(tick - 1).pose.x_m, truly.x_m);
+    // 0.15 m/s: the rover has driven on since, some centimetres less slip and the motors' ramp.
+    const auto told = static_cast<std::size_t>(std::lround(time_s / kTick_s));
+    const double way_m = trial.trace.samples.at(told - 1).pose.x_m - truly.x_m;
+    EXPECT_GT(way_m, 0.8 * 0.15 * (time_s - taken_s)) << n;
+    EXPECT_LT(way_m, 0.15 * (time_s - taken_s)) << n;
+  }
+}
+
+// Until 2 s: the rover drives all the time. The computer is at work from 0.12 s on; eleven looks
+// begin (0, 0.15, then 0.35 to 1.95 s), the last one's images for 0.05 s. At each tick but the first
+// the corner wheels turn by the Ackermann angle of the innermost one, atan(c x / (1 - c |y|)), at 60
+// deg/s.
+TEST(OverlapDrive, TimeEnergyAndMovesAreThoseOfWhatWentOn) {
+  WeaverParams weaver;
+  const DriveParams drive = WeaverDrive(weaver, {}, kOverlap);
+  const truth::DriveRecord record = RunTrial(drive, {1, 0}).record;
+  EXPECT_NEAR(record.sim_time_s, 2.0, 1e-9);
+  EXPECT_NEAR(record.drive_time_s, 2.0, 1e-9);
+  EXPECT_NEAR(record.compute_time_s, 2.0 - 0.12, 1e-9);
+  EXPECT_NEAR(record.imaging_time_s, 10 * 0.12 + 0.05, 1e-9);
+  EXPECT_EQ(record.image_sets, 11.0);
+  EXPECT_EQ(record.moves, 1.0);
+  EXPECT_EQ(record.stops, 1.0);  // the end
+
+  const messages::DriveCalibration wheels =
+      OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive);
+  double angle_rad = 0.0;
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    if (!wheels.steered[i]) continue;
+    angle_rad = std::max(angle_rad, std::atan2(kCurvature_per_m * std::abs(wheels.wheel_x_m[i]),
+                                               1.0 - kCurvature_per_m * wheels.wheel_y_m[i]));
+  }
+  const double steer_s = 39 * angle_rad / math::DegToRad(60.0);
+  EXPECT_GT(steer_s, 0.1);
+  EXPECT_NEAR(record.steer_time_s, steer_s, 1e-9);
+  EXPECT_NEAR(record.move_time_s, 2.0, 1e-9);  // what is steered on the move takes no time of it
+  const double driving_J = 2.0 * (3.77 + 0.80 + 8.28);
+  const double imaging_J = record.imaging_time_s * 0.75;
+  const double computing_J = record.compute_time_s * 1.5;
+  EXPECT_NEAR(3600.0 * record.imaging_energy_wh, imaging_J, 1e-9);
+  EXPECT_NEAR(3600.0 * record.compute_energy_wh, computing_J, 1e-9);
+  EXPECT_NEAR(3600.0 * record.energy_wh, driving_J + imaging_J + computing_J + steer_s * 6.70,
+              1e-9);
+
+  weaver.numbers_its_moves = false;
+  EXPECT_EQ(RunTrial(WeaverDrive(weaver, {}, kOverlap), {1, 0}).record.moves, 40.0);
+}
+
+// What the scenario lets overlap does, and nothing else: times that do not overlap add up. The next
+// look is asked for when the rover has driven on for a while.
+TEST(OverlapDrive, WhatMayNotOverlapDoesNot) {
+  for (const bool imaging : {false, true}) {
+    for (const bool computing : {false, true}) {
+      const auto text = [](bool value) { return std::string(value ? "true" : "false"); };
+      WeaverParams weaver;
+      weaver.drive_s = 4.0;
+      weaver.pause_s = 0.3;
+      const TracedTrial trial = RunTraced(
+          WeaverDrive(weaver, {},
+                      {"clock.overlap.imaging=" + text(imaging),
+                       "clock.overlap.computing=" + text(computing)}),
+          0);
+      const truth::DriveRecord& record = trial.result.record;
+      const std::string which = text(imaging) + " " + text(computing);
+      EXPECT_GT(record.imaging_time_s, 0.3) << which;
+      EXPECT_GT(record.compute_time_s, 0.5) << which;
+      double alone_s = record.drive_time_s;
+      if (!imaging) alone_s += record.imaging_time_s;
+      if (!computing) alone_s += record.compute_time_s;
+      EXPECT_NEAR(record.sim_time_s, alone_s, 1e-9) << which;
+      // It comes to rest for each stage that may not overlap.
+      const bool stops = !imaging || !computing;
+      EXPECT_EQ(record.stops > 3.0, stops) << which << " " << record.stops;
+      EXPECT_GT(weaver.seen->deliveries.size(), 3U) << which;
+    }
+  }
+}
+
+// Without overlap.steering the rover stands to steer by more than the wheel driver allows.
+TEST(OverlapDrive, SteersAtRestWhereItMayNotSteerOnTheMove) {
+  const Overrides never = {"navigation.wheel_driver.steer_while_driving_deg=0"};
+  const WeaverParams weaver{.pause_s = 0.3};
+  const auto standing = RunTrial(WeaverDrive(weaver, {}, never), {1, 0}).record;
+  const auto rolling =
+      RunTrial(WeaverDrive(weaver, {}, never + Overrides{"clock.overlap.steering=true"}), {1, 0})
+          .record;
+  EXPECT_GT(standing.steer_time_s, 0.0);
+  EXPECT_GT(rolling.steer_time_s, 0.0);
+  EXPECT_NEAR(standing.sim_time_s,
+              standing.drive_time_s + standing.steer_time_s + standing.imaging_time_s +
+                  standing.compute_time_s,
+              1e-9);
+  EXPECT_NEAR(rolling.sim_time_s,
+              rolling.drive_time_s + rolling.imaging_time_s + rolling.compute_time_s, 1e-9);
+}
+
+// 10 cm beyond the pose of each look are judged. With images that take 1.5 s to compute the rover
+// is at their end before it hears of the next: it stops in time, waits, and goes on.
+TEST(OverlapDrive, APlanThatIsLateStopsTheRoverInTime) {
+  WeaverParams weaver;
+  weaver.drive_s = 20.0;
+  weaver.judged_m = 0.1;
+  ToySensorParams slow;
+  slow.computing_s = 1.5;
+  const auto late = RunTrial(WeaverDrive(weaver, slow, kOverlap), {1, 0}).record;
+  const WeaverParams::Seen& seen = *weaver.seen;
+  EXPECT_GT(seen.deliveries.size(), 8U);
+  for (std::size_t tick = 0; tick < seen.odometer_m.size(); ++tick) {
+    EXPECT_LE(seen.odometer_m[tick], seen.ends_m[tick] + 1e-9) << tick;
+  }
+  EXPECT_GT(late.stops, 4.0);
+  EXPECT_GT(late.move_overhead_time_s, 5.0);  // waiting
+  EXPECT_GT(late.true_distance_m, 0.3);
+  // The control: computed in time, it never stops.
+  WeaverParams ahead;
+  ahead.judged_m = 0.1;
+  const auto in_time = RunTrial(WeaverDrive(ahead, {}, kOverlap), {1, 0}).record;
+  EXPECT_EQ(in_time.stops, 1.0);  // the end
+  EXPECT_EQ(in_time.moves, 1.0);
+}
+
+// Navigators that stop to look do so whatever could overlap.
+TEST(OverlapDrive, NavigatorsThatStopToLookKeepTheirBits) {
+  const Overrides overlap = {"clock.overlap.imaging=true", "clock.overlap.computing=true"};
+  const Overrides computer = {"clock.compute.computer=pentium_3_500mhz"};
+  EXPECT_EQ(Differences(RunTrial(Gestalt("abundance", computer), {1, 3}),
+                        RunTrial(Gestalt("abundance", computer + overlap), {1, 3})),
+            std::vector<std::string>{});
+  EXPECT_EQ(Differences(RunTrial(Pathfinder("nominal"), {1, 3}),
+                        RunTrial(Pathfinder("nominal", overlap), {1, 3})),
+            std::vector<std::string>{});
+}
+
+}  // namespace
+}  // namespace rockyard::trial
