@@ -28,10 +28,10 @@ std::vector<Problem> CellDifferences(const CellIdentity& stored, const CellIdent
     problems = ScenarioDifferences(stored.resolved, wanted.resolved, kPathsShown, words);
     // The checksums of its rows go by the fingerprint, which goes by the keys.
     if (problems.empty()) {
-      problems.push_back({"scenario",
-                          fmt::format("has keys {} that have another name {}", words.first,
-                                      words.second),
-                          "go on with the version of the program that began it"});
+      problems.push_back(
+          {"scenario",
+           fmt::format("has keys {} that have another name {}", words.first, words.second),
+           "go on with the version of the program that began it"});
     }
   }
   const auto has_seed = [](const Problem& problem) { return problem.path == "seed"; };

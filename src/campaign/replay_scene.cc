@@ -49,18 +49,17 @@ messages::Goal DesignatedGoal(const truth::TracedTrial& traced) {
 replay::ReplayCourse CourseOf(const scenario::Scenario& scenario, const truth::TracedTrial& traced,
                               const terrain::Terrain& terrain, const terrain::Rectangle& bounds) {
   const trial::CourseParams& course = scenario.drive.course;
-  replay::ReplayCourse shown{
-      .start = course.Start(),
-      .goal = traced.goal,
-      .goal_radius_m = course.goal_radius_m,
-      .told_goal = DesignatedGoal(traced),
-      .waypoints = course.waypoints.Places(),
-      .x_min_m = bounds.x_min_m,
-      .x_max_m = bounds.x_max_m,
-      .y_min_m = bounds.y_min_m,
-      .y_max_m = bounds.y_max_m,
-      .walls = {},
-      .mirror_lines_m = {}};
+  replay::ReplayCourse shown{.start = course.Start(),
+                             .goal = traced.goal,
+                             .goal_radius_m = course.goal_radius_m,
+                             .told_goal = DesignatedGoal(traced),
+                             .waypoints = course.waypoints.Places(),
+                             .x_min_m = bounds.x_min_m,
+                             .x_max_m = bounds.x_max_m,
+                             .y_min_m = bounds.y_min_m,
+                             .y_max_m = bounds.y_max_m,
+                             .walls = {},
+                             .mirror_lines_m = {}};
   for (const terrain::Wall& wall : terrain.walls()) {
     shown.walls.push_back({wall.normal_W, wall.offset_m});
   }

@@ -37,19 +37,18 @@ report::SceneRock SceneRockOf(const terrain::Rock& rock, const terrain::Ground& 
 report::StepScene SceneOf(const trial::WatchedStep& watched, const truth::Trace& trace) {
   const trial::DriveParams& drive = watched.drive;
   const trial::CourseParams& course = drive.course;
-  report::StepScene scene{
-      .X_WR = watched.X_WR,
-      .believed = course.Start(),
-      .rover_length_m = drive.rover.geometry.length_m,
-      .rover_width_m = drive.rover.geometry.width_m,
-      .start = course.Start(),
-      .waypoints = course.waypoints.Places(),
-      .goal = course.GoalAt(trace.now_s()),
-      .goal_radius_m = course.goal_radius_m,
-      .rocks = {},
-      .true_path = report::TruePath(trace),
-      .believed_path = report::BelievedPath(trace),
-      .camera = {}};
+  report::StepScene scene{.X_WR = watched.X_WR,
+                          .believed = course.Start(),
+                          .rover_length_m = drive.rover.geometry.length_m,
+                          .rover_width_m = drive.rover.geometry.width_m,
+                          .start = course.Start(),
+                          .waypoints = course.waypoints.Places(),
+                          .goal = course.GoalAt(trace.now_s()),
+                          .goal_radius_m = course.goal_radius_m,
+                          .rocks = {},
+                          .true_path = report::TruePath(trace),
+                          .believed_path = report::BelievedPath(trace),
+                          .camera = {}};
   // The rover rests while it looks and decides.
   if (!trace.rests.empty()) scene.believed = report::BelievedPose(trace.rests.back().sample);
   for (const terrain::Rock& rock : watched.terrain.rocks()) {

@@ -15,10 +15,10 @@
 
 #include <optional>
 
+#include "localization/attitude_params.h"
 #include "math/pose.h"
 #include "messages/estimates.h"
 #include "messages/vehicle_state.h"
-#include "localization/attitude_params.h"
 
 namespace rockyard::localization {
 

@@ -1,8 +1,7 @@
 #include "localization/cloned_covariance.h"
 
-#include <algorithm>
-
 #include <Eigen/Cholesky>
+#include <algorithm>
 
 #include "core/check.h"
 

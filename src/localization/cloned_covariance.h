@@ -15,12 +15,11 @@
 // O(n^3 + n^2 c n), an update of m values O((n (1 + c))^2 m).
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
-
-#include <Eigen/Core>
 
 namespace rockyard::localization {
 

@@ -5,11 +5,11 @@
 // rover turns in place the increments of left and right wheels cancel in the mean.
 #pragma once
 
+#include "localization/dead_reckoning_params.h"
 #include "math/pose.h"
 #include "messages/calibration.h"
 #include "messages/estimates.h"
 #include "messages/measurements.h"
-#include "localization/dead_reckoning_params.h"
 
 namespace rockyard::localization {
 

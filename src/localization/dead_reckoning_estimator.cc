@@ -35,12 +35,12 @@ void DeadReckoningEstimator::TakePose() {
 }
 
 EstimatorDescription<core::NoParams> DescribeDeadReckoning() {
-  return {.name = "dead_reckoning",
-          .doc = "wheels, gyro and accelerometers",
-          .make = [](const core::NoParams&,
-                     const EstimatorSetup& setup) -> std::unique_ptr<Estimator> {
-            return std::make_unique<DeadReckoningEstimator>(setup);
-          }};
+  return {
+      .name = "dead_reckoning",
+      .doc = "wheels, gyro and accelerometers",
+      .make = [](const core::NoParams&, const EstimatorSetup& setup) -> std::unique_ptr<Estimator> {
+        return std::make_unique<DeadReckoningEstimator>(setup);
+      }};
 }
 
 }  // namespace rockyard::localization

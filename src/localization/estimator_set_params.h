@@ -29,8 +29,9 @@ struct EstimatorSetup {
 // without parameters takes core::NoParams.
 template <typename Params>
 struct EstimatorDescription {
-  std::string_view name;  // in localization.estimator, and of the group of its parameters; a literal
-  std::string_view doc;   // of that group; a literal
+  std::string_view
+      name;              // in localization.estimator, and of the group of its parameters; a literal
+  std::string_view doc;  // of that group; a literal
   std::unique_ptr<Estimator> (*make)(const Params&, const EstimatorSetup&) = nullptr;
 };
 

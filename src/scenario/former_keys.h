@@ -17,7 +17,8 @@ std::string_view CurrentPath(std::string_view path);
 // there with different values.
 void RenameFormerKeys(core::JsonValue& document);
 
-// Applies "PATH=VALUE" to a document, either of which may have former keys; what is assigned counts.
+// Applies "PATH=VALUE" to a document, either of which may have former keys; what is assigned
+// counts.
 void Override(core::JsonValue& document, std::string_view assignment);
 
 }  // namespace rockyard::scenario

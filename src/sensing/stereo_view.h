@@ -13,8 +13,9 @@ namespace rockyard::sensing {
 // the upper left one, looks along
 //   e(column, row) = first + column along_row + row along_column,
 // the pinhole of vision/lens.h with the principal point in the middle of the image, scaled so that
-// its part along the optical axis is 1: eye + Z e is the point at depth Z. The right eye has parallel
-// axes and the baseline b along its rows: the same point appears f b / Z columns further left there.
+// its part along the optical axis is 1: eye + Z e is the point at depth Z. The right eye has
+// parallel axes and the baseline b along its rows: the same point appears f b / Z columns further
+// left there.
 struct StereoView {
   int columns = 0;
   int rows = 0;

@@ -169,8 +169,8 @@ std::unique_ptr<SeenLook> Drive::See(messages::LookDirection direction) {
   const messages::LocalizationEstimate& believed = parts_.estimate();
   const std::int64_t number = parts_.terrain_sensing.looks();
   auto seen = std::make_unique<SeenLook>();
-  seen->percept = parts_.terrain_sensing.Look(direction, parts_.field.terrain,
-                                              parts_.state().X_WR, believed.attitude);
+  seen->percept = parts_.terrain_sensing.Look(direction, parts_.field.terrain, parts_.state().X_WR,
+                                              believed.attitude);
   seen->moment = {number, parts_.ledger.time_s(), believed.pose, believed.odometry,
                   believed.attitude};
   seen->X_WR = parts_.state().X_WR;

@@ -81,8 +81,8 @@ class Drive {
   StepWatcher step_watcher_;
 
   std::unique_ptr<SeenLook> seen_;  // to be told at the next tick
-  bool notices_stuck_ = false;  // at the last tick
-  bool rolling_ = false;        // in the last stretch
+  bool notices_stuck_ = false;      // at the last tick
+  bool rolling_ = false;            // in the last stretch
   // Since operators turned it: they let a rover drive before they turn it again.
   bool has_rolled_ = true;
   std::int64_t next_sighting_ = 0;  // of the tracked goal: number of its next measurement

@@ -15,8 +15,8 @@
 #include "trial/drive_params.h"
 #include "trial/look_time.h"
 #include "trial/scan_watcher.h"
-#include "trial/terrain_sensor_set_params.h"
 #include "trial/terrain_sensor_model.h"
+#include "trial/terrain_sensor_set_params.h"
 
 namespace rockyard::trial {
 

@@ -18,8 +18,8 @@ void Timeline::Pass(Activity activity, double duration_s) {
 }
 
 double Timeline::StepBeside(Activity activity, double left_s) {
-  const bool images = cameras_ && cameras_->left_s > 0.0 &&
-                      (overlap_.imaging || activity == Activity::kImaging);
+  const bool images =
+      cameras_ && cameras_->left_s > 0.0 && (overlap_.imaging || activity == Activity::kImaging);
   const bool computes = computer_ && (overlap_.computing || activity == Activity::kComputing);
   if (!images && !computes) return 0.0;
   double step_s = left_s;

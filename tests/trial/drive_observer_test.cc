@@ -8,13 +8,11 @@ namespace rockyard::trial {
 namespace {
 
 // A rock of 40 cm, 30 cm high, within reach of the array of a rover at x = 1.
-const Overrides kRockAhead = {"terrain.rocks.kind=listed",
-                              "terrain.rocks.listed.x_m=[1.6]",
-                              "terrain.rocks.listed.y_m=[0.0]",
-                              "terrain.rocks.listed.diameter_m=[0.4]",
-                              "terrain.rocks.listed.height_m=[0.3]",
-                              "terrain.rocks.clear_radius_m=0",
-                              "rover.fidelity=quasi_static"};
+const Overrides kRockAhead = {
+    "terrain.rocks.kind=listed",           "terrain.rocks.listed.x_m=[1.6]",
+    "terrain.rocks.listed.y_m=[0.0]",      "terrain.rocks.listed.diameter_m=[0.4]",
+    "terrain.rocks.listed.height_m=[0.3]", "terrain.rocks.clear_radius_m=0",
+    "rover.fidelity=quasi_static"};
 
 class DriveObserverTest : public testing::Test {
  protected:

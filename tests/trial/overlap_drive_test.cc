@@ -1,5 +1,5 @@
-// A navigator that steers at every tick while images are taken and computed: what happens when, what
-// it costs and where data were taken, against times that were worked out by hand.
+// A navigator that steers at every tick while images are taken and computed: what happens when,
+// what it costs and where data were taken, against times that were worked out by hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -94,14 +94,10 @@ DriveParams WeaverDrive(const WeaverParams& weaver, const ToySensorParams& senso
        .make = [](const WeaverParams& p, const navigation::NavigatorSetup&)
            -> std::unique_ptr<navigation::Navigator> { return std::make_unique<Weaver>(p); }},
       weaver);
-  const Overrides all = {"navigation.navigator=weaver",
-                         "sensors.terrain_sensor=toy",
-                         "rover.fidelity=quasi_static",
-                         "terrain.rocks.kind=none",
-                         "terrain.arena.kind=open",
-                         "localization.estimator=oracle",
-                         "clock.control_rate_hz=20",
-                         "energy.computing_W=1.5"};
+  const Overrides all = {"navigation.navigator=weaver", "sensors.terrain_sensor=toy",
+                         "rover.fidelity=quasi_static", "terrain.rocks.kind=none",
+                         "terrain.arena.kind=open",     "localization.estimator=oracle",
+                         "clock.control_rate_hz=20",    "energy.computing_W=1.5"};
   const std::string file = std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/nominal.json";
   return scenario::LoadScenario(file, all + overrides, defaults).drive;
 }
@@ -146,9 +142,9 @@ TEST(OverlapDrive, LooksArriveWhenTheyAreReadyAndSayWhereTheyWereTaken) {
 }
 
 // Until 2 s: the rover drives all the time. The computer is at work from 0.12 s on; eleven looks
-// begin (0, 0.15, then 0.35 to 1.95 s), the last one's images for 0.05 s. At each tick but the first
-// the corner wheels turn by the Ackermann angle of the innermost one, atan(c x / (1 - c |y|)), at 60
-// deg/s.
+// begin (0, 0.15, then 0.35 to 1.95 s), the last one's images for 0.05 s. At each tick but the
+// first the corner wheels turn by the Ackermann angle of the innermost one, atan(c x / (1 - c
+// |y|)), at 60 deg/s.
 TEST(OverlapDrive, TimeEnergyAndMovesAreThoseOfWhatWentOn) {
   WeaverParams weaver;
   const DriveParams drive = WeaverDrive(weaver, {}, kOverlap);
@@ -194,11 +190,11 @@ TEST(OverlapDrive, WhatMayNotOverlapDoesNot) {
       WeaverParams weaver;
       weaver.drive_s = 4.0;
       weaver.pause_s = 0.3;
-      const TracedTrial trial = RunTraced(
-          WeaverDrive(weaver, {},
-                      {"clock.overlap.imaging=" + text(imaging),
-                       "clock.overlap.computing=" + text(computing)}),
-          0);
+      const TracedTrial trial =
+          RunTraced(WeaverDrive(weaver, {},
+                                {"clock.overlap.imaging=" + text(imaging),
+                                 "clock.overlap.computing=" + text(computing)}),
+                    0);
       const truth::DriveRecord& record = trial.result.record;
       const std::string which = text(imaging) + " " + text(computing);
       EXPECT_GT(record.imaging_time_s, 0.3) << which;

@@ -140,9 +140,9 @@ TEST(RoutePlannerTest, RoutesStayBetweenTheMirrorLinesAndRepeat) {
 
 // With the true pose the follower keeps to the route; where there is none it gives up.
 TEST(RouteTrialTest, ArrivesWhereThereIsAWay) {
-  const DriveParams drive = Pathfinder(
-      "nominal",
-      {"rover.fidelity=quasi_static", "localization.estimator=oracle", "navigation.navigator=route"});
+  const DriveParams drive =
+      Pathfinder("nominal", {"rover.fidelity=quasi_static", "localization.estimator=oracle",
+                             "navigation.navigator=route"});
   const std::vector<DriveResult> results = RunTrials(drive, 40);
   const auto reached = std::count_if(results.begin(), results.end(), [](const DriveResult& each) {
     return each.outcome == truth::TrialOutcome::kGoalReached;

@@ -1,5 +1,5 @@
-// A terrain sensor that no file of rockyard knows: it takes images and computes for as long as it is
-// told to, and sees three points of level ground ahead.
+// A terrain sensor that no file of rockyard knows: it takes images and computes for as long as it
+// is told to, and sees three points of level ground ahead.
 #pragma once
 
 #include <memory>

@@ -176,9 +176,9 @@ TEST(TrackingDriveTest, TheLastLegAloneIsTracked) {
 // target began comes too late.
 TEST(TrackingDriveTest, ATargetThatMovesIsFollowed) {
   const Overrides moving = {
-      "terrain.rocks.kind=none",      "terrain.arena.kind=open", "rover.fidelity=quasi_static",
-      "localization.estimator=oracle",  "course.goal_x_m=4",       "course.target_speed_m_s=0.002",
-      "course.target_heading_deg=90", "course.goal_radius_m=0.3"};
+      "terrain.rocks.kind=none",       "terrain.arena.kind=open", "rover.fidelity=quasi_static",
+      "localization.estimator=oracle", "course.goal_x_m=4",       "course.target_speed_m_s=0.002",
+      "course.target_heading_deg=90",  "course.goal_radius_m=0.3"};
   for (const char* navigator : {"gestalt", "pathfinder"}) {
     const DriveResult told = RunTrial(Make(navigator, moving), {1, 0});
     EXPECT_EQ(told.outcome, TrialOutcome::kFalseGoal) << navigator;
