@@ -1,6 +1,7 @@
 // The lasers of the light stripe sensor as lamps of a rendered image.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "messages/calibration.h"

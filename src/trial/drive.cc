@@ -133,7 +133,7 @@ void Drive::OnWaypoints(std::size_t first) {
 }
 
 std::optional<Verdict> Drive::Look(messages::LookDirection direction) {
-  // The new look is from nearer by.
+  // What is under way was seen from farther back.
   parts_.timeline.Drop();
   observer_.OnLook();
   if (auto verdict = Move({}, parts_.stop)) return verdict;
