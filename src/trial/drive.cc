@@ -22,14 +22,6 @@ Activity ActivityOf(const messages::MotionCommand& motion, bool steering) {
   return motion.kind == MotionKind::kTurnInPlace ? Activity::kTurning : Activity::kDriving;
 }
 
-const messages::HazardReport* ReportOf(const std::unique_ptr<SeenLook>& seen) {
-  return seen && seen->percept.report ? &*seen->percept.report : nullptr;
-}
-
-const messages::PointCloud* CloudOf(const std::unique_ptr<SeenLook>& seen) {
-  return seen && seen->percept.cloud ? &*seen->percept.cloud : nullptr;
-}
-
 }  // namespace
 
 Drive::Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
@@ -62,8 +54,8 @@ std::optional<Verdict> Drive::Tick() {
       parts_.navigator.Decide({.time_s = parts_.ledger.time_s(),
                                .estimate = parts_.estimate().pose,
                                .attitude = parts_.estimate().attitude,
-                               .report = ReportOf(seen_),
-                               .cloud = CloudOf(seen_),
+                               .report = seen_ ? seen_->report() : nullptr,
+                               .cloud = seen_ ? seen_->cloud() : nullptr,
                                .look = seen_ ? &seen_->moment : nullptr,
                                .vehicle_hazard = parts_.guard.hazard(),
                                .touches_behind = parts_.guard.touches_behind(),
@@ -91,22 +83,6 @@ std::optional<Verdict> Drive::Follow(const messages::MotionCommand& told) {
   return AskReferee(Activity::kOverhead, 0, parts_.tick.duration_s);
 }
 
-bool Drive::LooksOnTheMove(const navigation::NavigatorDecision& decision) const {
-  const OverlapParams& overlap = parts_.params.clock.overlap;
-  return decision.looks_on_the_move && parts_.terrain_sensing.LooksOnTheMove() &&
-         (overlap.imaging || overlap.computing);
-}
-
-void Drive::ShowStep() {
-  const messages::NavigationView* view = parts_.navigator.view();
-  if (CloudOf(seen_) == nullptr || view == nullptr) return;
-  if (step_watcher_) {
-    step_watcher_({parts_.params, parts_.field.terrain, seen_->X_WR, parts_.key, *view,
-                   *seen_->percept.cloud});
-  }
-  tracer_.Votes(*view);
-}
-
 void Drive::TrackGoal() {
   if (!parts_.feature_tracker || !parts_.navigator.IsOnLastLeg()) return;
   const double time_s = parts_.ledger.time_s();
@@ -130,58 +106,6 @@ void Drive::OnWaypoints(std::size_t first) {
   for (std::size_t i = first; i < parts_.navigator.reached(); ++i) tracer_.Waypoint(i);
   parts_.referee.OnNextGoal(parts_.navigator.goal(), Observed(Activity::kDriving, 0, 0.0),
                             parts_.ledger.time_s());
-}
-
-std::optional<Verdict> Drive::Look(messages::LookDirection direction) {
-  // What is under way was seen from farther back.
-  parts_.timeline.Drop();
-  observer_.OnLook();
-  if (auto verdict = Move({}, parts_.stop)) return verdict;
-  parts_.terrain_sensing.Begin();
-  do {
-    seen_ = See(direction);
-    const LookTime& time = seen_->percept.time;
-    Rest(Activity::kScanning, time.scanning_s);
-    Rest(Activity::kImaging, time.imaging_s);
-    Rest(Activity::kComputing, time.computing_s);
-    UpdateEstimateAtRest(time.total_s());
-  } while (seen_->percept.look_again);
-  tracer_.Look(direction, seen_->percept);
-  const messages::HazardReport* report = ReportOf(seen_);
-  observer_.OnReport(report != nullptr && report->any(), seen_->X_WR);
-  return AskReferee(Activity::kScanning, 0, seen_->percept.time.total_s());
-}
-
-std::optional<Verdict> Drive::LookOnTheMove(messages::LookDirection direction) {
-  if (!parts_.timeline.TakesLook()) return std::nullopt;
-  if (rolling_ && !parts_.params.clock.overlap.imaging) {
-    if (auto verdict = Move({}, parts_.stop)) return verdict;
-  }
-  parts_.terrain_sensing.Begin();
-  std::unique_ptr<SeenLook> seen = See(direction);
-  tracer_.Look(direction, seen->percept);
-  observer_.OnReport(false, seen->X_WR);  // points are no report
-  parts_.timeline.Begin(std::move(seen));
-  return std::nullopt;
-}
-
-std::unique_ptr<SeenLook> Drive::See(messages::LookDirection direction) {
-  const messages::LocalizationEstimate& believed = parts_.estimate();
-  const std::int64_t number = parts_.terrain_sensing.looks();
-  auto seen = std::make_unique<SeenLook>();
-  seen->percept = parts_.terrain_sensing.Look(direction, parts_.field.terrain, parts_.state().X_WR,
-                                              believed.attitude);
-  seen->moment = {number, parts_.ledger.time_s(), believed.pose, believed.odometry,
-                  believed.attitude};
-  seen->X_WR = parts_.state().X_WR;
-  return seen;
-}
-
-std::optional<Verdict> Drive::RestFor(const Timeline::Rest& rest) {
-  if (rolling_) Move({}, parts_.stop);
-  Rest(rest.activity, rest.duration_s);
-  UpdateEstimateAtRest(rest.duration_s);
-  return AskReferee(rest.activity, 0, rest.duration_s);
 }
 
 void Drive::Rest(Activity activity, double duration_s) {
