@@ -58,7 +58,8 @@ struct NavigatorDecision {
   // goes on asking.
   bool looks_on_the_move = false;
 
-  bool stops_to_look() const { return look.has_value() && !looks_on_the_move; }
+  bool looks() const { return look.has_value(); }
+  bool stops_to_look() const { return looks() && !looks_on_the_move; }
 };
 
 // The interface. One object drives one trial.

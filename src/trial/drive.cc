@@ -66,7 +66,7 @@ std::optional<Verdict> Drive::Tick() {
   if (decision.status != navigation::NavigatorStatus::kDriving) {
     return parts_.referee.OnNavigatorStop(decision.status, parts_.state(), parts_.ledger.time_s());
   }
-  if (decision.look) {
+  if (decision.looks()) {
     if (!LooksOnTheMove(decision)) return Look(*decision.look);
     if (auto verdict = LookOnTheMove(*decision.look)) return verdict;
   }
