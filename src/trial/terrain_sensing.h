@@ -37,7 +37,7 @@ class TerrainSensing {
  public:
   TerrainSensing(const DriveParams& drive, core::TrialKey key, const ScanWatcher& watcher);
 
-  // The rover has stopped at a new pose.
+  // The next look is from a new pose.
   void Begin() { hazard_detector_.Reset(); }
 
   // Looks from X_WR; `attitude` is how the rover believes to stand. Noise is indexed by the number
