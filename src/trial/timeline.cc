@@ -40,7 +40,7 @@ void Timeline::Begin(std::unique_ptr<SeenLook> look) {
   EXPECT(TakesLook());
   EXPECT(look->percept.time.scanning_s == 0.0);
   const double imaging_s = look->percept.time.imaging_s;
-  cameras_.emplace(std::move(look), imaging_s);
+  cameras_ = UnderWay{std::move(look), imaging_s};
   Settle();
 }
 
@@ -57,7 +57,7 @@ void Timeline::Settle() {
   }
   if (!cameras_ || cameras_->left_s > 0.0 || computer_) return;
   const double computing_s = cameras_->look->percept.time.computing_s;
-  computer_.emplace(std::move(cameras_->look), computing_s);
+  computer_ = UnderWay{std::move(cameras_->look), computing_s};
   cameras_.reset();
   // It may take no time.
   Settle();
