@@ -135,7 +135,7 @@ std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const 
   ApplyCommand(command, stretch.steps);
   const messages::MotionMeasurement measured = UpdateEstimate(stretch.duration_s, moving);
   parts_.timeline.Pass(activity, stretch.duration_s);
-  if (moving && parts_.params.clock.overlap.steering) {
+  if (parts_.params.clock.overlap.steering) {
     parts_.ledger.SpendBeside(Activity::kSteering, parts_.wheel_driver.steered_s());
   }
   for (const auto& hazard : parts_.guard.Feel(parts_.state(), command, measured)) {

@@ -55,6 +55,23 @@ TEST(WheelDriver, StandsForABigChangeUntilTheWheelsAreThere) {
   }
 }
 
+// 0.5 rad at 1 rad/s: 25 ticks of 0.02 s; and less than a tick for a little.
+TEST(WheelDriver, TellsForHowLongItSteered) {
+  const WheelDriverParams params{.steer_rate_rad_s = 1.0};
+  WheelDriver driver(SixWheels(), params);
+  const double change_rad = SteerFromStraight(Arc(1.5));
+  double steered_s = 0.0;
+  for (int tick = 0; tick < 200; ++tick) {
+    driver.Tick(Arc(1.5), kTick_s);
+    EXPECT_LE(driver.steered_s(), kTick_s);
+    steered_s += driver.steered_s();
+  }
+  EXPECT_NEAR(steered_s, change_rad, 1e-9);
+  EXPECT_EQ(driver.steered_s(), 0.0);
+  driver.Tick({}, kTick_s);
+  EXPECT_EQ(driver.steered_s(), 0.0);
+}
+
 TEST(WheelDriver, SteersWhileItStands) {
   WheelDriver driver(SixWheels(), {});
   const messages::WheelCommand command = driver.Tick(TurnInPlace(1), kTick_s);

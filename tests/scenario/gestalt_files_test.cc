@@ -235,6 +235,10 @@ TEST(GestaltChecksTest, GroupsThatDoNothingAreNotHeldAgainstEachOther) {
 TEST(GestaltChecksTest, TheHazardStudiesMeasureTheLightStripe) {
   EXPECT_TRUE(Complains("../hazard_detection/detection", {"sensors.terrain_sensor=stereo"},
                         "sensors.terrain_sensor"));
+  // Its own conditions hold, not those of the sensor that the scenario names.
+  EXPECT_FALSE(Complains("../hazard_detection/detection",
+                         {"sensors.terrain_sensor=stereo", "perception.cloud_elevations.stripes=7"},
+                         "cloud_elevations"));
 }
 
 // Half of the ditch's 0.5 m and half of the rover's diagonal: 0.918 m.

@@ -28,6 +28,7 @@ constexpr double kCurvature_per_m = 0.1;
 struct WeaverParams {
   double drive_s = 2.0;  // then it gives up
   bool numbers_its_moves = true;
+  navigation::LookReading reads = navigation::LookReading::kPoints;
   double pause_s = 0.0;  // after a look was delivered, before it asks for the next one
   // Drives only so far beyond the pose of the last look that was delivered.
   double judged_m = std::numeric_limits<double>::infinity();
@@ -54,7 +55,9 @@ class Weaver final : public navigation::Navigator {
 
   navigation::NavigatorDecision Decide(const navigation::NavigatorInput& input) override {
     WeaverParams::Seen& seen = *params_.seen;
-    if (input.cloud != nullptr) {
+    if (input.look != nullptr) {
+      EXPECT_EQ(input.cloud != nullptr, params_.reads == navigation::LookReading::kPoints);
+      EXPECT_EQ(input.report == nullptr, params_.reads == navigation::LookReading::kPoints);
       seen.deliveries.push_back({input.time_s, *input.look});
       asks_s_ = input.time_s + params_.pause_s;
       end_m_ = input.look->odometry.distance_m + params_.judged_m;
@@ -74,9 +77,19 @@ class Weaver final : public navigation::Navigator {
   }
   void OnPoseUpdate(const messages::PoseEstimate&, const messages::PoseEstimate&) override {}
   void SetGoal(const messages::Goal&, navigation::GoalChange) override {}
+  // One vote, the chosen one.
+  const messages::NavigationView* view() const override { return &view_; }
 
  private:
+  static messages::NavigationView OneVote() {
+    messages::NavigationView view;
+    view.forward.resize(1);
+    view.forward.front().chosen = true;
+    return view;
+  }
+
   WeaverParams params_;
+  messages::NavigationView view_ = OneVote();
   bool turns_ = false;
   double asks_s_ = 0.0;
   double end_m_;
@@ -88,8 +101,8 @@ DriveParams WeaverDrive(const WeaverParams& weaver, const ToySensorParams& senso
   defaults.drive.navigation.navigators.Add<WeaverParams>(
       {.name = "weaver",
        .doc = "steers at each tick",
-       .traits = [](const WeaverParams&) -> navigation::NavigatorTraits {
-         return {navigation::LookReading::kPoints, navigation::CostOfLook{}, {}};
+       .traits = [](const WeaverParams& p) -> navigation::NavigatorTraits {
+         return {p.reads, navigation::CostOfLook{}, {}};
        },
        .make = [](const WeaverParams& p, const navigation::NavigatorSetup&)
            -> std::unique_ptr<navigation::Navigator> { return std::make_unique<Weaver>(p); }},
@@ -139,6 +152,26 @@ TEST(OverlapDrive, LooksArriveWhenTheyAreReadyAndSayWhereTheyWereTaken) {
     EXPECT_GT(way_m, 0.8 * 0.15 * (time_s - taken_s)) << n;
     EXPECT_LT(way_m, 0.15 * (time_s - taken_s)) << n;
   }
+}
+
+// Who looks over the navigator's shoulder is shown the place where its points were taken.
+TEST(OverlapDrive, EachDeliveryIsShownWithThePlaceWhereItWasTaken) {
+  const WeaverParams weaver;
+  const ToySensorParams sensor;
+  std::vector<math::Vector3> shown;
+  truth::Trace trace;
+  RunTrial(WeaverDrive(weaver, sensor, kOverlap), {1, 0}, &trace, {},
+           [&](const WatchedStep& step) { shown.push_back(step.X_WR.translation()); });
+  ASSERT_EQ(shown.size(), weaver.seen->deliveries.size());
+  for (std::size_t n = 0; n < shown.size(); ++n) {
+    EXPECT_EQ(shown[n], sensor.poses->at(n).translation()) << n;
+  }
+  const auto count = [&](const char* kind) {
+    return std::count_if(trace.events.begin(), trace.events.end(),
+                         [&](const truth::TraceEvent& event) { return event.kind == kind; });
+  };
+  EXPECT_EQ(count("chosen"), 9);
+  EXPECT_EQ(count("look"), 11);
 }
 
 // Until 2 s: the rover drives all the time. The computer is at work from 0.12 s on; eleven looks
@@ -209,6 +242,52 @@ TEST(OverlapDrive, WhatMayNotOverlapDoesNot) {
       EXPECT_GT(weaver.seen->deliveries.size(), 3U) << which;
     }
   }
+}
+
+// A report may ask for a second look from one pose, and a light stripe scan takes its time: the
+// rover stops, whatever may overlap.
+TEST(OverlapDrive, ReportsAndScansStopTheRover) {
+  WeaverParams weaver{.drive_s = 4.0, .reads = navigation::LookReading::kHazardReport};
+  weaver.pause_s = 0.3;
+  const auto reports = RunTrial(WeaverDrive(weaver, {}, kOverlap), {1, 0}).record;
+  EXPECT_GT(weaver.seen->deliveries.size(), 3U);
+  EXPECT_NEAR(reports.sim_time_s,
+              reports.drive_time_s + reports.imaging_time_s + reports.compute_time_s, 1e-9);
+  weaver.reads = navigation::LookReading::kPoints;
+  weaver.drive_s = 90.0;
+  weaver.seen->deliveries.clear();
+  const auto scans =
+      RunTrial(WeaverDrive(weaver, {}, kOverlap + Overrides{"sensors.terrain_sensor=light_stripe"}),
+               {1, 0})
+          .record;
+  EXPECT_GT(weaver.seen->deliveries.size(), 3U);
+  EXPECT_EQ(scans.scan_time_s, 20.0 * scans.scans);
+  EXPECT_NEAR(scans.sim_time_s, scans.drive_time_s + scans.scan_time_s, 1e-9);
+}
+
+// Operators turn the rover at a mirror line: what it saw before is not told any more, although with
+// 1.5 s to compute some of it was under way.
+TEST(OverlapDrive, WhatWasSeenBeforeTheRoverWasTurnedIsNotTold) {
+  WeaverParams weaver;
+  weaver.drive_s = 30.0;
+  ToySensorParams slow;
+  slow.computing_s = 1.5;
+  const TracedTrial trial = RunTraced(
+      WeaverDrive(weaver, slow,
+                  kOverlap + Overrides{"terrain.arena.kind=virtual_reflected",
+                                       "course.start_y_m=0.6", "course.start_heading_deg=90"}),
+      0);
+  int reflections = 0;
+  for (const truth::TraceEvent& event : trial.trace.events) {
+    if (event.kind != "reflection") continue;
+    ++reflections;
+    for (const WeaverParams::Delivery& delivery : weaver.seen->deliveries) {
+      EXPECT_EQ(delivery.time_s > event.time_s, delivery.look.time_s >= event.time_s)
+          << event.time_s;
+    }
+  }
+  EXPECT_GT(reflections, 0);
+  EXPECT_GT(weaver.seen->deliveries.size(), 10U);
 }
 
 // Without overlap.steering the rover stands to steer by more than the wheel driver allows.
