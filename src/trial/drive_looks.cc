@@ -43,7 +43,6 @@ std::optional<Verdict> Drive::LookOnTheMove(messages::LookDirection direction) {
   parts_.terrain_sensing.Begin();
   std::unique_ptr<SeenLook> seen = See(direction);
   tracer_.Look(direction, seen->percept);
-  observer_.OnReport(false, seen->X_WR);  // points are no report
   parts_.timeline.Begin(std::move(seen));
   return std::nullopt;
 }

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "localization/estimator.h"
+#include "localization/estimator_set_params.h"
 #include "math/angles.h"
 #include "messages/look.h"
 #include "navigation/navigator.h"
@@ -24,12 +26,15 @@ using messages::MotionKind;
 
 constexpr double kTick_s = 0.05;
 constexpr double kCurvature_per_m = 0.1;
+// Until the rover is taken to stand: the motors' ramp and clock.stop_time_s.
+constexpr double kBrake_s = 0.10 + 0.05;
 
 struct WeaverParams {
   double drive_s = 2.0;  // then it gives up
   bool numbers_its_moves = true;
   navigation::LookReading reads = navigation::LookReading::kPoints;
   double pause_s = 0.0;  // after a look was delivered, before it asks for the next one
+  double halts_s = std::numeric_limits<double>::infinity();  // then it stops for one look
   // Drives only so far beyond the pose of the last look that was delivered.
   double judged_m = std::numeric_limits<double>::infinity();
   struct Delivery {
@@ -72,6 +77,10 @@ class Weaver final : public navigation::Navigator {
     motion.end_m = end_m_;
     motion.move = params_.numbers_its_moves ? 1 : 0;
     turns_ = !turns_;
+    if (!halted_ && input.time_s > params_.halts_s - 0.5 * kTick_s) {
+      halted_ = true;
+      return {.look = messages::LookDirection::kAhead, .motion = motion};
+    }
     if (input.time_s < asks_s_) return {.motion = motion};
     return {.look = messages::LookDirection::kAhead, .motion = motion, .looks_on_the_move = true};
   }
@@ -91,13 +100,53 @@ class Weaver final : public navigation::Navigator {
   WeaverParams params_;
   messages::NavigationView view_ = OneVote();
   bool turns_ = false;
+  bool halted_ = false;
   double asks_s_ = 0.0;
   double end_m_;
 };
 
+struct WitnessParams {
+  std::shared_ptr<double> propagated_s = std::make_shared<double>(0.0);
+
+  void Visit(core::FieldVisitor&) {}
+};
+
+// Believes to stand where it was placed, with its two frames a metre apart, and counts the time
+// over which it was carried on.
+class Witness final : public localization::Estimator {
+ public:
+  Witness(const WitnessParams& params, const localization::EstimatorSetup& setup)
+      : params_(params) {
+    Place({setup.start.x_m, setup.start.y_m, setup.start.heading_rad});
+  }
+
+  void Propagate(const messages::MotionMeasurement& motion) override {
+    *params_.propagated_s += motion.duration_s;
+  }
+  void Feel(const messages::VehicleState& /*felt*/, double /*duration_s*/) override {}
+  void Place(const messages::PoseUpdate& update) override {
+    estimate_.pose = {update.x_m, update.y_m, update.heading_rad};
+    estimate_.odometry = estimate_.pose;
+    estimate_.odometry.x_m += 1.0;
+  }
+  const messages::LocalizationEstimate& estimate() const override { return estimate_; }
+
+ private:
+  WitnessParams params_;
+  messages::LocalizationEstimate estimate_;
+};
+
 DriveParams WeaverDrive(const WeaverParams& weaver, const ToySensorParams& sensor,
-                        const Overrides& overrides) {
+                        const Overrides& overrides, const WitnessParams& witness = {}) {
   scenario::Scenario defaults = WithToySensor(sensor);
+  defaults.drive.localization.estimators.Add<WitnessParams>(
+      {.name = "witness",
+       .doc = "counts the time",
+       .make = [](const WitnessParams& params, const localization::EstimatorSetup& setup)
+           -> std::unique_ptr<localization::Estimator> {
+         return std::make_unique<Witness>(params, setup);
+       }},
+      witness);
   defaults.drive.navigation.navigators.Add<WeaverParams>(
       {.name = "weaver",
        .doc = "steers at each tick",
@@ -288,6 +337,73 @@ TEST(OverlapDrive, WhatWasSeenBeforeTheRoverWasTurnedIsNotTold) {
   }
   EXPECT_GT(reflections, 0);
   EXPECT_GT(weaver.seen->deliveries.size(), 10U);
+}
+
+// With 1.5 s to compute, the look of 0.15 s is under way when the navigator stops for one at 1 s,
+// which is told next; what was seen from farther back is not told after it.
+TEST(OverlapDrive, WhatWasSeenBeforeTheRoverStoppedForALookIsNotTold) {
+  WeaverParams weaver;
+  weaver.drive_s = 10.0;
+  weaver.halts_s = 1.0;
+  ToySensorParams slow;
+  slow.computing_s = 1.5;
+  RunTrial(WeaverDrive(weaver, slow, kOverlap), {1, 0});
+  const auto& deliveries = weaver.seen->deliveries;
+  ASSERT_GT(deliveries.size(), 3U);
+  EXPECT_EQ(deliveries[0].look.number, 2);
+  EXPECT_NEAR(deliveries[0].look.time_s, 1.0 + kBrake_s, 1e-9);
+  for (std::size_t n = 1; n < deliveries.size(); ++n) {
+    EXPECT_EQ(deliveries[n].look.number, deliveries[n - 1].look.number + 1);
+    EXPECT_GT(deliveries[n].look.time_s, deliveries[0].look.time_s);
+  }
+}
+
+// Images that may not be taken on the move are of the place where the rover stands for them.
+TEST(OverlapDrive, ImagesThatMayNotOverlapAreTakenWhereTheRoverStands) {
+  WeaverParams weaver;
+  weaver.drive_s = 4.0;
+  weaver.pause_s = 0.3;
+  const ToySensorParams sensor;
+  const TracedTrial trial =
+      RunTraced(WeaverDrive(weaver, sensor, {"clock.overlap.computing=true"}), 0);
+  std::vector<math::Vector3> stood;
+  for (const truth::TraceRest& rest : trial.trace.rests) {
+    if (rest.sample.activity != "image") continue;
+    stood.push_back(rest.sample.posture.X_WR.translation());
+  }
+  ASSERT_EQ(stood.size(), sensor.poses->size());
+  EXPECT_GT(stood.size(), 3U);
+  for (std::size_t n = 0; n < stood.size(); ++n) {
+    EXPECT_EQ(stood[n], sensor.poses->at(n).translation()) << n;
+  }
+}
+
+TEST(OverlapDrive, AMomentHasThePoseInEitherFrame) {
+  const WeaverParams weaver;
+  RunTrial(WeaverDrive(weaver, {}, kOverlap + Overrides{"localization.estimator=witness"}), {1, 0});
+  ASSERT_FALSE(weaver.seen->deliveries.empty());
+  for (const WeaverParams::Delivery& delivery : weaver.seen->deliveries) {
+    EXPECT_EQ(delivery.look.odometry.x_m, delivery.look.estimate.x_m + 1.0);
+  }
+}
+
+// A gyro that drifts while the rover stands does so whatever it stands for.
+TEST(OverlapDrive, TheEstimateIsCarriedOnOverEachRest) {
+  for (const char* accumulates : {"false", "true"}) {
+    const WeaverParams weaver{.drive_s = 4.0, .pause_s = 0.3};
+    const WitnessParams witness;
+    const auto record =
+        RunTrial(WeaverDrive(weaver, {},
+                             {"clock.overlap.imaging=true", "localization.estimator=witness",
+                              std::string("sensors.gyro.accumulates_at_rest=") + accumulates},
+                             witness),
+                 {1, 0})
+            .record;
+    EXPECT_GT(record.compute_time_s, 0.5);
+    const bool all = std::string(accumulates) == "true";
+    EXPECT_NEAR(*witness.propagated_s,
+                all ? record.sim_time_s : record.sim_time_s - record.compute_time_s, 1e-9);
+  }
 }
 
 // Without overlap.steering the rover stands to steer by more than the wheel driver allows.
