@@ -37,7 +37,7 @@ done
 folder=build/same_bits
 mkdir -p "$folder"
 # -w: gcc's warnings depend on the level, and they are the test build's matter.
-cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DROCKYARD_PAGES=OFF \
+cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release \
   -DCMAKE_CXX_FLAGS_RELEASE="-O2 -DNDEBUG -w" \
   -DROCKYARD_BUILD_TESTS=ON -DROCKYARD_BUILD_BENCHMARKS=OFF > "$folder.log" 2>&1 ||
   { cat "$folder.log" >&2; exit 1; }

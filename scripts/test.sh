@@ -69,7 +69,7 @@ tell() {
 }
 trap tell EXIT
 
-groups="build pages test figures"
+groups="build mpi pages test figures"
 if [ "$preset" = tsan ]; then groups="$groups tsan"; fi
 # shellcheck disable=SC2086  # a list of words
 scripts/install_dependencies.sh $groups

@@ -1,30 +1,22 @@
-# The pages for a browser, bundled from npm packages that package-lock.json pins.
+# The pages for a browser. They lie bundled in src/web/built, so that neither a build nor a run needs
+# npm; with ROCKYARD_PAGE_TOOLS they are bundled anew from the sources, and the tests demand that these
+# are the same bytes.
 #
-# rockyard_bundle_pages(SOURCE_VARIABLE)
-#   Sets SOURCE_VARIABLE to the .cc file that holds the pages: the bundled ones, or, where npm is
-#   missing or its packages cannot be fetched, no_pages.cc, and says what is then left out.
+# rockyard_embed_pages(SOURCE_VARIABLE)
+#   Sets SOURCE_VARIABLE to the .cc file that holds the pages as literals: with the page tools those
+#   just bundled, else those in src/web/built.
 #
-# ROCKYARD_PAGES: AUTO bundles where it can, ON insists, OFF leaves the pages out.
+# The target `ship_pages` copies what was bundled anew to src/web/built.
 
 include(GNUInstallDirs)
 
-set(ROCKYARD_PAGES AUTO CACHE STRING "Pages for a browser: AUTO, ON or OFF")
-set_property(CACHE ROCKYARD_PAGES PROPERTY STRINGS AUTO ON OFF)
+option(ROCKYARD_PAGE_TOOLS
+       "Install the npm packages with which pages are bundled and tested (needs node, npm)" OFF)
 
-# Says why there are no pages; fatal where they were insisted on.
-function(rockyard_without_pages reason)
-  if(ROCKYARD_PAGES STREQUAL "AUTO")
-    message(WARNING "Pages for a browser are left out (`rockyard report`, the 3-D page of "
-                   "`rockyard replay`): ${reason}")
-  else()
-    message(FATAL_ERROR "ROCKYARD_PAGES is ON, but ${reason}")
-  endif()
-endfunction()
+set(ROCKYARD_PAGE_FILES report.html replay.html trace_to_mcap.mjs THIRD_PARTY.txt)
 
-# Installs the packages of the lock file below FOLDER, once for each lock file. Sets REASON_VARIABLE
-# to why they are not there, or to nothing.
-function(rockyard_install_npm_packages FOLDER REASON_VARIABLE)
-  set(${REASON_VARIABLE} "" PARENT_SCOPE)
+# Installs the packages of the lock file below FOLDER, once for each lock file.
+function(rockyard_install_npm_packages FOLDER)
   file(MAKE_DIRECTORY ${FOLDER})
   foreach(file package.json package-lock.json)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${file})
@@ -45,44 +37,35 @@ function(rockyard_install_npm_packages FOLDER REASON_VARIABLE)
             --fetch-retries=1
     WORKING_DIRECTORY ${FOLDER} TIMEOUT 300 RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
-    set(${REASON_VARIABLE} "npm ci failed:\n${output}" PARENT_SCOPE)
-    return()
+    message(FATAL_ERROR "ROCKYARD_PAGE_TOOLS is ON, but npm ci failed:\n${output}")
   endif()
   file(WRITE ${stamp} ${wanted})
 endfunction()
 
-function(rockyard_bundle_pages SOURCE_VARIABLE)
-  set(${SOURCE_VARIABLE} no_pages.cc PARENT_SCOPE)
-  unset(ROCKYARD_PAGES_FOLDER CACHE)
-  if(NOT ROCKYARD_PAGES MATCHES "^(AUTO|ON|OFF)$")
-    message(FATAL_ERROR "ROCKYARD_PAGES is '${ROCKYARD_PAGES}': say AUTO, ON or OFF")
-  elseif(ROCKYARD_PAGES STREQUAL "OFF")
-    return()
-  endif()
+function(rockyard_find_node)
   find_program(ROCKYARD_NODE NAMES node nodejs)
   find_program(ROCKYARD_NPM npm)
   mark_as_advanced(ROCKYARD_NODE ROCKYARD_NPM)
   if(NOT ROCKYARD_NODE OR NOT ROCKYARD_NPM)
-    rockyard_without_pages("nodejs and npm were not found (scripts/install_dependencies.sh pages)")
-    return()
+    message(FATAL_ERROR "ROCKYARD_PAGE_TOOLS is ON, but nodejs and npm were not found "
+                        "(scripts/install_dependencies.sh pages)")
   endif()
   execute_process(COMMAND ${ROCKYARD_NODE} --version OUTPUT_VARIABLE version
     OUTPUT_STRIP_TRAILING_WHITESPACE)
   string(REGEX REPLACE "^v" "" version "${version}")
   if(version VERSION_LESS 18)
-    rockyard_without_pages("node is of version ${version}, and the pages need 18 or later")
-    return()
+    message(FATAL_ERROR "node is of version ${version}, and the pages need 18 or later")
   endif()
-  set(work ${PROJECT_BINARY_DIR}/web)
-  rockyard_install_npm_packages(${work} reason)
-  if(reason)
-    rockyard_without_pages("${reason}")
-    return()
-  endif()
+endfunction()
 
+# Bundles the pages below the build folder; sets FOLDER_VARIABLE to where they are.
+function(rockyard_bundle_pages FOLDER_VARIABLE)
+  rockyard_find_node()
+  set(work ${PROJECT_BINARY_DIR}/web)
+  rockyard_install_npm_packages(${work})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}
-    *.ts *.css *.html *.mjs tsconfig.json)
-  list(FILTER sources EXCLUDE REGEX "node_modules")
+    *.ts *.css *.mjs page.html tsconfig.json)
+  list(FILTER sources EXCLUDE REGEX "^(built|node_modules)/")
   # Copies of files that are gone would still be checked and might be bundled.
   file(GLOB_RECURSE old RELATIVE ${work} ${work}/report/* ${work}/replay/* ${work}/shared/* ${work}/mcap/*)
   list(REMOVE_ITEM old ${sources})
@@ -97,15 +80,33 @@ function(rockyard_bundle_pages SOURCE_VARIABLE)
     list(APPEND copies ${work}/${file})
   endforeach()
   set(pages ${work}/pages)
-  set(bundled ${pages}/bundled_pages.cc)
-  add_custom_command(OUTPUT ${bundled} ${pages}/report.html ${pages}/replay.html ${pages}/trace_to_mcap.mjs
-      ${pages}/THIRD_PARTY.txt
-    DEPENDS ${copies} ${work}/installed.txt
+  list(TRANSFORM ROCKYARD_PAGE_FILES PREPEND ${pages}/ OUTPUT_VARIABLE files)
+  add_custom_command(OUTPUT ${files} DEPENDS ${copies} ${work}/installed.txt
     COMMAND ${ROCKYARD_NODE} build.mjs ${pages} WORKING_DIRECTORY ${work}
     COMMENT "Bundling the pages for a browser")
+  add_custom_target(ship_pages DEPENDS ${files}
+    COMMAND ${CMAKE_COMMAND} -E copy ${files} ${CMAKE_CURRENT_SOURCE_DIR}/built
+    COMMENT "Copying the pages to src/web/built")
+  set(${FOLDER_VARIABLE} ${pages} PARENT_SCOPE)
+endfunction()
+
+function(rockyard_embed_pages SOURCE_VARIABLE)
+  set(pages ${CMAKE_CURRENT_SOURCE_DIR}/built)
+  unset(ROCKYARD_PAGES_FOLDER CACHE)
+  if(ROCKYARD_PAGE_TOOLS)
+    rockyard_bundle_pages(pages)
+    set(ROCKYARD_PAGES_FOLDER ${PROJECT_BINARY_DIR}/web CACHE INTERNAL
+        "Where the npm packages of the pages are")
+  endif()
+  set(script ${PROJECT_SOURCE_DIR}/scripts/cmake/embed_pages.cmake)
+  set(ROCKYARD_EMBEDDED_PAGES ${pages} CACHE INTERNAL "The pages that the program holds")
+  set(embedded ${PROJECT_BINARY_DIR}/embedded_pages.cc)
+  add_custom_command(OUTPUT ${embedded} DEPENDS ${script} ${pages}/report.html ${pages}/replay.html
+    COMMAND ${CMAKE_COMMAND} -DPAGES=${pages} -DOUT=${embedded} -P ${script}
+    COMMENT "Embedding the pages for a browser")
   # Compilers warn of literals of this length.
-  set_source_files_properties(${bundled} PROPERTIES COMPILE_OPTIONS "-w")
-  set(${SOURCE_VARIABLE} ${bundled} PARENT_SCOPE)
-  install(FILES ${pages}/THIRD_PARTY.txt DESTINATION ${CMAKE_INSTALL_DOCDIR})
-  set(ROCKYARD_PAGES_FOLDER ${work} CACHE INTERNAL "Where the npm packages of the pages are")
+  set_source_files_properties(${embedded} PROPERTIES COMPILE_OPTIONS "-w" SKIP_UNITY_BUILD_INCLUSION ON)
+  set(${SOURCE_VARIABLE} ${embedded} PARENT_SCOPE)
+  install(FILES built/THIRD_PARTY.txt DESTINATION ${CMAKE_INSTALL_DOCDIR})
+  install(FILES built/trace_to_mcap.mjs DESTINATION ${CMAKE_INSTALL_DATADIR}/rockyard)
 endfunction()

@@ -4,22 +4,12 @@
 
 #include "batch/communicator.h"
 #include "campaign/shell_word.h"
-#include "web/page.h"
 
 namespace rockyard::app {
 
 std::string NextCommand(const std::filesystem::path& folder, Finished what) {
-  const std::string word = campaign::ShellPath(folder.string());
   if (what == Finished::kShard) return "rockyard merge SHARD... --out FOLDER";
-  if (web::PagesBuilt()) return "rockyard report " + word;
-  switch (what) {
-    case Finished::kDrives:
-      return fmt::format("rockyard trace {} --trial 0", word);
-    case Finished::kMeasurement:
-      return fmt::format("rockyard replay {} --trial 0 --list", word);
-    default:
-      return fmt::format("rockyard trace {} --cell 0 --trial 0", word);
-  }
+  return "rockyard report " + campaign::ShellPath(folder.string());
 }
 
 std::string NextLine(const std::filesystem::path& folder, Finished what,

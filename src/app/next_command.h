@@ -6,11 +6,10 @@
 
 namespace rockyard::app {
 
-// What a folder holds once its trials have been run.
-enum class Finished { kDrives, kMeasurement, kSweep, kShard };
+// What a folder holds once its trials have been run: all of a campaign, or one machine's share.
+enum class Finished { kWhole, kShard };
 
-// One command that shows more of the folder: its page for a browser, where this build has pages,
-// else what its kind has on the terminal.
+// One command that shows more of the folder: its page for a browser, or how shares become one.
 std::string NextCommand(const std::filesystem::path& folder, Finished what);
 
 // "  next: COMMAND\n": how to go on with a campaign that stopped (`resume`, empty where it did

@@ -35,7 +35,7 @@ ExitCode Run(const RunOptions& options) {
     return ExitCode::kDone;
   }
   SharedFlag output_failed;
-  const campaign::RunObserver shown = ShowRun(options.campaign, Finished::kDrives, output_failed);
+  const campaign::RunObserver shown = ShowRun(options.campaign, output_failed);
   return ShownOutcome(campaign::Run(request, shown, StopBySignal()).outcome, output_failed);
 }
 

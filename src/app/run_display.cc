@@ -7,6 +7,7 @@
 
 #include "app/console.h"
 #include "app/interrupt.h"
+#include "app/next_command.h"
 #include "app/progress_line.h"
 #include "app/show_report.h"
 
@@ -36,8 +37,7 @@ campaign::Observer MessagesToConsole(Output output) {
   return {.note = note, .problems = PrintProblems};
 }
 
-campaign::RunObserver ShowRun(const CampaignOptions& options, Finished whole,
-                              SharedFlag& output_failed) {
+campaign::RunObserver ShowRun(const CampaignOptions& options, SharedFlag& output_failed) {
   campaign::RunObserver observer;
   static_cast<campaign::Observer&>(observer) = MessagesToConsole(options.output());
   if (options.output() != Output::kQuiet) ShowProgress(observer);
@@ -49,10 +49,11 @@ campaign::RunObserver ShowRun(const CampaignOptions& options, Finished whole,
     if (OutputFailed()) output_failed.Set();
   };
   if (options.output() == Output::kText) {
-    observer.traced = [&, whole](const std::filesystem::path& folder, ExitCode outcome) {
+    observer.traced = [&](const std::filesystem::path& folder, ExitCode outcome) {
       const bool stopped = outcome == ExitCode::kInterrupted;
-      const Finished traced = options.request.ParseShard().whole() ? whole : Finished::kShard;
-      Print(NextLine(folder, traced, stopped ? options.resume_command : ""));
+      const bool whole = options.request.ParseShard().whole();
+      Print(NextLine(folder, whole ? Finished::kWhole : Finished::kShard,
+                     stopped ? options.resume_command : ""));
       if (OutputFailed()) output_failed.Set();
     };
   }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/campaign_options.h"
-#include "app/next_command.h"
 #include "app/shared_flag.h"
 #include "campaign/observer.h"
 #include "campaign/run_campaign.h"
@@ -14,11 +13,9 @@ namespace rockyard::app {
 campaign::Observer MessagesToConsole(Output output);
 
 // Beside these messages: progress on standard error, the report on standard output, and the line
-// that names the next command, at the end of all. `whole`: what the folder holds that is no shard.
-// Sets `output_failed` where some of that could not be written, in whichever process. `options` and
-// `output_failed` must outlive it.
-campaign::RunObserver ShowRun(const CampaignOptions& options, Finished whole,
-                              SharedFlag& output_failed);
+// that names the next command, at the end of all. Sets `output_failed` where some of that could not
+// be written, in whichever process. `options` and `output_failed` must outlive it.
+campaign::RunObserver ShowRun(const CampaignOptions& options, SharedFlag& output_failed);
 
 // How a campaign ended that was shown like that.
 ExitCode ShownOutcome(ExitCode outcome, const SharedFlag& output_failed);

@@ -61,11 +61,10 @@ struct JsonOf {
 
 struct FinishedOf {
   Finished operator()(const RunReport& run) const {
-    if (std::holds_alternative<std::monostate>(run.summary)) return Finished::kShard;
-    const bool drives = std::holds_alternative<statistics::DriveSummary>(run.summary);
-    return drives ? Finished::kDrives : Finished::kMeasurement;
+    const bool share = std::holds_alternative<std::monostate>(run.summary);
+    return share ? Finished::kShard : Finished::kWhole;
   }
-  Finished operator()(const SweepReport&) const { return Finished::kSweep; }
+  Finished operator()(const SweepReport&) const { return Finished::kWhole; }
   Finished operator()(const SweepShardReport&) const { return Finished::kShard; }
 };
 

@@ -35,7 +35,7 @@ ExitCode RunSweep(const SweepOptions& options) {
                                        .campaign = options.campaign.Request()};
   if (options.campaign.dry_run) return RehearseSweep(request, options);
   SharedFlag output_failed;
-  const campaign::RunObserver shown = ShowRun(options.campaign, Finished::kSweep, output_failed);
+  const campaign::RunObserver shown = ShowRun(options.campaign, output_failed);
   return ShownOutcome(campaign::RunSweep(request, shown, StopBySignal()).outcome, output_failed);
 }
 

@@ -131,8 +131,8 @@ std::unique_ptr<Communicator> StartMpi() { return std::make_unique<MpiCommunicat
 
 std::unique_ptr<Communicator> StartMpi() {
   throw core::UserError("MPI", "is not in this build of the program",
-                        "install libopenmpi-dev and build with -DROCKYARD_MPI=ON, or use --shard "
-                        "and `rockyard merge` in place of mpirun");
+                        "install it (scripts/install_dependencies.sh mpi), configure and build "
+                        "again, or use --shard and `rockyard merge` in place of mpirun");
 }
 
 #endif

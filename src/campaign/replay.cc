@@ -31,25 +31,21 @@ std::string DefaultStem(const TrialSource& source, std::uint32_t trial) {
   return fmt::format("{}-trial{}", folder.string(), trial);
 }
 
-// Without pages there are the plan and the data.
 std::vector<AskedFile> OutputsOf(const ReplayRequest& request, const TrialSource& source) {
   const std::string stem = request.page.empty()
                                ? DefaultStem(source, request.trial.trial)
                                : fs::path(request.page).replace_extension().string();
-  const bool pages = web::PagesBuilt();
   const auto path = [&](const std::string& asked, const char* extension) {
     return asked.empty() ? fs::path(stem + extension) : fs::path(asked);
   };
   std::vector<AskedFile> outputs;
-  if (pages) {
-    outputs.push_back(
-        {"--out", "3-D replay", path(request.page, ".html"), [](const ReplayedTrial& replayed) {
-           return web::MakePage(web::Page::kReplay, replayed.data.title, ReplayPayload(replayed));
-         }});
-  }
+  outputs.push_back(
+      {"--out", "3-D replay", path(request.page, ".html"), [](const ReplayedTrial& replayed) {
+         return web::MakePage(web::Page::kReplay, replayed.data.title, ReplayPayload(replayed));
+       }});
   outputs.push_back({"--svg", "plan view", path(request.plan, ".svg"),
                      [](const ReplayedTrial& replayed) { return replayed.plan_svg; }});
-  if (!pages || !request.data.empty()) {
+  if (!request.data.empty()) {
     outputs.push_back({"--data", "data of the page", path(request.data, ".json"), ReplayPayload});
   }
   return outputs;
@@ -62,10 +58,8 @@ void CheckOutputs(const ReplayRequest& request, const std::vector<AskedFile>& ou
   CheckOutputFile("--svg", request.plan);
   CheckOutputFile("--data", request.data);
   std::vector<NamedFile> files;
-  files.reserve(outputs.size() + 1);
+  files.reserve(outputs.size());
   for (const AskedFile& output : outputs) files.push_back({output.option, output.path.string()});
-  // A name is right or wrong in every build, also in one that writes no page.
-  if (!web::PagesBuilt() && !request.page.empty()) files.push_back({"--out", request.page});
   CheckDistinct(files);
 }
 
@@ -100,11 +94,6 @@ Outcome DriveAndWrite(const ReplayRequest& request, Journal& journal, ReplayResu
     const auto differences = CompareWithStore(request.trial, source, data.schema, data.record);
     result.repeats_stored = differences.empty();
     journal.Fail(differences);
-  }
-  if (!web::PagesBuilt()) {
-    journal.Warn(
-        "this build has no pages, so the 3-D replay is left out: install nodejs and npm, and build "
-        "again");
   }
   if (!WriteOutputs(outputs, replayed, journal, result.files)) return Outcome::kFailed;
   return result.repeats_stored.value_or(true) ? Outcome::kDone : Outcome::kDiffers;

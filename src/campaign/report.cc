@@ -46,16 +46,8 @@ void CheckFile(const char* option, const std::string& file, const char* extensio
   }
 }
 
-void CheckBuilt(const ReportRequest& request) {
-  if (!web::PagesBuilt() && (request.data.empty() || !request.page.empty())) {
-    throw core::UserError("rockyard report", "this program was built without its pages",
-                          "install nodejs and npm and build it again (scripts/quickstart.sh), or "
-                          "write the numbers alone with --data FILE");
-  }
-}
-
 void CheckFiles(const ReportRequest& request) {
-  if (web::PagesBuilt()) CheckFile("--out", PageFile(request), ".html");
+  CheckFile("--out", PageFile(request), ".html");
   if (!request.data.empty()) CheckFile("--data", request.data, ".json");
 }
 
@@ -65,21 +57,18 @@ void WritePage(const ReportRequest& request, const PageRequest& page, const Repo
     report::WriteFileAtomically(request.data, report.json);
     result.data_bytes = report.json.size();
   }
-  if (web::PagesBuilt()) {
-    const std::string html = web::MakePage(web::Page::kReport, page.title, report.json);
-    report::WriteFileAtomically(page.page, html);
-    result.page_bytes = html.size();
-  }
+  const std::string html = web::MakePage(web::Page::kReport, page.title, report.json);
+  report::WriteFileAtomically(page.page, html);
+  result.page_bytes = html.size();
 }
 
 Outcome Write(const ReportRequest& request, const ReportObserver& observer, const Contact& contact,
               ReportResult& result) {
-  CheckBuilt(request);
   PageRequest page{.inputs = FindReportInputs(request.runs, request.cell),
                    .title = {},
                    .command = request.command,
                    .against = request.against,
-                   .replays = web::PagesBuilt() ? request.replays : 0,
+                   .replays = request.replays,
                    .page = PageFile(request),
                    .progress = observer.replays};
   CheckFiles(request);

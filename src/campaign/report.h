@@ -30,14 +30,14 @@ struct ReportObserver : Observer {
 
 struct ReportResult : WorkResult {
   std::filesystem::path page;
-  std::size_t page_bytes = 0;  // 0: not written, or a build without pages
+  std::size_t page_bytes = 0;  // 0: not written
   std::size_t data_bytes = 0;  // 0: not written
   std::size_t runs = 0;
   std::size_t trials = 0;
   ReportReplays replays;
 };
 
-// Never throws. In a build without pages there is no report but `data`. Cost: see report_build.h.
+// Never throws. Cost: see report_build.h.
 ReportResult WriteReport(const ReportRequest& request, const ReportObserver& observer = {},
                          const Stop& stop = {});
 

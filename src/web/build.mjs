@@ -1,5 +1,4 @@
-// Bundles each page into one HTML file with everything in it, and writes them as C++ literals too;
-// and trace_to_mcap.mjs, which node runs. Each carries the notices of the packages in it;
+// Bundles each page into one HTML file with everything in it; and trace_to_mcap.mjs, which node runs. Each carries the notices of the packages in it;
 // THIRD_PARTY.txt has those of all.
 // Usage: node build.mjs OUT    (run where node_modules lies beside this file)
 //
@@ -62,15 +61,6 @@ function comment(text) {
   return `<!--\n${text}\n-->`;
 }
 
-const DELIMITER = "rockyard_page";
-
-// In parts, because compilers limit the length of one literal.
-function literal(html) {
-  if (html.includes(`)${DELIMITER}"`)) throw new Error("a page holds the end of a C++ literal");
-  const parts = html.match(/[^]{1,16000}/gu);
-  return parts.map((part) => `R"${DELIMITER}(${part})${DELIMITER}"`).join("\n");
-}
-
 // Some of its packages are CommonJS and call require, which a module lacks.
 const REQUIRE = `import { createRequire } from "node:module"; const require = createRequire(import.meta.url);`;
 
@@ -80,6 +70,7 @@ const converter = await build({
   outfile: path.join(out, "trace_to_mcap.mjs"),
   bundle: true,
   platform: "node",
+  minify: true,
   format: "esm",
   target: ["node18"],
   banner: { js: REQUIRE },
@@ -89,17 +80,9 @@ const converter = await build({
 });
 const metafiles = [converter.metafile];
 await appendFile(path.join(out, "trace_to_mcap.mjs"), `/*\n${await notices(metafiles)}\n*/\n`);
-const definitions = [];
 for (const page of PAGES) {
   const { html, metafile } = await makePage(page);
   metafiles.push(metafile);
   await writeFile(path.join(out, `${page}.html`), html);
-  const name = `k${page[0].toUpperCase()}${page.slice(1)}Page`;
-  definitions.push(`const std::string_view ${name} =\n${literal(html)};`);
 }
 await writeFile(path.join(out, "THIRD_PARTY.txt"), `${await notices(metafiles)}\n`);
-await writeFile(
-  path.join(out, "bundled_pages.cc"),
-  `// Written by src/web/build.mjs.\n#include "web/bundled_pages.h"\n\nnamespace rockyard::web {\n\n` +
-    `${definitions.join("\n\n")}\n\n}  // namespace rockyard::web\n`,
-);

@@ -4,10 +4,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/error.h"
 #include "report/xml_text.h"
 #include "web/base64.h"
-#include "web/bundled_pages.h"
+#include "web/embedded_pages.h"
 #include "web/gzip.h"
 
 namespace rockyard::web {
@@ -22,14 +21,7 @@ void Fill(std::string& html, std::string_view mark, std::string_view value) {
 
 }  // namespace
 
-bool PagesBuilt() { return !kReportPage.empty() && !kReplayPage.empty(); }
-
 std::string MakePage(Page page, std::string_view title, std::string_view payload_json) {
-  if (!PagesBuilt()) {
-    throw core::UserError("page", "this build of the program has no pages for a browser",
-                          "install nodejs and npm (scripts/install_dependencies.sh pages), "
-                          "configure again and build");
-  }
   std::string html(page == Page::kReport ? kReportPage : kReplayPage);
   Fill(html, "<!-- title -->", report::EscapeXml(title));
   Fill(html, "<!-- payload -->", Base64(Gzip(payload_json)));

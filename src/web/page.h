@@ -8,12 +8,9 @@ namespace rockyard::web {
 
 enum class Page { kReport, kReplay };
 
-// False where the program was built without npm: then MakePage has nothing to fill.
-bool PagesBuilt();
-
 // The page that shows `payload_json` (shapes: report/payload.ts, replay/payload.ts of this folder).
 // The data is compressed (gzip) and in base64, so nothing in it can be read as markup; the title is
-// escaped. Throws core::UserError where the pages were not built. Cost: about 20 ns per byte.
+// escaped. Cost: about 20 ns per byte.
 std::string MakePage(Page page, std::string_view title, std::string_view payload_json);
 
 }  // namespace rockyard::web

@@ -12,14 +12,6 @@
 
 namespace rockyard::app {
 
-// Whether the build was to have pages; without npm there are the numbers alone. What is expected is
-// not asked of the program that is tested.
-#ifdef ROCKYARD_HAS_PAGES
-inline constexpr bool kHasPages = true;
-#else
-inline constexpr bool kHasPages = false;
-#endif
-
 class CliReportTest : public CommandTest {
  protected:
   // Long enough that something happens, and fast.

@@ -15,14 +15,6 @@ using testing::Not;
 
 using CliReportErrors = CliReportTest;
 
-TEST_F(CliReportErrors, PagesAreThereWhereTheyWereBuilt) {
-  ASSERT_EQ(Drive("a", 2).exit_code, 0);
-  const CommandResult result = Run({"report", "a", "--replays", "0"});
-  EXPECT_EQ(result.exit_code, kHasPages ? 0 : 2) << result.err;
-  EXPECT_EQ(fs::exists(work() / "a/report.html"), kHasPages);
-  EXPECT_EQ(result.err.find("built without") == std::string::npos, kHasPages);
-}
-
 TEST_F(CliReportErrors, ForceSetsTheOldReportAside) {
   ASSERT_EQ(Drive("a", 3).exit_code, 0);
   WriteFile(work() / "a/report.html", "old");

@@ -4,21 +4,15 @@
 
 #include <string>
 
-#include "web/page.h"
-
 namespace rockyard::app {
 namespace {
 
-TEST(NextCommand, IsThePageWhereThisBuildHasPages) {
-  for (const Finished what : {Finished::kDrives, Finished::kMeasurement, Finished::kSweep}) {
-    const std::string command = NextCommand("runs/a b", what);
-    EXPECT_NE(command.find(" 'runs/a b'"), std::string::npos) << command;
-    EXPECT_EQ(command.starts_with("rockyard report "), web::PagesBuilt()) << command;
-  }
+TEST(NextCommand, IsThePage) {
+  EXPECT_EQ(NextCommand("runs/a b", Finished::kWhole), "rockyard report 'runs/a b'");
 }
 
 TEST(NextCommand, TakesNoFolderForAnOption) {
-  const std::string command = NextCommand("-x", Finished::kDrives);
+  const std::string command = NextCommand("-x", Finished::kWhole);
   EXPECT_NE(command.find(" ./-x"), std::string::npos) << command;
 }
 
@@ -27,7 +21,7 @@ TEST(NextCommand, ShardsAreMerged) {
 }
 
 TEST(NextLine, GoesOnWithWhatStopped) {
-  EXPECT_EQ(NextLine("runs/a", Finished::kDrives, "rockyard run a.json --resume"),
+  EXPECT_EQ(NextLine("runs/a", Finished::kWhole, "rockyard run a.json --resume"),
             "  next: rockyard run a.json --resume\n");
   EXPECT_EQ(NextLine("runs/a", Finished::kShard, ""),
             "  next: rockyard merge SHARD... --out FOLDER\n");

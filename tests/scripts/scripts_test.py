@@ -67,28 +67,35 @@ class Quickstart(ScriptTest):
         out = "results/runs/quickstart"
         names = ["obstacles_0.28", "obstacles_0.57", "obstacles_0.85", "nominal",
                  "nominal_perfect_localization", "level_sand"]
-        runs = [f"run scenarios/pathfinder/{name}.json --out {out}/{name} --resume --force"
+        runs = [f"run scenarios/pathfinder/{name}.json --resume --force --out {out}/{name}"
                 " --trials 300" for name in names]
         folders = " ".join(f"{out}/{name}" for name in names)
+        look = f"{out}/first_look"
         self.assertEqual(self.called("rockyard"), [
+            "run scenarios/pathfinder/nominal.json --resume --force"
+            f" --out {look} --set rover.fidelity=quasi_static --trials 40",
+            f"report {look} --out {look}.html",
             *runs,
             f"check {folders} --against results/reference/matthies1995.json",
             f"report {out}/nominal {out}/nominal_perfect_localization"
             f" --against results/reference/matthies1995.json --out {out}/report.html"])
         self.assertIn(f"{out}/report.html (open it", result.stdout)
 
-    def test_a_program_without_pages_still_gives_the_runs(self):
-        result = self.run_script("quickstart.sh", REPORT_CODE="2")
-        self.assertEqual(result.returncode, 0)
-        self.assertNotIn("report.html (open it", result.stdout)
+    def test_a_page_that_fails_ends_it(self):
         self.assertEqual(self.run_script("quickstart.sh", REPORT_CODE="5").returncode, 5)
+
+    def test_the_first_look_can_be_all(self):
+        result = self.run_script("quickstart.sh", "--first")
+        self.assertEqual(result.returncode, 0)
+        self.assertEqual([line.split()[0] for line in self.called("rockyard")], ["run", "report"])
+        self.assertIn("results/runs/quickstart/first_look.html", result.stdout)
 
     def test_options_pass_through(self):
         self.run_script("quickstart.sh", "--trials", "50", "--seed", "2")
         runs = [line for line in self.called("rockyard") if line.startswith("run")]
         for line in runs:
             self.assertTrue(line.endswith("--trials 50 --seed 2"), line)
-            self.assertNotIn("--trials 300", line)
+            self.assertEqual(line.count("--trials"), 1, line)
 
     def test_an_option_with_a_space_stays_one_word(self):
         script = self.root / "build/release/bin/rockyard"
@@ -101,7 +108,7 @@ class Quickstart(ScriptTest):
         self.run_script("quickstart.sh", "--threads", "1")
         self.run_script("quickstart.sh", "--seed", "2")
         self.run_script("quickstart.sh", "--seed", "3")
-        folders = {line.split("--out ")[1].split("/nominal")[0]
+        folders = {line.split("--out ")[1].split()[0].rpartition("/")[0]
                    for line in self.called("rockyard") if "run scenarios/pathfinder/nominal" in line}
         self.assertEqual(len(folders), 3)
         self.assertIn("results/runs/quickstart", folders)
@@ -199,7 +206,7 @@ class TestScript(ScriptTest):
 
     def test_everything_by_default(self):
         self.assertEqual(self.run_script("test.sh", "--jobs", "2").returncode, 0)
-        self.assertEqual(self.called("install_dependencies.sh"), ["build pages test figures"])
+        self.assertEqual(self.called("install_dependencies.sh"), ["build mpi pages test figures"])
         self.assertEqual(self.called("ctest"),
                          ["--preset test -j 2 --no-tests=error --output-on-failure"])
 
@@ -228,7 +235,7 @@ class TestScript(ScriptTest):
 
     def test_tsan_needs_its_own_packages(self):
         self.run_script("test.sh", "--preset", "tsan")
-        self.assertEqual(self.called("install_dependencies.sh"), ["build pages test figures tsan"])
+        self.assertEqual(self.called("install_dependencies.sh"), ["build mpi pages test figures tsan"])
 
     def test_unknown_words_run_nothing(self):
         for arguments in (["--quick"], ["--label"], ["nowhere"]):

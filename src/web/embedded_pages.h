@@ -1,4 +1,4 @@
-// The pages as build.mjs made them, or empty where they were not built.
+// The pages as build.mjs made them (scripts/cmake/embed_pages.cmake).
 #pragma once
 
 #include <string_view>
