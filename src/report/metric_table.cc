@@ -17,6 +17,7 @@ std::string_view TrialsOf(const Metric& metric) {
 
 std::string ColumnsOf(const Metric& metric) {
   if (metric.source == MetricSource::kOutcome) return "outcome";
+  if (metric.source == MetricSource::kCause) return "cause";
   std::string text(metric.columns[0]);
   if (metric.source == MetricSource::kPositive) text += " > 0";
   if (metric.source == MetricSource::kQuotient) text += fmt::format(" / {}", metric.columns[1]);

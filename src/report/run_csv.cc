@@ -5,6 +5,7 @@
 
 #include "report/csv.h"
 #include "report/distance_steps.h"
+#include "truth/end_cause.h"
 
 namespace rockyard::report {
 namespace {
@@ -18,6 +19,7 @@ void TrialsCsv(const truth::RecordSchema& schema, std::span<const truth::Record>
                const TextSink& out) {
   std::vector<std::string> fields = {"trial", "outcome"};
   for (const truth::ValueInfo& value : schema) fields.push_back(CsvField(value.name));
+  fields.emplace_back("cause");
   fields.emplace_back("detail");
   out(CsvLine(fields));
   for (const truth::Record& record : records) {
@@ -25,6 +27,7 @@ void TrialsCsv(const truth::RecordSchema& schema, std::span<const truth::Record>
     for (std::size_t i = 0; i < schema.size(); ++i) {
       fields.push_back(i < record.values.size() ? CsvNumber(record.values[i]) : std::string());
     }
+    fields.emplace_back(truth::CauseName(record));
     fields.push_back(CsvField(record.detail));
     out(CsvLine(fields));
   }

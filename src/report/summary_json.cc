@@ -51,6 +51,15 @@ JsonValue Outcomes(const DriveSummary& summary) {
   return outcomes;
 }
 
+// Those that happened.
+JsonValue Causes(const DriveSummary& summary) {
+  JsonValue causes = JsonValue::Object();
+  for (std::size_t i = 0; i < truth::kEndCauses.size(); ++i) {
+    if (summary.causes[i] > 0) causes.Set(truth::kEndCauses[i].name, JsonValue(summary.causes[i]));
+  }
+  return causes;
+}
+
 // Members of their own in the layout; every other column stands under "columns".
 struct NamedColumn {
   std::string_view member;
@@ -204,6 +213,7 @@ JsonValue SummaryValue(const RunDescription& run, const DriveSummary& summary,
   json.Set("declared_success", Rate(summary.declared_success, method));
   json.Set("true_success", Rate(summary.true_success, method));
   json.Set("outcomes", Outcomes(summary));
+  json.Set("causes", Causes(summary));
   AddColumns(summary, json);
   json.Set("metrics", MetricsJson(summary.metrics));
   json.Set("metrics_by_outcome", MetricsByOutcome(summary));

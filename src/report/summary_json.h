@@ -15,13 +15,13 @@ namespace rockyard::report {
 // the way from the file; null where that is not known), localization, ablations (in force), trials
 // (planned, stored, completed: the contiguous prefix that all else is about, faults), accounting
 // and, where the run has them, stopping and shard (accounting.h), declared_success and true_success
-// (count, trials, rate, ci95, ci_method), outcomes (every kind), distance_m, path_ratio,
-// dead_reckoning, sim_time_s, energy_wh, columns (all others), metrics and metrics_by_outcome,
-// trial_hash, provenance (as below, with threads, ranks, builds). A column is {count, min, p05,
-// median, mean, mode, mode_range, mode_method, p95, max, std}, where mode_range is no interval of
-// any confidence; a metric (statistics/metrics.h) is as MetricJson says (mean_words.h); metrics
-// without a value are left out. What is undefined is null, as both ends of ci95 are where a mean
-// has none.
+// (count, trials, rate, ci95, ci_method), outcomes (every kind), causes (those that happened,
+// truth/end_cause.h), distance_m, path_ratio, dead_reckoning, sim_time_s, energy_wh, columns (all
+// others), metrics and metrics_by_outcome, trial_hash, provenance (as below, with threads, ranks,
+// builds). A column is {count, min, p05, median, mean, mode, mode_range, mode_method, p95, max,
+// std}, where mode_range is no interval of any confidence; a metric (statistics/metrics.h) is as
+// MetricJson says (mean_words.h); metrics without a value are left out. What is undefined is null,
+// as both ends of ci95 are where a mean has none.
 core::JsonValue SummaryValue(const RunDescription& run, const statistics::DriveSummary& summary,
                              statistics::IntervalMethod method);
 std::string SummaryJson(const RunDescription& run, const statistics::DriveSummary& summary,

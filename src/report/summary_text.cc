@@ -81,6 +81,22 @@ std::string_view ColourOf(TrialOutcome outcome) {
   return outcome == TrialOutcome::kFalseGoal ? kYellow : kRed;
 }
 
+// Below an outcome that has several: how often each, and the setting that decided.
+std::string CauseLines(const DriveSummary& summary, TrialOutcome outcome) {
+  if (!truth::HasSeveralCauses(outcome)) return "";
+  std::string text;
+  const double total = static_cast<double>(std::max<std::int64_t>(summary.completed, 1));
+  for (std::size_t i = 0; i < truth::kEndCauses.size(); ++i) {
+    const truth::EndCauseInfo& cause = truth::kEndCauses[i];
+    const std::int64_t count = summary.causes[i];
+    if (cause.outcome != outcome || count == 0) continue;
+    const double percent = 100.0 * static_cast<double>(count) / total;
+    text += fmt::format("    {:<22}{:>6}     {:6.1f} %{}{}\n", cause.label, count, percent,
+                        cause.setting.empty() ? "" : "   ", cause.setting);
+  }
+  return text;
+}
+
 std::string OutcomeLines(const DriveSummary& summary, TextStyle style) {
   std::string text;
   const double total = static_cast<double>(std::max<std::int64_t>(summary.completed, 1));
@@ -93,6 +109,7 @@ std::string OutcomeLines(const DriveSummary& summary, TextStyle style) {
                         count, 100.0 * share,
                         Coloured(style, ColourOf(static_cast<TrialOutcome>(i)),
                                  std::string(static_cast<std::size_t>(length), '#')));
+    text += CauseLines(summary, static_cast<TrialOutcome>(i));
   }
   return text;
 }

@@ -71,6 +71,9 @@ DriveSummary Summarize(const truth::RecordSchema& schema, std::span<const truth:
   summary.planned = planned > 0 ? planned : summary.completed;
   for (const truth::Record& record : records) {
     ++summary.outcomes[static_cast<std::size_t>(record.outcome)];
+    if (const auto cause = truth::CauseOf(record)) {
+      ++summary.causes[static_cast<std::size_t>(*cause)];
+    }
   }
   summary.faults = summary.outcome(truth::TrialOutcome::kSimulatorFault);
   const std::int64_t counted = summary.completed - summary.faults;

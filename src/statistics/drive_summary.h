@@ -11,6 +11,7 @@
 
 #include "statistics/metrics.h"
 #include "statistics/proportions.h"
+#include "truth/end_cause.h"
 #include "truth/record.h"
 
 namespace rockyard::statistics {
@@ -41,6 +42,7 @@ struct DriveSummary {
   Proportion declared_success;  // goal_reached and false_goal
   Proportion true_success;      // goal_reached
   std::array<std::int64_t, truth::kTrialOutcomeNames.size()> outcomes{};
+  std::array<std::int64_t, truth::kEndCauses.size()> causes{};  // of records that tell theirs
   // Every column of the schema over all trials without a fault, in the schema's order; but
   // "path_ratio", last, is that metric's (over declared successes), whatever the schema has.
   std::vector<ColumnSummary> columns;
@@ -51,6 +53,7 @@ struct DriveSummary {
   std::int64_t outcome(truth::TrialOutcome kind) const {
     return outcomes[static_cast<std::size_t>(kind)];
   }
+  std::int64_t cause(truth::EndCause kind) const { return causes[static_cast<std::size_t>(kind)]; }
   const ColumnSummary* Find(std::string_view name) const;  // nullptr where there is none
 };
 

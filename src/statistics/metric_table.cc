@@ -2,14 +2,17 @@
 #include <algorithm>
 
 #include "statistics/metrics.h"
+#include "truth/end_cause.h"
 
 namespace rockyard::statistics {
 namespace {
 
+using truth::EndCause;
 using truth::TrialOutcome;
 
-constexpr std::uint32_t Bit(TrialOutcome outcome) {
-  return std::uint32_t{1} << static_cast<unsigned>(outcome);
+template <typename Enum>
+constexpr std::uint32_t Bit(Enum value) {
+  return std::uint32_t{1} << static_cast<unsigned>(value);
 }
 
 constexpr double kRateMargin = 0.1;
@@ -23,6 +26,14 @@ constexpr Metric OutcomeRate(std::string_view name, std::uint32_t outcomes,
           .source = MetricSource::kOutcome,
           .outcomes = outcomes,
           .margin = kRateMargin};
+}
+
+constexpr Metric CauseRate(std::string_view name, std::uint32_t causes,
+                           std::string_view definition) {
+  Metric metric = OutcomeRate(name, 0, definition);
+  metric.source = MetricSource::kCause;
+  metric.causes = causes;
+  return metric;
 }
 
 constexpr Metric Arrived(std::string_view name, std::string_view unit, std::string_view column,
@@ -83,7 +94,15 @@ constexpr std::array kMetrics = {
     OutcomeRate("jammed", Bit(TrialOutcome::kJammed),
                 "share of trials that end with the rover unable to move"),
     OutcomeRate("no_path", Bit(TrialOutcome::kNoPath),
-                "share of trials in which the navigator gives up"),
+                "share of trials that find no way on, for one of the four causes that follow"),
+    CauseRate("gave_up", Bit(EndCause::kGaveUp) | Bit(EndCause::kNoticedStuck),
+              "share of trials in which the navigator gives up"),
+    CauseRate("patience_distance", Bit(EndCause::kPatienceDistance),
+              "share of trials that the operator ends, as the rover drives on and comes no nearer"),
+    CauseRate("patience_turning", Bit(EndCause::kPatienceTurning),
+              "share of trials that the operator ends, as the rover turns and comes no nearer"),
+    CauseRate("patience_time", Bit(EndCause::kPatienceTime),
+              "share of trials that the operator ends, as the rover comes no nearer for too long"),
     OutcomeRate("energy_depleted", Bit(TrialOutcome::kEnergyDepleted),
                 "share of trials that end with empty batteries"),
     OutcomeRate("time_limit", Bit(TrialOutcome::kTimeLimit),

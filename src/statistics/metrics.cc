@@ -8,6 +8,7 @@
 #include "statistics/drive_summary.h"
 #include "statistics/moments.h"
 #include "statistics/quantiles.h"
+#include "truth/end_cause.h"
 
 namespace rockyard::statistics {
 namespace {
@@ -23,10 +24,16 @@ bool HasOutcome(const Metric& metric, truth::TrialOutcome outcome) {
   return (metric.outcomes >> static_cast<unsigned>(outcome) & 1u) != 0;
 }
 
+bool HasCause(const Metric& metric, const truth::Record& record) {
+  const auto cause = truth::CauseOf(record);
+  return cause && (metric.causes >> static_cast<unsigned>(*cause) & 1u) != 0;
+}
+
 double ValueOf(const Metric& metric, const truth::Record& record, std::size_t first,
                std::size_t second) {
   if (metric.source == MetricSource::kOutcome)
     return HasOutcome(metric, record.outcome) ? 1.0 : 0.0;
+  if (metric.source == MetricSource::kCause) return HasCause(metric, record) ? 1.0 : 0.0;
   if (std::max(first, second) >= record.values.size()) return kNaN;
   const double value = record.values[first];
   if (!std::isfinite(value)) return kNaN;
@@ -108,7 +115,10 @@ std::vector<MetricSummary> SummarizeMetrics(const truth::RecordSchema& schema,
                                             std::optional<truth::TrialOutcome> outcome) {
   std::vector<MetricSummary> summaries;
   for (const Metric& metric : Metrics()) {
-    if (outcome && metric.source == MetricSource::kOutcome) continue;
+    if (outcome &&
+        (metric.source == MetricSource::kOutcome || metric.source == MetricSource::kCause)) {
+      continue;
+    }
     auto values = MetricValues(metric, schema, records);
     if (!values) continue;
     for (std::size_t i = 0; outcome && i < records.size(); ++i) {

@@ -27,6 +27,7 @@ enum class MetricTrials {
 // How the value of a trial is made.
 enum class MetricSource {
   kOutcome,   // 1 if the outcome is in `outcomes`
+  kCause,     // 1 if it ended for one of `causes`
   kColumn,    // the first column
   kQuotient,  // the first column over the second
   kPositive,  // 1 if the first column is above 0
@@ -41,6 +42,7 @@ struct Metric {
   MetricSource source = MetricSource::kColumn;
   std::array<std::string_view, 2> columns{};  // of the record
   std::uint32_t outcomes = 0;                 // one bit for each, kOutcome only
+  std::uint32_t causes = 0;                   // the same of kCause
   // Differences below max(margin, relative_margin |mean|) do not matter, unless a user says
   // otherwise: default of the equivalence tests, a convention and no result.
   double margin = 0.0;

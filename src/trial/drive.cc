@@ -234,15 +234,15 @@ void Drive::Strand() {
 }
 
 DriveResult Drive::Finish(const Verdict& verdict) {
-  if (truth::IsStuck(verdict.outcome)) {
+  if (truth::IsStuck(verdict.outcome())) {
     Strand();
   } else {
     tracer_.Rest({});
   }
-  tracer_.Event("end", verdict.detail);
-
-  return {verdict.outcome, verdict.detail,
-          observer_.Report(truth::DeclaredSuccess(verdict.outcome), stall_)};
+  const truth::EndCauseInfo& end = truth::Info(verdict.cause);
+  tracer_.Event("end", std::string(end.sentence));
+  return {end.outcome, std::string(end.sentence),
+          observer_.Report(truth::DeclaredSuccess(end.outcome), stall_)};
 }
 
 DriveResult RunTrial(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,

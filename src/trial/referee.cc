@@ -7,7 +7,7 @@
 namespace rockyard::trial {
 namespace {
 
-using truth::TrialOutcome;
+using truth::EndCause;
 
 double Between(double x0_m, double y0_m, double x1_m, double y1_m) {
   return std::hypot(x1_m - x0_m, y1_m - y0_m);
@@ -55,18 +55,18 @@ Referee::Referee(const RefereeParams& params, const CourseParams& course,
 std::optional<Verdict> Referee::Observe(const Observation& observation, const Ledger& ledger) {
   const truth::RoverState& state = observation.state;
   if (state.X_WR.linear()(2, 2) < tip_over_cosine_) {
-    return Verdict{TrialOutcome::kTipOver, "tilted beyond tip_over_deg"};
+    return Verdict{EndCause::kFellOver};
   }
   const double x = state.X_WR.translation().x();
   if (bounds_ && (x < bounds_->min_x_m || x > bounds_->max_x_m)) {
-    return Verdict{TrialOutcome::kLeftArena, "drove past an end of the arena"};
+    return Verdict{EndCause::kLeftArena};
   }
-  if (ledger.empty()) return Verdict{TrialOutcome::kEnergyDepleted, "batteries empty"};
+  if (ledger.empty()) return Verdict{EndCause::kBatteriesEmpty};
   if (params_.time_limit_s > 0.0 && ledger.time_s() >= params_.time_limit_s) {
-    return Verdict{TrialOutcome::kTimeLimit, "simulated time reached time_limit_s"};
+    return Verdict{EndCause::kTimeLimit};
   }
   if (IsEmbedded(state, wheel_radius_m_)) {
-    return Verdict{TrialOutcome::kJammed, "embedded: the wheels sank in beyond their axles"};
+    return Verdict{EndCause::kSankIn};
   }
   if (auto stuck = CheckStuck(observation)) return stuck;
   return CheckNoPath(observation, ledger.time_s());
@@ -83,9 +83,9 @@ std::optional<Verdict> Referee::CheckStuck(const Observation& observation) {
   OpenWindow(observation);
   if (MovedSince(window, observation)) return std::nullopt;
   if (window.belly_s >= params_.high_centre_time_share * window.duration_s) {
-    return Verdict{TrialOutcome::kHighCentred, "no net motion with the belly on a rock"};
+    return Verdict{EndCause::kBellyOnRock};
   }
-  return Verdict{TrialOutcome::kJammed, "no motion although the wheels were told to turn"};
+  return Verdict{EndCause::kNoMotion};
 }
 
 void Referee::OpenWindow(const Observation& observation) {
@@ -148,13 +148,13 @@ std::optional<Verdict> Referee::CheckNoPath(const Observation& observation, doub
   no_progress_distance_m_ = std::max(no_progress_distance_m_, distance_m);
   no_progress_turn_rad_ = std::max(no_progress_turn_rad_, turn_rad);
   if (IsBeyond(distance_m, params_.no_path_distance_m)) {
-    return Verdict{TrialOutcome::kNoPath, "drove no_path_distance_m without coming nearer"};
+    return Verdict{EndCause::kPatienceDistance};
   }
   if (IsBeyond(turn_rad, params_.no_path_turn_rad)) {
-    return Verdict{TrialOutcome::kNoPath, "turned no_path_turn_deg without coming nearer"};
+    return Verdict{EndCause::kPatienceTurning};
   }
   if (IsBeyond(time_s - progress_.time_s, params_.no_path_time_s)) {
-    return Verdict{TrialOutcome::kNoPath, "spent no_path_time_s without coming nearer"};
+    return Verdict{EndCause::kPatienceTime};
   }
   return std::nullopt;
 }
@@ -190,18 +190,15 @@ void Referee::OnNextGoal(const messages::Goal& told_goal, const Observation& obs
 Verdict Referee::OnNavigatorStop(navigation::NavigatorStatus status, const truth::RoverState& state,
                                  double time_s) const {
   if (status == navigation::NavigatorStatus::kGaveUp) {
-    return {TrialOutcome::kNoPath, "the navigator gave up"};
+    return {EndCause::kGaveUp};
   }
   if (status == navigation::NavigatorStatus::kStuck) {
-    return {TrialOutcome::kNoPath, "the rover noticed that it is stuck"};
+    return {EndCause::kNoticedStuck};
   }
   const auto p = state.X_WR.translation();
   const messages::Goal goal = course_.GoalAt(time_s);
   const double off_m = Between(p.x(), p.y(), goal.x_m, goal.y_m);
-  if (off_m <= course_.goal_radius_m) {
-    return {TrialOutcome::kGoalReached, "arrived within goal_radius_m"};
-  }
-  return {TrialOutcome::kFalseGoal, "believed to have arrived outside goal_radius_m"};
+  return {off_m <= course_.goal_radius_m ? EndCause::kArrived : EndCause::kBelievedOnly};
 }
 
 }  // namespace rockyard::trial

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "math/pose.h"
 #include "messages/estimates.h"
@@ -10,14 +9,16 @@
 #include "trial/course_params.h"
 #include "trial/ledger.h"
 #include "trial/referee_params.h"
+#include "truth/end_cause.h"
 #include "truth/record.h"
 #include "truth/rover_state.h"
 
 namespace rockyard::trial {
 
 struct Verdict {
-  truth::TrialOutcome outcome = truth::TrialOutcome::kSimulatorFault;
-  std::string detail;
+  truth::EndCause cause = truth::EndCause::kArrived;
+
+  truth::TrialOutcome outcome() const { return truth::Info(cause).outcome; }
 };
 
 // Bounds of the arena along x; the sides of open and virtual arenas have none.

@@ -9,6 +9,7 @@
 
 #include "report/csv.h"
 #include "sample_run.h"
+#include "truth/end_cause.h"
 
 namespace rockyard::report {
 namespace {
@@ -74,16 +75,19 @@ TEST(TrialsCsv, ReadsBackToTheSameRecords) {
   std::vector<truth::Record> records = SampleRecords();
   records[0].values[0] = 0.1 + 0.2;
   records[0].detail = "a, \"b\"\nc";
+  records[2].detail = truth::Info(truth::EndCause::kGaveUp).sentence;
   const auto rows = Parse(WrittenBy(TrialsCsv, SampleSchema(), records));
   ASSERT_EQ(rows.size(), records.size() + 1);
   EXPECT_EQ(rows[0].front(), "trial");
+  EXPECT_EQ(rows[0][rows[0].size() - 2], "cause");
   EXPECT_EQ(rows[0].back(), "detail");
   for (std::size_t i = 0; i < records.size(); ++i) {
     const Row& row = rows[i + 1];
-    ASSERT_EQ(row.size(), SampleSchema().size() + 3);
+    ASSERT_EQ(row.size(), SampleSchema().size() + 4);
     EXPECT_EQ(row[0], std::to_string(records[i].trial));
     EXPECT_EQ(row[1], truth::Name(records[i].outcome));
     EXPECT_EQ(row.back(), records[i].detail);
+    EXPECT_EQ(row[row.size() - 2], i == 2 ? "gave_up" : "");
     for (std::size_t j = 0; j < SampleSchema().size(); ++j) {
       const bool defined = j < records[i].values.size() && std::isfinite(records[i].values[j]);
       EXPECT_EQ(row[j + 2].empty(), !defined);

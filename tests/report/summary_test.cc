@@ -9,6 +9,7 @@
 #include "sample_run.h"
 #include "statistics/drive_summary.h"
 #include "statistics/metrics.h"
+#include "truth/end_cause.h"
 
 namespace rockyard::report {
 namespace {
@@ -16,6 +17,7 @@ namespace {
 using nlohmann::json;
 using statistics::IntervalMethod;
 using testing::HasSubstr;
+using testing::Not;
 
 statistics::DriveSummary SampleSummary(IntervalMethod method = IntervalMethod::kWilson) {
   return statistics::Summarize(SampleSchema(), SampleRecords(), 8, method);
@@ -158,6 +160,51 @@ std::string TextOf(const statistics::MetricSummary& metric) {
   statistics::DriveSummary summary = SampleSummary();
   summary.metrics = {metric};
   return SummaryText(SampleDescription(), summary);
+}
+
+// Three ways of finding no way on, and a jam; of the other drives the outcome says it all.
+std::vector<truth::Record> WithCauses() {
+  using truth::EndCause;
+  std::vector<truth::Record> records;
+  for (const EndCause cause :
+       {EndCause::kPatienceDistance, EndCause::kGaveUp, EndCause::kPatienceDistance,
+        EndCause::kNoticedStuck, EndCause::kNoMotion, EndCause::kArrived}) {
+    records.push_back({.trial = records.size(),
+                       .outcome = truth::Info(cause).outcome,
+                       .detail = std::string(truth::Info(cause).sentence),
+                       .values = SampleRecords()[0].values});
+  }
+  return records;
+}
+
+TEST(SummaryJson, CountsCausesAndHasTheirRates) {
+  const json summary = SummaryOf(WithCauses(), IntervalMethod::kWilson);
+  EXPECT_EQ(summary["causes"], json({{"patience_distance", 2},
+                                     {"gave_up", 1},
+                                     {"noticed_stuck", 1},
+                                     {"no_motion", 1},
+                                     {"arrived", 1}}));
+  EXPECT_EQ(summary["outcomes"]["no_path"], 4);
+  const auto rate = [&](const char* name) {
+    return summary["metrics"].at(name)["mean"].get<double>();
+  };
+  EXPECT_DOUBLE_EQ(rate("no_path"), 4.0 / 6.0);
+  EXPECT_DOUBLE_EQ(rate("patience_distance"), 2.0 / 6.0);
+  EXPECT_DOUBLE_EQ(rate("gave_up"), 2.0 / 6.0);  // noticing that it is stuck is giving up
+  EXPECT_EQ(rate("patience_turning"), 0.0);
+  EXPECT_FALSE(summary["metrics_by_outcome"]["no_path"].contains("patience_distance"));
+}
+
+TEST(SummaryText, TellsCausesBelowOutcomesThatHaveSeveral) {
+  const std::string text =
+      SummaryText(SampleDescription(), statistics::Summarize(SampleSchema(), WithCauses()));
+  EXPECT_THAT(text, HasSubstr("  no_path                 4             66.7 %"));
+  EXPECT_THAT(
+      text,
+      HasSubstr("    patience: distance         2       33.3 %   referee.no_path_distance_m\n"));
+  EXPECT_THAT(text, HasSubstr("    navigator gave up          1       16.7 %\n"));
+  EXPECT_THAT(text, Not(HasSubstr("patience: turning")));
+  EXPECT_THAT(text, Not(HasSubstr("    arrived")));
 }
 
 TEST(SummaryText, WithoutAnEventThereIsAShareAndNoIntervalOfTheMean) {

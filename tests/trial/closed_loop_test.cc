@@ -220,10 +220,10 @@ TEST(ClosedLoopTest, SoilThatBearsNothingEmbedsTheRover) {
     const DriveResult soft = run("2.6e5");
     EXPECT_EQ(soft.record.beyond_soil_law, 1.0) << fidelity;
     EXPECT_GT(soft.record.max_sinkage_m, 0.065 / 3.0) << fidelity;
-    EXPECT_EQ(soft.detail.find("embedded"), std::string::npos) << fidelity;
+    EXPECT_EQ(soft.detail.find("sank into the soil"), std::string::npos) << fidelity;
     const DriveResult liquid = run("3.2e4");
     EXPECT_EQ(liquid.outcome, truth::TrialOutcome::kJammed) << fidelity;
-    EXPECT_NE(liquid.detail.find("embedded"), std::string::npos) << fidelity;
+    EXPECT_NE(liquid.detail.find("sank into the soil"), std::string::npos) << fidelity;
   }
 }
 

@@ -22,7 +22,7 @@ bool IsSwallowed(double sinkage_m, double wheel_radius_m, const std::string& fid
                   "rover.geometry.wheel_radius_m=" + std::to_string(wheel_radius_m),
                   "referee.time_limit_s=30"}),
       {1, 0});
-  return result.detail.find("embedded") != std::string::npos;
+  return result.detail.find("sank into the soil") != std::string::npos;
 }
 
 // The limit is the radius of the wheels that the rover has. Smaller ones sink a little deeper in

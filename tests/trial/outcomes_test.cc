@@ -4,10 +4,12 @@
 #include <map>
 
 #include "trial/pathfinder_trials.h"
+#include "truth/end_cause.h"
 
 namespace rockyard::trial {
 namespace {
 
+using truth::EndCause;
 using truth::TrialOutcome;
 
 // Drives over level, rock-free sand without scans cost a few hundredths of a second.
@@ -66,16 +68,15 @@ TEST(OutcomesTest, JammedAtAWall) {
 }
 
 TEST(OutcomesTest, NoPath) {
-  const auto detail = [](const Overrides& overrides) {
+  const auto cause = [](const Overrides& overrides) {
     const DriveResult result = RunTrial(Pathfinder("level_sand", overrides), {1, 0});
-    EXPECT_EQ(result.outcome, TrialOutcome::kNoPath);
-    return result.detail;
+    return truth::CauseOf({0, result.outcome, result.detail, {}});
   };
-  EXPECT_EQ(detail({"navigation.pathfinder.time_out_s=10"}), "the navigator gave up");
-  EXPECT_EQ(detail({"course.start_heading_deg=120", "referee.no_path_distance_m=0.5"}),
-            "drove no_path_distance_m without coming nearer");
-  EXPECT_EQ(detail({"course.start_heading_deg=180", "referee.no_path_turn_deg=90"}),
-            "turned no_path_turn_deg without coming nearer");
+  EXPECT_EQ(cause({"navigation.pathfinder.time_out_s=10"}), EndCause::kGaveUp);
+  EXPECT_EQ(cause({"course.start_heading_deg=120", "referee.no_path_distance_m=0.5"}),
+            EndCause::kPatienceDistance);
+  EXPECT_EQ(cause({"course.start_heading_deg=180", "referee.no_path_turn_deg=90"}),
+            EndCause::kPatienceTurning);
 }
 
 TEST(OutcomesTest, EnergyDepleted) {

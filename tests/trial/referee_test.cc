@@ -8,6 +8,7 @@ namespace rockyard::trial {
 namespace {
 
 using navigation::NavigatorStatus;
+using truth::EndCause;
 using truth::TrialOutcome;
 
 // Feeds a referee with ticks of 0.05 s.
@@ -68,21 +69,21 @@ TEST_F(RefereeTest, TipOver) {
   state_.X_WR.linear() = Eigen::AngleAxisd(math::DegToRad(61.0), math::Vector3::UnitX()).matrix();
   const auto verdict = Tick();
   ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome, TrialOutcome::kTipOver);
+  EXPECT_EQ(verdict->outcome(), TrialOutcome::kTipOver);
 }
 
 TEST_F(RefereeTest, LeavingTheArena) {
   MoveTo(-2.01, 0.0);
   const auto verdict = Tick();
   ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome, TrialOutcome::kLeftArena);
+  EXPECT_EQ(verdict->outcome(), TrialOutcome::kLeftArena);
 }
 
 TEST_F(RefereeTest, StandingWheelsAreAJamAfterTheWindow) {
   EXPECT_FALSE(Run(params_.stall_window_s - 0.2, [] {}));
   const auto verdict = Run(1.0, [] {});
   ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome, TrialOutcome::kJammed);
+  EXPECT_EQ(verdict->outcome(), TrialOutcome::kJammed);
 }
 
 TEST_F(RefereeTest, RockingToAndFroIsNoMotion) {
@@ -95,7 +96,7 @@ TEST_F(RefereeTest, RockingToAndFroIsNoMotion) {
   };
   const auto verdict = Run(10.0 * params_.stall_window_s, rock);
   ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome, TrialOutcome::kJammed);
+  EXPECT_EQ(verdict->outcome(), TrialOutcome::kJammed);
 }
 
 // Told to turn 10 deg to and fro for ever; the rover turns by `share` of what it is told.
@@ -120,14 +121,14 @@ class DitherTest : public RefereeTest {
 TEST_F(DitherTest, ThatObeysFindsNoPath) {
   const auto verdict = Dither(1.0);
   ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome, TrialOutcome::kNoPath);
+  EXPECT_EQ(verdict->outcome(), TrialOutcome::kNoPath);
   EXPECT_NEAR(turned_rad_, params_.no_path_turn_rad, 0.03);
 }
 
 TEST_F(DitherTest, ThatTheRoverDoesNotFollowIsAJam) {
   const auto verdict = Dither(0.01);
   ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome, TrialOutcome::kJammed);
+  EXPECT_EQ(verdict->outcome(), TrialOutcome::kJammed);
 }
 
 TEST_F(RefereeTest, DrivingToAndFroAsToldIsNoPath) {
@@ -139,7 +140,7 @@ TEST_F(RefereeTest, DrivingToAndFroAsToldIsNoPath) {
     if (std::abs(x_m - 3.0) > 0.05) direction_ = x_m > 3.0 ? -1 : 1;
   });
   ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome, TrialOutcome::kNoPath);
+  EXPECT_EQ(verdict->outcome(), TrialOutcome::kNoPath);
   EXPECT_NEAR(distance_m_, params_.no_path_distance_m, 0.02);
 }
 
@@ -151,7 +152,7 @@ TEST_F(RefereeTest, DrivenAgainstTheCommandIsAJam) {
     MoveTo(3.0 + 0.01 * std::sin(5.0 * t), 0.0);
   });
   ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome, TrialOutcome::kJammed);
+  EXPECT_EQ(verdict->outcome(), TrialOutcome::kJammed);
 }
 
 // Within goal_tolerance_m + no_path_progress_m no progress is left to be seen, and the patience is
@@ -171,7 +172,7 @@ TEST_F(RefereeTest, PatienceNearTheGoalIsThatOfAnyPlace) {
     MoveTo(x_m + 0.1 * std::sin(distance_m_), 0.1 * std::cos(distance_m_));
   });
   ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome, TrialOutcome::kNoPath);
+  EXPECT_EQ(verdict->outcome(), TrialOutcome::kNoPath);
   EXPECT_GT(distance_m_ - before_m, params_.no_path_distance_m - params_.no_path_progress_m - 0.01);
 }
 
@@ -201,7 +202,7 @@ class TurnedByHandTest : public RefereeTest {
 TEST_F(TurnedByHandTest, HasNotMovedByItself) {
   const auto verdict = Stand(true);
   ASSERT_TRUE(verdict.has_value());
-  EXPECT_EQ(verdict->outcome, TrialOutcome::kJammed);
+  EXPECT_EQ(verdict->outcome(), TrialOutcome::kJammed);
 }
 
 TEST_F(TurnedByHandTest, AndLooksMovedToARefereeWhoIsNotTold) {
@@ -217,7 +218,7 @@ TEST_F(RefereeTest, BellyOnARockMakesItHighCentred) {
   state_.contacts = {{truth::BodyPart::kBelly, 3, 40.0, 0.0, 0.9}};
   const auto verdict = Run(20.0, [] {});
   ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome, TrialOutcome::kHighCentred);
+  EXPECT_EQ(verdict->outcome(), TrialOutcome::kHighCentred);
 }
 
 TEST_F(RefereeTest, WheelsDeeperThanTheirAxlesAreEmbedded) {
@@ -230,8 +231,8 @@ TEST_F(RefereeTest, WheelsDeeperThanTheirAxlesAreEmbedded) {
   state_.wheel_sinkage_m.fill(1.01 * kWheelRadius_m);
   const auto verdict = Run(1.0, [] {});
   ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome, TrialOutcome::kJammed);
-  EXPECT_NE(verdict->detail.find("embedded"), std::string::npos);
+  EXPECT_EQ(verdict->outcome(), TrialOutcome::kJammed);
+  EXPECT_EQ(verdict->cause, EndCause::kSankIn);
 }
 
 TEST_F(RefereeTest, ARockOrWallBeforeTheChassisJamsIt) {
@@ -242,7 +243,7 @@ TEST_F(RefereeTest, ARockOrWallBeforeTheChassisJamsIt) {
     state_.contacts = {contact};
     const auto verdict = Run(20.0, [] {});
     ASSERT_TRUE(verdict);
-    EXPECT_EQ(verdict->outcome, TrialOutcome::kJammed);
+    EXPECT_EQ(verdict->outcome(), TrialOutcome::kJammed);
   }
 }
 
@@ -250,7 +251,7 @@ TEST_F(RefereeTest, SpinningWheelsAreStuckByDefaultAndDriveOnByChoice) {
   const auto spin = [&] { estimate_.x_m += 0.15 * kTick_s; };
   const auto verdict = Run(20.0, spin);
   ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome, TrialOutcome::kJammed);
+  EXPECT_EQ(verdict->outcome(), TrialOutcome::kJammed);
 
   params_.spinning_wheels = SpinningWheels::kDriveOn;
   referee_ = Referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0}, kWheelRadius_m);
@@ -269,7 +270,7 @@ TEST_F(RefereeTest, TurningWithoutComingNearerIsNoPath) {
       },
       Activity::kTurning);
   ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome, TrialOutcome::kNoPath);
+  EXPECT_EQ(verdict->outcome(), TrialOutcome::kNoPath);
   EXPECT_NEAR(turned_rad_, params_.no_path_turn_rad, 0.03);
 }
 
@@ -281,7 +282,7 @@ TEST_F(RefereeTest, DrivingInCirclesIsNoPath) {
     MoveTo(0.5 * std::sin(0.3 * t), 0.5 * std::cos(0.3 * t));
   });
   ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome, TrialOutcome::kNoPath);
+  EXPECT_EQ(verdict->outcome(), TrialOutcome::kNoPath);
   EXPECT_NEAR(distance_m_, params_.no_path_distance_m, 0.02);
 }
 
@@ -336,7 +337,7 @@ TEST_F(RefereeTest, TheTickOfNoPathIsKept) {
   distance_m_ = params_.no_path_distance_m + 0.01;
   const auto verdict = Tick();
   ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome, TrialOutcome::kNoPath);
+  EXPECT_EQ(verdict->outcome(), TrialOutcome::kNoPath);
   EXPECT_GT(referee_.no_progress_distance_m(), params_.no_path_distance_m);
 }
 
@@ -348,7 +349,7 @@ TEST_F(RefereeTest, SpinningWheelsAreNoProgress) {
   referee_ = Referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0}, kWheelRadius_m);
   const auto verdict = Run(300.0, [&] { estimate_.x_m += 0.02 * kTick_s; });
   ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome, TrialOutcome::kNoPath);
+  EXPECT_EQ(verdict->outcome(), TrialOutcome::kNoPath);
   EXPECT_NEAR(ledger_.time_s(), params_.no_path_time_s, 2.0 * kTick_s);
 }
 
@@ -362,24 +363,24 @@ TEST_F(RefereeTest, MotionThatIsNotBelievedIsNoProgress) {
     MoveTo(x_m, 0.0);
   });
   ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome, TrialOutcome::kNoPath);
+  EXPECT_EQ(verdict->outcome(), TrialOutcome::kNoPath);
   EXPECT_NEAR(ledger_.time_s(), params_.no_path_time_s, 2.0 * kTick_s);
 }
 
 TEST_F(RefereeTest, ARoverThatNoticesThatItIsStuckFindsNoPath) {
   const Verdict verdict = referee_.OnNavigatorStop(NavigatorStatus::kStuck, state_, 0.0);
-  EXPECT_EQ(verdict.outcome, TrialOutcome::kNoPath);
-  EXPECT_EQ(verdict.detail, "the rover noticed that it is stuck");
+  EXPECT_EQ(verdict.outcome(), TrialOutcome::kNoPath);
+  EXPECT_EQ(verdict.cause, EndCause::kNoticedStuck);
 }
 
 TEST_F(RefereeTest, ArrivalIsTrueOnlyNearTheTrueGoal) {
   MoveTo(7.6 - 0.6, 0.0);
-  EXPECT_EQ(referee_.OnNavigatorStop(NavigatorStatus::kArrived, state_, 0.0).outcome,
+  EXPECT_EQ(referee_.OnNavigatorStop(NavigatorStatus::kArrived, state_, 0.0).outcome(),
             TrialOutcome::kGoalReached);
   MoveTo(7.6 - 0.7, 0.0);
-  EXPECT_EQ(referee_.OnNavigatorStop(NavigatorStatus::kArrived, state_, 0.0).outcome,
+  EXPECT_EQ(referee_.OnNavigatorStop(NavigatorStatus::kArrived, state_, 0.0).outcome(),
             TrialOutcome::kFalseGoal);
-  EXPECT_EQ(referee_.OnNavigatorStop(NavigatorStatus::kGaveUp, state_, 0.0).outcome,
+  EXPECT_EQ(referee_.OnNavigatorStop(NavigatorStatus::kGaveUp, state_, 0.0).outcome(),
             TrialOutcome::kNoPath);
 }
 
@@ -390,7 +391,7 @@ TEST_F(RefereeTest, ArrivalIsAtTheGoalOfThatTime) {
   const Referee referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0}, kWheelRadius_m);
   MoveTo(7.6, 0.0);
   const auto outcome = [&](double time_s) {
-    return referee.OnNavigatorStop(NavigatorStatus::kArrived, state_, time_s).outcome;
+    return referee.OnNavigatorStop(NavigatorStatus::kArrived, state_, time_s).outcome();
   };
   EXPECT_EQ(outcome(0.0), TrialOutcome::kGoalReached);
   EXPECT_EQ(outcome(20.0), TrialOutcome::kFalseGoal);
@@ -421,7 +422,7 @@ class RefereeGoalTest : public RefereeTest {
       changed = true;
       change();
     });
-    EXPECT_TRUE(verdict && verdict->outcome == TrialOutcome::kNoPath);
+    EXPECT_TRUE(verdict && verdict->outcome() == TrialOutcome::kNoPath);
     return ledger_.time_s();
   }
 
@@ -490,14 +491,14 @@ TEST_F(RefereeTest, EmptyBatteriesAndTimeLimit) {
   ledger_.Spend(Activity::kDriving, 1e6);
   auto verdict = Tick();
   ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome, TrialOutcome::kEnergyDepleted);
+  EXPECT_EQ(verdict->outcome(), TrialOutcome::kEnergyDepleted);
 
   energy_.battery_wh = 1e5;
   ledger_ = Ledger(kPower, energy_.battery_wh);
   ledger_.Spend(Activity::kScanning, params_.time_limit_s);
   verdict = Tick();
   ASSERT_TRUE(verdict);
-  EXPECT_EQ(verdict->outcome, TrialOutcome::kTimeLimit);
+  EXPECT_EQ(verdict->outcome(), TrialOutcome::kTimeLimit);
 }
 
 // What each rule would end at a limit of any size, it leaves alone where the limit is 0.
@@ -519,7 +520,7 @@ TEST_F(NoLimitTest, TimeWithoutProgress) {
   params_.no_path_time_s = 3600.0;
   Restart();
   ledger_.Spend(Activity::kScanning, 1e5);
-  EXPECT_EQ(Tick(Activity::kScanning)->detail, "spent no_path_time_s without coming nearer");
+  EXPECT_EQ(Tick(Activity::kScanning)->cause, EndCause::kPatienceTime);
 }
 
 TEST_F(NoLimitTest, TimeOfTheRun) {
@@ -530,7 +531,7 @@ TEST_F(NoLimitTest, TimeOfTheRun) {
   params_.time_limit_s = 14400.0;
   Restart();
   ledger_.Spend(Activity::kScanning, 1e7);
-  EXPECT_EQ(Tick(Activity::kScanning)->outcome, TrialOutcome::kTimeLimit);
+  EXPECT_EQ(Tick(Activity::kScanning)->outcome(), TrialOutcome::kTimeLimit);
 }
 
 TEST_F(NoLimitTest, Batteries) {
@@ -542,7 +543,7 @@ TEST_F(NoLimitTest, Batteries) {
   energy_.battery_wh = 1e5;
   Restart();
   ledger_.Spend(Activity::kDriving, 1e9);
-  EXPECT_EQ(Tick()->outcome, TrialOutcome::kEnergyDepleted);
+  EXPECT_EQ(Tick()->outcome(), TrialOutcome::kEnergyDepleted);
 }
 
 TEST_F(NoLimitTest, Distance) {
@@ -553,7 +554,7 @@ TEST_F(NoLimitTest, Distance) {
   EXPECT_EQ(referee_.no_progress_distance_m(), 1e6);
   params_.no_path_distance_m = 1e5;
   Restart();
-  EXPECT_EQ(Tick(Activity::kScanning)->detail, "drove no_path_distance_m without coming nearer");
+  EXPECT_EQ(Tick(Activity::kScanning)->cause, EndCause::kPatienceDistance);
 }
 
 TEST_F(NoLimitTest, Turns) {
@@ -564,7 +565,7 @@ TEST_F(NoLimitTest, Turns) {
   EXPECT_EQ(referee_.no_progress_turn_rad(), 1e6);
   params_.no_path_turn_rad = 1e5;
   Restart();
-  EXPECT_EQ(Tick(Activity::kScanning)->detail, "turned no_path_turn_deg without coming nearer");
+  EXPECT_EQ(Tick(Activity::kScanning)->cause, EndCause::kPatienceTurning);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "trial/pathfinder_trials.h"
+#include "truth/end_cause.h"
 
 namespace rockyard::trial {
 namespace {
@@ -97,7 +98,7 @@ TEST(FreeRoverTest, WhatIsNotStuckHasNoStall) {
   }
 }
 
-constexpr const char* kNoticed = "the rover noticed that it is stuck";
+constexpr std::string_view kNoticed = truth::Info(truth::EndCause::kNoticedStuck).sentence;
 
 // Starts across the way to its goal, so that every navigator tells it to turn.
 class NoticingRoverTest : public testing::TestWithParam<const char*> {

@@ -1,0 +1,27 @@
+#include "truth/end_cause.h"
+
+#include <algorithm>
+
+namespace rockyard::truth {
+
+std::optional<EndCause> CauseOf(const Record& record) {
+  for (std::size_t i = 0; i < kEndCauses.size(); ++i) {
+    const EndCauseInfo& info = kEndCauses[i];
+    if (info.outcome == record.outcome && info.sentence == record.detail) {
+      return static_cast<EndCause>(i);
+    }
+  }
+  return std::nullopt;
+}
+
+std::string_view CauseName(const Record& record) {
+  const auto cause = CauseOf(record);
+  return cause ? Info(*cause).name : std::string_view();
+}
+
+bool HasSeveralCauses(TrialOutcome outcome) {
+  return std::count_if(kEndCauses.begin(), kEndCauses.end(),
+                       [&](const EndCauseInfo& info) { return info.outcome == outcome; }) > 1;
+}
+
+}  // namespace rockyard::truth

@@ -1,0 +1,84 @@
+// Why a drive ended: what its outcome alone leaves open.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+
+#include "truth/record.h"
+
+namespace rockyard::truth {
+
+enum class EndCause {
+  kArrived,
+  kBelievedOnly,
+  kFellOver,
+  kBellyOnRock,
+  kNoMotion,
+  kSankIn,
+  kGaveUp,            // the navigator
+  kNoticedStuck,      // the navigator again, by what the rover feels
+  kPatienceDistance,  // the operator, who saw it come no nearer: driving so far,
+  kPatienceTurning,   // turning so much,
+  kPatienceTime,      // or taking so long
+  kBatteriesEmpty,
+  kTimeLimit,
+  kLeftArena,
+};
+
+struct EndCauseInfo {
+  std::string_view name;  // in files, append only
+  TrialOutcome outcome;
+  std::string_view label;     // a few words for a table, below the outcome
+  std::string_view sentence;  // of a rover, without its name: the `detail` of a record
+  std::string_view setting;   // parameter of a scenario that decided, where one did
+};
+
+inline constexpr std::array<EndCauseInfo, 14> kEndCauses = {{
+    {"arrived", TrialOutcome::kGoalReached, "arrived", "arrived at the goal",
+     "course.goal_radius_m"},
+    {"believed_only", TrialOutcome::kFalseGoal, "believed only",
+     "believed to have arrived, but was not at the goal", "course.goal_radius_m"},
+    {"fell_over", TrialOutcome::kTipOver, "fell over", "tilted until it fell over",
+     "referee.tip_over_deg"},
+    {"belly_on_rock", TrialOutcome::kHighCentred, "belly on a rock",
+     "hung with its belly on a rock and moved no further", "referee.stall_window_s"},
+    {"no_motion", TrialOutcome::kJammed, "wheels turned in vain",
+     "moved no further although its wheels were told to turn", "referee.stall_window_s"},
+    {"sank_in", TrialOutcome::kJammed, "sank into the soil",
+     "sank into the soil beyond the axles of its wheels", ""},
+    {"gave_up", TrialOutcome::kNoPath, "navigator gave up", "found no way on and gave up", ""},
+    {"noticed_stuck", TrialOutcome::kNoPath, "noticed it was stuck",
+     "noticed that it was stuck, and gave up", ""},
+    {"patience_distance", TrialOutcome::kNoPath, "patience: distance",
+     "drove on without coming nearer to the goal until its operator ended the run",
+     "referee.no_path_distance_m"},
+    {"patience_turning", TrialOutcome::kNoPath, "patience: turning",
+     "turned in place without coming nearer to the goal until its operator ended the run",
+     "referee.no_path_turn_deg"},
+    {"patience_time", TrialOutcome::kNoPath, "patience: time",
+     "came no nearer to the goal for so long that its operator ended the run",
+     "referee.no_path_time_s"},
+    {"batteries_empty", TrialOutcome::kEnergyDepleted, "batteries empty",
+     "had emptied its batteries before it arrived", "energy.battery_wh"},
+    {"time_limit", TrialOutcome::kTimeLimit, "time was over",
+     "had not arrived when the time of the run was over", "referee.time_limit_s"},
+    {"left_arena", TrialOutcome::kLeftArena, "left the arena", "drove past an end of the arena",
+     "terrain.arena"},
+}};
+
+constexpr const EndCauseInfo& Info(EndCause cause) {
+  return kEndCauses[static_cast<std::size_t>(cause)];
+}
+
+// By the record's outcome and sentence. Nothing for what is no drive, for a fault, and for a
+// sentence of another version.
+std::optional<EndCause> CauseOf(const Record& record);
+// Its name; "" where there is none.
+std::string_view CauseName(const Record& record);
+
+// Whether the outcome has more than one cause, so that a count of it leaves something open.
+bool HasSeveralCauses(TrialOutcome outcome);
+
+}  // namespace rockyard::truth
