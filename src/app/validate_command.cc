@@ -11,6 +11,7 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "campaign/run_source.h"
+#include "campaign/scenario_doubts.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/json_file.h"
@@ -43,6 +44,13 @@ std::string Check(const std::string& path, const std::vector<std::string>& overr
          core::Hex(scenario::Fingerprint(campaign::LoadScenarioFrom(path, overrides)));
 }
 
+void PrintDoubts(const std::string& path, const std::vector<std::string>& overrides) {
+  if (IsSweepFile(path)) return;
+  for (const core::Problem& doubt : campaign::DoubtsOf(path, overrides)) {
+    Print(fmt::format("  doubtful: {}\n", report::Printable(campaign::TextOf(doubt))));
+  }
+}
+
 // Every problem of every file, not of the first alone.
 void Validate(const ValidateOptions& options) {
   std::vector<core::Problem> problems;
@@ -50,6 +58,7 @@ void Validate(const ValidateOptions& options) {
     try {
       Print(
           fmt::format("{}: valid, {}\n", report::Printable(path), Check(path, options.overrides)));
+      PrintDoubts(path, options.overrides);
     } catch (const core::UserError& error) {
       for (core::Problem problem : error.problems()) {
         if (options.scenarios.size() > 1) problem.path = path + ": " + problem.path;

@@ -7,6 +7,7 @@
 
 #include "campaign/run_report.h"
 #include "campaign/run_source.h"
+#include "campaign/scenario_doubts.h"
 #include "scenario/ablations.h"
 
 namespace rockyard::campaign {
@@ -46,12 +47,21 @@ void RemarkIdleAblations(const RunRequest& request, Journal& journal) {
   }
 }
 
+// What the scenario has without saying so may not be meant.
+void WarnOfDoubts(const RunRequest& request, Journal& journal) {
+  if (!IsFirstRank()) return;
+  for (const core::Problem& doubt : DoubtsOf(request.source, request.campaign.overrides)) {
+    journal.Warn("doubtful: " + TextOf(doubt));
+  }
+}
+
 }  // namespace
 
 WorkResult Run(const RunRequest& request, const RunObserver& observer, const Stop& stop) {
   const CampaignRequest& campaign = request.campaign;
   const ReportSettings settings{.method = campaign.method, .threads = campaign.containment.threads};
   return Recorded(observer, [&](Journal& journal) {
+    WarnOfDoubts(request, journal);
     RemarkIdleAblations(request, journal);
     return RunCampaign(
         campaign, [&] { return PlanOf(request); },
@@ -63,6 +73,7 @@ WorkResult Run(const RunRequest& request, const RunObserver& observer, const Sto
 core::Result<DryRun> Rehearse(const RunRequest& request, const Observer& observer) {
   return core::Attempt([&] {
     Journal journal(observer);
+    WarnOfDoubts(request, journal);
     RemarkIdleAblations(request, journal);
     return Rehearse(request.campaign, PlanOf(request));
   });

@@ -10,6 +10,7 @@
 #include "batch/run_folder.h"
 #include "batch/stored_ends.h"
 #include "batch/trial_hash.h"
+#include "campaign/setup_words.h"
 #include "core/check.h"
 #include "core/json_file.h"
 #include "core/json_text.h"
@@ -80,12 +81,12 @@ std::string Localization(const std::string& resolved) {
   return text ? found->text() : std::string();
 }
 
-// None where the scenario is of another version of the program.
-std::vector<std::string> AblationsIn(const std::string& resolved) {
+// Nothing where the scenario is of another version of the program.
+std::optional<scenario::Scenario> TryRead(const std::string& resolved) {
   try {
-    return scenario::AblationsInForce(scenario::ParseScenario(resolved));
+    return scenario::ParseScenario(resolved);
   } catch (const core::UserError&) {
-    return {};
+    return std::nullopt;
   }
 }
 
@@ -202,23 +203,26 @@ std::string BuildName() {
 }
 
 report::RunDescription Describe(const StoredRun& run, int threads) {
-  return {.scenario = run.identity.scenario,
-          .fingerprint = run.identity.fingerprint,
-          .resolved = run.identity.resolved,
-          .settings = run.settings,
-          .ablations = AblationsIn(run.identity.resolved),
-          .localization = Localization(run.identity.resolved),
-          .seed = run.identity.seed,
-          .planned = run.planned,
-          .stored = static_cast<std::int64_t>(run.records.size()),
-          .trial_hash = batch::TrialHash(run.prefix()),
-          .provenance = core::CurrentProvenance(),
-          .builds = run.builds,
-          .threads = threads,
-          .accounting = AccountingOf(run),
-          .stopping = StoppingOf(run),
-          .shard_index = run.shard.index,
-          .shard_count = run.shard.count};
+  const std::optional<scenario::Scenario> scenario = TryRead(run.identity.resolved);
+  return {
+      .scenario = run.identity.scenario,
+      .fingerprint = run.identity.fingerprint,
+      .resolved = run.identity.resolved,
+      .settings = run.settings,
+      .setup = scenario ? SetupInWords(*scenario) : std::vector<std::string>(),
+      .ablations = scenario ? scenario::AblationsInForce(*scenario) : std::vector<std::string>(),
+      .localization = Localization(run.identity.resolved),
+      .seed = run.identity.seed,
+      .planned = run.planned,
+      .stored = static_cast<std::int64_t>(run.records.size()),
+      .trial_hash = batch::TrialHash(run.prefix()),
+      .provenance = core::CurrentProvenance(),
+      .builds = run.builds,
+      .threads = threads,
+      .accounting = AccountingOf(run),
+      .stopping = StoppingOf(run),
+      .shard_index = run.shard.index,
+      .shard_count = run.shard.count};
 }
 
 }  // namespace rockyard::campaign

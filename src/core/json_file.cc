@@ -76,7 +76,7 @@ class ExtendsLoader {
     fs::path identity = fs::weakly_canonical(path, error);
     if (error) identity = path;
     CheckChain(path, identity, at);
-    JsonValue value = ParseJson(ReadText(path), path.string());
+    JsonValue value = LoadJsonFileAlone(path);
     chain_.push_back(std::move(identity));
     value = Resolve(std::move(value), path.parent_path(), at);
     chain_.pop_back();
@@ -165,6 +165,10 @@ std::optional<JsonValue> TryParse(std::string_view text) {
 }  // namespace
 
 JsonValue LoadJsonFile(const fs::path& path) { return ExtendsLoader().Load(path, ""); }
+
+JsonValue LoadJsonFileAlone(const fs::path& path) {
+  return ParseJson(ReadText(path), path.string());
+}
 
 JsonValue ResolveExtends(JsonValue value, const fs::path& folder) {
   return ExtendsLoader().Resolve(std::move(value), folder, "");

@@ -19,6 +19,10 @@ namespace rockyard::core {
 // named by their path in the document, such as "rover.extends".
 JsonValue LoadJsonFile(const std::filesystem::path& path);
 
+// The value in a file as it stands there, "extends" and all. Throws UserError for what is missing,
+// unreadable or no JSON.
+JsonValue LoadJsonFileAlone(const std::filesystem::path& path);
+
 // Resolves "extends" of a value that came from no file, relative to `folder`.
 JsonValue ResolveExtends(JsonValue value, const std::filesystem::path& folder);
 

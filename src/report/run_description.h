@@ -45,6 +45,7 @@ struct RunDescription {
   // What the scenario was changed by on the way from its file: "PATH=VALUE", "--ablate NAME".
   // Nothing: not known.
   std::optional<std::vector<std::string>> settings;
+  std::vector<std::string> setup;  // of a drive, in words: rover, world, physics; what it drives by
   std::vector<std::string> ablations;  // in force (scenario/ablations.h), however they came to be
   std::string localization;  // "dead_reckoning", or "oracle": a perfect sensor, to be told apart
   std::uint64_t seed = 1;

@@ -53,6 +53,8 @@ std::string Head(const RunDescription& run, const DriveSummary& summary, TextSty
       fmt::format(", seed {}: {} of {} trials", run.seed, summary.completed, run.planned);
   if (run.localization == "oracle") text += LocalizationText(run, summary);
   text += '\n';
+  for (const std::string& line : run.setup)
+    text += fmt::format("  {}\n", Cut(line, kTextWidth - 2));
   text += SettingsText(run) + AblationLine(run);
   if (run.stored > summary.completed) {
     text += fmt::format("  {} more finished trials count once those before them are finished\n",

@@ -7,6 +7,7 @@
 #include "core/json_file.h"
 #include "core/json_text.h"
 #include "scenario/former_keys.h"
+#include "scenario/open_limits.h"
 
 namespace rockyard::scenario {
 namespace {
@@ -49,7 +50,9 @@ Scenario ReadScenario(const core::JsonValue& document, const Scenario& defaults)
   Scenario scenario = defaults;
   core::JsonValue current = document;
   RenameFormerKeys(current);
+  const auto open = TakeOpenLimits(current);
   core::ReadParams(current, scenario);
+  SetOpenLimits(open, scenario);
   return scenario;
 }
 
@@ -67,6 +70,7 @@ std::uint64_t Fingerprint(const Scenario& scenario) {
 
 std::string SchemaJson() {
   core::JsonValue schema = core::SchemaOf<Scenario>("rockyard scenario");
+  AllowOpenLimits(schema);
   AllowExtends(schema);
   return core::DumpJson(schema);
 }

@@ -56,18 +56,20 @@ void VisitStuck(RefereeParams& p, core::FieldVisitor& v) {
 }
 
 void VisitPatience(RefereeParams& p, core::FieldVisitor& v) {
-  v.Real("no_path_progress_m", p.no_path_progress_m,
-         {.doc = "gain in the believed distance to the goal, with as much true displacement, that "
-                 "counts as progress for the operator",
-          .min = 0.01,
-          .max = 100.0,
-          .origin = Origin::kAssumed,
-          .source = "half a vehicle width",
-          .study_low = 0.1,
-          .study_high = 0.5});
+  v.Real(
+      "no_path_progress_m", p.no_path_progress_m,
+      {.doc = "gain in the believed distance to the goal, with as much true displacement, that "
+              "counts as progress for the operator; left open (null): half of the rover's width, "
+              "0.25 at least",
+       .min = 0.01,
+       .max = 100.0,
+       .origin = Origin::kAssumed,
+       .source = "half a vehicle width",
+       .study_low = 0.1,
+       .study_high = 0.5});
   v.Real("no_path_distance_m", p.no_path_distance_m,
          {.doc = "true distance driven without progress after which the operator ends the run; 0: "
-                 "however far",
+                 "however far; left open (null): half of the course, 4 at least",
           .min = 0.0,
           .max = 1e5,
           .origin = Origin::kAssumed,
@@ -85,7 +87,8 @@ void VisitPatience(RefereeParams& p, core::FieldVisitor& v) {
            .study_high = 2160.0});
   v.Real("no_path_time_s", p.no_path_time_s,
          {.doc = "simulated time without progress after which the operator ends the run; 0: "
-                 "however long",
+                 "however long; left open (null): 900 s for each metre of half of the course, 3600 "
+                 "at least",
           .min = 0.0,
           .max = 1e7,
           .origin = Origin::kSetting,
@@ -111,7 +114,8 @@ void RefereeParams::Visit(core::FieldVisitor& v) {
   VisitStuck(*this, v);
   VisitPatience(*this, v);
   v.Real("time_limit_s", time_limit_s,
-         {.doc = "simulated time after which the run is stopped; 0: never",
+         {.doc = "simulated time after which the run is stopped; 0: never; left open (null): four "
+                 "hours for each 7.6 m of the course, four at least",
           .min = 0.0,
           .max = 1e7,
           .origin = Origin::kSetting,

@@ -1,0 +1,195 @@
+#include "campaign/scenario_doubts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "campaign/run_source.h"
+#include "core/json_file.h"
+#include "scenario/former_keys.h"
+#include "trial/hazard_watch.h"
+#include "trial/patience_params.h"
+
+namespace rockyard::campaign {
+namespace {
+
+using core::JsonValue;
+using core::Problem;
+
+bool States(const JsonValue& layer, std::string_view path) {
+  const JsonValue* at = &layer;
+  while (at != nullptr && !path.empty()) {
+    const std::size_t dot = std::min(path.find('.'), path.size());
+    at = at->Find(path.substr(0, dot));
+    path.remove_prefix(std::min(dot + 1, path.size()));
+  }
+  return at != nullptr && !at->Is(JsonValue::Type::kNull);
+}
+
+// 0 on top; the number of layers for a default.
+std::size_t LayerOf(const Layers& layers, std::string_view path) {
+  const auto states = [&](const JsonValue& layer) { return States(layer, path); };
+  return static_cast<std::size_t>(std::find_if(layers.begin(), layers.end(), states) -
+                                  layers.begin());
+}
+
+bool LiesBelow(const Layers& layers, std::string_view path, std::string_view other) {
+  return LayerOf(layers, path) > LayerOf(layers, other);
+}
+
+// A limit below so much is doubted.
+struct LimitRule {
+  std::string_view path;
+  double value;
+  double least;  // 0 of `value` is no limit
+  std::string_view unit;
+  std::string suggestion;
+};
+
+void DoubtLimits(const trial::DriveParams& drive, const Layers& layers,
+                 std::vector<Problem>& doubts) {
+  const double course_m = trial::CourseLength_m(drive.course);
+  const trial::RefereeParams& referee = drive.referee;
+  const std::string follow = "state it, or null to have it follow the course";
+  // Half of what is given where the value is left open; of batteries a drive of Rocky 3.2 takes 2
+  // Wh and more a metre among rocks.
+  const LimitRule rules[] = {
+      {"referee.no_path_distance_m", referee.no_path_distance_m, 0.25 * course_m, "m", follow},
+      {"referee.no_path_time_s", referee.no_path_time_s, 225.0 * course_m, "s", follow},
+      {"referee.time_limit_s", referee.time_limit_s, 900.0 * course_m, "s", follow},
+      {"energy.battery_wh", drive.energy.battery_wh, 2.0 * course_m, "Wh",
+       "state what the rover carries, or 0 for no limit"},
+  };
+  for (const LimitRule& rule : rules) {
+    if (rule.value <= 0.0 || rule.value >= rule.least) continue;
+    if (!LiesBelow(layers, rule.path, "course")) continue;
+    doubts.push_back({std::string(rule.path),
+                      fmt::format("{:g} {} are little for a course of {:.3g} m", rule.value,
+                                  rule.unit, course_m),
+                      rule.suggestion});
+  }
+}
+
+// Over the box that it fills Rocky 3.2 has 210 kg/m3, the MFEX rover 110, the Athena SDM 60.
+void DoubtMass(const trial::DriveParams& drive, const Layers& layers,
+               std::vector<Problem>& doubts) {
+  constexpr double kLeast_kg_m3 = 30.0;
+  constexpr double kMost_kg_m3 = 500.0;
+  const rover::RoverGeometryParams& box = drive.rover.geometry;
+  const double mass_kg = drive.rover.mass.total_kg;
+  const double density_kg_m3 = mass_kg / (box.length_m * box.width_m * box.height_m);
+  if (density_kg_m3 > kLeast_kg_m3 && density_kg_m3 < kMost_kg_m3) return;
+  if (!LiesBelow(layers, "rover.mass", "rover.geometry")) return;
+  doubts.push_back({"rover.mass",
+                    fmt::format("{:g} kg are {} for a rover of {:g} x {:g} x {:g} m", mass_kg,
+                                density_kg_m3 < kLeast_kg_m3 ? "little" : "much", box.length_m,
+                                box.width_m, box.height_m),
+                    "state its masses, and what its motors can do (rover.drive)"});
+}
+
+// From its middle a rover's front lies half of its length ahead.
+void DoubtSizes(const trial::DriveParams& drive, const Layers& layers,
+                std::vector<Problem>& doubts) {
+  const rover::RoverGeometryParams& rover = drive.rover.geometry;
+  if (LiesBelow(layers, "course.goal_radius_m", "rover") &&
+      drive.course.goal_radius_m < 0.4 * rover.length_m) {
+    doubts.push_back({"course.goal_radius_m",
+                      fmt::format("{:g} m is less than half of the rover, which is {:g} m long",
+                                  drive.course.goal_radius_m, rover.length_m),
+                      "state how near its middle has to come"});
+  }
+  const trial::TerrainSensorKind& sensor = drive.sensors.terrain_sensors.chosen();
+  const std::string group = "sensors." + std::string(sensor.name());
+  if (!LiesBelow(layers, group, "rover")) return;
+  const trial::Zone seen = sensor.reported_zone(drive);
+  const double front_m = 0.5 * rover.wheelbase_m + rover.wheel_radius_m;
+  if (seen.x_high_m < front_m + 2.0 * rover.wheel_radius_m) {
+    doubts.push_back({group,
+                      fmt::format("it sees the ground up to {:.2g} m ahead of the rover's middle, "
+                                  "whose wheels reach {:.2g} m",
+                                  seen.x_high_m, front_m),
+                      "fit the sensor to this rover, or choose another one"});
+  } else if (seen.y_high_m - seen.y_low_m < 0.8 * rover.width_m) {
+    doubts.push_back({group,
+                      fmt::format("it sees a strip of {:.2g} m for a rover {:.2g} m wide",
+                                  seen.y_high_m - seen.y_low_m, rover.width_m),
+                      "fit the sensor to this rover, or choose another one"});
+  }
+}
+
+// A word of the name, so that "marsupial" is none.
+bool SaysMars(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::size_t at = name.find("mars");
+  const auto ends = [&](std::size_t i) {
+    return i >= name.size() || std::isalpha(static_cast<unsigned char>(name[i])) == 0;
+  };
+  return at != std::string::npos && (at == 0 || ends(at - 1)) && ends(at + 4);
+}
+
+void DoubtGravity(const scenario::Scenario& scenario, const Layers& layers,
+                  std::vector<Problem>& doubts) {
+  constexpr double kBetweenMarsAndEarth_m_s2 = 6.0;  // 3.72 and 9.81
+  constexpr std::string_view kPath = "rover.physics.gravity_m_s2";
+  const double gravity_m_s2 = scenario.drive.rover.physics.gravity_m_s2;
+  if (!SaysMars(scenario.name) || gravity_m_s2 < kBetweenMarsAndEarth_m_s2) return;
+  if (!LiesBelow(layers, kPath, "name")) return;
+  doubts.push_back({std::string(kPath),
+                    fmt::format("{:g} m/s2 are not those of Mars", gravity_m_s2),
+                    "write 3.72, and choose a soil in terrain.ground.soil"});
+}
+
+void EraseExtends(JsonValue& value) {
+  if (!value.Is(JsonValue::Type::kObject)) return;
+  value.Erase("extends");
+  for (core::JsonMember& member : value.members()) EraseExtends(member.value);
+}
+
+// The file and what lies below it. Cycles and missing files were found when the scenario was read.
+void AddLayers(const std::filesystem::path& path, Layers& layers) {
+  JsonValue layer = core::LoadJsonFileAlone(path);
+  std::vector<std::string> bases;
+  if (const JsonValue* extends = layer.Find("extends")) {
+    bases = core::TextsIn(*extends).value_or(std::vector<std::string>());
+    if (extends->Is(JsonValue::Type::kText)) bases = {extends->text()};
+  }
+  EraseExtends(layer);
+  layers.push_back(std::move(layer));
+  std::for_each(bases.rbegin(), bases.rend(),
+                [&](const std::string& base) { AddLayers(path.parent_path() / base, layers); });
+}
+
+}  // namespace
+
+std::vector<Problem> Doubts(const scenario::Scenario& scenario, const Layers& layers) {
+  std::vector<Problem> doubts;
+  if (scenario.experiment.kind != experiments::ExperimentKind::kDrive) return doubts;
+  DoubtLimits(scenario.drive, layers, doubts);
+  DoubtMass(scenario.drive, layers, doubts);
+  DoubtSizes(scenario.drive, layers, doubts);
+  DoubtGravity(scenario, layers, doubts);
+  return doubts;
+}
+
+std::vector<Problem> DoubtsOf(const std::filesystem::path& source,
+                              std::span<const std::string> overrides) {
+  std::error_code error;
+  if (std::filesystem::is_directory(source, error)) return {};
+  const scenario::Scenario scenario = LoadScenarioFrom(source, overrides);
+  Layers layers;
+  AddLayers(source, layers);
+  if (layers.front().Find("provenance") != nullptr) return {};  // of a run, where all is stated
+  for (const std::string& assignment : overrides) scenario::Override(layers.front(), assignment);
+  return Doubts(scenario, layers);
+}
+
+std::string TextOf(const Problem& doubt) {
+  return fmt::format("{}: {}; {}", doubt.path, doubt.reason, doubt.suggestion);
+}
+
+}  // namespace rockyard::campaign

@@ -1,0 +1,33 @@
+// Values that a scenario takes from elsewhere, and that hardly suit what it says itself.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/json_value.h"
+#include "scenario/scenario.h"
+
+namespace rockyard::campaign {
+
+// What a scenario is laid over each other of: the file, its overrides included, then the files that
+// it extends, the last of a list first; no "extends" in any of them.
+using Layers = std::vector<core::JsonValue>;
+
+// Each with the path of the value, what of it is doubtful, and what would be right. Doubted is what
+// lies below that against which it is held (or is a default): whoever stated it did not know the
+// course, or the rover. Rules, each with its threshold in the .cc file: limits of referee and
+// batteries against the length of the course, mass against size, goal radius and the view of the
+// terrain sensor against the rover, gravity of Earth against a name that says Mars.
+std::vector<core::Problem> Doubts(const scenario::Scenario& scenario, const Layers& layers);
+
+// Of a scenario file with overrides; none of the folder of a run. Throws core::UserError.
+std::vector<core::Problem> DoubtsOf(const std::filesystem::path& source,
+                                    std::span<const std::string> overrides);
+
+// "path: what; what would be right".
+std::string TextOf(const core::Problem& doubt);
+
+}  // namespace rockyard::campaign
