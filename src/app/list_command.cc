@@ -13,6 +13,7 @@
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/find_scenario.h"
 #include "app/scenario_list.h"
 #include "core/json_text.h"
 #include "core/json_value.h"
@@ -27,7 +28,7 @@ using core::JsonValue;
 constexpr std::size_t kMinWidth = 40;
 
 struct ListOptions {
-  std::string folder = "scenarios";
+  std::string folder;
   bool all = false;
   bool ablations = false;
   bool json = false;
@@ -38,7 +39,9 @@ std::string Bold(const std::string& text) {
                                                         : text;
 }
 
+// Whole lines for whom reads them from a pipe or a file.
 std::size_t LineWidth() {
+  if (!IsTerminal(stdout)) return std::string::npos;
   return std::max(static_cast<std::size_t>(std::max(TerminalWidth(stdout), 0)), kMinWidth);
 }
 
@@ -115,11 +118,13 @@ void ListAblationsAsJson() {
 
 void List(const ListOptions& options) {
   if (options.ablations) return options.json ? ListAblationsAsJson() : ListAblations();
-  const std::vector<ListedFile> files = ListScenarios(options.folder);
+  const std::string folder =
+      options.folder.empty() ? ScenarioFolder().value_or("scenarios").string() : options.folder;
+  const std::vector<ListedFile> files = ListScenarios(folder);
   if (options.json) {
-    PrintEntriesAsJson(options.folder, files, options.all);
+    PrintEntriesAsJson(folder, files, options.all);
   } else {
-    PrintEntries(options.folder, files, options.all);
+    PrintEntries(folder, files, options.all);
   }
 }
 
@@ -128,7 +133,8 @@ void List(const ListOptions& options) {
 void AddListCommand(CLI::App& app) {
   auto options = std::make_shared<ListOptions>();
   CLI::App* command = app.add_subcommand("list", "Lists scenarios and sweeps with a line each");
-  command->add_option("FOLDER", options->folder, "where to look")->capture_default_str();
+  command->add_option("FOLDER", options->folder,
+                      "where to look (default: the scenarios that come with rockyard)");
   command->add_flag("--all", options->all, "list parts of scenarios, such as rovers, too");
   command->add_flag("--ablations", options->ablations,
                     "list what `rockyard run --ablate` and sweeps can take away, with settings");

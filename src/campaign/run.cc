@@ -18,14 +18,20 @@ void AddSettings(const RunRequest& request, std::vector<std::string>& settings) 
   for (const std::string& name : request.ablations) settings.push_back("--ablate " + name);
 }
 
-CampaignPlan PlanOf(const RunRequest& request) {
+// Every option that changes the scenario.
+std::vector<std::string> OverridesOf(const RunRequest& request) {
   std::vector<std::string> overrides = request.campaign.overrides;
   if (request.campaign.trials) {
     overrides.push_back(fmt::format("trials={}", *request.campaign.trials));
   }
   if (request.campaign.seed) overrides.push_back(fmt::format("seed={}", *request.campaign.seed));
+  return overrides;
+}
+
+CampaignPlan PlanOf(const RunRequest& request) {
   const scenario::Scenario scenario =
-      scenario::WithAblations(LoadScenarioFrom(request.source, overrides), request.ablations)
+      scenario::WithAblations(LoadScenarioFrom(request.source, OverridesOf(request)),
+                              request.ablations)
           .scenario;
   std::string folder = scenario.name;
   for (const std::string& ablation : request.ablations) folder += fmt::format("-{}", ablation);
@@ -50,7 +56,7 @@ void RemarkIdleAblations(const RunRequest& request, Journal& journal) {
 // What the scenario has without saying so may not be meant.
 void WarnOfDoubts(const RunRequest& request, Journal& journal) {
   if (!IsFirstRank()) return;
-  for (const core::Problem& doubt : DoubtsOf(request.source, request.campaign.overrides)) {
+  for (const core::Problem& doubt : DoubtsOf(request.source, OverridesOf(request))) {
     journal.Warn("doubtful: " + TextOf(doubt));
   }
 }
