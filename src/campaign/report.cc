@@ -81,7 +81,9 @@ Outcome Write(const ReportRequest& request, const ReportObserver& observer, cons
                    .against = request.against,
                    .replays = web::PagesBuilt() ? request.replays : 0,
                    .page = PageFile(request),
-                   .progress = observer.replays};
+                   .progress = observer.replays,
+                   .tracks = request.tracks,
+                   .track_progress = observer.tracks};
   CheckFiles(request);
   page.title = Title(request, page.inputs);
   result.page = page.page;
