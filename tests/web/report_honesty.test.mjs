@@ -40,7 +40,7 @@ function withGap({ runs: [run] }) {
 test("beyond a gap trials are in the table and in nothing else", async () => {
   withPayload(at("report.html"), at("gap.html"), withGap);
   const { page, problems } = await open("gap.html");
-  assert.match(await page.locator(".page-header").innerText(), /19 of 20 completed, 1 pending, rates from the first 5/);
+  assert.match(await page.locator("#about").innerText(), /19 of 20 completed, 1 pending, rates from the first 5/);
   assert.match(await page.locator("#headline").innerText(), /of the first 5 trials, up to one that is still to be run/);
   const bins = await values((await numbersOf(page, "histogram-sim_time_s")).nth(1));
   assert.equal(bins.reduce((sum, row) => sum + Number(row[2]), 0), RATED);

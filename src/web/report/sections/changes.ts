@@ -8,6 +8,7 @@ import { boxOf, trackLines } from "../charts/plan";
 import { changesOf, drawnChanges, type Change } from "../changed_trials";
 import type { Context } from "../context";
 import type { Comparison, Run } from "../payload";
+import { replayAnchor } from "../replay_link";
 import { detailOf, outcomeOf, trackOf } from "../tracks";
 import { columnWords, unitText } from "../words";
 import { plan } from "./examples";
@@ -60,16 +61,15 @@ function means(of: Comparison): HTMLElement | null {
     el("span", { "data-value": row.difference }, `(difference ${interval(row.low, row.high)})`))), ".");
 }
 
-function changeList(changes: Change[]): Child {
+function changeList(of: Comparison, changes: Change[]): Child {
   return el("ul", { class: "change-list" }, ...changes.slice(0, MOST_CHANGES).map(({ first, second, trials }) =>
-    el("li", {}, el("strong", { "data-value": trials.length }, number(trials.length)), ` ${words(first)} before, ${words(second)} now`)));
+    el("li", {}, el("strong", { "data-value": trials.length }, number(trials.length)), ` ${words(first)} in `, breakable(of.first), `, ${words(second)} in `, breakable(of.second))));
 }
 
 function side(run: Run, trial: number, box: ReturnType<typeof boxOf>): HTMLElement {
-  const link = run.replays?.[String(trial)];
   return el("figure", { class: "pair-side" }, plan(run, trackOf(run, trial)!, box),
     el("figcaption", {}, el("strong", {}, breakable(run.label)), `: ${causeWords(outcomeOf(run, trial), detailOf(run, trial))}. `,
-      link ? el("a", { href: link }, "Replay", el("span", { class: "visually-hidden" }, ` of trial ${trial} of ${run.label}`)) : null));
+      replayAnchor(run, trial, ` of ${run.label}`)));
 }
 
 function pair(first: Run, second: Run, trial: number): HTMLElement {
@@ -79,7 +79,7 @@ function pair(first: Run, second: Run, trial: number): HTMLElement {
     el("div", { class: "pair-sides" }, side(first, trial, box), side(second, trial, box)));
 }
 
-function changedTrials(first: Run | undefined, second: Run | undefined): Child[] {
+function changedTrials(of: Comparison, first: Run | undefined, second: Run | undefined): Child[] {
   if (!first || !second) return [];
   const { compared, changes } = changesOf(first, second);
   const changed = changes.reduce((sum, { trials }) => sum + trials.length, 0);
@@ -87,7 +87,7 @@ function changedTrials(first: Run | undefined, second: Run | undefined): Child[]
   const drawn = first.course && second.course ? drawnChanges(first, second, changes, MOST_PAIRS) : [];
   return [
     el("p", { class: "changed-count" }, el("strong", { "data-value": changed }, number(changed)), ` of ${counted(compared, "trial")} with the same seed ended in another way.`),
-    changed > 0 ? changeList(changes) : null,
+    changed > 0 ? changeList(of, changes) : null,
     drawn.length > 0 ? el("p", { class: "note" }, "One trial of each of the commonest changes, in both runs:") : null,
     drawn.length > 0 ? el("div", { class: "pairs" }, ...drawn.map((trial) => pair(first, second, trial))) : null,
   ];
@@ -99,7 +99,7 @@ function content(context: Context, of: Comparison): Child[] {
     el("h3", {}, `${of.second} against ${of.first}`),
     settings(of),
     el("ul", { class: "verdicts" }, ...of.successes.map((row) => verdict(of, row)), means(of)),
-    ...(of.paired ? changedTrials(run(of.first), run(of.second)) : []),
+    ...(of.paired ? changedTrials(of, run(of.first), run(of.second)) : []),
   ];
 }
 

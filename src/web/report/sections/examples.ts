@@ -7,6 +7,7 @@ import { boxOf, drawPlan, trackLines, type Box, type Place } from "../charts/pla
 import type { Context } from "../context";
 import { outcomeSwatch } from "../outcome_style";
 import type { Run, Track } from "../payload";
+import { replayAnchor } from "../replay_link";
 import { detailOf, outcomeOf, trackOf, valueOf } from "../tracks";
 import type { Section } from "./section";
 
@@ -38,7 +39,6 @@ function card(run: Run, trial: number, box: Box): HTMLElement {
   const outcome = outcomeOf(run, trial);
   const track = trackOf(run, trial);
   const drawing = track && run.course ? plan(run, track, box) : null;
-  const link = run.replays?.[String(trial)];
   const name = outcome === "goal_reached" ? "a median success" : words(outcome);
   const distance = valueOf(run, trial, "true_distance_m");
   return el("li", { class: "example", "data-trial": trial, "data-outcome": outcome },
@@ -46,7 +46,7 @@ function card(run: Run, trial: number, box: Box): HTMLElement {
     drawing,
     el("p", {}, `Trial ${trial} ${causeWords(outcome, detailOf(run, trial))}, after `,
       el("span", { "data-value": distance }, `${number(distance, 3)} m`), "."),
-    link ? el("a", { href: link }, "Replay", el("span", { class: "visually-hidden" }, ` of trial ${trial}: ${words(outcome)}`)) : null);
+    replayAnchor(run, trial, `: ${words(outcome)}`));
 }
 
 function cards(run: Run, titled: boolean): Child[] {

@@ -25,8 +25,8 @@ function caption(run: Run): string {
     (run.course!.mirror_lines_m.length > 0 ? ", a dashed line where operators set the rover back: a path goes on there at another place." : ".");
   const part = partOfTrials([run], "Drawn are");
   if (tracks === 0) return `${ends} ${course} No paths were driven for this page (--tracks). ${part}`;
-  const others = tracks > first ? `, and those of ${counted(tracks - first, "other")} with a replay` : "";
-  return `${ends} Lines are the true paths of the first ${counted(first, "trial")}, whatever became of them${others}, to 2 cm. ${course} ${part}`;
+  const others = tracks > first ? `, and of ${counted(tracks - first, "other")} with a replay` : "";
+  return `${ends} Lines are true paths: of ${number(first)} of the first trials, whatever became of them${others}, to 2 cm. ${course} ${part}`;
 }
 
 function trackCounts(run: Run): Map<string, number> {
