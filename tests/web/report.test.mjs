@@ -71,7 +71,7 @@ test("the distance curve has the steps of distance_cdf.csv, in its drawing too",
     });
   });
   // Heights of the drawn line, as shares of its axis.
-  const lines = await page.locator("#distance-cdf svg g[aria-label=line] path").evaluateAll((paths) =>
+  const lines = await page.locator("#distance-cdf svg g[data-mark=line] path").evaluateAll((paths) =>
     paths.map((each) => each.getAttribute("d")));
   assert.equal(lines.length, 1);
   const ys = [...new Set([...lines[0].matchAll(/,(-?[\d.]+)/g)].map((match) => Number(match[1])))];

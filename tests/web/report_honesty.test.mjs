@@ -124,9 +124,9 @@ test("the band of arrivals is where it has a width, and the trials that still dr
   assert.deepEqual(rows.map((row) => row.slice(1)), [
     ["0", "–", "–", "4"], ["0.25", "0.05", "0.6", "3"], ["0.25", "0.05", "0.6", "2"], ["0.5", "0.1", "0.8", "1"],
   ]);
-  const left = (mark) => page.locator(`#goal-incidence svg g[aria-label=${mark}] path`).first().evaluate((path) => path.getBBox().x);
+  const left = (mark) => page.locator(`#goal-incidence svg g[data-mark=${mark}] path`).first().evaluate((path) => path.getBBox().x);
   assert.ok((await left("area")) > (await left("line")) + 50, "a band before the first arrival");
-  const texts = await page.locator("#goal-incidence svg g[aria-label=text] text").allTextContents();
+  const texts = await page.locator("#goal-incidence svg g[data-mark=text] text").allTextContents();
   assert.ok(["still driving", "4", "3", "2", "1"].every((text) => texts.includes(text)), texts.join());
   await page.close();
 });
