@@ -2,21 +2,23 @@
 
 import { svg } from "../shared/dom";
 
+/** A mark of that size (1 in a key) as steps from its middle. */
+type Mark = (size: number) => string;
+
 interface OutcomeStyle {
   colour: string;
-  /** The mark as steps from its middle. */
-  mark: string;
+  mark: Mark;
   dash: string;
   hollow?: boolean;
 }
 
-const CIRCLE = "m-3.4,0a3.4,3.4 0 1,0 6.8,0a3.4,3.4 0 1,0 -6.8,0z";
-const DIAMOND = "m0,-4.4l3.6,4.4l-3.6,4.4l-3.6,-4.4z";
-const TRIANGLE = "m0,-4.6l4.3,7.6h-8.6z";
-const SQUARE = "m-3.4,-3.4h6.8v6.8h-6.8z";
-const BAR = "m-2,-4.4h4v8.8h-4z";
-const CROSS = "m-3.4,-3.4l6.8,6.8m0,-6.8l-6.8,6.8";
-const PLUS = "m0,-4.4v8.8m-4.4,-4.4h8.8";
+const CIRCLE: Mark = (s) => `m${-3.4 * s},0a${3.4 * s},${3.4 * s} 0 1,0 ${6.8 * s},0a${3.4 * s},${3.4 * s} 0 1,0 ${-6.8 * s},0z`;
+const DIAMOND: Mark = (s) => `m0,${-4.4 * s}l${3.6 * s},${4.4 * s}l${-3.6 * s},${4.4 * s}l${-3.6 * s},${-4.4 * s}z`;
+const TRIANGLE: Mark = (s) => `m0,${-4.6 * s}l${4.3 * s},${7.6 * s}h${-8.6 * s}z`;
+const SQUARE: Mark = (s) => `m${-3.4 * s},${-3.4 * s}h${6.8 * s}v${6.8 * s}h${-6.8 * s}z`;
+const BAR: Mark = (s) => `m${-2 * s},${-4.4 * s}h${4 * s}v${8.8 * s}h${-4 * s}z`;
+const CROSS: Mark = (s) => `m${-3.4 * s},${-3.4 * s}l${6.8 * s},${6.8 * s}m0,${-6.8 * s}l${-6.8 * s},${6.8 * s}`;
+const PLUS: Mark = (s) => `m0,${-4.4 * s}v${8.8 * s}m${-4.4 * s},${-4.4 * s}h${8.8 * s}`;
 
 const STYLES: Record<string, OutcomeStyle> = {
   goal_reached: { colour: "var(--series-3)", mark: CIRCLE, dash: "none" },
@@ -34,11 +36,12 @@ const OTHER: OutcomeStyle = { colour: "var(--text)", mark: PLUS, dash: "1 3", ho
 const styleOf = (outcome: string) => STYLES[outcome] ?? OTHER;
 
 /** All marks of an outcome as one element: thousands of them are drawn at once. Places in pixels. */
-export function outcomeMarks(outcome: string, places: [number, number][]): SVGPathElement {
+export function outcomeMarks(outcome: string, places: [number, number][], size = 1): SVGPathElement {
   const { colour, mark, hollow } = styleOf(outcome);
+  const steps = mark(size);
   return svg("path", {
     class: "map-marks",
-    d: places.map(([x, y]) => `M${x.toFixed(1)},${y.toFixed(1)}${mark}`).join(""),
+    d: places.map(([x, y]) => `M${x.toFixed(1)},${y.toFixed(1)}${steps}`).join(""),
     fill: hollow ? "none" : colour,
     stroke: hollow ? colour : "var(--ground)",
     "stroke-width": hollow ? 1.8 : 0.8,

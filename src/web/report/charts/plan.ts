@@ -125,6 +125,9 @@ function courseElements({ course, box }: PlanSpec, frame: Frame): SVGElement[] {
   ];
 }
 
+// Many marks on a narrow page are small, so that they leave something of each other.
+const markSize = (width: number) => Math.min(1, Math.max(0.5, Math.round(width / 70) / 10));
+
 /** The drawing, no wider or higher than that (pixels). */
 export function drawPlan(spec: PlanSpec, width: number, mostHeight: number): SVGSVGElement {
   const frame = frameOf(spec, width, mostHeight);
@@ -136,7 +139,7 @@ export function drawPlan(spec: PlanSpec, width: number, mostHeight: number): SVG
   const layers = spec.layers.map(({ outcome, lines, ends }) =>
     svg("g", { "data-outcome": outcome },
       outcomeLines(outcome, lines.filter((line) => line.length > 1).map((line) => line.map(frame.at)), spec.lineWidth),
-      outcomeMarks(outcome, ends.map(frame.at))));
+      outcomeMarks(outcome, ends.map(frame.at), ends.length > 1 ? markSize(width) : 1)));
   return svg("svg", { width: w, height: h, viewBox: `0 0 ${w} ${h}`, class: "plan" },
     ...(spec.axes ? axisElements(spec, frame) : []), ...rocks, ...courseElements(spec, frame), ...layers);
 }

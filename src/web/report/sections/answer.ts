@@ -28,18 +28,20 @@ function sentence(run: Run): HTMLElement {
     `${roverOf(run)} declared arrival in `, rate(declared, true), ", and truly was at the goal in ", rate(truly, false), ".");
 }
 
+// The last of five is named rather than called another way.
 const NAMED_CAUSES = 4;
 
 function causes(run: Run): HTMLElement | null {
   const failures = failuresOf(run);
   const failed = failures.reduce((sum, { count }) => sum + count, 0);
   if (failed === 0) return el("p", {}, "Every drive reached the goal.");
-  const more = failures.slice(NAMED_CAUSES).reduce((sum, { count }) => sum + count, 0);
+  const named = failures.length === NAMED_CAUSES + 1 ? NAMED_CAUSES + 1 : NAMED_CAUSES;
+  const more = failures.slice(named).reduce((sum, { count }) => sum + count, 0);
   const part = ({ count, words: cause }: Cause, i: number): Child =>
     el("span", {}, i > 0 ? "; " : "", el("strong", { "data-value": count }, number(count)), ` ${cause}`);
   return el("p", { class: "answer-causes" },
     "Of the ", exact(failed, number(failed)), failed === 1 ? " drive that failed, " : " drives that failed, ",
-    ...failures.slice(0, NAMED_CAUSES).map(part),
+    ...failures.slice(0, named).map(part),
     more > 0 ? el("span", {}, "; ", exact(more, number(more)), " ended in other ways") : null, ".");
 }
 
