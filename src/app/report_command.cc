@@ -40,6 +40,20 @@ void ShowReplayProgress(const campaign::ReplayProgress& progress, campaign::Mome
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
+// One line, whose end stays; where it cannot be written over, the end alone.
+void ShowTrackProgress(const campaign::TrackProgress& progress, campaign::Moment moment) {
+  const bool ends = moment == campaign::Moment::kEnd;
+  const std::string text = report::Printable(
+      fmt::format("  track {} of {} of {}", progress.ended, progress.total, progress.label));
+  if (!IsTerminal(stderr)) {
+    if (ends) PrintNote(text);
+    return;
+  }
+  const auto width = static_cast<std::size_t>(std::max(TerminalWidth(stderr) - 1, 20));
+  const std::string line = "\r\x1b[K" + report::Cut(text, width) + (ends ? "\n" : "");
+  std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
 void PrintPage(const campaign::ReportResult& result) {
   const std::string file = result.page.string();
   const campaign::ReportReplays& replays = result.replays;
@@ -64,6 +78,7 @@ ExitCode WritePage(const campaign::ReportRequest& request) {
   campaign::ReportObserver observer;
   static_cast<campaign::Observer&>(observer) = MessagesToConsole(Output::kText);
   observer.replays = ShowReplayProgress;
+  observer.tracks = ShowTrackProgress;
   const campaign::ReportResult result = campaign::WriteReport(request, observer, StopBySignal());
   if (result.data_bytes > 0) {
     Print(fmt::format("  {} ({})\n", report::Printable(request.data), Size(result.data_bytes)));
@@ -87,7 +102,13 @@ void AddReportCommand(CLI::App& app, ExitCode& exit_code) {
   command
       ->add_option("--replays", options->replays,
                    "replays that are written with it: of the worst failed trials of each run, or "
-                   "of each sweep; 0: none")
+                   "of each sweep; of a run also one of each outcome; 0: none")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  command
+      ->add_option("--tracks", options->tracks,
+                   "trials of each run that are driven again for a map of their true paths (a "
+                   "fourth of them where the rover is multibody), for 20 s at most; 0: none")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   command->add_option("--against", options->against,

@@ -70,7 +70,9 @@ Outcome Write(const ReportRequest& request, const ReportObserver& observer, cons
                    .against = request.against,
                    .replays = request.replays,
                    .page = PageFile(request),
-                   .progress = observer.replays};
+                   .progress = observer.replays,
+                   .tracks = request.tracks,
+                   .track_progress = observer.tracks};
   CheckFiles(request);
   page.title = Title(request, page.inputs);
   result.page = page.page;

@@ -9,6 +9,7 @@
 #include "campaign/journal.h"
 #include "campaign/observer.h"
 #include "campaign/report_replays.h"
+#include "campaign/report_tracks.h"
 #include "campaign/stop.h"
 
 namespace rockyard::campaign {
@@ -21,11 +22,14 @@ struct ReportRequest {
   std::string against = {};       // reference file; empty: those of results/reference
   std::string title = {};         // empty: the labels of the runs
   std::string command = {};       // that makes the page, as the page shows it
-  std::size_t replays = 5;        // of the worst failed trials of each run, or of each sweep
+  std::size_t replays = 5;   // of the worst failed trials of each run, or of each sweep; above 0, a
+                             // run gets one of each outcome too
+  std::size_t tracks = 100;  // true paths of trials of each run, for its map
 };
 
 struct ReportObserver : Observer {
   ReplayReport replays = {};
+  TrackReport tracks = {};
 };
 
 struct ReportResult : WorkResult {

@@ -18,6 +18,7 @@
 #include "core/error.h"
 #include "core/json_pieces.h"
 #include "core/provenance.h"
+#include "report/example_trials.h"
 #include "report/page_data.h"
 #include "scenario/load.h"
 #include "scenario/sweep.h"
@@ -27,6 +28,7 @@ namespace rockyard::campaign {
 namespace {
 
 constexpr std::size_t kMaxCompared = 6;
+constexpr double kTrackTime_s = 20.0;  // for the tracks of all runs together
 constexpr auto kMethod = statistics::IntervalMethod::kWilson;
 
 // None where the scenario is of another version of the program.
@@ -45,10 +47,10 @@ std::string ReplayCommand(const StoredRun& run) {
 }
 
 // Ascending.
-std::vector<std::uint64_t> TrialsOf(const std::vector<WorstTrial>& worst) {
+std::vector<std::uint64_t> TrialsOf(const std::vector<ChosenTrial>& worst) {
   std::vector<std::uint64_t> trials;
   trials.reserve(worst.size());
-  for (const WorstTrial& each : worst) trials.push_back(each.record.trial);
+  for (const ChosenTrial& each : worst) trials.push_back(each.record.trial);
   std::sort(trials.begin(), trials.end());
   return trials;
 }
@@ -93,14 +95,44 @@ class Builder {
   void AddPlain(const ReportInput& input) {
     StoredRun run = ReadRun(input.folder, input.cell);
     if (run.records.empty()) FailEmpty(input.folder);
-    AddRun(run, input.label, {}, FindWorst(run, request_.replays));
+    const std::vector<std::uint64_t> examples = ExamplesOf(run);
+    std::vector<ChosenTrial> chosen = FindWorst(run, request_.replays);
+    if (request_.replays > 0) AddChosen(run, examples, chosen);
+    const std::vector<std::uint64_t> named = TrialsOf(chosen);
+    AddRun(run, input.label, {}, std::move(chosen));
+    AddTracks(run, input.label, examples, named);
     if (truth::IsMeasurement(run.schema) || run.prefix().empty()) return;
     for (truth::Record& record : run.records) record.values.clear();
     drives_.emplace_back(std::move(run), input.label);
   }
 
+  static std::vector<std::uint64_t> ExamplesOf(const StoredRun& run) {
+    if (truth::IsMeasurement(run.schema)) return {};
+    return report::ExampleTrials(run.schema, run.prefix());
+  }
+
+  // The first trials, which say nothing of how they end, and those that are named.
+  void AddTracks(const StoredRun& run, const std::string& label,
+                 const std::vector<std::uint64_t>& examples,
+                 const std::vector<std::uint64_t>& named) {
+    const auto plain = std::count_if(request_.inputs.begin(), request_.inputs.end(),
+                                     [](const ReportInput& input) { return !input.sweep; });
+    const Tracks tracks = DriveTracks(run,
+                                      {.label = label,
+                                       .first = request_.tracks,
+                                       .examples = examples,
+                                       .named = named,
+                                       .limit_s = kTrackTime_s / static_cast<double>(plain),
+                                       .threads = batch::ThreadCount({})},
+                                      contact_, request_.track_progress);
+    runs_.back()
+        .Add("examples", core::JsonList(examples, [](auto trial) { return std::to_string(trial); }))
+        .Add("tracks", report::PageTracksJson(tracks.tracks))
+        .AddInteger("first_tracks", static_cast<std::int64_t>(tracks.first));
+  }
+
   void AddRun(const StoredRun& run, const std::string& label, std::optional<std::size_t> sweep,
-              std::vector<WorstTrial> worst) {
+              std::vector<ChosenTrial> worst) {
     report::PageRun page{.label = label,
                          .folder = run.folder.string(),
                          .cell = run.identity.name,
@@ -112,6 +144,7 @@ class Builder {
                          .parameters = ParametersOf(run),
                          .named = TrialsOf(worst),
                          .published = published_.Table(run),
+                         .course = CourseOf(run),
                          .replay_command = ReplayCommand(run)};
     if (sweep) ShareParameters(page);
     any_published_ = any_published_ || page.published != "null";
@@ -134,8 +167,8 @@ class Builder {
     page.parameters_as = first_cell_;
   }
 
-  void AddWorst(std::vector<WorstTrial> worst, const std::string& label) {
-    for (WorstTrial& each : worst) {
+  void AddWorst(std::vector<ChosenTrial> worst, const std::string& label) {
+    for (ChosenTrial& each : worst) {
       each.run = runs_.size();
       each.label = label;
       worst_.push_back(std::move(each));
@@ -147,7 +180,7 @@ class Builder {
     const scenario::Sweep sweep = SweepOf(store, input.folder);
     const CellReader reader(input.folder, store);
     std::vector<batch::CellHash> hashes;
-    std::vector<WorstTrial> others = std::exchange(worst_, {});
+    std::vector<ChosenTrial> others = std::exchange(worst_, {});
     const std::size_t before = report_.trials;
     first_cell_parameters_.clear();
     const auto load = [&](std::size_t cell) {
@@ -237,7 +270,7 @@ class Builder {
   std::vector<core::JsonObject> runs_;
   std::vector<std::string> sweeps_;
   std::vector<report::PageComparison> comparisons_;
-  std::vector<WorstTrial> worst_;
+  std::vector<ChosenTrial> worst_;
   std::size_t first_cell_ = 0;  // of the sweep that is being added
   std::vector<core::ParameterInfo> first_cell_parameters_;
   bool any_published_ = false;

@@ -8,6 +8,7 @@
 
 #include "campaign/report_inputs.h"
 #include "campaign/report_replays.h"
+#include "campaign/report_tracks.h"
 
 namespace rockyard::campaign {
 
@@ -16,9 +17,11 @@ struct PageRequest {
   std::string title;
   std::string command;
   std::string against;         // reference file; "" for those of results/reference
-  std::size_t replays = 0;     // of each run, and of each sweep in all
+  std::size_t replays = 0;     // of the worst of each run, and of each sweep in all
   std::filesystem::path page;  // whose replays are written beside it
   ReplayReport progress;       // of these
+  std::size_t tracks = 0;      // of each run that is no cell of a sweep
+  TrackReport track_progress = {};
 };
 
 struct Report {

@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // What a file name can hold anywhere.
-std::string FileName(const WorstTrial& worst) {
+std::string FileName(const ChosenTrial& worst) {
   std::string name = worst.label.substr(0, 60);
   for (char& c : name) {
     const auto byte = static_cast<unsigned char>(c);
@@ -51,7 +51,7 @@ std::string PercentEncoded(const std::string& text) {
 // One page after the other, on several threads.
 class ReplayWriter {
  public:
-  ReplayWriter(const fs::path& page, std::span<const WorstTrial> trials, std::size_t runs,
+  ReplayWriter(const fs::path& page, std::span<const ChosenTrial> trials, std::size_t runs,
                const Contact& contact, const ReplayReport& progress)
       : name_(page.stem().string() + "_replays"),
         trials_(trials),
@@ -97,7 +97,7 @@ class ReplayWriter {
     }
   }
 
-  void Link(const WorstTrial& worst) {
+  void Link(const ChosenTrial& worst) {
     ++replays_.written;
     files_.insert(FileName(worst));
     replays_.links[worst.run].push_back(
@@ -105,7 +105,7 @@ class ReplayWriter {
   }
 
   void WriteOne(std::size_t i) {
-    const WorstTrial& worst = trials_[i];
+    const ChosenTrial& worst = trials_[i];
     std::vector<core::Problem> problems;
     Outcome outcome = Outcome::kFailed;
     try {
@@ -157,7 +157,7 @@ class ReplayWriter {
   }
 
   const std::string name_;
-  const std::span<const WorstTrial> trials_;
+  const std::span<const ChosenTrial> trials_;
   const Contact& contact_;
   const ReplayReport& progress_;
   std::mutex mutex_;
@@ -170,37 +170,46 @@ class ReplayWriter {
 
 }  // namespace
 
-std::vector<WorstTrial> FindWorst(const StoredRun& run, std::size_t most) {
-  std::vector<WorstTrial> worst;
+std::vector<ChosenTrial> FindWorst(const StoredRun& run, std::size_t most) {
+  std::vector<ChosenTrial> worst;
   if (truth::IsMeasurement(run.schema)) return worst;
+  AddChosen(run, report::WorstTrials(run.schema, run.records, most), worst);
+  return worst;
+}
+
+void AddChosen(const StoredRun& run, std::span<const std::uint64_t> trials,
+               std::vector<ChosenTrial>& chosen) {
   const auto column = statistics::ColumnIndex(run.schema, "true_goal_distance_m");
-  for (const std::uint64_t trial : report::WorstTrials(run.schema, run.records, most)) {
+  for (const std::uint64_t trial : trials) {
+    if (std::any_of(chosen.begin(), chosen.end(),
+                    [&](const ChosenTrial& each) { return each.record.trial == trial; })) {
+      continue;
+    }
     const auto at = std::lower_bound(
         run.records.begin(), run.records.end(), trial,
         [](const truth::Record& record, std::uint64_t wanted) { return record.trial < wanted; });
     truth::Record record = *at;
     record.values.Detach();
-    worst.push_back({.folder = run.folder,
-                     .cell = run.identity.name.empty() ? std::string() : std::to_string(run.cell),
-                     .identity = run.identity,
-                     .builds = run.builds,
-                     .record = std::move(record),
-                     .run = 0,
-                     .label = {},
-                     .goal_distance_m = report::GoalDistanceOrInfinity(*at, column)});
+    chosen.push_back({.folder = run.folder,
+                      .cell = run.identity.name.empty() ? std::string() : std::to_string(run.cell),
+                      .identity = run.identity,
+                      .builds = run.builds,
+                      .record = std::move(record),
+                      .run = 0,
+                      .label = {},
+                      .goal_distance_m = report::GoalDistanceOrInfinity(*at, column)});
   }
-  return worst;
 }
 
-std::vector<WorstTrial> Worst(std::vector<WorstTrial> trials, std::size_t most) {
-  std::stable_sort(trials.begin(), trials.end(), [](const WorstTrial& a, const WorstTrial& b) {
+std::vector<ChosenTrial> Worst(std::vector<ChosenTrial> trials, std::size_t most) {
+  std::stable_sort(trials.begin(), trials.end(), [](const ChosenTrial& a, const ChosenTrial& b) {
     return a.goal_distance_m > b.goal_distance_m;
   });
   if (trials.size() > most) trials.resize(most);
   return trials;
 }
 
-ReportReplays WriteReplays(const fs::path& page, std::span<const WorstTrial> trials,
+ReportReplays WriteReplays(const fs::path& page, std::span<const ChosenTrial> trials,
                            std::size_t runs, int threads, const Contact& contact,
                            const ReplayReport& progress) {
   return ReplayWriter(page, trials, runs, contact, progress).Write(threads);

@@ -19,8 +19,8 @@
 
 namespace rockyard::campaign {
 
-// A failed trial that is worth a look, with what is needed to drive it again.
-struct WorstTrial {
+// A trial that is worth a look, with what is needed to drive it again.
+struct ChosenTrial {
   std::filesystem::path folder;
   std::string cell;              // number, or "" of a run
   batch::CellIdentity identity;  // of the cell
@@ -32,10 +32,15 @@ struct WorstTrial {
 };
 
 // The worst failed trials of a run (report/worst_trials.h); none of one that measures.
-std::vector<WorstTrial> FindWorst(const StoredRun& run, std::size_t most);
+std::vector<ChosenTrial> FindWorst(const StoredRun& run, std::size_t most);
+
+// The trials with these numbers, which must be stored, behind those that are chosen already; none
+// twice.
+void AddChosen(const StoredRun& run, std::span<const std::uint64_t> trials,
+               std::vector<ChosenTrial>& chosen);
 
 // The worst of several cells together: furthest from the goal first, at most `most`.
-std::vector<WorstTrial> Worst(std::vector<WorstTrial> trials, std::size_t most);
+std::vector<ChosenTrial> Worst(std::vector<ChosenTrial> trials, std::size_t most);
 
 struct ReportReplays {
   std::vector<std::vector<report::PageLink>> links;  // by run of the page
@@ -59,7 +64,7 @@ using ReplayReport = std::function<void(const ReplayProgress& progress, Moment m
 // stop ends it after the trials in flight, with kInterrupted: what is written is linked. Pages of
 // earlier reports in the folder stay, and are told. Cost: that of the trials,
 // on `threads` threads; memory: the recording of one trial for each.
-ReportReplays WriteReplays(const std::filesystem::path& page, std::span<const WorstTrial> trials,
+ReportReplays WriteReplays(const std::filesystem::path& page, std::span<const ChosenTrial> trials,
                            std::size_t runs, int threads, const Contact& contact,
                            const ReplayReport& progress = {});
 

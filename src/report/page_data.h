@@ -19,6 +19,7 @@
 #include "core/json_pieces.h"
 #include "core/provenance.h"
 #include "report/distance_steps.h"
+#include "report/page_tracks.h"
 #include "report/paired_comparison.h"
 #include "report/run_description.h"
 #include "report/sweep_files.h"
@@ -58,12 +59,16 @@ struct PageRun {
   std::optional<std::size_t> parameters_as = {};  // run of the page that has all others
   std::vector<std::uint64_t> named = {};          // trials that must be there; ascending
   std::string published = "null";                 // PublishedJson
+  std::optional<PageCourse> course = {};          // none of a measurement
   std::string replay_command;                     // with {trial} for the number
 };
 
 // `Run` of payload.ts but for its replays, which are told when all runs are known. Its summary is
 // SummaryJson (or MeasurementJson) of the prefix: the run's summary.json.
 core::JsonObject PageRunMembers(const PageRun& run, statistics::IntervalMethod method);
+
+// Member "endings": outcomes with their details and how many of the records have both, most first.
+std::string PageEndingsJson(std::span<const truth::Record> records);
 
 // Member "replays" of a run.
 std::string PageReplaysJson(std::span<const PageLink> links);

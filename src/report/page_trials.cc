@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <utility>
 
 #include "core/json_pieces.h"
 #include "report/page_data.h"
@@ -49,6 +50,23 @@ std::vector<std::size_t> PageTrials(std::span<const Record> records,
     }
   }
   return places;
+}
+
+std::string PageEndingsJson(std::span<const Record> records) {
+  std::map<std::pair<truth::TrialOutcome, std::string>, std::int64_t> counts;
+  for (const Record& record : records) ++counts[{record.outcome, record.detail}];
+  std::vector<std::pair<std::int64_t, std::pair<truth::TrialOutcome, std::string>>> endings;
+  endings.reserve(counts.size());
+  for (const auto& [ending, count] : counts) endings.emplace_back(count, ending);
+  std::stable_sort(endings.begin(), endings.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  return JsonList(endings, [](const auto& each) {
+    return JsonObject()
+        .AddText("outcome", truth::Name(each.second.first))
+        .AddText("detail", each.second.second)
+        .AddInteger("count", each.first)
+        .Text();
+  });
 }
 
 std::string PageTrialsJson(const truth::RecordSchema& schema, std::span<const Record> records,

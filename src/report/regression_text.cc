@@ -79,7 +79,7 @@ std::string TableHead() {
                      "baseline", "run", "difference", "margin", "Holm p", "seen 80 %");
 }
 
-std::string TableRow(const RegressionRow& row) {
+std::string RegressionLine(const RegressionRow& row) {
   return fmt::format("  {:<13}{:<25}{:>10}{:>10}{:>11}{:>10}{:>9}{:>10}\n", Name(row.verdict),
                      row.metric->name, FourDigits(row.baseline_mean), FourDigits(row.run_mean),
                      Signed(row.difference), FourDigits(row.margin), Probability(row.holm_p_value),
@@ -98,7 +98,7 @@ std::string Table(const RegressionReport& report, ReportedRows rows) {
     std::string lines;
     for (const RegressionRow& row : report.result.rows) {
       if (row.cell == cell.name && (rows == ReportedRows::kAll || Matters(row))) {
-        lines += TableRow(row);
+        lines += RegressionLine(row);
       }
     }
     if (lines.empty()) continue;

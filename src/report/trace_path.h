@@ -25,4 +25,8 @@ double Apart_m(const math::Pose2& a, const math::Pose2& b);
 // many points (with 10 m, what then is left); both ends of every piece stay.
 TracePath Thinned(const TracePath& path, std::size_t most_points);
 
+// Leaves out points as long as no left one is further than the tolerance from the line that is
+// drawn without it (Douglas and Peucker 1973); both ends of every piece stay.
+TracePath Simplified(const TracePath& path, double tolerance_m);
+
 }  // namespace rockyard::report

@@ -42,8 +42,8 @@ TEST_F(CliReportPages, ThePageHoldsWhatDataSays) {
 }
 
 TEST_F(CliReportPages, TheWorstTrialsGetReplays) {
-  // Every trial runs out of time.
-  ASSERT_EQ(Drive("a <b>", 4, {"--set", "referee.time_limit_s=20"}).exit_code, 0);
+  // Every trial runs out of time: of two, the one of median distance is among the two worst.
+  ASSERT_EQ(Drive("a <b>", 2, {"--set", "referee.time_limit_s=20"}).exit_code, 0);
   const CommandResult result = Report({"a <b>", "--out", "my page.html"}, 2);
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("2 replays in my page_replays"));
@@ -56,6 +56,32 @@ TEST_F(CliReportPages, TheWorstTrialsGetReplays) {
     EXPECT_EQ(link, "my%20page_replays/1-a__b_-trial" + trial + ".html");
     EXPECT_TRUE(fs::exists(work() / "my page_replays" / ("1-a__b_-trial" + trial + ".html")));
   }
+}
+
+TEST_F(CliReportPages, TheFirstTrialsGetTracks) {
+  ASSERT_EQ(Drive("a", 5, {"--set", "referee.time_limit_s=20"}).exit_code, 0);
+  const CommandResult result = Report({"a", "--tracks", "3"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr(" of a\n"));
+  const json run = Data()["runs"][0];
+  EXPECT_GE(run["first_tracks"], 1);
+  EXPECT_FALSE(run["tracks"][0]["pieces_cm"].empty());
+  EXPECT_EQ(run["examples"].size(), 1u);
+  ASSERT_EQ(Report({"a", "--tracks", "0"}).exit_code, 0);
+  EXPECT_TRUE(Data()["runs"][0]["tracks"].empty());
+  EXPECT_EQ(Report({"a", "--tracks", "1001"}).exit_code, 2);
+}
+
+TEST_F(CliReportPages, ATrackThatDiffersIsToldAndLeftOut) {
+  ASSERT_EQ(Drive("a", 2, {"--set", "referee.time_limit_s=20"}).exit_code, 0);
+  batch::MakeOlder(work() / "a/results.sqlite",
+                   "UPDATE trials SET energy_wh = energy_wh + 1 WHERE trial = 0");
+  const CommandResult result = Report({"a"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, HasSubstr("a: 1 of the trials that were driven again for the map"));
+  const json run = Data()["runs"][0];
+  ASSERT_EQ(run["tracks"].size(), 1u);
+  EXPECT_EQ(run["tracks"][0]["trial"], 1);
 }
 
 TEST_F(CliReportPages, AReplayThatDiffersIsReportedAndNotLinked) {
@@ -71,8 +97,9 @@ TEST_F(CliReportPages, AReplayThatDiffersIsReportedAndNotLinked) {
 
 TEST_F(CliReportPages, PagesOfEarlierReportsAreTold) {
   ASSERT_EQ(Drive("a", 3, {"--set", "referee.time_limit_s=20"}).exit_code, 0);
-  ASSERT_EQ(Report({"a", "--out", "page.html"}, 2).exit_code, 0);
-  EXPECT_THAT(Report({"a", "--out", "page.html"}, 2).err, Not(HasSubstr("older page")));
+  ASSERT_EQ(Report({"a", "--out", "page.html"}, 3).exit_code, 0);
+  EXPECT_THAT(Report({"a", "--out", "page.html"}, 3).err, Not(HasSubstr("older page")));
+  // The worst of the three, and the one of median distance.
   EXPECT_THAT(Report({"a", "--out", "page.html"}, 1).err,
               HasSubstr("1 older page in page_replays is not of this report"));
   EXPECT_TRUE(fs::exists(work() / "page_replays"));

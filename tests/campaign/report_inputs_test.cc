@@ -55,7 +55,7 @@ TEST(ShellPath, IsNoOption) {
 
 TEST(WorstTrials, OfSeveralCellsTheFurthestFromTheGoalComeFirst) {
   const auto trial = [](std::uint64_t number, double distance_m) {
-    WorstTrial worst;
+    ChosenTrial worst;
     worst.record.trial = number;
     worst.goal_distance_m = distance_m;
     return worst;

@@ -82,10 +82,10 @@ test("readouts tell what the data says", async () => {
 
 test("says what the record says, in words that a newcomer reads", async () => {
   const target = changed(file, "words.html", (payload) => {
-    Object.assign(payload, { outcome: "no_path", detail: "spent no_path_time_s without coming nearer" });
+    Object.assign(payload, { outcome: "no_path", detail: "found no way on and gave up" });
   });
   const { page } = await open(target);
-  assert.match(await page.textContent(".outcome"), /came no nearer to the goal for too long: no_path_time_s/);
+  assert.match(await page.textContent(".outcome"), /\(It found no way on and gave up\.\)/);
   const turns = payloadOf(file).record.find(({ name }) => name === "point_turns").value;
   const row = page.locator(".timeline-labels .row", { hasText: "point turn" });
   assert.equal(await row.locator(".count").textContent(), String(turns));

@@ -47,7 +47,7 @@ test("a curve has the rates of the sweep's cells", async () => {
       assert.equal(Number(row[4]), rate.ci95[1]);
     });
     // One mark for each cell.
-    assert.equal(await figure.locator("svg g[aria-label=dot] path, svg g[aria-label=dot] circle").count(), cells.length);
+    assert.equal(await figure.locator("svg g[data-mark=dot] path, svg g[data-mark=dot] circle").count(), cells.length);
     assert.match(await figure.locator(".fit-notes").innerText(), /fit/);
   }
   assert.deepEqual(problems, []);
@@ -95,4 +95,11 @@ test("whether a fit is rejected is what the program says", async () => {
     assert.match(text, rejected ? /^fit rejected/ : /^fit not rejected/);
     await page.close();
   }
+});
+
+test("a page of a sweep begins with its curve", async () => {
+  const { page } = await openReport(browser, at("sweep.html"));
+  assert.equal(await page.locator("section").first().getAttribute("id"), "curves");
+  assert.equal(await page.locator("section").first().locator("figure .chart svg").first().isVisible(), true);
+  await page.close();
 });

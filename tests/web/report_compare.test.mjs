@@ -46,8 +46,8 @@ test("differences are those that rockyard compare writes", async () => {
 
 test("a run leaves the charts and comes back in its own colour", async () => {
   const { page } = await open("two.html");
-  const lines = page.locator("#distance-cdf svg g[aria-label=line] path");
-  const strokes = () => page.locator("#distance-cdf svg g[aria-label=line]").evaluateAll((all) => all.map((each) => each.getAttribute("stroke")));
+  const lines = page.locator("#distance-cdf svg g[data-mark=line] path");
+  const strokes = () => page.locator("#distance-cdf svg g[data-mark=line]").evaluateAll((all) => all.map((each) => each.getAttribute("stroke")));
   assert.equal(await lines.count(), 2);
   const before = await strokes();
   const boxes = page.locator("#runs input");
@@ -115,5 +115,67 @@ test("differences of rates are points, and a column that was zero at first is na
   assert.match(row, /62\.5\s%\t97\.5\s%\t35\.0\t10\.0 to 60\.0\t/);
   assert.match(await page.locator("#comparison").innerText(), /Difference \[points\]/);
   assert.match(await page.locator("#forest-columns-0 figcaption").innerText(), /Not drawn.*scrapes \(0, then 3\)/);
+  await page.close();
+});
+
+test("what differs comes first: settings, then both rates with interval and verdict", async () => {
+  const { page } = await open("two.html");
+  assert.equal(await page.locator("section").first().getAttribute("id"), "changes");
+  const [of] = payloadOf(at("two.html")).comparisons;
+  const settings = await page.locator("#changes .settings-table tbody tr").evaluateAll((rows) =>
+    rows.map((row) => [...row.children].map((cell) => cell.textContent)));
+  assert.deepEqual(settings, of.settings.map(({ path: name, first, second }) => [name, first, second]));
+  assert.deepEqual(settings.map(([name]) => name), ["terrain.rocks.k_per_m2"]);
+  const shown = await page.locator("#changes .verdicts li:has([data-low])").evaluateAll((all) => all.map((item) => ({
+    difference: Number(item.querySelector("[data-value]").dataset.value),
+    low: Number(item.querySelector("[data-low]").dataset.low),
+    high: Number(item.querySelector("[data-low]").dataset.high),
+  })));
+  assert.deepEqual(shown, of.successes.map(({ difference, low, high }) => ({ difference, low, high })));
+  await page.close();
+});
+
+test("the verdict in words follows the p-value", async () => {
+  const meanings = { 0.001: "more than chance would do", 0.2: "which chance alone might do" };
+  for (const [p, meaning] of Object.entries(meanings)) {
+    withPayload(at("two.html"), at("verdict.html"), ({ comparisons: [{ successes }] }) => {
+      for (const row of successes) Object.assign(row, { first: 0.9, second: 0.6, difference: -0.3, low: -0.5, high: -0.1, p: Number(p) });
+    });
+    const { page } = await open("verdict.html");
+    const text = await page.locator("#changes .verdicts li").first().innerText();
+    assert.match(text, /^Declared success fell by 30\.0 points \(difference −50\.0 to −10\.0\), from 90\.0\s% of nominal to 60\.0\s% of sparse/);
+    assert.ok(text.includes(meaning), text);
+    await page.close();
+  }
+});
+
+test("trials that ended in another way are counted, and some drawn side by side", async () => {
+  const ends = (name) => csv(at(name, "trials.csv")).map(({ outcome }) => outcome);
+  const [first, second] = [ends("nominal"), ends("sparse")];
+  const changed = first.flatMap((outcome, trial) => (outcome === second[trial] ? [] : [trial]));
+  assert.ok(changed.length > 0);
+  const { page } = await open("two.html");
+  const count = page.locator("#changes .changed-count");
+  assert.equal(Number(await count.locator("[data-value]").getAttribute("data-value")), changed.length);
+  assert.match(await count.innerText(), new RegExp(`of ${TRIALS} trials with the same seed`));
+  const parts = await page.locator("#changes .change-list [data-value]").evaluateAll((all) => all.map(({ dataset }) => Number(dataset.value)));
+  assert.equal(parts.reduce((sum, part) => sum + part, 0), changed.length);
+  const pairs = await page.locator("#changes .pair").evaluateAll((all) =>
+    all.map((pair) => [Number(pair.dataset.trial), ...[...pair.querySelectorAll("g[data-outcome]")].map(({ dataset }) => dataset.outcome)]));
+  assert.ok(pairs.length > 0);
+  for (const [trial, ...outcomes] of pairs) assert.deepEqual(outcomes, [first[trial], second[trial]], `trial ${trial}`);
+  await page.close();
+});
+
+test("published values of another case are folded away, those of the published one are not", async () => {
+  assert.ok(payloadOf(at("two.html")).runs[1].published.settings.length > 0);
+  withPayload(at("two.html"), at("case.html"), ({ runs: [run] }) => {
+    run.published.settings = [];
+  });
+  const { page } = await open("case.html");
+  assert.equal(await page.locator("#published .published-table").nth(0).isVisible(), true);
+  assert.equal(await page.locator("#published .published-table").nth(1).isVisible(), false);
+  await page.locator("#published .other-case > summary").click();
+  assert.equal(await page.locator("#published .published-table").nth(1).isVisible(), true);
   await page.close();
 });

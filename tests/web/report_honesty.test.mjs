@@ -40,7 +40,7 @@ function withGap({ runs: [run] }) {
 test("beyond a gap trials are in the table and in nothing else", async () => {
   withPayload(at("report.html"), at("gap.html"), withGap);
   const { page, problems } = await open("gap.html");
-  assert.match(await page.locator(".page-header").innerText(), /19 of 20 completed, 1 pending, rates from the first 5/);
+  assert.match(await page.locator("#about").innerText(), /19 of 20 completed, 1 pending, rates from the first 5/);
   assert.match(await page.locator("#headline").innerText(), /of the first 5 trials, up to one that is still to be run/);
   const bins = await values((await numbersOf(page, "histogram-sim_time_s")).nth(1));
   assert.equal(bins.reduce((sum, row) => sum + Number(row[2]), 0), RATED);
@@ -124,9 +124,9 @@ test("the band of arrivals is where it has a width, and the trials that still dr
   assert.deepEqual(rows.map((row) => row.slice(1)), [
     ["0", "–", "–", "4"], ["0.25", "0.05", "0.6", "3"], ["0.25", "0.05", "0.6", "2"], ["0.5", "0.1", "0.8", "1"],
   ]);
-  const left = (mark) => page.locator(`#goal-incidence svg g[aria-label=${mark}] path`).first().evaluate((path) => path.getBBox().x);
+  const left = (mark) => page.locator(`#goal-incidence svg g[data-mark=${mark}] path`).first().evaluate((path) => path.getBBox().x);
   assert.ok((await left("area")) > (await left("line")) + 50, "a band before the first arrival");
-  const texts = await page.locator("#goal-incidence svg g[aria-label=text] text").allTextContents();
+  const texts = await page.locator("#goal-incidence svg g[data-mark=text] text").allTextContents();
   assert.ok(["still driving", "4", "3", "2", "1"].every((text) => texts.includes(text)), texts.join());
   await page.close();
 });

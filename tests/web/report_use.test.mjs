@@ -132,6 +132,9 @@ describe("data", () => {
       run.published.rows[0].what = MARKUP;
       run.published.rows[0].verdict = MARKUP;
       run.replays = { 0: "javascript:window.ran=3", 1: "report_replays/1.html" };
+      run.examples = [0, 1];
+      run.endings.forEach((ending) => Object.assign(ending, { outcome: MARKUP, detail: MARKUP }));
+      run.course.rover = MARKUP;
       const second = structuredClone(run);
       second.label = `${MARKUP} 2`;
       payload.runs.push(second);
@@ -173,7 +176,7 @@ describe("data", () => {
     const { page, problems } = await open("bare.html");
     assert.deepEqual(problems, []);
     const sections = await page.locator("section").evaluateAll((all) => all.map((section) => section.id));
-    assert.deepEqual(sections, ["headline", "outcomes", "provenance"]);
+    assert.deepEqual(sections, ["answer", "outcomes", "about", "headline", "provenance"]);
     assert.equal(await page.locator(".problem").count(), 0);
     await page.close();
   });

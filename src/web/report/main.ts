@@ -4,18 +4,24 @@ import "../shared/theme.css";
 import "./report.css";
 import "./charts.css";
 import "./trial_table.css";
+import "./answer.css";
 
 import { el } from "../shared/dom";
 import { readPayload } from "../shared/payload";
 import { Context } from "./context";
 import type { ReportPayload } from "./payload";
+import { about } from "./sections/about";
 import { abundance } from "./sections/abundance";
+import { answer } from "./sections/answer";
+import { changes } from "./sections/changes";
 import { withParameters } from "./cell_parameters";
 import { comparison } from "./sections/comparison";
 import { distance } from "./sections/distance";
 import { deadReckoning, timeAndEnergy } from "./sections/distributions";
+import { examples } from "./sections/examples";
 import { pageHeader } from "./sections/header";
 import { headline } from "./sections/headline";
+import { trackMap } from "./sections/map";
 import { measurements } from "./sections/measurements";
 import { outcomes } from "./sections/outcomes";
 import { parameters } from "./sections/parameters";
@@ -25,8 +31,10 @@ import { runPicker } from "./sections/runs";
 import { sectionElement } from "./sections/section";
 import { trials } from "./sections/trials";
 
+// The answer first, then what there is to see, then the statistics.
 const SECTIONS = [
-  headline, published, comparison, abundance, measurements, outcomes, distance, deadReckoning, timeAndEnergy, trials, parameters, provenance,
+  answer, changes, abundance, trackMap, outcomes, examples, about, headline, published, comparison, measurements, distance, deadReckoning,
+  timeAndEnergy, trials, parameters, provenance,
 ];
 // The choice of runs stands before the first section that follows it.
 const FIRST_TO_FOLLOW = distance.id;

@@ -36,6 +36,16 @@ export interface Run {
   prefix_trials: number;
   /** Trials share layouts of rocks: they are not independent, and intervals that take them so are too narrow. */
   shared_layouts: boolean;
+  /** How the trials of the rates ended, the commonest way first. */
+  endings: { outcome: string; detail: string; count: number }[];
+  /** What all drives share; null of a measurement, or where another version of the program made the run. */
+  course: Course | null;
+  /** Of each outcome the trial of median true distance, of the commonest outcome first; absent of cells of a sweep. */
+  examples?: number[];
+  /** True paths of trials that were driven again for the page, by number; absent of cells of a sweep. */
+  tracks?: Track[];
+  /** So many of them are of the run's first trials, whatever became of these; the others are of trials with a replay. */
+  first_tracks?: number;
   /** distance_cdf.csv by column, thinned to at most 1000 steps (none lower by more than 1/998 of the trials); null where nothing drives. */
   cdf: Record<string, (number | null)[]> | null;
   /** Steps of distance_cdf.csv: more than `cdf` has where that is thinned. */
@@ -51,6 +61,25 @@ export interface Run {
   replays: Record<string, string>;
   /** The command that writes any other; {trial} stands for the number. */
   replay_command: string;
+}
+
+export interface Course {
+  /** Name of the rover; "" where it has the shape of none that is known. */
+  rover: string;
+  start: [number, number];
+  goal: [number, number];
+  goal_radius_m: number;
+  waypoints: [number, number][];
+  /** y of the lines at which operators reflect the rover. */
+  mirror_lines_m: number[];
+}
+
+export interface Track {
+  trial: number;
+  /** x, y, x, y ... in whole centimetres; interrupted where operators reflected the rover. */
+  pieces_cm: number[][];
+  /** x, y and radius of each rock, for examples; empty of others. */
+  rocks_cm: number[];
 }
 
 export interface TrialTable {

@@ -2,6 +2,7 @@
 
 import type { Run } from "./payload";
 import { ratedRows } from "./prefix";
+import { replayLink } from "./replay_link";
 
 export interface TrialRow {
   run: string;
@@ -35,11 +36,6 @@ export function columnsOf(runs: Run[]): ColumnInfo[] {
   return [...all.values()];
 }
 
-// Only places beside the page: nothing with a scheme of its own.
-function safeLink(link: string | undefined): string {
-  return link !== undefined && !/^[a-z][a-z0-9+.-]*:/i.test(link.trim()) && !link.startsWith("//") ? link : "";
-}
-
 const NOT_IN_RATES = "not in the rates";
 
 function rowsOfRun(run: Run, of: number): TrialRow[] {
@@ -51,7 +47,7 @@ function rowsOfRun(run: Run, of: number): TrialRow[] {
       trial: number,
       outcome: outcome_names[outcome[i] ?? -1] ?? "",
       detail: detail_texts?.[detail?.[i] ?? -1] ?? "",
-      replay: safeLink(run.replays?.[String(number)]),
+      replay: replayLink(run, number),
       of,
       unrated: i < rated ? "" : NOT_IN_RATES,
     };

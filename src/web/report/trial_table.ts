@@ -46,6 +46,14 @@ function columnAtFirst(columns: ColumnInfo[]): Set<string> {
   return new Set((usual.length > 0 ? usual : columns.slice(0, MOST_AT_FIRST)).map((column) => column.name));
 }
 
+// A grid holds rows and nothing else: what turns its pages stands below it, and what scrolls is no
+// stop of its own, since its buttons and links can be reached.
+function leaveRowsAlone(grid: HTMLElement): void {
+  const footer = grid.querySelector(".tabulator-footer");
+  if (footer) grid.after(footer);
+  grid.querySelector(".tabulator-tableholder")?.removeAttribute("tabindex");
+}
+
 export class TrialTableView {
   private readonly rows: TrialRow[];
   private readonly columns: ColumnInfo[];
@@ -69,11 +77,12 @@ export class TrialTableView {
     this.run = select([["", "all runs"], ...runs.map((run): [string, string] => [run.label, run.label])]);
     this.outcome = select([["", "all outcomes"], ...outcomes.map((name): [string, string] => [name, words(name)])]);
     const shown = columnAtFirst(this.columns);
-    const place = el("div", { class: "trial-table" });
+    const place = el("div", { role: "grid", "aria-label": "Trials" });
     const pages = replayPages(this.rows, runs.length > 1);
-    box.replaceChildren(...(pages ? [pages] : []), this.controls(), this.columnChooser(shown), this.found, this.command.element, place);
+    box.replaceChildren(...(pages ? [pages] : []), this.controls(), this.columnChooser(shown), this.found, this.command.element,
+      el("div", { class: "trial-table" }, place));
     this.table = this.makeTable(place, shown);
-    this.listen();
+    this.listen(place);
     this.refresh();
   }
 
@@ -164,11 +173,12 @@ export class TrialTableView {
     });
   }
 
-  private listen(): void {
+  private listen(grid: HTMLElement): void {
     this.search.addEventListener("input", () => this.refresh());
     for (const control of [this.run, this.outcome, this.onlyReplays, this.onlyRated]) control.addEventListener("change", () => this.refresh());
     this.table.on("tableBuilt", () => {
       this.built = true;
+      leaveRowsAlone(grid);
       this.refresh();
     });
   }

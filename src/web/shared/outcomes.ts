@@ -14,20 +14,6 @@ const SENTENCES: Record<string, string> = {
   measured: "It was measured.",
 };
 
-// What the referee writes names the setting that decided.
-const DETAILS: Record<string, string> = {
-  "drove no_path_distance_m without coming nearer": "it drove for too long without coming nearer to the goal: no_path_distance_m",
-  "turned no_path_turn_deg without coming nearer": "it turned for too long without coming nearer to the goal: no_path_turn_deg",
-  "spent no_path_time_s without coming nearer": "it came no nearer to the goal for too long: no_path_time_s",
-  "arrived within goal_radius_m": "within goal_radius_m of the goal",
-  "believed to have arrived outside goal_radius_m": "further from the goal than goal_radius_m",
-};
-
-/** The detail of an outcome as a person would say it; the name of a setting stays, to be looked up. */
-export function detailSentence(detail: string): string {
-  return DETAILS[detail] ?? detail;
-}
-
 /** What an outcome means; "" of one that is not known. */
 export function outcomeSentence(outcome: string): string {
   return SENTENCES[outcome] ?? "";

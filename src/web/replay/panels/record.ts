@@ -2,7 +2,7 @@
 import { el } from "../../shared/dom";
 import { button } from "../controls";
 import { words } from "../../shared/format";
-import { detailSentence, outcomeSentence } from "../../shared/outcomes";
+import { outcomeSentence } from "../../shared/outcomes";
 import { recorded } from "../format";
 import type { ReplayPayload } from "../payload";
 
@@ -21,7 +21,7 @@ export function outcomeBanner({ outcome, detail, repeats_stored: repeats }: Repl
   banner.append(el("strong", { class: success ? "good" : "bad" }, `${success ? "✓" : "✗"} ${words(outcome)}`));
   const sentence = outcomeSentence(outcome);
   if (sentence) banner.append(" ", sentence);
-  if (detail) banner.append(" ", el("span", { class: "detail" }, `(${detailSentence(detail)})`));
+  if (detail) banner.append(" ", el("span", { class: "detail" }, `(It ${detail}.)`));
   const state = repeats === null ? "none" : repeats ? "yes" : "no";
   banner.append(el("p", { class: `repeats ${state}`, role: state === "no" ? "alert" : null }, REPEATS[state]));
   return banner;

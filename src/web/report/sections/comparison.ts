@@ -137,22 +137,11 @@ function forests(of: Comparison, at: number): HTMLElement {
   );
 }
 
-function settings(of: Comparison): HTMLElement | null {
-  const rows = of.settings ?? [];
-  if (rows.length === 0) return null;
-  return el("details", { class: "numbers" }, el("summary", {}, `${counted(rows.length, "setting")} in which they differ`), table({
-    caption: `Settings of ${of.first} and ${of.second}`,
-    head: ["Setting", of.first, of.second],
-    rows: rows.map((row) => [rowHeader(el("code", {}, row.path)), row.first, row.second]),
-  }));
-}
-
 function content(of: Comparison, at: number): Child[] {
   const how = of.paired ? `${counted(of.pairs, "pair")} of trials with the same seed` : "two samples, not in pairs";
   return [
     el("h3", {}, `${of.second} against ${of.first}`),
     el("p", { class: "note" }, `Compared: ${how}.`),
-    settings(of),
     forests(of, at),
     columnTable(of),
     (of.notes ?? []).length > 0 ? el("ul", { class: "note" }, ...of.notes.map((note) => el("li", {}, note))) : null,
@@ -161,7 +150,7 @@ function content(of: Comparison, at: number): Child[] {
 
 export const comparison: Section = {
   id: "comparison",
-  title: "Differences between runs",
+  title: "All differences between runs",
   short: "Differences",
   render: (context: Context) => {
     const all = context.payload.comparisons ?? [];

@@ -1,10 +1,10 @@
-// What the page is about, at a glance.
+// The title of the page, and what it is about in facts.
 
 import { breakable, el, type Child } from "../../shared/dom";
 import { counted, number, words } from "../../shared/format";
 import { themeSwitch } from "../../shared/theme";
 import type { Context } from "../context";
-import type { Run } from "../payload";
+import type { Run, Sweep } from "../payload";
 import { hasUnrated, ratedTrials } from "../prefix";
 
 /** [planned, completed, faulted, pending], as far as the summary gives them. */
@@ -56,9 +56,7 @@ function sumOf(runs: Run[], name: "planned" | "completed" | "faulted" | "pending
   return runs.reduce((sum, run) => sum + (accounting(run)[name] ?? 0), 0);
 }
 
-function manyFacts(context: Context): HTMLElement {
-  const runs = context.runs;
-  const sweeps = context.payload.sweeps ?? [];
+function manyFacts(runs: Run[], sweeps: Sweep[]): HTMLElement {
   const alone = runs.filter((run) => run.sweep === null || run.sweep === undefined).length;
   const builds = new Set(runs.map((run) => run.summary?.provenance?.commit).filter(Boolean));
   return facts([
@@ -73,12 +71,15 @@ function manyFacts(context: Context): HTMLElement {
   ]);
 }
 
-export function pageHeader(context: Context): HTMLElement {
-  const { payload, runs } = context;
+/** Of one run all that tells it from others, of several their numbers. */
+export function pageFacts({ runs, payload }: Context): HTMLElement {
+  return runs.length === 1 ? runFacts(runs[0]!) : manyFacts(runs, payload.sweeps ?? []);
+}
+
+export function pageHeader({ payload }: Context): HTMLElement {
   return el(
     "header",
     { class: "page-header" },
     el("div", { class: "title-row" }, el("h1", {}, payload.title || "rockyard report"), themeSwitch()),
-    runs.length === 1 ? runFacts(runs[0]!) : manyFacts(context),
   );
 }

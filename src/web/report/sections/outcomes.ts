@@ -1,10 +1,11 @@
-// How trials ended. Every count is a button that shows its trials in the table.
+// How trials ended, and by which cause. Every count is a button that shows its trials in the table.
 
 import { breakable, el, type Child } from "../../shared/dom";
 import { number, percent, words } from "../../shared/format";
 import { outcomeSentence } from "../../shared/outcomes";
 import { numeric, rowHeader, table, type Cell } from "../../shared/table";
 import type { Context } from "../context";
+import { causesOf } from "../endings";
 import type { Run } from "../payload";
 import { hasUnrated } from "../prefix";
 import type { Section } from "./section";
@@ -44,21 +45,32 @@ function occurring(runs: Run[]): string[] {
   return names.filter((name) => runs.some((run) => (countsOf(run)[name] ?? 0) > 0));
 }
 
+/** What the drives of an outcome did; with counts where it was not one thing. */
+function causes(run: Run, outcome: string): Child {
+  const found = causesOf(run).filter((cause) => cause.outcome === outcome);
+  if (found.length === 0) return outcomeSentence(outcome);
+  if (found.length === 1) return el("span", { "data-cause-count": found[0]!.count }, sentenceOf(found[0]!.words));
+  return el("ul", { class: "causes" }, ...found.map(({ count, words: cause }) =>
+    el("li", { "data-cause-count": count }, `${number(count)} ${cause}`)));
+}
+
+const sentenceOf = (text: string) => `${text[0]!.toUpperCase()}${text.slice(1)}.`;
+
 function oneRun(context: Context, run: Run): HTMLElement {
   const trials = total(run);
   return table({
     caption: "How the trials ended",
     className: "one-run",
     stacks: true,
-    head: ["Outcome", { content: "Trials", numeric: true }, { content: "Share", numeric: true }, "", "What it means"],
-    rows: occurring([run]).map((name) => {
+    head: ["Outcome", { content: "Trials", numeric: true }, { content: "Share", numeric: true }, "", "What the drives did"],
+    rows: occurring([run]).sort((a, b) => countsOf(run)[b]! - countsOf(run)[a]!).map((name) => {
       const count = countsOf(run)[name] ?? 0;
       return [
         rowHeader(words(name)),
         { content: countButton(context, run, name), numeric: true, value: count },
         numeric(percent(count / trials), count / trials),
         bar(count / trials, name),
-        outcomeSentence(name),
+        causes(run, name),
       ];
     }),
   });
@@ -88,7 +100,7 @@ function manyRuns(context: Context, runs: Run[]): Child[] {
 
 export const outcomes: Section = {
   id: "outcomes",
-  title: "How trials ended",
+  title: "Why drives ended",
   short: "Outcomes",
   render: (context: Context) => {
     const runs = context.runs.filter((run) => run.kind !== "measurement" && total(run) > 0);

@@ -5,7 +5,7 @@ import { interval, isNumber, MISSING, number, pValue, words } from "../../shared
 import { numeric, rowHeader, table, type Cell } from "../../shared/table";
 import { predictionBar } from "../charts/glyphs";
 import type { Context } from "../context";
-import type { PublishedRow, Run } from "../payload";
+import type { PublishedRow, PublishedTable, Run } from "../payload";
 import { unitText, verdictWords } from "../words";
 import type { Section } from "./section";
 
@@ -94,6 +94,18 @@ function comparison(run: Run, titled: boolean): Child[] {
     titled ? el("h3", {}, run.label) : null,
     el("p", { class: "note" }, `Against ${published.reference}${published.citation ? `: ${published.citation}` : ""}`),
     otherSettings(published.settings ?? []),
+    ...folded(published.settings ?? [], judged(run, published, tested)),
+  ];
+}
+
+/** Of another case than the published one the values stand back. */
+function folded(settings: string[], content: Child[]): Child[] {
+  if (settings.length === 0) return content;
+  return [el("details", { class: "numbers other-case" }, el("summary", {}, "Published values and verdicts all the same"), ...content)];
+}
+
+function judged(run: Run, published: PublishedTable, tested: boolean): Child[] {
+  return [
     meanings(published.rows, tested),
     table({
       caption: `${run.label} against ${published.reference}`,
