@@ -11,16 +11,14 @@
 #include "batch/scenario_difference.h"
 #include "batch/trial_hash.h"
 #include "campaign/drive_comparison.h"
+#include "campaign/report_facts.h"
 #include "campaign/report_published.h"
 #include "campaign/run_source.h"
 #include "campaign/run_views.h"
-#include "campaign/shell_word.h"
 #include "core/error.h"
 #include "core/json_pieces.h"
 #include "core/provenance.h"
-#include "report/example_trials.h"
 #include "report/page_data.h"
-#include "scenario/load.h"
 #include "scenario/sweep.h"
 #include "truth/measurement_record.h"
 
@@ -30,21 +28,6 @@ namespace {
 constexpr std::size_t kMaxCompared = 6;
 constexpr double kTrackTime_s = 20.0;  // for the tracks of all runs together
 constexpr auto kMethod = statistics::IntervalMethod::kWilson;
-
-// None where the scenario is of another version of the program.
-std::vector<core::ParameterInfo> ParametersOf(const StoredRun& run) {
-  try {
-    return scenario::ListParameters(scenario::ParseScenario(run.identity.resolved));
-  } catch (const core::UserError&) {
-    return {};
-  }
-}
-
-std::string ReplayCommand(const StoredRun& run) {
-  std::string command = "rockyard replay " + ShellPath(run.folder.string());
-  if (!run.identity.name.empty()) command += " --cell " + ShellWord(run.identity.name);
-  return command + " --trial {trial}";
-}
 
 // Ascending.
 std::vector<std::uint64_t> TrialsOf(const std::vector<ChosenTrial>& worst) {
@@ -58,18 +41,6 @@ std::vector<std::uint64_t> TrialsOf(const std::vector<ChosenTrial>& worst) {
 [[noreturn]] void FailEmpty(const std::filesystem::path& folder) {
   throw core::UserError(folder.string(), "holds no finished trials to report",
                         "let it run: the same `rockyard run` or `rockyard sweep` with --resume");
-}
-
-scenario::Sweep SweepOf(const batch::ResultStore& store, const std::filesystem::path& folder) {
-  try {
-    scenario::Sweep sweep = scenario::ParseSweep(store.identity().design);
-    if (sweep.cells.size() == static_cast<std::size_t>(store.cells())) return sweep;
-  } catch (const core::UserError&) {
-    // Said below: its problems are about a file that the user has not got.
-  }
-  throw core::UserError(folder.string(),
-                        "holds a sweep that this version of the program reads differently",
-                        "use the program that made it: " + store.Builds().front());
 }
 
 class Builder {
@@ -104,11 +75,6 @@ class Builder {
     if (truth::IsMeasurement(run.schema) || run.prefix().empty()) return;
     for (truth::Record& record : run.records) record.values.clear();
     drives_.emplace_back(std::move(run), input.label);
-  }
-
-  static std::vector<std::uint64_t> ExamplesOf(const StoredRun& run) {
-    if (truth::IsMeasurement(run.schema)) return {};
-    return report::ExampleTrials(run.schema, run.prefix());
   }
 
   // The first trials, which say nothing of how they end, and those that are named.

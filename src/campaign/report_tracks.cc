@@ -11,13 +11,10 @@
 #include <utility>
 
 #include "batch/parallel_tasks.h"
-#include "core/error.h"
+#include "campaign/report_facts.h"
 #include "experiments/drive/drive_experiment.h"
-#include "report/parameter_table.h"
 #include "report/trace_path.h"
 #include "report/trace_view.h"
-#include "scenario/load.h"
-#include "terrain/arena.h"
 #include "terrain/field.h"
 #include "trial/layout.h"
 #include "truth/measurement_record.h"
@@ -30,27 +27,6 @@ using Clock = std::chrono::steady_clock;
 constexpr double kTolerance_m = 0.01;
 constexpr std::size_t kMostPoints = 20000;  // that are simplified
 constexpr std::size_t kMultibodyShare = 4;  // a multibody trial takes many times as long
-
-std::optional<scenario::Scenario> ScenarioOf(const StoredRun& run) {
-  if (truth::IsMeasurement(run.schema)) return std::nullopt;
-  try {
-    return scenario::ParseScenario(run.identity.resolved);
-  } catch (const core::UserError&) {
-    return std::nullopt;
-  }
-}
-
-// Rocky 3.2 is the default of every parameter of a rover's shape.
-std::string RoverName(const scenario::Scenario& scenario) {
-  const auto own = scenario::ListParameters(scenario);
-  const auto known = scenario::ListParameters();
-  const bool same = std::equal(
-      own.begin(), own.end(), known.begin(), known.end(), [](const auto& a, const auto& b) {
-        return !a.path.starts_with("rover.geometry.") ||
-               (a.path == b.path && report::ParameterValue(a) == report::ParameterValue(b));
-      });
-  return same ? "Rocky 3.2" : "";
-}
 
 std::vector<report::PageRock> RocksOf(const scenario::Scenario& scenario, std::uint64_t seed,
                                       std::uint64_t trial) {
@@ -182,27 +158,11 @@ class Driver {
 
 }  // namespace
 
-std::optional<report::PageCourse> CourseOf(const StoredRun& run) {
-  const auto scenario = ScenarioOf(run);
-  if (!scenario) return std::nullopt;
-  const trial::CourseParams& course = scenario->drive.course;
-  const terrain::ArenaParams& arena = scenario->drive.terrain.arena;
-  report::PageCourse shown{.rover = RoverName(*scenario),
-                           .start = course.Start(),
-                           .goal = {course.goal_x_m, course.goal_y_m},
-                           .goal_radius_m = course.goal_radius_m,
-                           .waypoints = course.waypoints.Places(),
-                           .mirror_lines_m = {}};
-  if (arena.kind == terrain::ArenaKind::kVirtualReflected) {
-    shown.mirror_lines_m = {-arena.MirrorLine(), arena.MirrorLine()};
-  }
-  return shown;
-}
-
 Tracks DriveTracks(const StoredRun& run, const TrackRequest& request, const Contact& contact,
                    const TrackReport& progress) {
+  if (request.first == 0 || truth::IsMeasurement(run.schema)) return {};
   const auto scenario = ScenarioOf(run);
-  if (!scenario || request.first == 0) return {};
+  if (!scenario) return {};
   return Driver(run, *scenario, request, contact, progress).Drive();
 }
 

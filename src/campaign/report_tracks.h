@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,10 +35,6 @@ struct Tracks {
   std::vector<report::PageTrack> tracks;  // by trial
   std::size_t first = 0;  // of them, those of the first trials: chosen without regard to their end
 };
-
-// Where the course of a drive lies and what drives it; nothing of a measurement, or where the
-// scenario is of another version of the program.
-std::optional<report::PageCourse> CourseOf(const StoredRun& run);
 
 // Drives the examples and the named trials first, then the first ones, a fourth as many of a
 // multibody rover. Trials without a track, since they are not those stored when they are driven
