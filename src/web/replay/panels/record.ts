@@ -21,7 +21,8 @@ export function outcomeBanner({ outcome, detail, repeats_stored: repeats }: Repl
   banner.append(el("strong", { class: success ? "good" : "bad" }, `${success ? "✓" : "✗"} ${words(outcome)}`));
   const sentence = outcomeSentence(outcome);
   if (sentence) banner.append(" ", sentence);
-  if (detail) banner.append(" ", el("span", { class: "detail" }, `(It ${detail}.)`));
+  const said = outcome === "simulator_fault" ? detail : `It ${detail}.`;
+  if (detail) banner.append(" ", el("span", { class: "detail" }, `(${said})`));
   const state = repeats === null ? "none" : repeats ? "yes" : "no";
   banner.append(el("p", { class: `repeats ${state}`, role: state === "no" ? "alert" : null }, REPEATS[state]));
   return banner;
