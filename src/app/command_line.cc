@@ -3,12 +3,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "app/commands.h"
@@ -77,30 +74,8 @@ core::Problem ExplainOption(const CLI::App& app, const CLI::App& command,
           fmt::format("did you mean \"{}\"? see {}", meant, HelpCommand(app))};
 }
 
-// "--interval: foo not in {wilson,clopper-pearson}", said like every other mistake.
-std::optional<core::Problem> ExplainChoice(const CLI::ParseError& error) {
-  if (dynamic_cast<const CLI::ValidationError*>(&error) == nullptr) return std::nullopt;
-  constexpr std::string_view kNotIn = " not in {";
-  const std::string text = error.what();
-  const std::size_t colon = text.find(": ");
-  const std::size_t choices = text.find(kNotIn);
-  const std::size_t end = text.find('}', choices);
-  if (colon == std::string::npos || choices == std::string::npos || end == std::string::npos) {
-    return std::nullopt;
-  }
-  const std::string word = text.substr(colon + 2, choices - colon - 2);
-  std::vector<std::string> names =
-      CLI::detail::split(text.substr(choices + kNotIn.size(), end - choices - kNotIn.size()), ',');
-  for (std::string& name : names) name.resize(std::min(name.find("->"), name.size()));
-  const std::vector<std::string_view> candidates(names.begin(), names.end());
-  return core::Problem{text.substr(0, colon),
-                       fmt::format("is \"{}\", which is not a known name", word),
-                       core::Suggest(word, candidates)};
-}
-
 // The parser alone would say that a subcommand is missing, not that the one given is unknown.
 core::Problem Explain(const CLI::App& app, const CLI::ParseError& error, std::string_view first) {
-  if (auto problem = ExplainChoice(error)) return *std::move(problem);
   const auto chosen = app.get_subcommands();
   if (!chosen.empty()) return ExplainOption(app, *chosen.front(), UnknownOption(error), error);
   if (first.empty() || first.front() == '-') {
@@ -165,40 +140,6 @@ void AddCommands(CLI::App& app, ExitCode& exit_code) {
   CheckEveryValue(app);
 }
 
-namespace {
-
-constexpr std::string_view kWelcome =
-    "rockyard: how well does a planetary rover navigate? Simulated drives, counted.\n"
-    "\n"
-    "Begin with these:\n"
-    "  rockyard run nominal --trials 40 --set rover.fidelity=quasi_static --out "
-    "results/runs/first\n"
-    "  rockyard report results/runs/first             its page, for a browser\n"
-    "  rockyard replay results/runs/first --trial 3   one of the drives, in three dimensions\n"
-    "  rockyard list                                  the scenarios that there are\n"
-    "\n";
-
-// `rockyard`, `rockyard help`.
-bool AsksForWelcome(int argc, const char* const* argv) {
-  return argc <= 1 || (argc == 2 && std::string_view(argv[1]) == "help");
-}
-
-// `rockyard help run` is `rockyard run --help`.
-std::vector<const char*> WithoutHelpWord(const CLI::App& app, int argc, const char* const* argv) {
-  std::vector<const char*> words(argv, argv + argc);
-  if (argc > 2 && std::string_view(argv[1]) == "help") {
-    words.erase(words.begin() + 1);
-    const auto commands = app.get_subcommands({});
-    const bool known = std::any_of(commands.begin(), commands.end(), [&](const CLI::App* command) {
-      return command->get_name() == words[1];
-    });
-    if (known) words.push_back("--help");
-  }
-  return words;
-}
-
-}  // namespace
-
 int RunCommandLine(int argc, const char* const* argv) {
   PrepareStandardStreams();
   if (!campaign::IsFirstRank() && !(argc > 1 && IsForAllRanks(argv[1]))) {
@@ -207,14 +148,7 @@ int RunCommandLine(int argc, const char* const* argv) {
   CLI::App app("Monte Carlo performance evaluation of planetary rovers", "rockyard");
   ExitCode exit_code = ExitCode::kDone;
   AddCommands(app, exit_code);
-  const std::vector<const char*> words = WithoutHelpWord(app, argc, argv);
-  const ExitCode outcome = Guarded([&] {
-    if (AsksForWelcome(argc, argv)) {
-      Print(std::string(kWelcome) + app.help());
-      return ExitCode::kDone;
-    }
-    return Parse(app, static_cast<int>(words.size()), words.data(), exit_code);
-  });
+  const ExitCode outcome = Guarded([&] { return Parse(app, argc, argv, exit_code); });
   return static_cast<int>(OutputFailed() ? AfterFailedOutput(outcome) : outcome);
 }
 

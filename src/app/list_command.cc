@@ -13,7 +13,6 @@
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/find_scenario.h"
 #include "app/scenario_list.h"
 #include "core/json_text.h"
 #include "core/json_value.h"
@@ -28,7 +27,7 @@ using core::JsonValue;
 constexpr std::size_t kMinWidth = 40;
 
 struct ListOptions {
-  std::string folder;
+  std::string folder = "scenarios";
   bool all = false;
   bool ablations = false;
   bool json = false;
@@ -39,9 +38,7 @@ std::string Bold(const std::string& text) {
                                                         : text;
 }
 
-// Whole lines for whom reads them from a pipe or a file.
 std::size_t LineWidth() {
-  if (!IsTerminal(stdout)) return std::string::npos;
   return std::max(static_cast<std::size_t>(std::max(TerminalWidth(stdout), 0)), kMinWidth);
 }
 
@@ -118,13 +115,11 @@ void ListAblationsAsJson() {
 
 void List(const ListOptions& options) {
   if (options.ablations) return options.json ? ListAblationsAsJson() : ListAblations();
-  const std::string folder =
-      options.folder.empty() ? ScenarioFolder().value_or("scenarios").string() : options.folder;
-  const std::vector<ListedFile> files = ListScenarios(folder);
+  const std::vector<ListedFile> files = ListScenarios(options.folder);
   if (options.json) {
-    PrintEntriesAsJson(folder, files, options.all);
+    PrintEntriesAsJson(options.folder, files, options.all);
   } else {
-    PrintEntries(folder, files, options.all);
+    PrintEntries(options.folder, files, options.all);
   }
 }
 
@@ -133,8 +128,7 @@ void List(const ListOptions& options) {
 void AddListCommand(CLI::App& app) {
   auto options = std::make_shared<ListOptions>();
   CLI::App* command = app.add_subcommand("list", "Lists scenarios and sweeps with a line each");
-  command->add_option("FOLDER", options->folder,
-                      "where to look (default: the scenarios that come with rockyard)");
+  command->add_option("FOLDER", options->folder, "where to look")->capture_default_str();
   command->add_flag("--all", options->all, "list parts of scenarios, such as rovers, too");
   command->add_flag("--ablations", options->ablations,
                     "list what `rockyard run --ablate` and sweeps can take away, with settings");

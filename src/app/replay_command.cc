@@ -9,7 +9,6 @@
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/find_scenario.h"
 #include "app/replay_options.h"
 #include "app/replay_views.h"
 #include "app/run_display.h"
@@ -76,7 +75,6 @@ void AddReplayCommand(CLI::App& app, ExitCode& exit_code) {
   AddTrialOptions(*command, options->request);
   AddOptions(*command, *options);
   command->callback([options, &exit_code] {
-    options->request.source = FindScenario(options->request.source, WantedFile::kScenario);
     NoteStores(std::span(&options->request.source, 1));
     exit_code = options->list || options->draws() ? ShowViews(*options) : WriteReplay(*options);
   });

@@ -7,18 +7,13 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <system_error>
-#include <utility>
 #include <vector>
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/find_scenario.h"
 #include "campaign/output_file.h"
 #include "campaign/run_source.h"
 #include "core/error.h"
-#include "core/json_file.h"
-#include "core/json_value.h"
 #include "math/angles.h"
 #include "report/atomic_file.h"
 #include "report/line_text.h"
@@ -26,8 +21,6 @@
 #include "rover/rover_geometry.h"
 #include "rover/static_loads_params.h"
 #include "rover/urdf.h"
-#include "scenario/former_keys.h"
-#include "scenario/load.h"
 
 namespace rockyard::app {
 namespace {
@@ -92,30 +85,10 @@ std::string Loads(const rover::RoverParams& params) {
               fmt::format("on level ground at {:g} m/s2, by levers", params.physics.gravity_m_s2));
 }
 
-// A scenario whose rover is that of a file that holds nothing else.
-scenario::Scenario OfRoverFile(const std::filesystem::path& path, core::JsonValue rover,
-                               const std::vector<std::string>& overrides) {
-  core::JsonValue document = core::JsonValue::Object({{"name", path.stem().string()}});
-  document.Set("rover", std::move(rover));
-  for (const std::string& assignment : overrides) scenario::Override(document, assignment);
-  return scenario::ReadScenario(document);
-}
-
-scenario::Scenario LoadRover(const RoverOptions& options) {
-  const std::filesystem::path path = FindScenario(options.scenario, WantedFile::kRover);
-  std::error_code error;
-  if (!std::filesystem::is_directory(path, error)) {
-    core::JsonValue document = core::LoadJsonFile(path);
-    if (document.Find("geometry") != nullptr) {
-      return OfRoverFile(path, std::move(document), options.overrides);
-    }
-  }
-  return campaign::LoadScenarioFrom(path, options.overrides);
-}
-
 void DescribeRover(const RoverOptions& options) {
   CheckOut(options.out);
-  const scenario::Scenario scenario = LoadRover(options);
+  const scenario::Scenario scenario =
+      campaign::LoadScenarioFrom(options.scenario, options.overrides);
   if (!options.out.empty()) {
     report::WriteFileAtomically(options.out, rover::WriteUrdf(scenario.drive.rover));
     return;
@@ -132,9 +105,7 @@ void AddRoverCommand(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("rover", "Describes a scenario's rover, or writes it as a URDF file");
   command->footer("scenarios/rovers/README.md tells how a scenario takes another rover.");
-  command
-      ->add_option("SCENARIO", options->scenario,
-                   "scenario or rover: its file, or its name; or the folder of a run")
+  command->add_option("SCENARIO", options->scenario, "scenario file, or the folder of a run")
       ->required();
   command->add_option("--set", options->overrides, "PATH=VALUE: changes the scenario; repeat")
       ->allow_extra_args(false);

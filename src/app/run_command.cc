@@ -10,7 +10,6 @@
 #include "app/command_text.h"
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/find_scenario.h"
 #include "app/rehearsal_text.h"
 #include "app/run_display.h"
 #include "campaign/run.h"
@@ -26,10 +25,9 @@ struct RunOptions {
 };
 
 ExitCode Run(const RunOptions& options) {
-  const campaign::RunRequest request{
-      .source = FindScenario(options.scenario, WantedFile::kScenario),
-      .ablations = options.ablations,
-      .campaign = options.campaign.Request()};
+  const campaign::RunRequest request{.source = options.scenario,
+                                     .ablations = options.ablations,
+                                     .campaign = options.campaign.Request()};
   if (options.campaign.dry_run) {
     if (!campaign::IsFirstRank()) return ExitCode::kDone;
     const campaign::Observer messages = MessagesToConsole(options.campaign.output());
@@ -51,9 +49,8 @@ std::string AblationNames() {
 
 void AddOptions(CLI::App& command, RunOptions& options) {
   command
-      .add_option(
-          "SCENARIO", options.scenario,
-          "scenario (its file, or its name), scenario.resolved.json, or the folder of a run")
+      .add_option("SCENARIO", options.scenario,
+                  "scenario file, scenario.resolved.json, or the folder of a run")
       ->required();
   AddCampaignOptions(command, options.campaign);
   command

@@ -7,7 +7,6 @@
 #include "app/command_text.h"
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/find_scenario.h"
 #include "app/rehearsal_text.h"
 #include "app/run_display.h"
 #include "campaign/sweep.h"
@@ -32,7 +31,7 @@ ExitCode RehearseSweep(const campaign::SweepRequest& request, const SweepOptions
 }
 
 ExitCode RunSweep(const SweepOptions& options) {
-  const campaign::SweepRequest request{.file = FindScenario(options.file, WantedFile::kSweep),
+  const campaign::SweepRequest request{.file = options.file,
                                        .campaign = options.campaign.Request()};
   if (options.campaign.dry_run) return RehearseSweep(request, options);
   SharedFlag output_failed;
@@ -46,8 +45,7 @@ void AddSweepCommand(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<SweepOptions>();
   CLI::App* command = app.add_subcommand(
       "sweep", "Runs scenarios that differ along axes, such as rock abundance, as one campaign");
-  command->add_option("FILE", options->file, "sweep: its file (see scenarios/sweeps), or its name")
-      ->required();
+  command->add_option("FILE", options->file, "sweep file (see scenarios/sweeps)")->required();
   AddCampaignOptions(*command, options->campaign);
   AddIntervalOption(*command, options->campaign);
   command

@@ -13,7 +13,6 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/corridor_density.h"
-#include "app/find_scenario.h"
 #include "campaign/output_file.h"
 #include "core/error.h"
 #include "report/atomic_file.h"
@@ -67,11 +66,6 @@ std::string Export(Format format, const terrain::Field& field, const terrain::Te
   return {};
 }
 
-scenario::Scenario LoadNamed(const TerrainOptions& options) {
-  return scenario::LoadScenario(FindScenario(options.scenario, WantedFile::kScenario),
-                                options.overrides);
-}
-
 void WriteTerrain(const TerrainOptions& options) {
   if (options.out.empty()) {
     throw core::UserError("--out", "is not given",
@@ -79,7 +73,7 @@ void WriteTerrain(const TerrainOptions& options) {
   }
   const Format format = FormatOf(options.out);
   campaign::CheckOutputFile("--out", options.out);
-  const scenario::Scenario scenario = LoadNamed(options);
+  const scenario::Scenario scenario = scenario::LoadScenario(options.scenario, options.overrides);
   const std::uint64_t seed = options.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
   const terrain::Course course = trial::TerrainCourse(scenario.drive.course);
   const terrain::Field field = terrain::BuildField(
@@ -88,7 +82,7 @@ void WriteTerrain(const TerrainOptions& options) {
 }
 
 void ShowBlindSwath(const TerrainOptions& options) {
-  const scenario::Scenario scenario = LoadNamed(options);
+  const scenario::Scenario scenario = scenario::LoadScenario(options.scenario, options.overrides);
   const std::uint64_t seed = options.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
   terrain::BlindSwath swath = SwathOf(scenario);
   swath.width_m = options.width_m.value_or(swath.width_m);
@@ -97,7 +91,7 @@ void ShowBlindSwath(const TerrainOptions& options) {
 }
 
 void ShowDensity(const TerrainOptions& options) {
-  const scenario::Scenario scenario = LoadNamed(options);
+  const scenario::Scenario scenario = scenario::LoadScenario(options.scenario, options.overrides);
   const std::uint64_t seed = options.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
   Print(CorridorDensityText(scenario, seed, options.fields));
 }
@@ -134,7 +128,7 @@ void AddTerrainCommand(CLI::App& app) {
       "terrain",
       "Writes the terrain of one trial as JSON, CSV, OBJ or SVG, by the file's extension, or "
       "tells how far a blind swath gets or how densely rocks lie along the course");
-  command->add_option("scenario", options->scenario, "Scenario: its file, or its name")->required();
+  command->add_option("scenario", options->scenario, "Scenario file")->required();
   command->add_option("--seed", options->seed, "Campaign seed; the scenario's by default");
   command->add_option("--trial", options->trial, "Trial index, from 0")->capture_default_str();
   command->add_option("--set", options->overrides, "Override: PATH=VALUE, may be repeated")

@@ -10,7 +10,6 @@
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/find_scenario.h"
 #include "app/store_notes.h"
 #include "app/trial_options.h"
 #include "campaign/campaign_traces.h"
@@ -100,10 +99,7 @@ void AddTraceCommand(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--npz", options->npz,
                       "file for posture, events, scans and steps as arrays for NumPy");
   command->add_flag("--all", options->all, "a line for every event");
-  command->callback([options, &exit_code] {
-    options->request.source = FindScenario(options->request.source, WantedFile::kScenario);
-    exit_code = Trace(*options);
-  });
+  command->callback([options, &exit_code] { exit_code = Trace(*options); });
 }
 
 }  // namespace rockyard::app

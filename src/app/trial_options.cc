@@ -8,9 +8,8 @@ namespace rockyard::app {
 
 void AddTrialOptions(CLI::App& command, campaign::TrialRequest& request) {
   command
-      .add_option(
-          "SCENARIO_OR_RUN", request.source,
-          "scenario (its file, or its name), scenario.resolved.json, or the folder of a run")
+      .add_option("SCENARIO_OR_RUN", request.source,
+                  "scenario file, scenario.resolved.json, or the folder of a run")
       ->required();
   command.add_option("--trial", request.trial, "trial index, from 0")->required();
   command.add_option("--cell", request.cell, "cell of a campaign: its name, or number from 0");

@@ -10,7 +10,6 @@
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/find_scenario.h"
 #include "campaign/run_source.h"
 #include "campaign/scenario_doubts.h"
 #include "core/error.h"
@@ -55,15 +54,14 @@ void PrintDoubts(const std::string& path, const std::vector<std::string>& overri
 // Every problem of every file, not of the first alone.
 void Validate(const ValidateOptions& options) {
   std::vector<core::Problem> problems;
-  for (const std::string& word : options.scenarios) {
+  for (const std::string& path : options.scenarios) {
     try {
-      const std::string path = FindScenario(word, WantedFile::kEither);
       Print(
           fmt::format("{}: valid, {}\n", report::Printable(path), Check(path, options.overrides)));
       PrintDoubts(path, options.overrides);
     } catch (const core::UserError& error) {
       for (core::Problem problem : error.problems()) {
-        if (options.scenarios.size() > 1) problem.path = word + ": " + problem.path;
+        if (options.scenarios.size() > 1) problem.path = path + ": " + problem.path;
         problems.push_back(std::move(problem));
       }
     }
@@ -76,8 +74,7 @@ void Validate(const ValidateOptions& options) {
 void AddValidateCommand(CLI::App& app) {
   auto options = std::make_shared<ValidateOptions>();
   CLI::App* command = app.add_subcommand("validate", "Checks scenario and sweep files");
-  command->add_option("SCENARIO", options->scenarios, "scenarios or sweeps: files or names")
-      ->required();
+  command->add_option("SCENARIO", options->scenarios, "scenario or sweep files")->required();
   command->add_option("--set", options->overrides, "PATH=VALUE: changes the scenario; repeat")
       ->allow_extra_args(false);
   command->callback([options] { Validate(*options); });

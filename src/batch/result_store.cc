@@ -168,7 +168,8 @@ ResultStore ResultStore::Read(const fs::path& folder) {
   if (!fs::exists(path, error)) {
     // A folder that may not be entered may hold a store all the same.
     if (error) FailSystem(path, "cannot be opened", error.value());
-    throw StoreError(StoreProblem::kMissing, path.string(), "does not exist", SuggestRunIn(folder));
+    throw StoreError(StoreProblem::kMissing, path.string(), "does not exist",
+                     "name the folder of a run, as `rockyard run` prints it");
   }
   if (fs::is_regular_file(path, error) && fs::file_size(path, error) == 0) {
     FailDamaged(path, "is empty");

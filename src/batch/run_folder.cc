@@ -43,16 +43,6 @@ fs::path WithSuffix(const fs::path& path, const char* suffix) {
   return fs::path(path.string() + suffix);
 }
 
-// The folders right below that hold a store, in the order of their names.
-std::vector<fs::path> RunsIn(const fs::path& folder, std::error_code& error) {
-  std::vector<fs::path> runs;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    if (HoldsStore(entry.path())) runs.push_back(entry.path());
-  }
-  std::sort(runs.begin(), runs.end());
-  return runs;
-}
-
 }  // namespace
 
 fs::path StorePath(const fs::path& folder) { return folder / kStoreFile; }
@@ -152,24 +142,15 @@ fs::path SetStoreAside(const fs::path& folder) {
   return aside;
 }
 
-std::string SuggestRunIn(const fs::path& folder) {
-  constexpr std::size_t kNamed = 10;
-  std::error_code unreadable;  // then there is nothing to suggest
-  const std::vector<fs::path> runs = RunsIn(folder, unreadable);
-  if (runs.empty()) return "name the folder of a run, as `rockyard run` prints it";
-  std::string names;
-  for (std::size_t i = 0; i < std::min(runs.size(), kNamed); ++i) {
-    names += (i == 0 ? "" : ", ") + runs[i].string();
-  }
-  if (runs.size() > kNamed) names += fmt::format(" and {} more", runs.size() - kNamed);
-  return "name one of the runs in it: " + names;
-}
-
 std::vector<fs::path> FindRuns(const fs::path& path) {
   if (HoldsStore(path)) return {path};
+  std::vector<fs::path> runs;
   std::error_code error;
-  const std::vector<fs::path> runs = RunsIn(path, error);
+  for (const fs::directory_entry& entry : fs::directory_iterator(path, error)) {
+    if (HoldsStore(entry.path())) runs.push_back(entry.path());
+  }
   if (error == std::errc::permission_denied) FailSystem(path, "cannot be read", error.value());
+  std::sort(runs.begin(), runs.end());
   if (runs.empty()) {
     throw StoreError(StoreProblem::kMissing, path.string(),
                      fmt::format("holds no {}, and no folder in it does", kStoreFile),

@@ -24,10 +24,6 @@ bool HoldsLog(const std::filesystem::path& folder);
 // the innermost first. Throws StoreError, with nothing made.
 std::vector<std::filesystem::path> MakeFolders(const std::filesystem::path& folder);
 
-// What to name where the folder is no run: the runs that lie in it, up to ten of them, or else
-// where one learns of a folder's name.
-std::string SuggestRunIn(const std::filesystem::path& folder);
-
 // At its end removes those of the folders, in this order, that are empty: what was made for work
 // that failed.
 class EmptyFolders {

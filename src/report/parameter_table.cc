@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <iterator>
 
@@ -68,23 +67,6 @@ std::string ValueText(const core::JsonValue& value) {
 std::string Bound(double value) { return std::isfinite(value) ? SixDigits(value) : ""; }
 
 }  // namespace
-
-std::vector<ParameterInfo> SearchParameters(std::span<const ParameterInfo> parameters,
-                                            std::string_view word) {
-  const auto same = [](unsigned char a, unsigned char b) {
-    return std::tolower(a) == std::tolower(b);
-  };
-  const auto holds = [&](std::string_view text) {
-    return std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end() ||
-           word.empty();
-  };
-  std::vector<ParameterInfo> found;
-  std::copy_if(parameters.begin(), parameters.end(), std::back_inserter(found),
-               [&](const ParameterInfo& parameter) {
-                 return holds(parameter.path) || holds(parameter.doc) || holds(parameter.source);
-               });
-  return found;
-}
 
 std::string ParameterValue(const ParameterInfo& parameter) { return ValueText(parameter.value); }
 

@@ -5,7 +5,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/field_table.h"
@@ -15,10 +14,6 @@ namespace rockyard::report {
 // The parameters of one origin, or all.
 std::vector<core::ParameterInfo> SelectParameters(std::span<const core::ParameterInfo> parameters,
                                                   std::optional<core::Origin> origin);
-
-// Those with `word` in their path, meaning or source, in letters of either case. Empty: all.
-std::vector<core::ParameterInfo> SearchParameters(std::span<const core::ParameterInfo> parameters,
-                                                  std::string_view word);
 
 // Its value: a number with six digits, "[1, 2]" for a list.
 std::string ParameterValue(const core::ParameterInfo& parameter);

@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -22,24 +21,6 @@ using testing::Not;
 
 class CliList : public CommandTest {
  protected:
-  // What a terminal of 100 columns is shown.
-  std::string InATerminal(const std::string& words) const {
-    const std::string file = (work() / "terminal.txt").string();
-    const std::string command = "cd " + work().string() + " && script -qec '" ROCKYARD_COMMAND " " +
-                                words + "' /dev/null > " + file + " < /dev/null";
-    EXPECT_EQ(std::system(command.c_str()), 0) << command;
-    std::string text = ReadFile(file);
-    std::erase(text, '\r');
-    return text;
-  }
-  static void ExpectLinesFit(const std::string& text) {
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-      const auto columns =
-          std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xc0) != 0x80; });
-      EXPECT_TRUE(columns <= 100 || !line.starts_with(' ')) << line;
-    }
-  }
   static std::string Scenarios() { return std::string(ROCKYARD_SOURCE_DIR) + "/scenarios"; }
 };
 
@@ -89,21 +70,13 @@ TEST_F(CliList, OddTextStaysInItsLine) {
   EXPECT_THAT(result.out, Not(HasSubstr("\x1b")));
   EXPECT_THAT(result.out, HasSubstr("?[31mred second line"));
   EXPECT_THAT(result.out, HasSubstr("not valid"));
-  EXPECT_THAT(result.out, HasSubstr(wide + "\n")) << "whole for programs";
-  const std::string shown = InATerminal("list s");
-  ExpectLinesFit(shown);
-  EXPECT_THAT(shown, HasSubstr("...\n"));
-  EXPECT_NO_THROW(json(shown).dump()) << "no code point was cut";
-}
-
-TEST_F(CliList, FitsTheTerminalAndIsWholeElsewhere) {
-  const std::string shown = InATerminal("list " + Scenarios());
-  ExpectLinesFit(shown);
-  EXPECT_THAT(shown, HasSubstr("  obstacles_0.28.json "));
-  const std::string whole = Run({"list", Scenarios()}).out;
-  EXPECT_THAT(whole, HasSubstr("  obstacles_0.28.json "));
-  EXPECT_THAT(whole, Not(HasSubstr("not valid")));
-  EXPECT_THAT(whole, Not(HasSubstr("...\n")));
+  std::istringstream lines(result.out);
+  for (std::string line; std::getline(lines, line);) {
+    const auto columns =
+        std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xc0) != 0x80; });
+    EXPECT_LE(columns, 100) << line;
+  }
+  EXPECT_NO_THROW(json(result.out).dump()) << "no code point was cut";
 }
 
 TEST_F(CliList, Json) {

@@ -39,6 +39,20 @@ TEST_F(CliTools, DefaultsAreAValidScenario) {
   EXPECT_EQ(json::parse(Run({"schema"}).out)["type"], "object");
 }
 
+TEST_F(CliTools, ListFitsTheTerminal) {
+  const CommandResult result = Run({"list", std::string(ROCKYARD_SOURCE_DIR) + "/scenarios"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, HasSubstr("/pathfinder\n"));
+  EXPECT_THAT(result.out, HasSubstr("  obstacles_0.28.json "));
+  EXPECT_THAT(result.out, testing::Not(HasSubstr("not valid")));
+  std::istringstream lines(result.out);
+  std::string line;
+  while (std::getline(lines, line)) {
+    const bool folder = !line.starts_with(' ');
+    EXPECT_TRUE(folder || line.size() <= 100U) << line;
+  }
+}
+
 TEST_F(CliTools, ParametersAsTableAndCsv) {
   const CommandResult csv =
       Run({"parameters", Scenario("nominal"), "--csv", "--origin", "assumed"});
