@@ -62,6 +62,7 @@ constexpr CommandExample kExamples[] = {
      "trials for a rate of 90 % to 2 %"},
     {"plan", "rockyard plan claim --below 0.01", "trials that show a rate below 1 %"},
     {"metrics", "rockyard metrics", "what of a trial is measured"},
+    {"help", "rockyard help run", "all of a command, with examples"},
     {"completion", "eval \"$(rockyard completion bash)\"", "in this shell; ~/.bashrc keeps it"},
     {"completion", "rockyard completion zsh > \"${fpath[1]}/_rockyard\"", "for zsh"},
     {"completion", "rockyard completion fish > ~/.config/fish/completions/rockyard.fish",
