@@ -4,13 +4,14 @@
 #include <string>
 #include <variant>
 
+#include "app/busy_line.h"
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/run_display.h"
 #include "app/store_notes.h"
+#include "app/written_file.h"
 #include "campaign/check.h"
 #include "campaign/output_file.h"
-#include "report/atomic_file.h"
 #include "report/comparison_table.h"
 #include "report/regression_report.h"
 #include "report/result_json.h"
@@ -49,8 +50,8 @@ void AddRegressionOptions(CLI::App& command, CheckOptions& options) {
 }
 
 void WriteFiles(const CheckOptions& options, const std::string& junit, const std::string& csv) {
-  if (!options.junit.empty()) report::WriteFileAtomically(options.junit, junit);
-  if (!options.csv.empty()) report::WriteFileAtomically(options.csv, csv);
+  if (!options.junit.empty()) WriteNamedFile("JUnit report", options.junit, junit);
+  if (!options.csv.empty()) WriteNamedFile("table", options.csv, csv);
 }
 
 ExitCode Show(const campaign::BaselineCheck& check, const CheckOptions& options) {
@@ -86,8 +87,10 @@ ExitCode Check(const CheckOptions& options) {
   request.reference = options.reference;
   if (options.allow_scenario_change) request.scenario_change = campaign::ScenarioChange::kAllow;
   if (options.same_records) request.record_change = campaign::RecordChange::kRefuse;
-  const campaign::CheckResult result =
-      campaign::Check(request, MessagesToConsole(Output::kText)).OrThrow();
+  const campaign::CheckResult result = [&] {
+    const BusyLine busy("comparing");
+    return campaign::Check(request, MessagesToConsole(Output::kText)).OrThrow();
+  }();
   return std::visit([&](const auto& check) { return Show(check, options); }, result);
 }
 

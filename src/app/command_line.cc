@@ -13,7 +13,9 @@
 #include "app/examples.h"
 #include "app/guard.h"
 #include "app/option_checks.h"
+#include "app/refused_value.h"
 #include "app/standard_streams.h"
+#include "app/start_text.h"
 #include "campaign/campaign_process.h"
 #include "core/error.h"
 #include "core/provenance.h"
@@ -63,6 +65,7 @@ std::string NearestOption(const CLI::App& command, std::string_view word) {
 core::Problem ExplainOption(const CLI::App& app, const CLI::App& command,
                             const std::string& unknown, const CLI::ParseError& error) {
   const std::string text = error.what();
+  if (const auto refused = RefusedValue(command, error)) return *refused;
   // The two options exclude each other; CLI11 names both and says no more.
   if (text.find("--trials") != std::string::npos &&
       text.find("--until-half-width") != std::string::npos) {
@@ -97,6 +100,10 @@ void PrintOnce(const std::vector<core::Problem>& problems) {
 bool IsForAllRanks(std::string_view command) { return command == "run" || command == "sweep"; }
 
 ExitCode Parse(CLI::App& app, int argc, const char* const* argv, const ExitCode& exit_code) {
+  if (argc <= 1) {
+    Print(Wrapped(StartText(app)));
+    return ExitCode::kDone;
+  }
   try {
     app.parse(argc, argv);
     return exit_code;
@@ -135,6 +142,7 @@ void AddCommands(CLI::App& app, ExitCode& exit_code) {
   AddParametersCommand(app);
   AddPlanCommand(app);
   AddMetricsCommand(app);
+  AddHelpCommand(app);
   AddCompletionCommand(app);
   AddExamples(app);
   CheckEveryValue(app);

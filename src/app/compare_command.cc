@@ -12,11 +12,12 @@
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/run_folders.h"
 #include "app/store_notes.h"
+#include "app/written_file.h"
 #include "campaign/compare.h"
 #include "campaign/output_file.h"
 #include "campaign/run_views.h"
-#include "report/atomic_file.h"
 #include "report/cell_comparison_text.h"
 #include "report/line_text.h"
 #include "report/paired_comparison.h"
@@ -35,7 +36,7 @@ struct CompareOptions {
 };
 
 void WriteCsv(const CompareOptions& options, const std::string& csv) {
-  if (!options.csv.empty()) report::WriteFileAtomically(options.csv, csv);
+  if (!options.csv.empty()) WriteNamedFile("table", options.csv, csv);
 }
 
 // The settings in which two runs differ, one per line.
@@ -81,6 +82,7 @@ void Show(const campaign::Comparison& told, const CompareOptions& options) {
 
 ExitCode Compare(const CompareOptions& options) {
   campaign::CheckOutputFile("--csv", options.csv);
+  RequireRuns(std::array{options.first, options.second});
   NoteStores(std::array{options.first, options.second});
   const campaign::Comparison told = campaign::Compare({.first = options.first,
                                                        .second = options.second,

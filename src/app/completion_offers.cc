@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/completion_lookup.h"
+
 namespace rockyard::app {
 namespace {
 
@@ -26,6 +28,7 @@ Takes TakenBy(const CLI::Option& option) {
   if (option.get_expected_min() == 0 || option.get_items_expected_min() == 0) {
     return Takes::kNothing;
   }
+  if (option.check_lname("set")) return Takes::kSetting;
   const std::string type = option.get_type_name();
   if (!Choices(type).empty()) return Takes::kWord;
   const bool number =
@@ -40,11 +43,15 @@ std::string FirstLine(std::string text) {
 
 void AddOptions(const CLI::App& app, CommandOffer& offer) {
   for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group().empty()) continue;  // of scripts, not of people
     const Takes takes = TakenBy(*option);
     const std::vector<std::string> choices = Choices(option->get_type_name());
     if (option->get_positional()) {
       offer.words.insert(offer.words.end(), choices.begin(), choices.end());
       offer.takes_files = offer.takes_files || takes == Takes::kText;
+      for (const std::string& kind : LookupKinds(option->get_name())) {
+        offer.lookups.push_back(kind);
+      }
       continue;
     }
     Offer each{{}, takes, choices, FirstLine(option->get_description())};
@@ -57,7 +64,7 @@ void AddOptions(const CLI::App& app, CommandOffer& offer) {
 }
 
 CommandOffer OfferOf(const CLI::App& command) {
-  CommandOffer offer{command.get_name(), FirstLine(command.get_description()), {}, {}, false};
+  CommandOffer offer{command.get_name(), FirstLine(command.get_description()), {}, {}, {}, false};
   AddOptions(command, offer);
   for (const CLI::App* inner : command.get_subcommands({})) {
     offer.words.push_back(inner->get_name());
@@ -67,6 +74,10 @@ CommandOffer OfferOf(const CLI::App& command) {
 }
 
 }  // namespace
+
+std::vector<std::string> ChoicesOf(const CLI::Option& option) {
+  return Choices(option.get_type_name());
+}
 
 std::vector<CommandOffer> Offers(const CLI::App& app) {
   std::vector<CommandOffer> offers;

@@ -6,11 +6,12 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace rockyard::app {
 
-enum class Takes { kNothing, kNumber, kWord, kText };
+enum class Takes { kNothing, kNumber, kWord, kSetting, kText };
 
 struct Offer {
   std::vector<std::string> names;    // as typed: --trials, -h
@@ -23,9 +24,13 @@ struct CommandOffer {
   std::string name;
   std::string about;
   std::vector<Offer> options;
-  std::vector<std::string> words;  // that may stand in place of a file
+  std::vector<std::string> words;    // that may stand in place of a file
+  std::vector<std::string> lookups;  // kinds of names that may stand there too (LookUp)
   bool takes_files = false;
 };
+
+// The words that an option takes where it takes one of a few.
+std::vector<std::string> ChoicesOf(const CLI::Option& option);
 
 // One for each subcommand of the program, in the order of its help.
 std::vector<CommandOffer> Offers(const CLI::App& app);

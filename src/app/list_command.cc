@@ -14,6 +14,7 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/scenario_list.h"
+#include "app/scenario_names.h"
 #include "core/json_text.h"
 #include "core/json_value.h"
 #include "report/line_text.h"
@@ -27,7 +28,7 @@ using core::JsonValue;
 constexpr std::size_t kMinWidth = 40;
 
 struct ListOptions {
-  std::string folder = "scenarios";
+  std::string folder;  // empty: where scenarios are found by name
   bool all = false;
   bool ablations = false;
   bool json = false;
@@ -53,7 +54,7 @@ void PrintGroup(const std::string& folder, std::span<const ListedFile> files) {
   for (const ListedFile& file : files) {
     const std::string line = fmt::format("  {:<{}}  {}", report::Printable(file.name_in_group()),
                                          widest, report::Printable(file.About()));
-    Print(report::Cut(line, LineWidth()) + "\n");
+    Print((IsTerminal(stdout) ? report::Cut(line, LineWidth()) : line) + "\n");
   }
 }
 
@@ -115,11 +116,12 @@ void ListAblationsAsJson() {
 
 void List(const ListOptions& options) {
   if (options.ablations) return options.json ? ListAblationsAsJson() : ListAblations();
-  const std::vector<ListedFile> files = ListScenarios(options.folder);
+  const std::string folder = options.folder.empty() ? ScenarioFolder().string() : options.folder;
+  const std::vector<ListedFile> files = ListScenarios(folder);
   if (options.json) {
-    PrintEntriesAsJson(options.folder, files, options.all);
+    PrintEntriesAsJson(folder, files, options.all);
   } else {
-    PrintEntries(options.folder, files, options.all);
+    PrintEntries(folder, files, options.all);
   }
 }
 
@@ -128,7 +130,9 @@ void List(const ListOptions& options) {
 void AddListCommand(CLI::App& app) {
   auto options = std::make_shared<ListOptions>();
   CLI::App* command = app.add_subcommand("list", "Lists scenarios and sweeps with a line each");
-  command->add_option("FOLDER", options->folder, "where to look")->capture_default_str();
+  command->add_option("FOLDER", options->folder,
+                      "where to look (default: $ROCKYARD_SCENARIOS, else ./scenarios, else those "
+                      "of the installation or of the source tree)");
   command->add_flag("--all", options->all, "list parts of scenarios, such as rovers, too");
   command->add_flag("--ablations", options->ablations,
                     "list what `rockyard run --ablate` and sweeps can take away, with settings");

@@ -7,6 +7,7 @@
 
 #include "app/commands.h"
 #include "app/run_display.h"
+#include "app/run_folders.h"
 #include "app/show_report.h"
 #include "app/store_notes.h"
 #include "campaign/merge.h"
@@ -24,6 +25,7 @@ struct MergeCommandOptions {
 };
 
 ExitCode Merge(const MergeCommandOptions& options) {
+  RequireRuns(options.shards);
   Output output = Output::kText;
   if (options.json) output = Output::kJson;
   if (options.quiet) output = Output::kQuiet;

@@ -1,5 +1,9 @@
 // rockyard parameters
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
 #include <memory>
 #include <optional>
 #include <string>
@@ -7,7 +11,9 @@
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/scenario_names.h"
 #include "campaign/run_source.h"
+#include "core/error.h"
 #include "report/parameter_table.h"
 #include "scenario/load.h"
 
@@ -18,15 +24,38 @@ struct ParametersOptions {
   std::string scenario;
   std::vector<std::string> overrides;
   std::optional<core::Origin> origin;
+  std::string word;  // that is searched for
   bool csv = false;
 };
 
+bool Contains(const std::string& text, const std::string& word) {
+  const auto same = [](unsigned char a, unsigned char b) {
+    return std::tolower(a) == std::tolower(b);
+  };
+  return std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
+}
+
+// Those with the word in their path, meaning or source.
+std::vector<core::ParameterInfo> Containing(const std::string& word,
+                                            std::vector<core::ParameterInfo> parameters) {
+  std::erase_if(parameters, [&](const core::ParameterInfo& each) {
+    return !Contains(each.path, word) && !Contains(each.doc, word) && !Contains(each.source, word);
+  });
+  return parameters;
+}
+
 void ListParameters(const ParametersOptions& options) {
   const scenario::Scenario scenario =
-      options.scenario.empty() ? scenario::Scenario{}
-                               : campaign::LoadScenarioFrom(options.scenario, options.overrides);
-  const auto parameters =
-      report::SelectParameters(scenario::ListParameters(scenario), options.origin);
+      options.scenario.empty()
+          ? scenario::Scenario{}
+          : campaign::LoadScenarioFrom(ScenarioFile(options.scenario), options.overrides);
+  const auto parameters = Containing(
+      options.word, report::SelectParameters(scenario::ListParameters(scenario), options.origin));
+  if (parameters.empty()) {
+    throw core::UserError("--search", fmt::format("no parameter has \"{}\"", options.word),
+                          "search for a part of a word, such as slope; `rockyard parameters` "
+                          "lists all");
+  }
   if (options.csv) {
     PrintExact(report::ParametersCsv(parameters));
   } else {
@@ -40,7 +69,8 @@ void AddParametersCommand(CLI::App& app) {
   auto options = std::make_shared<ParametersOptions>();
   CLI::App* command = app.add_subcommand(
       "parameters", "Lists every parameter with value, range, origin and source");
-  command->add_option("SCENARIO", options->scenario, "scenario file (default: the defaults)");
+  command->add_option("SCENARIO", options->scenario,
+                      "scenario file or its name (default: the defaults)");
   command->add_option("--set", options->overrides, "PATH=VALUE: changes the scenario; repeat")
       ->allow_extra_args(false);
   const std::vector<std::pair<std::string, core::Origin>> origins = {
@@ -50,6 +80,8 @@ void AddParametersCommand(CLI::App& app) {
       {"setting", core::Origin::kSetting}};
   command->add_option("--origin", options->origin, "only those of one origin")
       ->transform(CLI::CheckedTransformer(origins));
+  command->add_option("--search", options->word,
+                      "only those with this in path, meaning or source, in upper or lower case");
   command->add_flag("--csv", options->csv, "CSV instead of Markdown");
   command->callback([options] { ListParameters(*options); });
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <tuple>
 
+#include "app/busy_line.h"
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/replay_options.h"
@@ -21,9 +22,12 @@ namespace rockyard::app {
 namespace {
 
 ExitCode WriteReplay(const ReplayOptions& options) {
-  const campaign::ReplayResult result = campaign::Replay(
-      {.trial = options.request, .page = options.out, .plan = options.svg, .data = options.data},
-      MessagesToConsole(Output::kText));
+  const campaign::ReplayResult result = [&] {
+    const BusyLine busy(fmt::format("driving trial {} again", options.request.trial));
+    return campaign::Replay(
+        {.trial = options.request, .page = options.out, .plan = options.svg, .data = options.data},
+        MessagesToConsole(Output::kText));
+  }();
   if (result.title.empty()) return result.outcome;
   Print(fmt::format("  {}\n", report::Printable(fmt::format("{}: {}, {}", result.title,
                                                             truth::Name(result.record.outcome),
@@ -75,6 +79,7 @@ void AddReplayCommand(CLI::App& app, ExitCode& exit_code) {
   AddTrialOptions(*command, options->request);
   AddOptions(*command, *options);
   command->callback([options, &exit_code] {
+    FindSource(options->request);
     NoteStores(std::span(&options->request.source, 1));
     exit_code = options->list || options->draws() ? ShowViews(*options) : WriteReplay(*options);
   });

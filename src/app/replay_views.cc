@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/busy_line.h"
 #include "app/console.h"
 #include "app/run_display.h"
 #include "app/trial_options.h"
@@ -64,9 +65,14 @@ ExitCode ShowViews(const ReplayOptions& options) {
   static_cast<campaign::Observer&>(observer) = MessagesToConsole(Output::kText);
   observer.scan = PrintScan;
   observer.step = PrintStep;
-  const campaign::MomentsResult result = campaign::ReplayMoments(
-      {.trial = options.request, .scan = options.scan, .step = options.step, .folder = options.out},
-      observer);
+  const campaign::MomentsResult result = [&] {
+    const BusyLine busy(fmt::format("driving trial {} again", options.request.trial));
+    return campaign::ReplayMoments({.trial = options.request,
+                                    .scan = options.scan,
+                                    .step = options.step,
+                                    .folder = options.out},
+                                   observer);
+  }();
   PrintRepetition(result.repeats_stored);
   if (options.draws()) {
     PrintDrawn(result);

@@ -11,6 +11,7 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/run_display.h"
+#include "app/run_folders.h"
 #include "app/store_notes.h"
 #include "campaign/report.h"
 #include "campaign/shell_word.h"
@@ -74,6 +75,7 @@ void PrintPage(const campaign::ReportResult& result) {
 }
 
 ExitCode WritePage(const campaign::ReportRequest& request) {
+  RequireRuns(request.runs);
   NoteStores(request.runs);
   campaign::ReportObserver observer;
   static_cast<campaign::Observer&>(observer) = MessagesToConsole(Output::kText);

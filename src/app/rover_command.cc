@@ -7,23 +7,31 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/scenario_list.h"
+#include "app/scenario_names.h"
+#include "app/written_file.h"
 #include "campaign/output_file.h"
 #include "campaign/run_source.h"
 #include "core/error.h"
+#include "core/json_file.h"
 #include "math/angles.h"
-#include "report/atomic_file.h"
 #include "report/line_text.h"
 #include "rover/mass_properties_params.h"
 #include "rover/rover_geometry.h"
 #include "rover/static_loads_params.h"
 #include "rover/urdf.h"
+#include "scenario/former_keys.h"
+#include "scenario/load.h"
 
 namespace rockyard::app {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct RoverOptions {
   std::string scenario;
@@ -33,7 +41,7 @@ struct RoverOptions {
 
 void CheckOut(const std::string& out) {
   if (out.empty()) return;
-  if (std::filesystem::path(out).extension() != ".urdf") {
+  if (fs::path(out).extension() != ".urdf") {
     throw core::UserError("--out", "does not end in .urdf: " + out, "name a URDF file");
   }
   campaign::CheckOutputFile("--out", out);
@@ -85,12 +93,25 @@ std::string Loads(const rover::RoverParams& params) {
               fmt::format("on level ground at {:g} m/s2, by levers", params.physics.gravity_m_s2));
 }
 
+// A rover file is the group `rover` of a scenario that is otherwise the default one.
+scenario::Scenario ScenarioOfRover(const RoverOptions& options) {
+  const fs::path file = ScenarioFile(options.scenario, Wanted::kRover);
+  std::error_code error;
+  if (fs::is_directory(file, error)) return campaign::LoadScenarioFrom(file, options.overrides);
+  const core::JsonValue group = core::LoadJsonFile(file);
+  if (!IsGroup(group)) return campaign::LoadScenarioFrom(file, options.overrides);
+  core::JsonValue document = core::JsonValue::Object();
+  document.Set("name", core::JsonValue(file.stem().string()));
+  document.Set("rover", group);
+  for (const std::string& assignment : options.overrides) scenario::Override(document, assignment);
+  return scenario::ReadScenario(document);
+}
+
 void DescribeRover(const RoverOptions& options) {
   CheckOut(options.out);
-  const scenario::Scenario scenario =
-      campaign::LoadScenarioFrom(options.scenario, options.overrides);
+  const scenario::Scenario scenario = ScenarioOfRover(options);
   if (!options.out.empty()) {
-    report::WriteFileAtomically(options.out, rover::WriteUrdf(scenario.drive.rover));
+    WriteNamedFile("URDF", options.out, rover::WriteUrdf(scenario.drive.rover));
     return;
   }
   Print(fmt::format("rover of {}\n", report::Printable(scenario.name)) +
@@ -105,7 +126,9 @@ void AddRoverCommand(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("rover", "Describes a scenario's rover, or writes it as a URDF file");
   command->footer("scenarios/rovers/README.md tells how a scenario takes another rover.");
-  command->add_option("SCENARIO", options->scenario, "scenario file, or the folder of a run")
+  command
+      ->add_option("ROVER", options->scenario,
+                   "scenario or rover file (scenarios/rovers), its name, or the folder of a run")
       ->required();
   command->add_option("--set", options->overrides, "PATH=VALUE: changes the scenario; repeat")
       ->allow_extra_args(false);

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@
 #include "app/console.h"
 #include "app/rehearsal_text.h"
 #include "app/run_display.h"
+#include "app/run_folders.h"
+#include "app/scenario_names.h"
 #include "campaign/run.h"
 #include "scenario/ablations.h"
 
@@ -25,9 +28,10 @@ struct RunOptions {
 };
 
 ExitCode Run(const RunOptions& options) {
-  const campaign::RunRequest request{.source = options.scenario,
-                                     .ablations = options.ablations,
-                                     .campaign = options.campaign.Request()};
+  const std::string source = ScenarioFile(options.scenario);
+  RequireRuns(std::span(&source, 1));
+  const campaign::RunRequest request{
+      .source = source, .ablations = options.ablations, .campaign = options.campaign.Request()};
   if (options.campaign.dry_run) {
     if (!campaign::IsFirstRank()) return ExitCode::kDone;
     const campaign::Observer messages = MessagesToConsole(options.campaign.output());
@@ -50,7 +54,7 @@ std::string AblationNames() {
 void AddOptions(CLI::App& command, RunOptions& options) {
   command
       .add_option("SCENARIO", options.scenario,
-                  "scenario file, scenario.resolved.json, or the folder of a run")
+                  "scenario file or its name, scenario.resolved.json, or the folder of a run")
       ->required();
   AddCampaignOptions(command, options.campaign);
   command

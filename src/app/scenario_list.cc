@@ -40,29 +40,28 @@ std::vector<fs::path> JsonFiles(const fs::path& folder) {
 // a scenario's, or as a whole, such as a sensor profile, which has no name.
 bool IsPart(const JsonValue& document) {
   if (!document.Is(JsonValue::Type::kObject) || document.members().empty()) return false;
-  if (document.Find("name") == nullptr) return true;
-  const JsonValue scenario = scenario::WriteScenario({});
-  return std::none_of(
-      document.members().begin(), document.members().end(),
-      [&](const core::JsonMember& member) { return scenario.Find(member.key) != nullptr; });
+  return document.Find("name") == nullptr || IsGroup(document);
+}
+
+ListedKind DocumentKind(const JsonValue& document) {
+  if (scenario::IsSweep(document)) return ListedKind::kSweep;
+  return IsPart(document) ? ListedKind::kPart : ListedKind::kScenario;
 }
 
 void Read(const fs::path& path, ListedFile& file) {
   const JsonValue document = core::LoadJsonFile(path);
-  if (scenario::IsSweep(document)) {
+  const ListedKind kind = DocumentKind(document);
+  if (kind == ListedKind::kSweep) {
     const scenario::Sweep sweep = scenario::LoadSweep(path);
-    file.kind = ListedKind::kSweep;
     file.name = sweep.name;
     file.description = sweep.description;
     file.cells = sweep.cells.size();
-  } else if (IsPart(document)) {
-    file.kind = ListedKind::kPart;
-  } else {
+  } else if (kind == ListedKind::kScenario) {
     const scenario::Scenario scenario = scenario::ReadScenario(document);
-    file.kind = ListedKind::kScenario;
     file.name = scenario.name;
     file.description = scenario.description;
   }
+  file.kind = kind;
 }
 
 ListedFile Listed(const fs::path& path, const fs::path& folder) {
@@ -111,6 +110,22 @@ std::string ListedFile::About() const {
 }
 
 std::string ListedFile::name_in_group() const { return fs::path(path).filename().string(); }
+
+bool IsGroup(const JsonValue& document) {
+  const JsonValue scenario = scenario::WriteScenario({});
+  return document.Is(JsonValue::Type::kObject) &&
+         std::none_of(
+             document.members().begin(), document.members().end(),
+             [&](const core::JsonMember& member) { return scenario.Find(member.key) != nullptr; });
+}
+
+ListedKind KindOf(const fs::path& path) {
+  try {
+    return DocumentKind(core::LoadJsonFile(path));
+  } catch (const core::UserError&) {
+    return ListedKind::kInvalid;
+  }
+}
 
 bool IsShown(const ListedFile& file, bool all) { return all || file.kind != ListedKind::kPart; }
 

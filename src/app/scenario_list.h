@@ -31,6 +31,13 @@ struct ListedFile {
   std::string name_in_group() const;
 };
 
+// Whether none of the members is a scenario's: the file of a group, such as a rover.
+bool IsGroup(const core::JsonValue& document);
+
+// Of a file; kInvalid where it cannot be read. A scenario or sweep of that kind may have mistakes
+// of its own.
+ListedKind KindOf(const std::filesystem::path& path);
+
 // Parts only where everything is asked for.
 bool IsShown(const ListedFile& file, bool all);
 

@@ -9,6 +9,7 @@
 #include "app/console.h"
 #include "app/rehearsal_text.h"
 #include "app/run_display.h"
+#include "app/scenario_names.h"
 #include "campaign/sweep.h"
 
 namespace rockyard::app {
@@ -31,7 +32,7 @@ ExitCode RehearseSweep(const campaign::SweepRequest& request, const SweepOptions
 }
 
 ExitCode RunSweep(const SweepOptions& options) {
-  const campaign::SweepRequest request{.file = options.file,
+  const campaign::SweepRequest request{.file = ScenarioFile(options.file, Wanted::kSweep),
                                        .campaign = options.campaign.Request()};
   if (options.campaign.dry_run) return RehearseSweep(request, options);
   SharedFlag output_failed;
@@ -45,7 +46,8 @@ void AddSweepCommand(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<SweepOptions>();
   CLI::App* command = app.add_subcommand(
       "sweep", "Runs scenarios that differ along axes, such as rock abundance, as one campaign");
-  command->add_option("FILE", options->file, "sweep file (see scenarios/sweeps)")->required();
+  command->add_option("SWEEP", options->file, "sweep file or its name (see scenarios/sweeps)")
+      ->required();
   AddCampaignOptions(*command, options->campaign);
   AddIntervalOption(*command, options->campaign);
   command

@@ -1,4 +1,6 @@
 // rockyard terrain
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cstdint>
@@ -10,12 +12,14 @@
 #include <vector>
 
 #include "app/blind_swath.h"
+#include "app/busy_line.h"
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/corridor_density.h"
+#include "app/scenario_names.h"
+#include "app/written_file.h"
 #include "campaign/output_file.h"
 #include "core/error.h"
-#include "report/atomic_file.h"
 #include "scenario/load.h"
 #include "terrain/field.h"
 #include "terrain/field_export.h"
@@ -73,26 +77,31 @@ void WriteTerrain(const TerrainOptions& options) {
   }
   const Format format = FormatOf(options.out);
   campaign::CheckOutputFile("--out", options.out);
-  const scenario::Scenario scenario = scenario::LoadScenario(options.scenario, options.overrides);
+  const scenario::Scenario scenario =
+      scenario::LoadScenario(ScenarioFile(options.scenario), options.overrides);
   const std::uint64_t seed = options.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
   const terrain::Course course = trial::TerrainCourse(scenario.drive.course);
   const terrain::Field field = terrain::BuildField(
       scenario.drive.terrain, trial::LayoutKey(scenario.drive, {seed, options.trial}), course);
-  report::WriteFileAtomically(options.out, Export(format, field, scenario.drive.terrain, course));
+  WriteNamedFile("terrain", options.out, Export(format, field, scenario.drive.terrain, course));
 }
 
 void ShowBlindSwath(const TerrainOptions& options) {
-  const scenario::Scenario scenario = scenario::LoadScenario(options.scenario, options.overrides);
+  const scenario::Scenario scenario =
+      scenario::LoadScenario(ScenarioFile(options.scenario), options.overrides);
   const std::uint64_t seed = options.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
   terrain::BlindSwath swath = SwathOf(scenario);
   swath.width_m = options.width_m.value_or(swath.width_m);
   swath.min_diameter_m = options.min_diameter_m.value_or(swath.min_diameter_m);
+  const BusyLine busy(fmt::format("building {} fields", options.fields));
   Print(BlindSwathText(scenario, seed, options.fields, swath));
 }
 
 void ShowDensity(const TerrainOptions& options) {
-  const scenario::Scenario scenario = scenario::LoadScenario(options.scenario, options.overrides);
+  const scenario::Scenario scenario =
+      scenario::LoadScenario(ScenarioFile(options.scenario), options.overrides);
   const std::uint64_t seed = options.seed.value_or(static_cast<std::uint64_t>(scenario.seed));
+  const BusyLine busy(fmt::format("building {} fields", options.fields));
   Print(CorridorDensityText(scenario, seed, options.fields));
 }
 
@@ -128,7 +137,7 @@ void AddTerrainCommand(CLI::App& app) {
       "terrain",
       "Writes the terrain of one trial as JSON, CSV, OBJ or SVG, by the file's extension, or "
       "tells how far a blind swath gets or how densely rocks lie along the course");
-  command->add_option("scenario", options->scenario, "Scenario file")->required();
+  command->add_option("SCENARIO", options->scenario, "Scenario file or its name")->required();
   command->add_option("--seed", options->seed, "Campaign seed; the scenario's by default");
   command->add_option("--trial", options->trial, "Trial index, from 0")->capture_default_str();
   command->add_option("--set", options->overrides, "Override: PATH=VALUE, may be repeated")

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/busy_line.h"
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/store_notes.h"
@@ -66,8 +67,10 @@ ExitCode Trace(const StoryOptions& options) {
   CheckOutputs(options);
   NoteStores(std::span(&options.request.source, 1));
   const campaign::TrialSource source = campaign::FindTrial(options.request);
-  const campaign::DriveRecording recording =
-      campaign::RecordDrive(source.scenario, source.seed, options.request.trial);
+  const campaign::DriveRecording recording = [&] {
+    const BusyLine busy(fmt::format("driving trial {} again", options.request.trial));
+    return campaign::RecordDrive(source.scenario, source.seed, options.request.trial);
+  }();
   const truth::TracedTrial& traced = recording.traced;
   Print(report::TraceStory(traced,
                            options.all ? report::StoryLength::kAll : report::StoryLength::kFolded));
@@ -99,7 +102,10 @@ void AddTraceCommand(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--npz", options->npz,
                       "file for posture, events, scans and steps as arrays for NumPy");
   command->add_flag("--all", options->all, "a line for every event");
-  command->callback([options, &exit_code] { exit_code = Trace(*options); });
+  command->callback([options, &exit_code] {
+    FindSource(options->request);
+    exit_code = Trace(*options);
+  });
 }
 
 }  // namespace rockyard::app

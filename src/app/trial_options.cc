@@ -1,21 +1,29 @@
 #include "app/trial_options.h"
 
 #include <CLI/CLI.hpp>
+#include <span>
 
 #include "app/console.h"
+#include "app/run_folders.h"
+#include "app/scenario_names.h"
 
 namespace rockyard::app {
 
 void AddTrialOptions(CLI::App& command, campaign::TrialRequest& request) {
   command
       .add_option("SCENARIO_OR_RUN", request.source,
-                  "scenario file, scenario.resolved.json, or the folder of a run")
+                  "scenario file or its name, scenario.resolved.json, or the folder of a run")
       ->required();
   command.add_option("--trial", request.trial, "trial index, from 0")->required();
   command.add_option("--cell", request.cell, "cell of a campaign: its name, or number from 0");
   command.add_option("--seed", request.seed, "seed of every random stream");
   command.add_option("--set", request.overrides, "PATH=VALUE: changes the scenario; repeat")
       ->allow_extra_args(false);
+}
+
+void FindSource(campaign::TrialRequest& request) {
+  request.source = ScenarioFile(request.source);
+  RequireRuns(std::span(&request.source, 1));
 }
 
 void PrintRepetition(std::optional<bool> repeats_stored) {

@@ -15,6 +15,10 @@ namespace rockyard::app {
 // Adds SCENARIO_OR_RUN, --trial, --cell, --seed and --set to a command. `request` must outlive it.
 void AddTrialOptions(CLI::App& command, campaign::TrialRequest& request);
 
+// Makes of the name of a scenario its file. Throws core::UserError where it is neither that nor one
+// run.
+void FindSource(campaign::TrialRequest& request);
+
 // Says that a trial repeats its stored record, where it does.
 void PrintRepetition(std::optional<bool> repeats_stored);
 

@@ -1,6 +1,7 @@
 // The scripts of `rockyard completion`, read and run by the shells themselves.
 #include <gmock/gmock.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 
@@ -53,6 +54,40 @@ TEST_F(CliCompletion, BashCompletesCommandsOptionsAndChoices) {
   EXPECT_EQ(Offered("rockyard completion z"), "\nzsh\n");
   EXPECT_EQ(Offered("rockyard plan cl"), "\nclaim\n");
   EXPECT_EQ(Offered("rockyard run a.json --trials ''"), "\n\n") << "a number: nothing to offer";
+}
+
+TEST_F(CliCompletion, BashAsksTheProgramForSettingsAndNames) {
+  const std::string program = ROCKYARD_COMMAND;
+  EXPECT_EQ(Offered(program + " run a.json --set terrain.rocks.k_per"),
+            "\nterrain.rocks.k_per_m2=\n");
+  EXPECT_EQ(Offered(program + " run a.json --set rover.fidelity = ''"),
+            "\nmultibody\nquasi_static\n");
+  EXPECT_EQ(Offered(program + " run a.json --set rover.fidelity ="), "\nmultibody\nquasi_static\n");
+  EXPECT_EQ(Offered(program + " run a.json --set = rover.fidelity = q"), "\nquasi_static\n");
+  EXPECT_EQ(Offered(program + " run a.json --set perception.hazard.enabled = t"), "\ntrue\n");
+  setenv("ROCKYARD_SCENARIOS", (std::string(ROCKYARD_SOURCE_DIR) + "/scenarios").c_str(), 1);
+  EXPECT_EQ(Offered(program + " run mfex_n"), "\nmfex_nominal\n");
+  EXPECT_EQ(Offered(program + " run gestalt/abundance_b"),
+            "\ngestalt/abundance_behaviour\ngestalt/abundance_behaviour_stereo\n"
+            "gestalt/abundance_behaviour_stereo_stripe\n");
+  EXPECT_EQ(Offered(program + " sweep attr"), "\nattribution\n");
+  setenv("ROCKYARD_SCENARIOS", "/nowhere", 1);
+  EXPECT_EQ(Offered(program + " sweep attr"), "\n\n") << "nothing to offer, and no complaint";
+  unsetenv("ROCKYARD_SCENARIOS");
+}
+
+TEST_F(CliCompletion, BashOffersRunFolders) {
+  ASSERT_EQ(Run(QuickRun("results/runs/first", 1)).exit_code, 0);
+  EXPECT_THAT(Offered(std::string(ROCKYARD_COMMAND) + " report results/runs/f"),
+              HasSubstr("\nresults/runs/first\n"));
+}
+
+TEST_F(CliCompletion, LookUpsOfNoKindOfferNothing) {
+  for (const std::string asked : {"nonsense", "nonsense:", ":", "settings"}) {
+    const CommandResult result = Run({"completion", "--offer", asked});
+    EXPECT_EQ(result.exit_code, 0) << asked;
+    EXPECT_EQ(result.out + result.err, "") << asked;
+  }
 }
 
 TEST_F(CliCompletion, BashCompletesFiles) {

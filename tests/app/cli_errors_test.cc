@@ -22,7 +22,7 @@ class CliErrors : public CommandTest {
 };
 
 TEST_F(CliErrors, Arguments) {
-  ExpectRefused({}, "subcommand");
+  ExpectRefused({"--quiet"}, "subcommand");
   ExpectRefused({"fly"}, "\"fly\" is no subcommand");
   ExpectRefused({"chekc", "a"}, "did you mean \"check\"");
   ExpectRefused({"run"}, "SCENARIO");
@@ -44,6 +44,25 @@ TEST_F(CliErrors, Arguments) {
   ExpectRefused({"run", Scenario("nominal"), "--json", "--quiet"}, "--quiet");
   ExpectRefused({"check", "somewhere"}, "--against");
   ExpectRefused({"compare", "one"}, "RUN_B");
+}
+
+TEST_F(CliErrors, EnumerationsNameTheOptionAndWhatItTakes) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> refused = {
+      {{"run", "nominal", "--interval", "wilsen"},
+       "error: --interval: \"wilsen\" is none of its values\n"
+       "  try: did you mean \"wilson\"? one of: wilson, clopper-pearson\n"},
+      {{"parameters", "--origin", "guessed"},
+       "error: --origin: \"guessed\" is none of its values\n"
+       "  try: one of: published, calibrated, assumed, setting\n"},
+      {{"completion", "tcsh"},
+       "error: SHELL: \"tcsh\" is none of its values\n"
+       "  try: did you mean \"bash\"? one of: bash, zsh, fish\n"}};
+  for (const auto& [words, message] : refused) {
+    const CommandResult result = Run(words);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.err, message);
+  }
+  ExpectRefused({"run", "nominal", "--threads", "0"}, "error: --threads: ");
 }
 
 TEST_F(CliErrors, ScenarioValues) {
