@@ -88,15 +88,19 @@ def compare(rockyard, first, second):
     return success, means
 
 
+# Columns of trials.csv that hold words (report/run_csv.cc).
+TEXT_COLUMNS = ("outcome", "cause", "detail")
+
+
 def trial_columns(folder):
     """The columns of trials.csv as lists, simulator faults left out.
 
-    Outcomes are text; a number that is undefined is NaN.
+    Those of TEXT_COLUMNS are text; a number that is undefined is NaN.
     """
     with open(Path(folder) / "trials.csv", encoding="utf-8", newline="") as file:
         rows = [row for row in csv.DictReader(file) if row["outcome"] != "simulator_fault"]
     columns = {name: [row[name] for row in rows] for name in (rows[0] if rows else {})}
-    return {name: values if name in ("outcome", "detail") else [float(value or "nan") for value in values]
+    return {name: values if name in TEXT_COLUMNS else [float(value or "nan") for value in values]
             for name, values in columns.items()}
 
 

@@ -42,7 +42,8 @@ std::string About(const fs::path& folder) {
     const batch::ResultStore store = batch::ResultStore::Read(folder);
     std::int64_t trials = 0;
     for (int cell = 0; cell < store.cells(); ++cell) trials += store.planned(cell);
-    return fmt::format("{} ({}, {} trials, {})", name, store.identity().name, trials, date);
+    return fmt::format("{} ({}, {} trial{}, {})", name, store.identity().name, trials,
+                       trials == 1 ? "" : "s", date);
   } catch (const batch::StoreError&) {
     return fmt::format("{} (cannot be read, {})", name, date);
   }

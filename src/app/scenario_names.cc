@@ -54,8 +54,6 @@ bool Fits(ListedKind kind, Wanted wanted) {
       return kind == ListedKind::kScenario || kind == ListedKind::kSweep;
     case Wanted::kRover:
       return kind == ListedKind::kScenario || kind == ListedKind::kPart;
-    case Wanted::kAnything:
-      return true;
   }
   return false;
 }
@@ -124,9 +122,27 @@ std::string NearestFile(const fs::path& path) {
   return (path.parent_path() / (nearest + std::string(kEnding))).string();
 }
 
+// A file beside the one that is named, else a name like the word, else one like its last part.
 std::string NearestScenario(const std::string& word, Wanted wanted) {
   const std::string file = NearestFile(word);
-  return file.empty() ? NearestOf(Stem(word), ScenarioNames(wanted)) : file;
+  if (!file.empty()) return file;
+  const std::vector<std::string> names = ScenarioNames(wanted);
+  const std::string name = NearestOf(Stem(word), names);
+  return name.empty() ? NearestOf(fs::path(word).stem().string(), names) : name;
+}
+
+std::string_view NameOf(Wanted wanted) {
+  switch (wanted) {
+    case Wanted::kScenario:
+      return "a scenario";
+    case Wanted::kSweep:
+      return "a sweep";
+    case Wanted::kEither:
+      return "a scenario or sweep";
+    case Wanted::kRover:
+      return "a scenario or rover";
+  }
+  return "";
 }
 
 [[noreturn]] void Unknown(const std::string& word, Wanted wanted) {
@@ -134,7 +150,7 @@ std::string NearestScenario(const std::string& word, Wanted wanted) {
   const std::string all =
       fmt::format("`rockyard list` shows those of {}", ScenarioFolder().string());
   throw core::UserError(
-      word, "is no file, and no name of a scenario or sweep that is wanted here",
+      word, fmt::format("is no file, and no name of {}", NameOf(wanted)),
       nearest.empty() ? all : fmt::format("did you mean \"{}\"? {}", nearest, all));
 }
 

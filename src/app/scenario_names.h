@@ -15,7 +15,7 @@ namespace rockyard::app {
 std::filesystem::path ScenarioFolder();
 
 // What a command takes where it asks for a file.
-enum class Wanted { kScenario, kSweep, kEither, kRover, kAnything };
+enum class Wanted { kScenario, kSweep, kEither, kRover };
 
 // The file that a word means. What exists is meant as it stands. Else the word is the end of the
 // path of a file in ScenarioFolder(), without its ".json": "nominal", "gestalt/abundance". Only

@@ -1,9 +1,8 @@
-// Scenarios, sweeps and runs named as people type them, and the first words of the command.
+// The scenarios and rovers that come with the program, by their names.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
-#include <vector>
 
 #include "app/command.h"
 
@@ -11,22 +10,11 @@ namespace rockyard::app {
 namespace {
 
 using testing::HasSubstr;
-using testing::Not;
 using testing::StartsWith;
 
 using CliFind = CommandTest;
 
-TEST_F(CliFind, TheFirstWordsSayWhatToTry) {
-  const CommandResult alone = Run({});
-  EXPECT_EQ(alone.exit_code, 0) << alone.err;
-  EXPECT_THAT(alone.out, HasSubstr("  rockyard run nominal --trials 40"));
-  EXPECT_THAT(alone.out, HasSubstr("\n  replay "));
-  EXPECT_EQ(Run({"help"}).out, alone.out);
-  EXPECT_EQ(Run({"help", "run"}).out, Run({"run", "--help"}).out);
-  EXPECT_EQ(Run({"help", "nothing"}).exit_code, 2);
-}
-
-TEST_F(CliFind, AScenarioByItsName) {
+TEST_F(CliFind, AreTheFilesOfThatName) {
   const std::string file = std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/pathfinder/nominal.json";
   const std::string fingerprint = Run({"validate", file}).out.substr(file.size());
   for (const char* name : {"nominal", "pathfinder/nominal", "nominal.json"}) {
@@ -40,31 +28,19 @@ TEST_F(CliFind, AScenarioByItsName) {
   EXPECT_EQ(Run({"terrain", "vl2", "--out", "field.svg"}).exit_code, 0);
 }
 
-// One name, a sweep and a scenario: the command knows which.
-TEST_F(CliFind, ASweepByItsName) {
-  EXPECT_THAT(Run({"run", "abundance", "--dry-run"}).out, StartsWith("gestalt_abundance"));
-  EXPECT_THAT(Run({"sweep", "abundance", "--dry-run", "--pilots", "0"}).out,
-              StartsWith("abundance: 6 cells"));
-  EXPECT_THAT(Run({"sweep", "nominal"}).err, HasSubstr("no sweep of that name is known"));
-}
-
-TEST_F(CliFind, AFileComesFirst) {
-  WriteFile(work() / "nominal", R"({"name": "mine"})");
-  EXPECT_THAT(Run({"run", "nominal", "--dry-run"}).out, StartsWith("mine, seed 1"));
-}
-
-TEST_F(CliFind, MistypedNamesGetASuggestion) {
+TEST_F(CliFind, AMistypedPathSuggestsTheName) {
   for (const char* word : {"nominl", "scenarios/pathfinder/nominl.json", "Nominal"}) {
     const CommandResult result = Run({"run", word});
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_THAT(result.err, HasSubstr("did you mean \"nominal\"?")) << word;
   }
-  EXPECT_THAT(Run({"run", "xyzxyz"}).err, Not(HasSubstr("did you mean")));
-  const CommandResult both = Run({"run", "ditch"});
-  EXPECT_EQ(both.exit_code, 2);
-  EXPECT_THAT(both.err, HasSubstr("scenarios/courses/ditch.json"));
-  EXPECT_THAT(both.err, HasSubstr("scenarios/gestalt/ditch.json"));
-  EXPECT_THAT(Run({"run", "mfex"}).err, HasSubstr("no scenario of that name"));  // a rover
+}
+
+TEST_F(CliFind, ErrorsNameTheKindThatIsMeant) {
+  EXPECT_THAT(Run({"sweep", "nominal"}).err, HasSubstr("is no file, and no name of a sweep\n"));
+  EXPECT_THAT(Run({"run", "mfex"}).err, HasSubstr("is no file, and no name of a scenario\n"));
+  EXPECT_THAT(Run({"rover", "abc"}).err, HasSubstr("no name of a scenario or rover\n"));
+  EXPECT_THAT(Run({"validate", "abc"}).err, HasSubstr("no name of a scenario or sweep\n"));
 }
 
 TEST_F(CliFind, ARoverByItsFileAlone) {
@@ -74,32 +50,6 @@ TEST_F(CliFind, ARoverByItsFileAlone) {
   EXPECT_THAT(rover.out, HasSubstr("61.8 kg"));
   EXPECT_THAT(Run({"rover", "athena_sdm", "--set", "rover.mass.total_kg=70"}).out,
               HasSubstr("70 kg"));
-}
-
-TEST_F(CliFind, AFolderThatHoldsRunsNamesThem) {
-  ASSERT_EQ(Run(QuickRun("runs/one", 1)).exit_code, 0);
-  ASSERT_EQ(Run(QuickRun("runs/two", 1)).exit_code, 0);
-  const CommandResult result = Run({"trace", "runs", "--trial", "0"});
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("name one of the runs in it: runs/one, runs/two"));
-  EXPECT_THAT(Run({"trace", ".", "--trial", "0"}).err, HasSubstr("as `rockyard run` prints it"));
-}
-
-TEST_F(CliFind, ParametersByAWord) {
-  const CommandResult found = Run({"parameters", "--search", "ODOMETER"});
-  EXPECT_EQ(found.exit_code, 0) << found.err;
-  EXPECT_THAT(found.out, HasSubstr("`sensors.encoders.level_sand_gain`"));
-  EXPECT_THAT(found.out, Not(HasSubstr("`rover.geometry.length_m`")));
-  const CommandResult none = Run({"parameters", "--search", "xyzxyz"});
-  EXPECT_EQ(none.exit_code, 2);
-  EXPECT_THAT(none.err, HasSubstr("no parameter has \"xyzxyz\""));
-}
-
-TEST_F(CliFind, NamesOfOptionsAreExplainedLikeThoseOfScenarios) {
-  const CommandResult result = Run({"run", "nominal", "--interval", "wilsn"});
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("error: --interval: is \"wilsn\", which is not a known name\n"
-                                    "  try: did you mean \"wilson\"?"));
 }
 
 }  // namespace
