@@ -24,7 +24,9 @@ struct SweepOptions {
 // On rank 0 alone.
 ExitCode RehearseSweep(const campaign::SweepRequest& request, const SweepOptions& options) {
   if (!campaign::IsFirstRank()) return ExitCode::kDone;
-  const campaign::SweepRehearsal told = campaign::RehearseSweep(request, options.pilots).OrThrow();
+  const campaign::Observer messages = MessagesToConsole(options.campaign.output());
+  const campaign::SweepRehearsal told =
+      campaign::RehearseSweep(request, options.pilots, messages).OrThrow();
   for (const std::string& note : told.plan.notes) PrintNote(note);
   if (options.campaign.output() == Output::kJson) PrintJson(told.plan.json);
   if (options.campaign.output() == Output::kText) Print(RehearsalText(told));

@@ -34,20 +34,24 @@ bool IsSweepFile(const std::string& path) {
          scenario::IsSweep(core::LoadJsonFile(path));
 }
 
+scenario::Sweep LoadSweep(const std::string& path, const std::vector<std::string>& overrides) {
+  return scenario::LoadSweep(path, {.overrides = overrides, .trials = {}, .seed = {}});
+}
+
 // What is to be said of a valid file.
 std::string Check(const std::string& path, const std::vector<std::string>& overrides) {
   if (IsSweepFile(path)) {
-    const scenario::Sweep sweep =
-        scenario::LoadSweep(path, {.overrides = overrides, .trials = {}, .seed = {}});
-    return fmt::format("a sweep of {} cells", sweep.cells.size());
+    return fmt::format("a sweep of {} cells", LoadSweep(path, overrides).cells.size());
   }
   return "fingerprint " +
          core::Hex(scenario::Fingerprint(campaign::LoadScenarioFrom(path, overrides)));
 }
 
 void PrintDoubts(const std::string& path, const std::vector<std::string>& overrides) {
-  if (IsSweepFile(path)) return;
-  for (const core::Problem& doubt : campaign::DoubtsOf(path, overrides)) {
+  const std::vector<core::Problem> doubts =
+      IsSweepFile(path) ? campaign::DoubtsOf(LoadSweep(path, overrides))
+                        : campaign::DoubtsOf(path, overrides);
+  for (const core::Problem& doubt : doubts) {
     Print(fmt::format("  doubtful: {}\n", report::Printable(campaign::TextOf(doubt))));
   }
 }

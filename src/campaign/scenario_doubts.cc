@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -141,7 +142,15 @@ void DoubtGravity(const scenario::Scenario& scenario, const Layers& layers,
   if (!LiesBelow(layers, kPath, "name")) return;
   doubts.push_back({std::string(kPath),
                     fmt::format("{:g} m/s2 are not those of Mars", gravity_m_s2),
-                    "write 3.72, and choose a soil in terrain.ground.soil"});
+                    "write 3.72"});
+}
+
+void DoubtSoil(const scenario::Scenario& scenario, const Layers& layers,
+               std::vector<Problem>& doubts) {
+  if (!SaysMars(scenario.name) || !LiesBelow(layers, "terrain.ground.soil", "name")) return;
+  if (scenario.drive.terrain.ground.soil.preset != terrain::SoilPreset::kLandscapingSand) return;
+  doubts.push_back({"terrain.ground.soil", "is the sand of an arena on Earth",
+                    "write {\"preset\": \"mars_drift\"}, or state this one"});
 }
 
 void EraseExtends(JsonValue& value) {
@@ -173,6 +182,7 @@ std::vector<Problem> Doubts(const scenario::Scenario& scenario, const Layers& la
   DoubtMass(scenario.drive, layers, doubts);
   DoubtSizes(scenario.drive, layers, doubts);
   DoubtGravity(scenario, layers, doubts);
+  DoubtSoil(scenario, layers, doubts);
   return doubts;
 }
 
@@ -186,6 +196,26 @@ std::vector<Problem> DoubtsOf(const std::filesystem::path& source,
   if (layers.front().Find("provenance") != nullptr) return {};  // of a run, where all is stated
   for (const std::string& assignment : overrides) scenario::Override(layers.front(), assignment);
   return Doubts(scenario, layers);
+}
+
+std::vector<Problem> DoubtsOf(const scenario::Sweep& sweep) {
+  std::map<std::string, std::pair<Problem, int>> found;  // by path: the first cell's, and how many
+  for (const scenario::SweepCell& cell : sweep.cells) {
+    Layers layers = {cell.settings};
+    if (cell.base != nullptr) layers.push_back(*cell.base);
+    for (Problem& doubt : Doubts(cell.scenario, layers)) {
+      const std::string path = doubt.path;
+      doubt.path = fmt::format("cell {}: {}", cell.name, path);
+      ++found.try_emplace(path, std::move(doubt), 0).first->second.second;
+    }
+  }
+  std::vector<Problem> doubts;
+  for (auto& [path, first] : found) {
+    auto& [doubt, cells] = first;
+    if (cells > 1) doubt.reason += fmt::format(" (and so in {} more cells)", cells - 1);
+    doubts.push_back(std::move(doubt));
+  }
+  return doubts;
 }
 
 std::string TextOf(const Problem& doubt) {

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/json_value.h"
 #include "scenario/scenario.h"
+#include "scenario/sweep.h"
 
 namespace rockyard::campaign {
 
@@ -20,12 +21,16 @@ using Layers = std::vector<core::JsonValue>;
 // lies below that against which it is held (or is a default): whoever stated it did not know the
 // course, or the rover. Rules, each with its threshold in the .cc file: limits of referee and
 // batteries against the length of the course, mass against size, goal radius and the view of the
-// terrain sensor against the rover, gravity of Earth against a name that says Mars.
+// terrain sensor against the rover, gravity and sand of Earth against a name that says
+// Mars.
 std::vector<core::Problem> Doubts(const scenario::Scenario& scenario, const Layers& layers);
 
 // Of a scenario file with overrides; none of the folder of a run. Throws core::UserError.
 std::vector<core::Problem> DoubtsOf(const std::filesystem::path& source,
                                     std::span<const std::string> overrides);
+
+// Of the cells of a sweep, each laid over its base: one that several have is told of the first.
+std::vector<core::Problem> DoubtsOf(const scenario::Sweep& sweep);
 
 // "path: what; what would be right".
 std::string TextOf(const core::Problem& doubt);

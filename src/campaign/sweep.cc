@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "campaign/plan_checks.h"
+#include "campaign/scenario_doubts.h"
 #include "campaign/sweep_report.h"
 #include "core/error.h"
 
@@ -42,6 +43,10 @@ CampaignPlan PlanOfCells(const SweepRequest& request, const scenario::Sweep& swe
   return plan;
 }
 
+void WarnOfDoubts(const scenario::Sweep& sweep, Journal& journal) {
+  for (const core::Problem& doubt : DoubtsOf(sweep)) journal.Warn("doubtful: " + TextOf(doubt));
+}
+
 }  // namespace
 
 WorkResult RunSweep(const SweepRequest& request, const RunObserver& observer, const Stop& stop) {
@@ -54,6 +59,7 @@ WorkResult RunSweep(const SweepRequest& request, const RunObserver& observer, co
         campaign,
         [&] {
           sweep = RequestedSweep(request);
+          WarnOfDoubts(sweep, journal);
           return PlanOfCells(request, sweep);
         },
         [&](const OpenedRun& run) { return ReportSweep(run.store, sweep, settings); }, observer,
@@ -61,9 +67,12 @@ WorkResult RunSweep(const SweepRequest& request, const RunObserver& observer, co
   });
 }
 
-core::Result<SweepRehearsal> RehearseSweep(const SweepRequest& request, int pilots) {
+core::Result<SweepRehearsal> RehearseSweep(const SweepRequest& request, int pilots,
+                                           const Observer& observer) {
   return core::Attempt([&] {
+    Journal journal(observer);
     SweepRehearsal told{.sweep = RequestedSweep(request), .trials = {}, .plan = {}};
+    WarnOfDoubts(told.sweep, journal);
     const CampaignPlan plan = PlanOfCells(request, told.sweep);
     CheckPlan(request.campaign, plan);
     told.trials = TrialsOf(OpeningOf(request.campaign, plan), plan);

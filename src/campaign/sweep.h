@@ -29,6 +29,7 @@ struct SweepRehearsal {
 
 // What RunSweep would do, and cost by that many trials of each cell: written into the folder of the
 // request (sweep_plan.h), which is no folder of a campaign.
-core::Result<SweepRehearsal> RehearseSweep(const SweepRequest& request, int pilots);
+core::Result<SweepRehearsal> RehearseSweep(const SweepRequest& request, int pilots,
+                                           const Observer& observer = {});
 
 }  // namespace rockyard::campaign

@@ -70,12 +70,13 @@ void CheckExperiment(const Scenario& scenario, std::vector<Problem>& problems) {
                       "use rockyard run, or sweep drives"});
 }
 
-JsonValue BaseOf(const SweepSpec& spec, const std::vector<LevelSpec>& levels) {
-  const JsonValue* base = spec.scenario.get();
+std::shared_ptr<const JsonValue> BaseOf(const SweepSpec& spec,
+                                        const std::vector<LevelSpec>& levels) {
+  std::shared_ptr<const JsonValue> base = spec.scenario;
   for (const LevelSpec& level : levels) {
-    if (level.scenario != nullptr) base = level.scenario.get();
+    if (level.scenario != nullptr) base = level.scenario;
   }
-  return base == nullptr ? JsonValue::Object() : *base;
+  return base;
 }
 
 std::vector<std::string> AblationsOf(const std::vector<LevelSpec>& levels) {
@@ -99,18 +100,20 @@ const JsonValue* FindPath(const JsonValue& document, std::string_view path) {
 }
 
 ResolvedCell ResolveCell(const SweepSpec& spec, const std::vector<LevelSpec>& levels) {
-  JsonValue document = BaseOf(spec, levels);
+  ResolvedCell cell;
+  cell.base = BaseOf(spec, levels);
+  JsonValue document = cell.base == nullptr ? JsonValue::Object() : *cell.base;
   RenameFormerKeys(document);
   std::vector<std::pair<std::string, JsonValue>> asked;
   const auto apply = [&](const JsonValue& settings) {
     for (const core::JsonMember& member : settings.members()) {
       core::SetPath(document, CurrentPath(member.key), member.value);
+      core::SetPath(cell.settings, CurrentPath(member.key), member.value);
       asked.emplace_back(member.key, member.value);
     }
   };
   apply(spec.settings);
   for (const LevelSpec& level : levels) apply(level.settings);
-  ResolvedCell cell;
   cell.scenario = ReadScenario(document);
   cell.document = WriteScenario(cell.scenario);
   CheckExperiment(cell.scenario, cell.problems);

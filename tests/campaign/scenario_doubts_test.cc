@@ -73,15 +73,19 @@ TEST(ScenarioDoubts, WhatWasMeantForASmallerRover) {
               IsEmpty());
 }
 
-TEST(ScenarioDoubts, GravityOfEarthUnderANameThatSaysMars) {
+TEST(ScenarioDoubts, GravityAndSandOfEarthUnderANameThatSaysMars) {
   for (const char* name : {"mars", "mars_20m", "on Mars", "2nd-Mars"}) {
     const std::string text = std::string(R"({"name": ")") + name + "\"}";
-    EXPECT_THAT(PathsOf({text.c_str()}), ElementsAre("rover.physics.gravity_m_s2")) << name;
+    EXPECT_THAT(PathsOf({text.c_str()}),
+                ElementsAre("rover.physics.gravity_m_s2", "terrain.ground.soil"))
+        << name;
   }
   EXPECT_THAT(PathsOf({R"({"name": "marsupial"})"}), IsEmpty());
-  EXPECT_THAT(PathsOf({R"({"name": "mars", "rover": {"physics": {"gravity_m_s2": 9.81}}})"}),
+  EXPECT_THAT(PathsOf({R"({"name": "mars", "rover": {"physics": {"gravity_m_s2": 9.81}},
+                           "terrain": {"ground": {"soil": {"preset": "landscaping_sand"}}}})"}),
               IsEmpty());
-  EXPECT_THAT(PathsOf({R"({"name": "mars"})", R"({"rover": {"physics": {"gravity_m_s2": 3.72}}})"}),
+  EXPECT_THAT(PathsOf({R"({"name": "mars"})", R"({"rover": {"physics": {"gravity_m_s2": 3.72}},
+                           "terrain": {"ground": {"soil": {"preset": "mars_drift"}}}})"}),
               IsEmpty());
 }
 
@@ -101,6 +105,46 @@ TEST(ScenarioDoubts, NoneOfTheScenariosThatComeWithRockyard) {
     }
   }
   EXPECT_GT(files, 50);
+}
+
+TEST(DoubtsOfSweeps, WhatTheSweepChangesOfItsBase) {
+  const auto doubts = [](const std::string& goals) {
+    return DoubtsOf(scenario::ParseSweep(
+        R"({"name": "far", "scenario": {"referee": {"no_path_distance_m": 4},
+            "energy": {"battery_wh": 0}, "terrain": {"arena": {"kind": "open", "length_m": 60}}},
+            "trials": 1, "seed": 1,
+            "axes": [{"path": "course.goal_x_m", "values": [)" +
+        goals + "]}]}"));
+  };
+  EXPECT_THAT(doubts("7, 15"), IsEmpty());
+  const std::vector<core::Problem> one = doubts("7, 30");
+  ASSERT_EQ(one.size(), 1U);
+  EXPECT_EQ(one[0].path, "cell goal_x_m=30: referee.no_path_distance_m");
+  EXPECT_EQ(one[0].reason, "4 m are little for a course of 30 m");
+  const std::vector<core::Problem> several = doubts("7, 30, 40, 50");
+  ASSERT_EQ(several.size(), 1U);
+  EXPECT_EQ(several[0].reason, "4 m are little for a course of 30 m (and so in 2 more cells)");
+}
+
+TEST(DoubtsOfSweeps, TheNameIsTheSweeps) {
+  const std::vector<core::Problem> doubts = DoubtsOf(scenario::ParseSweep(
+      R"({"name": "mars", "trials": 1, "seed": 1,
+          "axes": [{"path": "terrain.rocks.k_per_m2", "values": [0.001]}]})"));
+  ASSERT_EQ(doubts.size(), 2U);
+  EXPECT_EQ(doubts[0].path, "cell k_per_m2=0.001: rover.physics.gravity_m_s2");
+}
+
+TEST(DoubtsOfSweeps, NoneOfThoseThatComeWithRockyard) {
+  int files = 0;
+  for (const auto& entry :
+       fs::directory_iterator(std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/sweeps")) {
+    if (entry.path().extension() != ".json") continue;
+    ++files;
+    for (const core::Problem& doubt : DoubtsOf(scenario::LoadSweep(entry.path()))) {
+      ADD_FAILURE() << entry.path() << ": " << TextOf(doubt);
+    }
+  }
+  EXPECT_GT(files, 4);
 }
 
 TEST(DoubtsOfFiles, OverridesLieOnTopAndBasesBelow) {
