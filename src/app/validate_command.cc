@@ -48,9 +48,9 @@ std::string Check(const std::string& path, const std::vector<std::string>& overr
 }
 
 void PrintDoubts(const std::string& path, const std::vector<std::string>& overrides) {
-  const std::vector<core::Problem> doubts =
-      IsSweepFile(path) ? campaign::DoubtsOf(LoadSweep(path, overrides))
-                        : campaign::DoubtsOf(path, overrides);
+  const std::vector<core::Problem> doubts = IsSweepFile(path)
+                                                ? campaign::DoubtsOf(LoadSweep(path, overrides))
+                                                : campaign::DoubtsOf(path, overrides);
   for (const core::Problem& doubt : doubts) {
     Print(fmt::format("  doubtful: {}\n", report::Printable(campaign::TextOf(doubt))));
   }

@@ -141,8 +141,7 @@ void DoubtGravity(const scenario::Scenario& scenario, const Layers& layers,
   if (!SaysMars(scenario.name) || gravity_m_s2 < kBetweenMarsAndEarth_m_s2) return;
   if (!LiesBelow(layers, kPath, "name")) return;
   doubts.push_back({std::string(kPath),
-                    fmt::format("{:g} m/s2 are not those of Mars", gravity_m_s2),
-                    "write 3.72"});
+                    fmt::format("{:g} m/s2 are not those of Mars", gravity_m_s2), "write 3.72"});
 }
 
 void DoubtSoil(const scenario::Scenario& scenario, const Layers& layers,

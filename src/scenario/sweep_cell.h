@@ -14,7 +14,7 @@ namespace rockyard::scenario {
 
 struct ResolvedCell {
   Scenario scenario;
-  core::JsonValue document;             // WriteScenario of it
+  core::JsonValue document;                              // WriteScenario of it
   core::JsonValue settings = core::JsonValue::Object();  // of the sweep, laid over the base
   std::shared_ptr<const core::JsonValue> base;
   std::vector<core::Problem> problems;  // settings that are not there in the end
