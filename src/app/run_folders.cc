@@ -59,6 +59,7 @@ std::vector<fs::path> RunFolders(const fs::path& folder) {
   }
   std::sort(runs.rbegin(), runs.rend());
   std::vector<fs::path> folders;
+  folders.reserve(runs.size());
   for (auto& [time, path] : runs) folders.push_back(std::move(path));
   return folders;
 }

@@ -82,7 +82,7 @@ std::vector<fs::path> Meant(std::string_view word, const fs::path& folder,
   const std::string folder_name = folder.filename().generic_string();
   for (const fs::path& file : files) {
     const std::string name = NameIn(folder, file);
-    if (word == name || word == folder_name + "/" + name) return {file};
+    if (word == name || word == fmt::format("{}/{}", folder_name, name)) return {file};
     if (EndsIn(name, word)) meant.push_back(file);
   }
   return meant;
@@ -95,10 +95,10 @@ std::vector<fs::path> OfKind(std::vector<fs::path> files, Wanted wanted) {
 
 std::string ShortestName(const fs::path& file, const fs::path& folder,
                          const std::vector<fs::path>& files) {
-  const std::string whole = NameIn(folder, file);
+  std::string whole = NameIn(folder, file);
   for (std::size_t slash = whole.rfind('/'); slash != std::string::npos && slash > 0;
        slash = whole.rfind('/', slash - 1)) {
-    const std::string name = whole.substr(slash + 1);
+    std::string name = whole.substr(slash + 1);
     if (Meant(name, folder, files).size() == 1) return name;
   }
   return whole;
@@ -124,10 +124,10 @@ std::string NearestFile(const fs::path& path) {
 
 // A file beside the one that is named, else a name like the word, else one like its last part.
 std::string NearestScenario(const std::string& word, Wanted wanted) {
-  const std::string file = NearestFile(word);
+  std::string file = NearestFile(word);
   if (!file.empty()) return file;
   const std::vector<std::string> names = ScenarioNames(wanted);
-  const std::string name = NearestOf(Stem(word), names);
+  std::string name = NearestOf(Stem(word), names);
   return name.empty() ? NearestOf(fs::path(word).stem().string(), names) : name;
 }
 
@@ -196,6 +196,7 @@ std::vector<std::string> ScenarioNames(Wanted wanted) {
   const fs::path folder = ScenarioFolder();
   const std::vector<fs::path> files = OfKind(FilesIn(folder), wanted);
   std::vector<std::string> names;
+  names.reserve(files.size());
   for (const fs::path& file : files) names.push_back(ShortestName(file, folder, files));
   std::sort(names.begin(), names.end());
   return names;
