@@ -15,7 +15,7 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/rockyard)
 install(TARGETS ${targets} rockyard_all EXPORT rockyardTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT rockyardTargets NAMESPACE rockyard:: DESTINATION ${package_dir})
-if(TARGET rockyard)  # the command, with the scenarios that it finds by name, and completion for bash
+if(TARGET rockyard)  # the command, with the scenarios that it finds by name, completion for bash and man pages
   set_target_properties(rockyard PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
   install(TARGETS rockyard RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/rockyard)
@@ -26,6 +26,10 @@ if(TARGET rockyard)  # the command, with the scenarios that it finds by name, an
     execute_process(COMMAND $<TARGET_FILE:rockyard> completion bash OUTPUT_FILE ${completion}/rockyard
                     COMMAND_ERROR_IS_FATAL ANY)")
   install(FILES ${completion}/rockyard DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+  set(man ${PROJECT_BINARY_DIR}/man)
+  install(CODE "execute_process(COMMAND $<TARGET_FILE:rockyard> help --format man --out ${man}
+                                ERROR_QUIET COMMAND_ERROR_IS_FATAL ANY)")
+  install(DIRECTORY ${man}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 FILES_MATCHING PATTERN "*.1")
 endif()
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 foreach(module ${modules})

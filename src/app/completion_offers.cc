@@ -11,14 +11,19 @@ namespace {
 
 // "wilson" and "clopper-pearson" of "TEXT:{wilson,clopper-pearson}", as the parser shows it; words
 // that stand for numbers are shown as "word->number".
-std::vector<std::string> Choices(const std::string& type) {
+std::vector<std::string> WrittenChoices(const std::string& type) {
   const std::size_t open = type.find('{');
   const std::size_t close = type.find('}', open);
   if (open == std::string::npos || close == std::string::npos) return {};
   auto words = CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
+  for (std::string& word : words) word = word.substr(0, word.find("->"));
+  return words;
+}
+
+// Of "worst:N" what can be offered.
+std::vector<std::string> Choices(const std::string& type) {
+  auto words = WrittenChoices(type);
   for (std::string& word : words) {
-    word = word.substr(0, word.find("->"));
-    // Of "worst:N" what can be offered.
     if (word.find(':') != std::string::npos) word.resize(word.find(':') + 1);
   }
   return words;
@@ -77,6 +82,10 @@ CommandOffer OfferOf(const CLI::App& command) {
 
 std::vector<std::string> ChoicesOf(const CLI::Option& option) {
   return Choices(option.get_type_name());
+}
+
+std::vector<std::string> WrittenChoicesOf(const CLI::Option& option) {
+  return WrittenChoices(option.get_type_name());
 }
 
 std::vector<CommandOffer> Offers(const CLI::App& app) {

@@ -29,8 +29,11 @@ struct CommandOffer {
   bool takes_files = false;
 };
 
-// The words that an option takes where it takes one of a few.
+// The words that an option takes where it takes one of a few, as they begin ("worst:").
 std::vector<std::string> ChoicesOf(const CLI::Option& option);
+
+// The same as help writes them ("worst:N").
+std::vector<std::string> WrittenChoicesOf(const CLI::Option& option);
 
 // One for each subcommand of the program, in the order of its help.
 std::vector<CommandOffer> Offers(const CLI::App& app);

@@ -76,16 +76,18 @@ constexpr CommandExample kExamples[] = {
 
 std::span<const CommandExample> Examples() { return kExamples; }
 
+std::string ExampleText(std::string_view command) {
+  std::string text;
+  for (const CommandExample& example : Examples()) {
+    if (example.command != command) continue;
+    text += fmt::format("  {}\n      {}\n", example.line, example.what);
+  }
+  return text.empty() ? "" : fmt::format("Examples:\n{}\n", text);
+}
+
 void AddExamples(CLI::App& app) {
   for (CLI::App* command : app.get_subcommands({})) {
-    std::string text;
-    for (const CommandExample& example : Examples()) {
-      if (example.command != command->get_name()) continue;
-      text += fmt::format("  {}\n      {}\n", example.line, example.what);
-    }
-    if (text.empty()) continue;
-    const std::string footer = command->get_footer();
-    command->footer(fmt::format("Examples:\n{}{}{}", text, footer.empty() ? "" : "\n", footer));
+    command->footer(ExampleText(command->get_name()) + command->get_footer());
   }
 }
 

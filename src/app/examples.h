@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace CLI {
@@ -18,6 +19,10 @@ struct CommandExample {
 
 // One to three for every subcommand.
 std::span<const CommandExample> Examples();
+
+// Those of a command as its help shows them, with the empty line that parts them from what follows;
+// empty where there are none.
+std::string ExampleText(std::string_view command);
 
 // Shows them below the options of the subcommands, before what else stands there.
 void AddExamples(CLI::App& app);

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -10,9 +11,12 @@
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/manual.h"
 #include "app/start_text.h"
 #include "core/error.h"
+#include "core/provenance.h"
 #include "core/spelling.h"
+#include "report/atomic_file.h"
 
 namespace rockyard::app {
 namespace {
@@ -50,15 +54,52 @@ const CLI::App* Below(const CLI::App& command, const std::string& name) {
                         core::Suggest(name, candidates));
 }
 
-void ShowHelp(const CLI::App& app, const std::vector<std::string>& words) {
-  if (words.empty()) return Print(Wrapped(StartText(app)));
+struct HelpOptions {
+  std::vector<std::string> words;
+  std::string format = "text";
+  std::string folder;  // for a page of every command; empty: the page of one is printed
+};
+
+std::string PageOf(const CLI::App& command, const std::string& before, const std::string& format) {
+  const ManualPage page = ManualOf(command, before);
+  return format == "man" ? AsMan(page, "rockyard " + core::CurrentProvenance().version)
+                         : AsMarkdown(page);
+}
+
+// "run.md", "rockyard-run.1"; of rockyard itself "README.md", "rockyard.1".
+std::string PageFile(const std::string& command, const std::string& format) {
+  if (format == "man")
+    return command.empty() ? "rockyard.1" : fmt::format("rockyard-{}.1", command);
+  return command.empty() ? "README.md" : command + ".md";
+}
+
+void WritePages(const CLI::App& app, const HelpOptions& options) {
+  if (options.format == "text" || !options.words.empty()) {
+    throw core::UserError("--out", "is for the pages of all commands, in markdown or man",
+                          "name a --format and no command");
+  }
+  const std::filesystem::path folder = options.folder;
+  std::filesystem::create_directories(folder);
+  const auto write = [&](const std::string& name, const std::string& page) {
+    report::WriteFileAtomically(folder / PageFile(name, options.format), page);
+  };
+  write("", PageOf(app, "", options.format));
+  for (const CLI::App* command : app.get_subcommands({})) {
+    write(command->get_name(), PageOf(*command, app.get_name(), options.format));
+  }
+  PrintNote(fmt::format("pages of every command in {}", options.folder));
+}
+
+void ShowHelp(const CLI::App& app, const HelpOptions& options) {
+  if (!options.folder.empty()) return WritePages(app, options);
   const CLI::App* command = &app;
   std::string before;
-  for (const std::string& word : words) {
+  for (const std::string& word : options.words) {
     before += (before.empty() ? "" : " ") + command->get_name();
     command = Below(*command, word);
   }
-  Print(command->help(before));
+  if (options.format != "text") return Print(PageOf(*command, before, options.format));
+  Print(options.words.empty() ? Wrapped(StartText(app)) : command->help(before));
 }
 
 }  // namespace
@@ -72,11 +113,18 @@ std::string StartText(const CLI::App& app) {
 }
 
 void AddHelpCommand(CLI::App& app) {
-  auto words = std::make_shared<std::vector<std::string>>();
+  auto options = std::make_shared<HelpOptions>();
   CLI::App* command = app.add_subcommand("help", "Says what to do first, or all of a command");
-  command->add_option("COMMAND", *words, "subcommand, such as run or plan claim");
+  command->add_option("COMMAND", options->words, "subcommand, such as run or plan claim");
+  command
+      ->add_option("--format", options->format,
+                   "text for a terminal, a page of docs/commands, or a page for man")
+      ->check(CLI::IsMember({"text", "markdown", "man"}))
+      ->capture_default_str();
+  command->add_option("--out", options->folder,
+                      "folder for a page of every command, as markdown or for man");
   // The parser holds this callback, so it is there when the callback runs.
-  command->callback([words, &app] { ShowHelp(app, *words); });
+  command->callback([options, &app] { ShowHelp(app, *options); });
 }
 
 }  // namespace rockyard::app

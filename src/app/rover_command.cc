@@ -125,7 +125,8 @@ void AddRoverCommand(CLI::App& app) {
   auto options = std::make_shared<RoverOptions>();
   CLI::App* command =
       app.add_subcommand("rover", "Describes a scenario's rover, or writes it as a URDF file");
-  command->footer("scenarios/rovers/README.md tells how a scenario takes another rover.");
+  command->footer("scenarios/rovers/README.md tells how a scenario takes another rover.\n\n" +
+                  app.get_footer());
   command
       ->add_option("ROVER", options->scenario,
                    "scenario or rover file (scenarios/rovers), its name, or the folder of a run")

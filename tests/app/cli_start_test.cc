@@ -39,5 +39,19 @@ TEST_F(CliStart, HelpOfACommandIsWhatItsOptionShows) {
                                  HasSubstr("did you mean \"run\"?")));
 }
 
+TEST_F(CliStart, PagesOfEveryCommandIntoAFolder) {
+  EXPECT_EQ(Run({"help", "--format", "man", "--out", "man"}).exit_code, 0);
+  EXPECT_EQ(ReadFile(work() / "man/rockyard-run.1"), Run({"help", "run", "--format", "man"}).out);
+  EXPECT_EQ(ReadFile(work() / "man/rockyard.1"), Run({"help", "--format", "man"}).out);
+  EXPECT_EQ(Run({"help", "--format", "markdown", "--out", "md"}).exit_code, 0);
+  EXPECT_EQ(ReadFile(work() / "md/README.md"), Run({"help", "--format", "markdown"}).out);
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"help", "--out", "x"},
+                                                {"help", "run", "--format", "man", "--out", "x"}}) {
+    const CommandResult refused = Run(words);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("error: --out: is for the pages of all commands"));
+  }
+}
+
 }  // namespace
 }  // namespace rockyard::app
