@@ -122,6 +122,17 @@ void DoubtSizes(const trial::DriveParams& drive, const Layers& layers,
   }
 }
 
+// The scale makes up for the slip of one rover's wheels in one soil; 1 is the wheels' own distance.
+void DoubtOdometer(const trial::DriveParams& drive, const Layers& layers,
+                   std::vector<Problem>& doubts) {
+  constexpr std::string_view kPath = "perception.dead_reckoning.distance_scale";
+  const double scale = drive.perception.dead_reckoning.distance_scale;
+  if (scale == 1.0 || !LiesBelow(layers, kPath, "rover.geometry")) return;
+  doubts.push_back({std::string(kPath),
+                    fmt::format("{:g} was found for the slip of another rover", scale),
+                    "state what scripts/calibrate_odometer.py finds for this one"});
+}
+
 // A word of the name, so that "marsupial" is none.
 bool SaysMars(std::string name) {
   std::transform(name.begin(), name.end(), name.begin(),
@@ -152,24 +163,57 @@ void DoubtSoil(const scenario::Scenario& scenario, const Layers& layers,
                     "write {\"preset\": \"mars_drift\"}, or state this one"});
 }
 
-void EraseExtends(JsonValue& value) {
-  if (!value.Is(JsonValue::Type::kObject)) return;
+// The names of the files that a value extends, which it then no longer does.
+std::vector<std::string> TakeExtends(JsonValue& value) {
+  const JsonValue* extends = value.Find("extends");
+  if (extends == nullptr) return {};
+  std::vector<std::string> files;
+  if (extends->Is(JsonValue::Type::kText)) {
+    files = {extends->text()};
+  } else {
+    files = core::TextsIn(*extends).value_or(std::vector<std::string>());
+  }
   value.Erase("extends");
-  for (core::JsonMember& member : value.members()) EraseExtends(member.value);
+  return files;
 }
 
-// The file and what lies below it. Cycles and missing files were found when the scenario was read.
-void AddLayers(const std::filesystem::path& path, Layers& layers) {
-  JsonValue layer = core::LoadJsonFileAlone(path);
-  std::vector<std::string> bases;
-  if (const JsonValue* extends = layer.Find("extends")) {
-    bases = core::TextsIn(*extends).value_or(std::vector<std::string>());
-    if (extends->Is(JsonValue::Type::kText)) bases = {extends->text()};
+// A value at a path of the scenario, "rover", that extends these files.
+struct Extension {
+  std::string path;
+  std::vector<std::string> files;
+};
+
+void TakeInnerExtensions(JsonValue& value, const std::string& path,
+                         std::vector<Extension>& extensions) {
+  if (!value.Is(JsonValue::Type::kObject)) return;
+  for (core::JsonMember& member : value.members()) {
+    if (!member.value.Is(JsonValue::Type::kObject)) continue;
+    const std::string inner = path.empty() ? member.key : fmt::format("{}.{}", path, member.key);
+    extensions.push_back({inner, TakeExtends(member.value)});
+    TakeInnerExtensions(member.value, inner, extensions);
   }
-  EraseExtends(layer);
+}
+
+// What the file says of the value at `path` (all of the scenario where that is empty), and below it
+// what it extends. Cycles and missing files were found when the scenario was read.
+void AddLayers(const std::filesystem::path& file, const std::string& path, Layers& layers) {
+  JsonValue value = core::LoadJsonFileAlone(file);
+  const std::vector<std::string> bases = TakeExtends(value);
+  std::vector<Extension> extensions;
+  TakeInnerExtensions(value, path, extensions);
+  extensions.push_back({path, bases});
+  JsonValue layer = JsonValue::Object();
+  if (path.empty()) {
+    layer = std::move(value);
+  } else {
+    core::SetPath(layer, path, std::move(value));
+  }
   layers.push_back(std::move(layer));
-  std::for_each(bases.rbegin(), bases.rend(),
-                [&](const std::string& base) { AddLayers(path.parent_path() / base, layers); });
+  for (const Extension& extension : extensions) {
+    std::for_each(extension.files.rbegin(), extension.files.rend(), [&](const std::string& base) {
+      AddLayers(file.parent_path() / base, extension.path, layers);
+    });
+  }
 }
 
 }  // namespace
@@ -180,6 +224,7 @@ std::vector<Problem> Doubts(const scenario::Scenario& scenario, const Layers& la
   DoubtLimits(scenario.drive, layers, doubts);
   DoubtMass(scenario.drive, layers, doubts);
   DoubtSizes(scenario.drive, layers, doubts);
+  DoubtOdometer(scenario.drive, layers, doubts);
   DoubtGravity(scenario, layers, doubts);
   DoubtSoil(scenario, layers, doubts);
   return doubts;
@@ -191,7 +236,7 @@ std::vector<Problem> DoubtsOf(const std::filesystem::path& source,
   if (std::filesystem::is_directory(source, error)) return {};
   const scenario::Scenario scenario = LoadScenarioFrom(source, overrides);
   Layers layers;
-  AddLayers(source, layers);
+  AddLayers(source, "", layers);
   if (layers.front().Find("provenance") != nullptr) return {};  // of a run, where all is stated
   for (const std::string& assignment : overrides) scenario::Override(layers.front(), assignment);
   return Doubts(scenario, layers);

@@ -14,13 +14,15 @@
 namespace rockyard::campaign {
 
 // What a scenario is laid over each other of: the file, its overrides included, then the files that
-// it extends, the last of a list first; no "extends" in any of them.
+// values in it extend, then those that it extends itself, the last of a list first; no "extends" in
+// any of them.
 using Layers = std::vector<core::JsonValue>;
 
 // Each with the path of the value, what of it is doubtful, and what would be right. Doubted is what
 // lies below that against which it is held (or is a default): whoever stated it did not know the
 // course, or the rover. Rules, each with its threshold in the .cc file: limits of referee and
-// batteries against the length of the course, mass against size, goal radius and the view of the
+// batteries against the length of the course, mass against size, the odometer's scale,
+// goal radius and the view of the
 // terrain sensor against the rover, gravity and sand of Earth against a name that says
 // Mars.
 std::vector<core::Problem> Doubts(const scenario::Scenario& scenario, const Layers& layers);

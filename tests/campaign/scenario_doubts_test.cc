@@ -147,6 +147,26 @@ TEST(DoubtsOfSweeps, NoneOfThoseThatComeWithRockyard) {
   EXPECT_GT(files, 4);
 }
 
+// A rover file of one's own over another one's: the value "rover" extends it, not the scenario.
+TEST(DoubtsOfFiles, ValuesInAFileExtendFilesToo) {
+  const core::TestFolder folder;
+  const auto path = [&](const char* name) { return folder.path() / name; };
+  std::ofstream(path("small.json"))
+      << R"({"geometry": {"length_m": 0.65}, "mass": {"total_kg": 60}})";
+  std::ofstream(path("mine.json")) << R"({"extends": "small.json", "geometry": {"width_m": 0.5}})";
+  std::ofstream(path("base.json"))
+      << R"({"perception": {"dead_reckoning": {"distance_scale": 0.9}}})";
+  std::ofstream(path("over.json"))
+      << R"({"extends": "base.json", "rover": {"extends": "mine.json"}})";
+  std::vector<std::string> paths;
+  for (const core::Problem& doubt : DoubtsOf(path("over.json"), {})) paths.push_back(doubt.path);
+  EXPECT_THAT(paths, ElementsAre("rover.mass", "perception.dead_reckoning.distance_scale"));
+  std::ofstream(path("over.json"))
+      << R"({"extends": "base.json", "rover": {"extends": "mine.json", "mass": {"total_kg": 60}},
+             "perception": {"dead_reckoning": {"distance_scale": 0.9}}})";
+  EXPECT_THAT(DoubtsOf(path("over.json"), {}), IsEmpty());
+}
+
 TEST(DoubtsOfFiles, OverridesLieOnTopAndBasesBelow) {
   const core::TestFolder folder;
   const auto path = [&](const char* name) { return folder.path() / name; };
