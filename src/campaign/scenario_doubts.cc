@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <map>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "campaign/run_source.h"
-#include "core/json_file.h"
-#include "scenario/former_keys.h"
+#include "scenario/load.h"
 #include "trial/hazard_watch.h"
 #include "trial/patience_params.h"
 
@@ -20,27 +20,6 @@ namespace {
 
 using core::JsonValue;
 using core::Problem;
-
-bool States(const JsonValue& layer, std::string_view path) {
-  const JsonValue* at = &layer;
-  while (at != nullptr && !path.empty()) {
-    const std::size_t dot = std::min(path.find('.'), path.size());
-    at = at->Find(path.substr(0, dot));
-    path.remove_prefix(std::min(dot + 1, path.size()));
-  }
-  return at != nullptr && !at->Is(JsonValue::Type::kNull);
-}
-
-// 0 on top; the number of layers for a default.
-std::size_t LayerOf(const Layers& layers, std::string_view path) {
-  const auto states = [&](const JsonValue& layer) { return States(layer, path); };
-  return static_cast<std::size_t>(std::find_if(layers.begin(), layers.end(), states) -
-                                  layers.begin());
-}
-
-bool LiesBelow(const Layers& layers, std::string_view path, std::string_view other) {
-  return LayerOf(layers, path) > LayerOf(layers, other);
-}
 
 // A limit below so much is doubted.
 struct LimitRule {
@@ -130,7 +109,24 @@ void DoubtOdometer(const trial::DriveParams& drive, const Layers& layers,
   if (scale == 1.0 || !LiesBelow(layers, kPath, "rover.geometry")) return;
   doubts.push_back({std::string(kPath),
                     fmt::format("{:g} was found for the slip of another rover", scale),
-                    "state what scripts/calibrate_odometer.py finds for this one"});
+                    "divide it by 1 + e / 100, where e is the median distance error of a run"});
+}
+
+// GESTALT weighs the ground under a vehicle whose size it is told (Goldberg 2002, table 1).
+void DoubtVehicle(const scenario::Scenario& scenario, const Layers& layers,
+                  std::vector<Problem>& doubts) {
+  constexpr std::string_view kPath = "navigation.gestalt.map.rover";
+  constexpr double kAlike = 0.1;  // of the rover's width
+  if (scenario.drive.navigation.navigators.chosen().name() != "gestalt") return;
+  const JsonValue document = scenario::WriteScenario(scenario);
+  const JsonValue* width = Said(document, fmt::format("{}.width_m", kPath));
+  const double rover_m = scenario.drive.rover.geometry.width_m;
+  if (width == nullptr || std::abs(width->number() - rover_m) < kAlike * rover_m) return;
+  if (!LiesBelow(layers, kPath, "rover.geometry")) return;
+  doubts.push_back({std::string(kPath),
+                    fmt::format("it drives a vehicle {:g} m wide, the rover is {:g} m wide",
+                                width->number(), rover_m),
+                    "state length_m, width_m, wheel_radius_m, clearance_m and obst_height_m"});
 }
 
 // A word of the name, so that "marsupial" is none.
@@ -163,59 +159,6 @@ void DoubtSoil(const scenario::Scenario& scenario, const Layers& layers,
                     "write {\"preset\": \"mars_drift\"}, or state this one"});
 }
 
-// The names of the files that a value extends, which it then no longer does.
-std::vector<std::string> TakeExtends(JsonValue& value) {
-  const JsonValue* extends = value.Find("extends");
-  if (extends == nullptr) return {};
-  std::vector<std::string> files;
-  if (extends->Is(JsonValue::Type::kText)) {
-    files = {extends->text()};
-  } else {
-    files = core::TextsIn(*extends).value_or(std::vector<std::string>());
-  }
-  value.Erase("extends");
-  return files;
-}
-
-// A value at a path of the scenario, "rover", that extends these files.
-struct Extension {
-  std::string path;
-  std::vector<std::string> files;
-};
-
-void TakeInnerExtensions(JsonValue& value, const std::string& path,
-                         std::vector<Extension>& extensions) {
-  if (!value.Is(JsonValue::Type::kObject)) return;
-  for (core::JsonMember& member : value.members()) {
-    if (!member.value.Is(JsonValue::Type::kObject)) continue;
-    const std::string inner = path.empty() ? member.key : fmt::format("{}.{}", path, member.key);
-    extensions.push_back({inner, TakeExtends(member.value)});
-    TakeInnerExtensions(member.value, inner, extensions);
-  }
-}
-
-// What the file says of the value at `path` (all of the scenario where that is empty), and below it
-// what it extends. Cycles and missing files were found when the scenario was read.
-void AddLayers(const std::filesystem::path& file, const std::string& path, Layers& layers) {
-  JsonValue value = core::LoadJsonFileAlone(file);
-  const std::vector<std::string> bases = TakeExtends(value);
-  std::vector<Extension> extensions;
-  TakeInnerExtensions(value, path, extensions);
-  extensions.push_back({path, bases});
-  JsonValue layer = JsonValue::Object();
-  if (path.empty()) {
-    layer = std::move(value);
-  } else {
-    core::SetPath(layer, path, std::move(value));
-  }
-  layers.push_back(std::move(layer));
-  for (const Extension& extension : extensions) {
-    std::for_each(extension.files.rbegin(), extension.files.rend(), [&](const std::string& base) {
-      AddLayers(file.parent_path() / base, extension.path, layers);
-    });
-  }
-}
-
 }  // namespace
 
 std::vector<Problem> Doubts(const scenario::Scenario& scenario, const Layers& layers) {
@@ -225,6 +168,7 @@ std::vector<Problem> Doubts(const scenario::Scenario& scenario, const Layers& la
   DoubtMass(scenario.drive, layers, doubts);
   DoubtSizes(scenario.drive, layers, doubts);
   DoubtOdometer(scenario.drive, layers, doubts);
+  DoubtVehicle(scenario, layers, doubts);
   DoubtGravity(scenario, layers, doubts);
   DoubtSoil(scenario, layers, doubts);
   return doubts;
@@ -235,10 +179,8 @@ std::vector<Problem> DoubtsOf(const std::filesystem::path& source,
   std::error_code error;
   if (std::filesystem::is_directory(source, error)) return {};
   const scenario::Scenario scenario = LoadScenarioFrom(source, overrides);
-  Layers layers;
-  AddLayers(source, "", layers);
+  const Layers layers = LayersOf(source, overrides);
   if (layers.front().Find("provenance") != nullptr) return {};  // of a run, where all is stated
-  for (const std::string& assignment : overrides) scenario::Override(layers.front(), assignment);
   return Doubts(scenario, layers);
 }
 

@@ -6,22 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "campaign/scenario_layers.h"
 #include "core/error.h"
-#include "core/json_value.h"
 #include "scenario/scenario.h"
 #include "scenario/sweep.h"
 
 namespace rockyard::campaign {
 
-// What a scenario is laid over each other of: the file, its overrides included, then the files that
-// values in it extend, then those that it extends itself, the last of a list first; no "extends" in
-// any of them.
-using Layers = std::vector<core::JsonValue>;
-
 // Each with the path of the value, what of it is doubtful, and what would be right. Doubted is what
 // lies below that against which it is held (or is a default): whoever stated it did not know the
 // course, or the rover. Rules, each with its threshold in the .cc file: limits of referee and
-// batteries against the length of the course, mass against size, the odometer's scale,
+// batteries against the length of the course, mass against size, the odometer's scale and
+// the size that GESTALT believes in against the rover,
 // goal radius and the view of the
 // terrain sensor against the rover, gravity and sand of Earth against a name that says
 // Mars.

@@ -73,6 +73,18 @@ TEST(ScenarioDoubts, WhatWasMeantForASmallerRover) {
               IsEmpty());
 }
 
+TEST(ScenarioDoubts, TheSizeThatTheNavigatorBelievesIn) {
+  constexpr const char* kBase = R"({"navigation": {"navigator": "gestalt", "gestalt": {
+      "map": {"rover": {"width_m": 0.84}}}}})";
+  constexpr const char* kNarrow = R"({"rover": {"geometry": {"width_m": 0.48}}})";
+  EXPECT_THAT(PathsOf({kNarrow, kBase}), ElementsAre("navigation.gestalt.map.rover"));
+  EXPECT_THAT(PathsOf({kBase, kNarrow}), IsEmpty());
+  EXPECT_THAT(PathsOf({kNarrow, R"({"navigation": {"navigator": "gestalt", "gestalt": {
+                           "map": {"rover": {"width_m": 0.5}}}}})"}),
+              IsEmpty());
+  EXPECT_THAT(PathsOf({kNarrow}), IsEmpty()) << "another navigator";
+}
+
 TEST(ScenarioDoubts, GravityAndSandOfEarthUnderANameThatSaysMars) {
   for (const char* name : {"mars", "mars_20m", "on Mars", "2nd-Mars"}) {
     const std::string text = std::string(R"({"name": ")") + name + "\"}";
