@@ -30,6 +30,7 @@ FILES = {
     "scenarios/mars/README.md": "[up](../../README.md)\n",
     "tests/README.md": "[up](..)\n",
     "results/trial.md": "[root](../README.md)\n",
+    "docs/commands/run.md": "[root](../../README.md)\n",
 }
 
 
@@ -57,6 +58,7 @@ class PagesTest(unittest.TestCase):
 
     def test_links_lead_to_files_from_every_kind_of_page(self):
         for page in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "results/trial.md",
+                     "docs/commands/run.md",
                      "src/core/README.md", "src/terrain/deep/README.md",
                      "scenarios/mars/README.md", "tests/README.md"):
             text = FILES[page].replace("#how", "") + "\n## How to add a file\n[x](gone.md)\n"
