@@ -8,6 +8,7 @@
 #include "core/json_pieces.h"
 #include "replay/data.h"
 #include "replay/payload_text.h"
+#include "truth/end_cause.h"
 
 namespace rockyard::replay {
 namespace {
@@ -134,6 +135,11 @@ std::string LinkText(const ReplayLink& link) {
       .Text();
 }
 
+std::string_view SettingOfEnd(const truth::Record& record) {
+  const auto cause = truth::CauseOf(record);
+  return cause ? truth::Info(*cause).setting : std::string_view();
+}
+
 }  // namespace
 
 std::string ReplayJson(const ReplayData& data) {
@@ -150,6 +156,7 @@ std::string ReplayJson(const ReplayData& data) {
   object.AddInteger("trial", static_cast<std::int64_t>(data.record.trial))
       .AddText("outcome", truth::Name(data.record.outcome))
       .AddText("detail", data.record.detail)
+      .AddText("cause_setting", SettingOfEnd(data.record))
       .Add("repeats_stored",
            !data.repeats_stored ? "null" : (*data.repeats_stored ? "true" : "false"))
       .AddText("record_hash", data.record_hash)

@@ -65,7 +65,8 @@ export function launch() {
  * errors and warnings on the console, exceptions, requests that failed.
  */
 export async function openPage(browser, file, { width = 1280, height = 900, scheme = "light", ...context } = {}) {
-  const opened = await browser.newContext({ viewport: { width, height }, colorScheme: scheme, ...context });
+  // Less motion, so that a replay stands at its start until a test moves it.
+  const opened = await browser.newContext({ viewport: { width, height }, colorScheme: scheme, reducedMotion: "reduce", ...context });
   const page = await opened.newPage();
   const requests = [];
   const problems = [];

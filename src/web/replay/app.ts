@@ -6,22 +6,28 @@ import { timelineEvents } from "./events";
 import type { Handle } from "./handle";
 import { makeView } from "./make_view";
 import { Course as Drive, lastAtOrBefore } from "./motion";
+import { Overview } from "./overview";
 import { pageKeys } from "./page_keys";
 import { bindKeys, helpDialog, type Key } from "./panels/keys";
+import { Ending } from "./panels/ending";
 import { layersPanel } from "./panels/layers";
 import { Readout } from "./panels/readout";
 import { originPanel, outcomeBanner, recordPanel } from "./panels/record";
+import { SharePanel } from "./panels/share_panel";
 import { Timeline } from "./panels/timeline";
 import { Transport } from "./panels/transport";
 import { VotesPanel } from "./panels/votes";
 import type { ReplayPayload } from "./payload";
 import { Player, standingStretches } from "./player";
+import { beatsOf } from "./story";
 import { shareTouch } from "./touch";
 import type { CameraMode, Layers, MapKind, Shown, View } from "./view";
 
 const MODE_NAMES: Record<CameraMode, string> = { follow: "Follow", top: "Top", orbit: "Free", rover: "From the rover" };
 const MAP_KINDS: MapKind[] = ["goodness", "certainty", "elevation", "off"];
 const LONGEST_FRAME_S = 0.1;
+// A page in the background draws nothing for minutes.
+const LONGEST_GLANCE_S = 1;
 
 export class App {
   private readonly drive: Drive;
@@ -32,6 +38,9 @@ export class App {
   private readonly votes = new VotesPanel();
   private readonly timeline: Timeline;
   private readonly transport: Transport;
+  private readonly overview: Overview;
+  private readonly ending: Ending;
+  private readonly share: SharePanel;
   private readonly modeButtons = new Map<CameraMode, HTMLButtonElement>();
   private layerPanel: HTMLElement;
   private readonly scanTimes: number[];
@@ -65,6 +74,9 @@ export class App {
     this.transport = new Transport(this.player, () => this.timeline.shownTimes);
     this.layerPanel = this.makeLayers();
     this.view = makeView(payload, this.drive);
+    this.overview = new Overview(this.player, this.view, beatsOf(payload, events));
+    this.ending = new Ending(payload, events, this.player, () => this.playOverview());
+    this.share = new SharePanel(payload, this.player, this.overview, this.view.element, () => this.refresh());
     this.build();
     bindKeys(this.keys());
     this.player.onChange(() => this.refresh());
@@ -72,7 +84,7 @@ export class App {
   }
 
   handle(): Handle {
-    const { player, drive, view } = this;
+    const { player, drive, view, overview } = this;
     const frames = (): number => this.frames;
     return {
       get duration() {
@@ -91,7 +103,11 @@ export class App {
         return frames();
       },
       seek: (t) => player.seek(t),
+      get overview() {
+        return overview.running;
+      },
       play: () => player.play(),
+      playOverview: () => this.playOverview(),
       pose: () => {
         this.update();
         return view.drawn();
@@ -109,8 +125,9 @@ export class App {
     const help = helpDialog(this.keys());
     const title = el("div", { class: "title" }, el("h1", {}, payload.title), outcomeBanner(payload));
     const tools = el("div", { class: "tools" }, button("Keys", "Keys (?)", () => help.showModal()));
-    tools.append(themeSwitch(() => this.recolour()));
+    tools.append(this.share.element, themeSwitch(() => this.recolour()));
     const picture = el("div", { class: "picture" }, this.cameraBar(), el("div", { class: "frame" }, view.element));
+    picture.append(this.overview.element, this.ending.element);
     if (view.modes.length > 1) picture.append(shareTouch(view.element));
     else picture.append(el("p", { class: "note" }, "This browser shows no WebGL: here is the plan, without the third dimension."));
     view.element.setAttribute("role", "img");
@@ -130,7 +147,15 @@ export class App {
     });
     this.resized();
     this.setMode(view.modes[0]!);
-    this.followLink(new URLSearchParams(location.hash.slice(1)));
+    const link = new URLSearchParams(location.hash.slice(1));
+    this.followLink(link);
+    // A link into the page leads to a moment; who asked for less motion gets none unasked.
+    if ([...link.keys()].length === 0 && !matchMedia("(prefers-reduced-motion: reduce)").matches) this.playOverview();
+  }
+
+  private playOverview(): void {
+    this.setMode(this.view.modes[0]!);
+    this.overview.start();
   }
 
   // replay.html#view=plan, #view=top&t=120: where a link into the page leads.
@@ -148,6 +173,7 @@ export class App {
       this.modeButtons.set(mode, item);
       bar.append(item);
     }
+    bar.append(button("Overview", "The whole drive in ten seconds (v)", () => this.playOverview()));
     bar.append(button("Plan of the paths", "From above with the whole paths, as figure 16 of Matthies 1995 shows a drive (6)", () => this.planOfPaths()));
     return bar;
   }
@@ -194,12 +220,15 @@ export class App {
   }
 
   private frame(now: number): void {
-    const passed = Math.min(LONGEST_FRAME_S, (now - this.before) / 1000);
+    const passed = (now - this.before) / 1000;
     this.before = now;
-    this.player.advance(passed);
+    // The overview lasts as long as it says, however slowly it is drawn.
+    if (this.overview.running) this.overview.advance(Math.min(LONGEST_GLANCE_S, passed));
+    else this.player.advance(Math.min(LONGEST_FRAME_S, passed));
     if (this.dirty) {
       this.update();
       ++this.frames;
+      this.share.drawn(now);
     }
     requestAnimationFrame((next) => this.frame(next));
   }
@@ -235,6 +264,8 @@ export class App {
       approach: (factor) => move(() => this.view.approach(factor)),
       turn: (angle) => move(() => this.view.turn(angle)),
       planOfPaths: () => this.planOfPaths(),
+      overview: () => this.playOverview(),
+      savePicture: () => void this.share.savePicture(),
       toggleBelieved: () => this.change({ believed: !this.layers.believed }),
       nextMap: () => this.change({ map: MAP_KINDS[(MAP_KINDS.indexOf(this.layers.map) + 1) % MAP_KINDS.length]! }),
     });

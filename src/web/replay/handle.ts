@@ -10,8 +10,11 @@ export interface Handle {
   readonly mode: CameraMode;
   /** How many pictures the page has drawn by itself, frame by frame. */
   readonly frames: number;
+  /** Whether the overview runs. */
+  readonly overview: boolean;
   seek(t: number): void;
   play(): void;
+  playOverview(): void;
   /** As drawn now. */
   pose(): DrawnPose;
   /** The links' pivots as drawn now. */

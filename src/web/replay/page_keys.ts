@@ -10,6 +10,8 @@ export interface Actions {
   approach(factor: number): void;
   turn(angle: number): void;
   planOfPaths(): void;
+  overview(): void;
+  savePicture(): void;
   toggleBelieved(): void;
   nextMap(): void;
 }
@@ -52,6 +54,8 @@ function pictureKeys(actions: Actions): Key[] {
     key(",", "camera to the left", () => actions.turn(-TURN_RAD)),
     key(".", "camera to the right", () => actions.turn(TURN_RAD)),
     key("6", "plan of both paths (figure 16)", actions.planOfPaths),
+    key("v", "overview of ten seconds", actions.overview),
+    key("x", "save the picture", actions.savePicture),
     key("b", "believed path, or not", actions.toggleBelieved),
     key("m", "next kind of map", actions.nextMap),
   ];

@@ -11,6 +11,8 @@ export interface ReplayPayload {
   trial: number;
   outcome: string;
   detail: string;
+  /** Path of the setting that decided how it ended; "" where none did. */
+  cause_setting: string;
   /** Whether the drive repeated the stored record bit for bit; null where there was none. */
   repeats_stored: boolean | null;
   /** Hash of the trial's record. */
