@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <tuple>
@@ -22,11 +23,16 @@ namespace rockyard::app {
 namespace {
 
 ExitCode WriteReplay(const ReplayOptions& options) {
+  std::optional<campaign::TrialRequest> beside = options.Beside();
+  if (beside) FindSource(*beside);
   const campaign::ReplayResult result = [&] {
     const BusyLine busy(fmt::format("driving trial {} again", options.request.trial));
-    return campaign::Replay(
-        {.trial = options.request, .page = options.out, .plan = options.svg, .data = options.data},
-        MessagesToConsole(Output::kText));
+    return campaign::Replay({.trial = options.request,
+                             .beside = beside,
+                             .page = options.out,
+                             .plan = options.svg,
+                             .data = options.data},
+                            MessagesToConsole(Output::kText));
   }();
   if (result.title.empty()) return result.outcome;
   Print(fmt::format("  {}\n", report::Printable(fmt::format("{}: {}, {}", result.title,
@@ -61,6 +67,20 @@ void AddOptions(CLI::App& command, ReplayOptions& options) {
                   "page (default: results/runs/<name>-seed<seed>-trial<I>.html); of a scan or step "
                   "a folder (default: ...-scan<N>, or -step<N>)")
       ->excludes(list);
+  command
+      .add_option(
+          "--with", options.with,
+          "scenario or run whose trial is shown beside it, on one clock (default: the same, "
+          "for --with-trial)")
+      ->excludes(list)
+      ->excludes(scan)
+      ->excludes(step);
+  command
+      .add_option("--with-trial", options.with_trial,
+                  "index of that trial (default: that of --trial)")
+      ->excludes(list)
+      ->excludes(scan)
+      ->excludes(step);
   for (const auto& [name, file, what] :
        {std::tuple{"--svg", &options.svg, "file for the plan view (default: beside the page)"},
         std::tuple{"--data", &options.data, "file for what the page is given, as JSON"}}) {

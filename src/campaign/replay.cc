@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <functional>
+#include <optional>
 
 #include "campaign/open_run.h"
 #include "campaign/output_file.h"
@@ -16,12 +17,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// What was driven: the trial, and the one beside it where that is asked for.
+struct Replayed {
+  ReplayedTrial trial;
+  std::optional<ReplayedTrial> beside = {};
+
+  const ReplayedTrial* second() const { return beside ? &*beside : nullptr; }
+  std::string title() const {
+    return beside ? fmt::format("{}, and {}", trial.data.title, beside->data.title)
+                  : trial.data.title;
+  }
+  std::string payload() const { return ReplayPayload(trial, second()); }
+};
+
 // One file that is asked for.
 struct AskedFile {
   std::string option;  // that names it
   std::string what;
   fs::path path;
-  std::function<std::string(const ReplayedTrial&)> text;
+  std::function<std::string(const Replayed&)> text;
 };
 
 std::string DefaultStem(const TrialSource& source, std::uint32_t trial) {
@@ -40,13 +54,14 @@ std::vector<AskedFile> OutputsOf(const ReplayRequest& request, const TrialSource
   };
   std::vector<AskedFile> outputs;
   outputs.push_back(
-      {"--out", "3-D replay", path(request.page, ".html"), [](const ReplayedTrial& replayed) {
-         return web::MakePage(web::Page::kReplay, replayed.data.title, ReplayPayload(replayed));
+      {"--out", "3-D replay", path(request.page, ".html"), [](const Replayed& replayed) {
+         return web::MakePage(web::Page::kReplay, replayed.title(), replayed.payload());
        }});
   outputs.push_back({"--svg", "plan view", path(request.plan, ".svg"),
-                     [](const ReplayedTrial& replayed) { return replayed.plan_svg; }});
+                     [](const Replayed& replayed) { return replayed.trial.plan_svg; }});
   if (!request.data.empty()) {
-    outputs.push_back({"--data", "data of the page", path(request.data, ".json"), ReplayPayload});
+    outputs.push_back({"--data", "data of the page", path(request.data, ".json"),
+                       [](const Replayed& replayed) { return replayed.payload(); }});
   }
   return outputs;
 }
@@ -64,8 +79,8 @@ void CheckOutputs(const ReplayRequest& request, const std::vector<AskedFile>& ou
 }
 
 // False where one cannot be written.
-bool WriteOutputs(const std::vector<AskedFile>& outputs, const ReplayedTrial& replayed,
-                  Journal& journal, std::vector<ReplayFile>& files) {
+bool WriteOutputs(const std::vector<AskedFile>& outputs, const Replayed& replayed, Journal& journal,
+                  std::vector<ReplayFile>& files) {
   try {
     for (const AskedFile& output : outputs) {
       if (output.path.has_parent_path()) fs::create_directories(output.path.parent_path());
@@ -82,19 +97,30 @@ bool WriteOutputs(const std::vector<AskedFile>& outputs, const ReplayedTrial& re
   return false;
 }
 
+// Drives it again; the differences from its stored record, where it has one, are told.
+ReplayedTrial DriveAgain(const TrialRequest& request, const TrialSource& source, Journal& journal,
+                         std::optional<bool>& repeats_stored) {
+  ReplayedTrial replayed = ReplayTrial(source, request.trial);
+  if (!source.stored) return replayed;
+  const auto differences =
+      CompareWithStore(request, source, replayed.data.schema, replayed.data.record);
+  repeats_stored = repeats_stored.value_or(true) && differences.empty();
+  journal.Fail(differences);
+  return replayed;
+}
+
 Outcome DriveAndWrite(const ReplayRequest& request, Journal& journal, ReplayResult& result) {
   const TrialSource source = FindTrial(request.trial);
+  const std::optional<TrialSource> beside =
+      request.beside ? std::optional(FindTrial(*request.beside)) : std::nullopt;
   const std::vector<AskedFile> outputs = OutputsOf(request, source);
   CheckOutputs(request, outputs);
-  const ReplayedTrial replayed = ReplayTrial(source, request.trial.trial);
-  const replay::ReplayData& data = replayed.data;
-  result.title = data.title;
-  result.record = data.record;
-  if (source.stored) {
-    const auto differences = CompareWithStore(request.trial, source, data.schema, data.record);
-    result.repeats_stored = differences.empty();
-    journal.Fail(differences);
+  Replayed replayed{.trial = DriveAgain(request.trial, source, journal, result.repeats_stored)};
+  if (beside) {
+    replayed.beside = DriveAgain(*request.beside, *beside, journal, result.repeats_stored);
   }
+  result.title = replayed.title();
+  result.record = replayed.trial.data.record;
   if (!WriteOutputs(outputs, replayed, journal, result.files)) return Outcome::kFailed;
   return result.repeats_stored.value_or(true) ? Outcome::kDone : Outcome::kDiffers;
 }

@@ -16,6 +16,7 @@ namespace rockyard::campaign {
 
 struct ReplayRequest {
   TrialRequest trial;
+  std::optional<TrialRequest> beside = {};  // a second trial on the same page
   // Files; empty: results/runs/<name>-seed<seed>-trial<I>.html, the plan beside the page, no data.
   std::string page = {};
   std::string plan = {};
@@ -30,7 +31,7 @@ struct ReplayFile {
 struct ReplayResult : WorkResult {
   std::string title;                   // empty: nothing was driven
   truth::Record record;                // of the trial
-  std::optional<bool> repeats_stored;  // absent where there is no record to repeat
+  std::optional<bool> repeats_stored;  // absent where there is no record to repeat; of both trials
   std::vector<ReplayFile> files;       // that are written
 };
 

@@ -83,8 +83,8 @@ ReplayedTrial ReplayTrial(const TrialSource& source, std::uint64_t trial) {
   return replayed;
 }
 
-std::string ReplayPayload(const ReplayedTrial& replayed) {
-  return replay::ReplayJson(replayed.data);
+std::string ReplayPayload(const ReplayedTrial& replayed, const ReplayedTrial* beside) {
+  return replay::ReplayJson(replayed.data, beside == nullptr ? nullptr : &beside->data);
 }
 
 bool WriteReplayPage(const TrialSource& source, std::uint64_t trial,

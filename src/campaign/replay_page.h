@@ -21,8 +21,9 @@ struct ReplayedTrial {
 // and less than as much again.
 ReplayedTrial ReplayTrial(const TrialSource& source, std::uint64_t trial);
 
-// What the page is given (src/web/replay/payload.ts), as JSON.
-std::string ReplayPayload(const ReplayedTrial& replayed);
+// What the page is given (src/web/replay/payload.ts), as JSON; a second trial is shown beside the
+// first.
+std::string ReplayPayload(const ReplayedTrial& replayed, const ReplayedTrial* beside = nullptr);
 
 // Drives the trial again and writes its page to `path`, atomically, where the drive repeats the
 // stored record bit for bit or there is none. Otherwise writes nothing and returns false. Throws

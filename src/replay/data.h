@@ -129,6 +129,6 @@ inline constexpr std::size_t kMaxDetailedSteps = 240;
 
 // As src/web/replay/payload.ts says, on one line. Moments of little change are left out (see
 // motion.h), lengths have 0.1 mm, but the last moment has every digit of its pose.
-std::string ReplayJson(const ReplayData& data);
+std::string ReplayJson(const ReplayData& data, const ReplayData* beside = nullptr);
 
 }  // namespace rockyard::replay

@@ -142,7 +142,7 @@ std::string_view SettingOfEnd(const truth::Record& record) {
 
 }  // namespace
 
-std::string ReplayJson(const ReplayData& data) {
+std::string ReplayJson(const ReplayData& data, const ReplayData* beside) {
   JsonObject object;
   object.AddInteger("version", 1)
       .AddText("title", data.title)
@@ -171,7 +171,8 @@ std::string ReplayJson(const ReplayData& data) {
       .Add("motion", MotionJson(data.links, data.poses))
       .Add("scans", ScansJson(data.scans))
       .Add("steps", StepsJson(data.steps))
-      .Add("events", EventsJson(data.events));
+      .Add("events", EventsJson(data.events))
+      .Add("beside", beside == nullptr ? "null" : ReplayJson(*beside));
   return object.Text();
 }
 

@@ -18,16 +18,32 @@ import { Timeline } from "./panels/timeline";
 import { Transport } from "./panels/transport";
 import { VotesPanel } from "./panels/votes";
 import type { ReplayPayload } from "./payload";
-import { Player, standingStretches } from "./player";
-import { beatsOf } from "./story";
+import { Player, standingStretches, type Stretch } from "./player";
+import { beatsOf, type Beat } from "./story";
 import { shareTouch } from "./touch";
 import type { CameraMode, Layers, MapKind, Shown, View } from "./view";
 
 const MODE_NAMES: Record<CameraMode, string> = { follow: "Follow", top: "Top", orbit: "Free", rover: "From the rover" };
 const MAP_KINDS: MapKind[] = ["goodness", "certainty", "elevation", "off"];
+/** When nothing of the drive moves. */
+export function stretchesOf(drive: Drive): Stretch[] {
+  return standingStretches(drive.motion.t, (i) => drive.standsAfter(i));
+}
+
 const LONGEST_FRAME_S = 0.1;
 // A page in the background draws nothing for minutes.
 const LONGEST_GLANCE_S = 1;
+
+/** What a page that shows two trials shares between them. */
+export interface Shared {
+  player: Player;
+  /** The first takes keys, runs the overview and has the player below its picture. */
+  first: boolean;
+  beats: Beat[];
+  /** Where the player is, once for both; and the tools of the page. */
+  transport: HTMLElement;
+  tools: HTMLElement;
+}
 
 export class App {
   private readonly drive: Drive;
@@ -43,6 +59,7 @@ export class App {
   private readonly share: SharePanel;
   private readonly modeButtons = new Map<CameraMode, HTMLButtonElement>();
   private layerPanel: HTMLElement;
+  private readonly others: App[] = [];
   private readonly scanTimes: number[];
   private readonly stepTimes: number[];
   private dirty = true;
@@ -52,10 +69,10 @@ export class App {
   constructor(
     private readonly payload: ReplayPayload,
     private readonly root: HTMLElement,
+    private readonly shared: Shared | null = null,
   ) {
     this.drive = new Drive(payload.motion);
-    const { drive } = this;
-    this.player = new Player(drive.start, drive.end, standingStretches(payload.motion.t, (i) => drive.standsAfter(i)));
+    this.player = shared?.player ?? new Player(this.drive.start, this.drive.end, stretchesOf(this.drive));
     this.scanTimes = payload.scans.map((scan) => scan.t);
     this.stepTimes = payload.steps.map((step) => step.t);
     this.layers = {
@@ -74,13 +91,23 @@ export class App {
     this.transport = new Transport(this.player, () => this.timeline.shownTimes);
     this.layerPanel = this.makeLayers();
     this.view = makeView(payload, this.drive);
-    this.overview = new Overview(this.player, this.view, beatsOf(payload, events));
-    this.ending = new Ending(payload, events, this.player, () => this.playOverview());
+    this.overview = new Overview(this.player, (factor) => this.eachView((view) => view.approach(factor)), shared?.beats ?? beatsOf(payload, events));
+    this.ending = new Ending(payload, events, this.player, this.drive.end, () => this.playOverview());
     this.share = new SharePanel(payload, this.player, this.overview, this.view.element, () => this.refresh());
     this.build();
-    bindKeys(this.keys());
+    if (this.leads) bindKeys(this.keys());
     this.player.onChange(() => this.refresh());
     requestAnimationFrame((now) => this.frame(now));
+  }
+
+  /** Alone on the page, or the first of two. */
+  private get leads(): boolean {
+    return this.shared?.first ?? true;
+  }
+
+  /** A second trial, whose camera goes as this one's. */
+  accompany(other: App): void {
+    this.others.push(other);
   }
 
   handle(): Handle {
@@ -109,11 +136,11 @@ export class App {
       play: () => player.play(),
       playOverview: () => this.playOverview(),
       pose: () => {
-        this.update();
+        this.updateAll();
         return view.drawn();
       },
       links: () => {
-        this.update();
+        this.updateAll();
         return view.drawnLinks();
       },
       sample: (i) => drive.at(this.payload.motion.t[i] ?? NaN),
@@ -122,17 +149,19 @@ export class App {
 
   private build(): void {
     const { payload, view } = this;
-    const help = helpDialog(this.keys());
     const title = el("div", { class: "title" }, el("h1", {}, payload.title), outcomeBanner(payload));
-    const tools = el("div", { class: "tools" }, button("Keys", "Keys (?)", () => help.showModal()));
-    tools.append(this.share.element, themeSwitch(() => this.recolour()));
+    const tools = el("div", { class: "tools" }, this.share.element);
+    if (this.leads) (this.shared?.tools ?? tools).append(...this.pageTools());
+    if (this.shared) title.append(el("p", { class: "repeats" }, el("code", {}, payload.command)));
     const picture = el("div", { class: "picture" }, this.cameraBar(), el("div", { class: "frame" }, view.element));
     picture.append(this.overview.element, this.ending.element);
     if (view.modes.length > 1) picture.append(shareTouch(view.element));
     else picture.append(el("p", { class: "note" }, "This browser shows no WebGL: here is the plan, without the third dimension."));
     view.element.setAttribute("role", "img");
     view.element.setAttribute("aria-label", `Picture of the trial: ${payload.title}`);
-    const stage = el("section", { class: "stage" }, picture, this.transport.element, this.timeline.element);
+    const stage = el("section", { class: "stage" }, picture, this.timeline.element);
+    if (this.shared === null) picture.after(this.transport.element);
+    else if (this.leads) this.shared.transport.append(this.transport.element);
     const votes = payload.steps.length > 0 ? this.votes.element : null;
     const side = el("div", { class: "side" }, this.readout.element, this.layerPanel, votes);
     const below = el("div", { class: "below" }, recordPanel(payload), originPanel(payload));
@@ -150,7 +179,16 @@ export class App {
     const link = new URLSearchParams(location.hash.slice(1));
     this.followLink(link);
     // A link into the page leads to a moment; who asked for less motion gets none unasked.
-    if ([...link.keys()].length === 0 && !matchMedia("(prefers-reduced-motion: reduce)").matches) this.playOverview();
+    if (this.leads && [...link.keys()].length === 0 && !matchMedia("(prefers-reduced-motion: reduce)").matches) this.playOverview();
+  }
+
+  private pageTools(): HTMLElement[] {
+    const help = helpDialog(this.keys());
+    return [button("Keys", "Keys (?)", () => help.showModal()), themeSwitch(() => this.recolourAll())];
+  }
+
+  private recolourAll(): void {
+    for (const app of [this, ...this.others]) app.recolour();
   }
 
   private playOverview(): void {
@@ -183,6 +221,7 @@ export class App {
   }
 
   private setMode(mode: CameraMode): void {
+    for (const other of this.others) other.setMode(mode);
     if (!this.view.modes.includes(mode)) return;
     this.view.setMode(mode);
     for (const [name, item] of this.modeButtons) item.setAttribute("aria-pressed", String(name === mode));
@@ -196,6 +235,7 @@ export class App {
   }
 
   private change(layers: Partial<Layers>): void {
+    for (const other of this.others) other.change(layers);
     Object.assign(this.layers, layers);
     const panel = this.makeLayers();
     this.layerPanel.replaceWith(panel);
@@ -224,7 +264,7 @@ export class App {
     this.before = now;
     // The overview lasts as long as it says, however slowly it is drawn.
     if (this.overview.running) this.overview.advance(Math.min(LONGEST_GLANCE_S, passed));
-    else this.player.advance(Math.min(LONGEST_FRAME_S, passed));
+    else if (this.leads) this.player.advance(Math.min(LONGEST_FRAME_S, passed));
     if (this.dirty) {
       this.update();
       ++this.frames;
@@ -244,6 +284,14 @@ export class App {
     this.dirty = false;
   }
 
+  private updateAll(): void {
+    for (const app of [this, ...this.others]) app.update();
+  }
+
+  private eachView(change: (view: View) => void): void {
+    for (const app of [this, ...this.others]) change(app.view);
+  }
+
   private shownAt(t: number): Shown {
     return {
       moment: this.drive.at(t),
@@ -261,8 +309,8 @@ export class App {
       player: this.player,
       step: (by) => this.transport.step(by),
       camera: (mode) => this.setMode(mode),
-      approach: (factor) => move(() => this.view.approach(factor)),
-      turn: (angle) => move(() => this.view.turn(angle)),
+      approach: (factor) => move(() => this.eachView((view) => view.approach(factor))),
+      turn: (angle) => move(() => this.eachView((view) => view.turn(angle))),
       planOfPaths: () => this.planOfPaths(),
       overview: () => this.playOverview(),
       savePicture: () => void this.share.savePicture(),

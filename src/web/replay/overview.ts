@@ -3,7 +3,6 @@ import { el } from "../shared/dom";
 import { button } from "./controls";
 import type { Player } from "./player";
 import { OVERVIEW_S, OverviewClock, type Beat } from "./story";
-import type { View } from "./view";
 
 // The camera begins so much further away than it follows the rover afterwards.
 const FURTHER = 2.2;
@@ -21,7 +20,8 @@ export class Overview {
 
   constructor(
     private readonly player: Player,
-    private readonly view: View,
+    /** Brings the camera nearer by a factor. */
+    private readonly approach: (factor: number) => void,
     private readonly beats: Beat[],
   ) {
     this.element.append(this.caption, button("Skip the overview", "To the start of the drive (Escape)", () => this.stop("skipped")));
@@ -81,7 +81,7 @@ export class Overview {
   }
 
   private stepBack(distance: number): void {
-    this.view.approach(this.distance / distance);
+    this.approach(this.distance / distance);
     this.distance = distance;
   }
 

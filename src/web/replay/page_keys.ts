@@ -55,7 +55,7 @@ function pictureKeys(actions: Actions): Key[] {
     key(".", "camera to the right", () => actions.turn(TURN_RAD)),
     key("6", "plan of both paths (figure 16)", actions.planOfPaths),
     key("v", "overview of ten seconds", actions.overview),
-    key("x", "save the picture", actions.savePicture),
+    key("i", "save the picture as an image", actions.savePicture),
     key("b", "believed path, or not", actions.toggleBelieved),
     key("m", "next kind of map", actions.nextMap),
   ];

@@ -31,6 +31,8 @@ export interface ReplayPayload {
   scans: Scan[];
   steps: Step[];
   events: TrialEvent[];
+  /** A second trial, shown beside this one on one clock; null where there is none. */
+  beside: ReplayPayload | null;
 }
 
 export interface Course {

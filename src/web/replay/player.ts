@@ -27,6 +27,19 @@ export function standingStretches(t: number[], stands: (index: number) => boolea
   return stretches;
 }
 
+/** Where both stretches hold: what stands in one drive alone is not shortened. */
+export function common(a: Stretch[], b: Stretch[]): Stretch[] {
+  const found: Stretch[] = [];
+  for (const { from, to } of a) {
+    for (const other of b) {
+      const begin = Math.max(from, other.from);
+      const end = Math.min(to, other.to);
+      if (begin < end) found.push({ from: begin, to: end });
+    }
+  }
+  return found.sort((x, y) => x.from - y.from);
+}
+
 /** Maps simulated time to played time and back: both grow together, piece by piece. */
 export class Pace {
   private readonly simulated: number[];

@@ -47,6 +47,7 @@ export class Ending {
     payload: ReplayPayload,
     events: TrialEvent[],
     private readonly player: Player,
+    private readonly end: number,
     replay: () => void,
   ) {
     const good = payload.outcome === "goal_reached";
@@ -57,7 +58,7 @@ export class Ending {
       "section",
       { class: "ending", "aria-label": "How it ended", hidden: true },
       el("h2", { class: good ? "good" : "bad" }, `${good ? "✓" : "✗"} ${sentence}`),
-      el("p", {}, whereItStood(payload, player.end)),
+      el("p", {}, whereItStood(payload, end)),
       good ? null : setting,
       advice ? el("p", {}, advice) : null,
       this.links(events),
@@ -93,7 +94,7 @@ export class Ending {
   }
 
   private show(): void {
-    const atEnd = this.player.time >= this.player.end;
+    const atEnd = this.player.time >= this.end;
     if (!atEnd) this.dismissed = false;
     this.element.hidden = !atEnd || this.dismissed;
   }

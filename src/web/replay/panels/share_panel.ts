@@ -26,7 +26,7 @@ export class SharePanel {
     private readonly picture: Element,
     private readonly redraw: () => void,
   ) {
-    const png = button("Save picture", "The picture as a PNG file (x)", () => void this.savePicture());
+    const png = button("Save picture", "The picture as a PNG file (i)", () => void this.savePicture());
     this.filmButton = button("Save film", "The overview as a film of ten seconds (WebM)", () => this.toggleFilm());
     if (!(picture instanceof HTMLCanvasElement)) {
       for (const item of [png, this.filmButton]) item.disabled = true;
