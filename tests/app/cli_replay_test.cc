@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -90,6 +91,39 @@ TEST_F(CliReplay, ChoosesNamesByItself) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(fs::exists(work() / "results/runs/nominal-seed1-trial1.svg"));
   EXPECT_TRUE(fs::exists(work() / "results/runs/nominal-seed1-trial1.html"));
+}
+
+TEST_F(CliReplay, TwoTrialsStandOnOnePage) {
+  ASSERT_EQ(Run(With(QuickRun("one", 3), {"--set", "referee.time_limit_s=30"})).exit_code, 0);
+  ASSERT_EQ(Run(With(QuickRun("two", 3), {"--set", "referee.time_limit_s=20"})).exit_code, 0);
+  const auto data = [&](const std::vector<std::string>& with) {
+    const CommandResult result = Run(
+        With({"replay", "one", "--trial", "1", "--out", "both.html", "--data", "both.json"}, with));
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("same as the stored record, bit for bit"));
+    return nlohmann::json::parse(ReadFile(work() / "both.json"));
+  };
+  const auto time_of = [](const nlohmann::json& drive) { return drive["motion"]["t"].back(); };
+  const auto alone = data({});
+  EXPECT_TRUE(alone["beside"].is_null());
+  const auto same_trial = data({"--with", "two"});
+  EXPECT_EQ(same_trial["beside"]["trial"], 1);
+  EXPECT_LT(time_of(same_trial["beside"]), time_of(same_trial));
+  EXPECT_EQ(same_trial["beside"]["repeats_stored"], true);
+  const auto same_run = data({"--with-trial", "2"});
+  EXPECT_EQ(same_run["beside"]["trial"], 2);
+  EXPECT_EQ(same_run["beside"]["command"], "rockyard replay one --trial 2");
+  EXPECT_EQ(data({"--with", "two", "--with-trial", "0"})["beside"]["trial"], 0);
+}
+
+// What is not the first trial is checked as well as that.
+TEST_F(CliReplay, ASecondTrialThatIsNotThereWritesNothing) {
+  ASSERT_EQ(Run(With(QuickRun("one", 2), {"--set", "referee.time_limit_s=30"})).exit_code, 0);
+  EXPECT_EQ(Run({"replay", "one", "--trial", "1", "--with-trial", "7"}).exit_code, 2);
+  EXPECT_EQ(Run({"replay", "one", "--trial", "1", "--with", "three"}).exit_code, 2);
+  const CommandResult list = Run({"replay", "one", "--trial", "1", "--with", "one", "--list"});
+  EXPECT_EQ(list.exit_code, 2);
+  EXPECT_FALSE(fs::exists(work() / "results"));
 }
 
 TEST_F(CliReplay, FilesThatCannotBeAreSaidBeforeTheDrive) {

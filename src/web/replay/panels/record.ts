@@ -46,7 +46,8 @@ export function recordPanel(payload: ReplayPayload): HTMLElement {
     { class: "panel record", open: matchMedia(WIDE).matches },
     el("summary", {}, `Record of the trial: ${payload.record.length} columns`),
     find,
-    el("div", { class: "table" }, el("table", {}, head, body)),
+    // Scrolled by its keys, too.
+    el("div", { class: "table", tabindex: 0, role: "group", "aria-label": "Columns of the record" }, el("table", {}, head, body)),
     el("p", { class: "caption" }, "6 significant digits; trials.csv of the run holds every digit."),
   );
 }
