@@ -8,7 +8,7 @@ import { makeView } from "./make_view";
 import { Course as Drive, lastAtOrBefore } from "./motion";
 import { pageKeys } from "./page_keys";
 import { bindKeys, helpDialog, type Key } from "./panels/keys";
-import { layersPanel } from "./panels/layers";
+import { layersPanel, SCENE_LAYERS } from "./panels/layers";
 import { Readout } from "./panels/readout";
 import { originPanel, outcomeBanner, recordPanel } from "./panels/record";
 import { Timeline } from "./panels/timeline";
@@ -58,13 +58,14 @@ export class App {
       votes: true,
       marks: true,
       grid: true,
+      ...SCENE_LAYERS,
     };
     const events = timelineEvents(payload);
     this.readout = new Readout(payload, events);
     this.timeline = new Timeline(payload, events, this.player, () => this.refresh());
     this.transport = new Transport(this.player, () => this.timeline.shownTimes);
-    this.layerPanel = this.makeLayers();
     this.view = makeView(payload, this.drive);
+    this.layerPanel = this.makeLayers();
     this.build();
     bindKeys(this.keys());
     this.player.onChange(() => this.refresh());
@@ -99,6 +100,10 @@ export class App {
       links: () => {
         this.update();
         return view.drawnLinks();
+      },
+      drawing: () => {
+        this.update();
+        return view.drawing();
       },
       sample: (i) => drive.at(this.payload.motion.t[i] ?? NaN),
     };
@@ -153,7 +158,7 @@ export class App {
   }
 
   private makeLayers(): HTMLElement {
-    return layersPanel(this.payload, this.layers, () => this.refresh());
+    return layersPanel(this.payload, this.layers, this.view.modes.length > 1, () => this.refresh());
   }
 
   private setMode(mode: CameraMode): void {
@@ -235,6 +240,8 @@ export class App {
       approach: (factor) => move(() => this.view.approach(factor)),
       turn: (angle) => move(() => this.view.turn(angle)),
       planOfPaths: () => this.planOfPaths(),
+      toggleTrueShapes: () => this.change({ trueShapes: !this.layers.trueShapes }),
+      toggleCameras: () => this.change({ cameras: !this.layers.cameras }),
       toggleBelieved: () => this.change({ believed: !this.layers.believed }),
       nextMap: () => this.change({ map: MAP_KINDS[(MAP_KINDS.indexOf(this.layers.map) + 1) % MAP_KINDS.length]! }),
     });

@@ -11,6 +11,8 @@ export interface Actions {
   turn(angle: number): void;
   planOfPaths(): void;
   toggleBelieved(): void;
+  toggleTrueShapes(): void;
+  toggleCameras(): void;
   nextMap(): void;
 }
 
@@ -54,6 +56,8 @@ function pictureKeys(actions: Actions): Key[] {
     key("6", "plan of both paths (figure 16)", actions.planOfPaths),
     key("b", "believed path, or not", actions.toggleBelieved),
     key("m", "next kind of map", actions.nextMap),
+    key("x", "rocks in the true shapes that the simulator uses, or roughened", actions.toggleTrueShapes),
+    key("l", "what the cameras see, or not", actions.toggleCameras),
   ];
 }
 
