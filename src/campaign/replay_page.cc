@@ -10,6 +10,7 @@
 #include "campaign/drive_recording.h"
 #include "campaign/plan_view.h"
 #include "campaign/replay_scene.h"
+#include "campaign/replay_sensor.h"
 #include "report/atomic_file.h"
 #include "report/trace_view.h"
 #include "web/page.h"
@@ -75,6 +76,7 @@ ReplayedTrial ReplayTrial(const TrialSource& source, std::uint64_t trial) {
   AddScene(source.scenario, traced, data);
   data.rock_moves = traced.trace.rock_moves;
   data.links = LinksOf(source.scenario);
+  data.sensor = SensorOf(source.scenario);
   data.poses = PosesOf(source.scenario, traced.trace);
   data.events = EventsOf(traced, data.poses);
   data.scans = std::move(recording.scans);

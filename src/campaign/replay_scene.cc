@@ -70,6 +70,22 @@ replay::ReplayCourse CourseOf(const scenario::Scenario& scenario, const truth::T
   return shown;
 }
 
+replay::ReplayWorld WorldOf(const scenario::Scenario& scenario) {
+  const trial::DriveParams& drive = scenario.drive;
+  const terrain::ArenaParams& arena = drive.terrain.arena;
+  const terrain::Rectangle bounds = terrain::ArenaBounds(arena);
+  return {.gravity_m_s2 = drive.rover.physics.gravity_m_s2,
+          .sun_elevation_rad = drive.sensors.sun.elevation_rad,
+          .sun_azimuth_rad = drive.sensors.sun.azimuth_rad,
+          .arena = std::string(core::EnumNames<terrain::ArenaKind>::kNames.at(
+              static_cast<std::size_t>(arena.kind))),
+          .x_min_m = bounds.x_min_m,
+          .x_max_m = bounds.x_max_m,
+          .y_min_m = bounds.y_min_m,
+          .y_max_m = bounds.y_max_m,
+          .mirror_line_m = arena.IsVirtual() ? arena.MirrorLine() : 0.0};
+}
+
 replay::ReplayGround GroundOf(const terrain::Ground& ground, const terrain::Rectangle& bounds) {
   const double width_m = bounds.x_max_m - bounds.x_min_m;
   const double depth_m = bounds.y_max_m - bounds.y_min_m;
@@ -151,6 +167,7 @@ void AddScene(const scenario::Scenario& scenario, const truth::TracedTrial& trac
   const terrain::Field field = BuildField(scenario, traced);
   const terrain::Rectangle bounds = SceneBounds(scenario, traced.trace);
   data.course = CourseOf(scenario, traced, field.terrain, bounds);
+  data.world = WorldOf(scenario);
   data.ground = GroundOf(field.terrain.ground(), bounds);
   for (const terrain::Rock& rock : field.terrain.rocks()) {
     data.rocks.push_back(

@@ -36,6 +36,19 @@ struct ReplayCourse {
   std::vector<double> mirror_lines_m;
 };
 
+// Where the drive takes place.
+struct ReplayWorld {
+  double gravity_m_s2 = 0.0;
+  double sun_elevation_rad = 0.0;  // above the horizon (sensors.sun)
+  double sun_azimuth_rad = 0.0;    // of the direction towards the sun, from x to the left
+  std::string arena;               // its kind, as a scenario names it
+  double x_min_m = 0.0;            // of the arena itself, without margins
+  double x_max_m = 0.0;
+  double y_min_m = 0.0;
+  double y_max_m = 0.0;
+  double mirror_line_m = 0.0;  // of virtual arenas: the layout is mirrored at y = +- this
+};
+
 // Heights on a grid, row-major, x fastest.
 struct ReplayGround {
   double x0_m = 0.0;
@@ -72,6 +85,29 @@ struct ReplayLink {
   math::Vector3 pivot_P = math::Vector3::Zero();
   math::Vector3 axis = math::Vector3::UnitY();
   std::vector<ReplayShape> shapes;
+};
+
+// The light plane of one emitter, in R: the directions within half_fan of the axis.
+struct ReplayLaser {
+  math::Vector3 emitter_R = math::Vector3::Zero();
+  math::Vector3 normal_R = math::Vector3::UnitY();
+  math::Vector3 axis_R = math::Vector3::UnitX();
+  double half_fan_rad = 0.0;
+};
+
+// What one camera sees, in R: unit rays once around the edge of its image.
+struct ReplayCamera {
+  std::string name;
+  math::Vector3 eye_R = math::Vector3::Zero();
+  std::vector<math::Vector3> rim_R;
+};
+
+// The terrain sensor that the drive goes by.
+struct ReplaySensor {
+  std::string name;      // as a scenario names it
+  double reach_m = 0.0;  // farthest range that it gives
+  std::vector<ReplayLaser> lasers;
+  std::vector<ReplayCamera> cameras;
 };
 
 // One moment of the motion.
@@ -113,10 +149,12 @@ struct ReplayData {
   truth::RecordSchema schema;
   truth::Record record;
   ReplayCourse course;
+  ReplayWorld world;
   ReplayGround ground;
   std::vector<ReplayRock> rocks;
   std::vector<truth::RockMove> rock_moves;
   std::vector<ReplayLink> links;
+  ReplaySensor sensor;
   std::vector<ReplayPose> poses;  // every moment, not thinned
   std::vector<ReplayScan> scans;
   std::vector<ReplayStep> steps;

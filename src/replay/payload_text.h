@@ -26,6 +26,8 @@ std::string PoseText(const math::Pose2& pose);
 std::string ProvenanceText(const core::Provenance& provenance);
 
 // As payload.ts names them.
+std::string WorldJson(const ReplayWorld& world);
+std::string SensorJson(const ReplaySensor& sensor);
 std::string MotionJson(std::span<const ReplayLink> links, std::span<const ReplayPose> poses);
 std::string ScansJson(std::span<const ReplayScan> scans);
 std::string StepsJson(std::span<const ReplayStep> steps);

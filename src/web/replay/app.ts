@@ -10,7 +10,7 @@ import { Overview } from "./overview";
 import { pageKeys } from "./page_keys";
 import { bindKeys, helpDialog, type Key } from "./panels/keys";
 import { Ending } from "./panels/ending";
-import { layersPanel } from "./panels/layers";
+import { layersPanel, SCENE_LAYERS } from "./panels/layers";
 import { Readout } from "./panels/readout";
 import { originPanel, outcomeBanner, recordPanel } from "./panels/record";
 import { SharePanel } from "./panels/share_panel";
@@ -84,16 +84,17 @@ export class App {
       votes: true,
       marks: true,
       grid: true,
+      ...SCENE_LAYERS,
     };
     const events = timelineEvents(payload);
     this.readout = new Readout(payload, events);
     this.timeline = new Timeline(payload, events, this.player, () => this.refresh());
     this.transport = new Transport(this.player, () => this.timeline.shownTimes);
-    this.layerPanel = this.makeLayers();
     this.view = makeView(payload, this.drive);
     this.overview = new Overview(this.player, (factor) => this.eachView((view) => view.approach(factor)), shared?.beats ?? beatsOf(payload, events));
     this.ending = new Ending(payload, events, this.player, this.drive.end, () => this.playOverview());
     this.share = new SharePanel(payload, this.player, this.overview, this.view.element, () => this.refresh());
+    this.layerPanel = this.makeLayers();
     this.build();
     if (this.leads) bindKeys(this.keys());
     this.player.onChange(() => this.refresh());
@@ -142,6 +143,10 @@ export class App {
       links: () => {
         this.updateAll();
         return view.drawnLinks();
+      },
+      drawing: () => {
+        this.updateAll();
+        return view.drawing();
       },
       sample: (i) => drive.at(this.payload.motion.t[i] ?? NaN),
     };
@@ -217,7 +222,7 @@ export class App {
   }
 
   private makeLayers(): HTMLElement {
-    return layersPanel(this.payload, this.layers, () => this.refresh());
+    return layersPanel(this.payload, this.layers, this.view.modes.length > 1, () => this.refresh());
   }
 
   private setMode(mode: CameraMode): void {
@@ -314,6 +319,8 @@ export class App {
       planOfPaths: () => this.planOfPaths(),
       overview: () => this.playOverview(),
       savePicture: () => void this.share.savePicture(),
+      toggleTrueShapes: () => this.change({ trueShapes: !this.layers.trueShapes }),
+      toggleCameras: () => this.change({ cameras: !this.layers.cameras }),
       toggleBelieved: () => this.change({ believed: !this.layers.believed }),
       nextMap: () => this.change({ map: MAP_KINDS[(MAP_KINDS.indexOf(this.layers.map) + 1) % MAP_KINDS.length]! }),
     });

@@ -1,6 +1,6 @@
 // What tests and the console of the browser can ask of the page.
 import type { Moment } from "./motion";
-import type { CameraMode, DrawnLink, DrawnPose } from "./view";
+import type { CameraMode, Drawing, DrawnLink, DrawnPose } from "./view";
 
 /** What is shown, and the player; nothing of the trial can be changed. */
 export interface Handle {
@@ -19,6 +19,8 @@ export interface Handle {
   pose(): DrawnPose;
   /** The links' pivots as drawn now. */
   links(): DrawnLink[];
+  /** What else is drawn now; null where the picture is a plan. */
+  drawing(): Drawing | null;
   /** The moment of sample i. */
   sample(i: number): Moment;
 }

@@ -13,6 +13,8 @@ export interface Actions {
   overview(): void;
   savePicture(): void;
   toggleBelieved(): void;
+  toggleTrueShapes(): void;
+  toggleCameras(): void;
   nextMap(): void;
 }
 
@@ -58,6 +60,8 @@ function pictureKeys(actions: Actions): Key[] {
     key("i", "save the picture as an image", actions.savePicture),
     key("b", "believed path, or not", actions.toggleBelieved),
     key("m", "next kind of map", actions.nextMap),
+    key("x", "rocks in the true shapes that the simulator uses, or roughened", actions.toggleTrueShapes),
+    key("l", "what the cameras see, or not", actions.toggleCameras),
   ];
 }
 

@@ -1,11 +1,12 @@
 // Colours of the pictures, from the style sheet, so that light, dark and print agree with the page.
 import { resolvedColour } from "../shared/theme";
+import type { WorldKind } from "./scene/world";
+
+// Of these every world has its own.
+const WORLD_NAMES = ["sky", "zenith", "ground", "rock", "around"] as const;
 
 const NAMES = [
-  "sky",
-  "ground",
   "grid",
-  "rock",
   "wall",
   "mirror",
   "true-path",
@@ -22,12 +23,16 @@ const NAMES = [
   "arm",
   "label",
   "chosen",
+  "laser",
+  "camera",
+  "track",
 ] as const;
 
-export type Palette = Record<(typeof NAMES)[number], string>;
+export type Palette = Record<(typeof NAMES)[number] | (typeof WORLD_NAMES)[number], string>;
 
-export function readPalette(): Palette {
+export function readPalette(world: WorldKind): Palette {
   const palette = {} as Palette;
+  for (const name of WORLD_NAMES) palette[name] = resolvedColour(`--scene-${world}-${name}`);
   for (const name of NAMES) palette[name] = resolvedColour(`--scene-${name}`);
   return palette;
 }

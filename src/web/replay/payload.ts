@@ -22,11 +22,13 @@ export interface ReplayPayload {
   /** The record of the trial, column by column. */
   record: { name: string; unit: string; value: number | null }[];
   course: Course;
+  world: World;
   ground: Ground;
   rocks: Rock[];
   /** Where rocks were pushed: rock index, time, new centre; in the order of time. */
   rock_moves: RockMove[];
   rover: RoverShape;
+  sensor: Sensor;
   motion: Motion;
   scans: Scan[];
   steps: Step[];
@@ -48,6 +50,36 @@ export interface Course {
   walls: { nx: number; ny: number; offset: number }[];
   /** y of the lines at which operators reflect the rover; none but in the reflected arena. */
   mirror_lines: number[];
+}
+
+/** Where the drive takes place. */
+export interface World {
+  /** m/s2. */
+  gravity: number;
+  /** Where the sun, or a lamp, stands: above the horizon, and from x to the left (sensors.sun). */
+  sun: { elevation: number; azimuth: number };
+  arena: {
+    kind: "open" | "walled" | "virtual_unfolded" | "virtual_reflected";
+    /** The arena itself, without margins. */
+    x_min: number;
+    x_max: number;
+    y_min: number;
+    y_max: number;
+    /** Of virtual arenas: the layout is mirrored at y = +- this; else 0. */
+    mirror_line: number;
+  };
+}
+
+/** The terrain sensor that the drive goes by, as it truly is, in R. */
+export interface Sensor {
+  /** As a scenario names it: "light_stripe", "stereo", ... */
+  name: string;
+  /** Farthest range, m. */
+  reach: number;
+  /** Light planes, from left to right: directions within half_fan of the axis, normal to `normal`. */
+  lasers: { emitter: [number, number, number]; normal: [number, number, number]; axis: [number, number, number]; half_fan: number }[];
+  /** Unit rays once around the edge of each image, from its upper left corner along its upper edge; equally many of a side. */
+  cameras: { name: string; eye: [number, number, number]; rim: [number, number, number][] }[];
 }
 
 /** Heights of the ground without rocks, row-major: z[iy * nx + ix] at (x0 + ix step, y0 + iy step). */

@@ -6,6 +6,7 @@ import type { ReplayPayload, Shape } from "./payload";
 import { drawGrid, drawMarks, drawMirrorLines, drawRocks, drawScan, drawStep } from "./plan_layers";
 import { toldElsewhere, WAYPOINT_RADIUS_M } from "./scene/course";
 import type { Extent } from "./scene/ground";
+import { worldKind } from "./scene/world";
 import type { CameraMode, DrawnLink, DrawnPose, Layers, Shown, View } from "./view";
 
 const MARGIN_PX = 16;
@@ -14,7 +15,7 @@ export class PlanView implements View {
   readonly element = el("canvas", { class: "plan" });
   readonly modes = ["top"] as const;
   readonly mode: CameraMode = "top";
-  private palette: Palette = readPalette();
+  private palette: Palette;
   private shown: Shown | null = null;
   private layers: Layers | null = null;
   private readonly context: CanvasRenderingContext2D;
@@ -26,6 +27,7 @@ export class PlanView implements View {
     private readonly extent: Extent,
   ) {
     this.context = this.element.getContext("2d")!;
+    this.palette = readPalette(worldKind(payload.world));
     this.body = bodyOf(payload);
   }
 
@@ -43,7 +45,7 @@ export class PlanView implements View {
   }
 
   recolour(): void {
-    this.palette = readPalette();
+    this.palette = readPalette(worldKind(this.payload.world));
   }
 
   resize(): void {
@@ -59,6 +61,10 @@ export class PlanView implements View {
 
   drawnLinks(): DrawnLink[] {
     return [];
+  }
+
+  drawing(): null {
+    return null;
   }
 
   draw(): void {

@@ -2,6 +2,7 @@
 // missing.
 import type { Moment, Quaternion } from "./motion";
 import type { Scan, Step } from "./payload";
+import type { WorldKind } from "./scene/world";
 
 export type CameraMode = "follow" | "top" | "orbit" | "rover";
 export type MapKind = "goodness" | "certainty" | "elevation" | "off";
@@ -17,6 +18,15 @@ export interface Layers {
   /** Of hazards, scrapes and stalls so far. */
   marks: boolean;
   grid: boolean;
+  tracks: boolean;
+  /** Light planes while a scan runs. */
+  light: boolean;
+  /** What the cameras of the terrain sensor see. */
+  cameras: boolean;
+  /** Rocks as the simulator has them, not roughened. */
+  trueShapes: boolean;
+  /** Without textures and with coarser shadows: for slow machines. */
+  plain: boolean;
 }
 
 /** All that a picture shows of one moment. */
@@ -43,6 +53,37 @@ export interface DrawnLink {
   attitude: Quaternion;
 }
 
+interface Place {
+  x: number;
+  y: number;
+  z: number;
+}
+
+export interface DrawnPlane {
+  emitter: Place;
+  ends: Place[];
+}
+
+/** What else is drawn in three dimensions, as it is drawn now. */
+export interface Drawing {
+  world: WorldKind;
+  /** Unit vector towards the sun. */
+  sun: Place;
+  /** Of the last picture, its shadows included. */
+  triangles: number;
+  calls: number;
+  trueShapes: boolean;
+  /** Of all corners of drawn rocks, how far within the true surface the deepest one lies, and how far outside the outermost one, as shares of the distance from the rock's centre. */
+  rockDepths: { deepest: number; outermost: number };
+  /** Middles of the wheels' prints. */
+  tracks: { x: number; y: number; width: number }[];
+  planes: DrawnPlane[];
+  /** How many cameras' views. */
+  views: number;
+  /** From W to the picture of the shadows, -1 to 1 within it, column by column; and the length of one of its pixels, m. */
+  shadow: { toLight: number[]; texel: number };
+}
+
 export interface View {
   readonly element: HTMLElement;
   /** The modes that this picture has. */
@@ -62,4 +103,6 @@ export interface View {
   drawn(): DrawnPose;
   /** None where the picture has no links. */
   drawnLinks(): DrawnLink[];
+  /** Null where the picture has two dimensions. */
+  drawing(): Drawing | null;
 }

@@ -61,7 +61,7 @@ export class Ending {
       el("p", {}, whereItStood(payload, end)),
       good ? null : setting,
       advice ? el("p", {}, advice) : null,
-      this.links(events),
+      good ? null : this.links(events),
       el(
         "div",
         { class: "buttons" },

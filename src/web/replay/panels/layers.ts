@@ -1,9 +1,13 @@
 // What the picture shows, as switches that are its key as well.
 import { el, labelled, select, svg } from "../../shared/dom";
+import { number } from "../../shared/format";
 import { checkbox } from "../controls";
 import { rampCss } from "../palette";
 import type { ReplayPayload } from "../payload";
-import { toldElsewhere } from "../scene/course";
+import { mirrorLines, toldElsewhere } from "../scene/course";
+import { MOST_DRAW_CALLS, MOST_TRIANGLES } from "../scene/limits";
+import { ROUGH_DEPTH } from "../scene/rock_shapes";
+import { worldKind, type WorldKind } from "../scene/world";
 import type { Layers, MapKind } from "../view";
 
 const MAPS: [MapKind, string][] = [
@@ -28,10 +32,15 @@ const MARKS = [
 
 const isMarked = (kind: string): boolean => MARKS.some((mark) => mark.kind === kind);
 
-export function layersPanel(payload: ReplayPayload, layers: Layers, changed: () => void): HTMLElement {
+type Add = (name: Exclude<keyof Layers, "map">, label: string, mark?: string | null) => void;
+
+/** What the scene in three dimensions shows at first, beside what the drive tells. */
+export const SCENE_LAYERS = { tracks: true, light: true, cameras: false, trueShapes: false, plain: false } as const;
+
+/** `solid`: whether the picture has three dimensions. */
+export function layersPanel(payload: ReplayPayload, layers: Layers, solid: boolean, changed: () => void): HTMLElement {
   const panel = el("section", { class: "panel layers", "aria-label": "What is shown" }, el("h2", {}, "Shown"));
-  type Switch = "marks" | "believed" | "wholePath" | "scan" | "grid" | "votes" | "mapAtTruth";
-  const add = (name: Switch, label: string, mark: string | null = null): void => {
+  const add: Add = (name, label, mark = null) => {
     const box = checkbox(label, layers[name], (on) => {
       layers[name] = on;
       changed();
@@ -56,14 +65,45 @@ export function layersPanel(payload: ReplayPayload, layers: Layers, changed: () 
     panel.append(key);
   }
   add("grid", "Grid in metres");
+  if (solid) addSolid(payload, add);
   if (toldElsewhere(payload.course)) panel.append(el("p", { class: "key" }, "Designated goal", swatch("told")));
-  if (payload.course.mirror_lines.length > 0) {
-    panel.append(el("p", { class: "key" }, "Mirror line: operators turn the rover back", swatch("mirror")));
-  }
+  if (mirrorLines(payload).length > 0) panel.append(el("p", { class: "key" }, mirrorWords(payload), swatch("mirror")));
+  if (solid) panel.append(aboutPicture(payload));
   return panel;
 }
 
-function addMap(panel: HTMLElement, layers: Layers, add: (name: "votes" | "mapAtTruth" | "scan", label: string) => void, changed: () => void): void {
+function addSolid({ sensor }: ReplayPayload, add: Add): void {
+  add("tracks", "Wheel tracks");
+  if (sensor.lasers.length > 0) add("light", "Light planes while it scans", "laser");
+  if (sensor.cameras.length > 0) add("cameras", "What the cameras see", "camera");
+  add("trueShapes", "True shapes of rocks");
+  add("plain", "Plain: no textures, coarser shadows");
+}
+
+function mirrorWords({ course }: ReplayPayload): string {
+  const meaning = "Mirror line: the course is mirrored here; rocks beyond it are images of those before it. ";
+  return meaning + (course.mirror_lines.length > 0 ? "Operators turn the rover back" : "The rover drives on");
+}
+
+/** Which world it is, and what of the picture the simulator does not know. */
+function aboutPicture({ world }: ReplayPayload): HTMLElement {
+  const degrees = (angle: number): string => `${Math.round((angle * 180) / Math.PI)}°`;
+  const { elevation, azimuth } = world.sun;
+  const place: Record<WorldKind, string> = { mars: "Mars", hall: "An arena in a hall on Earth", field: "Open ground on Earth" };
+  const kind = worldKind(world);
+  const light = kind === "hall" ? "A lamp" : "The sun";
+  const around = kind === "hall" ? "the hall and the rim of the arena" : "the sky and the ground beyond the terrain";
+  return el(
+    "details",
+    { class: "about-picture" },
+    el("summary", {}, "About the picture"),
+    el("p", {}, `${place[kind]}: gravity is ${world.gravity} m/s². ${light} stands ${degrees(elevation)} above the horizon, ${degrees(azimuth)} from x to the left (sensors.sun).`),
+    el("p", {}, `Drawn only, and nothing that the rover meets: ${around}, the grain of the soil, wheel tracks, and the rough surface of rocks. It lies within the true one, by at most ${Math.round(100 * ROUGH_DEPTH)} % of the distance from a rock's centre.`),
+    el("p", {}, `All light planes are drawn at once. A picture has at most ${number(MOST_TRIANGLES)} triangles and ${MOST_DRAW_CALLS} draw calls with its shadows: of many rocks those that look small have fewer faces.`),
+  );
+}
+
+function addMap(panel: HTMLElement, layers: Layers, add: Add, changed: () => void): void {
   const list = select(MAPS, layers.map);
   const low = el("span", {});
   const high = el("span", {});

@@ -1,7 +1,7 @@
 // Where the drive starts, where it should end, and where operators turn it back.
 import { BufferGeometry, CircleGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial } from "three";
 import type { Palette } from "../palette";
-import type { Course } from "../payload";
+import type { Course, ReplayPayload } from "../payload";
 import { extentOf, type GroundHeights } from "./ground";
 import { Lines, type Point } from "./lines";
 import { makeLabel } from "./labels";
@@ -10,10 +10,22 @@ const CORNERS = 64;
 const LIFT_M = 0.008;
 const PIECE_M = 0.1;
 const SAME_GOAL_M = 0.005;
+// Words on a mirror line: how far after the start, and from where on they are not shown.
+const MIRROR_LABEL_M = 1;
+const MIRROR_REACH_M = 8;
 export const WAYPOINT_RADIUS_M = 0.15;
 
 export function toldElsewhere({ goal, told_goal: told }: Course): boolean {
   return Math.hypot(goal.x - told.x, goal.y - told.y) > SAME_GOAL_M;
+}
+
+/** y of the lines at which the layout of a virtual arena is mirrored, as far as there is ground. */
+export function mirrorLines({ course, world }: Pick<ReplayPayload, "course" | "world">): number[] {
+  const { kind, mirror_line: h } = world.arena;
+  if (kind !== "virtual_unfolded") return course.mirror_lines;
+  const lines: number[] = [];
+  for (let y = h; y < Math.max(course.bounds.y_max, -course.bounds.y_min); y += 2 * h) lines.push(-y, y);
+  return lines.filter((y) => y > course.bounds.y_min && y < course.bounds.y_max);
 }
 
 function ring(x: number, y: number, radius: number, heights: GroundHeights): Point[] {
@@ -44,7 +56,8 @@ function acrossGround(course: Course, y: number, heights: GroundHeights): Point[
   });
 }
 
-export function makeCourse(course: Course, heights: GroundHeights, palette: Palette): Group {
+export function makeCourse(payload: ReplayPayload, heights: GroundHeights, palette: Palette): Group {
+  const { course } = payload;
   const { start, goal, told_goal: told, waypoints } = course;
   const group = new Group();
   const line = (points: Point[], colour: string, dash?: [number, number]): void => {
@@ -58,7 +71,11 @@ export function makeCourse(course: Course, heights: GroundHeights, palette: Pale
     line([[x, y, z], [x, y, z + pole_m]], colour);
     group.add(makeLabel(text, x, y, z + pole_m, { colour, anchor }));
   };
-  for (const y of course.mirror_lines) line(acrossGround(course, y, heights), palette.mirror, [0.25, 0.12]);
+  for (const y of mirrorLines(payload)) {
+    line(acrossGround(course, y, heights), palette.mirror, [0.25, 0.12]);
+    const x = start.x + MIRROR_LABEL_M;
+    group.add(makeLabel("the course is mirrored here", x, y, heights.at(x, y), { colour: palette.mirror, reach_m: MIRROR_REACH_M }));
+  }
   line(ring(start.x, start.y, 0.12, heights), palette.label);
   sign("start", start.x, start.y, 0.1, palette.label, [0.5, -0.7]);
   waypoints.forEach(({ x, y }, i) => {

@@ -45,9 +45,14 @@ export function fitLabels(root: Object3D, camera: Camera, height_px: number): vo
     object.visible = flat || distance < reach;
     // Seen from above, half of a text would be under the ground.
     object.material.depthTest = !flat;
-    const size = (TEXT_PX / height_px) * visibleHeight(camera, distance);
+    const size = TEXT_PX / pixelsPerMetre(camera, distance, height_px);
     object.scale.set(size * aspect, size, 1);
   });
+}
+
+/** On a picture of `height_px`, of what is at a distance from the camera. */
+export function pixelsPerMetre(camera: Camera, distance: number, height_px: number): number {
+  return height_px / visibleHeight(camera, distance);
 }
 
 /** How much of the scene the picture is high, m, at a distance. */

@@ -7,6 +7,7 @@ import {
   Color,
   CylinderGeometry,
   EdgesGeometry,
+  Float32BufferAttribute,
   Group,
   LineBasicMaterial,
   LineSegments,
@@ -17,6 +18,7 @@ import {
   SphereGeometry,
   Vector3,
 } from "three";
+import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import type { Palette } from "../palette";
 import type { RoverShape, Shape } from "../payload";
 import type { DrawnLink } from "../view";
@@ -76,18 +78,36 @@ abstract class Rover {
   }
 }
 
-/** The rover as it is. */
+interface Painted {
+  geometry: BufferGeometry;
+  of: keyof Palette;
+  shade: number;
+}
+
+/** The rover as it is: one mesh for each link, painted corner by corner. */
 export class SolidRover extends Rover {
-  private readonly materials: { material: MeshLambertMaterial; of: keyof Palette; shade: number }[] = [];
+  private readonly painted = new Map<Object3D, Painted[]>();
+  private readonly meshes: { mesh: Mesh; parts: Painted[] }[];
 
   constructor(shape: RoverShape) {
     super();
     this.build(shape);
+    const material = new MeshLambertMaterial({ vertexColors: true });
+    this.meshes = [...this.painted].map(([group, parts]) => {
+      const mesh = new Mesh(mergeGeometries(parts.map(({ geometry }) => geometry)), material);
+      mesh.castShadow = mesh.receiveShadow = true;
+      group.add(mesh);
+      return { mesh, parts };
+    });
   }
 
   recolour(palette: Palette): void {
-    for (const { material, of, shade } of this.materials) {
-      material.color.copy(new Color(palette[of]).multiplyScalar(shade));
+    for (const { mesh, parts } of this.meshes) {
+      const colours = parts.flatMap(({ geometry, of, shade }) => {
+        const colour = new Color(palette[of]).multiplyScalar(shade).toArray();
+        return Array.from({ length: geometry.getAttribute("position").count }, () => colour).flat();
+      });
+      mesh.geometry.setAttribute("color", new Float32BufferAttribute(colours, 3));
     }
   }
 
@@ -97,55 +117,37 @@ export class SolidRover extends Rover {
       return;
     }
     const panel = shape.part.includes("panel");
-    const paint: keyof Palette = shape.kind === "box" ? (panel ? "panel" : "body") : "arm";
-    this.mesh(group, geometryOf(shape), paint);
+    const of: keyof Palette = shape.kind === "box" ? (panel ? "panel" : "body") : "arm";
+    this.paint(group, geometryOf(shape), of);
     if (shape.kind === "box" && panel) this.addCells(group, shape.center, shape.size);
   }
 
   // Rim, grousers and spokes: with a plain cylinder nobody sees it roll.
   private addWheel(group: Group, { center, radius, width }: Extract<Shape, { kind: "wheel" }>): void {
-    const wheel = new Group();
-    wheel.position.set(...center);
-    group.add(wheel);
-    this.mesh(wheel, new CylinderGeometry(0.94 * radius, 0.94 * radius, width, 32), "wheel");
-    const grouser = new BoxGeometry(0.16 * radius, width, 0.08 * radius);
+    const put = (geometry: BufferGeometry, of: keyof Palette, shade = 1): void =>
+      this.paint(group, geometry.translate(...center), of, shade);
+    put(new CylinderGeometry(0.94 * radius, 0.94 * radius, width, 32), "wheel");
     for (let i = 0; i < GROUSERS; ++i) {
       const angle = (2 * Math.PI * i) / GROUSERS;
-      const mesh = this.mesh(wheel, grouser, "wheel", 1.5);
-      mesh.position.set(0.92 * radius * Math.cos(angle), 0, -0.92 * radius * Math.sin(angle));
-      mesh.rotation.y = angle;
+      const grouser = new BoxGeometry(0.16 * radius, width, 0.08 * radius).rotateY(angle);
+      put(grouser.translate(0.92 * radius * Math.cos(angle), 0, -0.92 * radius * Math.sin(angle)), "wheel", 1.5);
     }
-    const spoke = new BoxGeometry(1.5 * radius, 1.02 * width, 0.14 * radius);
     for (const angle of [0, Math.PI / 3, (2 * Math.PI) / 3]) {
-      this.mesh(wheel, spoke, "arm", 0.9).rotation.y = angle;
+      put(new BoxGeometry(1.5 * radius, 1.02 * width, 0.14 * radius).rotateY(angle), "arm", 0.9);
     }
   }
 
   // Rows of solar cells, and a bright edge that says where the front is.
   private addCells(group: Group, [x, y, z]: Vec, [length, width, height]: Vec): void {
-    const across = new BoxGeometry(0.006, 0.96 * width, 0.002);
-    for (let i = 1; i < 6; ++i) {
-      this.mesh(group, across, "arm").position.set(x + (i / 6 - 0.5) * length, y, z + height / 2);
-    }
-    const along = new BoxGeometry(0.96 * length, 0.006, 0.002);
-    for (let i = 1; i < 4; ++i) {
-      this.mesh(group, along, "arm").position.set(x, y + (i / 4 - 0.5) * width, z + height / 2);
-    }
-    const front = new BoxGeometry(0.03, 0.98 * width, 0.004);
-    this.mesh(group, front, "chosen").position.set(x + length / 2 - 0.02, y, z + height / 2);
+    const put = (geometry: BufferGeometry, of: keyof Palette, px: number, py: number): void =>
+      this.paint(group, geometry.translate(px, py, z + height / 2), of);
+    for (let i = 1; i < 6; ++i) put(new BoxGeometry(0.006, 0.96 * width, 0.002), "arm", x + (i / 6 - 0.5) * length, y);
+    for (let i = 1; i < 4; ++i) put(new BoxGeometry(0.96 * length, 0.006, 0.002), "arm", x, y + (i / 4 - 0.5) * width);
+    put(new BoxGeometry(0.03, 0.98 * width, 0.004), "chosen", x + length / 2 - 0.02, y);
   }
 
-  private mesh(group: Object3D, geometry: BufferGeometry, of: keyof Palette, shade = 1): Mesh {
-    let entry = this.materials.find((known) => known.of === of && known.shade === shade);
-    if (!entry) {
-      entry = { material: new MeshLambertMaterial(), of, shade };
-      this.materials.push(entry);
-    }
-    const mesh = new Mesh(geometry, entry.material);
-    mesh.castShadow = true;
-    mesh.receiveShadow = true;
-    group.add(mesh);
-    return mesh;
+  private paint(group: Object3D, geometry: BufferGeometry, of: keyof Palette, shade = 1): void {
+    this.painted.set(group, [...(this.painted.get(group) ?? []), { geometry, of, shade }]);
   }
 }
 

@@ -1,20 +1,10 @@
 // The trial in three dimensions.
-import {
-  AmbientLight,
-  Color,
-  DirectionalLight,
-  Group,
-  HemisphereLight,
-  PCFShadowMap,
-  Scene,
-  WebGLRenderer,
-  type Object3D,
-} from "three";
+import { Color, Group, Mesh, PCFShadowMap, Scene, WebGLRenderer, type CanvasTexture, type Object3D } from "three";
 import { CameraRig } from "../camera";
 import { headingOf, type Course as Drive } from "../motion";
 import { readPalette } from "../palette";
 import type { ReplayPayload } from "../payload";
-import type { CameraMode, DrawnLink, DrawnPose, Layers, Shown, View } from "../view";
+import type { CameraMode, Drawing, DrawnLink, DrawnPose, Layers, Shown, View } from "../view";
 import { makeCourse } from "./course";
 import { extentOf, GroundHeights, type Extent } from "./ground";
 import { fitLabels } from "./labels";
@@ -24,18 +14,24 @@ import { Paths } from "./paths";
 import { Rocks } from "./rocks";
 import { GhostRover, SolidRover } from "./rover";
 import { ScanPoints } from "./scans";
+import { Sight } from "./sight";
+import { Sunlight } from "./sunlight";
+import { makeSurroundings } from "./surroundings";
 import { makeGrid, makeGround, makeWalls } from "./terrain";
+import { rockTexture, soilTexture } from "./textures";
+import { Tracks } from "./tracks";
+import { worldKind, type WorldKind } from "./world";
 
-// In lengths of the rover.
-const SHADOW_REACH = 4;
-const SUN_FROM = [-2, -3, 6] as const;
+const SCANNING = "scan";
 
 export class SceneView implements View {
   readonly element: HTMLCanvasElement;
   readonly modes = ["follow", "top", "orbit", "rover"] as const;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
-  private readonly sun = new DirectionalLight(0xffffff, 2.2);
+  private readonly world: WorldKind;
+  private readonly sunlight: Sunlight;
+  private readonly soil: CanvasTexture;
   private readonly rig: CameraRig;
   private readonly extent: Extent;
   private readonly heights: GroundHeights;
@@ -43,12 +39,17 @@ export class SceneView implements View {
   private readonly ghost: GhostRover;
   private readonly rocks: Rocks;
   private readonly paths: Paths;
+  private readonly tracks: Tracks;
   private readonly scan: ScanPoints;
+  private readonly sight: Sight;
   private readonly step: StepPicture;
   private readonly marks: EventMarks;
-  // Ground, walls and course are made anew with the colours.
+  // Ground, walls, course and surroundings are made anew with the colours.
   private readonly fixed = new Group();
   private grid: Object3D = new Group();
+  private sky: Object3D = new Group();
+  private plain = false;
+  private trueShapes = false;
 
   constructor(
     private readonly payload: ReplayPayload,
@@ -58,21 +59,27 @@ export class SceneView implements View {
     this.renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
+    // Shadows are drawn first; they count as well.
+    this.renderer.info.autoReset = false;
     this.element = this.renderer.domElement;
+    this.world = worldKind(payload.world);
+    this.sunlight = new Sunlight(payload.world);
+    this.soil = soilTexture(this.sunlight.toward);
     this.extent = extentOf(payload.course);
     this.heights = new GroundHeights(payload.ground);
     this.rover = new SolidRover(payload.rover);
     this.ghost = new GhostRover(payload.rover);
-    this.rocks = new Rocks(payload);
+    this.rocks = new Rocks(payload, rockTexture());
     this.paths = new Paths(drive, this.heights);
+    this.tracks = new Tracks(drive, payload.rover, this.heights);
     this.scan = new ScanPoints(this.heights);
+    this.sight = new Sight(payload, this.heights);
     this.step = new StepPicture(this.heights);
     this.marks = new EventMarks(payload.events, this.heights);
     this.rig = new CameraRig(this.element, this.extent, this.rover.length());
     this.rig.setPlanExtent(plan);
-    this.light();
-    this.scene.add(this.fixed, this.rocks.group, this.rover.body, this.ghost.body);
-    this.scene.add(this.paths.group, this.scan.group, this.step.group, this.marks.group);
+    this.scene.add(this.fixed, this.sunlight.group, this.rocks.group, this.rover.body, this.ghost.body);
+    for (const { group } of [this.paths, this.tracks, this.scan, this.sight, this.step, this.marks]) this.scene.add(group);
     this.recolour();
   }
 
@@ -109,29 +116,39 @@ export class SceneView implements View {
     this.ghost.body.rotation.set(0, 0, believed.heading);
     this.ghost.setJoints(moment.joints);
     this.grid.visible = layers.grid;
-    this.rocks.show(moment.t);
+    this.setPlain(layers.plain);
+    this.trueShapes = layers.trueShapes;
+    this.rocks.show(moment.t, layers);
     this.paths.show(moment, layers.wholePath, layers.believed);
     this.scan.show(layers.scan ? scan : null);
+    this.sight.show(this.rover.body, moment.t, layers.light && moment.activity === SCANNING, layers.cameras);
+    this.tracks.show(moment, layers.tracks);
     this.step.show(step, layers);
     this.marks.show(moment.t, layers.marks);
-    this.sun.position.set(moment.x + SUN_FROM[0], moment.y + SUN_FROM[1], moment.z + SUN_FROM[2]);
-    this.sun.target.position.set(moment.x, moment.y, moment.z);
-    this.sun.target.updateMatrixWorld();
     this.rig.update(this.rover.body);
   }
 
   recolour(): void {
-    const palette = readPalette();
+    const palette = readPalette(this.world);
+    const { course, ground } = this.payload;
+    const around = makeSurroundings(this.world, this.extent, this.heights, this.sunlight.toward, palette);
     this.scene.background = new Color(palette.sky);
+    this.scene.fog = around.haze;
+    this.sunlight.recolour(palette.sky, palette.ground);
+    disposeOf(this.fixed);
     this.fixed.clear();
     this.grid = makeGrid(this.heights, this.extent, this.plan, palette);
+    this.sky = around.sky;
     this.fixed.add(
-      makeGround(this.payload.ground, this.extent, palette),
-      makeWalls(this.payload.course, this.heights, palette),
-      makeCourse(this.payload.course, this.heights, palette),
+      makeGround(ground, this.extent, this.plain ? null : this.soil, palette),
+      makeWalls(course, this.heights, palette),
+      makeCourse(this.payload, this.heights, palette),
       this.grid,
+      around.fixed,
+      around.sky,
     );
-    for (const part of [this.rover, this.ghost, this.rocks, this.paths, this.scan, this.step, this.marks]) part.recolour(palette);
+    const parts = [this.rover, this.ghost, this.rocks, this.paths, this.tracks, this.scan, this.sight, this.step, this.marks];
+    for (const part of parts) part.recolour(palette);
   }
 
   resize(): void {
@@ -144,8 +161,16 @@ export class SceneView implements View {
   }
 
   draw(): void {
-    fitLabels(this.fixed, this.rig.camera, this.element.clientHeight);
-    this.renderer.render(this.scene, this.rig.camera);
+    const { camera } = this.rig;
+    const height = this.element.clientHeight;
+    camera.updateMatrixWorld();
+    this.sky.visible = this.mode !== "top";
+    this.sky.position.setFromMatrixPosition(camera.matrixWorld);
+    this.sunlight.fit(camera, this.rover.body.position);
+    this.rocks.fit(camera, height, this.sunlight.lit);
+    fitLabels(this.fixed, camera, height);
+    this.renderer.info.reset();
+    this.renderer.render(this.scene, camera);
   }
 
   /** Read back from what was placed in the scene. */
@@ -158,18 +183,34 @@ export class SceneView implements View {
     return this.rover.pivots();
   }
 
-  private light(): void {
-    const reach = SHADOW_REACH * this.rover.length();
-    this.scene.add(new AmbientLight(0xffffff, 0.5), new HemisphereLight(0xffffff, 0x8a7a6a, 1.1));
-    this.sun.castShadow = true;
-    this.sun.shadow.mapSize.set(1024, 1024);
-    const frustum = this.sun.shadow.camera;
-    frustum.left = frustum.bottom = -reach;
-    frustum.right = frustum.top = reach;
-    frustum.near = 1;
-    frustum.far = 12;
-    this.sun.shadow.bias = -0.001;
-    this.sun.shadow.normalBias = 0.01;
-    this.scene.add(this.sun, this.sun.target);
+  drawing(): Drawing {
+    const { x, y, z } = this.sunlight.toward;
+    const { triangles, calls } = this.renderer.info.render;
+    return {
+      world: this.world,
+      sun: { x, y, z },
+      triangles,
+      calls,
+      trueShapes: this.trueShapes,
+      rockDepths: this.rocks.depths(),
+      tracks: this.tracks.drawn(),
+      planes: this.sight.drawnPlanes(),
+      views: this.sight.drawnViews,
+      shadow: { toLight: this.sunlight.toLight().toArray(), texel: this.sunlight.texel_m },
+    };
   }
+
+  private setPlain(plain: boolean): void {
+    if (plain === this.plain) return;
+    this.plain = plain;
+    this.sunlight.setPlain(plain);
+    this.recolour();
+  }
+}
+
+/** Frees what the graphics hold of meshes below `root`. */
+function disposeOf(root: Object3D): void {
+  root.traverse((object) => {
+    if (object instanceof Mesh) object.geometry.dispose();
+  });
 }

@@ -1,6 +1,8 @@
 // The ground with a grid in metres, and the walls of an arena.
 import {
+  BackSide,
   BufferGeometry,
+  Color,
   DoubleSide,
   Float32BufferAttribute,
   Group,
@@ -11,35 +13,55 @@ import {
   MeshLambertMaterial,
   PlaneGeometry,
   type Sprite,
+  type Texture,
 } from "three";
 import type { Palette } from "../palette";
 import type { Course, Ground } from "../payload";
 import { extentOf, GroundHeights, niceStep, WALL_HEIGHT_M, wallWithin, type Extent } from "./ground";
 import { makeLabel } from "./labels";
+import { MOST_SOIL_TRIANGLES } from "./limits";
+import { noise3 } from "./noise";
+import { SOIL_TILE_M } from "./textures";
 
 const GRID_LIFT_M = 0.004;
+// Between drawn points of ground whose heights are further apart.
+const FINEST_STEP_M = 0.25;
+const PATCHES = [
+  { size_m: 2.7, depth: 0.16 },
+  { size_m: 0.7, depth: 0.12 },
+] as const;
 // In steps between labels: further away they would lie on each other.
 const LABEL_REACH = 9;
 
-export function makeGround(ground: Ground, extent: Extent, palette: Palette): Mesh {
-  const material = new MeshLambertMaterial({ color: palette.ground, side: DoubleSide });
+export function makeGround(ground: Ground, extent: Extent, texture: Texture | null, palette: Palette): Mesh {
   const heights = new GroundHeights(ground);
-  const geometry = heights.empty ? flat(extent, heights.at(0, 0)) : relief(ground);
-  const mesh = new Mesh(geometry, material);
+  const material = new MeshLambertMaterial({ map: texture, vertexColors: true, side: DoubleSide, fog: false });
+  const mesh = new Mesh(relief(drawnGrid(ground, extent), heights, palette), material);
   mesh.receiveShadow = true;
   return mesh;
 }
 
-function flat({ xMin, xMax, yMin, yMax }: Extent, z: number): BufferGeometry {
-  return new PlaneGeometry(xMax - xMin, yMax - yMin).translate((xMin + xMax) / 2, (yMin + yMax) / 2, z);
+type Grid = Pick<Ground, "x0" | "y0" | "step" | "nx" | "ny">;
+
+/** The page's own points, or closer ones where they are far apart, because colours go from point to point. */
+function drawnGrid(ground: Ground, { xMin, xMax, yMin, yMax }: Extent): Grid {
+  const step = Math.min(ground.step, FINEST_STEP_M);
+  const whole = { x0: xMin, y0: yMin, step, nx: Math.ceil((xMax - xMin) / step) + 1, ny: Math.ceil((yMax - yMin) / step) + 1 };
+  const few = 2 * whole.nx * whole.ny <= MOST_SOIL_TRIANGLES;
+  return few || ground.nx < 2 || ground.ny < 2 ? whole : ground;
 }
 
-function relief({ x0, y0, step, nx, ny, z }: Ground): BufferGeometry {
-  const positions = new Float32Array(3 * nx * ny);
+function relief({ x0, y0, step, nx, ny }: Grid, heights: GroundHeights, palette: Palette): BufferGeometry {
+  const positions: number[] = [];
+  const uv: number[] = [];
+  const colours: number[] = [];
+  const base = new Color(palette.ground);
   for (let i = 0; i < nx * ny; ++i) {
-    positions[3 * i] = x0 + (i % nx) * step;
-    positions[3 * i + 1] = y0 + Math.floor(i / nx) * step;
-    positions[3 * i + 2] = z[i]!;
+    const x = x0 + (i % nx) * step;
+    const y = y0 + Math.floor(i / nx) * step;
+    positions.push(x, y, heights.at(x, y));
+    uv.push(x / SOIL_TILE_M, y / SOIL_TILE_M);
+    colours.push(...base.clone().multiplyScalar(patch(x, y)).toArray());
   }
   const corners: number[] = [];
   for (let iy = 0; iy + 1 < ny; ++iy) {
@@ -50,9 +72,17 @@ function relief({ x0, y0, step, nx, ny, z }: Ground): BufferGeometry {
   }
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new Float32BufferAttribute(positions, 3));
+  geometry.setAttribute("uv", new Float32BufferAttribute(uv, 2));
+  geometry.setAttribute("color", new Float32BufferAttribute(colours, 3));
   geometry.setIndex(corners);
   geometry.computeVertexNormals();
   return geometry;
+}
+
+/** Darker and paler patches of soil, about 1, so that nobody sees the texture repeat. */
+function patch(x: number, y: number): number {
+  const shares = PATCHES.map(({ size_m, depth }, k) => depth * (noise3(x / size_m + 100, y / size_m + 100, 0, 61 + k) - 0.5));
+  return shares.reduce((sum, share) => sum + share, 1);
 }
 
 /**
@@ -96,28 +126,27 @@ function gridLabels(heights: GroundHeights, { xMin, xMax, yMin, yMax }: Extent, 
   return labels;
 }
 
-/** Walls as translucent upright planes, as long as the ground is. */
+/** Walls as boards, as long as the ground is; from outside one sees through them. */
 export function makeWalls(course: Course, heights: GroundHeights, palette: Palette): Group {
   const group = new Group();
   const extent = extentOf(course);
-  const material = new MeshBasicMaterial({
-    color: palette.wall,
-    transparent: true,
-    opacity: 0.28,
-    side: DoubleSide,
-    depthWrite: false,
-  });
+  const inside = new MeshLambertMaterial({ color: palette.wall });
+  const outside = new MeshBasicMaterial({ color: palette.wall, transparent: true, opacity: 0.28, side: BackSide, depthWrite: false });
   for (const wall of course.walls) {
     const ends = wallWithin(wall, extent);
     if (!ends) continue;
     const { nx, ny } = wall;
     const { foot } = ends;
     const plane = new PlaneGeometry(ends.to - ends.from, WALL_HEIGHT_M).rotateX(Math.PI / 2);
-    const mesh = new Mesh(plane, material);
     const along = (ends.from + ends.to) / 2;
-    mesh.position.set(foot.x - ny * along, foot.y + nx * along, heights.at(foot.x, foot.y) + WALL_HEIGHT_M / 2);
-    mesh.rotation.z = Math.atan2(nx, -ny);
-    group.add(mesh);
+    for (const material of [inside, outside]) {
+      const mesh = new Mesh(plane, material);
+      mesh.position.set(foot.x - ny * along, foot.y + nx * along, heights.at(foot.x, foot.y) + WALL_HEIGHT_M / 2);
+      // The plane looks along -y of its own, and the normal of a wall into the arena.
+      mesh.rotation.z = Math.atan2(nx, -ny);
+      mesh.receiveShadow = true;
+      group.add(mesh);
+    }
   }
   return group;
 }
