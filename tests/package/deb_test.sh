@@ -33,6 +33,7 @@ grep -q "declared success" out.txt || fail "no result"
 grep -q "<title>" run/report.html || fail "no page"
 "$command" rover mfex > /dev/null
 [ -s "$folder/root/usr/share/bash-completion/completions/rockyard" ] || fail "no completion"
+[ -s "$folder/root/usr/share/doc/rockyard/docs/tutorial.md" ] || fail "no documentation"
 [ -s "$folder/root/usr/share/man/man1/rockyard-run.1" ] || fail "no man page"
 [ -s "$folder/root/usr/share/doc/rockyard/THIRD_PARTY.txt" ] || fail "no notices"
 [ -s "$folder/root/usr/share/doc/rockyard/copyright" ] || fail "no licence"
