@@ -39,6 +39,71 @@ TEST(ReplayPayload, RocksThatThePushedRoverMoves) {
   }
 }
 
+TEST(ReplayPayload, SaysWhichWorldItIs) {
+  const std::vector<std::string> sun{"sensors.sun.elevation_deg=20",
+                                     "sensors.sun.azimuth_deg=-60", "referee.time_limit_s=60"};
+  const Json arena = PayloadOf(SourceOf("pathfinder/nominal", sun), 0)["world"];
+  EXPECT_EQ(arena["gravity"], 9.81);
+  EXPECT_NEAR(arena["sun"]["elevation"].get<double>(), math::DegToRad(20.0), 1e-5);
+  EXPECT_NEAR(arena["sun"]["azimuth"].get<double>(), math::DegToRad(-60.0), 1e-5);
+  EXPECT_EQ(arena["arena"]["kind"], "virtual_reflected");
+  EXPECT_EQ(arena["arena"]["y_max"], 2.0);
+  EXPECT_EQ(arena["arena"]["mirror_line"], 1.1);
+  const Json mars =
+      PayloadOf(SourceOf("mars/mfex_nominal", {"referee.time_limit_s=60"}), 0)["world"];
+  EXPECT_EQ(mars["gravity"], 3.72);
+  EXPECT_EQ(mars["arena"]["kind"], "open");
+  EXPECT_EQ(mars["arena"]["mirror_line"], 0.0);
+}
+
+math::Vector3 VectorOf(const Json& list) {
+  return {list[0].get<double>(), list[1].get<double>(), list[2].get<double>()};
+}
+
+// From the middle of the left edge of a camera's image to that of its right edge, rad.
+double SeenAcross(const Json& camera) {
+  const std::size_t side = camera["rim"].size() / 4;
+  const math::Vector3 right = VectorOf(camera["rim"][side + side / 2]);
+  const math::Vector3 left = VectorOf(camera["rim"][3 * side + side / 2]);
+  return std::acos(left.dot(right));
+}
+
+TEST(ReplayPayload, LightPlanesAndCamerasOfTheLightStripe) {
+  const Json sensor =
+      PayloadOf(SourceOf("pathfinder/nominal", {"referee.time_limit_s=60"}), 0)["sensor"];
+  EXPECT_EQ(sensor["name"], "light_stripe");
+  EXPECT_EQ(sensor["reach"], 1.0);
+  ASSERT_THAT(sensor["lasers"], SizeIs(5));
+  for (const Json& laser : sensor["lasers"]) {
+    EXPECT_NEAR(VectorOf(laser["normal"]).dot(VectorOf(laser["axis"])), 0.0, 1e-4);
+    EXPECT_EQ(laser["emitter"][0], 0.27);
+    EXPECT_EQ(laser["emitter"][2], 0.25);
+    EXPECT_EQ(laser["half_fan"], 0.5);
+  }
+  EXPECT_EQ(sensor["lasers"][0]["emitter"][1], 0.14);
+  EXPECT_EQ(sensor["lasers"][4]["emitter"][1], -0.14);
+  ASSERT_THAT(sensor["cameras"], SizeIs(2));
+  EXPECT_EQ(sensor["cameras"][0]["eye"][1], 0.06);
+  // An equidistant row of 8.9 mm behind a lens of 4.8 mm.
+  EXPECT_NEAR(SeenAcross(sensor["cameras"][1]), 8.9 / 4.8, 1e-4);
+}
+
+TEST(ReplayPayload, CamerasOfStereoLookAheadAndBehind) {
+  const TrialSource source = SourceOf("gestalt/narrow_course", {"referee.time_limit_s=60"});
+  const Json sensor = PayloadOf(source, 0)["sensor"];
+  const sensing::StereoParams& stereo = source.scenario.drive.sensors.stereo;
+  EXPECT_THAT(sensor["lasers"], SizeIs(0));
+  ASSERT_THAT(sensor["cameras"], SizeIs(4));
+  for (const Json& camera : sensor["cameras"]) {
+    EXPECT_NEAR(SeenAcross(camera), stereo.horizontal_fov_rad, 1e-4);
+    const bool behind = camera["name"].get<std::string>().starts_with("behind");
+    EXPECT_EQ(camera["eye"][0].get<double>() < 0.0, behind);
+    const Json& top_left = camera["rim"][0];
+    EXPECT_EQ(top_left[0].get<double>() < 0.0, behind);
+    EXPECT_EQ(top_left[1].get<double>() < 0.0, behind);
+  }
+}
+
 TEST(ReplayPayload, WaypointsInTheOrderOfDriving) {
   const Json course = PayloadOf(SourceOf("gestalt/waypoints"), 0)["course"];
   ASSERT_THAT(course["waypoints"], SizeIs(2));

@@ -46,7 +46,7 @@ export interface Course {
   waypoints: { x: number; y: number }[];
   /** Corners of the area that holds terrain. */
   bounds: { x_min: number; x_max: number; y_min: number; y_max: number };
-  /** Vertical planes that bound the arena: normal . p = offset. */
+  /** Vertical planes that bound the arena: normal . p = offset, the normal points out of it. They have no upper edge. */
   walls: { nx: number; ny: number; offset: number }[];
   /** y of the lines at which operators reflect the rover; none but in the reflected arena. */
   mirror_lines: number[];

@@ -5,8 +5,8 @@ import { checkbox } from "../controls";
 import { rampCss } from "../palette";
 import type { ReplayPayload } from "../payload";
 import { mirrorLines, toldElsewhere } from "../scene/course";
-import { MOST_DRAW_CALLS, MOST_TRIANGLES } from "../scene/limits";
-import { ROUGH_DEPTH } from "../scene/rock_shapes";
+import { WALL_HEIGHT_M } from "../scene/ground";
+import { MOST_DRAW_CALLS, MOST_TRIANGLES, ROUGH_DEPTH } from "../scene/limits";
 import { worldKind, type WorldKind } from "../scene/world";
 import type { Layers, MapKind } from "../view";
 
@@ -67,7 +67,7 @@ export function layersPanel(payload: ReplayPayload, layers: Layers, solid: boole
   add("grid", "Grid in metres");
   if (solid) addSolid(payload, add);
   if (toldElsewhere(payload.course)) panel.append(el("p", { class: "key" }, "Designated goal", swatch("told")));
-  if (mirrorLines(payload).length > 0) panel.append(el("p", { class: "key" }, mirrorWords(payload), swatch("mirror")));
+  if (mirrorLines(payload).length > 0) panel.append(el("p", { class: "key" }, swatch("mirror"), mirrorWords(payload)));
   if (solid) panel.append(aboutPicture(payload));
   return panel;
 }
@@ -82,11 +82,11 @@ function addSolid({ sensor }: ReplayPayload, add: Add): void {
 
 function mirrorWords({ course }: ReplayPayload): string {
   const meaning = "Mirror line: the course is mirrored here; rocks beyond it are images of those before it. ";
-  return meaning + (course.mirror_lines.length > 0 ? "Operators turn the rover back" : "The rover drives on");
+  return meaning + (course.mirror_lines.length > 0 ? "Operators turn the rover back there." : "The rover drives on.");
 }
 
 /** Which world it is, and what of the picture the simulator does not know. */
-function aboutPicture({ world }: ReplayPayload): HTMLElement {
+function aboutPicture({ world, course }: ReplayPayload): HTMLElement {
   const degrees = (angle: number): string => `${Math.round((angle * 180) / Math.PI)}°`;
   const { elevation, azimuth } = world.sun;
   const place: Record<WorldKind, string> = { mars: "Mars", hall: "An arena in a hall on Earth", field: "Open ground on Earth" };
@@ -99,6 +99,7 @@ function aboutPicture({ world }: ReplayPayload): HTMLElement {
     el("summary", {}, "About the picture"),
     el("p", {}, `${place[kind]}: gravity is ${world.gravity} m/s². ${light} stands ${degrees(elevation)} above the horizon, ${degrees(azimuth)} from x to the left (sensors.sun).`),
     el("p", {}, `Drawn only, and nothing that the rover meets: ${around}, the grain of the soil, wheel tracks, and the rough surface of rocks. It lies within the true one, by at most ${Math.round(100 * ROUGH_DEPTH)} % of the distance from a rock's centre.`),
+    course.walls.length > 0 ? el("p", {}, `Walls are drawn ${100 * WALL_HEIGHT_M} cm high; those of the simulator have no upper edge.`) : null,
     el("p", {}, `All light planes are drawn at once. A picture has at most ${number(MOST_TRIANGLES)} triangles and ${MOST_DRAW_CALLS} draw calls with its shadows: of many rocks those that look small have fewer faces.`),
   );
 }

@@ -11,3 +11,6 @@ export const MOST_TRACK_TRIANGLES = 24_000;
 export const MOST_TRIANGLES = 400_000;
 /** Calls that a picture sends to the graphics, its shadows included. */
 export const MOST_DRAW_CALLS = 250;
+
+/** How deep the rough surface of a rock may lie within the true one, as a share of the distance from its centre. */
+export const ROUGH_DEPTH = 0.12;

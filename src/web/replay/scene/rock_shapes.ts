@@ -3,24 +3,25 @@
 // distance from the rock's centre.
 import { BufferAttribute, BufferGeometry, Float32BufferAttribute, IcosahedronGeometry, LatheGeometry, Vector2, Vector3 } from "three";
 import { mergeVertices } from "three/examples/jsm/utils/BufferGeometryUtils.js";
+import { ROUGH_DEPTH } from "./limits";
 import { noise3, randomNumbers } from "./noise";
-
-export const ROUGH_DEPTH = 0.15;
 
 /** From the most faces to the fewest: how often the icosahedron of an ellipsoid is cut, rings and sides of a cap. */
 export const DETAILS = [
   { cuts: 5, rings: 11, sides: 26, textured: true },
-  { cuts: 2, rings: 6, sides: 14, textured: true },
-  { cuts: 1, rings: 4, sides: 9, textured: false },
+  { cuts: 2, rings: 6, sides: 18, textured: true },
+  { cuts: 1, rings: 4, sides: 14, textured: false },
   { cuts: 0, rings: 2, sides: 6, textured: false },
 ] as const;
 
+// Of a cap's height.
+const FOOT = 0.2;
 const FACETS = 10;
-const SHALLOWEST_FACET = 0.97;
-const DEEPEST_FACET = 0.86;
+const SHALLOWEST_FACET = 0.99;
+const DEEPEST_FACET = 0.89;
 const BUMPS = [
-  { per_axis: 2.3, depth: 0.05 },
-  { per_axis: 6.1, depth: 0.035 },
+  { per_axis: 2.3, depth: 0.035 },
+  { per_axis: 6.1, depth: 0.03 },
 ] as const;
 // Of a rock's size, for one repetition of the texture.
 const TEXTURE_SIZE = 1.3;
@@ -35,7 +36,7 @@ export interface RockForm {
 /** With normals, and with shade and dust per corner in `userData`, from which colours are made. */
 export function rockGeometry({ growth, variant }: RockForm, detail: number): BufferGeometry {
   const geometry = trueSurface(growth, detail);
-  if (variant !== null) roughen(geometry, variant + 1);
+  if (variant !== null) roughen(geometry, variant + 1, growth);
   geometry.computeVertexNormals();
   const drawn = DETAILS[detail]!.textured ? geometry.toNonIndexed() : geometry;
   addTextureCoordinates(drawn);
@@ -61,7 +62,8 @@ function capSurface(growth: number, detail: number): BufferGeometry {
   return new LatheGeometry(profile, sides).rotateX(Math.PI / 2);
 }
 
-function roughen(geometry: BufferGeometry, seed: number): void {
+// The foot of a cap stays as wide as it is, since that is what one sees from above.
+function roughen(geometry: BufferGeometry, seed: number, growth: number): void {
   const position = geometry.getAttribute("position");
   const facets = facetsOf(geometry, seed);
   const point = new Vector3();
@@ -75,7 +77,8 @@ function roughen(geometry: BufferGeometry, seed: number): void {
     BUMPS.forEach(({ per_axis: f, depth }, k) => {
       share -= depth * noise3(f * point.x + 40, f * point.y + 40, f * point.z + 40, 97 * seed + k);
     });
-    point.multiplyScalar(Math.max(1 - ROUGH_DEPTH, share));
+    const above = growth === 0 ? 1 : Math.min(1, point.z / FOOT);
+    point.multiplyScalar(1 - above * Math.min(ROUGH_DEPTH, 1 - share));
     position.setXYZ(i, point.x, point.y, point.z);
   }
 }
@@ -133,9 +136,9 @@ function paintOf(geometry: BufferGeometry, growth: number, variant: number | nul
     const [x, y, z] = [position.getX(i), position.getY(i), position.getZ(i)];
     const mottle = noise3(3 * x + 20, 3 * y + 20, 3 * z + 20, 7 + variant);
     shade[i] = 0.8 + 0.36 * mottle;
-    const skirt = 1 - Math.min(1, Math.max(0, (z - soil) / 0.28));
+    const skirt = 1 - Math.min(1, Math.max(0, (z - soil) / 0.12));
     const lying = Math.max(0, normal.getZ(i) - 0.55) * 0.9;
-    dust[i] = Math.min(1, 0.75 * skirt + lying * mottle);
+    dust[i] = Math.min(1, 0.5 * skirt + lying * mottle);
   }
   return { shade, dust };
 }

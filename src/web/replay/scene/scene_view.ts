@@ -131,7 +131,8 @@ export class SceneView implements View {
   recolour(): void {
     const palette = readPalette(this.world);
     const { course, ground } = this.payload;
-    const around = makeSurroundings(this.world, this.extent, this.heights, this.sunlight.toward, palette);
+    const soil = this.plain ? null : this.soil;
+    const around = makeSurroundings(this.world, this.extent, this.heights, { toward: this.sunlight.toward, soil }, palette);
     this.scene.background = new Color(palette.sky);
     this.scene.fog = around.haze;
     this.sunlight.recolour(palette.sky, palette.ground);
@@ -140,7 +141,7 @@ export class SceneView implements View {
     this.grid = makeGrid(this.heights, this.extent, this.plan, palette);
     this.sky = around.sky;
     this.fixed.add(
-      makeGround(ground, this.extent, this.plain ? null : this.soil, palette),
+      makeGround(ground, this.extent, soil, palette),
       makeWalls(course, this.heights, palette),
       makeCourse(this.payload, this.heights, palette),
       this.grid,

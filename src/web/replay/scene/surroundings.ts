@@ -18,11 +18,13 @@ import {
   SphereGeometry,
   Sprite,
   SpriteMaterial,
+  type Texture,
   type Vector3,
 } from "three";
 import type { Palette } from "../palette";
 import type { Extent, GroundHeights } from "./ground";
 import { noise3 } from "./noise";
+import { SOIL_TILE_M } from "./textures";
 import type { WorldKind } from "./world";
 
 const SKY_RADIUS_M = 400;
@@ -46,10 +48,17 @@ export interface Surroundings {
   haze: Fog | null;
 }
 
-export function makeSurroundings(kind: WorldKind, extent: Extent, heights: GroundHeights, toward: Vector3, palette: Palette): Surroundings {
+export interface Light {
+  /** Unit vector towards the sun. */
+  toward: Vector3;
+  /** The grain of the soil in this light; null for a plain picture. */
+  soil: Texture | null;
+}
+
+export function makeSurroundings(kind: WorldKind, extent: Extent, heights: GroundHeights, { toward, soil }: Light, palette: Palette): Surroundings {
   if (kind === "hall") return { fixed: makeHall(extent, heights, palette), sky: new Group(), haze: null };
   const fixed = new Group();
-  fixed.add(makeHorizon(kind, extent, heights, palette));
+  fixed.add(makeHorizon(kind, extent, heights, soil, palette));
   const sky = new Group();
   sky.add(makeSky(palette), makeSun(kind, toward));
   return { fixed, sky, haze: new Fog(palette.sky, HAZE_M.from, HAZE_M.to) };
@@ -91,9 +100,10 @@ function makeSun(kind: WorldKind, toward: Vector3): Sprite {
 }
 
 /** Ground from the edge of the terrain to the horizon: on in the plane of the terrain, with hills far away. */
-function makeHorizon(kind: WorldKind, extent: Extent, heights: GroundHeights, palette: Palette): Mesh {
+function makeHorizon(kind: WorldKind, extent: Extent, heights: GroundHeights, soil: Texture | null, palette: Palette): Mesh {
   const plane = planeOf(extent, heights);
   const positions: number[] = [];
+  const uv: number[] = [];
   const corners: number[] = [];
   const around = 4 * RING_CORNERS;
   RINGS_M.forEach((away, ring) => {
@@ -101,6 +111,7 @@ function makeHorizon(kind: WorldKind, extent: Extent, heights: GroundHeights, pa
       const { x, y } = onEdge(extent, i, away);
       const hill = HILLS[kind] * away * (noise3(x / HILL_M + 50, y / HILL_M + 50, 0, 5) - 0.3);
       positions.push(x, y, ring === 0 ? heights.at(x, y) : plane(x, y) + hill);
+      uv.push(x / SOIL_TILE_M, y / SOIL_TILE_M);
     }
     for (let i = 0; ring > 0 && i < around; ++i) {
       const [a, b] = [(ring - 1) * around + i, (ring - 1) * around + ((i + 1) % around)];
@@ -109,9 +120,10 @@ function makeHorizon(kind: WorldKind, extent: Extent, heights: GroundHeights, pa
   });
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new Float32BufferAttribute(positions, 3));
+  geometry.setAttribute("uv", new Float32BufferAttribute(uv, 2));
   geometry.setIndex(corners);
   geometry.computeVertexNormals();
-  return new Mesh(geometry, new MeshLambertMaterial({ color: palette.around }));
+  return new Mesh(geometry, new MeshLambertMaterial({ color: palette.around, map: soil }));
 }
 
 /** Point i of a ring around the terrain, `away` from its edge, counter-clockwise. */

@@ -130,7 +130,7 @@ function gridLabels(heights: GroundHeights, { xMin, xMax, yMin, yMax }: Extent, 
 export function makeWalls(course: Course, heights: GroundHeights, palette: Palette): Group {
   const group = new Group();
   const extent = extentOf(course);
-  const inside = new MeshLambertMaterial({ color: palette.wall });
+  const inside = new MeshLambertMaterial({ color: new Color(palette.wall).lerp(new Color(palette.sky), 0.5) });
   const outside = new MeshBasicMaterial({ color: palette.wall, transparent: true, opacity: 0.28, side: BackSide, depthWrite: false });
   for (const wall of course.walls) {
     const ends = wallWithin(wall, extent);
@@ -142,8 +142,8 @@ export function makeWalls(course: Course, heights: GroundHeights, palette: Palet
     for (const material of [inside, outside]) {
       const mesh = new Mesh(plane, material);
       mesh.position.set(foot.x - ny * along, foot.y + nx * along, heights.at(foot.x, foot.y) + WALL_HEIGHT_M / 2);
-      // The plane looks along -y of its own, and the normal of a wall into the arena.
-      mesh.rotation.z = Math.atan2(nx, -ny);
+      // The plane looks along -y of its own, and the normal of a wall out of the arena.
+      mesh.rotation.z = Math.atan2(-nx, ny);
       mesh.receiveShadow = true;
       group.add(mesh);
     }

@@ -92,7 +92,7 @@ export function printTexture(): CanvasTexture {
   return paint(PRINT_PX, () => 1, (x, y) => {
     const edge = Math.min(1, Math.min(x, PRINT_PX - 1 - x) / 7);
     const bar = 0.5 + 0.5 * Math.cos((2 * Math.PI * PRINT_BARS * y) / PRINT_PX);
-    return edge * (0.2 + 0.22 * bar + 0.06 * random());
+    return edge * (0.1 + 0.14 * bar + 0.05 * random());
   });
 }
 
