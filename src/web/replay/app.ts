@@ -3,11 +3,12 @@ import { el } from "../shared/dom";
 import { themeSwitch } from "../shared/theme";
 import { button } from "./controls";
 import { timelineEvents } from "./events";
-import type { Handle } from "./handle";
+import { makeHandle, type Handle } from "./handle";
 import { makeView } from "./make_view";
 import { Course as Drive, lastAtOrBefore } from "./motion";
 import { Overview } from "./overview";
 import { pageKeys } from "./page_keys";
+import { CameraBar } from "./panels/camera_bar";
 import { bindKeys, helpDialog, type Key } from "./panels/keys";
 import { Ending } from "./panels/ending";
 import { layersPanel, SCENE_LAYERS } from "./panels/layers";
@@ -23,7 +24,6 @@ import { beatsOf, type Beat } from "./story";
 import { shareTouch } from "./touch";
 import type { CameraMode, Layers, MapKind, Shown, View } from "./view";
 
-const MODE_NAMES: Record<CameraMode, string> = { follow: "Follow", top: "Top", orbit: "Free", rover: "From the rover" };
 const MAP_KINDS: MapKind[] = ["goodness", "certainty", "elevation", "off"];
 /** When nothing of the drive moves. */
 export function stretchesOf(drive: Drive): Stretch[] {
@@ -43,6 +43,8 @@ export interface Shared {
   /** Where the player is, once for both; and the tools of the page. */
   transport: HTMLElement;
   tools: HTMLElement;
+  /** All but the first. */
+  others: App[];
 }
 
 export class App {
@@ -57,9 +59,8 @@ export class App {
   private readonly overview: Overview;
   private readonly ending: Ending;
   private readonly share: SharePanel;
-  private readonly modeButtons = new Map<CameraMode, HTMLButtonElement>();
+  private readonly cameras: CameraBar;
   private layerPanel: HTMLElement;
-  private readonly others: App[] = [];
   private readonly scanTimes: number[];
   private readonly stepTimes: number[];
   private dirty = true;
@@ -95,6 +96,11 @@ export class App {
     this.ending = new Ending(payload, events, this.player, this.drive.end, () => this.playOverview());
     this.share = new SharePanel(payload, this.player, this.overview, this.view.element, () => this.refresh());
     this.layerPanel = this.makeLayers();
+    this.cameras = new CameraBar(this.view.modes, {
+      mode: (mode) => this.setMode(mode),
+      overview: () => this.playOverview(),
+      planOfPaths: () => this.planOfPaths(),
+    });
     this.build();
     if (this.leads) bindKeys(this.keys());
     this.player.onChange(() => this.refresh());
@@ -106,50 +112,17 @@ export class App {
     return this.shared?.first ?? true;
   }
 
-  /** A second trial, whose camera goes as this one's. */
-  accompany(other: App): void {
-    this.others.push(other);
+  /** Whose camera and layers go as this one's. */
+  private get others(): App[] {
+    return this.leads ? (this.shared?.others ?? []) : [];
   }
 
   handle(): Handle {
-    const { player, drive, view, overview } = this;
-    const frames = (): number => this.frames;
-    return {
-      get duration() {
-        return player.end - player.start;
-      },
-      get time() {
-        return player.time;
-      },
-      get playing() {
-        return player.playing;
-      },
-      get mode() {
-        return view.mode;
-      },
-      get frames() {
-        return frames();
-      },
-      seek: (t) => player.seek(t),
-      get overview() {
-        return overview.running;
-      },
-      play: () => player.play(),
+    return makeHandle(this.player, this.drive, this.view, this.overview, {
+      frames: () => this.frames,
+      update: () => this.updateAll(),
       playOverview: () => this.playOverview(),
-      pose: () => {
-        this.updateAll();
-        return view.drawn();
-      },
-      links: () => {
-        this.updateAll();
-        return view.drawnLinks();
-      },
-      drawing: () => {
-        this.updateAll();
-        return view.drawing();
-      },
-      sample: (i) => drive.at(this.payload.motion.t[i] ?? NaN),
-    };
+    });
   }
 
   private build(): void {
@@ -158,7 +131,7 @@ export class App {
     const tools = el("div", { class: "tools" }, this.share.element);
     if (this.leads) (this.shared?.tools ?? tools).append(...this.pageTools());
     if (this.shared) title.append(el("p", { class: "repeats" }, el("code", {}, payload.command)));
-    const picture = el("div", { class: "picture" }, this.cameraBar(), el("div", { class: "frame" }, view.element));
+    const picture = el("div", { class: "picture" }, this.cameras.element, el("div", { class: "frame" }, view.element));
     picture.append(this.overview.element, this.ending.element);
     if (view.modes.length > 1) picture.append(shareTouch(view.element));
     else picture.append(el("p", { class: "note" }, "This browser shows no WebGL: here is the plan, without the third dimension."));
@@ -209,18 +182,6 @@ export class App {
     if (link.has("t")) this.player.seek(Number(link.get("t")));
   }
 
-  private cameraBar(): HTMLElement {
-    const bar = el("div", { class: "cameras", role: "group", "aria-label": "Camera" });
-    for (const mode of this.view.modes) {
-      const item = button(MODE_NAMES[mode], `Camera: ${MODE_NAMES[mode]}`, () => this.setMode(mode));
-      this.modeButtons.set(mode, item);
-      bar.append(item);
-    }
-    bar.append(button("Overview", "The whole drive in ten seconds (v)", () => this.playOverview()));
-    bar.append(button("Plan of the paths", "From above with the whole paths, as figure 16 of Matthies 1995 shows a drive (6)", () => this.planOfPaths()));
-    return bar;
-  }
-
   private makeLayers(): HTMLElement {
     return layersPanel(this.payload, this.layers, this.view.modes.length > 1, () => this.refresh());
   }
@@ -229,7 +190,7 @@ export class App {
     for (const other of this.others) other.setMode(mode);
     if (!this.view.modes.includes(mode)) return;
     this.view.setMode(mode);
-    for (const [name, item] of this.modeButtons) item.setAttribute("aria-pressed", String(name === mode));
+    this.cameras.show(mode);
     this.refresh();
   }
 

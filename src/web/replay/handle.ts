@@ -1,6 +1,8 @@
 // What tests and the console of the browser can ask of the page.
-import type { Moment } from "./motion";
-import type { CameraMode, Drawing, DrawnLink, DrawnPose } from "./view";
+import type { Course as Drive, Moment } from "./motion";
+import type { Overview } from "./overview";
+import type { Player } from "./player";
+import type { CameraMode, Drawing, DrawnLink, DrawnPose, View } from "./view";
 
 /** What is shown, and the player; nothing of the trial can be changed. */
 export interface Handle {
@@ -23,4 +25,45 @@ export interface Handle {
   drawing(): Drawing | null;
   /** The moment of sample i. */
   sample(i: number): Moment;
+}
+
+interface PageActions {
+  frames(): number;
+  /** Draws what is due now, of every picture. */
+  update(): void;
+  playOverview(): void;
+}
+
+export function makeHandle(player: Player, drive: Drive, view: View, overview: Overview, page: PageActions): Handle {
+  const drawn = <T>(read: () => T): T => {
+    page.update();
+    return read();
+  };
+  return {
+    get duration() {
+      return player.end - player.start;
+    },
+    get time() {
+      return player.time;
+    },
+    get playing() {
+      return player.playing;
+    },
+    get mode() {
+      return view.mode;
+    },
+    get frames() {
+      return page.frames();
+    },
+    get overview() {
+      return overview.running;
+    },
+    seek: (t) => player.seek(t),
+    play: () => player.play(),
+    playOverview: () => page.playOverview(),
+    pose: () => drawn(() => view.drawn()),
+    links: () => drawn(() => view.drawnLinks()),
+    drawing: () => drawn(() => view.drawing()),
+    sample: (i) => drive.at(drive.motion.t[i] ?? NaN),
+  };
 }

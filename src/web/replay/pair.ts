@@ -37,6 +37,7 @@ export function makePair(first: ReplayPayload, second: ReplayPayload, root: HTML
     beats: beats(first, second),
     transport,
     tools,
+    others: [],
   };
   const places = [el("section", { "aria-label": "First trial" }), el("section", { "aria-label": "Second trial" })] as const;
   const note = sameRocks(first, second)
@@ -45,7 +46,5 @@ export function makePair(first: ReplayPayload, second: ReplayPayload, root: HTML
   root.classList.add("pair");
   root.replaceChildren(el("header", { class: "pair-head" }, el("p", {}, note), tools), el("div", { class: "pair-columns" }, ...places), transport);
   const follower = new App(second, places[1], { ...shared, first: false });
-  const leader = new App(first, places[0], { ...shared, first: true });
-  leader.accompany(follower);
-  return leader;
+  return new App(first, places[0], { ...shared, first: true, others: [follower] });
 }
