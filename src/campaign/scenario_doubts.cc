@@ -198,7 +198,8 @@ std::vector<Problem> DoubtsOf(const scenario::Sweep& sweep) {
   std::vector<Problem> doubts;
   for (auto& [path, first] : found) {
     auto& [doubt, cells] = first;
-    if (cells > 1) doubt.reason += fmt::format(" (and so in {} more cells)", cells - 1);
+    if (cells > 1)
+      doubt.reason += fmt::format(" (and so in {} more cell{})", cells - 1, cells > 2 ? "s" : "");
     doubts.push_back(std::move(doubt));
   }
   return doubts;

@@ -83,6 +83,10 @@ TEST(ScenarioDoubts, TheSizeThatTheNavigatorBelievesIn) {
                            "map": {"rover": {"width_m": 0.5}}}}})"}),
               IsEmpty());
   EXPECT_THAT(PathsOf({kNarrow}), IsEmpty()) << "another navigator";
+  // A tenth of the width is no other vehicle.
+  EXPECT_THAT(PathsOf({R"({"rover": {"geometry": {"width_m": 0.78}}})", kBase}), IsEmpty());
+  EXPECT_THAT(PathsOf({R"({"rover": {"geometry": {"width_m": 0.7}}})", kBase}),
+              ElementsAre("navigation.gestalt.map.rover"));
 }
 
 TEST(ScenarioDoubts, GravityAndSandOfEarthUnderANameThatSaysMars) {
@@ -133,6 +137,8 @@ TEST(DoubtsOfSweeps, WhatTheSweepChangesOfItsBase) {
   ASSERT_EQ(one.size(), 1U);
   EXPECT_EQ(one[0].path, "cell goal_x_m=30: referee.no_path_distance_m");
   EXPECT_EQ(one[0].reason, "4 m are little for a course of 30 m");
+  EXPECT_EQ(doubts("7, 30, 40")[0].reason,
+            "4 m are little for a course of 30 m (and so in 1 more cell)");
   const std::vector<core::Problem> several = doubts("7, 30, 40, 50");
   ASSERT_EQ(several.size(), 1U);
   EXPECT_EQ(several[0].reason, "4 m are little for a course of 30 m (and so in 2 more cells)");
@@ -177,6 +183,19 @@ TEST(DoubtsOfFiles, ValuesInAFileExtendFilesToo) {
       << R"({"extends": "base.json", "rover": {"extends": "mine.json", "mass": {"total_kg": 60}},
              "perception": {"dead_reckoning": {"distance_scale": 0.9}}})";
   EXPECT_THAT(DoubtsOf(path("over.json"), {}), IsEmpty());
+}
+
+// Of a list of files the last lies on top: it knew the others.
+TEST(DoubtsOfFiles, TheLastOfAListLiesOnTop) {
+  const core::TestFolder folder;
+  const auto path = [&](const char* name) { return folder.path() / name; };
+  std::ofstream(path("rover.json")) << R"({"rover": {"geometry": {"width_m": 0.5}}})";
+  std::ofstream(path("odometer.json"))
+      << R"({"perception": {"dead_reckoning": {"distance_scale": 0.9}}})";
+  std::ofstream(path("knows.json")) << R"({"extends": ["rover.json", "odometer.json"]})";
+  std::ofstream(path("does_not.json")) << R"({"extends": ["odometer.json", "rover.json"]})";
+  EXPECT_THAT(DoubtsOf(path("knows.json"), {}), IsEmpty());
+  EXPECT_EQ(DoubtsOf(path("does_not.json"), {}).size(), 1U);
 }
 
 TEST(DoubtsOfFiles, OverridesLieOnTopAndBasesBelow) {
