@@ -77,8 +77,8 @@ replay::ReplayWorld WorldOf(const scenario::Scenario& scenario) {
   return {.gravity_m_s2 = drive.rover.physics.gravity_m_s2,
           .sun_elevation_rad = drive.sensors.sun.elevation_rad,
           .sun_azimuth_rad = drive.sensors.sun.azimuth_rad,
-          .arena = std::string(core::EnumNames<terrain::ArenaKind>::kNames.at(
-              static_cast<std::size_t>(arena.kind))),
+          .arena = std::string(
+              core::EnumNames<terrain::ArenaKind>::kNames.at(static_cast<std::size_t>(arena.kind))),
           .x_min_m = bounds.x_min_m,
           .x_max_m = bounds.x_max_m,
           .y_min_m = bounds.y_min_m,

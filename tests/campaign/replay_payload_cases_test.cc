@@ -40,8 +40,8 @@ TEST(ReplayPayload, RocksThatThePushedRoverMoves) {
 }
 
 TEST(ReplayPayload, SaysWhichWorldItIs) {
-  const std::vector<std::string> sun{"sensors.sun.elevation_deg=20",
-                                     "sensors.sun.azimuth_deg=-60", "referee.time_limit_s=60"};
+  const std::vector<std::string> sun{"sensors.sun.elevation_deg=20", "sensors.sun.azimuth_deg=-60",
+                                     "referee.time_limit_s=60"};
   const Json arena = PayloadOf(SourceOf("pathfinder/nominal", sun), 0)["world"];
   EXPECT_EQ(arena["gravity"], 9.81);
   EXPECT_NEAR(arena["sun"]["elevation"].get<double>(), math::DegToRad(20.0), 1e-5);

@@ -53,6 +53,8 @@ const crowds = {
   "Viking Lander 2": () => pageOf("pathfinder/vl2", "vl2", shortTrial),
   "Viking Lander 2 with the Athena SDM": () => pageOf("gestalt/viking_lander_2", "gestalt", shortTrial),
   "the highest abundance": () => pageOf("gestalt/abundance", "abundance", ["terrain.rocks.k_per_m2=0.02", ...shortTrial]),
+  "the highest abundance on rough ground": () =>
+    pageOf("gestalt/abundance", "rough", ["terrain.rocks.k_per_m2=0.02", "terrain.ground.roughness_rms_m=0.03", ...shortTrial]),
   "ten thousand rocks": () =>
     changed(nominal, "crowd.html", (payload) => {
       const [rock] = payload.rocks;

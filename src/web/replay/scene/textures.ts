@@ -14,7 +14,7 @@ const GRAIN_PX = 1.1;
 const CLODS_PX = [64, 24, 8, 3];
 const PEBBLES = 260;
 // Ground is seen at flat angles; more would cost where drawing is done in software.
-const ANISOTROPY = 4;
+const ANISOTROPY = 2;
 // Steeper for the eye than the light makes it.
 const RELIEF = 0.3;
 
