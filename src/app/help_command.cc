@@ -31,7 +31,8 @@ constexpr const char* kStart =
     "                                      twenty drives of one of them, in a few seconds\n"
     "  rockyard help run                   what else `run` can do\n"
     "\n"
-    "docs/README.md of the source tree (share/doc/rockyard of an installation) is the way into the\n"
+    "docs/README.md of the source tree (share/doc/rockyard of an installation) is the way into "
+    "the\n"
     "documentation: a tutorial of an hour, ten questions with their answers, every command.\n"
     "\n"
     "Commands:\n";
