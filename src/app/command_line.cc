@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include "app/commands.h"
@@ -96,6 +98,15 @@ void PrintOnce(const std::vector<core::Problem>& problems) {
   if (campaign::IsFirstRank()) PrintProblems(problems);
 }
 
+// mpirun ends every rank as soon as one has left with an error: the first, which alone tells what
+// is wrong with the input, is waited for. Where its input is good, this machine's is not, and all
+// end.
+void LeaveFirstRankTime(ExitCode outcome) {
+  constexpr std::chrono::seconds kFirstRank{10};
+  if (outcome != ExitCode::kBadInput || campaign::IsFirstRank()) return;
+  std::this_thread::sleep_for(kFirstRank);
+}
+
 // Ranks share the trials of a campaign; anything else is done once.
 bool IsForAllRanks(std::string_view command) { return command == "run" || command == "sweep"; }
 
@@ -157,6 +168,7 @@ int RunCommandLine(int argc, const char* const* argv) {
   ExitCode exit_code = ExitCode::kDone;
   AddCommands(app, exit_code);
   const ExitCode outcome = Guarded([&] { return Parse(app, argc, argv, exit_code); });
+  LeaveFirstRankTime(outcome);
   return static_cast<int>(OutputFailed() ? AfterFailedOutput(outcome) : outcome);
 }
 

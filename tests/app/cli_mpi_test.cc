@@ -85,6 +85,18 @@ TEST_F(CliMpi, BadInputIsToldOnce) {
   }
 }
 
+// Also when the others are sooner: mpirun ends all as soon as one has left with an error.
+TEST_F(CliMpi, BadInputIsToldThoughTheFirstRankComesLast) {
+  const std::string late = "test $OMPI_COMM_WORLD_RANK != 0 || sleep 1; exec \"$@\"";
+  for (const std::vector<std::string>& wrong :
+       {std::vector<std::string>{"--set", "nothing.at=1"}, {"--nonsense"}}) {
+    const CommandResult result = Wait(StartProgram(With(
+        {MPIRUN, "-n", "3", "sh", "-c", late, "late", ROCKYARD_COMMAND}, Drives("a", 5, wrong))));
+    EXPECT_EQ(result.exit_code, 2) << wrong.front();
+    EXPECT_THAT(result.err, HasSubstr("error: ")) << wrong.front();
+  }
+}
+
 TEST_F(CliMpi, KilledRankLosesNoStoredTrialAndOthersGoOn) { ExpectKillLosesNothing(2, 2); }
 
 TEST_F(CliMpi, KilledRankZeroIsResumedWithoutMpi) { ExpectKillLosesNothing(0, 0); }

@@ -76,6 +76,7 @@ test("any key or click ends the overview where it is; Escape and its button go t
   for (const [leave, where] of [
     [(page) => page.keyboard.press("b"), "there"],
     [(page) => page.click(".readout h2"), "there"],
+    [(page) => page.evaluate(() => rockyardReplay.seek(rockyardReplay.time)), "there"],
     [(page) => page.keyboard.press("Escape"), "start"],
     [(page) => page.click(".overview button"), "start"],
   ]) {

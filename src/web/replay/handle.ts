@@ -39,6 +39,11 @@ export function makeHandle(player: Player, drive: Drive, view: View, overview: O
     page.update();
     return read();
   };
+  // Like a key or a click: what is asked for ends the overview, which would go on elsewhere.
+  const here = (act: () => void): void => {
+    overview.stop("left");
+    act();
+  };
   return {
     get duration() {
       return player.end - player.start;
@@ -58,8 +63,8 @@ export function makeHandle(player: Player, drive: Drive, view: View, overview: O
     get overview() {
       return overview.running;
     },
-    seek: (t) => player.seek(t),
-    play: () => player.play(),
+    seek: (t) => here(() => player.seek(t)),
+    play: () => here(() => player.play()),
     playOverview: () => page.playOverview(),
     pose: () => drawn(() => view.drawn()),
     links: () => drawn(() => view.drawnLinks()),
