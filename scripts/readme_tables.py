@@ -303,6 +303,12 @@ def causes(study):
     return table(["change", "nominal", "0.85 per m2"], rows)
 
 
+def mean_cells(row):
+    """Both means and their difference; `compare` gives no interval where a few trials decide it."""
+    a, b, difference, low, high = (f"{float(row[part]):.4g}" if row[part] else "" for part in MEANS)
+    return a, b, f"{difference} ({low}..{high})" if low and high else f"{difference} (no interval)"
+
+
 def fidelity(study):
     rows = []
     for scenario in FIDELITY:
@@ -322,8 +328,7 @@ def fidelity(study):
                           ("heading_error_deg", "heading error (deg)"),
                           ("position_error_m", "position error (m)"),
                           ("scrapes", "scrapes"), ("max_tilt_deg", "largest tilt (deg)")):
-            a, b, difference, low, high = (f"{float(means['all', key][part]):.4g}" for part in MEANS)
-            rows.append([text, a, b, f"{difference} ({low}..{high})"])
+            rows.append([text, *mean_cells(means["all", key])])
         rows.append(["trials per CPU-second", *(trials_per_second(run) for run in runs), ""])
     return table(["mean over 300 trials", "multibody", "quasi-static", "paired difference (95 %)"],
                  rows)

@@ -770,6 +770,22 @@ END
         self.assertIn("table_3: not run, left as it is", said)
 
 
+class FidelityTable(unittest.TestCase):
+    def cells(self, low, high):
+        sys.path.insert(0, str(ROOT / "scripts"))
+        self.addCleanup(sys.path.remove, str(ROOT / "scripts"))
+        from readme_tables import mean_cells  # pylint: disable=import-outside-toplevel
+        return mean_cells({"mean_a": "7.61293", "mean_b": "7.6267", "difference": "0.0137649",
+                           "ci95_low": low, "ci95_high": high})
+
+    def test_a_difference_stands_with_its_interval(self):
+        self.assertEqual(self.cells("-0.0247658", "0.0811931"),
+                         ("7.613", "7.627", "0.01376 (-0.02477..0.08119)"))
+
+    def test_a_difference_that_few_trials_decide_has_none(self):
+        self.assertEqual(self.cells("", ""), ("7.613", "7.627", "0.01376 (no interval)"))
+
+
 class CourseStudy(ScriptTest):
     """With a rockyard of whose four trials three truly arrive."""
 
