@@ -101,11 +101,11 @@ std::optional<Ray> BackProject(const BrownPinhole& camera, const Pixel& pixel,
   if (!slope) return std::nullopt;
   const Vector3 d_C(slope->x(), slope->y(), 1.0);
   const Vector3 direction_C = d_C.normalized();
-  if (!direction_C.allFinite()) return std::nullopt;
-  const Ray ray{camera.X_AC.translation(), camera.X_AC.linear() * direction_C};
-  if (jacobian != nullptr) {
+  const std::optional<Ray> ray =
+      Finite({camera.X_AC.translation(), camera.X_AC.linear() * direction_C});
+  if (ray && jacobian != nullptr) {
     PixelJacobian by_point;
-    if (!Project(camera, ray.origin + ray.direction, &by_point)) return std::nullopt;
+    if (!Project(camera, ray->origin + ray->direction, &by_point)) return std::nullopt;
     jacobian->origin.setZero();
     jacobian->direction = DirectionByPixel(by_point);
   }

@@ -16,13 +16,13 @@ std::optional<Ray> BackProject(const Cahv& camera, const Pixel& pixel, RayJacobi
   if (!d) return std::nullopt;
   const double length = d->norm();
   const Vector3 direction = *d / length;
-  if (!direction.allFinite()) return std::nullopt;
-  if (jacobian != nullptr) {
+  const std::optional<Ray> ray = Finite({camera.C, direction});
+  if (ray && jacobian != nullptr) {
     jacobian->origin.setZero();
     // Of d / |d|: what is across the direction, over the length.
     jacobian->direction = (by_pixel - direction * (direction.transpose() * by_pixel)) / length;
   }
-  return Ray{camera.C, direction};
+  return ray;
 }
 
 Cahv Moved(const math::Transform& X_BA, const Cahv& camera) {

@@ -43,14 +43,14 @@ std::optional<Ray> BackProject(const Cahvor& camera, const Pixel& pixel, RayJaco
   const std::optional<double> chi = Undistort(distortion, slope.norm());
   if (!chi) return std::nullopt;
   const Vector3 direction = (o + slope / Share(distortion, *chi * *chi)).normalized();
-  if (!direction.allFinite()) return std::nullopt;
-  if (jacobian != nullptr) {
+  const std::optional<Ray> ray = Finite({camera.linear.C, direction});
+  if (ray && jacobian != nullptr) {
     PixelJacobian by_point;
     if (!Project(camera, camera.linear.C + direction, &by_point)) return std::nullopt;
     jacobian->origin.setZero();
     jacobian->direction = DirectionByPixel(by_point);
   }
-  return Ray{camera.linear.C, direction};
+  return ray;
 }
 
 Cahvor Moved(const math::Transform& X_BA, const Cahvor& camera) {

@@ -104,11 +104,10 @@ std::optional<Ray> BackProject(const Cahvore& camera, const Pixel& pixel, RayJac
   const double sine = std::sin(*theta);
   const double cosine = std::cos(*theta);
   const PupilShift shift = ShiftOf(camera.E, *theta);
-  const Ray ray{camera.linear.C + shift.s_m * o, on_axis
-                                                     ? (o + slope / distortion.c[0]).normalized()
-                                                     : Vector3(cosine * o + sine * outward)};
-  if (!ray.direction.allFinite() || !ray.origin.allFinite()) return std::nullopt;
-  if (jacobian == nullptr) return ray;
+  const std::optional<Ray> ray =
+      Finite({camera.linear.C + shift.s_m * o, on_axis ? (o + slope / distortion.c[0]).normalized()
+                                                       : Vector3(cosine * o + sine * outward)});
+  if (!ray || jacobian == nullptr) return ray;
 
   const Eigen::RowVector2d zeta_by_pixel = o.transpose() * bent_by_pixel;
   const Eigen::Matrix<double, 3, 2> slope_by_pixel =

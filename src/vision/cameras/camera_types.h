@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <optional>
 
 #include "math/pose.h"
 
@@ -28,6 +29,12 @@ struct Ray {
   math::Vector3 origin = math::Vector3::Zero();     // m
   math::Vector3 direction = math::Vector3::Zero();  // of unit length
 };
+
+// The ray, unless a number of it is not finite.
+inline std::optional<Ray> Finite(const Ray& ray) {
+  if (!ray.origin.allFinite() || !ray.direction.allFinite()) return std::nullopt;
+  return ray;
+}
 
 // Of a pixel by the point that is imaged there: pixels per metre.
 using PixelJacobian = Eigen::Matrix<double, 2, 3>;

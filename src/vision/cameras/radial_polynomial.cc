@@ -35,15 +35,15 @@ bool GrowsUpTo(const RadialPolynomial& polynomial, double r) {
   const double end = r * r;
   if (!(polynomial.c[0] > 0.0 && GrowthAt(polynomial, end) > 0.0)) return false;
   // Both ends are positive: what lies between is, unless the cubic has its local minimum there.
-  // Of q = q0 + q1 t + q2 t^2 + q3 t^3 it stands at -q1 / (q2 + sqrt(q2^2 - 3 q1 q3)).
+  // Of q0 + q1 t + q2 t^2 + q3 t^3 it stands at (sqrt(q2^2 - 3 q1 q3) - q2) / (3 q3), written for
+  // q2 > 0 without the cancellation.
   const double q1 = 3.0 * polynomial.c[1];
   const double q2 = 5.0 * polynomial.c[2];
   const double q3 = 7.0 * polynomial.c[3];
   const double discriminant = q2 * q2 - 3.0 * q1 * q3;
   if (!(discriminant >= 0.0)) return true;
-  const double divisor = q2 + std::sqrt(discriminant);
-  if (divisor == 0.0) return true;
-  const double minimum = -q1 / divisor;
+  const double root = std::sqrt(discriminant);
+  const double minimum = q2 > 0.0 ? -q1 / (q2 + root) : (root - q2) / (3.0 * q3);
   return !(minimum > 0.0 && minimum < end) || GrowthAt(polynomial, minimum) > 0.0;
 }
 
