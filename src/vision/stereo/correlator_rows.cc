@@ -1,0 +1,231 @@
+// Pixels into lanes, the best of right pixels out of them, and what the filters make of a row.
+#include <cstddef>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "vision/stereo/correlator_rows.cc"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "vision/stereo/correlator_kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rockyard::vision::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr hn::ScalableTag<std::uint16_t> kPixels;
+constexpr hn::RepartitionToWide<decltype(kPixels)> kPairs;  // two neighbouring lanes
+constexpr hn::RebindToSigned<decltype(kPairs)> kInts;
+constexpr hn::RebindToFloat<decltype(kPairs)> kFloats;
+using Pixels = hn::Vec<decltype(kPixels)>;
+using Ints = hn::Vec<decltype(kInts)>;
+
+// Vectors j < 0 and j >= segment, for the pixels of the neighbouring lane; `row` is vector 0.
+void ExtendRow(const LaneLayout& layout, std::uint16_t* row) {
+  const std::ptrdiff_t lanes = layout.lanes;
+  const std::ptrdiff_t segment = lanes * layout.segment;
+  for (std::ptrdiff_t j = -lanes; j >= lanes * layout.first; j -= lanes) {
+    hn::Store(hn::LoadU(kPixels, row + j + segment - 1), kPixels, row + j);
+  }
+  for (std::ptrdiff_t j = segment; j <= lanes * layout.last; j += lanes) {
+    hn::Store(hn::LoadU(kPixels, row + j - segment + 1), kPixels, row + j);
+  }
+}
+
+// The best of right pixels, key and group, `at` vector j; the arrays begin at j = 0.
+struct RightBest {
+  Pixels key;
+  Pixels group;
+};
+
+HWY_INLINE RightBest LoadBest(const std::uint16_t* keys, const std::uint16_t* groups,
+                              std::ptrdiff_t at) {
+  return {hn::LoadU(kPixels, keys + at), hn::LoadU(kPixels, groups + at)};
+}
+
+// What pixels found outside of their own segment, from the farthest vector inwards. Vectors before
+// the segment hold larger disparities than their targets, which win ties; those behind it smaller.
+void MergeBest(const LaneLayout& layout, std::uint16_t* keys, std::uint16_t* groups) {
+  const std::ptrdiff_t lanes = layout.lanes;
+  const std::ptrdiff_t segment = lanes * layout.segment;
+  const auto place = hn::Set(kPixels, kGroup - 1);
+  const auto none = hn::Set(kPixels, kNoKey);
+  const auto lane = hn::Iota(kPixels, 0);
+  const auto first_lane = hn::Eq(lane, hn::Zero(kPixels));
+  const auto last_lane = hn::Eq(lane, hn::Set(kPixels, static_cast<std::uint16_t>(lanes - 1)));
+  const auto store = [&](const RightBest& best, std::ptrdiff_t at) {
+    hn::Store(best.key, kPixels, keys + at);
+    hn::Store(best.group, kPixels, groups + at);
+  };
+  for (std::ptrdiff_t j = lanes * layout.first; j < 0; j += lanes) {
+    RightBest here = LoadBest(keys, groups, j + segment);
+    const RightBest other = LoadBest(keys, groups, j + 1);
+    const auto key = hn::IfThenElse(last_lane, none, other.key);
+    const auto better = hn::Lt(hn::Or(key, place), here.key);
+    here = {hn::IfThenElse(better, key, here.key), hn::IfThenElse(better, other.group, here.group)};
+    store(here, j + segment);
+  }
+  for (std::ptrdiff_t j = lanes * layout.last; j >= segment; j -= lanes) {
+    const RightBest here = LoadBest(keys, groups, j - segment);
+    RightBest best = LoadBest(keys, groups, j - 1);
+    best.key = hn::IfThenElse(first_lane, none, best.key);
+    const auto worse = hn::Lt(hn::Or(here.key, place), best.key);
+    best = {hn::IfThenElse(worse, here.key, best.key),
+            hn::IfThenElse(worse, here.group, best.group)};
+    store(best, j - segment);
+  }
+}
+
+// Disparity, counted from the smallest one, that a key and its group stand for.
+HWY_INLINE Pixels DisparityIndex(Pixels key, Pixels group) {
+  return hn::Add(hn::ShiftLeft<kKeyShift>(group), hn::And(key, hn::Set(kPixels, kGroup - 1)));
+}
+
+void GatherRightBest(CorrelatorState& state) {
+  const LaneLayout& layout = state.layout;
+  const std::ptrdiff_t zero = layout.Wide(0);
+  std::uint16_t* const keys = state.right_key.data() + zero;
+  std::uint16_t* const groups = state.right_group.data() + zero;
+  std::uint16_t* const index = state.right_index.data() + zero;
+  MergeBest(layout, keys, groups);
+  const std::ptrdiff_t lanes = layout.lanes;
+  for (std::ptrdiff_t j = 0; j < lanes * layout.segment; j += lanes) {
+    const RightBest best = LoadBest(keys, groups, j);
+    hn::Store(DisparityIndex(best.key, best.group), kPixels, index + j);
+  }
+  ExtendRow(layout, index);
+}
+
+// One of the two lanes of each pair, as a number.
+struct EvenLanes {
+  Ints operator()(Ints pairs) const { return hn::And(pairs, hn::Set(kInts, 0xFFFF)); }
+};
+struct OddLanes {
+  Ints operator()(Ints pairs) const {
+    return hn::BitCast(kInts, hn::ShiftRight<16>(hn::BitCast(kPairs, pairs)));
+  }
+};
+
+// Where the words of vector j lie for each pair of lanes, counted in pairs.
+struct PairTables {
+  const std::int32_t* scores;       // of the smallest disparity
+  std::int32_t score_stride;        // to the next disparity
+  const std::int32_t* right_index;  // of the match at the smallest disparity
+  std::int32_t right_stride;        // back to the match at the next disparity
+};
+
+HWY_INLINE Ints Replace(hn::Mask<decltype(kInts)> dropped, Drop reason, Ints value) {
+  return hn::IfThenElse(dropped, hn::Set(kInts, Dropped(reason)), value);
+}
+
+// floor((32 (below - above) + 33 c) / (2 c)) - 16. Numerator and denominator are whole numbers
+// below 2^24, exact as floats, and their ratio is below 64; where it is no whole number it stays 1
+// / 65532 or more away from the next, twice the spacing of floats there: rounding cannot reach it.
+HWY_INLINE Ints SubPixelOf(Ints below, Ints above, Ints curvature) {
+  const auto numerator = hn::Add(hn::Mul(hn::Sub(below, above), hn::Set(kInts, kDisparityOne)),
+                                 hn::Mul(curvature, hn::Set(kInts, kDisparityOne + 1)));
+  const auto denominator = hn::Max(hn::Add(curvature, curvature), hn::Set(kInts, 1));
+  const auto ratio =
+      hn::Div(hn::ConvertTo(kFloats, numerator), hn::ConvertTo(kFloats, denominator));
+  return hn::Sub(hn::ConvertTo(kInts, ratio), hn::Set(kInts, kDisparityOne / 2));
+}
+
+template <typename Half>
+HWY_INLINE Ints Decide(Ints keys, Ints indices, const PairTables& tables, const LaneLayout& layout,
+                       const PeakLimits& limits) {
+  const Half half;
+  const auto key = half(keys);
+  const auto index = half(indices);
+  const auto pair = hn::Iota(kInts, 0);
+  const auto match = hn::Sub(pair, hn::Mul(index, hn::Set(kInts, tables.right_stride)));
+  const auto back = half(hn::GatherIndex(kInts, tables.right_index, match));
+  const auto stride = hn::Set(kInts, tables.score_stride);
+  const auto at = hn::Add(pair, hn::Mul(index, stride));
+  const auto below_key = half(hn::GatherIndex(kInts, tables.scores, hn::Sub(at, stride)));
+  const auto above_key = half(hn::GatherIndex(kInts, tables.scores, hn::Add(at, stride)));
+  const auto none = hn::Set(kInts, kNoKey);
+
+  const auto best = hn::ShiftRight<kKeyShift>(key);
+  const auto below = hn::ShiftRight<kKeyShift>(below_key);
+  const auto above = hn::ShiftRight<kKeyShift>(above_key);
+  const auto curvature = hn::Sub(hn::Add(below, above), hn::Add(best, best));
+  const auto whole = hn::Add(index, hn::Set(kInts, layout.min_disparity));
+  auto value =
+      hn::Add(hn::ShiftLeft<kDisparityFractionBits>(whole), SubPixelOf(below, above, curvature));
+
+  const auto contrast =
+      hn::Lt(hn::ShiftLeft<8>(curvature), hn::Mul(best, hn::Set(kInts, limits.ratio_256)));
+  const auto peak = hn::AndNot(hn::Lt(curvature, hn::Set(kInts, limits.curvature)),
+                               hn::Gt(hn::Min(below, above), best));
+  const auto range_end = hn::Or(hn::Eq(below_key, none), hn::Eq(above_key, none));
+  const auto line_of_sight =
+      hn::Gt(hn::Abs(hn::Sub(back, index)), hn::Set(kInts, limits.line_of_sight));
+  value = Replace(contrast, Drop::kContrast, value);
+  value = Replace(hn::Not(peak), Drop::kPeak, value);
+  value = Replace(range_end, Drop::kRangeEnd, value);
+  value = Replace(line_of_sight, Drop::kLineOfSight, value);
+  return Replace(hn::Eq(key, none), Drop::kOutside, value);
+}
+
+void DecideRow(const PeakLimits& limits, CorrelatorState& state) {
+  const LaneLayout& layout = state.layout;
+  const std::ptrdiff_t lanes = layout.lanes;
+  PairTables tables{reinterpret_cast<const std::int32_t*>(state.Scores(0)),
+                    static_cast<std::int32_t>(layout.row_size() / 2),
+                    reinterpret_cast<const std::int32_t*>(state.right_index.data() +
+                                                          layout.Wide(-layout.min_disparity)),
+                    layout.lanes / 2};
+  for (std::ptrdiff_t j = 0; j < lanes * layout.segment; j += lanes) {
+    const auto key = hn::Load(kPixels, state.left_key.data() + j);
+    const auto index = DisparityIndex(key, hn::Load(kPixels, state.left_group.data() + j));
+    const auto keys = hn::BitCast(kInts, key);
+    const auto indices = hn::BitCast(kInts, index);
+    const auto even = Decide<EvenLanes>(keys, indices, tables, layout, limits);
+    const auto odd = Decide<OddLanes>(keys, indices, tables, layout, limits);
+    const auto both = hn::Or(hn::And(even, hn::Set(kInts, 0xFFFF)), hn::ShiftLeft<16>(odd));
+    hn::Store(hn::BitCast(hn::RebindToSigned<decltype(kPixels)>(), both),
+              hn::RebindToSigned<decltype(kPixels)>(), state.result.data() + j);
+    tables.scores += lanes / 2;
+    tables.right_index += lanes / 2;
+  }
+}
+
+}  // namespace rockyard::vision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rockyard::vision {
+
+HWY_EXPORT(ExtendRow);
+HWY_EXPORT(GatherRightBest);
+HWY_EXPORT(DecideRow);
+
+namespace {
+
+// Scatters a row of the image into the lanes: pixel i * segment + j to lane i of vector j.
+void ToLanes(std::span<const std::uint8_t> pixels, const LaneLayout& layout, std::uint16_t* row) {
+  std::size_t x = 0;
+  for (std::size_t lane = 0; lane < layout.lane_count(); ++lane) {
+    for (std::size_t at = lane; at < layout.row_size(); at += layout.lane_count(), ++x) {
+      row[at] = x < pixels.size() ? static_cast<std::uint16_t>(pixels[x] << kKeyShift) : 0;
+    }
+  }
+}
+
+}  // namespace
+
+void LoadRow(std::span<const std::uint8_t> left, std::span<const std::uint8_t> right, int slot,
+             CorrelatorState& state) {
+  ToLanes(left, state.layout, state.Left(slot));
+  std::uint16_t* const row = state.Right(slot) + state.layout.Wide(0);
+  ToLanes(right, state.layout, row);
+  HWY_DYNAMIC_DISPATCH(ExtendRow)(state.layout, row);
+}
+
+void GatherRightBest(CorrelatorState& state) { HWY_DYNAMIC_DISPATCH(GatherRightBest)(state); }
+
+void DecideRow(const PeakLimits& limits, CorrelatorState& state) {
+  HWY_DYNAMIC_DISPATCH(DecideRow)(limits, state);
+}
+
+}  // namespace rockyard::vision
+#endif  // HWY_ONCE

@@ -1,0 +1,40 @@
+#include "vision/stereo/correlator_state.h"
+
+#include <algorithm>
+
+namespace rockyard::vision {
+namespace {
+
+// Writes kNoKey for each pixel of vectors first ... last whose window is not inside the image.
+void FillMask(const LaneLayout& layout, int first, int last, std::uint16_t* mask) {
+  for (int j = first; j <= last; ++j) {
+    for (int lane = 0; lane < layout.lanes; ++lane) {
+      *mask++ = layout.WindowInside(lane * layout.segment + j) ? 0 : kNoKey;
+    }
+  }
+}
+
+}  // namespace
+
+CorrelatorState::CorrelatorState(int lanes, int width, const CorrelatorParams& params)
+    : layout(lanes, width, params),
+      column_stride(Size(layout.segment + layout.before + layout.after + 2) * layout.lane_count()),
+      left_rows(layout.row_size() * Size(slots() + 1)),
+      right_rows(layout.wide_size() * Size(slots() + 1)),
+      columns(column_stride * Size(kGroup * layout.groups)),
+      scores(layout.row_size() * Size(kGroup * layout.groups + 2)),
+      left_key(layout.row_size()),
+      left_group(layout.row_size()),
+      right_key(layout.wide_size()),
+      right_group(layout.wide_size()),
+      right_index(layout.wide_size()),
+      left_mask(layout.row_size()),
+      right_mask(layout.wide_size()),
+      result(layout.row_size()) {
+  FillMask(layout, 0, layout.segment - 1, left_mask.data());
+  FillMask(layout, layout.first, layout.last, right_mask.data());
+  std::fill_n(Scores(-1), layout.row_size(), kNoKey);
+  std::fill_n(Scores(kGroup * layout.groups), layout.row_size(), kNoKey);
+}
+
+}  // namespace rockyard::vision
