@@ -9,17 +9,6 @@
 namespace rockyard::vision {
 namespace {
 
-// Takes the lanes apart: the reverse of LaneLayout.
-void FromLanes(const LaneLayout& layout, const std::int16_t* lanes, std::span<std::int16_t> row) {
-  std::size_t x = 0;
-  for (std::size_t lane = 0; lane < layout.lane_count(); ++lane) {
-    for (std::size_t at = lane; at < layout.row_size() && x < row.size();
-         at += layout.lane_count()) {
-      row[x++] = lanes[at];
-    }
-  }
-}
-
 void DropRow(std::span<std::int16_t> row) {
   std::fill(row.begin(), row.end(), Dropped(Drop::kOutside));
 }
@@ -49,13 +38,13 @@ void CorrelateRows(const GrayImage& left, const GrayImage& right,
     const int out_slot = oldest < first - layout.before ? state.zero_slot() : oldest % slots;
     const int centre = y - layout.after;
     if (centre < first) {
-      SlideColumns(y % slots, out_slot, state);
+      SlideRow(y % slots, out_slot, state);
       continue;
     }
     ScoreRow(y % slots, out_slot, state);
     GatherRightBest(state);
     DecideRow(limits, state);
-    FromLanes(layout, state.result.data(), out.Row(centre));
+    std::copy_n(state.row.data(), out.width(), out.Row(centre).data());
   }
 }
 

@@ -14,8 +14,9 @@
 //                  parameter, and at least S(x, d_L) times another
 //   sub-pixel:     the lowest point of the parabola through the three (subpixel.h)
 //
-// Sums slide in both directions: a column sum gains the row that comes and loses the one that goes,
-// a window sum gains and loses a column, so that the time does not depend on the window.
+// Sums slide in both directions: a score gains the row that comes and loses the one that goes, and
+// what it gains or loses in a row slides along the row, so that the time does not depend on the
+// window.
 #pragma once
 
 #include "vision/image.h"

@@ -17,16 +17,17 @@ int VectorLanes();
 void LoadRow(std::span<const std::uint8_t> left, std::span<const std::uint8_t> right, int slot,
              CorrelatorState& state);
 
-// Moves the column sums down by a row: the differences of one slot come, those of the other go.
-void SlideColumns(int slot_in, int slot_out, CorrelatorState& state);
+// Moves the scores down by a row: the differences of one slot come, those of the other go.
+void SlideRow(int slot_in, int slot_out, CorrelatorState& state);
 
-// As SlideColumns, then scores of all pixels and disparities, and the best of either image.
+// As SlideRow, then the best of either image.
 void ScoreRow(int slot_in, int slot_out, CorrelatorState& state);
 
 // Brings together what right pixels found in vectors of different j, and writes right_index.
 void GatherRightBest(CorrelatorState& state);
 
-// Checks, sub-pixel interpolation: from the best of either image to `result`.
+// Checks and sub-pixel interpolation: from the best of either image to `row`, in the order of
+// pixels.
 void DecideRow(const PeakLimits& limits, CorrelatorState& state);
 
 }  // namespace rockyard::vision

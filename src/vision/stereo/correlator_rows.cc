@@ -1,4 +1,5 @@
 // Pixels into lanes, the best of right pixels out of them, and what the filters make of a row.
+#include <algorithm>
 #include <cstddef>
 
 #undef HWY_TARGET_INCLUDE
@@ -16,6 +17,9 @@ constexpr hn::ScalableTag<std::uint16_t> kPixels;
 constexpr hn::RepartitionToWide<decltype(kPixels)> kPairs;  // two neighbouring lanes
 constexpr hn::RebindToSigned<decltype(kPairs)> kInts;
 constexpr hn::RebindToFloat<decltype(kPairs)> kFloats;
+constexpr hn::RebindToSigned<decltype(kPixels)> kResults;
+constexpr hn::RepartitionToWide<decltype(kPairs)> kQuads;
+constexpr hn::RebindToSigned<decltype(kQuads)> kQuadInts;
 using Pixels = hn::Vec<decltype(kPixels)>;
 using Ints = hn::Vec<decltype(kInts)>;
 
@@ -28,6 +32,62 @@ void ExtendRow(const LaneLayout& layout, std::uint16_t* row) {
   }
   for (std::ptrdiff_t j = segment; j <= lanes * layout.last; j += lanes) {
     hn::Store(hn::LoadU(kPixels, row + j - segment + 1), kPixels, row + j);
+  }
+}
+
+// Lays a row of pixels into the lanes: pixel i * segment + j, times four, into lane i of vector j.
+// Four pixels of a segment are a word of 32 bits, of even and of odd lanes apart.
+void ToLanes(const std::uint8_t* pixels, const LaneLayout& layout, std::uint16_t* row) {
+  const auto* const words = reinterpret_cast<const std::int32_t*>(pixels);
+  const auto even = hn::Mul(hn::Iota(kInts, 0), hn::Set(kInts, layout.segment / 2));
+  const auto odd = hn::Add(even, hn::Set(kInts, layout.segment / 4));
+  const auto low = hn::Set(kPairs, 0xFF << kKeyShift);
+  const auto high = hn::ShiftLeft<16>(low);
+  const std::ptrdiff_t lanes = layout.lanes;
+  for (int word = 0; word < layout.segment / 4; ++word) {
+    const auto evens = hn::BitCast(kPairs, hn::GatherIndex(kInts, words + word, even));
+    const auto odds = hn::BitCast(kPairs, hn::GatherIndex(kInts, words + word, odd));
+    std::uint16_t* const to = row + 4 * word * lanes;
+    const auto store = [&](hn::Vec<decltype(kPairs)> e, hn::Vec<decltype(kPairs)> o,
+                           std::uint16_t* vector) HWY_ATTR {
+      hn::Store(hn::BitCast(kPixels, hn::Or(hn::And(e, low), hn::And(o, high))), kPixels, vector);
+    };
+    store(hn::ShiftLeft<2>(evens), hn::ShiftLeft<18>(odds), to);
+    store(hn::ShiftRight<6>(evens), hn::ShiftLeft<10>(odds), to + lanes);
+    store(hn::ShiftRight<14>(evens), hn::ShiftLeft<2>(odds), to + 2 * lanes);
+    store(hn::ShiftRight<22>(evens), hn::ShiftRight<6>(odds), to + 3 * lanes);
+  }
+}
+
+// The reverse of ToLanes: four vectors hold four pixels of each segment, a word of 64 bits, for
+// each of the four lanes of a quad.
+void FromLanes(const std::int16_t* lanes_of_row, const LaneLayout& layout, std::int16_t* row) {
+  auto* const words = reinterpret_cast<std::int64_t*>(row);
+  const std::ptrdiff_t lanes = layout.lanes;
+  const std::int64_t segment = layout.segment / 4;
+  const auto quad = hn::Mul(hn::Iota(kQuadInts, 0), hn::Set(kQuadInts, 4 * segment));
+  const auto last = hn::Set(kQuads, std::uint64_t{0xFFFF} << 48);
+  for (std::int64_t word = 0; word < segment; ++word) {
+    const std::int16_t* const from = lanes_of_row + 4 * word * lanes;
+    const auto load = [&](std::ptrdiff_t j) HWY_ATTR {
+      return hn::BitCast(kQuads, hn::Load(kResults, from + j * lanes));
+    };
+    const auto v0 = load(0), v1 = load(1), v2 = load(2), v3 = load(3);
+    const auto first = hn::Set(kQuads, 0xFFFF);
+    const auto second = hn::ShiftLeft<16>(first);
+    const auto third = hn::ShiftLeft<32>(first);
+    const auto scatter = [&](hn::Vec<decltype(kQuads)> a, hn::Vec<decltype(kQuads)> b,
+                             hn::Vec<decltype(kQuads)> c, hn::Vec<decltype(kQuads)> d,
+                             std::int64_t lane) HWY_ATTR {
+      const auto all = hn::Or(hn::Or(hn::And(a, first), hn::And(b, second)),
+                              hn::Or(hn::And(c, third), hn::And(d, last)));
+      const auto at = hn::Add(quad, hn::Set(kQuadInts, lane * segment));
+      hn::ScatterIndex(hn::BitCast(kQuadInts, all), kQuadInts, words + word, at);
+    };
+    scatter(v0, hn::ShiftLeft<16>(v1), hn::ShiftLeft<32>(v2), hn::ShiftLeft<48>(v3), 0);
+    scatter(hn::ShiftRight<16>(v0), v1, hn::ShiftLeft<16>(v2), hn::ShiftLeft<32>(v3), 1);
+    scatter(hn::ShiftRight<32>(v0), hn::ShiftRight<16>(v1), v2, hn::ShiftLeft<16>(v3), 2);
+    scatter(hn::ShiftRight<48>(v0), hn::ShiftRight<32>(v1), hn::ShiftRight<16>(v2), v3, 3);
   }
 }
 
@@ -129,9 +189,10 @@ HWY_INLINE Ints SubPixelOf(Ints below, Ints above, Ints curvature) {
   return hn::Sub(hn::ConvertTo(kInts, ratio), hn::Set(kInts, kDisparityOne / 2));
 }
 
+// `x` is the right pixel at the smallest disparity.
 template <typename Half>
-HWY_INLINE Ints Decide(Ints keys, Ints indices, const PairTables& tables, const LaneLayout& layout,
-                       const PeakLimits& limits) {
+HWY_INLINE Ints Decide(Ints keys, Ints indices, Ints x, const PairTables& tables,
+                       const LaneLayout& layout, const PeakLimits& limits) {
   const Half half;
   const auto key = half(keys);
   const auto index = half(indices);
@@ -140,13 +201,12 @@ HWY_INLINE Ints Decide(Ints keys, Ints indices, const PairTables& tables, const 
   const auto back = half(hn::GatherIndex(kInts, tables.right_index, match));
   const auto stride = hn::Set(kInts, tables.score_stride);
   const auto at = hn::Add(pair, hn::Mul(index, stride));
-  const auto below_key = half(hn::GatherIndex(kInts, tables.scores, hn::Sub(at, stride)));
-  const auto above_key = half(hn::GatherIndex(kInts, tables.scores, hn::Add(at, stride)));
-  const auto none = hn::Set(kInts, kNoKey);
-
+  const auto below =
+      hn::ShiftRight<kKeyShift>(half(hn::GatherIndex(kInts, tables.scores, hn::Sub(at, stride))));
+  const auto above =
+      hn::ShiftRight<kKeyShift>(half(hn::GatherIndex(kInts, tables.scores, hn::Add(at, stride))));
   const auto best = hn::ShiftRight<kKeyShift>(key);
-  const auto below = hn::ShiftRight<kKeyShift>(below_key);
-  const auto above = hn::ShiftRight<kKeyShift>(above_key);
+
   const auto curvature = hn::Sub(hn::Add(below, above), hn::Add(best, best));
   const auto whole = hn::Add(index, hn::Set(kInts, layout.min_disparity));
   auto value =
@@ -156,14 +216,20 @@ HWY_INLINE Ints Decide(Ints keys, Ints indices, const PairTables& tables, const 
       hn::Lt(hn::ShiftLeft<8>(curvature), hn::Mul(best, hn::Set(kInts, limits.ratio_256)));
   const auto peak = hn::AndNot(hn::Lt(curvature, hn::Set(kInts, limits.curvature)),
                                hn::Gt(hn::Min(below, above), best));
-  const auto range_end = hn::Or(hn::Eq(below_key, none), hn::Eq(above_key, none));
+  // The match, at which the window is inside, is the first or last candidate.
+  const auto right = hn::Sub(x, index);
+  const auto first = hn::Or(hn::Eq(index, hn::Zero(kInts)),
+                            hn::Eq(right, hn::Set(kInts, layout.width - 1 - layout.after)));
+  const auto last = hn::Or(hn::Eq(index, hn::Set(kInts, layout.disparities - 1)),
+                           hn::Eq(right, hn::Set(kInts, layout.before)));
+  const auto range_end = hn::Or(first, last);
   const auto line_of_sight =
       hn::Gt(hn::Abs(hn::Sub(back, index)), hn::Set(kInts, limits.line_of_sight));
   value = Replace(contrast, Drop::kContrast, value);
   value = Replace(hn::Not(peak), Drop::kPeak, value);
   value = Replace(range_end, Drop::kRangeEnd, value);
   value = Replace(line_of_sight, Drop::kLineOfSight, value);
-  return Replace(hn::Eq(key, none), Drop::kOutside, value);
+  return Replace(hn::Eq(key, hn::Set(kInts, kNoKey)), Drop::kOutside, value);
 }
 
 void DecideRow(const PeakLimits& limits, CorrelatorState& state) {
@@ -174,19 +240,29 @@ void DecideRow(const PeakLimits& limits, CorrelatorState& state) {
                     reinterpret_cast<const std::int32_t*>(state.right_index.data() +
                                                           layout.Wide(-layout.min_disparity)),
                     layout.lanes / 2};
+  auto x = hn::Sub(hn::Mul(hn::Iota(kInts, 0), hn::Set(kInts, 2 * layout.segment)),
+                   hn::Set(kInts, layout.min_disparity));
   for (std::ptrdiff_t j = 0; j < lanes * layout.segment; j += lanes) {
     const auto key = hn::Load(kPixels, state.left_key.data() + j);
     const auto index = DisparityIndex(key, hn::Load(kPixels, state.left_group.data() + j));
     const auto keys = hn::BitCast(kInts, key);
     const auto indices = hn::BitCast(kInts, index);
-    const auto even = Decide<EvenLanes>(keys, indices, tables, layout, limits);
-    const auto odd = Decide<OddLanes>(keys, indices, tables, layout, limits);
+    const auto even = Decide<EvenLanes>(keys, indices, x, tables, layout, limits);
+    const auto odd = Decide<OddLanes>(keys, indices, hn::Add(x, hn::Set(kInts, layout.segment)),
+                                      tables, layout, limits);
     const auto both = hn::Or(hn::And(even, hn::Set(kInts, 0xFFFF)), hn::ShiftLeft<16>(odd));
-    hn::Store(hn::BitCast(hn::RebindToSigned<decltype(kPixels)>(), both),
-              hn::RebindToSigned<decltype(kPixels)>(), state.result.data() + j);
+    hn::Store(hn::BitCast(kResults, both), kResults, state.result.data() + j);
+    x = hn::Add(x, hn::Set(kInts, 1));
     tables.scores += lanes / 2;
     tables.right_index += lanes / 2;
   }
+  FromLanes(state.result.data(), layout, state.row.data());
+}
+
+// Lays a row of the right image with the pixels that disparities reach.
+void ToWideLanes(const std::uint8_t* pixels, const LaneLayout& layout, std::uint16_t* row) {
+  ToLanes(pixels, layout, row);
+  ExtendRow(layout, row);
 }
 
 }  // namespace rockyard::vision::HWY_NAMESPACE
@@ -195,30 +271,18 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace rockyard::vision {
 
-HWY_EXPORT(ExtendRow);
+HWY_EXPORT(ToLanes);
+HWY_EXPORT(ToWideLanes);
 HWY_EXPORT(GatherRightBest);
 HWY_EXPORT(DecideRow);
 
-namespace {
-
-// Scatters a row of the image into the lanes: pixel i * segment + j to lane i of vector j.
-void ToLanes(std::span<const std::uint8_t> pixels, const LaneLayout& layout, std::uint16_t* row) {
-  std::size_t x = 0;
-  for (std::size_t lane = 0; lane < layout.lane_count(); ++lane) {
-    for (std::size_t at = lane; at < layout.row_size(); at += layout.lane_count(), ++x) {
-      row[at] = x < pixels.size() ? static_cast<std::uint16_t>(pixels[x] << kKeyShift) : 0;
-    }
-  }
-}
-
-}  // namespace
-
 void LoadRow(std::span<const std::uint8_t> left, std::span<const std::uint8_t> right, int slot,
              CorrelatorState& state) {
-  ToLanes(left, state.layout, state.Left(slot));
-  std::uint16_t* const row = state.Right(slot) + state.layout.Wide(0);
-  ToLanes(right, state.layout, row);
-  HWY_DYNAMIC_DISPATCH(ExtendRow)(state.layout, row);
+  std::copy(left.begin(), left.end(), state.pixels.data());
+  HWY_DYNAMIC_DISPATCH(ToLanes)(state.pixels.data(), state.layout, state.Left(slot));
+  std::copy(right.begin(), right.end(), state.pixels.data());
+  HWY_DYNAMIC_DISPATCH(ToWideLanes)
+  (state.pixels.data(), state.layout, state.Right(slot) + state.layout.Wide(0));
 }
 
 void GatherRightBest(CorrelatorState& state) { HWY_DYNAMIC_DISPATCH(GatherRightBest)(state); }

@@ -42,34 +42,34 @@ RowPair RowsOf(int slot_in, int slot_out, CorrelatorState& state) {
           state.Right(slot_out) + zero};
 }
 
-// Column sums of a group: C(x, d) += |l - r| of the row that comes, -= that of the row that goes.
-void SlideGroup(const RowPair& rows, int group, CorrelatorState& state) {
+// What the window sums of a group gain and lose in each column:
+// E(x, d) = |l - r| of the row that comes - |l - r| of the row that goes.
+void FindChanges(const RowPair& rows, int group, CorrelatorState& state) {
   const std::ptrdiff_t lanes = Lanes();
   const std::ptrdiff_t d = lanes * (state.layout.min_disparity + kGroup * group);
-  std::uint16_t* const columns = state.Columns(kGroup * group);
-  const auto stride = static_cast<std::ptrdiff_t>(state.column_stride);
+  std::uint16_t* const changes = state.Changes(0);
+  const auto stride = static_cast<std::ptrdiff_t>(state.change_stride);
   for (std::ptrdiff_t j = 0; j < lanes * state.layout.segment; j += lanes) {
     const auto left_in = hn::Load(kWords, rows.left_in + j);
     const auto left_out = hn::Load(kWords, rows.left_out + j);
     for (std::ptrdiff_t k = 0; k < kGroup; ++k) {
       const std::ptrdiff_t right = j - d - k * lanes;
-      std::uint16_t* const column = columns + k * stride + j;
       const auto in = AbsoluteDifference(left_in, rows.right_in + right);
       const auto out = AbsoluteDifference(left_out, rows.right_out + right);
-      hn::Store(hn::Sub(hn::Add(hn::Load(kWords, column), in), out), kWords, column);
+      hn::Store(hn::Sub(in, out), kWords, changes + k * stride + j);
     }
   }
 }
 
 // Columns before and after the segment, from the neighbouring lane.
-void FillHalo(const LaneLayout& layout, std::uint16_t* columns) {
+void FillHalo(const LaneLayout& layout, std::uint16_t* changes) {
   const std::ptrdiff_t lanes = Lanes();
   const std::ptrdiff_t segment = lanes * layout.segment;
   for (std::ptrdiff_t j = -lanes; j >= -lanes * layout.before; j -= lanes) {
-    hn::Store(hn::LoadU(kWords, columns + j + segment - 1), kWords, columns + j);
+    hn::Store(hn::LoadU(kWords, changes + j + segment - 1), kWords, changes + j);
   }
   for (std::ptrdiff_t j = segment; j < segment + lanes * layout.after; j += lanes) {
-    hn::Store(hn::LoadU(kWords, columns + j - segment + 1), kWords, columns + j);
+    hn::Store(hn::LoadU(kWords, changes + j - segment + 1), kWords, changes + j);
   }
 }
 
@@ -84,8 +84,8 @@ HWY_INLINE void Improve(Words key, Words group, std::uint16_t* best_key,
 
 // Where the arrays of a group begin.
 struct GroupArrays {
-  const std::uint16_t* columns;
-  std::ptrdiff_t column_stride;
+  const std::uint16_t* changes;
+  std::ptrdiff_t change_stride;
   std::uint16_t* scores;
   std::ptrdiff_t score_stride;
   const std::uint16_t* left_mask;
@@ -99,48 +99,80 @@ struct GroupArrays {
 GroupArrays ArraysOf(int group, CorrelatorState& state) {
   const LaneLayout& layout = state.layout;
   const std::ptrdiff_t right = layout.Wide(-layout.min_disparity - kGroup * group);
-  return {state.Columns(kGroup * group),  static_cast<std::ptrdiff_t>(state.column_stride),
-          state.Scores(kGroup * group),   static_cast<std::ptrdiff_t>(layout.row_size()),
-          state.left_mask.data(),         state.right_mask.data() + right,
-          state.left_key.data(),          state.left_group.data(),
-          state.right_key.data() + right, state.right_group.data() + right};
+  return {state.Changes(0),
+          static_cast<std::ptrdiff_t>(state.change_stride),
+          state.Scores(kGroup * group),
+          static_cast<std::ptrdiff_t>(layout.row_size()),
+          state.left_mask.data(),
+          state.right_mask.data() + right,
+          state.left_key.data(),
+          state.left_group.data(),
+          state.right_key.data() + right,
+          state.right_group.data() + right};
 }
 
-// Window sums before the first pixel's last column is added; the place in the group in the low
-// bits.
-HWY_INLINE Words FirstSum(const GroupArrays& arrays, const LaneLayout& layout, std::ptrdiff_t k) {
-  auto sum = hn::Set(kWords, static_cast<std::uint16_t>(k));
+// The window's change at the first pixel but for its last column.
+HWY_INLINE Words FirstChange(const GroupArrays& arrays, const LaneLayout& layout,
+                             std::ptrdiff_t k) {
+  auto change = hn::Zero(kWords);
   for (int i = -layout.before; i < layout.after; ++i) {
-    sum = hn::Add(sum, hn::Load(kWords, arrays.columns + k * arrays.column_stride + i * Lanes()));
+    const std::uint16_t* const column = arrays.changes + k * arrays.change_stride + i * Lanes();
+    change = hn::Add(change, hn::Load(kWords, column));
   }
-  return sum;
+  return change;
 }
 
-// Scores of the group's disparities along the row. S(x, d) = sum of C(x + i, d) over the window:
-// S(x + 1) = S(x) + C(x + after + 1) - C(x - before). The left pixel of vector j compares its own
-// four; the right one of vector j - d gets them one after the other, at j, j + 1, j + 2 and j + 3,
-// so that its partial minima wait in registers. Disparities from `in_range` on are masked.
-void ScoreGroup(const LaneLayout& layout, int group, std::ptrdiff_t in_range,
-                const GroupArrays& arrays) {
+// Scores of one disparity along the row, sliding in both directions: the window's change slides
+// along the row, G(x + 1) = G(x) + E(x + after + 1) - E(x - before), and the score down the image,
+// S(x, y + 1) = S(x, y) + G(x).
+struct SlidingScore {
+  HWY_INLINE Words At(std::ptrdiff_t j) {
+    change = hn::Add(change, hn::Load(kWords, changes_in + j));
+    const auto score = hn::Add(hn::Load(kWords, scores + j), change);
+    hn::Store(score, kWords, scores + j);
+    change = hn::Sub(change, hn::Load(kWords, changes_out + j));
+    return score;
+  }
+
+  Words change;
+  const std::uint16_t* changes_in;
+  const std::uint16_t* changes_out;
+  std::uint16_t* scores;
+};
+
+HWY_INLINE SlidingScore ScoreOf(const GroupArrays& arrays, const LaneLayout& layout,
+                                std::ptrdiff_t k) {
+  const std::uint16_t* const changes = arrays.changes + k * arrays.change_stride;
+  return {FirstChange(arrays, layout, k), changes + Lanes() * layout.after,
+          changes - Lanes() * layout.before, arrays.scores + k * arrays.score_stride};
+}
+
+// The scores of a group, and nothing else.
+void SlideGroup(const LaneLayout& layout, const GroupArrays& arrays) {
+  for (std::ptrdiff_t k = 0; k < kGroup; ++k) {
+    SlidingScore score = ScoreOf(arrays, layout, k);
+    for (std::ptrdiff_t j = 0; j < Lanes() * layout.segment; j += Lanes()) score.At(j);
+  }
+}
+
+// The scores of a group, and the best of left and right. The left pixel of vector j compares its
+// own four; the right one of vector j - d gets them one after the other, at j, j + 1, j + 2 and j +
+// 3, so that its partial minima wait in registers. Disparities from the kInRange-th on are masked.
+template <std::ptrdiff_t kInRange>
+void ScoreGroup(const LaneLayout& layout, int group, const GroupArrays& arrays) {
   const std::ptrdiff_t lanes = Lanes();
-  const std::ptrdiff_t after = lanes * layout.after;
-  const std::ptrdiff_t before = lanes * layout.before;
   const auto number = hn::Set(kWords, static_cast<std::uint16_t>(group));
   const auto none = hn::Set(kWords, kNoKey);
-  Words sum[kGroup] = {FirstSum(arrays, layout, 0), FirstSum(arrays, layout, 1),
-                       FirstSum(arrays, layout, 2), FirstSum(arrays, layout, 3)};
+  SlidingScore score[kGroup] = {ScoreOf(arrays, layout, 0), ScoreOf(arrays, layout, 1),
+                                ScoreOf(arrays, layout, 2), ScoreOf(arrays, layout, 3)};
   Words waiting[kGroup - 1] = {none, none, none};
   const std::ptrdiff_t end = lanes * layout.segment;
   for (std::ptrdiff_t j = 0; j < end; j += lanes) {
     const auto left_mask = hn::Load(kWords, arrays.left_mask + j);
     Words key[kGroup] = {none, none, none, none};
-    for (std::ptrdiff_t k = 0; k < kGroup; ++k) {
-      const std::uint16_t* const column = arrays.columns + k * arrays.column_stride + j;
-      sum[k] = hn::Add(sum[k], hn::Load(kWords, column + after));
+    for (std::ptrdiff_t k = 0; k < kInRange; ++k) {
       const auto right_mask = hn::Load(kWords, arrays.right_mask + j - k * lanes);
-      if (k < in_range) key[k] = hn::Or3(sum[k], left_mask, right_mask);
-      sum[k] = hn::Sub(sum[k], hn::Load(kWords, column - before));
-      hn::Store(key[k], kWords, arrays.scores + k * arrays.score_stride + j);
+      key[k] = hn::Or3(score[k].At(j), left_mask, right_mask);
     }
     const auto left = hn::Min(hn::Min(key[0], key[1]), hn::Min(key[2], key[3]));
     Improve(left, number, arrays.left_key + j, arrays.left_group + j);
@@ -157,9 +189,31 @@ void ScoreGroup(const LaneLayout& layout, int group, std::ptrdiff_t in_range,
   }
 }
 
-void SlideColumns(int slot_in, int slot_out, CorrelatorState& state) {
+// As many disparities of the group as are in the range.
+void ScoreGroup(int in_range, const LaneLayout& layout, int group, const GroupArrays& arrays) {
+  switch (in_range) {
+    case 1:
+      return ScoreGroup<1>(layout, group, arrays);
+    case 2:
+      return ScoreGroup<2>(layout, group, arrays);
+    case 3:
+      return ScoreGroup<3>(layout, group, arrays);
+    default:
+      return ScoreGroup<kGroup>(layout, group, arrays);
+  }
+}
+
+void PrepareGroup(const RowPair& rows, int group, CorrelatorState& state) {
+  FindChanges(rows, group, state);
+  for (int k = 0; k < kGroup; ++k) FillHalo(state.layout, state.Changes(k));
+}
+
+void SlideRow(int slot_in, int slot_out, CorrelatorState& state) {
   const RowPair rows = RowsOf(slot_in, slot_out, state);
-  for (int group = 0; group < state.layout.groups; ++group) SlideGroup(rows, group, state);
+  for (int group = 0; group < state.layout.groups; ++group) {
+    PrepareGroup(rows, group, state);
+    SlideGroup(state.layout, ArraysOf(group, state));
+  }
 }
 
 void ScoreRow(int slot_in, int slot_out, CorrelatorState& state) {
@@ -168,9 +222,8 @@ void ScoreRow(int slot_in, int slot_out, CorrelatorState& state) {
   std::fill_n(state.left_key.data(), layout.row_size(), kNoKey);
   std::fill_n(state.right_key.data(), layout.wide_size(), kNoKey);
   for (int group = 0; group < layout.groups; ++group) {
-    SlideGroup(rows, group, state);
-    for (int k = 0; k < kGroup; ++k) FillHalo(layout, state.Columns(kGroup * group + k));
-    ScoreGroup(layout, group, layout.disparities - kGroup * group, ArraysOf(group, state));
+    PrepareGroup(rows, group, state);
+    ScoreGroup(layout.disparities - kGroup * group, layout, group, ArraysOf(group, state));
   }
 }
 
@@ -182,15 +235,15 @@ namespace rockyard::vision {
 
 HWY_EXPORT(TargetName);
 HWY_EXPORT(Lanes);
-HWY_EXPORT(SlideColumns);
+HWY_EXPORT(SlideRow);
 HWY_EXPORT(ScoreRow);
 
 const char* InstructionSet() { return HWY_DYNAMIC_DISPATCH(TargetName)(); }
 
 int VectorLanes() { return HWY_DYNAMIC_DISPATCH(Lanes)(); }
 
-void SlideColumns(int slot_in, int slot_out, CorrelatorState& state) {
-  HWY_DYNAMIC_DISPATCH(SlideColumns)(slot_in, slot_out, state);
+void SlideRow(int slot_in, int slot_out, CorrelatorState& state) {
+  HWY_DYNAMIC_DISPATCH(SlideRow)(slot_in, slot_out, state);
 }
 
 void ScoreRow(int slot_in, int slot_out, CorrelatorState& state) {

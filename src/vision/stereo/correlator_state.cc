@@ -18,10 +18,10 @@ void FillMask(const LaneLayout& layout, int first, int last, std::uint16_t* mask
 
 CorrelatorState::CorrelatorState(int lanes, int width, const CorrelatorParams& params)
     : layout(lanes, width, params),
-      column_stride(Size(layout.segment + layout.before + layout.after + 2) * layout.lane_count()),
+      change_stride(Size(layout.segment + layout.before + layout.after + 2) * layout.lane_count()),
       left_rows(layout.row_size() * Size(slots() + 1)),
       right_rows(layout.wide_size() * Size(slots() + 1)),
-      columns(column_stride * Size(kGroup * layout.groups)),
+      changes(change_stride * kGroup),
       scores(layout.row_size() * Size(kGroup * layout.groups + 2)),
       left_key(layout.row_size()),
       left_group(layout.row_size()),
@@ -30,11 +30,14 @@ CorrelatorState::CorrelatorState(int lanes, int width, const CorrelatorParams& p
       right_index(layout.wide_size()),
       left_mask(layout.row_size()),
       right_mask(layout.wide_size()),
-      result(layout.row_size()) {
+      result(layout.row_size()),
+      pixels(layout.row_size()),
+      row(layout.row_size()) {
   FillMask(layout, 0, layout.segment - 1, left_mask.data());
   FillMask(layout, layout.first, layout.last, right_mask.data());
-  std::fill_n(Scores(-1), layout.row_size(), kNoKey);
-  std::fill_n(Scores(kGroup * layout.groups), layout.row_size(), kNoKey);
+  for (int i = 0; i < kGroup * layout.groups; ++i) {
+    std::fill_n(Scores(i), layout.row_size(), static_cast<std::uint16_t>(i % kGroup));
+  }
 }
 
 }  // namespace rockyard::vision

@@ -7,7 +7,7 @@ namespace rockyard::vision {
 LaneLayout::LaneLayout(int lanes_in, int width_in, const CorrelatorParams& params)
     : lanes(lanes_in),
       width(width_in),
-      segment((width_in + lanes_in - 1) / lanes_in),
+      segment((width_in + 4 * lanes_in - 1) / (4 * lanes_in) * 4),
       before(static_cast<int>(params.window_side_px) / 2),
       after(static_cast<int>(params.window_side_px) - 1 - before),
       min_disparity(static_cast<int>(params.min_disparity_px)),
