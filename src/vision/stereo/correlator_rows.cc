@@ -177,13 +177,13 @@ HWY_INLINE Ints Replace(hn::Mask<decltype(kInts)> dropped, Drop reason, Ints val
   return hn::IfThenElse(dropped, hn::Set(kInts, Dropped(reason)), value);
 }
 
-// floor((32 (below - above) + 33 c) / (2 c)) - 16. Numerator and denominator are whole numbers
+// floor((32 (below - above) + 33 m) / (2 m)) - 16. Numerator and denominator are whole numbers
 // below 2^24, exact as floats, and their ratio is below 64; where it is no whole number it stays 1
 // / 65532 or more away from the next, twice the spacing of floats there: rounding cannot reach it.
-HWY_INLINE Ints SubPixelOf(Ints below, Ints above, Ints curvature) {
+HWY_INLINE Ints SubPixelOf(Ints below, Ints above, Ints steepness) {
   const auto numerator = hn::Add(hn::Mul(hn::Sub(below, above), hn::Set(kInts, kDisparityOne)),
-                                 hn::Mul(curvature, hn::Set(kInts, kDisparityOne + 1)));
-  const auto denominator = hn::Max(hn::Add(curvature, curvature), hn::Set(kInts, 1));
+                                 hn::Mul(steepness, hn::Set(kInts, kDisparityOne + 1)));
+  const auto denominator = hn::Max(hn::Add(steepness, steepness), hn::Set(kInts, 1));
   const auto ratio =
       hn::Div(hn::ConvertTo(kFloats, numerator), hn::ConvertTo(kFloats, denominator));
   return hn::Sub(hn::ConvertTo(kInts, ratio), hn::Set(kInts, kDisparityOne / 2));
@@ -209,8 +209,11 @@ HWY_INLINE Ints Decide(Ints keys, Ints indices, Ints x, const PairTables& tables
 
   const auto curvature = hn::Sub(hn::Add(below, above), hn::Add(best, best));
   const auto whole = hn::Add(index, hn::Set(kInts, layout.min_disparity));
+  const auto steepness = limits.interpolation == Interpolation::kQuadratic
+                             ? curvature
+                             : hn::Sub(hn::Max(below, above), best);
   auto value =
-      hn::Add(hn::ShiftLeft<kDisparityFractionBits>(whole), SubPixelOf(below, above, curvature));
+      hn::Add(hn::ShiftLeft<kDisparityFractionBits>(whole), SubPixelOf(below, above, steepness));
 
   const auto contrast =
       hn::Lt(hn::ShiftLeft<8>(curvature), hn::Mul(best, hn::Set(kInts, limits.ratio_256)));

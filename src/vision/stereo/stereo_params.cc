@@ -6,8 +6,8 @@ namespace {
 using core::Origin;
 
 constexpr std::string_view kSynthetic =
-    "Goldberg 2002 sec. 2 names the filter and no size; chosen on synthetic pairs "
-    "(tests/vision/stereo/quality_test.cc), see src/vision/README.md";
+    "Goldberg 2002 sec. 2 names the filter and no number; chosen on synthetic pairs alone "
+    "(src/vision/README.md, \"Why these defaults\")";
 
 }  // namespace
 
@@ -71,6 +71,10 @@ void CorrelatorParams::Visit(core::FieldVisitor& v) {
 }
 
 void StereoFilterParams::Visit(core::FieldVisitor& v) {
+  v.Choice("interpolation", interpolation,
+           {.doc = "what the sub-pixel disparity is the lowest point of",
+            .origin = Origin::kPublished,
+            .source = "Goldberg 2002 sec. 3: \"integer-based quadratic peak finding\""});
   v.Real(
       "line_of_sight_px", line_of_sight_px,
       {.doc = "largest difference between the disparities of a pixel and of its match, searched "
@@ -129,7 +133,7 @@ void StereoPipelineParams::Visit(core::FieldVisitor& v) {
   v.Group("filters", filters, "what drops a match");
   v.Require("correlator.window_side_px", ScoresFit(dog, correlator),
             "is too large for sums in 16 bits: side^2 * 2 dog.limit must stay below 16383",
-            "a limit of 127 takes windows up to 8 x 8, 40 up to 14 x 14, 36 up to 15 x 15");
+            "a limit of 127 takes windows up to 8 x 8, 36 up to 15 x 15, 18 up to 21 x 21");
 }
 
 bool ScoresFit(const DogParams& dog, const CorrelatorParams& correlator) {

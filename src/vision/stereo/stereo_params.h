@@ -5,18 +5,26 @@
 // disparities. What it leaves open (sizes of the filters, thresholds) is a parameter here.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "core/fields.h"
 
 namespace rockyard::vision {
 
+// What is laid through the scores at the best disparity and its two neighbours.
+enum class Interpolation {
+  kQuadratic,    // a parabola
+  kEquiangular,  // two lines of opposite slope, the steeper of the two through the neighbours
+};
+
 // Difference of Gaussians, each approximated by the mean over a square.
 struct DogParams {
-  std::int64_t narrow_side_px = 3;
+  std::int64_t narrow_side_px = 1;
   std::int64_t wide_side_px = 11;
-  double gain = 2.0;
-  std::int64_t limit = 40;
+  double gain = 1.0;
+  std::int64_t limit = 36;
 
   void Visit(core::FieldVisitor& v);
 };
@@ -32,10 +40,11 @@ struct CorrelatorParams {
 
 // The checks that follow.
 struct StereoFilterParams {
+  Interpolation interpolation = Interpolation::kQuadratic;
   double line_of_sight_px = 1.0;
-  double min_curvature = 0.5;
-  double min_curvature_ratio = 0.0;
-  std::int64_t blob_min_px = 50;
+  double min_curvature = 0.6;
+  double min_curvature_ratio = 0.2;
+  std::int64_t blob_min_px = 100;
   double blob_max_step_px = 1.0;
 
   void Visit(core::FieldVisitor& v);
@@ -55,3 +64,8 @@ struct StereoPipelineParams {
 bool ScoresFit(const DogParams& dog, const CorrelatorParams& correlator);
 
 }  // namespace rockyard::vision
+
+template <>
+struct rockyard::core::EnumNames<rockyard::vision::Interpolation> {
+  static constexpr std::array<std::string_view, 2> kNames{"quadratic", "equiangular"};
+};

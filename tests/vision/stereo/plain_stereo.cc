@@ -76,9 +76,11 @@ std::int16_t Decide(const Scores& scores, int x, const StereoPipelineParams& par
   }
   const double ratio = std::ceil(256.0 * params.filters.min_curvature_ratio) / 256.0;
   if (curvature < ratio * here) return Dropped(Drop::kContrast);
-  // The lowest point of the parabola lies (below - above) / (2 curvature) off the middle one.
-  const std::int64_t fraction =
-      FloorDivide(2 * 32 * (below - above) / 2 + curvature, 2 * curvature);
+  // The lowest point lies (below - above) / (2 steepness) off the middle one.
+  const int steepness = params.filters.interpolation == Interpolation::kQuadratic
+                            ? curvature
+                            : std::max(below, above) - here;
+  const std::int64_t fraction = FloorDivide(32 * (below - above) + steepness, 2 * steepness);
   return static_cast<std::int16_t>(32 * (min_disparity + best) + fraction);
 }
 
