@@ -58,7 +58,7 @@ double LeftPlace(const Scene& scene, double x, double y, double most) {
   double high = x + most;
   while (high > x - most && miss(high - 1.0) > 0.0) high -= 1.0;
   double low = high - 1.0;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 30; ++i) {
     const double middle = 0.5 * (low + high);
     (miss(middle) > 0.0 ? high : low) = middle;
   }
