@@ -16,6 +16,7 @@ HEAVY = {
     "libpng": (r"png\.h", r"PNG::"),
     "libzip": (r"zip\.h", r"LIBZIP"),
     "zlib": (r"zlib\.h", r"ZLIB::"),
+    "Highway": (r"hwy/", r"HWY|hwy"),
     "Boost.Math": (r"boost/", r"Boost::"),
 }
 

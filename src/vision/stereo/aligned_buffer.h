@@ -1,0 +1,40 @@
+// Memory that begins at a cache line, zero at first, with a cache line to spare at both ends.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <new>
+
+namespace rockyard::vision {
+
+template <typename Value>
+class AlignedBuffer {
+ public:
+  static constexpr std::size_t kAlignment = 64;
+
+  AlignedBuffer() = default;
+  explicit AlignedBuffer(std::size_t size) : size_(size) {
+    const std::size_t all = size + 2 * kSpare;
+    memory_.reset(
+        static_cast<Value*>(::operator new(all * sizeof(Value), std::align_val_t(kAlignment))));
+    std::fill_n(memory_.get(), all, Value{});
+  }
+
+  Value* data() { return memory_.get() + kSpare; }
+  const Value* data() const { return memory_.get() + kSpare; }
+  std::size_t size() const { return size_; }
+
+ private:
+  struct Release {
+    void operator()(Value* memory) const {
+      ::operator delete(memory, std::align_val_t(kAlignment));
+    }
+  };
+  static constexpr std::size_t kSpare = kAlignment / sizeof(Value);
+
+  std::unique_ptr<Value, Release> memory_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace rockyard::vision

@@ -1,0 +1,43 @@
+#include "vision/stereo/correlator_state.h"
+
+#include <algorithm>
+
+namespace rockyard::vision {
+namespace {
+
+// Writes kNoKey for each pixel of vectors first ... last whose window is not inside the image.
+void FillMask(const LaneLayout& layout, int first, int last, std::uint16_t* mask) {
+  for (int j = first; j <= last; ++j) {
+    for (int lane = 0; lane < layout.lanes; ++lane) {
+      *mask++ = layout.WindowInside(lane * layout.segment + j) ? 0 : kNoKey;
+    }
+  }
+}
+
+}  // namespace
+
+CorrelatorState::CorrelatorState(int lanes, int width, const CorrelatorParams& params)
+    : layout(lanes, width, params),
+      change_stride(Size(layout.segment + layout.before + layout.after + 2) * layout.lane_count()),
+      left_rows(layout.row_size() * Size(slots() + 1)),
+      right_rows(layout.wide_size() * Size(slots() + 1)),
+      changes(change_stride * kGroup),
+      scores(layout.row_size() * Size(kGroup * layout.groups + 2)),
+      left_key(layout.row_size()),
+      left_group(layout.row_size()),
+      right_key(layout.wide_size()),
+      right_group(layout.wide_size()),
+      right_index(layout.wide_size()),
+      left_mask(layout.row_size()),
+      right_mask(layout.wide_size()),
+      result(layout.row_size()),
+      pixels(layout.row_size()),
+      row(layout.row_size()) {
+  FillMask(layout, 0, layout.segment - 1, left_mask.data());
+  FillMask(layout, layout.first, layout.last, right_mask.data());
+  for (int i = 0; i < kGroup * layout.groups; ++i) {
+    std::fill_n(Scores(i), layout.row_size(), static_cast<std::uint16_t>(i % kGroup));
+  }
+}
+
+}  // namespace rockyard::vision

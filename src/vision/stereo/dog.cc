@@ -1,0 +1,167 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "vision/stereo/dog.cc"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "core/check.h"
+#include "vision/stereo/aligned_buffer.h"
+#include "vision/stereo/dog.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rockyard::vision::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr hn::ScalableTag<std::uint16_t> kSums;
+constexpr hn::RepartitionToWide<decltype(kSums)> kWideSums;
+constexpr hn::RebindToSigned<decltype(kWideSums)> kProducts;
+constexpr hn::RebindToSigned<decltype(kSums)> kValues;
+constexpr hn::Rebind<std::uint8_t, decltype(kSums)> kBytes;
+
+// Sums over the columns of a square: the row that comes is added, the one that goes is taken off.
+// The arrays have room for whole vectors behind `width`.
+void SlideSums(const std::uint8_t* in, const std::uint8_t* out, std::size_t width,
+               std::uint16_t* sums) {
+  const std::size_t lanes = hn::Lanes(kSums);
+  std::size_t x = 0;
+  for (; x + lanes <= width; x += lanes) {
+    const auto more = hn::PromoteTo(kSums, hn::LoadU(kBytes, in + x));
+    const auto less = hn::PromoteTo(kSums, hn::LoadU(kBytes, out + x));
+    hn::StoreU(hn::Sub(hn::Add(hn::LoadU(kSums, sums + x), more), less), kSums, sums + x);
+  }
+  for (; x < width; ++x) sums[x] = static_cast<std::uint16_t>(sums[x] + in[x] - out[x]);
+}
+
+// Sum of `side` neighbours from `sums` on.
+HWY_INLINE hn::Vec<decltype(kSums)> RowSum(const std::uint16_t* sums, int side) {
+  auto sum = hn::LoadU(kSums, sums);
+  for (int i = 1; i < side; ++i) sum = hn::Add(sum, hn::LoadU(kSums, sums + i));
+  return sum;
+}
+
+// (s a - w b + 2^19) >> 20 of half a vector.
+HWY_INLINE hn::Vec<decltype(kProducts)> Weigh(hn::Vec<decltype(kWideSums)> narrow,
+                                              hn::Vec<decltype(kWideSums)> wide,
+                                              const DogWeights& weights) {
+  const auto s = hn::BitCast(kProducts, narrow);
+  const auto w = hn::BitCast(kProducts, wide);
+  const auto difference = hn::Sub(hn::Mul(s, hn::Set(kProducts, weights.narrow)),
+                                  hn::Mul(w, hn::Set(kProducts, weights.wide)));
+  return hn::ShiftRight<kDogShift>(hn::Add(difference, hn::Set(kProducts, 1 << (kDogShift - 1))));
+}
+
+// A row of values from the column sums, which begin side / 2 pixels before the row. Both arrays and
+// `row` have room for whole vectors.
+void WeighRow(const std::uint16_t* narrow, int narrow_side, const std::uint16_t* wide,
+              int wide_side, const DogWeights& weights, int limit, std::size_t width,
+              std::uint8_t* row) {
+  const hn::Half<decltype(kSums)> half_sums;
+  const auto high = hn::Set(kValues, static_cast<std::int16_t>(limit));
+  const auto low = hn::Neg(high);
+  for (std::size_t x = 0; x < width; x += hn::Lanes(kSums)) {
+    const auto s = RowSum(narrow + x, narrow_side);
+    const auto w = RowSum(wide + x, wide_side);
+    const auto lower = Weigh(hn::PromoteTo(kWideSums, hn::LowerHalf(half_sums, s)),
+                             hn::PromoteTo(kWideSums, hn::LowerHalf(half_sums, w)), weights);
+    const auto upper = Weigh(hn::PromoteTo(kWideSums, hn::UpperHalf(half_sums, s)),
+                             hn::PromoteTo(kWideSums, hn::UpperHalf(half_sums, w)), weights);
+    const auto value = hn::Combine(kValues, hn::DemoteTo(hn::Half<decltype(kValues)>(), upper),
+                                   hn::DemoteTo(hn::Half<decltype(kValues)>(), lower));
+    const auto clamped = hn::Add(hn::Min(hn::Max(value, low), high), high);
+    hn::StoreU(hn::DemoteTo(kBytes, clamped), kBytes, row + x);
+  }
+}
+
+}  // namespace rockyard::vision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rockyard::vision {
+
+HWY_EXPORT(SlideSums);
+HWY_EXPORT(WeighRow);
+
+namespace {
+
+// Most lanes of 16 bits that any vector has: rows are padded by as many.
+constexpr std::size_t kMostLanes = 64;
+
+// Column sums of one square along a row, with the columns of its edge repeated on either side.
+class ColumnSums {
+ public:
+  // Sums around row y - 1 of an image, so that Slide(y) gives those around y.
+  ColumnSums(const GrayImage& image, int side, int y)
+      : image_(&image),
+        half_(side / 2),
+        sums_(static_cast<std::size_t>(image.width() + side) + kMostLanes),
+        nothing_(static_cast<std::size_t>(image.width())) {
+    for (int k = -half_; k <= half_; ++k) Update(RowAt(y - 1 + k), nothing_.data());
+  }
+
+  void Slide(int y) {
+    Update(RowAt(y + half_), RowAt(y - 1 - half_));
+    std::uint16_t* const inside = Inside();
+    std::fill_n(sums_.data(), half_, inside[0]);
+    std::fill_n(inside + image_->width(), half_, inside[image_->width() - 1]);
+  }
+
+  const std::uint16_t* data() const { return sums_.data(); }
+
+ private:
+  std::uint16_t* Inside() { return sums_.data() + half_; }
+  const std::uint8_t* RowAt(int y) const {
+    return image_->Row(std::clamp(y, 0, image_->height() - 1)).data();
+  }
+  void Update(const std::uint8_t* in, const std::uint8_t* out) {
+    HWY_DYNAMIC_DISPATCH(SlideSums)(in, out, static_cast<std::size_t>(image_->width()), Inside());
+  }
+
+  const GrayImage* image_;
+  int half_;
+  AlignedBuffer<std::uint16_t> sums_;
+  AlignedBuffer<std::uint8_t> nothing_;
+};
+
+}  // namespace
+
+DogWeights MakeDogWeights(const DogParams& params) {
+  const std::int64_t narrow = params.narrow_side_px * params.narrow_side_px;
+  const std::int64_t wide = params.wide_side_px * params.wide_side_px;
+  const std::int64_t q =
+      std::llround(std::ldexp(params.gain, kDogShift) / static_cast<double>(narrow * wide));
+  return {static_cast<std::int32_t>(q * wide), static_cast<std::int32_t>(q * narrow)};
+}
+
+void DifferenceOfGaussiansRows(const GrayImage& image, const DogParams& params, int first_row,
+                               int end_row, GrayImage& out) {
+  EXPECT(out.width() == image.width() && out.height() == image.height());
+  EXPECT(0 <= first_row && end_row <= image.height());
+  if (first_row >= end_row || image.width() == 0) return;
+  const auto width = static_cast<std::size_t>(image.width());
+  const auto narrow_side = static_cast<int>(params.narrow_side_px);
+  const auto wide_side = static_cast<int>(params.wide_side_px);
+  const DogWeights weights = MakeDogWeights(params);
+  ColumnSums narrow(image, narrow_side, first_row);
+  ColumnSums wide(image, wide_side, first_row);
+  AlignedBuffer<std::uint8_t> row(width + kMostLanes);
+  for (int y = first_row; y < end_row; ++y) {
+    narrow.Slide(y);
+    wide.Slide(y);
+    HWY_DYNAMIC_DISPATCH(WeighRow)
+    (narrow.data(), narrow_side, wide.data(), wide_side, weights, static_cast<int>(params.limit),
+     width, row.data());
+    std::copy_n(row.data(), width, out.Row(y).data());
+  }
+}
+
+GrayImage DifferenceOfGaussians(const GrayImage& image, const DogParams& params) {
+  GrayImage out(image.width(), image.height());
+  DifferenceOfGaussiansRows(image, params, 0, image.height(), out);
+  return out;
+}
+
+}  // namespace rockyard::vision
+#endif  // HWY_ONCE

@@ -1,0 +1,71 @@
+// Parameters of the stereo pipeline (Goldberg 2002 section 2): from a pair of images to
+// disparities.
+//
+// The paper names the stages, the window of 7 x 7, images reduced from 1024 to 256 pixels, 32
+// disparities. What it leaves open (sizes of the filters, thresholds) is a parameter here.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "core/fields.h"
+
+namespace rockyard::vision {
+
+// What is laid through the scores at the best disparity and its two neighbours.
+enum class Interpolation {
+  kQuadratic,    // a parabola
+  kEquiangular,  // two lines of opposite slope, the steeper of the two through the neighbours
+};
+
+// Difference of Gaussians, each approximated by the mean over a square.
+struct DogParams {
+  std::int64_t narrow_side_px = 1;
+  std::int64_t wide_side_px = 11;
+  double gain = 1.0;
+  std::int64_t limit = 36;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+// The correlator: what is compared, and how far it searches.
+struct CorrelatorParams {
+  std::int64_t window_side_px = 7;
+  std::int64_t min_disparity_px = 0;
+  std::int64_t disparities = 32;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+// The checks that follow.
+struct StereoFilterParams {
+  Interpolation interpolation = Interpolation::kQuadratic;
+  double line_of_sight_px = 1.0;
+  double min_curvature = 0.6;
+  double min_curvature_ratio = 0.2;
+  std::int64_t blob_min_px = 100;
+  double blob_max_step_px = 1.0;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+struct StereoPipelineParams {
+  std::int64_t pyramid_level = 0;
+  DogParams dog;
+  CorrelatorParams correlator;
+  StereoFilterParams filters;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+// Returns whether every score of the correlator fits its 16 bits with two bits to spare: the
+// largest sum of absolute differences, side^2 * 2 limit, is below 2^14.
+bool ScoresFit(const DogParams& dog, const CorrelatorParams& correlator);
+
+}  // namespace rockyard::vision
+
+template <>
+struct rockyard::core::EnumNames<rockyard::vision::Interpolation> {
+  static constexpr std::array<std::string_view, 2> kNames{"quadratic", "equiangular"};
+};

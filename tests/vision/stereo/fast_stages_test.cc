@@ -1,0 +1,265 @@
+// The fast stages give the bits of the plain ones: all instruction sets, odd sizes, windows,
+// ranges.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+#include "core/random.h"
+#include "instruction_sets.h"
+#include "plain_stereo.h"
+#include "vision/stereo/blob.h"
+#include "vision/stereo/correlator.h"
+#include "vision/stereo/dog.h"
+#include "vision/stereo/stereo.h"
+
+namespace rockyard::vision {
+namespace {
+
+GrayImage RandomImage(int width, int height, int levels, std::uint32_t number) {
+  core::RandomStream stream({23, 0}, core::Purpose::kTest, number);
+  GrayImage image(width, height);
+  for (std::uint8_t& value : image.values()) {
+    value = static_cast<std::uint8_t>(stream.NextU32() % static_cast<std::uint32_t>(levels));
+  }
+  return image;
+}
+
+// The left image moved by `shift` pixels, with some pixels of its own.
+GrayImage Moved(const GrayImage& left, int shift, int levels, std::uint32_t number) {
+  GrayImage right = RandomImage(left.width(), left.height(), levels, number);
+  core::RandomStream stream({24, 0}, core::Purpose::kTest, number);
+  for (int y = 0; y < left.height(); ++y) {
+    for (int x = 0; x < left.width(); ++x) {
+      const int from = x + shift + (y > left.height() / 2 ? 1 : 0);
+      if (from >= 0 && from < left.width() && stream.Uniform() < 0.9) {
+        right.At(x, y) = left.At(from, y);
+      }
+    }
+  }
+  return right;
+}
+
+struct Case {
+  int width, height, side, min_disparity, disparities;
+};
+
+StereoPipelineParams ParamsOf(const Case& c) {
+  StereoPipelineParams params;
+  params.dog.limit = 31;
+  params.correlator = {
+      .window_side_px = c.side, .min_disparity_px = c.min_disparity, .disparities = c.disparities};
+  params.filters.min_curvature = 0.3;
+  params.filters.min_curvature_ratio = 0.11;
+  params.filters.blob_min_px = 6;
+  return params;
+}
+
+std::string Describe(const Case& c) {
+  return std::to_string(c.width) + " x " + std::to_string(c.height) + ", window " +
+         std::to_string(c.side) + ", from " + std::to_string(c.min_disparity) + ", " +
+         std::to_string(c.disparities) + " disparities";
+}
+
+// Images of many levels, and of two where nearly all scores are equal to others.
+void ExpectSameMatches(const Case& c, std::uint32_t number) {
+  StereoPipelineParams params = ParamsOf(c);
+  for (const int levels : {63, 2}) {
+    params.filters.interpolation =
+        levels == 63 ? Interpolation::kQuadratic : Interpolation::kEquiangular;
+    const GrayImage left = RandomImage(c.width, c.height, levels, number);
+    const int shift = c.min_disparity + c.disparities / 2;
+    const GrayImage right = Moved(left, shift, levels, number + 1);
+    const DisparityImage expected = PlainCorrelate(left, right, params);
+    for (const std::int64_t set : InstructionSets()) {
+      const UseInstructionSet use(set);
+      DisparityImage found(c.width, c.height, 77);
+      CorrelateRows(left, right, params, 0, c.height, found);
+      ASSERT_EQ(found, expected) << Describe(c) << ", " << levels << " levels, "
+                                 << InstructionSet();
+    }
+  }
+}
+
+TEST(FastStagesTest, InstructionSetsAreTheOnesAskedFor) {
+  const auto sets = InstructionSets();
+  ASSERT_GE(sets.size(), 2U);
+  for (const std::int64_t set : sets) {
+    const UseInstructionSet use(set);
+    EXPECT_STREQ(InstructionSet(), hwy::TargetName(set));
+  }
+}
+
+TEST(FastStagesTest, MatchesOfEveryWindowSide) {
+  for (int side = 1; side <= 15; ++side) ExpectSameMatches({97, side + 6, side, -3, 22}, side);
+}
+
+TEST(FastStagesTest, MatchesOfEveryWidth) {
+  for (int width = 1; width <= 70; ++width) ExpectSameMatches({width, 9, 5, 0, 9}, 100 + width);
+}
+
+TEST(FastStagesTest, MatchesOfEveryRange) {
+  for (const int min_disparity : {-130, -40, -17, -5, -1, 0, 1, 6, 33, 64, 129}) {
+    for (const int disparities : {1, 2, 3, 4, 5, 8, 31, 64}) {
+      ExpectSameMatches({75, 8, 4, min_disparity, disparities}, 300);
+    }
+  }
+}
+
+TEST(FastStagesTest, MatchesOfImagesOfAPixelOrARow) {
+  for (const Case& c : {Case{1, 1, 1, 0, 1}, Case{1, 1, 7, -2, 5}, Case{1, 20, 3, 0, 4},
+                        Case{200, 1, 1, -9, 20}, Case{3, 3, 3, -1, 3}, Case{2, 40, 2, -2, 5},
+                        Case{7, 7, 7, -4, 9}, Case{8, 8, 8, -4, 9}, Case{6, 6, 7, 0, 4}}) {
+    ExpectSameMatches(c, 500);
+  }
+}
+
+TEST(FastStagesTest, MatchesOfAnOrdinaryPair) {
+  ExpectSameMatches({256, 24, 7, 0, 32}, 600);
+  ExpectSameMatches({259, 20, 8, -16, 61}, 602);
+}
+
+// 127 levels to either side leave the largest sums just inside their 16 bits.
+TEST(FastStagesTest, LargestScoresFit) {
+  StereoPipelineParams params = ParamsOf({120, 14, 8, -2, 9});
+  params.dog.limit = 127;
+  GrayImage left(120, 14);
+  GrayImage right(120, 14);
+  for (int y = 0; y < 14; ++y) {
+    for (int x = 0; x < 120; ++x) left.At(x, y) = x < 60 || x % 7 == y % 5 ? 254 : 0;
+  }
+  const DisparityImage expected = PlainCorrelate(left, right, params);
+  for (const std::int64_t set : InstructionSets()) {
+    const UseInstructionSet use(set);
+    DisparityImage found(120, 14);
+    CorrelateRows(left, right, params, 0, 14, found);
+    ASSERT_EQ(found, expected) << InstructionSet();
+  }
+}
+
+TEST(FastStagesTest, BandsOfRowsGiveTheWhole) {
+  const Case c{83, 31, 7, -2, 18};
+  const GrayImage left = RandomImage(c.width, c.height, 40, 700);
+  const GrayImage right = Moved(left, 5, 40, 701);
+  const DisparityImage expected = PlainCorrelate(left, right, ParamsOf(c));
+  for (const int band : {1, 2, 5, 13, 30}) {
+    DisparityImage found(c.width, c.height);
+    for (int y = 0; y < c.height; y += band) {
+      CorrelateRows(left, right, ParamsOf(c), y, std::min(y + band, c.height), found);
+    }
+    ASSERT_EQ(found, expected) << band;
+  }
+}
+
+void ExpectSameFilter(const GrayImage& image, const DogParams& params) {
+  const GrayImage expected = PlainDifferenceOfGaussians(image, params);
+  for (const std::int64_t set : InstructionSets()) {
+    const UseInstructionSet use(set);
+    ASSERT_EQ(DifferenceOfGaussians(image, params), expected)
+        << image.width() << " x " << image.height() << ", " << params.narrow_side_px << ", "
+        << params.wide_side_px << ", " << InstructionSet();
+  }
+}
+
+TEST(FastStagesTest, DifferenceOfGaussiansOfEverySide) {
+  for (const int narrow : {1, 3, 5}) {
+    for (const int wide : {3, 5, 7, 9, 11, 13, 15}) {
+      if (wide <= narrow) continue;
+      for (const double gain : {0.125, 1.0, 2.3, 4.0}) {
+        const DogParams params{narrow, wide, gain, gain > 2.0 ? 127 : 25};
+        ExpectSameFilter(RandomImage(75, 19, 256, 800), params);
+        ExpectSameFilter(RandomImage(75, 19, 2, 801), params);
+      }
+    }
+  }
+}
+
+TEST(FastStagesTest, DifferenceOfGaussiansOfEverySize) {
+  for (int width = 1; width <= 68; ++width) ExpectSameFilter(RandomImage(width, 5, 256, 820), {});
+  for (int height = 1; height <= 20; ++height) {
+    ExpectSameFilter(RandomImage(33, height, 256, 821), {});
+  }
+}
+
+TEST(FastStagesTest, DifferenceOfGaussiansOfExtremes) {
+  GrayImage steps(70, 30);
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 0; x < 70; ++x) steps.At(x, y) = (x / 9 + y / 7) % 2 == 0 ? 255 : 0;
+  }
+  ExpectSameFilter(steps, {1, 15, 4.0, 127});
+  ExpectSameFilter(GrayImage(70, 30, 255), {3, 15, 4.0, 127});
+}
+
+DisparityImage RandomDisparities(int width, int height, int spread, double valid,
+                                 std::uint32_t number) {
+  core::RandomStream stream({25, 0}, core::Purpose::kTest, number);
+  DisparityImage image(width, height);
+  for (std::int16_t& value : image.values()) {
+    const auto one = static_cast<int>(stream.NextU32() % static_cast<std::uint32_t>(spread));
+    value = stream.Uniform() < valid ? static_cast<std::int16_t>(one - spread / 2)
+                                     : Dropped(Drop::kLineOfSight);
+  }
+  return image;
+}
+
+void ExpectSameBlobs(const DisparityImage& image, const StereoFilterParams& filters) {
+  DisparityImage expected = image;
+  PlainFilterBlobs(filters, expected);
+  for (const std::int64_t set : InstructionSets()) {
+    const UseInstructionSet use(set);
+    DisparityImage found = image;
+    FilterBlobs(filters, found);
+    ASSERT_EQ(found, expected) << image.width() << " x " << image.height() << ", "
+                               << filters.blob_min_px << ", " << InstructionSet();
+  }
+}
+
+TEST(FastStagesTest, BlobsOfEverySize) {
+  StereoFilterParams filters;
+  for (const std::int64_t min_px : {0, 1, 2, 5, 40, 1000}) {
+    for (const double step : {0.0, 0.5, 1.0}) {
+      filters.blob_min_px = min_px;
+      filters.blob_max_step_px = step;
+      for (const double valid : {0.4, 0.6, 0.95}) {
+        ExpectSameBlobs(RandomDisparities(131, 40, 60, valid, 900), filters);
+      }
+    }
+  }
+}
+
+TEST(FastStagesTest, BlobsOfEveryWidth) {
+  StereoFilterParams filters;
+  filters.blob_min_px = 7;
+  filters.blob_max_step_px = 0.75;
+  for (int width = 1; width <= 140; ++width) {
+    ExpectSameBlobs(RandomDisparities(width, 7, 50, 0.7, 1000 + width), filters);
+  }
+}
+
+TEST(FastStagesTest, BlobsOfTheLargestDisparities) {
+  StereoFilterParams filters;
+  filters.blob_min_px = 3;
+  filters.blob_max_step_px = 100.0;
+  ExpectSameBlobs(RandomDisparities(90, 12, 63999, 0.9, 1200), filters);
+}
+
+TEST(FastStagesTest, ThePipelineIsItsStages) {
+  const Case c{150, 60, 7, 0, 20};
+  const StereoPipelineParams params = ParamsOf(c);
+  const GrayImage left = RandomImage(c.width, c.height, 256, 1300);
+  const GrayImage right = Moved(left, 6, 256, 1301);
+  DisparityImage expected = PlainCorrelate(PlainDifferenceOfGaussians(left, params.dog),
+                                           PlainDifferenceOfGaussians(right, params.dog), params);
+  PlainFilterBlobs(params.filters, expected);
+  EXPECT_EQ(MatchStereo(left, right, params), expected);
+  StereoProducts products;
+  for (const int threads : {1, 2, 3, 7, 61}) {
+    MatchStereo(left, right, params, threads, products);
+    EXPECT_EQ(products.disparities, expected) << threads;
+    EXPECT_EQ(products.left_filtered, PlainDifferenceOfGaussians(left, params.dog)) << threads;
+  }
+}
+
+}  // namespace
+}  // namespace rockyard::vision
