@@ -3,6 +3,7 @@
 #ifdef ROCKYARD_GDAL
 #include <cpl_conv.h>
 #include <cpl_error.h>
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <gdal.h>
 #include <gdal_frmts.h>
@@ -10,9 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
-#include <mutex>
-#include <string>
-#include <type_traits>
+#include <optional>
 
 #include "image_files/image_errors.h"
 #endif
@@ -22,21 +21,72 @@ namespace rockyard::image_files {
 #ifdef ROCKYARD_GDAL
 namespace {
 
-// No other driver of GDAL is made known: a label can name further files, and what reads them.
-void RegisterDrivers() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    GDALRegister_PDS();
-    GDALRegister_PDS4();
-    GDALRegister_VICAR();
-  });
+// The functions of the library that are used here, of the types in its headers.
+struct Gdal {
+  decltype(&::CPLGetErrorHandlerUserData) error_user = nullptr;
+  decltype(&::CPLPopErrorHandler) pop_errors = nullptr;
+  decltype(&::CPLPushErrorHandlerEx) push_errors = nullptr;
+  decltype(&::CPLSetThreadLocalConfigOption) set_option = nullptr;
+  decltype(&::GDALClose) close = nullptr;
+  decltype(&::GDALGetDataTypeName) type_name = nullptr;
+  decltype(&::GDALGetRasterBand) band = nullptr;
+  decltype(&::GDALGetRasterCount) bands = nullptr;
+  decltype(&::GDALGetRasterDataType) data_type = nullptr;
+  decltype(&::GDALGetRasterXSize) width = nullptr;
+  decltype(&::GDALGetRasterYSize) height = nullptr;
+  decltype(&::GDALOpenEx) open = nullptr;
+  decltype(&::GDALRasterIO) read = nullptr;
+  decltype(&::GDALRegister_PDS) register_pds = nullptr;
+  decltype(&::GDALRegister_PDS4) register_pds4 = nullptr;
+  decltype(&::GDALRegister_VICAR) register_vicar = nullptr;
+};
+
+// Whether the library has it.
+template <typename Function>
+bool Find(void* library, const char* name, Function& function) {
+  function = reinterpret_cast<Function>(dlsym(library, name));
+  return function != nullptr;
+}
+
+// Makes no other driver of GDAL known: a label can name further files, and what reads them.
+std::optional<Gdal> LoadGdal() {
+  void* library = dlopen(ROCKYARD_GDAL, RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) return std::nullopt;
+  Gdal gdal;
+  const bool complete = Find(library, "CPLGetErrorHandlerUserData", gdal.error_user) &&
+                        Find(library, "CPLPopErrorHandler", gdal.pop_errors) &&
+                        Find(library, "CPLPushErrorHandlerEx", gdal.push_errors) &&
+                        Find(library, "CPLSetThreadLocalConfigOption", gdal.set_option) &&
+                        Find(library, "GDALClose", gdal.close) &&
+                        Find(library, "GDALGetDataTypeName", gdal.type_name) &&
+                        Find(library, "GDALGetRasterBand", gdal.band) &&
+                        Find(library, "GDALGetRasterCount", gdal.bands) &&
+                        Find(library, "GDALGetRasterDataType", gdal.data_type) &&
+                        Find(library, "GDALGetRasterXSize", gdal.width) &&
+                        Find(library, "GDALGetRasterYSize", gdal.height) &&
+                        Find(library, "GDALOpenEx", gdal.open) &&
+                        Find(library, "GDALRasterIO", gdal.read) &&
+                        Find(library, "GDALRegister_PDS", gdal.register_pds) &&
+                        Find(library, "GDALRegister_PDS4", gdal.register_pds4) &&
+                        Find(library, "GDALRegister_VICAR", gdal.register_vicar);
+  if (!complete) return std::nullopt;
+  gdal.register_pds();
+  gdal.register_pds4();
+  gdal.register_vicar();
+  return gdal;
+}
+
+// Loaded once and kept: the library cannot be unloaded safely.
+const std::optional<Gdal>& Library() {
+  static const std::optional<Gdal> gdal = LoadGdal();
+  return gdal;
 }
 
 // While it lives, GDAL prints nothing in this thread; its first failure is kept.
 class KeptErrors {
  public:
-  KeptErrors() { CPLPushErrorHandlerEx(Keep, this); }
-  ~KeptErrors() { CPLPopErrorHandler(); }
+  explicit KeptErrors(const Gdal& gdal) : gdal_(gdal) { gdal_.push_errors(Keep, this); }
+  ~KeptErrors() { gdal_.pop_errors(); }
   KeptErrors(const KeptErrors&) = delete;
   KeptErrors& operator=(const KeptErrors&) = delete;
 
@@ -45,31 +95,28 @@ class KeptErrors {
 
  private:
   static void CPL_STDCALL Keep(CPLErr level, CPLErrorNum, const char* message) {
-    auto& self = *static_cast<KeptErrors*>(CPLGetErrorHandlerUserData());
+    auto& self = *static_cast<KeptErrors*>(Library()->error_user());
     if (level >= CE_Failure && self.first_.empty()) self.first_ = message;
   }
 
+  const Gdal& gdal_;
   std::string first_;
 };
 
 // A setting of GDAL in this thread, while it lives.
 class GdalSetting {
  public:
-  GdalSetting(const char* key, const char* value) : key_(key) {
-    CPLSetThreadLocalConfigOption(key, value);
+  GdalSetting(const Gdal& gdal, const char* key, const char* value) : gdal_(gdal), key_(key) {
+    gdal_.set_option(key, value);
   }
-  ~GdalSetting() { CPLSetThreadLocalConfigOption(key_, nullptr); }
+  ~GdalSetting() { gdal_.set_option(key_, nullptr); }
   GdalSetting(const GdalSetting&) = delete;
   GdalSetting& operator=(const GdalSetting&) = delete;
 
  private:
+  const Gdal& gdal_;
   const char* key_;
 };
-
-struct CloseDataset {
-  void operator()(GDALDatasetH dataset) const { GDALClose(dataset); }
-};
-using Dataset = std::unique_ptr<std::remove_pointer_t<GDALDatasetH>, CloseDataset>;
 
 // 0: samples that are not read.
 int BitsOf(GDALDataType type) {
@@ -85,70 +132,99 @@ int BitsOf(GDALDataType type) {
   }
 }
 
-void CheckBands(GDALDatasetH dataset, const std::string& name) {
-  const int bands = GDALGetRasterCount(dataset);
-  if (bands != 1 && bands != 3) {
-    FailUnsupported(name, fmt::format("has {} bands", bands), "name an image of one or three");
+// One file. Messages call it by its path.
+class GdalFile {
+ public:
+  GdalFile(const Gdal& gdal, const std::filesystem::path& path, const char* driver)
+      : gdal_(gdal),
+        name_(path.string()),
+        errors_(gdal),
+        no_files_beside_(gdal, "GDAL_PAM_ENABLED", "NO"),
+        no_network_(gdal, "CPL_VSIL_CURL_ALLOWED_EXTENSIONS", "{none}") {
+    const std::array<const char*, 2> drivers{driver, nullptr};
+    const std::array<const char*, 1> none{nullptr};
+    dataset_ = gdal.open(name_.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                         drivers.data(), none.data(), none.data());
+    if (dataset_ == nullptr) FailDamaged(name_, errors_.first());
   }
-  const GDALDataType type = GDALGetRasterDataType(GDALGetRasterBand(dataset, 1));
-  for (int band = 1; band <= bands; ++band) {
-    if (BitsOf(type) == 0 || GDALGetRasterDataType(GDALGetRasterBand(dataset, band)) != type) {
-      FailUnsupported(
-          name, fmt::format("has samples of type {}", GDALGetDataTypeName(type)),
-          "scale it to integers first: gdal_translate -ot UInt16 -scale MIN MAX 0 65535");
-    }
-  }
-}
+  ~GdalFile() { gdal_.close(dataset_); }
+  GdalFile(const GdalFile&) = delete;
+  GdalFile& operator=(const GdalFile&) = delete;
 
-// Returns how many of the samples are negative.
-std::int64_t ReadBand(GDALRasterBandH band, const std::string& name, const KeptErrors& errors,
-                      SamplePlane& plane) {
-  std::int64_t negative = 0;
-  std::vector<std::int32_t> row(static_cast<std::size_t>(plane.width()));
-  for (int y = 0; y < plane.height(); ++y) {
-    const CPLErr failure = GDALRasterIO(band, GF_Read, 0, y, plane.width(), 1, row.data(),
-                                        plane.width(), 1, GDT_Int32, 0, 0);
-    if (failure != CE_None || errors.any()) FailDamaged(name, errors.first());
-    for (int x = 0; x < plane.width(); ++x) {
-      const std::int32_t sample = row[static_cast<std::size_t>(x)];
-      negative += sample < 0 ? 1 : 0;
-      plane.At(x, y) = static_cast<std::uint16_t>(sample < 0 ? 0 : sample);
+  Raster Read(const ImageLimits& limits) const {
+    Raster raster;
+    raster.bits = CheckBands();
+    const int width = gdal_.width(dataset_);
+    const int height = gdal_.height(dataset_);
+    CheckSize(name_, width, height, limits);
+    for (int band = 1; band <= gdal_.bands(dataset_); ++band) {
+      raster.negative += ReadBand(band, raster.planes.emplace_back(width, height));
     }
+    return raster;
   }
-  return negative;
-}
+
+ private:
+  // The bits of a sample.
+  int CheckBands() const {
+    const int bands = gdal_.bands(dataset_);
+    if (bands != 1 && bands != 3) {
+      FailUnsupported(name_, fmt::format("has {} bands", bands), "name an image of one or three");
+    }
+    const GDALDataType first = gdal_.data_type(gdal_.band(dataset_, 1));
+    for (int band = 1; band <= bands; ++band) {
+      const GDALDataType type = gdal_.data_type(gdal_.band(dataset_, band));
+      if (BitsOf(type) == 0 || type != first) {
+        FailUnsupported(
+            name_, fmt::format("has samples of type {}", gdal_.type_name(type)),
+            "scale it to integers first: gdal_translate -ot UInt16 -scale MIN MAX 0 65535");
+      }
+    }
+    return BitsOf(first);
+  }
+
+  // Returns how many of the samples are negative.
+  std::int64_t ReadBand(int band, SamplePlane& plane) const {
+    const GDALRasterBandH samples = gdal_.band(dataset_, band);
+    std::int64_t negative = 0;
+    std::vector<std::int32_t> row(static_cast<std::size_t>(plane.width()));
+    for (int y = 0; y < plane.height(); ++y) {
+      const CPLErr failure = gdal_.read(samples, GF_Read, 0, y, plane.width(), 1, row.data(),
+                                        plane.width(), 1, GDT_Int32, 0, 0);
+      if (failure != CE_None || errors_.any()) FailDamaged(name_, errors_.first());
+      for (int x = 0; x < plane.width(); ++x) {
+        const std::int32_t sample = row[static_cast<std::size_t>(x)];
+        negative += sample < 0 ? 1 : 0;
+        plane.At(x, y) = static_cast<std::uint16_t>(sample < 0 ? 0 : sample);
+      }
+    }
+    return negative;
+  }
+
+  const Gdal& gdal_;
+  std::string name_;
+  KeptErrors errors_;
+  GdalSetting no_files_beside_;
+  GdalSetting no_network_;
+  GDALDatasetH dataset_ = nullptr;
+};
 
 Raster ReadRaster(const std::filesystem::path& path, const char* driver,
                   const ImageLimits& limits) {
-  RegisterDrivers();
-  const std::string name = path.string();
-  const KeptErrors errors;
-  const GdalSetting no_files_beside("GDAL_PAM_ENABLED", "NO");
-  const GdalSetting no_network("CPL_VSIL_CURL_ALLOWED_EXTENSIONS", "{none}");
-  const std::array<const char*, 2> drivers{driver, nullptr};
-  const std::array<const char*, 1> none{nullptr};
-  const Dataset dataset(GDALOpenEx(name.c_str(),
-                                   GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                                   drivers.data(), none.data(), none.data()));
-  if (!dataset) FailDamaged(name, errors.first());
-  CheckBands(dataset.get(), name);
-  const int width = GDALGetRasterXSize(dataset.get());
-  const int height = GDALGetRasterYSize(dataset.get());
-  CheckSize(name, width, height, limits);
-  Raster raster;
-  raster.bits = BitsOf(GDALGetRasterDataType(GDALGetRasterBand(dataset.get(), 1)));
-  for (int band = 1; band <= GDALGetRasterCount(dataset.get()); ++band) {
-    SamplePlane& plane = raster.planes.emplace_back(width, height);
-    raster.negative += ReadBand(GDALGetRasterBand(dataset.get(), band), name, errors, plane);
-  }
-  return raster;
+  return GdalFile(*Library(), path, driver).Read(limits);
 }
 
 }  // namespace
 
-RasterReader GdalRasterReader() { return ReadRaster; }
+RasterSupport FindGdal() {
+  if (Library()) return {ReadRaster, ""};
+  return {nullptr, fmt::format("install the library {} (Debian's libgdal32)", ROCKYARD_GDAL)};
+}
 #else
-RasterReader GdalRasterReader() { return nullptr; }
+RasterSupport FindGdal() {
+  return {nullptr,
+          "install Debian's libgdal-dev (scripts/install_dependencies.sh planetary) and build "
+          "rockyard anew with -DROCKYARD_GDAL=ON, which is the default"};
+}
 #endif
 
 }  // namespace rockyard::image_files

@@ -1,8 +1,13 @@
 // Samples of planetary images (GDAL, an optional part of the build).
+//
+// GDAL is loaded when the first planetary image is read, not linked: it brings a hundred libraries,
+// which would add some 40 ms and 30 MB to every start of the program, and the Debian package works
+// with or without it.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "image_files/image_limits.h"
@@ -21,7 +26,13 @@ struct Raster {
 using RasterReader = Raster (*)(const std::filesystem::path& path, const char* driver,
                                 const ImageLimits& limits);
 
-// nullptr in a program that was built without GDAL.
-RasterReader GdalRasterReader();
+struct RasterSupport {
+  RasterReader reader = nullptr;  // nullptr: none
+  std::string remedy;             // what would bring one, in one sentence
+};
+
+// What there is of GDAL: nothing in a program that was built without, or on a machine on which the
+// library is missing. Cost: the first call loads the library.
+RasterSupport FindGdal();
 
 }  // namespace rockyard::image_files

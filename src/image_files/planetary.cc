@@ -89,14 +89,14 @@ std::optional<int> SampleBitMask(std::string_view bytes) {
 }
 
 RawImage ReadPlanetary(const std::filesystem::path& path, std::string_view bytes,
-                       PlanetaryKind kind, const ImageLimits& limits, RasterReader reader) {
-  if (reader == nullptr) {
+                       PlanetaryKind kind, const ImageLimits& limits, const RasterSupport& gdal) {
+  if (gdal.reader == nullptr) {
     FailUnsupported(
         path.string(),
-        fmt::format("is a {} image, which this build of rockyard cannot read", NameOf(kind)),
-        std::string(kHowToGetGdal));
+        fmt::format("is a {} image, which this rockyard cannot read without GDAL", NameOf(kind)),
+        gdal.remedy);
   }
-  Raster raster = reader(std::filesystem::absolute(path), DriverOf(kind), limits);
+  Raster raster = gdal.reader(std::filesystem::absolute(path), DriverOf(kind), limits);
   RawImage image;
   image.format = NameOf(kind);
   image.planes = std::move(raster.planes);

@@ -25,14 +25,9 @@ std::optional<int> SampleBitMask(std::string_view bytes);
 
 // The image of a file whose front is `bytes`. Its full scale is the sample bit mask of its label;
 // where that is missing, or has more bits than the samples have, the largest sample of its type.
-// `reader` is nullptr in a program without GDAL. Throws core::UserError: no GDAL, no image of one
-// or three bands, samples that are no integers of 8 or 16 bits, damaged, or beyond the limits.
+// Throws core::UserError: no GDAL, with what would bring it, no image of one or three bands,
+// samples that are no integers of 8 or 16 bits, damaged, or beyond the limits.
 RawImage ReadPlanetary(const std::filesystem::path& path, std::string_view bytes,
-                       PlanetaryKind kind, const ImageLimits& limits, RasterReader reader);
-
-// What gives a program without GDAL these formats, in one sentence.
-inline constexpr std::string_view kHowToGetGdal =
-    "install Debian's libgdal-dev (scripts/install_dependencies.sh planetary) and build rockyard "
-    "anew with -DROCKYARD_GDAL=ON, which is the default";
+                       PlanetaryKind kind, const ImageLimits& limits, const RasterSupport& gdal);
 
 }  // namespace rockyard::image_files

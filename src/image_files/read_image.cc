@@ -45,14 +45,15 @@ RawImage DecodeImage(std::string_view bytes, const std::string& name, const Imag
 RawImage ReadImage(const std::filesystem::path& path, const ImageLimits& limits) {
   const std::string bytes = core::ReadWholeFile(path, kMaxFileBytes, "an image file");
   if (const std::optional<PlanetaryKind> kind = PlanetaryKindOf(bytes)) {
-    return ReadPlanetary(path, bytes, *kind, limits, GdalRasterReader());
+    return ReadPlanetary(path, bytes, *kind, limits, FindGdal());
   }
   return DecodeImage(bytes, path.string(), limits);
 }
 
 std::vector<ReadableFormat> ReadableFormats() {
-  const bool gdal = GdalRasterReader() != nullptr;
-  const std::string remedy = gdal ? "" : std::string(kHowToGetGdal);
+  const RasterSupport support = FindGdal();
+  const bool gdal = support.reader != nullptr;
+  const std::string& remedy = support.remedy;
   return {{"PNG", "1 to 16 bits, grey, colour and palette", true, ""},
           {"JPEG", "8 bits, grey and colour", true, ""},
           {"PGM and PPM", "P2, P3, P5 and P6, 1 to 16 bits", true, ""},

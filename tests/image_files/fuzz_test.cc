@@ -23,7 +23,7 @@ class ImageFuzzTest : public testing::Test {
 // The seeds themselves are in order, or the mutations would test the first check only.
 TEST_F(ImageFuzzTest, TheSeedsAreRead) {
   for (const SeedFile& file : files_) {
-    const bool missing = PlanetaryKindOf(file.bytes) && GdalRasterReader() == nullptr;
+    const bool missing = PlanetaryKindOf(file.bytes) && FindGdal().reader == nullptr;
     const bool refused = missing || file.name == "inks.jpg";
     const Verdict verdict = JudgeFile(file, own_.path());
     EXPECT_EQ(verdict.outcome, refused ? Outcome::kRefused : Outcome::kRead)

@@ -29,7 +29,7 @@ Raster Colours(const std::filesystem::path& path, const char* driver, const Imag
 }
 
 RawImage Read(const std::string& label, RasterReader reader) {
-  return ReadPlanetary("a.img", label, PlanetaryKind::kPds3, {}, reader);
+  return ReadPlanetary("a.img", label, PlanetaryKind::kPds3, {}, {reader, ""});
 }
 
 TEST(Planetary, KindsAreKnownByTheirLabels) {
@@ -82,12 +82,19 @@ TEST(Planetary, FullScaleIsThatOfTheMaskWhereItFits) {
 TEST(Planetary, WithoutGdalTheRemedyIsNamed) {
   for (const PlanetaryKind kind :
        {PlanetaryKind::kPds3, PlanetaryKind::kPds4, PlanetaryKind::kVicar}) {
-    const core::Problem problem = RefusalOf([&] { ReadPlanetary("a.img", "", kind, {}, nullptr); });
+    const core::Problem problem = RefusalOf([&] {
+      ReadPlanetary("a.img", "", kind, {}, {nullptr, "get it"});
+    });
     EXPECT_EQ(problem.path, "a.img");
     EXPECT_EQ(problem.reason, std::string("is a ") + NameOf(kind) +
-                                  " image, which this build of rockyard cannot read");
-    EXPECT_THAT(problem.suggestion, HasSubstr("libgdal-dev"));
-    EXPECT_THAT(problem.suggestion, HasSubstr("-DROCKYARD_GDAL=ON"));
+                                  " image, which this rockyard cannot read without GDAL");
+    EXPECT_EQ(problem.suggestion, "get it");
+  }
+  const RasterSupport gdal = FindGdal();
+  if (gdal.reader == nullptr) {
+    EXPECT_THAT(gdal.remedy, HasSubstr("libgdal"));
+  } else {
+    EXPECT_EQ(gdal.remedy, "");
   }
 }
 
