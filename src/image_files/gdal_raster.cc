@@ -1,13 +1,13 @@
 #include "image_files/gdal_raster.h"
 
 #ifdef ROCKYARD_GDAL
-#include <cpl_conv.h>
 #include <cpl_error.h>
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <gdal.h>
 #include <gdal_frmts.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -26,7 +26,6 @@ struct Gdal {
   decltype(&::CPLGetErrorHandlerUserData) error_user = nullptr;
   decltype(&::CPLPopErrorHandler) pop_errors = nullptr;
   decltype(&::CPLPushErrorHandlerEx) push_errors = nullptr;
-  decltype(&::CPLSetThreadLocalConfigOption) set_option = nullptr;
   decltype(&::GDALClose) close = nullptr;
   decltype(&::GDALGetDataTypeName) type_name = nullptr;
   decltype(&::GDALGetRasterBand) band = nullptr;
@@ -56,7 +55,6 @@ std::optional<Gdal> LoadGdal() {
   const bool complete = Find(library, "CPLGetErrorHandlerUserData", gdal.error_user) &&
                         Find(library, "CPLPopErrorHandler", gdal.pop_errors) &&
                         Find(library, "CPLPushErrorHandlerEx", gdal.push_errors) &&
-                        Find(library, "CPLSetThreadLocalConfigOption", gdal.set_option) &&
                         Find(library, "GDALClose", gdal.close) &&
                         Find(library, "GDALGetDataTypeName", gdal.type_name) &&
                         Find(library, "GDALGetRasterBand", gdal.band) &&
@@ -96,26 +94,13 @@ class KeptErrors {
  private:
   static void CPL_STDCALL Keep(CPLErr level, CPLErrorNum, const char* message) {
     auto& self = *static_cast<KeptErrors*>(Library()->error_user());
-    if (level >= CE_Failure && self.first_.empty()) self.first_ = message;
+    if (level < CE_Failure || !self.first_.empty()) return;
+    self.first_ = message;
+    std::replace(self.first_.begin(), self.first_.end(), '\n', ' ');
   }
 
   const Gdal& gdal_;
   std::string first_;
-};
-
-// A setting of GDAL in this thread, while it lives.
-class GdalSetting {
- public:
-  GdalSetting(const Gdal& gdal, const char* key, const char* value) : gdal_(gdal), key_(key) {
-    gdal_.set_option(key, value);
-  }
-  ~GdalSetting() { gdal_.set_option(key_, nullptr); }
-  GdalSetting(const GdalSetting&) = delete;
-  GdalSetting& operator=(const GdalSetting&) = delete;
-
- private:
-  const Gdal& gdal_;
-  const char* key_;
 };
 
 // 0: samples that are not read.
@@ -136,13 +121,9 @@ int BitsOf(GDALDataType type) {
 class GdalFile {
  public:
   GdalFile(const Gdal& gdal, const std::filesystem::path& path, const char* driver)
-      : gdal_(gdal),
-        name_(path.string()),
-        errors_(gdal),
-        no_files_beside_(gdal, "GDAL_PAM_ENABLED", "NO"),
-        no_network_(gdal, "CPL_VSIL_CURL_ALLOWED_EXTENSIONS", "{none}") {
+      : gdal_(gdal), name_(path.string()), errors_(gdal) {
     const std::array<const char*, 2> drivers{driver, nullptr};
-    const std::array<const char*, 1> none{nullptr};
+    const std::array<const char*, 1> none{nullptr};  // of options, and of files beside it
     dataset_ = gdal.open(name_.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
                          drivers.data(), none.data(), none.data());
     if (dataset_ == nullptr) FailDamaged(name_, errors_.first());
@@ -203,8 +184,6 @@ class GdalFile {
   const Gdal& gdal_;
   std::string name_;
   KeptErrors errors_;
-  GdalSetting no_files_beside_;
-  GdalSetting no_network_;
   GDALDatasetH dataset_ = nullptr;
 };
 

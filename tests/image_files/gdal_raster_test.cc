@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 class GdalRasterTest : public testing::Test {
@@ -122,10 +123,23 @@ TEST_F(GdalRasterTest, AShortFileOfALargeImageIsRefused) {
   EXPECT_FALSE(Reason(Pds3Bytes(text)).empty());
 }
 
-// A label may name other files: no other format is opened for it, and none is written beside it.
-TEST_F(GdalRasterTest, OnlyItsOwnDriverReadsAndNothingIsWritten) {
-  ReadImage(Write("a.img", Pds3Bytes(Small())));
+// GDAL keeps notes beside images that it has read: none is written, and none that lies there is
+// heeded.
+TEST_F(GdalRasterTest, NotesBesideTheImageAreNeitherReadNorWritten) {
+  const fs::path path = Write("a.img", Pds3Bytes(Small()));
+  ReadImage(path);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+  Write("a.img.aux.xml", "<PAMDataset><broken");
+  EXPECT_EQ(ReadImage(path).width(), 3);
+}
+
+// Messages of GDAL of two lines.
+TEST_F(GdalRasterTest, ReasonsAreOneLine) {
+  std::string label = Pds3Bytes(Small());
+  label.replace(label.find("^IMAGE = 2"), 10, "^IMAGE=\"b\"");
+  const std::string reason = Reason(label);
+  EXPECT_THAT(reason, HasSubstr("No such file"));
+  EXPECT_THAT(reason, Not(HasSubstr("\n")));
 }
 
 TEST(ReadableFormatsWithGdal, ListsThePlanetaryOnes) {
