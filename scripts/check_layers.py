@@ -34,7 +34,7 @@ MAX_LINES = 600
 # What <...> may name beside heavy libraries: the standard library, POSIX, and light libraries.
 STANDARD = re.compile(r"[a-z_0-9]+$")
 POSIX = re.compile(
-    r"(unistd|fcntl|signal|poll|sched|dirent|pthread|cpuid|immintrin|x86intrin)\.h$|sys/[a-z_]+\.h$")
+    r"(unistd|fcntl|dlfcn|signal|poll|sched|dirent|pthread|cpuid|immintrin|x86intrin)\.h$|sys/[a-z_]+\.h$")
 LIGHT = re.compile(r"(Eigen|unsupported/Eigen|fmt|Random123)/")
 
 HAS_INCLUDE = re.compile(r"__has_include")

@@ -14,6 +14,8 @@ HEAVY = {
     "CLI11": (r"CLI/", r"CLI11"),
     "tinyxml2": (r"tinyxml2", r"tinyxml2"),
     "libpng": (r"png\.h", r"PNG::"),
+    "libjpeg": (r"(jpeglib|jerror)\.h", r"JPEG::"),
+    "GDAL": (r"(gdal|cpl_|ogr)", r"GDAL::"),
     "libzip": (r"zip\.h", r"LIBZIP"),
     "zlib": (r"zlib\.h", r"ZLIB::"),
     "Highway": (r"hwy/", r"HWY|hwy"),

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "image_files/png_file.h"
 #include "report/atomic_file.h"
-#include "report/png_file.h"
 #include "report/scan_drawing.h"
 #include "report/scan_picture.h"
 #include "scenario/load.h"
@@ -31,10 +31,10 @@ void WriteScanFiles(const fs::path& folder, const scenario::Scenario& scenario,
                     const CapturedScan& captured) {
   BeginFolder(folder, scenario);
   for (const CapturedExposure& exposure : captured.exposures) {
-    const auto write = [&](std::string_view what, const report::Picture& picture) {
+    const auto write = [&](std::string_view what, const image_files::Picture& picture) {
       report::WriteFileAtomically(
           folder / fmt::format("{}-{}.png", FileStem(exposure.frames), what),
-          report::EncodePng(picture));
+          image_files::EncodePng(picture));
     };
     write("lit", report::FramePicture(exposure.frames.lit.front()));
     write("dark", report::FramePicture(exposure.frames.dark.front()));

@@ -3,10 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <memory>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -14,8 +10,8 @@
 
 #include "core/error.h"
 #include "core/json_text.h"
-#include "core/machine_error.h"
 #include "core/spelling.h"
+#include "core/whole_file.h"
 
 namespace rockyard::core {
 namespace {
@@ -26,42 +22,6 @@ constexpr std::size_t kLongestChain = 16;
 // Files that each name several others multiply: bounds the memory of a mistaken or hostile input.
 constexpr std::size_t kMaxFiles = 64;
 constexpr std::string_view kExtends = "extends";
-
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
-[[noreturn]] void FailToOpen(const fs::path& path, int reason) {
-  const std::string what = fmt::format("cannot be read: {}", std::strerror(reason));
-  if (reason == EMFILE || reason == ENFILE) throw MachineError(path.string(), what, kMoreOpenFiles);
-  throw UserError(path.string(), what, "check its permissions");
-}
-
-std::string ReadText(const fs::path& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) {
-    throw UserError(path.string(), "the file does not exist", "check the name and the folder");
-  }
-  if (!fs::is_regular_file(status)) {
-    throw UserError(path.string(), "is not a regular file", "name a JSON file");
-  }
-  const std::uintmax_t size = fs::file_size(path, error);
-  const std::size_t largest = JsonLimits().max_bytes;
-  if (!error && size > largest) {
-    throw UserError(path.string(),
-                    fmt::format("has {} bytes, more than the {} allowed", size, largest),
-                    "check that this is the right file");
-  }
-  // With a reason where it fails, which a stream does not have.
-  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rbe"));
-  if (!file) FailToOpen(path, errno);
-  std::string text(error ? 0 : size, '\0');
-  if (std::fread(text.data(), 1, text.size(), file.get()) != text.size()) {
-    throw UserError(path.string(), "ends early", "check the disk and the file");
-  }
-  return text;
-}
 
 // "a" and "b" to "a.b".
 std::string Join(std::string_view at, std::string_view key) {
@@ -167,7 +127,7 @@ std::optional<JsonValue> TryParse(std::string_view text) {
 JsonValue LoadJsonFile(const fs::path& path) { return ExtendsLoader().Load(path, ""); }
 
 JsonValue LoadJsonFileAlone(const fs::path& path) {
-  return ParseJson(ReadText(path), path.string());
+  return ParseJson(ReadWholeFile(path, JsonLimits().max_bytes, "a JSON file"), path.string());
 }
 
 JsonValue ResolveExtends(JsonValue value, const fs::path& folder) {

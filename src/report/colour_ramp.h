@@ -3,15 +3,15 @@
 
 #include <cstdint>
 
-#include "report/png_file.h"
+#include "image_files/picture.h"
 
 namespace rockyard::report {
 
 // Dark violet at 0, green-blue in the middle, yellow at 1; shares beyond are clamped. Luminance
 // grows all the way.
-Rgb RampColour(double share);
+image_files::Rgb RampColour(double share);
 
 // The colour of a goodness or certainty: 0 to 255.
-Rgb ByteColour(std::uint8_t value);
+image_files::Rgb ByteColour(std::uint8_t value);
 
 }  // namespace rockyard::report

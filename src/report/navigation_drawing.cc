@@ -52,12 +52,13 @@ class MapPanel {
   double Y(double y_m) const { return top_ + scale_ * (map_.y0_m + map_.ny * map_.ystep_m - y_m); }
 
   // Neighbours of one colour in a row share a rectangle. What has no colour stays grey.
-  std::string Cells(const std::function<std::optional<Rgb>(const MapCellView&)>& colour) const {
+  std::string Cells(
+      const std::function<std::optional<image_files::Rgb>(const MapCellView&)>& colour) const {
     std::string svg = SvgBox(X(map_.x0_m), top_, scale_ * map_.nx * map_.xstep_m,
                              scale_ * map_.ny * map_.ystep_m, "fill=\"#d0d0d0\"");
     for (int iy = 0; iy < map_.ny; ++iy) {
       for (int ix = 0; ix < map_.nx;) {
-        const std::optional<Rgb> here = colour(map_.Cell(ix, iy));
+        const std::optional<image_files::Rgb> here = colour(map_.Cell(ix, iy));
         int end = ix + 1;
         while (end < map_.nx && colour(map_.Cell(end, iy)) == here) ++end;
         if (here) {
@@ -139,7 +140,7 @@ std::string ElevationPanel(const NavigationView& view, const MapPanel& panel, do
     title = fmt::format("elevation: dark {:.2f} m, light {:.2f} m", range.low, range.high);
   }
   return SvgText(left, kMapTop - 8.0, title) +
-         panel.Cells([&](const MapCellView& cell) -> std::optional<Rgb> {
+         panel.Cells([&](const MapCellView& cell) -> std::optional<image_files::Rgb> {
            if (!cell.has_data) return std::nullopt;
            return RampColour((cell.elevation_m - range.low) / span_m);
          });
@@ -148,7 +149,7 @@ std::string ElevationPanel(const NavigationView& view, const MapPanel& panel, do
 std::string BytePanel(std::string_view title, const MapPanel& panel, double left,
                       std::uint8_t MapCellView::*value) {
   return SvgText(left, kMapTop - 8.0, title) +
-         panel.Cells([&](const MapCellView& cell) -> std::optional<Rgb> {
+         panel.Cells([&](const MapCellView& cell) -> std::optional<image_files::Rgb> {
            if (!cell.known) return std::nullopt;
            return ByteColour(cell.*value);
          });

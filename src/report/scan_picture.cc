@@ -9,9 +9,9 @@
 namespace rockyard::report {
 namespace {
 
-constexpr Rgb kFound{60, 220, 60};
-constexpr Rgb kHazard{255, 60, 50};
-constexpr Rgb kSearched{80, 140, 255};
+constexpr image_files::Rgb kFound{60, 220, 60};
+constexpr image_files::Rgb kHazard{255, 60, 50};
+constexpr image_files::Rgb kSearched{80, 140, 255};
 constexpr double kWhiteShare = 0.999;  // of the pixels are below white
 constexpr int kCrossArm_px = 5;
 constexpr int kDotsAbove_px = 9;
@@ -25,8 +25,8 @@ double WhiteOf(std::vector<double> values) {
   return std::max(1.0, values[static_cast<std::size_t>(at)]);
 }
 
-Picture GreyPicture(int width, int height, std::span<const double> values) {
-  Picture picture(width, height);
+image_files::Picture GreyPicture(int width, int height, std::span<const double> values) {
+  image_files::Picture picture(width, height);
   const double white = WhiteOf({values.begin(), values.end()});
   std::size_t index = 0;
   for (int row = 0; row < height; ++row) {
@@ -42,15 +42,17 @@ Picture GreyPicture(int width, int height, std::span<const double> values) {
 // Draws by the image coordinates of a band.
 class BandCanvas {
  public:
-  BandCanvas(const messages::ImageBand& band, Picture& picture) : band_(band), picture_(picture) {}
+  BandCanvas(const messages::ImageBand& band, image_files::Picture& picture)
+      : band_(band), picture_(picture) {}
 
-  void Dot(int column, int row, const Rgb& colour) {
+  void Dot(int column, int row, const image_files::Rgb& colour) {
     const int x = column - band_.first_column;
     const int y = row - band_.first_row;
-    if (picture_.Holds(x, y)) picture_.At(x, y) = colour;
+    const bool inside = x >= 0 && x < picture_.width() && y >= 0 && y < picture_.height();
+    if (inside) picture_.At(x, y) = colour;
   }
 
-  void Cross(int column, int row, const Rgb& colour) {
+  void Cross(int column, int row, const image_files::Rgb& colour) {
     for (int arm = 2; arm <= kCrossArm_px; ++arm) {
       Dot(column - arm, row - arm, colour);
       Dot(column + arm, row - arm, colour);
@@ -61,7 +63,7 @@ class BandCanvas {
 
  private:
   const messages::ImageBand& band_;
-  Picture& picture_;
+  image_files::Picture& picture_;
 };
 
 void DrawPoint(const ShownPoint& point, int row, bool hazard, BandCanvas& canvas) {
@@ -75,19 +77,20 @@ void DrawPoint(const ShownPoint& point, int row, bool hazard, BandCanvas& canvas
 
 }  // namespace
 
-Picture FramePicture(const messages::ImageBand& band) {
+image_files::Picture FramePicture(const messages::ImageBand& band) {
   EXPECT(band.counts.size() ==
          static_cast<std::size_t>(band.rows) * static_cast<std::size_t>(band.columns));
   const std::vector<double> values(band.counts.begin(), band.counts.end());
   return GreyPicture(band.columns, band.rows, values);
 }
 
-Picture DifferencePicture(const ScanView& scan, const messages::StripeExposure& exposure,
-                          std::span<const double> difference) {
+image_files::Picture DifferencePicture(const ScanView& scan,
+                                       const messages::StripeExposure& exposure,
+                                       std::span<const double> difference) {
   EXPECT(!exposure.lit.empty());
   const messages::ImageBand& band = exposure.lit.front();
   EXPECT(difference.size() == band.counts.size());
-  Picture picture = GreyPicture(band.columns, band.rows, difference);
+  image_files::Picture picture = GreyPicture(band.columns, band.rows, difference);
   BandCanvas canvas(band, picture);
   for (std::size_t stripe = 0; stripe < scan.points.stripes(); ++stripe) {
     const messages::StripeLaser& laser = scan.calibration.lasers[stripe];

@@ -50,7 +50,7 @@ std::string SvgPart(const SvgFrame& frame, std::string_view elements) {
       frame.top, frame.width, frame.height, elements);
 }
 
-std::string SvgFill(const Rgb& colour) {
+std::string SvgFill(const image_files::Rgb& colour) {
   return fmt::format("fill=\"#{:02x}{:02x}{:02x}\"", colour.red, colour.green, colour.blue);
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "report/png_file.h"
+#include "image_files/picture.h"
 
 namespace rockyard::report {
 
@@ -34,6 +34,6 @@ std::string SvgPolyline(std::span<const SvgPoint> points, std::string_view style
 std::string SvgPart(const SvgFrame& frame, std::string_view elements);
 
 // The attribute that fills with a colour.
-std::string SvgFill(const Rgb& colour);
+std::string SvgFill(const image_files::Rgb& colour);
 
 }  // namespace rockyard::report

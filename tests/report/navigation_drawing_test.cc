@@ -305,7 +305,9 @@ TEST(ChosenText, NamesTurns) {
   EXPECT_EQ(ChosenText(view), "turn right (vote 12)");
 }
 
-double Luminance(const Rgb& c) { return 0.2126 * c.red + 0.7152 * c.green + 0.0722 * c.blue; }
+double Luminance(const image_files::Rgb& c) {
+  return 0.2126 * c.red + 0.7152 * c.green + 0.0722 * c.blue;
+}
 
 TEST(RampColour, GrowsLighterAllTheWayAndClamps) {
   for (int i = 1; i <= 100; ++i) {

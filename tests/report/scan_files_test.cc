@@ -1,12 +1,10 @@
-// PNG files, and what is drawn of one scan.
+// What is drawn of one scan.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <png.h>
 
 #include <string>
 #include <vector>
 
-#include "report/png_file.h"
 #include "report/scan_drawing.h"
 #include "report/scan_picture.h"
 
@@ -43,45 +41,17 @@ ScanView TwoPoints(bool hazard) {
   return scan;
 }
 
-Picture Decoded(const std::string& file) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  EXPECT_NE(png_image_begin_read_from_memory(&image, file.data(), file.size()), 0) << image.message;
-  image.format = PNG_FORMAT_RGB;
-  Picture picture(static_cast<int>(image.width), static_cast<int>(image.height));
-  EXPECT_NE(png_image_finish_read(&image, nullptr, &picture.At(0, 0), 0, nullptr), 0);
-  return picture;
-}
-
-TEST(PngFile, ReadsBackPixelByPixel) {
-  Picture picture(7, 3);
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 7; ++column) {
-      picture.At(column, row) = {static_cast<std::uint8_t>(10 * column),
-                                 static_cast<std::uint8_t>(20 * row), 255};
-    }
-  }
-  const Picture read = Decoded(EncodePng(picture));
-  ASSERT_EQ(read.width(), 7);
-  ASSERT_EQ(read.height(), 3);
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 7; ++column) {
-      EXPECT_EQ(read.At(column, row), picture.At(column, row));
-    }
-  }
-}
-
 TEST(ScanPicture, FrameShowsTheSquareRootOfTheCounts) {
   messages::ImageBand band = Band(25);
   // Brighter than a thousandth of the image, so that white lies at 100 counts.
   for (int i = 0; i < 100; ++i) band.counts[static_cast<std::size_t>(i)] = 100;
-  const Picture picture = FramePicture(band);
-  EXPECT_EQ(picture.At(0, 0), (Rgb{255, 255, 255}));
-  EXPECT_EQ(picture.At(kColumns - 1, kRows - 1), (Rgb{128, 128, 128}));
+  const image_files::Picture picture = FramePicture(band);
+  EXPECT_EQ(picture.At(0, 0), (image_files::Rgb{255, 255, 255}));
+  EXPECT_EQ(picture.At(kColumns - 1, kRows - 1), (image_files::Rgb{128, 128, 128}));
 }
 
 TEST(ScanPicture, FrameWithoutLightIsBlack) {
-  EXPECT_EQ(FramePicture(Band(0)).At(3, 3), (Rgb{0, 0, 0}));
+  EXPECT_EQ(FramePicture(Band(0)).At(3, 3), (image_files::Rgb{0, 0, 0}));
 }
 
 TEST(ScanPicture, DifferenceMarksWhatWasFound) {
@@ -89,17 +59,18 @@ TEST(ScanPicture, DifferenceMarksWhatWasFound) {
   const std::vector<double> dark(std::size_t{kRows} * kColumns, -1.0);
   const int column = 5 + kColumns / 2;
   const int row = 8 + kRows / 2;
-  const Picture clear = DifferencePicture(TwoPoints(false), exposure, dark);
-  const Picture hazard = DifferencePicture(TwoPoints(true), exposure, dark);
+  const image_files::Picture clear = DifferencePicture(TwoPoints(false), exposure, dark);
+  const image_files::Picture hazard = DifferencePicture(TwoPoints(true), exposure, dark);
   EXPECT_GT(clear.At(column + 3, row + 3).green, 200);
   EXPECT_GT(hazard.At(column + 3, row + 3).red, 200);
   EXPECT_LT(hazard.At(column + 3, row + 3).green, 100);
   EXPECT_GT(clear.At(-12 + kColumns / 2, row - 9).blue, 200) << "searched columns";
-  EXPECT_EQ(clear.At(column, row), (Rgb{0, 0, 0})) << "the peak itself stays free";
+  EXPECT_EQ(clear.At(column, row), (image_files::Rgb{0, 0, 0})) << "the peak itself stays free";
   // A point of another camera is not drawn.
   ScanView other = TwoPoints(false);
   other.calibration.lasers[0].camera = 1;
-  EXPECT_EQ(DifferencePicture(other, exposure, dark).At(column + 3, row + 3), (Rgb{0, 0, 0}));
+  EXPECT_EQ(DifferencePicture(other, exposure, dark).At(column + 3, row + 3),
+            (image_files::Rgb{0, 0, 0}));
 }
 
 TEST(ScanDrawing, SvgShowsElevationsMissingPointsAndHazards) {

@@ -1,26 +1,22 @@
-#include "report/png_file.h"
-
 #include <png.h>
 
 #include <stdexcept>
 
 #include "core/check.h"
+#include "image_files/png_file.h"
 
-namespace rockyard::report {
+namespace rockyard::image_files {
+namespace {
 
-Picture::Picture(int width, int height) : width_(width), height_(height) {
-  EXPECT(width >= 1 && height >= 1);
-  pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-}
-
-std::string EncodePng(const Picture& picture) {
+template <typename Value>
+std::string Encode(const vision::Image<Value>& picture, png_uint_32 format) {
+  EXPECT(!picture.empty());
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   image.width = static_cast<png_uint_32>(picture.width());
   image.height = static_cast<png_uint_32>(picture.height());
-  image.format = PNG_FORMAT_RGB;
-  static_assert(sizeof(Rgb) == 3, "libpng reads the pixels as they lie");
-  const void* pixels = &picture.At(0, 0);
+  image.format = format;
+  const void* pixels = picture.values().data();
 
   png_alloc_size_t bytes = 0;
   std::string file;
@@ -35,4 +31,15 @@ std::string EncodePng(const Picture& picture) {
   throw std::runtime_error(std::string("libpng: ") + image.message);
 }
 
-}  // namespace rockyard::report
+}  // namespace
+
+std::string EncodePng(const Picture& picture) {
+  static_assert(sizeof(Rgb) == 3, "libpng reads the pixels as they lie");
+  return Encode(picture, PNG_FORMAT_RGB);
+}
+
+std::string EncodePng(const vision::GrayImage& image) { return Encode(image, PNG_FORMAT_GRAY); }
+
+std::string EncodePng(const SamplePlane& image) { return Encode(image, PNG_FORMAT_LINEAR_Y); }
+
+}  // namespace rockyard::image_files

@@ -1,0 +1,38 @@
+// Samples of planetary images (GDAL, an optional part of the build).
+//
+// GDAL is loaded when the first planetary image is read, not linked: it brings a hundred libraries,
+// which would add some 40 ms and 30 MB to every start of the program, and the Debian package works
+// with or without it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "image_files/image_limits.h"
+#include "image_files/raw_image.h"
+
+namespace rockyard::image_files {
+
+struct Raster {
+  std::vector<SamplePlane> planes;  // one or three
+  int bits = 0;                     // of a sample without its sign: 8, 15 or 16
+  std::int64_t negative = 0;        // samples below zero, which are 0 here
+};
+
+// Reads the file at an absolute path by the driver of GDAL that is called `driver`. Throws
+// core::UserError about the file.
+using RasterReader = Raster (*)(const std::filesystem::path& path, const char* driver,
+                                const ImageLimits& limits);
+
+struct RasterSupport {
+  RasterReader reader = nullptr;  // nullptr: none
+  std::string remedy;             // what would bring one, in one sentence
+};
+
+// What there is of GDAL: nothing in a program that was built without, or on a machine on which the
+// library is missing. Cost: the first call loads the library.
+RasterSupport FindGdal();
+
+}  // namespace rockyard::image_files

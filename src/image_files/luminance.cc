@@ -1,0 +1,60 @@
+#include "image_files/luminance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/check.h"
+
+namespace rockyard::image_files {
+namespace {
+
+constexpr std::int64_t kUnit = 1000;  // the weights of BT.601 are thousandths
+
+// Of a pixel, in thousandths of a sample.
+std::int64_t Luminance(const RawImage& image, int x, int y) {
+  if (!image.is_colour()) return kUnit * image.planes[0].At(x, y);
+  return std::int64_t{299} * image.planes[0].At(x, y) +
+         std::int64_t{587} * image.planes[1].At(x, y) +
+         std::int64_t{114} * image.planes[2].At(x, y);
+}
+
+std::string Describe(const RawImage& image, const GrayOptions& options,
+                     const GrayConversion& done) {
+  std::string text = image.is_colour() ? "luminance of colour (ITU-R BT.601)" : "grey";
+  if (done.white == 255) {
+    text += image.bits == 8 ? " of 8 bits" : fmt::format(" of {} bits, not scaled", image.bits);
+  } else {
+    text += fmt::format(" of {} bits, scaled by 255 / {} ({})", image.bits, done.white,
+                        options.white ? "as asked for" : image.full_scale_from);
+  }
+  if (done.clipped > 0) text += fmt::format(", {} pixels brighter than white", done.clipped);
+  if (image.not_opaque > 0) {
+    text += fmt::format(", transparency of {} pixels not heeded", image.not_opaque);
+  }
+  if (image.negative > 0) text += fmt::format(", {} negative samples as 0", image.negative);
+  return text;
+}
+
+}  // namespace
+
+GrayConversion ToGray(const RawImage& image, const GrayOptions& options) {
+  EXPECT(image.planes.size() == 1 || image.planes.size() == 3);
+  GrayConversion done;
+  done.white = options.white.value_or(image.full_scale);
+  EXPECT(done.white >= 1 && done.white <= 65535);
+  const std::int64_t white = kUnit * done.white;
+  done.image = vision::GrayImage(image.width(), image.height());
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      const std::int64_t luminance = Luminance(image, x, y);
+      if (luminance > white) ++done.clipped;
+      const std::int64_t gray = (255 * std::min(luminance, white) + white / 2) / white;
+      done.image.At(x, y) = static_cast<std::uint8_t>(gray);
+    }
+  }
+  done.what_was_done = Describe(image, options, done);
+  return done;
+}
+
+}  // namespace rockyard::image_files

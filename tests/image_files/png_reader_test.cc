@@ -1,0 +1,171 @@
+// PNG files that are put together by hand, read back sample by sample.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "image_files/png_bytes.h"
+#include "image_files/png_file.h"
+#include "image_files/refusals.h"
+
+namespace rockyard::image_files {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+RawImage Read(const std::string& bytes) { return DecodePng(bytes, "a.png", {}); }
+
+core::Problem Refusal(const std::string& bytes, const ImageLimits& limits = {}) {
+  return RefusalOf([&] { DecodePng(bytes, "a.png", limits); });
+}
+
+// Samples that differ from their neighbours in both bytes.
+PngText Pattern(int width, int height, int bits, PngColour colour, bool interlaced) {
+  PngText png{width, height, bits, colour, interlaced, {}, ""};
+  const std::size_t count =
+      static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * ChannelsOf(colour);
+  for (std::size_t i = 0; i < count; ++i) {
+    png.samples.push_back(static_cast<unsigned>(i * 40503 + 7) & ((1U << bits) - 1));
+  }
+  return png;
+}
+
+// Sample of a channel as the file has it; fewer than 8 bits are brought to 8 by repetition, which
+// for 1, 2 and 4 bits is 255 / (2^bits - 1) times the sample (section 13.12).
+unsigned Expected(const PngText& png, int x, int y, std::size_t channel) {
+  const std::size_t at =
+      static_cast<std::size_t>(y * png.width + x) * ChannelsOf(png.colour) + channel;
+  const unsigned scale = png.bits < 8 ? 255 / ((1U << png.bits) - 1) : 1;
+  return png.samples[at] * scale;
+}
+
+void ExpectSamples(const PngText& png) {
+  const RawImage image = Read(PngBytes(png));
+  const bool colour = png.colour == PngColour::kRgb || png.colour == PngColour::kRgba;
+  ASSERT_EQ(image.planes.size(), colour ? 3U : 1U);
+  ASSERT_EQ(image.width(), png.width);
+  ASSERT_EQ(image.height(), png.height);
+  EXPECT_EQ(image.bits, std::max(8, png.bits));
+  EXPECT_EQ(image.full_scale, png.bits == 16 ? 65535 : 255);
+  for (int y = 0; y < png.height; ++y) {
+    for (int x = 0; x < png.width; ++x) {
+      for (std::size_t channel = 0; channel < image.planes.size(); ++channel) {
+        ASSERT_EQ(image.planes[channel].At(x, y), Expected(png, x, y, channel))
+            << x << ", " << y << ", channel " << channel;
+      }
+    }
+  }
+}
+
+TEST(PngReader, EveryDepthColourAndOrder) {
+  for (const bool interlaced : {false, true}) {
+    for (const int bits : {1, 2, 4, 8, 16}) {
+      SCOPED_TRACE(testing::Message() << bits << " bits, interlaced " << interlaced);
+      ExpectSamples(Pattern(13, 11, bits, PngColour::kGrey, interlaced));
+    }
+    for (const int bits : {8, 16}) {
+      for (const PngColour colour : {PngColour::kGreyAlpha, PngColour::kRgb, PngColour::kRgba}) {
+        SCOPED_TRACE(testing::Message() << bits << " bits, colour " << static_cast<int>(colour)
+                                        << ", interlaced " << interlaced);
+        ExpectSamples(Pattern(9, 10, bits, colour, interlaced));
+      }
+    }
+    ExpectSamples(Pattern(1, 1, 8, PngColour::kRgb, interlaced));
+    ExpectSamples(Pattern(1, 5, 16, PngColour::kGrey, interlaced));
+  }
+}
+
+TEST(PngReader, PalettesBecomeColours) {
+  PngText png{3, 1, 2, PngColour::kPalette, false, {2, 0, 1}, ""};
+  png.before_data = PngChunk("PLTE", {10, 20, 30, 40, 50, 60, 70, 80, 90});
+  const RawImage image = Read(PngBytes(png));
+  ASSERT_EQ(image.planes.size(), 3U);
+  EXPECT_THAT(image.planes[0].values(), ElementsAre(70, 10, 40));
+  EXPECT_THAT(image.planes[1].values(), ElementsAre(80, 20, 50));
+  EXPECT_THAT(image.planes[2].values(), ElementsAre(90, 30, 60));
+  EXPECT_FALSE(image.had_alpha);
+}
+
+TEST(PngReader, CountsPixelsThatAreNotOpaque) {
+  PngText png{2, 2, 8, PngColour::kGreyAlpha, false, {1, 255, 2, 254, 3, 0, 4, 255}, ""};
+  const RawImage image = Read(PngBytes(png));
+  EXPECT_TRUE(image.had_alpha);
+  EXPECT_EQ(image.not_opaque, 2);
+  EXPECT_THAT(image.planes[0].values(), ElementsAre(1, 2, 3, 4));
+  // A transparent colour is another way to say so.
+  PngText keyed{2, 1, 8, PngColour::kGrey, false, {7, 8}, PngChunk("tRNS", {'\0', '\7'})};
+  EXPECT_EQ(Read(PngBytes(keyed)).not_opaque, 1);
+  EXPECT_EQ(Read(PngBytes(Pattern(3, 3, 8, PngColour::kRgb, false))).not_opaque, 0);
+}
+
+// Wherever it is cut off, also behind the last pixel: only the end of the file says that it is
+// whole.
+TEST(PngReader, CutOffAnywhereIsRefused) {
+  for (const bool interlaced : {false, true}) {
+    const std::string bytes = PngBytes(Pattern(6, 7, 8, PngColour::kRgb, interlaced));
+    for (std::size_t length = 8; length < bytes.size(); ++length) {
+      ASSERT_EQ(Refusal(bytes.substr(0, length)).reason, "ends before its last pixel") << length;
+    }
+  }
+}
+
+TEST(PngReader, EveryDamagedByteOfAChunkIsSeen) {
+  PngText png = Pattern(4, 4, 8, PngColour::kGrey, false);
+  png.before_data = PngChunk("tEXt", "Comment\1nothing") + PngChunk("gAMA", BigEndian(45455));
+  const std::string bytes = PngBytes(png);
+  ASSERT_EQ(Read(bytes).width(), 4);
+  for (std::size_t at = 8; at < bytes.size(); ++at) {
+    std::string damaged = bytes;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0x10);
+    const core::Problem problem = Refusal(damaged);
+    ASSERT_EQ(problem.path, "a.png");
+  }
+  std::string checksum = bytes;
+  checksum[8 + 8 + 13] = static_cast<char>(checksum[8 + 8 + 13] ^ 1);
+  EXPECT_THAT(Refusal(checksum).reason, StartsWith("is damaged: IHDR: CRC error"));
+}
+
+// The checksum of the pixels themselves is right, and the stream in it is short or long.
+TEST(PngReader, PixelsThatDoNotFitTheSizeAreRefused) {
+  PngText png = Pattern(4, 4, 8, PngColour::kGrey, false);
+  const std::string rows = PngRows(png);
+  const auto with = [&](const std::string& data) {
+    return PngHeader(png) + PngChunk("IDAT", ZlibStored(data)) + PngChunk("IEND", "");
+  };
+  EXPECT_EQ(Read(with(rows)).width(), 4);
+  EXPECT_THAT(Refusal(with(rows.substr(0, rows.size() - 1))).reason, StartsWith("is damaged"));
+  EXPECT_THAT(Refusal(with(rows + "x")).reason, StartsWith("is damaged"));
+  std::string filter = rows;
+  filter[0] = 9;
+  EXPECT_THAT(Refusal(with(filter)).reason, HasSubstr("filter"));
+}
+
+TEST(PngReader, SizesAreCheckedBeforeMemoryIsTaken) {
+  PngText png{0, 4, 8, PngColour::kGrey, false, {}, ""};
+  EXPECT_THAT(Refusal(PngBytes(png)).reason, StartsWith("is damaged"));
+  png = {16385, 1, 8, PngColour::kGrey, false, std::vector<unsigned>(16385), ""};
+  EXPECT_THAT(Refusal(PngBytes(png)).reason,
+              HasSubstr("has 16385 x 1 pixels, more than the 16384"));
+  png.width = 16384;
+  EXPECT_EQ(Read(PngBytes(png)).width(), 16384);
+  png = Pattern(5, 4, 8, PngColour::kGrey, false);
+  EXPECT_THAT(Refusal(PngBytes(png), {.max_side = 5, .max_pixels = 19}).reason,
+              HasSubstr("5 x 4 pixels"));
+  EXPECT_EQ(DecodePng(PngBytes(png), "", {.max_side = 5, .max_pixels = 20}).height(), 4);
+}
+
+// Deflate makes no more than 1032 bytes of one: what claims more is short, whatever comes.
+TEST(PngReader, AShortFileOfALargeImageIsRefusedByItsHeader) {
+  PngText png{8000, 8000, 16, PngColour::kRgba, true, {}, ""};
+  EXPECT_EQ(
+      Refusal(PngHeader(png) + PngChunk("IDAT", ZlibStored("x")) + PngChunk("IEND", "")).reason,
+      "ends before its last pixel");
+}
+
+}  // namespace
+}  // namespace rockyard::image_files
