@@ -1,0 +1,144 @@
+#include "campaign/stereo/match_pair.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <numeric>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "campaign/stereo/stereo_input.h"
+#include "campaign/stereo/stereo_json.h"
+#include "campaign/stereo/stereo_products.h"
+#include "campaign/stereo/stereo_search.h"
+#include "core/error.h"
+#include "core/json_text.h"
+#include "image_files/disparity_file.h"
+#include "image_files/pfm_file.h"
+#include "image_files/ply_file.h"
+#include "image_files/png_file.h"
+#include "report/atomic_file.h"
+#include "vision/stereo/outside.h"
+#include "vision/stereo/stereo.h"
+
+namespace rockyard::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A share of range ends above this says that the range may be too short.
+constexpr double kManyAtTheEnd = 0.1;
+
+vision::DisparityImage Matched(const StereoInput& input, const vision::StereoPipelineParams& params,
+                               int threads) {
+  vision::StereoProducts products;
+  vision::MatchStereo(input.left, input.right, params, threads, products);
+  if (!input.left_inside.empty()) {
+    vision::DropOutside(input.left_inside, input.right_inside,
+                        static_cast<int>(params.correlator.window_side_px), products.disparities);
+  }
+  return std::move(products.disparities);
+}
+
+vision::StereoScore Scored(const StereoRequest& request, const vision::DisparityImage& found) {
+  const vision::Image<float> known =
+      image_files::ReadDisparity(request.reference, request.reference_samples_a_px);
+  if (known.width() != found.width() || known.height() != found.height()) {
+    throw core::UserError(
+        request.reference.string(),
+        fmt::format("has {} x {} pixels, the disparities have {} x {}", known.width(),
+                    known.height(), found.width(), found.height()),
+        "give the known disparities of the left image as it is matched: not reduced, and without "
+        "--cameras where they are those of images that are aligned already");
+  }
+  return vision::ScoreAgainst(known, found);
+}
+
+void NoteDoubts(StereoResult& result) {
+  const auto all = static_cast<double>(
+      std::accumulate(result.counts.begin(), result.counts.end(), std::int64_t{0}));
+  const auto at_end =
+      static_cast<double>(result.counts[static_cast<std::size_t>(vision::Drop::kRangeEnd)]);
+  if (at_end > kManyAtTheEnd * all) {
+    result.notes.push_back(
+        fmt::format("of {:.0f} % of the pixels the best match lies at an end of the range: "
+                    "what is nearer or farther than it was not searched",
+                    100.0 * at_end / all));
+  }
+  if (result.counts[0] == 0) {
+    result.notes.emplace_back("no pixel has a match: the images show too little texture");
+  }
+}
+
+// Writes into the folder, and keeps what is where.
+class Folder {
+ public:
+  Folder(const fs::path& path, StereoResult& result) : path_(path), result_(result) {
+    std::error_code error;
+    fs::create_directories(path_, error);
+    if (error) {
+      throw core::UserError(path_.string(), "cannot be made: " + error.message(),
+                            "choose another --out");
+    }
+  }
+
+  void Write(std::string_view what, std::string_view name, std::string_view bytes) {
+    report::WriteFileAtomically(path_ / name, bytes);
+    result_.files.push_back({std::string(what), path_ / name});
+  }
+
+ private:
+  fs::path path_;
+  StereoResult& result_;
+};
+
+void WritePoints(const StereoRequest& request, const StereoInput& input,
+                 const vision::DisparityImage& disparities, Folder& folder, StereoResult& result) {
+  const auto points = PointsOf(disparities, input.left, *input.cameras);
+  const vision::ElevationGrid grid = GridOverPoints(points, *input.cameras, request.cell_m);
+  result.points = static_cast<std::int64_t>(points.size());
+  folder.Write("aligned_left", "left.png", image_files::EncodePng(input.left));
+  folder.Write("aligned_right", "right.png", image_files::EncodePng(input.right));
+  folder.Write("points", "points.ply",
+               image_files::EncodePly(points, "outer frame of the cameras, m"));
+  if (points.empty()) return;
+  const vision::Image<float> heights_m = HeightsOf(points, grid);
+  folder.Write("elevation", "elevation.pfm", image_files::EncodePfm(heights_m));
+  folder.Write("elevation_picture", "elevation.png",
+               image_files::EncodePng(ElevationPicture(heights_m)));
+}
+
+}  // namespace
+
+double StereoResult::Density() const {
+  const auto all = std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
+  return all == 0 ? 0.0 : static_cast<double>(counts[0]) / static_cast<double>(all);
+}
+
+StereoResult MatchPair(const StereoRequest& request) {
+  StereoResult result;
+  result.params = StereoParamsOf(request);
+  const StereoInput input = ReadStereoInput(request, static_cast<int>(result.params.pyramid_level));
+  result.params = WithRange(request, input, result.params);
+  result.read = input.read;
+  result.cameras = input.cameras;
+  result.size = {input.left.width(), input.left.height()};
+  const vision::DisparityImage disparities = Matched(input, result.params, request.threads);
+  CheckThatTheyMatch(request, input, result.params, disparities);
+  result.counts = vision::CountDrops(disparities);
+  if (!request.reference.empty()) result.score = Scored(request, disparities);
+  NoteDoubts(result);
+  Folder folder(request.out, result);
+  const image_files::Picture picture = DisparityPicture(disparities, result.params.correlator);
+  folder.Write("disparity", "disparity.pfm", image_files::EncodePfm(DisparityValues(disparities)));
+  folder.Write("disparity_picture", "disparity.png", image_files::EncodePng(picture));
+  folder.Write("picture", "picture.png", image_files::EncodePng(PairPicture(input.left, picture)));
+  if (input.cameras) WritePoints(request, input, disparities, folder, result);
+  folder.Write("summary", "stereo.json", core::DumpJson(StereoJson(request, result)));
+  return result;
+}
+
+}  // namespace rockyard::campaign

@@ -1,0 +1,134 @@
+#include "campaign/stereo/stereo_input.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <limits>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "core/error.h"
+#include "image_files/luminance.h"
+#include "image_files/read_image.h"
+#include "vision/cameras/camera_file.h"
+#include "vision/stereo/pyramid.h"
+#include "vision/stereo/rectification.h"
+
+namespace rockyard::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+using vision::GrayImage;
+using vision::Image;
+
+// The smallest side that is matched: less is no image.
+constexpr int kLeastSide_px = 16;
+
+std::string SizeText(int columns, int rows) { return fmt::format("{} x {}", columns, rows); }
+
+GrayImage ReadGray(const fs::path& path, const StereoRequest& request, std::string& what) {
+  const image_files::RawImage raw = image_files::ReadImage(path);
+  image_files::GrayConversion gray = image_files::ToGray(raw, {.white = request.white});
+  what = fmt::format("{}; {}", image_files::DescribeImage(raw), gray.what_was_done);
+  return std::move(gray.image);
+}
+
+void CheckPair(const StereoRequest& request, const GrayImage& left, const GrayImage& right) {
+  if (left.width() != right.width() || left.height() != right.height()) {
+    throw core::UserError(
+        request.right.string(),
+        fmt::format("has {} pixels, the left image {}", SizeText(right.width(), right.height()),
+                    SizeText(left.width(), left.height())),
+        "give two images that were taken together, of one size");
+  }
+  if (left == right) {
+    throw core::UserError(request.right.string(),
+                          "shows the same as the left image, pixel by pixel",
+                          "give the image of the other eye");
+  }
+}
+
+GrayImage Reduced(const fs::path& path, GrayImage image, int level) {
+  GrayImage reduced = level == 0 ? std::move(image) : vision::ReduceImage(image, level);
+  if (reduced.width() < kLeastSide_px || reduced.height() < kLeastSide_px) {
+    throw core::UserError(
+        path.string(),
+        fmt::format("leaves {} pixels at pyramid level {}",
+                    SizeText(reduced.width(), reduced.height()), level),
+        fmt::format("use a lower level, or images of at least {} pixels a side", kLeastSide_px));
+  }
+  return reduced;
+}
+
+vision::CameraModel CameraOf(const fs::path& file, std::string_view eye,
+                             const vision::CameraModel& camera, const GrayImage& image, int level) {
+  if (camera.size.columns != image.width() || camera.size.rows != image.height()) {
+    throw core::UserError(file.string(),
+                          fmt::format("{} is a camera of {} pixels, the image has {}", eye,
+                                      SizeText(camera.size.columns, camera.size.rows),
+                                      SizeText(image.width(), image.height())),
+                          "give the cameras of these very images, not of larger or smaller ones");
+  }
+  return vision::Reduced(camera, 1 << level);
+}
+
+// The image that the aligned camera would have taken, and which of its pixels come from the image.
+std::pair<GrayImage, Image<std::uint8_t>> Resampled(const GrayImage& image,
+                                                    const vision::CameraModel& real,
+                                                    const vision::Cahv& aligned,
+                                                    const vision::ImageSize& size) {
+  constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+  Image<vision::SourcePosition> positions(size.columns, size.rows, {kNowhere, kNowhere});
+  for (int y = 0; y < size.rows; ++y) {
+    for (int x = 0; x < size.columns; ++x) {
+      const auto source = vision::SourceOf(real, aligned, vision::Pixel(x, y));
+      if (source) positions.At(x, y) = {source->x(), source->y()};
+    }
+  }
+  const vision::RectificationTable table(positions, image.width(), image.height());
+  return {table.Rectify(image), table.Inside()};
+}
+
+// vision::Rectify names left, right and so on: they stand in this file.
+vision::RectifiedPair RectifyOrThrow(const fs::path& file, const vision::CameraPair& cameras) {
+  core::Result<vision::RectifiedPair> found = vision::Rectify(cameras.left, cameras.right);
+  if (found.ok()) return *found;
+  std::vector<core::Problem> problems = found.problems();
+  for (core::Problem& problem : problems) {
+    problem.path = fmt::format("{}: {}", file.string(), problem.path);
+  }
+  throw core::UserError(std::move(problems));
+}
+
+}  // namespace
+
+StereoInput ReadStereoInput(const StereoRequest& request, int pyramid_level) {
+  StereoInput input;
+  input.read.resize(2);
+  GrayImage left = ReadGray(request.left, request, input.read[0]);
+  GrayImage right = ReadGray(request.right, request, input.read[1]);
+  CheckPair(request, left, right);
+  std::optional<vision::CameraPair> cameras;
+  if (!request.cameras.empty()) {
+    const vision::CameraPair pair = vision::LoadCameraPair(request.cameras);
+    cameras = {CameraOf(request.cameras, "left", pair.left, left, pyramid_level),
+               CameraOf(request.cameras, "right", pair.right, right, pyramid_level)};
+  }
+  left = Reduced(request.left, std::move(left), pyramid_level);
+  right = Reduced(request.right, std::move(right), pyramid_level);
+  if (!cameras) {
+    input.left = std::move(left);
+    input.right = std::move(right);
+    return input;
+  }
+  input.cameras = RectifyOrThrow(request.cameras, *cameras);
+  const vision::RectifiedPair& pair = *input.cameras;
+  std::tie(input.left, input.left_inside) = Resampled(left, cameras->left, pair.left, pair.size);
+  std::tie(input.right, input.right_inside) =
+      Resampled(right, cameras->right, pair.right, pair.size);
+  return input;
+}
+
+}  // namespace rockyard::campaign

@@ -1,0 +1,60 @@
+// What `rockyard stereo` is asked for, and what comes out.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vision/cameras/rectification.h"
+#include "vision/stereo/disparity.h"
+#include "vision/stereo/score.h"
+#include "vision/stereo/stereo_params.h"
+
+namespace rockyard::campaign {
+
+struct StereoRequest {
+  std::filesystem::path left;
+  std::filesystem::path right;
+  std::filesystem::path out;          // a folder, which is made
+  std::filesystem::path cameras;      // of the images as they are; empty: they are aligned
+  std::vector<std::string> settings;  // PATH=VALUE of vision::StereoPipelineParams
+
+  struct Depths {  // m, along the axes of the aligned cameras
+    double nearest_m = 0.0;
+    double farthest_m = 0.0;  // may be infinite
+  };
+  std::optional<Depths> depths;  // the range that is searched; else that of the settings, or 1/8 of
+                                 // the width of the image from infinity on
+
+  std::optional<int> white;  // the sample that becomes 255 (image_files/luminance.h)
+
+  std::filesystem::path reference;      // known disparities of the left image; empty: none
+  double reference_samples_a_px = 1.0;  // image_files/disparity_file.h
+
+  double cell_m = 0.1;  // of the elevation map
+  int threads = 1;
+};
+
+struct StereoResult {
+  std::vector<std::string> read;  // left, right: what the files hold and what was made of them
+  vision::ImageSize size;         // of the images that were matched
+  std::optional<vision::RectifiedPair> cameras;
+  vision::StereoPipelineParams params;  // with the range that was searched
+  vision::DropCounts counts{};
+  std::optional<vision::StereoScore> score;
+  std::int64_t points = 0;
+  std::vector<std::string> notes;  // what a user should know before believing it
+
+  struct File {
+    std::string what;
+    std::filesystem::path path;
+  };
+  std::vector<File> files;
+
+  // Share of all pixels that have a disparity.
+  double Density() const;
+};
+
+}  // namespace rockyard::campaign
