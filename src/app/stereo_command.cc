@@ -19,6 +19,9 @@
 #include "core/json_text.h"
 #include "report/line_text.h"
 #include "report/parameter_table.h"
+#include "vision/stereo/disparity.h"
+#include "vision/stereo/score.h"
+#include "vision/stereo/stereo_params.h"
 
 namespace rockyard::app {
 namespace {
