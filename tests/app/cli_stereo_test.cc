@@ -1,0 +1,224 @@
+// rockyard stereo: what it writes of a pair whose disparities are known, and what it says of pairs
+// that are none.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/command.h"
+
+namespace rockyard::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr int kWidth = 160;
+constexpr int kHeight = 96;
+constexpr int kNear_px = 12;  // the left half of the wall
+constexpr int kFar_px = 6;    // the right half
+
+// Grains of about two pixels.
+std::vector<int> Texture(std::uint32_t seed) {
+  const int width = 2 * kWidth;
+  std::vector<int> grains(static_cast<std::size_t>(width * kHeight));
+  std::uint32_t state = seed;
+  for (int& grain : grains) {
+    state = state * 1664525U + 1013904223U;
+    grain = static_cast<int>(state >> 24);
+  }
+  std::vector<int> smooth(grains.size(), 128);
+  for (std::size_t i = 0; i + static_cast<std::size_t>(width) + 1 < grains.size(); ++i) {
+    const auto below = i + static_cast<std::size_t>(width);
+    smooth[i] = (grains[i] + grains[i + 1] + grains[below] + grains[below + 1]) / 4;
+  }
+  return smooth;
+}
+
+int TrueDisparity(int x) { return x < kWidth / 2 ? kNear_px : kFar_px; }
+
+// The texture is fixed to the wall as the left eye sees it: what stands at (x, y) there stands at
+// (x - d, y) in the right image.
+std::string Pgm(bool right, std::uint32_t seed = 1) {
+  const std::vector<int> texture = Texture(seed);
+  std::string text = "P5\n" + std::to_string(kWidth) + " " + std::to_string(kHeight) + "\n255\n";
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      int from = x;
+      // Of the two halves that may be seen here the nearer one hides the other.
+      if (right) from = x + kNear_px < kWidth / 2 ? x + kNear_px : x + kFar_px;
+      text += static_cast<char>(texture[static_cast<std::size_t>(y * 2 * kWidth + from)]);
+    }
+  }
+  return text;
+}
+
+std::string Truth() {
+  std::string text = "P2 " + std::to_string(kWidth) + " " + std::to_string(kHeight) + " 255\n";
+  for (int i = 0; i < kWidth * kHeight; ++i) {
+    text += std::to_string(4 * TrueDisparity(i % kWidth)) + "\n";
+  }
+  return text;
+}
+
+// 200 px of focal length, 0.1 m apart; x to the right, y down, z ahead.
+std::string Cameras(int columns = kWidth) {
+  const auto camera = [&](const char* eye, double x_m) {
+    return "Camera = " + std::string(eye) +
+           "\nModel = CAHV\nDimensions = " + std::to_string(columns) + " " +
+           std::to_string(kHeight) + "\nC = " + std::to_string(x_m) +
+           " 0 0\nA = 0 0 1\nH = 200 0 79.5\nV = 0 200 47.5\n";
+  };
+  return camera("left", 0.0) + camera("right", 0.1);
+}
+
+class CliStereo : public CommandTest {
+ protected:
+  CliStereo() {
+    WriteFile(work() / "left.pgm", Pgm(false));
+    WriteFile(work() / "right.pgm", Pgm(true));
+  }
+
+  json Summary(const std::string& folder) const {
+    return json::parse(ReadFile(work() / folder / "stereo.json"));
+  }
+};
+
+TEST_F(CliStereo, FindsTheDisparitiesOfAnAlignedPair) {
+  WriteFile(work() / "truth.pgm", Truth());
+  const CommandResult result = Run({"stereo", "left.pgm", "right.pgm", "--out", "pair",
+                                    "--reference", "truth.pgm", "--reference-samples", "4"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("160 x 96 pixels, taken as aligned, disparities -1 to 20 px"));
+  const json summary = Summary("pair");
+  EXPECT_GT(summary["pixels"]["density"], 0.6);
+  EXPECT_LT(summary["score"]["bad"]["above_1_px"], 0.01);
+  EXPECT_LT(summary["score"]["rms_error_px"], 0.3);
+  EXPECT_TRUE(summary["cameras"].is_null());
+  std::int64_t all = summary["pixels"]["matched"];
+  for (const auto& dropped : summary["pixels"]["dropped"]) all += dropped.get<std::int64_t>();
+  EXPECT_EQ(all, kWidth * kHeight);
+  for (const char* name : {"disparity.pfm", "disparity.png", "picture.png"}) {
+    EXPECT_TRUE(fs::exists(work() / "pair" / name)) << name;
+  }
+  EXPECT_FALSE(fs::exists(work() / "pair/points.ply"));
+}
+
+TEST_F(CliStereo, CamerasGivePointsAtTheirDepths) {
+  WriteFile(work() / "cameras.txt", Cameras());
+  const CommandResult result = Run({"stereo", "left.pgm", "right.pgm", "--out", "pair", "--cameras",
+                                    "cameras.txt", "--nearest", "1", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json summary = json::parse(result.out);
+  EXPECT_NEAR(summary["cameras"]["baseline_m"], 0.1, 1e-12);
+  // f B / 1 m = 20 px, and one more at either end.
+  EXPECT_EQ(summary["parameters"]["correlator"]["disparities"], 23);
+  EXPECT_GT(summary["points"], 8000);
+  const std::string ply = ReadFile(work() / "pair/points.ply");
+  const std::size_t data = ply.find("end_header\n") + 11;
+  std::vector<float> depths_m;
+  for (std::size_t at = data; at + 15 <= ply.size(); at += 15) {
+    float z_m = 0.0F;
+    std::memcpy(&z_m, ply.data() + at + 8, sizeof z_m);
+    depths_m.push_back(z_m);
+  }
+  ASSERT_EQ(depths_m.size(), summary["points"].get<std::size_t>());
+  // Z = f B / d: 1.667 m of the nearer half, 3.333 m of the other.
+  const auto near = std::count_if(depths_m.begin(), depths_m.end(),
+                                  [](float z_m) { return std::abs(z_m - 1.667F) < 0.07F; });
+  const auto far = std::count_if(depths_m.begin(), depths_m.end(),
+                                 [](float z_m) { return std::abs(z_m - 3.333F) < 0.2F; });
+  EXPECT_GT(near, 3000);
+  EXPECT_GT(far, 3000);
+  EXPECT_GT(near + far, 0.98 * static_cast<double>(depths_m.size()));
+  EXPECT_TRUE(fs::exists(work() / "pair/elevation.png"));
+}
+
+TEST_F(CliStereo, ThreadsAndRepetitionChangeNothing) {
+  ASSERT_EQ(Run({"stereo", "left.pgm", "right.pgm", "--out", "one"}).exit_code, 0);
+  ASSERT_EQ(Run({"stereo", "left.pgm", "right.pgm", "--out", "three", "--threads", "3"}).exit_code,
+            0);
+  EXPECT_EQ(ReadFile(work() / "one/disparity.pfm"), ReadFile(work() / "three/disparity.pfm"));
+  ASSERT_EQ(Run({"stereo", "left.pgm", "right.pgm", "--out", "one"}).exit_code, 0);
+}
+
+TEST_F(CliStereo, ParametersAreListedAndChanged) {
+  const CommandResult list = Run({"stereo", "--parameters"});
+  EXPECT_EQ(list.exit_code, 0);
+  EXPECT_THAT(list.out, HasSubstr("`correlator.window_side_px`"));
+  const CommandResult result =
+      Run({"stereo", "left.pgm", "right.pgm", "--out", "pair", "--param",
+           "correlator.window_side_px=9", "--param", "correlator.min_disparity_px=3", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json parameters = json::parse(result.out)["parameters"];
+  EXPECT_EQ(parameters["correlator"]["window_side_px"], 9);
+  EXPECT_EQ(parameters["correlator"]["min_disparity_px"], 3);
+}
+
+// Nothing is written, and what is wrong is said with what would be right.
+TEST_F(CliStereo, RefusesWhatIsNoPair) {
+  WriteFile(work() / "other.pgm", Pgm(true, 2));
+  WriteFile(work() / "small.pgm", "P2 20 20 255\n" + std::string(800, '1'));
+  WriteFile(work() / "broken.pgm", Pgm(false).substr(0, 3000));
+  WriteFile(work() / "cameras.txt", Cameras());
+  WriteFile(work() / "large.txt", Cameras(1024));
+  WriteFile(work() / "truth.pgm", "P2 20 20 255\n" + std::string(800, '1'));
+  struct Wrong {
+    std::vector<std::string> words;
+    std::string said;
+  };
+  const std::vector<Wrong> all{
+      {{"left.pgm", "left.pgm"}, "shows the same as the left image"},
+      {{"right.pgm", "left.pgm"}, "with the eyes swapped many more have"},
+      {{"left.pgm", "other.pgm"}, "of the pixels have a match in the right image"},
+      {{"left.pgm", "small.pgm"}, "has 20 x 20 pixels, the left image 160 x 96"},
+      {{"left.pgm", "broken.pgm"}, "broken.pgm"},
+      {{"left.pgm", "nowhere.pgm"}, "nowhere.pgm"},
+      {{"left.pgm"}, "RIGHT: is missing"},
+      {{"left.pgm", "right.pgm", "--cameras", "large.txt"}, "is a camera of 1024 x 96 pixels"},
+      {{"left.pgm", "right.pgm", "--nearest", "1"}, "means nothing without cameras"},
+      {{"left.pgm", "right.pgm", "--farthest", "1"}, "needs --nearest"},
+      {{"left.pgm", "right.pgm", "--cameras", "cameras.txt", "--nearest", "0.001"}, "disparities"},
+      {{"left.pgm", "right.pgm", "--param", "correlator.window=9"}, "correlator.window"},
+      {{"left.pgm", "right.pgm", "--param", "pyramid_level=6"}, "at pyramid level 6"},
+      {{"left.pgm", "right.pgm", "--reference", "truth.pgm"}, "has 20 x 20 pixels"},
+      {{"left.pgm", "right.pgm", "--white", "0"}, "--white"},
+  };
+  for (const Wrong& wrong : all) {
+    std::vector<std::string> words{"stereo"};
+    words.insert(words.end(), wrong.words.begin(), wrong.words.end());
+    words.insert(words.end(), {"--out", "wrong"});
+    const CommandResult result = Run(words);
+    EXPECT_EQ(result.exit_code, 2) << wrong.said;
+    EXPECT_THAT(result.err, HasSubstr(wrong.said));
+    EXPECT_THAT(result.err, HasSubstr("  try: "));
+    EXPECT_FALSE(fs::exists(work() / "wrong")) << wrong.said;
+  }
+}
+
+TEST_F(CliStereo, TexturelessImagesAreNoErrorButANote) {
+  const std::string head = "P5\n160 96\n255\n";
+  WriteFile(work() / "a.pgm", head + std::string(kWidth * kHeight, '\x64'));
+  WriteFile(work() / "b.pgm", head + std::string(kWidth * kHeight, '\x65'));
+  const CommandResult result = Run({"stereo", "a.pgm", "b.pgm", "--out", "blank"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("no pixel has a match: the images show too little texture"));
+  EXPECT_EQ(Summary("blank")["pixels"]["matched"], 0);
+}
+
+TEST_F(CliStereo, AFolderThatCannotBeMadeIsSaid) {
+  WriteFile(work() / "file", "");
+  const CommandResult result = Run({"stereo", "left.pgm", "right.pgm", "--out", "file/pair"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("file/pair: cannot be made"));
+}
+
+}  // namespace
+}  // namespace rockyard::app
