@@ -25,7 +25,9 @@ Coordinate Split(double position_px, int size) {
 }
 
 // False for what is no number.
-bool InSource(double position_px, int size) { return position_px >= 0.0 && position_px <= size - 1; }
+bool InSource(double position_px, int size) {
+  return position_px >= 0.0 && position_px <= size - 1;
+}
 
 }  // namespace
 
