@@ -119,7 +119,7 @@ TEST(FastStagesTest, MatchesOfImagesOfAPixelOrARow) {
 // pixel and the first lane's first one are candidates beside what is out of the image.
 TEST(FastStagesTest, MatchesAtTheEndsOfRowsThatFillTheLanes) {
   for (const int width : {32, 64, 128, 256}) {
-    for (const int min_disparity : {-9, 0, 3}) {
+    for (const int min_disparity : {-9, -4, 0, 3}) {
       for (const int side : {1, 2}) ExpectSameMatches({width, 12, side, min_disparity, 9}, 550);
     }
   }
