@@ -13,7 +13,7 @@
 #include "image_files/read_image.h"
 #include "vision/cameras/camera_file.h"
 #include "vision/stereo/pyramid.h"
-#include "vision/stereo/rectification.h"
+#include "vision/stereo/rectification_table.h"
 
 namespace rockyard::campaign {
 namespace {

@@ -103,7 +103,8 @@ HWY_INLINE RightBest LoadBest(const std::uint16_t* keys, const std::uint16_t* gr
 }
 
 // What pixels found outside of their own segment, from the farthest vector inwards. Vectors before
-// the segment hold larger disparities than their targets, which win ties; those behind it smaller.
+// the segment hold larger disparities than where they go, and lose ties; those behind it smaller
+// ones, and win ties.
 void MergeBest(const LaneLayout& layout, std::uint16_t* keys, std::uint16_t* groups) {
   const std::ptrdiff_t lanes = layout.lanes;
   const std::ptrdiff_t segment = lanes * layout.segment;
@@ -112,7 +113,7 @@ void MergeBest(const LaneLayout& layout, std::uint16_t* keys, std::uint16_t* gro
   const auto lane = hn::Iota(kPixels, 0);
   const auto first_lane = hn::Eq(lane, hn::Zero(kPixels));
   const auto last_lane = hn::Eq(lane, hn::Set(kPixels, static_cast<std::uint16_t>(lanes - 1)));
-  const auto store = [&](const RightBest& best, std::ptrdiff_t at) {
+  const auto store = [&](const RightBest& best, std::ptrdiff_t at) HWY_ATTR {
     hn::Store(best.key, kPixels, keys + at);
     hn::Store(best.group, kPixels, groups + at);
   };

@@ -13,7 +13,7 @@ constexpr double kLargest_px = 480.0;
 
 }  // namespace
 
-CorrelatorParams SearchDepths(const DisparityScale& pair, double nearest_m, double farthest_m,
+CorrelatorParams SearchDepths(const StereoGeometry& pair, double nearest_m, double farthest_m,
                               CorrelatorParams correlator) {
   EXPECT(pair.focal_px > 0.0 && pair.baseline_m > 0.0);
   EXPECT(0.0 < nearest_m && nearest_m <= farthest_m);

@@ -7,7 +7,7 @@
 namespace rockyard::vision {
 
 // A rectified pair: parallel axes, rows aligned, one focal length.
-struct DisparityScale {
+struct StereoGeometry {
   double focal_px = 0.0;    // at the pyramid level that is correlated
   double baseline_m = 0.0;  // from the left to the right camera, positive
   double offset_px = 0.0;   // disparity of what is infinitely far: c_left - c_right of the columns
@@ -19,7 +19,7 @@ struct DisparityScale {
 // rounded outwards, and one disparity more on either side, which the peak filter needs. 0 <
 // nearest_m <= farthest_m. Throws core::UserError where that is more than 512 disparities or
 // reaches beyond 480 px.
-CorrelatorParams SearchDepths(const DisparityScale& pair, double nearest_m, double farthest_m,
+CorrelatorParams SearchDepths(const StereoGeometry& pair, double nearest_m, double farthest_m,
                               CorrelatorParams correlator);
 
 }  // namespace rockyard::vision

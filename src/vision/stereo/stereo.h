@@ -1,12 +1,12 @@
 // The pipeline from rectified images to disparities (Goldberg 2002 section 2, stages 3 to 6).
 //
 // Each stage stands in a file of its own, with its definition, and can be called by itself:
-//   1 pyramid.h          reduction by averaging
-//   2 rectification.h    rows of both images aligned
-//   3 dog.h              difference of Gaussians
-//   4 correlator.h       best matches of left and right
-//   5 correlator.h       line of sight, peak filter, sub-pixel interpolation
-//   6 blob.h             small regions
+//   1 pyramid.h               reduction by averaging
+//   2 rectification_table.h   rows of both images aligned
+//   3 dog.h                   difference of Gaussians
+//   4 correlator.h            best matches of left and right
+//   5 correlator.h            line of sight, peak filter, sub-pixel interpolation
+//   6 blob.h                  small regions
 //   range of disparities from depths: depth_range.h; stage 7, points, is the camera's part.
 // Results are the same bits whatever the instruction set and the number of threads.
 #pragma once

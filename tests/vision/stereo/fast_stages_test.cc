@@ -115,6 +115,16 @@ TEST(FastStagesTest, MatchesOfImagesOfAPixelOrARow) {
   }
 }
 
+// Where the lanes hold the row without a gap and windows end at the pixel, the last lane's last
+// pixel and the first lane's first one are candidates beside what is out of the image.
+TEST(FastStagesTest, MatchesAtTheEndsOfRowsThatFillTheLanes) {
+  for (const int width : {32, 64, 128, 256}) {
+    for (const int min_disparity : {-9, -4, 0, 3}) {
+      for (const int side : {1, 2}) ExpectSameMatches({width, 12, side, min_disparity, 9}, 550);
+    }
+  }
+}
+
 TEST(FastStagesTest, MatchesOfAnOrdinaryPair) {
   ExpectSameMatches({256, 24, 7, 0, 32}, 600);
   ExpectSameMatches({259, 20, 8, -16, 61}, 602);

@@ -13,7 +13,7 @@
 #include "vision/stereo/disparity.h"
 #include "vision/stereo/dog.h"
 #include "vision/stereo/pyramid.h"
-#include "vision/stereo/rectification.h"
+#include "vision/stereo/rectification_table.h"
 #include "vision/stereo/stereo.h"
 #include "vision/stereo/subpixel.h"
 
@@ -147,7 +147,7 @@ TEST(DifferenceOfGaussiansTest, ASpotIsABrightSquareInADarkOne) {
 TEST(DepthRangeTest, DisparitiesAreThoseOfTheDepths) {
   // MER's Hazcam is of this class: 256 px of 120 deg and 10 cm, 0.3 to 3 m (Goldberg 2002 section
   // 2).
-  const DisparityScale pair{.focal_px = 74.0, .baseline_m = 0.1, .offset_px = 0.0};
+  const StereoGeometry pair{.focal_px = 74.0, .baseline_m = 0.1, .offset_px = 0.0};
   const CorrelatorParams range = SearchDepths(pair, 0.3, 3.0, {});
   // 74 * 0.1 / 3 = 2.47 and 7.4 / 0.3 = 24.67, outwards, and one more.
   EXPECT_EQ(range.min_disparity_px, 1);

@@ -20,7 +20,7 @@
 #include "vision/stereo/correlator.h"
 #include "vision/stereo/dog.h"
 #include "vision/stereo/pyramid.h"
-#include "vision/stereo/rectification.h"
+#include "vision/stereo/rectification_table.h"
 #include "vision/stereo/stereo.h"
 
 namespace rockyard::vision {

@@ -1,4 +1,4 @@
-#include "vision/stereo/rectification.h"
+#include "vision/stereo/rectification_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,9 @@ Coordinate Split(double position_px, int size) {
 }
 
 // False for what is no number.
-bool Within(double position_px, int size) { return position_px >= 0.0 && position_px <= size - 1; }
+bool InSource(double position_px, int size) {
+  return position_px >= 0.0 && position_px <= size - 1;
+}
 
 }  // namespace
 
@@ -37,7 +39,7 @@ RectificationTable::RectificationTable(const Image<SourcePosition>& positions, i
   EXPECT(source_width >= 2 && source_height >= 2);
   for (std::size_t i = 0; i < positions.values().size(); ++i) {
     const SourcePosition& position = positions.values()[i];
-    if (!Within(position.x_px, source_width) || !Within(position.y_px, source_height)) continue;
+    if (!InSource(position.x_px, source_width) || !InSource(position.y_px, source_height)) continue;
     const Coordinate x = Split(position.x_px, source_width);
     const Coordinate y = Split(position.y_px, source_height);
     entries_.values()[i] = {y.whole * source_width + x.whole, x.fraction, y.fraction};
