@@ -221,9 +221,9 @@ std::optional<Pixel> SourceOf(const CameraModel& real, const Cahv& aligned, cons
                               double range_m) {
   const std::optional<Vector3> direction = LeavePlane(aligned, pixel, nullptr);
   if (!direction || !(range_m > 0.0)) return std::nullopt;
-  const std::optional<Pixel> source =
-      std::isinf(range_m) ? ProjectDirection(real, *direction)
-                          : Project(real, aligned.C + range_m * direction->normalized());
+  std::optional<Pixel> source = std::isinf(range_m)
+                                    ? ProjectDirection(real, *direction)
+                                    : Project(real, aligned.C + range_m * direction->normalized());
   if (!source || !IsInside(real.size, *source)) return std::nullopt;
   return source;
 }
