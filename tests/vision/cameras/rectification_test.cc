@@ -128,6 +128,18 @@ TEST(RectificationTest, RowsAreEpipolarLinesOfFlightPairs) {
   }
 }
 
+TEST(RectificationTest, TheBaselineOfTheMerNavcamsIsThePublishedOne) {
+  const auto pair =
+      Rectify(FlightCamera("MER2_NAVCAM_LEFT_sol767"), FlightCamera("MER2_NAVCAM_RIGHT_sol767"));
+  ASSERT_TRUE(pair.ok());
+  const core::JsonValue data = LoadCameraData("published_geometry.json");
+  EXPECT_NEAR(pair->baseline_m, data.Find("mer_baseline_m")->number(), 1e-12);
+  // Resolution and field are those of the images: 1024 x 1024 pixels over 45 deg.
+  EXPECT_NEAR(pair->focal_px, 512.0 / std::tan(math::DegToRad(22.5)), 30.0);
+  EXPECT_NEAR(pair->size.columns, 1024, 120);
+  EXPECT_NEAR(pair->size.rows, 1024, 120);
+}
+
 TEST(RectificationTest, TheCamerasShareAllButTheirCentres) {
   const CameraModel left = ModelCameras()[1].camera;
   const CameraModel right = RightOf(left, false);
