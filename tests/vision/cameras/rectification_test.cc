@@ -240,6 +240,20 @@ TEST(RectificationTest, AFisheyesFieldEndsAtTheLargestAngle) {
   EXPECT_NEAR(pair->size.rows, 2.0 * 100.0 * std::tan(1.0), 2.0);
 }
 
+// Of a lens that sees around itself few rays lie before the plane at all.
+TEST(RectificationTest, AFieldBeyondARightAngleIsKeptToTheLargestAngleToo) {
+  const Cahv lens{{0, 0, 0}, {0, 0, 1}, {50, 0, 157}, {0, 50, 60}};
+  const Cahvore fisheye{
+      lens, Vector3::UnitZ(), Vector3::Zero(), Vector3::Zero(), CahvoreType::kFisheye, 1.0};
+  Cahvore other = fisheye;
+  other.linear.C = Vector3(0.1, 0, 0);
+  const CameraModel left{fisheye, {315, 121}};
+  const CameraModel right{other, {315, 121}};
+  const auto pair = Rectify(left, right, {.largest_angle_rad = 1.2});
+  ASSERT_TRUE(pair.ok());
+  EXPECT_NEAR(pair->size.columns, 2.0 * 50.0 * std::tan(1.2), 2.0);
+}
+
 TEST(RectificationTest, SourcesAreInsideOfTheImageOrNowhere) {
   const CameraModel left = ModelCameras()[1].camera;
   const CameraModel right = RightOf(left, false);
