@@ -101,8 +101,7 @@ std::optional<Ray> BackProject(const BrownPinhole& camera, const Pixel& pixel,
   if (!slope) return std::nullopt;
   const Vector3 d_C(slope->x(), slope->y(), 1.0);
   const Vector3 direction_C = d_C.normalized();
-  const std::optional<Ray> ray =
-      Finite({camera.X_AC.translation(), camera.X_AC.linear() * direction_C});
+  std::optional<Ray> ray = Finite({camera.X_AC.translation(), camera.X_AC.linear() * direction_C});
   if (ray && jacobian != nullptr) {
     PixelJacobian by_point;
     if (!Project(camera, ray->origin + ray->direction, &by_point)) return std::nullopt;

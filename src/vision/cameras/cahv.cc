@@ -16,7 +16,7 @@ std::optional<Ray> BackProject(const Cahv& camera, const Pixel& pixel, RayJacobi
   if (!d) return std::nullopt;
   const double length = d->norm();
   const Vector3 direction = *d / length;
-  const std::optional<Ray> ray = Finite({camera.C, direction});
+  std::optional<Ray> ray = Finite({camera.C, direction});
   if (ray && jacobian != nullptr) {
     jacobian->origin.setZero();
     // Of d / |d|: what is across the direction, over the length.

@@ -19,7 +19,7 @@ std::optional<Pixel> Project(const Cahvor& camera, const Vector3& p_A, PixelJaco
   if (!GrowsUpTo(distortion, std::sqrt(tau))) return std::nullopt;
   const double share = Share(distortion, tau);
   PixelJacobian by_bent;
-  const std::optional<Pixel> pixel =
+  std::optional<Pixel> pixel =
       MeetPlane(camera.linear, zeta * o + share * lambda, jacobian ? &by_bent : nullptr);
   if (!pixel || jacobian == nullptr) return pixel;
   // dzeta = O . dp, dlambda = (I - O O^T) dp, dtau = 2 (lambda - tau zeta O) . dp / zeta^2.
@@ -43,7 +43,7 @@ std::optional<Ray> BackProject(const Cahvor& camera, const Pixel& pixel, RayJaco
   const std::optional<double> chi = Undistort(distortion, slope.norm());
   if (!chi) return std::nullopt;
   const Vector3 direction = (o + slope / Share(distortion, *chi * *chi)).normalized();
-  const std::optional<Ray> ray = Finite({camera.linear.C, direction});
+  std::optional<Ray> ray = Finite({camera.linear.C, direction});
   if (ray && jacobian != nullptr) {
     PixelJacobian by_point;
     if (!Project(camera, camera.linear.C + direction, &by_point)) return std::nullopt;

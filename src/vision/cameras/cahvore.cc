@@ -20,7 +20,7 @@ std::optional<Pixel> ProjectOnAxis(const Cahvore& camera, const Vector3& o, doub
   const double share = 1.0 + camera.R[0];
   if (!(zeta > 0.0 && share > 0.0)) return std::nullopt;
   PixelJacobian by_bent;
-  const std::optional<Pixel> pixel =
+  std::optional<Pixel> pixel =
       MeetPlane(camera.linear, o + share / zeta * lambda, jacobian ? &by_bent : nullptr);
   if (pixel && jacobian != nullptr) {
     *jacobian = share / zeta * (by_bent - by_bent * o * o.transpose());
@@ -67,7 +67,7 @@ std::optional<Pixel> Project(const Cahvore& camera, const Vector3& p_A, PixelJac
   const double distorted = image.chi * Share(distortion, image.chi * image.chi);
   const Vector3 outward = lambda / aside;
   PixelJacobian by_bent;
-  const std::optional<Pixel> pixel =
+  std::optional<Pixel> pixel =
       MeetPlane(camera.linear, o + distorted * outward, jacobian ? &by_bent : nullptr);
   if (!pixel || jacobian == nullptr) return pixel;
 
@@ -104,7 +104,7 @@ std::optional<Ray> BackProject(const Cahvore& camera, const Pixel& pixel, RayJac
   const double sine = std::sin(*theta);
   const double cosine = std::cos(*theta);
   const PupilShift shift = ShiftOf(camera.E, *theta);
-  const std::optional<Ray> ray =
+  std::optional<Ray> ray =
       Finite({camera.linear.C + shift.s_m * o, on_axis ? (o + slope / distortion.c[0]).normalized()
                                                        : Vector3(cosine * o + sine * outward)});
   if (!ray || jacobian == nullptr) return ray;

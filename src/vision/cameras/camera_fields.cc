@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "core/check.h"
@@ -22,8 +23,6 @@ constexpr double kUnitTolerance = 1e-3;
 // The sine of the angle between rows and columns: they are square to each other but for the skew.
 constexpr double kSmallestSine = 0.1;
 
-constexpr std::string_view kGiveIt = "give it: a calibration has no default";
-
 FieldInfo Within(std::string_view doc, double limit) {
   return {.doc = doc, .min = -limit, .max = limit, .origin = core::Origin::kSetting};
 }
@@ -35,27 +34,70 @@ bool AllKnown(std::span<const double> values) {
   return true;
 }
 
-void Numbers(FieldVisitor& v, std::string_view name, std::span<double> values,
-             const FieldInfo& info) {
-  v.FixedReals(name, values, info);
-  v.Require(name, AllKnown(values), "is missing", kGiveIt);
-}
+// The visitor, with a memory of what is missing: all of it is told at once.
+class CalibrationFields {
+ public:
+  explicit CalibrationFields(FieldVisitor& v) : v_(v) {}
 
-void UnitVector(FieldVisitor& v, std::string_view name, std::span<double> values,
-                std::string_view doc) {
-  Numbers(v, name, values, Within(doc, 1.0 + kUnitTolerance));
-  double squared = 0.0;
-  for (const double value : values) squared += value * value;
-  v.Require(name, !AllKnown(values) || std::fabs(std::sqrt(squared) - 1.0) <= kUnitTolerance,
+  void Numbers(std::string_view name, std::span<double> values, const FieldInfo& info) {
+    v_.FixedReals(name, values, info);
+    Note(name, AllKnown(values));
+  }
+
+  void UnitVector(std::string_view name, std::span<double> values, std::string_view doc) {
+    Numbers(name, values, Within(doc, 1.0 + kUnitTolerance));
+    double squared = 0.0;
+    for (const double value : values) squared += value * value;
+    Require(name, !AllKnown(values) || std::fabs(std::sqrt(squared) - 1.0) <= kUnitTolerance,
             "is not of length 1", "divide it by its length");
-}
+  }
 
-void Choose(FieldVisitor& v, std::string_view name, int& index,
-            std::span<const std::string_view> names, std::string_view doc,
-            std::string_view suggestion) {
-  v.ChoiceOf(name, index, names, {.doc = doc, .origin = core::Origin::kSetting});
-  v.Require(name, index >= 0, "is missing", suggestion);
-}
+  void Number(std::string_view name, double& value, const FieldInfo& info) {
+    v_.Real(name, value, info);
+    Note(name, std::isfinite(value));
+  }
+
+  void Side(std::string_view name, std::int64_t& value) {
+    v_.Integer(name, value,
+               {.doc = "size of the image, pixels",
+                .min = 1,
+                .max = kLongestSide_px,
+                .origin = core::Origin::kSetting});
+    Note(name, value > 0);
+  }
+
+  void Choose(std::string_view name, int& index, std::span<const std::string_view> names,
+              std::string_view doc) {
+    v_.ChoiceOf(name, index, names, {.doc = doc, .origin = core::Origin::kSetting});
+    Note(name, index >= 0);
+  }
+
+  // Of what is known; a condition on what is missing holds.
+  void Require(std::string_view name, bool holds, std::string_view reason,
+               std::string_view suggestion) {
+    v_.Require(name, holds, reason, suggestion);
+  }
+
+  void RequireAll() {
+    const std::string reason = others_.empty() ? "is missing" : "is missing, as well as " + others_;
+    v_.Require(first_, first_.empty(), reason, "give all of it: a calibration has no defaults");
+  }
+
+ private:
+  void Note(std::string_view name, bool known) {
+    if (known) return;
+    if (first_.empty()) {
+      first_ = name;
+    } else {
+      others_ += others_.empty() ? "" : ", ";
+      others_ += name;
+    }
+  }
+
+  FieldVisitor& v_;
+  std::string_view first_;
+  std::string others_;
+};
 
 Vector3 VectorOf(const Triple& triple) { return {triple[0], triple[1], triple[2]}; }
 Triple TripleOf(const Vector3& vector) { return {vector.x(), vector.y(), vector.z()}; }
@@ -72,43 +114,42 @@ bool SpansImage(const CameraFields& fields) {
          std::fabs(H.cross(V).dot(A)) >= kSmallestSine * focal_h * focal_v;
 }
 
-void VisitLinear(FieldVisitor& v, CameraFields& fields) {
+void VisitLinear(CalibrationFields& v, CameraFields& fields) {
   constexpr double kFarthest_m = 1e7;
   constexpr double kLongest_px = 1e7;
-  Numbers(v, "C", fields.C_m, Within("centre, m", kFarthest_m));
-  UnitVector(v, "A", fields.A, "unit normal of the image plane");
-  Numbers(v, "H", fields.H_px, Within("horizontal vector, pixels", kLongest_px));
-  Numbers(v, "V", fields.V_px, Within("vertical vector, pixels", kLongest_px));
+  v.Numbers("C", fields.C_m, Within("centre, m", kFarthest_m));
+  v.UnitVector("A", fields.A, "unit normal of the image plane");
+  v.Numbers("H", fields.H_px, Within("horizontal vector, pixels", kLongest_px));
+  v.Numbers("V", fields.V_px, Within("vertical vector, pixels", kLongest_px));
   const bool known = AllKnown(fields.A) && AllKnown(fields.H_px) && AllKnown(fields.V_px);
   v.Require("H", !known || SpansImage(fields), "lies in one plane with V and A",
             "give H = f_h H' + c_h A with H' across the columns of V'");
 }
 
-void VisitLens(FieldVisitor& v, CameraFields& fields) {
+void VisitLens(CalibrationFields& v, CameraFields& fields) {
   constexpr double kLargest = 1e4;
-  UnitVector(v, "O", fields.O, "unit vector of the optical axis");
-  Numbers(v, "R", fields.R, Within("radial distortion, of 1, tau and tau^2", kLargest));
+  v.UnitVector("O", fields.O, "unit vector of the optical axis");
+  v.Numbers("R", fields.R, Within("radial distortion, of 1, tau and tau^2", kLargest));
   v.Require("R", !(fields.R[0] <= -1.0), "has a first number of -1 or less: no image is left",
             "use a first number above -1");
 }
 
-void VisitPupil(FieldVisitor& v, CameraFields& fields) {
-  Numbers(v, "E", fields.E_m, Within("shift of the entrance pupil, m", 10.0));
-  Choose(v, "type", fields.type, kTypeNames, "which lens: linearity 1, 0 or a parameter",
-         "one of: perspective, fisheye, general");
+void VisitPupil(CalibrationFields& v, CameraFields& fields) {
+  v.Numbers("E", fields.E_m, Within("shift of the entrance pupil, m", 10.0));
+  v.Choose("type", fields.type, kTypeNames, "which lens: linearity 1, 0 or a parameter");
   if (fields.type != static_cast<int>(CahvoreType::kGeneral)) return;
-  v.Real("linearity", fields.linearity, Within("linearity of type general", 1.0));
-  v.Require("linearity", std::isfinite(fields.linearity), "is missing", kGiveIt);
+  v.Number("linearity", fields.linearity, Within("linearity of type general", 1.0));
 }
 
-void VisitBrown(FieldVisitor& v, CameraFields& fields) {
-  Numbers(v, "position_m", fields.position_m, Within("centre, m", 1e7));
-  UnitVector(v, "rotation_wxyz", fields.rotation_wxyz, "unit quaternion of X_AC");
-  Numbers(v, "focal_px", fields.focal_px,
-          {.doc = "fx and fy, pixels", .min = 1e-3, .max = 1e7, .origin = core::Origin::kSetting});
-  Numbers(v, "centre_px", fields.centre_px, Within("cx and cy, pixels", 1e7));
-  Numbers(v, "radial", fields.radial, Within("k1, k2 and k3", 1e4));
-  Numbers(v, "tangential", fields.tangential, Within("p1 and p2", 1e4));
+void VisitBrown(CalibrationFields& v, CameraFields& fields) {
+  v.Numbers("position_m", fields.position_m, Within("centre, m", 1e7));
+  v.UnitVector("rotation_wxyz", fields.rotation_wxyz, "unit quaternion of X_AC");
+  v.Numbers(
+      "focal_px", fields.focal_px,
+      {.doc = "fx and fy, pixels", .min = 1e-3, .max = 1e7, .origin = core::Origin::kSetting});
+  v.Numbers("centre_px", fields.centre_px, Within("cx and cy, pixels", 1e7));
+  v.Numbers("radial", fields.radial, Within("k1, k2 and k3", 1e4));
+  v.Numbers("tangential", fields.tangential, Within("p1 and p2", 1e4));
 }
 
 CameraFields LinearFields(const CameraModel& camera, const Cahv& lens, ModelIndex model) {
@@ -169,22 +210,19 @@ AnyLens LensOf(const CameraFields& fields) {
 
 }  // namespace
 
-void CameraFields::Visit(FieldVisitor& v) {
-  Choose(v, "model", model, kModelNames, "camera model", "one of: cahv, cahvor, cahvore, brown");
-  const FieldInfo side = {.doc = "size of the image",
-                          .min = 1,
-                          .max = kLongestSide_px,
-                          .origin = core::Origin::kSetting};
-  v.Integer("columns", columns, side);
-  v.Require("columns", columns > 0, "is missing", kGiveIt);
-  v.Integer("rows", rows, side);
-  v.Require("rows", rows > 0, "is missing", kGiveIt);
-  // Of an unknown model all fields are known names, and what they lack is not told.
+void CameraFields::Visit(FieldVisitor& visitor) {
+  CalibrationFields v(visitor);
+  v.Choose("model", model, kModelNames, "camera model");
+  // Of an unknown model the names of all fields are known, and what they lack is not told.
   const bool any = model < 0;
+  if (any) v.RequireAll();
+  v.Side("columns", columns);
+  v.Side("rows", rows);
   if (any || model <= kCahvoreModel) VisitLinear(v, *this);
   if (any || model == kCahvorModel || model == kCahvoreModel) VisitLens(v, *this);
   if (any || model == kCahvoreModel) VisitPupil(v, *this);
   if (any || model == kBrownModel) VisitBrown(v, *this);
+  v.RequireAll();
 }
 
 void CameraPairFields::Visit(FieldVisitor& v) {

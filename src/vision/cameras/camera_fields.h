@@ -47,7 +47,7 @@ struct CameraFields {
   Triple radial = kUnknownTriple;
   std::array<double, 2> tangential = {core::kNaN, core::kNaN};
 
-  void Visit(core::FieldVisitor& v);
+  void Visit(core::FieldVisitor& visitor);
 };
 
 // The two cameras of a stereo pair, in one outer frame.

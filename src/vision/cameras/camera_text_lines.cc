@@ -128,9 +128,9 @@ class LineSorter {
   }
 
   void Begin(std::string_view name) {
-    CameraBlock& first = sorted_.blocks.front();
-    const bool unused = sorted_.blocks.size() == 1 && first.camera.empty();
-    if (unused && !first.lines.empty()) {
+    const CameraBlock& first = sorted_.blocks.front();
+    const bool unused = sorted_.blocks.size() == 1 && first.camera.empty() && first.lines.empty();
+    if (first.camera.empty() && !unused) {
       Add("begins a camera below lines of none", "put the line Camera = left first");
     }
     if (!unused && sorted_.blocks.size() < kMostBlocks) sorted_.blocks.emplace_back();

@@ -89,7 +89,7 @@ std::optional<Ray> BackProject(const LensCamera& camera, const Pixel& pixel,
   if (!IsDirection(camera.lens.lens, from_axis.cwiseProduct(Pitches(camera)))) return std::nullopt;
   const math::Transform& X_AC = camera.lens.X_RC;
   const Vector3 direction_C = PixelRay(camera.lens, {from_axis.x(), from_axis.y()});
-  const std::optional<Ray> ray = Finite({X_AC.translation(), X_AC.linear() * direction_C});
+  std::optional<Ray> ray = Finite({X_AC.translation(), X_AC.linear() * direction_C});
   if (ray && jacobian != nullptr) {
     PixelJacobian by_point;
     if (!Project(camera, ray->origin + ray->direction, &by_point)) return std::nullopt;

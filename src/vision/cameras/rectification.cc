@@ -120,9 +120,11 @@ Box FieldOf(const CameraModel& camera, const Axes& axes, double largest_slope) {
       const auto ray = BackProject(camera, pixel);
       if (!ray) continue;
       const double depth = ray->direction.dot(axes.ahead);
-      if (!(depth > 0.0)) continue;
-      const Pixel slope(ray->direction.dot(axes.right) / depth,
-                        ray->direction.dot(axes.down) / depth);
+      const Pixel across(ray->direction.dot(axes.right), ray->direction.dot(axes.down));
+      const double furthest = across.lpNorm<Eigen::Infinity>();
+      if (!(depth > 0.0 || furthest > 0.0)) continue;  // straight behind
+      // A ray at a right angle to A' or beyond counts where it leaves what is kept.
+      const Pixel slope = across / (depth > 0.0 ? depth : furthest / largest_slope);
       box.extend(slope.cwiseMax(-largest_slope).cwiseMin(largest_slope));
     }
   }
@@ -221,9 +223,9 @@ std::optional<Pixel> SourceOf(const CameraModel& real, const Cahv& aligned, cons
                               double range_m) {
   const std::optional<Vector3> direction = LeavePlane(aligned, pixel, nullptr);
   if (!direction || !(range_m > 0.0)) return std::nullopt;
-  const std::optional<Pixel> source =
-      std::isinf(range_m) ? ProjectDirection(real, *direction)
-                          : Project(real, aligned.C + range_m * direction->normalized());
+  std::optional<Pixel> source = std::isinf(range_m)
+                                    ? ProjectDirection(real, *direction)
+                                    : Project(real, aligned.C + range_m * direction->normalized());
   if (!source || !IsInside(real.size, *source)) return std::nullopt;
   return source;
 }

@@ -49,8 +49,8 @@ struct RectifiedPair {
 // within 20 deg of the viewing direction; eyes that are swapped or one above the other (more than
 // 45 deg between the baseline and the rows of the images); cameras that look more than 90 deg
 // apart, that mirror, or whose middle pixel has no ray; no overlap, or one of less than 2 pixels;
-// an aligned image with a side of more than 16384 pixels; numbers that are not finite. Cost: 4 x 64
-// rays.
+// an aligned image with a side of more than 16384 pixels; numbers that are not finite. Cost: some
+// 600 rays.
 core::Result<RectifiedPair> Rectify(const CameraModel& left, const CameraModel& right,
                                     const RectificationOptions& options = {});
 

@@ -128,6 +128,18 @@ TEST(RectificationTest, RowsAreEpipolarLinesOfFlightPairs) {
   }
 }
 
+TEST(RectificationTest, TheBaselineOfTheMerNavcamsIsThePublishedOne) {
+  const auto pair =
+      Rectify(FlightCamera("MER2_NAVCAM_LEFT_sol767"), FlightCamera("MER2_NAVCAM_RIGHT_sol767"));
+  ASSERT_TRUE(pair.ok());
+  const core::JsonValue data = LoadCameraData("published_geometry.json");
+  EXPECT_NEAR(pair->baseline_m, data.Find("mer_baseline_m")->number(), 1e-12);
+  // Resolution and field are those of the images: 1024 x 1024 pixels over 45 deg.
+  EXPECT_NEAR(pair->focal_px, 512.0 / std::tan(math::DegToRad(22.5)), 30.0);
+  EXPECT_NEAR(pair->size.columns, 1024, 120);
+  EXPECT_NEAR(pair->size.rows, 1024, 120);
+}
+
 TEST(RectificationTest, TheCamerasShareAllButTheirCentres) {
   const CameraModel left = ModelCameras()[1].camera;
   const CameraModel right = RightOf(left, false);
@@ -226,6 +238,20 @@ TEST(RectificationTest, AFisheyesFieldEndsAtTheLargestAngle) {
   ASSERT_TRUE(pair.ok());
   EXPECT_NEAR(pair->size.columns, 2.0 * 100.0 * std::tan(1.0), 2.0);
   EXPECT_NEAR(pair->size.rows, 2.0 * 100.0 * std::tan(1.0), 2.0);
+}
+
+// Of a lens that sees around itself few rays lie before the plane at all.
+TEST(RectificationTest, AFieldBeyondARightAngleIsKeptToTheLargestAngleToo) {
+  const Cahv lens{{0, 0, 0}, {0, 0, 1}, {50, 0, 157}, {0, 50, 60}};
+  const Cahvore fisheye{
+      lens, Vector3::UnitZ(), Vector3::Zero(), Vector3::Zero(), CahvoreType::kFisheye, 1.0};
+  Cahvore other = fisheye;
+  other.linear.C = Vector3(0.1, 0, 0);
+  const CameraModel left{fisheye, {315, 121}};
+  const CameraModel right{other, {315, 121}};
+  const auto pair = Rectify(left, right, {.largest_angle_rad = 1.2});
+  ASSERT_TRUE(pair.ok());
+  EXPECT_NEAR(pair->size.columns, 2.0 * 50.0 * std::tan(1.2), 2.0);
 }
 
 TEST(RectificationTest, SourcesAreInsideOfTheImageOrNowhere) {
