@@ -77,6 +77,15 @@ TEST_F(GdalRasterTest, Pds3BytesAndColours) {
   EXPECT_THAT(wide.planes[0].values(), ElementsAre(65534));
 }
 
+TEST_F(GdalRasterTest, Pds3WithALabelOfItsOwn) {
+  std::string label = Pds3Bytes(Small()).substr(0, 1024);
+  label.replace(label.find("^IMAGE = 2"), 10, "^IMAGE = (\"pixels.img\", 1)");
+  Write("pixels.img", Small().data);
+  const RawImage image = ReadImage(Write("a.lbl", label));
+  EXPECT_EQ(DescribeImage(image), "3 x 2 pixels of 12-bit grey, PDS3");
+  EXPECT_THAT(image.planes[0].values(), ElementsAre(0, 1, 258, 4095, 0, 300));
+}
+
 TEST_F(GdalRasterTest, Vicar) {
   const RawImage image = ReadImage(Write("a.vic", VicarBytes(Small())));
   EXPECT_EQ(DescribeImage(image), "3 x 2 pixels of 12-bit grey, VICAR");
