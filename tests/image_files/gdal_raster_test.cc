@@ -71,7 +71,19 @@ TEST_F(GdalRasterTest, Pds3BytesAndColours) {
                                                             .mask = "",
                                                             .data = "\xff\xfe"})));
   EXPECT_EQ(wide.full_scale, 65535);
+  const RawImage with_sign =
+      ReadImage(Write("c.img", Pds3Bytes({.width = 1, .height = 1, .mask = "", .data = "ab"})));
+  EXPECT_EQ(with_sign.full_scale, 32767);
   EXPECT_THAT(wide.planes[0].values(), ElementsAre(65534));
+}
+
+TEST_F(GdalRasterTest, Pds3WithALabelOfItsOwn) {
+  std::string label = Pds3Bytes(Small()).substr(0, 1024);
+  label.replace(label.find("^IMAGE = 2"), 10, "^IMAGE = (\"pixels.img\", 1)");
+  Write("pixels.img", Small().data);
+  const RawImage image = ReadImage(Write("a.lbl", label));
+  EXPECT_EQ(DescribeImage(image), "3 x 2 pixels of 12-bit grey, PDS3");
+  EXPECT_THAT(image.planes[0].values(), ElementsAre(0, 1, 258, 4095, 0, 300));
 }
 
 TEST_F(GdalRasterTest, Vicar) {
@@ -123,23 +135,24 @@ TEST_F(GdalRasterTest, AShortFileOfALargeImageIsRefused) {
   EXPECT_FALSE(Reason(Pds3Bytes(text)).empty());
 }
 
-// GDAL keeps notes beside images that it has read: none is written, and none that lies there is
-// heeded.
-TEST_F(GdalRasterTest, NotesBesideTheImageAreNeitherReadNorWritten) {
-  const fs::path path = Write("a.img", Pds3Bytes(Small()));
-  ReadImage(path);
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
-  Write("a.img.aux.xml", "<PAMDataset><broken");
-  EXPECT_EQ(ReadImage(path).width(), 3);
-}
-
 // Messages of GDAL of two lines.
 TEST_F(GdalRasterTest, ReasonsAreOneLine) {
   std::string label = Pds3Bytes(Small());
-  label.replace(label.find("^IMAGE = 2"), 10, "^IMAGE=\"b\"");
+  label.replace(label.find("^IMAGE = 2"), 10, "^IMAGE = (\"b\", 1)");
   const std::string reason = Reason(label);
   EXPECT_THAT(reason, HasSubstr("No such file"));
   EXPECT_THAT(reason, Not(HasSubstr("\n")));
+}
+
+TEST_F(GdalRasterTest, FilesAreClosed) {
+  const fs::path path = Write("a.img", Pds3Bytes(Small()));
+  const auto open_files = [] {
+    return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator());
+  };
+  ReadImage(path);  // loads the library
+  const auto before = open_files();
+  ReadImage(path);
+  EXPECT_EQ(open_files(), before);
 }
 
 TEST(ReadableFormatsWithGdal, ListsThePlanetaryOnes) {

@@ -113,6 +113,12 @@ TEST(JpegReader, DamageThatLibjpegWouldGuessAwayIsRefused) {
   EXPECT_THAT(Refusal(bytes).reason, StartsWith("is damaged: Corrupt JPEG data"));
 }
 
+TEST(JpegReader, BytesBetweenTheLastPixelAndTheEndAreRefused) {
+  std::string bytes = JpegBytes({.width = 32, .height = 32, .sample = Slope});
+  bytes.insert(bytes.size() - 2, 64, 'x');
+  EXPECT_THAT(Refusal(bytes).reason, StartsWith("is damaged: Corrupt JPEG data"));
+}
+
 // A newer version of the JFIF marker changes no pixel.
 TEST(JpegReader, ANewerMarkerIsRead) {
   const JpegText text{.width = 8, .height = 8, .sample = Slope};

@@ -130,6 +130,13 @@ TEST(PngReader, EveryDamagedByteOfAChunkIsSeen) {
   EXPECT_THAT(Refusal(checksum).reason, StartsWith("is damaged: IHDR: CRC error"));
 }
 
+// What stands beside the pixels is passed over: a gamma of no bytes, whose checksum is right.
+TEST(PngReader, ChunksBesideThePixelsAreNotHeeded) {
+  PngText png = Pattern(4, 4, 8, PngColour::kGrey, false);
+  png.before_data = PngChunk("gAMA", "") + PngChunk("zTXt", "no zero byte");
+  ExpectSamples(png);
+}
+
 // The checksum of the pixels themselves is right, and the stream in it is short or long.
 TEST(PngReader, PixelsThatDoNotFitTheSizeAreRefused) {
   PngText png = Pattern(4, 4, 8, PngColour::kGrey, false);
@@ -151,6 +158,9 @@ TEST(PngReader, SizesAreCheckedBeforeMemoryIsTaken) {
   png = {16385, 1, 8, PngColour::kGrey, false, std::vector<unsigned>(16385), ""};
   EXPECT_THAT(Refusal(PngBytes(png)).reason,
               HasSubstr("has 16385 x 1 pixels, more than the 16384"));
+  png.width = 2'000'000;
+  EXPECT_THAT(Refusal(PngHeader(png) + PngChunk("IDAT", "")).reason,
+              HasSubstr("2000000 x 1 pixels"));
   png.width = 16384;
   EXPECT_EQ(Read(PngBytes(png)).width(), 16384);
   png = Pattern(5, 4, 8, PngColour::kGrey, false);

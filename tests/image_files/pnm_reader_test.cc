@@ -100,6 +100,7 @@ TEST(PnmReader, HeadersThatMeanNothingAreRefused) {
 
 TEST(PnmReader, SizesAreCheckedBeforeMemoryIsTaken) {
   EXPECT_THAT(Reason("P5 16385 1 255\n"), HasSubstr("16385 x 1 pixels"));
+  EXPECT_THAT(Reason("P5 1 16385 255\n"), HasSubstr("1 x 16385 pixels"));
   EXPECT_THAT(Reason("P5 16000 16000 255\n"), HasSubstr("16000 x 16000 pixels"));
   EXPECT_EQ(Reason("P6 8000 8000 65535\nabc"), "ends before its last pixel");
 }

@@ -60,6 +60,7 @@ TEST_F(ReadImageTest, WhatIsNoImageIsRefused) {
   EXPECT_THAT(reason(Write("b.png", "\x89PNG")), HasSubstr("no format of images that is known"));
   EXPECT_THAT(reason(Write("c.pgm", "P5")), HasSubstr("no format of images that is known"));
   EXPECT_THAT(reason(Write("P5.txt", "P5x 1")), HasSubstr("no format of images that is known"));
+  EXPECT_THAT(reason(Write("d.pbm", "P1 1 1\n1")), HasSubstr("neither PGM nor PPM"));
   EXPECT_THAT(reason(Write("d.pbm", "P4 8 1\n\1")), HasSubstr("neither PGM nor PPM"));
   EXPECT_THAT(reason(Write("d.pfm", "Pf 1 1 -1\nabcd")), HasSubstr("is a PFM file"));
 }

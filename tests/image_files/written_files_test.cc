@@ -76,6 +76,8 @@ TEST(PfmFile, BytesOfASmallImage) {
   const std::string head = "Pf\n2 2\n-1.0\n";
   const std::string little = "\0\0\0\x3f\0\0\x80\x7f\0\0\x80\x3f\0\0\0\xc0"s;  // .5, inf, 1, -2
   EXPECT_EQ(EncodePfm(image), head + little);
+  image.At(1, 1) = -std::numeric_limits<float>::infinity();
+  EXPECT_EQ(EncodePfm(image), head + little);
   const std::string big = "Pf 2 2 0.25 \x3f\0\0\0\x7f\x80\0\0\x3f\x80\0\0\xc0\0\0\0"s;
   for (const std::string& file : {head + little, big}) {
     const vision::Image<float> read = DecodePfm(file, "a.pfm", {});

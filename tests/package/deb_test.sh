@@ -15,7 +15,7 @@ cpack --config "$config" -B "$folder/made" > "$folder/log" 2>&1 || { cat "$folde
 set -- "$folder"/made/*.deb
 [ $# -eq 1 ] || fail "not one package: $*"
 depends=$(dpkg-deb -f "$1" Depends)
-for library in libsqlite3-0 libbullet libgomp1; do
+for library in libsqlite3-0 libbullet libgomp1 libjpeg62-turbo; do
   case "$depends" in
     *"$library"*) ;;
     *) fail "$library is not in Depends: $depends" ;;
