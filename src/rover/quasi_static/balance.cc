@@ -204,8 +204,8 @@ void QuasiStaticBalance::GiveWay(double along_m_s, double across_m_s, Row& row) 
 void QuasiStaticBalance::AddForces(const SideVector& w, RestingContact& contact, Row& row) {
   row.acts = false;
   // Penetration at the end of the step; N = k (depth - rest).
-  const double depth_m = -row.gap_m - step_s_ * row.normal.dot(w);
-  contact.load_N = row.stiffness_N_m * (depth_m - row.rest_m);
+  contact.depth_m = -row.gap_m - step_s_ * row.normal.dot(w);
+  contact.load_N = row.stiffness_N_m * (contact.depth_m - row.rest_m);
   contact.sliding_speed_m_s = 0.0;
   // An open contact has no force. In the first evaluation one that bore load before keeps its
   // spring all the same: a far-off start would else open contacts that the solution has closed.
@@ -310,8 +310,9 @@ void QuasiStaticBalance::Finish(const LinkageVector& change,
                                 std::vector<RestingContact>& contacts) const {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     if (contacts[i].load_N <= 0.0) continue;
-    const double depth_m = -step_s_ * rows_[i].normal.dot(OfSide(change, rows_[i].side));
-    contacts[i].load_N = std::max(0.0, contacts[i].load_N + rows_[i].stiffness_N_m * depth_m);
+    const double deeper_m = -step_s_ * rows_[i].normal.dot(OfSide(change, rows_[i].side));
+    contacts[i].depth_m += deeper_m;
+    contacts[i].load_N = std::max(0.0, contacts[i].load_N + rows_[i].stiffness_N_m * deeper_m);
     contacts[i].traction_load_N = contacts[i].load_N;
   }
 }

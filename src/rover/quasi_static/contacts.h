@@ -29,6 +29,7 @@ struct RestingContact {
   // next.
   double traction_load_N = 0.0;
   double sliding_speed_m_s = 0.0;
+  double depth_m = 0.0;  // penetration at the end of the step, in the last balance
 
   bool IsWheel() const { return kind == truth::BodyPart::kWheel; }
   bool IsSoil() const { return IsWheel() && (other == kGround || other == kGroundAhead); }

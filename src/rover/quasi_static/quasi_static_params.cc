@@ -17,6 +17,11 @@ void QuasiStaticParams::Visit(core::FieldVisitor& v) {
            .min = 0.1,
            .max = 15.0,
            .origin = Origin::kSetting});
+  v.Real("rock_settle_share", rock_settle_share,
+         {.doc = "share of both while a rock or a wall bears a part of the rover",
+          .min = 0.05,
+          .max = 1.0,
+          .origin = Origin::kSetting});
 }
 
 }  // namespace rockyard::rover

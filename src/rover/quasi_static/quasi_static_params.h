@@ -11,6 +11,7 @@ struct QuasiStaticParams {
   double step_s = 0.05;
   double settle_distance_m = 0.02;
   double settle_turn_rad = math::DegToRad(3.0);
+  double rock_settle_share = 0.5;
 
   void Visit(core::FieldVisitor& v);
 };

@@ -276,7 +276,17 @@ double QuasiStaticRover::StretchTime_s(const messages::PerWheel<double>& rate_ra
   const double turn_rad_s = std::abs(TurnRate(rate_rad_s));
   const double way_s = params_.quasi_static.settle_distance_m / (rate * radius_m);
   const double max_rad = params_.quasi_static.settle_turn_rad;
-  return turn_rad_s * way_s > max_rad ? max_rad / turn_rad_s : way_s;
+  const double time_s = turn_rad_s * way_s > max_rad ? max_rad / turn_rad_s : way_s;
+  return IsBorneByObstacles() ? params_.quasi_static.rock_settle_share * time_s : time_s;
+}
+
+// On rocks the direction of the contacts, and with it the motion, changes within centimetres: longer
+// stretches lose a share of the way to wheels that leave a rock in the middle of one.
+bool QuasiStaticRover::IsBorneByObstacles() const {
+  const std::vector<RestingContact>& contacts = contacts_.contacts();
+  return std::any_of(contacts.begin(), contacts.end(), [](const RestingContact& contact) {
+    return !contact.IsSoil() && contact.load_N > 0.0;
+  });
 }
 
 // One stretch: contacts half a stretch ahead at the last rates, one balance there, and the rates
@@ -515,7 +525,7 @@ void QuasiStaticRover::UpdateForces() {
     if (contact.IsWheel()) {
       const auto wheel = static_cast<std::size_t>(contact.part);
       state_.wheel_load_N[wheel] += contact.load_N;
-      if (contact.IsSoil()) state_.wheel_sinkage_m[wheel] = std::max(0.0, -contact.gap_m);
+      if (contact.IsSoil()) state_.wheel_sinkage_m[wheel] = std::max(0.0, contact.depth_m);
     } else {
       state_.contacts.push_back({contact.kind, std::max(contact.other, -1), contact.load_N,
                                  contact.sliding_speed_m_s, contact.n_W.z(),

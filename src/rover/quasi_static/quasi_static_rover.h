@@ -18,7 +18,8 @@ struct RimShares {
 };
 
 // The posture is interpolated between two balances, settle_distance_m of rim travel (or
-// settle_turn_rad of turning) apart. The rover draws no random numbers.
+// settle_turn_rad of turning) apart, on rocks rock_settle_share of that. The rover draws no random
+// numbers.
 // tests/rover/quasi_static/benchmark.cc measures its cost.
 class QuasiStaticRover final : public Rover {
  public:
@@ -81,6 +82,7 @@ class QuasiStaticRover final : public Rover {
   double LookAhead(double lead_s);
   double TurnRate(const messages::PerWheel<double>& rate_rad_s) const;
   double StretchTime_s(const messages::PerWheel<double>& rate_rad_s) const;
+  bool IsBorneByObstacles() const;
   Posture LiftedPosture(const math::Pose2& X_WR) const;
   void Settle();
   void UpdatePosture();
