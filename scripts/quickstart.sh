@@ -59,7 +59,7 @@ fi
 say() { printf '\n== %s\n' "$*"; }
 
 say "What comes"
-echo "Packages (on a bare Debian 12 76 of them, 105 MB to fetch), a build (5 minutes of one core), 40 drives
+echo "Packages (on a bare Debian 12 81 of them, 106 MB to fetch), a build (5 minutes of one core), 40 drives
 and a first page to look at; then 1,800 drives, 3 minutes of one core. On two cores the first page is there
 after 3 minutes and everything after 5. Disk: 0.7 GB, packages included. Interrupt it when you like: it
 goes on where it was."
