@@ -167,6 +167,8 @@ TEST(CameraTextTest, ProblemsAreToldByTheirLines) {
             "line 7 has the key \"Dimension\", which is not known; ");
   EXPECT_EQ(ProblemsOf(Linear() + "1 2 3\n"), "line 7 is \"1 2 3\", without a \"=\"; ");
   EXPECT_EQ(ProblemsOf(Linear() + "S =\n1 2\nC\n"), "line 9 is \"C\", without a \"=\"; ");
+  EXPECT_EQ(ProblemsOf(Linear() + "S =\n1 2\nHs = 1\n3 4\n"),
+            "line 10 is \"3 4\", without a \"=\"; ");
   EXPECT_EQ(ProblemsOf(Linear() + "O = 0 0 1\n"), "line 7: O is not a known key; ");
   EXPECT_EQ(ProblemsOf(Linear("CAHVOR")), "line 1 ff.: O is missing, as well as R; ");
   EXPECT_EQ(ProblemsOf(Replaced(Linear(), "A = 0 0 1", "A = 0 0 0.9")),

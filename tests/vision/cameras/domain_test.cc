@@ -169,6 +169,14 @@ TEST(CameraDomainTest, LensesEndWhereTheirDirectionsDo) {
   EXPECT_FALSE(BackProject(symmetric, {50 + 300, 50 + 100}));
 }
 
+TEST(CameraDomainTest, ALensSeesNothingSoNearThatNoDerivativeIsFinite) {
+  for (const auto lens : {messages::Lens::kEquidistantRows, messages::Lens::kEquidistant}) {
+    const auto camera = CameraModelOf({lens, math::Transform::Identity(), 0.01, 0.01, 100, 100});
+    EXPECT_TRUE(Project(camera, {1e-100, 1e-101, 1e-101}));
+    EXPECT_FALSE(Project(camera, {1e-170, 1e-171, 1e-171}));
+  }
+}
+
 // Models of wild numbers and wild points: what comes back is finite.
 TEST(CameraDomainTest, NothingWildGivesNaN) {
   core::RandomStream random({23, 0}, core::Purpose::kTest);

@@ -242,16 +242,16 @@ TEST(RectificationTest, AFisheyesFieldEndsAtTheLargestAngle) {
 
 // Of a lens that sees around itself few rays lie before the plane at all.
 TEST(RectificationTest, AFieldBeyondARightAngleIsKeptToTheLargestAngleToo) {
-  const Cahv lens{{0, 0, 0}, {0, 0, 1}, {50, 0, 157}, {0, 50, 60}};
+  const Cahv lens{{0, 0, 0}, {0, 0, 1}, {45, 0, 157}, {0, 45, 157}};
   const Cahvore fisheye{
       lens, Vector3::UnitZ(), Vector3::Zero(), Vector3::Zero(), CahvoreType::kFisheye, 1.0};
   Cahvore other = fisheye;
   other.linear.C = Vector3(0.1, 0, 0);
-  const CameraModel left{fisheye, {315, 121}};
-  const CameraModel right{other, {315, 121}};
+  const CameraModel left{fisheye, {315, 315}};
+  const CameraModel right{other, {315, 315}};
   const auto pair = Rectify(left, right, {.largest_angle_rad = 1.2});
   ASSERT_TRUE(pair.ok());
-  EXPECT_NEAR(pair->size.columns, 2.0 * 50.0 * std::tan(1.2), 2.0);
+  EXPECT_NEAR(pair->size.columns, 2.0 * 45.0 * std::tan(1.2), 2.0);
 }
 
 TEST(RectificationTest, SourcesAreInsideOfTheImageOrNowhere) {
@@ -273,6 +273,16 @@ TEST(RectificationTest, SourcesAreInsideOfTheImageOrNowhere) {
   EXPECT_GT(inside, 1000);
   EXPECT_FALSE(SourceOf(left, pair->left, {100, 100}, -1.0));
   EXPECT_FALSE(SourceOf(left, pair->left, {100, 100}, core::kNaN));
+}
+
+TEST(RectificationTest, NoTableHoldsBehindTheCamera) {
+  // A fisheye that sees what is behind it, too.
+  const Cahv lens{{0, 0, 0}, {0, 0, 1}, {300, 0, 1000}, {0, 300, 1000}};
+  const Cahvore fisheye{
+      lens, Vector3::UnitZ(), Vector3::Zero(), Vector3::Zero(), CahvoreType::kFisheye, 1.0};
+  const CameraModel real{fisheye, {2001, 2001}};
+  EXPECT_TRUE(SourceOf(real, lens, {1300, 1000}, 2.0));
+  EXPECT_FALSE(SourceOf(real, lens, {1300, 1000}, -2.0));
 }
 
 // A moving pupil: points elsewhere than at the range of the table are off as the header says.

@@ -75,7 +75,7 @@ TEST(TriangulationTest, DerivativesAreCentralDifferences) {
 
 TEST(TriangulationTest, NothingAtOrBeyondInfinity) {
   const RectifiedPair pair = TestPair();
-  for (const double disparity_px : {0.0, -1.0, core::kNaN, 1e-320}) {
+  for (const double disparity_px : {0.0, -1.0, core::kNaN, 1e-320, 1e-160}) {
     EXPECT_FALSE(Triangulate(pair.left, pair.right, {10, 10}, disparity_px)) << disparity_px;
   }
   EXPECT_FALSE(Triangulate(pair.left, pair.right, {core::kNaN, 10}, 5.0));
