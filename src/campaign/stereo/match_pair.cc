@@ -31,6 +31,8 @@ namespace fs = std::filesystem;
 
 // A share of range ends above this says that the range may be too short.
 constexpr double kManyAtTheEnd = 0.1;
+// Fewer matches than this are few of a pair that was taken as aligned.
+constexpr double kFew = 0.25;
 
 vision::DisparityImage Matched(const StereoInput& input, const vision::StereoPipelineParams& params,
                                int threads) {
@@ -70,6 +72,9 @@ void NoteDoubts(StereoResult& result) {
   }
   if (result.counts[0] == 0) {
     result.notes.emplace_back("no pixel has a match: the images show too little texture");
+  } else if (!result.cameras && result.Density() < kFew) {
+    result.notes.emplace_back(
+        "few pixels have a match: are the rows of both images aligned? --cameras aligns them");
   }
 }
 

@@ -1,5 +1,6 @@
 #include "vision/stereo/elevation_map.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
