@@ -157,10 +157,8 @@ void AddStereoCommand(CLI::App& app) {
       "Matches two images of a stereo pair: disparities, and with their cameras points and a map");
   command->footer(
       "Images: PNG, JPEG, PGM, PPM, and with GDAL PDS3, PDS4, VICAR. Cameras: CAHV, CAHVOR, "
-      "CAHVORE "
-      "or a\ndistorted pinhole, as JSON or as flight calibrations have them "
-      "(src/vision/README.md). "
-      "\n\n" +
+      "CAHVORE or a\ndistorted pinhole, as JSON or as flight calibrations have them "
+      "(src/vision/README.md).\n\n" +
       app.get_footer());
   command->add_option("LEFT", request.left, "image of the left eye");
   command->add_option("RIGHT", request.right, "image of the right eye, of the same size");
