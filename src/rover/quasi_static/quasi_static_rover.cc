@@ -280,8 +280,8 @@ double QuasiStaticRover::StretchTime_s(const messages::PerWheel<double>& rate_ra
   return IsBorneByObstacles() ? params_.quasi_static.rock_settle_share * time_s : time_s;
 }
 
-// On rocks the direction of the contacts, and with it the motion, changes within centimetres: longer
-// stretches lose a share of the way to wheels that leave a rock in the middle of one.
+// On rocks the direction of the contacts, and with it the motion, changes within centimetres:
+// longer stretches lose a share of the way to wheels that leave a rock in the middle of one.
 bool QuasiStaticRover::IsBorneByObstacles() const {
   const std::vector<RestingContact>& contacts = contacts_.contacts();
   return std::any_of(contacts.begin(), contacts.end(), [](const RestingContact& contact) {
