@@ -1,0 +1,53 @@
+// The text form of flight calibrations (.cahv, .cahvor, .cahvore), as JPL's camera model library
+// writes it: a line `Key = values` for everything, `#` before comments.
+//
+//   # A fisheye on a mast.
+//   Model = CAHVORE3,0.37 = general
+//   Dimensions = 1024 768
+//   C = 0.1 0.25 -1.2
+//   A = 1 0 0
+//   H = 511.5 400 0
+//   V = 383.5 0 400
+//   O = 1 0 0
+//   R = 0 -0.013 -0.0075
+//   E = 0.001 0.002 0.0015
+//
+// Model is CAHV, CAHVOR, CAHVORE1 (perspective), CAHVORE2 (fisheye) or CAHVORE3 with its linearity
+// after a comma; what follows a second `=` is for people. Mclass is another name of Model, and
+// CAHVORE may get its number from Mtype or T and its linearity from Mparm or P, which
+// types 1 and 2 may have too, without a meaning. CAHV ends at V,
+// CAHVOR at R. Covariances (`S =`, `S internal =`, and the rows of numbers below them) and what
+// follows from the vectors (Hs, Hc, Vs, Vc, Theta) are passed over. Any other key is an error.
+//
+// A pair is two such blocks in one text, below lines `Camera = left` and `Camera = right`.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "vision/cameras/camera_model.h"
+
+namespace rockyard::vision {
+
+struct CameraPair {
+  CameraModel left;
+  CameraModel right;
+};
+
+// Longer files of cameras are refused: a covariance of 21 x 21 numbers takes 8 KiB.
+inline constexpr std::size_t kLargestCameraFile = std::size_t{1} << 20;
+
+// The camera in a text. Throws UserError with everything that is wrong: the paths are
+// `source_name`, the reasons name lines. Memory and time grow with the length of the text.
+CameraModel ParseCameraText(std::string_view text, std::string_view source_name);
+
+// The pair in a text. Throws UserError.
+CameraPair ParseCameraPairText(std::string_view text, std::string_view source_name);
+
+// The text of a Cahv, Cahvor or Cahvore, which reads back to the same bits. `comment` becomes lines
+// behind `#`.
+std::string CameraText(const CameraModel& camera, std::string_view comment = {});
+std::string CameraPairText(const CameraPair& pair, std::string_view comment = {});
+
+}  // namespace rockyard::vision

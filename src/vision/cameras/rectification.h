@@ -1,0 +1,65 @@
+// Linearization of a stereo pair: two aligned CAHV cameras, whose rows are epipolar lines.
+//
+// The aligned cameras keep the centres of the real ones and share A', H' and V'. Rows run along the
+// baseline b = C_right - C_left, A' is the mean viewing direction square to it:
+//
+//   h' = b / |b|    A' = unit(a - (a . h') h'), a = a_left + a_right    v' = A' x h'
+//   H' = f h' + c_h A'    V' = f v' + c_v A'
+//
+// so that a point at depth Z has the same row in both and the disparity
+// column_left - column_right = f |b| / Z >= 0. a is the direction of the middle of an image.
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "core/result.h"
+#include "vision/cameras/camera_model.h"
+
+namespace rockyard::vision {
+
+// What the aligned images show, of points at infinity.
+enum class RectifiedField {
+  kOverlap,  // what lies in both of the smallest rectangles around what each camera sees
+  kLeft,     // the smallest rectangle around what the left one sees
+};
+
+struct RectificationOptions {
+  RectifiedField field = RectifiedField::kOverlap;
+  // 0: as large as the middle of the images has it, or, where a size is given, the largest with
+  // which the field fits into it.
+  double focal_px = 0.0;
+  // Without pixels: what the field needs. A size that is given holds the field in its middle.
+  ImageSize size = {};
+  // Parts of the field further off A' than this, in the plane of the rows or of the columns, are
+  // left out: a fisheye's image would become endless.
+  double largest_angle_rad = 1.3;
+};
+
+struct RectifiedPair {
+  Cahv left;
+  Cahv right;
+  ImageSize size = {};
+  double focal_px = 0.0;
+  double baseline_m = 0.0;
+};
+
+// Aligns a pair whose cameras are told in one outer frame. Problems, with the paths `left`,
+// `right`, `baseline`, `field`, `focal_px` and `size`: no baseline (below 1e-6 m); a baseline
+// within 20 deg of the viewing direction; eyes that are swapped or one above the other (more than
+// 45 deg between the baseline and the rows of the images); cameras that look more than 90 deg
+// apart, that mirror, or whose middle pixel has no ray; no overlap, or one of less than 2 pixels;
+// an aligned image with a side of more than 16384 pixels; numbers that are not finite. Cost: 4 x 64
+// rays.
+core::Result<RectifiedPair> Rectify(const CameraModel& left, const CameraModel& right,
+                                    const RectificationOptions& options = {});
+
+// Where an aligned image's pixel is found in the real image: what a rectification table is made of.
+// Nothing where the real camera does not see it or where it is on none of its pixels. The points
+// are taken at `range_m` > 0 from the aligned camera's centre, infinity included. Only for a
+// CAHVORE with a moving entrance pupil does it matter: points at other ranges r then are off by
+// about f s sin(theta) |1 / r - 1 / range_m| pixels, s as in cahvore.h.
+std::optional<Pixel> SourceOf(const CameraModel& real, const Cahv& aligned, const Pixel& pixel,
+                              double range_m = std::numeric_limits<double>::infinity());
+
+}  // namespace rockyard::vision
