@@ -85,7 +85,7 @@ PictureReadout::PictureReadout(const PictureCameraParams& params, const PixelRay
 void PictureReadout::SetGain(const PixelRays& rays) {
   const int middle_column = rays.columns() / 2;
   const int middle_row = rays.rows() / 2;
-  const Vector3 axis = rays.At(middle_column, middle_row).direction_A;
+  const Vector3 axis = rays.At(middle_column, middle_row).direction;
   // Solid angle of a small pixel: |d_column x d_row| of its rays.
   const auto solid_angle = [&rays](int column, int row) {
     return rays.ByColumn(column, row).cross(rays.ByRow(column, row)).norm();
@@ -93,7 +93,7 @@ void PictureReadout::SetGain(const PixelRays& rays) {
   const double on_axis = solid_angle(middle_column, middle_row);
   double corner_rad = 0.0;
   const auto angle = [&](int column, int row) {
-    return std::acos(std::clamp(axis.dot(rays.At(column, row).direction_A), -1.0, 1.0));
+    return std::acos(std::clamp(axis.dot(rays.At(column, row).direction), -1.0, 1.0));
   };
   for (int row = 0; row < rays.rows(); ++row) {
     for (int column = 0; column < rays.columns(); ++column) {
@@ -105,7 +105,7 @@ void PictureReadout::SetGain(const PixelRays& rays) {
       if (!rays.Sees(column, row)) continue;
       double gain = 1.0;
       if (params_.vignetting == Vignetting::kNatural) {
-        const double cosine = std::max(0.0, axis.dot(rays.At(column, row).direction_A));
+        const double cosine = std::max(0.0, axis.dot(rays.At(column, row).direction));
         gain = solid_angle(column, row) * cosine / on_axis;
       } else if (params_.vignetting == Vignetting::kPolynomial) {
         const double x = angle(column, row) / corner_rad;

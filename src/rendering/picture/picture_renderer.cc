@@ -78,7 +78,7 @@ const PictureRenderer::Row& PictureRenderer::MeetRow(int row, Band& band) const 
     Pixel& pixel = met[static_cast<std::size_t>(column)];
     pixel.sees = rays_.Sees(column, row);
     if (!pixel.sees) continue;
-    const ViewRay ray = rays_.At(column, row);
+    const vision::Ray ray = rays_.At(column, row);
     pixel.met = scene_.Meet(OriginOf(ray), DirectionOf(ray), Candidates(column, row, band));
   }
   return met;
@@ -138,7 +138,7 @@ double PictureRenderer::SplitPixel(int column, int row, Band& band, TerrainLook&
   double sum = 0.0;
   for (int y = 0; y < edge_samples_; ++y) {
     for (int x = 0; x < edge_samples_; ++x) {
-      const ViewRay ray =
+      const vision::Ray ray =
           rays_.Beside(column, row, (x + 0.5) * part - 0.5, (y + 0.5) * part - 0.5);
       const Vector3 ray_W = DirectionOf(ray);
       const Met met = scene_.Meet(OriginOf(ray), ray_W, rocks);

@@ -37,8 +37,8 @@ class PictureRenderer {
   using Row = std::vector<Pixel>;
   struct Band;
 
-  math::Vector3 OriginOf(const ViewRay& ray) const { return X_WA_ * ray.origin_A; }
-  math::Vector3 DirectionOf(const ViewRay& ray) const { return X_WA_.linear() * ray.direction_A; }
+  math::Vector3 OriginOf(const vision::Ray& ray) const { return X_WA_ * ray.origin; }
+  math::Vector3 DirectionOf(const vision::Ray& ray) const { return X_WA_.linear() * ray.direction; }
   SurfaceLook LookAt(const SurfacePoint& point, const math::Vector3& ray_W, double range_m,
                      int column, int row, TerrainLook& look) const;
   const std::vector<int>& Candidates(int column, int row, Band& band) const;

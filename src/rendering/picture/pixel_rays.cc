@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/check.h"
 
@@ -9,20 +10,20 @@ namespace rockyard::rendering {
 
 using math::Vector3;
 
-PixelRays::PixelRays(int columns, int rows, const RayOfPixel& ray_of)
-    : columns_(columns), rows_(rows) {
-  EXPECT(columns >= 2 && rows >= 2);
-  const std::size_t pixels = static_cast<std::size_t>(columns) * rows;
+PixelRays::PixelRays(const vision::CameraModel& camera)
+    : columns_(camera.size.columns), rows_(camera.size.rows) {
+  EXPECT(columns_ >= 2 && rows_ >= 2);
+  const std::size_t pixels = static_cast<std::size_t>(columns_) * rows_;
   origins_A_.reserve(pixels);
   directions_A_.reserve(pixels);
   sees_.reserve(pixels);
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      const std::optional<ViewRay> ray = ray_of(column, row);
+  for (int row = 0; row < rows_; ++row) {
+    for (int column = 0; column < columns_; ++column) {
+      const std::optional<vision::Ray> ray = BackProject(camera, vision::Pixel(column, row));
       sees_.push_back(ray ? 1 : 0);
       // What no ray goes through has any direction: it is never asked.
-      origins_A_.push_back(ray ? ray->origin_A : Vector3::Zero());
-      directions_A_.push_back(ray ? ray->direction_A : Vector3::UnitX());
+      origins_A_.push_back(ray ? ray->origin : Vector3::Zero());
+      directions_A_.push_back(ray ? ray->direction : Vector3::UnitX());
     }
   }
   MarkEdges();
@@ -34,8 +35,8 @@ PixelRays::PixelRays(int columns, int rows, const RayOfPixel& ray_of)
     one_origin_ = one_origin_ && (sees_[i] == 0 || origins_A_[i] == origin_A);
   }
   if (one_origin_) origins_A_.assign(1, origin_A);
-  for (int row = 0; row < rows; row += kTile) {
-    for (int column = 0; column < columns; column += kTile) {
+  for (int row = 0; row < rows_; row += kTile) {
+    for (int column = 0; column < columns_; column += kTile) {
       tiles_.push_back(MakeTile(column, row));
     }
   }
@@ -52,18 +53,18 @@ PixelRays::Tile PixelRays::MakeTile(int first_column, int first_row) const {
     }
   };
   Vector3 sum = Vector3::Zero();
-  for_each([&](int, int, const ViewRay& ray) {
-    if (!tile.sees) tile.origin_A = ray.origin_A;
+  for_each([&](int, int, const vision::Ray& ray) {
+    if (!tile.sees) tile.origin_A = ray.origin;
     tile.sees = true;
-    sum += ray.direction_A;
+    sum += ray.direction;
   });
   if (!tile.sees) return tile;
   tile.cone.axis = sum.normalized();
-  for_each([&](int column, int row, const ViewRay& ray) {
-    tile.origin_spread_m = std::max(tile.origin_spread_m, (ray.origin_A - tile.origin_A).norm());
+  for_each([&](int column, int row, const vision::Ray& ray) {
+    tile.origin_spread_m = std::max(tile.origin_spread_m, (ray.origin - tile.origin_A).norm());
     // Rays beside the middle lie within half a pixel each way.
     const double half_pixel = 0.5 * (ByColumn(column, row).norm() + ByRow(column, row).norm());
-    beside = std::max(beside, (ray.direction_A - tile.cone.axis).norm() + half_pixel);
+    beside = std::max(beside, (ray.direction - tile.cone.axis).norm() + half_pixel);
   });
   // A chord c belongs to the angle a with c = 2 sin(a / 2): cos a = 1 - c^2 / 2. No tile is wider
   // than a half-space, which holds all there is to see.

@@ -1,31 +1,22 @@
 // The viewing rays of a camera, worked out once.
 #pragma once
 
-#include <functional>
-#include <optional>
 #include <vector>
 
 #include "math/pose.h"
 #include "rendering/occlusion.h"
+#include "vision/cameras/camera_model.h"
 
 namespace rockyard::rendering {
 
-// A line of sight in the camera's outer frame A (the rover's, say), direction of unit length.
-struct ViewRay {
-  math::Vector3 origin_A = math::Vector3::Zero();
-  math::Vector3 direction_A = math::Vector3::UnitX();
-};
-
-// Rays through the middles of the pixels of an image and how they change from pixel to pixel.
+// Rays through the middles of the pixels of an image and how they change from pixel to pixel, in the
+// camera's outer frame A.
 // Pixel (0, 0) is the upper left one, its middle at column 0 and row 0. It costs a ray of the
 // camera for each pixel, and 50 bytes; a camera needs one for as long as it is not recalibrated.
 class PixelRays {
  public:
-  // The ray of a position in the image; none where the lens has no direction for it.
-  using RayOfPixel = std::function<std::optional<ViewRay>(double column, double row)>;
-
-  // columns, rows >= 2.
-  PixelRays(int columns, int rows, const RayOfPixel& ray_of);
+  // The image has 2 columns and 2 rows at least, and some pixel sees.
+  explicit PixelRays(const vision::CameraModel& camera);
 
   int columns() const { return columns_; }
   int rows() const { return rows_; }
@@ -34,16 +25,16 @@ class PixelRays {
   bool Sees(int column, int row) const { return sees_[Index(column, row)]; }
 
   // The ray of a pixel that sees.
-  ViewRay At(int column, int row) const {
+  vision::Ray At(int column, int row) const {
     const std::size_t i = Index(column, row);
     return {one_origin_ ? origins_A_.front() : origins_A_[i], directions_A_[i]};
   }
 
   // The ray beside the middle of a pixel, by shares of a column and of a row up to 1/2: along the
   // derivatives, which leaves out how they change within a pixel.
-  ViewRay Beside(int column, int row, double columns_right, double rows_down) const {
-    ViewRay ray = At(column, row);
-    ray.direction_A = (ray.direction_A + columns_right * ByColumn(column, row) +
+  vision::Ray Beside(int column, int row, double columns_right, double rows_down) const {
+    vision::Ray ray = At(column, row);
+    ray.direction = (ray.direction + columns_right * ByColumn(column, row) +
                        rows_down * ByRow(column, row))
                           .normalized();
     return ray;
