@@ -63,15 +63,14 @@ vision::Image<float> Blurred(const vision::Image<float>& sharp, double sigma_px)
 vision::GrayImage ToGray(const vision::Image<std::uint16_t>& counts, int bits) {
   EXPECT(bits >= 8 && bits <= 16);
   vision::GrayImage gray(counts.width(), counts.height());
-  std::transform(counts.values().begin(), counts.values().end(), gray.values().begin(),
-                 [bits](std::uint16_t count) {
-                   return static_cast<std::uint8_t>(count >> (bits - 8));
-                 });
+  std::transform(
+      counts.values().begin(), counts.values().end(), gray.values().begin(),
+      [bits](std::uint16_t count) { return static_cast<std::uint8_t>(count >> (bits - 8)); });
   return gray;
 }
 
-PictureReadout::PictureReadout(const PictureCameraParams& params, const PixelRays& rays,
-                               int camera, core::TrialKey key)
+PictureReadout::PictureReadout(const PictureCameraParams& params, const PixelRays& rays, int camera,
+                               core::TrialKey key)
     : params_(params),
       key_(key),
       readout_(params.imager, 0.0),

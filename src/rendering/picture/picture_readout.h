@@ -25,9 +25,9 @@ struct RawImage {
 //   rate       electrons per second = ElectronsPerRadiance * g * L
 //   exposure   ExposureTime over all pixels: all but brightest_share of them below target_fill of
 //              the well
-//   read-out   as of ImageReadout: shot, dark and read noise, fixed pattern, well, black level, bits
-//   flat field where it is corrected: (count - black) / (g (1 + r)) + black, r the pixel's response
-//   stuck      pixels that always show 0 or the largest count, by halves
+//   read-out   as of ImageReadout: shot, dark and read noise, fixed pattern, well, black level,
+//   bits flat field where it is corrected: (count - black) / (g (1 + r)) + black, r the pixel's
+//   response stuck      pixels that always show 0 or the largest count, by halves
 // Pattern and stuck pixels belong to (trial, camera), noise to (trial, image).
 class PictureReadout {
  public:

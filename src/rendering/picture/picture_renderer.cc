@@ -37,13 +37,10 @@ struct PictureRenderer::Band {
 
 PictureRenderer::PictureRenderer(const PictureScene& scene, const LookParams& look,
                                  const PixelRays& rays, const math::Transform& X_WA)
-    : scene_(scene),
-      rays_(rays),
-      X_WA_(X_WA),
-      edge_samples_(static_cast<int>(look.edge_samples)) {}
+    : scene_(scene), rays_(rays), X_WA_(X_WA), edge_samples_(static_cast<int>(look.edge_samples)) {}
 
-SurfaceLook PictureRenderer::LookAt(const SurfacePoint& point, const Vector3& ray_W,
-                                    double range_m, int column, int row, TerrainLook& look) const {
+SurfaceLook PictureRenderer::LookAt(const SurfacePoint& point, const Vector3& ray_W, double range_m,
+                                    int column, int row, TerrainLook& look) const {
   const Vector3 by_column_W = X_WA_.linear() * rays_.ByColumn(column, row);
   const Vector3 by_row_W = X_WA_.linear() * rays_.ByRow(column, row);
   return look.At(point, Swept(by_column_W, ray_W, point.normal_W, range_m),
@@ -112,46 +109,78 @@ double PictureRenderer::WholePixel(int column, int row, const Met& met, TerrainL
   return scene_.Radiance(met, ray_W, seen.albedo, seen.normal_W);
 }
 
-double PictureRenderer::SplitPixel(int column, int row, Band& band, TerrainLook& look) const {
-  // Surfaces that the pixel shows, each with its albedo and by how much relief tilts its normal.
+// How one pixel sees the surfaces in it: each with its albedo, and by how much relief tilts its
+// normal.
+class PictureRenderer::PixelLooks {
+ public:
   struct Seen {
     int surface;
     double albedo;
     Vector3 tilt_W;
   };
-  constexpr std::size_t kMostSeen = 4;
-  std::array<Seen, kMostSeen> seen;
-  std::size_t count = 0;
-  const auto look_of = [&](const Met& met, const Vector3& ray_W) -> const Seen& {
-    for (std::size_t i = 0; i < count; ++i) {
-      if (seen[i].surface == met.point.surface) return seen[i];
+
+  template <typename LookOf>
+  const Seen& Of(const SurfacePoint& point, const LookOf& look_of) {
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (seen_[i].surface == point.surface) return seen_[i];
     }
     // Where a pixel shows more surfaces the last one is asked anew for each of its parts.
-    const std::size_t i = std::min(count, kMostSeen - 1);
-    count = i + 1;
-    const SurfaceLook whole = LookAt(met.point, ray_W, met.range_m, column, row, look);
-    seen[i] = {met.point.surface, whole.albedo, whole.normal_W - met.point.normal_W};
-    return seen[i];
-  };
+    const std::size_t i = std::min(count_, kMost - 1);
+    count_ = i + 1;
+    const SurfaceLook whole = look_of();
+    seen_[i] = {point.surface, whole.albedo, whole.normal_W - point.normal_W};
+    return seen_[i];
+  }
+
+ private:
+  static constexpr std::size_t kMost = 4;
+  std::array<Seen, kMost> seen_;
+  std::size_t count_ = 0;
+};
+
+double PictureRenderer::SplitPixel(int column, int row, Band& band, TerrainLook& look) const {
   const std::vector<int>& rocks = Candidates(column, row, band);
-  const double part = 1.0 / edge_samples_;
+  const Pixel& middle = MeetRow(row, band)[static_cast<std::size_t>(column)];
+  PixelLooks looks;
+  Pixel part{{}, true};
+  const auto meet = [&](int x, int y) {
+    const double size = 1.0 / edge_samples_;
+    const vision::Ray ray =
+        rays_.Beside(column, row, (x + 0.5) * size - 0.5, (y + 0.5) * size - 0.5);
+    const Vector3 ray_W = DirectionOf(ray);
+    part.met = scene_.Meet(OriginOf(ray), ray_W, rocks);
+    return ray_W;
+  };
+  const auto radiance = [&](const Vector3& ray_W) {
+    const Met& met = part.met;
+    if (met.point.surface == SurfacePoint::kSky) {
+      return scene_.Radiance(met, ray_W, 0.0, Vector3::UnitZ());
+    }
+    const PixelLooks::Seen& seen = looks.Of(
+        met.point, [&] { return LookAt(met.point, ray_W, met.range_m, column, row, look); });
+    const Vector3 normal_W = (met.point.normal_W + seen.tilt_W).normalized();
+    return scene_.Radiance(met, ray_W, seen.albedo, normal_W);
+  };
+  // The edge may run through the neighbour only: then all four corners are as the middle.
+  const int last = edge_samples_ - 1;
   double sum = 0.0;
-  for (int y = 0; y < edge_samples_; ++y) {
-    for (int x = 0; x < edge_samples_; ++x) {
-      const vision::Ray ray =
-          rays_.Beside(column, row, (x + 0.5) * part - 0.5, (y + 0.5) * part - 0.5);
-      const Vector3 ray_W = DirectionOf(ray);
-      const Met met = scene_.Meet(OriginOf(ray), ray_W, rocks);
-      if (met.point.surface == SurfacePoint::kSky) {
-        sum += scene_.Radiance(met, ray_W, 0.0, Vector3::UnitZ());
-        continue;
-      }
-      const Seen& of_pixel = look_of(met, ray_W);
-      const Vector3 normal_W = (met.point.normal_W + of_pixel.tilt_W).normalized();
-      sum += scene_.Radiance(met, ray_W, of_pixel.albedo, normal_W);
+  bool is_whole = true;
+  for (const int y : {0, last}) {
+    for (const int x : {0, last}) {
+      const Vector3 ray_W = meet(x, y);
+      is_whole = is_whole && !IsEdge(middle, part);
+      sum += radiance(ray_W);
     }
   }
-  return sum * part * part;
+  if (is_whole) return WholePixel(column, row, middle.met, look);
+  for (int y = 0; y < edge_samples_; ++y) {
+    for (int x = 0; x < edge_samples_; ++x) {
+      if ((x == 0 || x == last) && (y == 0 || y == last)) continue;
+      const Vector3 ray_W = meet(x, y);
+      sum += radiance(ray_W);
+    }
+  }
+  return sum / (edge_samples_ * edge_samples_);
 }
 
 void PictureRenderer::RenderRows(int first, int last, TerrainLook& look, Picture& picture) const {
@@ -169,8 +198,7 @@ void PictureRenderer::RenderRows(int first, int last, TerrainLook& look, Picture
       picture.sunlit.At(column, row) = static_cast<float>(pixel.met.sunlit);
       const bool split = edge_samples_ > 1 && HasEdge(column, row, band);
       picture.radiance_w_m2_sr.At(column, row) = static_cast<float>(
-          split ? SplitPixel(column, row, band, look)
-                : WholePixel(column, row, pixel.met, look));
+          split ? SplitPixel(column, row, band, look) : WholePixel(column, row, pixel.met, look));
     }
   }
 }

@@ -13,8 +13,9 @@ namespace rockyard::rendering {
 
 // Renders a scene through one camera. A pixel takes the light of the ray through its middle, with
 // textures filtered to what it covers of the surface. Where a neighbour on any side shows another
-// surface, the same one behind an edge, or another sunlight, it is split into edge_samples^2 rays;
-// the parts take the texture as the whole pixel sees it, once for each surface.
+// surface, the same one behind an edge, or another sunlight, it is split into edge_samples^2 rays,
+// unless those in its corners show what its middle does; the parts take the texture as the whole
+// pixel sees it, once for each surface.
 //
 // Deviations: nothing reflects twice, and nothing smaller than a pixel is seen between the middles
 // of pixels; relief of the texture does not move a silhouette.
@@ -36,6 +37,7 @@ class PictureRenderer {
   };
   using Row = std::vector<Pixel>;
   struct Band;
+  class PixelLooks;
 
   math::Vector3 OriginOf(const vision::Ray& ray) const { return X_WA_ * ray.origin; }
   math::Vector3 DirectionOf(const vision::Ray& ray) const { return X_WA_.linear() * ray.direction; }

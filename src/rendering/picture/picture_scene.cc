@@ -51,8 +51,8 @@ Met PictureScene::Meet(const Vector3& origin_W, const Vector3& ray_W,
   } else if (body_m < kFarthest_m) {
     met.range_m = body_m;
     point.p_W = origin_W + body_m * ray_W;
-    point.normal_W = rover_.X_WR.linear() *
-                     rover_.body->Normal(X_RW_ * origin_W, X_RW_.linear() * ray_W);
+    point.normal_W =
+        rover_.X_WR.linear() * rover_.body->Normal(X_RW_ * origin_W, X_RW_.linear() * ray_W);
     point.surface = SurfacePoint::kRover;
   } else {
     met.range_m = RoverBody::kFree;

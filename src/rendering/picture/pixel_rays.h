@@ -9,10 +9,10 @@
 
 namespace rockyard::rendering {
 
-// Rays through the middles of the pixels of an image and how they change from pixel to pixel, in the
-// camera's outer frame A.
-// Pixel (0, 0) is the upper left one, its middle at column 0 and row 0. It costs a ray of the
-// camera for each pixel, and 50 bytes; a camera needs one for as long as it is not recalibrated.
+// Rays through the middles of the pixels of an image and how they change from pixel to pixel, in
+// the camera's outer frame A. Pixel (0, 0) is the upper left one, its middle at column 0 and row 0.
+// It costs a ray of the camera for each pixel, and 50 bytes; a camera needs one for as long as it
+// is not recalibrated.
 class PixelRays {
  public:
   // The image has 2 columns and 2 rows at least, and some pixel sees.
@@ -34,9 +34,9 @@ class PixelRays {
   // derivatives, which leaves out how they change within a pixel.
   vision::Ray Beside(int column, int row, double columns_right, double rows_down) const {
     vision::Ray ray = At(column, row);
-    ray.direction = (ray.direction + columns_right * ByColumn(column, row) +
-                       rows_down * ByRow(column, row))
-                          .normalized();
+    ray.direction =
+        (ray.direction + columns_right * ByColumn(column, row) + rows_down * ByRow(column, row))
+            .normalized();
     return ray;
   }
 

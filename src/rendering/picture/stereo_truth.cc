@@ -33,7 +33,8 @@ StereoTruth SeenFromOtherEye(const PictureScene& scene, const Picture& picture,
       truth.other_row.At(column, row) = position->y();
       const auto sight = BackProject(other_camera, *position);
       if (!sight || !IsInside(other_camera.size, *position)) continue;
-      other = scene.Hides(X_WA * p_A, X_WA * sight->origin) ? OtherEye::kOccluded : OtherEye::kVisible;
+      other =
+          scene.Hides(X_WA * p_A, X_WA * sight->origin) ? OtherEye::kOccluded : OtherEye::kVisible;
     }
   }
   return truth;

@@ -14,7 +14,7 @@ namespace rockyard::rendering {
 
 // A pixel of one eye and the point behind it as the other eye sees it.
 enum class OtherEye : std::uint8_t {
-  kNone,      // there is no point: sky, or blind
+  kNone,  // there is no point: sky, or blind
   kVisible,
   kOccluded,  // something lies before it
   kOutside,   // not within its image

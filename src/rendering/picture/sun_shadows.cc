@@ -95,8 +95,7 @@ void SunShadows::BuildGrid() {
     const double dx = rock.x_m - x0_m_;
     const double dy = rock.y_m - y0_m_;
     for (int y = cell(dy - rock.reach_m, cells_y_); y <= cell(dy + rock.reach_m, cells_y_); ++y) {
-      for (int x = cell(dx - rock.reach_m, cells_x_); x <= cell(dx + rock.reach_m, cells_x_);
-           ++x) {
+      for (int x = cell(dx - rock.reach_m, cells_x_); x <= cell(dx + rock.reach_m, cells_x_); ++x) {
         action(static_cast<std::size_t>(y) * cells_x_ + x);
       }
     }
@@ -156,8 +155,8 @@ double SunShadows::LeftByCap(const Silhouette& rock, const Vector3& p_W) const {
     // A ring of 1/sqrt(2) of the radius has the disc's second moments.
     const double turn = 2.0 * std::numbers::pi * i / kCapRays;
     const double out = half_diameter_rad_ * std::numbers::sqrt2 * 0.5;
-    const Vector3 ray_W = toward_sun_W_ + out * (std::cos(turn) * across_x_W_ +
-                                                 std::sin(turn) * across_y_W_);
+    const Vector3 ray_W =
+        toward_sun_W_ + out * (std::cos(turn) * across_x_W_ + std::sin(turn) * across_y_W_);
     if (!meets(ray_W.normalized())) ++seen;
   }
   return static_cast<double>(seen) / kCapRays;

@@ -39,8 +39,8 @@ class SunShadows {
   // A rock as the sun sees it.
   struct Silhouette {
     int rock;
-    double x_m, y_m;           // of its centre, across the rays
-    double xx, xy, yy;         // M
+    double x_m, y_m;    // of its centre, across the rays
+    double xx, xy, yy;  // M
     math::Vector3 center_W;
     math::Vector3 along_per_m;  // q . e of a point from the centre: negative before the rock
     double speed2;              // |e|^2

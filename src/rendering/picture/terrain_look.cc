@@ -51,8 +51,8 @@ TerrainLook::TerrainLook(const terrain::Terrain& terrain, const SunParams& sun,
 
 SurfaceLook TerrainLook::OfSoil(const SurfacePoint& point, const Vector3& by_column_W,
                                 const Vector3& by_row_W) {
-  const TextureSample texture = soil_.field.Mean(point.p_W.x(), point.p_W.y(),
-                                                 {by_column_W.head<2>(), by_row_W.head<2>()});
+  const TextureSample texture =
+      soil_.field.Mean(point.p_W.x(), point.p_W.y(), {by_column_W.head<2>(), by_row_W.head<2>()});
   // The surface z = h + relief v has the normal (-h_x - relief v_u, ...), up to its length.
   Vector3 normal_W = point.normal_W / std::max(point.normal_W.z(), 0.1);
   normal_W.x() -= soil_.relief_m * texture.slope_u;
@@ -82,9 +82,9 @@ SurfaceLook TerrainLook::OfRock(const Rock& rock, const SurfacePoint& point,
     const int b = (axis + 2) % 3;
     // Each face has a place of its own, a rock's width or more apart.
     const double shift_m = kRockPieces_m * axis;
-    const TextureSample texture = rock_.field.Mean(
-        p[a] + rock.piece_m.x() + shift_m, p[b] + rock.piece_m.y(),
-        {{by_column[a], by_column[b]}, {by_row[a], by_row[b]}});
+    const TextureSample texture =
+        rock_.field.Mean(p[a] + rock.piece_m.x() + shift_m, p[b] + rock.piece_m.y(),
+                         {{by_column[a], by_column[b]}, {by_row[a], by_row[b]}});
     const double weight = weights[axis] / norm;
     value += weight * texture.value;
     gradient[a] += weight * texture.slope_u;

@@ -1,6 +1,7 @@
 #include "rendering/picture/texture_field.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -37,25 +38,36 @@ Four LoadFour(const float* first) {
 
 float SumOf(const Four& x) { return (x[0] + x[1]) + (x[2] + x[3]); }
 
-// Weights of the four cubic B-splines over a cell at t in [0, 1), and their derivatives by t.
+// Weights of the four cubic B-splines over a cell at t in [0, 1), and their derivatives by t:
+//   (1 - t)^3 / 6,  (4 - 6 t^2 + 3 t^3) / 6,  (1 + 3 t + 3 t^2 - 3 t^3) / 6,  t^3 / 6.
 struct CellWeights {
   explicit CellWeights(float t) {
     constexpr float kSixth = 1.0F / 6.0F;
-    const float s = 1.0F - t;
-    value = Four{s * s * s, 4.0F - 6.0F * t * t + 3.0F * t * t * t,
-                 4.0F - 6.0F * s * s + 3.0F * s * s * s, t * t * t} *
-            kSixth;
-    slope = Four{-0.5F * s * s, (1.5F * t - 2.0F) * t, -(1.5F * s - 2.0F) * s, 0.5F * t * t};
+    const Four constant = Four{1.0F, 4.0F, 1.0F, 0.0F} * kSixth;
+    const Four linear = Four{-3.0F, 0.0F, 3.0F, 0.0F} * kSixth;
+    const Four square = Four{3.0F, -6.0F, 3.0F, 0.0F} * kSixth;
+    const Four cube = Four{-1.0F, 3.0F, -3.0F, 1.0F} * kSixth;
+    value = constant + t * (linear + t * (square + t * cube));
+    slope = linear + t * (2.0F * square + 3.0F * t * cube);
   }
   Four value;
   Four slope;
 };
 
-// log2 by its chords between powers of two: enough to fade by, and the same on every machine.
+// The largest whole number up to x. (std::floor is a call where processors need not have it.)
+std::int64_t WholeBelow(double x) {
+  const auto cut = static_cast<std::int64_t>(x);
+  return cut - (static_cast<double>(cut) > x ? 1 : 0);
+}
+
+// log2 of a positive number by its chords between powers of two: enough to fade by, and the same
+// on every machine.
 double ChordLog2(double x) {
-  int exponent = 0;
-  const double mantissa = std::frexp(x, &exponent);  // in [0.5, 1)
-  return exponent - 2.0 + 2.0 * mantissa;
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  constexpr std::uint64_t kFraction = (1ULL << 52) - 1;
+  const auto exponent = static_cast<int>(bits >> 52) - 1023;
+  const double mantissa = std::bit_cast<double>((bits & kFraction) | (1023ULL << 52));  // in [1, 2)
+  return exponent + mantissa - 1.0;
 }
 
 // A square of nodes around a page.
@@ -93,9 +105,9 @@ void ThinOut(const float* from, std::ptrdiff_t stride, int count, float* to,
              std::ptrdiff_t to_stride) {
   constexpr float kSixteenth = 1.0F / 16.0F;
   for (int i = 0; i < count; ++i, from += 2 * stride, to += to_stride) {
-    *to = kSixteenth * (10.0F * from[0] + 5.0F * (from[-stride] + from[stride]) -
-                        (from[-2 * stride] + from[2 * stride]) -
-                        (from[-3 * stride] + from[3 * stride]));
+    *to = kSixteenth *
+          (10.0F * from[0] + 5.0F * (from[-stride] + from[stride]) -
+           (from[-2 * stride] + from[2 * stride]) - (from[-3 * stride] + from[3 * stride]));
   }
 }
 
@@ -139,7 +151,7 @@ TextureField::TextureField(const TextureParams& texture, core::TrialKey key, cor
     sum += amplitudes_.back();
   }
   for (double& amplitude : amplitudes_) amplitude = std::sqrt(amplitude / (sum * kOctaveVariance));
-  latest_.assign(amplitudes_.size(), {Place{}, nullptr});
+  latest_.assign(amplitudes_.size(), {});
 }
 
 double TextureField::SlopeDeviation() const {
@@ -155,27 +167,15 @@ void TextureField::Trim() {
   constexpr std::size_t kMostPages = 3600;
   if (pages_.size() <= kMostPages) return;
   pages_.clear();
-  latest_.assign(amplitudes_.size(), {Place{}, nullptr});
+  latest_.assign(amplitudes_.size(), {});
 }
 
-std::size_t TextureField::PlaceHash::operator()(const Place& place) const {
-  std::uint64_t mixed = static_cast<std::uint64_t>(place.octave);
-  for (const std::int64_t part : {place.column, place.row}) {
-    // Multiplication by the golden ratio spreads neighbours (Knuth 1998, section 6.4).
-    mixed = (mixed ^ static_cast<std::uint64_t>(part)) * 0x9e3779b97f4a7c15ULL;
-    mixed ^= mixed >> 32;
-  }
-  return mixed;
-}
-
-const TextureField::Page& TextureField::PageAt(const Place& place) {
-  auto& [latest, page] = latest_[static_cast<std::size_t>(place.octave)];
-  if (page == nullptr || latest != place) {
-    const auto found = pages_.find(place);
-    page = found != pages_.end() ? found->second.get() : &MakePage(place);
-    latest = place;
-  }
-  return *page;
+const TextureField::Page& TextureField::FindPage(const Place& place) {
+  const std::uint64_t key = place.Key();
+  const auto found = pages_.find(key);
+  const Page& page = found != pages_.end() ? *found->second : MakePage(place);
+  latest_[static_cast<std::size_t>(place.octave)] = {key, &page};
+  return page;
 }
 
 const TextureField::Page& TextureField::MakePage(const Place& place) {
@@ -214,7 +214,7 @@ const TextureField::Page& TextureField::MakePage(const Place& place) {
     const float* from = fine.Row(row) + kFirst - fine.first;
     std::copy(from, from + (kLast - kFirst), page->nodes.data() + (row - kFirst) * kStored);
   }
-  return *(pages_[place] = std::move(page));
+  return *(pages_[place.Key()] = std::move(page));
 }
 
 void TextureField::AddTaps(const Level& level, double u_m, double v_m,
@@ -222,38 +222,36 @@ void TextureField::AddTaps(const Level& level, double u_m, double v_m,
   const double per_m = 1.0 / spacing_m(level.octave);
   // The taps share the length evenly.
   const double step = ellipse.length_m * per_m / level.taps;
-  double value = 0.0;
-  double slope_u = 0.0;
-  double slope_v = 0.0;
+  Four value{};
+  Four slope_u{};
+  Four slope_v{};
   for (int i = 0; i < level.taps; ++i) {
     const double along = (i - 0.5 * (level.taps - 1)) * step;
     const double u = u_m * per_m + along * ellipse.long_axis.x();
     const double v = v_m * per_m + along * ellipse.long_axis.y();
-    const double column = std::floor(u);
-    const double row = std::floor(v);
-    const auto whole_column = static_cast<std::int64_t>(column);
-    const auto whole_row = static_cast<std::int64_t>(row);
+    const std::int64_t column = WholeBelow(u);
+    const std::int64_t row = WholeBelow(v);
     static_assert(kPage == 1 << 6);
-    const Page& page = PageAt({level.octave, whole_column >> 6, whole_row >> 6});
+    const Page& page = PageAt({level.octave, column >> 6, row >> 6});
     // The splines that reach into a cell stand on the nodes -1 to 2 of it.
-    const float* corner = page.nodes.data() + (whole_row & (kPage - 1)) * kStored +
-                          (whole_column & (kPage - 1));
-    const CellWeights wu(static_cast<float>(u - column));
-    const CellWeights wv(static_cast<float>(v - row));
+    const float* corner =
+        page.nodes.data() + (row & (kPage - 1)) * kStored + (column & (kPage - 1));
+    const CellWeights wu(static_cast<float>(u - static_cast<double>(column)));
+    const CellWeights wv(static_cast<float>(v - static_cast<double>(row)));
     const Four a = LoadFour(corner);
     const Four b = LoadFour(corner + kStored);
     const Four c = LoadFour(corner + 2 * kStored);
     const Four d = LoadFour(corner + 3 * kStored);
     const Four across = wv.value[0] * a + wv.value[1] * b + wv.value[2] * c + wv.value[3] * d;
     const Four down = wv.slope[0] * a + wv.slope[1] * b + wv.slope[2] * c + wv.slope[3] * d;
-    value += SumOf(wu.value * across);
-    slope_u += SumOf(wu.slope * across);
-    slope_v += SumOf(wu.value * down);
+    value += wu.value * across;
+    slope_u += wu.slope * across;
+    slope_v += wu.value * down;
   }
   const double weight = level.share / level.taps;
-  sum.value += weight * value;
-  sum.slope_u += weight * per_m * slope_u;
-  sum.slope_v += weight * per_m * slope_v;
+  sum.value += weight * SumOf(value);
+  sum.slope_u += weight * per_m * SumOf(slope_u);
+  sum.slope_v += weight * per_m * SumOf(slope_v);
 }
 
 TextureSample TextureField::Mean(double u_m, double v_m, const Footprint& footprint) {
@@ -267,8 +265,8 @@ TextureSample TextureField::Mean(double u_m, double v_m, const Footprint& footpr
   // The share of octave j is full - j between 0 and 1.
   const double full = ChordLog2(spacings_m_.front() / (kHalfFaded * width_m)) + 0.5;
   if (full <= 0.0) return sum;
-  const int taps = std::clamp(static_cast<int>(std::ceil(ellipse.length_m / width_m - 0.25)), 1,
-                              kMostTaps);
+  const int taps =
+      std::clamp(static_cast<int>(std::ceil(ellipse.length_m / width_m - 0.25)), 1, kMostTaps);
   const int finest = std::min(static_cast<int>(full), octave_count - 1);
   const double share = std::min(full - finest, 1.0);
   // share C_finest + (1 - share) C_(finest - 1); the coarser one needs half as many taps.

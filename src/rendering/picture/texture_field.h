@@ -47,7 +47,7 @@ class TextureField {
   // linearly in an approximation of log2(s). Cost: 15 to 100 ns, and some ns for each new node.
   TextureSample Mean(double u_m, double v_m, const Footprint& footprint);
 
-  static constexpr int kMostTaps = 16;
+  static constexpr int kMostTaps = 8;
 
   // Returns the standard deviation of the gradient along an axis, 1/m, of the texture itself.
   double SlopeDeviation() const;
@@ -66,13 +66,21 @@ class TextureField {
     // Node (column, row) of the page lies at (row + 1) * kStored + column + 1.
     std::array<float, std::size_t{kStored} * kStored> nodes;
   };
+  // A page by octave, column and row, in one number.
   struct Place {
     int octave;
-    std::int64_t column, row;  // of the page
-    bool operator==(const Place&) const = default;
+    std::int64_t column, row;
+    std::uint64_t Key() const {
+      // Columns and rows of 2^28 pages reach far beyond where lattices repeat.
+      constexpr std::uint64_t kMask = (1ULL << 28) - 1;
+      return (static_cast<std::uint64_t>(octave) << 56) |
+             ((static_cast<std::uint64_t>(column) & kMask) << 28) |
+             (static_cast<std::uint64_t>(row) & kMask);
+    }
   };
-  struct PlaceHash {
-    std::size_t operator()(const Place& place) const;
+  struct Latest {
+    std::uint64_t key = 0;
+    const Page* page = nullptr;
   };
   struct Level {
     int octave;
@@ -80,7 +88,11 @@ class TextureField {
     int taps;
   };
 
-  const Page& PageAt(const Place& place);
+  const Page& PageAt(const Place& place) {
+    const Latest& latest = latest_[static_cast<std::size_t>(place.octave)];
+    return latest.page != nullptr && latest.key == place.Key() ? *latest.page : FindPage(place);
+  }
+  const Page& FindPage(const Place& place);
   const Page& MakePage(const Place& place);
   void AddTaps(const Level& level, double u_m, double v_m, const Footprint::Ellipse& ellipse,
                TextureSample& sum);
@@ -90,8 +102,8 @@ class TextureField {
   std::vector<double> spacings_m_;
   std::vector<double> amplitudes_;  // of N, by octave
   // The page of each octave that was asked for last.
-  std::vector<std::pair<Place, const Page*>> latest_;
-  std::unordered_map<Place, std::unique_ptr<Page>, PlaceHash> pages_;
+  std::vector<Latest> latest_;
+  std::unordered_map<std::uint64_t, std::unique_ptr<Page>> pages_;
 };
 
 }  // namespace rockyard::rendering

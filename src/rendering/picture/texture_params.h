@@ -9,11 +9,11 @@ namespace rockyard::rendering {
 // variances in proportion to wavelength^(exponent - 2): the power spectrum over the plane then
 // falls as f^-exponent (texture_field.h).
 struct TextureParams {
-  double contrast = 0.1;             // standard deviation of the albedo over its mean
-  double spectral_exponent = 2.6;    // 2: each octave varies as much as the others
+  double contrast = 0.1;           // standard deviation of the albedo over its mean
+  double spectral_exponent = 2.6;  // 2: each octave varies as much as the others
   double longest_wavelength_m = 1.0;
   double finest_wavelength_m = 0.003;
-  double relief_slope = 0.15;        // standard deviation of the slope, along either axis
+  double relief_slope = 0.15;  // standard deviation of the slope, along either axis
 
   bool operator==(const TextureParams&) const = default;
   void Visit(core::FieldVisitor& v);

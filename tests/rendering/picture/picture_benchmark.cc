@@ -5,7 +5,7 @@
 #include <array>
 
 #include "core/hash.h"
-#include "picture_kit.h"
+#include "rendering/picture/picture_kit.h"
 #include "rendering/picture/picture_readout.h"
 #include "terrain/field.h"
 
@@ -27,9 +27,8 @@ struct Pair {
   explicit Pair(const terrain::Terrain& terrain_in) : terrain(terrain_in) {
     sun.elevation_rad = math::DegToRad(40.0);
     for (int eye = 0; eye < 2; ++eye) {
-      const vision::CameraModel camera =
-          PinholeAt({0.0, 0.1 - 0.2 * eye, 1.0}, math::DegToRad(20.0), kSide, kSide,
-                    math::DegToRad(45.0));
+      const vision::CameraModel camera = PinholeAt(
+          {0.0, 0.1 - 0.2 * eye, 1.0}, math::DegToRad(20.0), kSide, kSide, math::DegToRad(45.0));
       rays.emplace_back(camera);
       readouts.emplace_back(params.camera, rays.back(), eye, kKey);
     }
@@ -44,8 +43,8 @@ struct Pair {
       PictureRenderer(scene, params.look, rays[eye], math::Transform::Identity())
           .RenderRows(0, kSide, look, picture);
       const auto rates = readouts[eye].Rates(picture);
-      const RawImage raw = readouts[eye].Read(rates, readouts[eye].Exposure(rates),
-                                              static_cast<ImageNumber>(eye));
+      const RawImage raw =
+          readouts[eye].Read(rates, readouts[eye].Exposure(rates), static_cast<ImageNumber>(eye));
       benchmark::DoNotOptimize(raw.counts.values().data());
       if (hash == nullptr) continue;
       for (const std::uint16_t count : raw.counts.values()) hash->Integer(count);

@@ -22,7 +22,7 @@
 
 #include "core/archive.h"
 #include "core/json_file.h"
-#include "picture_kit.h"
+#include "rendering/picture/picture_kit.h"
 #include "rendering/picture/picture_readout.h"
 #include "rendering/picture/stereo_truth.h"
 #include "scenario/former_keys.h"
@@ -90,8 +90,7 @@ vision::Image<float> Disparity(const StereoTruth& truth) {
   for (int row = 0; row < disparity.height(); ++row) {
     for (int column = 0; column < disparity.width(); ++column) {
       if (truth.other.At(column, row) != OtherEye::kVisible) continue;
-      disparity.At(column, row) =
-          static_cast<float>(column - truth.other_column.At(column, row));
+      disparity.At(column, row) = static_cast<float>(column - truth.other_column.At(column, row));
     }
   }
   return disparity;
@@ -123,9 +122,9 @@ void Run(const std::string& scenario_path, const std::string& out,
   const PictureParams& picture = settings.picture;
   const PictureScene scene(terrain, settings.sun, picture.look,
                            picture.camera.imager.filter_width_m, {});
-  const math::Transform X_WR = math::MakePose(
-      {settings.x_m, settings.y_m, terrain.Height(settings.x_m, settings.y_m)},
-      settings.heading_rad, 0.0, 0.0);
+  const math::Transform X_WR =
+      math::MakePose({settings.x_m, settings.y_m, terrain.Height(settings.x_m, settings.y_m)},
+                     settings.heading_rad, 0.0, 0.0);
   TerrainLook look(terrain, settings.sun, picture.look, key);
   const auto columns = static_cast<int>(settings.columns);
   std::array<vision::CameraModel, 2> cameras;
