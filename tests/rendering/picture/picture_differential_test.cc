@@ -1,6 +1,7 @@
 // Every pixel of pictures over random fields against rays of the terrain itself.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "rendering/picture/picture_kit.h"
@@ -82,15 +83,16 @@ TEST(PictureDifferential, EveryPixelIsWhereTheTerrainSays) {
 TEST(StereoTruth, DisparityAndOcclusionFollowFromTheGeometry) {
   const terrain::Terrain terrain = Field(0.0, 0.0, terrain::ArenaKind::kOpen);
   constexpr double kBaseline_m = 0.3;
-  const vision::CameraModel left = PinholeAt({0.0, 0.15, 0.9}, 0.35, 120, 90, 0.9);
-  const vision::CameraModel right = PinholeAt({0.0, -0.15, 0.9}, 0.35, 120, 90, 0.9);
+  constexpr double kPitch = 0.2;
+  const vision::CameraModel left = PinholeAt({0.0, 0.15, 0.9}, kPitch, 120, 90, 0.9);
+  const vision::CameraModel right = PinholeAt({0.0, -0.15, 0.9}, kPitch, 120, 90, 0.9);
   const double f_px = std::get<vision::BrownPinhole>(left.lens).fx_px;
   const PictureKit kit(terrain, {}, {}, left);
   const Picture picture = kit.Render();
   const StereoTruth truth =
       SeenFromOtherEye(kit.scene, picture, kit.rays, math::Transform::Identity(), right);
   int occluded = 0, outside = 0, none = 0;
-  const Vector3 axis(std::cos(0.35), 0.0, -std::sin(0.35));
+  const Vector3 axis(std::cos(kPitch), 0.0, -std::sin(kPitch));
   for (int row = 0; row < 90; ++row) {
     for (int column = 0; column < 120; ++column) {
       const OtherEye other = truth.other.At(column, row);
@@ -109,20 +111,28 @@ TEST(StereoTruth, DisparityAndOcclusionFollowFromTheGeometry) {
         ++outside;
         continue;
       }
-      // Whether any rock lies between, by a march along the line of sight.
+      // Whether any rock lies between, by where the line of sight is nearest to its centre, in the
+      // coordinates in which it is the unit sphere.
       const Vector3 p = ray->origin + range_m * ray->direction;
       const Vector3 eye(0.0, -0.15, 0.9);
-      bool hidden = false;
-      bool grazed = false;
-      for (int step = 1; step < 2000; ++step) {
-        const Vector3 at = p + step / 2000.0 * (eye - p);
-        const double above_m = at.z() - terrain.Height(at.x(), at.y());
-        hidden = hidden || above_m < -0.002;
-        grazed = grazed || above_m < 0.004;
+      double nearest = 2.0;
+      for (std::size_t i = 0; i < terrain.rocks().size(); ++i) {
+        const terrain::RockShape shape(terrain.rocks()[i]);
+        const Vector3 q = shape.Map(p - terrain.rocks()[i].center_W);
+        const Vector3 e = shape.Map(eye - p);
+        const double t = std::clamp(-q.dot(e) / e.squaredNorm(), 0.0, 1.0);
+        // A rock's own point lies on it.
+        if (static_cast<int>(i) == picture.surface.At(column, row) && t == 0.0) continue;
+        nearest = std::min(nearest, (q + t * e).norm());
       }
-      if (hidden) EXPECT_EQ(other, OtherEye::kOccluded) << column << ' ' << row;
-      if (!grazed) EXPECT_EQ(other, OtherEye::kVisible) << column << ' ' << row;
-      if (hidden) ++occluded;
+      const bool hidden = nearest < 0.98;
+      const bool grazed = nearest < 1.001;
+      if (hidden) {
+        ++occluded;
+        EXPECT_EQ(other, OtherEye::kOccluded) << column << ' ' << row;
+      } else if (!grazed) {
+        EXPECT_EQ(other, OtherEye::kVisible) << column << ' ' << row;
+      }
     }
   }
   EXPECT_GT(occluded, 30);
@@ -163,7 +173,9 @@ TEST(StereoTruth, RoverHidesThePoint) {
       } else {
         ++seen;
         EXPECT_TRUE(other == OtherEye::kVisible || other == OtherEye::kOccluded);
-        if (p.x() > 1.6 || p.y() > 0.4) EXPECT_EQ(other, OtherEye::kVisible);
+        if (p.x() > 1.6 || p.y() > 0.4) {
+          EXPECT_EQ(other, OtherEye::kVisible);
+        }
       }
     }
   }

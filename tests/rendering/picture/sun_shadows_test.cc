@@ -69,7 +69,7 @@ double ShareOfRays(const terrain::Rock& rock, const Vector3& p, const Vector3& s
   const terrain::RockShape shape(rock);
   const Vector3 x = sun.unitOrthogonal();
   const Vector3 y = sun.cross(x);
-  constexpr int kRays = 4000;
+  constexpr int kRays = 1500;
   int seen = 0;
   for (int i = 0; i < kRays; ++i) {
     const double r = 0.5 * diameter_rad * std::sqrt((i + 0.5) / kRays);
@@ -82,9 +82,9 @@ double ShareOfRays(const terrain::Rock& rock, const Vector3& p, const Vector3& s
 
 TEST(SunShadows, EllipsoidsAndCapsAgreeWithRaysOverTheDisc) {
   core::RandomStream stream({5, 0}, core::Purpose::kTest, 0);
-  const double diameter = math::DegToRad(0.5);
+  const double diameter = math::DegToRad(1.0);
   int partly = 0;
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 2000; ++i) {
     terrain::Rock rock =
         EllipsoidRock(0.0, 0.0, 0.03, 0.15, 0.11, 0.09, core::SampleUniform(stream, 0.0, 3.0));
     const bool is_cap = i % 4 == 0;
@@ -105,9 +105,9 @@ TEST(SunShadows, EllipsoidsAndCapsAgreeWithRaysOverTheDisc) {
     const double share = shadows.Visible(p, Vector3::UnitZ(), kGround);
     if (expected > 0.0 && expected < 1.0) ++partly;
     // A straight edge for a curved one; a cap's eight rays are worth 1/8 each.
-    EXPECT_NEAR(share, expected, is_cap ? 0.3 : 0.02) << i;
+    EXPECT_NEAR(share, expected, is_cap ? 0.3 : 0.04) << i;
   }
-  EXPECT_GT(partly, 4);
+  EXPECT_GT(partly, 15);
 }
 
 TEST(SunShadows, NeitherItselfNorWhatLiesBehindShades) {
