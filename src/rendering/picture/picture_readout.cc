@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "core/check.h"
 #include "core/distributions.h"
@@ -143,7 +144,15 @@ vision::Image<float> PictureReadout::Rates(const Picture& picture) const {
 }
 
 double PictureReadout::Exposure(const vision::Image<float>& rates_e_s) const {
-  return ExposureTime(params_.imager, {rates_e_s.values().begin(), rates_e_s.values().end()});
+  std::vector<double> metered(rates_e_s.values().begin(), rates_e_s.values().end());
+  if (params_.flat_field == FlatField::kCorrected) {
+    // What is delivered counts: a dark corner is brightened.
+    for (std::size_t i = 0; i < metered.size(); ++i) {
+      const float gain = gain_.values()[i];
+      if (gain > 0.0F) metered[i] /= static_cast<double>(gain);
+    }
+  }
+  return ExposureTime(params_.imager, std::move(metered));
 }
 
 RawImage PictureReadout::Read(const vision::Image<float>& rates_e_s, double exposure_s,

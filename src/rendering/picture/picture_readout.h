@@ -23,8 +23,8 @@ struct RawImage {
 //   blur       a Gaussian over rows and columns; beyond the edges the image goes on as at them
 //   vignetting gain g of the pixel, 1 on the axis
 //   rate       electrons per second = ElectronsPerRadiance * g * L
-//   exposure   ExposureTime over all pixels: all but brightest_share of them below target_fill of
-//              the well
+//   exposure   ExposureTime over all pixels as they are delivered: all but brightest_share of them
+//              below target_fill of the largest count
 //   read-out   as of ImageReadout: shot, dark and read noise, fixed pattern, well, black level,
 //   bits flat field where it is corrected: (count - black) / (g (1 + r)) + black, r the pixel's
 //   response stuck      pixels that always show 0 or the largest count, by halves

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "rendering/picture/picture_kit.h"
 #include "rendering/quiet_imager.h"
@@ -98,10 +99,15 @@ TEST(PictureReadout, ExposureFillsTheWellAsFarAsWanted) {
   params.imager.exposure.longest_s = 100.0;
   params.imager.exposure.shortest_s = 1e-6;
   const PixelRays rays = Wide();
-  const PictureReadout readout(params, rays, 0, kKey);
-  for (const float radiance : {0.5F, 40.0F}) {
-    const auto rates = readout.Rates(Even(radiance));
-    const RawImage raw = readout.Read(rates, readout.Exposure(rates), 7);
+  const PictureReadout plain(params, rays, 0, kKey);
+  // Where corners are brightened on board, it is the delivered image that is metered.
+  params.vignetting = Vignetting::kNatural;
+  params.flat_field = FlatField::kCorrected;
+  const PictureReadout corrected(params, rays, 0, kKey);
+  for (const auto& [readout, radiance] :
+       {std::pair(&plain, 0.5F), std::pair(&plain, 40.0F), std::pair(&corrected, 10.0F)}) {
+    const auto rates = readout->Rates(Even(radiance));
+    const RawImage raw = readout->Read(rates, readout->Exposure(rates), 7);
     double mean = 0.0;
     for (const std::uint16_t count : raw.counts.values()) mean += count / (65.0 * 49.0);
     // round(N / g + black) with g = well / (4095 (1 - 0.02)).
