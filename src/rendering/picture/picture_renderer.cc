@@ -161,6 +161,13 @@ double PictureRenderer::SplitPixel(int column, int row, Band& band, TerrainLook&
     const Vector3 normal_W = (met.point.normal_W + seen.tilt_W).normalized();
     return scene_.Radiance(met, ray_W, seen.albedo, normal_W);
   };
+  // The surface in the middle is seen there, others where a part first meets them.
+  if (middle.met.point.surface != SurfacePoint::kSky) {
+    looks.Of(middle.met.point, [&] {
+      const Vector3 ray_W = DirectionOf(rays_.At(column, row));
+      return LookAt(middle.met.point, ray_W, middle.met.range_m, column, row, look);
+    });
+  }
   // The edge may run through the neighbour only: then all four corners are as the middle.
   const int last = edge_samples_ - 1;
   double sum = 0.0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "rendering/picture/picture_kit.h"
 #include "rendering/picture/stereo_truth.h"
@@ -27,6 +28,7 @@ void ExpectRaysOfTheTerrain(const terrain::Terrain& terrain, const vision::Camer
   sun.elevation_rad = 0.4;
   const PictureKit kit(terrain, sun, {}, camera);
   const Picture picture = kit.Render();
+  const std::vector<terrain::RockShape> shapes(terrain.rocks().begin(), terrain.rocks().end());
   int rocks = 0;
   for (int row = 0; row < picture.rows(); ++row) {
     for (int column = 0; column < picture.columns(); ++column) {
@@ -55,10 +57,9 @@ void ExpectRaysOfTheTerrain(const terrain::Terrain& terrain, const vision::Camer
       const Vector3 off_W = hit->point_W + 1e-9 * hit->normal_W;
       const Vector3& toward_W = kit.scene.light().toward_sun_W;
       bool shaded = hit->normal_W.dot(toward_W) <= 0.0;
-      for (std::size_t i = 0; i < terrain.rocks().size() && !shaded; ++i) {
+      for (std::size_t i = 0; i < shapes.size() && !shaded; ++i) {
         if (static_cast<int>(i) == surface) continue;
-        const terrain::RockShape shape(terrain.rocks()[i]);
-        shaded = shape.Distance(off_W, toward_W) < terrain::RockShape::kNoHit;
+        shaded = shapes[i].Distance(off_W, toward_W) < terrain::RockShape::kNoHit;
       }
       const float sunlit = picture.sunlit.At(column, row);
       if (terrain.ground().IsPlane() && (sunlit == 0.0F || sunlit == 1.0F)) {
@@ -91,6 +92,7 @@ TEST(StereoTruth, DisparityAndOcclusionFollowFromTheGeometry) {
   const Picture picture = kit.Render();
   const StereoTruth truth =
       SeenFromOtherEye(kit.scene, picture, kit.rays, math::Transform::Identity(), right);
+  const std::vector<terrain::RockShape> shapes(terrain.rocks().begin(), terrain.rocks().end());
   int occluded = 0, outside = 0, none = 0;
   const Vector3 axis(std::cos(kPitch), 0.0, -std::sin(kPitch));
   for (int row = 0; row < 90; ++row) {
@@ -116,10 +118,9 @@ TEST(StereoTruth, DisparityAndOcclusionFollowFromTheGeometry) {
       const Vector3 p = ray->origin + range_m * ray->direction;
       const Vector3 eye(0.0, -0.15, 0.9);
       double nearest = 2.0;
-      for (std::size_t i = 0; i < terrain.rocks().size(); ++i) {
-        const terrain::RockShape shape(terrain.rocks()[i]);
-        const Vector3 q = shape.Map(p - terrain.rocks()[i].center_W);
-        const Vector3 e = shape.Map(eye - p);
+      for (std::size_t i = 0; i < shapes.size(); ++i) {
+        const Vector3 q = shapes[i].Map(p - terrain.rocks()[i].center_W);
+        const Vector3 e = shapes[i].Map(eye - p);
         const double t = std::clamp(-q.dot(e) / e.squaredNorm(), 0.0, 1.0);
         // A rock's own point lies on it.
         if (static_cast<int>(i) == picture.surface.At(column, row) && t == 0.0) continue;

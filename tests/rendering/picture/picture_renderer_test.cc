@@ -146,6 +146,31 @@ TEST(PictureRenderer, EdgeOfAShadowIsWhereItBelongs) {
   }
 }
 
+// Relief shades the parts of a pixel that is split as it shades whole ones: a straight shadow
+// leaves the same share of light in all pixels of its edge.
+TEST(PictureRenderer, EdgesKeepTheRelief) {
+  const terrain::Terrain terrain = FlatWith({});
+  LookParams look = PlainLook();
+  look.sun_diameter_rad = 0.0;
+  look.drift.relief_slope = look.gravel.relief_slope = 0.2;
+  // As above; the shadow ends at x = front + 0.603 m, within row 39 where front is 0.
+  const auto row_behind = [&](double front_m) {
+    const RoverBody body({{{-0.4, -0.4, 0.5}, {front_m, 0.4, 0.6}}}, {});
+    const math::Transform X_WR = math::MakePose({0.003, 0.0, 0.0}, 0.0, 0.0, 0.0);
+    const PictureKit kit(terrain, SunAt(45.0, 180.0), look, NadirAt(1.8, 40, 200, 0.01),
+                         {&body, X_WR});
+    const Picture picture = kit.Render();
+    const auto row = picture.radiance_w_m2_sr.Row(39);
+    return std::vector<double>(row.begin(), row.end());
+  };
+  const std::vector<double> lit = row_behind(-0.05);
+  const std::vector<double> dark = row_behind(0.05);
+  const std::vector<double> edge = row_behind(0.0);
+  for (std::size_t i = 0; i < edge.size(); ++i) {
+    EXPECT_NEAR((edge[i] - dark[i]) / (lit[i] - dark[i]), 0.75, 1e-3) << i;
+  }
+}
+
 TEST(PictureRenderer, RoverIsInThePictureAndMasked) {
   const terrain::Terrain terrain = FlatWith({});
   const RoverBody body = SmallBody();
