@@ -50,6 +50,10 @@ enum class Purpose : std::uint32_t {
   kGoalDesignation = 39,
   kExperiment = 40,  // what an experiment draws for itself: it numbers its own substreams
   kFeatureTracker = 41,
+  kSoilTexture = 42,
+  kRockTexture = 43,
+  kRockLook = 44,  // of one rock as a whole: its albedo, its piece of texture
+  kPixelDefect = 45,
 };
 
 // Raw Philox 4x32-10 bijection of one counter under one key.

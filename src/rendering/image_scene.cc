@@ -73,16 +73,11 @@ void ImageScene::RocksNearPlane(const Vector3& eye_W, const Vector3& normal_W, d
 void ImageScene::RocksInCone(const Vector3& eye_W, const Vector3& axis_W, double half_sine,
                              double half_cosine, std::span<const int> among,
                              std::vector<int>& out) const {
+  const RayCone cone{axis_W, half_sine, half_cosine};
   out.clear();
   for (const int index : among) {
     const terrain::Rock& rock = terrain_.rocks()[static_cast<std::size_t>(index)];
-    const Vector3 away = rock.center_W - eye_W;
-    const double reach_m = Reach(rock);
-    const double along_m = away.dot(axis_W);
-    if (along_m < -reach_m) continue;
-    const double aside_m = std::sqrt(std::max(0.0, away.squaredNorm() - along_m * along_m));
-    // Distance from the surface of the cone, positive outside.
-    if (aside_m * half_cosine - along_m * half_sine <= reach_m) out.push_back(index);
+    if (BallMeetsCone(rock.center_W - eye_W, Reach(rock), cone)) out.push_back(index);
   }
 }
 

@@ -1,0 +1,59 @@
+// Images of the terrain through any camera.
+#pragma once
+
+#include <vector>
+
+#include "math/pose.h"
+#include "rendering/picture/picture.h"
+#include "rendering/picture/picture_scene.h"
+#include "rendering/picture/pixel_rays.h"
+#include "rendering/picture/terrain_look.h"
+
+namespace rockyard::rendering {
+
+// Renders a scene through one camera. A pixel takes the light of the ray through its middle, with
+// textures filtered to what it covers of the surface. Where a neighbour on any side shows another
+// surface, the same one behind an edge, or another sunlight, it is split into edge_samples^2 rays,
+// unless those in its corners show what its middle does; the parts take the texture as the whole
+// pixel sees it, once for each surface.
+//
+// Deviations: nothing reflects twice, and nothing smaller than a pixel is seen between the middles
+// of pixels; relief of the texture does not move a silhouette.
+class PictureRenderer {
+ public:
+  // X_WA is the pose of the camera's outer frame. All of it has to live on.
+  PictureRenderer(const PictureScene& scene, const LookParams& look, const PixelRays& rays,
+                  const math::Transform& X_WA);
+
+  // Renders the rows first .. last - 1 into a picture of the camera's size. A row does not depend
+  // on which others are rendered with it, nor on what `look` has worked out before: bands of rows
+  // may be given to threads, each with a TerrainLook of its own.
+  void RenderRows(int first, int last, TerrainLook& look, Picture& picture) const;
+
+ private:
+  struct Pixel {
+    Met met;
+    bool sees = false;
+  };
+  using Row = std::vector<Pixel>;
+  struct Band;
+  class PixelLooks;
+
+  math::Vector3 OriginOf(const vision::Ray& ray) const { return X_WA_ * ray.origin; }
+  math::Vector3 DirectionOf(const vision::Ray& ray) const { return X_WA_.linear() * ray.direction; }
+  SurfaceLook LookAt(const SurfacePoint& point, const math::Vector3& ray_W, double range_m,
+                     int column, int row, TerrainLook& look) const;
+  const std::vector<int>& Candidates(int column, int row, Band& band) const;
+  const Row& MeetRow(int row, Band& band) const;
+  bool IsEdge(const Pixel& a, const Pixel& b) const;
+  bool HasEdge(int column, int row, Band& band) const;
+  double WholePixel(int column, int row, const Met& met, TerrainLook& look) const;
+  double SplitPixel(int column, int row, Band& band, TerrainLook& look) const;
+
+  const PictureScene& scene_;
+  const PixelRays& rays_;
+  math::Transform X_WA_;
+  int edge_samples_;
+};
+
+}  // namespace rockyard::rendering

@@ -1,0 +1,71 @@
+// The terrain, the sunlight and the rover as any camera meets them at one moment.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "rendering/occlusion.h"
+#include "rendering/picture/picture_params.h"
+#include "rendering/picture/sun_shadows.h"
+#include "rendering/radiometry.h"
+#include "rendering/sun_params.h"
+#include "rendering/surface_point.h"
+#include "terrain/terrain.h"
+
+namespace rockyard::rendering {
+
+// What a ray met, and how far from its origin.
+struct Met {
+  SurfacePoint point;
+  double range_m = 0.0;
+  double sunlit = 0.0;  // share of the sun's disc that the point sees
+};
+
+// Pure queries, from any thread. The terrain and the rover's body have to live on. Built anew where
+// a rock, the rover or the sun moves: about 0.1 ms for each hundred rocks.
+class PictureScene {
+ public:
+  // Rays end here: beyond is the sky.
+  static constexpr double kFarthest_m = 200.0;
+
+  PictureScene(const terrain::Terrain& terrain, const SunParams& sun, const LookParams& look,
+               double filter_width_m, const PlacedBody& rover);
+
+  const terrain::Terrain& terrain() const { return terrain_; }
+  const SunLight& light() const { return light_; }
+  const PlacedBody& rover() const { return rover_; }
+
+  // Lists the rocks that may reach into the cone from around an eye, ascending: the candidates of
+  // Meet for every ray whose origin lies within spread_m of eye_W and whose direction lies in the
+  // cone.
+  void RocksInCone(const math::Vector3& eye_W, double spread_m, const RayCone& cone_W,
+                   std::vector<int>& out) const;
+
+  // Returns what the unit ray meets first: of the terrain what Terrain::CastRay gives, with the
+  // same bits, and the rover's own parts; with its share of the sun.
+  Met Meet(const math::Vector3& origin_W, const math::Vector3& ray_W,
+           std::span<const int> rocks) const;
+
+  // Returns whether the terrain or the rover lies between a point of a surface and an eye. What is
+  // nearer to either than kOcclusionMargin_m does not count.
+  bool Hides(const math::Vector3& p_W, const math::Vector3& eye_W) const;
+
+  // Returns the radiance of a point that is seen along ray_W, given how it looks:
+  //   L = A/pi (E_direct v f(mu0, mu) + E_sky (1 + n_z) / 2),
+  //   f = (1 - S) mu0 + S 2 mu0 / (mu0 + mu)
+  // with the share v of the sun, mu0 = n.s, mu = -n.ray, and the share S of Lommel and Seeliger
+  // (the lunar-Lambert law, McEwen 1991; S = 0 is Lambert's). The sky is even: E_sky / pi.
+  double Radiance(const Met& met, const math::Vector3& ray_W, double albedo,
+                  const math::Vector3& normal_W) const;
+
+ private:
+  const terrain::Terrain& terrain_;
+  SunLight light_;
+  double lommel_seeliger_share_;
+  PlacedBody rover_;
+  math::Transform X_RW_;
+  std::optional<SunShadows> shadows_;  // none without direct light
+};
+
+}  // namespace rockyard::rendering

@@ -1,0 +1,77 @@
+// The viewing rays of a camera, worked out once.
+#pragma once
+
+#include <vector>
+
+#include "math/pose.h"
+#include "rendering/occlusion.h"
+#include "vision/cameras/camera_model.h"
+
+namespace rockyard::rendering {
+
+// Rays through the middles of the pixels of an image and how they change from pixel to pixel, in
+// the camera's outer frame A. Pixel (0, 0) is the upper left one, its middle at column 0 and row 0.
+// It costs a ray of the camera for each pixel, and 50 bytes; a camera needs one for as long as it
+// is not recalibrated.
+class PixelRays {
+ public:
+  // The image has 2 columns and 2 rows at least, and some pixel sees.
+  explicit PixelRays(const vision::CameraModel& camera);
+
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
+
+  // Whether the pixel looks anywhere; its neighbours have to, too, so that its size is known.
+  bool Sees(int column, int row) const { return sees_[Index(column, row)]; }
+
+  // The ray of a pixel that sees.
+  vision::Ray At(int column, int row) const {
+    const std::size_t i = Index(column, row);
+    return {one_origin_ ? origins_A_.front() : origins_A_[i], directions_A_[i]};
+  }
+
+  // The ray beside the middle of a pixel, by shares of a column and of a row up to 1/2: along the
+  // derivatives, which leaves out how they change within a pixel.
+  vision::Ray Beside(int column, int row, double columns_right, double rows_down) const {
+    vision::Ray ray = At(column, row);
+    ray.direction =
+        (ray.direction + columns_right * ByColumn(column, row) + rows_down * ByRow(column, row))
+            .normalized();
+    return ray;
+  }
+
+  // All rays through the pixels of a tile of kTile x kTile, with half a pixel around it.
+  static constexpr int kTile = 16;
+  struct Tile {
+    bool sees = false;  // any pixel does
+    math::Vector3 origin_A = math::Vector3::Zero();
+    double origin_spread_m = 0.0;  // how far from there other origins lie
+    RayCone cone;
+  };
+  int tile_columns() const { return (columns_ + kTile - 1) / kTile; }
+  const Tile& TileAt(int tile_column, int tile_row) const {
+    return tiles_[static_cast<std::size_t>(tile_row) * tile_columns() + tile_column];
+  }
+
+  // How the direction changes with a column and with a row, from the neighbours on both sides, or
+  // from the pixel itself and the one neighbour at an edge of the image.
+  math::Vector3 ByColumn(int column, int row) const;
+  math::Vector3 ByRow(int column, int row) const;
+
+ private:
+  std::size_t Index(int column, int row) const {
+    return static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(column);
+  }
+  void MarkEdges();
+  Tile MakeTile(int first_column, int first_row) const;
+
+  int columns_;
+  int rows_;
+  bool one_origin_ = true;
+  std::vector<math::Vector3> origins_A_;  // one where all are the same
+  std::vector<math::Vector3> directions_A_;
+  std::vector<char> sees_;
+  std::vector<Tile> tiles_;
+};
+
+}  // namespace rockyard::rendering

@@ -1,0 +1,109 @@
+// Band-limited noise over a plane, filtered to what a pixel sees of it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "core/random.h"
+#include "rendering/picture/footprint.h"
+#include "rendering/picture/texture_params.h"
+
+namespace rockyard::rendering {
+
+// A texture and its gradient at a place, per metre along u and v.
+struct TextureSample {
+  double value = 0.0;
+  double slope_u = 0.0;
+  double slope_v = 0.0;
+};
+
+// A sum of octaves of wavelet noise (Cook and DeRose 2005, "Wavelet noise"), zero on average and of
+// unit variance. Octave j lies on a lattice of spacing s_j = longest_wavelength / 3 * 2^-j and is
+//   sum over nodes of B(u/s - i) B(v/s - k) (N - U D N)_ik,
+// B the cubic B-spline, N independent normal numbers by node, D a low-pass that keeps every other
+// node and U the refinement of B-splines, [1 4 6 4 1]/8 along each axis, which tells the same
+// surface on the finer lattice. What is left lies between the wavelengths 2 s and 6 s or so, so
+// that an octave means out over a pixel that is larger. D is [-1 -1 5 10 5 -1 -1]/16 along each
+// axis: U D keeps constants and cubics, so that the power of an octave falls as f^8 towards long
+// wavelengths; Cook and DeRose project exactly, with 32 coefficients.
+//
+// As U is exact, the octaves 0 to j are together one B-spline on lattice j, C_j = U C_(j-1) + a_j
+// (N - U D N): a place costs one or two of them, whatever the number of octaves. Nodes are worked
+// out in pages, where a place is first asked for, and kept.
+//
+// Numbers come from (key, purpose, octave) by node, see PixelNoise; lattices repeat after 2^16 rows
+// of nodes and 2^19 columns. For one thread at a time, as pages are filled in; another object of
+// the same key gives the same texture.
+class TextureField {
+ public:
+  TextureField(const TextureParams& texture, core::TrialKey key, core::Purpose purpose);
+
+  // Returns the mean of the texture over a pixel's footprint around (u, v), and that of its
+  // gradient. Along its longer axis a footprint is sampled up to kMostTaps times; at each of these
+  // octaves fade out by the shorter axis w, in full for s >= 0.85 w and gone for s <= 0.42 w,
+  // linearly in an approximation of log2(s). Cost: 15 to 100 ns, and some ns for each new node.
+  TextureSample Mean(double u_m, double v_m, const Footprint& footprint);
+
+  static constexpr int kMostTaps = 8;
+
+  // Returns the standard deviation of the gradient along an axis, 1/m, of the texture itself.
+  double SlopeDeviation() const;
+
+  // Forgets what it has worked out where that takes more than about 64 MB.
+  void Trim();
+
+  int octaves() const { return static_cast<int>(amplitudes_.size()); }
+  double spacing_m(int octave) const { return spacings_m_[static_cast<std::size_t>(octave)]; }
+
+ private:
+  static constexpr int kPage = 64;           // nodes along a page's side
+  static constexpr int kStored = kPage + 4;  // with those that its splines reach beyond, and one
+
+  struct Page {
+    // Node (column, row) of the page lies at (row + 1) * kStored + column + 1.
+    std::array<float, std::size_t{kStored} * kStored> nodes;
+  };
+  // A page by octave, column and row, in one number.
+  struct Place {
+    int octave;
+    std::int64_t column, row;
+    std::uint64_t Key() const {
+      // Columns and rows of 2^28 pages reach far beyond where lattices repeat.
+      constexpr std::uint64_t kMask = (1ULL << 28) - 1;
+      return (static_cast<std::uint64_t>(octave) << 56) |
+             ((static_cast<std::uint64_t>(column) & kMask) << 28) |
+             (static_cast<std::uint64_t>(row) & kMask);
+    }
+  };
+  struct Latest {
+    std::uint64_t key = 0;
+    const Page* page = nullptr;
+  };
+  struct Level {
+    int octave;
+    double share;
+    int taps;
+  };
+
+  const Page& PageAt(const Place& place) {
+    const Latest& latest = latest_[static_cast<std::size_t>(place.octave)];
+    return latest.page != nullptr && latest.key == place.Key() ? *latest.page : FindPage(place);
+  }
+  const Page& FindPage(const Place& place);
+  const Page& MakePage(const Place& place);
+  void AddTaps(const Level& level, double u_m, double v_m, const Footprint::Ellipse& ellipse,
+               TextureSample& sum);
+
+  core::TrialKey key_;
+  core::Purpose purpose_;
+  std::vector<double> spacings_m_;
+  std::vector<double> amplitudes_;  // of N, by octave
+  // The page of each octave that was asked for last.
+  std::vector<Latest> latest_;
+  std::unordered_map<std::uint64_t, std::unique_ptr<Page>> pages_;
+};
+
+}  // namespace rockyard::rendering

@@ -1,0 +1,188 @@
+// Every pixel of pictures over random fields against rays of the terrain itself.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "rendering/picture/picture_kit.h"
+#include "rendering/picture/stereo_truth.h"
+#include "terrain/field.h"
+
+namespace rockyard::rendering {
+namespace {
+
+using math::Vector3;
+
+terrain::Terrain Field(double roughness_m, double pointedness, terrain::ArenaKind arena) {
+  terrain::TerrainParams params;
+  params.rocks.k_per_m2 = 0.013;
+  params.rocks.pointedness = pointedness;
+  params.arena.kind = arena;
+  params.ground.roughness_rms_m = roughness_m;
+  return terrain::BuildField(params, {3, 1}, terrain::Course{}).terrain;
+}
+
+void ExpectRaysOfTheTerrain(const terrain::Terrain& terrain, const vision::CameraModel& camera) {
+  SunParams sun;
+  sun.elevation_rad = 0.4;
+  const PictureKit kit(terrain, sun, {}, camera);
+  const Picture picture = kit.Render();
+  const std::vector<terrain::RockShape> shapes(terrain.rocks().begin(), terrain.rocks().end());
+  int rocks = 0;
+  for (int row = 0; row < picture.rows(); ++row) {
+    for (int column = 0; column < picture.columns(); ++column) {
+      const auto ray = BackProject(camera, vision::Pixel(column, row));
+      ASSERT_TRUE(ray);
+      const auto hit = terrain.CastRay(ray->origin, ray->direction, PictureScene::kFarthest_m);
+      const int surface = picture.surface.At(column, row);
+      if (!hit) {
+        EXPECT_EQ(surface, SurfacePoint::kSky);
+        continue;
+      }
+      EXPECT_EQ(picture.range_m.At(column, row), hit->distance_m);
+      EXPECT_LT((picture.normal_W.At(column, row).cast<double>() - hit->normal_W).norm(), 1e-6);
+      switch (hit->surface) {
+        case terrain::Surface::kGround:
+          EXPECT_EQ(surface, SurfacePoint::kGround);
+          break;
+        case terrain::Surface::kWall:
+          EXPECT_EQ(surface, SurfacePoint::kWall);
+          break;
+        case terrain::Surface::kRock:
+          EXPECT_EQ(surface, hit->rock);
+          ++rocks;
+      }
+      // A long way to the sun through everything, walls excepted.
+      const Vector3 off_W = hit->point_W + 1e-9 * hit->normal_W;
+      const Vector3& toward_W = kit.scene.light().toward_sun_W;
+      bool shaded = hit->normal_W.dot(toward_W) <= 0.0;
+      for (std::size_t i = 0; i < shapes.size() && !shaded; ++i) {
+        if (static_cast<int>(i) == surface) continue;
+        shaded = shapes[i].Distance(off_W, toward_W) < terrain::RockShape::kNoHit;
+      }
+      const float sunlit = picture.sunlit.At(column, row);
+      if (terrain.ground().IsPlane() && (sunlit == 0.0F || sunlit == 1.0F)) {
+        EXPECT_EQ(sunlit, shaded ? 0.0F : 1.0F) << column << ' ' << row;
+      }
+    }
+  }
+  EXPECT_GT(rocks, 200);
+}
+
+TEST(PictureDifferential, EveryPixelIsWhereTheTerrainSays) {
+  vision::CameraModel camera = PinholeAt({0.0, 0.0, 0.9}, 0.35, 120, 90, 1.1);
+  std::get<vision::BrownPinhole>(camera.lens).k1 = -0.1;
+  ExpectRaysOfTheTerrain(Field(0.0, 0.0, terrain::ArenaKind::kVirtualUnfolded), camera);
+  ExpectRaysOfTheTerrain(Field(0.0, 0.85, terrain::ArenaKind::kOpen), camera);
+  ExpectRaysOfTheTerrain(Field(0.0, 0.0, terrain::ArenaKind::kWalled), camera);
+  ExpectRaysOfTheTerrain(Field(0.02, 0.0, terrain::ArenaKind::kOpen),
+                         PinholeAt({0.0, 0.0, 0.9}, 0.5, 40, 30, 1.0));
+}
+
+// Rectified eyes over level ground: d = f B / Z with the depth Z along the axis.
+TEST(StereoTruth, DisparityAndOcclusionFollowFromTheGeometry) {
+  const terrain::Terrain terrain = Field(0.0, 0.0, terrain::ArenaKind::kOpen);
+  constexpr double kBaseline_m = 0.3;
+  constexpr double kPitch = 0.2;
+  const vision::CameraModel left = PinholeAt({0.0, 0.15, 0.9}, kPitch, 120, 90, 0.9);
+  const vision::CameraModel right = PinholeAt({0.0, -0.15, 0.9}, kPitch, 120, 90, 0.9);
+  const double f_px = std::get<vision::BrownPinhole>(left.lens).fx_px;
+  const PictureKit kit(terrain, {}, {}, left);
+  const Picture picture = kit.Render();
+  const StereoTruth truth =
+      SeenFromOtherEye(kit.scene, picture, kit.rays, math::Transform::Identity(), right);
+  const std::vector<terrain::RockShape> shapes(terrain.rocks().begin(), terrain.rocks().end());
+  int occluded = 0, outside = 0, none = 0;
+  const Vector3 axis(std::cos(kPitch), 0.0, -std::sin(kPitch));
+  for (int row = 0; row < 90; ++row) {
+    for (int column = 0; column < 120; ++column) {
+      const OtherEye other = truth.other.At(column, row);
+      if (picture.surface.At(column, row) == SurfacePoint::kSky) {
+        EXPECT_EQ(other, OtherEye::kNone);
+        ++none;
+        continue;
+      }
+      const auto ray = BackProject(left, vision::Pixel(column, row));
+      const double range_m = picture.range_m.At(column, row);
+      const double disparity = f_px * kBaseline_m / (range_m * ray->direction.dot(axis));
+      EXPECT_NEAR(column - truth.other_column.At(column, row), disparity, 1e-9 * (1 + disparity));
+      EXPECT_NEAR(truth.other_row.At(column, row), row, 1e-9);
+      if (column - disparity < -0.5) {
+        EXPECT_EQ(other, OtherEye::kOutside);
+        ++outside;
+        continue;
+      }
+      // Whether any rock lies between, by where the line of sight is nearest to its centre, in the
+      // coordinates in which it is the unit sphere.
+      const Vector3 p = ray->origin + range_m * ray->direction;
+      const Vector3 eye(0.0, -0.15, 0.9);
+      double nearest = 2.0;
+      for (std::size_t i = 0; i < shapes.size(); ++i) {
+        const Vector3 q = shapes[i].Map(p - terrain.rocks()[i].center_W);
+        const Vector3 e = shapes[i].Map(eye - p);
+        const double t = std::clamp(-q.dot(e) / e.squaredNorm(), 0.0, 1.0);
+        // A rock's own point lies on it.
+        if (static_cast<int>(i) == picture.surface.At(column, row) && t == 0.0) continue;
+        nearest = std::min(nearest, (q + t * e).norm());
+      }
+      const bool hidden = nearest < 0.98;
+      const bool grazed = nearest < 1.001;
+      if (hidden) {
+        ++occluded;
+        EXPECT_EQ(other, OtherEye::kOccluded) << column << ' ' << row;
+      } else if (!grazed) {
+        EXPECT_EQ(other, OtherEye::kVisible) << column << ' ' << row;
+      }
+    }
+  }
+  EXPECT_GT(occluded, 30);
+  EXPECT_GT(outside, 30);
+  EXPECT_GT(none, 30);
+}
+
+TEST(StereoTruth, RoverHidesThePoint) {
+  const terrain::Terrain terrain = terrain::Terrain(terrain::Ground(), {}, {});
+  const RoverBody body({{{0.4, -0.3, 0.3}, {0.5, 0.0, 0.5}}}, {});
+  const vision::CameraModel left = PinholeAt({0.0, 0.15, 0.9}, 0.6, 40, 40, 0.9);
+  const vision::CameraModel right = PinholeAt({0.0, -0.15, 0.9}, 0.6, 40, 40, 0.9);
+  const PictureKit kit(terrain, {}, {}, left, {&body, math::Transform::Identity()});
+  const Picture picture = kit.Render();
+  const StereoTruth truth =
+      SeenFromOtherEye(kit.scene, picture, kit.rays, math::Transform::Identity(), right);
+  // The ground at (1, y): seen from the right eye (y = -0.15) at half way, x = 0.45 and z = 0.495,
+  // through the box where its y is below 0.
+  int hidden = 0, seen = 0;
+  for (int row = 0; row < 40; ++row) {
+    for (int column = 0; column < 40; ++column) {
+      if (picture.surface.At(column, row) != SurfacePoint::kGround) continue;
+      const auto ray = BackProject(left, vision::Pixel(column, row));
+      const Vector3 p = ray->origin + picture.range_m.At(column, row) * ray->direction;
+      const OtherEye other = truth.other.At(column, row);
+      if (other == OtherEye::kOutside) continue;
+      const Vector3 eye(0.0, -0.15, 0.9);
+      bool inside = false;
+      for (int step = 0; step < 2000; ++step) {
+        const Vector3 at = eye + step / 2000.0 * (p - eye);
+        inside = inside || (at.x() > 0.4 && at.x() < 0.5 && at.y() > -0.3 && at.y() < 0.0 &&
+                            at.z() > 0.3 && at.z() < 0.5);
+      }
+      // Lines that touch an edge within a step of the march may be told either way.
+      if (inside) {
+        EXPECT_EQ(other, OtherEye::kOccluded);
+        ++hidden;
+      } else {
+        ++seen;
+        EXPECT_TRUE(other == OtherEye::kVisible || other == OtherEye::kOccluded);
+        if (p.x() > 1.6 || p.y() > 0.4) {
+          EXPECT_EQ(other, OtherEye::kVisible);
+        }
+      }
+    }
+  }
+  EXPECT_GT(hidden, 20);
+  EXPECT_GT(seen, 20);
+}
+
+}  // namespace
+}  // namespace rockyard::rendering
