@@ -95,8 +95,9 @@ SyntheticPair MakePair(const Scene& scene) {
       pair.truth.At(x, y) = d;
       const double seen = LeftPlace(scene, x - d, y, most);
       pair.hidden.At(x, y) = std::abs(seen - x) > 0.5 || x - d < 0.0 || x - d > scene.width - 1;
+      const double row = scene.left_row(x, y);
       const double there =
-          scene.mean + scene.contrast * texture.At(LeftPlace(scene, x, y, most), y);
+          scene.mean + scene.contrast * texture.At(LeftPlace(scene, x, row, most), row);
       pair.right.At(x, y) = ToByte(core::SampleNormal(
           right_noise, scene.right_gain * there + scene.right_offset, scene.noise));
     }

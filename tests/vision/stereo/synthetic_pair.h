@@ -14,6 +14,9 @@ struct Scene {
   int height = 240;
   // Disparity at a place of the left image; at a step, the larger one hides the smaller.
   std::function<double(double x_px, double y_px)> disparity = [](double, double) { return 10.0; };
+  // Row of the left image that a place of the right image shows: other than y, the pair is not
+  // rectified, and what is hidden is told of the rectified one.
+  std::function<double(double x_px, double y_px)> left_row = [](double, double y) { return y; };
   double mean = 110.0;
   double contrast = 25.0;         // standard deviation of the texture
   double shortest_wave_px = 2.5;  // of the texture; Nyquist's is 2
@@ -33,7 +36,8 @@ struct SyntheticPair {
 
 // The texture is a sum of waves of random direction, phase and length, known at every place, so
 // that neither image is a resampling of the other. It is fixed to the surface: the left image shows
-// it as it is, the right one, at (x - d, y), what the left one shows at (x, y).
+// it as it is, the right one, at (x - d, y), what the left one shows at (x, y), and in other rows
+// than y where left_row says so.
 SyntheticPair MakePair(const Scene& scene);
 
 }  // namespace rockyard::vision
