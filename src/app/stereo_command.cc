@@ -20,6 +20,7 @@
 #include "report/line_text.h"
 #include "report/parameter_table.h"
 #include "vision/stereo/disparity.h"
+#include "vision/stereo/row_alignment.h"
 #include "vision/stereo/score.h"
 #include "vision/stereo/stereo_params.h"
 
@@ -45,6 +46,16 @@ std::string RangeText(const campaign::StereoResult& result) {
         result.cameras->focal_px * result.cameras->baseline_m / static_cast<double>(most_px - 1));
   }
   return text;
+}
+
+std::string AlignmentText(const vision::RowAlignment& alignment) {
+  return fmt::format(
+      "rows of the right image moved by {:+.2f} px, {:+.2f} px per 1000 columns, {:+.2f} px per "
+      "1000 "
+      "rows: {} of {} matches agree within {:.2f} px (root mean square)\n",
+      -alignment.correction.offset_px, -1000.0 * alignment.correction.per_column,
+      -1000.0 * alignment.correction.per_row, alignment.agreeing, alignment.matches,
+      alignment.rms_px);
 }
 
 std::string ScoreText(const vision::StereoScore& score) {
@@ -77,6 +88,7 @@ std::string ResultText(const campaign::StereoRequest& request,
     return fmt::format("{:<6} {}: {}\n", name, report::Printable(path.string()), result.read[i]);
   };
   text += eye("left", request.left, 0) + eye("right", request.right, 1);
+  if (result.alignment) text += AlignmentText(*result.alignment);
   text += fmt::format("{} x {} pixels{}, {}\n", result.size.columns, result.size.rows,
                       result.cameras
                           ? fmt::format(", aligned: focal length {:.1f} px, baseline {:.4f} m",
@@ -167,6 +179,9 @@ void AddStereoCommand(CLI::App& app) {
       "--cameras", request.cameras,
       "file with the cameras of both images (default: the pair is taken as aligned: "
       "what is in a row of one image is in that row of the other)");
+  command->add_flag("--align", request.align,
+                    "without cameras: moves the rows of the right image to where matches of the "
+                    "two put them");
   AddRangeOptions(*command, *options);
   command
       ->add_option("--white", request.white,

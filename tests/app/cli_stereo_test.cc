@@ -162,6 +162,32 @@ TEST_F(CliStereo, ParametersAreListedAndChanged) {
   EXPECT_EQ(parameters["correlator"]["min_disparity_px"], 3);
 }
 
+// The right image stands three rows lower.
+TEST_F(CliStereo, AlignsRowsByTheMatchesOfThePair) {
+  const std::string pgm = Pgm(true);
+  const std::size_t head = pgm.size() - static_cast<std::size_t>(kWidth * kHeight);
+  std::string lower = pgm.substr(0, head) + pgm.substr(head, 3 * kWidth);
+  lower += pgm.substr(head, static_cast<std::size_t>((kHeight - 3) * kWidth));
+  WriteFile(work() / "lower.pgm", lower);
+  const CommandResult without = Run({"stereo", "left.pgm", "lower.pgm", "--out", "without"});
+  EXPECT_EQ(without.exit_code, 2) << without.out;
+  const CommandResult result =
+      Run({"stereo", "left.pgm", "lower.pgm", "--align", "--out", "aligned"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("rows of the right image moved by -3.0"));
+  const json summary = Summary("aligned");
+  EXPECT_NEAR(summary["alignment"]["offset_px"], 3.0, 0.1);
+  EXPECT_GT(summary["pixels"]["density"], 0.5);
+  // Without matches nothing is aligned, and with cameras there is no need.
+  WriteFile(work() / "other.pgm", Pgm(true, 2));
+  EXPECT_EQ(Run({"stereo", "left.pgm", "other.pgm", "--align", "--out", "no"}).exit_code, 2);
+  WriteFile(work() / "cameras.txt", Cameras());
+  const CommandResult both = Run(
+      {"stereo", "left.pgm", "right.pgm", "--align", "--cameras", "cameras.txt", "--out", "no"});
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_THAT(both.err, HasSubstr("--align: is for pairs without cameras"));
+}
+
 // Nothing is written, and what is wrong is said with what would be right.
 TEST_F(CliStereo, RefusesWhatIsNoPair) {
   WriteFile(work() / "other.pgm", Pgm(true, 2));

@@ -72,9 +72,10 @@ void NoteDoubts(StereoResult& result) {
   }
   if (result.counts[0] == 0) {
     result.notes.emplace_back("no pixel has a match: the images show too little texture");
-  } else if (!result.cameras && result.Density() < kFew) {
+  } else if (!result.cameras && !result.alignment && result.Density() < kFew) {
     result.notes.emplace_back(
-        "few pixels have a match: are the rows of both images aligned? --cameras aligns them");
+        "few pixels have a match: are the rows of both images aligned? --cameras or --align does "
+        "it");
   }
 }
 
@@ -130,6 +131,7 @@ StereoResult MatchPair(const StereoRequest& request) {
   result.params = WithRange(request, input, result.params);
   result.read = input.read;
   result.cameras = input.cameras;
+  result.alignment = input.alignment;
   result.size = {input.left.width(), input.left.height()};
   const vision::DisparityImage disparities = Matched(input, result.params, request.threads);
   CheckThatTheyMatch(request, input, result.params, disparities);

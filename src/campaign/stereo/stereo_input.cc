@@ -102,9 +102,33 @@ vision::RectifiedPair RectifyOrThrow(const fs::path& file, const vision::CameraP
   throw core::UserError(std::move(problems));
 }
 
+// Without cameras: as the images are, or with the right one's rows moved to those of the left one.
+void TakeImages(const StereoRequest& request, GrayImage left, GrayImage right, StereoInput& input) {
+  if (request.align) {
+    core::Result<vision::RowAlignment> found = vision::FindRowAlignment(left, right);
+    if (!found.ok()) {
+      std::vector<core::Problem> problems = found.problems();
+      for (core::Problem& problem : problems) problem.path = request.right.string();
+      throw core::UserError(std::move(problems));
+    }
+    input.alignment = *found;
+    const vision::RectificationTable table =
+        vision::MakeRowTable(found->correction, right.width(), right.height());
+    right = table.Rectify(right);
+    input.left_inside = Image<std::uint8_t>(left.width(), left.height(), 1);
+    input.right_inside = table.Inside();
+  }
+  input.left = std::move(left);
+  input.right = std::move(right);
+}
+
 }  // namespace
 
 StereoInput ReadStereoInput(const StereoRequest& request, int pyramid_level) {
+  if (request.align && !request.cameras.empty()) {
+    throw core::UserError("--align", "is for pairs without cameras",
+                          "leave one of --align and --cameras out");
+  }
   StereoInput input;
   input.read.resize(2);
   GrayImage left = ReadGray(request.left, request, input.read[0]);
@@ -119,8 +143,7 @@ StereoInput ReadStereoInput(const StereoRequest& request, int pyramid_level) {
   left = Reduced(request.left, std::move(left), pyramid_level);
   right = Reduced(request.right, std::move(right), pyramid_level);
   if (!cameras) {
-    input.left = std::move(left);
-    input.right = std::move(right);
+    TakeImages(request, std::move(left), std::move(right), input);
     return input;
   }
   input.cameras = RectifyOrThrow(request.cameras, *cameras);

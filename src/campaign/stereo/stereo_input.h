@@ -9,6 +9,7 @@
 #include "campaign/stereo/stereo_request.h"
 #include "vision/cameras/rectification.h"
 #include "vision/image.h"
+#include "vision/stereo/row_alignment.h"
 
 namespace rockyard::campaign {
 
@@ -18,14 +19,15 @@ struct StereoInput {
   // Where both come from the camera's images; empty where nothing was resampled.
   vision::Image<std::uint8_t> left_inside;
   vision::Image<std::uint8_t> right_inside;
-  std::optional<vision::RectifiedPair> cameras;  // of these images
-  std::vector<std::string> read;                 // what was read and done, left and right
+  std::optional<vision::RectifiedPair> cameras;   // of these images
+  std::optional<vision::RowAlignment> alignment;  // that the right image was resampled by
+  std::vector<std::string> read;                  // what was read and done, left and right
 };
 
 // Reads both images and brings them to rows that are epipolar lines, `pyramid_level` reductions
 // smaller. Throws core::UserError: files that cannot be read, images of two sizes, one and the same
-// image twice, images too small for the level, cameras of another size, and what vision::Rectify
-// refuses.
+// image twice, images too small for the level, cameras of another size, what vision::Rectify and
+// vision::FindRowAlignment refuse, and cameras where the images are to align themselves.
 StereoInput ReadStereoInput(const StereoRequest& request, int pyramid_level);
 
 }  // namespace rockyard::campaign

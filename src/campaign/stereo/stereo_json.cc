@@ -22,6 +22,15 @@ JsonValue CamerasJson(const vision::RectifiedPair& cameras) {
   return JsonValue::Object({{"focal_px", cameras.focal_px}, {"baseline_m", cameras.baseline_m}});
 }
 
+JsonValue AlignmentJson(const vision::RowAlignment& alignment) {
+  return JsonValue::Object({{"offset_px", alignment.correction.offset_px},
+                            {"per_column", alignment.correction.per_column},
+                            {"per_row", alignment.correction.per_row},
+                            {"matches", alignment.matches},
+                            {"agreeing", alignment.agreeing},
+                            {"rms_px", alignment.rms_px}});
+}
+
 JsonValue PixelsJson(const StereoResult& result) {
   JsonValue dropped = JsonValue::Object();
   std::int64_t all = 0;
@@ -58,6 +67,7 @@ JsonValue StereoJson(const StereoRequest& request, const StereoResult& result) {
   json.Set("size",
            JsonValue::Object({{"columns", result.size.columns}, {"rows", result.size.rows}}));
   json.Set("cameras", result.cameras ? CamerasJson(*result.cameras) : JsonValue());
+  json.Set("alignment", result.alignment ? AlignmentJson(*result.alignment) : JsonValue());
   json.Set("parameters", core::WriteParams(result.params));
   json.Set("pixels", PixelsJson(result));
   json.Set("score", result.score ? ScoreJson(*result.score) : JsonValue());

@@ -9,6 +9,7 @@
 
 #include "vision/cameras/rectification.h"
 #include "vision/stereo/disparity.h"
+#include "vision/stereo/row_alignment.h"
 #include "vision/stereo/score.h"
 #include "vision/stereo/stereo_params.h"
 
@@ -19,6 +20,7 @@ struct StereoRequest {
   std::filesystem::path right;
   std::filesystem::path out;          // a folder, which is made
   std::filesystem::path cameras;      // of the images as they are; empty: they are aligned
+  bool align = false;                 // rows, by matches of the pair itself; without cameras only
   std::vector<std::string> settings;  // PATH=VALUE of vision::StereoPipelineParams
 
   struct Depths {  // m, along the axes of the aligned cameras
@@ -41,7 +43,8 @@ struct StereoResult {
   std::vector<std::string> read;  // left, right: what the files hold and what was made of them
   vision::ImageSize size;         // of the images that were matched
   std::optional<vision::RectifiedPair> cameras;
-  vision::StereoPipelineParams params;  // with the range that was searched
+  std::optional<vision::RowAlignment> alignment;  // of the right image's rows, where asked for
+  vision::StereoPipelineParams params;            // with the range that was searched
   vision::DropCounts counts{};
   std::optional<vision::StereoScore> score;
   std::int64_t points = 0;
