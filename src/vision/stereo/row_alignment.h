@@ -44,9 +44,9 @@ struct RowAlignment {
 // Returns the correction of `right`, or the problem: images of different sizes, too few matches
 // that agree (or too small a share), or matches along a line, which leave a slope open. Nothing is
 // random. Limits: rows further apart than search.max_rows_px are not found; a roll moves columns
-// too, which no row tells of, so that disparities keep an error of about -per_column (y - middle)
-// and have no truth without cameras; what bends rows (distortion, ways into the picture of a
-// converging pair) remains, and rms_px tells of it.
+// too, of which rows tell nothing, so that disparities keep an error of about
+// per_column (y - middle); what bends rows (distortion, strong convergence) remains, and rms_px
+// tells of it.
 core::Result<RowAlignment> FindRowAlignment(const GrayImage& left, const GrayImage& right,
                                             const RowAlignmentOptions& options = {});
 

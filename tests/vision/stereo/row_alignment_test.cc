@@ -73,10 +73,12 @@ std::string Reason(const core::Result<RowAlignment>& result) {
 
 TEST(RowAlignment, FindsHowRowsWereMoved) {
   std::uint32_t number = 400;
+  RowAlignmentOptions options;
+  options.search.grid_rows = 14;
   for (const RowCorrection& moved :
        {RowCorrection{0.0, 0.0, 0.0}, RowCorrection{3.3, 0.0, 0.0}, RowCorrection{-5.5, 0.03, 0.0},
         RowCorrection{1.2, 0.0, -0.03}, RowCorrection{-2.25, -0.02, 0.02}}) {
-    const auto found = Align(MovedScene(number++, moved));
+    const auto found = Align(MovedScene(number++, moved), options);
     ASSERT_TRUE(found.ok()) << Reason(found);
     EXPECT_LT(Error_px(found->correction, moved), 0.1) << moved.offset_px;
     EXPECT_GT(found->agreeing, 80);
