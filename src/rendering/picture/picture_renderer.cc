@@ -114,9 +114,9 @@ double PictureRenderer::WholePixel(int column, int row, const Met& met, TerrainL
 class PictureRenderer::PixelLooks {
  public:
   struct Seen {
-    int surface;
-    double albedo;
-    Vector3 tilt_W;
+    int surface = SurfacePoint::kSky;
+    double albedo = 0.0;
+    Vector3 tilt_W = Vector3::Zero();
   };
 
   template <typename LookOf>
@@ -147,7 +147,7 @@ double PictureRenderer::SplitPixel(int column, int row, Band& band, TerrainLook&
     const double size = 1.0 / edge_samples_;
     const vision::Ray ray =
         rays_.Beside(column, row, (x + 0.5) * size - 0.5, (y + 0.5) * size - 0.5);
-    const Vector3 ray_W = DirectionOf(ray);
+    Vector3 ray_W = DirectionOf(ray);
     part.met = scene_.Meet(OriginOf(ray), ray_W, rocks);
     return ray_W;
   };

@@ -38,14 +38,15 @@ class SunShadows {
  private:
   // A rock as the sun sees it.
   struct Silhouette {
-    int rock;
-    double x_m, y_m;    // of its centre, across the rays
-    double xx, xy, yy;  // M
-    math::Vector3 center_W;
-    math::Vector3 along_per_m;  // q . e of a point from the centre: negative before the rock
-    double speed2;              // |e|^2
-    bool is_cap;
-    double reach_m;
+    int rock = -1;
+    double x_m = 0.0, y_m = 0.0;          // of its centre, across the rays
+    double xx = 0.0, xy = 0.0, yy = 0.0;  // M
+    math::Vector3 center_W = math::Vector3::Zero();
+    // q . e of a point from the centre: negative before the rock
+    math::Vector3 along_per_m = math::Vector3::Zero();
+    double speed2 = 0.0;  // |e|^2
+    bool is_cap = false;
+    double reach_m = 0.0;
   };
 
   void AddSilhouette(int rock);
