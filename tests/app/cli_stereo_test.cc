@@ -68,6 +68,12 @@ std::string Truth() {
   return text;
 }
 
+std::string SmallPgm() {
+  std::string text = "P2 20 20 255\n";
+  for (int i = 0; i < 400; ++i) text += "1\n";
+  return text;
+}
+
 // 200 px of focal length, 0.1 m apart; x to the right, y down, z ahead.
 std::string Cameras(int columns = kWidth) {
   const auto camera = [&](const char* eye, double x_m) {
@@ -99,8 +105,10 @@ TEST_F(CliStereo, FindsTheDisparitiesOfAnAlignedPair) {
   EXPECT_THAT(result.out, HasSubstr("160 x 96 pixels, taken as aligned, disparities -1 to 20 px"));
   const json summary = Summary("pair");
   EXPECT_GT(summary["pixels"]["density"], 0.6);
-  EXPECT_LT(summary["score"]["bad"]["above_1_px"], 0.01);
-  EXPECT_LT(summary["score"]["rms_error_px"], 0.3);
+  // Windows over the step between the halves take the nearer disparity up to half a window beyond
+  // it: 3 of some 140 columns, by 6 px.
+  EXPECT_LT(summary["score"]["bad"]["above_1_px"], 0.03);
+  EXPECT_LT(summary["score"]["rms_error_px"], 6.0 * std::sqrt(0.03));
   EXPECT_TRUE(summary["cameras"].is_null());
   std::int64_t all = summary["pixels"]["matched"];
   for (const auto& dropped : summary["pixels"]["dropped"]) all += dropped.get<std::int64_t>();
@@ -191,11 +199,11 @@ TEST_F(CliStereo, AlignsRowsByTheMatchesOfThePair) {
 // Nothing is written, and what is wrong is said with what would be right.
 TEST_F(CliStereo, RefusesWhatIsNoPair) {
   WriteFile(work() / "other.pgm", Pgm(true, 2));
-  WriteFile(work() / "small.pgm", "P2 20 20 255\n" + std::string(800, '1'));
+  WriteFile(work() / "small.pgm", SmallPgm());
   WriteFile(work() / "broken.pgm", Pgm(false).substr(0, 3000));
   WriteFile(work() / "cameras.txt", Cameras());
   WriteFile(work() / "large.txt", Cameras(1024));
-  WriteFile(work() / "truth.pgm", "P2 20 20 255\n" + std::string(800, '1'));
+  WriteFile(work() / "truth.pgm", SmallPgm());
   struct Wrong {
     std::vector<std::string> words;
     std::string said;
