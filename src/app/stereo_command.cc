@@ -116,6 +116,10 @@ void CheckRequest(const StereoOptions& options) {
   if (options.farthest_m && !options.nearest_m) {
     throw core::UserError("--farthest", "needs --nearest", "give both, or --nearest alone");
   }
+  if (options.farthest_m && *options.farthest_m < *options.nearest_m) {
+    throw core::UserError("--farthest", "is nearer than --nearest",
+                          fmt::format("give at least {:g} m", *options.nearest_m));
+  }
 }
 
 void Stereo(StereoOptions& options) {

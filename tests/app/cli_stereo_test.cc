@@ -220,6 +220,8 @@ TEST_F(CliStereo, RefusesWhatIsNoPair) {
       {{"left.pgm", "right.pgm", "--nearest", "1"}, "means nothing without cameras"},
       {{"left.pgm", "right.pgm", "--farthest", "1"}, "needs --nearest"},
       {{"left.pgm", "right.pgm", "--cameras", "cameras.txt", "--nearest", "0.001"}, "disparities"},
+      {{"left.pgm", "right.pgm", "--cameras", "cameras.txt", "--nearest", "5", "--farthest", "1"},
+       "--farthest: is nearer than --nearest"},
       {{"left.pgm", "right.pgm", "--param", "correlator.window=9"}, "correlator.window"},
       {{"left.pgm", "right.pgm", "--param", "pyramid_level=6"}, "at pyramid level 6"},
       {{"left.pgm", "right.pgm", "--reference", "truth.pgm"}, "has 20 x 20 pixels"},

@@ -118,7 +118,8 @@ void CheckThatTheyMatch(const StereoRequest& request, const StereoInput& input,
       input.cameras
           ? "check that the cameras are those of these images and that both see the same; widen "
             "the range (--nearest)"
-          : "check that rows are aligned (--cameras) and that both see the same; widen the range "
+          : "check that rows are aligned (--cameras or --align) and that both see the same; widen "
+            "the range "
             "(--param correlator.disparities=...)");
 }
 
