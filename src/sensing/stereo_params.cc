@@ -13,6 +13,7 @@ constexpr std::string_view kFido = "FIDO rover's Hazcam, WUSTL data sheet: 110 x
 constexpr std::string_view kArray =
     "Matthies 1995 sec. 6: points 10 to 30 cm ahead of the front, 13 cm beyond the sides; rover of "
     "0.65 x 0.48 m";
+constexpr double kMostDisparity_px = 400.0;
 constexpr double kGrazing_rad = math::DegToRad(1.0);
 
 // Angle below the horizon of the lowest ray in the middle of the image; at most straight down.
@@ -70,6 +71,20 @@ void VisitImage(StereoParams& p, core::FieldVisitor& v) {
           .source = kFido,
           .study_low = 0.08,
           .study_high = 0.2});
+}
+
+// Each eye keeps 50 bytes a pixel.
+void VisitImageSize(StereoParams& p, core::FieldVisitor& v) {
+  constexpr std::int64_t kMostPixels = 2048;
+  const bool images = p.fidelity == StereoFidelity::kImage;
+  v.Require("images.pyramid_level",
+            !images || std::max(p.image_columns(), p.image_rows()) <= kMostPixels,
+            "makes images of more than 2048 pixels a side",
+            "use a lower level, or fewer columns and rows");
+  // The search has a disparity more on either side, and at most 512 of them.
+  v.Require("max_disparity_px", !images || p.max_disparity_px <= kMostDisparity_px,
+            "is above 400, where fidelity is image",
+            "search fewer disparities, at a higher images.pyramid_level");
 }
 
 void VisitMatching(StereoParams& p, core::FieldVisitor& v) {
@@ -178,6 +193,17 @@ double StereoParams::focal_rows_px() const {
   return 0.5 * static_cast<double>(rows) / std::tan(0.5 * vertical_fov_rad);
 }
 
+void StereoImageParams::Visit(core::FieldVisitor& v) {
+  v.Integer("pyramid_level", pyramid_level,
+            {.doc = "images have 2^level times columns and rows, and are reduced to them on board; "
+                    "disparities are those of the reduced images",
+             .min = 0,
+             .max = 4,
+             .origin = Origin::kPublished,
+             .source = "Goldberg 2002 table 2: 512 x 512 reduced to 128 x 128"});
+  v.Group("camera", camera, "lens, filter, imager, exposure, faults");
+}
+
 void StereoMountParams::Visit(core::FieldVisitor& v) {
   v.Real("ahead_m", ahead_m,
          {.doc = "distance of the cameras from the chassis centre in the direction they look",
@@ -219,7 +245,8 @@ void StripeWindowParams::Visit(core::FieldVisitor& v) {
 
 void StereoParams::Visit(core::FieldVisitor& v) {
   v.Choice("fidelity", fidelity,
-           {.doc = "ideal: exact range points; error_model: those of a camera pair",
+           {.doc = "ideal: exact range points; error_model: those of a camera pair; image: the "
+                   "pair's images are rendered and matched on board (perception.stereo)",
             .origin = Origin::kSetting});
   v.Choice("field_of_view", field_of_view,
            {.doc = "full, or stripe: only points over stripe_window, for telling a navigator from "
@@ -239,6 +266,8 @@ void StereoParams::Visit(core::FieldVisitor& v) {
   VisitMatching(*this, v);
   VisitDropouts(*this, v);
   v.Group("stripe_window", stripe_window, "ground under the light stripe array");
+  v.Group("images", images, "the images of the pairs, where fidelity is image");
+  VisitImageSize(*this, v);
   constexpr std::string_view kNoGround = "shows no level ground within max_range_m";
   constexpr std::string_view kLower =
       "look further down, mount the cameras lower, or widen the "

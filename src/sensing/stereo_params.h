@@ -7,12 +7,14 @@
 
 #include "core/fields.h"
 #include "math/angles.h"
+#include "rendering/picture/picture_params.h"
 
 namespace rockyard::sensing {
 
 enum class StereoFidelity {
   kIdeal,       // the first surface on every ray from the middle of the pair, without error
   kErrorModel,  // what stereo matching makes of it
+  kImage,       // images of the pair are rendered, and matched on board
 };
 
 enum class StereoFieldOfView {
@@ -34,6 +36,14 @@ struct StripeWindowParams {
   double near_m = 0.425;
   double far_m = 0.625;
   double half_width_m = 0.37;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+// The images that a pair takes where fidelity is image.
+struct StereoImageParams {
+  std::int64_t pyramid_level = 2;
+  rendering::PictureCameraParams camera;
 
   void Visit(core::FieldVisitor& v);
 };
@@ -60,10 +70,15 @@ struct StereoParams {
   std::int64_t edge_reach_px = 3;
   double edge_disparity_px = 1.0;
   StripeWindowParams stripe_window;
+  StereoImageParams images;
 
   // Focal length along an image row and along a column, px.
   double focal_columns_px() const;
   double focal_rows_px() const;
+
+  // Of the images as the cameras take them, before they are reduced.
+  std::int64_t image_columns() const { return columns << images.pyramid_level; }
+  std::int64_t image_rows() const { return rows << images.pyramid_level; }
 
   void Visit(core::FieldVisitor& v);
 };
@@ -72,7 +87,7 @@ struct StereoParams {
 
 template <>
 struct rockyard::core::EnumNames<rockyard::sensing::StereoFidelity> {
-  static constexpr std::array<std::string_view, 2> kNames{"ideal", "error_model"};
+  static constexpr std::array<std::string_view, 3> kNames{"ideal", "error_model", "image"};
 };
 
 template <>

@@ -1,6 +1,6 @@
 #include "sensing/stereo_sensor.h"
 
-#include <cmath>
+#include "sensing/stereo_window.h"
 
 namespace rockyard::sensing {
 
@@ -45,19 +45,10 @@ messages::PointCloud StereoSensor::Look(const terrain::Terrain& terrain,
       if (inverse_depth <= 0.0) continue;
       // Pixel (c, r) at depth Z: eye + Z e(c, r), in R.
       const Vector3 p_RoP_R = view_R.eye + view_R.Ray(column, row) / inverse_depth;
-      if (InWindow(p_RoP_R, direction)) cloud.points_R.push_back(p_RoP_R);
+      if (IsWanted(params_, p_RoP_R, direction)) cloud.points_R.push_back(p_RoP_R);
     }
   }
   return cloud;
-}
-
-bool StereoSensor::InWindow(const Vector3& p_RoP_R, LookDirection direction) const {
-  if (params_.field_of_view == StereoFieldOfView::kFull) return true;
-  const StripeWindowParams& window = params_.stripe_window;
-  // The window lies in the looking direction, ahead or behind.
-  const double ahead_m = direction == LookDirection::kAhead ? p_RoP_R.x() : -p_RoP_R.x();
-  return ahead_m >= window.near_m && ahead_m <= window.far_m &&
-         std::abs(p_RoP_R.y()) <= window.half_width_m;
 }
 
 }  // namespace rockyard::sensing

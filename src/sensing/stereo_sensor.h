@@ -49,7 +49,6 @@ class StereoSensor {
  private:
   // Returns one over the depths, 1/m, as they are measured; 0 where there is no point.
   DepthImage Measure(const StereoScene& scene, core::TrialKey key, std::int64_t look_number) const;
-  bool InWindow(const math::Vector3& p_RoP_R, messages::LookDirection direction) const;
 
   StereoParams params_;
   StereoMatcher matcher_;

@@ -9,13 +9,13 @@
 #include <string_view>
 
 #include "perception/cloud_elevations.h"
-#include "sensing/stereo_sensor.h"
 #include "trial/compute_profile.h"
 #include "trial/drive_checks_params.h"
 #include "trial/hazard_watch.h"
 #include "trial/look_time.h"
 #include "trial/onboard_calibration.h"
 #include "trial/scan_watcher.h"
+#include "trial/stereo_eyes.h"
 #include "trial/terrain_sensor_model.h"
 
 namespace rockyard::trial {
@@ -26,8 +26,7 @@ using messages::LookDirection;
 class StereoModel final : public TerrainSensorModel {
  public:
   StereoModel(const DriveParams& drive, core::TrialKey key)
-      : key_(key),
-        sensor_(drive.sensors.stereo),
+      : eyes_(drive, key),
         misplaced_ahead_(StereoMisplacement(drive.sensors.stereo, drive.perception.calibration,
                                             LookDirection::kAhead)),
         misplaced_behind_(StereoMisplacement(drive.sensors.stereo, drive.perception.calibration,
@@ -41,8 +40,7 @@ class StereoModel final : public TerrainSensorModel {
   }
 
   messages::PointCloud Points(const TerrainLook& look) const override {
-    messages::PointCloud cloud =
-        sensor_.Look(look.terrain, look.X_WR, key_, look.number, look.direction);
+    messages::PointCloud cloud = eyes_.Look(look.terrain, look.X_WR, look.number, look.direction);
     const auto& misplaced =
         look.direction == LookDirection::kAhead ? misplaced_ahead_ : misplaced_behind_;
     if (misplaced) {
@@ -52,21 +50,21 @@ class StereoModel final : public TerrainSensorModel {
   }
 
  private:
-  core::TrialKey key_;
-  sensing::StereoSensor sensor_;
+  StereoEyes eyes_;
   // Of the points that it sees, by a wrong calibration; none where it is right.
   std::optional<math::Transform> misplaced_ahead_;
   std::optional<math::Transform> misplaced_behind_;
   perception::CloudElevationParams elevations_;
 };
 
-// The outlines of rocks in stereo images are worked out for ellipsoids.
+// Without images, the outlines of rocks in both eyes are worked out for ellipsoids.
 void RequireRoundRocks(const DriveParams& drive, core::FieldVisitor& v) {
   const terrain::RockFieldParams& rocks = drive.terrain.rocks;
   v.Require("terrain.rocks.pointedness",
-            rocks.kind == terrain::RockFieldKind::kNone || rocks.pointedness == 0.0,
-            "is above 0 where sensors.terrain_sensor is stereo, which sees ellipsoids only",
-            "use 0, or terrain_sensor light_stripe");
+            rocks.kind == terrain::RockFieldKind::kNone || rocks.pointedness == 0.0 ||
+                drive.sensors.stereo.fidelity == sensing::StereoFidelity::kImage,
+            "is above 0 where sensors.terrain_sensor is stereo, whose rays see ellipsoids only",
+            "use 0, sensors.stereo.fidelity image, or terrain_sensor light_stripe");
 }
 
 // Distance from R's origin, straight ahead, up to which cameras show level ground: the end of their

@@ -8,6 +8,7 @@ void SensorParams::Visit(core::FieldVisitor& v) {
   v.Group("stereo", stereo, "stereo cameras ahead and behind");
   v.Group("sun", sun,
           "sunlight on the terrain and how bright it is; the images of a sensor see it");
+  v.Group("look", look, "what soil and rocks look like; stereo images see it");
   v.Group("gyro", gyro, "turn rate sensor");
   v.Group("encoders", encoders, "wheel encoders");
   v.Group("tracker", tracker, "overhead tracker that reports the true pose in experiments");
@@ -18,6 +19,7 @@ void PerceptionParams::Visit(core::FieldVisitor& v) {
   v.Group(
       "stripe_finder", stripe_finder,
       "light stripes found in images; where the light stripe sensor is simulated down to images");
+  v.Group("stereo", stereo, "matching of stereo images (sensors.stereo.fidelity image)");
   v.Group("hazard", hazard, "hazard criteria and the two-scan rule");
   v.Group("vehicle_hazard", vehicle_hazard, "hazards that the rover feels (sensors.vehicle)");
   v.Group("stuck_detector", stuck_detector,

@@ -12,9 +12,11 @@
 #include "perception/calibration_params.h"
 #include "perception/cloud_params.h"
 #include "perception/hazard_params.h"
+#include "perception/stereo_matching_params.h"
 #include "perception/stripe_finder_params.h"
 #include "perception/stuck_detector_params.h"
 #include "perception/vehicle_hazard_params.h"
+#include "rendering/picture/picture_params.h"
 #include "rendering/sun_params.h"
 #include "sensing/encoder_params.h"
 #include "sensing/gyro_params.h"
@@ -32,6 +34,7 @@ struct SensorParams {
   sensing::LightStripeParams light_stripe;
   sensing::StereoParams stereo;
   rendering::SunParams sun;
+  rendering::LookParams look;
   sensing::GyroParams gyro;
   sensing::EncoderParams encoders;
   sensing::TrackerParams tracker;
@@ -42,6 +45,7 @@ struct SensorParams {
 
 struct PerceptionParams {
   perception::StripeFinderParams stripe_finder;
+  perception::StereoMatchingParams stereo;
   perception::HazardParams hazard;
   perception::VehicleHazardParams vehicle_hazard;
   perception::StuckDetectorParams stuck_detector;

@@ -6,8 +6,8 @@ namespace rockyard::trial {
 namespace {
 
 // The groups of light_stripe and stereo are of those kinds.
-constexpr std::array<std::string_view, 5> kOtherGroups{"sun", "gyro", "encoders", "tracker",
-                                                       "vehicle"};
+constexpr std::array<std::string_view, 6> kOtherGroups{"sun",      "look",    "gyro",
+                                                       "encoders", "tracker", "vehicle"};
 
 }  // namespace
 

@@ -1,0 +1,68 @@
+// On-board stereo: from the images of a pair to points in R (Goldberg 2002 section 2).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "math/pose.h"
+#include "perception/stereo_matching_params.h"
+#include "vision/cameras/rectification.h"
+#include "vision/image.h"
+#include "vision/stereo/disparity.h"
+#include "vision/stereo/rectification_table.h"
+#include "vision/stereo/stereo_rig.h"
+
+namespace rockyard::perception {
+
+// What a pair is searched for, in pixels of the reduced images.
+struct StereoSearch {
+  int pyramid_level = 0;          // images are reduced by 2^level
+  double min_disparity_px = 0.0;  // > 0
+  double max_disparity_px = 0.0;  // > min, at most 400
+  double max_range_m = 0.0;       // points farther from the left camera are dropped
+};
+
+// What one pair of images shows.
+struct StereoSight {
+  vision::GrayImage left;              // reduced and aligned, as it was matched
+  vision::DisparityImage disparities;  // of its pixels
+  std::vector<math::Vector3> points_R;
+};
+
+// One pair of cameras as its calibration has it. The stages are those of vision/stereo: both images
+// are reduced, resampled where the cameras are not aligned as they are, filtered and matched; then
+// dropped is what a window shares with the edge of an image or with the rover itself, what lies
+// outside of the range of disparities, and what is farther than max_range_m.
+class StereoPoints {
+ public:
+  // Throws core::UserError where the cameras cannot be aligned.
+  StereoPoints(const StereoMatchingParams& params, const StereoSearch& search,
+               const vision::StereoRig& rig);
+
+  // Returns what images of the rig's size show, one point a pixel at most. Pure function. Cost: 0.3
+  // ms for 128 x 128 pixels and 16 disparities, and as much for reducing 512 x 512 to them.
+  StereoSight See(const vision::GrayImage& left, const vision::GrayImage& right) const;
+
+  const vision::RectifiedPair& pair() const { return pair_; }
+  const vision::StereoPipelineParams& params() const { return params_; }
+
+ private:
+  struct Eye {
+    std::optional<vision::RectificationTable> table;  // none where nothing is resampled
+    vision::Image<std::uint8_t> free;                 // of the aligned image
+  };
+
+  Eye MakeEye(const vision::CameraModel& reduced, const vision::Cahv& aligned,
+              const vision::Image<std::uint8_t>& free) const;
+  vision::GrayImage Aligned(const Eye& eye, const vision::GrayImage& image) const;
+  void DropOutOfRange(vision::DisparityImage& disparities) const;
+  std::vector<math::Vector3> PointsOf(const vision::DisparityImage& disparities) const;
+
+  vision::StereoPipelineParams params_;
+  StereoSearch search_;
+  vision::RectifiedPair pair_;
+  Eye left_;
+  Eye right_;
+};
+
+}  // namespace rockyard::perception

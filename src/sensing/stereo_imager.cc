@@ -1,0 +1,109 @@
+#include "sensing/stereo_imager.h"
+
+#include <cmath>
+#include <utility>
+
+#include "core/check.h"
+#include "rendering/picture/picture.h"
+#include "rendering/picture/picture_renderer.h"
+#include "rendering/picture/picture_scene.h"
+#include "rendering/picture/terrain_look.h"
+#include "sensing/rover_parts.h"
+#include "sensing/stereo_view.h"
+
+namespace rockyard::sensing {
+namespace {
+
+using math::Vector3;
+using messages::LookDirection;
+using vision::Image;
+
+constexpr std::int64_t kMostLooks = std::int64_t{1} << 30;
+
+// As the view has it before images are reduced.
+StereoView FullView(StereoParams params, LookDirection direction) {
+  params.columns = params.image_columns();
+  params.rows = params.image_rows();
+  return MakeStereoView(params, direction);
+}
+
+// The linear camera at `eye` whose pixel (0, 0) looks along view.first: the inverse of the rays
+// e(column, row) of StereoView.
+vision::CameraModel CameraAt(const StereoView& view, const Vector3& eye) {
+  const double middle_column = 0.5 * (view.columns - 1);
+  const double middle_row = 0.5 * (view.rows - 1);
+  const Vector3 A =
+      (view.first + middle_column * view.along_row + middle_row * view.along_column).normalized();
+  // along_row = h' / f_h, hence H = f_h h' + c_h A with f_h h' = along_row / |along_row|^2.
+  const Vector3 H = view.along_row / view.along_row.squaredNorm() + middle_column * A;
+  const Vector3 V = view.along_column / view.along_column.squaredNorm() + middle_row * A;
+  return {vision::Cahv{eye, A, H, V}, {view.columns, view.rows}};
+}
+
+// 1 where the ray of a pixel meets no part of the rover.
+Image<std::uint8_t> FreePixels(const rendering::PixelRays& rays, const rendering::RoverBody& body) {
+  Image<std::uint8_t> free(rays.columns(), rays.rows(), 1);
+  for (int row = 0; row < free.height(); ++row) {
+    for (int column = 0; column < free.width(); ++column) {
+      const vision::Ray ray = rays.At(column, row);
+      const bool blocked = std::isfinite(body.Distance(ray.origin, ray.direction));
+      if (blocked) free.At(column, row) = 0;
+    }
+  }
+  return free;
+}
+
+}  // namespace
+
+StereoImager::StereoImager(const StereoParams& params, const rendering::SunParams& sun,
+                           const rendering::LookParams& look,
+                           const rover::RoverGeometryParams& rover, core::TrialKey key)
+    : sun_(sun),
+      look_(look),
+      camera_(params.images.camera),
+      key_(key),
+      body_(MakeRoverBody(rover)),
+      ahead_(MakePair(params, LookDirection::kAhead, key)),
+      behind_(MakePair(params, LookDirection::kBehind, key)) {}
+
+StereoImager::Pair StereoImager::MakePair(const StereoParams& params, LookDirection direction,
+                                          core::TrialKey key) const {
+  const StereoView view = FullView(params, direction);
+  const vision::CameraModel left = CameraAt(view, view.eye);
+  const vision::CameraModel right = CameraAt(view, view.right_eye);
+  const int first = direction == LookDirection::kAhead ? 0 : 2;  // cameras of a rover count from 0
+  const auto eye = [&](const vision::CameraModel& camera, int number) {
+    rendering::PixelRays rays(camera);
+    rendering::PictureReadout readout(camera_, rays, number, key);
+    return Eye{std::move(rays), std::move(readout)};
+  };
+  Pair pair{{left, right, {}, {}}, {eye(left, first), eye(right, first + 1)}};
+  pair.rig.left_free = FreePixels(pair.eyes[0].rays, body_);
+  pair.rig.right_free = FreePixels(pair.eyes[1].rays, body_);
+  return pair;
+}
+
+StereoImages StereoImager::Expose(const terrain::Terrain& terrain, const math::Transform& X_WR,
+                                  std::int64_t look_number, LookDirection direction) const {
+  EXPECT(look_number >= 0 && look_number < kMostLooks);
+  const Pair& pair = PairOf(direction);
+  const rendering::PictureScene scene(terrain, sun_, look_, camera_.imager.filter_width_m,
+                                      {&body_, X_WR});
+  rendering::TerrainLook look(terrain, sun_, look_, key_);
+  StereoImages images;
+  for (std::size_t i = 0; i < pair.eyes.size(); ++i) {
+    const Eye& eye = pair.eyes[i];
+    rendering::Picture picture(eye.rays.columns(), eye.rays.rows());
+    rendering::PictureRenderer(scene, look_, eye.rays, X_WR)
+        .RenderRows(0, picture.rows(), look, picture);
+    const Image<float> rates_e_s = eye.readout.Rates(picture);
+    if (i == 0) images.exposure_s = eye.readout.Exposure(rates_e_s);
+    const auto number = static_cast<rendering::ImageNumber>(2 * look_number + static_cast<int>(i));
+    const rendering::RawImage raw = eye.readout.Read(rates_e_s, images.exposure_s, number);
+    (i == 0 ? images.left : images.right) =
+        rendering::ToGray(raw.counts, static_cast<int>(camera_.imager.detector().adc_bits));
+  }
+  return images;
+}
+
+}  // namespace rockyard::sensing

@@ -1,0 +1,88 @@
+// The stereo cameras at the rover's front and rear down to digital images of a true scene.
+//
+// Image formation, in the order in which a look runs through it (equations beside the code):
+//   scene          terrain, sun and shadows, the rover's own parts
+//   rendering/picture/picture_scene.h picture        light on every pixel
+//   rendering/picture/picture_renderer.h read-out       lens, exposure, noise, counts
+//   rendering/picture/picture_readout.h
+// Goldberg 2002 section 2 begins with such images. What it does not say of camera, light and soil
+// is assumed, so that results from these images are sensitivities to those assumptions.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/random.h"
+#include "math/pose.h"
+#include "messages/point_cloud.h"
+#include "rendering/picture/picture_params.h"
+#include "rendering/picture/picture_readout.h"
+#include "rendering/picture/pixel_rays.h"
+#include "rendering/rover_body.h"
+#include "rendering/sun_params.h"
+#include "rover/rover_geometry_params.h"
+#include "sensing/stereo_params.h"
+#include "terrain/terrain.h"
+#include "vision/image.h"
+#include "vision/stereo/stereo_rig.h"
+
+namespace rockyard::sensing {
+
+// What one look delivers: 8 bits a pixel, the highest ones of imagers that have more.
+struct StereoImages {
+  vision::GrayImage left;
+  vision::GrayImage right;
+  double exposure_s = 0.0;  // of both: exposure control looks at the left image
+};
+
+// The sensor at the image fidelity: two pairs of linear cameras with the view of MakeStereoView, of
+// 2^pyramid_level times its columns and rows.
+//
+// Limits: no lens distorts; a pair is as stiff as its calibration has it; wheels and arms stay
+// where they are on level ground; both eyes expose at once, for no time at all as far as motion
+// goes.
+class StereoImager {
+ public:
+  // The camera of a trial: its pixels' faults belong to (key, camera). Making one costs some 50 ms
+  // and 60 MB for 512 x 512 images.
+  StereoImager(const StereoParams& params, const rendering::SunParams& sun,
+               const rendering::LookParams& look, const rover::RoverGeometryParams& rover,
+               core::TrialKey key);
+
+  // Takes the images of one look with the rover at X_WR. Pure function of its arguments. Draws from
+  // (key, kImageNoise) by look number and eye, from kSoilTexture, kRockTexture and kRockLook.
+  // look_number < 2^30.
+  StereoImages Expose(const terrain::Terrain& terrain, const math::Transform& X_WR,
+                      std::int64_t look_number, messages::LookDirection direction) const;
+
+  // The pair as it is, in R, with a mask of the rover's own parts.
+  const vision::StereoRig& rig(messages::LookDirection direction) const {
+    return PairOf(direction).rig;
+  }
+
+ private:
+  struct Eye {
+    rendering::PixelRays rays;
+    rendering::PictureReadout readout;
+  };
+  struct Pair {
+    vision::StereoRig rig;
+    std::array<Eye, 2> eyes;  // left, right
+  };
+
+  Pair MakePair(const StereoParams& params, messages::LookDirection direction,
+                core::TrialKey key) const;
+  const Pair& PairOf(messages::LookDirection direction) const {
+    return direction == messages::LookDirection::kAhead ? ahead_ : behind_;
+  }
+
+  rendering::SunParams sun_;
+  rendering::LookParams look_;
+  rendering::PictureCameraParams camera_;
+  core::TrialKey key_;
+  rendering::RoverBody body_;
+  Pair ahead_;
+  Pair behind_;
+};
+
+}  // namespace rockyard::sensing

@@ -1,0 +1,65 @@
+#include "trial/stereo_eyes.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "sensing/stereo_window.h"
+
+namespace rockyard::trial {
+
+using messages::LookDirection;
+
+namespace {
+
+perception::StereoSearch SearchOf(const sensing::StereoParams& params) {
+  return {.pyramid_level = static_cast<int>(params.images.pyramid_level),
+          .min_disparity_px = params.min_disparity_px,
+          .max_disparity_px = params.max_disparity_px,
+          .max_range_m = params.max_range_m};
+}
+
+}  // namespace
+
+StereoEyes::StereoEyes(const DriveParams& drive, core::TrialKey key)
+    : params_(drive.sensors.stereo), key_(key) {
+  if (params_.fidelity == sensing::StereoFidelity::kImage) {
+    cameras_ = MakeCameras(drive);
+  } else {
+    rays_.emplace(params_);
+  }
+}
+
+StereoEyes::Cameras StereoEyes::MakeCameras(const DriveParams& drive) const {
+  sensing::StereoImager imager(params_, drive.sensors.sun, drive.sensors.look, drive.rover.geometry,
+                               key_);
+  const perception::StereoSearch search = SearchOf(params_);
+  perception::StereoPoints ahead(drive.perception.stereo, search,
+                                 imager.rig(LookDirection::kAhead));
+  perception::StereoPoints behind(drive.perception.stereo, search,
+                                  imager.rig(LookDirection::kBehind));
+  return {std::move(imager), std::move(ahead), std::move(behind)};
+}
+
+messages::PointCloud StereoEyes::Look(const terrain::Terrain& terrain, const math::Transform& X_WR,
+                                      std::int64_t look_number, LookDirection direction) const {
+  if (rays_) return rays_->Look(terrain, X_WR, key_, look_number, direction);
+  return Match(terrain, X_WR, look_number, direction);
+}
+
+messages::PointCloud StereoEyes::Match(const terrain::Terrain& terrain, const math::Transform& X_WR,
+                                       std::int64_t look_number, LookDirection direction) const {
+  const sensing::StereoImages images =
+      cameras_->imager.Expose(terrain, X_WR, look_number, direction);
+  const perception::StereoPoints& eyes =
+      direction == LookDirection::kAhead ? cameras_->ahead : cameras_->behind;
+  const perception::StereoSight sight = eyes.See(images.left, images.right);
+  messages::PointCloud cloud{.number = look_number, .direction = direction, .points_R = {}};
+  cloud.points_R.reserve(sight.points_R.size());
+  std::copy_if(
+      sight.points_R.begin(), sight.points_R.end(), std::back_inserter(cloud.points_R),
+      [&](const math::Vector3& p_RoP_R) { return sensing::IsWanted(params_, p_RoP_R, direction); });
+  return cloud;
+}
+
+}  // namespace rockyard::trial

@@ -1,0 +1,50 @@
+// The stereo cameras of a rover as the closed loop uses them: a pose in, points out.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/random.h"
+#include "math/pose.h"
+#include "messages/point_cloud.h"
+#include "perception/stereo_points.h"
+#include "sensing/stereo_imager.h"
+#include "sensing/stereo_sensor.h"
+#include "terrain/terrain.h"
+#include "trial/drive_params.h"
+
+namespace rockyard::trial {
+
+// One interface for all fidelities (sensors.stereo.fidelity): `ideal` and `error_model` are
+// sensing::StereoSensor, rays and what matching would make of them; `image` is
+// sensing::StereoImager, cameras down to digital numbers, with perception::StereoPoints, which
+// matches the images with the cameras that the rover believes to have.
+class StereoEyes {
+ public:
+  StereoEyes(const DriveParams& drive, core::TrialKey key);
+
+  // What the rover makes of one look at X_WR. Pure function of its arguments, whatever was looked
+  // at before. `look_number` counts every look of the trial from 0 and indexes the noise. Cost: 0.2
+  // to 0.3 ms, or some 0.3 s with images of 512 x 512 pixels.
+  messages::PointCloud Look(const terrain::Terrain& terrain, const math::Transform& X_WR,
+                            std::int64_t look_number, messages::LookDirection direction) const;
+
+ private:
+  struct Cameras {
+    sensing::StereoImager imager;
+    perception::StereoPoints ahead;
+    perception::StereoPoints behind;
+  };
+
+  Cameras MakeCameras(const DriveParams& drive) const;
+  messages::PointCloud Match(const terrain::Terrain& terrain, const math::Transform& X_WR,
+                             std::int64_t look_number, messages::LookDirection direction) const;
+
+  sensing::StereoParams params_;
+  core::TrialKey key_;
+  // One of both.
+  std::optional<sensing::StereoSensor> rays_;
+  std::optional<Cameras> cameras_;
+};
+
+}  // namespace rockyard::trial
