@@ -1,0 +1,165 @@
+// The closed loop on rendered images: points of stereo at the image fidelity, and drives by them.
+#include "trial/stereo_eyes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "sensing/stereo_view.h"
+#include "trial/gestalt_trials.h"
+#include "trial/terrain_sensing.h"
+
+namespace rockyard::trial {
+namespace {
+
+using math::Vector3;
+using messages::LookDirection;
+using Points = std::vector<Vector3>;
+
+constexpr core::TrialKey kKey{11, 4};
+// Images as small as the range points, so that tests take no time; reduced ones where it says so.
+const Overrides kImages = {"sensors.stereo.fidelity=image",
+                           "sensors.stereo.images.pyramid_level=0"};
+
+terrain::Terrain Flat() { return {terrain::Ground(), {}, {}}; }
+
+Points Seen(const DriveParams& drive, const terrain::Terrain& terrain, LookDirection direction,
+            const math::Transform& X_WR = math::Transform::Identity()) {
+  return StereoEyes(drive, kKey).Look(terrain, X_WR, 0, direction).points_R;
+}
+
+// A point of flat ground lies on the ray of a pixel whose true depth is where the ray meets z = 0:
+// the error of its disparity is f b (1/Z - 1/Z_true).
+struct DisparityErrors {
+  double mean_px = 0.0;
+  double deviation_px = 0.0;
+};
+
+DisparityErrors ErrorsOf(const Points& points_R, const sensing::StereoView& view) {
+  const Vector3 axis = view.along_row.cross(view.along_column).normalized();
+  const double scale_px_m = view.focal_px * view.baseline_m;
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const Vector3& p : points_R) {
+    const Vector3 ray = p - view.eye;
+    const double depth_m = std::abs(ray.dot(axis));
+    const double true_depth_m = depth_m * view.eye.z() / -ray.z();
+    const double error_px = scale_px_m * (1.0 / depth_m - 1.0 / true_depth_m);
+    sum += error_px;
+    squares += error_px * error_px;
+  }
+  const auto n = static_cast<double>(points_R.size());
+  return {sum / n, std::sqrt(squares / n - (sum / n) * (sum / n))};
+}
+
+TEST(StereoEyesTest, FlatGroundIsSeenWhereItIsAheadAndBehind) {
+  for (const std::string level : {"0", "2"}) {
+    const DriveParams drive =
+        Gestalt("abundance", kImages + Overrides{"sensors.stereo.images.pyramid_level=" + level});
+    for (const LookDirection direction : {LookDirection::kAhead, LookDirection::kBehind}) {
+      const Points seen = Seen(drive, Flat(), direction);
+      ASSERT_GT(seen.size(), 2000U);
+      const DisparityErrors errors =
+          ErrorsOf(seen, sensing::MakeStereoView(drive.sensors.stereo, direction));
+      EXPECT_LT(std::abs(errors.mean_px), 0.05);
+      EXPECT_LT(errors.deviation_px, 0.3);
+      for (const Vector3& p : seen) EXPECT_EQ(p.x() > 0.0, direction == LookDirection::kAhead);
+    }
+  }
+}
+
+TEST(StereoEyesTest, WithoutTextureThereIsLittleToMatch) {
+  Overrides plain = kImages;
+  for (const std::string end : {"drift", "gravel", "rock"}) {
+    plain.push_back("sensors.look." + end + ".contrast=0");
+    plain.push_back("sensors.look." + end + ".relief_slope=0");
+  }
+  const std::size_t textured =
+      Seen(Gestalt("abundance", kImages), Flat(), LookDirection::kAhead).size();
+  const std::size_t bare = Seen(Gestalt("abundance", plain), Flat(), LookDirection::kAhead).size();
+  EXPECT_LT(5 * bare, textured);
+}
+
+// A rock is where it is, and behind it nothing is seen.
+TEST(StereoEyesTest, ARockRisesFromTheGround) {
+  const DriveParams drive = Gestalt("abundance", kImages);
+  const terrain::Rock rock{.center_W = {1.6, 0.0, 0.0},
+                           .semi_axes_m = {0.25, 0.25, 0.35},
+                           .diameter_m = 0.5,
+                           .height_m = 0.35};
+  const terrain::Terrain terrain{terrain::Ground(), {rock}, {}};
+  int on_rock = 0;
+  double highest_m = 0.0;
+  for (const Vector3& p : Seen(drive, terrain, LookDirection::kAhead)) {
+    if (std::hypot(p.x() - 1.6, p.y()) > 0.3) continue;
+    ++on_rock;
+    highest_m = std::max(highest_m, p.z());
+  }
+  EXPECT_GT(on_rock, 50);
+  EXPECT_NEAR(highest_m, 0.35, 0.12);
+}
+
+TEST(StereoEyesTest, OnlyTheWindowIsHandedOnWhereItIsAskedFor) {
+  const DriveParams drive =
+      Gestalt("abundance", kImages + Overrides{"sensors.stereo.field_of_view=stripe"});
+  const sensing::StripeWindowParams& window = drive.sensors.stereo.stripe_window;
+  const Points seen = Seen(drive, Flat(), LookDirection::kAhead);
+  ASSERT_GT(seen.size(), 20U);
+  for (const Vector3& p : seen) {
+    EXPECT_GE(p.x(), window.near_m);
+    EXPECT_LE(p.x(), window.far_m);
+    EXPECT_LE(std::abs(p.y()), window.half_width_m);
+  }
+  EXPECT_LT(seen.size(), Seen(Gestalt("abundance", kImages), Flat(), LookDirection::kAhead).size());
+}
+
+// The calibration is on board: what is photographed does not know of it.
+TEST(StereoEyesTest, AWrongCalibrationMovesThePointsRigidly) {
+  const auto cloud = [](const Overrides& overrides) {
+    TerrainSensing sensing(Gestalt("abundance", kImages + overrides), kKey, {});
+    return sensing.Look(LookDirection::kAhead, Flat(), math::Transform::Identity(), {})
+        .cloud->points_R;
+  };
+  const Points right = cloud({});
+  const Points wrong = cloud({"perception.calibration.stereo_front.z_m=0.02"});
+  ASSERT_EQ(right.size(), wrong.size());
+  for (std::size_t i = 0; i < right.size(); ++i) {
+    EXPECT_NEAR((wrong[i] - right[i] - Vector3(0.0, 0.0, 0.02)).norm(), 0.0, 1e-12);
+  }
+}
+
+TEST(StereoEyesTest, ADriveByImagesRepeatsBitForBitAndArrives) {
+  const DriveParams drive = Gestalt("abundance", kImages + kShortAndEmpty);
+  const DriveResult once = RunTrial(drive, kKey);
+  const DriveResult again = RunTrial(drive, kKey);
+  EXPECT_THAT(Differences(once, again), testing::IsEmpty());
+  EXPECT_EQ(once.outcome, truth::TrialOutcome::kGoalReached) << once.detail;
+}
+
+// Rays work out the outlines of ellipsoids; images show what is there.
+TEST(StereoEyesTest, PointedRocksAreForImages) {
+  const Overrides pointed = {"terrain.rocks.pointedness=0.5"};
+  EXPECT_NO_THROW(Gestalt("abundance", kImages + pointed));
+  EXPECT_THROW(Gestalt("abundance", pointed), core::UserError);
+}
+
+TEST(StereoEyesTest, ImagesThatAreTooLargeAreRefusedByName) {
+  const Overrides large = {"sensors.stereo.fidelity=image", "sensors.stereo.columns=512",
+                           "sensors.stereo.images.pyramid_level=3",
+                           "sensors.stereo.max_disparity_px=64"};
+  try {
+    Gestalt("abundance", large);
+    FAIL() << "accepted";
+  } catch (const core::UserError& error) {
+    EXPECT_NE(std::string(error.what()).find("sensors.stereo.images.pyramid_level"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace rockyard::trial
