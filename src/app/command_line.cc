@@ -143,6 +143,7 @@ void AddCommands(CLI::App& app, ExitCode& exit_code) {
   AddMergeCommand(app, exit_code);
   AddRoverCommand(app);
   AddTerrainCommand(app);
+  AddRenderCommand(app);
   AddStereoCommand(app);
   AddTraceCommand(app, exit_code);
   AddReplayCommand(app, exit_code);

@@ -43,6 +43,12 @@ constexpr CommandExample kExamples[] = {
      "how far a rover that sees nothing gets"},
     {"terrain", "rockyard terrain scenarios/pathfinder/nominal.json --density",
      "rocks along the course against the law"},
+    {"render", "rockyard render gestalt/abundance --out pair",
+     "what the rover's front cameras see at the start"},
+    {"render",
+     "rockyard render gestalt/abundance --out pair --x 3 --heading 30 "
+     "--set sensors.look.soil_graininess=1 --set sensors.sun.elevation_deg=15",
+     "from elsewhere, on gravel under a low sun"},
     {"stereo", "rockyard stereo left.png right.png --out pair",
      "disparities of a pair whose rows are aligned"},
     {"stereo", "rockyard stereo left.png right.png --cameras cameras.json --nearest 1 --out pair",

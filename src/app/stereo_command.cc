@@ -98,7 +98,7 @@ std::string ResultText(const campaign::StereoRequest& request,
   text += DropsText(result);
   if (result.score) text += ScoreText(*result.score);
   for (const std::string& note : result.notes) text += fmt::format("  note: {}\n", note);
-  for (const campaign::StereoResult::File& file : result.files) {
+  for (const campaign::OutputFile& file : result.files) {
     text += fmt::format("  {} in {}\n", file.what, report::Printable(file.path.string()));
   }
   return text;

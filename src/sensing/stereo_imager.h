@@ -15,9 +15,12 @@
 #include "core/random.h"
 #include "math/pose.h"
 #include "messages/point_cloud.h"
+#include "rendering/picture/picture.h"
 #include "rendering/picture/picture_params.h"
 #include "rendering/picture/picture_readout.h"
+#include "rendering/picture/picture_scene.h"
 #include "rendering/picture/pixel_rays.h"
+#include "rendering/picture/terrain_look.h"
 #include "rendering/rover_body.h"
 #include "rendering/sun_params.h"
 #include "rover/rover_geometry_params.h"
@@ -55,6 +58,12 @@ class StereoImager {
   StereoImages Expose(const terrain::Terrain& terrain, const math::Transform& X_WR,
                       std::int64_t look_number, messages::LookDirection direction) const;
 
+  // Returns the true disparity at the middle of every pixel of the left image of such a look: its
+  // column less that of the same point in the right image, px; NaN where the right eye does not see
+  // it. Cost: as of a look.
+  vision::Image<float> TrueDisparities(const terrain::Terrain& terrain, const math::Transform& X_WR,
+                                       messages::LookDirection direction) const;
+
   // The pair as it is, in R, with a mask of the rover's own parts.
   const vision::StereoRig& rig(messages::LookDirection direction) const {
     return PairOf(direction).rig;
@@ -70,6 +79,10 @@ class StereoImager {
     std::array<Eye, 2> eyes;  // left, right
   };
 
+  rendering::PictureScene SceneOf(const terrain::Terrain& terrain,
+                                  const math::Transform& X_WR) const;
+  rendering::Picture Render(const rendering::PictureScene& scene, const Eye& eye,
+                            const math::Transform& X_WR, rendering::TerrainLook& look) const;
   Pair MakePair(const StereoParams& params, messages::LookDirection direction,
                 core::TrialKey key) const;
   const Pair& PairOf(messages::LookDirection direction) const {

@@ -68,7 +68,8 @@ TEST(StereoParamsTest, ExtremesThatAreAcceptedWork) {
 TEST(StereoParamsTest, StoredCamerasSeeTheGroundOfTheLightStripes) {
   const std::filesystem::path folder =
       std::filesystem::path(ROCKYARD_SOURCE_DIR) / "scenarios" / "sensors";
-  for (const char* name : {"stereo_athena_sdm.json", "stereo_rocky_3_2.json"}) {
+  for (const char* name :
+       {"stereo_athena_sdm.json", "stereo_rocky_3_2.json", "stereo_matthies_1995.json"}) {
     StereoParams params = NoiselessStereo();
     ASSERT_NO_THROW(core::ReadParams(core::LoadJsonFile(folder / name), params)) << name;
     params.field_of_view = StereoFieldOfView::kStripe;

@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <numeric>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -20,14 +18,11 @@
 #include "image_files/pfm_file.h"
 #include "image_files/ply_file.h"
 #include "image_files/png_file.h"
-#include "report/atomic_file.h"
 #include "vision/stereo/outside.h"
 #include "vision/stereo/stereo.h"
 
 namespace rockyard::campaign {
 namespace {
-
-namespace fs = std::filesystem;
 
 // A share of range ends above this says that the range may be too short.
 constexpr double kManyAtTheEnd = 0.1;
@@ -79,30 +74,9 @@ void NoteDoubts(StereoResult& result) {
   }
 }
 
-// Writes into the folder, and keeps what is where.
-class Folder {
- public:
-  Folder(const fs::path& path, StereoResult& result) : path_(path), result_(result) {
-    std::error_code error;
-    fs::create_directories(path_, error);
-    if (error) {
-      throw core::UserError(path_.string(), "cannot be made: " + error.message(),
-                            "choose another --out");
-    }
-  }
-
-  void Write(std::string_view what, std::string_view name, std::string_view bytes) {
-    report::WriteFileAtomically(path_ / name, bytes);
-    result_.files.push_back({std::string(what), path_ / name});
-  }
-
- private:
-  fs::path path_;
-  StereoResult& result_;
-};
-
 void WritePoints(const StereoRequest& request, const StereoInput& input,
-                 const vision::DisparityImage& disparities, Folder& folder, StereoResult& result) {
+                 const vision::DisparityImage& disparities, OutputFolder& folder,
+                 StereoResult& result) {
   const auto points = PointsOf(disparities, input.left, *input.cameras);
   const vision::ElevationGrid grid = GridOverPoints(points, *input.cameras, request.cell_m);
   result.points = static_cast<std::int64_t>(points.size());
@@ -138,13 +112,15 @@ StereoResult MatchPair(const StereoRequest& request) {
   result.counts = vision::CountDrops(disparities);
   if (!request.reference.empty()) result.score = Scored(request, disparities);
   NoteDoubts(result);
-  Folder folder(request.out, result);
+  OutputFolder folder(request.out);
   const image_files::Picture picture = DisparityPicture(disparities, result.params.correlator);
   folder.Write("disparity", "disparity.pfm", image_files::EncodePfm(DisparityValues(disparities)));
   folder.Write("disparity_picture", "disparity.png", image_files::EncodePng(picture));
   folder.Write("picture", "picture.png", image_files::EncodePng(PairPicture(input.left, picture)));
   if (input.cameras) WritePoints(request, input, disparities, folder, result);
+  result.files = folder.files();
   folder.Write("summary", "stereo.json", core::DumpJson(StereoJson(request, result)));
+  result.files = folder.files();
   return result;
 }
 

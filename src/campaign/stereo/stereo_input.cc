@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "image_files/luminance.h"
 #include "image_files/read_image.h"
+#include "vision/cameras/aligned_pair.h"
 #include "vision/cameras/camera_file.h"
 #include "vision/stereo/pyramid.h"
 #include "vision/stereo/rectification_table.h"
@@ -144,6 +145,12 @@ StereoInput ReadStereoInput(const StereoRequest& request, int pyramid_level) {
   right = Reduced(request.right, std::move(right), pyramid_level);
   if (!cameras) {
     TakeImages(request, std::move(left), std::move(right), input);
+    return input;
+  }
+  if (const auto aligned = vision::AlignedPair(cameras->left, cameras->right)) {
+    input.cameras = *aligned;
+    input.left = std::move(left);
+    input.right = std::move(right);
     return input;
   }
   input.cameras = RectifyOrThrow(request.cameras, *cameras);

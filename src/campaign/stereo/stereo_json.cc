@@ -74,7 +74,7 @@ JsonValue StereoJson(const StereoRequest& request, const StereoResult& result) {
   json.Set("points", JsonValue(result.points));
   json.Set("notes", core::ListOf(result.notes));
   JsonValue files = JsonValue::Object();
-  for (const StereoResult::File& file : result.files) {
+  for (const OutputFile& file : result.files) {
     files.Set(file.what, JsonValue(file.path.filename().string()));
   }
   json.Set("files", std::move(files));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "campaign/stereo/output_folder.h"
 #include "vision/cameras/rectification.h"
 #include "vision/stereo/disparity.h"
 #include "vision/stereo/row_alignment.h"
@@ -50,11 +51,7 @@ struct StereoResult {
   std::int64_t points = 0;
   std::vector<std::string> notes;  // what a user should know before believing it
 
-  struct File {
-    std::string what;
-    std::filesystem::path path;
-  };
-  std::vector<File> files;
+  std::vector<OutputFile> files;
 
   // Share of all pixels that have a disparity.
   double Density() const;

@@ -1,0 +1,117 @@
+#include "campaign/stereo/render_pair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string_view>
+
+#include "campaign/stereo/stereo_products.h"
+#include "core/error.h"
+#include "core/json_text.h"
+#include "image_files/pfm_file.h"
+#include "image_files/png_file.h"
+#include "rover/rover.h"
+#include "scenario/load.h"
+#include "sensing/stereo_imager.h"
+#include "terrain/field.h"
+#include "trial/layout.h"
+#include "vision/cameras/aligned_pair.h"
+#include "vision/cameras/camera_file.h"
+
+namespace rockyard::campaign {
+namespace {
+
+using vision::Image;
+
+// A scenario whose stereo sensor has other fidelities has cameras all the same.
+scenario::Scenario LoadWithImages(const RenderRequest& request) {
+  std::vector<std::string> overrides = request.overrides;
+  overrides.emplace_back("sensors.stereo.fidelity=image");
+  return scenario::LoadScenario(request.scenario, overrides);
+}
+
+math::Pose2 PoseOf(const RenderRequest& request, const math::Pose2& start) {
+  return {request.x_m.value_or(start.x_m), request.y_m.value_or(start.y_m),
+          request.heading_rad.value_or(start.heading_rad)};
+}
+
+// Pictures of disparities are made of those that a matcher stores.
+vision::DisparityImage Stored(const Image<float>& disparities) {
+  vision::DisparityImage stored(disparities.width(), disparities.height(),
+                                vision::Dropped(vision::Drop::kOutside));
+  for (int y = 0; y < stored.height(); ++y) {
+    for (int x = 0; x < stored.width(); ++x) {
+      const float px = disparities.At(x, y);
+      if (!std::isfinite(px)) continue;
+      stored.At(x, y) = static_cast<std::int16_t>(std::lround(px * vision::kDisparityOne));
+    }
+  }
+  return stored;
+}
+
+struct Seen {
+  float most_px = 0.0F;
+  double share = 0.0;
+};
+
+Seen Summary(const Image<float>& disparities) {
+  Seen seen;
+  std::size_t count = 0;
+  for (const float px : disparities.values()) {
+    if (!std::isfinite(px)) continue;
+    ++count;
+    seen.most_px = std::max(seen.most_px, px);
+  }
+  seen.share = static_cast<double>(count) / static_cast<double>(disparities.values().size());
+  return seen;
+}
+
+void Write(const RenderRequest& request, const sensing::StereoImages& images,
+           const vision::StereoRig& rig, const Image<float>& disparities, float most_px,
+           RenderResult& result) {
+  OutputFolder folder(request.out);
+  folder.Write("left", "left.png", image_files::EncodePng(images.left));
+  folder.Write("right", "right.png", image_files::EncodePng(images.right));
+  folder.Write("cameras", "cameras.json",
+               core::DumpJson(vision::CameraPairJson({rig.left, rig.right})) + "\n");
+  folder.Write("disparity", "disparity.pfm", image_files::EncodePfm(disparities));
+  vision::CorrelatorParams range;
+  range.disparities = static_cast<std::int64_t>(std::ceil(most_px)) + 1;
+  folder.Write("disparity_picture", "disparity.png",
+               image_files::EncodePng(DisparityPicture(Stored(disparities), range)));
+  result.files = folder.files();
+}
+
+}  // namespace
+
+RenderResult RenderPair(const RenderRequest& request) {
+  const scenario::Scenario scenario = LoadWithImages(request);
+  const trial::DriveParams& drive = scenario.drive;
+  const core::TrialKey key{request.seed.value_or(static_cast<std::uint64_t>(scenario.seed)),
+                           request.trial};
+  terrain::Terrain terrain = terrain::BuildField(drive.terrain, trial::LayoutKey(drive, key),
+                                                 trial::TerrainCourse(drive.course))
+                                 .terrain;
+  RenderResult result;
+  result.pose = PoseOf(request, drive.course.Start());
+  const std::unique_ptr<rover::Rover> rover = rover::MakeRover(drive.rover, terrain);
+  rover->Place(result.pose);
+  const math::Transform& X_WR = rover->state().X_WR;
+  const sensing::StereoImager imager(drive.sensors.stereo, drive.sensors.sun, drive.sensors.look,
+                                     drive.rover.geometry, key);
+  const vision::StereoRig& rig = imager.rig(request.direction);
+  const sensing::StereoImages images = imager.Expose(terrain, X_WR, 0, request.direction);
+  const Image<float> disparities = imager.TrueDisparities(terrain, X_WR, request.direction);
+  const Seen seen = Summary(disparities);
+  const auto pair = vision::AlignedPair(rig.left, rig.right);
+  result.size = rig.left.size;
+  result.exposure_s = images.exposure_s;
+  result.seen_by_both = seen.share;
+  if (pair && seen.most_px > 0.0F) {
+    result.nearest_m = pair->focal_px * pair->baseline_m / static_cast<double>(seen.most_px);
+  }
+  Write(request, images, rig, disparities, seen.most_px, result);
+  return result;
+}
+
+}  // namespace rockyard::campaign
