@@ -139,7 +139,8 @@ def print_errors(rows):
 def print_times(measured):
     cases = {case["name"]: case["sides"] for case in measured["cases"]}
     names = [side["name"] for side in cases["level_0"]]
-    print("\n| time of a level over that of the next | " + " | ".join(names) + " |")
+    print("| time of a level over that of the next | "
+          + " | ".join(name.replace("AVX3", "AVX-512") for name in names) + " |")
     print("| --- |" + " --- |" * len(names))
     for level in LEVELS[1:]:
         ratios = [match_times(cases[f"level_{level - 1}"], name) / match_times(cases[f"level_{level}"], name)
@@ -163,9 +164,10 @@ def main():
         with open(args.csv, "w", encoding="utf-8", newline="") as file:
             writer = csv.DictWriter(file, rows[0])
             writer.writeheader()
-            writer.writerows({key: f"{value:.4g}" if isinstance(value, float) else value
+            writer.writerows({key: f"{value:.6g}" if isinstance(value, float) else value
                               for key, value in row.items()} for row in rows)
     text = args.times.read_text(encoding="utf-8") if args.times else study.run([args.benchmark])
+    print()
     print_times(json.loads(text))
     return 0
 
