@@ -8,18 +8,25 @@
 
 namespace rockyard::trial {
 
-// Computers of Goldberg 2002, section 5. Their times stand in compute_tables.h.
+// Computers of Goldberg 2002, section 5, whose times stand in compute_tables.h, and of others whose
+// stereo goes with the width of the images, in stereo_tables.h. Section 5 has four computers: the
+// first of table 2 and the three of table 3.
 enum class Computer {
   kNone,      // images, stereo and navigation take no time
   kR3000,     // 12 MHz, on board of the Athena SDM (table 2)
   kPentium3,  // 500 MHz workstation (table 3)
   kSparc,     // 300 MHz workstation (table 3)
   kRad6000,   // 20 MHz, a desktop cage (table 3)
+  kMer,       // RAD6000 of 20 MHz as flown by MER (Howard 2012 table 2)
+  kMsl,       // RAD750 of 200 MHz of MSL, by instructions a second (Howard 2012 section 3)
+  kFpga,      // Virtex 5 for stereo beside the RAD6000 (Howard 2012 table 2)
+  kSparc10,   // workstation (Matthies 1995 section 8)
 };
 
 struct ComputeParams {
   Computer computer = Computer::kNone;
   double acquisition_s = 8.974;
+  double stereo_time_factor = 1.0;
   double behaviour_s = 0.0;
   double move_overhead_s = 0.0;
 
@@ -30,8 +37,8 @@ struct ComputeParams {
                      "scans is clock.scan_time_s, whichever computer",
               .origin = Origin::kSetting});
     v.Real("acquisition_s", acquisition_s,
-           {.doc = "time to take a pair of stereo images where the computer is one of table 3, "
-                   "which has no such row; r3000_12mhz has its own in table 2",
+           {.doc = "time to take a pair of stereo images; r3000_12mhz has its own in table 2, "
+                   "the tables of the others have no such row",
             .min = 0.0,
             .max = 3600.0,
             .origin = Origin::kAssumed,
@@ -39,6 +46,15 @@ struct ComputeParams {
                       "images takes most of it",
             .study_low = 0.5,
             .study_high = 10.0});
+    v.Real("stereo_time_factor", stereo_time_factor,
+           {.doc = "time of stereo over that of the computer's profile",
+            .min = 0.0,
+            .max = 100.0,
+            .origin = Origin::kAssumed,
+            .source = "the middle of what is published: the 24 to 30 s of MER, and with them "
+                      "MSL's 1.32 to 1.65 s (Howard 2012 section 3), are 0.89 to 1.11 of it",
+            .study_low = 0.89,
+            .study_high = 1.11});
     v.Real("behaviour_s", behaviour_s,
            {.doc = "time in which the behaviour controller judges the elevations of a stereo look, "
                    "beyond stereo's own; not spent with computer none",
@@ -65,6 +81,7 @@ struct ComputeParams {
 
 template <>
 struct rockyard::core::EnumNames<rockyard::trial::Computer> {
-  static constexpr std::array<std::string_view, 5> kNames{"none", "r3000_12mhz", "pentium_3_500mhz",
-                                                          "sparc_300mhz", "rad6000_20mhz"};
+  static constexpr std::array<std::string_view, 9> kNames{
+      "none",        "r3000_12mhz", "pentium_3_500mhz", "sparc_300mhz", "rad6000_20mhz",
+      "mer_rad6000", "msl_rad750",  "virtex_5_fpga",    "sparc_10"};
 };

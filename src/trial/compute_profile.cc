@@ -8,6 +8,7 @@
 
 #include "core/check.h"
 #include "trial/compute_tables.h"
+#include "trial/stereo_tables.h"
 
 namespace rockyard::trial {
 namespace {
@@ -85,23 +86,70 @@ ComputeTimes Table3Times(Machine machine, double acquisition_s, const GridSize& 
   return times;
 }
 
-}  // namespace
+// In software, of other images than the printed ones: pixels times disparities.
+double SoftwareStereo(const PrintedTime& printed, double width_px) {
+  return printed.middle_s() * std::pow(width_px / printed.width_px, 3);
+}
 
-ComputeTimes MakeComputeTimes(const ComputeParams& params, const GridSize& grid) {
-  EXPECT(grid.cell_m > 0.0 && grid.area_m2 > 0.0);
+double FpgaStereo(double width_px) {
+  const std::size_t first = width_px < kFpgaStereo[1].width_px ? 0 : 1;  // of the two nearest
+  const PrintedTime& from = kFpgaStereo[first];
+  const PrintedTime& to = kFpgaStereo[first + 1];
+  const double share = std::log(width_px / from.width_px) / std::log(to.width_px / from.width_px);
+  return from.middle_s() * std::pow(to.middle_s() / from.middle_s(), share);
+}
+
+ComputeTimes WithStereo(ComputeTimes times, double stereo_s) {
+  times.stereo_s = stereo_s;
+  return times;
+}
+
+// By instructions a second, from MER's computer to MSL's.
+ComputeTimes OnMsl(const ComputeTimes& mer) {
+  constexpr double kRatio = kMerMips / kMslMips;
+  return {mer.start_up_s * kRatio, mer.acquisition_s, mer.stereo_s * kRatio,
+          mer.navigation_s * kRatio};
+}
+
+ComputeTimes PublishedTimes(const ComputeParams& params, const GridSize& grid, double width_px) {
+  const auto table_3 = [&](Machine machine) {
+    return Table3Times(machine, params.acquisition_s, grid);
+  };
+  const auto mer = [&] {
+    return WithStereo(table_3(&Table3Row::rad6000_s), SoftwareStereo(kMerStereo, width_px));
+  };
   switch (params.computer) {
     case Computer::kNone:
       return {};
     case Computer::kR3000:
       return AthenaTimes(grid);
     case Computer::kPentium3:
-      return Table3Times(&Table3Row::pentium_3_s, params.acquisition_s, grid);
+      return table_3(&Table3Row::pentium_3_s);
     case Computer::kSparc:
-      return Table3Times(&Table3Row::sparc_s, params.acquisition_s, grid);
+      return table_3(&Table3Row::sparc_s);
     case Computer::kRad6000:
-      return Table3Times(&Table3Row::rad6000_s, params.acquisition_s, grid);
+      return table_3(&Table3Row::rad6000_s);
+    case Computer::kMer:
+      return mer();
+    case Computer::kMsl:
+      return OnMsl(mer());
+    case Computer::kFpga:
+      return WithStereo(table_3(&Table3Row::rad6000_s), FpgaStereo(width_px));
+    case Computer::kSparc10:
+      return WithStereo(table_3(&Table3Row::sparc_s),
+                        kSparc10Pyramid_s + SoftwareStereo(kSparc10Scanlines, width_px));
   }
   return {};
+}
+
+}  // namespace
+
+ComputeTimes MakeComputeTimes(const ComputeParams& params, const GridSize& grid,
+                              double stereo_width_px) {
+  EXPECT(grid.cell_m > 0.0 && grid.area_m2 > 0.0 && stereo_width_px > 0.0);
+  ComputeTimes times = PublishedTimes(params, grid, stereo_width_px);
+  times.stereo_s *= params.stereo_time_factor;
+  return times;
 }
 
 }  // namespace rockyard::trial

@@ -1,4 +1,5 @@
-// What a look takes on the computer of the scenario (Goldberg 2002, section 5).
+// What a look takes on the computer of the scenario (Goldberg 2002 section 5, Howard 2012 section
+// 3, Matthies 1995 section 8).
 #pragma once
 
 #include "trial/compute_params.h"
@@ -10,6 +11,9 @@ struct GridSize {
   double cell_m = 0.2;  // side of a square of the same area as a cell
   double area_m2 = 100.0;
 };
+
+// Width of the images that are matched where nothing else is said, px: that of MER's.
+inline constexpr double kStereoWidth_px = 256.0;
 
 // s. Every look takes all parts but the first, or those of them that it has a use for.
 struct ComputeTimes {
@@ -29,6 +33,18 @@ struct ComputeTimes {
 // Table 2 knows cells of 20 cm alone. Elsewhere its times of planes, traversability and path votes
 // are assumed to grow as the geometric mean of table 3's machines does; its adding of disparities
 // to the grid does not depend on the cells, as table 3's XYZ map does not.
-ComputeTimes MakeComputeTimes(const ComputeParams& params, const GridSize& grid);
+//
+// Stereo of tables 2 and 3 is of the images that they name, whatever `stereo_width_px` > 0. That of
+// the other computers goes with it: in software as its cube, pixels times disparities, eightfold a
+// level of a pyramid (Goldberg 2002 section 2), and the Sparc 10's pyramid on top does not; in
+// gates on a straight line in the logarithms through the printed widths and on beyond them: between
+// them pixels alone, within 5 % (all disparities at once). Where a range is printed it is the
+// middle.
+//
+// The other computers' start-up and navigation are not published. MER's RAD6000 and the one beside
+// the FPGA have those of table 3's, MSL's the same by instructions a second, and the Sparc 10 those
+// of table 3's Sparc of 300 MHz, which are a lower bound.
+ComputeTimes MakeComputeTimes(const ComputeParams& params, const GridSize& grid,
+                              double stereo_width_px = kStereoWidth_px);
 
 }  // namespace rockyard::trial

@@ -34,7 +34,10 @@ GridSize GridOf(const DriveParams& drive) {
 }
 
 ComputeTimes ComputeTimesOf(const DriveParams& drive) {
-  return MakeComputeTimes(drive.clock.compute, GridOf(drive));
+  const sensing::StereoParams* cameras = drive.sensors.terrain_sensors.chosen().cameras(drive);
+  const double width_px =
+      cameras == nullptr ? kStereoWidth_px : static_cast<double>(cameras->columns);
+  return MakeComputeTimes(drive.clock.compute, GridOf(drive), width_px);
 }
 
 bool UsesNavigationSoftware(const DriveParams& drive) {

@@ -175,8 +175,9 @@ TEST(ComparisonJUnit, CountsVerdictsAndEscapes) {
 // A misspelt name or a moved file would take the warning away without a word.
 TEST(Reference, NamesTheFileOfEveryScenario) {
   const std::filesystem::path folder = ROCKYARD_SOURCE_DIR "/results/reference";
-  for (const char* file : {"matthies1995.json", "matthies1995_hazard_detection.json",
-                           "matthies1995_mission.json", "goldberg2002.json"}) {
+  for (const char* file :
+       {"matthies1995.json", "matthies1995_hazard_detection.json", "matthies1995_mission.json",
+        "goldberg2002.json", "goldberg2002_stereo.json", "howard2012.json"}) {
     const PublishedReference reference = LoadReference(folder / file);
     std::set<std::string> named;
     for (const auto& scenario : reference.scenarios) {

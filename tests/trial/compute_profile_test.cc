@@ -137,8 +137,8 @@ TEST(ComputeTimesTest, TheR3000GrowsAsTheMachinesOfTable3DoOnAverage) {
 }
 
 TEST(ComputeTimesTest, WithoutAComputerNothingTakesTime) {
-  const ComputeTimes times =
-      MakeComputeTimes({.computer = Computer::kNone, .acquisition_s = 9.0}, {});
+  const ComputeTimes times = MakeComputeTimes(
+      {.computer = Computer::kNone, .acquisition_s = 9.0, .stereo_time_factor = 2.0}, {});
   EXPECT_EQ(times.start_up_s + times.acquisition_s + times.stereo_s + times.navigation_s, 0.0);
 }
 
