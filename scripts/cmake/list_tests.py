@@ -33,6 +33,12 @@ def tests_of(program):
             yield f"{suite['name']}.{test['name']}", test["file"]
 
 
+def absolute(file, program, labels):
+    """The file as LABELS names it: compiler caches may tell paths from the build folder on."""
+    places = [Path(folder, file).resolve() for folder in Path(program).resolve().parents]
+    return next((str(place) for place in places if str(place) in labels), file)
+
+
 def bracket(text):
     """A CMake argument in which no character has a meaning."""
     level = "=" * next(n for n in range(1, 9) if f"]{'=' * n}]" not in text)
@@ -54,7 +60,7 @@ def main(arguments):
         return 1
     program, labels_file, output = arguments
     labels = read_labels(labels_file)
-    tests = list(tests_of(program))
+    tests = [(name, absolute(file, program, labels)) for name, file in tests_of(program)]
     seen = {file for _, file in tests}
     for file in sorted(seen - labels.keys()):
         print(f"list_tests: {file} has tests, but stands in no list of rockyard_test", file=sys.stderr)
