@@ -144,6 +144,7 @@ void AddCommands(CLI::App& app, ExitCode& exit_code) {
   AddRoverCommand(app);
   AddTerrainCommand(app);
   AddStereoCommand(app);
+  AddCalibrateCommand(app);
   AddTraceCommand(app, exit_code);
   AddReplayCommand(app, exit_code);
   AddReportCommand(app, exit_code);
