@@ -145,6 +145,7 @@ void AddCommands(CLI::App& app, ExitCode& exit_code) {
   AddTerrainCommand(app);
   AddRenderCommand(app);
   AddStereoCommand(app);
+  AddCalibrateCommand(app);
   AddTraceCommand(app, exit_code);
   AddReplayCommand(app, exit_code);
   AddReportCommand(app, exit_code);

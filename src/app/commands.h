@@ -20,6 +20,7 @@ void AddReplayCommand(CLI::App& app, ExitCode& exit_code);
 void AddReportCommand(CLI::App& app, ExitCode& exit_code);
 void AddRoverCommand(CLI::App& app);
 void AddRenderCommand(CLI::App& app);
+void AddCalibrateCommand(CLI::App& app);
 void AddStereoCommand(CLI::App& app);
 void AddTerrainCommand(CLI::App& app);
 void AddTraceCommand(CLI::App& app, ExitCode& exit_code);

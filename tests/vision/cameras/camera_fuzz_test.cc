@@ -1,76 +1,37 @@
-// Mutated files of cameras.
+// Damaged files of cameras are read or refused in words, and nothing else. The study of many cases
+// is camera_fuzz_study.cc.
 #include <gtest/gtest.h>
 
-#include <string>
+#include <map>
 
-#include "core/error.h"
-#include "core/json_text.h"
-#include "core/random.h"
-#include "vision/cameras/camera_file.h"
-#include "vision/cameras/test_cameras.h"
+#include "vision/cameras/mutated_cameras.h"
 
 namespace rockyard::vision {
 namespace {
 
-// Mutated files give a camera or a UserError, and a camera that is given is one to work with.
-TEST(CameraFileFuzzTest, MutatedFilesAreReadOrRefused) {
-  const CameraPair pair{FlightCamera("M2020_HAZFLA"), FlightCamera("VW_MER_CAHVOR")};
-  const std::string seeds[] = {CameraPairText(pair), core::DumpJson(CameraPairJson(pair)),
-                               CameraText(pair.left), core::DumpJson(CameraJson(pair.right))};
-  core::RandomStream random({24, 0}, core::Purpose::kTest);
-  const auto below = [&](std::size_t end) {
-    return static_cast<std::size_t>(random.Uniform() * static_cast<double>(end));
-  };
-  const std::string tokens[] = {"=",
-                                "\n",
-                                "nan",
-                                "1e308",
-                                "-",
-                                "\"",
-                                "[",
-                                "}",
-                                "Camera = left\n",
-                                "S =\n",
-                                "Model = CAHVORE",
-                                ",",
-                                "#",
-                                std::string(1, '\0')};
-  int read = 0;
-  int refused = 0;
-  for (int trial = 0; trial < 4000; ++trial) {
-    std::string text = seeds[below(4)];
-    const std::size_t changes = 1 + below(4);
-    for (std::size_t change = 0; change < changes && !text.empty(); ++change) {
-      const std::size_t at = below(text.size());
-      switch (below(4)) {
-        case 0:
-          text[at] = static_cast<char>(below(256));
-          break;
-        case 1:
-          text.insert(at, tokens[below(std::size(tokens))]);
-          break;
-        case 2:
-          text.erase(at, 1 + below(30));
-          break;
-        default:
-          text.resize(below(10) == 0 ? at : text.size());
-      }
-    }
-    try {
-      const CameraModel camera =
-          below(2) == 0 ? ParseCamera(text, "f") : ParseCameraPair(text, "f").left;
-      ++read;
-      ASSERT_GT(camera.size.columns, 0);
-      ASSERT_LE(camera.size.columns, kLongestSide_px);
-      const auto ray = BackProject(camera, MiddleOf(camera.size));
-      ASSERT_TRUE(!ray || ray->direction.allFinite());
-    } catch (const core::UserError& error) {
-      ++refused;
-      ASSERT_FALSE(error.problems().empty());
-    }
+constexpr std::uint64_t kSeed = 2311;
+
+// The seeds themselves are in order, or the mutations would test the first check only.
+TEST(CameraFileFuzzTest, TheSeedsAreRead) {
+  for (const CameraSeed& file : CameraSeeds()) {
+    const CameraVerdict verdict = JudgeCamera(file);
+    EXPECT_EQ(verdict.outcome, CameraOutcome::kRead) << file.name << ": " << verdict.what;
   }
-  EXPECT_GT(read, 100);
-  EXPECT_GT(refused, 1000);
+}
+
+TEST(CameraFileFuzzTest, DamagedFilesAreReadOrRefusedInWords) {
+  const std::vector<CameraSeed> seeds = CameraSeeds();
+  std::map<CameraOutcome, int> counts;
+  for (std::uint32_t number = 0; number < 3000; ++number) {
+    const CameraSeed file = MutatedCamera(seeds, kSeed, number);
+    const CameraVerdict verdict = JudgeCamera(file);
+    ASSERT_NE(verdict.outcome, CameraOutcome::kFailed)
+        << "case " << number << ", " << file.name << ": " << verdict.what;
+    ++counts[verdict.outcome];
+  }
+  // Both answers occur, or the damage would test one side only.
+  EXPECT_GT(counts[CameraOutcome::kRead], 300);
+  EXPECT_GT(counts[CameraOutcome::kRefused], 1500);
 }
 
 }  // namespace

@@ -1,0 +1,130 @@
+#include "vision/calibration/corner_candidates.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "vision/calibration/smooth_image.h"
+
+namespace rockyard::vision {
+namespace {
+
+constexpr int kApart_px = 3;
+constexpr double kLeastShare = 0.02;
+constexpr double kCircle_px = 5.0;
+constexpr double kLeastContrast = 12.0;
+constexpr std::size_t kCirclePoints = 32;
+constexpr double kFarthest_px = 3.0;
+
+Image<float> Saddles(const Image<float>& smooth) {
+  Image<float> saddles(smooth.width(), smooth.height(), 0.0F);
+  for (int y = 1; y + 1 < smooth.height(); ++y) {
+    for (int x = 1; x + 1 < smooth.width(); ++x) {
+      const float middle = smooth.At(x, y);
+      const float xx = smooth.At(x - 1, y) - 2.0F * middle + smooth.At(x + 1, y);
+      const float yy = smooth.At(x, y - 1) - 2.0F * middle + smooth.At(x, y + 1);
+      const float xy = 0.25F * (smooth.At(x + 1, y + 1) - smooth.At(x - 1, y + 1) -
+                                smooth.At(x + 1, y - 1) + smooth.At(x - 1, y - 1));
+      saddles.At(x, y) = std::max(0.0F, xy * xy - xx * yy);
+    }
+  }
+  return saddles;
+}
+
+// Of equal neighbours the first in reading order counts.
+bool IsPeak(const Image<float>& saddles, int x, int y) {
+  const float value = saddles.At(x, y);
+  for (int dy = -kApart_px; dy <= kApart_px; ++dy) {
+    for (int dx = -kApart_px; dx <= kApart_px; ++dx) {
+      const float other = saddles.At(x + dx, y + dy);
+      const bool before = dy < 0 || (dy == 0 && dx < 0);
+      if (other > value || (before && other == value)) return false;
+    }
+  }
+  return true;
+}
+
+bool HasFourSectors(const Image<float>& smooth, const Pixel& at) {
+  std::array<double, kCirclePoints> values{};
+  for (std::size_t i = 0; i < kCirclePoints; ++i) {
+    const double angle_rad = 2.0 * std::numbers::pi * static_cast<double>(i) / kCirclePoints;
+    values[i] = ValueAt(smooth, at + kCircle_px * Pixel(std::cos(angle_rad), std::sin(angle_rad)));
+  }
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  if (*most - *least < kLeastContrast) return false;
+  const double middle = 0.5 * (*most + *least);
+  int changes = 0;
+  for (std::size_t i = 0; i < kCirclePoints; ++i) {
+    if ((values[i] > middle) != (values[(i + 1) % kCirclePoints] > middle)) ++changes;
+  }
+  return changes == 4;
+}
+
+bool Contains(const GrayImage& image, int x, int y) {
+  return x >= 1 && y >= 1 && x + 1 < image.width() && y + 1 < image.height();
+}
+
+// One step: the solution of sum w g g^T q = sum w g g^T p with the window about `at`.
+std::optional<Pixel> MeetOfEdges(const GrayImage& image, const Pixel& at, double radius_px) {
+  const double falloff = 0.5 / (0.25 * radius_px * radius_px);
+  const int reach = static_cast<int>(std::ceil(radius_px));
+  const int x0 = static_cast<int>(std::lround(at.x()));
+  const int y0 = static_cast<int>(std::lround(at.y()));
+  Eigen::Matrix2d tensor = Eigen::Matrix2d::Zero();
+  Pixel moment = Pixel::Zero();
+  for (int y = y0 - reach; y <= y0 + reach; ++y) {
+    for (int x = x0 - reach; x <= x0 + reach; ++x) {
+      if (!Contains(image, x, y)) continue;
+      const Pixel apart = Pixel(x, y) - at;
+      const double squared = apart.squaredNorm();
+      if (squared > radius_px * radius_px) continue;
+      const Pixel gradient(0.5 * (image.At(x + 1, y) - image.At(x - 1, y)),
+                           0.5 * (image.At(x, y + 1) - image.At(x, y - 1)));
+      const Eigen::Matrix2d part = std::exp(-falloff * squared) * gradient * gradient.transpose();
+      tensor += part;
+      moment += part * apart;
+    }
+  }
+  constexpr double kLeastAcross = 0.02;  // det / trace^2 of edges at some 8 deg to each other
+  const double trace = tensor.trace();
+  if (!(tensor.determinant() > kLeastAcross * trace * trace)) return std::nullopt;
+  return Pixel(at + tensor.inverse() * moment);
+}
+
+}  // namespace
+
+std::vector<Pixel> CornerCandidates(const Image<float>& smooth) {
+  std::vector<Pixel> candidates;
+  if (smooth.empty()) return candidates;
+  const Image<float> saddles = Saddles(smooth);
+  const float largest = *std::max_element(saddles.values().begin(), saddles.values().end());
+  const auto least = static_cast<float>(kLeastShare) * largest;
+  for (int y = kApart_px; y + kApart_px < smooth.height(); ++y) {
+    for (int x = kApart_px; x + kApart_px < smooth.width(); ++x) {
+      if (saddles.At(x, y) <= least || !IsPeak(saddles, x, y)) continue;
+      if (HasFourSectors(smooth, Pixel(x, y))) candidates.emplace_back(x, y);
+    }
+  }
+  return candidates;
+}
+
+std::optional<Pixel> RefineCorner(const GrayImage& image, const Pixel& start, double radius_px) {
+  constexpr int kMostSteps = 30;
+  constexpr double kAtRest_px = 1e-4;
+  Pixel at = start;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const std::optional<Pixel> next = MeetOfEdges(image, at, radius_px);
+    if (!next || (*next - start).norm() > kFarthest_px) return std::nullopt;
+    const double moved_px = (*next - at).norm();
+    at = *next;
+    if (moved_px < kAtRest_px) break;
+  }
+  if (!Contains(image, static_cast<int>(std::lround(at.x())),
+                static_cast<int>(std::lround(at.y())))) {
+    return std::nullopt;
+  }
+  return at;
+}
+
+}  // namespace rockyard::vision

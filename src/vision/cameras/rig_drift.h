@@ -1,0 +1,38 @@
+// The right camera of a rig that has drifted against the left one since both were calibrated.
+//
+// In the right camera's own frame (x along its columns, y down, z along the ray of the middle of
+// its image; all by its rays, so for every lens) the camera is turned about its centre by
+//   Ry(-yaw) Rx(-pitch) Rz(roll),
+// its centre moves along the baseline, and its image grows about its middle. Small changes of a
+// point's place in the right image (a linear camera of focal length f, point at slopes (a, b)):
+//   column: f yaw (1 + a^2) - f pitch a b + f roll b      (turned in by yaw, a far point has
+//   row:    f yaw a b - f pitch (1 + b^2) - f roll a       f yaw less disparity)
+#pragma once
+
+#include "core/random.h"
+#include "vision/cameras/camera_model.h"
+#include "vision/cameras/rig_drift_params.h"
+
+namespace rockyard::vision {
+
+// What the right camera is, less what its calibration says. Signs as in perception's calibration
+// errors, seen from behind the camera.
+struct RigDrift {
+  double roll_rad = 0.0;     // > 0: turned right side down
+  double pitch_rad = 0.0;    // > 0: looks further down
+  double yaw_rad = 0.0;      // > 0: looks further left, towards the left camera's view
+  double baseline_m = 0.0;   // > 0: further from the left camera
+  double focal_share = 0.0;  // > 0: its focal length is longer by this share
+
+  bool operator==(const RigDrift&) const = default;
+};
+
+// Independent normal numbers: five draws, in the order of the members, whatever the deviations are,
+// so that a change of one leaves the others.
+RigDrift DrawRigDrift(const RigDriftParams& params, core::RandomStream& stream);
+
+// The drifted right camera, in the frame that both have. Without drift the camera itself, bit for
+// bit. Requires centres apart and a ray in the middle of the right image. A pure function.
+CameraModel DriftedRight(const CameraModel& left, const CameraModel& right, const RigDrift& drift);
+
+}  // namespace rockyard::vision
