@@ -54,6 +54,7 @@ enum class Purpose : std::uint32_t {
   kRockTexture = 43,
   kRockLook = 44,  // of one rock as a whole: its albedo, its piece of texture
   kPixelDefect = 45,
+  kRigDrift = 46,  // of a stereo pair since its calibration
 };
 
 // Raw Philox 4x32-10 bijection of one counter under one key.

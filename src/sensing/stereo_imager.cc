@@ -9,6 +9,7 @@
 #include "rendering/picture/stereo_truth.h"
 #include "sensing/rover_parts.h"
 #include "sensing/stereo_view.h"
+#include "vision/cameras/rig_drift.h"
 
 namespace rockyard::sensing {
 namespace {
@@ -76,9 +77,12 @@ StereoImager::Pair StereoImager::MakePair(const StereoParams& params, LookDirect
     rendering::PictureReadout readout(camera_, rays, number, key);
     return Eye{std::move(rays), std::move(readout)};
   };
-  Pair pair{{left, right, {}, {}}, {eye(left, first), eye(right, first + 1)}};
+  core::RandomStream stream(key, core::Purpose::kRigDrift, static_cast<std::uint32_t>(first / 2));
+  const vision::CameraModel true_right =
+      vision::DriftedRight(left, right, vision::DrawRigDrift(params.images.drift, stream));
+  Pair pair{{left, right, {}, {}}, true_right, {eye(left, first), eye(true_right, first + 1)}};
   pair.rig.left_free = FreePixels(pair.eyes[0].rays, body_);
-  pair.rig.right_free = FreePixels(pair.eyes[1].rays, body_);
+  pair.rig.right_free = FreePixels(rendering::PixelRays(right), body_);
   return pair;
 }
 
@@ -123,7 +127,7 @@ Image<float> StereoImager::TrueDisparities(const terrain::Terrain& terrain,
   rendering::TerrainLook look(terrain, sun_, look_, key_);
   const Eye& left = pair.eyes[0];
   const rendering::StereoTruth truth = rendering::SeenFromOtherEye(
-      scene, Render(scene, left, X_WR, look), left.rays, X_WR, pair.rig.right);
+      scene, Render(scene, left, X_WR, look), left.rays, X_WR, pair.true_right);
   Image<float> disparities(left.rays.columns(), left.rays.rows(),
                            std::numeric_limits<float>::quiet_NaN());
   for (int row = 0; row < disparities.height(); ++row) {

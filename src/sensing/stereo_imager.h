@@ -41,12 +41,15 @@ struct StereoImages {
 // The sensor at the image fidelity: two pairs of linear cameras with the view of MakeStereoView, of
 // 2^pyramid_level times its columns and rows.
 //
-// Limits: no lens distorts; a pair is as stiff as its calibration has it; wheels and arms stay
-// where they are on level ground; both eyes expose at once, for no time at all as far as motion
-// goes.
+// A pair may have drifted since its calibration (images.drift): the images are those of the drifted
+// right camera, the rig is told as it was calibrated.
+//
+// Limits: no lens distorts; wheels and arms stay where they are on level ground; both eyes expose
+// at once, for no time at all as far as motion goes.
 class StereoImager {
  public:
-  // The camera of a trial: its pixels' faults belong to (key, camera). Making one costs some 50 ms
+  // The cameras of a trial: faults of pixels belong to (key, camera), drift to (key, pair). Making
+  // them costs some 50 ms
   // and 60 MB for 512 x 512 images.
   StereoImager(const StereoParams& params, const rendering::SunParams& sun,
                const rendering::LookParams& look, const rover::RoverGeometryParams& rover,
@@ -64,7 +67,7 @@ class StereoImager {
   vision::Image<float> TrueDisparities(const terrain::Terrain& terrain, const math::Transform& X_WR,
                                        messages::LookDirection direction) const;
 
-  // The pair as it is, in R, with a mask of the rover's own parts.
+  // The pair as it was calibrated, in R, with a mask of the rover's own parts.
   const vision::StereoRig& rig(messages::LookDirection direction) const {
     return PairOf(direction).rig;
   }
@@ -76,6 +79,7 @@ class StereoImager {
   };
   struct Pair {
     vision::StereoRig rig;
+    vision::CameraModel true_right;
     std::array<Eye, 2> eyes;  // left, right
   };
 

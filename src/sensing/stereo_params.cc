@@ -201,6 +201,9 @@ void StereoImageParams::Visit(core::FieldVisitor& v) {
              .max = 4,
              .origin = Origin::kPublished,
              .source = "Goldberg 2002 table 2: 512 x 512 reduced to 128 x 128"});
+  v.Group("drift", drift,
+          "how far the cameras of a pair have drifted apart since they were calibrated, which the "
+          "rover does not know; drawn once a trial for either pair");
   v.Group("camera", camera, "lens, filter, imager, exposure, faults");
 }
 

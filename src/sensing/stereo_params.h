@@ -8,6 +8,7 @@
 #include "core/fields.h"
 #include "math/angles.h"
 #include "rendering/picture/picture_params.h"
+#include "vision/cameras/rig_drift_params.h"
 
 namespace rockyard::sensing {
 
@@ -43,6 +44,7 @@ struct StripeWindowParams {
 // The images that a pair takes where fidelity is image.
 struct StereoImageParams {
   std::int64_t pyramid_level = 2;
+  vision::RigDriftParams drift;
   rendering::PictureCameraParams camera;
 
   void Visit(core::FieldVisitor& v);

@@ -125,6 +125,40 @@ TEST(StereoImagerTest, LooksRepeatBitForBitAndDifferInNoiseFromLookToLook) {
             0.5 * noise);
 }
 
+// A right camera that has turned by e shows what its axis looks at f e columns away: the pair is
+// told as it was calibrated, and the disparities are wrong by some f e.
+TEST(StereoImagerTest, ADriftedPairIsToldAsItWasCalibrated) {
+  StereoParams params = Images(1);
+  const StereoImager stiff = ImagerOf(params);
+  params.images.drift.yaw_sd_rad = 0.01;
+  const StereoImager drifted = ImagerOf(params);
+  const math::Transform X_WR = math::Transform::Identity();
+  for (const LookDirection direction : {LookDirection::kAhead, LookDirection::kBehind}) {
+    EXPECT_TRUE(stiff.rig(direction).right_free == drifted.rig(direction).right_free);
+    EXPECT_EQ(std::get<vision::Cahv>(drifted.rig(direction).right.lens),
+              std::get<vision::Cahv>(stiff.rig(direction).right.lens));
+  }
+  const auto shift_px = [&](LookDirection direction) {
+    const vision::Image<float> a = stiff.TrueDisparities(Flat(), X_WR, direction);
+    const vision::Image<float> b = drifted.TrueDisparities(Flat(), X_WR, direction);
+    const int column = a.width() / 2;
+    const int row = a.height() / 2;
+    return static_cast<double>(b.At(column, row) - a.At(column, row));
+  };
+  const double deviation_px = 2.0 * params.focal_columns_px() * 0.01;
+  const double ahead_px = shift_px(LookDirection::kAhead);
+  const double behind_px = shift_px(LookDirection::kBehind);
+  for (const double px : {ahead_px, behind_px}) {
+    EXPECT_GT(std::abs(px), 1e-3 * deviation_px);
+    EXPECT_LT(std::abs(px), 6.0 * deviation_px);
+  }
+  EXPECT_NE(ahead_px, behind_px);
+  const StereoImages before = stiff.Expose(Flat(), X_WR, 0, LookDirection::kAhead);
+  const StereoImages after = drifted.Expose(Flat(), X_WR, 0, LookDirection::kAhead);
+  EXPECT_EQ(before.left, after.left);
+  EXPECT_FALSE(before.right == after.right);
+}
+
 // All but brightest_share of the pixels are to lie below target_fill of the largest count.
 TEST(StereoImagerTest, BothEyesAreExposedForTheTimeThatTheLeftOneAsksFor) {
   const StereoParams params = Images(1);
