@@ -109,14 +109,14 @@ double PictureRenderer::WholePixel(int column, int row, const Met& met, TerrainL
   return scene_.Radiance(met, ray_W, seen.albedo, seen.normal_W);
 }
 
-// How one pixel sees the surfaces in it: each with its albedo, and by how much relief tilts its
-// normal.
+// How one pixel sees the surfaces in it: each with its texture over the whole pixel, where the pixel
+// first meets it.
 class PictureRenderer::PixelLooks {
  public:
   struct Seen {
     int surface = SurfacePoint::kSky;
     double albedo = 0.0;
-    Vector3 tilt_W = Vector3::Zero();
+    Vector3 tilt_W = Vector3::Zero();  // of the normal, by relief
   };
 
   template <typename LookOf>
@@ -141,50 +141,44 @@ class PictureRenderer::PixelLooks {
 double PictureRenderer::SplitPixel(int column, int row, Band& band, TerrainLook& look) const {
   const std::vector<int>& rocks = Candidates(column, row, band);
   const Pixel& middle = MeetRow(row, band)[static_cast<std::size_t>(column)];
-  PixelLooks looks;
-  Pixel part{{}, true};
   const auto meet = [&](int x, int y) {
     const double size = 1.0 / edge_samples_;
     const vision::Ray ray =
         rays_.Beside(column, row, (x + 0.5) * size - 0.5, (y + 0.5) * size - 0.5);
-    Vector3 ray_W = DirectionOf(ray);
-    part.met = scene_.Meet(OriginOf(ray), ray_W, rocks);
-    return ray_W;
+    const Vector3 ray_W = DirectionOf(ray);
+    return Part{ray_W, {scene_.Meet(OriginOf(ray), ray_W, rocks), true}};
   };
-  const auto radiance = [&](const Vector3& ray_W) {
-    const Met& met = part.met;
+  // The edge may run through the neighbour only: then all four corners are as the middle.
+  const int last = edge_samples_ - 1;
+  const std::array<Part, 4> corners{meet(0, 0), meet(last, 0), meet(0, last), meet(last, last)};
+  if (std::none_of(corners.begin(), corners.end(),
+                   [&](const Part& part) { return IsEdge(middle, part.pixel); })) {
+    return WholePixel(column, row, middle.met, look);
+  }
+  PixelLooks looks;
+  const auto seen_at = [&](const Met& met, const Vector3& ray_W) -> const PixelLooks::Seen& {
+    return looks.Of(met.point,
+                    [&] { return LookAt(met.point, ray_W, met.range_m, column, row, look); });
+  };
+  const auto radiance = [&](const Part& part) {
+    const Met& met = part.pixel.met;
     if (met.point.surface == SurfacePoint::kSky) {
-      return scene_.Radiance(met, ray_W, 0.0, Vector3::UnitZ());
+      return scene_.Radiance(met, part.ray_W, 0.0, Vector3::UnitZ());
     }
-    const PixelLooks::Seen& seen = looks.Of(
-        met.point, [&] { return LookAt(met.point, ray_W, met.range_m, column, row, look); });
+    const PixelLooks::Seen& seen = seen_at(met, part.ray_W);
     const Vector3 normal_W = (met.point.normal_W + seen.tilt_W).normalized();
-    return scene_.Radiance(met, ray_W, seen.albedo, normal_W);
+    return scene_.Radiance(met, part.ray_W, seen.albedo, normal_W);
   };
   // The surface in the middle is seen there, others where a part first meets them.
   if (middle.met.point.surface != SurfacePoint::kSky) {
-    looks.Of(middle.met.point, [&] {
-      const Vector3 ray_W = DirectionOf(rays_.At(column, row));
-      return LookAt(middle.met.point, ray_W, middle.met.range_m, column, row, look);
-    });
+    seen_at(middle.met, DirectionOf(rays_.At(column, row)));
   }
-  // The edge may run through the neighbour only: then all four corners are as the middle.
-  const int last = edge_samples_ - 1;
   double sum = 0.0;
-  bool is_whole = true;
-  for (const int y : {0, last}) {
-    for (const int x : {0, last}) {
-      const Vector3 ray_W = meet(x, y);
-      is_whole = is_whole && !IsEdge(middle, part);
-      sum += radiance(ray_W);
-    }
-  }
-  if (is_whole) return WholePixel(column, row, middle.met, look);
+  for (const Part& part : corners) sum += radiance(part);
   for (int y = 0; y < edge_samples_; ++y) {
     for (int x = 0; x < edge_samples_; ++x) {
       if ((x == 0 || x == last) && (y == 0 || y == last)) continue;
-      const Vector3 ray_W = meet(x, y);
-      sum += radiance(ray_W);
+      sum += radiance(meet(x, y));
     }
   }
   return sum / (edge_samples_ * edge_samples_);

@@ -35,6 +35,11 @@ class PictureRenderer {
     Met met;
     bool sees = false;
   };
+  // One of the rays of a pixel that is split.
+  struct Part {
+    math::Vector3 ray_W;
+    Pixel pixel;
+  };
   using Row = std::vector<Pixel>;
   struct Band;
   class PixelLooks;
