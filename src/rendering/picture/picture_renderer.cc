@@ -33,6 +33,10 @@ struct PictureRenderer::Band {
   std::array<int, 3> numbers{-1, -1, -1};
   std::array<std::vector<std::vector<int>>, 2> candidates;
   std::array<int, 2> tile_rows{-1, -1};
+  // Those of a row of blocks, and of one pixel.
+  std::vector<std::vector<int>> in_blocks;
+  int block_row = -1;
+  std::vector<int> in_pixel;
 };
 
 PictureRenderer::PictureRenderer(const PictureScene& scene, const LookParams& look,
@@ -47,22 +51,44 @@ SurfaceLook PictureRenderer::LookAt(const SurfacePoint& point, const Vector3& ra
                  Swept(by_row_W, ray_W, point.normal_W, range_m));
 }
 
+void PictureRenderer::FindInBlocks(int block_row, Band& band) const {
+  band.block_row = block_row;
+  band.in_blocks.resize(static_cast<std::size_t>(rays_.block_columns()));
+  for (int b = 0; b < rays_.block_columns(); ++b) {
+    const PixelRays::Tile& block = rays_.BlockAt(b, block_row);
+    scene_.RocksInCone(X_WA_ * block.origin_A, block.origin_spread_m, InWorld(block.cone),
+                       band.in_blocks[static_cast<std::size_t>(b)]);
+  }
+}
+
 const std::vector<int>& PictureRenderer::Candidates(int column, int row, Band& band) const {
   const int tile_row = row / PixelRays::kTile;
   const auto slot = static_cast<std::size_t>(tile_row % 2);
   auto& candidates = band.candidates[slot];
   if (band.tile_rows[slot] != tile_row) {
     band.tile_rows[slot] = tile_row;
+    const int block_row = tile_row / PixelRays::kTilesPerBlock;
+    if (band.block_row != block_row) FindInBlocks(block_row, band);
     candidates.resize(static_cast<std::size_t>(rays_.tile_columns()));
     for (int t = 0; t < rays_.tile_columns(); ++t) {
       const PixelRays::Tile& tile = rays_.TileAt(t, tile_row);
-      RayCone cone_W = tile.cone;
-      cone_W.axis = X_WA_.linear() * tile.cone.axis;
-      scene_.RocksInCone(X_WA_ * tile.origin_A, tile.origin_spread_m, cone_W,
+      const auto& among = band.in_blocks[static_cast<std::size_t>(t / PixelRays::kTilesPerBlock)];
+      scene_.RocksInCone(X_WA_ * tile.origin_A, tile.origin_spread_m, InWorld(tile.cone), among,
                          candidates[static_cast<std::size_t>(t)]);
     }
   }
   return candidates[static_cast<std::size_t>(column / PixelRays::kTile)];
+}
+
+// The rocks that the rays within one pixel may meet.
+const std::vector<int>& PictureRenderer::InPixel(int column, int row, Band& band) const {
+  const std::vector<int>& in_tile = Candidates(column, row, band);
+  const vision::Ray ray = rays_.At(column, row);
+  const double chord =
+      0.5 * (rays_.ByColumn(column, row).norm() + rays_.ByRow(column, row).norm());
+  scene_.RocksInCone(OriginOf(ray), 0.0, InWorld(RayCone::Around(ray.direction, chord)), in_tile,
+                     band.in_pixel);
+  return band.in_pixel;
 }
 
 const PictureRenderer::Row& PictureRenderer::MeetRow(int row, Band& band) const {
@@ -139,7 +165,7 @@ class PictureRenderer::PixelLooks {
 };
 
 double PictureRenderer::SplitPixel(int column, int row, Band& band, TerrainLook& look) const {
-  const std::vector<int>& rocks = Candidates(column, row, band);
+  const std::vector<int>& rocks = InPixel(column, row, band);
   const Pixel& middle = MeetRow(row, band)[static_cast<std::size_t>(column)];
   const auto meet = [&](int x, int y) {
     const double size = 1.0 / edge_samples_;

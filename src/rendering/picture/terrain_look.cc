@@ -13,7 +13,7 @@ using math::Vector3;
 
 // Rocks have pieces of a square of this side of their texture: large enough that two alike are
 // rare within an image, small enough that its pages are used again.
-constexpr double kRockPieces_m = 2.0;
+constexpr double kRockPieces_m = 0.5;
 // Components of the normal below this do not see their face.
 constexpr double kLeastComponent = 0.5;
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <utility>
 
 #include "core/check.h"
@@ -164,7 +165,7 @@ double TextureField::SlopeDeviation() const {
 }
 
 void TextureField::Trim() {
-  constexpr std::size_t kMostPages = 3600;
+  constexpr std::size_t kMostPages = 1800;
   if (pages_.size() <= kMostPages) return;
   pages_.clear();
   latest_.assign(amplitudes_.size(), {});
@@ -198,83 +199,97 @@ const TextureField::Page& TextureField::MakePage(const Place& place) {
   AddRefined(coarse, kFirst, kLast, -1.0F, fine);
   const auto amplitude = static_cast<float>(amplitudes_[octave]);
   for (float& value : fine.values) value *= amplitude;
+  auto page = std::make_unique_for_overwrite<Page>();
+  const auto store = [&page](Square& from, std::span<float> to) {
+    for (int row = kFirst; row < kLast; ++row) {
+      const float* line = from.Row(row) + kFirst - from.first;
+      std::copy(line, line + (kLast - kFirst), to.data() + (row - kFirst) * kStored);
+    }
+  };
+  store(fine, page->octave);
+  Square refined(kFirst, kLast - kFirst);
   if (place.octave > 0) {
     const Page& parent = PageAt({place.octave - 1, place.column >> 1, place.row >> 1});
     const int left = static_cast<int>(place.column & 1) * kPage / 2;
     const int down = static_cast<int>(place.row & 1) * kPage / 2;
     Square above(-1, kPage / 2 + 3);
     for (int row = -1; row < kPage / 2 + 2; ++row) {
-      const float* from = parent.nodes.data() + (row + down + 1) * kStored + left;
-      std::copy(from, from + above.size, above.Row(row));
+      const int first = (row + down + 1) * kStored + left;
+      float* to = above.Row(row);
+      for (int k = 0; k < above.size; ++k) {
+        const auto node = static_cast<std::size_t>(first + k);
+        to[k] = parent.coarser[node] + parent.octave[node];
+      }
     }
-    AddRefined(above, kFirst, kLast, 1.0F, fine);
+    AddRefined(above, kFirst, kLast, 1.0F, refined);
   }
-  auto page = std::make_unique<Page>();
-  for (int row = kFirst; row < kLast; ++row) {
-    const float* from = fine.Row(row) + kFirst - fine.first;
-    std::copy(from, from + (kLast - kFirst), page->nodes.data() + (row - kFirst) * kStored);
-  }
+  store(refined, page->coarser);
   return *(pages_[place.Key()] = std::move(page));
 }
 
-void TextureField::AddTaps(const Level& level, double u_m, double v_m,
-                           const Footprint::Ellipse& ellipse, TextureSample& sum) {
+TextureSample TextureField::Taps(const Level& level, double u_m, double v_m,
+                                 const Footprint::Ellipse& ellipse) {
   const double per_m = 1.0 / spacing_m(level.octave);
   // The taps share the length evenly.
   const double step = ellipse.length_m * per_m / level.taps;
+  const double step_u = step * ellipse.long_axis.x();
+  const double step_v = step * ellipse.long_axis.y();
+  const double middle = 0.5 * (level.taps - 1);
+  const double first_u = u_m * per_m - middle * step_u;
+  const double first_v = v_m * per_m - middle * step_v;
+  const auto page_at = [&](double u, double v) {
+    static_assert(kPage == 1 << 6);
+    return Place{level.octave, WholeBelow(u) >> 6, WholeBelow(v) >> 6};
+  };
+  // Most footprints lie in one page, as their ends do.
+  const Place place = page_at(first_u, first_v);
+  const Place last = page_at(first_u + 2.0 * middle * step_u, first_v + 2.0 * middle * step_v);
+  const Page* const only_page = place.Key() == last.Key() ? &PageAt(place) : nullptr;
+  const auto share = static_cast<float>(level.share);
   Four value{};
   Four slope_u{};
   Four slope_v{};
   for (int i = 0; i < level.taps; ++i) {
-    const double along = (i - 0.5 * (level.taps - 1)) * step;
-    const double u = u_m * per_m + along * ellipse.long_axis.x();
-    const double v = v_m * per_m + along * ellipse.long_axis.y();
+    const double u = first_u + i * step_u;
+    const double v = first_v + i * step_v;
     const std::int64_t column = WholeBelow(u);
     const std::int64_t row = WholeBelow(v);
-    static_assert(kPage == 1 << 6);
-    const Page& page = PageAt({level.octave, column >> 6, row >> 6});
+    const Page& page = only_page != nullptr ? *only_page : PageAt(page_at(u, v));
     // The splines that reach into a cell stand on the nodes -1 to 2 of it.
-    const float* corner =
-        page.nodes.data() + (row & (kPage - 1)) * kStored + (column & (kPage - 1));
+    const std::int64_t corner = (row & (kPage - 1)) * kStored + (column & (kPage - 1));
+    const auto nodes = [&page, corner, share](int line) {
+      const std::int64_t first = corner + line * kStored;
+      return LoadFour(page.coarser.data() + first) + share * LoadFour(page.octave.data() + first);
+    };
     const CellWeights wu(static_cast<float>(u - static_cast<double>(column)));
     const CellWeights wv(static_cast<float>(v - static_cast<double>(row)));
-    const Four a = LoadFour(corner);
-    const Four b = LoadFour(corner + kStored);
-    const Four c = LoadFour(corner + 2 * kStored);
-    const Four d = LoadFour(corner + 3 * kStored);
+    const Four a = nodes(0);
+    const Four b = nodes(1);
+    const Four c = nodes(2);
+    const Four d = nodes(3);
     const Four across = wv.value[0] * a + wv.value[1] * b + wv.value[2] * c + wv.value[3] * d;
     const Four down = wv.slope[0] * a + wv.slope[1] * b + wv.slope[2] * c + wv.slope[3] * d;
     value += wu.value * across;
     slope_u += wu.slope * across;
     slope_v += wu.value * down;
   }
-  const double weight = level.share / level.taps;
-  sum.value += weight * SumOf(value);
-  sum.slope_u += weight * per_m * SumOf(slope_u);
-  sum.slope_v += weight * per_m * SumOf(slope_v);
+  const double weight = 1.0 / level.taps;
+  return {weight * SumOf(value), weight * per_m * SumOf(slope_u), weight * per_m * SumOf(slope_v)};
 }
 
 TextureSample TextureField::Mean(double u_m, double v_m, const Footprint& footprint) {
   const Footprint::Ellipse ellipse = footprint.Axes();
-  TextureSample sum;
   // A footprint that is not a number, or far too large for any octave, sees the mean.
-  if (!(ellipse.length_m < 1e3 * spacings_m_.front())) return sum;
-  const int octave_count = octaves();
+  if (!(ellipse.length_m < 1e3 * spacings_m_.front())) return {};
   // No narrower than what kMostTaps can cover.
   const double width_m = std::max({ellipse.width_m, ellipse.length_m / kMostTaps, 1e-9});
   // The share of octave j is full - j between 0 and 1.
   const double full = ChordLog2(spacings_m_.front() / (kHalfFaded * width_m)) + 0.5;
-  if (full <= 0.0) return sum;
+  if (full <= 0.0) return {};
   const int taps =
       std::clamp(static_cast<int>(std::ceil(ellipse.length_m / width_m - 0.25)), 1, kMostTaps);
-  const int finest = std::min(static_cast<int>(full), octave_count - 1);
-  const double share = std::min(full - finest, 1.0);
-  // share C_finest + (1 - share) C_(finest - 1); the coarser one needs half as many taps.
-  AddTaps({finest, share, taps}, u_m, v_m, ellipse, sum);
-  if (share < 1.0 && finest > 0) {
-    AddTaps({finest - 1, 1.0 - share, (taps + 1) / 2}, u_m, v_m, ellipse, sum);
-  }
-  return sum;
+  const int finest = std::min(static_cast<int>(full), octaves() - 1);
+  return Taps({finest, std::min(full - finest, 1.0), taps}, u_m, v_m, ellipse);
 }
 
 }  // namespace rockyard::rendering
