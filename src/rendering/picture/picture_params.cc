@@ -69,6 +69,12 @@ void LookParams::Visit(core::FieldVisitor& v) {
              .min = 1,
              .max = 16,
              .origin = Origin::kSetting});
+  v.Integer("texture_taps", texture_taps,
+            {.doc = "most places along what a pixel covers of a surface at which its texture is "
+                    "looked up; longer footprints are blurred across",
+             .min = 1,
+             .max = 16,
+             .origin = Origin::kSetting});
 }
 
 void PictureCameraParams::Visit(core::FieldVisitor& v) {

@@ -22,6 +22,7 @@ struct LookParams {
   double lommel_seeliger_share = 0.0;
   double sun_diameter_rad = math::DegToRad(0.35);
   std::int64_t edge_samples = 4;
+  std::int64_t texture_taps = 8;
 
   TextureParams Soil() const { return Between(drift, gravel, soil_graininess); }
   void Visit(core::FieldVisitor& v);

@@ -39,15 +39,17 @@ struct TextureSample {
 // the same key gives the same texture.
 class TextureField {
  public:
-  TextureField(const TextureParams& texture, core::TrialKey key, core::Purpose purpose);
+  static constexpr int kMostTaps = 8;
+
+  TextureField(const TextureParams& texture, core::TrialKey key, core::Purpose purpose,
+               int most_taps = kMostTaps);
 
   // Returns the mean of the texture over a pixel's footprint around (u, v), and that of its
-  // gradient. Along its longer axis a footprint is sampled up to kMostTaps times; at each of these
+  // gradient. Along its longer axis a footprint is sampled up to most_taps times; at each of these
   // octaves fade out by the shorter axis w, in full for s >= 0.85 w and gone for s <= 0.42 w,
   // linearly in an approximation of log2(s). Cost: 15 to 100 ns, and some ns for each new node.
   TextureSample Mean(double u_m, double v_m, const Footprint& footprint);
 
-  static constexpr int kMostTaps = 8;
 
   // Returns the standard deviation of the gradient along an axis, 1/m, of the texture itself.
   double SlopeDeviation() const;
@@ -98,11 +100,13 @@ class TextureField {
   }
   const Page& FindPage(const Place& place);
   const Page& MakePage(const Place& place);
+  static void AddParent(const Page& parent, const Place& place, Page& page);
   TextureSample Taps(const Level& level, double u_m, double v_m,
                      const Footprint::Ellipse& ellipse);
 
   core::TrialKey key_;
   core::Purpose purpose_;
+  int most_taps_;
   std::vector<double> spacings_m_;
   std::vector<double> amplitudes_;  // of N, by octave
   // The page of each octave that was asked for last.

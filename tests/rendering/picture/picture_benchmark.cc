@@ -80,6 +80,13 @@ void BM_PairWithJaggedEdges(benchmark::State& state) {
 }
 BENCHMARK(BM_PairWithJaggedEdges)->Unit(benchmark::kMillisecond);
 
+void BM_PairWithFewTaps(benchmark::State& state) {
+  LookParams look;
+  look.texture_taps = state.range(0);
+  RenderPairs(state, MarsWith(0.013, 0.0), look);
+}
+BENCHMARK(BM_PairWithFewTaps)->ArgName("taps")->Arg(2)->Arg(4)->Unit(benchmark::kMillisecond);
+
 void BM_PairOnRoughGround(benchmark::State& state) { RenderPairs(state, MarsWith(0.013, 0.01)); }
 BENCHMARK(BM_PairOnRoughGround)->Unit(benchmark::kMillisecond);
 
