@@ -84,8 +84,7 @@ const std::vector<int>& PictureRenderer::Candidates(int column, int row, Band& b
 const std::vector<int>& PictureRenderer::InPixel(int column, int row, Band& band) const {
   const std::vector<int>& in_tile = Candidates(column, row, band);
   const vision::Ray ray = rays_.At(column, row);
-  const double chord =
-      0.5 * (rays_.ByColumn(column, row).norm() + rays_.ByRow(column, row).norm());
+  const double chord = 0.5 * (rays_.ByColumn(column, row).norm() + rays_.ByRow(column, row).norm());
   scene_.RocksInCone(OriginOf(ray), 0.0, InWorld(RayCone::Around(ray.direction, chord)), in_tile,
                      band.in_pixel);
   return band.in_pixel;
@@ -135,8 +134,8 @@ double PictureRenderer::WholePixel(int column, int row, const Met& met, TerrainL
   return scene_.Radiance(met, ray_W, seen.albedo, seen.normal_W);
 }
 
-// How one pixel sees the surfaces in it: each with its texture over the whole pixel, where the pixel
-// first meets it.
+// How one pixel sees the surfaces in it: each with its texture over the whole pixel, where the
+// pixel first meets it.
 class PictureRenderer::PixelLooks {
  public:
   struct Seen {

@@ -50,7 +50,8 @@ Met PictureScene::Meet(const Vector3& origin_W, const Vector3& ray_W,
   if (rover_.body != nullptr) {
     body_m = rover_.body->Distance(X_RW_ * origin_W, X_RW_.linear() * ray_W);
   }
-  const auto hit = terrain_.CastRay(origin_W, ray_W, std::min(body_m, kFarthest_m), rocks);
+  const auto hit = terrain_.CastRay(origin_W, ray_W, std::min(body_m, kFarthest_m), rocks,
+                                    terrain::RayWay::kSpline);
   SurfacePoint& point = met.point;
   if (hit) {
     met.range_m = hit->distance_m;

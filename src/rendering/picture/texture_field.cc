@@ -105,9 +105,9 @@ Square NumbersAround(const PixelNoise& noise, std::int64_t column0, std::int64_t
 // D along one axis at a node, from those `stride` apart.
 inline float LowPass(const float* from, std::ptrdiff_t stride) {
   constexpr float kSixteenth = 1.0F / 16.0F;
-  return kSixteenth * (10.0F * from[0] + 5.0F * (from[-stride] + from[stride]) -
-                       (from[-2 * stride] + from[2 * stride]) -
-                       (from[-3 * stride] + from[3 * stride]));
+  return kSixteenth *
+         (10.0F * from[0] + 5.0F * (from[-stride] + from[stride]) -
+          (from[-2 * stride] + from[2 * stride]) - (from[-3 * stride] + from[3 * stride]));
 }
 
 // D of the nodes in and around a page: of every other row, then of every other column.
@@ -305,8 +305,8 @@ TextureSample TextureField::Mean(double u_m, double v_m, const Footprint& footpr
   const double full = ChordLog2(spacings_m_.front() / kHalfFaded * per_width) + 0.5;
   if (full <= 0.0) return {};
   // Rounded up from a quarter.
-  const auto taps = std::clamp<std::int64_t>(WholeBelow(ellipse.length_m * per_width + 0.75), 1,
-                                             most_taps_);
+  const auto taps =
+      std::clamp<std::int64_t>(WholeBelow(ellipse.length_m * per_width + 0.75), 1, most_taps_);
   const int finest = std::min(static_cast<int>(full), octaves() - 1);
   return Taps({finest, std::min(full - finest, 1.0), static_cast<int>(taps)}, u_m, v_m, ellipse);
 }

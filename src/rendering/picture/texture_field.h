@@ -50,7 +50,6 @@ class TextureField {
   // linearly in an approximation of log2(s). Cost: 15 to 100 ns, and some ns for each new node.
   TextureSample Mean(double u_m, double v_m, const Footprint& footprint);
 
-
   // Returns the standard deviation of the gradient along an axis, 1/m, of the texture itself.
   double SlopeDeviation() const;
 
@@ -101,8 +100,7 @@ class TextureField {
   const Page& FindPage(const Place& place);
   const Page& MakePage(const Place& place);
   static void AddParent(const Page& parent, const Place& place, Page& page);
-  TextureSample Taps(const Level& level, double u_m, double v_m,
-                     const Footprint::Ellipse& ellipse);
+  TextureSample Taps(const Level& level, double u_m, double v_m, const Footprint::Ellipse& ellipse);
 
   core::TrialKey key_;
   core::Purpose purpose_;
