@@ -37,25 +37,30 @@ std::array<double, 4> ControlPoints(double a, double b, double c, double d) {
           (b + 4.0 * c + d) / 6.0};
 }
 
-// The borders between cells that a line crosses along one axis.
+// The borders between cells that a line crosses along one axis. Each is worked out anew, so that it
+// has the same bits however the line comes to it.
 struct Borders {
+  double position;    // in cells, where t = 0
+  double t_per_cell;  // infinite for a line along the borders
   std::int64_t cell;
-  std::int64_t step;
-  double next;   // t at the next border
-  double delta;  // from one border to the next
+  double next;  // t at the next border
 
-  // A line at `position` where t = 0, in cells, that is in its cell at t = `from`.
-  Borders(double position, double cells_per_t, double from)
-      : cell(static_cast<std::int64_t>(std::floor(position + from * cells_per_t))),
-        step(cells_per_t > 0.0 ? 1 : -1) {
-    constexpr double kNever = std::numeric_limits<double>::infinity();
-    const double border = static_cast<double>(cells_per_t > 0.0 ? cell + 1 : cell);
-    next = cells_per_t == 0.0 ? kNever : (border - position) / cells_per_t;
-    delta = cells_per_t == 0.0 ? kNever : 1.0 / std::abs(cells_per_t);
-  }
+  // The line is in its cell at t = `from`.
+  Borders(double position_in, double cells_per_t, double from)
+      : position(position_in),
+        t_per_cell(1.0 / cells_per_t),
+        cell(static_cast<std::int64_t>(std::floor(position + from * cells_per_t))),
+        next(BlockEnd(1)) {}
+
   void Advance() {
-    cell += step;
-    next += delta;
+    cell += t_per_cell > 0.0 ? 1 : -1;
+    next = BlockEnd(1);
+  }
+  // Where the line leaves the block of `size` cells, a power of two, that holds the cell.
+  double BlockEnd(std::int64_t size) const {
+    if (std::isinf(t_per_cell)) return std::numeric_limits<double>::infinity();
+    const std::int64_t first = cell & ~(size - 1);
+    return (static_cast<double>(t_per_cell > 0.0 ? first + size : first) - position) * t_per_cell;
   }
 };
 
@@ -179,10 +184,13 @@ const RoughnessSpline::Page& RoughnessSpline::PageAt(std::int64_t page_column,
   if (const Page* page = place.load(std::memory_order_acquire)) return *page;
   auto made = std::make_unique<Page>();
   made->nodes_m = NodesOf(field_->octaves() - 1, column, row);
+  made->highest_m.fill(-std::numeric_limits<double>::infinity());
   for (int y = 0; y < kPage; ++y) {
     for (int x = 0; x < kPage; ++x) {
-      made->bounds[static_cast<std::size_t>(y) * kPage + static_cast<std::size_t>(x)] =
-          BoundsOf(made->nodes_m, x, y);
+      const Bounds bounds = BoundsOf(made->nodes_m, x, y);
+      made->bounds[static_cast<std::size_t>(y * kPage + x)] = bounds;
+      double& highest_m = made->highest_m[BlockOf(x, y)];
+      highest_m = std::max(highest_m, bounds.height_m);
     }
   }
   // Another thread may have made the same one meanwhile.
@@ -242,12 +250,24 @@ std::optional<double> RoughnessSpline::FirstBelow(const SightLine& line,
   Borders rows(y, along_y, from);
   const double along2 = line.along_x * line.along_x + line.along_y * line.along_y;
   while (true) {
-    const double to = std::min({columns.next, rows.next, end});
     const Cell cell = CellAt(columns.cell, rows.cell);
+    const auto lowest = [&](double to) {
+      return line.height_m - line.descent * (line.descent > 0.0 ? to : from);
+    };
+    const double out = std::min({columns.BlockEnd(kBlock), rows.BlockEnd(kBlock), end});
+    if (lowest(out) > cell.page->highest_m[BlockOf(cell.column, cell.row)]) {
+      if (out >= end) return std::nullopt;
+      // Both axes go on to the first cell beyond the block.
+      while (columns.next < out) columns.Advance();
+      while (rows.next < out) rows.Advance();
+      (columns.next < rows.next ? columns : rows).Advance();
+      from = out;
+      continue;
+    }
+    const double to = std::min({columns.next, rows.next, end});
     const Bounds& bounds =
         cell.page->bounds[static_cast<std::size_t>(cell.row * kPage + cell.column)];
-    const double lowest = line.height_m - line.descent * (line.descent > 0.0 ? to : from);
-    if (lowest <= bounds.height_m) {
+    if (lowest(to) <= bounds.height_m) {
       const auto at = [&](double t) -> Approach {
         const ReliefSample here =
             SampleIn(cell, x + t * along_x - static_cast<double>(columns.cell),

@@ -37,9 +37,10 @@ class RoughnessSpline {
   ReliefSample Sample(double x_m, double y_m) const;
 
   // Returns the first t, at most max_distance_m, at which the line is not above the surface. The
-  // line visits the cells of the lattice one by one. In each it is compared with the highest that
-  // the cell reaches; what is left is halved until bounds on the curvature tell, or until it is
-  // shorter than 1 mm, so that a crest cut over less than that can be missed.
+  // line visits the cells of the lattice one by one, and passes over blocks of 8 x 8 that do not
+  // reach it. In each cell it is compared with the highest that this reaches; what is left is
+  // halved until bounds on the curvature tell, or until it is shorter than 1 mm, so that a crest
+  // cut over less than that can be missed.
   std::optional<double> FirstBelow(const SightLine& line, double max_distance_m) const;
 
  private:
@@ -52,9 +53,11 @@ class RoughnessSpline {
     double height_m;
     double curvature_per_m;
   };
+  static constexpr int kBlock = 8;  // cells along the side of a block
   struct Page {
     Nodes nodes_m;
     std::array<Bounds, std::size_t{kPage} * kPage> bounds;
+    std::array<double, std::size_t{kPage} * kPage / kBlock / kBlock> highest_m;  // by block
   };
   // One cell of a page.
   struct Cell {
@@ -62,6 +65,9 @@ class RoughnessSpline {
     int column, row;
   };
 
+  static std::size_t BlockOf(int column, int row) {
+    return static_cast<std::size_t>(row / kBlock * (kPage / kBlock) + column / kBlock);
+  }
   Nodes NodesOf(int octave, std::int64_t page_column, std::int64_t page_row) const;
   Bounds BoundsOf(const Nodes& nodes_m, int column, int row) const;
   const Page& PageAt(std::int64_t page_column, std::int64_t page_row) const;

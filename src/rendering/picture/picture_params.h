@@ -16,7 +16,7 @@ namespace rockyard::rendering {
 struct LookParams {
   double soil_graininess = 0.5;  // share of the way from drift to gravel
   TextureParams drift = DriftTexture();
-  TextureParams gravel = GravelTexture();
+  GravelParams gravel = GravelTexture();
   TextureParams rock = RockTexture();
   double rock_albedo_spread = 0.15;
   double lommel_seeliger_share = 0.0;

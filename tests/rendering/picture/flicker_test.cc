@@ -20,7 +20,8 @@ constexpr core::TrialKey kKey{5, 2};
 // Soil with octaves down to far below a pixel, all of which vary alike; nothing is shaded.
 LookParams FineSoil() {
   LookParams look = PlainLook();
-  look.drift = look.gravel = {kContrast, 2.0, 0.4, 0.003125, 0.0};
+  look.drift = {kContrast, 2.0, 0.4, 0.003125, 0.0};
+  look.soil_graininess = 0.0;
   return look;
 }
 
@@ -81,7 +82,7 @@ template <typename CameraAt>
 Changes BetweenPlaces(const CameraAt& camera_at, double shift_m) {
   const auto here = camera_at(0.0);
   const auto there = camera_at(shift_m);
-  const Values light[] = {Sampled(here, 12), Sampled(there, 12)};
+  const Values light[] = {Sampled(here, 8), Sampled(there, 8)};
   const Values picture[] = {Rendered(here), Rendered(there)};
   Values off[] = {picture[0], picture[1]};
   for (int k = 0; k < 2; ++k) {
@@ -99,7 +100,7 @@ void ExpectNoFlicker(const CameraAt& camera_at, double pixel_m) {
     EXPECT_TRUE(is_still(changes.of_picture))
         << shift_px << ": " << changes.of_picture << " for " << changes.of_light;
     EXPECT_GT(changes.of_picture, 0.5 * changes.of_light) << shift_px;
-    EXPECT_LT(changes.unexplained, 0.4 * changes.of_light) << shift_px;
+    EXPECT_LT(changes.unexplained, 0.6 * changes.of_light) << shift_px;
     // The control: a texture without a filter.
     EXPECT_FALSE(is_still(changes.of_points)) << shift_px;
     EXPECT_GT(changes.of_points, 2.0 * changes.of_light) << shift_px;
