@@ -3,12 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numbers>
-#include <optional>
 #include <thread>
 #include <vector>
 
@@ -50,24 +47,14 @@ Ground RoughGround(double rms_m, double slope_rad) {
   return Ground(params, kKey);
 }
 
-// The first point of a ray below the ground, in steps of a tenth of a millimetre.
-std::optional<double> FirstBelow(const Ground& ground, const Vector3& origin,
-                                 const Vector3& direction, double max_distance_m) {
-  for (double t = 0.0; t <= max_distance_m; t += 1e-4) {
-    const Vector3 p = origin + t * direction;
-    if (p.z() <= ground.Height(p.x(), p.y())) return t;
-  }
-  return std::nullopt;
-}
-
-// Rays from above the ground in all directions, many of them flat. Where the ways differ by more
-// than rounding, a crest is cut over less than 1 mm: then a plain march in small steps decides.
+// Rays from above the ground in all directions, many of them flat, over ground of steep crests. A
+// crest that is cut over less than 1 mm either way may miss; none of these rays does so.
 TEST(RoughnessSpline, RaysMeetTheSamePoint) {
-  for (const double rms_m : {0.01, 0.08}) {
+  for (const double rms_m : {0.01, 0.15}) {
     const Ground ground = RoughGround(rms_m, 0.1);
     core::RandomStream stream({2, 1}, core::Purpose::kTest);
-    int hits = 0, misses = 0, differ = 0;
-    for (int i = 0; i < 6000; ++i) {
+    int hits = 0, misses = 0;
+    for (int i = 0; i < 12000; ++i) {
       const double x_m = SampleUniform(stream, -40.0, 40.0);
       const double y_m = SampleUniform(stream, -40.0, 40.0);
       const double up_m = SampleUniform(stream, 0.0, 1.0);
@@ -81,18 +68,13 @@ TEST(RoughnessSpline, RaysMeetTheSamePoint) {
       const auto marched = ground.CastRay(origin, direction, far_m);
       const auto found = ground.CastRay(origin, direction, far_m, RayWay::kSpline);
       (marched ? hits : misses) += 1;
-      if (marched.has_value() == found.has_value() &&
-          (!marched || std::abs(*marched - *found) < 1e-9)) {
-        continue;
+      ASSERT_EQ(marched.has_value(), found.has_value()) << i;
+      if (marched) {
+        ASSERT_NEAR(*marched, *found, 1e-9) << i;
       }
-      ++differ;
-      const double first =
-          FirstBelow(ground, origin, direction, far_m).value_or(std::numeric_limits<double>::max());
-      EXPECT_LE(std::min(marched.value_or(1e9), found.value_or(1e9)), first + 1e-9);
     }
     EXPECT_GT(hits, 1000);
     EXPECT_GT(misses, 1000);
-    EXPECT_LE(differ, 3);
   }
 }
 

@@ -128,5 +128,29 @@ TEST(TerrainLook, RocksDifferAsMuchAsStated) {
   }
 }
 
+// With few taps a strip of ground is blurred across: its texture is paler.
+TEST(TerrainLook, TapsKeepTheTextureOfStrips) {
+  const terrain::Terrain terrain = terrain::FlatWith({});
+  const auto deviation = [&](std::int64_t taps) {
+    LookParams params;
+    params.texture_taps = taps;
+    TerrainLook look(terrain, {}, params, kKey);
+    double sum = 0.0;
+    double square = 0.0;
+    for (int i = 0; i < 400; ++i) {
+      const auto point =
+          PointAt({0.31 * i, 0.17 * i, 0.0}, Vector3::UnitZ(), SurfacePoint::kGround);
+      const double albedo = look.At(point, {0.01, 0.0, 0.0}, {0.0, 0.08, 0.0}).albedo;
+      sum += albedo / 400;
+      square += albedo * albedo / 400;
+    }
+    return std::sqrt(square - sum * sum);
+  };
+  EXPECT_LT(deviation(1), 0.97 * deviation(4));
+  EXPECT_LT(deviation(4), 0.99 * deviation(8));
+  // The strip is eight times as long as wide: more taps would be the same.
+  EXPECT_DOUBLE_EQ(deviation(8), deviation(16));
+}
+
 }  // namespace
 }  // namespace rockyard::rendering
