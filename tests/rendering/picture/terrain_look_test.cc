@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "rendering/picture/picture_kit.h"
@@ -133,6 +134,8 @@ TEST(TerrainLook, TapsKeepTheTextureOfStrips) {
   const terrain::Terrain terrain = terrain::FlatWith({});
   const auto deviation = [&](std::int64_t taps) {
     LookParams params;
+    params.soil_graininess = 0.0;
+    params.drift = {0.1, 2.0, 0.05, 0.003125, 0.0};
     params.texture_taps = taps;
     TerrainLook look(terrain, {}, params, kKey);
     double sum = 0.0;
@@ -144,10 +147,10 @@ TEST(TerrainLook, TapsKeepTheTextureOfStrips) {
       sum += albedo / 400;
       square += albedo * albedo / 400;
     }
-    return std::sqrt(square - sum * sum);
+    return std::sqrt(std::max(square - sum * sum, 0.0));  // rounding, of one value
   };
-  EXPECT_LT(deviation(1), 0.97 * deviation(4));
-  EXPECT_LT(deviation(4), 0.99 * deviation(8));
+  EXPECT_LT(deviation(1), 0.8 * deviation(4));
+  EXPECT_LT(deviation(4), 0.95 * deviation(8));
   // The strip is eight times as long as wide: more taps would be the same.
   EXPECT_DOUBLE_EQ(deviation(8), deviation(16));
 }
