@@ -20,8 +20,8 @@ struct CellSplines {
              (4.0 - 6.0 * s * s + 3.0 * s * s * s) / 6.0, t * t * t / 6.0};
     slope = {-0.5 * s * s, (1.5 * t - 2.0) * t, -(1.5 * s - 2.0) * s, 0.5 * t * t};
   }
-  std::array<double, 4> value;
-  std::array<double, 4> slope;
+  std::array<double, 4> value{};
+  std::array<double, 4> slope{};
 };
 
 // U along one axis at fine node i, from coarse nodes `stride` apart, coarse[0] that of i / 2
@@ -146,12 +146,12 @@ RoughnessSpline::Nodes RoughnessSpline::NodesOf(int octave, std::int64_t page_co
 // A polynomial lies within the hull of its control points, and so do its derivatives, whose control
 // points are differences of those: 6 times the second ones along an axis, 9 times the mixed ones.
 RoughnessSpline::Bounds RoughnessSpline::BoundsOf(const Nodes& nodes_m, int column, int row) const {
-  std::array<std::array<double, 4>, 4> along;  // by row of nodes
+  std::array<std::array<double, 4>, 4> along{};  // by row of nodes
   for (int i = 0; i < 4; ++i) {
     const double* n = nodes_m.data() + (row + i) * kNodes + column;
     along[static_cast<std::size_t>(i)] = ControlPoints(n[0], n[1], n[2], n[3]);
   }
-  std::array<std::array<double, 4>, 4> points;  // by column, then row
+  std::array<std::array<double, 4>, 4> points{};  // by column, then row
   double height_m = -std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 4; ++k) {
     points[k] = ControlPoints(along[0][k], along[1][k], along[2][k], along[3][k]);
@@ -188,7 +188,7 @@ const RoughnessSpline::Page& RoughnessSpline::PageAt(std::int64_t page_column,
   for (int y = 0; y < kPage; ++y) {
     for (int x = 0; x < kPage; ++x) {
       const Bounds bounds = BoundsOf(made->nodes_m, x, y);
-      made->bounds[static_cast<std::size_t>(y * kPage + x)] = bounds;
+      made->bounds[PlaceOf(x, y)] = bounds;
       double& highest_m = made->highest_m[BlockOf(x, y)];
       highest_m = std::max(highest_m, bounds.height_m);
     }
@@ -265,8 +265,7 @@ std::optional<double> RoughnessSpline::FirstBelow(const SightLine& line,
       continue;
     }
     const double to = std::min({columns.next, rows.next, end});
-    const Bounds& bounds =
-        cell.page->bounds[static_cast<std::size_t>(cell.row * kPage + cell.column)];
+    const Bounds& bounds = cell.page->bounds[PlaceOf(cell.column, cell.row)];
     if (lowest(to) <= bounds.height_m) {
       const auto at = [&](double t) -> Approach {
         const ReliefSample here =

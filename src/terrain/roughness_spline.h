@@ -56,8 +56,8 @@ class RoughnessSpline {
   static constexpr int kBlock = 8;  // cells along the side of a block
   struct Page {
     Nodes nodes_m;
-    std::array<Bounds, std::size_t{kPage} * kPage> bounds;
-    std::array<double, std::size_t{kPage} * kPage / kBlock / kBlock> highest_m;  // by block
+    std::array<Bounds, std::size_t{kPage} * kPage> bounds{};
+    std::array<double, std::size_t{kPage} * kPage / kBlock / kBlock> highest_m{};  // by block
   };
   // One cell of a page.
   struct Cell {
@@ -65,8 +65,12 @@ class RoughnessSpline {
     int column, row;
   };
 
+  static std::size_t PlaceOf(int column, int row) {
+    return static_cast<std::size_t>(row) * kPage + static_cast<std::size_t>(column);
+  }
   static std::size_t BlockOf(int column, int row) {
-    return static_cast<std::size_t>(row / kBlock * (kPage / kBlock) + column / kBlock);
+    const int blocks_below = row / kBlock * (kPage / kBlock);
+    return static_cast<std::size_t>(blocks_below) + static_cast<std::size_t>(column / kBlock);
   }
   Nodes NodesOf(int octave, std::int64_t page_column, std::int64_t page_row) const;
   Bounds BoundsOf(const Nodes& nodes_m, int column, int row) const;

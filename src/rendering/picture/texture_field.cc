@@ -77,7 +77,7 @@ struct Square {
         size(nodes),
         values(std::make_unique_for_overwrite<float[]>(static_cast<std::size_t>(nodes) * nodes)) {}
   // Node (column, row) is Row(row)[column - first].
-  float* Row(int row) { return values.get() + static_cast<std::size_t>(row - first) * size; }
+  float* Row(int row) const { return values.get() + static_cast<std::size_t>(row - first) * size; }
   int first;
   int size;
   std::unique_ptr<float[]> values;
@@ -235,7 +235,7 @@ void TextureField::AddParent(const Page& parent, const Place& place, Page& page)
     const int first = (row + down + 1) * kStored + left;
     float* to = above.Row(row);
     for (int k = 0; k < above.size; ++k) {
-      const auto node = static_cast<std::size_t>(first + k);
+      const std::size_t node = static_cast<std::size_t>(first) + static_cast<std::size_t>(k);
       to[k] = parent.coarser[node] + parent.octave[node];
     }
   }
