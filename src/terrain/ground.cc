@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "terrain/depression_field.h"
+#include "terrain/ray_crossing.h"
 #include "terrain/roughness_field.h"
+#include "terrain/roughness_spline.h"
 
 namespace rockyard::terrain {
 namespace {
@@ -12,42 +14,6 @@ namespace {
 // Smallest step of a ray over ground that is no plane, m: far below the finest wavelength of the
 // roughness and the narrowest flank.
 constexpr double kSmallestStep_m = 1e-3;
-// Width at which a bracketed crossing is as exact as contacts and pixels will ever need, m.
-constexpr double kCrossingWidth_m = 1e-12;
-constexpr int kMaxCrossingSteps = 100;
-
-// A zero of `gap` between `above`, where it is positive, and `below`, where it is not: false
-// position with the Illinois rule (Dowell and Jarratt 1971), which halves the value at an end that
-// stays.
-template <typename Gap>
-double FindCrossing(const Gap& gap, double above, double gap_above, double below,
-                    double gap_below) {
-  int kept_end = 0;  // -1 below, +1 above: the end that the last step left where it was
-  for (int i = 0; i < kMaxCrossingSteps && below - above > kCrossingWidth_m; ++i) {
-    // The secant's zero between the two ends.
-    const double t = below - gap_below * (below - above) / (gap_below - gap_above);
-    const double gap_t = gap(t);
-    if (std::abs(gap_t) < kCrossingWidth_m) return t;
-    if (gap_t > 0.0) {
-      above = t;
-      gap_above = gap_t;
-      if (kept_end == -1) gap_below *= 0.5;
-      kept_end = -1;
-    } else {
-      below = t;
-      gap_below = gap_t;
-      if (kept_end == 1) gap_above *= 0.5;
-      kept_end = 1;
-    }
-  }
-  return above;
-}
-
-// How a ray nears the ground at one of its points.
-struct Approach {
-  double gap_m;  // height above the ground
-  double rate;   // closing of the gap per metre of ray
-};
 
 // The ray stays above the ground for the t with gap - rate t - bend t^2 / 2 > 0, where the rate
 // changes by no more than `bend` per metre. The positive root is
@@ -75,6 +41,8 @@ Ground::Ground(const GroundParams& params, core::TrialKey key)
   if (params.HasDepressions()) {
     depressions_ =
         std::make_shared<const DepressionField>(ListDepressions(params.ditches, params.pits));
+  } else if (roughness_) {
+    spline_ = std::make_shared<const RoughnessSpline>(roughness_);
   }
 }
 
@@ -105,15 +73,28 @@ Ground::Bounds Ground::ReliefBounds() const {
   return bounds;
 }
 
-math::Vector3 Ground::Normal(double x_m, double y_m) const {
+math::Vector3 Ground::Normal(double x_m, double y_m, RayWay way) const {
   // The surface z = h(x, y) has the normal (-dh/dx, -dh/dy, 1), up to its length.
   math::Vector3 normal(-slope_x_, -slope_y_, 1.0);
   if (!IsPlane()) {
-    const ReliefSample sample = ReliefAt(x_m, y_m);
+    const ReliefSample sample =
+        way == RayWay::kSpline && spline_ ? spline_->Sample(x_m, y_m) : ReliefAt(x_m, y_m);
     normal.x() -= sample.slope_x;
     normal.y() -= sample.slope_y;
   }
   return normal.normalized();
+}
+
+std::optional<double> Ground::SplineRay(const math::Vector3& origin_W,
+                                        const math::Vector3& direction_W,
+                                        double max_distance_m) const {
+  const SightLine line{origin_W.x(),
+                       origin_W.y(),
+                       direction_W.x(),
+                       direction_W.y(),
+                       origin_W.z() - slope_x_ * origin_W.x() - slope_y_ * origin_W.y(),
+                       slope_x_ * direction_W.x() + slope_y_ * direction_W.y() - direction_W.z()};
+  return spline_->FirstBelow(line, max_distance_m);
 }
 
 std::optional<double> Ground::MarchRay(const math::Vector3& origin_W,

@@ -13,7 +13,13 @@
 namespace rockyard::terrain {
 
 class RoughnessField;   // smooth height field, see roughness_field.h
+class RoughnessSpline;  // the same for many rays, see roughness_spline.h
 class DepressionField;  // ditches and pits, see depression_field.h
+
+// How a ray finds rough ground. Both ways lead to the same point within 1e-9 m; only the first one
+// has the bits that drives are recorded with, the other one takes a thirtieth of its time. Ground
+// with ditches or pits is always marched over.
+enum class RayWay { kMarch, kSpline };
 
 // The ground is immutable; queries are const and thread-safe; copies share roughness and
 // depressions.
@@ -31,7 +37,7 @@ class Ground {
     return IsPlane() ? plane_m : plane_m + ReliefAt(x_m, y_m).height_m;
   }
   // Returns the unit normal in W, pointing up.
-  math::Vector3 Normal(double x_m, double y_m) const;
+  math::Vector3 Normal(double x_m, double y_m, RayWay way = RayWay::kMarch) const;
   // Returns whether a ditch or a pit may reach into the disc around (x, y).
   bool HasDepressionNear(double x_m, double y_m, double radius_m) const {
     return depressions_ != nullptr && DepressionsReach(x_m, y_m, radius_m);
@@ -46,7 +52,10 @@ class Ground {
   // than 1 mm, so that a crest cut over less than 1 mm of ray can be missed; the crossing itself is
   // bracketed to 1e-12 m.
   std::optional<double> CastRay(const math::Vector3& origin_W, const math::Vector3& direction_W,
-                                double max_distance_m) const {
+                                double max_distance_m, RayWay way = RayWay::kMarch) const {
+    if (way == RayWay::kSpline && spline_) {
+      return SplineRay(origin_W, direction_W, max_distance_m);
+    }
     if (!IsPlane()) return MarchRay(origin_W, direction_W, max_distance_m);
     const double gap_m = Gap(origin_W);
     if (gap_m <= 0.0) return 0.0;
@@ -60,6 +69,8 @@ class Ground {
  private:
   std::optional<double> MarchRay(const math::Vector3& origin_W, const math::Vector3& direction_W,
                                  double max_distance_m) const;
+  std::optional<double> SplineRay(const math::Vector3& origin_W, const math::Vector3& direction_W,
+                                  double max_distance_m) const;
   bool DepressionsReach(double x_m, double y_m, double radius_m) const;
   // What no point of the relief exceeds.
   struct Bounds {
@@ -77,6 +88,7 @@ class Ground {
   double slope_x_ = 0.0;  // dz/dx
   double slope_y_ = 0.0;  // dz/dy
   std::shared_ptr<const RoughnessField> roughness_;
+  std::shared_ptr<const RoughnessSpline> spline_;  // where there is roughness only
   std::shared_ptr<const DepressionField> depressions_;
 };
 

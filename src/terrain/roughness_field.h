@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "core/random.h"
@@ -33,13 +34,24 @@ class RoughnessField {
   double MaxSlope() const { return max_slope_; }
   double MaxCurvature() const { return max_curvature_per_m_; }
 
+  // The octaves, the longest one first, for those who put them together in another way: spacing of
+  // the lattice, half of the one before, and the coefficient, m, of the B-spline that is centred on
+  // the node at (column, row) * spacing.
+  static constexpr int kNodes = 64;
+  int octaves() const { return static_cast<int>(octaves_.size()); }
+  double Spacing(int octave) const { return octaves_[static_cast<std::size_t>(octave)].spacing_m; }
+  double Coefficient(int octave, std::int64_t column, std::int64_t row) const {
+    // The first of the four splines over a cell is centred on the node before it.
+    const std::int64_t place = ((row + 1) & (kNodes - 1)) * kNodes + ((column + 1) & (kNodes - 1));
+    return octaves_[static_cast<std::size_t>(octave)]
+        .coefficients_m[static_cast<std::size_t>(place)];
+  }
+
  private:
   struct Octave {
     double spacing_m = 1.0;
     std::vector<double> coefficients_m;  // kNodes x kNodes, row by row in y
   };
-
-  static constexpr int kNodes = 64;
 
   static void AddOctave(const Octave& octave, double x_m, double y_m, ReliefSample& sum);
   void AddBounds(const Octave& octave);

@@ -169,8 +169,8 @@ void Terrain::RocksNear(double x_m, double y_m, double radius_m, std::vector<int
 
 // Walls first, then the ground no farther than the nearest wall.
 Terrain::Nearest Terrain::MeetBackground(const math::Vector3& origin_W,
-                                         const math::Vector3& direction_W,
-                                         double max_distance_m) const {
+                                         const math::Vector3& direction_W, double max_distance_m,
+                                         RayWay way) const {
   Nearest nearest{max_distance_m, std::nullopt};
   for (std::size_t i = 0; i < walls_.size(); ++i) {
     // A wall is met from inside only, n . d > 0, at the distance (offset - n . o) / (n . d). Both
@@ -181,7 +181,7 @@ Terrain::Nearest Terrain::MeetBackground(const math::Vector3& origin_W,
       nearest = {inside / speed, Surface::kWall, static_cast<int>(i)};
     }
   }
-  if (const auto distance = ground_.CastRay(origin_W, direction_W, nearest.distance_m)) {
+  if (const auto distance = ground_.CastRay(origin_W, direction_W, nearest.distance_m, way)) {
     nearest = {*distance, Surface::kGround};
   }
   return nearest;
@@ -220,8 +220,8 @@ void Terrain::MeetRocksOnGrid(const math::Vector3& origin_W, const math::Vector3
 }
 
 std::optional<RayHit> Terrain::MakeHit(const math::Vector3& origin_W,
-                                       const math::Vector3& direction_W,
-                                       const Nearest& nearest) const {
+                                       const math::Vector3& direction_W, const Nearest& nearest,
+                                       RayWay way) const {
   if (!nearest.surface) return std::nullopt;
   RayHit hit;
   hit.distance_m = nearest.distance_m;
@@ -237,7 +237,7 @@ std::optional<RayHit> Terrain::MakeHit(const math::Vector3& origin_W,
   } else if (hit.surface == Surface::kWall) {
     hit.normal_W = -walls_[index].normal_W;
   } else {
-    hit.normal_W = ground_.Normal(hit.point_W.x(), hit.point_W.y());
+    hit.normal_W = ground_.Normal(hit.point_W.x(), hit.point_W.y(), way);
   }
   return hit;
 }
@@ -253,11 +253,11 @@ std::optional<RayHit> Terrain::CastRay(const math::Vector3& origin_W,
 
 std::optional<RayHit> Terrain::CastRay(const math::Vector3& origin_W,
                                        const math::Vector3& direction_W, double max_distance_m,
-                                       std::span<const int> rocks) const {
+                                       std::span<const int> rocks, RayWay way) const {
   EXPECT(std::abs(direction_W.squaredNorm() - 1.0) < 1e-9);
-  Nearest nearest = MeetBackground(origin_W, direction_W, max_distance_m);
+  Nearest nearest = MeetBackground(origin_W, direction_W, max_distance_m, way);
   MeetRocks(rocks, origin_W, direction_W, nearest);
-  return MakeHit(origin_W, direction_W, nearest);
+  return MakeHit(origin_W, direction_W, nearest, way);
 }
 
 std::optional<double> Terrain::RayDistance(const math::Vector3& origin_W,

@@ -66,9 +66,10 @@ class Terrain {
                                 double max_distance_m) const;
 
   // Does the same against the given rocks only: gather them once with RocksNear for many short
-  // rays.
+  // rays. `way` is that over rough ground (ground.h).
   std::optional<RayHit> CastRay(const math::Vector3& origin_W, const math::Vector3& direction_W,
-                                double max_distance_m, std::span<const int> rocks) const;
+                                double max_distance_m, std::span<const int> rocks,
+                                RayWay way = RayWay::kMarch) const;
 
   // Returns the distance at which that ray meets its first surface, without the point and the
   // normal: half the cost of CastRay.
@@ -111,14 +112,14 @@ class Terrain {
 
   // Returns the nearest wall or ground within max_distance_m.
   Nearest MeetBackground(const math::Vector3& origin_W, const math::Vector3& direction_W,
-                         double max_distance_m) const;
+                         double max_distance_m, RayWay way = RayWay::kMarch) const;
   // These improve `nearest`: with the given rocks, or with those of the cells along the ray.
   void MeetRocks(std::span<const int> rocks, const math::Vector3& origin_W,
                  const math::Vector3& direction_W, Nearest& nearest) const;
   void MeetRocksOnGrid(const math::Vector3& origin_W, const math::Vector3& direction_W,
                        Nearest& nearest) const;
   std::optional<RayHit> MakeHit(const math::Vector3& origin_W, const math::Vector3& direction_W,
-                                const Nearest& nearest) const;
+                                const Nearest& nearest, RayWay way = RayWay::kMarch) const;
 
   Ground ground_;
   std::vector<Rock> rocks_;

@@ -5,11 +5,10 @@ namespace {
 
 using core::Origin;
 
-constexpr std::string_view kMaki =
-    "Maki et al. 2003 (J. Geophys. Res. 108, 8071): Navcam of the Mars Exploration Rovers";
-
 }  // namespace
 
+// 600 to 800 nm and signal to noise above 200 (Lakdawalla 2018, table 7.1; Schwochert and Maki
+// 2005) are at hand; all else is what such a camera may have.
 ImagerParams PictureCameraParams::EngineeringImager() {
   ImagerParams imager;
   imager.f_number = 12.0;
@@ -69,22 +68,35 @@ void LookParams::Visit(core::FieldVisitor& v) {
              .min = 1,
              .max = 16,
              .origin = Origin::kSetting});
+  v.Integer("texture_taps", texture_taps,
+            {.doc = "most places along what a pixel covers of a surface at which its texture is "
+                    "looked up; longer footprints are blurred across",
+             .min = 1,
+             .max = 16,
+             .origin = Origin::kSetting});
 }
 
 void PictureCameraParams::Visit(core::FieldVisitor& v) {
   imager.VisitOptics(v);
-  v.Real("pixel_pitch_m", pixel_pitch_m,
-         {.doc = "side of a pixel",
-          .min = 1e-6,
-          .max = 1e-4,
-          .origin = Origin::kPublished,
-          .source = kMaki});
+  v.Real(
+      "pixel_pitch_m", pixel_pitch_m,
+      {.doc = "side of a pixel",
+       .min = 1e-6,
+       .max = 1e-4,
+       .origin = Origin::kAssumed,
+       .source = "1024 x 1024 pixels of 0.82 mrad (Maki et al. 2003, abstract) through a lens of "
+                 "14.6 mm, which is not at hand",
+       .study_low = 7e-6,
+       .study_high = 15e-6});
   v.Real("wavelength_m", wavelength_m,
          {.doc = "in the middle of the passband",
           .min = 3e-7,
           .max = 1.1e-6,
-          .origin = Origin::kPublished,
-          .source = kMaki});
+          .origin = Origin::kAssumed,
+          .source = "Navcams see 600 to 800 nm (Lakdawalla 2018, table 7.1), or are centred at 650 "
+                    "nm (Maki et al. 2012, abstract)",
+          .study_low = 650e-9,
+          .study_high = 700e-9});
   v.Real("spread_px", blur_px,
          {.doc = "standard deviation of the image of a point, in pixels both ways: lens, and "
                  "charge that strays; pixels integrate over their area besides",

@@ -16,12 +16,13 @@ namespace rockyard::rendering {
 struct LookParams {
   double soil_graininess = 0.5;  // share of the way from drift to gravel
   TextureParams drift = DriftTexture();
-  TextureParams gravel = GravelTexture();
+  GravelParams gravel = GravelTexture();
   TextureParams rock = RockTexture();
   double rock_albedo_spread = 0.15;
   double lommel_seeliger_share = 0.0;
   double sun_diameter_rad = math::DegToRad(0.35);
   std::int64_t edge_samples = 4;
+  std::int64_t texture_taps = 8;
 
   TextureParams Soil() const { return Between(drift, gravel, soil_graininess); }
   void Visit(core::FieldVisitor& v);

@@ -33,6 +33,10 @@ struct PictureRenderer::Band {
   std::array<int, 3> numbers{-1, -1, -1};
   std::array<std::vector<std::vector<int>>, 2> candidates;
   std::array<int, 2> tile_rows{-1, -1};
+  // Those of a row of blocks, and of one pixel.
+  std::vector<std::vector<int>> in_blocks;
+  int block_row = -1;
+  std::vector<int> in_pixel;
 };
 
 PictureRenderer::PictureRenderer(const PictureScene& scene, const LookParams& look,
@@ -47,22 +51,43 @@ SurfaceLook PictureRenderer::LookAt(const SurfacePoint& point, const Vector3& ra
                  Swept(by_row_W, ray_W, point.normal_W, range_m));
 }
 
+void PictureRenderer::FindInBlocks(int block_row, Band& band) const {
+  band.block_row = block_row;
+  band.in_blocks.resize(static_cast<std::size_t>(rays_.block_columns()));
+  for (int b = 0; b < rays_.block_columns(); ++b) {
+    const PixelRays::Tile& block = rays_.BlockAt(b, block_row);
+    scene_.RocksInCone(X_WA_ * block.origin_A, block.origin_spread_m, InWorld(block.cone),
+                       band.in_blocks[static_cast<std::size_t>(b)]);
+  }
+}
+
 const std::vector<int>& PictureRenderer::Candidates(int column, int row, Band& band) const {
   const int tile_row = row / PixelRays::kTile;
   const auto slot = static_cast<std::size_t>(tile_row % 2);
   auto& candidates = band.candidates[slot];
   if (band.tile_rows[slot] != tile_row) {
     band.tile_rows[slot] = tile_row;
+    const int block_row = tile_row / PixelRays::kTilesPerBlock;
+    if (band.block_row != block_row) FindInBlocks(block_row, band);
     candidates.resize(static_cast<std::size_t>(rays_.tile_columns()));
     for (int t = 0; t < rays_.tile_columns(); ++t) {
       const PixelRays::Tile& tile = rays_.TileAt(t, tile_row);
-      RayCone cone_W = tile.cone;
-      cone_W.axis = X_WA_.linear() * tile.cone.axis;
-      scene_.RocksInCone(X_WA_ * tile.origin_A, tile.origin_spread_m, cone_W,
+      const auto& among = band.in_blocks[static_cast<std::size_t>(t / PixelRays::kTilesPerBlock)];
+      scene_.RocksInCone(X_WA_ * tile.origin_A, tile.origin_spread_m, InWorld(tile.cone), among,
                          candidates[static_cast<std::size_t>(t)]);
     }
   }
   return candidates[static_cast<std::size_t>(column / PixelRays::kTile)];
+}
+
+// The rocks that the rays within one pixel may meet.
+const std::vector<int>& PictureRenderer::InPixel(int column, int row, Band& band) const {
+  const std::vector<int>& in_tile = Candidates(column, row, band);
+  const vision::Ray ray = rays_.At(column, row);
+  const double chord = 0.5 * (rays_.ByColumn(column, row).norm() + rays_.ByRow(column, row).norm());
+  scene_.RocksInCone(OriginOf(ray), 0.0, InWorld(RayCone::Around(ray.direction, chord)), in_tile,
+                     band.in_pixel);
+  return band.in_pixel;
 }
 
 const PictureRenderer::Row& PictureRenderer::MeetRow(int row, Band& band) const {
@@ -109,14 +134,14 @@ double PictureRenderer::WholePixel(int column, int row, const Met& met, TerrainL
   return scene_.Radiance(met, ray_W, seen.albedo, seen.normal_W);
 }
 
-// How one pixel sees the surfaces in it: each with its albedo, and by how much relief tilts its
-// normal.
+// How one pixel sees the surfaces in it: each with its texture over the whole pixel, where the
+// pixel first meets it.
 class PictureRenderer::PixelLooks {
  public:
   struct Seen {
     int surface = SurfacePoint::kSky;
     double albedo = 0.0;
-    Vector3 tilt_W = Vector3::Zero();
+    Vector3 tilt_W = Vector3::Zero();  // of the normal, by relief
   };
 
   template <typename LookOf>
@@ -139,52 +164,46 @@ class PictureRenderer::PixelLooks {
 };
 
 double PictureRenderer::SplitPixel(int column, int row, Band& band, TerrainLook& look) const {
-  const std::vector<int>& rocks = Candidates(column, row, band);
+  const std::vector<int>& rocks = InPixel(column, row, band);
   const Pixel& middle = MeetRow(row, band)[static_cast<std::size_t>(column)];
-  PixelLooks looks;
-  Pixel part{{}, true};
   const auto meet = [&](int x, int y) {
     const double size = 1.0 / edge_samples_;
     const vision::Ray ray =
         rays_.Beside(column, row, (x + 0.5) * size - 0.5, (y + 0.5) * size - 0.5);
-    Vector3 ray_W = DirectionOf(ray);
-    part.met = scene_.Meet(OriginOf(ray), ray_W, rocks);
-    return ray_W;
+    const Vector3 ray_W = DirectionOf(ray);
+    return Part{ray_W, {scene_.Meet(OriginOf(ray), ray_W, rocks), true}};
   };
-  const auto radiance = [&](const Vector3& ray_W) {
-    const Met& met = part.met;
+  // The edge may run through the neighbour only: then all four corners are as the middle.
+  const int last = edge_samples_ - 1;
+  const std::array<Part, 4> corners{meet(0, 0), meet(last, 0), meet(0, last), meet(last, last)};
+  if (std::none_of(corners.begin(), corners.end(),
+                   [&](const Part& part) { return IsEdge(middle, part.pixel); })) {
+    return WholePixel(column, row, middle.met, look);
+  }
+  PixelLooks looks;
+  const auto seen_at = [&](const Met& met, const Vector3& ray_W) -> const PixelLooks::Seen& {
+    return looks.Of(met.point,
+                    [&] { return LookAt(met.point, ray_W, met.range_m, column, row, look); });
+  };
+  const auto radiance = [&](const Part& part) {
+    const Met& met = part.pixel.met;
     if (met.point.surface == SurfacePoint::kSky) {
-      return scene_.Radiance(met, ray_W, 0.0, Vector3::UnitZ());
+      return scene_.Radiance(met, part.ray_W, 0.0, Vector3::UnitZ());
     }
-    const PixelLooks::Seen& seen = looks.Of(
-        met.point, [&] { return LookAt(met.point, ray_W, met.range_m, column, row, look); });
+    const PixelLooks::Seen& seen = seen_at(met, part.ray_W);
     const Vector3 normal_W = (met.point.normal_W + seen.tilt_W).normalized();
-    return scene_.Radiance(met, ray_W, seen.albedo, normal_W);
+    return scene_.Radiance(met, part.ray_W, seen.albedo, normal_W);
   };
   // The surface in the middle is seen there, others where a part first meets them.
   if (middle.met.point.surface != SurfacePoint::kSky) {
-    looks.Of(middle.met.point, [&] {
-      const Vector3 ray_W = DirectionOf(rays_.At(column, row));
-      return LookAt(middle.met.point, ray_W, middle.met.range_m, column, row, look);
-    });
+    seen_at(middle.met, DirectionOf(rays_.At(column, row)));
   }
-  // The edge may run through the neighbour only: then all four corners are as the middle.
-  const int last = edge_samples_ - 1;
   double sum = 0.0;
-  bool is_whole = true;
-  for (const int y : {0, last}) {
-    for (const int x : {0, last}) {
-      const Vector3 ray_W = meet(x, y);
-      is_whole = is_whole && !IsEdge(middle, part);
-      sum += radiance(ray_W);
-    }
-  }
-  if (is_whole) return WholePixel(column, row, middle.met, look);
+  for (const Part& part : corners) sum += radiance(part);
   for (int y = 0; y < edge_samples_; ++y) {
     for (int x = 0; x < edge_samples_; ++x) {
       if ((x == 0 || x == last) && (y == 0 || y == last)) continue;
-      const Vector3 ray_W = meet(x, y);
-      sum += radiance(ray_W);
+      sum += radiance(meet(x, y));
     }
   }
   return sum / (edge_samples_ * edge_samples_);

@@ -35,6 +35,11 @@ class PictureRenderer {
     Met met;
     bool sees = false;
   };
+  // One of the rays of a pixel that is split.
+  struct Part {
+    math::Vector3 ray_W;
+    Pixel pixel;
+  };
   using Row = std::vector<Pixel>;
   struct Band;
   class PixelLooks;
@@ -43,7 +48,13 @@ class PictureRenderer {
   math::Vector3 DirectionOf(const vision::Ray& ray) const { return X_WA_.linear() * ray.direction; }
   SurfaceLook LookAt(const SurfacePoint& point, const math::Vector3& ray_W, double range_m,
                      int column, int row, TerrainLook& look) const;
+  RayCone InWorld(RayCone cone) const {
+    cone.axis = X_WA_.linear() * cone.axis;
+    return cone;
+  }
+  void FindInBlocks(int block_row, Band& band) const;
   const std::vector<int>& Candidates(int column, int row, Band& band) const;
+  const std::vector<int>& InPixel(int column, int row, Band& band) const;
   const Row& MeetRow(int row, Band& band) const;
   bool IsEdge(const Pixel& a, const Pixel& b) const;
   bool HasEdge(int column, int row, Band& band) const;

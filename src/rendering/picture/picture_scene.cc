@@ -20,15 +20,26 @@ PictureScene::PictureScene(const terrain::Terrain& terrain, const SunParams& sun
   }
 }
 
+bool PictureScene::MayBeIn(int rock, const Vector3& eye_W, double spread_m,
+                           const RayCone& cone_W) const {
+  const terrain::Rock& shape = terrain_.rocks()[static_cast<std::size_t>(rock)];
+  const double reach_m = shape.semi_axes_m.maxCoeff() + spread_m + kRounding_m;
+  return BallMeetsCone(shape.center_W - eye_W, reach_m, cone_W);
+}
+
 void PictureScene::RocksInCone(const Vector3& eye_W, double spread_m, const RayCone& cone_W,
                                std::vector<int>& out) const {
   out.clear();
-  const auto rocks = terrain_.rocks();
-  for (std::size_t i = 0; i < rocks.size(); ++i) {
-    const double reach_m = rocks[i].semi_axes_m.maxCoeff() + spread_m + kRounding_m;
-    if (BallMeetsCone(rocks[i].center_W - eye_W, reach_m, cone_W)) {
-      out.push_back(static_cast<int>(i));
-    }
+  for (int rock = 0; rock < std::ssize(terrain_.rocks()); ++rock) {
+    if (MayBeIn(rock, eye_W, spread_m, cone_W)) out.push_back(rock);
+  }
+}
+
+void PictureScene::RocksInCone(const Vector3& eye_W, double spread_m, const RayCone& cone_W,
+                               std::span<const int> among, std::vector<int>& out) const {
+  out.clear();
+  for (const int rock : among) {
+    if (MayBeIn(rock, eye_W, spread_m, cone_W)) out.push_back(rock);
   }
 }
 
@@ -39,7 +50,8 @@ Met PictureScene::Meet(const Vector3& origin_W, const Vector3& ray_W,
   if (rover_.body != nullptr) {
     body_m = rover_.body->Distance(X_RW_ * origin_W, X_RW_.linear() * ray_W);
   }
-  const auto hit = terrain_.CastRay(origin_W, ray_W, std::min(body_m, kFarthest_m), rocks);
+  const auto hit = terrain_.CastRay(origin_W, ray_W, std::min(body_m, kFarthest_m), rocks,
+                                    terrain::RayWay::kSpline);
   SurfacePoint& point = met.point;
   if (hit) {
     met.range_m = hit->distance_m;

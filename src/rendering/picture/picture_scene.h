@@ -41,6 +41,9 @@ class PictureScene {
   // cone.
   void RocksInCone(const math::Vector3& eye_W, double spread_m, const RayCone& cone_W,
                    std::vector<int>& out) const;
+  // Does the same among the given rocks only.
+  void RocksInCone(const math::Vector3& eye_W, double spread_m, const RayCone& cone_W,
+                   std::span<const int> among, std::vector<int>& out) const;
 
   // Returns what the unit ray meets first: of the terrain what Terrain::CastRay gives, with the
   // same bits, and the rover's own parts; with its share of the sun.
@@ -60,6 +63,8 @@ class PictureScene {
                   const math::Vector3& normal_W) const;
 
  private:
+  bool MayBeIn(int rock, const math::Vector3& eye_W, double spread_m, const RayCone& cone_W) const;
+
   const terrain::Terrain& terrain_;
   SunLight light_;
   double lommel_seeliger_share_;

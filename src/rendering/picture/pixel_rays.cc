@@ -35,19 +35,26 @@ PixelRays::PixelRays(const vision::CameraModel& camera)
     one_origin_ = one_origin_ && (sees_[i] == 0 || origins_A_[i] == origin_A);
   }
   if (one_origin_) origins_A_.assign(1, origin_A);
-  for (int row = 0; row < rows_; row += kTile) {
-    for (int column = 0; column < columns_; column += kTile) {
-      tiles_.push_back(MakeTile(column, row));
-    }
-  }
+  tiles_ = MakeTiles(kTile);
+  blocks_ = MakeTiles(kTile * kTilesPerBlock);
 }
 
-PixelRays::Tile PixelRays::MakeTile(int first_column, int first_row) const {
+std::vector<PixelRays::Tile> PixelRays::MakeTiles(int side) const {
+  std::vector<Tile> tiles;
+  for (int row = 0; row < rows_; row += side) {
+    for (int column = 0; column < columns_; column += side) {
+      tiles.push_back(MakeTile(column, row, side));
+    }
+  }
+  return tiles;
+}
+
+PixelRays::Tile PixelRays::MakeTile(int first_column, int first_row, int side) const {
   Tile tile;
   double beside = 0.0;  // as a chord between unit vectors
   const auto for_each = [&](auto&& use) {
-    for (int row = first_row; row < std::min(first_row + kTile, rows_); ++row) {
-      for (int column = first_column; column < std::min(first_column + kTile, columns_); ++column) {
+    for (int row = first_row; row < std::min(first_row + side, rows_); ++row) {
+      for (int column = first_column; column < std::min(first_column + side, columns_); ++column) {
         if (Sees(column, row)) use(column, row, At(column, row));
       }
     }
@@ -66,10 +73,7 @@ PixelRays::Tile PixelRays::MakeTile(int first_column, int first_row) const {
     const double half_pixel = 0.5 * (ByColumn(column, row).norm() + ByRow(column, row).norm());
     beside = std::max(beside, (ray.direction - tile.cone.axis).norm() + half_pixel);
   });
-  // A chord c belongs to the angle a with c = 2 sin(a / 2): cos a = 1 - c^2 / 2. No tile is wider
-  // than a half-space, which holds all there is to see.
-  tile.cone.half_cosine = std::max(0.0, 1.0 - 0.5 * beside * beside);
-  tile.cone.half_sine = std::sqrt(1.0 - tile.cone.half_cosine * tile.cone.half_cosine);
+  tile.cone = RayCone::Around(tile.cone.axis, beside);
   return tile;
 }
 

@@ -40,8 +40,10 @@ class PixelRays {
     return ray;
   }
 
-  // All rays through the pixels of a tile of kTile x kTile, with half a pixel around it.
-  static constexpr int kTile = 16;
+  // All rays through a square of pixels, with half a pixel around it. There are tiles of kTile x
+  // kTile pixels, and blocks of kTilesPerBlock x kTilesPerBlock tiles.
+  static constexpr int kTile = 8;
+  static constexpr int kTilesPerBlock = 8;
   struct Tile {
     bool sees = false;  // any pixel does
     math::Vector3 origin_A = math::Vector3::Zero();
@@ -49,8 +51,12 @@ class PixelRays {
     RayCone cone;
   };
   int tile_columns() const { return (columns_ + kTile - 1) / kTile; }
+  int block_columns() const { return (tile_columns() + kTilesPerBlock - 1) / kTilesPerBlock; }
   const Tile& TileAt(int tile_column, int tile_row) const {
     return tiles_[static_cast<std::size_t>(tile_row) * tile_columns() + tile_column];
+  }
+  const Tile& BlockAt(int block_column, int block_row) const {
+    return blocks_[static_cast<std::size_t>(block_row) * block_columns() + block_column];
   }
 
   // How the direction changes with a column and with a row, from the neighbours on both sides, or
@@ -63,7 +69,8 @@ class PixelRays {
     return static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(column);
   }
   void MarkEdges();
-  Tile MakeTile(int first_column, int first_row) const;
+  Tile MakeTile(int first_column, int first_row, int side) const;
+  std::vector<Tile> MakeTiles(int side) const;
 
   int columns_;
   int rows_;
@@ -72,6 +79,7 @@ class PixelRays {
   std::vector<math::Vector3> directions_A_;
   std::vector<char> sees_;
   std::vector<Tile> tiles_;
+  std::vector<Tile> blocks_;
 };
 
 }  // namespace rockyard::rendering

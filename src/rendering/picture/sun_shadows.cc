@@ -187,7 +187,10 @@ double SunShadows::Visible(const Vector3& p_W, const Vector3& normal_W, int surf
   if (InRoversShadow(p_W)) return 0.0;
   if (terrain_.ground().IsPlane()) return left;
   const Vector3 above_W = p_W + kOcclusionMargin_m * normal_W;
-  return terrain_.ground().CastRay(above_W, toward_sun_W_, kGroundShadowReach_m) ? 0.0 : left;
+  return terrain_.ground().CastRay(above_W, toward_sun_W_, kGroundShadowReach_m,
+                                   terrain::RayWay::kSpline)
+             ? 0.0
+             : left;
 }
 
 }  // namespace rockyard::rendering

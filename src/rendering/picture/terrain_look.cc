@@ -13,7 +13,7 @@ using math::Vector3;
 
 // Rocks have pieces of a square of this side of their texture: large enough that two alike are
 // rare within an image, small enough that its pages are used again.
-constexpr double kRockPieces_m = 2.0;
+constexpr double kRockPieces_m = 0.5;
 // Components of the normal below this do not see their face.
 constexpr double kLeastComponent = 0.5;
 
@@ -24,8 +24,8 @@ double Mottled(double albedo, double contrast, double value) {
 }  // namespace
 
 TerrainLook::Skin TerrainLook::MakeSkin(const TextureParams& texture, core::TrialKey key,
-                                        core::Purpose purpose) {
-  TextureField field(texture, key, purpose);
+                                        core::Purpose purpose, std::int64_t most_taps) {
+  TextureField field(texture, key, purpose, static_cast<int>(most_taps));
   const double relief_m = texture.relief_slope / field.SlopeDeviation();
   return {std::move(field), texture.contrast, relief_m};
 }
@@ -33,8 +33,8 @@ TerrainLook::Skin TerrainLook::MakeSkin(const TextureParams& texture, core::Tria
 TerrainLook::TerrainLook(const terrain::Terrain& terrain, const SunParams& sun,
                          const LookParams& look, core::TrialKey key)
     : sun_(sun),
-      soil_(MakeSkin(look.Soil(), key, core::Purpose::kSoilTexture)),
-      rock_(MakeSkin(look.rock, key, core::Purpose::kRockTexture)) {
+      soil_(MakeSkin(look.Soil(), key, core::Purpose::kSoilTexture, look.texture_taps)),
+      rock_(MakeSkin(look.rock, key, core::Purpose::kRockTexture, look.texture_taps)) {
   rocks_.reserve(terrain.rocks().size());
   for (const terrain::Rock& rock : terrain.rocks()) {
     core::RandomStream stream(key, core::Purpose::kRockLook,

@@ -58,7 +58,8 @@ class TerrainLook {
     double relief_m;
   };
 
-  static Skin MakeSkin(const TextureParams& texture, core::TrialKey key, core::Purpose purpose);
+  static Skin MakeSkin(const TextureParams& texture, core::TrialKey key, core::Purpose purpose,
+                       std::int64_t most_taps);
   SurfaceLook OfSoil(const SurfacePoint& point, const math::Vector3& by_column_W,
                      const math::Vector3& by_row_W);
   SurfaceLook OfRock(const Rock& rock, const SurfacePoint& point, const math::Vector3& by_column_W,

@@ -70,15 +70,17 @@ double ChordLog2(double x) {
   return exponent + mantissa - 1.0;
 }
 
-// A square of nodes around a page.
+// A square of nodes in and around a page. What it holds at first is not defined.
 struct Square {
   Square(int first_node, int nodes)
-      : first(first_node), size(nodes), values(static_cast<std::size_t>(nodes) * nodes) {}
-  float* Row(int row) { return values.data() + static_cast<std::size_t>(row - first) * size; }
+      : first(first_node),
+        size(nodes),
+        values(std::make_unique_for_overwrite<float[]>(static_cast<std::size_t>(nodes) * nodes)) {}
   // Node (column, row) is Row(row)[column - first].
+  float* Row(int row) const { return values.get() + static_cast<std::size_t>(row - first) * size; }
   int first;
   int size;
-  std::vector<float> values;
+  std::unique_ptr<float[]> values;
 };
 
 constexpr int kReach = 8;  // nodes beside a page whose numbers its octave depends on, rounded up
@@ -100,45 +102,69 @@ Square NumbersAround(const PixelNoise& noise, std::int64_t column0, std::int64_t
   return square;
 }
 
-// D: every other node of a line of `count` results, from[0] the first one's own.
-void ThinOut(const float* from, std::ptrdiff_t stride, int count, float* to,
-             std::ptrdiff_t to_stride) {
+// D along one axis at a node, from those `stride` apart.
+inline float LowPass(const float* from, std::ptrdiff_t stride) {
   constexpr float kSixteenth = 1.0F / 16.0F;
-  for (int i = 0; i < count; ++i, from += 2 * stride, to += to_stride) {
-    *to = kSixteenth *
-          (10.0F * from[0] + 5.0F * (from[-stride] + from[stride]) -
-           (from[-2 * stride] + from[2 * stride]) - (from[-3 * stride] + from[3 * stride]));
+  return kSixteenth *
+         (10.0F * from[0] + 5.0F * (from[-stride] + from[stride]) -
+          (from[-2 * stride] + from[2 * stride]) - (from[-3 * stride] + from[3 * stride]));
+}
+
+// D of the nodes in and around a page: of every other row, then of every other column.
+Square ThinnedOut(Square& fine, int coarse_first, int coarse_size) {
+  Square coarse(coarse_first, coarse_size);
+  Square line(fine.first, fine.size);
+  for (int row = coarse_first; row < coarse_first + coarse_size; ++row) {
+    const float* from = fine.Row(2 * row);
+    float* thin = line.Row(line.first);
+    for (int k = 0; k < fine.size; ++k) thin[k] = LowPass(from + k, fine.size);
+    float* out = coarse.Row(row);
+    const float* first = thin + 2 * coarse_first - fine.first;
+    for (int k = 0; k < coarse_size; ++k) out[k] = LowPass(first + 2 * k, 1);
   }
+  return coarse;
 }
 
-// U along one axis: the value at fine node i from coarse nodes, coarse[0] that of i / 2 rounded
-// down.
-inline float Refine(const float* coarse, std::ptrdiff_t stride, int i) {
-  return (i & 1) == 0 ? 0.125F * (coarse[-stride] + 6.0F * coarse[0] + coarse[stride])
-                      : 0.5F * (coarse[0] + coarse[stride]);
-}
-
-// Adds U of a coarse square to the fine nodes first .. last - 1 of both axes, times `factor`.
-void AddRefined(Square& coarse, int first, int last, float factor, Square& fine) {
-  std::vector<float> line(static_cast<std::size_t>(coarse.size));
+// U of coarse nodes, at the fine nodes first .. last - 1 of both axes; `first` is odd, and so is
+// `last`.
+Square Refined(Square& coarse, int first, int last) {
+  // Along one axis, from the coarse nodes on both sides of a fine one and from the next.
+  const auto on_node = [](float left, float here, float right) {
+    return 0.125F * (left + 6.0F * here + right);
+  };
+  const auto between = [](float here, float right) { return 0.5F * (here + right); };
+  Square fine(first, last - first);
+  Square line(coarse.first, coarse.size);
+  const auto size = static_cast<std::ptrdiff_t>(coarse.size);
   for (int row = first; row < last; ++row) {
     // Arithmetic shift: rounds negative numbers down.
     const float* middle = coarse.Row(row >> 1);
-    for (int k = 0; k < coarse.size; ++k) {
-      line[static_cast<std::size_t>(k)] = factor * Refine(middle + k, coarse.size, row);
+    float* refined = line.Row(line.first);
+    if ((row & 1) == 0) {
+      for (std::ptrdiff_t k = 0; k < size; ++k) {
+        refined[k] = on_node(middle[k - size], middle[k], middle[k + size]);
+      }
+    } else {
+      for (std::ptrdiff_t k = 0; k < size; ++k) refined[k] = between(middle[k], middle[k + size]);
     }
-    float* out = fine.Row(row) - fine.first;
-    const float* in = line.data() - coarse.first;
-    for (int column = first; column < last; ++column) {
-      out[column] += Refine(in + (column >> 1), 1, column);
+    float* out = fine.Row(row);
+    const float* in = refined + (first >> 1) - coarse.first;
+    *out++ = between(in[0], in[1]);
+    for (int i = (last - first - 1) / 2; i > 0; --i, out += 2) {
+      ++in;
+      out[0] = on_node(in[-1], in[0], in[1]);
+      out[1] = between(in[0], in[1]);
     }
   }
+  return fine;
 }
 
 }  // namespace
 
-TextureField::TextureField(const TextureParams& texture, core::TrialKey key, core::Purpose purpose)
-    : key_(key), purpose_(purpose) {
+TextureField::TextureField(const TextureParams& texture, core::TrialKey key, core::Purpose purpose,
+                           int most_taps)
+    : key_(key), purpose_(purpose), most_taps_(most_taps) {
+  EXPECT(most_taps >= 1);
   EXPECT(texture.finest_wavelength_m > 0.0 &&
          texture.longest_wavelength_m >= texture.finest_wavelength_m);
   double sum = 0.0;
@@ -164,7 +190,7 @@ double TextureField::SlopeDeviation() const {
 }
 
 void TextureField::Trim() {
-  constexpr std::size_t kMostPages = 3600;
+  constexpr std::size_t kMostPages = 1800;
   if (pages_.size() <= kMostPages) return;
   pages_.clear();
   latest_.assign(amplitudes_.size(), {});
@@ -179,102 +205,110 @@ const TextureField::Page& TextureField::FindPage(const Place& place) {
 }
 
 const TextureField::Page& TextureField::MakePage(const Place& place) {
-  const auto octave = static_cast<std::size_t>(place.octave);
   const PixelNoise noise(key_, purpose_, static_cast<std::uint32_t>(place.octave));
-  Square fine = NumbersAround(noise, place.column * kPage, place.row * kPage, kPage);
-  // D N on every other node, columns first.
-  constexpr int kCoarseFirst = -2;
-  constexpr int kCoarse = kPage / 2 + 4;
-  Square half(fine.first, fine.size);
-  Square coarse(kCoarseFirst, kCoarse);
-  for (int row = fine.first; row < fine.first + fine.size; ++row) {
-    ThinOut(fine.Row(row) + 2 * kCoarseFirst - fine.first, 1, kCoarse, half.Row(row), 1);
-  }
-  for (int k = 0; k < kCoarse; ++k) {
-    ThinOut(half.Row(2 * kCoarseFirst) + k, half.size, kCoarse, coarse.values.data() + k, kCoarse);
-  }
   constexpr int kFirst = -1;
-  constexpr int kLast = kPage + 2;
-  AddRefined(coarse, kFirst, kLast, -1.0F, fine);
-  const auto amplitude = static_cast<float>(amplitudes_[octave]);
-  for (float& value : fine.values) value *= amplitude;
-  if (place.octave > 0) {
-    const Page& parent = PageAt({place.octave - 1, place.column >> 1, place.row >> 1});
-    const int left = static_cast<int>(place.column & 1) * kPage / 2;
-    const int down = static_cast<int>(place.row & 1) * kPage / 2;
-    Square above(-1, kPage / 2 + 3);
-    for (int row = -1; row < kPage / 2 + 2; ++row) {
-      const float* from = parent.nodes.data() + (row + down + 1) * kStored + left;
-      std::copy(from, from + above.size, above.Row(row));
-    }
-    AddRefined(above, kFirst, kLast, 1.0F, fine);
+  constexpr int kSize = kStored - 1;
+  Square numbers = NumbersAround(noise, place.column * kPage, place.row * kPage, kPage);
+  Square coarse = ThinnedOut(numbers, -2, kPage / 2 + 4);
+  Square low = Refined(coarse, kFirst, kFirst + kSize);
+  auto page = std::make_unique_for_overwrite<Page>();
+  const auto amplitude = static_cast<float>(amplitudes_[static_cast<std::size_t>(place.octave)]);
+  for (int row = kFirst; row < kFirst + kSize; ++row) {
+    const float* high = numbers.Row(row) + kFirst - numbers.first;
+    float* out = page->octave.data() + (row - kFirst) * kStored;
+    for (int k = 0; k < kSize; ++k) out[k] = amplitude * (high[k] - low.Row(row)[k]);
   }
-  auto page = std::make_unique<Page>();
-  for (int row = kFirst; row < kLast; ++row) {
-    const float* from = fine.Row(row) + kFirst - fine.first;
-    std::copy(from, from + (kLast - kFirst), page->nodes.data() + (row - kFirst) * kStored);
+  if (place.octave == 0) {
+    page->coarser.fill(0.0F);
+  } else {
+    AddParent(PageAt({place.octave - 1, place.column >> 1, place.row >> 1}), place, *page);
   }
   return *(pages_[place.Key()] = std::move(page));
 }
 
-void TextureField::AddTaps(const Level& level, double u_m, double v_m,
-                           const Footprint::Ellipse& ellipse, TextureSample& sum) {
+// Refines what the page over this one holds.
+void TextureField::AddParent(const Page& parent, const Place& place, Page& page) {
+  const int left = static_cast<int>(place.column & 1) * kPage / 2;
+  const int down = static_cast<int>(place.row & 1) * kPage / 2;
+  Square above(-1, kPage / 2 + 3);
+  for (int row = -1; row < kPage / 2 + 2; ++row) {
+    const int first = (row + down + 1) * kStored + left;
+    float* to = above.Row(row);
+    for (int k = 0; k < above.size; ++k) {
+      const std::size_t node = static_cast<std::size_t>(first) + static_cast<std::size_t>(k);
+      to[k] = parent.coarser[node] + parent.octave[node];
+    }
+  }
+  Square refined = Refined(above, -1, kPage + 2);
+  for (int row = -1; row < kPage + 2; ++row) {
+    std::copy_n(refined.Row(row), refined.size, page.coarser.data() + (row + 1) * kStored);
+  }
+}
+
+TextureSample TextureField::Taps(const Level& level, double u_m, double v_m,
+                                 const Footprint::Ellipse& ellipse) {
   const double per_m = 1.0 / spacing_m(level.octave);
   // The taps share the length evenly.
   const double step = ellipse.length_m * per_m / level.taps;
+  const double step_u = step * ellipse.long_axis.x();
+  const double step_v = step * ellipse.long_axis.y();
+  const double middle = 0.5 * (level.taps - 1);
+  const double first_u = u_m * per_m - middle * step_u;
+  const double first_v = v_m * per_m - middle * step_v;
+  const auto page_at = [&](double u, double v) {
+    static_assert(kPage == 1 << 6);
+    return Place{level.octave, WholeBelow(u) >> 6, WholeBelow(v) >> 6};
+  };
+  // Most footprints lie in one page, as their ends do.
+  const Place place = page_at(first_u, first_v);
+  const Place last = page_at(first_u + 2.0 * middle * step_u, first_v + 2.0 * middle * step_v);
+  const Page* const only_page = place.Key() == last.Key() ? &PageAt(place) : nullptr;
+  const auto share = static_cast<float>(level.share);
   Four value{};
   Four slope_u{};
   Four slope_v{};
   for (int i = 0; i < level.taps; ++i) {
-    const double along = (i - 0.5 * (level.taps - 1)) * step;
-    const double u = u_m * per_m + along * ellipse.long_axis.x();
-    const double v = v_m * per_m + along * ellipse.long_axis.y();
+    const double u = first_u + i * step_u;
+    const double v = first_v + i * step_v;
     const std::int64_t column = WholeBelow(u);
     const std::int64_t row = WholeBelow(v);
-    static_assert(kPage == 1 << 6);
-    const Page& page = PageAt({level.octave, column >> 6, row >> 6});
+    const Page& page = only_page != nullptr ? *only_page : PageAt(page_at(u, v));
     // The splines that reach into a cell stand on the nodes -1 to 2 of it.
-    const float* corner =
-        page.nodes.data() + (row & (kPage - 1)) * kStored + (column & (kPage - 1));
+    const std::int64_t corner = (row & (kPage - 1)) * kStored + (column & (kPage - 1));
+    const auto nodes = [&page, corner, share](int line) {
+      const std::int64_t first = corner + line * kStored;
+      return LoadFour(page.coarser.data() + first) + share * LoadFour(page.octave.data() + first);
+    };
     const CellWeights wu(static_cast<float>(u - static_cast<double>(column)));
     const CellWeights wv(static_cast<float>(v - static_cast<double>(row)));
-    const Four a = LoadFour(corner);
-    const Four b = LoadFour(corner + kStored);
-    const Four c = LoadFour(corner + 2 * kStored);
-    const Four d = LoadFour(corner + 3 * kStored);
+    const Four a = nodes(0);
+    const Four b = nodes(1);
+    const Four c = nodes(2);
+    const Four d = nodes(3);
     const Four across = wv.value[0] * a + wv.value[1] * b + wv.value[2] * c + wv.value[3] * d;
     const Four down = wv.slope[0] * a + wv.slope[1] * b + wv.slope[2] * c + wv.slope[3] * d;
     value += wu.value * across;
     slope_u += wu.slope * across;
     slope_v += wu.value * down;
   }
-  const double weight = level.share / level.taps;
-  sum.value += weight * SumOf(value);
-  sum.slope_u += weight * per_m * SumOf(slope_u);
-  sum.slope_v += weight * per_m * SumOf(slope_v);
+  const double weight = 1.0 / level.taps;
+  return {weight * SumOf(value), weight * per_m * SumOf(slope_u), weight * per_m * SumOf(slope_v)};
 }
 
 TextureSample TextureField::Mean(double u_m, double v_m, const Footprint& footprint) {
   const Footprint::Ellipse ellipse = footprint.Axes();
-  TextureSample sum;
   // A footprint that is not a number, or far too large for any octave, sees the mean.
-  if (!(ellipse.length_m < 1e3 * spacings_m_.front())) return sum;
-  const int octave_count = octaves();
-  // No narrower than what kMostTaps can cover.
-  const double width_m = std::max({ellipse.width_m, ellipse.length_m / kMostTaps, 1e-9});
+  if (!(ellipse.length_m < 1e3 * spacings_m_.front())) return {};
+  // No narrower than what most_taps_ can cover.
+  const double per_width = 1.0 / std::max({ellipse.width_m, ellipse.length_m / most_taps_, 1e-9});
   // The share of octave j is full - j between 0 and 1.
-  const double full = ChordLog2(spacings_m_.front() / (kHalfFaded * width_m)) + 0.5;
-  if (full <= 0.0) return sum;
-  const int taps =
-      std::clamp(static_cast<int>(std::ceil(ellipse.length_m / width_m - 0.25)), 1, kMostTaps);
-  const int finest = std::min(static_cast<int>(full), octave_count - 1);
-  const double share = std::min(full - finest, 1.0);
-  // share C_finest + (1 - share) C_(finest - 1); the coarser one needs half as many taps.
-  AddTaps({finest, share, taps}, u_m, v_m, ellipse, sum);
-  if (share < 1.0 && finest > 0) {
-    AddTaps({finest - 1, 1.0 - share, (taps + 1) / 2}, u_m, v_m, ellipse, sum);
-  }
-  return sum;
+  const double full = ChordLog2(spacings_m_.front() / kHalfFaded * per_width) + 0.5;
+  if (full <= 0.0) return {};
+  // Rounded up from a quarter.
+  const auto taps =
+      std::clamp<std::int64_t>(WholeBelow(ellipse.length_m * per_width + 0.75), 1, most_taps_);
+  const int finest = std::min(static_cast<int>(full), octaves() - 1);
+  return Taps({finest, std::min(full - finest, 1.0), static_cast<int>(taps)}, u_m, v_m, ellipse);
 }
 
 }  // namespace rockyard::rendering

@@ -31,23 +31,24 @@ struct TextureSample {
 // wavelengths; Cook and DeRose project exactly, with 32 coefficients.
 //
 // As U is exact, the octaves 0 to j are together one B-spline on lattice j, C_j = U C_(j-1) + a_j
-// (N - U D N): a place costs one or two of them, whatever the number of octaves. Nodes are worked
-// out in pages, where a place is first asked for, and kept.
+// (N - U D N): a place costs one of them, whatever the number of octaves. Nodes are worked out in
+// pages, where a place is first asked for, and kept.
 //
 // Numbers come from (key, purpose, octave) by node, see PixelNoise; lattices repeat after 2^16 rows
 // of nodes and 2^19 columns. For one thread at a time, as pages are filled in; another object of
 // the same key gives the same texture.
 class TextureField {
  public:
-  TextureField(const TextureParams& texture, core::TrialKey key, core::Purpose purpose);
+  static constexpr int kMostTaps = 8;
+
+  TextureField(const TextureParams& texture, core::TrialKey key, core::Purpose purpose,
+               int most_taps = kMostTaps);
 
   // Returns the mean of the texture over a pixel's footprint around (u, v), and that of its
-  // gradient. Along its longer axis a footprint is sampled up to kMostTaps times; at each of these
+  // gradient. Along its longer axis a footprint is sampled up to most_taps times; at each of these
   // octaves fade out by the shorter axis w, in full for s >= 0.85 w and gone for s <= 0.42 w,
   // linearly in an approximation of log2(s). Cost: 15 to 100 ns, and some ns for each new node.
   TextureSample Mean(double u_m, double v_m, const Footprint& footprint);
-
-  static constexpr int kMostTaps = 8;
 
   // Returns the standard deviation of the gradient along an axis, 1/m, of the texture itself.
   double SlopeDeviation() const;
@@ -63,8 +64,11 @@ class TextureField {
   static constexpr int kStored = kPage + 4;  // with those that its splines reach beyond, and one
 
   struct Page {
-    // Node (column, row) of the page lies at (row + 1) * kStored + column + 1.
-    std::array<float, std::size_t{kStored} * kStored> nodes;
+    // Node (column, row) of the page lies at (row + 1) * kStored + column + 1: of all coarser
+    // octaves, refined, and of the page's own.
+    using Nodes = std::array<float, std::size_t{kStored} * kStored>;
+    Nodes coarser;
+    Nodes octave;
   };
   // A page by octave, column and row, in one number.
   struct Place {
@@ -82,6 +86,7 @@ class TextureField {
     std::uint64_t key = 0;
     const Page* page = nullptr;
   };
+  // C_(octave - 1) + share a_octave, at that many places.
   struct Level {
     int octave;
     double share;
@@ -94,11 +99,12 @@ class TextureField {
   }
   const Page& FindPage(const Place& place);
   const Page& MakePage(const Place& place);
-  void AddTaps(const Level& level, double u_m, double v_m, const Footprint::Ellipse& ellipse,
-               TextureSample& sum);
+  static void AddParent(const Page& parent, const Place& place, Page& page);
+  TextureSample Taps(const Level& level, double u_m, double v_m, const Footprint::Ellipse& ellipse);
 
   core::TrialKey key_;
   core::Purpose purpose_;
+  int most_taps_;
   std::vector<double> spacings_m_;
   std::vector<double> amplitudes_;  // of N, by octave
   // The page of each octave that was asked for last.

@@ -1,6 +1,8 @@
 // How mottled a surface is, and at which scales.
 #pragma once
 
+#include <string_view>
+
 #include "core/fields.h"
 
 namespace rockyard::rendering {
@@ -17,12 +19,21 @@ struct TextureParams {
 
   bool operator==(const TextureParams&) const = default;
   void Visit(core::FieldVisitor& v);
+
+ protected:
+  // The same, where contrast and exponent were fitted to what `calibrated_to` says.
+  void VisitAs(core::FieldVisitor& v, std::string_view calibrated_to);
 };
 
-// The ends of the family of soils: dust that the wind has smoothed, and loose stones of some
-// millimetres to centimetres.
+// Loose stones of some millimetres to centimetres: contrast and exponent come from a real image.
+struct GravelParams : TextureParams {
+  void Visit(core::FieldVisitor& v);
+};
+
+// The ends of the family of soils, of which the first is dust that the wind has smoothed; and
+// rocks.
 TextureParams DriftTexture();
-TextureParams GravelTexture();
+GravelParams GravelTexture();
 TextureParams RockTexture();
 
 // The texture at the given share of the way from `smooth` (0) to `rough` (1): wavelengths along

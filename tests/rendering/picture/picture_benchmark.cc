@@ -3,6 +3,8 @@
 #include <benchmark/benchmark.h>
 
 #include <array>
+#include <cmath>
+#include <vector>
 
 #include "core/hash.h"
 #include "rendering/picture/picture_kit.h"
@@ -79,6 +81,58 @@ void BM_PairWithJaggedEdges(benchmark::State& state) {
   RenderPairs(state, MarsWith(0.013, 0.0), look);
 }
 BENCHMARK(BM_PairWithJaggedEdges)->Unit(benchmark::kMillisecond);
+
+// Radiance of the left image, means over squares of `side` pixels, as a pyramid reduces images.
+std::vector<double> Reduced(const terrain::Terrain& terrain, const LookParams& look, int side) {
+  const Pair pair(terrain);
+  const PictureScene scene(terrain, pair.sun, look, pair.params.camera.imager.filter_width_m, {});
+  TerrainLook seen(terrain, pair.sun, look, kKey);
+  Picture picture(kSide, kSide);
+  PictureRenderer(scene, look, pair.rays.front(), math::Transform::Identity())
+      .RenderRows(0, kSide, seen, picture);
+  std::vector<double> reduced(static_cast<std::size_t>(kSide / side) * (kSide / side));
+  for (int row = 0; row < kSide; ++row) {
+    for (int column = 0; column < kSide; ++column) {
+      reduced[static_cast<std::size_t>(row / side * (kSide / side) + column / side)] +=
+          static_cast<double>(picture.radiance_w_m2_sr.At(column, row)) / (side * side);
+    }
+  }
+  return reduced;
+}
+
+// What fewer samples save, and how far their images are from those of 16 x 16 samples and 16 taps:
+// root mean square over the mean, as rendered and reduced to a quarter each way.
+void BM_PairOfFewSamples(benchmark::State& state) {
+  const terrain::Terrain terrain = MarsWith(0.013, 0.0);
+  LookParams look;
+  look.edge_samples = state.range(0);
+  look.texture_taps = state.range(1);
+  LookParams finest;
+  finest.edge_samples = finest.texture_taps = 16;
+  Pair pair(terrain);
+  pair.params.look = look;
+  for ([[maybe_unused]] auto _ : state) pair.Render(nullptr);
+  for (const int side : {1, 4}) {
+    const std::vector<double> here = Reduced(terrain, look, side);
+    const std::vector<double> best = Reduced(terrain, finest, side);
+    double squares = 0.0, mean = 0.0;
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      squares += (here[i] - best[i]) * (here[i] - best[i]);
+      mean += best[i];
+    }
+    const auto count = static_cast<double>(here.size());
+    state.counters[side == 1 ? "off" : "off_reduced"] = std::sqrt(squares / count) / (mean / count);
+  }
+}
+BENCHMARK(BM_PairOfFewSamples)
+    ->ArgNames({"edge", "taps"})
+    ->Args({4, 8})
+    ->Args({2, 8})
+    ->Args({1, 8})
+    ->Args({4, 4})
+    ->Args({1, 4})
+    ->Args({1, 2})
+    ->Unit(benchmark::kMillisecond);
 
 void BM_PairOnRoughGround(benchmark::State& state) { RenderPairs(state, MarsWith(0.013, 0.01)); }
 BENCHMARK(BM_PairOnRoughGround)->Unit(benchmark::kMillisecond);

@@ -43,6 +43,20 @@ TEST(PictureParams, AssumedValuesHaveARangeAndASource) {
   }
 }
 
+// What was fitted to an image says so; the same of other textures is assumed.
+TEST(PictureParams, GravelIsCalibrated) {
+  const core::FieldTable table = core::ListParams<PictureParams>();
+  int calibrated = 0;
+  for (const core::ParameterInfo& info : table.parameters()) {
+    if (info.origin != core::Origin::kCalibrated) continue;
+    ++calibrated;
+    EXPECT_TRUE(info.path == "look.gravel.contrast" || info.path == "look.gravel.spectral_exponent")
+        << info.path;
+    EXPECT_THAT(info.source, testing::HasSubstr("Navcam"));
+  }
+  EXPECT_EQ(calibrated, 2);
+}
+
 TEST(PictureParams, ConditionsAcrossFieldsHold) {
   const auto reason = [](std::string_view path, core::JsonValue value) -> std::string {
     try {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "rendering/picture/picture_kit.h"
@@ -126,6 +127,32 @@ TEST(TerrainLook, RocksDifferAsMuchAsStated) {
   for (const Vector3& n : {Vector3(1, 0, 0), Vector3(1, 1, 1), Vector3(1, -1, 0.1)}) {
     EXPECT_NEAR(statistics(0.0, 0.1, n.normalized()).second, 0.1, 0.012);
   }
+}
+
+// With few taps a strip of ground is blurred across: its texture is paler.
+TEST(TerrainLook, TapsKeepTheTextureOfStrips) {
+  const terrain::Terrain terrain = terrain::FlatWith({});
+  const auto deviation = [&](std::int64_t taps) {
+    LookParams params;
+    params.soil_graininess = 0.0;
+    params.drift = {0.1, 2.0, 0.05, 0.003125, 0.0};
+    params.texture_taps = taps;
+    TerrainLook look(terrain, {}, params, kKey);
+    double sum = 0.0;
+    double square = 0.0;
+    for (int i = 0; i < 400; ++i) {
+      const auto point =
+          PointAt({0.31 * i, 0.17 * i, 0.0}, Vector3::UnitZ(), SurfacePoint::kGround);
+      const double albedo = look.At(point, {0.01, 0.0, 0.0}, {0.0, 0.08, 0.0}).albedo;
+      sum += albedo / 400;
+      square += albedo * albedo / 400;
+    }
+    return std::sqrt(std::max(square - sum * sum, 0.0));  // rounding, of one value
+  };
+  EXPECT_LT(deviation(1), 0.8 * deviation(4));
+  EXPECT_LT(deviation(4), 0.95 * deviation(8));
+  // The strip is eight times as long as wide: more taps would be the same.
+  EXPECT_DOUBLE_EQ(deviation(8), deviation(16));
 }
 
 }  // namespace

@@ -1,0 +1,87 @@
+// The roughness of the ground for images: many rays.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "terrain/ray_crossing.h"
+#include "terrain/relief.h"
+#include "terrain/roughness_field.h"
+
+namespace rockyard::terrain {
+
+// A straight line over the roughness, by the distance t along a ray: above (x, y) + t (along_x,
+// along_y) at the height height_m - t descent.
+struct SightLine {
+  double x_m, y_m;
+  double along_x, along_y;
+  double height_m, descent;
+};
+
+// The same surface as a RoughnessField, to rounding. A B-spline is one on a lattice twice as fine,
+// too, with the nodes U c, U = [1 4 6 4 1]/8 along each axis; so all octaves together are one
+// spline on the lattice of the finest, C_j = U C_(j-1) + c_j. Nodes are worked out in pages where a
+// ray first comes, and kept: 110 kB and about 0.5 ms for 64 x 64 cells. Pure queries, from any
+// thread.
+class RoughnessSpline {
+ public:
+  explicit RoughnessSpline(std::shared_ptr<const RoughnessField> field);
+  ~RoughnessSpline();
+  RoughnessSpline(const RoughnessSpline&) = delete;
+  RoughnessSpline& operator=(const RoughnessSpline&) = delete;
+
+  ReliefSample Sample(double x_m, double y_m) const;
+
+  // Returns the first t, at most max_distance_m, at which the line is not above the surface. The
+  // line visits the cells of the lattice one by one, and passes over blocks of 8 x 8 that do not
+  // reach it. In each cell it is compared with the highest that this reaches; what is left is
+  // halved until bounds on the curvature tell, or until it is shorter than 1 mm, so that a crest
+  // cut over less than that can be missed.
+  std::optional<double> FirstBelow(const SightLine& line, double max_distance_m) const;
+
+ private:
+  static constexpr int kPage = 64;          // cells along a page's side
+  static constexpr int kNodes = kPage + 3;  // splines centred on the nodes -1 to 65 reach into it
+  using Nodes = std::vector<double>;        // kNodes x kNodes, row by row
+
+  // What no point of a cell exceeds.
+  struct Bounds {
+    double height_m;
+    double curvature_per_m;
+  };
+  static constexpr int kBlock = 8;  // cells along the side of a block
+  struct Page {
+    Nodes nodes_m;
+    std::array<Bounds, std::size_t{kPage} * kPage> bounds{};
+    std::array<double, std::size_t{kPage} * kPage / kBlock / kBlock> highest_m{};  // by block
+  };
+  // One cell of a page.
+  struct Cell {
+    const Page* page;
+    int column, row;
+  };
+
+  static std::size_t PlaceOf(int column, int row) {
+    return static_cast<std::size_t>(row) * kPage + static_cast<std::size_t>(column);
+  }
+  static std::size_t BlockOf(int column, int row) {
+    const int blocks_below = row / kBlock * (kPage / kBlock);
+    return static_cast<std::size_t>(blocks_below) + static_cast<std::size_t>(column / kBlock);
+  }
+  Nodes NodesOf(int octave, std::int64_t page_column, std::int64_t page_row) const;
+  Bounds BoundsOf(const Nodes& nodes_m, int column, int row) const;
+  const Page& PageAt(std::int64_t page_column, std::int64_t page_row) const;
+  Cell CellAt(std::int64_t column, std::int64_t row) const;
+  ReliefSample SampleIn(const Cell& cell, double u, double v) const;
+
+  std::shared_ptr<const RoughnessField> field_;
+  double cells_per_m_;
+  int page_mask_;  // pages repeat after page_mask_ + 1, a power of two
+  mutable std::vector<std::atomic<const Page*>> pages_;
+};
+
+}  // namespace rockyard::terrain
