@@ -197,18 +197,25 @@ TEST(LookPicturesTest, ACellThatWasNotEvaluatedIsGrey) {
   EXPECT_GT(PatchOf(picture, {150, 150, 150}).pixels, 100);
 }
 
-// A nearer cell is drawn over a farther one whose image it crosses.
-TEST(LookPicturesTest, WhatIsNearerCoversWhatIsFarther) {
+// Behind a cell that rises to a ridge lies one that falls steeply: its sides cross the near edge of
+// the first one in the image.
+TEST(LookPicturesTest, WhatIsNearerIsDrawnOverWhatIsFarther) {
   messages::NavigationView view = OneCell(true);
-  // The farther one rises, as seen from a camera that looks along +y in the map's frame.
-  view.map.cells[1] = {
-      .has_data = true, .elevation_m = 0.1, .known = true, .goodness = 10, .certainty = 255};
-  const CapturedLook look = LookOf(0, LookDirection::kAhead);
-  const int apart = PatchOf(GridPicture(look, view), report::ByteColour(200)).pixels;
-  EXPECT_EQ(apart, PatchOf(GridPicture(look, OneCell(true)), report::ByteColour(200)).pixels);
-  view.map.ystep_m = 0.0;  // both in one place: the first one is no nearer
-  const Picture same = GridPicture(look, view);
-  EXPECT_GT(PatchOf(same, report::ByteColour(10)).pixels, 0);
+  view.map.ny = 3;
+  view.map.cells = {view.map.cells[0], view.map.cells[0], view.map.cells[0]};
+  view.map.cells[1].elevation_m = 1.0;
+  view.map.cells[2].elevation_m = -1.0;
+  view.map.cells[2].goodness = 10;
+  const Picture picture = GridPicture(LookOf(0, LookDirection::kAhead), view);
+  EXPECT_GT(PatchOf(picture, report::ByteColour(10)).pixels, 50);
+  // Corners are as high as the cells that meet there on average: 0.1 m and 0.55 m, drawn 6 % of the
+  // way to the middle at 0.325 m.
+  const double z_m = 0.1 + 0.06 * 0.225;
+  const vision::Pixel left = Place({2.012, 0.188, z_m});
+  const vision::Pixel right = Place({2.012, -0.188, z_m});
+  for (int x = int(left.x()) + 2; x < int(right.x()) - 1; ++x) {
+    EXPECT_EQ(picture.At(x, int(std::lround(left.y()))), report::ByteColour(200)) << x;
+  }
 }
 
 TEST(LookPicturesTest, ElevationsAreSeenFromAboveWithTheRoverBelow) {
