@@ -107,7 +107,7 @@ TEST(LookMemoryTest, ADecisionRestsOnItsLookAndTheOneAheadBeforeOneBehind) {
 TEST(PictureLinesTest, ALineIsDrawnWithinThePicture) {
   const auto drawn = [](const vision::Pixel& from, const vision::Pixel& to) {
     Picture picture(10, 8);
-    DrawLine({from, to}, kRed, picture);
+    DrawLine({from, to}, kRed, 1, picture);
     return picture;
   };
   const Picture level = drawn({-5.0, 3.0}, {20.0, 3.0});
@@ -121,6 +121,12 @@ TEST(PictureLinesTest, ALineIsDrawnWithinThePicture) {
   EXPECT_EQ(PatchOf(diagonal, kRed).pixels, 8);
   for (int i = 0; i < 8; ++i) EXPECT_EQ(diagonal.At(i, i), kRed);
   EXPECT_EQ(PatchOf(drawn({2.0, 3.0}, {2.0, 3.0}), kRed).pixels, 1);
+  Picture wide(10, 8);
+  DrawLine({{0.0, 7.0}, {9.0, 7.0}}, kRed, 2, wide);
+  EXPECT_EQ(PatchOf(wide, kRed).pixels, 10);
+  DrawLine({{9.0, 2.0}, {4.0, 2.0}}, kRed, 2, wide);
+  EXPECT_EQ(PatchOf(wide, kRed).pixels, 10 + 2 * 6);
+  EXPECT_EQ(wide.At(4, 3), kRed);
   // Past the edges, and past a corner.
   EXPECT_EQ(PatchOf(drawn({-1.0, 0.0}, {-1.0, 7.0}), kRed).pixels, 0);
   EXPECT_EQ(PatchOf(drawn({10.0, 0.0}, {30.0, 7.0}), kRed).pixels, 0);
@@ -177,24 +183,25 @@ TEST(LookPicturesTest, TheGridLiesWhereTheCameraSeesItsCells) {
   const Picture picture = GridPicture(look, OneCell(true));
   ASSERT_EQ(picture.width(), 8 * kSide_px);
   const Patch cell = PatchOf(picture, report::ByteColour(200));
-  // Drawn 6 % of the way to its middle inside of it: x from 2.012 to 2.388, y within 0.188 m.
-  const vision::Pixel near_left = Place({2.012, 0.188, 0.1});
-  const vision::Pixel near_right = Place({2.012, -0.188, 0.1});
+  // Drawn 8 % of the way to its middle inside of it: x from 2.016 to 2.384, y within 0.184 m.
+  const vision::Pixel near_left = Place({2.016, 0.184, 0.1});
+  const vision::Pixel near_right = Place({2.016, -0.184, 0.1});
   EXPECT_NEAR(cell.left, near_left.x(), 1.0);
-  EXPECT_NEAR(cell.right, near_right.x(), 1.0);
-  EXPECT_NEAR(cell.bottom, near_left.y(), 1.0);
-  EXPECT_NEAR(cell.top, Place({2.388, 0.188, 0.1}).y(), 1.0);
+  EXPECT_NEAR(cell.right, near_right.x() + 1.0, 1.0);
+  EXPECT_NEAR(cell.bottom, near_left.y() + 1.0, 1.0);
+  EXPECT_NEAR(cell.top, Place({2.384, 0.184, 0.1}).y(), 1.0);
   // An outline: its middle shows the image.
   const vision::Pixel middle = Place({2.2, 0.0, 0.1});
-  EXPECT_EQ(picture.At(int(middle.x()), int(middle.y())), (Rgb{40, 40, 40}));
-  const Patch rest = PatchOf(picture, {40, 40, 40});
+  constexpr Rgb kImage{120, 120, 120};  // 96 + 159 x 40 / 255
+  EXPECT_EQ(picture.At(int(middle.x()), int(middle.y())), kImage);
+  const Patch rest = PatchOf(picture, kImage);
   EXPECT_EQ(cell.pixels + rest.pixels, 64 * 64 * 64);
 }
 
 TEST(LookPicturesTest, ACellThatWasNotEvaluatedIsGrey) {
   const Picture picture = GridPicture(LookOf(0, LookDirection::kAhead), OneCell(false));
   EXPECT_EQ(PatchOf(picture, report::ByteColour(200)).pixels, 0);
-  EXPECT_GT(PatchOf(picture, {150, 150, 150}).pixels, 100);
+  EXPECT_GT(PatchOf(picture, {60, 60, 60}).pixels, 100);
 }
 
 // Behind a cell that rises to a ridge lies one that falls steeply: its sides cross the near edge of
@@ -208,11 +215,11 @@ TEST(LookPicturesTest, WhatIsNearerIsDrawnOverWhatIsFarther) {
   view.map.cells[2].goodness = 10;
   const Picture picture = GridPicture(LookOf(0, LookDirection::kAhead), view);
   EXPECT_GT(PatchOf(picture, report::ByteColour(10)).pixels, 50);
-  // Corners are as high as the cells that meet there on average: 0.1 m and 0.55 m, drawn 6 % of the
+  // Corners are as high as the cells that meet there on average: 0.1 m and 0.55 m, drawn 8 % of the
   // way to the middle at 0.325 m.
-  const double z_m = 0.1 + 0.06 * 0.225;
-  const vision::Pixel left = Place({2.012, 0.188, z_m});
-  const vision::Pixel right = Place({2.012, -0.188, z_m});
+  const double z_m = 0.1 + 0.08 * 0.225;
+  const vision::Pixel left = Place({2.016, 0.184, z_m});
+  const vision::Pixel right = Place({2.016, -0.184, z_m});
   for (int x = int(left.x()) + 2; x < int(right.x()) - 1; ++x) {
     EXPECT_EQ(picture.At(x, int(std::lround(left.y()))), report::ByteColour(200)) << x;
   }

@@ -26,10 +26,11 @@ class FolderWriter {
   FolderWriter(const fs::path& folder, LookDirection direction)
       : folder_(folder), cameras_(CamerasOf(direction)) {}
 
-  void Png(std::string_view name, const Picture& picture, std::string what) {
+  template <typename Value>
+  void Png(std::string_view name, const vision::Image<Value>& picture, std::string what) {
     // A PNG file has a pixel at least.
-    const bool empty = picture.empty();
-    Write(fmt::format("{}.png", name), image_files::EncodePng(empty ? Picture(1, 1) : picture),
+    const vision::Image<Value> pixel(1, 1);
+    Write(fmt::format("{}.png", name), image_files::EncodePng(picture.empty() ? pixel : picture),
           std::move(what));
   }
 
@@ -77,10 +78,11 @@ std::string PointsText(std::size_t points) { return fmt::format("{} points in R,
 std::vector<LookFile> WriteLook(const fs::path& folder, const CapturedLook& look,
                                 const messages::NavigationView& view) {
   FolderWriter writer(folder, look.cloud.direction);
-  writer.Png("left", LeftPicture(look),
+  writer.Png("left", look.sight.left,
              fmt::format("left image of look {}, reduced and aligned as it was matched, {} x {}",
                          look.cloud.number, look.sight.left.width(), look.sight.left.height()));
-  writer.Png("grid", GridPicture(look, view), "the same with the map in colours of goodness");
+  writer.Png("grid", GridPicture(look, view),
+             "the same, lighter, with the map in colours of goodness");
   writer.Png("disparity", ToSee(DisparityPicture(look.sight.disparities, look.matching.correlator)),
              RangeText(look.matching.correlator));
   const ElevationImage elevations = ElevationsOf(look.cloud);

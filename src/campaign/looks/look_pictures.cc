@@ -19,9 +19,11 @@ using math::Vector3;
 using messages::LookDirection;
 
 constexpr double kElevationCell_m = 0.05;
-constexpr Rgb kUnknownCell{150, 150, 150};
+constexpr Rgb kUnknownCell{60, 60, 60};
+constexpr int kDarkest = 96;  // of a picture under lines
+constexpr int kLine_px = 2;
 // Of the way from a corner to the middle of its cell: neighbours do not draw over each other.
-constexpr double kInset = 0.06;
+constexpr double kInset = 0.08;
 
 Rgb Grey(std::uint8_t value) { return {value, value, value}; }
 
@@ -53,19 +55,22 @@ std::vector<CellOutline> OutlinesOf(const messages::NavigationView& view, const 
   return outlines;
 }
 
-}  // namespace
-
-Picture LeftPicture(const CapturedLook& look) {
-  const vision::GrayImage& left = look.sight.left;
+Picture LightPicture(const vision::GrayImage& left) {
   Picture picture(left.width(), left.height());
   for (int y = 0; y < left.height(); ++y) {
-    for (int x = 0; x < left.width(); ++x) picture.At(x, y) = Grey(left.At(x, y));
+    for (int x = 0; x < left.width(); ++x) picture.At(x, y) = Grey(Lightened(left.At(x, y)));
   }
   return picture;
 }
 
+}  // namespace
+
+std::uint8_t Lightened(std::uint8_t grey) {
+  return static_cast<std::uint8_t>(kDarkest + (255 - kDarkest) * grey / 255);
+}
+
 Picture GridPicture(const CapturedLook& look, const messages::NavigationView& view) {
-  const Picture left = LeftPicture(look);
+  const Picture left = LightPicture(look.sight.left);
   const int factor = FactorToSee(left.width(), left.height());
   Picture picture = Enlarged(left, factor);
   // The middle of an enlarged pixel (0, 0) lies (factor - 1) / 2 from that of the first one.
@@ -75,7 +80,7 @@ Picture GridPicture(const CapturedLook& look, const messages::NavigationView& vi
     for (std::size_t i = 0; i < outline.corners_R.size(); ++i) {
       const Vector3& next_R = outline.corners_R[(i + 1) % outline.corners_R.size()];
       if (const auto line = ImageOfLine(camera, outline.corners_R[i], next_R)) {
-        DrawLine(*line, outline.colour, picture);
+        DrawLine(*line, outline.colour, kLine_px, picture);
       }
     }
   }

@@ -2,6 +2,7 @@
 // Goldberg 2002.
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -16,13 +17,14 @@
 
 namespace rockyard::campaign {
 
-// The left image in grey.
-image_files::Picture LeftPicture(const CapturedLook& look);
+// The grey of the left image under lines of the ramp's colours: light enough for the darkest of
+// them.
+std::uint8_t Lightened(std::uint8_t grey);
 
-// The left image, enlarged (FactorToSee), with the cells of the navigator's map that hold points as
-// outlines at their elevations: in the colour of their goodness (report::ByteColour), in grey where
-// they have none. The map lies where the rover believes it, seen by the camera that it believes to
-// have; what is nearer is drawn over what is farther.
+// The left image, enlarged (FactorToSee) and Lightened, with the cells of the navigator's map that
+// hold points as outlines at their elevations: in the colour of their goodness
+// (report::ByteColour), in grey where they have none. The map lies where the rover believes it,
+// seen by the camera that it believes to have; what is nearer is drawn over what is farther.
 image_files::Picture GridPicture(const CapturedLook& look, const messages::NavigationView& view);
 
 // Points of a look from above, in R.

@@ -34,6 +34,15 @@ struct Share {
   bool empty() const { return first > last; }
 };
 
+// A square with its upper left corner at (x, y), as far as it lies within the picture.
+void DrawDot(int x, int y, int width_px, const image_files::Rgb& colour, Picture& picture) {
+  for (int row = y; row < std::min(y + width_px, picture.height()); ++row) {
+    for (int column = x; column < std::min(x + width_px, picture.width()); ++column) {
+      picture.At(column, row) = colour;
+    }
+  }
+}
+
 }  // namespace
 
 Picture Enlarged(const Picture& picture, int factor) {
@@ -65,7 +74,9 @@ std::optional<PictureSegment> ImageOfLine(const vision::Cahv& camera, const Vect
   return PictureSegment{*a, *b};
 }
 
-void DrawLine(const PictureSegment& line, const image_files::Rgb& colour, Picture& picture) {
+void DrawLine(const PictureSegment& line, const image_files::Rgb& colour, int width_px,
+              Picture& picture) {
+  EXPECT(width_px >= 1);
   const auto& [from, to] = line;
   Share inside;
   inside.Keep(from.x(), to.x(), 0.0, picture.width() - 1.0);
@@ -80,7 +91,7 @@ void DrawLine(const PictureSegment& line, const image_files::Rgb& colour, Pictur
     // Within by construction, but for rounding.
     const int x = std::clamp(static_cast<int>(std::lround(at.x())), 0, picture.width() - 1);
     const int y = std::clamp(static_cast<int>(std::lround(at.y())), 0, picture.height() - 1);
-    picture.At(x, y) = colour;
+    DrawDot(x, y, width_px, colour, picture);
   }
 }
 

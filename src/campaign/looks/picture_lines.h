@@ -24,8 +24,9 @@ using PictureSegment = std::pair<vision::Pixel, vision::Pixel>;
 std::optional<PictureSegment> ImageOfLine(const vision::Cahv& camera, const math::Vector3& from_A,
                                           const math::Vector3& to_A);
 
-// Draws what of the line lies within the picture, one pixel wide. Its ends are finite.
-void DrawLine(const PictureSegment& line, const image_files::Rgb& colour,
+// Draws what of the line lies within the picture, `width_px` >= 1 wide, to the right of it and
+// below. Its ends are finite.
+void DrawLine(const PictureSegment& line, const image_files::Rgb& colour, int width_px,
               image_files::Picture& picture);
 
 }  // namespace rockyard::campaign
