@@ -181,7 +181,7 @@ inline constexpr std::size_t kMaxDetailedSteps = 240;
 
 // What the pictures of looks may take on a page, in bytes of base64; where they take more, only
 // every second look of the cameras at either end is there, or every third, ...
-inline constexpr std::size_t kMaxLookBytes = 1'200'000;
+inline constexpr std::size_t kMaxLookBytes = 1'500'000;
 
 // As src/web/replay/payload.ts says, on one line. Moments of little change are left out (see
 // motion.h), lengths have 0.1 mm, but the last moment has every digit of its pose.

@@ -192,7 +192,7 @@ TEST(LookPicturesTest, TheGridLiesWhereTheCameraSeesItsCells) {
   EXPECT_NEAR(cell.top, Place({2.384, 0.184, 0.1}).y(), 1.0);
   // An outline: its middle shows the image.
   const vision::Pixel middle = Place({2.2, 0.0, 0.1});
-  constexpr Rgb kImage{120, 120, 120};  // 96 + 159 x 40 / 255
+  constexpr Rgb kImage{98, 98, 98};  // 80 + 120 x 40 / 255
   EXPECT_EQ(picture.At(int(middle.x()), int(middle.y())), kImage);
   const Patch rest = PatchOf(picture, kImage);
   EXPECT_EQ(cell.pixels + rest.pixels, 64 * 64 * 64);

@@ -57,7 +57,7 @@ DriveResult Watched(const DriveParams& drive, Shown& shown) {
 }
 
 TEST(StereoWatcherTest, IsShownEveryLookAndChangesNothing) {
-  const DriveParams drive = Gestalt("abundance", kBriefly);
+  const DriveParams drive = Gestalt("narrow_course", kBriefly);
   const DriveResult plain = RunTrial(drive, kKey);
   Shown shown;
   const DriveResult watched = Watched(drive, shown);
@@ -70,6 +70,7 @@ TEST(StereoWatcherTest, IsShownEveryLookAndChangesNothing) {
       std::count_if(shown.clouds.begin(), shown.clouds.end(),
                     [](const auto& cloud) { return cloud.direction == LookDirection::kBehind; });
   EXPECT_EQ(static_cast<double>(behind), watched.record.rear_image_sets);
+  EXPECT_GT(behind, 0);
   ASSERT_FALSE(shown.decided.empty());
   for (const messages::PointCloud& cloud : shown.decided) {
     EXPECT_EQ(cloud.points_R, shown.clouds.at(static_cast<std::size_t>(cloud.number)).points_R);
@@ -80,14 +81,16 @@ TEST(StereoWatcherTest, IsShownEveryLookAndChangesNothing) {
 // wrong: the cameras are those that the rover believes to have.
 TEST(StereoWatcherTest, CamerasAreThoseOfTheCalibration) {
   const Overrides wrong = {"perception.calibration.stereo_front.z_m=0.03",
-                           "perception.calibration.stereo_front.pitch_deg=2"};
+                           "perception.calibration.stereo_front.pitch_deg=2",
+                           "perception.calibration.stereo_rear.x_m=-0.04"};
   for (const Overrides& overrides : {Overrides{}, wrong}) {
-    const DriveParams drive =
-        Gestalt("abundance", kBriefly + Overrides{"referee.time_limit_s=60"} + overrides);
+    const DriveParams drive = Gestalt("narrow_course", kBriefly + overrides);
     Shown shown;
     Watched(drive, shown);
     ASSERT_FALSE(shown.clouds.empty());
+    bool behind = false;
     for (std::size_t i = 0; i < shown.clouds.size(); ++i) {
+      behind = behind || shown.clouds[i].direction == LookDirection::kBehind;
       const std::vector<Vector3>& handed_on = shown.clouds[i].points_R;
       const std::vector<Vector3>& worked_out = shown.triangulated_R[i];
       ASSERT_GT(handed_on.size(), 1000U);
@@ -96,6 +99,7 @@ TEST(StereoWatcherTest, CamerasAreThoseOfTheCalibration) {
         ASSERT_LT((handed_on[n] - worked_out[n]).norm(), 1e-9) << n;
       }
     }
+    EXPECT_TRUE(behind);
   }
 }
 

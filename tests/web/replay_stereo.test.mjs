@@ -67,7 +67,7 @@ test("names the rear cameras, and says what was left out", async () => {
   const { caption, pictures } = await shownAt(page, looks[1].t);
   assert.match(caption, /^Look 1 of the rear cameras/);
   assert.match(pictures[0].alt, /rear/);
-  assert.match(await page.textContent(".eyes"), /one of 3 looks/);
+  assert.match(await page.textContent(".eyes"), /one look out of 3/);
   assert.deepEqual(problems, []);
   await page.context().close();
 });

@@ -82,7 +82,7 @@ std::vector<LookFile> WriteLook(const fs::path& folder, const CapturedLook& look
              fmt::format("left image of look {}, reduced and aligned as it was matched, {} x {}",
                          look.cloud.number, look.sight.left.width(), look.sight.left.height()));
   writer.Png("grid", GridPicture(look, view),
-             "the same, lighter, with the map in colours of goodness");
+             "the same in muted grey with the map in colours of goodness");
   writer.Png("disparity", ToSee(DisparityPicture(look.sight.disparities, look.matching.correlator)),
              RangeText(look.matching.correlator));
   const ElevationImage elevations = ElevationsOf(look.cloud);

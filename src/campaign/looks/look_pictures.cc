@@ -20,7 +20,9 @@ using messages::LookDirection;
 
 constexpr double kElevationCell_m = 0.05;
 constexpr Rgb kUnknownCell{60, 60, 60};
-constexpr int kDarkest = 96;  // of a picture under lines
+// Of a picture under lines.
+constexpr int kDarkest = 80;
+constexpr int kLightest = 200;
 constexpr int kLine_px = 2;
 // Of the way from a corner to the middle of its cell: neighbours do not draw over each other.
 constexpr double kInset = 0.08;
@@ -55,22 +57,22 @@ std::vector<CellOutline> OutlinesOf(const messages::NavigationView& view, const 
   return outlines;
 }
 
-Picture LightPicture(const vision::GrayImage& left) {
+Picture MutedPicture(const vision::GrayImage& left) {
   Picture picture(left.width(), left.height());
   for (int y = 0; y < left.height(); ++y) {
-    for (int x = 0; x < left.width(); ++x) picture.At(x, y) = Grey(Lightened(left.At(x, y)));
+    for (int x = 0; x < left.width(); ++x) picture.At(x, y) = Grey(Muted(left.At(x, y)));
   }
   return picture;
 }
 
 }  // namespace
 
-std::uint8_t Lightened(std::uint8_t grey) {
-  return static_cast<std::uint8_t>(kDarkest + (255 - kDarkest) * grey / 255);
+std::uint8_t Muted(std::uint8_t grey) {
+  return static_cast<std::uint8_t>(kDarkest + (kLightest - kDarkest) * grey / 255);
 }
 
 Picture GridPicture(const CapturedLook& look, const messages::NavigationView& view) {
-  const Picture left = LightPicture(look.sight.left);
+  const Picture left = MutedPicture(look.sight.left);
   const int factor = FactorToSee(left.width(), left.height());
   Picture picture = Enlarged(left, factor);
   // The middle of an enlarged pixel (0, 0) lies (factor - 1) / 2 from that of the first one.

@@ -17,11 +17,11 @@
 
 namespace rockyard::campaign {
 
-// The grey of the left image under lines of the ramp's colours: light enough for the darkest of
-// them.
-std::uint8_t Lightened(std::uint8_t grey);
+// The grey of the left image under lines: neither as dark as the lower end of the ramp of colours
+// nor as light as its upper one.
+std::uint8_t Muted(std::uint8_t grey);
 
-// The left image, enlarged (FactorToSee) and Lightened, with the cells of the navigator's map that
+// The left image, enlarged (FactorToSee) and Muted, with the cells of the navigator's map that
 // hold points as outlines at their elevations: in the colour of their goodness
 // (report::ByteColour), in grey where they have none. The map lies where the rover believes it,
 // seen by the camera that it believes to have; what is nearer is drawn over what is farther.

@@ -25,7 +25,7 @@ export class EyesPanel {
     this.times = eyes.looks.map((look) => look.t);
     this.element.append(el("h2", {}, "What the rover saw"), this.caption, this.pictures);
     if (eyes.every > 1) {
-      this.element.append(el("p", { class: "caption" }, `To keep the page small, one of ${eyes.every} looks is here.`));
+      this.element.append(el("p", { class: "caption" }, `To keep the page small, it has one look out of ${eyes.every}.`));
     }
     this.left.caption.textContent = "Left image";
   }
