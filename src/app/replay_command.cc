@@ -55,7 +55,7 @@ void AddOptions(CLI::App& command, ReplayOptions& options) {
       command
           .add_option("--step", options.step,
                       "number of a step, from 0: writes map, votes and choice of the navigator "
-                      "instead")
+                      "instead, and what stereo cameras saw")
           ->check(CLI::NonNegativeNumber)
           ->excludes(scan);
   CLI::Option* list =

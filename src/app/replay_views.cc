@@ -46,6 +46,14 @@ std::string Counted(const campaign::MomentsResult& result) {
   return text;
 }
 
+// What stereo cameras saw.
+void PrintLooks(const campaign::MomentsResult& result) {
+  if (!result.no_images.empty()) Print(fmt::format("  no images: {}\n", result.no_images));
+  for (const campaign::LookFile& file : result.look_files) {
+    Print(fmt::format("  {:<20} {}\n", file.name, file.what));
+  }
+}
+
 void PrintDrawn(const campaign::MomentsResult& result) {
   const std::string folder = report::Printable(result.folder.string());
   if (result.scan) {
@@ -55,6 +63,7 @@ void PrintDrawn(const campaign::MomentsResult& result) {
   if (result.step) {
     Print(fmt::format("  {}\n  step.svg, map.csv, votes.csv and points.csv in {}\n",
                       report::ChosenText(*result.step), folder));
+    PrintLooks(result);
   }
 }
 

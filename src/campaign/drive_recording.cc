@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "campaign/looks/look_record.h"
 #include "campaign/scan_capture.h"
 #include "core/error.h"
 #include "experiments/drive/drive_experiment.h"
@@ -27,8 +28,9 @@ class Recorder {
     traced.goal = {scenario_.drive.course.goal_x_m, scenario_.drive.course.goal_y_m};
     traced.schema = experiments::DriveSchema();
     const experiments::DriveExperiment experiment(
-        scenario_.drive, [this](const trial::WatchedScan& scan) { OnScan(scan); },
-        [this](const trial::WatchedStep& step) { OnStep(step); });
+        scenario_.drive, {.scan = [this](const trial::WatchedScan& scan) { OnScan(scan); },
+                          .stereo = [this](const trial::WatchedStereo& look) { OnLook(look); },
+                          .step = [this](const trial::WatchedStep& step) { OnStep(step); }});
     traced.record = experiment.RunTraced(seed, trial, traced.trace);
     return std::move(recording_);
   }
@@ -59,6 +61,10 @@ class Recorder {
     if (!p_RoP_R) return;
     const double height_m = triangulator_.Elevation(row, stripe, pixel.column_px).elevation_m;
     scan.points.push_back({watched.X_WR * *p_RoP_R, stripe, height_m});
+  }
+
+  void OnLook(const trial::WatchedStereo& watched) {
+    recording_.looks.push_back(LookRecord(watched, now_s()));
   }
 
   void OnStep(const trial::WatchedStep& watched) {

@@ -15,6 +15,7 @@ struct DriveRecording {
   truth::TracedTrial traced;
   std::vector<replay::ReplayScan> scans;
   std::vector<replay::ReplayStep> steps;
+  std::vector<replay::ReplayLook> looks;  // those that have images
 };
 
 // Most points of one step that are kept, evenly spread over those that the look gave.
@@ -22,7 +23,8 @@ inline constexpr std::size_t kMaxStepPoints = 120;
 
 // Drives the trial: a pure function of its arguments, with the record of the campaign, bit for bit.
 // A simulator fault ends the recording where it happens. Throws core::UserError where the scenario
-// is no drive. Memory: some 0.4 kB a control tick, and 60 kB a step of a map-based navigator.
+// is no drive. Memory: some 0.4 kB a control tick, and 60 kB a step of a map-based navigator, 30 kB
+// a look with images.
 DriveRecording RecordDrive(const scenario::Scenario& scenario, std::uint64_t seed,
                            std::uint64_t trial);
 

@@ -10,6 +10,7 @@
 #include "report/scan_drawing.h"
 #include "report/scan_picture.h"
 #include "scenario/load.h"
+#include "trial/terrain_sensor_set_params.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -23,6 +24,11 @@ std::string FileStem(const messages::StripeExposure& frames) {
 void BeginFolder(const fs::path& folder, const scenario::Scenario& scenario) {
   fs::create_directories(folder);
   report::WriteFileAtomically(folder / "scenario.resolved.json", scenario::ResolvedJson(scenario));
+}
+
+bool HasStereoCameras(const scenario::Scenario& scenario) {
+  const trial::DriveParams& drive = scenario.drive;
+  return drive.sensors.terrain_sensors.chosen().cameras(drive) != nullptr;
 }
 
 }  // namespace
@@ -45,14 +51,17 @@ void WriteScanFiles(const fs::path& folder, const scenario::Scenario& scenario,
   report::WriteFileAtomically(folder / "points.csv", report::ScanCsv(captured.view));
 }
 
-void WriteStepFiles(const fs::path& folder, const scenario::Scenario& scenario,
-                    const CapturedStep& captured) {
+std::vector<LookFile> WriteStepFiles(const fs::path& folder, const scenario::Scenario& scenario,
+                                     const CapturedStep& captured) {
   BeginFolder(folder, scenario);
   const messages::NavigationView& view = captured.picture.view;
   report::WriteFileAtomically(folder / "step.svg", report::NavigationSvg(captured.picture));
   report::WriteFileAtomically(folder / "map.csv", report::MapCsv(view.map));
   report::WriteFileAtomically(folder / "votes.csv", report::VotesCsv(view));
   report::WriteFileAtomically(folder / "points.csv", report::CloudCsv(captured.cloud));
+  if (!captured.looks.empty()) return WriteLookFiles(folder, captured.looks, view);
+  if (!HasStereoCameras(scenario)) return {};
+  return WriteCloudFiles(folder, captured.cloud);
 }
 
 }  // namespace rockyard::campaign

@@ -8,12 +8,15 @@
 #include <system_error>
 #include <utility>
 
+#include "campaign/looks/look_capture.h"
 #include "campaign/replay_files.h"
 #include "campaign/scan_capture.h"
 #include "campaign/step_scene.h"
 #include "core/error.h"
 #include "experiments/drive/drive_experiment.h"
 #include "experiments/experiment.h"
+#include "sensing/stereo_params.h"
+#include "trial/terrain_sensor_set_params.h"
 
 namespace rockyard::campaign {
 namespace {
@@ -61,13 +64,19 @@ class MomentReplayer {
       : request_(request), source_(source), observer_(observer), result_(result) {}
 
   MomentTrial Run() {
-    const auto on_scan = [this](const trial::WatchedScan& watched) { OnScan(watched); };
-    const auto on_step = [this](const trial::WatchedStep& watched) { OnStep(watched); };
+    trial::Watchers watchers{
+        .scan = [this](const trial::WatchedScan& watched) { OnScan(watched); },
+        .step = [this](const trial::WatchedStep& watched) { OnStep(watched); }};
+    if (request_.step) {
+      watchers.stereo = [this](const trial::WatchedStereo& watched) {
+        looks_.Add(Capture(watched));
+      };
+    }
     const scenario::Scenario& scenario = source_.scenario;
     if (request_.step && scenario.experiment.kind == experiments::ExperimentKind::kDrive) {
-      RunTraced(experiments::DriveExperiment(scenario.drive, on_scan, on_step));
+      RunTraced(experiments::DriveExperiment(scenario.drive, watchers));
     } else {
-      RunPlain(*experiments::MakeExperiment(scenario.experiment, scenario.drive, on_scan, on_step));
+      RunPlain(*experiments::MakeExperiment(scenario.experiment, scenario.drive, watchers));
     }
     return std::move(replayed_);
   }
@@ -111,9 +120,11 @@ class MomentReplayer {
     if (!Draws(request_) && observer_.step) {
       observer_.step({math::ToPose2(watched.X_WR), watched.view});
     }
+    std::vector<CapturedLook> looks = looks_.LooksOf(watched.cloud);
     if (request_.step != watched.view.step) return;
     replayed_.step = {{Title("step", watched.view.step), watched.view, SceneOf(watched, trace_)},
-                      watched.cloud};
+                      watched.cloud,
+                      std::move(looks)};
   }
 
   const MomentsRequest& request_;
@@ -121,17 +132,19 @@ class MomentReplayer {
   const MomentsObserver& observer_;
   MomentsResult& result_;
   MomentTrial replayed_;
-  truth::Trace trace_;  // of a drive of which a step is drawn, up to now
+  // Of a drive of which a step is drawn, up to now.
+  truth::Trace trace_;
+  LookMemory looks_;
 };
 
 // False where a file cannot be written.
 bool WriteMoment(const fs::path& folder, const TrialSource& source, const MomentTrial& replayed,
-                 Journal& journal) {
+                 Journal& journal, MomentsResult& result) {
   try {
     if (replayed.scan) {
       WriteScanFiles(folder, source.scenario, *replayed.scan);
     } else {
-      WriteStepFiles(folder, source.scenario, *replayed.step);
+      result.look_files = WriteStepFiles(folder, source.scenario, *replayed.step);
     }
     return true;
   } catch (const core::UserError& failure) {
@@ -140,6 +153,16 @@ bool WriteMoment(const fs::path& folder, const TrialSource& source, const Moment
     journal.Fail({{folder.string(), failure.code().message(), "name another folder with --out"}});
   }
   return false;
+}
+
+// Of stereo cameras; "" where there are none of these either.
+std::string WhyNoImages(const scenario::Scenario& scenario) {
+  const trial::DriveParams& drive = scenario.drive;
+  const sensing::StereoParams* cameras = drive.sensors.terrain_sensors.chosen().cameras(drive);
+  if (cameras == nullptr) return "";
+  const auto fidelity = static_cast<std::size_t>(cameras->fidelity);
+  return fmt::format("sensors.stereo.fidelity is {}, which has points and no images",
+                     core::EnumNames<sensing::StereoFidelity>::kNames.at(fidelity));
 }
 
 // Of what was asked for and did not happen.
@@ -162,10 +185,13 @@ Outcome Draw(const MomentsRequest& request, const TrialSource& source, const Mom
   }
   if (!replayed.scan && !replayed.step) throw Missing(request, result, replayed.record);
   const fs::path folder = MomentFolder(request, source);
-  if (!WriteMoment(folder, source, replayed, journal)) return Outcome::kFailed;
+  if (!WriteMoment(folder, source, replayed, journal, result)) return Outcome::kFailed;
   journal.SetFolder(folder);
   if (replayed.scan) result.scan = replayed.scan->view;
-  if (!replayed.scan) result.step = replayed.step->picture.view;
+  if (!replayed.scan) {
+    result.step = replayed.step->picture.view;
+    if (replayed.step->looks.empty()) result.no_images = WhyNoImages(source.scenario);
+  }
   return Outcome::kDone;
 }
 

@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "campaign/journal.h"
+#include "campaign/looks/look_files.h"
 #include "campaign/observer.h"
 #include "campaign/trial_source.h"
 #include "math/pose.h"
@@ -50,6 +52,8 @@ struct MomentsResult : WorkResult {
   // What was drawn, into `folder`.
   std::optional<report::ScanView> scan;
   std::optional<messages::NavigationView> step;
+  std::vector<LookFile> look_files;  // of that step: what stereo cameras saw
+  std::string no_images;             // why there are none of what its stereo cameras saw
 };
 
 // Never throws. kBadInput where the scan or step does not occur; kDiffers where the trial does not

@@ -81,6 +81,7 @@ ReplayedTrial ReplayTrial(const TrialSource& source, std::uint64_t trial) {
   data.events = EventsOf(traced, data.poses);
   data.scans = std::move(recording.scans);
   data.steps = std::move(recording.steps);
+  data.looks = std::move(recording.looks);
   replayed.plan_svg = PlanView(source.scenario, traced);
   return replayed;
 }

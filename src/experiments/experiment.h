@@ -5,8 +5,7 @@
 #include <memory>
 
 #include "experiments/experiment_params.h"
-#include "trial/scan_watcher.h"
-#include "trial/step_watcher.h"
+#include "trial/watchers.h"
 #include "truth/record.h"
 
 namespace rockyard::experiments {
@@ -24,14 +23,12 @@ class Experiment {
   virtual truth::Record Run(std::uint64_t seed, std::uint64_t index) const = 0;
 };
 
-// Makes the experiment that `experiment` names, on `drive`. `scan_watcher` is called after every
-// scan of the hazard sensor, `step_watcher` after every decision of a map-based navigator that
-// follows a look, without any influence on the records; they must stand calls from several threads
-// where Run is called from several.
+// Makes the experiment that `experiment` names, on `drive`. `watchers` are shown what
+// runs see and decide, without any influence on the records; they must stand calls from several
+// threads where Run is called from several.
 std::unique_ptr<Experiment> MakeExperiment(const ExperimentParams& experiment,
                                            const trial::DriveParams& drive,
-                                           const trial::ScanWatcher& scan_watcher = {},
-                                           const trial::StepWatcher& step_watcher = {});
+                                           const trial::Watchers& watchers = {});
 
 // The schema of a store, which keeps names and no roles, with the roles of its columns: those of
 // the experiment that knows the most of the names. A column that it does not know (any more) stays

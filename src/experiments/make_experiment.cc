@@ -15,14 +15,13 @@ namespace rockyard::experiments {
 
 std::unique_ptr<Experiment> MakeExperiment(const ExperimentParams& experiment,
                                            const trial::DriveParams& drive,
-                                           const trial::ScanWatcher& scan_watcher,
-                                           const trial::StepWatcher& step_watcher) {
+                                           const trial::Watchers& watchers) {
   switch (experiment.kind) {
     case ExperimentKind::kDrive:
-      return std::make_unique<DriveExperiment>(drive, scan_watcher, step_watcher);
+      return std::make_unique<DriveExperiment>(drive, watchers);
     case ExperimentKind::kHazardDetection:
       return std::make_unique<HazardDetectionExperiment>(experiment.hazard_detection, drive,
-                                                         scan_watcher);
+                                                         watchers.scan);
   }
   throw std::logic_error("unknown experiment");
 }

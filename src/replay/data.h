@@ -137,6 +137,19 @@ struct ReplayStep {
   std::vector<math::Vector3> points_W;
 };
 
+// A look of stereo cameras that has images.
+struct ReplayLook {
+  double time_s = 0.0;
+  std::int64_t number = 0;  // counts every look of the trial from 0
+  bool behind = false;
+  std::int64_t points = 0;          // that it handed on
+  double least_disparity_px = 0.0;  // at the violet end of the colours, and at the yellow one
+  double most_disparity_px = 0.0;
+  // Pictures of one size, PNG files in base64: the left image, and its disparities in colours.
+  std::string left_png;
+  std::string disparity_png;
+};
+
 struct ReplayData {
   std::string title;
   std::string scenario;
@@ -158,12 +171,17 @@ struct ReplayData {
   std::vector<ReplayPose> poses;  // every moment, not thinned
   std::vector<ReplayScan> scans;
   std::vector<ReplayStep> steps;
+  std::vector<ReplayLook> looks;
   std::vector<truth::TraceEvent> events;
 };
 
 // Most steps with heights of the map and range points; where there are more, only every second has
 // them, or every third, ..., so that a page stays small.
 inline constexpr std::size_t kMaxDetailedSteps = 240;
+
+// What the pictures of looks may take on a page, in bytes of base64; where they take more, only
+// every second look of the cameras at either end is there, or every third, ...
+inline constexpr std::size_t kMaxLookBytes = 1'500'000;
 
 // As src/web/replay/payload.ts says, on one line. Moments of little change are left out (see
 // motion.h), lengths have 0.1 mm, but the last moment has every digit of its pose.

@@ -173,6 +173,7 @@ std::string ReplayJson(const ReplayData& data, const ReplayData* beside) {
       .Add("motion", MotionJson(data.links, data.poses))
       .Add("scans", ScansJson(data.scans))
       .Add("steps", StepsJson(data.steps))
+      .Add("eyes", EyesJson(data.looks))
       .Add("events", EventsJson(data.events))
       .Add("beside", beside == nullptr ? "null" : ReplayJson(*beside));
   return object.Text();

@@ -31,6 +31,7 @@ std::string SensorJson(const ReplaySensor& sensor);
 std::string MotionJson(std::span<const ReplayLink> links, std::span<const ReplayPose> poses);
 std::string ScansJson(std::span<const ReplayScan> scans);
 std::string StepsJson(std::span<const ReplayStep> steps);
+std::string EyesJson(std::span<const ReplayLook> looks);
 std::string EventsJson(std::span<const truth::TraceEvent> events);
 
 }  // namespace rockyard::replay

@@ -7,50 +7,14 @@
 #include <vector>
 
 #include "report/colour_ramp.h"
+#include "report/grid_surface.h"
 
 namespace rockyard::report {
 namespace {
 
 using math::Vector3;
 using messages::MapCellView;
-using messages::MapView;
 using messages::NavigationView;
-
-// The believed elevations of the map as a surface of quadrilaterals, in R.
-class GridSurface {
- public:
-  explicit GridSurface(const NavigationView& view)
-      : map_(view.map),
-        X_RE_(math::MakePose({view.estimate.x_m, view.estimate.y_m, view.attitude.z_m},
-                             view.estimate.heading_rad, view.attitude.pitch_rad,
-                             view.attitude.roll_rad)
-                  .inverse()) {}
-
-  // Of a cell that holds points.
-  std::array<Vector3, 4> Corners(int ix, int iy) const {
-    return {Corner(ix, iy), Corner(ix + 1, iy), Corner(ix + 1, iy + 1), Corner(ix, iy + 1)};
-  }
-
- private:
-  // At the lower corner of cell (ix, iy): as high as the cells with points around it on average.
-  Vector3 Corner(int ix, int iy) const {
-    double sum_m = 0.0;
-    int cells = 0;
-    for (int y = std::max(iy - 1, 0); y <= std::min(iy, map_.ny - 1); ++y) {
-      for (int x = std::max(ix - 1, 0); x <= std::min(ix, map_.nx - 1); ++x) {
-        const MapCellView& cell = map_.Cell(x, y);
-        if (!cell.has_data) continue;
-        sum_m += cell.elevation_m;
-        ++cells;
-      }
-    }
-    return X_RE_ *
-           Vector3(map_.x0_m + ix * map_.xstep_m, map_.y0_m + iy * map_.ystep_m, sum_m / cells);
-  }
-
-  const MapView& map_;
-  math::Transform X_RE_;  // of the map's frame
-};
 
 // px. The farthest rocks of a field are thousands.
 constexpr double kSmallestRock = 4.0;

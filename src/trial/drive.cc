@@ -25,11 +25,11 @@ Activity ActivityOf(const messages::MotionCommand& motion, bool steering) {
 }  // namespace
 
 Drive::Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
-             const ScanWatcher& scan_watcher, StepWatcher step_watcher)
-    : parts_(drive, key, scan_watcher),
+             const Watchers& watchers)
+    : parts_(drive, key, watchers),
       observer_(parts_),
       tracer_(parts_, trace),
-      step_watcher_(std::move(step_watcher)) {
+      step_watcher_(watchers.step) {
   parts_.Begin();
   observer_.OnPlaced();
   tracer_.Rest({});
@@ -246,8 +246,8 @@ DriveResult Drive::Finish(const Verdict& verdict) {
 }
 
 DriveResult RunTrial(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
-                     const ScanWatcher& scan_watcher, const StepWatcher& step_watcher) {
-  return Drive(drive, key, trace, scan_watcher, step_watcher).Run();
+                     const Watchers& watchers) {
+  return Drive(drive, key, trace, watchers).Run();
 }
 
 }  // namespace rockyard::trial

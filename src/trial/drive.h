@@ -14,9 +14,9 @@
 #include "trial/referee.h"
 #include "trial/run_trial.h"
 #include "trial/seen_look.h"
-#include "trial/step_watcher.h"
 #include "trial/stretch.h"
 #include "trial/timeline.h"
+#include "trial/watchers.h"
 
 namespace rockyard::trial {
 
@@ -27,7 +27,7 @@ namespace rockyard::trial {
 class Drive {
  public:
   Drive(const DriveParams& drive, core::TrialKey key, truth::Trace* trace,
-        const ScanWatcher& scan_watcher, StepWatcher step_watcher);
+        const Watchers& watchers);
 
   DriveResult Run();
 

@@ -61,8 +61,7 @@ std::unique_ptr<rover::Rover> MakeTrialRover(const DriveParams& drive, terrain::
 
 }  // namespace
 
-DriveParts::DriveParts(const DriveParams& drive, core::TrialKey trial_key,
-                       const ScanWatcher& scan_watcher)
+DriveParts::DriveParts(const DriveParams& drive, core::TrialKey trial_key, const Watchers& watchers)
     : params(drive),
       key(trial_key),
       designated_goals(DesignatedGoals(drive.course, trial_key)),
@@ -71,7 +70,7 @@ DriveParts::DriveParts(const DriveParams& drive, core::TrialKey trial_key,
       rover(MakeTrialRover(drive, field.terrain)),
       tick(WholeSteps(1.0 / drive.clock.control_rate_hz, rover->step_s())),
       stop(WholeSteps(rover->ramp_s() + drive.clock.stop_time_s, rover->step_s())),
-      terrain_sensing(drive, trial_key, scan_watcher),
+      terrain_sensing(drive, trial_key, watchers),
       guard(drive, trial_key),
       navigator(designated_goals, MakeNavigator(drive, field.terrain, designated_goals.front())),
       follower(drive.rover.drive.speed_m_s, rover->ramp_s()),

@@ -20,18 +20,18 @@
 #include "trial/ledger.h"
 #include "trial/mirror_arena.h"
 #include "trial/referee.h"
-#include "trial/scan_watcher.h"
 #include "trial/stretch.h"
 #include "trial/terrain_sensing.h"
 #include "trial/timeline.h"
 #include "trial/vehicle_guard.h"
+#include "trial/watchers.h"
 
 namespace rockyard::trial {
 
 // The loop (drive.h) moves them; who watches it (drive_observer.h, drive_tracer.h) reads them.
 // `drive` outlives it.
 struct DriveParts {
-  DriveParts(const DriveParams& drive, core::TrialKey trial_key, const ScanWatcher& scan_watcher);
+  DriveParts(const DriveParams& drive, core::TrialKey trial_key, const Watchers& watchers);
   DriveParts(const DriveParts&) = delete;
   DriveParts& operator=(const DriveParts&) = delete;
 

@@ -15,6 +15,7 @@
 #include "trial/onboard_calibration.h"
 #include "trial/scan_time.h"
 #include "trial/terrain_sensor_model.h"
+#include "trial/watchers.h"
 
 namespace rockyard::trial {
 namespace {
@@ -105,8 +106,8 @@ class Kind final : public TerrainSensorKind {
   }
 
   std::unique_ptr<TerrainSensorModel> Make(const DriveParams& drive, core::TrialKey key,
-                                           const ScanWatcher& watcher) const override {
-    return std::make_unique<LightStripeModel>(drive, key, watcher);
+                                           const Watchers& watchers) const override {
+    return std::make_unique<LightStripeModel>(drive, key, watchers.scan);
   }
 };
 

@@ -5,8 +5,7 @@
 
 #include "core/random.h"
 #include "trial/drive_params.h"
-#include "trial/scan_watcher.h"
-#include "trial/step_watcher.h"
+#include "trial/watchers.h"
 #include "truth/drive_record.h"
 #include "truth/record.h"
 #include "truth/trace.h"
@@ -20,11 +19,10 @@ struct DriveResult {
 };
 
 // Drives the trial that `key` names: a pure function of (drive, key). With `trace` the course of
-// the drive is recorded too; `scan_watcher` is called after every scan of the light stripe, and
-// `step_watcher` after every decision of a map-based navigator that follows a look; all without any
+// the drive is recorded too, and `watchers` are shown what is seen and decided; all without any
 // influence on it. Throws what the simulation throws: a contract violation, a blow-up of the
 // physics; the experiment turns that into a simulator fault.
 DriveResult RunTrial(const DriveParams& drive, core::TrialKey key, truth::Trace* trace = nullptr,
-                     const ScanWatcher& scan_watcher = {}, const StepWatcher& step_watcher = {});
+                     const Watchers& watchers = {});
 
 }  // namespace rockyard::trial

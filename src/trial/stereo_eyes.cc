@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "sensing/stereo_window.h"
+#include "trial/onboard_calibration.h"
+#include "vision/cameras/cahv.h"
 
 namespace rockyard::trial {
 
@@ -21,8 +23,14 @@ perception::StereoSearch SearchOf(const sensing::StereoParams& params) {
 
 }  // namespace
 
-StereoEyes::StereoEyes(const DriveParams& drive, core::TrialKey key)
-    : params_(drive.sensors.stereo), key_(key) {
+StereoEyes::StereoEyes(const DriveParams& drive, core::TrialKey key, StereoWatcher watcher)
+    : params_(drive.sensors.stereo),
+      key_(key),
+      watcher_(std::move(watcher)),
+      misplaced_ahead_(StereoMisplacement(drive.sensors.stereo, drive.perception.calibration,
+                                          LookDirection::kAhead)),
+      misplaced_behind_(StereoMisplacement(drive.sensors.stereo, drive.perception.calibration,
+                                           LookDirection::kBehind)) {
   if (params_.fidelity == sensing::StereoFidelity::kImage) {
     cameras_ = MakeCameras(drive);
   } else {
@@ -43,8 +51,27 @@ StereoEyes::Cameras StereoEyes::MakeCameras(const DriveParams& drive) const {
 
 messages::PointCloud StereoEyes::Look(const terrain::Terrain& terrain, const math::Transform& X_WR,
                                       std::int64_t look_number, LookDirection direction) const {
-  if (rays_) return rays_->Look(terrain, X_WR, key_, look_number, direction);
-  return Match(terrain, X_WR, look_number, direction);
+  if (!rays_) return Match(terrain, X_WR, look_number, direction);
+  messages::PointCloud cloud = rays_->Look(terrain, X_WR, key_, look_number, direction);
+  Misplace(cloud);
+  return cloud;
+}
+
+void StereoEyes::Misplace(messages::PointCloud& cloud) const {
+  const std::optional<math::Transform>& misplaced = Misplaced(cloud.direction);
+  if (!misplaced) return;
+  for (math::Vector3& p_RoP_R : cloud.points_R) p_RoP_R = *misplaced * p_RoP_R;
+}
+
+void StereoEyes::Show(const math::Transform& X_WR, const perception::StereoSight& sight,
+                      const perception::StereoPoints& eyes,
+                      const messages::PointCloud& cloud) const {
+  vision::RectifiedPair pair = eyes.pair();
+  if (const std::optional<math::Transform>& misplaced = Misplaced(cloud.direction)) {
+    pair.left = vision::Moved(*misplaced, pair.left);
+    pair.right = vision::Moved(*misplaced, pair.right);
+  }
+  watcher_({X_WR, sight, pair, eyes.params(), cloud});
 }
 
 messages::PointCloud StereoEyes::Match(const terrain::Terrain& terrain, const math::Transform& X_WR,
@@ -59,6 +86,8 @@ messages::PointCloud StereoEyes::Match(const terrain::Terrain& terrain, const ma
   std::copy_if(
       sight.points_R.begin(), sight.points_R.end(), std::back_inserter(cloud.points_R),
       [&](const math::Vector3& p_RoP_R) { return sensing::IsWanted(params_, p_RoP_R, direction); });
+  Misplace(cloud);
+  if (watcher_) Show(X_WR, sight, eyes, cloud);
   return cloud;
 }
 

@@ -12,6 +12,7 @@
 #include "sensing/stereo_sensor.h"
 #include "terrain/terrain.h"
 #include "trial/drive_params.h"
+#include "trial/stereo_watcher.h"
 
 namespace rockyard::trial {
 
@@ -21,11 +22,12 @@ namespace rockyard::trial {
 // matches the images with the cameras that the rover believes to have.
 class StereoEyes {
  public:
-  StereoEyes(const DriveParams& drive, core::TrialKey key);
+  // The watcher is called after every look that has images; it has no influence on it.
+  StereoEyes(const DriveParams& drive, core::TrialKey key, StereoWatcher watcher = {});
 
-  // What the rover makes of one look at X_WR. Pure function of its arguments, whatever was looked
-  // at before. `look_number` counts every look of the trial from 0 and indexes the noise. Cost: 0.2
-  // to 0.3 ms, or some 0.3 s with images of 512 x 512 pixels.
+  // What the rover makes of one look at X_WR, with the calibration that it has. Pure function of
+  // its arguments, whatever was looked at before. `look_number` counts every look of the trial from
+  // 0 and indexes the noise. Cost: 0.2 to 0.3 ms, or some 0.3 s with images of 512 x 512 pixels.
   messages::PointCloud Look(const terrain::Terrain& terrain, const math::Transform& X_WR,
                             std::int64_t look_number, messages::LookDirection direction) const;
 
@@ -39,9 +41,19 @@ class StereoEyes {
   Cameras MakeCameras(const DriveParams& drive) const;
   messages::PointCloud Match(const terrain::Terrain& terrain, const math::Transform& X_WR,
                              std::int64_t look_number, messages::LookDirection direction) const;
+  // Where a wrong calibration moves what is seen, in R; none where it is right.
+  const std::optional<math::Transform>& Misplaced(messages::LookDirection direction) const {
+    return direction == messages::LookDirection::kAhead ? misplaced_ahead_ : misplaced_behind_;
+  }
+  void Misplace(messages::PointCloud& cloud) const;
+  void Show(const math::Transform& X_WR, const perception::StereoSight& sight,
+            const perception::StereoPoints& eyes, const messages::PointCloud& cloud) const;
 
   sensing::StereoParams params_;
   core::TrialKey key_;
+  StereoWatcher watcher_;
+  std::optional<math::Transform> misplaced_ahead_;
+  std::optional<math::Transform> misplaced_behind_;
   // One of both.
   std::optional<sensing::StereoSensor> rays_;
   std::optional<Cameras> cameras_;

@@ -5,33 +5,25 @@
 #include <limits>
 #include <memory>
 #include <numbers>
-#include <optional>
 #include <string_view>
+#include <utility>
 
 #include "perception/cloud_elevations.h"
 #include "trial/compute_profile.h"
 #include "trial/drive_checks_params.h"
 #include "trial/hazard_watch.h"
 #include "trial/look_time.h"
-#include "trial/onboard_calibration.h"
-#include "trial/scan_watcher.h"
 #include "trial/stereo_eyes.h"
 #include "trial/terrain_sensor_model.h"
+#include "trial/watchers.h"
 
 namespace rockyard::trial {
 namespace {
 
-using messages::LookDirection;
-
 class StereoModel final : public TerrainSensorModel {
  public:
-  StereoModel(const DriveParams& drive, core::TrialKey key)
-      : eyes_(drive, key),
-        misplaced_ahead_(StereoMisplacement(drive.sensors.stereo, drive.perception.calibration,
-                                            LookDirection::kAhead)),
-        misplaced_behind_(StereoMisplacement(drive.sensors.stereo, drive.perception.calibration,
-                                             LookDirection::kBehind)),
-        elevations_(drive.perception.cloud_elevations) {}
+  StereoModel(const DriveParams& drive, core::TrialKey key, StereoWatcher watcher)
+      : eyes_(drive, key, std::move(watcher)), elevations_(drive.perception.cloud_elevations) {}
 
   bool LooksBehind() const override { return true; }
 
@@ -40,20 +32,11 @@ class StereoModel final : public TerrainSensorModel {
   }
 
   messages::PointCloud Points(const TerrainLook& look) const override {
-    messages::PointCloud cloud = eyes_.Look(look.terrain, look.X_WR, look.number, look.direction);
-    const auto& misplaced =
-        look.direction == LookDirection::kAhead ? misplaced_ahead_ : misplaced_behind_;
-    if (misplaced) {
-      for (math::Vector3& p_RoP_R : cloud.points_R) p_RoP_R = *misplaced * p_RoP_R;
-    }
-    return cloud;
+    return eyes_.Look(look.terrain, look.X_WR, look.number, look.direction);
   }
 
  private:
   StereoEyes eyes_;
-  // Of the points that it sees, by a wrong calibration; none where it is right.
-  std::optional<math::Transform> misplaced_ahead_;
-  std::optional<math::Transform> misplaced_behind_;
   perception::CloudElevationParams elevations_;
 };
 
@@ -175,8 +158,8 @@ class Kind final : public TerrainSensorKind {
   }
 
   std::unique_ptr<TerrainSensorModel> Make(const DriveParams& drive, core::TrialKey key,
-                                           const ScanWatcher& /*watcher*/) const override {
-    return std::make_unique<StereoModel>(drive, key);
+                                           const Watchers& watchers) const override {
+    return std::make_unique<StereoModel>(drive, key, watchers.stereo);
   }
 };
 

@@ -5,11 +5,11 @@ namespace rockyard::trial {
 using messages::LookDirection;
 
 TerrainSensing::TerrainSensing(const DriveParams& drive, core::TrialKey key,
-                               const ScanWatcher& watcher)
+                               const Watchers& watchers)
     : kind_(drive.sensors.terrain_sensors.chosen()),
       reads_points_(drive.navigation.navigators.chosen().traits().reads ==
                     navigation::LookReading::kPoints),
-      sensor_(kind_.Make(drive, key, watcher)),
+      sensor_(kind_.Make(drive, key, watchers)),
       hazard_detector_(drive.perception.hazard),
       look_time_(MakeLookTime(drive)) {}
 

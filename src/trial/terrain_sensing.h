@@ -14,9 +14,9 @@
 #include "terrain/terrain.h"
 #include "trial/drive_params.h"
 #include "trial/look_time.h"
-#include "trial/scan_watcher.h"
 #include "trial/terrain_sensor_model.h"
 #include "trial/terrain_sensor_set_params.h"
+#include "trial/watchers.h"
 
 namespace rockyard::trial {
 
@@ -35,7 +35,7 @@ struct Percept {
 //   light stripe, map: the triangulated points as a cloud; nothing is seen behind, at no cost.
 class TerrainSensing {
  public:
-  TerrainSensing(const DriveParams& drive, core::TrialKey key, const ScanWatcher& watcher);
+  TerrainSensing(const DriveParams& drive, core::TrialKey key, const Watchers& watchers);
 
   // The next look is from a new pose.
   void Begin() { hazard_detector_.Reset(); }

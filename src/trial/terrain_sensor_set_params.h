@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -18,7 +17,7 @@ namespace rockyard::trial {
 struct ComputeTimes;
 struct DriveParams;
 struct LookTime;
-struct WatchedScan;
+struct Watchers;
 struct Zone;
 class TerrainSensorModel;
 
@@ -54,9 +53,8 @@ class TerrainSensorKind : public core::Kind {
   // Whose view can be drawn; nullptr where it has none.
   virtual const sensing::StereoParams* cameras(const DriveParams& drive) const = 0;
 
-  virtual std::unique_ptr<TerrainSensorModel> Make(
-      const DriveParams& drive, core::TrialKey key,
-      const std::function<void(const WatchedScan&)>& watcher) const = 0;
+  virtual std::unique_ptr<TerrainSensorModel> Make(const DriveParams& drive, core::TrialKey key,
+                                                   const Watchers& watchers) const = 0;
 };
 
 class TerrainSensorSet : public core::KindSet<TerrainSensorKind> {

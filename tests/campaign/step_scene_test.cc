@@ -32,10 +32,11 @@ scenario::Scenario NarrowCourse() {
 Watched WatchStep(const scenario::Scenario& scenario, std::int64_t number) {
   std::optional<Watched> found;
   truth::Trace trace;
-  const experiments::DriveExperiment drive(scenario.drive, {}, [&](const trial::WatchedStep& step) {
+  const auto watch = [&](const trial::WatchedStep& step) {
     if (step.view.step != number) return;
     found = {SceneOf(step, trace), step.X_WR, step.view, step.terrain.rocks().size()};
-  });
+  };
+  const experiments::DriveExperiment drive(scenario.drive, {.step = watch});
   drive.RunTraced(1, 0, trace);
   return found.value();
 }

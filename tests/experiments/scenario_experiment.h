@@ -10,7 +10,7 @@ namespace rockyard::experiments {
 
 inline std::unique_ptr<Experiment> MakeExperiment(const scenario::Scenario& scenario,
                                                   const trial::ScanWatcher& watcher = {}) {
-  return MakeExperiment(scenario.experiment, scenario.drive, watcher);
+  return MakeExperiment(scenario.experiment, scenario.drive, {.scan = watcher});
 }
 
 }  // namespace rockyard::experiments

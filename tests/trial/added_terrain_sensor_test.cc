@@ -70,9 +70,8 @@ TEST(AddedTerrainSensor, ANameOfAnotherGroupIsRefused) {
     Zone reported_zone(const DriveParams&) const override { return {}; }
     LookTime look_time(const DriveParams&, const ComputeTimes&) const override { return {}; }
     const sensing::StereoParams* cameras(const DriveParams&) const override { return nullptr; }
-    std::unique_ptr<TerrainSensorModel> Make(
-        const DriveParams&, core::TrialKey,
-        const std::function<void(const WatchedScan&)>&) const override {
+    std::unique_ptr<TerrainSensorModel> Make(const DriveParams&, core::TrialKey,
+                                             const Watchers&) const override {
       return nullptr;
     }
   };

@@ -110,11 +110,12 @@ TEST(GestaltDriveTest, TracesAndWatchersChangeNothing) {
     const DriveResult plain = RunTrial(drive, key);
     truth::Trace trace;
     std::int64_t steps = 0;
-    const DriveResult watched = RunTrial(drive, key, &trace, {}, [&](const WatchedStep& step) {
+    const auto watch = [&](const WatchedStep& step) {
       EXPECT_EQ(step.view.step, steps++);
       EXPECT_FALSE(step.view.forward.empty());
       EXPECT_EQ(step.view.looked_behind, step.cloud.direction == messages::LookDirection::kBehind);
-    });
+    };
+    const DriveResult watched = RunTrial(drive, key, &trace, {.step = watch});
     EXPECT_THAT(Differences(plain, watched), testing::IsEmpty());
     EXPECT_EQ(static_cast<double>(steps),
               watched.record.image_sets - watched.record.rear_image_sets);

@@ -209,8 +209,8 @@ TEST(OverlapDrive, EachDeliveryIsShownWithThePlaceWhereItWasTaken) {
   const ToySensorParams sensor;
   std::vector<math::Vector3> shown;
   truth::Trace trace;
-  RunTrial(WeaverDrive(weaver, sensor, kOverlap), {1, 0}, &trace, {},
-           [&](const WatchedStep& step) { shown.push_back(step.X_WR.translation()); });
+  RunTrial(WeaverDrive(weaver, sensor, kOverlap), {1, 0}, &trace,
+           {.step = [&](const WatchedStep& step) { shown.push_back(step.X_WR.translation()); }});
   ASSERT_EQ(shown.size(), weaver.seen->deliveries.size());
   for (std::size_t n = 0; n < shown.size(); ++n) {
     EXPECT_EQ(shown[n], sensor.poses->at(n).translation()) << n;

@@ -70,9 +70,8 @@ class ToySensorKind final : public core::KindWithParams<TerrainSensorKind, ToySe
     return {.imaging_s = params.imaging_s, .computing_s = params.computing_s};
   }
   const sensing::StereoParams* cameras(const DriveParams&) const override { return nullptr; }
-  std::unique_ptr<TerrainSensorModel> Make(
-      const DriveParams&, core::TrialKey,
-      const std::function<void(const WatchedScan&)>&) const override {
+  std::unique_ptr<TerrainSensorModel> Make(const DriveParams&, core::TrialKey,
+                                           const Watchers&) const override {
     return std::make_unique<ToySensor>(params);
   }
 };

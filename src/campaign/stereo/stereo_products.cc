@@ -109,23 +109,28 @@ Image<float> HeightsOf(const std::vector<ColouredPoint>& points,
   return vision::ElevationMap(PositionsOf(points), grid);
 }
 
-Picture ElevationPicture(const Image<float>& heights_m) {
-  Picture picture(heights_m.width(), heights_m.height());
+std::optional<HeightSpan> HeightSpanOf(const Image<float>& heights_m) {
   std::vector<float> known;
   for (const float height_m : heights_m.values()) {
     if (std::isfinite(height_m)) known.push_back(height_m);
   }
-  if (known.empty()) return picture;
+  if (known.empty()) return std::nullopt;
   std::sort(known.begin(), known.end());
   const auto cut = static_cast<std::size_t>(kLeftOut * static_cast<double>(known.size()));
-  const auto low_m = static_cast<double>(known[cut]);
-  const auto high_m = static_cast<double>(known[known.size() - 1 - cut]);
-  const double span_m = std::max(high_m - low_m, 1e-6);
+  return HeightSpan{known[cut], known[known.size() - 1 - cut]};
+}
+
+Rgb HeightColour(double height_m, const HeightSpan& span) {
+  return report::RampColour((height_m - span.low_m) / std::max(span.high_m - span.low_m, 1e-6));
+}
+
+Picture ElevationPicture(const Image<float>& heights_m) {
+  Picture picture(heights_m.width(), heights_m.height());
+  const std::optional<HeightSpan> span = HeightSpanOf(heights_m);
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {
       const float height_m = heights_m.At(x, y);
-      if (!std::isfinite(height_m)) continue;
-      picture.At(x, y) = report::RampColour((static_cast<double>(height_m) - low_m) / span_m);
+      if (std::isfinite(height_m)) picture.At(x, y) = HeightColour(height_m, *span);
     }
   }
   return picture;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "image_files/picture.h"
@@ -41,7 +42,17 @@ vision::ElevationGrid GridOverPoints(const std::vector<image_files::ColouredPoin
 vision::Image<float> HeightsOf(const std::vector<image_files::ColouredPoint>& points,
                                const vision::ElevationGrid& grid);
 
-// Violet low, yellow high, over the middle 98 % of the heights; cells without a point are black.
+// The middle 98 % of the heights, m; nothing where no height is known.
+struct HeightSpan {
+  double low_m = 0.0;
+  double high_m = 0.0;
+};
+std::optional<HeightSpan> HeightSpanOf(const vision::Image<float>& heights_m);
+
+// The colour of a height: violet at the lower end of the span, yellow at the upper one.
+image_files::Rgb HeightColour(double height_m, const HeightSpan& span);
+
+// These colours over HeightSpanOf; cells without a point are black.
 image_files::Picture ElevationPicture(const vision::Image<float>& heights_m);
 
 }  // namespace rockyard::campaign

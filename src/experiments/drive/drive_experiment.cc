@@ -41,11 +41,8 @@ const truth::RecordSchema& DriveSchema() {
   return kSchema;
 }
 
-DriveExperiment::DriveExperiment(trial::DriveParams params, trial::ScanWatcher scan_watcher,
-                                 trial::StepWatcher step_watcher)
-    : params_(std::move(params)),
-      scan_watcher_(std::move(scan_watcher)),
-      step_watcher_(std::move(step_watcher)) {}
+DriveExperiment::DriveExperiment(trial::DriveParams params, trial::Watchers watchers)
+    : params_(std::move(params)), watchers_(std::move(watchers)) {}
 
 const truth::RecordSchema& DriveExperiment::schema() const { return DriveSchema(); }
 
@@ -64,8 +61,8 @@ truth::Record DriveExperiment::RunTrial(std::uint64_t seed, std::uint64_t index,
     if (index > std::numeric_limits<std::uint32_t>::max()) {
       throw std::out_of_range("trial indices end at 2^32 - 1, the size of their random key");
     }
-    const trial::DriveResult drive = trial::RunTrial(
-        params_, {seed, static_cast<std::uint32_t>(index)}, trace, scan_watcher_, step_watcher_);
+    const trial::DriveResult drive =
+        trial::RunTrial(params_, {seed, static_cast<std::uint32_t>(index)}, trace, watchers_);
     return {index, drive.outcome, drive.detail, Values(drive.record)};
   } catch (const std::exception& error) {
     return truth::MakeFault(seed, index, error.what());

@@ -3,8 +3,7 @@
 
 #include "experiments/experiment.h"
 #include "trial/drive_params.h"
-#include "trial/scan_watcher.h"
-#include "trial/step_watcher.h"
+#include "trial/watchers.h"
 #include "truth/drive_record.h"
 #include "truth/trace.h"
 
@@ -15,8 +14,7 @@ const truth::RecordSchema& DriveSchema();
 
 class DriveExperiment final : public Experiment {
  public:
-  explicit DriveExperiment(trial::DriveParams params, trial::ScanWatcher scan_watcher = {},
-                           trial::StepWatcher step_watcher = {});
+  explicit DriveExperiment(trial::DriveParams params, trial::Watchers watchers = {});
 
   const truth::RecordSchema& schema() const override;
   truth::Record Run(std::uint64_t seed, std::uint64_t index) const override;
@@ -28,8 +26,7 @@ class DriveExperiment final : public Experiment {
   truth::Record RunTrial(std::uint64_t seed, std::uint64_t index, truth::Trace* trace) const;
 
   trial::DriveParams params_;
-  trial::ScanWatcher scan_watcher_;
-  trial::StepWatcher step_watcher_;
+  trial::Watchers watchers_;
 };
 
 }  // namespace rockyard::experiments

@@ -9,8 +9,9 @@ import { Course as Drive, lastAtOrBefore } from "./motion";
 import { Overview } from "./overview";
 import { pageKeys } from "./page_keys";
 import { CameraBar } from "./panels/camera_bar";
-import { bindKeys, helpDialog, type Key } from "./panels/keys";
 import { Ending } from "./panels/ending";
+import { EyesPanel } from "./panels/eyes";
+import { bindKeys, helpDialog, type Key } from "./panels/keys";
 import { layersPanel, SCENE_LAYERS } from "./panels/layers";
 import { Readout } from "./panels/readout";
 import { originPanel, outcomeBanner, recordPanel } from "./panels/record";
@@ -54,6 +55,7 @@ export class App {
   private readonly layers: Layers;
   private readonly readout: Readout;
   private readonly votes = new VotesPanel();
+  private readonly eyes: EyesPanel | null;
   private readonly timeline: Timeline;
   private readonly transport: Transport;
   private readonly overview: Overview;
@@ -89,6 +91,7 @@ export class App {
     };
     const events = timelineEvents(payload);
     this.readout = new Readout(payload, events);
+    this.eyes = payload.eyes ? new EyesPanel(payload.eyes) : null;
     this.timeline = new Timeline(payload, events, this.player, () => this.refresh());
     this.transport = new Transport(this.player, () => this.timeline.shownTimes);
     this.view = makeView(payload, this.drive);
@@ -141,7 +144,7 @@ export class App {
     if (this.shared === null) picture.after(this.transport.element);
     else if (this.leads) this.shared.transport.append(this.transport.element);
     const votes = payload.steps.length > 0 ? this.votes.element : null;
-    const side = el("div", { class: "side" }, this.readout.element, this.layerPanel, votes);
+    const side = el("div", { class: "side" }, this.readout.element, this.eyes?.element, this.layerPanel, votes);
     const below = el("div", { class: "below" }, recordPanel(payload), originPanel(payload));
     this.root.classList.add("replay");
     this.root.replaceChildren(el("header", {}, title, tools), el("div", { class: "columns" }, stage, side, below));
@@ -246,6 +249,7 @@ export class App {
     this.view.draw();
     this.readout.show(shown.moment);
     this.votes.show(shown.step);
+    this.eyes?.show(this.player.time);
     // Moving the camera with the rover counts as moving it by hand.
     this.dirty = false;
   }

@@ -32,6 +32,8 @@ export interface ReplayPayload {
   motion: Motion;
   scans: Scan[];
   steps: Step[];
+  /** What stereo cameras saw; null where the trial had no images. */
+  eyes: Eyes | null;
   events: TrialEvent[];
   /** A second trial, shown beside this one on one clock; null where there is none. */
   beside: ReplayPayload | null;
@@ -216,6 +218,28 @@ export interface Step {
   votes: Vote[];
   /** At most 120 of the points that the look gave, in W through the true pose. */
   points: [number, number, number][];
+}
+
+/** Looks of stereo cameras that took images, in the order of time. */
+export interface Eyes {
+  /** Of the looks ahead, and of those behind, one of so many is here. */
+  every: number;
+  looks: StereoLook[];
+}
+
+export interface StereoLook {
+  t: number;
+  /** Counts every look of the trial from 0. */
+  number: number;
+  behind: boolean;
+  /** Points that the look gave. */
+  points: number;
+  /** Disparities at the violet and at the yellow end of the colours, px. */
+  least: number;
+  most: number;
+  /** PNG files in base64: the left image as it was matched, and its disparities in colours, black where there is none. */
+  left: string;
+  disparity: string;
 }
 
 export interface Vote {
