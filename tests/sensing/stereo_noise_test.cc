@@ -171,6 +171,72 @@ TEST(StereoNoiseTest, DropoutsComeAsOftenAsTheyShould) {
   EXPECT_LT(BinomialP(lost, all, 0.06), kAlpha);  // negative control
 }
 
+TEST(StereoNoiseTest, MoreDropsOutInShadow) {
+  // 1 - (1 - p) (1 - q) of the shaded half, p of the other one.
+  StereoParams params = LevelCameras();
+  params.dropout_probability = 0.1;
+  params.shadow_dropout_probability = 0.3;
+  PixelFlags shaded = PixelFlags::Constant(128, 128, false);
+  shaded.rightCols(64).setConstant(true);
+  double lit = 0.0, dark = 0.0;
+  for (std::uint32_t look = 0; look < 20; ++look) {
+    const DepthImage all_px = DepthImage::Constant(128, 128, 8.0);
+    DepthImage seen_px = all_px;
+    StereoMatcher(params).Match({3, 0}, look, all_px, seen_px, shaded);
+    lit += static_cast<double>((seen_px.leftCols(64) == 0.0).count());
+    dark += static_cast<double>((seen_px.rightCols(64) == 0.0).count());
+  }
+  constexpr double kHalf = 20.0 * 128.0 * 64.0;
+  EXPECT_GT(BinomialP(lit, kHalf, 0.1), kAlpha);
+  EXPECT_GT(BinomialP(dark, kHalf, 0.37), kAlpha);
+  EXPECT_LT(BinomialP(dark, kHalf, 0.4), kAlpha);  // negative control: the sum of both
+}
+
+TEST(StereoNoiseTest, ShadowDropsOutWhereNothingElseDoes) {
+  StereoParams params = LevelCameras();
+  params.shadow_dropout_probability = 0.3;
+  const DepthImage all_px = DepthImage::Constant(128, 128, 8.0);
+  DepthImage seen_px = all_px;
+  const PixelFlags shaded = PixelFlags::Constant(128, 128, true);
+  StereoMatcher(params).Match({3, 0}, 0, all_px, seen_px, shaded);
+  EXPECT_GT(BinomialP(static_cast<double>((seen_px == 0.0).count()), 128.0 * 128.0, 0.3), kAlpha);
+}
+
+// From the sensor itself: the shadow of a rock, and none where the scenario says nothing of it.
+TEST(StereoNoiseTest, TheSensorDropsWhatTheSunDoesNotReach) {
+  StereoParams params = NoiselessStereo();
+  rendering::SunParams sun;
+  sun.elevation_rad = math::DegToRad(20.0);
+  const terrain::Terrain terrain = FlatWith({EllipsoidRock(1.0, -0.3, 0.0, 0.1, 0.1, 0.3)});
+  const auto points = [&] {
+    return StereoSensor(params, SunShade(sun, {}))
+        .Look(terrain, PoseAt(0, 0, 0), {1, 0}, 0, messages::LookDirection::kAhead)
+        .points_R.size();
+  };
+  const std::size_t all = points();
+  EXPECT_EQ(all, LookAhead(params, terrain, PoseAt(0, 0, 0)).points_R.size());
+  params.shadow_dropout_probability = 0.999;
+  const std::size_t lit = points();
+  // The shadow is 0.8 m long: hundreds of pixels of 16384.
+  EXPECT_LT(lit + 200, all);
+  EXPECT_GT(lit, all / 2);
+}
+
+TEST(StereoNoiseTest, MarginsOfBothImagesHaveNoMatch) {
+  StereoParams params = LevelCameras();
+  params.margin_px = 3;
+  const DepthImage all_px = DepthImage::Constant(128, 128, 8.25);
+  DepthImage seen_px = all_px;
+  StereoMatcher(params).Match({3, 0}, 0, all_px, seen_px);
+  for (int row = 0; row < 128; ++row) {
+    for (int column = 0; column < 128; ++column) {
+      // Column c is c - 8.25 in the right image, whose margin ends at 2.5.
+      const bool seen = row >= 3 && row <= 124 && column <= 124 && column >= 11;
+      EXPECT_EQ(seen_px(row, column) > 0.0, seen) << row << " " << column;
+    }
+  }
+}
+
 TEST(StereoNoiseTest, MoreDropsOutBesideAJumpInDepth) {
   // A plate 1 m before the wall: three columns on both sides of its edges have the other rate.
   StereoParams params = LevelCameras();
