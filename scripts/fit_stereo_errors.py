@@ -6,16 +6,17 @@ from random places, of each the pixels and rocks of a bin of distances. What is 
 parameters of sensors.stereo's error model:
   disparity_noise_px           root mean square error of matches off by less than 1 px, plain pixels
   noise_window_px              1 - k/w nearest to the correlation of errors k columns apart, k = 1 to 7
-  mismatch_probability         matches off by 1 px or more, over the share of a uniform draw that is
+  mismatch_probability         plain matches off by 1 px or more, over the share of a uniform draw that is
   dropout_probability          plain pixels (lit, away from jumps in depth) without a match
-  edge_reach_px, edge_dropout_probability    two levels of dropouts, by columns from a jump
+  edge_reach_px, edge_mismatch_probability   two levels of wrong matches by columns from a jump in depth
+  edge_dropout_probability     pixels within that reach, on both sides, without a match
   shadow_dropout_probability   what pixels in shadow lose beyond plain ones
   margin_px                    half of the window that is matched
 They are written as scenarios/sensors/fitted_stereo_<texture>_<light>.json. Then the error model runs with
 them at the same places, on the same seed or on another one (--confirm), and a table says what it meets and
 what it cannot. Runs that are there already are resumed; after a change of the code delete them.
 
-    scripts/fit_stereo_errors.py [--looks 12] [--seed 1] [--confirm 2] [--markdown results/stereo_sensing.md]
+    scripts/fit_stereo_errors.py [--runs 4] [--seed 1] [--confirm 2] [--markdown results/stereo_sensing.md]
 """
 
 import argparse
@@ -27,7 +28,8 @@ import study
 
 SCENARIO = study.ROOT / "scenarios/stereo_sensing/range.json"
 FRAGMENTS = study.ROOT / "scenarios/sensors"
-BINS = [0.5, 1, 1.5, 2, 3, 4]
+# Up to 4 m, where the cameras' range ends; the error model takes that end for a jump in depth.
+BINS = [0.5, 1.5, 2.5, 3.5]
 TEXTURES = {"drift": 0, "middle": 0.5, "gravel": 1}
 LIGHTS = {
     "noon": ("the sun at 60 degrees", {"sensors.sun.elevation_deg": 60}),
@@ -90,16 +92,20 @@ def window_of(found):
     return min(range(1, WIDEST + 1), key=misfit)
 
 
-def edge_of(pixels, matched, plain_dropout):
-    """Reach and dropouts of the two-level law nearest to what was found by columns from a jump."""
-    lost = [1 - part / whole if whole else plain_dropout for part, whole in zip(matched, pixels)]
-    best = (0, plain_dropout, math.inf)
+def reach_of(pixels, hit, beyond):
+    """Reach and chance of the two-level law nearest to what was found by columns from a jump.
+
+    Of `pixels`, `hit` were; columns beyond the reach have the chance `beyond`.
+    """
+    found = [part / whole if whole else beyond for part, whole in zip(hit, pixels)]
+    best = (0, beyond, math.inf)
     for reach in range(len(pixels) + 1):
         inside = sum(pixels[:reach])
-        level = 1 - sum(matched[:reach]) / inside if inside else plain_dropout
-        misfit = sum(n * (value - (level if i < reach else plain_dropout)) ** 2
-                     for i, (n, value) in enumerate(zip(pixels, lost)))
-        if misfit < best[2]:
+        level = sum(hit[:reach]) / inside if inside else beyond
+        misfit = sum(n * (value - (level if i < reach else beyond)) ** 2
+                     for i, (n, value) in enumerate(zip(pixels, found)))
+        # Further columns have to explain more than rounding does.
+        if misfit < best[2] - 1e-9:
             best = (reach, level, misfit)
     return best[0], best[1]
 
@@ -110,10 +116,13 @@ def fit(cell, searched_px, window_side_px):
     shadow = plain
     if cell["shadow_pixels"]:
         shadow = 1 - (cell["shadow_good"] + cell["shadow_wrong"]) / cell["shadow_pixels"]
-    reach, edge = edge_of([cell[f"edge_pixels_{i}"] for i in range(1, EDGES + 1)],
-                          [cell[f"edge_matched_{i}"] for i in range(1, EDGES + 1)], plain)
+    columns = lambda what: [sum(cell[f"{side}_{what}_{i}"] for side in ("front", "behind"))
+                            for i in range(1, EDGES + 1)]
+    plain_wrong = cell["plain_wrong"] / (cell["plain_good"] + cell["plain_wrong"])
+    reach, mixed = reach_of(columns("matched"), columns("wrong"), plain_wrong)
+    edge = 1 - sum(columns("matched")[:reach]) / sum(columns("pixels")[:reach]) if reach else plain
     # A uniform draw over the searched range is within 1 px of the truth on 2 px of it.
-    wrong = cell["wrong"] / cell["matched"] / (1 - 2 / searched_px)
+    wrong = plain_wrong / (1 - 2 / searched_px)
     chance = lambda value: round(min(max(value, 0.0), 0.999), 4)
     return {
         "disparity_noise_px": round(cell.rms("plain_error_px", "plain_good"), 4),
@@ -121,6 +130,7 @@ def fit(cell, searched_px, window_side_px):
         "mismatch_probability": chance(wrong),
         "dropout_probability": chance(plain),
         "edge_dropout_probability": chance(edge),
+        "edge_mismatch_probability": chance(mixed),
         "edge_reach_px": reach,
         "shadow_dropout_probability": chance((shadow - plain) / (1 - plain) if plain < 1 else 0.0),
         "margin_px": window_side_px // 2,
@@ -158,8 +168,8 @@ def fragment(texture, settings, description, fitted):
 
 def run(args, name, seed, settings):
     """Runs the scenario with settings, or takes the run that is there; its records pooled."""
-    args.trials = args.looks * (len(BINS) - 1)
-    folder = args.out / f"{name}-{seed}-{args.looks}"
+    args.trials = args.runs * (len(BINS) - 1)
+    folder = args.out / f"{name}-{seed}-{args.runs}"
     held = [f"stereo_sensing.distances_m={json.dumps(BINS)}"]
     held += [f"{path}={value}" for path, value in settings.items()]
     seeded = argparse.Namespace(**{**vars(args), "seed": seed})
@@ -182,8 +192,10 @@ def side_by_side(name, images, model):
         row("rms error of the others, px", lambda cell: f"{cell.rms('error_px', 'good'):.3f}"),
         row("their mean error, px", lambda cell: f"{cell.mean('bias_px', 'good'):+.3f}"),
         row("rms error of range, cm", lambda cell: f"{100 * cell.rms('range_error_m', 'good'):.2f}"),
-        row("matched beside a jump, %", lambda cell: percent(cell, "edge_good", "edge_pixels")),
-        row("matched in shadow, %", lambda cell: percent(cell, "shadow_good", "shadow_pixels")),
+        row("right before an edge, %", lambda cell: percent(cell, "front_good", "front_pixels")),
+        row("right behind an edge, %", lambda cell: percent(cell, "behind_good", "behind_pixels")),
+        row("off by 1 px or more there, %", lambda cell: percent(cell, "behind_wrong", "behind_pixels")),
+        row("right in shadow, %", lambda cell: percent(cell, "shadow_good", "shadow_pixels")),
         row("matched in margins, %", lambda cell: percent(cell, "margin_matched", "margin_pixels")),
         row("matched though hidden, %", lambda cell: percent(cell, "hidden_matched", "hidden_pixels")),
         row("correlation 1, 3, 7 columns apart",
@@ -220,7 +232,8 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     add_arguments(parser, "stereo_fit")
-    parser.add_argument("--looks", type=int, default=12, help="of each texture, light and bin (12)")
+    parser.add_argument("--runs", type=int, default=4,
+                        help="of some looks each, of each texture, light and bin (4)")
     parser.add_argument("--confirm", type=int, default=2, help="seed of the comparison (2)")
     parser.add_argument("--textures", default=",".join(TEXTURES), help="which, joined by commas")
     parser.add_argument("--lights", default=",".join(LIGHTS), help="which, joined by commas")
@@ -257,9 +270,10 @@ def main():
             unseen = run(args, f"image-{texture}-{light}", args.confirm, held)
             model = run(args, f"model-{texture}-{light}", args.confirm, held | {
                 stereo + key: value for key, value in (fitted | {"fidelity": "error_model"}).items()})
+            unseen_looks = Cell(unseen)["looks"]
             levels += side_by_side(name, Cell(unseen), Cell(model))
             ranges += by_range(name, unseen, model)
-    note = (f"{args.looks} looks of each bin, fitted on seed {args.seed}, compared on seed {args.confirm}; "
+    note = (f"{unseen_looks:.0f} looks each, fitted on seed {args.seed}, compared on seed {args.confirm}; "
             f"made by rockyard {' and '.join(sorted(args.programs))}.")
     tables = {
         "stereo_fit": study.table(["texture, light", *fitted], parameters),

@@ -6,18 +6,20 @@ the range error that the law r^2 dd / (f B) predicts from the errors of disparit
 GESTALT makes of single looks. Runs that are there already are resumed; after a change of the code delete
 them. --markdown writes the tables between <!-- begin stereo_NAME --> and <!-- end stereo_NAME --> of a page.
 
-    scripts/stereo_study.py [--share 1] [--seed 1] [--tables range,texture,sun,baseline] [--markdown PAGE]
+    scripts/stereo_study.py [--share 1] [--seed 1] [--tables range,rocks,texture,sun,baseline] [--markdown PAGE]
 """
 
 import argparse
+import json
 
 import study
-from fit_stereo_errors import HEIGHTS, add_arguments, cells_by, percent, rows_of
+from fit_stereo_errors import HEIGHTS, Cell, add_arguments, cells_by, percent, rows_of
 
 SCENARIOS = study.ROOT / "scenarios/stereo_sensing"
 # Name of the table: factor, its heading, how its values are written.
 FACTORS = {
     "range": (None, None, None),
+    "rocks": (None, None, None),
     "texture": ("soil_graininess", "texture, drift 0 to gravel 1", "{:g}"),
     "sun": ("sun_elevation_deg", "sun, degrees", "{:g}"),
     "baseline": ("baseline_m", "baseline, cm", "{:.0f}"),
@@ -25,11 +27,16 @@ FACTORS = {
 SCALES = {"baseline_m": 100.0}
 
 
+def trials_of(path):
+    """The number of runs of a scenario, or of the one that it extends."""
+    document = json.loads(path.read_text(encoding="utf-8"))
+    return document.get("trials") or trials_of(path.parent / document["extends"])
+
+
 def run(args, name):
     """Runs a table's scenario, or takes the run that is there."""
     path = SCENARIOS / f"{name}.json"
-    trials = int(study.value_at(args.rockyard, path, "trials"))
-    args.trials = max(1, round(trials * args.share))
+    args.trials = max(1, round(trials_of(path) * args.share))
     folder = args.out / f"{name}-{args.seed}-{args.trials}"
     summary = study.run_scenario(args, path, folder, args.set)
     args.programs.add(study.program(summary))
@@ -87,16 +94,13 @@ def main():
     args.programs = set()
     for name in args.tables.split(","):
         rows = run(args, name)
-        note = (f"{args.trials} looks, seed {args.seed}; "
+        note = (f"{Cell(rows)['looks']:.0f} looks, seed {args.seed}; "
                 f"{'held: ' + ', '.join(args.set) + '; ' if args.set else ''}"
                 f"made by rockyard {' and '.join(sorted(args.programs))}.")
-        tables = {f"stereo_{name}": table_of(name, rows)}
-        if name == "range":
-            tables["stereo_rocks"] = rocks_of(rows)
-        for table, text in tables.items():
-            print(f"{table}\n\n{text}\n\n{note}\n", flush=True)
-            if args.markdown:
-                study.write_table([args.markdown], table, f"{text}\n\n{note}")
+        text = rocks_of(rows) if name == "rocks" else table_of(name, rows)
+        print(f"stereo_{name}\n\n{text}\n\n{note}\n", flush=True)
+        if args.markdown:
+            study.write_table([args.markdown], f"stereo_{name}", f"{text}\n\n{note}")
 
 
 if __name__ == "__main__":

@@ -33,4 +33,15 @@ inline void JumpDistances(std::span<const double> row_px, double jump_px,
   }
 }
 
+// Returns the first column on the other side of the jump that lies `distance_px` columns from
+// `column`, as JumpDistances has it; the right one of two at the same distance.
+inline std::size_t AcrossJump(std::span<const double> row_px, double jump_px, std::size_t column,
+                              int distance_px) {
+  const auto distance = static_cast<std::size_t>(distance_px);
+  const std::size_t right = column + distance;
+  const bool to_the_right =
+      right < row_px.size() && std::abs(row_px[right] - row_px[right - 1]) >= jump_px;
+  return to_the_right ? right : column - distance;
+}
+
 }  // namespace rockyard::sensing

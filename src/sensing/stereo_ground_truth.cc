@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <span>
 
 #include "sensing/depth_jumps.h"
 
@@ -79,11 +81,11 @@ StereoTruth StereoGroundTruth::See(const terrain::Terrain& terrain, const math::
   constexpr double kLongestRay = 4.0;
   const double far_m = std::max(max_range_m_, kLongestRay * scale_px_m / edge_disparity_px_);
   const DepthImage all_px = scale_px_m * StereoScene(terrain, view_W, far_m).InverseDepths();
-  const auto columns = static_cast<std::size_t>(view_W.columns);
   truth.jumps.resize(view_W.rows, view_W.columns);
+  truth.behind = PixelFlags::Constant(view_W.rows, view_W.columns, false);
   truth.margin = PixelFlags::Constant(view_W.rows, view_W.columns, true);
   for (int row = 0; row < view_W.rows; ++row) {
-    JumpDistances({&all_px(row, 0), columns}, edge_disparity_px_, {&truth.jumps(row, 0), columns});
+    FindJumps(all_px, row, truth);
     for (int column = 0; column < view_W.columns; ++column) {
       const double disparity_px = truth.both_px(row, column);
       if (disparity_px <= 0.0) continue;
@@ -93,6 +95,18 @@ StereoTruth StereoGroundTruth::See(const terrain::Terrain& terrain, const math::
   }
   SeeSurfaces(terrain, X_WR, view_W, truth);
   return truth;
+}
+
+void StereoGroundTruth::FindJumps(const DepthImage& all_px, int row, StereoTruth& truth) const {
+  const auto columns = static_cast<std::size_t>(all_px.cols());
+  const std::span<const double> row_px(&all_px(row, 0), columns);
+  JumpDistances(row_px, edge_disparity_px_, {&truth.jumps(row, 0), columns});
+  for (std::size_t column = 0; column < columns; ++column) {
+    const auto at = static_cast<Eigen::Index>(column);
+    if (truth.jumps(row, at) >= kNoJump) continue;
+    const std::size_t across = AcrossJump(row_px, edge_disparity_px_, column, truth.jumps(row, at));
+    truth.behind(row, at) = row_px[across] > row_px[column];
+  }
 }
 
 void StereoGroundTruth::SeeSurfaces(const terrain::Terrain& terrain, const math::Transform& X_WR,

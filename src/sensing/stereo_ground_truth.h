@@ -23,6 +23,7 @@ struct StereoTruth {
   DepthImage left_px;  // disparity of what the left eye sees within max_range_m; 0: nothing
   DepthImage both_px;  // the same where the right eye sees it, too, else 0
   PixelNumbers jumps;  // columns to the nearest jump in depth, see depth_jumps.h
+  PixelFlags behind;   // where there is one: on its farther side
   PixelNumbers rocks;  // index of the rock that the left eye sees there; -1: none
   PixelFlags shaded;   // the surface there turns away from the sun, or something is between
   PixelFlags margin;  // of both_px: what a matching window there holds, and one pixel more, reaches
@@ -56,6 +57,7 @@ class StereoGroundTruth {
 
   Pair MakePair(const StereoParams& params, messages::LookDirection direction, int reach_px) const;
   PixelFlags FreeWindows(const StereoView& view_R, const math::Vector3& eye_R, int reach_px) const;
+  void FindJumps(const DepthImage& all_px, int row, StereoTruth& truth) const;
   void SeeSurfaces(const terrain::Terrain& terrain, const math::Transform& X_WR,
                    const StereoView& view_W, StereoTruth& truth) const;
 

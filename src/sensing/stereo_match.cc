@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <vector>
 
 #include "core/distributions.h"
 #include "rendering/pixel_noise.h"
@@ -44,18 +46,23 @@ DepthImage MeanOfWindows(const DepthImage& numbers, Eigen::Index window) {
 StereoMatcher::StereoMatcher(const StereoParams& params)
     : params_(params),
       mismatch_quantile_(Quantile(params.mismatch_probability)),
+      edge_mismatch_quantile_(
+          Quantile(params.mismatch_probability +
+                   params.edge_mismatch_probability * (1.0 - params.mismatch_probability))),
       dropout_quantiles_{
           {ByLight(params.dropout_probability, params.shadow_dropout_probability),
            ByLight(params.edge_dropout_probability, params.shadow_dropout_probability)}} {}
 
-// In the order of stereo_sensor.h: noise, rounding, wrong matches, the searched range, dropouts. 0
-// stays 0.
+// In the order of stereo_sensor.h: noise, rounding, wrong matches, the searched range,
+// dropouts. 0 stays 0.
 void StereoMatcher::Match(core::TrialKey key, std::uint32_t look, const DepthImage& all,
                           DepthImage& seen, const PixelFlags& shaded) const {
   AddNoise(key, look, seen);
   const double step_px = params_.disparity_step_px;
   if (step_px > 0.0) seen = step_px * (seen / step_px).round();
-  if (params_.mismatch_probability > 0.0) Mismatch(key, look, seen);
+  if (params_.mismatch_probability > 0.0 || params_.edge_mismatch_probability > 0.0) {
+    Mismatch(key, look, all, seen);
+  }
   seen = (seen >= params_.min_disparity_px && seen <= params_.max_disparity_px).select(seen, 0.0);
   if (params_.margin_px > 0) DropMargins(seen);
   if (params_.dropout_probability > 0.0 || params_.edge_dropout_probability > 0.0 ||
@@ -96,19 +103,41 @@ void StereoMatcher::AddNoise(core::TrialKey key, std::uint32_t look, DepthImage&
 }
 
 // A normal number z is a mismatch where Phi(z) < p; Phi(z) / p is then uniform in [0, 1), and says
-// where in the searched range the match lies. One draw serves both.
-void StereoMatcher::Mismatch(core::TrialKey key, std::uint32_t look, DepthImage& seen) const {
+// where in the searched range the match lies. Beside a jump it is one of the other surface where
+// Phi(z) lies from p to p + q (1 - p). One draw serves all.
+void StereoMatcher::Mismatch(core::TrialKey key, std::uint32_t look, const DepthImage& all,
+                             DepthImage& seen) const {
   const rendering::PixelNoise noise(key, core::Purpose::kStereoMismatch, look);
   const double searched_px = params_.max_disparity_px - params_.min_disparity_px;
+  const auto columns = static_cast<std::size_t>(seen.cols());
+  const bool grows = params_.edge_mismatch_probability > 0.0;
+  std::vector<int> jumps(columns, kNoJump);
   for (int row = 0; row < seen.rows(); ++row) {
+    const std::span<const double> row_px(&all(row, 0), columns);
+    if (grows) JumpDistances(row_px, params_.edge_disparity_px, jumps);
     rendering::ForEachPixelNoise(
-        noise, row, 0, static_cast<int>(seen.cols()), [&](int column, float number) {
-          if (number >= mismatch_quantile_ || seen(row, column) == 0.0) return;
+        noise, row, 0, static_cast<int>(columns), [&](int column, float number) {
+          double& pixel = seen(row, column);
+          if (number >= edge_mismatch_quantile_ || pixel == 0.0) return;
+          const auto at = static_cast<std::size_t>(column);
+          if (number >= mismatch_quantile_) {
+            MismatchEdge(row_px, at, jumps[at], pixel);
+            return;
+          }
           const double share =
               0.5 * std::erfc(-number / std::numbers::sqrt2) / params_.mismatch_probability;
-          seen(row, column) = params_.min_disparity_px + std::min(share, 1.0) * searched_px;
+          pixel = params_.min_disparity_px + std::min(share, 1.0) * searched_px;
         });
   }
+}
+
+// The window around the pixel holds both surfaces, and fits where the contrast of either one has
+// it. The pixel keeps its noise; where nothing is seen across the jump it keeps its disparity.
+void StereoMatcher::MismatchEdge(std::span<const double> row_px, std::size_t column, int jump,
+                                 double& pixel) const {
+  if (jump > params_.edge_reach_px) return;
+  const double across_px = row_px[AcrossJump(row_px, params_.edge_disparity_px, column, jump)];
+  if (across_px > 0.0) pixel += across_px - row_px[column];
 }
 
 // Jumps are taken from what the left camera sees (`all`), whether the right one sees it or not.

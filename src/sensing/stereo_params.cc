@@ -182,6 +182,18 @@ void VisitDropouts(StereoParams& p, core::FieldVisitor& v) {
           .study_low = 0.5,
           .study_high = 2.0});
   v.Real(
+      "edge_mismatch_probability", p.edge_mismatch_probability,
+      {.doc =
+           "chance that a point beside a jump in depth, within edge_reach_px, is matched as if it "
+           "were of the surface on the other side",
+       .min = 0.0,
+       .max = 0.999,
+       .origin = Origin::kAssumed,
+       .source = "the simplest choice: edges are sharp; scripts/fit_stereo_errors.py counts it in "
+                 "images",
+       .study_low = 0.0,
+       .study_high = 0.9});
+  v.Real(
       "shadow_dropout_probability", p.shadow_dropout_probability,
       {.doc = "chance that a point outside of the sun drops out for that, whatever else may drop "
               "it; above 0 each point costs a ray",

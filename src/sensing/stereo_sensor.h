@@ -21,8 +21,9 @@ namespace rockyard::sensing {
 //  - the right camera sees that point too: it lies inside its image, with nothing in between;
 //  - disparity d = f b / Z (Goldberg 2002, section 2), with Z the depth along the optical axis,
 //    changed by N(0, disparity_noise_px), rounded to disparity_step_px, or wrong altogether with
-//    mismatch_probability, lies between min_ and max_disparity_px. The point is put on the same ray
-//    at depth f b / d, so that to first order sigma_Z = Z^2 sigma_d / (f b);
+//    mismatch_probability, or that of the other surface beside a jump in depth with
+//    edge_mismatch_probability, lies between min_ and max_disparity_px. The point is put on the
+//    same ray at depth f b / d, so that to first order sigma_Z = Z^2 sigma_d / (f b);
 //  - it did not drop out, with dropout_probability or edge_dropout_probability, in shadow with
 //    shadow_dropout_probability on top, nor does it lie within margin_px of an image's edge.
 // The ideal sensor stops after the first. With field_of_view stripe, points outside the window are
@@ -41,8 +42,8 @@ class StereoSensor {
   StereoSensor(const StereoParams& params, const SunShade& shade);
 
   // Takes one look with the rover at X_WR. It is a pure function of its arguments and draws from
-  // (key, kStereoDisparity, kStereoMismatch and kStereoDropout, look number), by pixel: at most
-  // 2^32 looks.
+  // (key, kStereoDisparity, kStereoMismatch and kStereoDropout, look number), by
+  // pixel: at most 2^32 looks.
   messages::PointCloud Look(const terrain::Terrain& terrain, const math::Transform& X_WR,
                             core::TrialKey key, std::int64_t look_number,
                             messages::LookDirection direction) const;

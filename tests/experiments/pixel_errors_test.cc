@@ -33,6 +33,7 @@ sensing::StereoTruth TruthOf(const std::vector<double>& disparities_px) {
   truth.left_px = Eigen::Map<const DepthImage>(disparities_px.data(), 1, columns);
   truth.both_px = truth.left_px;
   truth.jumps = sensing::PixelNumbers::Constant(1, columns, 1000);
+  truth.behind = sensing::PixelFlags::Constant(1, columns, false);
   truth.rocks = sensing::PixelNumbers::Constant(1, columns, -1);
   truth.shaded = sensing::PixelFlags::Constant(1, columns, false);
   truth.margin = sensing::PixelFlags::Constant(1, columns, false);
@@ -96,6 +97,7 @@ TEST(PixelErrorsTest, RangesFollowFromDisparitiesAlongTheRay) {
 TEST(PixelErrorsTest, EveryPixelIsOfOneKind) {
   sensing::StereoTruth truth = TruthOf(std::vector<double>(12, 4.0));
   truth.jumps.row(0) << 5, 4, 3, 2, 1, 1, 2, 3, 4, 5, 6, 7;
+  truth.behind.leftCols(5).setConstant(true);
   truth.shaded.leftCols(4).setConstant(true);
   truth.margin(0, 11) = true;
   truth.both_px(0, 10) = 0.0;
@@ -103,11 +105,13 @@ TEST(PixelErrorsTest, EveryPixelIsOfOneKind) {
   AddPixels(truth, Matched(std::vector<double>(12, 4.25)), OneRow(12), kEverything, sums);
   EXPECT_EQ(sums.all.pixels, 10.0);
   EXPECT_EQ(sums.kinds[0].pixels, 2.0);  // 4 and 5 columns from the jump, lit
-  EXPECT_EQ(sums.kinds[1].pixels, 6.0);  // up to 3
-  EXPECT_EQ(sums.kinds[2].pixels, 2.0);  // 5 and 4, in shadow
-  EXPECT_EQ(sums.edges[0].pixels, 2.0);
-  EXPECT_EQ(sums.edges[4].pixels, 2.0);
-  EXPECT_EQ(sums.edges[6].pixels, 0.0);  // the margin
+  EXPECT_EQ(sums.kinds[1].pixels, 3.0);  // up to 3, to the right of it
+  EXPECT_EQ(sums.kinds[2].pixels, 3.0);  // and to the left, behind
+  EXPECT_EQ(sums.kinds[3].pixels, 2.0);  // 5 and 4, in shadow
+  EXPECT_EQ(sums.fronts[0].pixels, 1.0);
+  EXPECT_EQ(sums.behinds[0].pixels, 1.0);
+  EXPECT_EQ(sums.behinds[4].pixels, 1.0);
+  EXPECT_EQ(sums.fronts[5].pixels, 0.0);  // what the left eye alone sees
   EXPECT_EQ(sums.margin.pixels, 1.0);
   EXPECT_EQ(sums.margin.good, 1.0);
   EXPECT_EQ(sums.hidden_pixels, 1.0);

@@ -112,9 +112,11 @@ TEST(StereoSensingTest, WithoutErrorsEveryPixelIsMatchedAsItIs) {
   EXPECT_EQ(counts["wrong"], 0.0);
   EXPECT_NEAR(counts["error_px"], 0.0, 1e-18 * counts["pixels"]);
   EXPECT_NEAR(counts["range_error_m"], 0.0, 1e-18 * counts["pixels"]);
-  EXPECT_EQ(counts["plain_pixels"] + counts["edge_pixels"] + counts["shadow_pixels"],
+  EXPECT_EQ(counts["plain_pixels"] + counts["front_pixels"] + counts["behind_pixels"] +
+                counts["shadow_pixels"],
             counts["pixels"]);
-  EXPECT_GT(counts["edge_pixels"], 100.0);
+  EXPECT_GT(counts["front_pixels"], 100.0);
+  EXPECT_GT(counts["behind_pixels"], 100.0);
   EXPECT_GT(counts["shadow_pixels"], 100.0);
   EXPECT_GT(counts["hidden_pixels"], 100.0);
   EXPECT_EQ(counts["hidden_matched"], 0.0);
@@ -158,7 +160,9 @@ TEST(StereoSensingTest, GivesBackDropoutsByTheirPlace) {
       StereoScenario("range", With(kWithoutErrors, {"sensors.stereo.dropout_probability=0.1",
                                                     "sensors.stereo.edge_dropout_probability=0.5",
                                                     "sensors.stereo.shadow_dropout_probability=0.4",
-                                                    "sensors.stereo.margin_px=3"})),
+                                                    "sensors.stereo.margin_px=3",
+                                                    // The end of the range is a jump to the model.
+                                                    "stereo_sensing.distances_m=[0.5, 3.5]"})),
       12);
   const auto lost = [&](const std::string& kind) {
     return 1.0 - counts[kind + "_good"] / counts[kind + "_pixels"];
@@ -171,12 +175,31 @@ TEST(StereoSensingTest, GivesBackDropoutsByTheirPlace) {
   EXPECT_NEAR(lost("shadow"), 0.46, limit("shadow", 0.46));
   EXPECT_GT(lost("shadow"), 0.4 + limit("shadow", 0.4));  // negative control
   // Beside a jump, some of it in shadow: between 0.5 and 0.7.
-  EXPECT_GT(lost("edge"), 0.5);
-  EXPECT_LT(lost("edge"), 0.7);
+  EXPECT_GT(lost("front"), 0.5 - limit("front", 0.5));
+  EXPECT_LT(lost("front"), 0.7);
+  EXPECT_GT(lost("behind"), 0.5 - limit("behind", 0.5));
+  EXPECT_LT(lost("behind"), 0.7);
   // Beyond the reach of 3 columns nothing of that is left.
-  const double beyond = 1.0 - counts["edge_matched_5"] / counts["edge_pixels_5"];
+  const double beyond = 1.0 - counts["front_matched_5"] / counts["front_pixels_5"];
   EXPECT_LT(beyond, 0.46);
   EXPECT_LT(counts["margin_matched"], 0.5 * counts["margin_pixels"]);
+}
+
+// A share of what lies beside an edge takes the disparity across: a jump of 1 px and more.
+TEST(StereoSensingTest, GivesBackHowEdgesAreMixedUp) {
+  const StereoCounts counts(
+      StereoScenario("range", With(kWithoutErrors, {"sensors.stereo.edge_mismatch_probability=0.4",
+                                                    "stereo_sensing.distances_m=[0.5, 3.5]"})),
+      12);
+  for (const std::string side : {"front", "behind"}) {
+    const double limit = 3.9 * std::sqrt(0.24 / counts[side + "_pixels"]);  // alpha = 1e-4
+    const double share = counts[side + "_wrong"] / counts[side + "_pixels"];
+    EXPECT_LT(limit, 0.08);
+    // Beyond the end of the range there is nothing to take.
+    EXPECT_NEAR(share, 0.4, limit) << side;
+    EXPECT_EQ(counts[side + "_wrong_4"], 0.0);  // beyond the reach
+  }
+  EXPECT_EQ(counts["plain_wrong"], 0.0);
 }
 
 TEST(StereoSensingTest, WrongMatchesAreCountedApart) {
@@ -212,8 +235,9 @@ TEST(StereoSensingTest, LevelsShareTheirScenes) {
   const StereoCounts images(StereoScenario("range", small), 1);
   const StereoCounts rays(
       StereoScenario("range", With(small, {"sensors.stereo.fidelity=error_model"})), 1);
-  for (const char* column : {"pixels", "edge_pixels", "shadow_pixels", "margin_pixels",
-                             "hidden_pixels", "clear_cells", "rocks_05", "perfect_05"}) {
+  for (const char* column :
+       {"pixels", "front_pixels", "behind_pixels", "shadow_pixels", "margin_pixels",
+        "hidden_pixels", "clear_cells", "rocks_05", "perfect_05"}) {
     EXPECT_EQ(images[column], rays[column]) << column;
   }
   EXPECT_NE(images["error_px"], rays["error_px"]);

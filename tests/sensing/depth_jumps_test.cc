@@ -47,5 +47,15 @@ TEST(DepthJumpsTest, IsTheNearestOfAllJumps) {
   }
 }
 
+// The other side of a jump begins where its distance says, on either hand.
+TEST(DepthJumpsTest, FindsTheOtherSide) {
+  const std::vector<double> row_px{5, 5, 5, 8, 8, 8, 3};
+  const std::vector<int> distances = Distances(row_px);
+  const std::vector<std::size_t> across{3, 3, 3, 2, 6, 6, 5};
+  for (std::size_t column = 0; column < row_px.size(); ++column) {
+    EXPECT_EQ(AcrossJump(row_px, 1.0, column, distances[column]), across[column]) << column;
+  }
+}
+
 }  // namespace
 }  // namespace rockyard::sensing

@@ -64,6 +64,8 @@ TEST(StereoGroundTruthTest, OnlySurfacesMakeJumps) {
     for (int column = 1; column < 128; ++column) {
       if (truth.jumps(row, column) != 1) continue;
       ++edges;
+      // The rock stands before everything else.
+      EXPECT_EQ(truth.behind(row, column), truth.rocks(row, column) != 0);
       const int from = std::max(column - 1, 0);
       const int to = std::min(column + 1, 127);
       beside_rock = beside_rock && (truth.rocks(row, from) == 0 || truth.rocks(row, column) == 0 ||

@@ -5,6 +5,7 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/statistical_checks.h"
@@ -220,6 +221,65 @@ TEST(StereoNoiseTest, TheSensorDropsWhatTheSunDoesNotReach) {
   // The shadow is 0.8 m long: hundreds of pixels of 16384.
   EXPECT_LT(lit + 200, all);
   EXPECT_GT(lit, all / 2);
+}
+
+// A nearer surface from column 60 to 79: three columns on both sides of its edges take the
+// disparity across or keep theirs, at the rate of the parameter; wrong matches anywhere come first.
+TEST(StereoNoiseTest, SurfacesAreMixedUpBesideAJumpInDepth) {
+  StereoParams params = LevelCameras();
+  params.edge_mismatch_probability = 0.4;
+  params.mismatch_probability = 0.1;
+  DepthImage all_px = DepthImage::Constant(128, 128, 4.0);
+  all_px.middleCols(60, 20).setConstant(9.0);
+  double crossed = 0.0, elsewhere = 0.0, wrong = 0.0;
+  for (std::uint32_t look = 0; look < 20; ++look) {
+    DepthImage seen_px = all_px;
+    StereoMatcher(params).Match({5, 0}, look, all_px, seen_px);
+    for (const auto& [first, across_px] : {std::pair{57, 9.0}, {60, 4.0}, {77, 4.0}, {80, 9.0}}) {
+      const auto side_px = seen_px.middleCols(first, 3);
+      crossed += static_cast<double>((side_px == across_px).count());
+      wrong += static_cast<double>((side_px != 9.0 && side_px != 4.0).count());
+    }
+    elsewhere += static_cast<double>((seen_px.leftCols(57) == 9.0).count() +
+                                     (seen_px.middleCols(63, 14) == 4.0).count());
+  }
+  constexpr double kBeside = 20.0 * 128.0 * 12.0;
+  EXPECT_GT(BinomialP(crossed, kBeside, 0.4 * 0.9), kAlpha);
+  EXPECT_LT(BinomialP(crossed, kBeside, 0.4), kAlpha);  // negative control
+  EXPECT_GT(BinomialP(wrong, kBeside, 0.1), kAlpha);
+  EXPECT_EQ(elsewhere, 0.0);
+}
+
+// Nothing is seen across the edge of the sky.
+TEST(StereoNoiseTest, TheSkyIsNoSurface) {
+  StereoParams params = LevelCameras();
+  params.edge_mismatch_probability = 0.999;
+  DepthImage all_px = DepthImage::Constant(128, 128, 4.0);
+  all_px.rightCols(64).setZero();
+  DepthImage seen_px = all_px;
+  StereoMatcher(params).Match({5, 0}, 0, all_px, seen_px);
+  EXPECT_TRUE((seen_px == all_px).all());
+}
+
+TEST(StereoNoiseTest, PointsAcrossAJumpKeepTheirNoise) {
+  StereoParams params = LevelCameras();
+  params.edge_mismatch_probability = 0.999;
+  params.disparity_noise_px = 0.1;
+  DepthImage all_px = DepthImage::Constant(128, 128, 4.0);
+  all_px.rightCols(64).setConstant(9.0);
+  DepthImage seen_px = all_px;
+  StereoMatcher(params).Match({5, 0}, 0, all_px, seen_px);
+  params.edge_mismatch_probability = 0.0;
+  DepthImage without_px = all_px;
+  StereoMatcher(params).Match({5, 0}, 0, all_px, without_px);
+  EXPECT_GT((seen_px != without_px).count(), 700);
+  EXPECT_LE((seen_px != without_px).count(), 6 * 128);
+  for (int row = 0; row < 128; ++row) {
+    for (int column = 61; column < 67; ++column) {
+      const double step_px = seen_px(row, column) - without_px(row, column);
+      if (step_px != 0.0) EXPECT_NEAR(step_px, column < 64 ? 5.0 : -5.0, 1e-12);
+    }
+  }
 }
 
 TEST(StereoNoiseTest, MarginsOfBothImagesHaveNoMatch) {

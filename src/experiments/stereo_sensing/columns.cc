@@ -12,8 +12,9 @@ using enum truth::ColumnRole;
 
 void AddPixelKinds(truth::RecordSchema& columns) {
   constexpr std::array<const char*, kPixelKinds.size()> kMeanings{
-      "lit, away from jumps in depth", "beside a jump in depth (sensors.stereo.edge_reach_px)",
-      "outside of the sun, away from jumps"};
+      "lit, away from jumps in depth",
+      "on the nearer side of a jump in depth, within sensors.stereo.edge_reach_px",
+      "on its farther side", "outside of the sun, away from jumps"};
   for (std::size_t i = 0; i < kPixelKinds.size(); ++i) {
     const std::string kind = kPixelKinds[i];
     const std::string meaning = kMeanings[i];
@@ -30,11 +31,14 @@ void AddPixelKinds(truth::RecordSchema& columns) {
 void AddNeighbours(truth::RecordSchema& columns) {
   for (std::size_t i = 1; i <= kEdgeDistances; ++i) {
     const std::string distance = std::to_string(i);
-    const std::string base = "edge_pixels_" + distance;
-    columns.push_back(
-        {base, "1", "pixels whose nearest jump in depth begins as many columns away", kBase});
-    columns.push_back({"edge_matched_" + distance, "1", "of these, matched", kCount, base});
-    columns.push_back({"edge_wrong_" + distance, "1", "of these, off by 1 px", kCount, base});
+    for (const std::string side : {"front", "behind"}) {
+      const std::string base = side + "_pixels_" + distance;
+      columns.push_back({base, "1",
+                         "pixels as many columns from the nearest jump in depth, on that side",
+                         kBase});
+      columns.push_back({side + "_matched_" + distance, "1", "of these, matched", kCount, base});
+      columns.push_back({side + "_wrong_" + distance, "1", "of these, off by 1 px", kCount, base});
+    }
   }
   for (std::size_t i = 1; i <= kLags; ++i) {
     const std::string base = "pairs_" + std::to_string(i);

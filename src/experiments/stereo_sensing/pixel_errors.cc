@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-enum PixelKind : std::size_t { kPlain, kEdge, kShadow };
+enum PixelKind : std::size_t { kPlain, kFront, kBehind, kShadow };
 
 class RowErrors {
  public:
@@ -50,12 +50,14 @@ class RowErrors {
     }
     sums_.all.Add(true_px, matched_px);
     const int jump = truth.jumps(row, column);
+    const bool behind = truth.behind(row, column);
     if (jump <= static_cast<int>(kEdgeDistances)) {
-      sums_.edges[static_cast<std::size_t>(jump - 1)].Add(true_px, matched_px);
+      auto& sides = behind ? sums_.behinds : sums_.fronts;
+      sides[static_cast<std::size_t>(jump - 1)].Add(true_px, matched_px);
     }
-    const PixelKind kind = jump <= limits_.edge_reach_px ? kEdge
-                           : truth.shaded(row, column)   ? kShadow
-                                                         : kPlain;
+    const PixelKind edge = behind ? kBehind : kFront;
+    const PixelKind away = truth.shaded(row, column) ? kShadow : kPlain;
+    const PixelKind kind = jump <= limits_.edge_reach_px ? edge : away;
     sums_.kinds[kind].Add(true_px, matched_px);
     const double error_px = matched_px - true_px;
     if (matched_px <= 0.0 || std::abs(error_px) >= kWrong_px) return kNone;

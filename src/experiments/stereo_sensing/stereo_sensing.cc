@@ -45,6 +45,13 @@ trial::DriveParams DriveOf(trial::DriveParams drive, const std::vector<std::stri
   return drive;
 }
 
+// One over the depths that perfect matches give: of what both eyes see, as far as it is searched.
+sensing::DepthImage PerfectMatches(const sensing::StereoTruth& truth,
+                                   const sensing::StereoParams& cameras, double scale_px_m) {
+  return (truth.both_px >= cameras.min_disparity_px && truth.both_px <= cameras.max_disparity_px)
+      .select(truth.both_px / scale_px_m, 0.0);
+}
+
 truth::RecordSchema StereoSchema(const CellTable& table) {
   std::vector<std::string> names;
   for (const std::string_view name : table.columns()) names.emplace_back(name);
@@ -107,8 +114,9 @@ StereoSums StereoSensingExperiment::Measure(const Cell& cell, core::TrialKey key
     sums.looks += 1.0;
     AddPixels(truth, seen.disparities_px, view_R, cell.Limits(), sums);
     const auto& navigator = cell.drive.navigation.navigators.chosen();
-    const messages::MapView perfect =
-        MapOfLook(navigator, cell.rays.PointsOf(truth.both_px / scale_px_m, look, kAhead));
+    const messages::MapView perfect = MapOfLook(
+        navigator, cell.rays.PointsOf(PerfectMatches(truth, cell.drive.sensors.stereo, scale_px_m),
+                                      look, kAhead));
     const messages::MapView map = MapOfLook(navigator, seen.cloud);
     AddRocksInView(params_, terrain, truth, view_R, {perfect, map}, cell.bin, sums);
     AddCellsOfMap(params_, view_R, {perfect, map}, cell.bin, sums);

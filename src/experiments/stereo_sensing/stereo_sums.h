@@ -24,7 +24,7 @@ inline constexpr double kWrong_px = 1.0;
 
 inline constexpr std::size_t kEdgeDistances = 8;  // columns from a jump in depth, from 1 on
 inline constexpr std::size_t kLags = 7;           // columns between neighbours in a row, from 1 on
-inline constexpr std::array<const char*, 3> kPixelKinds{"plain", "edge", "shadow"};
+inline constexpr std::array<const char*, 4> kPixelKinds{"plain", "front", "behind", "shadow"};
 // Rocks by height: from 0.5, 1, 1.5 and 2 times the height of a hazard on.
 inline constexpr std::array<const char*, 4> kRockHeights{"05", "10", "15", "20"};
 
@@ -43,9 +43,11 @@ struct StereoSums {
   double range_error2_m2 = 0.0;
   double range_step2_m2 = 0.0;
   double axis_step2_m2 = 0.0;
-  // Of these: plain ground and rocks, beside a jump in depth, the rest in shadow.
+  // Of these: plain ground and rocks, on the nearer and on the farther side of a jump in depth, the
+  // rest in shadow.
   std::array<PixelSums, kPixelKinds.size()> kinds;
-  std::array<PixelSums, kEdgeDistances> edges;
+  std::array<PixelSums, kEdgeDistances> fronts;
+  std::array<PixelSums, kEdgeDistances> behinds;
   std::array<double, kLags> pairs{};
   std::array<double, kLags> products_px2{};
   // Pixels apart from these.
@@ -87,9 +89,12 @@ void ForEachSum(const StereoSums& s, F&& f) {
   }
   for (std::size_t i = 0; i < kEdgeDistances; ++i) {
     const std::string distance = std::to_string(i + 1);
-    f("edge_pixels_" + distance, s.edges[i].pixels);
-    f("edge_matched_" + distance, s.edges[i].good + s.edges[i].wrong);
-    f("edge_wrong_" + distance, s.edges[i].wrong);
+    f("front_pixels_" + distance, s.fronts[i].pixels);
+    f("front_matched_" + distance, s.fronts[i].good + s.fronts[i].wrong);
+    f("front_wrong_" + distance, s.fronts[i].wrong);
+    f("behind_pixels_" + distance, s.behinds[i].pixels);
+    f("behind_matched_" + distance, s.behinds[i].good + s.behinds[i].wrong);
+    f("behind_wrong_" + distance, s.behinds[i].wrong);
   }
   for (std::size_t i = 0; i < kLags; ++i) {
     const std::string lag = std::to_string(i + 1);
