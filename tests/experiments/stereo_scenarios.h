@@ -23,6 +23,7 @@ inline scenario::Scenario StereoScenario(const std::string& name,
 inline const std::vector<std::string> kWithoutErrors{
     "sensors.stereo.fidelity=error_model", "sensors.stereo.disparity_noise_px=0",
     "sensors.stereo.dropout_probability=0", "sensors.stereo.edge_dropout_probability=0",
+    "stereo_sensing.looks_per_run=1",
     "stereo_sensing.distances_m=[0.5, 4]"};
 
 // Columns of the first runs, added up.

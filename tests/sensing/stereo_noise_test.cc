@@ -277,7 +277,9 @@ TEST(StereoNoiseTest, PointsAcrossAJumpKeepTheirNoise) {
   for (int row = 0; row < 128; ++row) {
     for (int column = 61; column < 67; ++column) {
       const double step_px = seen_px(row, column) - without_px(row, column);
-      if (step_px != 0.0) EXPECT_NEAR(step_px, column < 64 ? 5.0 : -5.0, 1e-12);
+      if (step_px != 0.0) {
+        EXPECT_NEAR(step_px, column < 64 ? 5.0 : -5.0, 1e-12);
+      }
     }
   }
 }
