@@ -10,6 +10,8 @@
 #include "core/fields.h"
 #include "experiments/hazard_detection/checks_params.h"
 #include "experiments/hazard_detection/hazard_detection_params.h"
+#include "experiments/stereo_sensing/checks_params.h"
+#include "experiments/stereo_sensing/stereo_sensing_params.h"
 #include "trial/drive_checks_params.h"
 #include "trial/drive_consistency_params.h"
 #include "trial/drive_params.h"
@@ -20,13 +22,15 @@ namespace rockyard::experiments {
 enum class ExperimentKind {
   kDrive,            // the closed-loop drive to a goal
   kHazardDetection,  // what the light stripe sensor sees and misses
+  kStereoSensing,    // what stereo cameras measure and miss
 };
 
 }  // namespace rockyard::experiments
 
 template <>
 struct rockyard::core::EnumNames<rockyard::experiments::ExperimentKind> {
-  static constexpr std::array<std::string_view, 2> kNames{"drive", "hazard_detection"};
+  static constexpr std::array<std::string_view, 3> kNames{"drive", "hazard_detection",
+                                                          "stereo_sensing"};
 };
 
 namespace rockyard::experiments {
@@ -34,6 +38,7 @@ namespace rockyard::experiments {
 struct ExperimentParams {
   ExperimentKind kind = ExperimentKind::kDrive;
   HazardDetectionParams hazard_detection;
+  StereoSensingParams stereo_sensing;
 
   // Lists the field "experiment", and the group of each experiment that has parameters of its own,
   // in the group that is being visited.
@@ -42,6 +47,7 @@ struct ExperimentParams {
   }
   void VisitGroups(core::FieldVisitor& v) {
     v.Group("hazard_detection", hazard_detection, "the experiment of that name");
+    v.Group("stereo_sensing", stereo_sensing, "the experiment of that name");
   }
 
   // What the experiment in use asks of the drive.
@@ -54,6 +60,10 @@ struct ExperimentParams {
       case ExperimentKind::kHazardDetection:
         trial::RequireConsistency(drive, trial::LightStripeUse::kAlways, v);
         RequireMeasurable(hazard_detection, drive, v);
+        return;
+      case ExperimentKind::kStereoSensing:
+        trial::RequireConsistency(drive, trial::LightStripeUse::kAsTerrainSensor, v);
+        RequireStereoMeasurable(stereo_sensing, drive, v);
         return;
     }
   }

@@ -9,6 +9,8 @@
 #include "experiments/experiment.h"
 #include "experiments/hazard_detection/columns.h"
 #include "experiments/hazard_detection/hazard_detection.h"
+#include "experiments/stereo_sensing/columns.h"
+#include "experiments/stereo_sensing/stereo_sensing.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::experiments {
@@ -22,6 +24,8 @@ std::unique_ptr<Experiment> MakeExperiment(const ExperimentParams& experiment,
     case ExperimentKind::kHazardDetection:
       return std::make_unique<HazardDetectionExperiment>(experiment.hazard_detection, drive,
                                                          watchers.scan);
+    case ExperimentKind::kStereoSensing:
+      return std::make_unique<StereoSensingExperiment>(experiment.stereo_sensing, drive);
   }
   throw std::logic_error("unknown experiment");
 }
@@ -29,7 +33,7 @@ std::unique_ptr<Experiment> MakeExperiment(const ExperimentParams& experiment,
 truth::RecordSchema WithRoles(truth::RecordSchema stored) {
   const truth::RecordSchema* best = nullptr;
   std::ptrdiff_t most = 0;
-  for (const truth::RecordSchema* columns : {&DriveSchema(), &HazardColumns()}) {
+  for (const truth::RecordSchema* columns : {&DriveSchema(), &HazardColumns(), &StereoColumns()}) {
     const auto known = std::count_if(
         stored.begin(), stored.end(),
         [&](const truth::ValueInfo& column) { return truth::FindColumn(*columns, column.name); });

@@ -1,13 +1,17 @@
 #include "sensing/stereo_match.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <vector>
 
 #include "core/distributions.h"
 #include "rendering/pixel_noise.h"
+#include "sensing/depth_jumps.h"
 
 namespace rockyard::sensing {
 namespace {
@@ -16,6 +20,12 @@ namespace {
 float Quantile(double probability) {
   if (probability <= 0.0) return -std::numeric_limits<float>::infinity();
   return static_cast<float>(core::NormalQuantile(probability));
+}
+
+// Of a chance in the sun, and of what two independent chances make of it in shadow: 1 - (1 - p)(1 -
+// q), written so that q = 0 leaves the bits of p.
+std::array<float, 2> ByLight(double lit, double in_shadow) {
+  return {Quantile(lit), Quantile(lit + in_shadow * (1.0 - lit))};
 }
 
 // Sums over `window` neighbours along rows, and then along columns: w x w independent numbers of
@@ -36,20 +46,45 @@ DepthImage MeanOfWindows(const DepthImage& numbers, Eigen::Index window) {
 StereoMatcher::StereoMatcher(const StereoParams& params)
     : params_(params),
       mismatch_quantile_(Quantile(params.mismatch_probability)),
-      dropout_quantile_(Quantile(params.dropout_probability)),
-      edge_dropout_quantile_(Quantile(params.edge_dropout_probability)) {}
+      edge_mismatch_quantile_(
+          Quantile(params.mismatch_probability +
+                   params.edge_mismatch_probability * (1.0 - params.mismatch_probability))),
+      dropout_quantiles_{
+          {ByLight(params.dropout_probability, params.shadow_dropout_probability),
+           ByLight(params.edge_dropout_probability, params.shadow_dropout_probability)}} {}
 
-// In the order of stereo_sensor.h: noise, rounding, wrong matches, the searched range, dropouts. 0
-// stays 0.
+// In the order of stereo_sensor.h: noise, rounding, wrong matches, the searched range,
+// dropouts. 0 stays 0.
 void StereoMatcher::Match(core::TrialKey key, std::uint32_t look, const DepthImage& all,
-                          DepthImage& seen) const {
+                          DepthImage& seen, const PixelFlags& shaded) const {
   AddNoise(key, look, seen);
   const double step_px = params_.disparity_step_px;
   if (step_px > 0.0) seen = step_px * (seen / step_px).round();
-  if (params_.mismatch_probability > 0.0) Mismatch(key, look, seen);
+  if (params_.mismatch_probability > 0.0 || params_.edge_mismatch_probability > 0.0) {
+    Mismatch(key, look, all, seen);
+  }
   seen = (seen >= params_.min_disparity_px && seen <= params_.max_disparity_px).select(seen, 0.0);
-  if (params_.dropout_probability > 0.0 || params_.edge_dropout_probability > 0.0) {
-    DropOut(key, look, all, seen);
+  if (params_.margin_px > 0) DropMargins(seen);
+  if (params_.dropout_probability > 0.0 || params_.edge_dropout_probability > 0.0 ||
+      shaded.size() > 0) {
+    DropOut(key, look, all, shaded, seen);
+  }
+}
+
+// Column c of the left image with disparity d is column c - d of the right one, in which margins
+// end half a column before the first pixel beside them.
+void StereoMatcher::DropMargins(DepthImage& seen) const {
+  const auto margin = static_cast<Eigen::Index>(params_.margin_px);
+  constexpr double kHalf_px = 0.5;
+  for (Eigen::Index row = 0; row < seen.rows(); ++row) {
+    const bool edge_row = row < margin || row >= seen.rows() - margin;
+    for (Eigen::Index column = 0; column < seen.cols(); ++column) {
+      const double right_px = static_cast<double>(column) - seen(row, column);
+      if (edge_row || column >= seen.cols() - margin ||
+          right_px < static_cast<double>(margin) - kHalf_px) {
+        seen(row, column) = 0.0;
+      }
+    }
   }
 }
 
@@ -68,48 +103,57 @@ void StereoMatcher::AddNoise(core::TrialKey key, std::uint32_t look, DepthImage&
 }
 
 // A normal number z is a mismatch where Phi(z) < p; Phi(z) / p is then uniform in [0, 1), and says
-// where in the searched range the match lies. One draw serves both.
-void StereoMatcher::Mismatch(core::TrialKey key, std::uint32_t look, DepthImage& seen) const {
+// where in the searched range the match lies. Beside a jump it is one of the other surface where
+// Phi(z) lies from p to p + q (1 - p). One draw serves all.
+void StereoMatcher::Mismatch(core::TrialKey key, std::uint32_t look, const DepthImage& all,
+                             DepthImage& seen) const {
   const rendering::PixelNoise noise(key, core::Purpose::kStereoMismatch, look);
   const double searched_px = params_.max_disparity_px - params_.min_disparity_px;
+  const auto columns = static_cast<std::size_t>(seen.cols());
+  const bool grows = params_.edge_mismatch_probability > 0.0;
+  std::vector<int> jumps(columns, kNoJump);
   for (int row = 0; row < seen.rows(); ++row) {
+    const std::span<const double> row_px(&all(row, 0), columns);
+    if (grows) JumpDistances(row_px, params_.edge_disparity_px, jumps);
     rendering::ForEachPixelNoise(
-        noise, row, 0, static_cast<int>(seen.cols()), [&](int column, float number) {
-          if (number >= mismatch_quantile_ || seen(row, column) == 0.0) return;
+        noise, row, 0, static_cast<int>(columns), [&](int column, float number) {
+          double& pixel = seen(row, column);
+          if (number >= edge_mismatch_quantile_ || pixel == 0.0) return;
+          const auto at = static_cast<std::size_t>(column);
+          if (number >= mismatch_quantile_) {
+            MismatchEdge(row_px, at, jumps[at], pixel);
+            return;
+          }
           const double share =
               0.5 * std::erfc(-number / std::numbers::sqrt2) / params_.mismatch_probability;
-          seen(row, column) = params_.min_disparity_px + std::min(share, 1.0) * searched_px;
+          pixel = params_.min_disparity_px + std::min(share, 1.0) * searched_px;
         });
   }
 }
 
-void StereoMatcher::FindEdges(std::span<const double> row_px,
-                              std::vector<char>& beside_edge) const {
-  std::fill(beside_edge.begin(), beside_edge.end(), char{0});
-  const auto reach = static_cast<std::size_t>(params_.edge_reach_px);
-  for (std::size_t column = 1; column < row_px.size(); ++column) {
-    // Between columns c - 1 and c the disparity jumps: windows at c - reach .. c + reach - 1 hold
-    // both sides.
-    if (std::abs(row_px[column] - row_px[column - 1]) < params_.edge_disparity_px) continue;
-    const std::size_t first = column > reach ? column - reach : 0;
-    const std::size_t end = std::min(column + reach, row_px.size());
-    for (std::size_t i = first; i < end; ++i) beside_edge[i] = 1;
-  }
+// The window around the pixel holds both surfaces, and fits where the contrast of either one has
+// it. The pixel keeps its noise; where nothing is seen across the jump it keeps its disparity.
+void StereoMatcher::MismatchEdge(std::span<const double> row_px, std::size_t column, int jump,
+                                 double& pixel) const {
+  if (jump > params_.edge_reach_px) return;
+  const double across_px = row_px[AcrossJump(row_px, params_.edge_disparity_px, column, jump)];
+  if (across_px > 0.0) pixel += across_px - row_px[column];
 }
 
 // Jumps are taken from what the left camera sees (`all`), whether the right one sees it or not.
 void StereoMatcher::DropOut(core::TrialKey key, std::uint32_t look, const DepthImage& all,
-                            DepthImage& seen) const {
+                            const PixelFlags& shaded, DepthImage& seen) const {
   const rendering::PixelNoise noise(key, core::Purpose::kStereoDropout, look);
   const auto columns = static_cast<std::size_t>(seen.cols());
-  std::vector<char> beside_edge(columns);
+  std::vector<int> jumps(columns);
   for (int row = 0; row < seen.rows(); ++row) {
     if ((seen.row(row) == 0.0).all()) continue;
-    FindEdges({&all(row, 0), columns}, beside_edge);
+    JumpDistances({&all(row, 0), columns}, params_.edge_disparity_px, jumps);
     rendering::ForEachPixelNoise(
         noise, row, 0, static_cast<int>(columns), [&](int column, float number) {
-          const bool edge = beside_edge[static_cast<std::size_t>(column)] != 0;
-          if (number < (edge ? edge_dropout_quantile_ : dropout_quantile_)) seen(row, column) = 0.0;
+          const bool edge = jumps[static_cast<std::size_t>(column)] <= params_.edge_reach_px;
+          const bool dark = shaded.size() > 0 && shaded(row, column);
+          if (number < dropout_quantiles_[edge ? 1 : 0][dark ? 1 : 0]) seen(row, column) = 0.0;
         });
   }
 }

@@ -181,6 +181,39 @@ void VisitDropouts(StereoParams& p, core::FieldVisitor& v) {
           .source = "more than sloping ground has",
           .study_low = 0.5,
           .study_high = 2.0});
+  v.Real(
+      "edge_mismatch_probability", p.edge_mismatch_probability,
+      {.doc =
+           "chance that a point beside a jump in depth, within edge_reach_px, is matched as if it "
+           "were of the surface on the other side",
+       .min = 0.0,
+       .max = 0.999,
+       .origin = Origin::kAssumed,
+       .source = "the simplest choice: edges are sharp; scripts/fit_stereo_errors.py counts it in "
+                 "images",
+       .study_low = 0.0,
+       .study_high = 0.9});
+  v.Real(
+      "shadow_dropout_probability", p.shadow_dropout_probability,
+      {.doc = "chance that a point outside of the sun drops out for that, whatever else may drop "
+              "it; above 0 each point costs a ray",
+       .min = 0.0,
+       .max = 0.999,
+       .origin = Origin::kAssumed,
+       .source = "the simplest choice: light does not matter; scripts/fit_stereo_errors.py "
+                 "counts it in images",
+       .study_low = 0.0,
+       .study_high = 0.9});
+  v.Integer(
+      "margin_px", p.margin_px,
+      {.doc = "rows and columns at the edges of both images without matches",
+       .min = 0,
+       .max = 100,
+       .origin = Origin::kAssumed,
+       .source = "the simplest choice; a 7 x 7 window (Goldberg 2002 sec. 2) reaches 3 beyond "
+                 "its pixel",
+       .study_low = 0,
+       .study_high = 4});
 }
 
 }  // namespace

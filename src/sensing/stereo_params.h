@@ -71,6 +71,9 @@ struct StereoParams {
   double edge_dropout_probability = 0.5;
   std::int64_t edge_reach_px = 3;
   double edge_disparity_px = 1.0;
+  double edge_mismatch_probability = 0.0;
+  double shadow_dropout_probability = 0.0;
+  std::int64_t margin_px = 0;
   StripeWindowParams stripe_window;
   StereoImageParams images;
 

@@ -13,8 +13,30 @@ StereoSensor::StereoSensor(const StereoParams& params)
       ahead_R_(MakeStereoView(params, LookDirection::kAhead)),
       behind_R_(MakeStereoView(params, LookDirection::kBehind)) {}
 
-DepthImage StereoSensor::Measure(const StereoScene& scene, core::TrialKey key,
-                                 std::int64_t look_number) const {
+StereoSensor::StereoSensor(const StereoParams& params, const SunShade& shade)
+    : StereoSensor(params) {
+  if (params.shadow_dropout_probability > 0.0) shade_ = shade;
+}
+
+PixelFlags StereoSensor::Shaded(const terrain::Terrain& terrain, const math::Transform& X_WR,
+                                const StereoView& view_W, const DepthImage& seen) const {
+  PixelFlags shaded = PixelFlags::Constant(seen.rows(), seen.cols(), false);
+  for (int row = 0; row < view_W.rows; ++row) {
+    for (int column = 0; column < view_W.columns; ++column) {
+      if (seen(row, column) <= 0.0) continue;
+      const Vector3 ray_W = view_W.Ray(column, row).normalized();
+      const auto hit = terrain.CastRay(view_W.eye, ray_W, params_.max_range_m);
+      shaded(row, column) = hit && shade_->IsShaded(terrain, X_WR, *hit);
+    }
+  }
+  return shaded;
+}
+
+DepthImage StereoSensor::InverseDepths(const terrain::Terrain& terrain, const math::Transform& X_WR,
+                                       core::TrialKey key, std::int64_t look_number,
+                                       LookDirection direction) const {
+  const StereoView view_W = view_R(direction).From(X_WR);
+  const StereoScene scene(terrain, view_W, params_.max_range_m);
   DepthImage all = scene.InverseDepths();
   // The ideal sensor stops here: one eye, no matching.
   if (params_.fidelity == StereoFidelity::kIdeal) return all;
@@ -25,18 +47,16 @@ DepthImage StereoSensor::Measure(const StereoScene& scene, core::TrialKey key,
   // ray.
   all *= scale_px_m;
   seen *= scale_px_m;
-  matcher_.Match(key, static_cast<std::uint32_t>(look_number), all, seen);
+  const PixelFlags shaded = shade_ ? Shaded(terrain, X_WR, view_W, seen) : PixelFlags();
+  matcher_.Match(key, static_cast<std::uint32_t>(look_number), all, seen, shaded);
   seen /= scale_px_m;
   return seen;
 }
 
-messages::PointCloud StereoSensor::Look(const terrain::Terrain& terrain,
-                                        const math::Transform& X_WR, core::TrialKey key,
-                                        std::int64_t look_number, LookDirection direction) const {
+messages::PointCloud StereoSensor::PointsOf(const DepthImage& inverse_depths,
+                                            std::int64_t look_number,
+                                            LookDirection direction) const {
   const StereoView& view_R = this->view_R(direction);
-  const StereoView view_W = view_R.From(X_WR);
-  const StereoScene scene(terrain, view_W, params_.max_range_m);
-  const DepthImage inverse_depths = Measure(scene, key, look_number);
   messages::PointCloud cloud{.number = look_number, .direction = direction, .points_R = {}};
   cloud.points_R.reserve(static_cast<std::size_t>(inverse_depths.size()));
   for (int row = 0; row < view_R.rows; ++row) {
@@ -49,6 +69,13 @@ messages::PointCloud StereoSensor::Look(const terrain::Terrain& terrain,
     }
   }
   return cloud;
+}
+
+messages::PointCloud StereoSensor::Look(const terrain::Terrain& terrain,
+                                        const math::Transform& X_WR, core::TrialKey key,
+                                        std::int64_t look_number, LookDirection direction) const {
+  return PointsOf(InverseDepths(terrain, X_WR, key, look_number, direction), look_number,
+                  direction);
 }
 
 }  // namespace rockyard::sensing

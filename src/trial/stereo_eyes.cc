@@ -7,6 +7,7 @@
 #include "sensing/stereo_window.h"
 #include "trial/onboard_calibration.h"
 #include "vision/cameras/cahv.h"
+#include "vision/stereo/disparity.h"
 
 namespace rockyard::trial {
 
@@ -19,6 +20,17 @@ perception::StereoSearch SearchOf(const sensing::StereoParams& params) {
           .min_disparity_px = params.min_disparity_px,
           .max_disparity_px = params.max_disparity_px,
           .max_range_m = params.max_range_m};
+}
+
+sensing::DepthImage InPixels(const vision::DisparityImage& disparities) {
+  sensing::DepthImage image = sensing::DepthImage::Zero(disparities.height(), disparities.width());
+  for (int row = 0; row < disparities.height(); ++row) {
+    for (int column = 0; column < disparities.width(); ++column) {
+      const std::int16_t disparity = disparities.At(column, row);
+      if (vision::IsValid(disparity)) image(row, column) = vision::DisparityPx(disparity);
+    }
+  }
+  return image;
 }
 
 }  // namespace
@@ -34,7 +46,7 @@ StereoEyes::StereoEyes(const DriveParams& drive, core::TrialKey key, StereoWatch
   if (params_.fidelity == sensing::StereoFidelity::kImage) {
     cameras_ = MakeCameras(drive);
   } else {
-    rays_.emplace(params_);
+    rays_.emplace(params_, sensing::SunShade(drive.sensors.sun, drive.rover.geometry));
   }
 }
 
@@ -49,12 +61,16 @@ StereoEyes::Cameras StereoEyes::MakeCameras(const DriveParams& drive) const {
   return {std::move(imager), std::move(ahead), std::move(behind)};
 }
 
-messages::PointCloud StereoEyes::Look(const terrain::Terrain& terrain, const math::Transform& X_WR,
-                                      std::int64_t look_number, LookDirection direction) const {
+StereoSeen StereoEyes::See(const terrain::Terrain& terrain, const math::Transform& X_WR,
+                           std::int64_t look_number, LookDirection direction) const {
   if (!rays_) return Match(terrain, X_WR, look_number, direction);
-  messages::PointCloud cloud = rays_->Look(terrain, X_WR, key_, look_number, direction);
-  Misplace(cloud);
-  return cloud;
+  StereoSeen seen;
+  seen.disparities_px = rays_->InverseDepths(terrain, X_WR, key_, look_number, direction);
+  seen.cloud = rays_->PointsOf(seen.disparities_px, look_number, direction);
+  // d = f b / Z.
+  seen.disparities_px *= params_.focal_columns_px() * params_.baseline_m;
+  Misplace(seen.cloud);
+  return seen;
 }
 
 void StereoEyes::Misplace(messages::PointCloud& cloud) const {
@@ -74,21 +90,22 @@ void StereoEyes::Show(const math::Transform& X_WR, const perception::StereoSight
   watcher_({X_WR, sight, pair, eyes.params(), cloud});
 }
 
-messages::PointCloud StereoEyes::Match(const terrain::Terrain& terrain, const math::Transform& X_WR,
-                                       std::int64_t look_number, LookDirection direction) const {
+StereoSeen StereoEyes::Match(const terrain::Terrain& terrain, const math::Transform& X_WR,
+                             std::int64_t look_number, LookDirection direction) const {
   const sensing::StereoImages images =
       cameras_->imager.Expose(terrain, X_WR, look_number, direction);
   const perception::StereoPoints& eyes =
       direction == LookDirection::kAhead ? cameras_->ahead : cameras_->behind;
   const perception::StereoSight sight = eyes.See(images.left, images.right);
-  messages::PointCloud cloud{.number = look_number, .direction = direction, .points_R = {}};
-  cloud.points_R.reserve(sight.points_R.size());
+  StereoSeen seen{InPixels(sight.disparities),
+                  {.number = look_number, .direction = direction, .points_R = {}}};
+  seen.cloud.points_R.reserve(sight.points_R.size());
   std::copy_if(
-      sight.points_R.begin(), sight.points_R.end(), std::back_inserter(cloud.points_R),
+      sight.points_R.begin(), sight.points_R.end(), std::back_inserter(seen.cloud.points_R),
       [&](const math::Vector3& p_RoP_R) { return sensing::IsWanted(params_, p_RoP_R, direction); });
-  Misplace(cloud);
-  if (watcher_) Show(X_WR, sight, eyes, cloud);
-  return cloud;
+  Misplace(seen.cloud);
+  if (watcher_) Show(X_WR, sight, eyes, seen.cloud);
+  return seen;
 }
 
 }  // namespace rockyard::trial

@@ -10,6 +10,7 @@
 #include "experiments/drive/drive_experiment.h"
 #include "experiments/experiment.h"
 #include "experiments/hazard_scenarios.h"
+#include "experiments/stereo_scenarios.h"
 #include "scenario/load.h"
 #include "truth/measurement_record.h"
 
@@ -51,6 +52,9 @@ TEST(WithRolesTest, GivesAStoredSchemaTheRolesOfItsExperiment) {
   for (const char* name : {"detection", "approach", "false_alarm", "missed", "precision"}) {
     ExpectRolesBack(HazardScenario(name));
   }
+  for (const char* name : {"range", "texture", "sun", "baseline"}) {
+    ExpectRolesBack(StereoScenario(name));
+  }
   for (const truth::ValueInfo& column : WithRoles(DriveSchema())) {
     EXPECT_EQ(column.role, truth::ColumnRole::kValue) << column.name;
   }
@@ -62,6 +66,11 @@ TEST(WithRolesTest, KnowsTheColumnsOfEveryExperiment) {
     core::JsonValue document = core::JsonValue::Object();
     core::SetPath(document, "name", core::JsonValue(name));
     core::SetPath(document, "experiment", core::JsonValue(name));
+    // What the experiments on stereo cameras ask for beside their name.
+    if (name == "stereo_sensing") {
+      core::SetPath(document, "sensors.terrain_sensor", core::JsonValue("stereo"));
+      core::SetPath(document, "navigation.navigator", core::JsonValue("gestalt"));
+    }
     ExpectRolesBack(scenario::ReadScenario(document));
   }
 }

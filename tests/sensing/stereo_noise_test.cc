@@ -5,6 +5,7 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/statistical_checks.h"
@@ -169,6 +170,133 @@ TEST(StereoNoiseTest, DropoutsComeAsOftenAsTheyShould) {
   const double lost = all - static_cast<double>(Depths(params, 0).size());
   EXPECT_GT(BinomialP(lost, all, 0.05), kAlpha);
   EXPECT_LT(BinomialP(lost, all, 0.06), kAlpha);  // negative control
+}
+
+TEST(StereoNoiseTest, MoreDropsOutInShadow) {
+  // 1 - (1 - p) (1 - q) of the shaded half, p of the other one.
+  StereoParams params = LevelCameras();
+  params.dropout_probability = 0.1;
+  params.shadow_dropout_probability = 0.3;
+  PixelFlags shaded = PixelFlags::Constant(128, 128, false);
+  shaded.rightCols(64).setConstant(true);
+  double lit = 0.0, dark = 0.0;
+  for (std::uint32_t look = 0; look < 20; ++look) {
+    const DepthImage all_px = DepthImage::Constant(128, 128, 8.0);
+    DepthImage seen_px = all_px;
+    StereoMatcher(params).Match({3, 0}, look, all_px, seen_px, shaded);
+    lit += static_cast<double>((seen_px.leftCols(64) == 0.0).count());
+    dark += static_cast<double>((seen_px.rightCols(64) == 0.0).count());
+  }
+  constexpr double kHalf = 20.0 * 128.0 * 64.0;
+  EXPECT_GT(BinomialP(lit, kHalf, 0.1), kAlpha);
+  EXPECT_GT(BinomialP(dark, kHalf, 0.37), kAlpha);
+  EXPECT_LT(BinomialP(dark, kHalf, 0.4), kAlpha);  // negative control: the sum of both
+}
+
+TEST(StereoNoiseTest, ShadowDropsOutWhereNothingElseDoes) {
+  StereoParams params = LevelCameras();
+  params.shadow_dropout_probability = 0.3;
+  const DepthImage all_px = DepthImage::Constant(128, 128, 8.0);
+  DepthImage seen_px = all_px;
+  const PixelFlags shaded = PixelFlags::Constant(128, 128, true);
+  StereoMatcher(params).Match({3, 0}, 0, all_px, seen_px, shaded);
+  EXPECT_GT(BinomialP(static_cast<double>((seen_px == 0.0).count()), 128.0 * 128.0, 0.3), kAlpha);
+}
+
+// From the sensor itself: the shadow of a rock, and none where the scenario says nothing of it.
+TEST(StereoNoiseTest, TheSensorDropsWhatTheSunDoesNotReach) {
+  StereoParams params = NoiselessStereo();
+  rendering::SunParams sun;
+  sun.elevation_rad = math::DegToRad(20.0);
+  const terrain::Terrain terrain = FlatWith({EllipsoidRock(1.0, -0.3, 0.0, 0.1, 0.1, 0.3)});
+  const auto points = [&] {
+    return StereoSensor(params, SunShade(sun, {}))
+        .Look(terrain, PoseAt(0, 0, 0), {1, 0}, 0, messages::LookDirection::kAhead)
+        .points_R.size();
+  };
+  const std::size_t all = points();
+  EXPECT_EQ(all, LookAhead(params, terrain, PoseAt(0, 0, 0)).points_R.size());
+  params.shadow_dropout_probability = 0.999;
+  const std::size_t lit = points();
+  // The shadow is 0.8 m long: hundreds of pixels of 16384.
+  EXPECT_LT(lit + 200, all);
+  EXPECT_GT(lit, all / 2);
+}
+
+// A nearer surface from column 60 to 79: three columns on both sides of its edges take the
+// disparity across or keep theirs, at the rate of the parameter; wrong matches anywhere come first.
+TEST(StereoNoiseTest, SurfacesAreMixedUpBesideAJumpInDepth) {
+  StereoParams params = LevelCameras();
+  params.edge_mismatch_probability = 0.4;
+  params.mismatch_probability = 0.1;
+  DepthImage all_px = DepthImage::Constant(128, 128, 4.0);
+  all_px.middleCols(60, 20).setConstant(9.0);
+  double crossed = 0.0, elsewhere = 0.0, wrong = 0.0;
+  for (std::uint32_t look = 0; look < 20; ++look) {
+    DepthImage seen_px = all_px;
+    StereoMatcher(params).Match({5, 0}, look, all_px, seen_px);
+    for (const auto& [first, across_px] : {std::pair{57, 9.0}, {60, 4.0}, {77, 4.0}, {80, 9.0}}) {
+      const auto side_px = seen_px.middleCols(first, 3);
+      crossed += static_cast<double>((side_px == across_px).count());
+      wrong += static_cast<double>((side_px != 9.0 && side_px != 4.0).count());
+    }
+    elsewhere += static_cast<double>((seen_px.leftCols(57) == 9.0).count() +
+                                     (seen_px.middleCols(63, 14) == 4.0).count());
+  }
+  constexpr double kBeside = 20.0 * 128.0 * 12.0;
+  EXPECT_GT(BinomialP(crossed, kBeside, 0.4 * 0.9), kAlpha);
+  EXPECT_LT(BinomialP(crossed, kBeside, 0.4), kAlpha);  // negative control
+  EXPECT_GT(BinomialP(wrong, kBeside, 0.1), kAlpha);
+  EXPECT_EQ(elsewhere, 0.0);
+}
+
+// Nothing is seen across the edge of the sky.
+TEST(StereoNoiseTest, TheSkyIsNoSurface) {
+  StereoParams params = LevelCameras();
+  params.edge_mismatch_probability = 0.999;
+  DepthImage all_px = DepthImage::Constant(128, 128, 4.0);
+  all_px.rightCols(64).setZero();
+  DepthImage seen_px = all_px;
+  StereoMatcher(params).Match({5, 0}, 0, all_px, seen_px);
+  EXPECT_TRUE((seen_px == all_px).all());
+}
+
+TEST(StereoNoiseTest, PointsAcrossAJumpKeepTheirNoise) {
+  StereoParams params = LevelCameras();
+  params.edge_mismatch_probability = 0.999;
+  params.disparity_noise_px = 0.1;
+  DepthImage all_px = DepthImage::Constant(128, 128, 4.0);
+  all_px.rightCols(64).setConstant(9.0);
+  DepthImage seen_px = all_px;
+  StereoMatcher(params).Match({5, 0}, 0, all_px, seen_px);
+  params.edge_mismatch_probability = 0.0;
+  DepthImage without_px = all_px;
+  StereoMatcher(params).Match({5, 0}, 0, all_px, without_px);
+  EXPECT_GT((seen_px != without_px).count(), 700);
+  EXPECT_LE((seen_px != without_px).count(), 6 * 128);
+  for (int row = 0; row < 128; ++row) {
+    for (int column = 61; column < 67; ++column) {
+      const double step_px = seen_px(row, column) - without_px(row, column);
+      if (step_px != 0.0) {
+        EXPECT_NEAR(step_px, column < 64 ? 5.0 : -5.0, 1e-12);
+      }
+    }
+  }
+}
+
+TEST(StereoNoiseTest, MarginsOfBothImagesHaveNoMatch) {
+  StereoParams params = LevelCameras();
+  params.margin_px = 3;
+  const DepthImage all_px = DepthImage::Constant(128, 128, 8.25);
+  DepthImage seen_px = all_px;
+  StereoMatcher(params).Match({3, 0}, 0, all_px, seen_px);
+  for (int row = 0; row < 128; ++row) {
+    for (int column = 0; column < 128; ++column) {
+      // Column c is c - 8.25 in the right image, whose margin ends at 2.5.
+      const bool seen = row >= 3 && row <= 124 && column <= 124 && column >= 11;
+      EXPECT_EQ(seen_px(row, column) > 0.0, seen) << row << " " << column;
+    }
+  }
 }
 
 TEST(StereoNoiseTest, MoreDropsOutBesideAJumpInDepth) {

@@ -1,9 +1,10 @@
 // Study "false_alarm": flat sand, no rock.
 #include <cstdint>
 
-#include "experiments/hazard_detection/cell_table.h"
+#include "experiments/cell_table.h"
 #include "experiments/hazard_detection/hazard_judge.h"
 #include "experiments/hazard_detection/hazard_study.h"
+#include "experiments/scene_key.h"
 #include "perception/hazard_criteria.h"
 
 namespace rockyard::experiments {

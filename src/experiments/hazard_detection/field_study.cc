@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "core/distributions.h"
-#include "experiments/hazard_detection/cell_table.h"
+#include "experiments/cell_table.h"
 #include "experiments/hazard_detection/hazard_judge.h"
 #include "experiments/hazard_detection/hazard_study.h"
+#include "experiments/scene_key.h"
 #include "terrain/field.h"
 #include "terrain/swept_path.h"
 #include "terrain/terrain.h"

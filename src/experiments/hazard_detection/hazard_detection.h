@@ -7,8 +7,8 @@
 
 #include <memory>
 
+#include "experiments/cell_table.h"
 #include "experiments/experiment.h"
-#include "experiments/hazard_detection/cell_table.h"
 #include "experiments/hazard_detection/hazard_study.h"
 #include "trial/drive_params.h"
 

@@ -11,9 +11,6 @@ using core::FieldInfo;
 using core::Origin;
 
 using core::kMatthiesSection6;
-// A table that nobody can read, and a guard against a list typed wrongly.
-constexpr double kMaxCells = 2000.0;
-
 // Nearer emitters are looked at by the camera of the other side (sensing/stripe_layout_params.h).
 constexpr double kMinBaseline_m = 0.05;
 
@@ -185,12 +182,6 @@ std::vector<CellFactor> HazardDetectionParams::Factors() const {
       break;
   }
   return factors;
-}
-
-double HazardDetectionParams::Cells() const {
-  double cells = 1.0;
-  for (const CellFactor& factor : Factors()) cells *= static_cast<double>(factor.values.size());
-  return cells;
 }
 
 void HazardDetectionParams::Visit(core::FieldVisitor& v) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/fields.h"
+#include "experiments/cell_factor_params.h"
 #include "math/angles.h"
 
 namespace rockyard::experiments {
@@ -24,12 +25,6 @@ enum class HazardStudy {
 enum class RockProportions {
   kListed,   // every height with every diameter
   kNatural,  // the diameter follows from the height by the terrain's height ratios and burial
-};
-
-// One list of the scenario whose values name cells.
-struct CellFactor {
-  std::string_view column;  // of the record, see columns.h
-  std::vector<double> values;
 };
 
 // Of the emitter on the left that stands on the cameras' axis, outwards from the left camera.
@@ -68,8 +63,7 @@ struct HazardDetectionParams {
 
   // Factors of the chosen study in the order of their columns, the last one changing fastest.
   std::vector<CellFactor> Factors() const;
-  // Number of cells: the product of the lengths of the factors' lists.
-  double Cells() const;
+  double Cells() const { return CellsOf(Factors()); }
 
   void Visit(core::FieldVisitor& v);
 };

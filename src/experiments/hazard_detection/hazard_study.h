@@ -2,13 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <memory>
-#include <stdexcept>
 #include <string_view>
 #include <vector>
 
 #include "core/random.h"
+#include "experiments/hazard_detection/hazard_detection_params.h"
 #include "trial/drive_params.h"
 #include "trial/scan_watcher.h"
 
@@ -26,19 +25,6 @@ class HazardStudyRunner {
   // kScenePhase under the key of each scene. Throws std::out_of_range as SceneKey does.
   virtual std::vector<double> Measure(std::size_t cell, core::TrialKey key) const = 0;
 };
-
-// A key of its own for every scene of every run, so that nothing that lasts from scan to scan
-// (outliers that persist) links two scenes. Throws std::out_of_range where 32 bits end.
-inline core::TrialKey SceneKey(core::TrialKey run, std::int64_t scenes_per_run,
-                               std::int64_t scene) {
-  const std::uint64_t number =
-      std::uint64_t{run.trial} * static_cast<std::uint64_t>(scenes_per_run) +
-      static_cast<std::uint64_t>(scene);
-  if (number > std::numeric_limits<std::uint32_t>::max()) {
-    throw std::out_of_range("scenes end at 2^32 - 1, the size of their random key");
-  }
-  return {run.seed, static_cast<std::uint32_t>(number)};
-}
 
 // The watcher sees the scans of the scenes, not those of bare sand that they are compared with.
 // Scan numbers begin at 0 in every scene and count on from pose to pose. rock_studies.cc: one rock,

@@ -6,8 +6,9 @@
 #include <stdexcept>
 
 #include "core/distributions.h"
-#include "experiments/hazard_detection/cell_table.h"
+#include "experiments/cell_table.h"
 #include "experiments/hazard_detection/hazard_study.h"
+#include "experiments/scene_key.h"
 #include "perception/triangulation.h"
 #include "sensing/stripe_layout_params.h"
 #include "terrain/terrain.h"

@@ -4,10 +4,11 @@
 #include <cstdint>
 
 #include "core/distributions.h"
-#include "experiments/hazard_detection/cell_table.h"
+#include "experiments/cell_table.h"
 #include "experiments/hazard_detection/hazard_judge.h"
 #include "experiments/hazard_detection/hazard_study.h"
 #include "experiments/hazard_detection/rock_scenes.h"
+#include "experiments/scene_key.h"
 
 namespace rockyard::experiments {
 namespace {

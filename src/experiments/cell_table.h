@@ -1,12 +1,12 @@
 // Cells of an experiment: every combination of the values of its factors, numbered.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "experiments/hazard_detection/hazard_detection_params.h"
+#include "experiments/cell_factor_params.h"
 
 namespace rockyard::experiments {
 

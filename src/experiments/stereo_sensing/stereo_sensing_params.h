@@ -1,0 +1,34 @@
+// Parameters of the experiment on what stereo cameras measure and miss.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/fields.h"
+#include "experiments/cell_factor_params.h"
+
+namespace rockyard::experiments {
+
+struct StereoSensingParams {
+  std::int64_t looks_per_run = 1;
+  // Values of parameters of the drive; an empty list leaves the scenario's own.
+  std::vector<double> soil_graininess;
+  std::vector<double> sun_elevations_deg;
+  std::vector<double> baselines_m;
+  std::vector<double> distances_m{0.5, 1.0, 1.5, 2.0, 3.0};
+
+  double hazard_height_m = 0.20;
+  double hazard_goodness = 42.0;
+  std::int64_t min_rock_pixels = 4;
+
+  // In the order of their columns, the last one changing fastest.
+  std::vector<CellFactor> Factors() const;
+  double Cells() const { return CellsOf(Factors()); }
+  // Returns the edge that ends the bin of distances that begins at `nearest_m`, one of the list but
+  // the last.
+  double FarthestOf(double nearest_m) const;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+}  // namespace rockyard::experiments
