@@ -96,7 +96,7 @@ TEST(StereoQualityTest, FlatGroundAcrossTheView) {
   EXPECT_GT(q.density, 0.99);
   EXPECT_LT(q.bad, 1e-3);
   EXPECT_NEAR(q.bias_px, 0.0, 0.01);
-  EXPECT_LT(q.rms_px, 0.05);
+  EXPECT_LT(q.rms_px, 0.1);
 }
 
 TEST(StereoQualityTest, GroundThatSlantsAlongColumnsOrRows) {
@@ -138,7 +138,7 @@ TEST(StereoQualityTest, NoiseOfTheImagesIsNoiseOfDisparities) {
       (2.0 * std::log(scene.longest_wave_px / scene.shortest_wave_px));
   const double gradient2 = 0.5 * std::pow(2.0 * std::numbers::pi * scene.contrast, 2) * wave2;
   StereoPipelineParams params = Range(0, 24);
-  params.filters.interpolation = Interpolation::kEquiangular;
+  params.dog = {.kind = DogKind::kLaplacian, .gain = 1.0, .limit = 100};
   const auto variance = [&](double noise) {
     scene.noise = noise;
     return std::pow(Judge(scene, params).rms_px, 2);
