@@ -35,6 +35,20 @@ void SlideSums(const std::uint8_t* in, const std::uint8_t* out, std::size_t widt
   for (; x < width; ++x) sums[x] = static_cast<std::uint16_t>(sums[x] + in[x] - out[x]);
 }
 
+// Sums of three rows that count 1, 2 and 1. `sums` has room for whole vectors behind `width`.
+void WeighColumns(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
+                  std::size_t width, std::uint16_t* sums) {
+  const std::size_t lanes = hn::Lanes(kSums);
+  std::size_t x = 0;
+  for (; x + lanes <= width; x += lanes) {
+    const auto outer = hn::Add(hn::PromoteTo(kSums, hn::LoadU(kBytes, above + x)),
+                               hn::PromoteTo(kSums, hn::LoadU(kBytes, below + x)));
+    const auto inner = hn::PromoteTo(kSums, hn::LoadU(kBytes, here + x));
+    hn::StoreU(hn::Add(outer, hn::Add(inner, inner)), kSums, sums + x);
+  }
+  for (; x < width; ++x) sums[x] = static_cast<std::uint16_t>(above[x] + 2 * here[x] + below[x]);
+}
+
 // Sum of `side` neighbours from `sums` on.
 HWY_INLINE hn::Vec<decltype(kSums)> RowSum(const std::uint16_t* sums, int side) {
   auto sum = hn::LoadU(kSums, sums);
@@ -43,27 +57,27 @@ HWY_INLINE hn::Vec<decltype(kSums)> RowSum(const std::uint16_t* sums, int side) 
 }
 
 // (s a - w b + 2^19) >> 20 of half a vector.
-HWY_INLINE hn::Vec<decltype(kProducts)> Weigh(hn::Vec<decltype(kWideSums)> narrow,
-                                              hn::Vec<decltype(kWideSums)> wide,
+HWY_INLINE hn::Vec<decltype(kProducts)> Weigh(hn::Vec<decltype(kWideSums)> first,
+                                              hn::Vec<decltype(kWideSums)> second,
                                               const DogWeights& weights) {
-  const auto s = hn::BitCast(kProducts, narrow);
-  const auto w = hn::BitCast(kProducts, wide);
-  const auto difference = hn::Sub(hn::Mul(s, hn::Set(kProducts, weights.narrow)),
-                                  hn::Mul(w, hn::Set(kProducts, weights.wide)));
+  const auto s = hn::BitCast(kProducts, first);
+  const auto w = hn::BitCast(kProducts, second);
+  const auto difference = hn::Sub(hn::Mul(s, hn::Set(kProducts, weights.first)),
+                                  hn::Mul(w, hn::Set(kProducts, weights.second)));
   return hn::ShiftRight<kDogShift>(hn::Add(difference, hn::Set(kProducts, 1 << (kDogShift - 1))));
 }
 
-// A row of values from the column sums, which begin side / 2 pixels before the row. Both arrays and
-// `row` have room for whole vectors.
-void WeighRow(const std::uint16_t* narrow, int narrow_side, const std::uint16_t* wide,
-              int wide_side, const DogWeights& weights, int limit, std::size_t width,
+// A row of values from the column sums: of the pixel at x from `side` columns from x on of each
+// array. Both arrays and `row` have room for whole vectors.
+void WeighRow(const std::uint16_t* first, int first_side, const std::uint16_t* second,
+              int second_side, const DogWeights& weights, int limit, std::size_t width,
               std::uint8_t* row) {
   const hn::Half<decltype(kSums)> half_sums;
   const auto high = hn::Set(kValues, static_cast<std::int16_t>(limit));
   const auto low = hn::Neg(high);
   for (std::size_t x = 0; x < width; x += hn::Lanes(kSums)) {
-    const auto s = RowSum(narrow + x, narrow_side);
-    const auto w = RowSum(wide + x, wide_side);
+    const auto s = RowSum(first + x, first_side);
+    const auto w = RowSum(second + x, second_side);
     const auto lower = Weigh(hn::PromoteTo(kWideSums, hn::LowerHalf(half_sums, s)),
                              hn::PromoteTo(kWideSums, hn::LowerHalf(half_sums, w)), weights);
     const auto upper = Weigh(hn::PromoteTo(kWideSums, hn::UpperHalf(half_sums, s)),
@@ -82,6 +96,7 @@ HWY_AFTER_NAMESPACE();
 namespace rockyard::vision {
 
 HWY_EXPORT(SlideSums);
+HWY_EXPORT(WeighColumns);
 HWY_EXPORT(WeighRow);
 
 namespace {
@@ -125,13 +140,89 @@ class ColumnSums {
   AlignedBuffer<std::uint8_t> nothing_;
 };
 
+// Column sums of a row gradient along a row, with the columns of its edge repeated on either side.
+class BinomialSums {
+ public:
+  explicit BinomialSums(const GrayImage& image)
+      : image_(&image), sums_(static_cast<std::size_t>(image.width()) + 2 + kMostLanes) {}
+
+  void MoveTo(int y) {
+    const auto row = [&](int at) { return image_->Row(std::clamp(at, 0, image_->height() - 1)); };
+    const auto width = static_cast<std::size_t>(image_->width());
+    std::uint16_t* const inside = sums_.data() + 1;
+    HWY_DYNAMIC_DISPATCH(WeighColumns)
+    (row(y - 1).data(), row(y).data(), row(y + 1).data(), width, inside);
+    sums_.data()[0] = inside[0];
+    inside[width] = inside[width - 1];
+  }
+
+  // The sums of the columns before pixel 0 and on, and behind it and on.
+  const std::uint16_t* left() const { return sums_.data(); }
+  const std::uint16_t* right() const { return sums_.data() + 2; }
+
+ private:
+  const GrayImage* image_;
+  AlignedBuffer<std::uint16_t> sums_;
+};
+
+// Rows of either kind: as many columns of `first` and `second` as WeighRow asks for.
+class RowWriter {
+ public:
+  RowWriter(const DogParams& params, GrayImage& out)
+      : weights_(MakeDogWeights(params)),
+        limit_(static_cast<int>(params.limit)),
+        out_(&out),
+        row_(static_cast<std::size_t>(out.width()) + kMostLanes) {}
+
+  void Write(const std::uint16_t* first, int first_side, const std::uint16_t* second,
+             int second_side, int y) {
+    const auto width = static_cast<std::size_t>(out_->width());
+    HWY_DYNAMIC_DISPATCH(WeighRow)
+    (first, first_side, second, second_side, weights_, limit_, width, row_.data());
+    std::copy_n(row_.data(), width, out_->Row(y).data());
+  }
+
+ private:
+  DogWeights weights_;
+  int limit_;
+  GrayImage* out_;
+  AlignedBuffer<std::uint8_t> row_;
+};
+
+void LaplacianRows(const GrayImage& image, const DogParams& params, int first_row, int end_row,
+                   RowWriter& writer) {
+  const auto narrow_side = static_cast<int>(params.narrow_side_px);
+  const auto wide_side = static_cast<int>(params.wide_side_px);
+  ColumnSums narrow(image, narrow_side, first_row);
+  ColumnSums wide(image, wide_side, first_row);
+  for (int y = first_row; y < end_row; ++y) {
+    narrow.Slide(y);
+    wide.Slide(y);
+    writer.Write(narrow.data(), narrow_side, wide.data(), wide_side, y);
+  }
+}
+
+void RowGradientRows(const GrayImage& image, int first_row, int end_row, RowWriter& writer) {
+  BinomialSums sums(image);
+  for (int y = first_row; y < end_row; ++y) {
+    sums.MoveTo(y);
+    writer.Write(sums.right(), 1, sums.left(), 1, y);
+  }
+}
+
 }  // namespace
 
 DogWeights MakeDogWeights(const DogParams& params) {
+  const auto factor = [&](std::int64_t pixels) {
+    return std::llround(std::ldexp(params.gain, kDogShift) / static_cast<double>(pixels));
+  };
+  if (params.kind == DogKind::kRowGradient) {
+    const auto q = static_cast<std::int32_t>(factor(4));
+    return {q, q};
+  }
   const std::int64_t narrow = params.narrow_side_px * params.narrow_side_px;
   const std::int64_t wide = params.wide_side_px * params.wide_side_px;
-  const std::int64_t q =
-      std::llround(std::ldexp(params.gain, kDogShift) / static_cast<double>(narrow * wide));
+  const std::int64_t q = factor(narrow * wide);
   return {static_cast<std::int32_t>(q * wide), static_cast<std::int32_t>(q * narrow)};
 }
 
@@ -140,20 +231,11 @@ void DifferenceOfGaussiansRows(const GrayImage& image, const DogParams& params, 
   EXPECT(out.width() == image.width() && out.height() == image.height());
   EXPECT(0 <= first_row && end_row <= image.height());
   if (first_row >= end_row || image.width() == 0) return;
-  const auto width = static_cast<std::size_t>(image.width());
-  const auto narrow_side = static_cast<int>(params.narrow_side_px);
-  const auto wide_side = static_cast<int>(params.wide_side_px);
-  const DogWeights weights = MakeDogWeights(params);
-  ColumnSums narrow(image, narrow_side, first_row);
-  ColumnSums wide(image, wide_side, first_row);
-  AlignedBuffer<std::uint8_t> row(width + kMostLanes);
-  for (int y = first_row; y < end_row; ++y) {
-    narrow.Slide(y);
-    wide.Slide(y);
-    HWY_DYNAMIC_DISPATCH(WeighRow)
-    (narrow.data(), narrow_side, wide.data(), wide_side, weights, static_cast<int>(params.limit),
-     width, row.data());
-    std::copy_n(row.data(), width, out.Row(y).data());
+  RowWriter writer(params, out);
+  if (params.kind == DogKind::kRowGradient) {
+    RowGradientRows(image, first_row, end_row, writer);
+  } else {
+    LaplacianRows(image, params, first_row, end_row, writer);
   }
 }
 

@@ -1,13 +1,22 @@
 // Difference of Gaussians (Goldberg 2002 section 2 stage 3), so that neither the brightness of an
 // image nor its slow change matters to what is compared.
 //
-// Each Gaussian is the mean over a square around the pixel, by sliding sums as in section 3; pixels
-// outside of the image are those of its edge. With sums s over the narrow square of side n and w
-// over the wide one of side m
-//   value = clamp(round(gain (s / n^2 - w / m^2)), -limit, limit) + limit,
+// Each Gaussian is a mean over few pixels; pixels outside of the image are those of its edge.
+//   laplacian     means over a square of side n and over one of side m around the pixel, by sliding
+//                 sums as in section 3, s and w:    difference = s / n^2 - w / m^2
+//   row_gradient  means over the columns to the right and to the left, of three pixels that count
+//                 1, 2 and 1, s and w:              difference = (s - w) / 4
+//   value = clamp(round(gain difference), -limit, limit) + limit,
 // an image of 8 bits with the offset `limit`. In whole numbers, halves rounded upwards:
 //   round(...) = (s a - w b + 2^19) >> 20,  a = q m^2, b = q n^2, q = round(2^20 gain / (n m)^2),
-// which is 0 exactly where the image is flat, whatever q was rounded to.
+// or a = b = round(2^20 gain / 4); it is 0 exactly where the image is flat, whatever a and b were
+// rounded to.
+//
+// What lies along the row alone tells disparities; beside a depth edge a Laplacian carries the step
+// of brightness, which is the nearer surface's, as far as its wide square reaches. The row gradient
+// reaches one pixel. A gain above 1 with a low limit lets its sign speak, as Nishihara 1984
+// ("Practical real-time imaging stereo matcher") matches the sign of a Laplacian: strong edges then
+// count no more than fine texture.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +28,10 @@ namespace rockyard::vision {
 
 constexpr int kDogShift = 20;
 
-// The factors of the two sums.
+// The factors of the two sums, s and w.
 struct DogWeights {
-  std::int32_t narrow;  // a
-  std::int32_t wide;    // b
+  std::int32_t first;   // a
+  std::int32_t second;  // b
 };
 
 DogWeights MakeDogWeights(const DogParams& params);

@@ -12,6 +12,10 @@
 namespace rockyard::vision {
 namespace {
 
+// Rows are found by what changes across them, which a gradient along the row does not see.
+constexpr DogParams kFilter{
+    .kind = DogKind::kLaplacian, .narrow_side_px = 1, .wide_side_px = 11, .gain = 1.0, .limit = 36};
+
 constexpr int kNeighbourhood_px = 3;  // places this near to the best one are the same peak
 constexpr int kReturn_px = 1;
 
@@ -193,8 +197,8 @@ std::vector<RowMatch> FindRowMatches(const GrayImage& left, const GrayImage& rig
   EXPECT(options.window_side_px >= 3 && options.window_side_px % 2 == 1);
   EXPECT(options.max_ratio > 0.0 && options.max_ratio <= 1.0);
   if (left.empty()) return {};
-  const GrayImage left_filtered = DifferenceOfGaussians(left, DogParams{});
-  const GrayImage right_filtered = DifferenceOfGaussians(right, DogParams{});
+  const GrayImage left_filtered = DifferenceOfGaussians(left, kFilter);
+  const GrayImage right_filtered = DifferenceOfGaussians(right, kFilter);
   const int least = options.min_disparity_px.value_or(-left.width() / 8);
   const int most = options.max_disparity_px.value_or(left.width() / 4);
   const int rows = options.max_rows_px;

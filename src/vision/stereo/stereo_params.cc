@@ -12,29 +12,39 @@ constexpr std::string_view kSynthetic =
 }  // namespace
 
 void DogParams::Visit(core::FieldVisitor& v) {
-  v.Integer("narrow_side_px", narrow_side_px,
-            {.doc = "side of the square whose mean stands for the narrow Gaussian; odd",
-             .min = 1,
-             .max = 5,
-             .origin = Origin::kAssumed,
-             .source = kSynthetic,
-             .study_low = 1,
-             .study_high = 5});
-  v.Integer("wide_side_px", wide_side_px,
-            {.doc = "side of the square whose mean stands for the wide Gaussian; odd",
-             .min = 3,
-             .max = 15,
-             .origin = Origin::kAssumed,
-             .source = kSynthetic,
-             .study_low = 7,
-             .study_high = 15});
+  v.Choice(
+      "kind", kind,
+      {.doc = "how the two Gaussians lie: laplacian, a narrow one on a wide one; row_gradient, "
+              "two side by side along the row",
+       .origin = Origin::kAssumed,
+       .source = "Goldberg 2002 sec. 2 stage 3 has the Laplacian; row_gradient halves the "
+                 "wrong matches of rendered pairs (src/vision/README.md, \"Why these "
+                 "defaults\")"});
+  v.Integer(
+      "narrow_side_px", narrow_side_px,
+      {.doc = "side of the square whose mean stands for the narrow Gaussian of a Laplacian; odd",
+       .min = 1,
+       .max = 5,
+       .origin = Origin::kAssumed,
+       .source = kSynthetic,
+       .study_low = 1,
+       .study_high = 5});
+  v.Integer(
+      "wide_side_px", wide_side_px,
+      {.doc = "side of the square whose mean stands for the wide Gaussian of a Laplacian; odd",
+       .min = 3,
+       .max = 15,
+       .origin = Origin::kAssumed,
+       .source = kSynthetic,
+       .study_low = 7,
+       .study_high = 15});
   v.Real("gain", gain,
          {.doc = "steps of the filtered image a grey level of difference",
           .min = 0.125,
           .max = 4.0,
           .origin = Origin::kAssumed,
           .source = kSynthetic,
-          .study_low = 0.5,
+          .study_low = 1.0,
           .study_high = 4.0});
   v.Integer("limit", limit,
             {.doc = "largest step of the filtered image to either side of 0",
@@ -42,8 +52,8 @@ void DogParams::Visit(core::FieldVisitor& v) {
              .max = 127,
              .origin = Origin::kAssumed,
              .source = kSynthetic,
-             .study_low = 15,
-             .study_high = 120});
+             .study_low = 4,
+             .study_high = 40});
   v.Require("narrow_side_px", narrow_side_px % 2 == 1, "must be odd", "use 1, 3 or 5");
   v.Require("wide_side_px", wide_side_px % 2 == 1, "must be odd", "use 7, 9, 11, 13 or 15");
   v.Require("wide_side_px", wide_side_px > narrow_side_px, "must be above narrow_side_px",
@@ -71,10 +81,13 @@ void CorrelatorParams::Visit(core::FieldVisitor& v) {
 }
 
 void StereoFilterParams::Visit(core::FieldVisitor& v) {
-  v.Choice("interpolation", interpolation,
-           {.doc = "what the sub-pixel disparity is the lowest point of",
-            .origin = Origin::kPublished,
-            .source = "Goldberg 2002 sec. 3: \"integer-based quadratic peak finding\""});
+  v.Choice(
+      "interpolation", interpolation,
+      {.doc = "what the sub-pixel disparity is the lowest point of",
+       .origin = Origin::kAssumed,
+       .source = "Goldberg 2002 sec. 3 has \"integer-based quadratic peak finding\"; two lines "
+                 "draw less to whole pixels, as measured on synthetic pairs "
+                 "(src/vision/README.md)"});
   v.Real(
       "line_of_sight_px", line_of_sight_px,
       {.doc = "largest difference between the disparities of a pixel and of its match, searched "

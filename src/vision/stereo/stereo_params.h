@@ -19,12 +19,20 @@ enum class Interpolation {
   kEquiangular,  // two lines of opposite slope, the steeper of the two through the neighbours
 };
 
-// Difference of Gaussians, each approximated by the mean over a square.
+// How the two Gaussians lie of which an image becomes the difference (dog.h).
+enum class DogKind {
+  kLaplacian,    // a narrow one on a wide one: Goldberg 2002's
+  kRowGradient,  // two alike, side by side along the row
+};
+
+// Difference of Gaussians, each approximated by a mean over few pixels. The sides are those of the
+// Laplacian's squares; the row gradient has none.
 struct DogParams {
+  DogKind kind = DogKind::kRowGradient;
   std::int64_t narrow_side_px = 1;
   std::int64_t wide_side_px = 11;
-  double gain = 1.0;
-  std::int64_t limit = 36;
+  double gain = 4.0;
+  std::int64_t limit = 20;
 
   void Visit(core::FieldVisitor& v);
 };
@@ -40,7 +48,7 @@ struct CorrelatorParams {
 
 // The checks that follow.
 struct StereoFilterParams {
-  Interpolation interpolation = Interpolation::kQuadratic;
+  Interpolation interpolation = Interpolation::kEquiangular;
   double line_of_sight_px = 1.0;
   double min_curvature = 0.6;
   double min_curvature_ratio = 0.2;
@@ -64,6 +72,11 @@ struct StereoPipelineParams {
 bool ScoresFit(const DogParams& dog, const CorrelatorParams& correlator);
 
 }  // namespace rockyard::vision
+
+template <>
+struct rockyard::core::EnumNames<rockyard::vision::DogKind> {
+  static constexpr std::array<std::string_view, 2> kNames{"laplacian", "row_gradient"};
+};
 
 template <>
 struct rockyard::core::EnumNames<rockyard::vision::Interpolation> {

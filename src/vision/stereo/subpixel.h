@@ -6,9 +6,10 @@
 //   quadratic    delta = (s- - s+) / (2 c)                       the parabola through all three
 //   equiangular  delta = (s- - s+) / (2 (max(s-, s+) - s0))      lines of slopes +m and -m
 // where |delta| <= 1/2, as s- > s0 and s+ > s0 by the peak filter. Goldberg 2002 section 3
-// ("Compute Sub-Pixel") says quadratic. Sums of absolute differences are nearer to two lines than
-// to a parabola, so that a parabola draws disparities towards whole pixels; the lines draw less
-// (README).
+// ("Compute Sub-Pixel") says quadratic. Near its lowest point a sum of absolute differences of
+// images that fit but for their place is a pair of lines and no parabola: of a true offset t, s- -
+// s+ = 2 t sum|g| and c = 2 sum|g| (1 - |t|) with g the gradient along the row, so that the
+// parabola says t / (2 (1 - |t|)), half of a small t, and the lines say t. They are the default.
 #pragma once
 
 #include <cstdint>

@@ -177,7 +177,7 @@ TEST(FastStagesTest, DifferenceOfGaussiansOfEverySide) {
     for (const int wide : {3, 5, 7, 9, 11, 13, 15}) {
       if (wide <= narrow) continue;
       for (const double gain : {0.125, 1.0, 2.3, 4.0}) {
-        const DogParams params{narrow, wide, gain, gain > 2.0 ? 127 : 25};
+        const DogParams params{DogKind::kLaplacian, narrow, wide, gain, gain > 2.0 ? 127 : 25};
         ExpectSameFilter(RandomImage(75, 19, 256, 800), params);
         ExpectSameFilter(RandomImage(75, 19, 2, 801), params);
       }
@@ -185,10 +185,25 @@ TEST(FastStagesTest, DifferenceOfGaussiansOfEverySide) {
   }
 }
 
+TEST(FastStagesTest, RowGradientOfEveryGain) {
+  for (const double gain : {0.125, 0.3, 1.0, 2.3, 4.0}) {
+    for (const int limit : {1, 15, 127}) {
+      const DogParams params{DogKind::kRowGradient, 1, 11, gain, limit};
+      ExpectSameFilter(RandomImage(75, 19, 256, 802), params);
+      ExpectSameFilter(RandomImage(75, 19, 9, 803), params);
+    }
+  }
+}
+
 TEST(FastStagesTest, DifferenceOfGaussiansOfEverySize) {
-  for (int width = 1; width <= 68; ++width) ExpectSameFilter(RandomImage(width, 5, 256, 820), {});
-  for (int height = 1; height <= 20; ++height) {
-    ExpectSameFilter(RandomImage(33, height, 256, 821), {});
+  for (const DogKind kind : {DogKind::kLaplacian, DogKind::kRowGradient}) {
+    const DogParams params{.kind = kind, .gain = 1.0, .limit = 100};
+    for (int width = 1; width <= 68; ++width) {
+      ExpectSameFilter(RandomImage(width, 5, 256, 820), params);
+    }
+    for (int height = 1; height <= 20; ++height) {
+      ExpectSameFilter(RandomImage(33, height, 256, 821), params);
+    }
   }
 }
 
@@ -197,8 +212,9 @@ TEST(FastStagesTest, DifferenceOfGaussiansOfExtremes) {
   for (int y = 0; y < 30; ++y) {
     for (int x = 0; x < 70; ++x) steps.At(x, y) = (x / 9 + y / 7) % 2 == 0 ? 255 : 0;
   }
-  ExpectSameFilter(steps, {1, 15, 4.0, 127});
-  ExpectSameFilter(GrayImage(70, 30, 255), {3, 15, 4.0, 127});
+  ExpectSameFilter(steps, {DogKind::kLaplacian, 1, 15, 4.0, 127});
+  ExpectSameFilter(steps, {DogKind::kRowGradient, 1, 11, 4.0, 127});
+  ExpectSameFilter(GrayImage(70, 30, 255), {DogKind::kLaplacian, 3, 15, 4.0, 127});
 }
 
 DisparityImage RandomDisparities(int width, int height, int spread, double valid,

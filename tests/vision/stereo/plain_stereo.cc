@@ -87,15 +87,26 @@ std::int16_t Decide(const Scores& scores, int x, const StereoPipelineParams& par
 }  // namespace
 
 GrayImage PlainDifferenceOfGaussians(const GrayImage& image, const DogParams& params) {
+  const auto grey = [&](int x, int y) {
+    return std::int64_t{
+        image.At(std::clamp(x, 0, image.width() - 1), std::clamp(y, 0, image.height() - 1))};
+  };
+  const auto column = [&](int x, int y) {
+    return grey(x, y - 1) + 2 * grey(x, y) + grey(x, y + 1);
+  };
+  const bool gradient = params.kind == DogKind::kRowGradient;
   const std::int64_t narrow = params.narrow_side_px * params.narrow_side_px;
   const std::int64_t wide = params.wide_side_px * params.wide_side_px;
-  const std::int64_t q = std::llround(1048576.0 * params.gain / static_cast<double>(narrow * wide));
+  const std::int64_t parts = gradient ? 4 : narrow * wide;
+  const std::int64_t q = std::llround(1048576.0 * params.gain / static_cast<double>(parts));
   GrayImage out(image.width(), image.height());
   for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x) {
-      const std::int64_t s = SquareSum(image, x, y, static_cast<int>(params.narrow_side_px));
-      const std::int64_t w = SquareSum(image, x, y, static_cast<int>(params.wide_side_px));
-      const std::int64_t value = FloorDivide(q * (s * wide - w * narrow) + 524288, 1048576);
+      const std::int64_t difference =
+          gradient ? column(x + 1, y) - column(x - 1, y)
+                   : SquareSum(image, x, y, static_cast<int>(params.narrow_side_px)) * wide -
+                         SquareSum(image, x, y, static_cast<int>(params.wide_side_px)) * narrow;
+      const std::int64_t value = FloorDivide(q * difference + 524288, 1048576);
       out.At(x, y) =
           static_cast<std::uint8_t>(std::clamp(value, -params.limit, params.limit) + params.limit);
     }

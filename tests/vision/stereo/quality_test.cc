@@ -96,7 +96,7 @@ TEST(StereoQualityTest, FlatGroundAcrossTheView) {
   EXPECT_GT(q.density, 0.99);
   EXPECT_LT(q.bad, 1e-3);
   EXPECT_NEAR(q.bias_px, 0.0, 0.01);
-  EXPECT_LT(q.rms_px, 0.05);
+  EXPECT_LT(q.rms_px, 0.1);
 }
 
 TEST(StereoQualityTest, GroundThatSlantsAlongColumnsOrRows) {
@@ -138,7 +138,7 @@ TEST(StereoQualityTest, NoiseOfTheImagesIsNoiseOfDisparities) {
       (2.0 * std::log(scene.longest_wave_px / scene.shortest_wave_px));
   const double gradient2 = 0.5 * std::pow(2.0 * std::numbers::pi * scene.contrast, 2) * wave2;
   StereoPipelineParams params = Range(0, 24);
-  params.filters.interpolation = Interpolation::kEquiangular;
+  params.dog = {.kind = DogKind::kLaplacian, .gain = 1.0, .limit = 100};
   const auto variance = [&](double noise) {
     scene.noise = noise;
     return std::pow(Judge(scene, params).rms_px, 2);
@@ -173,8 +173,8 @@ TEST(StereoQualityTest, AStepLosesWhatIsHidden) {
   EXPECT_GT(unchecked, 2 * checked);
 }
 
-// Bias against the fraction of the true disparity: a parabola through sums of absolute differences
-// draws disparities to whole pixels, by up to 0.1 px at quarters; two lines draw less.
+// Bias against the fraction t of the true disparity: a parabola through sums of absolute
+// differences says t / (2 (1 - t)) up to a half (subpixel.h); two lines say t.
 TEST(StereoQualityTest, PixelLocking) {
   StereoPipelineParams params = Range(0, 24);
   std::vector<double> parabola;
@@ -190,15 +190,14 @@ TEST(StereoQualityTest, PixelLocking) {
     params.filters.interpolation = Interpolation::kEquiangular;
     lines.push_back(Judge(pair, MatchStereo(pair.left, pair.right, params)).bias_px);
   }
-  for (const int eighth : {1, 2, 3}) {
-    EXPECT_LT(parabola[eighth], -0.02) << eighth;  // towards the pixel below
-    EXPECT_GT(parabola[eighth], -0.15) << eighth;
-    EXPECT_NEAR(parabola[8 - eighth], -parabola[eighth], 0.03) << eighth;
-    EXPECT_LT(std::abs(lines[eighth]), 0.6 * std::abs(parabola[eighth])) << eighth;
-    EXPECT_LT(std::abs(lines[8 - eighth]), 0.6 * std::abs(parabola[8 - eighth])) << eighth;
+  for (const int eighth : {0, 1, 2, 3, 4}) {
+    const double t = eighth / 8.0;
+    const double locked = t / (2.0 * (1.0 - t)) - t;
+    EXPECT_NEAR(parabola[eighth], locked, 0.025) << eighth;
+    EXPECT_NEAR(parabola[(8 - eighth) % 8], -locked, 0.025) << eighth;
+    EXPECT_NEAR(lines[eighth], 0.0, 0.025) << eighth;
+    EXPECT_NEAR(lines[(8 - eighth) % 8], 0.0, 0.025) << eighth;
   }
-  EXPECT_NEAR(parabola[0], 0.0, 0.01);
-  EXPECT_NEAR(parabola[4], 0.0, 0.03);
 }
 
 TEST(StereoQualityTest, AWindowOfMorePixelsIsLessNoisy) {

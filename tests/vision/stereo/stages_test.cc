@@ -134,14 +134,38 @@ TEST(RectificationTest, WhatTheSourceDoesNotReachIsOutside) {
 TEST(DifferenceOfGaussiansTest, ASpotIsABrightSquareInADarkOne) {
   GrayImage image(31, 31, 60);
   image.At(15, 15) = 195;
-  const GrayImage out = DifferenceOfGaussians(image, {3, 9, 2.0, 100});
+  const GrayImage out = DifferenceOfGaussians(image, {DogKind::kLaplacian, 3, 9, 2.0, 100});
   // 2 (135 / 9 - 135 / 81) = 26.67 in the narrow square, 2 (0 - 135 / 81) = -3.33 around it.
   EXPECT_EQ(out.At(15, 15), 127);
   EXPECT_EQ(out.At(14, 16), 127);
   EXPECT_EQ(out.At(17, 15), 97);
   EXPECT_EQ(out.At(19, 11), 97);
   EXPECT_EQ(out.At(20, 15), 100);
-  EXPECT_EQ(DifferenceOfGaussians(image, {3, 9, 2.0, 20}).At(15, 15), 40);
+  EXPECT_EQ(DifferenceOfGaussians(image, {DogKind::kLaplacian, 3, 9, 2.0, 20}).At(15, 15), 40);
+}
+
+// A spot of 120 shows a quarter of it above, half of it beside, on either side with its sign; what
+// only changes from row to row shows nothing.
+TEST(DifferenceOfGaussiansTest, ARowGradientSeesWhatChangesAlongTheRow) {
+  GrayImage image(9, 7);
+  for (int y = 0; y < 7; ++y) {
+    for (int x = 0; x < 9; ++x) image.At(x, y) = static_cast<std::uint8_t>(10 * y + 20);
+  }
+  const DogParams params{.kind = DogKind::kRowGradient, .gain = 0.5, .limit = 40};
+  EXPECT_EQ(DifferenceOfGaussians(image, params), GrayImage(9, 7, 40));
+  image.At(4, 3) = 170;
+  const GrayImage out = DifferenceOfGaussians(image, params);
+  EXPECT_EQ(out.At(3, 3), 40 + 30);  // 0.5 (2 * 120 / 4): what is to the right counts upwards
+  EXPECT_EQ(out.At(5, 3), 40 - 30);
+  EXPECT_EQ(out.At(3, 2), 40 + 15);
+  EXPECT_EQ(out.At(5, 4), 40 - 15);
+  EXPECT_EQ(out.At(4, 3), 40);
+  EXPECT_EQ(out.At(3, 5), 40);
+  EXPECT_EQ(out.At(2, 3), 40);
+  image.At(4, 3) = 255;
+  EXPECT_EQ(DifferenceOfGaussians(image, {.kind = DogKind::kRowGradient, .gain = 4.0, .limit = 9})
+                .At(3, 3),
+            18);
 }
 
 TEST(DepthRangeTest, DisparitiesAreThoseOfTheDepths) {
@@ -227,7 +251,9 @@ TEST(StereoPipelineParamsTest, WhatCannotWorkIsRefused) {
   ExpectRefused(R"({"dog": {"wide_side_px": 12}})", "wide_side_px");
   ExpectRefused(R"({"dog": {"narrow_side_px": 5, "wide_side_px": 5}})", "wide_side_px");
   ExpectRefused(R"({"dog": {"gain": 4.1}})", "gain");
-  ExpectRefused(R"({"correlator": {"window_side_px": 16}})", "window_side_px");
+  ExpectRefused(R"({"dog": {"kind": "sobel"}})", "kind");
+  ExpectRefused(R"({"correlator": {"window_side_px": 16}, "dog": {"limit": 36}})",
+                "window_side_px");
   ExpectRefused(R"({"correlator": {"window_side_px": 9}, "dog": {"limit": 127}})",
                 "window_side_px");
   ExpectRefused(R"({"correlator": {"disparities": 0}})", "disparities");
