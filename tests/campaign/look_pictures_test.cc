@@ -204,6 +204,18 @@ TEST(LookPicturesTest, ACellThatWasNotEvaluatedIsGrey) {
   EXPECT_GT(PatchOf(picture, {60, 60, 60}).pixels, 100);
 }
 
+// Between two cells with points one without has four corners, and is not drawn all the same.
+TEST(LookPicturesTest, ACellWithoutPointsIsNotDrawn) {
+  messages::NavigationView view = OneCell(true);
+  view.map.ny = 3;
+  view.map.cells = {view.map.cells[0], view.map.cells[0], view.map.cells[0]};
+  view.map.cells[1].goodness = 10;
+  const CapturedLook look = LookOf(0, LookDirection::kAhead);
+  EXPECT_GT(PatchOf(GridPicture(look, view), report::ByteColour(10)).pixels, 100);
+  view.map.cells[1].has_data = false;
+  EXPECT_EQ(PatchOf(GridPicture(look, view), report::ByteColour(10)).pixels, 0);
+}
+
 // Behind a cell that rises to a ridge lies one that falls steeply: its sides cross the near edge of
 // the first one in the image.
 TEST(LookPicturesTest, WhatIsNearerIsDrawnOverWhatIsFarther) {
@@ -211,7 +223,7 @@ TEST(LookPicturesTest, WhatIsNearerIsDrawnOverWhatIsFarther) {
   view.map.ny = 3;
   view.map.cells = {view.map.cells[0], view.map.cells[0], view.map.cells[0]};
   view.map.cells[1].elevation_m = 1.0;
-  view.map.cells[2].elevation_m = -1.0;
+  view.map.cells[2].elevation_m = -0.6;
   view.map.cells[2].goodness = 10;
   const Picture picture = GridPicture(LookOf(0, LookDirection::kAhead), view);
   EXPECT_GT(PatchOf(picture, report::ByteColour(10)).pixels, 50);

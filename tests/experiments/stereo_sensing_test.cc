@@ -274,7 +274,9 @@ TEST(RandomPlaceTest, IsFreeOfHighRocksAndAnywhereInTheArena) {
 
 TEST(RandomPlaceTest, SaysWhereThereIsNone) {
   const scenario::Scenario scenario = StereoScenario(
-      "range", {"terrain.rocks.k_per_m2=0.02", "stereo_sensing.hazard_height_m=0.01"});
+      "range", {"sensors.stereo.fidelity=error_model", "terrain.rocks.k_per_m2=0.1",
+                "terrain.rocks.k_reference_per_m2=0.1", "terrain.rocks.clear_radius_m=0",
+                "stereo_sensing.hazard_height_m=0.01"});
   const truth::Record record = MakeExperiment(scenario)->Run(1, 0);
   EXPECT_EQ(record.outcome, truth::TrialOutcome::kSimulatorFault);
   EXPECT_THAT(record.detail, HasSubstr("free of rocks"));

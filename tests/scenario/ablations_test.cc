@@ -62,6 +62,16 @@ TEST(AblationsTest, TheFourFunctionsAreIndependent) {
   EXPECT_EQ(AblationsInForce(one.scenario), forward);
 }
 
+// An experiment that measures errors refuses to have them taken away: that is said to who asks for
+// it.
+TEST(AblationsTest, WhatTheExperimentRefusesIsNotInForce) {
+  const Scenario measured =
+      LoadScenario(std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/stereo_sensing/range.json");
+  EXPECT_EQ(AblationsInForce(measured), Names{});
+  EXPECT_NE(ReasonOf(measured, {"perfect_sensing"}).find("no errors to measure"),
+            std::string::npos);
+}
+
 TEST(AblationsTest, OneWithoutEffectIsNamed) {
   EXPECT_EQ(WithAblations(Nominal(), Names{"perfect_designation", "no_slip"}).idle,
             Names{"perfect_designation"});

@@ -32,7 +32,9 @@ before(async () => {
   report("sweep.html", "sweep");
   rockyard(["replay", at("nominal"), "--trial", "0", "--out", at("replay.html")]);
   rockyard(["replay", at("nominal"), "--trial", "0", "--with-trial", "1", "--out", at("pair.html")]);
-  rockyard(["replay", "scenarios/gestalt/narrow_course.json", "--trial", "0", "--out", at("steps.html")]);
+  // With images, so that every panel is there.
+  rockyard(["replay", "scenarios/gestalt/narrow_course.json", "--trial", "0", "--out", at("steps.html"),
+    ...["sensors.stereo.fidelity=image", "sensors.stereo.images.pyramid_level=0"].flatMap((setting) => ["--set", setting])]);
   browser = await launch();
 });
 
