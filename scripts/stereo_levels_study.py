@@ -19,10 +19,13 @@ import sys
 import study
 
 SCENARIOS = study.ROOT / "scenarios/gestalt"
-FITTED = study.ROOT / "scenarios/sensors/fitted_stereo.json"
+FITTED = study.ROOT / "scenarios/sensors/fitted_stereo_middle_noon.json"
 CELLS = {"nominal terrain, 7.6 m": "abundance", "narrow course, 5 m": "narrow_course"}
 IMAGES = "images"
 FIDELITY = "sensors.stereo.fidelity"
+# The Laplacian and the parabola, with the filter that was chosen for them.
+AS_PRINTED = ["perception.stereo.dog.kind=laplacian", "perception.stereo.dog.gain=1",
+              "perception.stereo.dog.limit=36", "perception.stereo.filters.interpolation=quadratic"]
 
 # Column, what it is called, digits.
 COURSE = (("true_distance_m", "way (m)", 2), ("sim_time_s", "time (s)", 0), ("moves", "moves", 1),
@@ -44,6 +47,7 @@ def levels(fitted):
     """Settings of each level by its name, images first."""
     text = json.loads(fitted.read_text(encoding="utf-8"))
     return {IMAGES: [f"{FIDELITY}=image"],
+            "images, matched as Goldberg 2002 prints it": [f"{FIDELITY}=image", *AS_PRINTED],
             "error model, assumed": [f"{FIDELITY}=error_model"],
             "error model, fitted": [f"{FIDELITY}=error_model",
                                     *settings_of(text["sensors"]["stereo"], "sensors.stereo")],
