@@ -28,7 +28,8 @@ std::vector<CapturedLook> LookMemory::LooksOf(const messages::PointCloud& cloud)
       found.push_back(std::move(look));
     } else if (cloud.direction == LookDirection::kBehind &&
                look.cloud.direction == LookDirection::kAhead) {
-      found.assign(1, std::move(look));
+      found.clear();
+      found.push_back(std::move(look));
     }
   }
   looks_ = std::move(later);
