@@ -39,7 +39,7 @@ void AddSide(const std::string& side, const std::string& ending, truth::RecordSc
 
 void AddNeighbours(truth::RecordSchema& columns) {
   for (std::size_t i = 1; i <= kEdgeDistances; ++i) {
-    const std::string ending = "_" + std::to_string(i);
+    const std::string ending = std::string("_").append(std::to_string(i));
     for (const char* side : {"front", "behind"}) {
       AddSide(side, ending, columns);
     }
