@@ -21,10 +21,9 @@ inline scenario::Scenario StereoScenario(const std::string& name,
 
 // The error model without any error, all distances in one cell.
 inline const std::vector<std::string> kWithoutErrors{
-    "sensors.stereo.fidelity=error_model", "sensors.stereo.disparity_noise_px=0",
+    "sensors.stereo.fidelity=error_model",  "sensors.stereo.disparity_noise_px=0",
     "sensors.stereo.dropout_probability=0", "sensors.stereo.edge_dropout_probability=0",
-    "stereo_sensing.looks_per_run=1",
-    "stereo_sensing.distances_m=[0.5, 4]"};
+    "stereo_sensing.looks_per_run=1",       "stereo_sensing.distances_m=[0.5, 4]"};
 
 // Columns of the first runs, added up.
 class StereoCounts {
