@@ -6,7 +6,8 @@ from random places, of each the pixels and rocks of a bin of distances. What is 
 parameters of sensors.stereo's error model:
   disparity_noise_px           root mean square error of matches off by less than 1 px, plain pixels
   noise_window_px              1 - k/w nearest to the correlation of errors k columns apart, k = 1 to 7
-  mismatch_probability         plain matches off by 1 px or more, over the share of a uniform draw that is
+  mismatch_probability         0: wrong matches of plain pixels lie in blobs near the truth; single ones anywhere in
+                               the searched range, as many, make hazards of most clear cells
   dropout_probability          plain pixels (lit, away from jumps in depth) without a match
   edge_reach_px, edge_mismatch_probability   two levels of wrong matches by columns from a jump in depth
   edge_dropout_probability     pixels within that reach, on both sides, without a match
@@ -110,7 +111,7 @@ def reach_of(pixels, hit, beyond):
     return best[0], best[1]
 
 
-def fit(cell, searched_px, window_side_px):
+def fit(cell, window_side_px):
     """The parameters of the error model, by name in sensors.stereo."""
     plain = 1 - (cell["plain_good"] + cell["plain_wrong"]) / cell["plain_pixels"]
     shadow = plain
@@ -121,13 +122,11 @@ def fit(cell, searched_px, window_side_px):
     plain_wrong = cell["plain_wrong"] / (cell["plain_good"] + cell["plain_wrong"])
     reach, mixed = reach_of(columns("matched"), columns("wrong"), plain_wrong)
     edge = 1 - sum(columns("matched")[:reach]) / sum(columns("pixels")[:reach]) if reach else plain
-    # A uniform draw over the searched range is within 1 px of the truth on 2 px of it.
-    wrong = plain_wrong / (1 - 2 / searched_px)
     chance = lambda value: round(min(max(value, 0.0), 0.999), 4)
     return {
         "disparity_noise_px": round(cell.rms("plain_error_px", "plain_good"), 4),
         "noise_window_px": window_of(correlations(cell)),
-        "mismatch_probability": chance(wrong),
+        "mismatch_probability": 0.0,
         "dropout_probability": chance(plain),
         "edge_dropout_probability": chance(edge),
         "edge_mismatch_probability": chance(mixed),
@@ -252,8 +251,6 @@ def arguments():
 def main():
     args = arguments()
     stereo = "sensors.stereo."
-    searched = (study.value_at(args.rockyard, SCENARIO, stereo + "max_disparity_px") -
-                study.value_at(args.rockyard, SCENARIO, stereo + "min_disparity_px"))
     side = int(study.value_at(args.rockyard, SCENARIO, "perception.stereo.window_side_px"))
     levels, ranges, parameters = [], [], []
     for texture in args.textures.split(","):
@@ -261,7 +258,7 @@ def main():
             name, (words, settings) = f"{texture}, {light}".replace("_", " "), LIGHTS[light]
             held = {"sensors.look.soil_graininess": TEXTURES[texture]} | settings
             images = run(args, f"image-{texture}-{light}", args.seed, held)
-            fitted = fit(Cell(images), searched, side)
+            fitted = fit(Cell(images), side)
             document = fragment(TEXTURES[texture], settings,
                                 describe(texture, words, Cell(images), args), fitted)
             path = args.fragments / f"fitted_stereo_{texture}_{light}.json"

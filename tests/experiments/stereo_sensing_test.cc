@@ -227,6 +227,65 @@ TEST(StereoSensingTest, ARunIsAFunctionOfSeedAndIndexAlone) {
   EXPECT_EQ(experiment->Run(1, 5000000000u).outcome, truth::TrialOutcome::kSimulatorFault);
 }
 
+// Looks of a run are those of as many runs of one look each: terrains and places of their own.
+TEST(StereoSensingTest, EveryLookHasASceneOfItsOwn) {
+  const StereoCounts two(
+      StereoScenario("range", With(kWithoutErrors, {"stereo_sensing.looks_per_run=2"})), 1);
+  const scenario::Scenario single = StereoScenario("range", kWithoutErrors);
+  const StereoCounts first(single, 1);
+  const StereoCounts both(single, 2);
+  EXPECT_EQ(two["pixels"], both["pixels"]);
+  EXPECT_NE(two["pixels"], 2.0 * first["pixels"]);
+}
+
+// On bare ground every look has the same truth; its noise is another one.
+TEST(StereoSensingTest, EveryLookHasNoiseOfItsOwn) {
+  const auto looks = [](const std::string& number) {
+    return StereoCounts(
+        StereoScenario("range", With(kWithoutErrors, {"sensors.stereo.disparity_noise_px=0.1",
+                                                      "terrain.rocks.kind=none",
+                                                      "stereo_sensing.looks_per_run=" + number})),
+        1);
+  };
+  const StereoCounts one = looks("1");
+  const StereoCounts two = looks("2");
+  EXPECT_EQ(two["pixels"], 2.0 * one["pixels"]);
+  EXPECT_GT(std::abs(two["error_px"] / (2.0 * one["error_px"]) - 1.0), 1e-6);
+}
+
+TEST(StereoSensingTest, FactorsReachTheCameras) {
+  const auto counts = [](const std::vector<std::string>& overrides) {
+    return StereoCounts(StereoScenario("range", With(kWithoutErrors, overrides)), 4);
+  };
+  // A pixel stands for r^2 / (f B): of half the baseline twice as much, four times its square. The
+  // bins are those that both search.
+  const auto step2 = [&](const std::string& baseline_m) {
+    const StereoCounts of = counts(
+        {"stereo_sensing.baselines_m=[" + baseline_m + "]", "stereo_sensing.distances_m=[1, 1.5]"});
+    return of["axis_step_m"] / of["good"];
+  };
+  EXPECT_NEAR(step2("0.06") / step2("0.12"), 4.0, 0.4);
+  // Shadows of a low sun are longer.
+  const auto shaded = [&](const std::string& elevation_deg) {
+    const StereoCounts of = counts({"stereo_sensing.sun_elevations_deg=[" + elevation_deg + "]"});
+    return of["shadow_pixels"] / of["pixels"];
+  };
+  EXPECT_GT(shaded("10"), 2.0 * shaded("80"));
+}
+
+TEST(StereoSensingTest, TextureReachesTheImages) {
+  const auto error_px = [](const std::string& graininess) {
+    return StereoCounts(
+        StereoScenario(
+            "range", {"sensors.stereo.columns=64", "sensors.stereo.rows=64",
+                      "sensors.stereo.images.pyramid_level=0", "sensors.stereo.max_disparity_px=8",
+                      "stereo_sensing.distances_m=[0.5, 4]", "stereo_sensing.looks_per_run=1",
+                      "stereo_sensing.soil_graininess=[" + graininess + "]"}),
+        1)["error_px"];
+  };
+  EXPECT_NE(error_px("0"), error_px("1"));
+}
+
 // Both levels stand at the same places and see the same truth.
 TEST(StereoSensingTest, LevelsShareTheirScenes) {
   const std::vector<std::string> small{"sensors.stereo.columns=64", "sensors.stereo.rows=64",
@@ -251,14 +310,18 @@ TEST(RandomPlaceTest, IsFreeOfHighRocksAndAnywhereInTheArena) {
   const scenario::Scenario scenario = StereoScenario("range");
   double least_x_m = 1e9, most_x_m = -1e9;
   std::set<int> quarters;
+  int low_rocks_below = 0;
   for (std::uint32_t trial = 0; trial < 60; ++trial) {
     const core::TrialKey key{3, trial};
     const terrain::Terrain terrain = SceneTerrainOf(scenario.drive, key);
     const math::Transform X_WR = RandomPlace(scenario.drive, terrain, 0.1, key);
     const math::Vector3 p_W = X_WR.translation();
     for (const terrain::Rock& rock : terrain.rocks()) {
-      if (rock.height_m < 0.1) continue;
       const double gap_m = (rock.center_W - p_W).head<2>().norm() - rock.semi_axes_m.x();
+      if (rock.height_m < 0.1) {
+        if (gap_m < 0.0) ++low_rocks_below;
+        continue;
+      }
       EXPECT_GE(gap_m, 0.5 * scenario.drive.rover.geometry.length_m - 1e-12);
     }
     EXPECT_TRUE(scenario.drive.terrain.arena.HoldsCoursePoint(p_W.x(), p_W.y()));
@@ -270,6 +333,7 @@ TEST(RandomPlaceTest, IsFreeOfHighRocksAndAnywhereInTheArena) {
   EXPECT_LT(least_x_m, 0.0);
   EXPECT_GT(most_x_m, 8.0);
   EXPECT_EQ(quarters.size(), 4U);
+  EXPECT_GT(low_rocks_below, 0);
 }
 
 TEST(RandomPlaceTest, SaysWhereThereIsNone) {

@@ -18,7 +18,7 @@ import fit_stereo_errors as fit  # pylint: disable=wrong-import-position
 import stereo_study  # pylint: disable=wrong-import-position
 
 ROCKYARD = None
-SEARCHED_PX, SIDE_PX = 15.5, 7
+SIDE_PX = 7
 
 
 def perfect_cell():
@@ -57,12 +57,12 @@ class Fits(unittest.TestCase):
                                  "plain_wrong": 50.0, "plain_error_px": 7.0, "shadow_good": 600.0,
                                  "behind_wrong_1": 6.0, "front_wrong_1": 5.0, "front_wrong_2": 10.0,
                                  "front_matched_1": 6.0}
-        fitted = fit.fit(fit.Cell([cell]), SEARCHED_PX, SIDE_PX)
+        fitted = fit.fit(fit.Cell([cell]), SIDE_PX)
         self.assertEqual(fitted["disparity_noise_px"], 0.1)
         self.assertEqual(fitted["dropout_probability"], 0.25)
         # 0.6 = 0.75 (1 - q).
         self.assertEqual(fitted["shadow_dropout_probability"], 0.2)
-        self.assertEqual(fitted["mismatch_probability"], round(50 / 750 / (1 - 2 / 15.5), 4))
+        self.assertEqual(fitted["mismatch_probability"], 0.0)
         self.assertEqual(fitted["noise_window_px"], 1)
         self.assertEqual(fitted["edge_reach_px"], 2)
         self.assertEqual(fitted["edge_mismatch_probability"], round(21 / 36, 4))
@@ -71,7 +71,7 @@ class Fits(unittest.TestCase):
 
     def test_no_chance_is_negative(self):
         cell = perfect_cell() | {"plain_good": 900.0}
-        fitted = fit.fit(fit.Cell([cell]), SEARCHED_PX, SIDE_PX)
+        fitted = fit.fit(fit.Cell([cell]), SIDE_PX)
         self.assertEqual(fitted["shadow_dropout_probability"], 0.0)
 
     def test_fragment_is_a_scenario_of_texture_light_and_errors(self):
@@ -102,8 +102,8 @@ class Cells(unittest.TestCase):
 class Recovery(unittest.TestCase):
     """The error model itself is fitted: its parameters come back."""
 
-    # What the error model is run with; a quarter of its wrong matches falls on other kinds of pixels.
-    TRUE = {"disparity_noise_px": 0.12, "noise_window_px": 4, "mismatch_probability": 0.02,
+    # What the error model is run with.
+    TRUE = {"disparity_noise_px": 0.12, "noise_window_px": 4,
             "dropout_probability": 0.15, "edge_dropout_probability": 0.3,
             "edge_mismatch_probability": 0.5, "edge_reach_px": 2,
             "shadow_dropout_probability": 0.3}
@@ -116,14 +116,14 @@ class Recovery(unittest.TestCase):
                                       programs=set())
             cell = fit.Cell(fit.run(args, "model", 1, settings))
         self.assertEqual(cell["looks"], 36)
-        fitted = fit.fit(cell, SEARCHED_PX, SIDE_PX)
+        fitted = fit.fit(cell, SIDE_PX)
         self.assertEqual(fitted["noise_window_px"], 4)
         self.assertEqual(fitted["edge_reach_px"], 2)
         # 36 looks with some 10^5 plain pixels, 16 of which count as one for the noise.
         plain = cell["plain_pixels"]
         self.assertGreater(plain, 3e4)
         self.assertLess(abs(fitted["disparity_noise_px"] / 0.12 - 1), 3.9 * math.sqrt(2 * 16 / plain))
-        for name, base in (("dropout_probability", "plain_pixels"), ("mismatch_probability", "plain_good"),
+        for name, base in (("dropout_probability", "plain_pixels"),
                            ("shadow_dropout_probability", "shadow_pixels")):
             share = self.TRUE[name]
             # Alpha = 1e-4, and half as much again for what one is divided by the other.

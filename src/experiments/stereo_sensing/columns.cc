@@ -28,16 +28,20 @@ void AddPixelKinds(truth::RecordSchema& columns) {
   }
 }
 
+// Of one side of a jump in depth, `ending` columns from it.
+void AddSide(const std::string& side, const std::string& ending, truth::RecordSchema& columns) {
+  const std::string base = side + "_pixels" + ending;
+  columns.push_back(
+      {base, "1", "pixels as many columns from the nearest jump in depth, on that side", kBase});
+  columns.push_back({side + "_matched" + ending, "1", "of these, matched", kCount, base});
+  columns.push_back({side + "_wrong" + ending, "1", "of these, off by 1 px", kCount, base});
+}
+
 void AddNeighbours(truth::RecordSchema& columns) {
   for (std::size_t i = 1; i <= kEdgeDistances; ++i) {
-    const std::string distance = std::to_string(i);
-    for (const std::string side : {"front", "behind"}) {
-      const std::string base = side + "_pixels_" + distance;
-      columns.push_back({base, "1",
-                         "pixels as many columns from the nearest jump in depth, on that side",
-                         kBase});
-      columns.push_back({side + "_matched_" + distance, "1", "of these, matched", kCount, base});
-      columns.push_back({side + "_wrong_" + distance, "1", "of these, off by 1 px", kCount, base});
+    const std::string ending = std::string("_").append(std::to_string(i));
+    for (const char* side : {"front", "behind"}) {
+      AddSide(side, ending, columns);
     }
   }
   for (std::size_t i = 1; i <= kLags; ++i) {
