@@ -23,9 +23,6 @@ FITTED = study.ROOT / "scenarios/sensors/fitted_stereo_middle_noon.json"
 CELLS = {"nominal terrain, 7.6 m": "abundance", "narrow course, 5 m": "narrow_course"}
 IMAGES = "images"
 FIDELITY = "sensors.stereo.fidelity"
-# The Laplacian and the parabola, with the filter that was chosen for them.
-AS_PRINTED = ["perception.stereo.dog.kind=laplacian", "perception.stereo.dog.gain=1",
-              "perception.stereo.dog.limit=36", "perception.stereo.filters.interpolation=quadratic"]
 
 # Column, what it is called, digits.
 COURSE = (("true_distance_m", "way (m)", 2), ("sim_time_s", "time (s)", 0), ("moves", "moves", 1),
@@ -47,7 +44,6 @@ def levels(fitted):
     """Settings of each level by its name, images first."""
     text = json.loads(fitted.read_text(encoding="utf-8"))
     return {IMAGES: [f"{FIDELITY}=image"],
-            "images, matched as Goldberg 2002 prints it": [f"{FIDELITY}=image", *AS_PRINTED],
             "error model, assumed": [f"{FIDELITY}=error_model"],
             "error model, fitted": [f"{FIDELITY}=error_model",
                                     *settings_of(text["sensors"]["stereo"], "sensors.stereo")],
@@ -59,6 +55,8 @@ class Runs:
 
     def __init__(self, args):
         self.args, self.programs, self.levels = args, set(), levels(args.fitted)
+        asked = args.cells.split(",")
+        self.cells = [name for name, scenario in CELLS.items() if scenario in asked]
 
     def folder(self, cell, level):
         name = "".join(c if c.isalnum() else "_" for c in level)
@@ -83,7 +81,7 @@ def rate(summary, kind):
 
 def levels_table(runs):
     rows = []
-    for cell in CELLS:
+    for cell in runs.cells:
         for level in runs.levels:
             summary = runs.run(cell, level)
             row = [cell, level, rate(summary, "declared"), rate(summary, "true")]
@@ -99,7 +97,7 @@ def levels_table(runs):
 
 def course_table(runs):
     rows = []
-    for cell in CELLS:
+    for cell in runs.cells:
         for level in runs.levels:
             runs.run(cell, level)
             columns = study.trial_columns(runs.folder(cell, level))
@@ -115,6 +113,7 @@ def main():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     study.add_run_arguments(parser, trials=100, out="stereo_levels")
+    parser.add_argument("--cells", default=",".join(CELLS.values()), help="which, joined by commas")
     parser.add_argument("--fitted", type=study.Path, default=FITTED,
                         help="scenario fragment with the fitted error model")
     study.print_tables(study.parse_with_tables(parser, TABLES), TABLES, Runs)
