@@ -10,12 +10,24 @@ namespace rockyard::vision {
 namespace {
 
 ScalarFilter FilterOf(const DogParams& params) {
+  EXPECT(params.kind == DogKind::kLaplacian);
   const DogWeights weights = MakeDogWeights(params);
   return {static_cast<int>(params.narrow_side_px), static_cast<int>(params.wide_side_px),
-          weights.narrow, weights.wide, static_cast<int>(params.limit)};
+          weights.first, weights.second, static_cast<int>(params.limit)};
 }
 
 }  // namespace
+
+StereoPipelineParams AsPrinted() {
+  StereoPipelineParams params;
+  params.dog = {.kind = DogKind::kLaplacian,
+                .narrow_side_px = 1,
+                .wide_side_px = 11,
+                .gain = 1.0,
+                .limit = 36};
+  params.filters.interpolation = Interpolation::kQuadratic;
+  return params;
+}
 
 ScalarPipeline::ScalarPipeline(const ScalarStages& stages, int width,
                                const StereoPipelineParams& params)

@@ -18,6 +18,11 @@ enum class RowStage {
   kDecide,   // and checks and sub-pixel
 };
 
+// Goldberg 2002 as printed: a difference of Gaussians for the Laplacian, a parabola. The filter has
+// the sides, gain and limit that were chosen for it on synthetic pairs.
+StereoPipelineParams AsPrinted();
+
+// Takes the Laplacian alone.
 class ScalarPipeline {
  public:
   ScalarPipeline(const ScalarStages& stages, int width, const StereoPipelineParams& params);

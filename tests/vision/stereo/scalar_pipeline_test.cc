@@ -36,7 +36,7 @@ GrayImage Seen(const GrayImage& left, int disparity, std::uint32_t levels) {
 }
 
 StereoPipelineParams ParamsOf(int side, int min_disparity, int disparities) {
-  StereoPipelineParams params;
+  StereoPipelineParams params = AsPrinted();
   params.correlator = {
       .window_side_px = side, .min_disparity_px = min_disparity, .disparities = disparities};
   params.filters.min_curvature = 0.3;
@@ -71,9 +71,13 @@ TEST_P(ScalarPipelineTest, MatchesAsThePlainCorrelator) {
 
 TEST_P(ScalarPipelineTest, FiltersAndReducesAsThePlainStages) {
   const GrayImage image = RandomImage(53, 31, 256, 2);
-  StereoPipelineParams params;
+  StereoPipelineParams params = AsPrinted();
   for (const auto& [narrow, wide] : {std::pair{1, 11}, {3, 9}, {5, 21}}) {
-    params.dog = {.narrow_side_px = narrow, .wide_side_px = wide, .gain = 1.5, .limit = 40};
+    params.dog = {.kind = DogKind::kLaplacian,
+                  .narrow_side_px = narrow,
+                  .wide_side_px = wide,
+                  .gain = 1.5,
+                  .limit = 40};
     GrayImage found(53, 31);
     ScalarPipeline pipeline(stages(), 53, params);
     pipeline.Filter(image, found);

@@ -94,7 +94,7 @@ Images MakeImages(const Case& c) {
 }
 
 StereoPipelineParams ParamsOf(const Case& c) {
-  StereoPipelineParams params;
+  StereoPipelineParams params = AsPrinted();
   params.correlator.window_side_px = c.side;
   params.correlator.disparities = c.disparities;
   return params;
