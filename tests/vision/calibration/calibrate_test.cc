@@ -4,14 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <set>
 #include <string>
 #include <tuple>
 
-#include "core/distributions.h"
+#include "vision/calibration/calibration_distance.h"
 #include "vision/calibration/rendered_target.h"
 
 namespace rockyard::vision {
@@ -38,38 +36,6 @@ CalibrationData Data(const std::vector<Cahvor>& cameras, std::size_t images, dou
     data.corners.push_back(std::move(corners));
   }
   return data;
-}
-
-// How far an estimate lies from the truth in units of its covariance, over the directions in which
-// it was estimated: chi-squared with `rank` degrees of freedom.
-struct Distance {
-  double squared = 0.0;
-  int rank = 0;
-};
-
-Distance DistanceOf(const Calibration& found, const std::vector<Cahvor>& truth) {
-  Eigen::VectorXd error(found.covariance.rows());
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    error.segment<kCameraNumbers>(static_cast<Eigen::Index>(i) * kCameraNumbers) =
-        NumbersOf(found.cameras[i]) - NumbersOf(truth[i]);
-  }
-  // To numbers of like size.
-  const Eigen::VectorXd scale =
-      found.covariance.diagonal().cwiseMax(1e-30).cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * found.covariance * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
-  const Eigen::VectorXd along = solver.eigenvectors().transpose() * scale.asDiagonal() * error;
-  Distance distance;
-  for (Eigen::Index i = 0; i < along.size(); ++i) {
-    if (solver.eigenvalues()[i] < 1e-11) continue;
-    distance.squared += along[i] * along[i] / solver.eigenvalues()[i];
-    ++distance.rank;
-  }
-  return distance;
-}
-
-double Tail(double squared, double degrees) {
-  return boost::math::cdf(boost::math::complement(boost::math::chi_squared(degrees), squared));
 }
 
 TEST(CalibrateTest, CornersWithoutErrorsGiveTheCameras) {
