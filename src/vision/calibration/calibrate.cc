@@ -30,6 +30,7 @@ double SumOfSquares(const std::vector<CornerResidual>& residuals) {
 // sigma. At least a thousandth of a pixel, below which nothing is an outlier's distance.
 double RobustSigma(const std::vector<CornerResidual>& residuals) {
   std::vector<double> distances_px;
+  distances_px.reserve(residuals.size());
   for (const CornerResidual& corner : residuals) distances_px.push_back(corner.residual_px.norm());
   const auto middle = distances_px.begin() + static_cast<std::ptrdiff_t>(distances_px.size() / 2);
   std::nth_element(distances_px.begin(), middle, distances_px.end());

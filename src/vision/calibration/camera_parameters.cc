@@ -35,7 +35,7 @@ Cahvor CameraOfNumbers(const CameraVector& numbers) {
 
 std::optional<Pixel> ProjectByNumbers(const Cahvor& camera, const Vector3& p_A,
                                       NumbersJacobian& by_numbers, PixelJacobian& by_point) {
-  const std::optional<Pixel> pixel = Project(camera, p_A, &by_point);
+  std::optional<Pixel> pixel = Project(camera, p_A, &by_point);
   if (!pixel) return std::nullopt;
   const Vector3& o = camera.O;
   const Vector3 d = p_A - camera.linear.C;

@@ -23,8 +23,9 @@ void ChessboardParams::Visit(core::FieldVisitor& v) {
 
 math::Vector3 CornerPosition(const ChessboardParams& board, std::size_t index) {
   const auto columns = static_cast<std::size_t>(board.columns);
+  const std::size_t row = index / columns;
   return {static_cast<double>(index % columns) * board.spacing_m,
-          static_cast<double>(index / columns) * board.spacing_m, 0.0};
+          static_cast<double>(row) * board.spacing_m, 0.0};
 }
 
 }  // namespace rockyard::vision

@@ -24,12 +24,13 @@ std::vector<float> GaussianWeights(double sigma_px) {
 Image<float> Smoothed(const GrayImage& image, double sigma_px) {
   const std::vector<float> weights = GaussianWeights(sigma_px);
   const int half = static_cast<int>(weights.size() / 2);
+  const float* middle = weights.data() + half;
   const int width = image.width();
   const int height = image.height();
   const auto sum_over = [&](int at, int end, const auto& value) {
     float sum = 0.0F;
     for (int i = -half; i <= half; ++i) {
-      sum += weights[static_cast<std::size_t>(i + half)] * value(std::clamp(at + i, 0, end - 1));
+      sum += middle[i] * value(std::clamp(at + i, 0, end - 1));
     }
     return sum;
   };

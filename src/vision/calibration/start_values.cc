@@ -117,6 +117,7 @@ core::Result<BundleState> FromPlanes(const CalibrationData& data) {
   }
   const Pixel middle = MiddleOf(data.size);
   std::vector<Eigen::Matrix3d> homographies;
+  homographies.reserve(images.size());
   for (const CornerImage& image : images) {
     homographies.push_back(PlaneHomography(data.board, image));
   }
