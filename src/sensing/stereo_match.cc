@@ -25,7 +25,7 @@ float Quantile(double probability) {
 // Of a chance in the sun, and of what two independent chances make of it in shadow: 1 - (1 - p)(1 -
 // q), written so that q = 0 leaves the bits of p.
 std::array<float, 2> ByLight(double lit, double in_shadow) {
-  return {Quantile(lit), Quantile(lit + in_shadow)};
+  return {Quantile(lit), Quantile(lit + in_shadow * (1.0 - lit))};
 }
 
 // Sums over `window` neighbours along rows, and then along columns: w x w independent numbers of
