@@ -46,9 +46,8 @@ constexpr CommandExample kExamples[] = {
     {"render", "rockyard render gestalt/abundance --out pair",
      "what the rover's front cameras see at the start"},
     {"render",
-     "rockyard render gestalt/abundance --out pair --x 3 --heading 30 "
-     "--set sensors.look.soil_graininess=1 --set sensors.sun.elevation_deg=15",
-     "from elsewhere, on gravel under a low sun"},
+     "rockyard render gestalt/abundance --out pair --x 3 --set sensors.sun.elevation_deg=15",
+     "from elsewhere, under a low sun"},
     {"stereo", "rockyard stereo left.png right.png --out pair",
      "disparities of a pair whose rows are aligned"},
     {"stereo", "rockyard stereo left.png right.png --cameras cameras.json --nearest 1 --out pair",

@@ -37,7 +37,7 @@ void VisitLens(ImagerParams& p, core::FieldVisitor& v) {
           .origin = Origin::kAssumed,
           .source = "small fixed-focus wide-angle lenses",
           .study_low = 2.0,
-          .study_high = 11.0});
+          .study_high = 16.0});
   v.Real("lens_transmission", p.lens_transmission,
          {.doc = "of the lens without the filter",
           .min = 1e-3,
@@ -56,7 +56,7 @@ void VisitLens(ImagerParams& p, core::FieldVisitor& v) {
        .origin = Origin::kAssumed,
        .source = "a laser diode drifts by 0.3 nm/K, which is 24 nm over 80 K; published: narrow",
        .study_low = 10e-9,
-       .study_high = 100e-9});
+       .study_high = 250e-9});
   v.Real("filter_transmission", p.filter_transmission,
          {.doc = "of the bandpass at the wavelength of the lasers",
           .min = 1e-3,
@@ -122,13 +122,13 @@ void DetectorParams::Visit(core::FieldVisitor& v) {
          .min = 0.01,
          .max = 1.0,
          .study_low = 0.2,
-         .study_high = 0.7});
+         .study_high = 1.0});
   field("full_well_e", full_well_e,
         {.doc = "electrons at which a pixel saturates; the largest count stands for it",
          .min = 100.0,
          .max = 1e7,
          .study_low = 2e4,
-         .study_high = 1.2e5});
+         .study_high = 2e5});
   field("read_noise_e", read_noise_e,
         {.doc = "standard deviation of one read-out, in electrons",
          .min = 0.0,
@@ -160,7 +160,7 @@ void ExposureParams::Visit(core::FieldVisitor& v) {
           .origin = Origin::kAssumed,
           .source = "electronic shutter of an interline CCD",
           .study_low = 1e-5,
-          .study_high = 1e-3});
+          .study_high = 0.01});
   v.Real("longest_s", longest_s,
          {.doc = "longest exposure",
           .min = 1e-7,
@@ -168,7 +168,7 @@ void ExposureParams::Visit(core::FieldVisitor& v) {
           .origin = Origin::kAssumed,
           .source = "dark current must not fill the well",
           .study_low = 0.03,
-          .study_high = 1.0});
+          .study_high = 20.0});
   v.Require("longest_s", longest_s >= shortest_s, "is shorter than shortest_s",
             "use a value of shortest_s or more");
   v.Real("target_fill", target_fill,
@@ -179,7 +179,7 @@ void ExposureParams::Visit(core::FieldVisitor& v) {
           .origin = Origin::kAssumed,
           .source = "published: the computer controls the exposure, not how",
           .study_low = 0.2,
-          .study_high = 0.7});
+          .study_high = 0.9});
   v.Real("brightest_share", brightest_share,
          {.doc = "share of the metered pixels that may be brighter than that",
           .min = 0.0,

@@ -60,14 +60,17 @@ double ObstaclesPerM2(const Scenario& scenario) {
   return static_cast<double>(rocks.count) / (rocks.count_area_length_m * rocks.count_area_width_m);
 }
 
-// Those of the hazard studies begin with "hazard_" and those of the map-based navigator with
-// "gestalt_", which their folders say already.
+// Those of the hazard studies begin with "hazard_", those of the stereo studies with "stereo_", and
+// those of the map-based navigator with "gestalt_", which their folders say already.
 TEST(PathfinderFilesTest, NamesAreFileNames) {
   const std::map<std::string, Scenario> scenarios = LoadAll();
   ASSERT_GE(scenarios.size(), 9u);
   for (const auto& [stem, scenario] : scenarios) {
-    const bool study = scenario.experiment.kind == experiments::ExperimentKind::kHazardDetection;
-    EXPECT_EQ(scenario.name, (study ? "hazard_" : "") + stem);
+    using experiments::ExperimentKind;
+    std::string prefix;
+    if (scenario.experiment.kind == ExperimentKind::kHazardDetection) prefix = "hazard_";
+    if (scenario.experiment.kind == ExperimentKind::kStereoSensing) prefix = "stereo_";
+    EXPECT_EQ(scenario.name, prefix + stem);
     EXPECT_FALSE(scenario.description.empty()) << stem;
   }
 }
