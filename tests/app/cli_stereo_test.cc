@@ -249,6 +249,25 @@ TEST_F(CliStereo, TexturelessImagesAreNoErrorButANote) {
   EXPECT_EQ(Summary("blank")["pixels"]["matched"], 0);
 }
 
+// Noise of two grey levels either way is no texture, though the matching's gain makes more of them:
+// such a pair is not told that it is none.
+TEST_F(CliStereo, NoiseIsNoTexture) {
+  const auto noise = [](std::uint32_t seed) {
+    std::string text = "P5\n160 96\n255\n";
+    for (const int grain : Texture(seed)) {
+      if (text.size() == 14 + static_cast<std::size_t>(kWidth * kHeight)) break;
+      text += static_cast<char>(98 + grain % 5);
+    }
+    return text;
+  };
+  WriteFile(work() / "a.pgm", noise(7));
+  WriteFile(work() / "b.pgm", noise(8));
+  const CommandResult result =
+      Run({"stereo", "a.pgm", "b.pgm", "--out", "blank", "--param", "filters.blob_min_px=2000"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("no pixel has a match: the images show too little texture"));
+}
+
 TEST_F(CliStereo, AFolderThatCannotBeMadeIsSaid) {
   WriteFile(work() / "file", "");
   const CommandResult result = Run({"stereo", "left.pgm", "right.pgm", "--out", "file/pair"});

@@ -25,9 +25,9 @@ using vision::StereoPipelineParams;
 constexpr double kHardlyAny = 0.05;
 // Swapped eyes: turned back, the pair has this many times as many matches.
 constexpr double kClearlyMore = 3.0;
-// A filtered pixel shows texture where it is this many steps from the middle, and an image has
-// texture where this share of its pixels does.
-constexpr int kTexture_steps = 4;
+// A pixel shows texture where the Laplacian is this many grey levels from 0, whatever filter and
+// gain the pair is matched with, and an image has texture where this share of its pixels does.
+constexpr int kTexture_levels = 4;
 constexpr double kTextured = 0.25;
 // Share of the image's width that is searched where nobody says otherwise, at least so many
 // disparities: a camera pair's overlap at arm's length.
@@ -53,11 +53,12 @@ double MatchedShare(const DisparityImage& disparities) {
   return static_cast<double>(matched) / static_cast<double>(disparities.values().size());
 }
 
-bool HasTexture(const GrayImage& image, const vision::DogParams& dog) {
-  const GrayImage filtered = vision::DifferenceOfGaussians(image, dog);
+bool HasTexture(const GrayImage& image) {
+  constexpr int kMiddle = static_cast<int>(vision::kLaplacianDog.limit);
+  const GrayImage filtered = vision::DifferenceOfGaussians(image, vision::kLaplacianDog);
   const auto textured =
-      std::count_if(filtered.values().begin(), filtered.values().end(), [&](std::uint8_t value) {
-        return std::abs(static_cast<int>(value) - static_cast<int>(dog.limit)) >= kTexture_steps;
+      std::count_if(filtered.values().begin(), filtered.values().end(), [](std::uint8_t value) {
+        return std::abs(static_cast<int>(value) - kMiddle) >= kTexture_levels;
       });
   return static_cast<double>(textured) >= kTextured * static_cast<double>(filtered.values().size());
 }
@@ -103,7 +104,7 @@ void CheckThatTheyMatch(const StereoRequest& request, const StereoInput& input,
                         const StereoPipelineParams& params, const DisparityImage& disparities) {
   const double share = MatchedShare(disparities);
   if (share >= kHardlyAny) return;
-  if (!HasTexture(input.left, params.dog) || !HasTexture(input.right, params.dog)) return;
+  if (!HasTexture(input.left) || !HasTexture(input.right)) return;
   const std::string found =
       fmt::format("{:.1f} % of the pixels have a match in the right image", 100.0 * share);
   if (MatchedShareSwapped(input, params, request.threads) >

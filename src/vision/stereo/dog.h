@@ -28,6 +28,11 @@ namespace rockyard::vision {
 
 constexpr int kDogShift = 20;
 
+// Goldberg 2002's Laplacian, with the sides and the limit that were chosen for it on synthetic
+// pairs: a step a grey level, and rows as well as columns.
+inline constexpr DogParams kLaplacianDog{
+    .kind = DogKind::kLaplacian, .narrow_side_px = 1, .wide_side_px = 11, .gain = 1.0, .limit = 36};
+
 // The factors of the two sums, s and w.
 struct DogWeights {
   std::int32_t first;   // a

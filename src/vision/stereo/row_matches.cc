@@ -13,8 +13,7 @@ namespace rockyard::vision {
 namespace {
 
 // Rows are found by what changes across them, which a gradient along the row does not see.
-constexpr DogParams kFilter{
-    .kind = DogKind::kLaplacian, .narrow_side_px = 1, .wide_side_px = 11, .gain = 1.0, .limit = 36};
+constexpr DogParams kFilter = kLaplacianDog;
 
 constexpr int kNeighbourhood_px = 3;  // places this near to the best one are the same peak
 constexpr int kReturn_px = 1;

@@ -20,11 +20,7 @@ ScalarFilter FilterOf(const DogParams& params) {
 
 StereoPipelineParams AsPrinted() {
   StereoPipelineParams params;
-  params.dog = {.kind = DogKind::kLaplacian,
-                .narrow_side_px = 1,
-                .wide_side_px = 11,
-                .gain = 1.0,
-                .limit = 36};
+  params.dog = kLaplacianDog;
   params.filters.interpolation = Interpolation::kQuadratic;
   return params;
 }
