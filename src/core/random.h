@@ -55,6 +55,10 @@ enum class Purpose : std::uint32_t {
   kRockLook = 44,  // of one rock as a whole: its albedo, its piece of texture
   kPixelDefect = 45,
   kRigDrift = 46,  // of a stereo pair since its calibration
+  kLanderFix = 47,
+  kSunSensor = 48,
+  kRadioBeacon = 49,
+  kLanderMap = 50,  // of the lander's stereo pair, for planning a route
 };
 
 // Raw Philox 4x32-10 bijection of one counter under one key.
