@@ -45,6 +45,15 @@ void ClonedCovariance::Clone(std::int64_t number) {
   clones_.push_back(number);
 }
 
+void ClonedCovariance::Inflate(const MatrixXd& noise) {
+  EXPECT(noise.rows() == size_ && noise.cols() == size_);
+  for (Index row = 0; row < covariance_.rows(); row += size_) {
+    for (Index column = 0; column < covariance_.cols(); column += size_) {
+      covariance_.block(row, column, size_, size_) += noise;
+    }
+  }
+}
+
 bool ClonedCovariance::Has(std::int64_t number) const {
   return std::ranges::count(clones_, number) > 0;
 }

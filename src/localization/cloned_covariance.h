@@ -47,6 +47,9 @@ class ClonedCovariance {
   // Keeps the error of now under a number that no clone has.
   void Clone(std::int64_t number);
   bool Has(std::int64_t number) const;
+  // The state of now and that of every clone may be off by one more error, which all of them share:
+  // `noise` is its covariance, n x n.
+  void Inflate(const Eigen::MatrixXd& noise);
   // Nothing where it is not there.
   void Forget(std::int64_t number);
   std::span<const std::int64_t> clones() const { return clones_; }

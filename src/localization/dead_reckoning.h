@@ -13,6 +13,19 @@
 
 namespace rockyard::localization {
 
+// Returns the distance dr of one tick, m: the mean of the wheels' turns times believed radius and
+// distance scale. A wheel at (x, y) that rolls along an arc about (0, R) goes forward by the turn
+// times R - y, whatever its x: with steering taken into account the mean over both sides is the arc
+// of the rover's origin.
+double ForwardIncrement(const messages::MotionMeasurement& motion,
+                        const messages::DriveCalibration& calibration,
+                        const DeadReckoningParams& params);
+
+// Lays a step of forward_m and turn_rad off. Headings stay within [-pi, pi]; the odometer counts
+// driving backwards as well.
+void Advance(double forward_m, double turn_rad, StepHeading step_heading,
+             messages::PoseEstimate& pose);
+
 // The pose that the rover believes.
 class DeadReckoning {
  public:
@@ -29,11 +42,6 @@ class DeadReckoning {
   const messages::PoseEstimate& estimate() const { return estimate_; }
 
  private:
-  // Returns the mean of the wheels' turns as if all had wheel_radius_m, rad. A wheel at (x, y) that
-  // rolls along an arc about (0, R) goes forward by the turn times R - y, whatever its x: with
-  // steering taken into account the mean over both sides is the arc of the rover's origin.
-  double MeanRoll(const messages::MotionMeasurement& motion) const;
-
   messages::DriveCalibration calibration_;
   DeadReckoningParams params_;
   messages::PoseEstimate estimate_;

@@ -11,9 +11,10 @@ namespace rockyard::localization {
 // What became of an aid's data.
 enum class AidUse {
   kUsed,
-  kGatedOut,   // too far from what was believed to be true
-  kUnknown,    // of a moment that is not kept, or is kept no more
-  kNoInterest  // the estimator takes no aids
+  kGatedOut,     // too far from what was believed to be true
+  kUsedInDoubt,  // as far off, but not the first in a row: the estimator doubted itself instead
+  kUnknown,      // of a moment that is not kept, or is kept no more
+  kNoInterest    // the estimator takes no aids
 };
 
 // An estimator of one drive. Wheels and gyro carry it on; aids correct it, perhaps late: it keeps

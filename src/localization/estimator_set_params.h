@@ -33,6 +33,7 @@ struct EstimatorDescription {
       name;              // in localization.estimator, and of the group of its parameters; a literal
   std::string_view doc;  // of that group; a literal
   std::unique_ptr<Estimator> (*make)(const Params&, const EstimatorSetup&) = nullptr;
+  bool takes_aids = false;  // or has no use for what they measure
 };
 
 // One of a set, whatever its parameters.
@@ -41,6 +42,7 @@ class EstimatorKind : public core::Kind {
   using core::Kind::Kind;
 
   virtual std::unique_ptr<Estimator> Make(const EstimatorSetup& setup) const = 0;
+  virtual bool takes_aids() const = 0;
   virtual std::unique_ptr<EstimatorKind> Clone() const = 0;
 };
 
@@ -65,6 +67,7 @@ class EstimatorSet : public core::KindSet<EstimatorKind> {
     std::unique_ptr<Estimator> Make(const EstimatorSetup& setup) const override {
       return description.make(this->params, setup);
     }
+    bool takes_aids() const override { return description.takes_aids; }
     std::unique_ptr<EstimatorKind> Clone() const override {
       return std::make_unique<KindOf>(*this);
     }

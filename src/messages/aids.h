@@ -1,6 +1,7 @@
 // What aids of localization measure: poses, and motions between two of them.
 #pragma once
 
+#include <Eigen/Core>
 #include <bitset>
 #include <cstdint>
 
@@ -28,6 +29,24 @@ struct RelativeMotion {
   CaptureNumber to = 0;
   PoseVector motion_F = PoseVector::Zero();
   PoseCovariance covariance = PoseCovariance::Identity();
+};
+
+// The sun as a sun sensor sees it.
+struct SunSighting {
+  CaptureNumber capture = 0;
+  Eigen::Vector3d sun_R = Eigen::Vector3d::UnitZ();  // unit vector to the sun, in R
+  double direction_sd_rad = 0.0;                     // of either angle across it
+};
+
+// What a radio beacon on the lander and its answerer on the rover measure of one another.
+struct BeaconReading {
+  CaptureNumber capture = 0;
+  double station_x_m = 0.0;  // of the beacon, in W
+  double station_y_m = 0.0;
+  double range_m = 0.0;      // horizontal
+  double bearing_rad = 0.0;  // of the rover as seen from the station, from +x towards +y
+  double range_sd_m = 0.0;
+  double bearing_sd_rad = 0.0;
 };
 
 }  // namespace rockyard::messages

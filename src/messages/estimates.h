@@ -45,11 +45,14 @@ struct LocalizationEstimate {
   std::optional<PoseCovariance> covariance;
 };
 
-// An absolute correction from outside: lander update, arena reflection.
+// Where operators say that the rover is after they moved it by hand.
 struct PoseUpdate {
   double x_m = 0.0;
   double y_m = 0.0;
   double heading_rad = 0.0;
+  // They mirrored what the rover believed about a line along x, as they did with the rover: nobody
+  // measured where it is, so that its error is the mirror image of what it was.
+  bool mirrored = false;
 };
 
 // Where the rover is to go, in the world frame.

@@ -7,6 +7,18 @@
 
 namespace rockyard::sensing {
 
+namespace {
+
+// Of the bias: no tick has this number.
+constexpr std::uint32_t kBiasSubstream = 0xFFFFFFFFu;
+
+}  // namespace
+
+Gyro::Gyro(const GyroParams& params, core::TrialKey key) : params_(params), key_(key) {
+  core::RandomStream stream(key, core::Purpose::kGyro, kBiasSubstream);
+  bias_rad_s_ = core::SampleNormal(stream, 0.0, params.bias_sd_rad_s);
+}
+
 double Gyro::Measure(double true_turn_rad, double duration_s, bool moving,
                      std::int64_t step) const {
   EXPECT(duration_s >= 0.0 && step >= 0);
@@ -16,7 +28,7 @@ double Gyro::Measure(double true_turn_rad, double duration_s, bool moving,
   // Wiener process of the heading: variance q dt, so that the sum over ticks does not depend on
   // their length.
   const double deviation = std::sqrt(params_.heading_variance_rad2_per_s() * duration_s);
-  return turn_rad + core::SampleNormal(stream, 0.0, deviation);
+  return turn_rad + bias_rad_s_ * duration_s + core::SampleNormal(stream, 0.0, deviation);
 }
 
 double TurnAboutOwnAxis(const math::Transform& X_WR_before, const math::Transform& X_WR_after) {

@@ -94,6 +94,7 @@ struct GyroParams {
   double level_sand_gain = 1.0;
   double reference_speed_m_s = 0.15;
   bool accumulates_at_rest = false;
+  double bias_sd_rad_s = 0.0;
   ScrapeParams scrape;
 
   // Returns the growth of the heading's variance in time that the noise alone gives, rad2/s.
@@ -139,6 +140,16 @@ struct GyroParams {
          .origin = Origin::kAssumed,
          .source =
              "the paper ties the drift to driving; a scan of 20 s at rest would add 2.1 deg2"});
+    v.Angle("bias_sd_deg_per_s", bias_sd_rad_s,
+            {.doc = "standard deviation of a rate that the gyro adds all through a trial, drawn "
+                    "once; it counts whenever the noise does, deg/s",
+             .min = 0.0,
+             .max = 10.0,
+             .origin = Origin::kAssumed,
+             .source = "none in the paper, whose runs were begun anew; gyros of this kind keep "
+                       "0.002 to 0.01 deg/s over an hour",
+             .study_low = 0.0,
+             .study_high = 0.01});
     v.Group("scrape", scrape, "heading jumps when the rover's body scrapes a rock");
   }
 };

@@ -143,6 +143,7 @@ std::optional<Verdict> Drive::Move(const messages::MotionCommand& motion, const 
   }
   NoticeStuck(command, measured);
   parts_.estimator->Feel(parts_.guard.measured(), stretch.duration_s);
+  UseAids();
   observer_.OnTick(activity == Activity::kTurning);
   tracer_.Sample(activity);
   // Operators turn a rover whose position reaches the line; one that turns in place stays its own
@@ -171,6 +172,12 @@ messages::MotionMeasurement Drive::UpdateEstimate(double duration_s, bool moving
       parts_.motion_sensors->Measure(parts_.state(), duration_s, moving);
   parts_.estimator->Propagate(motion);
   return motion;
+}
+
+void Drive::UseAids() {
+  const messages::PoseEstimate before = parts_.estimate().pose;
+  if (!parts_.aids.Tick(parts_.state().X_WR, parts_.ledger.time_s(), *parts_.estimator)) return;
+  parts_.navigator.OnCorrection(before, parts_.estimate().pose);
 }
 
 void Drive::UpdateEstimateAtRest(double duration_s) {
@@ -202,6 +209,7 @@ void Drive::ReflectAtMirrorLine(int direction) {
   parts_.rover->Place(reflection->pose);
   parts_.wheel_driver.Straighten();
   parts_.estimator->Place(reflection->update);
+  parts_.aids.OnPlaced();
   parts_.motion_sensors->Restart(parts_.state());
   parts_.guard.Restart(parts_.state());
   if (parts_.stuck_detector) parts_.stuck_detector->Restart();

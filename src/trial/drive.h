@@ -61,6 +61,8 @@ class Drive {
   void ApplyCommand(const messages::WheelCommand& command, std::int64_t steps);
   // The pose that the rover believes takes one stretch of encoders and gyro.
   messages::MotionMeasurement UpdateEstimate(double duration_s, bool moving);
+  // Aids measure, and what they measured before reaches the estimator.
+  void UseAids();
   // A stretch in which the wheels stood; a gyro may drift in it.
   void UpdateEstimateAtRest(double duration_s);
   // Asks whether the rover gets on, where it looks for that.

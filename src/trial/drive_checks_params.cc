@@ -154,6 +154,14 @@ void RequireEndOfStall(const DriveParams& drive, core::FieldVisitor& v) {
             "use end, or batteries that can be empty");
 }
 
+// Aids that nobody listens to.
+void RequireListener(const DriveParams& drive, core::FieldVisitor& v) {
+  v.Require("localization.estimator",
+            !drive.sensors.aids.AnyEnabled() || drive.localization.estimators.chosen().takes_aids(),
+            "takes no aids, where sensors.aids has some enabled",
+            "use error_state, or turn the aids off");
+}
+
 }  // namespace
 
 void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v) {
@@ -166,6 +174,7 @@ void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v) {
   RequireDesignatedGoals(drive, v);
   RequireOnePlan(drive, v);
   RequireTargetBetweenLines(drive, v);
+  RequireListener(drive, v);
 }
 
 }  // namespace rockyard::trial

@@ -54,6 +54,7 @@ class DriveObserver {
   void ReportGoals(truth::DriveRecord& record) const;
   void ReportPoses(truth::DriveRecord& record) const;
   void ReportErrors(truth::DriveRecord& record) const;
+  void ReportBelief(truth::DriveRecord& record) const;
   void ReportLedger(truth::DriveRecord& record, const Stall& stall) const;
   void ReportCounts(truth::DriveRecord& record) const;
   void ReportHazards(truth::DriveRecord& record) const;

@@ -1,9 +1,11 @@
 // What a finished drive says of itself: the columns of its record.
 #include <cmath>
+#include <optional>
 
 #include "math/angles.h"
 #include "rover/rover_geometry.h"
 #include "sensing/tracker.h"
+#include "trial/belief.h"
 #include "trial/drive_observer.h"
 #include "trial/layout.h"
 
@@ -18,6 +20,7 @@ truth::DriveRecord DriveObserver::Report(bool declared_success, const Stall& sta
   ReportGoals(record);
   ReportPoses(record);
   ReportErrors(record);
+  ReportBelief(record);
   ReportLedger(record, stall);
   ReportCounts(record);
   ReportHazards(record);
@@ -72,6 +75,21 @@ void DriveObserver::ReportErrors(truth::DriveRecord& record) const {
     record.height_error_m =
         parts_.estimate().attitude.z_m - (parts_.state().X_WR.translation().z() - parts_.start_z_m);
   }
+}
+
+void DriveObserver::ReportBelief(truth::DriveRecord& record) const {
+  const AidCounts& aids = parts_.aids.counts();
+  record.aids_used = static_cast<double>(aids.used);
+  record.aids_in_doubt = static_cast<double>(aids.in_doubt);
+  record.aids_gated_out = static_cast<double>(aids.gated_out);
+  record.aids_unanswered = static_cast<double>(aids.unanswered);
+  const std::optional<Belief> belief =
+      BeliefOf(parts_.estimate(), math::ToPose2(parts_.state().X_WR));
+  if (!belief) return;
+  record.believed_position_sd_m = belief->position_sd_m;
+  record.believed_heading_sd_deg = math::RadToDeg(belief->heading_sd_rad);
+  record.pose_nees = belief->nees;
+  record.inside_95 = belief->inside_95 ? 1.0 : 0.0;
 }
 
 void DriveObserver::ReportLedger(truth::DriveRecord& record, const Stall& stall) const {

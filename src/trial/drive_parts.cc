@@ -72,6 +72,7 @@ DriveParts::DriveParts(const DriveParams& drive, core::TrialKey trial_key, const
       stop(WholeSteps(rover->ramp_s() + drive.clock.stop_time_s, rover->step_s())),
       terrain_sensing(drive, trial_key, watchers),
       guard(drive, trial_key),
+      aids(drive, trial_key, field.terrain),
       navigator(designated_goals, MakeNavigator(drive, field.terrain, designated_goals.front())),
       follower(drive.rover.drive.speed_m_s, rover->ramp_s()),
       wheel_driver(OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive),

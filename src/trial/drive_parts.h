@@ -16,6 +16,7 @@
 #include "sensing/feature_tracker.h"
 #include "sensing/motion_sensors.h"
 #include "terrain/field.h"
+#include "trial/aid_suite.h"
 #include "trial/drive_params.h"
 #include "trial/ledger.h"
 #include "trial/mirror_arena.h"
@@ -58,7 +59,8 @@ struct DriveParts {
   std::optional<sensing::FeatureTracker> feature_tracker;
 
   std::unique_ptr<localization::Estimator> estimator;  // from Begin on
-  double start_z_m = 0.0;                              // true height where the drive began
+  AidSuite aids;
+  double start_z_m = 0.0;  // true height where the drive began
 
   navigation::WaypointSequence navigator;
   navigation::MotionFollower follower;

@@ -1,4 +1,5 @@
 #include "localization/dead_reckoning_estimator.h"
+#include "localization/error_state_filter.h"
 #include "trial/oracle_estimator.h"
 #include "trial/standard_estimators_params.h"
 
@@ -8,6 +9,7 @@ localization::EstimatorSet StandardEstimators() {
   localization::EstimatorSet set;
   set.Add(localization::DescribeDeadReckoning());
   set.Add(DescribeOracle());
+  set.Add(localization::DescribeErrorStateFilter());
   return set;
 }
 

@@ -13,6 +13,7 @@ void SensorParams::Visit(core::FieldVisitor& v) {
   v.Group("encoders", encoders, "wheel encoders");
   v.Group("tracker", tracker, "overhead tracker that reports the true pose in experiments");
   v.Group("vehicle", vehicle, "what the rover feels of itself: touch, tilt, joints, motors");
+  v.Group("aids", aids, "what tells the rover where it is, beside its wheels and gyro");
 }
 
 void PerceptionParams::Visit(core::FieldVisitor& v) {

@@ -18,6 +18,7 @@
 #include "perception/vehicle_hazard_params.h"
 #include "rendering/picture/picture_params.h"
 #include "rendering/sun_params.h"
+#include "sensing/aid_params.h"
 #include "sensing/encoder_params.h"
 #include "sensing/gyro_params.h"
 #include "sensing/light_stripe_params.h"
@@ -39,6 +40,7 @@ struct SensorParams {
   sensing::EncoderParams encoders;
   sensing::TrackerParams tracker;
   sensing::VehicleSensorParams vehicle;
+  sensing::AidParams aids;
 
   void Visit(core::FieldVisitor& v);
 };

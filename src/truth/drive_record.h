@@ -96,6 +96,15 @@ struct DriveRecord {
   double hazards_begun = 0.0;      // of hazards_believed, those that the scan before did not see
   double displacement_m = 0.0;     // start to end, true and straight
   double waypoints_reached = 0.0;  // declared, before the goal
+  // What the rover believes of its own error at the end; NaN where it keeps no account of it.
+  double believed_position_sd_m = std::numeric_limits<double>::quiet_NaN();
+  double believed_heading_sd_deg = std::numeric_limits<double>::quiet_NaN();
+  double pose_nees = std::numeric_limits<double>::quiet_NaN();
+  double inside_95 = std::numeric_limits<double>::quiet_NaN();
+  double aids_used = 0.0;
+  double aids_in_doubt = 0.0;
+  double aids_gated_out = 0.0;
+  double aids_unanswered = 0.0;
 };
 
 struct DriveColumn {
@@ -293,6 +302,31 @@ inline constexpr std::array kDriveColumns = {
                 "waypoints (course.waypoints) at which the rover declared to be; the goal is none "
                 "of them",
                 &DriveRecord::waypoints_reached},
+    DriveColumn{"believed_position_sd_m", "m",
+                "root of the summed variances of x and y that the rover believes at the end; "
+                "undefined where its estimator keeps no account of its error",
+                &DriveRecord::believed_position_sd_m},
+    DriveColumn{"believed_heading_sd_deg", "deg", "the same of its heading",
+                &DriveRecord::believed_heading_sd_deg},
+    DriveColumn{"pose_nees", "1",
+                "squared error of x, y and heading at the end in units of the believed covariance: "
+                "chi-squared with 3 degrees of freedom, mean 3, where the belief is right",
+                &DriveRecord::pose_nees},
+    DriveColumn{"inside_95", "1",
+                "1 where the true pose lies in the region that the rover believes to hold it with "
+                "95 %; else 0",
+                &DriveRecord::inside_95},
+    DriveColumn{"aids_used", "1", "measurements of aids that corrected the estimate",
+                &DriveRecord::aids_used},
+    DriveColumn{"aids_in_doubt", "1",
+                "of these, taken after others were turned away in a row: the estimator doubted "
+                "itself",
+                &DriveRecord::aids_in_doubt},
+    DriveColumn{"aids_gated_out", "1", "measurements of aids that were turned away",
+                &DriveRecord::aids_gated_out},
+    DriveColumn{"aids_unanswered", "1",
+                "measurements that were due and found nothing: out of range, hidden, dropped out",
+                &DriveRecord::aids_unanswered},
 };
 
 }  // namespace rockyard::truth

@@ -1,0 +1,34 @@
+// What the error-state filter keeps account of.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "messages/estimates.h"
+
+namespace rockyard::localization {
+
+// Rows of the error, which is true less believed. The first six are those of
+// messages::PoseCoordinate, in W, m and rad; the others say how wrong the sensors are read.
+namespace error {
+
+enum Row : int {
+  kX,
+  kY,
+  kZ,
+  kRoll,
+  kPitch,
+  kHeading,
+  kGyroBias,    // rad/s
+  kGyroScale,   // of measured over true turn
+  kWheelScale,  // of true over believed way
+};
+static_assert(kHeading == messages::Index(messages::PoseCoordinate::kHeading));
+
+}  // namespace error
+
+inline constexpr int kErrorCoordinates = 9;
+
+using ErrorVector = Eigen::Matrix<double, kErrorCoordinates, 1>;
+using ErrorMatrix = Eigen::Matrix<double, kErrorCoordinates, kErrorCoordinates>;
+
+}  // namespace rockyard::localization

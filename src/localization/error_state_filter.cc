@@ -1,0 +1,271 @@
+#include "localization/error_state_filter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <utility>
+
+#include "localization/dead_reckoning.h"
+#include "math/angles.h"
+
+namespace rockyard::localization {
+namespace {
+
+using messages::kPoseCoordinates;
+using messages::PoseVector;
+
+double Squared(double value) { return value * value; }
+
+ErrorMatrix PriorCovariance(const ErrorStateFilterParams& params) {
+  const PriorParams& prior = params.prior;
+  ErrorVector deviations;
+  deviations << prior.position_sd_m, prior.position_sd_m, prior.position_sd_m,
+      params.drift.tilt_sd_rad, params.drift.tilt_sd_rad, prior.heading_sd_rad,
+      prior.gyro_bias_sd_rad_s, prior.gyro_scale_sd, prior.wheel_scale_sd;
+  return deviations.cwiseAbs2().asDiagonal();
+}
+
+// Angles that differ by whole turns are one.
+PoseVector Wrapped(PoseVector difference) {
+  for (const int angle : {error::kRoll, error::kPitch, error::kHeading}) {
+    difference[angle] = math::WrapAngle(difference[angle]);
+  }
+  return difference;
+}
+
+void Add(const PoseVector& change, PoseVector& pose) { pose = Wrapped(pose + change); }
+
+}  // namespace
+
+ErrorStateFilter::ErrorStateFilter(const ErrorStateFilterParams& params,
+                                   const EstimatorSetup& setup)
+    : params_(params),
+      calibration_(setup.calibration),
+      dead_reckoning_(setup.dead_reckoning),
+      attitude_(setup.attitude),
+      gate_(params.gate),
+      errors_(PriorCovariance(params)) {
+  estimate_.pose.x_m = setup.start.x_m;
+  estimate_.pose.y_m = setup.start.y_m;
+  estimate_.pose.heading_rad = math::WrapAngle(setup.start.heading_rad);
+  estimate_.odometry = estimate_.pose;
+  felt_odometry_ = estimate_.odometry;
+  TellCovariance();
+}
+
+TickNoise ErrorStateFilter::NoiseOf(const messages::MotionMeasurement& motion,
+                                    double forward_m) const {
+  const DriftParams& drift = params_.drift;
+  const double way_m = std::abs(forward_m);
+  const bool moves = std::any_of(motion.wheel_turn_rad.begin(), motion.wheel_turn_rad.end(),
+                                 [](double turn_rad) { return turn_rad != 0.0; });
+  const double drifting_s = moves || drift.drifts_at_rest ? motion.duration_s : 0.0;
+  return {.heading_rad2 = drift.heading_variance_rad2_per_s() * drifting_s +
+                          drift.scrapes_per_m * Squared(drift.scrape_jump_rad) * way_m,
+          .distance_m2 = drift.distance_variance_m2_per_m * way_m,
+          .height_m2 = drift.height_variance_m2_per_m * way_m,
+          .bias_rad2_s2 = Squared(drift.gyro_bias_walk_rad_s_per_root_s) * motion.duration_s,
+          .tilt_kept = std::exp(-way_m / drift.tilt_length_m),
+          .tilt_rad2 = Squared(drift.tilt_sd_rad)};
+}
+
+void ErrorStateFilter::Propagate(const messages::MotionMeasurement& motion) {
+  const double forward_m = ForwardIncrement(motion, calibration_, dead_reckoning_) * wheel_scale_;
+  // What the gyro's model makes of its reading: turn = scale * true turn + bias * time.
+  const double turn_rad = (motion.turn_rad - gyro_bias_rad_s_ * motion.duration_s) / gyro_scale_;
+  const double share = dead_reckoning_.step_heading == StepHeading::kMidpoint ? 0.5 : 0.0;
+  const TickNoise noise = NoiseOf(motion, forward_m);
+  stretch_.Add({.forward_m = forward_m,
+                .turn_rad = turn_rad,
+                .along_rad = estimate_.pose.heading_rad + share * turn_rad,
+                .turn_share = share,
+                .pitch_rad = estimate_.attitude.pitch_rad,
+                .duration_s = motion.duration_s,
+                .gyro_scale = gyro_scale_,
+                .wheel_scale = wheel_scale_},
+               noise);
+  Advance(forward_m, turn_rad, dead_reckoning_.step_heading, estimate_.pose);
+  Advance(forward_m, turn_rad, dead_reckoning_.step_heading, estimate_.odometry);
+  roll_correction_rad_ *= noise.tilt_kept;
+  pitch_correction_rad_ *= noise.tilt_kept;
+  way_since_place_m_ += std::abs(forward_m);
+  if (stretch_.way_m() >= params_.stretch_m) EndStretch();
+}
+
+void ErrorStateFilter::Feel(const messages::VehicleState& felt, double duration_s) {
+  attitude_.Integrate(felt, ForwardStep(felt_odometry_, estimate_.odometry), duration_s);
+  felt_odometry_ = estimate_.odometry;
+  estimate_.attitude = attitude_.estimate();
+  estimate_.attitude.roll_rad += roll_correction_rad_;
+  estimate_.attitude.pitch_rad += pitch_correction_rad_;
+  estimate_.attitude.z_m += z_correction_m_;
+}
+
+void ErrorStateFilter::Place(const messages::PoseUpdate& update) {
+  EndStretch();
+  ErrorMatrix before = errors_.now();
+  if (update.mirrored) {
+    // Across the line, about it and in the gyro's sense of it everything changes its sign; what the
+    // sensors themselves get wrong does not.
+    ErrorVector sign = ErrorVector::Ones();
+    for (const int mirrored : {error::kY, error::kRoll, error::kHeading}) sign[mirrored] = -1.0;
+    before = sign.asDiagonal() * before * sign.asDiagonal();
+  } else {
+    ErrorMatrix told = PriorCovariance(params_);
+    constexpr int kSensors = kErrorCoordinates - kPoseCoordinates;
+    told.bottomRightCorner<kSensors, kSensors>() = before.bottomRightCorner<kSensors, kSensors>();
+    before = told;
+  }
+  errors_ = ClonedCovariance(before);
+  moments_.clear();
+  gate_.Restart();
+  way_since_place_m_ = 0.0;
+  estimate_.pose.x_m = update.x_m;
+  estimate_.pose.y_m = update.y_m;
+  estimate_.pose.heading_rad = math::WrapAngle(update.heading_rad);
+  estimate_.odometry = estimate_.pose;
+  attitude_.Restart();
+  felt_odometry_ = estimate_.odometry;
+  TellCovariance();
+}
+
+void ErrorStateFilter::Capture(messages::CaptureNumber capture) {
+  EndStretch();
+  errors_.Clone(capture);
+  moments_[capture] = PoseNow();
+}
+
+void ErrorStateFilter::Forget(messages::CaptureNumber capture) {
+  errors_.Forget(capture);
+  moments_.erase(capture);
+}
+
+AidUse ErrorStateFilter::Update(const messages::PoseFix& fix) {
+  const auto moment = moments_.find(fix.capture);
+  if (moment == moments_.end()) return AidUse::kUnknown;
+  const auto values = static_cast<Eigen::Index>(fix.measured.count());
+  if (values == 0) return AidUse::kNoInterest;
+  EndStretch();
+  // The rows that pick the measured coordinates.
+  Eigen::MatrixXd picks = Eigen::MatrixXd::Zero(values, kErrorCoordinates);
+  Eigen::Index row = 0;
+  for (int coordinate = 0; coordinate < kPoseCoordinates; ++coordinate) {
+    if (fix.measured[static_cast<std::size_t>(coordinate)]) picks(row++, coordinate) = 1.0;
+  }
+  const auto of_pose = picks.leftCols<kPoseCoordinates>();
+  const PoseVector difference = Wrapped(fix.pose_W - moment->second);
+  return Take({.parts = {{fix.capture, picks}},
+               .values = of_pose * difference,
+               .noise = of_pose * fix.covariance * of_pose.transpose(),
+               .of_place = fix.measured[error::kX] || fix.measured[error::kY]},
+              of_pose.transpose() * (of_pose * difference));
+}
+
+AidUse ErrorStateFilter::Update(const messages::RelativeMotion& motion) {
+  const auto from = moments_.find(motion.from);
+  const auto to = moments_.find(motion.to);
+  if (from == moments_.end() || to == moments_.end()) return AidUse::kUnknown;
+  EndStretch();
+  // In the levelled frame F of the first moment, R = Rz(h1): d_F = R' (p2 - p1), and differences of
+  // angles as they are. d d_F / d h1 = (d_y, -d_x).
+  const double c = std::cos(from->second[error::kHeading]);
+  const double s = std::sin(from->second[error::kHeading]);
+  messages::PoseCovariance to_F = messages::PoseCovariance::Identity();
+  to_F.topLeftCorner<2, 2>() << c, s, -s, c;
+  const PoseVector believed = to_F * Wrapped(to->second - from->second);
+  messages::PoseCovariance of_first = -to_F;
+  of_first(error::kX, error::kHeading) += believed[error::kY];
+  of_first(error::kY, error::kHeading) -= believed[error::kX];
+  Eigen::MatrixXd H_from = Eigen::MatrixXd::Zero(kPoseCoordinates, kErrorCoordinates);
+  Eigen::MatrixXd H_to = H_from;
+  H_from.leftCols<kPoseCoordinates>() = of_first;
+  H_to.leftCols<kPoseCoordinates>() = to_F;
+  // A motion says nothing of where the rover is, so that it is no reason to doubt the place.
+  return Take({.parts = {{motion.from, H_from}, {motion.to, H_to}},
+               .values = Wrapped(motion.motion_F - believed),
+               .noise = motion.covariance,
+               .of_place = false},
+              PoseVector::Zero());
+}
+
+AidUse ErrorStateFilter::Take(const Residual& residual, const PoseVector& doubt) {
+  const double distance =
+      errors_.MahalanobisSquared(residual.parts, residual.values, residual.noise);
+  AidUse use = AidUse::kUsed;
+  switch (gate_.Ask(distance, static_cast<int>(residual.values.size()))) {
+    case GateAnswer::kIn:
+      break;
+    case GateAnswer::kOut:
+      return AidUse::kGatedOut;
+    case GateAnswer::kDoubtYourself: {
+      use = AidUse::kUsedInDoubt;
+      PoseVector variances = doubt.cwiseAbs2();
+      // A place is mostly wrong because the heading was on the way to it.
+      if (residual.of_place && way_since_place_m_ > 0.0) {
+        const double off_rad = std::hypot(doubt[error::kX], doubt[error::kY]) / way_since_place_m_;
+        variances[error::kHeading] += Squared(std::min(off_rad, std::numbers::pi));
+      }
+      ErrorVector all = ErrorVector::Zero();
+      all.head<kPoseCoordinates>() = variances;
+      errors_.Inflate(all.asDiagonal());
+      break;
+    }
+  }
+  if (residual.of_place) way_since_place_m_ = 0.0;
+  Correct(errors_.Update(residual.parts, residual.values, residual.noise).changes);
+  return use;
+}
+
+void ErrorStateFilter::Correct(const Eigen::MatrixXd& changes) {
+  const ErrorVector now = changes.col(0);
+  PoseVector pose = PoseNow();
+  Add(now.head<kPoseCoordinates>(), pose);
+  estimate_.pose.x_m = pose[error::kX];
+  estimate_.pose.y_m = pose[error::kY];
+  estimate_.pose.heading_rad = pose[error::kHeading];
+  z_correction_m_ += now[error::kZ];
+  roll_correction_rad_ += now[error::kRoll];
+  pitch_correction_rad_ += now[error::kPitch];
+  estimate_.attitude.z_m += now[error::kZ];
+  estimate_.attitude.roll_rad += now[error::kRoll];
+  estimate_.attitude.pitch_rad += now[error::kPitch];
+  gyro_bias_rad_s_ += now[error::kGyroBias];
+  gyro_scale_ += now[error::kGyroScale];
+  wheel_scale_ += now[error::kWheelScale];
+  Eigen::Index column = 1;
+  for (const std::int64_t clone : errors_.clones()) {
+    Add(changes.col(column++).head<kPoseCoordinates>(), moments_.at(clone));
+  }
+  TellCovariance();
+}
+
+PoseVector ErrorStateFilter::PoseNow() const {
+  PoseVector pose;
+  pose << estimate_.pose.x_m, estimate_.pose.y_m, estimate_.attitude.z_m,
+      estimate_.attitude.roll_rad, estimate_.attitude.pitch_rad, estimate_.pose.heading_rad;
+  return pose;
+}
+
+void ErrorStateFilter::EndStretch() {
+  if (stretch_.empty()) return;
+  errors_.Propagate(stretch_.transition(), stretch_.noise());
+  stretch_.Restart();
+  TellCovariance();
+}
+
+void ErrorStateFilter::TellCovariance() {
+  estimate_.covariance = errors_.now().topLeftCorner<kPoseCoordinates, kPoseCoordinates>();
+}
+
+EstimatorDescription<ErrorStateFilterParams> DescribeErrorStateFilter() {
+  return {.name = "error_state",
+          .doc = "dead reckoning that keeps account of its error and is corrected by aids",
+          .make = [](const ErrorStateFilterParams& params,
+                     const EstimatorSetup& setup) -> std::unique_ptr<Estimator> {
+            return std::make_unique<ErrorStateFilter>(params, setup);
+          },
+          .takes_aids = true};
+}
+
+}  // namespace rockyard::localization

@@ -1,0 +1,101 @@
+// Error-state extended Kalman filter: dead reckoning as flown carries the pose on, the filter keeps
+// account of its error, and aids correct pose and sensors by what they tell of it.
+//
+// Believed are position, attitude, gyro bias and scale, and wheel scale; their errors
+// (error_state.h) grow as error_stretch.h says. The covariance is carried on every `stretch_m` of
+// way and before a measurement, not each tick, so that estimate().covariance is as old as the last
+// of these. A measurement of moments that were captured (one, or two with a motion between them)
+// corrects the state of now and of every kept moment (cloned_covariance.h). gate.h decides which
+// are believed.
+//
+// Roll and pitch come from accelerometers; a correction of them is forgotten along the way as their
+// errors are. Corrections of bias and scales bend the way that is laid off afterwards, in the
+// odometry frame as well, which never jumps.
+//
+// Limits: errors are small (heading errors below some 0.5 rad: the equations are linear in them,
+// and a filter that is further off is overconfident); the gyro's turn is taken as that of the
+// heading, though on a tilted rover it is about its own axis; scrapes and slip are noise of a
+// stated rate, while in truth they come singly. Cost: results/localization.md.
+#pragma once
+
+#include <map>
+
+#include "localization/attitude.h"
+#include "localization/cloned_covariance.h"
+#include "localization/error_state.h"
+#include "localization/error_state_filter_params.h"
+#include "localization/error_stretch.h"
+#include "localization/estimator.h"
+#include "localization/estimator_set_params.h"
+#include "localization/gate.h"
+
+namespace rockyard::localization {
+
+class ErrorStateFilter final : public Estimator {
+ public:
+  ErrorStateFilter(const ErrorStateFilterParams& params, const EstimatorSetup& setup);
+
+  void Propagate(const messages::MotionMeasurement& motion) override;
+  void Feel(const messages::VehicleState& felt, double duration_s) override;
+  // A told place is as good as the prior says; of a mirrored one the error is mirrored. What is
+  // known of the sensors stays.
+  void Place(const messages::PoseUpdate& update) override;
+
+  void Capture(messages::CaptureNumber capture) override;
+  void Forget(messages::CaptureNumber capture) override;
+  AidUse Update(const messages::PoseFix& fix) override;
+  AidUse Update(const messages::RelativeMotion& motion) override;
+
+  const messages::LocalizationEstimate& estimate() const override { return estimate_; }
+
+  // What is believed of the sensors.
+  double gyro_bias_rad_s() const { return gyro_bias_rad_s_; }
+  double gyro_scale() const { return gyro_scale_; }    // measured over true turn
+  double wheel_scale() const { return wheel_scale_; }  // true over rolled way
+  // The covariance of all that is kept account of, of the last stretch's end.
+  ErrorMatrix covariance() const { return errors_.now(); }
+
+ private:
+  // One measurement: r = sum of the parts' jacobians times errors, and noise.
+  struct Residual {
+    std::vector<ClonedCovariance::Part> parts;
+    Eigen::VectorXd values;
+    Eigen::MatrixXd noise;
+    bool of_place = false;  // x or y are among the values
+  };
+
+  messages::PoseVector PoseNow() const;
+  TickNoise NoiseOf(const messages::MotionMeasurement& motion, double forward_m) const;
+  // Carries the covariance on over the stretch so far.
+  void EndStretch();
+  AidUse Take(const Residual& residual, const messages::PoseVector& doubt);
+  void Correct(const Eigen::MatrixXd& changes);
+  void TellCovariance();
+
+  ErrorStateFilterParams params_;
+  messages::DriveCalibration calibration_;
+  DeadReckoningParams dead_reckoning_;
+  AttitudeEstimator attitude_;
+  Gate gate_;
+
+  double gyro_bias_rad_s_ = 0.0;
+  double gyro_scale_ = 1.0;
+  double wheel_scale_ = 1.0;
+  // What aids added to the attitude that accelerometers and odometry tell.
+  double roll_correction_rad_ = 0.0;
+  double pitch_correction_rad_ = 0.0;
+  double z_correction_m_ = 0.0;
+  messages::PoseEstimate felt_odometry_;  // at the last Feel
+
+  ErrorStretch stretch_;
+  ClonedCovariance errors_;
+  std::map<messages::CaptureNumber, messages::PoseVector> moments_;  // believed poses of clones
+  double way_since_place_m_ = 0.0;  // since a measurement of the place was believed
+
+  messages::LocalizationEstimate estimate_;
+};
+
+// Named error_state.
+EstimatorDescription<ErrorStateFilterParams> DescribeErrorStateFilter();
+
+}  // namespace rockyard::localization

@@ -1,0 +1,60 @@
+// Parameters of the error-state filter: what it takes itself to know of its sensors.
+#pragma once
+
+#include <cstdint>
+
+#include "core/fields.h"
+#include "math/angles.h"
+
+namespace rockyard::localization {
+
+// How far off things may be when a drive begins: standard deviations.
+struct PriorParams {
+  double position_sd_m = 0.0;
+  double heading_sd_rad = 0.0;
+  double gyro_bias_sd_rad_s = 0.0;
+  double gyro_scale_sd = 0.06;
+  double wheel_scale_sd = 0.05;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+// How the error grows on the way.
+struct DriftParams {
+  double heading_variance_deg2_per_m = 0.70;
+  double reference_speed_m_s = 0.15;
+  bool drifts_at_rest = false;
+  double gyro_bias_walk_rad_s_per_root_s = 0.0;
+  double distance_variance_m2_per_m = 0.0039;
+  double scrapes_per_m = 0.0;
+  double scrape_jump_rad = math::DegToRad(5.0);
+  double height_variance_m2_per_m = 1e-4;
+  double tilt_sd_rad = math::DegToRad(1.0);
+  double tilt_length_m = 0.1;
+
+  // Of a gyro that moves, in time, rad2/s.
+  double heading_variance_rad2_per_s() const {
+    const double rad_per_deg = math::DegToRad(1.0);
+    return heading_variance_deg2_per_m * rad_per_deg * rad_per_deg * reference_speed_m_s;
+  }
+
+  void Visit(core::FieldVisitor& v);
+};
+
+struct GateParams {
+  double chance = 1e-3;
+  std::int64_t patience = 3;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+struct ErrorStateFilterParams {
+  PriorParams prior;
+  DriftParams drift;
+  GateParams gate;
+  double stretch_m = 0.067;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+}  // namespace rockyard::localization

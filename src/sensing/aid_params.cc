@@ -1,0 +1,194 @@
+#include "sensing/aid_params.h"
+
+namespace rockyard::sensing {
+
+using core::Origin;
+
+void AidScheduleParams::Visit(core::FieldVisitor& v) {
+  v.Boolean("enabled", enabled, {.doc = "the aid is there", .origin = Origin::kSetting});
+  v.Real("every_m", every_m,
+         {.doc = "way by the rover's odometer from one measurement to the next; 0: not by way",
+          .min = 0.0,
+          .max = 1e4,
+          .origin = Origin::kSetting});
+  v.Real("every_s", every_s,
+         {.doc = "simulated time from one measurement to the next; 0: not by time. 14400: once a "
+                 "day of the four hours that a rover operates (Matthies 1995 sec. 2.1.2)",
+          .min = 0.0,
+          .max = 1e7,
+          .origin = Origin::kSetting});
+  v.Real("delay_s", delay_s,
+         {.doc = "simulated time from the measurement to its use on board, in which the rover goes "
+                 "on",
+          .min = 0.0,
+          .max = 1e6,
+          .origin = Origin::kSetting});
+  v.Require("every_m", !enabled || every_m > 0.0 || every_s > 0.0,
+            "is 0, as every_s is, so that the aid never measures",
+            "set one of them, or turn the aid off");
+}
+
+void LanderFixParams::Visit(core::FieldVisitor& v) {
+  schedule.Visit(v);
+  v.Angle(
+      "heading_sd_deg", heading_sd_rad,
+      {.doc = "standard deviation of the rover's heading as seen by the lander",
+       .min = 0.0,
+       .max = 180.0,
+       .origin = Origin::kPublished,
+       .source = "Matthies 1995 sec. 5: not better than +-5 deg, read as a standard deviation"});
+  v.Real("range_sd_fraction", range_sd_fraction,
+         {.doc = "standard deviation of its range from the lander, over the range",
+          .min = 0.0,
+          .max = 1.0,
+          .origin = Origin::kPublished,
+          .source = "Matthies 1995 sec. 5: not better than +-5 % of distance, read as a standard "
+                    "deviation"});
+  v.Real("bearing_sd_rad", bearing_sd_rad,
+         {.doc = "standard deviation of its bearing from the lander",
+          .min = 0.0,
+          .max = 1.0,
+          .origin = Origin::kPublished,
+          .source = "Matthies 1995 sec. 2.1.1: a pixel of 0.001 rad"});
+  v.Real("common_share", common_share,
+         {.doc = "share of these variances that all fixes of a trial have in common, of which the "
+                 "rover knows nothing",
+          .min = 0.0,
+          .max = 1.0,
+          .origin = Origin::kAssumed,
+          .source = "figs. 9 and 10 show biases that go with the angle of view",
+          .study_low = 0.0,
+          .study_high = 1.0});
+  v.Real(
+      "range_m", range_m,
+      {.doc = "horizontal distance up to which the lander recognizes the rover",
+       .min = 0.1,
+       .max = 1e4,
+       .origin = Origin::kAssumed,
+       .source = "the rover's 48 cm are 12 pixels at 40 m; the cylinder of sec. 5 failed in part "
+                 "at 15 m",
+       .study_low = 10.0,
+       .study_high = 100.0});
+  v.Real("mast_height_m", mast_height_m,
+         {.doc = "height of the lander's cameras above the ground",
+          .min = 0.1,
+          .max = 10.0,
+          .origin = Origin::kPublished,
+          .source = "Matthies 1995 sec. 2.1.1"});
+  v.Real("rover_height_m", rover_height_m,
+         {.doc = "height above the ground of what the lander has to see of the rover",
+          .min = 0.0,
+          .max = 5.0,
+          .origin = Origin::kPublished,
+          .source = "Matthies 1995 sec. 2.1.2: the rover is 30 cm high"});
+  v.Boolean("shares_pan_error", shares_pan_error,
+            {.doc = "the fix is wrong by the trial's pan error (course.designation) as designated "
+                    "goals are: one mast serves both",
+             .origin = Origin::kAssumed,
+             .source = "Matthies 1995 sec. 2.1.1: this imaging system designates goals and updates "
+                       "the rover's position"});
+}
+
+void SunSensorParams::Visit(core::FieldVisitor& v) {
+  schedule.Visit(v);
+  v.Angle("half_field_of_view_deg", half_field_of_view_rad,
+          {.doc = "largest angle from the rover's vertical axis at which the sun is seen",
+           .min = 1.0,
+           .max = 90.0,
+           .origin = Origin::kPublished,
+           .source = "Matthies 1995 sec. 8: a field of view of greater than 150 deg"});
+  v.Angle("noise_sd_deg", noise_sd_rad,
+          {.doc = "standard deviation of either angle across the direction to a sun in the zenith; "
+                  "light that is dimmed on a longer way through the dust makes it larger",
+           .min = 0.0,
+           .max = 45.0,
+           .origin = Origin::kAssumed,
+           .source = "the paper gives no accuracy; small sensors of wide view reach 0.1 to 1 deg",
+           .study_low = 0.1,
+           .study_high = 2.0});
+  v.Real("optical_depth", optical_depth,
+         {.doc = "optical depth of the dust: the light of a sun at elevation e is exp(-depth / sin "
+                 "e)",
+          .min = 0.0,
+          .max = 10.0,
+          .origin = Origin::kAssumed,
+          .source = "as sensors.sun.optical_depth; 0.5 is a clear season at Ares Vallis",
+          .study_low = 0.2,
+          .study_high = 1.5});
+  v.Real("dropout_probability", dropout_probability,
+         {.doc = "share of the sightings that fail though the sun is in view",
+          .min = 0.0,
+          .max = 1.0,
+          .origin = Origin::kAssumed,
+          .source = "glare, dust, masts",
+          .study_low = 0.0,
+          .study_high = 0.2});
+  v.Angle("tilt_sd_deg", tilt_sd_rad,
+          {.doc = "standard deviation of roll and pitch that the rover reckons with where it turns "
+                  "the sun's direction level; more where it has no accelerometers",
+           .min = 0.0,
+           .max = 90.0,
+           .origin = Origin::kAssumed,
+           .source = "the filter's lag and bias of accelerometers among rocks",
+           .study_low = 0.2,
+           .study_high = 5.0});
+  v.Angle("latitude_deg", latitude_rad,
+          {.doc = "latitude of the site, north positive",
+           .min = -90.0,
+           .max = 90.0,
+           .origin = Origin::kPublished,
+           .source = "Mars Pathfinder at Ares Vallis, 19.3 deg N (Golombek et al. 1997)"});
+  v.Angle("areocentric_longitude_deg", areocentric_longitude_rad,
+          {.doc = "season: areocentric longitude Ls of the sun, 90 at northern summer solstice",
+           .min = 0.0,
+           .max = 360.0,
+           .origin = Origin::kPublished,
+           .source = "Ls 142.7 deg at the landing of Mars Pathfinder (Golombek et al. 1997)"});
+  v.Real("start_solar_time_h", start_solar_time_h,
+         {.doc = "true solar time at which the drive begins",
+          .min = 0.0,
+          .max = 24.0,
+          .origin = Origin::kAssumed,
+          .source = "Matthies 1995 sec. 2.1.2: four hours a day, centred around noon",
+          .study_low = 8.0,
+          .study_high = 14.0});
+  v.Angle("north_heading_deg", north_heading_rad,
+          {.doc = "heading of north in the world frame, whose x axis runs along the course",
+           .min = -180.0,
+           .max = 180.0,
+           .origin = Origin::kSetting});
+}
+
+void RadioBeaconParams::Visit(core::FieldVisitor& v) {
+  schedule.Visit(v);
+  v.Real("range_sd_m", range_sd_m,
+         {.doc = "standard deviation of a measured range",
+          .min = 0.0,
+          .max = 1000.0,
+          .origin = Origin::kAssumed,
+          .source = "the paper gives no accuracy; timing to 3 ns",
+          .study_low = 0.1,
+          .study_high = 5.0});
+  v.Angle("bearing_sd_deg", bearing_sd_rad,
+          {.doc = "standard deviation of a measured bearing",
+           .min = 0.0,
+           .max = 90.0,
+           .origin = Origin::kAssumed,
+           .source = "the paper gives no accuracy; phases of two antennas half a metre apart",
+           .study_low = 0.5,
+           .study_high = 10.0});
+  v.Real("range_m", range_m,
+         {.doc = "horizontal distance up to which the beacon is heard",
+          .min = 0.1,
+          .max = 1e5,
+          .origin = Origin::kPublished,
+          .source = "Matthies 1995 sec. 2.1.2: a clear-field radial range of 500 m"});
+}
+
+void AidParams::Visit(core::FieldVisitor& v) {
+  v.Group("lander_fix", lander_fix, "the lander finds the rover in its images");
+  v.Group("sun", sun, "a sun sensor on the rover");
+  v.Group("beacon", beacon, "a radio beacon on the lander");
+}
+
+}  // namespace rockyard::sensing

@@ -1,0 +1,76 @@
+// The aids of localization of one drive: when they measure, when their data arrive, and what
+// becomes of them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/random.h"
+#include "localization/estimator.h"
+#include "localization/sun_compass.h"
+#include "sensing/lander_fix.h"
+#include "sensing/radio_beacon.h"
+#include "sensing/sun_sensor.h"
+#include "terrain/terrain.h"
+#include "trial/aid_schedule.h"
+#include "trial/drive_params.h"
+
+namespace rockyard::trial {
+
+// How often.
+struct AidCounts {
+  std::int64_t used = 0;
+  std::int64_t in_doubt = 0;    // of these, after the estimator doubted itself
+  std::int64_t gated_out = 0;   // turned away
+  std::int64_t unanswered = 0;  // was due, and saw or heard nothing
+};
+
+// The moment of a measurement is captured as it is taken; what on-board software makes of it is
+// handed to the estimator `delay_s` later. The sensors see the truth, the estimator messages.
+class AidSuite {
+ public:
+  // `terrain` outlives it.
+  AidSuite(const DriveParams& drive, core::TrialKey key, const terrain::Terrain& terrain);
+
+  // Once a control tick, after the estimator took it. Returns whether the estimate was corrected.
+  bool Tick(const math::Transform& X_WR, double time_s, localization::Estimator& estimator);
+
+  // What was taken before operators moved the rover is of no use any more.
+  void OnPlaced() { waiting_.clear(); }
+
+  const AidCounts& counts() const { return counts_; }
+
+ private:
+  struct Waiting {
+    double ready_s = 0.0;
+    messages::PoseFix fix;
+  };
+
+  void MeasureAll(const math::Transform& X_WR, double time_s, localization::Estimator& estimator);
+  // Captures the moment of `fix`, or counts that there is none.
+  void Take(std::optional<messages::PoseFix> fix, double ready_s,
+            localization::Estimator& estimator);
+  std::optional<messages::PoseFix> LookForSun(const math::Transform& X_WR, double time_s,
+                                              const localization::Estimator& estimator);
+  std::optional<messages::PoseFix> AskBeacon(const math::Transform& X_WR);
+  bool HandIn(const messages::PoseFix& fix, localization::Estimator& estimator);
+
+  const terrain::Terrain& terrain_;
+  sensing::AidParams params_;
+  localization::SunAlmanac almanac_;
+  sensing::LanderFix lander_fix_;
+  sensing::SunSensor sun_;
+  sensing::RadioBeacon beacon_;
+  AidSchedule lander_schedule_;
+  AidSchedule sun_schedule_;
+  AidSchedule beacon_schedule_;
+  std::int64_t lander_number_ = 0;
+  std::int64_t sun_number_ = 0;
+  std::int64_t beacon_number_ = 0;
+  messages::CaptureNumber next_capture_ = 0;
+  std::vector<Waiting> waiting_;  // in the order of their captures
+  AidCounts counts_;
+};
+
+}  // namespace rockyard::trial

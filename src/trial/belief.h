@@ -1,0 +1,23 @@
+// What the rover believes of its own error, held against the truth.
+#pragma once
+
+#include <optional>
+
+#include "math/pose.h"
+#include "messages/estimates.h"
+
+namespace rockyard::trial {
+
+struct Belief {
+  double position_sd_m = 0.0;  // root of the summed variances of x and y
+  double heading_sd_rad = 0.0;
+  double nees = 0.0;       // e' P^-1 e of x, y, heading: chi-squared, 3 degrees of freedom
+  bool inside_95 = false;  // nees is at most that distribution's 95 % quantile
+};
+
+// Nothing where the estimate has no covariance, or one that is not positive definite: an oracle's,
+// and that of a rover that has not moved.
+std::optional<Belief> BeliefOf(const messages::LocalizationEstimate& estimate,
+                               const math::Pose2& truth);
+
+}  // namespace rockyard::trial
