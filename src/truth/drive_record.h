@@ -112,6 +112,7 @@ struct DriveColumn {
   std::string_view unit;
   std::string_view meaning;
   double DriveRecord::*member;
+  bool may_lack = false;  // NaN where there is nothing to tell
 };
 
 inline constexpr std::array kDriveColumns = {
@@ -244,7 +245,7 @@ inline constexpr std::array kDriveColumns = {
         "path_ratio", "1",
         "true path length over displacement_m; 1 or more, and undefined where the rover did "
         "not declare arrival",
-        &DriveRecord::path_ratio},
+        &DriveRecord::path_ratio, true},
     DriveColumn{"stops", "1",
                 "times that the rover came to rest: for a look, to steer at rest, for the overhead "
                 "of a move, or at the end",
@@ -305,17 +306,17 @@ inline constexpr std::array kDriveColumns = {
     DriveColumn{"believed_position_sd_m", "m",
                 "root of the summed variances of x and y that the rover believes at the end; "
                 "undefined where its estimator keeps no account of its error",
-                &DriveRecord::believed_position_sd_m},
+                &DriveRecord::believed_position_sd_m, true},
     DriveColumn{"believed_heading_sd_deg", "deg", "the same of its heading",
-                &DriveRecord::believed_heading_sd_deg},
+                &DriveRecord::believed_heading_sd_deg, true},
     DriveColumn{"pose_nees", "1",
                 "squared error of x, y and heading at the end in units of the believed covariance: "
                 "chi-squared with 3 degrees of freedom, mean 3, where the belief is right",
-                &DriveRecord::pose_nees},
+                &DriveRecord::pose_nees, true},
     DriveColumn{"inside_95", "1",
                 "1 where the true pose lies in the region that the rover believes to hold it with "
                 "95 %; else 0",
-                &DriveRecord::inside_95},
+                &DriveRecord::inside_95, true},
     DriveColumn{"aids_used", "1", "measurements of aids that corrected the estimate",
                 &DriveRecord::aids_used},
     DriveColumn{"aids_in_doubt", "1",

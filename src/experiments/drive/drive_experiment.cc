@@ -18,8 +18,7 @@ std::vector<double> Values(const truth::DriveRecord& drive) {
   values.reserve(truth::kDriveColumns.size());
   for (const truth::DriveColumn& column : truth::kDriveColumns) {
     const double value = drive.*column.member;
-    const bool may_lack = column.member == &truth::DriveRecord::path_ratio;
-    if (!std::isfinite(value) && !(may_lack && std::isnan(value))) {
+    if (!std::isfinite(value) && !(column.may_lack && std::isnan(value))) {
       throw std::runtime_error("the record holds a non-finite " + std::string(column.name));
     }
     values.push_back(value);
