@@ -105,9 +105,10 @@ ClonedCovariance::Correction ClonedCovariance::Update(std::span<const Part> part
   // K = P H' S^-1, as the solution of S K' = H P.
   const MatrixXd K = factors.solve(PHt.transpose()).transpose();
   const VectorXd change = K * residual;
-  // Joseph's form keeps the covariance positive whatever rounding does to the gain.
-  const MatrixXd left = MatrixXd::Identity(covariance_.rows(), covariance_.rows()) - K * H;
-  covariance_ = Symmetric(left * covariance_ * left.transpose() + K * noise * K.transpose());
+  // Joseph's form, (I - K H) P (I - K H)' + K R K', multiplied out to what costs O(rows^2 values):
+  // errors of the gain enter it in second order only.
+  const MatrixXd KHP = K * PHt.transpose();
+  covariance_ = Symmetric(covariance_ - KHP - KHP.transpose() + K * S * K.transpose());
   return {.changes = Eigen::Map<const MatrixXd>(change.data(), size_, change.size() / size_),
           .mahalanobis_squared = residual.dot(factors.solve(residual))};
 }

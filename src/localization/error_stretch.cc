@@ -5,30 +5,42 @@
 namespace rockyard::localization {
 namespace {
 
-// What one tick makes of the errors: A, of which most is the unit matrix.
-ErrorMatrix TickTransition(const MotionTick& tick, double tilt_kept) {
-  const double across_x = -tick.forward_m * std::sin(tick.along_rad);  // d x / d a
-  const double across_y = tick.forward_m * std::cos(tick.along_rad);
-  const double rolled_m = tick.forward_m / tick.wheel_scale;
-  const double turn_bias = -tick.duration_s / tick.gyro_scale;
-  const double turn_scale = -tick.turn_rad / tick.gyro_scale;
-  ErrorMatrix A = ErrorMatrix::Identity();
-  A(error::kHeading, error::kGyroBias) = turn_bias;
-  A(error::kHeading, error::kGyroScale) = turn_scale;
-  A(error::kX, error::kHeading) = across_x;
-  A(error::kY, error::kHeading) = across_y;
-  A(error::kX, error::kGyroBias) = across_x * tick.turn_share * turn_bias;
-  A(error::kY, error::kGyroBias) = across_y * tick.turn_share * turn_bias;
-  A(error::kX, error::kGyroScale) = across_x * tick.turn_share * turn_scale;
-  A(error::kY, error::kGyroScale) = across_y * tick.turn_share * turn_scale;
-  A(error::kX, error::kWheelScale) = std::cos(tick.along_rad) * rolled_m;
-  A(error::kY, error::kWheelScale) = std::sin(tick.along_rad) * rolled_m;
-  A(error::kZ, error::kPitch) = -tick.forward_m * std::cos(tick.pitch_rad);
-  A(error::kZ, error::kWheelScale) = -rolled_m * std::sin(tick.pitch_rad);
-  A(error::kRoll, error::kRoll) = tilt_kept;
-  A(error::kPitch, error::kPitch) = tilt_kept;
-  return A;
-}
+// What one tick makes of the errors: the rows of A that are not those of the unit matrix.
+struct TickRows {
+  TickRows(const MotionTick& tick, double kept)
+      : across_x(-tick.forward_m * std::sin(tick.along_rad)),
+        across_y(tick.forward_m * std::cos(tick.along_rad)),
+        along_x(std::cos(tick.along_rad) * tick.forward_m / tick.wheel_scale),
+        along_y(std::sin(tick.along_rad) * tick.forward_m / tick.wheel_scale),
+        down_pitch(-tick.forward_m * std::cos(tick.pitch_rad)),
+        down_scale(-tick.forward_m / tick.wheel_scale * std::sin(tick.pitch_rad)),
+        turn_bias(-tick.duration_s / tick.gyro_scale),
+        turn_scale(-tick.turn_rad / tick.gyro_scale),
+        turn_share(tick.turn_share),
+        tilt_kept(kept) {}
+
+  // M <- A M, row by row; a row is changed after those that need it as it was.
+  template <typename Matrix>
+  void Apply(Matrix&& M) const {
+    const auto turn = (turn_bias * M.row(error::kGyroBias) +  //
+                       turn_scale * M.row(error::kGyroScale))
+                          .eval();
+    const auto along = (M.row(error::kHeading) + turn_share * turn).eval();
+    M.row(error::kX) += across_x * along + along_x * M.row(error::kWheelScale);
+    M.row(error::kY) += across_y * along + along_y * M.row(error::kWheelScale);
+    M.row(error::kZ) += down_pitch * M.row(error::kPitch) + down_scale * M.row(error::kWheelScale);
+    M.row(error::kHeading) += turn;
+    M.row(error::kRoll) *= tilt_kept;
+    M.row(error::kPitch) *= tilt_kept;
+  }
+
+  double across_x, across_y;      // d x, d y / d a
+  double along_x, along_y;        // d x, d y / d e_w
+  double down_pitch, down_scale;  // d z / d e_p, d e_w
+  double turn_bias, turn_scale;   // d h / d e_b, d e_k
+  double turn_share;
+  double tilt_kept;
+};
 
 // What a tick's own noise adds to the covariance.
 void AddTickNoise(const MotionTick& tick, const TickNoise& noise, ErrorMatrix& N) {
@@ -54,9 +66,11 @@ void AddTickNoise(const MotionTick& tick, const TickNoise& noise, ErrorMatrix& N
 }  // namespace
 
 void ErrorStretch::Add(const MotionTick& tick, const TickNoise& noise) {
-  const ErrorMatrix A = TickTransition(tick, noise.tilt_kept);
-  transition_ = A * transition_;
-  noise_ = A * noise_ * A.transpose();
+  const TickRows A(tick, noise.tilt_kept);
+  A.Apply(transition_);
+  // N <- A N A', by rows and by columns.
+  A.Apply(noise_);
+  A.Apply(noise_.transpose());
   AddTickNoise(tick, noise, noise_);
   way_m_ += std::abs(tick.forward_m);
   empty_ = false;

@@ -12,8 +12,8 @@ namespace {
 
 void Label(benchmark::State& state, const Estimator& estimator) {
   core::Hasher hash;
-  hash.Add(estimator.estimate().pose.x_m);
-  hash.Add(estimator.estimate().pose.heading_rad);
+  hash.Real(estimator.estimate().pose.x_m);
+  hash.Real(estimator.estimate().pose.heading_rad);
   state.SetLabel(core::Hex(hash.value()));
 }
 
