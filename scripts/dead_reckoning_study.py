@@ -75,19 +75,19 @@ def heavy_tail_chance(deviation, freedom):
     return any_of(student_tail((MOST - ROUNDING - MODE) / deviation * unit, freedom))
 
 
-def grubbs_p(deviation, n=sand_slopes.RUNS):
+def grubbs_p(largest, n=sand_slopes.RUNS):
     """Upper bound of the chance that the largest of n normal errors, whatever their law's mean and
-    variance, is as many sample standard deviations above the sample's mean (Grubbs 1950).
-
-    The sample: the two extremes as printed (rounded towards the mode), all others at the mode;
-    its standard deviation `deviation`.
-    """
-    mean = (LEAST + ROUNDING + MOST - ROUNDING + (n - 2) * MODE) / n
-    largest = (MOST - ROUNDING - mean) / deviation
+    variance, lies `largest` sample standard deviations or more above the sample's mean (Grubbs 1950)."""
     room = (n - 1) ** 2 - n * largest ** 2
     if room <= 0.0:
         return 0.0
     return min(1.0, n * student_tail(largest * math.sqrt(n * (n - 2) / room), n - 2))
+
+
+def largest_of_footnote(deviation, n=sand_slopes.RUNS):
+    """Sample deviations from the sample's mean to the largest error; all but both extremes at the mode."""
+    mean = (LEAST + MOST + (n - 2) * MODE) / n
+    return (MOST - ROUNDING - mean) / deviation
 
 
 def share_of_extremes(deviation, n=sand_slopes.RUNS):
@@ -195,7 +195,7 @@ def footnote_rows():
         most, least = largest_chances(deviation)
         tails = [f"{heavy_tail_chance(deviation, freedom):.4f}" for freedom in (3, 4, 6)]
         rows.append([name, f"{100.0 * deviation:.2f} %", f"{most:.5f}", f"{least:.2f}", *tails,
-                     f"{100.0 * share_of_extremes(deviation):.0f} %", f"{grubbs_p(deviation):.1e}"])
+                     f"{100.0 * share_of_extremes(deviation):.0f} %", f"{grubbs_p(largest_of_footnote(deviation)):.1e}"])
     return rows
 
 
