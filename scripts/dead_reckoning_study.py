@@ -13,8 +13,8 @@ dead_reckoning.md.
     scripts/dead_reckoning_study.py results/runs/sand/level
 
 With two further runs, up and down a course (--set terrain.ground.slope_deg=1, and
-terrain.ground.slope_direction_deg=180 for down), sets of ten and ten of these are added: "ten runs each
-direction up and down the course".
+terrain.ground.slope_direction_deg=180 for down; 500 trials, seeds 25 and 26), sets of ten and ten of
+these are added: "ten runs each direction up and down the course".
 """
 
 import argparse
@@ -274,8 +274,8 @@ def main():
                      for name, slopes in measured for number, of_set in enumerate(slopes)])
     text = page(measured, args.replicates, args.seed)
     head = ("# Dead reckoning on sand: what twenty runs can tell\n\nMatthies 1995, section 5, figure 5 and "
-            f"footnote 4. Made by `scripts/dead_reckoning_study.py`; runs by rockyard {programs(args.runs)}, seeds and "
-            "trials as its first lines say.\n\n")
+            f"footnote 4. Made by `scripts/dead_reckoning_study.py`; runs by rockyard {programs(args.runs)}, made as "
+            "the first lines of the script say.\n\n")
     (args.out / "dead_reckoning.md").write_text(head + text + "\n", encoding="utf-8")
     print(text)
     return 0
