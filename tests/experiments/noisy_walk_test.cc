@@ -15,7 +15,7 @@ using localization::StepHeading;
 // Wheels of unlike radii, known to the rover; slip on level sand as calibrated.
 WalkingRover Walker(StepHeading step_heading = StepHeading::kStart) {
   WalkingRover rover;
-  rover.wheels.radius_ratio = {1.0, 1.1, 0.9, 1.0, 1.05, 0.95};
+  rover.wheels.radius_ratio = {1.0, 1.2, 0.9, 1.0, 1.1, 0.95};
   rover.believed = rover.wheels;
   rover.dead_reckoning.distance_scale = 0.93;
   rover.dead_reckoning.step_heading = step_heading;

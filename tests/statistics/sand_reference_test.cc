@@ -99,7 +99,9 @@ TEST(SandReference, Figure6LiesByTheExactMoments) {
     const DriftMoments exact =
         ExactMoments({0.067, distance_m, kSlope_m2_per_m, heading_deg2_per_m, 0.0});
     const bool across = value.column == "across_deviation_m";
-    EXPECT_NEAR(across ? exact.across_m : exact.along_m, value.value, 0.0105) << value.id;
+    const double exact_m = across ? exact.across_m : exact.along_m;
+    EXPECT_NEAR(exact_m, value.value, 0.01) << value.id;
+    EXPECT_EQ(std::ceil(100.0 * exact_m), std::round(100.0 * value.value)) << value.id;
     EXPECT_NEAR(value.low, value.value - 0.01, 1e-12);
     EXPECT_NEAR(value.high, value.value + 0.01, 1e-12);
   }
