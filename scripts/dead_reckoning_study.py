@@ -194,8 +194,9 @@ def footnote_rows():
     for name, deviation in laws:
         most, least = largest_chances(deviation)
         tails = [f"{heavy_tail_chance(deviation, freedom):.4f}" for freedom in (3, 4, 6)]
+        p_value = grubbs_p(largest_of_footnote(deviation))
         rows.append([name, f"{100.0 * deviation:.2f} %", f"{most:.5f}", f"{least:.2f}", *tails,
-                     f"{100.0 * share_of_extremes(deviation):.0f} %", f"{grubbs_p(largest_of_footnote(deviation)):.1e}"])
+                     f"{100.0 * share_of_extremes(deviation):.0f} %", f"{p_value:.1e}"])
     return rows
 
 

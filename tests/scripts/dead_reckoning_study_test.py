@@ -162,6 +162,15 @@ class Study(unittest.TestCase):
             self.assertIn("made by", (folder / "dead_reckoning.md").read_text().lower())
             self.assertIn("| level | heading (deg2/m) | through the origin | 10 |", out.getvalue())
 
+    def test_rows_say_where_the_printed_slope_lies(self):
+        below, above = [(0.5, 0.5, 1.0), (0.003, 0.003, 1.0)], [(0.9, 0.9, 1.6), (0.005, 0.005, 1.0)]
+        rows = sand.slope_rows("level", [below, below, below, above])
+        self.assertEqual([row[-1] for row in rows], ["75 %"] * 4)
+        self.assertEqual(rows[0][5], "0.5000 .. 0.8700")  # 92.5 % of the way from the third to the last
+        self.assertEqual([row[-1] for row in sand.exponent_rows("level", [below, above])], ["50 %", "0 %"])
+        self.assertEqual(sand.quantile([4.0, 0.0, 1.0], 1.0), 4.0)
+        self.assertAlmostEqual(sand.quantile([4.0, 0.0, 1.0], 0.75), 2.5)
+
     def test_too_few_courses_are_refused(self):
         with tempfile.TemporaryDirectory() as name:
             self.write_run(Path(name) / "few", 3)
