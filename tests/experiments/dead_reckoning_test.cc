@@ -227,6 +227,35 @@ TEST(DeadReckoningTest, AWrongWalkIsSeen) {
   EXPECT_GT(Differences(Cell(10.0, 16.0), {0.067, 10.0, 0.0039, 0.9 * 16.0, 0.0}), 0);
 }
 
+// Errors of calibration are those of the drive's.
+TEST(DeadReckoningTest, WheelsBelievedTooLargeReadTooLong) {
+  const std::vector<std::string> quiet{"dead_reckoning.distances_m=[6.7]",
+                                       "dead_reckoning.heading_variances_deg2_per_m=[0]",
+                                       "dead_reckoning.distance_variances_m2_per_m=[0]"};
+  const auto bias_m = [&](const std::vector<std::string>& overrides) {
+    return Count(SandScenario(With(quiet, overrides)), "distance_bias_m") / 1000.0;
+  };
+  EXPECT_NEAR(bias_m({}), 0.0, 1e-9);
+  EXPECT_NEAR(bias_m({"perception.calibration.drive.wheel_radius_percent=2"}), 0.134, 1e-9);
+}
+
+// An odometer does not mind where it goes: of its own the distance's noise alone, an equal amount
+// whatever the heading's.
+TEST(DeadReckoningTest, TheOdometerCountsTheWayNotThePlace) {
+  const auto column = [](const std::string& name, const std::string& variance_m2_per_m) {
+    return Count(SandScenario(With(
+                     Cell(10.0, 400.0),
+                     {"dead_reckoning.distance_variances_m2_per_m=[" + variance_m2_per_m + "]"})),
+                 name) /
+           1000.0;
+  };
+  EXPECT_NEAR(column("distance_error_m", "0"), 0.0, 1e-18);
+  EXPECT_LT(column("along_bias_m", "0"), -1.0);
+  // alpha = 1e-4: 3.9 deviations of the variance of 1000 normal errors.
+  EXPECT_NEAR(column("distance_error_m", "0.0039") / (0.0039 * 149 * 0.067), 1.0,
+              3.9 * std::sqrt(2.0 / 1000.0));
+}
+
 TEST(DeadReckoningTest, CountsWalksWithinReach) {
   const auto within = [](double reach_m) {
     return Count(
