@@ -1,13 +1,13 @@
 #include "statistics/closed_forms.h"
 
 #include <cmath>
-#include <cstdint>
 #include <functional>
 #include <limits>
 #include <numbers>
 #include <numeric>
 
 #include "core/check.h"
+#include "statistics/straight_drift.h"
 
 namespace rockyard::statistics {
 
@@ -34,36 +34,6 @@ double PowerLawCover(double k, double diameter, double exponent) {
          PowerLaw(k, diameter, exponent - 2.0);
 }
 
-DriftDeviation DeviationOf(const StraightDrift& drift) {
-  constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-  const std::int64_t steps = std::llround(drift.distance_m / drift.step_m);
-  const double length_variance = drift.distance_variance_m2_per_m * drift.step_m;
-  const double turn_variance =
-      drift.heading_variance_deg2_per_m * drift.step_m * kRadPerDeg * kRadPerDeg;
-  const double s = drift.step_m;
-  double mean_x = 0.0;
-  double square_x = 0.0;
-  double square_y = 0.0;
-  // x = sum d_i cos(phi_i), y = sum d_i sin(phi_i); phi_i is a sum of i normal turns, of variance
-  // V_i = i q. For i <= j: cos cos and sin sin are (cos(phi_i - phi_j) +- cos(phi_i + phi_j)) / 2,
-  // whose arguments have the variances V_j - V_i and V_j + 3 V_i; E[cos] of a normal angle of
-  // variance V is exp(-V/2).
-  for (std::int64_t i = 0; i < steps; ++i) {
-    const double v_i = static_cast<double>(i) * turn_variance;
-    mean_x += s * std::exp(-0.5 * v_i);
-    for (std::int64_t j = i; j < steps; ++j) {
-      const double v_j = static_cast<double>(j) * turn_variance;
-      const double difference = std::exp(-0.5 * (v_j - v_i));
-      const double sum = std::exp(-0.5 * (v_j + 3.0 * v_i));
-      // Pairs of different steps count twice.
-      const double weight = i == j ? 0.5 * (s * s + length_variance) : s * s;
-      square_x += weight * (difference + sum);
-      square_y += weight * (difference - sum);
-    }
-  }
-  return {std::sqrt(square_x - mean_x * mean_x), std::sqrt(square_y)};
-}
-
 std::size_t FormulaArity(Formula formula) {
   switch (formula) {
     case Formula::kAnyOf:
@@ -86,7 +56,7 @@ std::size_t FormulaArity(Formula formula) {
 }
 
 bool InDomain(Formula formula, std::span<const double> inputs) {
-  constexpr double kMaxSteps = 1e4;  // the cost grows with their square
+  constexpr double kMaxSteps = 1e4;
   switch (formula) {
     case Formula::kPowerLawCover:
       return inputs[1] > 0.0 && inputs[2] > 2.0;
@@ -119,9 +89,9 @@ double Evaluate(Formula formula, std::span<const double> inputs) {
     case Formula::kPowerLawCover:
       return PowerLawCover(inputs[0], inputs[1], inputs[2]);
     case Formula::kDriftAlong:
-      return DeviationOf({inputs[0], inputs[1], inputs[2], inputs[3]}).along_m;
+      return ExactMoments({inputs[0], inputs[1], inputs[2], inputs[3]}).along_m;
     case Formula::kDriftAcross:
-      return DeviationOf({inputs[0], inputs[1], inputs[2], inputs[3]}).across_m;
+      return ExactMoments({inputs[0], inputs[1], inputs[2], inputs[3]}).across_m;
     case Formula::kNone:
       break;
   }

@@ -28,22 +28,6 @@ double PowerLaw(double k, double size, double exponent);
 // there are k d^-m of them per unit area: pi/4 k m / (m - 2) d^(2 - m). Needs m > 2.
 double PowerLawCover(double k, double diameter, double exponent);
 
-// The dead-reckoning error of a drive in a straight line by the state equations of Matthies 1995,
-// section 5: steps of `step_m`, each with an error of its length and one of the heading before the
-// next, all independent and normal.
-struct StraightDrift {
-  double step_m = 0.0;
-  double distance_m = 0.0;  // whole steps: the nearest number of them
-  double distance_variance_m2_per_m = 0.0;
-  double heading_variance_deg2_per_m = 0.0;
-};
-struct DriftDeviation {
-  double along_m = 0.0;
-  double across_m = 0.0;
-};
-// Returns the exact standard deviations of the position at the end. Cost: steps squared.
-DriftDeviation DeviationOf(const StraightDrift& drift);
-
 // Returns how many numbers a formula takes; 0 means any number of them, at least one.
 std::size_t FormulaArity(Formula formula);
 

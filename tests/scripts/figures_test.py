@@ -46,6 +46,13 @@ def setUpModule():
         extra = ["--set", "hazard_detection.scenes_per_run=2"] if name == "scan" else []
         subprocess.run([ROCKYARD, "run", ROOT / f"scenarios/{scenario}.json", "--trials", str(trials),
                         "--out", Path(SCRATCH.name) / name, *QUICK, *extra], check=True)
+    sand = Path(SCRATCH.name) / "sand"
+    subprocess.run([ROCKYARD, "run", ROOT / "scenarios/pathfinder/level_sand.json", "--trials", "41", "--out", sand,
+                    "--set", "rover.fidelity=quasi_static", "--traces", "all", "--trace-format", "csv", "--quiet"],
+                   check=True)
+    walks = Path(SCRATCH.name) / "walks"
+    subprocess.run([ROCKYARD, "run", ROOT / "scenarios/localization/straight_sand.json", "--trials", "66", "--out",
+                    walks, "--set", "dead_reckoning.walks_per_run=50", "--quiet"], check=True)
 
 
 def tearDownModule():
@@ -85,6 +92,44 @@ class DrawnNumbers(FiguresTest):
         self.assertIn("not available", drawn.caption)
         marks = [line.get_xdata()[0] for line in curves if len(set(line.get_xdata())) == 1]
         self.assertEqual(marks, [7.0, 7.6, 8.39])
+
+    def test_variances_along_runs_are_those_of_the_courses(self):
+        drawn = self.draw("matthies1995-5", "sand")
+        ends = []
+        for trial in range(20):
+            samples = [row for row in rows(self.root / f"sand/traces/trial-{trial:06d}.csv")
+                       if row["row"] == "sample"]
+            way = before = 0.0
+            for row in samples:  # straight along x, so that the way is x
+                way, before = float(row["true_x_m"]), way
+                if way >= 2.0:
+                    error = float(row["odometer_m"]) - way
+                    ends.append(error)
+                    break
+            self.assertLess(way - before, 0.02)
+        mean = sum(ends) / 20
+        variance = sum((end - mean) ** 2 for end in ends) / 19
+        # At 2 m, to a tick and to what the rover swerves.
+        self.assertAlmostEqual(drawn.numbers["distance travelled"]["first"][7] / variance, 1.0, delta=0.1)
+        self.assertEqual(len(drawn.numbers["heading"]["sets"]), 2)
+        self.assertIn("41 runs", drawn.caption)
+        dotted = [line for axes in drawn.figure.axes for line in axes.get_lines() if line.get_linestyle() == ":"]
+        self.assertEqual([round(line.get_ydata()[1] / line.get_xdata()[1], 4) for line in dotted], [0.7, 0.0039])
+
+    def test_deviations_are_those_of_the_cells(self):
+        drawn = self.draw("matthies1995-6", "walks")
+        cells = rows(self.root / "walks/cells.csv")
+        for (_, series), variance in zip(drawn.numbers.items(), (0.7, 16.0)):
+            for column, name in (("mean_across_deviation_m", "across"), ("mean_along_deviation_m", "along"),
+                                 ("mean_heading_deviation_deg", "heading")):
+                self.assertEqual(series[name],
+                                 [float(cell[column]) for cell in cells
+                                  if float(cell["heading_variance_deg2_per_m"]) == variance
+                                  and float(cell["distance_m"]) <= 20.0])
+        squares = [(line.get_xdata()[0], *line.get_ydata()) for axes in drawn.figure.axes
+                   for line in axes.get_lines() if line.get_marker() == "s"]
+        self.assertEqual(squares, [(10.0, 0.27, 0.20), (20.0, 0.76, 0.29), (5.0, 0.45, 0.15), (10.0, 1.25, 0.24)])
+        self.assertIn("100 walks", drawn.caption)
 
     def test_paths_end_where_the_trial_did(self):
         drawn = self.draw("matthies1995-16", "nominal", trial=1)
@@ -216,7 +261,8 @@ class DrawnNumbers(FiguresTest):
 class CommandLine(FiguresTest):
     def test_every_figure_is_listed_with_its_runs(self):
         text = self.script("--list")
-        for name in ("matthies1995-13", "matthies1995-15", "matthies1995-16", "matthies1995-17", "matthies1995-table4",
+        for name in ("matthies1995-13", "matthies1995-15", "matthies1995-16", "matthies1995-17", "matthies1995-5",
+                     "matthies1995-6", "matthies1995-table4",
                      "goldberg2002-3"):
             self.assertIn(name, text)
 
@@ -263,7 +309,10 @@ class CommandLine(FiguresTest):
                               (["goldberg2002-3", "nominal"], "step"),
                               (["matthies1995-15", "gestalt"], "Moore's model"),
                               (["matthies1995-13", "gestalt"], "looks with stereo"),
-                              (["matthies1995-13", "scan"], "no run of drives")):
+                              (["matthies1995-13", "scan"], "no run of drives"),
+                              (["matthies1995-5", "nominal"], "keeps no courses"),
+                              (["matthies1995-5", "walks"], "no run of drives"),
+                              (["matthies1995-6", "nominal"], "no run of the experiment dead_reckoning")):
             with self.subTest(words=words):
                 text = self.script(*words, "--out", "none", code=2)
                 self.assertIn("error: ", text)
