@@ -151,6 +151,17 @@ TEST(LanderMapTest, NothingIsKnownBeyondItsReach) {
   EXPECT_EQ(Map(course, rocks).size(), 1U);
 }
 
+// Of a dome from 5.5 to 6.5 m the foot is hidden behind a fence: what is seen of it is farther.
+TEST(LanderMapTest, ReachIsThatOfWhatIsSeen) {
+  CourseParams course = ExactCourse();
+  const std::vector<terrain::Rock> rocks{Dome(6.0, 0.0, 0.5, 0.4), Fence(5.3, 0.3)};
+  const std::vector<MappedRock> map = Map(course, rocks);
+  ASSERT_EQ(map.size(), 2U);
+  EXPECT_GT(map[0].range_m, 5.55);
+  course.lander_map.reach_m = 5.52;
+  EXPECT_EQ(Map(course, rocks).size(), 1U);
+}
+
 TEST(LanderMapTest, TheMastStandsWhereDesignationSays) {
   CourseParams course = ExactCourse();
   course.designation.lander_ahead_m = -5.0;
@@ -228,6 +239,24 @@ TEST(LanderMapTest, ErrorsAreThoseOfTheClosedForms) {
     for (double& each : *z) each *= 1.15;
     EXPECT_LT(core::KolmogorovP(*z, NormalCdf), 0.001);
   }
+}
+
+// The range is that along the ray: 5 m from a mast of 4 m to a rock 3 m off, where equation 2 gives
+// the error of 20 m and 1.5 m times (5^2) / (20^2 + 1.5^2).
+TEST(LanderMapTest, ErrorsGoByTheRangeAlongTheRay) {
+  const auto error_m = [](double nearest_m, double mast_m) {
+    CourseParams course = ExactCourse();
+    course.lander_map.mast_height_m = mast_m;
+    const std::vector<terrain::Rock> rocks{Dome(nearest_m + 0.3, 0.0, 0.3, 0.4)};
+    const auto nearest = [&] {
+      const terrain::Rock rock = Map(course, rocks, {3, 5}).at(0).rock;
+      return Distance(rock) - rock.semi_axes_m.x();
+    };
+    const double exact_m = nearest();
+    course.lander_map.disparity_sd_px = 0.1;
+    return nearest() - exact_m;
+  };
+  EXPECT_NEAR(error_m(3.0, 4.0) / error_m(20.0, kMast_m), 25.0 / 402.25, 1e-4);
 }
 
 // Believed sizes go with the believed range.
