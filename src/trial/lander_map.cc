@@ -77,7 +77,9 @@ struct Sight {
   }
 };
 
-Sight Look(const terrain::Terrain& terrain, int index, const Vector3& mast_W) {
+// `before` holds every rock that may stand between, and the rock itself.
+Sight Look(const terrain::Terrain& terrain, int index, std::span<const int> before,
+           const Vector3& mast_W) {
   const terrain::Rock& rock = terrain.rocks()[static_cast<std::size_t>(index)];
   const double bearing_rad =
       std::atan2(rock.center_W.y() - mast_W.y(), rock.center_W.x() - mast_W.x());
@@ -86,10 +88,28 @@ Sight Look(const terrain::Terrain& terrain, int index, const Vector3& mast_W) {
   for (const Vector3& point_W : SurfacePoints(rock, terrain.ground())) {
     if (terrain.Occluded(mast_W, point_W, kMargin_m, itself)) continue;
     ++sight.alone;
-    if (terrain.Occluded(mast_W, point_W, kMargin_m)) continue;
+    if (terrain.Occluded(mast_W, point_W, kMargin_m, before)) continue;
     sight.Add(point_W - mast_W, bearing_rad, point_W.z());
   }
   return sight;
+}
+
+// A rock from above, about the mast.
+struct Outline {
+  double nearest_m = 0.0;
+  double farthest_m = 0.0;
+  double bearing_rad = 0.0;
+  double half_rad = 0.0;  // of the circle around it
+};
+
+Outline OutlineOf(const terrain::Rock& rock, const Vector3& mast_W) {
+  const double dx = rock.center_W.x() - mast_W.x();
+  const double dy = rock.center_W.y() - mast_W.y();
+  const double centre_m = std::hypot(dx, dy);
+  const double radius_m = rock.semi_axes_m.x();
+  const bool beside = centre_m > radius_m;
+  return {centre_m - radius_m, centre_m + radius_m, std::atan2(dy, dx),
+          beside ? std::asin(radius_m / centre_m) : std::numbers::pi};
 }
 
 // Standard normal numbers of one rock.
@@ -124,15 +144,16 @@ class Mapper {
     const messages::Goal lander = course.LanderPlace();
     mast_W_ = {lander.x_m, lander.y_m,
                terrain.ground().Height(lander.x_m, lander.y_m) + params_.mast_height_m};
+    for (const terrain::Rock& rock : terrain.rocks()) outlines_.push_back(OutlineOf(rock, mast_W_));
   }
 
   std::optional<MappedRock> Map(std::size_t index) const {
     const terrain::Rock& truth = terrain_.rocks()[index];
-    const double centre_m =
-        std::hypot(truth.center_W.x() - mast_W_.x(), truth.center_W.y() - mast_W_.y());
-    const double radius_m = truth.semi_axes_m.x();
-    if (centre_m <= radius_m || centre_m - radius_m > params_.reach_m) return std::nullopt;
-    const Sight sight = Look(terrain_, static_cast<int>(index), mast_W_);
+    const Outline& outline = outlines_[index];
+    if (outline.nearest_m <= 0.0 || outline.nearest_m > params_.reach_m) return std::nullopt;
+    // Most rocks are too small, whatever is seen of them.
+    if (2.0 * outline.half_rad < params_.resolved_px * cameras_.pixel_rad) return std::nullopt;
+    const Sight sight = Look(terrain_, static_cast<int>(index), RocksBefore(outline), mast_W_);
     if (sight.seen == 0 || sight.nearest_m > params_.reach_m) return std::nullopt;
     const double resolved_px =
         std::min(sight.left_rad - sight.right_rad, sight.high_rad - sight.low_rad) /
@@ -145,6 +166,19 @@ class Mapper {
   }
 
  private:
+  // Those whose outlines share a bearing with that of a rock and begin before it ends, itself
+  // included.
+  std::vector<int> RocksBefore(const Outline& rock) const {
+    std::vector<int> before;
+    for (std::size_t i = 0; i < outlines_.size(); ++i) {
+      const Outline& other = outlines_[i];
+      if (other.nearest_m > rock.farthest_m) continue;
+      const double apart_rad = std::abs(math::WrapAngle(other.bearing_rad - rock.bearing_rad));
+      if (apart_rad <= other.half_rad + rock.half_rad) before.push_back(static_cast<int>(i));
+    }
+    return before;
+  }
+
   // None where the errors leave nothing of its size.
   std::optional<terrain::Rock> Believe(const terrain::Rock& truth, const Sight& sight,
                                        const RockErrors& draws) const {
@@ -184,6 +218,7 @@ class Mapper {
   core::TrialKey key_;
   double pan_rad_;
   Vector3 mast_W_;
+  std::vector<Outline> outlines_;  // of all rocks
 };
 
 }  // namespace

@@ -36,9 +36,9 @@ struct MappedRock {
 // Errors of rocks are independent of each other and of the goal's. To first order, as designation.
 //
 // Randomness: Purpose::kLanderMap, substream = the rock's index, always five numbers. Limits: no
-// rover, lander or wall hides anything; a matcher that fails, or rocks that it takes for one, are
+// rover or lander hides anything; a matcher that fails, or rocks that it takes for one, are
 // not modelled; the ground's height is known. A rock under the mast itself is not in the map. Cost:
-// some 10 us a rock.
+// 10 to 30 us a rock, 7 ms among the rocks of VL-2 in the arena of the paper.
 std::vector<MappedRock> MapFromLander(const CourseParams& course, const terrain::Terrain& terrain,
                                       core::TrialKey key);
 
