@@ -207,6 +207,17 @@ TEST_F(WaypointSequenceTest, LegsBeginWhereTheOneBeforeEnded) {
   EXPECT_EQ(sequence_->reached(), 2U);
 }
 
+// At (2, 0) the navigator itself arrives. From there to (5, 5) the way leads along (3, 5), and
+// (-1, 0.8) from that place is beyond it; along (5, 5), from the start, it would not be.
+TEST_F(WaypointSequenceTest, ALegAfterAnArrivalBeginsThere) {
+  Make({{2.0, 0.0}, {5.0, 5.0}, {9.0, 9.0}}, 0.01);
+  sequence_->Decide(InputAt(0.0, 0.0));
+  sequence_->Decide(InputAt(1.95, 0.0));
+  EXPECT_EQ(sequence_->reached(), 1U);
+  sequence_->Decide(InputAt(4.0, 5.8));
+  EXPECT_EQ(sequence_->reached(), 2U);
+}
+
 TEST_F(WaypointSequenceTest, BendsCloseTogetherArePassedAtOnceAndTheLastGoalNever) {
   Make({{1.0, 0.0}, {1.2, 0.0}, {1.4, 0.0}}, 0.5);
   const NavigatorDecision decision = At(0.9);
