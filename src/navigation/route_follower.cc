@@ -88,8 +88,8 @@ NavigatorDecision RouteFollower::Steer(const Bearing& bearing, const PoseEstimat
 NavigatorDescription<RouteParams> DescribeRouteFollower() {
   return {.name = "route",
           .doc =
-              "follower of the route that an oracle plans (course.oracle_route): perfect path "
-              "selection",
+              "follower of a route that was planned before (course.route_map): with an oracle's "
+              "perfect path selection",
           .traits = [](const RouteParams& params) -> NavigatorTraits {
             NavigatorTraits traits(LookReading::kNothing, CostOfLook{},
                                    {"goal_tolerance_m", params.goal_tolerance_m});

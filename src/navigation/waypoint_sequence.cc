@@ -1,5 +1,6 @@
 #include "navigation/waypoint_sequence.h"
 
+#include <cmath>
 #include <utility>
 
 #include "core/check.h"
@@ -7,23 +8,45 @@
 namespace rockyard::navigation {
 
 WaypointSequence::WaypointSequence(std::vector<messages::Goal> goals,
-                                   std::unique_ptr<Navigator> navigator)
-    : goals_(std::move(goals)), navigator_(std::move(navigator)) {
+                                   std::unique_ptr<Navigator> navigator,
+                                   std::optional<double> pass_within_m)
+    : goals_(std::move(goals)), navigator_(std::move(navigator)), pass_within_m_(pass_within_m) {
   EXPECT(!goals_.empty());
   EXPECT(navigator_ != nullptr);
 }
 
 NavigatorDecision WaypointSequence::Decide(const NavigatorInput& input) {
+  if (pass_within_m_) PassWaypoints(input.estimate);
   NavigatorDecision decision = navigator_->Decide(input);
   NavigatorInput again = input;
   // The first answer was one to this, too.
   again.notices_stuck = false;
   while (decision.status == NavigatorStatus::kArrived && !IsOnLastLeg()) {
+    leg_from_ = goal();
     ++reached_;
     navigator_->SetGoal(goal(), GoalChange::kNext);
     decision = navigator_->Decide(again);
   }
   return decision;
+}
+
+void WaypointSequence::PassWaypoints(const messages::PoseEstimate& estimate) {
+  // The first leg begins where the rover stands when it first decides.
+  if (!leg_from_) leg_from_ = messages::Goal{estimate.x_m, estimate.y_m};
+  const std::size_t before = reached_;
+  while (!IsOnLastLeg() && HasPassed(estimate)) {
+    leg_from_ = goal();
+    ++reached_;
+  }
+  if (reached_ != before) navigator_->SetGoal(goal(), GoalChange::kNext);
+}
+
+// Near it, or (p - waypoint) . (waypoint - leg's start) > 0.
+bool WaypointSequence::HasPassed(const messages::PoseEstimate& estimate) const {
+  const double dx = estimate.x_m - goal().x_m;
+  const double dy = estimate.y_m - goal().y_m;
+  const double beyond = dx * (goal().x_m - leg_from_->x_m) + dy * (goal().y_m - leg_from_->y_m);
+  return beyond > 0.0 || std::hypot(dx, dy) <= *pass_within_m_;
 }
 
 void WaypointSequence::OnPoseUpdate(const messages::PoseEstimate& before,

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "messages/estimates.h"
@@ -15,8 +16,11 @@ namespace rockyard::navigation {
 class WaypointSequence final : public Navigator {
  public:
   // `goals`, in the world frame, are one at least, in the order of driving. `navigator` is not null
-  // and has the first of them for its goal.
-  WaypointSequence(std::vector<messages::Goal> goals, std::unique_ptr<Navigator> navigator);
+  // and has the first of them for its goal. With `pass_within_m` the waypoints are bends of a way
+  // rather than places to be at: each is done with where the rover believes to be no farther from
+  // it, or beyond the line through it across the leg that leads to it.
+  WaypointSequence(std::vector<messages::Goal> goals, std::unique_ptr<Navigator> navigator,
+                   std::optional<double> pass_within_m = std::nullopt);
 
   // Says kArrived at the last goal only. At any other one the navigator is given the next and asked
   // again, so that no tick is lost.
@@ -30,7 +34,8 @@ class WaypointSequence final : public Navigator {
   void SetGoal(const messages::Goal& goal, GoalChange change) override;
   const messages::NavigationView* view() const override { return navigator_->view(); }
 
-  // Waypoints at which the navigator said that it had arrived; the last goal is none of them.
+  // Waypoints at which the navigator said that it had arrived, or that were passed; the last goal
+  // is none of them.
   std::size_t reached() const { return reached_; }
   bool IsOnLastLeg() const { return reached_ + 1 == goals_.size(); }
   // What it drives to now, and in the end.
@@ -38,8 +43,13 @@ class WaypointSequence final : public Navigator {
   const messages::Goal& last_goal() const { return goals_.back(); }
 
  private:
+  void PassWaypoints(const messages::PoseEstimate& estimate);
+  bool HasPassed(const messages::PoseEstimate& estimate) const;
+
   std::vector<messages::Goal> goals_;
   std::unique_ptr<Navigator> navigator_;
+  std::optional<double> pass_within_m_;
+  std::optional<messages::Goal> leg_from_;
   std::size_t reached_ = 0;
 };
 

@@ -38,6 +38,16 @@ messages::Goal CourseParams::GoalAt(double time_s) const {
           goal_y_m + way_m * std::sin(target_heading_rad)};
 }
 
+messages::Goal CourseParams::LanderPlace() const {
+  const double dx = goal_x_m - start_x_m;
+  const double dy = goal_y_m - start_y_m;
+  const double straight_m = std::hypot(dx, dy);
+  if (straight_m <= 0.0) return {start_x_m, start_y_m};
+  const double ahead = designation.lander_ahead_m / straight_m;
+  const double left = designation.lander_left_m / straight_m;
+  return {start_x_m + ahead * dx - left * dy, start_y_m + ahead * dy + left * dx};
+}
+
 double CourseParams::DesignationRange_m(const messages::Goal& place) const {
   const double dx = goal_x_m - start_x_m;
   const double dy = goal_y_m - start_y_m;
@@ -100,6 +110,8 @@ void CourseParams::Visit(core::FieldVisitor& v) {
   v.Group("tracking", tracking, "a sensor that follows the goal, where it is seen");
   v.Group("oracle_route", oracle_route,
           "how the route is planned that navigation.navigator route follows");
+  v.Group("route_map", route_map, "by whose knowledge of the rocks it is, and who drives along it");
+  v.Group("lander_map", lander_map, "what the lander's cameras show of the rocks");
   const double dx = goal_x_m - start_x_m;
   const double dy = goal_y_m - start_y_m;
   v.Require("goal_x_m", dx * dx + dy * dy > 0.01, "puts the goal within 0.1 m of the start",

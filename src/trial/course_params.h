@@ -9,6 +9,8 @@
 #include "messages/estimates.h"
 #include "sensing/feature_tracker_params.h"
 #include "trial/designation_params.h"
+#include "trial/lander_map_params.h"
+#include "trial/route_map_params.h"
 #include "trial/route_plan_params.h"
 #include "trial/waypoint_params.h"
 
@@ -28,6 +30,8 @@ struct CourseParams {
   DesignationParams designation;
   sensing::FeatureTrackerParams tracking;
   RoutePlanParams oracle_route;
+  RouteMapParams route_map;
+  LanderMapParams lander_map;
 
   math::Pose2 Start() const { return {start_x_m, start_y_m, start_heading_rad}; }
 
@@ -37,6 +41,9 @@ struct CourseParams {
 
   // The true goal at a simulated time, which is goal_x_m, goal_y_m where the target stands.
   messages::Goal GoalAt(double time_s) const;
+
+  // Where the lander's cameras stand, in W; the start where start and goal are one.
+  messages::Goal LanderPlace() const;
 
   // From the lander's cameras to a place in W; 0 where start and goal are one, which Visit refuses.
   double DesignationRange_m(const messages::Goal& place) const;

@@ -137,6 +137,37 @@ void RequireOnePlan(const DriveParams& drive, core::FieldVisitor& v) {
             "use navigator pathfinder or gestalt, or no tracking");
 }
 
+// A route is for somebody who follows it, and one of these only; the lander's cameras stand where
+// designation says.
+void RequireSoundRouteMap(const DriveParams& drive, core::FieldVisitor& v) {
+  const navigation::NavigatorKind& navigator = drive.navigation.navigators.chosen();
+  const bool follows = navigator.traits().follows_route;
+  const CourseParams& course = drive.course;
+  const bool waypoints = course.route_map.use == RouteUse::kWaypoints;
+  const bool lander = course.route_map.source == RouteMap::kLander;
+  v.Require("course.route_map.use", !waypoints || !follows,
+            fmt::format("is waypoints where navigation.navigator is {}, which follows the whole "
+                        "route itself",
+                        navigator.name()),
+            "use navigator, or navigator pathfinder or gestalt, which look for hazards");
+  v.Require("course.route_map.use", !waypoints || course.waypoints.x_m.empty(),
+            "is waypoints where course.waypoints names others",
+            "use a course without waypoints, or navigator");
+  v.Require("course.route_map.use", !waypoints || !course.tracking.enabled,
+            "is waypoints where course.tracking.enabled is true: the route was planned before, to "
+            "the goal as it was told",
+            "use navigator, or no tracking");
+  v.Require("course.route_map.source", !lander || waypoints || follows,
+            fmt::format("is lander where nobody uses a route: navigation.navigator is {} and "
+                        "course.route_map.use is navigator",
+                        navigator.name()),
+            "use waypoints, navigation.navigator route, or oracle");
+  v.Require("course.route_map.source", !lander || course.designation.enabled,
+            "is lander where course.designation.enabled is false, which says where the lander's "
+            "cameras stand and how far the goal is off in their frame",
+            "use course.designation.enabled true, or oracle");
+}
+
 // A target that moves on crosses a mirror line, where no rover arrives.
 void RequireTargetBetweenLines(const DriveParams& drive, core::FieldVisitor& v) {
   v.Require("course.target_speed_m_s",
@@ -173,6 +204,7 @@ void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v) {
   RequireFreeEnds(drive, v);
   RequireDesignatedGoals(drive, v);
   RequireOnePlan(drive, v);
+  RequireSoundRouteMap(drive, v);
   RequireTargetBetweenLines(drive, v);
   RequireListener(drive, v);
 }

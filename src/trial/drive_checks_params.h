@@ -19,6 +19,8 @@ inline constexpr double kSame_m = 1e-9;
 // - goals and waypoints that a lander designates stay between the mirror lines of a
 //   virtual_reflected arena, and so do targets: they stand;
 // - an oracle's route leads to one goal that nobody tracks;
+// - a route has somebody who follows it or drives along its corners, not both, and no other
+//   waypoints; the map of a lander has a lander (course.designation);
 // - GESTALT takes its vehicle for at most twice and at least half as long and wide as it is.
 // Each failure names the parameter, what is wrong and a remedy.
 void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v);

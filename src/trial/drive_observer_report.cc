@@ -32,7 +32,7 @@ void DriveObserver::ReportGoals(truth::DriveRecord& record) const {
   const messages::PoseEstimate& estimate = parts_.estimate().pose;
   record.straight_distance_m =
       std::hypot(course.goal_x_m - course.start_x_m, course.goal_y_m - course.start_y_m);
-  const messages::Goal& told = parts_.designated_goals.back();
+  const messages::Goal& told = parts_.told_places.back();
   record.told_goal_x_m = told.x_m;
   record.told_goal_y_m = told.y_m;
   record.designation_error_m = std::hypot(told.x_m - course.goal_x_m, told.y_m - course.goal_y_m);

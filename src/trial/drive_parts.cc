@@ -5,11 +5,10 @@
 
 #include "navigation/stuck_reaction.h"
 #include "terrain/arena.h"
-#include "trial/goal_designation.h"
 #include "trial/layout.h"
 #include "trial/make_estimator.h"
 #include "trial/onboard_calibration.h"
-#include "trial/route_planner.h"
+#include "trial/told_places.h"
 
 namespace rockyard::trial {
 namespace {
@@ -23,10 +22,11 @@ std::optional<ArenaBounds> Bounds(const terrain::ArenaParams& arena) {
 
 std::unique_ptr<navigation::Navigator> MakePathSelection(const DriveParams& drive,
                                                          const terrain::Terrain& terrain,
+                                                         core::TrialKey key,
                                                          const messages::Goal& goal) {
   const navigation::NavigatorKind& chosen = drive.navigation.navigators.chosen();
   navigation::NavigatorSetup setup{.goal = goal, .judges_hazards = drive.perception.hazard.enabled};
-  if (chosen.traits().follows_route) setup.route = PlanRoute(drive, terrain, goal);
+  if (chosen.traits().follows_route) setup.route = ToldRoute(drive, terrain, key, goal);
   return chosen.Make(setup);
 }
 
@@ -36,11 +36,19 @@ bool LooksForStuck(const DriveParams& drive) {
 
 std::unique_ptr<navigation::Navigator> MakeNavigator(const DriveParams& drive,
                                                      const terrain::Terrain& terrain,
+                                                     core::TrialKey key,
                                                      const messages::Goal& goal) {
-  std::unique_ptr<navigation::Navigator> navigator = MakePathSelection(drive, terrain, goal);
+  std::unique_ptr<navigation::Navigator> navigator = MakePathSelection(drive, terrain, key, goal);
   if (!LooksForStuck(drive)) return navigator;
   return std::make_unique<navigation::StuckReaction>(drive.navigation.on_board_stuck,
                                                      std::move(navigator));
+}
+
+// Corners of a route are passed, places that somebody named are arrived at.
+std::optional<double> PassingOf(const DriveParams& drive) {
+  const RouteMapParams& map = drive.course.route_map;
+  if (map.use != RouteUse::kWaypoints) return std::nullopt;
+  return map.passing_m;
 }
 
 navigation::WheelDriverParams WheelDriverOf(const DriveParams& drive) {
@@ -64,22 +72,23 @@ std::unique_ptr<rover::Rover> MakeTrialRover(const DriveParams& drive, terrain::
 DriveParts::DriveParts(const DriveParams& drive, core::TrialKey trial_key, const Watchers& watchers)
     : params(drive),
       key(trial_key),
-      designated_goals(DesignatedGoals(drive.course, trial_key)),
       field(terrain::BuildField(drive.terrain, LayoutKey(drive, trial_key),
                                 TerrainCourse(drive.course))),
+      told_places(ToldPlaces(drive, field.terrain, trial_key)),
       rover(MakeTrialRover(drive, field.terrain)),
       tick(WholeSteps(1.0 / drive.clock.control_rate_hz, rover->step_s())),
       stop(WholeSteps(rover->ramp_s() + drive.clock.stop_time_s, rover->step_s())),
       terrain_sensing(drive, trial_key, watchers),
       guard(drive, trial_key),
       aids(drive, trial_key, field.terrain),
-      navigator(designated_goals, MakeNavigator(drive, field.terrain, designated_goals.front())),
+      navigator(told_places, MakeNavigator(drive, field.terrain, trial_key, told_places.front()),
+                PassingOf(drive)),
       follower(drive.rover.drive.speed_m_s, rover->ramp_s()),
       wheel_driver(OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive),
                    WheelDriverOf(drive)),
       ledger(MakePowerBudget(drive), drive.energy.battery_wh),
       timeline(drive.clock.overlap, ledger),
-      referee(drive.referee, drive.course, designated_goals.front(), Bounds(drive.terrain.arena),
+      referee(drive.referee, drive.course, told_places.front(), Bounds(drive.terrain.arena),
               drive.rover.geometry.wheel_radius_m) {
   if (drive.terrain.arena.kind == terrain::ArenaKind::kVirtualReflected) {
     mirror.emplace(drive.terrain.arena.MirrorLine());

@@ -44,9 +44,9 @@ struct DriveParts {
 
   const DriveParams& params;
   core::TrialKey key;
-  std::vector<messages::Goal> designated_goals;  // waypoints, then the goal
 
   terrain::Field field;
+  std::vector<messages::Goal> told_places;  // waypoints, then the goal, as the rover is told
   std::unique_ptr<rover::Rover> rover;
   Stretch tick;  // of control
   Stretch stop;  // before a scan

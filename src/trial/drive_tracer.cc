@@ -78,7 +78,10 @@ void DriveTracer::Look(messages::LookDirection direction, const Percept& percept
 
 void DriveTracer::Waypoint(std::size_t index) {
   if (trace_ == nullptr) return;
-  const std::vector<messages::Goal> goals = parts_.params.course.Goals();
+  // Where somebody named them, how far their true places are; corners of a route have none.
+  const CourseParams& course = parts_.params.course;
+  const bool named = course.route_map.use != RouteUse::kWaypoints;
+  const std::vector<messages::Goal> goals = named ? course.Goals() : parts_.told_places;
   const math::Pose2 rover = math::ToPose2(parts_.state().X_WR);
   Event("waypoint",
         fmt::format("{} of {}, {:.2f} m from it", index + 1, goals.size() - 1,

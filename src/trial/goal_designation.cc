@@ -59,6 +59,12 @@ messages::Goal Designated(const messages::Goal& truth, const CourseParams& cours
 
 }  // namespace
 
+double PanError_rad(const DesignationParams& designation, core::TrialKey key) {
+  if (!designation.enabled) return 0.0;
+  const bool fixed = designation.pan_kind == PanError::kFixed;
+  return designation.pan_error_rad * (fixed ? 1.0 : Draw(key, 0).pan);
+}
+
 messages::Goal DesignatedGoal(const CourseParams& course, core::TrialKey key) {
   return Designated({course.goal_x_m, course.goal_y_m}, course, Draw(key, 0));
 }

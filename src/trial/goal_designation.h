@@ -16,6 +16,10 @@ namespace rockyard::trial {
 // Cost: below 1 us.
 messages::Goal DesignatedGoal(const CourseParams& course, core::TrialKey key);
 
+// By how much the pan axis of the lander's cameras is wrong in a trial, positive to the left: what
+// its goals, its waypoints and its map (lander_map.h) have in common. 0 where designation is off.
+double PanError_rad(const DesignationParams& designation, core::TrialKey key);
+
 // Every waypoint of the course in the order of driving, then DesignatedGoal. Each waypoint is
 // designated from the same place as the goal, by its own range and with random errors of its own
 // (the same stream, substream 1, 2, ...; the goal's is 0, so that it does not depend on waypoints).

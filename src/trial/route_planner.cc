@@ -53,15 +53,15 @@ messages::Route PullStraight(const FreeGrid& grid, const std::vector<std::size_t
   return route;
 }
 
-messages::Route Plan(const DriveParams& drive, const terrain::Terrain& terrain, const Goal& goal,
-                     const Demand& demand) {
+messages::Route Plan(const DriveParams& drive, std::span<const terrain::Rock> rocks,
+                     const Goal& goal, const Demand& demand) {
   const terrain::Rectangle bounds = CentreBounds(drive, demand.room_m);
   const double width_m = bounds.x_max_m - bounds.x_min_m;
   const double height_m = bounds.y_max_m - bounds.y_min_m;
   if (width_m <= 0.0 || height_m <= 0.0) return {};
   FreeGrid grid(bounds, std::max(drive.course.oracle_route.cell_m,
                                  std::sqrt(width_m * height_m / kMaxCells)));
-  for (const terrain::Rock& rock : terrain.rocks()) {
+  for (const terrain::Rock& rock : rocks) {
     if (rock.height_m >= demand.min_height_m) grid.Block(rock, demand.room_m);
   }
   const Goal start{drive.course.start_x_m, drive.course.start_y_m};
@@ -74,7 +74,7 @@ messages::Route Plan(const DriveParams& drive, const terrain::Terrain& terrain, 
 
 }  // namespace
 
-messages::Route PlanRoute(const DriveParams& drive, const terrain::Terrain& terrain,
+messages::Route PlanRoute(const DriveParams& drive, std::span<const terrain::Rock> rocks,
                           const Goal& goal) {
   const rover::RoverGeometryParams& rover = drive.rover.geometry;
   const RoutePlanParams& params = drive.course.oracle_route;
@@ -90,7 +90,7 @@ messages::Route PlanRoute(const DriveParams& drive, const terrain::Terrain& terr
                            Demand{belly_m, passing_m},
                            Demand{belly_m, squeezing_m}};
   for (const Demand& demand : demands) {
-    messages::Route route = Plan(drive, terrain, goal, demand);
+    messages::Route route = Plan(drive, rocks, goal, demand);
     if (!route.corners.empty()) return route;
   }
   return {};

@@ -1,15 +1,19 @@
-// The best way to a goal, by somebody who knows every rock: an oracle, never on-board code.
+// The best way to a goal among rocks that somebody knows: an oracle, or operators with a map; never
+// on-board code.
 #pragma once
+
+#include <span>
 
 #include "messages/estimates.h"
 #include "messages/route.h"
-#include "terrain/terrain.h"
+#include "terrain/rock.h"
 #include "trial/drive_params.h"
 
 namespace rockyard::trial {
 
-// The shortest path from the start of the course to `goal` on a grid (A*, eight neighbours; Hart,
-// Nilsson and Raphael 1968), its corners pulled straight. The first of these that there is:
+// The shortest path from the start of the course to `goal` among `rocks` on a grid (A*, eight
+// neighbours; Hart, Nilsson and Raphael 1968), its corners pulled straight. The first of these that
+// there is:
 //
 //   |   | rocks that it keeps clear of | by, from the rover's centre                           |
 //   | 1 | of low_rock_m and higher     | half its diagonal and margin_m: it may turn anywhere  |
@@ -25,7 +29,7 @@ namespace rockyard::trial {
 // has another inside the lines that is as long. Limits: rocks only, no slopes; rocks that the rover
 // pushes are taken as fixed. Deterministic, no random numbers. Cost: 1 to 3 ms for the nominal
 // arena, 10 ms among the rocks of VL-2.
-messages::Route PlanRoute(const DriveParams& drive, const terrain::Terrain& terrain,
+messages::Route PlanRoute(const DriveParams& drive, std::span<const terrain::Rock> rocks,
                           const messages::Goal& goal);
 
 }  // namespace rockyard::trial

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -56,10 +57,10 @@ class FakeNavigator final : public Navigator {
 
 class WaypointSequenceTest : public testing::Test {
  protected:
-  void Make(const std::vector<Goal>& goals) {
+  void Make(const std::vector<Goal>& goals, std::optional<double> pass_within_m = {}) {
     auto fake = std::make_unique<FakeNavigator>(goals.front());
     inner_ = fake.get();
-    sequence_ = std::make_unique<WaypointSequence>(goals, std::move(fake));
+    sequence_ = std::make_unique<WaypointSequence>(goals, std::move(fake), pass_within_m);
   }
 
   NavigatorDecision At(double x_m) { return sequence_->Decide({.estimate = {.x_m = x_m}}); }
@@ -157,6 +158,83 @@ TEST_F(WaypointSequenceTest, BeingStuckAtAWaypointIsNoticedOnce) {
   EXPECT_EQ(sequence.Decide(input).status, NavigatorStatus::kDriving);
   EXPECT_EQ(sequence.reached(), 1U);
   EXPECT_EQ(sequence.Decide(input).status, NavigatorStatus::kStuck) << "the next tick";
+}
+
+NavigatorInput InputAt(double x_m, double y_m) { return {.estimate = {.x_m = x_m, .y_m = y_m}}; }
+
+// Within 0.5 m the next is told, before the navigator is asked, and once.
+TEST_F(WaypointSequenceTest, ABendIsPassedFromAsFarAsItIsTold) {
+  Make({{2.0, 0.0}, {4.0, 0.0}}, 0.5);
+  At(1.49);
+  EXPECT_EQ(sequence_->reached(), 0U);
+  EXPECT_TRUE(inner_->told_x_m.empty());
+  At(1.51);
+  EXPECT_EQ(sequence_->reached(), 1U);
+  EXPECT_THAT(inner_->told_x_m, ElementsAre(4.0));
+  EXPECT_THAT(inner_->changes, ElementsAre(GoalChange::kNext));
+  EXPECT_EQ(inner_->inputs.size(), 2U);
+  At(1.52);
+  EXPECT_EQ(inner_->told_x_m.size(), 1U);
+}
+
+// Beside it at y = 1.4 m, beyond the line through it across the leg: nothing to go back for.
+TEST_F(WaypointSequenceTest, ABendThatLiesBehindIsPassed) {
+  Make({{2.0, 0.0}, {2.0, 3.0}, {6.0, 3.0}}, 0.5);
+  sequence_->Decide(InputAt(0.0, 0.0));
+  sequence_->Decide(InputAt(1.85, 1.4));
+  EXPECT_EQ(sequence_->reached(), 0U);
+  sequence_->Decide(InputAt(2.15, 1.4));
+  EXPECT_EQ(sequence_->reached(), 1U);
+  // The second leg begins at the first waypoint and leads along y.
+  sequence_->Decide(InputAt(3.0, 2.9));
+  EXPECT_EQ(sequence_->reached(), 1U);
+  sequence_->Decide(InputAt(3.0, 3.1));
+  EXPECT_EQ(sequence_->reached(), 2U);
+  EXPECT_TRUE(sequence_->IsOnLastLeg());
+}
+
+// Legs are counted from where the rover begins, and from waypoints that it arrives at itself.
+TEST_F(WaypointSequenceTest, LegsBeginWhereTheOneBeforeEnded) {
+  Make({{2.0, 0.0}, {0.0, 0.0}, {6.0, 0.0}}, 0.05);
+  sequence_->Decide(InputAt(3.0, 1.0));  // the first leg leads to (2, 0) from there
+  sequence_->Decide(InputAt(2.5, 0.6));
+  EXPECT_EQ(sequence_->reached(), 0U);
+  sequence_->Decide(InputAt(1.92, 0.1));  // the navigator's own arrival, or beyond
+  EXPECT_EQ(sequence_->reached(), 1U);
+  sequence_->Decide(InputAt(1.0, 0.3));
+  EXPECT_EQ(sequence_->reached(), 1U);
+  sequence_->Decide(InputAt(-0.01, 0.3));
+  EXPECT_EQ(sequence_->reached(), 2U);
+}
+
+// At (2, 0) the navigator itself arrives. From there to (5, 5) the way leads along (3, 5), and
+// (-1, 0.8) from that place is beyond it; along (5, 5), from the start, it would not be.
+TEST_F(WaypointSequenceTest, ALegAfterAnArrivalBeginsThere) {
+  Make({{2.0, 0.0}, {5.0, 5.0}, {9.0, 9.0}}, 0.01);
+  sequence_->Decide(InputAt(0.0, 0.0));
+  sequence_->Decide(InputAt(1.95, 0.0));
+  EXPECT_EQ(sequence_->reached(), 1U);
+  sequence_->Decide(InputAt(4.0, 5.8));
+  EXPECT_EQ(sequence_->reached(), 2U);
+}
+
+TEST_F(WaypointSequenceTest, BendsCloseTogetherArePassedAtOnceAndTheLastGoalNever) {
+  Make({{1.0, 0.0}, {1.2, 0.0}, {1.4, 0.0}}, 0.5);
+  const NavigatorDecision decision = At(0.9);
+  EXPECT_EQ(sequence_->reached(), 2U);
+  EXPECT_THAT(inner_->told_x_m, ElementsAre(1.4));
+  EXPECT_EQ(decision.status, NavigatorStatus::kDriving);
+  EXPECT_EQ(At(1.35).status, NavigatorStatus::kArrived);
+  EXPECT_EQ(sequence_->reached(), 2U);
+}
+
+// Places that somebody named are arrived at.
+TEST_F(WaypointSequenceTest, WithoutADistanceNothingIsPassed) {
+  Make({{2.0, 0.0}, {4.0, 0.0}});
+  At(0.0);
+  At(1.8);
+  At(2.5);
+  EXPECT_EQ(sequence_->reached(), 0U);
 }
 
 }  // namespace

@@ -190,6 +190,43 @@ TEST(DriveChecksTest, GroupsThatDoNothingMayHoldAnything) {
       ProblemsOf("narrow_course", {"course.start_y_m=1.4", "terrain.rocks.kind=none"}).empty());
 }
 
+// A route has one who follows it, and the map of a lander has a lander.
+TEST(RouteMapTest, IsRefusedWhereItMisleads) {
+  const std::string use = "course.route_map.use";
+  const std::string source = "course.route_map.source";
+  const std::string corners = use + "=waypoints";
+  const std::string lander = source + "=lander";
+  const std::string route = "navigation.navigator=route";
+  const std::string designated = "course.designation.enabled=true";
+  const auto problems = [](const Overrides& overrides) {
+    return ProblemsOf("nominal", overrides, "pathfinder");
+  };
+  for (const Overrides& sound : {Overrides{corners}, Overrides{corners, lander, designated},
+                                 Overrides{route}, Overrides{route, lander, designated}}) {
+    EXPECT_TRUE(problems(sound).empty());
+  }
+  struct Case {
+    Overrides overrides;
+    std::string path;
+    std::string reason;
+  };
+  const std::vector<Case> cases{
+      {{corners, route}, use, "follows the whole route"},
+      {{corners, R"(course.waypoints={"x_m": [4], "y_m": [0.5]})"}, use, "names others"},
+      {{corners, "course.tracking.enabled=true"}, use, "course.tracking.enabled"},
+      {{lander, designated}, source, "nobody uses a route"},
+      {{lander, route}, source, "course.designation.enabled is false"},
+      {{lander, corners}, source, "course.designation.enabled is false"}};
+  for (const Case& tested : cases) {
+    SCOPED_TRACE(tested.reason);
+    const std::vector<core::Problem> found = problems(tested.overrides);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].path, tested.path);
+    EXPECT_NE(found[0].reason.find(tested.reason), std::string::npos);
+    EXPECT_FALSE(found[0].suggestion.empty());
+  }
+}
+
 // An oracle plans one way to one goal, and targets stay between mirror lines.
 TEST(CourseTest, WhatANavigatorOrAnArenaCannotDoIsRefused) {
   const std::string waypoints = R"(course.waypoints={"x_m": [4], "y_m": [0.5]})";

@@ -161,6 +161,18 @@ TEST(GoalDesignationTest, ThePanErrorIsOneOfTheTrial) {
   }
 }
 
+// What a map has in common with its goals.
+TEST(GoalDesignationTest, ThePanErrorIsToldByItself) {
+  CourseParams course = CourseOfThree();
+  EXPECT_EQ(PanError_rad(course.designation, {3, 1}), course.designation.pan_error_rad);
+  course.designation.pan_kind = PanError::kUniform;
+  course.designation.pixel_sd_px = 0.0;
+  EXPECT_NEAR(PanError_rad(course.designation, {3, 1}), DesignatedGoal(course, {3, 1}).y_m / 20.0,
+              1e-12);
+  course.designation.enabled = false;
+  EXPECT_EQ(PanError_rad(course.designation, {3, 1}), 0.0);
+}
+
 // The lander stands 20 m ahead of the start and 5 m left of the line.
 TEST(GoalDesignationTest, RangesOfWaypointsAreTheirOwn) {
   CourseParams course = CourseOfThree();

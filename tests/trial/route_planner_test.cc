@@ -27,7 +27,7 @@ terrain::Rock Rock(double x_m, double y_m, double radius_m, double height_m) {
 messages::Route PlanAmong(std::vector<terrain::Rock> rocks) {
   const DriveParams drive = Pathfinder("nominal");
   const terrain::Terrain terrain(terrain::Ground(), std::move(rocks), {});
-  return PlanRoute(drive, terrain, {7.6, 0.0});
+  return PlanRoute(drive, terrain.rocks(), {7.6, 0.0});
 }
 
 // Distance of the route from a point.
@@ -128,8 +128,8 @@ TEST(RoutePlannerTest, RoutesStayBetweenTheMirrorLinesAndRepeat) {
   for (std::uint32_t i = 0; i < 10; ++i) {
     const terrain::Field field =
         terrain::BuildField(drive.terrain, LayoutKey(drive, {1, i}), TerrainCourse(drive.course));
-    const messages::Route route = PlanRoute(drive, field.terrain, {7.6, 0.0});
-    const messages::Route again = PlanRoute(drive, field.terrain, {7.6, 0.0});
+    const messages::Route route = PlanRoute(drive, field.terrain.rocks(), {7.6, 0.0});
+    const messages::Route again = PlanRoute(drive, field.terrain.rocks(), {7.6, 0.0});
     ASSERT_EQ(route.corners.size(), again.corners.size());
     for (std::size_t c = 0; c < route.corners.size(); ++c) {
       EXPECT_LE(std::abs(route.corners[c].y_m), 1.1);
