@@ -81,11 +81,4 @@ std::vector<messages::Goal> DesignatedGoals(const CourseParams& course, core::Tr
   return goals;
 }
 
-double PanErrorOf(const CourseParams& course, core::TrialKey key) {
-  const DesignationParams& designation = course.designation;
-  if (!designation.enabled) return 0.0;
-  const double share = designation.pan_kind == PanError::kFixed ? 1.0 : Draw(key, 0).pan;
-  return share * designation.pan_error_rad;
-}
-
 }  // namespace rockyard::trial

@@ -26,8 +26,4 @@ double PanError_rad(const DesignationParams& designation, core::TrialKey key);
 // The pan axis is wrong by one angle in a trial, whatever is designated.
 std::vector<messages::Goal> DesignatedGoals(const CourseParams& course, core::TrialKey key);
 
-// By how much the pan axis of the lander's cameras is wrong in this trial, rad, positive left; 0
-// where goals are told without errors.
-double PanErrorOf(const CourseParams& course, core::TrialKey key);
-
 }  // namespace rockyard::trial

@@ -1,20 +1,13 @@
 #include "trial/lander_place.h"
 
-#include <cmath>
-
 #include "trial/goal_designation.h"
 
 namespace rockyard::trial {
 
 sensing::LanderPlace LanderPlaceOf(const CourseParams& course, core::TrialKey key) {
-  const double dx = course.goal_x_m - course.start_x_m;
-  const double dy = course.goal_y_m - course.start_y_m;
-  const double straight_m = std::hypot(dx, dy);
-  const double ahead = course.designation.lander_ahead_m / straight_m;
-  const double left = course.designation.lander_left_m / straight_m;
-  return {.x_m = course.start_x_m + ahead * dx - left * dy,
-          .y_m = course.start_y_m + ahead * dy + left * dx,
-          .pan_error_rad = PanErrorOf(course, key)};
+  const messages::Goal place = course.LanderPlace();
+  return {
+      .x_m = place.x_m, .y_m = place.y_m, .pan_error_rad = PanError_rad(course.designation, key)};
 }
 
 }  // namespace rockyard::trial
