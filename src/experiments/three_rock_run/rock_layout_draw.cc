@@ -5,33 +5,25 @@
 #include "core/distributions.h"
 
 namespace rockyard::experiments {
-namespace {
 
-double Draw(const UniformRange& range, core::RandomStream& stream) {
+core::RandomStream StreamOf(DrawnPart part, std::int64_t number, core::TrialKey key) {
+  // 0; 1, 3, 5, ... of B; 2, 4, 6, ... of C.
+  const std::int64_t substream =
+      part == DrawnPart::kStart ? 0 : 2 * number + (part == DrawnPart::kRockB ? 1 : 2);
+  return {key, core::Purpose::kExperiment, static_cast<std::uint32_t>(substream)};
+}
+
+double DrawUniform(const UniformRange& range, core::RandomStream& stream) {
   return core::SampleUniform(stream, range[0], range[1]);
 }
 
-DrawnRock Draw(const UniformRange& along_m, const UniformRange& offset_m,
-               const UniformRange& height_m, const UniformRange& diameter_m,
-               core::RandomStream& stream) {
+DrawnRock DrawRock(const RockPrior& prior, core::RandomStream& stream) {
   DrawnRock rock;
-  rock.along_m = Draw(along_m, stream);
-  rock.offset_m = Draw(offset_m, stream);
-  rock.diameter_m = Draw(diameter_m, stream);
-  rock.height_m = Draw(height_m, stream);
+  rock.along_m = DrawUniform(prior.along_m, stream);
+  rock.offset_m = DrawUniform(prior.offset_m, stream);
+  rock.diameter_m = DrawUniform(prior.diameter_m, stream);
+  rock.height_m = DrawUniform(prior.height_m, stream);
   return rock;
-}
-
-}  // namespace
-
-DrawnLayout DrawLayout(const ThreeRockPrior& prior, core::TrialKey key) {
-  core::RandomStream stream(key, core::Purpose::kExperiment);
-  DrawnLayout layout;
-  layout.goal_m = Draw(prior.goal_m, stream);
-  layout.a = Draw(prior.a_gap_m, prior.a_offset_m, prior.tall_height_m, prior.diameter_m, stream);
-  layout.b = Draw(prior.b_path_m, prior.b_offset_m, prior.low_height_m, prior.diameter_m, stream);
-  layout.c = Draw(prior.c_gap_m, prior.c_offset_m, prior.tall_height_m, prior.diameter_m, stream);
-  return layout;
 }
 
 PlacedRock PlaceFirstRock(const DrawnRock& rock, double path_m, double front_x_m) {

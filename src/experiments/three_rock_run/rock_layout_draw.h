@@ -1,8 +1,8 @@
-// The numbers of one layout of three rocks, and where they put the rocks.
+// The numbers of a rock as they are drawn, and where they put it.
 #pragma once
 
+#include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "core/random.h"
 #include "experiments/three_rock_run/run_history.h"
@@ -18,13 +18,16 @@ struct DrawnRock {
   double height_m = 0.0;
 };
 
-struct DrawnLayout {
-  double goal_m = 0.0;
-  DrawnRock a, b, c;
-};
+// What the streams of a trial are for: kExperiment has a substream for the goal and rock A, then
+// one for each place that is tried of B, and of C.
+enum class DrawnPart { kStart, kRockB, kRockC };
 
-// Draws from stream kExperiment, substream 0, of the trial: thirteen uniform numbers.
-DrawnLayout DrawLayout(const ThreeRockPrior& prior, core::TrialKey key);
+// The stream of the number-th try, from 0.
+core::RandomStream StreamOf(DrawnPart part, std::int64_t number, core::TrialKey key);
+
+// Uniform numbers of the prior, the next ones of `stream`.
+double DrawUniform(const UniformRange& range, core::RandomStream& stream);
+DrawnRock DrawRock(const RockPrior& prior, core::RandomStream& stream);
 
 // Rock A, so that a rover on the line to the goal, whose front is front_x_m ahead of its centre,
 // comes to within its gap at path_m.

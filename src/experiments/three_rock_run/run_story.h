@@ -27,8 +27,9 @@ struct FirstRockStory {
 struct SecondRockStory {
   bool unseen = false;   // raised no alarm
   bool scraped = false;  // as often as told, or more, and after A was detected
+  bool passed = false;   // the rover went on, and believed to arrive
 
-  bool AsTold() const { return unseen && scraped; }
+  bool AsTold() const { return unseen && scraped && passed; }
 };
 
 // Conditions on rock C and on the run as a whole.
@@ -43,7 +44,7 @@ struct ThirdRockStory {
 };
 
 FirstRockStory TellFirstRock(const RunHistory& history, const ThreeRockTold& told);
-SecondRockStory TellSecondRock(const RunHistory& history, const ThreeRockTold& told);
+SecondRockStory TellSecondRock(const RunHistory& history, const ThreeRockTold& told, bool arrived);
 ThirdRockStory TellThirdRock(const RunHistory& history, const ThreeRockTold& told, bool arrived,
                              double length_m);
 

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <limits>
+#include <string>
 
 #include "experiments/three_rock_run/rock_layout_draw.h"
 #include "experiments/three_rock_run/run_story.h"
+#include "truth/drive_record.h"
+#include "truth/record.h"
 
 namespace rockyard::experiments {
 
@@ -16,26 +19,59 @@ inline constexpr PlacedRock kNowhere{
     std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(),
     std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
 
+// How many tries of rock C met each of its conditions.
+struct ThirdRockCounts {
+  int detected = 0;
+  int turned = 0;
+  int scraped = 0;
+  int arrived = 0;
+  int length = 0;
+
+  void Add(const ThirdRockStory& story) {
+    detected += story.detected ? 1 : 0;
+    turned += story.turned ? 1 : 0;
+    scraped += story.scraped ? 1 : 0;
+    arrived += story.arrived ? 1 : 0;
+    length += story.length ? 1 : 0;
+  }
+};
+
 struct ThreeRockRecord {
   FirstRockStory a_story;
-  SecondRockStory b_story;  // where A's conditions hold
-  ThirdRockStory c_story;   // where B's hold too
   bool a_as_told = false;
   bool b_as_told = false;
   bool accepted = false;
+  int b_tries = 0;
+  int b_unseen = 0;
+  int b_scraped = 0;
+  int b_passed = 0;
+  int c_tries = 0;
+  ThirdRockCounts c_counts;
 
   double goal_m = 0.0;
+  double b_path_m = 0.0;
+  // The last that were tried.
   PlacedRock a = kNowhere;
   PlacedRock b = kNowhere;
   PlacedRock c = kNowhere;
-  int b_scrapes = 0;
-  int c_scrapes = 0;
 
   // Of accepted runs; 0 of others.
+  int b_scrapes = 0;
+  int c_scrapes = 0;
   HeadingStages stages;
   double heading_error_deg = 0.0;  // absolute
   double position_error_m = 0.0;
   double length_m = 0.0;
+
+  // Of the drive that was accepted.
+  void SetEnd(const RunHistory& history, const truth::DriveRecord& end) {
+    b_scrapes = history.Scrapes(kRockB);
+    c_scrapes = history.Scrapes(kRockC);
+    stages = StagesOf(history);
+    heading_error_deg = end.heading_error_deg;
+    position_error_m = end.position_error_m;
+    length_m = end.true_distance_m;
+  }
 };
 
 // Calls `visit(column, value)` for every column in order; `column` is a truth::ValueInfo. One list
@@ -54,19 +90,21 @@ void ForEachThreeRockColumn(const ThreeRockRecord& r, Visitor visit) {
         flag(r.a_story.turned));
   visit({"a_unscraped", "1", "A was not scraped", kCount, "runs"}, flag(r.a_story.unscraped));
   visit({"a_as_told", "1", "all conditions on A", kCount, "runs"}, flag(r.a_as_told));
-  visit({"b_unseen", "1", "B raised no alarm", kCount, "a_as_told"}, flag(r.b_story.unseen));
-  visit({"b_scraped", "1", "B was scraped as often as told", kCount, "a_as_told"},
-        flag(r.b_story.scraped));
-  visit({"b_as_told", "1", "all conditions on A and B", kCount, "a_as_told"}, flag(r.b_as_told));
-  visit({"c_detected", "1", "C raised an alarm after B's last scrape", kCount, "b_as_told"},
-        flag(r.c_story.detected));
-  visit({"c_turned", "1", "turned in place at C by about the told angle", kCount, "b_as_told"},
-        flag(r.c_story.turned));
-  visit({"c_scraped", "1", "C was scraped after its alarm", kCount, "b_as_told"},
-        flag(r.c_story.scraped));
-  visit({"arrived", "1", "believed to be at the goal", kCount, "b_as_told"},
-        flag(r.c_story.arrived));
-  visit({"length_told", "1", "true length as told", kCount, "b_as_told"}, flag(r.c_story.length));
+  visit({"b_tries", "1", "places of B that were tried", kBase}, r.b_tries);
+  visit({"b_unseen", "1", "B raised no alarm", kCount, "b_tries"}, r.b_unseen);
+  visit({"b_scraped", "1", "B was scraped as often as told", kCount, "b_tries"}, r.b_scraped);
+  visit({"b_passed", "1", "believed to arrive, with A and B alone", kCount, "b_tries"}, r.b_passed);
+  visit({"b_as_told", "1", "all conditions on A and B", kCount, "b_tries"}, flag(r.b_as_told));
+  visit({"c_tries", "1", "places of C that were tried", kBase}, r.c_tries);
+  visit({"c_detected", "1", "C raised an alarm after B's last scrape", kCount, "c_tries"},
+        r.c_counts.detected);
+  visit({"c_turned", "1", "turned in place at C by about the told angle", kCount, "c_tries"},
+        r.c_counts.turned);
+  visit({"c_scraped", "1", "C was scraped after its alarm", kCount, "c_tries"}, r.c_counts.scraped);
+  visit({"arrived", "1", "believed to be at the goal", kCount, "c_tries"}, r.c_counts.arrived);
+  visit({"length_told", "1", "true length as told", kCount, "c_tries"}, r.c_counts.length);
+  visit({"c_as_told", "1", "all conditions on a drive among all three", kCount, "c_tries"},
+        flag(r.accepted));
   visit({"accepted", "1", "all conditions: a run like the published one", kMainCount, "runs"},
         flag(r.accepted));
   visit({"heading_error_deg", "deg", "final heading error, absolute", kSum, "accepted"},
@@ -94,8 +132,8 @@ void ForEachThreeRockColumn(const ThreeRockRecord& r, Visitor visit) {
         told(r.stages.at_c_deg < kPublishedStages.at_c_deg));
   visit({"after_c_below", "1", "after_c_deg below the published 15", kCount, "accepted"},
         told(r.stages.after_c_deg < kPublishedStages.after_c_deg));
-  visit({"b_scrapes", "1", "scrapes of B", kSum, "accepted"}, r.accepted ? r.b_scrapes : 0);
-  visit({"c_scrapes", "1", "scrapes of C", kSum, "accepted"}, r.accepted ? r.c_scrapes : 0);
+  visit({"b_scrapes", "1", "scrapes of B", kSum, "accepted"}, r.b_scrapes);
+  visit({"c_scrapes", "1", "scrapes of C", kSum, "accepted"}, r.c_scrapes);
   visit({"goal_m", "m", "start to goal"}, r.goal_m);
   const auto rock = [&](const std::string& name, const PlacedRock& placed) {
     const std::string what = name == "a" ? "A" : name == "b" ? "B" : "C";

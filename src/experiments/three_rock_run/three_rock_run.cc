@@ -37,6 +37,14 @@ truth::RecordSchema ThreeRockSchema() {
 struct ThreeRockRunExperiment::Driven {
   RunHistory history;
   trial::DriveResult result;
+
+  bool Arrived() const { return truth::DeclaredSuccess(result.outcome); }
+};
+
+struct ThreeRockRunExperiment::Course {
+  core::TrialKey key;
+  double goal_m;
+  std::vector<PlacedRock> rocks;
 };
 
 ThreeRockRunExperiment::ThreeRockRunExperiment(const ThreeRockRunParams& params,
@@ -63,61 +71,84 @@ truth::Record ThreeRockRunExperiment::Run(std::uint64_t seed, std::uint64_t inde
   }
 }
 
-ThreeRockRunExperiment::Driven ThreeRockRunExperiment::DriveAmong(std::span<const PlacedRock> rocks,
-                                                                  double goal_m,
-                                                                  core::TrialKey key) const {
+ThreeRockRunExperiment::Driven ThreeRockRunExperiment::DriveAmong(const Course& course) const {
   trial::DriveParams drive = drive_;
-  drive.course.goal_x_m = goal_m;
+  drive.course.goal_x_m = course.goal_m;
   drive.terrain.rocks.kind = terrain::RockFieldKind::kListed;
-  for (const PlacedRock& rock : rocks) {
-    terrain::ListedRocksParams& listed = drive.terrain.rocks.listed;
+  terrain::ListedRocksParams& listed = drive.terrain.rocks.listed;
+  for (const PlacedRock& rock : course.rocks) {
     listed.x_m.push_back(rock.x_m);
     listed.y_m.push_back(rock.y_m);
     listed.diameter_m.push_back(rock.diameter_m);
     listed.height_m.push_back(rock.height_m);
   }
   truth::Trace trace;
-  trial::DriveResult result = trial::RunTrial(drive, key, &trace);
-  return {RunHistory(trace, rocks, array_, body_), std::move(result)};
+  trial::DriveResult result = trial::RunTrial(drive, course.key, &trace);
+  return {RunHistory(trace, course.rocks, array_, body_), std::move(result)};
 }
 
 ThreeRockRecord ThreeRockRunExperiment::Measure(core::TrialKey key) const {
-  const DrawnLayout layout = DrawLayout(params_.prior, key);
-  const ThreeRockTold& told = params_.told;
+  core::RandomStream stream = StreamOf(DrawnPart::kStart, 0, key);
   ThreeRockRecord record;
-  record.goal_m = layout.goal_m;
-  std::vector<PlacedRock> rocks{record.a =
-                                    PlaceFirstRock(layout.a, told.a_path_m, array_.rear_x_m)};
-  const auto drive = [&] { return DriveAmong(rocks, layout.goal_m, key); };
-  const RunHistory with_a = drive().history;
-  record.a_story = TellFirstRock(with_a, told);
-  record.a_as_told = record.a_story.AsTold(told);
-  const std::optional<PlacedRock> b = PlaceOnPath(layout.b, layout.b.along_m, with_a);
-  if (!record.a_as_told || !b) return record;
-  rocks.push_back(record.b = *b);
-  const RunHistory with_b = drive().history;
-  record.b_story = TellSecondRock(with_b, told);
-  record.b_as_told = record.b_story.AsTold();
-  const std::optional<PlacedRock> c =
-      PlaceOnPath(layout.c, layout.b.along_m + layout.c.along_m, with_b);
-  if (!record.b_as_told || !c) return record;
-  rocks.push_back(record.c = *c);
-  const Driven all = drive();
-  const truth::DriveRecord& end = all.result.record;
-  // Rock C may lie where it changes what was told of the others.
-  const bool others_as_told =
-      TellFirstRock(all.history, told).AsTold(told) && TellSecondRock(all.history, told).AsTold();
-  record.c_story = TellThirdRock(all.history, told, truth::DeclaredSuccess(all.result.outcome),
-                                 end.true_distance_m);
-  record.b_scrapes = all.history.Scrapes(kRockB);
-  record.c_scrapes = all.history.Scrapes(kRockC);
-  record.accepted = others_as_told && record.c_story.AsTold();
-  if (!record.accepted) return record;
-  record.stages = StagesOf(all.history);
-  record.heading_error_deg = end.heading_error_deg;
-  record.position_error_m = end.position_error_m;
-  record.length_m = end.true_distance_m;
+  record.goal_m = DrawUniform(params_.prior.goal_m, stream);
+  record.a =
+      PlaceFirstRock(DrawRock(params_.prior.a, stream), params_.told.a_path_m, array_.rear_x_m);
+  Course course{key, record.goal_m, {record.a}};
+  const RunHistory with_a = DriveAmong(course).history;
+  record.a_story = TellFirstRock(with_a, params_.told);
+  record.a_as_told = record.a_story.AsTold(params_.told);
+  if (!record.a_as_told || !TrySecondRock(with_a, course, record)) return record;
+  const RunHistory with_b = DriveAmong(course).history;
+  record.accepted = TryThirdRock(with_b, course, record);
   return record;
+}
+
+bool ThreeRockRunExperiment::TrySecondRock(const RunHistory& with_a, Course& course,
+                                           ThreeRockRecord& record) const {
+  course.rocks.emplace_back();
+  for (std::int64_t number = 0; number < params_.prior.tries; ++number) {
+    core::RandomStream stream = StreamOf(DrawnPart::kRockB, number, course.key);
+    const DrawnRock rock = DrawRock(params_.prior.b, stream);
+    const std::optional<PlacedRock> placed = PlaceOnPath(rock, rock.along_m, with_a);
+    ++record.b_tries;
+    if (!placed) continue;
+    course.rocks.back() = record.b = *placed;
+    record.b_path_m = rock.along_m;
+    const Driven driven = DriveAmong(course);
+    const SecondRockStory story = TellSecondRock(driven.history, params_.told, driven.Arrived());
+    record.b_unseen += story.unseen ? 1 : 0;
+    record.b_scraped += story.scraped ? 1 : 0;
+    record.b_passed += story.passed ? 1 : 0;
+    record.b_as_told =
+        story.AsTold() && TellFirstRock(driven.history, params_.told).AsTold(params_.told);
+    if (record.b_as_told) return true;
+  }
+  return false;
+}
+
+bool ThreeRockRunExperiment::TryThirdRock(const RunHistory& with_b, Course& course,
+                                          ThreeRockRecord& record) const {
+  course.rocks.emplace_back();
+  for (std::int64_t number = 0; number < params_.prior.tries; ++number) {
+    core::RandomStream stream = StreamOf(DrawnPart::kRockC, number, course.key);
+    const DrawnRock rock = DrawRock(params_.prior.c, stream);
+    const std::optional<PlacedRock> placed =
+        PlaceOnPath(rock, record.b_path_m + rock.along_m, with_b);
+    ++record.c_tries;
+    if (!placed) continue;
+    course.rocks.back() = record.c = *placed;
+    const Driven driven = DriveAmong(course);
+    const ThirdRockStory story = TellThirdRock(driven.history, params_.told, driven.Arrived(),
+                                               driven.result.record.true_distance_m);
+    record.c_counts.Add(story);
+    // Rock C may lie where it changes what was told of the others.
+    const bool others = TellFirstRock(driven.history, params_.told).AsTold(params_.told) &&
+                        TellSecondRock(driven.history, params_.told, driven.Arrived()).AsTold();
+    if (!others || !story.AsTold()) continue;
+    record.SetEnd(driven.history, driven.result.record);
+    return true;
+  }
+  return false;
 }
 
 }  // namespace rockyard::experiments

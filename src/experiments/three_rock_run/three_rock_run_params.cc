@@ -20,37 +20,39 @@ core::FieldInfo Assumed(std::string_view doc, double min, double max, std::strin
 
 }  // namespace
 
+void RockPrior::Visit(core::FieldVisitor& v) {
+  VisitRange(
+      v, "along_m", along_m,
+      Assumed("rock A: from the rover's front to its near end where told.a_path_m is driven; "
+              "B: path at which the rover's centre would come to it; C: path from B to it",
+              0.0, 100.0,
+              "A: the light stripe's array spans 0.3 m ahead; B: after the way around A; C: "
+              "after a straight stretch (Matthies 1995 sec. 5)"));
+  VisitRange(v, "offset_m", offset_m,
+             Assumed("centre beside the rover's way, to the left", -5.0, 5.0,
+                     "half of the array's width, or of the body's with some of the rock's radius: "
+                     "farther out a rock is neither seen nor scraped"));
+  VisitRange(v, "height_m", height_m,
+             Assumed("height above the ground", 0.01, 5.0,
+                     "around what is detected (0.075 m); B from the underside of a hub (0.04 m)"));
+  VisitRange(v, "diameter_m", diameter_m,
+             Assumed("diameter", 0.02, 5.0,
+                     "usual rocks of nominal terrain; B up to the stripes' distance (0.185 m), "
+                     "beyond which some stripe meets it"));
+}
+
 void ThreeRockPrior::Visit(core::FieldVisitor& v) {
   VisitRange(v, "goal_m", goal_m,
              Assumed("start to goal, straight", 3.0, 100.0,
                      "below the 8.1 m that were driven, around the 7.6 m of section 7"));
-  VisitRange(v, "a_gap_m", a_gap_m,
-             Assumed("from the rover's front to the near end of rock A where it is detected", 0.0,
-                     5.0, "the light stripe's array spans 0.3 m ahead (sec. 6)"));
-  VisitRange(v, "a_offset_m", a_offset_m,
-             Assumed("centre of rock A beside the line to the goal, to the left", -5.0, 5.0,
-                     "half of the array's width: farther out it is no hazard"));
-  VisitRange(v, "b_path_m", b_path_m,
-             Assumed("path at which the rover's centre would come to rock B", 0.5, 100.0,
-                     "after the way around A, and with room for C before the end"));
-  VisitRange(v, "b_offset_m", b_offset_m,
-             Assumed("centre of rock B beside that path, to the left", -5.0, 5.0,
-                     "half of the rover's width and the largest rock's radius"));
-  VisitRange(v, "c_gap_m", c_gap_m,
-             Assumed("path from rock B to rock C", 0.1, 100.0,
-                     "a straight stretch between them (sec. 5), and the way around C to follow"));
-  VisitRange(v, "c_offset_m", c_offset_m,
-             Assumed("centre of rock C beside the path past B, to the left", -5.0, 5.0,
-                     "in the array's width with some of its radius"));
-  VisitRange(v, "tall_height_m", tall_height_m,
-             Assumed("heights of rocks A and C above the ground", 0.01, 5.0,
-                     "from what is detected (0.075 m) to what a goal rock may be"));
-  VisitRange(v, "low_height_m", low_height_m,
-             Assumed("height of rock B above the ground", 0.01, 5.0,
-                     "from the underside of a hub (0.04 m) to above the detection threshold"));
-  VisitRange(v, "diameter_m", diameter_m,
-             Assumed("diameters of all three rocks", 0.02, 5.0,
-                     "usual rocks of nominal terrain that a rover meets"));
+  v.Group("a", a, "the first rock, beside the line to the goal");
+  v.Group("b", b, "the second rock, beside the way that the rover takes past A");
+  v.Group("c", c, "the third rock, beside the way that the rover takes past B");
+  v.Integer("tries", tries,
+            {.doc = "most places of B, and of C, that one run tries until the drive goes as told",
+             .min = 1,
+             .max = 1000000,
+             .origin = Origin::kSetting});
 }
 
 void ThreeRockTold::Visit(core::FieldVisitor& v) {

@@ -13,19 +13,24 @@ namespace rockyard::experiments {
 // Lowest and highest value of a uniform distribution.
 using UniformRange = std::array<double, 2>;
 
+// From what one rock is drawn.
+struct RockPrior {
+  UniformRange along_m;   // where on the rover's way
+  UniformRange offset_m;  // of its centre beside the rover's way, to the left
+  UniformRange height_m;  // above the ground
+  UniformRange diameter_m;
+
+  void Visit(core::FieldVisitor& v);
+};
+
 // The prior of the layout. The paper names the rocks and gives no place or size of any, so that
 // every range is assumed. All numbers of a layout are independent and uniform.
 struct ThreeRockPrior {
-  UniformRange goal_m{6.8, 7.8};
-  UniformRange a_gap_m{0.0, 0.30};
-  UniformRange a_offset_m{-0.35, 0.35};
-  UniformRange b_path_m{3.9, 5.4};
-  UniformRange b_offset_m{-0.55, 0.55};
-  UniformRange c_gap_m{1.0, 2.2};
-  UniformRange c_offset_m{-0.45, 0.45};
-  UniformRange tall_height_m{0.10, 0.35};
-  UniformRange low_height_m{0.04, 0.20};
-  UniformRange diameter_m{0.15, 0.50};
+  UniformRange goal_m{7.2, 8.0};
+  RockPrior a{{0.0, 0.30}, {-0.35, 0.35}, {0.10, 0.35}, {0.15, 0.50}};
+  RockPrior b{{3.2, 5.2}, {-0.45, 0.45}, {0.05, 0.20}, {0.08, 0.20}};
+  RockPrior c{{0.8, 2.2}, {-0.45, 0.45}, {0.08, 0.25}, {0.08, 0.30}};
+  std::int64_t tries = 3000;
 
   void Visit(core::FieldVisitor& v);
 };
@@ -38,7 +43,7 @@ struct ThreeRockTold {
   double a_path_tolerance_m = 0.3;
   double c_turn_rad = math::DegToRad(20.0);
   double c_turn_tolerance_rad = math::DegToRad(12.0);
-  std::int64_t b_scrapes = 2;
+  std::int64_t b_scrapes = 1;
   bool false_alarm = false;
 
   void Visit(core::FieldVisitor& v);
