@@ -45,9 +45,9 @@ FirstRockStory TellFirstRock(const RunHistory& history, const ThreeRockTold& tol
   return story;
 }
 
-SecondRockStory TellSecondRock(const RunHistory& history, const ThreeRockTold& told, bool arrived) {
+SecondRockStory TellSecondRock(const RunHistory& history, const ThreeRockTold& told, bool passed) {
   SecondRockStory story;
-  story.passed = arrived;
+  story.passed = passed;
   story.unseen = history.FirstAlarm(kRockB) == nullptr;
   const RockEvent* alarm = history.FirstAlarm(kRockA);
   story.scraped = history.Scrapes(kRockB) >= told.b_scrapes && alarm != nullptr &&

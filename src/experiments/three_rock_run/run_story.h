@@ -27,7 +27,7 @@ struct FirstRockStory {
 struct SecondRockStory {
   bool unseen = false;   // raised no alarm
   bool scraped = false;  // as often as told, or more, and after A was detected
-  bool passed = false;   // the rover went on, and believed to arrive
+  bool passed = false;   // the rover went on and arrived
 
   bool AsTold() const { return unseen && scraped && passed; }
 };
@@ -44,7 +44,7 @@ struct ThirdRockStory {
 };
 
 FirstRockStory TellFirstRock(const RunHistory& history, const ThreeRockTold& told);
-SecondRockStory TellSecondRock(const RunHistory& history, const ThreeRockTold& told, bool arrived);
+SecondRockStory TellSecondRock(const RunHistory& history, const ThreeRockTold& told, bool passed);
 ThirdRockStory TellThirdRock(const RunHistory& history, const ThreeRockTold& told, bool arrived,
                              double length_m);
 

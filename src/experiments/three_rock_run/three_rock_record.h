@@ -93,7 +93,9 @@ void ForEachThreeRockColumn(const ThreeRockRecord& r, Visitor visit) {
   visit({"b_tries", "1", "places of B that were tried", kBase}, r.b_tries);
   visit({"b_unseen", "1", "B raised no alarm", kCount, "b_tries"}, r.b_unseen);
   visit({"b_scraped", "1", "B was scraped as often as told", kCount, "b_tries"}, r.b_scraped);
-  visit({"b_passed", "1", "believed to arrive, with A and B alone", kCount, "b_tries"}, r.b_passed);
+  visit({"b_passed", "1", "arrived, in belief and to 2 m in truth, with A and B alone", kCount,
+         "b_tries"},
+        r.b_passed);
   visit({"b_as_told", "1", "all conditions on A and B", kCount, "b_tries"}, flag(r.b_as_told));
   visit({"c_tries", "1", "places of C that were tried", kBase}, r.c_tries);
   visit({"c_detected", "1", "C raised an alarm after B's last scrape", kCount, "c_tries"},

@@ -18,6 +18,10 @@
 namespace rockyard::experiments {
 namespace {
 
+// A rover that spins its wheels at a rock believes to arrive without having passed it. Twice the
+// position error that the published run ended with.
+constexpr double kLostGoal_m = 2.0 * kPublishedPositionError_m;
+
 RoverZone ArrayOf(const sensing::LightStripeParams& sensor) {
   return {sensor.front_x_m, sensor.front_x_m + sensor.row_ahead_m.back(), sensor.outer_stripe_y_m};
 }
@@ -39,6 +43,7 @@ struct ThreeRockRunExperiment::Driven {
   trial::DriveResult result;
 
   bool Arrived() const { return truth::DeclaredSuccess(result.outcome); }
+  bool Passed() const { return Arrived() && result.record.true_goal_distance_m < kLostGoal_m; }
 };
 
 struct ThreeRockRunExperiment::Course {
@@ -115,7 +120,7 @@ bool ThreeRockRunExperiment::TrySecondRock(const RunHistory& with_a, Course& cou
     course.rocks.back() = record.b = *placed;
     record.b_path_m = rock.along_m;
     const Driven driven = DriveAmong(course);
-    const SecondRockStory story = TellSecondRock(driven.history, params_.told, driven.Arrived());
+    const SecondRockStory story = TellSecondRock(driven.history, params_.told, driven.Passed());
     record.b_unseen += story.unseen ? 1 : 0;
     record.b_scraped += story.scraped ? 1 : 0;
     record.b_passed += story.passed ? 1 : 0;
@@ -143,7 +148,7 @@ bool ThreeRockRunExperiment::TryThirdRock(const RunHistory& with_b, Course& cour
     record.c_counts.Add(story);
     // Rock C may lie where it changes what was told of the others.
     const bool others = TellFirstRock(driven.history, params_.told).AsTold(params_.told) &&
-                        TellSecondRock(driven.history, params_.told, driven.Arrived()).AsTold();
+                        TellSecondRock(driven.history, params_.told, driven.Passed()).AsTold();
     if (!others || !story.AsTold()) continue;
     record.SetEnd(driven.history, driven.result.record);
     return true;
