@@ -15,6 +15,8 @@
 #include "experiments/three_rock_run/columns.h"
 #include "experiments/three_rock_run/rock_layout_draw.h"
 #include "experiments/three_rock_traces.h"
+#include "math/angles.h"
+#include "report/comparison_reference.h"
 #include "scenario/load.h"
 #include "truth/measurement_record.h"
 
@@ -104,6 +106,26 @@ TEST(ThreeRockParamsTest, RefuseADriveThatIsNotThePublishedOne) {
     EXPECT_THROW(ThreeRocks({change}), core::UserError) << change;
   }
   EXPECT_NO_THROW(ThreeRocks({"three_rock_run.prior.goal_m=[7, 12]"}));
+}
+
+// Rows that compute take the program's own constants, and those that compare the paper's.
+TEST(ThreeRockReferenceTest, RowsAndScenarioAgree) {
+  const scenario::Scenario scenario = ThreeRocks();
+  const auto reference =
+      report::LoadReference(ROCKYARD_SOURCE_DIR "/results/reference/matthies1995_rocks.json");
+  const auto row = [&](const std::string& id) {
+    return *std::find_if(reference.values.begin(), reference.values.end(),
+                         [&](const auto& value) { return value.id == id; });
+  };
+  const sensing::GyroParams& gyro = scenario.drive.sensors.gyro;
+  EXPECT_EQ(row("turning.underestimated").inputs.at(1), -gyro.scale);
+  EXPECT_NEAR(row("scrape.jump").inputs.at(1), math::RadToDeg(gyro.scrape.jump_rad), 1e-12);
+  EXPECT_EQ(row("three_rocks.length").value, scenario.experiment.three_rock_run.told.length_m);
+  for (const auto& value : reference.values) {
+    if (value.scenario != "three_rock_run" || value.column.empty()) continue;
+    EXPECT_NE(truth::FindColumn(ThreeRockColumns(), value.column), nullptr) << value.id;
+    EXPECT_NE(truth::FindColumn(ThreeRockColumns(), value.of), nullptr) << value.id;
+  }
 }
 
 TEST(ThreeRockRunTest, StopsWhereADriveDoesNotGoAsTold) {
