@@ -27,6 +27,10 @@ TEST(GapToZoneTest, IsTheDistanceToTheRectangleLessTheRadius) {
   // Off a rear corner by 3 and 4 tenths.
   EXPECT_NEAR(GapToZone({1.55, 1.3, 0.2, 0.1}, rover, kBody), 0.4, 1e-12);
   EXPECT_NEAR(GapToZone({1.1, 2.1, 0.2, 0.1}, rover, kBody), -0.1, 1e-12);
+  // Half a metre to the left of a rover that looks 30 deg off x: (-sin, cos) / 2.
+  const math::Pose2 oblique{0.0, 0.0, math::DegToRad(30.0)};
+  EXPECT_NEAR(GapToZone({-0.25, 0.25 * std::numbers::sqrt3, 0.2, 0.1}, oblique, kBody), 0.15,
+              1e-12);
 }
 
 TEST(RunHistoryTest, AddsUpThePathAndWrapsTheError) {
@@ -96,11 +100,12 @@ TEST(RunHistoryTest, AnEventAtTheVeryEndBelongsToTheLastMoment) {
 TEST(AvoidanceTurnTest, GoesOnOverShortDrivesAndEndsWithALongOne) {
   TraceByHand drive;
   drive.Drive(1.0).Event("hazard").Turn(30.0).Drive(kTurnChain_m - 0.05).Turn(10.0);
+  drive.Drive(kTurnChain_m - 0.05).Turn(15.0);
   const std::size_t end = drive.trace().samples.size() - 1;
   drive.Drive(kTurnChain_m + 0.05).Turn(-20.0);
   const RunHistory history = Read(drive, {{1.5, 0.0, 0.2, 0.2}});
   const AvoidanceTurn turn = history.TurnAfter(history.alarms().front());
-  EXPECT_NEAR(math::RadToDeg(turn.turned_rad), 40.0, 1e-9);
+  EXPECT_NEAR(math::RadToDeg(turn.turned_rad), 55.0, 1e-9);
   EXPECT_EQ(turn.end, end);
 }
 

@@ -130,6 +130,30 @@ TEST(ThirdRockStoryTest, HoldsAsToldAndFailsWithEachOfItsConditions) {
   EXPECT_TRUE(Third({}, 8.5).length);
 }
 
+// The order of what happens counts, not only that it does.
+TEST(StoryOrderTest, ScrapesAndAlarmsComeInTheToldOrder) {
+  // B's alarm comes where A's is told.
+  EXPECT_FALSE(First({.to_a_m = 1.2, .alarm_a = false, .alarm_b = true}).detected);
+  const auto read = [](const TraceByHand& drive, const std::vector<PlacedRock>& rocks) {
+    return RunHistory(drive.trace(), rocks, {0.3, 0.6, 0.4}, {-0.3, 0.3, 0.25});
+  };
+  TraceByHand drive;
+  drive.Drive(1.0).Event("scrape").Drive(1.6).Event("hazard").Drive(1.0);
+  const PlacedRock near{1.0, 0.4, 0.2, 0.2};
+  const PlacedRock far{3.1, 0.0, 0.2, 0.2};
+  const PlacedRock aside{0.0, 9.0, 0.2, 0.2};
+  EXPECT_FALSE(TellSecondRock(read(drive, {far, near, aside}), kTold, true).scraped);
+  TraceByHand late;
+  late.Drive(1.0).Event("hazard").Drive(2.0).Event("scrape").Drive(1.0);
+  EXPECT_FALSE(
+      TellThirdRock(read(late, {aside, far, {1.5, 0.0, 0.2, 0.2}}), kTold, true, 8.1).detected);
+  // The rock that is scraped first raises the alarm later.
+  TraceByHand back;
+  back.Drive(1.0).Event("scrape").Drive(0.5).Turn(180.0).Drive(0.8).Event("hazard").Drive(0.1);
+  EXPECT_FALSE(
+      TellThirdRock(read(back, {aside, aside, {0.3, 0.1, 0.2, 0.2}}), kTold, true, 8.1).scraped);
+}
+
 // Signs are those of the turn at A, so that a mirrored run has the same history.
 TEST(HeadingStagesTest, AreThoseOfTheScript) {
   for (const double side : {1.0, -1.0}) {
