@@ -116,6 +116,14 @@ class Source:
         self._call("trace", self.path, "--trial", trial, "--csv", path)
         return read_csv(path)
 
+    def trace_of(self, scenario, trial):
+        """The same of a trial of any scenario, given as a document."""
+        source = self._scratch / "traced.json"
+        source.write_text(json.dumps(scenario), encoding="utf-8")
+        path = self._scratch / f"traced-{trial}.csv"
+        self._call("trace", source, "--trial", trial, "--csv", path)
+        return read_csv(path)
+
     def step(self, trial, step):
         """Folder with map.csv, votes.csv and points.csv of a decision of a map-based navigator."""
         self.require_drives()

@@ -14,6 +14,8 @@
 #include "experiments/hazard_detection/hazard_detection_params.h"
 #include "experiments/stereo_sensing/checks_params.h"
 #include "experiments/stereo_sensing/stereo_sensing_params.h"
+#include "experiments/three_rock_run/checks_params.h"
+#include "experiments/three_rock_run/three_rock_run_params.h"
 #include "trial/drive_checks_params.h"
 #include "trial/drive_consistency_params.h"
 #include "trial/drive_params.h"
@@ -26,14 +28,15 @@ enum class ExperimentKind {
   kHazardDetection,  // what the light stripe sensor sees and misses
   kStereoSensing,    // what stereo cameras measure and miss
   kDeadReckoning,    // how far dead reckoning along a straight line goes wrong
+  kThreeRockRun,     // a drive among three rocks that goes as a published one is told
 };
 
 }  // namespace rockyard::experiments
 
 template <>
 struct rockyard::core::EnumNames<rockyard::experiments::ExperimentKind> {
-  static constexpr std::array<std::string_view, 4> kNames{"drive", "hazard_detection",
-                                                          "stereo_sensing", "dead_reckoning"};
+  static constexpr std::array<std::string_view, 5> kNames{
+      "drive", "hazard_detection", "stereo_sensing", "dead_reckoning", "three_rock_run"};
 };
 
 namespace rockyard::experiments {
@@ -43,6 +46,7 @@ struct ExperimentParams {
   HazardDetectionParams hazard_detection;
   StereoSensingParams stereo_sensing;
   DeadReckoningWalkParams dead_reckoning;
+  ThreeRockRunParams three_rock_run;
 
   // Lists the field "experiment", and the group of each experiment that has parameters of its own,
   // in the group that is being visited.
@@ -53,6 +57,7 @@ struct ExperimentParams {
     v.Group("hazard_detection", hazard_detection, "the experiment of that name");
     v.Group("stereo_sensing", stereo_sensing, "the experiment of that name");
     v.Group("dead_reckoning", dead_reckoning, "the experiment of that name");
+    v.Group("three_rock_run", three_rock_run, "the experiment of that name");
   }
 
   // What the experiment in use asks of the drive.
@@ -73,6 +78,10 @@ struct ExperimentParams {
       case ExperimentKind::kDeadReckoning:
         trial::RequireConsistency(drive, trial::LightStripeUse::kAsTerrainSensor, v);
         RequireDeadReckoning(drive, v);
+        return;
+      case ExperimentKind::kThreeRockRun:
+        trial::RequireConsistency(drive, trial::LightStripeUse::kAlways, v);
+        RequireThreeRockRun(three_rock_run, drive, v);
         return;
     }
   }

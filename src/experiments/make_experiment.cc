@@ -13,6 +13,8 @@
 #include "experiments/hazard_detection/hazard_detection.h"
 #include "experiments/stereo_sensing/columns.h"
 #include "experiments/stereo_sensing/stereo_sensing.h"
+#include "experiments/three_rock_run/columns.h"
+#include "experiments/three_rock_run/three_rock_run.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::experiments {
@@ -30,6 +32,8 @@ std::unique_ptr<Experiment> MakeExperiment(const ExperimentParams& experiment,
       return std::make_unique<StereoSensingExperiment>(experiment.stereo_sensing, drive);
     case ExperimentKind::kDeadReckoning:
       return std::make_unique<DeadReckoningExperiment>(experiment.dead_reckoning, drive);
+    case ExperimentKind::kThreeRockRun:
+      return std::make_unique<ThreeRockRunExperiment>(experiment.three_rock_run, drive);
   }
   throw std::logic_error("unknown experiment");
 }
@@ -37,8 +41,8 @@ std::unique_ptr<Experiment> MakeExperiment(const ExperimentParams& experiment,
 truth::RecordSchema WithRoles(truth::RecordSchema stored) {
   const truth::RecordSchema* best = nullptr;
   std::ptrdiff_t most = 0;
-  for (const truth::RecordSchema* columns :
-       {&DriveSchema(), &HazardColumns(), &StereoColumns(), &DeadReckoningColumns()}) {
+  for (const truth::RecordSchema* columns : {&DriveSchema(), &HazardColumns(), &StereoColumns(),
+                                             &DeadReckoningColumns(), &ThreeRockColumns()}) {
     const auto known = std::count_if(
         stored.begin(), stored.end(),
         [&](const truth::ValueInfo& column) { return truth::FindColumn(*columns, column.name); });

@@ -11,18 +11,22 @@
 #include "experiments/experiment.h"
 #include "experiments/hazard_scenarios.h"
 #include "experiments/stereo_scenarios.h"
+#include "experiments/three_rock_run/columns.h"
 #include "scenario/load.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::experiments {
 namespace {
 
-TEST(HazardColumnsTest, EveryBaseIsAColumn) {
-  for (const truth::ValueInfo& column : HazardColumns()) {
-    const bool refers = !IsBase(column.role) && column.role != truth::ColumnRole::kFactor;
-    EXPECT_EQ(column.of.empty(), !refers) << column.name;
-    if (refers) {
-      EXPECT_NE(truth::FindColumn(HazardColumns(), column.of), nullptr) << column.name;
+TEST(MeasurementColumnsTest, EveryBaseIsAColumn) {
+  for (const truth::RecordSchema* columns : {&HazardColumns(), &ThreeRockColumns()}) {
+    for (const truth::ValueInfo& column : *columns) {
+      const bool refers = !IsBase(column.role) && column.role != truth::ColumnRole::kFactor &&
+                          column.role != truth::ColumnRole::kValue;
+      EXPECT_EQ(column.of.empty(), !refers) << column.name;
+      if (refers) {
+        EXPECT_NE(truth::FindColumn(*columns, column.of), nullptr) << column.name;
+      }
     }
   }
 }
@@ -70,6 +74,11 @@ TEST(WithRolesTest, KnowsTheColumnsOfEveryExperiment) {
     if (name == "stereo_sensing") {
       core::SetPath(document, "sensors.terrain_sensor", core::JsonValue("stereo"));
       core::SetPath(document, "navigation.navigator", core::JsonValue("gestalt"));
+    }
+    // And what three_rock_run asks of the terrain: three rocks alone.
+    if (name == "three_rock_run") {
+      core::SetPath(document, "terrain.arena.kind", core::JsonValue("open"));
+      core::SetPath(document, "terrain.rocks.kind", core::JsonValue("none"));
     }
     ExpectRolesBack(scenario::ReadScenario(document));
   }

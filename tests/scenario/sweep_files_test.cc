@@ -38,6 +38,33 @@ TEST(SweepFilesTest, AbundanceVariesAbundanceAlone) {
   EXPECT_EQ(sweep.fit_axis, 0u);
 }
 
+// Sand, half of nominal terrain, nominal, twice it, Viking Lander 2: Matthies 1995, section 7.
+TEST(SweepFilesTest, DeadReckoningIsSweptOverAbundanceDistanceAndItsErrors) {
+  const Sweep abundance = LoadSweep(kSweeps / "dead_reckoning_abundance.json");
+  ASSERT_EQ(abundance.cells.size(), 5u);
+  EXPECT_EQ(abundance.cells[0].scenario.drive.terrain.rocks.k_per_m2, 0.0);
+  EXPECT_EQ(abundance.cells[2].scenario.drive.terrain.rocks.k_per_m2, 0.00415);
+  EXPECT_EQ(abundance.cells[4].scenario.drive.terrain.rocks.k_per_m2, 0.013);
+
+  const Sweep distance = LoadSweep(kSweeps / "dead_reckoning_distance.json");
+  ASSERT_EQ(distance.cells.size(), 7u);
+  for (const SweepCell& cell : distance.cells) {
+    EXPECT_EQ(cell.scenario.drive.terrain.arena.kind, terrain::ArenaKind::kOpen);
+  }
+  EXPECT_EQ(distance.cells[4].scenario.drive.course.goal_x_m, 10.0);
+
+  const Sweep shares = LoadSweep(kSweeps / "dead_reckoning_shares.json");
+  ASSERT_EQ(shares.cells.size(), 8u);
+  const sensing::GyroParams& as_flown = shares.cells.front().scenario.drive.sensors.gyro;
+  EXPECT_EQ(as_flown.heading_variance_deg2_per_m, 0.70);
+  EXPECT_EQ(as_flown.scale, 0.94);
+  EXPECT_TRUE(as_flown.scrape.enabled);
+  const sensing::GyroParams& perfect = shares.cells.back().scenario.drive.sensors.gyro;
+  EXPECT_EQ(perfect.heading_variance_deg2_per_m, 0.0);
+  EXPECT_EQ(perfect.scale, 1.0);
+  EXPECT_FALSE(perfect.scrape.enabled);
+}
+
 TEST(SweepFilesTest, NavigatorsMeetTheSameRocks) {
   const Sweep sweep = LoadSweep(kSweeps / "navigators.json");
   ASSERT_EQ(sweep.cells.size(), 8u);

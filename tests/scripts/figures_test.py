@@ -23,6 +23,7 @@ from figures import goldberg2002_figure3 as gestalt
 from figures import matthies1995_figure13 as figure13
 from figures import matthies1995_figure15 as figure15
 from figures import matthies1995_figure16 as figure16
+from figures import three_rock_course
 from figures.source import Source
 
 ROCKYARD = None
@@ -259,10 +260,32 @@ class DrawnNumbers(FiguresTest):
 
 
 class CommandLine(FiguresTest):
+    def test_the_course_of_a_run_among_rocks(self):
+        def sample(time_s, x, true_deg, believed_deg):
+            return {"row": "sample", "kind": "drive", "time_s": str(time_s), "true_x_m": str(x),
+                    "true_y_m": "0", "true_heading_rad": str(math.radians(true_deg)), "believed_x_m": str(x),
+                    "believed_y_m": "0.1", "believed_heading_rad": str(math.radians(believed_deg))}
+        def alarm(time_s):
+            return {**sample(time_s, 0, 0, 0), "row": "event", "kind": "hazard"}
+        course = three_rock_course.Course([
+            sample(1, 0.0, 0, 0), sample(2, 0.5, 0, 1), alarm(2.5), sample(3, 0.6, 179, -177), alarm(3.5),
+            sample(4, 1.5, 0, -3), alarm(4.5), sample(5, 2.0, 0, 6)])
+        for got, expected in zip(course.path, (0.0, 0.5, 0.6, 1.5, 2.0)):
+            self.assertAlmostEqual(got, expected)
+        for got, expected in zip(course.error_deg, (0, 1, 4, -3, 6)):
+            self.assertAlmostEqual(got, expected)
+        # The second alarm follows the first one; the last is 0.5 m on from it.
+        self.assertEqual(course.alarms, [2, 4])
+        self.assertAlmostEqual(course.error_at(0.55), 4.0)
+        self.assertEqual(three_rock_course.side_of(course, {"final_deg": -6.0}), -1.0)
+        rows = three_rock_course.band([(course, 1.0), (course, -1.0), (course, 1.0)])
+        self.assertAlmostEqual(rows[-1][0], 2.0)
+        self.assertAlmostEqual(rows[-1][2], 6.0)
+
     def test_every_figure_is_listed_with_its_runs(self):
         text = self.script("--list")
         for name in ("matthies1995-13", "matthies1995-15", "matthies1995-16", "matthies1995-17", "matthies1995-5",
-                     "matthies1995-6", "matthies1995-table4",
+                     "matthies1995-6", "matthies1995-7", "matthies1995-8", "matthies1995-table4",
                      "goldberg2002-3"):
             self.assertIn(name, text)
 

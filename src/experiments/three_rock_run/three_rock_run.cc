@@ -1,0 +1,159 @@
+#include "experiments/three_rock_run/three_rock_run.h"
+
+#include <cmath>
+#include <cstdint>
+#include <exception>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "experiments/three_rock_run/columns.h"
+#include "experiments/three_rock_run/rock_layout_draw.h"
+#include "trial/run_trial.h"
+#include "truth/measurement_record.h"
+
+namespace rockyard::experiments {
+namespace {
+
+// A rover that spins its wheels at a rock believes to arrive without having passed it. Twice the
+// position error that the published run ended with.
+constexpr double kLostGoal_m = 2.0 * kPublishedPositionError_m;
+
+RoverZone ArrayOf(const sensing::LightStripeParams& sensor) {
+  return {sensor.front_x_m, sensor.front_x_m + sensor.row_ahead_m.back(), sensor.outer_stripe_y_m};
+}
+
+RoverZone BodyOf(const rover::RoverGeometryParams& rover) {
+  return {-0.5 * rover.length_m, 0.5 * rover.length_m, 0.5 * rover.width_m};
+}
+
+truth::RecordSchema ThreeRockSchema() {
+  std::vector<std::string_view> names;
+  for (const truth::ValueInfo& column : ThreeRockColumns()) names.push_back(column.name);
+  return truth::MeasurementSchema(ThreeRockColumns(), names);
+}
+
+}  // namespace
+
+struct ThreeRockRunExperiment::Driven {
+  RunHistory history;
+  trial::DriveResult result;
+
+  bool Arrived() const { return truth::DeclaredSuccess(result.outcome); }
+  bool Passed() const { return Arrived() && result.record.true_goal_distance_m < kLostGoal_m; }
+};
+
+struct ThreeRockRunExperiment::Course {
+  core::TrialKey key;
+  double goal_m;
+  std::vector<PlacedRock> rocks;
+};
+
+ThreeRockRunExperiment::ThreeRockRunExperiment(const ThreeRockRunParams& params,
+                                               trial::DriveParams drive)
+    : params_(params),
+      drive_(std::move(drive)),
+      array_(ArrayOf(drive_.sensors.light_stripe)),
+      body_(BodyOf(drive_.rover.geometry)),
+      schema_(ThreeRockSchema()) {}
+
+truth::Record ThreeRockRunExperiment::Run(std::uint64_t seed, std::uint64_t index) const {
+  try {
+    if (index > std::numeric_limits<std::uint32_t>::max()) {
+      throw std::out_of_range("trial indices end at 2^32 - 1, the size of their random key");
+    }
+    truth::Record record{index, truth::TrialOutcome::kMeasured, "", {}};
+    std::vector<double> values{0.0};
+    ForEachThreeRockColumn(Measure({seed, static_cast<std::uint32_t>(index)}),
+                           [&](const truth::ValueInfo&, double value) { values.push_back(value); });
+    record.values = std::move(values);
+    return record;
+  } catch (const std::exception& error) {
+    return truth::MakeFault(seed, index, error.what());
+  }
+}
+
+ThreeRockRunExperiment::Driven ThreeRockRunExperiment::DriveAmong(const Course& course) const {
+  trial::DriveParams drive = drive_;
+  drive.course.goal_x_m = course.goal_m;
+  drive.terrain.rocks.kind = terrain::RockFieldKind::kListed;
+  terrain::ListedRocksParams& listed = drive.terrain.rocks.listed;
+  for (const PlacedRock& rock : course.rocks) {
+    listed.x_m.push_back(rock.x_m);
+    listed.y_m.push_back(rock.y_m);
+    listed.diameter_m.push_back(rock.diameter_m);
+    listed.height_m.push_back(rock.height_m);
+  }
+  truth::Trace trace;
+  trial::DriveResult result = trial::RunTrial(drive, course.key, &trace);
+  return {RunHistory(trace, course.rocks, array_, body_), std::move(result)};
+}
+
+ThreeRockRecord ThreeRockRunExperiment::Measure(core::TrialKey key) const {
+  core::RandomStream stream = StreamOf(DrawnPart::kStart, 0, key);
+  ThreeRockRecord record;
+  record.goal_m = DrawUniform(params_.prior.goal_m, stream);
+  record.a =
+      PlaceFirstRock(DrawRock(params_.prior.a, stream), params_.told.a_path_m, array_.rear_x_m);
+  Course course{key, record.goal_m, {record.a}};
+  const RunHistory with_a = DriveAmong(course).history;
+  record.a_story = TellFirstRock(with_a, params_.told);
+  record.a_as_told = record.a_story.AsTold(params_.told);
+  if (!record.a_as_told || !TrySecondRock(with_a, course, record)) return record;
+  const RunHistory with_b = DriveAmong(course).history;
+  record.accepted = TryThirdRock(with_b, course, record);
+  return record;
+}
+
+bool ThreeRockRunExperiment::TrySecondRock(const RunHistory& with_a, Course& course,
+                                           ThreeRockRecord& record) const {
+  course.rocks.emplace_back();
+  for (std::int64_t number = 0; number < params_.prior.tries; ++number) {
+    core::RandomStream stream = StreamOf(DrawnPart::kRockB, number, course.key);
+    const DrawnRock rock = DrawRock(params_.prior.b, stream);
+    const std::optional<PlacedRock> placed = PlaceOnPath(rock, rock.along_m, with_a);
+    ++record.b_tries;
+    if (!placed) continue;
+    course.rocks.back() = record.b = *placed;
+    record.b_path_m = rock.along_m;
+    const Driven driven = DriveAmong(course);
+    const SecondRockStory story = TellSecondRock(driven.history, params_.told, driven.Passed());
+    record.b_unseen += story.unseen ? 1 : 0;
+    record.b_scraped += story.scraped ? 1 : 0;
+    record.b_passed += story.passed ? 1 : 0;
+    record.b_as_told =
+        story.AsTold() && TellFirstRock(driven.history, params_.told).AsTold(params_.told);
+    if (record.b_as_told) return true;
+  }
+  return false;
+}
+
+bool ThreeRockRunExperiment::TryThirdRock(const RunHistory& with_b, Course& course,
+                                          ThreeRockRecord& record) const {
+  course.rocks.emplace_back();
+  for (std::int64_t number = 0; number < params_.prior.tries; ++number) {
+    core::RandomStream stream = StreamOf(DrawnPart::kRockC, number, course.key);
+    const DrawnRock rock = DrawRock(params_.prior.c, stream);
+    const std::optional<PlacedRock> placed =
+        PlaceOnPath(rock, record.b_path_m + rock.along_m, with_b);
+    ++record.c_tries;
+    if (!placed) continue;
+    course.rocks.back() = record.c = *placed;
+    const Driven driven = DriveAmong(course);
+    const ThirdRockStory story = TellThirdRock(driven.history, params_.told, driven.Arrived(),
+                                               driven.result.record.true_distance_m);
+    record.c_counts.Add(story);
+    // Rock C may lie where it changes what was told of the others.
+    const bool others = TellFirstRock(driven.history, params_.told).AsTold(params_.told) &&
+                        TellSecondRock(driven.history, params_.told, driven.Passed()).AsTold();
+    if (!others || !story.AsTold()) continue;
+    record.SetEnd(driven.history, driven.result.record);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace rockyard::experiments
