@@ -8,6 +8,8 @@
 #include <string_view>
 
 #include "core/fields.h"
+#include "experiments/designation/checks_params.h"
+#include "experiments/designation/designation_study_params.h"
 #include "experiments/hazard_detection/checks_params.h"
 #include "experiments/hazard_detection/hazard_detection_params.h"
 #include "experiments/stereo_sensing/checks_params.h"
@@ -23,14 +25,15 @@ enum class ExperimentKind {
   kDrive,            // the closed-loop drive to a goal
   kHazardDetection,  // what the light stripe sensor sees and misses
   kStereoSensing,    // what stereo cameras measure and miss
+  kDesignation,      // where operators put goals in the lander's images
 };
 
 }  // namespace rockyard::experiments
 
 template <>
 struct rockyard::core::EnumNames<rockyard::experiments::ExperimentKind> {
-  static constexpr std::array<std::string_view, 3> kNames{"drive", "hazard_detection",
-                                                          "stereo_sensing"};
+  static constexpr std::array<std::string_view, 4> kNames{"drive", "hazard_detection",
+                                                          "stereo_sensing", "designation"};
 };
 
 namespace rockyard::experiments {
@@ -39,6 +42,7 @@ struct ExperimentParams {
   ExperimentKind kind = ExperimentKind::kDrive;
   HazardDetectionParams hazard_detection;
   StereoSensingParams stereo_sensing;
+  DesignationStudyParams designation;
 
   // Lists the field "experiment", and the group of each experiment that has parameters of its own,
   // in the group that is being visited.
@@ -48,6 +52,7 @@ struct ExperimentParams {
   void VisitGroups(core::FieldVisitor& v) {
     v.Group("hazard_detection", hazard_detection, "the experiment of that name");
     v.Group("stereo_sensing", stereo_sensing, "the experiment of that name");
+    v.Group("designation", designation, "the experiment of that name");
   }
 
   // What the experiment in use asks of the drive.
@@ -64,6 +69,10 @@ struct ExperimentParams {
       case ExperimentKind::kStereoSensing:
         trial::RequireConsistency(drive, trial::LightStripeUse::kAsTerrainSensor, v);
         RequireStereoMeasurable(stereo_sensing, drive, v);
+        return;
+      case ExperimentKind::kDesignation:
+        trial::RequireConsistency(drive, trial::LightStripeUse::kAsTerrainSensor, v);
+        RequireDesignable(designation, drive, v);
         return;
     }
   }

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "experiments/designation/columns.h"
+#include "experiments/designation/designation.h"
 #include "experiments/drive/drive_experiment.h"
 #include "experiments/experiment.h"
 #include "experiments/hazard_detection/columns.h"
@@ -26,6 +28,8 @@ std::unique_ptr<Experiment> MakeExperiment(const ExperimentParams& experiment,
                                                          watchers.scan);
     case ExperimentKind::kStereoSensing:
       return std::make_unique<StereoSensingExperiment>(experiment.stereo_sensing, drive);
+    case ExperimentKind::kDesignation:
+      return std::make_unique<DesignationExperiment>(experiment.designation, drive.course);
   }
   throw std::logic_error("unknown experiment");
 }
@@ -33,7 +37,8 @@ std::unique_ptr<Experiment> MakeExperiment(const ExperimentParams& experiment,
 truth::RecordSchema WithRoles(truth::RecordSchema stored) {
   const truth::RecordSchema* best = nullptr;
   std::ptrdiff_t most = 0;
-  for (const truth::RecordSchema* columns : {&DriveSchema(), &HazardColumns(), &StereoColumns()}) {
+  for (const truth::RecordSchema* columns :
+       {&DriveSchema(), &HazardColumns(), &StereoColumns(), &DesignationColumns()}) {
     const auto known = std::count_if(
         stored.begin(), stored.end(),
         [&](const truth::ValueInfo& column) { return truth::FindColumn(*columns, column.name); });

@@ -100,6 +100,7 @@ void CourseParams::Visit(core::FieldVisitor& v) {
   v.Group("tracking", tracking, "a sensor that follows the goal, where it is seen");
   v.Group("oracle_route", oracle_route,
           "how the route is planned that navigation.navigator route follows");
+  v.Group("goal_rock", goal_rock, "a rock at the goal that the rover has to find");
   const double dx = goal_x_m - start_x_m;
   const double dy = goal_y_m - start_y_m;
   v.Require("goal_x_m", dx * dx + dy * dy > 0.01, "puts the goal within 0.1 m of the start",

@@ -9,6 +9,7 @@
 #include "messages/estimates.h"
 #include "sensing/feature_tracker_params.h"
 #include "trial/designation_params.h"
+#include "trial/goal_rock_params.h"
 #include "trial/route_plan_params.h"
 #include "trial/waypoint_params.h"
 
@@ -28,6 +29,7 @@ struct CourseParams {
   DesignationParams designation;
   sensing::FeatureTrackerParams tracking;
   RoutePlanParams oracle_route;
+  GoalRockParams goal_rock;
 
   math::Pose2 Start() const { return {start_x_m, start_y_m, start_heading_rad}; }
 

@@ -51,6 +51,21 @@ navigation::WheelDriverParams WheelDriverOf(const DriveParams& drive) {
   return params;
 }
 
+// What the rover drives to: the designated places, then those of a local search.
+std::vector<messages::Goal> WithSearch(std::vector<messages::Goal> goals,
+                                       const GoalRockParams& rock) {
+  if (!rock.enabled) return goals;
+  const std::vector<messages::Goal> places = rock.search.Places(goals.back());
+  goals.insert(goals.end(), places.begin(), places.end());
+  return goals;
+}
+
+// A goal rock is recognized by what would track a goal.
+bool TracksGoal(const CourseParams& course) {
+  return course.tracking.enabled ||
+         (course.goal_rock.enabled && course.goal_rock.recognition_m > 0.0);
+}
+
 std::unique_ptr<rover::Rover> MakeTrialRover(const DriveParams& drive, terrain::Terrain& terrain) {
   const terrain::RockFieldParams& rocks = drive.terrain.rocks;
   if (rocks.mobility == terrain::RockMobility::kFixed) {
@@ -72,7 +87,8 @@ DriveParts::DriveParts(const DriveParams& drive, core::TrialKey trial_key, const
       stop(WholeSteps(rover->ramp_s() + drive.clock.stop_time_s, rover->step_s())),
       terrain_sensing(drive, trial_key, watchers),
       guard(drive, trial_key),
-      navigator(designated_goals, MakeNavigator(drive, field.terrain, designated_goals.front())),
+      navigator(WithSearch(designated_goals, drive.course.goal_rock),
+                MakeNavigator(drive, field.terrain, designated_goals.front())),
       follower(drive.rover.drive.speed_m_s, rover->ramp_s()),
       wheel_driver(OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive),
                    WheelDriverOf(drive)),
@@ -88,7 +104,13 @@ DriveParts::DriveParts(const DriveParams& drive, core::TrialKey trial_key, const
         drive.perception.stuck_detector,
         OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive));
   }
-  if (drive.course.tracking.enabled) feature_tracker.emplace(drive.course.tracking, key);
+  if (TracksGoal(drive.course)) feature_tracker.emplace(drive.course.tracking, key);
+  if (drive.course.goal_rock.enabled) {
+    // Terrains list it last.
+    goal_rock.emplace(field.terrain, static_cast<int>(field.terrain.rocks().size()) - 1,
+                      drive.sensors.terrain_sensors.chosen().reported_zone(drive),
+                      drive.rover.geometry);
+  }
 }
 
 void DriveParts::Begin() {

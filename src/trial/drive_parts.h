@@ -17,6 +17,7 @@
 #include "sensing/motion_sensors.h"
 #include "terrain/field.h"
 #include "trial/drive_params.h"
+#include "trial/goal_rock.h"
 #include "trial/ledger.h"
 #include "trial/mirror_arena.h"
 #include "trial/referee.h"
@@ -56,6 +57,7 @@ struct DriveParts {
   VehicleGuard guard;
   std::optional<perception::StuckDetector> stuck_detector;
   std::optional<sensing::FeatureTracker> feature_tracker;
+  std::optional<GoalRock> goal_rock;
 
   std::unique_ptr<localization::Estimator> estimator;  // from Begin on
   double start_z_m = 0.0;                              // true height where the drive began

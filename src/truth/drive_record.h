@@ -96,6 +96,11 @@ struct DriveRecord {
   double hazards_begun = 0.0;      // of hazards_believed, those that the scan before did not see
   double displacement_m = 0.0;     // start to end, true and straight
   double waypoints_reached = 0.0;  // declared, before the goal
+  double goal_rock_found = std::numeric_limits<double>::quiet_NaN();  // NaN without a goal rock
+  double goal_rock_distance_m = std::numeric_limits<double>::quiet_NaN();
+  double goal_rock_sign = std::numeric_limits<double>::quiet_NaN();
+  double goal_rock_recognized = std::numeric_limits<double>::quiet_NaN();
+  double search_places_reached = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct DriveColumn {
@@ -293,6 +298,22 @@ inline constexpr std::array kDriveColumns = {
                 "waypoints (course.waypoints) at which the rover declared to be; the goal is none "
                 "of them",
                 &DriveRecord::waypoints_reached},
+    DriveColumn{"goal_rock_found", "1",
+                "1 where the rover found the rock at its goal, else 0; empty without such a rock "
+                "(course.goal_rock), as the next four",
+                &DriveRecord::goal_rock_found},
+    DriveColumn{"goal_rock_distance_m", "m",
+                "from the rover's outline to that rock's, as seen from above, at the end",
+                &DriveRecord::goal_rock_distance_m},
+    DriveColumn{"goal_rock_sign", "1",
+                "1 where it was found by the array of elevations, 2 by contact, else 0",
+                &DriveRecord::goal_rock_sign},
+    DriveColumn{"goal_rock_recognized", "1", "1 where the rover had recognized it, else 0",
+                &DriveRecord::goal_rock_recognized},
+    DriveColumn{"search_places_reached", "1",
+                "places of the local search that the rover declared to be at, the told place "
+                "included",
+                &DriveRecord::search_places_reached},
 };
 
 }  // namespace rockyard::truth
