@@ -197,6 +197,7 @@ TEST(SummaryJson, CountsCausesAndHasTheirRates) {
 
 // Arrivals need no line of their own, unless some found a rock instead.
 TEST(SummaryText, TellsHowGoalsWereReachedWhereItIsNotPlain) {
+  using truth::EndCause;
   const auto text = [](EndCause second) {
     std::vector<truth::Record> records;
     for (const EndCause cause : {EndCause::kArrived, second}) {

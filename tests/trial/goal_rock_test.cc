@@ -197,7 +197,7 @@ TEST(GoalRockDriveTest, NearnessAloneIsNoFind) {
 TEST(GoalRockDriveTest, ASearchFindsWhatWasPassedBy) {
   const DriveResult result = RunTrial(
       Outdoor(And(Beside(1.2),
-                  {"course.goal_rock.search.squares=4", "course.goal_rock.search.spacing_m=0.4"}))
+                  {"course.goal_rock.search.squares=4", "course.goal_rock.search.spacing_m=0.5"}))
           .drive,
       {1, 0});
   EXPECT_EQ(result.outcome, TrialOutcome::kGoalReached) << result.detail;
@@ -262,7 +262,8 @@ TEST(GoalRockParamsTest, BadScenariosSayWhatIsWrong) {
   EXPECT_EQ(ProblemsWith({"course.goal_rock.diameter_m=1.0"}), "");
   EXPECT_EQ(ProblemsWith({"course.goal_rock.diameter_m=1.2", "terrain.rocks.kind=none"}), "");
   EXPECT_THAT(ProblemsWith({"navigation.navigator=route"}), HasSubstr("use navigator pathfinder"));
-  EXPECT_THAT(ProblemsWith({"navigation.navigator=gestalt", "sensors.terrain_sensor=stereo"}),
+  EXPECT_THAT(ProblemsWith({"navigation.navigator=gestalt", "sensors.terrain_sensor=stereo",
+                            "terrain.rocks.pointedness=0"}),
               HasSubstr("which reads no report"));
 }
 
