@@ -10,6 +10,8 @@
 #include "core/fields.h"
 #include "experiments/dead_reckoning/checks_params.h"
 #include "experiments/dead_reckoning/dead_reckoning_walk_params.h"
+#include "experiments/designation/checks_params.h"
+#include "experiments/designation/designation_study_params.h"
 #include "experiments/hazard_detection/checks_params.h"
 #include "experiments/hazard_detection/hazard_detection_params.h"
 #include "experiments/stereo_sensing/checks_params.h"
@@ -29,14 +31,16 @@ enum class ExperimentKind {
   kStereoSensing,    // what stereo cameras measure and miss
   kDeadReckoning,    // how far dead reckoning along a straight line goes wrong
   kThreeRockRun,     // a drive among three rocks that goes as a published one is told
+  kDesignation,      // where operators put goals in the lander's images
 };
 
 }  // namespace rockyard::experiments
 
 template <>
 struct rockyard::core::EnumNames<rockyard::experiments::ExperimentKind> {
-  static constexpr std::array<std::string_view, 5> kNames{
-      "drive", "hazard_detection", "stereo_sensing", "dead_reckoning", "three_rock_run"};
+  static constexpr std::array<std::string_view, 6> kNames{"drive",          "hazard_detection",
+                                                          "stereo_sensing", "dead_reckoning",
+                                                          "three_rock_run", "designation"};
 };
 
 namespace rockyard::experiments {
@@ -47,6 +51,7 @@ struct ExperimentParams {
   StereoSensingParams stereo_sensing;
   DeadReckoningWalkParams dead_reckoning;
   ThreeRockRunParams three_rock_run;
+  DesignationStudyParams designation;
 
   // Lists the field "experiment", and the group of each experiment that has parameters of its own,
   // in the group that is being visited.
@@ -58,6 +63,7 @@ struct ExperimentParams {
     v.Group("stereo_sensing", stereo_sensing, "the experiment of that name");
     v.Group("dead_reckoning", dead_reckoning, "the experiment of that name");
     v.Group("three_rock_run", three_rock_run, "the experiment of that name");
+    v.Group("designation", designation, "the experiment of that name");
   }
 
   // What the experiment in use asks of the drive.
@@ -82,6 +88,10 @@ struct ExperimentParams {
       case ExperimentKind::kThreeRockRun:
         trial::RequireConsistency(drive, trial::LightStripeUse::kAlways, v);
         RequireThreeRockRun(three_rock_run, drive, v);
+        return;
+      case ExperimentKind::kDesignation:
+        trial::RequireConsistency(drive, trial::LightStripeUse::kAsTerrainSensor, v);
+        RequireDesignable(designation, drive, v);
         return;
     }
   }

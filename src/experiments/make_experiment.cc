@@ -7,6 +7,8 @@
 
 #include "experiments/dead_reckoning/columns.h"
 #include "experiments/dead_reckoning/dead_reckoning.h"
+#include "experiments/designation/columns.h"
+#include "experiments/designation/designation.h"
 #include "experiments/drive/drive_experiment.h"
 #include "experiments/experiment.h"
 #include "experiments/hazard_detection/columns.h"
@@ -34,6 +36,8 @@ std::unique_ptr<Experiment> MakeExperiment(const ExperimentParams& experiment,
       return std::make_unique<DeadReckoningExperiment>(experiment.dead_reckoning, drive);
     case ExperimentKind::kThreeRockRun:
       return std::make_unique<ThreeRockRunExperiment>(experiment.three_rock_run, drive);
+    case ExperimentKind::kDesignation:
+      return std::make_unique<DesignationExperiment>(experiment.designation, drive.course);
   }
   throw std::logic_error("unknown experiment");
 }
@@ -41,8 +45,9 @@ std::unique_ptr<Experiment> MakeExperiment(const ExperimentParams& experiment,
 truth::RecordSchema WithRoles(truth::RecordSchema stored) {
   const truth::RecordSchema* best = nullptr;
   std::ptrdiff_t most = 0;
-  for (const truth::RecordSchema* columns : {&DriveSchema(), &HazardColumns(), &StereoColumns(),
-                                             &DeadReckoningColumns(), &ThreeRockColumns()}) {
+  for (const truth::RecordSchema* columns :
+       {&DriveSchema(), &HazardColumns(), &StereoColumns(), &DeadReckoningColumns(),
+        &ThreeRockColumns(), &DesignationColumns()}) {
     const auto known = std::count_if(
         stored.begin(), stored.end(),
         [&](const truth::ValueInfo& column) { return truth::FindColumn(*columns, column.name); });

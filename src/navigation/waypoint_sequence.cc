@@ -64,4 +64,10 @@ void WaypointSequence::SetGoal(const messages::Goal& goal, GoalChange change) {
   if (IsOnLastLeg()) navigator_->SetGoal(goal, change);
 }
 
+void WaypointSequence::DriveTo(const messages::Goal& goal) {
+  goals_.resize(reached_ + 1);
+  goals_.back() = goal;
+  navigator_->SetGoal(goal, GoalChange::kMoved);
+}
+
 }  // namespace rockyard::navigation

@@ -32,6 +32,8 @@ class WaypointSequence final : public Navigator {
   // Replaces the last goal, which the navigator learns at once if it drives to it, and else where
   // its turn comes.
   void SetGoal(const messages::Goal& goal, GoalChange change) override;
+  // Leaves out what is left of the sequence: this is the goal that it drives to, and its last.
+  void DriveTo(const messages::Goal& goal);
   const messages::NavigationView* view() const override { return navigator_->view(); }
 
   // Waypoints at which the navigator said that it had arrived, or that were passed; the last goal

@@ -83,6 +83,15 @@ std::string_view ColourOf(TrialOutcome outcome) {
   return outcome == TrialOutcome::kFalseGoal ? kYellow : kRed;
 }
 
+std::int64_t Count(const DriveSummary& summary, TrialOutcome outcome) {
+  return summary.outcomes[static_cast<std::size_t>(outcome)];
+}
+
+// What the outcome's own name says.
+bool IsPlain(truth::EndCause cause) {
+  return cause == truth::EndCause::kArrived || cause == truth::EndCause::kBelievedOnly;
+}
+
 // Below an outcome that has several: how often each, and the setting that decided.
 std::string CauseLines(const DriveSummary& summary, TrialOutcome outcome) {
   if (!truth::HasSeveralCauses(outcome)) return "";
@@ -92,6 +101,7 @@ std::string CauseLines(const DriveSummary& summary, TrialOutcome outcome) {
     const truth::EndCauseInfo& cause = truth::kEndCauses[i];
     const std::int64_t count = summary.causes[i];
     if (cause.outcome != outcome || count == 0) continue;
+    if (IsPlain(static_cast<truth::EndCause>(i)) && count == Count(summary, outcome)) return "";
     const double percent = 100.0 * static_cast<double>(count) / total;
     text += fmt::format("    {:<22}{:>6}     {:6.1f} %{}{}\n", cause.label, count, percent,
                         cause.setting.empty() ? "" : "   ", cause.setting);

@@ -5,6 +5,12 @@
 
 namespace rockyard::terrain {
 
+// A round rock with the profile of the field's rocks; none where the diameter is 0.
+struct CourseRock {
+  double diameter_m = 0.0;
+  double height_m = 0.0;  // above the ground
+};
+
 // In W.
 struct CoursePoint {
   double x_m = 0.0;
@@ -18,6 +24,7 @@ struct Course {
   double goal_x_m = 7.6;
   double goal_y_m = 0.0;
   std::vector<CoursePoint> waypoints = {};  // between start and goal
+  CourseRock goal_rock = {};                // at the goal: the last rock of a terrain
 
   // Start, waypoints and goal, in the order of driving.
   std::vector<CoursePoint> Points() const {

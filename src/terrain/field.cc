@@ -95,6 +95,10 @@ Field BuildField(const TerrainParams& params, core::TrialKey key, const Course& 
     for (const Rock& image : MirrorImages(params.arena, rock)) rocks.push_back(image);
   }
   audit.mirror_images = static_cast<int>(rocks.size() - layout.rocks.size());
+  if (course.goal_rock.diameter_m > 0.0) {
+    rocks.push_back(GivenRock(params.rocks, {course.goal_x_m, course.goal_y_m},
+                              course.goal_rock.diameter_m, course.goal_rock.height_m));
+  }
 
   Ground ground(params.ground, key);
   for (Rock& rock : rocks) {

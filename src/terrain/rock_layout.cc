@@ -176,24 +176,29 @@ RockLayout LayOutExactCount(const TerrainParams& params, core::TrialKey key, con
   return builder.Take();
 }
 
-// Bodies of revolution with the given outline on the ground they stand on: of the full height 2 c
-// the buried share is below, h = 2 c (1 - burial).
 RockLayout LayOutList(const RockFieldParams& params) {
   const ListedRocksParams& list = params.listed;
   RockLayout layout;
   for (std::size_t i = 0; i < list.x_m.size(); ++i) {
-    const RockOutline outline{.diameter_m = list.diameter_m[i],
-                              .half_height_m = 0.5 * list.height_m[i] / (1.0 - params.burial_mean),
-                              .height_m = list.height_m[i]};
-    Rock rock = ShapeRock(outline, params.pointedness);
-    rock.center_W.head<2>() << list.x_m[i], list.y_m[i];
-    layout.rocks.push_back(rock);
+    layout.rocks.push_back(
+        GivenRock(params, {list.x_m[i], list.y_m[i]}, list.diameter_m[i], list.height_m[i]));
   }
   layout.drawn = static_cast<int>(layout.rocks.size());
   return layout;
 }
 
 }  // namespace
+
+// Of the full height 2 c the buried share is below the ground: h = 2 c (1 - burial).
+Rock GivenRock(const RockFieldParams& params, const CoursePoint& place, double diameter_m,
+               double height_m) {
+  const RockOutline outline{.diameter_m = diameter_m,
+                            .half_height_m = 0.5 * height_m / (1.0 - params.burial_mean),
+                            .height_m = height_m};
+  Rock rock = ShapeRock(outline, params.pointedness);
+  rock.center_W.head<2>() << place.x_m, place.y_m;
+  return rock;
+}
 
 RockLayout LayOutRocks(const TerrainParams& params, core::TrialKey key, const Course& course) {
   switch (params.rocks.kind) {

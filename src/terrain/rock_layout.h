@@ -20,6 +20,11 @@ struct RockLayout {
   int relocated = 0;
 };
 
+// Returns a rock that is given rather than drawn: round, without yaw, of the field's mean burial
+// and its pointedness. The z of its centre is measured from the ground.
+Rock GivenRock(const RockFieldParams& params, const CoursePoint& place, double diameter_m,
+               double height_m);
+
 // Returns the rocks in the order in which they were placed: by mark for moore, by number for
 // uniform_count. A rock's fate depends on earlier ones only, so that a field of smaller k is a
 // prefix of one of larger k under every overlap rule.

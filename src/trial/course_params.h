@@ -9,6 +9,7 @@
 #include "messages/estimates.h"
 #include "sensing/feature_tracker_params.h"
 #include "trial/designation_params.h"
+#include "trial/goal_rock_params.h"
 #include "trial/lander_map_params.h"
 #include "trial/route_map_params.h"
 #include "trial/route_plan_params.h"
@@ -32,6 +33,7 @@ struct CourseParams {
   RoutePlanParams oracle_route;
   RouteMapParams route_map;
   LanderMapParams lander_map;
+  GoalRockParams goal_rock;
 
   math::Pose2 Start() const { return {start_x_m, start_y_m, start_heading_rad}; }
 

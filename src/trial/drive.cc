@@ -83,15 +83,23 @@ std::optional<Verdict> Drive::Follow(const messages::MotionCommand& told) {
   return AskReferee(Activity::kOverhead, 0, parts_.tick.duration_s);
 }
 
-void Drive::TrackGoal() {
-  if (!parts_.feature_tracker || !parts_.navigator.IsOnLastLeg()) return;
-  const double time_s = parts_.ledger.time_s();
-  const auto number = static_cast<std::int64_t>(time_s / parts_.params.course.tracking.period_s);
-  if (number < next_sighting_) return;
+std::optional<std::int64_t> Drive::NextSighting() {
+  const auto number =
+      static_cast<std::int64_t>(parts_.ledger.time_s() / parts_.params.course.tracking.period_s);
+  if (number < next_sighting_) return std::nullopt;
   next_sighting_ = number + 1;
-  const messages::Goal target = parts_.params.course.GoalAt(time_s);
+  return number;
+}
+
+void Drive::TrackGoal() {
+  if (!parts_.feature_tracker) return;
+  if (parts_.goal_rock) return RecognizeRock();
+  if (!parts_.navigator.IsOnLastLeg()) return;
+  const auto number = NextSighting();
+  if (!number) return;
+  const messages::Goal target = parts_.params.course.GoalAt(parts_.ledger.time_s());
   const auto sighting = parts_.feature_tracker->Observe(math::ToPose2(parts_.state().X_WR),
-                                                        target.x_m, target.y_m, number);
+                                                        target.x_m, target.y_m, *number);
   if (sighting.has_value() != sees_goal_) {
     tracer_.Event("tracker", sighting ? "goal in view" : "goal out of view");
   }
@@ -100,6 +108,34 @@ void Drive::TrackGoal() {
   const messages::Goal goal = perception::PlaceOf(*sighting, parts_.estimate().pose);
   parts_.navigator.SetGoal(goal, navigation::GoalChange::kMoved);
   parts_.referee.OnGoalMoved(goal);
+}
+
+void Drive::RecognizeRock() {
+  const auto number = NextSighting();
+  if (!number) return;
+  const math::Transform& X_WR = parts_.state().X_WR;
+  if (parts_.goal_rock->FrontDistance_m(X_WR) > parts_.params.course.goal_rock.recognition_m) {
+    return;
+  }
+  const math::Vector3 center_W = parts_.goal_rock->center_W();
+  const auto sighting =
+      parts_.feature_tracker->Observe(math::ToPose2(X_WR), center_W.x(), center_W.y(), *number);
+  if (!sighting) return;
+  if (!recognized_rock_) {
+    tracer_.Event("tracker", "goal rock recognized");
+    observer_.OnRecognized();
+  }
+  recognized_rock_ = true;
+  const messages::Goal goal = perception::PlaceOf(*sighting, parts_.estimate().pose);
+  parts_.navigator.DriveTo(goal);
+  parts_.referee.OnGoalMoved(goal);
+}
+
+std::optional<Verdict> Drive::FindRock() {
+  if (!parts_.goal_rock) return std::nullopt;
+  parts_.goal_rock->Observe(parts_.state());
+  if (!parts_.goal_rock->found()) return std::nullopt;
+  return Verdict{truth::EndCause::kFoundRock};
 }
 
 void Drive::OnWaypoints(std::size_t first) {
@@ -231,6 +267,7 @@ Observation Drive::Observed(Activity activity, int direction, double duration_s)
 }
 
 std::optional<Verdict> Drive::AskReferee(Activity activity, int direction, double duration_s) {
+  if (auto verdict = FindRock()) return verdict;
   return parts_.referee.Observe(Observed(activity, direction, duration_s), parts_.ledger);
 }
 

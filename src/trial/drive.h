@@ -35,6 +35,12 @@ class Drive {
   std::optional<Verdict> Tick();
   // Shows the tracked goal to the navigator, where there is one and it is in view.
   void TrackGoal();
+  // Whether the tracker looks now: where it is time for its next measurement, whose number it is.
+  std::optional<std::int64_t> NextSighting();
+  // Shows the goal rock to the navigator, where it is near and in view.
+  void RecognizeRock();
+  // The verdict on a rover that has found the rock at its goal.
+  std::optional<Verdict> FindRock();
   // The navigator has gone on from its goal number `first`, and perhaps from more.
   void OnWaypoints(std::size_t first);
   // Whether the rover goes on meanwhile.
@@ -89,6 +95,7 @@ class Drive {
   bool has_rolled_ = true;
   std::int64_t next_sighting_ = 0;  // of the tracked goal: number of its next measurement
   bool sees_goal_ = false;          // at the last one
+  bool recognized_rock_ = false;    // ever
   Stall stall_;                     // of a rover that was found stuck
 };
 

@@ -177,6 +177,34 @@ void RequireTargetBetweenLines(const DriveParams& drive, core::FieldVisitor& v) 
             "use a target that stands, or another kind of arena");
 }
 
+// What a rock at the goal needs of field, sensors and navigator.
+void RequireFindableRock(const DriveParams& drive, core::FieldVisitor& v) {
+  const GoalRockParams& rock = drive.course.goal_rock;
+  if (!rock.enabled) return;
+  const navigation::NavigatorKind& navigator = drive.navigation.navigators.chosen();
+  v.Require("course.goal_rock.enabled",
+            navigator.traits().reads == navigation::LookReading::kHazardReport,
+            fmt::format("is true where navigation.navigator is {}, which reads no report of "
+                        "hazards that could find the rock",
+                        navigator.name()),
+            "use navigator pathfinder");
+  v.Require("course.goal_rock.enabled", !drive.course.tracking.enabled,
+            "is true where course.tracking is enabled, which knows the goal all the way",
+            "use recognition_m, which measures as course.tracking says, or no goal rock");
+  v.Require("course.goal_rock.enabled", drive.course.target_speed_m_s == 0.0,
+            "is true where course.target_speed_m_s is above 0, and rocks do not move on",
+            "use a target that stands");
+  v.Require("course.goal_rock.enabled",
+            drive.terrain.arena.kind != terrain::ArenaKind::kVirtualReflected,
+            "is true in a virtual_reflected arena, beyond whose mirror lines a search may lead",
+            "use an open arena");
+  v.Require("course.goal_rock.diameter_m",
+            drive.terrain.rocks.kind == terrain::RockFieldKind::kNone ||
+                0.5 * rock.diameter_m <= drive.terrain.rocks.clear_radius_m,
+            "makes the rock larger than what terrain.rocks.clear_radius_m keeps free of others",
+            "use a smaller rock or a larger clear_radius_m");
+}
+
 // A stuck rover that runs on does so until its batteries are empty.
 void RequireEndOfStall(const DriveParams& drive, core::FieldVisitor& v) {
   v.Require("referee.stuck_rover",
@@ -207,6 +235,7 @@ void RequireSoundDrive(const DriveParams& drive, core::FieldVisitor& v) {
   RequireSoundRouteMap(drive, v);
   RequireTargetBetweenLines(drive, v);
   RequireListener(drive, v);
+  RequireFindableRock(drive, v);
 }
 
 }  // namespace rockyard::trial

@@ -31,7 +31,9 @@ std::optional<Verdict> Drive::Look(messages::LookDirection direction) {
   } while (seen_->percept.look_again);
   tracer_.Look(direction, seen_->percept);
   const messages::HazardReport* report = seen_->report();
-  observer_.OnReport(report != nullptr && report->any(), seen_->X_WR);
+  const bool hazard = report != nullptr && report->any();
+  observer_.OnReport(hazard, seen_->X_WR);
+  if (hazard && parts_.goal_rock) parts_.goal_rock->OnBelieved(seen_->X_WR);
   return AskReferee(Activity::kScanning, 0, seen_->percept.time.total_s());
 }
 

@@ -37,6 +37,7 @@ class DriveObserver {
   void OnWheels(bool moving) { stops_.Observe(moving); }
   void OnScrape();
   void OnStuckNoticed() { ++stuck_noticed_; }
+  void OnRecognized() { recognized_ = true; }
   // Once a control tick, after the estimate.
   void OnTick(bool turning_in_place);
 
@@ -58,6 +59,7 @@ class DriveObserver {
   void ReportLedger(truth::DriveRecord& record, const Stall& stall) const;
   void ReportCounts(truth::DriveRecord& record) const;
   void ReportHazards(truth::DriveRecord& record) const;
+  void ReportGoalRock(truth::DriveRecord& record) const;
 
   const DriveParts& parts_;
   DriveMonitor monitor_;
@@ -71,6 +73,7 @@ class DriveObserver {
   std::optional<double> first_scrape_m_;  // true path length
   std::int64_t reflections_ = 0;
   std::int64_t stuck_noticed_ = 0;
+  bool recognized_ = false;  // the goal rock
 };
 
 }  // namespace rockyard::trial

@@ -1,5 +1,7 @@
 // What a finished drive says of itself: the columns of its record.
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 
 #include "math/angles.h"
@@ -24,6 +26,7 @@ truth::DriveRecord DriveObserver::Report(bool declared_success, const Stall& sta
   ReportLedger(record, stall);
   ReportCounts(record);
   ReportHazards(record);
+  ReportGoalRock(record);
   return record;
 }
 
@@ -39,7 +42,8 @@ void DriveObserver::ReportGoals(truth::DriveRecord& record) const {
   const messages::Goal& believed = parts_.navigator.last_goal();
   record.believed_goal_distance_m =
       std::hypot(believed.x_m - estimate.x_m, believed.y_m - estimate.y_m);
-  record.waypoints_reached = static_cast<double>(parts_.navigator.reached());
+  const std::size_t waypoints = parts_.told_places.size() - 1;
+  record.waypoints_reached = static_cast<double>(std::min(parts_.navigator.reached(), waypoints));
 }
 
 void DriveObserver::ReportPoses(truth::DriveRecord& record) const {
@@ -145,6 +149,18 @@ void DriveObserver::ReportCounts(truth::DriveRecord& record) const {
   record.layout = static_cast<double>(LayoutKey(parts_.params, parts_.key).trial);
   record.rocks = static_cast<double>(parts_.field.terrain.rocks().size());
   record.rock_cover = parts_.field.audit.outline_cover;
+}
+
+void DriveObserver::ReportGoalRock(truth::DriveRecord& record) const {
+  if (!parts_.goal_rock) return;
+  record.goal_rock_found = parts_.goal_rock->found() ? 1.0 : 0.0;
+  record.goal_rock_distance_m = parts_.goal_rock->Distance_m(parts_.state().X_WR);
+  record.goal_rock_sign = static_cast<double>(parts_.goal_rock->sign());
+  record.goal_rock_recognized = recognized_ ? 1.0 : 0.0;
+  const std::size_t reached = parts_.navigator.reached();
+  const std::size_t waypoints = parts_.told_places.size() - 1;
+  record.search_places_reached =
+      reached > waypoints ? static_cast<double>(reached - waypoints) : 0.0;
 }
 
 void DriveObserver::ReportHazards(truth::DriveRecord& record) const {

@@ -59,6 +59,21 @@ navigation::WheelDriverParams WheelDriverOf(const DriveParams& drive) {
   return params;
 }
 
+// What the rover drives to: the designated places, then those of a local search.
+std::vector<messages::Goal> WithSearch(std::vector<messages::Goal> goals,
+                                       const GoalRockParams& rock) {
+  if (!rock.enabled) return goals;
+  const std::vector<messages::Goal> places = rock.search.Places(goals.back());
+  goals.insert(goals.end(), places.begin(), places.end());
+  return goals;
+}
+
+// A goal rock is recognized by what would track a goal.
+bool TracksGoal(const CourseParams& course) {
+  return course.tracking.enabled ||
+         (course.goal_rock.enabled && course.goal_rock.recognition_m > 0.0);
+}
+
 std::unique_ptr<rover::Rover> MakeTrialRover(const DriveParams& drive, terrain::Terrain& terrain) {
   const terrain::RockFieldParams& rocks = drive.terrain.rocks;
   if (rocks.mobility == terrain::RockMobility::kFixed) {
@@ -81,7 +96,8 @@ DriveParts::DriveParts(const DriveParams& drive, core::TrialKey trial_key, const
       terrain_sensing(drive, trial_key, watchers),
       guard(drive, trial_key),
       aids(drive, trial_key, field.terrain),
-      navigator(told_places, MakeNavigator(drive, field.terrain, trial_key, told_places.front()),
+      navigator(WithSearch(told_places, drive.course.goal_rock),
+                MakeNavigator(drive, field.terrain, trial_key, told_places.front()),
                 PassingOf(drive)),
       follower(drive.rover.drive.speed_m_s, rover->ramp_s()),
       wheel_driver(OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive),
@@ -98,7 +114,13 @@ DriveParts::DriveParts(const DriveParams& drive, core::TrialKey trial_key, const
         drive.perception.stuck_detector,
         OnboardDriveCalibration(drive.rover, drive.perception.calibration.drive));
   }
-  if (drive.course.tracking.enabled) feature_tracker.emplace(drive.course.tracking, key);
+  if (TracksGoal(drive.course)) feature_tracker.emplace(drive.course.tracking, key);
+  if (drive.course.goal_rock.enabled) {
+    // Terrains list it last.
+    goal_rock.emplace(field.terrain, static_cast<int>(field.terrain.rocks().size()) - 1,
+                      drive.sensors.terrain_sensors.chosen().reported_zone(drive),
+                      drive.rover.geometry);
+  }
 }
 
 void DriveParts::Begin() {

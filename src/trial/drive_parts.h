@@ -18,6 +18,7 @@
 #include "terrain/field.h"
 #include "trial/aid_suite.h"
 #include "trial/drive_params.h"
+#include "trial/goal_rock.h"
 #include "trial/ledger.h"
 #include "trial/mirror_arena.h"
 #include "trial/referee.h"
@@ -57,6 +58,7 @@ struct DriveParts {
   VehicleGuard guard;
   std::optional<perception::StuckDetector> stuck_detector;
   std::optional<sensing::FeatureTracker> feature_tracker;
+  std::optional<GoalRock> goal_rock;
 
   std::unique_ptr<localization::Estimator> estimator;  // from Begin on
   AidSuite aids;

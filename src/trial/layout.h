@@ -16,7 +16,11 @@ inline core::TrialKey LayoutKey(const DriveParams& drive, core::TrialKey key) {
 }
 
 inline terrain::Course TerrainCourse(const CourseParams& course) {
-  terrain::Course points{course.start_x_m, course.start_y_m, course.goal_x_m, course.goal_y_m, {}};
+  terrain::Course points{
+      course.start_x_m, course.start_y_m, course.goal_x_m, course.goal_y_m, {}, {}};
+  if (course.goal_rock.enabled) {
+    points.goal_rock = {course.goal_rock.diameter_m, course.goal_rock.height_m};
+  }
   for (const messages::Goal& place : course.waypoints.Places()) {
     points.waypoints.push_back({place.x_m, place.y_m});
   }

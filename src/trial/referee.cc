@@ -195,6 +195,7 @@ Verdict Referee::OnNavigatorStop(navigation::NavigatorStatus status, const truth
   if (status == navigation::NavigatorStatus::kStuck) {
     return {EndCause::kNoticedStuck};
   }
+  if (course_.goal_rock.enabled) return {EndCause::kRockNotFound};
   const auto p = state.X_WR.translation();
   const messages::Goal goal = course_.GoalAt(time_s);
   const double off_m = Between(p.x(), p.y(), goal.x_m, goal.y_m);

@@ -105,6 +105,11 @@ struct DriveRecord {
   double aids_in_doubt = 0.0;
   double aids_gated_out = 0.0;
   double aids_unanswered = 0.0;
+  double goal_rock_found = std::numeric_limits<double>::quiet_NaN();  // NaN without a goal rock
+  double goal_rock_distance_m = std::numeric_limits<double>::quiet_NaN();
+  double goal_rock_sign = std::numeric_limits<double>::quiet_NaN();
+  double goal_rock_recognized = std::numeric_limits<double>::quiet_NaN();
+  double search_places_reached = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct DriveColumn {
@@ -328,6 +333,22 @@ inline constexpr std::array kDriveColumns = {
     DriveColumn{"aids_unanswered", "1",
                 "measurements that were due and found nothing: out of range, hidden, dropped out",
                 &DriveRecord::aids_unanswered},
+    DriveColumn{"goal_rock_found", "1",
+                "1 where the rover found the rock at its goal, else 0; empty without such a rock "
+                "(course.goal_rock), as the next four",
+                &DriveRecord::goal_rock_found, true},
+    DriveColumn{"goal_rock_distance_m", "m",
+                "from the rover's outline to that rock's, as seen from above, at the end",
+                &DriveRecord::goal_rock_distance_m, true},
+    DriveColumn{"goal_rock_sign", "1",
+                "1 where it was found by the array of elevations, 2 by contact, else 0",
+                &DriveRecord::goal_rock_sign, true},
+    DriveColumn{"goal_rock_recognized", "1", "1 where the rover had recognized it, else 0",
+                &DriveRecord::goal_rock_recognized, true},
+    DriveColumn{"search_places_reached", "1",
+                "places of the local search that the rover declared to be at, the told place "
+                "included",
+                &DriveRecord::search_places_reached, true},
 };
 
 }  // namespace rockyard::truth

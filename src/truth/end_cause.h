@@ -25,6 +25,8 @@ enum class EndCause {
   kBatteriesEmpty,
   kTimeLimit,
   kLeftArena,
+  kFoundRock,
+  kRockNotFound,
 };
 
 struct EndCauseInfo {
@@ -35,7 +37,7 @@ struct EndCauseInfo {
   std::string_view setting;   // parameter of a scenario that decided, where one did
 };
 
-inline constexpr std::array<EndCauseInfo, 14> kEndCauses = {{
+inline constexpr std::array<EndCauseInfo, 16> kEndCauses = {{
     {"arrived", TrialOutcome::kGoalReached, "arrived", "arrived at the goal",
      "course.goal_radius_m"},
     {"believed_only", TrialOutcome::kFalseGoal, "believed only",
@@ -66,6 +68,11 @@ inline constexpr std::array<EndCauseInfo, 14> kEndCauses = {{
      "had not arrived when the time of the run was over", "referee.time_limit_s"},
     {"left_arena", TrialOutcome::kLeftArena, "left the arena", "drove past an end of the arena",
      "terrain.arena"},
+    {"found_rock", TrialOutcome::kGoalReached, "found the rock", "found the rock at its goal",
+     "course.goal_rock.enabled"},
+    {"rock_not_found", TrialOutcome::kFalseGoal, "found no rock",
+     "believed to have arrived, but had not found the rock at its goal",
+     "course.goal_rock.enabled"},
 }};
 
 constexpr const EndCauseInfo& Info(EndCause cause) {

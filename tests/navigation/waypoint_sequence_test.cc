@@ -237,5 +237,19 @@ TEST_F(WaypointSequenceTest, WithoutADistanceNothingIsPassed) {
   EXPECT_EQ(sequence_->reached(), 0U);
 }
 
+// On the first of three legs: what was left is left out, and the new goal is the last.
+TEST_F(WaypointSequenceTest, ANewLastGoalLeavesOutTheRest) {
+  Make({{1.0, 0.0}, {2.0, 0.0}, {3.0, 0.0}});
+  At(0.5);
+  sequence_->DriveTo({0.7, 0.2});
+  EXPECT_TRUE(sequence_->IsOnLastLeg());
+  EXPECT_EQ(sequence_->goal().x_m, 0.7);
+  EXPECT_EQ(sequence_->last_goal().y_m, 0.2);
+  EXPECT_THAT(inner_->told_x_m, ElementsAre(0.7));
+  EXPECT_THAT(inner_->changes, ElementsAre(GoalChange::kMoved));
+  EXPECT_EQ(At(0.7).status, NavigatorStatus::kArrived);
+  EXPECT_EQ(sequence_->reached(), 0U);
+}
+
 }  // namespace
 }  // namespace rockyard::navigation

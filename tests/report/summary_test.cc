@@ -195,6 +195,24 @@ TEST(SummaryJson, CountsCausesAndHasTheirRates) {
   EXPECT_FALSE(summary["metrics_by_outcome"]["no_path"].contains("patience_distance"));
 }
 
+// Arrivals need no line of their own, unless some found a rock instead.
+TEST(SummaryText, TellsHowGoalsWereReachedWhereItIsNotPlain) {
+  using truth::EndCause;
+  const auto text = [](EndCause second) {
+    std::vector<truth::Record> records;
+    for (const EndCause cause : {EndCause::kArrived, second}) {
+      records.push_back({.trial = records.size(),
+                         .outcome = truth::Info(cause).outcome,
+                         .detail = std::string(truth::Info(cause).sentence),
+                         .values = WithCauses().front().values});
+    }
+    return SummaryText(SampleDescription(), statistics::Summarize(SampleSchema(), records));
+  };
+  EXPECT_EQ(text(EndCause::kArrived).find("course.goal_radius_m"), std::string::npos);
+  EXPECT_NE(text(EndCause::kFoundRock).find("found the rock"), std::string::npos);
+  EXPECT_NE(text(EndCause::kFoundRock).find("course.goal_radius_m"), std::string::npos);
+}
+
 TEST(SummaryText, TellsCausesBelowOutcomesThatHaveSeveral) {
   const std::string text =
       SummaryText(SampleDescription(), statistics::Summarize(SampleSchema(), WithCauses()));

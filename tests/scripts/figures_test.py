@@ -21,6 +21,7 @@ sys.path.insert(0, str(ROOT / "scripts"))
 import figures
 from figures import goldberg2002_figure3 as gestalt
 from figures import matthies1995_figure13 as figure13
+from figures import matthies1995_figure4 as figure4
 from figures import matthies1995_figure15 as figure15
 from figures import matthies1995_figure16 as figure16
 from figures import three_rock_course
@@ -43,7 +44,8 @@ def setUpModule():
     for name, scenario, trials in (("nominal", "pathfinder/nominal", 4),
                                    ("perfect", "pathfinder/nominal_perfect_localization", 3),
                                    ("gestalt", "gestalt/narrow_course", 1),
-                                   ("scan", "hazard_detection/detection", 1)):
+                                   ("scan", "hazard_detection/detection", 1),
+                                   ("designation", "localization/designation", 12)):
         extra = ["--set", "hazard_detection.scenes_per_run=2"] if name == "scan" else []
         subprocess.run([ROCKYARD, "run", ROOT / f"scenarios/{scenario}.json", "--trials", str(trials),
                         "--out", Path(SCRATCH.name) / name, *QUICK, *extra], check=True)
@@ -159,6 +161,21 @@ class DrawnNumbers(FiguresTest):
         self.assertAlmostEqual(drawn.numbers["made_per_m2"][0] * 3 * 26.4, expected)
         self.assertAlmostEqual(drawn.numbers["made_per_m2"][-1], 0.0, places=9)
         self.assertEqual(min(rock[2] for rock in drawn.numbers["plan"]) >= 0.15, True)
+
+    def test_designation_errors_stand_beside_the_equations(self):
+        drawn = self.draw("matthies1995-4", "designation").numbers
+        settings = {"pixel_rad": 0.001, "disparity_sd_px": 0.1, "pixel_sd_px": 1.0,
+                    "baseline_m": 0.15, "pan_error_deg": 1.0}
+        at_20 = figure4.equations(20.0, settings)
+        self.assertAlmostEqual(at_20["downrange"], 0.0001 * 400 / 0.15)
+        self.assertAlmostEqual(at_20["crossrange"], 0.02)
+        self.assertAlmostEqual(at_20["pan"], 20 * math.pi / 180)
+        place = drawn["range_m"].index(20.0)
+        for name, wanted in at_20.items():  # of 1000 goals, within some 10 %
+            self.assertAlmostEqual(drawn[name][place][0], wanted, delta=0.12 * wanted)
+            self.assertLess(drawn[name][place][1], 0.1 * wanted)
+        with self.assertRaisesRegex(figures.FigureError, "no run of the experiment designation"):
+            self.draw("matthies1995-4", "scan")
 
     def test_moores_law(self):
         self.assertAlmostEqual(figure15.law_per_m2(0.013, 0.23), 0.65, places=2)

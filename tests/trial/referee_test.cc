@@ -384,6 +384,18 @@ TEST_F(RefereeTest, ArrivalIsTrueOnlyNearTheTrueGoal) {
             TrialOutcome::kNoPath);
 }
 
+// However near it is, a rover that has not found the rock has not reached its goal.
+TEST_F(RefereeTest, ArrivalWithoutTheGoalRockIsFalse) {
+  course_.goal_rock.enabled = true;
+  const Referee referee(params_, course_, kGoal, ArenaBounds{-2.0, 10.0}, kWheelRadius_m);
+  MoveTo(7.6, 0.0);
+  const Verdict verdict = referee.OnNavigatorStop(NavigatorStatus::kArrived, state_, 0.0);
+  EXPECT_EQ(verdict.cause, EndCause::kRockNotFound);
+  EXPECT_EQ(verdict.outcome(), TrialOutcome::kFalseGoal);
+  EXPECT_EQ(referee.OnNavigatorStop(NavigatorStatus::kGaveUp, state_, 0.0).cause,
+            EndCause::kGaveUp);
+}
+
 // A target that moves on is where it is by then.
 TEST_F(RefereeTest, ArrivalIsAtTheGoalOfThatTime) {
   course_.target_speed_m_s = 0.1;

@@ -54,6 +54,7 @@ TEST(EndCause, TableIsInOrder) {
 TEST(EndCause, SomeOutcomesLeaveItOpen) {
   EXPECT_TRUE(HasSeveralCauses(TrialOutcome::kNoPath));
   EXPECT_TRUE(HasSeveralCauses(TrialOutcome::kJammed));
+  EXPECT_TRUE(HasSeveralCauses(TrialOutcome::kGoalReached));
   EXPECT_FALSE(HasSeveralCauses(TrialOutcome::kTipOver));
   EXPECT_FALSE(HasSeveralCauses(TrialOutcome::kMeasured));
 }

@@ -1,0 +1,160 @@
+#include "experiments/designation/designation.h"
+
+#include <cmath>
+#include <cstddef>
+#include <exception>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include "core/distributions.h"
+#include "experiments/designation/columns.h"
+#include "experiments/scene_key.h"
+#include "trial/goal_designation.h"
+#include "truth/measurement_record.h"
+
+namespace rockyard::experiments {
+namespace {
+
+using enum DesignationColumn;
+using core::SampleNormal;
+using math::Vector3;
+
+// What operators, correlation and the pan axis do to one goal.
+struct PickErrors {
+  double column_px = 0.0;
+  double row_px = 0.0;
+  double disparity_px = 0.0;
+  double pan_rad = 0.0;
+};
+
+PickErrors Draw(const trial::DesignationParams& errors, core::TrialKey key) {
+  core::RandomStream stream(key, core::Purpose::kExperiment);
+  PickErrors drawn;
+  drawn.column_px = SampleNormal(stream, 0.0, errors.pixel_sd_px);
+  drawn.row_px = SampleNormal(stream, 0.0, errors.pixel_sd_px);
+  drawn.disparity_px = SampleNormal(stream, 0.0, errors.disparity_sd_px);
+  const double share = core::SampleUniform(stream, -1.0, 1.0);
+  const bool fixed = errors.pan_kind == trial::PanError::kFixed;
+  drawn.pan_rad = errors.pan_error_rad * (fixed ? 1.0 : share);
+  return drawn;
+}
+
+// Of a normal error the mean magnitude is the root of 2/pi standard deviations.
+double Spread(double error_m) { return std::sqrt(0.5 * std::numbers::pi) * std::abs(error_m); }
+
+void AddPlace(const Vector3& error_m, DesignationSums& sums) {
+  const double downrange_m = error_m.x();
+  const double crossrange_m = error_m.y();
+  sums.Add(kDownrange, downrange_m);
+  sums.Add(kDownrangeSquares, downrange_m * downrange_m);
+  sums.Add(kDownrangeCubes, downrange_m * downrange_m * downrange_m);
+  sums.Add(kDownrangeSpread, Spread(downrange_m));
+  sums.Add(kCrossrange, crossrange_m);
+  sums.Add(kCrossrangeSquares, crossrange_m * crossrange_m);
+  sums.Add(kCrossrangeSpread, Spread(crossrange_m));
+  sums.Add(kHeight, error_m.z());
+  sums.Add(kHeightSquares, error_m.z() * error_m.z());
+}
+
+void AddPanned(const Vector3& error_m, double near_enough_m, DesignationSums& sums) {
+  const double miss_m = std::hypot(error_m.x(), error_m.y());
+  if (miss_m < near_enough_m) sums.Add(kNearEnough, 1.0);
+  sums.Add(kPannedDownrange, error_m.x());
+  sums.Add(kPannedDownrangeSquares, error_m.x() * error_m.x());
+  sums.Add(kPannedCrossrange, error_m.y());
+  sums.Add(kPannedCrossrangeSquares, error_m.y() * error_m.y());
+  sums.Add(kMiss, miss_m);
+}
+
+// What a drive's course would have told for the same goal.
+void AddCourse(const trial::CourseParams& course, core::TrialKey key, DesignationSums& sums) {
+  const messages::Goal told = trial::DesignatedGoal(course, key);
+  const double downrange_m = told.x_m - course.goal_x_m;
+  const double crossrange_m = told.y_m - course.goal_y_m;
+  sums.Add(kCourseDownrangeSquares, downrange_m * downrange_m);
+  sums.Add(kCourseCrossrange, crossrange_m);
+  sums.Add(kCourseCrossrangeSquares, crossrange_m * crossrange_m);
+  const trial::DesignationErrors errors = course.designation.ErrorsAt(course.goal_x_m);
+  sums.Add(kEquation1, errors.crossrange_sd_m);
+  sums.Add(kEquation2, errors.downrange_sd_m);
+  sums.Add(kEquation3, errors.crossrange_bias_m);
+}
+
+truth::RecordSchema SchemaOfDesignation() {
+  std::vector<std::string_view> names;
+  for (const truth::ValueInfo& column : DesignationColumns()) names.emplace_back(column.name);
+  return truth::MeasurementSchema(DesignationColumns(), names);
+}
+
+}  // namespace
+
+LanderCameras CamerasOf(const DesignationStudyParams& study,
+                        const trial::DesignationParams& designation) {
+  return {designation.pixel_rad, designation.baseline_m, study.mast_height_m,
+          static_cast<int>(study.image_side_px)};
+}
+
+DesignationExperiment::DesignationExperiment(const DesignationStudyParams& params,
+                                             const trial::CourseParams& course)
+    : params_(params),
+      course_(course),
+      cameras_(CamerasOf(params, course.designation)),
+      table_(params.Factors()),
+      schema_(SchemaOfDesignation()) {}
+
+trial::CourseParams DesignationExperiment::CourseOf(double range_m) const {
+  trial::CourseParams course = course_;
+  course.start_x_m = 0.0;
+  course.start_y_m = 0.0;
+  course.goal_x_m = range_m;
+  course.goal_y_m = 0.0;
+  course.waypoints = {};
+  course.designation.enabled = true;
+  course.designation.lander_ahead_m = 0.0;
+  course.designation.lander_left_m = 0.0;
+  return course;
+}
+
+DesignationSums DesignationExperiment::Measure(double range_m, core::TrialKey key) const {
+  const Vector3 p_goal_L(range_m, 0.0, params_.goal_height_m);
+  const LanderPair pair(cameras_, p_goal_L);
+  const trial::CourseParams course = CourseOf(range_m);
+  const StereoPick seen = pair.See(p_goal_L).value();
+  DesignationSums sums;
+  for (std::int64_t i = 0; i < params_.designations_per_run; ++i) {
+    const core::TrialKey scene = SceneKey(key, params_.designations_per_run, i);
+    const PickErrors errors = Draw(course.designation, scene);
+    sums.Add(kDesignations, 1.0);
+    AddCourse(course, scene, sums);
+    const auto place = pair.Place({seen.left_px + vision::Pixel(errors.column_px, errors.row_px),
+                                   seen.disparity_px + errors.disparity_px});
+    sums.Add(place ? kFound : kBeyond, 1.0);
+    if (!place) continue;
+    if (place->head<2>().norm() > 2.0 * range_m) sums.Add(kDoubled, 1.0);
+    AddPlace(*place - p_goal_L, sums);
+    AddPanned(Panned(*place, errors.pan_rad) - p_goal_L, params_.near_enough_m, sums);
+  }
+  return sums;
+}
+
+truth::Record DesignationExperiment::Run(std::uint64_t seed, std::uint64_t index) const {
+  try {
+    if (index > std::numeric_limits<std::uint32_t>::max()) {
+      throw std::out_of_range("trial indices end at 2^32 - 1, the size of their random key");
+    }
+    const std::size_t cell = index % table_.size();
+    const double range_m = table_.Values(cell).front();
+    const DesignationSums sums = Measure(range_m, {seed, static_cast<std::uint32_t>(index)});
+    truth::Record record{
+        index, truth::TrialOutcome::kMeasured, "", {static_cast<double>(cell), range_m}};
+    for (const double sum : sums.values()) record.values.push_back(sum);
+    return record;
+  } catch (const std::exception& error) {
+    return truth::MakeFault(seed, index, error.what());
+  }
+}
+
+}  // namespace rockyard::experiments

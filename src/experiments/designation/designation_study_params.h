@@ -1,0 +1,28 @@
+// Parameters of the experiment on goals designated in the lander's stereo images.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/fields.h"
+#include "experiments/cell_factor_params.h"
+
+namespace rockyard::experiments {
+
+// The cameras' pixels and baseline, and the errors of operators, correlation and pan axis, are
+// those of course.designation.
+struct DesignationStudyParams {
+  std::int64_t designations_per_run = 1000;
+  std::vector<double> ranges_m{1.0, 2.0, 3.0, 5.0, 7.0, 10.0, 15.0, 20.0, 25.0, 30.0, 40.0, 50.0};
+  std::int64_t image_side_px = 256;
+  double mast_height_m = 1.5;
+  double goal_height_m = 0.0;
+  double near_enough_m = 0.24;
+
+  std::vector<CellFactor> Factors() const { return {{"range_m", ranges_m}}; }
+  double Cells() const { return CellsOf(Factors()); }
+
+  void Visit(core::FieldVisitor& v);
+};
+
+}  // namespace rockyard::experiments
