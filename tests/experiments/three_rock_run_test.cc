@@ -56,7 +56,7 @@ TEST(RockLayoutTest, DrawsUniformlyFromTheRangesOfThePrior) {
   constexpr int kDraws = 2000;
   std::vector<double> along_m;
   for (int i = 0; i < kDraws; ++i) {
-    core::RandomStream stream = StreamOf(DrawnPart::kRockB, i, kKey);
+    core::RandomStream stream = StreamOf(DrawnPart::kSecondRock, i, kKey);
     const DrawnRock rock = DrawRock(prior, stream);
     along_m.push_back(rock.along_m);
     EXPECT_TRUE(rock.along_m > 1.0 && rock.along_m < 2.0);
@@ -82,8 +82,8 @@ TEST(RockLayoutTest, DrawsUniformlyFromTheRangesOfThePrior) {
 TEST(RockLayoutTest, EveryTryHasAStreamOfItsOwn) {
   std::set<double> first{StreamOf(DrawnPart::kStart, 0, kKey).Uniform()};
   for (int i = 0; i < 50; ++i) {
-    first.insert(StreamOf(DrawnPart::kRockB, i, kKey).Uniform());
-    first.insert(StreamOf(DrawnPart::kRockC, i, kKey).Uniform());
+    first.insert(StreamOf(DrawnPart::kSecondRock, i, kKey).Uniform());
+    first.insert(StreamOf(DrawnPart::kThirdRock, i, kKey).Uniform());
   }
   EXPECT_EQ(first.size(), 101U);
 }

@@ -33,12 +33,12 @@ enum class DesignationColumn : std::size_t {
   kEquation1,
   kEquation2,
   kEquation3,
-  kCount
+  kColumns
 };
 
 class DesignationSums {
  public:
-  static constexpr std::size_t kSize = static_cast<std::size_t>(DesignationColumn::kCount);
+  static constexpr std::size_t kSize = static_cast<std::size_t>(DesignationColumn::kColumns);
 
   void Add(DesignationColumn column, double value) {
     values_[static_cast<std::size_t>(column)] += value;

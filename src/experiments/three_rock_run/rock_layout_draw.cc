@@ -9,7 +9,7 @@ namespace rockyard::experiments {
 core::RandomStream StreamOf(DrawnPart part, std::int64_t number, core::TrialKey key) {
   // 0; 1, 3, 5, ... of B; 2, 4, 6, ... of C.
   const std::int64_t substream =
-      part == DrawnPart::kStart ? 0 : 2 * number + (part == DrawnPart::kRockB ? 1 : 2);
+      part == DrawnPart::kStart ? 0 : 2 * number + (part == DrawnPart::kSecondRock ? 1 : 2);
   return {key, core::Purpose::kExperiment, static_cast<std::uint32_t>(substream)};
 }
 

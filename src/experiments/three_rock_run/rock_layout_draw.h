@@ -20,7 +20,7 @@ struct DrawnRock {
 
 // What the streams of a trial are for: kExperiment has a substream for the goal and rock A, then
 // one for each place that is tried of B, and of C.
-enum class DrawnPart { kStart, kRockB, kRockC };
+enum class DrawnPart { kStart, kSecondRock, kThirdRock };
 
 // The stream of the number-th try, from 0.
 core::RandomStream StreamOf(DrawnPart part, std::int64_t number, core::TrialKey key);

@@ -112,7 +112,7 @@ bool ThreeRockRunExperiment::TrySecondRock(const RunHistory& with_a, Course& cou
                                            ThreeRockRecord& record) const {
   course.rocks.emplace_back();
   for (std::int64_t number = 0; number < params_.prior.tries; ++number) {
-    core::RandomStream stream = StreamOf(DrawnPart::kRockB, number, course.key);
+    core::RandomStream stream = StreamOf(DrawnPart::kSecondRock, number, course.key);
     const DrawnRock rock = DrawRock(params_.prior.b, stream);
     const std::optional<PlacedRock> placed = PlaceOnPath(rock, rock.along_m, with_a);
     ++record.b_tries;
@@ -135,7 +135,7 @@ bool ThreeRockRunExperiment::TryThirdRock(const RunHistory& with_b, Course& cour
                                           ThreeRockRecord& record) const {
   course.rocks.emplace_back();
   for (std::int64_t number = 0; number < params_.prior.tries; ++number) {
-    core::RandomStream stream = StreamOf(DrawnPart::kRockC, number, course.key);
+    core::RandomStream stream = StreamOf(DrawnPart::kThirdRock, number, course.key);
     const DrawnRock rock = DrawRock(params_.prior.c, stream);
     const std::optional<PlacedRock> placed =
         PlaceOnPath(rock, record.b_path_m + rock.along_m, with_b);
