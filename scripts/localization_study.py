@@ -162,11 +162,11 @@ def belief_table(cells, rows):
     for terrain, distance, aid in cells:
         if (terrain, distance, aid, "all") not in found or distance not in ("10 m", "40 m"):
             continue
-        every, arrived = (found[terrain, distance, aid, which] for which in ("all", "arrived"))
-        lines.append([terrain, distance, aid,
-                      *(study.with_interval((row["inside_95"], row["low"], row["high"]), 0, 100.0)
-                        for row in (every, arrived)),
-                      f"{arrived['median_nees']:.1f}", f"{every['error_m']:.2f}",
+        every = found[terrain, distance, aid, "all"]
+        arrived = found.get((terrain, distance, aid, "arrived"))  # of a hard course none may
+        inside = lambda row: study.with_interval((row["inside_95"], row["low"], row["high"]), 0, 100.0)
+        lines.append([terrain, distance, aid, inside(every), inside(arrived) if arrived else "-",
+                      f"{arrived['median_nees']:.1f}" if arrived else "-", f"{every['error_m']:.2f}",
                       f"{every['believed_m']:.2f}", f"{every['heading_deg']:.1f}",
                       f"{every['used']:.1f}", f"{every['gated_out']:.1f}", f"{every['in_doubt']:.2f}"])
     return study.table(["terrain", "distance", "aids", "inside 95 % (%)", "of arrivals",
