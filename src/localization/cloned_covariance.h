@@ -11,8 +11,8 @@
 //   S = H P H' + R,   K = P H' S^-1,   x <- x + K r,   P <- (I - K H) P (I - K H)' + K R K'.
 // A clone that is forgotten leaves what it has taught.
 //
-// With n coordinates and c clones the matrix has n (1 + c) rows; a propagation costs O(n^3 (1 + c)),
-// an update of m values O((n (1 + c))^2 m).
+// With n coordinates and c clones the matrix has n (1 + c) rows; a propagation costs O(n^3 (1 +
+// c)), an update of m values O((n (1 + c))^2 m).
 #pragma once
 
 #include <Eigen/Core>
