@@ -29,7 +29,7 @@ RADII_M = (0.24, 0.6, 1.2)
 MAIN_M = 0.6
 FIRST = "dead reckoning"
 TERRAINS = {"0.00415": "nominal", "0.013": "Viking Lander 2"}
-DRAWN = (FIRST, "lander every 2.5 m", "sun", "all")
+DRAWN = (FIRST, "lander every 2.5 m", "sun")  # as many as a legend has room for
 COLUMNS = ("true_goal_distance_m", "position_error_m", "heading_error_deg", "pose_nees", "inside_95",
            "believed_position_sd_m", "aids_used", "aids_gated_out", "aids_in_doubt", "scrapes")
 ARRIVED = ("goal_reached", "false_goal")
