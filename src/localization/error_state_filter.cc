@@ -65,7 +65,7 @@ TickNoise ErrorStateFilter::NoiseOf(const messages::MotionMeasurement& motion,
                           drift.scrapes_per_m * Squared(drift.scrape_jump_rad) * way_m,
           .distance_m2 = drift.distance_variance_m2_per_m * way_m,
           .height_m2 = drift.height_variance_m2_per_m * way_m,
-          .bias_rad2_s2 = Squared(drift.gyro_bias_walk_rad_s_per_root_s) * motion.duration_s,
+          .bias_rad2_s2 = Squared(drift.gyro_bias_walk_rad_s) * motion.duration_s,
           .tilt_kept = std::exp(-way_m / drift.tilt_length_m),
           .tilt_rad2 = Squared(drift.tilt_sd_rad)};
 }

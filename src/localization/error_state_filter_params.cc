@@ -62,7 +62,7 @@ void DriftParams::Visit(core::FieldVisitor& v) {
             {.doc = "the heading drifts while the wheels stand, too",
              .origin = Origin::kAssumed,
              .source = "as sensors.gyro.accumulates_at_rest"});
-  v.Angle("gyro_bias_walk_deg_per_s_per_root_s", gyro_bias_walk_rad_s_per_root_s,
+  v.Angle("gyro_bias_walk_deg_per_s", gyro_bias_walk_rad_s,
           {.doc = "random walk of the gyro's bias: standard deviation after a second, deg/s",
            .min = 0.0,
            .max = 1.0,

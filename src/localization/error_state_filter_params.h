@@ -24,7 +24,7 @@ struct DriftParams {
   double heading_variance_deg2_per_m = 0.70;
   double reference_speed_m_s = 0.15;
   bool drifts_at_rest = false;
-  double gyro_bias_walk_rad_s_per_root_s = 0.0;
+  double gyro_bias_walk_rad_s = 0.0;
   double distance_variance_m2_per_m = 0.0039;
   double scrapes_per_m = 0.0;
   double scrape_jump_rad = math::DegToRad(5.0);
