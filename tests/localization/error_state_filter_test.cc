@@ -268,6 +268,24 @@ TEST(ErrorStateFilter, ReckonsWithTheDriftItIsTold) {
   EXPECT_NEAR(heading_variance(), 0.70 * 0.15 * 30.0 + 0.2 * 25.0, 1e-6);
 }
 
+// Way is way, forwards or backwards.
+TEST(ErrorStateFilter, LosesAsMuchBackwards) {
+  ErrorStateFilterParams params;
+  params.drift.scrapes_per_m = 0.2;
+  const auto covariance = [&](double step_m) {
+    ErrorStateFilter filter(params, FilterSetup());
+    for (int i = 0; i < 200; ++i) filter.Propagate(Rolled(step_m, 0.0, 0.05));
+    filter.Capture(1);
+    return filter.covariance();
+  };
+  const ErrorMatrix forwards = covariance(0.005);
+  const ErrorMatrix backwards = covariance(-0.005);
+  for (const error::Row row : {error::kX, error::kY, error::kZ, error::kHeading}) {
+    EXPECT_GT(backwards(row, row), 0.0);
+    EXPECT_NEAR(backwards(row, row), forwards(row, row), 1e-12);
+  }
+}
+
 TEST(ErrorStateFilter, CarriesTheCovarianceOnByStretches) {
   ErrorStateFilter filter({}, FilterSetup());
   filter.Propagate(Rolled(0.06, 0.0, 0.4));
