@@ -82,9 +82,14 @@ void DriveTracer::Waypoint(std::size_t index) {
   const CourseParams& course = parts_.params.course;
   const bool named = course.route_map.use != RouteUse::kWaypoints;
   const std::vector<messages::Goal> goals = named ? course.Goals() : parts_.told_places;
+  // The told goal, and what a local search tries after it.
+  const std::size_t waypoints = goals.size() - 1;
+  if (index >= waypoints) {
+    return Event("waypoint", fmt::format("place {} of the search", index - waypoints + 1));
+  }
   const math::Pose2 rover = math::ToPose2(parts_.state().X_WR);
   Event("waypoint",
-        fmt::format("{} of {}, {:.2f} m from it", index + 1, goals.size() - 1,
+        fmt::format("{} of {}, {:.2f} m from it", index + 1, waypoints,
                     std::hypot(goals[index].x_m - rover.x_m, goals[index].y_m - rover.y_m)));
 }
 

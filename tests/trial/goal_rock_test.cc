@@ -194,6 +194,21 @@ TEST(GoalRockDriveTest, NearnessAloneIsNoFind) {
   EXPECT_TRUE(std::isnan(without.record.goal_rock_distance_m));
 }
 
+// A search has places that nobody named: the trace counts them and knows no distance.
+TEST(GoalRockDriveTest, ASearchIsTracedByItsPlaces) {
+  const TracedTrial trial = RunTraced(
+      Outdoor(And(Beside(1.2),
+                  {"course.goal_rock.search.squares=1", "course.goal_rock.search.spacing_m=0.1"}))
+          .drive,
+      0);
+  std::vector<std::string> places;
+  for (const truth::TraceEvent& event : trial.trace.events) {
+    if (event.kind == "waypoint") places.push_back(event.detail);
+  }
+  EXPECT_THAT(places, testing::ElementsAre("place 1 of the search", "place 2 of the search",
+                                           "place 3 of the search", "place 4 of the search"));
+}
+
 TEST(GoalRockDriveTest, ASearchFindsWhatWasPassedBy) {
   const DriveResult result = RunTrial(
       Outdoor(And(Beside(1.2),
