@@ -285,13 +285,13 @@ class CommandLine(FiguresTest):
         def alarm(time_s):
             return {**sample(time_s, 0, 0, 0), "row": "event", "kind": "hazard"}
         course = three_rock_course.Course([
-            sample(1, 0.0, 0, 0), sample(2, 0.5, 0, 1), alarm(2.5), sample(3, 0.6, 179, -177), alarm(3.5),
+            sample(1, 0.0, 0, 0), sample(2, 0.5, 0, 1), alarm(2.5), alarm(2.7), sample(3, 0.6, 179, -177),
             sample(4, 1.5, 0, -3), alarm(4.5), sample(5, 2.0, 0, 6)])
         for got, expected in zip(course.path, (0.0, 0.5, 0.6, 1.5, 2.0)):
             self.assertAlmostEqual(got, expected)
         for got, expected in zip(course.error_deg, (0, 1, 4, -3, 6)):
             self.assertAlmostEqual(got, expected)
-        # The second alarm follows the first one; the last is 0.5 m on from it.
+        # The second alarm is of the first one's avoidance, at the same place; the last is 1.4 m on.
         self.assertEqual(course.alarms, [2, 4])
         self.assertAlmostEqual(course.error_at(0.55), 4.0)
         self.assertEqual(three_rock_course.side_of(course, {"final_deg": -6.0}), -1.0)
