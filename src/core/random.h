@@ -59,6 +59,7 @@ enum class Purpose : std::uint32_t {
   kSunSensor = 48,
   kRadioBeacon = 49,
   kLanderMap = 50,  // of the lander's stereo pair, for planning a route
+  kVisualMotion = 51,  // the error of a visual odometry step, where no images are matched
 };
 
 // Raw Philox 4x32-10 bijection of one counter under one key.
