@@ -1,0 +1,31 @@
+// What a pair of aligned cameras measures of one point.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "math/pose.h"
+#include "vision/cameras/camera_types.h"
+
+namespace rockyard::vision {
+
+// A point in both eyes, and where it lies (cameras/triangulation.h; Matthies and Shafer 1987).
+struct StereoMeasurement {
+  Pixel left = Pixel::Zero();  // column and row in the left image
+  double disparity_px = 0.0;   // column_left - column_right, > 0
+  // Of (column, row, disparity), px^2.
+  Eigen::Matrix3d covariance_px2 = Eigen::Matrix3d::Identity();
+  math::Vector3 p_A = math::Vector3::Zero();                // m, in the outer frame of the cameras
+  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  // of p_A
+};
+
+// One point at two moments: p_F of the first and p_S of the second, each in the outer frame of the
+// cameras as it stood then.
+struct PointSeenTwice {
+  StereoMeasurement first;
+  StereoMeasurement second;
+};
+
+using PointsSeenTwice = std::vector<PointSeenTwice>;
+
+}  // namespace rockyard::vision
