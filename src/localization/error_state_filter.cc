@@ -265,7 +265,8 @@ EstimatorDescription<ErrorStateFilterParams> DescribeErrorStateFilter() {
                      const EstimatorSetup& setup) -> std::unique_ptr<Estimator> {
             return std::make_unique<ErrorStateFilter>(params, setup);
           },
-          .takes_aids = true};
+          .takes_fixes = true,
+          .takes_motions = true};
 }
 
 }  // namespace rockyard::localization

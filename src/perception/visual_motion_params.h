@@ -1,0 +1,15 @@
+// Parameters of what on-board software makes of motions that it sees.
+#pragma once
+
+#include "core/fields.h"
+#include "math/angles.h"
+
+namespace rockyard::perception {
+
+struct VisualMotionParams {
+  double tilt_sd_rad = math::DegToRad(1.0);
+
+  void Visit(core::FieldVisitor& v);
+};
+
+}  // namespace rockyard::perception
