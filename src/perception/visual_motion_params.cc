@@ -13,6 +13,7 @@ void VisualMotionParams::Visit(core::FieldVisitor& v) {
                      "accelerations",
            .study_low = 0.1,
            .study_high = 3.0});
+  odometer.Visit(v);
 }
 
 }  // namespace rockyard::perception

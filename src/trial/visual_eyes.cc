@@ -1,8 +1,12 @@
 #include "trial/visual_eyes.h"
 
+#include <cstdint>
 #include <optional>
 
+#include "perception/visual_odometry.h"
+#include "sensing/stereo_imager.h"
 #include "sensing/visual_motion.h"
+#include "trial/onboard_calibration.h"
 
 namespace rockyard::trial {
 namespace {
@@ -45,10 +49,53 @@ class FittedEyes final : public VisualEyes {
   std::optional<math::Transform> X_WK_;
 };
 
+// The cameras as the rover believes that they sit on it.
+vision::StereoRig BelievedRig(const DriveParams& drive, const sensing::StereoImager& imager) {
+  vision::StereoRig rig = imager.rig(messages::LookDirection::kAhead);
+  if (const auto misplaced = StereoMisplacement(drive.sensors.stereo, drive.perception.calibration,
+                                                messages::LookDirection::kAhead)) {
+    rig.left = vision::Moved(*misplaced, rig.left);
+    rig.right = vision::Moved(*misplaced, rig.right);
+  }
+  return rig;
+}
+
+// Rendered images of the cameras ahead, and on-board software on them.
+class RenderedEyes final : public VisualEyes {
+ public:
+  RenderedEyes(const DriveParams& drive, core::TrialKey key, const terrain::Terrain& terrain)
+      : terrain_(terrain),
+        imager_(drive.sensors.stereo, drive.sensors.sun, drive.sensors.look, drive.rover.geometry,
+                key),
+        odometry_(drive.perception.visual_odometry.odometer, BelievedRig(drive, imager_),
+                  static_cast<int>(drive.sensors.visual_odometry.pyramid_level), key) {}
+
+  VisualStep Look(const math::Transform& X_WR, const math::Transform& predicted) override {
+    const sensing::StereoImages images =
+        imager_.Expose(terrain_, X_WR, kFirstLook + next_++, messages::LookDirection::kAhead);
+    const vision::OdometryStep step = odometry_.Add(images.left, images.right, predicted);
+    return {step.number, step.reference, step.keyframe, step.result};
+  }
+
+  void Renew() override { odometry_.Renew(); }
+
+ private:
+  // The noise of pixels is drawn by the number of a look. Those of terrain sensing count from 0.
+  static constexpr std::int64_t kFirstLook = std::int64_t{1} << 29;
+
+  const terrain::Terrain& terrain_;
+  sensing::StereoImager imager_;
+  perception::VisualOdometry odometry_;
+  std::int64_t next_ = 0;
+};
+
 }  // namespace
 
 std::unique_ptr<VisualEyes> MakeVisualEyes(const DriveParams& drive, core::TrialKey key,
-                                           const terrain::Terrain& /*terrain*/) {
+                                           const terrain::Terrain& terrain) {
+  if (drive.sensors.visual_odometry.fidelity == sensing::VisualFidelity::kImage) {
+    return std::make_unique<RenderedEyes>(drive, key, terrain);
+  }
   return std::make_unique<FittedEyes>(drive, key);
 }
 
