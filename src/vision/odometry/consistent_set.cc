@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/check.h"
 #include "vision/odometry/pair_projection.h"
 #include "vision/odometry/rigid_motion.h"
 
@@ -20,18 +21,33 @@ constexpr std::size_t kSample = 3;
 std::optional<Transform> MotionOf(const PointsSeenTwice& points, const Members& members) {
   std::vector<Vector3> first;
   std::vector<Vector3> second;
+  std::vector<double> weights;
   for (const std::size_t i : members) {
-    first.push_back(points[i].first.p_A);
-    second.push_back(points[i].second.p_A);
+    const PointSeenTwice& point = points[i];
+    first.push_back(point.first.p_A);
+    second.push_back(point.second.p_A);
+    weights.push_back(1.0 /
+                      (point.first.covariance_m2.trace() + point.second.covariance_m2.trace()));
   }
-  return RigidMotion(first, second);
+  return RigidMotion(first, second, weights);
+}
+
+// Columns of the right eye are those of the left one less the disparity.
+bool IsWith(const PointSeenTwice& point, const std::optional<PairPixel>& expected,
+            double inlier_px) {
+  if (!expected) return false;
+  const double rows = expected->y() - point.second.left.y();
+  const double left = expected->x() - point.second.left.x();
+  const double right = left - (expected->z() - point.second.disparity_px);
+  const double most = inlier_px * inlier_px;
+  return left * left + rows * rows <= most && right * right + rows * rows <= most;
 }
 
 class Ransac {
  public:
   Ransac(const PointsSeenTwice& points, const RectifiedPair& cameras, const SelectionParams& params,
          core::RandomStream& stream)
-      : points_(points), project_(cameras), params_(params), stream_(stream) {}
+      : points_(points), cameras_(cameras), params_(params), stream_(stream) {}
 
   std::optional<ConsistentSet> Find() {
     ConsistentSet best;
@@ -39,14 +55,16 @@ class Ransac {
     for (; best.draws < needed; ++best.draws) {
       const std::optional<Transform> X_FS = MotionOf(points_, Draw());
       if (!X_FS) continue;
-      Members members = MembersOf(*X_FS);
+      Members members = PointsWith(points_, cameras_, *X_FS, params_.inlier_px);
       if (members.size() <= best.members.size()) continue;
       best.members = std::move(members);
       best.X_FS = *X_FS;
-      needed = std::min(needed, DrawsFor(best.members.size()));
+      while (Grow(best)) {
+      }
+      needed = DrawsNeeded(best.members.size(), points_.size(), params_.miss_probability,
+                           params_.max_draws);
     }
     if (best.members.size() < kSample) return std::nullopt;
-    for (int again = 0; again < 2; ++again) Refine(best);
     return best;
   }
 
@@ -62,46 +80,19 @@ class Ransac {
     return sample;
   }
 
-  bool IsWith(const PointSeenTwice& point, const Transform& X_SF) const {
-    const std::optional<PairPixel> expected = project_(X_SF * point.first.p_A);
-    if (!expected) return false;
-    const double rows = expected->y() - point.second.left.y();
-    const double left = expected->x() - point.second.left.x();
-    const double right = left - (expected->z() - point.second.disparity_px);
-    const double most = params_.inlier_px * params_.inlier_px;
-    return left * left + rows * rows <= most && right * right + rows * rows <= most;
-  }
-
-  Members MembersOf(const Transform& X_FS) const {
-    const Transform X_SF = X_FS.inverse();
-    Members members;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      if (IsWith(points_[i], X_SF)) members.push_back(i);
-    }
-    return members;
-  }
-
-  std::int64_t DrawsFor(std::size_t members) const {
-    const double share = static_cast<double>(members) / static_cast<double>(points_.size());
-    const double miss = std::log1p(-share * share * share);
-    if (!(miss < 0.0)) return params_.max_draws;
-    if (std::isinf(miss)) return 1;
-    const double draws = std::ceil(std::log(params_.miss_probability) / miss);
-    return static_cast<std::int64_t>(std::min(draws, static_cast<double>(params_.max_draws)));
-  }
-
-  // With the motion of all members, where that does not lose any.
-  void Refine(ConsistentSet& set) const {
+  // Takes the motion of all members where more points are with that; whether there are.
+  bool Grow(ConsistentSet& set) const {
     const std::optional<Transform> X_FS = MotionOf(points_, set.members);
-    if (!X_FS) return;
-    Members members = MembersOf(*X_FS);
-    if (members.size() < set.members.size()) return;
+    if (!X_FS) return false;
+    Members members = PointsWith(points_, cameras_, *X_FS, params_.inlier_px);
+    if (members.size() <= set.members.size()) return false;
     set.members = std::move(members);
     set.X_FS = *X_FS;
+    return true;
   }
 
   const PointsSeenTwice& points_;
-  PairProjection project_;
+  const RectifiedPair& cameras_;
   const SelectionParams& params_;
   core::RandomStream& stream_;
 };
@@ -167,6 +158,27 @@ std::optional<ConsistentSet> FindConsistentSet(const PointsSeenTwice& points,
   if (points.size() < kSample) return std::nullopt;
   if (params.method == SelectionMethod::kRigidity) return GrowRigid(points, params);
   return Ransac(points, cameras, params, stream).Find();
+}
+
+std::vector<std::size_t> PointsWith(const PointsSeenTwice& points, const RectifiedPair& cameras,
+                                    const Transform& X_FS, double inlier_px) {
+  const PairProjection project(cameras);
+  const Transform X_SF = X_FS.inverse();
+  Members members;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (IsWith(points[i], project(X_SF * points[i].first.p_A), inlier_px)) members.push_back(i);
+  }
+  return members;
+}
+
+std::int64_t DrawsNeeded(std::size_t members, std::size_t points, double miss, std::int64_t most) {
+  EXPECT(members <= points && miss > 0.0 && miss < 1.0);
+  if (members < kSample) return most;
+  const auto k = static_cast<double>(members);
+  const auto n = static_cast<double>(points);
+  const double share = k * (k - 1.0) * (k - 2.0) / (n * (n - 1.0) * (n - 2.0));
+  const double draws = std::ceil(std::log(miss) / std::log1p(-share));  // 0 where all are members
+  return static_cast<std::int64_t>(std::clamp(draws, 1.0, static_cast<double>(most)));
 }
 
 }  // namespace rockyard::vision

@@ -1,6 +1,7 @@
 // Which points moved as one rigid body.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -24,9 +25,11 @@ struct ConsistentSet {
 //
 // RANSAC (Fischler and Bolles 1981): motions of three points each (rigid_motion.h). A point is with
 // a motion where both eyes see it, at the second moment, within inlier_px of where the motion puts
-// its place of the first. Draws end once the chance that none of them was of three members of a set
-// as large as the largest so far is at most miss_probability: log(miss) / log(1 - w^3) with w its
-// share of the points; or after max_draws. Then the motion of all members is found twice anew.
+// its place of the first. A set larger than all before is replaced by that of its own motion as
+// long as this has more members (local optimization: Chum, Matas and Kittler 2003), as three points
+// with errors lose others that moved alike; each point weighs 1 / trace of both covariances. Draws
+// end once the chance that none of them was of three members of a set as large as the largest so
+// far is at most miss_probability (DrawsNeeded), or after max_draws.
 //
 // Rigidity (Matthies 1989, Hirschmueller 2002): two points are with each other where the distance
 // between them is the same at both moments, within rigidity_sigma standard deviations by the
@@ -36,5 +39,15 @@ std::optional<ConsistentSet> FindConsistentSet(const PointsSeenTwice& points,
                                                const RectifiedPair& cameras,
                                                const SelectionParams& params,
                                                core::RandomStream& stream);
+
+// The points that are with a motion as RANSAC has it, by their indices, ascending.
+std::vector<std::size_t> PointsWith(const PointsSeenTwice& points, const RectifiedPair& cameras,
+                                    const math::Transform& X_FS, double inlier_px);
+
+// Draws of three of `points` after which the chance that none was of three among `members` of them
+// is at most `miss`: log(miss) / log(1 - s) with the share s = k (k - 1) (k - 2) / (n (n - 1) (n -
+// 2)) of all triples, which of few points is well below (k / n)^3. At least 1; `most` where there
+// are more than that, and for fewer than three members. 0 < miss < 1, members <= points.
+std::int64_t DrawsNeeded(std::size_t members, std::size_t points, double miss, std::int64_t most);
 
 }  // namespace rockyard::vision

@@ -75,12 +75,11 @@ class Problem {
     EstimatedMotion result;
     double cost = Cost(X_FS_, points_);
     double damping = 1e-4;
-    bool converged = false;
-    while (std::isfinite(cost) && !converged && result.iterations < params_.max_iterations) {
+    while (std::isfinite(cost) && !result.converged && result.iterations < params_.max_iterations) {
       ++result.iterations;
       const Step step = FindStep(damping);
       const double next = Cost(step.X_FS, step.points);
-      converged = step.decrement <= params_.tolerance * params_.tolerance;
+      result.converged = step.decrement <= params_.tolerance * params_.tolerance;
       if (!(next <= cost)) {
         damping *= 10.0;
         continue;
@@ -90,7 +89,8 @@ class Problem {
       cost = next;
       damping = std::max(damping * 0.1, 1e-12);
     }
-    Judge(converged, result);
+    result.X_FS = X_FS_;
+    Judge(result);
     return result;
   }
 
@@ -223,8 +223,8 @@ class Problem {
     return N;
   }
 
-  void Judge(bool converged, EstimatedMotion& result) const {
-    if (!converged) {
+  void Judge(EstimatedMotion& result) const {
+    if (!result.converged) {
       result.reason = NoMotion::kNotConverged;
       return;
     }

@@ -15,6 +15,10 @@ namespace rockyard::vision {
 struct EstimatedMotion {
   std::optional<Motion> motion;
   std::optional<NoMotion> reason;  // exactly where there is no motion
+  // Where least squares ended, and whether by themselves; of no worth without a motion but as where
+  // to begin.
+  math::Transform X_FS = math::Transform::Identity();
+  bool converged = false;
   std::int64_t iterations = 0;
   double fit = 0.0;     // chi-squared over degrees of freedom: 1 where the noise is as stated
   double rms_px = 0.0;  // of columns, rows and disparities

@@ -5,7 +5,7 @@
 
 #include "core/check.h"
 #include "vision/odometry/consistent_set.h"
-#include "vision/odometry/estimate_motion.h"
+#include "vision/odometry/motion_of_set.h"
 #include "vision/odometry/pair_projection.h"
 #include "vision/odometry/place_features.h"
 #include "vision/odometry/refine_match.h"
@@ -21,6 +21,11 @@ constexpr double kFeature_px = 0.01;
 
 bool IsFew(std::int64_t count, const OdometerParams& params) {
   return count < params.selection.min_consistent;
+}
+
+bool IsSmallShare(const MotionCounts& counts, const OdometerParams& params) {
+  return static_cast<double>(counts.consistent) <
+         params.selection.min_share * static_cast<double>(counts.points);
 }
 
 MotionResult Fail(NoMotion reason, MotionResult result) {
@@ -84,21 +89,21 @@ MotionResult VisualOdometer::Compare(const AlignedImages& images, const Features
   const std::optional<ConsistentSet> set =
       FindConsistentSet(points, cameras_, params_.selection, stream);
   Tell(OdometryStage::kSelected);
-  if (set) result.counts.consistent = static_cast<std::int64_t>(set->members.size());
-  const double share =
-      static_cast<double>(result.counts.consistent) / static_cast<double>(result.counts.points);
-  if (IsFew(result.counts.consistent, params_) || share < params_.selection.min_share) {
+  if (set) {
+    const SetMotion found =
+        MotionOfSet(points, cameras_, *set, params_.selection, params_.estimation);
+    Tell(OdometryStage::kEstimated);
+    for (const std::size_t member : found.members) consistent.push_back(points[member]);
+    result.counts.iterations = found.estimated.iterations;
+    result.rms_px = found.estimated.rms_px;
+    result.motion = found.estimated.motion;
+    result.reason = found.estimated.reason;
+  }
+  result.counts.consistent = static_cast<std::int64_t>(consistent.size());
+  if (IsFew(result.counts.consistent, params_) || IsSmallShare(result.counts, params_)) {
+    result.motion.reset();
     return Fail(NoMotion::kNoConsistentSet, result);
   }
-  for (const std::size_t member : set->members) consistent.push_back(points[member]);
-
-  const EstimatedMotion estimated =
-      EstimateMotion(consistent, cameras_, params_.estimation, set->X_FS);
-  Tell(OdometryStage::kEstimated);
-  result.counts.iterations = estimated.iterations;
-  result.rms_px = estimated.rms_px;
-  result.motion = estimated.motion;
-  result.reason = estimated.reason;
   return result;
 }
 

@@ -7,23 +7,34 @@
 namespace rockyard::vision {
 namespace {
 
-math::Vector3 MeanOf(std::span<const math::Vector3> points) {
+double WeightOf(std::span<const double> weights, std::size_t i) {
+  return weights.empty() ? 1.0 : weights[i];
+}
+
+math::Vector3 MeanOf(std::span<const math::Vector3> points, std::span<const double> weights) {
   math::Vector3 sum = math::Vector3::Zero();
-  for (const math::Vector3& p : points) sum += p;
-  return sum / static_cast<double>(points.size());
+  double weight = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    sum += WeightOf(weights, i) * points[i];
+    weight += WeightOf(weights, i);
+  }
+  return sum / weight;
 }
 
 }  // namespace
 
 std::optional<math::Transform> RigidMotion(std::span<const math::Vector3> points_F,
-                                           std::span<const math::Vector3> points_S) {
+                                           std::span<const math::Vector3> points_S,
+                                           std::span<const double> weights) {
   EXPECT(points_F.size() == points_S.size());
+  EXPECT(weights.empty() || weights.size() == points_F.size());
   if (points_F.size() < 3) return std::nullopt;
-  const math::Vector3 middle_F = MeanOf(points_F);
-  const math::Vector3 middle_S = MeanOf(points_S);
+  const math::Vector3 middle_F = MeanOf(points_F, weights);
+  const math::Vector3 middle_S = MeanOf(points_S, weights);
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < points_F.size(); ++i) {
-    moments += (points_F[i] - middle_F) * (points_S[i] - middle_S).transpose();
+    moments +=
+        WeightOf(weights, i) * (points_F[i] - middle_F) * (points_S[i] - middle_S).transpose();
   }
   if (!moments.allFinite()) return std::nullopt;
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(moments, Eigen::ComputeFullU | Eigen::ComputeFullV);
