@@ -76,6 +76,7 @@ struct OdometerParams {
   SelectionParams selection;
   EstimationParams estimation;
   KeyframeParams keyframe;
+  double variance_factor = 2.5;
 
   void Visit(core::FieldVisitor& v);
 };
