@@ -152,7 +152,11 @@ PointsSeenTwice VisualOdometer::PlaceAgain(const AlignedImages& images, const Fe
     const auto refined = window.Find(images.left, Pixel(found.column, found.row),
                                      {.noise_px = params_.placement.noise_px});
     if (!refined) continue;
-    const auto second = placer.Place(refined->pixel, refined->covariance_px2);
+    const double deformed =
+        warp ? (predicted[first].by_offset - Eigen::Matrix2d::Identity()).norm() : 0.0;
+    const double view_px = params_.placement.view_noise_px * deformed;
+    const auto second = placer.Place(
+        refined->pixel, refined->covariance_px2 + view_px * view_px * Eigen::Matrix2d::Identity());
     if (second) points.push_back({keyframe_->places[first], *second});
   }
   return points;

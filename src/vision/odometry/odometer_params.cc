@@ -27,6 +27,15 @@ void PlacementParams::Visit(core::FieldVisitor& v) {
           .source = "a twentieth of a pixel is what stereo of smooth images reaches",
           .study_low = 0.02,
           .study_high = 0.2});
+  v.Real(
+      "view_noise_px", view_noise_px,
+      {.doc = "what another view of a surface adds to the standard deviation of a match's place, "
+              "over how much it deforms the window (|by_offset - I|, where a motion is predicted)",
+       .min = 0.0,
+       .max = 100.0,
+       .origin = Origin::kCalibrated,
+       .source = "rendered steps of hazard cameras: makes the errors as large as stated on average "
+                 "(results/visual_odometry.md)"});
   v.Real("ambiguity", ambiguity,
          {.doc = "share of another disparity's difference up to which the best one is believed",
           .min = 0.0,

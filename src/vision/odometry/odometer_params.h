@@ -18,6 +18,7 @@ struct PlacementParams {
   double max_disparity_px = 96.0;
   double noise_px = 0.05;
   double ambiguity = 0.9;
+  double view_noise_px = 0.25;
 
   void Visit(core::FieldVisitor& v);
 };
