@@ -181,8 +181,9 @@ TEST(EurocTest, RectifiedRowsAreEpipolarLines) {
   for (std::size_t i = 0; i < 2; ++i) {
     const double aligned = ShareInRow(euroc.aligned[i], 1.0, 80);
     const double raw = ShareInRow(euroc.raw[i], 1.0, 20);  // the negative control
-    EXPECT_GT(aligned, 0.9) << i;
-    EXPECT_LT(raw, 0.5) << i;
+    // The rest are matches of other corners.
+    EXPECT_GT(aligned, 0.85) << i;
+    EXPECT_LT(raw, 0.1) << i;
     RecordProperty("share_" + std::to_string(i), std::to_string(aligned));
     RecordProperty("share_raw_" + std::to_string(i), std::to_string(raw));
   }
