@@ -28,11 +28,6 @@ bool IsSmallShare(const MotionCounts& counts, const OdometerParams& params) {
          params.selection.min_share * static_cast<double>(counts.points);
 }
 
-MotionResult Fail(NoMotion reason, MotionResult result) {
-  result.reason = reason;
-  return result;
-}
-
 }  // namespace
 
 VisualOdometer::VisualOdometer(const OdometerParams& params, const RectifiedPair& cameras,
@@ -53,7 +48,9 @@ OdometryStep VisualOdometer::Add(AlignedImages images, const std::optional<Trans
   Tell(OdometryStage::kDetected);
   if (keyframe_) {
     step.reference = keyframe_->number;
-    step.result = Compare(images, step.features, predicted, step.number, step.consistent);
+    Comparison found = Compare(images, step.features, predicted, step.number);
+    step.result = found.result;
+    step.consistent = std::move(found.consistent);
     step.keyframe = IsOver(step.result);
   } else {
     step.reference = step.number;
@@ -64,47 +61,70 @@ OdometryStep VisualOdometer::Add(AlignedImages images, const std::optional<Trans
   return step;
 }
 
-MotionResult VisualOdometer::Compare(const AlignedImages& images, const Features& features,
-                                     const std::optional<Transform>& predicted, std::int64_t number,
-                                     PointsSeenTwice& consistent) const {
-  MotionResult result;
+VisualOdometer::Comparison VisualOdometer::Compare(const AlignedImages& images,
+                                                   const Features& features,
+                                                   const std::optional<Transform>& predicted,
+                                                   std::int64_t number) const {
+  core::RandomStream stream(key_, core::Purpose::kRansac, static_cast<std::uint32_t>(number));
+  Comparison best = CompareOnce(images, features, predicted, stream);
+  if (predicted) return best;
+  for (std::int64_t round = 1; round < params_.rounds && best.rough_X_FS; ++round) {
+    Comparison next = CompareOnce(images, features, best.rough_X_FS, stream);
+    if (next.consistent.size() < best.consistent.size()) break;
+    best = std::move(next);
+  }
+  return best;
+}
+
+VisualOdometer::Comparison VisualOdometer::CompareOnce(const AlignedImages& images,
+                                                       const Features& features,
+                                                       const std::optional<Transform>& predicted,
+                                                       core::RandomStream& stream) const {
+  Comparison comparison;
+  MotionResult& result = comparison.result;
+  const auto without = [&](NoMotion reason) {
+    result.motion.reset();
+    result.reason = reason;
+    return comparison;
+  };
   result.counts.features_first = static_cast<std::int64_t>(keyframe_->features.size());
   result.counts.features_second = static_cast<std::int64_t>(features.size());
   if (IsFew(result.counts.features_first, params_) ||
       IsFew(result.counts.features_second, params_)) {
-    return Fail(NoMotion::kFewFeatures, result);
+    return without(NoMotion::kFewFeatures);
   }
   const PredictedFeatures expected = predicted ? Predict(*predicted) : PredictedFeatures{};
   const FeatureMatches matches = MatchFeatures(keyframe_->images.left, keyframe_->features,
                                                images.left, features, params_.matcher, expected);
   Tell(OdometryStage::kMatched);
   result.counts.matches = static_cast<std::int64_t>(matches.size());
-  if (IsFew(result.counts.matches, params_)) return Fail(NoMotion::kFewMatches, result);
+  if (IsFew(result.counts.matches, params_)) return without(NoMotion::kFewMatches);
   const PointsSeenTwice points = PlaceAgain(images, features, matches, expected);
   Tell(OdometryStage::kPlaced);
   result.counts.points = static_cast<std::int64_t>(points.size());
-  if (IsFew(result.counts.points, params_)) return Fail(NoMotion::kFewPoints, result);
+  if (IsFew(result.counts.points, params_)) return without(NoMotion::kFewPoints);
 
-  core::RandomStream stream(key_, core::Purpose::kRansac, static_cast<std::uint32_t>(number));
   const std::optional<ConsistentSet> set =
       FindConsistentSet(points, cameras_, params_.selection, stream);
   Tell(OdometryStage::kSelected);
-  if (set) {
-    const SetMotion found =
-        MotionOfSet(points, cameras_, *set, params_.selection, params_.estimation);
-    Tell(OdometryStage::kEstimated);
-    for (const std::size_t member : found.members) consistent.push_back(points[member]);
-    result.counts.iterations = found.estimated.iterations;
-    result.rms_px = found.estimated.rms_px;
-    result.motion = found.estimated.motion;
-    result.reason = found.estimated.reason;
+  if (!set) return without(NoMotion::kNoConsistentSet);
+  const SetMotion found =
+      MotionOfSet(points, cameras_, *set, params_.selection, params_.estimation);
+  Tell(OdometryStage::kEstimated);
+  for (const std::size_t member : found.members) comparison.consistent.push_back(points[member]);
+  result.counts.consistent = static_cast<std::int64_t>(found.members.size());
+  result.counts.iterations = found.estimated.iterations;
+  result.rms_px = found.estimated.rms_px;
+  result.motion = found.estimated.motion;
+  if (result.motion) result.motion->covariance *= params_.variance_factor;
+  result.reason = found.estimated.reason;
+  if (found.estimated.converged && !IsFew(2 * result.counts.consistent, params_)) {
+    comparison.rough_X_FS = found.estimated.X_FS;
   }
-  result.counts.consistent = static_cast<std::int64_t>(consistent.size());
   if (IsFew(result.counts.consistent, params_) || IsSmallShare(result.counts, params_)) {
-    result.motion.reset();
-    return Fail(NoMotion::kNoConsistentSet, result);
+    return without(NoMotion::kNoConsistentSet);
   }
-  return result;
+  return comparison;
 }
 
 // A small surface across the first view through the point: offsets in both images are M_F e and

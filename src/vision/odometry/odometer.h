@@ -37,7 +37,8 @@ struct OdometryStep {
 
 enum class OdometryStage { kDetected, kMatched, kPlaced, kSelected, kEstimated, kRenewed };
 
-// Called as a stage of a step ends, for progress and time. It has no influence.
+// Called as a stage of a step ends (in each round of matching), for progress and time. It has no
+// influence.
 using OdometryWatcher = std::function<void(OdometryStage)>;
 
 // One path of one pair of cameras.
@@ -56,6 +57,8 @@ class VisualOdometer {
 
   // Takes the next pair, of the cameras' size. `predicted`: where the outer frame of the cameras is
   // expected, in that of the keyframe; it narrows the search (MatchSearch, MatchWarp), no more.
+  // Without it the motion of a first round of matching is what the next one expects, up to
+  // OdometerParams::rounds; what had more consistent points stays.
   OdometryStep Add(AlignedImages images,
                    const std::optional<math::Transform>& predicted = std::nullopt);
 
@@ -71,9 +74,19 @@ class VisualOdometer {
     std::vector<StereoMeasurement> places;
   };
 
-  MotionResult Compare(const AlignedImages& images, const Features& features,
-                       const std::optional<math::Transform>& predicted, std::int64_t number,
-                       PointsSeenTwice& consistent) const;
+  // What one round of matching made of a pair.
+  struct Comparison {
+    MotionResult result;
+    PointsSeenTwice consistent;
+    // Of half as many points as a motion needs, or more: where to look again.
+    std::optional<math::Transform> rough_X_FS;
+  };
+
+  Comparison Compare(const AlignedImages& images, const Features& features,
+                     const std::optional<math::Transform>& predicted, std::int64_t number) const;
+  Comparison CompareOnce(const AlignedImages& images, const Features& features,
+                         const std::optional<math::Transform>& predicted,
+                         core::RandomStream& stream) const;
   PredictedFeatures Predict(const math::Transform& X_FS) const;
   PointsSeenTwice PlaceAgain(const AlignedImages& images, const Features& features,
                              const FeatureMatches& matches,

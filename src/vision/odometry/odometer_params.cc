@@ -137,7 +137,7 @@ void EstimationParams::Visit(core::FieldVisitor& v) {
           .min = 0.0,
           .max = 1e6,
           .origin = Origin::kAssumed,
-          .source = "noise of more than twice what places state is no noise",
+          .source = "noise of more than three times what places state is no noise",
           .study_low = 3.0,
           .study_high = 20.0});
   v.Real("max_position_sd_m", max_position_sd_m,
@@ -203,6 +203,12 @@ void OdometerParams::Visit(core::FieldVisitor& v) {
           .origin = Origin::kCalibrated,
           .source = "rendered steps of hazard cameras: makes the mean squared error in units of the "
                     "covariance 6 (results/visual_odometry.md)"});
+  v.Integer("rounds", rounds,
+            {.doc = "where no motion is predicted: how often features are matched, from the second "
+                    "time on as the motion of the time before predicts",
+             .min = 1,
+             .max = 10,
+             .origin = Origin::kSetting});
 }
 
 }  // namespace rockyard::vision

@@ -53,7 +53,7 @@ struct EstimationParams {
   double robust_sigma = 2.0;
   std::int64_t max_iterations = 30;
   double tolerance = 0.01;
-  double max_fit = 5.0;
+  double max_fit = 10.0;
   double max_position_sd_m = 0.1;
   double max_rotation_sd_rad = math::DegToRad(2.0);
 
@@ -76,7 +76,8 @@ struct OdometerParams {
   SelectionParams selection;
   EstimationParams estimation;
   KeyframeParams keyframe;
-  double variance_factor = 2.5;
+  double variance_factor = 2.3;
+  std::int64_t rounds = 2;
 
   void Visit(core::FieldVisitor& v);
 };
