@@ -18,6 +18,8 @@
 #include "experiments/stereo_sensing/stereo_sensing_params.h"
 #include "experiments/three_rock_run/checks_params.h"
 #include "experiments/three_rock_run/three_rock_run_params.h"
+#include "experiments/visual_motion/checks_params.h"
+#include "experiments/visual_motion/visual_motion_study_params.h"
 #include "trial/drive_checks_params.h"
 #include "trial/drive_consistency_params.h"
 #include "trial/drive_params.h"
@@ -32,15 +34,16 @@ enum class ExperimentKind {
   kDeadReckoning,    // how far dead reckoning along a straight line goes wrong
   kThreeRockRun,     // a drive among three rocks that goes as a published one is told
   kDesignation,      // where operators put goals in the lander's images
+  kVisualMotion,     // how well visual odometry measures one motion
 };
 
 }  // namespace rockyard::experiments
 
 template <>
 struct rockyard::core::EnumNames<rockyard::experiments::ExperimentKind> {
-  static constexpr std::array<std::string_view, 6> kNames{"drive",          "hazard_detection",
-                                                          "stereo_sensing", "dead_reckoning",
-                                                          "three_rock_run", "designation"};
+  static constexpr std::array<std::string_view, 7> kNames{
+      "drive",          "hazard_detection", "stereo_sensing", "dead_reckoning",
+      "three_rock_run", "designation",      "visual_motion"};
 };
 
 namespace rockyard::experiments {
@@ -52,6 +55,7 @@ struct ExperimentParams {
   DeadReckoningWalkParams dead_reckoning;
   ThreeRockRunParams three_rock_run;
   DesignationStudyParams designation;
+  VisualMotionStudyParams visual_motion;
 
   // Lists the field "experiment", and the group of each experiment that has parameters of its own,
   // in the group that is being visited.
@@ -64,6 +68,7 @@ struct ExperimentParams {
     v.Group("dead_reckoning", dead_reckoning, "the experiment of that name");
     v.Group("three_rock_run", three_rock_run, "the experiment of that name");
     v.Group("designation", designation, "the experiment of that name");
+    v.Group("visual_motion", visual_motion, "the experiment of that name");
   }
 
   // What the experiment in use asks of the drive.
@@ -92,6 +97,10 @@ struct ExperimentParams {
       case ExperimentKind::kDesignation:
         trial::RequireConsistency(drive, trial::LightStripeUse::kAsTerrainSensor, v);
         RequireDesignable(designation, drive, v);
+        return;
+      case ExperimentKind::kVisualMotion:
+        trial::RequireConsistency(drive, trial::LightStripeUse::kAsTerrainSensor, v);
+        RequireVisualMotion(visual_motion, drive, v);
         return;
     }
   }

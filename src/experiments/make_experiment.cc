@@ -17,6 +17,8 @@
 #include "experiments/stereo_sensing/stereo_sensing.h"
 #include "experiments/three_rock_run/columns.h"
 #include "experiments/three_rock_run/three_rock_run.h"
+#include "experiments/visual_motion/columns.h"
+#include "experiments/visual_motion/visual_motion.h"
 #include "truth/measurement_record.h"
 
 namespace rockyard::experiments {
@@ -38,6 +40,8 @@ std::unique_ptr<Experiment> MakeExperiment(const ExperimentParams& experiment,
       return std::make_unique<ThreeRockRunExperiment>(experiment.three_rock_run, drive);
     case ExperimentKind::kDesignation:
       return std::make_unique<DesignationExperiment>(experiment.designation, drive.course);
+    case ExperimentKind::kVisualMotion:
+      return std::make_unique<VisualMotionExperiment>(experiment.visual_motion, drive);
   }
   throw std::logic_error("unknown experiment");
 }
@@ -47,7 +51,7 @@ truth::RecordSchema WithRoles(truth::RecordSchema stored) {
   std::ptrdiff_t most = 0;
   for (const truth::RecordSchema* columns :
        {&DriveSchema(), &HazardColumns(), &StereoColumns(), &DeadReckoningColumns(),
-        &ThreeRockColumns(), &DesignationColumns()}) {
+        &ThreeRockColumns(), &DesignationColumns(), &VisualMotionColumns()}) {
     const auto known = std::count_if(
         stored.begin(), stored.end(),
         [&](const truth::ValueInfo& column) { return truth::FindColumn(*columns, column.name); });

@@ -46,10 +46,18 @@ void ClonedCovariance::Clone(std::int64_t number) {
 }
 
 void ClonedCovariance::Inflate(const MatrixXd& noise) {
-  EXPECT(noise.rows() == size_ && noise.cols() == size_);
-  for (Index row = 0; row < covariance_.rows(); row += size_) {
-    for (Index column = 0; column < covariance_.cols(); column += size_) {
-      covariance_.block(row, column, size_, size_) += noise;
+  const MatrixXd same = MatrixXd::Identity(size_, size_);
+  std::vector<Part> parts{{std::nullopt, same}};
+  for (const std::int64_t clone : clones_) parts.push_back({clone, same});
+  Inflate(parts, noise);
+}
+
+void ClonedCovariance::Inflate(std::span<const Part> parts, const MatrixXd& noise) {
+  for (const Part& one : parts) {
+    EXPECT(one.jacobian.rows() == size_ && one.jacobian.cols() == noise.rows());
+    for (const Part& other : parts) {
+      covariance_.block(RowOf(one.clone), RowOf(other.clone), size_, size_) +=
+          one.jacobian * noise * other.jacobian.transpose();
     }
   }
 }

@@ -28,7 +28,7 @@ class ClonedCovariance {
   // One moment's part of a measurement: of now, or of the clone with that number.
   struct Part {
     std::optional<std::int64_t> clone;
-    Eigen::MatrixXd jacobian;  // H_i: m x n
+    Eigen::MatrixXd jacobian;  // H_i: m x n for a measurement of m values
   };
 
   struct Correction {
@@ -50,6 +50,9 @@ class ClonedCovariance {
   // The state of now and that of every clone may be off by one more error, which all of them share:
   // `noise` is its covariance, n x n.
   void Inflate(const Eigen::MatrixXd& noise);
+  // The state of each part may be off by its jacobian (n x k) times one error e, which all of them
+  // share: `noise` is the covariance of e, k x k.
+  void Inflate(std::span<const Part> parts, const Eigen::MatrixXd& noise);
   // Nothing where it is not there.
   void Forget(std::int64_t number);
   std::span<const std::int64_t> clones() const { return clones_; }

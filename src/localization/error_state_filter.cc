@@ -45,6 +45,7 @@ ErrorStateFilter::ErrorStateFilter(const ErrorStateFilterParams& params,
       dead_reckoning_(setup.dead_reckoning),
       attitude_(setup.attitude),
       gate_(params.gate),
+      motion_gate_(params.gate),
       errors_(PriorCovariance(params)) {
   estimate_.pose.x_m = setup.start.x_m;
   estimate_.pose.y_m = setup.start.y_m;
@@ -120,6 +121,7 @@ void ErrorStateFilter::Place(const messages::PoseUpdate& update) {
   errors_ = ClonedCovariance(before);
   moments_.clear();
   gate_.Restart();
+  motion_gate_.Restart();
   way_since_place_m_ = 0.0;
   estimate_.pose.x_m = update.x_m;
   estimate_.pose.y_m = update.y_m;
@@ -181,12 +183,46 @@ AidUse ErrorStateFilter::Update(const messages::RelativeMotion& motion) {
   Eigen::MatrixXd H_to = H_from;
   H_from.leftCols<kPoseCoordinates>() = of_first;
   H_to.leftCols<kPoseCoordinates>() = to_F;
-  // A motion says nothing of where the rover is, so that it is no reason to doubt the place.
-  return Take({.parts = {{motion.from, H_from}, {motion.to, H_to}},
-               .values = Wrapped(motion.motion_F - believed),
-               .noise = motion.covariance,
-               .of_place = false},
-              PoseVector::Zero());
+  const PoseVector difference = Wrapped(motion.motion_F - believed);
+  return TakeMotion(motion,
+                    {.parts = {{motion.from, H_from}, {motion.to, H_to}},
+                     .values = difference,
+                     .noise = motion.covariance,
+                     .of_place = false},
+                    to_F.transpose() * difference);
+}
+
+AidUse ErrorStateFilter::TakeMotion(const messages::RelativeMotion& motion,
+                                    const Residual& residual, const PoseVector& difference) {
+  const double distance =
+      errors_.MahalanobisSquared(residual.parts, residual.values, residual.noise);
+  const bool believed =
+      motion_gate_.Ask(distance, static_cast<int>(residual.values.size())) == GateAnswer::kIn;
+  if (!believed) {
+    if (params_.motion_disagreement == MotionDisagreement::kTurnAway) return AidUse::kGatedOut;
+    DoubtWheels(motion, difference);
+  }
+  Correct(errors_.Update(residual.parts, residual.values, residual.noise).changes);
+  return believed ? AidUse::kUsed : AidUse::kUsedInDoubt;
+}
+
+// A motion says nothing of where the rover was at first. A heading that went wrong by e_h leads the
+// way since the second moment, d, astray: e_x = -d_y e_h, e_y = d_x e_h.
+void ErrorStateFilter::DoubtWheels(const messages::RelativeMotion& motion,
+                                   const PoseVector& difference) {
+  const PoseVector& second = moments_.at(motion.to);
+  const auto by_error = [&](const PoseVector& pose) {
+    Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(kErrorCoordinates, kPoseCoordinates);
+    jacobian.topRows<kPoseCoordinates>().setIdentity();
+    jacobian(error::kX, error::kHeading) = second[error::kY] - pose[error::kY];
+    jacobian(error::kY, error::kHeading) = pose[error::kX] - second[error::kX];
+    return jacobian;
+  };
+  std::vector<ClonedCovariance::Part> parts{{std::nullopt, by_error(PoseNow())}};
+  for (const auto& [capture, pose] : moments_) {
+    if (capture > motion.from) parts.push_back({capture, by_error(pose)});
+  }
+  errors_.Inflate(parts, difference.cwiseAbs2().asDiagonal().toDenseMatrix());
 }
 
 AidUse ErrorStateFilter::Take(const Residual& residual, const PoseVector& doubt) {
@@ -265,7 +301,8 @@ EstimatorDescription<ErrorStateFilterParams> DescribeErrorStateFilter() {
                      const EstimatorSetup& setup) -> std::unique_ptr<Estimator> {
             return std::make_unique<ErrorStateFilter>(params, setup);
           },
-          .takes_aids = true};
+          .takes_fixes = true,
+          .takes_motions = true};
 }
 
 }  // namespace rockyard::localization

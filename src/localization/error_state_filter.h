@@ -69,6 +69,11 @@ class ErrorStateFilter final : public Estimator {
   // Carries the covariance on over the stretch so far.
   void EndStretch();
   AidUse Take(const Residual& residual, const messages::PoseVector& doubt);
+  // Of a motion whose residual in W is `difference`.
+  AidUse TakeMotion(const messages::RelativeMotion& motion, const Residual& residual,
+                    const messages::PoseVector& difference);
+  // Between the two moments the pose may have gone wrong by `difference`.
+  void DoubtWheels(const messages::RelativeMotion& motion, const messages::PoseVector& difference);
   void Correct(const Eigen::MatrixXd& changes);
   void TellCovariance();
 
@@ -77,6 +82,7 @@ class ErrorStateFilter final : public Estimator {
   DeadReckoningParams dead_reckoning_;
   AttitudeEstimator attitude_;
   Gate gate_;
+  Gate motion_gate_;
 
   double gyro_bias_rad_s_ = 0.0;
   double gyro_scale_ = 1.0;

@@ -143,6 +143,13 @@ void ErrorStateFilterParams::Visit(core::FieldVisitor& v) {
   v.Group("prior", prior, "how far off things may be when a drive begins");
   v.Group("drift", drift, "how the error grows on the way");
   v.Group("gate", gate, "which measurements are believed");
+  v.Choice("motion_disagreement", motion_disagreement,
+           {.doc = "what becomes of a motion between two moments (visual odometry) that the gate "
+                   "would turn away: doubt_wheels takes it, and takes wheels and gyro to have gone "
+                   "wrong in between by as much as it says; turn_away does not",
+            .origin = Origin::kAssumed,
+            .source = "whoever saw the motion has checked that hundreds of points agree on it; "
+                      "wheels slip and a gyro that is shaken jumps (Matthies 1995 sec. 8)"});
   v.Real("stretch_m", stretch_m,
          {.doc = "way after which the covariance is carried on, if no measurement came before",
           .min = 0.0,

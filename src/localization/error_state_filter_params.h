@@ -1,7 +1,9 @@
 // Parameters of the error-state filter: what it takes itself to know of its sensors.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "core/fields.h"
 #include "math/angles.h"
@@ -48,13 +50,25 @@ struct GateParams {
   void Visit(core::FieldVisitor& v);
 };
 
+// What the filter makes of a motion between two moments that is too far from what it believes.
+enum class MotionDisagreement {
+  kDoubtWheels,  // wheels and gyro went wrong in between by as much: they slip, it is shaken
+  kTurnAway,     // what was seen is wrong; the way back is the gate's
+};
+
 struct ErrorStateFilterParams {
   PriorParams prior;
   DriftParams drift;
   GateParams gate;
+  MotionDisagreement motion_disagreement = MotionDisagreement::kDoubtWheels;
   double stretch_m = 0.067;
 
   void Visit(core::FieldVisitor& v);
 };
 
 }  // namespace rockyard::localization
+
+template <>
+struct rockyard::core::EnumNames<rockyard::localization::MotionDisagreement> {
+  static constexpr std::array<std::string_view, 2> kNames{"doubt_wheels", "turn_away"};
+};

@@ -33,7 +33,8 @@ struct EstimatorDescription {
       name;              // in localization.estimator, and of the group of its parameters; a literal
   std::string_view doc;  // of that group; a literal
   std::unique_ptr<Estimator> (*make)(const Params&, const EstimatorSetup&) = nullptr;
-  bool takes_aids = false;  // or has no use for what they measure
+  bool takes_fixes = false;    // or has no use for what aids measure of its pose
+  bool takes_motions = false;  // or for motions between two moments
 };
 
 // One of a set, whatever its parameters.
@@ -42,7 +43,8 @@ class EstimatorKind : public core::Kind {
   using core::Kind::Kind;
 
   virtual std::unique_ptr<Estimator> Make(const EstimatorSetup& setup) const = 0;
-  virtual bool takes_aids() const = 0;
+  virtual bool takes_fixes() const = 0;
+  virtual bool takes_motions() const = 0;
   virtual std::unique_ptr<EstimatorKind> Clone() const = 0;
 };
 
@@ -67,7 +69,8 @@ class EstimatorSet : public core::KindSet<EstimatorKind> {
     std::unique_ptr<Estimator> Make(const EstimatorSetup& setup) const override {
       return description.make(this->params, setup);
     }
-    bool takes_aids() const override { return description.takes_aids; }
+    bool takes_fixes() const override { return description.takes_fixes; }
+    bool takes_motions() const override { return description.takes_motions; }
     std::unique_ptr<EstimatorKind> Clone() const override {
       return std::make_unique<KindOf>(*this);
     }

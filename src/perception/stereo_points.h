@@ -1,15 +1,14 @@
 // On-board stereo: from the images of a pair to points in R (Goldberg 2002 section 2).
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "math/pose.h"
+#include "perception/aligned_eyes.h"
 #include "perception/stereo_matching_params.h"
 #include "vision/cameras/rectification.h"
 #include "vision/image.h"
 #include "vision/stereo/disparity.h"
-#include "vision/stereo/rectification_table.h"
 #include "vision/stereo/stereo_rig.h"
 
 namespace rockyard::perception {
@@ -43,26 +42,16 @@ class StereoPoints {
   // ms for 128 x 128 pixels and 16 disparities, and as much for reducing 512 x 512 to them.
   StereoSight See(const vision::GrayImage& left, const vision::GrayImage& right) const;
 
-  const vision::RectifiedPair& pair() const { return pair_; }
+  const vision::RectifiedPair& pair() const { return eyes_.pair(); }
   const vision::StereoPipelineParams& params() const { return params_; }
 
  private:
-  struct Eye {
-    std::optional<vision::RectificationTable> table;  // none where nothing is resampled
-    vision::Image<std::uint8_t> free;                 // of the aligned image
-  };
-
-  Eye MakeEye(const vision::CameraModel& reduced, const vision::Cahv& aligned,
-              const vision::Image<std::uint8_t>& free) const;
-  vision::GrayImage Aligned(const Eye& eye, const vision::GrayImage& image) const;
   void DropOutOfRange(vision::DisparityImage& disparities) const;
   std::vector<math::Vector3> PointsOf(const vision::DisparityImage& disparities) const;
 
   vision::StereoPipelineParams params_;
   StereoSearch search_;
-  vision::RectifiedPair pair_;
-  Eye left_;
-  Eye right_;
+  AlignedEyes eyes_;
 };
 
 }  // namespace rockyard::perception

@@ -23,8 +23,10 @@ sensing::LanderPlace SeenFrom(const DriveParams& drive, core::TrialKey key) {
 
 }  // namespace
 
-AidSuite::AidSuite(const DriveParams& drive, core::TrialKey key, const terrain::Terrain& terrain)
+AidSuite::AidSuite(const DriveParams& drive, core::TrialKey key, const terrain::Terrain& terrain,
+                   CaptureCounter& captures)
     : terrain_(terrain),
+      captures_(captures),
       params_(drive.sensors.aids),
       almanac_(AlmanacOf(params_.sun)),
       lander_fix_(params_.lander_fix, SeenFrom(drive, key), key),
@@ -86,7 +88,7 @@ void AidSuite::Take(std::optional<messages::PoseFix> fix, double ready_s,
     ++counts_.unanswered;
     return;
   }
-  fix->capture = next_capture_++;
+  fix->capture = captures_.Next();
   estimator.Capture(fix->capture);
   waiting_.push_back({ready_s, *fix});
 }

@@ -14,6 +14,7 @@
 #include "sensing/sun_sensor.h"
 #include "terrain/terrain.h"
 #include "trial/aid_schedule.h"
+#include "trial/capture_counter.h"
 #include "trial/drive_params.h"
 
 namespace rockyard::trial {
@@ -30,8 +31,9 @@ struct AidCounts {
 // handed to the estimator `delay_s` later. The sensors see the truth, the estimator messages.
 class AidSuite {
  public:
-  // `terrain` outlives it.
-  AidSuite(const DriveParams& drive, core::TrialKey key, const terrain::Terrain& terrain);
+  // `terrain` and `captures` outlive it.
+  AidSuite(const DriveParams& drive, core::TrialKey key, const terrain::Terrain& terrain,
+           CaptureCounter& captures);
 
   // Once a control tick, after the estimator took it. Returns whether the estimate was corrected.
   bool Tick(const math::Transform& X_WR, double time_s, localization::Estimator& estimator);
@@ -57,6 +59,7 @@ class AidSuite {
   bool HandIn(const messages::PoseFix& fix, localization::Estimator& estimator);
 
   const terrain::Terrain& terrain_;
+  CaptureCounter& captures_;
   sensing::AidParams params_;
   localization::SunAlmanac almanac_;
   sensing::LanderFix lander_fix_;
@@ -68,7 +71,6 @@ class AidSuite {
   std::int64_t lander_number_ = 0;
   std::int64_t sun_number_ = 0;
   std::int64_t beacon_number_ = 0;
-  messages::CaptureNumber next_capture_ = 0;
   std::vector<Waiting> waiting_;  // in the order of their captures
   AidCounts counts_;
 };

@@ -29,6 +29,8 @@ struct ComputeParams {
   double stereo_time_factor = 1.0;
   double behaviour_s = 0.0;
   double move_overhead_s = 0.0;
+  double visual_cpu_s = 0.084;
+  double visual_time_factor = 1.0;
 
   void Visit(core::FieldVisitor& v) {
     using core::Origin;
@@ -74,6 +76,26 @@ struct ComputeParams {
             .source = "0 for a rover that moves on at once; 7.3 s for the Athena SDM: 15 s a move "
                       "(Goldberg 2002 table 2) less the 7.66 s that the simulated rover's wheels "
                       "turn for 35 cm of level sand"});
+    v.Real(
+        "visual_cpu_s", visual_cpu_s,
+        {.doc = "with virtex_5_fpga, the computer's part of a step of visual odometry: selection "
+                "and motion",
+         .min = 0.0,
+         .max = 3600.0,
+         .origin = Origin::kAssumed,
+         .source = "some 10 Hz on a Pentium-class computer (Howard 2012 sec. 3), 0.1 s, less "
+                   "the 16 ms of the FPGA; a RAD6000 beside it is much slower",
+         .study_low = 0.05,
+         .study_high = 10.0});
+    v.Real("visual_time_factor", visual_time_factor,
+           {.doc = "time of a step of visual odometry over that of the computer's profile",
+            .min = 0.0,
+            .max = 100.0,
+            .origin = Origin::kAssumed,
+            .source = "two to three minutes on MER (Howard 2012 sec. 1) are 0.75 to 1.125 of its "
+                      "160 s",
+            .study_low = 0.75,
+            .study_high = 1.125});
   }
 };
 

@@ -142,6 +142,34 @@ ComputeTimes PublishedTimes(const ComputeParams& params, const GridSize& grid, d
   return {};
 }
 
+// Of section 5 of Goldberg 2002, or of Matthies 1995.
+double SectionStereo(const ComputeParams& params, Computer computer) {
+  ComputeParams other = params;
+  other.computer = computer;
+  return PublishedTimes(other, {}, kStereoWidth_px).stereo_s;
+}
+
+double VisualComputing(const ComputeParams& params) {
+  switch (params.computer) {
+    case Computer::kNone:
+      return 0.0;
+    case Computer::kMer:
+    case Computer::kRad6000:
+      return kMerVisualOdometry_s;
+    case Computer::kMsl:
+      return kMerVisualOdometry_s * kMerMips / kMslMips;
+    case Computer::kFpga:
+      return kFpgaFeaturesAndMatches_s + params.visual_cpu_s;
+    case Computer::kR3000:
+    case Computer::kPentium3:
+    case Computer::kSparc:
+    case Computer::kSparc10:
+      break;
+  }
+  return kMerVisualOdometry_s * SectionStereo(params, params.computer) /
+         SectionStereo(params, Computer::kRad6000);
+}
+
 }  // namespace
 
 ComputeTimes MakeComputeTimes(const ComputeParams& params, const GridSize& grid,
@@ -150,6 +178,11 @@ ComputeTimes MakeComputeTimes(const ComputeParams& params, const GridSize& grid,
   ComputeTimes times = PublishedTimes(params, grid, stereo_width_px);
   times.stereo_s *= params.stereo_time_factor;
   return times;
+}
+
+VisualTime VisualTimeOf(const ComputeParams& params) {
+  return {PublishedTimes(params, {}, kStereoWidth_px).acquisition_s,
+          VisualComputing(params) * params.visual_time_factor};
 }
 
 }  // namespace rockyard::trial

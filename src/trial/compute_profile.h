@@ -47,4 +47,17 @@ struct ComputeTimes {
 ComputeTimes MakeComputeTimes(const ComputeParams& params, const GridSize& grid,
                               double stereo_width_px = kStereoWidth_px);
 
+// What a pair of images of visual odometry takes, s.
+struct VisualTime {
+  double imaging_s = 0.0;
+  double computing_s = 0.0;  // features, matches, selection and motion
+};
+
+// With computer none nothing takes time. Published are MER's 160 s, MSL's 8.8 s by instructions a
+// second, and the FPGA's 16 ms for features and matches of images 512 px wide (Howard 2012 section
+// 3, table 3), to which visual_cpu_s is added for the rest. The others are assumed to take what
+// MER's takes times their stereo of section 5 (Goldberg 2002) over that of the RAD6000 there. Width
+// and number of features do not matter: none are published.
+VisualTime VisualTimeOf(const ComputeParams& params);
+
 }  // namespace rockyard::trial

@@ -47,6 +47,7 @@ DriveResult Drive::Run() {
 }
 
 std::optional<Verdict> Drive::Tick() {
+  if (parts_.vision.IsDue(parts_.estimate(), parts_.ledger.time_s())) return SeeMotion();
   TrackGoal();
   if (!seen_) seen_ = parts_.timeline.TakeReady();
   const std::size_t reached = parts_.navigator.reached();
@@ -212,8 +213,10 @@ messages::MotionMeasurement Drive::UpdateEstimate(double duration_s, bool moving
 
 void Drive::UseAids() {
   const messages::PoseEstimate before = parts_.estimate().pose;
-  if (!parts_.aids.Tick(parts_.state().X_WR, parts_.ledger.time_s(), *parts_.estimator)) return;
-  parts_.navigator.OnCorrection(before, parts_.estimate().pose);
+  const bool fixed =
+      parts_.aids.Tick(parts_.state().X_WR, parts_.ledger.time_s(), *parts_.estimator);
+  const bool seen = parts_.vision.Tick(parts_.ledger.time_s(), *parts_.estimator);
+  if (fixed || seen) parts_.navigator.OnCorrection(before, parts_.estimate().pose);
 }
 
 void Drive::UpdateEstimateAtRest(double duration_s) {
@@ -246,6 +249,7 @@ void Drive::ReflectAtMirrorLine(int direction) {
   parts_.wheel_driver.Straighten();
   parts_.estimator->Place(reflection->update);
   parts_.aids.OnPlaced();
+  parts_.vision.OnPlaced();
   parts_.motion_sensors->Restart(parts_.state());
   parts_.guard.Restart(parts_.state());
   if (parts_.stuck_detector) parts_.stuck_detector->Restart();

@@ -51,6 +51,10 @@ class Drive {
   // not free.
   std::optional<Verdict> LookOnTheMove(messages::LookDirection direction);
   std::unique_ptr<SeenLook> See(messages::LookDirection direction);
+  // Takes images for visual odometry: stops for them, and for the computer, where these may not
+  // overlap with the drive.
+  std::optional<Verdict> SeeMotion();
+  void SpendOnVision(Activity activity, double duration_s, bool beside);
   // What the navigator made of the last look.
   void ShowStep();
   // What a move takes beyond the motion of wheels.

@@ -215,10 +215,14 @@ void RequireEndOfStall(const DriveParams& drive, core::FieldVisitor& v) {
 
 // Aids that nobody listens to.
 void RequireListener(const DriveParams& drive, core::FieldVisitor& v) {
-  v.Require("localization.estimator",
-            !drive.sensors.aids.AnyEnabled() || drive.localization.estimators.chosen().takes_aids(),
-            "takes no aids, where sensors.aids has some enabled",
+  const localization::EstimatorKind& estimator = drive.localization.estimators.chosen();
+  v.Require("localization.estimator", !drive.sensors.aids.AnyEnabled() || estimator.takes_fixes(),
+            "takes no fixes, where sensors.aids has some enabled",
             "use error_state, or turn the aids off");
+  v.Require("localization.estimator",
+            !drive.sensors.visual_odometry.enabled || estimator.takes_motions(),
+            "takes no motions that are seen, where sensors.visual_odometry is enabled",
+            "use visual_odometry or error_state, or turn sensors.visual_odometry off");
 }
 
 }  // namespace

@@ -87,6 +87,11 @@ void DriveObserver::ReportBelief(truth::DriveRecord& record) const {
   record.aids_in_doubt = static_cast<double>(aids.in_doubt);
   record.aids_gated_out = static_cast<double>(aids.gated_out);
   record.aids_unanswered = static_cast<double>(aids.unanswered);
+  const VisualCounts& vision = parts_.vision.counts();
+  record.visual_steps = static_cast<double>(vision.steps);
+  record.visual_failures = static_cast<double>(vision.failures);
+  record.visual_keyframes = static_cast<double>(vision.keyframes);
+  record.visual_gated_out = static_cast<double>(vision.gated_out);
   const std::optional<Belief> belief =
       BeliefOf(parts_.estimate(), math::ToPose2(parts_.state().X_WR));
   if (!belief) return;

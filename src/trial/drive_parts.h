@@ -17,6 +17,7 @@
 #include "sensing/motion_sensors.h"
 #include "terrain/field.h"
 #include "trial/aid_suite.h"
+#include "trial/capture_counter.h"
 #include "trial/drive_params.h"
 #include "trial/goal_rock.h"
 #include "trial/ledger.h"
@@ -26,6 +27,7 @@
 #include "trial/terrain_sensing.h"
 #include "trial/timeline.h"
 #include "trial/vehicle_guard.h"
+#include "trial/visual_aid.h"
 #include "trial/watchers.h"
 
 namespace rockyard::trial {
@@ -61,7 +63,9 @@ struct DriveParts {
   std::optional<GoalRock> goal_rock;
 
   std::unique_ptr<localization::Estimator> estimator;  // from Begin on
+  CaptureCounter captures;
   AidSuite aids;
+  VisualAid vision;
   double start_z_m = 0.0;  // true height where the drive began
 
   navigation::WaypointSequence navigator;

@@ -76,6 +76,21 @@ void DriveTracer::Look(messages::LookDirection direction, const Percept& percept
         fmt::format("{}, {} points", ahead ? "ahead" : "behind", percept.cloud->points_R.size()));
 }
 
+void DriveTracer::Vision(const VisualStep& step) {
+  if (trace_ == nullptr) return;
+  const vision::MotionResult& seen = step.result;
+  if (seen.motion) {
+    const math::Transform& X_FS = seen.motion->X_FS;
+    return Event("vision", fmt::format("{:.3f} m, {:.1f} deg", X_FS.translation().norm(),
+                                       math::RadToDeg(Eigen::AngleAxisd(X_FS.linear()).angle())));
+  }
+  if (!seen.reason) return;
+  Event("vision",
+        fmt::format(
+            "no motion: {}",
+            core::EnumNames<vision::NoMotion>::kNames[static_cast<std::size_t>(*seen.reason)]));
+}
+
 void DriveTracer::Waypoint(std::size_t index) {
   if (trace_ == nullptr) return;
   // Where somebody named them, how far their true places are; corners of a route have none.

@@ -26,6 +26,8 @@ class DriveTracer {
   void Look(messages::LookDirection direction, const Percept& percept);
   // What was declared, and how far the rover truly is from there.
   void Waypoint(std::size_t index);
+  // What came of a pair of images for visual odometry.
+  void Vision(const VisualStep& step);
   // What was chosen among the motions that were voted for.
   void Votes(const messages::NavigationView& view);
 

@@ -1,5 +1,6 @@
 #include "localization/dead_reckoning_estimator.h"
 #include "localization/error_state_filter.h"
+#include "localization/visual_odometry_estimator.h"
 #include "trial/oracle_estimator.h"
 #include "trial/standard_estimators_params.h"
 
@@ -10,6 +11,7 @@ localization::EstimatorSet StandardEstimators() {
   set.Add(localization::DescribeDeadReckoning());
   set.Add(DescribeOracle());
   set.Add(localization::DescribeErrorStateFilter());
+  set.Add(localization::DescribeVisualOdometry());
   return set;
 }
 

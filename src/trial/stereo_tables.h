@@ -39,6 +39,10 @@ inline constexpr double kSparc10Scanline_s = 0.003;
 inline constexpr PrintedTime kSparc10Scanlines{64.0, 45 * kSparc10Scanline_s,
                                                60 * kSparc10Scanline_s};
 
+// Visual odometry: table 3 and section 3. MSL's 8.8 s are MER's times 22 / 400.
+inline constexpr double kMerVisualOdometry_s = 160.0;       // images 256 px wide
+inline constexpr double kFpgaFeaturesAndMatches_s = 0.016;  // 512 px wide; "+ CPU"
+
 // How what a module takes goes with the width of the images; section 3. The height does not matter
 // (section 2).
 enum class WidthGrowth {

@@ -14,6 +14,7 @@ void SensorParams::Visit(core::FieldVisitor& v) {
   v.Group("tracker", tracker, "overhead tracker that reports the true pose in experiments");
   v.Group("vehicle", vehicle, "what the rover feels of itself: touch, tilt, joints, motors");
   v.Group("aids", aids, "what tells the rover where it is, beside its wheels and gyro");
+  v.Group("visual_odometry", visual_odometry, "how the rover moves, as its cameras see it");
 }
 
 void PerceptionParams::Visit(core::FieldVisitor& v) {
@@ -31,6 +32,8 @@ void PerceptionParams::Visit(core::FieldVisitor& v) {
   v.Group("attitude", attitude, "roll, pitch and height from accelerometers and odometry");
   v.Group("cloud_elevations", cloud_elevations,
           "elevation array that the behaviour controller makes of stereo's points");
+  v.Group("visual_odometry", visual_odometry,
+          "what the rover makes of motions that it sees (sensors.visual_odometry)");
 }
 
 void NavigationParams::Visit(core::FieldVisitor& v) {

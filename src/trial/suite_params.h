@@ -16,6 +16,7 @@
 #include "perception/stripe_finder_params.h"
 #include "perception/stuck_detector_params.h"
 #include "perception/vehicle_hazard_params.h"
+#include "perception/visual_motion_params.h"
 #include "rendering/picture/picture_params.h"
 #include "rendering/sun_params.h"
 #include "sensing/aid_params.h"
@@ -25,6 +26,7 @@
 #include "sensing/stereo_params.h"
 #include "sensing/tracker_params.h"
 #include "sensing/vehicle_sensor_params.h"
+#include "sensing/visual_motion_params.h"
 #include "trial/standard_estimators_params.h"
 #include "trial/terrain_sensor_set_params.h"
 
@@ -41,6 +43,7 @@ struct SensorParams {
   sensing::TrackerParams tracker;
   sensing::VehicleSensorParams vehicle;
   sensing::AidParams aids;
+  sensing::VisualMotionParams visual_odometry;
 
   void Visit(core::FieldVisitor& v);
 };
@@ -55,6 +58,7 @@ struct PerceptionParams {
   perception::CalibrationErrorParams calibration;
   localization::AttitudeParams attitude;
   perception::CloudElevationParams cloud_elevations;
+  perception::VisualMotionParams visual_odometry;
 
   void Visit(core::FieldVisitor& v);
 };

@@ -105,6 +105,10 @@ struct DriveRecord {
   double aids_in_doubt = 0.0;
   double aids_gated_out = 0.0;
   double aids_unanswered = 0.0;
+  double visual_steps = 0.0;     // pairs of images compared with a keyframe
+  double visual_failures = 0.0;  // of these, without a motion
+  double visual_keyframes = 0.0;
+  double visual_gated_out = 0.0;
   double goal_rock_found = std::numeric_limits<double>::quiet_NaN();  // NaN without a goal rock
   double goal_rock_distance_m = std::numeric_limits<double>::quiet_NaN();
   double goal_rock_sign = std::numeric_limits<double>::quiet_NaN();
@@ -333,6 +337,15 @@ inline constexpr std::array kDriveColumns = {
     DriveColumn{"aids_unanswered", "1",
                 "measurements that were due and found nothing: out of range, hidden, dropped out",
                 &DriveRecord::aids_unanswered},
+    DriveColumn{"visual_steps", "1", "pairs of images that visual odometry compared with others",
+                &DriveRecord::visual_steps},
+    DriveColumn{"visual_failures", "1", "of these, those in which no motion was found",
+                &DriveRecord::visual_failures},
+    DriveColumn{"visual_keyframes", "1", "pairs of images that later ones were compared with",
+                &DriveRecord::visual_keyframes},
+    DriveColumn{"visual_gated_out", "1",
+                "motions that were found and that the estimator turned away",
+                &DriveRecord::visual_gated_out},
     DriveColumn{"goal_rock_found", "1",
                 "1 where the rover found the rock at its goal, else 0; empty without such a rock "
                 "(course.goal_rock), as the next four",

@@ -117,6 +117,67 @@ TEST(ErrorStateFilter, TakesAMotionBetweenTwoMoments) {
   EXPECT_EQ(filter.Update(motion), AidUse::kUnknown);
 }
 
+// A gyro that jumps by 0.5 rad between two moments, where the filter knows of hardly any noise.
+class MotionAgainstWheels : public testing::Test {
+ protected:
+  static ErrorStateFilterParams Params(MotionDisagreement disagreement) {
+    ErrorStateFilterParams params = AlongOnly();
+    params.motion_disagreement = disagreement;
+    return params;
+  }
+
+  static void DriveAndJump(ErrorStateFilter& filter) {
+    DriveStraight(filter, 0.5);
+    filter.Capture(1);
+    messages::MotionMeasurement jump;
+    jump.duration_s = 0.05;
+    jump.turn_rad = 0.5;
+    filter.Propagate(jump);
+    DriveStraight(filter, 0.4);
+    filter.Capture(2);
+    DriveStraight(filter, 0.1);
+  }
+
+  // It drove straight on, in truth.
+  static messages::RelativeMotion Straight() {
+    messages::RelativeMotion motion{.from = 1, .to = 2};
+    motion.motion_F[kX] = 0.4;
+    motion.covariance *= 1e-6;
+    return motion;
+  }
+};
+
+TEST_F(MotionAgainstWheels, DoubtsTheWheels) {
+  ErrorStateFilter filter(Params(MotionDisagreement::kDoubtWheels), AlongX());
+  DriveAndJump(filter);
+  EXPECT_NEAR(filter.estimate().pose.heading_rad, 0.5, 1e-9);
+  EXPECT_EQ(filter.Update(Straight()), AidUse::kUsedInDoubt);
+  EXPECT_NEAR(filter.estimate().pose.heading_rad, 0.0, 1e-3);
+  EXPECT_NEAR(filter.estimate().pose.y_m, -2.0, 5e-3);
+  // The tenth of a metre since then was laid off along a heading that is linear in its error.
+  EXPECT_NEAR(filter.estimate().pose.x_m, 2.0, 2e-2);
+  // Told once more it is no news.
+  EXPECT_EQ(filter.Update(Straight()), AidUse::kUsed);
+}
+
+TEST_F(MotionAgainstWheels, OrTurnsTheMotionAway) {
+  ErrorStateFilter filter(Params(MotionDisagreement::kTurnAway), AlongX());
+  DriveAndJump(filter);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(filter.Update(Straight()), AidUse::kGatedOut);
+  EXPECT_NEAR(filter.estimate().pose.heading_rad, 0.5, 1e-9);
+}
+
+// Motions say nothing of the place, so that they do not keep fixes from being heard.
+TEST_F(MotionAgainstWheels, DoesNotInterruptTheWayBackOfFixes) {
+  ErrorStateFilterParams params = Params(MotionDisagreement::kDoubtWheels);
+  params.gate.patience = 2;
+  ErrorStateFilter filter(params, AlongX());
+  DriveAndJump(filter);
+  EXPECT_EQ(filter.Update(FixOf(kX, 2, 9.0, 0.01)), AidUse::kGatedOut);
+  EXPECT_EQ(filter.Update(Straight()), AidUse::kUsedInDoubt);
+  EXPECT_EQ(filter.Update(FixOf(kX, 2, 9.0, 0.01)), AidUse::kUsedInDoubt);
+}
+
 // A motion whose heading at the first moment was wrong: measured across, it corrects that heading.
 TEST(ErrorStateFilter, LearnsTheHeadingFromWhereAMotionLed) {
   ErrorStateFilterParams params = AlongOnly();

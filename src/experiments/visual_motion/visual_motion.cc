@@ -1,0 +1,151 @@
+#include "experiments/visual_motion/visual_motion.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "core/distributions.h"
+#include "experiments/scene_key.h"
+#include "experiments/stereo_sensing/random_place.h"
+#include "experiments/visual_motion/columns.h"
+#include "math/angles.h"
+#include "truth/measurement_record.h"
+
+namespace rockyard::experiments {
+namespace {
+
+using math::Transform;
+
+constexpr double kWrongSigma = 6.0;
+constexpr double kWrong_m = 0.05;
+constexpr double kWrong_rad = 2.0 * std::numbers::pi / 180.0;
+
+// The drive of one cell; where the cell has no value for a factor, the scenario's own holds.
+trial::DriveParams StudiedDrive(trial::DriveParams drive,
+                                const std::vector<std::string_view>& columns,
+                                const std::vector<double>& values) {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i] == "soil_graininess") {
+      drive.sensors.look.soil_graininess = values[i];
+    } else if (columns[i] == "sun_elevation_deg") {
+      drive.sensors.sun.elevation_rad = math::DegToRad(values[i]);
+    } else if (columns[i] == "baseline_m") {
+      drive.sensors.stereo.baseline_m = values[i];
+    }
+  }
+  return drive;
+}
+
+truth::RecordSchema StudySchema(const CellTable& table) {
+  std::vector<std::string> names;
+  for (const std::string_view name : table.columns()) names.emplace_back(name);
+  ForEachSum(VisualSums{}, [&](const std::string& name, double) { names.push_back(name); });
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  return truth::MeasurementSchema(VisualMotionColumns(), views);
+}
+
+// An arc of a length and a turn, from the middle of its chord's direction.
+Transform Arc(double way_m, double turn_rad) {
+  const double half = 0.5 * turn_rad;
+  const double chord_m = half == 0.0 ? way_m : way_m * std::sin(half) / half;
+  return math::MakePose({chord_m * std::cos(half), chord_m * std::sin(half), 0.0}, turn_rad, 0.0,
+                        0.0);
+}
+
+// Draws from (key, kExperiment), substream 1: 0 is the place's.
+StudiedStep DrawStep(const VisualMotionStudyParams& params, const Transform& level, double way_m,
+                     double turn_rad, core::TrialKey key) {
+  core::RandomStream stream(key, core::Purpose::kExperiment, 1);
+  const auto normal = [&] { return core::SampleNormal(stream, 0.0, 1.0); };
+  const auto tilted = [&] {
+    return math::MakePose(math::Vector3::Zero(), 0.0, params.tilt_sd_rad * normal(),
+                          params.tilt_sd_rad * normal());
+  };
+  const double side = core::SampleBernoulli(stream, 0.5) ? 1.0 : -1.0;
+  const Transform first = tilted();
+  const Transform second = tilted();
+  const double way_error = params.prediction_error * normal();
+  const double turn_error = params.prediction_error * normal();
+  StudiedStep step;
+  step.X_WF = level * first;
+  step.X_WS = level * Arc(way_m, side * turn_rad) * second;
+  step.predicted_FS = first.inverse() *
+                      Arc(way_m * (1.0 + way_error), side * turn_rad * (1.0 + turn_error)) * second;
+  return step;
+}
+
+}  // namespace
+
+void AddStep(const StudiedStep& step, const vision::MotionResult& seen, VisualSums& sums) {
+  sums.steps += 1.0;
+  sums.matches += static_cast<double>(seen.counts.matches);
+  sums.points += static_cast<double>(seen.counts.points);
+  sums.consistent += static_cast<double>(seen.counts.consistent);
+  if (!seen.motion) return;
+  sums.found += 1.0;
+  const Transform truth = step.X_WF.inverse() * step.X_WS;
+  const Eigen::AngleAxisd turned(seen.motion->X_FS.linear() * truth.linear().transpose());
+  const math::Vector3 way_m = seen.motion->X_FS.translation() - truth.translation();
+  const math::Vector3 turn_rad = turned.angle() * turned.axis();
+  Eigen::Matrix<double, 6, 1> error;
+  error << way_m, turn_rad;
+  const double nees = error.dot(seen.motion->covariance.ldlt().solve(error));
+  sums.nees += nees;
+  sums.position_m += way_m.norm();
+  const bool far = way_m.norm() > kWrong_m || turn_rad.norm() > kWrong_rad;
+  if (far && nees > 6.0 * kWrongSigma * kWrongSigma) sums.wrong += 1.0;
+  sums.along_m.Add(way_m.x());
+  sums.across_m.Add(way_m.y());
+  sums.up_m.Add(way_m.z());
+  sums.roll_deg.Add(math::RadToDeg(turn_rad.x()));
+  sums.pitch_deg.Add(math::RadToDeg(turn_rad.y()));
+  sums.heading_deg.Add(math::RadToDeg(turn_rad.z()));
+}
+
+VisualMotionExperiment::VisualMotionExperiment(const VisualMotionStudyParams& params,
+                                               const trial::DriveParams& drive)
+    : params_(params), table_(params.Factors()), schema_(StudySchema(table_)) {
+  for (std::size_t i = 0; i < table_.size(); ++i) {
+    drives_.push_back(StudiedDrive(drive, table_.columns(), table_.Values(i)));
+  }
+}
+
+VisualSums VisualMotionExperiment::Measure(std::size_t cell, core::TrialKey key) const {
+  const trial::DriveParams& drive = drives_[cell];
+  const std::vector<double> factors = table_.Values(cell);
+  VisualSums sums;
+  for (std::int64_t i = 0; i < params_.steps_per_run; ++i) {
+    const core::TrialKey scene = SceneKey(key, params_.steps_per_run, i);
+    const terrain::Terrain terrain = SceneTerrainOf(drive, scene);
+    const Transform level = RandomPlace(drive, terrain, params_.hazard_height_m, scene);
+    const StudiedStep step =
+        DrawStep(params_, level, factors[0], math::DegToRad(factors[1]), scene);
+    const auto eyes = trial::MakeVisualEyes(drive, scene, terrain);
+    eyes->Look(step.X_WF, Transform::Identity());
+    AddStep(step, eyes->Look(step.X_WS, step.predicted_FS).result, sums);
+  }
+  return sums;
+}
+
+truth::Record VisualMotionExperiment::Run(std::uint64_t seed, std::uint64_t index) const {
+  try {
+    if (index > std::numeric_limits<std::uint32_t>::max()) {
+      throw std::out_of_range("trial indices end at 2^32 - 1, the size of their random key");
+    }
+    const std::size_t cell = index % table_.size();
+    truth::Record record{index, truth::TrialOutcome::kMeasured, "", {static_cast<double>(cell)}};
+    for (const double value : table_.Values(cell)) record.values.push_back(value);
+    const VisualSums sums = Measure(cell, {seed, static_cast<std::uint32_t>(index)});
+    ForEachSum(sums, [&](const std::string&, double value) { record.values.push_back(value); });
+    return record;
+  } catch (const std::exception& error) {
+    return truth::MakeFault(seed, index, error.what());
+  }
+}
+
+}  // namespace rockyard::experiments

@@ -1,0 +1,33 @@
+// Parameters of the experiment on how well visual odometry measures one motion.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/fields.h"
+#include "experiments/cell_factor_params.h"
+#include "math/angles.h"
+
+namespace rockyard::experiments {
+
+struct VisualMotionStudyParams {
+  std::int64_t steps_per_run = 4;
+  std::vector<double> steps_m{0.0, 0.25, 0.5, 0.75, 1.0};
+  std::vector<double> turns_deg{0.0, 6.0, 12.0, 18.0};
+  // Values of parameters of the drive; an empty list leaves the scenario's own.
+  std::vector<double> soil_graininess;
+  std::vector<double> sun_elevations_deg;
+  std::vector<double> baselines_m;
+
+  double hazard_height_m = 0.2;
+  double tilt_sd_rad = math::DegToRad(3.0);
+  double prediction_error = 0.1;
+
+  // In the order of their columns, the last one changing fastest.
+  std::vector<CellFactor> Factors() const;
+  double Cells() const { return CellsOf(Factors()); }
+
+  void Visit(core::FieldVisitor& v);
+};
+
+}  // namespace rockyard::experiments

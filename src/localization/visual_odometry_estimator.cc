@@ -1,0 +1,101 @@
+#include "localization/visual_odometry_estimator.h"
+
+#include <cmath>
+#include <memory>
+
+#include "math/angles.h"
+
+namespace rockyard::localization {
+namespace {
+
+using math::Pose2;
+using messages::Index;
+using messages::PoseCoordinate;
+
+// pose (+) step: x and y of the step along the pose's heading.
+Pose2 Compose(const Pose2& pose, const Pose2& step) {
+  const double c = std::cos(pose.heading_rad);
+  const double s = std::sin(pose.heading_rad);
+  return {pose.x_m + c * step.x_m - s * step.y_m, pose.y_m + s * step.x_m + c * step.y_m,
+          math::WrapAngle(pose.heading_rad + step.heading_rad)};
+}
+
+// The step that leads from one pose to another.
+Pose2 StepBetween(const Pose2& from, const Pose2& to) {
+  const double c = std::cos(from.heading_rad);
+  const double s = std::sin(from.heading_rad);
+  const double dx_m = to.x_m - from.x_m;
+  const double dy_m = to.y_m - from.y_m;
+  return {c * dx_m + s * dy_m, -s * dx_m + c * dy_m,
+          math::WrapAngle(to.heading_rad - from.heading_rad)};
+}
+
+Pose2 PlanarStep(const messages::RelativeMotion& motion) {
+  return {motion.motion_F[Index(PoseCoordinate::kX)], motion.motion_F[Index(PoseCoordinate::kY)],
+          motion.motion_F[Index(PoseCoordinate::kHeading)]};
+}
+
+Pose2 ToPose2(const messages::PoseEstimate& pose) { return {pose.x_m, pose.y_m, pose.heading_rad}; }
+
+}  // namespace
+
+VisualOdometryEstimator::VisualOdometryEstimator(const EstimatorSetup& setup)
+    : wheels_(setup), estimate_(wheels_.estimate()) {}
+
+Pose2 VisualOdometryEstimator::PoseNow() const { return ToPose2(estimate_.pose); }
+
+void VisualOdometryEstimator::TakePose(const Pose2& pose) {
+  estimate_.pose.x_m = pose.x_m;
+  estimate_.pose.y_m = pose.y_m;
+  estimate_.pose.heading_rad = pose.heading_rad;
+}
+
+void VisualOdometryEstimator::Propagate(const messages::MotionMeasurement& motion) {
+  const Pose2 before = ToPose2(estimate_.odometry);
+  wheels_.Propagate(motion);
+  estimate_.odometry = wheels_.estimate().odometry;
+  estimate_.pose.distance_m = estimate_.odometry.distance_m;
+  TakePose(Compose(PoseNow(), StepBetween(before, ToPose2(estimate_.odometry))));
+}
+
+void VisualOdometryEstimator::Feel(const messages::VehicleState& felt, double duration_s) {
+  wheels_.Feel(felt, duration_s);
+  estimate_.attitude = wheels_.estimate().attitude;
+}
+
+void VisualOdometryEstimator::Place(const messages::PoseUpdate& update) {
+  wheels_.Place(update);
+  estimate_ = wheels_.estimate();
+  moments_.clear();
+}
+
+void VisualOdometryEstimator::Capture(messages::CaptureNumber capture) {
+  moments_[capture] = PoseNow();
+}
+
+void VisualOdometryEstimator::Forget(messages::CaptureNumber capture) { moments_.erase(capture); }
+
+AidUse VisualOdometryEstimator::Update(const messages::RelativeMotion& motion) {
+  const auto from = moments_.find(motion.from);
+  const auto to = moments_.find(motion.to);
+  if (from == moments_.end() || to == moments_.end()) return AidUse::kUnknown;
+  const Pose2 before = to->second;
+  const Pose2 after = Compose(from->second, PlanarStep(motion));
+  for (auto later = to; later != moments_.end(); ++later) {
+    later->second = Compose(after, StepBetween(before, later->second));
+  }
+  TakePose(Compose(after, StepBetween(before, PoseNow())));
+  return AidUse::kUsed;
+}
+
+EstimatorDescription<core::NoParams> DescribeVisualOdometry() {
+  return {
+      .name = "visual_odometry",
+      .doc = "what visual odometry measures, and wheels and gyro where it found no motion",
+      .make = [](const core::NoParams&, const EstimatorSetup& setup) -> std::unique_ptr<Estimator> {
+        return std::make_unique<VisualOdometryEstimator>(setup);
+      },
+      .takes_motions = true};
+}
+
+}  // namespace rockyard::localization

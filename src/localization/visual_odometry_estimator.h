@@ -1,0 +1,47 @@
+// Wheels and gyro from image to image, and what visual odometry measured instead of them wherever
+// it found a motion: the way of MER (Maimone, Cheng and Matthies 2007), whose wheels told the place
+// only where no motion was found.
+//
+//   pose(to) <- pose(from) (+) motion    every later pose moves along with it, as one rigid body
+//
+// where pose (+) motion lays x and y off along the heading and adds the turn. Roll, pitch and
+// height are those of accelerometers and wheels. It keeps no account of its error, weighs nothing
+// against anything, and takes no fixes.
+#pragma once
+
+#include <map>
+
+#include "localization/dead_reckoning_estimator.h"
+#include "localization/estimator.h"
+#include "localization/estimator_set_params.h"
+
+namespace rockyard::localization {
+
+class VisualOdometryEstimator final : public Estimator {
+ public:
+  explicit VisualOdometryEstimator(const EstimatorSetup& setup);
+
+  void Propagate(const messages::MotionMeasurement& motion) override;
+  void Feel(const messages::VehicleState& felt, double duration_s) override;
+  void Place(const messages::PoseUpdate& update) override;
+
+  void Capture(messages::CaptureNumber capture) override;
+  void Forget(messages::CaptureNumber capture) override;
+  AidUse Update(const messages::PoseFix& /*fix*/) override { return AidUse::kNoInterest; }
+  AidUse Update(const messages::RelativeMotion& motion) override;
+
+  const messages::LocalizationEstimate& estimate() const override { return estimate_; }
+
+ private:
+  math::Pose2 PoseNow() const;
+  void TakePose(const math::Pose2& pose);
+
+  DeadReckoningEstimator wheels_;  // whose pose is the odometry frame's
+  std::map<messages::CaptureNumber, math::Pose2> moments_;
+  messages::LocalizationEstimate estimate_;
+};
+
+// Named visual_odometry; its parameters are those of the setup.
+EstimatorDescription<core::NoParams> DescribeVisualOdometry();
+
+}  // namespace rockyard::localization

@@ -1,0 +1,47 @@
+// The images of a camera pair as its calibration has them: reduced, with rows that are epipolar
+// lines.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "vision/cameras/rectification.h"
+#include "vision/image.h"
+#include "vision/stereo/rectification_table.h"
+#include "vision/stereo/stereo_rig.h"
+
+namespace rockyard::perception {
+
+// Images are reduced by 2^level and resampled where the cameras are not aligned as they are.
+class AlignedEyes {
+ public:
+  // Throws core::UserError where the cameras cannot be aligned.
+  AlignedEyes(const vision::StereoRig& rig, int pyramid_level);
+
+  // The images of the rig's size, aligned.
+  vision::GrayImage Left(const vision::GrayImage& image) const { return Aligned(left_, image); }
+  vision::GrayImage Right(const vision::GrayImage& image) const { return Aligned(right_, image); }
+
+  // The cameras of these.
+  const vision::RectifiedPair& pair() const { return pair_; }
+  // Their pixels that show neither the carrier (0) nor what a camera did not see.
+  const vision::Image<std::uint8_t>& left_free() const { return left_.free; }
+  const vision::Image<std::uint8_t>& right_free() const { return right_.free; }
+
+ private:
+  struct Eye {
+    std::optional<vision::RectificationTable> table;  // none where nothing is resampled
+    vision::Image<std::uint8_t> free;                 // of the aligned image
+  };
+
+  Eye MakeEye(const vision::CameraModel& reduced, const vision::Cahv& aligned,
+              const vision::Image<std::uint8_t>& free) const;
+  vision::GrayImage Aligned(const Eye& eye, const vision::GrayImage& image) const;
+
+  int pyramid_level_;
+  vision::RectifiedPair pair_;
+  Eye left_;
+  Eye right_;
+};
+
+}  // namespace rockyard::perception

@@ -1,0 +1,33 @@
+// What a motion of the cameras, told in the rover's frame, says of the rover's pose.
+#pragma once
+
+#include "messages/aids.h"
+#include "messages/estimates.h"
+#include "vision/odometry/motion_estimate.h"
+
+namespace rockyard::perception {
+
+// How the rover believes to have stood when it took the first images, and how well it knows.
+struct FirstStance {
+  messages::AttitudeEstimate attitude;
+  double tilt_sd_rad = 0.0;  // of roll and of pitch
+};
+
+// Turns a motion X_R0R1 (the cameras' outer frame is R) into the levelled frame F of the first
+// moment, x along its heading, z up:
+//
+//   R_FR0 = Ry(pitch) Rx(roll)    p_F = R_FR0 p_R0    R_FR1 = R_FR0 R_R0R1
+//
+// and heading, pitch and roll of R_FR1 less those of R_FR0. Of small turns e about the axes of F,
+// with the heading h, pitch p and roll of R_FR1 (R = Rz(h) Ry(p) Rx(roll), its rates),
+//
+//   dh = e_z + tan(p) (cos(h) e_x + sin(h) e_y)
+//   dp = cos(h) e_y - sin(h) e_x
+//   droll = (cos(h) e_x + sin(h) e_y) / cos(p)
+//
+// The motion's covariance goes through these; what the first stance is wrong by tilts the way:
+// tilt_sd^2 (p_x^2 + p_y^2) is added to the variance of z. The captures are for the caller to fill
+// in. Requires |pitch| < 90 deg at both moments.
+messages::RelativeMotion LevelledMotion(const vision::Motion& motion, const FirstStance& first);
+
+}  // namespace rockyard::perception

@@ -1,0 +1,17 @@
+// Parameters of what on-board software makes of motions that it sees.
+#pragma once
+
+#include "core/fields.h"
+#include "math/angles.h"
+#include "vision/odometry/odometer_params.h"
+
+namespace rockyard::perception {
+
+struct VisualMotionParams {
+  double tilt_sd_rad = math::DegToRad(1.0);
+  vision::OdometerParams odometer;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+}  // namespace rockyard::perception

@@ -1,0 +1,147 @@
+#include "sensing/visual_motion_params.h"
+
+#include <cmath>
+
+namespace rockyard::sensing {
+namespace {
+
+using core::Origin;
+
+constexpr const char* kFit =
+    "fitted to rendered steps (scripts/fit_visual_motion.py; results/visual_odometry.md)";
+
+double Squared(double value) { return value * value; }
+
+}  // namespace
+
+double MotionErrorParams::Variance(double way_m, double angle_rad) const {
+  return Squared(still) + Squared(per_m * way_m) + Squared(per_rad * angle_rad);
+}
+
+double VisualFailureParams::Probability(double way_m, double angle_rad) const {
+  return 1.0 / (1.0 + std::exp(-(intercept + per_m * way_m + per_rad * angle_rad)));
+}
+
+void VisualScheduleParams::Visit(core::FieldVisitor& v) {
+  v.Real("every_m", every_m,
+         {.doc = "way by the rover's odometer from one pair of images to the next; 0: not by way",
+          .min = 0.0,
+          .max = 1e4,
+          .origin = Origin::kPublished,
+          .source = "Howard 2012 sec. 1: with visual odometry each motion of MER is limited to 75 "
+                    "cm"});
+  v.Angle(
+      "every_deg", every_rad,
+      {.doc = "turn by the rover's estimate from one pair of images to the next; 0: not by turn",
+       .min = 0.0,
+       .max = 360.0,
+       .origin = Origin::kPublished,
+       .source = "Howard 2012 sec. 1: or to a turn in place of no more than 18 degrees"});
+  v.Real("every_s", every_s,
+         {.doc = "simulated time from one pair of images to the next while the rover moves; 0: not "
+                 "by time. 0.2: the 5 Hz of Howard 2012",
+          .min = 0.0,
+          .max = 1e6,
+          .origin = Origin::kSetting});
+}
+
+void PlaceErrorParams::Visit(core::FieldVisitor& v) {
+  v.Real("still_m", still,
+         {.doc = "standard deviation where the rover has not moved",
+          .min = 0.0,
+          .max = 10.0,
+          .origin = Origin::kCalibrated,
+          .source = kFit});
+  v.Real("per_m", per_m,
+         {.doc = "what a metre of way adds to it, root of the summed squares",
+          .min = 0.0,
+          .max = 10.0,
+          .origin = Origin::kCalibrated,
+          .source = kFit});
+  v.Real("per_rad_m", per_rad,
+         {.doc = "what a radian of turning adds to it, likewise; m",
+          .min = 0.0,
+          .max = 10.0,
+          .origin = Origin::kCalibrated,
+          .source = kFit});
+}
+
+void TurnErrorParams::Visit(core::FieldVisitor& v) {
+  v.Real("still_rad", still,
+         {.doc = "standard deviation where the rover has not moved",
+          .min = 0.0,
+          .max = 3.0,
+          .origin = Origin::kCalibrated,
+          .source = kFit});
+  v.Real("per_m_rad", per_m,
+         {.doc = "what a metre of way adds to it, root of the summed squares; rad",
+          .min = 0.0,
+          .max = 3.0,
+          .origin = Origin::kCalibrated,
+          .source = kFit});
+  v.Real("per_rad", per_rad,
+         {.doc = "what a radian of turning adds to it, likewise",
+          .min = 0.0,
+          .max = 3.0,
+          .origin = Origin::kCalibrated,
+          .source = kFit});
+}
+
+void VisualFailureParams::Visit(core::FieldVisitor& v) {
+  const auto field = [&](std::string_view name, double& value, std::string_view doc) {
+    v.Real(
+        name, value,
+        {.doc = doc, .min = -1000.0, .max = 1000.0, .origin = Origin::kCalibrated, .source = kFit});
+  };
+  field("intercept", intercept,
+        "log odds that no motion is found where the rover has not moved; -1000: it always is");
+  field("per_m", per_m, "what a metre of way adds to them");
+  field("per_rad", per_rad, "what a radian of turning adds to them");
+}
+
+void VisualErrorModelParams::Visit(core::FieldVisitor& v) {
+  v.Real("keyframe_m", keyframe_m,
+         {.doc = "way from a keyframe from which on another one takes its place; one without a "
+                 "motion does so as well",
+          .min = 0.0,
+          .max = 1e3,
+          .origin = Origin::kCalibrated,
+          .source = kFit});
+  v.Angle("keyframe_deg", keyframe_rad,
+          {.doc = "turn from a keyframe, likewise",
+           .min = 0.0,
+           .max = 180.0,
+           .origin = Origin::kCalibrated,
+           .source = kFit});
+  v.Group("failure", failure, "chance that no motion is found");
+  v.Group("along", along, "error of the way, forward");
+  v.Group("across", across, "error of the way, to the left");
+  v.Group("up", up, "error of the way, upward");
+  v.Group("tilt", tilt, "error of the turns about the rover's x and y axes, each");
+  v.Group("heading", heading, "error of the turn about its z axis");
+}
+
+void VisualMotionParams::Visit(core::FieldVisitor& v) {
+  v.Boolean("enabled", enabled,
+            {.doc = "the cameras ahead (sensors.stereo) measure how the rover moves; the estimator "
+                    "is to take it (localization.estimator visual_odometry or error_state)",
+             .origin = Origin::kSetting});
+  v.Choice("fidelity", fidelity,
+           {.doc = "error_model: the true motion, late and with fitted errors; image: rendered "
+                   "images, whose features are matched on board (perception.visual_odometry)",
+            .origin = Origin::kSetting});
+  v.Group("schedule", schedule, "when images are taken");
+  v.Integer("pyramid_level", pyramid_level,
+            {.doc = "images that the cameras take (sensors.stereo.images) are reduced by 2^level",
+             .min = 0,
+             .max = 4,
+             .origin = Origin::kSetting});
+  v.Group("error_model", error_model, "what comes out where no images are matched");
+  v.Require(
+      "schedule",
+      !enabled || schedule.every_m > 0.0 || schedule.every_rad > 0.0 || schedule.every_s > 0.0,
+      "has neither way nor turn nor time, so that no images are ever taken",
+      "set every_m, every_deg or every_s");
+}
+
+}  // namespace rockyard::sensing

@@ -1,0 +1,85 @@
+// Parameters of visual odometry as a sensor of a trial: when it takes images, and what comes out of
+// them where none are matched.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "core/fields.h"
+#include "math/angles.h"
+
+namespace rockyard::sensing {
+
+enum class VisualFidelity {
+  kErrorModel,  // the true motion with errors fitted to images
+  kImage,       // images are rendered, and their features matched on board
+};
+
+// When images are taken: whatever comes first since the last ones.
+struct VisualScheduleParams {
+  double every_m = 0.75;
+  double every_rad = math::DegToRad(18.0);
+  double every_s = 0.0;  // 0: not by time
+
+  void Visit(core::FieldVisitor& v);
+};
+
+// A standard deviation that grows with a motion of length d and angle a:
+//   sd^2 = still^2 + (per_m d)^2 + (per_rad a)^2
+struct MotionErrorParams {
+  double still = 0.0;    // m, or rad
+  double per_m = 0.0;    // of it a metre
+  double per_rad = 0.0;  // of it a radian
+
+  double Variance(double way_m, double angle_rad) const;
+};
+
+struct PlaceErrorParams : MotionErrorParams {
+  void Visit(core::FieldVisitor& v);
+};
+struct TurnErrorParams : MotionErrorParams {
+  void Visit(core::FieldVisitor& v);
+};
+
+// Chance that no motion is found: 1 / (1 + exp(-(intercept + per_m d + per_rad a))).
+struct VisualFailureParams {
+  double intercept = -7.0;
+  double per_m = 1.0;
+  double per_rad = 5.0;
+
+  double Probability(double way_m, double angle_rad) const;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+// In the axes of the first moment's rover frame.
+struct VisualErrorModelParams {
+  double keyframe_m = 0.5;
+  double keyframe_rad = math::DegToRad(10.0);
+  VisualFailureParams failure;
+  PlaceErrorParams along{{.still = 2e-4, .per_m = 0.003, .per_rad = 0.002}};
+  PlaceErrorParams across{{.still = 2e-4, .per_m = 0.003, .per_rad = 0.002}};
+  PlaceErrorParams up{{.still = 2e-4, .per_m = 0.003, .per_rad = 0.002}};
+  TurnErrorParams tilt{{.still = 2e-4, .per_m = 0.001, .per_rad = 0.002}};     // about x and y
+  TurnErrorParams heading{{.still = 2e-4, .per_m = 0.001, .per_rad = 0.002}};  // about z
+
+  void Visit(core::FieldVisitor& v);
+};
+
+struct VisualMotionParams {
+  bool enabled = false;
+  VisualFidelity fidelity = VisualFidelity::kErrorModel;
+  VisualScheduleParams schedule;
+  std::int64_t pyramid_level = 0;
+  VisualErrorModelParams error_model;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+}  // namespace rockyard::sensing
+
+template <>
+struct rockyard::core::EnumNames<rockyard::sensing::VisualFidelity> {
+  static constexpr std::array<std::string_view, 2> kNames{"error_model", "image"};
+};

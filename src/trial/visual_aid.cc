@@ -1,0 +1,115 @@
+#include "trial/visual_aid.h"
+
+#include <cmath>
+
+#include "core/check.h"
+#include "math/angles.h"
+#include "perception/visual_motion.h"
+#include "trial/compute_profile.h"
+
+namespace rockyard::trial {
+namespace {
+
+math::Transform OdometryPose(const messages::PoseEstimate& odometry,
+                             const messages::AttitudeEstimate& attitude) {
+  return math::MakePose({odometry.x_m, odometry.y_m, attitude.z_m}, odometry.heading_rad,
+                        attitude.pitch_rad, attitude.roll_rad);
+}
+
+}  // namespace
+
+VisualAid::VisualAid(const DriveParams& drive, core::TrialKey key, const terrain::Terrain& terrain,
+                     CaptureCounter& captures)
+    : params_(drive.sensors.visual_odometry),
+      tilt_sd_rad_(drive.perception.visual_odometry.tilt_sd_rad),
+      imaging_s_(VisualTimeOf(drive.clock.compute).imaging_s),
+      computing_s_(VisualTimeOf(drive.clock.compute).computing_s),
+      captures_(captures) {
+  if (params_.enabled) eyes_ = MakeVisualEyes(drive, key, terrain);
+}
+
+bool VisualAid::IsDue(const messages::LocalizationEstimate& believed, double time_s) const {
+  if (!eyes_ || waiting_) return false;
+  if (!keyframe_) return true;
+  const sensing::VisualScheduleParams& every = params_.schedule;
+  const auto passed = [](double value, double limit) { return limit > 0.0 && value >= limit; };
+  const messages::PoseEstimate& odometry = believed.odometry;
+  return passed(odometry.distance_m - last_odometry_.distance_m, every.every_m) ||
+         passed(std::abs(math::WrapAngle(odometry.heading_rad - last_odometry_.heading_rad)),
+                every.every_rad) ||
+         passed(time_s - last_time_s_, every.every_s);
+}
+
+math::Transform VisualAid::Predicted(const Moment& now) const {
+  if (!keyframe_) return math::Transform::Identity();
+  return OdometryPose(keyframe_->odometry, keyframe_->attitude).inverse() *
+         OdometryPose(now.odometry, now.attitude);
+}
+
+bool VisualAid::Look(const math::Transform& X_WR, double time_s, double ready_s,
+                     localization::Estimator& estimator) {
+  EXPECT(eyes_ != nullptr && !waiting_);
+  const messages::LocalizationEstimate& believed = estimator.estimate();
+  Moment now{
+      .capture = captures_.Next(), .attitude = believed.attitude, .odometry = believed.odometry};
+  const VisualStep step = eyes_->Look(X_WR, Predicted(now));
+  now.look = step.number;
+  estimator.Capture(now.capture);
+  last_odometry_ = now.odometry;
+  last_time_s_ = time_s;
+  if (step.keyframe) ++counts_.keyframes;
+  if (!keyframe_) {
+    ENSURE(step.keyframe);
+    keyframe_ = now;
+    return false;
+  }
+  ENSURE(step.reference == keyframe_->look);
+  waiting_ = Waiting{ready_s, step, *keyframe_, now};
+  if (step.keyframe) keyframe_ = now;
+  last_ = step;
+  ++counts_.steps;
+  if (!step.result.motion) ++counts_.failures;
+  return true;
+}
+
+bool VisualAid::Tick(double time_s, localization::Estimator& estimator) {
+  if (!waiting_ || waiting_->ready_s > time_s) return false;
+  const Waiting ready = *waiting_;
+  waiting_.reset();
+  const bool corrected = HandIn(ready, estimator);
+  // Moments that nothing will be compared with any more.
+  for (const Moment* moment : {&ready.from, &ready.to}) {
+    if (moment->look != keyframe_->look) estimator.Forget(moment->capture);
+  }
+  return corrected;
+}
+
+bool VisualAid::HandIn(const Waiting& waiting, localization::Estimator& estimator) {
+  if (!waiting.step.result.motion) return false;
+  messages::RelativeMotion motion = perception::LevelledMotion(
+      *waiting.step.result.motion, {waiting.from.attitude, tilt_sd_rad_});
+  motion.from = waiting.from.capture;
+  motion.to = waiting.to.capture;
+  switch (estimator.Update(motion)) {
+    case localization::AidUse::kUsed:
+    case localization::AidUse::kUsedInDoubt:
+      ++counts_.used;
+      return true;
+    case localization::AidUse::kGatedOut:
+      ++counts_.gated_out;
+      return false;
+    case localization::AidUse::kUnknown:
+    case localization::AidUse::kNoInterest:
+      return false;
+  }
+  return false;
+}
+
+void VisualAid::OnPlaced() {
+  if (!eyes_) return;
+  eyes_->Renew();
+  keyframe_.reset();
+  waiting_.reset();
+}
+
+}  // namespace rockyard::trial

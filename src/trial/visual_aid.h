@@ -1,0 +1,91 @@
+// Visual odometry of one drive: when it takes images, when the motion is ready, and what becomes of
+// it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "core/random.h"
+#include "localization/estimator.h"
+#include "terrain/terrain.h"
+#include "trial/capture_counter.h"
+#include "trial/drive_params.h"
+#include "trial/visual_eyes.h"
+
+namespace rockyard::trial {
+
+// How often.
+struct VisualCounts {
+  std::int64_t steps = 0;      // pairs of images that were compared with others
+  std::int64_t failures = 0;   // of these, without a motion
+  std::int64_t keyframes = 0;  // pairs that others were compared with
+  std::int64_t used = 0;       // motions that the estimator took
+  std::int64_t gated_out = 0;  // or turned away
+};
+
+// A pair of images is due at the start, and then by way, turn or time since the last one
+// (sensors.visual_odometry.schedule), whatever the navigator does. While the computer still works
+// on one, no other is taken. The cameras see the truth, the estimator gets messages.
+class VisualAid {
+ public:
+  // `terrain` and `captures` outlive it.
+  VisualAid(const DriveParams& drive, core::TrialKey key, const terrain::Terrain& terrain,
+            CaptureCounter& captures);
+
+  // Whether images are to be taken now.
+  bool IsDue(const messages::LocalizationEstimate& believed, double time_s) const;
+
+  // What a look takes (clock.compute). The first pair of a path is only kept.
+  double imaging_s() const { return imaging_s_; }
+  double computing_s() const { return computing_s_; }
+
+  // Takes images now. What comes of them is ready at `ready_s`. Returns whether a motion is worked
+  // out, which takes computing_s.
+  bool Look(const math::Transform& X_WR, double time_s, double ready_s,
+            localization::Estimator& estimator);
+
+  // Hands in what is ready. Returns whether the estimate was corrected.
+  bool Tick(double time_s, localization::Estimator& estimator);
+
+  // What was seen before operators moved the rover is of no use any more.
+  void OnPlaced();
+
+  const VisualCounts& counts() const { return counts_; }
+  // The last pair that was compared, for the trace.
+  const std::optional<VisualStep>& last() const { return last_; }
+
+ private:
+  // A pair whose moment is kept.
+  struct Moment {
+    std::int64_t look = 0;
+    messages::CaptureNumber capture = 0;
+    messages::AttitudeEstimate attitude;  // believed then
+    messages::PoseEstimate odometry;
+  };
+  struct Waiting {
+    double ready_s = 0.0;
+    VisualStep step;
+    Moment from;
+    Moment to;
+  };
+
+  math::Transform Predicted(const Moment& now) const;
+  bool HandIn(const Waiting& waiting, localization::Estimator& estimator);
+
+  sensing::VisualMotionParams params_;
+  double tilt_sd_rad_;
+  double imaging_s_;
+  double computing_s_;
+  CaptureCounter& captures_;
+  std::unique_ptr<VisualEyes> eyes_;  // none where it is not enabled
+
+  std::optional<Moment> keyframe_;
+  std::optional<Waiting> waiting_;
+  messages::PoseEstimate last_odometry_;  // at the last look
+  double last_time_s_ = 0.0;
+  VisualCounts counts_;
+  std::optional<VisualStep> last_;
+};
+
+}  // namespace rockyard::trial

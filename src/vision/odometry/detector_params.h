@@ -1,0 +1,52 @@
+// Parameters of the detector of features (Howard 2012 section 2).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "core/fields.h"
+
+namespace rockyard::vision {
+
+// What is changed in a region until it has as many features as it should.
+enum class Adapted {
+  kThreshold,  // the response from which on a corner counts
+  kWeight,     // the weight k of the trace in the response
+};
+
+// For what the smallest and largest number of features hold.
+enum class CountedIn { kRegion, kImage };
+
+struct FeatureDetectorParams {
+  std::int64_t regions_across = 4;
+  std::int64_t regions_down = 4;
+  std::int64_t min_features = 10;
+  std::int64_t max_features = 25;
+  CountedIn counted_in = CountedIn::kRegion;
+  Adapted adapted = Adapted::kThreshold;
+  double weight = 0.04;
+  double threshold = 1000.0;
+  double min_threshold = 50.0;
+  std::int64_t suppression_px = 3;
+  std::int64_t border_px = 8;
+
+  std::int64_t regions() const { return regions_across * regions_down; }
+  // Of one region.
+  std::int64_t min_of_region() const;
+  std::int64_t max_of_region() const;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+}  // namespace rockyard::vision
+
+template <>
+struct rockyard::core::EnumNames<rockyard::vision::Adapted> {
+  static constexpr std::array<std::string_view, 2> kNames{"threshold", "weight"};
+};
+
+template <>
+struct rockyard::core::EnumNames<rockyard::vision::CountedIn> {
+  static constexpr std::array<std::string_view, 2> kNames{"region", "image"};
+};

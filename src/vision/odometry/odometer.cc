@@ -1,0 +1,181 @@
+#include "vision/odometry/odometer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/check.h"
+#include "vision/odometry/consistent_set.h"
+#include "vision/odometry/estimate_motion.h"
+#include "vision/odometry/pair_projection.h"
+#include "vision/odometry/place_features.h"
+#include "vision/odometry/refine_match.h"
+
+namespace rockyard::vision {
+namespace {
+
+using math::Transform;
+
+// A keyframe's feature is where it is by definition: what is off is the place of its match. The
+// rest keeps the equations regular.
+constexpr double kFeature_px = 0.01;
+
+bool IsFew(std::int64_t count, const OdometerParams& params) {
+  return count < params.selection.min_consistent;
+}
+
+MotionResult Fail(NoMotion reason, MotionResult result) {
+  result.reason = reason;
+  return result;
+}
+
+}  // namespace
+
+VisualOdometer::VisualOdometer(const OdometerParams& params, const RectifiedPair& cameras,
+                               const Image<std::uint8_t>& left_free, core::TrialKey key,
+                               OdometryWatcher watcher)
+    : params_(params),
+      cameras_(cameras),
+      detector_(params.detector, cameras.size, left_free),
+      key_(key),
+      watcher_(std::move(watcher)) {}
+
+OdometryStep VisualOdometer::Add(AlignedImages images, const std::optional<Transform>& predicted) {
+  EXPECT(images.right.width() == images.left.width() &&
+         images.right.height() == images.left.height());
+  OdometryStep step;
+  step.number = next_++;
+  step.features = detector_.Detect(images.left);
+  Tell(OdometryStage::kDetected);
+  if (keyframe_) {
+    step.reference = keyframe_->number;
+    step.result = Compare(images, step.features, predicted, step.number, step.consistent);
+    step.keyframe = IsOver(step.result);
+  } else {
+    step.reference = step.number;
+    step.keyframe = true;
+  }
+  if (step.keyframe) MakeKeyframe(step.number, std::move(images), step.features);
+  Tell(OdometryStage::kRenewed);
+  return step;
+}
+
+MotionResult VisualOdometer::Compare(const AlignedImages& images, const Features& features,
+                                     const std::optional<Transform>& predicted, std::int64_t number,
+                                     PointsSeenTwice& consistent) const {
+  MotionResult result;
+  result.counts.features_first = static_cast<std::int64_t>(keyframe_->features.size());
+  result.counts.features_second = static_cast<std::int64_t>(features.size());
+  if (IsFew(result.counts.features_first, params_) ||
+      IsFew(result.counts.features_second, params_)) {
+    return Fail(NoMotion::kFewFeatures, result);
+  }
+  const PredictedFeatures expected = predicted ? Predict(*predicted) : PredictedFeatures{};
+  const FeatureMatches matches = MatchFeatures(keyframe_->images.left, keyframe_->features,
+                                               images.left, features, params_.matcher, expected);
+  Tell(OdometryStage::kMatched);
+  result.counts.matches = static_cast<std::int64_t>(matches.size());
+  if (IsFew(result.counts.matches, params_)) return Fail(NoMotion::kFewMatches, result);
+  const PointsSeenTwice points = PlaceAgain(images, features, matches, expected);
+  Tell(OdometryStage::kPlaced);
+  result.counts.points = static_cast<std::int64_t>(points.size());
+  if (IsFew(result.counts.points, params_)) return Fail(NoMotion::kFewPoints, result);
+
+  core::RandomStream stream(key_, core::Purpose::kRansac, static_cast<std::uint32_t>(number));
+  const std::optional<ConsistentSet> set =
+      FindConsistentSet(points, cameras_, params_.selection, stream);
+  Tell(OdometryStage::kSelected);
+  if (set) result.counts.consistent = static_cast<std::int64_t>(set->members.size());
+  const double share =
+      static_cast<double>(result.counts.consistent) / static_cast<double>(result.counts.points);
+  if (IsFew(result.counts.consistent, params_) || share < params_.selection.min_share) {
+    return Fail(NoMotion::kNoConsistentSet, result);
+  }
+  for (const std::size_t member : set->members) consistent.push_back(points[member]);
+
+  const EstimatedMotion estimated =
+      EstimateMotion(consistent, cameras_, params_.estimation, set->X_FS);
+  Tell(OdometryStage::kEstimated);
+  result.counts.iterations = estimated.iterations;
+  result.rms_px = estimated.rms_px;
+  result.motion = estimated.motion;
+  result.reason = estimated.reason;
+  return result;
+}
+
+// A small surface across the first view through the point: offsets in both images are M_F e and
+// M_S e of the same offset e on it, so that an offset of the second image is M_F M_S^-1 of it in
+// the first. What is predicted out of view is compared with nothing: it is put far away.
+PredictedFeatures VisualOdometer::Predict(const Transform& X_FS) const {
+  constexpr double kNowhere_px = -1e6;
+  const PairProjection project(cameras_);
+  const Transform X_SF = X_FS.inverse();
+  const Eigen::Vector3d across =
+      cameras_.left.H - cameras_.left.H.dot(cameras_.left.A) * cameras_.left.A;
+  Eigen::Matrix<double, 3, 2> surface;
+  surface.col(0) = across.normalized();
+  surface.col(1) = cameras_.left.A.cross(surface.col(0));
+  PredictedFeatures predicted;
+  for (const StereoMeasurement& place : keyframe_->places) {
+    PredictedFeature feature{{kNowhere_px, kNowhere_px}, Eigen::Matrix2d::Identity()};
+    Eigen::Matrix3d first;
+    Eigen::Matrix3d second;
+    const auto seen = project(X_SF * place.p_A, &second);
+    if (seen && project(place.p_A, &first)) {
+      const Eigen::Matrix2d M_F = first.topRows<2>() * surface;
+      const Eigen::Matrix2d M_S = second.topRows<2>() * X_SF.linear() * surface;
+      feature.pixel = seen->head<2>();
+      feature.by_offset = M_F * M_S.inverse();
+      if (!feature.by_offset.allFinite()) feature.by_offset.setIdentity();
+    }
+    predicted.push_back(feature);
+  }
+  return predicted;
+}
+
+PointsSeenTwice VisualOdometer::PlaceAgain(const AlignedImages& images, const Features& features,
+                                           const FeatureMatches& matches,
+                                           const PredictedFeatures& predicted) const {
+  const FeaturePlacer placer(cameras_, params_.placement, images.left, images.right);
+  const bool warp = params_.matcher.warp == MatchWarp::kPredicted && !predicted.empty();
+  PointsSeenTwice points;
+  for (const FeatureMatch& match : matches) {
+    const auto first = static_cast<std::size_t>(match.first);
+    const Feature& found = features[static_cast<std::size_t>(match.second)];
+    const WindowTemplate window(
+        keyframe_->images.left, keyframe_->places[first].left,
+        warp ? predicted[first].by_offset : Eigen::Matrix2d(Eigen::Matrix2d::Identity()));
+    const auto refined = window.Find(images.left, Pixel(found.column, found.row),
+                                     {.noise_px = params_.placement.noise_px});
+    if (!refined) continue;
+    const auto second = placer.Place(refined->pixel, refined->covariance_px2);
+    if (second) points.push_back({keyframe_->places[first], *second});
+  }
+  return points;
+}
+
+bool VisualOdometer::IsOver(const MotionResult& result) const {
+  if (!result.motion) return true;
+  const KeyframeParams& rule = params_.keyframe;
+  const Transform& X_FS = result.motion->X_FS;
+  const double share = static_cast<double>(result.counts.consistent) /
+                       static_cast<double>(result.counts.features_first);
+  return X_FS.translation().norm() >= rule.max_way_m ||
+         Eigen::AngleAxisd(X_FS.linear()).angle() >= rule.max_turn_rad || share < rule.min_share;
+}
+
+void VisualOdometer::MakeKeyframe(std::int64_t number, AlignedImages images,
+                                  const Features& features) {
+  Keyframe keyframe{number, std::move(images), {}, {}};
+  const FeaturePlacer placer(cameras_, params_.placement, keyframe.images.left,
+                             keyframe.images.right);
+  for (const Feature& feature : features) {
+    const auto place = placer.Place(Pixel(feature.column, feature.row),
+                                    kFeature_px * kFeature_px * Eigen::Matrix2d::Identity());
+    if (!place) continue;
+    keyframe.features.push_back(feature);
+    keyframe.places.push_back(*place);
+  }
+  keyframe_ = std::move(keyframe);
+}
+
+}  // namespace rockyard::vision

@@ -1,0 +1,96 @@
+// Visual odometry: how a pair of cameras moved, from the images that it took (Matthies 1989; Howard
+// 2012 section 2: detect, match, select, estimate).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "core/random.h"
+#include "math/pose.h"
+#include "vision/cameras/rectification.h"
+#include "vision/image.h"
+#include "vision/odometry/detect_features.h"
+#include "vision/odometry/feature.h"
+#include "vision/odometry/match_features.h"
+#include "vision/odometry/motion_estimate.h"
+#include "vision/odometry/odometer_params.h"
+#include "vision/odometry/stereo_measurement.h"
+
+namespace rockyard::vision {
+
+// Two images of one moment with aligned rows.
+struct AlignedImages {
+  GrayImage left;
+  GrayImage right;
+};
+
+// What one pair of images adds to a path.
+struct OdometryStep {
+  std::int64_t number = 0;     // of this pair, from 0
+  std::int64_t reference = 0;  // of the pair that it was compared with, the keyframe
+  MotionResult result;         // from the keyframe to this pair; of a path's first pair, nothing
+  bool keyframe = false;       // whether later pairs are compared with this one
+  Features features;           // of its left image
+  PointsSeenTwice consistent;  // keyframe first
+};
+
+enum class OdometryStage { kDetected, kMatched, kPlaced, kSelected, kEstimated, kRenewed };
+
+// Called as a stage of a step ends, for progress and time. It has no influence.
+using OdometryWatcher = std::function<void(OdometryStage)>;
+
+// One path of one pair of cameras.
+//
+// A pair is compared with the keyframe, which is renewed by OdometerParams::keyframe: a camera that
+// stands still does not drift, and one that moves a centimetre an image errs once a keyframe. A
+// pair without a motion becomes the keyframe as well: the path has a gap there, which others
+// (wheels) have to fill.
+class VisualOdometer {
+ public:
+  // `left_free`: pixels of the left image that show the world (1) and not the carrier (0); empty
+  // where all do. RANSAC draws from (key, kRansac) by the pair's number.
+  VisualOdometer(const OdometerParams& params, const RectifiedPair& cameras,
+                 const Image<std::uint8_t>& left_free, core::TrialKey key,
+                 OdometryWatcher watcher = {});
+
+  // Takes the next pair, of the cameras' size. `predicted`: where the outer frame of the cameras is
+  // expected, in that of the keyframe; it narrows the search (MatchSearch, MatchWarp), no more.
+  OdometryStep Add(AlignedImages images,
+                   const std::optional<math::Transform>& predicted = std::nullopt);
+
+  // Begins a new path with the next pair.
+  void Renew() { keyframe_.reset(); }
+
+ private:
+  // What later pairs are compared with: features that have a place.
+  struct Keyframe {
+    std::int64_t number = 0;
+    AlignedImages images;
+    Features features;
+    std::vector<StereoMeasurement> places;
+  };
+
+  MotionResult Compare(const AlignedImages& images, const Features& features,
+                       const std::optional<math::Transform>& predicted, std::int64_t number,
+                       PointsSeenTwice& consistent) const;
+  PredictedFeatures Predict(const math::Transform& X_FS) const;
+  PointsSeenTwice PlaceAgain(const AlignedImages& images, const Features& features,
+                             const FeatureMatches& matches,
+                             const PredictedFeatures& predicted) const;
+  bool IsOver(const MotionResult& result) const;
+  void MakeKeyframe(std::int64_t number, AlignedImages images, const Features& features);
+  void Tell(OdometryStage stage) const {
+    if (watcher_) watcher_(stage);
+  }
+
+  OdometerParams params_;
+  RectifiedPair cameras_;
+  FeatureDetector detector_;
+  core::TrialKey key_;
+  OdometryWatcher watcher_;
+  std::int64_t next_ = 0;
+  std::optional<Keyframe> keyframe_;
+};
+
+}  // namespace rockyard::vision

@@ -1,0 +1,191 @@
+#include "vision/odometry/odometer_params.h"
+
+namespace rockyard::vision {
+
+using core::Origin;
+
+void PlacementParams::Visit(core::FieldVisitor& v) {
+  v.Real("min_disparity_px", min_disparity_px,
+         {.doc = "smallest disparity that the right eye is searched for: farther features have no "
+                 "place",
+          .min = 0.0,
+          .max = 4096.0,
+          .origin = Origin::kAssumed,
+          .source = "a feature at one pixel has a range that is wrong by a tenth of it",
+          .study_low = 0.5,
+          .study_high = 4.0});
+  v.Real("max_disparity_px", max_disparity_px,
+         {.doc = "largest disparity", .min = 4.0, .max = 4096.0, .origin = Origin::kSetting});
+  v.Require("max_disparity_px", max_disparity_px >= min_disparity_px + 4.0,
+            "is less than 4 px above min_disparity_px", "search more disparities");
+  v.Real("noise_px", noise_px,
+         {.doc = "standard deviation of a feature's place, and of its disparity, beyond what the "
+                 "noise of pixels makes of it: interpolation, another view of a surface",
+          .min = 1e-3,
+          .max = 10.0,
+          .origin = Origin::kAssumed,
+          .source = "a twentieth of a pixel is what stereo of smooth images reaches",
+          .study_low = 0.02,
+          .study_high = 0.2});
+  v.Real("ambiguity", ambiguity,
+         {.doc = "share of another disparity's difference up to which the best one is believed",
+          .min = 0.0,
+          .max = 1.0,
+          .origin = Origin::kAssumed,
+          .source = "repeated texture; the consistent set follows anyway",
+          .study_low = 0.7,
+          .study_high = 1.0});
+}
+
+void SelectionParams::Visit(core::FieldVisitor& v) {
+  v.Choice("method", method,
+           {.doc = "how the largest consistent set is found: ransac, motions of three points; "
+                   "rigidity, distances between points that did not change",
+            .origin = Origin::kAssumed,
+            .source = "Howard 2012 sec. 2: RANSAC or other filtering techniques"});
+  v.Real("inlier_px", inlier_px,
+         {.doc = "ransac: how far from where a motion puts it either eye may see a point",
+          .min = 0.01,
+          .max = 100.0,
+          .origin = Origin::kAssumed,
+          .source = "some ten times the noise of a place, for motions of three points only",
+          .study_low = 0.7,
+          .study_high = 3.0});
+  v.Real("miss_probability", miss_probability,
+         {.doc = "ransac: chance that no draw was of members of the set alone, at which draws end",
+          .min = 1e-12,
+          .max = 0.5,
+          .origin = Origin::kAssumed,
+          .source = "less often than anything else fails",
+          .study_low = 1e-6,
+          .study_high = 1e-2});
+  v.Integer("max_draws", max_draws,
+            {.doc = "ransac: most draws; the chance holds for sets of a share of the points w with "
+                    "log(miss_probability) / log(1 - w^3) up to this (21 % for 1000 and 1e-4)",
+             .min = 1,
+             .max = 1000000,
+             .origin = Origin::kAssumed,
+             .source = "sets of fewer than 30 % are no motion anyway (min_share)",
+             .study_low = 100,
+             .study_high = 10000});
+  v.Real("rigidity_sigma", rigidity_sigma,
+         {.doc = "rigidity: standard deviations by which a distance may seem to have changed",
+          .min = 0.1,
+          .max = 100.0,
+          .origin = Origin::kAssumed,
+          .source = "one good pair of points in 370 is lost",
+          .study_low = 2.0,
+          .study_high = 5.0});
+  v.Integer("min_consistent", min_consistent,
+            {.doc = "fewer points that moved as one are no motion",
+             .min = 3,
+             .max = 100000,
+             .origin = Origin::kAssumed,
+             .source = "four times the three that define a motion, so that chance does not agree",
+             .study_low = 6,
+             .study_high = 30});
+  v.Real("min_share", min_share,
+         {.doc = "nor is a smaller share of the points that have a place at both moments",
+          .min = 0.0,
+          .max = 1.0,
+          .origin = Origin::kAssumed,
+          .source = "where most of what is seen moved otherwise, nobody knows which of them stood",
+          .study_low = 0.2,
+          .study_high = 0.6});
+}
+
+void EstimationParams::Visit(core::FieldVisitor& v) {
+  v.Choice("weights", weights,
+           {.doc = "weights of points that are off",
+            .origin = Origin::kAssumed,
+            .source = "the consistent set leaves mismatches of a pixel in"});
+  v.Real("robust_sigma", robust_sigma,
+         {.doc = "where they begin to matter less, in standard deviations of their residual",
+          .min = 0.1,
+          .max = 100.0,
+          .origin = Origin::kAssumed,
+          .source = "normal noise loses hardly any weight",
+          .study_low = 1.0,
+          .study_high = 3.0});
+  v.Integer("max_iterations", max_iterations,
+            {.doc = "most steps of least squares",
+             .min = 1,
+             .max = 1000,
+             .origin = Origin::kAssumed,
+             .source = "some five are needed",
+             .study_low = 10,
+             .study_high = 100});
+  v.Real("tolerance", tolerance,
+         {.doc = "it ends where a step is smaller than so many standard deviations",
+          .min = 1e-9,
+          .max = 1.0,
+          .origin = Origin::kAssumed,
+          .source = "a hundredth does not show",
+          .study_low = 1e-4,
+          .study_high = 0.1});
+  v.Real("max_fit", max_fit,
+         {.doc = "chi-squared over degrees of freedom up to which there is a motion",
+          .min = 0.0,
+          .max = 1e6,
+          .origin = Origin::kAssumed,
+          .source = "noise of more than twice what places state is no noise",
+          .study_low = 3.0,
+          .study_high = 20.0});
+  v.Real("max_position_sd_m", max_position_sd_m,
+         {.doc = "standard deviation of the way, in its worst direction, up to which there is a "
+                 "motion",
+          .min = 0.0,
+          .max = 1e6,
+          .origin = Origin::kAssumed,
+          .source = "wheels are as good over a step of 75 cm",
+          .study_low = 0.01,
+          .study_high = 0.3});
+  v.Angle("max_rotation_sd_deg", max_rotation_sd_rad,
+          {.doc = "standard deviation of the turn, likewise",
+           .min = 0.0,
+           .max = 360.0,
+           .origin = Origin::kAssumed,
+           .source = "a gyro is as good over a turn of 18 deg",
+           .study_low = 0.3,
+           .study_high = 5.0});
+}
+
+void KeyframeParams::Visit(core::FieldVisitor& v) {
+  v.Real("max_way_m", max_way_m,
+         {.doc = "a pair that is so far from the keyframe takes its place; 0: each one does",
+          .min = 0.0,
+          .max = 1e6,
+          .origin = Origin::kAssumed,
+          .source = "views of near ground change by a third over 50 cm",
+          .study_low = 0.1,
+          .study_high = 1.0});
+  v.Angle("max_turn_deg", max_turn_rad,
+          {.doc = "as does one that has turned so far",
+           .min = 0.0,
+           .max = 180.0,
+           .origin = Origin::kAssumed,
+           .source = "a fifth of a view of 45 deg is lost",
+           .study_low = 5.0,
+           .study_high = 20.0});
+  v.Real("min_share", min_share,
+         {.doc = "and one in which a smaller share of the keyframe's points moved as one",
+          .min = 0.0,
+          .max = 1.0,
+          .origin = Origin::kAssumed,
+          .source = "before there are too few",
+          .study_low = 0.2,
+          .study_high = 0.7});
+}
+
+void OdometerParams::Visit(core::FieldVisitor& v) {
+  v.Group("detector", detector, "corners of an image");
+  v.Group("matcher", matcher, "which corners of two images are the same");
+  v.Group("placement", placement, "where they lie, from the right eye");
+  v.Group("selection", selection, "which of them moved as one rigid body");
+  v.Group("estimation", estimation, "the motion of these, by least squares");
+  v.Group("keyframe", keyframe,
+          "when a pair of images takes the place of the one that later ones are compared with; one "
+          "without a motion always does");
+}
+
+}  // namespace rockyard::vision

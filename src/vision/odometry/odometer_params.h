@@ -1,0 +1,92 @@
+// Parameters of visual odometry, stage by stage (Howard 2012 section 2; Matthies 1989).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "core/fields.h"
+#include "math/angles.h"
+#include "vision/odometry/detector_params.h"
+#include "vision/odometry/matcher_params.h"
+
+namespace rockyard::vision {
+
+// Where the right eye sees a feature of the left one.
+struct PlacementParams {
+  double min_disparity_px = 1.0;
+  double max_disparity_px = 96.0;
+  double noise_px = 0.05;
+  double ambiguity = 0.9;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+enum class SelectionMethod {
+  kRansac,    // motions of three points, judged by where they put the others
+  kRigidity,  // distances between points that did not change
+};
+
+// The largest set of points that moved as one.
+struct SelectionParams {
+  SelectionMethod method = SelectionMethod::kRansac;
+  double inlier_px = 1.5;
+  double miss_probability = 1e-4;
+  std::int64_t max_draws = 1000;
+  double rigidity_sigma = 3.0;
+  std::int64_t min_consistent = 12;
+  double min_share = 0.3;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+enum class RobustWeights {
+  kNone,
+  kHuber,   // 1 up to `robust_sigma`, then as its inverse
+  kCauchy,  // 1 / (1 + (r / robust_sigma)^2)
+};
+
+// Least squares, and when its end is no motion.
+struct EstimationParams {
+  RobustWeights weights = RobustWeights::kHuber;
+  double robust_sigma = 2.0;
+  std::int64_t max_iterations = 30;
+  double tolerance = 0.01;
+  double max_fit = 5.0;
+  double max_position_sd_m = 0.1;
+  double max_rotation_sd_rad = math::DegToRad(2.0);
+
+  void Visit(core::FieldVisitor& v);
+};
+
+// When a pair takes the keyframe's place.
+struct KeyframeParams {
+  double max_way_m = 0.5;
+  double max_turn_rad = math::DegToRad(10.0);
+  double min_share = 0.4;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+struct OdometerParams {
+  FeatureDetectorParams detector;
+  FeatureMatcherParams matcher;
+  PlacementParams placement;
+  SelectionParams selection;
+  EstimationParams estimation;
+  KeyframeParams keyframe;
+
+  void Visit(core::FieldVisitor& v);
+};
+
+}  // namespace rockyard::vision
+
+template <>
+struct rockyard::core::EnumNames<rockyard::vision::SelectionMethod> {
+  static constexpr std::array<std::string_view, 2> kNames{"ransac", "rigidity"};
+};
+
+template <>
+struct rockyard::core::EnumNames<rockyard::vision::RobustWeights> {
+  static constexpr std::array<std::string_view, 3> kNames{"none", "huber", "cauchy"};
+};

@@ -1,0 +1,85 @@
+#include "vision/odometry/place_features.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <vector>
+
+#include "vision/cameras/triangulation.h"
+
+namespace rockyard::vision {
+namespace {
+
+constexpr int kRowSide = 15;
+constexpr int kRowReach = kRowSide / 2;
+
+int DifferenceAt(const GrayImage& left, const GrayImage& right, int column, int row,
+                 int disparity) {
+  int sum = 0;
+  for (int y = row - kRowReach; y <= row + kRowReach; ++y) {
+    const std::uint8_t* const l = &left.At(column - kRowReach, y);
+    const std::uint8_t* const r = &right.At(column - disparity - kRowReach, y);
+    int of_row = 0;
+    for (int x = 0; x < kRowSide; ++x) of_row += std::abs(static_cast<int>(l[x]) - r[x]);
+    sum += of_row;
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::optional<int> FeaturePlacer::WholeDisparity(int column, int row) const {
+  const int first = std::max(static_cast<int>(std::floor(params_.min_disparity_px)),
+                             column + kRowReach - (right_.width() - 1));
+  const int last =
+      std::min(static_cast<int>(std::ceil(params_.max_disparity_px)), column - kRowReach);
+  if (last - first < 2) return std::nullopt;
+  std::vector<int> differences;
+  for (int d = first; d <= last; ++d) {
+    differences.push_back(DifferenceAt(left_, right_, column, row, d));
+  }
+  const auto best = std::min_element(differences.begin(), differences.end());
+  const auto at = static_cast<int>(best - differences.begin());
+  if (at == 0 || at == last - first) return std::nullopt;
+  for (int other = 0; other <= last - first; ++other) {
+    if (std::abs(other - at) <= 1) continue;
+    if (params_.ambiguity * differences[static_cast<std::size_t>(other)] < *best) {
+      return std::nullopt;
+    }
+  }
+  return first + at;
+}
+
+std::optional<StereoMeasurement> FeaturePlacer::Place(const Pixel& left_pixel,
+                                                      const Eigen::Matrix2d& covariance_px2) const {
+  const auto column = static_cast<int>(std::lround(left_pixel.x()));
+  const auto row = static_cast<int>(std::lround(left_pixel.y()));
+  if (column < kRowReach || column >= left_.width() - kRowReach || row < kRowReach ||
+      row >= left_.height() - kRowReach) {
+    return std::nullopt;
+  }
+  const std::optional<int> whole = WholeDisparity(column, row);
+  if (!whole) return std::nullopt;
+  const WindowTemplate window(left_, left_pixel, Eigen::Matrix2d::Identity());
+  const std::optional<RefinedPlace> right =
+      window.Find(right_, Pixel(left_pixel.x() - *whole, left_pixel.y()),
+                  {.along_row = true, .noise_px = params_.noise_px});
+  if (!right) return std::nullopt;
+  StereoMeasurement measured;
+  measured.left = left_pixel;
+  measured.disparity_px = left_pixel.x() - right->pixel.x();
+  measured.covariance_px2.setZero();
+  measured.covariance_px2.topLeftCorner<2, 2>() = covariance_px2;
+  // The right eye's window is compared with the left one's about the very place, so that an error
+  // of the place moves both and leaves the disparity.
+  measured.covariance_px2(2, 2) = right->covariance_px2(0, 0);
+  const auto point = Triangulate(cameras_.left, cameras_.right, left_pixel, measured.disparity_px);
+  if (!point) return std::nullopt;
+  measured.p_A = point->p_A;
+  measured.covariance_m2 = point->Covariance(measured.covariance_px2);
+  return measured;
+}
+
+}  // namespace rockyard::vision

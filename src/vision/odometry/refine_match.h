@@ -1,0 +1,51 @@
+// Where a window of one image lies in another one, finer than a pixel.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "vision/cameras/camera_types.h"
+#include "vision/image.h"
+
+namespace rockyard::vision {
+
+// Where a window is looked for.
+struct RefineLimits {
+  bool along_row = false;      // columns only: rows are epipolar lines
+  double max_shift_px = 2.0;   // from where the search begins
+  double max_residual = 20.0;  // root mean square of what is left, grey levels
+  double noise_px = 0.05;      // of a place beyond that of the pixels' noise, standard deviation
+};
+
+struct RefinedPlace {
+  Pixel pixel = Pixel::Zero();                               // in the second image
+  Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  // of it; along_row: of columns only
+};
+
+// A window of 15 x 15 pixels about a place of the first image, as it looks in the second one.
+class WindowTemplate {
+ public:
+  // The pixel at the offset o from the middle is interpolated at `middle` + by_offset o.
+  WindowTemplate(const GrayImage& image, const Pixel& middle, const Eigen::Matrix2d& by_offset);
+
+  // Finds the shift s of the least sum of (second(start + s + o) - first(o))^2 over the window,
+  // each less its mean (Lucas and Kanade 1981; inverse compositional, Baker and Matthews 2004):
+  //   s <- s - N^-1 sum g r,   N = sum g g',   g the template's gradient, r the residual
+  // until |ds| < 0.01 px, ten times at most. Covariance: sigma^2 N^-1 + noise_px^2 I, with sigma^2
+  // = sum r^2 / (n - 3). Nothing where it does not end within the limits, where the window has no
+  // texture or reaches out of the image.
+  std::optional<RefinedPlace> Find(const GrayImage& second, const Pixel& start,
+                                   const RefineLimits& limits) const;
+
+ private:
+  static constexpr int kSide = 15;
+  static constexpr int kReach = kSide / 2;
+  static constexpr int kPixels = kSide * kSide;
+
+  float values_[kPixels];  // less their mean
+  float across_[kPixels];  // gradients by column and by row
+  float down_[kPixels];
+  Eigen::Matrix2d normal_ = Eigen::Matrix2d::Zero();
+};
+
+}  // namespace rockyard::vision

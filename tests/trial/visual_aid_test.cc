@@ -1,0 +1,262 @@
+// Visual odometry of a drive: when it looks, what the estimator is told and when, what it costs.
+#include "trial/visual_aid.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "trial/compute_profile.h"
+#include "trial/pathfinder_trials.h"
+#include "trial/stereo_tables.h"
+
+namespace rockyard::trial {
+namespace {
+
+using messages::CaptureNumber;
+using messages::Index;
+using messages::PoseCoordinate;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const Overrides kExact{"sensors.visual_odometry.enabled=true",
+                       "localization.estimator=visual_odometry",
+                       "rover.fidelity=quasi_static",
+                       "terrain.arena.kind=open",
+                       "sensors.visual_odometry.error_model.failure.intercept=-1000",
+                       "sensors.visual_odometry.error_model.along={\"still_m\":0,\"per_m\":0,"
+                       "\"per_rad_m\":0}",
+                       "sensors.visual_odometry.error_model.across={\"still_m\":0,\"per_m\":0,"
+                       "\"per_rad_m\":0}",
+                       "sensors.visual_odometry.error_model.up={\"still_m\":0,\"per_m\":0,"
+                       "\"per_rad_m\":0}",
+                       "sensors.visual_odometry.error_model.tilt={\"still_rad\":0,\"per_m_rad\":0,"
+                       "\"per_rad\":0}",
+                       "sensors.visual_odometry.error_model.heading={\"still_rad\":0,"
+                       "\"per_m_rad\":0,\"per_rad\":0}"};
+
+DriveParams Seeing(const Overrides& more = {}) {
+  Overrides all = kExact;
+  all.insert(all.end(), more.begin(), more.end());
+  return Pathfinder("nominal", all);
+}
+
+// Tells what it is told, and believes whatever a test sets.
+class Listener final : public localization::Estimator {
+ public:
+  void Propagate(const messages::MotionMeasurement& /*motion*/) override {}
+  void Feel(const messages::VehicleState& /*felt*/, double /*duration_s*/) override {}
+  void Place(const messages::PoseUpdate& /*update*/) override {}
+  void Capture(CaptureNumber capture) override { captured.push_back(capture); }
+  void Forget(CaptureNumber capture) override { forgotten.push_back(capture); }
+  localization::AidUse Update(const messages::PoseFix& /*fix*/) override {
+    return localization::AidUse::kNoInterest;
+  }
+  localization::AidUse Update(const messages::RelativeMotion& motion) override {
+    motions.push_back(motion);
+    return localization::AidUse::kUsed;
+  }
+  const messages::LocalizationEstimate& estimate() const override { return believed; }
+
+  messages::LocalizationEstimate believed;
+  std::vector<CaptureNumber> captured;
+  std::vector<CaptureNumber> forgotten;
+  std::vector<messages::RelativeMotion> motions;
+};
+
+class VisualAidTest : public testing::Test {
+ protected:
+  explicit VisualAidTest(const Overrides& more = {}) : drive_(Seeing(more)) {}
+
+  static math::Transform At(double x_m, double heading_rad) {
+    return math::MakePose({x_m, 0.0, 0.0}, heading_rad, 0.0, 0.0);
+  }
+  void Believe(double way_m, double heading_rad) {
+    listener_.believed.odometry.distance_m = way_m;
+    listener_.believed.odometry.heading_rad = heading_rad;
+  }
+
+  DriveParams drive_;
+  terrain::Terrain terrain_{terrain::Ground(), {}, {}};
+  CaptureCounter captures_;
+  VisualAid aid_{drive_, {1, 0}, terrain_, captures_};
+  Listener listener_;
+};
+
+TEST_F(VisualAidTest, IsDueAtTheStartAndThenByWayOrTurn) {
+  EXPECT_TRUE(aid_.IsDue(listener_.believed, 0.0));
+  EXPECT_FALSE(aid_.Look(At(0.0, 0.0), 0.0, 0.0, listener_));  // nothing to compare it with
+  EXPECT_FALSE(aid_.IsDue(listener_.believed, 1e6));
+  Believe(0.74, math::DegToRad(17.9));
+  EXPECT_FALSE(aid_.IsDue(listener_.believed, 1e6));
+  Believe(0.76, 0.0);
+  EXPECT_TRUE(aid_.IsDue(listener_.believed, 0.0));
+  Believe(0.0, math::DegToRad(-18.1));
+  EXPECT_TRUE(aid_.IsDue(listener_.believed, 0.0));
+}
+
+TEST_F(VisualAidTest, TellsTheMotionWhenItIsReady) {
+  aid_.Look(At(0.0, 0.3), 0.0, 0.0, listener_);
+  Believe(1.0, 0.0);
+  EXPECT_TRUE(aid_.Look(At(0.8, 0.4), 10.0, 170.0, listener_));
+  Believe(5.0, 0.0);
+  EXPECT_FALSE(aid_.IsDue(listener_.believed, 11.0));  // the computer is busy
+  EXPECT_FALSE(aid_.Tick(169.0, listener_));
+  EXPECT_TRUE(aid_.Tick(170.0, listener_));
+  EXPECT_FALSE(aid_.Tick(171.0, listener_));
+  ASSERT_EQ(listener_.motions.size(), 1U);
+  const messages::RelativeMotion& motion = listener_.motions[0];
+  EXPECT_EQ(motion.from, 0);
+  EXPECT_EQ(motion.to, 1);
+  EXPECT_NEAR(motion.motion_F[Index(PoseCoordinate::kX)], 0.8 * std::cos(0.3), 1e-12);
+  EXPECT_NEAR(motion.motion_F[Index(PoseCoordinate::kY)], -0.8 * std::sin(0.3), 1e-12);
+  EXPECT_NEAR(motion.motion_F[Index(PoseCoordinate::kHeading)], 0.1, 1e-12);
+  // The way since then counts from the last images.
+  EXPECT_TRUE(aid_.IsDue(listener_.believed, 171.0));
+  EXPECT_EQ(aid_.counts().steps, 1);
+  EXPECT_EQ(aid_.counts().used, 1);
+  EXPECT_EQ(aid_.counts().failures, 0);
+}
+
+// Steps of 0.2 m against a keyframe that is given up after 0.5 m.
+TEST_F(VisualAidTest, KeepsTheMomentOfTheKeyframeAndForgetsTheOthers) {
+  for (int i = 0; i <= 4; ++i) {
+    aid_.Look(At(0.2 * i, 0.0), i, i, listener_);
+    aid_.Tick(i, listener_);
+  }
+  EXPECT_THAT(listener_.captured, ElementsAre(0, 1, 2, 3, 4));
+  ASSERT_EQ(listener_.motions.size(), 4U);
+  for (const int i : {0, 1, 2}) EXPECT_EQ(listener_.motions[static_cast<std::size_t>(i)].from, 0);
+  EXPECT_NEAR(listener_.motions[2].motion_F[Index(PoseCoordinate::kX)], 0.6, 1e-12);
+  EXPECT_EQ(listener_.motions[3].from, 3);
+  EXPECT_NEAR(listener_.motions[3].motion_F[Index(PoseCoordinate::kX)], 0.2, 1e-12);
+  EXPECT_THAT(listener_.forgotten, ElementsAre(1, 2, 0, 4));
+  EXPECT_EQ(aid_.counts().keyframes, 2);
+}
+
+TEST_F(VisualAidTest, BeginsAnewWhereTheRoverWasMoved) {
+  aid_.Look(At(0.0, 0.0), 0.0, 0.0, listener_);
+  aid_.Look(At(0.7, 0.0), 1.0, 5.0, listener_);
+  aid_.OnPlaced();
+  EXPECT_FALSE(aid_.Tick(6.0, listener_));
+  EXPECT_TRUE(aid_.IsDue(listener_.believed, 6.0));
+  EXPECT_FALSE(aid_.Look(At(3.0, 1.0), 6.0, 6.0, listener_));
+  EXPECT_TRUE(aid_.Look(At(3.5, 1.0), 7.0, 7.0, listener_));
+  EXPECT_TRUE(aid_.Tick(7.0, listener_));
+  ASSERT_EQ(listener_.motions.size(), 1U);
+  EXPECT_EQ(listener_.motions[0].from, 2);
+}
+
+class BlindAidTest : public VisualAidTest {
+ protected:
+  BlindAidTest() : VisualAidTest({"sensors.visual_odometry.error_model.failure.intercept=1000"}) {}
+};
+
+TEST_F(BlindAidTest, TellsNothingWhereNoMotionIsFound) {
+  for (int i = 0; i <= 3; ++i) {
+    aid_.Look(At(0.2 * i, 0.0), i, i, listener_);
+    EXPECT_FALSE(aid_.Tick(i, listener_));
+  }
+  EXPECT_TRUE(listener_.motions.empty());
+  EXPECT_EQ(aid_.counts().steps, 3);
+  EXPECT_EQ(aid_.counts().failures, 3);
+  EXPECT_EQ(aid_.counts().keyframes, 4);  // the next pair starts from the one that failed
+  EXPECT_THAT(listener_.forgotten, ElementsAre(0, 1, 2));
+}
+
+class TimedAidTest : public VisualAidTest {
+ protected:
+  TimedAidTest() : VisualAidTest({"sensors.visual_odometry.schedule.every_s=0.2"}) {}
+};
+
+TEST_F(TimedAidTest, IsDueByTime) {
+  aid_.Look(At(0.0, 0.0), 3.0, 3.0, listener_);
+  EXPECT_FALSE(aid_.IsDue(listener_.believed, 3.19));
+  EXPECT_TRUE(aid_.IsDue(listener_.believed, 3.21));
+}
+
+TEST(VisualTimeOfTest, IsAsPublished) {
+  const auto on = [](Computer computer) { return VisualTimeOf({.computer = computer}); };
+  EXPECT_EQ(on(Computer::kNone).computing_s, 0.0);
+  EXPECT_EQ(on(Computer::kNone).imaging_s, 0.0);
+  EXPECT_EQ(on(Computer::kMer).computing_s, 160.0);
+  EXPECT_NEAR(on(Computer::kMsl).computing_s, 8.8, 1e-12);
+  EXPECT_NEAR(on(Computer::kFpga).computing_s, 0.1, 1e-12);
+  EXPECT_EQ(on(Computer::kRad6000).computing_s, 160.0);
+  // 0.37 s of stereo against 6.42 s (Goldberg 2002 table 3).
+  EXPECT_NEAR(on(Computer::kPentium3).computing_s, 160.0 * 0.37 / 6.42, 0.15);
+  EXPECT_NEAR(on(Computer::kMer).imaging_s, 8.974, 1e-12);
+  ComputeParams slower{.computer = Computer::kMer};
+  slower.visual_time_factor = 0.75;
+  EXPECT_EQ(VisualTimeOf(slower).computing_s, 120.0);
+}
+
+// Wheels and gyro err, and a camera that sees every motion does not: what remains is what they did
+// since the last images.
+TEST(VisualDrive, EndsWhereItBelievesToBe) {
+  for (std::uint32_t trial = 0; trial < 5; ++trial) {
+    const DriveResult seeing = RunTrial(Seeing(), {9, trial});
+    EXPECT_LT(seeing.record.position_error_m, 0.15);
+    EXPECT_GT(seeing.record.visual_steps, seeing.record.true_distance_m / 1.1);
+    EXPECT_EQ(seeing.record.visual_failures, 0.0);
+    EXPECT_EQ(seeing.record.visual_gated_out, 0.0);
+  }
+  // The control: nothing is found, so that wheels and gyro are all there is.
+  double blind_m = 0.0;
+  for (std::uint32_t trial = 0; trial < 5; ++trial) {
+    const DriveResult blind = RunTrial(
+        Seeing({"sensors.visual_odometry.error_model.failure.intercept=1000"}), {9, trial});
+    EXPECT_EQ(blind.record.visual_failures, blind.record.visual_steps);
+    blind_m += blind.record.position_error_m / 5.0;
+  }
+  EXPECT_GT(blind_m, 0.4);
+}
+
+// On MER's computer every step takes 160 s at rest, and each pair of images their acquisition.
+TEST(VisualDrive, TakesTheTimeOfItsComputer) {
+  const DriveResult mer = RunTrial(
+      Seeing({"clock.compute.computer=mer_rad6000", "clock.compute.acquisition_s=10"}), {9, 0});
+  ASSERT_GT(mer.record.visual_steps, 3.0);
+  EXPECT_NEAR(mer.record.compute_time_s, 160.0 * mer.record.visual_steps, 1e-6);
+  EXPECT_NEAR(mer.record.imaging_time_s, 10.0 * (mer.record.visual_steps + 1.0), 1e-6);
+}
+
+// Beside the drive it costs its energy and no time, and what is late is used all the same.
+TEST(VisualDrive, GoesOnWhileTheComputerWorks) {
+  const DriveResult beside =
+      RunTrial(Seeing({"clock.compute.computer=msl_rad750", "clock.compute.acquisition_s=0.5",
+                       "clock.overlap.imaging=true", "clock.overlap.computing=true"}),
+               {9, 0});
+  EXPECT_NEAR(beside.record.compute_time_s, 8.8 * beside.record.visual_steps, 1e-6);
+  EXPECT_LT(beside.record.position_error_m, 0.3);
+  const DriveResult rests = RunTrial(
+      Seeing({"clock.compute.computer=msl_rad750", "clock.compute.acquisition_s=0.5"}), {9, 0});
+  EXPECT_NEAR(rests.record.sim_time_s,
+              rests.record.scan_time_s + rests.record.move_time_s + rests.record.compute_time_s +
+                  rests.record.imaging_time_s,
+              1e-6 * rests.record.sim_time_s);
+  EXPECT_GT(beside.record.scan_time_s + beside.record.move_time_s + beside.record.compute_time_s +
+                beside.record.imaging_time_s,
+            beside.record.sim_time_s + 8.0);
+}
+
+TEST(VisualDrive, IsRefusedWhereNobodyListensOrNothingIsEverDue) {
+  const auto refused = [](const Overrides& overrides, const std::string& path) {
+    try {
+      Seeing(overrides);
+      ADD_FAILURE() << path << " was accepted";
+    } catch (const core::UserError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(path));
+    }
+  };
+  refused({"localization.estimator=dead_reckoning"}, "localization.estimator");
+  refused({"localization.estimator=visual_odometry", "sensors.aids.sun.enabled=true"},
+          "localization.estimator");
+  refused({"sensors.visual_odometry.schedule.every_m=0",
+           "sensors.visual_odometry.schedule.every_deg=0"},
+          "sensors.visual_odometry.schedule");
+}
+
+}  // namespace
+}  // namespace rockyard::trial
