@@ -20,8 +20,8 @@ constexpr std::size_t kKittiNumbers = 12;
 constexpr std::size_t kTumNumbers = 8;
 constexpr double kNoRotation = 1e-3;
 
-[[noreturn]] void FailAtLine(const std::filesystem::path& path, int line,
-                             const std::string& reason, const std::string& suggestion) {
+[[noreturn]] void FailAtLine(const std::filesystem::path& path, int line, const std::string& reason,
+                             const std::string& suggestion) {
   throw core::UserError(fmt::format("{}: line {}", path.string(), line), reason, suggestion);
 }
 

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <string_view>
 
 #include "campaign/odometry/pose_text.h"
 #include "campaign/odometry/sequence_way.h"
+#include "campaign/odometry/stop_wish.h"
 #include "campaign/stereo/render_stage.h"
 #include "core/error.h"
 #include "core/json_text.h"
@@ -24,8 +24,9 @@ namespace {
 // Masks are images that people can look at.
 vision::GrayImage MaskPicture(const vision::Image<std::uint8_t>& free) {
   vision::GrayImage picture(free.width(), free.height());
-  std::transform(free.values().begin(), free.values().end(), picture.values().begin(),
-                 [](std::uint8_t value) { return value == 0 ? std::uint8_t{0} : std::uint8_t{255}; });
+  std::transform(
+      free.values().begin(), free.values().end(), picture.values().begin(),
+      [](std::uint8_t value) { return value == 0 ? std::uint8_t{0} : std::uint8_t{255}; });
   return picture;
 }
 
@@ -53,10 +54,30 @@ void CheckArena(const std::vector<math::Pose2>& way, const terrain::ArenaParams&
                         std::abs(way[i].y_m) <= 0.5 * arena.width_m;
     if (inside) continue;
     throw core::UserError(
-        "--pairs", fmt::format("pair {} is taken at x {:.2f} m, y {:.2f} m, outside of the arena",
-                               i, way[i].x_m, way[i].y_m),
+        "--pairs",
+        fmt::format("pair {} is taken at x {:.2f} m, y {:.2f} m, outside of the arena", i,
+                    way[i].x_m, way[i].y_m),
         "take fewer or shorter steps, or make the arena larger (--set terrain.arena.length_m=...)");
   }
+}
+
+// The first `count` places of the way in the frame of the first, each step made longer.
+std::vector<math::Transform> CommandedPoses(const std::vector<math::Pose2>& way, std::size_t count,
+                                            double slip) {
+  const auto level = [](const math::Pose2& pose) {
+    return math::MakePose({pose.x_m, pose.y_m, 0.0}, pose.heading_rad, 0.0, 0.0);
+  };
+  std::vector<math::Transform> poses;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i == 0) {
+      poses.push_back(math::Transform::Identity());
+      continue;
+    }
+    math::Transform step = level(way[i - 1]).inverse() * level(way[i]);
+    step.translation() /= 1.0 - slip;
+    poses.push_back(poses.back() * step);
+  }
+  return poses;
 }
 
 class SequenceFolder {
@@ -68,8 +89,7 @@ class SequenceFolder {
     top_.Write("cameras", "cameras.json",
                core::DumpJson(vision::CameraPairJson({rig.left, rig.right})) + "\n");
     top_.Write("left_free", "left_free.png", image_files::EncodePng(MaskPicture(rig.left_free)));
-    top_.Write("right_free", "right_free.png",
-               image_files::EncodePng(MaskPicture(rig.right_free)));
+    top_.Write("right_free", "right_free.png", image_files::EncodePng(MaskPicture(rig.right_free)));
   }
 
   void WritePair(std::int64_t number, const sensing::StereoImages& images) {
@@ -78,12 +98,14 @@ class SequenceFolder {
     right_.Write("right", name, image_files::EncodePng(images.right));
   }
 
-  void WriteTruth(const std::vector<math::Transform>& poses, double period_s) {
+  void WriteTruth(const std::vector<math::Transform>& poses,
+                  const std::vector<math::Transform>& commanded, double period_s) {
     std::vector<double> times_s;
     for (std::size_t i = 0; i < poses.size(); ++i) {
       times_s.push_back(period_s * static_cast<double>(i));
     }
     top_.Write("poses", "poses.txt", KittiPoses(poses));
+    top_.Write("commanded", "commanded.txt", KittiPoses(commanded));
     top_.Write("times", "times.txt", TimesText(times_s));
   }
 
@@ -110,9 +132,10 @@ SequenceResult RenderSequence(const SequenceRequest& request, const SequenceProg
   result.size = rig.left.size;
   SequenceFolder folder(request.scene.out);
   folder.WriteRig(rig);
+  const StopWish wish(stop);
   std::vector<math::Transform> poses;
   for (const math::Pose2& place : way) {
-    if (stop.IsWanted()) {
+    if (wish.IsThere()) {
       result.outcome = Outcome::kInterrupted;
       break;
     }
@@ -126,7 +149,7 @@ SequenceResult RenderSequence(const SequenceRequest& request, const SequenceProg
     ++result.pairs;
     if (progress) progress(result.pairs, result.planned);
   }
-  folder.WriteTruth(poses, request.period_s);
+  folder.WriteTruth(poses, CommandedPoses(way, poses.size(), request.slip), request.period_s);
   result.files = folder.files();
   return result;
 }

@@ -53,9 +53,9 @@ std::vector<Pose2> CornerWay(const Pose2& start, std::span<const messages::Goal>
     const double turn = math::WrapAngle(heading_rad - from.heading_rad);
     const std::int64_t turns = PartsOf(std::abs(turn), turn_rad);
     for (std::int64_t i = 1; i <= turns; ++i) {
-      way.push_back({from.x_m, from.y_m,
-                     from.heading_rad + turn * static_cast<double>(i) /
-                                            static_cast<double>(turns)});
+      way.push_back(
+          {from.x_m, from.y_m,
+           from.heading_rad + turn * static_cast<double>(i) / static_cast<double>(turns)});
     }
     const std::int64_t steps = PartsOf(distance_m, step_m);
     for (std::int64_t i = 1; i <= steps; ++i) {

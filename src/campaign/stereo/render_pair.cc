@@ -75,8 +75,7 @@ RenderResult RenderPair(const RenderRequest& request) {
   const sensing::StereoImager& imager = stage.imager();
   const vision::StereoRig& rig = imager.rig(request.direction);
   const sensing::StereoImages images = imager.Expose(stage.terrain(), X_WR, 0, request.direction);
-  const Image<float> disparities =
-      imager.TrueDisparities(stage.terrain(), X_WR, request.direction);
+  const Image<float> disparities = imager.TrueDisparities(stage.terrain(), X_WR, request.direction);
   const Seen seen = Summary(disparities);
   const auto pair = vision::AlignedPair(rig.left, rig.right);
   result.size = rig.left.size;

@@ -114,8 +114,8 @@ std::optional<ErrorSummary> SummaryOf(std::vector<double> values) {
   summary.rms =
       std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) / count);
   summary.mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
-  summary.median = values.size() % 2 == 1 ? values[middle]
-                                          : 0.5 * (values[middle - 1] + values[middle]);
+  summary.median =
+      values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
   summary.largest = values.back();
   return summary;
 }

@@ -4,6 +4,7 @@
 // paths may have different frames, but their body is the same.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -16,8 +17,8 @@ namespace rockyard::vision {
 using Trajectory = std::vector<math::Transform>;
 
 // The lengths of the KITTI odometry benchmark (Geiger, Lenz and Urtasun 2012, section 3), m.
-inline constexpr double kKittiLengths_m[] = {100.0, 200.0, 300.0, 400.0,
-                                             500.0, 600.0, 700.0, 800.0};
+inline constexpr std::array<double, 8> kKittiLengths_m{100.0, 200.0, 300.0, 400.0,
+                                                       500.0, 600.0, 700.0, 800.0};
 // Every how many poses a segment begins there.
 inline constexpr std::int64_t kKittiStride = 10;
 
