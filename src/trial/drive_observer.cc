@@ -1,5 +1,6 @@
 #include "trial/drive_observer.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "math/angles.h"

@@ -51,11 +51,13 @@ OdometryStep VisualOdometer::Add(AlignedImages images, const std::optional<Trans
     Comparison found = Compare(images, step.features, predicted, step.number);
     step.result = found.result;
     step.consistent = std::move(found.consistent);
+    failures_ = step.result.motion ? 0 : failures_ + 1;
     step.keyframe = IsOver(step.result);
   } else {
     step.reference = step.number;
     step.keyframe = true;
   }
+  if (step.keyframe) failures_ = 0;
   if (step.keyframe) MakeKeyframe(step.number, std::move(images), step.features);
   Tell(OdometryStage::kRenewed);
   return step;
@@ -183,8 +185,8 @@ PointsSeenTwice VisualOdometer::PlaceAgain(const AlignedImages& images, const Fe
 }
 
 bool VisualOdometer::IsOver(const MotionResult& result) const {
-  if (!result.motion) return true;
   const KeyframeParams& rule = params_.keyframe;
+  if (!result.motion) return failures_ >= rule.failures;
   const Transform& X_FS = result.motion->X_FS;
   const double share = static_cast<double>(result.counts.consistent) /
                        static_cast<double>(result.counts.features_first);

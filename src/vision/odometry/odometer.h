@@ -45,8 +45,10 @@ using OdometryWatcher = std::function<void(OdometryStage)>;
 //
 // A pair is compared with the keyframe, which is renewed by OdometerParams::keyframe: a camera that
 // stands still does not drift, and one that moves a centimetre an image errs once a keyframe. A
-// pair without a motion becomes the keyframe as well: the path has a gap there, which others
-// (wheels) have to fill.
+// pair without a motion becomes the keyframe as well, once KeyframeParams::failures are reached:
+// the path has a gap there, from `reference` to `number`, which others (wheels) have to fill. Of
+// fewer failures the next pair is compared with the same keyframe, and there is no gap if it
+// succeeds.
 class VisualOdometer {
  public:
   // `left_free`: pixels of the left image that show the world (1) and not the carrier (0); empty
@@ -63,7 +65,10 @@ class VisualOdometer {
                    const std::optional<math::Transform>& predicted = std::nullopt);
 
   // Begins a new path with the next pair.
-  void Renew() { keyframe_.reset(); }
+  void Renew() {
+    keyframe_.reset();
+    failures_ = 0;
+  }
 
  private:
   // What later pairs are compared with: features that have a place.
@@ -103,6 +108,7 @@ class VisualOdometer {
   core::TrialKey key_;
   OdometryWatcher watcher_;
   std::int64_t next_ = 0;
+  std::int64_t failures_ = 0;  // in a row, up to the last pair
   std::optional<Keyframe> keyframe_;
 };
 

@@ -184,6 +184,13 @@ void KeyframeParams::Visit(core::FieldVisitor& v) {
           .source = "before there are too few",
           .study_low = 0.2,
           .study_high = 0.7});
+  v.Integer("failures", failures,
+            {.doc = "a pair without a motion takes the keyframe's place if it is the last of so "
+                    "many in a row; those before are left out, and the next is compared with the "
+                    "same keyframe",
+             .min = 1,
+             .max = 1000000,
+             .origin = Origin::kSetting});
 }
 
 void OdometerParams::Visit(core::FieldVisitor& v) {
@@ -193,8 +200,7 @@ void OdometerParams::Visit(core::FieldVisitor& v) {
   v.Group("selection", selection, "which of them moved as one rigid body");
   v.Group("estimation", estimation, "the motion of these, by least squares");
   v.Group("keyframe", keyframe,
-          "when a pair of images takes the place of the one that later ones are compared with; one "
-          "without a motion always does");
+          "when a pair of images takes the place of the one that later ones are compared with");
   v.Real("variance_factor", variance_factor,
          {.doc = "what the covariance of a motion is multiplied by: errors of windows that show one "
                  "surface from one other view are not independent",

@@ -65,6 +65,7 @@ struct KeyframeParams {
   double max_way_m = 0.5;
   double max_turn_rad = math::DegToRad(10.0);
   double min_share = 0.4;
+  std::int64_t failures = 1;
 
   void Visit(core::FieldVisitor& v);
 };
