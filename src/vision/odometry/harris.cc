@@ -76,7 +76,7 @@ void SumColumns(const std::int16_t* sums, std::size_t width, std::int16_t* out) 
         hn::Add(hn::LoadU(kValues, sums + x - 2), hn::LoadU(kValues, sums + x + 2));
     const auto inner =
         hn::Add(hn::LoadU(kValues, sums + x - 1), hn::LoadU(kValues, sums + x + 1));
-    hn::Store(hn::Add(hn::Add(outer, inner), hn::Load(kValues, sums + x)), kValues, out + x);
+    hn::Store(hn::Add(hn::Add(outer, inner), hn::LoadU(kValues, sums + x)), kValues, out + x);
   }
 }
 
