@@ -6,7 +6,7 @@ random places. Of each coordinate the mean squared error of a cell's motions giv
   still, per_m, per_rad    variance = still^2 + (per_m way)^2 + (per_rad turn)^2, the most likely of normal errors
 and the motions that were not found give
   intercept, per_m, per_rad of failure, the most likely logistic law, with a normal prior of deviation 10 on each.
-They are written as scenarios/visual_odometry/fitted_hazcam.json. Then images and error model run on another seed
+They are written as scenarios/sensors/fitted_visual_hazcam.json. Then images and error model run on another seed
 (--confirm) at the same places, and a table says where they differ. Runs that are there already are resumed; after
 a change of the code delete them.
 
@@ -22,7 +22,7 @@ from collections import defaultdict
 import study
 
 SCENARIO = study.ROOT / "scenarios/visual_odometry/steps_hazcam.json"
-FRAGMENT = study.ROOT / "scenarios/visual_odometry/fitted_hazcam.json"
+FRAGMENT = study.ROOT / "scenarios/sensors/fitted_visual_hazcam.json"
 STEPS = ["visual_motion.steps_per_run=2"]
 # Groups of the error model: coordinates of the records, their unit, and its factor to that of the model.
 GROUPS = {
@@ -158,8 +158,16 @@ def main():
         with open(folder / "trials.csv", encoding="utf-8") as file:
             return cells(csv.DictReader(file))
 
-    model = fit(measured("images", args.seed, []))
-    fragment = {"sensors": {"visual_odometry": {"error_model": model}}}
+    sums = measured("images", args.seed, [])
+    model = fit(sums)
+    steps, found = (sum(cell[name] for cell in sums.values()) for name in ("steps", "found"))
+    fragment = {
+        "description": f"Errors and failures of visual odometry as measured in {steps:.0f} rendered motions of 0 to 1 m "
+                       "and 0 to 18 deg by cameras like hazard cameras (scenarios/visual_odometry/steps_hazcam.json, "
+                       f"seed {args.seed}), of which {found:.0f} were found. By scripts/fit_visual_motion.py; texture "
+                       "and light are assumptions.",
+        "sensors": {"visual_odometry": {"error_model": model}},
+    }
     FRAGMENT.write_text(json.dumps(fragment, indent=2) + "\n", encoding="utf-8")
     print(f"wrote {FRAGMENT.relative_to(study.ROOT)}")
     settings = ["sensors.visual_odometry.fidelity=error_model"]
