@@ -1,0 +1,99 @@
+// Rovers whose wheels slip, with a check of slip by what they see.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "trial/pathfinder_trials.h"
+#include "trial/slip_onset.h"
+#include "truth/end_cause.h"
+
+namespace rockyard::trial {
+namespace {
+
+// Up a bare slope, straight to the goal; images every 10 cm.
+DriveParams UpSlope(double slope_deg, const Overrides& more = {}) {
+  Overrides all{"sensors.visual_odometry.enabled=true",
+                "localization.estimator=visual_odometry",
+                "sensors.visual_odometry.schedule.every_m=0.1",
+                "perception.visual_odometry.slip_check.enabled=true",
+                "rover.fidelity=quasi_static",
+                "terrain.arena.kind=open",
+                "terrain.rocks.kind=none",
+                "perception.hazard.enabled=false",
+                "referee.no_path_distance_m=null",
+                "course.goal_x_m=3",
+                "terrain.ground.slope_deg=" + std::to_string(slope_deg)};
+  all.insert(all.end(), more.begin(), more.end());
+  return Pathfinder("nominal", all);
+}
+
+TEST(SlipDrive, EndsWhereItSlipsTooMuch) {
+  const DriveResult steep = RunTrial(UpSlope(17.0), {1, 0});
+  EXPECT_EQ(steep.detail, truth::Info(truth::EndCause::kExcessiveSlip).sentence);
+  EXPECT_EQ(steep.outcome, truth::TrialOutcome::kNoPath);
+  EXPECT_EQ(steep.record.slip_alarms, 1.0);
+  EXPECT_EQ(steep.record.false_slip_alarms, 0.0);
+  EXPECT_GT(steep.record.largest_slip, 0.5);
+  // Not before it truly slipped, and within the way of two pairs of images of that.
+  EXPECT_GE(steep.record.first_slip_alarm_m, steep.record.slip_onset_m - 0.05);
+  EXPECT_LT(steep.record.first_slip_alarm_m, steep.record.slip_onset_m + 0.25);
+}
+
+TEST(SlipDrive, GoesOnWhereItDoesNot) {
+  const DriveResult level = RunTrial(UpSlope(0.0), {1, 0});
+  EXPECT_EQ(level.outcome, truth::TrialOutcome::kGoalReached);
+  EXPECT_EQ(level.record.slip_alarms, 0.0);
+  EXPECT_LT(level.record.largest_slip, 0.3);
+  EXPECT_TRUE(std::isnan(level.record.first_slip_alarm_m));
+  EXPECT_TRUE(std::isnan(level.record.slip_onset_m));
+}
+
+// A limit below what every wheel on sand slips stops it on level ground, too; and without the check
+// nobody knows.
+TEST(SlipDrive, GoesByItsLimit) {
+  const DriveResult strict =
+      RunTrial(UpSlope(10.0, {"perception.visual_odometry.slip_check.limit=0.02"}), {1, 0});
+  EXPECT_EQ(strict.detail, truth::Info(truth::EndCause::kExcessiveSlip).sentence);
+  const DriveResult unchecked =
+      RunTrial(UpSlope(17.0, {"perception.visual_odometry.slip_check.enabled=false"}), {1, 0});
+  EXPECT_NE(unchecked.detail, truth::Info(truth::EndCause::kExcessiveSlip).sentence);
+  EXPECT_TRUE(std::isnan(unchecked.record.largest_slip));
+}
+
+TEST(SlipDrive, BacksOffWhereThatIsTheReaction) {
+  const DriveResult backs =
+      RunTrial(UpSlope(17.0, {"navigation.on_board_stuck.reaction=back_off"}), {1, 0});
+  EXPECT_NE(backs.detail, truth::Info(truth::EndCause::kExcessiveSlip).sentence);
+  EXPECT_GE(backs.record.slip_alarms, 1.0);
+  EXPECT_GE(backs.record.reversals, 1.0);
+}
+
+// Half of the way is lost from x = 1 m on: the limit of a third is exceeded once a third of the
+// last 0.3 m is, after the wheels have rolled 0.2 m more, of which 0.1 m is true.
+TEST(SlipOnsetTest, IsWhereTheTrueSlipOverTheWindowExceedsTheLimit) {
+  SlipOnset onset({.enabled = true, .limit = 1.0 / 3.0, .sigma = 0.0, .min_way_m = 0.3});
+  messages::PoseEstimate odometry;
+  math::Pose2 truth;
+  for (int i = 0; i < 400; ++i) {
+    odometry.x_m += 0.01;
+    odometry.distance_m += 0.01;
+    truth.x_m += truth.x_m < 1.0 ? 0.01 : 0.005;
+    onset.Observe(odometry, truth, truth.x_m);
+  }
+  ASSERT_TRUE(onset.path_m());
+  EXPECT_NEAR(*onset.path_m(), 1.1, 0.02);
+}
+
+TEST(SlipOnsetTest, KnowsNothingWhereSlipIsNotChecked) {
+  SlipOnset onset({.enabled = false, .limit = 0.1, .sigma = 0.0, .min_way_m = 0.1});
+  messages::PoseEstimate odometry;
+  for (int i = 0; i < 100; ++i) {
+    odometry.x_m += 0.01;
+    odometry.distance_m += 0.01;
+    onset.Observe(odometry, {}, 0.0);
+  }
+  EXPECT_FALSE(onset.path_m());
+}
+
+}  // namespace
+}  // namespace rockyard::trial
