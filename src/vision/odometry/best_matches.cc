@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "vision/odometry/best_matches.cc"
@@ -90,15 +89,21 @@ BestWindow BestAt(const std::uint16_t* best, std::size_t stride, std::size_t at,
   return {static_cast<std::int32_t>(first + best[at + 2 * stride]), best[at], best[at + stride]};
 }
 
-// Lanes hold every so many columns each: of equal differences that of the smaller index counts.
+// Lanes hold every so many columns each: of equal differences that of the smallest index counts.
 BestWindow BestOfLanes(const std::uint16_t* lanes, std::size_t count, std::size_t first) {
-  BestWindow best = BestAt(lanes, count, 0, first);
-  for (std::size_t lane = 1; lane < count; ++lane) {
-    BestWindow other = BestAt(lanes, count, lane, first);
-    if (other.difference == best.difference && other.index < best.index) std::swap(other, best);
-    best.Merge(other);
+  const std::uint16_t* const second = lanes + count;
+  const std::uint16_t* const index = second + count;
+  const std::uint16_t least = *std::min_element(lanes, second);
+  std::uint16_t winner = std::numeric_limits<std::uint16_t>::max();
+  for (std::size_t lane = 0; lane < count; ++lane) {
+    winner = std::min(winner, lanes[lane] == least ? index[lane] : winner);
   }
-  return best;
+  std::uint16_t next = kNoDifference;
+  for (std::size_t lane = 0; lane < count; ++lane) {
+    const bool is_winner = lanes[lane] == least && index[lane] == winner;
+    next = std::min(next, is_winner ? second[lane] : lanes[lane]);
+  }
+  return {static_cast<std::int32_t>(first + winner), least, next};
 }
 
 class BestFinder {
@@ -107,11 +112,9 @@ class BestFinder {
       : first_(first),
         second_(second),
         stride_((std::min(second.size(), kPanel) + kMostLanes - 1) / kMostLanes * kMostLanes),
-        differences_(std::min(first.size(), kBlock) * stride_),
+        differences_(std::min(first.size(), kBlock) * stride_, Filled::kAnything),
         columns_(3 * stride_),
-        lanes_(3 * kMostLanes) {
-    std::fill_n(differences_.data(), differences_.size(), kNoDifference);
-  }
+        lanes_(3 * kMostLanes) {}
 
   void Compare(const Part& block, const Part& panel, BestWindows& best) {
     FindDifferences(block, panel);
