@@ -46,22 +46,29 @@ HWY_INLINE bool Has(const std::int32_t* values, int count, std::int32_t value) {
 
 // Columns of the last of the rows `values` where the value is at least the threshold, none of the
 // `largest` of the rows about is larger, and none within `reach` columns in the rows `values`
-// before it is as large; their number.
+// before it is as large; their number. Rows have room for two whole vectors.
 std::size_t FindPeaks(const std::int32_t* const* values, int value_rows,
                       const std::int32_t* const* largest, int largest_rows, int reach,
                       std::int32_t threshold, std::size_t width, std::int32_t* columns) {
   const std::int32_t* const here = values[value_rows - 1];
   const auto least = hn::Set(kResponses, threshold);
   std::size_t found = 0;
-  for (std::size_t x = 0; x < width; x += hn::Lanes(kResponses)) {
-    auto most = least;
-    for (int i = 0; i < largest_rows; ++i) {
-      most = hn::Max(most, hn::Load(kResponses, largest[i] + x));
-    }
+  const std::size_t lanes = hn::Lanes(kResponses);
+  const auto append = [&](std::size_t x, hn::Vec<decltype(kResponses)> most) HWY_ATTR {
     const auto peaks = hn::Eq(hn::Load(kResponses, here + x), most);
-    if (hn::AllFalse(kResponses, peaks)) continue;
+    if (hn::AllFalse(kResponses, peaks)) return;
     const auto at = hn::Iota(kResponses, static_cast<std::int32_t>(x));
     found += hn::CompressStore(at, peaks, kResponses, columns + found);
+  };
+  for (std::size_t x = 0; x < width; x += 2 * lanes) {
+    auto first = least;
+    auto second = least;
+    for (int i = 0; i < largest_rows; ++i) {
+      first = hn::Max(first, hn::Load(kResponses, largest[i] + x));
+      second = hn::Max(second, hn::Load(kResponses, largest[i] + x + lanes));
+    }
+    append(x, first);
+    append(x + lanes, second);
   }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < found; ++i) {
