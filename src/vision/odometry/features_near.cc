@@ -78,8 +78,8 @@ std::span<const std::int32_t> FeaturesNear::Find(const Pixel& place, double colu
   const auto columns = RangeAbout(place.x(), columns_px);
   const auto rows = RangeAbout(place.y(), rows_px);
   const std::array<std::int32_t, 4> limits{columns[0], columns[1], rows[0], rows[1]};
-  const std::size_t number = HWY_DYNAMIC_DISPATCH(FindInside)(
-      columns_.data(), rows_.data(), count_, limits.data(), found_.data());
+  const std::size_t number = HWY_DYNAMIC_DISPATCH(FindInside)(columns_.data(), rows_.data(), count_,
+                                                              limits.data(), found_.data());
   return {found_.data(), number};
 }
 

@@ -1,5 +1,5 @@
-// Memory that begins at a cache line, zero at first unless asked otherwise, with a cache line to spare
-// at both ends.
+// Memory that begins at a cache line, zero at first unless asked otherwise, with a cache line to
+// spare at both ends.
 #pragma once
 
 #include <algorithm>
