@@ -1,8 +1,8 @@
 #include "vision/odometry/best_matches.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
-#include <utility>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "vision/odometry/best_matches.cc"
@@ -26,9 +26,10 @@ HWY_INLINE void Offer(hn::Vec<decltype(kDifferences)> value, hn::Vec<decltype(kD
 
 // Takes the differences of window `row` of a block, padded by kNoDifference to whole vectors. Three
 // arrays `stride` apart, of differences, second differences and indices, hold the best of every
-// column; three more what was best in each lane of this row.
+// column; `best` becomes the same of this row. A lane holds every so many columns: of equal
+// differences that of the smallest index counts.
 void OfferRow(const std::uint16_t* differences, std::size_t count, std::uint16_t row,
-              std::size_t stride, std::uint16_t* columns, std::uint16_t* lanes) {
+              std::size_t stride, std::uint16_t* columns, std::uint16_t* best) {
   auto difference = hn::Set(kDifferences, kNoDifference);
   auto second = difference;
   auto index = hn::Zero(kDifferences);
@@ -48,13 +49,16 @@ void OfferRow(const std::uint16_t* differences, std::size_t count, std::uint16_t
     hn::Store(column_second, kDifferences, column + stride);
     hn::Store(column_index, kDifferences, column + 2 * stride);
   }
-  const std::size_t one = hn::Lanes(kDifferences);
-  hn::Store(difference, kDifferences, lanes);
-  hn::Store(second, kDifferences, lanes + one);
-  hn::Store(index, kDifferences, lanes + 2 * one);
+  const auto least = hn::MinOfLanes(kDifferences, difference);
+  const auto is_least = hn::Eq(difference, least);
+  const auto none = hn::Set(kDifferences, kNoDifference);
+  const auto winner = hn::MinOfLanes(kDifferences, hn::IfThenElse(is_least, index, none));
+  const auto is_winner = hn::And(is_least, hn::Eq(index, winner));
+  const auto others = hn::IfThenElse(is_winner, second, difference);
+  best[0] = hn::GetLane(least);
+  best[1] = hn::GetLane(hn::MinOfLanes(kDifferences, others));
+  best[2] = hn::GetLane(winner);
 }
-
-std::size_t LanesOfDifferences() { return hn::Lanes(kDifferences); }
 
 }  // namespace rockyard::vision::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -63,7 +67,6 @@ HWY_AFTER_NAMESPACE();
 namespace rockyard::vision {
 
 HWY_EXPORT(OfferRow);
-HWY_EXPORT(LanesOfDifferences);
 
 namespace {
 
@@ -90,37 +93,23 @@ BestWindow BestAt(const std::uint16_t* best, std::size_t stride, std::size_t at,
   return {static_cast<std::int32_t>(first + best[at + 2 * stride]), best[at], best[at + stride]};
 }
 
-// Lanes hold every so many columns each: of equal differences that of the smaller index counts.
-BestWindow BestOfLanes(const std::uint16_t* lanes, std::size_t count, std::size_t first) {
-  BestWindow best = BestAt(lanes, count, 0, first);
-  for (std::size_t lane = 1; lane < count; ++lane) {
-    BestWindow other = BestAt(lanes, count, lane, first);
-    if (other.difference == best.difference && other.index < best.index) std::swap(other, best);
-    best.Merge(other);
-  }
-  return best;
-}
-
 class BestFinder {
  public:
   BestFinder(const WindowSet& first, const WindowSet& second)
       : first_(first),
         second_(second),
         stride_((std::min(second.size(), kPanel) + kMostLanes - 1) / kMostLanes * kMostLanes),
-        differences_(std::min(first.size(), kBlock) * stride_),
-        columns_(3 * stride_),
-        lanes_(3 * kMostLanes) {
-    std::fill_n(differences_.data(), differences_.size(), kNoDifference);
-  }
+        differences_(std::min(first.size(), kBlock) * stride_, Filled::kAnything),
+        columns_(3 * stride_) {}
 
   void Compare(const Part& block, const Part& panel, BestWindows& best) {
     FindDifferences(block, panel);
     std::fill_n(columns_.data(), 2 * stride_, kNoDifference);
-    const std::size_t lanes = HWY_DYNAMIC_DISPATCH(LanesOfDifferences)();
     for (std::size_t i = 0; i < block.count; ++i) {
+      std::array<std::uint16_t, 3> of_row;
       HWY_DYNAMIC_DISPATCH(OfferRow)
-      (Row(i), stride_, static_cast<std::uint16_t>(i), stride_, columns_.data(), lanes_.data());
-      best.of_first[block.first + i].Merge(BestOfLanes(lanes_.data(), lanes, panel.first));
+      (Row(i), stride_, static_cast<std::uint16_t>(i), stride_, columns_.data(), of_row.data());
+      best.of_first[block.first + i].Merge(BestAt(of_row.data(), 1, 0, panel.first));
     }
     for (std::size_t j = 0; j < panel.count; ++j) {
       best.of_second[panel.first + j].Merge(BestAt(columns_.data(), stride_, j, block.first));
@@ -148,7 +137,6 @@ class BestFinder {
   std::size_t stride_;
   AlignedBuffer<std::uint16_t> differences_;  // of a block to a panel
   AlignedBuffer<std::uint16_t> columns_;
-  AlignedBuffer<std::uint16_t> lanes_;
 };
 
 }  // namespace

@@ -50,8 +50,7 @@ void Products(const std::int16_t* smooth, const std::int16_t* step, std::size_t 
     const auto gx =
         Gradient(hn::Sub(hn::LoadU(kValues, smooth + x + 1), hn::LoadU(kValues, smooth + x - 1)));
     const auto middle = hn::Load(kValues, step + x);
-    const auto sides =
-        hn::Add(hn::LoadU(kValues, step + x - 1), hn::LoadU(kValues, step + x + 1));
+    const auto sides = hn::Add(hn::LoadU(kValues, step + x - 1), hn::LoadU(kValues, step + x + 1));
     const auto gy = Gradient(hn::Add(sides, hn::Add(middle, middle)));
     hn::Store(hn::Mul(gx, gx), kValues, xx + x);
     hn::Store(hn::Mul(gx, gy), kValues, xy + x);
@@ -72,10 +71,8 @@ void SumRows(const std::int16_t* const* rows, std::size_t width, std::int16_t* s
 // Sums of five columns: of `sums` from column x - 2 on at x.
 void SumColumns(const std::int16_t* sums, std::size_t width, std::int16_t* out) {
   for (std::size_t x = 0; x < width; x += hn::Lanes(kValues)) {
-    const auto outer =
-        hn::Add(hn::LoadU(kValues, sums + x - 2), hn::LoadU(kValues, sums + x + 2));
-    const auto inner =
-        hn::Add(hn::LoadU(kValues, sums + x - 1), hn::LoadU(kValues, sums + x + 1));
+    const auto outer = hn::Add(hn::LoadU(kValues, sums + x - 2), hn::LoadU(kValues, sums + x + 2));
+    const auto inner = hn::Add(hn::LoadU(kValues, sums + x - 1), hn::LoadU(kValues, sums + x + 1));
     hn::Store(hn::Add(hn::Add(outer, inner), hn::LoadU(kValues, sums + x)), kValues, out + x);
   }
 }
@@ -116,8 +113,8 @@ constexpr std::size_t kMostLanes = 64;
 // Columns of the image before an area that its sums look at, and as many behind.
 constexpr int kAround = kHarrisMargin_px;
 
-std::size_t Padded(int width) {
-  return (static_cast<std::size_t>(width) + 2 * kAround + kMostLanes - 1) / kMostLanes * kMostLanes;
+std::size_t WholeVectors(int values) {
+  return (static_cast<std::size_t>(values) + kMostLanes - 1) / kMostLanes * kMostLanes;
 }
 
 // The last rows of an area on their way to sums. A row has `stride` values, of which the first is
@@ -128,14 +125,14 @@ class SlidingRows {
   SlidingRows(const GrayImage& image, const ImageArea& area)
       : image_(image),
         first_(area.left - kAround),
-        stride_(Padded(area.width())),
+        stride_(WholeVectors(area.width() + 2 * kAround)),
         bytes_(3 * stride_),
         smooth_(stride_),
         step_(stride_),
         products_(15 * stride_),
         columns_(stride_ + kMostLanes) {
     next_ = std::max(area.top, kHarrisMargin_px) - 2;
-    for (const int row : {next_ - 1, next_}) CopyRow(row);
+    copied_ = next_ - 1;
   }
 
   // The sums of a row of the area, which is no earlier than the last one and not in the margin.
@@ -153,7 +150,7 @@ class SlidingRows {
 
  private:
   void FindProducts(int row) {
-    CopyRow(row + 1);
+    for (; copied_ <= row + 1; ++copied_) CopyRow(copied_);
     HWY_DYNAMIC_DISPATCH(SmoothColumns)
     (Bytes(row - 1), Bytes(row), Bytes(row + 1), stride_, smooth_.data(), step_.data());
     HWY_DYNAMIC_DISPATCH(Products)
@@ -176,7 +173,8 @@ class SlidingRows {
 
   const GrayImage& image_;
   int first_;
-  int next_ = 0;  // row of the products that come
+  int next_ = 0;    // row of the products that come
+  int copied_ = 0;  // row of the bytes that come
   std::size_t stride_;
   AlignedBuffer<std::uint8_t> bytes_;
   AlignedBuffer<std::int16_t> smooth_;
@@ -199,18 +197,21 @@ std::int32_t HarrisWeight(double weight) {
 
 GradientSums::GradientSums(const GrayImage& image, const ImageArea& area)
     : area_(area),
-      stride_(Padded(area.width())),
-      sums_(3 * stride_ * static_cast<std::size_t>(area.height())) {
+      stride_(WholeVectors(area.width())),
+      sums_(3 * stride_ * static_cast<std::size_t>(area.height()), Filled::kAnything) {
   EXPECT(0 <= area.left && area.left <= area.right && area.right <= image.width());
   EXPECT(0 <= area.top && area.top <= area.bottom && area.bottom <= image.height());
-  const int top = std::max(area.top, kHarrisMargin_px);
-  const int bottom = std::min(area.bottom, image.height() - kHarrisMargin_px);
-  const int left = std::max(area.left, kHarrisMargin_px) - area.left;
-  const int right = std::min(area.right, image.width() - kHarrisMargin_px) - area.left;
-  if (top >= bottom || left >= right) return;
+  const ImageArea inside{kHarrisMargin_px, image.width() - kHarrisMargin_px, kHarrisMargin_px,
+                         image.height() - kHarrisMargin_px};
+  const int left = std::max(area.left, inside.left) - area.left;
+  const int right = std::min(area.right, inside.right) - area.left;
   SlidingRows rows(image, area);
-  for (int row = top; row < bottom; ++row) {
+  for (int row = area.top; row < area.bottom; ++row) {
     const std::array<std::int16_t*, 3> sums{Row(row), Row(row) + stride_, Row(row) + 2 * stride_};
+    if (left >= right || row < inside.top || row >= inside.bottom) {
+      std::fill_n(Row(row), 3 * stride_, std::int16_t{0});
+      continue;
+    }
     rows.AddUp(row, static_cast<std::size_t>(area.width()), sums.data());
     for (std::int16_t* const sum : sums) {
       std::fill_n(sum, left, std::int16_t{0});

@@ -33,21 +33,55 @@ void LargestOfColumns(const std::int32_t* values, int reach, std::size_t width,
   }
 }
 
-// Columns whose value is at least the threshold and none of the rows' values is larger; their
-// number.
-std::size_t LargestOfRows(const std::int32_t* values, const std::int32_t* const* rows, int count,
-                          std::int32_t threshold, std::size_t width, std::int32_t* columns) {
+// Whether one of `count` values from `values` on is `value`.
+HWY_INLINE bool Has(const std::int32_t* values, int count, std::int32_t value) {
+  const auto wanted = hn::Set(kResponses, value);
+  for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(kResponses))) {
+    const auto counted = hn::FirstN(kResponses, static_cast<std::size_t>(count - i));
+    const auto equal = hn::Eq(hn::LoadU(kResponses, values + i), wanted);
+    if (!hn::AllFalse(kResponses, hn::And(equal, counted))) return true;
+  }
+  return false;
+}
+
+// Columns of the last of the rows `values` where the value is at least the threshold, none of the
+// `largest` of the rows about is larger, and none within `reach` columns in the rows `values`
+// before it is as large; their number. Rows have room for two whole vectors.
+std::size_t FindPeaks(const std::int32_t* const* values, int value_rows,
+                      const std::int32_t* const* largest, int largest_rows, int reach,
+                      std::int32_t threshold, std::size_t width, std::int32_t* columns) {
+  const std::int32_t* const here = values[value_rows - 1];
   const auto least = hn::Set(kResponses, threshold);
   std::size_t found = 0;
-  for (std::size_t x = 0; x < width; x += hn::Lanes(kResponses)) {
-    auto most = least;
-    for (int i = 0; i < count; ++i) most = hn::Max(most, hn::Load(kResponses, rows[i] + x));
-    const auto peaks = hn::Eq(hn::Load(kResponses, values + x), most);
-    if (hn::AllFalse(kResponses, peaks)) continue;
+  const std::size_t lanes = hn::Lanes(kResponses);
+  const auto append = [&](std::size_t x, hn::Vec<decltype(kResponses)> most) HWY_ATTR {
+    const auto peaks = hn::Eq(hn::Load(kResponses, here + x), most);
+    if (hn::AllFalse(kResponses, peaks)) return;
     const auto at = hn::Iota(kResponses, static_cast<std::int32_t>(x));
     found += hn::CompressStore(at, peaks, kResponses, columns + found);
+  };
+  for (std::size_t x = 0; x < width; x += 2 * lanes) {
+    auto first = least;
+    auto second = least;
+    for (int i = 0; i < largest_rows; ++i) {
+      first = hn::Max(first, hn::Load(kResponses, largest[i] + x));
+      second = hn::Max(second, hn::Load(kResponses, largest[i] + x + lanes));
+    }
+    append(x, first);
+    append(x + lanes, second);
   }
-  return found;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < found; ++i) {
+    const std::int32_t column = columns[i];
+    const std::int32_t value = here[column];
+    bool repeated = Has(here + column - reach, reach, value);
+    for (int row = 0; row + 1 < value_rows && !repeated; ++row) {
+      repeated = Has(values[row] + column - reach, 2 * reach + 1, value);
+    }
+    columns[kept] = column;
+    kept += repeated ? 0 : 1;
+  }
+  return kept;
 }
 
 }  // namespace rockyard::vision::HWY_NAMESPACE
@@ -57,7 +91,7 @@ HWY_AFTER_NAMESPACE();
 namespace rockyard::vision {
 
 HWY_EXPORT(LargestOfColumns);
-HWY_EXPORT(LargestOfRows);
+HWY_EXPORT(FindPeaks);
 
 namespace {
 
@@ -79,32 +113,20 @@ class ResponseRows {
         largest_(stride_ * static_cast<std::size_t>(height_)),
         columns_(Whole(width_) + kMostResponses) {}
 
-  // Columns, counted from the first of the sums, where none of the values about is larger.
+  // Columns of the peaks of a row, counted from the first of the sums.
   std::span<const std::int32_t> Peaks(int row, std::int32_t threshold) {
     const int first = std::max(row - reach_, sums_.area().top);
     const int last = std::min(row + reach_, sums_.area().bottom - 1);
     next_ = std::max(next_, first);
     for (; next_ <= last; ++next_) Find(next_);
-    rows_.clear();
-    for (int y = first; y <= last; ++y) rows_.push_back(Row(largest_, y));
-    const std::size_t count = HWY_DYNAMIC_DISPATCH(LargestOfRows)(
-        Row(values_, row), rows_.data(), static_cast<int>(rows_.size()), threshold, width_,
-        columns_.data());
+    before_.clear();
+    about_.clear();
+    for (int y = first; y <= row; ++y) before_.push_back(Row(values_, y));
+    for (int y = first; y <= last; ++y) about_.push_back(Row(largest_, y));
+    const std::size_t count = HWY_DYNAMIC_DISPATCH(FindPeaks)(
+        before_.data(), static_cast<int>(before_.size()), about_.data(),
+        static_cast<int>(about_.size()), reach_, threshold, width_, columns_.data());
     return {columns_.data(), count};
-  }
-
-  // Whether a pixel before a peak has as much as that.
-  bool IsRepeated(int row, int column) const {
-    const std::int32_t value = Row(values_, row)[column];
-    const std::int32_t* const here = Row(values_, row) + column;
-    if (std::find(here - reach_, here, value) != here) return true;
-    for (int y = std::max(row - reach_, sums_.area().top); y < row; ++y) {
-      const std::int32_t* const before = Row(values_, y) + column;
-      if (std::find(before - reach_, before + reach_ + 1, value) != before + reach_ + 1) {
-        return true;
-      }
-    }
-    return false;
   }
 
   std::int32_t Value(int row, int column) const { return Row(values_, row)[column]; }
@@ -127,7 +149,9 @@ class ResponseRows {
   std::size_t Offset(int row) const {
     return static_cast<std::size_t>(row % height_) * stride_ + pad_;
   }
-  std::int32_t* Row(AlignedBuffer<std::int32_t>& rows, int row) { return rows.data() + Offset(row); }
+  std::int32_t* Row(AlignedBuffer<std::int32_t>& rows, int row) {
+    return rows.data() + Offset(row);
+  }
   const std::int32_t* Row(const AlignedBuffer<std::int32_t>& rows, int row) const {
     return rows.data() + Offset(row);
   }
@@ -143,7 +167,8 @@ class ResponseRows {
   AlignedBuffer<std::int32_t> values_;
   AlignedBuffer<std::int32_t> largest_;  // of the columns about each
   AlignedBuffer<std::int32_t> columns_;
-  std::vector<const std::int32_t*> rows_;
+  std::vector<const std::int32_t*> before_;  // rows of values, up to the one that is looked at
+  std::vector<const std::int32_t*> about_;   // rows of largest_ about it
 };
 
 }  // namespace
@@ -159,9 +184,9 @@ Features LocalMaxima(const GradientSums& sums, std::int32_t weight, const ImageA
   for (int row = area.top; row < area.bottom; ++row) {
     for (const std::int32_t column : rows.Peaks(row, threshold)) {
       const int x = all.left + column;
-      if (x < area.left || x >= area.right || rows.IsRepeated(row, column)) continue;
-      peaks.push_back({static_cast<std::int16_t>(x), static_cast<std::int16_t>(row),
-                       rows.Value(row, column)});
+      if (x < area.left || x >= area.right) continue;
+      peaks.push_back(
+          {static_cast<std::int16_t>(x), static_cast<std::int16_t>(row), rows.Value(row, column)});
     }
   }
   return peaks;

@@ -1,13 +1,12 @@
 #include "vision/odometry/match_features.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <span>
 
 #include "core/check.h"
 #include "vision/odometry/best_matches.h"
+#include "vision/odometry/features_near.h"
 #include "vision/odometry/window.h"
 
 namespace rockyard::vision {
@@ -36,40 +35,18 @@ WindowSet SecondWindows(const GrayImage& image, const Features& features, int si
   return windows;
 }
 
-// Whole pixels from `first` to `last`.
-struct PixelRange {
-  std::int32_t first = 0;
-  std::int32_t last = -1;
-
-  bool Has(std::int32_t pixel) const { return pixel >= first && pixel <= last; }
-};
-
-// Those within `reach` of a place; none where it is not finite.
-PixelRange RangeAbout(double place, double reach) {
-  constexpr double kMost = std::numeric_limits<std::int16_t>::max();
-  if (!std::isfinite(place)) return {};
-  return {static_cast<std::int32_t>(std::clamp(std::ceil(place - reach), -kMost, kMost + 1.0)),
-          static_cast<std::int32_t>(std::clamp(std::floor(place + reach), -kMost, kMost))};
-}
-
 // Of each window of the first image only the features near where it is predicted.
 BestWindows CompareNear(const WindowSet& first, const WindowSet& second,
                         const Features& second_features, const FeatureMatcherParams& params,
                         const PredictedFeatures& predicted) {
   BestWindows best{std::vector<BestWindow>(first.size()), std::vector<BestWindow>(second.size())};
-  std::vector<std::int32_t> chosen(second.size());
+  FeaturesNear near(second_features);
   std::vector<std::uint16_t> differences(second.size());
   for (std::size_t i = 0; i < first.size(); ++i) {
-    const PixelRange columns = RangeAbout(predicted[i].pixel.x(), params.search_columns_px);
-    const PixelRange rows = RangeAbout(predicted[i].pixel.y(), params.search_rows_px);
-    std::size_t count = 0;
-    for (std::size_t j = 0; j < second_features.size(); ++j) {
-      chosen[count] = static_cast<std::int32_t>(j);
-      const bool near = columns.Has(second_features[j].column) && rows.Has(second_features[j].row);
-      count += near ? 1 : 0;
-    }
-    ChosenDifferences(first.At(i), second, {chosen.data(), count}, differences);
-    for (std::size_t k = 0; k < count; ++k) {
+    const std::span<const std::int32_t> chosen =
+        near.Find(predicted[i].pixel, params.search_columns_px, params.search_rows_px);
+    ChosenDifferences(first.At(i), second, chosen, differences);
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
       const auto j = static_cast<std::size_t>(chosen[k]);
       best.of_first[i].Merge({chosen[k], differences[k], kNoDifference});
       best.of_second[j].Merge({static_cast<std::int32_t>(i), differences[k], kNoDifference});
@@ -103,8 +80,8 @@ FeatureMatches MatchFeatures(const GrayImage& first, const Features& first_featu
     const bool ambiguous =
         found.second != kNoDifference && found.difference > params.ratio * found.second;
     if (params.ratio < 1.0 && ambiguous) continue;
-    matches.push_back({static_cast<std::int32_t>(i), found.index,
-                       static_cast<std::int32_t>(found.difference)});
+    matches.push_back(
+        {static_cast<std::int32_t>(i), found.index, static_cast<std::int32_t>(found.difference)});
   }
   return matches;
 }

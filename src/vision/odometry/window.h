@@ -16,10 +16,11 @@ namespace rockyard::vision {
 inline constexpr std::size_t kWindowStride = 16;
 inline constexpr std::size_t kWindowBytes = kWindowStride * kWindowStride;
 
-// Of many windows, one behind the other.
+// Of many windows, one behind the other; any bytes at first.
 class WindowSet {
  public:
-  explicit WindowSet(std::size_t count) : bytes_(count * kWindowBytes), count_(count) {}
+  explicit WindowSet(std::size_t count)
+      : bytes_(count * kWindowBytes, Filled::kAnything), count_(count) {}
 
   std::size_t size() const { return count_; }
   std::uint8_t* At(std::size_t i) { return bytes_.data() + i * kWindowBytes; }
@@ -55,7 +56,6 @@ void WindowDifferences(const std::uint8_t* window, const WindowSet& others, std:
 
 // Sums of absolute differences of `window` to the `chosen` ones of `others`.
 void ChosenDifferences(const std::uint8_t* window, const WindowSet& others,
-                       std::span<const std::int32_t> chosen,
-                       std::span<std::uint16_t> differences);
+                       std::span<const std::int32_t> chosen, std::span<std::uint16_t> differences);
 
 }  // namespace rockyard::vision

@@ -46,6 +46,17 @@ HWY_INLINE Sums PartialDifferences(const std::uint8_t* a, const std::uint8_t* b)
   return sum;
 }
 
+// The sum of all lanes, by halves.
+template <class D>
+HWY_INLINE std::uint64_t Total(D lanes, hn::Vec<D> sums) {
+  if constexpr (hn::MaxLanes(lanes) == 1) {
+    return hn::GetLane(sums);
+  } else {
+    const hn::Half<D> half;
+    return Total(half, hn::Add(hn::LowerHalf(half, sums), hn::UpperHalf(half, sums)));
+  }
+}
+
 // The differences of `window` to four others, which share one word of 64 bits a lane: what they add
 // up to takes 16 bits each.
 HWY_INLINE void DifferencesOfFour(const std::uint8_t* window, const std::uint8_t* const* others,
@@ -55,14 +66,12 @@ HWY_INLINE void DifferencesOfFour(const std::uint8_t* window, const std::uint8_t
                              hn::ShiftLeft<16>(PartialDifferences(window, others[1])));
   const auto upper = hn::Add(PartialDifferences(window, others[2]),
                              hn::ShiftLeft<16>(PartialDifferences(window, others[3])));
-  const auto all = hn::SumOfLanes(kSums, hn::Add(lower, hn::ShiftLeft<32>(upper)));
-  const std::uint64_t words = hn::GetLane(all);
+  const std::uint64_t words = Total(kSums, hn::Add(lower, hn::ShiftLeft<32>(upper)));
   std::memcpy(differences, &words, sizeof(words));
 }
 
 HWY_INLINE std::uint16_t DifferenceOfOne(const std::uint8_t* window, const std::uint8_t* other) {
-  return static_cast<std::uint16_t>(
-      hn::GetLane(hn::SumOfLanes(kSums, PartialDifferences(window, other))));
+  return static_cast<std::uint16_t>(Total(kSums, PartialDifferences(window, other)));
 }
 
 void Differences(const std::uint8_t* window, const std::uint8_t* others, std::size_t count,
@@ -102,8 +111,7 @@ void WindowDifferences(const std::uint8_t* window, const WindowSet& others, std:
 }
 
 void ChosenDifferences(const std::uint8_t* window, const WindowSet& others,
-                       std::span<const std::int32_t> chosen,
-                       std::span<std::uint16_t> differences) {
+                       std::span<const std::int32_t> chosen, std::span<std::uint16_t> differences) {
   EXPECT(differences.size() >= chosen.size());
   HWY_DYNAMIC_DISPATCH(Chosen)
   (window, others.At(0), chosen.data(), chosen.size(), differences.data());

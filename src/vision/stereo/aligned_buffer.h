@@ -1,4 +1,5 @@
-// Memory that begins at a cache line, zero at first, with a cache line to spare at both ends.
+// Memory that begins at a cache line, zero at first unless asked otherwise, with a cache line to
+// spare at both ends.
 #pragma once
 
 #include <algorithm>
@@ -8,17 +9,20 @@
 
 namespace rockyard::vision {
 
+// What a buffer holds at first.
+enum class Filled { kZero, kAnything };
+
 template <typename Value>
 class AlignedBuffer {
  public:
   static constexpr std::size_t kAlignment = 64;
 
   AlignedBuffer() = default;
-  explicit AlignedBuffer(std::size_t size) : size_(size) {
+  explicit AlignedBuffer(std::size_t size, Filled filled = Filled::kZero) : size_(size) {
     const std::size_t all = size + 2 * kSpare;
     memory_.reset(
         static_cast<Value*>(::operator new(all * sizeof(Value), std::align_val_t(kAlignment))));
-    std::fill_n(memory_.get(), all, Value{});
+    if (filled == Filled::kZero) std::fill_n(memory_.get(), all, Value{});
   }
 
   Value* data() { return memory_.get() + kSpare; }

@@ -102,8 +102,10 @@ TEST(FastFeaturesTest, TheSteepestSlopesFit) {
       for (int x = 0; x < 24; ++x) {
         const bool on_x = x % 4 < 2;
         const bool on_y = y % 4 < 2;
-        const bool on = kind == 0 ? on_x : kind == 1 ? on_y : kind == 2 ? on_x != on_y
-                                                                       : (x + y) % 4 < 2;
+        const bool on = kind == 0   ? on_x
+                        : kind == 1 ? on_y
+                        : kind == 2 ? on_x != on_y
+                                    : (x + y) % 4 < 2;
         image.At(x, y) = on ? 255 : 0;
       }
     }
@@ -237,9 +239,9 @@ TEST(FastFeaturesTest, WindowsOfEverySide) {
   const GrayImage image = RandomImage(40, 30, 256, 90U);
   for (int side = 1; side <= 15; side += 2) {
     const auto reach = static_cast<std::int16_t>(side / 2);
-    for (const Feature& feature :
-         {Feature{reach, reach, 0}, Feature{20, 15, 0},
-          Feature{static_cast<std::int16_t>(39 - reach), static_cast<std::int16_t>(29 - reach), 0}}) {
+    for (const Feature& feature : {Feature{reach, reach, 0}, Feature{20, 15, 0},
+                                   Feature{static_cast<std::int16_t>(39 - reach),
+                                           static_cast<std::int16_t>(29 - reach), 0}}) {
       alignas(64) std::uint8_t window[256];
       std::fill_n(window, 256, std::uint8_t{77});
       CopyWindow(image, feature, side, window);
@@ -334,11 +336,9 @@ void ExpectSameMatches(const GrayImage& first, const Features& first_features,
       PlainMatches(first, first_features, second, second_features, params, predicted);
   for (const std::int64_t set : InstructionSets()) {
     const UseInstructionSet use(set);
-    ASSERT_EQ(
-        MatchFeatures(first, first_features, second, second_features, params, predicted),
-        expected)
-        << first_features.size() << " and " << second_features.size() << ", "
-        << InstructionSet();
+    ASSERT_EQ(MatchFeatures(first, first_features, second, second_features, params, predicted),
+              expected)
+        << first_features.size() << " and " << second_features.size() << ", " << InstructionSet();
   }
 }
 

@@ -18,11 +18,11 @@
 
 #include "core/hash.h"
 #include "textured_image.h"
-#include "vision/stereo/instruction_sets.h"
 #include "vision/odometry/detect_features.h"
 #include "vision/odometry/match_features.h"
 #include "vision/odometry/window.h"
 #include "vision/stereo/correlator.h"
+#include "vision/stereo/instruction_sets.h"
 
 namespace rockyard::vision {
 namespace {
@@ -139,8 +139,7 @@ void Match(benchmark::State& state, MatchSearch search, MatchWarp warp) {
   params.warp = warp;
   PredictedFeatures predicted;
   for (const Feature& feature : first) {
-    PredictedFeature place{{feature.column - 3.3, feature.row + 2.6},
-                           Eigen::Matrix2d::Identity()};
+    PredictedFeature place{{feature.column - 3.3, feature.row + 2.6}, Eigen::Matrix2d::Identity()};
     place.by_offset(0, 1) = 0.02;
     predicted.push_back(place);
   }

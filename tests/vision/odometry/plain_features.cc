@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <optional>
 #include <tuple>
 
@@ -18,6 +19,7 @@ std::int64_t DownBy(std::int64_t value, int shift) {
 
 // Gradients of a pixel that has eight neighbours.
 struct PlainGradient {
+  PlainGradient() = default;
   PlainGradient(const GrayImage& image, int x, int y) {
     constexpr int kWeights[3] = {1, 2, 1};
     for (int i = -1; i <= 1; ++i) {
@@ -32,7 +34,7 @@ struct PlainGradient {
   std::int64_t gy = 0;
 };
 
-std::int64_t ResponseAt(const GrayImage& image, int x, int y, std::int64_t weight) {
+std::int64_t ResponseAt(const Image<PlainGradient>& gradients, int x, int y, std::int64_t weight) {
   std::int64_t xx = 0;
   std::int64_t xy = 0;
   std::int64_t yy = 0;
@@ -41,7 +43,7 @@ std::int64_t ResponseAt(const GrayImage& image, int x, int y, std::int64_t weigh
     std::int64_t column_xy = 0;
     std::int64_t column_yy = 0;
     for (int row = y - 2; row <= y + 2; ++row) {
-      const PlainGradient at(image, column, row);
+      const PlainGradient& at = gradients.At(column, row);
       column_xx += at.gx * at.gx;
       column_xy += at.gx * at.gy;
       column_yy += at.gy * at.gy;
@@ -67,8 +69,7 @@ bool IsAllowed(const Image<std::uint8_t>& free, int width, int height, int borde
 }
 
 bool IsCorner(const Image<std::int64_t>& response, int x, int y, int reach) {
-  for (int row = std::max(y - reach, 0); row <= std::min(y + reach, response.height() - 1);
-       ++row) {
+  for (int row = std::max(y - reach, 0); row <= std::min(y + reach, response.height() - 1); ++row) {
     for (int column = std::max(x - reach, 0); column <= std::min(x + reach, response.width() - 1);
          ++column) {
       if (row == y && column == x) continue;
@@ -84,11 +85,19 @@ struct PlainRegion {
   int left, right, top, bottom;
 };
 
+// Those of an image, by weight.
+using Responses = std::map<std::int64_t, Image<std::int64_t>>;
+
 // From the strongest on, of equal ones in the order of rows.
 Features CornersOf(const GrayImage& image, const FeatureDetectorParams& params,
                    const Image<std::uint8_t>& free, const PlainRegion& region, double weight,
-                   double threshold) {
-  const Image<std::int64_t> response = PlainResponse(image, std::lround(1024.0 * weight));
+                   double threshold, Responses& responses) {
+  const std::int64_t whole = std::lround(1024.0 * weight);
+  const auto found = responses.find(whole);
+  const Image<std::int64_t>& response =
+      found != responses.end()
+          ? found->second
+          : responses.emplace(whole, PlainResponse(image, whole)).first->second;
   Features corners;
   for (int y = region.top; y < region.bottom; ++y) {
     for (int x = region.left; x < region.right; ++x) {
@@ -107,12 +116,13 @@ Features CornersOf(const GrayImage& image, const FeatureDetectorParams& params,
 }
 
 Features OfRegion(const GrayImage& image, const FeatureDetectorParams& params,
-                  const Image<std::uint8_t>& free, const PlainRegion& region) {
+                  const Image<std::uint8_t>& free, const PlainRegion& region,
+                  Responses& responses) {
   const auto least = static_cast<std::size_t>(params.min_of_region());
   const auto most = static_cast<std::size_t>(params.max_of_region());
   if (params.adapted == Adapted::kThreshold) {
     Features corners =
-        CornersOf(image, params, free, region, params.weight, params.min_threshold);
+        CornersOf(image, params, free, region, params.weight, params.min_threshold, responses);
     while (!corners.empty() &&
            (corners.size() > most ||
             (corners.size() > least && corners.back().strength < std::lround(params.threshold)))) {
@@ -125,7 +135,7 @@ Features OfRegion(const GrayImage& image, const FeatureDetectorParams& params,
   double weight = params.weight;
   Features corners;
   for (int tries = 0; tries <= 8; ++tries) {
-    corners = CornersOf(image, params, free, region, weight, params.threshold);
+    corners = CornersOf(image, params, free, region, weight, params.threshold, responses);
     if (corners.size() >= least && corners.size() <= most) break;
     if (corners.size() > most) {
       low = weight;
@@ -180,9 +190,13 @@ Differences DifferencesOf(const GrayImage& first, const Features& first_features
 
 Image<std::int64_t> PlainResponse(const GrayImage& image, std::int64_t weight) {
   Image<std::int64_t> response(image.width(), image.height(), 0);
+  Image<PlainGradient> gradients(image.width(), image.height());
+  for (int y = 1; y + 1 < image.height(); ++y) {
+    for (int x = 1; x + 1 < image.width(); ++x) gradients.At(x, y) = PlainGradient(image, x, y);
+  }
   for (int y = 3; y + 3 < image.height(); ++y) {
     for (int x = 3; x + 3 < image.width(); ++x) {
-      response.At(x, y) = ResponseAt(image, x, y, weight);
+      response.At(x, y) = ResponseAt(gradients, x, y, weight);
     }
   }
   return response;
@@ -193,11 +207,12 @@ Features PlainFeatures(const GrayImage& image, const FeatureDetectorParams& para
   const auto across = static_cast<int>(params.regions_across);
   const auto down = static_cast<int>(params.regions_down);
   Features features;
+  Responses responses;
   for (int j = 0; j < down; ++j) {
     for (int i = 0; i < across; ++i) {
       const PlainRegion region{i * image.width() / across, (i + 1) * image.width() / across,
                                j * image.height() / down, (j + 1) * image.height() / down};
-      for (const Feature& feature : OfRegion(image, params, free, region)) {
+      for (const Feature& feature : OfRegion(image, params, free, region, responses)) {
         features.push_back(feature);
       }
     }

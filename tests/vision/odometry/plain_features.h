@@ -31,7 +31,6 @@ PlainWindow PlainWarpedWindow(const GrayImage& image, const Feature& feature,
 // As MatchFeatures (match_features.h).
 FeatureMatches PlainMatches(const GrayImage& first, const Features& first_features,
                             const GrayImage& second, const Features& second_features,
-                            const FeatureMatcherParams& params,
-                            const PredictedFeatures& predicted);
+                            const FeatureMatcherParams& params, const PredictedFeatures& predicted);
 
 }  // namespace rockyard::vision

@@ -35,7 +35,7 @@ double WaveTexture::At(double x, double y) const {
 }
 
 GrayImage WaveTexture::Render(int width, int height, double left, double top, double contrast,
-                             double noise, std::uint32_t noise_number) const {
+                              double noise, std::uint32_t noise_number) const {
   core::RandomStream stream({2013, number_}, core::Purpose::kTest, noise_number);
   GrayImage image(width, height);
   for (int y = 0; y < height; ++y) {

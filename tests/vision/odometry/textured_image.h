@@ -20,7 +20,7 @@ class WaveTexture {
   // Grey levels of the pixels from (left, top) on, with normal noise of the standard deviation
   // `noise`, from a stream of its own number.
   GrayImage Render(int width, int height, double left, double top, double contrast, double noise,
-                  std::uint32_t noise_number) const;
+                   std::uint32_t noise_number) const;
 
  private:
   struct Wave {
