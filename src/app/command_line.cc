@@ -143,8 +143,9 @@ void AddCommands(CLI::App& app, ExitCode& exit_code) {
   AddMergeCommand(app, exit_code);
   AddRoverCommand(app);
   AddTerrainCommand(app);
-  AddRenderCommand(app);
+  AddRenderCommand(app, exit_code);
   AddStereoCommand(app);
+  AddVoCommand(app, exit_code);
   AddCalibrateCommand(app);
   AddTraceCommand(app, exit_code);
   AddReplayCommand(app, exit_code);

@@ -2,19 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <string_view>
 
+#include "campaign/stereo/render_stage.h"
 #include "campaign/stereo/stereo_products.h"
-#include "core/error.h"
 #include "core/json_text.h"
 #include "image_files/pfm_file.h"
 #include "image_files/png_file.h"
-#include "rover/rover.h"
-#include "scenario/load.h"
 #include "sensing/stereo_imager.h"
-#include "terrain/field.h"
-#include "trial/layout.h"
 #include "vision/cameras/aligned_pair.h"
 #include "vision/cameras/camera_file.h"
 
@@ -22,18 +17,6 @@ namespace rockyard::campaign {
 namespace {
 
 using vision::Image;
-
-// A scenario whose stereo sensor has other fidelities has cameras all the same.
-scenario::Scenario LoadWithImages(const RenderRequest& request) {
-  std::vector<std::string> overrides = request.overrides;
-  overrides.emplace_back("sensors.stereo.fidelity=image");
-  return scenario::LoadScenario(request.scenario, overrides);
-}
-
-math::Pose2 PoseOf(const RenderRequest& request, const math::Pose2& start) {
-  return {request.x_m.value_or(start.x_m), request.y_m.value_or(start.y_m),
-          request.heading_rad.value_or(start.heading_rad)};
-}
 
 // Pictures of disparities are made of those that a matcher stores.
 vision::DisparityImage Stored(const Image<float>& disparities) {
@@ -85,23 +68,14 @@ void Write(const RenderRequest& request, const sensing::StereoImages& images,
 }  // namespace
 
 RenderResult RenderPair(const RenderRequest& request) {
-  const scenario::Scenario scenario = LoadWithImages(request);
-  const trial::DriveParams& drive = scenario.drive;
-  const core::TrialKey key{request.seed.value_or(static_cast<std::uint64_t>(scenario.seed)),
-                           request.trial};
-  terrain::Terrain terrain = terrain::BuildField(drive.terrain, trial::LayoutKey(drive, key),
-                                                 trial::TerrainCourse(drive.course))
-                                 .terrain;
+  RenderStage stage(request);
   RenderResult result;
-  result.pose = PoseOf(request, drive.course.Start());
-  const std::unique_ptr<rover::Rover> rover = rover::MakeRover(drive.rover, terrain);
-  rover->Place(result.pose);
-  const math::Transform& X_WR = rover->state().X_WR;
-  const sensing::StereoImager imager(drive.sensors.stereo, drive.sensors.sun, drive.sensors.look,
-                                     drive.rover.geometry, key);
+  result.pose = FirstPose(request, stage.scenario().drive.course.Start());
+  const math::Transform& X_WR = stage.Stand(result.pose);
+  const sensing::StereoImager& imager = stage.imager();
   const vision::StereoRig& rig = imager.rig(request.direction);
-  const sensing::StereoImages images = imager.Expose(terrain, X_WR, 0, request.direction);
-  const Image<float> disparities = imager.TrueDisparities(terrain, X_WR, request.direction);
+  const sensing::StereoImages images = imager.Expose(stage.terrain(), X_WR, 0, request.direction);
+  const Image<float> disparities = imager.TrueDisparities(stage.terrain(), X_WR, request.direction);
   const Seen seen = Summary(disparities);
   const auto pair = vision::AlignedPair(rig.left, rig.right);
   result.size = rig.left.size;

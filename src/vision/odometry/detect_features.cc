@@ -2,21 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "core/check.h"
-#include "vision/odometry/harris.h"
+#include "vision/odometry/local_maxima.h"
 
 namespace rockyard::vision {
 namespace {
-
-// Columns from `left` to before `right`, rows likewise.
-struct Region {
-  int left = 0;
-  int right = 0;
-  int top = 0;
-  int bottom = 0;
-};
 
 int PartOf(int whole, std::int64_t part, std::int64_t parts) {
   return static_cast<int>(static_cast<std::int64_t>(whole) * part / parts);
@@ -46,96 +39,21 @@ Image<std::uint8_t> AllowedPixels(const ImageSize& size, int border,
   return allowed;
 }
 
-// The corners of one region by one weight.
-class RegionCorners {
- public:
-  RegionCorners(const GradientSums& sums, const Image<std::uint8_t>& allowed, const Region& region,
-                int reach)
-      : sums_(sums),
-        allowed_(allowed),
-        region_(region),
-        reach_(reach),
-        first_column_(std::max(region.left - reach, 0)),
-        first_row_(std::max(region.top - reach, 0)),
-        response_(std::min(region.right + reach, sums.xx.width()) - first_column_,
-                  std::min(region.bottom + reach, sums.xx.height()) - first_row_) {}
-
-  // From the strongest on.
-  Features Find(double weight, std::int32_t threshold) {
-    HarrisResponse(sums_, HarrisWeight(weight), first_column_, first_row_, response_);
-    Features corners;
-    for (int y = region_.top; y < region_.bottom; ++y) {
-      for (int x = region_.left; x < region_.right; ++x) {
-        if (allowed_.At(x, y) == 0) continue;
-        const std::int32_t value = response_.At(x - first_column_, y - first_row_);
-        if (value < threshold || !IsLargest(x - first_column_, y - first_row_, value)) continue;
-        corners.push_back({static_cast<std::int16_t>(x), static_cast<std::int16_t>(y), value});
-      }
-    }
-    std::stable_sort(corners.begin(), corners.end(),
-                     [](const Feature& a, const Feature& b) { return a.strength > b.strength; });
-    return corners;
-  }
-
- private:
-  bool IsLargest(int x, int y, std::int32_t value) const {
-    const int last_row = std::min(y + reach_, response_.height() - 1);
-    const int first = std::max(x - reach_, 0);
-    const int last = std::min(x + reach_, response_.width() - 1);
-    for (int row = std::max(y - reach_, 0); row <= last_row; ++row) {
-      for (int column = first; column <= last; ++column) {
-        const std::int32_t other = response_.At(column, row);
-        const bool before = row < y || (row == y && column < x);
-        if (before ? other >= value : other > value) return false;
-      }
-    }
-    return true;
-  }
-
-  const GradientSums& sums_;
-  const Image<std::uint8_t>& allowed_;
-  Region region_;
-  int reach_;
-  int first_column_;
-  int first_row_;
-  Image<std::int32_t> response_;
-};
-
 std::int32_t Whole(double threshold) { return static_cast<std::int32_t>(std::lround(threshold)); }
 
-std::size_t CountFrom(const Features& sorted, std::int32_t threshold) {
-  return static_cast<std::size_t>(
-      std::find_if(sorted.begin(), sorted.end(),
-                   [&](const Feature& corner) { return corner.strength < threshold; }) -
-      sorted.begin());
-}
-
-Features ByThreshold(const FeatureDetectorParams& params, RegionCorners& region) {
-  Features corners = region.Find(params.weight, Whole(params.min_threshold));
-  std::size_t count = CountFrom(corners, Whole(params.threshold));
-  const auto least = static_cast<std::size_t>(params.min_of_region());
-  const auto most = static_cast<std::size_t>(params.max_of_region());
-  count = std::min(std::clamp(count, std::min(least, most), most), corners.size());
-  corners.resize(count);
-  return corners;
-}
-
-Features ByWeight(const FeatureDetectorParams& params, RegionCorners& region) {
-  constexpr int kBisections = 8;
-  constexpr double kLargestWeight = 0.24;
-  const auto least = static_cast<std::size_t>(params.min_of_region());
-  const auto most = static_cast<std::size_t>(params.max_of_region());
-  double low = 0.0;
-  double high = kLargestWeight;
-  double weight = params.weight;
-  Features corners = region.Find(weight, Whole(params.threshold));
-  for (int i = 0; i < kBisections && (corners.size() < least || corners.size() > most); ++i) {
-    (corners.size() > most ? low : high) = weight;
-    weight = 0.5 * (low + high);
-    corners = region.Find(weight, Whole(params.threshold));
+// Of features in the order of rows, the `most` strongest, from the strongest on; of equal ones the
+// earlier is the stronger.
+void KeepStrongest(std::size_t most, Features& features) {
+  const auto stronger = [](const Feature& a, const Feature& b) {
+    if (a.strength != b.strength) return a.strength > b.strength;
+    return a.row != b.row ? a.row < b.row : a.column < b.column;
+  };
+  if (features.size() > most) {
+    const auto end = features.begin() + static_cast<std::ptrdiff_t>(most);
+    std::nth_element(features.begin(), end, features.end(), stronger);
+    features.erase(end, features.end());
   }
-  if (corners.size() > most) corners.resize(most);
-  return corners;
+  std::sort(features.begin(), features.end(), stronger);
 }
 
 }  // namespace
@@ -148,20 +66,85 @@ FeatureDetector::FeatureDetector(const FeatureDetectorParams& params, const Imag
   EXPECT(free.empty() || (free.width() == size.columns && free.height() == size.rows));
 }
 
+ImageArea FeatureDetector::Region(std::int64_t across, std::int64_t down) const {
+  return {PartOf(size_.columns, across, params_.regions_across),
+          PartOf(size_.columns, across + 1, params_.regions_across),
+          PartOf(size_.rows, down, params_.regions_down),
+          PartOf(size_.rows, down + 1, params_.regions_down)};
+}
+
+GradientSums FeatureDetector::SumsAround(const GrayImage& image, const ImageArea& area) const {
+  return {image,
+          Widened(area, static_cast<int>(params_.suppression_px), size_.columns, size_.rows)};
+}
+
+Features FeatureDetector::Corners(const GradientSums& sums, const ImageArea& area, double weight,
+                                  double threshold) const {
+  Features corners = LocalMaxima(sums, HarrisWeight(weight), area,
+                                 static_cast<int>(params_.suppression_px), Whole(threshold));
+  std::erase_if(corners,
+                [&](const Feature& corner) { return allowed_.At(corner.column, corner.row) == 0; });
+  return corners;
+}
+
+// All regions of a row of them have one weight, hence one response.
+void FeatureDetector::AddByThreshold(const GrayImage& image, std::int64_t down,
+                                     Features& features) const {
+  const ImageArea first = Region(0, down);
+  const ImageArea band{0, size_.columns, first.top, first.bottom};
+  const Features corners =
+      Corners(SumsAround(image, band), band, params_.weight, params_.min_threshold);
+  std::vector<Features> regions(static_cast<std::size_t>(params_.regions_across));
+  std::vector<std::size_t> of_column(static_cast<std::size_t>(size_.columns));
+  for (std::int64_t across = 0; across < params_.regions_across; ++across) {
+    const ImageArea region = Region(across, down);
+    std::fill(of_column.begin() + region.left, of_column.begin() + region.right,
+              static_cast<std::size_t>(across));
+  }
+  for (const Feature& corner : corners) {
+    regions[of_column[static_cast<std::size_t>(corner.column)]].push_back(corner);
+  }
+  const auto least = static_cast<std::size_t>(params_.min_of_region());
+  const auto most = static_cast<std::size_t>(params_.max_of_region());
+  for (Features& region : regions) {
+    const auto strong = static_cast<std::size_t>(std::count_if(
+        region.begin(), region.end(),
+        [&](const Feature& corner) { return corner.strength >= Whole(params_.threshold); }));
+    KeepStrongest(std::clamp(strong, std::min(least, most), most), region);
+    features.insert(features.end(), region.begin(), region.end());
+  }
+}
+
+void FeatureDetector::AddByWeight(const GrayImage& image, const ImageArea& region,
+                                  Features& features) const {
+  constexpr int kBisections = 8;
+  constexpr double kLargestWeight = 0.24;
+  const auto least = static_cast<std::size_t>(params_.min_of_region());
+  const auto most = static_cast<std::size_t>(params_.max_of_region());
+  const GradientSums sums = SumsAround(image, region);
+  double low = 0.0;
+  double high = kLargestWeight;
+  double weight = params_.weight;
+  Features corners = Corners(sums, region, weight, params_.threshold);
+  for (int i = 0; i < kBisections && (corners.size() < least || corners.size() > most); ++i) {
+    (corners.size() > most ? low : high) = weight;
+    weight = 0.5 * (low + high);
+    corners = Corners(sums, region, weight, params_.threshold);
+  }
+  KeepStrongest(most, corners);
+  features.insert(features.end(), corners.begin(), corners.end());
+}
+
 Features FeatureDetector::Detect(const GrayImage& image) const {
   EXPECT(image.width() == size_.columns && image.height() == size_.rows);
-  const GradientSums sums = GradientSumsOf(image);
   Features features;
   for (std::int64_t down = 0; down < params_.regions_down; ++down) {
+    if (params_.adapted == Adapted::kThreshold) {
+      AddByThreshold(image, down, features);
+      continue;
+    }
     for (std::int64_t across = 0; across < params_.regions_across; ++across) {
-      const Region region{PartOf(size_.columns, across, params_.regions_across),
-                          PartOf(size_.columns, across + 1, params_.regions_across),
-                          PartOf(size_.rows, down, params_.regions_down),
-                          PartOf(size_.rows, down + 1, params_.regions_down)};
-      RegionCorners corners(sums, allowed_, region, static_cast<int>(params_.suppression_px));
-      const Features found = params_.adapted == Adapted::kThreshold ? ByThreshold(params_, corners)
-                                                                    : ByWeight(params_, corners);
-      features.insert(features.end(), found.begin(), found.end());
+      AddByWeight(image, Region(across, down), features);
     }
   }
   return features;

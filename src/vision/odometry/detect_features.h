@@ -7,6 +7,7 @@
 #include "vision/image.h"
 #include "vision/odometry/detector_params.h"
 #include "vision/odometry/feature.h"
+#include "vision/odometry/harris.h"
 
 namespace rockyard::vision {
 
@@ -32,6 +33,13 @@ class FeatureDetector {
   Features Detect(const GrayImage& image) const;
 
  private:
+  ImageArea Region(std::int64_t across, std::int64_t down) const;
+  GradientSums SumsAround(const GrayImage& image, const ImageArea& area) const;
+  Features Corners(const GradientSums& sums, const ImageArea& area, double weight,
+                   double threshold) const;
+  void AddByThreshold(const GrayImage& image, std::int64_t down, Features& features) const;
+  void AddByWeight(const GrayImage& image, const ImageArea& region, Features& features) const;
+
   FeatureDetectorParams params_;
   ImageSize size_;
   Image<std::uint8_t> allowed_;

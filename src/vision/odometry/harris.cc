@@ -1,101 +1,228 @@
 #include "vision/odometry/harris.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstddef>
-#include <vector>
+#include <cstring>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "vision/odometry/harris.cc"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
 
 #include "core/check.h"
 
-namespace rockyard::vision {
-namespace {
+HWY_BEFORE_NAMESPACE();
+namespace rockyard::vision::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr int kLimit = 63;
+constexpr hn::ScalableTag<std::int16_t> kValues;
+constexpr hn::Rebind<std::uint8_t, decltype(kValues)> kBytes;
+constexpr hn::RepartitionToWide<decltype(kValues)> kWide;
+constexpr hn::Half<decltype(kValues)> kHalf;
+using Values = hn::Vec<decltype(kValues)>;
+using Wide = hn::Vec<decltype(kWide)>;
 
-std::int16_t Gradient(int sobel) {
-  return static_cast<std::int16_t>(std::clamp((sobel + 1) >> 1, -kLimit, kLimit));
-}
-
-// Products of the gradients of one row; 0 in the first and last column.
-struct ProductRow {
-  explicit ProductRow(std::size_t width) : xx(width), xy(width), yy(width) {}
-
-  std::vector<std::int16_t> xx;
-  std::vector<std::int16_t> xy;
-  std::vector<std::int16_t> yy;
-};
-
-void FindProducts(const GrayImage& image, int row, ProductRow& products) {
-  const auto above = image.Row(row - 1);
-  const auto here = image.Row(row);
-  const auto below = image.Row(row + 1);
-  for (std::size_t x = 1; x + 1 < here.size(); ++x) {
-    const auto smooth = [&](std::size_t i) { return above[i] + 2 * here[i] + below[i]; };
-    const auto step = [&](std::size_t i) { return below[i] - above[i]; };
-    const int gx = Gradient(smooth(x + 1) - smooth(x - 1));
-    const int gy = Gradient(step(x - 1) + 2 * step(x) + step(x + 1));
-    products.xx[x] = static_cast<std::int16_t>(gx * gx);
-    products.xy[x] = static_cast<std::int16_t>(gx * gy);
-    products.yy[x] = static_cast<std::int16_t>(gy * gy);
+// Columns of three rows: weighed 1, 2, 1, and the last less the first.
+void SmoothColumns(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
+                   std::size_t width, std::int16_t* smooth, std::int16_t* step) {
+  for (std::size_t x = 0; x < width; x += hn::Lanes(kValues)) {
+    const auto a = hn::PromoteTo(kValues, hn::LoadU(kBytes, above + x));
+    const auto h = hn::PromoteTo(kValues, hn::LoadU(kBytes, here + x));
+    const auto b = hn::PromoteTo(kValues, hn::LoadU(kBytes, below + x));
+    hn::Store(hn::Add(hn::Add(a, b), hn::Add(h, h)), kValues, smooth + x);
+    hn::Store(hn::Sub(b, a), kValues, step + x);
   }
 }
 
+// (sobel + 1) >> 1, clamped.
+HWY_INLINE Values Gradient(Values sobel) {
+  constexpr std::int16_t kLimit = 63;
+  const auto half = hn::ShiftRight<1>(hn::Add(sobel, hn::Set(kValues, 1)));
+  return hn::Min(hn::Max(half, hn::Set(kValues, -kLimit)), hn::Set(kValues, kLimit));
+}
+
+// Products of the gradients of a row, from the columns of SmoothColumns; one column to either side
+// is looked at.
+void Products(const std::int16_t* smooth, const std::int16_t* step, std::size_t width,
+              std::int16_t* xx, std::int16_t* xy, std::int16_t* yy) {
+  for (std::size_t x = 0; x < width; x += hn::Lanes(kValues)) {
+    const auto gx =
+        Gradient(hn::Sub(hn::LoadU(kValues, smooth + x + 1), hn::LoadU(kValues, smooth + x - 1)));
+    const auto middle = hn::Load(kValues, step + x);
+    const auto sides = hn::Add(hn::LoadU(kValues, step + x - 1), hn::LoadU(kValues, step + x + 1));
+    const auto gy = Gradient(hn::Add(sides, hn::Add(middle, middle)));
+    hn::Store(hn::Mul(gx, gx), kValues, xx + x);
+    hn::Store(hn::Mul(gx, gy), kValues, xy + x);
+    hn::Store(hn::Mul(gy, gy), kValues, yy + x);
+  }
+}
+
+// Sums of five rows >> 2.
+void SumRows(const std::int16_t* const* rows, std::size_t width, std::int16_t* sums) {
+  for (std::size_t x = 0; x < width; x += hn::Lanes(kValues)) {
+    const auto outer = hn::Add(hn::Load(kValues, rows[0] + x), hn::Load(kValues, rows[4] + x));
+    const auto inner = hn::Add(hn::Load(kValues, rows[1] + x), hn::Load(kValues, rows[3] + x));
+    const auto sum = hn::Add(hn::Add(outer, inner), hn::Load(kValues, rows[2] + x));
+    hn::Store(hn::ShiftRight<2>(sum), kValues, sums + x);
+  }
+}
+
+// Sums of five columns: of `sums` from column x - 2 on at x.
+void SumColumns(const std::int16_t* sums, std::size_t width, std::int16_t* out) {
+  for (std::size_t x = 0; x < width; x += hn::Lanes(kValues)) {
+    const auto outer = hn::Add(hn::LoadU(kValues, sums + x - 2), hn::LoadU(kValues, sums + x + 2));
+    const auto inner = hn::Add(hn::LoadU(kValues, sums + x - 1), hn::LoadU(kValues, sums + x + 1));
+    hn::Store(hn::Add(hn::Add(outer, inner), hn::Load(kValues, sums + x)), kValues, out + x);
+  }
+}
+
+// xx yy - xy^2 - (((xx + yy) >> 1)^2 >> 8) k' of half a vector.
+HWY_INLINE Wide Response(Wide xx, Wide xy, Wide yy, Wide weight) {
+  const auto half_trace = hn::ShiftRight<1>(hn::Add(xx, yy));
+  const auto trace = hn::Mul(hn::ShiftRight<8>(hn::Mul(half_trace, half_trace)), weight);
+  return hn::Sub(hn::Sub(hn::Mul(xx, yy), hn::Mul(xy, xy)), trace);
+}
+
+void Responses(const std::int16_t* xx, const std::int16_t* xy, const std::int16_t* yy,
+               std::int32_t weight, std::size_t width, std::int32_t* response) {
+  const auto k = hn::Set(kWide, weight);
+  for (std::size_t x = 0; x < width; x += hn::Lanes(kWide)) {
+    const auto load = [&](const std::int16_t* sums)
+                          HWY_ATTR { return hn::PromoteTo(kWide, hn::Load(kHalf, sums + x)); };
+    hn::Store(Response(load(xx), load(xy), load(yy), k), kWide, response + x);
+  }
+}
+
+}  // namespace rockyard::vision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rockyard::vision {
+
+HWY_EXPORT(SmoothColumns);
+HWY_EXPORT(Products);
+HWY_EXPORT(SumRows);
+HWY_EXPORT(SumColumns);
+HWY_EXPORT(Responses);
+
+namespace {
+
+// Most lanes of 16 bits that any vector has: rows are padded to as many.
+constexpr std::size_t kMostLanes = 64;
+// Columns of the image before an area that its sums look at, and as many behind.
+constexpr int kAround = kHarrisMargin_px;
+
+std::size_t Padded(int width) {
+  return (static_cast<std::size_t>(width) + 2 * kAround + kMostLanes - 1) / kMostLanes * kMostLanes;
+}
+
+// The last rows of an area on their way to sums. A row has `stride` values, of which the first is
+// that of the column kAround before the area. Columns outside of the image are 0, and reach nothing
+// but sums within its margin.
+class SlidingRows {
+ public:
+  SlidingRows(const GrayImage& image, const ImageArea& area)
+      : image_(image),
+        first_(area.left - kAround),
+        stride_(Padded(area.width())),
+        bytes_(3 * stride_),
+        smooth_(stride_),
+        step_(stride_),
+        products_(15 * stride_),
+        columns_(stride_ + kMostLanes) {
+    next_ = std::max(area.top, kHarrisMargin_px) - 2;
+    for (const int row : {next_ - 1, next_}) CopyRow(row);
+  }
+
+  // The sums of a row of the area, which is no earlier than the last one and not in the margin.
+  void AddUp(int row, std::size_t width, std::int16_t* const* sums) {
+    for (; next_ <= row + 2; ++next_) FindProducts(next_);
+    for (std::size_t which = 0; which < 3; ++which) {
+      std::array<const std::int16_t*, 5> rows;
+      for (int i = 0; i < 5; ++i) {
+        rows[static_cast<std::size_t>(i)] = Product(which, row - 2 + i);
+      }
+      HWY_DYNAMIC_DISPATCH(SumRows)(rows.data(), stride_, columns_.data());
+      HWY_DYNAMIC_DISPATCH(SumColumns)(columns_.data() + kAround, width, sums[which]);
+    }
+  }
+
+ private:
+  void FindProducts(int row) {
+    CopyRow(row + 1);
+    HWY_DYNAMIC_DISPATCH(SmoothColumns)
+    (Bytes(row - 1), Bytes(row), Bytes(row + 1), stride_, smooth_.data(), step_.data());
+    HWY_DYNAMIC_DISPATCH(Products)
+    (smooth_.data(), step_.data(), stride_, Product(0, row), Product(1, row), Product(2, row));
+  }
+
+  // Of products 0 to 2 (xx, xy, yy).
+  std::int16_t* Product(std::size_t which, int row) {
+    return products_.data() + (5 * which + static_cast<std::size_t>(row % 5)) * stride_;
+  }
+  std::uint8_t* Bytes(int row) {
+    return bytes_.data() + static_cast<std::size_t>(row % 3) * stride_;
+  }
+  void CopyRow(int row) {
+    const int from = std::max(first_, 0);
+    const int to = std::min(first_ + static_cast<int>(stride_), image_.width());
+    std::memcpy(Bytes(row) + (from - first_), image_.Row(row).data() + from,
+                static_cast<std::size_t>(to - from));
+  }
+
+  const GrayImage& image_;
+  int first_;
+  int next_ = 0;  // row of the products that come
+  std::size_t stride_;
+  AlignedBuffer<std::uint8_t> bytes_;
+  AlignedBuffer<std::int16_t> smooth_;
+  AlignedBuffer<std::int16_t> step_;
+  AlignedBuffer<std::int16_t> products_;
+  AlignedBuffer<std::int16_t> columns_;
+};
+
 }  // namespace
+
+ImageArea Widened(const ImageArea& area, int reach, int width, int height) {
+  return {std::max(area.left - reach, 0), std::min(area.right + reach, width),
+          std::max(area.top - reach, 0), std::min(area.bottom + reach, height)};
+}
 
 std::int32_t HarrisWeight(double weight) {
   EXPECT(weight >= 0.0 && weight <= 0.25);
   return static_cast<std::int32_t>(std::lround(1024.0 * weight));
 }
 
-GradientSums GradientSumsOf(const GrayImage& image) {
-  const int width = image.width();
-  const int height = image.height();
-  GradientSums sums{Image<std::int16_t>(width, height), Image<std::int16_t>(width, height),
-                    Image<std::int16_t>(width, height)};
-  if (width <= 2 * kHarrisMargin_px || height <= 2 * kHarrisMargin_px) return sums;
-  std::vector<ProductRow> rows(5, ProductRow(static_cast<std::size_t>(width)));
-  const auto slot = [](int row) { return static_cast<std::size_t>(row % 5); };
-  for (int row = 1; row < 5; ++row) FindProducts(image, row, rows[slot(row)]);
-  std::vector<std::int16_t> columns(static_cast<std::size_t>(width));
-  for (int row = kHarrisMargin_px; row < height - kHarrisMargin_px; ++row) {
-    FindProducts(image, row + 2, rows[slot(row + 2)]);
-    const auto add_up = [&](std::vector<std::int16_t> ProductRow::*product,
-                            std::span<std::int16_t> sum) {
-      const std::int16_t* const r0 = (rows[0].*product).data();
-      const std::int16_t* const r1 = (rows[1].*product).data();
-      const std::int16_t* const r2 = (rows[2].*product).data();
-      const std::int16_t* const r3 = (rows[3].*product).data();
-      const std::int16_t* const r4 = (rows[4].*product).data();
-      for (std::size_t x = 0; x < columns.size(); ++x) {
-        columns[x] = static_cast<std::int16_t>((r0[x] + r1[x] + r2[x] + r3[x] + r4[x]) >> 2);
-      }
-      for (std::size_t x = kHarrisMargin_px; x + kHarrisMargin_px < columns.size(); ++x) {
-        sum[x] = static_cast<std::int16_t>(columns[x - 2] + columns[x - 1] + columns[x] +
-                                           columns[x + 1] + columns[x + 2]);
-      }
-    };
-    add_up(&ProductRow::xx, sums.xx.Row(row));
-    add_up(&ProductRow::xy, sums.xy.Row(row));
-    add_up(&ProductRow::yy, sums.yy.Row(row));
-  }
-  return sums;
-}
-
-void HarrisResponse(const GradientSums& sums, std::int32_t weight, int first_column, int first_row,
-                    Image<std::int32_t>& response) {
-  EXPECT(first_column >= 0 && first_column + response.width() <= sums.xx.width());
-  EXPECT(first_row >= 0 && first_row + response.height() <= sums.xx.height());
-  for (int row = 0; row < response.height(); ++row) {
-    const auto from = static_cast<std::size_t>(first_column);
-    const std::int16_t* const xx = sums.xx.Row(first_row + row).data() + from;
-    const std::int16_t* const xy = sums.xy.Row(first_row + row).data() + from;
-    const std::int16_t* const yy = sums.yy.Row(first_row + row).data() + from;
-    const auto values = response.Row(row);
-    for (std::size_t x = 0; x < values.size(); ++x) {
-      const std::int32_t half_trace = (xx[x] + yy[x]) >> 1;
-      values[x] = xx[x] * yy[x] - xy[x] * xy[x] - ((half_trace * half_trace) >> 8) * weight;
+GradientSums::GradientSums(const GrayImage& image, const ImageArea& area)
+    : area_(area),
+      stride_(Padded(area.width())),
+      sums_(3 * stride_ * static_cast<std::size_t>(area.height())) {
+  EXPECT(0 <= area.left && area.left <= area.right && area.right <= image.width());
+  EXPECT(0 <= area.top && area.top <= area.bottom && area.bottom <= image.height());
+  const int top = std::max(area.top, kHarrisMargin_px);
+  const int bottom = std::min(area.bottom, image.height() - kHarrisMargin_px);
+  const int left = std::max(area.left, kHarrisMargin_px) - area.left;
+  const int right = std::min(area.right, image.width() - kHarrisMargin_px) - area.left;
+  if (top >= bottom || left >= right) return;
+  SlidingRows rows(image, area);
+  for (int row = top; row < bottom; ++row) {
+    const std::array<std::int16_t*, 3> sums{Row(row), Row(row) + stride_, Row(row) + 2 * stride_};
+    rows.AddUp(row, static_cast<std::size_t>(area.width()), sums.data());
+    for (std::int16_t* const sum : sums) {
+      std::fill_n(sum, left, std::int16_t{0});
+      std::fill(sum + right, sum + area.width(), std::int16_t{0});
     }
   }
 }
 
+void GradientSums::WriteResponse(int row, std::int32_t weight, std::int32_t* response) const {
+  EXPECT(row >= area_.top && row < area_.bottom);
+  const std::int16_t* const sums = Row(row);
+  HWY_DYNAMIC_DISPATCH(Responses)
+  (sums, sums + stride_, sums + 2 * stride_, weight, static_cast<std::size_t>(area_.width()),
+   response);
+}
+
 }  // namespace rockyard::vision
+#endif  // HWY_ONCE

@@ -10,9 +10,11 @@
 // trace^2 of the closed form det - k trace^2 is 4 k (trace / 2)^2, hence 1024.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "vision/image.h"
+#include "vision/stereo/aligned_buffer.h"
 
 namespace rockyard::vision {
 
@@ -20,22 +22,49 @@ namespace rockyard::vision {
 // sums.
 inline constexpr int kHarrisMargin_px = 3;
 
+// Columns from `left` to before `right`, rows from `top` to before `bottom`.
+struct ImageArea {
+  int left = 0;
+  int right = 0;
+  int top = 0;
+  int bottom = 0;
+
+  int width() const { return right - left; }
+  int height() const { return bottom - top; }
+};
+
+// The area and `reach` columns and rows about it, as far as an image of this size has them.
+ImageArea Widened(const ImageArea& area, int reach, int width, int height);
+
 // k' of a weight from 0 to 0.25.
 std::int32_t HarrisWeight(double weight);
 
-// Sums of products of gradients over 5 x 5 pixels; 0 within the margin.
-struct GradientSums {
-  Image<std::int16_t> xx;
-  Image<std::int16_t> xy;
-  Image<std::int16_t> yy;
+// Sums of products of gradients over 5 x 5 pixels of an area of an image; 0 within the margin of
+// the image.
+class GradientSums {
+ public:
+  // The area lies inside the image. Cost: 0.3 ns a pixel with 64 bytes a vector.
+  GradientSums(const GrayImage& image, const ImageArea& area);
+
+  const ImageArea& area() const { return area_; }
+
+  // Writes the response of row `row` of the image, which the area has, from its first column on.
+  // `response` is aligned and has room for whole vectors; what is written behind the area's columns
+  // means nothing.
+  void WriteResponse(int row, std::int32_t weight, std::int32_t* response) const;
+
+ private:
+  // Sums of one row: `stride_` of each product.
+  std::int16_t* Row(int row) {
+    return sums_.data() + 3 * stride_ * static_cast<std::size_t>(row - area_.top);
+  }
+  const std::int16_t* Row(int row) const {
+    return sums_.data() + 3 * stride_ * static_cast<std::size_t>(row - area_.top);
+  }
+
+  ImageArea area_;
+  std::size_t stride_;
+  AlignedBuffer<std::int16_t> sums_;
 };
-
-// Cost: 0.2 ms for 512 x 384 pixels.
-GradientSums GradientSumsOf(const GrayImage& image);
-
-// The response of the pixels from (first_column, first_row) on, of as many as `response` has, which
-// lie inside.
-void HarrisResponse(const GradientSums& sums, std::int32_t weight, int first_column, int first_row,
-                    Image<std::int32_t>& response);
 
 }  // namespace rockyard::vision

@@ -1,33 +1,17 @@
 #include "vision/odometry/match_features.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
 #include "core/check.h"
+#include "vision/odometry/best_matches.h"
 #include "vision/odometry/window.h"
 
 namespace rockyard::vision {
 namespace {
-
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-
-// The best of what a feature was compared with.
-struct Best {
-  std::size_t index = 0;
-  std::uint32_t difference = kNone;
-  std::uint32_t second = kNone;
-
-  void Offer(std::size_t other, std::uint32_t value) {
-    if (value < difference) {
-      second = difference;
-      difference = value;
-      index = other;
-    } else if (value < second) {
-      second = value;
-    }
-  }
-};
 
 WindowSet FirstWindows(const GrayImage& image, const Features& features,
                        const FeatureMatcherParams& params, const PredictedFeatures& predicted) {
@@ -36,8 +20,7 @@ WindowSet FirstWindows(const GrayImage& image, const Features& features,
   WindowSet windows(features.size());
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (warp) {
-      WarpWindow(image, Pixel(features[i].column, features[i].row), predicted[i].by_offset, side,
-                 windows.At(i));
+      WarpWindow(image, features[i], predicted[i].by_offset, side, windows.At(i));
     } else {
       CopyWindow(image, features[i], side, windows.At(i));
     }
@@ -53,40 +36,43 @@ WindowSet SecondWindows(const GrayImage& image, const Features& features, int si
   return windows;
 }
 
-bool IsNear(const PredictedFeature& predicted, const Feature& feature,
-            const FeatureMatcherParams& params) {
-  return std::abs(predicted.pixel.x() - feature.column) <= params.search_columns_px &&
-         std::abs(predicted.pixel.y() - feature.row) <= params.search_rows_px;
-}
+// Whole pixels from `first` to `last`.
+struct PixelRange {
+  std::int32_t first = 0;
+  std::int32_t last = -1;
 
-struct AllBest {
-  std::vector<Best> of_first;
-  std::vector<Best> of_second;
+  bool Has(std::int32_t pixel) const { return pixel >= first && pixel <= last; }
 };
 
-AllBest Compare(const WindowSet& first, const WindowSet& second) {
-  AllBest best{std::vector<Best>(first.size()), std::vector<Best>(second.size())};
-  std::vector<std::uint32_t> differences(second.size());
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    WindowDifferences(first.At(i), second, differences);
-    for (std::size_t j = 0; j < second.size(); ++j) {
-      best.of_first[i].Offer(j, differences[j]);
-      best.of_second[j].Offer(i, differences[j]);
-    }
-  }
-  return best;
+// Those within `reach` of a place; none where it is not finite.
+PixelRange RangeAbout(double place, double reach) {
+  constexpr double kMost = std::numeric_limits<std::int16_t>::max();
+  if (!std::isfinite(place)) return {};
+  return {static_cast<std::int32_t>(std::clamp(std::ceil(place - reach), -kMost, kMost + 1.0)),
+          static_cast<std::int32_t>(std::clamp(std::floor(place + reach), -kMost, kMost))};
 }
 
-AllBest CompareNear(const WindowSet& first, const WindowSet& second,
-                    const Features& second_features, const FeatureMatcherParams& params,
-                    const PredictedFeatures& predicted) {
-  AllBest best{std::vector<Best>(first.size()), std::vector<Best>(second.size())};
+// Of each window of the first image only the features near where it is predicted.
+BestWindows CompareNear(const WindowSet& first, const WindowSet& second,
+                        const Features& second_features, const FeatureMatcherParams& params,
+                        const PredictedFeatures& predicted) {
+  BestWindows best{std::vector<BestWindow>(first.size()), std::vector<BestWindow>(second.size())};
+  std::vector<std::int32_t> chosen(second.size());
+  std::vector<std::uint16_t> differences(second.size());
   for (std::size_t i = 0; i < first.size(); ++i) {
-    for (std::size_t j = 0; j < second.size(); ++j) {
-      if (!IsNear(predicted[i], second_features[j], params)) continue;
-      const std::uint32_t difference = WindowDifference(first.At(i), second.At(j));
-      best.of_first[i].Offer(j, difference);
-      best.of_second[j].Offer(i, difference);
+    const PixelRange columns = RangeAbout(predicted[i].pixel.x(), params.search_columns_px);
+    const PixelRange rows = RangeAbout(predicted[i].pixel.y(), params.search_rows_px);
+    std::size_t count = 0;
+    for (std::size_t j = 0; j < second_features.size(); ++j) {
+      chosen[count] = static_cast<std::int32_t>(j);
+      const bool near = columns.Has(second_features[j].column) && rows.Has(second_features[j].row);
+      count += near ? 1 : 0;
+    }
+    ChosenDifferences(first.At(i), second, {chosen.data(), count}, differences);
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto j = static_cast<std::size_t>(chosen[k]);
+      best.of_first[i].Merge({chosen[k], differences[k], kNoDifference});
+      best.of_second[j].Merge({static_cast<std::int32_t>(i), differences[k], kNoDifference});
     }
   }
   return best;
@@ -105,20 +91,20 @@ FeatureMatches MatchFeatures(const GrayImage& first, const Features& first_featu
   const WindowSet first_windows = FirstWindows(first, first_features, params, predicted);
   const WindowSet second_windows = SecondWindows(second, second_features, side);
   const bool near = params.search == MatchSearch::kPredicted && !predicted.empty();
-  const AllBest best =
+  const BestWindows best =
       near ? CompareNear(first_windows, second_windows, second_features, params, predicted)
-           : Compare(first_windows, second_windows);
+           : FindBestWindows(first_windows, second_windows);
   const double most = params.max_difference * static_cast<double>(side * side);
   for (std::size_t i = 0; i < first_features.size(); ++i) {
-    const Best& found = best.of_first[i];
-    if (found.difference == kNone || found.difference > most) continue;
-    if (params.mutual && best.of_second[found.index].index != i) continue;
-    if (params.ratio < 1.0 && found.second != kNone &&
-        found.difference > params.ratio * found.second) {
-      continue;
-    }
-    matches.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(found.index),
-                       static_cast<std::int32_t>(found.difference)});
+    const BestWindow& found = best.of_first[i];
+    if (found.difference == kNoDifference || found.difference > most) continue;
+    const BestWindow& back = best.of_second[static_cast<std::size_t>(found.index)];
+    if (params.mutual && back.index != static_cast<std::int32_t>(i)) continue;
+    const bool ambiguous =
+        found.second != kNoDifference && found.difference > params.ratio * found.second;
+    if (params.ratio < 1.0 && ambiguous) continue;
+    matches.push_back(
+        {static_cast<std::int32_t>(i), found.index, static_cast<std::int32_t>(found.difference)});
   }
   return matches;
 }

@@ -118,6 +118,7 @@ VisualOdometer::Comparison VisualOdometer::CompareOnce(const AlignedImages& imag
   result.counts.iterations = found.estimated.iterations;
   result.rms_px = found.estimated.rms_px;
   result.motion = found.estimated.motion;
+  if (result.motion) result.motion->covariance *= params_.variance_factor;
   result.reason = found.estimated.reason;
   if (found.estimated.converged && !IsFew(2 * result.counts.consistent, params_)) {
     comparison.rough_X_FS = found.estimated.X_FS;

@@ -1,51 +1,43 @@
 #include "vision/odometry/window.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 #include "core/check.h"
 
 namespace rockyard::vision {
 
-void CopyWindow(const GrayImage& image, const Feature& feature, int side, std::uint8_t* window) {
-  EXPECT(side > 0 && side % 2 == 1 && side < static_cast<int>(kWindowStride));
-  const int reach = side / 2;
-  std::fill_n(window, kWindowBytes, std::uint8_t{0});
-  for (int row = 0; row < side; ++row) {
-    const std::uint8_t* const from = &image.At(feature.column - reach, feature.row - reach + row);
-    std::memcpy(window + static_cast<std::size_t>(row) * kWindowStride, from,
-                static_cast<std::size_t>(side));
-  }
+namespace {
+
+constexpr int kSide = 15;
+
+// 15 bytes as two words that overlap; the 16th is 0.
+void CopyFifteen(const std::uint8_t* from, std::uint8_t* to) {
+  std::memcpy(to, from, 8);
+  std::memcpy(to + 7, from + 7, 8);
+  to[15] = 0;
 }
 
-void WarpWindow(const GrayImage& image, const Pixel& middle, const Eigen::Matrix2d& by_offset,
-                int side, std::uint8_t* window) {
-  EXPECT(side > 0 && side % 2 == 1 && side < static_cast<int>(kWindowStride));
-  constexpr int kShift = 8;
-  constexpr int kOne = 1 << kShift;
+}  // namespace
+
+void CopyWindow(const GrayImage& image, const Feature& feature, int side, std::uint8_t* window) {
+  EXPECT(side > 0 && side % 2 == 1 && side <= kSide);
   const int reach = side / 2;
-  const auto clamped = [&](int x, int y) {
-    return static_cast<int>(
-        image.At(std::clamp(x, 0, image.width() - 1), std::clamp(y, 0, image.height() - 1)));
-  };
-  std::fill_n(window, kWindowBytes, std::uint8_t{0});
-  for (int row = -reach; row <= reach; ++row) {
-    for (int column = -reach; column <= reach; ++column) {
-      const Pixel at = middle + by_offset * Pixel(column, row);
-      const auto x = static_cast<int>(std::floor(at.x() * kOne + 0.5));
-      const auto y = static_cast<int>(std::floor(at.y() * kOne + 0.5));
-      const int left = x >> kShift;
-      const int top = y >> kShift;
-      const int u = x - (left << kShift);
-      const int v = y - (top << kShift);
-      const int above = clamped(left, top) * (kOne - u) + clamped(left + 1, top) * u;
-      const int below = clamped(left, top + 1) * (kOne - u) + clamped(left + 1, top + 1) * u;
-      const int grey = (above * (kOne - v) + below * v + (1 << (2 * kShift - 1))) >> (2 * kShift);
-      window[static_cast<std::size_t>(row + reach) * kWindowStride +
-             static_cast<std::size_t>(column + reach)] = static_cast<std::uint8_t>(grey);
+  EXPECT(feature.column >= reach && feature.column + reach < image.width());
+  EXPECT(feature.row >= reach && feature.row + reach < image.height());
+  const std::uint8_t* from = &image.At(feature.column - reach, feature.row - reach);
+  const auto step = static_cast<std::size_t>(image.width());
+  std::uint8_t* const end = window + kWindowBytes;
+  std::uint8_t* to = window;
+  for (int row = 0; row < side; ++row, from += step, to += kWindowStride) {
+    if (side == kSide) {
+      CopyFifteen(from, to);
+    } else {
+      std::fill_n(std::copy_n(from, side, to), static_cast<int>(kWindowStride) - side,
+                  std::uint8_t{0});
     }
   }
+  std::fill(to, end, std::uint8_t{0});
 }
 
 }  // namespace rockyard::vision

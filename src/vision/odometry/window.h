@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <span>
 
-#include "vision/cameras/camera_types.h"
 #include "vision/image.h"
 #include "vision/odometry/feature.h"
 #include "vision/stereo/aligned_buffer.h"
@@ -35,15 +34,27 @@ class WindowSet {
 void CopyWindow(const GrayImage& image, const Feature& feature, int side, std::uint8_t* window);
 
 // The window that a change of view makes of it: its pixel at the offset o from the middle is
-// interpolated at `middle` + by_offset o, to 1/256 px and rounded to whole grey levels; what lies
-// outside of the image repeats its edge.
-void WarpWindow(const GrayImage& image, const Pixel& middle, const Eigen::Matrix2d& by_offset,
+// interpolated between four at the feature + by_offset o, in whole numbers. With B = by_offset in
+// 1/4096, rounded, and clamped to 64 px a pixel:
+//
+//   q = (B o + 8) >> 4,  place = q >> 8,  (u, v) = q & 255
+//   grey = ((256 - v) ((256 - u) g00 + u g10) + v ((256 - u) g01 + u g11) + 2^15) >> 16
+//
+// What lies outside of the image repeats its edge. Numbers of by_offset are finite. Cost: 0.2 us
+// with 64 bytes a vector, five times as much at the edge of the image.
+void WarpWindow(const GrayImage& image, const Feature& feature, const Eigen::Matrix2d& by_offset,
                 int side, std::uint8_t* window);
 
-// Sums of absolute differences of `window` to each of `others`. Cost: 1.2 ns each with 64 bytes a
-// vector.
-void WindowDifferences(const std::uint8_t* window, const WindowSet& others,
-                       std::span<std::uint32_t> differences);
-std::uint32_t WindowDifference(const std::uint8_t* a, const std::uint8_t* b);
+// The largest sum of absolute differences of two windows of 15 x 15 pixels; they fit into 16 bits.
+inline constexpr std::uint16_t kMostDifference = 225 * 255;
+
+// Sums of absolute differences of `window` to those of `others` from `first` on, to as many as
+// `differences` has.
+void WindowDifferences(const std::uint8_t* window, const WindowSet& others, std::size_t first,
+                       std::span<std::uint16_t> differences);
+
+// Sums of absolute differences of `window` to the `chosen` ones of `others`.
+void ChosenDifferences(const std::uint8_t* window, const WindowSet& others,
+                       std::span<const std::int32_t> chosen, std::span<std::uint16_t> differences);
 
 }  // namespace rockyard::vision

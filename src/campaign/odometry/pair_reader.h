@@ -1,0 +1,43 @@
+// The images of a sequence, one pair after the other, made grey and aligned.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "campaign/odometry/image_sequence.h"
+#include "campaign/odometry/odometry_request.h"
+#include "perception/aligned_eyes.h"
+#include "vision/odometry/odometer.h"
+
+namespace rockyard::campaign {
+
+struct GrayPair {
+  vision::GrayImage left;
+  vision::GrayImage right;
+};
+
+class PairReader {
+ public:
+  // Opens the first pair, for its size and for the cameras. Throws core::UserError: no cameras, of
+  // another size, that cannot be aligned; masks of another size; what Read throws of the pair.
+  PairReader(const OdometryRequest& request, const ImageSequence& sequence);
+
+  // The images of a pair. Throws core::UserError: one that cannot be read, or of another size.
+  GrayPair Read(const SequencePair& pair) const;
+  vision::AlignedImages Align(const GrayPair& images) const;
+
+  // What the first image holds, in words.
+  const std::string& description() const { return description_; }
+  const vision::RectifiedPair& cameras() const { return eyes_->pair(); }
+  const vision::Image<std::uint8_t>& left_free() const { return eyes_->left_free(); }
+  bool resampled() const { return resampled_; }
+
+ private:
+  std::optional<int> white_;
+  std::string description_;
+  vision::ImageSize size_;  // of every image as it is read
+  bool resampled_ = false;
+  std::optional<perception::AlignedEyes> eyes_;
+};
+
+}  // namespace rockyard::campaign

@@ -1,0 +1,138 @@
+#include "campaign/odometry/pose_text.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/SVD>
+#include <cmath>
+#include <iterator>
+#include <string_view>
+
+#include "campaign/odometry/number_lines.h"
+#include "core/check.h"
+#include "core/error.h"
+
+namespace rockyard::campaign {
+namespace {
+
+using math::Transform;
+
+constexpr std::size_t kKittiNumbers = 12;
+constexpr std::size_t kTumNumbers = 8;
+constexpr double kNoRotation = 1e-3;
+
+[[noreturn]] void FailAtLine(const std::filesystem::path& path, int line, const std::string& reason,
+                             const std::string& suggestion) {
+  throw core::UserError(fmt::format("{}: line {}", path.string(), line), reason, suggestion);
+}
+
+// The rotation nearest to a matrix that is one but for the digits of a file.
+Eigen::Matrix3d ExactRotation(const Eigen::Matrix3d& near) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(near, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
+}
+
+Transform KittiPose(const std::filesystem::path& path, const NumberLine& line) {
+  Eigen::Matrix<double, 3, 4> rows;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 4; ++j) rows(i, j) = line.numbers[static_cast<std::size_t>(4 * i + j)];
+  }
+  const Eigen::Matrix3d linear = rows.leftCols<3>();
+  const double off = (linear.transpose() * linear - Eigen::Matrix3d::Identity()).norm();
+  if (!(off < kNoRotation && linear.determinant() > 0.0)) {
+    FailAtLine(path, line.line, "holds no rotation in its first three columns",
+               "give the rows of [R p], twelve numbers, with a right-handed R");
+  }
+  Transform pose = Transform::Identity();
+  pose.linear() = ExactRotation(linear);
+  pose.translation() = rows.col(3);
+  return pose;
+}
+
+Transform TumPose(const std::filesystem::path& path, const NumberLine& line) {
+  const std::vector<double>& n = line.numbers;
+  const Eigen::Quaterniond q(n[7], n[4], n[5], n[6]);
+  if (!(std::abs(q.norm() - 1.0) < kNoRotation)) {
+    FailAtLine(path, line.line, "holds no unit quaternion",
+               "give \"time x y z qx qy qz qw\", the quaternion of length 1");
+  }
+  Transform pose = Transform::Identity();
+  pose.linear() = q.normalized().toRotationMatrix();
+  pose.translation() = math::Vector3(n[1], n[2], n[3]);
+  return pose;
+}
+
+void CheckGrowing(const std::filesystem::path& path, const std::vector<NumberLine>& lines) {
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    if (lines[i].numbers[0] > lines[i - 1].numbers[0]) continue;
+    FailAtLine(path, lines[i].line, "its time is not later than that of the line before",
+               "sort the lines by time, each time once");
+  }
+}
+
+}  // namespace
+
+std::string KittiPoses(std::span<const Transform> poses) {
+  std::string text;
+  for (const Transform& pose : poses) {
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 4; ++j) {
+        fmt::format_to(std::back_inserter(text), "{}{}", pose(i, j), i == 2 && j == 3 ? '\n' : ' ');
+      }
+    }
+  }
+  return text;
+}
+
+std::string TumPoses(std::span<const Transform> poses, std::span<const double> times_s) {
+  EXPECT(poses.size() == times_s.size());
+  std::string text = "# time x y z qx qy qz qw\n";
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const math::Vector3 p = poses[i].translation();
+    const Eigen::Quaterniond q(poses[i].linear());
+    fmt::format_to(std::back_inserter(text), "{} {} {} {} {} {} {} {}\n", times_s[i], p.x(), p.y(),
+                   p.z(), q.x(), q.y(), q.z(), q.w());
+  }
+  return text;
+}
+
+std::string TimesText(std::span<const double> times_s) {
+  std::string text;
+  for (const double time_s : times_s) fmt::format_to(std::back_inserter(text), "{}\n", time_s);
+  return text;
+}
+
+PoseFile ReadPoses(const std::filesystem::path& path) {
+  const std::vector<NumberLine> lines = ReadNumberLines(path, "a file of poses");
+  const std::size_t count = lines.front().numbers.size();
+  PoseFile file;
+  for (const NumberLine& line : lines) {
+    if (line.numbers.size() != count || (count != kKittiNumbers && count != kTumNumbers)) {
+      FailAtLine(path, line.line, fmt::format("has {} numbers", line.numbers.size()),
+                 "give twelve in every line (KITTI: the rows of [R p]) or eight (TUM: time x y z "
+                 "qx qy qz qw)");
+    }
+    file.poses.push_back(count == kKittiNumbers ? KittiPose(path, line) : TumPose(path, line));
+  }
+  if (count == kTumNumbers) {
+    CheckGrowing(path, lines);
+    file.times_s.emplace();
+    for (const NumberLine& line : lines) file.times_s->push_back(line.numbers[0]);
+  }
+  return file;
+}
+
+std::vector<double> ReadTimes(const std::filesystem::path& path) {
+  const std::vector<NumberLine> lines = ReadNumberLines(path, "a file of times");
+  std::vector<double> times_s;
+  for (const NumberLine& line : lines) {
+    if (line.numbers.size() != 1) {
+      FailAtLine(path, line.line, fmt::format("has {} numbers", line.numbers.size()),
+                 "give one time in every line, s");
+    }
+    times_s.push_back(line.numbers[0]);
+  }
+  CheckGrowing(path, lines);
+  return times_s;
+}
+
+}  // namespace rockyard::campaign

@@ -1,0 +1,41 @@
+// Files of poses and times, as the benchmarks of others write them.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "math/pose.h"
+
+namespace rockyard::campaign {
+
+// A pose a line: twelve numbers, the rows of [R p], of X_AB from the body B to A (the odometry
+// benchmark of KITTI). They read back to the same bits.
+std::string KittiPoses(std::span<const math::Transform> poses);
+
+// A pose a line: "time x y z qx qy qz qw" (TUM RGB-D benchmark), with a first line of comment. As
+// many times (s) as poses.
+std::string TumPoses(std::span<const math::Transform> poses, std::span<const double> times_s);
+
+// A time a line, s.
+std::string TimesText(std::span<const double> times_s);
+
+// What a file of poses holds.
+struct PoseFile {
+  std::vector<math::Transform> poses;
+  std::optional<std::vector<double>> times_s;  // of TUM's form; KITTI's has none
+};
+
+// Reads either form, which the count of numbers in a line tells; empty lines and lines that begin
+// with # are passed over. Rotations are made exact, as files round them. Throws core::UserError
+// with the line: another count of numbers, both forms, no number, a matrix or a quaternion that is
+// no rotation (off by more than 1e-3), times that do not grow, no pose at all; also where the file
+// cannot be read or is longer than 64 MB.
+PoseFile ReadPoses(const std::filesystem::path& path);
+
+// Reads times, as ReadPoses reads poses.
+std::vector<double> ReadTimes(const std::filesystem::path& path);
+
+}  // namespace rockyard::campaign

@@ -1,0 +1,157 @@
+#include "campaign/odometry/render_sequence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string_view>
+
+#include "campaign/odometry/pose_text.h"
+#include "campaign/odometry/sequence_way.h"
+#include "campaign/odometry/stop_wish.h"
+#include "campaign/stereo/render_stage.h"
+#include "core/error.h"
+#include "core/json_text.h"
+#include "image_files/png_file.h"
+#include "sensing/stereo_imager.h"
+#include "trial/route_planner.h"
+#include "vision/cameras/camera_file.h"
+
+namespace rockyard::campaign {
+namespace {
+
+// Masks are images that people can look at.
+vision::GrayImage MaskPicture(const vision::Image<std::uint8_t>& free) {
+  vision::GrayImage picture(free.width(), free.height());
+  std::transform(
+      free.values().begin(), free.values().end(), picture.values().begin(),
+      [](std::uint8_t value) { return value == 0 ? std::uint8_t{0} : std::uint8_t{255}; });
+  return picture;
+}
+
+std::vector<math::Pose2> PlannedWay(const SequenceRequest& request, const RenderStage& stage) {
+  const trial::DriveParams& drive = stage.scenario().drive;
+  const math::Pose2 first = FirstPose(request.scene, drive.course.Start());
+  if (request.way == SequenceWay::kCircle) {
+    return CircleWay(first, request.pairs, request.step_m, request.turn_rad);
+  }
+  const messages::Goal goal{drive.course.goal_x_m, drive.course.goal_y_m};
+  const messages::Route route = trial::PlanRoute(drive, stage.terrain().rocks(), goal);
+  if (route.corners.empty()) {
+    throw core::UserError("--route", "there is no way to the goal among the rocks of this trial",
+                          "choose another --trial, or leave --route out");
+  }
+  return CornerWay(drive.course.Start(), route.corners, request.pairs, request.step_m,
+                   request.turn_rad);
+}
+
+// Images from beyond the arena show rocks that nobody placed.
+void CheckArena(const std::vector<math::Pose2>& way, const terrain::ArenaParams& arena) {
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    const bool inside = way[i].x_m >= arena.x_min_m &&
+                        way[i].x_m <= arena.x_min_m + arena.length_m &&
+                        std::abs(way[i].y_m) <= 0.5 * arena.width_m;
+    if (inside) continue;
+    throw core::UserError(
+        "--pairs",
+        fmt::format("pair {} is taken at x {:.2f} m, y {:.2f} m, outside of the arena", i,
+                    way[i].x_m, way[i].y_m),
+        "take fewer or shorter steps, or make the arena larger (--set terrain.arena.length_m=...)");
+  }
+}
+
+// The first `count` places of the way in the frame of the first, each step made longer.
+std::vector<math::Transform> CommandedPoses(const std::vector<math::Pose2>& way, std::size_t count,
+                                            double slip) {
+  const auto level = [](const math::Pose2& pose) {
+    return math::MakePose({pose.x_m, pose.y_m, 0.0}, pose.heading_rad, 0.0, 0.0);
+  };
+  std::vector<math::Transform> poses;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i == 0) {
+      poses.push_back(math::Transform::Identity());
+      continue;
+    }
+    math::Transform step = level(way[i - 1]).inverse() * level(way[i]);
+    step.translation() /= 1.0 - slip;
+    poses.push_back(poses.back() * step);
+  }
+  return poses;
+}
+
+class SequenceFolder {
+ public:
+  explicit SequenceFolder(const std::filesystem::path& path)
+      : top_(path), left_(path / "left"), right_(path / "right") {}
+
+  void WriteRig(const vision::StereoRig& rig) {
+    top_.Write("cameras", "cameras.json",
+               core::DumpJson(vision::CameraPairJson({rig.left, rig.right})) + "\n");
+    top_.Write("left_free", "left_free.png", image_files::EncodePng(MaskPicture(rig.left_free)));
+    top_.Write("right_free", "right_free.png", image_files::EncodePng(MaskPicture(rig.right_free)));
+  }
+
+  void WritePair(std::int64_t number, const sensing::StereoImages& images) {
+    const std::string name = SequenceImageName(number);
+    left_.Write("left", name, image_files::EncodePng(images.left));
+    right_.Write("right", name, image_files::EncodePng(images.right));
+  }
+
+  void WriteTruth(const std::vector<math::Transform>& poses,
+                  const std::vector<math::Transform>& commanded, double period_s) {
+    std::vector<double> times_s;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      times_s.push_back(period_s * static_cast<double>(i));
+    }
+    top_.Write("poses", "poses.txt", KittiPoses(poses));
+    top_.Write("commanded", "commanded.txt", KittiPoses(commanded));
+    top_.Write("times", "times.txt", TimesText(times_s));
+  }
+
+  const std::vector<OutputFile>& files() const { return top_.files(); }
+
+ private:
+  OutputFolder top_;
+  OutputFolder left_;
+  OutputFolder right_;
+};
+
+}  // namespace
+
+std::string SequenceImageName(std::int64_t number) { return fmt::format("{:06}.png", number); }
+
+SequenceResult RenderSequence(const SequenceRequest& request, const SequenceProgress& progress,
+                              const Stop& stop) {
+  RenderStage stage(request.scene);
+  const std::vector<math::Pose2> way = PlannedWay(request, stage);
+  CheckArena(way, stage.scenario().drive.terrain.arena);
+  const vision::StereoRig& rig = stage.imager().rig(request.scene.direction);
+  SequenceResult result;
+  result.planned = std::ssize(way);
+  result.size = rig.left.size;
+  SequenceFolder folder(request.scene.out);
+  folder.WriteRig(rig);
+  const StopWish wish(stop);
+  std::vector<math::Transform> poses;
+  for (const math::Pose2& place : way) {
+    if (wish.IsThere()) {
+      result.outcome = Outcome::kInterrupted;
+      break;
+    }
+    const math::Transform& X_WR = stage.Stand(place);
+    folder.WritePair(result.pairs, stage.imager().Expose(stage.terrain(), X_WR, result.pairs,
+                                                         request.scene.direction));
+    if (!poses.empty()) {
+      result.distance_m += (X_WR.translation() - poses.back().translation()).norm();
+    }
+    poses.push_back(X_WR);
+    ++result.pairs;
+    if (progress) progress(result.pairs, result.planned);
+  }
+  folder.WriteTruth(poses, CommandedPoses(way, poses.size(), request.slip), request.period_s);
+  result.files = folder.files();
+  return result;
+}
+
+}  // namespace rockyard::campaign

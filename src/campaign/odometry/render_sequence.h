@@ -1,0 +1,60 @@
+// What `rockyard render --pairs` does: the pairs of images that a scenario's rover takes on its
+// way, with the true poses, as a folder that `rockyard vo` reads.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "campaign/outcome.h"
+#include "campaign/stereo/output_folder.h"
+#include "campaign/stereo/render_pair.h"
+#include "campaign/stop.h"
+#include "math/angles.h"
+#include "vision/cameras/camera_types.h"
+
+namespace rockyard::campaign {
+
+// Which way a rover takes (sequence_way.h).
+enum class SequenceWay {
+  kCircle,  // steps of equal length and turn, whatever is in the way: it is stood on rocks too
+  kRoute,   // from the start of the course around its rocks to the goal, as an oracle plans it
+};
+
+struct SequenceRequest {
+  RenderRequest scene;  // where it begins, and all else that does not move
+  SequenceWay way = SequenceWay::kCircle;
+  std::int64_t pairs = 2;  // >= 1; of a route at most so many
+  double step_m = 0.25;
+  double turn_rad = 0.0;  // of a route: the largest turn on the spot between two pairs
+  double period_s = 1.0;  // between two pairs, for times.txt; nothing else depends on it
+  double slip = 0.0;      // 1 - (true over commanded step), below 1; for commanded.txt alone
+};
+
+struct SequenceResult {
+  Outcome outcome = Outcome::kDone;  // or kInterrupted: what is there is a shorter sequence
+  std::int64_t pairs = 0;
+  std::int64_t planned = 0;
+  double distance_m = 0.0;  // of the rover, in space
+  vision::ImageSize size;   // of every image
+  std::vector<OutputFile> files;
+};
+
+// Called after each pair: how many there are, of how many.
+using SequenceProgress = std::function<void(std::int64_t done, std::int64_t planned)>;
+
+// Writes left/000000.png, right/000000.png and so on, cameras.json (both cameras in the frame R of
+// the rover), left_free.png and right_free.png (0 where a pixel shows the rover itself), and once
+// all pairs are there poses.txt (X_WR of each pair as the first three rows of a matrix, row by row,
+// as KITTI writes poses), commanded.txt (poses by commanded steps on level ground, from the
+// identity: what wheels tell) and times.txt (s). The noise of each pair is its own. Throws
+// core::UserError for what is wrong with scenario or folder, a way that leaves the arena, and a
+// course without a route. Cost: some 0.3 s a pair of 512 x 384 pixels.
+SequenceResult RenderSequence(const SequenceRequest& request, const SequenceProgress& progress = {},
+                              const Stop& stop = {});
+
+// The names of a sequence's files.
+std::string SequenceImageName(std::int64_t number);
+
+}  // namespace rockyard::campaign
