@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "vision/odometry/template_sums.h"
+
 namespace rockyard::vision {
 namespace {
 
@@ -109,34 +111,18 @@ WindowTemplate::WindowTemplate(const GrayImage& image, const Pixel& middle,
   }
 }
 
-// Each lane of a row is summed by itself, down the rows.
 WindowTemplate::Sums WindowTemplate::SumsAt(const GrayImage& second, const Pixel& middle) const {
   const auto x = static_cast<int>(middle.x());
   const auto y = static_cast<int>(middle.y());
   const auto u = static_cast<float>(middle.x() - x);
   const auto v = static_cast<float>(middle.y() - y);
-  const float w00 = (1.0F - u) * (1.0F - v);
-  const float w01 = u * (1.0F - v);
-  const float w10 = (1.0F - u) * v;
-  const float w11 = u * v;
-  std::array<float, kLanes> d_sum{};
-  std::array<float, kLanes> across{};
-  std::array<float, kLanes> down{};
-  std::array<float, kLanes> squares{};
-  for (int row = 0; row < kSide; ++row) {
-    const std::uint8_t* const above = &second.At(x - kReach, y - kReach + row);
-    const std::uint8_t* const below = above + second.width();
-    const std::size_t first = static_cast<std::size_t>(row) * kLanes;
-    for (std::size_t i = 0; i < kSide; ++i) {
-      const float seen = w00 * above[i] + w01 * above[i + 1] + w10 * below[i] + w11 * below[i + 1];
-      const float d = seen - mean_ - values_[first + i];
-      d_sum[i] += d;
-      across[i] += across_[first + i] * d;
-      down[i] += down_[first + i] * d;
-      squares[i] += d * d;
-    }
-  }
-  return {SumOf(d_sum), SumOf(across), SumOf(down), SumOf(squares)};
+  TemplateSums lanes;
+  SumTemplate({values_.data(), across_.data(), down_.data(), mean_},
+              {&second.At(x - kReach, y - kReach), static_cast<std::size_t>(second.width()), u, v},
+              lanes);
+  lanes.d[kSide] = 0.0F;
+  lanes.squares[kSide] = 0.0F;
+  return {SumOf(lanes.d), SumOf(lanes.across_d), SumOf(lanes.down_d), SumOf(lanes.squares)};
 }
 
 // With r = d - mean of d: sum g r = sum g d - mean sum g, sum r^2 = sum d^2 - n mean^2.
@@ -153,7 +139,7 @@ std::optional<RefinedPlace> WindowTemplate::Find(const GrayImage& second, const 
   Pixel shift = Pixel::Zero();
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     const Pixel middle = start + shift;
-    if (!(middle.x() >= kReach && middle.x() < second.width() - kReach - 1 &&
+    if (!(middle.x() >= kReach && middle.x() < second.width() - kReach - 2 &&
           middle.y() >= kReach && middle.y() < second.height() - kReach - 1)) {
       return std::nullopt;
     }

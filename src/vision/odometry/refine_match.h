@@ -34,7 +34,7 @@ class WindowTemplate {
   //   s <- s - N^-1 sum g r,   N = sum g g',   g the template's gradient, r the residual
   // until |ds| < 0.01 px, ten times at most. Covariance: sigma^2 N^-1 + noise_px^2 I, with sigma^2
   // = sum r^2 / (n - 3). Nothing where it does not end within the limits, where the window has no
-  // texture or reaches out of the image (with one column more to the right and a row below).
+  // texture or reaches out of the image (with two columns more to the right and a row below).
   std::optional<RefinedPlace> Find(const GrayImage& second, const Pixel& start,
                                    const RefineLimits& limits) const;
 
