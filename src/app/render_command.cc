@@ -152,7 +152,7 @@ void AddSequenceOptions(CLI::App& command, RenderOptions& options) {
                    "goes from the start of the course to its goal, around the rocks");
   command
       .add_option("--slip", options.slip,
-                  "share of the commanded steps that wheels lose: commanded.txt is longer (0)")
+                  "share of the commanded steps that the ground takes: wheels.txt is longer (0)")
       ->check(CLI::Range(-0.99, 0.99));
   command.add_option("--period-s", options.period_s, "s from pair to pair, for times.txt (1)")
       ->check(CLI::PositiveNumber);

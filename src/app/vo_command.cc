@@ -60,6 +60,12 @@ std::string PathErrorsText(const campaign::OdometryRequest& request,
                     request.delta, request.delta == 1 ? "" : "s", errors.relative_m->rms,
                     math::RadToDeg(errors.relative_rad->rms));
   }
+  if (errors.normalized) {
+    text += fmt::format(
+        "  squared errors of the motions over their covariance: {:.2f} on average (6 if it is "
+        "right), {:.1f} % above its 95 % point\n",
+        errors.normalized->mean, 100.0 * errors.normalized_above_95);
+  }
   return text;
 }
 

@@ -13,6 +13,7 @@ void VisualMotionParams::Visit(core::FieldVisitor& v) {
                      "accelerations",
            .study_low = 0.1,
            .study_high = 3.0});
+  v.Group("slip_check", slip_check, "whether the wheels slip more than the rover should stand");
   odometer.Visit(v);
 }
 

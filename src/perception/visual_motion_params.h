@@ -3,12 +3,14 @@
 
 #include "core/fields.h"
 #include "math/angles.h"
+#include "perception/slip_check_params.h"
 #include "vision/odometry/odometer_params.h"
 
 namespace rockyard::perception {
 
 struct VisualMotionParams {
   double tilt_sd_rad = math::DegToRad(1.0);
+  SlipCheckParams slip_check;
   vision::OdometerParams odometer;
 
   void Visit(core::FieldVisitor& v);

@@ -1,5 +1,7 @@
 #include "trial/drive.h"
 
+#include <fmt/format.h>
+
 #include <string>
 #include <utility>
 
@@ -47,6 +49,8 @@ DriveResult Drive::Run() {
 }
 
 std::optional<Verdict> Drive::Tick() {
+  // Without a reaction a rover that slips too much stops where it is.
+  if (slips_ && !parts_.stuck_detector) return Verdict{truth::EndCause::kExcessiveSlip};
   if (parts_.vision.IsDue(parts_.estimate(), parts_.ledger.time_s())) return SeeMotion();
   TrackGoal();
   if (!seen_) seen_ = parts_.timeline.TakeReady();
@@ -60,7 +64,7 @@ std::optional<Verdict> Drive::Tick() {
                                .look = seen_ ? &seen_->moment : nullptr,
                                .vehicle_hazard = parts_.guard.hazard(),
                                .touches_behind = parts_.guard.touches_behind(),
-                               .notices_stuck = notices_stuck_});
+                               .notices_stuck = notices_stuck_ || std::exchange(slips_, false)});
   if (parts_.navigator.reached() != reached) OnWaypoints(reached);
   if (!decision.stops_to_look()) ShowStep();
   seen_.reset();
@@ -217,6 +221,13 @@ void Drive::UseAids() {
       parts_.aids.Tick(parts_.state().X_WR, parts_.ledger.time_s(), *parts_.estimator);
   const bool seen = parts_.vision.Tick(parts_.ledger.time_s(), *parts_.estimator);
   if (fixed || seen) parts_.navigator.OnCorrection(before, parts_.estimate().pose);
+  const std::optional<SlipReading> slip = parts_.vision.TakeSlip();
+  if (!slip) return;
+  observer_.OnSlip(*slip);
+  if (!slip->seen.exceeded) return;
+  slips_ = true;
+  tracer_.Event("slip", fmt::format("{:.0f} % +- {:.0f} % of the way", 100.0 * slip->seen.slip,
+                                    100.0 * slip->seen.sd));
 }
 
 void Drive::UpdateEstimateAtRest(double duration_s) {
@@ -254,6 +265,7 @@ void Drive::ReflectAtMirrorLine(int direction) {
   parts_.guard.Restart(parts_.state());
   if (parts_.stuck_detector) parts_.stuck_detector->Restart();
   notices_stuck_ = false;
+  slips_ = false;
   observer_.OnPlaced();
   parts_.referee.OnReflection(parts_.state(), reflection->line_m);
   parts_.navigator.OnPoseUpdate(before, parts_.estimate().pose);

@@ -94,6 +94,7 @@ class Drive {
 
   std::unique_ptr<SeenLook> seen_;  // to be told at the next tick
   bool notices_stuck_ = false;      // at the last tick
+  bool slips_ = false;              // too much, by the last motion that was seen
   bool rolling_ = false;            // in the last stretch
   // Since operators turned it: they let a rover drive before they turn it again.
   bool has_rolled_ = true;

@@ -223,6 +223,11 @@ void RequireListener(const DriveParams& drive, core::FieldVisitor& v) {
             !drive.sensors.visual_odometry.enabled || estimator.takes_motions(),
             "takes no motions that are seen, where sensors.visual_odometry is enabled",
             "use visual_odometry or error_state, or turn sensors.visual_odometry off");
+  v.Require(
+      "perception.visual_odometry.slip_check.enabled",
+      !drive.perception.visual_odometry.slip_check.enabled || drive.sensors.visual_odometry.enabled,
+      "is true where sensors.visual_odometry is off, so that no slip is ever seen",
+      "turn sensors.visual_odometry on, or the check off");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "trial/drive_observer.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "math/angles.h"
@@ -25,7 +26,8 @@ DriveObserver::DriveObserver(const DriveParts& parts)
     : parts_(parts),
       monitor_(UndersideOf(parts.params.rover.geometry), parts.field.terrain),
       watch_(parts.params.sensors.terrain_sensors.chosen().reported_zone(parts.params),
-             parts.params.rover.geometry, WatchedHeight(parts.params), parts.field.terrain) {}
+             parts.params.rover.geometry, WatchedHeight(parts.params), parts.field.terrain),
+      slip_onset_(parts.params.perception.visual_odometry.slip_check) {}
 
 bool DriveObserver::OnMotion(const messages::MotionCommand& motion) {
   turns_.Observe(motion);
@@ -45,6 +47,16 @@ void DriveObserver::OnTick(bool turning_in_place) {
   monitor_.Observe(parts_.state(), turning_in_place);
   ObserveErrors();
   watch_.Observe(parts_.state().X_WR);
+  slip_onset_.Observe(parts_.estimate().odometry, math::ToPose2(parts_.state().X_WR),
+                      monitor_.distance_m());
+}
+
+void DriveObserver::OnSlip(const SlipReading& slip) {
+  largest_slip_ = std::max(largest_slip_.value_or(slip.seen.slip), slip.seen.slip);
+  if (!slip.seen.exceeded) return;
+  ++slip_alarms_;
+  if (!slip.truly_exceeded) ++false_slip_alarms_;
+  if (!first_slip_m_) first_slip_m_ = monitor_.distance_m();
 }
 
 void DriveObserver::ObserveErrors() {

@@ -13,8 +13,10 @@
 #include "trial/hazard_watch.h"
 #include "trial/move_counter.h"
 #include "trial/referee.h"
+#include "trial/slip_onset.h"
 #include "trial/stop_counter.h"
 #include "trial/turn_counter.h"
+#include "trial/visual_aid.h"
 #include "truth/drive_record.h"
 
 namespace rockyard::trial {
@@ -26,7 +28,10 @@ class DriveObserver {
   explicit DriveObserver(const DriveParts& parts);
 
   // The rover stands at the start, or where operators have put it.
-  void OnPlaced() { monitor_.Restart(parts_.state()); }
+  void OnPlaced() {
+    monitor_.Restart(parts_.state());
+    slip_onset_.Restart();
+  }
   void OnReflection() { ++reflections_; }
   // The navigator told a motion. Returns whether a new move begins with it.
   bool OnMotion(const messages::MotionCommand& motion);
@@ -38,6 +43,7 @@ class DriveObserver {
   void OnScrape();
   void OnStuckNoticed() { ++stuck_noticed_; }
   void OnRecognized() { recognized_ = true; }
+  void OnSlip(const SlipReading& slip);
   // Once a control tick, after the estimate.
   void OnTick(bool turning_in_place);
 
@@ -56,6 +62,7 @@ class DriveObserver {
   void ReportPoses(truth::DriveRecord& record) const;
   void ReportErrors(truth::DriveRecord& record) const;
   void ReportBelief(truth::DriveRecord& record) const;
+  void ReportVision(truth::DriveRecord& record) const;
   void ReportLedger(truth::DriveRecord& record, const Stall& stall) const;
   void ReportCounts(truth::DriveRecord& record) const;
   void ReportHazards(truth::DriveRecord& record) const;
@@ -73,7 +80,12 @@ class DriveObserver {
   std::optional<double> first_scrape_m_;  // true path length
   std::int64_t reflections_ = 0;
   std::int64_t stuck_noticed_ = 0;
-  bool recognized_ = false;  // the goal rock
+  SlipOnset slip_onset_;
+  std::int64_t slip_alarms_ = 0;
+  std::int64_t false_slip_alarms_ = 0;
+  std::optional<double> largest_slip_;  // as seen
+  std::optional<double> first_slip_m_;  // true path length at the first alarm
+  bool recognized_ = false;             // the goal rock
 };
 
 }  // namespace rockyard::trial

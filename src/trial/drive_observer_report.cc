@@ -23,6 +23,7 @@ truth::DriveRecord DriveObserver::Report(bool declared_success, const Stall& sta
   ReportPoses(record);
   ReportErrors(record);
   ReportBelief(record);
+  ReportVision(record);
   ReportLedger(record, stall);
   ReportCounts(record);
   ReportHazards(record);
@@ -87,11 +88,6 @@ void DriveObserver::ReportBelief(truth::DriveRecord& record) const {
   record.aids_in_doubt = static_cast<double>(aids.in_doubt);
   record.aids_gated_out = static_cast<double>(aids.gated_out);
   record.aids_unanswered = static_cast<double>(aids.unanswered);
-  const VisualCounts& vision = parts_.vision.counts();
-  record.visual_steps = static_cast<double>(vision.steps);
-  record.visual_failures = static_cast<double>(vision.failures);
-  record.visual_keyframes = static_cast<double>(vision.keyframes);
-  record.visual_gated_out = static_cast<double>(vision.gated_out);
   const std::optional<Belief> belief =
       BeliefOf(parts_.estimate(), math::ToPose2(parts_.state().X_WR));
   if (!belief) return;
@@ -99,6 +95,19 @@ void DriveObserver::ReportBelief(truth::DriveRecord& record) const {
   record.believed_heading_sd_deg = math::RadToDeg(belief->heading_sd_rad);
   record.pose_nees = belief->nees;
   record.inside_95 = belief->inside_95 ? 1.0 : 0.0;
+}
+
+void DriveObserver::ReportVision(truth::DriveRecord& record) const {
+  const VisualCounts& vision = parts_.vision.counts();
+  record.visual_steps = static_cast<double>(vision.steps);
+  record.visual_failures = static_cast<double>(vision.failures);
+  record.visual_keyframes = static_cast<double>(vision.keyframes);
+  record.visual_gated_out = static_cast<double>(vision.gated_out);
+  record.slip_alarms = static_cast<double>(slip_alarms_);
+  record.false_slip_alarms = static_cast<double>(false_slip_alarms_);
+  if (largest_slip_) record.largest_slip = *largest_slip_;
+  if (first_slip_m_) record.first_slip_alarm_m = *first_slip_m_;
+  if (slip_onset_.path_m()) record.slip_onset_m = *slip_onset_.path_m();
 }
 
 void DriveObserver::ReportLedger(truth::DriveRecord& record, const Stall& stall) const {

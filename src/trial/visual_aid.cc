@@ -1,11 +1,13 @@
 #include "trial/visual_aid.h"
 
 #include <cmath>
+#include <utility>
 
 #include "core/check.h"
 #include "math/angles.h"
 #include "perception/visual_motion.h"
 #include "trial/compute_profile.h"
+#include "trial/slip_onset.h"
 
 namespace rockyard::trial {
 namespace {
@@ -21,6 +23,7 @@ math::Transform OdometryPose(const messages::PoseEstimate& odometry,
 VisualAid::VisualAid(const DriveParams& drive, core::TrialKey key, const terrain::Terrain& terrain,
                      CaptureCounter& captures)
     : params_(drive.sensors.visual_odometry),
+      slip_params_(drive.perception.visual_odometry.slip_check),
       tilt_sd_rad_(drive.perception.visual_odometry.tilt_sd_rad),
       imaging_s_(VisualTimeOf(drive.clock.compute).imaging_s),
       computing_s_(VisualTimeOf(drive.clock.compute).computing_s),
@@ -50,8 +53,10 @@ bool VisualAid::Look(const math::Transform& X_WR, double time_s, double ready_s,
                      localization::Estimator& estimator) {
   EXPECT(eyes_ != nullptr && !waiting_);
   const messages::LocalizationEstimate& believed = estimator.estimate();
-  Moment now{
-      .capture = captures_.Next(), .attitude = believed.attitude, .odometry = believed.odometry};
+  Moment now{.capture = captures_.Next(),
+             .attitude = believed.attitude,
+             .odometry = believed.odometry,
+             .truth = math::ToPose2(X_WR)};
   const VisualStep step = eyes_->Look(X_WR, Predicted(now));
   now.look = step.number;
   estimator.Capture(now.capture);
@@ -90,6 +95,7 @@ bool VisualAid::HandIn(const Waiting& waiting, localization::Estimator& estimato
       *waiting.step.result.motion, {waiting.from.attitude, tilt_sd_rad_});
   motion.from = waiting.from.capture;
   motion.to = waiting.to.capture;
+  CheckSlip(waiting, motion);
   switch (estimator.Update(motion)) {
     case localization::AidUse::kUsed:
     case localization::AidUse::kUsedInDoubt:
@@ -104,6 +110,18 @@ bool VisualAid::HandIn(const Waiting& waiting, localization::Estimator& estimato
   }
   return false;
 }
+
+void VisualAid::CheckSlip(const Waiting& waiting, const messages::RelativeMotion& seen) {
+  if (!slip_params_.enabled) return;
+  const Eigen::Vector2d rolled = perception::RolledWay(waiting.from.odometry, waiting.to.odometry);
+  const auto measured = perception::SlipOf(rolled, seen, slip_params_);
+  if (!measured) return;
+  const auto truth =
+      perception::SlipOf(rolled, TrueMotion(waiting.from.truth, waiting.to.truth), slip_params_);
+  slip_ = SlipReading{*measured, truth->exceeded};
+}
+
+std::optional<SlipReading> VisualAid::TakeSlip() { return std::exchange(slip_, std::nullopt); }
 
 void VisualAid::OnPlaced() {
   if (!eyes_) return;

@@ -8,6 +8,7 @@
 
 #include "core/random.h"
 #include "localization/estimator.h"
+#include "perception/slip_check.h"
 #include "terrain/terrain.h"
 #include "trial/capture_counter.h"
 #include "trial/drive_params.h"
@@ -22,6 +23,12 @@ struct VisualCounts {
   std::int64_t keyframes = 0;  // pairs that others were compared with
   std::int64_t used = 0;       // motions that the estimator took
   std::int64_t gated_out = 0;  // or turned away
+};
+
+// What the check of slip made of one motion, and what is true of the same stretch.
+struct SlipReading {
+  perception::MeasuredSlip seen;
+  bool truly_exceeded = false;
 };
 
 // A pair of images is due at the start, and then by way, turn or time since the last one
@@ -51,6 +58,9 @@ class VisualAid {
   // What was seen before operators moved the rover is of no use any more.
   void OnPlaced();
 
+  // The slip of the last motion that was handed in, once; nothing where it is not checked.
+  std::optional<SlipReading> TakeSlip();
+
   const VisualCounts& counts() const { return counts_; }
   // The last pair that was compared, for the trace.
   const std::optional<VisualStep>& last() const { return last_; }
@@ -62,6 +72,7 @@ class VisualAid {
     messages::CaptureNumber capture = 0;
     messages::AttitudeEstimate attitude;  // believed then
     messages::PoseEstimate odometry;
+    math::Pose2 truth;
   };
   struct Waiting {
     double ready_s = 0.0;
@@ -72,8 +83,10 @@ class VisualAid {
 
   math::Transform Predicted(const Moment& now) const;
   bool HandIn(const Waiting& waiting, localization::Estimator& estimator);
+  void CheckSlip(const Waiting& waiting, const messages::RelativeMotion& seen);
 
   sensing::VisualMotionParams params_;
+  perception::SlipCheckParams slip_params_;
   double tilt_sd_rad_;
   double imaging_s_;
   double computing_s_;
@@ -86,6 +99,7 @@ class VisualAid {
   double last_time_s_ = 0.0;
   VisualCounts counts_;
   std::optional<VisualStep> last_;
+  std::optional<SlipReading> slip_;
 };
 
 }  // namespace rockyard::trial

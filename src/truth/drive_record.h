@@ -109,6 +109,11 @@ struct DriveRecord {
   double visual_failures = 0.0;  // of these, without a motion
   double visual_keyframes = 0.0;
   double visual_gated_out = 0.0;
+  double slip_alarms = 0.0;
+  double false_slip_alarms = 0.0;
+  double largest_slip = std::numeric_limits<double>::quiet_NaN();  // as seen
+  double first_slip_alarm_m = std::numeric_limits<double>::quiet_NaN();
+  double slip_onset_m = std::numeric_limits<double>::quiet_NaN();
   double goal_rock_found = std::numeric_limits<double>::quiet_NaN();  // NaN without a goal rock
   double goal_rock_distance_m = std::numeric_limits<double>::quiet_NaN();
   double goal_rock_sign = std::numeric_limits<double>::quiet_NaN();
@@ -346,6 +351,22 @@ inline constexpr std::array kDriveColumns = {
     DriveColumn{"visual_gated_out", "1",
                 "motions that were found and that the estimator turned away",
                 &DriveRecord::visual_gated_out},
+    DriveColumn{"slip_alarms", "1", "motions whose slip was seen to exceed its limit",
+                &DriveRecord::slip_alarms},
+    DriveColumn{"false_slip_alarms", "1",
+                "of these, those whose true slip over the same way did not exceed it",
+                &DriveRecord::false_slip_alarms},
+    DriveColumn{"largest_slip", "1",
+                "largest slip that was seen, 1 less the seen over the rolled way; empty where slip "
+                "is not checked (perception.visual_odometry.slip_check)",
+                &DriveRecord::largest_slip, true},
+    DriveColumn{"first_slip_alarm_m", "m",
+                "true path length at the first alarm of slip; empty without one",
+                &DriveRecord::first_slip_alarm_m, true},
+    DriveColumn{"slip_onset_m", "m",
+                "true path length at which the true slip over slip_check.min_way_m first exceeded "
+                "the limit; empty where it never did or is not checked",
+                &DriveRecord::slip_onset_m, true},
     DriveColumn{"goal_rock_found", "1",
                 "1 where the rover found the rock at its goal, else 0; empty without such a rock "
                 "(course.goal_rock), as the next four",

@@ -27,6 +27,7 @@ enum class EndCause {
   kLeftArena,
   kFoundRock,
   kRockNotFound,
+  kExcessiveSlip,
 };
 
 struct EndCauseInfo {
@@ -37,7 +38,7 @@ struct EndCauseInfo {
   std::string_view setting;   // parameter of a scenario that decided, where one did
 };
 
-inline constexpr std::array<EndCauseInfo, 16> kEndCauses = {{
+inline constexpr std::array<EndCauseInfo, 17> kEndCauses = {{
     {"arrived", TrialOutcome::kGoalReached, "arrived", "arrived at the goal",
      "course.goal_radius_m"},
     {"believed_only", TrialOutcome::kFalseGoal, "believed only",
@@ -73,6 +74,9 @@ inline constexpr std::array<EndCauseInfo, 16> kEndCauses = {{
     {"rock_not_found", TrialOutcome::kFalseGoal, "found no rock",
      "believed to have arrived, but had not found the rock at its goal",
      "course.goal_rock.enabled"},
+    {"excessive_slip", TrialOutcome::kNoPath, "slipped too much",
+     "stopped because its wheels slipped more than it should stand",
+     "perception.visual_odometry.slip_check.limit"},
 }};
 
 constexpr const EndCauseInfo& Info(EndCause cause) {

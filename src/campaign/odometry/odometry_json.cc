@@ -45,6 +45,8 @@ JsonValue PathErrorsJson(const OdometryRequest& request, const OdometryResult& r
   json.Set("relative_delta", JsonValue(request.delta));
   json.Set("relative_m", SummaryJson(errors.relative_m));
   json.Set("relative_deg", SummaryJson(errors.relative_rad, to_deg));
+  json.Set("normalized", SummaryJson(errors.normalized));
+  json.Set("normalized_above_95", JsonValue(errors.normalized_above_95));
   return json;
 }
 

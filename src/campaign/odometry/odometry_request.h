@@ -92,6 +92,10 @@ struct PathErrors {
   std::optional<vision::ErrorSummary> absolute_rigid_m;  // positions laid upon each other
   std::optional<vision::ErrorSummary> relative_m;
   std::optional<vision::ErrorSummary> relative_rad;
+  // Of motions from their keyframes, e' C^-1 e: 6 on average where covariances are right, and 5 %
+  // of them above the 95 % point of chi-squared.
+  std::optional<vision::ErrorSummary> normalized;
+  double normalized_above_95 = 0.0;  // share
 };
 
 struct OdometryResult {

@@ -12,6 +12,8 @@ namespace rockyard::campaign {
 namespace {
 
 constexpr double kSameTime_s = 0.02;
+// The 95 % point of chi-squared with 6 degrees of freedom (any table of it).
+constexpr double kChiSquared6_95 = 12.591587;
 
 TruePath TruthByNumber(const OdometryRequest& request, const PoseFile& file,
                        const ImageSequence& sequence) {
@@ -55,6 +57,19 @@ TruePath TruthByTime(const OdometryRequest& request, const PoseFile& file,
   return truth;
 }
 
+// Of every motion whose two pairs have true poses.
+std::vector<double> NormalizedErrors(const TruePath& truth, const OdometryResult& result) {
+  std::vector<double> normalized;
+  for (const PathStep& step : result.steps) {
+    const auto first = truth.find(step.reference);
+    const auto second = truth.find(step.pair);
+    if (!step.result.motion || first == truth.end() || second == truth.end()) continue;
+    normalized.push_back(vision::NormalizedErrorSquared(*step.result.motion,
+                                                        first->second.inverse() * second->second));
+  }
+  return normalized;
+}
+
 }  // namespace
 
 std::optional<TruePath> ReadTruth(const OdometryRequest& request, const ImageSequence& sequence) {
@@ -95,6 +110,14 @@ void JudgePath(const OdometryRequest& request, const TruePath& truth, OdometryRe
       vision::RelativeErrorsOf(result.truth, estimate, request.delta);
   errors.relative_m = vision::SummaryOf(relative.translation_m);
   errors.relative_rad = vision::SummaryOf(relative.rotation_rad);
+  const std::vector<double> normalized = NormalizedErrors(truth, result);
+  errors.normalized = vision::SummaryOf(normalized);
+  if (!normalized.empty()) {
+    const auto above = std::count_if(normalized.begin(), normalized.end(),
+                                     [](double value) { return value > kChiSquared6_95; });
+    errors.normalized_above_95 =
+        static_cast<double>(above) / static_cast<double>(normalized.size());
+  }
   if (!errors.segments) {
     result.notes.push_back(fmt::format(
         "the true path of {:.1f} m is too short for the lengths of KITTI's segments: --lengths "

@@ -61,20 +61,21 @@ void CheckArena(const std::vector<math::Pose2>& way, const terrain::ArenaParams&
   }
 }
 
-// The first `count` places of the way in the frame of the first, each step made longer.
-std::vector<math::Transform> CommandedPoses(const std::vector<math::Pose2>& way, std::size_t count,
-                                            double slip) {
+// From the identity, the commanded steps one after the other, each in the true attitude.
+std::vector<math::Transform> PosesByWheels(const std::vector<math::Pose2>& way,
+                                           const std::vector<math::Transform>& truth, double slip) {
   const auto level = [](const math::Pose2& pose) {
     return math::MakePose({pose.x_m, pose.y_m, 0.0}, pose.heading_rad, 0.0, 0.0);
   };
   std::vector<math::Transform> poses;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < truth.size(); ++i) {
     if (i == 0) {
       poses.push_back(math::Transform::Identity());
       continue;
     }
-    math::Transform step = level(way[i - 1]).inverse() * level(way[i]);
-    step.translation() /= 1.0 - slip;
+    math::Transform step = math::Transform::Identity();
+    step.linear() = truth[i - 1].linear().transpose() * truth[i].linear();
+    step.translation() = (level(way[i - 1]).inverse() * level(way[i])).translation() / (1.0 - slip);
     poses.push_back(poses.back() * step);
   }
   return poses;
@@ -99,13 +100,13 @@ class SequenceFolder {
   }
 
   void WriteTruth(const std::vector<math::Transform>& poses,
-                  const std::vector<math::Transform>& commanded, double period_s) {
+                  const std::vector<math::Transform>& wheels, double period_s) {
     std::vector<double> times_s;
     for (std::size_t i = 0; i < poses.size(); ++i) {
       times_s.push_back(period_s * static_cast<double>(i));
     }
     top_.Write("poses", "poses.txt", KittiPoses(poses));
-    top_.Write("commanded", "commanded.txt", KittiPoses(commanded));
+    top_.Write("wheels", "wheels.txt", KittiPoses(wheels));
     top_.Write("times", "times.txt", TimesText(times_s));
   }
 
@@ -149,7 +150,7 @@ SequenceResult RenderSequence(const SequenceRequest& request, const SequenceProg
     ++result.pairs;
     if (progress) progress(result.pairs, result.planned);
   }
-  folder.WriteTruth(poses, CommandedPoses(way, poses.size(), request.slip), request.period_s);
+  folder.WriteTruth(poses, PosesByWheels(way, poses, request.slip), request.period_s);
   result.files = folder.files();
   return result;
 }

@@ -29,7 +29,7 @@ struct SequenceRequest {
   double step_m = 0.25;
   double turn_rad = 0.0;  // of a route: the largest turn on the spot between two pairs
   double period_s = 1.0;  // between two pairs, for times.txt; nothing else depends on it
-  double slip = 0.0;      // 1 - (true over commanded step), below 1; for commanded.txt alone
+  double slip = 0.0;      // 1 - (true over commanded step), below 1; for wheels.txt alone
 };
 
 struct SequenceResult {
@@ -47,7 +47,7 @@ using SequenceProgress = std::function<void(std::int64_t done, std::int64_t plan
 // Writes left/000000.png, right/000000.png and so on, cameras.json (both cameras in the frame R of
 // the rover), left_free.png and right_free.png (0 where a pixel shows the rover itself), and once
 // all pairs are there poses.txt (X_WR of each pair as the first three rows of a matrix, row by row,
-// as KITTI writes poses), commanded.txt (poses by commanded steps on level ground, from the
+// as KITTI writes poses), wheels.txt (poses by commanded steps and true attitudes, from the
 // identity: what wheels tell) and times.txt (s). The noise of each pair is its own. Throws
 // core::UserError for what is wrong with scenario or folder, a way that leaves the arena, and a
 // course without a route. Cost: some 0.3 s a pair of 512 x 384 pixels.

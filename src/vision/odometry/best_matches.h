@@ -20,8 +20,7 @@ struct BestWindow {
   std::uint16_t difference = kNoDifference;
   std::uint16_t second = kNoDifference;
 
-  // Takes what was best among windows of larger indices: of equal differences the earlier one
-  // stays.
+  // Takes what was best among windows of larger indices: of equal differences the earlier one stays.
   void Merge(const BestWindow& later) {
     if (later.difference < difference) {
       *this = {later.index, later.difference, std::min(difference, later.second)};

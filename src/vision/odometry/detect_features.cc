@@ -74,16 +74,16 @@ ImageArea FeatureDetector::Region(std::int64_t across, std::int64_t down) const 
 }
 
 GradientSums FeatureDetector::SumsAround(const GrayImage& image, const ImageArea& area) const {
-  return {image,
-          Widened(area, static_cast<int>(params_.suppression_px), size_.columns, size_.rows)};
+  return {image, Widened(area, static_cast<int>(params_.suppression_px), size_.columns, size_.rows)};
 }
 
 Features FeatureDetector::Corners(const GradientSums& sums, const ImageArea& area, double weight,
                                   double threshold) const {
   Features corners = LocalMaxima(sums, HarrisWeight(weight), area,
                                  static_cast<int>(params_.suppression_px), Whole(threshold));
-  std::erase_if(corners,
-                [&](const Feature& corner) { return allowed_.At(corner.column, corner.row) == 0; });
+  std::erase_if(corners, [&](const Feature& corner) {
+    return allowed_.At(corner.column, corner.row) == 0;
+  });
   return corners;
 }
 
@@ -107,9 +107,10 @@ void FeatureDetector::AddByThreshold(const GrayImage& image, std::int64_t down,
   const auto least = static_cast<std::size_t>(params_.min_of_region());
   const auto most = static_cast<std::size_t>(params_.max_of_region());
   for (Features& region : regions) {
-    const auto strong = static_cast<std::size_t>(std::count_if(
-        region.begin(), region.end(),
-        [&](const Feature& corner) { return corner.strength >= Whole(params_.threshold); }));
+    const auto strong = static_cast<std::size_t>(
+        std::count_if(region.begin(), region.end(), [&](const Feature& corner) {
+          return corner.strength >= Whole(params_.threshold);
+        }));
     KeepStrongest(std::clamp(strong, std::min(least, most), most), region);
     features.insert(features.end(), region.begin(), region.end());
   }

@@ -50,7 +50,8 @@ void Products(const std::int16_t* smooth, const std::int16_t* step, std::size_t 
     const auto gx =
         Gradient(hn::Sub(hn::LoadU(kValues, smooth + x + 1), hn::LoadU(kValues, smooth + x - 1)));
     const auto middle = hn::Load(kValues, step + x);
-    const auto sides = hn::Add(hn::LoadU(kValues, step + x - 1), hn::LoadU(kValues, step + x + 1));
+    const auto sides =
+        hn::Add(hn::LoadU(kValues, step + x - 1), hn::LoadU(kValues, step + x + 1));
     const auto gy = Gradient(hn::Add(sides, hn::Add(middle, middle)));
     hn::Store(hn::Mul(gx, gx), kValues, xx + x);
     hn::Store(hn::Mul(gx, gy), kValues, xy + x);
@@ -71,9 +72,11 @@ void SumRows(const std::int16_t* const* rows, std::size_t width, std::int16_t* s
 // Sums of five columns: of `sums` from column x - 2 on at x.
 void SumColumns(const std::int16_t* sums, std::size_t width, std::int16_t* out) {
   for (std::size_t x = 0; x < width; x += hn::Lanes(kValues)) {
-    const auto outer = hn::Add(hn::LoadU(kValues, sums + x - 2), hn::LoadU(kValues, sums + x + 2));
-    const auto inner = hn::Add(hn::LoadU(kValues, sums + x - 1), hn::LoadU(kValues, sums + x + 1));
-    hn::Store(hn::Add(hn::Add(outer, inner), hn::Load(kValues, sums + x)), kValues, out + x);
+    const auto outer =
+        hn::Add(hn::LoadU(kValues, sums + x - 2), hn::LoadU(kValues, sums + x + 2));
+    const auto inner =
+        hn::Add(hn::LoadU(kValues, sums + x - 1), hn::LoadU(kValues, sums + x + 1));
+    hn::Store(hn::Add(hn::Add(outer, inner), hn::LoadU(kValues, sums + x)), kValues, out + x);
   }
 }
 

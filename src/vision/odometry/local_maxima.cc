@@ -127,9 +127,7 @@ class ResponseRows {
   std::size_t Offset(int row) const {
     return static_cast<std::size_t>(row % height_) * stride_ + pad_;
   }
-  std::int32_t* Row(AlignedBuffer<std::int32_t>& rows, int row) {
-    return rows.data() + Offset(row);
-  }
+  std::int32_t* Row(AlignedBuffer<std::int32_t>& rows, int row) { return rows.data() + Offset(row); }
   const std::int32_t* Row(const AlignedBuffer<std::int32_t>& rows, int row) const {
     return rows.data() + Offset(row);
   }
@@ -162,8 +160,8 @@ Features LocalMaxima(const GradientSums& sums, std::int32_t weight, const ImageA
     for (const std::int32_t column : rows.Peaks(row, threshold)) {
       const int x = all.left + column;
       if (x < area.left || x >= area.right || rows.IsRepeated(row, column)) continue;
-      peaks.push_back(
-          {static_cast<std::int16_t>(x), static_cast<std::int16_t>(row), rows.Value(row, column)});
+      peaks.push_back({static_cast<std::int16_t>(x), static_cast<std::int16_t>(row),
+                       rows.Value(row, column)});
     }
   }
   return peaks;

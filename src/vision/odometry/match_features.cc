@@ -103,8 +103,8 @@ FeatureMatches MatchFeatures(const GrayImage& first, const Features& first_featu
     const bool ambiguous =
         found.second != kNoDifference && found.difference > params.ratio * found.second;
     if (params.ratio < 1.0 && ambiguous) continue;
-    matches.push_back(
-        {static_cast<std::int32_t>(i), found.index, static_cast<std::int32_t>(found.difference)});
+    matches.push_back({static_cast<std::int32_t>(i), found.index,
+                       static_cast<std::int32_t>(found.difference)});
   }
   return matches;
 }

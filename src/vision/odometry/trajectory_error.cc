@@ -1,5 +1,6 @@
 #include "vision/odometry/trajectory_error.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -142,6 +143,13 @@ RelativeErrors RelativeErrorsOf(const Trajectory& truth, const Trajectory& estim
     errors.rotation_rad.push_back(AngleOf(error.linear()));
   }
   return errors;
+}
+
+double NormalizedErrorSquared(const Motion& estimated, const Transform& true_X_FS) {
+  const Eigen::AngleAxisd turn(true_X_FS.linear() * estimated.X_FS.linear().transpose());
+  Eigen::Matrix<double, 6, 1> error;
+  error << true_X_FS.translation() - estimated.X_FS.translation(), turn.angle() * turn.axis();
+  return error.dot(estimated.covariance.ldlt().solve(error));
 }
 
 }  // namespace rockyard::vision

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "math/pose.h"
+#include "vision/odometry/motion_estimate.h"
 
 namespace rockyard::vision {
 
@@ -86,6 +87,11 @@ struct RelativeErrors {
 };
 RelativeErrors RelativeErrorsOf(const Trajectory& truth, const Trajectory& estimate,
                                 std::int64_t delta);
+
+// e' C^-1 e of a motion's error e = (e_t, e_r) against the true motion, with C its covariance
+// (MotionCovariance): chi-squared with 6 degrees of freedom where the covariance is right. Requires
+// a covariance that can be inverted.
+double NormalizedErrorSquared(const Motion& estimated, const math::Transform& true_X_FS);
 
 // The length of the polygon through the positions, m: 0 at the first pose, up to each of the
 // others.

@@ -52,10 +52,9 @@ void WarpInside(const std::uint8_t* middle, std::int32_t stride, const Warp& war
       const auto x = place(warp.x_by_column, warp.x_by_row);
       const auto y = place(warp.y_by_column, warp.y_by_row);
       const auto offset = hn::IfThenElseZero(
-          is_used,
-          hn::Add(hn::Mul(hn::ShiftRight<8>(y), hn::Set(kInts, stride)), hn::ShiftRight<8>(x)));
-      const auto below_offset =
-          hn::IfThenElseZero(is_used, hn::Add(offset, hn::Set(kInts, stride)));
+          is_used, hn::Add(hn::Mul(hn::ShiftRight<8>(y), hn::Set(kInts, stride)),
+                           hn::ShiftRight<8>(x)));
+      const auto below_offset = hn::IfThenElseZero(is_used, hn::Add(offset, hn::Set(kInts, stride)));
       const auto u = hn::And(x, fraction);
       const auto v = hn::And(y, fraction);
       const auto above = BetweenColumns(hn::GatherOffset(kInts, words, offset), u);
@@ -100,8 +99,8 @@ WarpedBox BoxOf(const Warp& warp, int reach) {
 // One place, whose pixels need not lie inside.
 std::uint8_t GreyAt(const GrayImage& image, int x, int y) {
   const auto at = [&](int column, int row) {
-    return static_cast<int>(
-        image.At(std::clamp(column, 0, image.width() - 1), std::clamp(row, 0, image.height() - 1)));
+    return static_cast<int>(image.At(std::clamp(column, 0, image.width() - 1),
+                                     std::clamp(row, 0, image.height() - 1)));
   };
   const int left = x >> 8;
   const int top = y >> 8;

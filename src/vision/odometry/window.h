@@ -55,6 +55,7 @@ void WindowDifferences(const std::uint8_t* window, const WindowSet& others, std:
 
 // Sums of absolute differences of `window` to the `chosen` ones of `others`.
 void ChosenDifferences(const std::uint8_t* window, const WindowSet& others,
-                       std::span<const std::int32_t> chosen, std::span<std::uint16_t> differences);
+                       std::span<const std::int32_t> chosen,
+                       std::span<std::uint16_t> differences);
 
 }  // namespace rockyard::vision

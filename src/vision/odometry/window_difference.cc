@@ -102,7 +102,8 @@ void WindowDifferences(const std::uint8_t* window, const WindowSet& others, std:
 }
 
 void ChosenDifferences(const std::uint8_t* window, const WindowSet& others,
-                       std::span<const std::int32_t> chosen, std::span<std::uint16_t> differences) {
+                       std::span<const std::int32_t> chosen,
+                       std::span<std::uint16_t> differences) {
   EXPECT(differences.size() >= chosen.size());
   HWY_DYNAMIC_DISPATCH(Chosen)
   (window, others.At(0), chosen.data(), chosen.size(), differences.data());
