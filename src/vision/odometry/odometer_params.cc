@@ -201,14 +201,15 @@ void OdometerParams::Visit(core::FieldVisitor& v) {
   v.Group("estimation", estimation, "the motion of these, by least squares");
   v.Group("keyframe", keyframe,
           "when a pair of images takes the place of the one that later ones are compared with");
-  v.Real("variance_factor", variance_factor,
-         {.doc = "what the covariance of a motion is multiplied by: errors of windows that show one "
-                 "surface from one other view are not independent",
-          .min = 0.1,
-          .max = 1000.0,
-          .origin = Origin::kCalibrated,
-          .source = "rendered steps of hazard cameras: makes the mean squared error in units of the "
-                    "covariance 6 (results/visual_odometry.md)"});
+  v.Real(
+      "variance_factor", variance_factor,
+      {.doc = "what the covariance of a motion is multiplied by: errors of windows that show one "
+              "surface from one other view are not independent",
+       .min = 0.1,
+       .max = 1000.0,
+       .origin = Origin::kCalibrated,
+       .source = "rendered steps of hazard cameras: makes the mean squared error in units of the "
+                 "covariance 6 (results/visual_odometry.md)"});
   v.Integer("rounds", rounds,
             {.doc = "where no motion is predicted: how often features are matched, from the second "
                     "time on as the motion of the time before predicts",

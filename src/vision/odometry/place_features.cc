@@ -1,45 +1,24 @@
 #include "vision/odometry/place_features.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
-#include <limits>
 #include <vector>
 
 #include "vision/cameras/triangulation.h"
+#include "vision/odometry/row_difference.h"
 
 namespace rockyard::vision {
-namespace {
-
-constexpr int kRowSide = 15;
-constexpr int kRowReach = kRowSide / 2;
-
-int DifferenceAt(const GrayImage& left, const GrayImage& right, int column, int row,
-                 int disparity) {
-  int sum = 0;
-  for (int y = row - kRowReach; y <= row + kRowReach; ++y) {
-    const std::uint8_t* const l = &left.At(column - kRowReach, y);
-    const std::uint8_t* const r = &right.At(column - disparity - kRowReach, y);
-    int of_row = 0;
-    for (int x = 0; x < kRowSide; ++x) of_row += std::abs(static_cast<int>(l[x]) - r[x]);
-    sum += of_row;
-  }
-  return sum;
-}
-
-}  // namespace
 
 std::optional<int> FeaturePlacer::WholeDisparity(int column, int row) const {
   const int first = std::max(static_cast<int>(std::floor(params_.min_disparity_px)),
-                             column + kRowReach - (right_.width() - 1));
+                             column + kRowReach + 1 - (right_.width() - 1));
   const int last =
       std::min(static_cast<int>(std::ceil(params_.max_disparity_px)), column - kRowReach);
   if (last - first < 2) return std::nullopt;
-  std::vector<int> differences;
-  for (int d = first; d <= last; ++d) {
-    differences.push_back(DifferenceAt(left_, right_, column, row, d));
-  }
+  std::vector<std::uint32_t> differences(static_cast<std::size_t>(last - first) + 1);
+  RowDifferences(left_, right_, column, row, first, differences);
   const auto best = std::min_element(differences.begin(), differences.end());
   const auto at = static_cast<int>(best - differences.begin());
   if (at == 0 || at == last - first) return std::nullopt;
@@ -56,7 +35,7 @@ std::optional<StereoMeasurement> FeaturePlacer::Place(const Pixel& left_pixel,
                                                       const Eigen::Matrix2d& covariance_px2) const {
   const auto column = static_cast<int>(std::lround(left_pixel.x()));
   const auto row = static_cast<int>(std::lround(left_pixel.y()));
-  if (column < kRowReach || column >= left_.width() - kRowReach || row < kRowReach ||
+  if (column < kRowReach || column >= left_.width() - kRowReach - 1 || row < kRowReach ||
       row >= left_.height() - kRowReach) {
     return std::nullopt;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 
 #include "vision/cameras/camera_types.h"
@@ -33,18 +34,34 @@ class WindowTemplate {
   //   s <- s - N^-1 sum g r,   N = sum g g',   g the template's gradient, r the residual
   // until |ds| < 0.01 px, ten times at most. Covariance: sigma^2 N^-1 + noise_px^2 I, with sigma^2
   // = sum r^2 / (n - 3). Nothing where it does not end within the limits, where the window has no
-  // texture or reaches out of the image.
+  // texture or reaches out of the image (with two columns more to the right and a row below).
   std::optional<RefinedPlace> Find(const GrayImage& second, const Pixel& start,
                                    const RefineLimits& limits) const;
 
  private:
   static constexpr int kSide = 15;
   static constexpr int kReach = kSide / 2;
+  static constexpr int kLanes = 16;  // of a row, the last one 0 and not of the window
   static constexpr int kPixels = kSide * kSide;
 
-  float values_[kPixels];  // less their mean
-  float across_[kPixels];  // gradients by column and by row
-  float down_[kPixels];
+  using Rows = std::array<float, kSide * kLanes>;
+
+  // Sums over the window, d = second(start + s + o) - mean - (first(o) - mean), mean the
+  // template's.
+  struct Sums {
+    float d = 0.0F;
+    float across_d = 0.0F;
+    float down_d = 0.0F;
+    float squares = 0.0F;
+  };
+  Sums SumsAt(const GrayImage& second, const Pixel& middle) const;
+
+  Rows values_{};  // less their mean
+  Rows across_{};  // gradients by column and by row
+  Rows down_{};
+  float mean_ = 0.0F;
+  float across_sum_ = 0.0F;
+  float down_sum_ = 0.0F;
   Eigen::Matrix2d normal_ = Eigen::Matrix2d::Zero();
 };
 

@@ -3,10 +3,13 @@
 // 384 pixels, 400 features).
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
-#include <string>
+#include <cmath>
+#include <vector>
 
+#include "core/distributions.h"
 #include "vision/odometry/synthetic_sequence.h"
 
 namespace rockyard::vision {
@@ -56,6 +59,63 @@ void Step(benchmark::State& state) {
   state.counters["consistent"] = static_cast<double>(step.result.counts.consistent);
 }
 BENCHMARK(Step)->Arg(1)->Arg(0)->Unit(benchmark::kMillisecond);
+
+struct KnownStep {
+  std::array<AlignedImages, 2> images;
+  math::Transform X_FS;
+};
+
+// Steps of 5 to 30 cm with turns up to 6 deg, each over a texture of its own.
+const std::vector<KnownStep>& KnownSteps() {
+  static const std::vector<KnownStep> steps = [] {
+    std::vector<KnownStep> made;
+    core::RandomStream stream({258, 0}, core::Purpose::kTest, 0);
+    for (std::uint32_t i = 0; i < 12; ++i) {
+      const double way_m = core::SampleUniform(stream, 0.05, 0.3);
+      const double turn_rad = core::SampleUniform(stream, -0.1, 0.1);
+      const math::Transform X_FS = math::MakePose({way_m, 0.0, 0.0}, turn_rad, 0.01, -0.01);
+      const PlaneWorld world{.number = i};
+      const RectifiedPair pair = PlanePair(kSize);
+      made.push_back(
+          {{SeePlane(pair, math::Transform::Identity(), world, 0), SeePlane(pair, X_FS, world, 1)},
+           X_FS});
+    }
+    return made;
+  }();
+  return steps;
+}
+
+// Howard 2012 section 2: more features, better poses, more time. Both pairs of a step and nothing
+// predicted; errors are root mean squares over the steps.
+void Features(benchmark::State& state) {
+  OdometerParams params;
+  params.detector.max_features = state.range(0) / params.detector.regions();
+  params.detector.min_features = std::min<std::int64_t>(10, params.detector.max_features);
+  double squares_m2 = 0.0;
+  double squares_rad2 = 0.0;
+  double features = 0.0;
+  double found = 0.0;
+  for (auto _ : state) {
+    for (const KnownStep& known : KnownSteps()) {
+      VisualOdometer odometer(params, PlanePair(kSize), {}, {1, 0});
+      odometer.Add(known.images[0]);
+      const OdometryStep step = odometer.Add(known.images[1]);
+      features += static_cast<double>(step.features.size());
+      if (!step.result.motion) continue;
+      const math::Transform off = known.X_FS.inverse() * step.result.motion->X_FS;
+      found += 1.0;
+      squares_m2 += off.translation().squaredNorm();
+      squares_rad2 += std::pow(Eigen::AngleAxisd(off.linear()).angle(), 2);
+    }
+  }
+  const double steps = static_cast<double>(state.iterations()) * 12.0;
+  state.counters["features"] = features / steps;
+  state.counters["found"] = found / steps;
+  state.counters["mm"] = 1e3 * std::sqrt(squares_m2 / found);
+  state.counters["deg"] = math::RadToDeg(std::sqrt(squares_rad2 / found));
+}
+BENCHMARK(Features)->Arg(50)->Arg(100)->Arg(200)->Arg(400)->Arg(800)->Arg(1600)->Unit(
+    benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace rockyard::vision

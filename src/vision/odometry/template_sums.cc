@@ -1,0 +1,74 @@
+// Sums over a window of pixels between pixels, for every instruction set.
+#include <cstddef>
+#include <cstdint>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "vision/odometry/template_sums.cc"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "vision/odometry/template_sums.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rockyard::vision::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr hn::CappedTag<float, kTemplateLanes> kFloats;
+constexpr hn::Rebind<std::int32_t, decltype(kFloats)> kIntegers;
+constexpr hn::Rebind<std::uint8_t, decltype(kFloats)> kGreys;
+
+HWY_INLINE auto Greys(const std::uint8_t* pixels) {
+  return hn::ConvertTo(kFloats, hn::PromoteTo(kIntegers, hn::LoadU(kGreys, pixels)));
+}
+
+// Lanes from `first` on.
+HWY_INLINE void SumLanes(const TemplateRows& rows, const TemplatePlace& place, std::size_t first,
+                         TemplateSums& sums) {
+  const auto w00 = hn::Set(kFloats, (1.0F - place.u) * (1.0F - place.v));
+  const auto w01 = hn::Set(kFloats, place.u * (1.0F - place.v));
+  const auto w10 = hn::Set(kFloats, (1.0F - place.u) * place.v);
+  const auto w11 = hn::Set(kFloats, place.u * place.v);
+  const auto mean = hn::Set(kFloats, rows.mean);
+  auto d_sum = hn::Zero(kFloats);
+  auto across = hn::Zero(kFloats);
+  auto down = hn::Zero(kFloats);
+  auto squares = hn::Zero(kFloats);
+  for (std::size_t row = 0; row < kTemplateRows; ++row) {
+    const std::uint8_t* const above = place.pixels + row * place.stride + first;
+    const std::uint8_t* const below = above + place.stride;
+    const std::size_t at = row * kTemplateLanes + first;
+    const auto upper = hn::Add(hn::Mul(w00, Greys(above)), hn::Mul(w01, Greys(above + 1)));
+    const auto lower = hn::Add(hn::Mul(w10, Greys(below)), hn::Mul(w11, Greys(below + 1)));
+    const auto value = hn::LoadU(kFloats, rows.values + at);
+    const auto d = hn::Sub(hn::Sub(hn::Add(upper, lower), mean), value);
+    d_sum = hn::Add(d_sum, d);
+    across = hn::Add(across, hn::Mul(hn::LoadU(kFloats, rows.across + at), d));
+    down = hn::Add(down, hn::Mul(hn::LoadU(kFloats, rows.down + at), d));
+    squares = hn::Add(squares, hn::Mul(d, d));
+  }
+  hn::StoreU(d_sum, kFloats, sums.d.data() + first);
+  hn::StoreU(across, kFloats, sums.across_d.data() + first);
+  hn::StoreU(down, kFloats, sums.down_d.data() + first);
+  hn::StoreU(squares, kFloats, sums.squares.data() + first);
+}
+
+void SumAllLanes(const TemplateRows& rows, const TemplatePlace& place, TemplateSums& sums) {
+  for (std::size_t first = 0; first < kTemplateLanes; first += hn::Lanes(kFloats)) {
+    SumLanes(rows, place, first, sums);
+  }
+}
+
+}  // namespace rockyard::vision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rockyard::vision {
+
+HWY_EXPORT(SumAllLanes);
+
+void SumTemplate(const TemplateRows& rows, const TemplatePlace& place, TemplateSums& sums) {
+  HWY_DYNAMIC_DISPATCH(SumAllLanes)(rows, place, sums);
+}
+
+}  // namespace rockyard::vision
+#endif

@@ -1,0 +1,187 @@
+// Places of features: differences along rows, fractions of a pixel, and covariances.
+#include "vision/odometry/place_features.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <vector>
+
+#include "core/distributions.h"
+#include "vision/cameras/triangulation.h"
+#include "vision/odometry/row_difference.h"
+#include "vision/odometry/synthetic_sequence.h"
+#include "vision/odometry/template_sums.h"
+#include "vision/stereo/instruction_sets.h"
+
+namespace rockyard::vision {
+namespace {
+
+constexpr ImageSize kSize{256, 192};
+
+GrayImage Noise(int width, int height, std::uint32_t number) {
+  core::RandomStream stream({256, 0}, core::Purpose::kTest, number);
+  GrayImage image(width, height);
+  for (std::uint8_t& value : image.values()) {
+    value = static_cast<std::uint8_t>(stream.NextU32() & 0xFF);
+  }
+  return image;
+}
+
+std::uint32_t PlainDifference(const GrayImage& left, const GrayImage& right, int column, int row,
+                              int disparity) {
+  std::uint32_t sum = 0;
+  for (int y = row - 7; y <= row + 7; ++y) {
+    for (int x = column - 7; x <= column + 7; ++x) {
+      sum += static_cast<std::uint32_t>(
+          std::abs(int{left.At(x, y)} - int{right.At(x - disparity, y)}));
+    }
+  }
+  return sum;
+}
+
+// At every corner of what is allowed, of noise and of black on white, on every instruction set.
+TEST(RowDifferencesTest, AreThoseOfThePlainSums) {
+  const GrayImage black(70, 20, 0);
+  const GrayImage white(70, 20, 255);
+  for (const std::int64_t set : InstructionSets()) {
+    const UseInstructionSet use(set);
+    for (const auto& [left, right] :
+         {std::pair{Noise(70, 20, 1), Noise(70, 20, 2)}, std::pair{black, white}}) {
+      for (const int column : {40, 54, 61}) {
+        for (const int row : {7, 10, 12}) {
+          const int first = column - 61;  // the right window ends at the last column but one
+          std::vector<std::uint32_t> differences(static_cast<std::size_t>(column - 7 - first) + 1);
+          RowDifferences(left, right, column, row, first, differences);
+          for (std::size_t i = 0; i < differences.size(); ++i) {
+            ASSERT_EQ(differences[i],
+                      PlainDifference(left, right, column, row, first + static_cast<int>(i)))
+                << column << " " << row << " " << i;
+          }
+        }
+      }
+    }
+  }
+}
+
+// A plain sum in the order of the lanes, to the bit, on every instruction set.
+TEST(TemplateSumsTest, AreThePlainSumsToTheBit) {
+  const GrayImage image = Noise(40, 20, 3);
+  core::RandomStream stream({257, 0}, core::Purpose::kTest, 0);
+  std::array<std::array<float, kTemplateRows * kTemplateLanes>, 3> rows{};
+  for (auto& numbers : rows) {
+    for (float& number : numbers) {
+      number = static_cast<float>(core::SampleUniform(stream, -60, 60));
+    }
+  }
+  const TemplateRows all{rows[0].data(), rows[1].data(), rows[2].data(), 101.25F};
+  const TemplatePlace place{&image.At(5, 2), 40, 0.3F, 0.7F};
+  TemplateSums plain;
+  for (std::size_t row = 0; row < kTemplateRows; ++row) {
+    for (std::size_t i = 0; i < kTemplateLanes; ++i) {
+      const auto grey = [&](int right, int below) {
+        return static_cast<float>(
+            image.At(5 + static_cast<int>(i) + right, 2 + static_cast<int>(row) + below));
+      };
+      const float upper =
+          (1.0F - 0.3F) * (1.0F - 0.7F) * grey(0, 0) + 0.3F * (1.0F - 0.7F) * grey(1, 0);
+      const float lower = (1.0F - 0.3F) * 0.7F * grey(0, 1) + 0.3F * 0.7F * grey(1, 1);
+      const std::size_t at = row * kTemplateLanes + i;
+      const float d = upper + lower - 101.25F - rows[0][at];
+      plain.d[i] += d;
+      plain.across_d[i] += rows[1][at] * d;
+      plain.down_d[i] += rows[2][at] * d;
+      plain.squares[i] += d * d;
+    }
+  }
+  for (const std::int64_t set : InstructionSets()) {
+    const UseInstructionSet use(set);
+    TemplateSums sums;
+    SumTemplate(all, place, sums);
+    EXPECT_EQ(sums.d, plain.d);
+    EXPECT_EQ(sums.across_d, plain.across_d);
+    EXPECT_EQ(sums.down_d, plain.down_d);
+    EXPECT_EQ(sums.squares, plain.squares);
+  }
+}
+
+// Features of a plane: the place on it, within the covariance that is told, and its disparity free
+// of bias. Means over some 200 features, whose windows overlap little.
+TEST(FeaturePlacerTest, PlacesFeaturesOnThePlaneThatTheyAreOf) {
+  const RectifiedPair pair = PlanePair(kSize);
+  const AlignedImages images = SeePlane(pair, math::Transform::Identity(), {}, 0);
+  const Features features = FeatureDetector({}, kSize).Detect(images.left);
+  const PlacementParams params;
+  const FeaturePlacer placer(pair, params, images.left, images.right);
+  int wrong = 0;  // another place altogether
+  double sum_px = 0.0;
+  double squares_px2 = 0.0;
+  double count = 0.0;
+  for (const Feature& feature : features) {
+    const Pixel pixel(feature.column, feature.row);
+    const auto place = placer.Place(pixel, 0.04 * Eigen::Matrix2d::Identity());
+    if (!place) continue;
+    // The plane z = 0 is where the ray meets it.
+    const auto unit = Triangulate(pair.left, pair.right, pixel, 1.0);
+    const double share = pair.left.C.z() / (pair.left.C.z() - unit->p_A.z());
+    const double truth_px = 1.0 / share;
+    const double off_px = place->disparity_px - truth_px;
+    if (std::abs(off_px) > 0.5) {
+      ++wrong;
+      continue;
+    }
+    EXPECT_EQ(place->left, pixel);
+    EXPECT_DOUBLE_EQ(place->covariance_px2(0, 0), 0.04);
+    EXPECT_DOUBLE_EQ(place->covariance_px2(0, 2), 0.0);
+    EXPECT_GE(place->covariance_px2(2, 2), params.noise_px * params.noise_px);
+    const auto point = Triangulate(pair.left, pair.right, pixel, place->disparity_px);
+    EXPECT_EQ(place->p_A, point->p_A);
+    EXPECT_EQ(place->covariance_m2, point->Covariance(place->covariance_px2));
+    sum_px += off_px;
+    squares_px2 += off_px * off_px;
+    count += 1.0;
+  }
+  ASSERT_GT(count, 0.7 * static_cast<double>(features.size()));
+  EXPECT_LE(wrong, 3);
+  EXPECT_LT(std::abs(sum_px / count), 0.03);
+  EXPECT_LT(std::sqrt(squares_px2 / count), 0.12);
+}
+
+TEST(FeaturePlacerTest, HasNoPlaceWhereItCannotBeSure) {
+  const RectifiedPair pair = PlanePair(kSize);
+  const AlignedImages images = SeePlane(pair, math::Transform::Identity(), {}, 0);
+  const Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
+  const Pixel middle(150, 110);
+  const auto placed = [&](const PlacementParams& params, const AlignedImages& seen,
+                          const Pixel& pixel) {
+    return FeaturePlacer(pair, params, seen.left, seen.right).Place(pixel, covariance).has_value();
+  };
+  ASSERT_TRUE(placed({}, images, middle));
+  // Beyond the images' edges.
+  EXPECT_FALSE(placed({}, images, {6, 110}));
+  EXPECT_FALSE(placed({}, images, {250, 110}));
+  EXPECT_FALSE(placed({}, images, {150, 6}));
+  EXPECT_FALSE(placed({}, images, {150, 185}));
+  // Disparities of the plane lie outside of the range.
+  EXPECT_FALSE(placed({.min_disparity_px = 60.0}, images, middle));
+  EXPECT_FALSE(placed({.max_disparity_px = 8.0}, images, middle));
+  // No texture, and one that repeats every 12 px.
+  const AlignedImages blank{GrayImage(kSize.columns, kSize.rows, 90),
+                            GrayImage(kSize.columns, kSize.rows, 90)};
+  EXPECT_FALSE(placed({}, blank, middle));
+  AlignedImages repeated = blank;
+  for (int y = 0; y < kSize.rows; ++y) {
+    for (int x = 0; x < kSize.columns; ++x) {
+      const double phase = 2.0 * std::numbers::pi * x / 12.0;
+      repeated.left.At(x, y) = static_cast<std::uint8_t>(std::lround(110 + 50 * std::cos(phase)));
+      repeated.right.At(x, y) =
+          static_cast<std::uint8_t>(std::lround(110 + 50 * std::cos(phase + 2.0)));
+    }
+  }
+  EXPECT_FALSE(placed({}, repeated, middle));
+}
+
+}  // namespace
+}  // namespace rockyard::vision
