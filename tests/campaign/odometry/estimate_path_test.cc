@@ -220,7 +220,7 @@ TEST_F(EstimatedPath, TheLargerPartOfAMovingSceneCounts) {
     }
     OdometryRequest request = PathOf(folder, own() / "path");
     request.cameras = Driven() / "cameras.json";
-    request.truth = {};
+    request.truth.clear();
     const OdometryResult result = EstimatePath(request);
     ASSERT_EQ(result.Gaps(), 0);
     EXPECT_NEAR(result.Distance_m(), most_driven ? 0.1 : 0.0, 0.005);
@@ -236,7 +236,7 @@ TEST_F(EstimatedPath, SandWithoutFeaturesHasNoMotionAndSaysSo) {
   }
   OdometryRequest request = PathOf(own() / "blank", out());
   request.cameras = Driven() / "cameras.json";
-  request.truth = {};
+  request.truth.clear();
   const OdometryResult result = EstimatePath(request);
   EXPECT_EQ(result.Gaps(), 2);
   EXPECT_EQ(*result.steps[2].result.reason, vision::NoMotion::kFewFeatures);
