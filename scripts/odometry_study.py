@@ -181,7 +181,7 @@ def summary(rows, name):
     interval = median_interval(ends)
     steps = sum(int(row["steps"]) for row in mine)
     gaps = sum(int(row["gaps"]) for row in mine)
-    low, high = study.ratio_interval([int(row["gaps"]) for row in mine], [int(row["steps"]) for row in mine])
+    _, low, high = study.ratio_interval([int(row["gaps"]) for row in mine], [int(row["steps"]) for row in mine])
     return [name, f"{len(mine)} of {CASES[name].sequences}", f"{CASES[name].way_m:g}",
             f"{median([float(row['distance_m']) for row in mine]):.1f}", f"{median(ends):.2f}",
             "-" if interval is None else f"{interval[0]:.2f} to {interval[1]:.2f}", f"{max(ends):.2f}",

@@ -44,11 +44,13 @@ std::string SegmentsText(const campaign::OdometryRequest& request,
 
 std::string PathErrorsText(const campaign::OdometryRequest& request,
                            const campaign::PathErrors& errors) {
-  std::string text = fmt::format(
-      "against the truth, {} pairs over {:.2f} m:\n  {:.4f} m off at the end, {:.2f} % of the "
-      "way\n",
-      errors.pairs, errors.distance_m, errors.end_error_m,
-      100.0 * errors.end_error_m / errors.distance_m);
+  std::string text =
+      fmt::format("against the truth, {} pairs over {:.2f} m:\n  {:.4f} m off at the end",
+                  errors.pairs, errors.distance_m, errors.end_error_m);
+  if (errors.distance_m > 0.0) {
+    text += fmt::format(", {:.2f} % of the way", 100.0 * errors.end_error_m / errors.distance_m);
+  }
+  text += "\n";
   if (errors.segments) text += SegmentsText(request, *errors.segments);
   text += fmt::format(
       "  absolute error (root mean square): {:.4f} m with the first poses made equal, {:.4f} m "

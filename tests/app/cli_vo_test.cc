@@ -1,0 +1,175 @@
+// rockyard vo on what rockyard render takes: files, errors, and what is said of broken input.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/command.h"
+
+namespace rockyard::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class CliVo : public CommandTest {
+ protected:
+  static std::vector<std::string> RenderWords(const std::string& folder) {
+    return {"render",   std::string(ROCKYARD_SOURCE_DIR) + "/scenarios/gestalt/abundance.json",
+            "--out",    folder,
+            "--pairs",  "5",
+            "--step-m", "0.1",
+            "--set",    "sensors.stereo.columns=160",
+            "--set",    "sensors.stereo.rows=128",
+            "--set",    "sensors.stereo.images.pyramid_level=0",
+            "--set",    "sensors.stereo.max_disparity_px=40"};
+  }
+
+  CliVo() {
+    const CommandResult rendered = Run(RenderWords("way"));
+    EXPECT_EQ(rendered.exit_code, 0) << rendered.err;
+    EXPECT_THAT(rendered.out, HasSubstr("5 of 5 pairs of 160 x 128 pixels, over 0.4"));
+    EXPECT_THAT(rendered.out, HasSubstr("next: rockyard vo way --cameras way/cameras.json"));
+  }
+
+  static std::vector<std::string> VoWords(const std::vector<std::string>& more = {}) {
+    return With({"vo", "way", "--cameras", "way/cameras.json", "--out", "path"}, more);
+  }
+
+  // Exit code 2, these words, and nothing written.
+  void ExpectRefused(const std::vector<std::string>& words,
+                     const std::vector<std::string>& said) const {
+    const CommandResult result = Run(words);
+    EXPECT_EQ(result.exit_code, 2) << result.out;
+    for (const std::string& word : said) EXPECT_THAT(result.err, HasSubstr(word));
+    EXPECT_FALSE(fs::exists(work() / "path"));
+  }
+};
+
+TEST_F(CliVo, ARenderedSequenceAndItsErrors) {
+  const CommandResult result = Run(VoWords({"--truth", "way/poses.txt", "--lengths", "0.2,0.3"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out,
+              AllOf(HasSubstr("5 of 5 pairs of way, folders left and right"),
+                    HasSubstr("160 x 128 pixels, aligned as they are: focal length 56.0 px"),
+                    HasSubstr("4 of 4 pairs have a motion\n"),
+                    HasSubstr("against the truth, 5 pairs over 0.4"),
+                    HasSubstr("segments of 0.2, 0.3 m"), HasSubstr("errors in path/errors.csv")));
+  EXPECT_THAT(result.err, HasSubstr("5/5 pairs, 0 without a motion"));
+  const json summary = json::parse(ReadFile(work() / "path/vo.json"));
+  EXPECT_EQ(summary["pairs"], 5);
+  EXPECT_LT(summary["errors"]["end_percent"], 2.0);
+  EXPECT_EQ(summary["errors"]["segments"]["lengths_m"], json::parse("[0.2, 0.3]"));
+  EXPECT_EQ(summary["files"]["tum"], "trajectory_tum.txt");
+}
+
+TEST_F(CliVo, JsonIsThatOfItsFileAndQuietSaysNothing) {
+  const CommandResult result = Run(VoWords({"--json"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  json printed = json::parse(result.out);
+  EXPECT_TRUE(printed["errors"].is_null());
+  EXPECT_EQ(printed["gaps"], 0);
+  json written = json::parse(ReadFile(work() / "path/vo.json"));
+  printed.erase("files");
+  written.erase("files");
+  EXPECT_EQ(printed, written);
+  const CommandResult quiet = Run(VoWords({"--quiet"}));
+  EXPECT_EQ(quiet.exit_code, 0);
+  EXPECT_EQ(quiet.out + quiet.err, "");
+}
+
+TEST_F(CliVo, SettingsChangeWhatIsFound) {
+  const CommandResult list = Run({"vo", "--parameters"});
+  EXPECT_EQ(list.exit_code, 0);
+  EXPECT_THAT(list.out, HasSubstr("keyframe.max_way_m"));
+  ASSERT_EQ(Run(VoWords({"--param", "keyframe.max_way_m=0"})).exit_code, 0);
+  EXPECT_THAT(ReadFile(work() / "path/trajectory.csv"), HasSubstr("\n4,4,3,1,1,,"));
+  fs::remove_all(work() / "path");
+  ExpectRefused(VoWords({"--param", "keyframe.max_wey_m=0"}), {"keyframe.max_wey_m"});
+  ExpectRefused(VoWords({"--param", "detector.regions_across=0"}), {"detector.regions_across"});
+}
+
+TEST_F(CliVo, WhatIsMissingIsNamed) {
+  ExpectRefused({"vo"}, {"SEQUENCE: is missing"});
+  ExpectRefused({"vo", "way"}, {"--out: is missing"});
+  ExpectRefused({"vo", "way", "--out", "path"}, {"--cameras: is missing"});
+  ExpectRefused({"vo", "nowhere", "--out", "path"}, {"nowhere: does not exist"});
+  ExpectRefused(VoWords({"--first", "9"}), {"way: leaves 0 of its 5 pairs"});
+  ExpectRefused(VoWords({"--truth", "way/times.txt"}), {"times.txt: line 1: has 1 numbers"});
+  WriteFile(work() / "short.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
+  ExpectRefused(VoWords({"--truth", "short.txt"}), {"has 1 poses, the sequence 5 pairs"});
+  ExpectRefused(VoWords({"--predict", "short.txt"}), {"has 1 poses, there are 5 pairs"});
+  ExpectRefused(VoWords({"--lengths", "0"}), {"--lengths"});
+}
+
+TEST_F(CliVo, BrokenSequencesAreRefusedBeforeAnythingIsWritten) {
+  const std::string good = ReadFile(work() / "way/left/000003.png");
+  WriteFile(work() / "way/left/000003.png", good.substr(0, good.size() / 2));
+  ExpectRefused(VoWords(), {"way/left/000003.png: "});
+  fs::remove(work() / "way/left/000003.png");
+  ExpectRefused(VoWords(), {"way/right/000003.png: has no partner way/left/000003.png"});
+  WriteFile(work() / "way/left/000003.png", "P5\n2 2\n255\n....");
+  ExpectRefused(VoWords(), {"000003.png: has 2 x 2 pixels, the first image of the sequence 160"});
+  WriteFile(work() / "way/left/000003.png", good);
+  fs::copy_file(work() / "way/left/000000.png", work() / "way/right/000000.png",
+                fs::copy_options::overwrite_existing);
+  ExpectRefused(VoWords(), {"000000.png: shows the same as the left image"});
+}
+
+TEST_F(CliVo, CamerasOfOtherImagesAreRefused) {
+  std::string cameras = ReadFile(work() / "way/cameras.json");
+  json document = json::parse(cameras);
+  std::swap(document["left"], document["right"]);
+  WriteFile(work() / "swapped.json", document.dump());
+  ExpectRefused({"vo", "way", "--cameras", "swapped.json", "--out", "path"}, {"swapped.json: "});
+  WriteFile(work() / "way/left_free.png", "P5\n2 2\n255\n....");
+  ExpectRefused(VoWords(), {"left_free.png: has 2 x 2 pixels"});
+}
+
+// A list that would take minutes: nothing is there of a process that was killed, and the path as
+// far as it came of one that was asked to end.
+TEST_F(CliVo, KilledLeavesNothingInterruptedLeavesAPath) {
+  std::string list;
+  for (int i = 0; i < 200000; ++i) {
+    const std::string name = i % 2 == 0 ? "000000.png" : "000001.png";
+    list += "way/left/" + name + " way/right/" + name + "\n";
+  }
+  WriteFile(work() / "list.txt", list);
+  const std::vector<std::string> words{"vo",    "list.txt", "--cameras", "way/cameras.json",
+                                       "--out", "path"};
+  const pid_t killed = Start(words);
+  usleep(500000);
+  kill(killed, SIGKILL);
+  EXPECT_EQ(Wait(killed).exit_code, -SIGKILL);
+  EXPECT_FALSE(fs::exists(work() / "path"));
+
+  const pid_t ended = Start(words);
+  // Once it says on /proc that it has read images, it listens.
+  usleep(2000000);
+  kill(ended, SIGINT);
+  const CommandResult result = Wait(ended);
+  EXPECT_EQ(result.exit_code, 130) << result.err;
+  EXPECT_THAT(result.out, HasSubstr(" of 200000 pairs of list.txt, a list of files"));
+  EXPECT_TRUE(json::parse(ReadFile(work() / "path/vo.json"))["interrupted"]);
+}
+
+TEST_F(CliVo, OptionsOfSequencesThatMakeNoSense) {
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& said) {
+    std::vector<std::string> words = RenderWords("path");
+    words.insert(words.end(), more.begin(), more.end());
+    ExpectRefused(words, {said});
+  };
+  refused({"--route", "--step-m", "0"}, "--step-m");
+  refused({"--route", "--x", "1"}, "--route: begins at the start of the course");
+  refused({"--pairs", "0"}, "--pairs");
+  ExpectRefused({"render", RenderWords("path")[1], "--out", "path", "--route"},
+                {"--pairs: is missing"});
+}
+
+}  // namespace
+}  // namespace rockyard::app

@@ -1,0 +1,173 @@
+// Which files are a sequence: the layouts of benchmarks, their order, and what is told of broken
+// ones.
+#include "campaign/odometry/image_sequence.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "campaign/odometry/kitti_calibration.h"
+#include "core/error.h"
+#include "core/test_folder.h"
+
+namespace rockyard::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class Sequence : public testing::Test {
+ protected:
+  void Write(const std::string& name, const std::string& text = "x") const {
+    fs::create_directories((top() / name).parent_path());
+    std::ofstream(top() / name, std::ios::binary) << text;
+  }
+  const fs::path& top() const { return folder_.path(); }
+
+  std::vector<std::string> Names(const fs::path& path) const {
+    std::vector<std::string> names;
+    for (const SequencePair& pair : FindSequence(path).pairs) {
+      names.push_back(fs::relative(pair.left, top()).string() + " " +
+                      fs::relative(pair.right, top()).string());
+    }
+    return names;
+  }
+
+  // All problems of a sequence that is none, one a line.
+  std::string Complaints(const fs::path& path) const {
+    try {
+      FindSequence(path);
+    } catch (const core::UserError& error) {
+      std::string text;
+      for (const core::Problem& problem : error.problems()) {
+        text += problem.path + ": " + problem.reason + "\n";
+      }
+      return text;
+    }
+    return "";
+  }
+
+ private:
+  core::TestFolder folder_;
+};
+
+TEST_F(Sequence, FoldersInNaturalOrderWithTimesAndCalibration) {
+  for (const char* eye : {"image_0", "image_1"}) {
+    for (const char* name : {"10.png", "9.png", "100.png"}) Write(std::string(eye) + "/" + name);
+    Write(std::string(eye) + "/.hidden");
+  }
+  Write("times.txt", "0\n0.5\n2.25\n");
+  Write("calib.txt");
+  const ImageSequence sequence = FindSequence(top());
+  EXPECT_EQ(sequence.layout, "folders image_0 and image_1");
+  EXPECT_THAT(Names(top()),
+              ElementsAre("image_0/9.png image_1/9.png", "image_0/10.png image_1/10.png",
+                          "image_0/100.png image_1/100.png"));
+  EXPECT_EQ(sequence.pairs[2].time_s, 2.25);
+  EXPECT_EQ(sequence.calibration, top() / "calib.txt");
+  EXPECT_TRUE(sequence.left_free.empty());
+  Write("left_free.png");
+  EXPECT_EQ(FindSequence(top()).left_free, top() / "left_free.png");
+  EXPECT_TRUE(FindSequence(top()).right_free.empty());
+}
+
+TEST_F(Sequence, NaturalOrder) {
+  EXPECT_TRUE(NaturallyBefore("a2", "a10"));
+  EXPECT_FALSE(NaturallyBefore("a10", "a2"));
+  EXPECT_TRUE(NaturallyBefore("a9b", "a10a"));
+  EXPECT_TRUE(NaturallyBefore("a", "a1"));
+  EXPECT_TRUE(NaturallyBefore("7.png", "08.png"));
+  EXPECT_TRUE(NaturallyBefore("a10", "b2"));
+  EXPECT_FALSE(NaturallyBefore("a5", "a5"));
+  // Equal as numbers: some order, but one that sorting can rely on.
+  EXPECT_NE(NaturallyBefore("a05", "a5"), NaturallyBefore("a5", "a05"));
+}
+
+TEST_F(Sequence, MissingPartnersAreNamedAllAtOnce) {
+  for (const char* name : {"left/1.png", "left/2.png", "right/2.png", "right/3.png"}) Write(name);
+  EXPECT_THAT(Complaints(top()), AllOf(HasSubstr("left/1.png: has no partner"),
+                                       HasSubstr("right/3.png: has no partner")));
+  for (int i = 10; i < 60; ++i) Write("left/" + std::to_string(i) + ".png");
+  const std::string many = Complaints(top());
+  EXPECT_EQ(std::count(many.begin(), many.end(), '\n'), 20);
+  EXPECT_THAT(many, HasSubstr("and 32 more like it"));
+}
+
+TEST_F(Sequence, FoldersThatAreNone) {
+  EXPECT_THAT(Complaints(top() / "nowhere"), HasSubstr("nowhere: does not exist"));
+  EXPECT_THAT(Complaints(top()), HasSubstr("is no sequence of image pairs that is known"));
+  fs::create_directories(top() / "left");
+  EXPECT_THAT(Complaints(top()), HasSubstr("has a folder left but none right"));
+  fs::create_directories(top() / "right");
+  EXPECT_THAT(Complaints(top()), HasSubstr("left: holds no images"));
+}
+
+TEST_F(Sequence, TimesThatDoNotFit) {
+  Write("left/1.png");
+  Write("right/1.png");
+  Write("times.txt", "0\n1\n");
+  EXPECT_THAT(Complaints(top()), HasSubstr("times.txt: has 2 times, there are 1 pairs"));
+}
+
+TEST_F(Sequence, EurocsListsAreMatchedByTime) {
+  Write("mav0/cam0/data.csv", "#timestamp [ns],filename\n2000000000,b.png\r\n1500000000,a.png\n");
+  Write("mav0/cam1/data.csv", "#timestamp [ns],filename\n1500000000,c.png\n2000000000,d.png\n");
+  const std::vector<std::string> expected{"mav0/cam0/data/a.png mav0/cam1/data/c.png",
+                                          "mav0/cam0/data/b.png mav0/cam1/data/d.png"};
+  EXPECT_EQ(Names(top()), expected);
+  EXPECT_EQ(Names(top() / "mav0"), expected);
+  EXPECT_DOUBLE_EQ(*FindSequence(top()).pairs[0].time_s, 1.5);
+  Write("mav0/cam1/data.csv", "1500000000,c.png\n2500000000,d.png\n");
+  EXPECT_THAT(Complaints(top()), AllOf(HasSubstr("b.png: has no partner of time 2000000000"),
+                                       HasSubstr("d.png: has no partner of time 2500000000")));
+  Write("mav0/cam1/data.csv", "1500000000,c.png\nx,d.png\n");
+  EXPECT_THAT(Complaints(top()), HasSubstr("data.csv: line 2: is no time and name"));
+}
+
+TEST_F(Sequence, AListNamesFilesBesideIt) {
+  Write("list.txt", "# pairs\nl/1.png r/1.png\nl/2.png\tr/2.png 0.5\n\n");
+  EXPECT_THAT(Names(top() / "list.txt"), ElementsAre("l/1.png r/1.png", "l/2.png r/2.png"));
+  EXPECT_FALSE(FindSequence(top() / "list.txt").pairs[0].time_s.has_value());
+  EXPECT_EQ(FindSequence(top() / "list.txt").pairs[1].time_s, 0.5);
+  Write("list.txt", "l/1.png\n");
+  EXPECT_THAT(Complaints(top() / "list.txt"), HasSubstr("line 1: is no pair of images"));
+  Write("list.txt", "a b c\n");
+  EXPECT_THAT(Complaints(top() / "list.txt"), HasSubstr("line 1: is no pair of images"));
+  Write("list.txt", "# none\n");
+  EXPECT_THAT(Complaints(top() / "list.txt"), HasSubstr("lists no pair of images"));
+}
+
+// Projections by hand: a point at (1, 2, 4) before camera 1, whose centre lies 0.5 m to the right.
+TEST_F(Sequence, KittisCalibrationProjectsAsItsMatricesDo) {
+  const std::string P0 = "700 0 600 0 0 710 180 0 0 0 1 0";
+  const std::string P1 = "700 0 600 -350 0 710 180 0 0 0 1 0";
+  for (const std::string& text : {P0 + "\n" + P1 + "\n", "P0: " + P0 + "\nP1: " + P1 + "\nP2: " +
+                                                             P0 + "\nTr: " + P0 + "\n"}) {
+    Write("calib.txt", text);
+    const vision::CameraPair pair = LoadKittiCalibration(top() / "calib.txt", {1226, 370});
+    EXPECT_EQ(pair.right.size.rows, 370);
+    const auto left = vision::Project(pair.left, {1.0, 2.0, 4.0});
+    const auto right = vision::Project(pair.right, {1.0, 2.0, 4.0});
+    EXPECT_NEAR(left->x(), 600.0 + 700.0 / 4.0, 1e-9);
+    EXPECT_NEAR(left->y(), 180.0 + 710.0 * 2.0 / 4.0, 1e-9);
+    EXPECT_NEAR(right->x(), 600.0 + (700.0 - 350.0) / 4.0, 1e-9);
+    EXPECT_NEAR(vision::CentreOf(pair.right).x(), 0.5, 1e-12);
+  }
+  const auto refused = [&](const std::string& text) {
+    Write("calib.txt", text);
+    EXPECT_THROW(LoadKittiCalibration(top() / "calib.txt", {1226, 370}), core::UserError) << text;
+  };
+  refused("");
+  refused(P0 + "\n");
+  refused("P2: " + P0 + "\nP3: " + P1 + "\n");
+  refused(P0 + "\n700 0 600 -350 0 710 180 0 0 0 2 0\n");
+  refused(P0 + "\n-700 0 600 -350 0 710 180 0 0 0 1 0\n");
+}
+
+}  // namespace
+}  // namespace rockyard::campaign
