@@ -235,26 +235,27 @@ TEST_P(SlipSinkageRover, IsEmbeddedWhereItWouldClimb) {
   EXPECT_GT(climb.sinkage_m, 0.007);
 }
 
-// In drift on 15 deg wheels spin on the spot at once, i = 1: they sink with the way s of the rim,
-// by the law at d = 1 - e^(-s / L).
+// In drift on 20 deg wheels spin on the spot at once, i = 1: they sink with the way s of the rim,
+// by the law at d = 1 - e^(-s / L), but for the damping of the multibody's contacts.
 TEST_P(SlipSinkageRover, SpinningWheelsDigInLittleByLittle) {
   RoverParams params = Of(GetParam());
   params.physics.gravity_m_s2 = 3.72;
+  params.quasi_static.settle_distance_m = 0.005;
   const terrain::SoilParams soil = Digging(terrain::SoilPreset::kMarsDrift);
-  const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(15.0), 0.0, soil);
+  const terrain::Terrain terrain = SlopeTerrain(math::DegToRad(20.0), 0.0, soil);
   const auto rover = MakeRover(params, terrain);
   rover->Place({});
-  const double load_N = Weights(params).total_N * std::cos(math::DegToRad(15.0)) / 6.0;
+  const double load_N = Weights(params).total_N * std::cos(math::DegToRad(20.0)) / 6.0;
   double last_m = 0.0;
   for (const double way_m : {0.03, 0.06, 0.1, 0.2, 0.4}) {
     while (rover->state().wheel_angle_rad[0] * kRadius_m < way_m) {
-      rover->Step(Drive(params, 0.05, 0.0));
+      rover->Step(Drive(params, 0.01, 0.0));
     }
     double mean_m = 0.0;
     for (const double sinkage_m : rover->state().wheel_sinkage_m) mean_m += sinkage_m / 6.0;
     const double dug = 1.0 - std::exp(-way_m / kLength_m);
     const double depth_m = Dug(soil, dug).Sinkage(load_N) + load_N / params.contact.stiffness_N_m;
-    EXPECT_NEAR(mean_m, depth_m, 0.06 * depth_m) << way_m;
+    EXPECT_NEAR(mean_m, depth_m, 0.09 * depth_m) << way_m;
     EXPECT_GT(mean_m, last_m);
     last_m = mean_m;
   }
