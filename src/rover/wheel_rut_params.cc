@@ -9,6 +9,7 @@ WheelRut::WheelRut(const terrain::SoilParams& soil, double wheel_radius_m, doubl
     : width_m_(wheel_width_m),
       diameter_m_(2.0 * wheel_radius_m),
       exponent_(soil.sinkage_exponent),
+      per_slip_(soil.slip_sinkage.enabled ? soil.slip_sinkage.exponent_per_slip : 0.0),
       // b k = b (k_c / b + k_phi) = k_c + b k_phi, N/m^(n+1).
       modulus_(soil.cohesive_modulus_N_per_mn1 + wheel_width_m * soil.frictional_modulus_N_per_mn2),
       // Bekker 1969: N = (3 - n)/3 b k sqrt(D) z^(n + 1/2); this is all of it but the power of z.
@@ -33,6 +34,20 @@ Rut WheelRut::RutUnder(double load_N) const {
   rut.contact_length_m = 0.5 * diameter_m_ * std::acos(1.0 - depth);
   // Mohr and Coulomb over the contact area b l: T_max = b l c + N tan(phi).
   rut.largest_traction_N = width_m_ * rut.contact_length_m * cohesion_Pa_ + load_N * tan_friction_;
+  return rut;
+}
+
+Rut WheelRut::RutUnder(double load_N, double dug_slip) const {
+  Rut rut = RutUnder(load_N);
+  if (per_slip_ * dug_slip == 0.0) return rut;
+  // Ding et al. 2010: n = n_0 + n_1 i, in Bekker's N = (3 - n)/3 b k sqrt(D) z^(n + 1/2) and
+  // R = b k z^(n + 1)/(n + 1). Contact length and traction stay.
+  const double n = exponent_ + per_slip_ * dug_slip;
+  const double load_factor = (3.0 - n) / 3.0 * modulus_ * std::sqrt(diameter_m_);
+  const double z_m = std::pow(load_N / load_factor, 1.0 / (n + 0.5));
+  rut.sinkage_m = std::min(z_m, std::max(rut.sinkage_m, 0.5 * diameter_m_));
+  rut.stiffness_N_m = (n + 0.5) * load_N / rut.sinkage_m;
+  rut.resistance_N = modulus_ * std::pow(rut.sinkage_m, n + 1.0) / (n + 1.0);
   return rut;
 }
 

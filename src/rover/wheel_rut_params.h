@@ -7,6 +7,12 @@
 // Largest traction (Mohr and Coulomb): T_max = b l c + W tan(phi), with the contact length
 // l = (D / 2) acos(1 - 2 z / D) of a wheel in its rut.
 //
+// Slip sinkage (terrain.ground.soil.slip_sinkage; Ding, Gao, Deng and Tao 2010): under a wheel that
+// has dug in for the slip i the exponent is n = n_0 + n_1 i, k as it was, so that it sinks deeper
+// under the same load, and R grows with z. T_max stays that of the rut without slip: here the law
+// differs from Ding's, who also lets the longer contact pull more. Sand that has been dug away has
+// failed already, and a wheel that pulled better the deeper it dug would never be embedded.
+//
 // Limits: steady state; level cut through the rut, no bulldozing wave ahead of it, no ruts left by
 // wheels ahead; z well below D (the formula's own limit is about D / 6).
 #pragma once
@@ -35,6 +41,10 @@ class WheelRut {
   // Returns all that the wheel meets under a load > 0. All fields but the stiffness grow with the
   // load. A call costs about 60 ns.
   Rut RutUnder(double load_N) const;
+  // Returns the same of a wheel that has dug in for a slip in [0, 1]: deeper, with more resistance;
+  // the sinkage is at most the wheel's radius, where its axle meets the ground. At 0, and with
+  // slip sinkage off, the same bits as without.
+  Rut RutUnder(double load_N, double dug_slip) const;
   // Returns the load at which the wheel sinks by z >= 0: the inverse of Sinkage_m.
   double Load_N(double sinkage_m) const;
 
@@ -47,7 +57,8 @@ class WheelRut {
  private:
   double width_m_;
   double diameter_m_;
-  double exponent_;      // n
+  double exponent_;      // n_0
+  double per_slip_;      // n_1; 0: slip does not dig in
   double modulus_;       // b k, N/m^(n+1)
   double load_factor_;   // W(z) / z^(n + 1/2)
   double cohesion_Pa_;   // c

@@ -4,7 +4,7 @@
 // Slip (Janosi and Hanamoto 1961, uniform pressure along l): T = tau T_max with
 //   tau = 1 - (1 - e^-u) / u,   u = i l / K,   i = 1 - v / (omega r).
 //
-// Limits: those of the rut, and no sinkage by slip.
+// Limits: those of the rut.
 #pragma once
 
 #include "rover/shear_curve.h"

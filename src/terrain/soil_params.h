@@ -12,6 +12,15 @@ namespace rockyard::terrain {
 
 enum class SoilPreset { kLandscapingSand, kMarsDrift, kHardGround };
 
+// How wheels that slip dig in; rover/wheel_rut_params.h and slip_sinkage.h have the law.
+struct SlipSinkageParams {
+  bool enabled = false;
+  double exponent_per_slip = 0.5;
+  double length_m = 0.1;
+
+  void Visit(core::FieldVisitor& v);
+};
+
 // The defaults are those of landscaping_sand.
 struct SoilParams {
   SoilPreset preset = SoilPreset::kLandscapingSand;
@@ -21,9 +30,11 @@ struct SoilParams {
   double cohesion_Pa = 1300.0;
   double friction_angle_rad = math::DegToRad(31.1);
   double shear_modulus_m = 0.004;
+  SlipSinkageParams slip_sinkage{};
 
   // Visits the preset first: choosing another one replaces the defaults of the values that follow
-  // it.
+  // it;
+  // slip_sinkage stays.
   void Visit(core::FieldVisitor& v);
 };
 

@@ -25,6 +25,7 @@ ConstraintSolver::ConstraintSolver(const RoverParams& params, const terrain::Soi
       iterations_(params.physics.solver_iterations),
       wheel_radius_m_(params.geometry.wheel_radius_m),
       mean_load_N_(params.mass.total_kg * params.physics.gravity_m_s2 / messages::kWheelCount),
+      sinkage_(soil.slip_sinkage),
       step_s_(params.physics.step_s) {
   // The differential bar turns one rocker back by what the other turns: sum of the rates 0.
   differential_.J[6 + kLeftRocker] = 1.0;
@@ -47,6 +48,7 @@ void ConstraintSolver::Clear() {
   for (Row& row : stops_) row.impulse = 0.0;
   // The contacts' impulses are forgotten with the contacts.
   for (Row& row : motors_) row.impulse = 0.0;
+  sinkage_.Clear();
 }
 
 // Projected Gauss-Seidel on the velocities: every row starts from its last impulse, then the sweeps
@@ -87,7 +89,10 @@ void ConstraintSolver::Solve(const Step& step, LooseRocks* loose_rocks, ContactF
   for (std::int64_t i = 0; i < iterations_; ++i) {
     if (Sweep(loose_rocks) < enough_Ns) break;
   }
-  for (std::size_t i = 0; i < contact_count_; ++i) KeepForNextStep(contacts_[i]);
+  for (std::size_t i = 0; i < contact_count_; ++i) {
+    KeepForNextStep(contacts_[i]);
+  }
+  if (sinkage_.enabled()) Dig();
   body.AddVelocity(velocity_ - free_velocity);
 }
 
@@ -177,12 +182,14 @@ void ConstraintSolver::StartContact(const DofMatrix& mass_inverse, const Part& p
   ContactRows& rows = contacts_[contact_count_++];
   rows.contact = &contact;
   // Laws are those at the loads of the last step, fixed within this one.
-  rows.law = laws_.Of(part, contact, step_s_);
+  const bool wheel = part.kind == truth::BodyPart::kWheel;
+  const double dug_slip = wheel ? sinkage_.dug_slip(static_cast<std::size_t>(contact.part)) : 0.0;
+  rows.law = laws_.Of(part, contact, step_s_, dug_slip);
   rows.normal.rock = rows.along.rock = rows.across.rock = rock;
   StartNormal(mass_inverse, part, body, rows);
   StartFriction(mass_inverse, part, body, rows);
   rows.motor = nullptr;
-  if (part.kind == truth::BodyPart::kWheel) StartDriven(rows);
+  if (wheel) StartDriven(rows);
   StartDrag(mass_inverse, part, body, rows);
 }
 
@@ -261,6 +268,22 @@ void ConstraintSolver::KeepForNextStep(const ContactRows& rows) const {
   Contact& contact = *rows.contact;
   contact.impulse_Ns = {rows.normal.impulse, rows.along.impulse, rows.across.impulse};
   contact.drag_Ns = rows.drag.impulse;
+}
+
+// By the slip at the end of the step; a wheel off the soil leaves its hole behind.
+void ConstraintSolver::Dig() {
+  messages::PerWheel<double> slip_m_s{};
+  for (std::size_t i = 0; i < contact_count_; ++i) {
+    const ContactRows& rows = contacts_[i];
+    if (!rows.law.slips || rows.normal.impulse <= 0.0) continue;
+    double& largest_m_s = slip_m_s[static_cast<std::size_t>(rows.contact->part)];
+    largest_m_s = std::max(largest_m_s, ContactVelocity(rows, velocity_).norm());
+  }
+  for (std::size_t i = 0; i < messages::kWheelCount; ++i) {
+    const double rim_m_s =
+        std::abs(velocity_[6 + kFirstWheel + static_cast<int>(i)]) * wheel_radius_m_;
+    if (rim_m_s > 0.0) sinkage_.Roll(i, slip_m_s[i] / rim_m_s, rim_m_s * step_s_);
+  }
 }
 
 double ConstraintSolver::Sweep(LooseRocks* loose_rocks) {

@@ -14,6 +14,7 @@
 #include "rover/multibody/loose_rocks.h"
 #include "rover/multibody/multibody.h"
 #include "rover/rover_params.h"
+#include "rover/slip_sinkage.h"
 #include "terrain/soil_params.h"
 
 namespace rockyard::rover {
@@ -24,7 +25,7 @@ class ConstraintSolver {
  public:
   ConstraintSolver(const RoverParams& params, const terrain::SoilParams& soil);
 
-  // Forgets the impulses of the last step.
+  // Forgets the impulses of the last step, and how far wheels have dug in.
   void Clear();
 
   // What a step begins with.
@@ -99,6 +100,7 @@ class ConstraintSolver {
   void StartDrag(const DofMatrix& mass_inverse, const Part& part, const Multibody& body,
                  ContactRows& rows);
   void KeepForNextStep(const ContactRows& rows) const;
+  void Dig();
 
   // Returns the largest change of an impulse, N s; of motors as a force at the rim.
   double Sweep(LooseRocks* loose_rocks);
@@ -125,6 +127,7 @@ class ConstraintSolver {
   const double wheel_radius_m_;
   const double mean_load_N_;
 
+  SlipSinkage sinkage_;
   double step_s_;
   std::array<double, kStops> stop_angle_rad_{};
   DofVector velocity_ = DofVector::Zero();

@@ -17,10 +17,11 @@ ContactLaws::ContactLaws(const RoverParams& params, const terrain::SoilParams& s
       soil_(soil, params.geometry.wheel_radius_m, params.geometry.wheel_width_m),
       gravity_m_s2_(params.physics.gravity_m_s2) {}
 
-ContactLaw ContactLaws::Of(const Part& part, const Contact& contact, double step_s) const {
+ContactLaw ContactLaws::Of(const Part& part, const Contact& contact, double step_s,
+                           double dug_slip) const {
   const bool wheel = part.kind == truth::BodyPart::kWheel;
   if (wheel && contact.IsSoil()) {
-    return OnSoil(std::max(contact.impulse_Ns[0] / step_s, kMinLoad_N));
+    return OnSoil(std::max(contact.impulse_Ns[0] / step_s, kMinLoad_N), dug_slip);
   }
   // Rocks and walls, and the body on anything: a spring with Coulomb friction.
   ContactLaw law;
@@ -30,10 +31,10 @@ ContactLaw ContactLaws::Of(const Part& part, const Contact& contact, double step
   return law;
 }
 
-ContactLaw ContactLaws::OnSoil(double load_N) const {
+ContactLaw ContactLaws::OnSoil(double load_N, double dug_slip) const {
   ContactLaw law;
   law.slips = true;
-  law.rut = soil_.RutUnder(load_N);
+  law.rut = soil_.RutUnder(load_N, dug_slip);
   // The soil's sinkage z(N) in series with the contact's own spring k_c, along the tangent at this
   // load:
   //   1/k = 1 / (dN/dz) + 1 / k_c,   d_0 = z + N / k_c - N / k (there the tangent has no force).

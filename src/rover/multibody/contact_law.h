@@ -48,8 +48,10 @@ class ContactLaws {
  public:
   ContactLaws(const RoverParams& params, const terrain::SoilParams& soil);
 
-  // Returns the law of a contact whose impulses are those of a step of that length.
-  ContactLaw Of(const Part& part, const Contact& contact, double step_s) const;
+  // Returns the law of a contact whose impulses are those of a step of that length; a wheel has dug
+  // in for that slip (slip_sinkage.h).
+  ContactLaw Of(const Part& part, const Contact& contact, double step_s,
+                double dug_slip = 0.0) const;
 
   // Returns what the slip of a wheel on soil does in one step; `theta` is that of the last call for
   // this step, 1 at the first.
@@ -67,7 +69,7 @@ class ContactLaws {
   double damping_Ns_m() const { return params_.damping_Ns_m; }
 
  private:
-  ContactLaw OnSoil(double load_N) const;
+  ContactLaw OnSoil(double load_N, double dug_slip) const;
 
   const RoverContactParams params_;
   const WheelSoil soil_;

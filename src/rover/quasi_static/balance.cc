@@ -34,6 +34,9 @@ constexpr double kLoadStep = 0.5;
 constexpr double kLeastArm = 1e-6;
 // Stands for no motion at all.
 constexpr double kHeld = 1e12;
+// A wheel that has dug in for a slip this near to its own has done so: less than a hundredth of the
+// sinkage is left.
+constexpr double kDugIn = 2e-3;
 
 // The rates that move one side: the six of the chassis, the rocker, and that side's bogie.
 SideVector OfSide(const LinkageVector& rates, std::size_t side) {
@@ -46,8 +49,9 @@ SideVector OfSide(const LinkageVector& rates, std::size_t side) {
 
 QuasiStaticBalance::QuasiStaticBalance(const RoverParams& params, const terrain::SoilParams& soil)
     : contact_params_(params.contact),
+      sinkage_(soil.slip_sinkage),
       soil_(WheelSoil(soil, params.geometry.wheel_radius_m, params.geometry.wheel_width_m),
-            params.mass.total_kg * params.physics.gravity_m_s2),
+            params.mass.total_kg * params.physics.gravity_m_s2, soil.slip_sinkage.enabled),
       wheel_radius_m_(params.geometry.wheel_radius_m),
       stall_torque_Nm_(params.drive.stall_torque_Nm),
       stop_rad_{params.geometry.rocker_limit_rad, params.geometry.bogie_limit_rad,
@@ -73,6 +77,7 @@ void QuasiStaticBalance::MakeRow(const Linkage& linkage, const Drive& drive,
   row.rest_m = row.rim_m_s = row.arm_m = 0.0;
   row.reference_m_s = rim_speed_m_s_;
   row.loaded = contact.load_N > 0.0;
+  row.soil = false;
   Vector3 along_W = linkage.axle_W(static_cast<std::size_t>(contact.IsWheel() ? contact.part : 0))
                         .cross(contact.n_W);
   // axle x normal is the rolling direction; a wheel met at its side face has none.
@@ -107,10 +112,11 @@ void QuasiStaticBalance::MakeWheelRow(const Linkage& linkage, const Drive& drive
   row.stall_N = stall_torque_Nm_ / std::max(row.arm_m, kLeastArm * wheel_radius_m_);
   row.reference_m_s = std::max(std::abs(rate_rad_s) * wheel_radius_m_,
                                (rims_turn_ ? kMinReference : 1.0) * rim_speed_m_s_);
-  if (!contact.IsSoil()) return;
+  row.soil = contact.IsSoil();
+  if (!row.soil) return;
   // The sinkage curve in series with the contact's own spring, along its tangent at the last load.
   const double load_N = contact.load_N > 0.0 ? contact.load_N : mean_load_N_;
-  const SoilAnswer soil = soil_.At(load_N);
+  const SoilAnswer soil = soil_.At(load_N, sinkage_.dug_slip(wheel));
   const double k = contact_params_.stiffness_N_m;
   row.stiffness_N_m = 1.0 / (1.0 / soil.stiffness_N_m + 1.0 / k);
   // Tangent at the load N_0: N = N_0 + k_row (depth - z(N_0) - N_0 / k), which has N = 0 at the
@@ -128,7 +134,7 @@ void QuasiStaticBalance::SetTraction(const RestingContact& contact, Row& row) co
   if (row.reference_m_s == 0.0) {
     row.max_N = 0.0;
   } else if (contact.IsSoil()) {
-    const SoilAnswer soil = soil_.At(load_N);
+    const SoilAnswer soil = soil_.At(load_N, sinkage_.dug_slip(row.wheel));
     row.max_N = soil.traction_N;
     row.motor_bound = row.max_N > row.stall_N;
     // A braked wheel holds up to its traction, without the creep of one that turns.
@@ -403,6 +409,32 @@ messages::PerWheel<double> QuasiStaticBalance::TurnShares() const {
     shares[row.wheel] = std::min(shares[row.wheel], std::clamp(share, 0.0, 1.0));
   }
   return shares;
+}
+
+// A motor that gives way turns its wheel slower. Wheels off the soil have none.
+messages::PerWheel<double> QuasiStaticBalance::SoilSlips() const {
+  messages::PerWheel<double> slips{};
+  for (const Row& row : rows_) {
+    const double rim_m_s = std::abs(row.rim_m_s - row.yield_m_s);
+    if (!row.acts || !row.soil || rim_m_s == 0.0) continue;
+    slips[row.wheel] = std::max(slips[row.wheel], std::min(row.slip_m_s / rim_m_s, 1.0));
+  }
+  return slips;
+}
+
+void QuasiStaticBalance::Dig(const messages::PerWheel<double>& rim_way_m) {
+  if (!sinkage_.enabled()) return;
+  const messages::PerWheel<double> slip = SoilSlips();
+  for (std::size_t i = 0; i < slip.size(); ++i) sinkage_.Roll(i, slip[i], rim_way_m[i]);
+}
+
+bool QuasiStaticBalance::HasDugIn() const {
+  if (!sinkage_.enabled()) return true;
+  const messages::PerWheel<double> slip = SoilSlips();
+  for (std::size_t i = 0; i < slip.size(); ++i) {
+    if (std::abs(slip[i] - sinkage_.dug_slip(i)) >= kDugIn) return false;
+  }
+  return true;
 }
 
 SteadyDrive QuasiStaticBalance::Steady(const LinkageVector& rates) const {

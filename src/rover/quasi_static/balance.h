@@ -12,6 +12,7 @@
 #include "rover/quasi_static/wheel_soil_table.h"
 #include "rover/rover_params.h"
 #include "rover/shear_curve.h"
+#include "rover/slip_sinkage.h"
 
 namespace rockyard::rover {
 
@@ -70,6 +71,15 @@ class QuasiStaticBalance {
   // moves along with the ground, not beyond rest.
   messages::PerWheel<double> TurnShares() const;
 
+  // Lets the wheels turn by these ways of their rims, at the slips of the last solution: those on
+  // soil dig in, or come out again (slip_sinkage.h), which the next solution sees.
+  void Dig(const messages::PerWheel<double>& rim_way_m);
+  // True where the rover has dug in for the slips of the last solution, as always without slip
+  // sinkage: the next solution of the same drive on the same ground is the same.
+  bool HasDugIn() const;
+  // The rover stands elsewhere.
+  void ForgetHoles() { sinkage_.Clear(); }
+
   // The motor's torque about the axle in the last solution, positive where it drives forward.
   double MotorTorque_Nm(std::size_t wheel) const { return torque_Nm_[wheel]; }
 
@@ -81,6 +91,7 @@ class QuasiStaticBalance {
     std::size_t side = 0;
     std::size_t wheel = 0;  // where the contact is a wheel's
     bool loaded = false;    // before
+    bool soil = false;      // a wheel on soil
     double stiffness_N_m = 0.0;
     double gap_m = 0.0;          // at the beginning of the step
     double rest_m = 0.0;         // penetration without load
@@ -109,6 +120,7 @@ class QuasiStaticBalance {
     double slope;      // derivative of force by slip speed
   };
 
+  messages::PerWheel<double> SoilSlips() const;  // of the last solution, in [0, 1]
   void MakeRow(const Linkage& linkage, const Drive& drive, const LinkageVector& rates,
                const RestingContact& contact, Row& row) const;
   void MakeWheelRow(const Linkage& linkage, const Drive& drive, const RestingContact& contact,
@@ -136,6 +148,7 @@ class QuasiStaticBalance {
   bool IsBalanced() const;
 
   const RoverContactParams contact_params_;
+  SlipSinkage sinkage_;
   const WheelSoilTable soil_;
   const ShareTable share_;
   const double wheel_radius_m_;

@@ -133,6 +133,7 @@ void QuasiStaticRover::Place(const math::Pose2& X_WR) {
   state_.steer_rad.fill(0.0);
   posture_ = LiftedPosture(X_WR);
   contacts_.Clear();
+  balance_.ForgetHoles();
   Settle();
   // A rover that was lifted begins a new stretch.
   stretch_ = {};
@@ -315,7 +316,7 @@ void QuasiStaticRover::Plan(const messages::PerWheel<double>& rate_rad_s) {
   Balance({rate_rad_s, stretch_.duration_s, lead_s, Freedom::kAll});
   turn_share_ = balance_.TurnShares();
   // From here on RollOn may repeat this balance, which is the same in the rover's frame.
-  steady_ = stands_level && MeetsNothing(rates_, lead_s) && IsSteady();
+  steady_ = stands_level && MeetsNothing(rates_, lead_s) && IsSteady() && balance_.HasDugIn();
   Limit(stretch_.duration_s, kMaxMove * params_.quasi_static.settle_distance_m, kMaxTurn_rad,
         rates_);
   // A fall may be longer than a stretch allows: Limit lets the rover fall in several.
@@ -421,10 +422,14 @@ void QuasiStaticRover::Roll(const MotorRates& rates,
                             const messages::PerWheel<double>& commanded_rad_s) {
   standing_ = false;
   GoOn(rates, commanded_rad_s);
+  messages::PerWheel<double> rim_way_m{};
   for (std::size_t i = 0; i < kWheelCount; ++i) {
     // Motors hold their rates, which the balance takes as given, but for those that stall.
-    state_.wheel_angle_rad[i] += 0.5 * step_s() * (rates.from[i] + rates.to[i]) * turn_share_[i];
+    const double turn_rad = 0.5 * step_s() * (rates.from[i] + rates.to[i]) * turn_share_[i];
+    state_.wheel_angle_rad[i] += turn_rad;
+    rim_way_m[i] = std::abs(turn_rad) * params_.geometry.wheel_radius_m;
   }
+  balance_.Dig(rim_way_m);
 }
 
 void QuasiStaticRover::GoOn(const MotorRates& rates,
