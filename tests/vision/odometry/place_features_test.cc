@@ -149,6 +149,35 @@ TEST(FeaturePlacerTest, PlacesFeaturesOnThePlaneThatTheyAreOf) {
   EXPECT_LT(std::sqrt(squares_px2 / count), 0.12);
 }
 
+// A pattern whose gradients do not cancel over a window, moved by a fraction of a pixel and taken
+// under other light: the place is that of the pattern, whatever the light adds.
+TEST(WindowTemplateTest, FindsFractionsOfPixelsUnderOtherLight) {
+  const auto pattern = [](double x, double y, double brighter) {
+    GrayImage image(60, 60);
+    for (int row = 0; row < 60; ++row) {
+      for (int column = 0; column < 60; ++column) {
+        const double u = column - x;
+        const double v = row - y;
+        image.At(column, row) = static_cast<std::uint8_t>(
+            std::lround(40.0 + brighter + 1.2 * u + 0.8 * v + 25.0 * std::sin(0.45 * u) +
+                        20.0 * std::cos(0.5 * v + 0.1 * u)));
+      }
+    }
+    return image;
+  };
+  const GrayImage first = pattern(0.0, 0.0, 0.0);
+  const WindowTemplate window(first, {30.0, 30.0}, Eigen::Matrix2d::Identity());
+  for (const double brighter : {0.0, 30.0}) {
+    const auto found = window.Find(pattern(0.3, -0.4, brighter), {30.0, 30.0}, {});
+    ASSERT_TRUE(found) << brighter;
+    EXPECT_NEAR(found->pixel.x(), 30.3, 0.03) << brighter;
+    EXPECT_NEAR(found->pixel.y(), 29.6, 0.03) << brighter;
+  }
+  const WindowTemplate flat(GrayImage(60, 60, 90), {30.0, 30.0}, Eigen::Matrix2d::Identity());
+  EXPECT_FALSE(flat.Find(first, {30.0, 30.0}, {}));
+  EXPECT_FALSE(flat.Find(first, {30.0, 30.0}, {.along_row = true}));
+}
+
 TEST(FeaturePlacerTest, HasNoPlaceWhereItCannotBeSure) {
   const RectifiedPair pair = PlanePair(kSize);
   const AlignedImages images = SeePlane(pair, math::Transform::Identity(), {}, 0);
