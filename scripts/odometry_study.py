@@ -5,7 +5,7 @@ For each case it renders sequences of stereo pairs along an oracle's route aroun
 --pairs --route`), one terrain, texture and noise a trial, has `rockyard vo` find the path and hold it against the
 truth, keeps one line a sequence, and deletes the images. What is there already is not done again. Where a step has
 no motion, wheels that lose a tenth of every step and true attitudes fill the gap, which are also what the search
-expects (wheels.txt). Writes CASES into odometry_cases.csv, one line a sequence into odometry_sequences.csv.
+expects (wheels.txt). Writes one line a sequence into odometry_sequences.csv, from which the table of cases is made.
 
     sequences   median end error in % of the way with its 95 % interval by order statistics (the median of
                 sequences is taken), and the share of steps without a motion, by case

@@ -144,13 +144,16 @@ TEST_F(EstimatedPath, TheSameImagesGiveTheSamePath) {
 TEST_F(EstimatedPath, PairsAreChosenAndTruthFollowsThem) {
   OdometryRequest request = PathOf(Driven(), out());
   request.first = 1;
-  request.every = 3;
-  request.count = 2;
+  request.every = 2;
+  request.count = 3;
+  request.prediction = Prediction::kFile;
+  request.predicted = Driven() / "wheels.txt";
   const OdometryResult result = EstimatePath(request);
-  ASSERT_EQ(result.steps.size(), 2u);
-  EXPECT_EQ(result.steps[1].pair, 4);
+  ASSERT_EQ(result.steps.size(), 3u);
+  EXPECT_EQ(result.Gaps(), 0);
+  EXPECT_EQ(result.steps[1].pair, 3);
   EXPECT_EQ(result.steps[1].reference, 1);
-  EXPECT_NEAR(result.errors->distance_m, 0.3, 0.01);
+  EXPECT_NEAR(result.errors->distance_m, 0.4, 0.01);
   EXPECT_LT(result.errors->end_error_m, 0.01);
   request.first = 7;
   EXPECT_THROW(EstimatePath(request), core::UserError);
