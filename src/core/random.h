@@ -58,7 +58,7 @@ enum class Purpose : std::uint32_t {
   kLanderFix = 47,
   kSunSensor = 48,
   kRadioBeacon = 49,
-  kLanderMap = 50,  // of the lander's stereo pair, for planning a route
+  kLanderMap = 50,     // of the lander's stereo pair, for planning a route
   kVisualMotion = 51,  // the error of a visual odometry step, where no images are matched
 };
 
