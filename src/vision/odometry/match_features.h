@@ -25,7 +25,7 @@ using PredictedFeatures = std::vector<PredictedFeature>;
 
 // The matches, in the order of the first image's features. Of equal differences that with the
 // smaller index counts. Features keep half a window from the edges (FeatureDetector's border).
-// Cost: 0.3 ms for 400 features against 400.
+// Cost: 0.4 ms for 400 features against 400, a quarter of it near predictions.
 FeatureMatches MatchFeatures(const GrayImage& first, const Features& first_features,
                              const GrayImage& second, const Features& second_features,
                              const FeatureMatcherParams& params,

@@ -42,7 +42,7 @@ void CopyWindow(const GrayImage& image, const Feature& feature, int side, std::u
 //   grey = ((256 - v) ((256 - u) g00 + u g10) + v ((256 - u) g01 + u g11) + 2^15) >> 16
 //
 // What lies outside of the image repeats its edge. Numbers of by_offset are finite. Cost: 0.2 us
-// with 64 bytes a vector, five times as much at the edge of the image.
+// with 64 bytes a vector, more at the edge of the image.
 void WarpWindow(const GrayImage& image, const Feature& feature, const Eigen::Matrix2d& by_offset,
                 int side, std::uint8_t* window);
 
