@@ -92,10 +92,10 @@ void SlipSinkageParams::Visit(core::FieldVisitor& v) {
           .max = 0.9,
           .origin = Origin::kAssumed,
           .source = "Ding et al. 2010 measured 3 to 7 times the static sinkage at a slip of 0.6: "
-                    "0.44 to 0.9 do that to a wheel that sinks 1.5 mm (Rocky 3.2 on "
+                    "0.4 to 0.83 do that to a wheel that sinks 1.5 mm (Rocky 3.2 on "
                     "landscaping_sand), and less to one that sinks deeper",
           .study_low = 0.4,
-          .study_high = 0.9});
+          .study_high = 0.83});
   v.Real("length_m", length_m,
          {.doc = "way that the rim slides over the soil, or rolls out of its hole, within which "
                  "the sinkage comes to 63 % of the one that belongs to the slip",
