@@ -1,5 +1,4 @@
-// Errors of trajectories against closed forms, a search over alignments, and the numbers of a plain
-// script (tests/data/trajectories).
+// Errors of trajectories against closed forms and a search over alignments.
 #include "vision/odometry/trajectory_error.h"
 
 #include <gtest/gtest.h>
