@@ -3,9 +3,9 @@
 
 scenarios/visual_odometry/steps_hazcam.json is run from images: single motions of a grid of ways and turns, from
 random places. Of each coordinate the mean squared error of a cell's motions gives
-  still, per_m, per_rad    variance = still^2 + (per_m way)^2 + (per_rad turn)^2, the most likely of normal errors
+  still, per_m, per_turn   variance = still^2 + (per_m way)^2 + (per_turn turn)^2, the most likely of normal errors
 and the motions that were not found give
-  intercept, per_m, per_rad of failure, the most likely logistic law, with a normal prior of deviation 10 on each.
+  intercept, per_m, per_turn of failure, the most likely logistic law, with a normal prior of deviation 10 on each.
 They are written as scenarios/sensors/fitted_visual_hazcam.json. Then images and error model run on another seed
 (--confirm) at the same places, and a table says where they differ. Runs that are there already are resumed; after
 a change of the code delete them.
@@ -107,7 +107,7 @@ def fit(sums):
     model = {}
     failures = [(way, turn, cell["steps"], cell["steps"] - cell["found"])
                 for (way, turn), cell in sums.items()]
-    model["failure"] = dict(zip(("intercept", "per_m", "per_rad"),
+    model["failure"] = dict(zip(("intercept", "per_m", "per_turn"),
                                 (rounded(v) for v in fit_failures(failures))))
     for group, (coordinates, unit, factor) in GROUPS.items():
         points = []
@@ -115,8 +115,12 @@ def fit(sums):
             if cell["found"] > 0:
                 squares = sum(cell[f"{c}_error_{unit}"] for c in coordinates) / len(coordinates)
                 points.append((way, turn, cell["found"], factor**2 * squares / cell["found"]))
-        names = ("still_m", "per_m", "per_rad_m") if unit == "m" else ("still_rad", "per_m_rad", "per_rad")
-        model[group] = dict(zip(names, (rounded(v) for v in fit_variance(points))))
+        still, per_m, per_turn = fit_variance(points)
+        if unit == "m":
+            values = {"still_m": still, "per_m": per_m, "per_turn_m": per_turn}
+        else:
+            values = {"still_deg": math.degrees(still), "per_m_deg": math.degrees(per_m), "per_turn": per_turn}
+        model[group] = {name: rounded(value) for name, value in values.items()}
     return model
 
 

@@ -58,7 +58,7 @@ void PlaceErrorParams::Visit(core::FieldVisitor& v) {
           .max = 10.0,
           .origin = Origin::kCalibrated,
           .source = kFit});
-  v.Real("per_rad_m", per_rad,
+  v.Real("per_turn_m", per_rad,
          {.doc = "what a radian of turning adds to it, likewise; m",
           .min = 0.0,
           .max = 10.0,
@@ -67,19 +67,19 @@ void PlaceErrorParams::Visit(core::FieldVisitor& v) {
 }
 
 void TurnErrorParams::Visit(core::FieldVisitor& v) {
-  v.Real("still_rad", still,
-         {.doc = "standard deviation where the rover has not moved",
-          .min = 0.0,
-          .max = 3.0,
-          .origin = Origin::kCalibrated,
-          .source = kFit});
-  v.Real("per_m_rad", per_m,
-         {.doc = "what a metre of way adds to it, root of the summed squares; rad",
-          .min = 0.0,
-          .max = 3.0,
-          .origin = Origin::kCalibrated,
-          .source = kFit});
-  v.Real("per_rad", per_rad,
+  v.Angle("still_deg", still,
+          {.doc = "standard deviation where the rover has not moved",
+           .min = 0.0,
+           .max = 180.0,
+           .origin = Origin::kCalibrated,
+           .source = kFit});
+  v.Angle("per_m_deg", per_m,
+          {.doc = "what a metre of way adds to it, root of the summed squares",
+           .min = 0.0,
+           .max = 180.0,
+           .origin = Origin::kCalibrated,
+           .source = kFit});
+  v.Real("per_turn", per_rad,
          {.doc = "what a radian of turning adds to it, likewise",
           .min = 0.0,
           .max = 3.0,
@@ -96,7 +96,7 @@ void VisualFailureParams::Visit(core::FieldVisitor& v) {
   field("intercept", intercept,
         "log odds that no motion is found where the rover has not moved; -1000: it always is");
   field("per_m", per_m, "what a metre of way adds to them");
-  field("per_rad", per_rad, "what a radian of turning adds to them");
+  field("per_turn", per_rad, "what a radian of turning adds to them");
 }
 
 void VisualErrorModelParams::Visit(core::FieldVisitor& v) {

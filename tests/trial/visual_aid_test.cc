@@ -26,15 +26,15 @@ const Overrides kExact{"sensors.visual_odometry.enabled=true",
                        "terrain.arena.kind=open",
                        "sensors.visual_odometry.error_model.failure.intercept=-1000",
                        "sensors.visual_odometry.error_model.along={\"still_m\":0,\"per_m\":0,"
-                       "\"per_rad_m\":0}",
+                       "\"per_turn_m\":0}",
                        "sensors.visual_odometry.error_model.across={\"still_m\":0,\"per_m\":0,"
-                       "\"per_rad_m\":0}",
+                       "\"per_turn_m\":0}",
                        "sensors.visual_odometry.error_model.up={\"still_m\":0,\"per_m\":0,"
-                       "\"per_rad_m\":0}",
-                       "sensors.visual_odometry.error_model.tilt={\"still_rad\":0,\"per_m_rad\":0,"
-                       "\"per_rad\":0}",
-                       "sensors.visual_odometry.error_model.heading={\"still_rad\":0,"
-                       "\"per_m_rad\":0,\"per_rad\":0}"};
+                       "\"per_turn_m\":0}",
+                       "sensors.visual_odometry.error_model.tilt={\"still_deg\":0,\"per_m_deg\":0,"
+                       "\"per_turn\":0}",
+                       "sensors.visual_odometry.error_model.heading={\"still_deg\":0,"
+                       "\"per_m_deg\":0,\"per_turn\":0}"};
 
 DriveParams Seeing(const Overrides& more = {}) {
   Overrides all = kExact;

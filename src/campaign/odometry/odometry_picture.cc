@@ -33,7 +33,7 @@ void DrawMark(const vision::Pixel& at, int factor, const image_files::Rgb& colou
 
 std::vector<Vector3> PositionsOf(const vision::Trajectory& path) {
   std::vector<Vector3> positions;
-  for (const math::Transform& pose : path) positions.push_back(pose.translation());
+  for (const math::Transform& pose : path) positions.emplace_back(pose.translation());
   return positions;
 }
 
@@ -44,7 +44,7 @@ std::vector<Vector3> TruePositions(const OdometryResult& result) {
   const math::Transform X_AT =
       result.steps[result.steps_with_truth.front()].X_AB * result.truth.front().inverse();
   for (const math::Transform& pose : result.truth) {
-    positions.push_back((X_AT * pose).translation());
+    positions.emplace_back((X_AT * pose).translation());
   }
   return positions;
 }

@@ -33,8 +33,9 @@ Eigen::Matrix3d ExactRotation(const Eigen::Matrix3d& near) {
 
 Transform KittiPose(const std::filesystem::path& path, const NumberLine& line) {
   Eigen::Matrix<double, 3, 4> rows;
+  std::size_t next = 0;
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 4; ++j) rows(i, j) = line.numbers[static_cast<std::size_t>(4 * i + j)];
+    for (int j = 0; j < 4; ++j) rows(i, j) = line.numbers[next++];
   }
   const Eigen::Matrix3d linear = rows.leftCols<3>();
   const double off = (linear.transpose() * linear - Eigen::Matrix3d::Identity()).norm();

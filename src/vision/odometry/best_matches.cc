@@ -106,7 +106,7 @@ class BestFinder {
     FindDifferences(block, panel);
     std::fill_n(columns_.data(), 2 * stride_, kNoDifference);
     for (std::size_t i = 0; i < block.count; ++i) {
-      std::array<std::uint16_t, 3> of_row;
+      std::array<std::uint16_t, 3> of_row{};
       HWY_DYNAMIC_DISPATCH(OfferRow)
       (Row(i), stride_, static_cast<std::uint16_t>(i), stride_, columns_.data(), of_row.data());
       best.of_first[block.first + i].Merge(BestAt(of_row.data(), 1, 0, panel.first));

@@ -139,7 +139,7 @@ class SlidingRows {
   void AddUp(int row, std::size_t width, std::int16_t* const* sums) {
     for (; next_ <= row + 2; ++next_) FindProducts(next_);
     for (std::size_t which = 0; which < 3; ++which) {
-      std::array<const std::int16_t*, 5> rows;
+      std::array<const std::int16_t*, 5> rows{};
       for (int i = 0; i < 5; ++i) {
         rows[static_cast<std::size_t>(i)] = Product(which, row - 2 + i);
       }

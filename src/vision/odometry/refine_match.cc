@@ -48,7 +48,8 @@ void SampleWarped(const GrayImage& image, const Pixel& middle, const Eigen::Matr
       const auto y = static_cast<int>(top);
       const auto u = static_cast<float>(at_x - left);
       const auto v = static_cast<float>(at_y - top);
-      float& value = wide[static_cast<std::size_t>(row * kWideSide + column)];
+      float& value =
+          wide[static_cast<std::size_t>(row) * kWideSide + static_cast<std::size_t>(column)];
       if (inside) {
         const std::uint8_t* const above = &image.At(x, y);
         const std::uint8_t* const below = above + image.width();
