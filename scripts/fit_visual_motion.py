@@ -119,7 +119,7 @@ def fit(sums):
         if unit == "m":
             values = {"still_m": still, "per_m": per_m, "per_turn_m": per_turn}
         else:
-            values = {"still_deg": math.degrees(still), "per_m_deg": math.degrees(per_m), "per_turn": per_turn}
+            values = {"still_deg": math.degrees(still), "metre_deg": math.degrees(per_m), "per_turn": per_turn}
         model[group] = {name: rounded(value) for name, value in values.items()}
     return model
 

@@ -73,7 +73,7 @@ void TurnErrorParams::Visit(core::FieldVisitor& v) {
            .max = 180.0,
            .origin = Origin::kCalibrated,
            .source = kFit});
-  v.Angle("per_m_deg", per_m,
+  v.Angle("metre_deg", per_m,
           {.doc = "what a metre of way adds to it, root of the summed squares",
            .min = 0.0,
            .max = 180.0,

@@ -137,7 +137,8 @@ TEST(VisualMotionParamsTest, BadScenariosSayWhatIsWrong) {
   };
   refused({"visual_motion.steps_m=[]"}, "visual_motion.steps_m");
   refused({"visual_motion.turns_deg=[]"}, "visual_motion.steps_m");
-  refused({"terrain.ground.slope_deg=3"}, "terrain.ground.slope_deg");
+  refused({"terrain.ground.slope_deg=3", "terrain.rocks.pointedness=0"},
+          "terrain.ground.slope_deg");
 }
 
 }  // namespace

@@ -31,10 +31,10 @@ const Overrides kExact{"sensors.visual_odometry.enabled=true",
                        "\"per_turn_m\":0}",
                        "sensors.visual_odometry.error_model.up={\"still_m\":0,\"per_m\":0,"
                        "\"per_turn_m\":0}",
-                       "sensors.visual_odometry.error_model.tilt={\"still_deg\":0,\"per_m_deg\":0,"
+                       "sensors.visual_odometry.error_model.tilt={\"still_deg\":0,\"metre_deg\":0,"
                        "\"per_turn\":0}",
                        "sensors.visual_odometry.error_model.heading={\"still_deg\":0,"
-                       "\"per_m_deg\":0,\"per_turn\":0}"};
+                       "\"metre_deg\":0,\"per_turn\":0}"};
 
 DriveParams Seeing(const Overrides& more = {}) {
   Overrides all = kExact;
