@@ -94,25 +94,24 @@ void VisualFailureParams::Visit(core::FieldVisitor& v) {
         {.doc = doc, .min = -1000.0, .max = 1000.0, .origin = Origin::kCalibrated, .source = kFit});
   };
   field("intercept", intercept,
-        "log odds that no motion is found where the rover has not moved; -1000: it always is");
+        "log odds that no motion is found where the rover has not moved; -1000: one always is");
   field("per_m", per_m, "what a metre of way adds to them");
   field("per_turn", per_rad, "what a radian of turning adds to them");
 }
 
 void VisualErrorModelParams::Visit(core::FieldVisitor& v) {
-  v.Real("keyframe_m", keyframe_m,
-         {.doc = "way from a keyframe from which on another one takes its place; one without a "
-                 "motion does so as well",
-          .min = 0.0,
-          .max = 1e3,
-          .origin = Origin::kCalibrated,
-          .source = kFit});
+  v.Real(
+      "keyframe_m", keyframe_m,
+      {.doc = "way from a keyframe from which on another one takes its place, as "
+              "perception.visual_odometry.keyframe.max_way_m; one without a motion does so as well",
+       .min = 0.0,
+       .max = 1e3,
+       .origin = Origin::kSetting});
   v.Angle("keyframe_deg", keyframe_rad,
           {.doc = "turn from a keyframe, likewise",
            .min = 0.0,
            .max = 180.0,
-           .origin = Origin::kCalibrated,
-           .source = kFit});
+           .origin = Origin::kSetting});
   v.Group("failure", failure, "chance that no motion is found");
   v.Group("along", along, "error of the way, forward");
   v.Group("across", across, "error of the way, to the left");

@@ -44,9 +44,9 @@ struct TurnErrorParams : MotionErrorParams {
 
 // Chance that no motion is found: 1 / (1 + exp(-(intercept + per_m d + per_rad a))).
 struct VisualFailureParams {
-  double intercept = -7.0;
-  double per_m = 1.0;
-  double per_rad = 5.0;
+  double intercept = -13.2;
+  double per_m = 10.9;
+  double per_rad = 1.87;
 
   double Probability(double way_m, double angle_rad) const;
 
@@ -58,11 +58,14 @@ struct VisualErrorModelParams {
   double keyframe_m = 0.5;
   double keyframe_rad = math::DegToRad(10.0);
   VisualFailureParams failure;
-  PlaceErrorParams along{{.still = 2e-4, .per_m = 0.003, .per_rad = 0.002}};
-  PlaceErrorParams across{{.still = 2e-4, .per_m = 0.003, .per_rad = 0.002}};
-  PlaceErrorParams up{{.still = 2e-4, .per_m = 0.003, .per_rad = 0.002}};
-  TurnErrorParams tilt{{.still = 2e-4, .per_m = 0.001, .per_rad = 0.002}};     // about x and y
-  TurnErrorParams heading{{.still = 2e-4, .per_m = 0.001, .per_rad = 0.002}};  // about z
+  PlaceErrorParams along{{.still = 1.77e-5, .per_m = 0.0032, .per_rad = 0.000196}};
+  PlaceErrorParams across{{.still = 2.64e-5, .per_m = 0.00204, .per_rad = 0.000202}};
+  PlaceErrorParams up{{.still = 7.79e-5, .per_m = 0.00296, .per_rad = 0.000362}};
+  // About x and y, each; about z.
+  TurnErrorParams tilt{
+      {.still = math::DegToRad(0.0044), .per_m = math::DegToRad(0.0394), .per_rad = 0.000469}};
+  TurnErrorParams heading{
+      {.still = math::DegToRad(0.00146), .per_m = math::DegToRad(0.0299), .per_rad = 0.000217}};
 
   void Visit(core::FieldVisitor& v);
 };

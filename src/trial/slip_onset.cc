@@ -1,17 +1,11 @@
 #include "trial/slip_onset.h"
 
-#include <cmath>
-
 namespace rockyard::trial {
 
 messages::RelativeMotion TrueMotion(const math::Pose2& from, const math::Pose2& to) {
-  const double c = std::cos(from.heading_rad);
-  const double s = std::sin(from.heading_rad);
-  const double dx_m = to.x_m - from.x_m;
-  const double dy_m = to.y_m - from.y_m;
   messages::RelativeMotion motion;
-  motion.motion_F[messages::Index(messages::PoseCoordinate::kX)] = c * dx_m + s * dy_m;
-  motion.motion_F[messages::Index(messages::PoseCoordinate::kY)] = -s * dx_m + c * dy_m;
+  motion.motion_F.head<2>() = perception::RolledWay({from.x_m, from.y_m, from.heading_rad, 0.0},
+                                                    {to.x_m, to.y_m, to.heading_rad, 0.0});
   motion.covariance.setZero();
   return motion;
 }

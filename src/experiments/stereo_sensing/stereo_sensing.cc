@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "experiments/look_factors.h"
 #include "experiments/scene_key.h"
 #include "experiments/stereo_sensing/columns.h"
 #include "experiments/stereo_sensing/look_map.h"
@@ -28,21 +29,6 @@ constexpr LookDirection kAhead = LookDirection::kAhead;
 sensing::StereoParams OfRays(sensing::StereoParams params) {
   params.fidelity = sensing::StereoFidelity::kErrorModel;
   return params;
-}
-
-// The drive of one cell; where the cell has no value for a factor, the scenario's own holds.
-trial::DriveParams DriveOf(trial::DriveParams drive, const std::vector<std::string_view>& columns,
-                           const std::vector<double>& values) {
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (columns[i] == "soil_graininess") {
-      drive.sensors.look.soil_graininess = values[i];
-    } else if (columns[i] == "sun_elevation_deg") {
-      drive.sensors.sun.elevation_rad = math::DegToRad(values[i]);
-    } else if (columns[i] == "baseline_m") {
-      drive.sensors.stereo.baseline_m = values[i];
-    }
-  }
-  return drive;
 }
 
 // One over the depths that perfect matches give: of what both eyes see, as far as it is searched.
@@ -93,7 +79,7 @@ StereoSensingExperiment::StereoSensingExperiment(const StereoSensingParams& para
   cells_.reserve(table_.size());
   for (std::size_t i = 0; i < table_.size(); ++i) {
     const std::vector<double> values = table_.Values(i);
-    cells_.emplace_back(params, DriveOf(drive, table_.columns(), values), values);
+    cells_.emplace_back(params, WithLookFactors(drive, table_.columns(), values), values);
   }
 }
 

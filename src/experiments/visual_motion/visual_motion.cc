@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "core/distributions.h"
+#include "experiments/look_factors.h"
 #include "experiments/scene_key.h"
 #include "experiments/stereo_sensing/random_place.h"
 #include "experiments/visual_motion/columns.h"
@@ -24,22 +25,6 @@ using math::Transform;
 constexpr double kWrongSigma = 6.0;
 constexpr double kWrong_m = 0.05;
 constexpr double kWrong_rad = 2.0 * std::numbers::pi / 180.0;
-
-// The drive of one cell; where the cell has no value for a factor, the scenario's own holds.
-trial::DriveParams StudiedDrive(trial::DriveParams drive,
-                                const std::vector<std::string_view>& columns,
-                                const std::vector<double>& values) {
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (columns[i] == "soil_graininess") {
-      drive.sensors.look.soil_graininess = values[i];
-    } else if (columns[i] == "sun_elevation_deg") {
-      drive.sensors.sun.elevation_rad = math::DegToRad(values[i]);
-    } else if (columns[i] == "baseline_m") {
-      drive.sensors.stereo.baseline_m = values[i];
-    }
-  }
-  return drive;
-}
 
 truth::RecordSchema StudySchema(const CellTable& table) {
   std::vector<std::string> names;
@@ -111,7 +96,7 @@ VisualMotionExperiment::VisualMotionExperiment(const VisualMotionStudyParams& pa
                                                const trial::DriveParams& drive)
     : params_(params), table_(params.Factors()), schema_(StudySchema(table_)) {
   for (std::size_t i = 0; i < table_.size(); ++i) {
-    drives_.push_back(StudiedDrive(drive, table_.columns(), table_.Values(i)));
+    drives_.push_back(WithLookFactors(drive, table_.columns(), table_.Values(i)));
   }
 }
 
