@@ -27,6 +27,15 @@ bool IsFew(std::int64_t count, const OdometerParams& params) {
   return count < params.selection.min_consistent;
 }
 
+// Whether windows that were turned and scaled by one of two motions look as the other has them.
+bool IsNear(const Transform& a, const Transform& b) {
+  constexpr double kWay_m = 0.1;
+  constexpr double kTurn_rad = math::DegToRad(3.0);
+  const Transform difference = a.inverse() * b;
+  return difference.translation().norm() < kWay_m &&
+         Eigen::AngleAxisd(difference.linear()).angle() < kTurn_rad;
+}
+
 bool IsSmallShare(const MotionCounts& counts, const OdometerParams& params) {
   return static_cast<double>(counts.consistent) <
          params.selection.min_share * static_cast<double>(counts.points);
@@ -73,9 +82,18 @@ VisualOdometer::Comparison VisualOdometer::Compare(const AlignedImages& images,
                                                    std::int64_t number) const {
   core::RandomStream stream(key_, core::Purpose::kRansac, static_cast<std::uint32_t>(number));
   Comparison best = CompareOnce(images, features, predicted, stream);
-  if (predicted) return best;
+  std::optional<Transform> expected = predicted;
+  if (expected && !best.result.motion) {
+    Comparison anywhere = CompareOnce(images, features, std::nullopt, stream);
+    if (anywhere.consistent.size() > best.consistent.size()) {
+      best = std::move(anywhere);
+      expected.reset();
+    }
+  }
   for (std::int64_t round = 1; round < params_.rounds && best.rough_X_FS; ++round) {
-    Comparison next = CompareOnce(images, features, best.rough_X_FS, stream);
+    if (expected && IsNear(*expected, *best.rough_X_FS)) break;
+    expected = best.rough_X_FS;
+    Comparison next = CompareOnce(images, features, expected, stream);
     if (next.consistent.size() < best.consistent.size()) break;
     best = std::move(next);
   }

@@ -232,8 +232,8 @@ void OdometerParams::Visit(core::FieldVisitor& v) {
        .source = "rendered steps of hazard cameras: makes the mean squared error in units of the "
                  "covariance 6 (results/visual_odometry.md)"});
   v.Integer("rounds", rounds,
-            {.doc = "where no motion is predicted: how often features are matched, from the second "
-                    "time on as the motion of the time before predicts",
+            {.doc = "where no motion is predicted, or another one is found: how often features are "
+                    "matched, from the second time on as the motion of the time before predicts",
              .min = 1,
              .max = 10,
              .origin = Origin::kSetting});
