@@ -28,7 +28,7 @@ from pathlib import Path
 import study
 
 SCENARIOS = study.ROOT / "scenarios/visual_odometry"
-SEED = 20261125
+SEED = 20261126
 SLIP = 0.1
 MAIN = {"sequences": 20, "way_m": 100.0}
 FACTOR = {"sequences": 10, "way_m": 20.0}
