@@ -5,9 +5,9 @@
 
 #include "core/check.h"
 #include "vision/odometry/consistent_set.h"
+#include "vision/odometry/feature_places.h"
 #include "vision/odometry/motion_of_set.h"
 #include "vision/odometry/pair_projection.h"
-#include "vision/odometry/place_features.h"
 #include "vision/odometry/refine_match.h"
 
 namespace rockyard::vision {
@@ -46,6 +46,7 @@ OdometryStep VisualOdometer::Add(AlignedImages images, const std::optional<Trans
   step.number = next_++;
   step.features = detector_.Detect(images.left);
   Tell(OdometryStage::kDetected);
+  if (params_.placement.source == PlaceSource::kDisparityMap) MakeMap(images);
   if (keyframe_) {
     step.reference = keyframe_->number;
     Comparison found = Compare(images, step.features, predicted, step.number);
@@ -61,6 +62,16 @@ OdometryStep VisualOdometer::Add(AlignedImages images, const std::optional<Trans
   if (step.keyframe) MakeKeyframe(step.number, std::move(images), step.features);
   Tell(OdometryStage::kRenewed);
   return step;
+}
+
+void VisualOdometer::MakeMap(AlignedImages& images) const {
+  if (!images.disparities.empty()) {
+    EXPECT(images.disparities.width() == images.left.width() &&
+           images.disparities.height() == images.left.height());
+    return;
+  }
+  images.disparities = MakePlacementMap(images.left, images.right, params_.placement);
+  Tell(OdometryStage::kPlaced);
 }
 
 VisualOdometer::Comparison VisualOdometer::Compare(const AlignedImages& images,
@@ -162,7 +173,7 @@ PredictedFeatures VisualOdometer::Predict(const Transform& X_FS) const {
 PointsSeenTwice VisualOdometer::PlaceAgain(const AlignedImages& images, const Features& features,
                                            const FeatureMatches& matches,
                                            const PredictedFeatures& predicted) const {
-  const FeaturePlacer placer(cameras_, params_.placement, images.left, images.right);
+  const FeaturePlaces places(cameras_, params_.placement, images);
   const bool warp = params_.matcher.warp == MatchWarp::kPredicted && !predicted.empty();
   PointsSeenTwice points;
   for (const FeatureMatch& match : matches) {
@@ -177,7 +188,7 @@ PointsSeenTwice VisualOdometer::PlaceAgain(const AlignedImages& images, const Fe
     const double deformed =
         warp ? (predicted[first].by_offset - Eigen::Matrix2d::Identity()).norm() : 0.0;
     const double view_px = params_.placement.view_noise_px * deformed;
-    const auto second = placer.Place(
+    const auto second = places.Place(
         refined->pixel, refined->covariance_px2 + view_px * view_px * Eigen::Matrix2d::Identity());
     if (second) points.push_back({keyframe_->places[first], *second});
   }
@@ -197,10 +208,9 @@ bool VisualOdometer::IsOver(const MotionResult& result) const {
 void VisualOdometer::MakeKeyframe(std::int64_t number, AlignedImages images,
                                   const Features& features) {
   Keyframe keyframe{number, std::move(images), {}, {}};
-  const FeaturePlacer placer(cameras_, params_.placement, keyframe.images.left,
-                             keyframe.images.right);
+  const FeaturePlaces places(cameras_, params_.placement, keyframe.images);
   for (const Feature& feature : features) {
-    const auto place = placer.Place(Pixel(feature.column, feature.row),
+    const auto place = places.Place(Pixel(feature.column, feature.row),
                                     kFeature_px * kFeature_px * Eigen::Matrix2d::Identity());
     if (!place) continue;
     keyframe.features.push_back(feature);

@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <vector>
 
-#include "vision/cameras/triangulation.h"
 #include "vision/odometry/row_difference.h"
 
 namespace rockyard::vision {
@@ -46,19 +45,10 @@ std::optional<StereoMeasurement> FeaturePlacer::Place(const Pixel& left_pixel,
       window.Find(right_, Pixel(left_pixel.x() - *whole, left_pixel.y()),
                   {.along_row = true, .noise_px = params_.noise_px});
   if (!right) return std::nullopt;
-  StereoMeasurement measured;
-  measured.left = left_pixel;
-  measured.disparity_px = left_pixel.x() - right->pixel.x();
-  measured.covariance_px2.setZero();
-  measured.covariance_px2.topLeftCorner<2, 2>() = covariance_px2;
   // The right eye's window is compared with the left one's about the very place, so that an error
   // of the place moves both and leaves the disparity.
-  measured.covariance_px2(2, 2) = right->covariance_px2(0, 0);
-  const auto point = Triangulate(cameras_.left, cameras_.right, left_pixel, measured.disparity_px);
-  if (!point) return std::nullopt;
-  measured.p_A = point->p_A;
-  measured.covariance_m2 = point->Covariance(measured.covariance_px2);
-  return measured;
+  return MeasureStereo(cameras_, left_pixel, covariance_px2, left_pixel.x() - right->pixel.x(),
+                       right->covariance_px2(0, 0));
 }
 
 }  // namespace rockyard::vision

@@ -123,10 +123,7 @@ TEST(FeaturePlacerTest, PlacesFeaturesOnThePlaneThatTheyAreOf) {
     const Pixel pixel(feature.column, feature.row);
     const auto place = placer.Place(pixel, 0.04 * Eigen::Matrix2d::Identity());
     if (!place) continue;
-    // The plane z = 0 is where the ray meets it.
-    const auto unit = Triangulate(pair.left, pair.right, pixel, 1.0);
-    const double share = pair.left.C.z() / (pair.left.C.z() - unit->p_A.z());
-    const double truth_px = 1.0 / share;
+    const double truth_px = PlaneDisparity_px(pair, pixel);
     const double off_px = place->disparity_px - truth_px;
     if (std::abs(off_px) > 0.5) {
       ++wrong;
