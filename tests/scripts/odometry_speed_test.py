@@ -46,7 +46,18 @@ class Speed(unittest.TestCase):
         def one(time):
             return {"Features/50": {"features": 48.0, "found": 1.0, "mm": 0.5, "deg": 0.01, "cpu_time": time}}
         self.assertEqual(speed.by_features([one(60.0), one(36.0), one(48.0)]),
-                         [{"features": 48.0, "found": 1.0, "mm": 0.5, "deg": 0.01, "ms": 3.0}])
+                         [{"asked": 50, "features": 48.0, "found": 1.0, "mm": 0.5, "deg": 0.01, "ms": 3.0}])
+
+    def test_measured_rows_get_their_inputs_and_others_keep_theirs(self):
+        document = {"hundred_pairs": {"all_ms": 1.23456, "match_ms": 0.4, "features": 400.0}, "step_ms": 2.5,
+                    "by_features": [{"asked": 50, "mm": 4.0, "deg": 0.1, "ms": 1.0},
+                                    {"asked": 100, "mm": 2.0, "deg": 0.3, "ms": 7.0}]}
+        text = ('{"id": "time.front", "inputs": [9, 1], "unit": "ms"},\n{"id": "vo.regions", "inputs": [4, 4]},\n'
+                '{"id": "quality.deg_100", "inputs": [8, 8]}\n{"id": "cost.ms_100", "inputs": [8, 8]}\n')
+        self.assertEqual(
+            speed.with_inputs(text, document),
+            '{"id": "time.front", "inputs": [1.235, 1], "unit": "ms"},\n{"id": "vo.regions", "inputs": [4, 4]},\n'
+            '{"id": "quality.deg_100", "inputs": [0.3, 0.1]}\n{"id": "cost.ms_100", "inputs": [7, 1]}\n')
 
 
 if __name__ == "__main__":

@@ -173,6 +173,24 @@ TEST(PlaceInMapTest, FeaturesOfAPlaneLieOnIt) {
             2.0);
 }
 
+TEST(MakePlacementMapTest, ItsParametersCount) {
+  const AlignedImages images =
+      SeePlane(PlanePair(kSize), math::Transform::Identity(), {.noise = 3.0}, 0);
+  const auto disparities = [&](const PlacementParams& params) {
+    return CountDrops(MakePlacementMap(images.left, images.right, params))[0];
+  };
+  const std::int64_t all = disparities({});
+  PlacementParams changed;
+  changed.map.filters.blob_min_px = 1000000;
+  EXPECT_EQ(disparities(changed), 0);
+  changed = {};
+  changed.map.window_side_px = 11;  // averages more noise
+  EXPECT_GT(disparities(changed), all);
+  changed = {};
+  changed.map.dog.limit = 1;  // leaves signs alone
+  EXPECT_LT(disparities(changed), all);
+}
+
 TEST(MakePlacementMapTest, BlankImagesHaveNoDisparity) {
   const GrayImage blank(kSize.columns, kSize.rows, 90);
   const DisparityImage map = MakePlacementMap(blank, blank, {});
