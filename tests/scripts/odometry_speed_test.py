@@ -27,7 +27,7 @@ class Places(unittest.TestCase):
     def test_a_line_counts_its_case_and_source(self):
         def row(trial, end, gaps, **other):
             return {"case": "a", "source": "right_eye", "trial": trial, "pairs": 11, "gaps": gaps, "end_percent": end,
-                    "step_rms_mm": 2.0 * trial, "step_rms_deg": 0.5, "normalized_mean": 6.0, "place_ms": 1.0} | other
+                    "step_rms_mm": 2.0 * trial, "step_rms_deg": 0.5, "normalized_mean": 6.0, "place_ms": 4.0 - trial} | other
         rows = [row(1, 0.3, 0), row(2, 0.1, 2), row(3, 0.2, 1), row(4, 9.0, 9, case="b"),
                 row(5, 9.0, 9, source="disparity_map")]
         self.assertEqual(places.line_of(rows, "a", "right_eye"),
